@@ -62,6 +62,15 @@ pub enum BuildError {
     },
     /// Triboxes do not hold the mesh's coordinates.
     Triboxes(TriboxError),
+    /// A hull that deforms stores the vertices as they are: no other precision can be asked for.
+    NotExact,
+    /// A vertex of a key frame is 64 times the first mesh's size from its origin, or farther.
+    FrameTooFar {
+        /// The frame; the first mesh is 0.
+        frame: usize,
+        /// Number of the vertex in the input file.
+        vertex: u32,
+    },
     /// The blob to cut has no such level.
     NoLevel {
         /// Level asked for.
@@ -122,6 +131,14 @@ impl fmt::Display for BuildError {
                 f,
                 "no hull can be within the slack: it is not more than {margin:e}, the margin with \
                  what rounding may take from it; ask for a larger slack"
+            ),
+            Self::NotExact => f.write_str(
+                "a hull that deforms keeps the vertices as they are: leave out --vertex-bits",
+            ),
+            Self::FrameTooFar { frame, vertex } => write!(
+                f,
+                "frame {frame}: vertex {vertex} is 64 times the first mesh's size or more from \
+                 the origin; move the frames nearer"
             ),
             Self::Triboxes(error) => write!(f, "{error}; choose a larger unit"),
             Self::NoLevel { levels: 0, .. } => {

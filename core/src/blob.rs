@@ -4,7 +4,7 @@ use crate::bvh::format::Bvh;
 use crate::curve::format::Curve;
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, Header, OpenError, Section, read_header, section};
-use crate::hull::format::Hull;
+use crate::hull::format::{DeformableHull, Hull};
 use crate::query::QueryError;
 use crate::tight::format::TightHulls;
 use crate::tribox::format::Triboxes;
@@ -37,7 +37,7 @@ impl<'a> Blob<'a> {
     /// order that the queries rely on. Any bytes are safe to open. Their alignment does not matter.
     ///
     /// Firmware with one structure links less code with the structure's own `open`:
-    /// [`Bvh::open`], [`Hull::open`], [`TightHulls::open`], [`Triboxes::open`], [`Curve::open`].
+    /// [`Bvh::open`], [`Hull::open`], [`DeformableHull::open`], [`TightHulls::open`], [`Triboxes::open`], [`Curve::open`].
     ///
     /// Cost: linear in the blob, no allocation; once per start.
     ///
@@ -52,6 +52,7 @@ impl<'a> Blob<'a> {
         let has_triboxes = blob.has(SectionKind::Triboxes);
         let has_tight_hulls = blob.has(SectionKind::TightHulls);
         let has_curves = blob.has(SectionKind::Curves);
+        let deforms = kinds().any(|kind| kind.is_deform() && blob.has(kind));
         if has_bvh {
             Bvh::open(bytes)?;
         }
@@ -63,6 +64,9 @@ impl<'a> Blob<'a> {
         }
         if has_curves {
             Curve::open(bytes)?;
+        }
+        if deforms {
+            DeformableHull::open(bytes)?;
         }
         if !hull.has_hull() && (has_bvh || has_triboxes || has_tight_hulls || has_curves) {
             hull.check_absent()?;
@@ -87,6 +91,14 @@ impl<'a> Blob<'a> {
     pub fn hull(&self) -> Result<Hull<'a>, QueryError> {
         let hull = Hull::place(self.bytes, false).map_err(|_| QueryError::NO_HULL)?;
         if hull.has_hull() { Ok(hull) } else { Err(QueryError::NO_HULL) }
+    }
+
+    /// The hull hierarchy of a mesh that deforms.
+    ///
+    /// # Errors
+    /// [`QueryError::NotServed`] if the blob was not built `--for deform`.
+    pub fn deformable_hull(&self) -> Result<DeformableHull<'a>, QueryError> {
+        DeformableHull::view(self.bytes).map_err(|_| QueryError::NO_DEFORM)
     }
 
     /// The tight hulls: outer hulls of few faces.

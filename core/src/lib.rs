@@ -35,6 +35,7 @@
 //! | the hull that a scene needs: fine near a point, in a box, toward an eye | [`RefinedHull::update`] |
 //! | hits from outside on that hull | [`Hull::outer_hits`] |
 //! | does a triangle, or a moved mesh, meet the surface; each refined only where they meet | [`Hull::meets_triangle`], [`Hull::overlap`], [`Hull::overlaps`] |
+//! | closest point of a mesh that deforms | [`FrameHull::closest_point`], [`MovedHull::closest_point`] |
 //!
 //! # Layers
 //! A folder may use only folders to its left in this line:
@@ -87,8 +88,8 @@ pub use format::{OpenError, Section};
 pub use geom::Pose;
 pub use hull::format::VertIdx;
 pub use hull::{
-    Change, Focus, Hull, HullFace, Level, OuterHits, RefinedHull, Refinement, Search, Sweep,
-    TriangleOverlap,
+    Change, DeformableHull, Focus, FrameHull, Hull, HullFace, Level, MovedHull, MovedVertex,
+    OuterHits, RefinedHull, Refinement, Search, Sweep, TriangleOverlap,
 };
 pub use query::{
     AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Overlap, Overlaps, PosedPoint,

@@ -22,8 +22,15 @@ const BARE: [&str; 14] = [
 ];
 
 /// Images that run.
-const RUNNING: [&str; 6] =
-    ["ask", "suite_hull", "suite_tree", "suite_triboxes", "suite_tight", "suite_curve"];
+const RUNNING: [&str; 7] = [
+    "ask",
+    "suite_hull",
+    "suite_tree",
+    "suite_triboxes",
+    "suite_tight",
+    "suite_curve",
+    "suite_deform",
+];
 
 /// RAM is kept at what such parts have, not at what the emulated board has, so that an image that
 /// needs more fails.

@@ -10,12 +10,14 @@ use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{Blob as Opened, Hull, ScratchEntry};
-use meshsweep_suite::ask::{Refused, curve, hull, tight, tree, triboxes};
+use meshsweep_suite::ask::{Refused, curve, deform, hull, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
 use crate::generate::{Triangles, bracket, torus};
-use crate::golden::{bracket_hulls, fence_curves, tool_path_curve, torus_sieve, torus_triboxes};
+use crate::golden::{
+    bending_torus, bracket_hulls, fence_curves, tool_path_curve, torus_sieve, torus_triboxes,
+};
 
 /// A blob of the images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,11 +51,13 @@ pub enum Blob {
     Fence,
     /// A tool path of 2,000 segments.
     ToolPath,
+    /// The hull of a torus that bends.
+    Bend,
 }
 
 impl Blob {
     /// All blobs.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Torus,
         Self::Bracket,
         Self::Grid16,
@@ -68,6 +72,7 @@ impl Blob {
         Self::Tight,
         Self::Fence,
         Self::ToolPath,
+        Self::Bend,
     ];
 
     /// The file's name without its extension.
@@ -88,6 +93,7 @@ impl Blob {
             Self::Tight => "tight",
             Self::Fence => "fence",
             Self::ToolPath => "tool_path",
+            Self::Bend => "bend",
         }
     }
 
@@ -115,6 +121,7 @@ impl Blob {
             Self::Tight => Ok(bracket_hulls()),
             Self::Fence => Ok(fence_curves()),
             Self::ToolPath => Ok(tool_path_curve()),
+            Self::Bend => Ok(bending_torus()),
             Self::SoupTree => Ok(box_tree(soup(), &default.with_cull(true))),
         }
     }
@@ -173,8 +180,8 @@ pub fn write(folder: &Path) -> Result<(), String> {
 }
 
 /// What an image should print of a blob: the suite's answers on this machine. The suite asks the
-/// blob's box tree if there is one, else its triboxes, its tight hulls, its curves or its split
-/// hierarchy.
+/// blob's box tree if there is one, else its triboxes, its tight hulls, its curves, its hull that
+/// deforms or its split hierarchy.
 ///
 /// # Errors
 /// The core's refusal.
@@ -190,6 +197,10 @@ pub fn expected(blob: &[u8]) -> Result<String, String> {
     }
     if ran == Err(Refused::NO_SECTION) {
         ran = run::<curve::Curve<'_>>(blob, plan, &mut curve::Scratch::new(), &mut lines);
+    }
+    if ran == Err(Refused::NO_SECTION) {
+        let scratch = &mut deform::Scratch::new();
+        ran = run::<deform::DeformableHull<'_>>(blob, plan, scratch, &mut lines);
     }
     if ran == Err(Refused::NO_SECTION) {
         ran = run::<hull::Model<'_>>(blob, plan, &mut hull::Scratch::new(), &mut lines);

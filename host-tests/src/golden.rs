@@ -6,11 +6,11 @@ use std::path::Path;
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::curve;
-use meshsweep::hull::{BuildOptions, build_for_sweep};
-use meshsweep::mesh::Mesh;
+use meshsweep::hull::{BuildOptions, build_deform, build_for_sweep};
+use meshsweep::mesh::{KeyFrame, Mesh};
 use meshsweep::tight::{ChainOptions, chain};
 use meshsweep::tribox::store;
-use meshsweep_suite::ask::{self, Refused, Subject, hull, tight, tree, triboxes};
+use meshsweep_suite::ask::{self, Refused, Subject, deform, hull, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
@@ -33,7 +33,7 @@ pub fn write(folder: &Path) -> Result<(), String> {
         .map_err(|error| format!("cannot write {}: {error}", folder.display()))?;
     let hull = bracket_model(folder)?;
     let (tree, triboxes, tight) = (groove_tree(), torus_triboxes(), bracket_hulls());
-    let (fence, sieve) = (fence_curves(), torus_sieve());
+    let (fence, bend, sieve) = (fence_curves(), bending_torus(), torus_sieve());
     put("sieve.msw", &sieve)?;
     let blobs = [
         ("bracket", &hull),
@@ -41,6 +41,7 @@ pub fn write(folder: &Path) -> Result<(), String> {
         ("torus", &triboxes),
         ("hulls", &tight),
         ("fence", &fence),
+        ("bend", &bend),
     ];
     for (name, blob) in blobs {
         put(&format!("{name}.msw"), blob)?;
@@ -52,7 +53,8 @@ pub fn write(folder: &Path) -> Result<(), String> {
         + &tribox_answers("torus.msw", &triboxes).map_err(refused)?
         + &tight_answers("hulls.msw", &tight).map_err(refused)?
         + &curve_answers("fence.msw", &fence).map_err(refused)?
-        + &hull_answers("sieve.msw", &sieve).map_err(refused)?;
+        + &hull_answers("sieve.msw", &sieve).map_err(refused)?
+        + &deform_answers("bend.msw", &bend).map_err(refused)?;
     put("answers.txt", answers.as_bytes())
 }
 
@@ -115,6 +117,21 @@ pub fn bracket_hulls() -> Vec<u8> {
     tables.to_bytes()
 }
 
+/// The hull hierarchy of a torus, and a key frame in which the torus is bent and stretched: its
+/// places are exact in f32, whatever the machine.
+///
+/// # Panics
+/// Never: the torus is a solid.
+#[must_use]
+pub fn bending_torus() -> Vec<u8> {
+    let (positions, triangles) = torus(2.0, 0.75, 16, 8);
+    let bent = |&[x, y, z]: &[f32; 3]| [x, 0.5 * y, z + 0.25 * x * x];
+    let frame = KeyFrame { positions: positions.iter().map(bent).collect(), rounding: 0.0 };
+    let mesh = Mesh::new(positions, triangles);
+    let options = BuildOptions { base_faces: 48, ..BuildOptions::default() };
+    build_deform(mesh.as_input(), &[frame], &options, |_| ()).expect("a solid").bytes
+}
+
 /// The fence of the fixtures, on a grid.
 ///
 /// # Panics
@@ -172,6 +189,14 @@ pub fn tight_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
 /// The core's refusal of the blob.
 pub fn curve_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
     answers::<ask::curve::Curve<'_>>(name, blob, &mut ask::curve::Scratch::new())
+}
+
+/// The same for a hull hierarchy that deforms.
+///
+/// # Errors
+/// The core's refusal of the blob.
+pub fn deform_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
+    answers::<deform::DeformableHull<'_>>(name, blob, &mut deform::Scratch::new())
 }
 
 fn answers<'t, S: Subject<'t>>(

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use meshsweep::curve::{read_csv, store};
-use meshsweep_core::{Bvh, Curve, Hull, TightHulls, Triboxes};
+use meshsweep_core::{Bvh, Curve, DeformableHull, Hull, TightHulls, Triboxes};
 use meshsweep_host_tests::golden::{
-    bracket_hulls, bracket_model, curve_answers, fence_curves, groove_tree, hull_answers,
-    tight_answers, torus_sieve, torus_triboxes, tree_answers, tribox_answers,
+    bending_torus, bracket_hulls, bracket_model, curve_answers, deform_answers, fence_curves,
+    groove_tree, hull_answers, tight_answers, torus_sieve, torus_triboxes, tree_answers,
+    tribox_answers,
 };
 use meshsweep_host_tests::picture;
 
@@ -91,8 +92,19 @@ fn committed_hierarchy_of_an_open_mesh_is_what_the_builder_makes() {
 }
 
 #[test]
+fn committed_bend_is_what_the_builder_makes() {
+    let bytes = read("bend.msw");
+    assert!(
+        bytes == bending_torus(),
+        "fixtures/bend.msw is out of date: run `cargo xtask fixtures`"
+    );
+    let hull = DeformableHull::open(&bytes).expect("opens");
+    assert_eq!((hull.frames(), hull.input_vertices()), (2, 128));
+}
+
+#[test]
 fn the_core_packs_the_same_blobs() {
-    for name in ["bracket.msw", "fence.msw", "groove.msw", "hulls.msw", "torus.msw"] {
+    for name in ["bend.msw", "bracket.msw", "fence.msw", "groove.msw", "hulls.msw", "torus.msw"] {
         let packed = read(&format!("../core/fixtures/{name}"));
         assert!(
             packed == read(name),
@@ -108,7 +120,8 @@ fn answers_have_the_committed_bits() {
         + &tribox_answers("torus.msw", &read("torus.msw")).expect("opens")
         + &tight_answers("hulls.msw", &read("hulls.msw")).expect("opens")
         + &curve_answers("fence.msw", &read("fence.msw")).expect("opens")
-        + &hull_answers("sieve.msw", &read("sieve.msw")).expect("opens");
+        + &hull_answers("sieve.msw", &read("sieve.msw")).expect("opens")
+        + &deform_answers("bend.msw", &read("bend.msw")).expect("opens");
     let committed = String::from_utf8(read("answers.txt")).expect("text");
     for (here, committed) in here.lines().zip(committed.lines()) {
         assert_eq!(

@@ -95,6 +95,8 @@ fn join(mut header: Header, bodies: &[&(SectionKind, Vec<u8>)]) -> Vec<u8> {
     header.section_count = bodies.len() as u32;
     header.total_bytes = out.len() as u32;
     out[..HEADER_BYTES].copy_from_slice(&header.write());
+    let minor = bodies.iter().map(|(kind, _)| kind.minor()).max().unwrap_or(0);
+    out[field::VERSION_MINOR..][..2].copy_from_slice(&minor.to_le_bytes());
     out[HEADER_BYTES..table_bytes].copy_from_slice(&table);
     let mut covered = out[..field::CRC].to_vec();
     covered.extend(&out[field::CRC + 4..table_bytes]);

@@ -1,19 +1,22 @@
 //! The stages of a hull hierarchy's build, in order, and their report.
 
+use super::deform::{KeyTracks, vertex_numbers};
 use super::forest::{Forest, grow};
 use super::groups::{base_groups, sort_base};
 use super::levels::{certify, levels};
 use super::tables::{SplitRecord, Tables};
 use super::wires::wires_off_surface;
 use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, VertexOrder};
+use crate::emit::{self, Sections};
 use crate::error::BuildError;
-use crate::mesh::{Input, Mesh};
+use crate::mesh::{Input, KeyFrame, Mesh};
 use crate::surface::{Closed, SignedVolume, Stored, VertexBits, close, require_valid, store};
 use glam::{DVec3, Vec3};
 use meshsweep_core::Hull;
 use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::hull::format::layout::{MAX_RING, START_GROUP};
 use meshsweep_core::internal::num::{Radius8, Radius16, sum_up, up_to_f32};
+use meshsweep_core::{DeformableHull, SectionKind};
 use std::time::{Duration, Instant};
 
 /// Options of a build.
@@ -85,6 +88,8 @@ pub enum Kind {
 pub struct Built {
     /// Tables of the hull hierarchy.
     pub tables: Tables,
+    /// The sections that let the hull deform, by [`build_deform`].
+    pub deform: Option<Sections>,
     /// The blob.
     pub bytes: Vec<u8>,
     /// Report of the build.
@@ -109,9 +114,39 @@ const MAX_TRIANGLES: usize = 20_000_000;
 pub fn build(
     input: Input<'_>,
     options: &BuildOptions,
+    on_progress: impl FnMut(Progress),
+) -> Result<Built, BuildError> {
+    build_with(input, None, options, on_progress)
+}
+
+/// Builds the hull hierarchy of a mesh that deforms: by any motion of its vertices, and between
+/// `frames`. The mesh itself is frame 0; without more frames there are no key frames.
+///
+/// The mesh must pass [`require_deformable`](crate::mesh::require_deformable), and frames come from
+/// [`key_frame`](crate::mesh::key_frame).
+///
+/// # Errors
+/// [`BuildError`]: those of [`build`]; [`BuildError::NotExact`], [`BuildError::FrameTooFar`].
+pub fn build_deform(
+    input: Input<'_>,
+    frames: &[KeyFrame],
+    options: &BuildOptions,
+    on_progress: impl FnMut(Progress),
+) -> Result<Built, BuildError> {
+    build_with(input, Some(frames), options, on_progress)
+}
+
+fn build_with(
+    input: Input<'_>,
+    frames: Option<&[KeyFrame]>,
+    options: &BuildOptions,
     mut on_progress: impl FnMut(Progress),
 ) -> Result<Built, BuildError> {
     let mesh = input.mesh;
+    let is_exact = matches!(options.vertex_bits, VertexBits::Auto | VertexBits::F32);
+    if frames.is_some() && (!is_exact || input.moved > 0.0) {
+        return Err(BuildError::NotExact);
+    }
     if mesh.triangles.len() > MAX_TRIANGLES {
         return Err(BuildError::TooLarge { triangles: mesh.triangles.len(), most: MAX_TRIANGLES });
     }
@@ -122,7 +157,7 @@ pub fn build(
     let (history, stuck, programs) =
         collapse(&stored, mesh, options, options.base_faces, &mut on_progress);
     let collapsed = Collapsed { stored, history, stuck, programs, time: started.elapsed() };
-    finish(input, collapsed, Kind::Hulls { volume }, wires)
+    finish(input, frames, collapsed, Kind::Hulls { volume }, wires)
 }
 
 /// Builds a hierarchy for distances and segments of any mesh: open, crossing itself, inside out,
@@ -159,7 +194,7 @@ pub fn build_for_sweep(
     let engine = Engine::near(&positions, &triangles, count - fillers, conditions, grid);
     let (history, stuck, programs) = run(engine, options.base_faces, &mut on_progress);
     let collapsed = Collapsed { stored, history, stuck, programs, time: started.elapsed() };
-    finish(input, collapsed, Kind::SweepOnly { holes, copies }, wires)
+    finish(input, None, collapsed, Kind::SweepOnly { holes, copies }, wires)
 }
 
 /// A mesh and its collapses.
@@ -174,6 +209,7 @@ struct Collapsed {
 /// From the collapses to the blob.
 fn finish(
     input: Input<'_>,
+    frames: Option<&[KeyFrame]>,
     collapsed: Collapsed,
     kind: Kind,
     wires: f64,
@@ -181,7 +217,11 @@ fn finish(
     let Collapsed { stored, history, stuck, programs, time: collapse_time } = collapsed;
     let started = Instant::now();
     let order = VertexOrder::new(&history);
-    let forest = grow(&history);
+    let mesh = input.mesh;
+    let mut tracks = KeyTracks::new(&history, &stored, mesh, frames.unwrap_or(&[]))?;
+    let forest = grow(&history, |instance, below, corners| {
+        tracks.cover(&history.positions, instance, below, corners);
+    });
     let sweep_time = started.elapsed();
     let started = Instant::now();
     let mut tables = assemble(&stored, input, &history, &order, &forest);
@@ -197,8 +237,19 @@ fn finish(
         let off = wires * meshsweep_core::internal::num::exp2(-stored.scale_exponent);
         tables.surface_error = sum_up(tables.surface_error, up_to_f32(off));
     }
-    let bytes = tables.to_bytes();
-    Hull::open(&bytes).map_err(BuildError::Reopen)?;
+    let hull = tables.sections();
+    let deform = frames.map(|_| {
+        let numbers = vertex_numbers(&tables, &order, mesh);
+        let keys = tracks.section(&history, &order);
+        let kinds = [SectionKind::VertexNumbers, SectionKind::KeyFrames];
+        Sections { header: hull.header, bodies: kinds.into_iter().zip([numbers, keys]).collect() }
+    });
+    let bytes = emit::assemble([&hull].into_iter().chain(&deform));
+    match deform {
+        Some(_) => DeformableHull::open(&bytes).map(drop),
+        None => Hull::open(&bytes).map(drop),
+    }
+    .map_err(BuildError::Reopen)?;
     let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     let kind = match kind {
         Kind::Hulls { volume } => Kind::Hulls { volume: volume * scale * scale * scale },
@@ -214,7 +265,7 @@ fn finish(
         kind,
         wires,
     };
-    Ok(Built { tables, bytes, report })
+    Ok(Built { tables, deform, bytes, report })
 }
 
 /// Vertices that only wires use do not count, but for the frame, which all structures of a blob

@@ -34,8 +34,10 @@ pub fn cover_radius(positions: &[DVec3], vertices: &[u32], [a, b, c]: [DVec3; 3]
 /// it: of the one that covers it more tightly. Triangles that stand for no part of the surface
 /// rather join each other.
 ///
+/// `cover` gets each coarse instance, the original vertices of its part, and its corners: labels.
+///
 /// Cost: linear in the vertices below each fragment.
-pub fn grow(history: &History) -> Forest {
+pub fn grow(history: &History, mut cover: impl FnMut(u32, &[u32], [u32; 3])) -> Forest {
     let count = history.instances();
     let mut radius = vec![0.0; count];
     // A triangle that closes a hole stands for no part of the surface.
@@ -79,6 +81,7 @@ pub fn grow(history: &History) -> Forest {
                 radius[coarse] = f64::INFINITY;
             } else {
                 radius[coarse] = cover_radius(&history.positions, &below[coarse], at(i));
+                cover(coarse as u32, &below[coarse], history.coarse_corners(collapse, i));
                 waiting[coarse] = waits;
             }
         }

@@ -8,6 +8,7 @@
 
 mod build;
 mod cut;
+mod deform;
 mod encode;
 mod forest;
 mod groups;
@@ -16,7 +17,9 @@ mod swept;
 mod tables;
 mod wires;
 
-pub use build::{BuildOptions, BuildReport, Built, Kind, build, build_for_sweep, hull_of};
+pub use build::{
+    BuildOptions, BuildReport, Built, Kind, build, build_deform, build_for_sweep, hull_of,
+};
 pub use cut::cut;
 pub use tables::{SplitRecord, Tables};
 pub use wires::wires_off_surface;

@@ -83,6 +83,15 @@ pub enum MeshError {
     ZeroVolume { triangle: u32, at: [f32; 3], volume: f64, bound: f64 },
     /// An index, coordinate or length of a `Mesh` that breaks the type's promise.
     Invalid { reason: String },
+    /// A triangle that repair dropped or changed for want of an area may get one when its vertices
+    /// move.
+    Undeformable { triangle: u32 },
+    /// A key frame has other numbers of vertices or triangles than the first mesh.
+    FrameCount { file: PathBuf, what: &'static str, found: usize, wanted: usize },
+    /// A triangle of a key frame has other vertices than that of the first mesh.
+    FrameTriangle { file: PathBuf, triangle: usize, found: [u32; 3], wanted: [u32; 3] },
+    /// Two vertices that lie in one place in the first mesh are apart in a key frame.
+    FrameTorn { file: PathBuf, vertices: [u32; 2] },
 }
 
 impl std::error::Error for MeshError {}
@@ -231,6 +240,29 @@ impl fmt::Display for MeshError {
                     ({volume:e} ± {bound:e}); remove or thicken it"
             ),
             Self::Invalid { reason } => write!(f, "not a valid mesh: {reason}; run repair"),
+            Self::Undeformable { triangle } => write!(
+                f,
+                "triangle {triangle} has no area or was changed by repair, and may get an area \
+                    when the mesh deforms; remove it from the first mesh and all frames"
+            ),
+            Self::FrameCount { file, what, found, wanted } => write!(
+                f,
+                "{}: {found} {what}, and the first mesh has {wanted}; frames must have the same \
+                    triangles",
+                file.display()
+            ),
+            Self::FrameTriangle { file, triangle, found, wanted } => write!(
+                f,
+                "{}: triangle {triangle} has the vertices {found:?}, and {wanted:?} in the first \
+                    mesh; frames must have the same triangles",
+                file.display()
+            ),
+            Self::FrameTorn { file, vertices: [a, b] } => write!(
+                f,
+                "{}: vertices {a} and {b} are apart, and lie in one place in the first mesh; \
+                    frames must not tear it",
+                file.display()
+            ),
         }
     }
 }

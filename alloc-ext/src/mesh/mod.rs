@@ -21,6 +21,7 @@ mod edges;
 mod error;
 mod hash;
 mod input;
+mod key_frame;
 mod manifold;
 mod nesting;
 mod no_volume;
@@ -46,6 +47,7 @@ use std::path::{Path, PathBuf};
 pub(crate) use edges::{EdgeTable, UnionFind, ends};
 pub use error::{EdgePlace, MeshError};
 pub use input::Input;
+pub use key_frame::{KeyFrame, key_frame, require_deformable};
 pub use manifold::require_closed_manifold;
 pub(crate) use nesting::Enclosure;
 pub use no_volume::NoVolume;
@@ -72,6 +74,9 @@ pub struct Mesh {
     /// then numbered from 0. Two triangles share a number where an edge flip removed a flat
     /// cap (see [`RepairReport::flipped_caps`]).
     pub source: Vec<u32>,
+    /// Per vertex its number in the input file: of welded vertices the first, and that of the
+    /// original for a copy.
+    pub vertex_source: Vec<u32>,
     /// The points of triangles without area that no triangle above covers.
     pub wires: Vec<Wire>,
     /// Upper bound, rounded up, of the Euclidean distance that any vertex moved when it was
@@ -91,7 +96,8 @@ impl Mesh {
     #[must_use]
     pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {
         let source = (0..triangles.len() as u32).collect();
-        Self { positions, triangles, source, ..Self::default() }
+        let vertex_source = (0..positions.len() as u32).collect();
+        Self { positions, triangles, source, vertex_source, ..Self::default() }
     }
 
     /// Triangles that have all points of the mesh: those with an area, then one for each
@@ -114,7 +120,9 @@ impl Mesh {
     #[must_use]
     pub fn without_wires(&self) -> Self {
         let used = self.triangles.iter().flatten().fold(0, |most, &v| most.max(v as usize + 1));
-        Self { positions: self.positions[..used].to_vec(), wires: Vec::new(), ..self.clone() }
+        let positions = self.positions[..used].to_vec();
+        let vertex_source = self.vertex_source.iter().copied().take(used).collect();
+        Self { positions, vertex_source, wires: Vec::new(), ..self.clone() }
     }
 
     /// Corners of triangle `triangle`, or `None` if it or one of its vertices does not exist.

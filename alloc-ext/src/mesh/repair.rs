@@ -58,22 +58,28 @@ pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
 
     let edges = EdgeTable::new(positions.len(), &triangles);
     let fans = fans(&triangles, &edges);
+    let mut vertex_source: Vec<u32> = (0..positions.len() as u32).collect();
     for original in split(positions.len(), &mut triangles, &fans) {
         let at = positions[original as usize];
         report.split_vertices.vertex(original, at);
         positions.push(at);
+        vertex_source.push(original);
     }
     // Splitting moves no corner to another edge: the half-edges' twins are those from before.
     let components = propagate(&triangles, &edges.twins());
     wind(&positions, &mut triangles, &source, &components, &mut report);
     turn_outwards(&positions, &mut triangles, &source, &components, &mut report);
-    drop_unreferenced(&mut positions, &mut triangles, &mut wires, &first_at, &mut report);
+    let kept = drop_unreferenced(&positions, &mut triangles, &mut wires, &first_at, &mut report);
+    let positions: Vec<[f32; 3]> = kept.iter().map(|&v| positions[v as usize]).collect();
+    let vertex_source = kept.iter().map(|&v| vertex_source[v as usize]).collect();
 
     report.component_count = components.kinds.len();
     report.vertices_kept = positions.len();
     report.triangles_kept = triangles.len();
     let has_merged_walls = report.opposite_duplicate.count > 0;
-    Ok((Mesh { positions, triangles, source, wires, rounding, has_merged_walls }, report))
+    let mesh =
+        Mesh { positions, triangles, source, vertex_source, wires, rounding, has_merged_walls };
+    Ok((mesh, report))
 }
 
 fn take_out_repeated_corners(
@@ -151,14 +157,14 @@ fn turn_outwards(
 }
 
 /// Vertices welded into another are counted as welded, not here. Those that only wires use go to
-/// the end.
+/// the end. Returns the vertices in their new order.
 fn drop_unreferenced(
-    positions: &mut Vec<[f32; 3]>,
+    positions: &[[f32; 3]],
     triangles: &mut [[u32; 3]],
     wires: &mut [Wire],
     first_at: &[u32],
     report: &mut RepairReport,
-) {
+) -> Vec<u32> {
     let mut used = vec![false; positions.len()];
     triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
     let mut of_wires: Vec<u32> =
@@ -183,9 +189,8 @@ fn drop_unreferenced(
         renumbered[v as usize] = next;
         next += 1;
     }
-    let at_wires: Vec<[f32; 3]> = of_wires.iter().map(|&v| positions[v as usize]).collect();
-    retain(positions, &used);
-    positions.extend(at_wires);
     wires.iter_mut().flat_map(|wire| &mut wire.ends).for_each(|v| *v = renumbered[*v as usize]);
     triangles.iter_mut().flatten().for_each(|v| *v = renumbered[*v as usize]);
+    let of_triangles = (0..positions.len() as u32).filter(|&v| used[v as usize]);
+    of_triangles.chain(of_wires).collect()
 }

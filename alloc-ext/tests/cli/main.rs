@@ -4,6 +4,7 @@ mod arguments;
 mod build;
 mod cull;
 mod curve;
+mod deform;
 mod distances;
 mod errors;
 mod hull;

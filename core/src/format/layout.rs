@@ -5,8 +5,9 @@
 pub const MAGIC: [u8; 8] = *b"meshswep";
 /// A reader refuses any other major version.
 pub const VERSION_MAJOR: u16 = 2;
-/// A reader accepts any minor version. It ignores the additions of a later one.
-pub const VERSION_MINOR: u16 = 0;
+/// A reader accepts any minor version. It ignores the additions of a later one. A writer writes the
+/// least minor version that has all section kinds of the blob, see [`SectionKind::minor`].
+pub const VERSION_MINOR: u16 = 1;
 /// Bytes of the fixed part of the header; the section table follows.
 pub const HEADER_BYTES: usize = 160;
 /// Bytes of one entry of the section table: kind, offset, length, CRC, each a u32.
@@ -72,11 +73,15 @@ pub enum SectionKind {
     TightHulls = 20,
     /// Polygonal curves, and a hierarchy of capsules over their points.
     Curves = 21,
+    /// For each vertex of the surface its number in the input file.
+    VertexNumbers = 22,
+    /// Key frames: the vertices of all levels, and the radius of each triangle.
+    KeyFrames = 23,
 }
 
 impl SectionKind {
     /// All kinds, in the order in which a writer emits them.
-    pub const ALL: [SectionKind; 20] = [
+    pub const ALL: [SectionKind; 22] = [
         SectionKind::Levels,
         SectionKind::Vertices,
         SectionKind::BaseTriangles,
@@ -97,6 +102,8 @@ impl SectionKind {
         SectionKind::Triboxes,
         SectionKind::TightHulls,
         SectionKind::Curves,
+        SectionKind::VertexNumbers,
+        SectionKind::KeyFrames,
     ];
 
     /// Whether the section belongs to the hull hierarchy.
@@ -109,6 +116,16 @@ impl SectionKind {
         !self.is_hull() && (self as u32) < SectionKind::Triboxes as u32
     }
 
+    /// Whether the section is for a hull hierarchy that deforms.
+    pub fn is_deform(self) -> bool {
+        matches!(self, SectionKind::VertexNumbers | SectionKind::KeyFrames)
+    }
+
+    /// The first minor version with this kind.
+    pub fn minor(self) -> u16 {
+        u16::from(self.is_deform())
+    }
+
     /// The value of `meshsweep build --for` that writes the section.
     pub fn build_for(self) -> BuildFor {
         match self {
@@ -117,6 +134,7 @@ impl SectionKind {
             SectionKind::Triboxes => BuildFor::Triboxes,
             SectionKind::TightHulls => BuildFor::Tight,
             SectionKind::Curves => BuildFor::Curve,
+            _ if self.is_deform() => BuildFor::Deform,
             _ if self.is_hull() => BuildFor::Hull,
             _ => BuildFor::Closest,
         }
@@ -145,6 +163,8 @@ impl SectionKind {
             SectionKind::Triboxes => "triboxes",
             SectionKind::TightHulls => "tight hulls",
             SectionKind::Curves => "curves",
+            SectionKind::VertexNumbers => "vertex numbers",
+            SectionKind::KeyFrames => "key frames",
         }
     }
 }
@@ -167,6 +187,8 @@ pub enum BuildFor {
     Tight,
     /// Polygonal curves.
     Curve,
+    /// A hull hierarchy that deforms.
+    Deform,
 }
 
 impl core::fmt::Display for BuildFor {
@@ -179,6 +201,7 @@ impl core::fmt::Display for BuildFor {
             BuildFor::Triboxes => "triboxes",
             BuildFor::Tight => "tight",
             BuildFor::Curve => "curve",
+            BuildFor::Deform => "deform",
         })
     }
 }

@@ -4,8 +4,9 @@
 //! surface that may hold the answer are evaluated in f64, so that the interval is as wide as one
 //! rounding of f32.
 
+use super::geometry::Geometry;
 use super::sweep::{Candidate, Fate, Front, Visit};
-use crate::geom::{Aabb, LANES, Lanes, SweptPoint, point_triangle};
+use crate::geom::{LANES, Lanes, SweptPoint, point_triangle};
 use crate::hull::format::{Hull, Instance};
 use crate::num::tolerance::{F32_BOUNDS, HULL_FAR, REPORTED, U64};
 use crate::num::{down_to_f32, up_to_f32};
@@ -55,23 +56,24 @@ impl Hull<'_> {
 
 /// Takes the tolerances as numbers, not a budget, so that a program with constant tolerances links
 /// no code for others.
-fn closest_point(
-    hull: &Hull<'_>,
+pub(super) fn closest_point<'a, G: Geometry<'a>>(
+    hull: &G,
     point: [f32; 3],
     [relative, absolute]: [f32; 2],
     steps: u32,
     scratch: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
-    if !hull.has_hull() {
+    let is_cut = hull.tables().is_cut();
+    if !hull.tables().has_hull() {
         return Err(QueryError::NO_HULL);
     }
-    let frame = Frame::of(hull.header());
+    let frame = hull.frame();
     let p = frame.local(point)?;
     let mut nearest = Nearest::new(hull, p).ok_or(QueryError::Unchecked)?;
     let (mut work, mut ended) = (Work::NONE, Ended::Exact);
     if p.abs().max_element() > HULL_FAR {
         nearest.settle_by_box(hull).ok_or(QueryError::Unchecked)?;
-        if hull.is_cut() {
+        if is_cut {
             ended = Ended::Resolution;
         }
     } else {
@@ -88,7 +90,7 @@ fn closest_point(
         nearest.settle_by_box(hull).ok_or(QueryError::Unchecked)?;
         nearest.lower = nearest.lower.max(lower.min(nearest.upper));
     }
-    Ok(nearest.answer(hull, &frame, work, ended))
+    Ok(nearest.answer(hull.tables(), &frame, work, ended))
 }
 
 /// The best triangle so far.
@@ -124,10 +126,11 @@ pub(super) struct Nearest {
 }
 
 impl Nearest {
-    pub(super) fn new(model: &Hull<'_>, p: DVec3) -> Option<Self> {
+    pub(super) fn new<'a>(geometry: &impl Geometry<'a>, p: DVec3) -> Option<Self> {
+        let model = geometry.tables();
         // In f32's normal range the conversion is exact; below, it costs less than
         // `tolerance::UNDERFLOW`.
-        let swept = SweptPoint::new(p.as_vec3(), &model.hull_box());
+        let swept = SweptPoint::new(p.as_vec3(), &geometry.vertex_box());
         let last = model.level(model.header().levels.checked_sub(1)?)?;
         Some(Nearest {
             p,
@@ -256,12 +259,12 @@ impl Nearest {
 
     /// The interval that the surface's box gives, with any point of the surface. From far enough
     /// away every point is the closest, within a rounding of f32.
-    pub(super) fn settle_by_box(&mut self, model: &Hull<'_>) -> Option<()> {
-        let header = model.header();
-        (self.lower, self.upper) = Aabb::of(header.surface_box).distance_range(self.p);
+    pub(super) fn settle_by_box<'a>(&mut self, geometry: &impl Geometry<'a>) -> Option<()> {
+        let model = geometry.tables();
+        (self.lower, self.upper) = geometry.surface_box().distance_range(self.p);
         let instance = model.last_part()?;
-        let [corner, ..] = model.corners(instance)?;
-        let point = model.position(corner)?.as_dvec3();
+        let ([corner, ..], _) = geometry.triangle(model.corners(instance)?, 0, true)?;
+        let point = corner.as_dvec3();
         self.best = Some(Best { distance_sq: 0.0, instance, point });
         Some(())
     }
@@ -323,15 +326,15 @@ impl Visit for Nearest {
 }
 
 /// State of one query.
-struct Fresh<'a, 'm> {
-    front: Front<'a, 'm>,
+struct Fresh<'m, G> {
+    front: Front<'m, G>,
     nearest: Nearest,
 }
 
-impl Fresh<'_, '_> {
+impl<'a, G: Geometry<'a>> Fresh<'_, G> {
     fn run(&mut self, tolerance: Option<[f64; 2]>) -> Option<Ended> {
         let Fresh { front, nearest } = self;
-        let error = f64::from(front.model.header().surface_error);
+        let error = front.model.surface_error();
         // Least key of the triangles that the tolerance spared.
         let mut spared = f64::INFINITY;
         front.begin(nearest)?;
@@ -368,7 +371,7 @@ impl Fresh<'_, '_> {
             Ended::Scratch
         } else if is_met {
             Ended::Tolerance
-        } else if front.model.is_cut() {
+        } else if front.model.tables().is_cut() {
             Ended::Resolution
         } else {
             Ended::Exact

@@ -18,7 +18,7 @@ use glam::DVec3;
 /// A sweep about one point that may move. It lives in the caller's scratch.
 #[derive(Debug)]
 pub struct Sweep<'a, 'm> {
-    front: Front<'a, 'm>,
+    front: Front<'m, Hull<'a>>,
     frame: Frame,
     p: DVec3,
     /// The motion so far, rounded up.

@@ -8,9 +8,12 @@
 //! | `focus` | where a scene needs it |
 //! | `refine` | how it follows a focus |
 //! | `hull_faces` | the triangles of hulls |
+//! | `geometry` | where a sweep's triangles lie: at rest, at a key frame, or moved |
 //! | `sweep` | the front of the sweeping process |
 //! | `closest_point` | closest point by a sweep |
 //! | `kept_sweep` | a sweep that is interrupted, moved, or gives triangle after triangle |
+//! | `frame_hull` | the hull between two key frames |
+//! | `moved_hull` | the hull under any motion of the mesh's vertices |
 //! | `segment_hits` | first hit and all hits by a sweep |
 //! | `overlap/` | a triangle, or another hull hierarchy, against the surface |
 //! | `outer_hits` | hits from outside on the refined hull |
@@ -18,8 +21,11 @@
 mod closest_point;
 mod focus;
 pub mod format;
+mod frame_hull;
+mod geometry;
 mod hull_faces;
 mod kept_sweep;
+mod moved_hull;
 mod outer_hits;
 mod overlap;
 mod refine;
@@ -29,9 +35,11 @@ mod split_set;
 mod sweep;
 
 pub use focus::Focus;
-pub use format::{Hull, Level};
+pub use format::{DeformableHull, Hull, Level};
+pub use frame_hull::FrameHull;
 pub use hull_faces::HullFace;
 pub use kept_sweep::Sweep;
+pub use moved_hull::{MovedHull, MovedVertex};
 pub use outer_hits::{OuterHits, Search};
 pub use overlap::TriangleOverlap;
 pub use refine::{Change, Refinement};

@@ -197,7 +197,10 @@ fn trace(
 }
 
 /// Why the search ended, and the least parameter of a hit in triangles that it did not refine.
-fn run<C: Collect>(front: &mut Front<'_, '_>, along: &mut Along<'_, C>) -> Option<(Ended, f32)> {
+fn run<C: Collect>(
+    front: &mut Front<'_, Hull<'_>>,
+    along: &mut Along<'_, C>,
+) -> Option<(Ended, f32)> {
     front.begin(along)?;
     while let Some(Taken { entry, .. }) = front.queue.pop() {
         let instance = Instance(entry.node());

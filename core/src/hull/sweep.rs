@@ -7,6 +7,7 @@
 //! first: the front is a set of bounds and not a mesh. No triangle is reached twice, so nothing has
 //! to be remembered but the triangles that wait. Proof: `core/docs/rounding.md` §3.
 
+use super::geometry::Geometry;
 use crate::geom::LANES;
 use crate::hull::format::layout::BASE_GROUP;
 use crate::hull::format::{Hull, Instance, Named, SplitIdx, VertIdx};
@@ -108,39 +109,38 @@ pub(crate) fn triangles(model: &Hull<'_>) -> u32 {
 
 /// The triangles that wait.
 #[derive(Debug)]
-pub(crate) struct Front<'a, 'm> {
-    pub(crate) model: Hull<'a>,
+pub(crate) struct Front<'m, G> {
+    pub(crate) model: G,
     pub(crate) queue: SweepQueue<'m>,
     pub(crate) work: Work,
     /// Triangles that may be replaced.
     steps: u32,
 }
 
-impl<'a, 'm> Front<'a, 'm> {
+impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
     /// An empty front that may replace `steps` triangles. There are fewer than the tables hold. So
     /// a search also ends on tables that open and yet name a triangle more than once.
-    pub(crate) fn new(model: &Hull<'a>, scratch: &'m mut [ScratchEntry], steps: u32) -> Self {
+    pub(crate) fn new(model: &G, scratch: &'m mut [ScratchEntry], steps: u32) -> Self {
         Front {
-            steps: steps.min(triangles(model)),
+            steps: steps.min(triangles(model.tables())),
             model: *model,
-            queue: SweepQueue::new(scratch, model.scratch_entries()),
+            queue: SweepQueue::new(scratch, model.tables().scratch_entries()),
             work: Work::NONE,
         }
     }
 
     /// Shows the groups of the base hull to the visitor.
     pub(crate) fn begin(&mut self, visitor: &mut impl Visit) -> Option<()> {
-        let groups = self.model.base_groups();
+        let groups = self.model.tables().base_groups();
         self.queue.begin_children(groups);
         let mut batch = Batch::EMPTY;
         for index in 0..groups {
-            let (corners, radius) = self.model.base_group(index)?;
+            let (corners, radius) = self.model.group(index)?;
             if self.is_partless(radius) {
                 continue;
             }
             self.work.nodes += 1;
-            let corners = self.model.positions(corners)?;
-            let instance = self.model.instance(Named::Group(index));
+            let instance = self.model.tables().instance(Named::Group(index));
             let candidate = Candidate { corners, radius, instance, fate: Fate::Splits };
             batch.push(candidate, visitor, &mut self.queue);
         }
@@ -149,39 +149,38 @@ impl<'a, 'm> Front<'a, 'm> {
     }
 
     /// A front whose queue never goes depth first, and that may replace no triangle yet.
-    pub(crate) fn best_first(model: &Hull<'a>, scratch: &'m mut [ScratchEntry]) -> Self {
+    pub(crate) fn best_first(model: &G, scratch: &'m mut [ScratchEntry]) -> Self {
         Front { queue: SweepQueue::best_first(scratch), work: Work::NONE, model: *model, steps: 0 }
     }
 
     /// From now on, `steps` triangles may be replaced.
     pub(crate) fn allow(&mut self, steps: u32) {
         self.work = Work::NONE;
-        self.steps = steps.min(triangles(&self.model));
+        self.steps = steps.min(triangles(self.model.tables()));
     }
 
     /// The triangle or group of a number. It is not counted as work.
     pub(crate) fn look(&self, instance: Instance) -> Option<Candidate> {
-        let (corners, radius) = match self.model.named(instance) {
+        let (corners, radius) = match self.model.tables().named(instance) {
             Named::Group(index) => {
-                let (corners, radius) = self.model.base_group(index)?;
-                let corners = self.model.positions(corners)?;
+                let (corners, radius) = self.model.group(index)?;
                 return Some(Candidate { corners, radius, instance, fate: Fate::Splits });
             }
-            Named::Base(index) => (self.model.base_triangle(index)?, index),
+            Named::Base(index) => (self.model.tables().base_triangle(index)?, index),
             Named::Fine(split, slot) => {
-                let split = self.model.split(split)?;
+                let split = self.model.tables().split(split)?;
                 (split.fine(slot as usize)?, split.first_triangle.checked_add(slot)?)
             }
         };
-        let fate = self.fate(self.model.removed_by(corners));
-        let radius = self.model.radius(radius)?;
-        Some(Candidate { corners: self.model.positions(corners)?, radius, instance, fate })
+        let fate = self.fate(self.model.tables().removed_by(corners));
+        let (corners, radius) = self.model.triangle(corners, radius, fate == Fate::Surface)?;
+        Some(Candidate { corners, radius, instance, fate })
     }
 
     fn fate(&self, split: Option<SplitIdx>) -> Fate {
         match split {
             Some(_) => Fate::Splits,
-            None if self.model.is_cut() => Fate::Cut,
+            None if self.model.tables().is_cut() => Fate::Cut,
             None => Fate::Surface,
         }
     }
@@ -195,18 +194,18 @@ impl<'a, 'm> Front<'a, 'm> {
     #[inline]
     pub(crate) fn open(&mut self, instance: Instance, visitor: &mut impl Visit) -> Option<()> {
         self.work.splits += 1;
-        if let Named::Group(index) = self.model.named(instance) {
+        if let Named::Group(index) = self.model.tables().named(instance) {
             return self.open_group(index, visitor);
         }
-        let [a, b, c] = self.model.corners(instance)?;
+        let [a, b, c] = self.model.tables().corners(instance)?;
         let ends = [self.end(a)?, self.end(b)?, self.end(c)?];
         let triangle = Triangle { instance, ends, radius: 0 };
         let (mut children, mut count) =
-            self.children(&triangle, self.model.stored_split(triangle.split())?)?;
+            self.children(&triangle, self.model.tables().stored_split(triangle.split())?)?;
         // An only child has the same part of the surface. Its bound is hardly better, so it is
         // replaced at once.
         while count == 1
-            && let Some(split) = self.model.stored_split(children[0].split())
+            && let Some(split) = self.model.tables().stored_split(children[0].split())
             && !self.is_spent()
         {
             self.work.splits += 1;
@@ -217,7 +216,9 @@ impl<'a, 'm> Front<'a, 'm> {
         for (child, slot) in children.iter().zip(&mut found).take(count) {
             *slot = self.candidate(child)?;
         }
-        if !self.model.encloses() && found.iter().any(|child| self.is_partless(child.radius)) {
+        if !self.model.tables().encloses()
+            && found.iter().any(|child| self.is_partless(child.radius))
+        {
             count = self.leave_out(&mut found, count);
         }
         visitor.visit(found.get(..count)?, &mut self.queue);
@@ -226,13 +227,13 @@ impl<'a, 'm> Front<'a, 'm> {
 
     fn open_group(&mut self, index: u32, visitor: &mut impl Visit) -> Option<()> {
         let first = index.checked_mul(BASE_GROUP)?;
-        let end = self.model.header().base_triangles.min(first.checked_add(BASE_GROUP)?);
+        let end = self.model.tables().header().base_triangles.min(first.checked_add(BASE_GROUP)?);
         self.queue.begin_children(end.saturating_sub(first));
         let mut batch = Batch::EMPTY;
         for radius in first..end {
-            let [a, b, c] = self.model.base_triangle(radius)?;
+            let [a, b, c] = self.model.tables().base_triangle(radius)?;
             let ends = [self.end(a)?, self.end(b)?, self.end(c)?];
-            let instance = self.model.instance(Named::Base(radius));
+            let instance = self.model.tables().instance(Named::Base(radius));
             let candidate = self.candidate(&Triangle { instance, ends, radius })?;
             if self.is_partless(candidate.radius) {
                 continue;
@@ -246,7 +247,7 @@ impl<'a, 'm> Front<'a, 'm> {
     /// Whether a radius says that its triangle stands for no part of the surface.
     #[inline(always)]
     fn is_partless(&self, radius: f32) -> bool {
-        !self.model.encloses() && radius == f32::INFINITY
+        !self.model.tables().encloses() && radius == f32::INFINITY
     }
 
     /// Moves the triangles that stand for a part of the surface to the front, and counts them.
@@ -267,7 +268,7 @@ impl<'a, 'm> Front<'a, 'm> {
 
     #[inline(always)]
     fn end(&self, vertex: VertIdx) -> Option<End> {
-        Some(End { vertex, split: self.model.stored_split_of(vertex)? })
+        Some(End { vertex, split: self.model.tables().stored_split_of(vertex)? })
     }
 
     /// The triangles that a split makes out of a triangle.
@@ -277,7 +278,7 @@ impl<'a, 'm> Front<'a, 'm> {
         triangle: &Triangle,
         index: SplitIdx,
     ) -> Option<([Triangle; CHILDREN], usize)> {
-        let split = self.model.split(index)?;
+        let split = self.model.tables().split(index)?;
         // The corner that is split is the only one with this split.
         let [a, b, c] = triangle.ends;
         let (from, to) = if a.split == index.0 {
@@ -289,7 +290,7 @@ impl<'a, 'm> Front<'a, 'm> {
         };
         let edge = split.find(from.vertex)?;
         let ring_len = split.ring_len();
-        let Instance(first) = self.model.instance(Named::Fine(index, 0));
+        let Instance(first) = self.model.tables().instance(Named::Fine(index, 0));
         let child = |slot: usize, ends: [End; 3]| Triangle {
             instance: Instance(first.wrapping_add(slot as u32)),
             ends,
@@ -318,11 +319,12 @@ impl<'a, 'm> Front<'a, 'm> {
     #[inline(always)]
     fn candidate(&mut self, triangle: &Triangle) -> Option<Candidate> {
         let Triangle { instance, ends, radius } = *triangle;
-        let fate = self.fate(self.model.stored_split(triangle.split()));
+        let fate = self.fate(self.model.tables().stored_split(triangle.split()));
         let counter =
             if fate == Fate::Surface { &mut self.work.triangles } else { &mut self.work.nodes };
         *counter += 1;
-        let corners = self.model.positions(ends.map(|end| end.vertex))?;
-        Some(Candidate { corners, radius: self.model.radius(radius)?, instance, fate })
+        let corners = ends.map(|end| end.vertex);
+        let (corners, radius) = self.model.triangle(corners, radius, fate == Fate::Surface)?;
+        Some(Candidate { corners, radius, instance, fate })
     }
 }

@@ -10,8 +10,13 @@ pub struct Radius16(pub u16);
 impl Radius16 {
     /// The least stored radius not below `x ≥ 0`; infinity where `x` exceeds f32's range.
     pub fn round_up(x: f64) -> Self {
-        let bits = super::up_to_f32(x).to_bits();
-        let up = bits.saturating_add(0xFFFF) >> 16;
+        Self::round_up_f32(super::up_to_f32(x))
+    }
+
+    /// The same of an f32.
+    #[inline(always)]
+    pub fn round_up_f32(x: f32) -> Self {
+        let up = x.to_bits().saturating_add(0xFFFF) >> 16;
         Radius16(up.min(0x7F80) as u16)
     }
 

@@ -20,6 +20,14 @@ pub const PRODUCT_UNDERFLOW: f32 = f32::MIN_POSITIVE;
 /// 1-norms. Proved: 10 (§11).
 pub const DETERMINANT: f32 = 16.0;
 
+/// Factor that makes an upper bound of a root out of two steps of Newton's iteration, 1 + 2^-16:
+/// they lose less than 6e-6, and roundings 1e-6 (§17).
+pub const ROOT_UP: f32 = 1.0 + 1.0 / 65_536.0;
+
+/// Added to a square before its root is bounded, 2^-100, so that no guess begins near f32's
+/// subnormal range. A root grows by 2^-50 at most.
+pub const SQUARE_FLOOR: f32 = 1.0 / ((1u64 << 50) as f32 * (1u64 << 50) as f32);
+
 // Poses
 
 /// Rounding of what is left of a carried point, in units of [`U64`] times the sum of its terms.
@@ -100,6 +108,37 @@ pub const SUMMED: f64 = 1.0 + 1.0 / (1u64 << 48) as f64;
 
 /// Rounding to f32 and the change of units, at either end of the interval.
 pub const REPORTED: f64 = 8.0 * U32 as f64;
+
+// Hulls that deform, in the local frame
+
+/// Largest coordinate of a moved vertex of the mesh: 64 times the model's size. Products of four
+/// lengths stay below 2^60 (§17). A larger value would let a margin in f32 grow with the motion.
+pub const DEFORM_DOMAIN: f32 = 64.0;
+
+/// Largest coordinate of a vertex of any level of a moved hull. Proved: 97 (§17).
+pub const DEFORM_COARSE: f32 = 128.0;
+
+/// Rounding of a difference of displacements, in units of [`U32`] times the moved distance of the
+/// two vertices. Proved: 2 (§17). A smaller value loses the guarantee.
+pub const DISPLACEMENT: f32 = 4.0;
+
+/// Rounding of lengths and of their sums, relative. Proved: 10 units of [`U32`] (§17).
+pub const LENGTH_UP: f32 = 1.0 + 16.0 * U32;
+
+/// Rounding of a vertex between two keys, in units of [`U32`] times the largest coordinate of both.
+/// Proved: 9 (§17). Intervals between keys are wider by twice as much.
+pub const KEY_VERTEX: f64 = 12.0;
+
+/// Rounding of a radius between two keys, in units of [`U32`] times the larger one. Proved: 4
+/// (§17).
+pub const KEY_RADIUS: f32 = 8.0;
+
+/// Rounding of the distance of a vertex of the surface from its fixed point of a triangle, in units
+/// of [`U64`] times the 1-norms of all terms. Proved: 9 (§17).
+pub const FIXED_POINT: f64 = 16.0;
+
+/// Loss of a moved vertex by underflow, 2^-148: three coordinates lose 2^-150 each.
+pub const VERTEX_UNDERFLOW: f64 = 1.0 / ((1u128 << 74) as f64 * (1u128 << 74) as f64);
 
 /// Rounding of the distance of a vertex from a focus, in units of [`U32`] times the 1-norms of the
 /// coordinates that it is computed from. Measured, not proved: with the worst cones, 15 units in

@@ -34,6 +34,27 @@ pub enum QueryError {
     /// - one model's grid is more than 2^40 times as coarse as the other's;
     /// - a surface error is far larger than its model.
     PoseOutOfDomain,
+    /// The key frame is not a number from 0 to the number of frames less 1.
+    NoFrame {
+        /// Key frames of the blob, the mesh at rest among them.
+        frames: u32,
+    },
+    /// A moved hull has fewer vertex records than
+    /// [`vertex_records`](crate::DeformableHull::vertex_records) says.
+    VertexRecords {
+        /// Records needed.
+        needed: u32,
+        /// Records given.
+        found: u32,
+    },
+    /// A vertex was moved to a place that is not finite, or 64 times the model's size or more from
+    /// its origin.
+    VertexOutOfDomain {
+        /// Number of the vertex in the input file.
+        vertex: u32,
+    },
+    /// The last update of a moved hull was refused, so the hull has no pose. Update it again.
+    NoPose,
     /// The scratch memory has no entries. One entry is enough for an interval.
     NoScratch,
     /// The blob was built without the sections that this question needs.
@@ -59,6 +80,7 @@ impl QueryError {
         QueryError::NotServed { build_for: BuildFor::Triboxes };
     pub(crate) const NO_TIGHT_HULLS: QueryError =
         QueryError::NotServed { build_for: BuildFor::Tight };
+    pub(crate) const NO_DEFORM: QueryError = QueryError::NotServed { build_for: BuildFor::Deform };
     pub(crate) const NO_CURVES: QueryError = QueryError::NotServed { build_for: BuildFor::Curve };
 }
 
@@ -80,6 +102,20 @@ impl core::fmt::Display for QueryError {
                 "an entry of the matrix is beyond 2, the translation too large, or one model 2^40 \
                  times as large as the other"
             }
+            QueryError::NoFrame { frames } => {
+                return write!(f, "not a key frame: the blob has {frames}, from 0");
+            }
+            QueryError::VertexRecords { needed, found } => {
+                return write!(f, "{found} vertex records, and a moved hull needs {needed}");
+            }
+            QueryError::VertexOutOfDomain { vertex } => {
+                return write!(
+                    f,
+                    "vertex {vertex} is moved to a place that is not finite or too far from the \
+                     model"
+                );
+            }
+            QueryError::NoPose => "the last update of the moved hull was refused: update it again",
             QueryError::NoScratch => "the scratch memory has no entries",
             QueryError::NotServed { build_for } => {
                 return write!(

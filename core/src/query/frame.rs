@@ -25,6 +25,11 @@ impl Frame {
         }
     }
 
+    /// The same conversion with another surface error, local frame.
+    pub(crate) fn with_surface_error(self, surface_error: f64) -> Self {
+        Frame { surface_error, ..self }
+    }
+
     /// A query coordinate in the local frame, exactly: f32 times a power of two fits an f64.
     pub(crate) fn local(&self, point: [f32; 3]) -> Result<DVec3, QueryError> {
         if !point.iter().all(|x| x.is_finite()) {

@@ -8,7 +8,8 @@ use meshsweep_lab::measure::paper;
 use meshsweep_lab::measure::plot::{self, Measured};
 use meshsweep_lab::measure::tight::picture;
 use meshsweep_lab::measure::{
-    measure, measure_bounds, measure_overlap, measure_tight, measure_tree, measure_triboxes,
+    measure, measure_bounds, measure_deform, measure_overlap, measure_tight, measure_tree,
+    measure_triboxes,
 };
 use meshsweep_xtask::firmware;
 use meshsweep_xtask::say;
@@ -37,12 +38,13 @@ enum Part {
     Overlap,
     Triboxes,
     Tight,
+    Deform,
     /// A table of [`paper::ALL`].
     Paper(usize),
 }
 
 impl Options {
-    /// `[--tree | --triboxes | --overlap | --tight [--firmware] | --bounds [--count] |
+    /// `[--tree | --triboxes | --deform | --overlap | --tight [--firmware] | --bounds [--count] |
     /// --paper TABLE] [--plot FILE.svg] [--picture FILE.svg] [MESH…]`, the picture with `--tight` alone; `None` if
     /// that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
@@ -60,6 +62,7 @@ impl Options {
                     let name = words.next()?;
                     Part::Paper(paper::ALL.iter().position(|table| table.name == *name)?)
                 }
+                "--deform" => Part::Deform,
                 "--count" | "--firmware" if only.is_none() => {
                     only = Some(if word == "--count" { Part::Bounds } else { Part::Tight });
                     continue;
@@ -120,6 +123,7 @@ pub fn run(steps: &mut Steps, options: Options) {
                 Some(Part::Overlap) => measure_overlap(mesh)?,
                 Some(Part::Triboxes) => measure_triboxes(mesh)?,
                 Some(Part::Paper(table)) => paper::measure(&paper::ALL[table], mesh)?,
+                Some(Part::Deform) => measure_deform(mesh)?,
                 Some(Part::Tight) => match &tools {
                     Some(tools) => vec![hulls_on_board::table(tools, mesh)?],
                     None => {

@@ -16,7 +16,7 @@ pub(super) struct Forest {
     pub(super) below: Vec<Vec<u32>>,
     /// Whether each stands for a part of the surface.
     pub(super) has_part: Vec<bool>,
-    triangles: Vec<[u32; 3]>,
+    pub(super) triangles: Vec<[u32; 3]>,
     /// Queue entries that a sweep needs below each triangle; 0 for one that no split removes.
     waiting: Vec<u32>,
 }

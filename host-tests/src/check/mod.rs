@@ -8,6 +8,7 @@
 //! checked in `f64` with a margin for its rounding.
 
 mod bounds;
+mod deform;
 mod enclosure;
 mod exact;
 mod forest;
@@ -40,6 +41,8 @@ pub struct CheckReport {
     pub triangles: usize,
     /// Pairs of a triangle of any level and a vertex of the surface that it stands for.
     pub covered: usize,
+    /// Pairs of a triangle and a vertex that were followed through all key frames.
+    pub key_pairs: usize,
     /// Points of the levels' hulls whose distance to the surface was measured.
     pub samples: usize,
 }
@@ -61,6 +64,8 @@ pub fn check_blob(bytes: &[u8]) -> Result<CheckReport, String> {
     bounds::errors(&blob)?;
     forest.capacity(&blob)?;
     bounds::groups(&blob, &forest)?;
+    deform::numbers(bytes, &blob)?;
+    deform::keys(bytes, &blob, &forest, &mut report)?;
     levels::volumes(&blob, &meshes)?;
     levels::distances(&blob, &meshes, &forest, &mut report)?;
     Ok(report)

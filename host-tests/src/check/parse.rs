@@ -75,10 +75,10 @@ pub struct Blob {
 }
 
 /// A section, read from front to back.
-struct Cursor<'a>(&'a [u8], &'static str);
+pub(super) struct Cursor<'a>(pub(super) &'a [u8], pub(super) &'static str);
 
 impl Cursor<'_> {
-    fn uint(&mut self, width: usize) -> Result<u32, String> {
+    pub(super) fn uint(&mut self, width: usize) -> Result<u32, String> {
         let Some((head, rest)) = self.0.split_at_checked(width) else {
             return Err(format!("section {} ends early", self.1));
         };
@@ -86,7 +86,7 @@ impl Cursor<'_> {
         Ok(head.iter().rev().fold(0, |value, &byte| value << 8 | u32::from(byte)))
     }
 
-    fn float(&mut self) -> Result<f32, String> {
+    pub(super) fn float(&mut self) -> Result<f32, String> {
         self.uint(4).map(f32::from_bits)
     }
 
@@ -94,13 +94,13 @@ impl Cursor<'_> {
         Ok([self.uint(width)?, self.uint(width)?, self.uint(width)?])
     }
 
-    fn end(self) -> Result<(), String> {
+    pub(super) fn end(self) -> Result<(), String> {
         if self.0.is_empty() { Ok(()) } else { Err(format!("section {} is too long", self.1)) }
     }
 }
 
 /// Bytes that hold `count` values and one more.
-fn width(count: u32) -> usize {
+pub(super) fn width(count: u32) -> usize {
     [0xFF, 0xFFFF, 0xFF_FFFF].iter().position(|&most| count <= most).map_or(4, |at| at + 1)
 }
 

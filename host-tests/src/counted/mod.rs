@@ -1,5 +1,6 @@
 //! Questions to fixtures and blobs that a simulator counts: the first so many of a seeded list.
 
+mod deform;
 mod placed;
 mod tree;
 mod triboxes;
@@ -33,6 +34,7 @@ pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<String, St
         return Ok(format!("0 0 1 {}", placed::ask(&laid?, queries)?));
     }
     match question.split_once(' ') {
+        Some(("deform", question)) => deform::ask(fixtures, question, queries),
         Some(("triboxes", question)) => triboxes::ask(fixtures, question, queries),
         _ => hull(fixtures, question, queries),
     }

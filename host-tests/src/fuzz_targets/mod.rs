@@ -5,6 +5,7 @@
 //! its tables have records.
 
 mod curves;
+mod deform;
 mod hull;
 mod input;
 mod tight;
@@ -13,6 +14,7 @@ mod tribox;
 mod triboxes;
 
 pub use curves::{ask_curve, curve_seeds, curves};
+pub use deform::{deform, deform_seeds};
 pub use hull::{closest, open, outer, overlap, refine, seeds, segment};
 pub use input::random_input;
 pub use tight::{ask_tight, tight, tight_seeds};

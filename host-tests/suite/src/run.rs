@@ -72,11 +72,17 @@ pub enum Kind {
     Sweep,
     /// Closest point and first hit of the model under a pose.
     Posed,
+    /// Closest point between two key frames.
+    Frame,
+    /// An update of a moved hull.
+    Update,
+    /// Closest point of a moved hull.
+    Moved,
 }
 
 impl Kind {
     /// All kinds in the order in which they are run.
-    pub const ALL: [Self; 32] = [
+    pub const ALL: [Self; 35] = [
         Self::Arith,
         Self::Contents,
         Self::ClosestFar,
@@ -109,6 +115,9 @@ impl Kind {
         Self::TriboxesCandidates,
         Self::TriboxesDistance,
         Self::TriboxesClip,
+        Self::Frame,
+        Self::Update,
+        Self::Moved,
     ];
 
     /// The name in reports: one word.
@@ -147,6 +156,9 @@ impl Kind {
             Self::Refine => "refine",
             Self::Sweep => "sweep",
             Self::Posed => "posed",
+            Self::Frame => "frame",
+            Self::Update => "update",
+            Self::Moved => "moved",
         }
     }
 
@@ -172,6 +184,12 @@ impl Kind {
                 | Self::TriboxesDistance
                 | Self::TriboxesClip
         )
+    }
+
+    /// Whether it is about a hull that deforms.
+    #[must_use]
+    pub const fn is_deform(self) -> bool {
+        matches!(self, Self::Frame | Self::Update | Self::Moved)
     }
 
     const fn seed(self) -> u64 {

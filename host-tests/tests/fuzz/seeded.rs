@@ -1,8 +1,8 @@
 //! The fuzz targets on seeded bytes, so that a stable compiler runs them too.
 
 use meshsweep_host_tests::fuzz_targets::{
-    closest, curves, open, outer, overlap, random_input, refine, segment, tight, tree_closest,
-    tree_coherent, tree_open, tree_overlap, tree_segment, tribox, triboxes,
+    closest, curves, deform, open, outer, overlap, random_input, refine, segment, tight,
+    tree_closest, tree_coherent, tree_open, tree_overlap, tree_segment, tribox, triboxes,
 };
 use meshsweep_host_tests::generate::Rng;
 
@@ -92,4 +92,9 @@ fn tight_hulls_survive_seeded_edits() {
 #[test]
 fn curves_survive_seeded_edits() {
     drive(13, curves);
+}
+
+#[test]
+fn deform_survives_seeded_edits() {
+    drive(14, deform);
 }

@@ -3,6 +3,7 @@
 mod bytes;
 mod check;
 mod closest;
+mod deform;
 mod edge_cases;
 mod kept_sweep;
 mod open;

@@ -30,6 +30,7 @@ const fn curve(name: &'static str) -> Blob {
 }
 
 const TRIBOXES: Blob = Blob { name: "triboxes", image: "suite_triboxes" };
+const DEFORM: Blob = Blob { name: "bend", image: "suite_deform" };
 const TIGHT: Blob = Blob { name: "tight", image: "suite_tight" };
 
 impl Blob {
@@ -46,14 +47,15 @@ impl Blob {
     }
 
     /// Blobs whose bits are compared beside the standard ones: other formats of vertices, a cut
-    /// blob, an open mesh, and a soup of triangles.
-    pub const VARIANTS: [Self; 6] = [
+    /// blob, an open mesh, a soup of triangles, and a hull that deforms.
+    pub const VARIANTS: [Self; 7] = [
         hull("grid16"),
         hull("grid24"),
         hull("cut"),
         hull("sieve"),
         tree("single_tree"),
         tree("soup_tree"),
+        DEFORM,
     ];
 
     /// The blob of a name.

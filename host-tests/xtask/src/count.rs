@@ -148,6 +148,7 @@ pub fn run<'a>(steps: &mut Steps, asked: &[&'a str]) {
     table.note(
         "bvh BLOB RELATIVE, sweep BLOB STEP RELATIVE: far points; a step of 0: fresh queries, else one kept sweep that moves",
     );
+    table.note("deform: a moved hull of any blob: its update, or the closest point after one");
     table.note(
         "apart, candidates, overlap: of the mesh and its copy in random poses; by vertices: apart by the paper's test",
     );

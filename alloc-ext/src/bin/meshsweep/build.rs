@@ -17,12 +17,14 @@ use meshsweep::collapse::Progress;
 use meshsweep::counted::Counted;
 use meshsweep::emit::{self, Sections};
 use meshsweep::hull::{self, BuildReport, Built, Kind};
+use meshsweep::mesh::KeyFrame;
 use meshsweep::surface::{VertexBits, components_whose_boxes_meet};
 use meshsweep::tight::{self, ChainOptions, Goal, HullReport, Stage};
 use meshsweep::tribox::{self, TriboxReport};
 use meshsweep_core::Blob;
 use meshsweep_core::internal::format::layout::VertexFormat;
 use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Triboxes unless told otherwise.
@@ -35,19 +37,29 @@ const INSTEAD: &str =
 pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     let wanted = args.wanted();
     refuse_options(args).map_or(Ok(()), |what| Err(Failure::Usage { what }))?;
-    refuse_same_file(Some(&args.output), &[&args.mesh])?;
+    let inputs: Vec<&Path> =
+        [&args.mesh].into_iter().chain(&args.frames).map(PathBuf::as_path).collect();
+    refuse_same_file(Some(&args.output), &inputs)?;
     Output::probe(&args.output)?;
     if args.is_curve() {
         return curve::build(args);
     }
-    let loaded = if wanted.hull {
+    let mut frames = None;
+    let loaded = if wanted.deform {
+        let (loaded, keys) = mesh_file::load_deformable(&args.mesh, &args.frames, Some(INSTEAD))?;
+        frames = Some(keys);
+        loaded
+    } else if wanted.hull {
         mesh_file::load_solid(&args.mesh, args.vertex_bits.format(), Some(INSTEAD))?
     } else if wanted.sweep {
         mesh_file::load_snapped(&args.mesh, args.vertex_bits.format())?
     } else {
         mesh_file::load(&args.mesh)?
     };
-    let hull = if wanted.hierarchy() { Some(build_hull(args, &loaded)?) } else { None };
+    let hull = match wanted.hierarchy() {
+        true => Some(build_hull(args, &loaded, frames.as_deref())?),
+        false => None,
+    };
     let options = TreeOptions::default()
         .with_closest(wanted.closest)
         .with_segments(wanted.segment)
@@ -62,6 +74,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     let bytes = emit::assemble(
         [
             hierarchy.as_ref(),
+            hull.as_ref().and_then(|hull| hull.deform.as_ref()),
             tree.as_ref().map(|(tables, _)| tables),
             triboxes.as_ref().map(|(tables, _)| tables),
             tight.as_ref().map(|(tables, _)| tables),
@@ -96,6 +109,12 @@ fn refuse_options(args: &BuildArgs) -> Option<String> {
     if let Some(option) = args.hull_option().filter(|_| !wanted.hierarchy()) {
         return Some(format!("{option} is for a hull; add hull to --for"));
     }
+    if !args.frames.is_empty() && !wanted.deform {
+        return Some("several meshes are key frames; add --for deform".to_owned());
+    }
+    if wanted.deform && args.vertex_bits.is_grid() {
+        return Some("--for deform keeps the vertices as they are; leave out --vertex-bits".into());
+    }
     if args.triboxes.is_some() && !wanted.triboxes {
         return Some("--triboxes is for triboxes; add triboxes to --for".to_owned());
     }
@@ -107,15 +126,19 @@ fn refuse_options(args: &BuildArgs) -> Option<String> {
         .or_else(|| (args.tight.len() > tight::MAX_HULLS).then(too_many))
 }
 
-fn build_hull(args: &BuildArgs, loaded: &Loaded) -> Result<Built, Failure> {
+fn build_hull(
+    args: &BuildArgs,
+    loaded: &Loaded,
+    frames: Option<&[KeyFrame]>,
+) -> Result<Built, Failure> {
     let options = args.collapse.options(args.base.unwrap_or(FACES), args.vertex_bits);
     let faces = loaded.mesh.triangles.len();
     let bar = Bar::new(faces.saturating_sub(options.base_faces), "collapsing", "faces");
-    let on_progress = |progress: Progress| bar.show(faces.saturating_sub(progress.faces));
-    let built = if args.wanted().hull {
-        hull::build(loaded.input(), &options, on_progress)
-    } else {
-        hull::build_for_sweep(loaded.input(), &options, on_progress)
+    let show = |progress: Progress| bar.show(faces.saturating_sub(progress.faces));
+    let built = match frames {
+        Some(frames) => hull::build_deform(loaded.input(), frames, &options, show),
+        None if args.wanted().hull => hull::build(loaded.input(), &options, show),
+        None => hull::build_for_sweep(loaded.input(), &options, show),
     };
     built.map_err(|error| Failure::build(&args.mesh, error))
 }

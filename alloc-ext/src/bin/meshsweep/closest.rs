@@ -22,11 +22,20 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     if let Ok(curve) = blob.curve()
         && args.engine.is_none()
         && args.tight.is_none()
+        && args.frame.is_none()
     {
         return curve::closest(curve, args, Queries::read(points)?, budget);
     }
     let header = "x,y,z,lower,upper,px,py,pz,triangle,work";
     let question = |points| Question::new(header, points, search);
+    if let Some(frame) = args.frame {
+        let (hull, entries) = served::require_frame(file, &blob, frame)?;
+        let asker = || {
+            let mut scratch = search.scratch(entries);
+            move |point| Ok(answer(hull.closest_point(point, budget, &mut scratch)?))
+        };
+        return question(Queries::read(points)?).ask(asker, write);
+    }
     let tree_chosen = args.engine.map(|engine| engine == EngineName::Tree);
     let hull = match tree_chosen {
         Some(_) => None,

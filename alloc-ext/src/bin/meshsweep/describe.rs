@@ -58,6 +58,8 @@ fn hierarchy(kind: SectionKind) -> &'static str {
         "hull hierarchy"
     } else if kind.is_bvh() {
         "box tree"
+    } else if kind.is_deform() {
+        "deformation"
     } else {
         // The other structures have one section each.
         kind.name()
@@ -83,7 +85,8 @@ fn write_sections(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
     let header = blob.header().header_bytes as usize;
     line("header", header)?;
     let mut all = 0;
-    for title in ["hull hierarchy", "box tree", "triboxes", "tight hulls", "curves"] {
+    for title in ["hull hierarchy", "box tree", "triboxes", "tight hulls", "curves", "deformation"]
+    {
         let of_kind = || blob.sections().filter(|section| hierarchy(section.kind) == title);
         let bytes: usize = of_kind().map(|section| section.bytes as usize).sum();
         if bytes == 0 {
@@ -106,6 +109,9 @@ pub fn write_blob(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
     write_sections(out, blob)?;
     if let Ok(hull) = blob.hull() {
         hull::write(out, &hull)?;
+    }
+    if let Ok(hull) = blob.deformable_hull() {
+        hull::write_deformation(out, &hull)?;
     }
     if let Ok(tree) = blob.bvh() {
         tree::write(out, &tree, diagonal(blob))?;
@@ -177,6 +183,7 @@ pub fn as_json(blob: &Blob<'_>) -> Value {
         "serves": served::questions(blob),
         "sections": sections,
         "hull": blob.hull().ok().map(|hull| hull::as_json(&hull, in_input_units(blob, h.hull_box))),
+        "deformation": blob.deformable_hull().ok().map(|hull| hull::deformation_as_json(&hull)),
         "tree": blob.bvh().ok().map(|tree| tree::as_json(&tree, diagonal(blob))),
         "triboxes": blob.triboxes().ok().map(|triboxes| triboxes::as_json(&triboxes)),
         "curve": blob.curve().ok().map(|curve| curve::as_json(&curve)),

@@ -54,6 +54,8 @@ pub enum Failure {
     NoHulls { file: PathBuf },
     /// All tight hulls of the blob have more faces.
     NoTightHull { file: PathBuf, faces: u32, least: u32 },
+    /// The blob has no such key frame.
+    NoFrame { file: PathBuf, frame: f32, last: u32 },
     /// The mesh bounds no solid, and signs are wanted.
     NotClosed { file: PathBuf },
     /// A grid reaches beyond f32.
@@ -228,6 +230,11 @@ impl fmt::Display for Failure {
             Failure::NoTightHull { file, faces, least } => write!(
                 f,
                 "{}: has no tight hull of {faces} faces or fewer: the coarsest has {least}",
+                file.display()
+            ),
+            Failure::NoFrame { file, frame, last } => write!(
+                f,
+                "{}: has no frame {frame}: its key frames are 0 to {last}",
                 file.display()
             ),
             Failure::NotClosed { file } => write!(

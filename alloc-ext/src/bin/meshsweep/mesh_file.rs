@@ -1,11 +1,11 @@
 //! From a mesh file to a clean mesh, closed or not, with a report of the repairs.
 
 use crate::failure::Failure;
-use meshsweep::mesh::{self, Input, Mesh, RawMesh, RepairReport};
+use meshsweep::mesh::{self, Input, KeyFrame, Mesh, RawMesh, RepairReport};
 use meshsweep::surface::{VertexBits, snap};
 use meshsweep_core::internal::format::layout::MAGIC;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// A mesh that a blob can be built from.
@@ -69,7 +69,32 @@ pub fn load_solid(
     bits: VertexBits,
     instead: Option<&'static str>,
 ) -> Result<Loaded, Failure> {
-    let loaded = load_snapped(file, bits)?;
+    solid(file, load_snapped(file, bits)?, instead)
+}
+
+/// Reads and repairs a solid that deforms, and applies its repairs to its key frames.
+pub fn load_deformable(
+    file: &Path,
+    frames: &[PathBuf],
+    instead: Option<&'static str>,
+) -> Result<(Loaded, Vec<KeyFrame>), Failure> {
+    let started = Instant::now();
+    let raw = read(file)?;
+    let loaded = solid(file, repaired(file, raw.clone(), 0.0, started)?, instead)?;
+    let refused = |file: &Path| {
+        let file = file.to_owned();
+        |error| Failure::Mesh { file, error }
+    };
+    mesh::require_deformable(&raw, &loaded.mesh).map_err(refused(file))?;
+    let keys = frames.iter().map(|frame| {
+        let key = mesh::key_frame(&raw, &loaded.mesh, &read(frame)?);
+        key.map_err(refused(frame))
+    });
+    let keys = keys.collect::<Result<_, _>>()?;
+    Ok((Loaded { time: started.elapsed(), ..loaded }, keys))
+}
+
+fn solid(file: &Path, loaded: Loaded, instead: Option<&'static str>) -> Result<Loaded, Failure> {
     match mesh::require_closed_manifold(&loaded.mesh) {
         Ok(()) => Ok(loaded),
         Err(error) => {

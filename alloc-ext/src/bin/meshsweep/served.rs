@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use meshsweep_core::{
-    Blob, Budget, BuildFor, Bvh, Hull, Overlap, Overlaps, Pose, QueryError, ScratchEntry,
-    TightHull, TrianglePair,
+    Blob, Budget, BuildFor, Bvh, FrameHull, Hull, Overlap, Overlaps, Pose, QueryError,
+    ScratchEntry, TightHull, TrianglePair,
 };
 use std::path::Path;
 
@@ -11,8 +11,9 @@ use std::path::Path;
 type Serves = fn(&Blob<'_>) -> bool;
 
 /// The questions, by the names of the commands.
-const QUESTIONS: [(&str, Serves); 13] = [
+const QUESTIONS: [(&str, Serves); 14] = [
     ("closest", |blob| has_distances(blob) || blob.hull().is_ok() || blob.curve().is_ok()),
+    ("closest --frame", |blob| blob.deformable_hull().is_ok()),
     ("within", |blob| has_distances(blob) || blob.curve().is_ok()),
     ("nearest", knows_triangles),
     ("field", knows_triangles),
@@ -81,6 +82,7 @@ fn not_served(
         BuildFor::Triboxes => "triboxes",
         BuildFor::Tight => "tight hulls",
         BuildFor::Curve => "curves",
+        BuildFor::Deform => "hull that deforms",
         _ => "such structure",
     };
     let (file, build_for) = (file.to_owned(), build_for.to_string());
@@ -105,6 +107,19 @@ pub fn require_hulls<'a>(file: &Path, blob: &Blob<'a>) -> Result<Hull<'a>, Failu
 /// The blob's hull hierarchy.
 pub fn require_hull<'a>(file: &Path, blob: &Blob<'a>) -> Result<Hull<'a>, Failure> {
     blob.hull().map_err(|_| not_served(file, blob, BuildFor::Hull, None))
+}
+
+/// The blob's hull hierarchy at a key frame, and the scratch entries to ask it with.
+pub fn require_frame<'a>(
+    file: &Path,
+    blob: &Blob<'a>,
+    frame: f32,
+) -> Result<(FrameHull<'a>, usize), Failure> {
+    let hull =
+        blob.deformable_hull().map_err(|_| not_served(file, blob, BuildFor::Deform, None))?;
+    let last = hull.frames().saturating_sub(1);
+    let refuse = |_| Failure::NoFrame { file: file.to_owned(), frame, last };
+    Ok((hull.at_frame(frame).map_err(refuse)?, Engine::Hull(hull.rest()).scratch_entries()))
 }
 
 /// The finest tight hull of at most so many faces.

@@ -17,6 +17,23 @@ pub const START_GROUP: u32 = 8;
 /// A split's triangles take so many numbers of [`Instance`](super::Instance)s.
 pub const SLOTS: u32 = 128;
 
+/// Bytes before the numbers of vertices: a u32, the vertices of the input file.
+pub const NUMBERS_HEADER_BYTES: usize = 4;
+/// Bytes before the records of key frames: a u32, the key frames but the first.
+pub const KEYS_HEADER_BYTES: usize = 4;
+/// Bytes of the record of one key frame.
+pub const KEY_BYTES: usize = 28;
+/// Most key frames, so that their numbers are exact in f32.
+pub const MAX_KEYS: u32 = 1 << 16;
+
+/// Offsets in the record of a key frame.
+pub mod key {
+    /// f32.
+    pub const ERROR: usize = 0;
+    /// Six f32: least corner, greatest corner.
+    pub const BOX: usize = 4;
+}
+
 /// Offsets in a record of the level table.
 pub mod level {
     /// u32.

@@ -6,14 +6,18 @@
 //! | `instance` | numbers of the triangles of all levels |
 //! | `index` | one type for each kind of index |
 //! | `view` | the tables where they lie |
-//! | `check` | the check of `Hull::open` |
+//! | `deform` | numbers of vertices and key frames, for hulls that deform |
+//! | `check` | the check of `Hull::open` |
 
 mod check;
+mod deform;
 mod index;
 mod instance;
 pub mod layout;
 mod view;
 
+pub use deform::DeformableHull;
+pub(crate) use deform::Key;
 pub use index::{SplitIdx, TriIdx, VertIdx};
 pub use instance::{Instance, Named};
 pub use view::{Hull, Level, Split};

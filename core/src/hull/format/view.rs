@@ -181,7 +181,7 @@ pub struct Level {
 
 /// Three f32.
 #[inline(always)]
-fn single(&[a, b, c, d, e, f, g, h, i, j, k, l]: &[u8; 12]) -> Vec3 {
+pub(super) fn single(&[a, b, c, d, e, f, g, h, i, j, k, l]: &[u8; 12]) -> Vec3 {
     Vec3::new(
         f32::from_le_bytes([a, b, c, d]),
         f32::from_le_bytes([e, f, g, h]),

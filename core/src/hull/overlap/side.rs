@@ -13,7 +13,7 @@ const ROOT: Instance = Instance(u32::MAX);
 #[derive(Debug)]
 pub(super) struct Side<'a> {
     /// The hierarchy; none of a triangle.
-    front: Option<Front<'a, 'static>>,
+    front: Option<Front<'static, Hull<'a>>>,
     /// The ball that contains the model, or the triangle.
     pub(super) root: Candidate,
     pub(super) extended: Extended,

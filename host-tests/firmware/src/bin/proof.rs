@@ -9,7 +9,7 @@ mod bare;
 
 use bare::Input;
 use meshsweep_suite::ask::hull::Focus;
-use meshsweep_suite::ask::{Asked, curve, hull, tight, tree, tribox, triboxes};
+use meshsweep_suite::ask::{Asked, curve, deform, hull, tight, tree, tribox, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::place::{Motion, Point};
 
@@ -34,6 +34,7 @@ open! {
     ask_triboxes_open: triboxes;
     ask_tight_open: tight;
     ask_curve_open: curve;
+    ask_deform_open: deform;
 }
 
 ask! {
@@ -137,6 +138,12 @@ ask! {
     };
     ask_tight_is_within: tight::Hulls<'t>, |hulls, input, scratch, fold| {
         tight::is_within(hulls, input.a, input.b[0], scratch, &mut Asked::new((), fold))
+    };
+    ask_deform_frame: deform::DeformableHull<'t>, |hull, input, scratch, fold| {
+        deform::at_frame(hull, input.b[0], input.a, scratch, &mut Asked::new((), fold))
+    };
+    ask_deform_moved: deform::DeformableHull<'t>, |hull, input, scratch, fold| {
+        deform::moved(hull, ends(input), input.a, scratch, [Some(&mut ()), None], fold)
     };
     ask_curve_closest: curve::Curve<'t>, |curves, input, scratch, fold| {
         curve::closest(curves, input.a, scratch, &mut Asked::new((), fold))

@@ -9,6 +9,7 @@
 //!                         ├─ storage  (bytes, levels) ──────┤
 //!                         ├─ tree     (all of the box tree) ┤
 //!                         ├─ overlap  (mesh against mesh) ──┤
+//!                         ├─ deform   (hulls that deform) ─┤
 //!                         ├─ triboxes (their hierarchies) ──┤
 //!                         ├─ tight    (tight hulls, drawn) ─┤
 //!                         └─ bounds   (paper 001: triboxes) ┴─ plot (those that are a trade, SVG)
@@ -20,6 +21,7 @@ pub mod bounds;
 pub(crate) mod brute;
 mod closest;
 mod cuts;
+mod deform;
 mod kept;
 mod overlap;
 pub mod paper;
@@ -78,6 +80,17 @@ pub fn measure_overlap(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject_table(&subject)];
     tables.extend(overlap::tables(&subject)?);
+    Ok(tables)
+}
+
+/// Measures the hull hierarchy of one mesh file under motions.
+///
+/// # Errors
+/// The file is no closed manifold mesh, or an answer is wrong.
+pub fn measure_deform(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load(file)?;
+    let mut tables = vec![subject_table(&subject)];
+    tables.extend(deform::tables(&subject)?);
     Ok(tables)
 }
 

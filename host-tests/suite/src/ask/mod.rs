@@ -6,6 +6,7 @@
 //! indexes: the proof image links these functions, and they may not bring a panic of their own.
 
 pub mod curve;
+pub mod deform;
 pub mod hull;
 pub mod placed;
 pub mod tight;

@@ -80,7 +80,8 @@ impl<'t> Subject<'t> for Bvh<'t> {
     }
 
     fn suits(kind: Kind) -> bool {
-        !matches!(kind, Kind::OuterHits | Kind::Refine | Kind::Sweep) && !kind.is_triboxes()
+        let is_of_others = kind.is_triboxes() || kind.is_deform();
+        !matches!(kind, Kind::OuterHits | Kind::Refine | Kind::Sweep) && !is_of_others
     }
 
     fn ask(

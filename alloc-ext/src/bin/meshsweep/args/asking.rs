@@ -61,6 +61,10 @@ pub struct ClosestArgs {
         conflicts_with = "engine"
     )]
     pub tight: Option<u32>,
+    /// Key frame of a blob built --for deform, from 0; 1.25 is a quarter of the way from frame 1 to
+    /// frame 2
+    #[arg(long, value_name = "FRAME", conflicts_with_all = ["engine", "tight"])]
+    pub frame: Option<f32>,
     #[command(flatten)]
     pub search: SearchArgs,
 }

@@ -14,6 +14,8 @@ pub const FACES: u32 = 200;
 pub struct BuildArgs {
     /// Mesh file: .stl, .ply or .obj; or points of curves: .csv
     pub mesh: PathBuf,
+    /// With --for deform: the same mesh at further key frames, with the same triangles
+    pub frames: Vec<PathBuf>,
     /// Blob to write
     #[arg(short, long, value_name = "BLOB")]
     pub output: PathBuf,
@@ -107,6 +109,7 @@ pub enum Serves {
     Triboxes,
     Tight,
     Curve,
+    Deform,
 }
 
 /// The questions that a blob must serve.
@@ -120,6 +123,7 @@ pub struct Wanted {
     pub cull: bool,
     pub triboxes: bool,
     pub tight: bool,
+    pub deform: bool,
 }
 
 impl Wanted {
@@ -140,11 +144,12 @@ impl BuildArgs {
         Wanted {
             closest: has(Serves::Closest),
             segment: has(Serves::Segment),
-            hull: has(Serves::Hull),
-            sweep: has(Serves::Sweep) && !has(Serves::Hull),
+            hull: has(Serves::Hull) || has(Serves::Deform),
+            sweep: has(Serves::Sweep) && !has(Serves::Hull) && !has(Serves::Deform),
             cull: has(Serves::Cull),
             triboxes: has(Serves::Triboxes),
             tight: has(Serves::Tight),
+            deform: has(Serves::Deform),
         }
     }
 
@@ -253,6 +258,11 @@ impl StoredBits {
             StoredBits::TwentyFour => VertexBits::Grid24,
             StoredBits::ThirtyTwo => VertexBits::F32,
         }
+    }
+
+    /// Whether vertices move to a grid of this many bits.
+    pub fn is_grid(self) -> bool {
+        matches!(self, StoredBits::Sixteen | StoredBits::TwentyFour)
     }
 
     /// Whether the box tree's vertices are f32.

@@ -32,6 +32,8 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     bytes a tribox\n  \
     tight     closest and within, by an interval, and hull --tight: hulls of few faces, 16 to 23 \
     bytes a face\n  \
+    deform    closest --frame, and in the library any motion of the vertices: those of hull, and \
+    1 to 4 bytes a triangle more; 16 a triangle for each key frame after the first\n  \
     curve     closest and within, of a curve: 6 bytes a point in 2-D, 2 more in 3-D, and 4 to 10 \
     for its node\n\
     closest, segment and cull share a box tree. Any mesh will do for it, open or not, manifold or \
@@ -45,6 +47,9 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     is, nothing is written. With --margin hulls keep a distance from the mesh. Their answers are \
     still about the mesh, with wider intervals. --tight-for closest leaves out the boxes for \
     segments and for overlap, about 2 bytes a face, which only the library asks.\n\n\
+    deform takes the mesh and its key frames, files with the same triangles in the same order. \
+    Between two frames every vertex moves on a straight line. Repairs are made on the first mesh \
+    and applied to the others; a repair that holds in the first mesh only is refused.\n\n\
     curve reads CSV: x,y or x,y,z on a line, and at most one header line. It is the only value \
     for a file named *.csv. A blank line begins a new polyline; so does another value in a column \
     named polyline. Other columns are skipped. A bad line is named. Repeated points are kept. \
@@ -66,6 +71,7 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     meshsweep build part.stl -o proxy.msw --for triboxes --triboxes 16\n  \
     meshsweep build part.stl -o hulls.msw --for tight --tight 50,200,1000\n  \
     meshsweep build part.stl -o hull.msw --for tight --slack 0.5\n  \
+    meshsweep build rest.ply bent.ply -o arm.msw --for deform\n  \
     meshsweep build fence.csv -o fence.msw --closed";
 
 pub const INFO: &str = "Examples:\n  \
@@ -83,11 +89,13 @@ pub fn closest() -> String {
          the closest point of the hull, and no triangle is named.\n\n\
          A curve names the polyline and its segment, counted from 0. While a query moves by less \
          than safe_motion, the segment remains the closest one; 0 if that is not known.\n\n\
+         With --frame the answer is about the mesh at that key frame or between two.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep closest part.msw 10,4.5,7 -1,2,3\n  \
          meshsweep closest part.msw points.csv -o answers.csv\n  \
          meshsweep closest part.msw points.f32 --rel 0.01 --time\n  \
+         meshsweep closest arm.msw 10,4.5,7 --frame 0.25\n  \
          generate-points | meshsweep closest part.msw -"
     )
 }

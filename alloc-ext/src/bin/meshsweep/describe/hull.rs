@@ -5,7 +5,7 @@ use meshsweep::counted::Counted;
 use meshsweep_core::internal::format::Header;
 use meshsweep_core::internal::format::layout::VertexFormat;
 use meshsweep_core::internal::num::{exp2, up_to_f32};
-use meshsweep_core::{Hull, Level, ScratchEntry};
+use meshsweep_core::{DeformableHull, Hull, Level, MovedVertex, ScratchEntry};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -89,6 +89,31 @@ fn write_memory(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
 fn void(hull: &Hull<'_>, level: &Level) -> String {
     let percent = Percent(f64::from(level.void_ratio) * 100.0);
     if hull.encloses() { percent.to_string() } else { "-".to_owned() }
+}
+
+/// Memory of a hull that deforms, and its key frames.
+pub(super) fn write_deformation(out: &mut dyn Write, hull: &DeformableHull<'_>) -> io::Result<()> {
+    writeln!(out, "deformation")?;
+    writeln!(
+        out,
+        "  moved hull: {} of {} bytes: {} bytes of RAM",
+        Counted(hull.vertex_records(), "vertex record"),
+        size_of::<MovedVertex>(),
+        hull.vertex_records() * size_of::<MovedVertex>()
+    )?;
+    match hull.frames() {
+        1 => writeln!(out, "  no key frames"),
+        frames => writeln!(out, "  key frames: 0 to {}", frames - 1),
+    }
+}
+
+pub(super) fn deformation_as_json(hull: &DeformableHull<'_>) -> Value {
+    json!({
+        "frames": hull.frames(),
+        "input_vertices": hull.input_vertices(),
+        "vertex_records": hull.vertex_records(),
+        "vertex_record_bytes": hull.vertex_records() * size_of::<MovedVertex>(),
+    })
 }
 
 /// The level table.

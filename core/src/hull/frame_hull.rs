@@ -1,0 +1,174 @@
+//! The hull hierarchy between two key frames (Guéziec 2000, 5.3).
+//!
+//! Each triangle keeps one point for each vertex of its part of the surface: the point that is
+//! nearest at rest, by its barycentric coordinates. The radius of a key is the largest distance of
+//! these pairs. Between keys each pair's difference is interpolated linearly, so its length is at
+//! most the interpolated radius. With a nearest point of its own in each key this would not hold:
+//! a part that turns end for end passes through a point. Proof: `core/docs/rounding.md` §17.
+
+use super::closest_point;
+use super::format::{DeformableHull, Hull, Key, VertIdx};
+use super::geometry::Geometry;
+use crate::geom::Aabb;
+use crate::num::tolerance::{KEY_RADIUS, KEY_VERTEX, U32, VERTEX_UNDERFLOW};
+use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry};
+use glam::Vec3;
+
+/// The hull hierarchy of a mesh at a key frame or between two. Copies are cheap.
+///
+/// Between keys every vertex of the mesh moves on a straight line. The triangles of coarse levels
+/// cover their parts of the surface, but they need not enclose it.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameHull<'a> {
+    hull: Hull<'a>,
+    /// The keys before and after; `None` for the hull at rest.
+    keys: [Option<Key<'a>>; 2],
+    /// 0 ≤ this < 1.
+    between: f32,
+    vertex_box: Aabb,
+    surface_error: f64,
+}
+
+impl<'a> DeformableHull<'a> {
+    /// The hull at a key frame, or between two if `frame` is not a whole number: 1.25 is a quarter
+    /// of the way from frame 1 to frame 2. Frame 0 is the mesh at rest.
+    ///
+    /// Cost: constant. The blob is not copied.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, DeformableHull, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/bend.msw"));
+    /// let (part, mut scratch) = (DeformableHull::open(bytes)?, Scratch::<256>::new());
+    /// let bent = part.at_frame(0.5)?;
+    /// let near = bent.closest_point([0.0, 0.0, 9.0], Budget::EXACT, &mut scratch)?;
+    /// assert!(near.distance.lower > 0.0);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NoFrame`] unless 0 ≤ `frame` ≤ [`frames`](Self::frames) − 1.
+    pub fn at_frame(&self, frame: f32) -> Result<FrameHull<'a>, QueryError> {
+        let frames = self.frames();
+        let last = frames.saturating_sub(1);
+        if !(0.0..=last as f32).contains(&frame) {
+            return Err(QueryError::NoFrame { frames });
+        }
+        // Exact: fewer than 2^16 frames, and the part after the point has no more digits.
+        let before = frame as u32;
+        let between = frame - before as f32;
+        let after = if between > 0.0 { before.saturating_add(1) } else { before };
+        let find = |frame: u32| match frame {
+            0 => Ok(None),
+            _ => self.key(frame).map(Some).ok_or(QueryError::Unchecked),
+        };
+        let keys = [find(before)?, find(after)?];
+        let hull = self.rest();
+        let rest = f64::from(hull.header().surface_error);
+        let [first, second] = keys.map(|key| match key {
+            None => (hull.hull_box(), rest),
+            Some(key) => (key.vertex_box, f64::from(key.error)),
+        });
+        let vertex_box =
+            Aabb { min: first.0.min.min(second.0.min), max: first.0.max.max(second.0.max) };
+        let error = first.1.max(second.1);
+        let rounding = if between > 0.0 {
+            let largest = vertex_box.min.abs().max(vertex_box.max.abs()).max_element();
+            KEY_VERTEX * f64::from(U32) * f64::from(largest) + VERTEX_UNDERFLOW
+        } else {
+            0.0
+        };
+        Ok(FrameHull { hull, keys, between, vertex_box, surface_error: error + rounding })
+    }
+}
+
+impl FrameHull<'_> {
+    /// Closest point of the surface at this frame to `point` (input units), with an interval that
+    /// contains the distance to the mesh whose vertices are interpolated from those of the input
+    /// files, in real arithmetic.
+    ///
+    /// Between keys the interval is wider by up to 1.5 millionths of the largest coordinate.
+    /// `triangle` is the number in the first input file. All else as for [`Hull::closest_point`];
+    /// [`Hull::scratch_entries`] are enough.
+    ///
+    /// # Errors
+    /// Those of [`Hull::closest_point`].
+    #[inline]
+    pub fn closest_point(
+        &self,
+        point: [f32; 3],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<ClosestPoint, QueryError> {
+        budget.check_with(scratch)?;
+        let Budget { relative, absolute, steps } = budget;
+        closest_point::closest_point(self, point, [relative, absolute], steps, scratch)
+    }
+
+    #[inline(always)]
+    fn position(&self, vertex: VertIdx) -> Option<Vec3> {
+        let at = |key: &Option<Key<'_>>| match key {
+            None => self.hull.position(vertex),
+            Some(key) => key.position(vertex),
+        };
+        let [before, after] = &self.keys;
+        let from = at(before)?;
+        if self.between == 0.0 {
+            return Some(from);
+        }
+        Some(from + (at(after)? - from) * self.between)
+    }
+
+    #[inline(always)]
+    fn radius(&self, number: u32) -> Option<f32> {
+        let at = |key: &Option<Key<'_>>| match key {
+            None => self.hull.radius(number),
+            Some(key) => key.radius(number),
+        };
+        let [before, after] = &self.keys;
+        let from = at(before)?;
+        if self.between == 0.0 {
+            return Some(from);
+        }
+        let to = at(after)?;
+        let larger = from.max(to);
+        // A difference of infinite radii is not a number.
+        if larger == f32::INFINITY {
+            return Some(larger);
+        }
+        Some(from + (to - from) * self.between + KEY_RADIUS * U32 * larger)
+    }
+}
+
+impl<'a> Geometry<'a> for FrameHull<'a> {
+    fn tables(&self) -> &Hull<'a> {
+        &self.hull
+    }
+
+    fn triangle(
+        &self,
+        [a, b, c]: [VertIdx; 3],
+        number: u32,
+        is_surface: bool,
+    ) -> Option<([Vec3; 3], f32)> {
+        let corners = [self.position(a)?, self.position(b)?, self.position(c)?];
+        Some((corners, if is_surface { 0.0 } else { self.radius(number)? }))
+    }
+
+    /// The swept triangle of a group is not known in other frames: its bound is 0.
+    fn group(&self, index: u32) -> Option<([Vec3; 3], f32)> {
+        let ([a, b, c], _) = self.hull.base_group(index)?;
+        Some(([self.position(a)?, self.position(b)?, self.position(c)?], f32::INFINITY))
+    }
+
+    fn vertex_box(&self) -> Aabb {
+        self.vertex_box
+    }
+
+    fn surface_box(&self) -> Aabb {
+        self.vertex_box
+    }
+
+    fn surface_error(&self) -> f64 {
+        self.surface_error
+    }
+}

@@ -1,0 +1,76 @@
+//! Where the triangles of all levels lie, and how far from them their parts of the surface may be:
+//! as the blob stores them, at a key frame, or moved.
+
+use crate::geom::Aabb;
+use crate::hull::format::{Hull, VertIdx};
+use crate::query::Frame;
+use glam::Vec3;
+
+/// The geometry that a sweep reads. Lengths are in the local frame.
+pub(crate) trait Geometry<'a>: Copy {
+    /// The split tables.
+    fn tables(&self) -> &Hull<'a>;
+
+    /// Corners of a triangle, and the radius whose swept triangle contains its part of the surface.
+    /// `number` is that of [`Hull::radius`]. Positions of a triangle of the surface are off by no
+    /// more than [`surface_error`](Self::surface_error).
+    fn triangle(
+        &self,
+        corners: [VertIdx; 3],
+        number: u32,
+        is_surface: bool,
+    ) -> Option<([Vec3; 3], f32)>;
+
+    /// Corners and radius of a swept triangle around a group of base triangles.
+    fn group(&self, index: u32) -> Option<([Vec3; 3], f32)>;
+
+    /// Box of every vertex of every level.
+    fn vertex_box(&self) -> Aabb;
+
+    /// Box of the surface.
+    fn surface_box(&self) -> Aabb;
+
+    /// No point of the mesh is farther than this from the triangles of the surface, nor the
+    /// reverse; and no radius is too small by more than this.
+    fn surface_error(&self) -> f64;
+
+    /// Conversion of units, with the surface error.
+    fn frame(&self) -> Frame {
+        Frame::of(self.tables().header()).with_surface_error(self.surface_error())
+    }
+}
+
+impl<'a> Geometry<'a> for Hull<'a> {
+    #[inline(always)]
+    fn tables(&self) -> &Hull<'a> {
+        self
+    }
+
+    #[inline(always)]
+    fn triangle(
+        &self,
+        corners: [VertIdx; 3],
+        number: u32,
+        _is_surface: bool,
+    ) -> Option<([Vec3; 3], f32)> {
+        Some((self.positions(corners)?, self.radius(number)?))
+    }
+
+    #[inline(always)]
+    fn group(&self, index: u32) -> Option<([Vec3; 3], f32)> {
+        let (corners, radius) = self.base_group(index)?;
+        Some((self.positions(corners)?, radius))
+    }
+
+    fn vertex_box(&self) -> Aabb {
+        self.hull_box()
+    }
+
+    fn surface_box(&self) -> Aabb {
+        Aabb::of(self.header().surface_box)
+    }
+
+    fn surface_error(&self) -> f64 {
+        f64::from(self.header().surface_error)
+    }
+}

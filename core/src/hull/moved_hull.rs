@@ -1,0 +1,322 @@
+//! The hull hierarchy under any motion of the mesh's vertices (Guéziec 2000, 5.3).
+//!
+//! The tables stay where they are. One record for each vertex of each level lies in the caller's
+//! memory. One pass from the finest split to the coarsest moves each coarse vertex by a displacement
+//! between those of the two vertices that its split brings, and bounds two things:
+//! - `spread`: the difference of its displacement and those of the mesh's vertices below it;
+//! - `reach`: its distance from the mesh's vertices below it.
+//!
+//! Each mesh vertex of a triangle's part of the surface lies below one of the triangle's corners.
+//! So the triangle covers its part after the motion if its radius grows by the largest spread of
+//! its corners and the largest difference of their displacements; and also if its radius is the
+//! largest reach of its corners. The first is small for small motions, the second does not grow
+//! when a part turns. Proof: `core/docs/rounding.md` §17.
+
+use super::closest_point;
+use super::format::{DeformableHull, Hull, SplitIdx, VertIdx};
+use super::geometry::Geometry;
+use crate::geom::Aabb;
+use crate::num::tolerance::{DEFORM_DOMAIN, DISPLACEMENT, LENGTH_UP, U32, VERTEX_UNDERFLOW};
+use crate::num::{Radius16, exp2, sqrt_up};
+use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry};
+use glam::Vec3;
+
+/// Sixteen bytes of a [`MovedHull`]'s memory, for one vertex of one level.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MovedVertex {
+    position: [f32; 3],
+    /// [`Radius16`] both, local frame.
+    spread: u16,
+    reach: u16,
+}
+
+impl MovedVertex {
+    /// Any value, for filling arrays.
+    pub const EMPTY: MovedVertex = MovedVertex { position: [0.0; 3], spread: 0, reach: 0 };
+
+    fn position(&self) -> Vec3 {
+        Vec3::from_array(self.position)
+    }
+
+    fn spread(&self) -> f32 {
+        Radius16(self.spread).get()
+    }
+
+    fn reach(&self) -> f32 {
+        Radius16(self.reach).get()
+    }
+}
+
+/// The hull hierarchy of a mesh whose vertices move freely. It lives in the caller's memory, and
+/// questions about it ask for the mesh as the last update left it.
+///
+/// The triangles of coarse levels cover their parts of the surface, but they need not enclose it.
+#[derive(Debug)]
+pub struct MovedHull<'a, 'v> {
+    model: DeformableHull<'a>,
+    vertices: &'v mut [MovedVertex],
+    vertex_box: Aabb,
+    surface_error: f64,
+    has_pose: bool,
+}
+
+impl<'a> DeformableHull<'a> {
+    /// A hull whose vertices the caller moves, at rest for now.
+    ///
+    /// `memory`: [`vertex_records`](Self::vertex_records) at least. `build` prints the number.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, DeformableHull, MovedVertex, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/bend.msw"));
+    /// let part = DeformableHull::open(bytes)?;
+    /// let (mut memory, mut scratch) = ([MovedVertex::EMPTY; 512], Scratch::<256>::new());
+    /// let mut moved = part.moved(&mut memory)?;
+    /// let simulated = vec![[0.0, 0.0, 1.0]; part.input_vertices() as usize];
+    /// moved.update(|vertex| simulated[vertex as usize])?;
+    /// let near = moved.closest_point([0.0, 0.0, 9.0], Budget::EXACT, &mut scratch)?;
+    /// assert!(near.distance.lower <= 8.0 && near.distance.upper >= 8.0);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::VertexRecords`].
+    pub fn moved<'v>(
+        &self,
+        memory: &'v mut [MovedVertex],
+    ) -> Result<MovedHull<'a, 'v>, QueryError> {
+        let (needed, found) = (self.vertex_records(), memory.len());
+        let Some(vertices) = memory.get_mut(..needed) else {
+            let [needed, found] = [needed, found].map(|count| count as u32);
+            return Err(QueryError::VertexRecords { needed, found });
+        };
+        let vertex_box = self.rest().hull_box();
+        let surface_error = f64::from(self.rest().header().surface_error);
+        let mut moved =
+            MovedHull { model: *self, vertices, vertex_box, surface_error, has_pose: false };
+        moved.to_rest()?;
+        Ok(moved)
+    }
+}
+
+impl MovedHull<'_, '_> {
+    /// Moves the vertices of the mesh. `place` gets the number of a vertex in the input file, from
+    /// 0, and returns its place in input units. Numbers come in the order of the blob. Vertices
+    /// that were welded move as the first of them, and `place` is not asked for the others.
+    ///
+    /// A rigid motion of the whole mesh makes bounds loose: leave it out here, and carry the points
+    /// of questions into the part's frame.
+    ///
+    /// Cost: one pass over all vertices, four or five square roots for each split.
+    ///
+    /// # Errors
+    /// [`QueryError::VertexOutOfDomain`]. Questions then answer [`QueryError::NoPose`] until the
+    /// next update.
+    pub fn update(&mut self, mut place: impl FnMut(u32) -> [f32; 3]) -> Result<(), QueryError> {
+        self.has_pose = false;
+        let model = self.model;
+        let hull = model.rest();
+        let inverse = exp2(-hull.header().scale_exponent);
+        let mut rank = 0;
+        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        for (index, record) in (0..).zip(self.vertices.iter_mut()) {
+            if hull.split_of(VertIdx(index)).is_some() {
+                continue;
+            }
+            let vertex = model.number(rank).ok_or(QueryError::Unchecked)?;
+            rank += 1;
+            // Exact, but for underflow.
+            let position = place(vertex).map(|x| (f64::from(x) * inverse) as f32);
+            if !position.iter().all(|x| x.abs() < DEFORM_DOMAIN) {
+                return Err(QueryError::VertexOutOfDomain { vertex });
+            }
+            *record = MovedVertex { position, spread: 0, reach: 0 };
+            low = low.min(record.position());
+            high = high.max(record.position());
+        }
+        self.surface_error = VERTEX_UNDERFLOW;
+        self.vertex_box = Aabb { min: low, max: high };
+        self.settle().ok_or(QueryError::Unchecked)
+    }
+
+    /// Moves the mesh back to where it was built.
+    ///
+    /// # Errors
+    /// None of a hull that an `open` of this crate returned.
+    pub fn to_rest(&mut self) -> Result<(), QueryError> {
+        self.has_pose = false;
+        let hull = self.model.rest();
+        for (index, record) in (0..).zip(self.vertices.iter_mut()) {
+            let position = hull.position(VertIdx(index)).ok_or(QueryError::Unchecked)?.to_array();
+            *record = MovedVertex { position, spread: 0, reach: 0 };
+        }
+        self.surface_error = f64::from(hull.header().surface_error);
+        self.vertex_box = hull.hull_box();
+        self.settle().ok_or(QueryError::Unchecked)
+    }
+
+    /// Moves the coarse vertices after those of the mesh, fine to coarse.
+    fn settle(&mut self) -> Option<()> {
+        let hull = self.model.rest();
+        let Aabb { min: mut low, max: mut high } = self.vertex_box;
+        for split in (0..hull.header().splits).rev().map(SplitIdx) {
+            let whole = hull.replaced_by(split)?;
+            let parts = [hull.brought_by(split, 0), hull.brought_by(split, 1)];
+            let [o, d] = [*self.record(parts[0])?, *self.record(parts[1])?];
+            let [rest, rest_o, rest_d] = hull.positions([whole, parts[0], parts[1]])?;
+            let [at_o, at_d] = [o.position(), d.position()];
+            let (by_o, by_d) = (at_o - rest_o, at_d - rest_d);
+            let between = by_d - by_o;
+            let position = rest + by_o + between * part(between, d.spread() - o.spread());
+            low = low.min(position);
+            high = high.max(position);
+            let (way_o, way_d) = (at_o - position, at_d - position);
+            let (off_o, off_d) = (way_o - (rest_o - rest), way_d - (rest_d - rest));
+            let squares = [way_o, way_d, off_o, off_d].map(|way| way.dot(way));
+            let [way_o, way_d, off_o, off_d] = sqrt_up(squares);
+            let reach = greater_of(o.reach() + way_o, d.reach() + way_d);
+            let spread = greater_of(
+                o.spread() + off_o + rounding(way_o),
+                d.spread() + off_d + rounding(way_d),
+            );
+            let record = self.vertices.get_mut(whole.usize())?;
+            *record = MovedVertex {
+                position: position.to_array(),
+                spread: Radius16::round_up_f32(spread * LENGTH_UP).0,
+                reach: Radius16::round_up_f32(reach * LENGTH_UP).0,
+            };
+        }
+        self.vertex_box = Aabb { min: low, max: high };
+        self.has_pose = true;
+        Some(())
+    }
+
+    fn record(&self, vertex: VertIdx) -> Option<&MovedVertex> {
+        self.vertices.get(vertex.usize())
+    }
+
+    /// Closest point of the moved surface to `point` (input units), with an interval that contains
+    /// the distance to the mesh whose vertices are where the last update put them.
+    ///
+    /// `triangle` is the number in the input file. All else as for [`Hull::closest_point`];
+    /// [`Hull::scratch_entries`] are enough. At rest the interval is that of the input file's mesh.
+    ///
+    /// Cost: that of the hull at rest, and more the more the motion bends and stretches; see
+    /// `core/docs/measured.md`.
+    ///
+    /// # Errors
+    /// Those of [`Hull::closest_point`]; [`QueryError::NoPose`] after an update that failed.
+    #[inline]
+    pub fn closest_point(
+        &self,
+        point: [f32; 3],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<ClosestPoint, QueryError> {
+        budget.check_with(scratch)?;
+        if !self.has_pose {
+            return Err(QueryError::NoPose);
+        }
+        let Budget { relative, absolute, steps } = budget;
+        let pose = Pose {
+            hull: self.model.rest(),
+            vertices: self.vertices,
+            vertex_box: self.vertex_box,
+            surface_error: self.surface_error,
+        };
+        closest_point::closest_point(&pose, point, [relative, absolute], steps, scratch)
+    }
+}
+
+/// Where between the displacements of two vertices that of the vertex above them should lie, so that
+/// the spread becomes least: in the middle of the smallest ball around two balls. Any place is
+/// sound.
+#[inline(always)]
+fn part(between: Vec3, spreads: f32) -> f32 {
+    // Both are of the surface, as most are.
+    if spreads == 0.0 {
+        return 0.5;
+    }
+    let [length] = sqrt_up([between.dot(between)]);
+    (0.5 + 0.5 * spreads / length).clamp(0.0, 1.0)
+}
+
+#[inline(always)]
+fn greater_of(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// Rounding of a difference of displacements, from the moved distance of the two vertices.
+#[inline(always)]
+fn rounding(way: f32) -> f32 {
+    DISPLACEMENT * U32 * way
+}
+
+/// A moved hull as a question sees it.
+#[derive(Clone, Copy)]
+struct Pose<'a, 'v> {
+    hull: Hull<'a>,
+    vertices: &'v [MovedVertex],
+    vertex_box: Aabb,
+    surface_error: f64,
+}
+
+impl Pose<'_, '_> {
+    #[inline(always)]
+    fn records(&self, [a, b, c]: [VertIdx; 3]) -> Option<[MovedVertex; 3]> {
+        let at = |vertex: VertIdx| self.vertices.get(vertex.usize()).copied();
+        Some([at(a)?, at(b)?, at(c)?])
+    }
+}
+
+impl<'a> Geometry<'a> for Pose<'a, '_> {
+    fn tables(&self) -> &Hull<'a> {
+        &self.hull
+    }
+
+    fn triangle(
+        &self,
+        corners: [VertIdx; 3],
+        number: u32,
+        is_surface: bool,
+    ) -> Option<([Vec3; 3], f32)> {
+        let records = self.records(corners)?;
+        let at = records.map(|record| record.position());
+        if is_surface {
+            return Some((at, 0.0));
+        }
+        let [r, s, t] = records.map(|record| record.reach());
+        let reach = greater_of(r, greater_of(s, t));
+        let [r, s, t] = records.map(|record| record.spread());
+        let spread = self.hull.radius(number)? + greater_of(r, greater_of(s, t));
+        if spread >= reach {
+            return Some((at, reach));
+        }
+        let [a, b, c] = at;
+        let [rest_a, rest_b, rest_c] = self.hull.positions(corners)?;
+        let (ab, bc, ca) = (b - a, c - b, a - c);
+        let greatest =
+            |[ab, bc, ca]: [Vec3; 3]| greater_of(ab.dot(ab), greater_of(bc.dot(bc), ca.dot(ca)));
+        let off = [ab - (rest_b - rest_a), bc - (rest_c - rest_b), ca - (rest_a - rest_c)];
+        let [off, way] = sqrt_up([greatest(off), greatest([ab, bc, ca])]);
+        let grown = (spread + off + rounding(way)) * LENGTH_UP;
+        Some((at, if grown < reach { grown } else { reach }))
+    }
+
+    /// The swept triangle of a group is not known after a motion: its bound is 0.
+    fn group(&self, index: u32) -> Option<([Vec3; 3], f32)> {
+        let (corners, _) = self.hull.base_group(index)?;
+        Some((self.records(corners)?.map(|record| record.position()), f32::INFINITY))
+    }
+
+    fn vertex_box(&self) -> Aabb {
+        self.vertex_box
+    }
+
+    fn surface_box(&self) -> Aabb {
+        self.vertex_box
+    }
+
+    fn surface_error(&self) -> f64 {
+        self.surface_error
+    }
+}

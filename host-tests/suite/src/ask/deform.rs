@@ -1,0 +1,161 @@
+//! Questions to a hull hierarchy that deforms.
+
+pub use meshsweep_core::DeformableHull;
+use meshsweep_core::{Budget, MovedVertex, ScratchEntry};
+
+use super::{Asked, Refused, Subject, closest_point};
+use crate::fold::Fold;
+use crate::place::{Bounds, Placer, Point};
+use crate::{Clock, Kind};
+
+/// Entries of the queue: enough for the suite's blob.
+const ENTRIES: usize = 128;
+
+/// Vertex records: enough for the suite's blob.
+const RECORDS: usize = 256;
+
+/// What the queries need beside the hull, 5 KiB in all.
+#[derive(Debug)]
+pub struct Scratch {
+    queue: [ScratchEntry; ENTRIES],
+    records: [MovedVertex; RECORDS],
+}
+
+impl Scratch {
+    /// Scratch that no query has used.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self { queue: [ScratchEntry::EMPTY; ENTRIES], records: [MovedVertex::EMPTY; RECORDS] }
+    }
+}
+
+impl Default for Scratch {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<'t> Subject<'t> for DeformableHull<'t> {
+    type Scratch = Scratch;
+
+    fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
+        open(bytes)
+    }
+
+    fn bounds(&self) -> Bounds {
+        bounds(self)
+    }
+
+    fn memory_suffices(&self) -> bool {
+        self.rest().scratch_entries() <= ENTRIES && self.vertex_records() <= RECORDS
+    }
+
+    fn memory(&self) -> usize {
+        size_of::<Scratch>()
+    }
+
+    fn suits(kind: Kind) -> bool {
+        matches!(kind, Kind::Arith | Kind::Contents) || kind.is_deform()
+    }
+
+    fn ask(
+        &self,
+        kind: Kind,
+        place: &mut Placer,
+        scratch: &mut Scratch,
+        clock: &mut impl Clock,
+        fold: &mut Fold,
+    ) {
+        match kind {
+            Kind::Contents => contents(self, fold),
+            Kind::Frame => {
+                let part = place.rng.signed_unit().abs();
+                at_frame(self, part, place.far(), scratch, &mut Asked::new(clock, fold));
+            }
+            Kind::Update => {
+                let ends = [place.far(), place.far()];
+                moved(self, ends, place.far(), scratch, [Some(clock), None], fold);
+            }
+            Kind::Moved => {
+                let ends = [place.far(), place.far()];
+                moved(self, ends, place.far(), scratch, [None, Some(clock)], fold);
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Opens the hull of a blob that deforms.
+///
+/// # Errors
+/// The core's refusal.
+pub fn open(bytes: &[u8]) -> Result<DeformableHull<'_>, Refused> {
+    DeformableHull::open(bytes).map_err(Refused::of)
+}
+
+/// The surface's box at rest in input units.
+#[must_use]
+pub fn bounds(hull: &DeformableHull<'_>) -> Bounds {
+    hull.rest().bounds()
+}
+
+/// Key frames and memory.
+pub fn contents(hull: &DeformableHull<'_>, fold: &mut Fold) {
+    fold.word(hull.frames());
+    fold.word(hull.input_vertices());
+    fold.word(hull.vertex_records() as u32);
+}
+
+/// The closest point between the first two key frames.
+#[inline(never)]
+pub fn at_frame(
+    hull: &DeformableHull<'_>,
+    part: f32,
+    p: Point,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Clock>,
+) {
+    let call = || hull.at_frame(part)?.closest_point(p, Budget::EXACT, &mut scratch.queue);
+    to.answer(call, closest_point);
+}
+
+/// The closest point after a free motion. The vertices are put on an arc between two ends. The
+/// clocks: of the update, of the question.
+#[inline(never)]
+pub fn moved(
+    hull: &DeformableHull<'_>,
+    [a, b]: [Point; 2],
+    p: Point,
+    scratch: &mut Scratch,
+    [update_clock, clock]: [Option<&mut impl Clock>; 2],
+    fold: &mut Fold,
+) {
+    let Scratch { queue, records } = scratch;
+    let mut moved = match hull.moved(records) {
+        Ok(moved) => moved,
+        Err(error) => return super::refusal(fold, error),
+    };
+    let arc = |vertex: u32| {
+        // Rings of eight vertices, as those of the suite's torus.
+        let along = (vertex / 8) as f32 * 0.0625;
+        let across = (vertex % 8) as f32 * 0.125;
+        let swing = [across, along * along, across * across];
+        let mut place = a;
+        for ((x, end), swing) in place.iter_mut().zip(b).zip(swing) {
+            *x = *x + (end - *x) * along + swing;
+        }
+        place
+    };
+    let updated = match update_clock {
+        Some(clock) => super::timed(clock, || moved.update(arc)),
+        None => moved.update(arc),
+    };
+    if let Err(error) = updated {
+        super::refusal(fold, error);
+    }
+    let call = || moved.closest_point(p, Budget::EXACT, queue);
+    match clock {
+        Some(clock) => Asked::new(clock, fold).answer(call, closest_point),
+        None => Asked::new((), fold).answer(call, closest_point),
+    };
+}
