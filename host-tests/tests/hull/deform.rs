@@ -227,7 +227,7 @@ fn exact_intervals_are_narrow() {
 #[test]
 fn identity_answers_as_the_hull_at_rest() {
     let mesh = rough_sphere(3, 0.2, 9);
-    let built = build(&mesh, &[mesh.0.clone()]);
+    let built = build(&mesh, std::slice::from_ref(&mesh.0));
     let hull = DeformableHull::open(&built.bytes).expect("just built");
     let (mut memory, mut scratch) = (memory(&hull), scratch(&hull));
     let mut moved = hull.moved(&mut memory).expect("enough records");
