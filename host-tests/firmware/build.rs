@@ -22,9 +22,10 @@ const BARE: [&str; 14] = [
 ];
 
 /// Images that run.
-const RUNNING: [&str; 7] = [
+const RUNNING: [&str; 8] = [
     "ask",
     "suite_hull",
+    "suite_overlap",
     "suite_tree",
     "suite_triboxes",
     "suite_tight",

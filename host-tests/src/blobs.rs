@@ -10,7 +10,7 @@ use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{Blob as Opened, Hull, ScratchEntry};
-use meshsweep_suite::ask::{Refused, curve, deform, hull, tight, tree, triboxes};
+use meshsweep_suite::ask::{Refused, curve, deform, hull, hull_overlap, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
@@ -34,6 +34,8 @@ pub enum Blob {
     Cut,
     /// The hierarchy for sweeps of the torus with holes.
     Sieve,
+    /// The torus, asked about its moved copy.
+    Overlap,
     /// The torus's box tree, vertices on a grid.
     TorusTree,
     /// The bracket's box tree.
@@ -57,13 +59,14 @@ pub enum Blob {
 
 impl Blob {
     /// All blobs.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Torus,
         Self::Bracket,
         Self::Grid16,
         Self::Grid24,
         Self::Cut,
         Self::Sieve,
+        Self::Overlap,
         Self::TorusTree,
         Self::BracketTree,
         Self::SingleTree,
@@ -85,6 +88,7 @@ impl Blob {
             Self::Grid24 => "grid24",
             Self::Cut => "cut",
             Self::Sieve => "sieve",
+            Self::Overlap => "overlap",
             Self::TorusTree => "torus_tree",
             Self::BracketTree => "bracket_tree",
             Self::SingleTree => "single_tree",
@@ -102,7 +106,7 @@ impl Blob {
         let small = |vertex_bits| whole(small_torus(), 50, vertex_bits);
         let default = TreeOptions::default();
         match self {
-            Self::Torus => small(VertexBits::Auto),
+            Self::Torus | Self::Overlap => small(VertexBits::Auto),
             Self::Bracket => whole(bracket(), BuildOptions::default().base_faces, VertexBits::Auto),
             Self::Grid16 => small(VertexBits::Grid16),
             Self::Grid24 => small(VertexBits::Grid24),
@@ -168,7 +172,8 @@ pub fn write(folder: &Path) -> Result<(), String> {
     for blob in Blob::ALL {
         let bytes = blob.bytes()?;
         let path = folder.join(blob.name());
-        fs::write(path.with_extension("txt"), expected(&bytes)?).map_err(failed)?;
+        let answers = if blob == Blob::Overlap { overlaps(&bytes)? } else { expected(&bytes)? };
+        fs::write(path.with_extension("txt"), answers).map_err(failed)?;
         let file = path.with_extension("msw");
         // So that cargo does not build images again whose blob has not changed.
         if fs::read(&file).is_ok_and(|there| there == bytes) {
@@ -186,7 +191,7 @@ pub fn write(folder: &Path) -> Result<(), String> {
 /// # Errors
 /// The core's refusal.
 pub fn expected(blob: &[u8]) -> Result<String, String> {
-    let mut lines = Lines(format!("blob {} {:016x}\n", blob.len(), Fold::of_bytes(blob)));
+    let mut lines = Lines::of(blob);
     let plan = Plan::STANDARD;
     let mut ran = run::<tree::Bvh<'_>>(blob, plan, &mut tree::Scratch::new(), &mut lines);
     if ran == Err(Refused::NO_SECTION) {
@@ -205,9 +210,15 @@ pub fn expected(blob: &[u8]) -> Result<String, String> {
     if ran == Err(Refused::NO_SECTION) {
         ran = run::<hull::Model<'_>>(blob, plan, &mut hull::Scratch::new(), &mut lines);
     }
-    ran.map_err(|refused| format!("the core refuses the blob: error {}", refused.0))?;
-    let entries = Opened::open(blob).map_or(0, |opened| scratch_entries(&opened));
-    Ok(lines.0 + &format!("needs {}\ndone\n", entries * size_of::<ScratchEntry>()))
+    lines.end(ran, blob)
+}
+
+/// The same of a split hierarchy and its moved copy.
+fn overlaps(blob: &[u8]) -> Result<String, String> {
+    let mut lines = Lines::of(blob);
+    let scratch = &mut hull_overlap::Scratch::new();
+    let ran = run::<hull_overlap::Overlapping<'_>>(blob, Plan::STANDARD, scratch, &mut lines);
+    lines.end(ran, blob)
 }
 
 /// Entries that no query to the blob's structures outgrows.
@@ -223,6 +234,18 @@ fn scratch_entries(blob: &Opened<'_>) -> usize {
 }
 
 struct Lines(String);
+
+impl Lines {
+    fn of(blob: &[u8]) -> Self {
+        Self(format!("blob {} {:016x}\n", blob.len(), Fold::of_bytes(blob)))
+    }
+
+    fn end(self, ran: Result<(), Refused>, blob: &[u8]) -> Result<String, String> {
+        ran.map_err(|refused| format!("the core refuses the blob: error {}", refused.0))?;
+        let entries = Opened::open(blob).map_or(0, |opened| scratch_entries(&opened));
+        Ok(self.0 + &format!("needs {}\ndone\n", entries * size_of::<ScratchEntry>()))
+    }
+}
 
 impl Clock for Lines {}
 

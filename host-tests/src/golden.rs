@@ -10,7 +10,9 @@ use meshsweep::hull::{BuildOptions, build_deform, build_for_sweep};
 use meshsweep::mesh::{KeyFrame, Mesh};
 use meshsweep::tight::{ChainOptions, chain};
 use meshsweep::tribox::store;
-use meshsweep_suite::ask::{self, Refused, Subject, deform, hull, tight, tree, triboxes};
+use meshsweep_suite::ask::{
+    self, Refused, Subject, deform, hull, hull_overlap, tight, tree, triboxes,
+};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
@@ -156,7 +158,9 @@ pub fn tool_path_curve() -> Vec<u8> {
 /// # Errors
 /// The core's refusal of the blob.
 pub fn hull_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
-    answers::<hull::Model<'_>>(name, blob, &mut hull::Scratch::new())
+    let alone = answers::<hull::Model<'_>>(name, blob, &mut hull::Scratch::new())?;
+    let pair = &mut hull_overlap::Scratch::new();
+    Ok(alone + &answers::<hull_overlap::Overlapping<'_>>(name, blob, pair)?)
 }
 
 /// The same for a blob's box tree.

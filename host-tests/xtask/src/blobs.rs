@@ -30,6 +30,7 @@ const fn curve(name: &'static str) -> Blob {
 }
 
 const TRIBOXES: Blob = Blob { name: "triboxes", image: "suite_triboxes" };
+const OVERLAP: Blob = Blob { name: "overlap", image: "suite_overlap" };
 const DEFORM: Blob = Blob { name: "bend", image: "suite_deform" };
 const TIGHT: Blob = Blob { name: "tight", image: "suite_tight" };
 
@@ -47,14 +48,15 @@ impl Blob {
     }
 
     /// Blobs whose bits are compared beside the standard ones: other formats of vertices, a cut
-    /// blob, an open mesh, a soup of triangles, and a hull that deforms.
-    pub const VARIANTS: [Self; 7] = [
+    /// blob, an open mesh, a soup of triangles, hulls that meet, and a hull that deforms.
+    pub const VARIANTS: [Self; 8] = [
         hull("grid16"),
         hull("grid24"),
         hull("cut"),
         hull("sieve"),
         tree("single_tree"),
         tree("soup_tree"),
+        OVERLAP,
         DEFORM,
     ];
 
@@ -72,7 +74,9 @@ impl Blob {
     /// a hull hierarchy, compiled for speed, are more than 256 KiB.
     #[must_use]
     pub fn profile(self, flash: Flash) -> Profile {
-        if matches!(self.image, "suite_tree" | "suite_hull") && flash == Flash::Small {
+        if matches!(self.image, "suite_tree" | "suite_hull" | "suite_overlap")
+            && flash == Flash::Small
+        {
             Profile::Small
         } else {
             Profile::Release

@@ -2,7 +2,7 @@
 
 pub use meshsweep_core::Focus;
 use meshsweep_core::{
-    Blob, Budget, Change, ClosestPoint, Hit, Hull, Pose, RefinedHull, ScratchEntry, Search,
+    Blob, Budget, Change, ClosestPoint, Hit, Hull, RefinedHull, ScratchEntry, Search,
 };
 
 use super::{Refused, Subject, timed};
@@ -14,7 +14,7 @@ use crate::{Clock, Kind};
 #[derive(Clone, Copy, Debug)]
 pub struct Model<'t> {
     blob: Blob<'t>,
-    hull: Hull<'t>,
+    pub(super) hull: Hull<'t>,
 }
 
 /// Entries of the queue.
@@ -63,7 +63,7 @@ impl<'t> Subject<'t> for Model<'t> {
     }
 
     fn memory_suffices(&self) -> bool {
-        self.hull.overlap_entries(&self.hull) <= QUEUE
+        self.hull.scratch_entries() <= QUEUE
     }
 
     fn memory(&self) -> usize {
@@ -81,7 +81,6 @@ impl<'t> Subject<'t> for Model<'t> {
                 | Kind::FirstHit
                 | Kind::AllHits
                 | Kind::OuterHits
-                | Kind::Overlap
                 | Kind::Refine
                 | Kind::Sweep
         )
@@ -112,12 +111,6 @@ impl<'t> Subject<'t> for Model<'t> {
             Kind::FirstHit => first_hit(self, place.segment(), scratch, clock, fold),
             Kind::AllHits => all_hits(self, place.segment(), scratch, clock, fold),
             Kind::OuterHits => outer_hits(self, place.segment(), scratch, clock, fold),
-            Kind::Overlap => {
-                let (rotation, translation) = place.motion();
-                let [a, b] = place.segment();
-                let pose = Pose { rotation, translation };
-                overlap(self, pose, [a, b, place.far()], scratch, clock, fold);
-            }
             Kind::Refine => {
                 let (focus, error) = focus(self, place);
                 refine(self, &focus, error, scratch, clock, fold);
@@ -245,39 +238,6 @@ pub fn outer_hits<'t>(
                 }
                 Err(error) => super::refusal(fold, error),
             }
-        }
-    });
-}
-
-/// Triangles that an overlap may open: what the question needs differs by orders of magnitude.
-const STEPS: u32 = 48;
-
-/// Whether the surface meets its moved copy, and a triangle.
-pub fn overlap(
-    model: &Model<'_>,
-    pose: Pose,
-    triangle: [[f32; 3]; 3],
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    let Scratch { queue, .. } = scratch;
-    let budget = Budget::EXACT.with_steps(STEPS);
-    timed(clock, || {
-        match model.hull.overlap(&model.hull, pose, budget, queue) {
-            Ok(answer) => {
-                let triangles = answer.triangles.unwrap_or([u32::MAX; 2]);
-                triangles.into_iter().for_each(|number| fold.word(number));
-                super::verdict(fold, answer.work, answer.verdict);
-            }
-            Err(error) => super::refusal(fold, error),
-        }
-        match model.hull.meets_triangle(triangle, Budget::EXACT, queue) {
-            Ok(answer) => {
-                super::number(fold, answer.triangle);
-                super::verdict(fold, answer.work, answer.verdict);
-            }
-            Err(error) => super::refusal(fold, error),
         }
     });
 }
