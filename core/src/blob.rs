@@ -37,7 +37,8 @@ impl<'a> Blob<'a> {
     /// order that the queries rely on. Any bytes are safe to open. Their alignment does not matter.
     ///
     /// Firmware with one structure links less code with the structure's own `open`:
-    /// [`Bvh::open`], [`Hull::open`], [`DeformableHull::open`], [`TightHulls::open`], [`Triboxes::open`], [`Curve::open`].
+    /// [`Bvh::open`], [`Hull::open`], [`DeformableHull::open`], [`TightHulls::open`],
+    /// [`Triboxes::open`], [`Curve::open`].
     ///
     /// Cost: linear in the blob, no allocation; once per start.
     ///

@@ -200,9 +200,9 @@ impl Collapsing for Edges {
     /// Places the vertex exactly and collapses; `false` if the edge is refused or put back.
     ///
     /// The span is only an estimate of the volume that a collapse adds. An edge that adds more than
-    /// its span goes back into the queue with the true volume, unless the conditions are the paper's.
-    /// This costs no further linear program for the other edges, and the last few hundred faces are
-    /// better by it.
+    /// its span goes back into the queue with the true volume, unless the conditions are the
+    /// paper's. This costs no further linear program for the other edges, and the last few hundred
+    /// faces are better by it.
     fn collapse(&mut self, candidate: &Candidate, schedule: &mut Schedule) -> bool {
         let ends = candidate.ends;
         let placed = if self.surface.gather(ends) {

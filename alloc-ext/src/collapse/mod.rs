@@ -54,8 +54,8 @@ pub struct Conditions {
     /// old cost until they reach the top of the queue. The paper evaluates them at once, as
     /// `usize::MAX` does.
     pub lazy_above: usize,
-    /// Whether an edge of [`Priority::Span`] goes back into the queue if its collapse would add more
-    /// than the span. The paper collapses it.
+    /// Whether an edge of [`Priority::Span`] goes back into the queue if its collapse would add
+    /// more than the span. The paper collapses it.
     pub puts_back: bool,
 }
 

@@ -7,8 +7,8 @@ use super::placement::{Facet, Placement, Refusal, StarFace, check_shape};
 use crate::surface::Grid;
 use glam::{DMat3, DVec3};
 
-/// Weight of a plane that stands on a hole's edge, over that of a triangle with the edge's square
-/// as its area. With less, holes grow.
+/// Weight of a hole edge's plane at each of its ends, times the edge's squared length. With less,
+/// holes grow.
 const HOLE_WEIGHT: f64 = 1.0;
 
 /// Weight of the distance from a triangle's corners over that from its plane. It decides where a
@@ -63,7 +63,7 @@ impl Quadrics {
         let (triangles, fillers) = triangles.split_at(surface);
         let mut of_vertex = vec![Quadric::ZERO; positions.len()];
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        // The triangles at each vertex of a hole, with the edges that leave it.
+        // Vertices of holes, then the sorted edges of holes. A filler is `[to, from, centre]`.
         let mut is_of_hole = vec![false; positions.len()];
         fillers.iter().for_each(|&[a, b, _]| {
             is_of_hole[a as usize] = true;
@@ -98,7 +98,7 @@ impl Quadrics {
     }
 
     /// The vertex that replaces edge `a b`, whose star has the given triangles of the surface. With
-    /// `exact` the vertex is rounded to the grid.
+    /// a grid the vertex is rounded to it.
     ///
     /// # Errors
     /// Why there is no place.

@@ -232,7 +232,7 @@ fn finish(
     tables.encloses = volume.is_some();
     tables.levels = levels(&history, volume);
     certify(&mut tables, &history)?;
-    // Levels were measured to the triangles with an area, without it.
+    // Levels were measured against triangles with an area. The wires' distance joins only now.
     if wires > 0.0 {
         let off = wires * meshsweep_core::internal::num::exp2(-stored.scale_exponent);
         tables.surface_error = sum_up(tables.surface_error, up_to_f32(off));
@@ -268,8 +268,8 @@ fn finish(
     Ok(Built { tables, deform, bytes, report })
 }
 
-/// Vertices that only wires use do not count, but for the frame, which all structures of a blob
-/// share.
+/// Vertices past those of the triangles are the wires'. They count only for the frame, which all
+/// structures of a blob share.
 fn store_solid(mesh: &Mesh, bits: VertexBits) -> Stored {
     let mut stored = store(mesh, bits);
     let used = mesh.triangles.iter().flatten().fold(0, |most, &v| most.max(v as usize + 1));

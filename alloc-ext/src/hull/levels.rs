@@ -23,8 +23,7 @@ fn level_splits(history: &History) -> Vec<u32> {
     splits
 }
 
-/// The level table, its distances still 0. `volume` of the mesh is the unit of void; without hulls
-/// there is none.
+/// The level table with distances 0. `void_ratio` is relative to `volume`, or 0 without a volume.
 pub fn levels(history: &History, volume: Option<f64>) -> Vec<Level> {
     let total = history.collapses.len();
     let mut added = vec![0.0; total + 1];
@@ -45,7 +44,7 @@ pub fn levels(history: &History, volume: Option<f64>) -> Vec<Level> {
 }
 
 /// Fills in certified distances between each level's hull and the surface, both ways, and counts
-/// the faces. The surface is asked by a box tree of its triangles.
+/// the faces. A box tree of the surface's triangles gives the distances to it.
 pub fn certify(tables: &mut Tables, history: &History) -> Result<(), BuildError> {
     let bytes = tables.to_bytes();
     let model = Hull::open(&bytes).map_err(BuildError::Reopen)?;

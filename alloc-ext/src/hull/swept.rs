@@ -7,7 +7,7 @@ use glam::DVec3;
 const FACES_TRIED: usize = 8;
 
 /// The triangle that covers `vertices` with the least radius, and that radius. Candidates are the
-/// first faces, the corner nearest the middle, the longest segment and the largest triangle on it.
+/// first faces, the corner nearest the middle, a long segment and the largest triangle on it.
 /// All numbers are indices into `positions`.
 pub fn best_cover(
     positions: &[DVec3],

@@ -19,7 +19,7 @@ const NONE: u32 = u32::MAX;
 pub struct Closed {
     /// The mesh's triangles in their order, then those that close holes.
     pub triangles: Vec<[u32; 3]>,
-    /// Triangles that close holes.
+    /// Triangles that close holes, each `[to, from, centre]` of the hole's edge `from` → `to`.
     pub fillers: usize,
     /// Holes.
     pub holes: usize,

@@ -102,7 +102,7 @@ struct Best {
     point: DVec3,
 }
 
-/// A point, and what the triangles that were looked at say of its distance.
+/// A query point, the nearest triangle so far, and bounds of the distance.
 #[derive(Debug)]
 pub(super) struct Nearest {
     p: DVec3,
@@ -113,8 +113,8 @@ pub(super) struct Nearest {
     hull_to_surface: f64,
     /// Not below the distance.
     upper: f64,
-    /// Bounds above this are infinite: `upper`, unless [`set_limit`](Self::set_limit) raised it. In
-    /// f32 rounded up, for pruning.
+    /// A lower bound above the limit is reported as infinity. The limit is `upper`, unless
+    /// [`set_limit`](Self::set_limit) raised it. In f32 it is rounded up, for pruning.
     limit: f64,
     limit_f32: f32,
     /// Least lower bound of all triangles that are not refined further.
@@ -242,7 +242,7 @@ impl Nearest {
         high <= low * (1.0 + relative) || high - low <= absolute
     }
 
-    /// Bounds above this are infinite.
+    /// A lower bound above this is reported as infinity.
     pub(super) fn limit(&self) -> f32 {
         self.limit_f32
     }
@@ -351,6 +351,7 @@ impl<'a, G: Geometry<'a>> Fresh<'_, G> {
                     spared = spared.min(key);
                 }
                 if least {
+                    // All entries that wait are farther.
                     break;
                 }
                 continue;

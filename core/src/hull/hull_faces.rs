@@ -7,7 +7,7 @@ use crate::hull::format::{Hull, Level, SplitIdx, VertIdx};
 pub struct HullFace {
     /// Corners, counter-clockwise seen from outside.
     pub corners: [VertIdx; 3],
-    /// Certified radius, local frame.
+    /// Certified radius, local frame: times [`Hull::scale`] input units.
     pub radius: f32,
 }
 

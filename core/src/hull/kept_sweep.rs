@@ -33,8 +33,9 @@ pub struct Sweep<'a, 'm> {
     holds: Holds,
 }
 
-/// Up to a motion, the nearest triangle is one of a few (Guéziec 2000, 3.3). The paper keeps one.
-/// Two triangles that share the closest vertex leave no gap, so one would seldom serve.
+/// While the point moves less than `motion`, the nearest triangle is one of `near` (Guéziec 2000,
+/// 3.3). The paper keeps one triangle. Triangles that share the closest vertex have no gap between
+/// them, so several are kept.
 #[derive(Debug)]
 struct Safe {
     motion: f64,
@@ -235,6 +236,7 @@ impl Sweep<'_, '_> {
                 .min(bound_of(self.front.queue.dropped(), self.moved));
             self.pruned = self.pruned.min(keep.pruned);
             self.best = keep.nearest.instance();
+            // An entry that was lost may be the nearest, so the search starts once more.
             if lost < keep.nearest.upper() && !is_new {
                 is_new = true;
                 continue;
@@ -304,8 +306,8 @@ impl Sweep<'_, '_> {
             }
             if self.moved > 0.0 {
                 let key = stored(keep.least(&candidate), self.moved);
-                // The key's bound, which rounding made less: else the entry could come back at
-                // once, without end.
+                // Compares the stored key, which is rounded down. With the unrounded bound the
+                // entry could return for ever.
                 if bound_of(key, self.moved) > keep.nearest.upper() + wider {
                     self.front.queue.push(ScratchEntry::new(key.max(entry.key()), instance.0));
                     continue;
@@ -326,8 +328,7 @@ impl Sweep<'_, '_> {
         Some(ended)
     }
 
-    /// The nearest of the triangles that may be nearest within the safe motion, and of the best one,
-    /// which was evaluated. On a Cortex-M f64 runs in software, so f32 tells first which may be.
+    /// Evaluates the near triangles that f32 cannot rule out. On a Cortex-M f64 is slow.
     fn settle_near(&self, keep: &mut Keep) -> Option<()> {
         for &instance in &self.safe.near {
             let candidate = self.front.look(instance)?;
@@ -343,10 +344,10 @@ impl Sweep<'_, '_> {
     fn find_safe_motion(&mut self, upper: f64, mut others: f64) {
         self.safe.near.clear();
         let bound = |entry: &ScratchEntry| bound_of(entry.key(), self.moved);
-        // Triangles that another one's bound does not part from the nearest one.
-        let part = upper + 0.5 * (others - upper);
+        // Half way to the nearest other triangle. Entries below it stay near.
+        let threshold = upper + 0.5 * (others - upper);
         for entry in self.front.queue.aside() {
-            if bound(entry) > part || self.safe.near.push(Instance(entry.node())).is_err() {
+            if bound(entry) > threshold || self.safe.near.push(Instance(entry.node())).is_err() {
                 others = others.min(bound(entry));
             }
         }
@@ -446,7 +447,7 @@ impl Sweep<'_, '_> {
 }
 
 impl Keep {
-    /// A lower bound of a triangle's distance, or of the limit if that is less.
+    /// A lower bound of a triangle's distance, at most the limit.
     fn least(&self, candidate: &Candidate) -> f64 {
         let [bound, ..] = self.nearest.bounds(core::slice::from_ref(candidate));
         f64::from(bound.min(self.nearest.limit()))

@@ -1,8 +1,8 @@
 //! The hull hierarchy under any motion of the mesh's vertices (Guéziec 2000, 5.3).
 //!
 //! The tables stay where they are. One record for each vertex of each level lies in the caller's
-//! memory. One pass from the finest split to the coarsest moves each coarse vertex by a displacement
-//! between those of the two vertices that its split brings, and bounds two things:
+//! memory. One pass goes from the finest split to the coarsest. It moves each coarse vertex by a
+//! displacement between those of the two vertices that its split adds, and it bounds two things:
 //! - `spread`: the difference of its displacement and those of the mesh's vertices below it;
 //! - `reach`: its distance from the mesh's vertices below it.
 //!
@@ -141,7 +141,7 @@ impl MovedHull<'_, '_> {
     /// Moves the mesh back to where it was built.
     ///
     /// # Errors
-    /// None of a hull that an `open` of this crate returned.
+    /// Never, for a hull that was opened.
     pub fn to_rest(&mut self) -> Result<(), QueryError> {
         self.has_pose = false;
         let hull = self.model.rest();
@@ -166,7 +166,7 @@ impl MovedHull<'_, '_> {
             let [at_o, at_d] = [o.position(), d.position()];
             let (by_o, by_d) = (at_o - rest_o, at_d - rest_d);
             let between = by_d - by_o;
-            let position = rest + by_o + between * part(between, d.spread() - o.spread());
+            let position = rest + by_o + between * fraction(between, d.spread() - o.spread());
             low = low.min(position);
             high = high.max(position);
             let (way_o, way_d) = (at_o - position, at_d - position);
@@ -227,11 +227,10 @@ impl MovedHull<'_, '_> {
     }
 }
 
-/// Where between the displacements of two vertices that of the vertex above them should lie, so that
-/// the spread becomes least: in the middle of the smallest ball around two balls. Any place is
-/// sound.
+/// The fraction of the way between two displacements at which the spread is least: the centre of
+/// the smallest ball around two balls. Any fraction is sound.
 #[inline(always)]
-fn part(between: Vec3, spreads: f32) -> f32 {
+fn fraction(between: Vec3, spreads: f32) -> f32 {
     // Both are of the surface, as most are.
     if spreads == 0.0 {
         return 0.5;

@@ -63,8 +63,8 @@ impl<'t> Hull<'t> {
     /// through itself does, and the hulls of that mesh do not enclose it there.
     /// [`first_hit`](Hull::first_hit) has no such conditions.
     ///
-    /// Of the budget only `steps` matters: vertex splits. Cost: faces tested and splits as in Table
-    /// 3 of Platis & Theoharis 2003.
+    /// Of the budget only `steps` matters: vertex splits. Cost: on scanned parts some hundred faces
+    /// and some hundred splits a segment. Source: Platis & Theoharis 2003, 3.2 and Table 3.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Hit, Hull, RefinedHull, Scratch, Search};
@@ -79,7 +79,8 @@ impl<'t> Hull<'t> {
     /// ```
     ///
     /// # Errors
-    /// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`]; [`QueryError::NoHulls`] unless the
+    /// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`], [`QueryError::Tolerance`];
+    /// [`QueryError::NoHulls`] unless the
     /// hierarchy [`encloses`](Hull::encloses) the surface.
     #[expect(
         clippy::too_many_arguments,
@@ -198,9 +199,9 @@ impl Sweep<'_> {
                 self.give_up(0.0, Ended::Steps);
                 return Some(());
             }
-            // Some candidates did not fit: the live faces that the segment crosses are found again.
-            // At least one fits, and all can be refined or the memory is full, so the hull gets
-            // finer each time.
+            // Some candidates did not fit. The live faces that the segment crosses are found again.
+            // The first pass recorded the hits. At least one candidate fits, so each pass performs
+            // a split or fills the memory.
             self.overflowed = false;
             record_hits = false;
         }

@@ -80,11 +80,13 @@ fn star<'a>(
 }
 
 impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {
-    /// Refines the hull around a focus and coarsens it elsewhere. Then every face that meets the
-    /// focus stands for surface no farther from it than `error` (input units; for an eye than the
-    /// larger of `error` and the error at the face's distance), or is a triangle of the surface,
-    /// unless [`Refinement::error_left`] is above 0. A face to which no surface is assigned says
-    /// nothing of it. On a cut blob the finest faces keep the error of the last level.
+    /// Refines the hull around a focus and coarsens it elsewhere.
+    ///
+    /// If [`Refinement::error_left`] is 0, every face that meets the focus is a triangle of the
+    /// surface, or its part of the surface is no farther from the face than `error` (input units).
+    /// For an eye the bound is the larger of `error` and the error at the face's distance. A face
+    /// without a part of the surface has no bound. On a cut blob the finest faces keep the error of
+    /// the last level.
     ///
     /// A performed split is kept while a focus and an error larger by an eighth need it, so that
     /// small motions change little. If `SPLITS` are too few, the splits of the greatest need are
@@ -220,8 +222,8 @@ impl Update<'_, '_> {
         }
     }
 
-    /// Whether half of the memory is free. A step of the floor frees about a third where needs
-    /// differ: errors are as long as faces, so faces go with the square. So a floor that has risen
+    /// Whether half of the memory is free. A step of the floor frees about a third of the splits,
+    /// because the number of faces falls with the square of the error. So a floor that has risen
     /// mostly stays, and few splits are performed and undone in turns.
     fn has_room(&self) -> bool {
         self.state.splits.len() <= self.state.splits.capacity() / 2

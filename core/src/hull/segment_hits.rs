@@ -219,7 +219,7 @@ fn run<C: Collect>(
     Some((if along.doubtful { Ended::Resolution } else { Ended::Exact }, f32::INFINITY))
 }
 
-/// A segment, and who wants its hits.
+/// A segment, and the collector of its hits.
 struct Along<'c, C: Collect> {
     frame: Frame,
     start: DVec3,

@@ -14,7 +14,7 @@ use crate::hull::format::{Hull, Instance, Named, SplitIdx, VertIdx};
 use crate::query::{ScratchEntry, SweepQueue, Work};
 use glam::Vec3;
 
-/// What becomes of a triangle.
+/// How a triangle can be refined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fate {
     /// A split refines it.
@@ -39,7 +39,7 @@ impl Candidate {
         Candidate { corners: [Vec3::ZERO; 3], radius: 0.0, instance: Instance(0), fate: Fate::Cut };
 }
 
-/// What a question does with triangles: bounds them, and puts those into the queue that may matter.
+/// Receives triangles, bounds them, and queues those that may matter.
 pub(crate) trait Visit {
     /// At most [`LANES`] triangles.
     fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>);
@@ -118,8 +118,8 @@ pub(crate) struct Front<'m, G> {
 }
 
 impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
-    /// An empty front that may replace `steps` triangles. There are fewer than the tables hold. So
-    /// a search also ends on tables that open and yet name a triangle more than once.
+    /// An empty front that may replace `steps` triangles, at most as many as the tables hold. So a
+    /// search ends even if checked tables name a triangle twice.
     pub(crate) fn new(model: &G, scratch: &'m mut [ScratchEntry], steps: u32) -> Self {
         Front {
             steps: steps.min(triangles(model.tables())),

@@ -6,8 +6,7 @@ use crate::geom::Pose;
 use crate::num::tolerance::{POSE_DEFECT, POSED_POINT, POSED_STRETCH, U64};
 use crate::num::{down_to_f32, up_to_f32};
 
-/// A point that a [`Pose`] carried into a model's frame, and what distances there say of distances
-/// in the world.
+/// A point that a [`Pose`] carried into a model's frame, with the error that distances there carry.
 ///
 /// It serves every question about points: [`Bvh::closest_point`](crate::Bvh::closest_point),
 /// [`CoherentQuery`](crate::CoherentQuery), [`Sweep::move_to`](crate::Sweep::move_to) and the
@@ -38,7 +37,8 @@ impl PosedPoint {
 
     /// The distance to ask [`Bvh::within`](crate::Bvh::within) about. If the model is not within
     /// this distance of [`point`](Self::point), the moved model is not within `distance` of the
-    /// point in the world. If it is, [`distance`](Self::distance) of the closest point decides.
+    /// point in the world. If it is, [`distance`](Self::distance) of the closest point decides. Of
+    /// a distance that is negative, NaN or infinite comes one that `within` refuses.
     pub fn model_distance(&self, distance: f32) -> f32 {
         let in_model = f64::from(distance) / (1.0 - self.stretch) + f64::from(self.error);
         up_to_f32(in_model * (1.0 + 4.0 * U64))
@@ -48,8 +48,8 @@ impl PosedPoint {
 impl Pose {
     /// Carries a point of the world into the frame of the model that this pose moves.
     ///
-    /// The pose's numbers are taken as exact, and the matrix need not be a perfect rotation: what it
-    /// stretches lengths by is in every [`PosedPoint::distance`].
+    /// The pose's numbers are taken as exact. The matrix need not be a perfect rotation: every
+    /// [`PosedPoint::distance`] includes its stretch.
     ///
     /// For a segment carry both ends. The common points with the moved model are then those of the
     /// carried segment with [`Bvh::with_error`](crate::Bvh::with_error) of the larger `error`, at
@@ -71,8 +71,9 @@ impl Pose {
     /// Cost: some hundred operations in f64.
     ///
     /// # Errors
-    /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if the matrix is no rotation, even
-    /// nearly; [`QueryError::OutOfDomain`] if the carried point is beyond f32's range.
+    /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if the matrix's columns are far
+    /// from orthonormal (a reflection is accepted); [`QueryError::OutOfDomain`] if the carried
+    /// point is beyond f32's range.
     pub fn to_model(&self, world: [f32; 3]) -> Result<PosedPoint, QueryError> {
         let rows = self.rotation.map(|row| row.map(f64::from));
         let shift = self.translation.map(f64::from);

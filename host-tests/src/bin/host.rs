@@ -6,7 +6,8 @@
 //! host blobs FOLDER       writes the firmware's blobs, each beside this machine's answers
 //! host ask QUESTION N     asks the first N queries of a question, for a simulator that counts
 //! host lay QUESTION N FILE
-//!                         writes such a question for a board; prints means, then this machine's answers
+//!                         writes such a question for a board; prints means, then this machine's
+//!                         answers
 //! ```
 
 use std::path::Path;

@@ -117,8 +117,8 @@ fn corner(cursor: &mut Cursor<'_>) -> Result<DVec3, String> {
     Ok(DVec3::new(coordinate()?, coordinate()?, coordinate()?))
 }
 
-/// Coordinates of the point of a triangle that is nearest to `p`: the nearest of those on its edges and
-/// the foot on its plane.
+/// Coordinates of the point of a triangle that is nearest to `p`: the nearest of those on its edges
+/// and the foot on its plane.
 fn nearest(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 2] {
     let along = |from: DVec3, to: DVec3| {
         let d = to - from;

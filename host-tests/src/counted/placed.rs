@@ -15,7 +15,8 @@ use crate::workload::{Points, Subject, points};
 /// A step of the point that a refined hull follows, as a part of the diagonal.
 const STEP: f32 = 1e-3;
 
-/// The bytes of a question with `count` places, as a board reads them; `None` if the words are no such question.
+/// The bytes of a question with `count` places, as a board reads them; `None` if the words are no
+/// such question.
 ///
 /// - `bvh BLOB RELATIVE`: closest points of the box tree, to a relative tolerance, at
 ///   [`Points::Far`].

@@ -138,8 +138,8 @@ pub fn segment(data: &[u8]) {
     }
 }
 
-/// Whether a triangle, and a moved edited blob, meet an edited blob, in at most so many steps: every
-/// pair of triangles may have to be opened.
+/// Whether a triangle, and a moved edited blob, meet an edited blob, in at most so many steps:
+/// every pair of triangles may have to be opened.
 pub fn overlap(data: &[u8]) {
     let mut input = Input(data);
     let (first, second) = (input.blob(seeds()), input.blob(seeds()));

@@ -1,5 +1,5 @@
-//! `cargo xtask count`: instructions a query on this machine, counted by callgrind; on a Cortex-M4F,
-//! counted by the emulator.
+//! `cargo xtask count`: instructions a query on this machine, counted by callgrind; on a
+//! Cortex-M4F, counted by the emulator.
 //!
 //! Times on a busy machine are noise; instructions are not. The host's program runs in the
 //! simulator twice, with different numbers of queries: the difference is the queries' alone.
@@ -78,8 +78,8 @@ const ON_BOARD: &str = "1000";
 /// Where the image `ask` finds its question: in the external RAM of the first board.
 const LOADED: u32 = 0x2100_0000;
 
-/// Counts questions at places on the Cortex-M4F, in the emulator, and prints the table. The answers'
-/// bits are this machine's, or it is an error.
+/// Counts questions at places on the Cortex-M4F, in the emulator, and prints the table. The
+/// answers' bits are this machine's, or it is an error.
 pub fn on_board(steps: &mut Steps, tools: &Tools, asked: &[&str]) {
     let [board, ..] = BOARDS;
     let Some(program) = steps.run("the host's program, optimised", host::optimised) else { return };

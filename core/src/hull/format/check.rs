@@ -305,8 +305,8 @@ impl Hull<'_> {
             && split.find(from).is_some_and(|edge| split.ring(edge + 1) == Some(to))
     }
 
-    /// The triangles that no split removes are as many as the source numbers, in the order that
-    /// the starts say, and lie in the surface's box.
+    /// Counts the triangles that no split removes. They match the source numbers and their starts,
+    /// and lie in the surface's box.
     fn check_sources(&self) -> Result<(), OpenError> {
         if self.is_cut() {
             return Ok(());

@@ -92,7 +92,8 @@ pub struct Split<'a> {
     /// The triangle `(o, r[m], d)` at the right wing `m` stands for a part of what `(v, r[i],
     /// r[i+1])` stands for, where `i` is this: `m` or `m − 1`.
     pub right_parent: usize,
-    /// The same of `(o, d, r[0])`: 0 or the ring's last.
+    /// Position in the ring of the coarse triangle whose part `(o, d, r[0])` shares: 0 or the
+    /// ring's last.
     pub left_parent: usize,
     /// No point of the fine triangles is farther than this from `vertex`, local frame.
     pub reach: f32,
@@ -190,7 +191,9 @@ pub(super) fn single(&[a, b, c, d, e, f, g, h, i, j, k, l]: &[u8; 12]) -> Vec3 {
 }
 
 impl Hull<'_> {
-    /// With this many scratch entries no question ends for lack of memory.
+    /// With this many scratch entries [`closest_point`](Self::closest_point),
+    /// [`first_hit`](Self::first_hit) and [`all_hits`](Self::all_hits) never end for lack of
+    /// memory. Overlaps need [`overlap_entries`](Self::overlap_entries).
     pub fn scratch_entries(&self) -> usize {
         self.header.queue_capacity as usize
     }

@@ -30,8 +30,8 @@ pub(super) fn descend(
     let Some(pose) = RelativePose::new(a, b, pose)? else { return Ok((None, Work::NONE)) };
     let is_f32 = is_f32_enough(&pose, [a, b]);
     let exact = Places::<f64>::of(&pose);
-    // No pair is opened twice. So a search also ends on tables that open and yet name a triangle
-    // more than once.
+    // No pair is opened twice. With this limit a search ends even if checked tables name a triangle
+    // twice.
     let pairs = sides[0].triangles().saturating_mul(sides[1].triangles());
     let steps = budget.steps.min(pairs);
     let stack = Stack { slots: scratch, used: 0, is_short: false };
@@ -75,7 +75,7 @@ fn run<T: Real>(
         search.work.splits += 1;
         let swept = [places.swept(0, &pair[0]), places.swept(1, &pair[1])];
         let [opens_a, opens_b] = pair.map(|triangle| triangle.fate == Fate::Splits);
-        // A model is opened before it waits.
+        // A root is refined at once: its number is too large for a waiting pair.
         let first = opens_a
             && (!opens_b
                 || pair[0].instance == side_a.root.instance
@@ -89,6 +89,7 @@ fn run<T: Real>(
             search.fixed = swept[0];
             side_b.open(pair[1].instance, &mut search)?;
         }
+        // The visitor has its answer. On a cut blob that answer is `Resolution`.
         if !search.found? {
             let cut = if is_cut { Some(Ended::Resolution) } else { None };
             return Some((cut, search.work));

@@ -42,8 +42,8 @@ impl<'a> Side<'a> {
         })
     }
 
-    /// A triangle in input units. Its own unit is not smaller than the hull's, so that a small
-    /// triangle is no other case.
+    /// A triangle in input units. Its own unit is not smaller than the hull's, so small triangles
+    /// need no second path.
     pub(super) fn of_triangle(
         corners: [[f32; 3]; 3],
         hull: &Hull<'_>,

@@ -13,7 +13,7 @@ use super::{Refused, timed};
 use crate::Clock;
 use crate::fold::Fold;
 
-/// What is asked at each place.
+/// The question at each place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Question {
     /// The box tree's closest point, to a relative tolerance.
@@ -147,8 +147,8 @@ impl Answer {
     }
 }
 
-/// Asks at the first `queries` places, and tells each answer. Bytes of RAM that the question needs
-/// beside the stack.
+/// Asks at the first `queries` places, and tells each answer. Returns the bytes of RAM that the
+/// question needs beside the stack.
 ///
 /// # Errors
 /// The blob is refused, or asks for more scratch than there is.

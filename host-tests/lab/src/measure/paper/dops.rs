@@ -93,7 +93,10 @@ pub fn table(subject: &Subject) -> Result<Table, String> {
         ];
         table.push(first.into_iter().chain(counts).chain(last).collect());
     }
-    table.note("k-DOPs: binary tree, one triangle a leaf, f64, the segment's own k-DOP against the nodes'; they find all hits, the hull the outer ones, the box tree the first");
+    table.note(
+        "k-DOPs: binary tree, one triangle a leaf, f64, the segment's own k-DOP against the \
+         nodes'; they find all hits, the hull the outer ones, the box tree the first",
+    );
     if let Some(model) = paper {
         table.note(format!("the paper's segments that hit: {}", model.hits));
         if let Some(remark) = model.remark(subject.mesh.triangles.len()) {

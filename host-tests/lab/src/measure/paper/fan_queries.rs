@@ -53,7 +53,7 @@ struct Work {
     multiplications: u64,
 }
 
-/// A table of both elements, for questions of which `ask` answers one.
+/// A table of the trees over triangles and fans. `ask` answers one question.
 fn table<Q: Copy>(
     subject: &Subject,
     [key, title]: [&'static str; 2],
@@ -117,7 +117,10 @@ fn table<Q: Copy>(
             paper_s.zip(theirs).map_or(Cell::Empty, |(s, [triangles, _])| fixed(s / triangles, 2)),
         ]);
     }
-    table.note("a question, mean; one binary tree of boxes over triangles, or over fans of up to 8, f64; spared: by the fan's test of two inner products");
+    table.note(
+        "a question, mean; one binary tree of boxes over triangles, or over fans of up to 8, \
+         f64; spared: by the fan's test of two inner products",
+    );
     Ok(table)
 }
 
@@ -210,8 +213,8 @@ fn quadratic(aa: f64, ab: f64, bb: f64, xa: f64, xb: f64, ss: f64) -> f64 {
     edge_a.min(at(0.0, (xb / bb).clamp(0.0, 1.0))).min(at(1.0 - t, t))
 }
 
-/// Parameter of a segment's first hit of a fan (the paper's 3), else infinity. A triangle is skipped
-/// if both of its rim's ends are on one side of the plane through centre and segment.
+/// Parameter of a segment's first hit of a fan (the paper's 3), else infinity. A triangle is
+/// skipped if both of its rim's ends are on one side of the plane through centre and segment.
 fn hit(from: DVec3, d: DVec3, fan: &[DVec3], work: &mut Work) -> f64 {
     let [centre, rim @ ..] = fan else { return f64::INFINITY };
     let s = from - *centre;
@@ -268,9 +271,9 @@ fn alone(from: DVec3, d: DVec3, triangle: &[DVec3], work: &mut Work) -> f64 {
     if (0.0..=1.0).contains(&t) { t } else { f64::INFINITY }
 }
 
-/// What the cones of fans save of backface culling (6.4). The paper's test has the wrong sign: a fan
-/// with normals within `α` of an axis faces away if the axis and the way to the eye meet at a cosine
-/// of at most `−sin α`. All planes of a fan go through its centre, so nothing else counts.
+/// What the cones of fans save of backface culling (6.4). The paper's test has the wrong sign: a
+/// fan with normals within `α` of an axis faces away if the axis and the way to the eye meet at a
+/// cosine of at most `−sin α`. All planes of a fan go through its centre, so nothing else counts.
 pub fn culling(subject: &Subject) -> Table {
     let columns = ["triangles", "facing away %", "culled with their fan %", "tests a triangle"];
     let mut table = Table::new("fan_culling", "Backface culling by fans, paper 003, 6.4", &columns);
@@ -309,7 +312,10 @@ pub fn culling(subject: &Subject) -> Table {
         fixed(100.0 * culled as f64 / away.max(1) as f64, 1),
         fixed(tests as f64 / asked, 3),
     ]);
-    table.note(format!("{EYES} eyes in the doubled box; tests: one a fan, and one a triangle of the fans that are left; a triangle alone takes 1"));
+    table.note(format!(
+        "{EYES} eyes in the doubled box; tests: one a fan, and one a triangle of the fans that \
+         are left; a triangle alone takes 1"
+    ));
     table.note("the paper: 30 % less time to draw");
     table
 }

@@ -12,8 +12,8 @@ use meshsweep_xtask::table::{Cell, Table, fixed, row};
 /// The paper's simplified mesh has 4,450 of 29,200 triangles.
 const KEPT: f64 = 4_450.0 / 29_200.0;
 
-/// Upper bounds at which the search may stop, in parts of the last one; 0 leaves the end to the
-/// search's own limit, a twentieth of the distance.
+/// The search stops at these multiples of its final upper bound. 0: only its own limit, a twentieth
+/// of the distance, stops it.
 const ENOUGH: [f64; 6] = [4.0, 2.0, 1.5, 1.2, 1.1, 0.0];
 
 /// Parts of the samples that are farther than the distance of a row.
@@ -64,7 +64,10 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
             if is_last { fixed(0.04, 2) } else { Cell::Empty },
         ]);
     }
-    bounds.note("%: of the diagonal; samples: points whose distance was asked; the search stops at an upper bound that is enough, at last within a twentieth of a distance that was found");
+    bounds.note(
+        "%: of the diagonal; samples: points whose distance was asked; the search stops at an \
+         upper bound that is enough, at last within a twentieth of a distance that was found",
+    );
     bounds.note(
         "the paper's meshes have 29,200 and 4,450 triangles; here the second is an outer hull",
     );

@@ -21,8 +21,9 @@ struct Node {
 }
 
 impl<'a> Hierarchy<'a> {
-    /// A tree over elements by their points; leaves have at most `leaf` elements. Each node is split
-    /// at the mean of its elements' centres along the axis on which the centres are spread widest.
+    /// A tree over elements by their points; leaves have at most `leaf` elements. Each node is
+    /// split at the mean of its elements' centres along the axis on which the centres are spread
+    /// widest.
     #[must_use]
     pub fn new(slabs: &'a Slabs, points: &[Vec<DVec3>], leaf: usize) -> Self {
         let centres: Vec<DVec3> =
@@ -50,14 +51,14 @@ impl<'a> Hierarchy<'a> {
         tree
     }
 
-    /// Tells the elements of all leaves whose bound meets the segment's own; the nodes that were
-    /// tested.
+    /// Calls `told` for each element of the leaves whose bound meets the segment's own. Returns the
+    /// number of nodes tested.
     pub fn meeting(&self, ends: [DVec3; 2], told: impl FnMut(u32)) -> u64 {
         let segment = Dop::of(self.slabs, ends.into_iter());
         self.passing(|dop| dop.meets(&segment), told)
     }
 
-    /// The same of the leaves whose bound the segment itself meets.
+    /// As [`meeting`](Self::meeting), for the leaves whose bound the segment itself meets.
     pub fn crossed(&self, ends: [DVec3; 2], told: impl FnMut(u32)) -> u64 {
         let along = |end: DVec3| self.slabs.directions.iter().map(move |d| d.dot(end));
         let slabs: Vec<[f64; 2]> = along(ends[0])
@@ -94,8 +95,8 @@ impl<'a> Hierarchy<'a> {
         tested
     }
 
-    /// Looks for the least squared distance from a point: `told` has an element and the least so
-    /// far, which it lowers. The slabs are the axes'. The nodes that were tested.
+    /// Searches the least squared distance from a point. `told` gets an element and the least so
+    /// far, and lowers it. The slabs are the axes'. Returns the number of nodes tested.
     pub fn nearest(&self, point: DVec3, mut told: impl FnMut(u32, &mut f64)) -> u64 {
         let mut least = f64::INFINITY;
         let (mut open, mut tested) = (vec![(0, 0.0)], 0);

@@ -99,7 +99,10 @@ pub fn times(subject: &Subject) -> Table {
             ]);
         }
     }
-    table.note("seconds of processor time from the mesh in memory; the paper's machine: Pentium III, 800 MHz");
+    table.note(
+        "seconds of processor time from the mesh in memory; the paper's machine: Pentium III, \
+         800 MHz",
+    );
     noted(table, subject)
 }
 

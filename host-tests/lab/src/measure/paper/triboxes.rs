@@ -63,7 +63,13 @@ pub fn table(subject: &Subject) -> Result<Table, String> {
             joined(|faces, of| format!("{:.2}", of / f64::from(faces))),
         ]);
     }
-    table.note("ratio: the mesh's faces over the triboxes'; cleaned: planes moved outward by up to 5 % of the diagonal so that faces vanish");
-    table.note("the paper's objects have 450 (a) and 950 (b) faces: faces compare, ratios grow with the mesh");
+    table.note(
+        "ratio: the mesh's faces over the triboxes'; cleaned: planes moved outward by up to 5 % \
+         of the diagonal so that faces vanish",
+    );
+    table.note(
+        "the paper's objects have 450 (a) and 950 (b) faces: faces compare, ratios grow with \
+         the mesh",
+    );
     Ok(table)
 }
