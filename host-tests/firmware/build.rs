@@ -25,7 +25,7 @@ const BARE: [&str; 14] = [
 const RUNNING: [&str; 8] = [
     "ask",
     "suite_hull",
-    "suite_overlap",
+    "suite_moving",
     "suite_tree",
     "suite_triboxes",
     "suite_tight",

@@ -10,7 +10,7 @@ use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{Blob as Opened, Hull, ScratchEntry};
-use meshsweep_suite::ask::{Refused, curve, deform, hull, hull_overlap, tight, tree, triboxes};
+use meshsweep_suite::ask::{Refused, curve, deform, hull, hull_moving, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
@@ -34,8 +34,8 @@ pub enum Blob {
     Cut,
     /// The hierarchy for sweeps of the torus with holes.
     Sieve,
-    /// The torus, asked about its moved copy.
-    Overlap,
+    /// The torus, asked about points that move and about its moved copy.
+    Moving,
     /// The torus's box tree, vertices on a grid.
     TorusTree,
     /// The bracket's box tree.
@@ -66,7 +66,7 @@ impl Blob {
         Self::Grid24,
         Self::Cut,
         Self::Sieve,
-        Self::Overlap,
+        Self::Moving,
         Self::TorusTree,
         Self::BracketTree,
         Self::SingleTree,
@@ -88,7 +88,7 @@ impl Blob {
             Self::Grid24 => "grid24",
             Self::Cut => "cut",
             Self::Sieve => "sieve",
-            Self::Overlap => "overlap",
+            Self::Moving => "moving",
             Self::TorusTree => "torus_tree",
             Self::BracketTree => "bracket_tree",
             Self::SingleTree => "single_tree",
@@ -106,7 +106,7 @@ impl Blob {
         let small = |vertex_bits| whole(small_torus(), 50, vertex_bits);
         let default = TreeOptions::default();
         match self {
-            Self::Torus | Self::Overlap => small(VertexBits::Auto),
+            Self::Torus | Self::Moving => small(VertexBits::Auto),
             Self::Bracket => whole(bracket(), BuildOptions::default().base_faces, VertexBits::Auto),
             Self::Grid16 => small(VertexBits::Grid16),
             Self::Grid24 => small(VertexBits::Grid24),
@@ -172,7 +172,7 @@ pub fn write(folder: &Path) -> Result<(), String> {
     for blob in Blob::ALL {
         let bytes = blob.bytes()?;
         let path = folder.join(blob.name());
-        let answers = if blob == Blob::Overlap { overlaps(&bytes)? } else { expected(&bytes)? };
+        let answers = if blob == Blob::Moving { moving(&bytes)? } else { expected(&bytes)? };
         fs::write(path.with_extension("txt"), answers).map_err(failed)?;
         let file = path.with_extension("msw");
         // So that cargo does not build images again whose blob has not changed.
@@ -213,11 +213,11 @@ pub fn expected(blob: &[u8]) -> Result<String, String> {
     lines.end(ran, blob)
 }
 
-/// The same of a split hierarchy and its moved copy.
-fn overlaps(blob: &[u8]) -> Result<String, String> {
+/// The same of a split hierarchy that moves.
+fn moving(blob: &[u8]) -> Result<String, String> {
     let mut lines = Lines::of(blob);
-    let scratch = &mut hull_overlap::Scratch::new();
-    let ran = run::<hull_overlap::Overlapping<'_>>(blob, Plan::STANDARD, scratch, &mut lines);
+    let scratch = &mut hull_moving::Scratch::new();
+    let ran = run::<hull_moving::Moving<'_>>(blob, Plan::STANDARD, scratch, &mut lines);
     lines.end(ran, blob)
 }
 

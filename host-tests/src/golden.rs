@@ -11,7 +11,7 @@ use meshsweep::mesh::{KeyFrame, Mesh};
 use meshsweep::tight::{ChainOptions, chain};
 use meshsweep::tribox::store;
 use meshsweep_suite::ask::{
-    self, Refused, Subject, deform, hull, hull_overlap, tight, tree, triboxes,
+    self, Refused, Subject, deform, hull, hull_moving, tight, tree, triboxes,
 };
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
@@ -159,8 +159,8 @@ pub fn tool_path_curve() -> Vec<u8> {
 /// The core's refusal of the blob.
 pub fn hull_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
     let alone = answers::<hull::Model<'_>>(name, blob, &mut hull::Scratch::new())?;
-    let pair = &mut hull_overlap::Scratch::new();
-    Ok(alone + &answers::<hull_overlap::Overlapping<'_>>(name, blob, pair)?)
+    let pair = &mut hull_moving::Scratch::new();
+    Ok(alone + &answers::<hull_moving::Moving<'_>>(name, blob, pair)?)
 }
 
 /// The same for a blob's box tree.

@@ -30,7 +30,7 @@ const fn curve(name: &'static str) -> Blob {
 }
 
 const TRIBOXES: Blob = Blob { name: "triboxes", image: "suite_triboxes" };
-const OVERLAP: Blob = Blob { name: "overlap", image: "suite_overlap" };
+const MOVING: Blob = Blob { name: "moving", image: "suite_moving" };
 const DEFORM: Blob = Blob { name: "bend", image: "suite_deform" };
 const TIGHT: Blob = Blob { name: "tight", image: "suite_tight" };
 
@@ -48,7 +48,7 @@ impl Blob {
     }
 
     /// Blobs whose bits are compared beside the standard ones: other formats of vertices, a cut
-    /// blob, an open mesh, a soup of triangles, hulls that meet, and a hull that deforms.
+    /// blob, an open mesh, a soup of triangles, a hull that moves, and one that deforms.
     pub const VARIANTS: [Self; 8] = [
         hull("grid16"),
         hull("grid24"),
@@ -56,7 +56,7 @@ impl Blob {
         hull("sieve"),
         tree("single_tree"),
         tree("soup_tree"),
-        OVERLAP,
+        MOVING,
         DEFORM,
     ];
 
@@ -74,7 +74,7 @@ impl Blob {
     /// a hull hierarchy, compiled for speed, are more than 256 KiB.
     #[must_use]
     pub fn profile(self, flash: Flash) -> Profile {
-        if matches!(self.image, "suite_tree" | "suite_hull" | "suite_overlap")
+        if matches!(self.image, "suite_tree" | "suite_hull" | "suite_moving")
             && flash == Flash::Small
         {
             Profile::Small

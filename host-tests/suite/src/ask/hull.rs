@@ -1,9 +1,7 @@
 //! Questions to the split hierarchy.
 
 pub use meshsweep_core::Focus;
-use meshsweep_core::{
-    Blob, Budget, Change, ClosestPoint, Hit, Hull, RefinedHull, ScratchEntry, Search,
-};
+use meshsweep_core::{Blob, Budget, Change, Hit, Hull, RefinedHull, ScratchEntry, Search};
 
 use super::{Refused, Subject, timed};
 use crate::fold::Fold;
@@ -82,7 +80,6 @@ impl<'t> Subject<'t> for Model<'t> {
                 | Kind::AllHits
                 | Kind::OuterHits
                 | Kind::Refine
-                | Kind::Sweep
         )
     }
 
@@ -114,10 +111,6 @@ impl<'t> Subject<'t> for Model<'t> {
             Kind::Refine => {
                 let (focus, error) = focus(self, place);
                 refine(self, &focus, error, scratch, clock, fold);
-            }
-            Kind::Sweep => {
-                let from = place.far();
-                sweep(self, [from, place.near(from), place.far()], scratch, clock, fold);
             }
             _ => {}
         }
@@ -286,37 +279,5 @@ pub fn refine<'t>(
     }
     for face in refined.faces(&model.hull) {
         face.corners.into_iter().for_each(|corner| fold.word(corner.0));
-    }
-}
-
-/// A sweep about three points, one after the other: a few steps at each, then its end, and the next
-/// triangles of the last one.
-pub fn sweep(
-    model: &Model<'_>,
-    points: [[f32; 3]; 3],
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    let queue = &mut scratch.queue;
-    let mut found = [ClosestPoint::EMPTY; 9];
-    let asked = timed(clock, || {
-        let mut slots = found.iter_mut();
-        let mut keep = |answer| slots.next().map(|slot| *slot = answer);
-        let mut sweep = model.hull.sweep(points[0], queue)?;
-        for point in points {
-            sweep.move_to(point)?;
-            for budget in [Budget::EXACT.with_steps(5), Budget::EXACT] {
-                keep(sweep.closest_point(budget)?);
-            }
-        }
-        for _ in 0..3 {
-            keep(sweep.next_triangle(Budget::EXACT)?.unwrap_or(ClosestPoint::EMPTY));
-        }
-        Ok(())
-    });
-    found.iter().for_each(|answer| super::closest_point(fold, answer));
-    if let Err(error) = asked {
-        super::refusal(fold, error);
     }
 }

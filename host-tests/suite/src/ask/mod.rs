@@ -8,7 +8,7 @@
 pub mod curve;
 pub mod deform;
 pub mod hull;
-pub mod hull_overlap;
+pub mod hull_moving;
 pub mod placed;
 pub mod tight;
 pub mod tree;

@@ -1,7 +1,7 @@
-//! Questions of two split hierarchies, in an image of their own: with all others they are more than
-//! the flash of the smallest board.
+//! Questions about a split hierarchy that moves: the kept sweep, and overlaps. They have an image of
+//! their own, because all questions together are more than the flash of the smallest board.
 
-use meshsweep_core::{Budget, Pose, ScratchEntry};
+use meshsweep_core::{Budget, ClosestPoint, Pose, ScratchEntry};
 
 use super::hull::Model;
 use super::{Refused, Subject, timed};
@@ -9,9 +9,9 @@ use crate::fold::Fold;
 use crate::place::{Bounds, Placer};
 use crate::{Clock, Kind};
 
-/// A split hierarchy, asked about its moved copy.
+/// A split hierarchy, asked about points that move and about its moved copy.
 #[derive(Clone, Copy, Debug)]
-pub struct Overlapping<'t>(Model<'t>);
+pub struct Moving<'t>(Model<'t>);
 
 /// Entries of the queue.
 const QUEUE: usize = 256;
@@ -34,7 +34,7 @@ impl Default for Scratch {
     }
 }
 
-impl<'t> Subject<'t> for Overlapping<'t> {
+impl<'t> Subject<'t> for Moving<'t> {
     type Scratch = Scratch;
 
     fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
@@ -54,7 +54,7 @@ impl<'t> Subject<'t> for Overlapping<'t> {
     }
 
     fn suits(kind: Kind) -> bool {
-        matches!(kind, Kind::Overlap)
+        matches!(kind, Kind::Sweep | Kind::Overlap)
     }
 
     fn ask(
@@ -65,11 +65,18 @@ impl<'t> Subject<'t> for Overlapping<'t> {
         clock: &mut impl Clock,
         fold: &mut Fold,
     ) {
-        if kind == Kind::Overlap {
-            let (rotation, translation) = place.motion();
-            let [a, b] = place.segment();
-            let pose = Pose { rotation, translation };
-            overlap(&self.0, pose, [a, b, place.far()], scratch, clock, fold);
+        match kind {
+            Kind::Sweep => {
+                let from = place.far();
+                sweep(&self.0, [from, place.near(from), place.far()], scratch, clock, fold);
+            }
+            Kind::Overlap => {
+                let (rotation, translation) = place.motion();
+                let [a, b] = place.segment();
+                let pose = Pose { rotation, translation };
+                overlap(&self.0, pose, [a, b, place.far()], scratch, clock, fold);
+            }
+            _ => {}
         }
     }
 }
@@ -105,4 +112,36 @@ fn overlap(
             Err(error) => super::refusal(fold, error),
         }
     });
+}
+
+/// A sweep about three points, one after the other: a few steps at each, then its end, and the next
+/// triangles of the last one.
+fn sweep(
+    model: &Model<'_>,
+    points: [[f32; 3]; 3],
+    scratch: &mut Scratch,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let queue = &mut scratch.0;
+    let mut found = [ClosestPoint::EMPTY; 9];
+    let asked = timed(clock, || {
+        let mut slots = found.iter_mut();
+        let mut keep = |answer| slots.next().map(|slot| *slot = answer);
+        let mut sweep = model.hull.sweep(points[0], queue)?;
+        for point in points {
+            sweep.move_to(point)?;
+            for budget in [Budget::EXACT.with_steps(5), Budget::EXACT] {
+                keep(sweep.closest_point(budget)?);
+            }
+        }
+        for _ in 0..3 {
+            keep(sweep.next_triangle(Budget::EXACT)?.unwrap_or(ClosestPoint::EMPTY));
+        }
+        Ok(())
+    });
+    found.iter().for_each(|answer| super::closest_point(fold, answer));
+    if let Err(error) = asked {
+        super::refusal(fold, error);
+    }
 }
