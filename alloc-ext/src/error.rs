@@ -137,8 +137,8 @@ impl fmt::Display for BuildError {
             ),
             Self::FrameTooFar { frame, vertex } => write!(
                 f,
-                "frame {frame}: vertex {vertex} is 64 times the first mesh's size or more from \
-                 the origin; move the frames nearer"
+                "key frame {frame}, counted from 0: vertex {vertex} is 64 times the first mesh's \
+                 size or more from the place of that mesh; move the frames nearer"
             ),
             Self::Triboxes(error) => write!(f, "{error}; choose a larger unit"),
             Self::NoLevel { levels: 0, .. } => {

@@ -86,7 +86,8 @@ impl SegmentQuery {
         let end = if start > 0.0 { (1.0 - start) * (1.0 + 4.0 * U32) } else { 1.0 };
         let from = origin.to_array();
         SegmentQuery {
-            ray: FanRay::new(from, direction.to_array(), inverse, end, surface, norm_1(far)),
+            ray: FanRay::new(from, direction.to_array(), inverse, end, surface, norm_1(far))
+                .turning(units.has_place_error),
             slabs: Slabs::new(from, inverse, margin),
             units,
             origin,

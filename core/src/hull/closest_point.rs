@@ -84,12 +84,7 @@ pub(super) fn closest_point<'a, G: Geometry<'a>>(
         work = sweep.nearest.work(sweep.front.work);
         nearest = sweep.nearest;
     }
-    if nearest.best.is_none() {
-        // Stopped before any triangle was reached: only the box is known.
-        let lower = nearest.lower;
-        nearest.settle_by_box(hull).ok_or(QueryError::Unchecked)?;
-        nearest.lower = nearest.lower.max(lower.min(nearest.upper));
-    }
+    nearest.settle_unreached(hull).ok_or(QueryError::Unchecked)?;
     Ok(nearest.answer(hull.tables(), &frame, work, ended))
 }
 
@@ -242,9 +237,9 @@ impl Nearest {
         high <= low * (1.0 + relative) || high - low <= absolute
     }
 
-    /// A lower bound above this is reported as infinity.
-    pub(super) fn limit(&self) -> f32 {
-        self.limit_f32
+    /// A lower bound that is reported as infinity is above this.
+    pub(super) fn limit(&self) -> f64 {
+        self.limit
     }
 
     pub(super) fn set_limit(&mut self, limit: f64) {
@@ -266,6 +261,16 @@ impl Nearest {
         let ([corner, ..], _) = geometry.triangle(model.corners(instance)?, 0, true)?;
         let point = corner.as_dvec3();
         self.best = Some(Best { distance_sq: 0.0, instance, point });
+        Some(())
+    }
+
+    /// If no triangle was reached: the interval of the box, with the lower bound of the search.
+    pub(super) fn settle_unreached<'a>(&mut self, geometry: &impl Geometry<'a>) -> Option<()> {
+        if self.best.is_none() {
+            let lower = self.lower;
+            self.settle_by_box(geometry)?;
+            self.lower = self.lower.max(lower.min(self.upper));
+        }
         Some(())
     }
 

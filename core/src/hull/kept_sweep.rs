@@ -81,7 +81,7 @@ impl Visit for Keep {
     fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
         for (bound, candidate) in self.nearest.bounds(found).into_iter().zip(found) {
             if bound == f32::INFINITY {
-                self.pruned = self.pruned.min(stored(f64::from(self.nearest.limit()), self.moved));
+                self.pruned = self.pruned.min(stored(self.nearest.limit(), self.moved));
                 continue;
             }
             let key = stored(f64::from(bound.max(self.parent)), self.moved);
@@ -111,8 +111,8 @@ impl<'a> Hull<'a> {
     /// A sweep about `point` (input units) that keeps its state in `scratch` from one question to
     /// the next.
     ///
-    /// `scratch`: a few hundred entries. With fewer an answer still holds, and says if memory ended
-    /// the search.
+    /// `scratch`: 512 entries are enough for scanned parts. [`Hull::scratch_entries`] are too few to
+    /// keep a queue. With fewer an answer still holds, and says if memory ended the search.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Ended, Hull, Scratch};
@@ -211,6 +211,7 @@ impl Sweep<'_, '_> {
             return Some(far.answer(&self.front.model, &self.frame, Work::NONE, ended));
         }
         let mut is_new = self.holds != Holds::Near;
+        let mut evaluated = 0;
         loop {
             let mut keep = self.keep(0.0)?;
             let is_safe = !is_new && self.moved <= self.safe.motion;
@@ -239,16 +240,14 @@ impl Sweep<'_, '_> {
             // An entry that was lost may be the nearest, so the search starts once more.
             if lost < keep.nearest.upper() && !is_new {
                 is_new = true;
+                evaluated = keep.nearest.work(Work::NONE).exact;
                 continue;
             }
             let ended = if lost < keep.nearest.upper() { Ended::Scratch } else { ended };
             keep.nearest.lower_to(lost);
-            let work = keep.nearest.work(self.front.work);
-            if self.best.is_none() {
-                let mut known = self.point()?;
-                known.settle_by_box(&self.front.model)?;
-                return Some(known.answer(&self.front.model, &self.frame, work, ended));
-            }
+            let mut work = keep.nearest.work(self.front.work);
+            work.exact = work.exact.saturating_add(evaluated);
+            keep.nearest.settle_unreached(&self.front.model)?;
             return Some(keep.nearest.answer(&self.front.model, &self.frame, work, ended));
         }
     }
@@ -330,8 +329,10 @@ impl Sweep<'_, '_> {
 
     /// Evaluates the near triangles that f32 cannot rule out. On a Cortex-M f64 is slow.
     fn settle_near(&self, keep: &mut Keep) -> Option<()> {
+        let margin = self.margin();
         for &instance in &self.safe.near {
             let candidate = self.front.look(instance)?;
+            keep.limit_to(margin);
             if Some(instance) != self.best && keep.least(&candidate) <= keep.nearest.upper() {
                 keep.nearest.evaluate(&candidate);
             }
@@ -450,7 +451,7 @@ impl Keep {
     /// A lower bound of a triangle's distance, at most the limit.
     fn least(&self, candidate: &Candidate) -> f64 {
         let [bound, ..] = self.nearest.bounds(core::slice::from_ref(candidate));
-        f64::from(bound.min(self.nearest.limit()))
+        f64::from(bound).min(self.nearest.limit())
     }
 
     /// Triangles farther than the nearest by more than this are not kept.

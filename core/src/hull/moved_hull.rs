@@ -93,7 +93,7 @@ impl<'a> DeformableHull<'a> {
         let surface_error = f64::from(self.rest().header().surface_error);
         let mut moved =
             MovedHull { model: *self, vertices, vertex_box, surface_error, has_pose: false };
-        moved.to_rest()?;
+        moved.reset()?;
         Ok(moved)
     }
 }
@@ -142,7 +142,7 @@ impl MovedHull<'_, '_> {
     ///
     /// # Errors
     /// Never, for a hull that was opened.
-    pub fn to_rest(&mut self) -> Result<(), QueryError> {
+    pub fn reset(&mut self) -> Result<(), QueryError> {
         self.has_pose = false;
         let hull = self.model.rest();
         for (index, record) in (0..).zip(self.vertices.iter_mut()) {

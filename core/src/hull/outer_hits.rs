@@ -141,7 +141,7 @@ fn outer_hits(
     }
     let Some(clipped) = bounds.clip(start, end) else { return Ok(out) };
     refined.begin(model);
-    let mut sweep = Sweep {
+    let mut outer = OuterSearch {
         model,
         frame,
         start,
@@ -157,12 +157,12 @@ fn outer_hits(
         spare: None,
         overflowed: false,
     };
-    sweep.run().ok_or(QueryError::Unchecked)?;
-    let Hits { stored, dropped, .. } = sweep.hits;
-    Ok(OuterHits { stored, dropped, ..sweep.out })
+    outer.run().ok_or(QueryError::Unchecked)?;
+    let Hits { stored, dropped, .. } = outer.hits;
+    Ok(OuterHits { stored, dropped, ..outer.out })
 }
 
-struct Sweep<'a> {
+struct OuterSearch<'a> {
     model: &'a Hull<'a>,
     frame: Frame,
     start: DVec3,
@@ -182,7 +182,7 @@ struct Sweep<'a> {
     overflowed: bool,
 }
 
-impl Sweep<'_> {
+impl OuterSearch<'_> {
     fn run(&mut self) -> Option<()> {
         let mut record_hits = true;
         loop {

@@ -68,15 +68,29 @@ impl Change {
     }
 }
 
-/// The fine or the coarse triangles of a split.
+/// The fine or the coarse triangles of a split that stand for a part of the surface.
 fn star<'a>(
     hull: &Hull<'a>,
     split: SplitIdx,
     fine: bool,
 ) -> impl Iterator<Item = [VertIdx; 3]> + use<'a> {
-    let split = hull.split(split);
+    let (hull, split) = (*hull, hull.split(split));
     let count = split.map_or(0, |s| if fine { s.fine_len() } else { s.ring_len() });
-    (0..count).filter_map(move |i| if fine { split?.fine(i) } else { split?.coarse(i) })
+    (0..count).filter_map(move |i| {
+        let split = split?;
+        let has_part = |slot: usize| {
+            u32::try_from(slot)
+                .is_ok_and(|slot| hull.has_part(split.first_triangle.wrapping_add(slot)))
+        };
+        if fine {
+            return if has_part(i) { split.fine(i) } else { None };
+        }
+        // A coarse triangle stands for the parts of its children.
+        let ring_len = split.ring_len();
+        let by_wings = (split.right_parent == i && has_part(ring_len))
+            || (split.left_parent == i && has_part(ring_len + 1));
+        if has_part(i) || by_wings { split.coarse(i) } else { None }
+    })
 }
 
 impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {

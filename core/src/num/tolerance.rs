@@ -229,6 +229,10 @@ pub const EXACT_INTEGERS: f32 = (1u32 << 24) as f32;
 /// Rounding of a cosine, in units of [`U32`].
 pub const SIGN_COSINE: f32 = 16.0;
 
+/// Largest surface error of a box tree, grid units: 2^60. Its square and its product with any
+/// length of a query stay finite.
+pub const MOST_SURFACE_ERROR: f32 = (1u64 << 60) as f32;
+
 // Box tree, overlap, in units of the coarser grid
 
 /// Rounding of a box's interval, in units of [`U32`] times the extent of both trees along the

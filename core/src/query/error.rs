@@ -21,7 +21,7 @@ pub enum QueryError {
         /// Places for answers.
         answers: u32,
     },
-    /// A tolerance or a distance is negative, NaN or infinite.
+    /// A tolerance or a distance is negative, NaN, infinite or too large.
     Tolerance,
     /// A point or an end of a segment is too far away. Clip segments first. The limits:
     /// - [`Hull`](crate::Hull): 2^40 times the model's size from its origin;
@@ -30,6 +30,8 @@ pub enum QueryError {
     OutOfDomain,
     /// A pose cannot be computed with. One of these holds:
     /// - an entry of its matrix is beyond 2;
+    /// - for [`Pose::to_model`](crate::Pose::to_model), its columns are far from orthonormal: the
+    ///   Frobenius norm of `RᵀR − 1` is above a quarter;
     /// - for triboxes, its translation is beyond [`Tribox::DOMAIN`](crate::Tribox::DOMAIN);
     /// - one model's grid is more than 2^40 times as coarse as the other's;
     /// - a surface error is far larger than its model.
@@ -94,16 +96,19 @@ impl core::fmt::Display for QueryError {
             QueryError::AnswerCount { points, answers } => {
                 return write!(f, "{points} queries, but {answers} answers");
             }
-            QueryError::Tolerance => "a tolerance is negative, NaN or infinite",
+            QueryError::Tolerance => {
+                "a tolerance or a distance is negative, NaN, infinite or too large"
+            }
             QueryError::OutOfDomain => {
                 "a point or a segment's end is too far from the model: clip segments first"
             }
             QueryError::PoseOutOfDomain => {
-                "an entry of the matrix is beyond 2, the translation too large, or one model 2^40 \
-                 times as large as the other"
+                "an entry of the matrix is beyond 2, the matrix far from a rotation where one is \
+                 needed, the translation too large, or one model 2^40 times as large as the other"
             }
             QueryError::NoFrame { frames } => {
-                return write!(f, "not a key frame: the blob has {frames}, from 0");
+                let last = frames.saturating_sub(1);
+                return write!(f, "no such frame: frames go from 0 to {last}");
             }
             QueryError::VertexRecords { needed, found } => {
                 return write!(f, "{found} vertex records, and a moved hull needs {needed}");

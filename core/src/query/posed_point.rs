@@ -49,7 +49,8 @@ impl Pose {
     /// Carries a point of the world into the frame of the model that this pose moves.
     ///
     /// The pose's numbers are taken as exact. The matrix need not be a perfect rotation: every
-    /// [`PosedPoint::distance`] includes its stretch.
+    /// [`PosedPoint::distance`] includes its stretch. An orthonormal matrix gives the narrowest
+    /// intervals.
     ///
     /// For a segment carry both ends. The common points with the moved model are then those of the
     /// carried segment with [`Bvh::with_error`](crate::Bvh::with_error) of the larger `error`, at
@@ -115,7 +116,8 @@ impl Pose {
         Ok(PosedPoint { point, error: up_to_f32(error), stretch })
     }
 
-    /// Where the pose takes a point of the model, rounded to f32 and kept finite.
+    /// The place to which the pose takes a point of the model, rounded to f32. Finite numbers stay
+    /// finite.
     pub fn to_world(&self, model: [f32; 3]) -> [f32; 3] {
         let at = model.map(f64::from);
         let [x, y, z] = self.rotation.map(|row| dot(row.map(f64::from), at));

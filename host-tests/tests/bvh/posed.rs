@@ -2,9 +2,9 @@
 
 use super::distance::scenes::{STACK, all, stack};
 use meshsweep_core::{
-    Budget, Ended, Facing, Hull, Interval, Pose, PosedPoint, QueryError, Verdict,
+    Budget, Bvh, Ended, Facing, Hull, Interval, Pose, PosedPoint, QueryError, Verdict,
 };
-use meshsweep_host_tests::generate::{Rng, rough_sphere};
+use meshsweep_host_tests::generate::{Rng, cube, rough_sphere};
 use meshsweep_host_tests::motion::{Point, placed, rotation};
 use meshsweep_host_tests::oracle::moved::{Place, triangles_meet};
 use meshsweep_host_tests::oracle::{Bounded, distance_to_moved_mesh};
@@ -173,6 +173,72 @@ fn an_error_of_the_place_is_in_every_distance() {
             assert_eq!(tree.with_error(bad).err(), Some(QueryError::Tolerance));
         }
         assert!(tree.with_error(0.0).expect("none").surface_error() >= tree.surface_error());
+    }
+}
+
+#[test]
+fn a_segment_that_may_turn_is_clear_of_no_facing_that_a_place_of_it_meets() {
+    // Planes that the segment crosses within the error of an end, so that it may cross the other
+    // way, and one that it crosses far from both ends.
+    let oblique = |z: f32, y: f32| [0.04 * (z - 10.0), y, z];
+    let planes = [
+        [oblique(-190.0, -100.0), oblique(-190.0, 100.0), oblique(310.0, 0.0)],
+        [[-100.0, -100.0, 0.3], [100.0, -90.0, 0.3], [0.0, 120.0, 0.3]],
+        [[-100.0, -100.0, 10.0], [100.0, -90.0, 10.0], [0.0, 120.0, 10.0]],
+    ];
+    let mut rng = Rng::new(76);
+    let mut clear = 0;
+    for plane in planes {
+        let scene = Scene::both("plane", (plane.to_vec(), vec![[0, 1, 2]]));
+        for tree in scene.trees() {
+            let noisy = tree.with_error(1.0).expect("finite");
+            for facing in [Facing::Front, Facing::Back] {
+                for (a, b) in [([0.0; 3], [0.0, 0.0, 20.0]), ([0.0; 3], [0.0, 0.0, 0.1])] {
+                    let ask = |tree: &Bvh<'_>, a: Point, b: Point| {
+                        let (exact, queue) = (Budget::EXACT, &mut stack(STACK));
+                        let any = tree.any_hit(a, b, facing, exact, queue).expect("answers");
+                        let first = tree.first_hit(a, b, facing, exact, queue).expect("answers");
+                        (any.verdict, first.is_clear())
+                    };
+                    let (verdict, is_clear) = ask(&noisy, a, b);
+                    clear += usize::from(verdict == Verdict::No);
+                    for _ in 0..200 {
+                        let [by_a, by_b] = [rng.direction(), rng.direction()];
+                        let place =
+                            |p: Point, by: Point| std::array::from_fn(|k| p[k] + 0.99 * by[k]);
+                        let (meets, misses) = ask(&tree, place(a, by_a), place(b, by_b));
+                        assert!(
+                            verdict != Verdict::No || meets != Verdict::Yes,
+                            "{plane:?} {facing:?} {a:?} {b:?}"
+                        );
+                        assert!(
+                            !is_clear || misses || meets != Verdict::Yes,
+                            "{plane:?} {facing:?}"
+                        );
+                        assert!(
+                            verdict != Verdict::Yes || meets != Verdict::No,
+                            "{plane:?} {facing:?} {a:?} {b:?}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+    assert!(clear > 0, "nothing was clear");
+}
+
+#[test]
+fn an_error_that_overflows_is_refused_and_any_other_is_never_clear_of_walls() {
+    let (positions, mut triangles) = cube(1);
+    let is_lid = |t: &[u32; 3], z: f32| t.iter().all(|&v| positions[v as usize][2] == z);
+    triangles.retain(|t| !is_lid(t, 1.0) && !is_lid(t, -1.0));
+    for tree in Scene::both("tube", (positions, triangles)).trees() {
+        let errors = (0..4000).map(|k| f32::MAX * 0.9f32.powi(k));
+        let most = errors.filter_map(|error| tree.with_error(error).ok()).next().expect("some");
+        let (a, b) = ([0.25, 0.0, -2.0], [0.25, 0.0, 2.0]);
+        let any = most.any_hit(a, b, Facing::Both, Budget::EXACT, &mut stack(STACK));
+        assert_ne!(any.expect("answers").verdict, Verdict::No);
+        assert_eq!(tree.with_error(f32::MAX).err(), Some(QueryError::Tolerance));
     }
 }
 

@@ -300,7 +300,7 @@ fn a_refused_update_leaves_no_pose() {
         assert_eq!(refused, Err(QueryError::VertexOutOfDomain { vertex: 7 }));
         assert_eq!(ask(&moved), Err(QueryError::NoPose));
     }
-    moved.to_rest().expect("an opened model");
+    moved.reset().expect("an opened model");
     assert_eq!(ask(&moved), Ok(rest));
     // One record too few.
     let needed = hull.vertex_records();

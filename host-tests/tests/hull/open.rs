@@ -7,8 +7,8 @@ use meshsweep::cut::cut;
 use meshsweep::hull::{Kind, build_for_sweep};
 use meshsweep::mesh::{Mesh, read_bytes, repair};
 use meshsweep_core::{
-    Budget, ClosestPoint, Ended, Focus, Hit, Hull, Interval, OpenError, QueryError, RefinedHull,
-    ScratchEntry, Search,
+    Budget, Change, ClosestPoint, Ended, Focus, Hit, Hull, Interval, OpenError, QueryError,
+    RefinedHull, ScratchEntry, Search, VertIdx,
 };
 use meshsweep_host_tests::check::check_blob;
 use meshsweep_host_tests::corrupt::{entry, put_u32, seal, word};
@@ -19,6 +19,7 @@ use meshsweep_host_tests::generate::{
 };
 use meshsweep_host_tests::oracle::{contacts, gap_to_triangle};
 use meshsweep_host_tests::scene::Scene;
+use std::collections::HashSet;
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -352,4 +353,39 @@ fn a_hierarchy_none_of_whose_triangles_stands_for_anything_is_refused() {
     seal(&mut bytes);
     let what = "no triangle stands for a part of the surface";
     assert_eq!(Hull::open(&bytes).err(), Some(OpenError::Counts { what }));
+}
+
+#[test]
+fn changes_carried_out_one_after_the_other_give_the_faces() {
+    let rotated = |mut corners: [VertIdx; 3]| {
+        let least = (0..3).min_by_key(|&k| corners[k]).expect("three");
+        corners.rotate_left(least);
+        corners
+    };
+    let mut changed = 0;
+    for scene in scenes() {
+        let model = scene.model();
+        let mut refined = RefinedHull::<4096>::new();
+        let now = |refined: &RefinedHull<'_, 4096>| {
+            refined.faces(&model).map(|face| rotated(face.corners)).collect::<HashSet<_>>()
+        };
+        let mut drawn = now(&refined);
+        let mut changes = vec![Change::EMPTY; 8192];
+        for part in [0.25, 0.02, 0.0, 0.1] {
+            let error = part * scene.size();
+            let update =
+                refined.update(&model, &Focus::Everywhere, error, &mut changes).expect("finite");
+            assert_eq!(update.dropped, 0);
+            for change in &changes[..update.stored] {
+                for face in change.removed(&model) {
+                    assert!(drawn.remove(&rotated(face)), "{}: {face:?} is not there", scene.name);
+                }
+                drawn.extend(change.added(&model).map(rotated));
+                changed += 1;
+            }
+            assert_eq!(drawn, now(&refined), "{} at {error}", scene.name);
+            assert_eq!(drawn.len(), update.faces as usize);
+        }
+    }
+    assert!(changed > 1000, "{changed} changes");
 }

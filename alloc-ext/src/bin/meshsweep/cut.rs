@@ -43,6 +43,9 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
             write!(out, ", {}", Counted(hulls.count(), "tight hull"))?;
         }
         writeln!(out)?;
+        if blob.deformable_hull().is_ok() && left.deformable_hull().is_err() {
+            writeln!(out, "key frames and moving vertices cannot be cut and are left out")?;
+        }
         match blob.bvh().ok().filter(|_| args.level.is_some()) {
             Some(_) => writeln!(
                 out,

@@ -10,7 +10,7 @@ use super::view::Bvh;
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
 use crate::geom::fan::WIDTH;
-use crate::num::tolerance::U32;
+use crate::num::tolerance::{MOST_SURFACE_ERROR, U32};
 
 /// Nodes on the longest path from the root: eight-fold branching needs fewer than ten, degenerate
 /// input a few more.
@@ -117,7 +117,7 @@ impl<'a> Bvh<'a> {
             return wrong("tree grid out of range");
         }
         if !(h.surface_error >= 0.0
-            && h.surface_error.is_finite()
+            && self.units.surface_error <= MOST_SURFACE_ERROR
             && h.star_radius >= 0.0
             && h.star_radius <= 1e7)
         {

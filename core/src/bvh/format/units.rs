@@ -12,6 +12,8 @@ pub(crate) struct Units {
     outward: [f32; 2],
     /// Surface error, grid units.
     pub(crate) surface_error: f32,
+    /// A part of the surface error is one of the query's place.
+    pub(crate) has_place_error: bool,
 }
 
 impl Units {
@@ -23,6 +25,7 @@ impl Units {
             inward: [power(half.wrapping_neg()), power(rest.wrapping_neg())],
             outward: [power(half), power(rest)],
             surface_error: header.surface_error * power(header.grid_exponent.wrapping_neg()),
+            has_place_error: false,
         }
     }
 

@@ -12,7 +12,7 @@ use super::leaf::{FanLeaf, LeafShape};
 use super::units::Units;
 use crate::format::Bytes;
 use crate::num::sum_up;
-use crate::num::tolerance::U32;
+use crate::num::tolerance::{MOST_SURFACE_ERROR, U32};
 use crate::query::QueryError;
 use glam::Vec3;
 
@@ -183,25 +183,28 @@ impl Bvh<'_> {
         }
     }
 
-    /// The same tree for queries whose place is known up to `error` (input units): a point or a
-    /// point of a segment may be anywhere within this distance of the place asked about. Every
-    /// answer holds for all of these places.
+    /// The same tree for queries whose place is known up to `error` (input units). A point, or each
+    /// end of a segment, may be anywhere within this distance of the place asked about. Every
+    /// interval and every verdict holds for all of these places. Points and triangles of answers
+    /// are those of the place asked about.
     ///
     /// The error is added to [`surface_error`](Self::surface_error). Of noise larger than the
     /// model's details many answers are [`Ended::Resolution`](crate::Ended::Resolution).
+    /// [`front_facing`](Self::front_facing) ignores it.
     ///
     /// # Errors
-    /// [`QueryError::Tolerance`] if it is negative, NaN or infinite, or beyond f32 in grid units.
+    /// [`QueryError::Tolerance`] if it is negative, NaN or infinite, or more than 2^60 grid units.
     pub fn with_error(mut self, error: f32) -> Result<Self, QueryError> {
         let mut more = self.units.inward(error);
         if error > 0.0 && more < f32::MIN_POSITIVE {
             more = f32::MIN_POSITIVE;
         }
         let sum = sum_up(self.units.surface_error, more) * (1.0 + 32.0 * U32);
-        if error.is_nan() || error < 0.0 || !sum.is_finite() {
+        if error.is_nan() || error < 0.0 || sum.is_nan() || sum > MOST_SURFACE_ERROR {
             return Err(QueryError::Tolerance);
         }
         self.units.surface_error = sum;
+        self.units.has_place_error |= error > 0.0;
         Ok(self)
     }
 

@@ -39,6 +39,9 @@ pub struct FanRay {
     slack: f32,
     /// Greatest parameter.
     end: f32,
+    /// The ends of the segment may be moved by the surface error, each on its own way. Then the
+    /// segment may turn.
+    may_turn: bool,
 }
 
 /// A common point of a segment and a triangle.
@@ -107,7 +110,14 @@ impl FanRay {
             doubt: 1.7321 * surface + (FAN_SHEAR * U32 * size + LEAST_DENOMINATOR),
             slack: (surface + (4.0 * U32 * size + LEAST_DENOMINATOR)) * along.abs(),
             end,
+            may_turn: false,
         }
+    }
+
+    /// The same for a segment whose direction is known up to the surface error only.
+    #[inline(always)]
+    pub fn turning(self, may_turn: bool) -> Self {
+        FanRay { may_turn, ..self }
     }
 
     /// Greatest parameter.
@@ -220,10 +230,13 @@ impl FanRay {
             };
             let sign = if total < 0.0 { -1.0 } else { 1.0 };
             if inside(sign) {
-                if sign * wanted < 0.0 {
+                let within = (lower >= 0.0) & (upper <= self.end);
+                let is_wanted = sign * wanted >= 0.0;
+                // A segment that may turn keeps the facing only if its ends cannot pass the plane.
+                if !is_wanted && (within | !self.may_turn) {
                     return None;
                 }
-                certain = (lower >= 0.0) & (upper <= self.end);
+                certain = within & is_wanted;
             }
         }
         let within = (lower >= 0.0) & (upper <= self.end);

@@ -124,6 +124,11 @@ impl<'a> DeformableHull<'a> {
         self.hull
     }
 
+    /// With this many scratch entries no closest point ends for lack of memory.
+    pub fn scratch_entries(&self) -> usize {
+        self.hull.scratch_entries()
+    }
+
     /// Vertices of the input file. [`MovedHull::update`](crate::MovedHull::update) asks for the
     /// places of some of these numbers.
     pub fn input_vertices(&self) -> u32 {

@@ -72,7 +72,6 @@ fn run<T: Real>(
         if search.work.splits >= steps {
             return Some((Some(Ended::Steps), search.work));
         }
-        search.work.splits += 1;
         let swept = [places.swept(0, &pair[0]), places.swept(1, &pair[1])];
         let [opens_a, opens_b] = pair.map(|triangle| triangle.fate == Fate::Splits);
         // A root is refined at once: its number is too large for a waiting pair.
@@ -82,13 +81,15 @@ fn run<T: Real>(
                 || swept[0].size() >= swept[1].size());
         search.opened = usize::from(!first);
         search.pair = pair;
-        if first {
+        let left = steps.saturating_sub(search.work.splits);
+        let replaced = if first {
             search.fixed = swept[1];
-            side_a.open(pair[0].instance, &mut search)?;
+            side_a.open(pair[0].instance, left, &mut search)?
         } else {
             search.fixed = swept[0];
-            side_b.open(pair[1].instance, &mut search)?;
-        }
+            side_b.open(pair[1].instance, left, &mut search)?
+        };
+        search.work.splits = search.work.splits.saturating_add(replaced);
         // The visitor has its answer. On a cut blob that answer is `Resolution`.
         if !search.found? {
             let cut = if is_cut { Some(Ended::Resolution) } else { None };

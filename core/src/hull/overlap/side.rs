@@ -81,12 +81,23 @@ impl<'a> Side<'a> {
         if instance == ROOT { Some(self.root) } else { self.front.as_ref()?.look(instance) }
     }
 
-    /// Shows the next finer triangles. `None`: the model is unchecked.
+    /// Shows the next finer triangles, after at most `steps` replacements, and returns how many were
+    /// made. `None`: the model is unchecked.
     #[inline]
-    pub(super) fn open(&mut self, instance: Instance, visitor: &mut impl Visit) -> Option<()> {
+    pub(super) fn open(
+        &mut self,
+        instance: Instance,
+        steps: u32,
+        visitor: &mut impl Visit,
+    ) -> Option<u32> {
         let front = self.front.as_mut()?;
-        front.allow(u32::MAX);
-        if instance == ROOT { front.begin(visitor) } else { front.open(instance, visitor) }
+        front.allow(steps);
+        if instance == ROOT {
+            front.begin(visitor)?;
+            return Some(1);
+        }
+        front.open(instance, visitor)?;
+        Some(front.work.splits)
     }
 
     /// With this many entries for this side no search ends for lack of memory.

@@ -92,7 +92,7 @@ fn what_cannot_be_answered_is_refused() {
     let bytes = build(mesh.as_input(), &options).expect("builds").0.to_bytes();
     let closest_only = Bvh::open(&bytes).expect("opens");
     // A surface error beside which the model is nothing.
-    let bytes = build(Input { moved: 1e37, ..mesh.as_input() }, &TreeOptions::default())
+    let bytes = build(Input { moved: 1e12, ..mesh.as_input() }, &TreeOptions::default())
         .expect("builds")
         .0
         .to_bytes();

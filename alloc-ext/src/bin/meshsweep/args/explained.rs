@@ -48,7 +48,8 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     is, nothing is written. With --margin hulls keep a distance from the mesh. Their answers are \
     still about the mesh, with wider intervals. --tight-for closest leaves out the boxes for \
     segments and for overlap, about 2 bytes a face, which only the library asks.\n\n\
-    deform takes the mesh and its key frames, files with the same triangles in the same order. \
+    deform takes a closed manifold mesh and its key frames, files with the same triangles in the \
+    same order, each triangle from the same first corner. \
     Between two frames every vertex moves on a straight line. Repairs are made on the first mesh \
     and applied to the others; a repair that holds in the first mesh only is refused.\n\n\
     curve reads CSV: x,y or x,y,z on a line, and at most one header line. It is the only value \
@@ -81,7 +82,9 @@ pub const INFO: &str = "Examples:\n  \
 
 pub fn closest() -> String {
     format!(
-        "lower and upper enclose the exact distance to the mesh as it was read. px, py, pz is a \
+        "lower and upper enclose the exact distance to the mesh as it was read. They are printed \
+         as the shortest decimals that read back as the same f32: round them to f32 before you \
+         compare. px, py, pz is a \
          point of its surface, at most upper away. {TRIANGLES}. work counts the boxes and \
          triangles that the search looked at. It depends on the other queries: without --rel, \
          --abs, --steps and --queue the box tree answers thousands at once, and each begins where \
@@ -230,11 +233,12 @@ pub const HULL: &str = "The hull of a mesh is closed, does not cross itself, and
     meshsweep hull part.msw --level 0 -o coarsest.ply\n  \
     meshsweep hull hulls.msw --tight 200 -o hull.ply";
 
-pub const REFINE: &str = "The hull is closed and encloses the mesh. A face that meets \
-    the focus is no farther than --error from the part of the mesh that it stands for. If memory \
-    is too short for that, the output prints the error that is left. Without a focus the whole \
-    hull is refined. With --eye a face may have the error of one of --pixels at its distance. The \
-    blob must be built --for hull.\n\n\
+pub const REFINE: &str = "Of a blob built --for hull the mesh that is written is closed \
+    and encloses the part. Of one built --for sweep it lies near the part, is open where the part \
+    is, and encloses nothing. A face that meets the focus is no farther than --error from the \
+    part of the mesh that it stands for. If memory is too short for that, the output prints the \
+    largest error of the splits that were left out. Without a focus the whole hull is refined. \
+    With --eye a face may have the error of one of --pixels at its distance.\n\n\
     Examples:\n  \
     meshsweep refine part.msw --error 0.1 -o hull.ply\n  \
     meshsweep refine part.msw --near 10,0,5 --within 4 --error 0.01 -o hull.ply\n  \
@@ -245,7 +249,7 @@ pub const REFINE: &str = "The hull is closed and encloses the mesh. A face that 
 pub const CUT: &str = "meshsweep info lists the levels. --level leaves the box tree out: it holds \
     all of the surface or nothing.\n\n\
     Triboxes stay as they are unless --triboxes is given, and tight hulls unless --tight is. \
-    Without --level the rest stays.\n\n\
+    Without --level the rest stays. With --level key frames are left out too.\n\n\
     Examples:\n  \
     meshsweep cut part.msw --level 2 -o small.msw\n  \
     meshsweep cut part.msw --triboxes 8 -o small.msw\n  \
