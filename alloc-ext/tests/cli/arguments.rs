@@ -123,6 +123,9 @@ fn every_command_s_help_has_examples_that_run() {
     write_csv(&directory.join("segments.csv"), &segments);
     write_csv(&directory.join("path.csv"), &[[30f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]; 3]);
     fs::copy(fixture("fence.csv"), directory.join("fence.csv")).unwrap();
+    for frame in ["rest.ply", "bent.ply"] {
+        fs::copy(&scan, directory.join(frame)).unwrap();
+    }
     let everything = ["--for", "closest,segment,cull,hull,triboxes", "--triboxes", "8"];
     let part = blob(&directory, "bracket.stl", &everything);
     let commands = ok(["help"]);

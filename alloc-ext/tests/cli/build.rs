@@ -345,7 +345,7 @@ fn an_open_mesh_is_built_for_sweeps_and_its_levels_are_no_hulls() {
     let report = ok(["build", arg(&mesh), "-o", arg(&out), "--for", "sweep", "--base", "4"]);
     for part in [
         "no hulls, distances and segments only: 1 hole, 0 copied vertices",
-        "serves closest, segment, refine, cut",
+        "serves closest, segment, overlap, refine, cut",
         "hull hierarchy, for sweeps only: its levels enclose nothing",
     ] {
         assert!(report.contains(part), "{part} in {report}");
