@@ -34,7 +34,7 @@ pub enum Blob {
     Cut,
     /// The hierarchy for sweeps of the torus with holes.
     Sieve,
-    /// The torus, asked about points that move and about its moved copy.
+    /// A smaller torus, asked about points that move and about its moved copy.
     Moving,
     /// The torus's box tree, vertices on a grid.
     TorusTree,
@@ -106,7 +106,9 @@ impl Blob {
         let small = |vertex_bits| whole(small_torus(), 50, vertex_bits);
         let default = TreeOptions::default();
         match self {
-            Self::Torus | Self::Moving => small(VertexBits::Auto),
+            Self::Torus => small(VertexBits::Auto),
+            // Fewer triangles, as of the tree below.
+            Self::Moving => whole(torus(2.0, 0.75, 16, 10), 50, VertexBits::Auto),
             Self::Bracket => whole(bracket(), BuildOptions::default().base_faces, VertexBits::Auto),
             Self::Grid16 => small(VertexBits::Grid16),
             Self::Grid24 => small(VertexBits::Grid24),

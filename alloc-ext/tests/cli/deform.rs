@@ -103,7 +103,10 @@ fn frames_of_another_topology_are_refused_with_the_difference() {
     let far = text.replacen("v ", "v 1000 1000 1000 #", 1);
     put(&far);
     let message = refused(&build(&directory, &[&rest, &other]), 1, "");
-    assert!(message.contains("key frame 1") && message.contains("vertex 0 is 64 times"), "{message}");
+    assert!(
+        message.contains("key frame 1") && message.contains("vertex 0 is 64 times"),
+        "{message}"
+    );
 }
 
 /// Each flaw is mended at rest, and may come back when the vertices move.

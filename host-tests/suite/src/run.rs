@@ -70,7 +70,7 @@ pub enum Kind {
     Refine,
     /// A sweep that is moved, interrupted, and asked for more triangles.
     Sweep,
-    /// Closest point and first hit of the model under a pose.
+    /// Closest point of the model under a pose.
     Posed,
     /// Closest point between two key frames.
     Frame,

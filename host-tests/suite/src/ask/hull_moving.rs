@@ -54,7 +54,7 @@ impl<'t> Subject<'t> for Moving<'t> {
     }
 
     fn suits(kind: Kind) -> bool {
-        matches!(kind, Kind::Sweep | Kind::Overlap)
+        matches!(kind, Kind::Sweep | Kind::Posed | Kind::Overlap)
     }
 
     fn ask(
@@ -69,6 +69,11 @@ impl<'t> Subject<'t> for Moving<'t> {
             Kind::Sweep => {
                 let from = place.far();
                 sweep(&self.0, [from, place.near(from), place.far()], scratch, clock, fold);
+            }
+            Kind::Posed => {
+                let (rotation, translation) = place.motion();
+                let pose = Pose { rotation, translation };
+                posed(&self.0, pose, place.far(), scratch, clock, fold);
             }
             Kind::Overlap => {
                 let (rotation, translation) = place.motion();
@@ -143,5 +148,29 @@ fn sweep(
     found.iter().for_each(|answer| super::closest_point(fold, answer));
     if let Err(error) = asked {
         super::refusal(fold, error);
+    }
+}
+
+/// Closest point of the moved model.
+fn posed(
+    model: &Model<'_>,
+    pose: Pose,
+    point: [f32; 3],
+    scratch: &mut Scratch,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let asked = timed(clock, || {
+        let here = pose.to_model(point)?;
+        let near = model.hull.closest_point(here.point, Budget::EXACT, &mut scratch.0)?;
+        Ok((here.distance(near.distance), pose.to_world(near.point)))
+    });
+    match asked {
+        Ok((distance, place)) => {
+            fold.f32(distance.lower);
+            fold.f32(distance.upper);
+            fold.point(place);
+        }
+        Err(error) => super::refusal(fold, error),
     }
 }

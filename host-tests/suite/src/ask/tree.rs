@@ -16,7 +16,7 @@ use crate::{Clock, Kind};
 pub use distance::{
     all_within, batch, closest, coherent, follow, is_within, nearest, signed, stopped,
 };
-pub use meeting::{all_overlaps, overlap, pose, posed};
+pub use meeting::{all_overlaps, overlap, pose};
 pub use sight::{all_hits, any_hit, cull, facing, first_hit};
 
 /// Entries of the stack.
@@ -81,7 +81,7 @@ impl<'t> Subject<'t> for Bvh<'t> {
 
     fn suits(kind: Kind) -> bool {
         let is_of_others = kind.is_triboxes() || kind.is_deform();
-        !matches!(kind, Kind::OuterHits | Kind::Refine | Kind::Sweep) && !is_of_others
+        !matches!(kind, Kind::OuterHits | Kind::Refine | Kind::Sweep | Kind::Posed) && !is_of_others
     }
 
     fn ask(
@@ -117,10 +117,6 @@ impl<'t> Subject<'t> for Bvh<'t> {
             Kind::AllHits => all_hits(self, place.segment(), scratch, to),
             Kind::Batch => batch(self, &core::array::from_fn(|_| place.far()), scratch, to),
             Kind::Cull => cull(self, place.far(), scratch, to),
-            Kind::Posed => {
-                let by = pose(place.motion());
-                posed(self, by, [place.far(), place.far()], scratch, to);
-            }
             Kind::Overlap => overlap(self, pose(place.motion()), scratch, to),
             Kind::AllOverlaps => all_overlaps(self, pose(place.motion()), scratch, to),
             _ => {}

@@ -1,11 +1,11 @@
 //! The model and its moved copy.
 
-use meshsweep_core::{Budget, Facing, Pose, Verdict};
+use meshsweep_core::{Budget, Pose, Verdict};
 
 use super::{Bvh, Scratch};
 use crate::Clock;
 use crate::ask::{self, Asked};
-use crate::place::{Ends, Motion};
+use crate::place::Motion;
 
 /// A motion as the core takes it.
 #[must_use]
@@ -53,29 +53,4 @@ pub fn all_overlaps(
         to.fold.word(answer.dropped);
         ask::how(to.fold, answer.work, answer.ended);
     }
-}
-
-/// Closest point of `a` and first hit of the segment from `a` to `b`, of the moved model.
-#[inline(never)]
-pub fn posed(
-    tree: &Bvh<'_>,
-    pose: Pose,
-    [a, b]: Ends,
-    s: &mut Scratch<'_>,
-    to: &mut Asked<'_, impl Clock>,
-) {
-    let call = || {
-        let (from, end) = (pose.to_model(a)?, pose.to_model(b)?);
-        let near = tree.closest_point(from.point, Budget::EXACT, &mut s.stack)?;
-        let tree = tree.with_error(from.error.max(end.error))?;
-        let hit =
-            tree.first_hit(from.point, end.point, Facing::Both, Budget::EXACT, &mut s.stack)?;
-        Ok((from.distance(near.distance), pose.to_world(near.point), hit))
-    };
-    to.answer(call, |fold, (distance, point, hit)| {
-        fold.f32(distance.lower);
-        fold.f32(distance.upper);
-        fold.point(*point);
-        ask::segment_hit(fold, hit);
-    });
 }
