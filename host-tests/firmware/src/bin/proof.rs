@@ -9,7 +9,9 @@ mod bare;
 
 use bare::Input;
 use meshsweep_suite::ask::hull::Focus;
-use meshsweep_suite::ask::{Asked, curve, deform, hull, tight, tree, tribox, triboxes};
+use meshsweep_suite::ask::{
+    Asked, curve, deform, hull, hull_moving, tight, tree, tribox, triboxes,
+};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::place::{Motion, Point};
 
@@ -52,9 +54,15 @@ ask! {
     ask_hull_outer_hits: hull::Model<'t>, |model, input, scratch, fold| {
         hull::outer_hits(model, ends(input), scratch, &mut (), fold)
     };
-    ask_hull_overlap: hull::Model<'t>, |model, input, scratch, fold| {
+    ask_hull_sweep: hull_moving::Moving<'t>, |model, input, scratch, fold| {
+        hull_moving::sweep(model, [input.a, input.b, input.a], scratch, &mut (), fold)
+    };
+    ask_hull_posed: hull_moving::Moving<'t>, |model, input, scratch, fold| {
+        hull_moving::posed(model, tree::pose(motion(input)), input.b, scratch, &mut (), fold)
+    };
+    ask_hull_overlap: hull_moving::Moving<'t>, |model, input, scratch, fold| {
         let (a, b) = (input.a, input.b);
-        hull::overlap(model, tree::pose(motion(input)), [a, b, a], scratch, &mut (), fold)
+        hull_moving::overlap(model, tree::pose(motion(input)), [a, b, a], scratch, &mut (), fold)
     };
     ask_hull_refine: hull::Model<'t>, |model, input, scratch, fold| {
         let [radius, cosine, error] = input.b;
@@ -104,6 +112,11 @@ ask! {
     };
     ask_tree_any_hit: tree::Bvh<'t>, |tree, input, scratch, fold| {
         tree::any_hit(tree, ends(input), scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_with_error: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        if let Ok(tree) = tree.with_error(input.b[0]) {
+            tree::any_hit(&tree, ends(input), scratch, &mut Asked::new((), fold))
+        }
     };
     ask_tree_all_hits: tree::Bvh<'t>, |tree, input, scratch, fold| {
         tree::all_hits(tree, ends(input), scratch, &mut Asked::new((), fold))

@@ -68,18 +68,18 @@ impl<'t> Subject<'t> for Moving<'t> {
         match kind {
             Kind::Sweep => {
                 let from = place.far();
-                sweep(&self.0, [from, place.near(from), place.far()], scratch, clock, fold);
+                sweep(self, [from, place.near(from), place.far()], scratch, clock, fold);
             }
             Kind::Posed => {
                 let (rotation, translation) = place.motion();
                 let pose = Pose { rotation, translation };
-                posed(&self.0, pose, place.far(), scratch, clock, fold);
+                posed(self, pose, place.far(), scratch, clock, fold);
             }
             Kind::Overlap => {
                 let (rotation, translation) = place.motion();
                 let [a, b] = place.segment();
                 let pose = Pose { rotation, translation };
-                overlap(&self.0, pose, [a, b, place.far()], scratch, clock, fold);
+                overlap(self, pose, [a, b, place.far()], scratch, clock, fold);
             }
             _ => {}
         }
@@ -90,8 +90,8 @@ impl<'t> Subject<'t> for Moving<'t> {
 const STEPS: u32 = 48;
 
 /// Whether the surface meets its moved copy, and a triangle.
-fn overlap(
-    model: &Model<'_>,
+pub fn overlap(
+    Moving(model): &Moving<'_>,
     pose: Pose,
     triangle: [[f32; 3]; 3],
     scratch: &mut Scratch,
@@ -121,8 +121,8 @@ fn overlap(
 
 /// A sweep about three points, one after the other: a few steps at each, then its end, and the next
 /// triangles of the last one.
-fn sweep(
-    model: &Model<'_>,
+pub fn sweep(
+    Moving(model): &Moving<'_>,
     points: [[f32; 3]; 3],
     scratch: &mut Scratch,
     clock: &mut impl Clock,
@@ -152,8 +152,8 @@ fn sweep(
 }
 
 /// Closest point of the moved model.
-fn posed(
-    model: &Model<'_>,
+pub fn posed(
+    Moving(model): &Moving<'_>,
     pose: Pose,
     point: [f32; 3],
     scratch: &mut Scratch,
