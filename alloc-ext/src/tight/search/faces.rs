@@ -112,9 +112,13 @@ impl<'a> HullSearch<'a, '_> {
             }
             let input = self.initial_input();
             let initial = match voxels {
-                Some(voxels) => {
-                    closure_hull(&input, voxels, target.faces, Conditions::PAPER, self.on_progress)
-                }
+                Some(voxels) => closure_hull(
+                    &input,
+                    voxels,
+                    target.faces,
+                    Conditions::STANDARD,
+                    self.on_progress,
+                ),
                 None => grown_box(&input),
             };
             if let Some(initial) = initial {
