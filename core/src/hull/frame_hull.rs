@@ -164,10 +164,6 @@ impl<'a> Geometry<'a> for FrameHull<'a> {
         self.vertex_box
     }
 
-    fn surface_box(&self) -> Aabb {
-        self.vertex_box
-    }
-
     fn surface_error(&self) -> f64 {
         self.surface_error
     }

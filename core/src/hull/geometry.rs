@@ -27,8 +27,10 @@ pub(crate) trait Geometry<'a>: Copy {
     /// Box of every vertex of every level.
     fn vertex_box(&self) -> Aabb;
 
-    /// Box of the surface.
-    fn surface_box(&self) -> Aabb;
+    /// Box of the surface, or a larger one.
+    fn surface_box(&self) -> Aabb {
+        self.vertex_box()
+    }
 
     /// No point of the mesh is farther than this from the triangles of the surface, nor the
     /// reverse; and no radius is too small by more than this.

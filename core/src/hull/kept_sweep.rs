@@ -111,8 +111,8 @@ impl<'a> Hull<'a> {
     /// A sweep about `point` (input units) that keeps its state in `scratch` from one question to
     /// the next.
     ///
-    /// `scratch`: 512 entries are enough for scanned parts. [`Hull::scratch_entries`] are too few to
-    /// keep a queue. With fewer an answer still holds, and says if memory ended the search.
+    /// `scratch`: 512 entries are enough for scanned parts. [`Hull::scratch_entries`] are too few
+    /// to keep a queue. With fewer an answer still holds, and says if memory ended the search.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Ended, Hull, Scratch};

@@ -311,10 +311,6 @@ impl<'a> Geometry<'a> for Pose<'a, '_> {
         self.vertex_box
     }
 
-    fn surface_box(&self) -> Aabb {
-        self.vertex_box
-    }
-
     fn surface_error(&self) -> f64 {
         self.surface_error
     }

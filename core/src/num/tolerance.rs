@@ -30,7 +30,7 @@ pub const SQUARE_FLOOR: f32 = 1.0 / ((1u64 << 50) as f32 * (1u64 << 50) as f32);
 
 // Poses
 
-/// Rounding of what is left of a carried point, in units of [`U64`] times the sum of its terms.
+/// Rounding of the residual of a carried point, in units of [`U64`] times the sum of its terms.
 /// Proved: 4.1 (§15).
 pub const POSED_POINT: f64 = 8.0;
 

@@ -93,7 +93,7 @@ impl Pose {
             let rest = |row, world: f64, shift: f64| world - shift - dot(row, at);
             [rest(r0, wx, tx), rest(r1, wy, ty), rest(r2, wz, tz)]
         };
-        // The transposed matrix is nearly the inverse. The second step makes good most of the rest.
+        // The transposed matrix is nearly the inverse. The second step removes most of the error.
         let mut at = [0.0; 3];
         for _ in 0..2 {
             let left = residual(at);
@@ -111,7 +111,7 @@ impl Pose {
             left.abs() + POSED_POINT * U64 * terms
         };
         let sizes = [size(r0, x, wx, tx), size(r1, y, wy, ty), size(r2, z, wz, tz)];
-        // What is left, carried back by the inverse: no factor of it is above 1 / (1 − stretch).
+        // The inverse carries the residual back. It stretches by at most 1 / (1 − stretch).
         let error = libm::sqrt(dot(sizes, sizes)) / (1.0 - stretch) * (1.0 + POSED_POINT * U64);
         Ok(PosedPoint { point, error: up_to_f32(error), stretch })
     }

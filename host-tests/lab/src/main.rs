@@ -18,13 +18,18 @@ use meshsweep_xtask::say;
 use meshsweep_xtask::steps::Steps;
 
 const USAGE: &str = "\
-cargo xtask measure [--tree | --triboxes | --deform | --overlap | --tight [--firmware] | --bounds [--count] | --paper TABLE] [--plot FILE.svg] [--picture FILE.svg] [MESH...]
-                                    work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/);
-                                    --tree: only the box tree's; --triboxes: the stored ones; --deform: the hull
-                                    hierarchy under motions; --overlap: the mesh against itself; --tight: tight
-                                    hulls, each proved, drawn with --picture, on a Cortex-M4F with --firmware;
-                                    --bounds: how tight boxes, triboxes, hulls... are, with --count what they cost;
-                                    --paper: a table of the papers, alone: which there are; --plot: loss against cost
+cargo xtask measure [--tree | --triboxes | --deform | --overlap | --tight [--firmware]
+                    | --bounds [--count] | --paper TABLE]
+                    [--plot FILE.svg] [--picture FILE.svg] [MESH...]
+          work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/)
+          --tree      only the box tree's
+          --triboxes  the stored ones
+          --deform    the hull hierarchy under motions
+          --overlap   the mesh against itself
+          --tight     tight hulls, each proved, drawn with --picture, on a Cortex-M4F with --firmware
+          --bounds    how tight boxes, triboxes, hulls... are, with --count what they cost
+          --paper     a table of the papers; alone: the list of tables
+          --plot      loss against cost
 cargo xtask race [--quick] [MESH...]
                                     this library, parry3d and obvhs on the same queries
                                     (AVX2: RUSTFLAGS=\"-C target-cpu=x86-64-v3\" cargo xtask race)

@@ -35,9 +35,9 @@ fn main() -> ExitCode {
             .map_err(|_| format!("`{queries}` is not a number"))
             .and_then(|queries| counted::lay(&fixtures, question, queries, Path::new(file)))
             .map(|lines| print!("{lines}")),
-        _ => {
-            Err("host fixtures | host picture | host blobs FOLDER | host ask QUESTION N | host lay QUESTION N FILE".to_owned())
-        }
+        _ => Err("host fixtures | host picture | host blobs FOLDER | host ask QUESTION N | \
+             host lay QUESTION N FILE"
+            .to_owned()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

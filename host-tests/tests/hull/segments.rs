@@ -9,6 +9,7 @@ use meshsweep_host_tests::generate::{Rng, cube, groove_block, rough_sphere, scal
 use meshsweep_host_tests::oracle::{Contact, contacts, gap_to_triangle};
 use meshsweep_host_tests::scene::Scene;
 use proptest::prelude::*;
+use std::sync::LazyLock;
 
 type Segment = ([f32; 3], [f32; 3]);
 
@@ -392,6 +393,9 @@ fn scaling_mesh_and_segment_by_a_power_of_two_changes_no_parameter() {
     }
 }
 
+/// Built once: the build takes far longer than a question.
+static CUBE: LazyLock<Scene> = LazyLock::new(|| Scene::hull("cube", cube(2), &options(12)));
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -401,10 +405,10 @@ proptest! {
         b in prop::array::uniform3(-6i8..=6),
     ) {
         // Lattice ends meet faces, edges and vertices all the time.
-        let scene = Scene::hull("cube", cube(2), &options(12));
+        let scene = &*CUBE;
         let segment = (a.map(|x| f32::from(x) / 4.0), b.map(|x| f32::from(x) / 4.0));
         let answer = ask(&scene.model(), segment, &Budget::EXACT, 64);
-        check_first(&scene, segment, &answer, &truth(&scene, segment));
-        prop_assert_eq!(answer.hit.is_some(), !truth(&scene, segment).is_empty());
+        check_first(scene, segment, &answer, &truth(scene, segment));
+        prop_assert_eq!(answer.hit.is_some(), !truth(scene, segment).is_empty());
     }
 }

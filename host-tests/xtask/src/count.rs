@@ -146,11 +146,13 @@ pub fn run<'a>(steps: &mut Steps, asked: &[&'a str]) {
     );
     table.note("tree: to the box tree, triboxes: to 64 of them, the others to the hull hierarchy");
     table.note(
-        "bvh BLOB RELATIVE, sweep BLOB STEP RELATIVE: far points; a step of 0: fresh queries, else one kept sweep that moves",
+        "bvh BLOB RELATIVE, sweep BLOB STEP RELATIVE: far points; a step of 0: fresh \
+         queries, else one kept sweep that moves",
     );
     table.note("deform: a moved hull of any blob: its update, or the closest point after one");
     table.note(
-        "apart, candidates, overlap: of the mesh and its copy in random poses; by vertices: apart by the paper's test",
+        "apart, candidates, overlap: of the mesh and its copy in random poses; by vertices: apart by \
+         the paper's test",
     );
     say!("{}", table.text());
     if asked.is_empty() {

@@ -81,8 +81,8 @@ impl<'a> Side<'a> {
         if instance == ROOT { Some(self.root) } else { self.front.as_ref()?.look(instance) }
     }
 
-    /// Shows the next finer triangles, after at most `steps` replacements, and returns how many were
-    /// made. `None`: the model is unchecked.
+    /// Shows the next finer triangles, after at most `steps` replacements, and returns how many
+    /// were made. `None`: the model is unchecked.
     #[inline]
     pub(super) fn open(
         &mut self,

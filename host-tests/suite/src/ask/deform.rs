@@ -50,10 +50,6 @@ impl<'t> Subject<'t> for DeformableHull<'t> {
         self.rest().scratch_entries() <= ENTRIES && self.vertex_records() <= RECORDS
     }
 
-    fn memory(&self) -> usize {
-        size_of::<Scratch>()
-    }
-
     fn suits(kind: Kind) -> bool {
         matches!(kind, Kind::Arith | Kind::Contents) || kind.is_deform()
     }

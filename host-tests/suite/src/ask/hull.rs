@@ -64,10 +64,6 @@ impl<'t> Subject<'t> for Model<'t> {
         self.hull.scratch_entries() <= QUEUE
     }
 
-    fn memory(&self) -> usize {
-        size_of::<Scratch<'_>>()
-    }
-
     fn suits(kind: Kind) -> bool {
         matches!(
             kind,

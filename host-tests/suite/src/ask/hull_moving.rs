@@ -1,5 +1,5 @@
-//! Questions about a split hierarchy that moves: the kept sweep, and overlaps. They have an image of
-//! their own, because all questions together are more than the flash of the smallest board.
+//! Questions about a split hierarchy that moves: the kept sweep, and overlaps. They have an image
+//! of their own, because all questions together are more than the flash of the smallest board.
 
 use meshsweep_core::{Budget, ClosestPoint, Pose, ScratchEntry};
 
@@ -47,10 +47,6 @@ impl<'t> Subject<'t> for Moving<'t> {
 
     fn memory_suffices(&self) -> bool {
         self.0.hull.overlap_entries(&self.0.hull) <= QUEUE
-    }
-
-    fn memory(&self) -> usize {
-        size_of::<Scratch>()
     }
 
     fn suits(kind: Kind) -> bool {

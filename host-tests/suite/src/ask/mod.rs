@@ -43,7 +43,9 @@ pub trait Subject<'t>: Sized {
     fn memory_suffices(&self) -> bool;
 
     /// Bytes of RAM that queries need beside the stack.
-    fn memory(&self) -> usize;
+    fn memory(&self) -> usize {
+        size_of::<Self::Scratch>()
+    }
 
     /// Whether it can be asked this.
     fn suits(kind: Kind) -> bool;
