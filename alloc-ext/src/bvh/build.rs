@@ -119,7 +119,7 @@ pub fn build(
     let mut sections = vec![(SectionKind::TreeLinks, encode::links(&topology, &leaves))];
     if options.closest || !options.segments {
         let frames = shared_frames(&topology, &views);
-        sections.push((SectionKind::TreeFrames, encode::frames(&frames, grid.origin)));
+        sections.push((SectionKind::TreeFrames, encode::frames(&frames)));
     }
     if options.segments {
         sections.push((

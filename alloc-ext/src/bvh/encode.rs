@@ -112,21 +112,17 @@ pub(super) fn fans(
 }
 
 /// Records of all nodes' boxes in shared frames.
-pub(super) fn frames(nodes: &[NodeBoxes], grid_origin: [i32; 3]) -> Vec<u8> {
+pub(super) fn frames(nodes: &[NodeBoxes]) -> Vec<u8> {
     let mut out = Vec::with_capacity(nodes.len() * FRAME_BYTES);
     for node in nodes {
-        put_bounds(&mut out, node);
-        // Exact: integers below 2^17 and powers of two.
-        for (row, exponent) in node.matrix().into_iter().zip(node.exponent) {
-            row.iter()
-                .for_each(|&m| put(&mut out, (f64::from(m) * exp2(-i32::from(exponent))) as f32));
+        for axis in 0..3 {
+            out.extend(node.low[axis]);
+            out.extend(node.high[axis].map(|high| 255 - high));
         }
-        put_origin(&mut out, node, grid_origin);
-        for exponent in node.exponent {
-            let step = exp2(i32::from(exponent)) / f64::from(node.n());
-            // Rounded down, so that no lower bound of a distance is too large.
-            put(&mut out, down_to_f32(step * step * (1.0 - 1e-15)));
-        }
+        out.extend(node.matrix.as_flattened().iter().flat_map(|entry| entry.to_le_bytes()));
+        out.extend(node.origin.iter().flat_map(|x| x.to_le_bytes()));
+        out.extend(node.exponent.map(i8::cast_unsigned));
+        out.push(0);
     }
     out
 }
@@ -135,7 +131,10 @@ pub(super) fn frames(nodes: &[NodeBoxes], grid_origin: [i32; 3]) -> Vec<u8> {
 pub(super) fn boxes(nodes: &[NodeBoxes], grid_origin: [i32; 3]) -> Vec<u8> {
     let mut out = Vec::with_capacity(nodes.len() * BOXES_BYTES);
     for node in nodes {
-        put_bounds(&mut out, node);
+        for axis in 0..3 {
+            out.extend(node.low[axis]);
+            out.extend(node.high[axis]);
+        }
         put_origin(&mut out, node, grid_origin);
         node.exponent.iter().for_each(|&e| put(&mut out, exp2(i32::from(e)) as f32));
     }
@@ -144,13 +143,6 @@ pub(super) fn boxes(nodes: &[NodeBoxes], grid_origin: [i32; 3]) -> Vec<u8> {
 
 fn put(out: &mut Vec<u8>, x: f32) {
     out.extend(x.to_le_bytes());
-}
-
-fn put_bounds(out: &mut Vec<u8>, node: &NodeBoxes) {
-    for axis in 0..3 {
-        out.extend(node.low[axis]);
-        out.extend(node.high[axis]);
-    }
 }
 
 /// Exact: an integer of 24 bits.

@@ -72,7 +72,7 @@ impl Bvh<'_> {
         let limit = limit_within(&query, distance);
         let heap = Heap::new(&mut *out);
         let collector = CollectWithin { query: &query, distance, heap, dropped: 0 };
-        let mut visitor = TriangleVisitor { tree, query: &query, limit, collector };
+        let mut visitor = TriangleVisitor::new(tree, &query, limit, collector);
         let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
         let CollectWithin { heap, dropped, .. } = visitor.collector;
         let stored = heap.finish(tree, &query)?;

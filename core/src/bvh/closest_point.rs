@@ -1,13 +1,14 @@
 //! The closest point, with an interval of the distance.
 
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
-use super::leaf_distance::{Lanes, LeafNearest, nearest_triangle, nearest_within};
-use super::point_query::PointQuery;
-use super::triangle_bounds::{distance_of_box, nearness, refine_sliver, seen_from};
+use super::leaf_distance::{Lanes, LeafLimit, LeafNearest, nearest_triangle, nearest_within};
+use super::leaf_plane::LeafPlane;
+use super::point_query::{EVERY_KEY, PointQuery};
+use super::triangle_bounds::{nearness, refine_sliver, seen_from};
 use crate::bvh::format::{Bvh, FanLeaf, at_least, at_most};
-use crate::geom::fan::lower_bound;
+use crate::geom::fan::{lower_bound, whole_bounds};
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
-use crate::num::{greater, sqrt_approx};
+use crate::num::{SOFT_FLOAT, greater, sqrt_approx};
 use crate::query::Interval;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 use glam::Vec3;
@@ -128,10 +129,10 @@ struct Closest<'a> {
     point: [f32; 3],
     query: &'a PointQuery,
     budget: &'a Budget,
-    /// Squared bound above which no triangle is nearer by more than the tolerance.
-    limit: f32,
-    /// Squared bound above which no triangle is nearer. Equal to `limit` without a tolerance.
-    beyond: f32,
+    /// Key above which no triangle is nearer by more than the tolerance.
+    limit: u32,
+    /// Above its squared distance no triangle is nearer: `limit` without a tolerance.
+    beyond: LeafLimit,
     best: Best,
     /// A triangle whose squared lower bound is below this is refined as a sliver.
     refine_below: f32,
@@ -148,8 +149,12 @@ impl<'a> Closest<'a> {
             point,
             query,
             budget,
-            limit: EVERYTHING_SQ,
-            beyond: EVERYTHING_SQ,
+            limit: EVERY_KEY,
+            beyond: LeafLimit {
+                distance_sq: EVERYTHING_SQ,
+                allowance: query.allowance,
+                ..LeafLimit::NONE
+            },
             best: Best { distance_sq: f32::MAX, node: u32::MAX, child: 0, lanes: Lanes::NONE },
             refine_below: f32::NEG_INFINITY,
             refined_lower_sq: f32::INFINITY,
@@ -160,9 +165,9 @@ impl<'a> Closest<'a> {
     /// Lowers the limit by a leaf that the descent reaches again.
     #[inline(always)]
     fn bound_by(&mut self, leaf: &FanLeaf<'_>) -> Option<()> {
-        let near = nearest_triangle(leaf, self.query.p)?;
-        self.beyond = self.query.limit(near.distance_sq);
-        self.limit = self.beyond;
+        let near = nearest_triangle(leaf, self.query)?;
+        self.beyond.distance_sq = self.query.limit(near.distance_sq);
+        self.limit = self.query.key_limit(self.beyond.distance_sq);
         // Leaves beyond the limit never change the result. Scalar targets skip them before the
         // kernel, vector targets after it.
         self.best.distance_sq = near.distance_sq;
@@ -189,10 +194,24 @@ impl<'a> Closest<'a> {
         self.best = Best { distance_sq, node: visit.node, child: visit.child, lanes: near.lanes };
         self.refine_below = self.query.refine_below(distance_sq);
         let beyond = self.query.limit(distance_sq);
-        if beyond < self.beyond {
-            self.beyond = beyond;
+        if beyond < self.beyond.distance_sq {
+            self.beyond.distance_sq = beyond;
         }
-        self.limit = if self.tolerant { self.tolerant_limit(distance_sq) } else { self.beyond };
+        if SOFT_FLOAT && !visit.leaf.is_f32() {
+            self.beyond.plane = self.plane(near, &visit.leaf).unwrap_or(LeafPlane::NONE);
+        }
+        let limit =
+            if self.tolerant { self.tolerant_limit(distance_sq) } else { self.beyond.distance_sq };
+        self.limit = self.query.key_limit(limit);
+    }
+
+    /// The plane across the way to the nearest triangle of a leaf.
+    #[inline(never)]
+    fn plane(&self, near: &LeafNearest, leaf: &FanLeaf<'_>) -> Option<LeafPlane> {
+        let point = self.query.whole.as_ref()?;
+        let corners = leaf.grid_ring()?.corners(near.lane().0, leaf.shape().turn())?;
+        let direction = whole_bounds(point, &corners).direction;
+        Some(LeafPlane::new(point, direction, self.beyond.distance_sq))
     }
 
     /// Whether the leaf's triangles have greater numbers than the best one's.
@@ -212,7 +231,7 @@ impl<'a> Closest<'a> {
     #[inline(never)]
     fn refine(&mut self, visit: &LeafVisit<'_>) {
         let query = self.query;
-        let box_sq = square(distance_of_box(query, visit.key));
+        let box_sq = square(query.distance_of_key(visit.key));
         for lane in 0..visit.leaf.shape().triangles() {
             let seen = seen_from(&visit.leaf, lane, query.p);
             let near = nearness(&seen);
@@ -266,7 +285,7 @@ impl<'a> Closest<'a> {
         let mut ended = Ended::Exact;
         if let Descent::Truncated { least, ended: why } = descent {
             ended = why;
-            least_sq = least_sq.min(square(distance_of_box(self.query, least)));
+            least_sq = least_sq.min(square(self.query.distance_of_key(least)));
         }
         if node == u32::MAX {
             let mut answer = from_afar(self.tree, self.point, self.query)?;
@@ -282,7 +301,7 @@ impl<'a> Closest<'a> {
             let absolute = self.query.units.inward(self.budget.absolute);
             let wanted =
                 (distance / (1.0 + self.budget.relative)).min(distance - absolute).max(0.0);
-            least = least.min(distance_of_box(self.query, wanted * wanted));
+            least = least.min(wanted * (1.0 - 4.0 * U32));
             ended = if ended == Ended::Exact { Ended::Tolerance } else { ended };
         }
         let (lane, v, w) = lanes.at(distance_sq);
@@ -300,13 +319,13 @@ impl<'a> Closest<'a> {
 
 impl LeafVisitor for Closest<'_> {
     #[inline(always)]
-    fn limit(&self) -> f32 {
+    fn limit(&self) -> u32 {
         self.limit
     }
 
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let near = nearest_within(&visit.leaf, self.query.p, self.beyond)?;
+        let near = nearest_within(&visit.leaf, self.query, &self.beyond)?;
         if near.distance_sq <= self.best.distance_sq {
             self.improve(&near, visit);
         }

@@ -16,8 +16,8 @@ use crate::query::{Ended, QueryError, ScratchEntry, Work};
 
 /// A point or a segment that is prepared for the descent.
 ///
-/// It sets the unit of all keys, bounds and limits: for a point, squared distances in grid units;
-/// for a segment, its parameters.
+/// It sets the unit of all keys, bounds and limits. For a point they are squared distances in
+/// [key units](super::node::KeyPoint), for a segment the bits of its parameters.
 pub(crate) trait NodeQuery {
     /// Refuses a tree without the boxes that the query needs.
     fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError>;
@@ -25,7 +25,7 @@ pub(crate) trait NodeQuery {
     /// Keys of the children of a node: lower bounds, not below its bound, with the number of the
     /// child in the low bits. Children beyond the limit may have any greater key. `None` says that
     /// the tree is unchecked.
-    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[f32; WIDTH]>;
+    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]>;
 }
 
 /// A node whose children get keys.
@@ -34,16 +34,16 @@ pub(crate) struct OpenedNode {
     /// Children.
     pub(crate) count: u32,
     /// Lower bound of everything below the node, in the unit of keys.
-    pub(crate) bound: f32,
+    pub(crate) bound: u32,
     /// The visitor's limit, in the unit of keys.
-    pub(crate) limit: f32,
+    pub(crate) limit: u32,
 }
 
 /// A leaf that a descent has reached.
 pub(crate) struct LeafVisit<'a> {
     pub(crate) leaf: FanLeaf<'a>,
     /// Lower bound of all its triangles, in the unit of [`NodeQuery`].
-    pub(crate) key: f32,
+    pub(crate) key: u32,
     /// The leaf's parent.
     pub(crate) node: u32,
     /// Number of the leaf among the children of `node`.
@@ -53,7 +53,7 @@ pub(crate) struct LeafVisit<'a> {
 /// A question's visitor for leaves.
 pub(crate) trait LeafVisitor {
     /// Nothing with a greater key can change the answer. The unit is that of [`NodeQuery`].
-    fn limit(&self) -> f32;
+    fn limit(&self) -> u32;
 
     /// Looks at a leaf. `Some(false)` ends the descent. `None` says that the tree is unchecked.
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool>;
@@ -68,7 +68,7 @@ pub(crate) enum Descent {
     Answered,
     /// The steps were used up, or the stack was too short. Nothing with a key below `least` was
     /// missed.
-    Truncated { least: f32, ended: Ended },
+    Truncated { least: u32, ended: Ended },
 }
 
 impl Descent {
@@ -82,13 +82,16 @@ impl Descent {
     }
 }
 
+/// Above every key, and the bits of an infinite parameter.
+const NOTHING: u32 = f32::INFINITY.to_bits();
+
 /// The caller's memory as a stack.
 struct Stack<'a> {
     entries: &'a mut [ScratchEntry],
     /// Entries in use.
     used: usize,
     /// Least key of the entries that did not fit.
-    dropped: f32,
+    dropped: u32,
 }
 
 impl Stack<'_> {
@@ -97,29 +100,27 @@ impl Stack<'_> {
     fn push_children(
         &mut self,
         node: u32,
-        keys: &[f32; WIDTH],
+        keys: &[u32; WIDTH],
         count: u32,
-        nearest: f32,
-        limit: f32,
+        nearest: u32,
+        limit: u32,
     ) {
         let free = self.entries.get_mut(self.used..);
         if WIDE && let Some(slots) = free.and_then(|free| free.first_chunk_mut::<WIDTH>()) {
             let mut pushed = 0usize;
             for &key in keys {
                 // Without a branch: an unwanted entry is overwritten by the next one.
-                slots[pushed & (WIDTH - 1)] = ScratchEntry::new(key, node);
+                slots[pushed & (WIDTH - 1)] = ScratchEntry::of_words([key, node]);
                 pushed += usize::from((key <= limit) & (key != nearest));
             }
             self.used += pushed;
             return;
         }
-        // No key is negative, so bits compare as numbers do.
-        let (limit, nearest) = (limit.to_bits(), nearest.to_bits());
         for &key in keys.iter().take(count as usize) {
-            if key.to_bits() <= limit && key.to_bits() != nearest {
+            if key <= limit && key != nearest {
                 match self.entries.get_mut(self.used) {
                     Some(slot) => {
-                        *slot = ScratchEntry::new(key, node);
+                        *slot = ScratchEntry::of_words([key, node]);
                         self.used += 1;
                     }
                     None => self.dropped = lesser(self.dropped, key),
@@ -130,9 +131,9 @@ impl Stack<'_> {
 
     /// Least key of everything that is left, or that did not fit.
     #[cold]
-    fn least(&self) -> f32 {
+    fn least(&self) -> u32 {
         let left = self.entries.iter().take(self.used);
-        left.fold(self.dropped, |least, entry| least.min(entry.key()))
+        left.fold(self.dropped, |least, entry| least.min(entry.small_word()))
     }
 }
 
@@ -147,7 +148,7 @@ pub(crate) fn descend(
     visitor: &mut impl LeafVisitor,
     work: &mut Work,
 ) -> Result<Descent, QueryError> {
-    let stack = Stack { entries: scratch, used: 0, dropped: f32::INFINITY };
+    let stack = Stack { entries: scratch, used: 0, dropped: NOTHING };
     walk(tree, query, steps, stack, visitor, work).ok_or(QueryError::Unchecked)
 }
 
@@ -162,7 +163,7 @@ fn walk(
     work: &mut Work,
 ) -> Option<Descent> {
     let mut node = 0u32;
-    let mut bound = 0f32;
+    let mut bound = 0u32;
     loop {
         if work.splits >= steps {
             return Some(Descent::Truncated {
@@ -183,18 +184,18 @@ fn walk(
         }
         // The nearest child's links are read already. An entry from the stack has to read its
         // parent's links again.
-        let mut child = links.child(nearest.to_bits() & CHILD_MASK);
-        let mut entry = ScratchEntry::new(nearest, node);
+        let mut child = links.child(nearest & CHILD_MASK);
+        let mut entry = ScratchEntry::of_words([nearest, node]);
         loop {
             if is_wanted {
-                bound = f32::from_bits(entry.key().to_bits() & !CHILD_MASK);
+                bound = entry.small_word() & !CHILD_MASK;
                 if !child.is_leaf() {
                     node = child.at;
                     break;
                 }
                 work.triangles += child.shape.triangles() as u32;
                 let leaf = tree.leaf_at(child.at, child.shape)?;
-                let child = entry.key().to_bits() & CHILD_MASK;
+                let child = entry.small_word() & CHILD_MASK;
                 let visit = LeafVisit { leaf, key: bound, node: entry.node(), child };
                 if !visitor.leaf(&visit)? {
                     return Some(Descent::Answered);
@@ -211,11 +212,11 @@ fn walk(
                 };
                 stack.used = top;
                 entry = stack.entries.get(top).copied()?;
-                if entry.key() <= visitor.limit() {
+                if entry.small_word() <= visitor.limit() {
                     break;
                 }
             }
-            child = tree.child(entry.node(), entry.key().to_bits() & CHILD_MASK)?;
+            child = tree.child(entry.node(), entry.small_word() & CHILD_MASK)?;
         }
     }
 }

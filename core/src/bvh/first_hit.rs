@@ -100,7 +100,7 @@ impl FirstCrossing<'_> {
     ) -> Result<FirstHit, QueryError> {
         let (mut lower, mut ended) = (self.lower, Ended::Exact);
         if let Descent::Truncated { least, ended: why } = descent {
-            lower = lesser(lower, least);
+            lower = lesser(lower, f32::from_bits(least));
             ended = why;
         } else if !(self.certain || lower == f32::INFINITY) {
             ended = Ended::Resolution;

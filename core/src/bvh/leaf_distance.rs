@@ -3,6 +3,8 @@
 //! Targets with vectors look at eight triangles at once (`wide`), others at one after the other
 //! (`narrow`). Both give the same bits.
 
+use super::leaf_plane::LeafPlane;
+use super::point_query::PointQuery;
 use crate::bvh::format::FanLeaf;
 use crate::geom::fan::Edges8;
 use glam::Vec3;
@@ -14,8 +16,30 @@ pub(crate) use wide::{Lanes, nearest_and_edges, nearest_within};
 
 /// The nearest triangle of a leaf, without a limit.
 #[inline(always)]
-pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, p: Vec3) -> Option<LeafNearest> {
-    nearest_within(leaf, p, f32::INFINITY)
+pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option<LeafNearest> {
+    nearest_within(leaf, query, &LeafLimit::NONE)
+}
+
+/// What a triangle has to be near to count.
+#[derive(Clone, Copy)]
+#[cfg_attr(
+    any(target_arch = "x86_64", target_arch = "aarch64"),
+    expect(dead_code, reason = "all lanes of a leaf are looked at")
+)]
+pub(crate) struct LeafLimit {
+    /// A triangle that is farther than the root of this does not count.
+    pub(crate) distance_sq: f32,
+    /// Nor does a triangle behind this plane.
+    pub(crate) plane: LeafPlane,
+    /// [`PointQuery::allowance`], by which a triangle of a leaf limits the others; infinite if all
+    /// count.
+    pub(crate) allowance: f32,
+}
+
+impl LeafLimit {
+    /// All triangles count.
+    pub(crate) const NONE: LeafLimit =
+        LeafLimit { distance_sq: f32::INFINITY, plane: LeafPlane::NONE, allowance: f32::INFINITY };
 }
 
 /// The nearest triangle of a leaf. On vector targets also the edges of the leaf's triangles, seen
@@ -45,7 +69,7 @@ impl LeafNearest {
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod wide {
-    use super::{Edges8, FanLeaf, LeafNearest, LeafSeen, Vec3};
+    use super::{Edges8, FanLeaf, LeafLimit, LeafNearest, LeafSeen, PointQuery, Vec3};
     use crate::geom::fan::{LANES_BELOW, Nearness, Nearness8, WIDTH, point_leaf8};
     use crate::num::{lesser, of_eight};
 
@@ -85,7 +109,12 @@ mod wide {
 
     /// Ignores the limit: to leave out a lane saves nothing here.
     #[inline(always)]
-    pub(crate) fn nearest_within(leaf: &FanLeaf<'_>, p: Vec3, _limit: f32) -> Option<LeafNearest> {
+    pub(crate) fn nearest_within(
+        leaf: &FanLeaf<'_>,
+        query: &PointQuery,
+        _: &LeafLimit,
+    ) -> Option<LeafNearest> {
+        let p = query.p;
         let near = if leaf.is_f32() {
             f32_nearness(leaf, p)?
         } else {
@@ -95,7 +124,8 @@ mod wide {
     }
 
     #[inline(always)]
-    pub(crate) fn nearest_and_edges(leaf: &FanLeaf<'_>, p: Vec3) -> Option<LeafSeen> {
+    pub(crate) fn nearest_and_edges(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option<LeafSeen> {
+        let p = query.p;
         let edges = if leaf.is_f32() { f32_edges(leaf, p)? } else { leaf.grid_edges8(p)? };
         let near = point_leaf8(&edges, LANES_BELOW.get(leaf.shape().triangles())?);
         Some((nearest_of(near), Some(edges)))
@@ -122,8 +152,15 @@ mod wide {
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod narrow {
-    use super::{FanLeaf, LeafNearest, LeafSeen, Vec3};
-    use crate::geom::fan::{Nearness, PointFan, SpokeTerms, point_leaf};
+    use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, PointQuery, Vec3};
+    use crate::bvh::point_query::limit_of;
+    use crate::bvh::triangle_bounds::{nearness, seen_from};
+    use crate::geom::fan::{
+        Nearness, PointFan, SpokeTerms, WIDTH, Whole, WholeBounds, WholeLimit, WholePoint,
+        point_leaf, whole_bounds,
+    };
+    use crate::num::SOFT_FLOAT;
+    use crate::num::lesser;
 
     /// The nearest triangle of a leaf.
     #[derive(Clone, Copy)]
@@ -148,7 +185,12 @@ mod narrow {
     }
 
     #[inline(always)]
-    pub(crate) fn nearest_within(leaf: &FanLeaf<'_>, p: Vec3, limit: f32) -> Option<LeafNearest> {
+    pub(crate) fn nearest_within(
+        leaf: &FanLeaf<'_>,
+        query: &PointQuery,
+        limit: &LeafLimit,
+    ) -> Option<LeafNearest> {
+        let p = query.p;
         let mut nearest = LeafNearest {
             distance_sq: f32::INFINITY,
             lower_bound_sq: f32::INFINITY,
@@ -156,6 +198,8 @@ mod narrow {
         };
         if leaf.is_f32() {
             f32_nearest(leaf, p, &mut nearest);
+        } else if SOFT_FLOAT && let Some(point) = &query.whole {
+            whole_nearest(leaf, p, point, limit, &mut nearest)?;
         } else {
             grid_nearest(leaf, p, limit, &mut nearest)?;
         }
@@ -163,14 +207,15 @@ mod narrow {
     }
 
     #[inline(always)]
-    pub(crate) fn nearest_and_edges(leaf: &FanLeaf<'_>, p: Vec3) -> Option<LeafSeen> {
-        Some((nearest_within(leaf, p, f32::INFINITY)?, None))
+    pub(crate) fn nearest_and_edges(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option<LeafSeen> {
+        Some((nearest_within(leaf, query, &LeafLimit::NONE)?, None))
     }
 
     impl LeafNearest {
         #[inline(always)]
         fn take(&mut self, lane: usize, near: &Nearness) {
-            if near.distance_sq < self.distance_sq {
+            let (here, best) = (near.distance_sq, self.distance_sq);
+            if here < best || here == best && lane < self.lanes.lane {
                 self.distance_sq = near.distance_sq;
                 self.lanes = Lanes { lane, v: near.v, w: near.w };
             }
@@ -180,46 +225,110 @@ mod narrow {
         }
     }
 
+    /// In integers, but for the triangles that may be the nearest: the likeliest first, then those
+    /// that are not certainly farther.
+    #[inline(never)]
+    fn whole_nearest(
+        leaf: &FanLeaf<'_>,
+        p: Vec3,
+        point: &WholePoint,
+        limit: &LeafLimit,
+        nearest: &mut LeafNearest,
+    ) -> Option<()> {
+        let ring = leaf.grid_ring()?;
+        let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
+        let (mut in_front, mut bit) = (0u32, 1u32);
+        for ((x, y), z) in ring.x.iter().zip(ring.y).zip(ring.z) {
+            if !limit.plane.is_behind(vertex(x, y, z)) {
+                in_front |= bit;
+            }
+            bit <<= 1;
+        }
+        let first_fan = !(u32::MAX << (turn & 31));
+        let [one, other] = ring.centres.map(|centre| !limit.plane.is_behind(centre));
+        let mut wanted = in_front | in_front >> 1;
+        wanted |= if one { first_fan } else { 0 } | if other { !first_fan } else { 0 };
+        wanted &= !(u32::MAX << (count & 31));
+        if wanted == 0 {
+            return Some(());
+        }
+        let mut bounds = [WholeBounds::NONE; WIDTH];
+        let (mut likeliest, mut least) = (0, u32::MAX);
+        for (lane, slot) in bounds.iter_mut().enumerate() {
+            if wanted >> lane & 1 != 0 {
+                *slot = whole_bounds(point, &ring.corners(lane, turn)?);
+                if slot.estimate < least {
+                    (likeliest, least) = (lane, slot.estimate);
+                }
+            }
+        }
+        let mut within = limit.distance_sq;
+        let mut look = |lane: usize, within: &mut f32| {
+            let seen = seen_from(leaf, lane, p);
+            let near = nearness(&seen);
+            *within = lesser(*within, limit_of(near.distance_sq, limit.allowance));
+            nearest.take(lane, &near);
+        };
+        look(likeliest, &mut within);
+        let mut whole_limit = WholeLimit::of(within);
+        for (lane, bounds) in bounds.iter().enumerate() {
+            let is_wanted = wanted >> lane & 1 != 0 && lane != likeliest;
+            if is_wanted && !(within < f32::INFINITY && bounds.is_beyond(whole_limit)) {
+                look(lane, &mut within);
+                whole_limit = WholeLimit::of(within);
+            }
+        }
+        Some(())
+    }
+
     /// Reads every stored number once. Integers are subtracted before they become f32.
     #[inline(always)]
     fn grid_nearest(
         leaf: &FanLeaf<'_>,
         p: Vec3,
-        limit: f32,
+        limit: &LeafLimit,
         nearest: &mut LeafNearest,
     ) -> Option<()> {
         let ring = leaf.grid_ring()?;
         let turn = leaf.shape().turn();
+        let mut within = limit.distance_sq;
         let mut centre = ring.centres[0];
         let mut fan = PointFan::new(p - leaf.centre(0));
-        let less = |[x, y, z]: [i32; 3], [cx, cy, cz]: [i32; 3]| {
-            Vec3::new(
-                x.wrapping_sub(cx) as f32,
-                y.wrapping_sub(cy) as f32,
-                z.wrapping_sub(cz) as f32,
-            )
-        };
         let mut before = [0i32; 3];
         let mut a: Option<SpokeTerms> = None;
         for (i, ((x, y), z)) in ring.x.iter().zip(ring.y).zip(ring.z).enumerate() {
-            let here = [x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair)));
+            let here = vertex(x, y, z);
             if let Some(mut first) = a {
                 if i == turn + 1 {
                     centre = ring.centres[1];
                     fan = PointFan::new(p - leaf.centre(1));
-                    first = fan.spoke(less(before, centre));
+                    first = fan.spoke(spoke(before, centre));
                 }
-                let second = fan.spoke(less(here, centre));
-                if !fan.is_beyond(&first, &second, limit) {
-                    nearest.take(i - 1, &fan.triangle(&first, &second));
+                let second = fan.spoke(spoke(here, centre));
+                if !fan.is_beyond(&first, &second, within) {
+                    let near = fan.triangle(&first, &second);
+                    if near.distance_sq < nearest.distance_sq {
+                        within = lesser(within, limit_of(near.distance_sq, limit.allowance));
+                    }
+                    nearest.take(i - 1, &near);
                 }
                 a = Some(second);
             } else {
-                a = Some(fan.spoke(less(here, centre)));
+                a = Some(fan.spoke(spoke(here, centre)));
             }
             before = here;
         }
         Some(())
+    }
+
+    #[inline(always)]
+    fn vertex(x: &[u8; 2], y: &[u8; 2], z: &[u8; 2]) -> Whole {
+        [x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair)))
+    }
+
+    #[inline(always)]
+    fn spoke([x, y, z]: [i32; 3], [cx, cy, cz]: [i32; 3]) -> Vec3 {
+        Vec3::new(x.wrapping_sub(cx) as f32, y.wrapping_sub(cy) as f32, z.wrapping_sub(cz) as f32)
     }
 
     #[inline(never)]

@@ -48,6 +48,7 @@ mod first_hit;
 pub mod format;
 mod front_facing;
 mod leaf_distance;
+mod leaf_plane;
 mod nearest;
 mod neighbors;
 pub mod node;

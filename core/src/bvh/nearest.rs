@@ -79,7 +79,7 @@ impl Bvh<'_> {
         }
         let collector =
             CollectNearest { tree, query: &query, heap: Heap::new(out), rest: f32::INFINITY };
-        let mut visitor = TriangleVisitor { tree, query: &query, limit: EVERYTHING_SQ, collector };
+        let mut visitor = TriangleVisitor::new(tree, &query, EVERYTHING_SQ, collector);
         let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
         let CollectNearest { heap, rest, .. } = visitor.collector;
         let mut rest_lower = f32::INFINITY;

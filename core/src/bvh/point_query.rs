@@ -1,22 +1,24 @@
 //! A query point in the tree's grid units, and the rounding of its answers.
 
 use super::descent::{NodeQuery, OpenedNode};
-use super::node::{NodeFrame, box_distances};
+use super::node::{CHILD_MASK, KeyPoint, NO_CHILD, NodeFrame, box_distances};
 use crate::bvh::format::{Bvh, Units};
-use crate::geom::fan::WIDTH;
-use crate::num::sqrt_approx;
+use crate::geom::fan::{WIDTH, WholePoint};
 use crate::num::tolerance::{
-    BOX_DISTANCE, BVH_FAR, CERTIFIED_PART, CERTIFIED_SHORTFALL, FAN_DISTANCE, FAN_RELATIVE, U32,
+    BVH_FAR, CERTIFIED_PART, CERTIFIED_SHORTFALL, FAN_DISTANCE, FAN_RELATIVE, PLANE_DISTANCE, U32,
 };
+use crate::num::{SOFT_FLOAT, greater, sqrt_approx};
 use crate::query::{Budget, QueryError, ScratchEntry};
 use glam::Vec3;
 
-/// Factor of the square of a box's rounding in [`PointQuery::limit`]: with it and a relative 2^-10
-/// the limit holds without a root.
-const ALLOWANCE: f32 = 2100.0;
+/// Part by which a squared limit grows: with [`ALLOWANCE`] it holds without a root.
+const GROWTH: f32 = 1.0 + 1.0 / 8192.0;
 
-/// Its root, rounded down.
-const ALLOWANCE_ROOT: f32 = 45.0;
+/// Factor of the square of a triangle's rounding in a limit.
+const ALLOWANCE: f32 = 32_768.0;
+
+/// Key limit that lets every child pass.
+pub(crate) const EVERY_KEY: u32 = NO_CHILD - 1;
 
 /// A query point.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +30,15 @@ pub(crate) struct PointQuery {
     /// the distance itself.
     rounding: f32,
     /// Added to a squared limit, so that no rounding hides a candidate.
-    allowance: f32,
+    pub(crate) allowance: f32,
+    /// The point in integers, on targets without floating point, if the model is near.
+    pub(crate) whole: Option<WholePoint>,
+    /// The point, prepared for the boxes of nodes.
+    key_point: KeyPoint,
+    /// Keys in a square of the grid unit: a power of two.
+    keys_in_square: f32,
+    /// Rounding of the distance from a plane that parts the point from a leaf, grid units.
+    pub(crate) plane_error: f32,
     /// Square by which a lower bound may fall short: [`CERTIFIED_SHORTFALL`], or 0 for f32
     /// vertices.
     shortfall_sq: f32,
@@ -63,26 +73,59 @@ impl PointQuery {
         let (low, high) = tree.grid_bounds();
         let farthest = (p - low).abs().max((p - high).abs());
         let size = farthest.x + farthest.y + farthest.z;
-        let fan = FAN_DISTANCE * U32 * header.star_radius;
-        let off = BOX_DISTANCE * U32 * size + fan;
-        let shortfall_sq = if header.is_f32() { 0.0 } else { CERTIFIED_SHORTFALL };
         let near = size <= BVH_FAR;
+        let fan = FAN_DISTANCE * U32 * header.star_radius;
+        let shortfall_sq = if header.is_f32() { 0.0 } else { CERTIFIED_SHORTFALL };
+        let [ox, oy, oz] = header.grid_origin.map(|x| x as f32);
+        let most = greater(greater(farthest.x, farthest.y), farthest.z);
+        let from_origin = p - Vec3::new(ox, oy, oz);
+        let key_point = KeyPoint::new(from_origin, most);
+        let whole = if SOFT_FLOAT { WholePoint::new(from_origin.to_array()) } else { None };
         Ok(PointQuery {
             p,
             units,
             shortfall_sq,
             rounding: fan,
-            allowance: ALLOWANCE * off * off,
+            allowance: ALLOWANCE * fan * fan,
+            whole,
+            key_point,
+            // Keys are halves of squares.
+            keys_in_square: f32::from_bits((126 - 2 * key_point.unit()) << 23),
+            plane_error: PLANE_DISTANCE * U32 * size + fan,
             far: !near,
         })
     }
 
-    /// A node with a greater squared bound holds nothing that is computed as near as `distance_sq`.
+    /// No triangle that is computed as near as `distance_sq` has a true squared distance above
+    /// this.
     ///
-    /// (√B·(1 + 16u) + b)² ≤ B·(1 + 2^-10) + [`ALLOWANCE`]·b², so no root is needed.
+    /// (D·(1 + 16u) + f)² ≤ D²·[`GROWTH`] + [`ALLOWANCE`]·f², so no root is needed.
     #[inline(always)]
     pub(crate) fn limit(&self, distance_sq: f32) -> f32 {
-        distance_sq * (1.0 + 1.0 / 1024.0) + self.allowance
+        limit_of(distance_sq, self.allowance)
+    }
+
+    /// A child with a greater key is farther than the root of `limit`.
+    #[inline(always)]
+    pub(crate) fn key_limit(&self, limit: f32) -> u32 {
+        let key = (limit * self.keys_in_square) as i32;
+        (if key < EVERY_KEY.cast_signed() { key.cast_unsigned() } else { EVERY_KEY }) | CHILD_MASK
+    }
+
+    /// Lower bound of the distance of a box with this key, grid units.
+    #[inline(always)]
+    pub(crate) fn distance_of_key(&self, key: u32) -> f32 {
+        let square = (key & !CHILD_MASK) as f32 / self.keys_in_square;
+        sqrt_approx(square) * (1.0 - 4.0 * U32)
+    }
+
+    /// Keys of a node's children.
+    #[inline(always)]
+    pub(crate) fn keys_of(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {
+        let &OpenedNode { node, count, bound, .. } = opened;
+        let record = tree.frame(node)?;
+        let frame = NodeFrame::of(record, &self.key_point);
+        Some(box_distances(record, &frame, count, bound))
     }
 
     /// A triangle with a smaller squared lower bound is refined as a sliver, if `distance_sq` is
@@ -102,12 +145,6 @@ impl PointQuery {
         )
     }
 
-    /// Rounding of a box's distance, grid units, taken back from `allowance`.
-    #[inline(always)]
-    pub(crate) fn box_error(&self) -> f32 {
-        sqrt_approx(self.limit(0.0)) * (1.0 / ALLOWANCE_ROOT)
-    }
-
     /// The error of a distance that does not grow with the distance: rounding and surface error,
     /// grid units.
     pub(crate) fn fixed_error(&self) -> f32 {
@@ -124,6 +161,12 @@ impl PointQuery {
     }
 }
 
+/// [`PointQuery::limit`] for an allowance.
+#[inline(always)]
+pub(crate) fn limit_of(distance_sq: f32, allowance: f32) -> f32 {
+    distance_sq * GROWTH + allowance
+}
+
 impl NodeQuery for PointQuery {
     #[inline(always)]
     fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError> {
@@ -131,9 +174,7 @@ impl NodeQuery for PointQuery {
     }
 
     #[inline(always)]
-    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[f32; WIDTH]> {
-        let record = tree.frame(opened.node)?;
-        let frame = NodeFrame::of(record, self.p);
-        Some(box_distances(record, &frame, opened.count, opened.bound))
+    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {
+        self.keys_of(tree, opened)
     }
 }

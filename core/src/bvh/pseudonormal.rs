@@ -118,18 +118,19 @@ pub(crate) fn side_of_shared_feature(
     corners: [Vec3; 3],
 ) -> Result<Option<Side>, QueryError> {
     let limit = limit_of(candidates.query, candidates.band);
-    let mut shared = Shared { candidates, limit, corners, kept: [true; 3] };
+    let key_limit = candidates.query.key_limit(limit);
+    let mut shared = Shared { candidates, limit, key_limit, corners, kept: [true; 3] };
     if !search.descend(candidates.query, &mut shared)? {
         return Ok(None);
     }
     let ([a, b, c], p) = (corners, candidates.query.p);
     match shared.kept {
-        [true, false, false] => about_vertex(search, candidates, limit, a, p),
-        [false, true, false] => about_vertex(search, candidates, limit, b, p),
-        [false, false, true] => about_vertex(search, candidates, limit, c, p),
-        [true, true, false] => about_edge(search, candidates, limit, [a, b], p),
-        [false, true, true] => about_edge(search, candidates, limit, [b, c], p),
-        [true, false, true] => about_edge(search, candidates, limit, [c, a], p),
+        [true, false, false] => about_vertex(search, candidates, key_limit, a, p),
+        [false, true, false] => about_vertex(search, candidates, key_limit, b, p),
+        [false, false, true] => about_vertex(search, candidates, key_limit, c, p),
+        [true, true, false] => about_edge(search, candidates, key_limit, [a, b], p),
+        [false, true, true] => about_edge(search, candidates, key_limit, [b, c], p),
+        [true, false, true] => about_edge(search, candidates, key_limit, [c, a], p),
         _ => Ok(None),
     }
 }
@@ -138,13 +139,14 @@ pub(crate) fn side_of_shared_feature(
 struct Shared<'a> {
     candidates: &'a Candidates<'a>,
     limit: f32,
+    key_limit: u32,
     corners: [Vec3; 3],
     kept: [bool; 3],
 }
 
 impl LeafVisitor for Shared<'_> {
-    fn limit(&self) -> f32 {
-        self.limit
+    fn limit(&self) -> u32 {
+        self.key_limit
     }
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
@@ -225,12 +227,12 @@ impl Sum {
 
 /// Visits all triangles of a feature.
 struct Star<F> {
-    limit: f32,
+    limit: u32,
     each: F,
 }
 
 impl<F: FnMut(&FanLeaf<'_>, usize)> LeafVisitor for Star<F> {
-    fn limit(&self) -> f32 {
+    fn limit(&self) -> u32 {
         self.limit
     }
 
@@ -250,7 +252,7 @@ fn is_sound(normal: Vec3, size: Vec3) -> bool {
 fn about_vertex(
     search: &mut Search<'_, '_>,
     candidates: &Candidates<'_>,
-    limit: f32,
+    limit: u32,
     vertex: Vec3,
     p: Vec3,
 ) -> Result<Option<Side>, QueryError> {
@@ -305,7 +307,7 @@ fn about_vertex(
 fn about_edge(
     search: &mut Search<'_, '_>,
     candidates: &Candidates<'_>,
-    limit: f32,
+    limit: u32,
     [a, b]: [Vec3; 2],
     p: Vec3,
 ) -> Result<Option<Side>, QueryError> {

@@ -67,8 +67,8 @@ pub(crate) struct SegmentVisitor<'a, C> {
 
 impl<C: CrossingCollector> LeafVisitor for SegmentVisitor<'_, C> {
     #[inline(always)]
-    fn limit(&self) -> f32 {
-        self.collector.limit()
+    fn limit(&self) -> u32 {
+        self.collector.limit().to_bits()
     }
 
     #[inline(always)]
@@ -122,7 +122,7 @@ impl<C: CrossingCollector> SegmentVisitor<'_, C> {
     /// Tests the flagged triangles of a leaf.
     #[inline(never)]
     fn test_one_by_one(&mut self, visit: &LeafVisit<'_>, flagged: u32) -> Option<()> {
-        let (leaf, bound) = (&visit.leaf, visit.key);
+        let (leaf, bound) = (&visit.leaf, f32::from_bits(visit.key));
         let shape = leaf.shape();
         let ray = &self.query.ray;
         let sign = match self.facing {

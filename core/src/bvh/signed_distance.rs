@@ -208,13 +208,13 @@ impl Search<'_, '_> {
             with_area: LeafTriangle::NONE,
             by_side: [LeafTriangle::NONE; 3],
             least: [f32::INFINITY; 4],
-            missed: f32::INFINITY,
+            missed: None,
         };
-        let mut visitor = TriangleVisitor { tree: &tree, query, limit: EVERYTHING_SQ, collector };
+        let mut visitor = TriangleVisitor::new(&tree, query, EVERYTHING_SQ, collector);
         let descent = descend(&tree, query, self.steps, self.stack, &mut visitor, &mut self.work)?;
         let mut survey = visitor.collector;
         if let Descent::Truncated { least, ended } = descent {
-            survey.missed = least;
+            survey.missed = Some(least);
             self.truncated = Some(ended);
         }
         Ok(survey)
@@ -318,8 +318,8 @@ struct Survey<'p> {
     by_side: [LeafTriangle; 3],
     /// For each [`ViewedSide`] the least lower bound of its triangles, grid units.
     least: [f32; 4],
-    /// Least squared box bound of the nodes that were not opened; infinite if all were.
-    missed: f32,
+    /// Least key of the nodes that were not opened.
+    missed: Option<u32>,
 }
 
 impl Survey<'_> {
@@ -368,8 +368,8 @@ impl Survey<'_> {
         }
         let distance = sqrt_approx(best.distance_sq);
         let mut lower = self.lower();
-        if self.missed < f32::INFINITY {
-            let missed = lower_of_box(query, self.missed);
+        if let Some(missed) = self.missed {
+            let missed = lower_of_box(query, missed);
             lower = lesser(lower, missed);
         }
         let leaf = best.leaf(tree).ok_or(QueryError::Unchecked)?;

@@ -91,14 +91,7 @@ pub(crate) fn limit_of(query: &PointQuery, distance: f32) -> f32 {
     if limit < EVERYTHING_SQ { limit } else { EVERYTHING_SQ }
 }
 
-/// Distance of a box with this squared bound, grid units. It subtracts the rounding of boxes;
-/// [`PointQuery::lower`] then subtracts that of triangles.
-pub(crate) fn distance_of_box(query: &PointQuery, key: f32) -> f32 {
-    let distance = sqrt_approx(key) - query.box_error();
-    if distance > 0.0 { distance } else { 0.0 }
-}
-
-/// Lower bound of the distance to the input mesh for a box's squared bound, input units.
-pub(crate) fn lower_of_box(query: &PointQuery, key: f32) -> f32 {
-    query.lower(distance_of_box(query, key))
+/// Lower bound of the distance to the input mesh for a box's key, input units.
+pub(crate) fn lower_of_box(query: &PointQuery, key: u32) -> f32 {
+    query.lower(query.distance_of_key(key))
 }

@@ -65,22 +65,31 @@ pub(crate) trait TriangleCollector {
 
 /// The visitor. It skips a leaf at once if its nearest triangle is beyond the limit.
 pub(crate) struct TriangleVisitor<'a, C> {
-    pub(crate) tree: &'a Bvh<'a>,
-    pub(crate) query: &'a PointQuery,
+    tree: &'a Bvh<'a>,
+    query: &'a PointQuery,
     /// Squared bound above which no triangle can change the answer.
-    pub(crate) limit: f32,
+    limit: f32,
+    /// [`PointQuery::key_limit`] of `limit`.
+    key_limit: u32,
     pub(crate) collector: C,
+}
+
+impl<'a, C> TriangleVisitor<'a, C> {
+    /// A visitor that begins with this squared limit.
+    pub(crate) fn new(tree: &'a Bvh<'a>, query: &'a PointQuery, limit: f32, collector: C) -> Self {
+        TriangleVisitor { tree, query, limit, key_limit: query.key_limit(limit), collector }
+    }
 }
 
 impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
     #[inline(always)]
-    fn limit(&self) -> f32 {
-        self.limit
+    fn limit(&self) -> u32 {
+        self.key_limit
     }
 
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let near = nearest_triangle(&visit.leaf, self.query.p)?;
+        let near = nearest_triangle(&visit.leaf, self.query)?;
         match self.collector.nearest(visit, near.distance_sq, self.limit)? {
             Next::Triangles if near.lower_bound_sq <= self.limit => self.each(visit),
             Next::Triangles | Next::Leaf => Some(true),
@@ -93,7 +102,7 @@ impl<C: TriangleCollector> TriangleVisitor<'_, C> {
     /// Hands the triangles of a leaf to the collector. Returns whether to go on.
     #[inline(never)]
     fn each(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let TriangleVisitor { tree, query, limit, collector } = self;
+        let TriangleVisitor { tree, query, limit, key_limit, collector } = self;
         let LeafVisit { leaf, node, child, .. } = visit;
         let first = tree.links(*node)?.triangle(*child);
         each_triangle(query, leaf, |lane, distance_sq, lower_bound_sq| {
@@ -105,6 +114,7 @@ impl<C: TriangleCollector> TriangleVisitor<'_, C> {
             let here = LeafTriangle { distance_sq, lower_bound_sq, number, node, child, lane };
             collector.take(here, leaf, limit);
         });
+        *key_limit = query.key_limit(*limit);
         Some(!collector.is_answered())
     }
 }

@@ -77,7 +77,7 @@ impl Bvh<'_> {
         let mut work = Work::default();
         let limit = limit_within(&query, distance);
         let collector = Threshold { tree, query: &query, distance, near: None, undecided: false };
-        let mut visitor = TriangleVisitor { tree, query: &query, limit, collector };
+        let mut visitor = TriangleVisitor::new(tree, &query, limit, collector);
         let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
         let Threshold { near, undecided, .. } = visitor.collector;
         if let Some(number) = near {

@@ -4,10 +4,10 @@
 /// First eight bytes of every blob.
 pub const MAGIC: [u8; 8] = *b"meshswep";
 /// A reader refuses any other major version.
-pub const VERSION_MAJOR: u16 = 2;
+pub const VERSION_MAJOR: u16 = 3;
 /// A reader accepts any minor version. It ignores the additions of a later one. A writer writes the
 /// least minor version that has all section kinds of the blob, see [`SectionKind::minor`].
-pub const VERSION_MINOR: u16 = 1;
+pub const VERSION_MINOR: u16 = 0;
 /// Bytes of the fixed part of the header; the section table follows.
 pub const HEADER_BYTES: usize = 160;
 /// Bytes of one entry of the section table: kind, offset, length, CRC, each a u32.

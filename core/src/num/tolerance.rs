@@ -165,9 +165,10 @@ pub const FAN_DISTANCE: f32 = 32.0;
 /// Rounding of the same distance, in units of [`U32`] times the distance itself. Proved: 9 (§8).
 pub const FAN_RELATIVE: f32 = 16.0;
 
-/// Rounding of a box bound, in units of [`U32`] times the 1-norm of the way to the farthest corner
-/// of the model's box. Proved: 11.3 (§8). A larger value visits more.
-pub const BOX_DISTANCE: f32 = 16.0;
+/// Rounding of the distance from a plane between a query and a leaf, in units of [`U32`] times the
+/// 1-norm of the way to the farthest corner of the model's box. Proved: 14 (§8). A larger value
+/// visits more.
+pub const PLANE_DISTANCE: f32 = 16.0;
 
 /// Least ratio of the lower bound of every other triangle to the best square, 1 − 2^-18. A
 /// triangle with less is refined as a sliver. The lower end of an interval is lower by half of the

@@ -5,7 +5,7 @@ use core::ops::{Deref, DerefMut};
 /// Eight bytes of working memory. Its contents mean nothing between queries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScratchEntry {
-    /// A bound with a lane in its low bits, or the bits of an integer below `SMALL_WORDS`.
+    /// A bound, or the bits of an integer below `SMALL_WORDS`.
     key: f32,
     /// The node that the key belongs to, or any word.
     node: u32,
@@ -38,6 +38,12 @@ impl ScratchEntry {
     #[inline(always)]
     pub(crate) const fn node(self) -> u32 {
         self.node
+    }
+
+    /// The first word.
+    #[inline(always)]
+    pub(crate) const fn small_word(self) -> u32 {
+        self.key.to_bits()
     }
 
     #[inline(always)]

@@ -10,8 +10,8 @@ pub(super) fn header_word(bytes: &[u8], offset: usize) -> Result<u32, String> {
 /// Proves that it is a whole blob whose header's CRC holds.
 pub(super) fn check_header(bytes: &[u8]) -> Result<(), String> {
     let at = |offset: usize| header_word(bytes, offset);
-    if bytes.get(..10) != Some(b"meshswep\x02\x00".as_slice()) || at(16)? as usize != bytes.len() {
-        return Err("not a whole blob of version 2".into());
+    if bytes.get(..10) != Some(b"meshswep\x03\x00".as_slice()) || at(16)? as usize != bytes.len() {
+        return Err("not a whole blob of version 3".into());
     }
     let table_end = (at(12)? as usize).min(bytes.len()).max(160);
     if crc32(&[&bytes[..156], &bytes[160..table_end]].concat()) != at(156)? {

@@ -123,9 +123,11 @@ fn shrink(bytes: &mut [u8], entry: Entry, row: usize, steps: i16) {
 
 #[test]
 fn a_box_one_step_smaller_is_noticed() {
-    for (kind, words) in [(FRAMES, "box 0 of node 0"), (BOXES, "axis-aligned box 0 of node 0")] {
+    // High planes of frames are counted down.
+    let kinds = [(FRAMES, 1, "box 0 of node 0"), (BOXES, -1, "axis-aligned box 0 of node 0")];
+    for (kind, inward, words) in kinds {
         for axis in 0..3 {
-            for (row, steps) in [(2 * axis, 1), (2 * axis + 1, -1)] {
+            for (row, steps) in [(2 * axis, 1), (2 * axis + 1, inward)] {
                 let complaint = damaged(kind, |bytes, entry| shrink(bytes, entry, row, steps));
                 assert!(complaint.contains(words), "{complaint}");
             }
@@ -135,11 +137,10 @@ fn a_box_one_step_smaller_is_noticed() {
 
 #[test]
 fn a_frame_that_makes_distances_longer_is_noticed() {
-    for word_index in [24, 25, 26] {
+    for diagonal in [0, 4, 8] {
         let complaint = damaged(FRAMES, |bytes, entry| {
-            let at = entry.offset as usize + 4 * word_index;
-            let weight = f32::from_bits(word(bytes, at).expect("there"));
-            put_u32(bytes, at, (weight * 1.000_001).to_bits());
+            let entries = &mut section(bytes, entry)[48..];
+            entries[2 * diagonal..][..2].copy_from_slice(&8193i16.to_le_bytes());
         });
         assert!(complaint.contains("frame 0 makes a distance longer"), "{complaint}");
     }

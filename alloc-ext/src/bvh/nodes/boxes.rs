@@ -1,10 +1,10 @@
 //! A node's frame and the 8-bit boxes of its children, rounded outward in the *decoded* frame.
 //!
-//! The frame is a quaternion of integers, so the matrix `M = n·R` of [`NodeBoxes::matrix`] is exact
-//! in integers, and boxes are computed in exactly the coordinates in which a reader compares them:
-//! nothing is lost between fitting and decoding.
+//! The frame is a matrix of integers, a rotation that is shrunk so little that it makes no vector
+//! longer. Boxes are computed in exactly the coordinates in which a reader compares them: nothing
+//! is lost between fitting and decoding.
 //!
-//! Why containment is rigorous: entries of `M` are integers of at most 17 bits and coordinates
+//! Why containment is rigorous: entries of `M` are integers of at most 14 bits and coordinates
 //! relative to the origin stay below 2^18, so for grid points every product and sum of `M·(P −
 //! origin)` is an integer below 2^37, which f64 holds exactly; scaling by a power of two, `floor`
 //! and `ceil` are exact as well. For fractional points, the difference, the products and the two
@@ -13,11 +13,15 @@
 //! which also pays for rounding the bound and the widening.
 
 use glam::DVec3;
+use meshsweep_core::internal::bvh::format::layout::{MOST_EXPONENT, ROW_BITS};
+use std::ops::RangeInclusive;
 
 /// Children of a node at most.
 pub const LANES: usize = 8;
-/// Least and greatest exponent of a box coordinate's unit.
-const EXPONENTS: std::ops::RangeInclusive<i32> = -20..=40;
+/// Least and greatest exponent of the step of an axis-aligned box.
+const EXPONENTS: RangeInclusive<i32> = -20..=40;
+/// The same of a frame: steps finer than the grid would gain nothing.
+const FRAME_EXPONENTS: RangeInclusive<i32> = 0..=MOST_EXPONENT as i32;
 /// Coordinates may not exceed this in magnitude, grid units.
 const MAX_ABS_COORDINATE: f64 = 70_000.0;
 /// Grid points per axis, less one.
@@ -27,15 +31,15 @@ const FRACTIONAL_MARGIN: f64 = 1.0 / (1u64 << 50) as f64;
 
 /// A node's frame and boxes, as the blob stores them.
 ///
-/// A point `P` (grid units) has the box coordinates `q_k = (M_k·(P − origin)) · 2^(−exponent_k) +
-/// 128` for `k = 0..3`, and child `i` covers `low[k][i] <= q_k <= high[k][i]` for all its points,
+/// A point `P` (grid units) has the box coordinates `q_k = (M_k·(P − origin)) · 2^(−13 − exponent_k)
+/// + 128` for `k = 0..3`, and child `i` covers `low[k][i] <= q_k <= high[k][i]` for all its points,
 /// in real arithmetic. Absent children have `low = 255` and `high = 0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NodeBoxes {
     /// Grid point near the middle of the children.
     pub origin: [u16; 3],
-    /// `(w, x, y, z)`, not zero; not normalised.
-    pub quaternion: [i8; 4],
+    /// Rows of the matrix, in units of 2^-[`ROW_BITS`].
+    pub matrix: [[i16; 3]; 3],
     /// Binary exponent of the box coordinates' unit, per axis, -20 to 40.
     pub exponent: [i8; 3],
     /// Lower ends of the boxes by axis and child.
@@ -45,22 +49,6 @@ pub struct NodeBoxes {
 }
 
 impl NodeBoxes {
-    /// Squared length of the quaternion: what [`Self::matrix`] scales lengths by. 1 for an
-    /// axis-aligned node, 16129 to 64516 for a fitted one.
-    pub fn n(&self) -> i32 {
-        self.quaternion.iter().map(|&c| i32::from(c) * i32::from(c)).sum()
-    }
-
-    /// `M = n·R`: integer rows, each of length `n`, orthogonal to each other.
-    pub fn matrix(&self) -> [[i32; 3]; 3] {
-        let [w, x, y, z] = self.quaternion.map(i32::from);
-        [
-            [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
-        ]
-    }
-
     /// Whether child `lane` covers `point`, decided in exact integer arithmetic.
     ///
     /// Exact for coordinates that are multiples of 2^−76; smaller bits count as an interval that
@@ -77,17 +65,16 @@ impl NodeBoxes {
         // are equal unless bits fall off.
         let below = point.to_array().map(|c| (c * scale).floor() as i128);
         let above = point.to_array().map(|c| (c * scale).ceil() as i128);
-        let matrix = self.matrix();
         (0..3).all(|k| {
             let (mut least, mut greatest) = (0i128, 0i128);
             for j in 0..3 {
-                let entry = i128::from(matrix[k][j]);
+                let entry = i128::from(self.matrix[k][j]);
                 let origin = i128::from(self.origin[j]) << FRACTION_BITS;
                 let (a, b) = (entry * (below[j] - origin), entry * (above[j] - origin));
                 least += a.min(b);
                 greatest += a.max(b);
             }
-            let shift = FRACTION_BITS.wrapping_add_signed(i32::from(self.exponent[k]));
+            let shift = (FRACTION_BITS + ROW_BITS).wrapping_add_signed(i32::from(self.exponent[k]));
             let end = |stored: u8| (i128::from(stored) - 128) << shift;
             end(self.low[k][lane]) <= least && greatest <= end(self.high[k][lane])
         })
@@ -141,23 +128,26 @@ impl Extent {
     }
 }
 
-/// Boxes of up to eight children in the frame of `quaternion`; children without points become
-/// absent lanes.
+/// Boxes of up to eight children in the frame of `matrix`; children without points become absent
+/// lanes.
 ///
 /// Coordinates are grid units within ±[`MAX_ABS_COORDINATE`]. The exponents are the least that fit,
 /// so the node spans 128 to 255 units per axis unless it is flat there. Cost: two passes over the
-/// points. Panics on more than eight children or a zero quaternion.
-pub(super) fn quantise(quaternion: [i8; 4], children: &[&[DVec3]]) -> NodeBoxes {
+/// points. Panics on more than eight children.
+pub(super) fn quantise(matrix: [[i16; 3]; 3], children: &[&[DVec3]]) -> NodeBoxes {
+    fit(matrix, children, FRAME_EXPONENTS)
+}
+
+fn fit(matrix: [[i16; 3]; 3], children: &[&[DVec3]], exponents: RangeInclusive<i32>) -> NodeBoxes {
     assert!(children.len() <= LANES, "a node has at most {LANES} children");
-    assert!(quaternion != [0; 4], "a frame needs a non-zero quaternion");
     let mut boxes = NodeBoxes {
         origin: [0; 3],
-        quaternion,
+        matrix,
         exponent: [0; 3],
         low: [[255; LANES]; 3],
         high: [[0; LANES]; 3],
     };
-    let matrix = boxes.matrix().map(|row| DVec3::from_array(row.map(f64::from)));
+    let matrix = matrix.map(|row| DVec3::from_array(row.map(f64::from)));
     let mut extents = [Extent::EMPTY; LANES];
     let mut origin =
         children.iter().find_map(|points| points.first()).copied().unwrap_or(DVec3::ZERO);
@@ -169,18 +159,18 @@ pub(super) fn quantise(quaternion: [i8; 4], children: &[&[DVec3]]) -> NodeBoxes 
         }
         if pass == 0 {
             let all = extents.iter().fold(Extent::EMPTY, Extent::union);
-            let n = f64::from(boxes.n());
             for k in (0..3).filter(|&k| all.low[k] <= all.high[k]) {
-                origin += matrix[k] * ((all.low[k] + all.high[k]) * 0.5 / (n * n));
+                let square = power_of_two(2 * ROW_BITS.cast_signed());
+                origin += matrix[k] * ((all.low[k] + all.high[k]) * 0.5 / square);
             }
         }
     }
     boxes.origin = origin.to_array().map(|c| c as u16);
     let all = extents.iter().fold(Extent::EMPTY, Extent::union);
     for k in 0..3 {
-        let exponent = least_exponent(all.low[k], all.high[k]);
+        let exponent = least_exponent(all.low[k], all.high[k], exponents.clone());
         boxes.exponent[k] = exponent as i8;
-        let per_unit = power_of_two(-exponent);
+        let per_unit = power_of_two(-exponent - ROW_BITS.cast_signed());
         for (lane, extent) in
             extents.iter().enumerate().filter(|(_, extent)| extent.low[k] <= extent.high[k])
         {
@@ -196,18 +186,23 @@ pub(super) fn quantise(quaternion: [i8; 4], children: &[&[DVec3]]) -> NodeBoxes 
 ///
 /// The same contract and cost as for rotated frames; children without points become absent lanes.
 pub fn axis_aligned(children: &[&[DVec3]]) -> NodeBoxes {
-    quantise([1, 0, 0, 0], children)
+    fit(IDENTITY, children, EXPONENTS)
 }
 
+/// The matrix of boxes along the axes.
+pub(super) const IDENTITY: [[i16; 3]; 3] = {
+    let one = 1 << ROW_BITS;
+    [[one, 0, 0], [0, one, 0], [0, 0, one]]
+};
+
 /// Least exponent in whose unit `low..=high`, rounded outward, fits in `-128..=127`.
-fn least_exponent(low: f64, high: f64) -> i32 {
-    EXPONENTS
-        .into_iter()
+fn least_exponent(low: f64, high: f64, mut exponents: RangeInclusive<i32>) -> i32 {
+    exponents
         .find(|&exponent| {
-            let per_unit = power_of_two(-exponent);
+            let per_unit = power_of_two(-exponent - ROW_BITS.cast_signed());
             (low * per_unit).floor() >= -128.0 && (high * per_unit).ceil() <= 127.0
         })
-        .expect("coordinates below 2^37 fit in units of 2^40")
+        .expect("255 steps of the greatest exponent span every model")
 }
 
 /// `2^exponent`, exact, for normal exponents.
@@ -217,6 +212,7 @@ fn power_of_two(exponent: i32) -> f64 {
 
 #[cfg(test)]
 pub(super) mod tests {
+    use super::super::rotation::stored_rotation;
     use super::*;
     use crate::random::SplitMix;
 
@@ -248,8 +244,11 @@ pub(super) mod tests {
                         .collect()
                 })
                 .collect();
-            for quaternion in [[1, 0, 0, 0], SKEW, [127; 4], [0, 0, -127, 1]] {
-                assert_covers_all(&quantise(quaternion, &slices(&children)), &slices(&children));
+            for quaternion in [[127, 0, 0, 0], SKEW, [127; 4], [0, 0, -127, 1]] {
+                assert_covers_all(
+                    &quantise(stored_rotation(quaternion), &slices(&children)),
+                    &slices(&children),
+                );
             }
         }
     }
@@ -257,12 +256,15 @@ pub(super) mod tests {
     #[test]
     fn fractional_points_are_covered() {
         let mut noise = SplitMix::new(2);
-        for size in [1e-9, 1e-3, 1.0, 140_000.0] {
+        for size in [1e-9, 1e-3, 1.0, 65_535.0] {
             let children: Vec<Vec<DVec3>> = (0..8)
                 .map(|_| (0..20).map(|_| noise.point(DVec3::ZERO, DVec3::splat(size))).collect())
                 .collect();
-            for quaternion in [[1, 0, 0, 0], SKEW, [127, 127, -127, 0]] {
-                assert_covers_all(&quantise(quaternion, &slices(&children)), &slices(&children));
+            for quaternion in [[127, 0, 0, 0], SKEW, [127, 127, -127, 0]] {
+                assert_covers_all(
+                    &quantise(stored_rotation(quaternion), &slices(&children)),
+                    &slices(&children),
+                );
             }
         }
     }
@@ -276,9 +278,9 @@ pub(super) mod tests {
                 let children: Vec<Vec<DVec3>> = (0..8)
                     .map(|_| (0..5).map(|_| noise.point(centre, size).round() + fraction).collect())
                     .collect();
-                for quaternion in [[1, 0, 0, 0], SKEW] {
+                for quaternion in [[127, 0, 0, 0], SKEW] {
                     assert_covers_all(
-                        &quantise(quaternion, &slices(&children)),
+                        &quantise(stored_rotation(quaternion), &slices(&children)),
                         &slices(&children),
                     );
                 }
@@ -288,9 +290,9 @@ pub(super) mod tests {
 
     #[test]
     fn extreme_corners_fit_the_exponents() {
-        let corners = [DVec3::splat(-MAX_ABS_COORDINATE), DVec3::splat(MAX_ABS_COORDINATE)];
-        for quaternion in [[1, 0, 0, 0], [127; 4], SKEW, [-128, 127, 127, -128]] {
-            assert_covers_all(&quantise(quaternion, &[&corners]), &[&corners]);
+        let corners = [DVec3::ZERO, DVec3::splat(GRID_MAX)];
+        for quaternion in [[127, 0, 0, 0], [127; 4], SKEW, [-127, 127, 127, -127]] {
+            assert_covers_all(&quantise(stored_rotation(quaternion), &[&corners]), &[&corners]);
         }
     }
 
@@ -300,7 +302,7 @@ pub(super) mod tests {
         let points: Vec<DVec3> = (0..200)
             .map(|_| noise.point(DVec3::splat(30_000.0), DVec3::splat(5000.0)).round())
             .collect();
-        let boxes = quantise(SKEW, &[&points]);
+        let boxes = quantise(stored_rotation(SKEW), &[&points]);
         for k in 0..3 {
             assert!(boxes.high[k][0] - boxes.low[k][0] >= 126, "{boxes:?}");
         }

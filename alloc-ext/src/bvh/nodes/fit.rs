@@ -4,6 +4,7 @@ use super::boxes::{NodeBoxes, axis_aligned, quantise};
 use super::extremes::extreme_points;
 use super::frame::{SEARCH_POINTS, best_quaternion};
 use super::order::Topology;
+use super::rotation::stored_rotation;
 use glam::DVec3;
 
 /// All leaves' points, laid out so that every subtree is one contiguous run.
@@ -68,7 +69,7 @@ pub fn shared_frames(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeBoxes>
             children[node.inner.len()..].iter().map(|points| extreme_points(points, SEARCH_POINTS)),
         );
         let search: Vec<&[DVec3]> = reduced.iter().map(Vec::as_slice).collect();
-        boxes.push(quantise(best_quaternion(&search), &children));
+        boxes.push(quantise(stored_rotation(best_quaternion(&search)), &children));
         extremes[index] = extreme_points(&reduced.concat(), SEARCH_POINTS);
     }
     boxes.reverse();
@@ -157,7 +158,7 @@ mod tests {
         assert!(
             axis_aligned_boxes(&tree, &slices)
                 .iter()
-                .all(|b| b.n() == 1 && b.matrix() == [[1, 0, 0], [0, 1, 0], [0, 0, 1]])
+                .all(|b| b.matrix == [[8192, 0, 0], [0, 8192, 0], [0, 0, 8192]])
         );
     }
 }

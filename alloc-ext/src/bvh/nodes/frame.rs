@@ -54,7 +54,6 @@ impl ChildPoints {
     /// to 8 bits included.
     fn cost(&self, quaternion: [i8; 4]) -> f32 {
         let axes = frame_axes(unit_quaternion(quaternion));
-        let n = quaternion.iter().map(|&c| f32::from(c) * f32::from(c)).sum::<f32>();
         let mut low = [[f32::INFINITY; LANES]; 3];
         let mut high = [[f32::NEG_INFINITY; LANES]; 3];
         for [x, y, z] in &self.steps {
@@ -70,7 +69,7 @@ impl ChildPoints {
         let rounding = [0, 1, 2].map(|k| {
             let least = low[k].iter().copied().fold(f32::INFINITY, f32::min);
             let greatest = high[k].iter().copied().fold(f32::NEG_INFINITY, f32::max);
-            expected_rounding((greatest - least) * n) / n
+            expected_rounding(greatest - least)
         });
         let d = self.dilation;
         let mut sum = 0.0;
@@ -173,10 +172,12 @@ fn refine(search: &mut Search, steps: u32) {
 #[cfg(test)]
 mod tests {
     use super::super::boxes::tests::assert_covers_all;
-    use super::super::boxes::{NodeBoxes, axis_aligned, quantise};
+    use super::super::boxes::{IDENTITY, NodeBoxes, axis_aligned, quantise};
     use super::super::extremes::extreme_points;
+    use super::super::rotation::stored_rotation;
     use super::*;
     use crate::random::SplitMix;
+    use meshsweep_core::internal::bvh::format::layout::lengthens_nothing;
 
     /// Four flat leaves side by side in a plane that is slanted against all axes.
     fn slanted_leaves(fraction: f64) -> Vec<Vec<DVec3>> {
@@ -194,7 +195,7 @@ mod tests {
 
     /// Summed volume of the boxes, grid units.
     fn volume(boxes: &NodeBoxes, count: usize) -> f64 {
-        let unit = |k: usize| 2f64.powi(i32::from(boxes.exponent[k])) / f64::from(boxes.n());
+        let unit = |k: usize| 2f64.powi(i32::from(boxes.exponent[k]));
         (0..count)
             .map(|i| {
                 (0..3)
@@ -236,7 +237,7 @@ mod tests {
     #[test]
     fn equal_points_get_the_identity() {
         let boxes = shared_frame(&[&[DVec3::ONE; 3], &[DVec3::ONE]]);
-        assert_eq!(boxes.quaternion, [127, 0, 0, 0]);
+        assert_eq!(boxes.matrix, IDENTITY);
         assert_covers_all(&boxes, &[&[DVec3::ONE], &[DVec3::ONE]]);
     }
 
@@ -245,7 +246,7 @@ mod tests {
         let reduced: Vec<Vec<DVec3>> =
             children.iter().map(|points| extreme_points(points, SEARCH_POINTS)).collect();
         let search: Vec<&[DVec3]> = reduced.iter().map(Vec::as_slice).collect();
-        quantise(best_quaternion(&search), children)
+        quantise(stored_rotation(best_quaternion(&search)), children)
     }
 
     #[test]
@@ -254,7 +255,7 @@ mod tests {
         for count in 1..=4 {
             let children: Vec<&[DVec3]> = leaves[..count].iter().map(Vec::as_slice).collect();
             let boxes = shared_frame(&children);
-            assert_eq!(boxes.quaternion.iter().map(|c| c.unsigned_abs()).max(), Some(127));
+            assert!(lengthens_nothing(&boxes.matrix));
         }
     }
 

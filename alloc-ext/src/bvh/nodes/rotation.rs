@@ -2,7 +2,9 @@
 //!
 //! Only `+ − × ÷ √`, so the same input gives the same frame everywhere.
 
+use super::boxes::IDENTITY;
 use glam::{DMat3, DQuat, DVec3, Vec3};
+use meshsweep_core::internal::bvh::format::layout::{ROW_BITS, lengthens_nothing};
 
 /// Greatest component of a stored quaternion, in magnitude.
 const QUATERNION_MAX: f64 = 127.0;
@@ -23,7 +25,27 @@ pub(super) fn unit_quaternion([w, x, y, z]: [i8; 4]) -> DQuat {
     DQuat::from_xyzw(f64::from(x), f64::from(y), f64::from(z), f64::from(w)).normalize()
 }
 
-/// The frame's axes, as rows of the rotation matrix.
+/// The rotation of a stored quaternion as a node stores it: integers in units of 2^-[`ROW_BITS`],
+/// shrunk until they make no vector longer.
+///
+/// By Gershgorin's theorem no eigenvalue of `M·Mᵀ` is above the greatest sum of the magnitudes of a
+/// row.
+pub(super) fn stored_rotation(quaternion: [i8; 4]) -> [[i16; 3]; 3] {
+    if quaternion[1..] == [0; 3] {
+        return IDENTITY;
+    }
+    let rotation = DMat3::from_quat(unit_quaternion(quaternion));
+    let one = 1i32 << ROW_BITS;
+    (1..=one)
+        .map(|less| {
+            let scale = f64::from(one - less);
+            [0, 1, 2].map(|k| rotation.row(k).to_array().map(|x| (x * scale).round() as i16))
+        })
+        .find(lengthens_nothing)
+        .unwrap_or([[0; 3]; 3])
+}
+
+/// The axes of a frame, as rows of the rotation matrix.
 pub(super) fn frame_axes(q: DQuat) -> [Vec3; 3] {
     let rotation = DMat3::from_quat(q);
     [0, 1, 2].map(|k| rotation.row(k).as_vec3())

@@ -3,10 +3,11 @@
 use super::front::{BoundKind, Child, TraversalFront};
 use super::planes::{Planes, VisitedLeaf, middle};
 use super::sliver::has_no_sliver;
+use crate::bvh::descent::OpenedNode;
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::bvh::leaf_distance::nearest_and_edges;
-use crate::bvh::node::{CHILD_MASK, NodeFrame, box_distances, least_key};
-use crate::bvh::point_query::PointQuery;
+use crate::bvh::node::{CHILD_MASK, least_key};
+use crate::bvh::point_query::{EVERY_KEY, PointQuery};
 use crate::geom::fan::{Nearness, PointFan, WIDTH, point_leaf};
 use crate::num::tolerance::{FAN_DISTANCE, ROOT_AND_PRODUCTS, SHORTFALL, U32};
 use crate::num::{lesser, sqrt_approx};
@@ -86,8 +87,8 @@ pub(crate) struct Follow<'a, 't> {
     refine_below: f32,
     /// Least squared lower bound of the triangles that were below `refine_below` when visited.
     sliver_lower_sq: f32,
-    /// Greatest error of a box's bound.
-    pub(crate) box_error: f32,
+    /// Greatest error of a plane's bound.
+    pub(crate) plane_error: f32,
     /// Greatest error of a triangle's bound, in addition to [`SHORTFALL`] of the bound itself.
     shortfall: f32,
     /// Work so far, in half leaves: see [`cost`].
@@ -106,7 +107,7 @@ impl<'a, 't> Follow<'a, 't> {
         ahead: f32,
         steps: u32,
     ) -> Self {
-        let box_error = query.box_error();
+        let plane_error = query.plane_error;
         let shortfall = tree.header().star_radius * (SHORTFALL + FAN_DISTANCE * U32);
         Follow {
             tree,
@@ -120,7 +121,7 @@ impl<'a, 't> Follow<'a, 't> {
             bound: f32::INFINITY,
             refine_below: f32::NEG_INFINITY,
             sliver_lower_sq: f32::INFINITY,
-            box_error,
+            plane_error,
             shortfall,
             cost: 0,
             steps,
@@ -133,7 +134,7 @@ impl<'a, 't> Follow<'a, 't> {
     #[inline(never)]
     pub(crate) fn begin(&mut self, max_distance: f32, budget: u32) -> Result<Nearest, NoAnswer> {
         self.front.clear();
-        let max_distance = max_distance * (1.0 + 1.0 / 1024.0) + self.box_error;
+        let max_distance = max_distance * (1.0 + 1.0 / 1024.0) + self.plane_error;
         let bound = self.horizon(max_distance * max_distance);
         self.bound = bound;
         self.open(0, None)?;
@@ -189,7 +190,7 @@ impl<'a, 't> Follow<'a, 't> {
         loop {
             match child.bound_kind() {
                 BoundKind::Triangles => {
-                    let key = self.front.key(self.planes.bound(child, self.way) - self.box_error);
+                    let key = self.front.key(self.planes.bound(child, self.way) - self.plane_error);
                     if key > self.bound {
                         self.front.set(i, key, child);
                         return Ok(());
@@ -231,8 +232,8 @@ impl<'a, 't> Follow<'a, 't> {
             return Err(NoAnswer::Undecided);
         }
         let links = self.tree.links(node).ok_or(NoAnswer::Unchecked)?;
-        let record = self.tree.frame(node).ok_or(NoAnswer::Unchecked)?;
-        let keys = box_distances(record, &NodeFrame::of(record, self.query.p), links.count, 0.0);
+        let opened = OpenedNode { node, count: links.count, bound: 0, limit: EVERY_KEY };
+        let keys = self.query.keys_of(self.tree, &opened).ok_or(NoAnswer::Unchecked)?;
         self.work.splits += 1;
         self.work.nodes += links.count;
         self.cost += cost::NODE;
@@ -243,7 +244,7 @@ impl<'a, 't> Follow<'a, 't> {
             self.cost += self.front.state.count as u32 / cost::ENTRIES_MOVED;
         }
         if let Some(i) = entry {
-            let lane = nearest.to_bits() & CHILD_MASK;
+            let lane = nearest & CHILD_MASK;
             self.front.set(i, self.key_of_box(nearest), Child::new(node, lane));
         }
         for (lane, key) in (0..links.count).zip(keys) {
@@ -256,16 +257,16 @@ impl<'a, 't> Follow<'a, 't> {
     }
 
     #[inline(always)]
-    fn key_of_box(&self, key: f32) -> f32 {
-        self.front.key(sqrt_approx(key) * (1.0 - ROOT_AND_PRODUCTS) - self.box_error)
+    fn key_of_box(&self, key: u32) -> f32 {
+        self.front.key(self.query.distance_of_key(key))
     }
 
     /// Key of a leaf by its box, for the present point.
     #[cold]
     fn box_key(&mut self, child: Child) -> Result<f32, NoAnswer> {
-        let record = self.tree.frame(child.node()).ok_or(NoAnswer::Unchecked)?;
         let count = child.index() + 1;
-        let keys = box_distances(record, &NodeFrame::of(record, self.query.p), count, 0.0);
+        let opened = OpenedNode { node: child.node(), count, bound: 0, limit: EVERY_KEY };
+        let keys = self.query.keys_of(self.tree, &opened).ok_or(NoAnswer::Unchecked)?;
         self.work.nodes += count;
         let key = keys.get(child.index() as usize).copied().ok_or(NoAnswer::Unchecked)?;
         Ok(self.key_of_box(key))
@@ -276,7 +277,7 @@ impl<'a, 't> Follow<'a, 't> {
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn look(&mut self, i: usize, child: Child) -> Result<(), NoAnswer> {
         let leaf = self.tree.leaf(child.node(), child.index()).ok_or(NoAnswer::Unchecked)?;
-        let (near, edges) = nearest_and_edges(&leaf, self.query.p).ok_or(NoAnswer::Unchecked)?;
+        let (near, edges) = nearest_and_edges(&leaf, self.query).ok_or(NoAnswer::Unchecked)?;
         self.work.triangles += leaf.shape().triangles() as u32;
         self.cost += cost::LEAF;
         let distance_sq = near.distance_sq;
@@ -303,7 +304,7 @@ impl<'a, 't> Follow<'a, 't> {
                     &looked,
                     self.way,
                     near.lane(),
-                    self.shortfall + self.box_error,
+                    self.shortfall + self.plane_error,
                 );
             }
         } else if let Some((key, _)) = self.front.get(i) {
@@ -337,7 +338,8 @@ impl<'a, 't> Follow<'a, 't> {
     #[inline(always)]
     pub(crate) fn horizon(&self, distance_sq: f32) -> f32 {
         self.front.horizon(
-            sqrt_approx(self.query.limit(distance_sq)) * (1.0 + ROOT_AND_PRODUCTS) + self.box_error,
+            sqrt_approx(self.query.limit(distance_sq)) * (1.0 + ROOT_AND_PRODUCTS)
+                + self.plane_error,
         )
     }
 

@@ -311,7 +311,7 @@ impl Memory {
         front.advance(if fresh { 0.0 } else { step });
         let mut follow = Follow::new(tree, query, front, planes, AHEAD * step, steps);
         let path = follow.front.state.path;
-        if path > follow.box_error * LONG_PATH {
+        if path > follow.plane_error * LONG_PATH {
             last.least_other_key = if last.least_other_key > path {
                 (last.least_other_key - path) * (1.0 - ROOT_AND_PRODUCTS)
             } else {

@@ -2,7 +2,8 @@
 
 use super::header::BvhHeader;
 use super::layout::{
-    BVH_BYTES, FAN_PADDING, SOURCE_BLOCK, SOURCE_ENTRY_BYTES, SOURCE_PADDING, boxes,
+    BVH_BYTES, FAN_PADDING, FRAME_BYTES, MOST_EXPONENT, SOURCE_BLOCK, SOURCE_ENTRY_BYTES,
+    SOURCE_PADDING, boxes, lengthens_nothing,
 };
 use super::leaf::{FanLeaf, LeafShape};
 use super::units::Units;
@@ -18,10 +19,6 @@ const MAX_TREE_DEPTH: usize = 64;
 
 /// Largest coordinate on a grid.
 const MAX_GRID: f32 = (1u32 << 25) as f32;
-/// Largest entry of a frame's matrix: a box coordinate's step is never finer than 2^-37 grid units.
-const MAX_ROW: f32 = (1u64 << 37) as f32;
-/// Largest square of a step.
-const MAX_WEIGHT: f32 = (1u64 << 40) as f32;
 
 /// Siblings that a walk has begun.
 #[derive(Clone, Copy)]
@@ -30,6 +27,18 @@ struct Family {
     end: u32,
     /// Entries on the stack above them.
     waiting: u32,
+}
+
+/// Whether a frame lengthens nothing and has known exponents and a zero at the end.
+fn is_sound_frame(record: &[u8; FRAME_BYTES]) -> bool {
+    let (entries, _) = record.as_chunks::<2>();
+    let rows = entries.get(boxes::FRAME_ROWS / 2..).and_then(|rest| rest.first_chunk::<9>());
+    let last = record.get(boxes::FRAME_EXPONENTS..).and_then(|rest| rest.first_chunk::<4>());
+    let (Some(rows), Some(&[x, y, z, zero])) = (rows, last) else { return false };
+    let [a, b, c, d, e, f, g, h, i] = rows.map(i16::from_le_bytes);
+    lengthens_nothing(&[[a, b, c], [d, e, f], [g, h, i]])
+        && x.max(y).max(z) <= MOST_EXPONENT
+        && zero == 0
 }
 
 impl<'a> Bvh<'a> {
@@ -237,33 +246,15 @@ impl<'a> Bvh<'a> {
         Ok(())
     }
 
-    /// The numbers of every frame are finite and within the limits of the rounding margins.
+    /// Frames make no distance longer, and every number keeps to the range for which bounds are
+    /// proved.
     fn check_boxes(&self) -> Result<(), OpenError> {
-        let origin = |x: f32| x.abs() <= MAX_GRID;
         for (index, record) in (0u32..).zip(self.frames) {
-            let (words, _) = record.as_chunks::<4>();
-            let sound = words.iter().skip(boxes::FRAME_ROWS / 4).enumerate().all(|(at, word)| {
-                let x = f32::from_le_bytes(*word);
-                match at {
-                    0..9 => x.abs() <= MAX_ROW,
-                    9..12 => origin(x),
-                    _ => (0.0..=MAX_WEIGHT).contains(&x),
-                }
-            });
-            // A step counts for no more than its length. So squares of distances stay in f32's
-            // range.
-            let mut f = [0f32; 15];
-            f.iter_mut()
-                .zip(words.iter().skip(boxes::FRAME_ROWS / 4))
-                .for_each(|(x, word)| *x = f32::from_le_bytes(*word));
-            let [a, b, c, d, e, g, h, i, j, _, _, _, u, v, w] = f;
-            let short = |x: f32, y: f32, z: f32, weight: f32| {
-                (x * x) * weight + (y * y) * weight + (z * z) * weight <= 1.0 + 16.0 * U32
-            };
-            if !(sound && short(a, b, c, u) && short(d, e, g, v) && short(h, i, j, w)) {
+            if !is_sound_frame(record) {
                 return Err(OpenError::Record { section: SectionKind::TreeFrames, index });
             }
         }
+        let origin = |x: f32| x.abs() <= MAX_GRID;
         for (index, record) in (0u32..).zip(self.boxes) {
             let (words, _) = record.as_chunks::<4>();
             let sound = words.iter().skip(boxes::ORIGIN / 4).enumerate().all(|(at, word)| {

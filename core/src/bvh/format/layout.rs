@@ -5,7 +5,24 @@ pub const BVH_BYTES: usize = 64;
 /// Bytes of a node's links.
 pub const LINK_BYTES: usize = 20;
 /// Bytes of a node's boxes in a shared frame.
-pub const FRAME_BYTES: usize = 108;
+pub const FRAME_BYTES: usize = 76;
+/// Entries of a frame's matrix are integers in units of 2^-this.
+pub const ROW_BITS: u32 = 13;
+/// Greatest binary exponent of the step of a frame's axis: 255 steps span every model.
+pub const MOST_EXPONENT: u8 = 9;
+/// Whether a frame's matrix makes no vector longer. By Gershgorin's theorem no eigenvalue of the
+/// rows' inner products is above the greatest sum of magnitudes.
+#[must_use]
+pub fn lengthens_nothing(matrix: &[[i16; 3]; 3]) -> bool {
+    let dot = |[a, b, c]: [i16; 3], [x, y, z]: [i16; 3]| {
+        let product = |a: i16, x: i16| i64::from(a) * i64::from(x);
+        product(a, x) + product(b, y) + product(c, z)
+    };
+    matrix.iter().all(|row| {
+        matrix.iter().map(|other| dot(*row, *other).abs()).sum::<i64>() <= 1 << (2 * ROW_BITS)
+    })
+}
+
 /// Bytes of a node's axis-aligned boxes.
 pub const BOXES_BYTES: usize = 72;
 /// Bytes of zeros after the last leaf, so that every leaf can be read at full width. Twice as many
@@ -72,14 +89,15 @@ pub mod links {
 }
 
 /// Offsets in a node's boxes. Both kinds begin with six rows of eight u8: low and high planes of
-/// the first axis, of the second, of the third.
+/// the first axis, of the second, of the third. In a shared frame high planes are counted down
+/// from 255.
 pub mod boxes {
-    /// Shared frame: nine f32, the rows of the matrix.
+    /// Shared frame: nine i16, the rows of the matrix.
     pub const FRAME_ROWS: usize = 48;
-    /// Shared frame: three f32.
-    pub const FRAME_ORIGIN: usize = 84;
-    /// Shared frame: three f32, the square of one step of each axis.
-    pub const FRAME_WEIGHTS: usize = 96;
+    /// Shared frame: three u16, the grid point at byte 128.
+    pub const FRAME_ORIGIN: usize = 66;
+    /// Shared frame: three u8, the binary exponents of the steps of the axes, and a zero.
+    pub const FRAME_EXPONENTS: usize = 72;
     /// Axis-aligned: three f32, where byte 128 lies.
     pub const ORIGIN: usize = 48;
     /// Axis-aligned: three f32, one step of each axis.

@@ -74,7 +74,7 @@ pub struct FanLeaf<'a> {
 pub struct GridRing<'a> {
     /// The grid's origin.
     pub origin: [i32; 3],
-    /// First and second centre. The second has no meaning if there is one fan.
+    /// First and second centre, alike if there is one fan.
     pub centres: [[i32; 3]; 2],
     /// First coordinates of the ring.
     pub x: &'a [[u8; 2]],
@@ -82,6 +82,20 @@ pub struct GridRing<'a> {
     pub y: &'a [[u8; 2]],
     /// Third coordinates.
     pub z: &'a [[u8; 2]],
+}
+
+impl GridRing<'_> {
+    /// Corners of triangle `lane`; `turn` is the first of the second fan. `None` past the last
+    /// triangle.
+    #[inline(always)]
+    pub fn corners(&self, lane: usize, turn: usize) -> Option<[[i32; 3]; 3]> {
+        let vertex = |i: usize| {
+            let (x, y, z) = (self.x.get(i)?, self.y.get(i)?, self.z.get(i)?);
+            Some([x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair))))
+        };
+        let [first, second] = self.centres;
+        Some([if lane < turn { first } else { second }, vertex(lane)?, vertex(lane + 1)?])
+    }
 }
 
 /// Vertices of the largest leaf: two centres and nine ring vertices.
@@ -278,7 +292,7 @@ impl<'a> FanLeaf<'a> {
         let (x, y, z) = (x.as_chunks().0, y.as_chunks().0, z.as_chunks().0);
         Some(GridRing {
             origin: self.origin,
-            centres: [three(window, 0), three(window, 6)],
+            centres: [three(window, 0), three(window, 6 * (self.shape.centres() - 1))],
             x,
             y,
             z,

@@ -1,95 +1,88 @@
-//! Squared distances of a point from eight boxes.
+//! Squared distances of a point from eight boxes, in integers.
 //!
-//! The wide form is loops over `[f32; 8]` without branches. The narrow form goes axis by axis and
-//! skips an axis on which the point is inside. Both give the same bits.
+//! The wide form is loops over eight 16-bit lanes without branches: they fit one register of the
+//! smallest vector units. The narrow form goes axis by axis. Both give the same keys.
 
 use super::frame::NodeFrame;
 use super::keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory};
 use crate::bvh::format::layout::FRAME_BYTES;
 use crate::geom::fan::WIDTH;
-use crate::num::greater;
 
-/// Keys of a node's children: squared distances from the point, grid units. No key is below the
-/// parent's, and the low three bits hold the number of the child. Keys from `count` on are
-/// [`NO_CHILD`].
+/// Keys of a node's children: half the squared distances from the point, in squares of key units.
+/// No key is below the parent's, and the low three bits hold the number of the child. Keys from
+/// `count` on are [`NO_CHILD`] or more.
 ///
-/// The distance is a lower bound up to the rounding of `core/docs/rounding.md` §8.
+/// The key without its low bits is a lower bound.
 #[inline(always)]
 pub fn box_distances(
     record: &[u8; FRAME_BYTES],
     frame: &NodeFrame,
     count: u32,
-    parent: f32,
-) -> [f32; WIDTH] {
-    if WIDE {
-        return wide(record, frame, count, parent);
-    }
-    narrow(record, frame, count, parent)
-}
-
-/// The key of one child.
-#[inline(always)]
-fn key(distance_sq: f32, parent: f32, count: u32, child: u32) -> f32 {
-    let far = greater(parent, distance_sq);
-    let far = if child < count { far } else { NO_CHILD };
-    f32::from_bits(far.to_bits() & !CHILD_MASK | child)
-}
-
-#[inline(always)]
-pub(crate) fn wide(
-    record: &[u8; FRAME_BYTES],
-    frame: &NodeFrame,
-    count: u32,
-    parent: f32,
-) -> [f32; WIDTH] {
-    let mut keys = [0f32; WIDTH];
+    parent: u32,
+) -> [u32; WIDTH] {
     let (rows, _) = record.as_chunks::<WIDTH>();
-    let Some([lx, hx, ly, hy, lz, hz]) = rows.first_chunk::<6>() else { return keys };
-    let [qx, qy, qz] = frame.q;
-    let [wx, wy, wz] = frame.weight;
+    let Some(rows) = rows.first_chunk::<6>() else { return [NO_CHILD; WIDTH] };
+    if WIDE { wide(rows, frame, count, parent) } else { narrow(rows, frame, count, parent) }
+}
+
+/// Rows of bytes: first and last planes of the first axis, of the second, of the third. A last
+/// plane is counted from the frame's end.
+type Rows = [[u8; WIDTH]; 6];
+
+#[inline(always)]
+pub(crate) fn wide(rows: &Rows, frame: &NodeFrame, count: u32, parent: u32) -> [u32; WIDTH] {
+    let [lx, hx, ly, hy, lz, hz] = rows;
+    let x = outside(lx, hx, frame.from[0], frame.shift[0]);
+    let y = outside(ly, hy, frame.from[1], frame.shift[1]);
+    let z = outside(lz, hz, frame.from[2], frame.shift[2]);
+    let mut keys = [0u32; WIDTH];
     for i in 0..WIDTH {
-        let x = outside(lx[i], hx[i], qx, wx);
-        let y = outside(ly[i], hy[i], qy, wy);
-        let z = outside(lz[i], hz[i], qz, wz);
-        keys[i] = key(x + y + z, parent, count, i as u32);
+        let square = |x: i16| (i32::from(x) * i32::from(x)).cast_unsigned();
+        let sum = square(x[i]).wrapping_add(square(y[i])).wrapping_add(square(z[i]));
+        keys[i] = key(sum, parent, i as u32);
+    }
+    for (child, key) in (0u32..).zip(&mut keys) {
+        *key = if child < count { *key } else { NO_CHILD | child };
     }
     in_memory(keys)
 }
 
-/// Squared distance along one axis.
+/// The key of a child from its squared distance.
 #[inline(always)]
-fn outside(low: u8, high: u8, q: f32, weight: f32) -> f32 {
-    let below = f32::from(low) - q;
-    let beyond = q - f32::from(high);
-    let far = greater(beyond, below);
-    let far = if far > 0.0 { far } else { 0.0 };
-    // This order keeps every product within f32's range. A flat node's steps are tiny, so a far
-    // point is very many steps away.
-    far * (far * weight)
+fn key(distance_sq: u32, parent: u32, child: u32) -> u32 {
+    let (half, parent) = ((distance_sq >> 1).cast_signed(), parent.cast_signed());
+    let far = if half > parent { half } else { parent };
+    far.cast_unsigned() & !CHILD_MASK | child
+}
+
+/// Distances along one axis.
+#[inline(always)]
+fn outside(first: &[u8; WIDTH], last: &[u8; WIDTH], from: [i32; 2], shift: u32) -> [i16; WIDTH] {
+    // A plane is never beyond this, so a greater number would say no more.
+    let [from_first, from_last] = from.map(|from| from.min(i32::from(i16::MAX)) as i16);
+    let shift = shift & 15;
+    let mut out = [0i16; WIDTH];
+    for i in 0..WIDTH {
+        let place = |byte: u8| (u16::from(byte) << 8 >> shift).cast_signed();
+        let below = place(first[i]).wrapping_sub(from_first);
+        let beyond = place(last[i]).wrapping_sub(from_last);
+        out[i] = below.max(beyond).max(0);
+    }
+    out
 }
 
 #[inline(always)]
-pub(crate) fn narrow(
-    record: &[u8; FRAME_BYTES],
-    frame: &NodeFrame,
-    count: u32,
-    parent: f32,
-) -> [f32; WIDTH] {
+pub(crate) fn narrow(rows: &Rows, frame: &NodeFrame, count: u32, parent: u32) -> [u32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
-    let (rows, _) = record.as_chunks::<WIDTH>();
-    let Some([lx, hx, ly, hy, lz, hz]) = rows.first_chunk::<6>() else { return keys };
-    let [qx, qy, qz] = frame.q;
-    let [wx, wy, wz] = frame.weight;
-    let count = (count as usize).min(WIDTH);
-    let mut sum = [0f32; WIDTH];
-    add_along(lx, hx, qx, wx, count, &mut sum);
-    add_along(ly, hy, qy, wy, count, &mut sum);
-    add_along(lz, hz, qz, wz, count, &mut sum);
-    // No number here is negative. So bits compare as numbers do, and cost less.
-    let parent = parent.to_bits();
-    for (child, (key, sum)) in (0u32..).zip(keys.iter_mut().zip(sum)).take(count) {
-        let far = sum.to_bits().max(parent);
-        *key = f32::from_bits(far & !CHILD_MASK | child);
+    let mut sum = [0u32; WIDTH];
+    let [lx, hx, ly, hy, lz, hz] = rows;
+    let NodeFrame { from: [x, y, z], shift: [sx, sy, sz] } = *frame;
+    let (used, _) = sum.split_at_mut((count as usize).min(WIDTH));
+    add_along(lx, hx, x, sx, used);
+    add_along(ly, hy, y, sy, used);
+    add_along(lz, hz, z, sz, used);
+    for (child, (slot, sum)) in (0u32..).zip(keys.iter_mut().zip(used)) {
+        *slot = key(*sum, parent, child);
     }
     keys
 }
@@ -97,35 +90,30 @@ pub(crate) fn narrow(
 /// Adds the squared distances along one axis.
 #[inline(never)]
 fn add_along(
-    low: &[u8; WIDTH],
-    high: &[u8; WIDTH],
-    q: f32,
-    weight: f32,
-    count: usize,
-    sum: &mut [f32; WIDTH],
+    first: &[u8; WIDTH],
+    last: &[u8; WIDTH],
+    [from_first, from_last]: [i32; 2],
+    shift: u32,
+    sums: &mut [u32],
 ) {
-    let (low, high, sum) = (low.iter().take(count), high.iter().take(count), sum.iter_mut());
-    if q <= 0.0 {
-        // The point is below all boxes on this axis, so only their low planes count.
-        for (sum, &low) in sum.zip(low) {
-            let out = f32::from(low) - q;
-            *sum += out * (out * weight);
+    let shift = shift & 31;
+    let far = |byte: u8, from: i32| ((i32::from(byte) << 8) >> shift).wrapping_sub(from);
+    let square = |far: i32| far.wrapping_mul(far).cast_unsigned();
+    // Before the first plane or behind the last one, a point is outside of all boxes.
+    let (row, from) = if from_first <= 0 { (first, from_first) } else { (last, from_last) };
+    if from <= 0 {
+        for (sum, &byte) in sums.iter_mut().zip(row) {
+            *sum = sum.wrapping_add(square(far(byte, from)));
         }
-    } else if q >= 255.0 {
-        for (sum, &high) in sum.zip(high) {
-            let out = q - f32::from(high);
-            *sum += out * (out * weight);
-        }
-    } else {
-        let whole = q as i32;
-        for ((sum, &low), &high) in sum.zip(low).zip(high) {
-            if i32::from(low) > whole {
-                let out = f32::from(low) - q;
-                *sum += out * (out * weight);
-            } else if i32::from(high) <= whole {
-                let out = q - f32::from(high);
-                *sum += out * (out * weight);
-            }
+        return;
+    }
+    for ((sum, &first), &last) in sums.iter_mut().zip(first).zip(last) {
+        let (below, beyond) = (far(first, from_first), far(last, from_last));
+        // At most one of them is above 0.
+        if below > 0 {
+            *sum = sum.wrapping_add(square(below));
+        } else if beyond > 0 {
+            *sum = sum.wrapping_add(square(beyond));
         }
     }
 }

@@ -59,7 +59,7 @@ pub fn box_entries(
     count: u32,
     from: f32,
     limit: f32,
-) -> [f32; WIDTH] {
+) -> [u32; WIDTH] {
     let Some(planes) = SlabPlanes::of(record, slabs) else { return [NO_CHILD; WIDTH] };
     if WIDE { wide(&planes, count, from, limit) } else { narrow(&planes, count, from, limit) }
 }
@@ -98,9 +98,10 @@ pub(crate) fn wide(
     count: u32,
     from: f32,
     limit: f32,
-) -> [f32; WIDTH] {
+) -> [u32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
     let Some(present) = LANES_BELOW.get(count as usize) else { return keys };
+    let none = f32::from_bits(NO_CHILD);
     let at = |v: u8, step: f32, start: f32| f32::from(v) * step + start;
     for i in 0..WIDTH {
         let enter_x = at(x.near[i], x.step, x.enter);
@@ -111,10 +112,10 @@ pub(crate) fn wide(
         let leave_z = at(z.far[i], z.step, z.leave);
         let enter = greater(greater(from, enter_z), greater(enter_y, enter_x));
         let leave = lesser(lesser(limit, leave_z), lesser(leave_y, leave_x));
-        let key = if enter <= leave { enter } else { NO_CHILD };
+        let key = if enter <= leave { enter } else { none };
         // The box of an absent child may be any: its key is overwritten.
-        let bits = key.to_bits() & !CHILD_MASK & present[i] | NO_CHILD.to_bits() & !present[i];
-        keys[i] = f32::from_bits(bits | i as u32);
+        let bits = key.to_bits() & !CHILD_MASK & present[i] | NO_CHILD & !present[i];
+        keys[i] = bits | i as u32;
     }
     in_memory(keys)
 }
@@ -127,7 +128,7 @@ pub(crate) fn narrow(
     count: u32,
     from: f32,
     limit: f32,
-) -> [f32; WIDTH] {
+) -> [u32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
     for (child, key) in keys.iter_mut().enumerate().take(count as usize) {
         let (mut enter, mut leave) = (from, limit);
@@ -141,7 +142,7 @@ pub(crate) fn narrow(
             enter <= leave
         });
         if overlaps {
-            *key = f32::from_bits(enter.to_bits() & !CHILD_MASK | child as u32);
+            *key = enter.to_bits() & !CHILD_MASK | child as u32;
         }
     }
     keys

@@ -3,12 +3,12 @@
 //!
 //! For points, the child boxes of a node share a frame: a rotation, an origin on the grid, a step
 //! for each axis. A point is brought into the frame once for each node. Then the test is the plain
-//! axis-aligned one, in 8 bits. Segments have boxes of their own, which are axis-aligned.
+//! axis-aligned one, in integers. Segments have boxes of their own, which are axis-aligned.
 //!
 //! | file | owns |
 //! | --- | --- |
 //! | `keys` | a child's bound with its number in the low bits |
-//! | `frame` | [`NodeFrame`]: a point in the frame of a node's boxes |
+//! | `frame` | [`KeyPoint`], a point prepared for the test; [`NodeFrame`], the point in the frame of a node's boxes |
 //! | `box_distances` | a point against eight boxes |
 //! | `box_entries` | [`Slabs`], a segment prepared for the test; a segment against eight boxes |
 
@@ -21,5 +21,5 @@ mod tests;
 
 pub use box_distances::box_distances;
 pub use box_entries::{Slabs, box_entries};
-pub use frame::NodeFrame;
+pub use frame::{KeyPoint, NodeFrame};
 pub use keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory, least_key};

@@ -1,7 +1,7 @@
 //! Both forms of a node's test give the same children the same keys.
 
 use super::box_entries::Slabs;
-use super::frame::NodeFrame;
+use super::frame::{KeyPoint, NodeFrame};
 use super::keys::NO_CHILD;
 use super::{box_distances, box_entries};
 use crate::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES};
@@ -57,8 +57,22 @@ fn put(record: &mut [u8], at: usize, words: &[f32]) {
     }
 }
 
-fn bits(keys: [f32; WIDTH]) -> [u32; WIDTH] {
-    keys.map(f32::to_bits)
+/// A node's record: boxes of `count` children, an arbitrary matrix, origin and exponents.
+fn random_frame(noise: &mut Noise, count: usize) -> [u8; FRAME_BYTES] {
+    let mut record = [0u8; FRAME_BYTES];
+    let mut planes = noise.planes(count);
+    // High planes are counted down.
+    planes.iter_mut().skip(1).step_by(2).flatten().for_each(|byte| *byte = 255 - *byte);
+    record[..48].copy_from_slice(planes.as_flattened());
+    for entry in record[48..66].chunks_mut(2) {
+        let whole = noise.unit() * 4_700.0;
+        entry.copy_from_slice(&(whole as i16).to_le_bytes());
+    }
+    for x in record[66..72].chunks_mut(2) {
+        x.copy_from_slice(&(noise.below(65_536) as u16).to_le_bytes());
+    }
+    record[72..75].fill_with(|| noise.below(10) as u8);
+    record
 }
 
 #[test]
@@ -66,28 +80,69 @@ fn distances_have_the_same_bits() {
     let mut noise = Noise(1);
     for _ in 0..100_000 {
         let count = 1 + noise.below(8) as usize;
-        let mut record = [0u8; FRAME_BYTES];
-        record[..48].copy_from_slice(noise.planes(count).as_flattened());
-        let step = 2f32.powi(noise.below(12) as i32 - 4);
-        let row = noise.vector(1.0 / step);
-        let away = 2f32.powi(noise.below(40) as i32);
-        let (origin, p) = (noise.vector(30_000.0), noise.vector(away));
-        let mut rows = [0f32; 9];
-        rows.iter_mut().for_each(|x| *x = row[noise.below(3) as usize]);
-        put(&mut record, 48, &rows);
-        put(&mut record, 84, &origin);
-        put(&mut record, 96, &[step * step, step * step * 4.0, step * step * 0.25]);
-        let near = Vec3::from_array(origin) + Vec3::from_array(noise.vector(200.0 * step));
-        for p in [Vec3::from_array(p), near, Vec3::from_array(origin)] {
-            let frame = NodeFrame::of(&record, p);
-            for parent in [0.0, 1e3] {
-                let wide = box_distances::wide(&record, &frame, count as u32, parent);
-                let narrow = box_distances::narrow(&record, &frame, count as u32, parent);
-                let used = |keys: [f32; WIDTH]| bits(keys).map(|key| key.min(NO_CHILD.to_bits()));
+        let record = random_frame(&mut noise, count);
+        let away = 2f32.powi(noise.below(30) as i32);
+        for size in [away, 30_000.0, 1e-3] {
+            let p = Vec3::from_array(noise.vector(size)) + Vec3::splat(30_000.0);
+            let farthest = (p.abs().max_element() + 65_536.0).max(65_535.0);
+            let frame = NodeFrame::of(&record, &KeyPoint::new(p, farthest));
+            let rows = record.as_chunks::<WIDTH>().0.first_chunk::<6>().expect("long enough");
+            for parent in [0, 1 << noise.below(31)] {
+                let wide = box_distances::wide(rows, &frame, count as u32, parent);
+                let narrow = box_distances::narrow(rows, &frame, count as u32, parent);
+                let used = |keys: [u32; WIDTH]| keys.map(|key| key.min(NO_CHILD));
                 assert_eq!(used(wide), used(narrow), "{frame:?}, {count} of {record:?}");
             }
         }
     }
+}
+
+/// The distance of a point from a child's box along one axis, in key units, as the proof has it.
+fn exact_distance(
+    record: &[u8; FRAME_BYTES],
+    p: [f64; 3],
+    unit: u32,
+    axis: usize,
+    lane: usize,
+) -> f64 {
+    let entry = |k: usize| {
+        let at = 48 + 2 * (3 * axis + k);
+        f64::from(i16::from_le_bytes([record[at], record[at + 1]])) / 8192.0
+    };
+    let origin = |k: usize| f64::from(u16::from_le_bytes([record[66 + 2 * k], record[67 + 2 * k]]));
+    let at: f64 = (0..3).map(|k| entry(k) * (p[k] - origin(k))).sum();
+    let step = 2f64.powi(i32::from(record[72 + axis]));
+    let low = (f64::from(record[16 * axis + lane]) - 128.0) * step;
+    let high = (127.0 - f64::from(record[16 * axis + 8 + lane])) * step;
+    (low - at).max(at - high).max(0.0) / 2f64.powi(unit.cast_signed())
+}
+
+#[test]
+fn no_key_is_above_the_exact_distance_and_few_are_far_below() {
+    let mut noise = Noise(3);
+    let mut short = 0f64;
+    for _ in 0..100_000 {
+        let record = random_frame(&mut noise, 8);
+        let away = 2f32.powi(noise.below(24) as i32);
+        let p = Vec3::from_array(noise.vector(away)) + Vec3::splat(30_000.0);
+        let farthest = p.abs().max_element().max(65_535.0 - p.min_element()).max(65_535.0);
+        let point = KeyPoint::new(p, farthest);
+        let frame = NodeFrame::of(&record, &point);
+        let rows = record.as_chunks::<WIDTH>().0.first_chunk::<6>().expect("long enough");
+        for (lane, key) in box_distances::wide(rows, &frame, 8, 0).into_iter().enumerate() {
+            let exact: [f64; 3] = core::array::from_fn(|axis| {
+                exact_distance(&record, p.to_array().map(f64::from), point.unit(), axis, lane)
+            });
+            let square: f64 = exact.iter().map(|x| x * x).sum();
+            assert!(f64::from(key & !7) <= square / 2.0, "{key} {square}: {p}, {record:?}");
+            if exact.iter().all(|&x| x < 32_000.0) {
+                // Three units an axis, and the low bits of the key.
+                let root = libm::sqrt(2.0 * f64::from(key & !7) + 16.0);
+                short = short.max(libm::sqrt(square) - root);
+            }
+        }
+    }
+    assert!(short < 6.0, "{short}");
 }
 
 #[test]
@@ -115,12 +170,8 @@ fn entries_have_the_same_bits() {
             for (lane, (wide, narrow)) in wide.into_iter().zip(narrow).enumerate() {
                 if narrow < NO_CHILD {
                     entered += 1;
-                    assert_eq!(
-                        wide.to_bits(),
-                        narrow.to_bits(),
-                        "{slabs:?}, {count} of {record:?}"
-                    );
-                    assert_eq!(narrow.to_bits() & 7, lane as u32);
+                    assert_eq!(wide, narrow, "{slabs:?}, {count} of {record:?}");
+                    assert_eq!(narrow & 7, lane as u32);
                 } else {
                     missed += 1;
                     // A key that is not a number would hide its siblings.

@@ -11,6 +11,7 @@ mod point;
 mod point8;
 mod ray;
 mod ray8;
+mod whole;
 
 pub use cone::NormalCone;
 pub use lanes::{LANES_BELOW, WIDTH};
@@ -18,3 +19,4 @@ pub use point::{Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, poin
 pub use point8::{Edges8, Nearness8, point_leaf8};
 pub use ray::{Crossing, FanRay, Shadow, ray_leaf};
 pub use ray8::{Ring8, ray_leaf8};
+pub use whole::{Whole, WholeBounds, WholeLimit, WholePoint, whole_bounds};

@@ -175,6 +175,19 @@ fn cross(a: Vec3, b: Vec3) -> Vec3 {
     Vec3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 }
 
+/// A triangle's normal. If both spokes have whole coordinates it is exact but for one rounding: the
+/// terms of a needle nearly cancel.
+fn normal(e: Vec3, g: Vec3) -> Vec3 {
+    // Spokes on a grid are below 2^17. Above 2^30 a sum of two products might not fit.
+    let whole = |v: Vec3| {
+        let whole = v.to_array().map(|x| x as i32);
+        let is_whole = whole.map(|x| x as f32) == v.to_array();
+        (is_whole && v.abs().max_element() < (1 << 30) as f32).then_some(whole.map(i64::from))
+    };
+    let (Some([a, b, c]), Some([x, y, z])) = (whole(e), whole(g)) else { return cross(e, g) };
+    Vec3::new((b * z - c * y) as f32, (c * x - a * z) as f32, (a * y - b * x) as f32)
+}
+
 /// All triangles of a leaf, in order. `s` gives the point less the first or the second centre,
 /// `spoke(i)` ring vertex `i` less the centre of triangle `i` (or of the triangle before, for the
 /// last), `turn` is where the second fan begins (`count` or more: nowhere).
@@ -217,7 +230,7 @@ pub fn lower_bound(s: Vec3, e: Vec3, g: Vec3) -> f32 {
         let length_sq = dot(edge, edge);
         if length_sq > LEAST_DENOMINATOR { r - edge * (dot(r, edge) / length_sq) } else { r }
     };
-    let normal = cross(e, g);
+    let normal = normal(e, g);
     let side = if dot(normal, s) < 0.0 { -normal } else { normal };
     // Along `s` too: a triangle that `is_beyond` leaves out must be as far here.
     let seen = [s, e, g];

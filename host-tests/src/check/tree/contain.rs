@@ -42,22 +42,17 @@ pub(super) fn stack(tree: &TreeBlob) -> Result<(), String> {
     }
 }
 
-/// The scaled matrix of every frame is nowhere longer than the identity, so that no distance to a
-/// box comes out too great.
+/// The matrix of every frame makes no vector longer, so that no distance to a box comes out too
+/// great: the identity less the sum of the rows' outer products is positive semidefinite.
 pub(super) fn frames(tree: &TreeBlob, proof: &mut TreeProof) -> Result<(), String> {
     for (index, frame) in tree.frames.iter().enumerate() {
-        let exact = |x: f32| Dyadic::from(f64::from(x));
-        let rows = frame.rows.map(|row| row.map(exact));
-        let weight = frame.weight.map(exact);
-        // The identity less the sum of the rows' outer products.
         let rest = |i: usize, j: usize| {
-            let identity = Dyadic::from(if i == j { 1.0 } else { 0.0 });
-            rows.iter()
-                .zip(&weight)
-                .fold(identity, |rest, (row, weight)| &rest - &(&(&row[i] * &row[j]) * weight))
+            let one = if i == j { 1i64 << 26 } else { 0 };
+            let product = |row: &[i16; 3]| i64::from(row[i]) * i64::from(row[j]);
+            Dyadic::from((one - frame.rows.iter().map(product).sum::<i64>()) as f64)
         };
         let rest: [[Dyadic; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| rest(i, j)));
-        if frame.weight.iter().any(|&w| w < 0.0) || !is_semidefinite(&rest) {
+        if !is_semidefinite(&rest) {
             return Err(format!("frame {index} makes a distance longer"));
         }
         proof.frames += 1;
@@ -92,21 +87,30 @@ fn ends(bounds: [u8; 2]) -> [f64; 2] {
     bounds.map(|byte| f64::from(byte) - 128.0)
 }
 
+/// Units of a frame's matrix.
+const ROWS: f64 = 8192.0;
+
+impl Boxes {
+    /// Both planes of a child along an axis, in units of the products of matrix and coordinates.
+    fn planes(&self, lane: usize, axis: usize) -> [f64; 2] {
+        ends(self.bounds[lane][axis]).map(|end| end * self.step[axis] * ROWS)
+    }
+}
+
 impl Contains for Boxes {
     fn about(&self, lane: usize, axis: usize, point: [f64; 3]) -> Option<bool> {
-        let terms: [f64; 3] = std::array::from_fn(|k| {
-            f64::from(self.rows[axis][k]) * (point[k] - f64::from(self.origin[k]))
-        });
+        let terms: [f64; 3] =
+            std::array::from_fn(|k| f64::from(self.rows[axis][k]) * (point[k] - self.origin[k]));
         let doubt = ROUNDING * terms.iter().map(|term| term.abs()).sum::<f64>();
-        between(terms.iter().sum(), doubt, ends(self.bounds[lane][axis]))
+        between(terms.iter().sum(), doubt, self.planes(lane, axis))
     }
 
     fn exactly(&self, lane: usize, axis: usize, point: [f64; 3]) -> bool {
         let value = (0..3).fold(Dyadic::from(0.0), |sum, k| {
-            let way = &Dyadic::from(point[k]) - &Dyadic::from(f64::from(self.origin[k]));
+            let way = &Dyadic::from(point[k]) - &Dyadic::from(self.origin[k]);
             &sum + &(&Dyadic::from(f64::from(self.rows[axis][k])) * &way)
         });
-        let [low, high] = ends(self.bounds[lane][axis]).map(Dyadic::from);
+        let [low, high] = self.planes(lane, axis).map(Dyadic::from);
         low <= value && value <= high
     }
 }

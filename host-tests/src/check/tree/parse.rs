@@ -50,15 +50,17 @@ impl Node {
     }
 }
 
-/// Boxes of a node's children: the box coordinates of a point p are `rows · (p − origin) + 128`.
+/// Boxes of a node's children: along an axis a point p lies at `row · (p − origin)`, and plane b at
+/// `(b − 128) · step`.
 #[derive(Clone, Debug)]
 pub(super) struct Boxes {
     /// By child, by axis: least, greatest.
     pub(super) bounds: [[[u8; 2]; 3]; 8],
-    pub(super) rows: [[f32; 3]; 3],
-    pub(super) origin: [f32; 3],
-    /// Square of what a step of an axis is worth, grid units.
-    pub(super) weight: [f32; 3],
+    /// In units of 2^-13.
+    pub(super) rows: [[i16; 3]; 3],
+    pub(super) origin: [f64; 3],
+    /// Grid units.
+    pub(super) step: [f64; 3],
 }
 
 /// Axis-aligned boxes: plane b of an axis lies at `origin + (b − 128) · step`.
@@ -177,7 +179,7 @@ impl TreeBlob {
         if (found.0 as usize, found.1 as usize, leaves.len()) != (vertices, triangles, leaf_count) {
             return Err("leaves, vertices or triangles that no node names".into());
         }
-        let frames = records(section(bytes, 14, "frames")?, 108, nodes, "frames")?;
+        let frames = records(section(bytes, 14, "frames")?, 76, nodes, "frames")?;
         let slabs = records(section(bytes, 15, "boxes")?, 72, nodes, "boxes")?;
         let tree = Self {
             scale_exponent: at(28)?.cast_signed(),
@@ -192,11 +194,19 @@ impl TreeBlob {
             leaves,
             frames: frames
                 .into_iter()
-                .map(|record| Boxes {
-                    bounds: bounds(record),
-                    rows: [48, 60, 72].map(|from| floats(record, from)),
-                    origin: floats(record, 84),
-                    weight: floats(record, 96),
+                .map(|record| {
+                    let short = |at: usize| [record[at], record[at + 1]];
+                    let row =
+                        |at: usize| [at, at + 2, at + 4].map(|at| i16::from_le_bytes(short(at)));
+                    let place = |x: [u8; 2], k: usize| f64::from(u16::from_le_bytes(x)) + origin[k];
+                    let upward = bounds(record);
+                    Boxes {
+                        // High planes are counted down.
+                        bounds: upward.map(|axes| axes.map(|[low, high]| [low, 255 - high])),
+                        rows: [48, 54, 60].map(row),
+                        origin: std::array::from_fn(|k| place(short(66 + 2 * k), k)),
+                        step: [72, 73, 74].map(|at| 2f64.powi(i32::from(record[at]))),
+                    }
                 })
                 .collect(),
             slabs: slabs
@@ -213,14 +223,10 @@ impl TreeBlob {
     }
 
     fn finite(self) -> Result<Self, String> {
-        let frames = self
-            .frames
-            .iter()
-            .flat_map(|f| f.rows.as_flattened().iter().chain(&f.origin).chain(&f.weight));
-        let slabs = self.slabs.iter().flat_map(|s| s.origin.iter().chain(&s.step));
+        let mut slabs = self.slabs.iter().flat_map(|s| s.origin.iter().chain(&s.step));
         let vertices = self.leaves.iter().flat_map(|leaf| leaf.vertices.as_flattened());
         let bounds = [self.surface_error, self.reach];
-        let sound = frames.chain(slabs).all(|x| x.is_finite())
+        let sound = slabs.all(|x| x.is_finite())
             && vertices.chain(&bounds).all(|x| x.is_finite())
             && bounds.iter().all(|&x| x >= 0.0);
         if sound { Ok(self) } else { Err("a number of the tree is not finite".into()) }

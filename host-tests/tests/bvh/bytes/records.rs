@@ -5,26 +5,53 @@ use meshsweep_core::{Bvh, OpenError, SectionKind};
 use meshsweep_host_tests::corrupt::{entry, put_u32, word};
 
 // Bytes of records.
-const FRAME: usize = 108;
+const FRAME: usize = 76;
 const BOXES: usize = 72;
 
 #[test]
-fn frames_and_boxes_out_of_range_name_the_node() {
+fn boxes_out_of_range_name_the_node() {
     // The fields that may not be negative come last.
-    for (kind, bytes, fields, signed) in
-        [(SectionKind::TreeFrames, FRAME, 15, 12), (SectionKind::TreeBoxes, BOXES, 6, 3)]
-    {
-        for (node, field) in [0, 3].into_iter().flat_map(|node| (0..fields).map(move |f| (node, f)))
-        {
-            let negative = (field >= signed).then_some(-1.0);
-            let huge = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e38];
-            for x in huge.into_iter().chain(negative) {
-                let result = edited(sphere(), kind, |section| {
-                    put_u32(section, bytes * node + 48 + 4 * field, x.to_bits());
+    let (kind, fields, signed) = (SectionKind::TreeBoxes, 6, 3);
+    for (node, field) in [0, 3].into_iter().flat_map(|node| (0..fields).map(move |f| (node, f))) {
+        let negative = (field >= signed).then_some(-1.0);
+        let huge = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e38];
+        for x in huge.into_iter().chain(negative) {
+            let result = edited(sphere(), kind, |section| {
+                put_u32(section, BOXES * node + 48 + 4 * field, x.to_bits());
+            });
+            assert_eq!(result, record(kind, node as u32), "{x} in field {field}");
+        }
+    }
+}
+
+#[test]
+fn frames_that_lengthen_or_have_unknown_exponents_name_the_node() {
+    let kind = SectionKind::TreeFrames;
+    for node in [0, 3] {
+        let changed = |change: &dyn Fn(&mut [u8])| {
+            edited(sphere(), kind, |section| change(&mut section[FRAME * node..][..FRAME]))
+        };
+        assert_eq!(changed(&|_| ()), Ok(()));
+        for entry in 0..9 {
+            for large in [8193i16, i16::MAX, -8193, i16::MIN] {
+                let result = changed(&|frame| {
+                    frame[48 + 2 * entry..][..2].copy_from_slice(&large.to_le_bytes());
                 });
-                assert_eq!(result, record(kind, node as u32), "{x} in field {field}");
+                assert_eq!(result, record(kind, node as u32), "{large} in entry {entry}");
             }
         }
+        // Each row is short enough, and together they lengthen what lies along all of them.
+        let result = changed(&|frame| {
+            for entry in frame[48..66].chunks_mut(2) {
+                entry.copy_from_slice(&4_700i16.to_le_bytes());
+            }
+        });
+        assert_eq!(result, record(kind, node as u32));
+        for axis in 0..3 {
+            assert_eq!(changed(&|frame| frame[72 + axis] = 9), Ok(()));
+            assert_eq!(changed(&|frame| frame[72 + axis] = 10), record(kind, node as u32));
+        }
+        assert_eq!(changed(&|frame| frame[75] = 1), record(kind, node as u32));
     }
 }
 

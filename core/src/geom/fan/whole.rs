@@ -1,0 +1,321 @@
+//! A point and a triangle in integers of 32 bits: for processors without floating point, on which
+//! the f32 kernel costs twenty times as much.
+//!
+//! The closest point is only estimated. Two bounds are certain whatever the estimate is worth. The
+//! triangle is not farther than the estimated point, which lies on it. And it is not nearer than
+//! the plane through its nearest corner across the way to the estimated point. A sliver may get a
+//! weak lower bound, and the f32 kernel then decides. Proof: `core/docs/rounding.md` §8, "Whole
+//! numbers".
+
+/// A vector of whole numbers.
+pub type Whole = [i32; 3];
+
+/// Bits of a coordinate below a grid unit.
+const FRACTION_BITS: u32 = 3;
+/// Coordinates of a [`WholePoint`] are below 2^this grid units in magnitude.
+pub const WHOLE_BITS: u32 = 17;
+/// Bits of a barycentric weight.
+const WEIGHT_BITS: u32 = 12;
+/// Bits of the components of a direction.
+const DIRECTION_BITS: u32 = 12;
+
+/// A query point: grid units from the grid's origin.
+#[derive(Clone, Copy, Debug)]
+pub struct WholePoint {
+    /// Rounded down.
+    pub at: Whole,
+    /// Eighths above `at`, 0 to 7, rounded down.
+    pub eighths: Whole,
+}
+
+impl WholePoint {
+    /// `None` if the point is too far from the grid's origin.
+    #[inline(always)]
+    pub fn new(p: [f32; 3]) -> Option<WholePoint> {
+        const ABOVE: i32 = 1 << WHOLE_BITS;
+        let mut point = WholePoint { at: [0; 3], eighths: [0; 3] };
+        for ((x, at), eighths) in p.into_iter().zip(&mut point.at).zip(&mut point.eighths) {
+            let up = x + ABOVE as f32;
+            if !(up >= 0.0 && up < 2.0 * ABOVE as f32) {
+                return None;
+            }
+            // Positive, so the conversion rounds down.
+            let fine = (up * (1u32 << FRACTION_BITS) as f32) as i32;
+            *at = (fine >> FRACTION_BITS) - ABOVE;
+            *eighths = fine & ((1 << FRACTION_BITS) - 1);
+        }
+        Some(point)
+    }
+
+    /// A product of the point and a direction of [`DIRECTION_BITS`] bits: not above the true one.
+    ///
+    /// The eighths are rounded down. So the true point may lie an eighth farther along any axis,
+    /// which counts where the direction is negative. The sum before was rounded too, by 2^-7 at
+    /// most.
+    #[inline(always)]
+    pub fn along(&self, direction: Whole) -> i32 {
+        let (mut against, mut all) = (0, 0);
+        for x in direction {
+            against += if x < 0 { -x } else { 0 };
+            all += x.abs();
+        }
+        let eighths = dot(direction, self.eighths).wrapping_sub(against) >> FRACTION_BITS;
+        dot(direction, self.at).wrapping_add(eighths).wrapping_sub((all >> 7) + 1)
+    }
+}
+
+/// A squared limit, square grid units: `mantissa · 2^exponent`.
+#[derive(Clone, Copy, Debug)]
+pub struct WholeLimit {
+    /// 15 bits, or 2^15.
+    mantissa: u32,
+    exponent: i32,
+}
+
+impl WholeLimit {
+    /// `square` or a little more, for a positive finite number.
+    #[inline(always)]
+    pub fn of(square: f32) -> WholeLimit {
+        let bits = square.to_bits();
+        // The upper 15 bits of 24, rounded up.
+        WholeLimit {
+            mantissa: ((bits & 0x007F_FFFF | 0x0080_0000) >> 9) + 1,
+            exponent: (bits >> 23).cast_signed() - 127 - 14,
+        }
+    }
+}
+
+#[inline(always)]
+fn bits(x: u32) -> u32 {
+    32 - x.leading_zeros()
+}
+
+#[inline(always)]
+fn largest([x, y, z]: Whole) -> u32 {
+    x.unsigned_abs().max(y.unsigned_abs()).max(z.unsigned_abs())
+}
+
+#[inline(always)]
+fn dot([a, b, c]: Whole, [x, y, z]: Whole) -> i32 {
+    a.wrapping_mul(x).wrapping_add(b.wrapping_mul(y)).wrapping_add(c.wrapping_mul(z))
+}
+
+#[inline(always)]
+fn less([a, b, c]: Whole, [x, y, z]: Whole) -> Whole {
+    [a.wrapping_sub(x), b.wrapping_sub(y), c.wrapping_sub(z)]
+}
+
+/// What integers tell of a point and a triangle.
+#[derive(Clone, Copy, Debug)]
+pub struct WholeBounds {
+    /// Grows with the distance of the estimated point.
+    pub estimate: u32,
+    /// From the estimated point to the query, of [`DIRECTION_BITS`] bits.
+    pub direction: Whole,
+    /// Along the direction the query is at least this far from the triangle, in products of
+    /// direction and grid units.
+    along: i32,
+}
+
+impl WholeBounds {
+    /// Of a triangle that nothing is known of, and that is looked at last.
+    pub const NONE: WholeBounds = WholeBounds { estimate: u32::MAX, direction: [0; 3], along: 0 };
+
+    /// Whether the triangle is certainly farther than the root of `limit`.
+    #[inline(always)]
+    pub fn is_beyond(&self, limit: WholeLimit) -> bool {
+        if self.along <= 0 {
+            return false;
+        }
+        // along² > direction² · limit, the left side cut to 30 bits, the right side rounded up.
+        let along = self.along.cast_unsigned();
+        let down = bits(along).saturating_sub(15);
+        let left = (along >> down) * (along >> down);
+        let direction_sq = dot(self.direction, self.direction).cast_unsigned();
+        let cut = bits(direction_sq).saturating_sub(15);
+        let right = ((direction_sq >> cut) + 1) * limit.mantissa;
+        let exponent = limit.exponent + cut.cast_signed() - 2 * down.cast_signed();
+        let by = exponent.unsigned_abs();
+        if exponent >= 0 {
+            by < 31 && left >> by > right
+        } else {
+            by >= 31 || left > (right >> by) + 1
+        }
+    }
+}
+
+/// Bounds of the distance of a triangle. Its corners are on the grid, from the grid's origin.
+#[inline(never)]
+pub fn whole_bounds(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> WholeBounds {
+    let (s, e, g) = (less(p.at, *a), less(*b, *a), less(*c, *a));
+    let (v, w) = weights(s, e, g);
+    let mut way = [0i32; 3];
+    for axis in 0..3 {
+        let inside = v.wrapping_mul(e[axis]).wrapping_add(w.wrapping_mul(g[axis]));
+        way[axis] = (s[axis] << FRACTION_BITS)
+            .wrapping_add(p.eighths[axis])
+            .wrapping_sub(inside >> (WEIGHT_BITS - FRACTION_BITS));
+    }
+    let size = bits(largest(way));
+    let direction = way.map(|x| x >> size.saturating_sub(DIRECTION_BITS));
+    // Squares of 14 bits: their sum is below 2^30.
+    let cut = size.saturating_sub(14);
+    let square = way.map(|x| x >> cut);
+    let square = dot(square, square).cast_unsigned();
+    let up = square.leading_zeros();
+    // An exponent and a mantissa, as in a floating-point number.
+    let estimate = (2 * cut + 32 - up) << 24 | (square << (up & 31)) >> 8;
+    let farthest = dot(direction, *a).max(dot(direction, *b)).max(dot(direction, *c));
+    let along = p.along(direction).wrapping_sub(farthest);
+    WholeBounds { estimate, direction, along }
+}
+
+/// Weights of the second and third corner at a point near the closest one, of [`WEIGHT_BITS`] bits;
+/// their sum is at most one. Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
+#[inline(always)]
+fn weights(s: Whole, e: Whole, g: Whole) -> (i32, i32) {
+    const ONE: i32 = 1 << WEIGHT_BITS;
+    // Products of 14 bits and 15 bits have a sum below 2^31.
+    let size = bits(largest(e).max(largest(g)));
+    let down = size.saturating_sub(14);
+    let (e, g, size) = (e.map(|x| x >> down), g.map(|x| x >> down), size - down);
+    let more = (bits(largest(s)) + size).saturating_sub(29);
+    let s = s.map(|x| x >> more);
+    // The spokes' own products are coarser by the same power.
+    let scaled = |x: i32| if more >= down { x >> (more - down) } else { x };
+    let along = |x: i32| if more < down { x >> (down - more) } else { x };
+    let (d1, d2) = (along(dot(e, s)), along(dot(g, s)));
+    if d1 <= 0 && d2 <= 0 {
+        return (0, 0);
+    }
+    let (aa, bb, cc) = (scaled(dot(e, e)), scaled(dot(e, g)), scaled(dot(g, g)));
+    if d1 >= aa && d2.wrapping_sub(bb) <= d1 - aa {
+        return (ONE, 0);
+    }
+    if d2 >= cc && d1.wrapping_sub(bb) <= d2 - cc {
+        return (0, ONE);
+    }
+    let most =
+        d1.unsigned_abs().max(d2.unsigned_abs()).max(aa.unsigned_abs()).max(cc.unsigned_abs());
+    let cut = bits(most).saturating_sub(13);
+    let [d1, d2, aa, bb, cc] = [d1, d2, aa, bb, cc].map(|x| x >> cut);
+    let (d3, d4, d5, d6) = (d1 - aa, d2 - bb, d1 - bb, d2 - cc);
+    let vc = d1.wrapping_mul(d4).wrapping_sub(d3.wrapping_mul(d2));
+    let vb = d5.wrapping_mul(d2).wrapping_sub(d1.wrapping_mul(d6));
+    let (nv, nw, whole);
+    if vc <= 0 && d1 >= 0 && d3 <= 0 {
+        (nv, nw, whole) = (d1, 0, aa);
+    } else if vb <= 0 && d2 >= 0 && d6 <= 0 {
+        (nv, nw, whole) = (0, d2, cc);
+    } else {
+        let va = d3.wrapping_mul(d6).wrapping_sub(d5.wrapping_mul(d4));
+        let (x, y) = (d4 - d3, d5 - d6);
+        if va <= 0 && x >= 0 && y >= 0 {
+            (nv, nw, whole) = (y, x, x + y);
+        } else {
+            // Halved, so that their sum stays within 32 bits.
+            let [pa, pb, pc] = [va, vb, vc].map(|x| x.max(0) >> 1);
+            (nv, nw, whole) = (pb, pc, pa + pb + pc);
+        }
+    }
+    // A divisor of 16 bits, so that one division serves both weights.
+    let cut = bits(whole.max(1).cast_unsigned()).saturating_sub(16);
+    let whole = whole.max(1).cast_unsigned() >> cut;
+    let inverse = (1u32 << 31) / whole.max(1);
+    let weight = |x: i32| {
+        let x = (x.max(0).cast_unsigned() >> cut).min(whole);
+        ((x * inverse) >> (31 - WEIGHT_BITS)).cast_signed().min(ONE)
+    };
+    let v = weight(nv);
+    (v, weight(nw).min(ONE - v))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Squared distance in f64, by the kernel of the hull hierarchy.
+    fn exact(p: [f32; 3], corners: &[Whole; 3]) -> f64 {
+        let at = |v: [f64; 3]| glam::DVec3::from_array(v);
+        let [a, b, c] = corners.map(|v| at(v.map(f64::from)));
+        crate::geom::point_triangle(at(p.map(f64::from)), a, b, c).distance_sq
+    }
+
+    struct Noise(u64);
+
+    impl Noise {
+        fn below(&mut self, most: u32) -> i32 {
+            self.0 = self
+                .0
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            ((self.0 >> 33) % u64::from(most)) as i32
+        }
+
+        fn whole(&mut self, size: u32) -> Whole {
+            [(); 3].map(|()| self.below(2 * size + 1) - size.cast_signed())
+        }
+    }
+
+    /// A triangle of about `size` units on the grid; some are needles, some are points.
+    fn triangle(noise: &mut Noise, size: u32) -> [Whole; 3] {
+        let clamp = |v: Whole| v.map(|x| x.clamp(0, 0xFFFF));
+        let a = [(); 3].map(|()| noise.below(0x1_0000));
+        let add = |d: Whole| clamp([a[0] + d[0], a[1] + d[1], a[2] + d[2]]);
+        let e = noise.whole(size);
+        let g = match noise.below(4) {
+            0 => e.map(|x| x / 2 + noise.below(3) - 1),
+            1 => noise.whole(1 + size / 50),
+            _ => noise.whole(size),
+        };
+        [a, add(e), add(g)]
+    }
+
+    #[test]
+    fn a_triangle_beyond_a_limit_is_beyond_it_and_few_are_missed() {
+        let mut noise = Noise(11);
+        let (mut proved, mut all) = (0, 0);
+        for round in 0..400_000 {
+            let size = 1 << (round % 17);
+            let corners = triangle(&mut noise, size);
+            let away = 1 << noise.below(17);
+            let near = corners[noise.below(3) as usize];
+            let off = noise.whole(away).map(|x| x as f32 + noise.below(1000) as f32 / 1000.0);
+            let p = [0, 1, 2].map(|k| near[k] as f32 + off[k]);
+            let Some(point) = WholePoint::new(p) else { continue };
+            let square = exact(p, &corners);
+            let bounds = whole_bounds(&point, &corners);
+            for share in [0.5, 0.9, 0.99, 0.999, 1.0, 1.000_01, 1.1] {
+                let limit = (square * share) as f32;
+                if limit < f32::MIN_POSITIVE {
+                    continue;
+                }
+                let is_beyond = bounds.is_beyond(WholeLimit::of(limit));
+                assert!(!is_beyond || square > f64::from(limit), "{share}: {p:?} {corners:?}");
+                if share == 0.9 && square > 100.0 {
+                    all += 1;
+                    proved += i32::from(is_beyond);
+                }
+            }
+        }
+        assert!(proved * 10 > all * 9, "{proved} of {all}");
+    }
+
+    #[test]
+    fn the_nearest_of_two_triangles_has_the_lesser_estimate() {
+        let mut noise = Noise(12);
+        let (mut right, mut all) = (0, 0);
+        for _ in 0..100_000 {
+            let size = 1 << noise.below(14);
+            let [one, two] = [(); 2].map(|()| triangle(&mut noise, size));
+            let p = [(); 3].map(|()| noise.below(0x1_0000) as f32);
+            let point = WholePoint::new(p).expect("in range");
+            let [near, far] = [one, two].map(|t| (exact(p, &t), whole_bounds(&point, &t).estimate));
+            if near.0 > 1.02 * far.0 || far.0 > 1.02 * near.0 {
+                all += 1;
+                right += i32::from((near.0 < far.0) == (near.1 < far.1));
+            }
+        }
+        assert!(right * 100 > all * 99, "{right} of {all}");
+    }
+}
