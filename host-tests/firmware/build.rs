@@ -1,4 +1,4 @@
-//! Memory layouts, linker scripts of each image, and the blob that the suite image carries.
+//! Memory layouts and linker scripts of each image.
 
 use std::path::PathBuf;
 use std::{env, fs};
@@ -66,7 +66,6 @@ fn memory(target: &str) -> Option<&'static str> {
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=bare.x");
-    println!("cargo::rerun-if-env-changed=MESHSWEEP_BLOB");
 
     let target = env::var("TARGET").unwrap_or_default();
     let Some(memory) = memory(&target) else {
@@ -76,6 +75,7 @@ fn main() {
         return;
     };
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
+    let memory = format!("{memory}\nmeshsweep_flash_end = ORIGIN(FLASH) + LENGTH(FLASH);\n");
     if let Err(error) = fs::write(out.join("memory.x"), memory) {
         println!("cargo::error=cannot write memory.x: {error}");
     }
@@ -89,11 +89,5 @@ fn main() {
     let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     for image in BARE {
         println!("cargo::rustc-link-arg-bin={image}=-T{}", here.join("bare.x").display());
-    }
-
-    // Only the suite images read it: the others may be built without one.
-    if let Some(blob) = env::var_os("MESHSWEEP_BLOB").map(PathBuf::from) {
-        println!("cargo::rerun-if-changed={}", blob.display());
-        println!("cargo::rustc-env=MESHSWEEP_BLOB={}", blob.display());
     }
 }

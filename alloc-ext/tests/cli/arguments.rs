@@ -127,7 +127,7 @@ fn every_command_s_help_has_examples_that_run() {
         fs::copy(&scan, directory.join(frame)).unwrap();
     }
     let everything = ["--for", "closest,segment,cull,hull,triboxes", "--triboxes", "8"];
-    let part = blob(&directory, "bracket.stl", &everything);
+    let part = blob(&directory, "torus.ply", &everything);
     let commands = ok(["help"]);
     let commands = commands.lines().skip_while(|line| *line != "Commands:").skip(1);
     let commands: Vec<&str> = commands

@@ -1,6 +1,7 @@
 #![no_std]
-//! What the suite image needs of a board: a counter of instructions, and its stack.
+//! What the suite image needs of a board: a counter of instructions, its stack, and its flash.
 
 pub mod board;
+pub mod flash;
 pub mod meter;
 pub mod stack;

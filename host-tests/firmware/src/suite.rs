@@ -1,4 +1,4 @@
-//! What the suite images share: the blob, the caller's memory, and the lines that the host reads.
+//! What the suite images share: the caller's memory, and the lines that the host reads.
 //!
 //! One line a fact, words separated by one space, so that the reader on the host needs no grammar:
 //! ```text
@@ -13,18 +13,10 @@
 
 use core::cell::UnsafeCell;
 
-use meshsweep_firmware::{board, meter::Meter};
+use meshsweep_firmware::{board, flash, meter::Meter};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Plan, Subject, run};
 use semihosting::{println, process};
-
-/// In flash, where the core reads it in place. Aligned as a linker script would align a section for
-/// it.
-#[repr(C, align(16))]
-struct Flash<T: ?Sized>(T);
-
-#[unsafe(link_section = ".rodata.meshsweep_blob")]
-static BLOB: &Flash<[u8]> = &Flash(*include_bytes!(env!("MESHSWEEP_BLOB")));
 
 /// The image's entry: runs the suite on a subject. The caller's memory lies outside of the stack,
 /// so that the two are measured apart.
@@ -59,12 +51,13 @@ impl<T> Shared<T> {
 /// To be called once.
 pub unsafe fn main<S: Subject<'static>>(scratch: &'static Shared<S::Scratch>) -> ! {
     board::start_counter();
-    println!("blob {} {:016x}", BLOB.0.len(), Fold::of_bytes(&BLOB.0));
+    let blob = flash::blob();
+    println!("blob {} {:016x}", blob.len(), Fold::of_bytes(blob));
     let (instructions, ticks) = board::calibrate();
     println!("calibration {instructions} {ticks}");
     // SAFETY: called once, so this is the only reference.
     let scratch = unsafe { &mut *scratch.0.get() };
-    if let Err(refused) = run::<S>(&BLOB.0, Plan::STANDARD, scratch, &mut Meter::new()) {
+    if let Err(refused) = run::<S>(blob, Plan::STANDARD, scratch, &mut Meter::new()) {
         println!("refused {}", refused.0);
         process::exit(1)
     }

@@ -8,7 +8,7 @@ use meshsweep_core::{
 use meshsweep_host_tests::generate::{Rng, cube, groove_block, rough_sphere, torus};
 use meshsweep_host_tests::oracle::contacts;
 use meshsweep_host_tests::scene::Scene;
-use std::sync::mpsc;
+use std::sync::{LazyLock, mpsc};
 use std::time::Duration;
 
 type Segment = ([f32; 3], [f32; 3]);
@@ -159,7 +159,7 @@ fn in_time(what: &str, run: impl FnOnce() + Send + 'static) {
         run();
         let _ = done.send(());
     });
-    match wait.recv_timeout(Duration::from_secs(20)) {
+    match wait.recv_timeout(Duration::from_secs(60)) {
         Ok(()) => {}
         Err(mpsc::RecvTimeoutError::Timeout) => panic!("{what}: the search does not end"),
         Err(mpsc::RecvTimeoutError::Disconnected) => {
@@ -169,18 +169,23 @@ fn in_time(what: &str, run: impl FnOnce() + Send + 'static) {
     }
 }
 
+/// What is asked with little memory.
+static SMALL: LazyLock<[Scene; 3]> = LazyLock::new(|| {
+    [
+        Scene::hull("torus", torus(2.0, 0.75, 24, 12), &options(40)),
+        Scene::hull("groove block", groove_block(), &options(30)),
+        Scene::hull("rough sphere", rough_sphere(2, 0.2, 7), &options(40)),
+    ]
+});
+
 fn small_memory<const SPLITS: usize>(what: &'static str, lists: &'static [Candidates]) {
     in_time(what, move || {
-        for scene in [
-            Scene::hull("torus", torus(2.0, 0.75, 24, 12), &options(40)),
-            Scene::hull("groove block", groove_block(), &options(30)),
-            Scene::hull("rough sphere", rough_sphere(2, 0.2, 7), &options(40)),
-        ] {
+        for scene in &*SMALL {
             let model = scene.model();
             let mut rng = Rng::new(33);
             let mut kept = Box::new(RefinedHull::<SPLITS>::new());
             for _ in 0..60 {
-                let segment = from_outside(&scene, &mut rng);
+                let segment = from_outside(scene, &mut rng);
                 let truth = contacts(segment.0, segment.1, &scene.positions, &scene.triangles);
                 let (whole, _) = ask::<ALL>(&model, segment, Search::First, 1024);
                 for &list in lists {

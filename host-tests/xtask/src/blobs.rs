@@ -1,6 +1,7 @@
 //! The blobs that the images are asked about.
 
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use crate::boards::Flash;
 use crate::host;
@@ -89,13 +90,21 @@ impl Blob {
         folder().join(self.name).with_extension("msw")
     }
 
+    /// The blob as it lies in a board's flash.
+    ///
+    /// # Errors
+    /// [`write()`] was not run.
+    pub fn in_flash(self) -> Result<PathBuf, String> {
+        in_flash(&self.file())
+    }
+
     /// What the host answered.
     ///
     /// # Errors
     /// [`write()`] was not run.
     pub fn expected(self) -> Result<Reading, String> {
         let file = folder().join(self.name).with_extension("txt");
-        let text = std::fs::read_to_string(&file)
+        let text = fs::read_to_string(&file)
             .map_err(|error| format!("cannot read {}: {error}", file.display()))?;
         Reading::parse(&text, None)
     }
@@ -107,6 +116,22 @@ impl Blob {
 /// The builder's.
 pub fn write() -> Result<(), String> {
     host::run(&["blobs", &folder().to_string_lossy()]).map(drop)
+}
+
+/// Writes what lies at the end of a board's flash for the images of the suite: a blob, padding to a
+/// multiple of 16 bytes, and 16 bytes that begin with the blob's length.
+///
+/// # Errors
+/// A file that cannot be read or written.
+pub fn in_flash(blob: &Path) -> Result<PathBuf, String> {
+    let mut bytes = fs::read(blob).map_err(|error| format!("{}: {error}", blob.display()))?;
+    let length = u32::try_from(bytes.len()).map_err(|error| error.to_string())?;
+    bytes.resize(bytes.len().next_multiple_of(16), 0);
+    bytes.extend_from_slice(&length.to_le_bytes());
+    bytes.extend_from_slice(&[0; 12]);
+    let file = blob.with_extension("flash");
+    fs::write(&file, bytes).map_err(|error| format!("{}: {error}", file.display()))?;
+    Ok(file)
 }
 
 fn folder() -> PathBuf {

@@ -7,50 +7,26 @@ use crate::process;
 use crate::steps::Steps;
 use crate::workspace;
 
-/// Formatting, lints, tests, documentation.
+/// Formatting, lints, tests, documentation: of the laboratory too.
+///
+/// Each command is about the whole workspace. One about a part of it enables fewer features of the
+/// dependencies, and compiles them and the library again.
 pub fn run(steps: &mut Steps) {
     steps.run("formatting", || process::run(&mut cargo(&["fmt", "--all", "--check"])));
     steps.run("formatting of the firmware", || {
         process::run(cargo(&["fmt", "--check"]).current_dir(workspace::firmware()))
     });
     steps.run("lints", || {
-        process::run(&mut cargo(&[
-            "clippy",
-            "--quiet",
-            "--workspace",
-            "--exclude",
-            "meshsweep-lab",
-            "--all-targets",
-            "--",
-            "-D",
-            "warnings",
-        ]))
+        let mut command = cargo(&["clippy", "--quiet", "--workspace", "--all-targets"]);
+        process::run(command.args(["--", "-D", "warnings"]))
     });
-    steps.run("tests", || {
-        process::run(&mut cargo(&[
-            "test",
-            "--workspace",
-            "--exclude",
-            "meshsweep-lab",
-            "--no-fail-fast",
-        ]))
-    });
+    steps.run("tests", || process::run(&mut cargo(&["test", "--workspace", "--no-fail-fast"])));
     steps.run("documentation", || {
         process::run(
-            cargo(&["doc", "--quiet", "--workspace", "--exclude", "meshsweep-lab", "--no-deps"])
+            cargo(&["doc", "--quiet", "--workspace", "--no-deps"])
                 .env("RUSTDOCFLAGS", "-D warnings"),
         )
     });
-}
-
-/// Lints and tests of the laboratory, whose peers take longer to build than the library.
-pub fn of_lab(steps: &mut Steps) {
-    let package = ["--package", "meshsweep-lab"];
-    steps.run("lints of the laboratory", || {
-        let mut command = cargo(&["clippy", "--quiet", "--all-targets"]);
-        process::run(command.args(package).args(["--", "-D", "warnings"]))
-    });
-    steps.run("tests of the laboratory", || process::run(cargo(&["test"]).args(package)));
 }
 
 /// Hands the words to the laboratory, which is built as users build the library.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use object::elf::FileHeader32;
-use object::read::elf::ElfFile32;
+use object::read::elf::{ElfFile32, ProgramHeader};
 use object::{Endianness, Object, ObjectSection, ObjectSymbol, SectionFlags, elf};
 
 /// Bytes by kind of section.
@@ -62,6 +62,30 @@ pub fn size(image: &Path) -> Result<Size, String> {
 pub fn defines(image: &Path, function: &str) -> Result<bool, String> {
     with(image, |file| {
         file.symbols().any(|symbol| symbol.is_definition() && symbol.name() == Ok(function))
+    })
+}
+
+/// The address of a symbol that an image or its linker script defines.
+pub fn address(image: &Path, symbol: &str) -> Result<u64, String> {
+    let found = with(image, |file| {
+        let mut symbols = file.symbols().filter(|found| !found.is_undefined());
+        symbols.find(|found| found.name() == Ok(symbol)).map(|found| found.address())
+    })?;
+    found.ok_or_else(|| format!("{} does not define `{symbol}`", image.display()))
+}
+
+/// The address behind all that an image puts into flash, which ends at an address.
+pub fn end_in_flash(image: &Path, flash_end: u64) -> Result<u64, String> {
+    with(image, |file| {
+        let endian = file.endian();
+        // Where it is loaded, not where it runs: flash holds the first values of RAM too.
+        let loaded = file.elf_program_headers().iter().filter_map(|header| {
+            let at = u64::from(header.p_paddr(endian));
+            let bytes = u64::from(header.p_filesz(endian));
+            let is_in_flash = header.p_type(endian) == elf::PT_LOAD && bytes > 0 && at < flash_end;
+            is_in_flash.then_some(at + bytes)
+        });
+        loaded.max().unwrap_or(0)
     })
 }
 

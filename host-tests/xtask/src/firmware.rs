@@ -1,5 +1,6 @@
 //! The firmware's part: same bits on every board, no panic, sizes and costs.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::blobs::Blob;
@@ -28,13 +29,12 @@ pub fn setup(steps: &mut Steps) -> Option<Tools> {
 }
 
 impl Tools {
-    /// Builds an image that carries no blob, for a board; its path.
+    /// Builds an image for a board; its path.
     ///
     /// # Errors
     /// The compiler's.
     pub fn image(&self, board: &Board, name: &str) -> Result<PathBuf, String> {
-        let mut command = images::cargo(&self.cross, "build", &[board.target], Profile::Release);
-        process::capture(command.args(["--bin", name]))?;
+        images::running(&self.cross, &[board.target], Profile::Release, &[name])?;
         Ok(images::image(&self.cross, board.target, Profile::Release, name))
     }
 
@@ -46,47 +46,76 @@ impl Tools {
         &self,
         board: &Board,
         image: &Path,
-        loaded: Option<(&Path, u32)>,
+        loaded: (&Path, u32),
         expected: &Reading,
     ) -> Result<Reading, String> {
-        let printed = self.qemu.run(board.machine, image, loaded)?;
+        let printed = self.qemu.run(board.machine, image, Some(loaded))?;
         let reading = Reading::parse(&printed, Some(board))?;
         reading.compare(expected)?;
         Ok(reading)
     }
+
+    /// Runs an image of the suite on a board, with a blob at the end of its flash.
+    ///
+    /// # Errors
+    /// As above, or flash that is too small for both.
+    pub fn asked_in_flash(
+        &self,
+        board: &Board,
+        image: &Path,
+        flash: &Path,
+        expected: &Reading,
+    ) -> Result<Reading, String> {
+        let length = fs::metadata(flash)
+            .map_err(|error| format!("cannot read {}: {error}", flash.display()))?
+            .len();
+        let end = elf::address(image, "meshsweep_flash_end")?;
+        let (begin, used) = (end.saturating_sub(length), elf::end_in_flash(image, end)?);
+        if used > begin {
+            return Err(format!("image and blob need {} bytes more than the flash", used - begin));
+        }
+        let begin = u32::try_from(begin).map_err(|error| error.to_string())?;
+        self.asked(board, image, (flash, begin), expected)
+    }
 }
 
-/// An image of the suite, built for one board.
-struct Image {
+/// An image of the suite, built for one board, and a blob that it is asked about.
+pub struct Asked {
     board: Board,
     blob: Blob,
-    file: PathBuf,
+    image: PathBuf,
 }
 
 /// Runs all of it, and prints the table.
 pub fn run(steps: &mut Steps, tools: &Tools) -> Vec<Row> {
+    build(steps, tools).map(|asked| ask(steps, tools, &asked)).unwrap_or_default()
+}
+
+/// Builds all images, which takes nothing of the library on this machine. Lints and proofs are
+/// among it.
+pub fn build(steps: &mut Steps, tools: &Tools) -> Option<Vec<Asked>> {
+    let asked = steps.run("images of the suite", || suites(&tools.cross));
+    proofs_and_sizes(steps, &tools.cross);
+    asked
+}
+
+/// Runs the images of the suite, and prints the table.
+pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked]) -> Vec<Row> {
     let cross = &tools.cross;
-    if steps.run("the host's answers", blobs::write).is_none() {
-        return Vec::new();
-    }
-    let Some(images) = steps.run("images of the suite", || suites(cross)) else {
-        return Vec::new();
-    };
-    // The emulator runs while the other images are built.
-    let readings = std::thread::scope(|scope| {
-        let readings = scope.spawn(|| {
-            process::parallel(&images, |Image { board, blob, file }| {
-                tools.asked(board, file, None, &blob.expected()?)
-            })
-        });
-        built(steps, cross);
-        readings.join().unwrap_or_default()
+    let written = steps.run("the host's answers", || {
+        blobs::write()?;
+        asked.iter().map(|Asked { blob, .. }| blob.in_flash()).collect::<Result<Vec<_>, _>>()
+    });
+    let Some(flash) = written else { return Vec::new() };
+    let runs: Vec<(&Asked, &PathBuf)> = asked.iter().zip(&flash).collect();
+    let readings = process::parallel(&runs, |(Asked { board, blob, image }, flash)| {
+        tools.asked_in_flash(board, image, flash, &blob.expected()?)
     });
     let mut rows: Vec<Row> = BOARDS
         .iter()
         .map(|board| Row { board: *board, readings: Vec::new(), added: Vec::new() })
         .collect();
-    for (Image { board, blob, .. }, (reading, seconds)) in images.iter().zip(readings) {
+    for (Asked { board, blob, .. }, (reading, seconds)) in asked.iter().zip(readings) {
         let name = format!("{}: the host's bits, {}", board.cpu, blob.name);
         let reading = steps.ended(&name, seconds, reading);
         let row = rows.iter_mut().find(|row| row.board.cpu == board.cpu);
@@ -106,11 +135,10 @@ pub fn run(steps: &mut Steps, tools: &Tools) -> Vec<Row> {
 }
 
 /// Lints, proofs, and the images whose size is measured.
-fn built(steps: &mut Steps, cross: &Cross) {
+fn proofs_and_sizes(steps: &mut Steps, cross: &Cross) {
     let targets = BOARDS.map(|board| board.target);
     if cross.has_clippy() {
-        let [any, ..] = Blob::VARIANTS;
-        steps.run("lints of the images", || images::lint(cross, &targets, &any.file()));
+        steps.run("lints of the images", || images::lint(cross, &targets));
     }
     for profile in Profile::ALL {
         let name = format!("no panic, {}", profile.name());
@@ -128,27 +156,34 @@ fn built(steps: &mut Steps, cross: &Cross) {
     }
 }
 
-/// Builds all images of the suite: one command for each blob and all boards that are asked about
-/// it.
-fn suites(cross: &Cross) -> Result<Vec<Image>, String> {
-    let mut asked: Vec<(Blob, Profile, Vec<Board>)> = Vec::new();
+/// Builds all images of the suite: one command for each profile and the boards that take the same
+/// images. What each is asked about.
+fn suites(cross: &Cross) -> Result<Vec<Asked>, String> {
+    let mut asked = Vec::new();
+    let mut built: Vec<(Profile, Vec<&str>, Vec<&str>)> = Vec::new();
     for board in BOARDS {
+        let mut names = Profile::ALL.map(|profile| (profile, Vec::new()));
         for blob in Blob::standard(board.flash).into_iter().chain(Blob::VARIANTS) {
             let profile = blob.profile(board.flash);
-            match asked.iter_mut().find(|(b, p, _)| (*b, *p) == (blob, profile)) {
-                Some((.., boards)) => boards.push(board),
-                None => asked.push((blob, profile, vec![board])),
+            let image = images::image(cross, board.target, profile, blob.image);
+            asked.push(Asked { board, blob, image });
+            for (_, names) in names.iter_mut().filter(|(of, _)| *of == profile) {
+                if !names.contains(&blob.image) {
+                    names.push(blob.image);
+                }
+            }
+        }
+        for (profile, names) in names.into_iter().filter(|(_, names)| !names.is_empty()) {
+            match built.iter_mut().find(|(p, n, _)| (*p, n) == (profile, &names)) {
+                Some((.., targets)) => targets.push(board.target),
+                None => built.push((profile, names, vec![board.target])),
             }
         }
     }
-    let mut images = Vec::new();
-    for (blob, profile, boards) in asked {
-        let targets: Vec<&str> = boards.iter().map(|board| board.target).collect();
-        let files = images::suite(cross, &targets, profile, blob.image, &blob.file())?;
-        let built = boards.into_iter().zip(files);
-        images.extend(built.map(|(board, file)| Image { board, blob, file }));
+    for (profile, names, targets) in built {
+        images::running(cross, &targets, profile, &names)?;
     }
-    Ok(images)
+    Ok(asked)
 }
 
 /// Runs the suite about any blob on a board. Its answers are `expected`, the host's, bit by bit.
@@ -162,9 +197,9 @@ pub fn reading(
     blob: &Path,
     expected: &str,
 ) -> Result<Reading, String> {
-    let files = images::suite(&tools.cross, &[board.target], Profile::Release, image, blob)?;
-    let file = files.first().ok_or("no image")?;
-    tools.asked(board, file, None, &Reading::parse(expected, None)?)
+    let image = tools.image(board, image)?;
+    let flash = blobs::in_flash(blob)?;
+    tools.asked_in_flash(board, &image, &flash, &Reading::parse(expected, None)?)
 }
 
 /// Questions whose code is measured, each by an image of its own.

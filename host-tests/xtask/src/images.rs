@@ -1,7 +1,6 @@
 //! Building firmware images.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 use crate::cross::Cross;
@@ -31,39 +30,30 @@ impl Profile {
     }
 }
 
-/// Builds the image `name` of the suite, carrying `blob`, for several targets at once; a copy of
-/// each, which the next blob leaves alone.
+/// Builds images that run, for several targets at once.
 ///
 /// # Errors
 /// The compiler's.
-pub fn suite(
+pub fn running(
     cross: &Cross,
     targets: &[&str],
     profile: Profile,
-    name: &str,
-    blob: &Path,
-) -> Result<Vec<PathBuf>, String> {
+    names: &[&str],
+) -> Result<(), String> {
     let mut command = cargo(cross, "build", targets, profile);
-    process::capture(command.args(["--bin", name]).env("MESHSWEEP_BLOB", blob))?;
-    let stem = blob.file_stem().unwrap_or_default().to_string_lossy();
-    let folder = workspace::target().join(cross.folder()).join("images");
-    fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    let copied = targets.iter().map(|target| {
-        let kept = folder.join(format!("{target}-{stem}"));
-        fs::copy(image(cross, target, profile, name), &kept)
-            .map_err(|error| format!("{}: {error}", kept.display()))?;
-        Ok(kept)
-    });
-    copied.collect()
+    for name in names {
+        command.args(["--bin", name]);
+    }
+    process::capture(&mut command).map(drop)
 }
 
 /// Lints the images.
 ///
 /// # Errors
 /// The lints.
-pub fn lint(cross: &Cross, targets: &[&str], blob: &Path) -> Result<(), String> {
+pub fn lint(cross: &Cross, targets: &[&str]) -> Result<(), String> {
     let mut command = cargo(cross, "clippy", targets, Profile::Release);
-    process::capture(command.env("MESHSWEEP_BLOB", blob).args(["--", "-D", "warnings"])).map(drop)
+    process::capture(command.args(["--", "-D", "warnings"])).map(drop)
 }
 
 /// Builds the images whose size is measured.

@@ -1,6 +1,8 @@
 //! `cargo xtask`: what takes more than one cargo command. This file only dispatches.
 
+use std::panic::resume_unwind;
 use std::process::ExitCode;
+use std::thread;
 
 use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::tables::Facts;
@@ -36,14 +38,30 @@ fn main() -> ExitCode {
         ["test"] => {
             // First, because a new machine fails here, and the message tells the remedy.
             let tools = firmware::setup(&mut steps);
-            checks::run(&mut steps);
-            checks::of_lab(&mut steps);
-            let counts = count::for_test(&mut steps);
-            if let Some(counts) = &counts {
-                count::check_lanes(&mut steps, counts);
+            // The images are built beside the rest, in a folder of their own: long links and long
+            // tests leave a processor without work.
+            let (images, counts) = thread::scope(|scope| {
+                let images = tools.as_ref().map(|tools| {
+                    scope.spawn(|| {
+                        let mut steps = Steps::new();
+                        (firmware::build(&mut steps, tools), steps)
+                    })
+                });
+                checks::run(&mut steps);
+                let counts = count::for_test(&mut steps);
+                if let Some(counts) = &counts {
+                    count::check_lanes(&mut steps, counts);
+                }
+                let joined =
+                    images.map(|images| images.join().unwrap_or_else(|p| resume_unwind(p)));
+                (joined, counts)
+            });
+            let mut rows = Vec::new();
+            if let (Some(tools), Some((images, others))) = (&tools, images) {
+                steps.append(others);
+                let ask = |images: Vec<_>| firmware::ask(&mut steps, tools, &images);
+                rows = images.map(ask).unwrap_or_default();
             }
-            let run = |tools| firmware::run(&mut steps, &tools);
-            let rows = tools.map(run).unwrap_or_default();
             tables::check(&mut steps, &Facts { counts: counts.as_ref(), rows: &rows });
         }
         ["firmware"] => {

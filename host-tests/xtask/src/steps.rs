@@ -47,6 +47,13 @@ impl Steps {
         }
     }
 
+    /// Takes steps that ran beside these.
+    pub fn append(&mut self, mut others: Self) {
+        self.passed += others.passed;
+        self.failed.append(&mut others.failed);
+        self.times.append(&mut others.times);
+    }
+
     /// Prints the summary; the exit code tells whether every step passed.
     pub fn finish(self) -> ExitCode {
         if self.times.len() >= MANY {

@@ -5,8 +5,7 @@
 //! engine (what each one is) ──┼─ timing (interleaved rounds) ─ agreement (with f64, with parry3d) ─ report (tables)
 //!   parry, cwbvh, tree: one file each
 //! ```
-//! A new engine is a file with an [`Engine`](engine::Engine) and a line in
-//! [`ENTRANTS`](engine::ENTRANTS).
+//! A new engine is a file with an `Engine` and a line in `ENTRANTS`, both of `engine.rs`.
 //!
 //! Times are the processor's, the fastest of three rounds. Within a round every engine has its turn
 //! at a workload, so that a busy machine hits all alike. Even so only ratios within one run mean

@@ -7,7 +7,7 @@ use meshsweep_host_tests::corrupt::{
     assert_only_the_whole_opens, entries, entry, flip_bits, put_u32, replace_bytes, seal,
 };
 use meshsweep_host_tests::fuzz_targets::tree_seeds;
-use meshsweep_host_tests::generate::{Rng, bracket, cube};
+use meshsweep_host_tests::generate::{Rng, cube, groove_block};
 
 const HOSTILE: [u32; 9] =
     [0, 1, 0x0080_0000, 0x7F7F_FFFF, 0x7F80_0000, 0xFF80_0000, 0x7FC0_0000, 0x7FFF_FFFF, u32::MAX];
@@ -57,8 +57,8 @@ fn every_word_replaced_by_a_hostile_one_is_refused_or_safe_to_ask() {
 #[test]
 fn random_edits_with_right_checksums_are_refused_or_safe_to_ask() {
     let blobs = [
-        blob_of(bracket(), &TreeOptions::default().with_cull(true)),
-        blob_of(bracket(), &TreeOptions::default().with_f32(true)),
+        blob_of(groove_block(), &TreeOptions::default().with_cull(true)),
+        blob_of(groove_block(), &TreeOptions::default().with_f32(true)),
     ];
     let rng = &mut Rng::new(77);
     for bytes in &blobs {
