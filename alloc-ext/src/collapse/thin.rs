@@ -10,9 +10,13 @@ use super::star::Connectivity;
 use super::surface::Surface;
 use crate::surface::Grid;
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// Part of the edges that a round tries. With more, the hull grows into itself in narrow places.
 const TRIED: f64 = 0.1;
+
+/// Triangles whose edges a thread evaluates at least.
+const TRIANGLES_A_THREAD: usize = 1000;
 
 /// The last round is the one that collapses fewer than one in this many of its edges.
 const TOO_FEW: usize = 100;
@@ -124,14 +128,22 @@ impl<F> Rounds<F> {
         let last = self.round.as_ref().map_or(0, |round| round.time);
         let all = self.costs.len() != edge_count;
         self.costs.resize(edge_count, f64::INFINITY);
-        for edge in 0..edge_count as u32 {
-            let ends = self.ends(edge);
-            if !self.surface.mesh.is_alive(edge / 3) || ends[0] > ends[1] {
-                self.costs[edge as usize] = f64::INFINITY;
-            } else if all || schedule.is_stale(ends, last) {
-                self.costs[edge as usize] = self.surface.span(ends);
-            }
-        }
+        let Self { surface, costs, .. } = self;
+        let surface = &*surface;
+        costs.par_chunks_mut(3).with_min_len(TRIANGLES_A_THREAD).enumerate().for_each(
+            |(triangle, costs)| {
+                let corners = surface.mesh.corners[triangle];
+                let is_alive = surface.mesh.is_alive(triangle as u32);
+                for (k, cost) in costs.iter_mut().enumerate() {
+                    let ends = [corners[k], corners[(k + 1) % 3]];
+                    if !is_alive || ends[0] > ends[1] {
+                        *cost = f64::INFINITY;
+                    } else if all || schedule.is_stale(ends, last) {
+                        *cost = surface.span(ends);
+                    }
+                }
+            },
+        );
     }
 
     fn cheapest(&self) -> Vec<(f64, u32)> {

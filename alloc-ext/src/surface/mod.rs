@@ -6,6 +6,7 @@ mod closing;
 mod compact;
 mod components;
 mod enclosures;
+mod lane_corners;
 mod order;
 mod precision;
 mod tree;

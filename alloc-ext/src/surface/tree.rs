@@ -5,6 +5,7 @@
 //! every number in it is at most 1, and the bounds of rounding are numbers: see [`SLACK`].
 
 use super::bounds::{Bounds, Plane};
+use super::lane_corners::LaneCorners;
 use super::order::{WIDTH, ranges};
 use arrayvec::ArrayVec;
 use glam::DVec3;
@@ -26,15 +27,21 @@ struct Node {
     middle: [[f32; WIDTH]; 3],
     half: [[f32; WIDTH]; 3],
     entry: [u32; WIDTH],
+    /// Where the corners of its items are; [`NONE`] without corners.
+    corners: u32,
 }
 
+/// No corners are known.
+const NONE: u32 = u32::MAX;
+
 const EMPTY: Node =
-    Node { middle: [[0.0; WIDTH]; 3], half: [[-1e30; WIDTH]; 3], entry: [0; WIDTH] };
+    Node { middle: [[0.0; WIDTH]; 3], half: [[-1e30; WIDTH]; 3], entry: [0; WIDTH], corners: NONE };
 
 /// A static tree of boxes. Items keep the numbers of their boxes.
 #[derive(Clone, Debug)]
 pub(crate) struct StaticTree {
     nodes: Vec<Node>,
+    corners: Vec<LaneCorners>,
     origin: DVec3,
     /// Units of the tree's frame in one of the mesh.
     scale: f64,
@@ -42,17 +49,16 @@ pub(crate) struct StaticTree {
 
 /// A plane in the tree's frame.
 #[derive(Clone, Copy, Debug)]
-struct Cut {
-    normal: [f32; 3],
+pub(super) struct Cut {
+    pub normal: [f32; 3],
     along: [f32; 3],
-    offset: f32,
+    pub offset: f32,
 }
 
 /// A box and planes that an item's box has to reach.
 #[derive(Clone, Debug)]
 pub(crate) struct Probe {
-    cuts: ArrayVec<Cut, 5>,
-    fixed: usize,
+    cuts: ArrayVec<Cut, 4>,
     middle: [f32; 3],
     half: [f32; 3],
 }
@@ -81,7 +87,7 @@ impl StaticTree {
         let extent = (all.high - all.low).max_element();
         let unit = if extent > 0.0 && extent.is_finite() { 0.5 * extent } else { 1.0 };
         let origin = if boxes.is_empty() { DVec3::ZERO } else { (all.low + all.high) * 0.5 };
-        let mut tree = Self { nodes: vec![EMPTY], origin, scale: 1.0 / unit };
+        let mut tree = Self { nodes: vec![EMPTY], corners: Vec::new(), origin, scale: 1.0 / unit };
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
         let mut open = vec![(0usize, 0usize, boxes.len())];
         while let Some((node, from, to)) = open.pop() {
@@ -103,6 +109,27 @@ impl StaticTree {
                     node.middle[axis][lane] = middle[axis];
                     node.half[axis][lane] = half[axis];
                 }
+            }
+        }
+        tree
+    }
+
+    /// Of triangles. Planes then pass over triangles by their corners, and not only by their boxes.
+    pub fn of_triangles(triangles: &[[DVec3; 3]]) -> Self {
+        let boxes: Vec<Bounds> = triangles.iter().map(|t| Bounds::of(t)).collect();
+        let mut tree = Self::new(&boxes);
+        let (origin, scale) = (tree.origin, tree.scale);
+        for node in &mut tree.nodes {
+            let mut corners = LaneCorners::default();
+            for (lane, &entry) in node.entry.iter().enumerate() {
+                if entry & ITEM != 0 {
+                    let triangle = triangles[(entry ^ ITEM) as usize];
+                    corners.set(lane, triangle.map(|p| ((p - origin) * scale).as_vec3()));
+                }
+            }
+            if corners.lanes != 0 {
+                node.corners = tree.corners.len() as u32;
+                tree.corners.push(corners);
             }
         }
         tree
@@ -131,10 +158,7 @@ impl StaticTree {
     pub fn probe(&self, bounds: &Bounds, planes: &[Plane]) -> Probe {
         let (middle, half) = self.local(bounds);
         let half = half.map(|h| h + SLACK as f32);
-        let mut cuts: ArrayVec<Cut, 5> = planes.iter().map(|plane| self.cut(plane)).collect();
-        let fixed = cuts.len();
-        cuts.truncate(4);
-        Probe { cuts, fixed, middle, half }
+        Probe { cuts: planes.iter().map(|plane| self.cut(plane)).collect(), middle, half }
     }
 
     fn cut(&self, plane: &Plane) -> Cut {
@@ -143,10 +167,31 @@ impl StaticTree {
         Cut { normal, along: normal.map(f32::abs), offset: offset as f32 }
     }
 
-    /// Adds a plane to a probe, in place of the one that was added last.
+    /// Puts a plane into a probe, in place of its first.
     pub fn raise(&self, probe: &mut Probe, plane: &Plane) {
-        probe.cuts.truncate(probe.fixed);
-        probe.cuts.push(self.cut(plane));
+        let cut = self.cut(plane);
+        match probe.cuts.first_mut() {
+            Some(first) => *first = cut,
+            None => probe.cuts.push(cut),
+        }
+    }
+
+    /// The lanes of a node that a probe reaches, one bit each.
+    #[inline]
+    fn reached(&self, probe: &Probe, node: &Node) -> u32 {
+        if node.corners == NONE || probe.cuts.is_empty() {
+            return probe.hits(node, &probe.cuts);
+        }
+        let near = probe.hits(node, &[]);
+        if near == 0 {
+            return 0;
+        }
+        let corners = &self.corners[node.corners as usize];
+        let mut hits = near & corners.reached(&probe.cuts);
+        if near & !corners.lanes != 0 {
+            hits |= probe.hits(node, &probe.cuts) & !corners.lanes;
+        }
+        hits
     }
 
     /// Some nodes that hold every item whose box meets `bounds`. Many searches in these bounds may
@@ -159,7 +204,7 @@ impl StaticTree {
         let mut next = 0;
         while let Some(&index) = open.get(next) {
             let node = &self.nodes[index as usize];
-            let hits = probe.hits(node);
+            let hits = probe.hits(node, &probe.cuts);
             let mut inner: ArrayVec<u32, WIDTH> = ArrayVec::new();
             let mut has_items = false;
             for lane in (0..WIDTH).filter(|lane| hits >> lane & 1 != 0) {
@@ -223,7 +268,8 @@ impl StaticTree {
         mut visit: impl FnMut(usize) -> bool,
     ) -> bool {
         let mut probe = self.probe(bounds, planes);
-        self.visit(&[0], &mut probe, Probe::hits, |_, item| visit(item))
+        let lanes = |probe: &Probe, node: &Node| self.reached(probe, node);
+        self.visit(&[0], &mut probe, lanes, |_, item| visit(item))
     }
 
     /// Calls `visit` with every item whose box, and whose ancestors' boxes, pass `keep`, and
@@ -254,7 +300,8 @@ impl StaticTree {
         mut probe: Probe,
         mut visit: impl FnMut(usize) -> Option<Plane>,
     ) {
-        self.visit(&near.0, &mut probe, Probe::hits, |probe, item| {
+        let lanes = |probe: &Probe, node: &Node| self.reached(probe, node);
+        self.visit(&near.0, &mut probe, lanes, |probe, item| {
             if let Some(plane) = visit(item) {
                 self.raise(probe, &plane);
             }
@@ -329,9 +376,9 @@ impl Node {
 }
 
 impl Probe {
-    /// The lanes whose boxes are reached, one bit each.
+    /// The lanes whose boxes meet the probe's box and reach planes, one bit each.
     #[inline]
-    fn hits(&self, node: &Node) -> u32 {
+    fn hits(&self, node: &Node, cuts: &[Cut]) -> u32 {
         let mut out = [f32::NEG_INFINITY; WIDTH];
         for (k, out) in out.iter_mut().enumerate() {
             let off = |axis: usize| {
@@ -343,7 +390,7 @@ impl Probe {
             let xy = if x > y { x } else { y };
             *out = if xy > z { xy } else { z };
         }
-        for cut in &self.cuts {
+        for cut in cuts {
             for (k, out) in out.iter_mut().enumerate() {
                 let reach = cut.normal[0] * node.middle[0][k]
                     + cut.normal[1] * node.middle[1][k]

@@ -144,3 +144,45 @@ fn hull_frame(positions: &[DVec3], margin: f64, bits: VertexBits) -> Result<Stor
     }
     Ok(store(&Mesh::new(to_f32(&corners), Vec::new()), bits))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f32::consts::TAU;
+
+    /// A torus with bumps.
+    fn torus() -> Mesh {
+        let [around, across] = [36u32, 18u32];
+        let at = |n: u32, of: u32| TAU * n as f32 / of as f32;
+        let corner = |n: u32| {
+            let (u, v) = (at(n / across, around), at(n % across, across));
+            let radius = 0.4 + 0.03 * (5.0 * u + 3.0 * v).sin();
+            let out = 1.0 + radius * v.cos();
+            [out * u.cos(), out * u.sin(), radius * v.sin()]
+        };
+        let number = |i: u32, j: u32| i % around * across + j % across;
+        let quads = (0..around * across).flat_map(|n| {
+            let (i, j) = (n / across, n % across);
+            let [a, b, c, d] =
+                [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)];
+            [[a, b, c], [a, c, d]]
+        });
+        Mesh::new((0..around * across).map(corner).collect(), quads.collect())
+    }
+
+    #[test]
+    fn a_hull_is_the_same_with_any_number_of_threads() {
+        let mesh = torus();
+        for goal in [Goal::Faces(120), Goal::Slack(0.05)] {
+            let hull = |threads: usize| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                let options = Options::new(goal).with_effort(0.2);
+                let hull = pool.install(|| wrap(&mesh, &options, |_| {})).unwrap();
+                let Report { stars, programs, .. } = hull.report;
+                (hull.mesh.positions, hull.mesh.triangles, stars, programs)
+            };
+            let one = hull(1);
+            assert!(one.2 > 0 && [2, 5].into_iter().all(|threads| hull(threads) == one));
+        }
+    }
+}

@@ -12,6 +12,7 @@
 //! | `hull.rs` | [`wrap()`]: options checked, hull built, hull measured |
 //! | `options.rs` | the goal and the options of a hull |
 //! | `report.rs` | measures of a hull and of the work for it; progress |
+//! | `shared_map.rs` | maps that searches on several threads share |
 //! | `components.rs` | splits a mesh into the components that get a hull each |
 //! | `initial/` | the first hull: a progressive level, a voxel closure, or the grown bounding box |
 //! | `moves/` | local edits of a hull: vertex placement, collapse, flip, split, kick |
@@ -48,6 +49,7 @@ mod options;
 mod proof;
 mod report;
 mod search;
+mod shared_map;
 mod store;
 
 pub use components::split_components;

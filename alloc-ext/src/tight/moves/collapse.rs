@@ -1,5 +1,6 @@
 //! Edge collapses, cheapest first. Each new vertex is placed against the original mesh.
 
+use super::ahead::Waiting;
 use super::editor::HullEditor;
 use super::memo::{Key, Question};
 use super::placement::PlacementObjective;
@@ -26,13 +27,8 @@ impl EdgeEdit {
     }
 }
 
-/// Objective of a collapse, which may turn faces more than a vertex move.
-const fn objective(centre_weight: f64, upright: Option<f64>) -> PlacementObjective {
-    PlacementObjective { centre_weight, tilt: DVec3::ZERO, upright }
-}
-
 /// Weight of the second term of a collapse's program.
-const CENTRE_WEIGHT: f64 = 0.05;
+const CENTRE_WEIGHT: f64 = PlacementObjective::PLAIN.centre_weight;
 
 /// Weights that are tried where the new faces are too far from the mesh: volume counts less, and
 /// the middle of the star more.
@@ -74,14 +70,26 @@ impl Collapsing for Edges<'_, '_> {
             return false;
         }
         self.refilled = schedule.now();
-        for ends in self.mesh().edges() {
-            self.evaluate(ends, schedule);
-        }
+        let edges = self.mesh().edges();
+        self.evaluate_all(&edges, schedule);
         true
+    }
+
+    fn reconsider(&mut self, vertex: u32, ring: &[u32], schedule: &mut Schedule<DVec3>) {
+        let edges: Vec<_> = ring.iter().map(|&v| [vertex.min(v), vertex.max(v)]).collect();
+        self.evaluate_all(&edges, schedule);
     }
 
     fn is_late(&self) -> bool {
         self.editor.is_late()
+    }
+}
+
+impl Edges<'_, '_> {
+    fn evaluate_all(&mut self, edges: &[[u32; 2]], schedule: &mut Schedule<DVec3>) {
+        for edit in self.editor.evaluate_collapses(edges) {
+            schedule.push(edit.cost, edit.ends, edit.position);
+        }
     }
 }
 
@@ -106,6 +114,22 @@ impl HullEditor<'_> {
         answer.map(|(position, cost)| EdgeEdit { cost, ends, position })
     }
 
+    /// The collapses of edges that are legal, in the order of the edges.
+    pub(super) fn evaluate_collapses(&mut self, edges: &[[u32; 2]]) -> Vec<EdgeEdit> {
+        let mut waiting = Vec::new();
+        for &ends in edges {
+            let Some(star) = self.edge_star(ends) else { continue };
+            let key = Key::new(Question::Collapse, self.salt(), &star);
+            if self.memo.get(key).is_none() {
+                let (centre, objective) = self.collapse_objective(ends, CENTRE_WEIGHT);
+                waiting.push(Waiting { key, star: star.clone(), centre, objective });
+            }
+            self.star = star;
+        }
+        self.remember_all(&waiting);
+        edges.iter().filter_map(|&ends| self.evaluate_collapse(ends)).collect()
+    }
+
     /// The star of an edge, with its faces in `dead`; `None` if the edge may not collapse.
     fn edge_star(&mut self, [a, b]: [u32; 2]) -> Option<Vec<StarFace>> {
         let Self { shell, dead, star, shape, .. } = self;
@@ -117,15 +141,27 @@ impl HullEditor<'_> {
         Some(std::mem::take(star))
     }
 
+    /// Where a collapse is placed about, and what for.
+    fn collapse_objective(
+        &self,
+        [a, b]: [u32; 2],
+        centre_weight: f64,
+    ) -> (DVec3, PlacementObjective) {
+        let centre = (self.shell.position(a) + self.shell.position(b)) * 0.5;
+        // A collapse may turn faces more than a vertex move.
+        let upright = self.shape.upright;
+        (centre, PlacementObjective { centre_weight, upright, ..PlacementObjective::PLAIN })
+    }
+
     fn place_collapse(
         &mut self,
         star: &[StarFace],
-        [a, b]: [u32; 2],
+        ends: [u32; 2],
         steps: f64,
         centre_weight: f64,
     ) -> Option<DVec3> {
-        let centre = (self.shell.position(a) + self.shell.position(b)) * 0.5;
-        self.place(star, centre, steps, &objective(centre_weight, self.shape.upright))
+        let (centre, objective) = self.collapse_objective(ends, centre_weight);
+        self.place(star, centre, steps, &objective)
     }
 
     /// A place for a collapse whose new faces are near enough to the mesh: `x`, or nearer to the

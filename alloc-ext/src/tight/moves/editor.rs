@@ -125,6 +125,11 @@ impl<'a> HullEditor<'a> {
         (self.placer.stars, self.placer.programs) = (clone.placer.stars, clone.placer.programs);
     }
 
+    /// A clone that counts its own work.
+    pub(super) fn worker(&self) -> Self {
+        Self { placer: Placer::default(), ..self.clone() }
+    }
+
     /// Adds the work counters of another hull.
     pub fn add_counts(&mut self, other: &Self) {
         self.placer.stars += other.placer.stars;
@@ -194,9 +199,24 @@ impl<'a> HullEditor<'a> {
         steps: f64,
         objective: &PlacementObjective,
     ) -> Option<DVec3> {
+        let mut placer = std::mem::take(&mut self.placer);
+        let x = self.place_by(&mut placer, star, centre, steps, objective);
+        self.placer = placer;
+        x
+    }
+
+    /// As [`place`](Self::place), with a placer of the caller's.
+    pub(super) fn place_by(
+        &self,
+        placer: &mut Placer,
+        star: &[StarFace],
+        centre: DVec3,
+        steps: f64,
+        objective: &PlacementObjective,
+    ) -> Option<DVec3> {
         let size = corners(star).map(|p| p.abs().max_element()).fold(0.0, f64::max);
         let clearance = self.rounding.half_step(size) * steps;
-        let x = self.placer.place(self.obstacle, star, centre, clearance, objective)?;
+        let x = placer.place(self.obstacle, star, centre, clearance, objective)?;
         let x = self.rounding.round(x)?;
         self.is_shapely(star, x).then_some(x)
     }

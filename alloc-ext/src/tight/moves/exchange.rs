@@ -1,8 +1,9 @@
 //! Edge splits; and exchanges: a split where the hull is loose for a collapse where it is not.
 
+use super::ahead::Waiting;
 use super::collapse::EdgeEdit;
 use super::editor::HullEditor;
-use super::memo::Question;
+use super::memo::{Key, Question};
 use super::placement::PlacementObjective;
 use super::star::StarFace;
 use super::tolerance::{CLEARANCES, LEAST_GAIN};
@@ -11,16 +12,15 @@ use glam::DVec3;
 
 /// As for a collapse: new faces may stand steeply on the old ones.
 const SPLIT: PlacementObjective =
-    PlacementObjective { centre_weight: 0.05, tilt: DVec3::ZERO, upright: Some(0.05) };
+    PlacementObjective { upright: Some(0.05), ..PlacementObjective::PLAIN };
 
 /// A split is tried for a collapse if it gains this fraction of the collapse's cost. The vertices
 /// around both settle afterwards and gain more.
 const HOPE: f64 = 0.5;
 
 impl HullEditor<'_> {
-    /// A split of an edge and its cost, which is negative if the hull loses volume.
-    pub(super) fn evaluate_split(&mut self, ends: [u32; 2]) -> Option<EdgeEdit> {
-        let [a, b] = ends;
+    /// The star of a split about the middle of an edge; `None` if the edge may not be split.
+    fn split_star(&self, [a, b]: [u32; 2]) -> Option<(DVec3, [StarFace; 4])> {
         let [c, d] = self.shell.mesh.wings(a, b)?.apexes;
         if [c, d].into_iter().any(|v| self.shell.mesh.at(v).len() >= self.shape.max_valence) {
             return None;
@@ -29,6 +29,12 @@ impl HullEditor<'_> {
         let middle = (pa + pb) * 0.5;
         let star = [[pc, pa], [pb, pc], [pd, pb], [pa, pd]]
             .map(|ring| StarFace::new([middle, ring[0], ring[1]], Some(ring)));
+        Some((middle, star))
+    }
+
+    /// A split of an edge and its cost, which is negative if the hull loses volume.
+    pub(super) fn evaluate_split(&mut self, ends: [u32; 2]) -> Option<EdgeEdit> {
+        let (middle, star) = self.split_star(ends)?;
         let answer = self.remembered(Question::Split, &star, |editor| {
             editor.place(&star, middle, CLEARANCES[0], &SPLIT)
         });
@@ -56,6 +62,15 @@ impl HullEditor<'_> {
 
     /// The splits of edges, cheapest first.
     fn splits(&mut self, edges: &[[u32; 2]]) -> Vec<EdgeEdit> {
+        let mut waiting = Vec::new();
+        for &ends in edges {
+            let Some((centre, star)) = self.split_star(ends) else { continue };
+            let key = Key::new(Question::Split, self.salt(), &star);
+            if self.memo.get(key).is_none() {
+                waiting.push(Waiting { key, star: star.to_vec(), centre, objective: SPLIT });
+            }
+        }
+        self.remember_all(&waiting);
         let mut splits: Vec<_> =
             edges.iter().filter_map(|&ends| self.evaluate_split(ends)).collect();
         splits.sort_unstable_by(EdgeEdit::by_cost);
@@ -101,8 +116,7 @@ impl HullEditor<'_> {
     pub fn exchange(&mut self, attempts: usize) {
         let edges = self.shell.mesh.edges();
         let splits = self.splits(&edges);
-        let mut collapses: Vec<_> =
-            edges.iter().filter_map(|&ends| self.evaluate_collapse(ends)).collect();
+        let mut collapses = self.evaluate_collapses(&edges);
         collapses.sort_unstable_by(EdgeEdit::by_cost);
         let mut touched: Vec<u32> = Vec::new();
         let mut tries = 0;

@@ -2,6 +2,7 @@
 
 use super::editor::{HullEditor, compactness};
 use super::memo::{Key, Question};
+use super::side_by_side::Edit;
 use super::star::StarFace;
 use super::tolerance::LEAST_GAIN;
 use crate::tight::proof::{Face, Triangle, side};
@@ -21,35 +22,26 @@ impl HullEditor<'_> {
     /// Flips every edge, convex or not, whose four corners then settle with less volume than
     /// before.
     pub fn flip_search(&mut self) {
-        for [a, b] in self.shell.mesh.edges() {
-            if self.is_spent() {
-                break;
-            }
-            self.flip_and_settle(a, b);
-        }
+        let edges = self.shell.mesh.edges();
+        self.try_side_by_side(edges.into_iter(), |worker, ends| worker.flip_and_settle(ends));
     }
 
-    fn flip_and_settle(&mut self, a: u32, b: u32) {
-        let Some([c, d]) = self.shell.mesh.wings(a, b).map(|w| w.apexes) else { return };
+    fn flip_and_settle(&mut self, ends: [u32; 2]) -> Option<Edit> {
+        let [a, b] = ends;
+        let [c, d] = self.shell.mesh.wings(a, b)?.apexes;
         let corners = [a, b, c, d];
         let before = self.shell.volume();
-        let places = corners.map(|v| self.shell.position(v));
         if !self.flip(a, b) {
-            return;
+            return None;
         }
         for _ in 0..2 {
             for v in corners {
                 self.settle(v);
             }
         }
+        let moves = || corners.map(|v| (v, self.shell.position(v))).to_vec();
         let is_better = self.shell.volume() < before * (1.0 - LEAST_GAIN);
-        if !is_better {
-            for (v, at) in corners.into_iter().zip(places) {
-                self.shell.move_vertex(v, at);
-            }
-            // Flips the new edge back. No other edit has changed it.
-            self.shell.flip(c, d);
-        }
+        is_better.then(|| Edit { flip: Some(ends), moves: moves() })
     }
 
     /// Flips the edge if it is convex and the flip is proved.

@@ -2,6 +2,7 @@
 
 use super::editor::HullEditor;
 use super::placement::PlacementObjective;
+use super::side_by_side::Edit;
 use super::star::radius;
 use super::tolerance::GAIN;
 use crate::random::SplitMix;
@@ -11,32 +12,28 @@ impl HullEditor<'_> {
     /// Pulls every vertex once in a random direction and settles it and its neighbours. Keeps the
     /// kicks that lose volume.
     pub fn kick_all(&mut self, random: &mut SplitMix, strength: f64) {
-        for v in 0..self.shell.vertex_slots() {
-            if self.is_spent() {
-                break;
-            }
-            if !self.shell.mesh.at(v).is_empty() {
-                self.kick(v, random.direction() * strength);
-            }
-        }
+        let kicks: Vec<(u32, DVec3)> = (0..self.shell.vertex_slots())
+            .filter(|&v| !self.shell.mesh.at(v).is_empty())
+            .map(|v| (v, random.direction() * strength))
+            .collect();
+        self.try_side_by_side(kicks.into_iter(), |worker, (v, tilt)| worker.kick(v, tilt));
     }
 
-    fn kick(&mut self, v: u32, tilt: DVec3) {
-        let mut around: Vec<u32> = self.shell.mesh.neighbours(v).collect();
-        around.push(v);
-        let before: Vec<DVec3> = around.iter().map(|&u| self.shell.position(u)).collect();
+    fn kick(&mut self, v: u32, tilt: DVec3) -> Option<Edit> {
+        let around: Vec<u32> = self.shell.mesh.neighbours(v).chain([v]).collect();
         let from = self.shell.position(v);
-        let objective = PlacementObjective { centre_weight: 0.3, tilt, upright: Some(0.1) };
-        let Some(mut gained) = self.move_vertex(v, from, &objective) else { return };
+        let objective = PlacementObjective {
+            centre_weight: 0.3,
+            tilt,
+            upright: Some(0.1),
+            ..PlacementObjective::PLAIN
+        };
+        let mut gained = self.move_vertex(v, from, &objective)?;
         let radius = radius(&self.star, from);
         for &u in &around {
             gained += self.settle(u).unwrap_or(0.0);
         }
-        let is_better = gained > GAIN * radius * radius * radius;
-        if !is_better {
-            for (&u, &at) in around.iter().zip(&before) {
-                self.shell.move_vertex(u, at);
-            }
-        }
+        let moves = || around.iter().map(|&u| (u, self.shell.position(u))).collect();
+        (gained > GAIN * radius * radius * radius).then(|| Edit { flip: None, moves: moves() })
     }
 }

@@ -2,6 +2,7 @@
 //! taken back and the others change little.
 
 use super::star::StarFace;
+use crate::tight::shared_map::SharedMap;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -52,24 +53,26 @@ impl Key {
 const CAPACITY: usize = 1 << 18;
 
 /// The place for a star's vertex and the volume that it adds; `None` if there is no place.
-type Answer = Option<(DVec3, f64)>;
+pub(super) type Answer = Option<(DVec3, f64)>;
 
-/// Answers by star. They are only looked up, so that the map's order does not show.
+/// Answers by star.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Memo(FxHashMap<Key, Answer>);
+pub(crate) struct Memo(SharedMap<Key, Answer>);
 
 impl Memo {
     /// The answer before.
     pub fn get(&self, key: Key) -> Option<Answer> {
-        self.0.get(&key).copied()
+        self.0.get(key)
     }
 
     /// Remembers an answer.
     pub fn put(&mut self, key: Key, answer: Answer) {
-        if self.0.len() >= CAPACITY {
-            self.0.clear();
-        }
-        self.0.insert(key, answer);
+        self.0.insert(key, answer, CAPACITY);
+    }
+
+    /// Takes out the answers that no clone shares.
+    pub fn take_added(&mut self) -> FxHashMap<Key, Answer> {
+        self.0.take_added()
     }
 }
 

@@ -79,7 +79,7 @@ impl Trial<'_> {
         edges: bool,
         raise: impl Fn(DVec3) -> Option<Plane>,
     ) -> Option<Plane> {
-        let tetrahedron = Tetrahedron::new(&face.corners, self.x);
+        let tetrahedron = Tetrahedron::new(&face.ring_first(), self.x);
         let [points, triangles] = self.near;
         if edges {
             self.obstacle.highest_piece(triangles, &tetrahedron, raise)

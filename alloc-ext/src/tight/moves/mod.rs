@@ -13,11 +13,14 @@
 //! | `exchange.rs` | edge splits, and a split exchanged for a collapse |
 //! | `flip.rs` | edge flips |
 //! | `kick.rs` | random kicks of vertices |
+//! | `side_by_side.rs` | flips and kicks that are tried on several threads |
 //! | `tolerance.rs` | least gains and clearances of edits |
 //! | `within.rs` | edits that keep or bring the hull within a distance of the mesh |
+//! | `ahead.rs` | placements that are computed side by side |
 //! | `memo.rs` | answers about stars that were asked for before |
 //! | `rounding.rs` | rounding to stored coordinates |
 
+mod ahead;
 mod collapse;
 mod editor;
 mod exchange;
@@ -29,6 +32,7 @@ mod mesh_planes;
 mod placement;
 mod rounding;
 mod shell;
+mod side_by_side;
 mod star;
 mod tolerance;
 mod vertex;

@@ -15,7 +15,7 @@
 
 use super::margin_planes::FaceMargin;
 use super::mesh_planes::Trial;
-use super::star::{Frame, StarFace, corners, radius};
+use super::star::{Frame, StarFace, added_volume, corners, radius};
 use super::tolerance::ROUNDING;
 use crate::lp::{HalfSpace, Order, minimise_bounded};
 use crate::surface::{Bounds, Frontier};
@@ -32,6 +32,20 @@ pub(crate) struct PlacementObjective {
     /// Least fraction of a face's area that its new face keeps, seen along the old normal; `None`:
     /// any.
     pub upright: Option<f64>,
+    /// The placement is given up as soon as it gains no more volume than this. Further planes take
+    /// volume from the gain.
+    pub least_gain: f64,
+}
+
+impl PlacementObjective {
+    /// The second term is strong enough to slide along planes, and weak enough to stay near the
+    /// star.
+    pub const PLAIN: Self = Self {
+        centre_weight: 0.05,
+        tilt: DVec3::ZERO,
+        upright: None,
+        least_gain: f64::NEG_INFINITY,
+    };
 }
 
 /// Most programs for one star.
@@ -91,6 +105,9 @@ impl Placer {
                 Order::MostViolated,
             )?;
             let x = centre + x * radius;
+            if -added_volume(star, x) <= objective.least_gain {
+                return None;
+            }
             // Vertices of the mesh are cheap to look for and find nearly every plane. Edges are
             // looked for once no vertex is in the way.
             let near = if bounds.with(x) == bounds { &near } else { &everywhere };

@@ -206,6 +206,12 @@ impl Shell {
         Some((Self::new(positions, &triangles), dropped))
     }
 
+    /// Gives up the places of faces and vertices that are gone.
+    pub fn drop_dead(&mut self) {
+        let (positions, triangles) = self.compact();
+        *self = Self::new(positions, &triangles);
+    }
+
     /// Positions and triangles without gaps, in the order of the faces.
     pub fn compact(&self) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         compact(&self.at, self.corners())

@@ -22,6 +22,16 @@ impl StarFace {
         let normal = if double_area > 0.0 { cross / double_area } else { DVec3::ZERO };
         Self { corners, ring, normal, double_area }
     }
+
+    /// The corners in their order, from the first end of the ring edge.
+    pub fn ring_first(&self) -> Triangle {
+        let [a, b, c] = self.corners;
+        match self.ring {
+            Some([_, end]) if end == c => [b, c, a],
+            Some([_, end]) if end == a => [c, a, b],
+            _ => [a, b, c],
+        }
+    }
 }
 
 /// Volume that the hull gains if the vertex of a star goes to `x`.

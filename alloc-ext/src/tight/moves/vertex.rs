@@ -1,5 +1,6 @@
 //! Moves of one vertex.
 
+use super::ahead::Waiting;
 use super::editor::HullEditor;
 use super::memo::{Key, Question};
 use super::placement::PlacementObjective;
@@ -7,23 +8,36 @@ use super::star::{added_volume, radius};
 use super::tolerance::{CLEARANCES, GAIN};
 use glam::DVec3;
 
-/// A plain vertex move: the second term is strong enough to slide along planes, and weak enough to
-/// stay near the star.
-const SETTLE: PlacementObjective =
-    PlacementObjective { centre_weight: 0.05, tilt: DVec3::ZERO, upright: Some(0.1) };
+/// Vertices whose settling is looked ahead to.
+const AHEAD: usize = 24;
+
+/// A plain vertex move.
+fn settling(radius: f64) -> PlacementObjective {
+    PlacementObjective {
+        upright: Some(0.1),
+        least_gain: GAIN * radius * radius * radius,
+        ..PlacementObjective::PLAIN
+    }
+}
 
 impl HullEditor<'_> {
     /// Moves a vertex to the place of least volume; the volume gained.
     pub(super) fn settle(&mut self, v: u32) -> Option<f64> {
+        self.settle_at(v, None)
+    }
+
+    /// As [`settle`](Self::settle). `placed` is what [`place`](Self::place) gives the star, if that
+    /// is known.
+    fn settle_at(&mut self, v: u32, placed: Option<Option<DVec3>>) -> Option<f64> {
         let from = self.shell.position(v);
         self.take_star(v);
         let key = Key::new(Question::Settle, self.salt(), &self.star);
         if self.memo.get(key).is_some() {
             return None;
         }
-        let radius = radius(&self.star, from);
         self.is_blocked_by_hull = false;
-        let gained = self.propose(v, from, &SETTLE, |gain| gain > GAIN * radius * radius * radius);
+        let objective = settling(radius(&self.star, from));
+        let gained = self.propose(v, from, &objective, placed);
         if gained.is_none() && !self.is_blocked_by_hull {
             self.memo.put(key, None);
         }
@@ -39,7 +53,7 @@ impl HullEditor<'_> {
         objective: &PlacementObjective,
     ) -> Option<f64> {
         self.take_star(v);
-        self.propose(v, centre, objective, |_| true)
+        self.propose(v, centre, objective, None)
     }
 
     fn take_star(&mut self, v: u32) {
@@ -48,21 +62,25 @@ impl HullEditor<'_> {
         self.star = star;
     }
 
-    /// Places vertex `v` of the star at hand and moves it, if the gain `is_enough` and the move is
-    /// proved.
+    /// Places vertex `v` of the star at hand and moves it, if the gain is enough and the move is
+    /// proved. `placed` is the place with the least clearance, if that is known.
     fn propose(
         &mut self,
         v: u32,
         centre: DVec3,
         objective: &PlacementObjective,
-        is_enough: impl Fn(f64) -> bool,
+        mut placed: Option<Option<DVec3>>,
     ) -> Option<f64> {
         let star = std::mem::take(&mut self.star);
         let mut outcome = None;
         for steps in CLEARANCES {
-            let Some(x) = self.place(&star, centre, steps, objective) else { break };
+            let x = match placed.take() {
+                Some(x) => x,
+                None => self.place(&star, centre, steps, objective),
+            };
+            let Some(x) = x else { break };
             let gain = -added_volume(&star, x);
-            if !is_enough(gain) || !self.is_star_within_limit(&star, x) {
+            if gain <= objective.least_gain || !self.is_star_within_limit(&star, x) {
                 break;
             }
             if self.admits_vertex(v, x) {
@@ -86,14 +104,38 @@ impl HullEditor<'_> {
 
     /// Settles every vertex once.
     pub fn settle_all(&mut self) {
-        for v in 0..self.shell.vertex_slots() {
+        let all: Vec<u32> =
+            (0..self.shell.vertex_slots()).filter(|&v| !self.shell.mesh.at(v).is_empty()).collect();
+        for ahead in all.chunks(AHEAD) {
             if self.is_late() {
                 break;
             }
-            if !self.shell.mesh.at(v).is_empty() {
-                self.settle(v);
+            let mut placed = self.place_ahead(ahead).into_iter().peekable();
+            for &v in ahead {
+                let place = placed.next_if(|&(next, _)| next == v).map(|(_, place)| place);
+                self.settle_at(v, place);
             }
         }
+    }
+
+    /// Places side by side those vertices that no other before them can change the star of.
+    fn place_ahead(&mut self, vertices: &[u32]) -> Vec<(u32, Option<DVec3>)> {
+        let mut waiting = Vec::new();
+        let mut free = Vec::new();
+        for (i, &v) in vertices.iter().enumerate() {
+            if self.shell.mesh.neighbours(v).any(|u| vertices[..i].contains(&u)) {
+                continue;
+            }
+            self.take_star(v);
+            let key = Key::new(Question::Settle, self.salt(), &self.star);
+            if self.memo.get(key).is_none() {
+                let centre = self.shell.position(v);
+                let objective = settling(radius(&self.star, centre));
+                waiting.push(Waiting { key, star: self.star.clone(), centre, objective });
+                free.push(v);
+            }
+        }
+        free.into_iter().zip(self.place_all(&waiting)).collect()
     }
 
     /// Settles and flips until a round gains at most the fraction `least` of the volume beyond

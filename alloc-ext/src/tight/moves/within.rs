@@ -47,7 +47,7 @@ const MORE_FACES: usize = 500;
 
 /// Pulls a vertex to a place. The volume hardly counts.
 const PULL: PlacementObjective =
-    PlacementObjective { centre_weight: 1e3, tilt: DVec3::ZERO, upright: Some(0.01) };
+    PlacementObjective { centre_weight: 1e3, upright: Some(0.01), ..PlacementObjective::PLAIN };
 
 impl HullEditor<'_> {
     /// Whether no point of a face is farther than [`max_distance`](Self::max_distance) from the

@@ -2,15 +2,15 @@
 //! lattice. These are computed when they are first asked for.
 
 use super::obstacle::Obstacle;
+use crate::tight::shared_map::SharedMap;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-/// Bounds of the distance at the lattice points that were asked for. They are only looked up, so
-/// that the map's order does not show.
+/// Bounds of the distance at the lattice points that were asked for.
 #[derive(Clone, Debug)]
 pub(crate) struct DistanceField {
     step: f64,
-    known: FxHashMap<[i32; 3], [f64; 2]>,
+    known: SharedMap<[i32; 3], [f64; 2]>,
 }
 
 /// Number of points at which all are forgotten.
@@ -22,7 +22,7 @@ const ROUNDING: f64 = 1e-12;
 impl DistanceField {
     /// With a distance between lattice points.
     pub fn new(step: f64) -> Self {
-        Self { step, known: FxHashMap::default() }
+        Self { step, known: SharedMap::default() }
     }
 
     /// Distance between lattice points.
@@ -30,17 +30,27 @@ impl DistanceField {
         self.step
     }
 
+    /// Takes out the distances that no clone shares.
+    pub fn take_added(&mut self) -> FxHashMap<[i32; 3], [f64; 2]> {
+        self.known.take_added()
+    }
+
+    /// Adds distances that a clone computed.
+    pub fn add(&mut self, distances: FxHashMap<[i32; 3], [f64; 2]>) {
+        for (cell, bounds) in distances {
+            self.known.insert(cell, bounds, CAPACITY);
+        }
+    }
+
     /// Bounds of a point's distance to the mesh, at most a step's diagonal apart.
     pub fn about(&mut self, obstacle: &Obstacle, p: DVec3) -> [f64; 2] {
         // Where the conversion saturates, the bounds include the distance to the lattice point.
         let cell = (p / self.step).round().to_array().map(|x| x as i32);
         let point = DVec3::from(cell.map(f64::from)) * self.step;
-        if self.known.len() >= CAPACITY {
-            self.known.clear();
-        }
-        let known = self.known.entry(cell);
-        let [lower, upper] = *known.or_insert_with(|| {
-            obstacle.nearest(point).map_or([0.0, f64::INFINITY], |(_, bounds)| bounds)
+        let [lower, upper] = self.known.get(cell).unwrap_or_else(|| {
+            let bounds = obstacle.nearest(point).map_or([0.0, f64::INFINITY], |(_, bounds)| bounds);
+            self.known.insert(cell, bounds, CAPACITY);
+            bounds
         });
         let away = (p - point).length();
         [lower * (1.0 - ROUNDING) - away * (1.0 + ROUNDING), (upper + away) * (1.0 + ROUNDING)]

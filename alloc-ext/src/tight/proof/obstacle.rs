@@ -35,15 +35,21 @@ impl Obstacle {
     /// Of positions that are `f32` numbers. Cost: O(n log n).
     pub fn new(positions: &[DVec3], triangles: &[[u32; 3]]) -> Self {
         let bounds = |t: &[u32; 3]| Bounds::of(&t.map(|v| positions[v as usize]));
-        let order = spatial_order(&triangles.iter().map(bounds).collect::<Vec<_>>());
-        let witnesses = witnesses(positions, triangles);
-        let triangles: Vec<Triangle> =
-            order.iter().map(|&i| triangles[i as usize].map(|v| positions[v as usize])).collect();
-        let boxes: Vec<Bounds> = triangles.iter().map(|t| Bounds::of(t)).collect();
+        let of_triangles = || {
+            let order = spatial_order(&triangles.iter().map(bounds).collect::<Vec<_>>());
+            let sorted: Vec<Triangle> = order
+                .iter()
+                .map(|&i| triangles[i as usize].map(|v| positions[v as usize]))
+                .collect();
+            (StaticTree::of_triangles(&sorted), sorted)
+        };
+        let of_points = || (tree_of_points(positions), witnesses(positions, triangles));
+        let ((triangle_tree, sorted), (point_tree, witnesses)) =
+            rayon::join(of_triangles, of_points);
         Self {
-            triangle_tree: StaticTree::new(&boxes),
-            triangles,
-            point_tree: tree_of_points(positions),
+            triangle_tree,
+            triangles: sorted,
+            point_tree,
             points: positions.to_vec(),
             witness_tree: tree_of_points(&witnesses),
             witnesses,
@@ -233,7 +239,7 @@ fn highest(
     raise: impl Fn(usize, Option<Plane>) -> Option<Plane>,
 ) -> Option<Plane> {
     let mut highest = None;
-    let probe = tree.probe(tetrahedron.bounds(), tetrahedron.planes());
+    let probe = tree.probe(tetrahedron.bounds(), tetrahedron.turning_planes());
     tree.visit_raising(near, probe, |i| {
         let raised = raise(i, highest);
         highest = raised.or(highest);

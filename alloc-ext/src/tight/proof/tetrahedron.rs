@@ -10,6 +10,8 @@ use glam::DVec3;
 #[derive(Clone, Debug)]
 pub(crate) struct Tetrahedron {
     planes: ArrayVec<Plane, 4>,
+    /// Whether the last plane is that of the face.
+    has_face: bool,
     corners: [DVec3; 4],
     bounds: Bounds,
 }
@@ -22,12 +24,15 @@ const FLAT: f64 = 1e-10;
 type Polygon = ArrayVec<DVec3, 8>;
 
 impl Tetrahedron {
-    /// Of a face's corners and an apex. A side without a plane is left out.
+    /// Of a face's corners and an apex. A side without a plane is left out. The first plane is that
+    /// through the apex and the face's first two corners.
     pub fn new(face: &Triangle, apex: DVec3) -> Self {
         let [a, b, c] = *face;
         let corners = [a, b, c, apex];
         let mut planes = ArrayVec::new();
-        for (i, &opposite) in corners.iter().enumerate() {
+        let mut has_face = false;
+        for i in [2, 0, 1, 3] {
+            let opposite = corners[i];
             let [p, q, r] = [1, 2, 3].map(|k| corners[(i + k) % 4]);
             let (u, v) = (q - p, r - p);
             let normal = u.cross(v);
@@ -40,13 +45,15 @@ impl Tetrahedron {
                 normal = -normal;
             }
             planes.push(Plane { normal, offset: normal.dot(p) });
+            has_face = i == 3;
         }
-        Self { planes, corners, bounds: Bounds::of(&corners) }
+        Self { planes, has_face, corners, bounds: Bounds::of(&corners) }
     }
 
-    /// Planes that all of its points are in front of.
-    pub fn planes(&self) -> &[Plane] {
-        &self.planes
+    /// Planes that all of its points are in front of, but for that of the face: little of the mesh
+    /// is above the face.
+    pub fn turning_planes(&self) -> &[Plane] {
+        &self.planes[..self.planes.len() - usize::from(self.has_face)]
     }
 
     /// Its box.

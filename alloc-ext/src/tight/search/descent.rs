@@ -68,6 +68,8 @@ impl<'a> HullSearch<'a, '_> {
             self.relax(editor);
         }
         editor.drop_enclosed();
+        // Polishing copies the hull often.
+        editor.shell.drop_dead();
         stop
     }
 
