@@ -168,8 +168,7 @@ impl<'a> Closest<'a> {
         let near = nearest_triangle(leaf, self.query)?;
         self.beyond.distance_sq = self.query.limit(near.distance_sq);
         self.limit = self.query.key_limit(self.beyond.distance_sq);
-        // Leaves beyond the limit never change the result. Scalar targets skip them before the
-        // kernel, vector targets after it.
+        // Leaves beyond the limit never change the result. Kernels may skip them.
         self.best.distance_sq = near.distance_sq;
         self.refine_below = self.query.refine_below(near.distance_sq);
         Some(())

@@ -6,13 +6,12 @@
 use super::leaf_plane::LeafPlane;
 use super::point_query::PointQuery;
 use crate::bvh::format::FanLeaf;
-use crate::geom::fan::Edges8;
 use glam::Vec3;
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use narrow::{Lanes, nearest_and_edges, nearest_within};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pub(crate) use wide::{Lanes, nearest_and_edges, nearest_within};
+pub(crate) use wide::{Lanes, LeafEdges, leaf_edges, nearest_and_edges, nearest_within};
 
 /// The nearest triangle of a leaf, without a limit.
 #[inline(always)]
@@ -42,9 +41,13 @@ impl LeafLimit {
         LeafLimit { distance_sq: f32::INFINITY, plane: LeafPlane::NONE, allowance: f32::INFINITY };
 }
 
+/// Edges are not kept.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+pub(crate) type LeafEdges = core::convert::Infallible;
+
 /// The nearest triangle of a leaf. On vector targets also the edges of the leaf's triangles, seen
 /// from the query point.
-pub(crate) type LeafSeen = (LeafNearest, Option<Edges8>);
+pub(crate) type LeafSeen = (LeafNearest, Option<LeafEdges>);
 
 /// The nearest triangle of a leaf. Triangles that are proved to be beyond the squared limit may be
 /// left out.
@@ -69,84 +72,141 @@ impl LeafNearest {
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod wide {
-    use super::{Edges8, FanLeaf, LeafLimit, LeafNearest, LeafSeen, PointQuery, Vec3};
-    use crate::geom::fan::{LANES_BELOW, Nearness, Nearness8, WIDTH, point_leaf8};
-    use crate::num::{lesser, of_eight};
+    use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, PointQuery, Vec3};
+    use crate::geom::fan::Lanes as Register;
+    use crate::geom::fan::{
+        Edges, LANES, LaneNearness, Nearness, PIECES, WIDTH, lanes_below, least, point_lanes,
+    };
+    use wide::bytemuck::cast;
+
+    /// Edges of a leaf's triangles, seen from the query point.
+    pub(crate) type LeafEdges = [Edges; PIECES];
 
     /// All lanes of a leaf. The nearest lane is searched once, for the final answer: no branch
     /// predictor can guess it.
     #[derive(Clone, Copy)]
-    pub(crate) struct Lanes(Nearness8);
+    pub(crate) struct Lanes {
+        distance_sq: [Register; PIECES],
+        v: [Register; PIECES],
+        w: [Register; PIECES],
+    }
 
     impl Lanes {
-        pub(crate) const NONE: Lanes = Lanes(Nearness8 {
-            distance_sq: [0.0; WIDTH],
-            lower_bound_sq: [0.0; WIDTH],
-            v: [0.0; WIDTH],
-            w: [0.0; WIDTH],
-        });
+        pub(crate) const NONE: Lanes = Lanes {
+            distance_sq: [LaneNearness::NONE.distance_sq; PIECES],
+            v: [Register::ZERO; PIECES],
+            w: [Register::ZERO; PIECES],
+        };
 
         /// One triangle alone.
         pub(crate) fn one(lane: usize, near: &Nearness) -> Lanes {
-            let mut lanes = Lanes::NONE;
-            for i in 0..WIDTH {
-                lanes.0.distance_sq[i] = if i == lane { near.distance_sq } else { f32::INFINITY };
-                lanes.0.v[i] = near.v;
-                lanes.0.w[i] = near.w;
+            let mut distance_sq = [f32::INFINITY; WIDTH];
+            if let Some(slot) = distance_sq.get_mut(lane) {
+                *slot = near.distance_sq;
             }
-            lanes
+            Lanes {
+                distance_sq: cast(distance_sq),
+                v: [Register::splat(near.v); PIECES],
+                w: [Register::splat(near.w); PIECES],
+            }
         }
 
         #[inline(always)]
         pub(crate) fn at(&self, distance_sq: f32) -> (usize, f32, f32) {
-            let mut lane = WIDTH - 1;
-            for i in (0..WIDTH).rev() {
-                lane = if self.0.distance_sq[i] == distance_sq { i } else { lane };
+            let mut same = 1u32 << (WIDTH - 1);
+            for (piece, distances) in self.distance_sq.iter().enumerate() {
+                same |=
+                    distances.simd_eq(Register::splat(distance_sq)).to_bitmask() << (piece * LANES);
             }
-            (lane, self.0.v[lane % WIDTH], self.0.w[lane % WIDTH])
+            let lane = same.trailing_zeros() as usize % WIDTH;
+            let (v, w): ([f32; WIDTH], [f32; WIDTH]) = (cast(self.v), cast(self.w));
+            (lane, v[lane], w[lane])
         }
     }
 
-    /// Ignores the limit: to leave out a lane saves nothing here.
     #[inline(always)]
     pub(crate) fn nearest_within(
         leaf: &FanLeaf<'_>,
         query: &PointQuery,
-        _: &LeafLimit,
+        limit: &LeafLimit,
     ) -> Option<LeafNearest> {
-        let p = query.p;
+        let (p, limit) = (query.p, limit.distance_sq);
+        let limit = if limit < f32::INFINITY { Some(limit) } else { None };
         let near = if leaf.is_f32() {
-            f32_nearness(leaf, p)?
+            f32_nearest(leaf, p)?
         } else {
-            point_leaf8(&leaf.grid_edges8(p)?, LANES_BELOW.get(leaf.shape().triangles())?)
+            let lanes = leaf.grid_lanes(p)?;
+            let used = lanes_below(leaf.shape().triangles())?;
+            let mut near = [LaneNearness::NONE; PIECES];
+            for piece in 0..PIECES {
+                if let Some(here) = point_lanes(&lanes.edges(piece), used[piece], limit) {
+                    near[piece] = here;
+                }
+            }
+            near
         };
         Some(nearest_of(near))
     }
 
     #[inline(always)]
     pub(crate) fn nearest_and_edges(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option<LeafSeen> {
-        let p = query.p;
-        let edges = if leaf.is_f32() { f32_edges(leaf, p)? } else { leaf.grid_edges8(p)? };
-        let near = point_leaf8(&edges, LANES_BELOW.get(leaf.shape().triangles())?);
-        Some((nearest_of(near), Some(edges)))
+        let edges = leaf_edges(leaf, query.p)?;
+        Some((nearest_of(nearness(leaf, &edges)?), Some(edges)))
+    }
+
+    /// Edges of all triangles.
+    #[inline(always)]
+    pub(crate) fn leaf_edges(leaf: &FanLeaf<'_>, p: Vec3) -> Option<LeafEdges> {
+        if leaf.is_f32() {
+            return f32_edges(leaf, p);
+        }
+        let lanes = leaf.grid_lanes(p)?;
+        let mut edges = [Edges::NONE; PIECES];
+        for (piece, edges) in edges.iter_mut().enumerate() {
+            *edges = lanes.edges(piece);
+        }
+        Some(edges)
     }
 
     #[inline(always)]
-    fn nearest_of(near: Nearness8) -> LeafNearest {
-        let (distance_sq, lower_bound_sq) =
-            (of_eight(near.distance_sq, lesser), of_eight(near.lower_bound_sq, lesser));
-        LeafNearest { distance_sq, lower_bound_sq, lanes: Lanes(near) }
+    fn nearness(leaf: &FanLeaf<'_>, edges: &LeafEdges) -> Option<[LaneNearness; PIECES]> {
+        let used = lanes_below(leaf.shape().triangles())?;
+        let mut near = [LaneNearness::NONE; PIECES];
+        for piece in 0..PIECES {
+            if let Some(here) = point_lanes(&edges[piece], used[piece], None) {
+                near[piece] = here;
+            }
+        }
+        Some(near)
+    }
+
+    #[inline(always)]
+    fn nearest_of(near: [LaneNearness; PIECES]) -> LeafNearest {
+        let lanes = Lanes {
+            distance_sq: near.map(|near| near.distance_sq),
+            v: near.map(|near| near.v),
+            w: near.map(|near| near.w),
+        };
+        LeafNearest {
+            distance_sq: least(lanes.distance_sq),
+            lower_bound_sq: least(near.map(|near| near.lower_bound_sq)),
+            lanes,
+        }
     }
 
     #[inline(never)]
-    fn f32_edges(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Edges8> {
-        leaf.f32_edges8(p)
+    fn f32_edges(leaf: &FanLeaf<'_>, p: Vec3) -> Option<LeafEdges> {
+        let mut edges = [Edges::NONE; PIECES];
+        for (piece, edges) in edges.iter_mut().enumerate() {
+            *edges = leaf.f32_edges(p, piece)?;
+        }
+        Some(edges)
     }
 
     /// Not inlined, so that the two ways to read a leaf share no stack memory.
     #[inline(never)]
-    fn f32_nearness(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Nearness8> {
-        Some(point_leaf8(&leaf.f32_edges8(p)?, LANES_BELOW.get(leaf.shape().triangles())?))
+    fn f32_nearest(leaf: &FanLeaf<'_>, p: Vec3) -> Option<[LaneNearness; PIECES]> {
+        nearness(leaf, &f32_edges(leaf, p)?)
     }
 }
 

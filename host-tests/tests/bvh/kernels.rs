@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 use meshsweep_core::internal::geom::fan::{
-    Edges8, FanRay, LANES_BELOW, Nearness, Ring8, WIDTH, point_leaf, point_leaf8, ray_leaf,
-    ray_leaf8,
+    Edges, FanRay, LANES, LANES_BELOW, Lanes, Nearness, PIECES, PointFan, Ring8, WIDTH,
+    lanes_below, point_lanes, point_leaf, ray_leaf, ray_leaf8,
 };
 use meshsweep_core::internal::num::tolerance::STILL;
 use meshsweep_host_tests::generate::Rng;
@@ -104,38 +104,50 @@ fn points_get_the_same_bits_from_eight_lanes() {
             assert_eq!(scalar.len(), patch.count());
             // Lanes that are not used may hold anything.
             let anything = [[f32::NAN; WIDTH]; 3];
-            let mut edges = Edges8 { e: anything, g: anything, s: anything };
+            let mut rows = [anything; 3];
             for lane in 0..patch.count() {
                 let which = patch.centre(lane);
                 let sides =
                     [spoke(lane, which), spoke(lane + 1, which), s[which]].map(|v| v.to_array());
-                for (rows, side) in
-                    [&mut edges.e, &mut edges.g, &mut edges.s].into_iter().zip(sides)
-                {
+                for (rows, side) in rows.iter_mut().zip(sides) {
                     rows.iter_mut().zip(side).for_each(|(row, x)| row[lane] = x);
                 }
             }
-            let wide = point_leaf8(&edges, &LANES_BELOW[patch.count()]);
-            for (lane, near) in scalar.iter().enumerate() {
-                let bits = |x: [f32; 4]| x.map(f32::to_bits);
-                assert_eq!(
-                    bits([near.distance_sq, near.lower_bound_sq, near.v, near.w]),
-                    bits([
-                        wide.distance_sq[lane],
-                        wide.lower_bound_sq[lane],
-                        wide.v[lane],
-                        wide.w[lane]
-                    ]),
-                    "lane {lane}: {near:?}, from {p:?}: {:?} {:?}",
-                    patch.centres,
-                    patch.ring
-                );
-            }
-            for lane in patch.count()..WIDTH {
-                assert_eq!(
-                    (wide.distance_sq[lane], wide.lower_bound_sq[lane]),
-                    (2f32.powi(127), 2f32.powi(127))
-                );
+            let used = lanes_below(patch.count()).expect("at most eight");
+            for (piece, used) in (0..PIECES).zip(used) {
+                let register = |row: [f32; WIDTH]| {
+                    Lanes::new(std::array::from_fn(|lane| row[piece * LANES + lane]))
+                };
+                let [e, g, s] = rows.map(|rows| rows.map(register));
+                let edges = Edges { e, g, s };
+                let wide = point_lanes(&edges, used, None).expect("no limit");
+                let lanes = [wide.distance_sq, wide.lower_bound_sq, wide.v, wide.w];
+                let lanes = lanes.map(Lanes::to_array);
+                let here = || (piece * LANES..(piece + 1) * LANES).enumerate();
+                for (lane, number) in here().filter(|&(_, number)| number < patch.count()) {
+                    let near = scalar[number];
+                    assert_eq!(
+                        [near.distance_sq, near.lower_bound_sq, near.v, near.w].map(f32::to_bits),
+                        lanes.map(|lanes| lanes[lane].to_bits()),
+                        "lane {number}: {near:?}, from {p:?}: {:?} {:?}",
+                        patch.centres,
+                        patch.ring
+                    );
+                }
+                for (lane, _) in here().filter(|&(_, number)| number >= patch.count()) {
+                    assert_eq!([lanes[0][lane], lanes[1][lane]], [2f32.powi(127); 2]);
+                }
+                // A register is left out if and only if the scalar test leaves out each triangle.
+                for limit in [0.25, 0.999, 1.0, 1.5].map(|x| x * scalar[0].distance_sq) {
+                    let beyond =
+                        here().filter(|&(_, number)| number < patch.count()).all(|(_, number)| {
+                            let which = patch.centre(number);
+                            let fan = PointFan::new(p - patch.centres[which]);
+                            let [a, b] = [number, number + 1].map(|i| fan.spoke(spoke(i, which)));
+                            fan.is_beyond(&a, &b, limit)
+                        });
+                    assert_eq!(point_lanes(&edges, used, Some(limit)).is_none(), beyond);
+                }
             }
         }
     }

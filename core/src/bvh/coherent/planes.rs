@@ -7,10 +7,9 @@
 
 use super::front::Child;
 use crate::bvh::format::{Bvh, FanLeaf};
-use crate::bvh::node::in_memory;
-use crate::geom::fan::{Edges8, LANES_BELOW, WIDTH};
+use crate::bvh::leaf_distance::LeafEdges;
 use crate::num::tolerance::{PLANE_NORMAL, SHORTFALL};
-use crate::num::{greater, lesser, of_eight, sqrt_approx};
+use crate::num::{lesser, sqrt_approx};
 use glam::Vec3;
 
 /// Planes of a coherent query: a power of two.
@@ -59,7 +58,10 @@ impl Planes {
         margin: f32,
     ) {
         let found = match leaf.edges {
+            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
             Some(edges) => separate_wide(edges, leaf.fans.shape().triangles(), near),
+            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            Some(never) => match *never {},
             None => separate_narrow(leaf.fans, leaf.p, near),
         };
         if let Some((normal, distance)) = found
@@ -78,7 +80,7 @@ impl Planes {
 pub(crate) struct VisitedLeaf<'a> {
     pub(crate) fans: &'a FanLeaf<'a>,
     pub(crate) p: Vec3,
-    pub(crate) edges: Option<&'a Edges8>,
+    pub(crate) edges: Option<&'a LeafEdges>,
 }
 
 /// A point of a triangle of a leaf: the lane, and coordinates along the spokes.
@@ -97,26 +99,26 @@ fn normal(residual: Vec3) -> Option<Vec3> {
 }
 
 /// The direction from a leaf's point to `p`, and the distance along it between `p` and the leaf.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 #[inline(always)]
-fn separate_wide(edges: &Edges8, triangles: usize, (lane, v, w): At) -> Option<(Vec3, f32)> {
-    let Edges8 { e: [ex, ey, ez], g: [gx, gy, gz], s: [sx, sy, sz] } = edges;
-    let at = |x: &[f32; WIDTH], y: &[f32; WIDTH], z: &[f32; WIDTH]| {
-        Some(Vec3::new(*x.get(lane)?, *y.get(lane)?, *z.get(lane)?))
+fn separate_wide(edges: &LeafEdges, triangles: usize, (lane, v, w): At) -> Option<(Vec3, f32)> {
+    use crate::geom::fan::{LANES, Lanes, PIECES, lanes_below, least};
+    let here = edges.get(lane / LANES)?;
+    let at = |[x, y, z]: [Lanes; 3]| {
+        let [x, y, z] = [x, y, z].map(|x| x.to_array()[lane % LANES]);
+        Vec3::new(x, y, z)
     };
-    let n = normal(at(sx, sy, sz)? - at(ex, ey, ez)? * v - at(gx, gy, gz)? * w)?;
-    let used = LANES_BELOW.get(triangles)?;
-    let mut along = [0f32; WIDTH];
-    for i in 0..WIDTH {
-        let first = n.x * ex[i] + n.y * ey[i] + n.z * ez[i];
-        let second = n.x * gx[i] + n.y * gy[i] + n.z * gz[i];
-        let centre = n.x * sx[i] + n.y * sy[i] + n.z * sz[i];
-        let beyond = if first > 0.0 { first } else { 0.0 };
-        let beyond = greater(beyond, second);
-        // An unused lane may hold any value. A large one keeps it from being the least.
-        along[i] =
-            f32::from_bits((centre - beyond).to_bits() & used[i] | f32::MAX.to_bits() & !used[i]);
+    let n = normal(at(here.s) - at(here.e) * v - at(here.g) * w)?;
+    let along = |[x, y, z]: [Lanes; 3]| {
+        Lanes::splat(n.x) * x + Lanes::splat(n.y) * y + Lanes::splat(n.z) * z
+    };
+    // An unused lane may hold any value. A large one keeps it from being the least.
+    let mut out = [Lanes::splat(f32::MAX); PIECES];
+    for ((out, edges), used) in out.iter_mut().zip(edges).zip(lanes_below(triangles)?) {
+        let beyond = along(edges.g).fast_max(along(edges.e).fast_max(Lanes::ZERO));
+        *out = used.select(along(edges.s) - beyond, *out);
     }
-    Some((n, of_eight(in_memory(along), lesser)))
+    Some((n, least(out)))
 }
 
 /// The same, vertex by vertex.

@@ -2,7 +2,7 @@
 //!
 //! A leaf of an opened tree lies within the fans' section. No read can panic all the same.
 
-use crate::geom::fan::{Edges8, LANES_BELOW, Ring8, WIDTH};
+use crate::geom::fan::{Ring8, WIDTH};
 use glam::Vec3;
 
 /// Shape of a leaf in one byte: number of vertices, first triangle of the second fan, whether the
@@ -102,7 +102,7 @@ impl GridRing<'_> {
 pub const CORNERS: usize = 11;
 
 /// Bytes of the largest leaf on the grid: two centres and nine ring vertices.
-const GRID_WINDOW: usize = 66;
+pub(super) const GRID_WINDOW: usize = 66;
 
 #[inline(always)]
 fn short(bytes: &[u8], at: usize) -> i32 {
@@ -131,37 +131,6 @@ fn eight(window: &[u8; GRID_WINDOW], at: usize) -> [f32; WIDTH] {
         }
     }
     out
-}
-
-type Lanes8 = [f32; WIDTH];
-
-/// First spokes, second spokes and way to the point along one axis.
-#[inline(always)]
-fn grid_axis(
-    window: &[u8; GRID_WINDOW],
-    at: usize,
-    turn: &[u32; WIDTH],
-    [c, d]: [i32; 2],
-    origin: i32,
-    p: f32,
-) -> (Lanes8, Lanes8, Lanes8) {
-    let (here, next) = (eight(window, at), eight(window, at + 2));
-    let (first, second, origin) = (c as f32, d as f32, origin as f32);
-    let (mut e, mut g, mut s) = ([0f32; WIDTH], [0f32; WIDTH], [0f32; WIDTH]);
-    for i in 0..WIDTH {
-        let centre = blend(turn[i], first, second);
-        e[i] = here[i] - centre;
-        g[i] = next[i] - centre;
-        // The sum is exact, so this is the point less the centre, rounded once.
-        s[i] = p - (centre + origin);
-    }
-    (e, g, s)
-}
-
-/// `first` where the mask is ones, `second` where it is zeros.
-#[inline(always)]
-fn blend(mask: u32, first: f32, second: f32) -> f32 {
-    f32::from_bits(first.to_bits() & mask | second.to_bits() & !mask)
 }
 
 /// Three u16 at a byte offset that the compiler knows.
@@ -322,51 +291,10 @@ impl<'a> FanLeaf<'a> {
         if second && self.shape.second_reversed() { [centre, b, a] } else { [centre, a, b] }
     }
 
-    /// Whether vertices are f32. Then use [`f32_edges8`](Self::f32_edges8).
+    /// Whether vertices are f32.
     #[inline(always)]
     pub fn is_f32(&self) -> bool {
         self.is_f32
-    }
-
-    /// All triangles as seen from `p` (grid units), for the wide kernel: vertices on the grid.
-    #[inline(always)]
-    pub fn grid_edges8(&self, p: Vec3) -> Option<Edges8> {
-        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
-        let two = self.shape.centres() == 2;
-        let ring = if two { 12 } else { 6 };
-        let step = 2 * (self.shape.triangles() + 1);
-        let turn = LANES_BELOW.get(self.shape.turn())?;
-        let (c, d) = (three(window, 0), three(window, 6));
-        let [ox, oy, oz] = self.origin;
-        let (ex, gx, sx) = grid_axis(window, ring, turn, [c[0], d[0]], ox, p.x);
-        let (ey, gy, sy) = grid_axis(window, ring + step, turn, [c[1], d[1]], oy, p.y);
-        let (ez, gz, sz) = grid_axis(window, ring + step + step, turn, [c[2], d[2]], oz, p.z);
-        Some(Edges8 { e: [ex, ey, ez], g: [gx, gy, gz], s: [sx, sy, sz] })
-    }
-
-    /// All triangles as seen from `p` (grid units), for the wide kernel: f32 vertices.
-    #[inline(always)]
-    pub fn f32_edges8(&self, p: Vec3) -> Option<Edges8> {
-        let turn = self.shape.turn();
-        let (first, second) = (self.centre(0), self.centre(self.shape.centres() - 1));
-        let (first_s, second_s) = ((p - first).to_array(), (p - second).to_array());
-        let (first, second) = (first.to_array(), second.to_array());
-        let mut edges = Edges8 { e: [[0.0; WIDTH]; 3], g: [[0.0; WIDTH]; 3], s: [[0.0; WIDTH]; 3] };
-        let entries = self.shape.triangles() + 1;
-        for axis in 0..3 {
-            let at = 12 * self.shape.centres() + 4 * entries * axis;
-            let chunk = self.bytes.get(at..)?.first_chunk::<36>()?;
-            for i in 0..WIDTH {
-                let centre = if i < turn { first[axis] } else { second[axis] };
-                let word = |k: usize| {
-                    f32::from_le_bytes([chunk[k], chunk[k + 1], chunk[k + 2], chunk[k + 3]])
-                };
-                edges.e[axis][i] = word(4 * i) - centre;
-                edges.g[axis][i] = word(4 * i + 4) - centre;
-                edges.s[axis][i] = if i < turn { first_s[axis] } else { second_s[axis] };
-            }
-        }
-        Some(edges)
     }
 
     /// Ring and centres in the order of `axes`, grid units, exactly, for the wide segment kernel.

@@ -7,6 +7,7 @@
 //! | `view` | [`Bvh`]: nodes, links, boxes and source numbers where they lie |
 //! | `units` | grid units and input units |
 //! | `leaf` | [`FanLeaf`]: one or two fans where they lie |
+//! | `leaf_lanes` | a leaf's fans a register at a time, on vector targets |
 //! | `cone` | the bytes of a leaf's normal cone |
 //! | `check` | the check of `Bvh::open` |
 
@@ -15,6 +16,8 @@ mod cone;
 mod header;
 pub mod layout;
 mod leaf;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod leaf_lanes;
 mod units;
 mod view;
 

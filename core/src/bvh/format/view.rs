@@ -47,9 +47,8 @@ pub struct Links {
     pub first_vertex: u32,
     /// First triangle of the first leaf.
     pub first_triangle: u32,
-    /// Shapes of the leaves, a byte for each child; 0 for a node. Two words: a Cortex-M has no
-    /// 64-bit shifts.
-    shapes: [u32; 2],
+    /// Shapes of the leaves, a byte for each child; 0 for a node.
+    shapes: u64,
 }
 
 /// A child of a node: another node, or a leaf. Plain numbers and no enum of views: the descent
@@ -70,18 +69,29 @@ impl BvhChild {
     }
 }
 
-/// Sum of the low nibbles of four shapes.
+/// Byte number `index` of eight.
 #[inline(always)]
-fn nibbles(shapes: u32) -> u32 {
-    (shapes & 0x0F0F_0F0F).wrapping_mul(0x0101_0101) >> 24
+fn byte(bytes: u64, index: u32) -> u8 {
+    if cfg!(target_pointer_width = "64") {
+        // Without a branch: which half it is cannot be predicted.
+        return (bytes >> (8 * (index & 7))) as u8;
+    }
+    let word = if index < 4 { bytes as u32 } else { (bytes >> 32) as u32 };
+    (word >> (8 * (index & 3))) as u8
 }
 
-/// The shapes of the children before number `index`.
+/// Sum of the bytes before number `index` of eight. It must be below 256.
 #[inline(always)]
-fn before(shapes: [u32; 2], index: u32) -> [u32; 2] {
-    let below = !(u32::MAX << (8 * (index & 3)));
-    let [low, high] = shapes;
-    if index < 4 { [low & below, 0] } else { [low, high & below] }
+fn sum_before(bytes: u64, index: u32) -> u32 {
+    let sums = if cfg!(target_pointer_width = "64") {
+        bytes.wrapping_mul(0x0101_0101_0101_0101) << 8
+    } else {
+        let [low, high] =
+            [bytes as u32, (bytes >> 32) as u32].map(|word| word.wrapping_mul(0x0101_0101));
+        let high = (high << 8).wrapping_add((low >> 24).wrapping_mul(0x0101_0101));
+        u64::from(high) << 32 | u64::from(low << 8)
+    };
+    u32::from(byte(sums, index))
 }
 
 impl Links {
@@ -95,7 +105,7 @@ impl Links {
             count: node >> 28,
             first_vertex: vertex,
             first_triangle: triangle,
-            shapes: [low, high],
+            shapes: u64::from(high) << 32 | u64::from(low),
         })
     }
 
@@ -119,9 +129,7 @@ impl Links {
     /// Shape of child number `index`; 0 for a node.
     #[inline(always)]
     pub fn shape(&self, index: u32) -> LeafShape {
-        let [low, high] = self.shapes;
-        let word = if index < 4 { low } else { high };
-        LeafShape((word >> (8 * (index & 3))) as u8)
+        LeafShape(byte(self.shapes, index))
     }
 
     /// Child number `index`.
@@ -134,21 +142,23 @@ impl Links {
     /// First triangle of the leaf that is child `index`.
     pub fn triangle(&self, index: u32) -> u32 {
         // Vertices less two for each leaf and less one for each second fan.
-        let [low, high] = before(self.shapes, index);
-        let turns = |shapes: u32| {
-            ((shapes >> 4 | shapes >> 5 | shapes >> 6) & 0x0101_0101).wrapping_mul(0x0101_0101)
-                >> 24
-        };
+        let shapes = self.shapes;
+        let turns = (shapes >> 4 | shapes >> 5 | shapes >> 6) & 0x0101_0101_0101_0101;
         let leaves = index.saturating_sub(self.inner);
-        let less = 2 * leaves + turns(low) + turns(high);
-        self.first_triangle.wrapping_add(nibbles(low) + nibbles(high)).wrapping_sub(less)
+        let less = 2 * leaves + sum_before(turns, index);
+        self.first_triangle.wrapping_add(self.vertices_before(index)).wrapping_sub(less)
     }
 
     /// First vertex of the leaf that is child `index`.
     #[inline(always)]
     pub fn vertex(&self, index: u32) -> u32 {
-        let [low, high] = before(self.shapes, index);
-        self.first_vertex.wrapping_add(nibbles(low) + nibbles(high))
+        self.first_vertex.wrapping_add(self.vertices_before(index))
+    }
+
+    /// Vertices of the leaves before child `index`.
+    #[inline(always)]
+    fn vertices_before(&self, index: u32) -> u32 {
+        sum_before(self.shapes & 0x0F0F_0F0F_0F0F_0F0F, index)
     }
 }
 

@@ -8,15 +8,19 @@
 mod cone;
 mod lanes;
 mod point;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod point8;
 mod ray;
 mod ray8;
 mod whole;
 
 pub use cone::NormalCone;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub use lanes::{LANES, Lanes, PIECES, lanes_below, least};
 pub use lanes::{LANES_BELOW, WIDTH};
 pub use point::{Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, point_leaf, refined};
-pub use point8::{Edges8, Nearness8, point_leaf8};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub use point8::{Edges, LaneNearness, point_lanes};
 pub use ray::{Crossing, FanRay, Shadow, ray_leaf};
 pub use ray8::{Ring8, ray_leaf8};
 pub use whole::{Whole, WholeBounds, WholeLimit, WholePoint, whole_bounds};
