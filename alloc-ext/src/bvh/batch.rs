@@ -1,18 +1,19 @@
-//! Batches of queries on several threads.
+//! Batches of queries on all cores.
 
 use meshsweep_core::{Budget, Bvh, ClosestPoint, Hint, QueryError, ScratchEntry};
-use std::num::NonZeroUsize;
+use rayon::prelude::*;
 
-/// Queries that are sorted at once. Their order takes 4 MiB, and neighbours in it are near.
-const PIECE: usize = 1 << 18;
+/// Queries that one thread takes at once. Their order takes 256 KiB, and neighbours in it are near.
+const PIECE: usize = 1 << 14;
 
-/// Closest points of all `points`, in their order, with the bits of [`Bvh::closest_point`]. Only
-/// `work` depends on the number of threads: a query starts from the answer of the one before.
+/// Closest points of all `points`, in their order, with the bits of [`Bvh::closest_point`], on the
+/// threads of rayon's current pool. `work` depends on the order of the points, because a query
+/// starts from the answer of the one before. Nothing depends on the number of threads.
 ///
-/// Each thread takes a run of successive queries. It asks a path, or a grid row by row, as given,
-/// and other points in Morton order (see [`Bvh::closest_points`]).
+/// A thread takes pieces of 2^14 successive queries. It asks a path, or a grid row by row, as
+/// given, and other points in Morton order (see [`Bvh::closest_points`]).
 ///
-/// Memory: 16 bytes a query besides the answers, at most 4 MiB a thread.
+/// Memory: at most 256 KiB a thread besides the answers.
 ///
 /// # Errors
 /// [`QueryError::PointNotFinite`] with the least index that is refused, and those of
@@ -21,34 +22,20 @@ pub fn closest_points(
     tree: &Bvh<'_>,
     points: &[[f32; 3]],
     budget: &Budget,
-    threads: NonZeroUsize,
 ) -> Result<Vec<ClosestPoint>, QueryError> {
     let mut answers = vec![ClosestPoint::EMPTY; points.len()];
-    let run = points.len().div_ceil(threads.get()).max(1);
-    let ask = |number: usize, points: &[[f32; 3]], answers: &mut [ClosestPoint]| {
-        let sorted = if is_coherent(points) { 0 } else { points.len().min(PIECE) };
+    let pieces = points.par_chunks(PIECE).zip(answers.par_chunks_mut(PIECE)).enumerate();
+    let first_error = pieces.find_map_first(|(number, (points, answers))| {
+        let sorted = if is_coherent(points) { 0 } else { points.len() };
         let mut scratch = vec![ScratchEntry::EMPTY; tree.scratch_entries() + 2 * sorted];
         let asked =
             tree.closest_points(points, &mut Hint::NONE.clone(), answers, *budget, &mut scratch);
-        asked.map_err(|error| match error {
+        asked.err().map(|error| match error {
             QueryError::PointNotFinite { index } => {
-                QueryError::PointNotFinite { index: (number * run) as u32 + index }
+                QueryError::PointNotFinite { index: (number * PIECE) as u32 + index }
             }
             other => other,
         })
-    };
-    let ask = &ask;
-    let runs = points.chunks(run).zip(answers.chunks_mut(run)).enumerate();
-    let first_error = std::thread::scope(|scope| {
-        if threads.get() == 1 {
-            return runs
-                .map(|(number, (points, answers))| ask(number, points, answers))
-                .find_map(Result::err);
-        }
-        let running: Vec<_> = runs
-            .map(|(number, (points, answers))| scope.spawn(move || ask(number, points, answers)))
-            .collect();
-        running.into_iter().map(join).find_map(Result::err)
     });
     first_error.map_or(Ok(answers), Err)
 }
@@ -66,9 +53,4 @@ fn is_coherent(points: &[[f32; 3]]) -> bool {
     }
     let path: f64 = points.windows(2).map(|pair| apart(wide(&pair[0]), wide(&pair[1]))).sum();
     path * 16.0 <= apart(low, high) * points.len() as f64
-}
-
-/// Passes on a thread's panic to the caller.
-fn join<T>(thread: std::thread::ScopedJoinHandle<'_, T>) -> T {
-    thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }

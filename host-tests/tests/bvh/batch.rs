@@ -5,7 +5,6 @@ use meshsweep::bvh::{self, TreeOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep_core::{Budget, Bvh, ClosestPoint, Hint, QueryError, ScratchEntry};
 use meshsweep_host_tests::generate::{Rng, Triangles, rough_sphere, scaled, torus};
-use std::num::NonZeroUsize;
 
 fn blob((positions, triangles): &Triangles) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
@@ -72,21 +71,27 @@ fn a_batch_has_the_bits_of_its_queries_in_any_order() {
     }
 }
 
+/// The same in a pool of so many threads.
+fn with_threads<T: Send>(threads: usize, ask: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool").install(ask)
+}
+
 #[test]
 fn threads_do_not_change_a_bit() {
     let bytes = blob(&torus(2.0, 0.75, 60, 40));
     let tree = Bvh::open(&bytes).unwrap();
     let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
-    for count in [0, 1, 2, 5, 1000] {
+    // The last are pieces for several threads.
+    for count in [0, 1, 2, 5, 1000, 40_000] {
         let points = random(count, 4.0);
         let wanted = one_at_a_time(&tree, &points, &Budget::EXACT, &mut stack);
-        for threads in [1, 2, 3, 7, 16] {
-            let threads = NonZeroUsize::new(threads).unwrap();
-            let answers = bvh::closest_points(&tree, &points, &Budget::EXACT, threads).unwrap();
-            assert_eq!(answers.len(), count);
-            assert!(
-                answers.iter().zip(&wanted).all(|(answer, wanted)| bits(answer) == bits(wanted))
-            );
+        let ask = || bvh::closest_points(&tree, &points, &Budget::EXACT).unwrap();
+        let one = with_threads(1, ask);
+        assert_eq!(one.len(), count);
+        assert!(one.iter().zip(&wanted).all(|(answer, wanted)| bits(answer) == bits(wanted)));
+        for threads in [2, 3, 7, 16] {
+            // Work too.
+            assert_eq!(with_threads(threads, ask), one);
         }
     }
 }
@@ -98,7 +103,7 @@ fn a_batch_in_order_takes_less_work() {
     let points = random(4000, 4.0);
     let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
     let one = one_at_a_time(&tree, &points, &Budget::EXACT, &mut stack);
-    let batch = bvh::closest_points(&tree, &points, &Budget::EXACT, NonZeroUsize::MIN).unwrap();
+    let batch = bvh::closest_points(&tree, &points, &Budget::EXACT).unwrap();
     let total =
         |answers: &[ClosestPoint]| answers.iter().map(|a| u64::from(a.work.total())).sum::<u64>();
     assert!(total(&batch) < total(&one), "{} against {}", total(&batch), total(&one));
@@ -129,9 +134,15 @@ fn errors_are_typed_and_name_the_query() {
     (points[31][1], points[44][0]) = (f32::INFINITY, f32::NAN);
     let first = QueryError::PointNotFinite { index: 31 };
     assert_eq!(ask(&points, 50, &Budget::EXACT, &mut stack), Err(first));
+    // The first and the second are in different pieces.
+    let mut many = random(60_000, 4.0);
+    (many[20_001][1], many[50_000][0]) = (f32::INFINITY, f32::NAN);
+    let second = QueryError::PointNotFinite { index: 20_001 };
     for threads in [1, 2, 3, 50] {
-        let threads = NonZeroUsize::new(threads).unwrap();
-        let refused = bvh::closest_points(&tree, &points, &Budget::EXACT, threads);
-        assert_eq!(refused.map(|a| a.len()), Err(first));
+        for (points, error) in [(&points, first), (&many, second)] {
+            let refused =
+                with_threads(threads, || bvh::closest_points(&tree, points, &Budget::EXACT));
+            assert_eq!(refused.map(|a| a.len()), Err(error));
+        }
     }
 }
