@@ -18,6 +18,7 @@ use super::node::WIDE;
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::FanLeaf;
 use crate::geom::fan::{Crossing, FanRay, LANES_BELOW, WIDTH, ray_leaf, ray_leaf8};
+use crate::num::SOFT_FLOAT;
 
 /// Which sides of triangles a segment meets. The front is where corners run counter-clockwise, in
 /// the input's winding.
@@ -94,21 +95,34 @@ fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
         return Some(flagged_f32(leaf, &query.ray));
     }
     let ray = &query.ray;
-    let ring = leaf.grid_ring()?;
-    let origin = ray.in_order(ring.origin);
-    let shadow = |vertex: [i32; 3]| {
-        let mut at = [0f32; 3];
-        for (at, (x, origin)) in at.iter_mut().zip(vertex.into_iter().zip(origin)) {
-            *at = x.wrapping_add(origin) as f32;
-        }
-        ray.shadow_in_order(at)
+    let ring = leaf.ring_in_order(ray.axes())?;
+    if SOFT_FLOAT {
+        let near = query.line.near(&ring, shape.turn());
+        return Some(if near == 0 { 0 } else { flagged_near(leaf, ray, near) });
+    }
+    let [ox, oy, oz] = ring.origin;
+    let shadow = |[x, y, z]: [i32; 3]| {
+        let sum = |x: i32, origin: i32| x.wrapping_add(origin) as f32;
+        ray.shadow_in_order([sum(x, ox), sum(y, oy), sum(z, oz)])
     };
-    let centres = ring.centres.map(|centre| shadow(ray.in_order(centre)));
-    let [x, y, z] = ray.in_order([ring.x, ring.y, ring.z]);
-    let vertices = x.iter().zip(y).zip(z);
+    let vertices = ring.x.iter().zip(ring.y).zip(ring.z);
     let vertices =
         vertices.map(|((x, y), z)| [x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair))));
-    Some(ray_leaf(ray, shape.turn(), centres, vertices.map(shadow)))
+    Some(ray_leaf(ray, shape.turn(), ring.centres.map(shadow), vertices.map(shadow)))
+}
+
+/// The flagged ones of a few triangles.
+#[inline(never)]
+fn flagged_near(leaf: &FanLeaf<'_>, ray: &FanRay, near: u32) -> u32 {
+    let (mut left, mut flagged) = (near, 0);
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize;
+        left &= left - 1;
+        let centre = ray.shadow(leaf.centre(usize::from(lane >= leaf.shape().turn())));
+        let ends = [lane, lane + 1].map(|i| ray.shadow(leaf.ring(i)));
+        flagged |= ray_leaf(ray, WIDTH, [centre; 2], ends.into_iter()) << lane;
+    }
+    flagged
 }
 
 #[inline(never)]

@@ -4,7 +4,7 @@
 use super::descent::{NodeQuery, OpenedNode};
 use super::node::box_entries;
 use crate::bvh::format::{Bvh, Units};
-use crate::bvh::node::Slabs;
+use crate::bvh::node::{GridLine, Slabs};
 use crate::geom::fan::FanRay;
 use crate::geom::fan::WIDTH;
 use crate::num::tolerance::{BOX_ENTRY, BVH_FAR, LEAST_DENOMINATOR, NEAR_START, STILL, U32};
@@ -17,6 +17,8 @@ use glam::Vec3;
 pub(crate) struct SegmentQuery {
     pub(crate) ray: FanRay,
     pub(crate) slabs: Slabs,
+    /// For targets without vectors.
+    pub(crate) line: GridLine,
     units: Units,
     /// The line's origin and direction, grid units.
     origin: Vec3,
@@ -59,9 +61,9 @@ impl SegmentQuery {
             return Ok(None);
         }
         if size > NEAR_START * norm_1(high - low) {
-            return Ok(approach(units, [a, b], [low, high], size));
+            return Ok(approach(tree, [a, b], [low, high], size));
         }
-        Ok(Some(SegmentQuery::at(units, a, b - a, far, 0.0, 0.0)))
+        Ok(Some(SegmentQuery::at(tree, a, b - a, far, 0.0, 0.0)))
     }
 
     /// The query along the line from `origin`, which the caller's segment passes at its parameter
@@ -69,13 +71,14 @@ impl SegmentQuery {
     /// upper bound of the distance of `origin` from the segment.
     #[inline(always)]
     fn at(
-        units: Units,
+        tree: &Bvh<'_>,
         origin: Vec3,
         direction: Vec3,
         far: Vec3,
         start: f32,
         off: f32,
     ) -> SegmentQuery {
+        let units = tree.units();
         let surface = units.surface_error + off;
         let inverse = |d: f32| 1.0 / if d.abs() > STILL { d } else { STILL.copysign(d) };
         let inverse = [inverse(direction.x), inverse(direction.y), inverse(direction.z)];
@@ -85,9 +88,11 @@ impl SegmentQuery {
         let margin = [margin(far.x), margin(far.y), margin(far.z)];
         let end = if start > 0.0 { (1.0 - start) * (1.0 + 4.0 * U32) } else { 1.0 };
         let from = origin.to_array();
+        let ray = FanRay::new(from, direction.to_array(), inverse, end, surface, norm_1(far))
+            .turning(units.has_place_error);
         SegmentQuery {
-            ray: FanRay::new(from, direction.to_array(), inverse, end, surface, norm_1(far))
-                .turning(units.has_place_error),
+            ray,
+            line: GridLine::new(&ray, tree.header.grid_origin),
             slabs: Slabs::new(from, inverse, margin),
             units,
             origin,
@@ -182,15 +187,15 @@ fn misses([a, b]: [Vec3; 2], [low, high]: [Vec3; 2], surface_error: f32, size: f
 #[cold]
 #[inline(never)]
 fn approach(
-    units: Units,
+    tree: &Bvh<'_>,
     [a, b]: [Vec3; 2],
     [low, high]: [Vec3; 2],
     size: f32,
 ) -> Option<SegmentQuery> {
+    let surface_error = tree.units().surface_error;
     let direction = b - a;
     // Eight times the error of the slab test below.
-    let pad =
-        norm_1(high - low) + 2.0 * units.surface_error + size * (256.0 * U32) + LEAST_DENOMINATOR;
+    let pad = norm_1(high - low) + 2.0 * surface_error + size * (256.0 * U32) + LEAST_DENOMINATOR;
     let (mut enter, mut leave) = (0f32, 1f32);
     for axis in 0..3 {
         let (a, d) = (a.to_array()[axis], direction.to_array()[axis]);
@@ -213,7 +218,7 @@ fn approach(
     let origin = Vec3::new(at(a.x, b.x), at(a.y, b.y), at(a.z, b.z));
     let far = farthest(origin, low, high);
     let off = 2.0 * U32 * norm_1(origin) + (64.0 * U32 * U32) * (size + norm_1(direction));
-    Some(SegmentQuery::at(units, origin, direction, far, start, off))
+    Some(SegmentQuery::at(tree, origin, direction, far, start, off))
 }
 
 /// `a + t·(b − a)`, computed with twice f32's precision and rounded once (Dekker 1971; Knuth, TAOCP

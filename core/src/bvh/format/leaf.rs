@@ -69,7 +69,7 @@ pub struct FanLeaf<'a> {
     pub(crate) origin: [i32; 3],
 }
 
-/// Stored integers of a leaf on the grid, without the grid's origin.
+/// Stored integers of a leaf on the grid, without the grid's origin, in an order of the axes.
 #[derive(Clone, Copy, Debug)]
 pub struct GridRing<'a> {
     /// The grid's origin.
@@ -265,6 +265,26 @@ impl<'a> FanLeaf<'a> {
             x,
             y,
             z,
+        })
+    }
+
+    /// The stored integers of a leaf on the grid, in the order of `axes`.
+    #[inline(always)]
+    pub fn ring_in_order(&self, axes: [usize; 3]) -> Option<GridRing<'a>> {
+        let centres = self.shape.centres();
+        let bytes = 2 * (self.shape.triangles() + 1);
+        let ring = |axis: usize| {
+            let row = self.bytes.get(6 * centres + bytes * axis..)?.get(..bytes)?;
+            Some(row.as_chunks::<2>().0)
+        };
+        let [u, v, w] = axes;
+        Some(GridRing {
+            origin: axes.map(|axis| self.origin.get(axis).copied().unwrap_or(0)),
+            centres: [0, 6 * (centres - 1)]
+                .map(|at| axes.map(|axis| short(self.bytes, at + 2 * axis))),
+            x: ring(u)?,
+            y: ring(v)?,
+            z: ring(w)?,
         })
     }
 

@@ -8,13 +8,15 @@
 //! | file | owns |
 //! | --- | --- |
 //! | `keys` | a child's bound with its number in the low bits |
-//! | `frame` | [`KeyPoint`], a point prepared for the test; [`NodeFrame`], the point in the frame of a node's boxes |
+//! | `frame` | [`KeyPoint`], a point prepared for the test; [`NodeFrame`], the point in a node's frame |
+//! | `grid_line` | [`GridLine`], a segment's line in integers: the first test of a leaf without floating point |
 //! | `box_distances` | a point against eight boxes |
 //! | `box_entries` | [`Slabs`], a segment prepared for the test; a segment against eight boxes |
 
 mod box_distances;
 mod box_entries;
 mod frame;
+mod grid_line;
 mod keys;
 #[cfg(test)]
 mod tests;
@@ -22,4 +24,5 @@ mod tests;
 pub use box_distances::box_distances;
 pub use box_entries::{Slabs, box_entries};
 pub use frame::{KeyPoint, NodeFrame};
+pub use grid_line::GridLine;
 pub use keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory, least_key};

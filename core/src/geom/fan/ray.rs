@@ -76,6 +76,16 @@ struct Side {
     doubt: f32,
 }
 
+impl Side {
+    /// Two numbers by their bits, so that signs are joined without a branch: the first is negative
+    /// if the line is clear of the edge to the one side, the second if it is to the other. Of two
+    /// different numbers the difference is never 0.
+    #[inline(always)]
+    fn signs(self) -> [i32; 2] {
+        [self.doubt - self.area, self.doubt + self.area].map(|x| x.to_bits().cast_signed())
+    }
+}
+
 #[inline(always)]
 fn pick<T: Copy>(v: [T; 3], axis: usize) -> T {
     let [x, y, z] = v;
@@ -372,20 +382,19 @@ pub fn ray_leaf(
 ) -> u32 {
     let [mut centre, second] = centres;
     let Some(mut from) = ring.next() else { return 0 };
-    let mut a = ray.side(centre, from);
+    let mut a = ray.side(centre, from).signs();
     let mut lanes = 0;
     for (i, to) in ring.take(WIDTH).enumerate() {
         if i == turn {
             centre = second;
-            a = ray.side(centre, from);
+            a = ray.side(centre, from).signs();
         }
-        let b = ray.side(centre, to);
+        let b = ray.side(centre, to).signs();
         // The last side runs from the ring to the centre: the spoke's, with the opposite sign.
-        let positive = (a.area >= -a.doubt) & (b.area <= b.doubt);
-        let negative = (a.area <= a.doubt) & (b.area >= -b.doubt);
-        if positive | negative {
-            let rim = ray.side(from, to);
-            if (positive & (rim.area >= -rim.doubt)) | (negative & (rim.area <= rim.doubt)) {
+        let (one, other) = (a[0] | b[1], a[1] | b[0]);
+        if one & other >= 0 {
+            let rim = ray.side(from, to).signs();
+            if (one | rim[0]) & (other | rim[1]) >= 0 {
                 lanes |= 1 << i;
             }
         }

@@ -1,0 +1,140 @@
+//! The line of a segment in integers, for targets without floating point: most triangles of a leaf
+//! are beside the line by far, and few products prove it.
+//!
+//! Nothing is decided here but "clear". What is not clear goes to the kernel in f32, whose answer
+//! alone counts. So every bit is the same with and without these tests. Margins:
+//! `core/docs/rounding.md` §9.
+
+use crate::bvh::format::GridRing;
+use crate::geom::fan::FanRay;
+
+/// Bits after the point of a shadow that is not rounded. With lengths below 2^16 it fits 32 bits.
+const FINE: u32 = 14;
+/// Bits of a shadow that are rounded away: its unit is then 16 grid units.
+const COARSE: u32 = FINE + 4;
+/// Greatest rounded shadow. Its products with ways on the grid fit 32 bits.
+const GREATEST: u32 = 1 << 12;
+/// The middle of the stored numbers.
+const MIDDLE: i32 = 1 << 15;
+/// Lengths below this fit, grid units.
+const FITS: f32 = (1 << 16) as f32;
+
+/// The line of a [`FanRay`] in stored numbers. Coordinates come in the order of the ray's axes.
+#[derive(Clone, Copy, Debug)]
+pub struct GridLine {
+    /// Where the line is at the stored number 0 of the dominant axis. All sums wrap around.
+    at: [i32; 2],
+    /// Way along the axes for each grid unit along the dominant one.
+    slope: [i32; 2],
+    /// An edge farther than this from the line is clear of it, 16 grid units. 0: nothing is, for
+    /// the numbers do not fit.
+    margin: i32,
+}
+
+/// The areas that the line spans with edges that begin at one vertex.
+struct Pencil {
+    from: [i32; 3],
+    weights: [i32; 3],
+    margin: i32,
+}
+
+impl GridLine {
+    /// The line of `ray`.
+    pub fn new(ray: &FanRay, grid_origin: [i32; 3]) -> Self {
+        let middle = grid_origin.map(|origin| origin.wrapping_add(MIDDLE) as f32);
+        let [mu, mv, mw] = ray.in_order(middle);
+        let [ou, ov, ow] = ray.origin();
+        let [su, sv] = ray.shear();
+        let (x, y) = ((ou - mu) + su * (mw - ow), (ov - mv) + sv * (mw - ow));
+        let margin = 1.5 * ray.doubt() + 3.0;
+        let fits = x.abs() < FITS && y.abs() < FITS && margin < 1024.0;
+        let unit = (1 << FINE) as f32;
+        let slope = [su, sv].map(|slope| (slope * unit) as i32);
+        let at = |x: f32, slope: i32| {
+            let middle = (MIDDLE << FINE) - (1 << (COARSE - 1)) - (slope << 15);
+            ((x * unit) as i32).wrapping_add(middle)
+        };
+        GridLine {
+            at: [at(x, slope[0]), at(y, slope[1])],
+            slope,
+            margin: if fits { margin as i32 + 1 } else { 0 },
+        }
+    }
+
+    #[inline(always)]
+    fn pencil(&self, from: [i32; 3]) -> Option<Pencil> {
+        let [u, v, w] = from;
+        let [(at_x, slope_x), (at_y, slope_y)] =
+            [(self.at[0], self.slope[0]), (self.at[1], self.slope[1])];
+        let x = (u << FINE).wrapping_sub(slope_x.wrapping_mul(w)).wrapping_sub(at_x) >> COARSE;
+        let y = (v << FINE).wrapping_sub(slope_y.wrapping_mul(w)).wrapping_sub(at_y) >> COARSE;
+        if self.margin == 0 || x.unsigned_abs() > GREATEST || y.unsigned_abs() > GREATEST {
+            return None;
+        }
+        let along = (y * slope_x - x * slope_y + (1 << (FINE - 1))) >> FINE;
+        Some(Pencil { from, weights: [-y, x, along], margin: self.margin })
+    }
+
+    /// Triangles of a leaf that are not proved clear of the line, a bit for each. The second fan
+    /// begins with triangle `turn`.
+    #[inline(never)]
+    pub fn near(&self, ring: &GridRing<'_>, turn: usize) -> u32 {
+        let [first, second] = ring.centres;
+        let end = ring.x.len();
+        let turn = turn.min(end.saturating_sub(1));
+        let near = self.fan(ring, first, 0, turn + 1);
+        if turn + 1 < end { near | self.fan(ring, second, turn, end) << turn } else { near }
+    }
+
+    /// The same for the fan of the vertices `begin..end`.
+    #[inline(never)]
+    fn fan(&self, ring: &GridRing<'_>, centre: [i32; 3], begin: usize, end: usize) -> u32 {
+        let (Some(x), Some(y), Some(z)) =
+            (ring.x.get(begin..end), ring.y.get(begin..end), ring.z.get(begin..end))
+        else {
+            return 0;
+        };
+        let Some(pencil) = self.pencil(centre) else { return (1 << (x.len() - 1)) - 1 };
+        let short = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
+        let (mut near, mut lane) = (0u32, 1u32);
+        // Before the first triangle, one that is clear.
+        let (mut vertex, mut last) = ([0; 3], [-1; 2]);
+        for ((x, y), z) in x.iter().zip(y).zip(z) {
+            let from = vertex;
+            vertex = [short(x), short(y), short(z)];
+            let spoke = pencil.edge(vertex);
+            // The last edge runs back to the centre: the spoke's, with the opposite sign.
+            let (one, other) = (last[0] | spoke[1], last[1] | spoke[0]);
+            if one & other >= 0 {
+                let rim = self.rim(from, vertex);
+                if (one | rim[0]) & (other | rim[1]) >= 0 {
+                    near |= lane;
+                }
+            }
+            last = spoke;
+            lane <<= 1;
+        }
+        near >> 1
+    }
+
+    #[inline(never)]
+    fn rim(&self, from: [i32; 3], to: [i32; 3]) -> [i32; 2] {
+        self.pencil(from).map_or([0; 2], |pencil| pencil.edge(to))
+    }
+}
+
+impl Pencil {
+    /// The edge to a vertex, by two signs: the first is negative if the line is clear of the edge
+    /// to the one side, the second if it is to the other. A triangle is clear of the line if one
+    /// edge is clear to the one side, and one to the other.
+    #[inline(always)]
+    fn edge(&self, to: [i32; 3]) -> [i32; 2] {
+        let [u, v, w] = self.from;
+        let [x, y, z] = [to[0] - u, to[1] - v, to[2] - w];
+        let [p, q, r] = self.weights;
+        let area = p * x + q * y + r * z;
+        let length = (x ^ x >> 31) + (y ^ y >> 31) + (z ^ z >> 31) + 3;
+        let margin = self.margin * length;
+        [margin - area, margin + area]
+    }
+}
