@@ -1,9 +1,17 @@
-//! Corners of triangles, eight triangles at a time, for the [static tree](super::tree): a triangle
-//! that lies oblique in its box often misses a plane that its box reaches.
+//! Corners of triangles, eight triangles at a time, for the static tree: a triangle that lies oblique
+//! in its box often misses a plane that its box reaches.
 
 use super::order::WIDTH;
-use super::tree::Cut;
 use glam::Vec3;
+
+/// A plane in the tree's frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cut {
+    pub normal: [f32; 3],
+    /// Magnitudes of the normal.
+    pub along: [f32; 3],
+    pub offset: f32,
+}
 
 /// Corners of the triangles of a node, in the tree's frame.
 #[derive(Clone, Debug, Default)]

@@ -5,7 +5,7 @@
 //! every number in it is at most 1, and the bounds of rounding are numbers: see [`SLACK`].
 
 use super::bounds::{Bounds, Plane};
-use super::lane_corners::LaneCorners;
+use super::lane_corners::{Cut, LaneCorners};
 use super::order::{WIDTH, ranges};
 use arrayvec::ArrayVec;
 use glam::DVec3;
@@ -45,14 +45,6 @@ pub(crate) struct StaticTree {
     origin: DVec3,
     /// Units of the tree's frame in one of the mesh.
     scale: f64,
-}
-
-/// A plane in the tree's frame.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Cut {
-    pub normal: [f32; 3],
-    along: [f32; 3],
-    pub offset: f32,
 }
 
 /// A box and planes that an item's box has to reach.

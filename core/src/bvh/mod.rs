@@ -9,6 +9,7 @@
 //! | `point_query`, `segment_query` | a point or a segment in grid units, ready for the descent |
 //! | `descent` | the descent of one tree, for a point or a segment |
 //! | `leaf_distance`, `triangle_bounds` | a point and the triangles of a leaf |
+//! | `leaf_plane` | without floating point: a plane behind which no triangle counts |
 //! | `triangle_visitor` | the visitor of point questions that look at triangles one by one |
 //! | `segment_leaf` | a segment and the triangles of a leaf; the visitor of segment questions |
 //! | `closest_point`, `closest_points` | one closest point, many of them |
