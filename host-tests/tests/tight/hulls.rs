@@ -164,7 +164,9 @@ fn hulls_are_no_looser_than_progressive_hulls_of_as_many_faces() {
 #[test]
 fn scale_and_place_do_not_matter() {
     for (factor, faces) in [(1e-36, FEW), (1e-30, 70), (1e30, 70), (1e36, FEW)] {
-        let mesh = mesh_of(&scaled(&rough_sphere(2, 0.3, 3), factor));
+        // Of few triangles where all ways to begin compete.
+        let subdivisions = if faces == FEW { 1 } else { 2 };
+        let mesh = mesh_of(&scaled(&rough_sphere(subdivisions, 0.3, 3), factor));
         proved(&format!("times {factor:e}"), &mesh, &options(faces));
     }
     for shift in [1e3, 1e6] {
@@ -282,7 +284,7 @@ fn effort_makes_hulls_tighter() {
 
 #[test]
 fn a_void_or_a_slack_that_is_asked_for_is_kept_with_few_faces() {
-    let mesh = mesh_of(&rough_sphere(2, 0.3, 9));
+    let mesh = mesh_of(&rough_sphere(1, 0.3, 9));
     let mut last = usize::MAX;
     for most in [0.05, 0.2, 0.8] {
         let hull = proved("void", &mesh, &Options::new(Goal::Void(most)).with_effort(0.0));
@@ -291,7 +293,7 @@ fn a_void_or_a_slack_that_is_asked_for_is_kept_with_few_faces() {
             "{:?}",
             hull.report
         );
-        assert!(hull.report.faces <= last);
+        assert!(hull.report.faces < last);
         last = hull.report.faces;
     }
     last = usize::MAX;
@@ -302,7 +304,7 @@ fn a_void_or_a_slack_that_is_asked_for_is_kept_with_few_faces() {
             "{:?}",
             hull.report
         );
-        assert!(hull.report.faces <= last);
+        assert!(hull.report.faces < last);
         last = hull.report.faces;
     }
     let (positions, triangles) = torus(1.0, 0.3, 20, 10);

@@ -151,13 +151,14 @@ fn intervals_and_verdicts_hold_for_the_mesh_within() {
         ask(name, shape, bytes);
     }
     // How vertices are stored has nothing to do with how a hull begins, which takes long where a
-    // mesh is open.
-    for (name, shape) in shapes().into_iter().filter(|(name, _)| !name.contains("open")) {
+    // mesh is open or has parts. Round, flat and sliver faces, and what is far away, are left.
+    let is_slow = |name: &str| ["an open sphere", "groove", "two parts"].contains(&name);
+    for (name, shape) in shapes().into_iter().filter(|(name, _)| !is_slow(name)) {
         let options = options(&[64]).with_vertex_bits(VertexBits::F32);
         ask(name, &shape, &of(&mesh(&shape), 0.0, &options).0);
     }
-    // The hulls do tell: of 28,800 verdicts two in six can be no, and three yes.
-    assert!(clear > 3500 && near > 5700, "{clear} {near}");
+    // The hulls do tell: of 25,920 verdicts two in six can be no, and three yes.
+    assert!(clear > 3150 && near > 5130, "{clear} {near}");
 }
 
 #[test]
