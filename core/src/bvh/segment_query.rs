@@ -4,20 +4,23 @@
 use super::descent::{NodeQuery, OpenedNode};
 use super::node::box_entries;
 use crate::bvh::format::{Bvh, Units};
-use crate::bvh::node::{GridLine, Slabs};
+use crate::bvh::node::{GridLine, Slabs, WIDE};
 use crate::geom::fan::FanRay;
 use crate::geom::fan::WIDTH;
 use crate::num::tolerance::{BOX_ENTRY, BVH_FAR, LEAST_DENOMINATOR, NEAR_START, STILL, U32};
-use crate::num::{greater, lesser, two_sum};
+use crate::num::{SOFT_FLOAT, greater, lesser, two_sum};
 use crate::query::{Budget, Hit, QueryError, ScratchEntry};
 use glam::Vec3;
+
+/// The bit of a number's sign.
+const SIGN: u32 = 1 << 31;
 
 /// A segment, and the conversion of its parameters to the caller's.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SegmentQuery {
     pub(crate) ray: FanRay,
     pub(crate) slabs: Slabs,
-    /// For targets without vectors.
+    /// For targets without floating point.
     pub(crate) line: GridLine,
     units: Units,
     /// The line's origin and direction, grid units.
@@ -41,8 +44,11 @@ impl SegmentQuery {
     ) -> Result<Option<SegmentQuery>, QueryError> {
         SegmentQuery::check_served(tree)?;
         budget.check_with(scratch)?;
-        let finite = |[x, y, z]: [f32; 3]| x.is_finite() & y.is_finite() & z.is_finite();
-        if !(finite(a) & finite(b)) {
+        // By bits, without a branch for each number.
+        let magnitude = |x: f32| x.to_bits() & !SIGN;
+        let largest =
+            |[x, y, z]: [f32; 3]| greater(greater(magnitude(x), magnitude(y)), magnitude(z));
+        if greater(largest(a), largest(b)) >= f32::INFINITY.to_bits() {
             return Err(QueryError::NotFinite);
         }
         let units = tree.units();
@@ -92,7 +98,11 @@ impl SegmentQuery {
             .turning(units.has_place_error);
         SegmentQuery {
             ray,
-            line: GridLine::new(&ray, tree.header.grid_origin),
+            line: if SOFT_FLOAT {
+                GridLine::new(&ray, tree.header.grid_origin)
+            } else {
+                GridLine::NONE
+            },
             slabs: Slabs::new(from, inverse, margin),
             units,
             origin,
@@ -168,16 +178,22 @@ fn misses([a, b]: [Vec3; 2], [low, high]: [Vec3; 2], surface_error: f32, size: f
     let margin = 2.0 * surface_error + size * (32.0 * U32) + LEAST_DENOMINATOR;
     let (d, m) = (b - a, (a - low) + (b - high));
     let (half, d_abs) = ((high - low) + Vec3::splat(margin), d.abs());
-    let apart = |m: f32, half: f32, d: f32| m.abs() > half + d;
-    if apart(m.x, half.x, d_abs.x) | apart(m.y, half.y, d_abs.y) | apart(m.z, half.z, d_abs.z) {
+    // By bits, for a comparison is a branch that no processor guesses, or a call. No number is
+    // negative, so the difference of bits has the right sign.
+    let beyond = |x: f32, limit: f32| limit.to_bits().wrapping_sub(x.to_bits());
+    let apart = |m: f32, half: f32, d: f32| beyond(m.abs(), half + d);
+    let along =
+        apart(m.x, half.x, d_abs.x) | apart(m.y, half.y, d_abs.y) | apart(m.z, half.z, d_abs.z);
+    if !WIDE && along & SIGN != 0 {
         return true;
     }
     let apart_across = |[m, n]: [f32; 2], [d, e]: [f32; 2], [h, k]: [f32; 2]| {
-        (m * e - n * d).abs() > (h * e.abs() + k * d.abs()) + LEAST_DENOMINATOR
+        beyond((m * e - n * d).abs(), (h * e.abs() + k * d.abs()) + LEAST_DENOMINATOR)
     };
-    apart_across([m.x, m.y], [d.x, d.y], [half.x, half.y])
+    let across = apart_across([m.x, m.y], [d.x, d.y], [half.x, half.y])
         | apart_across([m.y, m.z], [d.y, d.z], [half.y, half.z])
-        | apart_across([m.z, m.x], [d.z, d.x], [half.z, half.x])
+        | apart_across([m.z, m.x], [d.z, d.x], [half.z, half.x]);
+    (along | across) & SIGN != 0
 }
 
 /// Moves a far start along the segment to the place where it enters the model's box, enlarged by

@@ -121,7 +121,9 @@ pub(crate) fn wide(
 }
 
 /// Stops at the first axis on which the box is missed. From axis to axis the entry only grows and
-/// the exit only falls, so the keys are those of `wide`.
+/// the exit only falls, so the keys are those of `wide`. Parameters are compared by their bits: a
+/// negative one is below `from` as an entry, and the box is missed with it as an exit. A sum is
+/// never −0 here, for `grow` is not 0.
 #[inline(always)]
 pub(crate) fn narrow(
     SlabPlanes(axes): &SlabPlanes<'_>,
@@ -130,6 +132,7 @@ pub(crate) fn narrow(
     limit: f32,
 ) -> [u32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
+    let [from, limit] = [from, limit].map(|t| t.to_bits().cast_signed());
     for (child, key) in keys.iter_mut().enumerate().take(count as usize) {
         let (mut enter, mut leave) = (from, limit);
         let overlaps = axes.iter().all(|axis| {
@@ -137,12 +140,16 @@ pub(crate) fn narrow(
             let (Some(&near), Some(&far)) = (axis.near.get(child), axis.far.get(child)) else {
                 return false;
             };
-            enter = greater(enter, f32::from(near) * axis.step + axis.enter);
-            leave = lesser(leave, f32::from(far) * axis.step + axis.leave);
+            let at = |v: u8, start: f32| (f32::from(v) * axis.step + start).to_bits().cast_signed();
+            enter = greater(enter, at(near, axis.enter));
+            if enter > leave {
+                return false;
+            }
+            leave = lesser(leave, at(far, axis.leave));
             enter <= leave
         });
         if overlaps {
-            *key = enter.to_bits() & !CHILD_MASK | child as u32;
+            *key = enter.cast_unsigned() & !CHILD_MASK | child as u32;
         }
     }
     keys

@@ -39,6 +39,9 @@ struct Pencil {
 }
 
 impl GridLine {
+    /// Nothing is clear of it.
+    pub const NONE: GridLine = GridLine { at: [0; 2], slope: [0; 2], margin: 0 };
+
     /// The line of `ray`.
     pub fn new(ray: &FanRay, grid_origin: [i32; 3]) -> Self {
         let middle = grid_origin.map(|origin| origin.wrapping_add(MIDDLE) as f32);
