@@ -11,7 +11,7 @@ pub use radius::{Radius8, Radius16};
 pub use round::{down_to_f32, exp2, sum_down, sum_up, two_sum, up_to_f32};
 pub use sqrt::{sqrt_approx, sqrt_up};
 
-/// Whether the target computes floating point in software.
+/// Whether the target is not known to have instructions for f32. Then integers decide first.
 pub const SOFT_FLOAT: bool = !cfg!(any(
     target_arch = "x86_64",
     target_arch = "aarch64",

@@ -1,12 +1,14 @@
 //! Squared distances of a point from eight boxes, in integers.
 //!
-//! The wide form is loops over eight 16-bit lanes without branches: they fit one register of the
-//! smallest vector units. The narrow form goes axis by axis. Both give the same keys.
+//! The wide form (`lanes`) has eight 16-bit lanes, which fit one register of the smallest vector
+//! units. The narrow form goes axis by axis. Both give the same keys.
 
 use super::frame::NodeFrame;
-use super::keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory};
+use super::keys::{CHILD_MASK, NO_CHILD};
 use crate::bvh::format::layout::FRAME_BYTES;
 use crate::geom::fan::WIDTH;
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+use crate::num::greater;
 
 /// Keys of a node's children: half the squared distances from the point, in squares of key units.
 /// No key is below the parent's, and the low three bits hold the number of the child. Keys from
@@ -22,32 +24,58 @@ pub fn box_distances(
 ) -> [u32; WIDTH] {
     let (rows, _) = record.as_chunks::<WIDTH>();
     let Some(rows) = rows.first_chunk::<6>() else { return [NO_CHILD; WIDTH] };
-    if WIDE { wide(rows, frame, count, parent) } else { narrow(rows, frame, count, parent) }
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    return lanes::keys(rows, frame, count, parent);
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    return narrow(rows, frame, count, parent);
 }
 
 /// Rows of bytes: first and last planes of the first axis, of the second, of the third. A last
 /// plane is counted from the frame's end.
 type Rows = [[u8; WIDTH]; 6];
 
-#[inline(always)]
-pub(crate) fn wide(rows: &Rows, frame: &NodeFrame, count: u32, parent: u32) -> [u32; WIDTH] {
-    let [lx, hx, ly, hy, lz, hz] = rows;
-    let x = outside(lx, hx, frame.from[0], frame.shift[0]);
-    let y = outside(ly, hy, frame.from[1], frame.shift[1]);
-    let z = outside(lz, hz, frame.from[2], frame.shift[2]);
-    let mut keys = [0u32; WIDTH];
-    for i in 0..WIDTH {
-        let square = |x: i16| (i32::from(x) * i32::from(x)).cast_unsigned();
-        let sum = square(x[i]).wrapping_add(square(y[i])).wrapping_add(square(z[i]));
-        keys[i] = key(sum, parent, i as u32);
+/// Eight 16-bit lanes, written with vector types: of plain loops a compiler makes twice the
+/// instructions.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub(crate) mod lanes {
+    use super::{CHILD_MASK, NO_CHILD, NodeFrame, Rows, WIDTH};
+    use crate::geom::fan::LANES_BELOW;
+    use wide::bytemuck::cast;
+    use wide::{i16x8, i32x8, u16x8, u32x8};
+
+    #[inline(always)]
+    pub(crate) fn keys(rows: &Rows, frame: &NodeFrame, count: u32, parent: u32) -> [u32; WIDTH] {
+        let [lx, hx, ly, hy, lz, hz] = rows;
+        let x = outside(lx, hx, frame.from[0], frame.shift[0]);
+        let y = outside(ly, hy, frame.from[1], frame.shift[1]);
+        let z = outside(lz, hz, frame.from[2], frame.shift[2]);
+        let sum = x.widening_mul(x) + y.widening_mul(y) + z.widening_mul(z);
+        let half: i32x8 = cast(cast::<_, u32x8>(sum) >> 1u32);
+        let far = half.max(i32x8::splat(parent.cast_signed()));
+        let Some(&used) = LANES_BELOW.get(count as usize) else { return [NO_CHILD; WIDTH] };
+        let used: i32x8 = cast(used);
+        let none = i32x8::splat(NO_CHILD.cast_signed());
+        let mask = i32x8::splat(!CHILD_MASK.cast_signed());
+        let keys = (far & mask & used) | (none & !used) | i32x8::new([0, 1, 2, 3, 4, 5, 6, 7]);
+        cast(keys)
     }
-    for (child, key) in (0u32..).zip(&mut keys) {
-        *key = if child < count { *key } else { NO_CHILD | child };
+
+    /// Distances along one axis.
+    #[inline(always)]
+    fn outside(first: &[u8; WIDTH], last: &[u8; WIDTH], from: [i32; 2], shift: u32) -> i16x8 {
+        // A plane is never beyond this, so a greater number would say no more.
+        let [from_first, from_last] = from.map(|from| from.min(i32::from(i16::MAX)) as i16);
+        let place = |row: &[u8; WIDTH]| -> i16x8 {
+            cast(u16x8::new(row.map(|byte| u16::from(byte) << 8)) >> (shift & 15))
+        };
+        let below = place(first) - i16x8::splat(from_first);
+        let beyond = place(last) - i16x8::splat(from_last);
+        below.max(beyond).max(i16x8::ZERO)
     }
-    in_memory(keys)
 }
 
 /// The key of a child from its squared distance.
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 #[inline(always)]
 fn key(distance_sq: u32, parent: u32, child: u32) -> u32 {
     let (half, parent) = ((distance_sq >> 1).cast_signed(), parent.cast_signed());
@@ -55,22 +83,7 @@ fn key(distance_sq: u32, parent: u32, child: u32) -> u32 {
     far.cast_unsigned() & !CHILD_MASK | child
 }
 
-/// Distances along one axis.
-#[inline(always)]
-fn outside(first: &[u8; WIDTH], last: &[u8; WIDTH], from: [i32; 2], shift: u32) -> [i16; WIDTH] {
-    // A plane is never beyond this, so a greater number would say no more.
-    let [from_first, from_last] = from.map(|from| from.min(i32::from(i16::MAX)) as i16);
-    let shift = shift & 15;
-    let mut out = [0i16; WIDTH];
-    for i in 0..WIDTH {
-        let place = |byte: u8| (u16::from(byte) << 8 >> shift).cast_signed();
-        let below = place(first[i]).wrapping_sub(from_first);
-        let beyond = place(last[i]).wrapping_sub(from_last);
-        out[i] = below.max(beyond).max(0);
-    }
-    out
-}
-
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 #[inline(always)]
 pub(crate) fn narrow(rows: &Rows, frame: &NodeFrame, count: u32, parent: u32) -> [u32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
@@ -88,6 +101,7 @@ pub(crate) fn narrow(rows: &Rows, frame: &NodeFrame, count: u32, parent: u32) ->
 }
 
 /// Adds the squared distances along one axis.
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 #[inline(never)]
 fn add_along(
     first: &[u8; WIDTH],
@@ -109,11 +123,10 @@ fn add_along(
     }
     for ((sum, &first), &last) in sums.iter_mut().zip(first).zip(last) {
         let (below, beyond) = (far(first, from_first), far(last, from_last));
-        // At most one of them is above 0.
-        if below > 0 {
-            *sum = sum.wrapping_add(square(below));
-        } else if beyond > 0 {
-            *sum = sum.wrapping_add(square(beyond));
+        // Of a box whose planes are in order at most one of them is above 0.
+        let far = greater(below, beyond);
+        if far > 0 {
+            *sum = sum.wrapping_add(square(far));
         }
     }
 }

@@ -24,7 +24,7 @@ const FRACTION_BITS: u32 = 2;
 const PRODUCT_BITS: u32 = ROW_BITS + FRACTION_BITS;
 
 /// Added before a product is cut to key units. It rounds up, and makes up for the rounding of the
-/// coordinates: less than √3 · 2^ROW_BITS together, proved 14,419 (`core/docs/rounding.md` §8).
+/// coordinates: less than √3 · 2^ROW_BITS together, proved 14,420 (`core/docs/rounding.md` §8).
 const UP: i32 = (1 << PRODUCT_BITS) - 1 + 14_592;
 
 /// A query point in key units.
@@ -150,8 +150,8 @@ impl Axis {
     fn far(exponent: u32, unit: u32) -> Axis {
         let shift = (8 + unit).saturating_sub(exponent);
         let (shift, fine) = if shift > 15 { (15, 1) } else { (shift, 0) };
-        let bits = (exponent + PRODUCT_BITS).saturating_sub(unit);
-        Axis { step: if bits > 0 { 1 << (bits & 31) } else { 0 }, shift, fine }
+        let bits = (exponent + PRODUCT_BITS).wrapping_sub(unit);
+        Axis { step: if bits < 31 { 1 << bits } else { 0 }, shift, fine }
     }
 }
 

@@ -88,7 +88,7 @@ fn distances_have_the_same_bits() {
             let frame = NodeFrame::of(&record, &KeyPoint::new(p, farthest));
             let rows = record.as_chunks::<WIDTH>().0.first_chunk::<6>().expect("long enough");
             for parent in [0, 1 << noise.below(31)] {
-                let wide = box_distances::wide(rows, &frame, count as u32, parent);
+                let wide = box_distances::lanes::keys(rows, &frame, count as u32, parent);
                 let narrow = box_distances::narrow(rows, &frame, count as u32, parent);
                 let used = |keys: [u32; WIDTH]| keys.map(|key| key.min(NO_CHILD));
                 assert_eq!(used(wide), used(narrow), "{frame:?}, {count} of {record:?}");
@@ -129,7 +129,7 @@ fn no_key_is_above_the_exact_distance_and_few_are_far_below() {
         let point = KeyPoint::new(p, farthest);
         let frame = NodeFrame::of(&record, &point);
         let rows = record.as_chunks::<WIDTH>().0.first_chunk::<6>().expect("long enough");
-        for (lane, key) in box_distances::wide(rows, &frame, 8, 0).into_iter().enumerate() {
+        for (lane, key) in box_distances::lanes::keys(rows, &frame, 8, 0).into_iter().enumerate() {
             let exact: [f64; 3] = core::array::from_fn(|axis| {
                 exact_distance(&record, p.to_array().map(f64::from), point.unit(), axis, lane)
             });

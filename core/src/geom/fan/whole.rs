@@ -50,8 +50,8 @@ impl WholePoint {
     /// A product of the point and a direction of [`DIRECTION_BITS`] bits: not above the true one.
     ///
     /// The eighths are rounded down. So the true point may lie an eighth farther along any axis,
-    /// which counts where the direction is negative. The sum before was rounded too, by 2^-7 at
-    /// most.
+    /// which counts where the direction is negative. The difference and the sum before were rounded
+    /// too, by 2^-8 and 2^-7 at most.
     #[inline(always)]
     pub fn along(&self, direction: Whole) -> i32 {
         let (mut against, mut all) = (0, 0);
@@ -60,7 +60,7 @@ impl WholePoint {
             all += x.abs();
         }
         let eighths = dot(direction, self.eighths).wrapping_sub(against) >> FRACTION_BITS;
-        dot(direction, self.at).wrapping_add(eighths).wrapping_sub((all >> 7) + 1)
+        dot(direction, self.at).wrapping_add(eighths).wrapping_sub((3 * all >> 8) + 1)
     }
 }
 
@@ -235,10 +235,10 @@ mod tests {
     use super::*;
 
     /// Squared distance in f64, by the kernel of the hull hierarchy.
-    fn exact(p: [f32; 3], corners: &[Whole; 3]) -> f64 {
+    fn exact(p: [f64; 3], corners: &[Whole; 3]) -> f64 {
         let at = |v: [f64; 3]| glam::DVec3::from_array(v);
         let [a, b, c] = corners.map(|v| at(v.map(f64::from)));
-        crate::geom::point_triangle(at(p.map(f64::from)), a, b, c).distance_sq
+        crate::geom::point_triangle(at(p), a, b, c).distance_sq
     }
 
     struct Noise(u64);
@@ -281,8 +281,11 @@ mod tests {
             let away = 1 << noise.below(17);
             let near = corners[noise.below(3) as usize];
             let off = noise.whole(away).map(|x| x as f32 + noise.below(1000) as f32 / 1000.0);
-            let p = [0, 1, 2].map(|k| near[k] as f32 + off[k]);
-            let Some(point) = WholePoint::new(p) else { continue };
+            // The grid's origin, from which the query computes the point with one rounding.
+            let origin = -noise.below(100_000) as f32;
+            let p = [0, 1, 2].map(|k| near[k] as f32 + off[k] + origin);
+            let Some(point) = WholePoint::new(p.map(|x| x - origin)) else { continue };
+            let p = p.map(|x| f64::from(x) - f64::from(origin));
             let square = exact(p, &corners);
             let bounds = whole_bounds(&point, &corners);
             for share in [0.5, 0.9, 0.99, 0.999, 1.0, 1.000_01, 1.1] {
@@ -310,7 +313,8 @@ mod tests {
             let [one, two] = [(); 2].map(|()| triangle(&mut noise, size));
             let p = [(); 3].map(|()| noise.below(0x1_0000) as f32);
             let point = WholePoint::new(p).expect("in range");
-            let [near, far] = [one, two].map(|t| (exact(p, &t), whole_bounds(&point, &t).estimate));
+            let [near, far] = [one, two]
+                .map(|t| (exact(p.map(f64::from), &t), whole_bounds(&point, &t).estimate));
             if near.0 > 1.02 * far.0 || far.0 > 1.02 * near.0 {
                 all += 1;
                 right += i32::from((near.0 < far.0) == (near.1 < far.1));
