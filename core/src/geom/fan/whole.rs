@@ -60,7 +60,7 @@ impl WholePoint {
             all += x.abs();
         }
         let eighths = dot(direction, self.eighths).wrapping_sub(against) >> FRACTION_BITS;
-        dot(direction, self.at).wrapping_add(eighths).wrapping_sub((3 * all >> 8) + 1)
+        dot(direction, self.at).wrapping_add(eighths).wrapping_sub(((3 * all) >> 8) + 1)
     }
 }
 
