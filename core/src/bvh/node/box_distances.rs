@@ -41,7 +41,7 @@ pub(crate) mod lanes {
     use super::{CHILD_MASK, NO_CHILD, NodeFrame, Rows, WIDTH};
     use crate::geom::fan::LANES_BELOW;
     use wide::bytemuck::cast;
-    use wide::{i16x8, i32x8, u16x8, u32x8};
+    use wide::{i16x8, i32x8, u8x16, u16x8, u32x8};
 
     #[inline(always)]
     pub(crate) fn keys(rows: &Rows, frame: &NodeFrame, count: u32, parent: u32) -> [u32; WIDTH] {
@@ -66,7 +66,9 @@ pub(crate) mod lanes {
         // A plane is never beyond this, so a greater number would say no more.
         let [from_first, from_last] = from.map(|from| from.min(i32::from(i16::MAX)) as i16);
         let place = |row: &[u8; WIDTH]| -> i16x8 {
-            cast(u16x8::new(row.map(|byte| u16::from(byte) << 8)) >> (shift & 15))
+            let bytes: u8x16 = cast([u64::from_ne_bytes(*row), 0]);
+            // Each byte becomes the high one of 16 bits.
+            cast(cast::<_, u16x8>(u8x16::unpack_low(u8x16::ZERO, bytes)) >> (shift & 15))
         };
         let below = place(first) - i16x8::splat(from_first);
         let beyond = place(last) - i16x8::splat(from_last);
