@@ -244,7 +244,7 @@ mod narrow {
         }
     }
 
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn nearest_within(
         leaf: &FanLeaf<'_>,
         query: &PointQuery,

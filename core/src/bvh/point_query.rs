@@ -61,7 +61,8 @@ impl PointQuery {
         PointQuery::new(tree, point)
     }
 
-    #[inline(always)]
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn new(tree: &Bvh<'_>, point: [f32; 3]) -> Result<PointQuery, QueryError> {
         let [x, y, z] = point;
         if !(x.is_finite() && y.is_finite() && z.is_finite()) {
@@ -119,8 +120,9 @@ impl PointQuery {
         sqrt_approx(square) * (1.0 - 4.0 * U32)
     }
 
-    /// Keys of a node's children.
-    #[inline(always)]
+    /// Keys of a node's children. On boards a call, for each question has a descent of its own.
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn keys_of(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {
         let &OpenedNode { node, count, bound, .. } = opened;
         let record = tree.frame(node)?;
