@@ -1,5 +1,5 @@
-//! Corners of triangles, eight triangles at a time, for the static tree: a triangle that lies oblique
-//! in its box often misses a plane that its box reaches.
+//! Corners of triangles, eight triangles at a time, for the static tree: a triangle that lies
+//! oblique in its box often misses a plane that its box reaches.
 
 use super::order::WIDTH;
 use glam::Vec3;

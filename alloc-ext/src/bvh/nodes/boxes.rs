@@ -31,9 +31,9 @@ const FRACTIONAL_MARGIN: f64 = 1.0 / (1u64 << 50) as f64;
 
 /// A node's frame and boxes, as the blob stores them.
 ///
-/// A point `P` (grid units) has the box coordinates `q_k = (M_k·(P − origin)) · 2^(−13 − exponent_k)
-/// + 128` for `k = 0..3`, and child `i` covers `low[k][i] <= q_k <= high[k][i]` for all its points,
-/// in real arithmetic. Absent children have `low = 255` and `high = 0`.
+/// A point `P` (grid units) has the box coordinates `q_k = (M_k·(P − origin)) · 2^(−13 −
+/// exponent_k) + 128` for `k = 0..3`, and child `i` covers `low[k][i] <= q_k <= high[k][i]` for all
+/// its points, in real arithmetic. Absent children have `low = 255` and `high = 0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NodeBoxes {
     /// Grid point near the middle of the children.

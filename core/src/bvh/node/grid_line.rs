@@ -16,8 +16,8 @@ const COARSE: u32 = FINE + 4;
 const GREATEST: u32 = 1 << 12;
 /// The middle of the stored numbers.
 const MIDDLE: i32 = 1 << 15;
-/// Lengths below this fit, grid units. A shadow that leaves 32 bits all the same wraps around to one
-/// that is still above [`GREATEST`].
+/// Lengths below this fit, grid units. A shadow that leaves 32 bits all the same wraps around to
+/// one that is still above [`GREATEST`].
 const FITS: f32 = (1 << 16) as f32;
 
 /// The line of a [`FanRay`] in stored numbers. Coordinates come in the order of the ray's axes.

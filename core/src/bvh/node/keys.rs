@@ -1,7 +1,7 @@
 //! Keys of the children of a node: a bound, and the number of the child in its low bits.
 //!
-//! Keys are integers below 2^31 that compare as their bounds do: squares of integers, or the bits of
-//! an f32 that is not negative.
+//! Keys are integers below 2^31 that compare as their bounds do: squares of integers, or the bits
+//! of an f32 that is not negative.
 
 use crate::geom::fan::WIDTH;
 use crate::num::{lesser, of_eight};
