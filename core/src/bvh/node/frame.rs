@@ -30,7 +30,7 @@ const UP: i32 = (1 << PRODUCT_BITS) - 1 + 14_592;
 /// A query point in key units.
 #[derive(Clone, Copy, Debug)]
 pub struct KeyPoint {
-    /// From the grid's origin, with [`FRACTION_BITS`] below the unit, rounded down.
+    /// From the grid's origin, with two bits below the unit, rounded down.
     at: [i32; 3],
     /// A key unit is 2^this grid units.
     unit: u32,

@@ -47,7 +47,7 @@ impl WholePoint {
         Some(point)
     }
 
-    /// A product of the point and a direction of [`DIRECTION_BITS`] bits: not above the true one.
+    /// A product of the point and a direction of twelve bits: not above the true one.
     ///
     /// The eighths are rounded down. So the true point may lie an eighth farther along any axis,
     /// which counts where the direction is negative. The difference and the sum before were rounded
@@ -110,7 +110,7 @@ fn less([a, b, c]: Whole, [x, y, z]: Whole) -> Whole {
 pub struct WholeBounds {
     /// Grows with the distance of the estimated point.
     pub estimate: u32,
-    /// From the estimated point to the query, of [`DIRECTION_BITS`] bits.
+    /// From the estimated point to the query, of twelve bits.
     pub direction: Whole,
     /// Along the direction the query is at least this far from the triangle, in products of
     /// direction and grid units.
@@ -170,7 +170,7 @@ pub fn whole_bounds(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> WholeBounds {
     WholeBounds { estimate, direction, along }
 }
 
-/// Weights of the second and third corner at a point near the closest one, of [`WEIGHT_BITS`] bits;
+/// Weights of the second and third corner at a point near the closest one, of twelve bits;
 /// their sum is at most one. Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
 #[inline(always)]
 fn weights(s: Whole, e: Whole, g: Whole) -> (i32, i32) {
