@@ -46,7 +46,7 @@ const QUESTIONS: [&str; 20] = [
 /// Questions whose instructions show whether the code was vectorised, with the most instructions
 /// that a node or a leaf may take: a quarter more than it took on plain x86-64 when this was
 /// written (816, 708, 674, 756, 628, 785). Without vectors (`-C no-vectorize-loops -C
-/// no-vectorize-slp`) it took 2420, 1489, 1802, 1560, 1119, 1284 before. "Clear" is for nodes, for it
+/// no-vectorize-slp`) it once took 2420, 1489, 1802, 1560, 1119, 1284. "Clear" is for nodes, for it
 /// opens few leaves; "first hit" has its own loops.
 const LIMITS: [(&str, f64); 6] = [
     ("tree bracket.stl far", 1020.0),
