@@ -169,7 +169,7 @@ fn in_time(what: &str, run: impl FnOnce() + Send + 'static) {
     }
 }
 
-/// What is asked with little memory.
+/// Questions that are asked with little memory.
 static SMALL: LazyLock<[Scene; 3]> = LazyLock::new(|| {
     [
         Scene::hull("torus", torus(2.0, 0.75, 24, 12), &options(40)),

@@ -1,8 +1,8 @@
 //! The line of a segment in integers, for targets without floating point: most triangles of a leaf
 //! are beside the line by far, and few products prove it.
 //!
-//! Nothing is decided here but "clear". What is not clear goes to the kernel in f32, whose answer
-//! alone counts. So every bit is the same with and without these tests. Margins:
+//! The tests decide "clear" and nothing else. All other triangles go to the kernel in f32, whose
+//! answer alone counts. So every bit is the same with and without these tests. Margins:
 //! `core/docs/rounding.md` §9.
 
 use crate::bvh::format::GridRing;

@@ -8,8 +8,8 @@
 //! | file | owns |
 //! | --- | --- |
 //! | `keys` | a child's bound with its number in the low bits |
-//! | `frame` | [`KeyPoint`], a point prepared for the test; [`NodeFrame`], the point in a node's frame |
-//! | `grid_line` | [`GridLine`], a segment's line in integers: the first test of a leaf without floating point |
+//! | `frame` | [`KeyPoint`], a prepared point; [`NodeFrame`], the point in a node's frame |
+//! | `grid_line` | [`GridLine`], a segment's line in integers, for targets without an FPU |
 //! | `box_distances` | a point against eight boxes |
 //! | `box_entries` | [`Slabs`], a segment prepared for the test; a segment against eight boxes |
 
