@@ -8,7 +8,7 @@
 //! Keys never fall from parent to child. So the leaves that can change an answer are the same in
 //! every order of visits.
 
-use super::node::{CHILD_MASK, WIDE, least_key};
+use super::node::{CHILD_MASK, NO_CHILD, least_key};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::fan::WIDTH;
 use crate::num::lesser;
@@ -25,7 +25,7 @@ pub(crate) trait NodeQuery {
     /// Keys of the children of a node: lower bounds, not below its bound, with the number of the
     /// child in the low bits. Children beyond the limit may have any greater key. `None` says that
     /// the tree is unchecked.
-    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]>;
+    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode, keys: &mut [u32; WIDTH]) -> Option<()>;
 }
 
 /// A node whose children get keys.
@@ -95,27 +95,29 @@ struct Stack<'a> {
 }
 
 impl Stack<'_> {
-    /// Pushes the children of `node` within the limit, except the nearest.
+    /// Pushes the children of `node` within the limit, except the nearest. The nearest one's key.
     #[inline(always)]
-    fn push_children(
-        &mut self,
-        node: u32,
-        keys: &[u32; WIDTH],
-        count: u32,
-        nearest: u32,
-        limit: u32,
-    ) {
+    fn push_children(&mut self, node: u32, keys: &[u32; WIDTH], count: u32, limit: u32) -> u32 {
+        let nearest = least_key(keys);
         let free = self.entries.get_mut(self.used..);
-        if WIDE && let Some(slots) = free.and_then(|free| free.first_chunk_mut::<WIDTH>()) {
-            let mut pushed = 0usize;
-            for &key in keys {
-                // Without a branch: an unwanted entry is overwritten by the next one.
-                slots[pushed & (WIDTH - 1)] = ScratchEntry::of_words([key, node]);
-                pushed += usize::from((key <= limit) & (key != nearest));
-            }
-            self.used += pushed;
-            return;
+        let Some(slots) = free.and_then(|free| free.first_chunk_mut::<WIDTH>()) else {
+            self.push_few(node, keys, count, [nearest, limit]);
+            return nearest;
+        };
+        let mut pushed = 0usize;
+        for &key in keys {
+            // Without a branch: an unwanted entry is overwritten by the next one.
+            slots[pushed & (WIDTH - 1)] = ScratchEntry::of_words([key, node]);
+            pushed += usize::from((key <= limit) & (key != nearest));
         }
+        self.used += pushed;
+        nearest
+    }
+
+    /// The same, where not all children may fit.
+    #[cold]
+    #[inline(never)]
+    fn push_few(&mut self, node: u32, keys: &[u32; WIDTH], count: u32, [nearest, limit]: [u32; 2]) {
         for &key in keys.iter().take(count as usize) {
             if key <= limit && key != nearest {
                 match self.entries.get_mut(self.used) {
@@ -173,15 +175,13 @@ fn walk(
         }
         let links = tree.links(node)?;
         let opened = OpenedNode { node, count: links.count, bound, limit: visitor.limit() };
-        let keys = query.keys(tree, &opened)?;
+        let mut keys = [NO_CHILD; WIDTH];
+        query.keys(tree, &opened, &mut keys)?;
         work.splits += 1;
         work.nodes += links.count;
-        let nearest = least_key(&keys);
         let limit = visitor.limit();
+        let nearest = stack.push_children(node, &keys, links.count, limit);
         let mut is_wanted = nearest <= limit;
-        if is_wanted {
-            stack.push_children(node, &keys, links.count, nearest, limit);
-        }
         // The nearest child's links are read already. An entry from the stack has to read its
         // parent's links again.
         let mut child = links.child(nearest & CHILD_MASK);

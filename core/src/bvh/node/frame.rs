@@ -50,6 +50,18 @@ impl KeyPoint {
         KeyPoint { at: [whole(p.x), whole(p.y), whole(p.z)], unit }
     }
 
+    /// The point less the origin of a node's frame, with two bits below the unit.
+    #[inline(always)]
+    pub fn from_origin(&self, record: &[u8; FRAME_BYTES]) -> [i32; 3] {
+        let (origin, _) = record[boxes::FRAME_ORIGIN..].as_chunks::<2>();
+        let mut away = self.at;
+        for (x, &origin) in away.iter_mut().zip(origin) {
+            let origin = u32::from(u16::from_le_bytes(origin)) << FRACTION_BITS;
+            *x = x.wrapping_sub((origin >> (self.unit & 31)).cast_signed());
+        }
+        away
+    }
+
     /// Exponent of a key unit.
     #[inline(always)]
     pub fn unit(&self) -> u32 {
@@ -76,48 +88,50 @@ impl NodeFrame {
     #[inline(always)]
     pub fn of(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> NodeFrame {
         let mut frame = NodeFrame { from: [[0; 2]; 3], shift: [1; 3] };
-        let (halves, _) = record.as_chunks::<2>();
-        let Some(numbers) =
-            halves.get(boxes::FRAME_ROWS / 2..).and_then(|halves| halves.first_chunk::<12>())
-        else {
-            return frame;
-        };
-        let [a, b, c, d, e, f, g, h, i, ox, oy, oz] = *numbers;
-        let row = |x: [u8; 2]| i32::from(i16::from_le_bytes(x));
-        let way = |at: i32, origin: [u8; 2]| {
-            let origin = i32::from(u16::from_le_bytes(origin)) << FRACTION_BITS;
-            at.wrapping_sub(origin >> (p.unit & 31))
-        };
-        let [x, y, z] = [way(p.at[0], ox), way(p.at[1], oy), way(p.at[2], oz)];
-        let along = |[a, b, c]: [[u8; 2]; 3]| {
-            let terms = [row(a).wrapping_mul(x), row(b).wrapping_mul(y), row(c).wrapping_mul(z)];
-            terms[0].wrapping_add(terms[1]).wrapping_add(terms[2])
-        };
-        let exponents: [u8; 3] =
-            match record.get(boxes::FRAME_EXPONENTS..).and_then(|b| b.first_chunk()) {
-                Some(&exponents) => exponents,
-                None => return frame,
-            };
-        let rows = [along([a, b, c]), along([d, e, f]), along([g, h, i])];
-        for (index, (at, exponent)) in rows.into_iter().zip(exponents).enumerate() {
-            let exponent = u32::from(exponent);
-            let Axis { step, shift, fine } = if p.unit <= MOST_NEAR_UNIT {
-                Axis::near(exponent, p.unit)
-            } else {
-                Axis::far(exponent, p.unit)
-            };
-            // Byte 128 lies at the origin, and 127 steps from it lies byte 255.
-            let half = step.wrapping_shl(7);
-            let least = (0xFF00 >> shift) - MOST;
-            let inward = |x: i32| {
-                let units = (x.wrapping_add(UP) >> PRODUCT_BITS).wrapping_add(fine);
-                greater(least, units)
-            };
-            frame.from[index] =
-                [inward(half.wrapping_add(at)), inward(half.wrapping_sub(step).wrapping_sub(at))];
-            frame.shift[index] = shift;
+        let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
+        let (rows, _) = entries.as_chunks::<3>();
+        let from_origin = p.from_origin(record);
+        let exponents = &record[boxes::FRAME_EXPONENTS..];
+        for (index, (row, exponent)) in rows.iter().zip(exponents).take(3).enumerate() {
+            let axis = AxisPlace::of(row, from_origin, *exponent, p.unit);
+            (frame.from[index], frame.shift[index]) = (axis.from, axis.shift);
         }
         frame
+    }
+}
+
+/// A query point along one axis of a node's frame: an entry of [`NodeFrame`].
+#[derive(Clone, Copy, Debug)]
+pub struct AxisPlace {
+    /// See [`NodeFrame::from`].
+    pub from: [i32; 2],
+    /// See [`NodeFrame::shift`].
+    pub shift: u32,
+}
+
+impl AxisPlace {
+    /// `row` of the matrix, and the point less the frame's origin.
+    #[inline(always)]
+    pub fn of([a, b, c]: &[[u8; 2]; 3], [x, y, z]: [i32; 3], exponent: u8, unit: u32) -> AxisPlace {
+        let term = |pair: &[u8; 2], x: i32| i32::from(i16::from_le_bytes(*pair)).wrapping_mul(x);
+        let at = term(a, x).wrapping_add(term(b, y)).wrapping_add(term(c, z));
+        let exponent = u32::from(exponent);
+        let Axis { step, shift, fine } = if unit <= MOST_NEAR_UNIT {
+            Axis::near(exponent, unit)
+        } else {
+            Axis::far(exponent, unit)
+        };
+        let shift = shift & 15;
+        // Byte 128 lies at the origin, and 127 steps from it lies byte 255.
+        let half = step.wrapping_shl(7);
+        let least = (0xFF00 >> shift) - MOST;
+        let inward = |x: i32| {
+            let units = (x.wrapping_add(UP) >> PRODUCT_BITS).wrapping_add(fine);
+            greater(least, units)
+        };
+        let from =
+            [inward(half.wrapping_add(at)), inward(half.wrapping_sub(step).wrapping_sub(at))];
+        AxisPlace { from, shift }
     }
 }
 
@@ -126,7 +140,7 @@ impl NodeFrame {
 const MOST_NEAR_UNIT: u32 = 7;
 
 /// The step of an axis.
-struct Axis {
+pub struct Axis {
     /// In units of the products of matrix and coordinates.
     step: i32,
     /// See [`NodeFrame::shift`].
@@ -149,7 +163,7 @@ impl Axis {
     #[inline(never)]
     fn far(exponent: u32, unit: u32) -> Axis {
         let shift = (8 + unit).saturating_sub(exponent);
-        let (shift, fine) = if shift > 15 { (15, 1) } else { (shift, 0) };
+        let (shift, fine) = if shift > 15 { (15, 1) } else { (shift & 15, 0) };
         let bits = (exponent + PRODUCT_BITS).wrapping_sub(unit);
         Axis { step: if bits < 31 { 1 << bits } else { 0 }, shift, fine }
     }

@@ -11,6 +11,7 @@
 //! | `frame` | [`KeyPoint`], a prepared point; [`NodeFrame`], the point in a node's frame |
 //! | `grid_line` | [`GridLine`], a segment's line in integers, for targets without an FPU |
 //! | `box_distances` | a point against eight boxes |
+//! | `pairs` | the same on processors without vectors, two children in a word |
 //! | `box_entries` | [`Slabs`], a segment prepared for the test; a segment against eight boxes |
 
 mod box_distances;
@@ -18,6 +19,8 @@ mod box_entries;
 mod frame;
 mod grid_line;
 mod keys;
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+mod pairs;
 #[cfg(test)]
 mod tests;
 
