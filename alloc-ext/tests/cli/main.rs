@@ -7,6 +7,7 @@ mod curve;
 mod deform;
 mod distances;
 mod errors;
+mod hausdorff;
 mod hull;
 mod overlap;
 mod queries;

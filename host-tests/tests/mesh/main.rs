@@ -2,4 +2,5 @@
 
 mod fixtures;
 mod generators;
+mod hausdorff;
 mod hostile;

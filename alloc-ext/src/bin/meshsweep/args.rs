@@ -4,6 +4,7 @@
 mod asking;
 mod bounding;
 mod building;
+mod comparing;
 mod explained;
 mod given;
 mod refining;
@@ -15,6 +16,7 @@ pub use asking::{
 };
 pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
 pub use building::{BuildArgs, CutArgs, FACES, HullServes, InfoArgs, StoredBits};
+pub use comparing::HausdorffArgs;
 pub use given::{Given, files, names};
 pub use refining::RefineArgs;
 pub use values::Margin;
@@ -83,6 +85,9 @@ pub enum Command {
         mut_arg("queue", |queue| queue.help(explained::PAIRS))
     )]
     Overlap(OverlapArgs),
+    /// Hausdorff distance of two meshes: how far the farthest point of each is from the other
+    #[command(after_help = explained::HAUSDORFF)]
+    Hausdorff(HausdorffArgs),
     /// Triangles that may face a viewpoint, as CSV; all others certainly do not
     #[command(after_help = explained::CULL)]
     Cull(CullArgs),

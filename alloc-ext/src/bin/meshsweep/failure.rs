@@ -1,5 +1,6 @@
 //! What can go wrong. Each variant is one line that names the file, the place and the remedy.
 
+use crate::number::Typed;
 use crate::unmet::Unmet;
 use meshsweep::BuildError;
 use meshsweep::counted::Counted;
@@ -39,6 +40,8 @@ pub enum Failure {
     Curve { file: PathBuf, error: CurveError },
     /// No hull is as tight as asked for.
     Unmet { file: PathBuf, unmet: Unmet },
+    /// Two meshes are farther from each other than asked for.
+    Apart { first: PathBuf, second: PathBuf, most: f64, lower: f64, upper: f64 },
     /// The blob is refused.
     Open { file: PathBuf, error: OpenError },
     /// The blob was built without the structure that the question needs. `other` names an engine
@@ -209,6 +212,13 @@ impl fmt::Display for Failure {
             Failure::Unmet { file, unmet } => {
                 write!(f, "{}: {unmet}; nothing is written", file.display())
             }
+            Failure::Apart { first, second, most, lower, upper } => write!(
+                f,
+                "{} and {}: the distance is from {lower} to {upper}, and at most {} was asked for",
+                first.display(),
+                second.display(),
+                Typed(*most)
+            ),
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::NoHulls { file } => write!(
                 f,

@@ -35,6 +35,7 @@ mod demo;
 mod describe;
 mod failure;
 mod field;
+mod hausdorff;
 mod hull;
 mod hull_report;
 mod info;
@@ -74,6 +75,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Nearest(args)) => nearest::run(&args),
         Some(Command::Signed(args)) => signed::run(&args),
         Some(Command::Overlap(args)) => overlap::run(&args),
+        Some(Command::Hausdorff(args)) => hausdorff::run(&args),
         Some(Command::Cull(args)) => cull::run(&args),
         Some(Command::Field(args)) => field::run(&args),
         Some(Command::Segment(args)) => segment::run(&args),

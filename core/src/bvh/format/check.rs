@@ -11,6 +11,7 @@ use super::view::Bvh;
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
 use crate::geom::fan::WIDTH;
+use crate::num::greater;
 use crate::num::tolerance::{MOST_SURFACE_ERROR, U32};
 
 /// Nodes on the longest path from the root: eight-fold branching needs fewer than ten, degenerate
@@ -269,8 +270,21 @@ impl<'a> Bvh<'a> {
     }
 
     fn check_leaf(&self, leaf: &FanLeaf<'_>, index: u32) -> Result<(), OpenError> {
+        let sound = if leaf.is_f32() {
+            self.is_sound(leaf)
+        } else {
+            self.is_sound_on_grid(leaf) == Some(true)
+        };
+        if sound {
+            Ok(())
+        } else {
+            Err(OpenError::Record { section: SectionKind::TreeFans, index })
+        }
+    }
+
+    /// All vertices lie in the model's box, and no triangle is larger than the header says.
+    fn is_sound(&self, leaf: &FanLeaf<'_>) -> bool {
         let h = &self.header;
-        let bad = OpenError::Record { section: SectionKind::TreeFans, index };
         let inside = |p: glam::Vec3| {
             (0..3).all(|axis| {
                 let (x, o) = (p.to_array()[axis], h.grid_origin[axis]);
@@ -280,17 +294,45 @@ impl<'a> Bvh<'a> {
             })
         };
         let shape = leaf.shape();
-        let sound = (0..shape.centres()).all(|which| inside(leaf.centre(which)))
+        (0..shape.centres()).all(|which| inside(leaf.centre(which)))
             && (0..=shape.triangles()).all(|i| inside(leaf.ring(i)))
             && (0..shape.triangles()).all(|i| {
                 let which = usize::from(i >= shape.turn());
                 let norm = |v: glam::Vec3| v.x.abs() + v.y.abs() + v.z.abs();
-                // Exact on the grid. With f32 vertices it is off by a few roundings, for which the
-                // bounds with `star_radius` have room.
+                // Off by a few roundings, for which the bounds with `star_radius` have room.
                 norm(leaf.spoke(i, which)) + norm(leaf.spoke(i + 1, which))
                     <= h.star_radius * (1.0 + 8.0 * U32)
-            });
-        if sound { Ok(()) } else { Err(bad) }
+            })
+    }
+
+    /// The same in integers: exact, and cheap without floating point.
+    fn is_sound_on_grid(&self, leaf: &FanLeaf<'_>) -> Option<bool> {
+        let (h, ring, shape) = (&self.header, leaf.grid_ring()?, leaf.shape());
+        let (low, high) = (h.low.map(i32::from), h.high.map(i32::from));
+        let inside = |[x, y, z]: [i32; 3]| {
+            let within = |x: i32, axis: usize| low[axis] <= x && x <= high[axis];
+            within(x, 0) & within(y, 1) & within(z, 2)
+        };
+        let norm = |[x, y, z]: [i32; 3], [cx, cy, cz]: [i32; 3]| {
+            (x - cx).abs() + (y - cy).abs() + (z - cz).abs()
+        };
+        let mut sound = inside(ring.centres[0]) & inside(ring.centres[1]);
+        let mut largest = 0;
+        let (mut centre, mut before) = (ring.centres[0], 0);
+        for (i, ((x, y), z)) in ring.x.iter().zip(ring.y).zip(ring.z).enumerate() {
+            let vertex = [x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair)));
+            sound &= inside(vertex);
+            let here = norm(vertex, centre);
+            if i > 0 {
+                largest = greater(largest, before + here);
+            }
+            before = here;
+            if i == shape.turn() {
+                centre = ring.centres[1];
+                before = norm(vertex, centre);
+            }
+        }
+        Some(sound && largest as f32 <= h.star_radius * (1.0 + 8.0 * U32))
     }
 
     fn check_source(&self) -> Result<(), OpenError> {

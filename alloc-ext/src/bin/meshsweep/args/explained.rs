@@ -3,6 +3,13 @@
 pub const EXIT_STATUS: &str = "Exit status: 0 done, 1 a file or its content is not usable or no \
     hull is as tight as asked for, 2 wrong usage.";
 
+pub const HAUSDORFF: &str = "lower and upper enclose the exact distance of the meshes as they were \
+    read, open or closed, in any number of parts. a and b are points of the first and of the second \
+    mesh at the distance lower: one of them is the farthest that was found, the other its closest \
+    point. Triangles are counted from 0 in their file; a polygon counts as the triangles about its \
+    first corner.\n\n\
+    Triangles without area count like all others.";
+
 /// `--queue` of the commands with `--engine`.
 pub const QUEUE: &str = "Scratch entries to search with [default: what the blob needs; on the \
     hull hierarchy 4096 more]";

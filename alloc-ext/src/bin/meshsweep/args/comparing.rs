@@ -1,0 +1,28 @@
+//! Arguments of the command that compares two meshes.
+
+use super::values::length;
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct HausdorffArgs {
+    /// Mesh file
+    pub first: PathBuf,
+    /// Mesh file to compare it with
+    pub second: PathBuf,
+    /// Only how far the first mesh is from the second
+    #[arg(long)]
+    pub one_sided: bool,
+    /// Stop when upper ≤ lower · (1 + REL)
+    #[arg(long, value_name = "REL", value_parser = length, default_value = "1e-4")]
+    pub rel: f64,
+    /// Stop when upper − lower ≤ ABS, in the meshes' unit
+    #[arg(long, value_name = "ABS", value_parser = length, default_value = "0")]
+    pub abs: f64,
+    /// Only decide whether the distance is at most this; exit status 1 if it is more
+    #[arg(long, value_name = "DISTANCE", value_parser = length, conflicts_with_all = ["rel", "abs"])]
+    pub at_most: Option<f64>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}

@@ -1,0 +1,88 @@
+//! `meshsweep hausdorff`: how far two meshes are from each other.
+
+use crate::args::HausdorffArgs;
+use crate::failure::Failure;
+use crate::mesh_file;
+use crate::output::Output;
+use crate::progress::Bar;
+use meshsweep::hausdorff::{Attained, Direction, Hausdorff, Precision, hausdorff};
+use meshsweep::mesh::Mesh;
+use serde_json::{Value, json};
+use std::io::{self, Write};
+
+pub fn run(args: &HausdorffArgs) -> Result<(), Failure> {
+    let [first, second] = [mesh_file::load(&args.first)?, mesh_file::load(&args.second)?];
+    for (file, mesh) in [(&args.first, &first.mesh), (&args.second, &second.mesh)] {
+        if is_empty(mesh) {
+            return Err(Failure::build(file, meshsweep::BuildError::Empty));
+        }
+    }
+    let direction = if args.one_sided { Direction::Forward } else { Direction::Both };
+    let precision = Precision { relative: args.rel, absolute: args.abs, at_most: args.at_most };
+    let bar = Bar::new(DIGITS, "comparing", "digits");
+    let progress = |lower: f64, upper: f64| bar.show(digits(lower, upper));
+    let found = hausdorff(&first.mesh, &second.mesh, direction, &precision, progress)
+        .map_err(|error| Failure::build(&args.first, error))?;
+    drop(bar);
+    Output::stdout().finish(|out| {
+        if args.json {
+            serde_json::to_writer_pretty(&mut *out, &as_json(&found))?;
+            writeln!(out)
+        } else {
+            write(args, &found, out)
+        }
+    })?;
+    match args.at_most {
+        Some(most) if found.upper > most => {
+            let [first, second] = [args.first.clone(), args.second.clone()];
+            Err(Failure::Apart { first, second, most, lower: found.lower, upper: found.upper })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn is_empty(mesh: &Mesh) -> bool {
+    mesh.all_triangles().next().is_none()
+}
+
+/// Length of the bar.
+const DIGITS: usize = 12;
+
+/// Decimal digits in which both bounds agree.
+fn digits(lower: f64, upper: f64) -> usize {
+    let part = (upper - lower) / upper;
+    if part > 0.0 { (-part.log10()).clamp(0.0, DIGITS as f64) as usize } else { DIGITS }
+}
+
+/// The points and triangles of the first and of the second mesh.
+fn ends(at: &Attained) -> [([f64; 3], u32); 2] {
+    let (from, to) = ((at.from, at.from_triangle), (at.to, at.to_triangle));
+    if at.is_backward { [to, from] } else { [from, to] }
+}
+
+fn as_json(found: &Hausdorff) -> Value {
+    let Hausdorff { lower, upper, attained, pieces } = found;
+    let [a, b] = attained.as_ref().map_or([None; 2], |at| ends(at).map(Some));
+    let point = |end: Option<([f64; 3], u32)>| end.map(|(point, _)| point);
+    let triangle = |end: Option<([f64; 3], u32)>| end.map(|(_, triangle)| triangle);
+    json!({
+        "lower": lower,
+        "upper": upper,
+        "a": point(a),
+        "b": point(b),
+        "a_triangle": triangle(a),
+        "b_triangle": triangle(b),
+        "pieces": pieces,
+    })
+}
+
+fn write(args: &HausdorffArgs, found: &Hausdorff, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "distance  {} to {}", found.lower, found.upper)?;
+    let Some(at) = &found.attained else { return Ok(()) };
+    let names = [&args.first, &args.second];
+    for (([x, y, z], triangle), name) in ends(at).into_iter().zip(names) {
+        writeln!(out, "  {x},{y},{z}  in triangle {triangle} of {}", name.display())?;
+    }
+    let farthest = names[usize::from(at.is_backward)].display();
+    writeln!(out, "  the farthest point is on {farthest}")
+}

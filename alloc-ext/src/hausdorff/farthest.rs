@@ -1,0 +1,245 @@
+//! Bounds of the distance of the farthest point of some triangles, within a few percent. The
+//! builders use them.
+
+use super::cuts::{DEEPEST, MIDPOINTS, ball, bisect, cut};
+use crate::mesh::Mesh;
+use arrayvec::ArrayVec;
+use glam::{DVec3, Vec3};
+use meshsweep_core::internal::geom::point_triangle;
+use meshsweep_core::{Budget, Bvh, Interval, ScratchEntry};
+use std::collections::BinaryHeap;
+
+/// The bound may exceed the true distance by this factor.
+const SLACK: f64 = 1.05;
+
+/// Most cuts of a search. They suffice where each triangle of a mesh cuts a close hull a few times.
+/// The pieces that are left keep their bounds.
+const BUDGET: usize = 200_000;
+
+struct Piece {
+    bound: f64,
+    corners: [DVec3; 3],
+    /// Cuts behind it.
+    depth: u32,
+    /// The surface triangle along whose edge it is cut; it is halved if there is none.
+    along: Option<[DVec3; 3]>,
+}
+
+/// Ratio of a piece's size and its distance from the surface above which it is not halved: that
+/// would take too many steps.
+const WIDE: f64 = 4.0;
+
+impl Piece {
+    /// Raises `found` to the distance of its centre.
+    fn new(
+        corners: [DVec3; 3],
+        depth: u32,
+        found: &mut f64,
+        nearest: &mut impl FnMut(DVec3) -> Option<Nearest>,
+    ) -> Self {
+        let (centre, reach) = ball(&corners);
+        let Some(near) = nearest(centre) else {
+            return Self { bound: f64::INFINITY, corners, depth, along: None };
+        };
+        *found = found.max(near.lower);
+        let lipschitz = near.upper + reach;
+        let convex = near.triangle.map_or(f64::INFINITY, |[p, q, r]| {
+            corners.iter().map(|&v| point_triangle(v, p, q, r).upper).fold(0.0, f64::max)
+        });
+        let along = near.triangle.filter(|_| reach > WIDE * near.upper);
+        let bound = lipschitz.min(convex) * (1.0 + 1e-12);
+        // NaN is no bound.
+        let bound = if bound.is_nan() || reach.is_nan() { f64::INFINITY } else { bound };
+        Self { bound, corners, depth, along }
+    }
+
+    fn parts(&self) -> ArrayVec<[DVec3; 3], 3> {
+        match self.along.and_then(|along| cut(self.corners, along)) {
+            Some(parts) => ArrayVec::from(parts),
+            None => bisect(self.corners).into_iter().collect(),
+        }
+    }
+}
+
+impl Ord for Piece {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.bound.total_cmp(&other.bound)
+    }
+}
+impl PartialOrd for Piece {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl PartialEq for Piece {
+    fn eq(&self, other: &Self) -> bool {
+        self.bound.total_cmp(&other.bound).is_eq()
+    }
+}
+impl Eq for Piece {}
+
+/// Where a point's nearest surface is.
+pub struct Nearest {
+    /// Lower bound of the distance.
+    pub lower: f64,
+    /// Upper bound of the distance.
+    pub upper: f64,
+    /// Corners of the nearest triangle of the surface, or of one that is almost as near.
+    pub triangle: Option<[DVec3; 3]>,
+}
+
+impl Nearest {
+    /// By a query in `f32`, which gives an interval of the distance and a triangle. One unit of the
+    /// point's frame has `scale` units of the query's.
+    fn of_query(
+        point: DVec3,
+        scale: f64,
+        query: impl FnOnce([f32; 3]) -> Option<(Interval, Option<[DVec3; 3]>)>,
+    ) -> Option<Self> {
+        let asked = (point * scale).as_vec3();
+        // The query's point is rounded to f32. The distance to it is part of the bounds.
+        let offset = (asked.as_dvec3() / scale - point).length();
+        let (distance, triangle) = query(asked.to_array())?;
+        Some(Self {
+            lower: f64::from(distance.lower) / scale - offset,
+            upper: f64::from(distance.upper) / scale + offset,
+            triangle,
+        })
+    }
+}
+
+/// Bounds of the largest distance.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Farthest {
+    /// Lower bound: the distance of some point.
+    pub lower: f64,
+    /// Upper bound; infinite if a query failed.
+    pub upper: f64,
+}
+
+/// Bounds of the largest distance from a point of `triangles` to the surface of `nearest`. `upper`
+/// exceeds `lower` by at most a twentieth, unless `upper` is at most `enough` or 200,000 cuts do
+/// not suffice.
+///
+/// Cost: one query for each triangle, and some dozens more for the farthest.
+pub fn farthest(
+    triangles: impl Iterator<Item = [DVec3; 3]>,
+    enough: f64,
+    mut nearest: impl FnMut(DVec3) -> Option<Nearest>,
+) -> Farthest {
+    let mut found = 0f64;
+    let mut heap = BinaryHeap::new();
+    let mut size = 0f64;
+    for corners in triangles {
+        size = corners.iter().fold(size, |size, p| size.max(p.abs().max_element()));
+        heap.push(Piece::new(corners, 0, &mut found, &mut nearest));
+    }
+    let mut budget = BUDGET;
+    while let Some(piece) = heap.pop() {
+        let is_spent = budget == 0 || piece.depth >= DEEPEST;
+        if piece.bound <= (found * SLACK).max(enough) || is_spent || piece.bound == 0.0 {
+            return Farthest { lower: found, upper: piece.bound.max(found) + size * MIDPOINTS };
+        }
+        budget -= 1;
+        for part in piece.parts() {
+            let part = Piece::new(part, piece.depth + 1, &mut found, &mut nearest);
+            heap.push(Piece { bound: part.bound.min(piece.bound), ..part });
+        }
+    }
+    Farthest { lower: found, upper: found }
+}
+
+/// Whether `budget` pieces of a triangle prove that none of its points is farther than `most` from
+/// the surface of `nearest`. `about` gives cheaper, wider bounds of a point's distance, which often
+/// suffice.
+pub fn is_within(
+    triangle: [DVec3; 3],
+    most: f64,
+    budget: usize,
+    mut about: impl FnMut(DVec3) -> [f64; 2],
+    mut nearest: impl FnMut(DVec3) -> Option<Nearest>,
+) -> bool {
+    let size = triangle.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    let most = most - size * MIDPOINTS;
+    let mut found = 0f64;
+    let mut budget = budget.min(DEEPEST as usize);
+    let mut open = vec![triangle];
+    while let Some(corners) = open.pop() {
+        let (centre, reach) = ball(&corners);
+        let [lower, upper] = about(centre);
+        if lower > most || most.is_nan() || budget == 0 {
+            return false;
+        }
+        budget -= 1;
+        if (upper + reach) * (1.0 + 1e-12) <= most {
+            continue;
+        }
+        let piece = Piece::new(corners, 0, &mut found, &mut nearest);
+        if found > most {
+            return false;
+        }
+        if piece.bound > most {
+            open.extend(piece.parts());
+        }
+    }
+    true
+}
+
+/// Where the nearest triangle of a mesh is, by the mesh's [box tree](crate::bvh::exact_blob).
+pub fn nearest_in<'a>(
+    tree: &'a Bvh<'a>,
+    mesh: &'a Mesh,
+) -> impl FnMut(DVec3) -> Option<Nearest> + 'a {
+    let mut scratch = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
+    let all: Vec<[u32; 3]> = mesh.all_triangles().collect();
+    let wide = |v: u32| Vec3::from(mesh.positions[v as usize]).as_dvec3();
+    move |point| {
+        Nearest::of_query(point, 1.0, |p| {
+            let answer = tree.closest_point(p, Budget::EXACT, &mut scratch).ok()?;
+            let corners = answer.triangle.and_then(|number| all.get(number as usize));
+            Some((answer.distance, corners.map(|corners| corners.map(wide))))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SURFACE: [[[f64; 3]; 3]; 3] = [
+        [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]],
+        [[4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]],
+        [[4.0, 0.0, 0.0], [4.0, 0.0, 3.0], [4.0, 4.0, 0.0]],
+    ];
+
+    fn nearest(p: DVec3) -> Option<Nearest> {
+        let of = |t: [[f64; 3]; 3]| {
+            let [a, b, c] = t.map(DVec3::from);
+            (point_triangle(p, a, b, c), [a, b, c])
+        };
+        let (near, triangle) =
+            SURFACE.map(of).into_iter().min_by(|a, b| a.0.upper.total_cmp(&b.0.upper))?;
+        Some(Nearest { lower: near.lower, upper: near.upper, triangle: Some(triangle) })
+    }
+
+    #[test]
+    fn a_triangle_is_within_what_its_farthest_point_is_and_no_less() {
+        let about =
+            |p: DVec3| nearest(p).map_or([0.0, f64::INFINITY], |n| [n.lower - 0.1, n.upper + 0.1]);
+        for i in 0..500u32 {
+            let at = |k: u32| f64::from(i.wrapping_mul(k) % 997) / 997.0 * 6.0 - 1.0;
+            let corners =
+                [[3, 17, 101], [5, 37, 211], [11, 71, 307]].map(|c| DVec3::from(c.map(at)));
+            let far = farthest(std::iter::once(corners), 0.0, nearest);
+            assert!(
+                is_within(corners, far.upper * 1.01, 100_000, about, nearest),
+                "{corners:?} {far:?}"
+            );
+            assert!(
+                !is_within(corners, far.lower * 0.99, 100_000, about, nearest),
+                "{corners:?} {far:?}"
+            );
+            assert!(!is_within(corners, far.upper * 1.01, 0, about, nearest));
+        }
+    }
+}

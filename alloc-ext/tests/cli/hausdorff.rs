@@ -1,0 +1,72 @@
+//! `meshsweep hausdorff` on files.
+
+use crate::support::{arg, fixture, ok, refused, run, scratch};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A square plate at a height, of two triangles.
+fn plate(directory: &Path, name: &str, size: f64, height: f64) -> PathBuf {
+    let corners = [[0.0, 0.0], [size, 0.0], [size, size], [0.0, size]];
+    let vertices = corners.map(|[x, y]| format!("v {x} {y} {height}\n")).concat();
+    let path = directory.join(name);
+    fs::write(&path, vertices + "f 1 2 3\nf 1 3 4\n").expect("the file can be written");
+    path
+}
+
+fn json(arguments: &[&str]) -> serde_json::Value {
+    serde_json::from_str(&ok([&["hausdorff", "--json"], arguments].concat())).expect("it is JSON")
+}
+
+#[test]
+fn bounds_and_points_are_those_of_two_plates() {
+    let directory = scratch("hausdorff");
+    let (small, large) =
+        (plate(&directory, "small.obj", 1.0, 0.0), plate(&directory, "large.obj", 5.0, 3.0));
+    // The large plate's corner is 4 and 4 beyond the small one's, and 3 above it.
+    for (files, distance) in [([&small, &large], 3.0), ([&large, &small], 41f64.sqrt())]
+        .map(|(f, d)| (f.map(|f| arg(f)), d))
+    {
+        let found = json(&[&files[..], &["--one-sided", "--rel", "1e-9"]].concat());
+        let [lower, upper] = ["lower", "upper"].map(|key| found[key].as_f64().expect("a number"));
+        assert!(lower <= distance && distance <= upper && upper - lower < 1e-8, "{found}");
+        let end = |key: &str| -> Vec<f64> {
+            serde_json::from_value(found[key].clone()).expect("three numbers")
+        };
+        let way: f64 = end("a").iter().zip(end("b")).map(|(a, b)| (a - b).powi(2)).sum();
+        assert!((way.sqrt() - distance).abs() < 1e-8, "{found}");
+    }
+    let both = json(&[arg(&small), arg(&large)]);
+    assert!((both["lower"].as_f64().unwrap() - 41f64.sqrt()).abs() < 1e-3, "{both}");
+    let z = |key: &str| both[key][2].as_f64().unwrap();
+    assert_eq!((z("a"), z("b")), (0.0, 3.0), "a is on the first mesh: {both}");
+}
+
+#[test]
+fn a_limit_is_the_exit_status() {
+    let directory = scratch("hausdorff_gate");
+    let (low, high) =
+        (plate(&directory, "low.obj", 1.0, 0.0), plate(&directory, "high.obj", 1.0, 0.25));
+    let ask = |most: &str| run(["hausdorff", arg(&low), arg(&high), "--at-most", most]);
+    assert!(ask("0.26").status.success());
+    let line = refused(&ask("0.24"), 1, "low.obj");
+    assert!(line.contains("0.25") && line.contains("0.24"), "{line}");
+}
+
+#[test]
+fn a_mesh_is_as_far_from_itself_as_rounding() {
+    let torus = fixture("torus.ply");
+    let found = json(&[arg(&torus), arg(&torus)]);
+    assert_eq!(found["lower"].as_f64(), Some(0.0));
+    assert!(found["upper"].as_f64().unwrap() < 1e-9, "{found}");
+    assert!(found["a"].is_null(), "{found}");
+}
+
+#[test]
+fn text_names_both_files() {
+    let directory = scratch("hausdorff_text");
+    let (low, high) =
+        (plate(&directory, "low.obj", 1.0, 0.0), plate(&directory, "high.obj", 1.0, 0.25));
+    let text = ok(["hausdorff", arg(&low), arg(&high)]);
+    assert!(text.starts_with("distance  0.2"), "{text}");
+    assert!(text.contains("low.obj") && text.contains("high.obj"), "{text}");
+}
