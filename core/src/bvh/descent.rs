@@ -8,7 +8,9 @@
 //! Keys never fall from parent to child. So the leaves that can change an answer are the same in
 //! every order of visits.
 
-use super::node::{CHILD_MASK, WIDE, least_key};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::node::places_of_wanted;
+use super::node::{CHILD_MASK, least_key};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::fan::WIDTH;
 use crate::num::lesser;
@@ -105,15 +107,17 @@ impl Stack<'_> {
         nearest: u32,
         limit: u32,
     ) {
-        let free = self.entries.get_mut(self.used..);
-        if WIDE && let Some(slots) = free.and_then(|free| free.first_chunk_mut::<WIDTH>()) {
-            let mut pushed = 0usize;
-            for &key in keys {
-                // Without a branch: an unwanted entry is overwritten by the next one.
-                slots[pushed & (WIDTH - 1)] = ScratchEntry::of_words([key, node]);
-                pushed += usize::from((key <= limit) & (key != nearest));
+        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        if let Some(free) = self.entries.get_mut(self.used..)
+            && let Some(slots) = free.first_chunk_mut::<WIDTH>()
+        {
+            let (places, wanted) = places_of_wanted(keys, nearest, limit);
+            // Without a branch: an unwanted entry is overwritten by the next one.
+            for (child, &key) in keys.iter().enumerate() {
+                let place = (places >> (8 * child)) as usize & (WIDTH - 1);
+                slots[place] = ScratchEntry::of_words([key, node]);
             }
-            self.used += pushed;
+            self.used += wanted;
             return;
         }
         for &key in keys.iter().take(count as usize) {

@@ -1,7 +1,9 @@
 //! A query point in the tree's grid units, and the rounding of its answers.
 
 use super::descent::{NodeQuery, OpenedNode};
-use super::node::{CHILD_MASK, KeyPoint, NO_CHILD, NodeFrame, box_distances};
+use super::node::{CHILD_MASK, KeyPoint, NO_CHILD, box_distances};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use crate::bvh::format::LanePoint;
 use crate::bvh::format::{Bvh, Units};
 use crate::geom::fan::{WIDTH, WholePoint};
 use crate::num::tolerance::{
@@ -25,6 +27,9 @@ pub(crate) const EVERY_KEY: u32 = NO_CHILD - 1;
 pub(crate) struct PointQuery {
     /// Grid units.
     pub(crate) p: Vec3,
+    /// The point for the wide kernel of leaves.
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    pub(crate) lanes: LanePoint,
     pub(crate) units: Units,
     /// Rounding of a computed distance, grid units, in addition to [`FAN_RELATIVE`] roundings of
     /// the distance itself.
@@ -84,6 +89,8 @@ impl PointQuery {
         let whole = if SOFT_FLOAT { WholePoint::new(from_origin.to_array()) } else { None };
         Ok(PointQuery {
             p,
+            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+            lanes: LanePoint::new(p, header.grid_origin),
             units,
             shortfall_sq,
             rounding: fan,
@@ -125,9 +132,7 @@ impl PointQuery {
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn keys_of(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {
         let &OpenedNode { node, count, bound, .. } = opened;
-        let record = tree.frame(node)?;
-        let frame = NodeFrame::of(record, &self.key_point);
-        Some(box_distances(record, &frame, count, bound))
+        Some(box_distances(tree.frame(node)?, &self.key_point, count, bound))
     }
 
     /// A triangle with a smaller squared lower bound is refined as a sliver, if `distance_sq` is

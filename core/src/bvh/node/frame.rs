@@ -1,64 +1,9 @@
-//! The frame that the boxes of a node share, and a query point in it.
-//!
-//! Everything is an integer, so processors without floating point are as fast as others, and the
-//! bounds need no allowance for rounding. Lengths are counted in *key units* of 2^h grid units. The
-//! exponent h is chosen for each query, so that all distances from the point fit 15 bits. A frame's
-//! matrix is a rotation, shrunk so little that no length grows: distances in box coordinates are
-//! lower bounds. Proof: `core/docs/rounding.md` §8, "Boxes".
+//! A query point in the frame that the boxes of a node share, axis by axis, for targets without
+//! vectors. `box_lanes` does the same for all axes at once.
 
-use crate::bvh::format::layout::{FRAME_BYTES, ROW_BITS, boxes};
+use super::key_point::{FRACTION_BITS, KeyPoint, MOST, MOST_CUT, PRODUCT_BITS, UP};
+use crate::bvh::format::layout::{FRAME_BYTES, boxes};
 use crate::num::greater;
-use glam::Vec3;
-
-/// Least exponent of a key unit. With it the boxes of a whole model span 15 bits.
-pub const LEAST_UNIT: u32 = 2;
-
-/// Greatest exponent of a key unit. Points so far away that they would need more get the distance
-/// of the model's box.
-const MOST_UNIT: u32 = 26;
-
-/// Bits of a coordinate below a key unit.
-const FRACTION_BITS: u32 = 2;
-
-/// Bits by which a product of matrix and coordinates is finer than a key unit.
-const PRODUCT_BITS: u32 = ROW_BITS + FRACTION_BITS;
-
-/// Added before a product is cut to key units. It rounds up, and makes up for the rounding of the
-/// coordinates: less than √3 · 2^ROW_BITS together, proved 14,420 (`core/docs/rounding.md` §8).
-const UP: i32 = (1 << PRODUCT_BITS) - 1 + 14_592;
-
-/// A query point in key units.
-#[derive(Clone, Copy, Debug)]
-pub struct KeyPoint {
-    /// From the grid's origin, with two bits below the unit, rounded down.
-    at: [i32; 3],
-    /// A key unit is 2^this grid units.
-    unit: u32,
-}
-
-impl KeyPoint {
-    /// `p` less the grid's origin. No point of the model is farther from it than `farthest` along
-    /// any axis; both in grid units, `farthest` below 2^40.
-    #[inline(always)]
-    pub fn new(p: Vec3, farthest: f32) -> KeyPoint {
-        // The least exponent for which `farthest` is below 2^(14 + exponent).
-        let exponent = (farthest.to_bits() >> 23).saturating_sub(127 + 13);
-        let unit = exponent.clamp(LEAST_UNIT, MOST_UNIT);
-        let scale = f32::from_bits((127 + FRACTION_BITS - unit) << 23);
-        // A positive number, so that the conversion rounds down.
-        let whole = |x: f32| ((x * scale + ABOVE as f32) as i32).wrapping_sub(ABOVE);
-        KeyPoint { at: [whole(p.x), whole(p.y), whole(p.z)], unit }
-    }
-
-    /// Exponent of a key unit.
-    #[inline(always)]
-    pub fn unit(&self) -> u32 {
-        self.unit
-    }
-}
-
-/// Above the magnitude of every coordinate of a [`KeyPoint`].
-const ABOVE: i32 = 1 << 17;
 
 /// A query point in the frame of one node, by axis, in key units.
 #[derive(Clone, Copy, Debug)]
@@ -149,11 +94,8 @@ impl Axis {
     #[inline(never)]
     fn far(exponent: u32, unit: u32) -> Axis {
         let shift = (8 + unit).saturating_sub(exponent);
-        let (shift, fine) = if shift > 15 { (15, 1) } else { (shift, 0) };
+        let (shift, fine) = if shift > MOST_CUT { (MOST_CUT, 1) } else { (shift, 0) };
         let bits = (exponent + PRODUCT_BITS).wrapping_sub(unit);
         Axis { step: if bits < 31 { 1 << bits } else { 0 }, shift, fine }
     }
 }
-
-/// Largest distance along an axis, key units. Greater ones count as this.
-const MOST: i32 = i16::MAX as i32;

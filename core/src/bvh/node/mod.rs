@@ -8,21 +8,29 @@
 //! | file | owns |
 //! | --- | --- |
 //! | `keys` | a child's bound with its number in the low bits |
-//! | `frame` | [`KeyPoint`], a prepared point; [`NodeFrame`], the point in a node's frame |
+//! | `key_point` | [`KeyPoint`], a prepared point |
+//! | `frame` | `NodeFrame`, the point in a node's frame, for targets without vectors |
 //! | `grid_line` | [`GridLine`], a segment's line in integers, for targets without an FPU |
 //! | `box_distances` | a point against eight boxes |
+//! | `box_lanes` | the same in vector registers, frame included |
 //! | `box_entries` | [`Slabs`], a segment prepared for the test; a segment against eight boxes |
 
 mod box_distances;
 mod box_entries;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod box_lanes;
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 mod frame;
 mod grid_line;
+mod key_point;
 mod keys;
 #[cfg(test)]
 mod tests;
 
 pub use box_distances::box_distances;
 pub use box_entries::{Slabs, box_entries};
-pub use frame::{KeyPoint, NodeFrame};
 pub use grid_line::GridLine;
+pub use key_point::KeyPoint;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub use keys::places_of_wanted;
 pub use keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory, least_key};

@@ -1,9 +1,10 @@
 //! Both forms of a node's test give the same children the same keys.
 
+use super::box_distances::narrow;
 use super::box_entries::Slabs;
-use super::frame::{KeyPoint, NodeFrame};
+use super::key_point::KeyPoint;
 use super::keys::NO_CHILD;
-use super::{box_distances, box_entries};
+use super::{box_entries, box_lanes};
 use crate::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES};
 use crate::geom::fan::WIDTH;
 use glam::Vec3;
@@ -85,13 +86,12 @@ fn distances_have_the_same_bits() {
         for size in [away, 30_000.0, 1e-3] {
             let p = Vec3::from_array(noise.vector(size)) + Vec3::splat(30_000.0);
             let farthest = (p.abs().max_element() + 65_536.0).max(65_535.0);
-            let frame = NodeFrame::of(&record, &KeyPoint::new(p, farthest));
-            let rows = record.as_chunks::<WIDTH>().0.first_chunk::<6>().expect("long enough");
+            let point = KeyPoint::new(p, farthest);
             for parent in [0, 1 << noise.below(31)] {
-                let wide = box_distances::lanes::keys(rows, &frame, count as u32, parent);
-                let narrow = box_distances::narrow(rows, &frame, count as u32, parent);
+                let wide = box_lanes::keys(&record, &point, count as u32, parent);
+                let narrow = narrow::keys(&record, &point, count as u32, parent);
                 let used = |keys: [u32; WIDTH]| keys.map(|key| key.min(NO_CHILD));
-                assert_eq!(used(wide), used(narrow), "{frame:?}, {count} of {record:?}");
+                assert_eq!(used(wide), used(narrow), "{point:?}, {count} of {record:?}");
             }
         }
     }
@@ -127,9 +127,7 @@ fn no_key_is_above_the_exact_distance_and_few_are_far_below() {
         let p = Vec3::from_array(noise.vector(away)) + Vec3::splat(30_000.0);
         let farthest = p.abs().max_element().max(65_535.0 - p.min_element()).max(65_535.0);
         let point = KeyPoint::new(p, farthest);
-        let frame = NodeFrame::of(&record, &point);
-        let rows = record.as_chunks::<WIDTH>().0.first_chunk::<6>().expect("long enough");
-        for (lane, key) in box_distances::lanes::keys(rows, &frame, 8, 0).into_iter().enumerate() {
+        for (lane, key) in box_lanes::keys(&record, &point, 8, 0).into_iter().enumerate() {
             let exact: [f64; 3] = core::array::from_fn(|axis| {
                 exact_distance(&record, p.to_array().map(f64::from), point.unit(), axis, lane)
             });
