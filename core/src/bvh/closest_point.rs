@@ -1,12 +1,14 @@
 //! The closest point, with an interval of the distance.
 
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
-use super::leaf_distance::{Lanes, LeafLimit, LeafNearest, nearest_triangle, nearest_within};
+use super::leaf_distance::{
+    Lanes, LeafLimit, LeafNearest, lanes_of, nearest_triangle, nearest_within,
+};
 use super::leaf_plane::LeafPlane;
 use super::point_query::{EVERY_KEY, PointQuery};
 use super::triangle_bounds::{nearness, refine_sliver, seen_from};
 use crate::bvh::format::{Bvh, FanLeaf, at_least, at_most};
-use crate::geom::fan::{lower_bound, whole_bounds};
+use crate::geom::fan::lower_bound;
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
 use crate::num::{SOFT_FLOAT, greater, sqrt_approx};
 use crate::query::Interval;
@@ -153,6 +155,7 @@ impl<'a> Closest<'a> {
             beyond: LeafLimit {
                 distance_sq: EVERYTHING_SQ,
                 allowance: query.allowance,
+                low_sq: EVERYTHING_SQ,
                 ..LeafLimit::NONE
             },
             best: Best { distance_sq: f32::MAX, node: u32::MAX, child: 0, lanes: Lanes::NONE },
@@ -192,25 +195,18 @@ impl<'a> Closest<'a> {
         }
         self.best = Best { distance_sq, node: visit.node, child: visit.child, lanes: near.lanes };
         self.refine_below = self.query.refine_below(distance_sq);
+        self.beyond.low_sq = self.refine_below;
         let beyond = self.query.limit(distance_sq);
         if beyond < self.beyond.distance_sq {
             self.beyond.distance_sq = beyond;
         }
-        if SOFT_FLOAT && !visit.leaf.is_f32() {
-            self.beyond.plane = self.plane(near, &visit.leaf).unwrap_or(LeafPlane::NONE);
+        if SOFT_FLOAT && let Some(point) = &self.query.whole {
+            let normal = near.direction();
+            self.beyond.plane = LeafPlane::new(point, normal, self.beyond.distance_sq);
         }
         let limit =
             if self.tolerant { self.tolerant_limit(distance_sq) } else { self.beyond.distance_sq };
         self.limit = self.query.key_limit(limit);
-    }
-
-    /// The plane across the way to the nearest triangle of a leaf.
-    #[inline(never)]
-    fn plane(&self, near: &LeafNearest, leaf: &FanLeaf<'_>) -> Option<LeafPlane> {
-        let point = self.query.whole.as_ref()?;
-        let corners = leaf.grid_ring()?.corners(near.lane().0, leaf.shape().turn())?;
-        let direction = whole_bounds(point, &corners).direction;
-        Some(LeafPlane::new(point, direction, self.beyond.distance_sq))
     }
 
     /// Whether the leaf's triangles have greater numbers than the best one's.
@@ -228,10 +224,10 @@ impl<'a> Closest<'a> {
     /// the distance nor its lower bound. So the result does not depend on the order.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, visit: &LeafVisit<'_>) {
+    fn refine(&mut self, visit: &LeafVisit<'_>, low: u32) {
         let query = self.query;
         let box_sq = square(query.distance_of_key(visit.key));
-        for lane in 0..visit.leaf.shape().triangles() {
+        for lane in lanes_of(low) {
             let seen = seen_from(&visit.leaf, lane, query.p);
             let near = nearness(&seen);
             if near.lower_bound_sq >= self.refine_below {
@@ -248,6 +244,7 @@ impl<'a> Closest<'a> {
                     distance_sq: better.distance_sq,
                     lower_bound_sq: near.lower_bound_sq,
                     lanes,
+                    low,
                 };
                 self.improve(&near, visit);
             }
@@ -329,7 +326,7 @@ impl LeafVisitor for Closest<'_> {
             self.improve(&near, visit);
         }
         if near.lower_bound_sq < self.refine_below {
-            self.refine(visit);
+            self.refine(visit, near.low);
         }
         Some(true)
     }

@@ -10,7 +10,7 @@
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use super::node::places_of_wanted;
-use super::node::{CHILD_MASK, least_key};
+use super::node::{CHILD_MASK, NO_CHILD, WIDE, least_key};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::fan::WIDTH;
 use crate::num::lesser;
@@ -27,7 +27,7 @@ pub(crate) trait NodeQuery {
     /// Keys of the children of a node: lower bounds, not below its bound, with the number of the
     /// child in the low bits. Children beyond the limit may have any greater key. `None` says that
     /// the tree is unchecked.
-    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]>;
+    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode, keys: &mut [u32; WIDTH]) -> Option<()>;
 }
 
 /// A node whose children get keys.
@@ -97,29 +97,26 @@ struct Stack<'a> {
 }
 
 impl Stack<'_> {
-    /// Pushes the children of `node` within the limit, except the nearest.
+    /// Pushes the children of `node` within the limit, except the nearest. The nearest one's key.
     #[inline(always)]
-    fn push_children(
-        &mut self,
-        node: u32,
-        keys: &[u32; WIDTH],
-        count: u32,
-        nearest: u32,
-        limit: u32,
-    ) {
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-        if let Some(free) = self.entries.get_mut(self.used..)
-            && let Some(slots) = free.first_chunk_mut::<WIDTH>()
-        {
-            let (places, wanted) = places_of_wanted(keys, nearest, limit);
-            // Without a branch: an unwanted entry is overwritten by the next one.
-            for (child, &key) in keys.iter().enumerate() {
-                let place = (places >> (8 * child)) as usize & (WIDTH - 1);
-                slots[place] = ScratchEntry::of_words([key, node]);
-            }
-            self.used += wanted;
-            return;
+    fn push_children(&mut self, node: u32, keys: &[u32; WIDTH], count: u32, limit: u32) -> u32 {
+        let nearest = least_key(keys);
+        if WIDE && nearest > limit {
+            return nearest;
         }
+        let free = self.entries.get_mut(self.used..);
+        let Some(slots) = free.and_then(|free| free.first_chunk_mut::<WIDTH>()) else {
+            self.push_few(node, keys, count, [nearest, limit]);
+            return nearest;
+        };
+        self.used += put_wanted(slots, node, keys, [nearest, limit]);
+        nearest
+    }
+
+    /// The same, where not all children may fit.
+    #[cold]
+    #[inline(never)]
+    fn push_few(&mut self, node: u32, keys: &[u32; WIDTH], count: u32, [nearest, limit]: [u32; 2]) {
         for &key in keys.iter().take(count as usize) {
             if key <= limit && key != nearest {
                 match self.entries.get_mut(self.used) {
@@ -139,6 +136,42 @@ impl Stack<'_> {
         let left = self.entries.iter().take(self.used);
         left.fold(self.dropped, |least, entry| least.min(entry.small_word()))
     }
+}
+
+/// Writes the children with keys up to `limit`, except `nearest`, and tells how many they are.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[inline(always)]
+fn put_wanted(
+    slots: &mut [ScratchEntry; WIDTH],
+    node: u32,
+    keys: &[u32; WIDTH],
+    [nearest, limit]: [u32; 2],
+) -> usize {
+    let (places, wanted) = places_of_wanted(keys, nearest, limit);
+    for (child, &key) in keys.iter().enumerate() {
+        // Without a branch: an unwanted entry is overwritten by the next one.
+        let place = (places >> (8 * child)) as usize & (WIDTH - 1);
+        slots[place] = ScratchEntry::of_words([key, node]);
+    }
+    wanted
+}
+
+/// Writes the children with keys up to `limit`, except `nearest`, and tells how many they are.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[inline(always)]
+fn put_wanted(
+    slots: &mut [ScratchEntry; WIDTH],
+    node: u32,
+    keys: &[u32; WIDTH],
+    [nearest, limit]: [u32; 2],
+) -> usize {
+    let mut wanted = 0usize;
+    for &key in keys {
+        // Without a branch: an unwanted entry is overwritten by the next one.
+        slots[wanted & (WIDTH - 1)] = ScratchEntry::of_words([key, node]);
+        wanted += usize::from((key <= limit) & (key != nearest));
+    }
+    wanted
 }
 
 /// Visits every leaf within the visitor's limit. Opens nodes until `work` counts `steps` of them,
@@ -177,15 +210,13 @@ fn walk(
         }
         let links = tree.links(node)?;
         let opened = OpenedNode { node, count: links.count, bound, limit: visitor.limit() };
-        let keys = query.keys(tree, &opened)?;
+        let mut keys = [NO_CHILD; WIDTH];
+        query.keys(tree, &opened, &mut keys)?;
         work.splits += 1;
         work.nodes += links.count;
-        let nearest = least_key(&keys);
         let limit = visitor.limit();
+        let nearest = stack.push_children(node, &keys, links.count, limit);
         let mut is_wanted = nearest <= limit;
-        if is_wanted {
-            stack.push_children(node, &keys, links.count, nearest, limit);
-        }
         // The nearest child's links are read already. An entry from the stack has to read its
         // parent's links again.
         let mut child = links.child(nearest & CHILD_MASK);

@@ -32,12 +32,24 @@ pub(crate) struct LeafLimit {
     /// [`PointQuery::allowance`], by which a triangle of a leaf limits the others; infinite if all
     /// count.
     pub(crate) allowance: f32,
+    /// Triangles whose squared lower bound is not above this are told, by [`LeafNearest::low`]. At
+    /// most [`EVERYTHING_SQ`](crate::num::tolerance::EVERYTHING_SQ): unused lanes have more.
+    pub(crate) low_sq: f32,
 }
 
 impl LeafLimit {
     /// All triangles count.
-    pub(crate) const NONE: LeafLimit =
-        LeafLimit { distance_sq: f32::INFINITY, plane: LeafPlane::NONE, allowance: f32::INFINITY };
+    pub(crate) const NONE: LeafLimit = LeafLimit {
+        distance_sq: f32::INFINITY,
+        plane: LeafPlane::NONE,
+        allowance: f32::INFINITY,
+        low_sq: 0.0,
+    };
+
+    /// All triangles count. Those whose squared lower bound is not above `low_sq` are told.
+    pub(crate) fn all_low(low_sq: f32) -> LeafLimit {
+        LeafLimit { low_sq, ..LeafLimit::NONE }
+    }
 }
 
 /// Edges are not kept.
@@ -58,6 +70,9 @@ pub(crate) struct LeafNearest {
     pub(crate) lower_bound_sq: f32,
     /// From this [`lane`](Self::lane) finds the triangle.
     pub(crate) lanes: Lanes,
+    /// Bits, one for each triangle. Zero: the triangle was left out, or its squared lower bound is
+    /// above [`LeafLimit::low_sq`].
+    pub(crate) low: u32,
 }
 
 impl LeafNearest {
@@ -69,13 +84,24 @@ impl LeafNearest {
     }
 }
 
+/// Numbers of the triangles whose bits are ones.
+#[inline(always)]
+pub(crate) fn lanes_of(bits: u32) -> impl Iterator<Item = usize> {
+    let mut left = bits & 0xFF;
+    core::iter::from_fn(move || {
+        let lane = (left != 0).then(|| left.trailing_zeros() as usize);
+        left &= left.wrapping_sub(1);
+        lane
+    })
+}
+
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod wide {
     use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, PointQuery};
     use crate::bvh::format::LanePoint;
     use crate::geom::fan::Lanes as Register;
     use crate::geom::fan::{
-        Edges, LANES, LaneNearness, Nearness, PIECES, WIDTH, lanes_below, least, point_lanes,
+        Edges, LANES, LaneNearness, Nearness, PIECES, WIDTH, Whole, lanes_below, least, point_lanes,
     };
     use wide::bytemuck::cast;
 
@@ -124,13 +150,21 @@ mod wide {
         }
     }
 
+    impl LeafNearest {
+        /// No plane: all lanes of a leaf are looked at.
+        #[inline(always)]
+        pub(crate) fn direction(&self) -> Whole {
+            [0; 3]
+        }
+    }
+
     #[inline(always)]
     pub(crate) fn nearest_within(
         leaf: &FanLeaf<'_>,
         query: &PointQuery,
         limit: &LeafLimit,
     ) -> Option<LeafNearest> {
-        let limit = limit.distance_sq;
+        let &LeafLimit { distance_sq: limit, low_sq, .. } = limit;
         let limit = if limit < f32::INFINITY { Some(limit) } else { None };
         let near = if leaf.is_f32() {
             f32_nearest(leaf, &query.lanes)?
@@ -145,13 +179,13 @@ mod wide {
             }
             near
         };
-        Some(nearest_of(near))
+        Some(nearest_of(near, low_sq))
     }
 
     #[inline(always)]
     pub(crate) fn nearest_and_edges(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option<LeafSeen> {
         let edges = leaf_edges(leaf, &query.lanes)?;
-        Some((nearest_of(nearness(leaf, &edges)?), Some(edges)))
+        Some((nearest_of(nearness(leaf, &edges)?, 0.0), Some(edges)))
     }
 
     /// Edges of all triangles.
@@ -181,17 +215,20 @@ mod wide {
     }
 
     #[inline(always)]
-    fn nearest_of(near: [LaneNearness; PIECES]) -> LeafNearest {
+    fn nearest_of(near: [LaneNearness; PIECES], low_sq: f32) -> LeafNearest {
         let lanes = Lanes {
             distance_sq: near.map(|near| near.distance_sq),
             v: near.map(|near| near.v),
             w: near.map(|near| near.w),
         };
-        LeafNearest {
-            distance_sq: least(lanes.distance_sq),
-            lower_bound_sq: least(near.map(|near| near.lower_bound_sq)),
-            lanes,
+        let distance_sq = least(lanes.distance_sq);
+        let low_sq = Register::splat(low_sq);
+        let mut low = 0;
+        for (piece, near) in near.iter().enumerate() {
+            low |= near.lower_bound_sq.simd_le(low_sq).to_bitmask() << (piece * LANES);
         }
+        let lower_bound_sq = least(near.map(|near| near.lower_bound_sq));
+        LeafNearest { distance_sq, lower_bound_sq, lanes, low }
     }
 
     #[inline(never)]
@@ -229,14 +266,17 @@ mod narrow {
         lane: usize,
         v: f32,
         w: f32,
+        /// About the way from the closest point to the query, of twelve bits; zeros if it is not
+        /// known. Without floating point only.
+        direction: Whole,
     }
 
     impl Lanes {
-        pub(crate) const NONE: Lanes = Lanes { lane: 0, v: 0.0, w: 0.0 };
+        pub(crate) const NONE: Lanes = Lanes { lane: 0, v: 0.0, w: 0.0, direction: [0; 3] };
 
         /// One triangle alone.
         pub(crate) fn one(lane: usize, near: &Nearness) -> Lanes {
-            Lanes { lane, v: near.v, w: near.w }
+            Lanes { lane, v: near.v, w: near.w, direction: [0; 3] }
         }
 
         #[inline(always)]
@@ -256,9 +296,10 @@ mod narrow {
             distance_sq: f32::INFINITY,
             lower_bound_sq: f32::INFINITY,
             lanes: Lanes::NONE,
+            low: 0,
         };
         if leaf.is_f32() {
-            f32_nearest(leaf, p, &mut nearest);
+            f32_nearest(leaf, p, limit.low_sq, &mut nearest);
         } else if SOFT_FLOAT && let Some(point) = &query.whole {
             whole_nearest(leaf, p, point, limit, &mut nearest)?;
         } else {
@@ -273,15 +314,23 @@ mod narrow {
     }
 
     impl LeafNearest {
+        /// The normal of a [`LeafPlane`](super::LeafPlane) in front of the nearest triangle.
+        pub(crate) fn direction(&self) -> Whole {
+            self.lanes.direction
+        }
+
         #[inline(always)]
-        fn take(&mut self, lane: usize, near: &Nearness) {
+        fn take(&mut self, lane: usize, near: &Nearness, low_sq: f32) {
             let (here, best) = (near.distance_sq, self.distance_sq);
             if here < best || here == best && lane < self.lanes.lane {
                 self.distance_sq = near.distance_sq;
-                self.lanes = Lanes { lane, v: near.v, w: near.w };
+                self.lanes = Lanes::one(lane, near);
             }
             if near.lower_bound_sq < self.lower_bound_sq {
                 self.lower_bound_sq = near.lower_bound_sq;
+            }
+            if near.lower_bound_sq <= low_sq {
+                self.low |= 1 << (lane & 31);
             }
         }
     }
@@ -297,19 +346,8 @@ mod narrow {
         nearest: &mut LeafNearest,
     ) -> Option<()> {
         let ring = leaf.grid_ring()?;
-        let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
-        let (mut in_front, mut bit) = (0u32, 1u32);
-        for ((x, y), z) in ring.x.iter().zip(ring.y).zip(ring.z) {
-            if !limit.plane.is_behind(vertex(x, y, z)) {
-                in_front |= bit;
-            }
-            bit <<= 1;
-        }
-        let first_fan = !(u32::MAX << (turn & 31));
-        let [one, other] = ring.centres.map(|centre| !limit.plane.is_behind(centre));
-        let mut wanted = in_front | in_front >> 1;
-        wanted |= if one { first_fan } else { 0 } | if other { !first_fan } else { 0 };
-        wanted &= !(u32::MAX << (count & 31));
+        let turn = leaf.shape().turn();
+        let wanted = limit.plane.in_front(&ring, leaf.shape());
         if wanted == 0 {
             return Some(());
         }
@@ -324,18 +362,21 @@ mod narrow {
             }
         }
         let mut within = limit.distance_sq;
-        let mut look = |lane: usize, within: &mut f32| {
+        let mut look = |lane: usize, direction: Whole, within: &mut f32| {
             let seen = seen_from(leaf, lane, p);
             let near = nearness(&seen);
             *within = lesser(*within, limit_of(near.distance_sq, limit.allowance));
-            nearest.take(lane, &near);
+            nearest.take(lane, &near, limit.low_sq);
+            if nearest.lanes.lane == lane {
+                nearest.lanes.direction = direction;
+            }
         };
-        look(likeliest, &mut within);
+        look(likeliest, bounds.get(likeliest)?.direction, &mut within);
         let mut whole_limit = WholeLimit::of(within);
         for (lane, bounds) in bounds.iter().enumerate() {
             let is_wanted = wanted >> lane & 1 != 0 && lane != likeliest;
             if is_wanted && !(within < f32::INFINITY && bounds.is_beyond(whole_limit)) {
-                look(lane, &mut within);
+                look(lane, bounds.direction, &mut within);
                 whole_limit = WholeLimit::of(within);
             }
         }
@@ -371,7 +412,7 @@ mod narrow {
                     if near.distance_sq < nearest.distance_sq {
                         within = lesser(within, limit_of(near.distance_sq, limit.allowance));
                     }
-                    nearest.take(i - 1, &near);
+                    nearest.take(i - 1, &near, limit.low_sq);
                 }
                 a = Some(second);
             } else {
@@ -393,7 +434,7 @@ mod narrow {
     }
 
     #[inline(never)]
-    fn f32_nearest(leaf: &FanLeaf<'_>, p: Vec3, nearest: &mut LeafNearest) {
+    fn f32_nearest(leaf: &FanLeaf<'_>, p: Vec3, low_sq: f32, nearest: &mut LeafNearest) {
         let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
         let s = [p - leaf.centre(0), p - leaf.centre(leaf.shape().centres() - 1)];
         point_leaf(
@@ -401,7 +442,7 @@ mod narrow {
             turn,
             s,
             |i, which| leaf.spoke(i, which),
-            |lane, near| nearest.take(lane, &near),
+            |lane, near| nearest.take(lane, &near, low_sq),
         );
     }
 }

@@ -4,6 +4,8 @@
 //! The plane stands across the way from the point to the best triangle so far, a little farther
 //! than the best distance. A leaf whose vertices all lie behind it cannot change the answer.
 
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::bvh::format::{GridRing, LeafShape};
 use crate::geom::fan::{Whole, WholePoint};
 use crate::num::sqrt_approx;
 use crate::num::tolerance::U32;
@@ -36,9 +38,26 @@ impl LeafPlane {
     /// Whether a stored vertex is behind the plane.
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
     #[inline(always)]
-    pub(crate) fn is_behind(&self, [x, y, z]: Whole) -> bool {
+    fn is_behind(&self, [x, y, z]: Whole) -> bool {
         let [a, b, c] = self.normal;
         let along = a.wrapping_mul(x).wrapping_add(b.wrapping_mul(y));
         along.wrapping_add(c.wrapping_mul(z)) <= self.behind
+    }
+
+    /// Triangles of a leaf that are not behind the plane: bits, the first triangle's lowest.
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[inline(always)]
+    pub(crate) fn in_front(&self, ring: &GridRing<'_>, shape: LeafShape) -> u32 {
+        let (count, turn) = (shape.triangles(), shape.turn());
+        let mut behind = 0u32;
+        for ((x, y), z) in ring.x.iter().zip(ring.y).zip(ring.z).rev() {
+            let vertex = [x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair)));
+            behind = behind << 1 | u32::from(self.is_behind(vertex));
+        }
+        let first_fan = !(u32::MAX << (turn & 31));
+        let [one, other] = ring.centres.map(|centre| self.is_behind(centre));
+        let mut in_front = !(behind & behind >> 1);
+        in_front |= if one { 0 } else { first_fan } | if other { 0 } else { !first_fan };
+        in_front & !(u32::MAX << (count & 31))
     }
 }

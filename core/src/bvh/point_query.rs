@@ -36,7 +36,8 @@ pub(crate) struct PointQuery {
     rounding: f32,
     /// Added to a squared limit, so that no rounding hides a candidate.
     pub(crate) allowance: f32,
-    /// The point in integers, on targets without floating point, if the model is near.
+    /// The point in integers, on targets without floating point, if the model is near and on a
+    /// grid.
     pub(crate) whole: Option<WholePoint>,
     /// The point, prepared for the boxes of nodes.
     key_point: KeyPoint,
@@ -86,7 +87,11 @@ impl PointQuery {
         let most = greater(greater(farthest.x, farthest.y), farthest.z);
         let from_origin = p - Vec3::new(ox, oy, oz);
         let key_point = KeyPoint::new(from_origin, most);
-        let whole = if SOFT_FLOAT { WholePoint::new(from_origin.to_array()) } else { None };
+        let whole = if SOFT_FLOAT && !header.is_f32() {
+            WholePoint::new(from_origin.to_array())
+        } else {
+            None
+        };
         Ok(PointQuery {
             p,
             #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
@@ -130,9 +135,15 @@ impl PointQuery {
     /// Keys of a node's children. On boards a call, for each question has a descent of its own.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
-    pub(crate) fn keys_of(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {
+    pub(crate) fn keys_of(
+        &self,
+        tree: &Bvh<'_>,
+        opened: &OpenedNode,
+        keys: &mut [u32; WIDTH],
+    ) -> Option<()> {
         let &OpenedNode { node, count, bound, .. } = opened;
-        Some(box_distances(tree.frame(node)?, &self.key_point, count, bound))
+        box_distances(tree.frame(node)?, &self.key_point, count, bound, keys);
+        Some(())
     }
 
     /// A triangle with a smaller squared lower bound is refined as a sliver, if `distance_sq` is
@@ -181,7 +192,7 @@ impl NodeQuery for PointQuery {
     }
 
     #[inline(always)]
-    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {
-        self.keys_of(tree, opened)
+    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode, keys: &mut [u32; WIDTH]) -> Option<()> {
+        self.keys_of(tree, opened, keys)
     }
 }

@@ -16,6 +16,7 @@
 //! So the product with u has the right sign if it exceeds this error and rounding.
 
 use super::descent::{LeafVisit, LeafVisitor};
+use super::leaf_distance::{LeafLimit, nearest_within};
 use super::point_query::PointQuery;
 use super::side_search::Search;
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
@@ -150,11 +151,12 @@ impl LeafVisitor for Shared<'_> {
     }
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let (leaf, p) = (&visit.leaf, self.candidates.query.p);
-        each_triangle(self.candidates.query, leaf, |lane, distance_sq, lower_bound_sq| {
+        let (leaf, query) = (&visit.leaf, self.candidates.query);
+        let low = nearest_within(leaf, query, &LeafLimit::all_low(self.limit))?.low;
+        each_triangle(query, leaf, low, |lane, distance_sq, lower_bound_sq| {
             if lower_bound_sq > self.limit
-                || lower_of(leaf, lane, p, distance_sq, lower_bound_sq) > self.candidates.band
-                || viewed_side(leaf, lane, p) == ViewedSide::Flat
+                || lower_of(leaf, lane, query.p, distance_sq, lower_bound_sq) > self.candidates.band
+                || viewed_side(leaf, lane, query.p) == ViewedSide::Flat
             {
                 return;
             }

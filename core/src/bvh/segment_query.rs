@@ -150,10 +150,11 @@ impl NodeQuery for SegmentQuery {
     }
 
     #[inline(always)]
-    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {
+    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode, keys: &mut [u32; WIDTH]) -> Option<()> {
         let &OpenedNode { node, count, bound, limit } = opened;
         let [bound, limit] = [bound, limit].map(f32::from_bits);
-        Some(box_entries(tree.boxes(node)?, &self.slabs, count, bound, limit))
+        *keys = box_entries(tree.boxes(node)?, &self.slabs, count, bound, limit);
+        Some(())
     }
 }
 

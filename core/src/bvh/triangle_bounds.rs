@@ -1,5 +1,6 @@
 //! Bounds of single triangles of a leaf, for questions that look at triangles one by one.
 
+use super::leaf_distance::lanes_of;
 use super::point_query::PointQuery;
 use crate::bvh::format::FanLeaf;
 use crate::geom::fan::{Nearness, PointFan, lone_triangle, lower_bound, refined};
@@ -32,15 +33,16 @@ pub(crate) fn nearness(seen: &[Vec3; 3]) -> Nearness {
     lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g))
 }
 
-/// Calls `each` for every triangle of a leaf, in order: lane, squared distance, squared lower
-/// bound.
+/// Calls `each` for the triangles of a leaf whose bits in `lanes` are ones, in order: lane, squared
+/// distance, squared lower bound.
 #[inline]
 pub(crate) fn each_triangle(
     query: &PointQuery,
     leaf: &FanLeaf<'_>,
+    lanes: u32,
     mut each: impl FnMut(usize, f32, f32),
 ) {
-    for lane in 0..leaf.shape().triangles() {
+    for lane in lanes_of(lanes & !(u32::MAX << leaf.shape().triangles())) {
         let seen = seen_from(leaf, lane, query.p);
         let near = refine_sliver(query, &seen, nearness(&seen));
         each(lane, near.distance_sq, near.lower_bound_sq);

@@ -2,7 +2,7 @@
 //! counts.
 
 use super::descent::{LeafVisit, LeafVisitor};
-use super::leaf_distance::nearest_triangle;
+use super::leaf_distance::{LeafLimit, nearest_within};
 use super::point_query::PointQuery;
 use super::triangle_bounds::{each_triangle, lower_of};
 use crate::bvh::format::{Bvh, FanLeaf};
@@ -89,9 +89,9 @@ impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
 
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let near = nearest_triangle(&visit.leaf, self.query)?;
+        let near = nearest_within(&visit.leaf, self.query, &LeafLimit::all_low(self.limit))?;
         match self.collector.nearest(visit, near.distance_sq, self.limit)? {
-            Next::Triangles if near.lower_bound_sq <= self.limit => self.each(visit),
+            Next::Triangles if near.lower_bound_sq <= self.limit => self.each(visit, near.low),
             Next::Triangles | Next::Leaf => Some(true),
             Next::Nothing => Some(false),
         }
@@ -101,11 +101,11 @@ impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
 impl<C: TriangleCollector> TriangleVisitor<'_, C> {
     /// Hands the triangles of a leaf to the collector. Returns whether to go on.
     #[inline(never)]
-    fn each(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
+    fn each(&mut self, visit: &LeafVisit<'_>, low: u32) -> Option<bool> {
         let TriangleVisitor { tree, query, limit, key_limit, collector } = self;
         let LeafVisit { leaf, node, child, .. } = visit;
         let first = tree.links(*node)?.triangle(*child);
-        each_triangle(query, leaf, |lane, distance_sq, lower_bound_sq| {
+        each_triangle(query, leaf, low, |lane, distance_sq, lower_bound_sq| {
             if lower_bound_sq > *limit {
                 return;
             }

@@ -6,7 +6,7 @@ use super::sliver::has_no_sliver;
 use crate::bvh::descent::OpenedNode;
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::bvh::leaf_distance::nearest_and_edges;
-use crate::bvh::node::{CHILD_MASK, least_key};
+use crate::bvh::node::{CHILD_MASK, NO_CHILD, least_key};
 use crate::bvh::point_query::{EVERY_KEY, PointQuery};
 use crate::geom::fan::{Nearness, PointFan, WIDTH, point_leaf};
 use crate::num::tolerance::{FAN_DISTANCE, ROOT_AND_PRODUCTS, SHORTFALL, U32};
@@ -233,7 +233,8 @@ impl<'a, 't> Follow<'a, 't> {
         }
         let links = self.tree.links(node).ok_or(NoAnswer::Unchecked)?;
         let opened = OpenedNode { node, count: links.count, bound: 0, limit: EVERY_KEY };
-        let keys = self.query.keys_of(self.tree, &opened).ok_or(NoAnswer::Unchecked)?;
+        let mut keys = [NO_CHILD; WIDTH];
+        self.query.keys_of(self.tree, &opened, &mut keys).ok_or(NoAnswer::Unchecked)?;
         self.work.splits += 1;
         self.work.nodes += links.count;
         self.cost += cost::NODE;
@@ -266,7 +267,8 @@ impl<'a, 't> Follow<'a, 't> {
     fn box_key(&mut self, child: Child) -> Result<f32, NoAnswer> {
         let count = child.index() + 1;
         let opened = OpenedNode { node: child.node(), count, bound: 0, limit: EVERY_KEY };
-        let keys = self.query.keys_of(self.tree, &opened).ok_or(NoAnswer::Unchecked)?;
+        let mut keys = [NO_CHILD; WIDTH];
+        self.query.keys_of(self.tree, &opened, &mut keys).ok_or(NoAnswer::Unchecked)?;
         self.work.nodes += count;
         let key = keys.get(child.index() as usize).copied().ok_or(NoAnswer::Unchecked)?;
         Ok(self.key_of_box(key))

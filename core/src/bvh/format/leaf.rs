@@ -89,12 +89,16 @@ impl GridRing<'_> {
     /// triangle.
     #[inline(always)]
     pub fn corners(&self, lane: usize, turn: usize) -> Option<[[i32; 3]; 3]> {
-        let vertex = |i: usize| {
-            let (x, y, z) = (self.x.get(i)?, self.y.get(i)?, self.z.get(i)?);
-            Some([x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair))))
-        };
         let [first, second] = self.centres;
-        Some([if lane < turn { first } else { second }, vertex(lane)?, vertex(lane + 1)?])
+        let centre = if lane < turn { first } else { second };
+        Some([centre, self.vertex(lane)?, self.vertex(lane + 1)?])
+    }
+
+    /// Ring vertex `i`.
+    #[inline(always)]
+    pub fn vertex(&self, i: usize) -> Option<[i32; 3]> {
+        let (x, y, z) = (self.x.get(i)?, self.y.get(i)?, self.z.get(i)?);
+        Some([x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair))))
     }
 }
 
@@ -110,6 +114,11 @@ fn short(bytes: &[u8], at: usize) -> i32 {
         Some(&pair) => i32::from(u16::from_le_bytes(pair)),
         None => 0,
     }
+}
+
+#[inline(always)]
+fn less(a: [i32; 3], b: [i32; 3]) -> [i32; 3] {
+    [0, 1, 2].map(|axis| a[axis].wrapping_sub(b[axis]))
 }
 
 #[inline(always)]
@@ -300,6 +309,15 @@ impl<'a> FanLeaf<'a> {
     #[inline(never)]
     pub fn spokes(&self, lane: usize) -> [Vec3; 3] {
         let which = usize::from(lane >= self.shape.turn());
+        if let (false, Some(ring)) = (self.is_f32, self.grid_ring())
+            && let Some([centre, a, b]) = ring.corners(lane, self.shape.turn())
+        {
+            let spoke = |v: [i32; 3]| less(v, centre).map(|x| x as f32).into();
+            let [cx, cy, cz] = centre;
+            let [ox, oy, oz] = self.origin;
+            let centre = [cx.wrapping_add(ox), cy.wrapping_add(oy), cz.wrapping_add(oz)];
+            return [centre.map(|x| x as f32).into(), spoke(a), spoke(b)];
+        }
         [self.centre(which), self.spoke(lane, which), self.spoke(lane + 1, which)]
     }
 

@@ -1,12 +1,11 @@
-//! Squared distances of a point from eight boxes, in vector registers. The keys are those of the
-//! narrow form (`box_distances`).
+//! Squared distances of a point from eight boxes, in vector registers. The keys are those of
+//! `pairs`.
 //!
 //! The frame comes first, with the axes in the lanes of one register. Then come the boxes, with two
 //! axes of a child side by side: one instruction squares both and adds the squares. A fourth axis
 //! is empty. Its planes are all at byte 0, and the point lies between them.
 
-use super::box_distances::Rows;
-use super::key_point::{FRACTION_BITS, KeyPoint, MOST, MOST_CUT, PRODUCT_BITS, UP};
+use super::frame::{FRACTION_BITS, KeyPoint, MOST, MOST_CUT, PRODUCT_BITS, UP};
 use super::keys::{CHILD_MASK, NO_CHILD};
 use crate::bvh::format::layout::{FRAME_BYTES, boxes};
 use crate::geom::fan::WIDTH;
@@ -26,7 +25,7 @@ impl AxisPairs {
     }
 }
 
-/// [`NodeFrame`](super::frame::NodeFrame), ready for the boxes.
+/// A query point in a node's frame, ready for the boxes. See `AxisPlace`, which has one axis.
 struct LaneFrame {
     from_first: AxisPairs,
     from_last: AxisPairs,
@@ -34,18 +33,24 @@ struct LaneFrame {
     units: AxisPairs,
 }
 
-/// Keys of a node's children: see `box_distances`.
+/// Keys of a node's children: see `box_distances`. `keys` stay if the count is more than eight.
 #[inline(always)]
-pub fn keys(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32, parent: u32) -> [u32; WIDTH] {
+pub fn keys(
+    record: &[u8; FRAME_BYTES],
+    p: &KeyPoint,
+    count: u32,
+    parent: u32,
+    keys: &mut [u32; WIDTH],
+) {
     let rows = record.as_chunks::<WIDTH>().0.first_chunk::<6>();
     let (Some(rows), Some(frame), Some(&other_bits)) =
         (rows, LaneFrame::of(record, p), OTHER_BITS.get(count as usize))
     else {
-        return [NO_CHILD; WIDTH];
+        return;
     };
     let half: i32x8 = cast(cast::<_, u32x8>(frame.distances_sq(rows)) >> 1u32);
     let far = half.max(i32x8::splat(parent.cast_signed()));
-    cast((far & i32x8::splat(!CHILD_MASK.cast_signed())) | cast::<_, i32x8>(other_bits))
+    *keys = cast((far & i32x8::splat(!CHILD_MASK.cast_signed())) | cast::<_, i32x8>(other_bits));
 }
 
 /// For each count, what a child's key has besides its bound: its number, and from the count on
@@ -72,7 +77,7 @@ const KEY_UNIT: f32 = (1 << PRODUCT_BITS) as f32;
 const LEAST_STEP: f32 = KEY_UNIT / (1 << (MOST_CUT - 8)) as f32;
 
 impl LaneFrame {
-    /// The steps of [`NodeFrame::of`](super::frame::NodeFrame::of), for all axes at once.
+    /// The steps of `AxisPlace::of`, for all axes at once.
     #[inline(always)]
     fn of(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> Option<LaneFrame> {
         let along = along(record, way(record, p)?)?;
@@ -102,9 +107,10 @@ impl LaneFrame {
         })
     }
 
-    /// Squared distances of the children, as numbers of 32 bits without a sign.
+    /// Squared distances of the children, as numbers of 32 bits without a sign. Rows of bytes:
+    /// first and last planes of the first axis, of the second, of the third.
     #[inline(always)]
-    fn distances_sq(&self, [lx, hx, ly, hy, lz, hz]: &Rows) -> i32x8 {
+    fn distances_sq(&self, [lx, hx, ly, hy, lz, hz]: &[[u8; WIDTH]; 6]) -> i32x8 {
         let [lx, hx, ly, hy, lz, hz] =
             [lx, hx, ly, hy, lz, hz].map(|row| -> u8x16 { cast([u64::from_ne_bytes(*row), 0]) });
         let (first_xy, last_xy) = (u8x16::unpack_low(lx, ly), u8x16::unpack_low(hx, hy));

@@ -1,101 +1,68 @@
-//! A query point in the frame that the boxes of a node share, axis by axis, for targets without
-//! vectors. `box_lanes` does the same for all axes at once.
+//! The frame that the boxes of a node share, and a query point that is prepared for it.
+//!
+//! Everything is an integer, so processors without floating point are as fast as others, and the
+//! bounds need no allowance for rounding. Lengths are counted in *key units* of 2^h grid units. The
+//! exponent h is chosen for each query, so that all distances from the point fit 15 bits. A frame's
+//! matrix is a rotation, shrunk so little that no length grows: distances in box coordinates are
+//! lower bounds. Proof: `core/docs/rounding.md` §8, "Boxes".
 
-use super::key_point::{FRACTION_BITS, KeyPoint, MOST, MOST_CUT, PRODUCT_BITS, UP};
-use crate::bvh::format::layout::{FRAME_BYTES, boxes};
-use crate::num::greater;
+use crate::bvh::format::layout::ROW_BITS;
+use glam::Vec3;
 
-/// A query point in the frame of one node, by axis, in key units.
+/// Least exponent of a key unit. With it the boxes of a whole model span 15 bits.
+pub const LEAST_UNIT: u32 = 2;
+
+/// Greatest exponent of a key unit. Points so far away that they would need more get the distance
+/// of the model's box.
+const MOST_UNIT: u32 = 26;
+
+/// Bits of a coordinate below a key unit.
+pub(super) const FRACTION_BITS: u32 = 2;
+
+/// Bits by which a product of matrix and coordinates is finer than a key unit.
+pub(super) const PRODUCT_BITS: u32 = ROW_BITS + FRACTION_BITS;
+
+/// Added before a product is cut to key units. It rounds up, and makes up for the rounding of the
+/// coordinates: less than √3 · 2^ROW_BITS together, proved 14,420 (`core/docs/rounding.md` §8).
+pub(super) const UP: i32 = (1 << PRODUCT_BITS) - 1 + 14_592;
+
+/// A query point in key units.
 #[derive(Clone, Copy, Debug)]
-pub struct NodeFrame {
-    /// From the first and from the last plane inward, rounded up. No plane of a child is farther
-    /// than 2^15 − 1 from it.
-    pub from: [[i32; 2]; 3],
-    /// A plane's byte, as the high byte of 16 bits, shifted right by this gives key units: 1 to 15.
-    pub shift: [u32; 3],
+#[repr(C)]
+pub struct KeyPoint {
+    /// From the grid's origin, with two bits below the unit, rounded down.
+    pub(super) at: [i32; 3],
+    /// A key unit is 2^this grid units.
+    pub(super) unit: u32,
 }
 
-impl NodeFrame {
-    /// Brings a point into the frame of a node's boxes. Bytes that no check has seen give some
-    /// frame.
+impl KeyPoint {
+    /// `p` less the grid's origin. No point of the model is farther from it than `farthest` along
+    /// any axis; both in grid units, `farthest` below 2^40.
     #[inline(always)]
-    pub fn of(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> NodeFrame {
-        let mut frame = NodeFrame { from: [[0; 2]; 3], shift: [1; 3] };
-        let (halves, _) = record.as_chunks::<2>();
-        let Some(numbers) =
-            halves.get(boxes::FRAME_ROWS / 2..).and_then(|halves| halves.first_chunk::<12>())
-        else {
-            return frame;
-        };
-        let [a, b, c, d, e, f, g, h, i, ox, oy, oz] = *numbers;
-        let row = |x: [u8; 2]| i32::from(i16::from_le_bytes(x));
-        let way = |at: i32, origin: [u8; 2]| {
-            let origin = i32::from(u16::from_le_bytes(origin)) << FRACTION_BITS;
-            at.wrapping_sub(origin >> (p.unit & 31))
-        };
-        let [x, y, z] = [way(p.at[0], ox), way(p.at[1], oy), way(p.at[2], oz)];
-        let along = |[a, b, c]: [[u8; 2]; 3]| {
-            let terms = [row(a).wrapping_mul(x), row(b).wrapping_mul(y), row(c).wrapping_mul(z)];
-            terms[0].wrapping_add(terms[1]).wrapping_add(terms[2])
-        };
-        let exponents: [u8; 3] =
-            match record.get(boxes::FRAME_EXPONENTS..).and_then(|b| b.first_chunk()) {
-                Some(&exponents) => exponents,
-                None => return frame,
-            };
-        let rows = [along([a, b, c]), along([d, e, f]), along([g, h, i])];
-        for (index, (at, exponent)) in rows.into_iter().zip(exponents).enumerate() {
-            let exponent = u32::from(exponent);
-            let Axis { step, shift, fine } = if p.unit <= MOST_NEAR_UNIT {
-                Axis::near(exponent, p.unit)
-            } else {
-                Axis::far(exponent, p.unit)
-            };
-            // Byte 128 lies at the origin, and 127 steps from it lies byte 255.
-            let half = step.wrapping_shl(7);
-            let least = (0xFF00 >> shift) - MOST;
-            let inward = |x: i32| {
-                let units = (x.wrapping_add(UP) >> PRODUCT_BITS).wrapping_add(fine);
-                greater(least, units)
-            };
-            frame.from[index] =
-                [inward(half.wrapping_add(at)), inward(half.wrapping_sub(step).wrapping_sub(at))];
-            frame.shift[index] = shift;
-        }
-        frame
+    pub fn new(p: Vec3, farthest: f32) -> KeyPoint {
+        // The least exponent for which `farthest` is below 2^(14 + exponent).
+        let exponent = (farthest.to_bits() >> 23).saturating_sub(127 + 13);
+        let unit = exponent.clamp(LEAST_UNIT, MOST_UNIT);
+        let scale = f32::from_bits((127 + FRACTION_BITS - unit) << 23);
+        // A positive number, so that the conversion rounds down.
+        let whole = |x: f32| ((x * scale + ABOVE as f32) as i32).wrapping_sub(ABOVE);
+        KeyPoint { at: [whole(p.x), whole(p.y), whole(p.z)], unit }
     }
-}
 
-/// A key unit up to which no step of an axis is finer than 2^-7 key units: that of points within 32
-/// model sizes.
-const MOST_NEAR_UNIT: u32 = 7;
-
-/// The step of an axis.
-struct Axis {
-    /// In units of the products of matrix and coordinates.
-    step: i32,
-    /// See [`NodeFrame::shift`].
-    shift: u32,
-    /// Key units by which planes are too far inward.
-    fine: i32,
-}
-
-impl Axis {
+    /// Exponent of a key unit.
     #[inline(always)]
-    fn near(exponent: u32, unit: u32) -> Axis {
-        let bits = (exponent + PRODUCT_BITS).wrapping_sub(unit);
-        let shift = (8 + unit).wrapping_sub(exponent) & 15;
-        Axis { step: 1i32.wrapping_shl(bits), shift, fine: 0 }
-    }
-
-    /// A step below 2^-7 key units counts as 2^-7, so that a plane comes less than one key unit too
-    /// far inward.
-    #[cold]
-    #[inline(never)]
-    fn far(exponent: u32, unit: u32) -> Axis {
-        let shift = (8 + unit).saturating_sub(exponent);
-        let (shift, fine) = if shift > MOST_CUT { (MOST_CUT, 1) } else { (shift, 0) };
-        let bits = (exponent + PRODUCT_BITS).wrapping_sub(unit);
-        Axis { step: if bits < 31 { 1 << bits } else { 0 }, shift, fine }
+    pub fn unit(&self) -> u32 {
+        self.unit
     }
 }
+
+/// Above the magnitude of every coordinate of a [`KeyPoint`].
+const ABOVE: i32 = 1 << 17;
+
+/// Largest distance along an axis, key units. Greater ones count as this.
+pub(super) const MOST: i32 = i16::MAX as i32;
+
+/// Most bits that are cut from a plane's 16 to get key units. A step that would need more counts as
+/// 2^-7 key units.
+pub(super) const MOST_CUT: u32 = 15;

@@ -8,29 +8,32 @@
 //! | file | owns |
 //! | --- | --- |
 //! | `keys` | a child's bound with its number in the low bits |
-//! | `key_point` | [`KeyPoint`], a prepared point |
-//! | `frame` | `NodeFrame`, the point in a node's frame, for targets without vectors |
+//! | `frame` | [`KeyPoint`], a point that is prepared for frames |
 //! | `grid_line` | [`GridLine`], a segment's line in integers, for targets without an FPU |
 //! | `box_distances` | a point against eight boxes |
 //! | `box_lanes` | the same in vector registers, frame included |
+//! | `axis_place` | `AxisPlace`, a point along one axis of a frame, where there are no vectors |
+//! | `pairs` | a point against eight boxes there, two children in a word |
 //! | `box_entries` | [`Slabs`], a segment prepared for the test; a segment against eight boxes |
 
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+mod axis_place;
 mod box_distances;
 mod box_entries;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod box_lanes;
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 mod frame;
 mod grid_line;
-mod key_point;
 mod keys;
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+mod pairs;
 #[cfg(test)]
 mod tests;
 
 pub use box_distances::box_distances;
 pub use box_entries::{Slabs, box_entries};
+pub use frame::KeyPoint;
 pub use grid_line::GridLine;
-pub use key_point::KeyPoint;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use keys::places_of_wanted;
 pub use keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory, least_key};

@@ -1,10 +1,9 @@
 //! Both forms of a node's test give the same children the same keys.
 
-use super::box_distances::narrow;
 use super::box_entries::Slabs;
-use super::key_point::KeyPoint;
+use super::frame::KeyPoint;
 use super::keys::NO_CHILD;
-use super::{box_entries, box_lanes};
+use super::{box_entries, box_lanes, pairs};
 use crate::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES};
 use crate::geom::fan::WIDTH;
 use glam::Vec3;
@@ -88,8 +87,9 @@ fn distances_have_the_same_bits() {
             let farthest = (p.abs().max_element() + 65_536.0).max(65_535.0);
             let point = KeyPoint::new(p, farthest);
             for parent in [0, 1 << noise.below(31)] {
-                let wide = box_lanes::keys(&record, &point, count as u32, parent);
-                let narrow = narrow::keys(&record, &point, count as u32, parent);
+                let [mut wide, mut narrow] = [[0; WIDTH]; 2];
+                box_lanes::keys(&record, &point, count as u32, parent, &mut wide);
+                pairs::keys(&record, &point, count as u32, parent, &mut narrow);
                 let used = |keys: [u32; WIDTH]| keys.map(|key| key.min(NO_CHILD));
                 assert_eq!(used(wide), used(narrow), "{point:?}, {count} of {record:?}");
             }
@@ -127,7 +127,9 @@ fn no_key_is_above_the_exact_distance_and_few_are_far_below() {
         let p = Vec3::from_array(noise.vector(away)) + Vec3::splat(30_000.0);
         let farthest = p.abs().max_element().max(65_535.0 - p.min_element()).max(65_535.0);
         let point = KeyPoint::new(p, farthest);
-        for (lane, key) in box_lanes::keys(&record, &point, 8, 0).into_iter().enumerate() {
+        let mut keys = [0; WIDTH];
+        box_lanes::keys(&record, &point, 8, 0, &mut keys);
+        for (lane, key) in keys.into_iter().enumerate() {
             let exact: [f64; 3] = core::array::from_fn(|axis| {
                 exact_distance(&record, p.to_array().map(f64::from), point.unit(), axis, lane)
             });
