@@ -8,7 +8,9 @@
 //! Keys never fall from parent to child. So the leaves that can change an answer are the same in
 //! every order of visits.
 
-use super::node::{CHILD_MASK, NO_CHILD, least_key};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::node::places_of_wanted;
+use super::node::{CHILD_MASK, NO_CHILD, WIDE, least_key};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::fan::WIDTH;
 use crate::num::lesser;
@@ -99,18 +101,15 @@ impl Stack<'_> {
     #[inline(always)]
     fn push_children(&mut self, node: u32, keys: &[u32; WIDTH], count: u32, limit: u32) -> u32 {
         let nearest = least_key(keys);
+        if WIDE && nearest > limit {
+            return nearest;
+        }
         let free = self.entries.get_mut(self.used..);
         let Some(slots) = free.and_then(|free| free.first_chunk_mut::<WIDTH>()) else {
             self.push_few(node, keys, count, [nearest, limit]);
             return nearest;
         };
-        let mut pushed = 0usize;
-        for &key in keys {
-            // Without a branch: an unwanted entry is overwritten by the next one.
-            slots[pushed & (WIDTH - 1)] = ScratchEntry::of_words([key, node]);
-            pushed += usize::from((key <= limit) & (key != nearest));
-        }
-        self.used += pushed;
+        self.used += put_wanted(slots, node, keys, [nearest, limit]);
         nearest
     }
 
@@ -137,6 +136,42 @@ impl Stack<'_> {
         let left = self.entries.iter().take(self.used);
         left.fold(self.dropped, |least, entry| least.min(entry.small_word()))
     }
+}
+
+/// Writes the children with keys up to `limit`, except `nearest`, and tells how many they are.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[inline(always)]
+fn put_wanted(
+    slots: &mut [ScratchEntry; WIDTH],
+    node: u32,
+    keys: &[u32; WIDTH],
+    [nearest, limit]: [u32; 2],
+) -> usize {
+    let (places, wanted) = places_of_wanted(keys, nearest, limit);
+    for (child, &key) in keys.iter().enumerate() {
+        // Without a branch: an unwanted entry is overwritten by the next one.
+        let place = (places >> (8 * child)) as usize & (WIDTH - 1);
+        slots[place] = ScratchEntry::of_words([key, node]);
+    }
+    wanted
+}
+
+/// Writes the children with keys up to `limit`, except `nearest`, and tells how many they are.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[inline(always)]
+fn put_wanted(
+    slots: &mut [ScratchEntry; WIDTH],
+    node: u32,
+    keys: &[u32; WIDTH],
+    [nearest, limit]: [u32; 2],
+) -> usize {
+    let mut wanted = 0usize;
+    for &key in keys {
+        // Without a branch: an unwanted entry is overwritten by the next one.
+        slots[wanted & (WIDTH - 1)] = ScratchEntry::of_words([key, node]);
+        wanted += usize::from((key <= limit) & (key != nearest));
+    }
+    wanted
 }
 
 /// Visits every leaf within the visitor's limit. Opens nodes until `work` counts `steps` of them,

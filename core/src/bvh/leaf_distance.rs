@@ -6,7 +6,6 @@
 use super::leaf_plane::LeafPlane;
 use super::point_query::PointQuery;
 use crate::bvh::format::FanLeaf;
-use glam::Vec3;
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use narrow::{Lanes, nearest_and_edges, nearest_within};
@@ -98,7 +97,8 @@ pub(crate) fn lanes_of(bits: u32) -> impl Iterator<Item = usize> {
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod wide {
-    use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, PointQuery, Vec3};
+    use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, PointQuery};
+    use crate::bvh::format::LanePoint;
     use crate::geom::fan::Lanes as Register;
     use crate::geom::fan::{
         Edges, LANES, LaneNearness, Nearness, PIECES, WIDTH, Whole, lanes_below, least, point_lanes,
@@ -165,12 +165,11 @@ mod wide {
         limit: &LeafLimit,
     ) -> Option<LeafNearest> {
         let &LeafLimit { distance_sq: limit, low_sq, .. } = limit;
-        let p = query.p;
         let limit = if limit < f32::INFINITY { Some(limit) } else { None };
         let near = if leaf.is_f32() {
-            f32_nearest(leaf, p)?
+            f32_nearest(leaf, &query.lanes)?
         } else {
-            let lanes = leaf.grid_lanes(p)?;
+            let lanes = leaf.grid_lanes(&query.lanes)?;
             let used = lanes_below(leaf.shape().triangles())?;
             let mut near = [LaneNearness::NONE; PIECES];
             for piece in 0..PIECES {
@@ -185,17 +184,17 @@ mod wide {
 
     #[inline(always)]
     pub(crate) fn nearest_and_edges(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option<LeafSeen> {
-        let edges = leaf_edges(leaf, query.p)?;
+        let edges = leaf_edges(leaf, &query.lanes)?;
         Some((nearest_of(nearness(leaf, &edges)?, 0.0), Some(edges)))
     }
 
     /// Edges of all triangles.
     #[inline(always)]
-    pub(crate) fn leaf_edges(leaf: &FanLeaf<'_>, p: Vec3) -> Option<LeafEdges> {
+    pub(crate) fn leaf_edges(leaf: &FanLeaf<'_>, point: &LanePoint) -> Option<LeafEdges> {
         if leaf.is_f32() {
-            return f32_edges(leaf, p);
+            return f32_edges(leaf, point);
         }
-        let lanes = leaf.grid_lanes(p)?;
+        let lanes = leaf.grid_lanes(point)?;
         let mut edges = [Edges::NONE; PIECES];
         for (piece, edges) in edges.iter_mut().enumerate() {
             *edges = lanes.edges(piece);
@@ -233,24 +232,24 @@ mod wide {
     }
 
     #[inline(never)]
-    fn f32_edges(leaf: &FanLeaf<'_>, p: Vec3) -> Option<LeafEdges> {
+    fn f32_edges(leaf: &FanLeaf<'_>, point: &LanePoint) -> Option<LeafEdges> {
         let mut edges = [Edges::NONE; PIECES];
         for (piece, edges) in edges.iter_mut().enumerate() {
-            *edges = leaf.f32_edges(p, piece)?;
+            *edges = leaf.f32_edges(point, piece)?;
         }
         Some(edges)
     }
 
     /// Not inlined, so that the two ways to read a leaf share no stack memory.
     #[inline(never)]
-    fn f32_nearest(leaf: &FanLeaf<'_>, p: Vec3) -> Option<[LaneNearness; PIECES]> {
-        nearness(leaf, &f32_edges(leaf, p)?)
+    fn f32_nearest(leaf: &FanLeaf<'_>, point: &LanePoint) -> Option<[LaneNearness; PIECES]> {
+        nearness(leaf, &f32_edges(leaf, point)?)
     }
 }
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod narrow {
-    use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, PointQuery, Vec3};
+    use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, PointQuery};
     use crate::bvh::point_query::limit_of;
     use crate::bvh::triangle_bounds::{nearness, seen_from};
     use crate::geom::fan::{
@@ -259,6 +258,7 @@ mod narrow {
     };
     use crate::num::SOFT_FLOAT;
     use crate::num::lesser;
+    use glam::Vec3;
 
     /// The nearest triangle of a leaf.
     #[derive(Clone, Copy)]

@@ -2,6 +2,8 @@
 
 use super::descent::{NodeQuery, OpenedNode};
 use super::node::{CHILD_MASK, KeyPoint, NO_CHILD, box_distances};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use crate::bvh::format::LanePoint;
 use crate::bvh::format::{Bvh, Units};
 use crate::geom::fan::{WIDTH, WholePoint};
 use crate::num::tolerance::{
@@ -25,6 +27,9 @@ pub(crate) const EVERY_KEY: u32 = NO_CHILD - 1;
 pub(crate) struct PointQuery {
     /// Grid units.
     pub(crate) p: Vec3,
+    /// The point for the wide kernel of leaves.
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    pub(crate) lanes: LanePoint,
     pub(crate) units: Units,
     /// Rounding of a computed distance, grid units, in addition to [`FAN_RELATIVE`] roundings of
     /// the distance itself.
@@ -89,6 +94,8 @@ impl PointQuery {
         };
         Ok(PointQuery {
             p,
+            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+            lanes: LanePoint::new(p, header.grid_origin),
             units,
             shortfall_sq,
             rounding: fan,

@@ -6,7 +6,7 @@ mod round;
 mod sqrt;
 pub mod tolerance;
 
-pub use order::{greater, lesser, of_eight};
+pub use order::{greater, lesser};
 pub use radius::{Radius8, Radius16};
 pub use round::{down_to_f32, exp2, sum_down, sum_up, two_sum, up_to_f32};
 pub use sqrt::{sqrt_approx, sqrt_up};

@@ -13,10 +13,3 @@ pub fn lesser<T: PartialOrd>(a: T, b: T) -> T {
 pub fn greater<T: PartialOrd>(a: T, b: T) -> T {
     if b > a { b } else { a }
 }
-
-/// One of eight numbers, `pick` being [`lesser`] or [`greater`]: in three steps, so that a vector
-/// target takes whole registers.
-#[inline(always)]
-pub fn of_eight<T>([a, b, c, d, e, f, g, h]: [T; 8], pick: impl Fn(T, T) -> T) -> T {
-    pick(pick(pick(a, e), pick(b, f)), pick(pick(c, g), pick(d, h)))
-}

@@ -8,11 +8,14 @@ use crate::num::tolerance::SLIVER_SINE_SQ;
 /// the tree is unchecked.
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub(crate) fn has_no_sliver(leaf: &FanLeaf<'_>) -> Option<bool> {
+    use crate::bvh::format::LanePoint;
     use crate::bvh::leaf_distance::leaf_edges;
     use crate::geom::fan::{Lanes, lanes_below};
     let mut slivers = Lanes::ZERO;
     let used = lanes_below(leaf.shape().triangles())?;
-    for (edges, used) in leaf_edges(leaf, glam::Vec3::ZERO)?.into_iter().zip(used) {
+    // Edges do not depend on the point.
+    let any_point = LanePoint::new(glam::Vec3::ZERO, [0; 3]);
+    for (edges, used) in leaf_edges(leaf, &any_point)?.into_iter().zip(used) {
         let ([ex, ey, ez], [gx, gy, gz]) = (edges.e, edges.g);
         let (x, y, z) = (ey * gz - gy * ez, ez * gx - gz * ex, ex * gy - gx * ey);
         let normal = x * x + y * y + z * z;

@@ -1,8 +1,30 @@
 //! Leaves read a register at a time, for the point kernel of vector targets.
 
 use super::leaf::{FanLeaf, GRID_WINDOW};
-use crate::geom::fan::{Edges, LANES, Lanes, PIECES, lanes_below};
+use crate::geom::fan::{Edges, LANES, Lanes, PIECES, WIDTH, lanes_below};
 use glam::Vec3;
+
+/// A point for the leaves of one tree, prepared once for each query. Grid units.
+#[derive(Clone, Copy, Debug)]
+pub struct LanePoint {
+    p: Vec3,
+    /// The point's coordinates, each in all lanes.
+    lanes: [Lanes; 3],
+    /// The grid's origin in all lanes.
+    origin: [Lanes; 3],
+}
+
+impl LanePoint {
+    /// The point `p` for a tree with this `grid_origin`.
+    #[inline(always)]
+    pub fn new(p: Vec3, grid_origin: [i32; 3]) -> LanePoint {
+        let [lanes, origin] = [p.to_array(), grid_origin.map(|x| x as f32)].map(
+            #[inline(always)]
+            |[x, y, z]| [Lanes::splat(x), Lanes::splat(y), Lanes::splat(z)],
+        );
+        LanePoint { p, lanes, origin }
+    }
+}
 
 /// A leaf on the grid and a point, ready to be read.
 #[derive(Clone, Copy, Debug)]
@@ -14,10 +36,9 @@ pub struct GridLanes<'a> {
     step: usize,
     /// First and second centre without the grid's origin.
     centres: [[f32; 3]; 2],
-    origin: [f32; 3],
     /// Ones in the lanes of the first fan.
     first: [Lanes; PIECES],
-    p: [f32; 3],
+    point: &'a LanePoint,
 }
 
 impl GridLanes<'_> {
@@ -39,7 +60,7 @@ impl GridLanes<'_> {
             numbers(self.window, at, piece) - centre,
             numbers(self.window, at + 2, piece) - centre,
             // The sum is exact, so this is the point less the centre, rounded once.
-            Lanes::splat(self.p[axis]) - (centre + Lanes::splat(self.origin[axis])),
+            self.point.lanes[axis] - (centre + self.point.origin[axis]),
         ]
     }
 }
@@ -69,7 +90,9 @@ fn floats(numbers: [u16; LANES]) -> Lanes {
 #[cfg(not(target_feature = "avx"))]
 #[inline(always)]
 fn floats(numbers: [u16; LANES]) -> Lanes {
-    Lanes::new(numbers.map(f32::from))
+    let eight = wide::i32x8::from_u16x8(wide::bytemuck::cast([numbers, [0; LANES]]));
+    let [four, _]: [wide::i32x4; 2] = wide::bytemuck::cast(eight);
+    four.round_float()
 }
 
 /// The first eight numbers.
@@ -83,26 +106,28 @@ fn first_eight(window: &[u8; GRID_WINDOW]) -> [f32; 8] {
 }
 
 impl<'a> FanLeaf<'a> {
-    /// A leaf with vertices on the grid, and the point `p` (grid units).
+    /// A leaf with vertices on the grid, and a point.
     #[inline(always)]
-    pub fn grid_lanes(&self, p: Vec3) -> Option<GridLanes<'a>> {
+    pub fn grid_lanes<'b>(&self, point: &'b LanePoint) -> Option<GridLanes<'b>>
+    where
+        'a: 'b,
+    {
         let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
         let [cx, cy, cz, dx, dy, dz, ..] = first_eight(window);
         Some(GridLanes {
             window,
             ring: 6 * self.shape.centres(),
-            step: 2 * (self.shape.triangles() + 1),
+            step: 2 * (self.shape.triangles() + 1).min(WIDTH + 1),
             centres: [[cx, cy, cz], [dx, dy, dz]],
-            origin: self.origin.map(|x| x as f32),
             first: lanes_below(self.shape.turn())?,
-            p: p.to_array(),
+            point,
         })
     }
 
-    /// The triangles in the lanes of register `piece` as seen from `p` (grid units), of a leaf with
-    /// f32 vertices.
+    /// The triangles in the lanes of register `piece` as seen from a point, of a leaf with f32
+    /// vertices.
     #[inline]
-    pub fn f32_edges(&self, p: Vec3, piece: usize) -> Option<Edges> {
+    pub fn f32_edges(&self, &LanePoint { p, .. }: &LanePoint, piece: usize) -> Option<Edges> {
         let first = *lanes_below(self.shape.turn())?.get(piece)?;
         let (c, d) = (self.centre(0), self.centre(self.shape.centres() - 1));
         let [cs, ds] = [p - c, p - d].map(|s| s.to_array());

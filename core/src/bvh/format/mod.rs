@@ -23,5 +23,7 @@ mod view;
 
 pub use header::BvhHeader;
 pub use leaf::{CORNERS, FanLeaf, GridRing, LeafShape};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub(crate) use leaf_lanes::LanePoint;
 pub(crate) use units::{Units, at_least, at_most};
 pub use view::{Bvh, BvhChild, Links};

@@ -4,7 +4,6 @@
 //! of an f32 that is not negative.
 
 use crate::geom::fan::WIDTH;
-use crate::num::{lesser, of_eight};
 
 /// The low bits of a key hold the number of the child.
 pub const CHILD_MASK: u32 = WIDTH as u32 - 1;
@@ -16,12 +15,10 @@ pub const NO_CHILD: u32 = 0x7F00_0000;
 pub const WIDE: bool = cfg!(any(target_arch = "x86_64", target_arch = "aarch64"));
 
 /// The least key. Its low bits hold the number of the nearest child.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 #[inline(always)]
 pub fn least_key(keys: &[u32; WIDTH]) -> u32 {
-    if !WIDE {
-        return keys.iter().fold(NO_CHILD, |least, &key| least.min(key));
-    }
-    of_eight(keys.map(u32::cast_signed), lesser).cast_unsigned()
+    keys.iter().fold(NO_CHILD, |least, &key| least.min(key))
 }
 
 /// The same numbers, forced into memory. Otherwise the compiler undoes the vectorisation: it
@@ -29,4 +26,40 @@ pub fn least_key(keys: &[u32; WIDTH]) -> u32 {
 #[inline(always)]
 pub fn in_memory<T>(numbers: T) -> T {
     core::hint::black_box(numbers)
+}
+
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub use vector::{least_key, places_of_wanted};
+
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod vector {
+    use super::WIDTH;
+    use crate::num::lesser;
+    use wide::bytemuck::cast;
+    use wide::{i8x16, i16x8, i32x4, i32x8};
+
+    /// The least key. Its low bits hold the number of the nearest child.
+    #[inline(always)]
+    pub fn least_key(keys: &[u32; WIDTH]) -> u32 {
+        let [low, high]: [i32x4; 2] = cast(*keys);
+        let four = low.min(high);
+        let [low, high]: [u64; 2] = cast(four);
+        let [a, b, ..] = four.min(cast([high, low])).to_array();
+        lesser(a, b).cast_unsigned()
+    }
+
+    /// For each child, in a byte, how many wanted children come before it; and how many there are
+    /// in all. Wanted are keys up to `limit`, except `nearest`.
+    #[inline(always)]
+    pub fn places_of_wanted(keys: &[u32; WIDTH], nearest: u32, limit: u32) -> (u64, usize) {
+        let keys: i32x8 = cast(*keys);
+        let [limit, nearest] = [limit, nearest].map(u32::cast_signed);
+        let unwanted = keys.simd_gt(i32x8::splat(limit)) | keys.simd_eq(i32x8::splat(nearest));
+        let shorts = i16x8::from_i32x8_saturate(unwanted);
+        let [unwanted, _]: [u64; 2] = cast(i8x16::from_i16x16_saturate(cast([shorts; 2])));
+        // Byte i is the sum of the bytes up to i.
+        const ONES: u64 = 0x0101_0101_0101_0101;
+        let sums = (!unwanted & ONES).wrapping_mul(ONES);
+        (sums << 8, (sums >> 56) as usize)
+    }
 }

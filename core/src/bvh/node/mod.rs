@@ -8,14 +8,20 @@
 //! | file | owns |
 //! | --- | --- |
 //! | `keys` | a child's bound with its number in the low bits |
-//! | `frame` | [`KeyPoint`], a prepared point; [`NodeFrame`], the point in a node's frame |
+//! | `frame` | [`KeyPoint`], a point that is prepared for frames |
 //! | `grid_line` | [`GridLine`], a segment's line in integers, for targets without an FPU |
 //! | `box_distances` | a point against eight boxes |
-//! | `pairs` | the same on processors without vectors, two children in a word |
+//! | `box_lanes` | the same in vector registers, frame included |
+//! | `axis_place` | `AxisPlace`, a point along one axis of a frame, where there are no vectors |
+//! | `pairs` | a point against eight boxes there, two children in a word |
 //! | `box_entries` | [`Slabs`], a segment prepared for the test; a segment against eight boxes |
 
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+mod axis_place;
 mod box_distances;
 mod box_entries;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod box_lanes;
 mod frame;
 mod grid_line;
 mod keys;
@@ -26,6 +32,8 @@ mod tests;
 
 pub use box_distances::box_distances;
 pub use box_entries::{Slabs, box_entries};
-pub use frame::{KeyPoint, NodeFrame};
+pub use frame::KeyPoint;
 pub use grid_line::GridLine;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub use keys::places_of_wanted;
 pub use keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory, least_key};

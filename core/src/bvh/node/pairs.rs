@@ -4,7 +4,8 @@
 //! A plane's place has fifteen bits. The sixteenth is set before a subtraction, and stays set where
 //! the difference is not negative: no half borrows from the other.
 
-use super::frame::{AxisPlace, KeyPoint};
+use super::axis_place::AxisPlace;
+use super::frame::KeyPoint;
 use super::keys::{CHILD_MASK, NO_CHILD};
 use crate::bvh::format::layout::{FRAME_BYTES, boxes};
 use crate::geom::fan::WIDTH;

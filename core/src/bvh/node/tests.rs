@@ -3,7 +3,7 @@
 use super::box_entries::Slabs;
 use super::frame::KeyPoint;
 use super::keys::NO_CHILD;
-use super::{box_distances, box_entries, pairs};
+use super::{box_entries, box_lanes, pairs};
 use crate::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES};
 use crate::geom::fan::WIDTH;
 use glam::Vec3;
@@ -88,7 +88,7 @@ fn distances_have_the_same_bits() {
             let point = KeyPoint::new(p, farthest);
             for parent in [0, 1 << noise.below(31)] {
                 let [mut wide, mut narrow] = [[0; WIDTH]; 2];
-                box_distances::lanes::keys(&record, &point, count as u32, parent, &mut wide);
+                box_lanes::keys(&record, &point, count as u32, parent, &mut wide);
                 pairs::keys(&record, &point, count as u32, parent, &mut narrow);
                 let used = |keys: [u32; WIDTH]| keys.map(|key| key.min(NO_CHILD));
                 assert_eq!(used(wide), used(narrow), "{point:?}, {count} of {record:?}");
@@ -128,7 +128,7 @@ fn no_key_is_above_the_exact_distance_and_few_are_far_below() {
         let farthest = p.abs().max_element().max(65_535.0 - p.min_element()).max(65_535.0);
         let point = KeyPoint::new(p, farthest);
         let mut keys = [0; WIDTH];
-        box_distances::lanes::keys(&record, &point, 8, 0, &mut keys);
+        box_lanes::keys(&record, &point, 8, 0, &mut keys);
         for (lane, key) in keys.into_iter().enumerate() {
             let exact: [f64; 3] = core::array::from_fn(|axis| {
                 exact_distance(&record, p.to_array().map(f64::from), point.unit(), axis, lane)
