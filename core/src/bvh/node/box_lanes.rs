@@ -126,8 +126,9 @@ impl LaneFrame {
             let below_zw = place(half(u8x16::ZERO, first_zw), units.zw) - from_first.zw;
             let beyond_xy = place(half(u8x16::ZERO, last_xy), units.xy) - from_last.xy;
             let beyond_zw = place(half(u8x16::ZERO, last_zw), units.zw) - from_last.zw;
-            let xy = below_xy.max(beyond_xy).max(i16x8::ZERO);
-            let zw = below_zw.max(beyond_zw).max(i16x8::ZERO);
+            // Of a box whose planes are in order at most one of both is above 0.
+            let xy = below_xy.max(i16x8::ZERO) | beyond_xy.max(i16x8::ZERO);
+            let zw = below_zw.max(i16x8::ZERO) | beyond_zw.max(i16x8::ZERO);
             xy.dot(xy) + zw.dot(zw)
         };
         cast([four(u8x16::unpack_low), four(u8x16::unpack_high)])
