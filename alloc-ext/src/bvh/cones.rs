@@ -4,6 +4,7 @@ use super::fans::FanLeaf;
 use super::nodes::order::Topology;
 use glam::DVec3;
 use meshsweep_core::internal::geom::fan::NormalCone;
+use rayon::prelude::*;
 
 /// Squared sine of the angle between two edges below which a normal's direction is not used. f64
 /// gives the normal to 1e-15 of the edges' lengths, a millionth of this sine. On the grid only
@@ -15,7 +16,9 @@ const ROUNDING: f64 = 1e-8;
 
 /// The section's bytes, in leaf order; `positions` in grid units, as stored.
 pub(super) fn cones(topology: &Topology, leaves: &[FanLeaf], positions: &[DVec3]) -> Vec<u8> {
-    topology.leaf_order.iter().flat_map(|&item| cone(&leaves[item as usize], positions)).collect()
+    let of_leaf = |&item: &u32| cone(&leaves[item as usize], positions);
+    let cones: Vec<[u8; 4]> = topology.leaf_order.par_iter().map(of_leaf).collect();
+    cones.into_flattened()
 }
 
 /// The cone of a leaf. Triangles without area have no normal and do not count.

@@ -1,10 +1,11 @@
 //! The tree's sections as bytes, through the constants of `meshsweep_core::internal::format`.
 
-use super::fans::FanLeaf;
+use super::fans::{FanLeaf, MAX_LEAF_TRIANGLES};
 use super::nodes::boxes::NodeBoxes;
 use super::nodes::order::Topology;
 use super::store::OnGrid;
 use crate::emit::Sections;
+use arrayvec::ArrayVec;
 use glam::{DVec3, Vec3};
 use meshsweep_core::Blob;
 use meshsweep_core::SectionKind;
@@ -55,12 +56,13 @@ pub(super) fn tag(leaf: &FanLeaf) -> LeafShape {
 }
 
 /// Vertices of a leaf in stored order: centres, then the ring.
-pub(super) fn vertices(leaf: &FanLeaf) -> (Vec<u32>, Vec<u32>) {
-    let mut centres = vec![leaf.first.centre];
+pub(super) fn vertices(
+    leaf: &FanLeaf,
+) -> (ArrayVec<u32, 2>, ArrayVec<u32, { MAX_LEAF_TRIANGLES + 1 }>) {
+    let centres = leaf.fans().map(|fan| fan.centre).collect();
     let mut ring = leaf.first.ring.clone();
     if let Some(second) = &leaf.second {
-        centres.push(second.centre);
-        ring.extend(&second.ring[1..]);
+        ring.extend(second.ring[1..].iter().copied());
     }
     (centres, ring)
 }

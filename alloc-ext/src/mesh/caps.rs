@@ -5,6 +5,7 @@
 //! point set, the same outer edges, no cap. Just dropping the cap would leave its two short edges
 //! facing the long one, a slit.
 
+use rayon::prelude::*;
 use std::collections::VecDeque;
 
 use super::collinear::{collinear, middle};
@@ -25,8 +26,10 @@ pub(super) fn remove_caps(
         let [a, b, c] = t.map(|v| positions[v as usize]);
         collinear(a, b, c)
     };
-    let caps: Vec<u32> =
-        (0..triangles.len() as u32).filter(|&t| flat(triangles[t as usize])).collect();
+    let caps: Vec<u32> = (0..triangles.len() as u32)
+        .into_par_iter()
+        .filter(|&t| flat(triangles[t as usize]))
+        .collect();
     if caps.is_empty() {
         return;
     }

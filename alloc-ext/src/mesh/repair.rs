@@ -57,7 +57,10 @@ pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
     let mut wires = uncovered(&positions, &triangles, &taken_out, &mut report);
 
     let edges = EdgeTable::new(positions.len(), &triangles);
-    let fans = fans(&triangles, &edges);
+    // Splitting moves no corner to another edge: half-edges keep their twins, and twins their
+    // common vertices.
+    let (fans, components) =
+        rayon::join(|| fans(&triangles, &edges), || propagate(&triangles, &edges.twins()));
     let mut vertex_source: Vec<u32> = (0..positions.len() as u32).collect();
     for original in split(positions.len(), &mut triangles, &fans) {
         let at = positions[original as usize];
@@ -65,8 +68,6 @@ pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
         positions.push(at);
         vertex_source.push(original);
     }
-    // Splitting moves no corner to another edge: the half-edges' twins are those from before.
-    let components = propagate(&triangles, &edges.twins());
     wind(&positions, &mut triangles, &source, &components, &mut report);
     turn_outwards(&positions, &mut triangles, &source, &components, &mut report);
     let kept = drop_unreferenced(&positions, &mut triangles, &mut wires, &first_at, &mut report);

@@ -52,20 +52,28 @@ impl Toolbox {
     /// A command for one of the programs in `usr/bin`, with the libraries that came with it.
     pub fn command(&self, program: &str) -> Command {
         let mut command = Command::new(self.path("usr/bin").join(program));
-        command.env("LD_LIBRARY_PATH", self.libraries());
+        self.lend_libraries(&mut command);
         command
     }
 
-    fn libraries(&self) -> String {
+    /// Lets a program use the libraries that came with the packages.
+    pub fn lend_libraries(&self, command: &mut Command) {
+        let folders: Vec<String> =
+            self.libraries().iter().map(|folder| folder.to_string_lossy().into_owned()).collect();
+        command.env("LD_LIBRARY_PATH", folders.join(":"));
+    }
+
+    /// The folders of the libraries.
+    pub fn libraries(&self) -> Vec<PathBuf> {
         let mut folders = Vec::new();
         for parent in ["usr/lib", "lib"].map(|folder| self.root.join(folder)) {
             for entry in fs::read_dir(parent).into_iter().flatten().flatten() {
                 if entry.file_name().to_string_lossy().contains("-linux-") {
-                    folders.push(entry.path().to_string_lossy().into_owned());
+                    folders.push(entry.path());
                 }
             }
         }
-        folders.join(":")
+        folders
     }
 }
 

@@ -22,9 +22,8 @@ impl<'a> Adjacency<'a> {
     /// its own neighbour.
     ///
     /// # Panics
-    /// If a triangle names a vertex that is not below `vertex_count`, or if half-edges do not fit
-    /// in 32 bits.
-    pub(super) fn new(vertex_count: usize, triangles: &'a [[u32; 3]]) -> Self {
+    /// If the edges are not those of the triangles, or if half-edges do not fit in 32 bits.
+    pub(super) fn new(triangles: &'a [[u32; 3]], edges: &EdgeTable) -> Self {
         assert!(triangles.len() < (u32::MAX / 3) as usize, "half-edges are numbered in 32 bits");
         let mut across = vec![NONE; 3 * triangles.len()];
         let mut pair = |g: u32, h: u32| {
@@ -34,7 +33,7 @@ impl<'a> Adjacency<'a> {
             }
         };
         let (mut up, mut down) = (Vec::new(), Vec::new());
-        for edge in EdgeTable::new(vertex_count, triangles).edges() {
+        for edge in edges.edges() {
             up.clear();
             down.clear();
             for &(high, half_edge) in edge {

@@ -5,13 +5,18 @@
 //! triangle is in exactly one fan exactly once.
 
 mod adjacency;
+mod ahead;
+mod best_leaf;
+mod front;
 mod pack;
+mod remaining;
 mod score;
 mod window;
 
 #[cfg(test)]
 mod tests;
 
+use arrayvec::ArrayVec;
 pub(super) use pack::pack;
 
 /// Most triangles in a fan, and in a [`FanLeaf`]: the box tree tests a leaf in 8 lanes.
@@ -27,9 +32,9 @@ pub(super) struct Fan {
     /// The vertex that all triangles share.
     pub(crate) centre: u32,
     /// The vertices around it, in order.
-    pub(crate) ring: Vec<u32>,
+    pub(crate) ring: ArrayVec<u32, { MAX_LEAF_TRIANGLES + 1 }>,
     /// The triangles' numbers, in the ring's order: 1 to [`MAX_LEAF_TRIANGLES`].
-    pub(crate) triangles: Vec<u32>,
+    pub(crate) triangles: ArrayVec<u32, MAX_LEAF_TRIANGLES>,
     /// True if the ring runs against the mesh's winding.
     pub(crate) reversed: bool,
 }
@@ -49,7 +54,7 @@ pub(super) struct FanLeaf {
 impl FanLeaf {
     /// The one or two fans.
     pub(crate) fn fans(&self) -> impl Iterator<Item = &Fan> {
-        [Some(&self.first), self.second.as_ref()].into_iter().flatten()
+        std::iter::once(&self.first).chain(&self.second)
     }
 
     /// The triangles' numbers in the order in which the leaf stores them.

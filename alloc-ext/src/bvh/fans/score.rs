@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::MAX_LEAF_TRIANGLES;
-use super::window::Window;
+use super::window::{WINDOW, Window};
 
 // The weights extend the paper's `f` from fans to leaves: size, contact with the front, and the
 // triangles left behind. They were chosen for few leaves and small boxes together, on two scanned
@@ -40,22 +40,28 @@ fn each(mut mask: u32) -> impl Iterator<Item = usize> {
 
 /// Size, contact, and the triangles next to the leaf: cheap enough for every candidate.
 pub(super) fn contact(window: &Window, leaf: u32) -> i32 {
-    let (mut degrees, mut inner, mut around) = (0, 0, 0);
+    // The triangles with at least one, two, three neighbours in the leaf, as masks.
+    let (mut one, mut two, mut three) = (0, 0, 0);
     for i in each(leaf) {
-        degrees += window.degree(i).cast_signed();
-        inner += (window.neighbours(i) & leaf).count_ones().cast_signed();
-        around |= window.neighbours(i);
+        let neighbours = window.neighbours(i);
+        three |= two & neighbours;
+        two |= one & neighbours;
+        one |= neighbours;
     }
-    let mut left = 0;
-    for i in each(around & !leaf) {
-        left += match window.degree(i) - (window.neighbours(i) & leaf).count_ones() {
-            0 => ALONE,
-            1 => DANGLING,
-            _ => 0,
-        };
-    }
-    SIZE * leaf.count_ones().cast_signed() - OPEN_EDGE * (degrees - inner) + INNER_EDGE * inner / 2
-        - left
+    let has = window.degree_masks();
+    let inner = count([one & leaf, two & leaf]) + count([three & leaf, 0]);
+    let degrees = count([has[0] & leaf, has[1] & leaf]) + count([has[2] & leaf, 0]);
+    // Outside, those all of whose neighbours are in the leaf, and all but one.
+    let alone = (three | two & !has[2] | one & !has[1]) & !leaf;
+    let dangling = (one & !two & has[1] & !has[2] | two & !three & has[2]) & !leaf;
+    SIZE * count([leaf, 0]) - OPEN_EDGE * (degrees - inner) + INNER_EDGE * inner / 2
+        - ALONE * count([alone, 0])
+        - DANGLING * count([dangling, 0])
+}
+
+/// The triangles of two masks. A popcount of 64 bits costs as much as one of 32.
+fn count([a, b]: [u32; 2]) -> i32 {
+    (u64::from(a) << 32 | u64::from(b)).count_ones().cast_signed()
 }
 
 /// The parts that the leaf cuts off, as far as they lie in the window. A part of one triangle is
@@ -79,24 +85,72 @@ pub(super) fn cut_off(window: &Window, leaf: u32) -> i32 {
     -EMPTY_LANE * empty.cast_signed()
 }
 
-/// How far the leaf spreads, by its axis-parallel box; the same at any scale. 0 if all its edges
-/// have length 0.
-pub(super) fn spread(
-    window: &Window,
-    leaf: u32,
-    triangles: &[[u32; 3]],
-    positions: &[DVec3],
-) -> f64 {
-    let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let mut squared_edges = 0.0;
-    for i in each(leaf) {
-        let [a, b, c] = triangles[window.triangles()[i] as usize].map(|v| positions[v as usize]);
-        lower = lower.min(a).min(b).min(c);
-        upper = upper.max(a).max(b).max(c);
-        squared_edges += a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a);
+/// How far leaves of one window spread.
+#[derive(Default)]
+pub(super) struct Spreads {
+    extents: [Extent; WINDOW],
+    /// The triangles of the window whose extent is known, as a mask.
+    known: u32,
+}
+
+/// A triangle's box, and the sum of its squared edges.
+#[derive(Clone, Copy, Default)]
+struct Extent {
+    lower: DVec3,
+    upper: DVec3,
+    squared_edges: f64,
+}
+
+impl Spreads {
+    /// For another window.
+    pub(super) fn clear(&mut self) {
+        self.known = 0;
     }
-    let size = upper - lower;
-    let half_area = size.x * size.y + size.y * size.z + size.z * size.x;
-    let unit = squared_edges / (3 * MAX_LEAF_TRIANGLES) as f64;
-    if unit > 0.0 { -SPREAD * half_area / (unit * f64::from(leaf.count_ones())) } else { 0.0 }
+
+    /// How far the leaf spreads, by its axis-parallel box; the same at any scale. 0 if all its
+    /// edges have length 0.
+    pub(super) fn of(
+        &mut self,
+        window: &Window,
+        leaf: u32,
+        triangles: &[[u32; 3]],
+        positions: &[DVec3],
+    ) -> f64 {
+        for i in each(leaf & !self.known) {
+            let [a, b, c] =
+                triangles[window.triangles()[i] as usize].map(|v| positions[v as usize]);
+            self.extents[i] = Extent {
+                lower: least(least(a, b), c),
+                upper: greatest(greatest(a, b), c),
+                squared_edges: a.distance_squared(b)
+                    + b.distance_squared(c)
+                    + c.distance_squared(a),
+            };
+        }
+        self.known |= leaf;
+        let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let mut squared_edges = 0.0;
+        for extent in each(leaf).map(|i| &self.extents[i]) {
+            lower = least(lower, extent.lower);
+            upper = greatest(upper, extent.upper);
+            squared_edges += extent.squared_edges;
+        }
+        let size = upper - lower;
+        let half_area = size.x * size.y + size.y * size.z + size.z * size.x;
+        let unit = squared_edges / (3 * MAX_LEAF_TRIANGLES) as f64;
+        if unit > 0.0 { -SPREAD * half_area / (unit * f64::from(leaf.count_ones())) } else { 0.0 }
+    }
+}
+
+// Plain comparisons compile to one instruction each; `f64::min` also orders NaN, which no position
+// has.
+
+fn least(a: DVec3, b: DVec3) -> DVec3 {
+    let of = |a: f64, b: f64| if b < a { b } else { a };
+    DVec3::new(of(a.x, b.x), of(a.y, b.y), of(a.z, b.z))
+}
+
+fn greatest(a: DVec3, b: DVec3) -> DVec3 {
+    let of = |a: f64, b: f64| if b > a { b } else { a };
+    DVec3::new(of(a.x, b.x), of(a.y, b.y), of(a.z, b.z))
 }

@@ -2,6 +2,7 @@
 
 use super::{Fan, FanLeaf, MAX_LEAF_TRIANGLES, pack};
 use crate::random::SplitMix;
+use crate::surface::EdgeTable;
 use glam::DVec3;
 
 struct Soup {
@@ -58,7 +59,8 @@ impl Soup {
 
     /// Leaves, checked; the same twice.
     fn pack(&self) -> Vec<FanLeaf> {
-        let leaves = pack(&self.triangles, &self.positions);
+        let edges = EdgeTable::new(self.positions.len(), &self.triangles);
+        let leaves = pack(&self.triangles, &edges, &self.positions);
         let mut found = vec![0; self.triangles.len()];
         for leaf in &leaves {
             demand_form(leaf);
@@ -74,7 +76,7 @@ impl Soup {
             }
         }
         assert!(found.iter().all(|&count| count == 1), "every triangle is in one fan");
-        assert_eq!(leaves, pack(&self.triangles, &self.positions));
+        assert_eq!(leaves, pack(&self.triangles, &edges, &self.positions));
         leaves
     }
 
@@ -252,4 +254,16 @@ fn packing_fills_leaves_and_stays_compact() {
     let half_areas = |sets: &[Vec<u32>]| soup.half_areas(sets.iter().map(|set| &set[..]));
     let [packed, strips] = [&sets, &quads].map(|sets| half_areas(sets));
     assert!(packed < 1.2 * strips, "{packed} {strips}");
+}
+
+#[test]
+fn leaves_are_the_same_on_any_number_of_threads() {
+    let mut random = SplitMix::new(8);
+    let mut soup = Soup::sheet(120, &mut random);
+    soup.triangles.retain(|_| below(&mut random, 200) != 0);
+    let packed = [1, 2, 3].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| soup.pack())
+    });
+    assert!(packed[0] == packed[1] && packed[0] == packed[2]);
 }

@@ -4,7 +4,9 @@
 //! Corner `3i + k` is corner `k` of the window's triangle `i`.
 
 use super::adjacency::{Adjacency, NONE, following};
+use super::remaining::Remaining;
 use super::{Fan, MAX_LEAF_TRIANGLES};
+use arrayvec::ArrayVec;
 
 /// Triangles in a window: as many as a mask has bits. 20 make half a percent more leaves, 48 no
 /// fewer.
@@ -27,11 +29,14 @@ pub(super) struct Run {
 /// The triangles nearest to a seed, counted in edges crossed, with their adjacency.
 pub(super) struct Window {
     /// The triangles' numbers; the first is the seed.
-    triangles: Vec<u32>,
+    triangles: ArrayVec<u32, WINDOW>,
+    /// The half-edges beyond which a triangle remains, in the window or not, by corners.
+    open: [u32; 3],
     /// For each triangle its neighbours in the window, as a mask.
     neighbours: [u32; WINDOW],
-    /// For each triangle its remaining neighbours, in the window and beyond.
-    degree: [u8; WINDOW],
+    /// The triangles with at least one, two, three remaining neighbours, in the window and beyond,
+    /// as masks.
+    degree_masks: [u32; 3],
     /// Triangles with a remaining neighbour beyond the window, as a mask.
     border: u32,
     next: [u8; CORNERS],
@@ -41,10 +46,9 @@ pub(super) struct Window {
     /// A corner of each vertex, and for each corner another one of its vertex.
     first_at: [u8; CORNERS],
     other_at: [u8; CORNERS],
-    /// `ahead[c][n]`: the `n` triangles about `c`'s vertex from `c` on, as a mask; 0 if there are
-    /// fewer.
-    ahead: [[u32; MAX_LEAF_TRIANGLES + 1]; CORNERS],
-    behind: [[u32; MAX_LEAF_TRIANGLES + 1]; CORNERS],
+    /// For each corner the triangles about its vertex from the corner on, or back from it.
+    ahead: [Runs; CORNERS],
+    behind: [Runs; CORNERS],
     /// Numbers within the window, for all triangles and vertices of the soup; [`NO`] between two
     /// calls.
     local_triangle: Vec<u8>,
@@ -54,50 +58,52 @@ pub(super) struct Window {
 impl Window {
     pub(super) fn new(vertex_count: usize, triangle_count: usize) -> Self {
         Self {
-            triangles: Vec::with_capacity(WINDOW),
+            triangles: ArrayVec::new(),
+            open: [0; 3],
             neighbours: [0; WINDOW],
-            degree: [0; WINDOW],
+            degree_masks: [0; 3],
             border: 0,
             next: [NO; CORNERS],
             previous: [NO; CORNERS],
             vertex: [0; CORNERS],
             first_at: [NO; CORNERS],
             other_at: [NO; CORNERS],
-            ahead: [[0; MAX_LEAF_TRIANGLES + 1]; CORNERS],
-            behind: [[0; MAX_LEAF_TRIANGLES + 1]; CORNERS],
+            ahead: [Runs::default(); CORNERS],
+            behind: [Runs::default(); CORNERS],
             local_triangle: vec![NO; triangle_count],
             local_vertex: vec![NO; vertex_count],
         }
     }
 
     /// Moves the window to `seed`. Bounded work, for any valences.
-    pub(super) fn fill(&mut self, adjacency: &Adjacency, taken: &[bool], seed: u32) {
-        let neighbour = |half_edge: u32| {
-            let across = adjacency.across(half_edge);
-            if across == NONE || taken[across as usize / 3] { NONE } else { across }
-        };
+    pub(super) fn fill(&mut self, adjacency: &Adjacency, remaining: &Remaining, seed: u32) {
         self.triangles.clear();
         self.triangles.push(seed);
         self.local_triangle[seed as usize] = 0;
+        let mut across_of = [[NONE; 3]; WINDOW];
+        self.open = [0; 3];
         let mut i = 0;
         while i < self.triangles.len() {
-            let first = 3 * self.triangles[i];
-            for across in (first..first + 3).map(neighbour).filter(|&across| across != NONE) {
+            let open = open_edges(adjacency, remaining, self.triangles[i]);
+            for (k, across) in open.into_iter().enumerate().filter(|&(_, across)| across != NONE) {
+                self.open[k] |= 1 << i;
                 let slot = &mut self.local_triangle[across as usize / 3];
                 if *slot == NO && self.triangles.len() < WINDOW {
                     *slot = self.triangles.len() as u8;
                     self.triangles.push(across / 3);
                 }
             }
+            across_of[i] = open;
             i += 1;
         }
+        let [a, b, c] = self.open;
+        self.degree_masks = [a | b | c, a & b | b & c | c & a, a & b & c];
 
         let mut vertex_count = 0u8;
         self.border = 0;
-        for i in 0..self.triangles.len() {
+        for (i, across_of) in across_of.iter().take(self.triangles.len()).enumerate() {
             self.neighbours[i] = 0;
-            self.degree[i] = 0;
-            for k in 0..3 {
+            for (k, &across) in across_of.iter().enumerate() {
                 let half_edge = 3 * self.triangles[i] + k as u32;
                 let corner = 3 * i + k;
                 let slot = &mut self.local_vertex[adjacency.vertex(half_edge) as usize];
@@ -110,12 +116,11 @@ impl Window {
                 self.other_at[corner] =
                     std::mem::replace(&mut self.first_at[*slot as usize], corner as u8);
 
-                let (after, across) = (self.after(corner as u8) as usize, neighbour(half_edge));
+                let after = self.after(corner as u8) as usize;
                 (self.previous[corner], self.next[after]) = (NO, NO);
                 if across == NONE {
                     continue;
                 }
-                self.degree[i] += 1;
                 let local = self.local_triangle[across as usize / 3];
                 if local == NO {
                     self.border |= 1 << i;
@@ -135,8 +140,8 @@ impl Window {
                 .for_each(|&v| self.local_vertex[v as usize] = NO);
         }
         for corner in 0..3 * self.triangles.len() {
-            self.ahead[corner] = runs(corner as u8, &self.next);
-            self.behind[corner] = runs(corner as u8, &self.previous);
+            self.ahead[corner] = Runs::new(corner as u8, &self.next);
+            self.behind[corner] = Runs::new(corner as u8, &self.previous);
         }
     }
 
@@ -155,9 +160,15 @@ impl Window {
         self.neighbours[i]
     }
 
-    /// How many remaining neighbours triangle `i` has, in the window and beyond.
-    pub(super) fn degree(&self, i: usize) -> u32 {
-        u32::from(self.degree[i])
+    /// The triangles with at least one, two, three remaining neighbours, in the window and beyond,
+    /// as masks.
+    pub(super) fn degree_masks(&self) -> [u32; 3] {
+        self.degree_masks
+    }
+
+    /// What the window holds, for a later look.
+    pub(super) fn footprint(&self) -> Footprint {
+        Footprint { triangles: self.triangles.clone(), open: self.open }
     }
 
     /// Triangles with a remaining neighbour beyond the window, as a mask.
@@ -165,9 +176,8 @@ impl Window {
         self.border
     }
 
-    /// The runs that start at `corner`, or end there if `behind`, as masks by their length; 0 where
-    /// there is none.
-    pub(super) fn runs(&self, corner: u8, behind: bool) -> &[u32; MAX_LEAF_TRIANGLES + 1] {
+    /// The runs that start at `corner`, or end there if `behind`.
+    pub(super) fn runs(&self, corner: u8, behind: bool) -> &Runs {
         if behind { &self.behind[corner as usize] } else { &self.ahead[corner as usize] }
     }
 
@@ -202,7 +212,7 @@ impl Window {
     /// A run as a fan.
     pub(super) fn fan(&self, adjacency: &Adjacency, run: Run, reversed: bool) -> Fan {
         let steps = if run.behind { &self.previous } else { &self.next };
-        let mut corners: Vec<u8> =
+        let mut corners: ArrayVec<u8, MAX_LEAF_TRIANGLES> =
             std::iter::successors(Some(run.corner), |&c| Some(steps[c as usize]))
                 .take(run.len as usize)
                 .collect();
@@ -227,17 +237,62 @@ impl Window {
     }
 }
 
-/// The runs from `corner` along `steps`, until a triangle comes back.
-fn runs(corner: u8, steps: &[u8; CORNERS]) -> [u32; MAX_LEAF_TRIANGLES + 1] {
-    let mut masks = [0; MAX_LEAF_TRIANGLES + 1];
-    let (mut mask, mut corner) = (0, corner);
-    for slot in &mut masks[1..] {
-        if corner == NO || mask & 1 << (corner / 3) != 0 {
-            break;
-        }
-        mask |= 1 << (corner / 3);
-        *slot = mask;
-        corner = steps[corner as usize];
+/// Triangles and open edges of a window.
+pub(super) struct Footprint {
+    triangles: ArrayVec<u32, WINDOW>,
+    open: [u32; 3],
+}
+
+impl Footprint {
+    /// Whether the window about its seed still is the same. Its triangles follow from the seed and
+    /// the open edges.
+    pub(super) fn is_of(&self, adjacency: &Adjacency, remaining: &Remaining) -> bool {
+        self.triangles.iter().enumerate().all(|(i, &triangle)| {
+            let open = open_edges(adjacency, remaining, triangle);
+            (0..3).all(|k| (open[k] != NONE) == (self.open[k] & 1 << i != 0))
+        })
     }
-    masks
+}
+
+/// The half-edges of remaining triangles across a triangle's edges, or [`NONE`].
+fn open_edges(adjacency: &Adjacency, remaining: &Remaining, triangle: u32) -> [u32; 3] {
+    [0, 1, 2].map(|k| {
+        let across = adjacency.across(3 * triangle + k);
+        if across == NONE || !remaining.has(across / 3) { NONE } else { across }
+    })
+}
+
+/// The runs from one corner in one direction, as masks by their length, up to the longest.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Runs {
+    masks: [u32; MAX_LEAF_TRIANGLES + 1],
+    longest: u8,
+}
+
+impl Runs {
+    /// The runs from `corner` along `steps`, until a triangle comes back.
+    fn new(corner: u8, steps: &[u8; CORNERS]) -> Self {
+        let mut runs = Self::default();
+        let (mut mask, mut corner) = (0, corner);
+        while usize::from(runs.longest) < MAX_LEAF_TRIANGLES
+            && corner != NO
+            && mask & 1 << (corner / 3) == 0
+        {
+            mask |= 1 << (corner / 3);
+            runs.longest += 1;
+            runs.masks[usize::from(runs.longest)] = mask;
+            corner = steps[corner as usize];
+        }
+        runs
+    }
+
+    /// The length of the longest run: 1 at least.
+    pub(super) fn longest(&self) -> usize {
+        usize::from(self.longest)
+    }
+
+    /// The run of a length, as a mask.
+    pub(super) fn mask(&self, len: usize) -> u32 {
+        self.masks[len]
+    }
 }

@@ -12,6 +12,7 @@
 //! and stability of numerical algorithms", section 3.1); the intervals are widened by twice that,
 //! which also pays for rounding the bound and the widening.
 
+use super::extent::{Extent, Frame, PointSet};
 use glam::DVec3;
 use meshsweep_core::internal::bvh::format::layout::{MOST_EXPONENT, ROW_BITS};
 use std::ops::RangeInclusive;
@@ -22,13 +23,8 @@ pub const LANES: usize = 8;
 const EXPONENTS: RangeInclusive<i32> = -20..=40;
 /// The same of a frame: steps finer than the grid would gain nothing.
 const FRAME_EXPONENTS: RangeInclusive<i32> = 0..=MOST_EXPONENT as i32;
-/// Coordinates may not exceed this in magnitude, grid units.
-const MAX_ABS_COORDINATE: f64 = 70_000.0;
 /// Grid points per axis, less one.
 const GRID_MAX: f64 = 65_535.0;
-/// Relative error of `M·(P − origin)` for fractional points: twice the proved bound, see above.
-const FRACTIONAL_MARGIN: f64 = 1.0 / (1u64 << 50) as f64;
-
 /// A node's frame and boxes, as the blob stores them.
 ///
 /// A point `P` (grid units) has the box coordinates `q_k = (M_k·(P − origin)) · 2^(−13 −
@@ -56,6 +52,7 @@ impl NodeBoxes {
     /// coordinates beyond ±70,000, which no mesh has.
     #[cfg(test)]
     pub fn covers(&self, lane: usize, point: DVec3) -> bool {
+        use super::extent::MAX_ABS_COORDINATE;
         const FRACTION_BITS: u32 = 76;
         if point.abs().max_element().is_nan() || point.abs().max_element() > MAX_ABS_COORDINATE {
             return false;
@@ -81,64 +78,21 @@ impl NodeBoxes {
     }
 }
 
-/// Box of one child in the frame, units of `M`, relative to an origin; widened where coordinates
-/// are fractional.
-#[derive(Clone, Copy)]
-struct Extent {
-    low: [f64; 3],
-    high: [f64; 3],
-}
-
-impl Extent {
-    const EMPTY: Self = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
-
-    fn of(points: &[DVec3], matrix: &[DVec3; 3], origin: DVec3) -> Self {
-        let mut extent = Self::EMPTY;
-        let mut reach = 0f64;
-        let mut fractional = false;
-        for &point in points {
-            debug_assert!(point.abs().max_element() <= MAX_ABS_COORDINATE);
-            let d = point - origin;
-            // An integer conversion and back is one cheap instruction each; `trunc` is a call on
-            // targets without SSE 4.1.
-            fractional |= point.to_array().iter().any(|&c| c as i64 as f64 != c);
-            reach = reach.max(d.x.abs()).max(d.y.abs()).max(d.z.abs());
-            for (k, row) in matrix.iter().enumerate() {
-                let q = row.x * d.x + row.y * d.y + row.z * d.z;
-                extent.low[k] = if q < extent.low[k] { q } else { extent.low[k] };
-                extent.high[k] = if q > extent.high[k] { q } else { extent.high[k] };
-            }
-        }
-        if fractional {
-            for (k, row) in matrix.iter().enumerate() {
-                let row_sum = row.x.abs() + row.y.abs() + row.z.abs();
-                extent.low[k] -= FRACTIONAL_MARGIN * row_sum * reach;
-                extent.high[k] += FRACTIONAL_MARGIN * row_sum * reach;
-            }
-        }
-        extent
-    }
-
-    fn union(mut self, other: &Self) -> Self {
-        for k in 0..3 {
-            self.low[k] = self.low[k].min(other.low[k]);
-            self.high[k] = self.high[k].max(other.high[k]);
-        }
-        self
-    }
-}
-
 /// Boxes of up to eight children in the frame of `matrix`; children without points become absent
 /// lanes.
 ///
-/// Coordinates are grid units within ±[`MAX_ABS_COORDINATE`]. The exponents are the least that fit,
-/// so the node spans 128 to 255 units per axis unless it is flat there. Cost: two passes over the
-/// points. Panics on more than eight children.
-pub(super) fn quantise(matrix: [[i16; 3]; 3], children: &[&[DVec3]]) -> NodeBoxes {
+/// Coordinates are grid units within ±70,000. The exponents are the least that fit,
+/// so the node spans 128 to 255 units per axis unless it is flat there. Cost: two extents of each
+/// child. Panics on more than eight children.
+pub(super) fn quantise(matrix: [[i16; 3]; 3], children: &[impl PointSet]) -> NodeBoxes {
     fit(matrix, children, FRAME_EXPONENTS)
 }
 
-fn fit(matrix: [[i16; 3]; 3], children: &[&[DVec3]], exponents: RangeInclusive<i32>) -> NodeBoxes {
+fn fit(
+    matrix: [[i16; 3]; 3],
+    children: &[impl PointSet],
+    exponents: RangeInclusive<i32>,
+) -> NodeBoxes {
     assert!(children.len() <= LANES, "a node has at most {LANES} children");
     let mut boxes = NodeBoxes {
         origin: [0; 3],
@@ -149,13 +103,12 @@ fn fit(matrix: [[i16; 3]; 3], children: &[&[DVec3]], exponents: RangeInclusive<i
     };
     let matrix = matrix.map(|row| DVec3::from_array(row.map(f64::from)));
     let mut extents = [Extent::EMPTY; LANES];
-    let mut origin =
-        children.iter().find_map(|points| points.first()).copied().unwrap_or(DVec3::ZERO);
+    let mut origin = children.iter().find_map(PointSet::first).unwrap_or(DVec3::ZERO);
     // The first pass only finds the middle.
     for pass in 0..2 {
         origin = origin.round().clamp(DVec3::ZERO, DVec3::splat(GRID_MAX));
         for (extent, points) in extents.iter_mut().zip(children) {
-            *extent = Extent::of(points, &matrix, origin);
+            *extent = points.extent(&Frame { matrix, origin });
         }
         if pass == 0 {
             let all = extents.iter().fold(Extent::EMPTY, Extent::union);
@@ -185,7 +138,7 @@ fn fit(matrix: [[i16; 3]; 3], children: &[&[DVec3]], exponents: RangeInclusive<i
 /// Node whose boxes are aligned with the grid's axes: `M` is the identity.
 ///
 /// The same contract and cost as for rotated frames; children without points become absent lanes.
-pub fn axis_aligned(children: &[&[DVec3]]) -> NodeBoxes {
+pub(super) fn axis_aligned(children: &[impl PointSet]) -> NodeBoxes {
     fit(IDENTITY, children, EXPONENTS)
 }
 
@@ -292,7 +245,7 @@ pub(super) mod tests {
     fn extreme_corners_fit_the_exponents() {
         let corners = [DVec3::ZERO, DVec3::splat(GRID_MAX)];
         for quaternion in [[127, 0, 0, 0], [127; 4], SKEW, [-127, 127, 127, -127]] {
-            assert_covers_all(&quantise(stored_rotation(quaternion), &[&corners]), &[&corners]);
+            assert_covers_all(&quantise(stored_rotation(quaternion), &[&corners[..]]), &[&corners]);
         }
     }
 
@@ -302,7 +255,7 @@ pub(super) mod tests {
         let points: Vec<DVec3> = (0..200)
             .map(|_| noise.point(DVec3::splat(30_000.0), DVec3::splat(5000.0)).round())
             .collect();
-        let boxes = quantise(stored_rotation(SKEW), &[&points]);
+        let boxes = quantise(stored_rotation(SKEW), &[&points[..]]);
         for k in 0..3 {
             assert!(boxes.high[k][0] - boxes.low[k][0] >= 126, "{boxes:?}");
         }
@@ -310,7 +263,8 @@ pub(super) mod tests {
 
     #[test]
     fn covers_is_false_one_step_outside() {
-        let boxes = axis_aligned(&[&[DVec3::new(10.0, 10.0, 10.0), DVec3::new(20.0, 20.0, 20.0)]]);
+        let corners = [DVec3::splat(10.0), DVec3::splat(20.0)];
+        let boxes = axis_aligned(&[&corners[..]]);
         assert!(boxes.covers(0, DVec3::new(10.0, 20.0, 15.0)));
         assert!(!boxes.covers(0, DVec3::new(10.0f64.next_down(), 20.0, 15.0)));
         assert!(!boxes.covers(0, DVec3::new(10.0, 20.0f64.next_up(), 15.0)));
@@ -320,10 +274,10 @@ pub(super) mod tests {
 
     #[test]
     fn children_without_points_are_absent() {
-        let boxes = axis_aligned(&[&[], &[DVec3::ONE]]);
+        let boxes = axis_aligned(&[&[][..], &[DVec3::ONE]]);
         assert!((0..3).all(|k| boxes.low[k][0] == 255 && boxes.high[k][0] == 0));
         assert!(boxes.covers(1, DVec3::ONE));
-        let nothing = axis_aligned(&[]);
+        let nothing = axis_aligned(&[&[][..]; 0]);
         assert!((0..LANES).all(|lane| !nothing.covers(lane, DVec3::ZERO)));
     }
 }

@@ -5,83 +5,66 @@ use super::extremes::extreme_points;
 use super::frame::{SEARCH_POINTS, best_quaternion};
 use super::order::Topology;
 use super::rotation::stored_rotation;
+use super::subtree::Subtrees;
 use glam::DVec3;
-
-/// All leaves' points, laid out so that every subtree is one contiguous run.
-struct SubtreePoints {
-    points: Vec<DVec3>,
-    /// Run of each node's subtree.
-    runs: Vec<(usize, usize)>,
-    /// Run of each item.
-    item_runs: Vec<(usize, usize)>,
-}
-
-impl SubtreePoints {
-    fn new(topology: &Topology, leaves: &[&[DVec3]]) -> Self {
-        let mut points = Vec::with_capacity(leaves.iter().map(|leaf| leaf.len()).sum());
-        let mut runs = vec![(0, 0); topology.nodes.len()];
-        let mut item_runs = vec![(0, 0); leaves.len()];
-        let mut open: Vec<u32> = if topology.nodes.is_empty() { vec![] } else { vec![0] };
-        while let Some(index) = open.pop() {
-            let node = &topology.nodes[index as usize];
-            runs[index as usize].0 = points.len();
-            for &item in &node.leaves {
-                let start = points.len();
-                points.extend_from_slice(leaves[item as usize]);
-                item_runs[item as usize] = (start, points.len());
-            }
-            open.extend(node.inner.iter().rev());
-            runs[index as usize].1 = points.len();
-        }
-        // Nodes were visited depth-first, so a subtree ends where its last descendant's own leaves
-        // end; children come after parents.
-        for index in (0..topology.nodes.len()).rev() {
-            if let Some(&last) = topology.nodes[index].inner.last() {
-                runs[index].1 = runs[last as usize].1;
-            }
-        }
-        Self { points, runs, item_runs }
-    }
-
-    fn children(&self, topology: &Topology, index: usize) -> Vec<&[DVec3]> {
-        let node = &topology.nodes[index];
-        let runs = node.inner.iter().map(|&child| self.runs[child as usize]);
-        runs.chain(node.leaves.iter().map(|&item| self.item_runs[item as usize]))
-            .map(|(start, end)| &self.points[start..end])
-            .collect()
-    }
-}
+use rayon::prelude::*;
 
 /// Boxes of every node, in the order of `topology.nodes`; lanes as in the node: inner children
 /// first, then leaves. `leaves` are the items' points in grid units.
 ///
 /// The frame is searched on extreme points that are passed up the tree, the boxes cover every point
-/// of the subtree. Cost: O(points · depth) for the boxes, O(nodes) for the frames.
+/// of the subtree. Cost: O(nodes), about 50 µs each, on all threads.
 pub fn shared_frames(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeBoxes> {
-    let subtrees = SubtreePoints::new(topology, leaves);
+    let subtrees = Subtrees::new(topology, leaves);
     let mut extremes: Vec<Vec<DVec3>> = vec![Vec::new(); topology.nodes.len()];
-    let mut boxes = Vec::with_capacity(topology.nodes.len());
-    for (index, node) in topology.nodes.iter().enumerate().rev() {
-        let children = subtrees.children(topology, index);
-        let mut reduced: Vec<Vec<DVec3>> =
-            node.inner.iter().map(|&child| std::mem::take(&mut extremes[child as usize])).collect();
-        reduced.extend(
-            children[node.inner.len()..].iter().map(|points| extreme_points(points, SEARCH_POINTS)),
-        );
-        let search: Vec<&[DVec3]> = reduced.iter().map(Vec::as_slice).collect();
-        boxes.push(quantise(stored_rotation(best_quaternion(&search)), &children));
-        extremes[index] = extreme_points(&reduced.concat(), SEARCH_POINTS);
+    let mut boxes: Vec<Option<NodeBoxes>> = vec![None; topology.nodes.len()];
+    for level in levels_from_below(topology) {
+        let fitted: Vec<(NodeBoxes, Vec<DVec3>)> = level
+            .par_iter()
+            .map(|&index| {
+                let node = &topology.nodes[index as usize];
+                let of_leaves = node.leaves.iter().map(|&item| leaves[item as usize]);
+                let of_leaves: Vec<Vec<DVec3>> =
+                    of_leaves.map(|points| extreme_points(points, SEARCH_POINTS)).collect();
+                let of_inner = node.inner.iter().map(|&child| &extremes[child as usize]);
+                let search: Vec<&[DVec3]> = of_inner.chain(&of_leaves).map(Vec::as_slice).collect();
+                let children = subtrees.below(index, |child| &extremes[child as usize]);
+                let boxes = quantise(stored_rotation(best_quaternion(&search)), &children);
+                (boxes, extreme_points(&search.concat(), SEARCH_POINTS))
+            })
+            .collect();
+        for (&index, (fitted, points)) in level.iter().zip(fitted) {
+            boxes[index as usize] = Some(fitted);
+            extremes[index as usize] = points;
+            for &child in &topology.nodes[index as usize].inner {
+                extremes[child as usize] = Vec::new();
+            }
+        }
     }
-    boxes.reverse();
-    boxes
+    boxes.into_iter().flatten().collect()
 }
 
 /// [`shared_frames`] without rotation: the boxes for segment queries.
 pub fn axis_aligned_boxes(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeBoxes> {
-    let subtrees = SubtreePoints::new(topology, leaves);
-    (0..topology.nodes.len())
-        .map(|index| axis_aligned(&subtrees.children(topology, index)))
+    let subtrees = Subtrees::new(topology, leaves);
+    (0..topology.nodes.len() as u32)
+        .into_par_iter()
+        .map(|index| axis_aligned(&subtrees.below(index, |_| &[])))
         .collect()
+}
+
+/// All nodes, first those with leaves alone, then those with these and leaves alone, and so on.
+fn levels_from_below(topology: &Topology) -> Vec<Vec<u32>> {
+    let mut heights = vec![0; topology.nodes.len()];
+    let mut levels: Vec<Vec<u32>> = Vec::new();
+    for (index, node) in topology.nodes.iter().enumerate().rev() {
+        let below = node.inner.iter().map(|&child| heights[child as usize] + 1);
+        let height = below.max().unwrap_or(0);
+        heights[index] = height;
+        levels.resize_with(levels.len().max(height + 1), Vec::new);
+        levels[height].push(index as u32);
+    }
+    levels
 }
 
 #[cfg(test)]

@@ -2,9 +2,11 @@
 
 pub(super) mod boxes;
 pub(super) mod collapse;
+mod extent;
 mod extremes;
 pub(super) mod fit;
 pub(super) mod frame;
 pub(super) mod order;
 mod rotation;
 mod sah;
+mod subtree;

@@ -8,6 +8,8 @@
 //! distance queries, see [`BoxMeasure`].
 
 use glam::DVec3;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// No child: marks leaves of the binary tree.
 const NO_CHILD: u32 = u32::MAX;
@@ -73,11 +75,12 @@ impl BinaryNode {
     }
 }
 
-/// Run of items that still has to become a subtree.
-struct Pending {
-    node: u32,
-    start: usize,
-    end: usize,
+/// Run of items that has to become a subtree, with memory for its sweeps.
+struct Run<'a> {
+    /// Its items by the centre on each axis.
+    orders: [&'a mut [u32]; 3],
+    moved: &'a mut [u32],
+    suffix_cost: &'a mut [f32],
     depth: u32,
 }
 
@@ -88,60 +91,49 @@ struct Split {
     cost: f32,
 }
 
-/// Sorted items and scratch memory of the build.
-struct Builder {
+/// Items and how they are weighed.
+struct Items {
     bounds: Vec<Bounds>,
     measure: BoxMeasure,
-    /// Items by the centre on each axis; the same range of all three holds the same items.
-    orders: [Vec<u32>; 3],
-    goes_left: Vec<bool>,
-    scratch: Vec<u32>,
-    suffix_cost: Vec<f32>,
+    /// Weight of a node whose measure is 1.
+    scale: f32,
+    depth_limit: u32,
+    /// Of the run that is divided: whether an item goes to the first part. Runs share no items.
+    goes_left: Vec<AtomicBool>,
 }
+
+/// Least items of runs that are divided side by side.
+const SIDE_BY_SIDE: usize = 1 << 12;
 
 /// Binary tree over `bounds` with one item per leaf; node 0 is the root and children come after
 /// their parent. No node is deeper than `2 log2(n) + 16`: where the heuristic would go deeper, runs
 /// are halved.
 ///
 /// `edge` is the weight of the summed extents relative to the diagonal of all items. Empty input
-/// gives no nodes. Cost: O(n log n).
+/// gives no nodes. Cost: O(n log n), on all threads; the tree is the same on any number of them.
 pub(super) fn binary_tree(bounds: &[(DVec3, DVec3)], edge: f32) -> Vec<BinaryNode> {
-    let mut nodes = Vec::with_capacity(bounds.len().max(1) * 2 - 1);
     if bounds.is_empty() {
-        return nodes;
+        return Vec::new();
     }
-    let mut builder = Builder::new(bounds, edge);
-    let depth_limit = 2 * bounds.len().ilog2() + 16;
-    let root = builder.weigh(0, bounds.len());
-    let scale = if root > 0.0 { 1.0 / root } else { 1.0 };
-    nodes.push(BinaryNode {
-        left: NO_CHILD,
-        right_or_item: builder.orders[0][0],
-        weight: root * scale,
-    });
-    let mut pending = vec![Pending { node: 0, start: 0, end: bounds.len(), depth: 0 }];
-    while let Some(run) = pending.pop() {
-        let count = run.end - run.start;
-        if count == 1 {
-            nodes[run.node as usize].right_or_item = builder.orders[0][run.start];
-            continue;
-        }
-        let must_halve = run.depth + count.ilog2() + 1 >= depth_limit;
-        let cut = run.start + builder.divide(run.start, run.end, must_halve);
-        let left = nodes.len() as u32;
-        for (start, end) in [(run.start, cut), (cut, run.end)] {
-            let weight = builder.weigh(start, end) * scale;
-            pending.push(Pending { node: nodes.len() as u32, start, end, depth: run.depth + 1 });
-            nodes.push(BinaryNode { left: NO_CHILD, right_or_item: 0, weight });
-        }
-        let parent = &mut nodes[run.node as usize];
-        parent.left = left;
-        parent.right_or_item = left + 1;
-    }
+    let mut items = Items::new(bounds, edge);
+    let mut orders = [0, 1, 2].map(|_| Vec::new());
+    orders.par_iter_mut().enumerate().for_each(|(axis, order)| *order = items.order(axis));
+    let [x, y, z] = &mut orders;
+    let root = items.weigh(x);
+    items.scale = if root > 0.0 { 1.0 / root } else { 1.0 };
+    let mut nodes = Vec::with_capacity(bounds.len() * 2 - 1);
+    nodes.push(BinaryNode { left: NO_CHILD, right_or_item: x[0], weight: root * items.scale });
+    let run = Run {
+        orders: [x, y, z],
+        moved: &mut vec![0; bounds.len()],
+        suffix_cost: &mut vec![0.0; bounds.len()],
+        depth: 0,
+    };
+    items.grow(run, 0, &mut nodes);
     nodes
 }
 
-impl Builder {
+impl Items {
     fn new(input: &[(DVec3, DVec3)], edge: f32) -> Self {
         let bounds: Vec<Bounds> = input
             .iter()
@@ -156,75 +148,127 @@ impl Builder {
             .map(|k| (all.high[k] - all.low[k]) * (all.high[k] - all.low[k]))
             .sum::<f32>()
             .sqrt();
-        let orders = [0, 1, 2].map(|axis| {
-            let centre =
-                |item: u32| bounds[item as usize].low[axis] + bounds[item as usize].high[axis];
-            let mut keyed: Vec<(f32, u32)> =
-                (0..bounds.len() as u32).map(|item| (centre(item), item)).collect();
-            keyed.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            keyed.into_iter().map(|(_, item)| item).collect()
-        });
         Self {
             measure: BoxMeasure { edge: edge * diagonal },
-            orders,
-            goes_left: vec![false; bounds.len()],
-            scratch: vec![0; bounds.len()],
-            suffix_cost: vec![0.0; bounds.len()],
+            scale: 1.0,
+            depth_limit: 2 * bounds.len().ilog2() + 16,
+            goes_left: bounds.iter().map(|_| AtomicBool::new(false)).collect(),
             bounds,
         }
     }
 
-    fn weigh(&self, start: usize, end: usize) -> f32 {
-        let mut all = Bounds::EMPTY;
-        self.orders[0][start..end]
-            .iter()
-            .for_each(|&item| all.include(&self.bounds[item as usize]));
-        self.measure.of(&all)
+    /// The items by the centre on an axis, equal ones by number.
+    fn order(&self, axis: usize) -> Vec<u32> {
+        let centre = |of: &Bounds| of.low[axis] + of.high[axis];
+        let mut keyed: Vec<(f32, u32)> = self.bounds.iter().map(centre).zip(0..).collect();
+        keyed.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        keyed.into_iter().map(|(_, item)| item).collect()
     }
 
-    /// Splits a run in two and returns the size of the first part; the orders of both parts stay
-    /// sorted.
-    fn divide(&mut self, start: usize, end: usize, must_halve: bool) -> usize {
-        let count = end - start;
-        let mut best = Split { axis: 0, position: count / 2, cost: f32::INFINITY };
-        for axis in 0..3 {
-            self.sweep(axis, start, end, must_halve, &mut best);
+    fn weigh(&self, items: &[u32]) -> f32 {
+        let mut all = Bounds::EMPTY;
+        items.iter().for_each(|&item| all.include(&self.bounds[item as usize]));
+        self.measure.of(&all) * self.scale
+    }
+
+    /// Adds the descendants of node `at`, which holds a run: its children, then all below the
+    /// second, then all below the first.
+    fn grow(&self, run: Run<'_>, at: usize, nodes: &mut Vec<BinaryNode>) {
+        let count = run.orders[0].len();
+        if count == 1 {
+            nodes[at].right_or_item = run.orders[0][0];
+            return;
         }
-        for (rank, &item) in self.orders[best.axis][start..end].iter().enumerate() {
-            self.goes_left[item as usize] = rank < best.position;
+        let halves = self.divide(run);
+        let left = nodes.len();
+        nodes[at].left = left as u32;
+        nodes[at].right_or_item = left as u32 + 1;
+        nodes.extend(halves.each_ref().map(|half| BinaryNode {
+            left: NO_CHILD,
+            right_or_item: 0,
+            weight: self.weigh(half.orders[0]),
+        }));
+        let [first, second] = halves;
+        if count < SIDE_BY_SIDE {
+            self.grow(second, left + 1, nodes);
+            self.grow(first, left, nodes);
+            return;
+        }
+        // Subtrees of their own, whose roots are the two children.
+        let grown = |run: Run<'_>, root: BinaryNode| {
+            let mut nodes = Vec::with_capacity(2 * run.orders[0].len() - 1);
+            nodes.push(root);
+            self.grow(run, 0, &mut nodes);
+            nodes
+        };
+        let roots = [nodes[left], nodes[left + 1]];
+        let (second, first) = rayon::join(|| grown(second, roots[1]), || grown(first, roots[0]));
+        for (root, subtree) in [(left + 1, second), (left, first)] {
+            // Node 1 of the subtree comes to the end.
+            let by = nodes.len() as u32 - 1;
+            let mut moved = subtree.iter().map(|node| match node.is_leaf() {
+                true => *node,
+                false => BinaryNode {
+                    left: node.left + by,
+                    right_or_item: node.right_or_item + by,
+                    ..*node
+                },
+            });
+            nodes[root] = moved.next().expect("a subtree has a root");
+            nodes.extend(moved);
+        }
+    }
+
+    /// Splits a run in two; the orders of both parts stay sorted.
+    fn divide<'a>(&self, run: Run<'a>) -> [Run<'a>; 2] {
+        let Run { orders, moved, suffix_cost, depth } = run;
+        let count = orders[0].len();
+        let must_halve = depth + count.ilog2() + 1 >= self.depth_limit;
+        let mut best = Split { axis: 0, position: count / 2, cost: f32::INFINITY };
+        for (axis, order) in orders.iter().enumerate() {
+            self.sweep(axis, order, suffix_cost, must_halve, &mut best);
+        }
+        for (rank, &item) in orders[best.axis].iter().enumerate() {
+            self.goes_left[item as usize].store(rank < best.position, Ordering::Relaxed);
         }
         for axis in (0..3).filter(|&axis| axis != best.axis) {
-            let order = &mut self.orders[axis][start..end];
-            let (mut kept, mut moved) = (0, 0);
+            let order = &mut *orders[axis];
+            let (mut kept_count, mut moved_count) = (0, 0);
             // Both writes happen each time, only the counters differ: no branch to mispredict.
             for rank in 0..count {
                 let item = order[rank];
-                let left = self.goes_left[item as usize];
-                order[kept] = item;
-                self.scratch[moved] = item;
-                kept += usize::from(left);
-                moved += usize::from(!left);
+                let left = self.goes_left[item as usize].load(Ordering::Relaxed);
+                order[kept_count] = item;
+                moved[moved_count] = item;
+                kept_count += usize::from(left);
+                moved_count += usize::from(!left);
             }
-            order[kept..].copy_from_slice(&self.scratch[..moved]);
+            order[kept_count..].copy_from_slice(&moved[..moved_count]);
         }
-        best.position
+        let [x, y, z] = orders.map(|order| order.split_at_mut(best.position));
+        let (moved, suffix_cost) =
+            (moved.split_at_mut(best.position), suffix_cost.split_at_mut(best.position));
+        let depth = depth + 1;
+        [
+            Run { orders: [x.0, y.0, z.0], moved: moved.0, suffix_cost: suffix_cost.0, depth },
+            Run { orders: [x.1, y.1, z.1], moved: moved.1, suffix_cost: suffix_cost.1, depth },
+        ]
     }
 
     /// Improves `best` by the cuts on one axis: all, or only the one in the middle.
     fn sweep(
-        &mut self,
+        &self,
         axis: usize,
-        start: usize,
-        end: usize,
+        order: &[u32],
+        suffix_cost: &mut [f32],
         only_middle: bool,
         best: &mut Split,
     ) {
-        let order = &self.orders[axis][start..end];
         let count = order.len();
         let mut run = Bounds::EMPTY;
         for position in (1..count).rev() {
             run.include(&self.bounds[order[position] as usize]);
-            self.suffix_cost[position] = self.measure.of(&run) * (count - position) as f32;
+            suffix_cost[position] = self.measure.of(&run) * (count - position) as f32;
         }
         let mut run = Bounds::EMPTY;
         for position in 1..count {
@@ -232,7 +276,7 @@ impl Builder {
             if only_middle && position != count / 2 {
                 continue;
             }
-            let cost = self.measure.of(&run) * position as f32 + self.suffix_cost[position];
+            let cost = self.measure.of(&run) * position as f32 + suffix_cost[position];
             // Equal costs (equal or degenerate items) go to the cut nearest the middle, so that
             // such trees are balanced.
             let closer = || position.abs_diff(count / 2) < best.position.abs_diff(count / 2);

@@ -5,7 +5,7 @@ use std::hint::black_box;
 use meshsweep_host_tests::workload::Subject;
 
 use super::workload::Workload;
-use super::{cwbvh, parry, tree};
+use super::{cwbvh, embree, parry, tree};
 
 /// An index over one mesh that answers lists of queries. A list is one call, so that the call's
 /// cost is no part of a query's, a coherent query may carry over what it knows, and a batch may be
@@ -13,6 +13,16 @@ use super::{cwbvh, parry, tree};
 pub trait Engine {
     /// Bytes that it keeps to answer, the triangles included.
     fn bytes(&self) -> usize;
+
+    /// Seconds of its build, for an engine in another process.
+    fn own_build_seconds(&self) -> Option<f64> {
+        None
+    }
+
+    /// Seconds of the last list, for an engine in another process.
+    fn own_seconds(&self) -> Option<f64> {
+        None
+    }
 
     /// Whether it takes part in a workload.
     fn answers(&self, workload: Workload) -> bool;
@@ -55,6 +65,8 @@ pub struct Entrant {
     pub name: &'static str,
     /// What else there is to know of it, for the table of engines.
     pub remark: &'static str,
+    /// Why it cannot take part on this machine, if it cannot.
+    pub missing: fn() -> Option<String>,
     /// Builds its index.
     pub build: Build,
 }
@@ -63,35 +75,47 @@ pub struct Entrant {
 pub const REFERENCE: &str = "parry3d";
 
 /// All engines, in the order of the tables.
-pub const ENTRANTS: [Entrant; 6] = [
+pub const ENTRANTS: [Entrant; 7] = [
     Entrant {
         name: REFERENCE,
         remark: "TriMesh: project_local_point, cast_local_ray",
+        missing: || None,
         build: parry::build,
     },
     Entrant {
         name: "obvhs",
         remark: "CWBVH, very slow build, own triangle test; no closest points",
+        missing: || None,
         build: cwbvh::build,
+    },
+    Entrant {
+        name: "embree",
+        remark: "Debian's, C++ with SIMD of the processor: rtcPointQuery, rtcIntersect1; robust",
+        missing: embree::missing,
+        build: embree::build,
     },
     Entrant {
         name: "tree",
         remark: "closest_point, first_hit on the box tree, 16-bit grid",
+        missing: || None,
         build: tree::build,
     },
     Entrant {
         name: "coherent",
         remark: "CoherentQuery of 128 entries on the same tree, along paths",
+        missing: || None,
         build: tree::build_coherent,
     },
     Entrant {
         name: "batch",
         remark: "closest_points on the same tree, Morton order included",
+        missing: || None,
         build: tree::build_batch,
     },
     Entrant {
         name: "tree single",
         remark: "the same with vertices in f32",
+        missing: || None,
         build: tree::build_single,
     },
 ];

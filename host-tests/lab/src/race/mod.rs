@@ -3,7 +3,7 @@
 //! ```text
 //! workload (which questions) ─┐
 //! engine (what each one is) ──┼─ timing (interleaved rounds) ─ agreement (with f64, with parry3d) ─ report (tables)
-//!   parry, cwbvh, tree: one file each
+//!   parry, cwbvh, embree, tree: one file each
 //! ```
 //! A new engine is a file with an `Engine` and a line in `ENTRANTS`, both of `engine.rs`.
 //!
@@ -13,6 +13,7 @@
 
 mod agreement;
 mod cwbvh;
+mod embree;
 mod engine;
 mod parry;
 mod report;

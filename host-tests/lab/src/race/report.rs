@@ -3,7 +3,7 @@
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row, scientific};
 
-use super::engine::REFERENCE;
+use super::engine::{ENTRANTS, REFERENCE};
 use super::timing::{Lane, Lap};
 use super::workload::{Scale, Workload};
 
@@ -15,6 +15,11 @@ pub fn engines(subject: &Subject, lanes: &[Lane<'_>]) -> Table {
     for Lane { entrant, engine, build_seconds } in lanes {
         let bytes = engine.bytes() as f64 / triangles as f64;
         table.push(row![entrant.name, fixed(*build_seconds, 3), fixed(bytes, 1), entrant.remark]);
+    }
+    for entrant in &ENTRANTS {
+        if let Some(reason) = (entrant.missing)() {
+            table.note(format!("without {}: {reason}", entrant.name));
+        }
     }
     table
 }
