@@ -158,20 +158,23 @@ fn put_wanted(
 
 /// Writes the children with keys up to `limit`, except `nearest`, and tells how many they are.
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-#[inline(always)]
+#[inline(never)]
 fn put_wanted(
     slots: &mut [ScratchEntry; WIDTH],
     node: u32,
     keys: &[u32; WIDTH],
     [nearest, limit]: [u32; 2],
 ) -> usize {
-    let mut wanted = 0usize;
+    let mut free = slots.iter_mut();
     for &key in keys {
-        // Without a branch: an unwanted entry is overwritten by the next one.
-        slots[wanted & (WIDTH - 1)] = ScratchEntry::of_words([key, node]);
-        wanted += usize::from((key <= limit) & (key != nearest));
+        if key <= limit
+            && key != nearest
+            && let Some(slot) = free.next()
+        {
+            *slot = ScratchEntry::of_words([key, node]);
+        }
     }
-    wanted
+    WIDTH - free.len()
 }
 
 /// Visits every leaf within the visitor's limit. Opens nodes until `work` counts `steps` of them,

@@ -27,12 +27,23 @@ struct AxisPlanes {
     /// The bits of a place in both halves.
     places: u32,
     /// Added to places: [`HIGH`], less the point's own place from the first and from the last
-    /// plane.
+    /// plane. Of a point outside the node, from the plane on its side, without [`HIGH`].
     less_point: [u32; 2],
+    side: Side,
+}
+
+/// On which side of all children a point is along an axis.
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Before,
+    Behind,
+    /// Neither is certain.
+    Within,
 }
 
 impl AxisPlanes {
-    const NONE: AxisPlanes = AxisPlanes { shift: 0, places: 0, less_point: [0; 2] };
+    const NONE: AxisPlanes =
+        AxisPlanes { shift: 0, places: 0, less_point: [0; 2], side: Side::Within };
 
     /// A call, because three copies would not fit the registers.
     #[inline(never)]
@@ -43,14 +54,28 @@ impl AxisPlanes {
             let most = i32::from(i16::MAX);
             HIGH.wrapping_sub(in_both(if from < most { from } else { most }))
         });
-        *self = AxisPlanes { shift, places: in_both(0xFF00 >> shift), less_point };
+        let places = in_both(0xFF00 >> shift);
+        let [first, last] = from;
+        let (side, less_point) = if first <= 0 {
+            (Side::Before, [0u32.wrapping_sub(in_both(first)), 0])
+        } else if last <= 0 {
+            (Side::Behind, [0, 0u32.wrapping_sub(in_both(last))])
+        } else {
+            (Side::Within, less_point)
+        };
+        *self = AxisPlanes { shift, places, less_point, side };
+    }
+
+    #[inline(always)]
+    fn less(&self, bytes: u32, less_point: u32) -> u32 {
+        (bytes >> (self.shift & 15) & self.places).wrapping_add(less_point)
     }
 
     /// The differences that are not negative; the others are 0. `bytes` are the upper ones of each
     /// half.
     #[inline(always)]
     fn above_zero(&self, bytes: u32, less_point: u32) -> u32 {
-        let difference = (bytes >> (self.shift & 15) & self.places).wrapping_add(less_point);
+        let difference = self.less(bytes, less_point);
         let above = difference & HIGH;
         difference & above.wrapping_sub(above >> 15)
     }
@@ -75,12 +100,17 @@ fn keys_of_four(planes: &[u8], axes: &[AxisPlanes], parent: u32, child: u32, key
         let (words, _) = row.as_chunks::<4>();
         let (first, last) = (u32::from_le_bytes(words[0]), u32::from_le_bytes(words[2]));
         let [below, beyond] = axis.less_point;
-        // Of a box whose planes are in order at most one of them is above 0.
-        add_squares(
-            &mut odd,
-            axis.above_zero(first << 8, below) | axis.above_zero(last << 8, beyond),
-        );
-        add_squares(&mut even, axis.above_zero(first, below) | axis.above_zero(last, beyond));
+        let [one, other] = match axis.side {
+            Side::Before => [axis.less(first << 8, below), axis.less(first, below)],
+            Side::Behind => [axis.less(last << 8, beyond), axis.less(last, beyond)],
+            // Of a box whose planes are in order at most one of both is above 0.
+            Side::Within => [
+                axis.above_zero(first << 8, below) | axis.above_zero(last << 8, beyond),
+                axis.above_zero(first, below) | axis.above_zero(last, beyond),
+            ],
+        };
+        add_squares(&mut odd, one);
+        add_squares(&mut even, other);
         rest = next;
     }
     let sums = [odd[0], even[0], odd[1], even[1]];
