@@ -9,6 +9,7 @@ use meshsweep::hausdorff::{Attained, Direction, Hausdorff, Precision, hausdorff}
 use meshsweep::mesh::Mesh;
 use serde_json::{Value, json};
 use std::io::{self, Write};
+use std::time::Instant;
 
 pub fn run(args: &HausdorffArgs) -> Result<(), Failure> {
     let [first, second] = [mesh_file::load(&args.first)?, mesh_file::load(&args.second)?];
@@ -21,15 +22,17 @@ pub fn run(args: &HausdorffArgs) -> Result<(), Failure> {
     let precision = Precision { relative: args.rel, absolute: args.abs, at_most: args.at_most };
     let bar = Bar::new(DIGITS, "comparing", "digits");
     let progress = |lower: f64, upper: f64| bar.show(digits(lower, upper));
+    let started = Instant::now();
     let found = hausdorff(&first.mesh, &second.mesh, direction, &precision, progress)
         .map_err(|error| Failure::build(&args.first, error))?;
+    let seconds = started.elapsed().as_secs_f64();
     drop(bar);
     Output::stdout().finish(|out| {
         if args.json {
             serde_json::to_writer_pretty(&mut *out, &as_json(&found))?;
             writeln!(out)
         } else {
-            write(args, &found, out)
+            write(args, &found, seconds, out)
         }
     })?;
     match args.at_most {
@@ -76,13 +79,20 @@ fn as_json(found: &Hausdorff) -> Value {
     })
 }
 
-fn write(args: &HausdorffArgs, found: &Hausdorff, out: &mut dyn Write) -> io::Result<()> {
+fn write(
+    args: &HausdorffArgs,
+    found: &Hausdorff,
+    seconds: f64,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     writeln!(out, "distance  {} to {}", found.lower, found.upper)?;
-    let Some(at) = &found.attained else { return Ok(()) };
-    let names = [&args.first, &args.second];
-    for (([x, y, z], triangle), name) in ends(at).into_iter().zip(names) {
-        writeln!(out, "  {x},{y},{z}  in triangle {triangle} of {}", name.display())?;
+    if let Some(at) = &found.attained {
+        let names = [&args.first, &args.second];
+        for (([x, y, z], triangle), name) in ends(at).into_iter().zip(names) {
+            writeln!(out, "  {x},{y},{z}  in triangle {triangle} of {}", name.display())?;
+        }
+        let farthest = names[usize::from(at.is_backward)].display();
+        writeln!(out, "  the farthest point is on {farthest}")?;
     }
-    let farthest = names[usize::from(at.is_backward)].display();
-    writeln!(out, "  the farthest point is on {farthest}")
+    writeln!(out, "  {} pieces of triangles, {seconds:.2} s", found.pieces)
 }
