@@ -100,10 +100,13 @@ pub fn hausdorff(
     let moved = first.rounding + second.rounding;
     let mut found = Found { precision: *precision, moved, lower: 0.0, attained: None, pieces: 0 };
     let mut upper = 0f64;
-    let sides = [(first, second, false), (second, first, true)];
-    let count = if direction == Direction::Both { 2 } else { 1 };
-    for (from, to, is_backward) in sides.into_iter().take(count) {
-        let blob = exact_blob(to)?;
+    let (forward, backward) = rayon::join(
+        || exact_blob(second),
+        || (direction == Direction::Both).then(|| exact_blob(first)).transpose(),
+    );
+    let sides = [(first, second, Some(forward?)), (second, first, backward?)];
+    for ((from, to, blob), is_backward) in sides.into_iter().zip([false, true]) {
+        let Some(blob) = blob else { continue };
         let tree = Bvh::open(&blob).map_err(BuildError::Reopen)?;
         let surface = Surface::new(&tree, to);
         let side = Side { from, surface, is_backward };
