@@ -49,9 +49,10 @@ fn both_priorities_and_every_vertex_format_are_proved_nested() {
     for (name, mesh) in meshes {
         for priority in [Priority::Program, Priority::Span] {
             for vertex_bits in [VertexBits::Grid16, VertexBits::Grid24, VertexBits::F32] {
-                // Two of the large one's are among the scenes above, and one is enough here.
+                // By the program these two are among the scenes above. Meshes of flat faces build
+                // a hundred times as long as the others, so they are here in one format.
                 let is_first = (priority, vertex_bits) == (Priority::Span, VertexBits::Grid16);
-                if name == "bracket" && !is_first {
+                if matches!(name, "bracket" | "groove block") && !is_first {
                     continue;
                 }
                 let options = BuildOptions {

@@ -130,7 +130,7 @@ pub struct Blocks {
 impl Blocks {
     /// As many as the host asks.
     pub const ALL: Self = Self { tabled: 16, others: 16 };
-    /// A quarter: as many compared bits as one kind needs to differ if the arithmetic does.
+    /// A quarter: 128 queries of each kind.
     pub const QUARTER: Self = Self { tabled: 4, others: 4 };
     /// A quarter of those that no table holds.
     pub const TABLED: Self = Self { tabled: 16, others: 4 };
