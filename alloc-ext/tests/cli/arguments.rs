@@ -116,7 +116,7 @@ fn every_command_s_help_has_examples_that_run() {
     // Of few flat faces: its hulls are found at once.
     write_stl(&directory.join("part.stl"), &triangles(&fixture("groove.obj")));
     let (torus, scan) = (fixture("torus.ply"), directory.join("scan.ply"));
-    ok(["hull", arg(&torus), "--progressive", "--faces", "600", "-o", arg(&scan)]);
+    ok(["hull", arg(&torus), "--progressive", "--faces", "120", "-o", arg(&scan)]);
     let (points, segments) = ([[1f32, 2.0, 3.0]; 3], [[20f32, 10.0, 90.0, 20.0, 10.0, -90.0]; 3]);
     write_csv(&directory.join("points.csv"), &points);
     write_raw(&directory.join("points.f32"), &points);

@@ -305,7 +305,7 @@ fn a_segment_query_that_ends_early_is_undecided_and_clear_before_its_parameter()
     let rows = random_queries::<6>(&mesh, 100);
     let segments = directory.join("s.csv");
     write_csv(&segments, &rows);
-    let path = blob(&directory, "bracket.stl", &["--for", "segment,hull"]);
+    let path = blob(&directory, "bracket.stl", &["--for", "segment,hull", "--vertex-bits", "32"]);
     for engine in ["tree", "hull"] {
         let ask = ["segment", arg(&path), arg(&segments), "--engine", engine, "--steps", "1"];
         let answers = parse_csv(&ok(ask), SEGMENT);

@@ -1,9 +1,11 @@
 //! Runs the program, and knows the truth by brute force in f64.
 
 use meshsweep::mesh;
+use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::{Arc, LazyLock, Mutex, OnceLock};
 
 pub type Point = [f64; 3];
 pub type Triangle = [Point; 3];
@@ -72,10 +74,33 @@ pub fn arg(path: &Path) -> &str {
     path.to_str().expect("paths of the tests are UTF-8")
 }
 
-/// Builds a blob of a fixture in `directory`.
+/// A blob of a fixture, in `directory`. The program builds it for the first test that asks; it would
+/// build the same bytes again.
 pub fn blob(directory: &Path, name: &str, options: &[&str]) -> PathBuf {
+    type Built = HashMap<String, Arc<OnceLock<Vec<u8>>>>;
+    static BUILT: LazyLock<Mutex<Built>> = LazyLock::new(Mutex::default);
+    let asked = format!("{name} {options:?}");
+    let built = Arc::clone(BUILT.lock().expect("no panic").entry(asked).or_default());
+    let mut fresh = None;
+    let bytes = built.get_or_init(|| {
+        fs::read(fresh.insert(fresh_blob(directory, name, options))).expect("it was written")
+    });
+    fresh.unwrap_or_else(|| {
+        let path = blob_path(directory, name);
+        fs::write(&path, bytes).expect("the file can be written");
+        path
+    })
+}
+
+fn blob_path(directory: &Path, name: &str) -> PathBuf {
+    let file = Path::new(name).file_name().expect("it has a name");
+    directory.join(file).with_extension("msw")
+}
+
+/// A blob of a fixture, built now.
+pub fn fresh_blob(directory: &Path, name: &str, options: &[&str]) -> PathBuf {
     let mesh = fixture(name);
-    let path = directory.join(mesh.file_name().expect("it has a name")).with_extension("msw");
+    let path = blob_path(directory, name);
     ok([&["build", arg(&mesh), "-o", arg(&path)], options].concat());
     path
 }

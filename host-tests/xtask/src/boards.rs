@@ -16,6 +16,8 @@ pub struct Board {
     pub instructions_per_tick: f64,
     /// How big a blob it can hold.
     pub flash: Flash,
+    /// Whether its processor computes with floats; else a product is fifty instructions.
+    pub has_floats: bool,
 }
 
 /// Sizes of flash that blobs are made for.
@@ -35,6 +37,7 @@ pub const BOARDS: [Board; 4] = [
         machine: Machine::Arm("mps2-an386"),
         instructions_per_tick: 40.0,
         flash: Flash::Large,
+        has_floats: true,
     },
     Board {
         cpu: "Cortex-M0",
@@ -42,6 +45,7 @@ pub const BOARDS: [Board; 4] = [
         machine: Machine::Arm("microbit"),
         instructions_per_tick: 62.5,
         flash: Flash::Small,
+        has_floats: false,
     },
     Board {
         cpu: "Cortex-M33",
@@ -50,6 +54,7 @@ pub const BOARDS: [Board; 4] = [
         machine: Machine::Arm("mps2-an505"),
         instructions_per_tick: 50.0,
         flash: Flash::Large,
+        has_floats: true,
     },
     Board {
         cpu: "RV32IMAC",
@@ -57,5 +62,6 @@ pub const BOARDS: [Board; 4] = [
         machine: Machine::Riscv32("virt"),
         instructions_per_tick: 1.0,
         flash: Flash::Large,
+        has_floats: false,
     },
 ];

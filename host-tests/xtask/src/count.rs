@@ -94,7 +94,7 @@ pub fn on_board(steps: &mut Steps, tools: &Tools, asked: &[&str]) {
             let printed = process::capture(command.args(["lay", question, ON_BOARD]).arg(&file))?;
             let (means, expected) = printed.split_once('\n').unwrap_or_default();
             let expected = Reading::parse(expected, None)?;
-            let reading = tools.asked(&board, &image, (&file, LOADED), &expected)?;
+            let reading = tools.asked(&board, &image, (&file, LOADED), &expected, u32::MAX)?;
             let cost = reading.costs.first().ok_or("the image told no cost")?;
             table.push(vec![
                 Cell::from(question),

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::blobs::Blob;
+use crate::blobs::{Blob, Blocks};
 use crate::boards::{BOARDS, Board};
 use crate::cost::{self, Added, Measured, Row};
 use crate::cross::Cross;
@@ -12,7 +12,7 @@ use crate::process;
 use crate::qemu::Qemu;
 use crate::reading::Reading;
 use crate::steps::Steps;
-use crate::{blobs, elf, proof};
+use crate::{blobs, elf, proof, tables};
 
 /// What the firmware's part needs beside cargo.
 #[derive(Clone, Debug)]
@@ -38,7 +38,8 @@ impl Tools {
         Ok(images::image(&self.cross, board.target, Profile::Release, name))
     }
 
-    /// Runs an image on a board, with a file in memory. Its answers are `expected`, bit by bit.
+    /// Runs an image on a board, with a file in memory. Its answers are `expected`, bit by bit: at
+    /// least so many blocks of each kind.
     ///
     /// # Errors
     /// Other bits, or an image that does not end.
@@ -48,10 +49,11 @@ impl Tools {
         image: &Path,
         loaded: (&Path, u32),
         expected: &Reading,
+        least: u32,
     ) -> Result<Reading, String> {
         let printed = self.qemu.run(board.machine, image, Some(loaded))?;
         let reading = Reading::parse(&printed, Some(board))?;
-        reading.compare(expected)?;
+        reading.compare(expected, least)?;
         Ok(reading)
     }
 
@@ -65,6 +67,7 @@ impl Tools {
         image: &Path,
         flash: &Path,
         expected: &Reading,
+        least: u32,
     ) -> Result<Reading, String> {
         let length = fs::metadata(flash)
             .map_err(|error| format!("cannot read {}: {error}", flash.display()))?
@@ -75,7 +78,7 @@ impl Tools {
             return Err(format!("image and blob need {} bytes more than the flash", used - begin));
         }
         let begin = u32::try_from(begin).map_err(|error| error.to_string())?;
-        self.asked(board, image, (flash, begin), expected)
+        self.asked(board, image, (flash, begin), expected, least)
     }
 }
 
@@ -86,30 +89,74 @@ pub struct Asked {
     image: PathBuf,
 }
 
+/// How much is measured and compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// All: `cargo xtask firmware`.
+    All,
+    /// What can fail: `cargo xtask test`. Code that no table holds is not measured. Boards that
+    /// compute floats by instructions take ten times as long as the others, and run a part of the
+    /// queries: each kind and each blob, and as many of those in tables as the tables are made of.
+    Compared,
+}
+
+impl Scope {
+    fn blocks(self, board: &Board, blob: Blob) -> Blocks {
+        match self {
+            Self::Compared if !board.has_floats => {
+                let is_standard = Blob::standard(board.flash).contains(&blob);
+                if is_standard { Blocks::TABLED } else { Blocks::QUARTER }
+            }
+            _ => Blocks::ALL,
+        }
+    }
+
+    /// Questions whose code is measured, each by an image of its own.
+    const fn questions(self) -> &'static [&'static str] {
+        match self {
+            Self::All => &QUESTIONS,
+            Self::Compared => &tables::CODE,
+        }
+    }
+
+    /// How their images are optimised.
+    const fn profiles(self) -> &'static [Profile] {
+        match self {
+            Self::All => &Profile::ALL,
+            Self::Compared => &[Profile::Release],
+        }
+    }
+}
+
 /// Runs all of it, and prints the table.
 pub fn run(steps: &mut Steps, tools: &Tools) -> Vec<Row> {
-    build(steps, tools).map(|asked| ask(steps, tools, &asked)).unwrap_or_default()
+    let asked = build(steps, tools, Scope::All);
+    asked.map(|asked| ask(steps, tools, &asked, Scope::All)).unwrap_or_default()
 }
 
 /// Builds all images, which takes nothing of the library on this machine. Lints and proofs are
 /// among it.
-pub fn build(steps: &mut Steps, tools: &Tools) -> Option<Vec<Asked>> {
+pub fn build(steps: &mut Steps, tools: &Tools, scope: Scope) -> Option<Vec<Asked>> {
     let asked = steps.run("images of the suite", || suites(&tools.cross));
-    proofs_and_sizes(steps, &tools.cross);
+    proofs_and_sizes(steps, &tools.cross, scope);
     asked
 }
 
 /// Runs the images of the suite, and prints the table.
-pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked]) -> Vec<Row> {
+pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> Vec<Row> {
     let cross = &tools.cross;
     let written = steps.run("the host's answers", || {
         blobs::write()?;
-        asked.iter().map(|Asked { blob, .. }| blob.in_flash()).collect::<Result<Vec<_>, _>>()
+        let in_flash = |Asked { board, blob, .. }: &Asked| {
+            let blocks = scope.blocks(board, *blob);
+            Ok((blob.in_flash(blocks)?, blocks.others))
+        };
+        asked.iter().map(in_flash).collect::<Result<Vec<_>, String>>()
     });
     let Some(flash) = written else { return Vec::new() };
-    let runs: Vec<(&Asked, &PathBuf)> = asked.iter().zip(&flash).collect();
-    let readings = process::parallel(&runs, |(Asked { board, blob, image }, flash)| {
-        tools.asked_in_flash(board, image, flash, &blob.expected()?)
+    let runs: Vec<(&Asked, &(PathBuf, u32))> = asked.iter().zip(&flash).collect();
+    let readings = process::parallel(&runs, |(Asked { board, blob, image }, (flash, least))| {
+        tools.asked_in_flash(board, image, flash, &blob.expected()?, *least)
     });
     let mut rows: Vec<Row> = BOARDS
         .iter()
@@ -128,14 +175,14 @@ pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked]) -> Vec<Row> {
     }
     for row in &mut rows {
         let name = format!("{}: sizes", row.board.cpu);
-        row.added = steps.run(&name, || sizes(cross, &row.board)).unwrap_or_default();
+        row.added = steps.run(&name, || sizes(cross, &row.board, scope)).unwrap_or_default();
     }
     say!("{}", cost::text(&rows));
     rows
 }
 
 /// Lints, proofs, and the images whose size is measured.
-fn proofs_and_sizes(steps: &mut Steps, cross: &Cross) {
+fn proofs_and_sizes(steps: &mut Steps, cross: &Cross, scope: Scope) {
     let targets = BOARDS.map(|board| board.target);
     if cross.has_clippy() {
         steps.run("lints of the images", || images::lint(cross, &targets));
@@ -148,8 +195,8 @@ fn proofs_and_sizes(steps: &mut Steps, cross: &Cross) {
         let name = format!("{}: a panic is noticed", board.cpu);
         steps.run(&name, || proof::notices_a_panic(cross, board.target, Profile::Release));
     }
-    for profile in Profile::ALL {
-        let names = size_images();
+    for &profile in scope.profiles() {
+        let names = size_images(scope.questions());
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let name = format!("images for sizes, {}", profile.name());
         steps.run(&name, || images::sizes(cross, &targets, profile, &names));
@@ -198,8 +245,9 @@ pub fn reading(
     expected: &str,
 ) -> Result<Reading, String> {
     let image = tools.image(board, image)?;
-    let flash = blobs::in_flash(blob)?;
-    tools.asked_in_flash(board, &image, &flash, &Reading::parse(expected, None)?)
+    let flash = blobs::in_flash(blob, Blocks::ALL)?;
+    let least = Blocks::ALL.others;
+    tools.asked_in_flash(board, &image, &flash, &Reading::parse(expected, None)?, least)
 }
 
 /// Questions whose code is measured, each by an image of its own.
@@ -219,17 +267,18 @@ const QUESTIONS: [&str; 12] = [
 ];
 
 /// The image that asks nothing, then one for each question.
-fn size_images() -> Vec<String> {
-    ["empty"].iter().chain(&QUESTIONS).map(|question| format!("size_{question}")).collect()
+fn size_images(questions: &[&str]) -> Vec<String> {
+    ["empty"].iter().chain(questions).map(|question| format!("size_{question}")).collect()
 }
 
-fn sizes(cross: &Cross, board: &Board) -> Result<Vec<Added>, String> {
+fn sizes(cross: &Cross, board: &Board, scope: Scope) -> Result<Vec<Added>, String> {
     let mut added = Vec::new();
-    for profile in Profile::ALL {
+    let questions = scope.questions();
+    for &profile in scope.profiles() {
         let size = |name: &String| elf::size(&images::image(cross, board.target, profile, name));
-        let sizes = size_images().iter().map(size).collect::<Result<Vec<_>, _>>()?;
+        let sizes = size_images(questions).iter().map(size).collect::<Result<Vec<_>, _>>()?;
         if let [empty, others @ ..] = sizes.as_slice() {
-            added.extend(QUESTIONS.iter().zip(others).map(|(question, size)| {
+            added.extend(questions.iter().zip(others).map(|(question, size)| {
                 let size = size.beyond(*empty);
                 Added { question, profile, size }
             }));

@@ -4,6 +4,7 @@ use std::panic::resume_unwind;
 use std::process::ExitCode;
 use std::thread;
 
+use meshsweep_xtask::firmware::Scope;
 use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::tables::Facts;
 use meshsweep_xtask::valgrind::Valgrind;
@@ -38,29 +39,26 @@ fn main() -> ExitCode {
         ["test"] => {
             // First, because a new machine fails here, and the message tells the remedy.
             let tools = firmware::setup(&mut steps);
-            // The images are built beside the rest, in a folder of their own: long links and long
-            // tests leave a processor without work.
-            let (images, counts) = thread::scope(|scope| {
-                let images = tools.as_ref().map(|tools| {
-                    scope.spawn(|| {
-                        let mut steps = Steps::new();
-                        (firmware::build(&mut steps, tools), steps)
-                    })
+            // Beside the rest, in folders of their own: long links and long tests leave a processor
+            // without work.
+            let (images, counts, others) = thread::scope(|scope| {
+                let beside = scope.spawn(|| {
+                    let mut steps = Steps::new();
+                    let build = |tools| firmware::build(&mut steps, tools, Scope::Compared);
+                    let images = tools.as_ref().and_then(build);
+                    let counts = count::for_test(&mut steps);
+                    if let Some(counts) = &counts {
+                        count::check_lanes(&mut steps, counts);
+                    }
+                    (images, counts, steps)
                 });
                 checks::run(&mut steps);
-                let counts = count::for_test(&mut steps);
-                if let Some(counts) = &counts {
-                    count::check_lanes(&mut steps, counts);
-                }
-                let joined =
-                    images.map(|images| images.join().unwrap_or_else(|p| resume_unwind(p)));
-                (joined, counts)
+                beside.join().unwrap_or_else(|panic| resume_unwind(panic))
             });
+            steps.append(others);
             let mut rows = Vec::new();
-            if let (Some(tools), Some((images, others))) = (&tools, images) {
-                steps.append(others);
-                let ask = |images: Vec<_>| firmware::ask(&mut steps, tools, &images);
-                rows = images.map(ask).unwrap_or_default();
+            if let (Some(tools), Some(images)) = (&tools, images) {
+                rows = firmware::ask(&mut steps, tools, &images, Scope::Compared);
             }
             tables::check(&mut steps, &Facts { counts: counts.as_ref(), rows: &rows });
         }

@@ -33,6 +33,9 @@ pub const QUESTIONS: [&str; 6] = [
     "first_hit",
 ];
 
+/// Questions whose code a table needs measured.
+pub const CODE: [&str; 2] = ["closest", "tree_alone"];
+
 /// Part by which a count may differ from the written one.
 const TOLERANCE: f64 = 0.02;
 
@@ -119,7 +122,7 @@ fn table(name: &str, facts: &Facts<'_>) -> Result<Option<Vec<Vec<Cell>>>, String
                 "signed",
                 "code of closest point, bytes",
             ]));
-            lines.extend(on_boards(facts.rows, 1, &kinds, "tree_alone")?);
+            lines.extend(on_boards(facts.rows, 1, &kinds, CODE[1])?);
         }
         "firmware_hull" => {
             let kinds = ["closest_far", "closest_near", "first_hit", "outer_hits"];
@@ -131,7 +134,7 @@ fn table(name: &str, facts: &Facts<'_>) -> Result<Option<Vec<Vec<Cell>>>, String
                 "outer hits",
                 "code of closest point and opening, bytes",
             ]));
-            lines.extend(on_boards(facts.rows, 0, &kinds, "closest")?);
+            lines.extend(on_boards(facts.rows, 0, &kinds, CODE[0])?);
         }
         _ => return Err(format!("no command writes a table `{name}`")),
     }
