@@ -1,82 +1,18 @@
 //! Bounds of the distance of the farthest point of some triangles, within a few percent. The
 //! builders use them.
 
-use super::cuts::{DEEPEST, MIDPOINTS, ball, bisect, cut};
+use super::piece::{CUT_ROUNDING, MAX_DEPTH, Piece, ROUNDED_UP, bounding_ball};
 use crate::mesh::Mesh;
-use arrayvec::ArrayVec;
 use glam::{DVec3, Vec3};
-use meshsweep_core::internal::geom::point_triangle;
 use meshsweep_core::{Budget, Bvh, Interval, ScratchEntry};
 use std::collections::BinaryHeap;
 
 /// The bound may exceed the true distance by this factor.
-const SLACK: f64 = 1.05;
+const TOLERANCE: f64 = 1.05;
 
 /// Most cuts of a search. They suffice where each triangle of a mesh cuts a close hull a few times.
 /// The pieces that are left keep their bounds.
-const BUDGET: usize = 200_000;
-
-struct Piece {
-    bound: f64,
-    corners: [DVec3; 3],
-    /// Cuts behind it.
-    depth: u32,
-    /// The surface triangle along whose edge it is cut; it is halved if there is none.
-    along: Option<[DVec3; 3]>,
-}
-
-/// Ratio of a piece's size and its distance from the surface above which it is not halved: that
-/// would take too many steps.
-const WIDE: f64 = 4.0;
-
-impl Piece {
-    /// Raises `found` to the distance of its centre.
-    fn new(
-        corners: [DVec3; 3],
-        depth: u32,
-        found: &mut f64,
-        nearest: &mut impl FnMut(DVec3) -> Option<Nearest>,
-    ) -> Self {
-        let (centre, reach) = ball(&corners);
-        let Some(near) = nearest(centre) else {
-            return Self { bound: f64::INFINITY, corners, depth, along: None };
-        };
-        *found = found.max(near.lower);
-        let lipschitz = near.upper + reach;
-        let convex = near.triangle.map_or(f64::INFINITY, |[p, q, r]| {
-            corners.iter().map(|&v| point_triangle(v, p, q, r).upper).fold(0.0, f64::max)
-        });
-        let along = near.triangle.filter(|_| reach > WIDE * near.upper);
-        let bound = lipschitz.min(convex) * (1.0 + 1e-12);
-        // NaN is no bound.
-        let bound = if bound.is_nan() || reach.is_nan() { f64::INFINITY } else { bound };
-        Self { bound, corners, depth, along }
-    }
-
-    fn parts(&self) -> ArrayVec<[DVec3; 3], 3> {
-        match self.along.and_then(|along| cut(self.corners, along)) {
-            Some(parts) => ArrayVec::from(parts),
-            None => bisect(self.corners).into_iter().collect(),
-        }
-    }
-}
-
-impl Ord for Piece {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.bound.total_cmp(&other.bound)
-    }
-}
-impl PartialOrd for Piece {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl PartialEq for Piece {
-    fn eq(&self, other: &Self) -> bool {
-        self.bound.total_cmp(&other.bound).is_eq()
-    }
-}
-impl Eq for Piece {}
+const MAX_CUTS: usize = 200_000;
 
 /// Where a point's nearest surface is.
 pub struct Nearest {
@@ -89,20 +25,18 @@ pub struct Nearest {
 }
 
 impl Nearest {
-    /// By a query in `f32`, which gives an interval of the distance and a triangle. One unit of the
-    /// point's frame has `scale` units of the query's.
+    /// By a query in `f32`, which gives an interval of the distance and a triangle.
     fn of_query(
         point: DVec3,
-        scale: f64,
         query: impl FnOnce([f32; 3]) -> Option<(Interval, Option<[DVec3; 3]>)>,
     ) -> Option<Self> {
-        let asked = (point * scale).as_vec3();
+        let asked = point.as_vec3();
         // The query's point is rounded to f32. The distance to it is part of the bounds.
-        let offset = (asked.as_dvec3() / scale - point).length();
+        let offset = (asked.as_dvec3() - point).length();
         let (distance, triangle) = query(asked.to_array())?;
         Some(Self {
-            lower: f64::from(distance.lower) / scale - offset,
-            upper: f64::from(distance.upper) / scale + offset,
+            lower: f64::from(distance.lower) - offset,
+            upper: f64::from(distance.upper) + offset,
             triangle,
         })
     }
@@ -117,9 +51,23 @@ pub struct Farthest {
     pub upper: f64,
 }
 
+/// A piece, bounded from its centre. Raises `found` to the centre's distance.
+fn bounded(
+    corners: [DVec3; 3],
+    depth: u32,
+    found: &mut f64,
+    nearest: &mut impl FnMut(DVec3) -> Option<Nearest>,
+) -> Piece<()> {
+    let Some(near) = nearest(bounding_ball(&corners).0) else {
+        return Piece { bound: f64::INFINITY, corners, depth, along: None, of: () };
+    };
+    *found = found.max(near.lower);
+    Piece::new(corners, depth, near.upper, near.triangle, ())
+}
+
 /// Bounds of the largest distance from a point of `triangles` to the surface of `nearest`. `upper`
-/// exceeds `lower` by at most a twentieth, unless `upper` is at most `enough` or 200,000 cuts do
-/// not suffice.
+/// exceeds `lower` by at most a twentieth and the rounding of cuts, unless `upper` is at most
+/// `enough`, or [`MAX_CUTS`] cuts or the depth of a piece do not suffice.
 ///
 /// Cost: one query for each triangle, and some dozens more for the farthest.
 pub fn farthest(
@@ -132,17 +80,17 @@ pub fn farthest(
     let mut size = 0f64;
     for corners in triangles {
         size = corners.iter().fold(size, |size, p| size.max(p.abs().max_element()));
-        heap.push(Piece::new(corners, 0, &mut found, &mut nearest));
+        heap.push(bounded(corners, 0, &mut found, &mut nearest));
     }
-    let mut budget = BUDGET;
+    let mut cuts = MAX_CUTS;
     while let Some(piece) = heap.pop() {
-        let is_spent = budget == 0 || piece.depth >= DEEPEST;
-        if piece.bound <= (found * SLACK).max(enough) || is_spent || piece.bound == 0.0 {
-            return Farthest { lower: found, upper: piece.bound.max(found) + size * MIDPOINTS };
+        let is_spent = cuts == 0 || piece.depth >= MAX_DEPTH;
+        if piece.bound <= (found * TOLERANCE).max(enough) || is_spent || piece.bound == 0.0 {
+            return Farthest { lower: found, upper: piece.bound.max(found) + size * CUT_ROUNDING };
         }
-        budget -= 1;
+        cuts -= 1;
         for part in piece.parts() {
-            let part = Piece::new(part, piece.depth + 1, &mut found, &mut nearest);
+            let part = bounded(part, piece.depth + 1, &mut found, &mut nearest);
             heap.push(Piece { bound: part.bound.min(piece.bound), ..part });
         }
     }
@@ -160,21 +108,22 @@ pub fn is_within(
     mut nearest: impl FnMut(DVec3) -> Option<Nearest>,
 ) -> bool {
     let size = triangle.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
-    let most = most - size * MIDPOINTS;
+    let most = most - size * CUT_ROUNDING;
     let mut found = 0f64;
-    let mut budget = budget.min(DEEPEST as usize);
+    // No piece is deeper than their number, so the rounding of cuts is bounded.
+    let mut budget = budget.min(MAX_DEPTH as usize);
     let mut open = vec![triangle];
     while let Some(corners) = open.pop() {
-        let (centre, reach) = ball(&corners);
+        let (centre, radius) = bounding_ball(&corners);
         let [lower, upper] = about(centre);
         if lower > most || most.is_nan() || budget == 0 {
             return false;
         }
         budget -= 1;
-        if (upper + reach) * (1.0 + 1e-12) <= most {
+        if (upper + radius) * ROUNDED_UP <= most {
             continue;
         }
-        let piece = Piece::new(corners, 0, &mut found, &mut nearest);
+        let piece = bounded(corners, 0, &mut found, &mut nearest);
         if found > most {
             return false;
         }
@@ -194,7 +143,7 @@ pub fn nearest_in<'a>(
     let all: Vec<[u32; 3]> = mesh.all_triangles().collect();
     let wide = |v: u32| Vec3::from(mesh.positions[v as usize]).as_dvec3();
     move |point| {
-        Nearest::of_query(point, 1.0, |p| {
+        Nearest::of_query(point, |p| {
             let answer = tree.closest_point(p, Budget::EXACT, &mut scratch).ok()?;
             let corners = answer.triangle.and_then(|number| all.get(number as usize));
             Some((answer.distance, corners.map(|corners| corners.map(wide))))
@@ -205,6 +154,7 @@ pub fn nearest_in<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use meshsweep_core::internal::geom::point_triangle;
 
     const SURFACE: [[[f64; 3]; 3]; 3] = [
         [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]],

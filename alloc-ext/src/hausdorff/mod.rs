@@ -7,18 +7,18 @@
 //! that was found.
 //!
 //! A piece is cut in halves. A piece that is many times as large as it is far away is cut along an
-//! edge of the surface triangle next to it. So a hull close to a flat wall is cut into the parts
-//! over each of the wall's triangles.
+//! edge of the surface triangle next to it. Near a flat wall the Lipschitz bound needs pieces no
+//! larger than the gap. Over one wall triangle the convex bound is exact.
 //!
 //! | file | owns |
 //! | --- | --- |
-//! | `cuts` | the size of a piece, and its parts |
+//! | `piece` | a part of a triangle: its bound, and its parts |
 //! | `farthest` | one side, to a few percent, for the builders |
-//! | `between` | two meshes, to any precision, with the points that attain the distance |
+//! | `two_meshes` | two meshes, to any precision, with the points that attain the distance |
 
-mod between;
-mod cuts;
 mod farthest;
+mod piece;
+mod two_meshes;
 
-pub use between::{Attained, Direction, Hausdorff, Precision, hausdorff};
 pub use farthest::{Farthest, Nearest, farthest, is_within, nearest_in};
+pub use two_meshes::{Attained, Direction, Hausdorff, Precision, hausdorff};

@@ -1,14 +1,7 @@
 //! The texts that `meshsweep help COMMAND` prints below the options.
 
-pub const EXIT_STATUS: &str = "Exit status: 0 done, 1 a file or its content is not usable or no \
-    hull is as tight as asked for, 2 wrong usage.";
-
-pub const HAUSDORFF: &str = "lower and upper enclose the exact distance of the meshes as they were \
-    read, open or closed, in any number of parts. a and b are points of the first and of the second \
-    mesh at the distance lower: one of them is the farthest that was found, the other its closest \
-    point. Triangles are counted from 0 in their file; a polygon counts as the triangles about its \
-    first corner.\n\n\
-    Triangles without area count like all others.";
+pub const EXIT_STATUS: &str = "Exit status: 0 done, 1 a file or its content is not usable, no hull \
+    is as tight or no distance as small as asked for, 2 wrong usage.";
 
 /// `--queue` of the commands with `--engine`.
 pub const QUEUE: &str = "Scratch entries to search with [default: what the blob needs; on the \
@@ -252,6 +245,16 @@ pub const REFINE: &str = "Of a blob built --for hull the mesh that is written is
     meshsweep refine part.msw --box 0,0,0,10,10,5 --error 0.01 -o hull.ply\n  \
     meshsweep refine part.msw --segment 0,0,9,0,0,-9 --within 1 --error 0 -o hull.ply\n  \
     meshsweep refine part.msw --eye 0,0,90 --look 0,0,-1 --fov 50 --pixels 1000 -o hull.ply";
+
+pub const HAUSDORFF: &str = "lower and upper enclose the exact distance of the meshes as they were \
+    read, open or closed, with any number of connected components. a and b are points of the first \
+    and of the second mesh at the distance lower: one of them is the farthest that was found, the \
+    other its closest point. Triangles are counted from 0 in their file; a polygon counts as the \
+    triangles about its first corner. Triangles without area count like all others.\n\n\
+    Examples:\n  \
+    meshsweep hausdorff part.stl scan.ply --rel 1e-6\n  \
+    meshsweep hausdorff part.stl scan.ply --one-sided --json\n  \
+    meshsweep hausdorff part.stl scan.ply --at-most 1000";
 
 pub const CUT: &str = "meshsweep info lists the levels. --level leaves the box tree out: it holds \
     all of the surface or nothing.\n\n\

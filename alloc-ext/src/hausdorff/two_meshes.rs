@@ -16,7 +16,7 @@
 //! general polygonal models* (2009). The order of the bounds, cheap ones first, is that of Sacht
 //! and Jacobson, *Cascading upper bounds for triangle soup Pompeiu-Hausdorff distance* (2024).
 
-use super::cuts::{DEEPEST, MIDPOINTS, ball, bisect, cut};
+use super::piece::{CUT_ROUNDING, MAX_DEPTH, Piece, ROUNDED_UP, bounding_ball, farthest_corner};
 use crate::bvh::{closest_points, exact_blob};
 use crate::error::BuildError;
 use crate::mesh::Mesh;
@@ -77,9 +77,10 @@ pub struct Hausdorff {
 
 /// The Hausdorff distance of two meshes, open or closed, in any number of parts.
 ///
-/// `progress` gets both bounds now and then. Lengths are in the unit of the files. A part of
-/// 10^-11 of the largest coordinate is the best precision. After 50 million pieces the bounds are
-/// given as they are. The answer does not depend on the number of threads.
+/// `progress(lower, upper)` is called once a round; `upper` is that of the side being searched.
+/// Lengths are in the unit of the files. Bounds closer than about 10^-11 of the largest coordinate
+/// are not reached. After 50 million pieces the bounds are given as they are. The answer does not
+/// depend on the number of threads.
 ///
 /// Cost: a box tree for each mesh, one query for each vertex, and some dozens to some thousand
 /// more, next to the farthest point. Meshes that are equally far apart everywhere take most.
@@ -124,14 +125,7 @@ const ROUND: usize = 512;
 /// Most pieces of a search.
 const MOST_PIECES: usize = 50_000_000;
 
-/// Ratio of a piece's size and its distance from the surface above which it is cut along an edge:
-/// halving would take too many steps.
-const WIDE: f64 = 4.0;
-
-/// Factor of a computed bound, for the few roundings of a sum and a length.
-const ROUNDED_UP: f64 = 1.0 + 1e-12;
-
-/// What both sides know so far.
+/// State of the search, shared by both sides.
 struct Found {
     precision: Precision,
     /// Rounding of both meshes.
@@ -168,9 +162,9 @@ struct Near {
     triangle: usize,
 }
 
-/// Memory of one thread's queries.
-struct Memory {
-    scratch: Vec<ScratchEntry>,
+/// QueryScratch of one thread's queries.
+struct QueryScratch {
+    entries: Vec<ScratchEntry>,
     neighbors: Vec<Neighbor>,
 }
 
@@ -183,17 +177,17 @@ impl<'a> Surface<'a> {
         }
     }
 
-    fn memory(&self) -> Memory {
-        let scratch = vec![ScratchEntry::EMPTY; self.tree.scratch_entries()];
-        Memory { scratch, neighbors: vec![Neighbor::EMPTY; 64] }
+    fn scratch(&self) -> QueryScratch {
+        let entries = vec![ScratchEntry::EMPTY; self.tree.scratch_entries()];
+        QueryScratch { entries, neighbors: vec![Neighbor::EMPTY; 64] }
     }
 
     /// Bounds from above in f64, from below in f32. Nothing is known if the query fails.
-    fn near(&self, p: DVec3, memory: &mut Memory) -> Near {
+    fn near(&self, p: DVec3, scratch: &mut QueryScratch) -> Near {
         let asked = p.as_vec3();
         let nothing = Near { lower: 0.0, upper: f64::INFINITY, triangle: 0 };
         let Ok(answer) =
-            self.tree.closest_point(asked.to_array(), Budget::EXACT, &mut memory.scratch)
+            self.tree.closest_point(asked.to_array(), Budget::EXACT, &mut scratch.entries)
         else {
             return nothing;
         };
@@ -216,29 +210,29 @@ impl<'a> Surface<'a> {
     }
 
     /// Both bounds in f64: against every triangle that may be nearer.
-    fn sharpen(&self, p: DVec3, near: Near, memory: &mut Memory) -> Near {
+    fn sharpen(&self, p: DVec3, near: Near, scratch: &mut QueryScratch) -> Near {
         let asked = p.as_vec3();
         let reach = near.upper + (asked.as_dvec3() - p).length();
         let distance = ((reach * ROUNDED_UP) as f32).next_up();
         let mut all = loop {
-            let Memory { scratch, neighbors } = memory;
+            let QueryScratch { entries, neighbors } = scratch;
             let point = asked.to_array();
-            let Ok(all) = self.tree.all_within(point, distance, neighbors, Budget::EXACT, scratch)
+            let Ok(all) = self.tree.all_within(point, distance, neighbors, Budget::EXACT, entries)
             else {
                 return near;
             };
             if all.dropped == 0 {
                 break all;
             }
-            let entries = neighbors.len() + all.dropped as usize;
-            neighbors.resize(entries, Neighbor::EMPTY);
+            let wanted = neighbors.len() + all.dropped as usize;
+            neighbors.resize(wanted, Neighbor::EMPTY);
         };
         if all.ended != Ended::Exact || all.stored == 0 {
             return near;
         }
-        all.stored = all.stored.min(memory.neighbors.len());
+        all.stored = all.stored.min(scratch.neighbors.len());
         let mut sharp = Near { lower: f64::INFINITY, ..near };
-        for neighbor in &memory.neighbors[..all.stored] {
+        for neighbor in &scratch.neighbors[..all.stored] {
             let triangle = neighbor.triangle() as usize;
             let Some(&[a, b, c]) = self.triangles.get(triangle) else { return near };
             let distance = point_triangle(p, a, b, c);
@@ -250,36 +244,6 @@ impl<'a> Surface<'a> {
         Near { lower: sharp.lower.max(near.lower).min(sharp.upper), ..sharp }
     }
 }
-
-/// A part of a triangle.
-#[derive(Clone, Copy)]
-struct Piece {
-    /// Upper bound of the distance of its points.
-    bound: f64,
-    corners: [DVec3; 3],
-    /// Its triangle in the mesh.
-    triangle: usize,
-    depth: u32,
-    /// The triangle of the surface along whose edge it is cut; it is halved if there is none.
-    along: Option<usize>,
-}
-
-impl Ord for Piece {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.bound.total_cmp(&other.bound)
-    }
-}
-impl PartialOrd for Piece {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl PartialEq for Piece {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-impl Eq for Piece {}
 
 /// A point that may be the farthest.
 #[derive(Clone, Copy)]
@@ -300,17 +264,18 @@ struct Side<'a> {
 impl Side<'_> {
     /// Raises `found` and returns an upper bound of this side.
     fn search(&self, found: &mut Found, progress: &mut impl FnMut(f64, f64)) -> f64 {
-        let mut memory = self.surface.memory();
+        let mut scratch = self.surface.scratch();
         let triangles: Vec<[u32; 3]> = self.from.all_triangles().collect();
-        let vertices = self.vertices(&triangles, found, &mut memory);
+        let vertices = self.vertices(&triangles, found, &mut scratch);
         let mut heap = self.first_pieces(&triangles, &vertices, found);
         let size = self.from.positions.iter().flatten().fold(0f32, |most, x| most.max(x.abs()));
-        let rounding = f64::from(size) * MIDPOINTS;
+        let rounding = f64::from(size) * CUT_ROUNDING;
         loop {
-            let upper = heap.peek().map_or(0.0, |piece: &Piece| piece.bound).max(found.lower);
+            let upper =
+                heap.peek().map_or(0.0, |piece: &Piece<usize>| piece.bound).max(found.lower);
             progress(found.lower, upper);
             let is_spent = found.pieces >= MOST_PIECES
-                || heap.peek().is_none_or(|piece| piece.depth >= DEEPEST);
+                || heap.peek().is_none_or(|piece| piece.depth >= MAX_DEPTH);
             if is_spent || found.suffices(upper + rounding) || upper - found.lower <= rounding {
                 return upper + rounding;
             }
@@ -322,13 +287,13 @@ impl Side<'_> {
                     round.push(piece);
                 }
             }
-            let parts: Vec<(Piece, Candidate)> = round
+            let parts: Vec<(Piece<usize>, Candidate)> = round
                 .par_iter()
-                .map_init(|| self.surface.memory(), |memory, piece| self.cut(piece, memory))
+                .map_init(|| self.surface.scratch(), |scratch, piece| self.cut(piece, scratch))
                 .flatten_iter()
                 .collect();
             found.pieces += parts.len();
-            self.raise(found, parts.iter().map(|(_, candidate)| *candidate), &mut memory);
+            self.raise(found, parts.iter().map(|(_, candidate)| *candidate), &mut scratch);
             heap.extend(parts.into_iter().map(|(part, _)| part).filter(|p| p.bound > found.lower));
         }
     }
@@ -338,7 +303,7 @@ impl Side<'_> {
         &self,
         triangles: &[[u32; 3]],
         found: &mut Found,
-        memory: &mut Memory,
+        scratch: &mut QueryScratch,
     ) -> Vec<Near> {
         let Surface { tree, .. } = self.surface;
         let positions = &self.from.positions;
@@ -352,7 +317,7 @@ impl Side<'_> {
                     self.surface.seen(at(v), lower, answer.triangle.unwrap_or(u32::MAX))
                 })
                 .collect(),
-            Err(_) => (0..positions.len()).map(|v| self.surface.near(at(v), memory)).collect(),
+            Err(_) => (0..positions.len()).map(|v| self.surface.near(at(v), scratch)).collect(),
         };
         let mut owner = vec![usize::MAX; positions.len()];
         for (number, corners) in triangles.iter().enumerate() {
@@ -361,7 +326,7 @@ impl Side<'_> {
         let candidate =
             |(v, &near): (usize, &Near)| Candidate { point: at(v), triangle: owner[v], near };
         let used = near.iter().enumerate().filter(|(v, _)| owner[*v] != usize::MAX);
-        self.raise(found, used.map(candidate), memory);
+        self.raise(found, used.map(candidate), scratch);
         near
     }
 
@@ -370,7 +335,7 @@ impl Side<'_> {
         &self,
         found: &mut Found,
         candidates: impl Iterator<Item = Candidate>,
-        memory: &mut Memory,
+        scratch: &mut QueryScratch,
     ) {
         let mut wanted: Vec<Candidate> =
             candidates.filter(|candidate| candidate.near.upper > found.lower).collect();
@@ -379,7 +344,7 @@ impl Side<'_> {
             if near.upper <= found.lower || found.suffices(near.upper) {
                 break;
             }
-            let near = self.surface.sharpen(point, near, memory);
+            let near = self.surface.sharpen(point, near, scratch);
             if near.lower > found.lower {
                 found.lower = near.lower;
                 found.attained = self.attained(point, triangle, near);
@@ -399,13 +364,13 @@ impl Side<'_> {
         })
     }
 
-    /// The triangles whose bounds exceed what was found.
+    /// The triangles whose bounds exceed the lower bound.
     fn first_pieces(
         &self,
         triangles: &[[u32; 3]],
         vertices: &[Near],
         found: &Found,
-    ) -> BinaryHeap<Piece> {
+    ) -> BinaryHeap<Piece<usize>> {
         let piece = |(triangle, &corners): (usize, &[u32; 3])| {
             let near = corners.map(|v| vertices[v as usize]);
             let corners = corners.map(|v| Vec3::from(self.from.positions[v as usize]).as_dvec3());
@@ -415,7 +380,7 @@ impl Side<'_> {
                 .max((c - b).length_squared())
                 .max((a - c).length_squared());
             let farthest = near.iter().fold(0f64, |most, near| most.max(near.upper));
-            // No point of a triangle is farther than this from all of its corners.
+            // Every point of a triangle is within longest / √3 of a corner.
             let mut bound = (farthest + (longest / 3.0).sqrt()) * ROUNDED_UP;
             for next_to in near {
                 if bound <= found.lower {
@@ -423,9 +388,9 @@ impl Side<'_> {
                 }
                 bound = bound.min(self.bound_by(next_to.triangle, &corners));
             }
-            Piece { bound, corners, triangle, depth: 0, along: None }
+            Piece { bound, corners, depth: 0, along: None, of: triangle }
         };
-        let pieces: Vec<Piece> = triangles
+        let pieces: Vec<Piece<usize>> = triangles
             .par_iter()
             .enumerate()
             .map(piece)
@@ -434,28 +399,26 @@ impl Side<'_> {
         BinaryHeap::from(pieces)
     }
 
-    /// The corners' distance from one triangle of the surface, which is convex.
+    /// Upper bound of a triangle's distance, from one triangle of the surface.
     fn bound_by(&self, triangle: usize, corners: &[DVec3; 3]) -> f64 {
-        let far = corners.map(|p| self.surface.distance_from(p, triangle));
-        far.into_iter().fold(0.0, f64::max) * ROUNDED_UP
+        let surface = self.surface.triangles.get(triangle);
+        surface.map_or(f64::INFINITY, |&surface| farthest_corner(corners, surface) * ROUNDED_UP)
     }
 
     /// The parts of a piece, each with its centre.
-    fn cut(&self, piece: &Piece, memory: &mut Memory) -> Vec<(Piece, Candidate)> {
-        let along = piece.along.and_then(|triangle| self.surface.triangles.get(triangle));
-        let parts = match along.and_then(|&along| cut(piece.corners, along)) {
-            Some(parts) => parts.to_vec(),
-            None => bisect(piece.corners).to_vec(),
-        };
+    fn cut(
+        &self,
+        piece: &Piece<usize>,
+        scratch: &mut QueryScratch,
+    ) -> Vec<(Piece<usize>, Candidate)> {
         let bounded = |corners: [DVec3; 3]| {
-            let (centre, reach) = ball(&corners);
-            let near = self.surface.near(centre, memory);
-            let from_centre = (near.upper + reach) * ROUNDED_UP;
-            let bound = from_centre.min(self.bound_by(near.triangle, &corners)).min(piece.bound);
-            let along = (reach > WIDE * near.upper).then_some(near.triangle);
-            let part = Piece { bound, corners, depth: piece.depth + 1, along, ..*piece };
-            (part, Candidate { point: centre, triangle: piece.triangle, near })
+            let (centre, _) = bounding_ball(&corners);
+            let near = self.surface.near(centre, scratch);
+            let next_to = self.surface.triangles.get(near.triangle).copied();
+            let part = Piece::new(corners, piece.depth + 1, near.upper, next_to, piece.of);
+            let part = Piece { bound: part.bound.min(piece.bound), ..part };
+            (part, Candidate { point: centre, triangle: piece.of, near })
         };
-        parts.into_iter().map(bounded).collect()
+        piece.parts().into_iter().map(bounded).collect()
     }
 }
