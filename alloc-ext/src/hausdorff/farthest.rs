@@ -57,12 +57,12 @@ fn bounded(
     depth: u32,
     found: &mut f64,
     nearest: &mut impl FnMut(DVec3) -> Option<Nearest>,
-) -> Piece<()> {
+) -> Piece<Option<[DVec3; 3]>> {
     let Some(near) = nearest(bounding_ball(&corners).0) else {
-        return Piece { bound: f64::INFINITY, corners, depth, along: None, of: () };
+        return Piece { bound: f64::INFINITY, corners, depth, is_wide: false, of: None };
     };
     *found = found.max(near.lower);
-    Piece::new(corners, depth, near.upper, near.triangle, ())
+    Piece::new(corners, depth, near.upper, near.triangle, near.triangle)
 }
 
 /// Bounds of the largest distance from a point of `triangles` to the surface of `nearest`. `upper`
@@ -89,7 +89,7 @@ pub fn farthest(
             return Farthest { lower: found, upper: piece.bound.max(found) + size * CUT_ROUNDING };
         }
         cuts -= 1;
-        for part in piece.parts() {
+        for part in piece.parts(piece.of) {
             let part = bounded(part, piece.depth + 1, &mut found, &mut nearest);
             heap.push(Piece { bound: part.bound.min(piece.bound), ..part });
         }
@@ -128,7 +128,7 @@ pub fn is_within(
             return false;
         }
         if piece.bound > most {
-            open.extend(piece.parts());
+            open.extend(piece.parts(piece.of));
         }
     }
     true

@@ -14,11 +14,13 @@
 //! | --- | --- |
 //! | `piece` | a part of a triangle: its bound, and its parts |
 //! | `farthest` | one side, to a few percent, for the builders |
+//! | `surface` | a mesh with its box tree: the distance of a point, in f64 |
 //! | `two_meshes` | two meshes, to any precision, with the points that attain the distance |
 
 mod farthest;
 mod piece;
+mod surface;
 mod two_meshes;
 
 pub use farthest::{Farthest, Nearest, farthest, is_within, nearest_in};
-pub use two_meshes::{Attained, Direction, Hausdorff, Precision, hausdorff};
+pub use two_meshes::{Attained, Direction, Ended, Hausdorff, Precision, Refused, hausdorff};

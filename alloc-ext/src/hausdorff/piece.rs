@@ -30,8 +30,8 @@ pub(super) struct Piece<T> {
     pub(super) corners: [DVec3; 3],
     /// Cuts that made it.
     pub(super) depth: u32,
-    /// The surface triangle along whose edge it is cut; it is halved if there is none.
-    pub(super) along: Option<[DVec3; 3]>,
+    /// It is cut along an edge of the surface triangle next to it, not halved.
+    pub(super) is_wide: bool,
     /// The caller's.
     pub(super) of: T,
 }
@@ -50,13 +50,14 @@ impl<T> Piece<T> {
         let bound = (upper + radius).min(convex) * ROUNDED_UP;
         // NaN is no bound.
         let bound = if bound.is_nan() || radius.is_nan() { f64::INFINITY } else { bound };
-        let along = triangle.filter(|_| radius > EDGE_CUT_RATIO * upper);
-        Self { bound, corners, depth, along, of }
+        let is_wide = radius > EDGE_CUT_RATIO * upper;
+        Self { bound, corners, depth, is_wide, of }
     }
 
-    /// Two or three parts that cover the piece.
-    pub(super) fn parts(&self) -> ArrayVec<[DVec3; 3], 3> {
-        match self.along.and_then(|along| cut_along_edge(self.corners, along)) {
+    /// Two or three parts that cover the piece. `triangle` is the surface triangle next to it.
+    pub(super) fn parts(&self, triangle: Option<[DVec3; 3]>) -> ArrayVec<[DVec3; 3], 3> {
+        let along = triangle.filter(|_| self.is_wide);
+        match along.and_then(|along| cut_along_edge(self.corners, along)) {
             Some(parts) => ArrayVec::from(parts),
             None => bisect(self.corners).into_iter().collect(),
         }
@@ -83,14 +84,19 @@ impl<T> Eq for Piece<T> {}
 /// Largest distance of the corners from a triangle. No point between them is farther, because the
 /// distance from a triangle is convex.
 pub(super) fn farthest_corner(corners: &[DVec3; 3], [a, b, c]: [DVec3; 3]) -> f64 {
-    corners.iter().map(|&p| point_triangle(p, a, b, c).upper).fold(0.0, f64::max)
+    corners.iter().map(|&p| point_triangle(p, a, b, c).upper).fold(0.0, greater)
+}
+
+/// The greater of two numbers; NaN if one is.
+pub(super) fn greater(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b <= a { a } else { b }
 }
 
 /// The centre of a triangle, and the distance of its farthest corner from there.
 pub(super) fn bounding_ball(corners: &[DVec3; 3]) -> (DVec3, f64) {
     let [a, b, c] = *corners;
     let centre = (a + b + c) / 3.0;
-    (centre, corners.iter().map(|p| (*p - centre).length()).fold(0.0, f64::max))
+    (centre, corners.iter().map(|p| (*p - centre).length()).fold(0.0, greater))
 }
 
 /// Cuts a piece by the plane through an edge of the triangle `along`, perpendicular to that

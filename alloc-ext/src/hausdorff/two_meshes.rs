@@ -16,13 +16,16 @@
 //! general polygonal models* (2009). The order of the bounds, cheap ones first, is that of Sacht
 //! and Jacobson, *Cascading upper bounds for triangle soup Pompeiu-Hausdorff distance* (2024).
 
-use super::piece::{CUT_ROUNDING, MAX_DEPTH, Piece, ROUNDED_UP, bounding_ball, farthest_corner};
+use super::piece::{
+    CUT_ROUNDING, MAX_DEPTH, Piece, ROUNDED_UP, bounding_ball, farthest_corner, greater,
+};
+use super::surface::{Near, QueryScratch, Surface};
 use crate::bvh::{closest_points, exact_blob};
 use crate::error::BuildError;
 use crate::mesh::Mesh;
 use glam::{DVec3, Vec3};
 use meshsweep_core::internal::geom::point_triangle;
-use meshsweep_core::{Budget, Bvh, Ended, Neighbor, ScratchEntry};
+use meshsweep_core::{Budget, Bvh};
 use rayon::prelude::*;
 use std::collections::BinaryHeap;
 
@@ -46,7 +49,8 @@ pub struct Precision {
     pub at_most: Option<f64>,
 }
 
-/// The farthest point that was found, and the point of the other mesh that is closest to it.
+/// The farthest point that was found, and the point of the other mesh that is closest to it. Both
+/// lie on the meshes with their coordinates rounded to f32.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attained {
     /// The farthest point.
@@ -69,18 +73,40 @@ pub struct Hausdorff {
     pub lower: f64,
     /// Not below the distance.
     pub upper: f64,
-    /// Where `lower` is attained; nothing if the meshes are the same up to rounding.
+    /// The farthest point that was found; nothing if no point is known to be apart.
     pub attained: Option<Attained>,
     /// Pieces of triangles that were bounded.
     pub pieces: usize,
+    /// Why the search ended.
+    pub ended: Ended,
 }
 
-/// The Hausdorff distance of two meshes, open or closed, in any number of parts.
+/// Why a search ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// The bounds are as close as asked for, or the limit is decided.
+    Precision,
+    /// The bounds are as close as rounding allows, and farther apart than asked for.
+    Rounding,
+    /// 50 million pieces, or four million that wait, did not suffice.
+    Pieces,
+}
+
+/// Which mesh was refused, and why.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Refused {
+    /// The second mesh.
+    pub is_second: bool,
+    /// The reason.
+    pub error: BuildError,
+}
+
+/// The Hausdorff distance of two meshes, open or closed, with any number of connected components.
 ///
-/// `progress(lower, upper)` is called once a round; `upper` is that of the side being searched.
-/// Lengths are in the unit of the files. Bounds closer than about 10^-11 of the largest coordinate
-/// are not reached. After 50 million pieces the bounds are given as they are. The answer does not
-/// depend on the number of threads.
+/// `progress(lower, upper)` is called once a round. Lengths are in the unit of the files. Bounds
+/// come no closer than the rounding of coordinates to f32 and some 10^-11 of the largest coordinate.
+/// [`Hausdorff::ended`] says whether the precision was reached. The answer does not depend on the
+/// number of threads.
 ///
 /// Cost: a box tree for each mesh, one query for each vertex, and some dozens to some thousand
 /// more, next to the farthest point. Meshes that are equally far apart everywhere take most.
@@ -93,30 +119,52 @@ pub fn hausdorff(
     direction: Direction,
     precision: &Precision,
     mut progress: impl FnMut(f64, f64),
-) -> Result<Hausdorff, BuildError> {
-    if [first, second].iter().any(|mesh| mesh.all_triangles().next().is_none()) {
-        return Err(BuildError::Empty);
+) -> Result<Hausdorff, Refused> {
+    let refused = |is_second| move |error| Refused { is_second, error };
+    for (mesh, is_second) in [(first, false), (second, true)] {
+        if mesh.all_triangles().next().is_none() {
+            return Err(refused(is_second)(BuildError::Empty));
+        }
     }
-    // Repair moved no vertex by more than its rounding.
-    let moved = first.rounding + second.rounding;
-    let mut found = Found { precision: *precision, moved, lower: 0.0, attained: None, pieces: 0 };
-    let mut upper = 0f64;
-    let (forward, backward) = rayon::join(
-        || exact_blob(second),
-        || (direction == Direction::Both).then(|| exact_blob(first)).transpose(),
+    let (to_second, to_first) = rayon::join(
+        || exact_blob(second).map_err(refused(true)),
+        || match direction {
+            Direction::Both => exact_blob(first).map(Some).map_err(refused(false)),
+            Direction::Forward => Ok(None),
+        },
     );
-    let sides = [(first, second, Some(forward?)), (second, first, backward?)];
-    for ((from, to, blob), is_backward) in sides.into_iter().zip([false, true]) {
-        let Some(blob) = blob else { continue };
-        let tree = Bvh::open(&blob).map_err(BuildError::Reopen)?;
-        let surface = Surface::new(&tree, to);
-        let side = Side { from, surface, is_backward };
-        upper = upper.max(side.search(&mut found, &mut progress));
-    }
-    let upper = if upper > found.lower { upper } else { found.lower };
-    let Found { lower, attained, pieces, .. } = found;
-    let (lower, upper) = ((lower - moved).max(0.0), (upper + moved) * (1.0 + 4.0 * f64::EPSILON));
-    Ok(Hausdorff { lower: lower * (1.0 - 4.0 * f64::EPSILON), upper, attained, pieces })
+    let (to_second, to_first) = (to_second?, to_first?);
+    let open =
+        |blob, is_second| Bvh::open(blob).map_err(BuildError::Reopen).map_err(refused(is_second));
+    let trees = [
+        Some(open(&to_second, true)?),
+        to_first.as_deref().map(|blob| open(blob, false)).transpose()?,
+    ];
+    let sides: Vec<Side<'_>> = trees
+        .iter()
+        .zip([(first, second, false), (second, first, true)])
+        .filter_map(|(tree, (from, to, is_backward))| {
+            let surface = Surface::new(tree.as_ref()?, to);
+            Some(Side { from, sources: from.all_sources().collect(), surface, is_backward })
+        })
+        .collect();
+    let largest = |mesh: &Mesh| {
+        f64::from(mesh.positions.iter().flatten().fold(0f32, |most, x| most.max(x.abs())))
+    };
+    let mut search = Search {
+        sides: &sides,
+        precision: *precision,
+        rounding: largest(first).max(largest(second)) * CUT_ROUNDING,
+        // Repair moved no vertex by more than its rounding.
+        moved: first.rounding + second.rounding,
+        lower: 0.0,
+        attained: None,
+        pieces: 0,
+    };
+    let (upper, ended) = search.run(&mut progress);
+    let Search { attained, pieces, .. } = search;
+    let [lower, upper] = search.told(upper);
+    Ok(Hausdorff { lower, upper, attained, pieces, ended })
 }
 
 /// Pieces that are cut in one round. More make threads busier, fewer cut less in vain.
@@ -125,123 +173,141 @@ const ROUND: usize = 512;
 /// Most pieces of a search.
 const MOST_PIECES: usize = 50_000_000;
 
-/// State of the search, shared by both sides.
-struct Found {
+/// Most pieces that wait. They take 480 MB.
+const MOST_WAITING: usize = 4_000_000;
+
+/// The triangle of a piece.
+#[derive(Clone, Copy)]
+struct Place {
+    /// In [`Search::sides`].
+    side: usize,
+    /// In the side's mesh.
+    triangle: u32,
+    /// In the side's surface: next to the piece.
+    next_to: u32,
+}
+
+/// State of the search.
+struct Search<'a> {
+    sides: &'a [Side<'a>],
     precision: Precision,
+    /// Rounding of cut points.
+    rounding: f64,
     /// Rounding of both meshes.
     moved: f64,
+    /// The largest distance that was found.
     lower: f64,
     attained: Option<Attained>,
     pieces: usize,
 }
 
-impl Found {
-    /// Whether bounds up to `upper` are close enough.
-    fn suffices(&self, upper: f64) -> bool {
+impl Search<'_> {
+    /// Cuts the piece with the largest bound until the bounds are close enough. The upper bound.
+    fn run(&mut self, progress: &mut impl FnMut(f64, f64)) -> (f64, Ended) {
+        let sides = self.sides;
+        let mut scratch: Vec<QueryScratch> =
+            sides.iter().map(|side| side.surface.scratch()).collect();
+        let vertices: Vec<Vec<Near>> = sides.iter().map(|side| side.vertex_distances()).collect();
+        for (index, (side, near)) in sides.iter().zip(&vertices).enumerate() {
+            self.raise(index, side.vertex_candidates(near), &mut scratch[index]);
+        }
+        let mut heap = BinaryHeap::new();
+        for (index, (side, near)) in sides.iter().zip(&vertices).enumerate() {
+            heap.extend(side.first_pieces(index, near, self.lower));
+        }
+        loop {
+            let upper = heap.peek().map_or(0.0, |piece: &Piece<Place>| piece.bound);
+            let upper = greater(upper, self.lower);
+            progress(self.lower, upper);
+            if let Some(ended) = self.ended(upper, &heap) {
+                return (upper, ended);
+            }
+            let mut round = Vec::with_capacity(ROUND);
+            while round.len() < ROUND
+                && let Some(piece) = heap.peek()
+                && piece.depth < MAX_DEPTH
+            {
+                round.extend(heap.pop().filter(|piece| piece.bound > self.lower));
+            }
+            let parts: Vec<(Piece<Place>, Candidate)> = round
+                .par_iter()
+                .map_init(
+                    || sides.iter().map(|side| side.surface.scratch()).collect::<Vec<_>>(),
+                    |scratch, piece| match scratch.get_mut(piece.of.side) {
+                        Some(scratch) => sides[piece.of.side].cut(piece, scratch),
+                        None => Vec::new(),
+                    },
+                )
+                .flatten_iter()
+                .collect();
+            self.pieces += parts.len();
+            for (index, scratch) in scratch.iter_mut().enumerate() {
+                let here = parts.iter().filter(|(part, _)| part.of.side == index);
+                self.raise(index, here.map(|(_, candidate)| *candidate), scratch);
+            }
+            let parts = parts.into_iter().map(|(part, _)| part);
+            heap.extend(parts.filter(|part| part.bound > self.lower));
+        }
+    }
+
+    /// The bounds as they are given: with the rounding of cuts and of the meshes.
+    fn told(&self, upper: f64) -> [f64; 2] {
+        let lower = (self.lower - self.moved).next_down();
+        let upper = ((upper + self.rounding).next_up() + self.moved).next_up();
+        [lower.max(0.0), upper]
+    }
+
+    /// Whether an upper bound is as close as asked for.
+    fn is_close(&self, upper: f64) -> bool {
+        let [least, most] = self.told(upper);
         let Precision { relative, absolute, at_most } = self.precision;
-        if let Some(most) = at_most {
-            return upper + self.moved <= most || self.lower - self.moved > most;
-        }
-        upper <= self.lower * (1.0 + relative) || upper - self.lower <= absolute
-    }
-}
-
-/// The surface that distances are measured to.
-struct Surface<'a> {
-    tree: &'a Bvh<'a>,
-    triangles: Vec<[DVec3; 3]>,
-    sources: Vec<u32>,
-}
-
-/// The distance of a point from a surface.
-#[derive(Clone, Copy)]
-struct Near {
-    lower: f64,
-    upper: f64,
-    /// A triangle that is at most `upper` away.
-    triangle: usize,
-}
-
-/// QueryScratch of one thread's queries.
-struct QueryScratch {
-    entries: Vec<ScratchEntry>,
-    neighbors: Vec<Neighbor>,
-}
-
-impl<'a> Surface<'a> {
-    fn new(tree: &'a Bvh<'a>, mesh: &Mesh) -> Self {
-        Surface {
-            tree,
-            triangles: mesh.all_corners_f64().collect(),
-            sources: mesh.all_sources().collect(),
+        match at_most {
+            Some(limit) => most <= limit || least > limit,
+            None => most <= least * (1.0 + relative) || most - least <= absolute,
         }
     }
 
-    fn scratch(&self) -> QueryScratch {
-        let entries = vec![ScratchEntry::EMPTY; self.tree.scratch_entries()];
-        QueryScratch { entries, neighbors: vec![Neighbor::EMPTY; 64] }
+    /// Whether an upper bound is as close as rounding allows.
+    fn is_rounding(&self, upper: f64) -> bool {
+        upper - self.lower <= (self.rounding + self.moved) / 4.0
     }
 
-    /// Bounds from above in f64, from below in f32. Nothing is known if the query fails.
-    fn near(&self, p: DVec3, scratch: &mut QueryScratch) -> Near {
-        let asked = p.as_vec3();
-        let nothing = Near { lower: 0.0, upper: f64::INFINITY, triangle: 0 };
-        let Ok(answer) =
-            self.tree.closest_point(asked.to_array(), Budget::EXACT, &mut scratch.entries)
-        else {
-            return nothing;
-        };
-        let rounded = (asked.as_dvec3() - p).length();
-        let lower = f64::from(answer.distance.lower) - rounded;
-        answer.triangle.map_or(nothing, |triangle| self.seen(p, lower, triangle))
+    fn ended(&self, upper: f64, heap: &BinaryHeap<Piece<Place>>) -> Option<Ended> {
+        let is_deepest = heap.peek().is_none_or(|piece| piece.depth >= MAX_DEPTH);
+        if self.is_close(upper) {
+            Some(Ended::Precision)
+        } else if self.is_rounding(upper) || is_deepest {
+            Some(Ended::Rounding)
+        } else if self.pieces >= MOST_PIECES || heap.len() > MOST_WAITING {
+            Some(Ended::Pieces)
+        } else {
+            None
+        }
     }
 
-    /// A lower bound, and the distance from a triangle.
-    fn seen(&self, p: DVec3, lower: f64, triangle: u32) -> Near {
-        let triangle = triangle as usize;
-        let upper = self.distance_from(p, triangle);
-        Near { lower: lower.max(0.0).min(upper), upper, triangle }
-    }
-
-    fn distance_from(&self, p: DVec3, triangle: usize) -> f64 {
-        self.triangles
-            .get(triangle)
-            .map_or(f64::INFINITY, |&[a, b, c]| point_triangle(p, a, b, c).upper)
-    }
-
-    /// Both bounds in f64: against every triangle that may be nearer.
-    fn sharpen(&self, p: DVec3, near: Near, scratch: &mut QueryScratch) -> Near {
-        let asked = p.as_vec3();
-        let reach = near.upper + (asked.as_dvec3() - p).length();
-        let distance = ((reach * ROUNDED_UP) as f32).next_up();
-        let mut all = loop {
-            let QueryScratch { entries, neighbors } = scratch;
-            let point = asked.to_array();
-            let Ok(all) = self.tree.all_within(point, distance, neighbors, Budget::EXACT, entries)
-            else {
-                return near;
-            };
-            if all.dropped == 0 {
-                break all;
+    /// Raises the lower bound to the farthest candidate of a side.
+    fn raise(
+        &mut self,
+        side: usize,
+        candidates: impl Iterator<Item = Candidate>,
+        scratch: &mut QueryScratch,
+    ) {
+        let mut wanted: Vec<Candidate> =
+            candidates.filter(|candidate| candidate.near.upper > self.lower).collect();
+        wanted.sort_by(|a, b| b.near.upper.total_cmp(&a.near.upper));
+        for (number, Candidate { point, triangle, near }) in wanted.into_iter().enumerate() {
+            // The first one gives a point even where nothing more is to be gained.
+            let is_enough = self.is_close(near.upper) || self.is_rounding(near.upper);
+            if near.upper <= self.lower || number > 0 && is_enough {
+                break;
             }
-            let wanted = neighbors.len() + all.dropped as usize;
-            neighbors.resize(wanted, Neighbor::EMPTY);
-        };
-        if all.ended != Ended::Exact || all.stored == 0 {
-            return near;
-        }
-        all.stored = all.stored.min(scratch.neighbors.len());
-        let mut sharp = Near { lower: f64::INFINITY, ..near };
-        for neighbor in &scratch.neighbors[..all.stored] {
-            let triangle = neighbor.triangle() as usize;
-            let Some(&[a, b, c]) = self.triangles.get(triangle) else { return near };
-            let distance = point_triangle(p, a, b, c);
-            sharp.lower = sharp.lower.min(distance.lower);
-            if distance.upper < sharp.upper {
-                (sharp.upper, sharp.triangle) = (distance.upper, triangle);
+            let side = &self.sides[side];
+            let near = side.surface.bounds_in_f64(point, near, scratch);
+            if near.lower > self.lower {
+                self.lower = near.lower;
+                self.attained = side.attained(point, triangle, near);
             }
         }
-        Near { lower: sharp.lower.max(near.lower).min(sharp.upper), ..sharp }
     }
 }
 
@@ -250,153 +316,94 @@ impl<'a> Surface<'a> {
 struct Candidate {
     point: DVec3,
     /// Its triangle in the mesh.
-    triangle: usize,
+    triangle: u32,
     near: Near,
 }
 
 /// One side of the distance.
 struct Side<'a> {
     from: &'a Mesh,
+    /// Numbers of its triangles in the input file.
+    sources: Vec<u32>,
     surface: Surface<'a>,
     is_backward: bool,
 }
 
 impl Side<'_> {
-    /// Raises `found` and returns an upper bound of this side.
-    fn search(&self, found: &mut Found, progress: &mut impl FnMut(f64, f64)) -> f64 {
-        let mut scratch = self.surface.scratch();
-        let triangles: Vec<[u32; 3]> = self.from.all_triangles().collect();
-        let vertices = self.vertices(&triangles, found, &mut scratch);
-        let mut heap = self.first_pieces(&triangles, &vertices, found);
-        let size = self.from.positions.iter().flatten().fold(0f32, |most, x| most.max(x.abs()));
-        let rounding = f64::from(size) * CUT_ROUNDING;
-        loop {
-            let upper =
-                heap.peek().map_or(0.0, |piece: &Piece<usize>| piece.bound).max(found.lower);
-            progress(found.lower, upper);
-            let is_spent = found.pieces >= MOST_PIECES
-                || heap.peek().is_none_or(|piece| piece.depth >= MAX_DEPTH);
-            if is_spent || found.suffices(upper + rounding) || upper - found.lower <= rounding {
-                return upper + rounding;
-            }
-            let mut round = Vec::with_capacity(ROUND);
-            while round.len() < ROUND
-                && let Some(piece) = heap.pop()
-            {
-                if piece.bound > found.lower {
-                    round.push(piece);
-                }
-            }
-            let parts: Vec<(Piece<usize>, Candidate)> = round
-                .par_iter()
-                .map_init(|| self.surface.scratch(), |scratch, piece| self.cut(piece, scratch))
-                .flatten_iter()
-                .collect();
-            found.pieces += parts.len();
-            self.raise(found, parts.iter().map(|(_, candidate)| *candidate), &mut scratch);
-            heap.extend(parts.into_iter().map(|(part, _)| part).filter(|p| p.bound > found.lower));
-        }
+    fn vertex(&self, v: usize) -> DVec3 {
+        Vec3::from(self.from.positions[v]).as_dvec3()
     }
 
-    /// The distances of all vertices. Raises `found` to the largest.
-    fn vertices(
-        &self,
-        triangles: &[[u32; 3]],
-        found: &mut Found,
-        scratch: &mut QueryScratch,
-    ) -> Vec<Near> {
-        let Surface { tree, .. } = self.surface;
+    /// The distances of all vertices.
+    fn vertex_distances(&self) -> Vec<Near> {
         let positions = &self.from.positions;
-        let at = |v: usize| Vec3::from(positions[v]).as_dvec3();
-        let near: Vec<Near> = match closest_points(tree, positions, &Budget::EXACT) {
+        match closest_points(self.surface.tree, positions, &Budget::EXACT) {
             Ok(answers) => answers
                 .par_iter()
                 .enumerate()
                 .map(|(v, answer)| {
                     let lower = f64::from(answer.distance.lower);
-                    self.surface.seen(at(v), lower, answer.triangle.unwrap_or(u32::MAX))
+                    let triangle = answer.triangle.unwrap_or(u32::MAX);
+                    self.surface.near_triangle(self.vertex(v), lower, triangle)
                 })
                 .collect(),
-            Err(_) => (0..positions.len()).map(|v| self.surface.near(at(v), scratch)).collect(),
-        };
-        let mut owner = vec![usize::MAX; positions.len()];
-        for (number, corners) in triangles.iter().enumerate() {
+            Err(_) => {
+                let mut scratch = self.surface.scratch();
+                (0..positions.len())
+                    .map(|v| self.surface.near(self.vertex(v), &mut scratch))
+                    .collect()
+            }
+        }
+    }
+
+    /// The vertices of triangles.
+    fn vertex_candidates(&self, near: &[Near]) -> impl Iterator<Item = Candidate> {
+        let mut owner = vec![u32::MAX; near.len()];
+        for (number, corners) in (0u32..).zip(self.from.all_triangles()) {
             corners.iter().for_each(|&v| owner[v as usize] = number);
         }
-        let candidate =
-            |(v, &near): (usize, &Near)| Candidate { point: at(v), triangle: owner[v], near };
-        let used = near.iter().enumerate().filter(|(v, _)| owner[*v] != usize::MAX);
-        self.raise(found, used.map(candidate), scratch);
-        near
+        let owned = owner.into_iter().zip(near).enumerate();
+        let owned = owned.filter(|(_, (triangle, _))| *triangle != u32::MAX);
+        owned.map(|(v, (triangle, &near))| Candidate { point: self.vertex(v), triangle, near })
     }
 
-    /// Raises `found` to the farthest candidate.
-    fn raise(
-        &self,
-        found: &mut Found,
-        candidates: impl Iterator<Item = Candidate>,
-        scratch: &mut QueryScratch,
-    ) {
-        let mut wanted: Vec<Candidate> =
-            candidates.filter(|candidate| candidate.near.upper > found.lower).collect();
-        wanted.sort_by(|a, b| b.near.upper.total_cmp(&a.near.upper));
-        for Candidate { point, triangle, near } in wanted {
-            if near.upper <= found.lower || found.suffices(near.upper) {
-                break;
-            }
-            let near = self.surface.sharpen(point, near, scratch);
-            if near.lower > found.lower {
-                found.lower = near.lower;
-                found.attained = self.attained(point, triangle, near);
-            }
-        }
-    }
-
-    fn attained(&self, point: DVec3, triangle: usize, near: Near) -> Option<Attained> {
+    fn attained(&self, point: DVec3, triangle: u32, near: Near) -> Option<Attained> {
         let &[a, b, c] = self.surface.triangles.get(near.triangle)?;
         let closest = point_triangle(point, a, b, c);
         Some(Attained {
             from: point.to_array(),
-            from_triangle: self.from.all_sources().nth(triangle)?,
+            from_triangle: *self.sources.get(triangle as usize)?,
             to: (a + (b - a) * closest.u + (c - a) * closest.v).to_array(),
             to_triangle: *self.surface.sources.get(near.triangle)?,
             is_backward: self.is_backward,
         })
     }
 
-    /// The triangles whose bounds exceed the lower bound.
-    fn first_pieces(
-        &self,
-        triangles: &[[u32; 3]],
-        vertices: &[Near],
-        found: &Found,
-    ) -> BinaryHeap<Piece<usize>> {
-        let piece = |(triangle, &corners): (usize, &[u32; 3])| {
-            let near = corners.map(|v| vertices[v as usize]);
-            let corners = corners.map(|v| Vec3::from(self.from.positions[v as usize]).as_dvec3());
+    /// The triangles whose bounds exceed the lower bound. `side` is the number of this one.
+    fn first_pieces(&self, side: usize, vertices: &[Near], lower: f64) -> Vec<Piece<Place>> {
+        let piece = |(triangle, vertex): (usize, &[u32; 3])| {
+            let near = vertex.map(|v| vertices[v as usize]);
+            let corners = vertex.map(|v| self.vertex(v as usize));
             let [a, b, c] = corners;
             let longest = (b - a)
                 .length_squared()
                 .max((c - b).length_squared())
                 .max((a - c).length_squared());
-            let farthest = near.iter().fold(0f64, |most, near| most.max(near.upper));
+            let farthest = near.iter().fold(0.0, |most, near| greater(most, near.upper));
             // Every point of a triangle is within longest / √3 of a corner.
             let mut bound = (farthest + (longest / 3.0).sqrt()) * ROUNDED_UP;
             for next_to in near {
-                if bound <= found.lower {
+                if bound <= lower {
                     break;
                 }
                 bound = bound.min(self.bound_by(next_to.triangle, &corners));
             }
-            Piece { bound, corners, depth: 0, along: None, of: triangle }
+            let place = Place { side, triangle: triangle as u32, next_to: u32::MAX };
+            Piece { bound, corners, depth: 0, is_wide: false, of: place }
         };
-        let pieces: Vec<Piece<usize>> = triangles
-            .par_iter()
-            .enumerate()
-            .map(piece)
-            .filter(|piece| piece.bound > found.lower)
-            .collect();
-        BinaryHeap::from(pieces)
+        let triangles: Vec<[u32; 3]> = self.from.all_triangles().collect();
+        let pieces = triangles.par_iter().enumerate().map(piece);
+        pieces.filter(|piece| piece.bound > lower).collect()
     }
 
     /// Upper bound of a triangle's distance, from one triangle of the surface.
@@ -408,17 +415,19 @@ impl Side<'_> {
     /// The parts of a piece, each with its centre.
     fn cut(
         &self,
-        piece: &Piece<usize>,
+        piece: &Piece<Place>,
         scratch: &mut QueryScratch,
-    ) -> Vec<(Piece<usize>, Candidate)> {
+    ) -> Vec<(Piece<Place>, Candidate)> {
+        let triangle = |index: usize| self.surface.triangles.get(index).copied();
         let bounded = |corners: [DVec3; 3]| {
             let (centre, _) = bounding_ball(&corners);
             let near = self.surface.near(centre, scratch);
-            let next_to = self.surface.triangles.get(near.triangle).copied();
-            let part = Piece::new(corners, piece.depth + 1, near.upper, next_to, piece.of);
+            let place = Place { next_to: near.triangle as u32, ..piece.of };
+            let depth = piece.depth + 1;
+            let part = Piece::new(corners, depth, near.upper, triangle(near.triangle), place);
             let part = Piece { bound: part.bound.min(piece.bound), ..part };
-            (part, Candidate { point: centre, triangle: piece.of, near })
+            (part, Candidate { point: centre, triangle: place.triangle, near })
         };
-        piece.parts().into_iter().map(bounded).collect()
+        piece.parts(triangle(piece.of.next_to as usize)).into_iter().map(bounded).collect()
     }
 }

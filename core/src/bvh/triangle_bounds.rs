@@ -42,7 +42,7 @@ pub(crate) fn each_triangle(
     lanes: u32,
     mut each: impl FnMut(usize, f32, f32),
 ) {
-    for lane in lanes_of(lanes & !(u32::MAX << leaf.shape().triangles())) {
+    for lane in lanes_of(lanes & !(u32::MAX << (leaf.shape().triangles() & 31))) {
         let seen = seen_from(leaf, lane, query.p);
         let near = refine_sliver(query, &seen, nearness(&seen));
         each(lane, near.distance_sq, near.lower_bound_sq);

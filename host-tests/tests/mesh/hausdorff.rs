@@ -1,7 +1,7 @@
 //! The Hausdorff distance of two meshes against brute force in 106 bits, and against numbers that
 //! are known.
 
-use meshsweep::hausdorff::{Attained, Direction, Hausdorff, Precision, hausdorff};
+use meshsweep::hausdorff::{Attained, Direction, Ended, Hausdorff, Precision, hausdorff};
 use meshsweep::mesh::{Mesh, RawMesh, repair};
 use meshsweep_host_tests::generate::corpus::{mixed, slivers};
 use meshsweep_host_tests::generate::{
@@ -181,5 +181,51 @@ fn the_answer_does_not_depend_on_the_number_of_threads() {
             pool.install(|| of(&a, &b, Direction::Both, &FINE))
         };
         assert_eq!(on(1), on(3), "{name}");
+    }
+}
+
+/// A unit plate of `n` by `n` squares.
+fn plate(n: u32, height: f32) -> Triangles {
+    let at = |i: u32| i as f32 / n as f32;
+    let vertices = (0..=n).flat_map(|i| (0..=n).map(move |j| [at(i), at(j), height]));
+    let squares = (0..n * n).map(|k| k / n * (n + 1) + k % n);
+    let triangles = squares.flat_map(|v| [[v, v + 1, v + n + 2], [v, v + n + 2, v + n + 1]]);
+    (vertices.collect(), triangles.collect())
+}
+
+/// All points of both plates are as far as the farthest, so all triangles have to be cut.
+#[test]
+fn plates_that_are_equally_far_apart_are_bounded_on_both_sides() {
+    let (a, b) = (plate(12, 0.0), plate(9, 0.25));
+    for relative in [1e-3, 1e-4, 1e-5] {
+        let found = of(&a, &b, Direction::Both, &Precision { relative, ..FINE });
+        assert_eq!(found.ended, Ended::Precision, "{relative}: {found:?}");
+        assert!(found.lower <= 0.25 && 0.25 <= found.upper, "{found:?}");
+        assert!(found.upper <= found.lower * (1.0 + relative), "{relative}: {found:?}");
+    }
+}
+
+#[test]
+fn a_precision_that_rounding_forbids_is_told() {
+    // Alike, so that nothing has to be cut.
+    let (a, b) = (plate(2, 0.0), plate(2, 0.25));
+    let found = of(&a, &b, Direction::Both, &Precision { relative: 0.0, ..FINE });
+    assert_eq!(found.ended, Ended::Rounding, "{found:?}");
+    assert!(found.upper - found.lower < 1e-10, "{found:?}");
+    // Exactly the distance: no rounding can decide it.
+    let limit = Precision { at_most: Some(0.25), ..FINE };
+    let found = of(&a, &b, Direction::Both, &limit);
+    assert_eq!(found.ended, Ended::Rounding, "{found:?}");
+    assert!(found.lower <= 0.25 && 0.25 < found.upper, "{found:?}");
+}
+
+#[test]
+fn a_search_that_ends_at_once_names_a_point() {
+    let (a, b) = (plate(2, 0.0), plate(3, 0.25));
+    for precision in
+        [Precision { absolute: 10.0, ..FINE }, Precision { at_most: Some(10.0), ..FINE }]
+    {
+        let found = of(&a, &b, Direction::Both, &precision);
+        assert!(found.attained.is_some() && found.lower > 0.0, "{found:?}");
     }
 }

@@ -40,7 +40,7 @@ pub enum Failure {
     Curve { file: PathBuf, error: CurveError },
     /// No hull is as tight as asked for.
     Unmet { file: PathBuf, unmet: Unmet },
-    /// Two meshes are farther from each other than asked for.
+    /// Two meshes are not proved to be as close to each other as asked for.
     Apart { first: PathBuf, second: PathBuf, most: f64, lower: f64, upper: f64 },
     /// The blob is refused.
     Open { file: PathBuf, error: OpenError },
@@ -212,13 +212,19 @@ impl fmt::Display for Failure {
             Failure::Unmet { file, unmet } => {
                 write!(f, "{}: {unmet}; nothing is written", file.display())
             }
-            Failure::Apart { first, second, most, lower, upper } => write!(
-                f,
-                "{} and {}: the distance is from {lower} to {upper}, and at most {} was asked for",
-                first.display(),
-                second.display(),
-                Typed(*most)
-            ),
+            Failure::Apart { first, second, most, lower, upper } => {
+                let most = Typed(*most);
+                write!(f, "{} and {}: the distance is ", first.display(), second.display())?;
+                if lower > &most.0 {
+                    write!(f, "at least {lower}, and at most {most} was asked for")
+                } else {
+                    write!(
+                        f,
+                        "from {lower} to {upper}: too close to {most} to be decided; ask for a \
+                         little more"
+                    )
+                }
+            }
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::NoHulls { file } => write!(
                 f,

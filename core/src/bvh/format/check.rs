@@ -247,11 +247,21 @@ impl<'a> Bvh<'a> {
         Ok(())
     }
 
-    /// Frames make no distance longer, and every number keeps to the range for which bounds are
-    /// proved.
+    /// Frames make no distance longer and lie near the model, and every number keeps to the range
+    /// for which bounds are proved.
     fn check_boxes(&self) -> Result<(), OpenError> {
+        let h = &self.header;
+        let (low, high) = (h.low.map(i32::from), h.high.map(i32::from));
+        let size = [0, 1, 2].map(|axis| high[axis] - low[axis]).into_iter().fold(0, greater);
+        let near_model = |record: &[u8; FRAME_BYTES]| {
+            let (origin, _) = record[boxes::FRAME_ORIGIN..].as_chunks::<2>();
+            (0..3).all(|axis| {
+                let x = i32::from(u16::from_le_bytes(origin[axis]));
+                low[axis] - size / 4 <= x && x <= high[axis] + size / 4
+            })
+        };
         for (index, record) in (0u32..).zip(self.frames) {
-            if !is_sound_frame(record) {
+            if !is_sound_frame(record) || !near_model(record) {
                 return Err(OpenError::Record { section: SectionKind::TreeFrames, index });
             }
         }

@@ -248,8 +248,8 @@ pub const REFINE: &str = "Of a blob built --for hull the mesh that is written is
 
 pub const HAUSDORFF: &str = "lower and upper enclose the exact distance of the meshes as they were \
     read, open or closed, with any number of connected components. a and b are points of the first \
-    and of the second mesh at the distance lower: one of them is the farthest that was found, the \
-    other its closest point. Triangles are counted from 0 in their file; a polygon counts as the \
+    and of the second mesh: one of them is the farthest that was found, the other its closest \
+    point. ended says whether the precision was reached, or why not. Triangles are counted from 0 in their file; a polygon counts as the \
     triangles about its first corner. Triangles without area count like all others.\n\n\
     Examples:\n  \
     meshsweep hausdorff part.stl scan.ply --rel 1e-6\n  \
