@@ -179,7 +179,7 @@ fn coinciding_positions_change_no_promise() {
 }
 
 #[test]
-fn triangles_that_share_no_edge_never_meet_in_a_leaf() {
+fn edge_connected_components_never_share_a_leaf() {
     // Of three triangles on an edge, two are neighbours.
     assert_eq!(Soup::new(vec![[0, 1, 2], [1, 0, 3], [0, 1, 4]]).pack().len(), 2);
     let tori = (0..30).flat_map(|n| Soup::torus(3, 4).triangles.into_iter().map(move |t| (n, t)));
