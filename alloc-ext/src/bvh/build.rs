@@ -142,7 +142,7 @@ pub fn build(
     if options.cull {
         sections.push((SectionKind::TreeCones, cones(&topology, &leaves, &grid.positions)));
     }
-    let header = header(mesh, &edges, &grid, &leaves, &bounds, options, topology.stack_entries);
+    let header = header(mesh, &edges, &grid, &leaves, &bounds, options, topology.waiting_entries);
     let header = BvhHeader { nodes: topology.nodes.len() as u32, ..header };
     sections.insert(0, (SectionKind::Bvh, header.write().to_vec()));
     debug_assert_eq!(sections[1].1.len(), topology.nodes.len() * LINK_BYTES);
@@ -186,7 +186,7 @@ fn header(
     leaves: &[FanLeaf],
     bounds: &[(DVec3, DVec3)],
     options: &TreeOptions,
-    stack_entries: usize,
+    waiting_entries: usize,
 ) -> BvhHeader {
     let norm = |v: DVec3| v.x.abs() + v.y.abs() + v.z.abs();
     let mut reach = 0f64;
@@ -214,7 +214,7 @@ fn header(
         leaves: leaves.len() as u32,
         vertices: vertices as u32,
         triangles: (mesh.triangles.len() + mesh.wires.len()) as u32,
-        stack_entries: (stack_entries + WIDTH) as u32,
+        stack_entries: (waiting_entries + WIDTH) as u32,
         surface_error: up_to_f32(grid.surface_error),
         // Spokes are rounded when they are f32.
         star_radius: up_to_f32(reach * (1.0 + 1e-6)),

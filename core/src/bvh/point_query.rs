@@ -103,7 +103,7 @@ impl PointQuery {
             whole,
             key_point,
             // Keys are halves of squares.
-            keys_in_square: f32::from_bits((126 - 2 * key_point.unit()) << 23),
+            keys_in_square: f32::from_bits((126 - 2 * key_point.unit_exponent()) << 23),
             plane_error: PLANE_DISTANCE * U32 * size + fan,
             far: !near,
         })

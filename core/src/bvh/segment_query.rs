@@ -4,7 +4,7 @@
 use super::descent::{NodeQuery, OpenedNode};
 use super::node::box_entries;
 use crate::bvh::format::{Bvh, Units};
-use crate::bvh::node::{GridLine, Slabs, WIDE};
+use crate::bvh::node::{GridLine, SlabRay, WIDE};
 use crate::geom::fan::FanRay;
 use crate::geom::fan::WIDTH;
 use crate::num::tolerance::{BOX_ENTRY, BVH_FAR, LEAST_DENOMINATOR, NEAR_START, STILL, U32};
@@ -19,7 +19,7 @@ const SIGN: u32 = 1 << 31;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SegmentQuery {
     pub(crate) ray: FanRay,
-    pub(crate) slabs: Slabs,
+    pub(crate) slab_ray: SlabRay,
     /// For targets without floating point.
     pub(crate) line: GridLine,
     units: Units,
@@ -103,7 +103,7 @@ impl SegmentQuery {
             } else {
                 GridLine::NONE
             },
-            slabs: Slabs::new(from, inverse, margin),
+            slab_ray: SlabRay::new(from, inverse, margin),
             units,
             origin,
             direction,
@@ -153,7 +153,7 @@ impl NodeQuery for SegmentQuery {
     fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode, keys: &mut [u32; WIDTH]) -> Option<()> {
         let &OpenedNode { node, count, bound, limit } = opened;
         let [bound, limit] = [bound, limit].map(f32::from_bits);
-        *keys = box_entries(tree.boxes(node)?, &self.slabs, count, bound, limit);
+        *keys = box_entries(tree.boxes(node)?, &self.slab_ray, count, bound, limit);
         Some(())
     }
 }

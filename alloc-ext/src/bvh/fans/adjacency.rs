@@ -17,8 +17,8 @@ pub(super) struct Adjacency<'a> {
 
 impl<'a> Adjacency<'a> {
     /// Pairs the half-edges of each edge: first those of opposite directions, in ascending order,
-    /// then the rest of one direction. An odd one stays open. So at most two triangles are
-    /// neighbours across an edge. An edge from a vertex to itself stays open, and no triangle is
+    /// then the rest of one direction. A half-edge left over has no partner. So each half-edge has
+    /// at most one neighbour. An edge from a vertex to itself stays unpaired, and no triangle is
     /// its own neighbour.
     ///
     /// # Panics
@@ -36,12 +36,12 @@ impl<'a> Adjacency<'a> {
         for edge in edges.edges() {
             up.clear();
             down.clear();
-            for &(high, half_edge) in edge {
+            for &(_, half_edge) in edge {
                 let [from, to] = ends(triangles, half_edge);
                 match from.cmp(&to) {
                     Ordering::Less => up.push(half_edge),
                     Ordering::Greater => down.push(half_edge),
-                    Ordering::Equal => debug_assert_eq!(from, high, "it stays open"),
+                    Ordering::Equal => {} // A loop gets no partner.
                 }
             }
             let both = up.len().min(down.len());

@@ -24,13 +24,14 @@ struct Candidate {
     second: Option<(Run, bool)>,
 }
 
-/// A [`Candidate`] as one number, for sorting: from high bits to low ones the score, best first,
-/// then what decides between equal scores: fewer fans, hence fewer stored vertices, then the
-/// triangles nearest to the seed.
+/// A [`Candidate`] as one number, for sorting: the best score is the least number.
+///
+/// Equal scores are ordered by fewer fans, then by the second run, then by the mask. Fewer fans
+/// store fewer vertices. Smaller masks hold triangles nearer to the seed.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Ranked(u128);
 
-// Places in [`Ranked`]: the first run's, then those of what follows it.
+// Bit offsets in [`Ranked`]. The first run is at bit 0.
 const MASK: u32 = 16;
 const REVERSED: u32 = MASK + 32;
 const SECOND: u32 = REVERSED + 1;
@@ -40,7 +41,7 @@ const SCORE: u32 = HAS_SECOND + 1;
 impl Ranked {
     fn new(of: &Candidate) -> Self {
         let run = |run: Run| {
-            u128::from(run.corner) << 8 | u128::from(run.len) << 1 | u128::from(run.behind)
+            u128::from(run.corner) << 8 | u128::from(run.len) << 1 | u128::from(run.is_backward)
         };
         // Of a single fan 0, below all others.
         let second = of.second.map_or(0, |(second, reversed)| {
@@ -50,7 +51,7 @@ impl Ranked {
         Self(score << SCORE | second | u128::from(of.mask) << MASK | run(of.first))
     }
 
-    /// What decides between equal scores.
+    /// The bits below the score.
     const fn tie(self) -> u128 {
         self.0 & ((1 << SCORE) - 1)
     }
@@ -60,7 +61,7 @@ impl Ranked {
         let run = |at: u32| Run {
             corner: bits(at + 8, 8) as u8,
             len: bits(at + 1, 7) as u8,
-            behind: bits(at, 1) != 0,
+            is_backward: bits(at, 1) != 0,
         };
         Candidate {
             score: (i64::from(i32::MAX) - (self.0 >> SCORE) as i64) as i32,
@@ -71,7 +72,8 @@ impl Ranked {
     }
 }
 
-/// Each set of triangles counts once, as one fan if possible.
+/// Candidates of one window. Most repeated masks are dropped. Single fans are added first, so a
+/// mask keeps its one-fan form.
 struct Candidates {
     list: Vec<Ranked>,
     /// Masks seen, each at the place that its hash gives; a later one replaces an earlier one.
@@ -93,12 +95,19 @@ impl Candidates {
         }
     }
 
-    /// The longest runs that can be joined to `run`, whose last corner is `end`.
+    /// Adds `run`, whose last corner is `end`, with each longest run that joins it.
+    ///
+    /// A fan about corner c has the ring `next_in_triangle(c)` … `previous_in_triangle(c)`.
+    /// 1. `run`, then a fan whose ring starts at the last ring vertex of `run`.
+    /// 2. `run`, then a reversed fan whose ring ends there.
+    /// 3. A fan whose ring ends at the first ring vertex of `run`, then `run`.
+    ///
+    /// A reversed fan cannot come first: `FanLeaf::first` is never reversed.
     fn add_pairs(&mut self, window: &Window, run: Run, end: u8) {
         let mask = window.runs(run.corner, false).mask(run.len as usize);
         let room = MAX_LEAF_TRIANGLES - run.len as usize;
-        let longest = |corner: u8, behind: bool| {
-            let runs = window.runs(corner, behind);
+        let longest = |corner: u8, is_backward: bool| {
+            let runs = window.runs(corner, is_backward);
             // The masks grow with the length: if one meets the other run, so do all longer ones.
             if room == 0 || runs.mask(1) & mask != 0 {
                 return None;
@@ -107,24 +116,28 @@ impl Candidates {
             while runs.mask(len) & mask != 0 {
                 len -= 1;
             }
-            Some((runs.mask(len) | mask, Run { corner, len: len as u8, behind }))
+            Some((runs.mask(len) | mask, Run { corner, len: len as u8, is_backward }))
         };
-        for at in window.corners_at(window.before(end)) {
-            if let Some((mask, other)) = longest(window.before(at), false) {
+        for at in window.corners_at(window.previous_in_triangle(end)) {
+            // Case 1.
+            if let Some((mask, other)) = longest(window.previous_in_triangle(at), false) {
                 self.add(window, mask, run, Some((other, false)));
             }
-            if let Some((mask, other)) = longest(window.after(at), true) {
+            // Case 2.
+            if let Some((mask, other)) = longest(window.next_in_triangle(at), true) {
                 self.add(window, mask, run, Some((other, true)));
             }
         }
-        for at in window.corners_at(window.after(run.corner)) {
-            if let Some((mask, other)) = longest(window.after(at), true) {
+        for at in window.corners_at(window.next_in_triangle(run.corner)) {
+            // Case 3.
+            if let Some((mask, other)) = longest(window.next_in_triangle(at), true) {
                 self.add(window, mask, other, Some((run, false)));
             }
         }
     }
 
-    /// All leaves of the window that contain the seed, as far as they cannot be extended.
+    /// Candidates: every run that contains the seed, alone and with each longest second run that
+    /// joins it.
     fn collect(&mut self, window: &Window) {
         self.clear();
         let mut runs = arrayvec::ArrayVec::<
@@ -133,20 +146,20 @@ impl Candidates {
         >::new();
         for seed_corner in 0..3 {
             let mut start = seed_corner;
-            for before in 0..MAX_LEAF_TRIANGLES {
-                let runs_ahead = window.runs(start, false);
+            for steps_back in 0..MAX_LEAF_TRIANGLES {
+                let forward = window.runs(start, false);
                 let mut end = start;
-                for len in 1..=runs_ahead.longest() {
+                for len in 1..=forward.longest() {
                     if len > 1 {
-                        end = window.next(end).unwrap_or(end);
+                        end = window.next_about_vertex(end).unwrap_or(end);
                     }
-                    if len > before {
-                        let run = Run { corner: start, len: len as u8, behind: false };
+                    if len > steps_back {
+                        let run = Run { corner: start, len: len as u8, is_backward: false };
                         runs.push((run, end));
-                        self.add(window, runs_ahead.mask(len), run, None);
+                        self.add(window, forward.mask(len), run, None);
                     }
                 }
-                match window.previous(start) {
+                match window.previous_about_vertex(start) {
                     Some(previous) if previous != seed_corner => start = previous,
                     _ => break,
                 }
@@ -158,7 +171,7 @@ impl Candidates {
     }
 }
 
-/// Searches leaves in a soup, with the memory for it.
+/// The search for the best leaf, with its reused buffers.
 pub(super) struct LeafSearch<'a> {
     adjacency: &'a Adjacency<'a>,
     positions: &'a [DVec3],
@@ -190,7 +203,7 @@ impl<'a> LeafSearch<'a> {
         }
     }
 
-    /// What the leaf found last depends on.
+    /// The window of the last leaf.
     pub(super) fn footprint(&self) -> Footprint {
         self.window.footprint()
     }
@@ -207,18 +220,19 @@ impl<'a> LeafSearch<'a> {
         for ranked in list {
             let candidate = ranked.candidate();
             let tie = ranked.tie();
-            // What follows lowers the score, and rounding keeps its order.
-            let most = best.as_ref().map_or(f64::NEG_INFINITY, |best| best.0);
-            if f64::from(candidate.score) < most {
+            // Spread and cut-off only lower a score, and rounding is monotone. So no later
+            // candidate wins.
+            let best_score = best.as_ref().map_or(f64::NEG_INFINITY, |best| best.0);
+            if f64::from(candidate.score) < best_score {
                 break;
             }
-            let spread = self.spreads.of(
+            let spread = self.spreads.spread_score(
                 &self.window,
                 candidate.mask,
                 self.adjacency.triangles(),
                 self.positions,
             );
-            if f64::from(candidate.score) + spread < most {
+            if f64::from(candidate.score) + spread < best_score {
                 continue;
             }
             let total = f64::from(candidate.score + cut_off(&self.window, candidate.mask)) + spread;
@@ -239,7 +253,7 @@ mod tests {
 
     #[test]
     fn candidates_rank_by_score_then_by_fans_and_come_back_whole() {
-        let run = |corner, len, behind| Run { corner, len, behind };
+        let run = |corner, len, is_backward| Run { corner, len, is_backward };
         let sorted = [
             Candidate { score: 9, mask: !0, first: run(95, 4, false), second: None },
             Candidate {

@@ -1,16 +1,31 @@
-//! Triangle fans: a soup packed into leaves of one or two fans, as the box tree has.
+//! Packs a triangle soup into leaves of one or two fans.
+//!
+//! ```text
+//! pack ─ seed (front) ─ window ─ candidates (best_leaf, score) ─ leaf ─ remaining ─ next seed
+//! ```
+//!
+//! | file | owns |
+//! | --- | --- |
+//! | `adjacency` | the neighbour across each half-edge |
+//! | `remaining` | triangles that are in no leaf yet, and their degrees |
+//! | `front` | the queues of seeds |
+//! | `window` | the 32 remaining triangles about a seed, as bit masks |
+//! | `score` | the score of a candidate leaf |
+//! | `best_leaf` | the candidates of a window, and the best one |
+//! | `speculation` | leaves searched early, on all threads |
+//! | `pack` | the greedy loop |
 //!
 //! After Galin & Akkouche, *Fast Processing of Triangle Meshes using Triangle Fans* (2005), section
 //! 5. Any soup will do: open, non-manifold, inconsistently wound, with repeated corners. Every
 //! triangle is in exactly one fan exactly once.
 
 mod adjacency;
-mod ahead;
 mod best_leaf;
 mod front;
 mod pack;
 mod remaining;
 mod score;
+mod speculation;
 mod window;
 
 #[cfg(test)]

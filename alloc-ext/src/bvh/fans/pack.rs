@@ -1,22 +1,25 @@
 //! Greedy packing of a soup into leaves.
 
 use super::adjacency::Adjacency;
-use super::ahead::Ahead;
 use super::best_leaf::LeafSearch;
 use super::front::Front;
 use super::remaining::Remaining;
+use super::speculation::Speculation;
 use super::{FanLeaf, MAX_LEAF_TRIANGLES};
 use crate::surface::EdgeTable;
 use glam::DVec3;
 
 /// Packs a soup into leaves of the box tree. Every triangle is in exactly one leaf.
 ///
-/// The paper's rule, with the leaf in place of the fan: the front starts at the open edges and
+/// The paper's rule, with the leaf in place of the fan: the front starts at the boundary edges and
 /// moves inwards. The next seed is the remaining triangle with the fewest remaining neighbours; of
-/// equals, the oldest entry of the queue. In a window of 32 triangles about the seed, every leaf is
-/// scored that contains the seed and cannot be extended: by its size, the open edges it leaves, the
-/// triangles it cuts off, and its box. The best becomes the next leaf. Triangles that share no edge
-/// never meet in a leaf.
+/// equals, the oldest entry of the queue. In a window of 32 triangles about the seed, every run
+/// that contains the seed is scored, alone and with each longest second run that joins it. The
+/// score counts the leaf's triangles, its edges to remaining triangles, the triangles that it cuts
+/// off, and its box. The best candidate becomes the next leaf.
+///
+/// Triangles from different edge-connected components never share a leaf. Of three triangles on an
+/// edge, two are neighbours.
 ///
 /// The same input gives the same leaves, on any number of threads.
 ///
@@ -32,17 +35,18 @@ pub(in crate::bvh) fn pack(
     let adjacency = Adjacency::new(triangles, edges);
     let mut remaining = Remaining::new(&adjacency);
     let mut search = LeafSearch::new(&adjacency, positions);
-    let mut ahead = Ahead::new(&adjacency, positions);
+    let mut speculation = Speculation::new(&adjacency, positions);
     let mut front = Front::default();
     for triangle in 0..triangles.len() as u32 {
         front.push(triangle, remaining.degree(triangle));
     }
     let mut leaves = Vec::with_capacity(triangles.len() / MAX_LEAF_TRIANGLES);
     while let Some(degree) = front.lowest(&remaining) {
-        ahead.look(&front, degree, &remaining, &leaves);
+        speculation.prefetch(&front, degree, &remaining, &leaves);
         let Some(seed) = front.pop(&remaining) else { break };
-        let leaf =
-            ahead.leaf(seed, &remaining).unwrap_or_else(|| search.best_leaf(&remaining, seed));
+        let leaf = speculation
+            .take_if_current(seed, &remaining)
+            .unwrap_or_else(|| search.best_leaf(&remaining, seed));
         front.take(&leaf, &adjacency, &mut remaining);
         leaves.push(leaf);
     }

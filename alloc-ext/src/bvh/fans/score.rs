@@ -12,18 +12,18 @@ use super::window::{WINDOW, Window};
 
 /// For each triangle of the leaf. Twice as much makes 1 % fewer leaves, with boxes 2 % larger.
 const SIZE: i32 = 2;
-/// Against each open edge that the leaf leaves to its neighbours.
-const OPEN_EDGE: i32 = 2;
+/// Penalty for each edge between the leaf and a remaining triangle.
+const FRONT_EDGE: i32 = 2;
 /// For each edge inside the leaf.
 const INNER_EDGE: i32 = 1;
-/// Against each triangle left without a neighbour: it will be a leaf by itself.
+/// Penalty for each triangle left without a neighbour: it will be a leaf by itself.
 const ALONE: i32 = 64;
-/// Against each triangle left with one neighbour.
+/// Penalty for each triangle left with one neighbour.
 const DANGLING: i32 = 6;
-/// Against each lane that stays empty because the number of triangles cut off is no multiple of
-/// [`MAX_LEAF_TRIANGLES`].
+/// Penalty for each lane that stays empty because the number of triangles cut off is no multiple
+/// of [`MAX_LEAF_TRIANGLES`].
 const EMPTY_LANE: i32 = 4;
-/// Against the box's half area for each triangle, in units of a full leaf's mean squared edge.
+/// Penalty for the box's half area per triangle, in units of a full leaf's mean squared edge.
 /// Without it boxes are 8 to 10 % larger and leaves no fewer.
 const SPREAD: f64 = 16.0;
 
@@ -54,7 +54,7 @@ pub(super) fn contact(window: &Window, leaf: u32) -> i32 {
     // Outside, those all of whose neighbours are in the leaf, and all but one.
     let alone = (three | two & !has[2] | one & !has[1]) & !leaf;
     let dangling = (one & !two & has[1] & !has[2] | two & !three & has[2]) & !leaf;
-    SIZE * count([leaf, 0]) - OPEN_EDGE * (degrees - inner) + INNER_EDGE * inner / 2
+    SIZE * count([leaf, 0]) - FRONT_EDGE * (degrees - inner) + INNER_EDGE * inner / 2
         - ALONE * count([alone, 0])
         - DANGLING * count([dangling, 0])
 }
@@ -64,28 +64,30 @@ fn count([a, b]: [u32; 2]) -> i32 {
     (u64::from(a) << 32 | u64::from(b)).count_ones().cast_signed()
 }
 
-/// The parts that the leaf cuts off, as far as they lie in the window. A part of one triangle is
-/// left to [`contact`].
+/// Score for the components that the leaf cuts off: 0 or less. Only components that end
+/// within the window count. [`contact`] scores a component of one triangle.
 pub(super) fn cut_off(window: &Window, leaf: u32) -> i32 {
     let mut rest = window.all() & !leaf;
-    let mut empty = 0;
+    let mut empty_lanes = 0;
     while rest != 0 {
-        let mut part = rest & rest.wrapping_neg();
-        let mut new = part;
+        let mut component = rest & rest.wrapping_neg();
+        let mut new = component;
         while new != 0 {
-            new = each(new).fold(0, |reached, i| reached | window.neighbours(i)) & rest & !part;
-            part |= new;
+            new =
+                each(new).fold(0, |reached, i| reached | window.neighbours(i)) & rest & !component;
+            component |= new;
         }
-        rest &= !part;
-        if part & window.border() == 0 && part.count_ones() > 1 {
-            empty += (MAX_LEAF_TRIANGLES as u32 - part.count_ones() % MAX_LEAF_TRIANGLES as u32)
+        rest &= !component;
+        if component & window.border() == 0 && component.count_ones() > 1 {
+            empty_lanes += (MAX_LEAF_TRIANGLES as u32
+                - component.count_ones() % MAX_LEAF_TRIANGLES as u32)
                 % MAX_LEAF_TRIANGLES as u32;
         }
     }
-    -EMPTY_LANE * empty.cast_signed()
+    -EMPTY_LANE * empty_lanes.cast_signed()
 }
 
-/// How far leaves of one window spread.
+/// Extents of one window's triangles, each computed once.
 #[derive(Default)]
 pub(super) struct Spreads {
     extents: [Extent; WINDOW],
@@ -102,14 +104,14 @@ struct Extent {
 }
 
 impl Spreads {
-    /// For another window.
+    /// Forgets the extents of the last window.
     pub(super) fn clear(&mut self) {
         self.known = 0;
     }
 
-    /// How far the leaf spreads, by its axis-parallel box; the same at any scale. 0 if all its
-    /// edges have length 0.
-    pub(super) fn of(
+    /// Score for the leaf's box: 0 at best, and lower the larger the box is for its triangles. The
+    /// same at any scale. 0 if all edges of the leaf have length 0.
+    pub(super) fn spread_score(
         &mut self,
         window: &Window,
         leaf: u32,

@@ -179,7 +179,7 @@ fn coinciding_positions_change_no_promise() {
 }
 
 #[test]
-fn triangles_that_share_no_edge_never_meet_in_a_leaf() {
+fn edge_connected_components_never_share_a_leaf() {
     // Of three triangles on an edge, two are neighbours.
     assert_eq!(Soup::new(vec![[0, 1, 2], [1, 0, 3], [0, 1, 4]]).pack().len(), 2);
     let tori = (0..30).flat_map(|n| Soup::torus(3, 4).triangles.into_iter().map(move |t| (n, t)));
@@ -266,4 +266,18 @@ fn leaves_are_the_same_on_any_number_of_threads() {
         pool.install(|| soup.pack())
     });
     assert!(packed[0] == packed[1] && packed[0] == packed[2]);
+}
+
+/// The seeds of separate triangles are one queue, which threads share out unevenly.
+#[test]
+fn separate_triangles_are_packed_on_many_threads() {
+    let corner = |k: u32, x: f64, y: f64| DVec3::new(f64::from(3 * k) + x, y, 0.0);
+    let positions =
+        (0..8193).flat_map(|k| [corner(k, 0.0, 0.0), corner(k, 1.0, 0.0), corner(k, 0.0, 1.0)]);
+    let triangles = (0..8193).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+    let soup = Soup { positions: positions.collect(), triangles };
+    for threads in [7, 67, 128] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool.install(|| soup.pack()).len(), 8193, "{threads}");
+    }
 }

@@ -18,20 +18,20 @@ const NO: u8 = u8::MAX;
 /// A run of triangles about one vertex, given by one end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Run {
-    /// The corner at the run's start, or at its end if `behind`.
+    /// The corner at the run's start, or at its end if `is_backward`.
     pub(super) corner: u8,
     /// Triangles.
     pub(super) len: u8,
     /// True if the run goes back from `corner`, against the winding.
-    pub(super) behind: bool,
+    pub(super) is_backward: bool,
 }
 
 /// The triangles nearest to a seed, counted in edges crossed, with their adjacency.
 pub(super) struct Window {
     /// The triangles' numbers; the first is the seed.
     triangles: ArrayVec<u32, WINDOW>,
-    /// The half-edges beyond which a triangle remains, in the window or not, by corners.
-    open: [u32; 3],
+    /// For corner k, the triangles with a remaining neighbour across half-edge k, as a mask.
+    shared: [u32; 3],
     /// For each triangle its neighbours in the window, as a mask.
     neighbours: [u32; WINDOW],
     /// The triangles with at least one, two, three remaining neighbours, in the window and beyond,
@@ -39,16 +39,17 @@ pub(super) struct Window {
     degree_masks: [u32; 3],
     /// Triangles with a remaining neighbour beyond the window, as a mask.
     border: u32,
-    next: [u8; CORNERS],
-    previous: [u8; CORNERS],
+    /// The corner after and before each corner about its vertex, or [`NO`].
+    next_about_vertex: [u8; CORNERS],
+    previous_about_vertex: [u8; CORNERS],
     /// Vertex of each corner, numbered within the window.
     vertex: [u8; CORNERS],
-    /// A corner of each vertex, and for each corner another one of its vertex.
-    first_at: [u8; CORNERS],
-    other_at: [u8; CORNERS],
+    /// Linked lists of the corners of each vertex.
+    corner_list_head: [u8; CORNERS],
+    corner_list_next: [u8; CORNERS],
     /// For each corner the triangles about its vertex from the corner on, or back from it.
-    ahead: [Runs; CORNERS],
-    behind: [Runs; CORNERS],
+    forward: [Runs; CORNERS],
+    backward: [Runs; CORNERS],
     /// Numbers within the window, for all triangles and vertices of the soup; [`NO`] between two
     /// calls.
     local_triangle: Vec<u8>,
@@ -59,17 +60,17 @@ impl Window {
     pub(super) fn new(vertex_count: usize, triangle_count: usize) -> Self {
         Self {
             triangles: ArrayVec::new(),
-            open: [0; 3],
+            shared: [0; 3],
             neighbours: [0; WINDOW],
             degree_masks: [0; 3],
             border: 0,
-            next: [NO; CORNERS],
-            previous: [NO; CORNERS],
+            next_about_vertex: [NO; CORNERS],
+            previous_about_vertex: [NO; CORNERS],
             vertex: [0; CORNERS],
-            first_at: [NO; CORNERS],
-            other_at: [NO; CORNERS],
-            ahead: [Runs::default(); CORNERS],
-            behind: [Runs::default(); CORNERS],
+            corner_list_head: [NO; CORNERS],
+            corner_list_next: [NO; CORNERS],
+            forward: [Runs::default(); CORNERS],
+            backward: [Runs::default(); CORNERS],
             local_triangle: vec![NO; triangle_count],
             local_vertex: vec![NO; vertex_count],
         }
@@ -77,28 +78,32 @@ impl Window {
 
     /// Moves the window to `seed`. Bounded work, for any valences.
     pub(super) fn fill(&mut self, adjacency: &Adjacency, remaining: &Remaining, seed: u32) {
+        // 1. The triangles, breadth-first.
         self.triangles.clear();
         self.triangles.push(seed);
         self.local_triangle[seed as usize] = 0;
         let mut across_of = [[NONE; 3]; WINDOW];
-        self.open = [0; 3];
+        self.shared = [0; 3];
         let mut i = 0;
         while i < self.triangles.len() {
-            let open = open_edges(adjacency, remaining, self.triangles[i]);
-            for (k, across) in open.into_iter().enumerate().filter(|&(_, across)| across != NONE) {
-                self.open[k] |= 1 << i;
+            let across_all = remaining_across(adjacency, remaining, self.triangles[i]);
+            for (k, across) in
+                across_all.into_iter().enumerate().filter(|&(_, across)| across != NONE)
+            {
+                self.shared[k] |= 1 << i;
                 let slot = &mut self.local_triangle[across as usize / 3];
                 if *slot == NO && self.triangles.len() < WINDOW {
                     *slot = self.triangles.len() as u8;
                     self.triangles.push(across / 3);
                 }
             }
-            across_of[i] = open;
+            across_of[i] = across_all;
             i += 1;
         }
-        let [a, b, c] = self.open;
+        let [a, b, c] = self.shared;
         self.degree_masks = [a | b | c, a & b | b & c | c & a, a & b & c];
 
+        // 2. Adjacency, and the list of each vertex's corners.
         let mut vertex_count = 0u8;
         self.border = 0;
         for (i, across_of) in across_of.iter().take(self.triangles.len()).enumerate() {
@@ -109,15 +114,15 @@ impl Window {
                 let slot = &mut self.local_vertex[adjacency.vertex(half_edge) as usize];
                 if *slot == NO {
                     *slot = vertex_count;
-                    self.first_at[vertex_count as usize] = NO;
+                    self.corner_list_head[vertex_count as usize] = NO;
                     vertex_count += 1;
                 }
                 self.vertex[corner] = *slot;
-                self.other_at[corner] =
-                    std::mem::replace(&mut self.first_at[*slot as usize], corner as u8);
+                self.corner_list_next[corner] =
+                    std::mem::replace(&mut self.corner_list_head[*slot as usize], corner as u8);
 
-                let after = self.after(corner as u8) as usize;
-                (self.previous[corner], self.next[after]) = (NO, NO);
+                let after = self.next_in_triangle(corner as u8) as usize;
+                (self.previous_about_vertex[corner], self.next_about_vertex[after]) = (NO, NO);
                 if across == NONE {
                     continue;
                 }
@@ -127,12 +132,15 @@ impl Window {
                     continue;
                 }
                 self.neighbours[i] |= 1 << local;
+                // Only a neighbour of the same winding continues a run.
                 if adjacency.opposite(half_edge) != NONE {
-                    self.previous[corner] = 3 * local + (following(across) % 3) as u8;
-                    self.next[after] = 3 * local + (across % 3) as u8;
+                    self.previous_about_vertex[corner] = 3 * local + (following(across) % 3) as u8;
+                    self.next_about_vertex[after] = 3 * local + (across % 3) as u8;
                 }
             }
         }
+
+        // 3. The runs. No number within the window is needed any more.
         for &t in &self.triangles {
             self.local_triangle[t as usize] = NO;
             adjacency.triangles()[t as usize]
@@ -140,8 +148,8 @@ impl Window {
                 .for_each(|&v| self.local_vertex[v as usize] = NO);
         }
         for corner in 0..3 * self.triangles.len() {
-            self.ahead[corner] = Runs::new(corner as u8, &self.next);
-            self.behind[corner] = Runs::new(corner as u8, &self.previous);
+            self.forward[corner] = Runs::new(corner as u8, &self.next_about_vertex);
+            self.backward[corner] = Runs::new(corner as u8, &self.previous_about_vertex);
         }
     }
 
@@ -166,9 +174,9 @@ impl Window {
         self.degree_masks
     }
 
-    /// What the window holds, for a later look.
+    /// Triangles and shared edges, to check later that the window is unchanged.
     pub(super) fn footprint(&self) -> Footprint {
-        Footprint { triangles: self.triangles.clone(), open: self.open }
+        Footprint { triangles: self.triangles.clone(), shared: self.shared }
     }
 
     /// Triangles with a remaining neighbour beyond the window, as a mask.
@@ -176,54 +184,56 @@ impl Window {
         self.border
     }
 
-    /// The runs that start at `corner`, or end there if `behind`.
-    pub(super) fn runs(&self, corner: u8, behind: bool) -> &Runs {
-        if behind { &self.behind[corner as usize] } else { &self.ahead[corner as usize] }
+    /// The runs that start at `corner`, or end there if `is_backward`.
+    pub(super) fn runs(&self, corner: u8, is_backward: bool) -> &Runs {
+        if is_backward { &self.backward[corner as usize] } else { &self.forward[corner as usize] }
     }
 
     /// The corner before `corner` about its vertex, if its triangle is in the window.
-    pub(super) fn previous(&self, corner: u8) -> Option<u8> {
-        Some(self.previous[corner as usize]).filter(|&c| c != NO)
+    pub(super) fn previous_about_vertex(&self, corner: u8) -> Option<u8> {
+        Some(self.previous_about_vertex[corner as usize]).filter(|&c| c != NO)
     }
 
     /// The corner after `corner` about its vertex, if its triangle is in the window.
-    pub(super) fn next(&self, corner: u8) -> Option<u8> {
-        Some(self.next[corner as usize]).filter(|&c| c != NO)
+    pub(super) fn next_about_vertex(&self, corner: u8) -> Option<u8> {
+        Some(self.next_about_vertex[corner as usize]).filter(|&c| c != NO)
     }
 
     /// The corners of the vertex of `corner`.
     pub(super) fn corners_at(&self, corner: u8) -> impl Iterator<Item = u8> {
-        let first = self.first_at[self.vertex[corner as usize] as usize];
+        let first = self.corner_list_head[self.vertex[corner as usize] as usize];
         std::iter::successors(Some(first), |&c| {
-            Some(self.other_at[c as usize]).filter(|&c| c != NO)
+            Some(self.corner_list_next[c as usize]).filter(|&c| c != NO)
         })
     }
 
     /// The next corner of the same triangle.
-    pub(super) const fn after(&self, corner: u8) -> u8 {
+    pub(super) const fn next_in_triangle(&self, corner: u8) -> u8 {
         if corner % 3 == 2 { corner - 2 } else { corner + 1 }
     }
 
     /// The previous corner of the same triangle.
-    pub(super) const fn before(&self, corner: u8) -> u8 {
+    pub(super) const fn previous_in_triangle(&self, corner: u8) -> u8 {
         if corner.is_multiple_of(3) { corner + 2 } else { corner - 1 }
     }
 
     /// A run as a fan.
     pub(super) fn fan(&self, adjacency: &Adjacency, run: Run, reversed: bool) -> Fan {
-        let steps = if run.behind { &self.previous } else { &self.next };
+        let steps =
+            if run.is_backward { &self.previous_about_vertex } else { &self.next_about_vertex };
         let mut corners: ArrayVec<u8, MAX_LEAF_TRIANGLES> =
             std::iter::successors(Some(run.corner), |&c| Some(steps[c as usize]))
                 .take(run.len as usize)
                 .collect();
-        if run.behind != reversed {
+        if run.is_backward != reversed {
             corners.reverse();
         }
         let vertex = |corner: u8| {
             adjacency.triangles()[self.triangles[corner as usize / 3] as usize][corner as usize % 3]
         };
         let ends = |corner| {
-            let [from, to] = [self.after(corner), self.before(corner)].map(vertex);
+            let [from, to] =
+                [self.next_in_triangle(corner), self.previous_in_triangle(corner)].map(vertex);
             if reversed { [to, from] } else { [from, to] }
         };
         Fan {
@@ -237,25 +247,25 @@ impl Window {
     }
 }
 
-/// Triangles and open edges of a window.
+/// Triangles and shared edges of a window.
 pub(super) struct Footprint {
     triangles: ArrayVec<u32, WINDOW>,
-    open: [u32; 3],
+    shared: [u32; 3],
 }
 
 impl Footprint {
-    /// Whether the window about its seed still is the same. Its triangles follow from the seed and
-    /// the open edges.
-    pub(super) fn is_of(&self, adjacency: &Adjacency, remaining: &Remaining) -> bool {
+    /// Whether the window about the same seed would still be the same. The seed and the shared
+    /// edges determine its triangles.
+    pub(super) fn is_current(&self, adjacency: &Adjacency, remaining: &Remaining) -> bool {
         self.triangles.iter().enumerate().all(|(i, &triangle)| {
-            let open = open_edges(adjacency, remaining, triangle);
-            (0..3).all(|k| (open[k] != NONE) == (self.open[k] & 1 << i != 0))
+            let across = remaining_across(adjacency, remaining, triangle);
+            (0..3).all(|k| (across[k] != NONE) == (self.shared[k] & 1 << i != 0))
         })
     }
 }
 
 /// The half-edges of remaining triangles across a triangle's edges, or [`NONE`].
-fn open_edges(adjacency: &Adjacency, remaining: &Remaining, triangle: u32) -> [u32; 3] {
+fn remaining_across(adjacency: &Adjacency, remaining: &Remaining, triangle: u32) -> [u32; 3] {
     [0, 1, 2].map(|k| {
         let across = adjacency.across(3 * triangle + k);
         if across == NONE || !remaining.has(across / 3) { NONE } else { across }

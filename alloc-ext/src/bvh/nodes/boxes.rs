@@ -15,6 +15,7 @@
 use super::extent::{Extent, Frame, PointSet};
 use glam::DVec3;
 use meshsweep_core::internal::bvh::format::layout::{MOST_EXPONENT, ROW_BITS};
+use meshsweep_core::internal::num::exp2;
 use std::ops::RangeInclusive;
 
 /// Children of a node at most.
@@ -36,7 +37,8 @@ pub struct NodeBoxes {
     pub origin: [u16; 3],
     /// Rows of the matrix, in units of 2^-[`ROW_BITS`].
     pub matrix: [[i16; 3]; 3],
-    /// Binary exponent of the box coordinates' unit, per axis, -20 to 40.
+    /// Binary exponent of the box coordinates' unit, per axis: 0 to 9 in a shared frame, -20 to 40
+    /// along the axes.
     pub exponent: [i8; 3],
     /// Lower ends of the boxes by axis and child.
     pub low: [[u8; LANES]; 3],
@@ -113,7 +115,7 @@ fn fit(
         if pass == 0 {
             let all = extents.iter().fold(Extent::EMPTY, Extent::union);
             for k in (0..3).filter(|&k| all.low[k] <= all.high[k]) {
-                let square = power_of_two(2 * ROW_BITS.cast_signed());
+                let square = exp2(2 * ROW_BITS.cast_signed());
                 origin += matrix[k] * ((all.low[k] + all.high[k]) * 0.5 / square);
             }
         }
@@ -123,7 +125,7 @@ fn fit(
     for k in 0..3 {
         let exponent = least_exponent(all.low[k], all.high[k], exponents.clone());
         boxes.exponent[k] = exponent as i8;
-        let per_unit = power_of_two(-exponent - ROW_BITS.cast_signed());
+        let per_unit = exp2(-exponent - ROW_BITS.cast_signed());
         for (lane, extent) in
             extents.iter().enumerate().filter(|(_, extent)| extent.low[k] <= extent.high[k])
         {
@@ -152,15 +154,10 @@ pub(super) const IDENTITY: [[i16; 3]; 3] = {
 fn least_exponent(low: f64, high: f64, mut exponents: RangeInclusive<i32>) -> i32 {
     exponents
         .find(|&exponent| {
-            let per_unit = power_of_two(-exponent - ROW_BITS.cast_signed());
+            let per_unit = exp2(-exponent - ROW_BITS.cast_signed());
             (low * per_unit).floor() >= -128.0 && (high * per_unit).ceil() <= 127.0
         })
         .expect("255 steps of the greatest exponent span every model")
-}
-
-/// `2^exponent`, exact, for normal exponents.
-fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(((1023 + i64::from(exponent)) as u64) << 52)
 }
 
 #[cfg(test)]

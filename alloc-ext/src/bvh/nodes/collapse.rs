@@ -30,8 +30,8 @@ impl WideNode {
     }
 }
 
-/// Wide nodes over a binary tree whose children come after their parents. Node 0 is the root,
-/// children come after their parent.
+/// Wide nodes over a binary tree. In both trees node 0 is the root and children come after their
+/// parents.
 ///
 /// `node_weight` times the binary nodes' mean weight is added to each wide node's: the larger it
 /// is, the fewer and fuller the nodes. Trees without extent (all weights 0) get the fewest nodes.

@@ -4,7 +4,8 @@ use glam::DVec3;
 
 /// Coordinates may not exceed this in magnitude, grid units.
 pub(super) const MAX_ABS_COORDINATE: f64 = 70_000.0;
-/// Relative error of `M·(P − origin)` for fractional points: twice the proved bound, see above.
+/// Relative error of `M·(P − origin)` for fractional points: twice the proved bound. Proof:
+/// head of `boxes.rs`.
 const FRACTIONAL_MARGIN: f64 = 1.0 / (1u64 << 50) as f64;
 
 /// The rows of a matrix, and the origin that is subtracted before.
@@ -15,14 +16,15 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// Coordinate `k` of a difference from the origin. In floating point too it grows or falls with
-    /// each component, as the sign of the matrix's entry says.
+    /// Coordinate `k` of a difference from the origin. Monotone in each component, rounding
+    /// included: the sign of the matrix's entry says whether it rises or falls.
     fn coordinate(&self, k: usize, d: DVec3) -> f64 {
         let row = self.matrix[k];
         row.x * d.x + row.y * d.y + row.z * d.z
     }
 
-    /// The extent of a box. It holds that of any points in the box, as computed.
+    /// The extent of a box. It contains the computed extent of any points in the box, because each
+    /// rounded operation is monotone.
     pub(super) fn enclose(&self, bounds: &PointBounds) -> Extent {
         let (low, high) = (bounds.low - self.origin, bounds.high - self.origin);
         let end = |row: DVec3, if_negative: DVec3, else_: DVec3| {
@@ -79,7 +81,7 @@ impl Extent {
         self
     }
 
-    pub(super) fn holds(&self, other: &Self) -> bool {
+    pub(super) fn contains(&self, other: &Self) -> bool {
         (0..3).all(|k| self.low[k] <= other.low[k] && other.high[k] <= self.high[k])
     }
 

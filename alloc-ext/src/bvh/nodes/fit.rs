@@ -13,7 +13,7 @@ use rayon::prelude::*;
 /// first, then leaves. `leaves` are the items' points in grid units.
 ///
 /// The frame is searched on extreme points that are passed up the tree, the boxes cover every point
-/// of the subtree. Cost: O(nodes), about 50 µs each, on all threads.
+/// of the subtree. Cost: O(nodes), on all threads.
 pub fn shared_frames(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeBoxes> {
     let subtrees = Subtrees::new(topology, leaves);
     let mut extremes: Vec<Vec<DVec3>> = vec![Vec::new(); topology.nodes.len()];
@@ -53,7 +53,7 @@ pub fn axis_aligned_boxes(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeB
         .collect()
 }
 
-/// All nodes, first those with leaves alone, then those with these and leaves alone, and so on.
+/// Nodes by height. Nodes without inner children come first.
 fn levels_from_below(topology: &Topology) -> Vec<Vec<u32>> {
     let mut heights = vec![0; topology.nodes.len()];
     let mut levels: Vec<Vec<u32>> = Vec::new();

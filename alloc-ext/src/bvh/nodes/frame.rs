@@ -22,10 +22,11 @@ const REFINEMENTS: u32 = 64;
 /// Sets of more points are reduced to extreme points for the search.
 pub(super) const SEARCH_POINTS: usize = 48;
 
-/// Points of all children, transposed: step `s` holds the `s`-th point of each child, so that one
-/// pass fits all boxes at once.
+/// Points of all children, transposed: entry `s` holds the `s`-th point of each child, so that one
+/// pass fits all boxes at once. Shorter children repeat their last point. Lanes without points hold
+/// the origin, which is a point of the set, so the span does not change.
 struct ChildPoints {
-    steps: Vec<[[f32; LANES]; 3]>,
+    points_by_rank: Vec<[[f32; LANES]; 3]>,
     child_count: usize,
     dilation: f32,
 }
@@ -35,19 +36,19 @@ impl ChildPoints {
         let origin =
             children.iter().find_map(|points| points.first()).copied().unwrap_or(DVec3::ZERO);
         let count = children.iter().map(|points| points.len()).max().unwrap_or(0);
-        let mut steps = vec![[[0.0; LANES]; 3]; count];
+        let mut points_by_rank = vec![[[0.0; LANES]; 3]; count];
         let mut diagonals = 0.0;
         for (lane, points) in children.iter().enumerate().filter(|(_, points)| !points.is_empty()) {
-            for (rank, step) in steps.iter_mut().enumerate() {
+            for (rank, entry) in points_by_rank.iter_mut().enumerate() {
                 let relative = (points[rank.min(points.len() - 1)] - origin).as_vec3();
-                (0..3).for_each(|k| step[k][lane] = relative[k]);
+                (0..3).for_each(|k| entry[k][lane] = relative[k]);
             }
             let low = points.iter().copied().reduce(DVec3::min).unwrap_or(origin);
             let high = points.iter().copied().reduce(DVec3::max).unwrap_or(origin);
             diagonals += (high - low).length();
         }
         let dilation = (DILATION * diagonals / children.len().max(1) as f64) as f32;
-        Self { steps, child_count: children.len(), dilation }
+        Self { points_by_rank, child_count: children.len(), dilation }
     }
 
     /// Summed Steiner volume of the children's boxes in the frame of a stored quaternion, rounding
@@ -56,7 +57,7 @@ impl ChildPoints {
         let axes = frame_axes(unit_quaternion(quaternion));
         let mut low = [[f32::INFINITY; LANES]; 3];
         let mut high = [[f32::NEG_INFINITY; LANES]; 3];
-        for [x, y, z] in &self.steps {
+        for [x, y, z] in &self.points_by_rank {
             for k in 0..3 {
                 let axis = axes[k];
                 for i in 0..LANES {
@@ -83,8 +84,8 @@ impl ChildPoints {
     }
 }
 
-/// What rounding outward adds to a box on average, both ends together: one unit of the exponent
-/// that a node of this span gets.
+/// Mean growth of a box by rounding outward, both ends together: one unit of the exponent that a
+/// node of this span gets.
 fn expected_rounding(span: f32) -> f32 {
     /// Of the 255 units, half a unit at each end goes to rounding.
     const UNITS: f32 = 254.0;
@@ -98,27 +99,27 @@ fn expected_rounding(span: f32) -> f32 {
 /// Best candidate so far.
 struct Search<'a> {
     points: &'a ChildPoints,
-    best: [i8; 4],
-    cost: f32,
+    best_quaternion: [i8; 4],
+    best_cost: f32,
 }
 
 impl Search<'_> {
     fn consider(&mut self, candidate: DQuat) {
         let rounded = round_quaternion(candidate);
-        if rounded == self.best {
+        if rounded == self.best_quaternion {
             return;
         }
         let cost = self.points.cost(rounded);
-        if cost < self.cost {
-            self.cost = cost;
-            self.best = rounded;
+        if cost < self.best_cost {
+            self.best_cost = cost;
+            self.best_quaternion = rounded;
         }
     }
 }
 
 /// Quaternion of the best frame found for the points of up to eight children, grid units within
 /// ±70,000. Where no rotation helps (equal points, axis-aligned input), it is the identity, `(127,
-/// 0, 0, 0)`. Cost: about 0.1 ms for [`SEARCH_POINTS`] a child.
+/// 0, 0, 0)`. Cost: proportional to the greatest number of points of a child.
 pub(super) fn best_quaternion(children: &[&[DVec3]]) -> [i8; 4] {
     refined(children, REFINEMENTS)
 }
@@ -130,8 +131,9 @@ fn refined(children: &[&[DVec3]], refinements: u32) -> [i8; 4] {
         [0.0, 0.198_912_367_379_658, 0.414_213_562_373_095_1, 0.668_178_637_919_298_9];
     let points = ChildPoints::new(children);
     let identity = round_quaternion(DQuat::IDENTITY);
-    let mut search = Search { cost: points.cost(identity), points: &points, best: identity };
-    if points.steps.is_empty() || search.cost <= 0.0 {
+    let mut search =
+        Search { best_cost: points.cost(identity), points: &points, best_quaternion: identity };
+    if points.points_by_rank.is_empty() || search.best_cost <= 0.0 {
         return identity;
     }
     let all = principal_frame(children.iter().flat_map(|points| points.iter().copied()));
@@ -142,7 +144,7 @@ fn refined(children: &[&[DVec3]], refinements: u32) -> [i8; 4] {
         }
     }
     refine(&mut search, refinements);
-    search.best
+    search.best_quaternion
 }
 
 /// Local search: steps fill a shrinking ball of rotations around the best frame, in a
@@ -164,7 +166,7 @@ fn refine(search: &mut Search, steps: u32) {
         let remaining = (1.0 - progress) * (1.0 - progress);
         let size = LAST_STEP + (FIRST_STEP - LAST_STEP) * remaining;
         let turn = (position * 2.0 - 1.0) * size;
-        let best = unit_quaternion(search.best);
+        let best = unit_quaternion(search.best_quaternion);
         search.consider((DQuat::from_xyzw(turn.x, turn.y, turn.z, 1.0) * best).normalize());
     }
 }
@@ -250,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn quaternions_use_the_whole_range() {
+    fn stored_frames_lengthen_no_vector() {
         let leaves = slanted_leaves(0.0);
         for count in 1..=4 {
             let children: Vec<&[DVec3]> = leaves[..count].iter().map(Vec::as_slice).collect();

@@ -42,7 +42,7 @@ pub(super) fn stored_rotation(quaternion: [i8; 4]) -> [[i16; 3]; 3] {
             [0, 1, 2].map(|k| rotation.row(k).to_array().map(|x| (x * scale).round() as i16))
         })
         .find(lengthens_nothing)
-        .unwrap_or([[0; 3]; 3])
+        .expect("the zero matrix lengthens nothing")
 }
 
 /// The axes of a frame, as rows of the rotation matrix.

@@ -14,8 +14,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// No child: marks leaves of the binary tree.
 const NO_CHILD: u32 = u32::MAX;
 
-/// Chance that a query visits an axis-aligned box: half its surface plus `edge` times its summed
-/// extents.
+/// Chance that a query visits an axis-aligned box: half its surface plus `extent_weight` times its
+/// summed extents.
 ///
 /// By Steiner's formula the volume of a box that grows by `d` on all sides is `V + S d + π L d² +
 /// …` with the surface `S` and the summed extents `L`; points within `d` of a surface-like set of
@@ -24,14 +24,14 @@ const NO_CHILD: u32 = u32::MAX;
 #[derive(Clone, Copy)]
 struct BoxMeasure {
     /// Weight of the summed extents, grid units.
-    edge: f32,
+    extent_weight: f32,
 }
 
 impl BoxMeasure {
     #[inline(always)]
     fn of(self, bounds: &Bounds) -> f32 {
         let [x, y, z] = [0, 1, 2].map(|k| bounds.high[k] - bounds.low[k]);
-        x * y + y * z + z * x + self.edge * (x + y + z)
+        x * y + y * z + z * x + self.extent_weight * (x + y + z)
     }
 }
 
@@ -79,7 +79,7 @@ impl BinaryNode {
 struct Run<'a> {
     /// Its items by the centre on each axis.
     orders: [&'a mut [u32]; 3],
-    moved: &'a mut [u32],
+    partition_scratch: &'a mut [u32],
     suffix_cost: &'a mut [f32],
     depth: u32,
 }
@@ -98,34 +98,40 @@ struct Items {
     /// Weight of a node whose measure is 1.
     scale: f32,
     depth_limit: u32,
-    /// Of the run that is divided: whether an item goes to the first part. Runs share no items.
+    /// Whether an item goes to the left part of the run being divided. Atomic, because runs of
+    /// other threads write other items.
     goes_left: Vec<AtomicBool>,
 }
 
-/// Least items of runs that are divided side by side.
-const SIDE_BY_SIDE: usize = 1 << 12;
+/// Least items of a run whose two subtrees are built in parallel.
+const MIN_PARALLEL_ITEMS: usize = 1 << 12;
 
 /// Binary tree over `bounds` with one item per leaf; node 0 is the root and children come after
 /// their parent. No node is deeper than `2 log2(n) + 16`: where the heuristic would go deeper, runs
 /// are halved.
 ///
-/// `edge` is the weight of the summed extents relative to the diagonal of all items. Empty input
-/// gives no nodes. Cost: O(n log n), on all threads; the tree is the same on any number of them.
-pub(super) fn binary_tree(bounds: &[(DVec3, DVec3)], edge: f32) -> Vec<BinaryNode> {
+/// `extent_weight` is the weight of the summed extents relative to the diagonal of all items. Empty
+/// input gives no nodes. Cost: O(n log n), on all threads; the tree is the same on any number of
+/// them.
+pub(super) fn binary_tree(bounds: &[(DVec3, DVec3)], extent_weight: f32) -> Vec<BinaryNode> {
     if bounds.is_empty() {
         return Vec::new();
     }
-    let mut items = Items::new(bounds, edge);
+    let mut items = Items::new(bounds, extent_weight);
     let mut orders = [0, 1, 2].map(|_| Vec::new());
     orders.par_iter_mut().enumerate().for_each(|(axis, order)| *order = items.order(axis));
     let [x, y, z] = &mut orders;
-    let root = items.weigh(x);
-    items.scale = if root > 0.0 { 1.0 / root } else { 1.0 };
+    let root_weight = items.weigh(x);
+    items.scale = if root_weight > 0.0 { 1.0 / root_weight } else { 1.0 };
     let mut nodes = Vec::with_capacity(bounds.len() * 2 - 1);
-    nodes.push(BinaryNode { left: NO_CHILD, right_or_item: x[0], weight: root * items.scale });
+    nodes.push(BinaryNode {
+        left: NO_CHILD,
+        right_or_item: x[0],
+        weight: root_weight * items.scale,
+    });
     let run = Run {
         orders: [x, y, z],
-        moved: &mut vec![0; bounds.len()],
+        partition_scratch: &mut vec![0; bounds.len()],
         suffix_cost: &mut vec![0.0; bounds.len()],
         depth: 0,
     };
@@ -134,7 +140,7 @@ pub(super) fn binary_tree(bounds: &[(DVec3, DVec3)], edge: f32) -> Vec<BinaryNod
 }
 
 impl Items {
-    fn new(input: &[(DVec3, DVec3)], edge: f32) -> Self {
+    fn new(input: &[(DVec3, DVec3)], extent_weight: f32) -> Self {
         let bounds: Vec<Bounds> = input
             .iter()
             .map(|(low, high)| Bounds {
@@ -149,7 +155,7 @@ impl Items {
             .sum::<f32>()
             .sqrt();
         Self {
-            measure: BoxMeasure { edge: edge * diagonal },
+            measure: BoxMeasure { extent_weight: extent_weight * diagonal },
             scale: 1.0,
             depth_limit: 2 * bounds.len().ilog2() + 16,
             goes_left: bounds.iter().map(|_| AtomicBool::new(false)).collect(),
@@ -189,7 +195,7 @@ impl Items {
             weight: self.weigh(half.orders[0]),
         }));
         let [first, second] = halves;
-        if count < SIDE_BY_SIDE {
+        if count < MIN_PARALLEL_ITEMS {
             self.grow(second, left + 1, nodes);
             self.grow(first, left, nodes);
             return;
@@ -221,7 +227,7 @@ impl Items {
 
     /// Splits a run in two; the orders of both parts stay sorted.
     fn divide<'a>(&self, run: Run<'a>) -> [Run<'a>; 2] {
-        let Run { orders, moved, suffix_cost, depth } = run;
+        let Run { orders, partition_scratch, suffix_cost, depth } = run;
         let count = orders[0].len();
         let must_halve = depth + count.ilog2() + 1 >= self.depth_limit;
         let mut best = Split { axis: 0, position: count / 2, cost: f32::INFINITY };
@@ -233,25 +239,37 @@ impl Items {
         }
         for axis in (0..3).filter(|&axis| axis != best.axis) {
             let order = &mut *orders[axis];
-            let (mut kept_count, mut moved_count) = (0, 0);
+            let (mut left_count, mut right_count) = (0, 0);
             // Both writes happen each time, only the counters differ: no branch to mispredict.
             for rank in 0..count {
                 let item = order[rank];
                 let left = self.goes_left[item as usize].load(Ordering::Relaxed);
-                order[kept_count] = item;
-                moved[moved_count] = item;
-                kept_count += usize::from(left);
-                moved_count += usize::from(!left);
+                order[left_count] = item;
+                partition_scratch[right_count] = item;
+                left_count += usize::from(left);
+                right_count += usize::from(!left);
             }
-            order[kept_count..].copy_from_slice(&moved[..moved_count]);
+            order[left_count..].copy_from_slice(&partition_scratch[..right_count]);
         }
         let [x, y, z] = orders.map(|order| order.split_at_mut(best.position));
-        let (moved, suffix_cost) =
-            (moved.split_at_mut(best.position), suffix_cost.split_at_mut(best.position));
+        let (partition_scratch, suffix_cost) = (
+            partition_scratch.split_at_mut(best.position),
+            suffix_cost.split_at_mut(best.position),
+        );
         let depth = depth + 1;
         [
-            Run { orders: [x.0, y.0, z.0], moved: moved.0, suffix_cost: suffix_cost.0, depth },
-            Run { orders: [x.1, y.1, z.1], moved: moved.1, suffix_cost: suffix_cost.1, depth },
+            Run {
+                orders: [x.0, y.0, z.0],
+                partition_scratch: partition_scratch.0,
+                suffix_cost: suffix_cost.0,
+                depth,
+            },
+            Run {
+                orders: [x.1, y.1, z.1],
+                partition_scratch: partition_scratch.1,
+                suffix_cost: suffix_cost.1,
+                depth,
+            },
         ]
     }
 

@@ -69,7 +69,7 @@ impl<'a> Subtrees<'a> {
         self.children(node).map(subtree).collect()
     }
 
-    /// The points of a node's own leaves come before those of its inner children.
+    /// Any point below `child`. Leaves are tried first, because they hold points themselves.
     fn first(&self, child: Child) -> Option<DVec3> {
         match child {
             Child::Item(item) => self.leaves[item as usize].first().copied(),
@@ -82,9 +82,9 @@ impl<'a> Subtrees<'a> {
         }
     }
 
-    /// Includes the points below `child`, and skips what lies in the extent already.
+    /// Includes the points below `child`; skips subtrees whose box the extent contains.
     fn include(&self, child: Child, frame: &Frame, extent: &mut Extent) {
-        if extent.holds(&frame.enclose(self.bounds(child))) {
+        if extent.contains(&frame.enclose(self.bounds(child))) {
             return;
         }
         match child {

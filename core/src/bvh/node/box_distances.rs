@@ -1,7 +1,8 @@
 //! Squared distances of a point from eight boxes, in integers.
 //!
 //! The wide form (`box_lanes`) has eight 16-bit lanes, which fit one register of the smallest
-//! vector units. Other processors take two children in a word (`pairs`). Both give the same keys.
+//! vector units. Other processors take two children in a word (`two_in_word`). Both give the same
+//! keys.
 
 use super::frame::KeyPoint;
 use crate::bvh::format::layout::FRAME_BYTES;
@@ -23,5 +24,5 @@ pub fn box_distances(
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     super::box_lanes::keys(record, p, count, parent, keys);
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-    super::pairs::keys(record, p, count, parent, keys);
+    super::two_in_word::keys(record, p, count, parent, keys);
 }

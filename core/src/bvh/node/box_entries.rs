@@ -10,10 +10,10 @@ use crate::bvh::format::layout::{BOXES_BYTES, boxes};
 use crate::geom::fan::{LANES_BELOW, WIDTH};
 use crate::num::{greater, lesser};
 
-/// The line of a segment for the slab test: its distance from the planes of a box, axis by axis, as
-/// parameters of the segment. Grid units. See `core/docs/rounding.md` §9.
+/// A segment's line, prepared for the slab test: its distance from the planes of a box, axis by
+/// axis, as parameters of the segment. Grid units. See `core/docs/rounding.md` §9.
 #[derive(Clone, Copy, Debug)]
-pub struct Slabs {
+pub struct SlabRay {
     origin: [f32; 3],
     inverse: [f32; 3],
     /// Parameter by which a box begins earlier and ends later than its planes.
@@ -23,7 +23,7 @@ pub struct Slabs {
     near: [usize; 3],
 }
 
-impl Slabs {
+impl SlabRay {
     /// The line through `origin` with `inverse`, by axis the reciprocals of its direction; boxes
     /// are enlarged by `margin` on each side. The products of all numbers with the model's size
     /// must stay finite.
@@ -32,7 +32,7 @@ impl Slabs {
         let [ix, iy, iz] = inverse;
         let [mx, my, mz] = margin;
         let row = |x: f32, axis: usize| 2 * axis + (x.to_bits() >> 31) as usize;
-        Slabs {
+        SlabRay {
             origin,
             inverse,
             grow: [mx * ix.abs(), my * iy.abs(), mz * iz.abs()],
@@ -50,18 +50,22 @@ impl Slabs {
 }
 
 /// Keys of a node's children: the parameters at which the segment enters their boxes. No key is
-/// below `from`, and the low three bits hold the number of the child. Boxes that the segment does
-/// not enter up to `limit`, and keys from `count` on, have [`NO_CHILD`] or more.
+/// below `parent_bound`, and the low three bits hold the number of the child. Boxes that the
+/// segment does not enter up to `limit`, and keys from `count` on, have [`NO_CHILD`] or more.
 #[inline(always)]
 pub fn box_entries(
     record: &[u8; BOXES_BYTES],
-    slabs: &Slabs,
+    ray: &SlabRay,
     count: u32,
-    from: f32,
+    parent_bound: f32,
     limit: f32,
 ) -> [u32; WIDTH] {
-    let Some(planes) = SlabPlanes::of(record, slabs) else { return [NO_CHILD; WIDTH] };
-    if WIDE { wide(&planes, count, from, limit) } else { narrow(&planes, count, from, limit) }
+    let Some(planes) = SlabPlanes::of(record, ray) else { return [NO_CHILD; WIDTH] };
+    if WIDE {
+        wide(&planes, count, parent_bound, limit)
+    } else {
+        narrow(&planes, count, parent_bound, limit)
+    }
 }
 
 /// Planes of the boxes along one axis, in the order in which the segment meets them.
@@ -79,13 +83,14 @@ pub(crate) struct SlabPlanes<'a>([Axis<'a>; 3]);
 
 impl<'a> SlabPlanes<'a> {
     #[inline(always)]
-    pub(crate) fn of(record: &'a [u8; BOXES_BYTES], slabs: &Slabs) -> Option<Self> {
+    pub(crate) fn of(record: &'a [u8; BOXES_BYTES], ray: &SlabRay) -> Option<Self> {
+        // Eight rows, so that `& 7` needs no bounds check. Rows 6 and 7 are never chosen.
         let rows = record.as_chunks::<WIDTH>().0.first_chunk::<8>()?;
         let words = record.as_chunks::<4>().0.get(boxes::ORIGIN / 4..)?.first_chunk::<6>()?;
         let [ox, oy, oz, ux, uy, uz] = words.map(f32::from_le_bytes);
         let along = |axis: usize, origin: f32, unit: f32| {
-            let (enter, leave, step) = slabs.axis(axis, origin, unit);
-            let row = slabs.near[axis];
+            let (enter, leave, step) = ray.axis(axis, origin, unit);
+            let row = ray.near[axis];
             Axis { near: &rows[row & 7], far: &rows[(row ^ 1) & 7], enter, leave, step }
         };
         Some(SlabPlanes([along(0, ox, ux), along(1, oy, uy), along(2, oz, uz)]))
@@ -96,7 +101,7 @@ impl<'a> SlabPlanes<'a> {
 pub(crate) fn wide(
     SlabPlanes([x, y, z]): &SlabPlanes<'_>,
     count: u32,
-    from: f32,
+    parent_bound: f32,
     limit: f32,
 ) -> [u32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
@@ -110,7 +115,7 @@ pub(crate) fn wide(
         let leave_x = at(x.far[i], x.step, x.leave);
         let leave_y = at(y.far[i], y.step, y.leave);
         let leave_z = at(z.far[i], z.step, z.leave);
-        let enter = greater(greater(from, enter_z), greater(enter_y, enter_x));
+        let enter = greater(greater(parent_bound, enter_z), greater(enter_y, enter_x));
         let leave = lesser(lesser(limit, leave_z), lesser(leave_y, leave_x));
         let key = if enter <= leave { enter } else { none };
         // The box of an absent child may be any: its key is overwritten.
@@ -122,19 +127,19 @@ pub(crate) fn wide(
 
 /// Stops at the first axis on which the box is missed. From axis to axis the entry only grows and
 /// the exit only falls, so the keys are those of `wide`. Parameters are compared by their bits: a
-/// negative one is below `from` as an entry, and the box is missed with it as an exit. A sum is
-/// never −0 here, for `grow` is not 0.
+/// negative one is below `parent_bound` as an entry, and the box is missed with it as an exit. The
+/// bits of −0 would compare as negative. No sum is −0, because `grow` is positive.
 #[inline(always)]
 pub(crate) fn narrow(
     SlabPlanes(axes): &SlabPlanes<'_>,
     count: u32,
-    from: f32,
+    parent_bound: f32,
     limit: f32,
 ) -> [u32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
-    let [from, limit] = [from, limit].map(|t| t.to_bits().cast_signed());
+    let [parent_bound, limit] = [parent_bound, limit].map(|t| t.to_bits().cast_signed());
     for (child, key) in keys.iter_mut().enumerate().take(count as usize) {
-        let (mut enter, mut leave) = (from, limit);
+        let (mut enter, mut leave) = (parent_bound, limit);
         let overlaps = axes.iter().all(|axis| {
             // `child` is below 8, but LLVM does not see it on all targets.
             let (Some(&near), Some(&far)) = (axis.near.get(child), axis.far.get(child)) else {

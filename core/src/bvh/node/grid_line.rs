@@ -1,5 +1,16 @@
-//! The line of a segment in integers, for targets without floating point: most triangles of a leaf
-//! are beside the line by far, and few products prove it.
+//! Integer pretest: most triangles of a leaf are far from a segment's line, and few products prove
+//! it. For targets without floating point.
+//!
+//! The *shadow* of a vertex (u, v, w), w along the line's dominant axis, is
+//! (u − at_u − slope_u·w, v − at_v − slope_v·w). The line's own shadow is the origin.
+//!
+//! For an edge with the shadow (x, y) at its start and the vector (du, dv, dw):
+//!
+//! ```text
+//! area = −y·du + x·dv + (y·slope_u − x·slope_v)·dw
+//! ```
+//!
+//! The line misses a triangle if it is certainly left of one edge and right of another.
 //!
 //! The tests decide "clear" and nothing else. All other triangles go to the kernel in f32, whose
 //! answer alone counts. So every bit is the same with and without these tests. Margins:
@@ -8,32 +19,34 @@
 use crate::bvh::format::GridRing;
 use crate::geom::fan::FanRay;
 
-/// Bits after the point of a shadow that is not rounded. With lengths below 2^16 it fits 32 bits.
-const FINE: u32 = 14;
+/// Fraction bits of a slope, and of a shadow before it is rounded. With lengths below 2^16 it fits
+/// 32 bits.
+const SLOPE_BITS: u32 = 14;
 /// Bits of a shadow that are rounded away: its unit is then 16 grid units.
-const COARSE: u32 = FINE + 4;
-/// Greatest rounded shadow. Its products with ways on the grid fit 32 bits.
-const GREATEST: u32 = 1 << 12;
+const SHADOW_SHIFT: u32 = SLOPE_BITS + 4;
+/// Greatest rounded shadow. Its products with differences of grid points fit 32 bits.
+const MAX_SHADOW: u32 = 1 << 12;
 /// The middle of the stored numbers.
-const MIDDLE: i32 = 1 << 15;
-/// Lengths below this fit, grid units. A shadow that leaves 32 bits all the same wraps around to
-/// one that is still above [`GREATEST`].
-const FITS: f32 = (1 << 16) as f32;
+const GRID_MIDDLE: i32 = 1 << 15;
+/// Lengths must be below this, grid units. A shadow that leaves 32 bits all the same wraps around
+/// to one that is still above [`MAX_SHADOW`].
+const MAX_LENGTH: f32 = (1 << 16) as f32;
 
 /// The line of a [`FanRay`] in stored numbers. Coordinates come in the order of the ray's axes.
 #[derive(Clone, Copy, Debug)]
 pub struct GridLine {
     /// Where the line is at the stored number 0 of the dominant axis. All sums wrap around.
     at: [i32; 2],
-    /// Way along the axes for each grid unit along the dominant one.
+    /// Grid units along the other axes for each grid unit along the dominant one, with
+    /// [`SLOPE_BITS`].
     slope: [i32; 2],
-    /// An edge farther than this from the line is clear of it, 16 grid units. 0: nothing is, for
-    /// the numbers do not fit.
+    /// An edge farther than this from the line is clear of it. In units of 16 grid units. 0 if the
+    /// numbers do not fit: then every triangle counts as near.
     margin: i32,
 }
 
-/// The areas that the line spans with edges that begin at one vertex.
-struct Pencil {
+/// The coefficients of `area` for all edges that start at one vertex.
+struct EdgeFunction {
     from: [i32; 3],
     weights: [i32; 3],
     margin: i32,
@@ -45,17 +58,17 @@ impl GridLine {
 
     /// The line of `ray`.
     pub fn new(ray: &FanRay, grid_origin: [i32; 3]) -> Self {
-        let middle = grid_origin.map(|origin| origin.wrapping_add(MIDDLE) as f32);
+        let middle = grid_origin.map(|origin| origin.wrapping_add(GRID_MIDDLE) as f32);
         let [mu, mv, mw] = ray.in_order(middle);
         let [ou, ov, ow] = ray.origin();
         let [su, sv] = ray.shear();
         let (x, y) = ((ou - mu) + su * (mw - ow), (ov - mv) + sv * (mw - ow));
         let margin = 1.5 * ray.doubt() + 3.0;
-        let fits = x.abs() < FITS && y.abs() < FITS && margin < 1024.0;
-        let unit = (1 << FINE) as f32;
+        let fits = x.abs() < MAX_LENGTH && y.abs() < MAX_LENGTH && margin < 1024.0;
+        let unit = (1 << SLOPE_BITS) as f32;
         let slope = [su, sv].map(|slope| (slope * unit) as i32);
         let at = |x: f32, slope: i32| {
-            let middle = (MIDDLE << FINE) - (1 << (COARSE - 1)) - (slope << 15);
+            let middle = (GRID_MIDDLE << SLOPE_BITS) - (1 << (SHADOW_SHIFT - 1)) - (slope << 15);
             ((x * unit) as i32).wrapping_add(middle)
         };
         GridLine {
@@ -66,17 +79,19 @@ impl GridLine {
     }
 
     #[inline(always)]
-    fn pencil(&self, from: [i32; 3]) -> Option<Pencil> {
+    fn edge_function(&self, from: [i32; 3]) -> Option<EdgeFunction> {
         let [u, v, w] = from;
         let [(at_x, slope_x), (at_y, slope_y)] =
             [(self.at[0], self.slope[0]), (self.at[1], self.slope[1])];
-        let x = (u << FINE).wrapping_sub(slope_x.wrapping_mul(w)).wrapping_sub(at_x) >> COARSE;
-        let y = (v << FINE).wrapping_sub(slope_y.wrapping_mul(w)).wrapping_sub(at_y) >> COARSE;
-        if self.margin == 0 || x.unsigned_abs() > GREATEST || y.unsigned_abs() > GREATEST {
+        let x = (u << SLOPE_BITS).wrapping_sub(slope_x.wrapping_mul(w)).wrapping_sub(at_x)
+            >> SHADOW_SHIFT;
+        let y = (v << SLOPE_BITS).wrapping_sub(slope_y.wrapping_mul(w)).wrapping_sub(at_y)
+            >> SHADOW_SHIFT;
+        if self.margin == 0 || x.unsigned_abs() > MAX_SHADOW || y.unsigned_abs() > MAX_SHADOW {
             return None;
         }
-        let along = (y * slope_x - x * slope_y + (1 << (FINE - 1))) >> FINE;
-        Some(Pencil { from, weights: [-y, x, along], margin: self.margin })
+        let along = (y * slope_x - x * slope_y + (1 << (SLOPE_BITS - 1))) >> SLOPE_BITS;
+        Some(EdgeFunction { from, weights: [-y, x, along], margin: self.margin })
     }
 
     /// Triangles of a leaf that are not proved clear of the line, a bit for each. The second fan
@@ -98,20 +113,24 @@ impl GridLine {
         else {
             return 0;
         };
-        let Some(pencil) = self.pencil(centre) else { return (1 << (x.len() - 1)) - 1 };
+        let Some(edge_function) = self.edge_function(centre) else {
+            return (1 << (x.len() - 1)) - 1;
+        };
         let short = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
         let (mut near, mut lane) = (0u32, 1u32);
-        // Before the first triangle, one that is clear.
+        // The first vertex ends no triangle, so the spoke before it counts as clear on both sides.
         let (mut vertex, mut last) = ([0; 3], [-1; 2]);
         for ((x, y), z) in x.iter().zip(y).zip(z) {
             let from = vertex;
             vertex = [short(x), short(y), short(z)];
-            let spoke = pencil.edge(vertex);
+            let spoke = edge_function.edge(vertex);
             // The last edge runs back to the centre: the spoke's, with the opposite sign.
-            let (one, other) = (last[0] | spoke[1], last[1] | spoke[0]);
-            if one & other >= 0 {
+            // Sign bits: `left` is set if the line is clear of some edge on the left, `right`
+            // likewise. Both set: the triangle is missed.
+            let (left, right) = (last[0] | spoke[1], last[1] | spoke[0]);
+            if left & right >= 0 {
                 let rim = self.rim(from, vertex);
-                if (one | rim[0]) & (other | rim[1]) >= 0 {
+                if (left | rim[0]) & (right | rim[1]) >= 0 {
                     near |= lane;
                 }
             }
@@ -123,20 +142,20 @@ impl GridLine {
 
     #[inline(never)]
     fn rim(&self, from: [i32; 3], to: [i32; 3]) -> [i32; 2] {
-        self.pencil(from).map_or([0; 2], |pencil| pencil.edge(to))
+        self.edge_function(from).map_or([0; 2], |edge_function| edge_function.edge(to))
     }
 }
 
-impl Pencil {
+impl EdgeFunction {
     /// The edge to a vertex, by two signs: the first is negative if the line is clear of the edge
-    /// to the one side, the second if it is to the other. A triangle is clear of the line if one
-    /// edge is clear to the one side, and one to the other.
+    /// on the left, the second if it is clear on the right.
     #[inline(always)]
     fn edge(&self, to: [i32; 3]) -> [i32; 2] {
         let [u, v, w] = self.from;
         let [x, y, z] = [to[0] - u, to[1] - v, to[2] - w];
         let [p, q, r] = self.weights;
         let area = p * x + q * y + r * z;
+        // At least the 1-norm: `x ^ x >> 31` is |x| or |x| − 1.
         let length = (x ^ x >> 31) + (y ^ y >> 31) + (z ^ z >> 31) + 3;
         let margin = self.margin * length;
         [margin - area, margin + area]

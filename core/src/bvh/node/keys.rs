@@ -11,7 +11,7 @@ pub const CHILD_MASK: u32 = WIDTH as u32 - 1;
 /// Key where a node has no child: above every bound.
 pub const NO_CHILD: u32 = 0x7F00_0000;
 
-/// Whether the target has vector registers, so that unwanted children cost nothing.
+/// Whether the target computes all eight children at once, in vector registers.
 pub const WIDE: bool = cfg!(any(target_arch = "x86_64", target_arch = "aarch64"));
 
 /// The least key. Its low bits hold the number of the nearest child.

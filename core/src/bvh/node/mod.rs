@@ -5,16 +5,29 @@
 //! for each axis. A point is brought into the frame once for each node. Then the test is the plain
 //! axis-aligned one, in integers. Segments have boxes of their own, which are axis-aligned.
 //!
+//! Along one axis of a frame, in key units:
+//!
+//! ```text
+//! byte 0 ─────────── low ═══ high ─────────── 255     low planes count up from byte 0,
+//!  first ──────────→ point ←────────────── last       high planes down from byte 255
+//!
+//! below  = low − first           > 0: the point lies before the box
+//! beyond = (255 − high) − last   > 0: the point lies behind the box
+//! ```
+//!
+//! At most one is positive. The sum of the squares over the axes is a lower bound of the squared
+//! distance.
+//!
 //! | file | owns |
 //! | --- | --- |
-//! | `keys` | a child's bound with its number in the low bits |
-//! | `frame` | [`KeyPoint`], a point that is prepared for frames |
+//! | `keys` | a child's bound with its number in the low bits; the target's vector flag, least key, places on the stack |
+//! | `frame` | [`KeyPoint`], a point that is prepared for frames; units and rounding constants of the point test |
 //! | `grid_line` | [`GridLine`], a segment's line in integers, for targets without an FPU |
-//! | `box_distances` | a point against eight boxes |
-//! | `box_lanes` | the same in vector registers, frame included |
-//! | `axis_place` | `AxisPlace`, a point along one axis of a frame, where there are no vectors |
-//! | `pairs` | a point against eight boxes there, two children in a word |
-//! | `box_entries` | [`Slabs`], a segment prepared for the test; a segment against eight boxes |
+//! | `box_distances` | a point against eight boxes: the choice between `box_lanes` and `two_in_word` |
+//! | `box_lanes` | a point against eight boxes, in vector registers, frame included |
+//! | `axis_place` | `AxisPlace`, a point along one axis of a frame, on targets without vector registers |
+//! | `two_in_word` | a point against eight boxes, on targets without vector registers |
+//! | `box_entries` | [`SlabRay`], a segment prepared for the test; a segment against eight boxes |
 
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 mod axis_place;
@@ -25,13 +38,13 @@ mod box_lanes;
 mod frame;
 mod grid_line;
 mod keys;
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
-mod pairs;
 #[cfg(test)]
 mod tests;
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+mod two_in_word;
 
 pub use box_distances::box_distances;
-pub use box_entries::{Slabs, box_entries};
+pub use box_entries::{SlabRay, box_entries};
 pub use frame::KeyPoint;
 pub use grid_line::GridLine;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]

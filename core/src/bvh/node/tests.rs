@@ -1,10 +1,10 @@
 //! Both forms of a node's test give the same children the same keys.
 
-use super::box_entries::Slabs;
+use super::box_entries::SlabRay;
 use super::frame::KeyPoint;
 use super::keys::NO_CHILD;
-use super::{box_entries, box_lanes, pairs};
-use crate::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES};
+use super::{box_entries, box_lanes, two_in_word};
+use crate::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES, ROW_BITS, boxes};
 use crate::geom::fan::WIDTH;
 use glam::Vec3;
 
@@ -63,15 +63,15 @@ fn random_frame(noise: &mut Noise, count: usize) -> [u8; FRAME_BYTES] {
     let mut planes = noise.planes(count);
     // High planes are counted down.
     planes.iter_mut().skip(1).step_by(2).flatten().for_each(|byte| *byte = 255 - *byte);
-    record[..48].copy_from_slice(planes.as_flattened());
-    for entry in record[48..66].chunks_mut(2) {
+    record[..boxes::FRAME_ROWS].copy_from_slice(planes.as_flattened());
+    for entry in record[boxes::FRAME_ROWS..boxes::FRAME_ORIGIN].chunks_mut(2) {
         let whole = noise.unit() * 4_700.0;
         entry.copy_from_slice(&(whole as i16).to_le_bytes());
     }
-    for x in record[66..72].chunks_mut(2) {
+    for x in record[boxes::FRAME_ORIGIN..boxes::FRAME_EXPONENTS].chunks_mut(2) {
         x.copy_from_slice(&(noise.below(65_536) as u16).to_le_bytes());
     }
-    record[72..75].fill_with(|| noise.below(10) as u8);
+    record[boxes::FRAME_EXPONENTS..][..3].fill_with(|| noise.below(10) as u8);
     record
 }
 
@@ -83,7 +83,7 @@ fn distances_have_the_same_bits() {
         let mut record = random_frame(&mut noise, count);
         if noise.below(4) == 0 {
             // Planes out of order, as no builder writes them.
-            record[..48].fill_with(|| noise.bits() as u8);
+            record[..boxes::FRAME_ROWS].fill_with(|| noise.bits() as u8);
         }
         let away = 2f32.powi(noise.below(30) as i32);
         for size in [away, 30_000.0, 1e-3] {
@@ -93,7 +93,7 @@ fn distances_have_the_same_bits() {
             for parent in [0, 1 << noise.below(31)] {
                 let [mut wide, mut narrow] = [[0; WIDTH]; 2];
                 box_lanes::keys(&record, &point, count as u32, parent, &mut wide);
-                pairs::keys(&record, &point, count as u32, parent, &mut narrow);
+                two_in_word::keys(&record, &point, count as u32, parent, &mut narrow);
                 let used = |keys: [u32; WIDTH]| keys.map(|key| key.min(NO_CHILD));
                 assert_eq!(used(wide), used(narrow), "{point:?}, {count} of {record:?}");
             }
@@ -105,20 +105,23 @@ fn distances_have_the_same_bits() {
 fn exact_distance(
     record: &[u8; FRAME_BYTES],
     p: [f64; 3],
-    unit: u32,
+    unit_exponent: u32,
     axis: usize,
     lane: usize,
 ) -> f64 {
     let entry = |k: usize| {
-        let at = 48 + 2 * (3 * axis + k);
-        f64::from(i16::from_le_bytes([record[at], record[at + 1]])) / 8192.0
+        let at = boxes::FRAME_ROWS + 2 * (3 * axis + k);
+        f64::from(i16::from_le_bytes([record[at], record[at + 1]])) / f64::from(1 << ROW_BITS)
     };
-    let origin = |k: usize| f64::from(u16::from_le_bytes([record[66 + 2 * k], record[67 + 2 * k]]));
+    let origin = |k: usize| {
+        let at = boxes::FRAME_ORIGIN + 2 * k;
+        f64::from(u16::from_le_bytes([record[at], record[at + 1]]))
+    };
     let at: f64 = (0..3).map(|k| entry(k) * (p[k] - origin(k))).sum();
-    let step = 2f64.powi(i32::from(record[72 + axis]));
+    let step = 2f64.powi(i32::from(record[boxes::FRAME_EXPONENTS + axis]));
     let low = (f64::from(record[16 * axis + lane]) - 128.0) * step;
     let high = (127.0 - f64::from(record[16 * axis + 8 + lane])) * step;
-    (low - at).max(at - high).max(0.0) / 2f64.powi(unit.cast_signed())
+    (low - at).max(at - high).max(0.0) / 2f64.powi(unit_exponent.cast_signed())
 }
 
 #[test]
@@ -135,7 +138,13 @@ fn no_key_is_above_the_exact_distance_and_few_are_far_below() {
         box_lanes::keys(&record, &point, 8, 0, &mut keys);
         for (lane, key) in keys.into_iter().enumerate() {
             let exact: [f64; 3] = core::array::from_fn(|axis| {
-                exact_distance(&record, p.to_array().map(f64::from), point.unit(), axis, lane)
+                exact_distance(
+                    &record,
+                    p.to_array().map(f64::from),
+                    point.unit_exponent(),
+                    axis,
+                    lane,
+                )
             });
             let square: f64 = exact.iter().map(|x| x * x).sum();
             assert!(f64::from(key & !7) <= square / 2.0, "{key} {square}: {p}, {record:?}");
@@ -156,30 +165,30 @@ fn entries_have_the_same_bits() {
     for _ in 0..100_000 {
         let count = 1 + noise.below(8) as usize;
         let mut record = [0u8; BOXES_BYTES];
-        record[..48].copy_from_slice(noise.planes(count).as_flattened());
+        record[..boxes::ORIGIN].copy_from_slice(noise.planes(count).as_flattened());
         let steps = [(); 3].map(|()| 2f32.powi(noise.below(12) as i32 - 4));
         let origin = noise.vector(100.0);
-        put(&mut record, 48, &origin);
-        put(&mut record, 60, &steps);
+        put(&mut record, boxes::ORIGIN, &origin);
+        put(&mut record, boxes::STEPS, &steps);
         let size = 2f32.powi(noise.below(16) as i32);
         let (from, direction) = (noise.vector(size), noise.vector(2.0 * size));
         let still = crate::num::tolerance::STILL;
         let inverse = direction.map(|d| 1.0 / if d.abs() > still { d } else { still.copysign(d) });
         let margin = [[1e-6; 3], [1.0; 3], [1e3; 3]][noise.below(3) as usize];
-        let slabs = Slabs::new(from, inverse, margin);
+        let ray = SlabRay::new(from, inverse, margin);
         for (bound, limit) in [(0.0, 1.0), (0.25, 1.0), (0.0, 0.5), (0.5, 0.25), (1.0, 1.0)] {
-            let sides = box_entries::SlabPlanes::of(&record, &slabs).expect("long enough");
+            let sides = box_entries::SlabPlanes::of(&record, &ray).expect("long enough");
             let wide = box_entries::wide(&sides, count as u32, bound, limit);
             let narrow = box_entries::narrow(&sides, count as u32, bound, limit);
             for (lane, (wide, narrow)) in wide.into_iter().zip(narrow).enumerate() {
                 if narrow < NO_CHILD {
                     entered += 1;
-                    assert_eq!(wide, narrow, "{slabs:?}, {count} of {record:?}");
+                    assert_eq!(wide, narrow, "{ray:?}, {count} of {record:?}");
                     assert_eq!(narrow & 7, lane as u32);
                 } else {
                     missed += 1;
                     // A key that is not a number would hide its siblings.
-                    assert!(wide >= NO_CHILD, "{wide}: {slabs:?}, {record:?}");
+                    assert!(wide >= NO_CHILD, "{wide}: {ray:?}, {record:?}");
                 }
             }
         }

@@ -1,11 +1,11 @@
-//! A point against eight boxes on processors without vector registers: two children in each half
-//! of a 32-bit word.
+//! A point against eight boxes on processors without vector registers: two children in a 32-bit
+//! word, one in each half.
 //!
 //! A plane's place has fifteen bits. The sixteenth is set before a subtraction, and stays set where
 //! the difference is not negative: no half borrows from the other.
 
 use super::axis_place::AxisPlace;
-use super::frame::KeyPoint;
+use super::frame::{KeyPoint, MAX_DISTANCE};
 use super::keys::{CHILD_MASK, NO_CHILD};
 use crate::bvh::format::layout::{FRAME_BYTES, boxes};
 use crate::geom::fan::WIDTH;
@@ -16,7 +16,7 @@ const HIGH: u32 = 0x8000_8000;
 /// A word with a number in both halves. A negative number borrows from the upper half, and the sum
 /// with a greater number pays it back.
 #[inline(always)]
-fn in_both(x: i32) -> u32 {
+fn splat_halves(x: i32) -> u32 {
     x.wrapping_mul(0x0001_0001).cast_unsigned()
 }
 
@@ -26,8 +26,9 @@ struct AxisPlanes {
     shift: u32,
     /// The bits of a place in both halves.
     places: u32,
-    /// Added to places: [`HIGH`], less the point's own place from the first and from the last
-    /// plane. Of a point outside the node, from the plane on its side, without [`HIGH`].
+    /// Added to places: [`HIGH`] minus the point's place, for the low and the high planes. If the
+    /// point lies before or behind all children, only that side is used and no borrow bit is
+    /// needed.
     less_point: [u32; 2],
     side: Side,
 }
@@ -47,27 +48,27 @@ impl AxisPlanes {
 
     /// A call, because three copies would not fit the registers.
     #[inline(never)]
-    fn set(&mut self, row: &[[u8; 2]; 3], from_origin: &[i32; 3], exponent: u8, unit: u32) {
-        let AxisPlace { from, shift } = AxisPlace::of(row, *from_origin, exponent, unit);
+    fn set(&mut self, row: &[[u8; 2]; 3], offset: &[i32; 3], exponent: u8, unit_exponent: u32) {
+        let AxisPlace { from, shift } = AxisPlace::of(row, *offset, exponent, unit_exponent);
         let less_point = from.map(|from| {
-            // A plane is never beyond this, so a greater number would say no more.
-            let most = i32::from(i16::MAX);
-            HIGH.wrapping_sub(in_both(if from < most { from } else { most }))
+            // No plane is beyond the greatest distance, so a greater number would say no more.
+            HIGH.wrapping_sub(splat_halves(if from < MAX_DISTANCE { from } else { MAX_DISTANCE }))
         });
-        let places = in_both(0xFF00 >> shift);
+        let places = splat_halves(0xFF00 >> shift);
         let [first, last] = from;
         let (side, less_point) = if first <= 0 {
-            (Side::Before, [0u32.wrapping_sub(in_both(first)), 0])
+            (Side::Before, [0u32.wrapping_sub(splat_halves(first)), 0])
         } else if last <= 0 {
-            (Side::Behind, [0, 0u32.wrapping_sub(in_both(last))])
+            (Side::Behind, [0, 0u32.wrapping_sub(splat_halves(last))])
         } else {
             (Side::Within, less_point)
         };
         *self = AxisPlanes { shift, places, less_point, side };
     }
 
+    /// The planes less the point. `bytes` are the upper ones of each half.
     #[inline(always)]
-    fn less(&self, bytes: u32, less_point: u32) -> u32 {
+    fn differences(&self, bytes: u32, less_point: u32) -> u32 {
         (bytes >> (self.shift & 15) & self.places).wrapping_add(less_point)
     }
 
@@ -75,7 +76,7 @@ impl AxisPlanes {
     /// half.
     #[inline(always)]
     fn above_zero(&self, bytes: u32, less_point: u32) -> u32 {
-        let difference = self.less(bytes, less_point);
+        let difference = self.differences(bytes, less_point);
         let above = difference & HIGH;
         difference & above.wrapping_sub(above >> 15)
     }
@@ -93,27 +94,28 @@ fn add_squares(sums: &mut [u32; 2], halves: u32) {
 /// the loop over the axes, unrolled, would not fit the registers.
 #[inline(never)]
 fn keys_of_four(planes: &[u8], axes: &[AxisPlanes], parent: u32, child: u32, keys: &mut [u32; 4]) {
-    let (mut odd, mut even) = ([0u32; 2], [0u32; 2]);
+    let (mut even, mut odd) = ([0u32; 2], [0u32; 2]);
     let mut rest = planes;
     for axis in axes {
         let Some((row, next)) = rest.split_first_chunk::<{ 2 * WIDTH }>() else { break };
         let (words, _) = row.as_chunks::<4>();
         let (first, last) = (u32::from_le_bytes(words[0]), u32::from_le_bytes(words[2]));
         let [below, beyond] = axis.less_point;
-        let [one, other] = match axis.side {
-            Side::Before => [axis.less(first << 8, below), axis.less(first, below)],
-            Side::Behind => [axis.less(last << 8, beyond), axis.less(last, beyond)],
+        // `first << 8` brings bytes 0 and 2 to the upper bytes of the halves.
+        let [of_even, of_odd] = match axis.side {
+            Side::Before => [axis.differences(first << 8, below), axis.differences(first, below)],
+            Side::Behind => [axis.differences(last << 8, beyond), axis.differences(last, beyond)],
             // Of a box whose planes are in order at most one of both is above 0.
             Side::Within => [
                 axis.above_zero(first << 8, below) | axis.above_zero(last << 8, beyond),
                 axis.above_zero(first, below) | axis.above_zero(last, beyond),
             ],
         };
-        add_squares(&mut odd, one);
-        add_squares(&mut even, other);
+        add_squares(&mut even, of_even);
+        add_squares(&mut odd, of_odd);
         rest = next;
     }
-    let sums = [odd[0], even[0], odd[1], even[1]];
+    let sums = [even[0], odd[0], even[1], odd[1]];
     for ((slot, sum), child) in keys.iter_mut().zip(sums).zip(child..) {
         let half = sum >> 1;
         *slot = (if half > parent { half } else { parent }) & !CHILD_MASK | child;
@@ -132,15 +134,16 @@ pub(super) fn keys(
     let mut axes = [AxisPlanes::NONE; 3];
     let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
     let (rows, _) = entries.as_chunks::<3>();
-    let from_origin = p.from_origin(record);
+    let offset = p.relative_to_origin(record);
     for ((axis, row), exponent) in axes.iter_mut().zip(rows).zip(&record[boxes::FRAME_EXPONENTS..])
     {
-        axis.set(row, &from_origin, *exponent, p.unit());
+        axis.set(row, &offset, *exponent, p.unit_exponent());
     }
     let (fours, _) = keys.as_chunks_mut::<4>();
     for (half, four) in fours.iter_mut().enumerate() {
         let planes = record.get(4 * half..).unwrap_or_default();
-        // The last row of the second half ends in the matrix.
+        // Rows of children 4–7 start four bytes later, so the last slice reads four matrix bytes.
+        // They are not used.
         keys_of_four(planes, &axes, parent, 4 * half as u32, four);
     }
     for unused in keys.iter_mut().skip(count as usize) {
