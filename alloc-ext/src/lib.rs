@@ -23,7 +23,7 @@
 //! | [`cut`] | a coarser blob out of a finer one |
 //!
 //! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `surface` ←
-//! `{collapse, bvh, hausdorff}` ← `{hull, tight, tribox, curve}` ← `cut` ← the program. A test
+//! `{collapse, bvh}` ← `hausdorff` ← `{hull, tight, tribox, curve}` ← `cut` ← the program. A test
 //! keeps that (`host-tests/tests/house.rs`).
 
 pub mod bvh;

@@ -46,7 +46,7 @@ const BUILDER: [(&str, &[&str]); 15] = [
     ("surface", &["counted", "error", "lp", "mesh"]),
     ("collapse", &["counted", "lp", "mesh", "surface"]),
     ("bvh", &["counted", "emit", "error", "lp", "mesh", "surface"]),
-    ("hausdorff", &["counted", "lp", "mesh", "surface"]),
+    ("hausdorff", &["bvh", "error", "mesh"]),
     ("hull", BENEATH),
     ("tight", BENEATH),
     ("tribox", BENEATH),

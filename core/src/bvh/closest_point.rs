@@ -1,13 +1,11 @@
 //! The closest point, with an interval of the distance.
 
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
-use super::leaf_distance::{
-    Lanes, LeafLimit, LeafNearest, lanes_of, nearest_triangle, nearest_within,
-};
+use super::leaf_distance::{Lanes, LeafLimit, LeafNearest, nearest_triangle, nearest_within};
 use super::leaf_plane::LeafPlane;
 use super::point_query::{EVERY_KEY, PointQuery};
 use super::triangle_bounds::{nearness, refine_sliver, seen_from};
-use crate::bvh::format::{Bvh, FanLeaf, at_least, at_most};
+use crate::bvh::format::{Bvh, FanLeaf, at_least, at_most, lanes_of};
 use crate::geom::fan::lower_bound;
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
 use crate::num::{SOFT_FLOAT, greater, sqrt_approx};

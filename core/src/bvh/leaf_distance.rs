@@ -84,17 +84,6 @@ impl LeafNearest {
     }
 }
 
-/// Numbers of the triangles whose bits are ones.
-#[inline(always)]
-pub(crate) fn lanes_of(bits: u32) -> impl Iterator<Item = usize> {
-    let mut left = bits & 0xFF;
-    core::iter::from_fn(move || {
-        let lane = (left != 0).then(|| left.trailing_zeros() as usize);
-        left &= left.wrapping_sub(1);
-        lane
-    })
-}
-
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod wide {
     use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, PointQuery};

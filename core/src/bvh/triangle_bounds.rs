@@ -1,8 +1,7 @@
 //! Bounds of single triangles of a leaf, for questions that look at triangles one by one.
 
-use super::leaf_distance::lanes_of;
 use super::point_query::PointQuery;
-use crate::bvh::format::FanLeaf;
+use crate::bvh::format::{FanLeaf, lanes_of};
 use crate::geom::fan::{Nearness, PointFan, lone_triangle, lower_bound, refined};
 use crate::num::sqrt_approx;
 use crate::num::tolerance::{CERTIFIED_PART, EVERYTHING_SQ, LEAST_LIMIT};

@@ -60,6 +60,17 @@ impl LeafShape {
     }
 }
 
+/// Numbers of the triangles whose bits are ones.
+#[inline(always)]
+pub fn lanes_of(bits: u32) -> impl Iterator<Item = usize> {
+    let mut left = bits & 0xFF;
+    core::iter::from_fn(move || {
+        let lane = (left != 0).then(|| left.trailing_zeros() as usize);
+        left &= left.wrapping_sub(1);
+        lane
+    })
+}
+
 /// A leaf: one or two fans.
 #[derive(Clone, Copy, Debug)]
 pub struct FanLeaf<'a> {
