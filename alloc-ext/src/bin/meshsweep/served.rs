@@ -273,7 +273,7 @@ mod tests {
     use crate::args;
 
     /// Commands that ask a blob nothing: they take a mesh, or print what a blob holds.
-    const OTHERS: [&str; 3] = ["build", "info", "tribox"];
+    const OTHERS: [&str; 4] = ["build", "hausdorff", "info", "tribox"];
 
     #[test]
     fn every_command_that_asks_a_blob_has_a_row() {
