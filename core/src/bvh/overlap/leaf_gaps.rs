@@ -63,6 +63,9 @@ impl LeafGaps<'_> {
             reach * reach * GAP_SLACK
         };
         let mut limit_sq = reach_sq(visitor);
+        if !may_be_near(self.way, limit_sq, &pair) {
+            return Some(true);
+        }
         let mut keys = keys(&pair, limit_sq)?;
         skip_along(&mut keys, self.way, limit_sq, &pair);
         work.triangles =
@@ -168,6 +171,17 @@ fn skip_along(keys: &mut PairKeys, way: [f32; 3], limit_sq: f32, pair: &LeafPair
     }
 }
 
+/// Whether the leaves as a whole are within the limit along `way`.
+#[inline(always)]
+fn may_be_near(way: [f32; 3], limit_sq: f32, pair: &LeafPair<'_>) -> bool {
+    let [x, y, z] = way;
+    let way_sq = x * x + y * y + z * z;
+    let top = vertex_heights(&pair.a, way).into_iter().fold(f32::MIN, greater);
+    let low = vertex_heights(&pair.b, way).into_iter().fold(f32::MAX, lesser);
+    let gap = greater(0.0, low - top);
+    way_sq < LEAST_GAP_SQ || gap * gap * SQUARED_SLACK <= limit_sq * way_sq
+}
+
 /// Triangles along a direction.
 struct Heights {
     low: [f32; WIDTH],
@@ -175,12 +189,18 @@ struct Heights {
 }
 
 #[inline(always)]
-fn heights(corners: &Corners, [a, b, c]: [f32; 3]) -> Heights {
+fn vertex_heights(corners: &Corners, [a, b, c]: [f32; 3]) -> [f32; SLOTS] {
     let [x, y, z] = &corners.at;
     let mut at = [0f32; SLOTS];
     for i in 0..SLOTS {
         at[i] = a * x[i] + b * y[i] + c * z[i];
     }
+    at
+}
+
+#[inline(always)]
+fn heights(corners: &Corners, way: [f32; 3]) -> Heights {
+    let at = vertex_heights(corners, way);
     let mut heights = Heights { low: [0.0; WIDTH], high: [0.0; WIDTH] };
     for (i, (low, high)) in heights.low.iter_mut().zip(&mut heights.high).enumerate() {
         let [p, q, r] = corners.slots(i).map(|slot| at.get(slot).copied().unwrap_or(0.0));
