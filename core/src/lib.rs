@@ -27,6 +27,7 @@
 //! | inside or outside | [`Bvh::signed_distance`] |
 //! | segments | [`Bvh::first_hit`], [`Bvh::any_hit`], [`Bvh::all_hits`] |
 //! | do two meshes meet | [`Bvh::overlap`], [`Bvh::overlaps`] |
+//! | how far are two meshes from each other; is one within a distance of the other | [`Bvh::distance`], [`Bvh::within_of`] |
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
 //! | the same, bounded by a tight hull of few faces | [`TightHull::closest_point`], [`TightHull::within`] |
 //! | are two models apart; bounds without triangles | [`Triboxes::separation`], [`Triboxes::distance`], [`Triboxes::clip`] |
@@ -93,8 +94,9 @@ pub use hull::{
     OuterHits, RefinedHull, Refinement, Search, Sweep, TriangleOverlap,
 };
 pub use query::{
-    AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Overlap, Overlaps, PosedPoint,
-    QueryError, Scratch, ScratchEntry, Side, TrianglePair, Undecided, Verdict, Work,
+    AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Overlap, Overlaps, PairDistance,
+    PairWithin, PosedPoint, QueryError, Scratch, ScratchEntry, Side, TrianglePair, Undecided,
+    Verdict, Work,
 };
 pub use tight::{TightHull, TightHulls, TightRecord};
 pub use tribox::{

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod build;
+mod clearance;
 mod cull;
 mod curve;
 mod deform;

@@ -10,6 +10,7 @@ mod segment_triangle;
 mod support;
 mod swept_pair;
 mod swept_triangle;
+mod triangle_distance;
 mod triangle_pair;
 
 pub use boxes::{Aabb, Clipped};
@@ -21,6 +22,7 @@ pub use segment_triangle::{SegmentTriangle, comes_within, segment_triangle};
 pub use support::Support;
 pub use swept_pair::SweptTriangle;
 pub use swept_triangle::{SweptPoint, SweptSegment, direction_bound};
+pub use triangle_distance::{TriangleDistance, crossing, triangle_distance};
 pub use triangle_pair::{
     Contact, Real, determinant_margin, straddling_triangles_meet, triangles_meet,
 };

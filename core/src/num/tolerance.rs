@@ -253,6 +253,38 @@ pub const OVERLAP_FARTHEST: f64 = (1u64 << 30) as f64;
 /// 2^30 (§11). A shorter direction separates nothing.
 pub const OVERLAP_UNDERFLOW: f64 = 1.0 / (1u128 << 100) as f64;
 
+// Box tree, distance of two trees, in units of the coarser grid
+
+/// Rounding of the distance of two triangles in f64, in units of [`U64`] times the sum of the
+/// largest 1-norms of their vertices. Proved: 17.5 (§18). A larger value widens the interval, which
+/// at 32 is far below one unit of f32.
+pub const TRIANGLE_DISTANCE: f64 = 32.0;
+
+/// Part of the length of a way that the gap along it must have before the search for nearer points
+/// of two triangles ends, 1 − 2^-30. A smaller value ends earlier and widens the interval.
+pub const GAP_SETTLED: f64 = 1.0 - 1.0 / (1u64 << 30) as f64;
+
+/// Squared length below which a direction in f64 is not trusted, so that no product that decides
+/// underflows (§18). It bounds nothing then, which is always true.
+pub const GAP_DIRECTION_SQ: f64 = 1e-270;
+
+/// Rounding of the gap of two triangles along a direction in f32, in units of [`U32`] times the sum
+/// of the largest 1-norms of their vertices. Proved: 7.5 (§18). A larger value computes a few more
+/// distances.
+pub const GAP_ALONG: f32 = 16.0;
+
+/// Squared gaps and limits carry less than eight roundings each. This factor on a limit keeps their
+/// comparison on the safe side (§18).
+pub const GAP_SLACK: f32 = 1.0 + 16.0 * U32;
+
+/// Squared bound of a pair of boxes below which the bound counts as 0, 2^-100: the terms of a
+/// larger one lost nothing that matters by underflow (§18).
+pub const LEAST_GAP_SQ: f32 = SQUARE_FLOOR;
+
+/// Least stretch of a matrix for which gaps along its columns bound a distance, 2^-10. A flatter
+/// matrix leaves the gaps along the first model's axes.
+pub const LEAST_STRETCH: f64 = 1.0 / 1024.0;
+
 // Box tree, coherent queries
 
 /// Squared sine of the angle between the spokes of a triangle below which the triangle counts as a

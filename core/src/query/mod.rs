@@ -9,6 +9,7 @@
 //! | `hits` | [`Hit`], [`FirstHit`], [`AllHits`], and the caller's slice of hits |
 //! | `posed_point` | [`PosedPoint`]: a point in the frame of a moved model |
 //! | `overlap` | [`Overlap`], [`Overlaps`], [`TrianglePair`], and what collects pairs |
+//! | `pair_distance` | [`PairDistance`], [`PairWithin`]: how far two surfaces are apart |
 //! | `relative_pose` | the pose of one model in the frame of another, and the rounding in it |
 //! | `work` | [`Work`]: counters |
 //! | `error` | [`QueryError`]: why a query was refused |
@@ -21,6 +22,7 @@ mod error;
 mod frame;
 mod hits;
 mod overlap;
+mod pair_distance;
 mod posed_point;
 mod relative_pose;
 mod scratch;
@@ -36,8 +38,9 @@ pub(crate) use hits::Hits;
 pub use hits::{AllHits, FirstHit, Hit};
 pub(crate) use overlap::{AllPairs, FirstPair, PairVisitor};
 pub use overlap::{Overlap, Overlaps, TrianglePair};
+pub use pair_distance::{PairDistance, PairWithin};
 pub use posed_point::PosedPoint;
-pub(crate) use relative_pose::{DIRECTIONS, Extended, ModelFrame, RelativePose};
+pub(crate) use relative_pose::{DIRECTIONS, Extended, ModelFrame, Placement, RelativePose};
 pub use scratch::{Scratch, ScratchEntry};
 pub(crate) use sweep_queue::{SweepQueue, Taken, before};
 pub use verdict::{Side, Undecided, Verdict};

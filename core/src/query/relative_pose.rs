@@ -64,6 +64,16 @@ pub(crate) struct RelativePose {
     pub(crate) longest: f64,
 }
 
+/// Two models in one frame, at whatever distance.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placement {
+    pub(crate) pose: RelativePose,
+    /// Proved: nothing of one model meets the other.
+    pub(crate) is_apart: bool,
+    /// The numbers are small enough for f32.
+    pub(crate) is_in_range: bool,
+}
+
 fn dot([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
     (a * x + b * y) + c * z
 }
@@ -84,6 +94,16 @@ impl RelativePose {
         b: &Extended,
         pose: &Pose,
     ) -> Result<Option<RelativePose>, QueryError> {
+        let Placement { pose, is_apart, is_in_range } = RelativePose::place(a, b, pose)?;
+        if is_apart {
+            return Ok(None);
+        }
+        if is_in_range { Ok(Some(pose)) } else { Err(QueryError::PoseOutOfDomain) }
+    }
+
+    /// The pose, also of models that are far from each other.
+    #[inline(always)]
+    pub(crate) fn place(a: &Extended, b: &Extended, pose: &Pose) -> Result<Placement, QueryError> {
         let entries = || pose.rotation.iter().flatten();
         if !entries().chain(&pose.translation).all(|x| x.is_finite()) {
             return Err(QueryError::NotFinite);
@@ -134,20 +154,16 @@ impl RelativePose {
         let errors = error_a + error_b;
         let rounded = OVERLAP_VERTEX * U64 * far;
         let mut grow = [0f32; DIRECTIONS];
+        let mut is_apart = false;
         for (((grow, d), row), away) in grow.iter_mut().zip(directions).zip(back).zip(away) {
             let both = most(d, extent_a) + most(row, extent_b);
             let error = (errors + rounded) * libm::sqrt(dot(d, d)) + OVERLAP_UNDERFLOW;
-            if away.abs() * (1.0 - 64.0 * U64) > both + error {
-                return Ok(None);
-            }
+            is_apart |= away.abs() * (1.0 - 64.0 * U64) > both + error;
             *grow = ((both + away.abs()) * (OVERLAP_INTERVAL * f64::from(U32)) + error) as f32
                 * (1.0 + 2.0 * U32);
         }
         // NaN is out of range too.
         let is_in_range = far + errors <= OVERLAP_FARTHEST;
-        if !is_in_range {
-            return Err(QueryError::PoseOutOfDomain);
-        }
         let narrow = |v: [f64; 3]| v.map(|x| x as f32);
         let first = ModelFrame {
             rows: directions.map(|d| narrow(d.map(|x| x * unit_a))),
@@ -165,7 +181,7 @@ impl RelativePose {
         };
         let larger = greater(error_b, error_a);
         let rounded_f32 = OVERLAP_VERTEX * f64::from(U32) * near;
-        Ok(Some(RelativePose {
+        let pose = RelativePose {
             frames: [first, second],
             matrix: rotation.map(|row| narrow(row.map(|x| x * unit_b))),
             shift: narrow(shift_exact),
@@ -174,7 +190,8 @@ impl RelativePose {
             vertex_error_exact: larger + rounded,
             rounding: [rounded_f32, rounded],
             longest,
-        }))
+        };
+        Ok(Placement { pose, is_apart, is_in_range })
     }
 }
 

@@ -143,8 +143,8 @@ impl Asker {
         }
     }
 
-    /// Whether two trees meet, and where, in at most so many steps: every pair of nodes may have to
-    /// be opened.
+    /// Whether two trees meet, and where, and how far apart they are, in at most so many steps: every
+    /// pair of nodes may have to be opened.
     ///
     /// # Panics
     /// If an answer is out of range or took too long.
@@ -171,6 +171,19 @@ impl Asker {
             assert!(answer.work.splits <= steps, "{answer:?}");
             assert!(answer.dropped == 0 || answer.stored == pairs.len(), "{answer:?}");
             pairs[..answer.stored].iter().for_each(|pair| in_range(pair.triangles));
+        }
+        let budget = Budget::EXACT.with_steps(steps);
+        if let Some(answer) = answered(a.distance(b, *pose, budget, &mut stack)) {
+            assert!(answer.work.splits <= steps, "{answer:?}");
+            in_range(answer.triangles);
+            assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
+            assert!(answer.points.iter().flatten().all(|x| x.is_finite()), "{answer:?}");
+            let half = 0.5 * answer.distance.lower;
+            if let Some(answer) = answered(a.within_of(b, *pose, half, budget, &mut stack)) {
+                assert!(answer.work.splits <= steps, "{answer:?}");
+                assert!(half == 0.0 || answer.verdict != Verdict::Yes, "{answer:?}");
+                answer.triangles.into_iter().for_each(in_range);
+            }
         }
     }
 

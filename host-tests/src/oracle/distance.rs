@@ -52,7 +52,7 @@ pub fn distance_to_moved_mesh(
     })
 }
 
-fn distance_between(p: &Vector, [a, b, c]: &[Vector; 3]) -> Bounded {
+pub(super) fn distance_between(p: &Vector, [a, b, c]: &[Vector; 3]) -> Bounded {
     let size = p.minus(a).norm_1() + b.minus(a).norm_1() + c.minus(a).norm_1();
     let normal = b.minus(a).cross(&c.minus(a));
     let squared = normal.dot(&normal);

@@ -1,5 +1,6 @@
 //! Slow, exact answers that share no code with what they check.
 
+mod between;
 mod distance;
 mod double;
 pub(crate) mod dyadic;
@@ -11,6 +12,7 @@ mod segment;
 pub(crate) mod vector;
 mod winding;
 
+pub use between::{distance_of_meshes, distance_of_moved_triangles};
 pub use distance::{
     Bounded, distance_to_mesh, distance_to_moved_mesh, distance_to_triangle, rough_distance_sq,
 };

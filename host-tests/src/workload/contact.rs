@@ -3,8 +3,8 @@
 use glam::DVec3;
 use meshsweep_core::Pose as CorePose;
 
-use crate::oracle::meets;
 use crate::oracle::moved::{self, Place};
+use crate::oracle::{Bounded, distance_of_moved_triangles as distance_of_triangles, meets};
 
 use super::Subject;
 use super::pose::Pose;
@@ -75,6 +75,44 @@ impl<'a> Surface<'a> {
             let second = self.corners(b).map(|p| Place::moved(p, &core.rotation, core.translation));
             moved::triangles_meet(first.each_ref(), second.each_ref())
         })
+    }
+
+    /// The distance of the mesh and its moved copy if it is at most `limit`, in 106 bits; else
+    /// infinite. Every number of `core` is exact, and `pose` is the same motion up to rounding.
+    /// Meshes that meet may give any number.
+    #[must_use]
+    pub fn distance_up_to(&self, core: &CorePose, pose: &Pose, limit: f64) -> Bounded {
+        let grown = DVec3::splat(GROWN * (self.size + pose.shift.length()));
+        let moved: Vec<[DVec3; 2]> =
+            self.nodes.iter().map(|node| moved_box([node.low, node.high], pose, grown)).collect();
+        let mut best = Bounded { lower: f64::INFINITY, upper: f64::INFINITY };
+        let mut stack = vec![(0, 0)];
+        while let Some((i, j)) = stack.pop() {
+            let (a, b) = (&self.nodes[i], &self.nodes[j]);
+            if gap([a.low, a.high], moved[j]) > limit.min(best.upper) {
+                continue;
+            }
+            if a.children > 0 && (b.children == 0 || a.count >= b.count) {
+                stack.extend([(a.children, j), (a.children + 1, j)]);
+            } else if b.children > 0 {
+                stack.extend([(i, b.children), (i, b.children + 1)]);
+            } else {
+                let triangles = |node: &Node| &self.order[node.first..node.first + node.count];
+                for &second in triangles(b) {
+                    let box_of_second = moved_box(self.triangle_box(second), pose, grown);
+                    for &first in triangles(a) {
+                        if gap(self.triangle_box(first), box_of_second) > limit.min(best.upper) {
+                            continue;
+                        }
+                        let (p, q) = (self.corners(first), self.corners(second));
+                        let found = distance_of_triangles(p, q, &core.rotation, core.translation);
+                        best.lower = best.lower.min(found.lower);
+                        best.upper = best.upper.min(found.upper);
+                    }
+                }
+            }
+        }
+        best
     }
 
     /// Whether `test` holds for a triangle and a triangle of the moved copy whose boxes meet.
@@ -152,6 +190,11 @@ impl<'a> Surface<'a> {
 
 fn point(p: [f32; 3]) -> DVec3 {
     DVec3::from_array(p.map(f64::from))
+}
+
+/// Distance of two boxes of which one was grown by far more than rounding.
+fn gap([low, high]: [DVec3; 2], [from, to]: [DVec3; 2]) -> f64 {
+    (from - high).max(low - to).max(DVec3::ZERO).length()
 }
 
 /// The box about a moved box.

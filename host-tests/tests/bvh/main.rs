@@ -8,6 +8,7 @@ mod cull;
 mod distance;
 mod kernels;
 mod overlap;
+mod pair_distance;
 mod posed;
 mod refusals;
 mod segments;

@@ -11,8 +11,8 @@ mod refining;
 mod values;
 
 pub use asking::{
-    ClosestArgs, CullArgs, Engine, FieldArgs, NearestArgs, OverlapArgs, PointArgs, SearchArgs,
-    SegmentArgs, SignedArgs, WithinArgs,
+    ClearanceArgs, ClosestArgs, CullArgs, Engine, FieldArgs, MovedArgs, NearestArgs, OverlapArgs,
+    PointArgs, SearchArgs, SegmentArgs, SignedArgs, WithinArgs,
 };
 pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
 pub use building::{BuildArgs, CutArgs, FACES, HullServes, InfoArgs, StoredBits};
@@ -85,6 +85,12 @@ pub enum Command {
         mut_arg("queue", |queue| queue.help(explained::PAIRS))
     )]
     Overlap(OverlapArgs),
+    /// Distance interval and nearest points of two meshes, one of them moved, as CSV
+    #[command(
+        after_help = explained::clearance(),
+        mut_arg("queue", |queue| queue.help(explained::NODE_PAIRS))
+    )]
+    Clearance(ClearanceArgs),
     /// Hausdorff distance of two meshes: how far the farthest point of each is from the other
     #[command(after_help = explained::HAUSDORFF)]
     Hausdorff(HausdorffArgs),

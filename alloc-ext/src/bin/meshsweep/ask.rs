@@ -191,6 +191,14 @@ pub fn write_end(out: &mut dyn Write, triangle: Option<u32>, work: Work) -> io::
     writeln!(out, ",{}", work.total())
 }
 
+/// The last three columns of a pair: a triangle of each mesh, and the work.
+pub fn write_pair(out: &mut dyn Write, triangles: Option<[u32; 2]>, work: Work) -> io::Result<()> {
+    let [first, second] = triangles.map_or([None; 2], |pair| pair.map(Some));
+    first.map_or(Ok(()), |first| write!(out, "{first}"))?;
+    write!(out, ",")?;
+    write_end(out, second, work)
+}
+
 /// The last columns of a near triangle: interval, closest point, triangle, and the query's work.
 pub fn write_neighbor(out: &mut dyn Write, near: &Neighbor, work: Work) -> io::Result<()> {
     let (Interval { lower, upper }, [x, y, z]) = (near.distance(), near.point());

@@ -8,6 +8,7 @@
 //! | `mesh_file` | from a mesh file to a clean mesh, closed if a hull is wanted |
 //! | `blob_file`, `served` | opening a blob, and which questions it serves |
 //! | `queries` | points, segments and poses of arguments and files |
+//! | `poses` | poses of a second mesh, as quaternions or as matrices |
 //! | `ask` | one question about many queries, on several threads, answered as CSV |
 //! | `output` | files that are complete or not there, and pipes that close early |
 //! | `describe` | tables and JSON of sections, levels and memory |
@@ -27,6 +28,7 @@ mod args;
 mod ask;
 mod blob_file;
 mod build;
+mod clearance;
 mod closest;
 mod cull;
 mod curve;
@@ -44,6 +46,7 @@ mod nearest;
 mod number;
 mod output;
 mod overlap;
+mod poses;
 mod progress;
 mod queries;
 mod refine;
@@ -75,6 +78,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Nearest(args)) => nearest::run(&args),
         Some(Command::Signed(args)) => signed::run(&args),
         Some(Command::Overlap(args)) => overlap::run(&args),
+        Some(Command::Clearance(args)) => clearance::run(&args),
         Some(Command::Hausdorff(args)) => hausdorff::run(&args),
         Some(Command::Cull(args)) => cull::run(&args),
         Some(Command::Field(args)) => field::run(&args),

@@ -20,7 +20,7 @@ pub(crate) type PairPlace = [[u32; 3]; 2];
 
 /// The tree in grid units, from the grid's origin: vertices are stored without the origin, f32
 /// vertices with it. Each extent is one more, for boxes without extent.
-fn extended(tree: &Bvh<'_>) -> Extended {
+pub(super) fn extended(tree: &Bvh<'_>) -> Extended {
     let header = tree.header();
     let origin = if header.is_f32() { [0.0; 3] } else { header.grid_origin.map(f64::from) };
     let (low, high) = tree.grid_bounds();
@@ -156,16 +156,16 @@ fn without([low, high]: [u32; 2], [i, j]: [u32; 2]) -> [u32; 2] {
 }
 
 /// Two trees, one of them moved.
-struct Models<'a> {
-    a: &'a Bvh<'a>,
-    b: &'a Bvh<'a>,
-    pose: &'a RelativePose,
+pub(super) struct Models<'a> {
+    pub(super) a: &'a Bvh<'a>,
+    pub(super) b: &'a Bvh<'a>,
+    pub(super) pose: &'a RelativePose,
 }
 
 impl Models<'_> {
     /// Which of two children to open: both, unless one is a leaf or much smaller.
     #[inline(always)]
-    fn opened(&self, [first, second]: &[BvhChild; 2]) -> Option<[bool; 2]> {
+    pub(super) fn opened(&self, [first, second]: &[BvhChild; 2]) -> Option<[bool; 2]> {
         Some(match (first.is_leaf(), second.is_leaf()) {
             (false, false) => {
                 let [unit_a, unit_b] = [self.pose.frames[0].unit, self.pose.frames[1].unit];

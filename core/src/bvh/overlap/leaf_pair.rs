@@ -19,10 +19,10 @@ const RING: usize = 2;
 /// centre again.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Corners {
-    at: [[f32; SLOTS]; 3],
+    pub(super) at: [[f32; SLOTS]; 3],
     /// Vertices in use.
     used: usize,
-    triangles: usize,
+    pub(super) triangles: usize,
     turn: usize,
 }
 
@@ -48,7 +48,7 @@ impl Corners {
     }
 
     #[inline(always)]
-    fn slots(&self, triangle: usize) -> [usize; 3] {
+    pub(super) fn slots(&self, triangle: usize) -> [usize; 3] {
         [usize::from(triangle >= self.turn), RING + triangle, RING + 1 + triangle]
     }
 
@@ -62,7 +62,7 @@ impl Corners {
 
     /// Largest 1-norm.
     #[inline(always)]
-    fn max_norm(&self) -> f32 {
+    pub(super) fn max_norm(&self) -> f32 {
         let [x, y, z] = &self.at;
         let mut far = [0f32; SLOTS];
         for i in 0..SLOTS {
@@ -167,10 +167,10 @@ impl VertexSides {
     }
 }
 
-/// TriangleBoxes of a leaf's triangles.
-struct TriangleBoxes {
-    low: [[f32; WIDTH]; 3],
-    high: [[f32; WIDTH]; 3],
+/// Boxes of a leaf's triangles.
+pub(super) struct TriangleBoxes {
+    pub(super) low: [[f32; WIDTH]; 3],
+    pub(super) high: [[f32; WIDTH]; 3],
 }
 
 /// One box.
@@ -181,7 +181,7 @@ struct Extent {
 
 impl TriangleBoxes {
     #[inline(always)]
-    fn of(corners: &Corners) -> Option<TriangleBoxes> {
+    pub(super) fn of(corners: &Corners) -> Option<TriangleBoxes> {
         let first = LANES_BELOW.get(corners.turn)?;
         let mut boxes = TriangleBoxes { low: [[0.0; WIDTH]; 3], high: [[0.0; WIDTH]; 3] };
         for ((x, low), high) in corners.at.iter().zip(&mut boxes.low).zip(&mut boxes.high) {
@@ -247,8 +247,8 @@ fn blend(mask: u32, axis: &[f32; SLOTS]) -> f32 {
 pub(crate) struct LeafPair<'a> {
     pose: &'a RelativePose,
     leaves: [FanLeaf<'a>; 2],
-    a: Corners,
-    b: Corners,
+    pub(super) a: Corners,
+    pub(super) b: Corners,
     /// On which sides of the second leaf's planes the first leaf's vertices lie, and the reverse.
     sides: [VertexSides; 2],
 }
@@ -360,7 +360,15 @@ impl<'a> LeafPair<'a> {
     #[cold]
     #[inline(never)]
     fn meet_exactly(&self, i: usize, j: usize) -> Contact {
-        let RelativePose { matrix, shift_exact, vertex_error_exact, .. } = *self.pose;
+        let [a, b] = self.in_f64(i, j);
+        triangles_meet(a, b, self.pose.vertex_error_exact)
+    }
+
+    /// Both triangles in f64, common units from the first vertex of the first one. No vertex is
+    /// farther than `vertex_error_exact` of the pose from its place.
+    #[inline(always)]
+    pub(super) fn in_f64(&self, i: usize, j: usize) -> [[[f64; 3]; 3]; 2] {
+        let RelativePose { matrix, shift_exact, .. } = *self.pose;
         let [first, second] = &self.leaves;
         let unit = f64::from(self.pose.frames[0].unit);
         let wide = |leaf: &FanLeaf<'_>, slots: [usize; 3]| {
@@ -378,7 +386,14 @@ impl<'a> LeafPair<'a> {
             let [u, v, w] = shift_exact;
             [along(r, u, cx), along(s, v, cy), along(t, w, cz)]
         });
-        let a = a.map(|[x, y, z]| [(x - cx) * unit, (y - cy) * unit, (z - cz) * unit]);
-        triangles_meet(a, b, vertex_error_exact)
+        [a.map(|[x, y, z]| [(x - cx) * unit, (y - cy) * unit, (z - cz) * unit]), b]
+    }
+
+    /// The first vertex of triangle `i` of the first leaf, its units from its origin, exactly.
+    #[inline(always)]
+    pub(super) fn first_vertex(&self, i: usize) -> [f64; 3] {
+        let [slot, ..] = self.a.slots(i);
+        let [first, _] = &self.leaves;
+        first.stored_vertices().map(|axis| f64::from(axis.get(slot).copied().unwrap_or(0.0)))
     }
 }

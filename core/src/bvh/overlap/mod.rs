@@ -1,13 +1,26 @@
-//! Two box trees, one of them moved: whether their surfaces meet, and where.
+//! Two box trees, one of them moved: whether their surfaces meet, and where; how far they are apart.
 //!
 //! | file | owns |
 //! | --- | --- |
-//! | `query` | the two questions |
+//! | `query` | the two questions about contact |
 //! | `axis_intervals` | the boxes of two nodes as intervals along these directions |
 //! | `leaf_pair` | the triangles of two leaves |
 //! | `descent` | the descent of both trees |
+//! | `distance`, `within_of` | the two questions about distance |
+//! | `pair_keys` | lower bounds of the distances of all pairs of boxes of two nodes |
+//! | `leaf_gaps` | the distances of the triangles of two leaves |
+//! | `nearest_first` | the descent of both trees, nearest pair first |
+//! | `stored_pair` | two models in one frame, and the way back to input units |
+//! | `from_afar` | two models that are very far from each other |
 
 mod axis_intervals;
 mod descent;
+mod distance;
+mod from_afar;
+mod leaf_gaps;
 mod leaf_pair;
+mod nearest_first;
+mod pair_keys;
 mod query;
+mod stored_pair;
+mod within_of;

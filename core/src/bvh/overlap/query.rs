@@ -94,7 +94,7 @@ impl Bvh<'_> {
 }
 
 /// Their numbers in the input files.
-fn numbers(a: &Bvh<'_>, b: &Bvh<'_>, [first, second]: &PairPlace) -> Option<[u32; 2]> {
+pub(super) fn numbers(a: &Bvh<'_>, b: &Bvh<'_>, [first, second]: &PairPlace) -> Option<[u32; 2]> {
     let number = |tree: &Bvh<'_>, &[node, child, lane]: &[u32; 3]| {
         tree.source(tree.links(node)?.triangle(child).wrapping_add(lane))
     };

@@ -131,6 +131,9 @@ ask! {
     ask_tree_overlap: tree::Bvh<'t>, |tree, input, scratch, fold| {
         tree::overlap(tree, tree::pose(motion(input)), scratch, &mut Asked::new((), fold))
     };
+    ask_tree_distance: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::distance(tree, tree::pose(motion(input)), scratch, &mut Asked::new((), fold))
+    };
     ask_tree_all_overlaps: tree::Bvh<'t>, |tree, input, scratch, fold| {
         tree::all_overlaps(tree, tree::pose(motion(input)), scratch, &mut Asked::new((), fold))
     };

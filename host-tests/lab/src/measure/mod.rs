@@ -24,6 +24,7 @@ mod cuts;
 mod deform;
 mod kept;
 mod overlap;
+mod pair_distance;
 pub mod paper;
 pub mod plot;
 pub mod rival;
@@ -71,7 +72,7 @@ pub fn measure_bounds(file: &Path, counts: Option<&[Cost]>) -> Result<Vec<Table>
     Ok(tables)
 }
 
-/// Measures the overlap of one mesh file, which need not be closed, with itself under random
+/// Measures overlap and distance of one mesh file, which need not be closed, and itself under random
 /// motions.
 ///
 /// # Errors
@@ -80,6 +81,7 @@ pub fn measure_overlap(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject_table(&subject)];
     tables.extend(overlap::tables(&subject)?);
+    tables.push(pair_distance::table(&subject)?);
     Ok(tables)
 }
 

@@ -16,7 +16,7 @@ use crate::{Clock, Kind};
 pub use distance::{
     all_within, batch, closest, coherent, follow, is_within, nearest, signed, stopped,
 };
-pub use meeting::{all_overlaps, overlap, pose};
+pub use meeting::{all_overlaps, distance, overlap, pose};
 pub use sight::{all_hits, any_hit, cull, facing, first_hit};
 
 /// Entries of the stack.

@@ -186,8 +186,9 @@ pub enum Engine {
     Hull,
 }
 
+/// Two blobs, and poses of the second one.
 #[derive(Debug, Args)]
-pub struct OverlapArgs {
+pub struct MovedArgs {
     /// Blob file of the mesh that stays
     pub first: PathBuf,
     /// Blob file of the mesh that is moved
@@ -206,6 +207,12 @@ pub struct OverlapArgs {
         value_parser = given::queries::<12>()
     )]
     pub matrix: Vec<Given<12>>,
+}
+
+#[derive(Debug, Args)]
+pub struct OverlapArgs {
+    #[command(flatten)]
+    pub input: MovedArgs,
     /// All pairs of triangles that meet, one on a line
     #[arg(long)]
     pub all: bool,
@@ -213,6 +220,23 @@ pub struct OverlapArgs {
     /// [default: tree if both blobs have one]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub engine: Option<Engine>,
+    #[command(flatten)]
+    pub search: SearchArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct ClearanceArgs {
+    #[command(flatten)]
+    pub input: MovedArgs,
+    /// Only whether the meshes are within this distance of each other, in the meshes' unit
+    #[arg(long, value_name = "D", value_parser = tolerance, conflicts_with_all = ["rel", "abs"])]
+    pub within: Option<f32>,
+    /// Stop a query when upper ≤ lower · (1 + REL)
+    #[arg(long, value_name = "REL", default_value_t = 0.0, value_parser = tolerance)]
+    pub rel: f32,
+    /// Stop a query when upper − lower ≤ ABS, in the meshes' unit
+    #[arg(long, value_name = "ABS", default_value_t = 0.0, value_parser = tolerance)]
+    pub abs: f32,
     #[command(flatten)]
     pub search: SearchArgs,
 }

@@ -11,6 +11,9 @@ pub const QUEUE: &str = "Scratch entries to search with [default: what the blob 
 pub const PAIRS: &str = "Scratch entries to search with [default: 256, on hull hierarchies \
     what the blobs need, which always suffice]";
 
+/// `--queue` of a distance of two meshes.
+pub const NODE_PAIRS: &str = "Scratch entries to search with [default: 384, which always suffice]";
+
 const QUERIES: &str = "Queries are arguments, files, or both, in any number. They are answered in \
     the order given. A file holds one query on a line: decimal numbers with commas, semicolons or \
     blanks between them. A header line, blank lines and comments from # on are skipped. '-' reads \
@@ -23,7 +26,7 @@ const TRIANGLES: &str = "triangle is the index of the triangle in the mesh file,
 pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     closest   closest, within, nearest, field; for a closed mesh also signed: 13 to 14 bytes a \
     triangle\n  \
-    segment   segment, overlap: 12 bytes a triangle; with closest 15\n  \
+    segment   segment, overlap, clearance: 12 bytes a triangle; with closest 15\n  \
     cull      cull: half a byte a triangle more\n  \
     hull      hull --level, refine, cut, and closest, segment and overlap with --engine hull: \
     25 to 40 bytes a triangle more\n  \
@@ -177,12 +180,34 @@ pub fn segment() -> String {
     )
 }
 
+const POSES: &str = "A pose moves the second mesh: p becomes R p + (x, y, z). R is the rotation of \
+    the quaternion (qw, qx, qy, qz), which need not have length 1 and may not be 0. It is rounded \
+    to a matrix of f32, and the answer is about that matrix. --matrix takes any matrix with entries \
+    up to 2 as it is.";
+
+pub fn clearance() -> String {
+    format!(
+        "{POSES}\n\n\
+         lower and upper enclose the least distance of the two surfaces, the blobs' surface errors \
+         included. Both are 0 if it is proved that the surfaces meet. a and b are points of the \
+         first and of the second mesh where they are nearest, both in the frame of the first mesh. \
+         first and second are their triangles, counted from 0 in the order of their mesh files. \
+         Only surfaces count: of a mesh inside of another one it is the distance of their surfaces. \
+         With --within the column 'within' says yes or no, both proved; or undecided, if the \
+         distance differs from D by no more than rounding and the surface errors, or if the query \
+         ended early. Then first and second are triangles that are within D. Both blobs are built \
+         --for segment. Poses count from 0. Options with poses stand after the blobs.\n\n\
+         {QUERIES}\n\n\
+         Examples:\n  \
+         meshsweep clearance part.msw tool.msw --pose 30,0,0,1,0,0,0\n  \
+         meshsweep clearance part.msw tool.msw --pose path.csv --rel 0.01 -o clearance.csv\n  \
+         meshsweep clearance part.msw tool.msw --pose path.csv --within 2.5"
+    )
+}
+
 pub fn overlap() -> String {
     format!(
-        "A pose moves the second mesh: p becomes R p + (x, y, z). R is the rotation of the \
-         quaternion (qw, qx, qy, qz), which need not have length 1 and may not be 0. It is \
-         rounded to a matrix of f32, and the answer is about that matrix. --matrix takes any \
-         matrix with entries up to 2 as it is.\n\n\
+        "{POSES}\n\n\
          The column 'contact' says apart or meets, both proved; or undecided, if the surfaces \
          touch or come nearer than rounding and the blobs' surface errors, or if the query ended \
          early. Only surfaces count: a mesh inside of another one is apart from it. first and \

@@ -1,0 +1,138 @@
+//! `meshsweep clearance` against brute force over the triangles of the mesh files.
+
+use crate::support::{
+    Triangle, arg, blob, fixture, info, ok, parse_csv, refused, run, scratch, triangles, write_csv,
+};
+use std::fs;
+
+const HEADER: &str = "pose,lower,upper,ax,ay,az,bx,by,bz,first,second,work";
+const WITHIN: &str = "pose,within,first,second,work";
+
+type Point = [f64; 3];
+
+fn minus(a: Point, b: Point) -> Point {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn part(from: Point, way: Point, t: f64) -> Point {
+    [from[0] + way[0] * t, from[1] + way[1] * t, from[2] + way[2] * t]
+}
+
+/// The nearest point of a triangle, by halving: the distance from a point is convex.
+fn distance_to(p: Point, [a, b, c]: Triangle) -> f64 {
+    let to_segment = |from: Point, to: Point| {
+        let way = minus(to, from);
+        let t = (dot(minus(p, from), way) / dot(way, way)).clamp(0.0, 1.0);
+        let gap = minus(p, part(from, way, t));
+        dot(gap, gap).sqrt()
+    };
+    least(|t| to_segment(part(a, minus(b, a), t), part(a, minus(c, a), t)))
+}
+
+/// The least value of a convex function on 0 to 1.
+fn least(of: impl Fn(f64) -> f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..60 {
+        let (p, q) = ((2.0 * low + high) / 3.0, (low + 2.0 * high) / 3.0);
+        if of(p) < of(q) { high = q } else { low = p }
+    }
+    of(0.0).min(of(1.0)).min(of(low))
+}
+
+/// Distance of two triangles that do not meet: of the edges of each from the other.
+fn distance(a: &Triangle, b: &Triangle) -> f64 {
+    let edges = |t: &Triangle, other: Triangle| {
+        let edge =
+            |k: usize| least(|s| distance_to(part(t[k], minus(t[(k + 1) % 3], t[k]), s), other));
+        (0..3).map(edge).fold(f64::INFINITY, f64::min)
+    };
+    edges(a, *b).min(edges(b, *a))
+}
+
+fn number(field: &str) -> f64 {
+    field.parse().unwrap()
+}
+
+#[test]
+fn intervals_and_triangles_are_those_of_the_mesh_files() {
+    let directory = scratch("clearance");
+    let mesh = triangles(&fixture("torus.ply"));
+    let torus = blob(&directory, "torus.ply", &["--for", "segment", "--vertex-bits", "32"]);
+    let shifts = [[6.0, 0.5, 0.25], [0.125, -0.25, 3.0], [-5.0, 4.0, 2.0]];
+    let texts: Vec<String> =
+        shifts.iter().map(|[x, y, z]| format!("{x},{y},{z},1,0,0,0")).collect();
+    let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+    let files = ["clearance", arg(&torus), arg(&torus), "--pose"];
+    let rows = parse_csv(&ok([&files[..], &texts[..]].concat()), HEADER);
+    assert_eq!(rows.len(), shifts.len());
+    for (shift, row) in shifts.iter().zip(&rows) {
+        let moved = |t: &Triangle| t.map(|p| part(p, *shift, 1.0));
+        let (lower, upper) = (number(&row[1]), number(&row[2]));
+        let (a, b) = (row[9].parse::<usize>().unwrap(), row[10].parse::<usize>().unwrap());
+        let theirs = distance(&mesh[a], &moved(&mesh[b]));
+        assert!((lower * 0.999_999..=upper * 1.000_001).contains(&theirs), "{row:?} {theirs}");
+        // Nothing is nearer, as far as vertices tell.
+        for t in &mesh {
+            for p in mesh.iter().map(|other| moved(other)[0]) {
+                let gap = minus(p, t[0]);
+                assert!(dot(gap, gap).sqrt() >= lower * 0.999_999, "{row:?}");
+            }
+        }
+        let place = |at: usize| [0, 1, 2].map(|k| number(&row[at + k]));
+        let way = minus(place(6), place(3));
+        assert!((dot(way, way).sqrt() - upper).abs() < 1e-5, "{row:?}");
+        assert!(distance_to(place(3), mesh[a]) < 1e-5, "{row:?}");
+        assert!(distance_to(place(6), moved(&mesh[b])) < 1e-5, "{row:?}");
+    }
+    for (part, word) in [(0.5, "no"), (2.0, "yes")] {
+        for (text, row) in texts.iter().zip(&rows) {
+            let distance = (part * number(&row[1])).to_string();
+            let found = ok([&files[..], &[text, "--within", &distance][..]].concat());
+            assert_eq!(parse_csv(&found, WITHIN)[0][1], word, "{row:?}");
+        }
+    }
+}
+
+#[test]
+fn meshes_that_meet_have_no_distance_and_few_steps_widen_the_interval() {
+    let directory = scratch("clearance_meets");
+    let torus = blob(&directory, "torus.ply", &[]);
+    let serves = info(&torus)["serves"].clone();
+    assert!(serves.as_array().unwrap().iter().any(|question| question == "clearance"));
+    let poses = directory.join("poses.csv");
+    write_csv(
+        &poses,
+        &[[2.5f32, 0.1, 0.2, 1.0, 0.5, 0.25, 0.0], [9.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]],
+    );
+    let out = directory.join("clearance.csv");
+    let files = ["clearance", arg(&torus), arg(&torus), "--pose", arg(&poses)];
+    let output = run([&files[..], &["-o", arg(&out)]].concat());
+    assert!(output.status.success() && output.stdout.is_empty());
+    let rows = parse_csv(&fs::read_to_string(&out).unwrap(), HEADER);
+    assert_eq!([&rows[0][1], &rows[0][2]], ["0", "0"]);
+    let (lower, upper) = (number(&rows[1][1]), number(&rows[1][2]));
+    assert!(0.0 < lower && lower <= upper);
+    for more in [["--steps", "1"], ["--rel", "0.5"], ["--queue", "1"]] {
+        let rows = parse_csv(&ok([&files[..], &more].concat()), HEADER);
+        assert!(number(&rows[1][1]) <= lower && upper <= number(&rows[1][2]), "{rows:?}");
+    }
+}
+
+#[test]
+fn what_cannot_be_asked_is_refused_by_name() {
+    let directory = scratch("clearance_refused");
+    let torus = blob(&directory, "torus.ply", &[]);
+    let closest = blob(&directory, "bracket.stl", &["--for", "closest"]);
+    let wrong = |args: &[&str]| run([&["clearance", arg(&torus)], args].concat());
+    assert!(refused(&wrong(&[arg(&closest)]), 1, "bracket.msw").contains("--for segment"));
+    let none = wrong(&[arg(&torus), "--pose", "0,0,0,0,0,0,0"]);
+    assert!(refused(&none, 2, "").contains("quaternion"));
+    let both = wrong(&[arg(&torus), "--within", "1", "--rel", "0.1"]);
+    assert_eq!(both.status.code(), Some(2));
+    assert_eq!(wrong(&[arg(&torus), "--within", "-1"]).status.code(), Some(2));
+    assert_eq!(wrong(&[arg(&torus), "-o", arg(&torus)]).status.code(), Some(1));
+}

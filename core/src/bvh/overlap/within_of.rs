@@ -1,0 +1,107 @@
+//! Whether two surfaces, one of them moved, are within a distance of each other.
+
+use super::from_afar::from_afar;
+use super::leaf_gaps::{GapVisitor, TriangleGap};
+use super::nearest_first::descend;
+use super::query::numbers;
+use super::stored_pair::StoredPair;
+use crate::bvh::format::Bvh;
+use crate::geom::Pose;
+use crate::num::tolerance::U64;
+use crate::query::{Budget, PairWithin, QueryError, ScratchEntry, Undecided, Verdict, Work};
+
+impl Bvh<'_> {
+    /// Whether the surface of `other`, moved by `pose` from its frame to this tree's, is at most
+    /// `distance` from the surface of this tree. All lengths in input units.
+    ///
+    /// Both verdicts are proved for the input meshes as they were after repair. A distance of 0
+    /// asks whether the surfaces meet. The verdict is undecided for lack of precision only if the
+    /// distance of the surfaces is within both surface errors and rounding of the one asked about.
+    /// Only surfaces count: [`signed_distance`](Bvh::signed_distance) of a vertex tells whether one
+    /// closed mesh is inside the other. For collision avoidance, treat an undecided answer as
+    /// `Yes`.
+    ///
+    /// Arguments and degenerate cases as for [`distance`](Bvh::distance). It ends at the first pair
+    /// of triangles that is certainly near enough. `scratch`:
+    /// [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES) are always enough. A shorter one may leave the
+    /// question undecided. Of the budget only `steps` matters.
+    ///
+    /// Cost: less than the distance. One pair of nodes if the boxes are farther.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Pose, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<{ Bvh::DISTANCE_ENTRIES }>::new());
+    /// let pose = Pose { translation: [300.0, 0.0, 0.0], ..Pose::IDENTITY };
+    /// let found = part.within_of(&part, pose, 5.0, Budget::EXACT, &mut scratch)?;
+    /// assert!(found.is_clear());
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`distance`](Bvh::distance); [`QueryError::Tolerance`] also for a distance that is
+    /// negative, NaN or infinite.
+    pub fn within_of(
+        &self,
+        other: &Bvh<'_>,
+        pose: Pose,
+        distance: f32,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<PairWithin, QueryError> {
+        // A distance is refused as an absolute tolerance is.
+        budget.with_absolute(distance).check()?;
+        budget.check_with(scratch)?;
+        let pair = StoredPair::new([self, other], &pose)?;
+        let mut work = Work::default();
+        let limit = (pair.inward(distance) + pair.errors) * (1.0 + 8.0 * U64);
+        let mut threshold = Threshold { pair: &pair, distance, limit, near: None, undecided: None };
+        let missed = if pair.is_in_range {
+            let mut leaves = pair.leaves();
+            descend(&pair.models(), &mut leaves, budget.steps, scratch, &mut threshold, &mut work)?
+        } else {
+            threshold.take(&from_afar(&pair).ok_or(QueryError::Unchecked)?);
+            None
+        };
+        let (verdict, gap) = match (threshold.near, missed, threshold.undecided) {
+            (Some(gap), _, _) => (Verdict::Yes, Some(gap)),
+            (None, Some(missed), _) => (Verdict::Undecided(missed.why.undecided()), None),
+            (None, None, Some(gap)) => (Verdict::Undecided(Undecided::Resolution), Some(gap)),
+            (None, None, None) => (Verdict::No, None),
+        };
+        let numbers =
+            |gap: TriangleGap| numbers(self, other, &gap.place).ok_or(QueryError::Unchecked);
+        Ok(PairWithin { verdict, triangles: gap.map(numbers).transpose()?, work })
+    }
+}
+
+struct Threshold<'a> {
+    pair: &'a StoredPair<'a>,
+    /// Input units.
+    distance: f32,
+    /// Common units.
+    limit: f64,
+    /// A pair that is certainly within.
+    near: Option<TriangleGap>,
+    /// A pair that may be within.
+    undecided: Option<TriangleGap>,
+}
+
+impl GapVisitor for Threshold<'_> {
+    #[inline(always)]
+    fn limit(&self) -> f64 {
+        self.limit
+    }
+
+    #[inline(always)]
+    fn take(&mut self, gap: &TriangleGap) -> bool {
+        if gap.meets || self.pair.upper(gap.upper) <= self.distance {
+            self.near = Some(*gap);
+            return false;
+        }
+        if self.undecided.is_none() && self.pair.lower(gap.lower) <= self.distance {
+            self.undecided = Some(*gap);
+        }
+        true
+    }
+}

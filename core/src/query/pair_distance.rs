@@ -1,0 +1,50 @@
+//! How far two surfaces are apart.
+
+use super::answer::{Ended, Interval};
+use super::verdict::Verdict;
+use super::work::Work;
+
+/// The distance of two surfaces, and where they are nearest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PairDistance {
+    /// The least distance of the input meshes, input units. `0 ..= 0` if it is proved that they
+    /// meet.
+    pub distance: Interval,
+    /// A point of each surface, the first mesh's first, both in the first mesh's frame and rounded
+    /// to f32. They are at most `distance.upper` apart, up to this rounding. Of two triangles that
+    /// pass through each other, both are one common point.
+    pub points: [[f32; 3]; 2],
+    /// The triangles of these points, by their numbers in the input files.
+    pub triangles: [u32; 2],
+    /// The work of the search: pairs of boxes as `nodes`, pairs of triangles bounded as
+    /// `triangles`, pairs of triangles whose distance was computed in f64 as `exact`, pairs of
+    /// nodes opened as `splits`.
+    pub work: Work,
+    /// Why the search ended. [`Ended::Resolution`]: the meshes are so far apart that their boxes
+    /// answered.
+    pub ended: Ended,
+}
+
+/// Whether two surfaces are within a distance of each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct PairWithin {
+    /// `Yes`: a point of one mesh is not farther from a point of the other. `No`: all points are
+    /// farther. Undecided for [`Resolution`](crate::Undecided::Resolution): the difference from the
+    /// distance asked about is within the surface errors and rounding.
+    pub verdict: Verdict,
+    /// With `Yes` two triangles that are not farther, the first mesh's first. With an undecided
+    /// [`Resolution`](crate::Undecided::Resolution) two triangles that may not be farther. Numbers
+    /// in the input files.
+    pub triangles: Option<[u32; 2]>,
+    /// The work of the search, as in [`PairDistance::work`].
+    pub work: Work,
+}
+
+impl PairWithin {
+    /// Whether it is proved that the surfaces are farther from each other.
+    pub fn is_clear(&self) -> bool {
+        self.verdict == Verdict::No
+    }
+}

@@ -1,0 +1,6 @@
+//! The distance of two box trees against the distance of the input meshes in 106 bits.
+
+mod extremes;
+mod held;
+mod limits;
+mod truth;
