@@ -50,10 +50,11 @@ impl Candidate {
 ///
 /// Triangles that pass through each other have a lower end of 0. Their upper end is then only that
 /// of a vertex and a face, or of two edges: ask [`triangles_meet`](super::triangles_meet) too.
+/// Triangles that touch have an upper end of a few roundings.
 /// Coordinates must be finite, 0 or from 1e-60 to 1e60 in size.
 ///
 /// Cost: two cross products and fifteen inner products if a vertex is over a face, else up to nine
-/// pairs of edges with some eight inner products each.
+/// pairs of edges with some eight inner products each, and the feet of six vertices.
 pub fn triangle_distance(a: [Point<f64>; 3], b: [Point<f64>; 3]) -> TriangleDistance {
     let margin = TRIANGLE_DISTANCE * U64 * (farthest(&a) + farthest(&b));
     let normals = [normal(&a), normal(&b)];
@@ -79,6 +80,14 @@ pub fn triangle_distance(a: [Point<f64>; 3], b: [Point<f64>; 3]) -> TriangleDist
                     return answer(&best, gap_along(best.way, &a, &b), margin);
                 }
             }
+        }
+    }
+    // Of triangles that touch, a vertex may lie in the other one's plane or a little beyond it.
+    let below = below_vertices(&a, to_first, &b);
+    let above = below_vertices(&b, to_second, &a).map(|found| found.map(Candidate::turned));
+    for found in below.into_iter().chain(above).flatten() {
+        if found.way_sq < best.way_sq {
+            best = found;
         }
     }
     // A short way is mostly rounding. Normals are not.
@@ -161,6 +170,19 @@ fn over_face(
     };
     let foot = foot_on(origin, first, second, normal, vertex)?;
     Some(Candidate::new(foot, vertex))
+}
+
+/// The vertices of `other`, each with the point of the face below or above it.
+#[inline(always)]
+fn below_vertices(
+    &[origin, first, second]: &[Point<f64>; 3],
+    normal: Point<f64>,
+    other: &[Point<f64>; 3],
+) -> [Option<Candidate>; 3] {
+    other.map(|vertex| {
+        let foot = foot_on(origin, first, second, normal, vertex)?;
+        Some(Candidate::new(foot, vertex))
+    })
 }
 
 /// The foot of a perpendicular on a face, if it is in the face.
@@ -272,6 +294,17 @@ mod tests {
         check(shifted([0.0, 0.0, 7.0], FLAT), 7.0);
         check([[1.0, 1.0, 2.0]; 3], 2.0);
         check([[1.0, 1.0, 2.0], [2.0, 1.0, 3.0], [3.0, 1.0, 4.0]], 2.0);
+    }
+
+    #[test]
+    fn triangles_that_touch_have_tight_intervals() {
+        // A tip, an edge and a face on the face, a point in it, and tips a little below it.
+        check([[1.0, 1.0, 0.0], [1.5, 1.0, 3.0], [1.0, 1.5, 3.0]], 0.0);
+        check([[1.0, 1.0, 0.0], [1.5, 1.0, 0.0], [1.0, 1.5, 3.0]], 0.0);
+        check([[1.0, 1.0, 0.0], [1.5, 1.0, 0.0], [1.0, 1.5, 0.0]], 0.0);
+        check([[1.0, 1.0, 0.0]; 3], 0.0);
+        check([[1.0, 1.0, -1e-13], [1.5, 1.0, 3.0], [1.0, 1.5, 3.0]], 0.0);
+        check([[1.0, 1.0, -1e-16], [1.5, 1.0, 3.0], [1.0, 1.5, 3.0]], 0.0);
     }
 
     #[test]

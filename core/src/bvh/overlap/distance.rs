@@ -28,8 +28,9 @@ impl Bvh<'_> {
     ///
     /// `scratch`: [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES) are always enough. With fewer the
     /// lower end may be lower; the interval holds. A tolerance or the steps (pairs of nodes) of the
-    /// budget end the search earlier. Without a single pair of triangles the boxes of the models
-    /// give the interval. Beyond 2^30 grid units they always do.
+    /// budget end the search earlier. Without a single pair of triangles balls around the models
+    /// give the interval, and beyond 2^30 grid units they always do: it is then some 2e-4 of the
+    /// distance wide.
     ///
     /// Cost: some dozens of pairs of nodes and of triangles where the nearest place is one. In
     /// proportion to the surfaces that are nearly equally near where they run side by side.
@@ -70,15 +71,18 @@ impl Bvh<'_> {
         } else {
             Some(Missed { why: Ended::Resolution, lower: f64::INFINITY })
         };
-        let gap = match nearest.best {
-            Some(gap) => gap,
+        let (gap, lower, ended) = match nearest.best {
+            Some(gap) => {
+                let (lower, ended) = nearest.lower(missed);
+                (gap, lower, ended)
+            }
+            // Nothing was measured, so both numbers bound all pairs.
             None => {
                 let gap = from_afar(&pair).ok_or(QueryError::Unchecked)?;
-                nearest.lower = gap.lower;
-                gap
+                let (bound, ended) = missed.map_or((0.0, Ended::Exact), |m| (m.lower, m.why));
+                (gap, greater(gap.lower, if pair.is_in_range { bound } else { 0.0 }), ended)
             }
         };
-        let (lower, ended) = nearest.lower(missed);
         let distance =
             if gap.meets { Interval::new(0.0, 0.0) } else { pair.distance(lower, gap.upper) };
         Ok(PairDistance {

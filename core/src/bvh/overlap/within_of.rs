@@ -16,7 +16,8 @@ impl Bvh<'_> {
     ///
     /// Both verdicts are proved for the input meshes as they were after repair. A distance of 0
     /// asks whether the surfaces meet. The verdict is undecided for lack of precision only if the
-    /// distance of the surfaces is within both surface errors and rounding of the one asked about.
+    /// distance of the surfaces is within both surface errors and rounding of the one asked about,
+    /// or beyond 2^30 grid units and within some 2e-4 of it.
     /// Only surfaces count: [`signed_distance`](Bvh::signed_distance) of a vertex tells whether one
     /// closed mesh is inside the other. For collision avoidance, treat an undecided answer as
     /// `Yes`.
@@ -65,7 +66,12 @@ impl Bvh<'_> {
         };
         let (verdict, gap) = match (threshold.near, missed, threshold.undecided) {
             (Some(gap), _, _) => (Verdict::Yes, Some(gap)),
-            (None, Some(missed), _) => (Verdict::Undecided(missed.why.undecided()), None),
+            (None, Some(missed), _) => {
+                let far = from_afar(&pair).ok_or(QueryError::Unchecked)?;
+                let is_apart = pair.lower(far.lower) > distance;
+                let open = Verdict::Undecided(missed.why.undecided());
+                (if is_apart { Verdict::No } else { open }, None)
+            }
             (None, None, Some(gap)) => (Verdict::Undecided(Undecided::Resolution), Some(gap)),
             (None, None, None) => (Verdict::No, None),
         };

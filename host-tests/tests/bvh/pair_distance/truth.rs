@@ -1,7 +1,7 @@
 //! Random motions of solids, soups and slivers: every interval contains the true distance.
 
-use super::held::{Tally, holds, truth};
-use meshsweep_core::Pose;
+use super::held::{Tally, ask, holds, truth};
+use meshsweep_core::{Budget, Pose};
 use meshsweep_host_tests::generate::corpus::{IDENTITY, mixed, slivers};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, icosphere, inverted, joined, needle_comb, rough_sphere, scaled,
@@ -71,6 +71,23 @@ fn touching_surfaces_have_a_lower_end_of_zero() {
         holds("touching", &a, &b, &Pose { rotation: IDENTITY, translation }, &mut tally);
     }
     assert_eq!(tally.apart, 0, "{tally:?}");
+}
+
+/// The edges of a small cube that stands on a large one are far from those of the large one.
+#[test]
+fn a_small_body_on_a_large_face_has_a_distance_near_zero() {
+    let (large, small) = (Scene::both("", scaled(&cube(1), 100.0)), Scene::both("", cube(1)));
+    let ((_, top), (bottom, _)) = (large.bounds(), small.bounds());
+    let mut tally = Tally::default();
+    for sideways in [[20.0, 30.0], [-50.0, 1.0], [7.25, -41.5]] {
+        let translation = [sideways[0], sideways[1], top[2] - bottom[2]];
+        let pose = Pose { rotation: IDENTITY, translation };
+        holds("standing", &large, &small, &pose, &mut tally);
+        for (a, b) in large.trees().iter().zip(small.trees()) {
+            let found = ask(a, &b, &pose, Budget::EXACT);
+            assert!(found.distance.upper < 0.1, "{found:?}");
+        }
+    }
 }
 
 #[test]
