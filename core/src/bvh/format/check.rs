@@ -252,12 +252,13 @@ impl<'a> Bvh<'a> {
     fn check_boxes(&self) -> Result<(), OpenError> {
         let h = &self.header;
         let (low, high) = (h.low.map(i32::from), h.high.map(i32::from));
-        let size = [0, 1, 2].map(|axis| high[axis] - low[axis]).into_iter().fold(0, greater);
+        let sizes = low.iter().zip(&high).map(|(low, high)| high - low);
+        let size = sizes.fold(0, greater);
         let near_model = |record: &[u8; FRAME_BYTES]| {
             let (origin, _) = record[boxes::FRAME_ORIGIN..].as_chunks::<2>();
-            (0..3).all(|axis| {
-                let x = i32::from(u16::from_le_bytes(origin[axis]));
-                low[axis] - size / 4 <= x && x <= high[axis] + size / 4
+            origin.iter().zip(low.iter().zip(&high)).all(|(x, (low, high))| {
+                let x = i32::from(u16::from_le_bytes(*x));
+                low - size / 4 <= x && x <= high + size / 4
             })
         };
         for (index, record) in (0u32..).zip(self.frames) {
@@ -320,8 +321,9 @@ impl<'a> Bvh<'a> {
         let (h, ring, shape) = (&self.header, leaf.grid_ring()?, leaf.shape());
         let (low, high) = (h.low.map(i32::from), h.high.map(i32::from));
         let inside = |[x, y, z]: [i32; 3]| {
-            let within = |x: i32, axis: usize| low[axis] <= x && x <= high[axis];
-            within(x, 0) & within(y, 1) & within(z, 2)
+            let ([lx, ly, lz], [hx, hy, hz]) = (low, high);
+            let within = |x: i32, low: i32, high: i32| low <= x && x <= high;
+            within(x, lx, hx) & within(y, ly, hy) & within(z, lz, hz)
         };
         let norm = |[x, y, z]: [i32; 3], [cx, cy, cz]: [i32; 3]| {
             (x - cx).abs() + (y - cy).abs() + (z - cz).abs()

@@ -128,8 +128,8 @@ fn short(bytes: &[u8], at: usize) -> i32 {
 }
 
 #[inline(always)]
-fn less(a: [i32; 3], b: [i32; 3]) -> [i32; 3] {
-    [0, 1, 2].map(|axis| a[axis].wrapping_sub(b[axis]))
+fn less([a, b, c]: [i32; 3], [x, y, z]: [i32; 3]) -> [i32; 3] {
+    [a.wrapping_sub(x), b.wrapping_sub(y), c.wrapping_sub(z)]
 }
 
 #[inline(always)]

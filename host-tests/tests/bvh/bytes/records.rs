@@ -56,6 +56,27 @@ fn frames_that_lengthen_or_have_unknown_exponents_name_the_node() {
 }
 
 #[test]
+fn frames_far_from_the_model_name_the_node() {
+    let kind = SectionKind::TreeFrames;
+    let bytes = sphere();
+    let header = *Bvh::open(&bytes).expect("opens").header();
+    let size = (0..3).map(|k| header.high[k] - header.low[k]).max().expect("three axes");
+    let mut far = 0;
+    for (node, axis) in [0, 3].into_iter().flat_map(|node| (0..3).map(move |axis| (node, axis))) {
+        let beyond = u32::from(header.high[axis]) + u32::from(size / 4);
+        for (origin, expected) in [(beyond, Ok(())), (beyond + 1, record(kind, node as u32))] {
+            let Ok(origin) = u16::try_from(origin) else { continue };
+            let result = edited(bytes.clone(), kind, |section| {
+                section[FRAME * node + 66 + 2 * axis..][..2].copy_from_slice(&origin.to_le_bytes());
+            });
+            assert_eq!(result, expected, "{origin} along axis {axis}");
+            far += 1;
+        }
+    }
+    assert!(far > 0, "the sphere fills its grid");
+}
+
+#[test]
 fn vertices_that_are_outside_or_not_numbers_name_the_leaf() {
     let fans = |bytes: Vec<u8>, at: usize, value: u32| {
         edited(bytes, SectionKind::TreeFans, |fans| put_u32(fans, at, value))
