@@ -104,9 +104,9 @@ pub struct Refused {
 /// The Hausdorff distance of two meshes, open or closed, with any number of connected components.
 ///
 /// `progress(lower, upper)` is called once a round. Lengths are in the unit of the files. Bounds
-/// come no closer than the rounding of coordinates to f32 and some 10^-11 of the largest coordinate.
-/// [`Hausdorff::ended`] says whether the precision was reached. The answer does not depend on the
-/// number of threads.
+/// come no closer than the rounding of coordinates to f32, and some 10^-11 of the largest
+/// coordinate. [`Hausdorff::ended`] says whether the precision was reached. The answer does not
+/// depend on the number of threads.
 ///
 /// Cost: a box tree for each mesh, one query for each vertex, and some dozens to some thousand
 /// more, next to the farthest point. Meshes that are equally far apart everywhere take most.

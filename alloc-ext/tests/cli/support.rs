@@ -74,8 +74,8 @@ pub fn arg(path: &Path) -> &str {
     path.to_str().expect("paths of the tests are UTF-8")
 }
 
-/// A blob of a fixture, in `directory`. The program builds it for the first test that asks; it would
-/// build the same bytes again.
+/// A blob of a fixture, in `directory`. The program builds it for the first test that asks. It
+/// would build the same bytes again.
 pub fn blob(directory: &Path, name: &str, options: &[&str]) -> PathBuf {
     type Built = HashMap<String, Arc<OnceLock<Vec<u8>>>>;
     static BUILT: LazyLock<Mutex<Built>> = LazyLock::new(Mutex::default);

@@ -49,8 +49,8 @@ struct Worker<'a> {
 }
 
 impl<'a> Speculation<'a> {
-    /// One worker for each thread of rayon's current pool, up to [`MAX_WORKERS`]. None if there is only one thread, or if
-    /// the soup is small.
+    /// One worker for each thread of rayon's current pool, up to [`MAX_WORKERS`]. None if there is
+    /// only one thread, or if the soup is small.
     pub(super) fn new(adjacency: &'a Adjacency<'a>, positions: &'a [DVec3]) -> Self {
         let threads = rayon::current_num_threads().min(MAX_WORKERS);
         let count = adjacency.triangles().len();

@@ -1,4 +1,4 @@
-//! Two box trees, one of them moved: whether their surfaces meet, and where; how far they are apart.
+//! Two box trees, one of them moved: whether and where their surfaces meet; how far they are apart.
 //!
 //! | file | owns |
 //! | --- | --- |

@@ -20,7 +20,12 @@ pub struct HausdorffArgs {
     #[arg(long, value_name = "ABS", value_parser = length, default_value = "0")]
     pub abs: f64,
     /// Only decide whether the distance is at most this; exit status 1 if that is not proved
-    #[arg(long, value_name = "DISTANCE", value_parser = length, conflicts_with_all = ["rel", "abs"])]
+    #[arg(
+        long,
+        value_name = "DISTANCE",
+        value_parser = length,
+        conflicts_with_all = ["rel", "abs"]
+    )]
     pub at_most: Option<f64>,
     /// Print JSON
     #[arg(long)]

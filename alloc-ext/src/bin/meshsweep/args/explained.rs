@@ -182,8 +182,8 @@ pub fn segment() -> String {
 
 const POSES: &str = "A pose moves the second mesh: p becomes R p + (x, y, z). R is the rotation of \
     the quaternion (qw, qx, qy, qz), which need not have length 1 and may not be 0. It is rounded \
-    to a matrix of f32, and the answer is about that matrix. --matrix takes any matrix with entries \
-    up to 2 as it is.";
+    to a matrix of f32, and the answer is about that matrix. --matrix takes any matrix with \
+    entries up to 2 as it is.";
 
 pub fn clearance() -> String {
     format!(
@@ -192,7 +192,7 @@ pub fn clearance() -> String {
          included. Both are 0 if it is proved that the surfaces meet. a and b are points of the \
          first and of the second mesh where they are nearest, both in the frame of the first mesh. \
          first and second are their triangles, counted from 0 in the order of their mesh files. \
-         Only surfaces count: of a mesh inside of another one it is the distance of their surfaces. \
+         Only surfaces count: of a mesh inside of another one it is the distance of the surfaces. \
          With --within the column 'within' says yes or no, both proved; or undecided, if the \
          distance differs from D by no more than rounding and the surface errors, or if the query \
          ended early. Then first and second are triangles that are within D. Both blobs are built \
@@ -274,8 +274,9 @@ pub const REFINE: &str = "Of a blob built --for hull the mesh that is written is
 pub const HAUSDORFF: &str = "lower and upper enclose the exact distance of the meshes as they were \
     read, open or closed, with any number of connected components. a and b are points of the first \
     and of the second mesh: one of them is the farthest that was found, the other its closest \
-    point. ended says whether the precision was reached, or why not. Triangles are counted from 0 in their file; a polygon counts as the \
-    triangles about its first corner. Triangles without area count like all others.\n\n\
+    point. ended says whether the precision was reached, or why not. Triangles are counted from \
+    0 in their file; a polygon counts as the triangles about its first corner. Triangles without \
+    area count like all others.\n\n\
     Examples:\n  \
     meshsweep hausdorff part.stl scan.ply --rel 1e-6\n  \
     meshsweep hausdorff part.stl scan.ply --one-sided --json\n  \
