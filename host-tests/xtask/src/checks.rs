@@ -7,7 +7,7 @@ use crate::process;
 use crate::steps::Steps;
 use crate::workspace;
 
-/// Formatting, lints, tests, documentation: of the laboratory too.
+/// Formatting, tests, documentation: of the laboratory too.
 ///
 /// Each command is about the whole workspace. One about a part of it enables fewer features of the
 /// dependencies, and compiles them and the library again.
@@ -16,16 +16,21 @@ pub fn run(steps: &mut Steps) {
     steps.run("formatting of the firmware", || {
         process::run(cargo(&["fmt", "--check"]).current_dir(workspace::firmware()))
     });
-    steps.run("lints", || {
-        let mut command = cargo(&["clippy", "--quiet", "--workspace", "--all-targets"]);
-        process::run(command.args(["--", "-D", "warnings"]))
-    });
     steps.run("tests", || process::run(&mut cargo(&["test", "--workspace", "--no-fail-fast"])));
     steps.run("documentation", || {
         process::run(
             cargo(&["doc", "--quiet", "--workspace", "--no-deps"])
                 .env("RUSTDOCFLAGS", "-D warnings"),
         )
+    });
+}
+
+/// Lints of the whole workspace. They compile nothing that the tests need, so they can wait until a
+/// processor is free.
+pub fn lints(steps: &mut Steps) {
+    steps.run("lints", || {
+        let mut command = cargo(&["clippy", "--quiet", "--workspace", "--all-targets"]);
+        process::run(command.args(["--", "-D", "warnings"]))
     });
 }
 

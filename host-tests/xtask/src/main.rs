@@ -50,6 +50,7 @@ fn main() -> ExitCode {
                     if let Some(counts) = &counts {
                         count::check_lanes(&mut steps, counts);
                     }
+                    checks::lints(&mut steps);
                     (images, counts, steps)
                 });
                 checks::run(&mut steps);
