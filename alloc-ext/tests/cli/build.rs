@@ -41,7 +41,7 @@ fn build_reports_mesh_sections_memory_and_levels() {
     let text = ok(["build", arg(&mesh), "-o", arg(&out), "--for", "closest,segment,hull"]);
     for part in [
         "1948 triangles read",
-        "serves closest, within, nearest, field, signed, segment, overlap, hull --level, refine, cut",
+        "serves closest, within, nearest, field, signed, segment, overlap, clearance, hull --level",
         "source starts",
         "tree fans",
         "total",
@@ -65,9 +65,9 @@ fn a_blob_holds_what_was_asked_for_and_no_more() {
     let directory = scratch("asked_for");
     let links = ["tree header", "tree links", "tree fans", "tree source numbers"];
     for (questions, more, serves) in [
-        (&[][..], &["tree boxes for distances", "tree boxes for segments"][..], "overlap"),
+        (&[][..], &["tree boxes for distances", "tree boxes for segments"][..], "clearance"),
         (&["--for", "closest"], &["tree boxes for distances"], "signed"),
-        (&["--for", "segment"], &["tree boxes for segments"], "overlap"),
+        (&["--for", "segment"], &["tree boxes for segments"], "clearance"),
     ] {
         let info = info(&blob(&directory, "torus.ply", questions));
         let mut wanted: Vec<&str> = links.iter().chain(more).copied().collect();
