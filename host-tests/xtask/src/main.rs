@@ -41,7 +41,7 @@ fn main() -> ExitCode {
             let tools = firmware::setup(&mut steps);
             // Beside the rest, in folders of their own: long links and long tests leave a processor
             // without work.
-            let (images, counts, others) = thread::scope(|scope| {
+            let (rows, counts, others) = thread::scope(|scope| {
                 let beside = scope.spawn(|| {
                     let mut steps = Steps::new();
                     let build = |tools| firmware::build(&mut steps, tools, Scope::Compared);
@@ -50,17 +50,17 @@ fn main() -> ExitCode {
                     if let Some(counts) = &counts {
                         count::check_lanes(&mut steps, counts);
                     }
+                    let mut rows = Vec::new();
+                    if let (Some(tools), Some(images)) = (&tools, images) {
+                        rows = firmware::ask(&mut steps, tools, &images, Scope::Compared);
+                    }
                     checks::lints(&mut steps);
-                    (images, counts, steps)
+                    (rows, counts, steps)
                 });
                 checks::run(&mut steps);
                 beside.join().unwrap_or_else(|panic| resume_unwind(panic))
             });
             steps.append(others);
-            let mut rows = Vec::new();
-            if let (Some(tools), Some(images)) = (&tools, images) {
-                rows = firmware::ask(&mut steps, tools, &images, Scope::Compared);
-            }
             tables::check(&mut steps, &Facts { counts: counts.as_ref(), rows: &rows });
         }
         ["firmware"] => {
