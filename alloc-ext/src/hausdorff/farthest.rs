@@ -67,7 +67,7 @@ fn bounded(
 
 /// Bounds of the largest distance from a point of `triangles` to the surface of `nearest`. `upper`
 /// exceeds `lower` by at most a twentieth and the rounding of cuts, unless `upper` is at most
-/// `enough`, or [`MAX_CUTS`] cuts or the depth of a piece do not suffice.
+/// `enough`, or 200,000 cuts or the depth of a piece do not suffice.
 ///
 /// Cost: one query for each triangle, and some dozens more for the farthest.
 pub fn farthest(
