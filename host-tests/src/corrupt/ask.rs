@@ -143,7 +143,7 @@ impl Asker {
         }
     }
 
-    /// Whether two trees meet, and where, and how far apart they are, in at most so many steps: every
+    /// Whether and where two trees meet, and how far apart they are, in at most so many steps: every
     /// pair of nodes may have to be opened.
     ///
     /// # Panics

@@ -20,7 +20,7 @@ pub use bracket::bracket;
 pub use extrude::{groove_block, needle_comb};
 pub use rng::Rng;
 pub use solids::{cube, icosphere, rough_sphere, torus, uv_sphere};
-pub use transform::{inverted, joined, scaled, transformed, two_parts};
+pub use transform::{EXTREME_SCALES, inverted, joined, scaled, transformed, two_parts};
 
 /// Positions and triangles.
 pub type Triangles = (Vec<[f32; 3]>, Vec<[u32; 3]>);

@@ -2,6 +2,9 @@
 
 use super::{Triangles, cube, icosphere};
 
+/// Powers of two near 1e30 and 1e-30: scaling by them is exact.
+pub const EXTREME_SCALES: [f32; 2] = [(1u128 << 99) as f32, 1.0 / (1u128 << 99) as f32];
+
 /// The mesh times a factor; exact for a power of two. A negative factor turns it inside out.
 #[must_use]
 pub fn scaled((positions, triangles): &Triangles, factor: f32) -> Triangles {

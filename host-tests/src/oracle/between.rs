@@ -3,7 +3,7 @@
 //! The least of six vertices with triangles and nine pairs of edges. Edges by triple products: the
 //! lines' common perpendicular if its feet are on both edges, else the nearest end.
 
-use super::distance::{Bounded, DOUBLE_ERROR, distance_between, squared_to_segment};
+use super::distance::{Bounded, distance_between, least_root, squared_to_segment};
 use super::double::{Double, Vector};
 use super::moved::{self, Place};
 
@@ -112,18 +112,10 @@ fn distance_of_edges([from, to]: [&Vector; 2], [start, end]: [&Vector; 2]) -> Bo
         let height = way.dot(&across) / squared.sqrt();
         if height.is_positive() { height } else { -height }
     } else {
-        [(from, start, end), (to, start, end), (start, from, to), (end, from, to)]
-            .map(|(p, from, to)| squared_to_segment(p, from, to))
-            .into_iter()
-            .reduce(|x, y| if (x - y).is_positive() { y } else { x })
-            .unwrap_or(Double::ZERO)
-            .sqrt()
+        let ends = [(from, start, end), (to, start, end), (start, from, to), (end, from, to)];
+        least_root(ends.map(|(p, from, to)| squared_to_segment(p, from, to)))
     };
-    let margin = DOUBLE_ERROR * size;
-    Bounded {
-        lower: (distance.hi.next_down() - margin).next_down().max(0.0),
-        upper: (distance.hi.next_up() + margin).next_up(),
-    }
+    Bounded::about(distance, size)
 }
 
 #[cfg(test)]

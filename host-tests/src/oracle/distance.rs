@@ -15,9 +15,26 @@ pub struct Bounded {
     pub upper: f64,
 }
 
+impl Bounded {
+    /// A distance of 106 bits whose terms are of this size.
+    pub(super) fn about(distance: Double, size: f64) -> Self {
+        let margin = DOUBLE_ERROR * size;
+        Bounded {
+            lower: (distance.hi.next_down() - margin).next_down().max(0.0),
+            upper: (distance.hi.next_up() + margin).next_up(),
+        }
+    }
+}
+
+/// The root of the least of some squares.
+pub(super) fn least_root<const N: usize>(squares: [Double; N]) -> Double {
+    let least = squares.into_iter().reduce(|x, y| if (x - y).is_positive() { y } else { x });
+    least.unwrap_or(Double::ZERO).sqrt()
+}
+
 /// Relative to the lengths in play, more than 106 bits lose on a triangle whose height is above
 /// 1e-10 of its length.
-pub(super) const DOUBLE_ERROR: f64 = 1e-26;
+const DOUBLE_ERROR: f64 = 1e-26;
 
 /// Relative to the lengths in play, more than the estimate in `f64` is off, degenerate triangles
 /// included: the three edges alone are good to 1e-14, and the plane is only trusted where its
@@ -63,18 +80,9 @@ pub(super) fn distance_between(p: &Vector, [a, b, c]: &[Vector; 3]) -> Bounded {
         let height = normal.dot(&p.minus(a)) / squared.sqrt();
         if height.is_positive() { height } else { -height }
     } else {
-        [(a, b), (b, c), (c, a)]
-            .map(|(from, to)| squared_to_segment(p, from, to))
-            .into_iter()
-            .reduce(|x, y| if (x - y).is_positive() { y } else { x })
-            .unwrap_or(Double::ZERO)
-            .sqrt()
+        least_root([(a, b), (b, c), (c, a)].map(|(from, to)| squared_to_segment(p, from, to)))
     };
-    let margin = DOUBLE_ERROR * size;
-    Bounded {
-        lower: (distance.hi.next_down() - margin).next_down().max(0.0),
-        upper: (distance.hi.next_up() + margin).next_up(),
-    }
+    Bounded::about(distance, size)
 }
 
 pub(super) fn squared_to_segment(p: &Vector, from: &Vector, to: &Vector) -> Double {

@@ -1,6 +1,6 @@
 //! Distance of a point and polylines, every segment looked at, in 106 bits.
 
-use super::distance::{Bounded, DOUBLE_ERROR, squared_to_segment};
+use super::distance::{Bounded, squared_to_segment};
 use super::double::{Double, Vector};
 
 /// Distance of `p` and the nearest of the segments `from to`; infinite if there is none.
@@ -14,9 +14,9 @@ pub fn distance_to_segments(
     for ends in segments {
         let [from, to] = ends.map(|end| Vector(end.map(Double::new)));
         let distance = squared_to_segment(&p, &from, &to).sqrt();
-        let margin = DOUBLE_ERROR * (p.minus(&from).norm_1() + to.minus(&from).norm_1());
-        best.lower = best.lower.min((distance.hi.next_down() - margin).next_down().max(0.0));
-        best.upper = best.upper.min((distance.hi.next_up() + margin).next_up());
+        let found = Bounded::about(distance, p.minus(&from).norm_1() + to.minus(&from).norm_1());
+        best.lower = best.lower.min(found.lower);
+        best.upper = best.upper.min(found.upper);
     }
     best
 }

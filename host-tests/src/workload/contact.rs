@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use meshsweep_core::Pose as CorePose;
+use std::ops::ControlFlow;
 
 use crate::oracle::moved::{self, Place};
 use crate::oracle::{Bounded, distance_of_moved_triangles as distance_of_triangles, meets};
@@ -61,7 +62,7 @@ impl<'a> Surface<'a> {
     /// Exact of those. A part that is wholly inside a part of the copy does not meet it.
     #[must_use]
     pub fn meets_moved(&self, pose: &Pose) -> bool {
-        self.any_pair(pose, |a, b| {
+        self.any_meeting(pose, |a, b| {
             triangles_meet(self.corners(a), self.corners(b).map(|p| pose.apply_rounded(p)))
         })
     }
@@ -70,7 +71,7 @@ impl<'a> Surface<'a> {
     /// rounding.
     #[must_use]
     pub fn meets_exactly(&self, core: &CorePose, pose: &Pose) -> bool {
-        self.any_pair(pose, |a, b| {
+        self.any_meeting(pose, |a, b| {
             let first = self.corners(a).map(Place::of);
             let second = self.corners(b).map(|p| Place::moved(p, &core.rotation, core.translation));
             moved::triangles_meet(first.each_ref(), second.each_ref())
@@ -82,51 +83,32 @@ impl<'a> Surface<'a> {
     /// Meshes that meet may give any number.
     #[must_use]
     pub fn distance_up_to(&self, core: &CorePose, pose: &Pose, limit: f64) -> Bounded {
-        let grown = DVec3::splat(GROWN * (self.size + pose.shift.length()));
-        let moved: Vec<[DVec3; 2]> =
-            self.nodes.iter().map(|node| moved_box([node.low, node.high], pose, grown)).collect();
         let mut best = Bounded { lower: f64::INFINITY, upper: f64::INFINITY };
-        let mut stack = vec![(0, 0)];
-        while let Some((i, j)) = stack.pop() {
-            let (a, b) = (&self.nodes[i], &self.nodes[j]);
-            if gap([a.low, a.high], moved[j]) > limit.min(best.upper) {
-                continue;
-            }
-            if a.children > 0 && (b.children == 0 || a.count >= b.count) {
-                stack.extend([(a.children, j), (a.children + 1, j)]);
-            } else if b.children > 0 {
-                stack.extend([(i, b.children), (i, b.children + 1)]);
-            } else {
-                let triangles = |node: &Node| &self.order[node.first..node.first + node.count];
-                for &second in triangles(b) {
-                    let box_of_second = moved_box(self.triangle_box(second), pose, grown);
-                    for &first in triangles(a) {
-                        if gap(self.triangle_box(first), box_of_second) > limit.min(best.upper) {
-                            continue;
-                        }
-                        let (p, q) = (self.corners(first), self.corners(second));
-                        let found = distance_of_triangles(p, q, &core.rotation, core.translation);
-                        best.lower = best.lower.min(found.lower);
-                        best.upper = best.upper.min(found.upper);
-                    }
-                }
-            }
-        }
+        self.any_pair(pose, limit, |first, second| {
+            let (p, q) = (self.corners(first), self.corners(second));
+            let found = distance_of_triangles(p, q, &core.rotation, core.translation);
+            best.lower = best.lower.min(found.lower);
+            best.upper = best.upper.min(found.upper);
+            ControlFlow::Continue(limit.min(best.upper))
+        });
         best
     }
 
-    /// Whether `test` holds for a triangle and a triangle of the moved copy whose boxes meet.
-    fn any_pair(&self, pose: &Pose, test: impl Fn(u32, u32) -> bool) -> bool {
+    /// Visits triangles and triangles of the moved copy whose boxes are at most `limit` apart. A
+    /// visit may lower the limit, or end the search. Whether one ended it.
+    fn any_pair(
+        &self,
+        pose: &Pose,
+        mut limit: f64,
+        mut visit: impl FnMut(u32, u32) -> ControlFlow<(), f64>,
+    ) -> bool {
         let grown = DVec3::splat(GROWN * (self.size + pose.shift.length()));
         let moved: Vec<[DVec3; 2]> =
             self.nodes.iter().map(|node| moved_box([node.low, node.high], pose, grown)).collect();
-        let apart = |low: DVec3, high: DVec3, [from, to]: [DVec3; 2]| {
-            low.cmpgt(to).any() || from.cmpgt(high).any()
-        };
         let mut stack = vec![(0, 0)];
         while let Some((i, j)) = stack.pop() {
             let (a, b) = (&self.nodes[i], &self.nodes[j]);
-            if apart(a.low, a.high, moved[j]) {
+            if gap([a.low, a.high], moved[j]) > limit {
                 continue;
             }
             if a.children > 0 && (b.children == 0 || a.count >= b.count) {
@@ -138,15 +120,25 @@ impl<'a> Surface<'a> {
                 for &second in triangles(b) {
                     let box_of_second = moved_box(self.triangle_box(second), pose, grown);
                     for &first in triangles(a) {
-                        let [low, high] = self.triangle_box(first);
-                        if !apart(low, high, box_of_second) && test(first, second) {
-                            return true;
+                        if gap(self.triangle_box(first), box_of_second) > limit {
+                            continue;
+                        }
+                        match visit(first, second) {
+                            ControlFlow::Continue(lower) => limit = lower,
+                            ControlFlow::Break(()) => return true,
                         }
                     }
                 }
             }
         }
         false
+    }
+
+    /// Whether `test` holds for a triangle and a triangle of the moved copy whose boxes meet.
+    fn any_meeting(&self, pose: &Pose, test: impl Fn(u32, u32) -> bool) -> bool {
+        self.any_pair(pose, 0.0, |first, second| {
+            if test(first, second) { ControlFlow::Break(()) } else { ControlFlow::Continue(0.0) }
+        })
     }
 
     fn node(&self, first: usize, count: usize) -> Node {

@@ -72,8 +72,8 @@ pub fn measure_bounds(file: &Path, counts: Option<&[Cost]>) -> Result<Vec<Table>
     Ok(tables)
 }
 
-/// Measures overlap and distance of one mesh file, which need not be closed, and itself under random
-/// motions.
+/// Measures overlap and distance of one mesh file, which need not be closed, and itself under
+/// random motions.
 ///
 /// # Errors
 /// The file is no mesh, or an answer is wrong.

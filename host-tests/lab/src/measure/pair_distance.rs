@@ -177,13 +177,13 @@ pub fn table(subject: &Subject) -> Result<Table, String> {
     }
     let [apart, _] = &groups;
     table.note(format!(
-        "{} seeded motions that are apart, by the distance in 106 bits; near contact: the same after \
-         99 hundredths of the way",
+        "{} seeded motions that are apart, by the distance in 106 bits; near contact: the same \
+         after 99 hundredths of the way",
         apart.len()
     ));
     table.note(
-        "wrong: the interval does not contain the distance; of parry3d: off by more than 1e-5 of the \
-         mesh's size. parry3d's: times faster than it in this run",
+        "wrong: the interval does not contain the distance; of parry3d: off by more than 1e-5 of \
+         the mesh's size. parry3d's: times faster than it in this run",
     );
     Ok(table)
 }

@@ -3,19 +3,16 @@
 use super::motions::{Tally, holds, motions, placed, rotation};
 use meshsweep_host_tests::generate::corpus::IDENTITY;
 use meshsweep_host_tests::generate::{
-    Rng, cube, icosphere, joined, rough_sphere, scaled, torus, transformed,
+    EXTREME_SCALES, Rng, cube, icosphere, joined, rough_sphere, scaled, torus, transformed,
 };
 use meshsweep_host_tests::scene::Scene;
-
-/// Powers of two near 1e30 and 1e-30: scaling by them is exact.
-const SCALES: [f32; 2] = [(1u128 << 99) as f32, 1.0 / (1u128 << 99) as f32];
 
 #[test]
 fn scaling_both_meshes_and_the_motion_by_a_power_of_two_changes_no_answer() {
     let (a, b) = (torus(2.0, 0.75, 16, 8), rough_sphere(2, 0.5, 1));
     let (first, second) = (Scene::both("", a.clone()), Scene::both("", b.clone()));
     let poses = motions(&first, &second, 25, 1);
-    for scale in SCALES {
+    for scale in EXTREME_SCALES {
         let (large, other) =
             (Scene::both("", scaled(&a, scale)), Scene::both("", scaled(&b, scale)));
         for pose in &poses {

@@ -31,8 +31,8 @@ pub fn overlap(tree: &Bvh<'_>, pose: Pose, s: &mut Scratch<'_>, to: &mut Asked<'
     );
 }
 
-/// How far the surface is from its moved copy, and whether it is within half of that. The pairs that
-/// wait are few, so the scratch memory of an overlap serves.
+/// How far the surface is from its moved copy, and whether it is within half of that. Few pairs
+/// wait, so the scratch memory of an overlap serves.
 #[inline(never)]
 pub fn distance(tree: &Bvh<'_>, pose: Pose, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
     let budget = Budget::EXACT.with_steps(DISTANCE_STEPS);
