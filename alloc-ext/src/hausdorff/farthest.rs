@@ -2,9 +2,10 @@
 //! builders use them.
 
 use super::piece::{CUT_ROUNDING, MAX_DEPTH, Piece, ROUNDED_UP, bounding_ball};
+use super::surface::Surface;
 use crate::mesh::Mesh;
-use glam::{DVec3, Vec3};
-use meshsweep_core::{Budget, Bvh, Interval, ScratchEntry};
+use glam::DVec3;
+use meshsweep_core::Bvh;
 use std::collections::BinaryHeap;
 
 /// The bound may exceed the true distance by this factor.
@@ -22,24 +23,6 @@ pub struct Nearest {
     pub upper: f64,
     /// Corners of the nearest triangle of the surface, or of one that is almost as near.
     pub triangle: Option<[DVec3; 3]>,
-}
-
-impl Nearest {
-    /// By a query in `f32`, which gives an interval of the distance and a triangle.
-    fn of_query(
-        point: DVec3,
-        query: impl FnOnce([f32; 3]) -> Option<(Interval, Option<[DVec3; 3]>)>,
-    ) -> Option<Self> {
-        let asked = point.as_vec3();
-        // The query's point is rounded to f32. The distance to it is part of the bounds.
-        let offset = (asked.as_dvec3() - point).length();
-        let (distance, triangle) = query(asked.to_array())?;
-        Some(Self {
-            lower: f64::from(distance.lower) - offset,
-            upper: f64::from(distance.upper) + offset,
-            triangle,
-        })
-    }
 }
 
 /// Bounds of the largest distance.
@@ -66,7 +49,7 @@ fn bounded(
 }
 
 /// Bounds of the largest distance from a point of `triangles` to the surface of `nearest`. `upper`
-/// exceeds `lower` by at most a twentieth and the rounding of cuts, unless `upper` is at most
+/// exceeds `lower` by at most a twentieth and twice the rounding of cuts, unless `upper` is at most
 /// `enough`, or 200,000 cuts or the depth of a piece do not suffice.
 ///
 /// Cost: one query for each triangle, and some dozens more for the farthest.
@@ -84,9 +67,11 @@ pub fn farthest(
     }
     let mut cuts = MAX_CUTS;
     while let Some(piece) = heap.pop() {
+        let rounding = size * CUT_ROUNDING;
         let is_spent = cuts == 0 || piece.depth >= MAX_DEPTH;
-        if piece.bound <= (found * TOLERANCE).max(enough) || is_spent || piece.bound == 0.0 {
-            return Farthest { lower: found, upper: piece.bound.max(found) + size * CUT_ROUNDING };
+        // A bound within the rounding that is added to it would gain nothing.
+        if piece.bound <= (found * TOLERANCE).max(enough).max(rounding) || is_spent {
+            return Farthest { lower: found, upper: piece.bound.max(found) + rounding };
         }
         cuts -= 1;
         for part in piece.parts(piece.of) {
@@ -134,20 +119,24 @@ pub fn is_within(
     true
 }
 
+/// An interval wider than this fraction of its upper end is computed again in f64. A search could
+/// not end on it.
+const WIDE: f64 = 1.0 / 64.0;
+
 /// Where the nearest triangle of a mesh is, by the mesh's [box tree](crate::bvh::exact_blob).
 pub fn nearest_in<'a>(
     tree: &'a Bvh<'a>,
     mesh: &'a Mesh,
 ) -> impl FnMut(DVec3) -> Option<Nearest> + 'a {
-    let mut scratch = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
-    let all: Vec<[u32; 3]> = mesh.all_triangles().collect();
-    let wide = |v: u32| Vec3::from(mesh.positions[v as usize]).as_dvec3();
+    let surface = Surface::new(tree, mesh);
+    let mut scratch = surface.scratch();
     move |point| {
-        Nearest::of_query(point, |p| {
-            let answer = tree.closest_point(p, Budget::EXACT, &mut scratch).ok()?;
-            let corners = answer.triangle.and_then(|number| all.get(number as usize));
-            Some((answer.distance, corners.map(|corners| corners.map(wide))))
-        })
+        let mut near = surface.near(point, &mut scratch);
+        if near.upper - near.lower > WIDE * near.upper {
+            near = surface.bounds_in_f64(point, near, &mut scratch);
+        }
+        let triangle = surface.triangles.get(near.triangle).copied();
+        near.upper.is_finite().then_some(Nearest { lower: near.lower, upper: near.upper, triangle })
     }
 }
 
