@@ -95,8 +95,8 @@ pub use hull::{
 };
 pub use query::{
     AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Overlap, Overlaps, PairDistance,
-    PairWithin, PosedPoint, QueryError, Scratch, ScratchEntry, Side, TrianglePair, Undecided,
-    Verdict, Work,
+    PairWithin, PosedPoint, QueryError, Scratch, ScratchEntry, Side, Solid, SolidDistance,
+    SolidWithin, TrianglePair, Undecided, Verdict, Work,
 };
 pub use tight::{TightHull, TightHulls, TightRecord};
 pub use tribox::{

@@ -19,6 +19,8 @@
 //! | `first_hit`, `any_hit`, `all_hits` | segments |
 //! | `front_facing` | triangles that may face an eye |
 //! | `overlap/` | two trees, one of them moved |
+//! | `solid/` | a convex solid, at rest or moving |
+//! | `stored_lengths` | from distances of stored surfaces to those of the input |
 //! | `coherent/` | a query that moves |
 //!
 //! Two numbers lead to a triangle from its node: `child` is the number of the leaf among the node's
@@ -60,6 +62,8 @@ mod segment_leaf;
 mod segment_query;
 mod side_search;
 mod signed_distance;
+mod solid;
+mod stored_lengths;
 mod triangle_bounds;
 mod triangle_visitor;
 mod within;

@@ -1,6 +1,7 @@
 //! Closed-form kernels. They know vectors and no bytes. The builder calls the same code.
 
 mod boxes;
+mod convex_gap;
 pub mod fan;
 mod lanes;
 mod point_segment;
@@ -14,6 +15,7 @@ mod triangle_distance;
 mod triangle_pair;
 
 pub use boxes::{Aabb, Clipped};
+pub use convex_gap::{ConvexGap, convex_gap};
 pub use lanes::{LANES, Lanes};
 pub use point_segment::{CapsulePoint, PointSegment, point_segment};
 pub use point_triangle::{PointTriangle, point_triangle};

@@ -52,7 +52,7 @@ pub fn point_triangle(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> PointTriangle {
 /// Barycentric coordinates of the closest point. The direction is there where it bounds the
 /// distance better than the residual.
 #[inline]
-fn closest(ap: DVec3, ab: DVec3, ac: DVec3) -> (f64, f64, Option<DVec3>) {
+pub(super) fn closest(ap: DVec3, ab: DVec3, ac: DVec3) -> (f64, f64, Option<DVec3>) {
     let d1 = ab.dot(ap);
     let d2 = ac.dot(ap);
     if d1 <= 0.0 && d2 <= 0.0 {

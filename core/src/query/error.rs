@@ -21,11 +21,18 @@ pub enum QueryError {
         /// Places for answers.
         answers: u32,
     },
+    /// A solid has no corners, or more than [`Solid::MOST_CORNERS`](crate::Solid::MOST_CORNERS). Or
+    /// a solid that moves has not as many at the end as at the start.
+    Corners {
+        /// Corners given; of a solid that moves, those at the end.
+        found: u32,
+    },
     /// A tolerance or a distance is negative, NaN, infinite or too large.
     Tolerance,
     /// A point or an end of a segment is too far away. Clip segments first. The limits:
     /// - [`Hull`](crate::Hull): 2^40 times the model's size from its origin;
-    /// - [`Bvh`](crate::Bvh): 2^38 grid units from the model's farthest corner;
+    /// - [`Bvh`](crate::Bvh): 2^38 grid units from the model's farthest corner; for a
+    ///   [`Solid`](crate::Solid) 2^30 grid units from the grid's origin;
     /// - [`Triboxes`](crate::Triboxes): [`Tribox::DOMAIN`](crate::Tribox::DOMAIN).
     OutOfDomain,
     /// A pose cannot be computed with. One of these holds:
@@ -95,6 +102,9 @@ impl core::fmt::Display for QueryError {
             }
             QueryError::AnswerCount { points, answers } => {
                 return write!(f, "{points} queries, but {answers} answers");
+            }
+            QueryError::Corners { found } => {
+                return write!(f, "{found} corners: 1 to 32, and as many at a motion's end");
             }
             QueryError::Tolerance => {
                 "a tolerance or a distance is negative, NaN, infinite or too large"

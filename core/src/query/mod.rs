@@ -10,6 +10,7 @@
 //! | `posed_point` | [`PosedPoint`]: a point in the frame of a moved model |
 //! | `overlap` | [`Overlap`], [`Overlaps`], [`TrianglePair`], and what collects pairs |
 //! | `pair_distance` | [`PairDistance`], [`PairWithin`]: how far two surfaces are apart |
+//! | `solid` | [`Solid`], and the answers about it: [`SolidDistance`], [`SolidWithin`] |
 //! | `relative_pose` | the pose of one model in the frame of another, and the rounding in it |
 //! | `work` | [`Work`]: counters |
 //! | `error` | [`QueryError`]: why a query was refused |
@@ -26,6 +27,7 @@ mod pair_distance;
 mod posed_point;
 mod relative_pose;
 mod scratch;
+mod solid;
 mod sweep_queue;
 mod verdict;
 mod work;
@@ -42,6 +44,7 @@ pub use pair_distance::{PairDistance, PairWithin};
 pub use posed_point::PosedPoint;
 pub(crate) use relative_pose::{DIRECTIONS, Extended, ModelFrame, Placement, RelativePose};
 pub use scratch::{Scratch, ScratchEntry};
+pub use solid::{Solid, SolidDistance, SolidWithin};
 pub(crate) use sweep_queue::{SweepQueue, Taken, before};
 pub use verdict::{Side, Undecided, Verdict};
 pub use work::Work;

@@ -12,3 +12,4 @@ mod pair_distance;
 mod posed;
 mod refusals;
 mod segments;
+mod solid;

@@ -14,8 +14,8 @@ use crate::query::{DIRECTIONS, ModelFrame};
 /// `[direction][child]`, common units.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AxisIntervals {
-    pub(super) low: [[f32; WIDTH]; DIRECTIONS],
-    pub(super) high: [[f32; WIDTH]; DIRECTIONS],
+    pub(crate) low: [[f32; WIDTH]; DIRECTIONS],
+    pub(crate) high: [[f32; WIDTH]; DIRECTIONS],
 }
 
 /// Along one axis, the sums and the differences of the boxes' high and low bytes: twice the

@@ -20,7 +20,7 @@ pub(crate) type PairPlace = [[u32; 3]; 2];
 
 /// The tree in grid units, from the grid's origin: vertices are stored without the origin, f32
 /// vertices with it. Each extent is one more, for boxes without extent.
-pub(super) fn extended(tree: &Bvh<'_>) -> Extended {
+pub(crate) fn extended(tree: &Bvh<'_>) -> Extended {
     let header = tree.header();
     let origin = if header.is_f32() { [0.0; 3] } else { header.grid_origin.map(f64::from) };
     let (low, high) = tree.grid_bounds();

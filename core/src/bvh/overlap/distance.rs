@@ -83,8 +83,11 @@ impl Bvh<'_> {
                 (gap, greater(gap.lower, if pair.is_in_range { bound } else { 0.0 }), ended)
             }
         };
-        let distance =
-            if gap.meets { Interval::new(0.0, 0.0) } else { pair.distance(lower, gap.upper) };
+        let distance = if gap.meets {
+            Interval::new(0.0, 0.0)
+        } else {
+            pair.lengths.interval(lower, gap.upper)
+        };
         Ok(PairDistance {
             distance,
             points: gap.points.map(|point| pair.place(point)),
@@ -116,9 +119,9 @@ impl Nearest {
             lower: f64::INFINITY,
             upper: f64::INFINITY,
             limit: f64::INFINITY,
-            errors: pair.errors,
+            errors: pair.lengths.error,
             relative: f64::from(budget.relative),
-            absolute: pair.inward(budget.absolute),
+            absolute: pair.lengths.inward(budget.absolute),
         }
     }
 

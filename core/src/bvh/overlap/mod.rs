@@ -24,3 +24,6 @@ mod pair_keys;
 mod query;
 mod stored_pair;
 mod within_of;
+
+pub(super) use axis_intervals::AxisIntervals;
+pub(super) use descent::extended;

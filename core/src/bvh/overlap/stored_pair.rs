@@ -6,10 +6,11 @@
 use super::descent::{Models, extended};
 use super::leaf_gaps::LeafGaps;
 use crate::bvh::format::Bvh;
+use crate::bvh::stored_lengths::StoredLengths;
 use crate::geom::Pose;
 use crate::num::tolerance::U64;
-use crate::num::{down_to_f32, exp2, greater, up_to_f32};
-use crate::query::{Extended, Interval, Placement, QueryError, RelativePose};
+use crate::num::{exp2, greater};
+use crate::query::{Extended, Placement, QueryError, RelativePose};
 
 /// Two trees, one of them moved.
 pub(super) struct StoredPair<'a> {
@@ -18,13 +19,11 @@ pub(super) struct StoredPair<'a> {
     pub(super) pose: RelativePose,
     /// The pose is near enough for f32.
     pub(super) is_in_range: bool,
-    /// The sum of both surface errors, common units, rounded up.
-    pub(super) errors: f64,
+    /// With the sum of both surface errors.
+    pub(super) lengths: StoredLengths,
     /// The greater of both.
     greater_error: f64,
     first: Extended,
-    /// Input units of a common unit.
-    common: f64,
 }
 
 impl<'a> StoredPair<'a> {
@@ -42,9 +41,11 @@ impl<'a> StoredPair<'a> {
         Ok(StoredPair {
             trees: [a, b],
             is_in_range,
-            errors: (error_a + error_b) * up,
+            lengths: StoredLengths {
+                error: (error_a + error_b) * up,
+                unit: exp2(greater(first.exponent, second.exponent)),
+            },
             greater_error: greater(error_a, error_b) * up,
-            common: exp2(greater(first.exponent, second.exponent)),
             first,
             pose,
         })
@@ -57,28 +58,6 @@ impl<'a> StoredPair<'a> {
 
     pub(super) fn leaves(&self) -> LeafGaps<'_> {
         LeafGaps { pose: &self.pose, surface_error: self.greater_error, way: [0.0; 3] }
-    }
-
-    /// A length in common units.
-    pub(super) fn inward(&self, length: f32) -> f64 {
-        f64::from(length) / self.common
-    }
-
-    /// The distance of the inputs, from that of the stored surfaces in common units.
-    pub(super) fn distance(&self, lower: f64, upper: f64) -> Interval {
-        Interval::new(self.lower(lower), self.upper(upper))
-    }
-
-    /// A lower end in input units.
-    pub(super) fn lower(&self, lower: f64) -> f32 {
-        let lower = greater(0.0, (lower - self.errors).next_down());
-        down_to_f32(lower * self.common)
-    }
-
-    /// An upper end in input units.
-    pub(super) fn upper(&self, upper: f64) -> f32 {
-        let sum = upper + self.errors;
-        up_to_f32(if sum > 0.0 { sum.next_up() } else { sum } * self.common)
     }
 
     /// A place in the first model's frame, input units, from common units and the first model's

@@ -55,7 +55,7 @@ impl Bvh<'_> {
         budget.check_with(scratch)?;
         let pair = StoredPair::new([self, other], &pose)?;
         let mut work = Work::default();
-        let limit = (pair.inward(distance) + pair.errors) * (1.0 + 8.0 * U64);
+        let limit = (pair.lengths.inward(distance) + pair.lengths.error) * (1.0 + 8.0 * U64);
         let mut threshold = Threshold { pair: &pair, distance, limit, near: None, undecided: None };
         let missed = if pair.is_in_range {
             let mut leaves = pair.leaves();
@@ -68,7 +68,7 @@ impl Bvh<'_> {
             (Some(gap), _, _) => (Verdict::Yes, Some(gap)),
             (None, Some(missed), _) => {
                 let far = from_afar(&pair).ok_or(QueryError::Unchecked)?;
-                let is_apart = pair.lower(far.lower) > distance;
+                let is_apart = pair.lengths.lower(far.lower) > distance;
                 let open = Verdict::Undecided(missed.why.undecided());
                 (if is_apart { Verdict::No } else { open }, None)
             }
@@ -101,11 +101,11 @@ impl GapVisitor for Threshold<'_> {
 
     #[inline(always)]
     fn take(&mut self, gap: &TriangleGap) -> bool {
-        if gap.meets || self.pair.upper(gap.upper) <= self.distance {
+        if gap.meets || self.pair.lengths.upper(gap.upper) <= self.distance {
             self.near = Some(*gap);
             return false;
         }
-        if self.undecided.is_none() && self.pair.lower(gap.lower) <= self.distance {
+        if self.undecided.is_none() && self.pair.lengths.lower(gap.lower) <= self.distance {
             self.undecided = Some(*gap);
         }
         true

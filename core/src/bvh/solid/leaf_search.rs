@@ -1,0 +1,167 @@
+//! The distance of a solid from the triangles of a leaf.
+//!
+//! Extents along six directions bound all triangles in f32. Those that are left are measured in
+//! f64, the one with the least bound first.
+
+use super::box_keys::{bounds_sq, key_limit, square_limit};
+use super::placed::{PlacedSolid, dot};
+use crate::bvh::descent::{LeafVisit, LeafVisitor};
+use crate::bvh::format::{CORNERS, FanLeaf};
+use crate::geom::fan::WIDTH;
+use crate::geom::{ConvexGap, convex_gap};
+use crate::num::tolerance::{CONVEX_GAP, U64};
+use crate::num::{greater, lesser};
+use crate::query::DIRECTIONS;
+
+/// Slot of the first ring vertex among a leaf's stored vertices.
+const RING: usize = 2;
+
+/// A triangle of a leaf.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) node: u32,
+    pub(super) child: u32,
+    pub(super) lane: u32,
+}
+
+/// A leaf's triangles with their squared lower bounds.
+pub(super) struct LeafTriangles {
+    /// Infinite for triangles that are done, or are not there.
+    bounds_sq: [f32; WIDTH],
+    vertices: [[f32; CORNERS]; 3],
+    turn: usize,
+    node: u32,
+    child: u32,
+}
+
+impl LeafTriangles {
+    #[inline(always)]
+    pub(super) fn new(placed: &PlacedSolid, visit: &LeafVisit<'_>) -> LeafTriangles {
+        let leaf: &FanLeaf<'_> = &visit.leaf;
+        let (vertices, turn) = (leaf.stored_vertices(), leaf.shape().turn());
+        let mut triangles = LeafTriangles {
+            bounds_sq: [f32::INFINITY; WIDTH],
+            vertices,
+            turn,
+            node: visit.node,
+            child: visit.child,
+        };
+        let (mut low, mut high) = ([[0f32; WIDTH]; DIRECTIONS], [[0f32; WIDTH]; DIRECTIONS]);
+        let directions = placed.frame.rows.iter().zip(placed.frame.grow);
+        for ((&[a, b, c], grow), (low, high)) in directions.zip(low.iter_mut().zip(&mut high)) {
+            let [x, y, z] = &vertices;
+            let mut heights = [0f32; CORNERS];
+            for (height, ((x, y), z)) in heights.iter_mut().zip(x.iter().zip(y).zip(z)) {
+                *height = (a * x + b * y) + c * z;
+            }
+            for (lane, (low, high)) in low.iter_mut().zip(high).enumerate() {
+                let at = |slot: usize| heights.get(slot).copied().unwrap_or(0.0);
+                let [p, q, r] = slots(lane, turn).map(at);
+                *low = lesser(p, lesser(q, r)) - grow;
+                *high = greater(p, greater(q, r)) + grow;
+            }
+        }
+        let bounds = bounds_sq(placed, &low, &high);
+        let there = leaf.shape().triangles();
+        triangles.bounds_sq.iter_mut().zip(bounds).take(there).for_each(|(slot, x)| *slot = x);
+        triangles
+    }
+
+    /// Takes the triangle with the least bound out, if that is within the limit.
+    #[inline(always)]
+    pub(super) fn next(&mut self, limit: f64) -> Option<(Place, [[f64; 3]; 3])> {
+        let mut least = (square_limit(limit), WIDTH);
+        for (lane, &bound) in self.bounds_sq.iter().enumerate() {
+            if bound <= least.0 {
+                least = (bound, lane);
+            }
+        }
+        let (_, lane) = least;
+        *self.bounds_sq.get_mut(lane)? = f32::INFINITY;
+        let [x, y, z] = &self.vertices;
+        let corners = slots(lane, self.turn)
+            .map(|slot| [x, y, z].map(|axis| axis.get(slot).copied().map_or(0.0, f64::from)));
+        Some((Place { node: self.node, child: self.child, lane: lane as u32 }, corners))
+    }
+}
+
+#[inline(always)]
+fn slots(lane: usize, turn: usize) -> [usize; 3] {
+    [usize::from(lane >= turn), RING + lane, RING + 1 + lane]
+}
+
+/// A measured triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TriangleGap {
+    pub(super) place: Place,
+    pub(super) gap: ConvexGap,
+}
+
+/// A question's visitor for triangles.
+pub(super) trait GapVisitor {
+    /// Triangles that are farther from the hull of the corners need no visit.
+    fn limit(&self) -> f64;
+    /// Whether to go on.
+    fn take(&mut self, found: &TriangleGap) -> bool;
+}
+
+/// The search among leaves for a solid at rest.
+pub(super) struct LeafSearch<'a, V> {
+    placed: &'a PlacedSolid,
+    /// Across the way to the triangle that was measured last: the way, of length 1, and the height
+    /// of the solid along it.
+    plane: ([f64; 3], f64),
+    /// Triangles that were measured.
+    pub(super) measured: u32,
+    pub(super) visitor: V,
+}
+
+impl<V: GapVisitor> LeafVisitor for LeafSearch<'_, V> {
+    #[inline(always)]
+    fn limit(&self) -> u32 {
+        key_limit(square_limit(self.visitor.limit()))
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
+        let mut triangles = LeafTriangles::new(self.placed, visit);
+        while let Some((place, corners)) = triangles.next(self.visitor.limit()) {
+            if self.is_beyond(&corners) {
+                continue;
+            }
+            self.measured = self.measured.saturating_add(1);
+            let gap = self.measure(&corners);
+            if !self.visitor.take(&TriangleGap { place, gap }) {
+                return Some(false);
+            }
+        }
+        Some(true)
+    }
+}
+
+impl<'a, V: GapVisitor> LeafSearch<'a, V> {
+    pub(super) fn new(placed: &'a PlacedSolid, visitor: V) -> LeafSearch<'a, V> {
+        LeafSearch { placed, plane: ([0.0; 3], 0.0), measured: 0, visitor }
+    }
+
+    #[inline(never)]
+    fn measure(&mut self, corners: &[[f64; 3]; 3]) -> ConvexGap {
+        let gap = convex_gap(self.placed.corners(), corners);
+        let length = libm::sqrt(dot(gap.way, gap.way));
+        if length > 0.0 {
+            let way = gap.way.map(|x| x / length);
+            let heights = self.placed.corners().iter().map(|&corner| dot(way, corner));
+            self.plane = (way, heights.fold(f64::NEG_INFINITY, greater));
+        }
+        gap
+    }
+
+    /// Whether the plane proves that a triangle is farther than the limit.
+    fn is_beyond(&self, corners: &[[f64; 3]; 3]) -> bool {
+        let ((way, top), limit) = (self.plane, self.visitor.limit());
+        let lowest = corners.iter().map(|&p| dot(way, p)).fold(f64::INFINITY, lesser);
+        // Heights are below these in size.
+        let far = lowest.abs() + top.abs() + limit;
+        lowest - top > limit + far * (CONVEX_GAP * U64)
+    }
+}

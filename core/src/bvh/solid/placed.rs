@@ -1,0 +1,243 @@
+//! A solid in the units of a tree, from the tree's origin.
+
+use crate::bvh::format::Bvh;
+use crate::bvh::overlap::extended;
+use crate::bvh::stored_lengths::StoredLengths;
+use crate::num::tolerance::{OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, U32, U64};
+use crate::num::{down_to_f32, exp2, greater, lesser, up_to_f32};
+use crate::query::{DIRECTIONS, Extended, ModelFrame, QueryError, Solid};
+
+type Point = [f64; 3];
+
+/// Direction of the solid's first axis among the six.
+pub(super) const FIRST_AXIS: usize = 3;
+
+/// A solid, and the ways of its corners if it moves.
+pub(super) struct PlacedSolid {
+    /// At the start.
+    from: [Point; Solid::MOST_CORNERS],
+    /// The way of each corner.
+    ways: [Point; Solid::MOST_CORNERS],
+    count: usize,
+    pub(super) radius: f64,
+    pub(super) lengths: StoredLengths,
+    /// The tree's box intervals along six directions: its own axes, then the solid's. The second
+    /// three are orthonormal up to their rounding to f32.
+    pub(super) frame: ModelFrame,
+    /// Extent along the directions of all places of the corners.
+    pub(super) low: [f32; DIRECTIONS],
+    pub(super) high: [f32; DIRECTIONS],
+    /// Along the first axis, the greatest place of a corner at the start.
+    pub(super) start: f64,
+    /// How fast corners move along the first axis, at most. Not negative.
+    pub(super) speed: f64,
+    tree: Extended,
+}
+
+impl PlacedSolid {
+    /// A solid at rest, or one that moves from `solid` to `end`.
+    pub(super) fn new(
+        tree: &Bvh<'_>,
+        solid: &Solid<'_>,
+        end: Option<&Solid<'_>>,
+    ) -> Result<PlacedSolid, QueryError> {
+        if !tree.serves_segments() {
+            return Err(QueryError::NO_SEGMENTS);
+        }
+        let count = solid.corners().len();
+        let moved = end.map_or(count, |end| end.corners().len());
+        if moved != count || count > Solid::MOST_CORNERS {
+            return Err(QueryError::Corners { found: u32::try_from(moved).unwrap_or(u32::MAX) });
+        }
+        let stored = extended(tree);
+        let scale = exp2(stored.exponent.wrapping_neg());
+        let [ox, oy, oz] = stored.origin;
+        let inward = |[x, y, z]: [f32; 3]| {
+            let [x, y, z] = [x, y, z].map(|x| f64::from(x) * scale);
+            [x - ox, y - oy, z - oz]
+        };
+        let mut placed = PlacedSolid {
+            from: [[0.0; 3]; Solid::MOST_CORNERS],
+            ways: [[0.0; 3]; Solid::MOST_CORNERS],
+            count,
+            radius: 0.0,
+            lengths: StoredLengths { error: stored.error, unit: exp2(stored.exponent) },
+            frame: ModelFrame {
+                rows: [[0.0; 3]; DIRECTIONS],
+                shift: [0.0; DIRECTIONS],
+                origin: stored.origin.map(|x| x as f32),
+                grow: [0.0; DIRECTIONS],
+                unit: 1.0,
+            },
+            low: [0.0; DIRECTIONS],
+            high: [0.0; DIRECTIONS],
+            start: 0.0,
+            speed: 0.0,
+            tree: stored,
+        };
+        let radius = end.map_or(solid.radius(), |end| greater(solid.radius(), end.radius()));
+        placed.radius = placed.lengths.inward(radius);
+        let mut farthest = 0f64;
+        let ends = end.map_or(solid.corners(), Solid::corners);
+        let places = placed.from.iter_mut().zip(&mut placed.ways);
+        for ((from, way), (&at, &to)) in places.zip(solid.corners().iter().zip(ends)) {
+            let to = inward(to);
+            *from = inward(at);
+            *way = minus(to, *from);
+            let far = from.iter().chain(&to).fold(0.0, |far, x| greater(far, x.abs()));
+            farthest = greater(farthest, far);
+        }
+        // NaN is too far as well.
+        if !(farthest <= OVERLAP_FARTHEST) {
+            return Err(QueryError::OutOfDomain);
+        }
+        placed.set_directions(farthest);
+        Ok(placed)
+    }
+
+    /// The corners at the start.
+    pub(super) fn corners(&self) -> &[Point] {
+        self.from.get(..self.count).unwrap_or(&[])
+    }
+
+    fn ways(&self) -> &[Point] {
+        self.ways.get(..self.count).unwrap_or(&[])
+    }
+
+    /// The corners at a parameter of the motion.
+    pub(super) fn corners_at(&self, t: f64) -> [Point; Solid::MOST_CORNERS] {
+        let mut at = self.from;
+        for (at, way) in at.iter_mut().zip(self.ways()) {
+            for (x, way) in at.iter_mut().zip(way) {
+                *x += way * t;
+            }
+        }
+        at
+    }
+
+    /// How many of the corners count.
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The greatest component of a corner's way along a direction.
+    pub(super) fn speed_along(&self, direction: Point) -> f64 {
+        self.ways().iter().map(|&way| dot(direction, way)).fold(f64::NEG_INFINITY, greater)
+    }
+
+    /// The longest way of a corner, as the sum of its components.
+    pub(super) fn quickest(&self) -> f64 {
+        let length = |[x, y, z]: &Point| x.abs() + y.abs() + z.abs();
+        self.ways().iter().map(length).fold(0.0, greater)
+    }
+
+    /// Whether no corner moves.
+    pub(super) fn is_still(&self) -> bool {
+        self.ways().iter().all(|way| *way == [0.0; 3])
+    }
+
+    /// Chooses the solid's axes and its extent along all directions. `far`: the greatest
+    /// coordinate.
+    fn set_directions(&mut self, far: f64) {
+        let [x, y, z] = [[1.0f32, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let [u, v, w] = self.axes();
+        self.frame.rows = [x, y, z, u, v, w];
+        let rounding = 32.0 * U64 * far;
+        for (direction, row) in self.frame.rows.into_iter().enumerate() {
+            let row = row.map(f64::from);
+            let [a, b, c] = row.map(f64::abs);
+            let [kx, ky, kz] = self.tree.extent;
+            let most = (a * kx + b * ky) + c * kz;
+            let grow = most * (OVERLAP_INTERVAL * f64::from(U32)) + OVERLAP_UNDERFLOW;
+            let (mut low, mut high, mut start) =
+                (f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
+            for (from, way) in self.corners().iter().zip(self.ways()) {
+                let (from, moved) = (dot(row, *from), dot(row, *way));
+                low = lesser(low, lesser(from, from + moved));
+                high = greater(high, greater(from, from + moved));
+                start = greater(start, from);
+            }
+            if let Some(slot) = self.frame.grow.get_mut(direction) {
+                *slot = up_to_f32(grow);
+            }
+            if let Some(slot) = self.low.get_mut(direction) {
+                *slot = down_to_f32(low - rounding);
+            }
+            if let Some(slot) = self.high.get_mut(direction) {
+                *slot = up_to_f32(high + rounding);
+            }
+            if direction == FIRST_AXIS {
+                self.start = start + rounding;
+                self.speed = greater(0.0, self.speed_along(row) + rounding);
+            }
+        }
+    }
+
+    /// Three unit vectors across each other, rounded to f32. The first one is along the motion, or
+    /// along the longest edge from the first corner. The second one is along what is longest across
+    /// it.
+    fn axes(&self) -> [[f32; 3]; 3] {
+        let mut edges = [[0.0; 3]; 2 * Solid::MOST_CORNERS];
+        let first = self.corners().first().copied().unwrap_or_default();
+        let still = self.is_still();
+        let all = self.corners().iter().map(|&corner| minus(corner, first));
+        let all = all.chain(self.ways().iter().copied());
+        edges.iter_mut().zip(all).for_each(|(slot, edge)| *slot = edge);
+        let leading = if still { edges.get(..self.count) } else { edges.get(self.count..) };
+        let u = unit(longest(leading.unwrap_or(&[]))).unwrap_or([1.0, 0.0, 0.0]);
+        let across = edges.map(|edge| without(edge, u));
+        // An axis of the grid that is not along the first one.
+        let [x, y, _] = u.map(f64::abs);
+        let spare = if x < 0.6 {
+            [1.0, 0.0, 0.0]
+        } else if y < 0.6 {
+            [0.0, 1.0, 0.0]
+        } else {
+            [0.0, 0.0, 1.0]
+        };
+        let second = |edge: Point| Some(unit(without(unit(edge)?, u))?);
+        let v = second(longest(&across)).filter(|v| dot(*v, u).abs() < 1e-9);
+        let v = v.or_else(|| second(spare)).unwrap_or([0.0, 1.0, 0.0]);
+        let w = cross(u, v);
+        [u, v, w].map(|axis| axis.map(|x| x as f32))
+    }
+
+    /// A place in input units.
+    pub(super) fn place(&self, [x, y, z]: Point) -> [f32; 3] {
+        let [a, b, c] = self.tree.origin;
+        [x + a, y + b, z + c].map(|x| ((x * self.lengths.unit) as f32).clamp(-f32::MAX, f32::MAX))
+    }
+}
+
+fn longest(vectors: &[Point]) -> Point {
+    vectors
+        .iter()
+        .fold([0.0; 3], |longest, &v| if dot(v, v) > dot(longest, longest) { v } else { longest })
+}
+
+/// A vector of length 1; `None` if it has no length that f64 can divide by.
+fn unit(v: Point) -> Option<Point> {
+    let largest = v.iter().fold(0.0, |largest, x| greater(largest, x.abs()));
+    let scaled = v.map(|x| x / largest);
+    let length = libm::sqrt(dot(scaled, scaled));
+    (largest > f64::MIN_POSITIVE && length.is_finite()).then(|| scaled.map(|x| x / length))
+}
+
+/// Without its component along a unit vector.
+fn without(v: Point, [a, b, c]: Point) -> Point {
+    let [x, y, z] = v;
+    let along = dot(v, [a, b, c]);
+    [x - a * along, y - b * along, z - c * along]
+}
+
+fn minus([a, b, c]: Point, [x, y, z]: Point) -> Point {
+    [a - x, b - y, c - z]
+}
+
+pub(super) fn dot([a, b, c]: Point, [x, y, z]: Point) -> f64 {
+    (a * x + b * y) + c * z
+}
+
+fn cross([a, b, c]: Point, [x, y, z]: Point) -> Point {
+    [b * z - c * y, c * x - a * z, a * y - b * x]
+}

@@ -1,0 +1,111 @@
+//! Whether a convex solid and the surface are within a distance of each other.
+
+use super::box_keys::ByDistance;
+use super::leaf_search::{GapVisitor, LeafSearch, Place, TriangleGap};
+use super::placed::PlacedSolid;
+use super::solid_distance::number;
+use crate::bvh::descent::{Descent, descend};
+use crate::bvh::format::Bvh;
+use crate::num::tolerance::U64;
+use crate::query::{
+    Budget, QueryError, ScratchEntry, Solid, SolidWithin, Undecided, Verdict, Work,
+};
+
+impl Bvh<'_> {
+    /// Whether a point of `solid` is at most `distance` from the surface. All lengths in input
+    /// units.
+    ///
+    /// Both verdicts are proved for the input mesh. A distance of 0 asks whether the solid and the
+    /// surface meet. The verdict is undecided for lack of precision only if the true distance is
+    /// within the surface error and rounding of the one asked about. Without a radius that also
+    /// holds where the solid is less deep in the surface than that, and for flat solids that pass
+    /// through it: give those a radius. For collision avoidance, treat an undecided answer as
+    /// `Yes`.
+    ///
+    /// Arguments and degenerate cases as for [`solid_distance`](Bvh::solid_distance). It ends at
+    /// the first triangle that is certainly near enough. Of the budget only `steps` matters.
+    ///
+    /// Cost: less than the distance. One node if the model's boxes are farther.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Scratch, Solid};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<64>::new());
+    /// let clamp = Solid::box_corners([900.0, 0.0, 0.0], [950.0, 20.0, 10.0]);
+    /// let clamp = Solid::new(&clamp, 0.0)?;
+    /// assert!(part.solid_within(&clamp, 2.0, Budget::EXACT, &mut scratch)?.is_clear());
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`solid_distance`](Bvh::solid_distance); [`QueryError::Tolerance`] also for a
+    /// distance that is negative, NaN or infinite.
+    pub fn solid_within(
+        &self,
+        solid: &Solid<'_>,
+        distance: f32,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<SolidWithin, QueryError> {
+        // A distance is refused as an absolute tolerance is.
+        budget.with_absolute(distance).check()?;
+        budget.check_with(scratch)?;
+        let placed = PlacedSolid::new(self, solid, None)?;
+        let lengths = &placed.lengths;
+        let reach = lengths.inward(distance) + placed.radius + lengths.error;
+        let threshold = Threshold {
+            placed: &placed,
+            distance,
+            limit: reach * (1.0 + 8.0 * U64),
+            near: None,
+            undecided: None,
+        };
+        let mut work = Work::default();
+        let mut search = LeafSearch::new(&placed, threshold);
+        let query = ByDistance(&placed);
+        let descent = descend(self, &query, budget.steps, scratch, &mut search, &mut work)?;
+        work.exact = search.measured;
+        let Threshold { near, undecided, .. } = search.visitor;
+        let (verdict, place) = match (near, descent, undecided) {
+            (Some(place), _, _) => (Verdict::Yes, Some(place)),
+            (None, Descent::Truncated { ended, .. }, _) => {
+                (Verdict::Undecided(ended.undecided()), None)
+            }
+            (None, _, Some(place)) => (Verdict::Undecided(Undecided::Resolution), Some(place)),
+            (None, _, None) => (Verdict::No, None),
+        };
+        let triangle = place.map(|place| number(self, place)).transpose()?;
+        Ok(SolidWithin { verdict, triangle, work })
+    }
+}
+
+struct Threshold<'a> {
+    placed: &'a PlacedSolid,
+    /// Input units.
+    distance: f32,
+    /// Of the hull of the corners, stored units.
+    limit: f64,
+    /// A triangle that is certainly within.
+    near: Option<Place>,
+    /// A triangle that may be within.
+    undecided: Option<Place>,
+}
+
+impl GapVisitor for Threshold<'_> {
+    #[inline(always)]
+    fn limit(&self) -> f64 {
+        self.limit
+    }
+
+    fn take(&mut self, found: &TriangleGap) -> bool {
+        let distance = self.placed.distance(found.gap.lower, found.gap.upper);
+        if self.placed.meets(found) || distance.upper <= self.distance {
+            self.near = Some(found.place);
+            return false;
+        }
+        if self.undecided.is_none() && distance.lower <= self.distance {
+            self.undecided = Some(found.place);
+        }
+        true
+    }
+}

@@ -1,0 +1,39 @@
+//! From distances of stored surfaces to those of the input.
+//!
+//! A search for a distance compares stored surfaces. Their errors are added to the answer, once.
+
+use crate::num::{down_to_f32, greater, up_to_f32};
+use crate::query::Interval;
+
+/// The surface errors, and the unit of stored lengths.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StoredLengths {
+    /// Sum of the surface errors, stored units, rounded up.
+    pub(super) error: f64,
+    /// Input units of a stored unit.
+    pub(super) unit: f64,
+}
+
+impl StoredLengths {
+    /// A length in stored units.
+    pub(super) fn inward(&self, length: f32) -> f64 {
+        f64::from(length) / self.unit
+    }
+
+    /// The distance of the inputs, from that of the stored surfaces.
+    pub(super) fn interval(&self, lower: f64, upper: f64) -> Interval {
+        Interval::new(self.lower(lower), self.upper(upper))
+    }
+
+    /// A lower end in input units.
+    pub(super) fn lower(&self, lower: f64) -> f32 {
+        let lower = greater(0.0, (lower - self.error).next_down());
+        down_to_f32(lower * self.unit)
+    }
+
+    /// An upper end in input units.
+    pub(super) fn upper(&self, upper: f64) -> f32 {
+        let sum = upper + self.error;
+        up_to_f32(if sum > 0.0 { sum.next_up() } else { sum } * self.unit)
+    }
+}
