@@ -28,6 +28,8 @@
 //! | segments | [`Bvh::first_hit`], [`Bvh::any_hit`], [`Bvh::all_hits`] |
 //! | do two meshes meet | [`Bvh::overlap`], [`Bvh::overlaps`] |
 //! | how far are two meshes from each other; is one within a distance of the other | [`Bvh::distance`], [`Bvh::within_of`] |
+//! | how far is a sphere, a capsule or a box; is it within a distance | [`Bvh::solid_distance`], [`Bvh::solid_within`] |
+//! | is the move of a tool clear for its whole length | [`Bvh::first_contact`] |
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
 //! | the same, bounded by a tight hull of few faces | [`TightHull::closest_point`], [`TightHull::within`] |
 //! | are two models apart; bounds without triangles | [`Triboxes::separation`], [`Triboxes::distance`], [`Triboxes::clip`] |

@@ -22,9 +22,10 @@ const BARE: [&str; 14] = [
 ];
 
 /// Images that run.
-const RUNNING: [&str; 8] = [
+const RUNNING: [&str; 9] = [
     "ask",
     "suite_hull",
+    "suite_apart",
     "suite_moving",
     "suite_tree",
     "suite_triboxes",

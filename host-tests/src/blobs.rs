@@ -10,9 +10,11 @@ use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{Blob as Opened, Hull, ScratchEntry};
-use meshsweep_suite::ask::{Refused, curve, deform, hull, hull_moving, tight, tree, triboxes};
+use meshsweep_suite::ask::{
+    Refused, apart, curve, deform, hull, hull_moving, tight, tree, triboxes,
+};
 use meshsweep_suite::fold::Fold;
-use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
+use meshsweep_suite::{Clock, Kind, Plan, Recorder, Subject, run};
 
 use crate::generate::{Triangles, bracket, torus};
 use crate::golden::{
@@ -36,6 +38,8 @@ pub enum Blob {
     Sieve,
     /// A smaller torus, asked about points that move and about its moved copy.
     Moving,
+    /// The bracket's box tree, asked about other bodies.
+    Apart,
     /// The torus's box tree, vertices on a grid.
     TorusTree,
     /// The bracket's box tree.
@@ -59,7 +63,7 @@ pub enum Blob {
 
 impl Blob {
     /// All blobs.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Torus,
         Self::Bracket,
         Self::Grid16,
@@ -67,6 +71,7 @@ impl Blob {
         Self::Cut,
         Self::Sieve,
         Self::Moving,
+        Self::Apart,
         Self::TorusTree,
         Self::BracketTree,
         Self::SingleTree,
@@ -89,6 +94,7 @@ impl Blob {
             Self::Cut => "cut",
             Self::Sieve => "sieve",
             Self::Moving => "moving",
+            Self::Apart => "apart",
             Self::TorusTree => "torus_tree",
             Self::BracketTree => "bracket_tree",
             Self::SingleTree => "single_tree",
@@ -119,7 +125,7 @@ impl Blob {
             }
             Self::Sieve => Ok(torus_sieve()),
             Self::TorusTree => Ok(box_tree(small_torus(), &default)),
-            Self::BracketTree => Ok(box_tree(bracket(), &default)),
+            Self::Apart | Self::BracketTree => Ok(box_tree(bracket(), &default)),
             // Fewer triangles: with f32 vertices and all questions the image just fits into the
             // flash of the smallest board.
             Self::SingleTree => Ok(box_tree(torus(2.0, 0.75, 16, 10), &default.with_f32(true))),
@@ -174,7 +180,13 @@ pub fn write(folder: &Path) -> Result<(), String> {
     for blob in Blob::ALL {
         let bytes = blob.bytes()?;
         let path = folder.join(blob.name());
-        let answers = if blob == Blob::Moving { moving(&bytes)? } else { expected(&bytes)? };
+        let answers = match blob {
+            Blob::Moving => {
+                of_subject::<hull_moving::Moving<'_>>(&bytes, &mut hull_moving::Scratch::new())?
+            }
+            Blob::Apart => of_subject::<apart::Apart<'_>>(&bytes, &mut apart::Scratch::new())?,
+            _ => expected(&bytes)?,
+        };
         fs::write(path.with_extension("txt"), answers).map_err(failed)?;
         let file = path.with_extension("msw");
         // So that cargo does not build images again whose blob has not changed.
@@ -215,11 +227,13 @@ pub fn expected(blob: &[u8]) -> Result<String, String> {
     lines.end(ran, blob)
 }
 
-/// The same of a split hierarchy that moves.
-fn moving(blob: &[u8]) -> Result<String, String> {
+/// The same of an image that asks one structure.
+fn of_subject<'t, S: Subject<'t>>(
+    blob: &'t [u8],
+    scratch: &mut S::Scratch,
+) -> Result<String, String> {
     let mut lines = Lines::of(blob);
-    let scratch = &mut hull_moving::Scratch::new();
-    let ran = run::<hull_moving::Moving<'_>>(blob, Plan::STANDARD, scratch, &mut lines);
+    let ran = run::<S>(blob, Plan::STANDARD, scratch, &mut lines);
     lines.end(ran, blob)
 }
 

@@ -11,7 +11,7 @@ use meshsweep::mesh::{KeyFrame, Mesh};
 use meshsweep::tight::{ChainOptions, chain};
 use meshsweep::tribox::store;
 use meshsweep_suite::ask::{
-    self, Refused, Subject, deform, hull, hull_moving, tight, tree, triboxes,
+    self, Refused, Subject, apart, deform, hull, hull_moving, tight, tree, triboxes,
 };
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
@@ -168,7 +168,8 @@ pub fn hull_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
 /// # Errors
 /// The core's refusal of the blob.
 pub fn tree_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
-    answers::<tree::Bvh<'_>>(name, blob, &mut tree::Scratch::new())
+    let points = answers::<tree::Bvh<'_>>(name, blob, &mut tree::Scratch::new())?;
+    Ok(points + &answers::<apart::Apart<'_>>(name, blob, &mut apart::Scratch::new())?)
 }
 
 /// The same for a blob's triboxes.

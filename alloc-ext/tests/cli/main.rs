@@ -2,6 +2,7 @@
 
 mod arguments;
 mod build;
+mod clear;
 mod clearance;
 mod cull;
 mod curve;

@@ -9,8 +9,8 @@
 
 use super::point_triangle::closest;
 use super::triangle_pair::{Point, cross, dot, minus};
-use crate::num::greater;
 use crate::num::tolerance::{CONVEX_DEPTH, CONVEX_GAP, GAP_DIRECTION_SQ, GAP_SETTLED, U64};
+use crate::num::{greater, lesser};
 use glam::DVec3;
 
 /// The distance of a convex solid and a triangle.
@@ -150,9 +150,13 @@ fn tetrahedron(corners: [Difference; 4]) -> Simplex {
         let (of_apex, of_origin) = (dot(normal, minus(apex.way, p)), -dot(normal, p));
         if of_apex * of_origin > 0.0 {
             *height = of_origin / of_apex;
-            let rounding = CONVEX_DEPTH * U64 * (norm_1(e) * norm_1(g)) * norm_1(p);
-            let below = (of_origin.abs() - rounding) / libm::sqrt(dot(normal, normal));
-            depth = if below < depth { below } else { depth };
+            // The sides of both count only where rounding cannot have changed them.
+            let rounding = CONVEX_DEPTH * U64 * (norm_1(e) * norm_1(g));
+            let certain = lesser(
+                of_origin.abs() - rounding * norm_1(p),
+                of_apex.abs() - rounding * norm_1(minus(apex.way, p)),
+            );
+            depth = lesser(depth, certain / libm::sqrt(dot(normal, normal)));
             continue;
         }
         holds = false;

@@ -288,17 +288,21 @@ pub const LEAST_STRETCH: f64 = 1.0 / 1024.0;
 // Box tree, convex solids, in grid units
 
 /// Rounding of the distance of a convex solid and a triangle in f64, in units of [`U64`] times the
-/// sum of the largest 1-norms of their corners. Proved: 24 (§19). A larger value widens the
+/// sum of the largest 1-norms of their corners. Proved: 14 (§19). A larger value widens the
 /// interval, which at 32 is far below one unit of f32.
 pub const CONVEX_GAP: f64 = 32.0;
 
 /// Rounding of the distance of a plane from the origin times its normal's length, in units of
-/// [`U64`] times the 1-norms of two edges and of a corner. Proved: 13 (§19).
+/// [`U64`] times the 1-norms of two edges and of a corner. Proved: 11 (§19).
 pub const CONVEX_DEPTH: f64 = 16.0;
 
 /// Squared gaps along the axes of a solid are multiplied by this. Its axes are unit vectors that
 /// were rounded to f32 (§19).
 pub const SOLID_AXES: f32 = 1.0 - 16.0 * U32;
+
+/// Rounding of a corner that moves, and of its time, in units of [`U64`] times the largest
+/// coordinate of its ends. Proved: 12 (§19).
+pub const MOVING_CORNER: f64 = 16.0;
 
 /// Part of an advance that is kept, for the roundings of a quotient and a sum (§19).
 pub const ADVANCE_KEPT: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;

@@ -18,14 +18,15 @@ use meshsweep_xtask::say;
 use meshsweep_xtask::steps::Steps;
 
 const USAGE: &str = "\
-cargo xtask measure [--tree | --triboxes | --deform | --overlap | --tight [--firmware]
-                    | --bounds [--count] | --paper TABLE]
+cargo xtask measure [--tree | --triboxes | --deform | --overlap | --motion
+                    | --tight [--firmware] | --bounds [--count] | --paper TABLE]
                     [--plot FILE.svg] [--picture FILE.svg] [MESH...]
           work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/)
           --tree      only the box tree's
           --triboxes  the stored ones
           --deform    the hull hierarchy under motions
           --overlap   the mesh against itself
+          --motion    a capsule that moves past the mesh
           --tight     tight hulls, each proved, drawn with --picture, on a Cortex-M4F with --firmware
           --bounds    how tight boxes, triboxes, hulls... are, with --count what they cost
           --paper     a table of the papers; alone: the list of tables

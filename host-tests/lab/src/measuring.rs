@@ -8,8 +8,8 @@ use meshsweep_lab::measure::paper;
 use meshsweep_lab::measure::plot::{self, Measured};
 use meshsweep_lab::measure::tight::picture;
 use meshsweep_lab::measure::{
-    measure, measure_bounds, measure_deform, measure_overlap, measure_tight, measure_tree,
-    measure_triboxes,
+    measure, measure_bounds, measure_deform, measure_motion, measure_overlap, measure_tight,
+    measure_tree, measure_triboxes,
 };
 use meshsweep_xtask::firmware;
 use meshsweep_xtask::say;
@@ -36,6 +36,7 @@ enum Part {
     Tree,
     Bounds,
     Overlap,
+    Motion,
     Triboxes,
     Tight,
     Deform,
@@ -44,7 +45,7 @@ enum Part {
 }
 
 impl Options {
-    /// `[--tree | --triboxes | --deform | --overlap | --tight [--firmware] | --bounds [--count] |
+    /// `[--tree | --triboxes | --deform | --overlap | --motion | --tight [--firmware] | --bounds [--count] |
     /// --paper TABLE] [--plot FILE.svg] [--picture FILE.svg] [MESH…]`, the picture with `--tight`
     /// alone; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
@@ -56,6 +57,7 @@ impl Options {
                 "--tree" => Part::Tree,
                 "--bounds" => Part::Bounds,
                 "--overlap" => Part::Overlap,
+                "--motion" => Part::Motion,
                 "--triboxes" => Part::Triboxes,
                 "--tight" => Part::Tight,
                 "--paper" => {
@@ -121,6 +123,7 @@ pub fn run(steps: &mut Steps, options: Options) {
                 Some(Part::Tree) => measure_tree(mesh)?,
                 Some(Part::Bounds) => measure_bounds(mesh, counts.as_deref())?,
                 Some(Part::Overlap) => measure_overlap(mesh)?,
+                Some(Part::Motion) => measure_motion(mesh)?,
                 Some(Part::Triboxes) => measure_triboxes(mesh)?,
                 Some(Part::Paper(table)) => paper::measure(&paper::ALL[table], mesh)?,
                 Some(Part::Deform) => measure_deform(mesh)?,

@@ -6,7 +6,7 @@
 
 use meshsweep_core::{
     Budget, Bvh, ClosestPoint, CoherentQuery, Eye, Facing, Hint, Hit, Neighbor, Pose, QueryError,
-    ScratchEntry, Side, TrianglePair, Verdict, Work,
+    ScratchEntry, Side, Solid, TrianglePair, Verdict, Work,
 };
 
 /// The caller's memory, of any length.
@@ -98,6 +98,44 @@ impl Asker {
                 let hits = &hits[..answer.stored];
                 hits.iter().for_each(|hit| met(tree, hit));
                 assert!(hits.is_sorted_by(|x, y| x.t <= y.t), "{hits:?}");
+            }
+        }
+    }
+
+    /// Every question about a solid, at rest and moving.
+    ///
+    /// # Panics
+    /// If an answer is out of range or took too long.
+    pub fn solid(&mut self, tree: &Bvh<'_>, corners: [[f32; 3]; 2], radius: f32, stop: &Budget) {
+        let stack = &mut self.stack[..];
+        let once = descent(tree);
+        let numbered = |triangle: u32| assert!(triangle < tree.input_triangles(), "{triangle}");
+        let [a, b] = corners;
+        let moved = [b, a];
+        let solids = [Solid::new(&corners[..1], radius), Solid::new(&corners, radius)];
+        for solid in solids.into_iter().flatten() {
+            for stop in [stop, &Budget::EXACT] {
+                if let Some(answer) = answered(tree.solid_distance(&solid, *stop, stack)) {
+                    ends(answer.work, once);
+                    numbered(answer.triangle);
+                    let (lower, upper) = (answer.distance.lower, answer.distance.upper);
+                    assert!(0.0 <= lower && lower <= upper, "{answer:?}");
+                    assert!(answer.points.iter().flatten().all(|x| x.is_finite()), "{answer:?}");
+                }
+                if let Some(answer) = answered(tree.solid_within(&solid, radius, *stop, stack)) {
+                    ends(answer.work, once);
+                    answer.triangle.into_iter().for_each(numbered);
+                }
+                let to = Solid::new(&moved[..solid.corners().len()], radius).expect("as the first");
+                if let Some(answer) = answered(tree.first_contact(&solid, &to, *stop, stack)) {
+                    // A triangle that may stop the solid takes up to some sixty distances.
+                    ends(answer.work, 70 * once);
+                    assert!(
+                        answer.t.lower >= 0.0 && answer.t.lower <= answer.t.upper,
+                        "{answer:?}"
+                    );
+                    answer.hit.iter().for_each(|hit| met(tree, hit));
+                }
             }
         }
     }

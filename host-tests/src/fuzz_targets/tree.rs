@@ -127,6 +127,7 @@ pub fn tree_segment(data: &[u8]) {
     let [a, b, c] = [input.point(), input.point(), input.point()];
     for [from, to] in [[a, b], [b, c], [c, c]] {
         asker.segment(&tree, from, to);
+        asker.solid(&tree, [from, to], input.float(), &stop(&mut input));
         asker.sight(&tree, from);
     }
 }

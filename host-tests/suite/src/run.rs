@@ -78,11 +78,17 @@ pub enum Kind {
     Update,
     /// Closest point of a moved hull.
     Moved,
+    /// How far the surface is from its moved copy.
+    PairDistance,
+    /// How far a capsule is from the surface.
+    Solid,
+    /// Where a capsule that moves first meets the surface.
+    Contact,
 }
 
 impl Kind {
     /// All kinds in the order in which they are run.
-    pub const ALL: [Self; 35] = [
+    pub const ALL: [Self; 38] = [
         Self::Arith,
         Self::Contents,
         Self::ClosestFar,
@@ -106,6 +112,9 @@ impl Kind {
         Self::Cull,
         Self::Overlap,
         Self::AllOverlaps,
+        Self::PairDistance,
+        Self::Solid,
+        Self::Contact,
         Self::TriboxBounds,
         Self::TriboxFaces,
         Self::TriboxOverlap,
@@ -144,6 +153,9 @@ impl Kind {
             Self::Cull => "cull",
             Self::Overlap => "overlap",
             Self::AllOverlaps => "all_overlaps",
+            Self::PairDistance => "pair_distance",
+            Self::Solid => "solid",
+            Self::Contact => "first_contact",
             Self::TriboxBounds => "tribox_bounds",
             Self::TriboxFaces => "tribox_faces",
             Self::TriboxOverlap => "tribox_overlap",

@@ -31,6 +31,7 @@ const fn curve(name: &'static str) -> Blob {
 }
 
 const TRIBOXES: Blob = Blob { name: "triboxes", image: "suite_triboxes" };
+const APART: Blob = Blob { name: "apart", image: "suite_apart" };
 const MOVING: Blob = Blob { name: "moving", image: "suite_moving" };
 const DEFORM: Blob = Blob { name: "bend", image: "suite_deform" };
 const TIGHT: Blob = Blob { name: "tight", image: "suite_tight" };
@@ -49,14 +50,16 @@ impl Blob {
     }
 
     /// Blobs whose bits are compared beside the standard ones: other formats of vertices, a cut
-    /// blob, an open mesh, a soup of triangles, a hull that moves, and one that deforms.
-    pub const VARIANTS: [Self; 8] = [
+    /// blob, an open mesh, a soup of triangles, a box tree that is asked about other bodies, a hull
+    /// that moves, and one that deforms.
+    pub const VARIANTS: [Self; 9] = [
         hull("grid16"),
         hull("grid24"),
         hull("cut"),
         hull("sieve"),
         tree("single_tree"),
         tree("soup_tree"),
+        APART,
         MOVING,
         DEFORM,
     ];
@@ -75,7 +78,7 @@ impl Blob {
     /// a hull hierarchy, compiled for speed, are more than 256 KiB.
     #[must_use]
     pub fn profile(self, flash: Flash) -> Profile {
-        if matches!(self.image, "suite_tree" | "suite_hull" | "suite_moving")
+        if matches!(self.image, "suite_tree" | "suite_hull" | "suite_apart" | "suite_moving")
             && flash == Flash::Small
         {
             Profile::Small

@@ -11,8 +11,8 @@ mod refining;
 mod values;
 
 pub use asking::{
-    ClearanceArgs, ClosestArgs, CullArgs, Engine, FieldArgs, MovedArgs, NearestArgs, OverlapArgs,
-    PointArgs, SearchArgs, SegmentArgs, SignedArgs, WithinArgs,
+    ClearArgs, ClearanceArgs, ClosestArgs, CullArgs, Engine, FieldArgs, MovedArgs, NearestArgs,
+    OverlapArgs, PointArgs, SearchArgs, SegmentArgs, SignedArgs, WithinArgs,
 };
 pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
 pub use building::{BuildArgs, CutArgs, FACES, HullServes, InfoArgs, StoredBits};
@@ -91,6 +91,9 @@ pub enum Command {
         mut_arg("queue", |queue| queue.help(explained::NODE_PAIRS))
     )]
     Clearance(ClearanceArgs),
+    /// Whether straight moves of a convex tool are clear of the mesh for their whole length, as CSV
+    #[command(after_help = explained::clear())]
+    Clear(ClearArgs),
     /// Hausdorff distance of two meshes: how far the farthest point of each is from the other
     #[command(after_help = explained::HAUSDORFF)]
     Hausdorff(HausdorffArgs),

@@ -28,6 +28,7 @@ mod args;
 mod ask;
 mod blob_file;
 mod build;
+mod clear;
 mod clearance;
 mod closest;
 mod cull;
@@ -78,6 +79,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Nearest(args)) => nearest::run(&args),
         Some(Command::Signed(args)) => signed::run(&args),
         Some(Command::Overlap(args)) => overlap::run(&args),
+        Some(Command::Clear(args)) => clear::run(&args),
         Some(Command::Clearance(args)) => clearance::run(&args),
         Some(Command::Hausdorff(args)) => hausdorff::run(&args),
         Some(Command::Cull(args)) => cull::run(&args),

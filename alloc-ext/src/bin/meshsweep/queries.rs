@@ -147,6 +147,26 @@ impl<const N: usize> Queries<N> {
     }
 }
 
+impl Queries<3> {
+    /// The moves from each place to the next one. A move came from where its start did.
+    ///
+    /// # Errors
+    /// There is one place alone.
+    pub fn moves(self) -> Result<Queries<6>, Failure> {
+        let rows: Vec<[f32; 6]> = self
+            .rows
+            .array_windows()
+            .map(|&[[ax, ay, az], [bx, by, bz]]| [ax, ay, az, bx, by, bz])
+            .collect();
+        let Self { sources, broken, .. } = self;
+        if rows.is_empty() {
+            let what = "a path needs two places or more".to_owned();
+            return Err(broken.unwrap_or(Failure::Usage { what }));
+        }
+        Ok(Queries { rows, sources, broken })
+    }
+}
+
 fn is_raw(extension: &std::ffi::OsStr) -> bool {
     extension.eq_ignore_ascii_case("f32")
 }

@@ -11,7 +11,7 @@ use std::path::Path;
 type Serves = fn(&Blob<'_>) -> bool;
 
 /// The questions, by the names of the commands.
-const QUESTIONS: [(&str, Serves); 15] = [
+const QUESTIONS: [(&str, Serves); 16] = [
     ("closest", |blob| has_distances(blob) || blob.hull().is_ok() || blob.curve().is_ok()),
     ("closest --frame", |blob| blob.deformable_hull().is_ok()),
     ("within", |blob| has_distances(blob) || blob.curve().is_ok()),
@@ -20,6 +20,7 @@ const QUESTIONS: [(&str, Serves); 15] = [
     ("signed", |blob| tree(blob, BuildFor::Closest).is_some_and(|tree| tree.is_closed())),
     ("segment", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
     ("overlap", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
+    ("clear", |blob| tree(blob, BuildFor::Segment).is_some()),
     ("clearance", |blob| tree(blob, BuildFor::Segment).is_some()),
     ("cull", |blob| tree(blob, BuildFor::Cull).is_some()),
     ("hull --level", |blob| blob.hull().is_ok_and(|hull| hull.encloses())),

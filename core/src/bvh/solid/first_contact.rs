@@ -65,7 +65,7 @@ impl Bvh<'_> {
     ) -> Result<FirstHit, QueryError> {
         budget.check_with(scratch)?;
         let placed = PlacedSolid::new(self, from, Some(to))?;
-        let reach = placed.radius + placed.lengths.error;
+        let reach = (placed.radius + placed.lengths.error) + placed.rounding;
         let mut work = Work::default();
         let query = ByTime::new(&placed, reach);
         let mut earliest = Earliest { placed: &placed, reach, until: 1.0, stop: None, measured: 0 };
@@ -158,7 +158,7 @@ impl PlacedSolid {
 
     /// A time up to which the solid certainly met the triangle, a little after it may have.
     fn meeting_time(&self, stop: &Stop) -> Option<f64> {
-        let error = self.lengths.error;
+        let error = self.lengths.error + self.rounding;
         // Deep enough for the errors of the surface and of rounding.
         let size =
             stop.corners.iter().flatten().fold(self.radius, |most, x| greater(most, x.abs()));

@@ -3,7 +3,9 @@
 use crate::bvh::format::Bvh;
 use crate::bvh::overlap::extended;
 use crate::bvh::stored_lengths::StoredLengths;
-use crate::num::tolerance::{OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, U32, U64};
+use crate::num::tolerance::{
+    MOVING_CORNER, OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, U32, U64,
+};
 use crate::num::{down_to_f32, exp2, greater, lesser, up_to_f32};
 use crate::query::{DIRECTIONS, Extended, ModelFrame, QueryError, Solid};
 
@@ -21,6 +23,8 @@ pub(super) struct PlacedSolid {
     count: usize,
     pub(super) radius: f64,
     pub(super) lengths: StoredLengths,
+    /// How far a corner that moves may be from its computed place.
+    pub(super) rounding: f64,
     /// The tree's box intervals along six directions: its own axes, then the solid's. The second
     /// three are orthonormal up to their rounding to f32.
     pub(super) frame: ModelFrame,
@@ -62,6 +66,7 @@ impl PlacedSolid {
             count,
             radius: 0.0,
             lengths: StoredLengths { error: stored.error, unit: exp2(stored.exponent) },
+            rounding: 0.0,
             frame: ModelFrame {
                 rows: [[0.0; 3]; DIRECTIONS],
                 shift: [0.0; DIRECTIONS],
@@ -91,6 +96,7 @@ impl PlacedSolid {
         if !(farthest <= OVERLAP_FARTHEST) {
             return Err(QueryError::OutOfDomain);
         }
+        placed.rounding = MOVING_CORNER * U64 * farthest;
         placed.set_directions(farthest);
         Ok(placed)
     }

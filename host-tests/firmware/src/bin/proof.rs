@@ -11,7 +11,7 @@ mod bare;
 use bare::Input;
 use meshsweep_suite::ask::hull::Focus;
 use meshsweep_suite::ask::{
-    Asked, curve, deform, hull, hull_moving, tight, tree, tribox, triboxes,
+    Asked, apart, curve, deform, hull, hull_moving, tight, tree, tribox, triboxes,
 };
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::place::{Motion, Point};
@@ -131,8 +131,15 @@ ask! {
     ask_tree_overlap: tree::Bvh<'t>, |tree, input, scratch, fold| {
         tree::overlap(tree, tree::pose(motion(input)), scratch, &mut Asked::new((), fold))
     };
-    ask_tree_distance: tree::Bvh<'t>, |tree, input, scratch, fold| {
-        tree::distance(tree, tree::pose(motion(input)), scratch, &mut Asked::new((), fold))
+    ask_apart_distance: apart::Apart<'t>, |tree, input, scratch, fold| {
+        apart::distance(tree, tree::pose(motion(input)), scratch, &mut Asked::new((), fold))
+    };
+    ask_apart_solid: apart::Apart<'t>, |tree, input, scratch, fold| {
+        apart::solid(tree, ends(input), input.b[0], scratch, &mut Asked::new((), fold))
+    };
+    ask_apart_contact: apart::Apart<'t>, |tree, input, scratch, fold| {
+        let motion = [ends(input), [input.b, input.a]];
+        apart::contact(tree, motion, input.b[0], scratch, &mut Asked::new((), fold))
     };
     ask_tree_all_overlaps: tree::Bvh<'t>, |tree, input, scratch, fold| {
         tree::all_overlaps(tree, tree::pose(motion(input)), scratch, &mut Asked::new((), fold))

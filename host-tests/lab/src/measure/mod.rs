@@ -9,6 +9,7 @@
 //!                         ├─ storage  (bytes, levels) ──────┤
 //!                         ├─ tree     (all of the box tree) ┤
 //!                         ├─ overlap  (mesh against mesh) ──┤
+//!                         ├─ motion   (a capsule that moves)┤
 //!                         ├─ deform   (hulls that deform) ─┤
 //!                         ├─ triboxes (their hierarchies) ──┤
 //!                         ├─ tight    (tight hulls, drawn) ─┤
@@ -23,6 +24,7 @@ mod closest;
 mod cuts;
 mod deform;
 mod kept;
+mod motion;
 mod overlap;
 mod pair_distance;
 pub mod paper;
@@ -83,6 +85,15 @@ pub fn measure_overlap(file: &Path) -> Result<Vec<Table>, String> {
     tables.extend(overlap::tables(&subject)?);
     tables.push(pair_distance::table(&subject)?);
     Ok(tables)
+}
+
+/// Measures the motion of a capsule past one mesh file, which need not be closed.
+///
+/// # Errors
+/// The file is no mesh, or an answer is wrong.
+pub fn measure_motion(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load_any(file)?;
+    Ok(vec![subject_table(&subject), motion::table(&subject)?])
 }
 
 /// Measures the hull hierarchy of one mesh file under motions.

@@ -5,6 +5,7 @@
 //! of its answer, its work counters and its refusal among them. Nothing here formats or
 //! indexes: the proof image links these functions, and they may not bring a panic of their own.
 
+pub mod apart;
 pub mod curve;
 pub mod deform;
 pub mod hull;

@@ -16,7 +16,7 @@ use crate::{Clock, Kind};
 pub use distance::{
     all_within, batch, closest, coherent, follow, is_within, nearest, signed, stopped,
 };
-pub use meeting::{all_overlaps, distance, overlap, pose};
+pub use meeting::{all_overlaps, overlap, pose};
 pub use sight::{all_hits, any_hit, cull, facing, first_hit};
 
 /// Entries of the stack.
@@ -81,7 +81,9 @@ impl<'t> Subject<'t> for Bvh<'t> {
 
     fn suits(kind: Kind) -> bool {
         let is_of_others = kind.is_triboxes() || kind.is_deform();
-        !matches!(kind, Kind::OuterHits | Kind::Refine | Kind::Sweep | Kind::Posed) && !is_of_others
+        let is_apart = matches!(kind, Kind::PairDistance | Kind::Solid | Kind::Contact);
+        let is_hull = matches!(kind, Kind::OuterHits | Kind::Refine | Kind::Sweep | Kind::Posed);
+        !is_apart && !is_hull && !is_of_others
     }
 
     fn ask(

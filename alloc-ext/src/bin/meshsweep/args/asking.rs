@@ -1,7 +1,9 @@
 //! Arguments of the commands that ask a blob.
 
 use super::given::{self, Given};
-use super::values::{Margin, direction, margin, point, size, threads, tolerance, whole};
+use super::values::{
+    Margin, Tool, direction, margin, point, size, threads, tolerance, tool, whole,
+};
 use clap::{Args, ValueEnum};
 use meshsweep_core::{Eye, Facing};
 use std::num::NonZeroUsize;
@@ -171,6 +173,34 @@ impl SegmentArgs {
             Some(FacingName::Back) => Facing::Back,
         }
     }
+}
+
+#[derive(Debug, Args)]
+pub struct ClearArgs {
+    /// Blob file
+    pub blob: PathBuf,
+    /// Straight moves of the tool: ax,ay,az,bx,by,bz each, or files of them
+    #[arg(required_unless_present = "path", value_parser = given::queries::<6>())]
+    pub moves: Vec<Given<6>>,
+    /// A path of the tool in place of moves: x,y,z each, or files of them; it goes straight from
+    /// each place to the next
+    #[arg(
+        long,
+        value_name = "PLACES",
+        num_args = 1..,
+        conflicts_with = "moves",
+        value_parser = given::queries::<3>(),
+    )]
+    pub path: Vec<Given<3>>,
+    /// Corners of the tool, x,y,z after x,y,z, where it is when its place is 0,0,0: the tool is
+    /// their hull
+    #[arg(long, value_name = "CORNERS", default_value = "0,0,0", value_parser = tool)]
+    pub tool: Tool,
+    /// Radius about the tool's hull, in the mesh's unit: of the tool, and a distance to keep
+    #[arg(long, value_name = "R", default_value_t = 0.0, value_parser = tolerance)]
+    pub radius: f32,
+    #[command(flatten)]
+    pub search: SearchArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -26,7 +26,7 @@ const TRIANGLES: &str = "triangle is the index of the triangle in the mesh file,
 pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     closest   closest, within, nearest, field; for a closed mesh also signed: 13 to 14 bytes a \
     triangle\n  \
-    segment   segment, overlap, clearance: 12 bytes a triangle; with closest 15\n  \
+    segment   segment, overlap, clear, clearance: 12 bytes a triangle; with closest 15\n  \
     cull      cull: half a byte a triangle more\n  \
     hull      hull --level, refine, cut, and closest, segment and overlap with --engine hull: \
     25 to 40 bytes a triangle more\n  \
@@ -202,6 +202,25 @@ pub fn clearance() -> String {
          meshsweep clearance part.msw tool.msw --pose 30,0,0,1,0,0,0\n  \
          meshsweep clearance part.msw tool.msw --pose path.csv --rel 0.01 -o clearance.csv\n  \
          meshsweep clearance part.msw tool.msw --pose path.csv --within 2.5"
+    )
+}
+
+pub fn clear() -> String {
+    format!(
+        "The tool is the hull of the corners of --tool, and all that is within --radius of it: one \
+         corner is a ball, two are a capsule, eight a box. Up to 32. Its place moves along straight \
+         lines, and the tool does not turn. The column 'clear' says yes if it is proved that no \
+         point of the tool touches the mesh during the whole move, at no time between; no if the \
+         tool certainly touches it; or undecided, if the distance left differs from 0 by no more \
+         than rounding and the blob's surface error, or if the query ended early. Else the move is \
+         proved clear before t, from 0 to 1 along it. px, py, pz is the place of the mesh that may \
+         stop the tool first; {TRIANGLES}. Only the surface counts: a move inside of a closed mesh \
+         may be clear. The blob is built --for segment.\n\n\
+         {QUERIES}\n\n\
+         Examples:\n  \
+         meshsweep clear part.msw 20,10,90,20,10,-90 --radius 3\n  \
+         meshsweep clear part.msw segments.csv --tool 0,0,0,0,0,40 --radius 3 -o moves.csv\n  \
+         meshsweep clear part.msw --path points.csv --tool 0,0,0,0,0,40 --radius 3"
     )
 }
 

@@ -1,5 +1,6 @@
 //! Values that need more than a number's syntax.
 
+use meshsweep_core::Solid;
 use std::num::NonZeroUsize;
 
 /// The margin of a grid around the mesh's box.
@@ -59,6 +60,30 @@ pub fn point(text: &str) -> Result<[f32; 3], String> {
     let coordinates: Option<Vec<f32>> =
         text.split(',').map(|x| x.trim().parse().ok().filter(|x: &f32| x.is_finite())).collect();
     coordinates.and_then(|p| <[f32; 3]>::try_from(p).ok()).ok_or_else(|| wanted.to_owned())
+}
+
+/// The corners of a convex tool when its place is 0,0,0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tool(Vec<[f32; 3]>);
+
+impl Tool {
+    /// Its corners when it is at a place.
+    pub fn at(&self, [x, y, z]: [f32; 3]) -> Vec<[f32; 3]> {
+        self.0.iter().map(|[a, b, c]| [a + x, b + y, c + z]).collect()
+    }
+}
+
+/// One to 32 points.
+pub fn tool(text: &str) -> Result<Tool, String> {
+    let numbers: Option<Vec<f32>> =
+        text.split(',').map(|x| x.trim().parse().ok().filter(|x: &f32| x.is_finite())).collect();
+    let numbers = numbers.unwrap_or_default();
+    let (corners, rest) = numbers.as_chunks::<3>();
+    if corners.is_empty() || !rest.is_empty() || corners.len() > Solid::MOST_CORNERS {
+        let most = Solid::MOST_CORNERS;
+        return Err(format!("three numbers for each of 1 to {most} corners, as 0,0,0,0,0,40"));
+    }
+    Ok(Tool(corners.to_vec()))
 }
 
 /// Two points: six finite numbers.

@@ -31,33 +31,6 @@ pub fn overlap(tree: &Bvh<'_>, pose: Pose, s: &mut Scratch<'_>, to: &mut Asked<'
     );
 }
 
-/// How far the surface is from its moved copy, and whether it is within half of that. Few pairs
-/// wait, so the scratch memory of an overlap serves.
-#[inline(never)]
-pub fn distance(tree: &Bvh<'_>, pose: Pose, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
-    let budget = Budget::EXACT.with_steps(DISTANCE_STEPS);
-    let found = to.answer(
-        || tree.distance(tree, pose, budget, &mut s.pairs),
-        |fold, answer| {
-            fold.f32(answer.distance.lower);
-            fold.f32(answer.distance.upper);
-            answer.points.into_iter().for_each(|point| fold.point(point));
-            answer.triangles.into_iter().for_each(|number| fold.word(number));
-            ask::how(fold, answer.work, answer.ended);
-        },
-    );
-    if let Some(found) = found {
-        let half = 0.5 * found.distance.lower;
-        to.answer(
-            || tree.within_of(tree, pose, half, budget, &mut s.pairs),
-            |fold, answer| ask::verdict(fold, answer.work, answer.verdict),
-        );
-    }
-}
-
-/// Pairs of nodes that a search for the distance may open.
-const DISTANCE_STEPS: u32 = 16;
-
 /// Pairs of nodes that a search for all pairs may open: what it needs differs by orders of
 /// magnitude.
 const STEPS: u32 = 4;

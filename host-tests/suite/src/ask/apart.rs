@@ -1,0 +1,165 @@
+//! Questions to a box tree about other bodies: how far they are, and where they first meet it. They
+//! have an image of their own, because all questions together are more than the flash of the
+//! smallest board.
+
+use meshsweep_core::{Budget, Bvh, FirstHit, Pose, QueryError, ScratchEntry, Solid};
+
+use super::{Asked, Refused, Subject, tree};
+use crate::fold::Fold;
+use crate::place::{Bounds, Ends, Placer};
+use crate::{Clock, Kind};
+
+/// A box tree, asked about its moved copy and about capsules.
+#[derive(Clone, Debug)]
+pub struct Apart<'t>(pub Bvh<'t>);
+
+/// What the queries need beside the tree.
+#[derive(Debug)]
+pub struct Scratch([ScratchEntry; Bvh::DISTANCE_ENTRIES]);
+
+impl Scratch {
+    /// Scratch that no query has used.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self([ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES])
+    }
+}
+
+impl Default for Scratch {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<'t> Subject<'t> for Apart<'t> {
+    type Scratch = Scratch;
+
+    fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
+        tree::open(bytes).map(Self)
+    }
+
+    fn bounds(&self) -> Bounds {
+        tree::bounds(&self.0)
+    }
+
+    fn memory_suffices(&self) -> bool {
+        self.0.scratch_entries() <= Bvh::DISTANCE_ENTRIES
+    }
+
+    fn suits(kind: Kind) -> bool {
+        matches!(kind, Kind::PairDistance | Kind::Solid | Kind::Contact)
+    }
+
+    fn ask(
+        &self,
+        kind: Kind,
+        place: &mut Placer,
+        scratch: &mut Scratch,
+        clock: &mut impl Clock,
+        fold: &mut Fold,
+    ) {
+        let to = &mut Asked::new(clock, fold);
+        match kind {
+            Kind::PairDistance => {
+                let (rotation, translation) = place.motion();
+                distance(self, Pose { rotation, translation }, scratch, to);
+            }
+            Kind::Solid => solid(self, place.segment(), place.distance(), scratch, to),
+            Kind::Contact => {
+                let (start, end) = (place.far(), place.far());
+                let motion = [[start, place.near(start)], [end, place.near(end)]];
+                contact(self, motion, place.distance(), scratch, to);
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Pairs of nodes that a search for the distance may open.
+const STEPS: u32 = 16;
+
+/// How far the surface is from its moved copy, and whether it is within half of that.
+#[inline(never)]
+pub fn distance(
+    Apart(tree): &Apart<'_>,
+    pose: Pose,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Clock>,
+) {
+    let budget = Budget::EXACT.with_steps(STEPS);
+    let found = to.answer(
+        || tree.distance(tree, pose, budget, &mut scratch.0),
+        |fold, answer| {
+            fold.f32(answer.distance.lower);
+            fold.f32(answer.distance.upper);
+            answer.points.into_iter().for_each(|point| fold.point(point));
+            answer.triangles.into_iter().for_each(|number| fold.word(number));
+            super::how(fold, answer.work, answer.ended);
+        },
+    );
+    if let Some(found) = found {
+        let half = 0.5 * found.distance.lower;
+        to.answer(
+            || tree.within_of(tree, pose, half, budget, &mut scratch.0),
+            |fold, answer| super::verdict(fold, answer.work, answer.verdict),
+        );
+    }
+}
+
+/// How far a capsule is from the surface, and whether it is within half of that.
+#[inline(never)]
+pub fn solid(
+    Apart(tree): &Apart<'_>,
+    ends: Ends,
+    radius: f32,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Clock>,
+) {
+    let found = to.answer(
+        || {
+            let capsule = Solid::new(&ends, radius)?;
+            tree.solid_distance(&capsule, Budget::EXACT, &mut scratch.0)
+        },
+        |fold, answer| {
+            fold.f32(answer.distance.lower);
+            fold.f32(answer.distance.upper);
+            answer.points.into_iter().for_each(|point| fold.point(point));
+            fold.word(answer.triangle);
+            super::how(fold, answer.work, answer.ended);
+        },
+    );
+    if let Some(found) = found {
+        let half = 0.5 * found.distance.lower;
+        to.answer(
+            || {
+                let capsule = Solid::new(&ends, radius)?;
+                tree.solid_within(&capsule, half, Budget::EXACT, &mut scratch.0)
+            },
+            |fold, answer| super::verdict(fold, answer.work, answer.verdict),
+        );
+    }
+}
+
+/// Where a capsule that goes from one place to another first meets the surface.
+#[inline(never)]
+pub fn contact(
+    Apart(tree): &Apart<'_>,
+    [from, end]: [Ends; 2],
+    radius: f32,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Clock>,
+) {
+    let call = || -> Result<FirstHit, QueryError> {
+        let (from, end) = (Solid::new(&from, radius)?, Solid::new(&end, radius)?);
+        tree.first_contact(&from, &end, Budget::EXACT, &mut scratch.0)
+    };
+    to.answer(call, |fold, answer| {
+        fold.f32(answer.t.lower);
+        fold.f32(answer.t.upper);
+        if let Some(hit) = answer.hit {
+            fold.point(hit.point);
+            super::number(fold, hit.triangle);
+        }
+        super::how(fold, answer.work, answer.ended);
+    });
+}
