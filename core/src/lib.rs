@@ -29,7 +29,7 @@
 //! | do two meshes meet | [`Bvh::overlap`], [`Bvh::overlaps`] |
 //! | how far are two meshes from each other; is one within a distance of the other | [`Bvh::distance`], [`Bvh::within_of`] |
 //! | how far is a sphere, a capsule or a box; is it within a distance | [`Bvh::solid_distance`], [`Bvh::solid_within`] |
-//! | is the move of a tool clear for its whole length | [`Bvh::first_contact`] |
+//! | is the move of a tool, or of another mesh, clear for its whole length | [`Bvh::first_contact`], [`Bvh::first_contact_of`] |
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
 //! | the same, bounded by a tight hull of few faces | [`TightHull::closest_point`], [`TightHull::within`] |
 //! | are two models apart; bounds without triangles | [`Triboxes::separation`], [`Triboxes::distance`], [`Triboxes::clip`] |
@@ -96,9 +96,9 @@ pub use hull::{
     OuterHits, RefinedHull, Refinement, Search, Sweep, TriangleOverlap,
 };
 pub use query::{
-    AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Overlap, Overlaps, PairDistance,
-    PairWithin, PosedPoint, QueryError, Scratch, ScratchEntry, Side, Solid, SolidDistance,
-    SolidWithin, TrianglePair, Undecided, Verdict, Work,
+    AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Overlap, Overlaps, PairContact,
+    PairDistance, PairWithin, PosedPoint, QueryError, Scratch, ScratchEntry, Side, Solid,
+    SolidDistance, SolidWithin, TrianglePair, Undecided, Verdict, Work,
 };
 pub use tight::{TightHull, TightHulls, TightRecord};
 pub use tribox::{

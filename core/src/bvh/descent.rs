@@ -1,5 +1,5 @@
-//! The descent of one tree from its root, for a point or a segment. Coherent queries, overlap and
-//! culling do not use it.
+//! The descent of one tree from its root, for a point, a segment or a solid. Coherent queries,
+//! overlap and culling do not use it.
 //!
 //! The nearest child is followed at once. The other children within the limit go on a stack in the
 //! caller's memory, unsorted. Sorted children, or a heap, visit fewer nodes and take longer: they
@@ -16,10 +16,11 @@ use crate::geom::fan::WIDTH;
 use crate::num::lesser;
 use crate::query::{Ended, QueryError, ScratchEntry, Work};
 
-/// A point or a segment that is prepared for the descent.
+/// A point, a segment or a solid that is prepared for the descent.
 ///
 /// It sets the unit of all keys, bounds and limits. For a point they are squared distances in
-/// [key units](super::node::KeyPoint), for a segment the bits of its parameters.
+/// [key units](super::node::KeyPoint), for a segment the bits of its parameters, for a solid the
+/// bits of its squared distances or times.
 pub(crate) trait NodeQuery {
     /// Refuses a tree without the boxes that the query needs.
     fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError>;

@@ -2,8 +2,24 @@
 //!
 //! A search for a distance compares stored surfaces. Their errors are added to the answer, once.
 
+use crate::num::tolerance::{GAP_SLACK, LEAST_GAP_SQ, U32};
 use crate::num::{down_to_f32, greater, up_to_f32};
 use crate::query::Interval;
+
+/// The limit of squared bounds in f32 for a distance.
+#[inline(always)]
+pub(super) fn square_limit(distance: f64) -> f32 {
+    let limit = up_to_f32(distance);
+    limit * limit * GAP_SLACK + LEAST_GAP_SQ
+}
+
+/// A lower bound of a distance, from a squared bound in f32.
+pub(super) fn root_of_bound(bound_sq: f32) -> f64 {
+    if bound_sq < LEAST_GAP_SQ {
+        return 0.0;
+    }
+    libm::sqrt(f64::from(bound_sq)) * (1.0 - 16.0 * f64::from(U32))
+}
 
 /// The surface errors, and the unit of stored lengths.
 #[derive(Clone, Copy, Debug)]

@@ -22,11 +22,11 @@ pub struct ConvexGap {
     pub upper: f64,
     /// A point of the solid and one of the triangle. They are at most `upper` apart.
     pub points: [[f64; 3]; 2],
-    /// From the solid to the triangle, of any length: `lower` is the gap along it. Zero if `lower`
-    /// is 0.
-    pub way: [f64; 3],
-    /// The sets have common points even if one of them is moved by this much. 0 if that is not
-    /// known.
+    /// From the solid to the triangle, of length 1: `lower` is the gap along it. Zero if `lower` is
+    /// 0.
+    pub direction: [f64; 3],
+    /// The two still meet if each corner of one moves by less than this, each in its own direction.
+    /// 0 if nothing is proved.
     pub depth: f64,
 }
 
@@ -36,14 +36,14 @@ const MOST_ROUNDS: usize = 48;
 /// A corner of the triangle less a corner of the solid.
 #[derive(Clone, Copy)]
 struct Difference {
-    way: Point<f64>,
+    vector: Point<f64>,
     ends: [Point<f64>; 2],
 }
 
 impl Difference {
     #[inline(always)]
     fn new(from: Point<f64>, to: Point<f64>) -> Difference {
-        Difference { way: minus(to, from), ends: [from, to] }
+        Difference { vector: minus(to, from), ends: [from, to] }
     }
 }
 
@@ -65,7 +65,7 @@ impl Simplex {
     /// The point next to the origin.
     #[inline(always)]
     fn way(&self) -> Point<f64> {
-        self.sum(|corner| corner.way)
+        self.sum(|corner| corner.vector)
     }
 
     #[inline(always)]
@@ -81,7 +81,7 @@ impl Simplex {
 
     #[inline(always)]
     fn has(&self, other: &Difference) -> bool {
-        self.corners.iter().take(self.count).any(|corner| corner.way == other.way)
+        self.corners.iter().take(self.count).any(|corner| corner.vector == other.vector)
     }
 
     /// With one corner more: the face whose point is next to the origin, or all of it.
@@ -107,9 +107,9 @@ impl Simplex {
         let [first, ..] = corners.first_chunk::<1>().copied().unwrap_or([NOWHERE]);
         let mut simplex = Simplex { count: 0, weights: [0.0; 4], ..Simplex::of(first) };
         for (corner, weight) in corners.into_iter().zip(weights) {
-            let slots = simplex.corners.iter_mut().zip(&mut simplex.weights);
+            let mut slots = simplex.corners.iter_mut().zip(&mut simplex.weights);
             if weight > 0.0
-                && let Some((place, share)) = slots.skip(simplex.count).next()
+                && let Some((place, share)) = slots.nth(simplex.count)
             {
                 (*place, *share) = (corner, weight);
                 simplex.count += 1;
@@ -119,10 +119,10 @@ impl Simplex {
     }
 }
 
-const NOWHERE: Difference = Difference { way: [0.0; 3], ends: [[0.0; 3]; 2] };
+const NOWHERE: Difference = Difference { vector: [0.0; 3], ends: [[0.0; 3]; 2] };
 
 fn segment(corners: [Difference; 2]) -> Simplex {
-    let [a, b] = corners.map(|corner| corner.way);
+    let [a, b] = corners.map(|corner| corner.vector);
     let along = minus(b, a);
     let length_sq = dot(along, along);
     let t = if length_sq > 0.0 { (-dot(a, along) / length_sq).clamp(0.0, 1.0) } else { 0.0 };
@@ -130,7 +130,7 @@ fn segment(corners: [Difference; 2]) -> Simplex {
 }
 
 fn triangle(corners: [Difference; 3]) -> Simplex {
-    let [a, b, c] = corners.map(|corner| DVec3::from_array(corner.way));
+    let [a, b, c] = corners.map(|corner| DVec3::from_array(corner.vector));
     let (v, w, _) = closest(-a, b - a, c - a);
     Simplex::weighted(corners, [greater(0.0, 1.0 - v - w), v, w])
 }
@@ -144,18 +144,19 @@ fn tetrahedron(corners: [Difference; 4]) -> Simplex {
     // Each face, and the corner across from it.
     let faces = [([b, c, d], a), ([a, c, d], b), ([a, b, d], c), ([a, b, c], d)];
     for ((face, apex), height) in faces.into_iter().zip(&mut heights) {
-        let [p, q, r] = face.map(|corner| corner.way);
+        let [p, q, r] = face.map(|corner| corner.vector);
         let (e, g) = (minus(q, p), minus(r, p));
         let normal = cross(e, g);
-        let (of_apex, of_origin) = (dot(normal, minus(apex.way, p)), -dot(normal, p));
-        if of_apex * of_origin > 0.0 {
+        let (of_apex, of_origin) = (dot(normal, minus(apex.vector, p)), -dot(normal, p));
+        // The sides of both count only where rounding cannot have changed them. In a flat
+        // tetrahedron they are noise.
+        let rounding = CONVEX_DEPTH * U64 * (norm_1(e) * norm_1(g));
+        let certain = lesser(
+            of_origin.abs() - rounding * norm_1(p),
+            of_apex.abs() - rounding * norm_1(minus(apex.vector, p)),
+        );
+        if of_apex * of_origin > 0.0 && certain > 0.0 {
             *height = of_origin / of_apex;
-            // The sides of both count only where rounding cannot have changed them.
-            let rounding = CONVEX_DEPTH * U64 * (norm_1(e) * norm_1(g));
-            let certain = lesser(
-                of_origin.abs() - rounding * norm_1(p),
-                of_apex.abs() - rounding * norm_1(minus(apex.way, p)),
-            );
             depth = lesser(depth, certain / libm::sqrt(dot(normal, normal)));
             continue;
         }
@@ -194,12 +195,12 @@ pub fn convex_gap(solid: &[Point<f64>], triangle: &[Point<f64>; 3]) -> ConvexGap
     let mut way_sq = dot(way, way);
     let (mut gap_sq, mut gap_way) = (0.0, [0.0; 3]);
     for _ in 0..MOST_ROUNDS {
-        // NaN ends the search too.
-        if !(way_sq >= GAP_DIRECTION_SQ) {
+        let has_direction = way_sq >= GAP_DIRECTION_SQ;
+        if !has_direction {
             break;
         }
         let next = Difference::new(highest(solid, way), lowest(triangle, way));
-        let along = dot(way, next.way);
+        let along = dot(way, next.vector);
         if along > 0.0 && along * along > gap_sq * way_sq {
             (gap_sq, gap_way) = (along * along / way_sq, way);
         }
@@ -209,7 +210,8 @@ pub fn convex_gap(solid: &[Point<f64>], triangle: &[Point<f64>; 3]) -> ConvexGap
         let nearer = simplex.with(next);
         let nearer_way = nearer.way();
         let nearer_sq = dot(nearer_way, nearer_way);
-        if nearer.depth.is_none() && !(nearer_sq < way_sq) {
+        let is_nearer = nearer_sq < way_sq;
+        if nearer.depth.is_none() && !is_nearer {
             break;
         }
         (simplex, way, way_sq) = (nearer, nearer_way, nearer_sq);
@@ -225,9 +227,15 @@ pub fn convex_gap(solid: &[Point<f64>], triangle: &[Point<f64>; 3]) -> ConvexGap
         lower,
         upper: libm::sqrt(dot(between, between)) + margin,
         points,
-        way: if lower > 0.0 { gap_way } else { [0.0; 3] },
+        direction: if lower > 0.0 { unit(gap_way) } else { [0.0; 3] },
         depth: simplex.depth.map_or(0.0, |depth| greater(0.0, depth - margin)),
     }
+}
+
+#[inline(always)]
+fn unit(way: Point<f64>) -> Point<f64> {
+    let length = libm::sqrt(dot(way, way));
+    way.map(|x| x / length)
 }
 
 /// The corner that is farthest along a direction.

@@ -60,20 +60,20 @@ impl Real for f64 {
 }
 
 /// A place or a direction.
-pub(super) type Point<T> = [T; 3];
+pub(crate) type Point<T> = [T; 3];
 
 #[inline(always)]
-pub(super) fn minus<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> Point<T> {
+pub(crate) fn minus<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> Point<T> {
     [ax - bx, ay - by, az - bz]
 }
 
 #[inline(always)]
-pub(super) fn cross<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> Point<T> {
+pub(crate) fn cross<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> Point<T> {
     [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
 }
 
 #[inline(always)]
-pub(super) fn dot<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> T {
+pub(crate) fn dot<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> T {
     ax * bx + ay * by + az * bz
 }
 

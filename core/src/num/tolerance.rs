@@ -301,7 +301,7 @@ pub const CONVEX_DEPTH: f64 = 16.0;
 pub const SOLID_AXES: f32 = 1.0 - 16.0 * U32;
 
 /// Rounding of a corner that moves, and of its time, in units of [`U64`] times the largest
-/// coordinate of its ends. Proved: 12 (§19).
+/// coordinate of its ends. Proved: 13.9 (§19).
 pub const MOVING_CORNER: f64 = 16.0;
 
 /// Part of an advance that is kept, for the roundings of a quotient and a sum (§19).

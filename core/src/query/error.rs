@@ -27,12 +27,12 @@ pub enum QueryError {
         /// Corners given; of a solid that moves, those at the end.
         found: u32,
     },
-    /// A tolerance or a distance is negative, NaN, infinite or too large.
+    /// A tolerance, a distance or a radius is negative, NaN, infinite or too large.
     Tolerance,
     /// A point or an end of a segment is too far away. Clip segments first. The limits:
     /// - [`Hull`](crate::Hull): 2^40 times the model's size from its origin;
-    /// - [`Bvh`](crate::Bvh): 2^38 grid units from the model's farthest corner; for a
-    ///   [`Solid`](crate::Solid) 2^30 grid units from the grid's origin;
+    /// - [`Bvh`](crate::Bvh): 2^38 grid units from the model's farthest corner; for corners of a
+    ///   [`Solid`](crate::Solid) 2^30 grid units from the grid's origin, and for its radius;
     /// - [`Triboxes`](crate::Triboxes): [`Tribox::DOMAIN`](crate::Tribox::DOMAIN).
     OutOfDomain,
     /// A pose cannot be computed with. One of these holds:
@@ -107,7 +107,7 @@ impl core::fmt::Display for QueryError {
                 return write!(f, "{found} corners: 1 to 32, and as many at a motion's end");
             }
             QueryError::Tolerance => {
-                "a tolerance or a distance is negative, NaN, infinite or too large"
+                "a tolerance, a distance or a radius is negative, NaN, infinite or too large"
             }
             QueryError::OutOfDomain => {
                 "a point or a segment's end is too far from the model: clip segments first"

@@ -6,7 +6,7 @@ use super::work::Work;
 /// A common point of a segment and the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Parameter, 0 at the segment's start, 1 at its end.
+    /// Parameter, 0 at the start of the segment or the motion, 1 at its end.
     pub t: f32,
     /// The point.
     pub point: [f32; 3],
@@ -19,7 +19,7 @@ impl Hit {
     pub const EMPTY: Hit = Hit { t: f32::INFINITY, point: [0.0; 3], triangle: None };
 }
 
-/// First hit of a segment.
+/// First hit of a segment, or first contact of a solid that moves.
 ///
 /// No point of the segment before `t.lower` lies on the surface. If `hit` is `Some` and `ended` is
 /// [`Ended::Exact`], the parameter of the first common point lies in `t`.
@@ -47,7 +47,8 @@ impl FirstHit {
         ended: Ended::Exact,
     };
 
-    /// Whether it is proved that no point of the segment lies on the input mesh.
+    /// Whether it is proved that no point of the segment, or of the solid at any time, lies on the
+    /// input mesh.
     pub fn is_clear(&self) -> bool {
         self.t.lower == f32::INFINITY
     }

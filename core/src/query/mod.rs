@@ -9,7 +9,7 @@
 //! | `hits` | [`Hit`], [`FirstHit`], [`AllHits`], and the caller's slice of hits |
 //! | `posed_point` | [`PosedPoint`]: a point in the frame of a moved model |
 //! | `overlap` | [`Overlap`], [`Overlaps`], [`TrianglePair`], and what collects pairs |
-//! | `pair_distance` | [`PairDistance`], [`PairWithin`]: how far two surfaces are apart |
+//! | `pair_distance` | [`PairDistance`], [`PairWithin`], [`PairContact`]: how far two surfaces are apart |
 //! | `solid` | [`Solid`], and the answers about it: [`SolidDistance`], [`SolidWithin`] |
 //! | `relative_pose` | the pose of one model in the frame of another, and the rounding in it |
 //! | `work` | [`Work`]: counters |
@@ -40,7 +40,7 @@ pub(crate) use hits::Hits;
 pub use hits::{AllHits, FirstHit, Hit};
 pub(crate) use overlap::{AllPairs, FirstPair, PairVisitor};
 pub use overlap::{Overlap, Overlaps, TrianglePair};
-pub use pair_distance::{PairDistance, PairWithin};
+pub use pair_distance::{PairContact, PairDistance, PairWithin};
 pub use posed_point::PosedPoint;
 pub(crate) use relative_pose::{DIRECTIONS, Extended, ModelFrame, Placement, RelativePose};
 pub use scratch::{Scratch, ScratchEntry};

@@ -48,3 +48,30 @@ impl PairWithin {
         self.verdict == Verdict::No
     }
 }
+
+/// Where a model that moves first comes near another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PairContact {
+    /// The part of the motion, from 0 to 1, before which the surfaces are proved to keep the
+    /// distance. Infinite if they do during the whole motion.
+    pub clear_until: f32,
+    /// A point of each surface, nearest to each other at that time, in the frame of the first mesh:
+    /// they may stop the motion. If it is clear, those of the last distance that was asked for.
+    pub points: [[f32; 3]; 2],
+    /// The triangles of these points, by their numbers in the input files.
+    pub triangles: [u32; 2],
+    /// The work of all distances, as in [`PairDistance::work`].
+    pub work: Work,
+    /// Why the search ended. [`Ended::Exact`]: the motion is clear. [`Ended::Resolution`]: at
+    /// `clear_until` the surfaces are at the distance to keep, as far as surface errors and
+    /// rounding tell.
+    pub ended: Ended,
+}
+
+impl PairContact {
+    /// Whether it is proved that the surfaces keep the distance during the whole motion.
+    pub fn is_clear(&self) -> bool {
+        self.clear_until == f32::INFINITY
+    }
+}

@@ -39,7 +39,9 @@ impl<'a> Solid<'a> {
         Ok(Solid { corners, radius })
     }
 
-    /// The corners of a box with edges along the axes.
+    /// The corners of the box from `low` to `high`, with edges along the axes, input units. x
+    /// changes first, then y, then z. If a coordinate of `low` is the greater one, it is the same
+    /// box.
     ///
     /// ```
     /// use meshsweep_core::Solid;
@@ -47,7 +49,8 @@ impl<'a> Solid<'a> {
     /// assert!(Solid::new(&clamp, 0.5).is_ok());
     /// ```
     #[must_use]
-    pub const fn box_corners([a, b, c]: [f32; 3], [x, y, z]: [f32; 3]) -> [[f32; 3]; 8] {
+    pub const fn box_corners(low: [f32; 3], high: [f32; 3]) -> [[f32; 3]; 8] {
+        let ([a, b, c], [x, y, z]) = (low, high);
         [[a, b, c], [x, b, c], [a, y, c], [x, y, c], [a, b, z], [x, b, z], [a, y, z], [x, y, z]]
     }
 

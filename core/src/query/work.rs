@@ -10,7 +10,7 @@ pub struct Work {
     pub nodes: u32,
     /// Triangles of surface or hull tested in f32.
     pub triangles: u32,
-    /// Triangles, or segments of a curve, evaluated in f64.
+    /// Triangles, or segments of a curve, evaluated in f64; of a solid that moves, distances.
     pub exact: u32,
     /// Nodes opened, or vertex splits performed.
     pub splits: u32,

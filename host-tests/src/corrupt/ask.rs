@@ -181,8 +181,8 @@ impl Asker {
         }
     }
 
-    /// Whether and where two trees meet, and how far apart they are, in at most so many steps: every
-    /// pair of nodes may have to be opened.
+    /// Whether and where two trees meet, and how far apart they are, in at most so many steps:
+    /// every pair of nodes may have to be opened.
     ///
     /// # Panics
     /// If an answer is out of range or took too long.
@@ -217,6 +217,13 @@ impl Asker {
             assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
             assert!(answer.points.iter().flatten().all(|x| x.is_finite()), "{answer:?}");
             let half = 0.5 * answer.distance.lower;
+            let end = Pose { translation: answer.points[0], ..*pose };
+            let motion = a.first_contact_of(b, [*pose, end], half, budget, &mut stack);
+            if let Some(answer) = answered(motion) {
+                assert!(answer.work.splits <= steps, "{answer:?}");
+                in_range(answer.triangles);
+                assert!(answer.clear_until >= 0.0, "{answer:?}");
+            }
             if let Some(answer) = answered(a.within_of(b, *pose, half, budget, &mut stack)) {
                 assert!(answer.work.splits <= steps, "{answer:?}");
                 assert!(half == 0.0 || answer.verdict != Verdict::Yes, "{answer:?}");

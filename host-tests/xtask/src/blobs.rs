@@ -64,6 +64,12 @@ impl Blob {
         DEFORM,
     ];
 
+    /// Whether the costs of its image are reported for a part with so much flash.
+    #[must_use]
+    pub fn is_reported(self, flash: Flash) -> bool {
+        self == APART || Self::standard(flash).contains(&self)
+    }
+
     /// The blob of a name.
     ///
     /// # Errors

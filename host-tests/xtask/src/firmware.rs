@@ -167,7 +167,7 @@ pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> V
         let reading = steps.ended(&name, seconds, reading);
         let row = rows.iter_mut().find(|row| row.board.cpu == board.cpu);
         if let (Some(reading), Some(row)) = (reading, row)
-            && Blob::standard(board.flash).contains(blob)
+            && blob.is_reported(board.flash)
         {
             let profile = blob.profile(board.flash);
             row.readings.push(Measured { blob: blob.name, profile, reading });

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::{blob_file, served};
-use meshsweep_core::internal::num::{exp2, tolerance};
+use meshsweep_core::internal::num::{exp2, tolerance, up_to_f32};
 use meshsweep_core::{BuildFor, Ended, Solid};
 
 pub fn run(args: &ClearArgs) -> Result<(), Failure> {
@@ -27,8 +27,10 @@ pub fn run(args: &ClearArgs) -> Result<(), Failure> {
             let mut scratch = search.scratch(tree.scratch_entries());
             move |[ax, ay, az, bx, by, bz]: [f32; 6]| {
                 let ends = [[ax, ay, az], [bx, by, bz]].map(|place| tool.at(place));
-                let [from, to] = ends.each_ref();
-                let (from, to) = (Solid::new(from, *radius)?, Solid::new(to, *radius)?);
+                let [(from, off), (to, off_there)] = ends;
+                // Corners that were rounded: the tool is within this of them.
+                let radius = up_to_f32(f64::from(*radius) + off.max(off_there));
+                let (from, to) = (Solid::new(&from, radius)?, Solid::new(&to, radius)?);
                 let found = tree.first_contact(&from, &to, search.budget(), &mut scratch)?;
                 Ok(Answer { found, ended: found.ended, work: found.work })
             }

@@ -155,8 +155,9 @@ impl Queries<3> {
     pub fn moves(self) -> Result<Queries<6>, Failure> {
         let rows: Vec<[f32; 6]> = self
             .rows
-            .array_windows()
-            .map(|&[[ax, ay, az], [bx, by, bz]]| [ax, ay, az, bx, by, bz])
+            .iter()
+            .zip(self.rows.iter().skip(1))
+            .map(|(&[ax, ay, az], &[bx, by, bz])| [ax, ay, az, bx, by, bz])
             .collect();
         let Self { sources, broken, .. } = self;
         if rows.is_empty() {

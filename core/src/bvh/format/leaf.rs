@@ -116,6 +116,16 @@ impl GridRing<'_> {
 /// Vertices of the largest leaf: two centres and nine ring vertices.
 pub const CORNERS: usize = 11;
 
+/// Slots of a triangle's corners among a leaf's [stored vertices](FanLeaf::stored_vertices); `turn`
+/// is the first triangle of the second fan.
+#[inline(always)]
+pub fn slots(lane: usize, turn: usize) -> [usize; 3] {
+    [usize::from(lane >= turn), RING + lane, RING + 1 + lane]
+}
+
+/// Slot of the first ring vertex.
+pub const RING: usize = 2;
+
 /// Bytes of the largest leaf on the grid: two centres and nine ring vertices.
 pub(super) const GRID_WINDOW: usize = 66;
 

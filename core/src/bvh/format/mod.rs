@@ -22,7 +22,7 @@ mod units;
 mod view;
 
 pub use header::BvhHeader;
-pub use leaf::{CORNERS, FanLeaf, GridRing, LeafShape, lanes_of};
+pub use leaf::{CORNERS, FanLeaf, GridRing, LeafShape, RING, lanes_of, slots};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub(crate) use leaf_lanes::LanePoint;
 pub(crate) use units::{Units, at_least, at_most};

@@ -163,8 +163,8 @@ impl Links {
 }
 
 impl Bvh<'_> {
-    /// With this many scratch entries no question about one point or one segment ends for lack of
-    /// memory.
+    /// With this many scratch entries no question about one point, one segment or one solid ends
+    /// for lack of memory.
     #[inline]
     pub fn scratch_entries(&self) -> usize {
         self.header.stack_entries as usize

@@ -1,7 +1,7 @@
 //! Two leaves: which of their triangles may meet, then each of these pairs in f32, and in f64 where
 //! f32 cannot decide.
 
-use crate::bvh::format::FanLeaf;
+use crate::bvh::format::{FanLeaf, RING, slots};
 use crate::bvh::node::WIDE;
 use crate::geom::fan::{LANES_BELOW, WIDTH};
 use crate::geom::{Contact, determinant_margin, straddling_triangles_meet, triangles_meet};
@@ -11,9 +11,6 @@ use crate::query::{RelativePose, Work};
 /// Slots for a leaf's vertices: two centres, the ring, and spare ones so that eight can be read at
 /// shift 1.
 pub(crate) const SLOTS: usize = 12;
-
-/// Slot of the first ring vertex.
-const RING: usize = 2;
 
 /// Vertices of a leaf: both centres, alike if there is one fan, then the ring, then the first
 /// centre again.
@@ -49,7 +46,7 @@ impl Corners {
 
     #[inline(always)]
     pub(super) fn slots(&self, triangle: usize) -> [usize; 3] {
-        [usize::from(triangle >= self.turn), RING + triangle, RING + 1 + triangle]
+        slots(triangle, self.turn)
     }
 
     /// The box of all vertices.

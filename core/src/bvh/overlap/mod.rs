@@ -7,6 +7,7 @@
 //! | `leaf_pair` | the triangles of two leaves |
 //! | `descent` | the descent of both trees |
 //! | `distance`, `within_of` | the two questions about distance |
+//! | `first_contact_of` | the question about a model that moves |
 //! | `pair_keys` | lower bounds of the distances of all pairs of boxes of two nodes |
 //! | `leaf_gaps` | the distances of the triangles of two leaves |
 //! | `nearest_first` | the descent of both trees, nearest pair first |
@@ -16,6 +17,7 @@
 mod axis_intervals;
 mod descent;
 mod distance;
+mod first_contact_of;
 mod from_afar;
 mod leaf_gaps;
 mod leaf_pair;

@@ -10,8 +10,7 @@ use super::leaf_gaps::{GapVisitor, LeafGaps};
 use super::pair_keys::{
     NO_PAIR, PairKeys, bound_of, children_of, distance_of, key_limit, second_factor,
 };
-use crate::num::tolerance::{GAP_SLACK, LEAST_GAP_SQ};
-use crate::num::up_to_f32;
+use crate::bvh::stored_lengths::square_limit;
 use crate::query::{Ended, QueryError, ScratchEntry, Work};
 
 /// Scratch entries of a pair of nodes that waits.
@@ -63,10 +62,7 @@ pub(super) fn descend(
 ) -> Result<Option<Missed>, QueryError> {
     let (stack, _) = scratch.as_chunks_mut::<ENTRIES>();
     let factor = second_factor(models.pose);
-    let limit_of = |visitor: &_| {
-        let limit = up_to_f32(GapVisitor::limit(visitor));
-        key_limit(limit * limit * GAP_SLACK + LEAST_GAP_SQ)
-    };
+    let limit_of = |visitor: &_| key_limit(square_limit(GapVisitor::limit(visitor)));
     let mut used = 0usize;
     // The least key of the pairs that did not fit the stack.
     let mut dropped = NO_PAIR;

@@ -1,14 +1,15 @@
 //! Lower bounds of the distances of all pairs of children of two nodes.
 //!
-//! Boxes are intervals along the axes of both models. Gaps along the three axes of one model are
-//! the components of a vector that no way between the boxes is shorter than. The longer of the two
-//! vectors counts. Derivation: `core/docs/rounding.md` §18.
+//! Boxes are intervals along the axes of both models. The gaps along the three axes of one model
+//! form a vector, and its length is a lower bound of the distance. The greater of the two bounds
+//! counts. Derivation: `core/docs/rounding.md` §18.
 
 use super::axis_intervals::AxisIntervals;
 use crate::bvh::node::WIDE;
+use crate::bvh::stored_lengths::root_of_bound;
 use crate::geom::fan::WIDTH;
 use crate::num::greater;
-use crate::num::tolerance::{LEAST_GAP_SQ, LEAST_STRETCH, U32};
+use crate::num::tolerance::{LEAST_STRETCH, U32};
 use crate::query::RelativePose;
 
 /// Pairs of children of two nodes.
@@ -52,11 +53,7 @@ pub(super) fn children_of(key: u32) -> [u32; 2] {
 
 /// Lower bound of a distance, from the key of a pair of boxes, common units.
 pub(super) fn distance_of(key: u32) -> f64 {
-    let bound_sq = bound_of(key);
-    if bound_sq < LEAST_GAP_SQ {
-        return 0.0;
-    }
-    libm::sqrt(f64::from(bound_sq)) * (1.0 - 16.0 * f64::from(U32))
+    root_of_bound(bound_of(key))
 }
 
 /// Squared gaps along the second model's axes are multiplied by this. Its axes are longer by the

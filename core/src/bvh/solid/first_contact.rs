@@ -1,12 +1,11 @@
 //! Where a convex solid that moves first meets the surface.
 
 use super::box_keys::{ByTime, bound_of, key_limit};
-use super::leaf_search::{LeafTriangles, Place};
-use super::placed::{PlacedSolid, dot};
+use super::leaf_search::{LeafTriangles, TriangleRef};
+use super::placed::PlacedSolid;
 use super::solid_distance::number;
 use crate::bvh::descent::{Descent, LeafVisit, LeafVisitor, descend};
 use crate::bvh::format::Bvh;
-use crate::geom::convex_gap;
 use crate::num::tolerance::{ADVANCE_KEPT, U64};
 use crate::num::{down_to_f32, greater, up_to_f32};
 use crate::query::{Budget, Ended, FirstHit, Hit, Interval, QueryError, ScratchEntry, Solid, Work};
@@ -19,9 +18,9 @@ impl Bvh<'_> {
     /// The answer is that of a [first hit](Bvh::first_hit), with the part of the motion as its
     /// parameter, from 0 to 1. No point of the solid lies on the input mesh before `t.lower`, at no
     /// time between, however short. If [`is_clear`](FirstHit::is_clear), none does during the whole
-    /// motion: that is proved. If `hit` is there and `ended` is [`Ended::Exact`], the solid
-    /// certainly meets the mesh by `t.upper`. The point of the hit is on the mesh, near the place
-    /// where it stops the solid. To keep a distance, add it to the radius.
+    /// motion: that is proved. If `ended` is [`Ended::Exact`] and `hit` is there, the solid
+    /// certainly meets the mesh by `t.upper`. The point of the hit is on the triangle that may stop
+    /// the solid, next to the solid at `t.lower`. To keep a distance, add it to the radius.
     ///
     /// Corners that all move by the same way are a translation. Others turn and stretch the solid:
     /// to follow a rotation by an angle φ, divide it, and add r·φ²/8 to the radius, r the distance
@@ -31,9 +30,12 @@ impl Bvh<'_> {
     /// or with few steps, `t.lower` is earlier, and [`Ended::Scratch`] or [`Ended::Steps`] says so.
     /// Tolerances are ignored. Lengths and coordinates are in input units, in the mesh's frame.
     ///
-    /// A solid that starts within the surface error of the mesh has a `t.lower` of 0. A solid
-    /// without radius is not proved to meet a mesh that it only touches: `ended` is then
-    /// [`Ended::Resolution`], and `t.upper` is 1.
+    /// Only the surface counts: a motion inside of a closed mesh may be clear. A solid at rest,
+    /// with `to` as `from`, meets what it is near at once or never. A solid that starts within the
+    /// surface error of the mesh has a `t.lower` of 0. Where no contact with the triangle that may
+    /// stop the solid first is proved, `ended` is [`Ended::Resolution`], and `t.upper` is 1. So it
+    /// is where the solid only touches the mesh, and often of a solid without radius that is flat
+    /// or that passes the edge of a triangle: a small radius decides.
     ///
     /// Cost: the nodes that the solid passes before it is stopped. Each triangle that it may reach
     /// takes one to three distances in f64, and some ten if it stops the solid.
@@ -86,8 +88,9 @@ impl Bvh<'_> {
         if met.is_none() && ended == Ended::Exact {
             ended = Ended::Resolution;
         }
-        let triangle = Some(number(self, stop.place)?);
-        let hit = Hit { t: down_to_f32(until), point: placed.place(stop.point), triangle };
+        let triangle = Some(number(self, stop.triangle)?);
+        let hit =
+            Hit { t: down_to_f32(until), point: placed.to_input(stop.advance.point), triangle };
         let upper = met.map_or(1.0, |t| up_to_f32(t).min(1.0));
         Ok(FirstHit { t: Interval::new(lower, upper), hit: Some(hit), work, ended })
     }
@@ -96,83 +99,99 @@ impl Bvh<'_> {
 /// A triangle that may stop the solid.
 #[derive(Clone, Copy)]
 struct Stop {
-    place: Place,
+    triangle: TriangleRef,
     corners: [[f64; 3]; 3],
-    /// The time up to which the solid is clear of it.
+    advance: Advance,
+}
+
+/// How far a solid goes on before one triangle may stop it.
+#[derive(Clone, Copy)]
+struct Advance {
+    /// Before this time the solid is certainly farther than the reach.
     t: f64,
     /// On the triangle, next to the solid at that time.
     point: [f64; 3],
-    /// How fast the solid comes nearer there: stored units in a unit of time.
-    pace: f64,
+    /// Upper bound of the closing speed along the last direction, stored units for the motion. 0 if
+    /// there was none.
+    speed: f64,
 }
 
-/// Distances of a triangle on the way to it. The search for its time converges faster than by
-/// halves, so few need them all.
+/// Most distances computed for one triangle. The steps shrink faster than by halves, so it rarely
+/// takes ten.
 const MOST_ADVANCES: usize = 64;
 
 impl PlacedSolid {
-    /// The time up to which the solid is certainly farther than `reach` from a triangle, if that is
-    /// before `until`.
+    /// How far the solid goes on before a triangle may stop it. `None` if that is later than
+    /// `until`.
     ///
-    /// Along a direction that parts the two, a gap shrinks by no more than the fastest corner's
-    /// pace. So it bounds the time until it is closed.
-    fn advanced(
+    /// The gap along a separating direction shrinks at most at the speed of the fastest corner. The
+    /// gap over this speed is a time in which nothing can happen.
+    fn advance_to(
         &self,
         corners: &[[f64; 3]; 3],
         reach: f64,
         until: f64,
         measured: &mut u32,
-    ) -> Option<(f64, [f64; 3], f64)> {
-        let mut t = 0.0;
-        let mut pace = 0.0;
+    ) -> Option<Advance> {
+        let (mut t, mut speed) = (0.0, 0.0);
+        let mut point = [0.0; 3];
         for _ in 0..MOST_ADVANCES {
             *measured = measured.saturating_add(1);
-            let at = self.corners_at(t);
-            let gap = convex_gap(at.get(..self.count()).unwrap_or(&[]), corners);
-            let [_, point] = gap.points;
-            let length = libm::sqrt(dot(gap.way, gap.way));
-            if !(gap.lower > reach && length > 0.0) {
-                return Some((t, point, pace));
+            let gap = self.gap_at(t, corners);
+            [_, point] = gap.points;
+            let is_apart = gap.lower > reach;
+            if !is_apart {
+                break;
             }
-            let way = gap.way.map(|x| x / length);
-            let speed = self.speed_along(way);
-            // The pace of a corner is a sum of products of its way.
-            pace = speed + self.quickest() * (8.0 * U64);
-            if pace <= 0.0 {
+            // With the rounding of the inner products (§19, Motion).
+            speed = self.speed_along(gap.direction) + self.quickest() * (8.0 * U64);
+            if speed <= 0.0 {
                 return None;
             }
-            let next = t + (gap.lower - reach) / pace * ADVANCE_KEPT;
+            let next = t + (gap.lower - reach) / speed * ADVANCE_KEPT;
             if next > until {
                 return None;
             }
             // Too near for another step.
             if next <= t {
-                return Some((t, point, pace));
+                break;
             }
             t = next;
         }
-        let at = self.corners_at(t);
-        let gap = convex_gap(at.get(..self.count()).unwrap_or(&[]), corners);
-        Some((t, gap.points[1], pace))
+        Some(Advance { t, point, speed })
     }
 
-    /// A time up to which the solid certainly met the triangle, a little after it may have.
+    /// The first of some times, from the one at which the triangle may stop the solid to the end,
+    /// at which the solid certainly meets it.
     fn meeting_time(&self, stop: &Stop) -> Option<f64> {
+        let Advance { t, speed, .. } = stop.advance;
         let error = self.lengths.error + self.rounding;
+        let largest = stop.corners.iter().flatten().fold(self.radius, |x, y| greater(x, y.abs()));
         // Deep enough for the errors of the surface and of rounding.
-        let size =
-            stop.corners.iter().flatten().fold(self.radius, |most, x| greater(most, x.abs()));
-        let deep = 4.0 * error + size * (1024.0 * U64);
-        let later = stop.t + if stop.pace > 0.0 { deep / stop.pace } else { 0.0 };
-        [later, stop.t + 16.0 * (later - stop.t), 1.0].into_iter().find(|&t| {
-            t <= 1.0 && {
-                let at = self.corners_at(t);
-                let gap = convex_gap(at.get(..self.count()).unwrap_or(&[]), &stop.corners);
-                gap.upper + error <= self.radius || gap.depth > error
+        let deep = 4.0 * error + largest * (1024.0 * U64);
+        let ahead = if speed > 0.0 { deep / speed } else { 0.0 };
+        let meets = |t: f64| {
+            let gap = self.gap_at(t, &stop.corners);
+            gap.upper + error <= self.radius || gap.depth > error
+        };
+        let mut ahead = ahead;
+        let mut at = t;
+        while at < 1.0 {
+            if meets(at) {
+                return Some(at);
             }
-        })
+            if ahead <= 0.0 {
+                break;
+            }
+            at = t + ahead;
+            ahead *= LATER;
+        }
+        meets(1.0).then_some(1.0)
     }
 }
+
+/// Ratio of the ways after which a contact is looked for.
+const LATER: f64 = 8.0;
 
 /// The visitor that wants the first triangle to stop the solid.
 struct Earliest<'a> {
@@ -192,13 +211,13 @@ impl LeafVisitor for Earliest<'_> {
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let mut triangles = LeafTriangles::new(self.placed, visit);
-        while let Some((place, corners)) = triangles.next(self.reach) {
+        while let Some((triangle, corners)) = triangles.next(self.reach) {
             let Self { placed, reach, until, measured, .. } = self;
-            if let Some((t, point, pace)) = placed.advanced(&corners, *reach, *until, measured) {
+            if let Some(advance) = placed.advance_to(&corners, *reach, *until, measured) {
                 // Of equal times the first one found counts.
-                if t < self.until || self.stop.is_none() {
-                    self.until = t;
-                    self.stop = Some(Stop { place, corners, t, point, pace });
+                if advance.t < self.until || self.stop.is_none() {
+                    self.until = advance.t;
+                    self.stop = Some(Stop { triangle, corners, advance });
                 }
             }
         }

@@ -3,22 +3,20 @@
 //! Extents along six directions bound all triangles in f32. Those that are left are measured in
 //! f64, the one with the least bound first.
 
-use super::box_keys::{bounds_sq, key_limit, square_limit};
-use super::placed::{PlacedSolid, dot};
+use super::box_keys::{bounds_sq, key_limit};
+use super::placed::PlacedSolid;
 use crate::bvh::descent::{LeafVisit, LeafVisitor};
-use crate::bvh::format::{CORNERS, FanLeaf};
+use crate::bvh::format::{CORNERS, FanLeaf, slots};
+use crate::bvh::stored_lengths::square_limit;
 use crate::geom::fan::WIDTH;
-use crate::geom::{ConvexGap, convex_gap};
+use crate::geom::{ConvexGap, convex_gap, dot};
 use crate::num::tolerance::{CONVEX_GAP, U64};
 use crate::num::{greater, lesser};
 use crate::query::DIRECTIONS;
 
-/// Slot of the first ring vertex among a leaf's stored vertices.
-const RING: usize = 2;
-
 /// A triangle of a leaf.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct TriangleRef {
     pub(super) node: u32,
     pub(super) child: u32,
     pub(super) lane: u32,
@@ -47,7 +45,7 @@ impl LeafTriangles {
             child: visit.child,
         };
         let (mut low, mut high) = ([[0f32; WIDTH]; DIRECTIONS], [[0f32; WIDTH]; DIRECTIONS]);
-        let directions = placed.frame.rows.iter().zip(placed.frame.grow);
+        let directions = placed.directions.rows.iter().zip(placed.directions.grow);
         for ((&[a, b, c], grow), (low, high)) in directions.zip(low.iter_mut().zip(&mut high)) {
             let [x, y, z] = &vertices;
             let mut heights = [0f32; CORNERS];
@@ -69,10 +67,10 @@ impl LeafTriangles {
 
     /// Takes the triangle with the least bound out, if that is within the limit.
     #[inline(always)]
-    pub(super) fn next(&mut self, limit: f64) -> Option<(Place, [[f64; 3]; 3])> {
+    pub(super) fn next(&mut self, limit: f64) -> Option<(TriangleRef, [[f64; 3]; 3])> {
         let mut least = (square_limit(limit), WIDTH);
         for (lane, &bound) in self.bounds_sq.iter().enumerate() {
-            if bound <= least.0 {
+            if bound <= least.0 && bound < f32::INFINITY {
                 least = (bound, lane);
             }
         }
@@ -81,19 +79,14 @@ impl LeafTriangles {
         let [x, y, z] = &self.vertices;
         let corners = slots(lane, self.turn)
             .map(|slot| [x, y, z].map(|axis| axis.get(slot).copied().map_or(0.0, f64::from)));
-        Some((Place { node: self.node, child: self.child, lane: lane as u32 }, corners))
+        Some((TriangleRef { node: self.node, child: self.child, lane: lane as u32 }, corners))
     }
-}
-
-#[inline(always)]
-fn slots(lane: usize, turn: usize) -> [usize; 3] {
-    [usize::from(lane >= turn), RING + lane, RING + 1 + lane]
 }
 
 /// A measured triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TriangleGap {
-    pub(super) place: Place,
+    pub(super) place: TriangleRef,
     pub(super) gap: ConvexGap,
 }
 
@@ -108,9 +101,11 @@ pub(super) trait GapVisitor {
 /// The search among leaves for a solid at rest.
 pub(super) struct LeafSearch<'a, V> {
     placed: &'a PlacedSolid,
-    /// Across the way to the triangle that was measured last: the way, of length 1, and the height
-    /// of the solid along it.
+    /// Between the solid and the triangle that was measured last: its normal, and the height of the
+    /// solid along it.
     plane: ([f64; 3], f64),
+    /// Largest 1-norm of a corner of the solid.
+    largest: f64,
     /// Triangles that were measured.
     pub(super) measured: u32,
     pub(super) visitor: V,
@@ -141,27 +136,30 @@ impl<V: GapVisitor> LeafVisitor for LeafSearch<'_, V> {
 
 impl<'a, V: GapVisitor> LeafSearch<'a, V> {
     pub(super) fn new(placed: &'a PlacedSolid, visitor: V) -> LeafSearch<'a, V> {
-        LeafSearch { placed, plane: ([0.0; 3], 0.0), measured: 0, visitor }
+        let largest = placed.corners().iter().copied().map(norm_1).fold(0.0, greater);
+        LeafSearch { placed, plane: ([0.0; 3], 0.0), largest, measured: 0, visitor }
     }
 
     #[inline(never)]
     fn measure(&mut self, corners: &[[f64; 3]; 3]) -> ConvexGap {
         let gap = convex_gap(self.placed.corners(), corners);
-        let length = libm::sqrt(dot(gap.way, gap.way));
-        if length > 0.0 {
-            let way = gap.way.map(|x| x / length);
-            let heights = self.placed.corners().iter().map(|&corner| dot(way, corner));
-            self.plane = (way, heights.fold(f64::NEG_INFINITY, greater));
+        if gap.lower > 0.0 {
+            let heights = self.placed.corners().iter().map(|&p| dot(gap.direction, p));
+            self.plane = (gap.direction, heights.fold(f64::NEG_INFINITY, greater));
         }
         gap
     }
 
     /// Whether the plane proves that a triangle is farther than the limit.
     fn is_beyond(&self, corners: &[[f64; 3]; 3]) -> bool {
-        let ((way, top), limit) = (self.plane, self.visitor.limit());
-        let lowest = corners.iter().map(|&p| dot(way, p)).fold(f64::INFINITY, lesser);
-        // Heights are below these in size.
-        let far = lowest.abs() + top.abs() + limit;
+        let ((normal, top), limit) = (self.plane, self.visitor.limit());
+        let lowest = corners.iter().map(|&p| dot(normal, p)).fold(f64::INFINITY, lesser);
+        // Heights that cancel are rounded in proportion to the corners.
+        let far = self.largest + corners.iter().copied().map(norm_1).fold(0.0, greater) + limit;
         lowest - top > limit + far * (CONVEX_GAP * U64)
     }
+}
+
+fn norm_1([x, y, z]: [f64; 3]) -> f64 {
+    x.abs() + y.abs() + z.abs()
 }

@@ -3,13 +3,14 @@
 use crate::bvh::format::Bvh;
 use crate::bvh::overlap::extended;
 use crate::bvh::stored_lengths::StoredLengths;
+use crate::geom::{ConvexGap, Point, convex_gap, cross, dot, minus};
 use crate::num::tolerance::{
     MOVING_CORNER, OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, U32, U64,
 };
 use crate::num::{down_to_f32, exp2, greater, lesser, up_to_f32};
 use crate::query::{DIRECTIONS, Extended, ModelFrame, QueryError, Solid};
 
-type Point = [f64; 3];
+type Place = Point<f64>;
 
 /// Direction of the solid's first axis among the six.
 pub(super) const FIRST_AXIS: usize = 3;
@@ -17,18 +18,18 @@ pub(super) const FIRST_AXIS: usize = 3;
 /// A solid, and the ways of its corners if it moves.
 pub(super) struct PlacedSolid {
     /// At the start.
-    from: [Point; Solid::MOST_CORNERS],
+    from: [Place; Solid::MOST_CORNERS],
     /// The way of each corner.
-    ways: [Point; Solid::MOST_CORNERS],
+    ways: [Place; Solid::MOST_CORNERS],
     count: usize,
     pub(super) radius: f64,
     pub(super) lengths: StoredLengths,
     /// How far a corner that moves may be from its computed place.
     pub(super) rounding: f64,
-    /// The tree's box intervals along six directions: its own axes, then the solid's. The second
-    /// three are orthonormal up to their rounding to f32.
-    pub(super) frame: ModelFrame,
-    /// Extent along the directions of all places of the corners.
+    /// Six directions, and the rounding of the tree's intervals along them: the tree's axes, then
+    /// the solid's, which are orthonormal up to their rounding to f32.
+    pub(super) directions: ModelFrame,
+    /// The solid's extent along the directions, at all times of its motion, without the radius.
     pub(super) low: [f32; DIRECTIONS],
     pub(super) high: [f32; DIRECTIONS],
     /// Along the first axis, the greatest place of a corner at the start.
@@ -67,7 +68,7 @@ impl PlacedSolid {
             radius: 0.0,
             lengths: StoredLengths { error: stored.error, unit: exp2(stored.exponent) },
             rounding: 0.0,
-            frame: ModelFrame {
+            directions: ModelFrame {
                 rows: [[0.0; 3]; DIRECTIONS],
                 shift: [0.0; DIRECTIONS],
                 origin: stored.origin.map(|x| x as f32),
@@ -92,8 +93,7 @@ impl PlacedSolid {
             let far = from.iter().chain(&to).fold(0.0, |far, x| greater(far, x.abs()));
             farthest = greater(farthest, far);
         }
-        // NaN is too far as well.
-        if !(farthest <= OVERLAP_FARTHEST) {
+        if farthest > OVERLAP_FARTHEST || placed.radius > OVERLAP_FARTHEST {
             return Err(QueryError::OutOfDomain);
         }
         placed.rounding = MOVING_CORNER * U64 * farthest;
@@ -102,38 +102,34 @@ impl PlacedSolid {
     }
 
     /// The corners at the start.
-    pub(super) fn corners(&self) -> &[Point] {
+    pub(super) fn corners(&self) -> &[Place] {
         self.from.get(..self.count).unwrap_or(&[])
     }
 
-    fn ways(&self) -> &[Point] {
+    fn ways(&self) -> &[Place] {
         self.ways.get(..self.count).unwrap_or(&[])
     }
 
-    /// The corners at a parameter of the motion.
-    pub(super) fn corners_at(&self, t: f64) -> [Point; Solid::MOST_CORNERS] {
+    /// The distance of the hull of the corners from a triangle, at a parameter of the motion.
+    #[inline(never)]
+    pub(super) fn gap_at(&self, t: f64, triangle: &[Place; 3]) -> ConvexGap {
         let mut at = self.from;
         for (at, way) in at.iter_mut().zip(self.ways()) {
             for (x, way) in at.iter_mut().zip(way) {
                 *x += way * t;
             }
         }
-        at
-    }
-
-    /// How many of the corners count.
-    pub(super) fn count(&self) -> usize {
-        self.count
+        convex_gap(at.get(..self.count).unwrap_or(&[]), triangle)
     }
 
     /// The greatest component of a corner's way along a direction.
-    pub(super) fn speed_along(&self, direction: Point) -> f64 {
+    pub(super) fn speed_along(&self, direction: Place) -> f64 {
         self.ways().iter().map(|&way| dot(direction, way)).fold(f64::NEG_INFINITY, greater)
     }
 
     /// The longest way of a corner, as the sum of its components.
     pub(super) fn quickest(&self) -> f64 {
-        let length = |[x, y, z]: &Point| x.abs() + y.abs() + z.abs();
+        let length = |[x, y, z]: &Place| x.abs() + y.abs() + z.abs();
         self.ways().iter().map(length).fold(0.0, greater)
     }
 
@@ -147,9 +143,9 @@ impl PlacedSolid {
     fn set_directions(&mut self, far: f64) {
         let [x, y, z] = [[1.0f32, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let [u, v, w] = self.axes();
-        self.frame.rows = [x, y, z, u, v, w];
+        self.directions.rows = [x, y, z, u, v, w];
         let rounding = 32.0 * U64 * far;
-        for (direction, row) in self.frame.rows.into_iter().enumerate() {
+        for (direction, row) in self.directions.rows.into_iter().enumerate() {
             let row = row.map(f64::from);
             let [a, b, c] = row.map(f64::abs);
             let [kx, ky, kz] = self.tree.extent;
@@ -163,7 +159,7 @@ impl PlacedSolid {
                 high = greater(high, greater(from, from + moved));
                 start = greater(start, from);
             }
-            if let Some(slot) = self.frame.grow.get_mut(direction) {
+            if let Some(slot) = self.directions.grow.get_mut(direction) {
                 *slot = up_to_f32(grow);
             }
             if let Some(slot) = self.low.get_mut(direction) {
@@ -183,15 +179,12 @@ impl PlacedSolid {
     /// along the longest edge from the first corner. The second one is along what is longest across
     /// it.
     fn axes(&self) -> [[f32; 3]; 3] {
-        let mut edges = [[0.0; 3]; 2 * Solid::MOST_CORNERS];
         let first = self.corners().first().copied().unwrap_or_default();
-        let still = self.is_still();
-        let all = self.corners().iter().map(|&corner| minus(corner, first));
-        let all = all.chain(self.ways().iter().copied());
-        edges.iter_mut().zip(all).for_each(|(slot, edge)| *slot = edge);
-        let leading = if still { edges.get(..self.count) } else { edges.get(self.count..) };
-        let u = unit(longest(leading.unwrap_or(&[]))).unwrap_or([1.0, 0.0, 0.0]);
-        let across = edges.map(|edge| without(edge, u));
+        let edges = || self.corners().iter().map(|&corner| minus(corner, first));
+        let ways = || self.ways().iter().copied();
+        let leading = if self.is_still() { longest(edges()) } else { longest(ways()) };
+        let u = unit(leading).unwrap_or([1.0, 0.0, 0.0]);
+        let across = longest(edges().chain(ways()).map(|edge| without(edge, u)));
         // An axis of the grid that is not along the first one.
         let [x, y, _] = u.map(f64::abs);
         let spare = if x < 0.6 {
@@ -201,28 +194,26 @@ impl PlacedSolid {
         } else {
             [0.0, 0.0, 1.0]
         };
-        let second = |edge: Point| Some(unit(without(unit(edge)?, u))?);
-        let v = second(longest(&across)).filter(|v| dot(*v, u).abs() < 1e-9);
+        let second = |edge: Place| unit(without(unit(edge)?, u));
+        let v = second(across).filter(|v| dot(*v, u).abs() < 1e-9);
         let v = v.or_else(|| second(spare)).unwrap_or([0.0, 1.0, 0.0]);
         let w = cross(u, v);
         [u, v, w].map(|axis| axis.map(|x| x as f32))
     }
 
     /// A place in input units.
-    pub(super) fn place(&self, [x, y, z]: Point) -> [f32; 3] {
+    pub(super) fn to_input(&self, [x, y, z]: Place) -> [f32; 3] {
         let [a, b, c] = self.tree.origin;
         [x + a, y + b, z + c].map(|x| ((x * self.lengths.unit) as f32).clamp(-f32::MAX, f32::MAX))
     }
 }
 
-fn longest(vectors: &[Point]) -> Point {
-    vectors
-        .iter()
-        .fold([0.0; 3], |longest, &v| if dot(v, v) > dot(longest, longest) { v } else { longest })
+fn longest(vectors: impl Iterator<Item = Place>) -> Place {
+    vectors.fold([0.0; 3], |most, v| if dot(v, v) > dot(most, most) { v } else { most })
 }
 
 /// A vector of length 1; `None` if it has no length that f64 can divide by.
-fn unit(v: Point) -> Option<Point> {
+fn unit(v: Place) -> Option<Place> {
     let largest = v.iter().fold(0.0, |largest, x| greater(largest, x.abs()));
     let scaled = v.map(|x| x / largest);
     let length = libm::sqrt(dot(scaled, scaled));
@@ -230,20 +221,8 @@ fn unit(v: Point) -> Option<Point> {
 }
 
 /// Without its component along a unit vector.
-fn without(v: Point, [a, b, c]: Point) -> Point {
+fn without(v: Place, [a, b, c]: Place) -> Place {
     let [x, y, z] = v;
     let along = dot(v, [a, b, c]);
     [x - a * along, y - b * along, z - c * along]
-}
-
-fn minus([a, b, c]: Point, [x, y, z]: Point) -> Point {
-    [a - x, b - y, c - z]
-}
-
-pub(super) fn dot([a, b, c]: Point, [x, y, z]: Point) -> f64 {
-    (a * x + b * y) + c * z
-}
-
-fn cross([a, b, c]: Point, [x, y, z]: Point) -> Point {
-    [b * z - c * y, c * x - a * z, a * y - b * x]
 }

@@ -1,7 +1,7 @@
 //! The distance of a convex solid and the surface.
 
 use super::box_keys::{ByDistance, distance_of};
-use super::leaf_search::{GapVisitor, LeafSearch, Place, TriangleGap};
+use super::leaf_search::{GapVisitor, LeafSearch, TriangleGap, TriangleRef};
 use super::placed::PlacedSolid;
 use crate::bvh::descent::{Descent, descend};
 use crate::bvh::format::Bvh;
@@ -14,14 +14,15 @@ impl Bvh<'_> {
     ///
     /// The interval contains the distance of the input mesh, even if a grid moved vertices. It is
     /// `0 ..= 0` if it is proved that the solid and the surface meet. Only the surface counts: of a
-    /// solid in the inside of a closed mesh it is the distance from the surface.
+    /// solid inside of a closed mesh it is the distance from the surface. If it is above 0,
     /// [`signed_distance`](Bvh::signed_distance) of a corner tells whether the solid is inside. Ask
     /// [`solid_within`](Bvh::solid_within) where a threshold matters: it is faster.
     ///
     /// `scratch`: [`scratch_entries`](Bvh::scratch_entries) make overflow impossible. With fewer
     /// the interval still holds, and [`Ended::Scratch`] says so. Lengths and coordinates are in
     /// input units, in the mesh's frame. A tolerance or the steps of the budget end the search
-    /// earlier.
+    /// earlier. A search that ends before the first triangle goes down to one all the same, and
+    /// does not count that.
     ///
     /// Solids may be flat, or have equal corners. A solid without radius that the surface only
     /// touches has a lower end of 0 and an upper end of the surface error and rounding.
@@ -44,8 +45,9 @@ impl Bvh<'_> {
     ///
     /// # Errors
     /// [`QueryError::NotServed`] unless the tree has boxes for segments;
-    /// [`QueryError::OutOfDomain`] for a corner beyond 2^30 grid units; [`QueryError::Tolerance`],
-    /// [`QueryError::NoScratch`].
+    /// [`QueryError::OutOfDomain`] for a corner or a radius beyond 2^30 grid units;
+    /// [`QueryError::Tolerance`] if a tolerance of the budget is negative, NaN or infinite;
+    /// [`QueryError::NoScratch`] for scratch without entries.
     pub fn solid_distance(
         &self,
         solid: &Solid<'_>,
@@ -93,7 +95,7 @@ impl Bvh<'_> {
         };
         Ok(SolidDistance {
             distance,
-            points: best.gap.points.map(|point| placed.place(point)),
+            points: best.gap.points.map(|point| placed.to_input(point)),
             triangle: number(self, best.place)?,
             work,
             ended,
@@ -102,7 +104,7 @@ impl Bvh<'_> {
 }
 
 /// The number of a triangle in the input file.
-pub(super) fn number(tree: &Bvh<'_>, place: Place) -> Result<u32, QueryError> {
+pub(super) fn number(tree: &Bvh<'_>, place: TriangleRef) -> Result<u32, QueryError> {
     let find = || {
         let first = tree.links(place.node)?.triangle(place.child);
         tree.source(first.wrapping_add(place.lane))
@@ -119,9 +121,11 @@ impl PlacedSolid {
         Interval::new(lower, upper)
     }
 
-    /// Whether the solid is so deep in a triangle that it meets the input's.
+    /// Whether it is proved that the solid meets the input's triangle: it is so deep in the stored
+    /// one, or so much nearer than the radius.
     pub(super) fn meets(&self, found: &TriangleGap) -> bool {
-        found.gap.depth > self.lengths.error
+        let error = self.lengths.error;
+        found.gap.depth > error || found.gap.upper + error < self.radius
     }
 }
 

@@ -1,7 +1,7 @@
 //! Whether a convex solid and the surface are within a distance of each other.
 
 use super::box_keys::ByDistance;
-use super::leaf_search::{GapVisitor, LeafSearch, Place, TriangleGap};
+use super::leaf_search::{GapVisitor, LeafSearch, TriangleGap, TriangleRef};
 use super::placed::PlacedSolid;
 use super::solid_distance::number;
 use crate::bvh::descent::{Descent, descend};
@@ -13,19 +13,20 @@ use crate::query::{
 
 impl Bvh<'_> {
     /// Whether a point of `solid` is at most `distance` from the surface. All lengths in input
-    /// units.
+    /// units, in the mesh's frame.
     ///
     /// Both verdicts are proved for the input mesh. A distance of 0 asks whether the solid and the
     /// surface meet. The verdict is undecided for lack of precision only if the true distance is
-    /// within the surface error and rounding of the one asked about. Without a radius that also
-    /// holds where the solid is less deep in the surface than that, and for flat solids that pass
-    /// through it: give those a radius. For collision avoidance, treat an undecided answer as
-    /// `Yes`.
+    /// within the surface error and rounding of the one asked about, or if the solid enters the
+    /// surface by less than that, or if a flat solid without radius passes through it. A small
+    /// radius avoids the last one. For collision avoidance, treat an undecided answer as `Yes`.
+    /// Only the surface counts: a solid inside of a closed mesh may be clear.
     ///
-    /// Arguments and degenerate cases as for [`solid_distance`](Bvh::solid_distance). It ends at
+    /// `scratch` and degenerate cases as for [`solid_distance`](Bvh::solid_distance). It ends at
     /// the first triangle that is certainly near enough. Of the budget only `steps` matters.
     ///
-    /// Cost: less than the distance. One node if the model's boxes are farther.
+    /// Cost: less than the distance. One node if the model's boxes are farther; all triangles
+    /// within the distance if the answer is nearly `Yes`.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Scratch, Solid};
@@ -36,6 +37,8 @@ impl Bvh<'_> {
     /// assert!(part.solid_within(&clamp, 2.0, Budget::EXACT, &mut scratch)?.is_clear());
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
+    ///
+    /// Source: that of [`solid_distance`](Bvh::solid_distance).
     ///
     /// # Errors
     /// Those of [`solid_distance`](Bvh::solid_distance); [`QueryError::Tolerance`] also for a
@@ -86,9 +89,9 @@ struct Threshold<'a> {
     /// Of the hull of the corners, stored units.
     limit: f64,
     /// A triangle that is certainly within.
-    near: Option<Place>,
+    near: Option<TriangleRef>,
     /// A triangle that may be within.
-    undecided: Option<Place>,
+    undecided: Option<TriangleRef>,
 }
 
 impl GapVisitor for Threshold<'_> {

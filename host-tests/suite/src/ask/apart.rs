@@ -78,7 +78,8 @@ impl<'t> Subject<'t> for Apart<'t> {
 /// Pairs of nodes that a search for the distance may open.
 const STEPS: u32 = 16;
 
-/// How far the surface is from its moved copy, and whether it is within half of that.
+/// How far the surface is from its moved copy, whether it is within half of that, and how far it
+/// can move on.
 #[inline(never)]
 pub fn distance(
     Apart(tree): &Apart<'_>,
@@ -102,6 +103,16 @@ pub fn distance(
         to.answer(
             || tree.within_of(tree, pose, half, budget, &mut scratch.0),
             |fold, answer| super::verdict(fold, answer.work, answer.verdict),
+        );
+        let mut end = pose;
+        end.translation = found.points[0];
+        to.answer(
+            || tree.first_contact_of(tree, [pose, end], half, budget, &mut scratch.0),
+            |fold, answer| {
+                fold.f32(answer.clear_until);
+                answer.triangles.into_iter().for_each(|number| fold.word(number));
+                super::how(fold, answer.work, answer.ended);
+            },
         );
     }
 }

@@ -3,4 +3,5 @@
 mod extremes;
 mod held;
 mod limits;
+mod motion;
 mod truth;

@@ -92,6 +92,11 @@ fn what_no_solid_is_and_no_tree_serves_is_refused_by_name() {
     assert_eq!(found, Err(QueryError::OutOfDomain));
     let found = tree.first_contact(&one, &far, Budget::EXACT, &mut stack);
     assert_eq!(found, Err(QueryError::OutOfDomain));
+    // As large a radius would leave nothing of f32's range.
+    let large = [[0f32; 3]];
+    let large = Solid::new(&large, 1e25).unwrap();
+    let found = tree.first_contact(&large, &large, Budget::EXACT, &mut stack);
+    assert_eq!(found, Err(QueryError::OutOfDomain));
     let found = tree.solid_within(&one, f32::NAN, Budget::EXACT, &mut stack);
     assert_eq!(found, Err(QueryError::Tolerance));
     let found = tree.solid_distance(&one, Budget::EXACT, &mut []);
@@ -100,6 +105,31 @@ fn what_no_solid_is_and_no_tree_serves_is_refused_by_name() {
     let scene = Scene::tree("torus", torus(2.0, 0.75, 16, 8), false);
     let found = scene.bvh().solid_distance(&one, Budget::EXACT, &mut stack);
     assert_eq!(found, Err(QueryError::NotServed { build_for: BuildFor::Segment }));
+}
+
+#[test]
+fn a_radius_and_a_distance_of_any_size_end() {
+    let scene = Scene::both("torus", torus(2.0, 0.75, 16, 8));
+    for tree in scene.trees() {
+        let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
+        for size in [1.0, 1e4, 1e9, 1e19, 1e30, f32::MAX] {
+            let at = [[5.0f32, 0.0, 0.0]];
+            let solid = Solid::new(&at, size).unwrap();
+            let found = tree.first_contact(&solid, &solid, Budget::EXACT, &mut stack);
+            match found {
+                Ok(found) => assert!(found.t.lower == 0.0 || size == 1.0, "{size} {found:?}"),
+                Err(error) => assert!(error == QueryError::OutOfDomain && size > 1e4, "{size}"),
+            }
+            let found = tree.solid_distance(&solid, Budget::EXACT, &mut stack);
+            match found {
+                Ok(found) => assert!(found.distance.upper == 0.0 || size == 1.0, "{found:?}"),
+                Err(error) => assert!(error == QueryError::OutOfDomain && size > 1e4, "{size}"),
+            }
+            let solid = Solid::new(&at, 0.5).unwrap();
+            let found = tree.solid_within(&solid, size, Budget::EXACT, &mut stack).unwrap();
+            assert_eq!(found.verdict == Verdict::Yes, size > 1.75, "{size} {found:?}");
+        }
+    }
 }
 
 /// Answers without steps are undecided for that reason.

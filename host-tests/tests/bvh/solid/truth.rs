@@ -1,12 +1,13 @@
 //! Every interval contains the true distance, and every verdict is true.
 
 use super::shapes::Shape;
+use meshsweep_core::internal::geom::convex_gap;
 use meshsweep_core::{Budget, Bvh, Ended, ScratchEntry, SolidDistance, Verdict};
-use meshsweep_host_tests::generate::corpus::{mixed, slivers};
+use meshsweep_host_tests::generate::corpus::{IDENTITY, mixed, slivers};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, needle_comb, rough_sphere, scaled, torus, two_parts,
 };
-use meshsweep_host_tests::oracle::Bounded;
+use meshsweep_host_tests::oracle::{Bounded, distance_of_moved_triangles};
 use meshsweep_host_tests::scene::Scene;
 
 #[derive(Debug, Default)]
@@ -124,6 +125,63 @@ fn vertices_that_were_moved_speak_of_the_input() {
             holds(&scene, &Shape::random(kind, at, scene.size(), &mut rng), &mut tally);
         }
         assert!(tally.apart > 10 && tally.meets > 10, "{tally:?}");
+    }
+}
+
+/// A plane far from the origin, so that heights of corners nearly cancel.
+#[test]
+fn distances_next_to_the_truth_are_never_said_to_be_clear() {
+    let mut rng = Rng::new(21);
+    let mut asked = 0;
+    for _ in 0..40 {
+        let base = rng.point_in([3e5; 3], [8e5; 3]);
+        let mut near = |size: f32| {
+            let d = rng.point_in([-size; 3], [size; 3]);
+            [0, 1, 2].map(|k| base[k] + d[k])
+        };
+        let corners = [near(6.0), near(6.0), near(6.0)];
+        let lower = corners.map(|p| [p[0] - 0.625, p[1] - 0.4375, p[2] + 0.6875]);
+        let positions = [corners, lower].concat();
+        let scene = Scene::both("two triangles", (positions, vec![[0, 1, 2], [3, 4, 5]]));
+        let [_, tree] = scene.trees();
+        let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
+        for _ in 0..60 {
+            let shape = Shape::sphere(near(6.0), 0.0);
+            let truth = shape.truth(&scene);
+            let at = truth.lower as f32;
+            for distance in [at, at.next_up(), at.next_down().max(0.0)] {
+                let found = tree.solid_within(&shape.solid(), distance, Budget::EXACT, &mut stack);
+                let found = found.expect("answers");
+                let (wide, verdict) = (f64::from(distance), found.verdict);
+                assert!(verdict != Verdict::No || truth.upper > wide, "{shape:?} {truth:?}");
+                assert!(verdict != Verdict::Yes || truth.lower <= wide, "{shape:?} {truth:?}");
+                asked += 1;
+            }
+        }
+    }
+    assert!(asked > 5000);
+}
+
+/// Edges against edges, in one plane and not: their differences are corners of a parallelogram.
+#[test]
+fn the_distance_of_a_triangle_and_a_segment_or_a_triangle_is_narrow() {
+    let mut rng = Rng::new(22);
+    for number in 0..150_000 {
+        let mut point = || {
+            let [x, y, z] = rng.point_in([0.0; 3], [1.0; 3]).map(f64::from);
+            if number % 3 == 0 { [x, y, 0.25 * x - 0.5 * y] } else { [x, y, z] }
+        };
+        let (triangle, solid) = ([point(), point(), point()], [point(), point(), point()]);
+        let count = 2 + number % 2;
+        let gap = convex_gap(&solid[..count], &triangle);
+        assert!(gap.upper - gap.lower < 1e-6, "{solid:?} {triangle:?} {gap:?}");
+        let narrow = |t: [[f64; 3]; 3]| t.map(|p| p.map(|x| x as f32));
+        if number % 3 != 0 && gap.lower > 0.0 && number % 16 == 1 {
+            let degenerate = if count == 2 { [solid[0], solid[1], solid[1]] } else { solid };
+            let (a, b) = (narrow(triangle), narrow(degenerate));
+            let truth = distance_of_moved_triangles(a, b, &IDENTITY, [0.0; 3]);
+            assert!(gap.lower <= truth.upper && truth.lower <= gap.upper, "{gap:?} {truth:?}");
+        }
     }
 }
 

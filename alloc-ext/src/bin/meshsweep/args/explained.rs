@@ -207,15 +207,16 @@ pub fn clearance() -> String {
 
 pub fn clear() -> String {
     format!(
-        "The tool is the hull of the corners of --tool, and all that is within --radius of it: one \
-         corner is a ball, two are a capsule, eight a box. Up to 32. Its place moves along straight \
-         lines, and the tool does not turn. The column 'clear' says yes if it is proved that no \
-         point of the tool touches the mesh during the whole move, at no time between; no if the \
-         tool certainly touches it; or undecided, if the distance left differs from 0 by no more \
-         than rounding and the blob's surface error, or if the query ended early. Else the move is \
-         proved clear before t, from 0 to 1 along it. px, py, pz is the place of the mesh that may \
-         stop the tool first; {TRIANGLES}. Only the surface counts: a move inside of a closed mesh \
-         may be clear. The blob is built --for segment.\n\n\
+        "The tool is the hull of the corners of --tool, and all that is within --radius of it: \
+         one corner is a ball, two are a capsule, eight a box. Up to 32. Corners are relative to \
+         the tool's place, which moves along straight lines. The tool does not turn. The column \
+         'clear' says yes if it is proved that no point of the tool touches the mesh during the \
+         whole move, at no time between; no if the tool certainly touches it; or undecided, if it \
+         comes so near that rounding and the blob's surface error hide whether it does, if the \
+         tool has no radius and only an edge is cut, or if the query ended early. A move that is \
+         not clear is proved clear before t, from 0 to 1 along it. px, py, pz is the place of the \
+         mesh that may stop the tool first; {TRIANGLES}. Only the surface counts: a move inside \
+         of a closed mesh may be clear. The blob is built --for segment.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep clear part.msw 20,10,90,20,10,-90 --radius 3\n  \

@@ -67,9 +67,20 @@ pub fn point(text: &str) -> Result<[f32; 3], String> {
 pub struct Tool(Vec<[f32; 3]>);
 
 impl Tool {
-    /// Its corners when it is at a place.
-    pub fn at(&self, [x, y, z]: [f32; 3]) -> Vec<[f32; 3]> {
-        self.0.iter().map(|[a, b, c]| [a + x, b + y, c + z]).collect()
+    /// Its corners when it is at a place, rounded, and no less than how far rounding moved one.
+    pub fn at(&self, place: [f32; 3]) -> (Vec<[f32; 3]>, f64) {
+        let mut moved = 0f64;
+        let corner = |corner: &[f32; 3]| {
+            let at = [0, 1, 2].map(|k| corner[k] + place[k]);
+            let off = [0, 1, 2].map(|k| {
+                // Exact up to the last bits of f64.
+                let sum = f64::from(corner[k]) + f64::from(place[k]);
+                (f64::from(at[k]) - sum).abs() + sum.abs() * f64::EPSILON
+            });
+            moved = moved.max(off.iter().sum());
+            at
+        };
+        (self.0.iter().map(corner).collect(), moved)
     }
 }
 
