@@ -108,7 +108,8 @@ impl Asker {
     /// If an answer is out of range or took too long.
     pub fn solid(&mut self, tree: &Bvh<'_>, corners: [[f32; 3]; 2], radius: f32, stop: &Budget) {
         let stack = &mut self.stack[..];
-        let once = descent(tree);
+        // A triangle is bounded in f32 and computed in f64.
+        let once = 2 * descent(tree);
         let numbered = |triangle: u32| assert!(triangle < tree.input_triangles(), "{triangle}");
         let [a, b] = corners;
         let moved = [b, a];
@@ -126,7 +127,8 @@ impl Asker {
                     ends(answer.work, once);
                     answer.triangle.into_iter().for_each(numbered);
                 }
-                let to = Solid::new(&moved[..solid.corners().len()], radius).expect("as the first");
+                let to = Solid::new(&moved[..solid.corners().len()], radius);
+                let Ok(to) = to else { continue };
                 if let Some(answer) = answered(tree.first_contact(&solid, &to, *stop, stack)) {
                     // A triangle that may stop the solid takes up to some sixty distances.
                     ends(answer.work, 70 * once);

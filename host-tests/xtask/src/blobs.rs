@@ -31,7 +31,8 @@ const fn curve(name: &'static str) -> Blob {
 }
 
 const TRIBOXES: Blob = Blob { name: "triboxes", image: "suite_triboxes" };
-const APART: Blob = Blob { name: "apart", image: "suite_apart" };
+/// The box tree that is asked about other bodies.
+pub const APART: Blob = Blob { name: "apart", image: "suite_apart" };
 const MOVING: Blob = Blob { name: "moving", image: "suite_moving" };
 const DEFORM: Blob = Blob { name: "bend", image: "suite_deform" };
 const TIGHT: Blob = Blob { name: "tight", image: "suite_tight" };

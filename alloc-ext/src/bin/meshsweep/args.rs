@@ -91,7 +91,7 @@ pub enum Command {
         mut_arg("queue", |queue| queue.help(explained::NODE_PAIRS))
     )]
     Clearance(ClearanceArgs),
-    /// Whether straight moves of a convex tool are clear of the mesh for their whole length, as CSV
+    /// Whether straight moves of a convex tool are clear of the mesh all the way, as CSV
     #[command(after_help = explained::clear())]
     Clear(ClearArgs),
     /// Hausdorff distance of two meshes: how far the farthest point of each is from the other

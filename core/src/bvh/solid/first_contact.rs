@@ -66,7 +66,8 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<FirstHit, QueryError> {
         budget.check_with(scratch)?;
-        let placed = PlacedSolid::new(self, from, Some(to))?;
+        let mut placed = PlacedSolid::NONE;
+        placed.place(self, from, Some(to))?;
         let reach = (placed.radius + placed.lengths.error) + placed.rounding;
         let mut work = Work::default();
         let query = ByTime::new(&placed, reach);

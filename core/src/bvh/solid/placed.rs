@@ -40,12 +40,37 @@ pub(super) struct PlacedSolid {
 }
 
 impl PlacedSolid {
-    /// A solid at rest, or one that moves from `solid` to `end`.
-    pub(super) fn new(
+    /// No solid.
+    pub(super) const NONE: PlacedSolid = PlacedSolid {
+        from: [[0.0; 3]; Solid::MOST_CORNERS],
+        ways: [[0.0; 3]; Solid::MOST_CORNERS],
+        count: 0,
+        radius: 0.0,
+        lengths: StoredLengths { error: 0.0, unit: 1.0 },
+        rounding: 0.0,
+        directions: ModelFrame {
+            rows: [[0.0; 3]; DIRECTIONS],
+            shift: [0.0; DIRECTIONS],
+            origin: [0.0; 3],
+            grow: [0.0; DIRECTIONS],
+            unit: 1.0,
+        },
+        low: [0.0; DIRECTIONS],
+        high: [0.0; DIRECTIONS],
+        start: 0.0,
+        speed: 0.0,
+        tree: Extended { exponent: 0, origin: [0.0; 3], extent: [0.0; 3], error: 0.0 },
+    };
+
+    /// Places a solid at rest, or one that moves from `solid` to `end`. In place, for a copy takes
+    /// two kilobytes of the stack.
+    #[inline(never)]
+    pub(super) fn place(
+        &mut self,
         tree: &Bvh<'_>,
         solid: &Solid<'_>,
         end: Option<&Solid<'_>>,
-    ) -> Result<PlacedSolid, QueryError> {
+    ) -> Result<(), QueryError> {
         if !tree.serves_segments() {
             return Err(QueryError::NO_SEGMENTS);
         }
@@ -61,31 +86,15 @@ impl PlacedSolid {
             let [x, y, z] = [x, y, z].map(|x| f64::from(x) * scale);
             [x - ox, y - oy, z - oz]
         };
-        let mut placed = PlacedSolid {
-            from: [[0.0; 3]; Solid::MOST_CORNERS],
-            ways: [[0.0; 3]; Solid::MOST_CORNERS],
-            count,
-            radius: 0.0,
-            lengths: StoredLengths { error: stored.error, unit: exp2(stored.exponent) },
-            rounding: 0.0,
-            directions: ModelFrame {
-                rows: [[0.0; 3]; DIRECTIONS],
-                shift: [0.0; DIRECTIONS],
-                origin: stored.origin.map(|x| x as f32),
-                grow: [0.0; DIRECTIONS],
-                unit: 1.0,
-            },
-            low: [0.0; DIRECTIONS],
-            high: [0.0; DIRECTIONS],
-            start: 0.0,
-            speed: 0.0,
-            tree: stored,
-        };
+        self.count = count;
+        self.lengths = StoredLengths { error: stored.error, unit: exp2(stored.exponent) };
+        self.directions.origin = stored.origin.map(|x| x as f32);
+        self.tree = stored;
         let radius = end.map_or(solid.radius(), |end| greater(solid.radius(), end.radius()));
-        placed.radius = placed.lengths.inward(radius);
+        self.radius = self.lengths.inward(radius);
         let mut farthest = 0f64;
         let ends = end.map_or(solid.corners(), Solid::corners);
-        let places = placed.from.iter_mut().zip(&mut placed.ways);
+        let places = self.from.iter_mut().zip(&mut self.ways);
         for ((from, way), (&at, &to)) in places.zip(solid.corners().iter().zip(ends)) {
             let to = inward(to);
             *from = inward(at);
@@ -93,12 +102,12 @@ impl PlacedSolid {
             let far = from.iter().chain(&to).fold(0.0, |far, x| greater(far, x.abs()));
             farthest = greater(farthest, far);
         }
-        if farthest > OVERLAP_FARTHEST || placed.radius > OVERLAP_FARTHEST {
+        if farthest > OVERLAP_FARTHEST || self.radius > OVERLAP_FARTHEST {
             return Err(QueryError::OutOfDomain);
         }
-        placed.rounding = MOVING_CORNER * U64 * farthest;
-        placed.set_directions(farthest);
-        Ok(placed)
+        self.rounding = MOVING_CORNER * U64 * farthest;
+        self.set_directions(farthest);
+        Ok(())
     }
 
     /// The corners at the start.

@@ -55,7 +55,8 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<SolidDistance, QueryError> {
         budget.check_with(scratch)?;
-        let placed = PlacedSolid::new(self, solid, None)?;
+        let mut placed = PlacedSolid::NONE;
+        placed.place(self, solid, None)?;
         let mut work = Work::default();
         let nearest = Nearest {
             placed: &placed,
@@ -76,10 +77,7 @@ impl Bvh<'_> {
             }
             // The search ended before the first leaf.
             None => {
-                let mut search = LeafSearch::new(&placed, FirstTriangle(None));
-                let mut more = Work::default();
-                descend(self, &query, u32::MAX, scratch, &mut search, &mut more)?;
-                let best = search.visitor.0.ok_or(QueryError::Unchecked)?;
+                let best = some_triangle(self, &placed, scratch)?;
                 let lower = match descent {
                     Descent::Truncated { least, .. } => distance_of(least),
                     _ => 0.0,
@@ -101,6 +99,20 @@ impl Bvh<'_> {
             ended,
         })
     }
+}
+
+/// A triangle that a descent reaches first. A call, so that its stack is not the caller's.
+#[cold]
+#[inline(never)]
+fn some_triangle(
+    tree: &Bvh<'_>,
+    placed: &PlacedSolid,
+    scratch: &mut [ScratchEntry],
+) -> Result<TriangleGap, QueryError> {
+    let mut search = LeafSearch::new(placed, FirstTriangle(None));
+    let mut work = Work::default();
+    descend(tree, &ByDistance(placed), u32::MAX, scratch, &mut search, &mut work)?;
+    search.visitor.0.ok_or(QueryError::Unchecked)
 }
 
 /// The number of a triangle in the input file.

@@ -53,7 +53,8 @@ impl Bvh<'_> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check()?;
         budget.check_with(scratch)?;
-        let placed = PlacedSolid::new(self, solid, None)?;
+        let mut placed = PlacedSolid::NONE;
+        placed.place(self, solid, None)?;
         let lengths = &placed.lengths;
         let reach = lengths.inward(distance) + placed.radius + lengths.error;
         let threshold = Threshold {
