@@ -113,10 +113,10 @@ fn batches_give_the_answers_of_single_queries() {
 #[test]
 fn every_command_s_help_has_examples_that_run() {
     let directory = scratch("examples");
-    // Of few flat faces: its hulls are found at once.
-    write_stl(&directory.join("part.stl"), &triangles(&fixture("groove.obj")));
+    // A box: its hulls and triboxes are found at once.
+    write_stl(&directory.join("part.stl"), &box_triangles([40.0, 20.0, 10.0]));
     let (torus, scan) = (fixture("torus.ply"), directory.join("scan.ply"));
-    ok(["hull", arg(&torus), "--progressive", "--faces", "120", "-o", arg(&scan)]);
+    ok(["hull", arg(&torus), "--progressive", "--faces", "60", "-o", arg(&scan)]);
     let (points, segments) = ([[1f32, 2.0, 3.0]; 3], [[20f32, 10.0, 90.0, 20.0, 10.0, -90.0]; 3]);
     write_csv(&directory.join("points.csv"), &points);
     write_raw(&directory.join("points.f32"), &points);
@@ -153,6 +153,14 @@ fn every_command_s_help_has_examples_that_run() {
             assert!(!output.stdout.is_empty() || writes(example, &directory), "{example}");
         }
     }
+}
+
+fn box_triangles(size: [f64; 3]) -> Vec<Triangle> {
+    let corner = |i: usize| [0, 1, 2].map(|k| if i >> k & 1 == 1 { size[k] } else { 0.0 });
+    let quads =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let halves = |[a, b, c, d]: [usize; 4]| [[a, b, c], [a, c, d]].map(|t| t.map(corner));
+    quads.into_iter().flat_map(halves).collect()
 }
 
 fn write_stl(path: &Path, triangles: &[Triangle]) {

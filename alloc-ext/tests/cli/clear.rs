@@ -139,7 +139,8 @@ fn what_is_no_tool_and_no_move_is_refused() {
     assert_eq!(wrong(&["0,0,0,1,1,1", "--radius", "-1"]).status.code(), Some(2));
     assert_eq!(wrong(&["0,0,0,1,1,1", "--path", "0,0,0"]).status.code(), Some(2));
     refused(&wrong(&["--path", "0,0,0"]), 2, "two places");
-    refused(&wrong(&["0,0,0,1e30,0,0"]), 1, "corner of the tool");
+    refused(&wrong(&["0,0,0,1e30,0,0", "--radius", "1"]), 1, "corner of the tool");
+    refused(&wrong(&["0,0,0,1,0,0", "--radius", "1e30"]), 2, "--radius 1e30");
     let closest = blob(&scratch("clear_closest"), "torus.ply", &["--for", "closest"]);
     refused(&run(["clear", arg(&closest), "0,0,0,1,1,1"]), 1, "--for segment");
     let same = directory.join("same.csv");

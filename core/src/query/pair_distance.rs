@@ -65,7 +65,7 @@ pub struct PairContact {
     pub work: Work,
     /// Why the search ended. [`Ended::Exact`]: the motion is clear. [`Ended::Resolution`]: at
     /// `clear_until` the surfaces are at the distance to keep, as far as surface errors and
-    /// rounding tell.
+    /// rounding tell, or 512 distances did not suffice.
     pub ended: Ended,
 }
 

@@ -17,6 +17,10 @@ pub fn run(args: &ClearArgs) -> Result<(), Failure> {
     let tree = served::require_tree(file, &blob, BuildFor::Segment)?;
     let unit = exp2(tree.header().grid_exponent + tree.scale_exponent());
     let farthest = tolerance::OVERLAP_FARTHEST * unit;
+    if f64::from(*radius) > farthest {
+        let what = format!("--radius {radius:e}: for this blob it is {farthest:.1e} at most");
+        return Err(Failure::Usage { what });
+    }
     let limit = format!("a corner of the tool may be about {farthest:.1e} from the mesh at most");
     let moves =
         if path.is_empty() { Queries::read(moves)? } else { Queries::read(path)?.moves()? };

@@ -18,12 +18,12 @@ impl Bvh<'_> {
     ///
     /// Each point of `other` goes along a straight line from its place in `from` to its place in
     /// `to`, all at a steady pace: the entries of both poses are mixed. So two poses with the same
-    /// rotation are a translation. Of a rotation by an angle φ it is the chords: divide it, and add
-    /// r·φ²/8 to `keep`, r the distance of the farthest point from the axis.
+    /// rotation are a translation. Of a rotation it is the chord: split it into pieces of an angle
+    /// φ, and add r·φ²/8 to `keep` of each, r the distance of the farthest point from the axis.
     ///
-    /// The surfaces of the input meshes are farther than `keep` from each other before
-    /// `clear_until`, at no time between nearer, however short. If
-    /// [`is_clear`](PairContact::is_clear), they are during the whole motion. Only surfaces count:
+    /// Before `clear_until` the surfaces of the input meshes are proved to be farther than `keep`
+    /// apart, at every instant. If [`is_clear`](PairContact::is_clear), they are during the whole
+    /// motion. Only surfaces count:
     /// a mesh may move inside of another one.
     ///
     /// `scratch`: [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES) are always enough. The steps (pairs

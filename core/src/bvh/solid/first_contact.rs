@@ -6,6 +6,7 @@ use super::placed::PlacedSolid;
 use super::solid_distance::number;
 use crate::bvh::descent::{Descent, LeafVisit, LeafVisitor, descend};
 use crate::bvh::format::Bvh;
+use crate::bvh::segment_leaf::Facing;
 use crate::num::tolerance::{ADVANCE_KEPT, U64};
 use crate::num::{down_to_f32, greater, up_to_f32};
 use crate::query::{Budget, Ended, FirstHit, Hit, Interval, QueryError, ScratchEntry, Solid, Work};
@@ -16,22 +17,22 @@ impl Bvh<'_> {
     /// greater one of the two.
     ///
     /// The answer is that of a [first hit](Bvh::first_hit), with the part of the motion as its
-    /// parameter, from 0 to 1. No point of the solid lies on the input mesh before `t.lower`, at no
-    /// time between, however short. If [`is_clear`](FirstHit::is_clear), none does during the whole
-    /// motion: that is proved. If `ended` is [`Ended::Exact`] and `hit` is there, the solid
+    /// parameter, from 0 to 1. Before `t.lower` no point of the solid touches the input mesh, at any
+    /// instant. If [`is_clear`](FirstHit::is_clear), none does during the whole motion: that is
+    /// proved. The motion of a point without radius is a segment, and has its first hit. If `ended` is [`Ended::Exact`] and `hit` is there, the solid
     /// certainly meets the mesh by `t.upper`. The point of the hit is on the triangle that may stop
     /// the solid, next to the solid at `t.lower`. To keep a distance, add it to the radius.
     ///
     /// Corners that all move by the same way are a translation. Others turn and stretch the solid:
-    /// to follow a rotation by an angle φ, divide it, and add r·φ²/8 to the radius, r the distance
-    /// of the farthest corner from the axis.
+    /// to follow a rotation, split it into pieces of an angle φ, and add r·φ²/8 to the radius of
+    /// each, r the distance of the farthest corner from the axis.
     ///
     /// `scratch`: [`scratch_entries`](Bvh::scratch_entries) make overflow impossible. With fewer,
     /// or with few steps, `t.lower` is earlier, and [`Ended::Scratch`] or [`Ended::Steps`] says so.
     /// Tolerances are ignored. Lengths and coordinates are in input units, in the mesh's frame.
     ///
-    /// Only the surface counts: a motion inside of a closed mesh may be clear. A solid at rest,
-    /// with `to` as `from`, meets what it is near at once or never. A solid that starts within the
+    /// Only the surface counts: a motion inside of a closed mesh may be clear. If `from` equals
+    /// `to`, the answer is a contact at 0, or clear. A solid that starts within the
     /// surface error of the mesh has a `t.lower` of 0. Where no contact with the triangle that may
     /// stop the solid first is proved, `ended` is [`Ended::Resolution`], and `t.upper` is 1. So it
     /// is where the solid only touches the mesh, and often of a solid without radius that is flat
@@ -66,6 +67,13 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<FirstHit, QueryError> {
         budget.check_with(scratch)?;
+        // A point goes along a segment, and a triangle that it passes through is a proved hit.
+        if let ([start], [end]) = (from.corners(), to.corners())
+            && from.radius() <= 0.0
+            && to.radius() <= 0.0
+        {
+            return self.first_hit(*start, *end, Facing::Both, budget, scratch);
+        }
         let mut placed = PlacedSolid::NONE;
         placed.place(self, from, Some(to))?;
         let reach = (placed.radius + placed.lengths.error) + placed.rounding;

@@ -142,7 +142,7 @@ fn intervals_and_verdicts_hold_for_the_mesh_within() {
         for index in 0..hulls.count() {
             let hull = hulls.get(index).expect("a hull");
             let points =
-                points(&mesh(shape), &hull_mesh(&hull), 240, &mut Rng::new(7 + u64::from(index)));
+                points(&mesh(shape), &hull_mesh(&hull), 120, &mut Rng::new(7 + u64::from(index)));
             let [no, yes] = check(name, &hull, shape, &points, 0.0);
             (clear, near) = (clear + no, near + yes);
         }
@@ -168,7 +168,7 @@ fn answers_hold_at_the_ends_of_single_precision() {
         let mesh = mesh(&shape);
         let (bytes, _) = of(&mesh, 0.0, &options(&[64]));
         let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
-        let points = points(&mesh, &hull_mesh(&hull), 300, &mut Rng::new(3));
+        let points = points(&mesh, &hull_mesh(&hull), 150, &mut Rng::new(3));
         let [clear, near] = check("at an end", &hull, &shape, &points, 0.0);
         assert!(clear > 100 && near > 100, "{scale}: {clear} {near}");
     }
@@ -187,7 +187,7 @@ fn answers_hold_for_the_mesh_before_its_vertices_were_moved() {
     let mesh = mesh(&stored);
     let (bytes, _) = of(&mesh, f64::from(by), &options(&[70]));
     let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
-    let points = points(&mesh, &hull_mesh(&hull), 600, rng);
+    let points = points(&mesh, &hull_mesh(&hull), 300, rng);
     check("moved", &hull, &shape, &points, f64::from(by));
 }
 
@@ -202,7 +202,7 @@ fn no_point_of_a_face_is_farther_from_the_mesh_than_the_face_says() {
             let slack = hull.slack(face as u32).expect("a face");
             said = said.max(slack);
             let [a, b, c] = faces.corners(face).expect("a face");
-            for sample in 0..12 {
+            for sample in 0..6 {
                 let (u, v) = (rng.unit_f32(), rng.unit_f32());
                 let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
                 // Rounded, and with that beside the face by less than is allowed for below.
@@ -272,7 +272,7 @@ fn short_searches_say_so_and_their_intervals_hold() {
     let mesh = mesh(&shape);
     let (bytes, _) = of(&mesh, 0.0, &options(&[200]));
     let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
-    let points = points(&mesh, &hull_mesh(&hull), 300, &mut Rng::new(8));
+    let points = points(&mesh, &hull_mesh(&hull), 150, &mut Rng::new(8));
     let mut ended = [0; 2];
     for p in points {
         let real = distance_to_mesh(p, &shape.0, &shape.1);

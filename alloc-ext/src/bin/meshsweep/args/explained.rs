@@ -211,12 +211,14 @@ pub fn clear() -> String {
          one corner is a ball, two are a capsule, eight a box. Up to 32. Corners are relative to \
          the tool's place, which moves along straight lines. The tool does not turn. The column \
          'clear' says yes if it is proved that no point of the tool touches the mesh during the \
-         whole move, at no time between; no if the tool certainly touches it; or undecided, if it \
-         comes so near that rounding and the blob's surface error hide whether it does, if the \
-         tool has no radius and only an edge is cut, or if the query ended early. A move that is \
-         not clear is proved clear before t, from 0 to 1 along it. px, py, pz is the place of the \
-         mesh that may stop the tool first; {TRIANGLES}. Only the surface counts: a move inside \
-         of a closed mesh may be clear. The blob is built --for segment.\n\n\
+         whole move, at any instant; no if the tool certainly touches it; or undecided, if it \
+         comes so near that rounding and the blob's surface error hide whether it does, if a flat \
+         tool without radius passes through, or if the query ended early. Only the surface \
+         counts: a move inside of a closed mesh may be clear. A move that is not clear is proved \
+         clear before t, from 0 to 1 along it. px, py, pz is the place of the mesh that may stop \
+         the tool first; {TRIANGLES}. All places of --path are one path, over blank lines and \
+         files. The exit status does not tell whether moves are clear. The blob is built --for \
+         segment.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep clear part.msw 20,10,90,20,10,-90 --radius 3\n  \
