@@ -78,6 +78,19 @@ fn a_ball_goes_on_until_its_radius_is_left_and_no_farther() {
     }
 }
 
+#[test]
+fn a_point_without_radius_is_stopped_where_its_segment_is() {
+    let directory = scratch("clear_point");
+    let bracket = blob(&directory, "bracket.stl", &[]);
+    let through = "10.2,4.6,90,10.2,4.6,-90";
+    let found = ok(["clear", arg(&bracket), through]);
+    let row = &parse_csv(&found, HEADER)[0];
+    let hit = ok(["segment", arg(&bracket), through]);
+    let hit = hit.lines().nth(1).unwrap().split(',').nth(1).unwrap();
+    assert_eq!(row[0], "no", "{row:?}");
+    assert!((number(&row[1]) - number(hit)).abs() < 1e-4, "{row:?} {hit}");
+}
+
 /// The place of a tool and its corner add up to a number that f32 has not.
 #[test]
 fn a_tool_whose_corners_are_rounded_is_no_smaller() {

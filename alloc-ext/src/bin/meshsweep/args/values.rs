@@ -73,9 +73,11 @@ impl Tool {
         let corner = |corner: &[f32; 3]| {
             let at = [0, 1, 2].map(|k| corner[k] + place[k]);
             let off = [0, 1, 2].map(|k| {
-                // Exact up to the last bits of f64.
-                let sum = f64::from(corner[k]) + f64::from(place[k]);
-                (f64::from(at[k]) - sum).abs() + sum.abs() * f64::EPSILON
+                // The sum of two f32 is exact in f64, but for numbers of very different size.
+                let (a, b) = (f64::from(corner[k]), f64::from(place[k]));
+                let sum = a + b;
+                let rest = if sum - a == b && sum - b == a { 0.0 } else { a.abs().min(b.abs()) };
+                (f64::from(at[k]) - sum).abs() + rest
             });
             moved = moved.max(off.iter().sum());
             at
