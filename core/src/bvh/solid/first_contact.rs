@@ -17,11 +17,12 @@ impl Bvh<'_> {
     /// greater one of the two.
     ///
     /// The answer is that of a [first hit](Bvh::first_hit), with the part of the motion as its
-    /// parameter, from 0 to 1. Before `t.lower` no point of the solid touches the input mesh, at any
-    /// instant. If [`is_clear`](FirstHit::is_clear), none does during the whole motion: that is
-    /// proved. The motion of a point without radius is a segment, and has its first hit. If `ended` is [`Ended::Exact`] and `hit` is there, the solid
-    /// certainly meets the mesh by `t.upper`. The point of the hit is on the triangle that may stop
-    /// the solid, next to the solid at `t.lower`. To keep a distance, add it to the radius.
+    /// parameter, from 0 to 1. Before `t.lower` no point of the solid touches the input mesh, at
+    /// any instant. If [`is_clear`](FirstHit::is_clear), none does during the whole motion: that is
+    /// proved. If `ended` is [`Ended::Exact`] and `hit` is there, the solid certainly meets the
+    /// mesh by `t.upper`. The point of the hit is on the triangle that may stop the solid, next to
+    /// the solid at `t.lower`. To keep a distance, add it to the radius. The motion of a point
+    /// without radius is a segment, and has its first hit.
     ///
     /// Corners that all move by the same way are a translation. Others turn and stretch the solid:
     /// to follow a rotation, split it into pieces of an angle φ, and add r·φ²/8 to the radius of

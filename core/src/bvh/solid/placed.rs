@@ -185,8 +185,8 @@ impl PlacedSolid {
     }
 
     /// Three unit vectors across each other, rounded to f32. The first one is along the motion, or
-    /// along the longest edge from the first corner. The second one is along what is longest across
-    /// it.
+    /// along the longest edge from the first corner. The second one is along the longest of these,
+    /// without its part along the first.
     fn axes(&self) -> [[f32; 3]; 3] {
         let first = self.corners().first().copied().unwrap_or_default();
         let edges = || self.corners().iter().map(|&corner| minus(corner, first));

@@ -1,5 +1,5 @@
-//! A capsule that moves past a mesh: what is called clear, held to the distance of all its places
-//! in 106 bits, beside parry3d's shape cast.
+//! A capsule that moves past a mesh: motions that are called clear, held to the distance of all its
+//! places in 106 bits, beside parry3d's shape cast.
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep_core::{Budget, Bvh, Ended, FirstHit, ScratchEntry, Solid};
@@ -68,8 +68,8 @@ fn motions(subject: &Subject) -> Vec<Motion> {
         .collect()
 }
 
-/// The distance of a parallelogram from the mesh, as far as it matters: of triangles whose boxes are
-/// farther than twice [`AWAY`] beyond the radius only that.
+/// The distance of a parallelogram from the mesh, as far as it matters: of triangles whose boxes
+/// are farther than twice [`AWAY`] beyond the radius only that.
 fn distance(subject: &Subject, corners: &[Point; 4], radius: f32) -> Bounded {
     let reach = f64::from(radius) + 2.0 * AWAY * subject.diagonal();
     let extent = |corners: &[Point]| {
@@ -105,7 +105,7 @@ fn run<T: Send>(
     )
 }
 
-/// What is clear and what is not, against the truth.
+/// Motions that are called clear, against the truth.
 #[derive(Default)]
 struct Tally {
     clear: usize,

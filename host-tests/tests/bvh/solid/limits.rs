@@ -1,4 +1,4 @@
-//! Memory, steps, tolerances, and what is refused.
+//! Memory, steps, tolerances, and refusals.
 
 use super::shapes::Shape;
 use super::truth::{ask, contains};
