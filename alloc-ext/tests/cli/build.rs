@@ -41,7 +41,8 @@ fn build_reports_mesh_sections_memory_and_levels() {
     let text = ok(["build", arg(&mesh), "-o", arg(&out), "--for", "closest,segment,hull"]);
     for part in [
         "1948 triangles read",
-        "serves closest, within, nearest, field, signed, segment, overlap, clear, clearance, hull --level",
+        "serves closest, within, nearest, field, signed, segment, overlap, clear, clearance, \
+         hull --level",
         "source starts",
         "tree fans",
         "total",

@@ -1,41 +1,12 @@
 //! `meshsweep clear` against brute force over the triangles of the mesh file.
 
 use crate::support::{
-    Triangle, arg, blob, fixture, ok, parse_csv, refused, run, scratch, triangles, write_csv,
+    arg, blob, distance, fixture, ok, parse_csv, refused, run, scratch, to_triangle, triangles,
+    write_csv,
 };
 use std::fs;
 
 const HEADER: &str = "clear,t,px,py,pz,triangle,work";
-
-type Point = [f64; 3];
-
-fn minus(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// The distance of a point from a triangle: of its foot if that is inside, else of the edges.
-fn distance(p: Point, t: &Triangle) -> f64 {
-    let cross = |a: Point, b: Point| {
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    };
-    let normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
-    let is_inside =
-        (0..3).all(|k| dot(cross(minus(t[(k + 1) % 3], t[k]), minus(p, t[k])), normal) >= 0.0);
-    if is_inside {
-        return (dot(minus(p, t[0]), normal) / dot(normal, normal).sqrt()).abs();
-    }
-    let edge = |k: usize| {
-        let (from, way) = (t[k], minus(t[(k + 1) % 3], t[k]));
-        let part = (dot(minus(p, from), way) / dot(way, way)).clamp(0.0, 1.0);
-        let gap = [0, 1, 2].map(|k| p[k] - from[k] - way[k] * part);
-        dot(gap, gap).sqrt()
-    };
-    (0..3).map(edge).fold(f64::INFINITY, f64::min)
-}
 
 fn number(field: &str) -> f64 {
     field.parse().unwrap()
@@ -64,7 +35,7 @@ fn a_ball_goes_on_until_its_radius_is_left_and_no_farther() {
         let until = if row[0] == "yes" { 1.0 } else { number(&row[1]) };
         let [ax, ay, az, bx, by, bz] = ends.map(f64::from);
         let at = |t: f64| [ax + (bx - ax) * t, ay + (by - ay) * t, az + (bz - az) * t];
-        let nearest = |p: Point| mesh.iter().map(|t| distance(p, t)).fold(f64::INFINITY, f64::min);
+        let nearest = |p| distance(p, &mesh);
         for step in 0..=200 {
             let p = at(until * f64::from(step) / 200.0);
             assert!(nearest(p) > radius - 1e-6, "{row:?} {p:?}");
@@ -72,8 +43,8 @@ fn a_ball_goes_on_until_its_radius_is_left_and_no_farther() {
         if row[0] == "no" {
             assert!((nearest(at(until)) - radius).abs() < 1e-5, "{row:?}");
             let stop = [2, 3, 4].map(|k| number(&row[k]));
-            let triangle = &mesh[row[5].parse::<usize>().unwrap()];
-            assert!(distance(stop, triangle) < 1e-5, "{row:?}");
+            let triangle = mesh[row[5].parse::<usize>().unwrap()];
+            assert!(to_triangle(stop, triangle) < 1e-5, "{row:?}");
         }
     }
 }

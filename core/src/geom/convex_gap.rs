@@ -8,7 +8,7 @@
 //! misjudges costs width and no truth. Derivation: `core/docs/rounding.md` §19.
 
 use super::point_triangle::closest;
-use super::triangle_pair::{Point, cross, dot, minus};
+use super::triangle_pair::{Point, cross, dot, minus, norm_1};
 use crate::num::tolerance::{CONVEX_DEPTH, CONVEX_GAP, GAP_DIRECTION_SQ, GAP_SETTLED, U64};
 use crate::num::{greater, lesser};
 use glam::DVec3;
@@ -255,11 +255,6 @@ fn highest(corners: &[Point<f64>], way: Point<f64>) -> Point<f64> {
 #[inline(always)]
 fn lowest(corners: &[Point<f64>], way: Point<f64>) -> Point<f64> {
     highest(corners, way.map(|x| -x))
-}
-
-#[inline(always)]
-fn norm_1([x, y, z]: Point<f64>) -> f64 {
-    x.abs() + y.abs() + z.abs()
 }
 
 /// Largest 1-norm.

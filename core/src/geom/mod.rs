@@ -28,4 +28,4 @@ pub use triangle_distance::{TriangleDistance, crossing, triangle_distance};
 pub use triangle_pair::{
     Contact, Real, determinant_margin, straddling_triangles_meet, triangles_meet,
 };
-pub(crate) use triangle_pair::{Point, cross, dot, minus};
+pub(crate) use triangle_pair::{Point, cross, dot, minus, norm_1};

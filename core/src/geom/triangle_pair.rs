@@ -78,7 +78,7 @@ pub(crate) fn dot<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> T 
 }
 
 #[inline(always)]
-fn norm_1<T: Real>([x, y, z]: Point<T>) -> T {
+pub(crate) fn norm_1<T: Real>([x, y, z]: Point<T>) -> T {
     x.abs() + y.abs() + z.abs()
 }
 

@@ -46,8 +46,8 @@ enum Part {
 
 impl Options {
     /// `[--tree | --triboxes | --deform | --overlap | --motion | --tight [--firmware] | --bounds
-    /// [--count] | --paper TABLE] [--plot FILE.svg] [--picture FILE.svg] [MESH…]`, the picture with `--tight`
-    /// alone; `None` if that is not what the words are.
+    /// [--count] | --paper TABLE] [--plot FILE.svg] [--picture FILE.svg] [MESH…]`, the picture with
+    /// `--tight` alone; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut only = None;

@@ -9,7 +9,7 @@ use crate::bvh::descent::{LeafVisit, LeafVisitor};
 use crate::bvh::format::{CORNERS, FanLeaf, slots};
 use crate::bvh::stored_lengths::square_limit;
 use crate::geom::fan::WIDTH;
-use crate::geom::{ConvexGap, convex_gap, dot};
+use crate::geom::{ConvexGap, convex_gap, dot, norm_1};
 use crate::num::tolerance::{CONVEX_GAP, U64};
 use crate::num::{greater, lesser};
 use crate::query::DIRECTIONS;
@@ -158,8 +158,4 @@ impl<'a, V: GapVisitor> LeafSearch<'a, V> {
         let far = self.largest + corners.iter().copied().map(norm_1).fold(0.0, greater) + limit;
         lowest - top > limit + far * (CONVEX_GAP * U64)
     }
-}
-
-fn norm_1([x, y, z]: [f64; 3]) -> f64 {
-    x.abs() + y.abs() + z.abs()
 }

@@ -14,7 +14,7 @@ use parry3d::shape::Capsule;
 use rayon::prelude::*;
 
 use super::rival::Rival;
-use super::stopwatch::{Stopwatch, fastest};
+use super::stopwatch::answers as run;
 
 /// Motions of a mesh of a thousand triangles; of more triangles fewer, for each is looked at.
 const MOTIONS: usize = 200_000;
@@ -88,21 +88,6 @@ fn distance(subject: &Subject, corners: &[Point; 4], radius: f32) -> Bounded {
     let swept = (&corners[..], &[[0, 1, 2], [0, 2, 3]][..]);
     let found = distance_of_meshes((positions, &near), swept, &IDENTITY, [0.0; 3]);
     Bounded { lower: found.lower.min(reach), upper: found.upper }
-}
-
-/// Answers, and nanoseconds for one.
-fn run<T: Send>(
-    motions: &[Motion],
-    mut ask: impl FnMut(&Motion) -> Result<T, String>,
-) -> Result<(Vec<T>, f64), String> {
-    fastest(
-        || {
-            let watch = Stopwatch::start();
-            let answers = motions.iter().map(&mut ask).collect::<Result<Vec<T>, String>>()?;
-            Ok((answers, watch.nanoseconds_each(motions.len())))
-        },
-        |run| run.1,
-    )
 }
 
 /// Motions that are called clear, against the truth.

@@ -12,7 +12,7 @@ use parry3d::math::Pose as ParryPose;
 
 use super::bounds::pose::parry;
 use super::rival::Rival;
-use super::stopwatch::{Stopwatch, fastest};
+use super::stopwatch::answers as run;
 
 /// Motions of each kind.
 const MOTIONS: usize = 100;
@@ -67,21 +67,6 @@ fn cases(subject: &Subject, tree: &Bvh<'_>) -> Result<[Vec<Case>; 2], String> {
         groups[1].push(case(Motion::exact(&core, &closer), core)?);
     }
     Ok(groups)
-}
-
-/// Answers of an engine, and nanoseconds for one.
-fn run<T>(
-    cases: &[Case],
-    mut ask: impl FnMut(&Case) -> Result<T, String>,
-) -> Result<(Vec<T>, f64), String> {
-    fastest(
-        || {
-            let watch = Stopwatch::start();
-            let answers = cases.iter().map(&mut ask).collect::<Result<Vec<T>, String>>()?;
-            Ok((answers, watch.nanoseconds_each(cases.len())))
-        },
-        |run| run.1,
-    )
 }
 
 /// The table.

@@ -2,7 +2,7 @@
 //! have an image of their own, because all questions together are more than the flash of the
 //! smallest board.
 
-use meshsweep_core::{Budget, Bvh, FirstHit, Pose, QueryError, ScratchEntry, Solid};
+use meshsweep_core::{Budget, Bvh, FirstHit, Pose, QueryError, Solid};
 
 use super::{Asked, Refused, Subject, tree};
 use crate::fold::Fold;
@@ -14,22 +14,7 @@ use crate::{Clock, Kind};
 pub struct Apart<'t>(pub Bvh<'t>);
 
 /// What the queries need beside the tree.
-#[derive(Debug)]
-pub struct Scratch([ScratchEntry; Bvh::DISTANCE_ENTRIES]);
-
-impl Scratch {
-    /// Scratch that no query has used.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self([ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES])
-    }
-}
-
-impl Default for Scratch {
-    fn default() -> Self {
-        Self::new()
-    }
-}
+pub type Scratch = meshsweep_core::Scratch<{ Bvh::DISTANCE_ENTRIES }>;
 
 impl<'t> Subject<'t> for Apart<'t> {
     type Scratch = Scratch;
@@ -89,7 +74,7 @@ pub fn distance(
 ) {
     let budget = Budget::EXACT.with_steps(STEPS);
     let found = to.answer(
-        || tree.distance(tree, pose, budget, &mut scratch.0),
+        || tree.distance(tree, pose, budget, scratch),
         |fold, answer| {
             fold.f32(answer.distance.lower);
             fold.f32(answer.distance.upper);
@@ -101,13 +86,13 @@ pub fn distance(
     if let Some(found) = found {
         let half = 0.5 * found.distance.lower;
         to.answer(
-            || tree.within_of(tree, pose, half, budget, &mut scratch.0),
+            || tree.within_of(tree, pose, half, budget, scratch),
             |fold, answer| super::verdict(fold, answer.work, answer.verdict),
         );
         let mut end = pose;
         end.translation = found.points[0];
         to.answer(
-            || tree.first_contact_of(tree, [pose, end], half, budget, &mut scratch.0),
+            || tree.first_contact_of(tree, [pose, end], half, budget, scratch),
             |fold, answer| {
                 fold.f32(answer.clear_until);
                 answer.triangles.into_iter().for_each(|number| fold.word(number));
@@ -129,7 +114,7 @@ pub fn solid(
     let found = to.answer(
         || {
             let capsule = Solid::new(&ends, radius)?;
-            tree.solid_distance(&capsule, Budget::EXACT, &mut scratch.0)
+            tree.solid_distance(&capsule, Budget::EXACT, scratch)
         },
         |fold, answer| {
             fold.f32(answer.distance.lower);
@@ -144,7 +129,7 @@ pub fn solid(
         to.answer(
             || {
                 let capsule = Solid::new(&ends, radius)?;
-                tree.solid_within(&capsule, half, Budget::EXACT, &mut scratch.0)
+                tree.solid_within(&capsule, half, Budget::EXACT, scratch)
             },
             |fold, answer| super::verdict(fold, answer.work, answer.verdict),
         );
@@ -162,7 +147,7 @@ pub fn contact(
 ) {
     let call = || -> Result<FirstHit, QueryError> {
         let (from, end) = (Solid::new(&from, radius)?, Solid::new(&end, radius)?);
-        tree.first_contact(&from, &end, Budget::EXACT, &mut scratch.0)
+        tree.first_contact(&from, &end, Budget::EXACT, scratch)
     };
     to.answer(call, |fold, answer| {
         fold.f32(answer.t.lower);

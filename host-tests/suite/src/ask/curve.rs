@@ -12,22 +12,7 @@ use crate::{Clock, Kind};
 const ENTRIES: usize = 64;
 
 /// What the queries need beside the curve.
-#[derive(Debug)]
-pub struct Scratch([ScratchEntry; ENTRIES]);
-
-impl Scratch {
-    /// Scratch that no query has used.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self([ScratchEntry::EMPTY; ENTRIES])
-    }
-}
-
-impl Default for Scratch {
-    fn default() -> Self {
-        Self::new()
-    }
-}
+pub type Scratch = meshsweep_core::Scratch<ENTRIES>;
 
 impl<'t> Subject<'t> for Curve<'t> {
     type Scratch = Scratch;
@@ -138,7 +123,7 @@ pub fn closest(
     scratch: &mut Scratch,
     to: &mut Asked<'_, impl Clock>,
 ) -> Point {
-    let call = || curve.closest_point(p, Budget::EXACT, &mut scratch.0);
+    let call = || curve.closest_point(p, Budget::EXACT, scratch);
     to.answer(call, closest_point).map_or(p, |answer| answer.point)
 }
 
@@ -154,7 +139,7 @@ pub fn stopped(
     let tolerant = Budget::EXACT.with_relative(0.1).with_absolute(absolute);
     let brief = Budget::EXACT.with_steps(9);
     for (budget, entries) in [(tolerant, ENTRIES), (brief, 1)] {
-        let queue = scratch.0.get_mut(..entries).unwrap_or_default();
+        let queue = scratch.get_mut(..entries).unwrap_or_default();
         to.answer(|| curve.closest_point(p, budget, queue), closest_point);
     }
 }
@@ -169,7 +154,7 @@ pub fn is_within(
     to: &mut Asked<'_, impl Clock>,
 ) {
     to.answer(
-        || curve.within(p, distance, Budget::EXACT, &mut scratch.0),
+        || curve.within(p, distance, Budget::EXACT, scratch),
         |fold, answer| {
             segment(fold, answer.segment);
             verdict(fold, answer.work, answer.verdict);

@@ -1,7 +1,7 @@
 //! Questions about a split hierarchy that moves: the kept sweep, and overlaps. They have an image
 //! of their own, because all questions together are more than the flash of the smallest board.
 
-use meshsweep_core::{Budget, ClosestPoint, Pose, ScratchEntry};
+use meshsweep_core::{Budget, ClosestPoint, Pose};
 
 use super::hull::Model;
 use super::{Refused, Subject, timed};
@@ -17,22 +17,7 @@ pub struct Moving<'t>(Model<'t>);
 const QUEUE: usize = 256;
 
 /// What the queries need beside the model.
-#[derive(Debug)]
-pub struct Scratch([ScratchEntry; QUEUE]);
-
-impl Scratch {
-    /// Scratch that no query has used.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self([ScratchEntry::EMPTY; QUEUE])
-    }
-}
-
-impl Default for Scratch {
-    fn default() -> Self {
-        Self::new()
-    }
-}
+pub type Scratch = meshsweep_core::Scratch<QUEUE>;
 
 impl<'t> Subject<'t> for Moving<'t> {
     type Scratch = Scratch;
@@ -94,7 +79,7 @@ pub fn overlap(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    let queue = &mut scratch.0;
+    let queue = scratch;
     let budget = Budget::EXACT.with_steps(STEPS);
     timed(clock, || {
         match model.hull.overlap(&model.hull, pose, budget, queue) {
@@ -124,7 +109,7 @@ pub fn sweep(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    let queue = &mut scratch.0;
+    let queue = scratch;
     let mut found = [ClosestPoint::EMPTY; 9];
     let asked = timed(clock, || {
         let mut slots = found.iter_mut();
@@ -158,7 +143,7 @@ pub fn posed(
 ) {
     let asked = timed(clock, || {
         let here = pose.to_model(point)?;
-        let near = model.hull.closest_point(here.point, Budget::EXACT, &mut scratch.0)?;
+        let near = model.hull.closest_point(here.point, Budget::EXACT, scratch)?;
         Ok((here.distance(near.distance), pose.to_world(near.point)))
     });
     match asked {

@@ -12,24 +12,7 @@ use crate::{Clock, Kind};
 const STACK: usize = 64;
 
 /// What the queries need beside the hull.
-#[derive(Debug)]
-pub struct Scratch {
-    stack: [ScratchEntry; STACK],
-}
-
-impl Scratch {
-    /// Scratch that no query has used.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self { stack: [ScratchEntry::EMPTY; STACK] }
-    }
-}
-
-impl Default for Scratch {
-    fn default() -> Self {
-        Self::new()
-    }
-}
+pub type Scratch = meshsweep_core::Scratch<STACK>;
 
 /// All hulls of a blob, and the finest of them, which is asked.
 #[derive(Clone, Copy, Debug)]
@@ -136,7 +119,7 @@ pub fn closest(
     scratch: &mut Scratch,
     to: &mut Asked<'_, impl Clock>,
 ) -> Point {
-    let call = || hulls.finest.closest_point(p, Budget::EXACT, &mut scratch.stack);
+    let call = || hulls.finest.closest_point(p, Budget::EXACT, scratch);
     to.answer(call, closest_point).map_or(p, |answer| answer.point)
 }
 
@@ -158,7 +141,7 @@ pub fn stopped(
         (&hulls.finest, brief, STACK),
         (&hulls.finest, Budget::EXACT, 4),
     ] {
-        let stack = scratch.stack.get_mut(..entries).unwrap_or_default();
+        let stack = scratch.get_mut(..entries).unwrap_or_default();
         to.answer(|| hull.closest_point(p, stop, stack), closest_point);
     }
 }
@@ -173,7 +156,7 @@ pub fn is_within(
     to: &mut Asked<'_, impl Clock>,
 ) {
     to.answer(
-        || hulls.finest.within(p, distance, Budget::EXACT, &mut scratch.stack),
+        || hulls.finest.within(p, distance, Budget::EXACT, scratch),
         |fold, answer| {
             fold.word(match answer.verdict {
                 Verdict::Yes => 1,
