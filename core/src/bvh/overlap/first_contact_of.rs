@@ -23,8 +23,7 @@ impl Bvh<'_> {
     ///
     /// Before `clear_until` the surfaces of the input meshes are proved to be farther than `keep`
     /// apart, at every instant. If [`is_clear`](PairContact::is_clear), they are during the whole
-    /// motion. Only surfaces count:
-    /// a mesh may move inside of another one.
+    /// motion. Only surfaces count: a mesh may move inside of another one.
     ///
     /// `scratch`: [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES) are always enough. The steps (pairs
     /// of nodes) of the budget are those of all distances together. Tolerances are ignored. Where

@@ -33,11 +33,11 @@ impl Bvh<'_> {
     /// Tolerances are ignored. Lengths and coordinates are in input units, in the mesh's frame.
     ///
     /// Only the surface counts: a motion inside of a closed mesh may be clear. If `from` equals
-    /// `to`, the answer is a contact at 0, or clear. A solid that starts within the
-    /// surface error of the mesh has a `t.lower` of 0. Where no contact with the triangle that may
-    /// stop the solid first is proved, `ended` is [`Ended::Resolution`], and `t.upper` is 1. So it
-    /// is where the solid only touches the mesh, and often of a solid without radius that is flat
-    /// or that passes the edge of a triangle: a small radius decides.
+    /// `to`, the answer is a contact at 0, or clear. A solid that starts within the surface error
+    /// of the mesh has a `t.lower` of 0. Where no contact with the triangle that may stop the solid
+    /// first is proved, `ended` is [`Ended::Resolution`], and `t.upper` is 1. That happens where
+    /// the solid only touches the mesh. It also happens to solids without radius that are flat, or
+    /// that pass the edge of a triangle: a small radius decides.
     ///
     /// Cost: the nodes that the solid passes before it is stopped. Each triangle that it may reach
     /// takes one to three distances in f64, and some ten if it stops the solid.
@@ -153,8 +153,7 @@ impl PlacedSolid {
             if !is_apart {
                 break;
             }
-            // With the rounding of the inner products (§19, Motion).
-            speed = self.speed_along(gap.direction) + self.quickest() * (8.0 * U64);
+            speed = self.speed_along(gap.direction) + self.speed_rounding;
             if speed <= 0.0 {
                 return None;
             }
@@ -179,12 +178,11 @@ impl PlacedSolid {
         let largest = stop.corners.iter().flatten().fold(self.radius, |x, y| greater(x, y.abs()));
         // Deep enough for the errors of the surface and of rounding.
         let deep = 4.0 * error + largest * (1024.0 * U64);
-        let ahead = if speed > 0.0 { deep / speed } else { 0.0 };
+        let mut ahead = if speed > 0.0 { deep / speed } else { 0.0 };
         let meets = |t: f64| {
             let gap = self.gap_at(t, &stop.corners);
             gap.upper + error <= self.radius || gap.depth > error
         };
-        let mut ahead = ahead;
         let mut at = t;
         while at < 1.0 {
             if meets(at) {
@@ -200,7 +198,7 @@ impl PlacedSolid {
     }
 }
 
-/// Ratio of the ways after which a contact is looked for.
+/// Ratio of the times ahead at which a contact is looked for.
 const LATER: f64 = 8.0;
 
 /// The visitor that wants the first triangle to stop the solid.

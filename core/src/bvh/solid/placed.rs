@@ -3,7 +3,7 @@
 use crate::bvh::format::Bvh;
 use crate::bvh::overlap::extended;
 use crate::bvh::stored_lengths::StoredLengths;
-use crate::geom::{ConvexGap, Point, convex_gap, cross, dot, minus};
+use crate::geom::{ConvexGap, Point, convex_gap, cross, dot, minus, norm_1};
 use crate::num::tolerance::{
     MOVING_CORNER, OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, U32, U64,
 };
@@ -26,6 +26,8 @@ pub(super) struct PlacedSolid {
     pub(super) lengths: StoredLengths,
     /// How far a corner that moves may be from its computed place.
     pub(super) rounding: f64,
+    /// Rounding of a corner's speed along a direction (§19, Motion).
+    pub(super) speed_rounding: f64,
     /// Six directions, and the rounding of the tree's intervals along them: the tree's axes, then
     /// the solid's, which are orthonormal up to their rounding to f32.
     pub(super) directions: ModelFrame,
@@ -48,6 +50,7 @@ impl PlacedSolid {
         radius: 0.0,
         lengths: StoredLengths { error: 0.0, unit: 1.0 },
         rounding: 0.0,
+        speed_rounding: 0.0,
         directions: ModelFrame {
             rows: [[0.0; 3]; DIRECTIONS],
             shift: [0.0; DIRECTIONS],
@@ -106,6 +109,8 @@ impl PlacedSolid {
             return Err(QueryError::OutOfDomain);
         }
         self.rounding = MOVING_CORNER * U64 * farthest;
+        let longest = self.ways().iter().copied().map(norm_1).fold(0.0, greater);
+        self.speed_rounding = longest * (8.0 * U64);
         self.set_directions(farthest);
         Ok(())
     }
@@ -134,12 +139,6 @@ impl PlacedSolid {
     /// The greatest component of a corner's way along a direction.
     pub(super) fn speed_along(&self, direction: Place) -> f64 {
         self.ways().iter().map(|&way| dot(direction, way)).fold(f64::NEG_INFINITY, greater)
-    }
-
-    /// The longest way of a corner, as the sum of its components.
-    pub(super) fn quickest(&self) -> f64 {
-        let length = |[x, y, z]: &Place| x.abs() + y.abs() + z.abs();
-        self.ways().iter().map(length).fold(0.0, greater)
     }
 
     /// Whether no corner moves.
