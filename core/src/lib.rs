@@ -24,10 +24,12 @@
 //! | closest point of a query that moves little | [`CoherentQuery::closest_point`] |
 //! | is the mesh within a distance; the nearest triangles | [`Bvh::within`], [`Bvh::all_within`], [`Bvh::nearest`] |
 //! | any of these about a model that moves | [`Pose::to_model`] |
-//! | inside or outside | [`Bvh::signed_distance`] |
+//! | inside or outside of a closed mesh | [`Bvh::signed_distance`] |
+//! | inside or outside of a mesh with holes, flaps or parts that overlap | [`Bvh::winding_number`], [`Bvh::signed_by_winding`] |
 //! | segments | [`Bvh::first_hit`], [`Bvh::any_hit`], [`Bvh::all_hits`] |
 //! | do two meshes meet | [`Bvh::overlap`], [`Bvh::overlaps`] |
 //! | how far are two meshes from each other; is one within a distance of the other | [`Bvh::distance`], [`Bvh::within_of`] |
+//! | which two of a few dozen models are nearest; are any two within a distance | [`Scene::nearest_pair`], [`Scene::within`] |
 //! | how far is a sphere, a capsule or a box; is it within a distance | [`Bvh::solid_distance`], [`Bvh::solid_within`] |
 //! | is the move of a tool, or of another mesh, clear for its whole length | [`Bvh::first_contact`], [`Bvh::first_contact_of`] |
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
@@ -84,7 +86,8 @@ mod tribox;
 pub use blob::Blob;
 pub use bvh::{
     AllWithin, AnyHit, Bvh, CoherentClosest, CoherentQuery, Eye, Facing, FrontFacing, Hint,
-    KNearest, Neighbor, SignedDistance, Within,
+    KNearest, Neighbor, Placed, Scene, SceneDistance, SceneWithin, SignedDistance, WindingNumber,
+    Within,
 };
 pub use curve::{Curve, CurveClosest, CurveSegment, CurveWithin};
 pub use format::layout::{BuildFor, SectionKind};
@@ -96,9 +99,9 @@ pub use hull::{
     OuterHits, RefinedHull, Refinement, Search, Sweep, TriangleOverlap,
 };
 pub use query::{
-    AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Overlap, Overlaps, PairContact,
-    PairDistance, PairWithin, PosedPoint, QueryError, Scratch, ScratchEntry, Side, Solid,
-    SolidDistance, SolidWithin, TrianglePair, Undecided, Verdict, Work,
+    AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Motion, Overlap, Overlaps,
+    PairContact, PairDistance, PairWithin, PosedPoint, QueryError, Scratch, ScratchEntry, Side,
+    Solid, SolidDistance, SolidWithin, TrianglePair, Undecided, Verdict, Work,
 };
 pub use tight::{TightHull, TightHulls, TightRecord};
 pub use tribox::{

@@ -125,7 +125,8 @@ impl Blob {
             }
             Self::Sieve => Ok(torus_sieve()),
             Self::TorusTree => Ok(box_tree(small_torus(), &default)),
-            Self::Apart | Self::BracketTree => Ok(box_tree(bracket(), &default)),
+            Self::Apart => Ok(box_tree(bracket(), &default.with_winding(true))),
+            Self::BracketTree => Ok(box_tree(bracket(), &default)),
             // Fewer triangles: with f32 vertices and all questions the image just fits into the
             // flash of the smallest board.
             Self::SingleTree => Ok(box_tree(torus(2.0, 0.75, 16, 10), &default.with_f32(true))),

@@ -88,7 +88,7 @@ pub fn torus_sieve() -> Vec<u8> {
 pub fn groove_tree() -> Vec<u8> {
     let (positions, triangles) = groove_block();
     let mesh = Mesh::new(positions, triangles);
-    let options = TreeOptions::default().with_cull(true);
+    let options = TreeOptions::default().with_cull(true).with_winding(true);
     let (tables, _) = build(mesh.as_input(), &options).expect("builds");
     tables.to_bytes()
 }

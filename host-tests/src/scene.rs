@@ -73,7 +73,8 @@ impl Scene {
         scene
     }
 
-    /// Any mesh with two box trees for segments and overlap: on a grid, and with f32 vertices.
+    /// Any mesh with two box trees for segments, overlap and winding numbers: on a grid, and with
+    /// f32 vertices.
     #[must_use]
     pub fn both(name: &str, mesh: Triangles) -> Self {
         Self::moved(name, mesh, 0.0, 0)
@@ -88,7 +89,8 @@ impl Scene {
         let moved = |&p| if by > 0.0 { add(p, rng.direction(), 0.99 * by) } else { p };
         let stored: Vec<Point> = scene.positions.iter().map(moved).collect();
         [scene.bytes, scene.f32_bytes] = [false, true].map(|single| {
-            let options = TreeOptions::default().with_closest(false).with_f32(single);
+            let options = TreeOptions::default().with_closest(false).with_winding(true);
+            let options = options.with_f32(single);
             tree_blob(&stored, &scene.triangles, f64::from(by), &options)
         });
         scene

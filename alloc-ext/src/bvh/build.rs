@@ -3,6 +3,7 @@
 use super::cones::cones;
 use super::encode;
 use super::fans::{self, Fan, FanLeaf};
+use super::moments::moments;
 use super::nodes::fit::{axis_aligned_boxes, shared_frames};
 use super::nodes::order::topology;
 use super::source;
@@ -30,14 +31,16 @@ pub struct TreeOptions {
     pub segments: bool,
     /// Whether to store normal cones, for culling.
     pub cull: bool,
+    /// Whether to store moments of nodes, for winding numbers.
+    pub winding: bool,
     /// Whether to store vertices in f32 instead of 16 bits on a grid.
     pub is_f32: bool,
 }
 
 impl Default for TreeOptions {
-    /// Closest points and segments, no culling, vertices on a grid.
+    /// Closest points and segments, no culling, no winding numbers, vertices on a grid.
     fn default() -> Self {
-        TreeOptions { closest: true, segments: true, cull: false, is_f32: false }
+        TreeOptions { closest: true, segments: true, cull: false, winding: false, is_f32: false }
     }
 }
 
@@ -58,6 +61,12 @@ impl TreeOptions {
     #[must_use]
     pub const fn with_cull(self, cull: bool) -> Self {
         Self { cull, ..self }
+    }
+
+    /// Sets whether the tree serves [winding numbers](Self::winding).
+    #[must_use]
+    pub const fn with_winding(self, winding: bool) -> Self {
+        Self { winding, ..self }
     }
 
     /// Sets whether [vertices are f32](Self::is_f32).
@@ -141,6 +150,10 @@ pub fn build(
     sections.push((SectionKind::TreeSource, source::pack(&numbers)));
     if options.cull {
         sections.push((SectionKind::TreeCones, cones(&topology, &leaves, &grid.positions)));
+    }
+    if options.winding {
+        let bytes = moments(mesh, &edges, &topology, &leaves, &grid);
+        sections.push((SectionKind::TreeMoments, bytes));
     }
     let header = header(mesh, &edges, &grid, &leaves, &bounds, options, topology.waiting_entries);
     let header = BvhHeader { nodes: topology.nodes.len() as u32, ..header };

@@ -12,6 +12,7 @@ mod cones;
 mod encode;
 mod exact;
 mod fans;
+mod moments;
 mod nodes;
 mod source;
 mod store;

@@ -134,7 +134,7 @@ fn every_command_s_help_has_examples_that_run() {
         .map_while(|line| line.split_whitespace().next())
         .filter(|command| *command != "help")
         .collect();
-    assert_eq!(commands.len(), 17, "{commands:?}");
+    assert_eq!(commands.len(), 18, "{commands:?}");
     for command in commands {
         let help = ok(["help", command]);
         let examples: Vec<&str> =

@@ -136,3 +136,35 @@ fn what_cannot_be_asked_is_refused_by_name() {
     assert_eq!(wrong(&[arg(&torus), "--within", "-1"]).status.code(), Some(2));
     assert_eq!(wrong(&[arg(&torus), "-o", arg(&torus)]).status.code(), Some(1));
 }
+
+#[test]
+fn moves_from_pose_to_pose_are_clear_or_name_where_they_stop() {
+    let directory = scratch("clearance_moves");
+    let part = blob(&directory, "torus.ply", &[]);
+    // Through the hole of the torus there is no way; round it there is.
+    let poses = [
+        [-9.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+        [0.0, 9.0, 0.0, 1.0, 0.0, 0.0, -1.0],
+        [9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+        [-9.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+    ];
+    let path = directory.join("path.csv");
+    write_csv(&path, &poses);
+    let header = "move,clear,t,ax,ay,az,bx,by,bz,first,second,work";
+    for kind in ["straight", "screw"] {
+        let asked = ["clearance", arg(&part), arg(&part), "--pose", arg(&path), "--moves", kind];
+        let moves = parse_csv(&ok(asked), header);
+        let clear: Vec<&str> = moves.iter().map(|row| row[1].as_str()).collect();
+        // Half a turn back about an axis leads round it.
+        let last = if kind == "screw" { "yes" } else { "undecided" };
+        assert_eq!(clear, ["yes", "yes", last], "{kind}");
+        if last == "undecided" {
+            let t = number(&moves[2][2]);
+            assert!(0.05 < t && t < 0.5, "{t}");
+        }
+        let keep = parse_csv(&ok([&asked[..], &["--within", "6"]].concat()), header);
+        assert_eq!(keep[0][1], "undecided", "{kind}");
+    }
+    let one = ["clearance", arg(&part), arg(&part), "--pose", "1,2,3,1,0,0,0", "--moves", "screw"];
+    assert_eq!(run(one).status.code(), Some(2));
+}

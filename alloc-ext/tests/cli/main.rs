@@ -17,3 +17,4 @@ mod refine;
 mod support;
 mod tight;
 mod tribox;
+mod winding;

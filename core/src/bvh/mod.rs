@@ -16,10 +16,13 @@
 //! | `within`, `all_within`, `nearest` | distance verdicts, and the nearest triangles |
 //! | `neighbors` | the heap of nearest triangles in the caller's slice |
 //! | `signed_distance`, `side_search`, `pseudonormal` | on which side of a closed mesh a point lies |
+//! | `winding/` | the winding number about a point, of a mesh that need not be closed |
 //! | `first_hit`, `any_hit`, `all_hits` | segments |
 //! | `front_facing` | triangles that may face an eye |
 //! | `overlap/` | two trees, one of them moved |
 //! | `solid/` | a convex solid, at rest or moving |
+//! | `scene/` | a few dozen models, each moved |
+//! | `input_box` | a box that holds the input's vertices |
 //! | `stored_lengths` | from distances of stored surfaces to those of the input |
 //! | `coherent/` | a query that moves |
 //!
@@ -50,6 +53,7 @@ mod descent;
 mod first_hit;
 pub mod format;
 mod front_facing;
+mod input_box;
 mod leaf_distance;
 mod leaf_plane;
 mod nearest;
@@ -58,6 +62,7 @@ pub mod node;
 mod overlap;
 mod point_query;
 mod pseudonormal;
+mod scene;
 mod segment_leaf;
 mod segment_query;
 mod side_search;
@@ -66,6 +71,7 @@ mod solid;
 mod stored_lengths;
 mod triangle_bounds;
 mod triangle_visitor;
+mod winding;
 mod within;
 
 pub use all_within::AllWithin;
@@ -76,7 +82,8 @@ pub use format::Bvh;
 pub use front_facing::{Eye, FrontFacing};
 pub use nearest::KNearest;
 pub use neighbors::Neighbor;
-
+pub use scene::{Placed, Scene, SceneDistance, SceneWithin};
 pub use segment_leaf::Facing;
 pub use signed_distance::SignedDistance;
+pub use winding::WindingNumber;
 pub use within::Within;

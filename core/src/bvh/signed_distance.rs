@@ -65,7 +65,7 @@ pub struct SignedDistance {
 }
 
 impl SignedDistance {
-    fn new(closest: ClosestPoint, side: Side) -> Self {
+    pub(super) fn new(closest: ClosestPoint, side: Side) -> Self {
         let Interval { lower, upper } = closest.distance;
         let distance = match side {
             Side::Outside => Interval { lower, upper },

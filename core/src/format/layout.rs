@@ -77,11 +77,13 @@ pub enum SectionKind {
     VertexNumbers = 22,
     /// Key frames: the vertices of all levels, and the radius of each triangle.
     KeyFrames = 23,
+    /// For each node of the box tree the moments of its triangles: for winding numbers.
+    TreeMoments = 24,
 }
 
 impl SectionKind {
     /// All kinds, in the order in which a writer emits them.
-    pub const ALL: [SectionKind; 22] = [
+    pub const ALL: [SectionKind; 23] = [
         SectionKind::Levels,
         SectionKind::Vertices,
         SectionKind::BaseTriangles,
@@ -99,6 +101,7 @@ impl SectionKind {
         SectionKind::TreeFans,
         SectionKind::TreeSource,
         SectionKind::TreeCones,
+        SectionKind::TreeMoments,
         SectionKind::Triboxes,
         SectionKind::TightHulls,
         SectionKind::Curves,
@@ -113,7 +116,8 @@ impl SectionKind {
 
     /// Whether the section belongs to the box tree.
     pub fn is_bvh(self) -> bool {
-        !self.is_hull() && (self as u32) < SectionKind::Triboxes as u32
+        let first = !self.is_hull() && (self as u32) < SectionKind::Triboxes as u32;
+        first || self == SectionKind::TreeMoments
     }
 
     /// Whether the section is for a hull hierarchy that deforms.
@@ -123,7 +127,10 @@ impl SectionKind {
 
     /// The first minor version with this kind.
     pub fn minor(self) -> u16 {
-        u16::from(self.is_deform())
+        match self {
+            SectionKind::TreeMoments => 2,
+            _ => u16::from(self.is_deform()),
+        }
     }
 
     /// The value of `meshsweep build --for` that writes the section.
@@ -131,6 +138,7 @@ impl SectionKind {
         match self {
             SectionKind::TreeBoxes => BuildFor::Segment,
             SectionKind::TreeCones => BuildFor::Cull,
+            SectionKind::TreeMoments => BuildFor::Winding,
             SectionKind::Triboxes => BuildFor::Triboxes,
             SectionKind::TightHulls => BuildFor::Tight,
             SectionKind::Curves => BuildFor::Curve,
@@ -165,6 +173,7 @@ impl SectionKind {
             SectionKind::Curves => "curves",
             SectionKind::VertexNumbers => "vertex numbers",
             SectionKind::KeyFrames => "key frames",
+            SectionKind::TreeMoments => "tree moments",
         }
     }
 }
@@ -189,6 +198,8 @@ pub enum BuildFor {
     Curve,
     /// A hull hierarchy that deforms.
     Deform,
+    /// Moments of the box tree's nodes.
+    Winding,
 }
 
 impl core::fmt::Display for BuildFor {
@@ -202,6 +213,7 @@ impl core::fmt::Display for BuildFor {
             BuildFor::Tight => "tight",
             BuildFor::Curve => "curve",
             BuildFor::Deform => "deform",
+            BuildFor::Winding => "winding",
         })
     }
 }

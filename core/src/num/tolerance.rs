@@ -307,6 +307,23 @@ pub const MOVING_CORNER: f64 = 16.0;
 /// Part of an advance that is kept, for the roundings of a quotient and a sum (§19).
 pub const ADVANCE_KEPT: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;
 
+/// Room for the rounding in f64 of a pose on a screw, beside its rounding to f32 (§19).
+pub const SCREW_ROUNDING: f64 = 1.0 + 1.0 / (1u64 << 20) as f64;
+
+// Box tree, winding numbers
+
+/// Rounding of numerator and denominator of a solid angle's tangent, in units of [`U32`] times the
+/// product of the corners' distances. Proved: 57 (§20).
+pub const SOLID_ANGLE: f32 = 64.0;
+
+/// Rounding of the flux of a node's moments, in units of [`U32`] times the sum of the sizes of its
+/// terms. Proved: 46 (§20).
+pub const MOMENT_FLUX: f32 = 64.0;
+
+/// Shortest distance of a corner, or of a node's centre, with which squares and products keep their
+/// precision: 2^-30 grid units (§20).
+pub const SOLID_ANGLE_NEAREST: f32 = 1.0 / (1u32 << 30) as f32;
+
 // Box tree, coherent queries
 
 /// Squared sine of the angle between the spokes of a triangle below which the triangle counts as a

@@ -39,6 +39,8 @@ pub enum QueryError {
     /// - an entry of its matrix is beyond 2;
     /// - for [`Pose::to_model`](crate::Pose::to_model), its columns are far from orthonormal: the
     ///   Frobenius norm of `RᵀR − 1` is above a quarter;
+    /// - for [`Motion::screw`](crate::Motion::screw), its rows are not orthonormal up to a
+    ///   thousandth, or it is a mirror;
     /// - for triboxes, its translation is beyond [`Tribox::DOMAIN`](crate::Tribox::DOMAIN);
     /// - one model's grid is more than 2^40 times as coarse as the other's;
     /// - a surface error is far larger than its model.
@@ -84,6 +86,8 @@ impl QueryError {
     pub(crate) const NO_SEGMENTS: QueryError =
         QueryError::NotServed { build_for: BuildFor::Segment };
     pub(crate) const NO_CONES: QueryError = QueryError::NotServed { build_for: BuildFor::Cull };
+    pub(crate) const NO_MOMENTS: QueryError =
+        QueryError::NotServed { build_for: BuildFor::Winding };
     pub(crate) const NO_HULL: QueryError = QueryError::NotServed { build_for: BuildFor::Hull };
     pub(crate) const NO_TRIBOXES: QueryError =
         QueryError::NotServed { build_for: BuildFor::Triboxes };

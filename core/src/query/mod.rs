@@ -7,9 +7,11 @@
 //! | `answer` | [`Interval`], [`ClosestPoint`], [`Ended`]: why a search ended |
 //! | `verdict` | [`Verdict`], [`Side`], [`Undecided`]: why there is no verdict |
 //! | `hits` | [`Hit`], [`FirstHit`], [`AllHits`], and the caller's slice of hits |
+//! | `pose_inverse` | the inverse of a pose's matrix |
 //! | `posed_point` | [`PosedPoint`]: a point in the frame of a moved model |
 //! | `overlap` | [`Overlap`], [`Overlaps`], [`TrianglePair`], and what collects pairs |
 //! | `pair_distance` | [`PairDistance`], [`PairWithin`], [`PairContact`]: how far two surfaces are apart |
+//! | `motion` | [`Motion`]: how a model moves from pose to pose |
 //! | `solid` | [`Solid`], and the answers about it: [`SolidDistance`], [`SolidWithin`] |
 //! | `relative_pose` | the pose of one model in the frame of another, and the rounding in it |
 //! | `work` | [`Work`]: counters |
@@ -22,8 +24,10 @@ mod budget;
 mod error;
 mod frame;
 mod hits;
+mod motion;
 mod overlap;
 mod pair_distance;
+mod pose_inverse;
 mod posed_point;
 mod relative_pose;
 mod scratch;
@@ -38,9 +42,11 @@ pub use error::QueryError;
 pub(crate) use frame::Frame;
 pub(crate) use hits::Hits;
 pub use hits::{AllHits, FirstHit, Hit};
+pub use motion::Motion;
 pub(crate) use overlap::{AllPairs, FirstPair, PairVisitor};
 pub use overlap::{Overlap, Overlaps, TrianglePair};
 pub use pair_distance::{PairContact, PairDistance, PairWithin};
+pub(crate) use pose_inverse::{PoseInverse, transposed};
 pub use posed_point::PosedPoint;
 pub(crate) use relative_pose::{DIRECTIONS, Extended, ModelFrame, Placement, RelativePose};
 pub use scratch::{Scratch, ScratchEntry};

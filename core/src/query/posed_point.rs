@@ -2,8 +2,9 @@
 
 use super::answer::Interval;
 use super::error::QueryError;
-use crate::geom::Pose;
-use crate::num::tolerance::{POSE_DEFECT, POSED_POINT, POSED_STRETCH, U64};
+use super::pose_inverse::PoseInverse;
+use crate::geom::{Pose, dot};
+use crate::num::tolerance::{POSED_POINT, U64};
 use crate::num::{down_to_f32, up_to_f32};
 
 /// A point that a [`Pose`] carried into a model's frame, with the error that distances there carry.
@@ -82,24 +83,15 @@ impl Pose {
         if !rows.iter().flatten().chain(&shift).chain(&world).all(|x| x.is_finite()) {
             return Err(QueryError::NotFinite);
         }
-        let [r0, r1, r2] = rows;
-        let columns = [[r0[0], r1[0], r2[0]], [r0[1], r1[1], r2[1]], [r0[2], r1[2], r2[2]]];
-        let stretch = defect(&columns) + POSED_STRETCH * U64;
-        if stretch.is_nan() || stretch > POSE_DEFECT {
-            return Err(QueryError::PoseOutOfDomain);
-        }
+        let inverse = PoseInverse::new(rows)?;
+        let stretch = inverse.stretch;
         let ([wx, wy, wz], [tx, ty, tz]) = (world, shift);
+        let [r0, r1, r2] = rows;
         let residual = |at: [f64; 3]| {
             let rest = |row, world: f64, shift: f64| world - shift - dot(row, at);
             [rest(r0, wx, tx), rest(r1, wy, ty), rest(r2, wz, tz)]
         };
-        // The transposed matrix is nearly the inverse. The second step removes most of the error.
-        let mut at = [0.0; 3];
-        for _ in 0..2 {
-            let left = residual(at);
-            let [x, y, z] = columns.map(|column| dot(column, left));
-            at = [at[0] + x, at[1] + y, at[2] + z];
-        }
+        let at = inverse.of([wx - tx, wy - ty, wz - tz]);
         let point = at.map(|x| x as f32);
         if !point.iter().all(|x| x.is_finite()) {
             return Err(QueryError::OutOfDomain);
@@ -124,16 +116,4 @@ impl Pose {
         let [a, b, c] = self.translation.map(f64::from);
         [x + a, y + b, z + c].map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
     }
-}
-
-fn dot([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
-    (a * x + b * y) + c * z
-}
-
-/// How far the columns are from orthonormal: the Frobenius norm of `RᵀR − 1`.
-fn defect(columns: &[[f64; 3]; 3]) -> f64 {
-    let &[a, b, c] = columns;
-    let lengths = [dot(a, a) - 1.0, dot(b, b) - 1.0, dot(c, c) - 1.0];
-    let angles = [dot(a, b), dot(b, c), dot(c, a)];
-    libm::sqrt(dot(lengths, lengths) + 2.0 * dot(angles, angles))
 }

@@ -44,7 +44,8 @@ pub enum Verdict {
     Undecided(Undecided),
 }
 
-/// On which side of a closed surface a point lies. `Inside` and `Outside` are proved.
+/// On which side of a surface a point lies. `Inside` and `Outside` are proved. By the [winding
+/// number](crate::WindingNumber) they mean above and below ½.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Side {

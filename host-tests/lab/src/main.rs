@@ -19,7 +19,7 @@ use meshsweep_xtask::steps::Steps;
 
 const USAGE: &str = "\
 cargo xtask measure [--tree | --triboxes | --deform | --overlap | --motion
-                    | --tight [--firmware] | --bounds [--count] | --paper TABLE]
+                    | --winding | --tight [--firmware] | --bounds [--count] | --paper TABLE]
                     [--plot FILE.svg] [--picture FILE.svg] [MESH...]
           work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/)
           --tree      only the box tree's
@@ -27,6 +27,7 @@ cargo xtask measure [--tree | --triboxes | --deform | --overlap | --motion
           --deform    the hull hierarchy under motions
           --overlap   the mesh against itself
           --motion    a capsule that moves past the mesh
+          --winding   winding numbers of the mesh, and of the mesh with holes
           --tight     tight hulls, each proved, drawn with --picture, on a Cortex-M4F with --firmware
           --bounds    how tight boxes, triboxes, hulls... are, with --count what they cost
           --paper     a table of the papers; alone: the list of tables

@@ -9,7 +9,7 @@ use meshsweep_lab::measure::plot::{self, Measured};
 use meshsweep_lab::measure::tight::picture;
 use meshsweep_lab::measure::{
     measure, measure_bounds, measure_deform, measure_motion, measure_overlap, measure_tight,
-    measure_tree, measure_triboxes,
+    measure_tree, measure_triboxes, measure_winding,
 };
 use meshsweep_xtask::firmware;
 use meshsweep_xtask::say;
@@ -37,6 +37,7 @@ enum Part {
     Bounds,
     Overlap,
     Motion,
+    Winding,
     Triboxes,
     Tight,
     Deform,
@@ -45,9 +46,9 @@ enum Part {
 }
 
 impl Options {
-    /// `[--tree | --triboxes | --deform | --overlap | --motion | --tight [--firmware] | --bounds
-    /// [--count] | --paper TABLE] [--plot FILE.svg] [--picture FILE.svg] [MESH…]`, the picture with
-    /// `--tight` alone; `None` if that is not what the words are.
+    /// `[--tree | --triboxes | --deform | --overlap | --motion | --winding | --tight [--firmware] |
+    /// --bounds [--count] | --paper TABLE] [--plot FILE.svg] [--picture FILE.svg] [MESH…]`, the
+    /// picture with `--tight` alone; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut only = None;
@@ -58,6 +59,7 @@ impl Options {
                 "--bounds" => Part::Bounds,
                 "--overlap" => Part::Overlap,
                 "--motion" => Part::Motion,
+                "--winding" => Part::Winding,
                 "--triboxes" => Part::Triboxes,
                 "--tight" => Part::Tight,
                 "--paper" => {
@@ -124,6 +126,7 @@ pub fn run(steps: &mut Steps, options: Options) {
                 Some(Part::Bounds) => measure_bounds(mesh, counts.as_deref())?,
                 Some(Part::Overlap) => measure_overlap(mesh)?,
                 Some(Part::Motion) => measure_motion(mesh)?,
+                Some(Part::Winding) => measure_winding(mesh)?,
                 Some(Part::Triboxes) => measure_triboxes(mesh)?,
                 Some(Part::Paper(table)) => paper::measure(&paper::ALL[table], mesh)?,
                 Some(Part::Deform) => measure_deform(mesh)?,

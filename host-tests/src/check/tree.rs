@@ -4,9 +4,10 @@
 //! If [`check_tree`] returns `Ok`, then no descent can miss a triangle but by the rounding of the
 //! query itself: every triangle of the mesh is in exactly one leaf, no farther from its place than
 //! the header's surface error; every box on the way to it contains it, by exact arithmetic on the
-//! stored numbers; and no frame makes a distance longer.
+//! stored numbers; and no frame makes a distance longer. Moments are those of the triangles below.
 
 mod contain;
+mod moments;
 mod parse;
 mod surface;
 
@@ -28,6 +29,8 @@ pub struct TreeProof {
     pub contained: usize,
     /// Of these, the ones that `f64` could not decide.
     pub exact_contained: usize,
+    /// Nodes whose moments are those of their triangles.
+    pub moments: usize,
 }
 
 /// Proves that a blob's box tree is one of `mesh`, which no vertex was moved in before but by
@@ -47,5 +50,6 @@ pub fn check_tree(bytes: &[u8], mesh: &Mesh) -> Result<TreeProof, String> {
     contain::boxes(&tree, &parents, &mut proof)?;
     surface::triangles(&tree, mesh, &mut proof)?;
     surface::claims(&tree, mesh)?;
+    moments::moments(&tree, &mut proof)?;
     Ok(proof)
 }

@@ -5,8 +5,8 @@
 //! a panic, and what it gives is in range.
 
 use meshsweep_core::{
-    Budget, Bvh, ClosestPoint, CoherentQuery, Eye, Facing, Hint, Hit, Neighbor, Pose, QueryError,
-    ScratchEntry, Side, Solid, TrianglePair, Verdict, Work,
+    Budget, Bvh, ClosestPoint, CoherentQuery, Eye, Facing, Hint, Hit, Motion, Neighbor, Placed,
+    Pose, QueryError, Scene, ScratchEntry, Side, Solid, TrianglePair, Verdict, Work,
 };
 
 /// The caller's memory, of any length.
@@ -63,6 +63,11 @@ impl Asker {
                         <= u64::from(tree.header().triangles)
                 );
                 found(tree, &near[..answer.stored]);
+            }
+            if let Some(answer) = answered(tree.winding_number(point, *stop, stack)) {
+                // Up to six passes.
+                ends(answer.work, 6 * once);
+                assert!(answer.number.lower <= answer.number.upper, "{answer:?}");
             }
             if let Some(answer) = answered(tree.signed_distance(point, *stop, stack)) {
                 let mut near = answer.closest;
@@ -213,6 +218,15 @@ impl Asker {
             pairs[..answer.stored].iter().for_each(|pair| in_range(pair.triangles));
         }
         let budget = Budget::EXACT.with_steps(steps);
+        let models =
+            [(a, Pose::IDENTITY), (b, *pose)].map(|(tree, pose)| Placed { tree: *tree, pose });
+        let scene = Scene::new(&models);
+        if let Some(answer) = answered(scene.nearest_pair(|_, _| true, budget, &mut stack)) {
+            assert!(answer.work.splits <= steps && answer.models == Some([0, 1]), "{answer:?}");
+            assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
+            in_range(answer.triangles);
+            answered(scene.within(answer.distance.lower, |_, _| true, budget, &mut stack));
+        }
         if let Some(answer) = answered(a.distance(b, *pose, budget, &mut stack)) {
             assert!(answer.work.splits <= steps, "{answer:?}");
             in_range(answer.triangles);
@@ -220,7 +234,8 @@ impl Asker {
             assert!(answer.points.iter().flatten().all(|x| x.is_finite()), "{answer:?}");
             let half = 0.5 * answer.distance.lower;
             let end = Pose { translation: answer.points[0], ..*pose };
-            let motion = a.first_contact_of(b, [*pose, end], half, budget, &mut stack);
+            let motion = Motion::screw(*pose, end).unwrap_or(Motion::straight(*pose, end));
+            let motion = a.first_contact_of(b, &motion, half, budget, &mut stack);
             if let Some(answer) = answered(motion) {
                 assert!(answer.work.splits <= steps, "{answer:?}");
                 in_range(answer.triangles);

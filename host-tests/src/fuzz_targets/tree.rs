@@ -18,7 +18,7 @@ use std::sync::OnceLock;
 pub fn tree_seeds() -> &'static [Vec<u8>] {
     static SEEDS: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
     SEEDS.get_or_init(|| {
-        let all = TreeOptions::default().with_cull(true);
+        let all = TreeOptions::default().with_cull(true).with_winding(true);
         let mut open = rough_sphere(2, 0.4, 5);
         open.1.truncate(200);
         open.1.extend([[0, 1, 2], [2, 1, 0], [3, 3, 4], [5, 5, 5]]);
@@ -26,7 +26,7 @@ pub fn tree_seeds() -> &'static [Vec<u8>] {
             blob(&cube(1), &all),
             blob(&torus(2.0, 0.75, 10, 6), &all.with_f32(true)),
             blob(&icosphere(2), &all.with_segments(false)),
-            blob(&icosphere(1), &all.with_closest(false).with_cull(false)),
+            blob(&icosphere(1), &all.with_closest(false).with_cull(false).with_winding(false)),
             blob(&open, &all),
             blob(&(vec![[0.25, -1.0, 0.5]], vec![[0, 0, 0]]), &all),
             with_hull(&icosphere(1), &all),

@@ -84,11 +84,15 @@ pub enum Kind {
     Solid,
     /// Where a capsule that moves first meets the surface.
     Contact,
+    /// How often the surface encloses a point.
+    Winding,
+    /// Which two of three moved copies are nearest.
+    Scene,
 }
 
 impl Kind {
     /// All kinds in the order in which they are run.
-    pub const ALL: [Self; 38] = [
+    pub const ALL: [Self; 40] = [
         Self::Arith,
         Self::Contents,
         Self::ClosestFar,
@@ -115,6 +119,8 @@ impl Kind {
         Self::PairDistance,
         Self::Solid,
         Self::Contact,
+        Self::Winding,
+        Self::Scene,
         Self::TriboxBounds,
         Self::TriboxFaces,
         Self::TriboxOverlap,
@@ -156,6 +162,8 @@ impl Kind {
             Self::PairDistance => "pair_distance",
             Self::Solid => "solid",
             Self::Contact => "first_contact",
+            Self::Winding => "winding",
+            Self::Scene => "scene",
             Self::TriboxBounds => "tribox_bounds",
             Self::TriboxFaces => "tribox_faces",
             Self::TriboxOverlap => "tribox_overlap",

@@ -17,6 +17,7 @@ const FRAMES: u32 = 14;
 const BOXES: u32 = 15;
 const FANS: u32 = 16;
 const SOURCE: u32 = 17;
+const MOMENTS: u32 = 24;
 
 fn scene((positions, triangles): Triangles, options: &TreeOptions) -> (Vec<u8>, Mesh) {
     let mesh = Mesh::new(positions, triangles);
@@ -25,7 +26,7 @@ fn scene((positions, triangles): Triangles, options: &TreeOptions) -> (Vec<u8>, 
 }
 
 fn kinds() -> [TreeOptions; 4] {
-    let all = TreeOptions::default().with_segments(true);
+    let all = TreeOptions::default().with_segments(true).with_winding(true);
     let closest = all.with_segments(false);
     let segments = all.with_closest(false);
     [all, closest, segments, all.with_f32(true)]
@@ -72,6 +73,7 @@ fn every_generated_mesh_is_proved_contained() {
             assert_eq!(proof.triangles, mesh.1.len(), "{name}");
             assert!(proof.contained >= 3 * proof.vertices, "{name}: {proof:?}");
             assert_eq!(proof.frames > 0, options.closest, "{name}: {proof:?}");
+            assert_eq!(proof.moments > 0, options.winding, "{name}: {proof:?}");
         }
     }
 }
@@ -102,7 +104,7 @@ fn one_triangle_and_one_point_are_trees() {
 
 /// Changes a blob and reseals it; the checker's complaint.
 fn damaged(kind: u32, damage: impl Fn(&mut [u8], Entry)) -> String {
-    let (mut bytes, mesh) = scene(bracket(), &TreeOptions::default().with_segments(true));
+    let (mut bytes, mesh) = scene(bracket(), &kinds()[0]);
     check_tree(&bytes, &mesh).expect("sound before");
     let entry = entry(&bytes, kind);
     damage(&mut bytes, entry);
@@ -215,4 +217,25 @@ fn claims_of_the_header_that_do_not_hold_are_noticed() {
     // The box's least corner along x.
     let complaint = with_word(48, |word| word + 1);
     assert!(complaint.contains("the header's box"), "{complaint}");
+}
+
+#[test]
+fn a_moment_that_says_too_little_is_noticed() {
+    // Offsets in the record, and what is said when the number is nearer to 0 by a hundredth.
+    for (at, words) in [
+        (12, "a corner is outside"),
+        (16, "an error of"),
+        (28, "an error of"),
+        (48, "a spread of"),
+        (56, "a boundary of"),
+    ] {
+        let complaint = damaged(MOMENTS, |bytes, entry| {
+            // Of the second node: the moments of the whole, which is closed, are nearly 0.
+            let word = &mut section(bytes, entry)[60 + at..][..4];
+            let x = f32::from_le_bytes([word[0], word[1], word[2], word[3]]);
+            assert!(x != 0.0);
+            word.copy_from_slice(&(x * (1.0 - 1e-2)).to_le_bytes());
+        });
+        assert!(complaint.contains("moments of node") && complaint.contains(words), "{complaint}");
+    }
 }

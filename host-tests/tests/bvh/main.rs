@@ -11,5 +11,7 @@ mod overlap;
 mod pair_distance;
 mod posed;
 mod refusals;
+mod scene;
 mod segments;
 mod solid;
+mod winding;

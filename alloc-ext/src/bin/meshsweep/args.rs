@@ -11,8 +11,9 @@ mod refining;
 mod values;
 
 pub use asking::{
-    ClearArgs, ClearanceArgs, ClosestArgs, CullArgs, Engine, FieldArgs, MovedArgs, NearestArgs,
-    OverlapArgs, PointArgs, SearchArgs, SegmentArgs, SignedArgs, WithinArgs,
+    ClearArgs, ClearanceArgs, ClosestArgs, CullArgs, Engine, FieldArgs, MoveKind, MovedArgs,
+    NearestArgs, OverlapArgs, PointArgs, SearchArgs, SegmentArgs, SignedArgs, WindingArgs,
+    WithinArgs,
 };
 pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
 pub use building::{BuildArgs, CutArgs, FACES, HullServes, InfoArgs, StoredBits};
@@ -70,6 +71,9 @@ pub enum Command {
     /// Side and signed distance of each query point, as CSV
     #[command(after_help = explained::signed())]
     Signed(SignedArgs),
+    /// How often the mesh encloses each query point, closed or not, as CSV
+    #[command(after_help = explained::winding())]
+    Winding(WindingArgs),
     /// Distances on a regular grid around the mesh, as raw f32 or NumPy file
     #[command(after_help = explained::FIELD)]
     Field(FieldArgs),

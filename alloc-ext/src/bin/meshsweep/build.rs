@@ -64,6 +64,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         .with_closest(wanted.closest)
         .with_segments(wanted.segment)
         .with_cull(wanted.cull)
+        .with_winding(wanted.winding)
         .with_f32(args.vertex_bits.is_f32());
     let failed = |error| Failure::build(&args.mesh, error);
     let tree = wanted.tree().then(|| bvh::build(loaded.input(), &options)).transpose();

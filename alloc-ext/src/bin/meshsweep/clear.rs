@@ -22,8 +22,11 @@ pub fn run(args: &ClearArgs) -> Result<(), Failure> {
         return Err(Failure::Usage { what });
     }
     let limit = format!("a corner of the tool may be about {farthest:.1e} from the mesh at most");
-    let moves =
-        if path.is_empty() { Queries::read(moves)? } else { Queries::read(path)?.moves()? };
+    let moves = if path.is_empty() {
+        Queries::read(moves)?
+    } else {
+        Queries::read(path)?.moves(|[ax, ay, az], [bx, by, bz]| [ax, ay, az, bx, by, bz])?
+    };
     let header = "clear,t,px,py,pz,triangle,work";
     let question = Question { limit: Some(limit), ..Question::new(header, moves, search) };
     question.ask(

@@ -1,12 +1,12 @@
 //! `meshsweep clearance`: poses of a second mesh in, its distance from the first one out.
 
-use crate::args::{ClearanceArgs, MovedArgs};
+use crate::args::{ClearanceArgs, MoveKind, MovedArgs};
 use crate::ask::{self, Answer, Question, verdict_name, write_numbers, write_pair};
 use crate::failure::Failure;
 use crate::poses::{self, AskPoses};
 use crate::queries::Queries;
 use crate::{blob_file, served};
-use meshsweep_core::{BuildFor, Bvh, Interval, Pose};
+use meshsweep_core::{BuildFor, Bvh, Interval, Motion, Pose};
 
 pub fn run(args: &ClearanceArgs) -> Result<(), Failure> {
     let MovedArgs { first, second, .. } = &args.input;
@@ -30,6 +30,9 @@ impl AskPoses for Clearance<'_> {
         poses: Queries<N>,
         pose_of: fn([f32; N]) -> Pose,
     ) -> Result<(), Failure> {
+        if let Some(kind) = self.args.moves {
+            return self.ask_moves(kind, poses, pose_of);
+        }
         match self.args.within {
             Some(distance) => self.ask_within(distance, poses, pose_of),
             None => self.ask_distance(poses, pose_of),
@@ -87,4 +90,59 @@ impl Clearance<'_> {
             },
         )
     }
+
+    fn ask_moves<const N: usize>(
+        self,
+        kind: MoveKind,
+        poses: Queries<N>,
+        pose_of: fn([f32; N]) -> Pose,
+    ) -> Result<(), Failure> {
+        let Clearance { args: ClearanceArgs { search, within, .. }, trees: [first, second] } = self;
+        let keep = within.unwrap_or(0.0);
+        let moves = poses.moves(|from, to| both(pose_of(from), pose_of(to)))?;
+        let header = "move,clear,t,ax,ay,az,bx,by,bz,first,second,work";
+        Question::new(header, moves, search).ask(
+            || {
+                let mut scratch = search.scratch(Bvh::DISTANCE_ENTRIES);
+                move |row: [f32; 24]| {
+                    let [from, to] = apart(&row);
+                    let motion = match kind {
+                        MoveKind::Straight => Motion::straight(from, to),
+                        MoveKind::Screw => Motion::screw(from, to)?,
+                    };
+                    let budget = search.budget();
+                    let found =
+                        first.first_contact_of(&second, &motion, keep, budget, &mut scratch)?;
+                    Ok(Answer { found, ended: found.ended, work: found.work })
+                }
+            },
+            |out, query, _, Answer { found, work, .. }| {
+                if found.is_clear() {
+                    write!(out, "{query},yes,,,,,,,,")?;
+                    return write_pair(out, None, *work);
+                }
+                let [[ax, ay, az], [bx, by, bz]] = found.points;
+                write!(out, "{query},undecided,")?;
+                write_numbers(out, &[found.clear_until, ax, ay, az, bx, by, bz])?;
+                write_pair(out, Some(found.triangles), *work)
+            },
+        )
+    }
+}
+
+/// Two poses as one row: matrices, then translations.
+fn both(from: Pose, to: Pose) -> [f32; 24] {
+    let mut numbers = [from, to]
+        .into_iter()
+        .flat_map(|pose| pose.rotation.into_iter().flatten().chain(pose.translation));
+    std::array::from_fn(|_| numbers.next().unwrap_or_default())
+}
+
+/// The poses of such a row.
+fn apart(row: &[f32; 24]) -> [Pose; 2] {
+    let pose = |at: usize| {
+        let triple = |k: usize| [0, 1, 2].map(|i| row[at + 3 * k + i]);
+        Pose { rotation: [0, 1, 2].map(triple), translation: triple(3) }
+    };
+    [pose(0), pose(12)]
 }

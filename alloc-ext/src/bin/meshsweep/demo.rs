@@ -3,7 +3,7 @@
 use crate::describe;
 use crate::failure::{Failure, Place};
 use crate::output::Output;
-use crate::signed::name;
+use crate::side::name;
 use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::mesh;
 use meshsweep_core::{Budget, Bvh, Ended, Facing, Interval, ScratchEntry};

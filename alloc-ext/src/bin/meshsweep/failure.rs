@@ -256,7 +256,7 @@ impl fmt::Display for Failure {
             Failure::NotClosed { file } => write!(
                 f,
                 "{}: was built from a mesh that is not closed, so inside and outside are not \
-                 defined; leave out --signed",
+                 defined; build it --for winding, or leave out --signed",
                 file.display()
             ),
             Failure::GridTooLarge { file } => write!(

@@ -9,7 +9,7 @@ use crate::ask::threads;
 use crate::failure::Failure;
 use crate::output::{Output, refuse_same_file};
 use crate::progress::Bar;
-use crate::{blob_file, describe, served};
+use crate::{blob_file, describe, served, side};
 use lattice::Lattice;
 use meshsweep::counted::Counted;
 use meshsweep_core::{BuildFor, QueryError};
@@ -36,7 +36,7 @@ pub fn run(args: &FieldArgs) -> Result<(), Failure> {
     refuse_same_file(Some(&args.output), &[&args.blob])?;
     let blob = blob_file::open(&args.blob)?;
     let tree = served::require_tree(&args.blob, &blob, BuildFor::Closest)?;
-    if args.signed && !tree.is_closed() {
+    if args.signed && !side::has_sides(&tree) {
         return Err(Failure::NotClosed { file: args.blob.clone() });
     }
     let bounds = describe::surface_box(&blob);

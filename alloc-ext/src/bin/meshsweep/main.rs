@@ -53,9 +53,11 @@ mod queries;
 mod refine;
 mod segment;
 mod served;
+mod side;
 mod signed;
 mod tribox;
 mod unmet;
+mod winding;
 mod within;
 
 use args::{Arguments, Command};
@@ -78,6 +80,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Within(args)) => within::run(&args),
         Some(Command::Nearest(args)) => nearest::run(&args),
         Some(Command::Signed(args)) => signed::run(&args),
+        Some(Command::Winding(args)) => winding::run(&args),
         Some(Command::Overlap(args)) => overlap::run(&args),
         Some(Command::Clear(args)) => clear::run(&args),
         Some(Command::Clearance(args)) => clearance::run(&args),

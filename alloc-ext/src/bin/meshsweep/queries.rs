@@ -147,18 +147,18 @@ impl<const N: usize> Queries<N> {
     }
 }
 
-impl Queries<3> {
-    /// The moves from each place to the next one. A move came from where its start did.
+impl<const N: usize> Queries<N> {
+    /// The moves from each row to the next one, as `move_of` gives them. A move came from where its
+    /// start did.
     ///
     /// # Errors
-    /// There is one place alone.
-    pub fn moves(self) -> Result<Queries<6>, Failure> {
-        let rows: Vec<[f32; 6]> = self
-            .rows
-            .iter()
-            .zip(self.rows.iter().skip(1))
-            .map(|(&[ax, ay, az], &[bx, by, bz])| [ax, ay, az, bx, by, bz])
-            .collect();
+    /// There is one row alone.
+    pub fn moves<const M: usize>(
+        self,
+        move_of: impl Fn([f32; N], [f32; N]) -> [f32; M],
+    ) -> Result<Queries<M>, Failure> {
+        let pairs = self.rows.iter().zip(self.rows.iter().skip(1));
+        let rows: Vec<[f32; M]> = pairs.map(|(&from, &to)| move_of(from, to)).collect();
         let Self { sources, broken, .. } = self;
         if rows.is_empty() {
             let what = "a path needs two places or more".to_owned();

@@ -1,6 +1,7 @@
 //! Which questions a blob answers, and by which of its structures.
 
 use crate::failure::Failure;
+use crate::side;
 use meshsweep_core::{
     Blob, Budget, BuildFor, Bvh, FrameHull, Hull, Overlap, Overlaps, Pose, QueryError,
     ScratchEntry, TightHull, TrianglePair,
@@ -11,13 +12,14 @@ use std::path::Path;
 type Serves = fn(&Blob<'_>) -> bool;
 
 /// The questions, by the names of the commands.
-const QUESTIONS: [(&str, Serves); 16] = [
+const QUESTIONS: [(&str, Serves); 17] = [
     ("closest", |blob| has_distances(blob) || blob.hull().is_ok() || blob.curve().is_ok()),
     ("closest --frame", |blob| blob.deformable_hull().is_ok()),
     ("within", |blob| has_distances(blob) || blob.curve().is_ok()),
     ("nearest", knows_triangles),
     ("field", knows_triangles),
-    ("signed", |blob| tree(blob, BuildFor::Closest).is_some_and(|tree| tree.is_closed())),
+    ("signed", |blob| tree(blob, BuildFor::Closest).is_some_and(|tree| side::has_sides(&tree))),
+    ("winding", |blob| tree(blob, BuildFor::Winding).is_some()),
     ("segment", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
     ("overlap", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
     ("clear", |blob| tree(blob, BuildFor::Segment).is_some()),
@@ -61,6 +63,7 @@ fn tree<'a>(blob: &Blob<'a>, build_for: BuildFor) -> Option<Bvh<'a>> {
         BuildFor::Closest => tree.serves_distances(),
         BuildFor::Segment => tree.serves_segments(),
         BuildFor::Cull => tree.serves_culling(),
+        BuildFor::Winding => tree.serves_winding(),
         _ => false,
     })
 }
@@ -80,6 +83,7 @@ fn not_served(
         BuildFor::Closest => "box tree for distances",
         BuildFor::Segment => "box tree for segments",
         BuildFor::Cull => "box tree with normal cones",
+        BuildFor::Winding => "box tree with moments",
         BuildFor::Hull => "hull hierarchy",
         BuildFor::Triboxes => "triboxes",
         BuildFor::Tight => "tight hulls",

@@ -5,8 +5,9 @@ use crate::ask::{Answer, Question, write_end, write_numbers};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
+use crate::side::{has_sides, name, reason, signed_distance};
 use crate::{blob_file, served};
-use meshsweep_core::{BuildFor, Interval, Side, SignedDistance, Undecided};
+use meshsweep_core::{BuildFor, Interval, SignedDistance};
 use std::io::{self, Write};
 
 pub fn run(args: &SignedArgs) -> Result<(), Failure> {
@@ -18,7 +19,7 @@ pub fn run(args: &SignedArgs) -> Result<(), Failure> {
         || {
             let mut scratch = search.scratch(tree.scratch_entries());
             move |point| {
-                let found = tree.signed_distance(point, search.budget(), &mut scratch)?;
+                let found = signed_distance(&tree, point, search.budget(), &mut scratch)?;
                 Ok(Answer { found, ended: found.closest.ended, work: found.closest.work })
             }
         },
@@ -31,35 +32,14 @@ pub fn run(args: &SignedArgs) -> Result<(), Failure> {
             write_end(out, closest.triangle, work)
         },
     )?;
-    if !tree.is_closed() {
+    if !has_sides(&tree) {
         // A closed standard error does not withhold the answers.
         let _ = writeln!(
             io::stderr(),
             "{}: was built from a mesh that is not closed, so every side is undecided; distances \
-             hold",
+             hold; build it --for winding",
             file.display()
         );
     }
     Ok(())
-}
-
-/// The side in a word.
-pub fn name(side: Side) -> &'static str {
-    match side {
-        Side::Outside => "outside",
-        Side::Inside => "inside",
-        _ => "undecided",
-    }
-}
-
-/// Why a side is undecided, in a word or two; nothing if it is not.
-pub fn reason(side: Side) -> &'static str {
-    match side {
-        Side::Outside | Side::Inside => "",
-        Side::Undecided(Undecided::OpenMesh) => "open mesh",
-        Side::Undecided(Undecided::Steps) => "out of steps",
-        Side::Undecided(Undecided::Scratch) => "out of scratch memory",
-        Side::Undecided(Undecided::OnSurface) => "at the surface",
-        _ => "rounding",
-    }
 }

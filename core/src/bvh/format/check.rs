@@ -6,6 +6,7 @@ use super::layout::{
     SOURCE_PADDING, boxes, lengthens_nothing,
 };
 use super::leaf::{FanLeaf, LeafShape};
+use super::moments::NodeMoments;
 use super::units::Units;
 use super::view::Bvh;
 use crate::format::layout::SectionKind;
@@ -78,6 +79,7 @@ impl<'a> Bvh<'a> {
             fans: &[],
             source: Bytes(&[]),
             cones: &[],
+            moments: &[],
         };
         let wants = |kind: SectionKind| kind.is_bvh();
         place_sections(&header, Bytes(bytes), check, wants, |index, kind, data| {
@@ -90,6 +92,7 @@ impl<'a> Bvh<'a> {
                 SectionKind::TreeFans => (tree.fans, rest) = (data, &[]),
                 SectionKind::TreeSource => (tree.source, rest) = (Bytes(data), &[]),
                 SectionKind::TreeCones => (tree.cones, rest) = data.as_chunks(),
+                SectionKind::TreeMoments => (tree.moments, rest) = data.as_chunks(),
                 _ => rest = &[],
             }
             if rest.is_empty() { Ok(()) } else { Err(OpenError::Section { index }) }
@@ -107,6 +110,7 @@ impl<'a> Bvh<'a> {
         self.check_counts()?;
         self.check_nodes()?;
         self.check_boxes()?;
+        self.check_moments()?;
         self.check_source()
     }
 
@@ -154,6 +158,9 @@ impl<'a> Bvh<'a> {
         }
         if !self.cones.is_empty() && self.cones.len() != h.leaves as usize {
             return missing(SectionKind::TreeCones);
+        }
+        if !self.moments.is_empty() && self.moments.len() != nodes {
+            return missing(SectionKind::TreeMoments);
         }
         let padding = FAN_PADDING / 6 * h.vertex_bytes();
         let zero = |bytes: Option<&[u8]>| bytes.is_some_and(|b| b.iter().all(|&b| b == 0));
@@ -278,6 +285,14 @@ impl<'a> Bvh<'a> {
             }
         }
         Ok(())
+    }
+
+    fn check_moments(&self) -> Result<(), OpenError> {
+        let sound = |record| NodeMoments::read(record).is_sound();
+        match (0u32..).zip(self.moments).find(|(_, record)| !sound(record)) {
+            None => Ok(()),
+            Some((index, _)) => Err(OpenError::Record { section: SectionKind::TreeMoments, index }),
+        }
     }
 
     fn check_leaf(&self, leaf: &FanLeaf<'_>, index: u32) -> Result<(), OpenError> {

@@ -36,6 +36,8 @@ pub const SOURCE_ENTRY_BYTES: usize = 8;
 pub const SOURCE_PADDING: usize = 8;
 /// Bytes of a leaf's normal cone.
 pub const CONE_BYTES: usize = 4;
+/// Bytes of a node's moments.
+pub const MOMENTS_BYTES: usize = 60;
 /// Tree flag: every edge belongs to two triangles that run through it in opposite directions, so
 /// that the sign of a distance is defined.
 pub const BVH_CLOSED: u8 = 1;

@@ -9,6 +9,7 @@
 //! | `leaf` | [`FanLeaf`]: one or two fans where they lie |
 //! | `leaf_lanes` | a leaf's fans a register at a time, on vector targets |
 //! | `cone` | the bytes of a leaf's normal cone |
+//! | `moments` | the bytes of a node's moments |
 //! | `check` | the check of `Bvh::open` |
 
 mod check;
@@ -18,6 +19,7 @@ pub mod layout;
 mod leaf;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod leaf_lanes;
+mod moments;
 mod units;
 mod view;
 
@@ -25,5 +27,6 @@ pub use header::BvhHeader;
 pub use leaf::{CORNERS, FanLeaf, GridRing, LeafShape, RING, lanes_of, slots};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub(crate) use leaf_lanes::LanePoint;
+pub use moments::NodeMoments;
 pub(crate) use units::{Units, at_least, at_most};
 pub use view::{Bvh, BvhChild, Links};

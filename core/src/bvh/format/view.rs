@@ -6,9 +6,11 @@
 
 use super::header::BvhHeader;
 use super::layout::{
-    BOXES_BYTES, CONE_BYTES, FRAME_BYTES, LINK_BYTES, SOURCE_BLOCK, SOURCE_ENTRY_BYTES,
+    BOXES_BYTES, CONE_BYTES, FRAME_BYTES, LINK_BYTES, MOMENTS_BYTES, SOURCE_BLOCK,
+    SOURCE_ENTRY_BYTES,
 };
 use super::leaf::{FanLeaf, LeafShape};
+use super::moments::NodeMoments;
 use super::units::Units;
 use crate::format::Bytes;
 use crate::num::sum_up;
@@ -32,6 +34,7 @@ pub struct Bvh<'a> {
     pub(crate) fans: &'a [u8],
     pub(crate) source: Bytes<'a>,
     pub(crate) cones: &'a [[u8; CONE_BYTES]],
+    pub(crate) moments: &'a [[u8; MOMENTS_BYTES]],
 }
 
 /// Links to the children of a node: inner nodes first, then leaves.
@@ -243,6 +246,11 @@ impl Bvh<'_> {
     pub fn serves_culling(&self) -> bool {
         !self.cones.is_empty()
     }
+
+    /// Whether the tree was built for [`winding_number`](Bvh::winding_number).
+    pub fn serves_winding(&self) -> bool {
+        !self.moments.is_empty()
+    }
 }
 
 /// The records, for the builder and the checker.
@@ -291,6 +299,11 @@ impl<'a> Bvh<'a> {
     /// Normal cone of a leaf, leaves counted in the order of nodes.
     pub fn cone(&self, leaf: u32) -> Option<[u8; CONE_BYTES]> {
         self.cones.get(leaf as usize).copied()
+    }
+
+    /// Moments of the triangles below a node.
+    pub fn moments(&self, node: u32) -> Option<NodeMoments> {
+        self.moments.get(node as usize).map(NodeMoments::read)
     }
 
     /// Child number `index` of `node`.

@@ -1,10 +1,10 @@
 //! Where a model that moves first comes near another one.
 
 use crate::bvh::format::Bvh;
-use crate::geom::Pose;
-use crate::num::tolerance::{ADVANCE_KEPT, U32, U64};
+use crate::bvh::input_box::corners_of_input;
+use crate::num::tolerance::ADVANCE_KEPT;
 use crate::num::{down_to_f32, greater};
-use crate::query::{Budget, Ended, PairContact, QueryError, ScratchEntry, Work};
+use crate::query::{Budget, Ended, Motion, PairContact, QueryError, ScratchEntry, Work};
 
 /// Most distances of a search. Near contact each gains a part of the gap that is left.
 const MOST_ADVANCES: u32 = 512;
@@ -13,13 +13,8 @@ const MOST_ADVANCES: u32 = 512;
 const LEAST_ADVANCE: f64 = 1.0 / (1u64 << 25) as f64;
 
 impl Bvh<'_> {
-    /// Where the surface of `other`, which moves from the pose `from` to the pose `to`, first comes
-    /// within `keep` of the surface of this tree.
-    ///
-    /// Each point of `other` goes along a straight line from its place in `from` to its place in
-    /// `to`, all at a steady pace: the entries of both poses are mixed. So two poses with the same
-    /// rotation are a translation. Of a rotation it is the chord: split it into pieces of an angle
-    /// φ, and add r·φ²/8 to `keep` of each, r the distance of the farthest point from the axis.
+    /// Where the surface of `other` first comes within `keep` of the surface of this tree during a
+    /// [`Motion`] along straight lines or along a screw.
     ///
     /// Before `clear_until` the surfaces of the input meshes are proved to be farther than `keep`
     /// apart, at every instant. If [`is_clear`](PairContact::is_clear), they are during the whole
@@ -34,12 +29,12 @@ impl Bvh<'_> {
     /// other.
     ///
     /// ```
-    /// use meshsweep_core::{Budget, Bvh, Pose, Scratch};
+    /// use meshsweep_core::{Budget, Bvh, Motion, Pose, Scratch};
     /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
     /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<{ Bvh::DISTANCE_ENTRIES }>::new());
     /// let at = |x: f32| Pose { translation: [x, 0.0, 300.0], ..Pose::IDENTITY };
-    /// let ends = [at(-400.0), at(400.0)];
-    /// let found = part.first_contact_of(&part, ends, 2.0, Budget::EXACT, &mut scratch)?;
+    /// let motion = Motion::screw(at(-400.0), at(400.0))?;
+    /// let found = part.first_contact_of(&part, &motion, 2.0, Budget::EXACT, &mut scratch)?;
     /// assert!(found.is_clear());
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
@@ -52,20 +47,17 @@ impl Bvh<'_> {
     pub fn first_contact_of(
         &self,
         other: &Bvh<'_>,
-        [from, to]: [Pose; 2],
+        motion: &Motion,
         keep: f32,
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<PairContact, QueryError> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(keep).check()?;
-        let is_finite = |pose: &Pose| {
-            pose.rotation.iter().flatten().chain(&pose.translation).all(|x| x.is_finite())
-        };
-        if !(is_finite(&from) && is_finite(&to)) {
+        if !motion.is_finite() {
             return Err(QueryError::NotFinite);
         }
-        let Course { quickest, rounding } = Course::of(other, &from, &to);
+        let (quickest, rounding) = quickest(other, motion);
         let mut contact = PairContact {
             clear_until: 0.0,
             points: [[0.0; 3]; 2],
@@ -76,7 +68,7 @@ impl Bvh<'_> {
         let mut t = 0.0;
         for _ in 0..MOST_ADVANCES {
             let steps = budget.steps.saturating_sub(contact.work.splits);
-            let pose = between(&from, &to, t);
+            let pose = motion.at_time(t);
             let budget = Budget::EXACT.with_steps(steps);
             let found = self.distance(other, pose, budget, scratch)?;
             contact.work = contact.work.and(found.work);
@@ -104,70 +96,12 @@ impl Bvh<'_> {
     }
 }
 
-/// How the points of a model move, input units.
-struct Course {
-    /// No point goes farther during the whole motion.
-    quickest: f64,
-    /// How far a point may be from its place at a pose that was rounded to f32.
-    rounding: f64,
-}
-
-impl Course {
-    fn of(tree: &Bvh<'_>, from: &Pose, to: &Pose) -> Course {
-        let [low, high] = tree.bounds();
-        let error = f64::from(tree.surface_error());
-        let mut course = Course { quickest: 0.0, rounding: 0.0 };
-        // How far a point goes is a convex function of the point: a corner goes farthest.
-        for corner in 0..8u32 {
-            let side = |axis: u32, low: f32, high: f32| {
-                // The box is of stored vertices, and rounded.
-                let grown = |x: f32| error + f64::from(x).abs() * f64::from(U32);
-                if corner >> axis & 1 == 0 {
-                    f64::from(low) - grown(low)
-                } else {
-                    f64::from(high) + grown(high)
-                }
-            };
-            let (mut way_sq, mut rounding) = (0.0, 0.0);
-            let starts = from.rotation.iter().zip(&from.translation);
-            let ends = to.rotation.iter().zip(&to.translation);
-            for ((row, shift), (end_row, end_shift)) in starts.zip(ends) {
-                let mut way = difference(*shift, *end_shift);
-                let mut far = most(*shift, *end_shift);
-                let entries = row.iter().zip(end_row).zip(low.iter().zip(&high));
-                for (axis, ((a, b), (low, high))) in (0u32..).zip(entries) {
-                    let x = side(axis, *low, *high);
-                    way += difference(*a, *b) * x;
-                    far += most(*a, *b) * x.abs();
-                }
-                // Terms that cancel are rounded in proportion to their sizes.
-                let way = way.abs() + far * (16.0 * U64);
-                way_sq += way * way;
-                rounding += far * (f64::from(U32) * (1.0 + 16.0 * U64));
-            }
-            let way = libm::sqrt(way_sq) * (1.0 + 16.0 * U64);
-            course.quickest = greater(course.quickest, way);
-            course.rounding = greater(course.rounding, rounding);
-        }
-        course
-    }
-}
-
-fn difference(a: f32, b: f32) -> f64 {
-    f64::from(b) - f64::from(a)
-}
-
-/// The greater size, and no less than what an f32 may lose by underflow.
-fn most(a: f32, b: f32) -> f64 {
-    greater(f64::from(a).abs(), f64::from(b).abs()) + f64::from(f32::MIN_POSITIVE)
-}
-
-/// The entries of two poses, mixed.
-fn between(from: &Pose, to: &Pose, t: f64) -> Pose {
-    let mix = |a: f32, b: f32| (f64::from(a) + difference(a, b) * t) as f32;
-    let mut pose = *from;
-    let entries = pose.rotation.iter_mut().flatten().zip(to.rotation.iter().flatten());
-    entries.for_each(|(x, to)| *x = mix(*x, *to));
-    pose.translation.iter_mut().zip(&to.translation).for_each(|(x, to)| *x = mix(*x, *to));
-    pose
+/// How far a point of a model goes at most, and how far it may be from its place at a pose that was
+/// rounded to f32. Input units.
+fn quickest(tree: &Bvh<'_>, motion: &Motion) -> (f64, f64) {
+    // Both are convex functions of the point: a corner goes farthest.
+    corners_of_input(tree).fold((0.0, 0.0), |(quickest, rounding), corner| {
+        let (way, off) = motion.way_of(corner);
+        (greater(quickest, way), greater(rounding, off))
+    })
 }

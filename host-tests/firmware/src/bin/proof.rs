@@ -141,6 +141,14 @@ ask! {
         let motion = [ends(input), [input.b, input.a]];
         apart::contact(tree, motion, input.b[0], scratch, &mut Asked::new((), fold))
     };
+    ask_apart_winding: apart::Apart<'t>, |tree, input, scratch, fold| {
+        apart::winding(tree, input.a, scratch, &mut Asked::new((), fold))
+    };
+    ask_apart_scene: apart::Apart<'t>, |tree, input, scratch, fold| {
+        let pose = tree::pose(motion(input));
+        let poses = [pose, pose, tree::pose(motion(input))];
+        apart::scene(tree, poses, input.b[0], scratch, &mut Asked::new((), fold))
+    };
     ask_tree_all_overlaps: tree::Bvh<'t>, |tree, input, scratch, fold| {
         tree::all_overlaps(tree, tree::pose(motion(input)), scratch, &mut Asked::new((), fold))
     };

@@ -10,6 +10,7 @@
 //!                         ├─ tree     (all of the box tree) ┤
 //!                         ├─ overlap  (mesh against mesh) ──┤
 //!                         ├─ motion   (a capsule that moves)┤
+//!                         ├─ winding  (inside or outside) ──┤
 //!                         ├─ deform   (hulls that deform) ─┤
 //!                         ├─ triboxes (their hierarchies) ──┤
 //!                         ├─ tight    (tight hulls, drawn) ─┤
@@ -37,6 +38,7 @@ mod table_3;
 pub mod tight;
 mod tree;
 pub mod triboxes;
+mod winding;
 
 use meshsweep_core::Blob;
 use std::path::Path;
@@ -94,6 +96,15 @@ pub fn measure_overlap(file: &Path) -> Result<Vec<Table>, String> {
 pub fn measure_motion(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     Ok(vec![subject_table(&subject), motion::table(&subject)?])
+}
+
+/// Measures winding numbers of one mesh file, which need not be closed.
+///
+/// # Errors
+/// The file is no mesh, or an answer is wrong.
+pub fn measure_winding(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load_any(file)?;
+    Ok(vec![subject_table(&subject), winding::table(&subject)?])
 }
 
 /// Measures the hull hierarchy of one mesh file under motions.

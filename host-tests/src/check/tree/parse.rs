@@ -71,6 +71,19 @@ pub(super) struct Slabs {
     pub(super) step: [f32; 3],
 }
 
+/// Moments of a node, grid units.
+#[derive(Clone, Debug)]
+pub(super) struct Moments {
+    pub(super) centre: [f32; 3],
+    pub(super) radius: f32,
+    pub(super) area: [f32; 3],
+    /// xx, xy, xz, yy, yz.
+    pub(super) first: [f32; 5],
+    pub(super) spread: f32,
+    pub(super) area_error: f32,
+    pub(super) boundary: f32,
+}
+
 /// All that the sections hold.
 #[derive(Clone, Debug)]
 pub(super) struct TreeBlob {
@@ -91,6 +104,8 @@ pub(super) struct TreeBlob {
     pub(super) frames: Vec<Boxes>,
     /// Empty or one for each node.
     pub(super) slabs: Vec<Slabs>,
+    /// Empty or one for each node.
+    pub(super) moments: Vec<Moments>,
     /// For each triangle its number in the input.
     pub(super) source: Vec<u32>,
 }
@@ -181,6 +196,7 @@ impl TreeBlob {
         }
         let frames = records(section(bytes, 14, "frames")?, 76, nodes, "frames")?;
         let slabs = records(section(bytes, 15, "boxes")?, 72, nodes, "boxes")?;
+        let moments = records(section(bytes, 24, "moments")?, 60, nodes, "moments")?;
         let tree = Self {
             scale_exponent: at(28)?.cast_signed(),
             input_triangles: at(84)?,
@@ -192,6 +208,18 @@ impl TreeBlob {
             reach: f64::from(float(head, 44)),
             nodes: read,
             leaves,
+            moments: moments
+                .into_iter()
+                .map(|record| Moments {
+                    centre: floats(record, 0),
+                    radius: float(record, 12),
+                    area: floats(record, 16),
+                    first: [28, 32, 36, 40, 44].map(|at| float(record, at)),
+                    spread: float(record, 48),
+                    area_error: float(record, 52),
+                    boundary: float(record, 56),
+                })
+                .collect(),
             frames: frames
                 .into_iter()
                 .map(|record| {

@@ -1,8 +1,8 @@
-//! Questions to a box tree about other bodies: how far they are, and where they first meet it. They
-//! have an image of their own, because all questions together are more than the flash of the
-//! smallest board.
+//! Questions to a box tree about other bodies: how far they are, and where they first meet it; and
+//! its winding numbers. They have an image of their own, because all questions together are more
+//! than the flash of the smallest board.
 
-use meshsweep_core::{Budget, Bvh, FirstHit, Pose, QueryError, Solid};
+use meshsweep_core::{Budget, Bvh, FirstHit, Motion, Placed, Pose, QueryError, Scene, Solid};
 
 use super::{Asked, Refused, Subject, tree};
 use crate::fold::Fold;
@@ -32,7 +32,7 @@ impl<'t> Subject<'t> for Apart<'t> {
     }
 
     fn suits(kind: Kind) -> bool {
-        matches!(kind, Kind::PairDistance | Kind::Solid | Kind::Contact)
+        asks(kind)
     }
 
     fn ask(
@@ -55,9 +55,65 @@ impl<'t> Subject<'t> for Apart<'t> {
                 let motion = [[start, place.near(start)], [end, place.near(end)]];
                 contact(self, motion, place.distance(), scratch, to);
             }
+            Kind::Winding => winding(self, place.far(), scratch, to),
+            Kind::Scene => {
+                let poses = [place.motion(), place.motion(), place.motion()];
+                scene(self, poses.map(tree::pose), place.distance(), scratch, to);
+            }
             _ => {}
         }
     }
+}
+
+/// Whether these questions are asked here, and not by the image of the other ones.
+pub(super) fn asks(kind: Kind) -> bool {
+    matches!(kind, Kind::PairDistance | Kind::Solid | Kind::Contact | Kind::Winding | Kind::Scene)
+}
+
+/// Which two of three moved copies are nearest, and whether any two are within a distance.
+#[inline(never)]
+pub fn scene(
+    Apart(tree): &Apart<'_>,
+    poses: [Pose; 3],
+    distance: f32,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Clock>,
+) {
+    let models = poses.map(|pose| Placed { tree: *tree, pose });
+    let scene = Scene::new(&models);
+    let budget = Budget::EXACT.with_steps(STEPS);
+    to.answer(
+        || scene.nearest_pair(|_, _| true, budget, scratch),
+        |fold, answer| {
+            fold.f32(answer.distance.lower);
+            fold.f32(answer.distance.upper);
+            answer.points.into_iter().for_each(|point| fold.point(point));
+            answer.triangles.into_iter().for_each(|number| fold.word(number));
+            super::how(fold, answer.work, answer.ended);
+        },
+    );
+    to.answer(
+        || scene.within(distance, |_, _| true, budget, scratch),
+        |fold, answer| super::verdict(fold, answer.work, answer.verdict),
+    );
+}
+
+/// How often the surface encloses a point.
+#[inline(never)]
+pub fn winding(
+    Apart(tree): &Apart<'_>,
+    point: [f32; 3],
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Clock>,
+) {
+    to.answer(
+        || tree.winding_number(point, Budget::EXACT, scratch),
+        |fold, answer| {
+            fold.f32(answer.number.lower);
+            fold.f32(answer.number.upper);
+            super::how(fold, answer.work, answer.ended);
+        },
+    );
 }
 
 /// Pairs of nodes that a search for the distance may open.
@@ -91,8 +147,14 @@ pub fn distance(
         );
         let mut end = pose;
         end.translation = found.points[0];
+        // A quarter of a turn farther.
+        let [x, y, z] = pose.rotation;
+        end.rotation = [y.map(|entry| -entry), x, z];
         to.answer(
-            || tree.first_contact_of(tree, [pose, end], half, budget, scratch),
+            || {
+                let motion = Motion::screw(pose, end)?;
+                tree.first_contact_of(tree, &motion, half, budget, scratch)
+            },
             |fold, answer| {
                 fold.f32(answer.clear_until);
                 answer.triangles.into_iter().for_each(|number| fold.word(number));

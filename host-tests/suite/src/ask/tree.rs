@@ -81,7 +81,7 @@ impl<'t> Subject<'t> for Bvh<'t> {
 
     fn suits(kind: Kind) -> bool {
         let is_of_others = kind.is_triboxes() || kind.is_deform();
-        let is_apart = matches!(kind, Kind::PairDistance | Kind::Solid | Kind::Contact);
+        let is_apart = super::apart::asks(kind);
         let is_hull = matches!(kind, Kind::OuterHits | Kind::Refine | Kind::Sweep | Kind::Posed);
         !is_apart && !is_hull && !is_of_others
     }

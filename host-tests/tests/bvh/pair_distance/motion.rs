@@ -1,19 +1,87 @@
 //! A model that moves keeps its distance as long as is said, and no much longer.
 
 use super::held::truth;
-use meshsweep_core::{Budget, Bvh, Ended, PairContact, Pose, QueryError, ScratchEntry};
+use meshsweep_core::{Budget, Bvh, Ended, Motion, PairContact, Pose, QueryError, ScratchEntry};
 use meshsweep_host_tests::generate::corpus::IDENTITY;
 use meshsweep_host_tests::generate::{Rng, cube, rough_sphere, torus};
 use meshsweep_host_tests::motion::{motions, placed, rotation};
 use meshsweep_host_tests::scene::Scene;
 
-fn ask(a: &Bvh<'_>, b: &Bvh<'_>, ends: [Pose; 2], keep: f32, budget: Budget) -> PairContact {
+fn ask(a: &Bvh<'_>, b: &Bvh<'_>, motion: &Motion, keep: f32, budget: Budget) -> PairContact {
     let mut stack = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
-    a.first_contact_of(b, ends, keep, budget, &mut stack).expect("answers")
+    a.first_contact_of(b, motion, keep, budget, &mut stack).expect("answers")
 }
 
-/// The pose at a part of the motion, rounded.
-fn at(ends: &[Pose; 2], t: f64) -> Pose {
+/// A motion, and its pose at a time, rounded.
+struct Course<'a> {
+    motion: Motion,
+    at: Box<dyn Fn(f64) -> Pose + 'a>,
+}
+
+fn straight(ends: [Pose; 2]) -> Course<'static> {
+    let [from, to] = ends;
+    Course { motion: Motion::straight(from, to), at: Box::new(move |t| mixed(&ends, t)) }
+}
+
+type Point = [f64; 3];
+
+/// A screw about an axis through a point: an angle and a way along it.
+struct Screw {
+    axis: Point,
+    through: Point,
+    angle: f64,
+    along: f64,
+}
+
+impl Screw {
+    /// A point after a part of the screw, by its parts along and across the axis.
+    fn moved(&self, p: Point, t: f64) -> Point {
+        let n = self.axis;
+        let v: Point = [0, 1, 2].map(|k| p[k] - self.through[k]);
+        let height: f64 = (0..3).map(|k| n[k] * v[k]).sum();
+        let across: Point = [0, 1, 2].map(|k| v[k] - height * n[k]);
+        let beside = [
+            n[1] * across[2] - n[2] * across[1],
+            n[2] * across[0] - n[0] * across[2],
+            n[0] * across[1] - n[1] * across[0],
+        ];
+        let (sine, cosine) = (t * self.angle).sin_cos();
+        let height = height + t * self.along;
+        let turned = |k: usize| cosine * across[k] + sine * beside[k] + height * n[k];
+        [0, 1, 2].map(|k| self.through[k] + turned(k))
+    }
+
+    /// A pose after a part of the screw: where the frame's origin and the ends of its axes are.
+    fn pose(&self, from: &Pose, t: f64) -> Pose {
+        let origin = from.translation.map(f64::from);
+        let end = |k: usize| [0, 1, 2].map(|i: usize| origin[i] + f64::from(from.rotation[i][k]));
+        let at = self.moved(origin, t);
+        let ends = [0, 1, 2].map(|k| self.moved(end(k), t));
+        Pose {
+            rotation: [0, 1, 2]
+                .map(|i: usize| [0, 1, 2].map(|k: usize| (ends[k][i] - at[i]) as f32)),
+            translation: at.map(|x| x as f32),
+        }
+    }
+
+    fn random(rng: &mut Rng, size: f32) -> Self {
+        let axis = rng.direction().map(f64::from);
+        let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+        Self {
+            axis: axis.map(|x| x / length),
+            through: rng.direction().map(|x| f64::from(x * size)),
+            angle: f64::from(rng.range(0.0, 3.0)) * [1.0, 1e-3, 1e-7, 0.0][rng.below(4)],
+            along: f64::from(rng.range(-size, size)),
+        }
+    }
+}
+
+fn screwed(from: Pose, screw: &Screw) -> Course<'_> {
+    let motion = Motion::screw(from, screw.pose(&from, 1.0)).expect("rotations");
+    Course { motion, at: Box::new(move |t| screw.pose(&from, t)) }
+}
+
+fn mixed(ends: &[Pose; 2], t: f64) -> Pose {
     let mix = |a: f32, b: f32| (f64::from(a) * (1.0 - t) + f64::from(b) * t) as f32;
     let [from, to] = ends;
     Pose {
@@ -39,14 +107,21 @@ fn surfaces_keep_their_distance_as_long_as_is_said_and_not_much_longer() {
             let away =
                 |pose: &Pose| Pose { translation: pose.translation.map(|x| 2.5 * x), ..*pose };
             let passing = [&ends[0], &ends[1]].map(away);
-            for ends in [[ends[0], ends[1]], [ends[0], turned], passing] {
+            let screw = Screw::random(&mut rng, 3.0);
+            for course in [
+                straight([ends[0], ends[1]]),
+                straight([ends[0], turned]),
+                straight(passing),
+                screwed(ends[0], &screw),
+                screwed(passing[0], &screw),
+            ] {
                 for (first, second) in a.trees().iter().zip(b.trees()) {
-                    let found = ask(first, &second, ends, keep, Budget::EXACT);
+                    let found = ask(first, &second, &course.motion, keep, Budget::EXACT);
                     let until = f64::from(found.clear_until).min(1.0);
                     let slack = 1e-5 * (a.reach() + b.reach());
                     if until > 0.0 {
                         for part in [0.0, 0.1, 0.35, 0.6, 0.85, 0.99] {
-                            let truth = truth(a, b, &at(&ends, until * part));
+                            let truth = truth(a, b, &(course.at)(until * part));
                             assert!(truth.upper > f64::from(keep) - slack, "{found:?} {truth:?}");
                         }
                     }
@@ -55,7 +130,7 @@ fn surfaces_keep_their_distance_as_long_as_is_said_and_not_much_longer() {
                     if !found.is_clear() {
                         stopped += 1;
                         let errors = f64::from(first.surface_error() + second.surface_error());
-                        let near = truth(a, b, &at(&ends, until));
+                        let near = truth(a, b, &(course.at)(until));
                         let most = f64::from(keep) + 3.0 * errors + 10.0 * slack;
                         assert!(near.lower <= most, "{found:?} {near:?} {keep}");
                     }
@@ -77,7 +152,8 @@ fn a_wall_between_two_places_is_not_jumped_over() {
         let turn = rotation(&mut rng);
         let ends = [-40.0, 40.0].map(|x| placed(&ball, turn, [x, 0.1, 0.2]));
         for (first, second) in wall.trees().iter().zip(ball.trees()) {
-            let found = ask(first, &second, ends, 0.0, Budget::EXACT);
+            let found =
+                ask(first, &second, &Motion::straight(ends[0], ends[1]), 0.0, Budget::EXACT);
             assert!(found.clear_until < 0.5 && found.clear_until > 0.4, "{found:?}");
         }
     }
@@ -88,15 +164,73 @@ fn few_steps_and_bad_numbers_are_said() {
     let scene = Scene::both("", torus(2.0, 0.75, 24, 12));
     let [tree, _] = scene.trees();
     let at = |x: f32| Pose { rotation: IDENTITY, translation: [x, 0.0, 0.0] };
-    let ends = [at(-9.0), at(9.0)];
-    let found = ask(&tree, &tree, ends, 0.0, Budget::EXACT.with_steps(3));
+    let ends = Motion::straight(at(-9.0), at(9.0));
+    let found = ask(&tree, &tree, &ends, 0.0, Budget::EXACT.with_steps(3));
     assert!(found.ended == Ended::Steps && found.work.splits <= 3, "{found:?}");
-    let full = ask(&tree, &tree, ends, 0.0, Budget::EXACT);
+    let full = ask(&tree, &tree, &ends, 0.0, Budget::EXACT);
     assert!(found.clear_until <= full.clear_until, "{found:?} {full:?}");
     let mut stack = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
     let mut refused =
-        |ends, keep| tree.first_contact_of(&tree, ends, keep, Budget::EXACT, &mut stack);
-    assert_eq!(refused([at(0.0), at(f32::NAN)], 0.0), Err(QueryError::NotFinite));
+        |motion, keep| tree.first_contact_of(&tree, &motion, keep, Budget::EXACT, &mut stack);
+    assert_eq!(refused(Motion::straight(at(0.0), at(f32::NAN)), 0.0), Err(QueryError::NotFinite));
     assert_eq!(refused(ends, -1.0), Err(QueryError::Tolerance));
     assert_eq!(refused(ends, f32::INFINITY), Err(QueryError::Tolerance));
+}
+
+#[test]
+fn a_screw_between_two_poses_is_the_one_that_leads_from_one_to_the_other() {
+    let mut rng = Rng::new(4);
+    for _ in 0..2000 {
+        let screw = Screw::random(&mut rng, 10.0);
+        let from =
+            Pose { rotation: rotation(&mut rng), translation: rng.direction().map(|x| 20.0 * x) };
+        let Course { motion, at } = screwed(from, &screw);
+        assert_eq!(motion.at(0.0), from);
+        for part in [0.0, 0.25, 0.5, 0.9, 1.0] {
+            let (found, wanted) = (motion.at(part), at(f64::from(part)));
+            let numbers = |pose: &Pose| -> Vec<f32> {
+                pose.rotation.iter().flatten().chain(&pose.translation).copied().collect()
+            };
+            for (x, y) in numbers(&found).iter().zip(numbers(&wanted)) {
+                assert!((x - y).abs() < 2e-5, "{part} {found:?} {wanted:?}");
+            }
+        }
+    }
+}
+
+/// The ball swings about an axis from one side of a thin wall to the other. The chord of its way
+/// goes round the wall.
+#[test]
+fn a_wall_in_the_way_of_a_turn_is_found() {
+    let mut wall = cube(4);
+    wall.0.iter_mut().for_each(|p| *p = [1e-4 * p[0], p[1] + 8.0, p[2]]);
+    let (wall, ball) = (Scene::both("", wall), Scene::both("", rough_sphere(1, 0.3, 2)));
+    let at = |degrees: f32| {
+        let (s, c) = degrees.to_radians().sin_cos();
+        let rotation = [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]];
+        Pose { rotation, translation: [-8.0 * s, 8.0 * c, 0.0] }
+    };
+    let (from, to) = (at(-80.0), at(80.0));
+    for (first, second) in wall.trees().iter().zip(ball.trees()) {
+        let turn = Motion::screw(from, to).expect("rotations");
+        let found = ask(first, &second, &turn, 0.0, Budget::EXACT);
+        assert!(found.clear_until < 0.5 && found.clear_until > 0.3, "{found:?}");
+        let chord = Motion::straight(from, to);
+        assert!(ask(first, &second, &chord, 0.0, Budget::EXACT).is_clear());
+    }
+}
+
+#[test]
+fn what_is_no_rotation_has_no_screw() {
+    let mut mirror = Pose::IDENTITY;
+    mirror.rotation[0][0] = -1.0;
+    let mut large = Pose::IDENTITY;
+    large.rotation[1][1] = 1.01;
+    for other in [mirror, large] {
+        for (from, to) in [(Pose::IDENTITY, other), (other, Pose::IDENTITY)] {
+            assert_eq!(Motion::screw(from, to), Err(QueryError::PoseOutOfDomain));
+        }
+    }
+    let nan = Pose { translation: [0.0, f32::NAN, 0.0], ..Pose::IDENTITY };
+    assert_eq!(Motion::screw(nan, Pose::IDENTITY), Err(QueryError::NotFinite));
 }

@@ -115,6 +115,17 @@ pub struct SignedArgs {
 }
 
 #[derive(Debug, Args)]
+pub struct WindingArgs {
+    #[command(flatten)]
+    pub input: PointArgs,
+    /// Narrow each interval to this width [default: until the side is decided]
+    #[arg(long, value_name = "WIDTH", default_value_t = 0.0, value_parser = tolerance)]
+    pub abs: f32,
+    #[command(flatten)]
+    pub search: SearchArgs,
+}
+
+#[derive(Debug, Args)]
 pub struct FieldArgs {
     /// Blob file
     pub blob: PathBuf,
@@ -128,7 +139,8 @@ pub struct FieldArgs {
     /// edge
     #[arg(long, value_name = "MARGIN", default_value = "10%", value_parser = margin)]
     pub margin: Margin,
-    /// Negative values inside, NaN where the side is not proved; the mesh must be closed
+    /// Negative values inside, NaN where the side is not proved; the mesh must be closed, or the blob
+    /// built --for winding
     #[arg(long)]
     pub signed: bool,
     /// Write lower and upper bound instead of the middle between them
@@ -261,6 +273,17 @@ pub struct ClearanceArgs {
     /// Only whether the meshes are within this distance of each other, in the meshes' unit
     #[arg(long, value_name = "D", value_parser = tolerance, conflicts_with_all = ["rel", "abs"])]
     pub within: Option<f32>,
+    /// Moves of the second mesh from each pose to the next: straight, each point along a line; or
+    /// screw, the whole rigid. Is each clear for its whole length, or until when? With --within D:
+    /// farther than D
+    #[arg(
+        long,
+        value_enum,
+        value_name = "KIND",
+        hide_possible_values = true,
+        conflicts_with_all = ["rel", "abs"]
+    )]
+    pub moves: Option<MoveKind>,
     /// Stop a query when upper ≤ lower · (1 + REL)
     #[arg(long, value_name = "REL", default_value_t = 0.0, value_parser = tolerance)]
     pub rel: f32,
@@ -269,6 +292,13 @@ pub struct ClearanceArgs {
     pub abs: f32,
     #[command(flatten)]
     pub search: SearchArgs,
+}
+
+/// How a mesh moves between two poses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MoveKind {
+    Straight,
+    Screw,
 }
 
 #[derive(Debug, Args)]

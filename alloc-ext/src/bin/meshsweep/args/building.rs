@@ -110,6 +110,7 @@ pub enum Serves {
     Tight,
     Curve,
     Deform,
+    Winding,
 }
 
 /// The questions that a blob must serve.
@@ -121,6 +122,7 @@ pub struct Wanted {
     /// A hierarchy for sweeps alone. Hulls serve sweeps too.
     pub sweep: bool,
     pub cull: bool,
+    pub winding: bool,
     pub triboxes: bool,
     pub tight: bool,
     pub deform: bool,
@@ -129,7 +131,7 @@ pub struct Wanted {
 impl Wanted {
     /// Whether any question needs the box tree.
     pub fn tree(self) -> bool {
-        self.closest || self.segment || self.cull
+        self.closest || self.segment || self.cull || self.winding
     }
 
     /// Whether any question needs the hull hierarchy.
@@ -147,6 +149,7 @@ impl BuildArgs {
             hull: has(Serves::Hull) || has(Serves::Deform),
             sweep: has(Serves::Sweep) && !has(Serves::Hull) && !has(Serves::Deform),
             cull: has(Serves::Cull),
+            winding: has(Serves::Winding),
             triboxes: has(Serves::Triboxes),
             tight: has(Serves::Tight),
             deform: has(Serves::Deform),

@@ -28,6 +28,7 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     triangle\n  \
     segment   segment, overlap, clear, clearance: 12 bytes a triangle; with closest 15\n  \
     cull      cull: half a byte a triangle more\n  \
+    winding   winding, and signed of any mesh, open or not: 1 to 2 bytes a triangle more\n  \
     hull      hull --level, refine, cut, and closest, segment and overlap with --engine hull: \
     25 to 40 bytes a triangle more\n  \
     sweep     as hull, of any mesh, open or not, whose levels enclose nothing\n  \
@@ -39,7 +40,7 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     1 to 4 bytes a triangle more; 16 a triangle for each key frame after the first\n  \
     curve     closest and within, of a curve: 6 bytes a point in 2-D, 2 more in 3-D, and 4 to 10 \
     for its node\n\
-    closest, segment and cull share a box tree. Any mesh will do for it, open or not, manifold or \
+    closest, segment, cull and winding share a box tree. Any mesh will do for it, open or not, manifold or \
     not. It takes a second for a hundred thousand triangles. hull is the progressive hull with \
     its split tables. It needs a closed manifold mesh and takes far longer. sweep makes the same \
     tables of any mesh: their distances and hits are as true, but no level is a hull. triboxes \
@@ -145,11 +146,31 @@ pub fn signed() -> String {
          the signed distance, negative inside. If the side is undecided, they are -upper and \
          upper of the distance; {TRIANGLES}.\n\n\
          The side is that of the nearest surface. Parts that overlap are not united: a point in \
-         one part is outside if the front of another part is nearer. Unite them first.\n\n\
+         one part is outside if the front of another part is nearer. Unite them first. Of a mesh \
+         that is not closed, the side is that of the winding number, if the blob was built \
+         --for winding.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep signed part.msw 10,4.5,7\n  \
          meshsweep signed part.msw points.csv -o sides.csv"
+    )
+}
+
+pub fn winding() -> String {
+    format!(
+        "The winding number is the sum of the solid angles of all triangles over that of the \
+         whole sphere: 1 inside of a closed mesh, 0 outside. Holes, flaps and parts that overlap \
+         make it another number: in a hole it falls from nearly 1 to nearly 0, and where two \
+         parts overlap it is 2. lower and upper contain it. The column 'side' says inside, which \
+         proves a number above 1/2; outside, which proves one below; or undecided, and then \
+         'reason' says why: rounding, also of the vertices to the grid; out of steps, out of \
+         scratch memory. The number is that of the mesh as build repaired it: triangles that \
+         occur twice count once.\n\n\
+         {QUERIES}\n\n\
+         Examples:\n  \
+         meshsweep build scan.ply -o scan.msw --for winding\n  \
+         meshsweep winding scan.msw 10,4.5,7\n  \
+         meshsweep winding scan.msw points.csv --abs 0.01 -o winding.csv"
     )
 }
 
@@ -195,13 +216,19 @@ pub fn clearance() -> String {
          Only surfaces count: of a mesh inside of another one it is the distance of the surfaces. \
          With --within the column 'within' says yes or no, both proved; or undecided, if the \
          distance differs from D by no more than rounding and the surface errors, or if the query \
-         ended early. Then first and second are triangles that are within D. Both blobs are built \
-         --for segment. Poses count from 0. Options with poses stand after the blobs.\n\n\
+         ended early. Then first and second are triangles that are within D.\n\n\
+         With --moves the column 'clear' says yes if it is proved that the surfaces stay apart, \
+         farther than D of --within, during the whole move; or undecided, if they are proved to \
+         do so only before t, from 0 to 1 along the move. a and b, first and second are where \
+         they are then nearest. A screw turns by half a turn at most.\n\n\
+         Both blobs are built --for segment. Poses and moves count from 0. Options with poses \
+         stand after the blobs.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep clearance part.msw tool.msw --pose 30,0,0,1,0,0,0\n  \
          meshsweep clearance part.msw tool.msw --pose path.csv --rel 0.01 -o clearance.csv\n  \
-         meshsweep clearance part.msw tool.msw --pose path.csv --within 2.5"
+         meshsweep clearance part.msw tool.msw --pose path.csv --within 2.5\n  \
+         meshsweep clearance part.msw tool.msw --pose path.csv --moves screw"
     )
 }
 

@@ -39,6 +39,7 @@ fn bounds(tree: &Bvh<'_>) -> Vec<&'static str> {
         (tree.serves_distances(), "boxes in shared frames"),
         (tree.serves_segments(), "axis-aligned boxes"),
         (tree.serves_culling(), "normal cones"),
+        (tree.serves_winding(), "moments"),
     ]
     .into_iter()
     .filter_map(|(is_there, name)| is_there.then_some(name))
@@ -63,10 +64,10 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
              diagonal of the mesh away"
         )?;
     }
-    let closed = if tree.is_closed() {
-        "closed: signed distance is that of the nearest surface"
-    } else {
-        "open: every side is undecided"
+    let closed = match (tree.is_closed(), tree.serves_winding()) {
+        (true, _) => "closed: signed distance is that of the nearest surface",
+        (_, true) => "open: sides are those of the winding number",
+        _ => "open: every side is undecided; --for winding decides them",
     };
     writeln!(out, "  {closed}")?;
     writeln!(

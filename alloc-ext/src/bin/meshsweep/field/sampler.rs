@@ -3,7 +3,7 @@
 use super::lattice::Lattice;
 use crate::ask::threads;
 use crate::progress::Bar;
-use crate::signed;
+use crate::side;
 use meshsweep_core::{Budget, Bvh, Hint, Interval, QueryError, ScratchEntry, Side};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -135,9 +135,9 @@ impl Sampler<'_> {
         hint: &mut Hint,
     ) -> Result<(Interval, Option<&'static str>), QueryError> {
         if self.signed {
-            let answer = self.tree.signed_distance(point, Budget::EXACT, scratch)?;
+            let answer = side::signed_distance(self.tree, point, Budget::EXACT, scratch)?;
             let is_undecided = matches!(answer.side, Side::Undecided(_));
-            return Ok((answer.distance, is_undecided.then(|| signed::reason(answer.side))));
+            return Ok((answer.distance, is_undecided.then(|| side::reason(answer.side))));
         }
         let answer = self.tree.closest_point_from(point, hint, Budget::EXACT, scratch)?;
         Ok((answer.distance, None))

@@ -1,0 +1,43 @@
+//! On which side of a mesh a point is, by whatever the blob knows.
+
+use meshsweep_core::{Budget, Bvh, QueryError, ScratchEntry, Side, SignedDistance, Undecided};
+
+/// Whether sides are defined: by the nearest triangle of a closed mesh, or by winding numbers.
+pub fn has_sides(tree: &Bvh<'_>) -> bool {
+    tree.is_closed() || tree.serves_winding()
+}
+
+/// Signed distance, of a mesh that is not closed by its winding number if the blob has it.
+pub fn signed_distance(
+    tree: &Bvh<'_>,
+    point: [f32; 3],
+    budget: Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<SignedDistance, QueryError> {
+    if tree.is_closed() || !tree.serves_winding() {
+        tree.signed_distance(point, budget, scratch)
+    } else {
+        tree.signed_by_winding(point, budget, scratch)
+    }
+}
+
+/// The side in a word.
+pub fn name(side: Side) -> &'static str {
+    match side {
+        Side::Outside => "outside",
+        Side::Inside => "inside",
+        _ => "undecided",
+    }
+}
+
+/// Why a side is undecided, in a word or two; nothing if it is not.
+pub fn reason(side: Side) -> &'static str {
+    match side {
+        Side::Outside | Side::Inside => "",
+        Side::Undecided(Undecided::OpenMesh) => "open mesh",
+        Side::Undecided(Undecided::Steps) => "out of steps",
+        Side::Undecided(Undecided::Scratch) => "out of scratch memory",
+        Side::Undecided(Undecided::OnSurface) => "at the surface",
+        _ => "rounding",
+    }
+}

@@ -1,0 +1,81 @@
+//! `meshsweep winding`, and `signed` and `field --signed` of meshes that are not closed.
+
+use crate::support::{
+    arg, fixture, number, ok, parse_csv, random_queries, run, scratch, triangles, wide, write_csv,
+};
+use std::fmt::Write;
+use std::fs;
+use std::path::PathBuf;
+
+/// The torus of the fixtures without every ninth triangle, as a mesh and as a blob with moments.
+fn sieve(directory: &std::path::Path) -> [PathBuf; 2] {
+    let mut text = String::new();
+    let kept = triangles(&fixture("torus.ply")).into_iter().enumerate();
+    for (number, corners) in kept.filter(|(number, _)| number % 9 != 4).map(|(_, t)| t).enumerate()
+    {
+        for [x, y, z] in corners {
+            writeln!(text, "v {x} {y} {z}").unwrap();
+        }
+        let first = 3 * number + 1;
+        writeln!(text, "f {first} {} {}", first + 1, first + 2).unwrap();
+    }
+    let (mesh, blob) = (directory.join("sieve.obj"), directory.join("sieve.msw"));
+    fs::write(&mesh, text).unwrap();
+    let said = ok(["build", arg(&mesh), "-o", arg(&blob), "--for", "closest,winding"]);
+    assert!(said.contains("open: sides are those of the winding number"), "{said}");
+    [mesh, blob]
+}
+
+/// How far inside of the torus a point is.
+fn depth([x, y, z]: [f64; 3]) -> f64 {
+    0.75 - (x.hypot(y) - 2.0).hypot(z)
+}
+
+#[test]
+fn winding_and_signed_know_the_inside_of_a_mesh_with_holes() {
+    let directory = scratch("winding");
+    let [mesh, blob] = sieve(&directory);
+    let points = directory.join("p.csv");
+    let rows = random_queries::<3>(&triangles(&mesh), 300);
+    write_csv(&points, &rows);
+    let text = ok(["winding", arg(&blob), arg(&points), "--abs", "0.1"]);
+    let answers = parse_csv(&text, "x,y,z,side,reason,lower,upper,work");
+    let text = ok(["signed", arg(&blob), arg(&points)]);
+    let signed = parse_csv(&text, "x,y,z,side,reason,lower,upper,px,py,pz,triangle,work");
+    let mut inside = 0;
+    for ((answer, signed), row) in answers.iter().zip(&signed).zip(&rows) {
+        let depth = depth(wide(row));
+        if depth.abs() < 0.25 {
+            continue;
+        }
+        let side = if depth > 0.0 { "inside" } else { "outside" };
+        assert_eq!((&*answer[3], &*answer[4]), (side, ""), "{answer:?}");
+        assert_eq!((&*signed[3], &*signed[4]), (side, ""), "{signed:?}");
+        assert!(number(&answer[6]) - number(&answer[5]) <= 0.1);
+        assert_eq!(number(&signed[5]) < 0.0, depth > 0.0, "{signed:?}");
+        inside += usize::from(depth > 0.0);
+    }
+    assert!(inside > 10, "{inside}");
+}
+
+#[test]
+fn a_signed_field_of_a_mesh_with_holes_is_negative_inside() {
+    let directory = scratch("winding_field");
+    let [_, blob] = sieve(&directory);
+    let out = directory.join("f.f32");
+    ok(["field", arg(&blob), "-o", arg(&out), "--size", "9", "--margin", "0", "--signed"]);
+    let bytes = fs::read(&out).unwrap();
+    let values = bytes.as_chunks::<4>().0.iter().map(|&bytes| f32::from_le_bytes(bytes));
+    let negative = values.filter(|value| *value < 0.0).count();
+    assert!((50..500).contains(&negative), "{negative}");
+}
+
+#[test]
+fn a_blob_without_moments_names_the_value_that_writes_them() {
+    let directory = scratch("winding_refused");
+    let blob = crate::support::blob(&directory, "evil/open_box.stl", &[]);
+    let refused = run(["winding", arg(&blob), "1,2,3"]);
+    assert_eq!(refused.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(said.contains("--for winding"), "{said}");
+}

@@ -1,0 +1,227 @@
+//! The passes of a winding number.
+
+use super::flux::Flux;
+use super::moment_flux::SeenNode;
+use crate::bvh::format::{Bvh, Links};
+use crate::geom::{SeenCorner, SolidAngles};
+use crate::num::{greater, lesser};
+use crate::query::{Ended, Interval, QueryError, ScratchEntry, Side, Work};
+use glam::Vec3;
+
+/// Largest radius of a node over its distance, for each pass. In the last one every triangle counts
+/// by itself.
+const RATIOS: [f32; 6] = [0.4, 0.25, 0.15, 0.08, 0.04, 0.0];
+
+/// Least part of the error that is worth another pass.
+const WORTH_A_PASS: f32 = 1.0 / 32.0;
+
+/// 2^36 grid units: with a larger error a far point may be near.
+const FAR_ERROR: f32 = (1u64 << 36) as f32;
+
+/// 2^-78 per squared grid unit (§20).
+const FAR_NUMBER: f32 = 1.0 / ((1u64 << 39) as f32 * (1u64 << 39) as f32);
+
+/// The query, and the work of its passes.
+pub(super) struct Search<'a> {
+    pub(super) tree: Bvh<'a>,
+    /// Grid units.
+    pub(super) p: Vec3,
+    /// How far vertices and the point may be from their true places, grid units.
+    pub(super) error: f32,
+    /// No winding number is greater.
+    pub(super) most: f32,
+    /// Wanted width of the interval, or 0.
+    pub(super) absolute: f32,
+    /// Nodes that may still be opened.
+    pub(super) steps: u32,
+    pub(super) work: Work,
+}
+
+/// What one pass adds up.
+struct Pass {
+    /// Of nodes that were replaced by their moments.
+    flux: Flux,
+    /// Of the other triangles.
+    angles: SolidAngles,
+    /// The part of the error that smaller nodes would lessen.
+    expansion: f32,
+    /// The triangles of some node are missing from the sum.
+    is_unknown: bool,
+    /// Why nodes were not opened that should have been.
+    cut_short: Option<Ended>,
+}
+
+/// What stands on the stack beside a node: whether the change of its flux by moved vertices is in
+/// the sum already, as a part of a larger node's.
+const MOVES_COUNTED: f32 = 1.0;
+
+impl Search<'_> {
+    /// The number from so far away that squares would leave f32's range: |w| ≤ Σ area/(4π·d²). The
+    /// distance is at least 2^37 (§20).
+    pub(super) fn number_from_afar(&self) -> (Interval, Ended) {
+        let header = self.tree.header();
+        let bound = if self.error <= FAR_ERROR {
+            header.triangles as f32 * (header.star_radius * header.star_radius) * FAR_NUMBER
+        } else {
+            self.most
+        };
+        self.ended(Interval::new(-bound, bound), Ended::Resolution)
+    }
+
+    /// The number in passes of rising cost.
+    pub(super) fn number_in_passes(
+        &mut self,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<(Interval, Ended), QueryError> {
+        let mut number = Interval::new(-self.most, self.most);
+        for ratio in RATIOS {
+            let pass = self.pass(ratio, scratch)?;
+            if !pass.is_unknown {
+                let found = pass.flux.winding(self.most);
+                let (lower, upper) =
+                    (greater(number.lower, found.lower), lesser(number.upper, found.upper));
+                // Always, but for moments that no builder wrote.
+                if lower <= upper {
+                    number = Interval::new(lower, upper);
+                }
+            }
+            let (_, ended) = self.ended(number, pass.cut_short.unwrap_or(Ended::Resolution));
+            if ended != Ended::Resolution || !pass.may_improve() {
+                return Ok((number, ended));
+            }
+        }
+        Ok((number, Ended::Resolution))
+    }
+
+    /// Whether the number is good enough; else the search ended for the reason `otherwise`.
+    fn ended(&self, number: Interval, otherwise: Ended) -> (Interval, Ended) {
+        let is_decided = side_of(number).is_some();
+        let is_narrow = number.upper - number.lower <= self.absolute;
+        let ended = match (is_decided, self.absolute > 0.0) {
+            (true, false) => Ended::Exact,
+            (true, true) if is_narrow => Ended::Tolerance,
+            _ => otherwise,
+        };
+        (number, ended)
+    }
+
+    fn pass(&mut self, ratio: f32, scratch: &mut [ScratchEntry]) -> Result<Pass, QueryError> {
+        let mut pass = Pass {
+            flux: Flux::default(),
+            angles: SolidAngles::NONE,
+            expansion: 0.0,
+            is_unknown: false,
+            cut_short: None,
+        };
+        let mut waiting = 0;
+        let mut next = Some(ScratchEntry::new(0.0, 0));
+        while let Some(entry) = next {
+            let node = entry.node();
+            let moments = self.tree.moments(node).ok_or(QueryError::Unchecked)?;
+            let seen = SeenNode::new(moments, self.p, self.error);
+            self.work.nodes = self.work.nodes.saturating_add(1);
+            let mut error = if entry.key() == MOVES_COUNTED { 0.0 } else { self.error };
+            let is_small = seen.is_small(ratio);
+            if is_small || self.steps == 0 {
+                if !is_small {
+                    pass.cut_short = Some(Ended::Steps);
+                }
+                pass.take_moments(&seen, error);
+            } else {
+                self.steps -= 1;
+                self.work.splits = self.work.splits.saturating_add(1);
+                if error > 0.0 && seen.bounds_moves(error) {
+                    pass.flux.add(0.0, seen.moved(error));
+                    error = 0.0;
+                }
+                self.open(node, error, scratch, &mut waiting, &mut pass)?;
+            }
+            next = waiting.checked_sub(1).and_then(|last| {
+                waiting = last;
+                scratch.get(last).copied()
+            });
+        }
+        let (sum, error) = pass.angles.sum();
+        pass.flux.add_sum(sum, error, pass.angles.terms());
+        Ok(pass)
+    }
+
+    /// Puts the inner children of a node on the stack, and adds the triangles of its leaves.
+    fn open(
+        &mut self,
+        node: u32,
+        error: f32,
+        scratch: &mut [ScratchEntry],
+        waiting: &mut usize,
+        pass: &mut Pass,
+    ) -> Result<(), QueryError> {
+        let links = self.tree.links(node).ok_or(QueryError::Unchecked)?;
+        let counted = if error == 0.0 { MOVES_COUNTED } else { 0.0 };
+        for index in 0..links.inner {
+            let child = links.child(index).at;
+            if let Some(slot) = scratch.get_mut(*waiting) {
+                *slot = ScratchEntry::new(counted, child);
+                *waiting += 1;
+            } else {
+                let moments = self.tree.moments(child).ok_or(QueryError::Unchecked)?;
+                pass.cut_short = Some(Ended::Scratch);
+                pass.take_moments(&SeenNode::new(moments, self.p, self.error), error);
+            }
+        }
+        self.add_leaves(&links, error, &mut pass.angles).ok_or(QueryError::Unchecked)
+    }
+
+    /// Adds the solid angles of the triangles of a node's leaves.
+    fn add_leaves(&mut self, links: &Links, error: f32, angles: &mut SolidAngles) -> Option<()> {
+        for index in links.inner..links.count {
+            let leaf = self.tree.leaf_at(links.vertex(index), links.shape(index))?;
+            let shape = leaf.shape();
+            let (triangles, turn) = (shape.triangles(), shape.turn());
+            self.work.triangles = self.work.triangles.saturating_add(triangles as u32);
+            let seen = |v: Vec3| SeenCorner::new(v - self.p);
+            let first = seen(leaf.centre(0));
+            let second = if shape.centres() > 1 { seen(leaf.centre(1)) } else { first };
+            let mut here = seen(leaf.ring(0));
+            for lane in 0..triangles {
+                let next = seen(leaf.ring(lane + 1));
+                let corners = match lane >= turn {
+                    false => [first, here, next],
+                    true if shape.second_reversed() => [second, next, here],
+                    true => [second, here, next],
+                };
+                angles.add(corners, error);
+                here = next;
+            }
+        }
+        Some(())
+    }
+}
+
+impl Pass {
+    /// Whether smaller nodes would narrow the interval: not if nearly all of the error is that of
+    /// moved vertices and of rounding.
+    fn may_improve(&self) -> bool {
+        self.is_unknown || self.expansion > self.flux.error() * WORTH_A_PASS
+    }
+
+    /// Adds the moments of a node. `error`: how far vertices were moved, or 0 if that is counted.
+    fn take_moments(&mut self, seen: &SeenNode, error: f32) {
+        if seen.is_away() {
+            let (flux, off) = seen.flux();
+            self.expansion += off;
+            self.flux.add(flux, off);
+            self.flux.add(0.0, seen.moved(error));
+        } else {
+            self.is_unknown = true;
+        }
+    }
+}
+
+/// The side that a number proves.
+pub(super) fn side_of(number: Interval) -> Option<Side> {
+    match number {
+        Interval { lower, .. } if lower > 0.5 => Some(Side::Inside),
+        Interval { upper, .. } if upper < 0.5 => Some(Side::Outside),
+        _ => None,
+    }
+}

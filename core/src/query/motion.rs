@@ -1,0 +1,252 @@
+//! How a model moves from one pose to another.
+
+use crate::geom::{Pose, cross, dot};
+use crate::num::greater;
+use crate::num::tolerance::{SCREW_ROUNDING, U32, U64};
+use crate::query::QueryError;
+
+type Point = [f64; 3];
+
+/// A motion of a model from one pose to another. Its time runs from 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    from: Pose,
+    path: Path,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Path {
+    /// To this pose, entries mixed.
+    Straight(Pose),
+    Screw(Twist),
+}
+
+/// A steady turn about an axis and a steady way along it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Twist {
+    /// A unit vector.
+    axis: Point,
+    /// Radians, 0 to π.
+    angle: f64,
+    /// Velocity of the model's origin at the time 0.
+    velocity: Point,
+}
+
+impl Motion {
+    /// Each point goes along a straight line from its place in `from` to its place in `to`, at a
+    /// steady pace: the entries of both poses are mixed. Any two matrices will do. If both have the
+    /// same rotation it is a translation; else the model shrinks on the way as it turns.
+    pub const fn straight(from: Pose, to: Pose) -> Motion {
+        Motion { from, path: Path::Straight(to) }
+    }
+
+    /// A screw: the model stays rigid, turns at a steady pace about a fixed axis by half a turn at
+    /// most, and goes along this axis. It begins at `from`, and ends at `to` up to the rounding of
+    /// both matrices to rotations.
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if a matrix is not nearly a
+    /// rotation.
+    pub fn screw(from: Pose, to: Pose) -> Result<Motion, QueryError> {
+        if !(is_finite(&from) && is_finite(&to)) {
+            return Err(QueryError::NotFinite);
+        }
+        if !(is_rotation(&from) && is_rotation(&to)) {
+            return Err(QueryError::PoseOutOfDomain);
+        }
+        let [start, end] = [&from, &to].map(|pose| pose.rotation.map(wide));
+        // end · startᵀ
+        let turn = end.map(|row| start.map(|other| dot(row, other)));
+        let (axis, angle) = axis_and_angle(&turn);
+        let [x, y, z] = wide(from.translation);
+        let [a, b, c] = wide(to.translation);
+        let way = [a - x, b - y, c - z];
+        // The inverse of `Twist::way` at the time 1, on the part across the axis.
+        let along = axis.map(|n| n * dot(axis, way));
+        let [p, q, r] = along;
+        let across = [a - x - p, b - y - q, c - z - r];
+        let (cosine, sine) = (sinc(angle), libm::sin(0.5 * angle) * sinc(0.5 * angle));
+        let size = cosine * cosine + sine * sine;
+        let turned = cross(axis, across);
+        let velocity = combined([1.0, cosine / size, -sine / size], [along, across, turned]);
+        Ok(Motion { from, path: Path::Screw(Twist { axis, angle, velocity }) })
+    }
+
+    /// The pose at a time from 0 to 1, rounded to f32.
+    pub fn at(&self, t: f32) -> Pose {
+        self.at_time(f64::from(t))
+    }
+
+    pub(crate) fn at_time(&self, t: f64) -> Pose {
+        match &self.path {
+            Path::Straight(to) => mixed(&self.from, to, t),
+            Path::Screw(twist) => twist.pose(&self.from, t),
+        }
+    }
+
+    pub(crate) fn is_finite(&self) -> bool {
+        is_finite(&self.from)
+            && match &self.path {
+                Path::Straight(to) => is_finite(to),
+                Path::Screw(_) => true,
+            }
+    }
+
+    /// How far a point of the model goes during the motion, and how far it may be from its place at
+    /// a pose that was rounded to f32. Both are convex functions of the point.
+    pub(crate) fn way_of(&self, point: Point) -> (f64, f64) {
+        match &self.path {
+            Path::Straight(to) => straight_way(&self.from, to, point),
+            Path::Screw(twist) => twist.way_of(&self.from, point),
+        }
+    }
+}
+
+impl Twist {
+    fn pose(&self, from: &Pose, t: f64) -> Pose {
+        let angle = self.angle * t;
+        let half = libm::sin(0.5 * angle);
+        let (sine, versine) = (libm::sin(angle), 2.0 * half * half);
+        let turned = |v: Point| {
+            let once = cross(self.axis, v);
+            combined([1.0, sine, versine], [v, once, cross(self.axis, once)])
+        };
+        let mut pose = *from;
+        // Columns are turned; the matrix holds rows.
+        for column in 0..3 {
+            let entries =
+                from.rotation.map(|row| f64::from(row.get(column).copied().unwrap_or(0.0)));
+            for (row, x) in pose.rotation.iter_mut().zip(turned(entries)) {
+                if let Some(slot) = row.get_mut(column) {
+                    *slot = x as f32;
+                }
+            }
+        }
+        let way = self.way(angle, t);
+        for (slot, way) in pose.translation.iter_mut().zip(way) {
+            *slot = (f64::from(*slot) + way) as f32;
+        }
+        pose
+    }
+
+    /// The way of the model's origin until the time `t`, when it has turned by `angle`.
+    fn way(&self, angle: f64, t: f64) -> Point {
+        let along = self.axis.map(|n| n * dot(self.axis, self.velocity));
+        let [x, y, z] = self.velocity;
+        let [p, q, r] = along;
+        let across = [x - p, y - q, z - r];
+        let (cosine, sine) = (sinc(angle), libm::sin(0.5 * angle) * sinc(0.5 * angle));
+        combined([t, t * cosine, t * sine], [along, across, cross(self.axis, across)])
+    }
+
+    /// A point of a rigid body that turns and goes steadily has a steady speed.
+    fn way_of(&self, from: &Pose, point: Point) -> (f64, f64) {
+        let rotation = from.rotation.map(wide);
+        let arm = rotation.map(|row| dot(row, point));
+        let turning = cross(self.axis, arm).map(|x| x * self.angle);
+        let speed = length(combined([1.0, 1.0, 0.0], [self.velocity, turning, [0.0; 3]]));
+        // No row of any pose on the way is longer than all of the first matrix.
+        let stretch = libm::sqrt(rotation.iter().map(|row| dot(*row, *row)).sum());
+        let far = stretch * length(point)
+            + length(wide(from.translation))
+            + length(self.velocity)
+            + f64::from(f32::MIN_POSITIVE);
+        (speed + far * (32.0 * U64), 3.0 * far * f64::from(U32) * SCREW_ROUNDING)
+    }
+}
+
+fn straight_way(from: &Pose, to: &Pose, point: Point) -> (f64, f64) {
+    let (mut way_sq, mut rounding) = (0.0, 0.0);
+    let starts = from.rotation.iter().zip(&from.translation);
+    let ends = to.rotation.iter().zip(&to.translation);
+    for ((row, shift), (end_row, end_shift)) in starts.zip(ends) {
+        let mut way = difference(*shift, *end_shift);
+        let mut far = most(*shift, *end_shift);
+        for ((a, b), x) in row.iter().zip(end_row).zip(point) {
+            way += difference(*a, *b) * x;
+            far += most(*a, *b) * x.abs();
+        }
+        // Terms that cancel are rounded in proportion to their sizes.
+        let way = way.abs() + far * (16.0 * U64);
+        way_sq += way * way;
+        rounding += far * (f64::from(U32) * (1.0 + 16.0 * U64));
+    }
+    (libm::sqrt(way_sq) * (1.0 + 16.0 * U64), rounding)
+}
+
+/// The entries of two poses, mixed.
+fn mixed(from: &Pose, to: &Pose, t: f64) -> Pose {
+    let mix = |a: f32, b: f32| (f64::from(a) + difference(a, b) * t) as f32;
+    let mut pose = *from;
+    let entries = pose.rotation.iter_mut().flatten().zip(to.rotation.iter().flatten());
+    entries.for_each(|(x, to)| *x = mix(*x, *to));
+    pose.translation.iter_mut().zip(&to.translation).for_each(|(x, to)| *x = mix(*x, *to));
+    pose
+}
+
+/// Axis and angle of a rotation, by the largest component of its quaternion (Shepperd 1978). Any
+/// axis if it turns nothing.
+fn axis_and_angle(turn: &[Point; 3]) -> (Point, f64) {
+    let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = *turn;
+    // Each is four times a product of two components, in the order x, y, z, w.
+    let squares = [1.0 + xx - yy - zz, 1.0 - xx + yy - zz, 1.0 - xx - yy + zz, 1.0 + xx + yy + zz];
+    let [x_sq, y_sq, z_sq, w_sq] = squares;
+    let (xy, yz, zx, xw, yw, zw) = (xy + yx, yz + zy, zx + xz, zy - yz, xz - zx, yx - xy);
+    let largest = squares.into_iter().fold(0.0, greater);
+    let [x, y, z, w] = if w_sq >= largest {
+        [xw, yw, zw, w_sq]
+    } else if x_sq >= largest {
+        [x_sq, xy, zx, xw]
+    } else if y_sq >= largest {
+        [xy, y_sq, yz, yw]
+    } else {
+        [zx, yz, z_sq, zw]
+    };
+    let sine = length([x, y, z]);
+    if sine == 0.0 {
+        return ([1.0, 0.0, 0.0], 0.0);
+    }
+    // The shorter of both ways round.
+    let sign = if w < 0.0 { -1.0 } else { 1.0 };
+    ([x, y, z].map(|x| sign * x / sine), 2.0 * libm::atan2(sine, w.abs()))
+}
+
+fn is_finite(pose: &Pose) -> bool {
+    pose.rotation.iter().flatten().chain(&pose.translation).all(|x| x.is_finite())
+}
+
+/// Whether rows are orthonormal up to a thousandth.
+fn is_rotation(pose: &Pose) -> bool {
+    let rows = pose.rotation.map(wide);
+    let [a, b, c] = rows;
+    let unit = rows.iter().all(|row| (dot(*row, *row) - 1.0).abs() <= 1e-3);
+    let right = [dot(a, b), dot(b, c), dot(c, a)].into_iter().all(|x| x.abs() <= 1e-3);
+    unit && right && dot(a, cross(b, c)) > 0.0
+}
+
+fn wide([x, y, z]: [f32; 3]) -> Point {
+    [f64::from(x), f64::from(y), f64::from(z)]
+}
+
+fn combined([a, b, c]: [f64; 3], [u, v, w]: [Point; 3]) -> Point {
+    let ([ux, uy, uz], [vx, vy, vz], [wx, wy, wz]) = (u, v, w);
+    [a * ux + b * vx + c * wx, a * uy + b * vy + c * wy, a * uz + b * vz + c * wz]
+}
+
+fn length(v: Point) -> f64 {
+    libm::sqrt(dot(v, v))
+}
+
+/// sin x / x.
+fn sinc(x: f64) -> f64 {
+    if x == 0.0 { 1.0 } else { libm::sin(x) / x }
+}
+
+fn difference(a: f32, b: f32) -> f64 {
+    f64::from(b) - f64::from(a)
+}
+
+/// The greater size, and no less than what an f32 may lose by underflow.
+fn most(a: f32, b: f32) -> f64 {
+    greater(f64::from(a).abs(), f64::from(b).abs()) + f64::from(f32::MIN_POSITIVE)
+}

@@ -1,0 +1,215 @@
+//! Pairs of models in a scene, against brute force over all of them.
+
+use meshsweep_core::{
+    Budget, Bvh, Ended, Placed, Pose, QueryError, Scene as Models, ScratchEntry, Undecided, Verdict,
+};
+use meshsweep_host_tests::generate::corpus::IDENTITY;
+use meshsweep_host_tests::generate::{Rng, cube, rough_sphere, torus};
+use meshsweep_host_tests::motion::rotation;
+use meshsweep_host_tests::oracle::{Bounded, distance_of_meshes};
+use meshsweep_host_tests::scene::Scene;
+
+type Points = Vec<[f32; 3]>;
+
+/// Vertices in the world, rounded.
+fn moved(scene: &Scene, pose: &Pose) -> Points {
+    scene.positions.iter().map(|&p| pose.to_world(p)).collect()
+}
+
+struct World {
+    scenes: Vec<Scene>,
+    /// Which scene, where.
+    places: Vec<(usize, Pose)>,
+}
+
+impl World {
+    fn random(count: usize, spread: f32, rng: &mut Rng) -> Self {
+        let scenes = vec![
+            Scene::both("", torus(2.0, 0.75, 12, 6)),
+            Scene::both("", rough_sphere(1, 0.4, 3)),
+            Scene::both("", cube(2)),
+        ];
+        let places = (0..count)
+            .map(|_| {
+                let translation = [(); 3].map(|()| spread * rng.range(-1.0, 1.0));
+                (rng.below(scenes.len()), Pose { rotation: rotation(rng), translation })
+            })
+            .collect();
+        Self { scenes, places }
+    }
+
+    fn placed(&self, single: bool) -> Vec<Placed<'_>> {
+        let tree = |which: usize| self.scenes[which].trees()[usize::from(single)];
+        self.places.iter().map(|&(which, pose)| Placed { tree: tree(which), pose }).collect()
+    }
+
+    fn distance(&self, a: usize, b: usize) -> Bounded {
+        let of = |at: usize| {
+            let (which, pose) = &self.places[at];
+            (moved(&self.scenes[*which], pose), &self.scenes[*which].triangles)
+        };
+        let ((one, first), (other, second)) = (of(a), of(b));
+        distance_of_meshes((&one, first), (&other, second), &IDENTITY, [0.0; 3])
+    }
+
+    /// Of all pairs, and a length beside which roundings of the world are small.
+    fn least(&self, asks: impl Fn(usize, usize) -> bool) -> (Bounded, f64) {
+        let mut least = Bounded { lower: f64::INFINITY, upper: f64::INFINITY };
+        for b in 0..self.places.len() {
+            for a in (0..b).filter(|&a| asks(a, b)) {
+                let found = self.distance(a, b);
+                least.lower = least.lower.min(found.lower);
+                least.upper = least.upper.min(found.upper);
+            }
+        }
+        let far = self.places.iter().flat_map(|(_, pose)| pose.translation);
+        (least, far.fold(3.0, |most: f64, x| most.max(f64::from(x.abs()))))
+    }
+}
+
+fn stack() -> [ScratchEntry; Bvh::DISTANCE_ENTRIES] {
+    [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES]
+}
+
+#[test]
+fn the_nearest_pair_is_that_of_all_pairs_and_within_agrees() {
+    let mut rng = Rng::new(91);
+    let (mut yes, mut no) = (0, 0);
+    for round in 0..24 {
+        let world = World::random(2 + round % 7, [4.0, 12.0, 300.0][round % 3], &mut rng);
+        let not_neighbours = |a: usize, b: usize| b != a + 1;
+        let all = |_: usize, _: usize| true;
+        for single in [false, true] {
+            let models = world.placed(single);
+            let scene = Models::new(&models);
+            for asks in [&all as &dyn Fn(usize, usize) -> bool, &not_neighbours] {
+                let found = scene.nearest_pair(asks, Budget::EXACT, &mut stack()).unwrap();
+                let (truth, far) = world.least(asks);
+                let Some([a, b]) = found.models else {
+                    assert!(world.places.len() == 2 && truth.upper == f64::INFINITY);
+                    continue;
+                };
+                assert!(a < b && asks(a, b));
+                // The oracle's vertices were rounded in the world.
+                let slack = 4e-7 * far;
+                let (lower, upper) =
+                    (f64::from(found.distance.lower), f64::from(found.distance.upper));
+                assert!(lower <= truth.upper + slack, "{found:?} {truth:?}");
+                assert!(truth.lower - slack <= upper, "{found:?} {truth:?}");
+                let errors = 2.0 * f64::from(models[a].tree.surface_error())
+                    + 2.0 * f64::from(models[b].tree.surface_error());
+                assert!(upper - lower <= errors + 1e-5 * far, "{found:?}");
+                assert_eq!(found.ended, Ended::Exact);
+                let [p, q] = found.points;
+                let gap = (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
+                assert!(gap <= upper + slack, "{found:?}");
+                for distance in [0.0, 0.5 * lower, lower - slack, upper + slack, 2.0 * upper] {
+                    let distance = distance.max(0.0) as f32;
+                    let near = scene.within(distance, asks, Budget::EXACT, &mut stack()).unwrap();
+                    match near.verdict {
+                        Verdict::Yes => {
+                            yes += 1;
+                            assert!(truth.lower <= f64::from(distance) + slack, "{near:?}");
+                        }
+                        Verdict::No => {
+                            no += 1;
+                            assert!(truth.upper >= f64::from(distance) - slack, "{near:?}");
+                        }
+                        _ => assert!(
+                            (truth.lower - f64::from(distance)).abs() <= errors + 1e-5 * far,
+                            "{near:?} {truth:?} {distance}"
+                        ),
+                    }
+                    assert_eq!(near.models.is_none(), near.is_clear());
+                }
+            }
+        }
+    }
+    assert!(yes > 50 && no > 50, "{yes} {no}");
+}
+
+/// Matrices that stretch by up to a tenth: the world's lengths count, not those of a model.
+#[test]
+fn a_pose_that_is_no_rotation_is_paid_for() {
+    let scene = Scene::both("", cube(2));
+    let size = 2.0;
+    let mut stretched = IDENTITY;
+    stretched[0][0] = 1.05;
+    let place = |x: f32| Pose { rotation: stretched, translation: [x, 0.0, 0.0] };
+    for tree in scene.trees() {
+        let models = [place(0.0), place(10.0)].map(|pose| Placed { tree, pose });
+        let scene = Models::new(&models);
+        let found = scene.nearest_pair(|_, _| true, Budget::EXACT, &mut stack()).unwrap();
+        let truth = 10.0 - 1.05 * size;
+        let (lower, upper) = (f64::from(found.distance.lower), f64::from(found.distance.upper));
+        assert!(lower <= truth && truth <= upper, "{found:?}");
+        let clear = scene.within(6.0, |_, _| true, Budget::EXACT, &mut stack()).unwrap();
+        assert!(clear.is_clear(), "{clear:?}");
+    }
+}
+
+#[test]
+fn few_steps_give_an_interval_that_holds() {
+    let mut rng = Rng::new(92);
+    for _ in 0..6 {
+        let world = World::random(6, 8.0, &mut rng);
+        let (truth, far) = world.least(|_, _| true);
+        let slack = 4e-7 * far;
+        let models = world.placed(false);
+        let scene = Models::new(&models);
+        for steps in [0, 1, 3, 10, 30] {
+            let budget = Budget::EXACT.with_steps(steps);
+            let found = scene.nearest_pair(|_, _| true, budget, &mut stack()).unwrap();
+            assert!(f64::from(found.distance.lower) <= truth.upper + slack, "{found:?}");
+            assert!(truth.lower <= f64::from(found.distance.upper) + slack, "{found:?}");
+            assert!(found.work.splits <= steps);
+            let near = scene.within(1.0, |_, _| true, budget, &mut stack()).unwrap();
+            assert!(near.work.splits <= steps);
+            if near.verdict == Verdict::No {
+                assert!(truth.upper + slack >= 1.0, "{near:?} {truth:?}");
+            }
+        }
+        let found = scene.within(1.0, |_, _| true, Budget::EXACT.with_steps(0), &mut stack());
+        let verdict = found.unwrap().verdict;
+        assert!(matches!(verdict, Verdict::No | Verdict::Undecided(Undecided::Steps)));
+    }
+}
+
+#[test]
+fn a_scene_of_forty_models_looks_into_few_pairs() {
+    let mut rng = Rng::new(93);
+    let world = World::random(40, 60.0, &mut rng);
+    let models = world.placed(false);
+    let scene = Models::new(&models);
+    let found = scene.nearest_pair(|_, _| true, Budget::EXACT, &mut stack()).unwrap();
+    assert!(found.work.nodes >= 40 * 39 / 2 && found.work.splits < 400, "{found:?}");
+}
+
+#[test]
+fn what_cannot_be_asked_is_refused_and_no_pair_is_no_error() {
+    let scene = Scene::both("", cube(1));
+    let tree = scene.bvh();
+    let at = |x: f32| Placed { tree, pose: Pose { translation: [x, 0.0, 0.0], ..Pose::IDENTITY } };
+    let ask = |models: &[Placed<'_>], scratch: &mut [ScratchEntry]| {
+        Models::new(models)
+            .nearest_pair(|_, _| true, Budget::EXACT, scratch)
+            .map(|near| near.models)
+    };
+    assert_eq!(ask(&[], &mut stack()), Ok(None));
+    assert_eq!(ask(&[at(0.0)], &mut stack()), Ok(None));
+    assert_eq!(ask(&[at(0.0), at(9.0)], &mut stack()), Ok(Some([0, 1])));
+    assert_eq!(ask(&[at(0.0), at(9.0)], &mut []), Err(QueryError::NoScratch));
+    assert_eq!(ask(&[at(0.0), at(f32::NAN)], &mut stack()), Err(QueryError::NotFinite));
+    let mut flat = at(3.0);
+    flat.pose.rotation[2] = [0.0; 3];
+    assert_eq!(ask(&[flat, at(9.0)], &mut stack()), Err(QueryError::PoseOutOfDomain));
+    for far in [1e20, 1e30, f32::MAX] {
+        let found =
+            Models::new(&[at(0.0), at(far)]).nearest_pair(|_, _| true, Budget::EXACT, &mut stack());
+        let found = found.unwrap().distance;
+        assert!(found.lower <= far && far <= found.upper * 1.001, "{found:?}");
+    }
+    let two = [at(0.0), at(9.0)];
+    let bad = Models::new(&two).within(-1.0, |_, _| true, Budget::EXACT, &mut stack());
+    assert_eq!(bad, Err(QueryError::Tolerance));
+}
