@@ -14,13 +14,16 @@
 //! | --- | --- |
 //! | `piece` | a part of a triangle: its bound, and its parts |
 //! | `farthest` | one side, to a few percent, for the builders |
+//! | `profile` | mean and quantiles over the area, and the distance of each vertex |
 //! | `surface` | a mesh with its box tree: the distance of a point, in f64 |
 //! | `two_meshes` | two meshes, to any precision, with the points that attain the distance |
 
 mod farthest;
 mod piece;
+mod profile;
 mod surface;
 mod two_meshes;
 
 pub use farthest::{Farthest, Nearest, farthest, is_within, nearest_in};
+pub use profile::{Profile, profile};
 pub use two_meshes::{Attained, Direction, Ended, Hausdorff, Precision, Refused, hausdorff};

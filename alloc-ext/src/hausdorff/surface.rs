@@ -71,15 +71,40 @@ impl<'a> Surface<'a> {
 
     /// Both bounds in f64: against every triangle that may be nearer.
     pub(super) fn bounds_in_f64(&self, p: DVec3, near: Near, scratch: &mut QueryScratch) -> Near {
+        let mut sharp = Near { lower: f64::INFINITY, ..near };
+        let is_known = self.for_each_within(p, near.upper, scratch, |number, triangle| {
+            let [a, b, c] = triangle;
+            let distance = point_triangle(p, a, b, c);
+            sharp.lower = sharp.lower.min(distance.lower);
+            if distance.upper < sharp.upper {
+                (sharp.upper, sharp.triangle) = (distance.upper, number);
+            }
+        });
+        if is_known {
+            Near { lower: sharp.lower.max(near.lower).min(sharp.upper), ..sharp }
+        } else {
+            near
+        }
+    }
+
+    /// Visits all triangles that may be within a distance, and perhaps some more. `false` if they
+    /// are not known, or there is none.
+    pub(super) fn for_each_within(
+        &self,
+        p: DVec3,
+        distance: f64,
+        scratch: &mut QueryScratch,
+        mut visit: impl FnMut(usize, [DVec3; 3]),
+    ) -> bool {
         let asked = p.as_vec3();
-        let reach = near.upper + (asked.as_dvec3() - p).length();
+        let reach = distance + (asked.as_dvec3() - p).length();
         let distance = ((reach * ROUNDED_UP) as f32).next_up();
-        let mut all = loop {
+        let all = loop {
             let QueryScratch { entries, neighbors } = scratch;
             let point = asked.to_array();
             let Ok(all) = self.tree.all_within(point, distance, neighbors, Budget::EXACT, entries)
             else {
-                return near;
+                return false;
             };
             if all.dropped == 0 {
                 break all;
@@ -87,20 +112,15 @@ impl<'a> Surface<'a> {
             let wanted = neighbors.len() + all.dropped as usize;
             neighbors.resize(wanted, Neighbor::EMPTY);
         };
-        if all.ended != Ended::Exact || all.stored == 0 {
-            return near;
+        let Some(found) = scratch.neighbors.get(..all.stored) else { return false };
+        if all.ended != Ended::Exact || found.is_empty() {
+            return false;
         }
-        all.stored = all.stored.min(scratch.neighbors.len());
-        let mut sharp = Near { lower: f64::INFINITY, ..near };
-        for neighbor in &scratch.neighbors[..all.stored] {
-            let triangle = neighbor.triangle() as usize;
-            let Some(&[a, b, c]) = self.triangles.get(triangle) else { return near };
-            let distance = point_triangle(p, a, b, c);
-            sharp.lower = sharp.lower.min(distance.lower);
-            if distance.upper < sharp.upper {
-                (sharp.upper, sharp.triangle) = (distance.upper, triangle);
-            }
+        for neighbor in found {
+            let number = neighbor.triangle() as usize;
+            let Some(&triangle) = self.triangles.get(number) else { return false };
+            visit(number, triangle);
         }
-        Near { lower: sharp.lower.max(near.lower).min(sharp.upper), ..sharp }
+        true
     }
 }

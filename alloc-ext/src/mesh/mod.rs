@@ -56,7 +56,7 @@ pub use repair::repair;
 pub use report::{Finding, Place, RepairReport};
 pub(crate) use volume::SignedVolume;
 pub use wire::Wire;
-pub use write_ply::write_ply;
+pub use write_ply::{write_coloured_ply, write_ply};
 
 /// A triangle mesh as the rest of the builder takes it.
 ///

@@ -16,6 +16,31 @@ use super::Mesh;
 /// # Errors
 /// Those of `out`; and `InvalidInput` for a vertex number beyond `i32`, before anything is written.
 pub fn write_ply(mesh: &Mesh, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+    write(mesh, &[], out)
+}
+
+/// As [`write_ply`], with a number and a colour for each vertex: `quality` as `float`, `red`,
+/// `green` and `blue` as `uchar`. Missing ones are 0.
+///
+/// # Errors
+/// Those of [`write_ply`].
+pub fn write_coloured_ply(
+    mesh: &Mesh,
+    qualities: &[(f32, [u8; 3])],
+    out: &mut (impl Write + ?Sized),
+) -> io::Result<()> {
+    if qualities.is_empty() {
+        write(mesh, &[(0.0, [0; 3])], out)
+    } else {
+        write(mesh, qualities, out)
+    }
+}
+
+fn write(
+    mesh: &Mesh,
+    qualities: &[(f32, [u8; 3])],
+    out: &mut (impl Write + ?Sized),
+) -> io::Result<()> {
     let mut faces = Vec::with_capacity(mesh.triangles.len());
     for corners in &mesh.triangles {
         let [a, b, c] = corners.map(i32::try_from);
@@ -24,12 +49,13 @@ pub fn write_ply(mesh: &Mesh, out: &mut (impl Write + ?Sized)) -> io::Result<()>
     }
     // The crate's writer wants a sized one.
     let mut out = out;
-    let vertex = element(
-        "vertex",
-        mesh.positions.len(),
-        &["x", "y", "z"],
-        &PropertyType::Scalar(ScalarType::Float),
-    );
+    let float = PropertyType::Scalar(ScalarType::Float);
+    let mut vertex = element("vertex", mesh.positions.len(), &["x", "y", "z"], &float);
+    if !qualities.is_empty() {
+        let byte = PropertyType::Scalar(ScalarType::UChar);
+        add(&mut vertex, &["quality"], &float);
+        add(&mut vertex, &["red", "green", "blue"], &byte);
+    }
     let list = PropertyType::List(ScalarType::UChar, ScalarType::Int);
     let face = element("face", faces.len(), &["vertex_indices"], &list);
     let mut header = Header::new();
@@ -38,8 +64,10 @@ pub fn write_ply(mesh: &Mesh, out: &mut (impl Write + ?Sized)) -> io::Result<()>
     header.elements.add(face.clone());
     let vertices = Writer::<Vertex>::new();
     vertices.write_header(&mut out, &header)?;
-    for &position in &mesh.positions {
-        vertices.write_little_endian_element(&mut out, &Vertex(position), &vertex)?;
+    for (number, &position) in mesh.positions.iter().enumerate() {
+        let (quality, colour) = qualities.get(number).copied().unwrap_or_default();
+        let record = Vertex { position, quality, colour };
+        vertices.write_little_endian_element(&mut out, &record, &vertex)?;
     }
     let triangles = Writer::<Face>::new();
     for corners in &faces {
@@ -51,22 +79,38 @@ pub fn write_ply(mesh: &Mesh, out: &mut (impl Write + ?Sized)) -> io::Result<()>
 fn element(name: &str, count: usize, properties: &[&str], kind: &PropertyType) -> ElementDef {
     let mut element = ElementDef::new(name.to_owned());
     element.count = count;
-    for property in properties {
-        element.properties.add(PropertyDef::new((*property).to_owned(), kind.clone()));
-    }
+    add(&mut element, properties, kind);
     element
 }
 
-struct Vertex([f32; 3]);
+fn add(element: &mut ElementDef, properties: &[&str], kind: &PropertyType) {
+    for property in properties {
+        element.properties.add(PropertyDef::new((*property).to_owned(), kind.clone()));
+    }
+}
+
+struct Vertex {
+    position: [f32; 3],
+    quality: f32,
+    colour: [u8; 3],
+}
 
 impl PropertyAccess for Vertex {
     fn new() -> Self {
-        Self([0.0; 3])
+        Self { position: [0.0; 3], quality: 0.0, colour: [0; 3] }
     }
 
     fn get_float(&self, key: &str) -> Option<f32> {
+        if key == "quality" {
+            return Some(self.quality);
+        }
         let axis = ["x", "y", "z"].iter().position(|name| *name == key)?;
-        self.0.get(axis).copied()
+        self.position.get(axis).copied()
+    }
+
+    fn get_uchar(&self, key: &str) -> Option<u8> {
+        let part = ["red", "green", "blue"].iter().position(|name| *name == key)?;
+        self.colour.get(part).copied()
     }
 }
 

@@ -72,3 +72,29 @@ fn text_names_both_files() {
     assert!(text.starts_with("distance  0.2"), "{text}");
     assert!(text.contains("low.obj") && text.contains("high.obj"), "{text}");
 }
+
+#[test]
+fn the_profile_and_the_heat_map_are_those_of_two_plates() {
+    let directory = scratch("hausdorff_profile");
+    let [low, high] = [("low.obj", 0.0), ("high.obj", 2.0)]
+        .map(|(name, height)| plate(&directory, name, 1.0, height));
+    let heat = directory.join("heat.ply");
+    let found = json(&[arg(&high), arg(&low), "--profile", "--heat", arg(&heat)]);
+    let bounds = |value: &serde_json::Value| [0, 1].map(|k| value[k].as_f64().unwrap());
+    let [lower, upper] = bounds(&found["mean"]);
+    assert!(lower <= 2.0 && 2.0 <= upper && upper - lower <= 0.2, "{found}");
+    assert_eq!(found["quantiles"].as_array().unwrap().len(), 4);
+    for quantile in found["quantiles"].as_array().unwrap() {
+        let [lower, upper] = bounds(&quantile["bounds"]);
+        assert!(lower <= 2.0 && 2.0 <= upper, "{found}");
+    }
+    let bytes = fs::read(&heat).unwrap();
+    let header = String::from_utf8_lossy(&bytes[..300]).into_owned();
+    assert!(header.contains("property float quality\nproperty uchar red"), "{header}");
+    // Everywhere equally far: all red.
+    let start = header.find("end_header\n").unwrap() + 11;
+    let vertex = &bytes[start..start + 19];
+    assert_eq!(vertex[12..], [0, 0, 0, 64, 255, 0, 0]);
+    let text = ok(["hausdorff", arg(&high), arg(&low), "--profile"]);
+    assert!(text.contains("mean") && text.contains("99 %"), "{text}");
+}

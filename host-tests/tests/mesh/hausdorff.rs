@@ -1,7 +1,9 @@
 //! The Hausdorff distance of two meshes against brute force in 106 bits, and against numbers that
 //! are known.
 
-use meshsweep::hausdorff::{Attained, Direction, Ended, Hausdorff, Precision, hausdorff};
+use meshsweep::hausdorff::{
+    Attained, Direction, Ended, Hausdorff, Precision, Profile, hausdorff, profile,
+};
 use meshsweep::mesh::{Mesh, RawMesh, repair};
 use meshsweep_host_tests::generate::corpus::{mixed, slivers};
 use meshsweep_host_tests::generate::{
@@ -227,5 +229,90 @@ fn a_search_that_ends_at_once_names_a_point() {
     {
         let found = of(&a, &b, Direction::Both, &precision);
         assert!(found.attained.is_some() && found.lower > 0.0, "{found:?}");
+    }
+}
+
+fn profile_of(a: &Triangles, b: &Triangles, relative: f64) -> Profile {
+    profile(&repaired(a), &repaired(b), &[0.25, 0.5, 0.9], relative, |_, _| ()).expect("meshes")
+}
+
+fn holds([lower, upper]: [f64; 2], truth: f64, slack: f64) -> bool {
+    lower <= truth + slack && truth - slack <= upper
+}
+
+#[test]
+fn mean_and_quantiles_of_a_ramp_over_a_plate_are_those_of_a_line() {
+    let plate = |heights: [f32; 4]| {
+        let [a, b, c, d] = heights;
+        let corners = vec![[0.0, 0.0, a], [4.0, 0.0, b], [4.0, 4.0, c], [0.0, 4.0, d]];
+        (corners, vec![[0, 1, 2], [0, 2, 3]])
+    };
+    let found = profile_of(&plate([1.0, 3.0, 3.0, 1.0]), &plate([0.0; 4]), 0.01);
+    assert!(found.is_close && found.mean[1] - found.mean[0] <= 0.021, "{found:?}");
+    assert!(holds(found.mean, 2.0, 0.0), "{found:?}");
+    for (bounds, truth) in found.quantiles.iter().zip([1.5, 2.0, 2.8]) {
+        assert!(holds(*bounds, truth, 0.0), "{found:?}");
+        assert!(bounds[1] - bounds[0] < 0.5, "{found:?}");
+    }
+    for (bounds, truth) in found.vertices.iter().zip([1.0, 3.0, 3.0, 1.0]) {
+        assert!(holds(*bounds, truth, 0.0), "{found:?}");
+    }
+}
+
+#[test]
+fn mean_and_quantiles_hold_for_samples_of_every_pair() {
+    let mut rng = Rng::new(21);
+    for (name, a, b) in pairs() {
+        let mesh = repaired(&a);
+        let found = profile_of(&a, &b, 0.05);
+        for (vertex, bounds) in mesh.positions.iter().zip(&found.vertices) {
+            let truth = distance_to_mesh(*vertex, &b.0, &b.1);
+            assert!(bounds[0] <= truth.upper && truth.lower <= bounds[1], "{name} {bounds:?}");
+        }
+        // By area, with the same number of points in each part of it.
+        let corners: Vec<[[f64; 3]; 3]> = (0..mesh.triangles.len())
+            .map(|t| mesh.corners(t).expect("a triangle").map(|p| p.map(f64::from)))
+            .collect();
+        let area = |[a, b, c]: &[[f64; 3]; 3]| {
+            let way = |p: &[f64; 3]| [0, 1, 2].map(|k| p[k] - a[k]);
+            let (e, g) = (way(b), way(c));
+            let n = [0, 1, 2].map(|k| {
+                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                e[i] * g[j] - e[j] * g[i]
+            });
+            n.iter().map(|x| x * x).sum::<f64>().sqrt()
+        };
+        let areas: Vec<f64> = corners.iter().map(area).collect();
+        let whole: f64 = areas.iter().sum();
+        let count = 2000;
+        let mut distances = Vec::new();
+        let (mut triangle, mut before) = (0, 0.0);
+        for number in 0..count {
+            let at = whole * (f64::from(number) + rng.unit_f64()) / f64::from(count);
+            while before + areas[triangle] < at && triangle + 1 < areas.len() {
+                before += areas[triangle];
+                triangle += 1;
+            }
+            let (mut u, mut v) = (rng.unit_f64(), rng.unit_f64());
+            if u + v > 1.0 {
+                (u, v) = (1.0 - u, 1.0 - v);
+            }
+            let [a, b_, c] = corners[triangle];
+            let p = [0, 1, 2].map(|k| (a[k] + u * (b_[k] - a[k]) + v * (c[k] - a[k])) as f32);
+            distances.push(distance_to_mesh(p, &b.0, &b.1).upper);
+        }
+        distances.sort_by(f64::total_cmp);
+        let mean = distances.iter().sum::<f64>() / f64::from(count);
+        let spread = distances[distances.len() - 1] - distances[0];
+        assert!(holds(found.mean, mean, 0.02 * spread), "{name} {found:?} {mean}");
+        for (bounds, part) in found.quantiles.iter().zip([0.25, 0.5, 0.9]) {
+            // A sample's rank is off by some roots of the number of points.
+            let rank = |shift: f64| {
+                let at = (f64::from(count) * part + shift).clamp(0.0, f64::from(count - 1));
+                distances[at as usize]
+            };
+            let off = 3.0 * f64::from(count).sqrt();
+            assert!(bounds[0] <= rank(off) && rank(-off) <= bounds[1], "{name} {bounds:?}");
+        }
     }
 }

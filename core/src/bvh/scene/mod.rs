@@ -73,12 +73,13 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// Only pairs for which `asks_about` is true count, each once, the lesser number first: leave
     /// out neighbours that always touch. Lengths are in the unit of the world, which all models
     /// share. The poses' numbers are taken as exact. Only surfaces count, and each pair is as for
-    /// [`Bvh::distance`](crate::Bvh::distance). Surfaces that meet have a distance from 0, and an upper end of a few
-    /// roundings, because the pose of one model in the frame of the other is rounded.
+    /// [`Bvh::distance`](crate::Bvh::distance). Surfaces that meet have a distance from 0, and an
+    /// upper end of a few roundings, because the pose of one model in the frame of the other is
+    /// rounded.
     ///
-    /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. The steps (pairs of nodes) of the
-    /// budget are those of all pairs together. Pairs for which no steps are left are bounded by
-    /// their boxes. Tolerances are those of each pair.
+    /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. The
+    /// steps (pairs of nodes) of the budget are those of all pairs together. Pairs for which no
+    /// steps are left are bounded by their boxes. Tolerances are those of each pair.
     ///
     /// Cost: some sixty operations in f32 for each pair of models. A distance for each pair whose
     /// boxes are nearer than the nearest pair so far, which begins with the nearest boxes.
@@ -95,9 +96,9 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Bvh::distance`](crate::Bvh::distance); [`QueryError::PoseOutOfDomain`] also if a pose is far from a
-    /// rotation; [`QueryError::OutOfDomain`] if two models are farther from each other than f32
-    /// reaches.
+    /// Those of [`Bvh::distance`](crate::Bvh::distance); [`QueryError::PoseOutOfDomain`] also if a
+    /// pose is far from a rotation; [`QueryError::OutOfDomain`] if two models are farther from each
+    /// other than f32 reaches.
     pub fn nearest_pair(
         &self,
         asks_about: impl Fn(usize, usize) -> bool,
@@ -144,11 +145,11 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// meet; it is answered by `No` or left undecided, because poses are rounded: take an undecided
     /// answer as `Yes`.
     ///
-    /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. Of the budget only `steps` matters,
-    /// those of all pairs together.
+    /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. Of the
+    /// budget only `steps` matters, those of all pairs together.
     ///
-    /// Cost: some sixty operations in f32 for each pair of models, and a [`Bvh::within_of`](crate::Bvh::within_of) for
-    /// each pair whose boxes are within the distance.
+    /// Cost: some sixty operations in f32 for each pair of models, and a
+    /// [`Bvh::within_of`](crate::Bvh::within_of) for each pair whose boxes are within the distance.
     ///
     /// # Errors
     /// Those of [`nearest_pair`](Self::nearest_pair); [`QueryError::Tolerance`] also for a distance

@@ -108,13 +108,13 @@ impl Bvh<'_> {
     /// of the [`winding_number`](Bvh::winding_number).
     ///
     /// For a closed mesh without parts that overlap the sides are those of
-    /// [`signed_distance`](Bvh::signed_distance), which costs less. Where parts overlap the distance
-    /// is that of the nearest triangle, be it inside the union. In a hole the sign changes at a
-    /// distance that is not 0.
+    /// [`signed_distance`](Bvh::signed_distance), which costs less. Where parts overlap the
+    /// distance is that of the nearest triangle, even if it lies inside of another part. In a hole
+    /// the sign changes at a distance that is not 0.
     ///
     /// Triangle and point are those of [`closest_point`](Bvh::closest_point). Of the budget only
-    /// `steps` matters: the distance takes the first. `closest.ended` is
-    /// [`Ended::Resolution`] if only the side is undecided. `scratch` as for `closest_point`.
+    /// `steps` matters: the distance takes the first. `closest.ended` is [`Ended::Resolution`] if
+    /// only the side is undecided. `scratch` as for `closest_point`.
     ///
     /// Cost: that of the closest point and of the winding number.
     ///

@@ -56,7 +56,8 @@ impl SeenNode {
         }
     }
 
-    /// The flux of the stored triangles, and a bound of its error. The node must be [away](Self::is_away).
+    /// The flux of the stored triangles, and a bound of its error. The node must be
+    /// [away](Self::is_away).
     ///
     /// The field x/|x|³ is expanded about the centre to its first derivative. Its second is at most
     /// 6/|x|⁴ in every direction.

@@ -139,8 +139,8 @@ pub struct FieldArgs {
     /// edge
     #[arg(long, value_name = "MARGIN", default_value = "10%", value_parser = margin)]
     pub margin: Margin,
-    /// Negative values inside, NaN where the side is not proved; the mesh must be closed, or the blob
-    /// built --for winding
+    /// Negative values inside, NaN where the side is not proved; the mesh must be closed, or the
+    /// blob built --for winding
     #[arg(long)]
     pub signed: bool,
     /// Write lower and upper bound instead of the middle between them

@@ -40,8 +40,8 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     1 to 4 bytes a triangle more; 16 a triangle for each key frame after the first\n  \
     curve     closest and within, of a curve: 6 bytes a point in 2-D, 2 more in 3-D, and 4 to 10 \
     for its node\n\
-    closest, segment, cull and winding share a box tree. Any mesh will do for it, open or not, manifold or \
-    not. It takes a second for a hundred thousand triangles. hull is the progressive hull with \
+    closest, segment, cull and winding share a box tree. Any mesh will do for it, open or not, \
+    manifold or not. It takes a second for a hundred thousand triangles. hull is the progressive hull with \
     its split tables. It needs a closed manifold mesh and takes far longer. sweep makes the same \
     tables of any mesh: their distances and hits are as true, but no level is a hull. triboxes \
     take any mesh; those of a closed mesh hold its inside too. They take as long as the command \
@@ -329,6 +329,7 @@ pub const HAUSDORFF: &str = "lower and upper enclose the exact distance of the m
     Examples:\n  \
     meshsweep hausdorff part.stl scan.ply --rel 1e-6\n  \
     meshsweep hausdorff part.stl scan.ply --one-sided --json\n  \
+    meshsweep hausdorff scan.ply part.stl --profile --heat scan_error.ply\n  \
     meshsweep hausdorff part.stl scan.ply --at-most 1000";
 
 pub const CUT: &str = "meshsweep info lists the levels. --level leaves the box tree out: it holds \
