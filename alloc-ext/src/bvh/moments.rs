@@ -58,26 +58,29 @@ impl<'a> Tree<'a> {
         };
         for (number, node) in (0u32..).zip(&topology.nodes) {
             node.inner.iter().for_each(|&child| tree.parent[child as usize] = number);
-            let items = node.leaves.iter().flat_map(|&item| leaves[item as usize].triangles());
-            for triangle in items.filter(|&t| t < tree.count) {
-                tree.node_of[triangle as usize] = number;
-            }
+            let own: Vec<u32> = tree.own_triangles(number).collect();
+            own.into_iter().for_each(|triangle| tree.node_of[triangle as usize] = number);
         }
         tree
+    }
+
+    /// Triangles of a node's own leaves.
+    fn own_triangles(&self, node: u32) -> impl Iterator<Item = u32> {
+        let node = &self.topology.nodes[node as usize];
+        let items = node.leaves.iter().flat_map(|&item| self.leaves[item as usize].triangles());
+        items.filter(|&t| t < self.count)
     }
 
     fn triangles_below(&self, node: u32, out: &mut Vec<u32>) {
         let mut open = vec![node];
         while let Some(node) = open.pop() {
-            let node = &self.topology.nodes[node as usize];
-            open.extend(&node.inner);
-            let items = node.leaves.iter().flat_map(|&item| self.leaves[item as usize].triangles());
-            out.extend(items.filter(|&t| t < self.count));
+            out.extend(self.own_triangles(node));
+            open.extend(&self.topology.nodes[node as usize].inner);
         }
     }
 
-    /// For each node the length of the edges that its triangles use more often in one direction
-    /// than in the other, as long as they were while vertices moved by `moved`.
+    /// For each node the length of its boundary. An edge counts as often as the node's triangles use
+    /// it more in one direction than in the other, and made `2·moved` longer.
     fn boundaries(
         &self,
         triangles: &[[u32; 3]],
@@ -110,42 +113,42 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// A share of roundings of f64 sums, relative to the sizes of their terms: 2^-50 for each term.
+/// Rounding of a sum of this many terms in f64, relative to their sizes: 2^-50 for each (§20).
 fn rounding(terms: usize) -> f64 {
     (terms + 64) as f64 * exp2(-50)
 }
 
 fn of_triangles(corners: &[[DVec3; 3]], boundary: f64) -> NodeMoments {
-    let (mut area, mut first, mut whole) = (0.0, DVec3::ZERO, DVec3::ZERO);
+    let (mut area, mut weighted, mut centroids) = (0.0, DVec3::ZERO, DVec3::ZERO);
     for &[a, b, c] in corners {
-        let own = 0.5 * (b - a).cross(c - a).length();
-        whole += (a + b + c) / 3.0;
-        first += (a + b + c) * (own / 3.0);
-        area += own;
+        let here = 0.5 * (b - a).cross(c - a).length();
+        centroids += (a + b + c) / 3.0;
+        weighted += (a + b + c) * (here / 3.0);
+        area += here;
     }
     // Any centre will do; that of the area has the least moments.
-    let mean = whole / corners.len().max(1) as f64;
-    let centre = if area > 0.0 { first / area } else { mean }.as_vec3();
+    let mean = centroids / corners.len().max(1) as f64;
+    let centre = if area > 0.0 { weighted / area } else { mean }.as_vec3();
     let about = |v: DVec3| v - centre.as_dvec3();
     let mut normals = DVec3::ZERO;
-    let mut outer = DMat3::ZERO;
+    let mut first_moment = DMat3::ZERO;
     let (mut spread, mut sizes, mut radius) = (0.0, 0.0, 0f64);
     for &triangle in corners {
         let [a, b, c] = triangle.map(about);
         let normal = 0.5 * (b - a).cross(c - a);
         let h = (a + b + c) / 3.0;
         normals += normal;
-        outer += DMat3::from_cols(h * normal.x, h * normal.y, h * normal.z);
+        first_moment += DMat3::from_cols(h * normal.x, h * normal.y, h * normal.z);
         let size = (b - a).length() * (c - a).length();
         let squares = a.length_squared() + b.length_squared() + c.length_squared();
-        let own = normal.length() + size * exp2(-48);
-        spread += own * (squares + (a + b + c).length_squared()) / 12.0;
+        let most_area = normal.length() + size * exp2(-48);
+        spread += most_area * (squares + (a + b + c).length_squared()) / 12.0;
         sizes += size;
         radius = radius.max(squares_max([a, b, c]).sqrt());
     }
     let relative = rounding(corners.len());
     let radius = up_to_f32(radius * (1.0 + relative));
-    let symmetric = (outer + outer.transpose()) * 0.5;
+    let symmetric = (first_moment + first_moment.transpose()) * 0.5;
     let third = (symmetric.x_axis.x + symmetric.y_axis.y + symmetric.z_axis.z) / 3.0;
     let [xx, xy, xz] = symmetric.x_axis.to_array();
     let wanted = [xx - third, xy, xz, symmetric.y_axis.y - third, symmetric.y_axis.z];

@@ -94,7 +94,9 @@ fn the_profile_and_the_heat_map_are_those_of_two_plates() {
     // Everywhere equally far: all red.
     let start = header.find("end_header\n").unwrap() + 11;
     let vertex = &bytes[start..start + 19];
-    assert_eq!(vertex[12..], [0, 0, 0, 64, 255, 0, 0]);
+    let quality = f32::from_le_bytes([vertex[12], vertex[13], vertex[14], vertex[15]]);
+    assert!((quality - 2.0).abs() < 1e-5, "{quality}");
+    assert_eq!(vertex[16..], [255, 0, 0]);
     let text = ok(["hausdorff", arg(&high), arg(&low), "--profile"]);
     assert!(text.contains("mean") && text.contains("99 %"), "{text}");
 }

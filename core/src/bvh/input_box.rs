@@ -3,7 +3,7 @@
 use crate::bvh::format::Bvh;
 use crate::num::tolerance::U32;
 
-/// Its corners, input units: those of the stored vertices' box, grown by the surface error and by
+/// Corners of the box, input units: those of the stored vertices' box, grown by the surface error and by
 /// the rounding of the box.
 pub(super) fn corners_of_input(tree: &Bvh<'_>) -> impl Iterator<Item = [f64; 3]> {
     let [low, high] = tree.bounds();

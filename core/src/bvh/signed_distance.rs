@@ -59,8 +59,8 @@ pub struct SignedDistance {
     /// The side of the point.
     pub side: Side,
     /// The closest point, and the distance without sign. `work` and `ended` are those of the whole
-    /// search. [`Ended::Resolution`]: the mesh is closed, and the stored surface or rounding leaves
-    /// the side undecided.
+    /// search. [`Ended::Resolution`]: sides are defined, and the stored surface or rounding leaves
+    /// this one undecided.
     pub closest: ClosestPoint,
 }
 

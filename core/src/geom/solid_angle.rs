@@ -5,12 +5,15 @@
 //! product is turned back by a right angle whenever its argument exceeds half of one, and the right
 //! angles are counted.
 
-use crate::num::tolerance::{SOLID_ANGLE, SOLID_ANGLE_NEAREST, TRUSTED_DIRECTION_SQ, U32};
+use crate::num::tolerance::{
+    ANGLE_PRODUCT, ARCTANGENT, EDGE_DISTANCE, SOLID_ANGLE, SOLID_ANGLE_NEAREST,
+    TRUSTED_DIRECTION_SQ, TWO_ARCSINES, U32,
+};
 use crate::num::{greater, lesser, sqrt_approx};
 use glam::Vec3;
 
 /// The largest solid angle of a triangle, 2π, rounded up.
-const FULL_ANGLE: f32 = 6.283_185_5;
+const LARGEST_ANGLE: f32 = 6.283_185_5;
 
 /// A corner of a triangle as seen from the origin.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +37,7 @@ pub struct SolidAngles {
     real: f32,
     imaginary: f32,
     right_angles: i32,
-    /// Bound of the error but for the terms' own roundings.
+    /// Sum of the bounds of the added angles. `sum` adds those of the product and of the arctangent.
     error: f32,
     terms: u32,
 }
@@ -58,28 +61,29 @@ impl SolidAngles {
         let product = x * y * z;
         let sine = a.dot(b.cross(c));
         let cosine = product + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
-        let is_far = lesser(lesser(x, y), z) >= SOLID_ANGLE_NEAREST;
-        let error = if is_far && cosine >= product {
+        let is_precise = lesser(lesser(x, y), z) >= SOLID_ANGLE_NEAREST;
+        // Then the complex number is at least as long as the product, and its error a part of it.
+        let error = if is_precise && cosine >= product {
             TWO_ARCSINES * SOLID_ANGLE * U32
         } else {
-            error_of_near(sine, cosine, if is_far { product } else { f32::INFINITY })
+            error_of_near(sine, cosine, if is_precise { product } else { f32::INFINITY })
         };
-        let error = if moved > 0.0 && error < FULL_ANGLE {
+        let error = if moved > 0.0 && error < LARGEST_ANGLE {
             error + flux_through_edges([a, b, c], [sine, cosine, product], x, moved)
         } else {
             error
         };
-        if error < FULL_ANGLE {
+        if error < LARGEST_ANGLE {
             self.error += error;
-            self.turn(cosine, sine);
+            self.multiply(cosine, sine);
         } else {
-            self.error += FULL_ANGLE;
+            self.error += LARGEST_ANGLE;
         }
     }
 
     /// Multiplies by a complex number that is not 0.
     #[inline(always)]
-    fn turn(&mut self, real: f32, imaginary: f32) {
+    fn multiply(&mut self, real: f32, imaginary: f32) {
         let (x, y) = scaled(real, imaginary);
         let (x, y) = if x < 0.0 { self.turned_back(x, y) } else { (x, y) };
         let (p, q) = (self.real, self.imaginary);
@@ -89,7 +93,7 @@ impl SolidAngles {
         (self.real, self.imaginary) = if is_beyond { self.turned_back(p, q) } else { (p, q) };
     }
 
-    /// Exactly.
+    /// Turns a complex number back by a right angle, exactly, and counts it.
     #[inline(always)]
     fn turned_back(&mut self, real: f32, imaginary: f32) -> (f32, f32) {
         if imaginary > 0.0 {
@@ -103,10 +107,10 @@ impl SolidAngles {
 
     /// The sum, and a bound of its error.
     pub fn sum(&self) -> (f32, f32) {
-        let turned = self.right_angles as f32 * HALF_TURN;
+        let turned = self.right_angles as f32 * PI_UP;
         let rest = 2.0 * libm::atan2f(self.imaginary, self.real);
         let terms = self.terms as f32;
-        let rounding = turned.abs() * 4.0 + rest.abs() * ARCTANGENT + terms * PRODUCT;
+        let rounding = turned.abs() * 4.0 + rest.abs() * ARCTANGENT + terms * ANGLE_PRODUCT;
         (turned + rest, (self.error + rounding * U32) * (1.0 + 2.0 * U32 * terms))
     }
 
@@ -132,10 +136,10 @@ fn error_of_near(sine: f32, cosine: f32, product: f32) -> f32 {
     let off = SOLID_ANGLE * U32 * product;
     // Else the true fraction may be on either side of the angle's jump, or 0/0.
     let is_certain = 2.0 * off <= size && (cosine > 0.0 || sine.abs() > off);
-    if is_certain { TWO_ARCSINES * off / size } else { FULL_ANGLE }
+    if is_certain { TWO_ARCSINES * off / size } else { LARGEST_ANGLE }
 }
 
-/// What may go through the edges of a triangle while its corners move.
+/// Bound of the change of a solid angle while the corners of its triangle move.
 #[inline(never)]
 fn flux_through_edges(
     [a, b, c]: [Vec3; 3],
@@ -156,8 +160,8 @@ fn flux_through_edges(
     }
 }
 
-/// What the edges of a triangle may let through while its corners move: the area that they sweep
-/// over the least squared distance. Infinite if the triangle may be near. `x` is the length of `a`.
+/// The same of a far triangle: the area that its edges sweep over the least squared distance.
+/// Infinite if it may be near. `x` is the length of `a`.
 fn flux_through_far_edges([a, b, c]: [Vec3; 3], x: f32, moved: f32) -> f32 {
     // A difference of corners carries the rounding of both.
     let [e, g] = [b - a, c - a].map(|edge| norm_1(edge) * (1.0 + 16.0 * U32) + x * (16.0 * U32));
@@ -169,9 +173,10 @@ fn flux_through_far_edges([a, b, c]: [Vec3; 3], x: f32, moved: f32) -> f32 {
     }
 }
 
-/// What one edge may let through while its ends move. Infinite if the edge is not eight times as
-/// far as they move: so far from its edges, a triangle that touches the origin fills more than half
-/// of the sphere that it can fill.
+/// Bound of the change of the solid angle by one edge whose ends move. Infinite if the edge may be
+/// nearer than eight times `moved`, of which `margin` holds one. With all edges farther than that, a
+/// triangle that touches the origin has an angle of at least 7/8 of 2π, so its cosine is negative
+/// (§20).
 fn flux_through_edge(a: Vec3, b: Vec3, moved: f32) -> f32 {
     let ab = b - a;
     let (along, length_sq) = (-a.dot(ab), ab.dot(ab));
@@ -185,8 +190,8 @@ fn flux_through_edge(a: Vec3, b: Vec3, moved: f32) -> f32 {
     let margin = EDGE_DISTANCE * U32 * (norm_1(a) + norm_1(b)) + moved;
     let distance = sqrt_approx(nearest.dot(nearest)) - margin;
     if distance >= 7.0 * moved {
-        let turn = lesser(HALF_TURN, (norm_1(ab) + 2.0 * moved) / distance);
-        moved * turn / distance * (1.0 + 16.0 * U32)
+        let view_angle = lesser(PI_UP, (norm_1(ab) + 2.0 * moved) / distance);
+        moved * view_angle / distance * (1.0 + 16.0 * U32)
     } else {
         f32::INFINITY
     }
@@ -205,19 +210,4 @@ fn norm_1(v: Vec3) -> f32 {
 }
 
 /// π, rounded up.
-const HALF_TURN: f32 = 3.141_592_8;
-
-/// Rounding of the argument of a product of two complex numbers, twice, in units of [`U32`].
-/// Proved: 4.9.
-const PRODUCT: f32 = 6.0;
-
-/// Rounding of the distance of an edge, in units of [`U32`] times the 1-norms of its ends: that of
-/// §14, and one rounding of each end.
-const EDGE_DISTANCE: f32 = 64.0;
-
-/// Twice the arcsine of s ≤ ½ is at most this times s: 2π/3, rounded up.
-const TWO_ARCSINES: f32 = 2.125;
-
-/// Error of `libm`'s arctangent, in units of [`U32`]. FDLIBM states one unit in the last place,
-/// which is two of these.
-const ARCTANGENT: f32 = 8.0;
+const PI_UP: f32 = 3.141_592_8;

@@ -310,11 +310,37 @@ pub const ADVANCE_KEPT: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;
 /// Room for the rounding in f64 of a pose on a screw, beside its rounding to f32 (§19).
 pub const SCREW_ROUNDING: f64 = 1.0 + 1.0 / (1u64 << 20) as f64;
 
+/// How far a matrix may be from a rotation, in its rows' inner products, for a screw.
+pub const SCREW_DEFECT: f64 = 1e-3;
+
+/// Rounding of a model's box in the world, in units of [`U32`] times the sizes of its terms.
+/// Proved: 13 (§21).
+pub const WORLD_BOX: f32 = 16.0;
+
+/// Rounding of what a rounded pose of one model in the frame of another leaves at a point, in units
+/// of [`U64`] times the sum of its terms. Proved: 8 (§21).
+pub const RELATIVE_POSE: f64 = 16.0;
+
 // Box tree, winding numbers
 
 /// Rounding of numerator and denominator of a solid angle's tangent, in units of [`U32`] times the
 /// product of the corners' distances. Proved: 57 (§20).
 pub const SOLID_ANGLE: f32 = 64.0;
+
+/// Rounding of the argument of a product of two complex numbers, twice, in units of [`U32`].
+/// Proved: 4.9 (§20).
+pub const ANGLE_PRODUCT: f32 = 6.0;
+
+/// Twice the arcsine of s ≤ ½ is at most this times s: 2π/3, rounded up (§20).
+pub const TWO_ARCSINES: f32 = 2.125;
+
+/// Error of `libm`'s arctangent, in units of [`U32`]. FDLIBM states one unit in the last place,
+/// which is two of these.
+pub const ARCTANGENT: f32 = 8.0;
+
+/// Rounding of the distance of an edge, in units of [`U32`] times the 1-norms of its ends: that of
+/// §14, and one rounding of each end (§20).
+pub const EDGE_DISTANCE: f32 = 64.0;
 
 /// Rounding of the flux of a node's moments, in units of [`U32`] times the sum of the sizes of its
 /// terms. Proved: 46 (§20).

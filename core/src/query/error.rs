@@ -33,12 +33,13 @@ pub enum QueryError {
     /// - [`Hull`](crate::Hull): 2^40 times the model's size from its origin;
     /// - [`Bvh`](crate::Bvh): 2^38 grid units from the model's farthest corner; for corners of a
     ///   [`Solid`](crate::Solid) 2^30 grid units from the grid's origin, and for its radius;
+    /// - [`Scene`](crate::Scene): two models that are farther from each other than f32 reaches;
     /// - [`Triboxes`](crate::Triboxes): [`Tribox::DOMAIN`](crate::Tribox::DOMAIN).
     OutOfDomain,
     /// A pose cannot be computed with. One of these holds:
     /// - an entry of its matrix is beyond 2;
-    /// - for [`Pose::to_model`](crate::Pose::to_model), its columns are far from orthonormal: the
-    ///   Frobenius norm of `RᵀR − 1` is above a quarter;
+    /// - for [`Pose::to_model`](crate::Pose::to_model) and [`Scene`](crate::Scene), its columns are
+    ///   far from orthonormal: the Frobenius norm of `RᵀR − 1` is above a quarter;
     /// - for [`Motion::screw`](crate::Motion::screw), its rows are not orthonormal up to a
     ///   thousandth, or it is a mirror;
     /// - for triboxes, its translation is beyond [`Tribox::DOMAIN`](crate::Tribox::DOMAIN);

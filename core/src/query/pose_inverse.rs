@@ -6,9 +6,10 @@ use crate::num::tolerance::{POSE_DEFECT, POSED_STRETCH, U64};
 
 type Row = [f64; 3];
 
-/// A matrix and what takes back its turn. Derivation: `core/docs/rounding.md` §15.
+/// A pose's matrix, nearly a rotation, and its approximate inverse. Derivation:
+/// `core/docs/rounding.md` §15.
 pub(crate) struct PoseInverse {
-    pub(crate) rows: [Row; 3],
+    rows: [Row; 3],
     columns: [Row; 3],
     /// The matrix changes lengths by a factor within `1 ± stretch`.
     pub(crate) stretch: f64,
@@ -25,8 +26,8 @@ impl PoseInverse {
         Ok(PoseInverse { rows, columns, stretch })
     }
 
-    /// The vector that the matrix takes nearly to `v`. Callers bound what is left.
-    pub(crate) fn of(&self, [vx, vy, vz]: Row) -> Row {
+    /// The vector that the matrix takes nearly to `v`. Callers bound the residual.
+    pub(crate) fn apply(&self, [vx, vy, vz]: Row) -> Row {
         let mut at = [0.0; 3];
         // The transposed matrix is nearly the inverse. The second step removes most of the error.
         for _ in 0..2 {
@@ -40,7 +41,7 @@ impl PoseInverse {
     }
 }
 
-/// Rows for columns.
+/// The transpose.
 pub(crate) fn transposed([a, b, c]: &[Row; 3]) -> [Row; 3] {
     let ([ax, ay, az], [bx, by, bz], [cx, cy, cz]) = (*a, *b, *c);
     [[ax, bx, cx], [ay, by, cy], [az, bz, cz]]

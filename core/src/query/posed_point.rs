@@ -91,7 +91,7 @@ impl Pose {
             let rest = |row, world: f64, shift: f64| world - shift - dot(row, at);
             [rest(r0, wx, tx), rest(r1, wy, ty), rest(r2, wz, tz)]
         };
-        let at = inverse.of([wx - tx, wy - ty, wz - tz]);
+        let at = inverse.apply([wx - tx, wy - ty, wz - tz]);
         let point = at.map(|x| x as f32);
         if !point.iter().all(|x| x.is_finite()) {
             return Err(QueryError::OutOfDomain);

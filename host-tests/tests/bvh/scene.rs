@@ -38,8 +38,8 @@ impl World {
         Self { scenes, places }
     }
 
-    fn placed(&self, single: bool) -> Vec<Placed<'_>> {
-        let tree = |which: usize| self.scenes[which].trees()[usize::from(single)];
+    fn placed(&self, is_f32: bool) -> Vec<Placed<'_>> {
+        let tree = |which: usize| self.scenes[which].trees()[usize::from(is_f32)];
         self.places.iter().map(|&(which, pose)| Placed { tree: tree(which), pose }).collect()
     }
 
@@ -79,8 +79,8 @@ fn the_nearest_pair_is_that_of_all_pairs_and_within_agrees() {
         let world = World::random(2 + round % 7, [4.0, 12.0, 300.0][round % 3], &mut rng);
         let not_neighbours = |a: usize, b: usize| b != a + 1;
         let all = |_: usize, _: usize| true;
-        for single in [false, true] {
-            let models = world.placed(single);
+        for is_f32 in [false, true] {
+            let models = world.placed(is_f32);
             let scene = Models::new(&models);
             for asks in [&all as &dyn Fn(usize, usize) -> bool, &not_neighbours] {
                 let found = scene.nearest_pair(asks, Budget::EXACT, &mut stack()).unwrap();
@@ -128,7 +128,7 @@ fn the_nearest_pair_is_that_of_all_pairs_and_within_agrees() {
     assert!(yes > 50 && no > 50, "{yes} {no}");
 }
 
-/// Matrices that stretch by up to a tenth: the world's lengths count, not those of a model.
+/// A matrix that stretches one axis by a twentieth: the world's lengths count, not those of a model.
 #[test]
 fn a_pose_that_is_no_rotation_is_paid_for() {
     let scene = Scene::both("", cube(2));

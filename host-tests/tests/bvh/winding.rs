@@ -1,5 +1,8 @@
 //! Winding numbers of closed, open and dirty meshes.
 
+use glam::Vec3;
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::mesh::Mesh;
 use meshsweep_core::internal::geom::{SeenCorner, SolidAngles};
 use meshsweep_core::{
     Budget, BuildFor, Bvh, Ended, Interval, QueryError, ScratchEntry, Side, Undecided,
@@ -38,18 +41,10 @@ fn holds(scene: &Scene, point: [f32; 3], found: &WindingNumber) -> bool {
     let Some((number, error)) = truth(scene, point) else { return true };
     let Interval { lower, upper } = found.number;
     let side = if number > 0.5 { Side::Inside } else { Side::Outside };
-    let is_sure = (number - 0.5).abs() <= error || matches!(found.side, Side::Undecided(_));
+    let side_may_differ = (number - 0.5).abs() <= error || matches!(found.side, Side::Undecided(_));
     f64::from(lower) <= number + error
         && number - error <= f64::from(upper)
-        && (is_sure || found.side == side)
-}
-
-fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+        && (side_may_differ || found.side == side)
 }
 
 #[test]
@@ -179,7 +174,7 @@ fn half_of_a_ball_is_seen_from_its_middle_as_half() {
 }
 
 #[test]
-fn more_steps_never_widen_the_interval_and_all_of_them_decide() {
+fn an_interval_of_few_steps_is_that_or_wider_and_says_that_steps_ended() {
     let scene = Scene::both("rough sphere", rough_sphere(4, 0.1, 3));
     let mut rng = Rng::new(75);
     for _ in 0..20 {
@@ -236,7 +231,7 @@ fn a_power_of_two_changes_no_bit_of_the_number() {
 }
 
 #[test]
-fn far_points_are_outside_and_cost_nothing() {
+fn far_points_are_outside_without_looking_at_triangles() {
     let scene = Scene::both("torus", torus(2.0, 0.75, 20, 10));
     for tree in scene.trees() {
         for far in [1e4, 1e8, 1e15, 1e20, 1e30, f32::MAX] {
@@ -279,17 +274,15 @@ fn angle(corners: [[f32; 3]; 3], moved: f32) -> (f64, f64) {
 }
 
 /// The same in f64, by the angles of the spherical triangle (Girard).
-fn girard(corners: [[f64; 3]; 3]) -> f64 {
-    let [a, b, c] = corners;
-    let normal = |a: [f64; 3], b: [f64; 3]| cross(&a, &b);
-    let planes = [normal(a, b), normal(b, c), normal(c, a)];
+fn girard(corners: [[f32; 3]; 3]) -> f64 {
+    let [a, b, c] = corners.map(|v| Vec3::from_array(v).as_dvec3());
+    let planes = [a.cross(b), b.cross(c), c.cross(a)];
     let between = |i: usize, j: usize| {
         let (m, n) = (planes[i], planes[j]);
-        let across = cross(&m, &n);
-        std::f64::consts::PI - dot(&across, &across).sqrt().atan2(dot(&m, &n))
+        std::f64::consts::PI - m.cross(n).length().atan2(m.dot(n))
     };
     let excess = between(0, 1) + between(1, 2) + between(2, 0) - std::f64::consts::PI;
-    excess.copysign(dot(&a, &cross(&b, &c)))
+    excess.copysign(a.dot(b.cross(c)))
 }
 
 #[test]
@@ -304,7 +297,7 @@ fn an_angle_is_within_its_bound_of_girard_s_also_when_corners_move() {
             [0, 1, 2].map(|k| at[k] + size * along[k])
         };
         let corners = [corner(&mut rng), corner(&mut rng), corner(&mut rng)];
-        let truth = girard(corners.map(|v| v.map(f64::from)));
+        let truth = girard(corners);
         let (sum, error) = angle(corners, 0.0);
         // Girard's formula loses digits in small triangles.
         let own = 1e-14 / (size * size) as f64 + 1e-13;
@@ -332,18 +325,54 @@ fn any_number_of_angles_is_counted_past_every_turn() {
         let mut truth = 0.0;
         for _ in 0..rng.below(300) {
             let corners = [(); 3].map(|()| rng.direction());
-            let own = girard(corners.map(|v| v.map(f64::from)));
+            let own = girard(corners);
             // Mostly one way, so that the sum goes far.
             let corners = if own < 0.0 && rng.below(4) > 0 {
                 [corners[0], corners[2], corners[1]]
             } else {
                 corners
             };
-            truth += girard(corners.map(|v| v.map(f64::from)));
+            truth += girard(corners);
             angles.add(corners.map(|corner| SeenCorner::new(corner.into())), 0.0);
         }
         let (sum, error) = angles.sum();
         assert!((f64::from(sum) - truth).abs() <= f64::from(error), "{sum} {truth} {error}");
         assert!(error < 1.0);
     }
+}
+
+#[test]
+fn the_signed_distance_of_a_mesh_with_holes_has_the_side_of_the_number() {
+    let (positions, triangles) = without(&icosphere(3), |number| number % 7 == 3);
+    let mesh = Mesh::new(positions, triangles);
+    let options = TreeOptions::default().with_winding(true);
+    let bytes = build(mesh.as_input(), &options).expect("builds").0.to_bytes();
+    let tree = Bvh::open(&bytes).expect("opens");
+    let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
+    let mut rng = Rng::new(80);
+    for _ in 0..300 {
+        let point = rng.direction().map(|x| 1.5 * x * rng.unit_f32());
+        let found = tree.signed_by_winding(point, Budget::EXACT, &mut stack).expect("answers");
+        let near = tree.closest_point(point, Budget::EXACT, &mut stack).expect("answers");
+        assert_eq!(found.side, ask(&tree, point, Budget::EXACT).side);
+        assert_eq!((found.closest.point, found.closest.triangle), (near.point, near.triangle));
+        let Interval { lower, upper } = near.distance;
+        let signed = match found.side {
+            Side::Inside => Interval::new(-upper, -lower),
+            Side::Outside => Interval::new(lower, upper),
+            _ => Interval::new(-upper, upper),
+        };
+        assert_eq!(found.distance, signed);
+    }
+    let far = tree.signed_by_winding([9.0; 3], Budget::EXACT, &mut stack).expect("answers");
+    assert_eq!((far.side, far.closest.ended), (Side::Outside, Ended::Exact));
+    let no_steps = Budget::EXACT.with_steps(0);
+    let found = tree.signed_by_winding([0.1; 3], no_steps, &mut stack).expect("answers");
+    assert_eq!(
+        (found.side, found.closest.ended),
+        (Side::Undecided(Undecided::Steps), Ended::Steps)
+    );
+    let plain = Scene::tree("torus", torus(2.0, 0.75, 16, 8), false);
+    let refused = plain.bvh().signed_by_winding([0.0; 3], Budget::EXACT, &mut stack);
+    assert_eq!(refused, Err(QueryError::NotServed { build_for: BuildFor::Winding }));
 }

@@ -1,4 +1,5 @@
-//! `meshsweep clearance`: poses of a second mesh in, its distance from the first one out.
+//! `meshsweep clearance`: poses of a second mesh in, its distance from the first one out; or whether
+//! it is within a distance; or whether the moves from pose to pose are clear.
 
 use crate::args::{ClearanceArgs, MoveKind, MovedArgs};
 use crate::ask::{self, Answer, Question, verdict_name, write_numbers, write_pair};
@@ -99,13 +100,13 @@ impl Clearance<'_> {
     ) -> Result<(), Failure> {
         let Clearance { args: ClearanceArgs { search, within, .. }, trees: [first, second] } = self;
         let keep = within.unwrap_or(0.0);
-        let moves = poses.moves(|from, to| both(pose_of(from), pose_of(to)))?;
+        let moves = poses.moves(|from, to| row_of_poses([pose_of(from), pose_of(to)]))?;
         let header = "move,clear,t,ax,ay,az,bx,by,bz,first,second,work";
         Question::new(header, moves, search).ask(
             || {
                 let mut scratch = search.scratch(Bvh::DISTANCE_ENTRIES);
                 move |row: [f32; 24]| {
-                    let [from, to] = apart(&row);
+                    let [from, to] = poses_of_row(&row);
                     let motion = match kind {
                         MoveKind::Straight => Motion::straight(from, to),
                         MoveKind::Screw => Motion::screw(from, to)?,
@@ -131,15 +132,15 @@ impl Clearance<'_> {
 }
 
 /// Two poses as one row: matrices, then translations.
-fn both(from: Pose, to: Pose) -> [f32; 24] {
-    let mut numbers = [from, to]
+fn row_of_poses(poses: [Pose; 2]) -> [f32; 24] {
+    let mut numbers = poses
         .into_iter()
         .flat_map(|pose| pose.rotation.into_iter().flatten().chain(pose.translation));
     std::array::from_fn(|_| numbers.next().unwrap_or_default())
 }
 
 /// The poses of such a row.
-fn apart(row: &[f32; 24]) -> [Pose; 2] {
+fn poses_of_row(row: &[f32; 24]) -> [Pose; 2] {
     let pose = |at: usize| {
         let triple = |k: usize| [0, 1, 2].map(|i| row[at + 3 * k + i]);
         Pose { rotation: [0, 1, 2].map(triple), translation: triple(3) }

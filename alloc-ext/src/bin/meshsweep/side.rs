@@ -7,7 +7,8 @@ pub fn has_sides(tree: &Bvh<'_>) -> bool {
     tree.is_closed() || tree.serves_winding()
 }
 
-/// Signed distance, of a mesh that is not closed by its winding number if the blob has it.
+/// Signed distance. If the mesh is open and the blob has moments, the side is that of the winding
+/// number.
 pub fn signed_distance(
     tree: &Bvh<'_>,
     point: [f32; 3],

@@ -3,23 +3,25 @@
 use super::layout::MOMENTS_BYTES;
 use glam::Vec3;
 
-/// Moments of the triangles below a node, as they are stored. Grid units. Integrals run over the
-/// area; n is the unit normal and h the way from the centre.
+/// Moments of the triangles below a node, as they are stored. Integrals run over the area; n is the
+/// unit normal and h the way from the centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeMoments {
-    /// The centre of a ball that contains the triangles.
+    /// The centre of a ball that contains the triangles, grid units.
     pub centre: Vec3,
-    /// The ball's radius.
+    /// The ball's radius, grid units.
     pub radius: f32,
-    /// ∫ n.
+    /// ∫ n, grid units².
     pub area: Vec3,
-    /// The symmetric part of ∫ h nᵀ without its trace: xx, xy, xz, yy, yz. zz is −xx − yy.
+    /// The symmetric part of ∫ h nᵀ without its trace: xx, xy, xz, yy, yz. zz is −xx − yy. Grid
+    /// units³.
     pub first: [f32; 5],
-    /// Upper bound of 3·∫ |h|².
+    /// Upper bound of 3·∫ |h|², grid units⁴.
     pub spread: f32,
-    /// Upper bound of the error of `area` and of `first` over the radius.
+    /// Upper bound of the error of `area`, and of three times that of `first` over the radius. Grid
+    /// units².
     pub area_error: f32,
-    /// Upper bound of the length of the edges along which the triangles end.
+    /// Upper bound of the length of the edges along which the triangles end, grid units.
     pub boundary: f32,
 }
 

@@ -21,8 +21,8 @@ impl Bvh<'_> {
     /// motion. Only surfaces count: a mesh may move inside of another one.
     ///
     /// `scratch`: [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES) are always enough. The steps (pairs
-    /// of nodes) of the budget are those of all distances together. Tolerances are ignored. Where
-    /// less is found out, `clear_until` is earlier.
+    /// of nodes) of the budget are those of all distances together. Tolerances are ignored. If steps
+    /// or scratch memory run out, `clear_until` is earlier.
     ///
     /// Cost: a [`distance`](Bvh::distance) for each advance: three to ten where the motion passes
     /// at some distance, some dozens before contact, more where the surfaces glide along each
@@ -84,8 +84,7 @@ impl Bvh<'_> {
                     ..contact
                 });
             }
-            let goes_on = advance >= LEAST_ADVANCE;
-            if !goes_on {
+            if advance < LEAST_ADVANCE {
                 contact.ended = if is_cut { found.ended } else { Ended::Resolution };
                 break;
             }
@@ -101,7 +100,7 @@ impl Bvh<'_> {
 fn quickest(tree: &Bvh<'_>, motion: &Motion) -> (f64, f64) {
     // Both are convex functions of the point: a corner goes farthest.
     corners_of_input(tree).fold((0.0, 0.0), |(quickest, rounding), corner| {
-        let (way, off) = motion.way_of(corner);
+        let (way, off) = motion.path_bounds(corner);
         (greater(quickest, way), greater(rounding, off))
     })
 }

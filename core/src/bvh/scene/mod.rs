@@ -29,7 +29,8 @@ pub struct SceneDistance {
     /// The least distance of two surfaces, of all pairs asked about. From 0 to infinity if there is
     /// no pair.
     pub distance: Interval,
-    /// The pair whose distance has the least upper end, by the places in the scene.
+    /// The pair whose distance has the least upper end: indices into the models. `None` if there is
+    /// no pair; then the numbers below are 0.
     pub models: Option<[usize; 2]>,
     /// A point of the surface of either model, nearest to each other, in the world and rounded to
     /// f32.
@@ -70,8 +71,8 @@ impl<'s, 'a> Scene<'s, 'a> {
 
     /// The pair of models whose surfaces are nearest, and their distance in the world.
     ///
-    /// Only pairs for which `asks_about` is true count, each once, the lesser number first: leave
-    /// out neighbours that always touch. Lengths are in the unit of the world, which all models
+    /// Only pairs for which `asks_about` is true count, the lesser index first. It is called twice a
+    /// pair. Leave out neighbours that always touch. Lengths are in the unit of the world, which all models
     /// share. The poses' numbers are taken as exact. Only surfaces count, and each pair is as for
     /// [`Bvh::distance`](crate::Bvh::distance). Surfaces that meet have a distance from 0, and an
     /// upper end of a few roundings, because the pose of one model in the frame of the other is
@@ -79,10 +80,11 @@ impl<'s, 'a> Scene<'s, 'a> {
     ///
     /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. The
     /// steps (pairs of nodes) of the budget are those of all pairs together. Pairs for which no
-    /// steps are left are bounded by their boxes. Tolerances are those of each pair.
+    /// steps are left are bounded by their boxes. The tolerances apply to each pair's
+    /// distance.
     ///
-    /// Cost: some sixty operations in f32 for each pair of models. A distance for each pair whose
-    /// boxes are nearer than the nearest pair so far, which begins with the nearest boxes.
+    /// Cost: some hundred operations in f32 for each pair of models, twice. A distance for each pair
+    /// whose boxes are nearer than the nearest pair so far, which begins with the nearest boxes.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Placed, Pose, Scene, Scratch};
@@ -98,7 +100,7 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// # Errors
     /// Those of [`Bvh::distance`](crate::Bvh::distance); [`QueryError::PoseOutOfDomain`] also if a
     /// pose is far from a rotation; [`QueryError::OutOfDomain`] if two models are farther from each
-    /// other than f32 reaches.
+    /// other than f32 reaches. Poses are checked only of pairs whose boxes are near enough.
     pub fn nearest_pair(
         &self,
         asks_about: impl Fn(usize, usize) -> bool,
@@ -148,7 +150,7 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. Of the
     /// budget only `steps` matters, those of all pairs together.
     ///
-    /// Cost: some sixty operations in f32 for each pair of models, and a
+    /// Cost: some hundred operations in f32 for each pair of models, and a
     /// [`Bvh::within_of`](crate::Bvh::within_of) for each pair whose boxes are within the distance.
     ///
     /// # Errors
@@ -170,7 +172,7 @@ impl<'s, 'a> Scene<'s, 'a> {
             if gap > distance {
                 continue;
             }
-            let (one, other) = placed(self.models, pair)?;
+            let (one, other) = two_of(self.models, pair)?;
             let relative = Relative::new(one, other)?;
             let mut ask = |distance: f32| {
                 let budget = budget.with_steps(budget.steps.saturating_sub(work.splits));
@@ -179,16 +181,19 @@ impl<'s, 'a> Scene<'s, 'a> {
                 work = work.and(found.work);
                 Ok::<Verdict, QueryError>(found.verdict)
             };
-            let mut verdict = ask(relative.at_most(distance))?;
+            let open = Verdict::Undecided(Undecided::Resolution);
+            let most = relative.at_most(distance);
+            // Beyond f32 no distance can be asked about.
+            let mut verdict = if most < f32::INFINITY { ask(most)? } else { open };
             if verdict == Verdict::Yes {
+                // Not within the lesser distance: between both, nothing is proved in the world.
                 verdict = match relative.at_least(distance) {
-                    Some(less) => ask(less)?,
-                    None => Verdict::No,
+                    Some(least) => match ask(least)? {
+                        Verdict::No => open,
+                        other => other,
+                    },
+                    None => open,
                 };
-                // Between both distances.
-                if verdict == Verdict::No {
-                    verdict = Verdict::Undecided(Undecided::Resolution);
-                }
             }
             match verdict {
                 Verdict::Yes => return Ok(SceneWithin { verdict, models: Some(pair), work }),
@@ -219,7 +224,7 @@ impl<'s, 'a> Scene<'s, 'a> {
     }
 }
 
-fn placed<'s, 'a>(
+fn two_of<'s, 'a>(
     models: &'s [Placed<'a>],
     [a, b]: [usize; 2],
 ) -> Result<(&'s Placed<'a>, &'s Placed<'a>), QueryError> {
@@ -244,7 +249,7 @@ impl NearestPair<'_, '_, '_> {
             self.found.ended = Ended::Steps;
             return Ok(());
         }
-        let (one, other) = placed(self.models, pair)?;
+        let (one, other) = two_of(self.models, pair)?;
         let relative = Relative::new(one, other)?;
         let pose = relative.pose;
         // Most pairs are farther than the nearest one so far, and this is proved at less cost.

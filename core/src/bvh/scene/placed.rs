@@ -3,7 +3,7 @@
 use crate::bvh::format::Bvh;
 use crate::bvh::input_box::corners_of_input;
 use crate::geom::{Pose, dot};
-use crate::num::tolerance::{POSED_POINT, U32, U64};
+use crate::num::tolerance::{POSED_POINT, RELATIVE_POSE, U32, U64, WORLD_BOX};
 use crate::num::{down_to_f32, greater, sqrt_approx, up_to_f32};
 use crate::query::{Interval, PoseInverse, QueryError, transposed};
 
@@ -37,7 +37,7 @@ impl WorldBox {
                 *half += entry.abs() * (0.5 * high - 0.5 * low + error);
                 size += entry.abs() * (low.abs() + high.abs() + error);
             }
-            *half += size * (BOX_ROUNDING * U32) + f32::MIN_POSITIVE;
+            *half += size * (WORLD_BOX * U32) + f32::MIN_POSITIVE;
         }
         found
     }
@@ -57,10 +57,6 @@ impl WorldBox {
     }
 }
 
-/// Rounding of a box in the world, in units of [`U32`] times the sizes of its terms. Proved: 13
-/// (§21).
-const BOX_ROUNDING: f32 = 16.0;
-
 /// The pose of one model in the frame of another, and how distances there differ from those in the
 /// world.
 pub(super) struct Relative {
@@ -73,48 +69,47 @@ pub(super) struct Relative {
 
 impl Relative {
     pub(super) fn new(first: &Placed<'_>, second: &Placed<'_>) -> Result<Relative, QueryError> {
-        let wide = |pose: &Pose| {
-            (pose.rotation.map(|row| row.map(f64::from)), pose.translation.map(f64::from))
-        };
-        let ((rows, shift), (other, other_shift)) = (wide(&first.pose), wide(&second.pose));
         let numbers = [&first.pose, &second.pose]
             .into_iter()
             .flat_map(|pose| pose.rotation.iter().flatten().chain(&pose.translation));
         if !numbers.into_iter().all(|x| x.is_finite()) {
             return Err(QueryError::NotFinite);
         }
-        let inverse = PoseInverse::new(rows)?;
+        let ((a_rows, a_shift), (b_rows, b_shift)) = (wide(&first.pose), wide(&second.pose));
+        let inverse = PoseInverse::new(a_rows)?;
         let stretch = inverse.stretch;
-        let ([ax, ay, az], [bx, by, bz]) = (shift, other_shift);
-        let way = [bx - ax, by - ay, bz - az];
-        let matrix = transposed(&transposed(&other).map(|column| inverse.of(column)));
+        let ([ax, ay, az], [bx, by, bz]) = (a_shift, b_shift);
+        let m_rows = transposed(&transposed(&b_rows).map(|column| inverse.apply(column)));
+        let m_shift = inverse.apply([bx - ax, by - ay, bz - az]);
         let pose = Pose {
-            rotation: matrix.map(|row| row.map(|x| x as f32)),
-            translation: inverse.of(way).map(|x| x as f32),
+            rotation: m_rows.map(|row| row.map(|x| x as f32)),
+            translation: m_shift.map(|x| x as f32),
         };
         if !pose.translation.iter().all(|x| x.is_finite()) {
             return Err(QueryError::OutOfDomain);
         }
-        let (matrix, place) = wide(&pose);
+        // As rounded.
+        let (m_rows, m_shift) = wide(&pose);
         let mut largest = 0.0;
         // How far off a point is, is a convex function of the point: a corner of the box is worst.
-        for point in corners_of_input(&second.tree) {
-            let [x, y, z] = matrix.map(|row| dot(row, point));
-            let [a, b, c] = place;
-            let here = [x + a, y + b, z + c];
-            let left = |row: [f64; 3], turned: [f64; 3], way: f64, a: f64, b: f64| {
-                let sizes = |row: [f64; 3], v: [f64; 3]| dot(row.map(f64::abs), v.map(f64::abs));
-                // Of `here` too, whose terms are larger than itself.
-                let terms = sizes(row, matrix.map(|m| sizes(m, point)))
-                    + sizes(row, place)
-                    + sizes(turned, point)
-                    + a.abs()
-                    + b.abs();
-                (dot(turned, point) + way - dot(row, here)).abs() + 2.0 * POSED_POINT * U64 * terms
+        for x in corners_of_input(&second.tree) {
+            let [p, q, r] = m_rows.map(|row| dot(row, x));
+            let [u, v, w] = m_shift;
+            let carried = [p + u, q + v, r + w];
+            let sizes = |row: Row, v: Row| dot(row.map(f64::abs), v.map(f64::abs));
+            // B·x + t − (A·(M·x + m) + s) along an axis, and room for its rounding.
+            let residual = |a_row: Row, b_row: Row, s: f64, t: f64| {
+                let terms = sizes(a_row, m_rows.map(|row| sizes(row, x)))
+                    + sizes(a_row, m_shift)
+                    + sizes(b_row, x)
+                    + s.abs()
+                    + t.abs();
+                let left = dot(b_row, x) + (t - s) - dot(a_row, carried);
+                left.abs() + RELATIVE_POSE * U64 * terms
             };
-            let ([r0, r1, r2], [m0, m1, m2], [wx, wy, wz]) = (rows, other, way);
+            let ([a0, a1, a2], [b0, b1, b2]) = (a_rows, b_rows);
             let off =
-                [left(r0, m0, wx, ax, bx), left(r1, m1, wy, ay, by), left(r2, m2, wz, az, bz)];
+                [residual(a0, b0, ax, bx), residual(a1, b1, ay, by), residual(a2, b2, az, bz)];
             largest = greater(largest, dot(off, off));
         }
         let error = libm::sqrt(largest) / (1.0 - stretch) * (1.0 + POSED_POINT * U64);
@@ -142,4 +137,10 @@ impl Relative {
         let in_model = in_model - self.error * (1.0 + 4.0 * U64);
         (in_model >= 0.0).then(|| down_to_f32(in_model))
     }
+}
+
+type Row = [f64; 3];
+
+fn wide(pose: &Pose) -> ([Row; 3], Row) {
+    (pose.rotation.map(|row| row.map(f64::from)), pose.translation.map(f64::from))
 }

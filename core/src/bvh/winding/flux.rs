@@ -1,10 +1,10 @@
-//! Sums of solid angles, with bounds of their errors.
+//! The flux of many triangles, with a bound of its error.
 
 use crate::num::tolerance::U32;
 use crate::num::{greater, lesser, sum_down, sum_up};
 use crate::query::Interval;
 
-/// A sum of solid angles.
+/// A sum of solid angles, whatever they were computed from.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Flux {
     sum: f32,
@@ -36,8 +36,8 @@ impl Flux {
 
     /// The winding number. It is within `±most` in any case.
     pub(super) fn winding(self, most: f32) -> Interval {
-        let error = self.error() * TURN;
-        let turns = self.sum * TURN;
+        let error = self.error() * PER_SPHERE;
+        let turns = self.sum * PER_SPHERE;
         let error = (error + turns.abs() * (4.0 * U32)) * (1.0 + 4.0 * U32) + f32::MIN_POSITIVE;
         let (lower, upper) = (sum_down(turns, -error), sum_up(turns, error));
         if self.terms > MOST_TERMS || error.is_nan() || error > most {
@@ -47,5 +47,5 @@ impl Flux {
     }
 }
 
-/// 1/(4π).
-const TURN: f32 = 0.079_577_47;
+/// 1/(4π): winding numbers of a solid angle.
+const PER_SPHERE: f32 = 0.079_577_47;

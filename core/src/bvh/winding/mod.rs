@@ -11,9 +11,10 @@
 //! | `moment_flux` | the solid angles of all triangles of a node together, from afar |
 //! | `flux` | sums with bounds of their errors |
 //!
-//! A pass replaces nodes that are small beside their distance by their moments, and adds up the
-//! solid angles of the other triangles one by one. Each pass takes only smaller nodes than the one
-//! before, until the side is decided. Every pass gives an interval that contains the number, and
+//! The *flux* of a set of triangles is the sum of their solid angles. A pass takes the flux of nodes
+//! that are small beside their distance from their moments, and adds up the solid angles of the
+//! other triangles one by one. Each pass replaces only smaller nodes than the pass before, until
+//! the side is decided. Every pass gives an interval that contains the number, and
 //! the answer is their intersection. A pass is depth-first, so it needs the memory of any other
 //! descent, and no queue.
 
@@ -37,7 +38,9 @@ pub struct WindingNumber {
     pub side: Side,
     /// The work of the search.
     pub work: Work,
-    /// Why the search ended.
+    /// Why the search ended. [`Ended::Exact`]: the side is decided, and no width was asked for.
+    /// [`Ended::Tolerance`]: the side is decided, and the interval as narrow as asked for.
+    /// [`Ended::Resolution`]: vertices that were moved, and rounding, leave no more to find out.
     pub ended: Ended,
 }
 
@@ -51,7 +54,9 @@ impl Bvh<'_> {
     ///
     /// The number is that of the mesh as the builder repaired it: triangles that occur twice, in
     /// either direction, count once, and neighbours wind alike. It is positive where the surface
-    /// has its back to the point. Sides of a mesh that is inside out are exchanged.
+    /// has its back to the point. The builder turns closed parts that are inside out. In an open
+    /// part that is inside out the number is about −1, so every point is outside. Parts that
+    /// overlap and are wound against each other cancel.
     ///
     /// The search ends as soon as the side is decided and the interval is no wider than
     /// `budget.absolute`, a pure number here; 0, as in [`Budget::EXACT`], asks for the side alone.
@@ -107,14 +112,14 @@ impl Bvh<'_> {
     /// Signed distance of `point` (input units) to a mesh that need not be closed: its side is that
     /// of the [`winding_number`](Bvh::winding_number).
     ///
-    /// For a closed mesh without parts that overlap the sides are those of
+    /// For a closed mesh whose winding numbers are 0 and 1 the sides are those of
     /// [`signed_distance`](Bvh::signed_distance), which costs less. Where parts overlap the
     /// distance is that of the nearest triangle, even if it lies inside of another part. In a hole
     /// the sign changes at a distance that is not 0.
     ///
     /// Triangle and point are those of [`closest_point`](Bvh::closest_point). Of the budget only
-    /// `steps` matters: the distance takes the first. `closest.ended` is [`Ended::Resolution`] if
-    /// only the side is undecided. `scratch` as for `closest_point`.
+    /// `steps` matters: the distance takes the first. If only the side is undecided,
+    /// `closest.ended` says why. `scratch` as for `closest_point`.
     ///
     /// Cost: that of the closest point and of the winding number.
     ///
@@ -127,6 +132,9 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<SignedDistance, QueryError> {
+        if !self.serves_winding() {
+            return Err(QueryError::NO_MOMENTS);
+        }
         budget.check()?;
         let budget = Budget::EXACT.with_steps(budget.steps);
         let mut closest = self.closest_point(point, budget, scratch)?;

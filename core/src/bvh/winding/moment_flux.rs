@@ -15,7 +15,8 @@ pub(super) struct SeenNode {
     way: Vec3,
     /// Length of the way.
     distance: f32,
-    /// Lower bound of the distance of the input's triangles, before and after they were moved.
+    /// Lower bound of the distance of the triangles, at their places in the input and as stored. 0
+    /// or less: not known.
     gap: f32,
 }
 
@@ -82,10 +83,10 @@ impl SeenNode {
         let flux = sum(&zero_order) - scale * sum(&first_order);
         let sizes =
             size(&zero_order) + scale * (size(&first_order) + (xx.abs() + yy.abs()) * (z * z));
-        let inverse = near * near;
-        let square = self.gap * self.gap;
-        let rest = (spread / square + area_error) / square;
-        let error = (sizes * inverse * (MOMENT_FLUX * U32) + rest) * (1.0 + 16.0 * U32);
-        (flux * inverse, error)
+        let inverse_sq = near * near;
+        let gap_sq = self.gap * self.gap;
+        let truncation = (spread / gap_sq + area_error) / gap_sq;
+        let error = (sizes * inverse_sq * (MOMENT_FLUX * U32) + truncation) * (1.0 + 16.0 * U32);
+        (flux * inverse_sq, error)
     }
 }

@@ -44,20 +44,33 @@ struct Pass {
     /// Of the other triangles.
     angles: SolidAngles,
     /// The part of the error that smaller nodes would lessen.
-    expansion: f32,
+    truncation: f32,
     /// The triangles of some node are missing from the sum.
     is_unknown: bool,
     /// Why nodes were not opened that should have been.
     cut_short: Option<Ended>,
 }
 
-/// What stands on the stack beside a node: whether the change of its flux by moved vertices is in
-/// the sum already, as a part of a larger node's.
-const MOVES_COUNTED: f32 = 1.0;
+/// A node on the stack.
+struct Waiting {
+    node: u32,
+    /// What its vertices' moves change is in the error already, as a part of a larger node's.
+    moves_counted: bool,
+}
+
+impl Waiting {
+    fn read(entry: ScratchEntry) -> Waiting {
+        Waiting { node: entry.node(), moves_counted: entry.key() > 0.0 }
+    }
+
+    fn entry(&self) -> ScratchEntry {
+        ScratchEntry::new(if self.moves_counted { 1.0 } else { 0.0 }, self.node)
+    }
+}
 
 impl Search<'_> {
     /// The number from so far away that squares would leave f32's range: |w| ≤ Σ area/(4π·d²). The
-    /// distance is at least 2^37 (§20).
+    /// distance is at least 2^36 (§20).
     pub(super) fn number_from_afar(&self) -> (Interval, Ended) {
         let header = self.tree.header();
         let bound = if self.error <= FAR_ERROR {
@@ -65,7 +78,8 @@ impl Search<'_> {
         } else {
             self.most
         };
-        self.ended(Interval::new(-bound, bound), Ended::Resolution)
+        let number = Interval::new(-bound, bound);
+        (number, self.ended(number, Ended::Resolution))
     }
 
     /// The number in passes of rising cost.
@@ -80,12 +94,12 @@ impl Search<'_> {
                 let found = pass.flux.winding(self.most);
                 let (lower, upper) =
                     (greater(number.lower, found.lower), lesser(number.upper, found.upper));
-                // Always, but for moments that no builder wrote.
+                // Intervals of sound moments always meet. Those of forged moments may not.
                 if lower <= upper {
                     number = Interval::new(lower, upper);
                 }
             }
-            let (_, ended) = self.ended(number, pass.cut_short.unwrap_or(Ended::Resolution));
+            let ended = self.ended(number, pass.cut_short.unwrap_or(Ended::Resolution));
             if ended != Ended::Resolution || !pass.may_improve() {
                 return Ok((number, ended));
             }
@@ -93,52 +107,52 @@ impl Search<'_> {
         Ok((number, Ended::Resolution))
     }
 
-    /// Whether the number is good enough; else the search ended for the reason `otherwise`.
-    fn ended(&self, number: Interval, otherwise: Ended) -> (Interval, Ended) {
+    /// Why the search ends with this number: it is good enough, or `otherwise`.
+    fn ended(&self, number: Interval, otherwise: Ended) -> Ended {
         let is_decided = side_of(number).is_some();
         let is_narrow = number.upper - number.lower <= self.absolute;
-        let ended = match (is_decided, self.absolute > 0.0) {
+        match (is_decided, self.absolute > 0.0) {
             (true, false) => Ended::Exact,
             (true, true) if is_narrow => Ended::Tolerance,
             _ => otherwise,
-        };
-        (number, ended)
+        }
     }
 
     fn pass(&mut self, ratio: f32, scratch: &mut [ScratchEntry]) -> Result<Pass, QueryError> {
         let mut pass = Pass {
             flux: Flux::default(),
             angles: SolidAngles::NONE,
-            expansion: 0.0,
+            truncation: 0.0,
             is_unknown: false,
             cut_short: None,
         };
         let mut waiting = 0;
-        let mut next = Some(ScratchEntry::new(0.0, 0));
-        while let Some(entry) = next {
-            let node = entry.node();
+        let mut next = Some(Waiting { node: 0, moves_counted: false });
+        while let Some(Waiting { node, moves_counted }) = next {
             let moments = self.tree.moments(node).ok_or(QueryError::Unchecked)?;
             let seen = SeenNode::new(moments, self.p, self.error);
             self.work.nodes = self.work.nodes.saturating_add(1);
-            let mut error = if entry.key() == MOVES_COUNTED { 0.0 } else { self.error };
+            // Moves that are not in the sum's error yet.
+            let mut uncounted = if moves_counted { 0.0 } else { self.error };
             let is_small = seen.is_small(ratio);
             if is_small || self.steps == 0 {
                 if !is_small {
                     pass.cut_short = Some(Ended::Steps);
                 }
-                pass.take_moments(&seen, error);
+                pass.take_moments(&seen, uncounted);
             } else {
                 self.steps -= 1;
                 self.work.splits = self.work.splits.saturating_add(1);
-                if error > 0.0 && seen.bounds_moves(error) {
-                    pass.flux.add(0.0, seen.moved(error));
-                    error = 0.0;
+                if uncounted > 0.0 && seen.bounds_moves(uncounted) {
+                    // This bound covers all below the node, so the children add none.
+                    pass.flux.add(0.0, seen.moved(uncounted));
+                    uncounted = 0.0;
                 }
-                self.open(node, error, scratch, &mut waiting, &mut pass)?;
+                self.open(node, uncounted, scratch, &mut waiting, &mut pass)?;
             }
             next = waiting.checked_sub(1).and_then(|last| {
                 waiting = last;
-                scratch.get(last).copied()
+                scratch.get(last).copied().map(Waiting::read)
             });
         }
         let (sum, error) = pass.angles.sum();
@@ -150,34 +164,39 @@ impl Search<'_> {
     fn open(
         &mut self,
         node: u32,
-        error: f32,
+        uncounted: f32,
         scratch: &mut [ScratchEntry],
         waiting: &mut usize,
         pass: &mut Pass,
     ) -> Result<(), QueryError> {
         let links = self.tree.links(node).ok_or(QueryError::Unchecked)?;
-        let counted = if error == 0.0 { MOVES_COUNTED } else { 0.0 };
         for index in 0..links.inner {
             let child = links.child(index).at;
             if let Some(slot) = scratch.get_mut(*waiting) {
-                *slot = ScratchEntry::new(counted, child);
+                *slot = Waiting { node: child, moves_counted: uncounted == 0.0 }.entry();
                 *waiting += 1;
             } else {
                 let moments = self.tree.moments(child).ok_or(QueryError::Unchecked)?;
                 pass.cut_short = Some(Ended::Scratch);
-                pass.take_moments(&SeenNode::new(moments, self.p, self.error), error);
+                pass.take_moments(&SeenNode::new(moments, self.p, self.error), uncounted);
             }
         }
-        self.add_leaves(&links, error, &mut pass.angles).ok_or(QueryError::Unchecked)
+        self.add_leaves(&links, uncounted, &mut pass.angles).ok_or(QueryError::Unchecked)
     }
 
     /// Adds the solid angles of the triangles of a node's leaves.
-    fn add_leaves(&mut self, links: &Links, error: f32, angles: &mut SolidAngles) -> Option<()> {
+    fn add_leaves(
+        &mut self,
+        links: &Links,
+        uncounted: f32,
+        angles: &mut SolidAngles,
+    ) -> Option<()> {
         for index in links.inner..links.count {
             let leaf = self.tree.leaf_at(links.vertex(index), links.shape(index))?;
             let shape = leaf.shape();
             let (triangles, turn) = (shape.triangles(), shape.turn());
             self.work.triangles = self.work.triangles.saturating_add(triangles as u32);
+            // Each vertex is measured once for the two triangles that it belongs to.
             let seen = |v: Vec3| SeenCorner::new(v - self.p);
             let first = seen(leaf.centre(0));
             let second = if shape.centres() > 1 { seen(leaf.centre(1)) } else { first };
@@ -189,7 +208,7 @@ impl Search<'_> {
                     true if shape.second_reversed() => [second, next, here],
                     true => [second, here, next],
                 };
-                angles.add(corners, error);
+                angles.add(corners, uncounted);
                 here = next;
             }
         }
@@ -201,16 +220,16 @@ impl Pass {
     /// Whether smaller nodes would narrow the interval: not if nearly all of the error is that of
     /// moved vertices and of rounding.
     fn may_improve(&self) -> bool {
-        self.is_unknown || self.expansion > self.flux.error() * WORTH_A_PASS
+        self.is_unknown || self.truncation > self.flux.error() * WORTH_A_PASS
     }
 
-    /// Adds the moments of a node. `error`: how far vertices were moved, or 0 if that is counted.
-    fn take_moments(&mut self, seen: &SeenNode, error: f32) {
+    /// Adds the moments of a node, and what moves of `uncounted` change.
+    fn take_moments(&mut self, seen: &SeenNode, uncounted: f32) {
         if seen.is_away() {
             let (flux, off) = seen.flux();
-            self.expansion += off;
+            self.truncation += off;
             self.flux.add(flux, off);
-            self.flux.add(0.0, seen.moved(error));
+            self.flux.add(0.0, seen.moved(uncounted));
         } else {
             self.is_unknown = true;
         }
