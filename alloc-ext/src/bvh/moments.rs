@@ -134,12 +134,14 @@ fn of_triangles(corners: &[[DVec3; 3]], boundary: f64) -> NodeMoments {
     let mut first_moment = DMat3::ZERO;
     let (mut spread, mut sizes, mut radius) = (0.0, 0.0, 0f64);
     for &triangle in corners {
+        // Differences of stored corners are exact on the grid.
+        let [e, g] = [triangle[1] - triangle[0], triangle[2] - triangle[0]];
         let [a, b, c] = triangle.map(about);
-        let normal = 0.5 * (b - a).cross(c - a);
+        let normal = 0.5 * e.cross(g);
         let h = (a + b + c) / 3.0;
         normals += normal;
         first_moment += DMat3::from_cols(h * normal.x, h * normal.y, h * normal.z);
-        let size = (b - a).length() * (c - a).length();
+        let size = e.length() * g.length();
         let squares = a.length_squared() + b.length_squared() + c.length_squared();
         let most_area = normal.length() + size * exp2(-48);
         spread += most_area * (squares + (a + b + c).length_squared()) / 12.0;

@@ -317,6 +317,9 @@ pub const SCREW_DEFECT: f64 = 1e-3;
 /// Proved: 13 (§21).
 pub const WORLD_BOX: f32 = 16.0;
 
+/// Least gap of two boxes in the world that counts, 2^-60: its square is in f32's normal range.
+pub const LEAST_WORLD_GAP: f32 = 1.0 / (1u64 << 60) as f32;
+
 /// Rounding of what a rounded pose of one model in the frame of another leaves at a point, in units
 /// of [`U64`] times the sum of its terms. Proved: 8 (§21).
 pub const RELATIVE_POSE: f64 = 16.0;

@@ -1,9 +1,10 @@
 //! How a model moves from one pose to another.
 
+use super::error::QueryError;
+use super::pose_inverse::transposed;
 use crate::geom::{Pose, cross, dot};
 use crate::num::greater;
 use crate::num::tolerance::{SCREW_DEFECT, SCREW_ROUNDING, U32, U64};
-use crate::query::QueryError;
 
 type Point = [f64; 3];
 
@@ -30,6 +31,9 @@ struct Twist {
     angle: f64,
     /// Velocity of the model's origin at the time 0.
     velocity: Point,
+    /// What is missing at the end to the second pose, because matrices are no perfect rotations:
+    /// rows, and the shift. It is added in proportion to the time.
+    rest: ([Point; 3], Point),
 }
 
 impl Motion {
@@ -42,8 +46,8 @@ impl Motion {
     }
 
     /// A screw: the model stays rigid, turns at a steady pace about a fixed axis by half a turn at
-    /// most, and goes along this axis. It begins at `from`, and ends at `to` as far as both matrices
-    /// are rotations. Of exactly half a turn either direction may be taken. A longer turn is two
+    /// most, and goes along this axis. It begins at `from` and ends at `to`. What both matrices lack of
+    /// rotations is made up for steadily on the way. Of exactly half a turn either direction may be taken. A longer turn is two
     /// motions.
     ///
     /// Cost: some hundred operations in f64 here, and as many for each pose on the way.
@@ -71,7 +75,13 @@ impl Motion {
             [1.0, mean_cosine / size, -mean_sine / size],
             [along, across, cross(axis, across)],
         );
-        Ok(Motion { from, path: Path::Screw(Twist { axis, angle, velocity }) })
+        let mut twist = Twist { axis, angle, velocity, rest: ([[0.0; 3]; 3], [0.0; 3]) };
+        let (rows, shift) = twist.place(&from, 1.0);
+        let less = |[a, b, c]: Point, [x, y, z]: Point| [a - x, b - y, c - z];
+        let ([r0, r1, r2], [e0, e1, e2]) = (rows, end);
+        twist.rest =
+            ([less(e0, r0), less(e1, r1), less(e2, r2)], less(wide(to.translation), shift));
+        Ok(Motion { from, path: Path::Screw(twist) })
     }
 
     /// The pose at a time from 0 to 1, rounded to f32.
@@ -106,6 +116,17 @@ impl Motion {
 
 impl Twist {
     fn pose(&self, from: &Pose, t: f64) -> Pose {
+        let (rows, shift) = self.place(from, t);
+        let mut pose = *from;
+        for (row, place) in pose.rotation.iter_mut().zip(rows) {
+            row.iter_mut().zip(place).for_each(|(entry, x)| *entry = x as f32);
+        }
+        pose.translation.iter_mut().zip(shift).for_each(|(entry, x)| *entry = x as f32);
+        pose
+    }
+
+    /// Rows of the matrix at a time, and the shift.
+    fn place(&self, from: &Pose, t: f64) -> ([Point; 3], Point) {
         let angle = self.angle * t;
         let half = libm::sin(0.5 * angle);
         let (sine, versine) = (libm::sin(angle), 2.0 * half * half);
@@ -113,22 +134,14 @@ impl Twist {
             let once = cross(self.axis, v);
             combined([1.0, sine, versine], [v, once, cross(self.axis, once)])
         };
-        let mut pose = *from;
-        // Columns are turned; the matrix holds rows.
-        for column in 0..3 {
-            let entries =
-                from.rotation.map(|row| f64::from(row.get(column).copied().unwrap_or(0.0)));
-            for (row, x) in pose.rotation.iter_mut().zip(turned(entries)) {
-                if let Some(slot) = row.get_mut(column) {
-                    *slot = x as f32;
-                }
-            }
-        }
+        let (rest_rows, rest_shift) = self.rest;
+        let with_rest = |x: Point, rest: Point| combined([1.0, t, 0.0], [x, rest, [0.0; 3]]);
+        // A turn turns the columns.
+        let [r0, r1, r2] = transposed(&transposed(&from.rotation.map(wide)).map(turned));
+        let [d0, d1, d2] = rest_rows;
         let way = self.displacement(angle, t);
-        for (slot, way) in pose.translation.iter_mut().zip(way) {
-            *slot = (f64::from(*slot) + way) as f32;
-        }
-        pose
+        let shift = combined([1.0, 1.0, t], [wide(from.translation), way, rest_shift]);
+        ([with_rest(r0, d0), with_rest(r1, d1), with_rest(r2, d2)], shift)
     }
 
     /// How far the model's origin has gone until the time `t`, when it has turned by `angle`: the
@@ -139,19 +152,24 @@ impl Twist {
         combined([t, t * mean_cosine, t * mean_sine], [along, across, cross(self.axis, across)])
     }
 
-    /// A point of a rigid body that turns and goes steadily has a steady speed.
+    /// A point of a rigid body that turns and goes steadily has a steady speed. What is missing at
+    /// the end adds its own.
     fn path_bounds(&self, from: &Pose, point: Point) -> (f64, f64) {
         let rotation = from.rotation.map(wide);
         let arm = rotation.map(|row| dot(row, point));
         let turning = cross(self.axis, arm).map(|x| x * self.angle);
         let speed = length(combined([1.0, 1.0, 0.0], [self.velocity, turning, [0.0; 3]]));
-        // No row of any pose is longer than the Frobenius norm of the first matrix.
+        // No row of a turned matrix is longer than the Frobenius norm of the first matrix.
         let stretch = libm::sqrt(rotation.iter().map(|row| dot(*row, *row)).sum());
+        let (rest_rows, [p, q, r]) = self.rest;
+        let [x, y, z] = rest_rows.map(|row| dot(row, point));
+        let rest = length([x + p, y + q, z + r]);
         let far = stretch * length(point)
             + length(wide(from.translation))
             + length(self.velocity)
+            + rest
             + f64::from(f32::MIN_POSITIVE);
-        (speed + far * (32.0 * U64), 3.0 * far * f64::from(U32) * SCREW_ROUNDING)
+        (speed + rest + far * (64.0 * U64), 3.0 * far * f64::from(U32) * SCREW_ROUNDING)
     }
 }
 

@@ -27,8 +27,10 @@ pub struct PosedPoint {
 impl PosedPoint {
     /// The interval of the distance in the world, from that in the model's frame.
     ///
-    /// If the lower bound is above 0, the side that the model tells of
-    /// [`point`](Self::point) is the side of the point in the world.
+    /// If the lower bound is above 0, the side that
+    /// [`signed_distance`](crate::Bvh::signed_distance) tells of [`point`](Self::point) is that of
+    /// the point in the world. For winding numbers ask
+    /// [`with_error`](crate::Bvh::with_error) of [`error`](Self::error).
     pub fn distance(&self, in_model: Interval) -> Interval {
         let error = f64::from(self.error);
         let lower = (f64::from(in_model.lower) - error) * (1.0 - self.stretch);

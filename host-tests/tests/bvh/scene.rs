@@ -200,9 +200,18 @@ fn what_cannot_be_asked_is_refused_and_no_pair_is_no_error() {
     assert_eq!(ask(&[at(0.0), at(9.0)], &mut stack()), Ok(Some([0, 1])));
     assert_eq!(ask(&[at(0.0), at(9.0)], &mut []), Err(QueryError::NoScratch));
     assert_eq!(ask(&[at(0.0), at(f32::NAN)], &mut stack()), Err(QueryError::NotFinite));
-    let mut flat = at(3.0);
-    flat.pose.rotation[2] = [0.0; 3];
-    assert_eq!(ask(&[flat, at(9.0)], &mut stack()), Err(QueryError::PoseOutOfDomain));
+    // Wherever the others are.
+    for place in [3.0, 1e6] {
+        let mut flat = at(place);
+        flat.pose.rotation[2] = [0.0; 3];
+        assert_eq!(ask(&[at(9.0), at(0.0), flat], &mut stack()), Err(QueryError::PoseOutOfDomain));
+        let mut lost = at(f32::NAN);
+        lost.pose.translation[1] = place;
+        let models = [at(9.0), at(0.0), lost];
+        assert_eq!(ask(&models, &mut stack()), Err(QueryError::NotFinite));
+        let found = Models::new(&models).within(1.0, |_, _| true, Budget::EXACT, &mut stack());
+        assert_eq!(found, Err(QueryError::NotFinite));
+    }
     for far in [1e20, 1e30, f32::MAX] {
         let found =
             Models::new(&[at(0.0), at(far)]).nearest_pair(|_, _| true, Budget::EXACT, &mut stack());
@@ -212,4 +221,84 @@ fn what_cannot_be_asked_is_refused_and_no_pair_is_no_error() {
     let two = [at(0.0), at(9.0)];
     let bad = Models::new(&two).within(-1.0, |_, _| true, Budget::EXACT, &mut stack());
     assert_eq!(bad, Err(QueryError::Tolerance));
+}
+
+/// The exact gap of two cubes of any size, one beside the other.
+#[test]
+fn a_scene_of_any_scale_is_never_wrongly_clear() {
+    for exponent in [-76, -63, -30, 0, 30, 100, 126] {
+        let unit = 2f32.powi(exponent);
+        let cube = meshsweep_host_tests::generate::scaled(&cube(1), unit);
+        let scene = Scene::both("", cube);
+        let mut rng = Rng::new(94);
+        for tree in scene.trees() {
+            let [low, high] = tree.bounds();
+            for _ in 0..200 {
+                let off = (high[1] - low[1]) * rng.range(1.0, 1.5);
+                let pose = Pose { translation: [0.0, off, 0.0], ..Pose::IDENTITY };
+                let models = [Pose::IDENTITY, pose].map(|pose| Placed { tree, pose });
+                let truth = f64::from(off) - (f64::from(high[1]) - f64::from(low[1]));
+                let scene = Models::new(&models);
+                let Ok(found) = scene.nearest_pair(|_, _| true, Budget::EXACT, &mut stack()) else {
+                    assert!(exponent > 120);
+                    continue;
+                };
+                let (lower, upper) =
+                    (f64::from(found.distance.lower), f64::from(found.distance.upper));
+                assert!(lower <= truth && truth <= upper, "{exponent} {found:?} {truth:e}");
+                let within = 1.02 * truth as f32;
+                let near = scene.within(within, |_, _| true, Budget::EXACT, &mut stack()).unwrap();
+                assert!(!near.is_clear(), "{exponent} {near:?} {truth:e} {within:e}");
+            }
+        }
+    }
+}
+
+/// Boxes that reach beyond f32 have corners in f64.
+#[test]
+fn a_model_at_the_end_of_f32_is_paid_for() {
+    let m = f32::MAX;
+    let blade = (vec![[0.0; 3], [m, 0.0, 0.0], [0.3 * m, 0.0, 0.01 * m]], vec![[0, 1, 2]]);
+    let at = 0.677 * m;
+    let size = 0.2 * m;
+    let plate = (
+        vec![
+            [at, -size, -size],
+            [at, size * 4.5, -size],
+            [at, size * 4.5, size],
+            [at, -size, size],
+        ],
+        vec![[0, 1, 2], [0, 2, 3]],
+    );
+    let (blade, plate) = (Scene::both("", blade), Scene::both("", plate));
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    let turned = [[half, -half, 0.0], [half, half, 0.0], [0.0, 0.0, 1.0]];
+    let mut stretched = Pose::IDENTITY;
+    stretched.rotation[0][0] = 1.05;
+    // The blade's tip, and the plate as it is stretched.
+    let truth = 1.05 * f64::from(at) - f64::from(half) * f64::from(m);
+    for (first, second) in plate.trees().into_iter().zip(blade.trees()) {
+        let models = [
+            Placed { tree: first, pose: stretched },
+            Placed { tree: second, pose: Pose { rotation: turned, ..Pose::IDENTITY } },
+        ];
+        let scene = Models::new(&models);
+        match scene.nearest_pair(|_, _| true, Budget::EXACT, &mut stack()) {
+            Ok(found) => {
+                let lower = f64::from(found.distance.lower);
+                assert!(lower <= truth.abs(), "{found:?} {truth:e}");
+            }
+            Err(error) => assert_eq!(error, QueryError::OutOfDomain),
+        }
+        let within = (1.5 * truth.abs()) as f32;
+        match scene.within(within, |_, _| true, Budget::EXACT, &mut stack()) {
+            Ok(near) => assert!(!near.is_clear(), "{near:?} {truth:e}"),
+            Err(error) => assert_eq!(error, QueryError::OutOfDomain),
+        }
+        assert!(
+            scene
+                .within(f32::MAX, |_, _| true, Budget::EXACT, &mut stack())
+                .is_ok_and(|near| !near.is_clear())
+        );
+    }
 }

@@ -376,3 +376,26 @@ fn the_signed_distance_of_a_mesh_with_holes_has_the_side_of_the_number() {
     let refused = plain.bvh().signed_by_winding([0.0; 3], Budget::EXACT, &mut stack);
     assert_eq!(refused, Err(QueryError::NotServed { build_for: BuildFor::Winding }));
 }
+
+/// On the grid the triangles are points; the input's have an area.
+#[test]
+fn far_away_the_number_of_collapsed_triangles_is_contained() {
+    let mut mesh: Triangles = (Vec::new(), Vec::new());
+    let leg = 5e-6;
+    for corner in 0..8u32 {
+        let at = [0, 1, 2].map(|k| if corner >> k & 1 == 0 { 0.25 } else { 1.0 });
+        let first = mesh.0.len() as u32;
+        mesh.0.extend([at, add(at, [1.0, 0.0, 0.0], leg), add(at, [0.0, 1.0, 0.0], leg)]);
+        mesh.1.push([first, first + 1, first + 2]);
+    }
+    let scene = Scene::both("crumbs", mesh);
+    for tree in scene.trees() {
+        for height in [1e3, 4e6, 1e7, 1e8, 1e12] {
+            let point = [0.0, 0.0, height];
+            let Interval { lower, upper } = ask(&tree, point, Budget::EXACT).number;
+            let truth =
+                winding_number(point.map(f64::from), &scene.positions, &scene.triangles, 1.0);
+            assert!(f64::from(lower) <= truth && truth <= f64::from(upper), "{height} {truth:e}");
+        }
+    }
+}

@@ -95,11 +95,19 @@ impl Clearance<'_> {
     fn ask_moves<const N: usize>(
         self,
         kind: MoveKind,
-        poses: Queries<N>,
+        mut poses: Queries<N>,
         pose_of: fn([f32; N]) -> Pose,
     ) -> Result<(), Failure> {
         let Clearance { args: ClearanceArgs { search, within, .. }, trees: [first, second] } = self;
         let keep = within.unwrap_or(0.0);
+        // A pose that begins no screw is refused where it stands, not where a move to it begins.
+        let refused = |row: &[f32; N]| Motion::screw(pose_of(*row), pose_of(*row)).err();
+        let mut checked = poses.rows.iter().enumerate();
+        let bad = checked.find_map(|(index, row)| Some((index, refused(row)?)));
+        if let (MoveKind::Screw, Some((index, error))) = (kind, bad) {
+            let failure = Failure::Query { place: poses.place(index), error };
+            poses.end_at(index, failure)?;
+        }
         let moves = poses.moves(|from, to| row_of_poses([pose_of(from), pose_of(to)]))?;
         let header = "move,clear,t,ax,ay,az,bx,by,bz,first,second,work";
         Question::new(header, moves, search).ask(

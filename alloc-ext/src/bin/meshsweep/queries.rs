@@ -24,7 +24,8 @@ pub struct Queries<const N: usize> {
 }
 
 enum Source {
-    Argument,
+    /// What was typed, as numbers.
+    Argument(String),
     /// A text, with the line of each query.
     Text(PathBuf, Vec<usize>),
     Raw(PathBuf),
@@ -47,7 +48,8 @@ impl<const N: usize> Queries<N> {
             let first = queries.rows.len();
             let name = match given {
                 Given::Query(query) => {
-                    queries.sources.push((first, Source::Argument));
+                    let text = query.map(|x| Short(x).to_string()).join(",");
+                    queries.sources.push((first, Source::Argument(text)));
                     queries.rows.push(*query);
                     continue;
                 }
@@ -140,9 +142,8 @@ impl<const N: usize> Queries<N> {
                 let number = index - first;
                 Place::Record { file: file.clone(), number, byte: number * 4 * N }
             }
-            Some((_, Source::Argument)) | None => {
-                Place::Argument { text: self.rows[index].map(|x| Short(x).to_string()).join(",") }
-            }
+            Some((_, Source::Argument(text))) => Place::Argument { text: text.clone() },
+            None => Place::Argument { text: String::new() },
         }
     }
 }

@@ -43,7 +43,8 @@ impl Bvh<'_> {
     /// Body Systems* (1996), by proved distances.
     ///
     /// # Errors
-    /// Those of [`distance`](Bvh::distance), also for a `keep` that is negative, NaN or infinite.
+    /// Those of [`distance`](Bvh::distance), also for a `keep` that is negative, NaN or infinite, and
+    /// [`QueryError::NotFinite`] if a pose on the way leaves f32's range.
     pub fn first_contact_of(
         &self,
         other: &Bvh<'_>,
@@ -101,6 +102,11 @@ fn quickest(tree: &Bvh<'_>, motion: &Motion) -> (f64, f64) {
     // Both are convex functions of the point: a corner goes farthest.
     corners_of_input(tree).fold((0.0, 0.0), |(quickest, rounding), corner| {
         let (way, off) = motion.path_bounds(corner);
-        (greater(quickest, way), greater(rounding, off))
+        if way.is_finite() && off.is_finite() {
+            (greater(quickest, way), greater(rounding, off))
+        } else {
+            // No distance is enough for that.
+            (f64::INFINITY, f64::INFINITY)
+        }
     })
 }

@@ -11,7 +11,7 @@
 mod placed;
 
 pub use placed::Placed;
-use placed::{Relative, WorldBox};
+use placed::{Relative, WorldBox, check_pose};
 
 use crate::num::{greater, lesser};
 use crate::query::{Budget, Ended, Interval, QueryError, ScratchEntry, Undecided, Verdict, Work};
@@ -99,8 +99,8 @@ impl<'s, 'a> Scene<'s, 'a> {
     ///
     /// # Errors
     /// Those of [`Bvh::distance`](crate::Bvh::distance); [`QueryError::PoseOutOfDomain`] also if a
-    /// pose is far from a rotation; [`QueryError::OutOfDomain`] if two models are farther from each
-    /// other than f32 reaches. Poses are checked only of pairs whose boxes are near enough.
+    /// pose, of any model, is far from a rotation; [`QueryError::OutOfDomain`] if two models are
+    /// farther from each other than f32 reaches.
     pub fn nearest_pair(
         &self,
         asks_about: impl Fn(usize, usize) -> bool,
@@ -108,6 +108,7 @@ impl<'s, 'a> Scene<'s, 'a> {
         scratch: &mut [ScratchEntry],
     ) -> Result<SceneDistance, QueryError> {
         budget.check_with(scratch)?;
+        self.check_poses()?;
         let mut search = NearestPair {
             models: self.models,
             budget,
@@ -165,6 +166,7 @@ impl<'s, 'a> Scene<'s, 'a> {
     ) -> Result<SceneWithin, QueryError> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check_with(scratch)?;
+        self.check_poses()?;
         let mut work = Work::default();
         let mut undecided: Option<(Undecided, [usize; 2])> = None;
         for (pair, gap) in self.gaps(&asks_about) {
@@ -207,6 +209,10 @@ impl<'s, 'a> Scene<'s, 'a> {
             }
             None => SceneWithin { verdict: Verdict::No, models: None, work },
         })
+    }
+
+    fn check_poses(&self) -> Result<(), QueryError> {
+        self.models.iter().try_for_each(|model| check_pose(&model.pose))
     }
 
     /// All pairs asked about, with lower bounds of their distances.

@@ -3,7 +3,7 @@
 use crate::bvh::format::Bvh;
 use crate::bvh::input_box::corners_of_input;
 use crate::geom::{Pose, dot};
-use crate::num::tolerance::{POSED_POINT, RELATIVE_POSE, U32, U64, WORLD_BOX};
+use crate::num::tolerance::{LEAST_WORLD_GAP, POSED_POINT, RELATIVE_POSE, U32, U64, WORLD_BOX};
 use crate::num::{down_to_f32, greater, sqrt_approx, up_to_f32};
 use crate::query::{Interval, PoseInverse, QueryError, transposed};
 
@@ -48,8 +48,8 @@ impl WorldBox {
         let sides = self.middle.iter().zip(&self.half).zip(other.middle.iter().zip(&other.half));
         for ((a, half), (b, other_half)) in sides {
             let gap = (a - b).abs() - (half + other_half);
-            // Not a number is no gap.
-            let gap = if gap > 0.0 { gap } else { 0.0 };
+            // Not a number is no gap, nor is one with a square below f32's normal range.
+            let gap = if gap > LEAST_WORLD_GAP { gap } else { 0.0 };
             square += gap * gap;
         }
         let gap = if square < f32::INFINITY { sqrt_approx(square) } else { 0.0 };
@@ -68,13 +68,8 @@ pub(super) struct Relative {
 }
 
 impl Relative {
+    /// The poses were [checked](check_pose).
     pub(super) fn new(first: &Placed<'_>, second: &Placed<'_>) -> Result<Relative, QueryError> {
-        let numbers = [&first.pose, &second.pose]
-            .into_iter()
-            .flat_map(|pose| pose.rotation.iter().flatten().chain(&pose.translation));
-        if !numbers.into_iter().all(|x| x.is_finite()) {
-            return Err(QueryError::NotFinite);
-        }
         let ((a_rows, a_shift), (b_rows, b_shift)) = (wide(&first.pose), wide(&second.pose));
         let inverse = PoseInverse::new(a_rows)?;
         let stretch = inverse.stretch;
@@ -110,7 +105,11 @@ impl Relative {
             let ([a0, a1, a2], [b0, b1, b2]) = (a_rows, b_rows);
             let off =
                 [residual(a0, b0, ax, bx), residual(a1, b1, ay, by), residual(a2, b2, az, bz)];
-            largest = greater(largest, dot(off, off));
+            let off_sq = dot(off, off);
+            if !off_sq.is_finite() {
+                return Err(QueryError::OutOfDomain);
+            }
+            largest = greater(largest, off_sq);
         }
         let error = libm::sqrt(largest) / (1.0 - stretch) * (1.0 + POSED_POINT * U64);
         Ok(Relative { pose, error, stretch })
@@ -137,6 +136,14 @@ impl Relative {
         let in_model = in_model - self.error * (1.0 + 4.0 * U64);
         (in_model >= 0.0).then(|| down_to_f32(in_model))
     }
+}
+
+/// Refuses a pose that is not finite, or far from a rotation.
+pub(super) fn check_pose(pose: &Pose) -> Result<(), QueryError> {
+    if !pose.rotation.iter().flatten().chain(&pose.translation).all(|x| x.is_finite()) {
+        return Err(QueryError::NotFinite);
+    }
+    PoseInverse::new(wide(pose).0).map(|_| ())
 }
 
 type Row = [f64; 3];

@@ -60,6 +60,8 @@ impl Bvh<'_> {
     ///
     /// The search ends as soon as the side is decided and the interval is no wider than
     /// `budget.absolute`, a pure number here; 0, as in [`Budget::EXACT`], asks for the side alone.
+    /// Each triangle that is looked at widens the interval by some 1e-6. A width below that takes
+    /// all triangles and is not reached.
     /// `relative` is ignored. `scratch` as for [`closest_point`](Bvh::closest_point). If it is too
     /// short, or the steps too few, the interval still holds.
     ///

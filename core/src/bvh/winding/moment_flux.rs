@@ -48,7 +48,8 @@ impl SeenNode {
         self.is_away() && (self.gap >= 0.5 * self.moments.radius || self.moved(error) <= SMALL_MOVE)
     }
 
-    /// How much the flux may have changed when vertices moved by `error`.
+    /// How much the flux may have changed when vertices moved by `error`. The boundary's length
+    /// allows for the builder's moves; an error of the place moves all vertices alike.
     pub(super) fn moved(&self, error: f32) -> f32 {
         if error > 0.0 {
             self.moments.boundary * error / (self.gap * self.gap) * (1.0 + 16.0 * U32)

@@ -74,7 +74,10 @@ impl Search<'_> {
     pub(super) fn number_from_afar(&self) -> (Interval, Ended) {
         let header = self.tree.header();
         let bound = if self.error <= FAR_ERROR {
-            header.triangles as f32 * (header.star_radius * header.star_radius) * FAR_NUMBER
+            // The input's triangles may be larger than the stored ones.
+            let reach = header.star_radius + 4.0 * self.error;
+            let bound = header.triangles as f32 * (reach * reach) * FAR_NUMBER;
+            lesser(bound + f32::MIN_POSITIVE, self.most)
         } else {
             self.most
         };

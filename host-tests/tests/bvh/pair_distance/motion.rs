@@ -186,6 +186,7 @@ fn a_screw_between_two_poses_is_the_one_that_leads_from_one_to_the_other() {
             Pose { rotation: rotation(&mut rng), translation: rng.direction().map(|x| 20.0 * x) };
         let Course { motion, at } = screwed(from, &screw);
         assert_eq!(motion.at(0.0), from);
+        assert_eq!(motion.at(1.0), screw.pose(&from, 1.0));
         for part in [0.0, 0.25, 0.5, 0.9, 1.0] {
             let (found, wanted) = (motion.at(part), at(f64::from(part)));
             let numbers = |pose: &Pose| -> Vec<f32> {
@@ -217,6 +218,40 @@ fn a_wall_in_the_way_of_a_turn_is_found() {
         assert!(found.clear_until < 0.5 && found.clear_until > 0.3, "{found:?}");
         let chord = Motion::straight(from, to);
         assert!(ask(first, &second, &chord, 0.0, Budget::EXACT).is_clear());
+    }
+}
+
+#[test]
+fn a_screw_ends_at_its_second_pose_also_with_matrices_of_three_decimals() {
+    let mut rng = Rng::new(5);
+    let coarse = |rng: &mut Rng| Pose {
+        rotation: rotation(rng).map(|row| row.map(|x| (x * 2e3).round() / 2e3)),
+        translation: rng.direction(),
+    };
+    let scene = Scene::both("", cube(1));
+    for _ in 0..50 {
+        let (from, to) = (coarse(&mut rng), coarse(&mut rng));
+        let motion = Motion::screw(from, to).expect("nearly rotations");
+        assert_eq!((motion.at(0.0), motion.at(1.0)), (from, to));
+        // What is missing of a rotation is made up for on the way: no point jumps.
+        let corner = [1.0, -1.0, 1.0];
+        let place = |t: f32| motion.at(t).to_world(corner).map(f64::from);
+        let pieces = 200;
+        let mut longest = 0f64;
+        for k in 0..pieces {
+            let (a, b) = (place(k as f32 / pieces as f32), place((k + 1) as f32 / pieces as f32));
+            let step = (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
+            longest = longest.max(step * f64::from(pieces));
+        }
+        let [tree, _] = scene.trees();
+        let from_afar = Pose { translation: [9.0, 0.0, 0.0], ..Pose::IDENTITY };
+        let shifted = |pose: Pose| {
+            let [x, y, z] = pose.translation;
+            Pose { translation: [x + from_afar.translation[0], y, z], ..pose }
+        };
+        let away = Motion::screw(shifted(from), shifted(to)).expect("nearly rotations");
+        assert!(ask(&tree, &tree, &away, 0.0, Budget::EXACT).clear_until > 0.0);
+        assert!(longest < 20.0, "{longest}");
     }
 }
 
