@@ -79,8 +79,8 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// For each node the length of its boundary. An edge counts as often as the node's triangles use
-    /// it more in one direction than in the other, and made `2·moved` longer.
+    /// For each node the length of its boundary. An edge counts as often as the node's triangles
+    /// use it more in one direction than in the other, and made `2·moved` longer.
     fn boundaries(
         &self,
         triangles: &[[u32; 3]],

@@ -2,9 +2,9 @@
 //! mean and of its quantiles, and the distance of each vertex.
 //!
 //! Each triangle is a piece. The distance is 1-Lipschitz, so that at the centre bounds it on the
-//! piece. Where the surface nearby is almost flat, its slope bounds it more closely. Pieces are halved, those that blur the mean most first, until the mean is known as
-//! closely as asked for. A quantile of the lower bounds is below that of the distance, and one of
-//! the upper bounds above.
+//! piece. Where the surface nearby is almost flat, its slope bounds it more closely. Pieces are
+//! halved, those that blur the mean most first, until the mean is known as closely as asked for. A
+//! quantile of the lower bounds is below that of the distance, and one of the upper bounds above.
 
 use super::piece::{CUT_ROUNDING, ROUNDED_UP, bounding_ball};
 use super::surface::{Near, QueryScratch, Surface};
@@ -41,8 +41,8 @@ const CUT_PART: usize = 4;
 
 /// Distances of `from` from `to`. `parts`, from 0 to 1, ask for quantiles over the area of `from`.
 /// The bounds of the mean are at most `relative` times the mean apart, or some roundings, if three
-/// million pieces suffice. `progress` gets the bounds of the mean, once a round. The answer does not depend on the
-/// number of threads.
+/// million pieces suffice. `progress` gets the bounds of the mean, once a round. The answer does
+/// not depend on the number of threads.
 ///
 /// Triangles without area do not count, except where the mesh has no others: then all are NaN.
 ///

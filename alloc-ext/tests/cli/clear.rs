@@ -126,7 +126,7 @@ fn what_is_no_tool_and_no_move_is_refused() {
     refused(&wrong(&["0,0,0,1e30,0,0", "--radius", "1"]), 1, "corner of the tool");
     refused(&wrong(&["0,0,0,1,0,0", "--radius", "1e30"]), 2, "--radius 1e30");
     let closest = blob(&scratch("clear_closest"), "torus.ply", &["--for", "closest"]);
-    refused(&run(["clear", arg(&closest), "0,0,0,1,1,1"]), 1, "--for segment");
+    refused(&run(["clear", arg(&closest), "0,0,0,1,1,1"]), 1, "--for closest,segment");
     let same = directory.join("same.csv");
     fs::write(&same, "0,0,0,1,1,1\n").unwrap();
     refused(&wrong(&[arg(&same), "-o", arg(&same)]), 1, "same.csv");

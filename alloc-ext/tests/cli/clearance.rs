@@ -128,7 +128,7 @@ fn what_cannot_be_asked_is_refused_by_name() {
     let torus = blob(&directory, "torus.ply", &[]);
     let closest = blob(&directory, "bracket.stl", &["--for", "closest"]);
     let wrong = |args: &[&str]| run([&["clearance", arg(&torus)], args].concat());
-    assert!(refused(&wrong(&[arg(&closest)]), 1, "bracket.msw").contains("--for segment"));
+    assert!(refused(&wrong(&[arg(&closest)]), 1, "bracket.msw").contains("--for closest,segment"));
     let none = wrong(&[arg(&torus), "--pose", "0,0,0,0,0,0,0"]);
     assert!(refused(&none, 2, "").contains("quaternion"));
     let both = wrong(&[arg(&torus), "--within", "1", "--rel", "0.1"]);

@@ -189,7 +189,7 @@ fn what_a_blob_was_not_built_for_is_refused_with_what_to_build() {
         (file(&directory, "p.csv", "1 2 3\n"), file(&directory, "s.csv", "9 9 9 0 0 0\n"));
     let field = directory.join("f.npy");
     for (args, wanted) in [
-        (&["segment", arg(&tree), arg(&segments)][..], "--for segment"),
+        (&["segment", arg(&tree), arg(&segments)][..], "--for closest,segment"),
         (&["segment", arg(&tree), arg(&segments), "--engine", "hull"], "--for hull"),
         (&["closest", arg(&tree), arg(&points), "--engine", "hull"], "or use --engine tree"),
         (&["closest", arg(&hull), arg(&points), "--engine", "tree"], "or use --engine hull"),
@@ -198,7 +198,7 @@ fn what_a_blob_was_not_built_for_is_refused_with_what_to_build() {
         (&["nearest", arg(&hull), arg(&points), "-n", "1"], "--for closest"),
         (&["signed", arg(&hull), arg(&points)], "--for closest"),
         (&["field", arg(&hull), "-o", arg(&field)], "--for closest"),
-        (&["cull", arg(&tree), "1,2,3"], "--for cull"),
+        (&["cull", arg(&tree), "1,2,3"], "--for closest,cull"),
         (&["segment", arg(&hull), arg(&segments), "--facing", "front"], "--for segment"),
     ] {
         let line = refused(&run(args), 1, ".msw: has no ");

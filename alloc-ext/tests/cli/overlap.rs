@@ -176,7 +176,7 @@ fn what_cannot_be_asked_is_refused_by_name() {
     let torus = blob(&directory, "torus.ply", &[]);
     let closest = blob(&directory, "bracket.stl", &["--for", "closest"]);
     let wrong = |args: &[&str]| run([&["overlap", arg(&torus)], args].concat());
-    assert!(refused(&wrong(&[arg(&closest)]), 1, "bracket.msw").contains("--for segment"));
+    assert!(refused(&wrong(&[arg(&closest)]), 1, "bracket.msw").contains("--for closest,segment"));
     assert!(
         refused(&wrong(&[arg(&torus), "--pose", "0,0,0,0,0,0,0"]), 2, "").contains("quaternion")
     );

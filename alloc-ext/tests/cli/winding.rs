@@ -77,5 +77,61 @@ fn a_blob_without_moments_names_the_value_that_writes_them() {
     let refused = run(["winding", arg(&blob), "1,2,3"]);
     assert_eq!(refused.status.code(), Some(1));
     let said = String::from_utf8_lossy(&refused.stderr).into_owned();
-    assert!(said.contains("--for winding"), "{said}");
+    assert!(said.contains("--for closest,segment,winding"), "{said}");
+}
+
+#[test]
+fn an_open_part_that_faces_inwards_and_loose_triangles_are_said() {
+    let directory = scratch("winding_said");
+    let [mesh, blob] = sieve(&directory);
+    let said = |mesh: &std::path::Path| {
+        let asked = ["build", arg(mesh), "-o", arg(&blob), "--for", "winding"];
+        String::from_utf8_lossy(&run(asked).stderr).into_owned()
+    };
+    assert!(!said(&mesh).contains("winding numbers"), "{}", said(&mesh));
+    let text = fs::read_to_string(&mesh).unwrap();
+    let reversed = directory.join("reversed.obj");
+    let turned = text.lines().map(|line| match line.split(' ').collect::<Vec<_>>()[..] {
+        ["f", a, b, c] => format!("f {c} {b} {a}\n"),
+        _ => format!("{line}\n"),
+    });
+    fs::write(&reversed, turned.collect::<String>()).unwrap();
+    assert!(said(&reversed).contains("the mesh faces inwards"), "{}", said(&reversed));
+    let loose = directory.join("loose.obj");
+    let mut number = 0.0;
+    let apart = text.lines().map(|line| match line.split(' ').collect::<Vec<_>>()[..] {
+        ["v", x, y, z] => {
+            number += 1e-4;
+            format!("v {} {y} {z}\n", x.parse::<f64>().unwrap() + number)
+        }
+        _ => format!("{line}\n"),
+    });
+    fs::write(&loose, apart.collect::<String>()).unwrap();
+    assert!(said(&loose).contains("weld the vertices first"), "{}", said(&loose));
+}
+
+#[test]
+fn a_blob_with_moments_unites_parts_that_overlap() {
+    let directory = scratch("winding_united");
+    let mut text = String::new();
+    for (part, shift) in [0.0, 1.0].into_iter().enumerate() {
+        for corners in triangles(&fixture("torus.ply")) {
+            for [x, y, z] in corners {
+                writeln!(text, "v {} {y} {z}", x + shift).unwrap();
+            }
+        }
+        let each = triangles(&fixture("torus.ply")).len();
+        for t in 0..each {
+            let first = 3 * (part * each + t) + 1;
+            writeln!(text, "f {first} {} {}", first + 1, first + 2).unwrap();
+        }
+    }
+    let (mesh, blob) = (directory.join("two.obj"), directory.join("two.msw"));
+    fs::write(&mesh, text).unwrap();
+    let side = |serves: &str| {
+        ok(["build", arg(&mesh), "-o", arg(&blob), "--for", serves]);
+        let text = ok(["signed", arg(&blob), "2,0,0"]);
+        text.lines().nth(1).unwrap().split(',').nth(3).unwrap().to_owned()
+    };
+    assert_eq!([side("closest"), side("closest,winding")], ["outside", "inside"]);
 }

@@ -37,7 +37,8 @@ pub struct SolidAngles {
     real: f32,
     imaginary: f32,
     right_angles: i32,
-    /// Sum of the bounds of the added angles. `sum` adds those of the product and of the arctangent.
+    /// Sum of the bounds of the added angles. `sum` adds those of the product and of the
+    /// arctangent.
     error: f32,
     terms: u32,
 }
@@ -174,8 +175,8 @@ fn flux_through_far_edges([a, b, c]: [Vec3; 3], x: f32, moved: f32) -> f32 {
 }
 
 /// Bound of the change of the solid angle by one edge whose ends move. Infinite if the edge may be
-/// nearer than eight times `moved`, of which `margin` holds one. With all edges farther than that, a
-/// triangle that touches the origin has an angle of at least 7/8 of 2π, so its cosine is negative
+/// nearer than eight times `moved`, of which `margin` holds one. With all edges farther than that,
+/// a triangle that touches the origin has an angle of at least 7/8 of 2π, so its cosine is negative
 /// (§20).
 fn flux_through_edge(a: Vec3, b: Vec3, moved: f32) -> f32 {
     let ab = b - a;

@@ -46,9 +46,9 @@ impl Motion {
     }
 
     /// A screw: the model stays rigid, turns at a steady pace about a fixed axis by half a turn at
-    /// most, and goes along this axis. It begins at `from` and ends at `to`. What both matrices lack of
-    /// rotations is made up for steadily on the way. Of exactly half a turn either direction may be taken. A longer turn is two
-    /// motions.
+    /// most, and goes along this axis. It begins at `from` and ends at `to`. What both matrices
+    /// lack of rotations is made up for steadily on the way. Of exactly half a turn either
+    /// direction may be taken. A longer turn is two motions.
     ///
     /// Cost: some hundred operations in f64 here, and as many for each pose on the way.
     ///
@@ -262,8 +262,8 @@ fn split(axis: Point, v: Point) -> (Point, Point) {
     (along, [x - p, y - q, z - r])
 }
 
-/// The means of the cosine and of the sine on a turn from 0 to an angle: sin x / x and (1 − cos x) /
-/// x.
+/// The means of the cosine and of the sine on a turn from 0 to an angle: sin x / x and (1 − cos x)
+/// / x.
 fn mean_turn(angle: f64) -> (f64, f64) {
     (sinc(angle), libm::sin(0.5 * angle) * sinc(0.5 * angle))
 }

@@ -128,7 +128,8 @@ fn the_nearest_pair_is_that_of_all_pairs_and_within_agrees() {
     assert!(yes > 50 && no > 50, "{yes} {no}");
 }
 
-/// A matrix that stretches one axis by a twentieth: the world's lengths count, not those of a model.
+/// A matrix that stretches one axis by a twentieth: the world's lengths count, not those of a
+/// model.
 #[test]
 fn a_pose_that_is_no_rotation_is_paid_for() {
     let scene = Scene::both("", cube(2));

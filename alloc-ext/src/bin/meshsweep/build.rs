@@ -10,7 +10,7 @@ use crate::number::{About, AtMost};
 use crate::output::{Output, refuse_same_file};
 use crate::progress::{Bar, StageBars};
 use crate::unmet::Tightness;
-use crate::{curve, describe};
+use crate::{curve, describe, windings};
 use meshsweep::BuildError;
 use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::collapse::Progress;
@@ -83,6 +83,9 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         .into_iter()
         .flatten(),
     );
+    if wanted.winding {
+        windings::warn(&args.mesh, &loaded);
+    }
     // A blob that does not open must not be written.
     let blob = Blob::open(&bytes).map_err(|error| failed(BuildError::Reopen(error)))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&bytes))?;

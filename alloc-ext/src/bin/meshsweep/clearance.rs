@@ -1,5 +1,5 @@
-//! `meshsweep clearance`: poses of a second mesh in, its distance from the first one out; or whether
-//! it is within a distance; or whether the moves from pose to pose are clear.
+//! `meshsweep clearance`: poses of a second mesh in, its distance from the first one out; or
+//! whether it is within a distance; or whether the moves from pose to pose are clear.
 
 use crate::args::{ClearanceArgs, MoveKind, MovedArgs};
 use crate::ask::{self, Answer, Question, verdict_name, write_numbers, write_pair};

@@ -11,9 +11,16 @@ use meshsweep::hausdorff::{
 use meshsweep::mesh::{Mesh, write_coloured_ply};
 use serde_json::{Value, json};
 use std::io::{self, Write};
+use std::path::PathBuf;
 use std::time::Instant;
 
 pub fn run(args: &HausdorffArgs) -> Result<(), Failure> {
+    let is_ply =
+        |file: &PathBuf| file.extension().is_some_and(|ply| ply.eq_ignore_ascii_case("ply"));
+    if let Some(file) = args.heat.as_ref().filter(|file| !is_ply(file)) {
+        let what = format!("{}: --heat writes PLY; name a file that ends in .ply", file.display());
+        return Err(Failure::Usage { what });
+    }
     let [first, second] = [mesh_file::load(&args.first)?, mesh_file::load(&args.second)?];
     let direction = if args.one_sided { Direction::Forward } else { Direction::Both };
     let precision = Precision { relative: args.rel, absolute: args.abs, at_most: args.at_most };
@@ -33,13 +40,18 @@ pub fn run(args: &HausdorffArgs) -> Result<(), Failure> {
         None
     };
     if let (Some(file), Some(profile)) = (&args.heat, &profile) {
-        let colours = colours(&profile.vertices);
+        let (colours, red) = colours(&profile.vertices);
         Output::file(file)?.finish(|out| write_coloured_ply(&first.mesh, &colours, out))?;
+        // A closed standard error does not withhold the answers.
+        let _ = writeln!(io::stderr(), "{}: red is a distance of {red:.6e}", file.display());
     }
     let profile = profile.filter(|_| args.profile);
     Output::stdout().finish(|out| {
         if args.json {
-            serde_json::to_writer_pretty(&mut *out, &as_json(&found, profile.as_ref()))?;
+            serde_json::to_writer_pretty(
+                &mut *out,
+                &as_json(&found, profile.as_ref(), args.at_most),
+            )?;
             return writeln!(out);
         }
         write(args, &found, seconds, out)?;
@@ -71,9 +83,10 @@ fn spread(args: &HausdorffArgs, first: &Mesh, second: &Mesh) -> Result<Profile, 
     })
 }
 
-/// The middle of each distance, and its colour: blue, cyan, green, yellow, red.
-fn colours(distances: &[[f64; 2]]) -> Vec<(f32, [u8; 3])> {
-    let middle = |[lower, upper]: &[f64; 2]| 0.5 * (lower + upper);
+/// The middle of each distance and its colour: blue, cyan, green, yellow, red. And what red is.
+fn colours(distances: &[[f64; 2]]) -> (Vec<(f32, [u8; 3])>, f64) {
+    // Distances that may be 0 are rounding.
+    let middle = |[lower, upper]: &[f64; 2]| if *lower > 0.0 { 0.5 * (lower + upper) } else { 0.0 };
     let most = distances.iter().map(middle).fold(0.0, f64::max);
     let colour = |distance: f64| {
         let part = if most > 0.0 { 4.0 * distance / most } else { 0.0 };
@@ -81,7 +94,8 @@ fn colours(distances: &[[f64; 2]]) -> Vec<(f32, [u8; 3])> {
         let byte = |x: f64| (255.0 * x.clamp(0.0, 1.0)).round() as u8;
         [byte(part - 2.0), byte(part.min(4.0 - part)), byte(2.0 - part)]
     };
-    distances.iter().map(|pair| (middle(pair) as f32, colour(middle(pair)))).collect()
+    let both = |pair| (middle(pair) as f32, colour(middle(pair)));
+    (distances.iter().map(both).collect(), most)
 }
 
 fn write_profile(profile: &Profile, out: &mut dyn Write) -> io::Result<()> {
@@ -127,7 +141,7 @@ fn ended(found: &Hausdorff) -> &'static str {
     }
 }
 
-fn as_json(found: &Hausdorff, profile: Option<&Profile>) -> Value {
+fn as_json(found: &Hausdorff, profile: Option<&Profile>, at_most: Option<f64>) -> Value {
     let Hausdorff { lower, upper, attained, pieces, .. } = found;
     let [a, b] = attained.as_ref().map_or([None; 2], |at| ends(at).map(Some));
     let point = |end: Option<([f64; 3], u32)>| end.map(|(point, _)| point);
@@ -148,6 +162,15 @@ fn as_json(found: &Hausdorff, profile: Option<&Profile>) -> Value {
         fields.insert("mean".to_owned(), json!(profile.mean));
         let quantiles = PARTS.iter().zip(&profile.quantiles).map(quantile).collect();
         fields.insert("quantiles".to_owned(), quantiles);
+    }
+    if let (Some(most), Some(fields)) = (at_most, value.as_object_mut()) {
+        let holds = match (*upper <= most, *lower > most) {
+            (true, _) => Some(true),
+            (_, true) => Some(false),
+            _ => None,
+        };
+        fields.insert("at_most".to_owned(), json!(most));
+        fields.insert("holds".to_owned(), json!(holds));
     }
     value
 }

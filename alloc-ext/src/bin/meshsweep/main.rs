@@ -58,6 +58,7 @@ mod signed;
 mod tribox;
 mod unmet;
 mod winding;
+mod windings;
 mod within;
 
 use args::{Arguments, Command};

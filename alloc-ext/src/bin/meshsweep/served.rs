@@ -91,7 +91,17 @@ fn not_served(
         BuildFor::Deform => "hull that deforms",
         _ => "such structure",
     };
-    let (file, build_for) = (file.to_owned(), build_for.to_string());
+    // With what the blob has already, so that a blob built so serves all of it.
+    let of_tree = [BuildFor::Closest, BuildFor::Segment, BuildFor::Cull, BuildFor::Winding];
+    let wanted = |other: &BuildFor| *other == build_for || tree(blob, *other).is_some();
+    let build_for = if of_tree.contains(&build_for) {
+        let all: Vec<_> =
+            of_tree.iter().filter(|other| wanted(other)).map(ToString::to_string).collect();
+        all.join(",")
+    } else {
+        build_for.to_string()
+    };
+    let file = file.to_owned();
     Failure::NotServed { file, structure, build_for, other, served: listed(blob) }
 }
 

@@ -21,8 +21,8 @@ impl Bvh<'_> {
     /// motion. Only surfaces count: a mesh may move inside of another one.
     ///
     /// `scratch`: [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES) are always enough. The steps (pairs
-    /// of nodes) of the budget are those of all distances together. Tolerances are ignored. If steps
-    /// or scratch memory run out, `clear_until` is earlier.
+    /// of nodes) of the budget are those of all distances together. Tolerances are ignored. If
+    /// steps or scratch memory run out, `clear_until` is earlier.
     ///
     /// Cost: a [`distance`](Bvh::distance) for each advance: three to ten where the motion passes
     /// at some distance, some dozens before contact, more where the surfaces glide along each
@@ -43,8 +43,8 @@ impl Bvh<'_> {
     /// Body Systems* (1996), by proved distances.
     ///
     /// # Errors
-    /// Those of [`distance`](Bvh::distance), also for a `keep` that is negative, NaN or infinite, and
-    /// [`QueryError::NotFinite`] if a pose on the way leaves f32's range.
+    /// Those of [`distance`](Bvh::distance), also for a `keep` that is negative, NaN or infinite,
+    /// and [`QueryError::NotFinite`] if a pose on the way leaves f32's range.
     pub fn first_contact_of(
         &self,
         other: &Bvh<'_>,

@@ -71,20 +71,21 @@ impl<'s, 'a> Scene<'s, 'a> {
 
     /// The pair of models whose surfaces are nearest, and their distance in the world.
     ///
-    /// Only pairs for which `asks_about` is true count, the lesser index first. It is called twice a
-    /// pair. Leave out neighbours that always touch. Lengths are in the unit of the world, which all models
-    /// share. The poses' numbers are taken as exact. Only surfaces count, and each pair is as for
-    /// [`Bvh::distance`](crate::Bvh::distance). Surfaces that meet have a distance from 0, and an
-    /// upper end of a few roundings, because the pose of one model in the frame of the other is
-    /// rounded.
+    /// Only pairs for which `asks_about` is true count, the lesser index first. It is called twice
+    /// a pair. Leave out neighbours that always touch. Lengths are in the unit of the world, which
+    /// all models share. The poses' numbers are taken as exact. Only surfaces count, and each pair
+    /// is as for [`Bvh::distance`](crate::Bvh::distance). Surfaces that meet have a distance from
+    /// 0, and an upper end of a few roundings, because the pose of one model in the frame of the
+    /// other is rounded.
     ///
     /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. The
     /// steps (pairs of nodes) of the budget are those of all pairs together. Pairs for which no
     /// steps are left are bounded by their boxes. The tolerances apply to each pair's
     /// distance.
     ///
-    /// Cost: some hundred operations in f32 for each pair of models, twice. A distance for each pair
-    /// whose boxes are nearer than the nearest pair so far, which begins with the nearest boxes.
+    /// Cost: some hundred operations in f32 for each pair of models, twice. A distance for each
+    /// pair whose boxes are nearer than the nearest pair so far, which begins with the nearest
+    /// boxes.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Placed, Pose, Scene, Scratch};

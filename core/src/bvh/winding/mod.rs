@@ -11,12 +11,12 @@
 //! | `moment_flux` | the solid angles of all triangles of a node together, from afar |
 //! | `flux` | sums with bounds of their errors |
 //!
-//! The *flux* of a set of triangles is the sum of their solid angles. A pass takes the flux of nodes
-//! that are small beside their distance from their moments, and adds up the solid angles of the
-//! other triangles one by one. Each pass replaces only smaller nodes than the pass before, until
-//! the side is decided. Every pass gives an interval that contains the number, and
-//! the answer is their intersection. A pass is depth-first, so it needs the memory of any other
-//! descent, and no queue.
+//! The *flux* of a set of triangles is the sum of their solid angles. A pass takes the flux of
+//! nodes that are small beside their distance from their moments, and adds up the solid angles of
+//! the other triangles one by one. Each pass replaces only smaller nodes than the pass before,
+//! until the side is decided. Every pass gives an interval that contains the number, and the answer
+//! is their intersection. A pass is depth-first, so it needs the memory of any other descent, and
+//! no queue.
 
 mod flux;
 mod moment_flux;

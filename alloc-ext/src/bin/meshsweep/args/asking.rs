@@ -119,7 +119,13 @@ pub struct WindingArgs {
     #[command(flatten)]
     pub input: PointArgs,
     /// Narrow each interval to this width [default: until the side is decided]
-    #[arg(long, value_name = "WIDTH", default_value_t = 0.0, value_parser = tolerance)]
+    #[arg(
+        long,
+        value_name = "WIDTH",
+        default_value_t = 0.0,
+        hide_default_value = true,
+        value_parser = tolerance
+    )]
     pub abs: f32,
     #[command(flatten)]
     pub search: SearchArgs,

@@ -41,10 +41,10 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     curve     closest and within, of a curve: 6 bytes a point in 2-D, 2 more in 3-D, and 4 to 10 \
     for its node\n\
     closest, segment, cull and winding share a box tree. Any mesh will do for it, open or not, \
-    manifold or not. It takes a second for a hundred thousand triangles. hull is the progressive hull with \
-    its split tables. It needs a closed manifold mesh and takes far longer. sweep makes the same \
-    tables of any mesh: their distances and hits are as true, but no level is a hull. triboxes \
-    take any mesh; those of a closed mesh hold its inside too. They take as long as the command \
+    manifold or not. It takes a second for a hundred thousand triangles. hull is the progressive \
+    hull with its split tables. It needs a closed manifold mesh and takes far longer. sweep makes \
+    the same tables of any mesh: their distances and hits are as true, but no level is a hull. \
+    triboxes take any mesh; those of a closed mesh hold its inside too. They take as long as the command \
     tribox. \
     tight makes tight hulls of --tight faces, as the command hull does, of any mesh. Each \
     encloses the mesh and stores the distance of its faces from it. Each takes some seconds. \
@@ -146,9 +146,9 @@ pub fn signed() -> String {
          the signed distance, negative inside. If the side is undecided, they are -upper and \
          upper of the distance; {TRIANGLES}.\n\n\
          The side is that of the nearest surface. Parts that overlap are not united: a point in \
-         one part is outside if the front of another part is nearer. Unite them first. Of a mesh \
-         that is not closed, the side is that of the winding number, if the blob was built \
-         --for winding.\n\n\
+         one part is outside if the front of another part is nearer. With \
+         --for winding they are: then the side is that of the winding number, of any mesh, open or \
+         not, and a point takes longer.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep signed part.msw 10,4.5,7\n  \
@@ -165,7 +165,9 @@ pub fn winding() -> String {
          proves a number above 1/2; outside, which proves one below; or undecided, and then \
          'reason' says why: rounding, also of the vertices to the grid; out of steps, out of \
          scratch memory. The number is that of the mesh as build repaired it: triangles that \
-         occur twice count once.\n\n\
+         occur twice count once. Triangles that share vertices are wound alike, and closed parts \
+         that are inside out are turned. An open part that is inside out makes every point \
+         outside: build warns of it.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep build scan.ply -o scan.msw --for winding\n  \
@@ -204,7 +206,7 @@ pub fn segment() -> String {
 const POSES: &str = "A pose moves the second mesh: p becomes R p + (x, y, z). R is the rotation of \
     the quaternion (qw, qx, qy, qz), which need not have length 1 and may not be 0. It is rounded \
     to a matrix of f32, and the answer is about that matrix. --matrix takes any matrix with \
-    entries up to 2 as it is.";
+    entries up to 2 as it is; --moves screw only rotations up to a thousandth.";
 
 pub fn clearance() -> String {
     format!(
@@ -220,7 +222,11 @@ pub fn clearance() -> String {
          With --moves the column 'clear' says yes if it is proved that the surfaces stay apart, \
          farther than D of --within, during the whole move; or undecided, if they are proved to \
          do so only before t, from 0 to 1 along the move. a and b, first and second are where \
-         they are then nearest. A screw turns by half a turn at most.\n\n\
+         they are then nearest: a collision is undecided too, with the time before which there is \
+         none. straight is for poses of equal rotation: between others the mesh shrinks as it \
+         turns. screw keeps it rigid, about a fixed axis, by half a turn at most, and of exactly \
+         half a turn in either direction. Its origin goes along a helix. If a machine moves \
+         otherwise, give poses close together, and add the deviation to --within.\n\n\
          Both blobs are built --for segment. Poses and moves count from 0. Options with poses \
          stand after the blobs.\n\n\
          {QUERIES}\n\n\
@@ -326,10 +332,12 @@ pub const HAUSDORFF: &str = "lower and upper enclose the exact distance of the m
     point. ended says whether the precision was reached, or why not. Triangles are counted from \
     0 in their file; a polygon counts as the triangles about its first corner. Triangles without \
     area count like all others.\n\n\
+    --profile and --heat look at the first mesh alone: holes of a scan show only with the complete \
+    mesh first. quantiles bound the distance that a part of the area does not exceed.\n\n\
     Examples:\n  \
     meshsweep hausdorff part.stl scan.ply --rel 1e-6\n  \
     meshsweep hausdorff part.stl scan.ply --one-sided --json\n  \
-    meshsweep hausdorff scan.ply part.stl --profile --heat scan_error.ply\n  \
+    meshsweep hausdorff part.stl scan.ply --profile --heat deviation.ply\n  \
     meshsweep hausdorff part.stl scan.ply --at-most 1000";
 
 pub const CUT: &str = "meshsweep info lists the levels. --level leaves the box tree out: it holds \

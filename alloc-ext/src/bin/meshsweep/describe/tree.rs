@@ -65,8 +65,11 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
         )?;
     }
     let closed = match (tree.is_closed(), tree.serves_winding()) {
-        (true, _) => "closed: signed distance is that of the nearest surface",
-        (_, true) => "open: sides are those of the winding number",
+        (true, false) => "closed: signed distance is that of the nearest surface",
+        (true, true) => {
+            "closed: sides are those of the winding number; parts that overlap are united"
+        }
+        (false, true) => "open: sides are those of the winding number",
         _ => "open: every side is undecided; --for winding decides them",
     };
     writeln!(out, "  {closed}")?;
