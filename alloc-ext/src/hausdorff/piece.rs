@@ -129,7 +129,7 @@ fn cut_along_edge(corners: [DVec3; 3], along: [DVec3; 3]) -> Option<[[DVec3; 3];
 }
 
 /// Two halves, cut across the longest edge.
-fn bisect([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 2] {
+pub(super) fn bisect([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 2] {
     let (ab, bc, ca) =
         ((b - a).length_squared(), (c - b).length_squared(), (a - c).length_squared());
     let [p, q, r] = if ab >= bc && ab >= ca {

@@ -6,7 +6,7 @@
 //! halved, those that blur the mean most first, until the mean is known as closely as asked for. A
 //! quantile of the lower bounds is below that of the distance, and one of the upper bounds above.
 
-use super::piece::{CUT_ROUNDING, ROUNDED_UP, bounding_ball};
+use super::piece::{CUT_ROUNDING, ROUNDED_UP, bisect, bounding_ball};
 use super::surface::{Near, QueryScratch, Surface};
 use super::two_meshes::Refused;
 use crate::bvh::exact_blob;
@@ -92,7 +92,8 @@ pub fn profile(
             break false;
         }
         pieces.select_nth_unstable_by(cut - 1, |a, b| b.blur().total_cmp(&a.blur()));
-        let halves: Vec<[DVec3; 3]> = pieces[..cut].iter().flat_map(Piece::halves).collect();
+        let halves: Vec<[DVec3; 3]> =
+            pieces[..cut].iter().flat_map(|piece| bisect(piece.corners)).collect();
         let halves = measured(&halves);
         measured_pieces += halves.len();
         let rest = pieces.split_off(cut);
@@ -166,22 +167,6 @@ impl Piece {
     fn blur(&self) -> f64 {
         let [least, most] = self.mean;
         self.area * (most - least)
-    }
-
-    /// Both halves, cut across the longest edge.
-    fn halves(&self) -> [[DVec3; 3]; 2] {
-        let [a, b, c] = self.corners;
-        let length = |from: DVec3, to: DVec3| (to - from).length_squared();
-        let (ab, bc, ca) = (length(a, b), length(b, c), length(c, a));
-        let [a, b, c] = if ab >= bc && ab >= ca {
-            [a, b, c]
-        } else if bc >= ca {
-            [b, c, a]
-        } else {
-            [c, a, b]
-        };
-        let middle = (a + b) * 0.5;
-        [[a, middle, c], [middle, b, c]]
     }
 }
 

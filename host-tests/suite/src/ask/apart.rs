@@ -2,7 +2,9 @@
 //! its winding numbers. They have an image of their own, because all questions together are more
 //! than the flash of the smallest board.
 
-use meshsweep_core::{Budget, Bvh, FirstHit, Motion, Placed, Pose, QueryError, Scene, Solid};
+use meshsweep_core::{
+    Budget, Bvh, FirstHit, Interval, Motion, Placed, Pose, QueryError, Scene, Solid,
+};
 
 use super::{Asked, Refused, Subject, tree};
 use crate::fold::Fold;
@@ -85,10 +87,7 @@ pub fn scene(
     to.answer(
         || scene.nearest_pair(|_, _| true, budget, scratch),
         |fold, answer| {
-            fold.f32(answer.distance.lower);
-            fold.f32(answer.distance.upper);
-            answer.points.into_iter().for_each(|point| fold.point(point));
-            answer.triangles.into_iter().for_each(|number| fold.word(number));
+            nearest(fold, answer.distance, answer.points, answer.triangles);
             super::how(fold, answer.work, answer.ended);
         },
     );
@@ -96,6 +95,14 @@ pub fn scene(
         || scene.within(distance, |_, _| true, budget, scratch),
         |fold, answer| super::verdict(fold, answer.work, answer.verdict),
     );
+}
+
+/// Where two surfaces are nearest.
+fn nearest(fold: &mut Fold, distance: Interval, points: [[f32; 3]; 2], triangles: [u32; 2]) {
+    fold.f32(distance.lower);
+    fold.f32(distance.upper);
+    points.into_iter().for_each(|point| fold.point(point));
+    triangles.into_iter().for_each(|number| fold.word(number));
 }
 
 /// How often the surface encloses a point.
@@ -132,10 +139,7 @@ pub fn distance(
     let found = to.answer(
         || tree.distance(tree, pose, budget, scratch),
         |fold, answer| {
-            fold.f32(answer.distance.lower);
-            fold.f32(answer.distance.upper);
-            answer.points.into_iter().for_each(|point| fold.point(point));
-            answer.triangles.into_iter().for_each(|number| fold.word(number));
+            nearest(fold, answer.distance, answer.points, answer.triangles);
             super::how(fold, answer.work, answer.ended);
         },
     );

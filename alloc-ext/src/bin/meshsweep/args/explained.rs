@@ -44,8 +44,8 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     manifold or not. It takes a second for a hundred thousand triangles. hull is the progressive \
     hull with its split tables. It needs a closed manifold mesh and takes far longer. sweep makes \
     the same tables of any mesh: their distances and hits are as true, but no level is a hull. \
-    triboxes take any mesh; those of a closed mesh hold its inside too. They take as long as the command \
-    tribox. \
+    triboxes take any mesh; those of a closed mesh hold its inside too. They take as long as the \
+    command tribox. \
     tight makes tight hulls of --tight faces, as the command hull does, of any mesh. Each \
     encloses the mesh and stores the distance of its faces from it. Each takes some seconds. \
     --slack or --void makes one hull, with the fewest faces found that are as tight; if no hull \
