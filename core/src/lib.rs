@@ -85,9 +85,9 @@ mod tribox;
 
 pub use blob::Blob;
 pub use bvh::{
-    AllWithin, AnyHit, Bvh, CoherentClosest, CoherentQuery, Eye, Facing, FrontFacing, Hint,
-    KNearest, Neighbor, Placed, Scene, SceneDistance, SceneWithin, SignedDistance, WindingNumber,
-    Within,
+    AllWithin, AnyHit, Bvh, CoherentClosest, CoherentPair, CoherentQuery, Eye, Facing, FrontFacing,
+    Hint, KNearest, Neighbor, Placed, Scene, SceneDistance, SceneWithin, SignedDistance,
+    WindingNumber, Within,
 };
 pub use curve::{Curve, CurveClosest, CurveSegment, CurveWithin};
 pub use format::layout::{BuildFor, SectionKind};

@@ -82,6 +82,7 @@ pub use format::Bvh;
 pub use front_facing::{Eye, FrontFacing};
 pub use nearest::KNearest;
 pub use neighbors::Neighbor;
+pub use overlap::CoherentPair;
 pub use scene::{Placed, Scene, SceneDistance, SceneWithin};
 pub use segment_leaf::Facing;
 pub use signed_distance::SignedDistance;

@@ -2,7 +2,8 @@
 
 use super::from_afar::from_afar;
 use super::leaf_gaps::{GapVisitor, TriangleGap};
-use super::nearest_first::{Missed, descend};
+use super::left_out::{ChildPairs, Forgotten};
+use super::nearest_first::{Missed, Search};
 use super::query::numbers;
 use super::stored_pair::StoredPair;
 use crate::bvh::format::Bvh;
@@ -63,43 +64,19 @@ impl Bvh<'_> {
     ) -> Result<PairDistance, QueryError> {
         budget.check_with(scratch)?;
         let pair = StoredPair::new([self, other], &pose)?;
-        let mut work = Work::default();
         let mut nearest = Nearest::new(&pair, &budget);
+        let mut search = Search::new(&pair, budget.steps, scratch);
         let missed = if pair.is_in_range {
-            let mut leaves = pair.leaves();
-            descend(&pair.models(), &mut leaves, budget.steps, scratch, &mut nearest, &mut work)?
+            search.descend((ChildPairs::ALL, 0.0), &mut nearest, &mut Forgotten)?.missed()
         } else {
             Some(Missed { why: Ended::Resolution, lower: f64::INFINITY })
         };
-        let (gap, lower, ended) = match nearest.best {
-            Some(gap) => {
-                let (lower, ended) = nearest.lower(missed);
-                (gap, lower, ended)
-            }
-            // Nothing was measured, so both numbers bound all pairs.
-            None => {
-                let gap = from_afar(&pair).ok_or(QueryError::Unchecked)?;
-                let (bound, ended) = missed.map_or((0.0, Ended::Exact), |m| (m.lower, m.why));
-                (gap, greater(gap.lower, if pair.is_in_range { bound } else { 0.0 }), ended)
-            }
-        };
-        let distance = if gap.meets {
-            Interval::new(0.0, 0.0)
-        } else {
-            pair.lengths.interval(lower, gap.upper)
-        };
-        Ok(PairDistance {
-            distance,
-            points: gap.points.map(|point| pair.place(point)),
-            triangles: numbers(self, other, &gap.place).ok_or(QueryError::Unchecked)?,
-            work,
-            ended,
-        })
+        nearest.answer(&pair, missed, search.work)
     }
 }
 
 /// The visitor that wants the nearest pair. Common units.
-struct Nearest {
+pub(super) struct Nearest {
     best: Option<TriangleGap>,
     /// The least lower end of all pairs that were measured.
     lower: f64,
@@ -113,7 +90,7 @@ struct Nearest {
 }
 
 impl Nearest {
-    fn new(pair: &StoredPair<'_>, budget: &Budget) -> Nearest {
+    pub(super) fn new(pair: &StoredPair<'_>, budget: &Budget) -> Nearest {
         Nearest {
             best: None,
             lower: f64::INFINITY,
@@ -133,6 +110,40 @@ impl Nearest {
         let absolute = upper - greater(0.0, self.absolute - upper * rounded);
         let least = lesser(relative, absolute) + self.errors;
         greater(0.0, lesser(self.upper, least))
+    }
+
+    /// The answer after a search.
+    pub(super) fn answer(
+        &self,
+        pair: &StoredPair<'_>,
+        missed: Option<Missed>,
+        work: Work,
+    ) -> Result<PairDistance, QueryError> {
+        let (gap, lower, ended) = match self.best {
+            Some(gap) => {
+                let (lower, ended) = self.lower(missed);
+                (gap, lower, ended)
+            }
+            // Nothing was measured, so both numbers bound all pairs.
+            None => {
+                let gap = from_afar(pair).ok_or(QueryError::Unchecked)?;
+                let (bound, ended) = missed.map_or((0.0, Ended::Exact), |m| (m.lower, m.why));
+                (gap, greater(gap.lower, if pair.is_in_range { bound } else { 0.0 }), ended)
+            }
+        };
+        let distance = if gap.meets {
+            Interval::new(0.0, 0.0)
+        } else {
+            pair.lengths.interval(lower, gap.upper)
+        };
+        let [a, b] = pair.trees;
+        Ok(PairDistance {
+            distance,
+            points: gap.points.map(|point| pair.place(point)),
+            triangles: numbers(a, b, &gap.place).ok_or(QueryError::Unchecked)?,
+            work,
+            ended,
+        })
     }
 
     /// The lower end of all pairs, and why the search ended.

@@ -5,7 +5,10 @@
 
 use super::descent::PairPlace;
 use super::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
-use super::pair_keys::{NO_PAIR, PairKeys, children_of, key_limit, key_of};
+use super::left_out::LeftOut;
+use super::pair_keys::{
+    NO_PAIR, PAIRS, PairKeys, children_of, distance_of, key_limit, key_of, pair_bit,
+};
 use crate::bvh::format::FanLeaf;
 use crate::geom::fan::WIDTH;
 use crate::geom::{Contact, TriangleDistance, crossing, triangle_distance, triangles_meet};
@@ -33,6 +36,13 @@ pub(super) trait GapVisitor {
     fn take(&mut self, gap: &TriangleGap) -> bool;
 }
 
+/// What a visit of two leaves showed.
+pub(super) struct LeafVisit {
+    pub(super) goes_on: bool,
+    /// No triangles of the leaves are nearer than this, common units. 0 if nobody asks.
+    pub(super) left_out: f64,
+}
+
 /// The search among the triangles of two leaves.
 pub(super) struct LeafGaps<'a> {
     pub(super) pose: &'a RelativePose,
@@ -44,15 +54,15 @@ pub(super) struct LeafGaps<'a> {
 }
 
 impl LeafGaps<'_> {
-    /// Visits the pairs of triangles of two leaves that may be within the limit. `true` to go on.
+    /// Visits the pairs of triangles of two leaves that may be within the limit.
     #[inline(always)]
-    pub(super) fn visit(
+    pub(super) fn visit<L: LeftOut>(
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
         place: [[u32; 2]; 2],
         visitor: &mut impl GapVisitor,
         work: &mut Work,
-    ) -> Option<bool> {
+    ) -> Option<LeafVisit> {
         let [first, second] = leaves;
         let pair = LeafPair::new(self.pose, first, second);
         let error = self.pose.vertex_error;
@@ -63,8 +73,13 @@ impl LeafGaps<'_> {
             reach * reach * GAP_SLACK
         };
         let mut limit_sq = reach_sq(visitor);
+        let mut seen = Measured { pairs: 0, lower: f64::INFINITY };
+        let visit = |way, goes_on, seen: &Measured| {
+            let left_out = if L::TAKES { least_distance(&pair, way, margin, seen)? } else { 0.0 };
+            Some(LeafVisit { goes_on, left_out })
+        };
         if !may_be_near(self.way, limit_sq, &pair) {
-            return Some(true);
+            return visit(self.way, true, &seen);
         }
         let mut keys = keys(&pair, limit_sq)?;
         skip_along(&mut keys, self.way, limit_sq, &pair);
@@ -73,7 +88,7 @@ impl LeafGaps<'_> {
         loop {
             let key = keys.least();
             if key > key_limit(limit_sq) {
-                return Some(true);
+                return visit(self.way, true, &seen);
             }
             keys.drop(key);
             let [i, j] = children_of(key);
@@ -82,8 +97,12 @@ impl LeafGaps<'_> {
             let lanes = [[node, child, i], [other, other_child, j]];
             let gap = self.measured(&pair, lanes);
             self.turn_to(&gap);
+            seen = Measured {
+                pairs: seen.pairs | pair_bit(key),
+                lower: lesser(seen.lower, gap.lower),
+            };
             if !visitor.take(&gap) {
-                return Some(false);
+                return visit(self.way, false, &seen);
             }
             limit_sq = reach_sq(visitor);
             skip_along(&mut keys, self.way, limit_sq, &pair);
@@ -124,6 +143,28 @@ impl LeafGaps<'_> {
             self.way = way.map(|x| (x / longest) as f32);
         }
     }
+}
+
+/// The pairs of triangles that were measured.
+struct Measured {
+    /// The bits of their keys.
+    pairs: u64,
+    /// The least lower end.
+    lower: f64,
+}
+
+/// No triangles of these leaves are nearer than this, common units.
+fn least_distance(pair: &LeafPair<'_>, way: [f32; 3], margin: f32, seen: &Measured) -> Option<f64> {
+    let mut keys = keys(pair, f32::INFINITY)?;
+    raise_along(&mut keys, way, pair);
+    for (i, key) in keys.0.iter_mut().enumerate() {
+        *key = if seen.pairs >> (i & (PAIRS - 1)) & 1 != 0 { NO_PAIR } else { *key };
+    }
+    let least = keys.least();
+    if least == NO_PAIR {
+        return Some(seen.lower);
+    }
+    Some(lesser(seen.lower, greater(0.0, distance_of(least) - f64::from(margin))))
 }
 
 /// Keys of all pairs, by their boxes. Vertices are as computed, so a limit must have room for
@@ -167,6 +208,25 @@ fn skip_along(keys: &mut PairKeys, way: [f32; 3], limit_sq: f32, pair: &LeafPair
         for (key, low) in row.iter_mut().zip(second.low) {
             let gap = greater(0.0, low - top);
             *key = if gap * gap * SQUARED_SLACK > limit { NO_PAIR } else { *key };
+        }
+    }
+}
+
+/// Raises the keys of the pairs that are farther apart along `way` than their boxes.
+fn raise_along(keys: &mut PairKeys, way: [f32; 3], pair: &LeafPair<'_>) {
+    let [x, y, z] = way;
+    let way_sq = x * x + y * y + z * z;
+    if way_sq < LEAST_GAP_SQ {
+        return;
+    }
+    let (first, second) = (heights(&pair.a, way), heights(&pair.b, way));
+    let factor = SQUARED_SLACK / way_sq;
+    for (i, row) in keys.0.as_chunks_mut::<WIDTH>().0.iter_mut().enumerate() {
+        let Some(&top) = first.high.get(i) else { continue };
+        for (j, (key, low)) in row.iter_mut().zip(second.low).enumerate() {
+            let gap = greater(0.0, low - top);
+            let along = key_of(gap * gap * factor, (i * WIDTH + j) as u32);
+            *key = if *key < along { along } else { *key };
         }
     }
 }

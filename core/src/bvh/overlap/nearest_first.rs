@@ -6,12 +6,34 @@
 
 use super::axis_intervals::{AxisIntervals, pairs};
 use super::descent::Models;
-use super::leaf_gaps::{GapVisitor, LeafGaps};
+use super::leaf_gaps::{GapVisitor, LeafGaps, LeafVisit};
+use super::left_out::{ChildPairs, LeftOut};
 use super::pair_keys::{
-    NO_PAIR, PairKeys, bound_of, children_of, distance_of, key_limit, second_factor,
+    NO_PAIR, PairKeys, bound_of, children_of, distance_of, key_limit, pair_bit, second_factor,
 };
+use super::stored_pair::StoredPair;
 use crate::bvh::stored_lengths::square_limit;
+use crate::num::tolerance::SQUARED_SLACK;
 use crate::query::{Ended, QueryError, ScratchEntry, Work};
+
+/// How a search ended.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Descent {
+    /// Everything within the limit was looked at.
+    Whole,
+    /// The visitor wanted no more.
+    Stopped,
+    Missed(Missed),
+}
+
+impl Descent {
+    pub(super) fn missed(self) -> Option<Missed> {
+        match self {
+            Descent::Missed(missed) => Some(missed),
+            Descent::Whole | Descent::Stopped => None,
+        }
+    }
+}
 
 /// Scratch entries of a pair of nodes that waits.
 const ENTRIES: usize = 3;
@@ -29,122 +51,175 @@ pub(super) struct Missed {
 struct Waiting {
     /// Not above any of their keys.
     key: u32,
-    nodes: [u32; 2],
-    wanted: u64,
+    pairs: ChildPairs,
 }
-
-const EVERY_PAIR: u64 = u64::MAX;
 
 impl Waiting {
     /// Keys are the bits of an f32 that is finite, and node numbers are below 2^24.
     #[inline(always)]
     fn entries(self) -> [ScratchEntry; ENTRIES] {
-        let ([a, b], wanted) = (self.nodes, self.wanted);
+        let ChildPairs { nodes: [a, b], wanted } = self.pairs;
         [[self.key, wanted as u32], [a, (wanted >> 32) as u32], [b, 0]].map(ScratchEntry::of_words)
     }
 
     #[inline(always)]
     fn of(entries: &[ScratchEntry; ENTRIES]) -> Waiting {
         let [[key, low], [a, high], [b, _]] = entries.map(ScratchEntry::words);
-        Waiting { key, nodes: [a, b], wanted: u64::from(high) << 32 | u64::from(low) }
+        let wanted = u64::from(high) << 32 | u64::from(low);
+        Waiting { key, pairs: ChildPairs { nodes: [a, b], wanted } }
+    }
+
+    #[inline(always)]
+    fn leave_to<L: LeftOut>(self, left: &mut L) {
+        if L::TAKES && self.pairs.wanted != 0 {
+            left.take(self.pairs, distance_of(self.key));
+        }
     }
 }
 
-/// Visits every pair of leaves that may be within the visitor's limit. Returns what it missed.
-#[inline(always)]
-pub(super) fn descend(
-    models: &Models<'_>,
-    leaves: &mut LeafGaps<'_>,
-    steps: u32,
-    scratch: &mut [ScratchEntry],
-    visitor: &mut impl GapVisitor,
-    work: &mut Work,
-) -> Result<Option<Missed>, QueryError> {
-    let (stack, _) = scratch.as_chunks_mut::<ENTRIES>();
-    let factor = second_factor(models.pose);
-    let limit_of = |visitor: &_| key_limit(square_limit(GapVisitor::limit(visitor)));
-    let mut used = 0usize;
-    // The least key of the pairs that did not fit the stack.
-    let mut dropped = NO_PAIR;
-    let mut now = Waiting { key: 0, nodes: [0; 2], wanted: EVERY_PAIR };
-    loop {
-        if work.splits >= steps {
-            let waiting = stack.iter().take(used).map(|entries| Waiting::of(entries).key);
-            let key = waiting.fold(now.key.min(dropped), u32::min);
-            return Ok(Some(Missed { why: Ended::Steps, lower: distance_of(key) }));
-        }
-        work.splits += 1;
-        let (mut keys, deepest) = keys(models, &now, factor, work).ok_or(QueryError::Unchecked)?;
-        let mut preferred = deepest;
-        let mut down = None;
-        while down.is_none() {
-            let key = preferred.take().unwrap_or_else(|| keys.least());
-            if key > limit_of(visitor) {
-                break;
+/// A search in two trees.
+pub(super) struct Search<'s, 'a> {
+    pub(super) models: Models<'a>,
+    pub(super) leaves: LeafGaps<'a>,
+    /// Most pairs of nodes, of all descents together.
+    pub(super) steps: u32,
+    pub(super) scratch: &'s mut [ScratchEntry],
+    pub(super) work: Work,
+}
+
+impl<'s, 'a> Search<'s, 'a> {
+    pub(super) fn new(
+        pair: &'a StoredPair<'a>,
+        steps: u32,
+        scratch: &'s mut [ScratchEntry],
+    ) -> Self {
+        let work = Work::default();
+        Search { models: pair.models(), leaves: pair.leaves(), steps, scratch, work }
+    }
+
+    /// Visits every pair of leaves below `start` that may be within the visitor's limit. What the
+    /// limit left out goes to `left`. None of `start` is nearer than `distance`, common units.
+    #[inline(always)]
+    pub(super) fn descend<L: LeftOut>(
+        &mut self,
+        (start, distance): (ChildPairs, f32),
+        visitor: &mut impl GapVisitor,
+        left: &mut L,
+    ) -> Result<Descent, QueryError> {
+        let Search { models, leaves, work, .. } = self;
+        let (stack, _) = self.scratch.as_chunks_mut::<ENTRIES>();
+        let factor = second_factor(models.pose);
+        let limit_of = |visitor: &_| key_limit(square_limit(GapVisitor::limit(visitor)));
+        let mut used = 0usize;
+        // The least key of the pairs that did not fit the stack.
+        let mut dropped = NO_PAIR;
+        let key = (distance * distance * SQUARED_SLACK).to_bits();
+        let mut now = Waiting { key, pairs: start };
+        loop {
+            if work.splits >= self.steps {
+                let waiting = stack.iter().take(used).map(|entries| Waiting::of(entries).key);
+                let key = waiting.fold(now.key.min(dropped), u32::min);
+                now.leave_to(left);
+                leave_all(stack, used, left);
+                return Ok(Descent::Missed(Missed { why: Ended::Steps, lower: distance_of(key) }));
             }
-            keys.drop(key);
-            let indices = children_of(key);
-            let child = |which: usize, index: u32| {
-                let tree = if which == 0 { models.a } else { models.b };
-                tree.child(now.nodes[which & 1], index).ok_or(QueryError::Unchecked)
-            };
-            let children = [child(0, indices[0])?, child(1, indices[1])?];
-            let [opens_a, opens_b] = models.opened(&children).ok_or(QueryError::Unchecked)?;
-            if opens_a || opens_b {
-                // A child that is not opened stays a child of its parent, alone.
-                let part = |opens: bool, which: usize| {
-                    if opens {
-                        (children[which].at, 0xFF)
-                    } else {
-                        (now.nodes[which], 1u64 << indices[which])
-                    }
+            work.splits += 1;
+            let (mut keys, deepest) =
+                keys(models, &now.pairs, factor, work).ok_or(QueryError::Unchecked)?;
+            let nodes = now.pairs.nodes;
+            let mut preferred = deepest;
+            let mut down = None;
+            while down.is_none() {
+                let key = preferred.take().unwrap_or_else(|| keys.least());
+                if key > limit_of(visitor) {
+                    break;
+                }
+                keys.drop(key);
+                let indices = children_of(key);
+                let child = |which: usize, index: u32| {
+                    let tree = if which == 0 { models.a } else { models.b };
+                    tree.child(nodes[which & 1], index).ok_or(QueryError::Unchecked)
                 };
-                let ((first, rows), (second, columns)) = (part(opens_a, 0), part(opens_b, 1));
-                let wanted =
-                    (0..8).fold(0, |bits, i| bits | (columns * (rows >> i & 1)) << (8 * i));
-                let key = bound_of(key).to_bits();
-                down = Some(Waiting { key, nodes: [first, second], wanted });
-                continue;
-            }
-            let [first, second] = children;
-            let p = models.a.leaf_at(first.at, first.shape).ok_or(QueryError::Unchecked)?;
-            let q = models.b.leaf_at(second.at, second.shape).ok_or(QueryError::Unchecked)?;
-            let place = [[now.nodes[0], indices[0]], [now.nodes[1], indices[1]]];
-            let go_on = leaves.visit([&p, &q], place, visitor, work);
-            if !go_on.ok_or(QueryError::Unchecked)? {
-                return Ok(None);
-            }
-        }
-        if let Some(next) = down {
-            let (wanted, key) = keys.up_to(limit_of(visitor));
-            if wanted != 0 {
-                let left = Waiting { key: bound_of(key).to_bits(), nodes: now.nodes, wanted };
-                match stack.get_mut(used) {
-                    Some(slot) => {
-                        *slot = left.entries();
-                        used += 1;
-                    }
-                    None => dropped = dropped.min(left.key),
+                let children = [child(0, indices[0])?, child(1, indices[1])?];
+                let [opens_a, opens_b] = models.opened(&children).ok_or(QueryError::Unchecked)?;
+                if opens_a || opens_b {
+                    // A child that is not opened stays a child of its parent, alone.
+                    let part = |opens: bool, which: usize| {
+                        if opens {
+                            (children[which].at, 0xFF)
+                        } else {
+                            (nodes[which], 1u64 << indices[which])
+                        }
+                    };
+                    let ((first, rows), (second, columns)) = (part(opens_a, 0), part(opens_b, 1));
+                    let wanted =
+                        (0..8).fold(0, |bits, i| bits | (columns * (rows >> i & 1)) << (8 * i));
+                    let pairs = ChildPairs { nodes: [first, second], wanted };
+                    down = Some(Waiting { key: bound_of(key).to_bits(), pairs });
+                    continue;
+                }
+                let [first, second] = children;
+                let p = models.a.leaf_at(first.at, first.shape).ok_or(QueryError::Unchecked)?;
+                let q = models.b.leaf_at(second.at, second.shape).ok_or(QueryError::Unchecked)?;
+                let place = [[nodes[0], indices[0]], [nodes[1], indices[1]]];
+                let visit = leaves.visit::<L>([&p, &q], place, visitor, work);
+                let LeafVisit { goes_on, left_out } = visit.ok_or(QueryError::Unchecked)?;
+                left.take(ChildPairs { nodes, wanted: pair_bit(key) }, left_out);
+                if !goes_on {
+                    let (wanted, _) = keys.up_to(NO_PAIR - 1);
+                    Waiting { key: now.key, pairs: ChildPairs { nodes, wanted } }.leave_to(left);
+                    leave_all(stack, used, left);
+                    return Ok(Descent::Stopped);
                 }
             }
-            now = next;
-            continue;
-        }
-        let limit = limit_of(visitor);
-        now = loop {
-            let Some(top) = used.checked_sub(1) else {
-                let is_short = dropped <= limit;
-                return Ok(
-                    is_short.then(|| Missed { why: Ended::Scratch, lower: distance_of(dropped) })
-                );
-            };
-            used = top;
-            let waiting = Waiting::of(stack.get(top).ok_or(QueryError::Unchecked)?);
-            if waiting.key <= limit {
-                break waiting;
+            let limit = limit_of(visitor);
+            let (near, key) = keys.up_to(limit);
+            // Pairs beyond the limit are left out together with the others.
+            let wanted = if L::TAKES { keys.up_to(NO_PAIR - 1).0 } else { near };
+            let rest =
+                Waiting { key: bound_of(key).to_bits(), pairs: ChildPairs { nodes, wanted } };
+            if near == 0 {
+                rest.leave_to(left);
             }
-        };
+            if let Some(next) = down {
+                if near != 0 {
+                    match stack.get_mut(used) {
+                        Some(slot) => {
+                            *slot = rest.entries();
+                            used += 1;
+                        }
+                        None => {
+                            dropped = dropped.min(rest.key);
+                            left.lose();
+                        }
+                    }
+                }
+                now = next;
+                continue;
+            }
+            now = loop {
+                let Some(top) = used.checked_sub(1) else {
+                    if dropped > limit {
+                        return Ok(Descent::Whole);
+                    }
+                    let lower = distance_of(dropped);
+                    return Ok(Descent::Missed(Missed { why: Ended::Scratch, lower }));
+                };
+                used = top;
+                let waiting = Waiting::of(stack.get(top).ok_or(QueryError::Unchecked)?);
+                if waiting.key <= limit {
+                    break waiting;
+                }
+                waiting.leave_to(left);
+            };
+        }
     }
+}
+
+/// Leaves out all pairs that wait.
+#[inline(always)]
+fn leave_all(stack: &[[ScratchEntry; ENTRIES]], used: usize, left: &mut impl LeftOut) {
+    stack.iter().take(used).for_each(|entries| Waiting::of(entries).leave_to(left));
 }
 
 /// Keys of the pairs that wait. Of boxes that meet, the key of the pair that overlaps most:
@@ -152,7 +227,7 @@ pub(super) fn descend(
 #[inline(always)]
 fn keys(
     models: &Models<'_>,
-    now: &Waiting,
+    now: &ChildPairs,
     factor: f32,
     work: &mut Work,
 ) -> Option<(PairKeys, Option<u32>)> {

@@ -51,6 +51,12 @@ pub(super) fn children_of(key: u32) -> [u32; 2] {
     [key >> 3 & 7, key & 7]
 }
 
+/// The bit of a pair in [`ChildPairs`](super::left_out::ChildPairs).
+#[inline(always)]
+pub(super) fn pair_bit(key: u32) -> u64 {
+    1 << (key & PAIR_MASK)
+}
+
 /// Lower bound of a distance, from the key of a pair of boxes, common units.
 pub(super) fn distance_of(key: u32) -> f64 {
     root_of_bound(bound_of(key))

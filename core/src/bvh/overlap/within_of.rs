@@ -2,7 +2,8 @@
 
 use super::from_afar::from_afar;
 use super::leaf_gaps::{GapVisitor, TriangleGap};
-use super::nearest_first::descend;
+use super::left_out::{ChildPairs, Forgotten};
+use super::nearest_first::{Missed, Search};
 use super::query::numbers;
 use super::stored_pair::StoredPair;
 use crate::bvh::format::Bvh;
@@ -54,34 +55,20 @@ impl Bvh<'_> {
         budget.with_absolute(distance).check()?;
         budget.check_with(scratch)?;
         let pair = StoredPair::new([self, other], &pose)?;
-        let mut work = Work::default();
-        let limit = (pair.lengths.inward(distance) + pair.lengths.error) * (1.0 + 8.0 * U64);
-        let mut threshold = Threshold { pair: &pair, distance, limit, near: None, undecided: None };
+        let mut threshold = Threshold::new(&pair, distance);
+        let mut search = Search::new(&pair, budget.steps, scratch);
         let missed = if pair.is_in_range {
-            let mut leaves = pair.leaves();
-            descend(&pair.models(), &mut leaves, budget.steps, scratch, &mut threshold, &mut work)?
+            search.descend((ChildPairs::ALL, 0.0), &mut threshold, &mut Forgotten)?.missed()
         } else {
             threshold.take(&from_afar(&pair).ok_or(QueryError::Unchecked)?);
             None
         };
-        let (verdict, gap) = match (threshold.near, missed, threshold.undecided) {
-            (Some(gap), _, _) => (Verdict::Yes, Some(gap)),
-            (None, Some(missed), _) => {
-                let far = from_afar(&pair).ok_or(QueryError::Unchecked)?;
-                let is_apart = pair.lengths.lower(far.lower) > distance;
-                let open = Verdict::Undecided(missed.why.undecided());
-                (if is_apart { Verdict::No } else { open }, None)
-            }
-            (None, None, Some(gap)) => (Verdict::Undecided(Undecided::Resolution), Some(gap)),
-            (None, None, None) => (Verdict::No, None),
-        };
-        let numbers =
-            |gap: TriangleGap| numbers(self, other, &gap.place).ok_or(QueryError::Unchecked);
-        Ok(PairWithin { verdict, triangles: gap.map(numbers).transpose()?, work })
+        threshold.answer(missed, search.work)
     }
 }
 
-struct Threshold<'a> {
+/// The visitor that wants a pair within a distance.
+pub(super) struct Threshold<'a> {
     pair: &'a StoredPair<'a>,
     /// Input units.
     distance: f32,
@@ -91,6 +78,36 @@ struct Threshold<'a> {
     near: Option<TriangleGap>,
     /// A pair that may be within.
     undecided: Option<TriangleGap>,
+}
+
+impl<'a> Threshold<'a> {
+    pub(super) fn new(pair: &'a StoredPair<'a>, distance: f32) -> Self {
+        let limit = (pair.lengths.inward(distance) + pair.lengths.error) * (1.0 + 8.0 * U64);
+        Threshold { pair, distance, limit, near: None, undecided: None }
+    }
+
+    /// The answer after a search.
+    pub(super) fn answer(
+        &self,
+        missed: Option<Missed>,
+        work: Work,
+    ) -> Result<PairWithin, QueryError> {
+        let &Threshold { pair, distance, .. } = self;
+        let (verdict, gap) = match (self.near, missed, self.undecided) {
+            (Some(gap), _, _) => (Verdict::Yes, Some(gap)),
+            (None, Some(missed), _) => {
+                let far = from_afar(pair).ok_or(QueryError::Unchecked)?;
+                let is_apart = pair.lengths.lower(far.lower) > distance;
+                let open = Verdict::Undecided(missed.why.undecided());
+                (if is_apart { Verdict::No } else { open }, None)
+            }
+            (None, None, Some(gap)) => (Verdict::Undecided(Undecided::Resolution), Some(gap)),
+            (None, None, None) => (Verdict::No, None),
+        };
+        let [a, b] = pair.trees;
+        let numbers = |gap: TriangleGap| numbers(a, b, &gap.place).ok_or(QueryError::Unchecked);
+        Ok(PairWithin { verdict, triangles: gap.map(numbers).transpose()?, work })
+    }
 }
 
 impl GapVisitor for Threshold<'_> {

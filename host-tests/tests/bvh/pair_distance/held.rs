@@ -49,21 +49,34 @@ pub fn holds(name: &str, a: &Scene, b: &Scene, pose: &Pose, tally: &mut Tally) {
     } else {
         tally.meets += 1;
     }
-    let rounding = 4e-7 * reach(a, b, pose);
     for number in 0..4 {
         let (first, second) = (a.trees()[number & 1], b.trees()[number >> 1]);
         let name = format!("{name}, trees {number}, {pose:?}");
         let found = ask(&first, &second, pose, Budget::EXACT);
-        assert!(contains(found.distance, truth), "{name}: {found:?} {truth:?}");
-        assert_eq!(found.ended, Ended::Exact, "{name}");
-        let error = f64::from(first.surface_error() + 4.0 * second.surface_error());
-        let Interval { lower, upper } = found.distance;
-        let width = f64::from(upper) - f64::from(lower);
-        let allowed = 2.0 * error + 1e-6 * truth.upper + 1e-7 * rounding;
-        assert!(width <= allowed, "{name}: {found:?} {truth:?} {width:e} {allowed:e}");
-        witness(&name, [a, b], pose, &found, error + rounding);
+        let width = distance_holds(&name, [a, b], [&first, &second], pose, &found, truth);
         thresholds(&name, [&first, &second], pose, truth, width + 1e-6 * truth.upper);
     }
+}
+
+/// Holds a distance to the truth, and its points to the triangles. Returns how wide it is.
+pub fn distance_holds(
+    name: &str,
+    [a, b]: [&Scene; 2],
+    [first, second]: [&Bvh<'_>; 2],
+    pose: &Pose,
+    found: &PairDistance,
+    truth: Bounded,
+) -> f64 {
+    let rounding = 4e-7 * reach(a, b, pose);
+    assert!(contains(found.distance, truth), "{name}: {found:?} {truth:?}");
+    assert_eq!(found.ended, Ended::Exact, "{name}");
+    let error = f64::from(first.surface_error() + 4.0 * second.surface_error());
+    let Interval { lower, upper } = found.distance;
+    let width = f64::from(upper) - f64::from(lower);
+    let allowed = 2.0 * error + 1e-6 * truth.upper + 1e-7 * rounding;
+    assert!(width <= allowed, "{name}: {found:?} {truth:?} {width:e} {allowed:e}");
+    witness(name, [a, b], pose, found, error + rounding);
+    width
 }
 
 /// Both points lie on the triangles that are named, and are as far from each other as was said.
@@ -85,20 +98,24 @@ fn thresholds(name: &str, [a, b]: [&Bvh<'_>; 2], pose: &Pose, truth: Bounded, wi
     let near = [0.0, truth.lower - 1.01 * width, truth.lower, truth.upper + 1.01 * width];
     for distance in near.into_iter().chain([0.5, 0.99, 1.01, 3.0].map(|k| k * truth.upper)) {
         let distance = distance.max(0.0) as f32;
-        let found = ask_within(a, b, pose, distance);
-        let name = format!("{name}, {distance:e}: {found:?} {truth:?}");
-        match found.verdict {
-            Verdict::Yes => {
-                assert!(truth.lower <= f64::from(distance) && found.triangles.is_some(), "{name}");
-            }
-            Verdict::No => {
-                assert!(truth.upper > f64::from(distance) && found.is_clear(), "{name}");
-            }
-            verdict => {
-                assert_eq!(verdict, Verdict::Undecided(Undecided::Resolution), "{name}");
-                let off = (f64::from(distance) - truth.lower).abs();
-                assert!(off <= 1.1 * width, "{name}: open {off:e} away, beyond {width:e}");
-            }
+        verdict_holds(name, &ask_within(a, b, pose, distance), distance, truth, width);
+    }
+}
+
+/// The verdict is not wrong, and not open farther than `width` from the truth.
+pub fn verdict_holds(name: &str, found: &PairWithin, distance: f32, truth: Bounded, width: f64) {
+    let name = format!("{name}, {distance:e}: {found:?} {truth:?}");
+    match found.verdict {
+        Verdict::Yes => {
+            assert!(truth.lower <= f64::from(distance) && found.triangles.is_some(), "{name}");
+        }
+        Verdict::No => {
+            assert!(truth.upper > f64::from(distance) && found.is_clear(), "{name}");
+        }
+        verdict => {
+            assert_eq!(verdict, Verdict::Undecided(Undecided::Resolution), "{name}");
+            let off = (f64::from(distance) - truth.lower).abs();
+            assert!(off <= 1.1 * width, "{name}: open {off:e} away, beyond {width:e}");
         }
     }
 }

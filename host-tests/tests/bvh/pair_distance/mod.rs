@@ -1,5 +1,6 @@
 //! The distance of two box trees against the distance of the input meshes in 106 bits.
 
+mod coherent;
 mod extremes;
 mod held;
 mod limits;

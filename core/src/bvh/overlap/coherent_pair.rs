@@ -1,0 +1,362 @@
+//! Distances of two models that move little from one question to the next.
+//!
+//! A search leaves pairs of children out, each with a lower bound of their distance. They are kept.
+//! When the models have moved, each bound less the way of the fastest corner is still one. So the
+//! next search begins with the pairs that may have come near enough, in place of both roots.
+
+use core::marker::PhantomData;
+
+use super::distance::Nearest;
+use super::first_contact_of::quickest;
+use super::leaf_gaps::GapVisitor;
+use super::left_out::{ChildPairs, LeftOut};
+use super::nearest_first::{Descent, Missed, Search};
+use super::stored_pair::StoredPair;
+use super::within_of::Threshold;
+use crate::bvh::format::Bvh;
+use crate::geom::Pose;
+use crate::num::tolerance::U64;
+use crate::num::{down_to_f32, greater, lesser};
+use crate::query::{Budget, Ended, Motion, PairDistance, PairWithin, QueryError, ScratchEntry};
+
+/// Two models that move. It remembers what the last searches left out.
+///
+/// It keeps up to `N` groups of pairs of boxes, each with a lower bound of their distance. Together
+/// they hold all pairs of triangles. RAM: 20·`N` bytes, and 100 bytes. If the groups of a search
+/// are more than `N`, the next search begins at the roots, and [`groups`](Self::groups) is 0: take
+/// a larger `N`.
+///
+/// The state belongs to two trees at a time. With other trees it starts anew. It borrows the blobs'
+/// bytes, so they cannot change between questions.
+#[derive(Clone, Debug)]
+pub struct CoherentPair<'t, const N: usize = 1024> {
+    last: Last,
+    groups: [Group; N],
+    bytes: PhantomData<&'t [u8]>,
+}
+
+/// Pairs of children of two nodes that a search left out.
+#[derive(Clone, Copy, Debug)]
+struct Group {
+    /// No pair is nearer, common units.
+    distance: f32,
+    nodes: [u32; 2],
+    /// [`ChildPairs::wanted`], its lower half first. In halves an entry has 20 bytes.
+    wanted: [u32; 2],
+}
+
+impl Group {
+    const EMPTY: Group = Group { distance: 0.0, nodes: [0; 2], wanted: [0; 2] };
+
+    fn pairs(&self) -> ChildPairs {
+        let [low, high] = self.wanted.map(u64::from);
+        ChildPairs { nodes: self.nodes, wanted: high << 32 | low }
+    }
+
+    fn is_like(&self, other: &Group) -> bool {
+        self.nodes == other.nodes
+            && self.distance <= other.distance * LIKE
+            && other.distance <= self.distance * LIKE
+    }
+
+    fn add(&mut self, other: &Group) {
+        let ([low, high], [more_low, more_high]) = (self.wanted, other.wanted);
+        self.wanted = [low | more_low, high | more_high];
+        self.distance = lesser(self.distance, other.distance);
+    }
+}
+
+/// Groups of the same nodes are one if their distances are within this factor.
+const LIKE: f32 = 1.25;
+
+/// So many groups are looked at for such a one: those of two leaves come soon after each other.
+const LATEST: usize = 8;
+
+/// The last question.
+#[derive(Clone, Copy, Debug)]
+struct Last {
+    /// Address and number of the nodes of both trees, which identify them.
+    of: [(usize, u32); 2],
+    pose: Pose,
+    /// Groups in use. 0: they do not hold all pairs.
+    count: usize,
+    /// No group has a lesser distance.
+    least: f32,
+    /// The way of the models since the distances were written, common units.
+    way: f64,
+}
+
+impl<const N: usize> Default for CoherentPair<'_, N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<'t, const N: usize> CoherentPair<'t, N> {
+    /// A pair without memory of earlier questions. May initialise a `static`.
+    pub const fn new() -> Self {
+        CoherentPair { last: Last::NONE, groups: [Group::EMPTY; N], bytes: PhantomData }
+    }
+
+    /// Forgets all earlier questions.
+    pub fn reset(&mut self) {
+        self.last = Last::NONE;
+    }
+
+    /// The groups in use, at most `N`. 0 before the first question, and if those of the last one
+    /// did not fit.
+    pub fn groups(&self) -> usize {
+        self.last.count
+    }
+
+    /// [`Bvh::distance`] of `tree` and of `other`, moved by `pose`. The less the models moved since
+    /// the last question, the less work it takes.
+    ///
+    /// The interval contains the distance like that of [`Bvh::distance`]. Its bits may differ,
+    /// because another of several pairs that are equally near may be found. They depend on all
+    /// questions since [`reset`](Self::reset), and are the same on every target. Arguments, errors
+    /// and degenerate cases as there.
+    ///
+    /// Cost: one pass over the groups, and the pairs of boxes whose bounds came below the distance.
+    /// For steps of a thousandth of the model's size a small part of a fresh search; a fresh search
+    /// for steps as long as the distance.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, CoherentPair, Pose, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<{ Bvh::DISTANCE_ENTRIES }>::new());
+    /// let mut arm = CoherentPair::<256>::new();
+    /// for step in 0..100 {
+    ///     let pose = Pose { translation: [300.0 - step as f32, 0.0, 0.0], ..Pose::IDENTITY };
+    ///     let found = arm.distance(&part, &part, pose, Budget::EXACT, &mut scratch)?;
+    ///     assert!(found.distance.lower > 0.0);
+    /// }
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// Source: fronts of pairs after Ehmann and Lin, *Accurate and Fast Proximity Queries between
+    /// Polyhedra Using Convex Surface Decomposition* (2001); bounds less the motion after
+    /// Meshsweeper 5.1.
+    ///
+    /// # Errors
+    /// Those of [`Bvh::distance`]. The state stays as it was.
+    pub fn distance(
+        &mut self,
+        tree: &Bvh<'t>,
+        other: &Bvh<'t>,
+        pose: Pose,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<PairDistance, QueryError> {
+        budget.check_with(scratch)?;
+        let pair = StoredPair::new([tree, other], &pose)?;
+        if !pair.is_in_range {
+            self.reset();
+            return tree.distance(other, pose, budget, scratch);
+        }
+        let mut nearest = Nearest::new(&pair, &budget);
+        let mut search = Search::new(&pair, budget.steps, scratch);
+        let front = Front::moved(&mut self.last, &mut self.groups, &pair, &pose)?;
+        let missed = front.search(&mut search, &mut nearest)?;
+        nearest.answer(&pair, missed, search.work)
+    }
+
+    /// [`Bvh::within_of`] of `tree` and of `other`, moved by `pose`. It may follow questions about
+    /// other distances.
+    ///
+    /// Arguments, errors and degenerate cases as there. The verdicts are proved in the same way.
+    /// Where a pair is undecided or several are within, another one may be named.
+    ///
+    /// Cost: nothing but the way of eight corners while the models may not have come within the
+    /// distance since the last question. Else as for [`distance`](Self::distance).
+    ///
+    /// # Errors
+    /// Those of [`Bvh::within_of`]. The state stays as it was.
+    pub fn within(
+        &mut self,
+        tree: &Bvh<'t>,
+        other: &Bvh<'t>,
+        pose: Pose,
+        distance: f32,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<PairWithin, QueryError> {
+        // A distance is refused as an absolute tolerance is.
+        budget.with_absolute(distance).check_with(scratch)?;
+        let pair = StoredPair::new([tree, other], &pose)?;
+        if !pair.is_in_range {
+            self.reset();
+            return tree.within_of(other, pose, distance, budget, scratch);
+        }
+        let mut threshold = Threshold::new(&pair, distance);
+        let mut search = Search::new(&pair, budget.steps, scratch);
+        let front = Front::moved(&mut self.last, &mut self.groups, &pair, &pose)?;
+        let missed = front.search(&mut search, &mut threshold)?;
+        threshold.answer(missed, search.work)
+    }
+}
+
+impl Last {
+    const NONE: Last =
+        Last { of: [(0, 0); 2], pose: Pose::IDENTITY, count: 0, least: 0.0, way: 0.0 };
+}
+
+/// The groups in the caller's memory.
+struct Front<'f> {
+    last: &'f mut Last,
+    groups: &'f mut [Group],
+    /// Groups at the start of the list that this search did not look at yet.
+    unseen: usize,
+    /// A group did not fit.
+    is_lost: bool,
+}
+
+impl LeftOut for Front<'_> {
+    const TAKES: bool = true;
+
+    fn take(&mut self, pairs: ChildPairs, distance: f64) {
+        let ChildPairs { nodes, wanted } = pairs;
+        let wanted = [wanted as u32, (wanted >> 32) as u32];
+        let group = Group { distance: down_to_f32(distance), nodes, wanted };
+        let count = self.last.count;
+        let latest = count.saturating_sub(LATEST)..count;
+        let latest = self.groups.get_mut(latest).unwrap_or(&mut []);
+        if let Some(like) = latest.iter_mut().find(|other| other.is_like(&group)) {
+            like.add(&group);
+            return;
+        }
+        match self.groups.get_mut(count) {
+            Some(slot) => {
+                *slot = group;
+                self.last.count += 1;
+            }
+            None => self.is_lost = true,
+        }
+    }
+
+    fn lose(&mut self) {
+        self.is_lost = true;
+    }
+}
+
+impl<'f> Front<'f> {
+    /// The front after the way from the last pose.
+    fn moved(
+        last: &'f mut Last,
+        groups: &'f mut [Group],
+        pair: &StoredPair<'_>,
+        pose: &Pose,
+    ) -> Result<Self, QueryError> {
+        let [a, b] = pair.trees;
+        let id = |tree: &Bvh<'_>| {
+            let boxes = tree.boxes(0).ok_or(QueryError::Unchecked)?;
+            Ok::<_, QueryError>((core::ptr::from_ref(boxes).addr(), tree.header().nodes))
+        };
+        let of = [id(a)?, id(b)?];
+        let (step, _) = quickest(b, &Motion::straight(last.pose, *pose));
+        let way = (last.way + step / pair.lengths.unit) * (1.0 + 4.0 * U64);
+        *last = if last.of == of && way.is_finite() {
+            Last { pose: *pose, way, ..*last }
+        } else {
+            Last { of, pose: *pose, ..Last::NONE }
+        };
+        Ok(Front { last, groups, unseen: 0, is_lost: false })
+    }
+
+    /// Searches the groups that may hold a pair within the visitor's limit.
+    fn search(
+        mut self,
+        search: &mut Search<'_, '_>,
+        visitor: &mut impl GapVisitor,
+    ) -> Result<Option<Missed>, QueryError> {
+        let is_clear = f64::from(self.last.least) - self.last.way > visitor.limit();
+        if self.last.count > 0 && is_clear {
+            return Ok(None);
+        }
+        self.bring_nearer();
+        let found = self.search_groups(search, visitor);
+        if self.is_lost || found.is_err() {
+            self.last.count = 0;
+        }
+        self.last.least = least(self.known());
+        found
+    }
+
+    fn search_groups(
+        &mut self,
+        search: &mut Search<'_, '_>,
+        visitor: &mut impl GapVisitor,
+    ) -> Result<Option<Missed>, QueryError> {
+        let mut missed: Option<Missed> = None;
+        let mut is_first = true;
+        let mut is_fresh = self.unseen == 0;
+        while !is_fresh {
+            let Some(at) = self.unseen.checked_sub(1) else { return Ok(missed) };
+            self.unseen = at;
+            let Some(group) = self.remove_near(at, visitor.limit()) else { continue };
+            match search.descend((group.pairs(), group.distance), visitor, self)? {
+                Descent::Whole => {}
+                Descent::Stopped => return Ok(missed),
+                Descent::Missed(now) => {
+                    let unseen = self.known().iter().take(self.unseen);
+                    let lower = unseen.fold(now.lower, |l, g| lesser(l, f64::from(g.distance)));
+                    let lower = missed.map_or(lower, |before| lesser(lower, before.lower));
+                    missed = Some(Missed { why: now.why, lower });
+                    if now.why == Ended::Steps {
+                        return Ok(missed);
+                    }
+                }
+            }
+            is_fresh = is_first && self.are_many_near(visitor.limit());
+            is_first = false;
+        }
+        (self.last.count, self.unseen) = (0, 0);
+        Ok(search.descend((ChildPairs::ALL, 0.0), visitor, self)?.missed())
+    }
+
+    /// The groups in use.
+    fn known(&self) -> &[Group] {
+        self.groups.get(..self.last.count).unwrap_or(&[])
+    }
+
+    /// Takes the way from all distances. The nearest group comes last: its triangles leave few of
+    /// the others.
+    fn bring_nearer(&mut self) {
+        let (count, way) = (self.last.count, self.last.way);
+        (self.unseen, self.last.way) = (count, 0.0);
+        let (mut nearest, mut least) = (0, f32::INFINITY);
+        for (i, group) in self.groups.iter_mut().take(count).enumerate() {
+            group.distance = down_to_f32(greater(0.0, f64::from(group.distance) - way));
+            if group.distance < least {
+                (nearest, least) = (i, group.distance);
+            }
+        }
+        if let Some(end) = count.checked_sub(1) {
+            self.groups.swap(nearest, end);
+        }
+    }
+
+    /// Removes a group if it may hold a pair within the limit.
+    fn remove_near(&mut self, at: usize, limit: f64) -> Option<Group> {
+        let group = *self.groups.get(at)?;
+        if f64::from(group.distance) > limit {
+            return None;
+        }
+        let end = self.last.count.checked_sub(1)?;
+        let last = *self.groups.get(end)?;
+        *self.groups.get_mut(at)? = last;
+        self.last.count = end;
+        Some(group)
+    }
+
+    /// Whether the models have come so near that a search from the roots is cheaper.
+    fn are_many_near(&self, limit: f64) -> bool {
+        let unseen = self.known().iter().take(self.unseen);
+        let near = unseen.filter(|group| f64::from(group.distance) <= limit).count();
+        near > self.unseen / 2
+    }
+}
+
+fn least(groups: &[Group]) -> f32 {
+    groups.iter().fold(f32::INFINITY, |least, group| lesser(least, group.distance))
+}

@@ -1,0 +1,35 @@
+//! Pairs that a search left out.
+
+/// Takes the pairs that a search left out, so that a later search can begin with them.
+pub(super) trait LeftOut {
+    /// Whether it takes anything.
+    const TAKES: bool;
+    /// These pairs are not nearer than `distance`, common units.
+    fn take(&mut self, pairs: ChildPairs, distance: f64);
+    /// Pairs were left out that it never gets.
+    fn lose(&mut self);
+}
+
+/// A search that is not continued.
+pub(super) struct Forgotten;
+
+impl LeftOut for Forgotten {
+    const TAKES: bool = false;
+
+    fn take(&mut self, _: ChildPairs, _: f64) {}
+
+    fn lose(&mut self) {}
+}
+
+/// Pairs of children of two nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct ChildPairs {
+    pub(super) nodes: [u32; 2],
+    /// A byte for each child of the first node, a bit in it for each child of the second.
+    pub(super) wanted: u64,
+}
+
+impl ChildPairs {
+    /// Both trees whole.
+    pub(super) const ALL: ChildPairs = ChildPairs { nodes: [0; 2], wanted: u64::MAX };
+}
