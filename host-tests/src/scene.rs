@@ -84,13 +84,29 @@ impl Scene {
     /// surface error.
     #[must_use]
     pub fn moved(name: &str, mesh: Triangles, by: f32, seed: u64) -> Self {
+        let options = TreeOptions::default().with_closest(false).with_winding(true);
+        Self::with_trees(name, mesh, (by, seed), &options)
+    }
+
+    /// Any mesh with two box trees for distances and segments: on a grid, and with f32 vertices.
+    /// The blobs hold vertices that were moved by up to `by`.
+    #[must_use]
+    pub fn solid(name: &str, mesh: Triangles, by: f32, seed: u64) -> Self {
+        Self::with_trees(name, mesh, (by, seed), &TreeOptions::default())
+    }
+
+    fn with_trees(
+        name: &str,
+        mesh: Triangles,
+        (by, seed): (f32, u64),
+        options: &TreeOptions,
+    ) -> Self {
         let mut scene = Self::new(name, mesh);
         let rng = &mut Rng::new(seed);
         let moved = |&p| if by > 0.0 { add(p, rng.direction(), 0.99 * by) } else { p };
         let stored: Vec<Point> = scene.positions.iter().map(moved).collect();
         [scene.bytes, scene.f32_bytes] = [false, true].map(|single| {
-            let options = TreeOptions::default().with_closest(false).with_winding(true);
-            let options = options.with_f32(single);
+            let options = options.clone().with_f32(single);
             tree_blob(&stored, &scene.triangles, f64::from(by), &options)
         });
         scene

@@ -20,6 +20,7 @@
 //! | `first_hit`, `any_hit`, `all_hits` | segments |
 //! | `front_facing` | triangles that may face an eye |
 //! | `overlap/` | two trees, one of them moved |
+//! | `penetration/` | two solids, one of them moved: how deep they are in each other |
 //! | `solid/` | a convex solid, at rest or moving |
 //! | `scene/` | a few dozen models, each moved |
 //! | `input_box` | a box that holds the input's vertices |
@@ -60,6 +61,7 @@ mod nearest;
 mod neighbors;
 pub mod node;
 mod overlap;
+mod penetration;
 mod point_query;
 mod pseudonormal;
 mod scene;

@@ -11,6 +11,7 @@
 //! | `posed_point` | [`PosedPoint`]: a point in the frame of a moved model |
 //! | `overlap` | [`Overlap`], [`Overlaps`], [`TrianglePair`], and what collects pairs |
 //! | `pair_distance` | [`PairDistance`], [`PairWithin`], [`PairContact`]: how far two surfaces are apart |
+//! | `penetration` | [`Penetration`], [`Relation`]: how deep two solids are in each other |
 //! | `motion` | [`Motion`]: how a model moves from pose to pose |
 //! | `solid` | [`Solid`], and the answers about it: [`SolidDistance`], [`SolidWithin`] |
 //! | `relative_pose` | the pose of one model in the frame of another, and the rounding in it |
@@ -27,6 +28,7 @@ mod hits;
 mod motion;
 mod overlap;
 mod pair_distance;
+mod penetration;
 mod pose_inverse;
 mod posed_point;
 mod relative_pose;
@@ -46,6 +48,7 @@ pub use motion::Motion;
 pub(crate) use overlap::{AllPairs, FirstPair, PairVisitor};
 pub use overlap::{Overlap, Overlaps, TrianglePair};
 pub use pair_distance::{PairContact, PairDistance, PairWithin};
+pub use penetration::{Penetration, Relation};
 pub(crate) use pose_inverse::{PoseInverse, transposed};
 pub use posed_point::PosedPoint;
 pub(crate) use relative_pose::{DIRECTIONS, Extended, ModelFrame, Placement, RelativePose};

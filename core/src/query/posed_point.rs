@@ -113,9 +113,13 @@ impl Pose {
     /// The place to which the pose takes a point of the model, rounded to f32. Finite numbers stay
     /// finite.
     pub fn to_world(&self, model: [f32; 3]) -> [f32; 3] {
-        let at = model.map(f64::from);
-        let [x, y, z] = self.rotation.map(|row| dot(row.map(f64::from), at));
+        self.carry(model.map(f64::from)).map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
+    }
+
+    /// The place to which the pose takes a point of the model, in f64.
+    pub(crate) fn carry(&self, model: [f64; 3]) -> [f64; 3] {
+        let [x, y, z] = self.rotation.map(|row| dot(row.map(f64::from), model));
         let [a, b, c] = self.translation.map(f64::from);
-        [x + a, y + b, z + c].map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
+        [x + a, y + b, z + c]
     }
 }

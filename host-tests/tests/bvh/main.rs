@@ -9,6 +9,7 @@ mod distance;
 mod kernels;
 mod overlap;
 mod pair_distance;
+mod penetration;
 mod posed;
 mod refusals;
 mod scene;

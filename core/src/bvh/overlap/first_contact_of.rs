@@ -98,7 +98,7 @@ impl Bvh<'_> {
 
 /// How far a point of a model goes at most, and how far it may be from its place at a pose that was
 /// rounded to f32. Input units.
-pub(super) fn quickest(tree: &Bvh<'_>, motion: &Motion) -> (f64, f64) {
+pub(in crate::bvh) fn quickest(tree: &Bvh<'_>, motion: &Motion) -> (f64, f64) {
     // Both are convex functions of the point: a corner goes farthest.
     corners_of_input(tree).fold((0.0, 0.0), |(quickest, rounding), corner| {
         let (way, off) = motion.path_bounds(corner);

@@ -2,11 +2,10 @@
 //! bound the distance.
 
 use super::leaf_gaps::TriangleGap;
-use super::stored_pair::StoredPair;
+use super::stored_pair::{StoredPair, moved};
 use crate::bvh::format::Bvh;
 use crate::num::greater;
 use crate::num::tolerance::U64;
-use crate::query::RelativePose;
 
 /// No tree has more levels.
 const LEVELS: usize = 64;
@@ -67,15 +66,6 @@ fn ball(tree: &Bvh<'_>) -> ([f64; 3], f64) {
     let middle = |k: usize| (low[k % 3] + high[k % 3]) * 0.5 - origin[k % 3];
     let radius = distance(low, high) * 0.5 * (1.0 + 16.0 * U64);
     ([middle(0), middle(1), middle(2)], radius)
-}
-
-fn moved(pose: &RelativePose, [x, y, z]: [f64; 3]) -> [f64; 3] {
-    let ([r0, r1, r2], [c0, c1, c2]) = (pose.matrix, pose.shift_exact);
-    let along = |row: [f32; 3], shift: f64| {
-        let [a, b, c] = row.map(f64::from);
-        (a * x + b * y) + (c * z + shift)
-    };
-    [along(r0, c0), along(r1, c1), along(r2, c2)]
 }
 
 fn distance([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {

@@ -13,21 +13,36 @@ use crate::num::{exp2, greater};
 use crate::query::{Extended, Placement, QueryError, RelativePose};
 
 /// Two trees, one of them moved.
-pub(super) struct StoredPair<'a> {
-    pub(super) trees: [&'a Bvh<'a>; 2],
+pub(in crate::bvh) struct StoredPair<'a> {
+    pub(in crate::bvh) trees: [&'a Bvh<'a>; 2],
     /// Its errors are of rounding alone.
-    pub(super) pose: RelativePose,
+    pub(in crate::bvh) pose: RelativePose,
     /// The pose is near enough for f32.
     pub(super) is_in_range: bool,
     /// With the sum of both surface errors.
-    pub(super) lengths: StoredLengths,
+    pub(in crate::bvh) lengths: StoredLengths,
     /// The greater of both.
     greater_error: f64,
     first: Extended,
+    second: Extended,
+}
+
+/// A place of the second model, its units and from its origin, in common units and from the first
+/// model's origin.
+pub(super) fn moved(pose: &RelativePose, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    let ([r0, r1, r2], [c0, c1, c2]) = (pose.matrix, pose.shift_exact);
+    let along = |row: [f32; 3], shift: f64| {
+        let [a, b, c] = row.map(f64::from);
+        (a * x + b * y) + (c * z + shift)
+    };
+    [along(r0, c0), along(r1, c1), along(r2, c2)]
 }
 
 impl<'a> StoredPair<'a> {
-    pub(super) fn new([a, b]: [&'a Bvh<'a>; 2], pose: &Pose) -> Result<StoredPair<'a>, QueryError> {
+    pub(in crate::bvh) fn new(
+        [a, b]: [&'a Bvh<'a>; 2],
+        pose: &Pose,
+    ) -> Result<StoredPair<'a>, QueryError> {
         if !(a.serves_segments() && b.serves_segments()) {
             return Err(QueryError::NO_SEGMENTS);
         }
@@ -47,6 +62,7 @@ impl<'a> StoredPair<'a> {
             },
             greater_error: greater(error_a, error_b) * up,
             first,
+            second,
             pose,
         })
     }
@@ -62,11 +78,23 @@ impl<'a> StoredPair<'a> {
 
     /// A place in the first model's frame, input units, from common units and the first model's
     /// origin.
-    pub(super) fn place(&self, [x, y, z]: [f64; 3]) -> [f32; 3] {
+    pub(super) fn place(&self, point: [f64; 3]) -> [f32; 3] {
+        self.place_exact(point).map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
+    }
+
+    /// The same, rounded to f64.
+    pub(in crate::bvh) fn place_exact(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let [frame, _] = &self.pose.frames;
         let (unit, size) = (f64::from(frame.unit), exp2(self.first.exponent));
         let [a, b, c] = self.first.origin;
-        [x / unit + a, y / unit + b, z / unit + c]
-            .map(|x| ((x * size) as f32).clamp(-f32::MAX, f32::MAX))
+        [x / unit + a, y / unit + b, z / unit + c].map(|x| x * size)
+    }
+
+    /// A place of the second model, its grid units, in common units and from the first model's
+    /// origin.
+    pub(in crate::bvh) fn moved(&self, vertex: [f32; 3]) -> [f64; 3] {
+        let [x, y, z] = vertex.map(f64::from);
+        let [a, b, c] = self.second.origin;
+        moved(&self.pose, [x - a, y - b, z - c])
     }
 }

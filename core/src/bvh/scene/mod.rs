@@ -11,7 +11,8 @@
 mod placed;
 
 pub use placed::Placed;
-use placed::{Relative, WorldBox, check_pose};
+pub(super) use placed::Relative;
+use placed::{WorldBox, check_pose};
 
 use crate::num::{greater, lesser};
 use crate::query::{Budget, Ended, Interval, QueryError, ScratchEntry, Undecided, Verdict, Work};

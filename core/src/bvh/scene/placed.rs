@@ -59,17 +59,20 @@ impl WorldBox {
 
 /// The pose of one model in the frame of another, and how distances there differ from those in the
 /// world.
-pub(super) struct Relative {
-    pub(super) pose: Pose,
+pub(in crate::bvh) struct Relative {
+    pub(in crate::bvh) pose: Pose,
     /// A vertex is no farther than this from its place at that pose, in the first model's frame.
-    error: f64,
+    pub(in crate::bvh) error: f64,
     /// The first model's pose changes lengths by a factor within `1 ± stretch`.
     stretch: f64,
 }
 
 impl Relative {
     /// The poses were [checked](check_pose).
-    pub(super) fn new(first: &Placed<'_>, second: &Placed<'_>) -> Result<Relative, QueryError> {
+    pub(in crate::bvh) fn new(
+        first: &Placed<'_>,
+        second: &Placed<'_>,
+    ) -> Result<Relative, QueryError> {
         let ((a_rows, a_shift), (b_rows, b_shift)) = (wide(&first.pose), wide(&second.pose));
         let inverse = PoseInverse::new(a_rows)?;
         let stretch = inverse.stretch;
