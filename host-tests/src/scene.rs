@@ -106,7 +106,7 @@ impl Scene {
         let moved = |&p| if by > 0.0 { add(p, rng.direction(), 0.99 * by) } else { p };
         let stored: Vec<Point> = scene.positions.iter().map(moved).collect();
         [scene.bytes, scene.f32_bytes] = [false, true].map(|single| {
-            let options = options.clone().with_f32(single);
+            let options = options.with_f32(single);
             tree_blob(&stored, &scene.triangles, f64::from(by), &options)
         });
         scene

@@ -7,7 +7,8 @@ use super::work::Work;
 
 /// A convex solid: all points within `radius` of the hull of its corners.
 ///
-/// One corner is a sphere, two are a capsule, three a triangle, eight a box of any orientation.
+/// One corner is a sphere, two are a capsule, three a triangle, eight a box of any orientation, 32 a tribox
+/// ([`Tribox::corners`](crate::Tribox::corners)).
 /// Corners and radius are in input units, in the model's frame, and taken as exact. Corners within
 /// the hull, or equal ones, do no harm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +18,7 @@ pub struct Solid<'a> {
 }
 
 impl<'a> Solid<'a> {
-    /// Most corners of a solid. A tribox has up to 32.
+    /// Most corners of a solid: those of a tribox.
     pub const MOST_CORNERS: usize = 32;
 
     /// The points within `radius` of the hull of `corners`.

@@ -377,4 +377,20 @@ impl Tribox {
     pub fn boundary(&self) -> Boundary {
         boundary(&self.low, &self.high)
     }
+
+    /// Corners whose hull holds this tribox, for a [`Solid`](crate::Solid): the vertices of
+    /// [`on_grid`](Self::on_grid), which are exact. So the hull is larger by a millionth of the
+    /// greatest coordinate at most. Some corners may coincide. All are NaN if the tribox is empty.
+    ///
+    /// ```
+    /// use meshsweep_core::{Solid, Tribox};
+    /// let tool = Tribox::of_points([[0.0, 0.0, 0.0], [4.0, 1.0, 0.0], [1.0, 2.0, 9.0]])?;
+    /// let corners = tool.corners();
+    /// assert!(Solid::new(&corners, 0.5).is_ok());
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn corners(&self) -> [[f32; 3]; VERTICES] {
+        self.on_grid().boundary().vertices
+    }
 }

@@ -5,8 +5,9 @@
 //! a panic, and what it gives is in range.
 
 use meshsweep_core::{
-    Budget, Bvh, ClosestPoint, CoherentQuery, Eye, Facing, Hint, Hit, Motion, Neighbor, Placed,
-    Pose, QueryError, Scene, ScratchEntry, Side, Solid, TrianglePair, Verdict, Work,
+    Budget, Bvh, ClosestPoint, CoherentPair, CoherentQuery, Eye, Facing, Hint, Hit, Motion,
+    Neighbor, Placed, Pose, QueryError, Scene, ScratchEntry, Side, Solid, TrianglePair, Verdict,
+    Work,
 };
 
 /// The caller's memory, of any length.
@@ -226,6 +227,18 @@ impl Asker {
             assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
             in_range(answer.triangles);
             answered(scene.within(answer.distance.lower, |_, _| true, budget, &mut stack));
+        }
+        let mut pair = CoherentPair::<64>::new();
+        for _ in 0..2 {
+            if let Some(answer) = answered(pair.distance(a, b, *pose, budget, &mut stack)) {
+                assert!(answer.work.splits <= steps, "{answer:?}");
+                assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
+                in_range(answer.triangles);
+            }
+        }
+        if let Some(answer) = answered(a.penetration(b, *pose, budget, &mut stack)) {
+            assert!(answer.work.splits <= steps, "{answer:?}");
+            assert!(answer.depth.lower <= answer.depth.upper, "{answer:?}");
         }
         if let Some(answer) = answered(a.distance(b, *pose, budget, &mut stack)) {
             assert!(answer.work.splits <= steps, "{answer:?}");

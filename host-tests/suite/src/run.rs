@@ -88,11 +88,15 @@ pub enum Kind {
     Winding,
     /// Which two of three moved copies are nearest.
     Scene,
+    /// How far the surface is from its copy, which moves in small steps.
+    CoherentPair,
+    /// How deep the solid is in its moved copy.
+    Penetration,
 }
 
 impl Kind {
     /// All kinds in the order in which they are run.
-    pub const ALL: [Self; 40] = [
+    pub const ALL: [Self; 42] = [
         Self::Arith,
         Self::Contents,
         Self::ClosestFar,
@@ -121,6 +125,8 @@ impl Kind {
         Self::Contact,
         Self::Winding,
         Self::Scene,
+        Self::CoherentPair,
+        Self::Penetration,
         Self::TriboxBounds,
         Self::TriboxFaces,
         Self::TriboxOverlap,
@@ -164,6 +170,8 @@ impl Kind {
             Self::Contact => "first_contact",
             Self::Winding => "winding",
             Self::Scene => "scene",
+            Self::CoherentPair => "coherent_pair",
+            Self::Penetration => "penetration",
             Self::TriboxBounds => "tribox_bounds",
             Self::TriboxFaces => "tribox_faces",
             Self::TriboxOverlap => "tribox_overlap",

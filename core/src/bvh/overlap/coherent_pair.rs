@@ -8,7 +8,7 @@ use core::marker::PhantomData;
 
 use super::distance::Nearest;
 use super::first_contact_of::quickest;
-use super::leaf_gaps::GapVisitor;
+use super::leaf_gaps::{GapVisitor, TriangleGap};
 use super::left_out::{ChildPairs, LeftOut};
 use super::nearest_first::{Descent, Missed, Search};
 use super::stored_pair::StoredPair;
@@ -157,7 +157,7 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         let mut nearest = Nearest::new(&pair, &budget);
         let mut search = Search::new(&pair, budget.steps, scratch);
         let front = Front::moved(&mut self.last, &mut self.groups, &pair, &pose)?;
-        let missed = front.search(&mut search, &mut nearest)?;
+        let missed = front.search(&mut search, &mut Wanted::Nearest(&mut nearest))?;
         nearest.answer(&pair, missed, search.work)
     }
 
@@ -191,7 +191,7 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         let mut threshold = Threshold::new(&pair, distance);
         let mut search = Search::new(&pair, budget.steps, scratch);
         let front = Front::moved(&mut self.last, &mut self.groups, &pair, &pose)?;
-        let missed = front.search(&mut search, &mut threshold)?;
+        let missed = front.search(&mut search, &mut Wanted::Within(&mut threshold))?;
         threshold.answer(missed, search.work)
     }
 }
@@ -199,6 +199,28 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
 impl Last {
     const NONE: Last =
         Last { of: [(0, 0); 2], pose: Pose::IDENTITY, count: 0, least: 0.0, way: 0.0 };
+}
+
+/// The visitors of both questions. As one type the search is compiled once.
+enum Wanted<'v, 'a> {
+    Nearest(&'v mut Nearest),
+    Within(&'v mut Threshold<'a>),
+}
+
+impl GapVisitor for Wanted<'_, '_> {
+    fn limit(&self) -> f64 {
+        match self {
+            Wanted::Nearest(nearest) => nearest.limit(),
+            Wanted::Within(threshold) => threshold.limit(),
+        }
+    }
+
+    fn take(&mut self, gap: &TriangleGap) -> bool {
+        match self {
+            Wanted::Nearest(nearest) => nearest.take(gap),
+            Wanted::Within(threshold) => threshold.take(gap),
+        }
+    }
 }
 
 /// The groups in the caller's memory.
@@ -267,7 +289,7 @@ impl<'f> Front<'f> {
     fn search(
         mut self,
         search: &mut Search<'_, '_>,
-        visitor: &mut impl GapVisitor,
+        visitor: &mut Wanted<'_, '_>,
     ) -> Result<Option<Missed>, QueryError> {
         let is_clear = f64::from(self.last.least) - self.last.way > visitor.limit();
         if self.last.count > 0 && is_clear {
@@ -285,16 +307,24 @@ impl<'f> Front<'f> {
     fn search_groups(
         &mut self,
         search: &mut Search<'_, '_>,
-        visitor: &mut impl GapVisitor,
+        visitor: &mut Wanted<'_, '_>,
     ) -> Result<Option<Missed>, QueryError> {
         let mut missed: Option<Missed> = None;
         let mut is_first = true;
         let mut is_fresh = self.unseen == 0;
-        while !is_fresh {
-            let Some(at) = self.unseen.checked_sub(1) else { return Ok(missed) };
-            self.unseen = at;
-            let Some(group) = self.remove_near(at, visitor.limit()) else { continue };
-            match search.descend((group.pairs(), group.distance), visitor, self)? {
+        loop {
+            let start = if is_fresh {
+                (self.last.count, self.unseen) = (0, 0);
+                (ChildPairs::ALL, 0.0)
+            } else {
+                let Some(at) = self.unseen.checked_sub(1) else { return Ok(missed) };
+                self.unseen = at;
+                match self.remove_near(at, visitor.limit()) {
+                    Some(group) => (group.pairs(), group.distance),
+                    None => continue,
+                }
+            };
+            match search.descend(start, visitor, self)? {
                 Descent::Whole => {}
                 Descent::Stopped => return Ok(missed),
                 Descent::Missed(now) => {
@@ -307,11 +337,9 @@ impl<'f> Front<'f> {
                     }
                 }
             }
-            is_fresh = is_first && self.are_many_near(visitor.limit());
+            is_fresh = is_first && !is_fresh && self.are_many_near(visitor.limit());
             is_first = false;
         }
-        (self.last.count, self.unseen) = (0, 0);
-        Ok(search.descend((ChildPairs::ALL, 0.0), visitor, self)?.missed())
     }
 
     /// The groups in use.
@@ -331,8 +359,8 @@ impl<'f> Front<'f> {
                 (nearest, least) = (i, group.distance);
             }
         }
-        if let Some(end) = count.checked_sub(1) {
-            self.groups.swap(nearest, end);
+        if let Some([nearest, .., last]) = self.groups.get_mut(nearest..count) {
+            core::mem::swap(nearest, last);
         }
     }
 

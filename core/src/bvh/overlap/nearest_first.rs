@@ -99,7 +99,6 @@ impl<'s, 'a> Search<'s, 'a> {
 
     /// Visits every pair of leaves below `start` that may be within the visitor's limit. What the
     /// limit left out goes to `left`. None of `start` is nearer than `distance`, common units.
-    #[inline(always)]
     pub(super) fn descend<L: LeftOut>(
         &mut self,
         (start, distance): (ChildPairs, f32),

@@ -144,6 +144,13 @@ ask! {
     ask_apart_winding: apart::Apart<'t>, |tree, input, scratch, fold| {
         apart::winding(tree, input.a, scratch, &mut Asked::new((), fold))
     };
+    ask_apart_coherent: apart::Apart<'t>, |tree, input, scratch, fold| {
+        let pose = tree::pose(motion(input));
+        apart::coherent(tree, pose, ends(input), scratch, &mut Asked::new((), fold))
+    };
+    ask_apart_penetration: apart::Apart<'t>, |tree, input, scratch, fold| {
+        apart::penetration(tree, tree::pose(motion(input)), scratch, &mut Asked::new((), fold))
+    };
     ask_apart_scene: apart::Apart<'t>, |tree, input, scratch, fold| {
         let pose = tree::pose(motion(input));
         let poses = [pose, pose, tree::pose(motion(input))];

@@ -3,7 +3,8 @@
 //! than the flash of the smallest board.
 
 use meshsweep_core::{
-    Budget, Bvh, FirstHit, Interval, Motion, Placed, Pose, QueryError, Scene, Solid,
+    Budget, Bvh, CoherentPair, FirstHit, Interval, Motion, Placed, Pose, QueryError, Relation,
+    Scene, Solid,
 };
 
 use super::{Asked, Refused, Subject, tree};
@@ -62,6 +63,16 @@ impl<'t> Subject<'t> for Apart<'t> {
                 let poses = [place.motion(), place.motion(), place.motion()];
                 scene(self, poses.map(tree::pose), place.distance(), scratch, to);
             }
+            Kind::CoherentPair => {
+                let (rotation, translation) = place.motion();
+                let start = Pose { rotation, translation };
+                let [here, there] = [place.step(), place.step()];
+                coherent(self, start, [here, there], scratch, to);
+            }
+            Kind::Penetration => {
+                let (rotation, translation) = place.motion();
+                penetration(self, Pose { rotation, translation }, scratch, to);
+            }
             _ => {}
         }
     }
@@ -69,7 +80,72 @@ impl<'t> Subject<'t> for Apart<'t> {
 
 /// Whether these questions are asked here, and not by the image of the other ones.
 pub(super) fn asks(kind: Kind) -> bool {
-    matches!(kind, Kind::PairDistance | Kind::Solid | Kind::Contact | Kind::Winding | Kind::Scene)
+    matches!(
+        kind,
+        Kind::PairDistance
+            | Kind::Solid
+            | Kind::Contact
+            | Kind::Winding
+            | Kind::Scene
+            | Kind::CoherentPair
+            | Kind::Penetration
+    )
+}
+
+/// How far the surface is from its copy, at a pose and after three steps from the first point to
+/// the second; then whether it is within half of that.
+#[inline(never)]
+pub fn coherent(
+    Apart(tree): &Apart<'_>,
+    start: Pose,
+    [from, end]: Ends,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Clock>,
+) {
+    let mut pair = CoherentPair::<80>::new();
+    let budget = Budget::EXACT.with_steps(STEPS);
+    let mut pose = start;
+    let mut half = 0.0;
+    for _ in 0..4 {
+        let found = to.answer(
+            || pair.distance(tree, tree, pose, budget, scratch),
+            |fold, answer| {
+                nearest(fold, answer.distance, answer.points, answer.triangles);
+                super::how(fold, answer.work, answer.ended);
+            },
+        );
+        half = found.map_or(half, |found| 0.5 * found.distance.lower);
+        for (x, (from, end)) in pose.translation.iter_mut().zip(from.iter().zip(&end)) {
+            *x += end - from;
+        }
+    }
+    to.answer(
+        || pair.within(tree, tree, pose, half, budget, scratch),
+        |fold, answer| super::verdict(fold, answer.work, answer.verdict),
+    );
+}
+
+/// How deep the solid is in its moved copy.
+#[inline(never)]
+pub fn penetration(
+    Apart(tree): &Apart<'_>,
+    pose: Pose,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Clock>,
+) {
+    let budget = Budget::EXACT.with_steps(2 * STEPS);
+    to.answer(
+        || tree.penetration(tree, pose, budget, scratch),
+        |fold, answer| {
+            fold.f32(answer.depth.lower);
+            fold.f32(answer.depth.upper);
+            fold.word(u32::from(answer.relation == Relation::Apart));
+            if let Some(apart) = answer.apart {
+                fold.point(apart.translation);
+            }
+            super::how(fold, answer.work, answer.ended);
+        },
+    );
 }
 
 /// Which two of three moved copies are nearest, and whether any two are within a distance.

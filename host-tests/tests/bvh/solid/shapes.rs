@@ -1,6 +1,7 @@
 //! Solids with their boundaries, and how far a mesh truly is from them.
 
-use meshsweep_core::Solid;
+use meshsweep_core::internal::tribox::FACES;
+use meshsweep_core::{Solid, Tribox};
 use meshsweep_host_tests::generate::Rng;
 use meshsweep_host_tests::generate::corpus::IDENTITY;
 use meshsweep_host_tests::oracle::{
@@ -51,6 +52,19 @@ impl Shape {
         Self::new(&Solid::box_corners(low, high), &faces, radius)
     }
 
+    /// The least tribox of some points, up to its rounding.
+    pub fn tribox(points: &[Point], radius: f32) -> Self {
+        let tribox = Tribox::of_points(points.iter().copied()).expect("finite points");
+        let boundary = tribox.on_grid().boundary();
+        let mut faces = Vec::new();
+        for face in 0..FACES {
+            if let [first, rest @ ..] = boundary.face(face) {
+                faces.extend(rest.windows(2).map(|two| [*first, two[0], two[1]].map(u32::from)));
+            }
+        }
+        Self::new(&tribox.corners(), &faces, radius)
+    }
+
     /// Of every kind, about as large as `size` or far smaller, near `at`.
     pub fn random(kind: usize, at: Point, size: f32, rng: &mut Rng) -> Self {
         let size = size * [1.0, 0.2, 1e-3][rng.below(3)];
@@ -59,11 +73,12 @@ impl Shape {
             let d = rng.point_in([-size; 3], [size; 3]);
             [0, 1, 2].map(|k| at[k] + d[k])
         };
-        match kind % 5 {
+        match kind % 6 {
             0 => Self::sphere(at, radius),
             1 => Self::capsule(near(), near(), radius),
             2 => Self::triangle([near(), near(), near()], radius),
             3 => Self::tetrahedron([near(), near(), near(), near()], radius),
+            4 => Self::tribox(&[near(), near(), near(), near(), near()], radius),
             _ => {
                 let (a, b) = (near(), near());
                 let low = [0, 1, 2].map(|k: usize| a[k].min(b[k]));
