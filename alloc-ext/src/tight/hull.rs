@@ -176,7 +176,7 @@ mod tests {
         for goal in [Goal::Faces(120), Goal::Slack(0.05)] {
             let hull = |threads: usize| {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-                let options = Options::new(goal).with_effort(0.2);
+                let options = Options::new(goal).with_effort(0.05);
                 let hull = pool.install(|| wrap(&mesh, &options, |_| {})).unwrap();
                 let Report { stars, programs, .. } = hull.report;
                 (hull.mesh.positions, hull.mesh.triangles, stars, programs)

@@ -4,7 +4,8 @@
 //! host fixtures           writes fixtures/ anew
 //! host picture            writes fixtures/part.svg
 //! host blobs FOLDER       writes the firmware's blobs, each beside this machine's answers
-//! host ask QUESTION N     asks the first N queries of a question, for a simulator that counts
+//! host place FOLDER QUESTION...
+//!                         writes questions for `counted`, which a simulator runs: 0.bin, 1.bin ...
 //! host lay QUESTION N FILE
 //!                         writes such a question for a board; prints means, then this machine's
 //!                         answers
@@ -25,19 +26,19 @@ fn main() -> ExitCode {
             std::fs::write(fixtures.join("part.svg"), svg).map_err(|error| error.to_string())
         }),
         ["blobs", folder] => blobs::write(Path::new(folder)),
-        ["ask", question, queries] => queries
-            .parse()
-            .map_err(|_| format!("`{queries}` is not a number"))
-            .and_then(|queries| counted::ask(&fixtures, question, queries))
-            .map(|line| println!("{line}")),
+        ["place", folder, questions @ ..] => {
+            counted::place(&fixtures, Path::new(folder), questions)
+        }
         ["lay", question, queries, file] => queries
             .parse()
             .map_err(|_| format!("`{queries}` is not a number"))
             .and_then(|queries| counted::lay(&fixtures, question, queries, Path::new(file)))
             .map(|lines| print!("{lines}")),
-        _ => Err("host fixtures | host picture | host blobs FOLDER | host ask QUESTION N | \
+        _ => Err(
+            "host fixtures | host picture | host blobs FOLDER | host place FOLDER QUESTION... | \
              host lay QUESTION N FILE"
-            .to_owned()),
+                .to_owned(),
+        ),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,97 +1,120 @@
-//! Questions to fixtures and blobs that a simulator counts: the first so many of a seeded list.
+//! Questions to fixtures and blobs that a simulator counts, as bytes: each with its seeded list of
+//! queries. `meshsweep-counted` asks them.
 
-mod deform;
 mod placed;
-mod tree;
-mod triboxes;
 
-use std::hint::black_box;
 use std::path::Path;
 
-use meshsweep_core::{Budget, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search};
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::mesh::{Input, Mesh};
+use meshsweep_core::{Budget, Bvh, DeformableHull, QueryError, ScratchEntry};
+use meshsweep_counted::{Counted, numbers_of};
 
 use crate::workload::pose::{poses, sphere};
 use crate::workload::{Points, Subject, points, segments};
 
-/// Queries that are placed, whether they are asked or not, so that placing them is no part of a
+/// Queries that are placed, whether they are asked or not, so that reading them is no part of a
 /// difference between two runs.
 const PLACED: usize = 2500;
 
-/// Splits of the refined hull.
-const SPLITS: usize = 1024;
-
-/// Asks the first `queries` of a question; `NODES TRIANGLES A_LEAF`: the nodes and triangles looked
-/// at, and the triangles of a leaf, where the question counts them.
+/// Writes questions, each to `NUMBER.bin` of a folder, the first of number 0.
 ///
 /// # Errors
 /// An unknown question, or a fixture that is missing or refused.
-pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<String, String> {
-    if let Some(question) = question.strip_prefix("tree ") {
-        let (work, triangles) = tree::ask(fixtures, question, queries)?;
-        return Ok(format!("{} {} {triangles}", work.splits, work.triangles));
+pub fn place(fixtures: &Path, folder: &Path, questions: &[&str]) -> Result<(), String> {
+    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    for (number, question) in questions.iter().enumerate() {
+        let bytes = placed_question(fixtures, question)?;
+        std::fs::write(folder.join(format!("{number}.bin")), bytes).map_err(failed)?;
     }
-    if let Some(laid) = placed::lay(fixtures, question, PLACED) {
-        return Ok(format!("0 0 1 {}", placed::ask(&laid?, queries)?));
-    }
-    match question.split_once(' ') {
-        Some(("deform", question)) => deform::ask(fixtures, question, queries),
-        Some(("triboxes", question)) => triboxes::ask(fixtures, question, queries),
-        _ => hull(fixtures, question, queries),
-    }
-    .map(|()| "0 0 1".to_owned())
+    Ok(())
 }
 
-/// Writes a question at places for a board; the line of [`ask`], and what the board prints for the
+/// Writes a question at places for a board; means of the answers, and what the board prints for the
 /// first `queries`, but for its costs.
 ///
 /// # Errors
 /// A question that is not at places, or a blob that is missing or refused.
 pub fn lay(fixtures: &Path, question: &str, queries: usize, file: &Path) -> Result<String, String> {
+    use meshsweep_counted::placed::{ask, expected};
     let laid = placed::lay(fixtures, question, queries)
         .ok_or_else(|| format!("`{question}` is not: bvh, sweep or refine BLOB ..."))??;
     std::fs::write(file, &laid).map_err(|error| format!("{}: {error}", file.display()))?;
-    Ok(format!("{}\n{}", placed::ask(&laid, queries)?, placed::expected(&laid, queries)?))
+    Ok(format!("{}\n{}", ask(&laid, queries)?, expected(&laid, queries)?))
 }
 
-/// Questions to the hull hierarchy.
-fn hull(fixtures: &Path, question: &str, queries: usize) -> Result<(), String> {
-    let subject = Subject::load(&fixtures.join("bracket.stl"))?;
-    let blob = std::fs::read(fixtures.join("bracket.msw"))
-        .map_err(|error| format!("fixtures/bracket.msw: {error}"))?;
-    let model = Hull::open(&blob).map_err(|error| error.to_string())?;
-    let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
-    let failed = |error: QueryError| error.to_string();
-    if let Some(kind) = Points::ALL.into_iter().find(|kind| kind.name() == question) {
-        for point in points(&subject, kind, PLACED).into_iter().take(queries) {
-            black_box(model.closest_point(point, Budget::EXACT, &mut queue).map_err(failed)?);
-        }
-        return Ok(());
+fn placed_question(fixtures: &Path, question: &str) -> Result<Vec<u8>, String> {
+    if let Some(laid) = placed::lay(fixtures, question, PLACED) {
+        return Ok(bytes("placed", &laid?, Vec::new()));
     }
-    if question == "overlap" {
-        let mut stack = vec![ScratchEntry::EMPTY; model.overlap_entries(&model)];
-        let all: Vec<_> = poses(&sphere(&subject), PLACED).map(|(_, core)| core).collect();
-        for pose in all.into_iter().take(queries) {
-            black_box(model.overlap(&model, pose, Budget::EXACT, &mut stack).map_err(failed)?);
+    let words: Vec<&str> = question.split(' ').collect();
+    let read =
+        |name: &str| std::fs::read(fixtures.join(name)).map_err(|error| format!("{name}: {error}"));
+    match *words.as_slice() {
+        ["tree", fixture, kind] => tree(fixtures, fixture, kind),
+        ["deform", what, name] => {
+            let blob = read(name)?;
+            let hull = DeformableHull::open(&blob).map_err(|error| error.to_string())?;
+            let bounds = hull.rest().bounds();
+            let corners = Subject::of(name, Mesh::new(bounds.to_vec(), Vec::new()));
+            let (_, numbers) = queries(&corners, "far");
+            Ok(bytes(&format!("deform {what}"), &blob, numbers))
         }
-        return Ok(());
-    }
-    let mut refined = Box::new(RefinedHull::<SPLITS>::new());
-    let search = match question {
-        "first_hit" => None,
-        "outer_first" => Some(Search::First),
-        "outer_all" => Some(Search::Outer),
-        _ => return Err(format!("no question `{question}`")),
-    };
-    let mut hits = [Hit::EMPTY; 16];
-    for [a, b] in segments(&subject, PLACED).into_iter().take(queries) {
-        if let Some(search) = search {
-            refined.reset();
-            let answer =
-                model.outer_hits(a, b, search, &mut refined, &mut hits, Budget::EXACT, &mut queue);
-            black_box(answer.map_err(failed)?);
-        } else {
-            black_box(model.first_hit(a, b, Budget::EXACT, &mut queue).map_err(failed)?);
+        ["triboxes", ref kind @ ..] => {
+            let subject = Subject::load(&fixtures.join("torus.ply"))?;
+            let queried = match *kind {
+                ["distance"] => "far",
+                ["clip"] => "segments",
+                _ => "poses",
+            };
+            let (_, numbers) = queries(&subject, queried);
+            Ok(bytes(question, &read("torus.msw")?, numbers))
         }
+        [kind] => {
+            let subject = Subject::load(&fixtures.join("bracket.stl"))?;
+            let (asked, numbers) = queries(&subject, kind);
+            Ok(bytes(&format!("hull {asked}"), &read("bracket.msw")?, numbers))
+        }
+        _ => Err(format!("no question `{question}`")),
     }
-    Ok(())
+}
+
+/// A question to the box tree of a fixture.
+fn tree(fixtures: &Path, fixture: &str, kind: &str) -> Result<Vec<u8>, String> {
+    let subject = Subject::load(&fixtures.join(fixture))?;
+    let input = Input { input_triangles: subject.triangles_read, ..subject.mesh.as_input() };
+    let (tables, _) = build(input, &TreeOptions::default()).map_err(|error| error.to_string())?;
+    let blob = tables.to_bytes();
+    if kind != "clear" {
+        let (asked, numbers) = queries(&subject, kind);
+        return Ok(bytes(&format!("tree {asked}"), &blob, numbers));
+    }
+    let tree = Bvh::open(&blob).map_err(|error| error.to_string())?;
+    let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
+    let mut numbers = Vec::new();
+    for point in points(&subject, Points::Far, PLACED) {
+        let near = tree.closest_point(point, Budget::EXACT, &mut stack);
+        let distance = near.map_err(|error: QueryError| error.to_string())?.distance;
+        numbers.extend(point);
+        numbers.push(0.9 * distance.lower);
+    }
+    Ok(bytes("tree within", &blob, numbers))
+}
+
+/// The question that a kind of queries asks, and the numbers of all of them.
+fn queries<'k>(subject: &Subject, kind: &'k str) -> (&'k str, Vec<f32>) {
+    if let Some(points_kind) = Points::ALL.into_iter().find(|points| points.name() == kind) {
+        return ("closest", points(subject, points_kind, PLACED).into_flattened());
+    }
+    if matches!(kind, "overlap" | "poses") {
+        let sphere = sphere(subject);
+        let all = poses(&sphere, PLACED);
+        return (kind, all.flat_map(|(_, core)| numbers_of(&core)).collect());
+    }
+    (kind, segments(subject, PLACED).into_flattened().into_flattened())
+}
+
+fn bytes(kind: &str, blob: &[u8], numbers: Vec<f32>) -> Vec<u8> {
+    Counted { kind, blob, numbers }.to_bytes()
 }

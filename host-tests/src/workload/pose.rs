@@ -1,7 +1,7 @@
 //! Poses of a moved copy of a mesh.
 
 use glam::{DMat3, DQuat, DVec3};
-use meshsweep_core::{Pose as CorePose, Tribox, Triboxes};
+use meshsweep_core::Pose as CorePose;
 
 use crate::generate::Rng;
 
@@ -89,30 +89,4 @@ pub fn sphere(subject: &Subject) -> Sphere {
     let points: Vec<DVec3> =
         subject.mesh.positions.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
     Sphere::enclosing(&points)
-}
-
-/// The paper's test of two tribox hierarchies: the larger tribox's children are tested, the moved
-/// tribox is bounded about its vertices, nine slabs decide. Whether they are apart, and the pairs
-/// tested.
-#[must_use]
-pub fn by_vertices(a: &Triboxes<'_>, b: &Triboxes<'_>, pose: &CorePose) -> (bool, u32) {
-    let width = |t: &Tribox| (0..3).map(|k| t.high[k] - t.low[k]).sum::<f32>();
-    let mut stack = vec![(0, 0)];
-    let mut tested = 0;
-    while let Some((i, j)) = stack.pop() {
-        let (Some(first), Some(second)) = (a.node(i), b.node(j)) else { continue };
-        tested += 1;
-        let Ok(moved) = second.moved(pose) else { return (false, tested) };
-        if !first.overlaps(&moved) {
-            continue;
-        }
-        match (a.children(i), b.children(j)) {
-            (None, None) => return (false, tested),
-            (Some(below), other) if other.is_none() || width(&first) >= width(&second) => {
-                stack.extend(below.map(|i| (i, j)));
-            }
-            (_, other) => stack.extend(other.into_iter().flatten().map(|j| (i, j))),
-        }
-    }
-    (true, tested)
 }

@@ -1,12 +1,11 @@
 //! `cargo xtask count`: instructions a query on this machine, counted by callgrind; on a
 //! Cortex-M4F, counted by the emulator.
 //!
-//! Times on a busy machine are noise; instructions are not. The host's program runs in the
+//! Times on a busy machine are noise; instructions are not. A program that asks runs in the
 //! simulator twice, with different numbers of queries: the difference is the queries' alone.
 
 use std::collections::BTreeMap;
-use std::path::Path;
-use std::process::Command;
+use std::path::{Path, PathBuf};
 
 use crate::boards::BOARDS;
 use crate::firmware::Tools;
@@ -82,7 +81,6 @@ const LOADED: u32 = 0x2100_0000;
 /// answers' bits are this machine's, or it is an error.
 pub fn on_board(steps: &mut Steps, tools: &Tools, asked: &[&str]) {
     let [board, ..] = BOARDS;
-    let Some(program) = steps.run("the host's program, optimised", host::optimised) else { return };
     let Some(image) = steps.run("the image", || tools.image(&board, "ask")) else { return };
     let title = format!("Instructions a query on a {}", board.cpu);
     let columns = ["question", "mean", "least", "most", "stack", "scratch", "answers"];
@@ -90,8 +88,8 @@ pub fn on_board(steps: &mut Steps, tools: &Tools, asked: &[&str]) {
     for &question in asked {
         let counted = steps.run(question, || {
             let file = workspace::target().join("question.bin");
-            let mut command = Command::new(&program);
-            let printed = process::capture(command.args(["lay", question, ON_BOARD]).arg(&file))?;
+            let path = file.to_string_lossy();
+            let printed = host::run(&["lay", question, ON_BOARD, &path])?;
             let (means, expected) = printed.split_once('\n').unwrap_or_default();
             let expected = Reading::parse(expected, None)?;
             let reading = tools.asked(&board, &image, (&file, LOADED), &expected, u32::MAX)?;
@@ -169,12 +167,17 @@ pub fn for_test(steps: &mut Steps) -> Option<Counts<'static>> {
 /// Counts questions, on all cores. `None`, with a line that says so, where nothing can be counted.
 fn counted<'a>(steps: &mut Steps, questions: &[&'a str]) -> Option<Counts<'a>> {
     let valgrind = Valgrind::find()?;
-    let program = steps.run("the host's program, optimised", host::optimised)?;
+    let program = steps.run("the program that is counted", host::counted)?;
     let mut questions = questions.to_vec();
     questions.sort_unstable();
     questions.dedup();
     steps.run("count instructions", || {
-        let all = process::parallel(&questions, |question| each(&valgrind, &program, question));
+        let folder = workspace::target().join("counted");
+        let path = folder.to_string_lossy();
+        host::run(&[&["place", &path], questions.as_slice()].concat())?;
+        let file = |number: usize| folder.join(format!("{number}.bin"));
+        let files: Vec<PathBuf> = (0..questions.len()).map(file).collect();
+        let all = process::parallel(&files, |file| each(&valgrind, &program, file));
         let pairs = questions.iter().zip(all);
         pairs.map(|(question, (each, _))| Ok((*question, each?))).collect()
     })
@@ -216,7 +219,7 @@ pub fn check_lanes(steps: &mut Steps, counts: &Counts<'_>) {
 }
 
 /// The difference of two runs.
-fn each(valgrind: &Valgrind, program: &Path, question: &str) -> Result<Each, String> {
+fn each(valgrind: &Valgrind, program: &Path, question: &Path) -> Result<Each, String> {
     let [few, many] = QUERIES.map(|queries| simulated(valgrind, program, question, queries));
     let ([few, few_nodes, few_triangles, a_leaf], [many, nodes, triangles, _]) = (few?, many?);
     let each = |many: f64, few: f64| (many - few) / f64::from(QUERIES[1] - QUERIES[0]);
@@ -231,12 +234,12 @@ fn each(valgrind: &Valgrind, program: &Path, question: &str) -> Result<Each, Str
 fn simulated(
     valgrind: &Valgrind,
     program: &Path,
-    question: &str,
+    question: &Path,
     queries: u32,
 ) -> Result<[f64; 4], String> {
     let mut command = valgrind.command();
     command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]).arg(program);
-    let output = process::output(command.args(["ask", question, &queries.to_string()]))?;
+    let output = process::output(command.arg(question).arg(queries.to_string()))?;
     let [printed, counted] =
         [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
     let read = || {

@@ -1,4 +1,4 @@
-//! The program of host-tests: all that the commands need of the library on this machine.
+//! The programs of host-tests: all that the commands need of the library on this machine.
 
 use std::path::PathBuf;
 
@@ -6,20 +6,22 @@ use crate::checks::cargo;
 use crate::process;
 use crate::workspace;
 
-/// Runs it as the tests are built, so that nothing is compiled twice; its output.
+/// Runs the one that builds as the tests are built, so that nothing is compiled twice; its output.
 pub fn run(arguments: &[&str]) -> Result<String, String> {
     // With the features that all of the workspace asks for.
-    let program = build("dev", "debug", &["--workspace"])?;
-    process::capture(std::process::Command::new(program).args(arguments))
+    let program = build("dev", "debug", &["--workspace", "--bin", "host"])?;
+    process::capture(std::process::Command::new(program.join("host")).args(arguments))
 }
 
-/// Builds it as users build the library; its path.
-pub fn optimised() -> Result<PathBuf, String> {
-    build("release", "release", &["--package", "meshsweep-host-tests"])
+/// Builds the one that asks, as users build the core; its path.
+pub fn counted() -> Result<PathBuf, String> {
+    build("release", "release", &["--package", "meshsweep-counted"])
+        .map(|folder| folder.join("counted"))
 }
 
+/// The folder of what was built.
 fn build(profile: &str, folder: &str, packages: &[&str]) -> Result<PathBuf, String> {
     let mut command = cargo(&["build", "--quiet", "--profile", profile]);
-    process::capture(command.args(packages).args(["--bin", "host"]))?;
-    Ok(workspace::target().join(folder).join("host"))
+    process::capture(command.args(packages))?;
+    Ok(workspace::target().join(folder))
 }

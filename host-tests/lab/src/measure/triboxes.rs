@@ -6,9 +6,10 @@ use meshsweep_core::Pose as CorePose;
 use meshsweep_core::ScratchEntry;
 use meshsweep_core::internal::tribox::FACES;
 use meshsweep_core::{Budget, NodePair, Tribox, Triboxes};
+use meshsweep_counted::triboxes::by_vertices;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::contact::Surface;
-use meshsweep_host_tests::workload::pose::{by_vertices, poses, sphere};
+use meshsweep_host_tests::workload::pose::{poses, sphere};
 use meshsweep_xtask::table::{Table, fixed, row};
 
 /// Poses of the moved mesh.

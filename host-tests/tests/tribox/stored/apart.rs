@@ -2,13 +2,14 @@
 
 use super::{blob, mesh, of};
 use meshsweep_core::{Budget, Ended, NodePair, Pose, QueryError, ScratchEntry, Tribox, Triboxes};
+use meshsweep_counted::triboxes::by_vertices;
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, rough_sphere, scaled, torus,
 };
 use meshsweep_host_tests::oracle::polytope::{HalfSpace, Polytope};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::contact::Surface;
-use meshsweep_host_tests::workload::pose::{Pose as Exact, by_vertices, poses, sphere};
+use meshsweep_host_tests::workload::pose::{Pose as Exact, poses, sphere};
 use std::collections::HashSet;
 
 const DIRECTIONS: [[i64; 3]; 9] = [

@@ -1,24 +1,16 @@
 //! Updates of a free motion, and closest points after them, of any blob that deforms.
 
 use std::hint::black_box;
-use std::path::Path;
 
-use meshsweep::mesh::Mesh;
 use meshsweep_core::{Budget, DeformableHull, MovedVertex, QueryError, ScratchEntry, VertIdx};
 
-use super::PLACED;
-use crate::workload::{Points, Subject, points};
+use crate::Counted;
 
-/// Updates a moved hull so many times, or asks it after one update. `question`: `update BLOB`, or
-/// `closest BLOB`. The mesh is sheared by half of its size.
-///
-/// # Errors
-/// A blob that is missing or refused, or no such question.
-pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<(), String> {
+/// Updates a moved hull so many times, or asks it after one update. The mesh is sheared by half of
+/// its size.
+pub fn ask(counted: &Counted<'_>, question: &str, queries: usize) -> Result<(), String> {
     let refused = |error: QueryError| error.to_string();
-    let (what, blob) = question.split_once(' ').ok_or("name a question and a blob")?;
-    let bytes = std::fs::read(fixtures.join(blob)).map_err(|error| format!("{blob}: {error}"))?;
-    let hull = DeformableHull::open(&bytes).map_err(|error| error.to_string())?;
+    let hull = DeformableHull::open(counted.blob).map_err(|error| error.to_string())?;
     let rest = hull.rest();
     let mut places = vec![[0.0; 3]; hull.input_vertices() as usize];
     let of_surface =
@@ -31,17 +23,15 @@ pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<(), String
     let mut memory = vec![MovedVertex::EMPTY; hull.vertex_records()];
     let mut moved = hull.moved(&mut memory).map_err(refused)?;
     moved.update(|vertex| places[vertex as usize]).map_err(refused)?;
-    let corners = Subject::of(blob, Mesh::new(rest.bounds().to_vec(), Vec::new()));
-    let asked = points(&corners, Points::Far, PLACED);
     let mut scratch = vec![ScratchEntry::EMPTY; rest.scratch_entries()];
-    match what {
+    match question {
         "update" => {
             for _ in 0..queries {
                 moved.update(|vertex| places[vertex as usize]).map_err(refused)?;
             }
         }
         "closest" => {
-            for point in asked.into_iter().take(queries) {
+            for point in counted.points(queries) {
                 let answer = moved.closest_point(point, Budget::EXACT, &mut scratch);
                 black_box(answer.map_err(refused)?);
             }

@@ -1,0 +1,52 @@
+//! Questions to a box tree.
+
+use std::hint::black_box;
+
+use meshsweep_core::{Budget, Bvh, Facing, QueryError, ScratchEntry, Work};
+
+use crate::Counted;
+
+/// Sums the answers' work, and tells it with the triangles of a leaf.
+pub fn ask(counted: &Counted<'_>, question: &str, queries: usize) -> Result<String, String> {
+    let tree = Bvh::open(counted.blob).map_err(|error| error.to_string())?;
+    let header = *tree.header();
+    let failed = |error: QueryError| error.to_string();
+    let mut sum = Work::default();
+    let mut add = |work: Work| {
+        sum.splits += work.splits;
+        sum.triangles += work.triangles;
+    };
+    let mut stack = vec![ScratchEntry::EMPTY; header.stack_entries as usize];
+    match question {
+        "overlap" => {
+            let mut stack = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
+            for pose in counted.poses(queries) {
+                let answer = black_box(tree.overlap(&tree, pose, Budget::EXACT, &mut stack));
+                add(answer.map_err(failed)?.work);
+            }
+        }
+        "closest" => {
+            for point in counted.points(queries) {
+                let answer = black_box(tree.closest_point(point, Budget::EXACT, &mut stack));
+                add(answer.map_err(failed)?.work);
+            }
+        }
+        "within" => {
+            for &[x, y, z, distance] in counted.rows(queries) {
+                let point = [x, y, z];
+                let answer = black_box(tree.within(point, distance, Budget::EXACT, &mut stack));
+                add(answer.map_err(failed)?.work);
+            }
+        }
+        "first_hit" => {
+            for [a, b] in counted.segments(queries) {
+                let facing = Facing::Both;
+                let answer = black_box(tree.first_hit(a, b, facing, Budget::EXACT, &mut stack));
+                add(answer.map_err(failed)?.work);
+            }
+        }
+        _ => return Err(format!("no question `{question}` to a box tree")),
+    }
+    let a_leaf = f64::from(header.triangles) / f64::from(header.leaves);
+    Ok(format!("{} {} {a_leaf}", sum.splits, sum.triangles))
+}
