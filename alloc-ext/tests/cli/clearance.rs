@@ -123,6 +123,30 @@ fn meshes_that_meet_have_no_distance_and_few_steps_widen_the_interval() {
 }
 
 #[test]
+fn solids_are_parted_by_the_translation_that_is_printed() {
+    let directory = scratch("clearance_depth");
+    let torus = blob(&directory, "torus.ply", &[]);
+    let files = ["clearance", arg(&torus), arg(&torus), "--pose"];
+    let poses = ["5,0.1,0.2,1,0.5,0.25,0", "0.1,0.2,0,1,0,0,0", "9,0,0,1,0,0,0"];
+    let header = "pose,solids,lower,upper,x,y,z,px,py,pz,work";
+    let rows = parse_csv(&ok([&files[..], &poses, &["--depth"]].concat()), header);
+    for (pose, row) in poses.iter().zip(&rows).take(2) {
+        assert_eq!(row[1], "overlap", "{row:?}");
+        let (lower, upper) = (number(&row[2]), number(&row[3]));
+        assert!(0.0 < lower && lower <= upper, "{row:?}");
+        let (_, turn) =
+            pose.match_indices(',').nth(2).map_or(("", ""), |(at, _)| pose.split_at(at));
+        let parted = format!("{},{},{}{turn}", row[4], row[5], row[6]);
+        let found = parse_csv(&ok([&files[..], &[parted.as_str()]].concat()), HEADER);
+        assert!(number(&found[0][1]) > 0.0, "{row:?} {found:?}");
+    }
+    assert_eq!(rows[2][1..4], ["apart", "0", "0"], "{rows:?}");
+    let open = blob(&directory, "evil/open_box.stl", &[]);
+    let output = run(["clearance", arg(&torus), arg(&open), "--depth"]);
+    assert!(refused(&output, 1, "open_box.msw").contains("closed"));
+}
+
+#[test]
 fn what_cannot_be_asked_is_refused_by_name() {
     let directory = scratch("clearance_refused");
     let torus = blob(&directory, "torus.ply", &[]);

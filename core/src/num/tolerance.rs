@@ -353,6 +353,16 @@ pub const MOMENT_FLUX: f32 = 64.0;
 /// precision: 2^-30 grid units (§20).
 pub const SOLID_ANGLE_NEAREST: f32 = 1.0 / (1u32 << 30) as f32;
 
+// Two box trees that are solids
+
+/// Rounding of a place in the other model's frame, in units of [`U64`] times the sum of its
+/// coordinates. Proved: 4 (§22).
+pub const PART_PLACE: f64 = 8.0;
+
+/// Rounding of the gap of two boxes along a direction, in units of [`U64`] times the 1-norms of
+/// their corners and of the shift. Proved: 16 (§22).
+pub const PARTED: f64 = 64.0;
+
 // Box tree, coherent queries
 
 /// Squared sine of the angle between the spokes of a triangle below which the triangle counts as a

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::poses::{self, AskPoses};
 use crate::queries::Queries;
 use crate::{blob_file, served};
-use meshsweep_core::{BuildFor, Bvh, Interval, Motion, Pose};
+use meshsweep_core::{BuildFor, Bvh, Interval, Motion, Pose, Relation};
 
 pub fn run(args: &ClearanceArgs) -> Result<(), Failure> {
     let MovedArgs { first, second, .. } = &args.input;
@@ -17,6 +17,16 @@ pub fn run(args: &ClearanceArgs) -> Result<(), Failure> {
         served::require_tree(first, &blob, BuildFor::Segment)?,
         served::require_tree(second, &other, BuildFor::Segment)?,
     ];
+    if args.depth {
+        for (file, blob) in [(first, &blob), (second, &other)] {
+            if !served::require_tree(file, blob, BuildFor::Closest)?.is_closed() {
+                return Err(Failure::NotClosed {
+                    file: file.clone(),
+                    instead: "leave out --depth",
+                });
+            }
+        }
+    }
     poses::ask(&args.input, Clearance { args, trees })
 }
 
@@ -33,6 +43,9 @@ impl AskPoses for Clearance<'_> {
     ) -> Result<(), Failure> {
         if let Some(kind) = self.args.moves {
             return self.ask_moves(kind, poses, pose_of);
+        }
+        if self.args.depth {
+            return self.ask_depth(poses, pose_of);
         }
         match self.args.within {
             Some(distance) => self.ask_within(distance, poses, pose_of),
@@ -65,6 +78,38 @@ impl Clearance<'_> {
                 write!(out, "{query},")?;
                 write_numbers(out, &[lower, upper, ax, ay, az, bx, by, bz])?;
                 write_pair(out, Some(found.triangles), *work)
+            },
+        )
+    }
+
+    fn ask_depth<const N: usize>(
+        self,
+        poses: Queries<N>,
+        pose_of: fn([f32; N]) -> Pose,
+    ) -> Result<(), Failure> {
+        let Clearance { args: ClearanceArgs { search, rel, abs, .. }, trees: [first, second] } =
+            self;
+        let budget = search.budget().with_relative(*rel).with_absolute(*abs);
+        let entries = first.scratch_entries().max(second.scratch_entries());
+        let header = "pose,solids,lower,upper,x,y,z,px,py,pz,work";
+        Question::new(header, poses, search).ask(
+            || {
+                let mut scratch = search.scratch(entries.max(Bvh::DISTANCE_ENTRIES));
+                move |row| {
+                    let found = first.penetration(&second, pose_of(row), budget, &mut scratch)?;
+                    Ok(Answer { found, ended: found.ended, work: found.work })
+                }
+            },
+            |out, query, _, Answer { found, work, .. }| {
+                write!(out, "{query},{},", relation_name(found.relation))?;
+                write_numbers(out, &[found.depth.lower, found.depth.upper])?;
+                for point in [found.apart.map(|pose| pose.translation), found.deepest] {
+                    match point {
+                        Some(point) => write_numbers(out, &point)?,
+                        None => write!(out, ",,,")?,
+                    }
+                }
+                writeln!(out, "{}", work.total())
             },
         )
     }
@@ -136,6 +181,16 @@ impl Clearance<'_> {
                 write_pair(out, Some(found.triangles), *work)
             },
         )
+    }
+}
+
+fn relation_name(relation: Relation) -> &'static str {
+    match relation {
+        Relation::Apart => "apart",
+        Relation::Overlap => "overlap",
+        Relation::FirstInside => "first inside",
+        Relation::SecondInside => "second inside",
+        _ => "undecided",
     }
 }
 

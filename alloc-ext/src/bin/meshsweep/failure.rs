@@ -60,7 +60,7 @@ pub enum Failure {
     /// The blob has no such key frame.
     NoFrame { file: PathBuf, frame: f32, last: u32 },
     /// The mesh bounds no solid, and signs are wanted.
-    NotClosed { file: PathBuf },
+    NotClosed { file: PathBuf, instead: &'static str },
     /// A grid reaches beyond f32.
     GridTooLarge { file: PathBuf },
     /// A query line has too few or too many fields.
@@ -253,10 +253,10 @@ impl fmt::Display for Failure {
                 "{}: has no frame {frame}: its key frames are 0 to {last}",
                 file.display()
             ),
-            Failure::NotClosed { file } => write!(
+            Failure::NotClosed { file, instead } => write!(
                 f,
                 "{}: was built from a mesh that is not closed, so inside and outside are not \
-                 defined; build it --for winding, or leave out --signed",
+                 defined; {instead}",
                 file.display()
             ),
             Failure::GridTooLarge { file } => write!(

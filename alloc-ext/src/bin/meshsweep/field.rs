@@ -37,7 +37,8 @@ pub fn run(args: &FieldArgs) -> Result<(), Failure> {
     let blob = blob_file::open(&args.blob)?;
     let tree = served::require_tree(&args.blob, &blob, BuildFor::Closest)?;
     if args.signed && !side::has_sides(&tree) {
-        return Err(Failure::NotClosed { file: args.blob.clone() });
+        let instead = "build it --for winding, or leave out --signed";
+        return Err(Failure::NotClosed { file: args.blob.clone(), instead });
     }
     let bounds = describe::surface_box(&blob);
     let lattice = Lattice::around(bounds, args.size, args.margin)

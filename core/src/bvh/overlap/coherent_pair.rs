@@ -291,7 +291,7 @@ impl<'f> Front<'f> {
         search: &mut Search<'_, '_>,
         visitor: &mut Wanted<'_, '_>,
     ) -> Result<Option<Missed>, QueryError> {
-        let is_clear = f64::from(self.last.least) - self.last.way > visitor.limit();
+        let is_clear = nearer(self.last.least, self.last.way) > visitor.limit();
         if self.last.count > 0 && is_clear {
             return Ok(None);
         }
@@ -354,7 +354,7 @@ impl<'f> Front<'f> {
         (self.unseen, self.last.way) = (count, 0.0);
         let (mut nearest, mut least) = (0, f32::INFINITY);
         for (i, group) in self.groups.iter_mut().take(count).enumerate() {
-            group.distance = down_to_f32(greater(0.0, f64::from(group.distance) - way));
+            group.distance = down_to_f32(greater(0.0, nearer(group.distance, way)));
             if group.distance < least {
                 (nearest, least) = (i, group.distance);
             }
@@ -383,6 +383,11 @@ impl<'f> Front<'f> {
         let near = unseen.filter(|group| f64::from(group.distance) <= limit).count();
         near > self.unseen / 2
     }
+}
+
+/// A distance less a way, rounded down.
+fn nearer(distance: f32, way: f64) -> f64 {
+    (f64::from(distance) - way).next_down()
 }
 
 fn least(groups: &[Group]) -> f32 {

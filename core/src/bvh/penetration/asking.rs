@@ -3,6 +3,7 @@
 use crate::bvh::format::Bvh;
 use crate::bvh::signed_distance::SignedDistance;
 use crate::geom::Pose;
+use crate::num::tolerance::{PART_PLACE, U64};
 use crate::query::{
     Budget, Ended, Motion, PairContact, PairDistance, QueryError, ScratchEntry, Side, Verdict, Work,
 };
@@ -84,8 +85,9 @@ impl<'s, 'a> Asking<'s, 'a> {
             return Ok(None);
         }
         let found = self.signed(tree, point)?;
-        let off =
-            centre.iter().zip(point).fold(0.0, |sum, (x, near)| sum + (x - f64::from(near)).abs());
+        let off = centre.iter().zip(point).fold(0.0, |sum, (x, near)| {
+            sum + (x - f64::from(near)).abs() + x.abs() * (PART_PLACE * U64)
+        });
         let is_clear = f64::from(found.closest.distance.lower) > reach + off;
         Ok(is_clear.then_some(found.side))
     }

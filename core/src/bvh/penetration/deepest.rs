@@ -109,7 +109,7 @@ fn sample(asking: &mut Asking<'_, '_>, point: [f32; 3]) -> Result<Deepest, Query
     };
     Ok(Deepest {
         point,
-        depth: in_first + in_second,
+        depth: (in_first + in_second).next_down(),
         from_surface: [
             from(here.closest.point, here.side == Side::Inside),
             from(pose.to_world(there.closest.point), there.side == Side::Inside),

@@ -9,7 +9,7 @@ use super::deepest::{Deepest, unit};
 use crate::bvh::input_box::corners_of_input;
 use crate::bvh::overlap::quickest;
 use crate::geom::{Pose, dot};
-use crate::num::tolerance::{U32, U64};
+use crate::num::tolerance::{PARTED, U32, U64};
 use crate::num::{greater, lesser, up_to_f32};
 use crate::query::{Budget, Motion, QueryError};
 
@@ -144,7 +144,7 @@ fn beside(asking: &Asking<'_, '_>, way: Point) -> Option<Pose> {
             return None;
         }
         let (least, size) = begins(&start);
-        if least - most > 64.0 * U64 * size {
+        if least - most > PARTED * U64 * size {
             return Some(start);
         }
         room *= 4.0;

@@ -26,6 +26,7 @@ mod cuts;
 mod deform;
 mod kept;
 mod motion;
+mod moving_pair;
 mod overlap;
 mod pair_distance;
 pub mod paper;
@@ -76,7 +77,7 @@ pub fn measure_bounds(file: &Path, counts: Option<&[Cost]>) -> Result<Vec<Table>
     Ok(tables)
 }
 
-/// Measures overlap and distance of one mesh file, which need not be closed, and itself under
+/// Measures overlap, distance and depth of one mesh file, which need not be closed, and itself under
 /// random motions.
 ///
 /// # Errors
@@ -86,6 +87,7 @@ pub fn measure_overlap(file: &Path) -> Result<Vec<Table>, String> {
     let mut tables = vec![subject_table(&subject)];
     tables.extend(overlap::tables(&subject)?);
     tables.push(pair_distance::table(&subject)?);
+    tables.extend(moving_pair::tables(&subject)?);
     Ok(tables)
 }
 

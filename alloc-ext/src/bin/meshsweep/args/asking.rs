@@ -290,6 +290,9 @@ pub struct ClearanceArgs {
         conflicts_with_all = ["rel", "abs"]
     )]
     pub moves: Option<MoveKind>,
+    /// How deep closed meshes are in each other, and where they are apart
+    #[arg(long, conflicts_with_all = ["within", "moves"])]
+    pub depth: bool,
     /// Stop a query when upper ≤ lower · (1 + REL)
     #[arg(long, value_name = "REL", default_value_t = 0.0, value_parser = tolerance)]
     pub rel: f32,

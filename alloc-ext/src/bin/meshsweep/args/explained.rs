@@ -227,6 +227,13 @@ pub fn clearance() -> String {
          turns. screw keeps it rigid, about a fixed axis, by half a turn at most, and of exactly \
          half a turn in either direction. Its origin goes along a helix. If a machine moves \
          otherwise, give poses close together, and add the deviation to --within.\n\n\
+         With --depth the column 'solids' says how the closed meshes lie to each other: apart; \
+         overlap; first inside or second inside, where the surfaces do not meet and a part of one \
+         lies in the other; or undecided. lower and upper enclose the length of the shortest shift \
+         that parts them. x, y, z is a translation of the second mesh, in place of that of the \
+         pose, at which they are proved to be apart: its shift is upper long. p is the point, \
+         inside both, that proves lower. Both blobs are then built --for closest,segment, as they \
+         are without --for. Deep in each other, upper may be several times lower.\n\n\
          Both blobs are built --for segment. Poses and moves count from 0. Options with poses \
          stand after the blobs.\n\n\
          {QUERIES}\n\n\
@@ -234,7 +241,8 @@ pub fn clearance() -> String {
          meshsweep clearance part.msw tool.msw --pose 30,0,0,1,0,0,0\n  \
          meshsweep clearance part.msw tool.msw --pose path.csv --rel 0.01 -o clearance.csv\n  \
          meshsweep clearance part.msw tool.msw --pose path.csv --within 2.5\n  \
-         meshsweep clearance part.msw tool.msw --pose path.csv --moves screw"
+         meshsweep clearance part.msw tool.msw --pose path.csv --moves screw\n  \
+         meshsweep clearance part.msw tool.msw --pose 3,0,0,1,0,0,0 --depth"
     )
 }
 
