@@ -27,7 +27,6 @@ mod deform;
 mod kept;
 mod motion;
 mod overlap;
-mod pair_distance;
 pub mod paper;
 pub mod plot;
 pub mod rival;
@@ -76,8 +75,7 @@ pub fn measure_bounds(file: &Path, counts: Option<&[Cost]>) -> Result<Vec<Table>
     Ok(tables)
 }
 
-/// Measures overlap and distance of one mesh file, which need not be closed, and itself under
-/// random motions.
+/// Measures overlap of one mesh file, which need not be closed, and itself under random motions.
 ///
 /// # Errors
 /// The file is no mesh, or an answer is wrong.
@@ -85,7 +83,6 @@ pub fn measure_overlap(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject_table(&subject)];
     tables.extend(overlap::tables(&subject)?);
-    tables.push(pair_distance::table(&subject)?);
     Ok(tables)
 }
 
