@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use meshsweep::bvh::exact_blob;
 use meshsweep::mesh::Mesh;
-use meshsweep_core::{Budget, Bvh, ClosestPoint, CoherentQuery, ScratchEntry};
+use meshsweep_core::{Budget, Bvh, ClosestPoint, CoherentQuery, Neighbor, ScratchEntry};
 
 /// A point of one mesh and where the other mesh is closest.
 #[derive(Clone, Copy, Debug)]
@@ -12,8 +12,6 @@ pub struct Sample {
     pub point: DVec3,
     /// On the other mesh, up to rounding in f64.
     pub foot: DVec3,
-    /// Lower bound of the distance.
-    pub lower: f64,
     /// Distance of the foot.
     pub upper: f64,
     /// The foot's triangle.
@@ -35,6 +33,7 @@ pub struct Sampler<'a> {
     triangles: Vec<[u32; 3]>,
     coherent: CoherentQuery<'a, 128>,
     stack: Vec<ScratchEntry>,
+    neighbors: Vec<Neighbor>,
     /// Samples that were taken.
     pub asked: usize,
 }
@@ -48,6 +47,7 @@ impl<'a> Sampler<'a> {
         let tree = Bvh::open(blob).map_err(|error| error.to_string())?;
         Ok(Self {
             stack: vec![ScratchEntry::EMPTY; tree.scratch_entries()],
+            neighbors: vec![Neighbor::EMPTY; 64],
             tree,
             positions: mesh.positions.iter().map(|&p| Vec3::from(p).as_dvec3()).collect(),
             triangles: mesh.all_triangles().collect(),
@@ -78,7 +78,7 @@ impl<'a> Sampler<'a> {
     pub fn sample(&mut self, p: DVec3) -> Result<Sample, String> {
         let asked = p.as_vec3().to_array();
         let answer = self.tree.closest_point(asked, Budget::EXACT, &mut self.stack);
-        self.answered(p, answer.map_err(|error| error.to_string())?)
+        self.answered(p, &answer.map_err(|error| error.to_string())?)
     }
 
     /// The next sample of a path.
@@ -89,17 +89,38 @@ impl<'a> Sampler<'a> {
         let asked = p.as_vec3().to_array();
         let budget = Budget::EXACT;
         let answer = self.coherent.closest_point(&self.tree, asked, budget, &mut self.stack);
-        self.answered(p, answer.map_err(|error| error.to_string())?.closest)
+        self.answered(p, &answer.map_err(|error| error.to_string())?.closest)
     }
 
-    fn answered(&mut self, point: DVec3, answer: ClosestPoint) -> Result<Sample, String> {
+    fn answered(&mut self, point: DVec3, answer: &ClosestPoint) -> Result<Sample, String> {
         self.asked += 1;
         let triangle = answer.triangle.ok_or("a closest point without its triangle")?;
         let foot = closest_on(point, self.corners(triangle));
-        let upper = (foot - point).length();
-        let rounded = (point.as_vec3().as_dvec3() - point).length();
-        let lower = (f64::from(answer.distance.lower) - rounded).clamp(0.0, upper);
-        Ok(Sample { point, foot, lower, upper, triangle })
+        Ok(Sample { point, foot, upper: (foot - point).length(), triangle })
+    }
+
+    /// The distance of a sample's point in f64: of every triangle that may be nearer than its foot.
+    ///
+    /// # Errors
+    /// None but a fault of the tree.
+    pub fn exact(&mut self, sample: &Sample) -> Result<f64, String> {
+        let asked = sample.point.as_vec3();
+        let rounded = (asked.as_dvec3() - sample.point).length();
+        let reach = ((sample.upper + rounded) as f32).next_up().next_up();
+        let (point, budget) = (asked.to_array(), Budget::EXACT);
+        let stored = loop {
+            let (found, stack) = (&mut self.neighbors, &mut self.stack);
+            let all = self.tree.all_within(point, reach, found, budget, stack);
+            let all = all.map_err(|error| error.to_string())?;
+            if all.dropped == 0 {
+                break all.stored;
+            }
+            let wanted = self.neighbors.len() + all.dropped as usize;
+            self.neighbors.resize(wanted, Neighbor::EMPTY);
+        };
+        let near = self.neighbors[..stored].iter();
+        let distances = near.map(|near| self.distance(sample.point, near.triangle()));
+        Ok(distances.fold(sample.upper, f64::min))
     }
 }
 

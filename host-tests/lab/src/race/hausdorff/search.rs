@@ -10,12 +10,12 @@ use super::Side;
 use super::samples::{Sample, Sampler, tree};
 use crate::measure::stopwatch::Stopwatch;
 
-/// Added to an upper bound, as a part of the largest coordinate: roundings of samples, cuts and
+/// Added to an upper bound and taken off a lower one, as a part of the largest coordinate: roundings of samples, cuts and
 /// bounds in f64, of which none exceeds 2^-40.
 const ROUNDING: f64 = 1.0 / (1u64 << 36) as f64;
 
 /// Most pieces: a piece and its samples take some hundred bytes.
-const MOST_PIECES: usize = 12_000_000;
+const MOST_PIECES: usize = 4_000_000;
 
 /// How triangles are visited, bounded and cut.
 pub trait Method {
@@ -104,11 +104,12 @@ pub fn search(
         samples[*from] = method.visit(&points, &triangles, &mut sampler)?;
         samplers.push((*from, sampler));
     }
-    let mut lower = 0.0f64;
-    for (from, _) in &samplers {
+    let mut lower = 0.0;
+    for (from, sampler) in &mut samplers {
         // A vertex of no triangle is no point of the surface.
-        let corners = meshes[*from].all_triangles().flatten();
-        lower = corners.map(|v| samples[*from][v as usize].lower).fold(lower, f64::max);
+        for v in meshes[*from].all_triangles().flatten() {
+            lower = raised(lower, &samples[*from][v as usize], sampler)?;
+        }
     }
     let (mut heap, mut pieces) = (BinaryHeap::new(), 0);
     for (mesh, sampler) in &samplers {
@@ -123,7 +124,7 @@ pub fn search(
     }
     let upper = loop {
         let upper = heap.peek().map_or(lower, |piece| piece.bound.max(lower));
-        if upper + rounding - lower <= precision || pieces > MOST_PIECES {
+        if upper - lower + 2.0 * rounding <= precision || pieces > MOST_PIECES {
             break upper;
         }
         let Some(piece) = heap.pop() else { break upper };
@@ -136,7 +137,7 @@ pub fn search(
         let first = known.len() as u32;
         for point in points {
             let sample = sampler.sample(point)?;
-            lower = lower.max(sample.lower);
+            lower = raised(lower, &sample, sampler)?;
             known.push(sample);
         }
         for part in parts {
@@ -150,7 +151,13 @@ pub fn search(
         }
     };
     let asked = samplers.iter().map(|(_, sampler)| sampler.asked).sum();
-    Ok(Found { lower, upper: upper + rounding, pieces, asked, tree_seconds })
+    let (lower, upper) = ((lower - rounding).max(0.0), upper + rounding);
+    Ok(Found { lower, upper, pieces, asked, tree_seconds })
+}
+
+/// The greater of a lower bound and a sample's distance.
+fn raised(lower: f64, sample: &Sample, sampler: &mut Sampler<'_>) -> Result<f64, String> {
+    if sample.upper <= lower { Ok(lower) } else { Ok(lower.max(sampler.exact(sample)?)) }
 }
 
 /// A bound that is not a number bounds nothing.
