@@ -1,8 +1,8 @@
 //! Cascading upper bounds, cheap ones first.
 //!
 //! Sacht and Jacobson, *Cascading upper bounds for triangle soup Pompeiu-Hausdorff distance*
-//! (2024), in the order that they found best. A bound ends the cascade when it rejects the triangle.
-//! A triangle that no bound rejects is cut at the middles of its edges.
+//! (2024), in the order that they found best. A bound ends the cascade when it rejects the
+//! triangle. A triangle that no bound rejects is cut at the middles of its edges.
 
 use glam::DVec3;
 

@@ -1,9 +1,9 @@
 //! Hausdorff distances of two meshes: the library's branch and bound, two published ways, and CGAL.
 //!
 //! ```text
-//! samples (closest points of a mesh's samples) ─ search (the largest bound first) ─┬─ bisector (Guéziec 2000)
-//!                                                                                  └─ cascade  (Sacht & Jacobson 2024)
-//! cgal (a child process) ─ report
+//! samples (closest points) ─ search (largest bound first) ─┬─ bisector (Guéziec 2000)
+//!                                                          └─ cascade  (Sacht & Jacobson 2024)
+//! cgal    (a child process) ─ report (the table)
 //! ```
 //! The two ways share nothing with the library but the box tree that names the closest triangle.
 //! All have the same precision, so their intervals have to overlap.

@@ -10,8 +10,8 @@ use super::Side;
 use super::samples::{Sample, Sampler, tree};
 use crate::measure::stopwatch::Stopwatch;
 
-/// Added to an upper bound and taken off a lower one, as a part of the largest coordinate: roundings of samples, cuts and
-/// bounds in f64, of which none exceeds 2^-40.
+/// Added to an upper bound and taken off a lower one, as a part of the largest coordinate. It
+/// covers the roundings of samples, cuts and bounds in f64, which are some 2^-50 each.
 const ROUNDING: f64 = 1.0 / (1u64 << 36) as f64;
 
 /// Most pieces: a piece and its samples take some hundred bytes.

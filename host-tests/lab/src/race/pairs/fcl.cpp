@@ -1,8 +1,6 @@
 // FCL as a child process of the race: a mesh, and a moved copy of it.
 //
-// From the standard input, once: the mesh. To the standard output, once the tree is built:
-//   u64 bytes that the model holds, f64 seconds of the build
-// Then any number of times, until the input ends:
+// From the standard input, once: the mesh. Then any number of times, until the input ends:
 //   u32 question, u32 count, f64 [count][3][4] poses of the copy: rows of the rotation and shift
 // Answered by:
 //   f64 seconds, f64 [count] distances, or 1 where the surfaces meet and 0 where not
@@ -38,7 +36,10 @@ void build(Model &model, const Mesh &mesh) {
     std::vector<fcl::Vector3d> vertices;
     std::vector<fcl::Triangle> triangles;
     for (Point p : mesh.vertices) vertices.emplace_back(p.x, p.y, p.z);
-    for (Triangle t : mesh.triangles) triangles.emplace_back(t.corners[0], t.corners[1], t.corners[2]);
+    for (Triangle t : mesh.triangles) {
+        auto [a, b, c] = t.corners;
+        triangles.emplace_back(a, b, c);
+    }
     model.beginModel(triangles.size(), vertices.size());
     model.addSubModel(vertices, triangles);
     model.endModel();
@@ -64,13 +65,7 @@ double meets(const Model &model, const Pose &pose) {
 int main() {
     Mesh mesh = read_mesh();
     Model model;
-    double begun = processor_seconds();
     build(model, mesh);
-    double seconds = processor_seconds() - begun;
-    uint64_t bytes = model.memUsage(0);
-    write(&bytes, 1);
-    write(&seconds, 1);
-    std::fflush(stdout);
     uint32_t question = 0, count = 0;
     while (read(question) && read(count)) {
         if (question == DISTANCE)

@@ -40,7 +40,6 @@ impl Fcl {
     pub fn new(subject: &Subject) -> Result<Self, String> {
         let mut child = PROGRAM.as_ref().map_err(Clone::clone)?.start()?;
         child.send_mesh(&subject.mesh)?;
-        let (_bytes, _seconds) = (child.whole()?, child.double()?);
         Ok(Self(child))
     }
 

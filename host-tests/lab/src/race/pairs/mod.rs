@@ -1,7 +1,7 @@
 //! Two models, of which one moves: their distance, whether it is below a limit, whether they meet.
 //!
 //! ```text
-//! motions (poses, exact answers) ─ engine (the library, parry3d) ─ fcl (a child process) ─ table
+//! motions (poses, exact answers) ─ engine (the library, parry3d) ─ fcl (a child process)
 //! ```
 //! Engines take turns every few motions, so that a busy machine hits all alike. Each answer is held
 //! to an oracle: distances in 106 bits, meetings by exact predicates.
