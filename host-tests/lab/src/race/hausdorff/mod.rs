@@ -220,24 +220,22 @@ mod tests {
     use meshsweep_host_tests::generate::torus;
     use meshsweep_host_tests::workload::Subject;
 
+    const PRECISE: f64 = 1e-3;
+
     #[test]
-    fn all_ways_agree_on_two_tori_and_on_one_and_itself() {
+    fn all_ways_agree_on_two_tori() {
         let subject = |minor, sides| {
             let (positions, triangles) = torus(2.0, minor, sides, 9);
             Subject::of("torus", Mesh::new(positions, triangles))
         };
-        let pairs = [
-            ([subject(0.5, 14), subject(0.55, 9)], 0.05),
-            ([subject(0.5, 14), subject(0.5, 14)], 0.0),
-        ];
-        for (meshes, least) in pairs {
-            for side in [Side::Forward, Side::Backward, Side::Both] {
-                let answers = [Engine::Ours, Engine::Bisectors, Engine::Cascade]
-                    .map(|mut engine| engine.ask(&meshes, side, 1e-4).expect("answers"));
-                assert!(answers.iter().all(|a| a.upper - a.lower <= 1e-4 && a.upper >= least));
-                let agree = |a: &Answer| answers.iter().all(|b| a.overlaps(b));
-                assert!(answers.iter().all(agree), "{side:?} {answers:?}");
-            }
+        let meshes = [subject(0.5, 14), subject(0.6, 9)];
+        for side in [Side::Forward, Side::Backward, Side::Both] {
+            let answers = [Engine::Ours, Engine::Bisectors, Engine::Cascade]
+                .map(|mut engine| engine.ask(&meshes, side, PRECISE).expect("answers"));
+            let is_close = |a: &Answer| a.upper - a.lower <= PRECISE && a.lower > 0.1;
+            assert!(answers.iter().all(is_close), "{side:?} {answers:?}");
+            let agrees = |a: &Answer| answers.iter().all(|b| a.overlaps(b));
+            assert!(answers.iter().all(agrees), "{side:?} {answers:?}");
         }
     }
 }
