@@ -1,6 +1,7 @@
 // CGAL's Hausdorff distance with a bounded error, as a child process of the race.
 //
-// From the standard input, once: two meshes. Then any number of times, until the input ends:
+// From the standard input, once: two meshes. To the standard output, once CGAL has them: u64 1.
+// Then any number of times, until the input ends:
 //   u32 question, u32 1, f64 error bound
 // Answered by:
 //   f64 seconds, f64 distance, off by at most the error bound
@@ -28,7 +29,6 @@ Surface surface_of(const Mesh &mesh) {
     for (Triangle t : mesh.triangles) {
         auto [a, b, c] = t.corners;
         if (surface.add_face(vertices[a], vertices[b], vertices[c]) == Surface::null_face()) {
-            std::fprintf(stderr, "   CGAL: the mesh is no manifold\n");
             std::exit(5);
         }
     }
@@ -39,6 +39,9 @@ Surface surface_of(const Mesh &mesh) {
 
 int main() {
     Surface first = surface_of(read_mesh()), second = surface_of(read_mesh());
+    uint64_t ready = 1;
+    write(&ready, 1);
+    std::fflush(stdout);
     uint32_t question = 0, count = 0;
     while (read(question) && read(count)) {
         answer<double, double>(count, [&](double error) {

@@ -32,19 +32,19 @@ impl Cgal {
     /// Takes over the meshes.
     ///
     /// # Errors
-    /// No compiler or no package, or the child's end.
+    /// No compiler, no package, or a mesh that is no manifold.
     pub fn new(meshes: &[Subject; 2]) -> Result<Self, String> {
         let mut child = PROGRAM.as_ref().map_err(Clone::clone)?.start()?;
-        for subject in meshes {
-            child.send_mesh(&subject.mesh)?;
-        }
+        let mut taken = meshes.iter().try_for_each(|subject| child.send_mesh(&subject.mesh));
+        taken = taken.and_then(|()| child.whole().map(drop));
+        taken.map_err(|reason| format!("it takes manifolds only: {reason}"))?;
         Ok(Self(child))
     }
 
     /// The distance, off by at most `error`, and the seconds that it took.
     ///
     /// # Errors
-    /// The child's end: a mesh is no manifold.
+    /// The child's end.
     pub fn distance(&mut self, side: Side, error: f64) -> Result<(f64, f64), String> {
         self.0.send_question(side as u32, 1)?;
         self.0.send(error.to_ne_bytes().into_iter())?;
