@@ -25,7 +25,7 @@ cargo xtask measure [--tree | --triboxes | --deform | --overlap | --motion
           --tree      only the box tree's
           --triboxes  the stored ones
           --deform    the hull hierarchy under motions
-          --overlap   the mesh against itself
+          --overlap   whether the mesh meets itself, moved
           --motion    a capsule that moves past the mesh
           --winding   winding numbers of the mesh, and of the mesh with holes
           --tight     tight hulls, each proved, drawn with --picture, on a Cortex-M4F with --firmware

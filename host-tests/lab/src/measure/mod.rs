@@ -28,7 +28,6 @@ mod kept;
 mod motion;
 mod moving_pair;
 mod overlap;
-mod pair_distance;
 pub mod paper;
 pub mod plot;
 pub mod rival;
@@ -77,8 +76,8 @@ pub fn measure_bounds(file: &Path, counts: Option<&[Cost]>) -> Result<Vec<Table>
     Ok(tables)
 }
 
-/// Measures overlap, distance and depth of one mesh file, which need not be closed, and itself under
-/// random motions.
+/// Measures one mesh file, which need not be closed, and itself under random motions: overlap, and
+/// distances along paths; of a closed one, depths.
 ///
 /// # Errors
 /// The file is no mesh, or an answer is wrong.
@@ -86,7 +85,6 @@ pub fn measure_overlap(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject_table(&subject)];
     tables.extend(overlap::tables(&subject)?);
-    tables.push(pair_distance::table(&subject)?);
     tables.extend(moving_pair::tables(&subject)?);
     Ok(tables)
 }

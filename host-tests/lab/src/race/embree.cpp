@@ -1,50 +1,32 @@
 // Embree as a child process of the race: it reads a mesh, then lists of queries, and answers each
-// list with the time that it took. One thread.
+// list with the time that it took.
 //
-// All numbers are in the machine's byte order. From the standard input, once:
-//   u32 vertices, f32 [vertices][3], u32 triangles, u32 [triangles][3]
-// To the standard output, once the scene is built:
+// From the standard input, once: the mesh. To the standard output, once the scene is built:
 //   u64 bytes that Embree holds, f64 seconds of the build
 // Then any number of times, until the input ends:
 //   u32 question, u32 count, f32 [count][3] points or [count][2][3] segments
 // Answered by:
 //   f64 seconds, f32 [count][3] closest points or f32 [count] parameters, -1 for a miss
 
+#include "child.h"
+
 #include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
 #include <limits>
 #include <type_traits>
-#include <vector>
 
 namespace {
-
-struct Point {
-    float x, y, z;
-};
 
 Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 Point operator*(float s, Point a) { return {s * a.x, s * a.y, s * a.z}; }
 float dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-struct Triangle {
-    uint32_t corners[3];
-};
-
 struct Segment {
     Point from, to;
-};
-
-struct Mesh {
-    std::vector<Point> vertices;
-    std::vector<Triangle> triangles;
 };
 
 enum Question : uint32_t { CLOSEST_POINT = 0, FIRST_HIT = 1 };
@@ -54,27 +36,6 @@ std::atomic<int64_t> bytes_held{0};
 bool count_bytes(void *, ssize_t bytes, bool) {
     bytes_held += bytes;
     return true;
-}
-
-// False where the input ends before the first byte.
-template <typename T> bool read(std::vector<T> &items, size_t count) {
-    items.resize(count);
-    size_t found = std::fread(items.data(), sizeof(T), count, stdin);
-    if (found != count && found != 0) std::exit(2);
-    return found == count;
-}
-
-bool read(uint32_t &number) { return std::fread(&number, sizeof number, 1, stdin) == 1; }
-
-template <typename T> void write(const T *items, size_t count) {
-    if (std::fwrite(items, sizeof(T), count, stdout) != count) std::exit(3);
-}
-
-// Of this process, as the race measures the others.
-double processor_seconds() {
-    timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return now.tv_sec + 1e-9 * now.tv_nsec;
 }
 
 // Ericson, "Real-time collision detection", 2005, section 5.1.5.
@@ -168,25 +129,10 @@ RTCScene build(RTCDevice device, const Mesh &mesh) {
     return scene;
 }
 
-template <typename Query, typename Answer, typename Ask> void answer(uint32_t count, Ask ask) {
-    std::vector<Query> queries;
-    if (!read(queries, count)) std::exit(2);
-    std::vector<Answer> answers(count);
-    double begun = processor_seconds();
-    for (uint32_t i = 0; i < count; i++) answers[i] = ask(queries[i]);
-    double seconds = processor_seconds() - begun;
-    write(&seconds, 1);
-    write(answers.data(), count);
-    std::fflush(stdout);
-}
-
 } // namespace
 
 int main() {
-    Mesh mesh;
-    uint32_t count = 0;
-    if (!read(count) || !read(mesh.vertices, count) || !read(count) || !read(mesh.triangles, count))
-        return 2;
+    Mesh mesh = read_mesh();
     RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
     rtcSetDeviceMemoryMonitorFunction(device, count_bytes, nullptr);
     double begun = processor_seconds();
@@ -196,7 +142,7 @@ int main() {
     write(&bytes, 1);
     write(&seconds, 1);
     std::fflush(stdout);
-    uint32_t question = 0;
+    uint32_t question = 0, count = 0;
     while (read(question) && read(count)) {
         switch (question) {
         case CLOSEST_POINT:

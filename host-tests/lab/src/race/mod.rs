@@ -4,6 +4,9 @@
 //! workload (which questions) ─┐
 //! engine (what each one is) ──┼─ timing (interleaved rounds) ─ agreement (with f64, with parry3d) ─ report (tables)
 //!   parry, cwbvh, embree, tree: one file each
+//! child (engines in C++) ─ embree, pairs, hausdorff
+//! pairs     (distance and overlap of two models)
+//! hausdorff (Hausdorff distance of two meshes)
 //! ```
 //! A new engine is a file with an `Engine` and a line in `ENTRANTS`, both of `engine.rs`.
 //!
@@ -12,9 +15,12 @@
 //! something.
 
 mod agreement;
+mod child;
 mod cwbvh;
 mod embree;
 mod engine;
+pub mod hausdorff;
+pub mod pairs;
 mod parry;
 mod report;
 mod timing;

@@ -1,0 +1,181 @@
+//! The engines that answer about two models.
+
+use std::hint::black_box;
+
+use meshsweep_core::{Budget, Bvh, Ended, ScratchEntry, Verdict, Work};
+use meshsweep_host_tests::workload::Subject;
+use parry3d::math::Pose as ParryPose;
+use parry3d::query::{ClosestPoints, closest_points, distance, intersection_test};
+
+use super::fcl::Fcl;
+use super::motions::Case;
+use crate::measure::rival::Rival;
+use crate::measure::stopwatch::Stopwatch;
+
+/// What is asked of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Question {
+    /// How far are the models from each other?
+    Distance,
+    /// Are they within this part of their distance?
+    Within(f64),
+    /// Do their surfaces meet?
+    Meets,
+}
+
+impl Question {
+    /// All, in the order of the table.
+    pub const ALL: [Self; 4] = [Self::Distance, Self::Within(0.5), Self::Within(2.0), Self::Meets];
+
+    /// In tables.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Distance => "distance",
+            Self::Within(part) if part < 1.0 => "within half of it",
+            Self::Within(_) => "within twice of it",
+            Self::Meets => "meets",
+        }
+    }
+
+    /// The distance that is asked about.
+    pub fn limit(self, case: &Case) -> f32 {
+        match self {
+            Self::Within(part) => (part * case.truth.upper) as f32,
+            _ => 0.0,
+        }
+    }
+}
+
+/// What an engine says.
+#[derive(Clone, Copy, Debug)]
+pub enum Answer {
+    /// Bounds of the distance.
+    Bounds(f64, f64),
+    /// A distance without bounds.
+    About(f64),
+    /// Yes or no.
+    Is(bool),
+    /// Neither.
+    Open,
+}
+
+/// Answers in the order of the cases, with pairs of boxes and pairs of triangles in f64, and
+/// seconds for all.
+#[derive(Default)]
+pub struct Run {
+    /// The answers.
+    pub answers: Vec<Answer>,
+    /// Sum of the work, of an engine that tells it.
+    pub work: Option<[u64; 2]>,
+    /// Processor time.
+    pub seconds: f64,
+}
+
+/// An engine with its index of the mesh.
+pub enum Engine<'a> {
+    /// The library's box tree, its name and its memory.
+    Tree(&'static str, Bvh<'a>, Vec<ScratchEntry>),
+    /// parry3d.
+    Parry(Rival),
+    /// FCL.
+    Fcl(Fcl),
+}
+
+impl<'a> Engine<'a> {
+    /// The library's tree.
+    ///
+    /// # Errors
+    /// None but a fault of the builder.
+    pub fn tree(name: &'static str, blob: &'a [u8]) -> Result<Self, String> {
+        let tree = Bvh::open(blob).map_err(|error| error.to_string())?;
+        Ok(Self::Tree(name, tree, vec![ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES]))
+    }
+
+    /// parry3d's.
+    ///
+    /// # Errors
+    /// parry3d's refusal.
+    pub fn parry(subject: &Subject) -> Result<Self, String> {
+        Ok(Self::Parry(Rival::new(subject)?))
+    }
+
+    /// In tables.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Tree(name, ..) => name,
+            Self::Parry(_) => super::REFERENCE,
+            Self::Fcl(_) => "FCL",
+        }
+    }
+
+    /// Adds the answers about some cases to a run. FCL is not asked about a limit: its distances
+    /// have none.
+    ///
+    /// # Errors
+    /// The engine's refusal.
+    pub fn ask(&mut self, question: Question, cases: &[Case], run: &mut Run) -> Result<(), String> {
+        match self {
+            Self::Fcl(fcl) => return fcl.ask(question, cases, run),
+            Self::Tree(_, tree, stack) => {
+                let watch = Stopwatch::start();
+                for case in cases {
+                    let (answer, work) = black_box(by_tree(question, tree, case, stack)?);
+                    let [nodes, exact] = run.work.unwrap_or_default();
+                    run.work = Some([nodes + u64::from(work.nodes), exact + u64::from(work.exact)]);
+                    run.answers.push(answer);
+                }
+                run.seconds += watch.seconds();
+            }
+            Self::Parry(rival) => {
+                let watch = Stopwatch::start();
+                for case in cases {
+                    run.answers.push(black_box(by_parry(question, rival, case)?));
+                }
+                run.seconds += watch.seconds();
+            }
+        }
+        Ok(())
+    }
+}
+
+fn by_tree(
+    question: Question,
+    tree: &Bvh<'_>,
+    case: &Case,
+    stack: &mut [ScratchEntry],
+) -> Result<(Answer, Work), String> {
+    let (pose, exact) = (case.pose, Budget::EXACT);
+    let said = |verdict| match verdict {
+        Verdict::Yes => Answer::Is(true),
+        Verdict::No => Answer::Is(false),
+        _ => Answer::Open,
+    };
+    let answer = match question {
+        Question::Distance => tree.distance(tree, pose, exact, stack).map(|found| {
+            let bounds =
+                Answer::Bounds(f64::from(found.distance.lower), f64::from(found.distance.upper));
+            (if found.ended == Ended::Exact { bounds } else { Answer::Open }, found.work)
+        }),
+        Question::Within(_) => tree
+            .within_of(tree, pose, question.limit(case), exact, stack)
+            .map(|found| (said(found.verdict), found.work)),
+        Question::Meets => {
+            tree.overlap(tree, pose, exact, stack).map(|found| (said(found.verdict), found.work))
+        }
+    };
+    answer.map_err(|error| error.to_string())
+}
+
+fn by_parry(question: Question, rival: &Rival, case: &Case) -> Result<Answer, String> {
+    let (here, there, shape) = (&ParryPose::IDENTITY, &case.parry, rival.shape());
+    let answer = match question {
+        Question::Distance => distance(here, shape, there, shape)
+            .map(|found| Answer::About(f64::from(found.distance))),
+        Question::Within(_) => closest_points(here, shape, there, shape, question.limit(case))
+            .map(|found| Answer::Is(!matches!(found, ClosestPoints::Disjoint))),
+        Question::Meets => {
+            intersection_test(here, shape, there, shape).map(|found| Answer::Is(found.intersecting))
+        }
+    };
+    answer.map_err(|error| error.to_string())
+}
