@@ -25,7 +25,8 @@ impl Bvh<'_> {
     /// rotation. The interval is `0 ..= 0` if it is proved that the surfaces meet. Only surfaces
     /// count: of one closed mesh inside the other it is the distance of the two surfaces.
     /// Ask [`overlap`](Bvh::overlap) where contact alone matters, and
-    /// [`within_of`](Bvh::within_of) where a threshold does: both are faster.
+    /// [`within_of`](Bvh::within_of) where a threshold does: both are faster. If the models move in
+    /// small steps, [`CoherentPair`](crate::CoherentPair) remembers what the last search showed.
     ///
     /// `scratch`: [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES) are always enough. With fewer the
     /// lower end may be lower; the interval holds. A tolerance or the steps (pairs of nodes) of the

@@ -53,6 +53,18 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<PairContact, QueryError> {
+        self.advance(other, motion, (keep, LEAST_ADVANCE), budget, scratch)
+    }
+
+    /// The same. An advance by less than `least` of the motion ends the search.
+    pub(in crate::bvh) fn advance(
+        &self,
+        other: &Bvh<'_>,
+        motion: &Motion,
+        (keep, least): (f32, f64),
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<PairContact, QueryError> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(keep).check()?;
         if !motion.is_finite() {
@@ -85,7 +97,7 @@ impl Bvh<'_> {
                     ..contact
                 });
             }
-            if advance < LEAST_ADVANCE {
+            if advance < least {
                 contact.ended = if is_cut { found.ended } else { Ended::Resolution };
                 break;
             }

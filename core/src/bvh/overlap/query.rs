@@ -19,8 +19,7 @@ impl Bvh<'_> {
     /// moved vertices. The pose's numbers are taken as exact. Surfaces that touch without passing
     /// through each other are undecided, and so are surfaces nearer than rounding and the surface
     /// errors. Two triangles without area are never proved to meet. Only surfaces count: one
-    /// closed mesh may lie inside the other. [`signed_distance`](Bvh::signed_distance) of a vertex
-    /// decides that.
+    /// closed mesh may lie inside the other. [`penetration`](Bvh::penetration) tells that.
     ///
     /// It ends at the first pair that is proved to meet: the same pair on every target. `scratch`:
     /// [`OVERLAP_ENTRIES`](Bvh::OVERLAP_ENTRIES) are always enough. A shorter one may leave the

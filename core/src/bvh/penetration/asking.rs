@@ -8,6 +8,10 @@ use crate::query::{
     Budget, Ended, Motion, PairContact, PairDistance, QueryError, ScratchEntry, Side, Verdict, Work,
 };
 
+/// Part of a motion below which an advance ends the search for its contact. Near contact each
+/// advance gains less than the last one.
+const LEAST_ADVANCE: f64 = 1.0 / 4096.0;
+
 /// Two trees, the second one moved, and what was spent on questions about them.
 pub(super) struct Asking<'s, 'a> {
     pub(super) trees: [&'a Bvh<'a>; 2],
@@ -57,7 +61,7 @@ impl<'s, 'a> Asking<'s, 'a> {
 
     pub(super) fn first_contact(&mut self, motion: &Motion) -> Result<PairContact, QueryError> {
         let ([a, b], left) = (self.trees, self.left());
-        let found = a.first_contact_of(b, motion, 0.0, left, self.scratch)?;
+        let found = a.advance(b, motion, (0.0, LEAST_ADVANCE), left, self.scratch)?;
         self.work = self.work.and(found.work);
         Ok(found)
     }
