@@ -18,7 +18,8 @@ const QUERIES: &str = "Queries are arguments, files, or both, in any number. The
     the order given. A file holds one query on a line: decimal numbers with commas, semicolons or \
     blanks between them. A header line, blank lines and comments from # on are skipped. '-' reads \
     the same from the standard input. A file named *.f32 holds raw little-endian f32 numbers. A \
-    refused query is named. The answers before it are printed, but not written to a file of -o.";
+    refused query is named. The answers before it are printed, but not written to a file of -o. \
+    work counts the boxes and triangles that a query looked at.";
 
 const TRIANGLES: &str = "triangle is the index of the triangle in the mesh file, counted from 0; \
     a polygon counts as the triangles about its first corner";
@@ -89,8 +90,7 @@ pub fn closest() -> String {
         "lower and upper enclose the exact distance to the mesh as it was read. They are printed \
          as the shortest decimals that read back as the same f32: round them to f32 before you \
          compare. px, py, pz is a \
-         point of its surface, at most upper away. {TRIANGLES}. work counts the boxes and \
-         triangles that the search looked at. It depends on the other queries: without --rel, \
+         point of its surface, at most upper away. {TRIANGLES}. work depends on the other queries: without --rel, \
          --abs, --steps and --queue the box tree answers thousands at once, and each begins where \
          a neighbour ended.\n\n\
          A tight hull gives an interval as wide as its distance from the mesh. px, py, pz is then \
