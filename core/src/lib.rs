@@ -30,7 +30,7 @@
 //! | do two meshes meet | [`Bvh::overlap`], [`Bvh::overlaps`] |
 //! | how far are two meshes from each other; is one within a distance of the other | [`Bvh::distance`], [`Bvh::within_of`] |
 //! | the same of models that move little from one question to the next | [`CoherentPair::distance`], [`CoherentPair::within`] |
-//! | is one solid inside another; how deep are they in each other | [`Bvh::penetration`] |
+//! | is one solid inside another; how deep; which translation separates them | [`Bvh::penetration`] |
 //! | which two of a few dozen models are nearest; are any two within a distance | [`Scene::nearest_pair`], [`Scene::within`] |
 //! | how far is a sphere, a capsule or a box; is it within a distance | [`Bvh::solid_distance`], [`Bvh::solid_within`] |
 //! | is the move of a tool, or of another mesh, clear for its whole length | [`Bvh::first_contact`], [`Bvh::first_contact_of`] |

@@ -1,7 +1,7 @@
 //! A box that holds the vertices of the input mesh.
 
 use crate::bvh::format::Bvh;
-use crate::num::exp2;
+use crate::num::{exp2, greater, lesser};
 
 /// Corners of the box, input units: those of the stored vertices' box, grown by the surface error.
 /// In f64, because a grid may reach beyond f32.
@@ -21,5 +21,16 @@ pub(super) fn corners_of_input(tree: &Bvh<'_>) -> impl Iterator<Item = [f64; 3]>
             };
         }
         point
+    })
+}
+
+/// Least and greatest coordinates of points.
+pub(super) fn bounds_of(points: impl Iterator<Item = [f64; 3]>) -> [[f64; 3]; 2] {
+    points.fold([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], |[mut low, mut high], point| {
+        for ((low, high), x) in low.iter_mut().zip(&mut high).zip(point) {
+            *low = lesser(*low, x);
+            *high = greater(*high, x);
+        }
+        [low, high]
     })
 }

@@ -11,11 +11,13 @@ use crate::geom::Pose;
 pub enum Relation {
     /// No point is inside both.
     Apart,
-    /// Points are inside both, and the surfaces meet or may meet.
+    /// The surfaces meet, or points are inside both.
     Overlap,
-    /// The surfaces do not meet, and a part of the first solid lies inside the second.
+    /// The surfaces do not meet, and a component of the first one lies inside the second solid.
+    /// Other components may lie outside.
     FirstInside,
-    /// The surfaces do not meet, and a part of the second solid lies inside the first.
+    /// The surfaces do not meet, and a component of the second one lies inside the first solid.
+    /// Other components may lie outside, and one of the first may lie inside the second as well.
     SecondInside,
     /// Nothing is proved.
     Undecided(Undecided),
@@ -27,19 +29,20 @@ pub enum Relation {
 pub struct Penetration {
     /// How they lie to each other.
     pub relation: Relation,
-    /// The length of the shortest translation after which no point is inside both, input units.
-    /// `0 ..= 0` if they are apart, from 0 to infinity if a mesh has no sides.
+    /// Penetration depth: the length of the shortest translation after which no point is inside
+    /// both, input units. `0 ..= 0` if they are apart, from 0 to infinity if a mesh has no sides.
     pub depth: Interval,
     /// A pose of the second model, with the same matrix, at which it is proved that they are apart.
-    /// Its translation is `depth.upper` away from the one asked about. `None` if no translation was
+    /// Its translation is at most `depth.upper` from the one in the question. `None` if none was
     /// found.
     pub apart: Option<Pose>,
-    /// The point that proves `depth.lower`, in the first model's frame: so far inside both together
-    /// that no shorter translation parts them. `None` if the lower end is 0.
+    /// The point that proves `depth.lower`, in the first model's frame. The sum of its depths in
+    /// both solids is at least `depth.lower`. Outside a solid its depth is minus its distance.
+    /// `None` if the lower end is 0.
     pub deepest: Option<[f32; 3]>,
     /// The work of all searches.
     pub work: Work,
-    /// Why the search ended. [`Ended::Exact`]: everything was tried; the interval is as wide as it
-    /// is all the same.
+    /// Why the search ended. [`Ended::Exact`]: every start and direction was tried. The interval
+    /// may still be wide, because the search tries only some of them.
     pub ended: Ended,
 }

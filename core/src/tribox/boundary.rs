@@ -378,9 +378,10 @@ impl Tribox {
         boundary(&self.low, &self.high)
     }
 
-    /// Corners whose hull holds this tribox, for a [`Solid`](crate::Solid): the vertices of
-    /// [`on_grid`](Self::on_grid), which are exact. So the hull is larger by a millionth of the
-    /// greatest coordinate at most. Some corners may coincide. All are NaN if the tribox is empty.
+    /// Points whose convex hull holds this tribox, for a [`Solid`](crate::Solid): the vertices of
+    /// [`on_grid`](Self::on_grid), which f32 holds exactly. Each plane of the hull lies at most one
+    /// unit of that grid outside: 2^-20 of the power of two above all parameters. Some points may
+    /// coincide. All are NaN if the tribox is empty.
     ///
     /// ```
     /// use meshsweep_core::{Solid, Tribox};

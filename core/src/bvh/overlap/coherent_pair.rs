@@ -1,16 +1,17 @@
 //! Distances of two models that move little from one question to the next.
 //!
 //! A search leaves pairs of children out, each with a lower bound of their distance. They are kept.
-//! When the models have moved, each bound less the way of the fastest corner is still one. So the
+//! When the models have moved, each bound less the longest path of any point is still a lower
+//! bound. So the
 //! next search begins with the pairs that may have come near enough, in place of both roots.
 
 use core::marker::PhantomData;
 
 use super::distance::Nearest;
-use super::first_contact_of::quickest;
+use super::first_contact_of::longest_path;
 use super::leaf_gaps::{GapVisitor, TriangleGap};
 use super::left_out::{ChildPairs, LeftOut};
-use super::nearest_first::{Descent, Missed, Search};
+use super::nearest_first::{Missed, PairDescent, Search};
 use super::stored_pair::StoredPair;
 use super::within_of::Threshold;
 use crate::bvh::format::Bvh;
@@ -19,12 +20,12 @@ use crate::num::tolerance::U64;
 use crate::num::{down_to_f32, greater, lesser};
 use crate::query::{Budget, Ended, Motion, PairDistance, PairWithin, QueryError, ScratchEntry};
 
-/// Two models that move. It remembers what the last searches left out.
+/// Two models that move, with the groups of pairs that the last search left out.
 ///
 /// It keeps up to `N` groups of pairs of boxes, each with a lower bound of their distance. Together
-/// they hold all pairs of triangles. RAM: 20·`N` bytes, and 100 bytes. If the groups of a search
+/// they hold all pairs of triangles. RAM: 20·`N` bytes, and about 100. If the groups of a search
 /// are more than `N`, the next search begins at the roots, and [`groups`](Self::groups) is 0: take
-/// a larger `N`.
+/// a larger `N`. Models beyond 2^30 grid units from each other are searched afresh each time.
 ///
 /// The state belongs to two trees at a time. With other trees it starts anew. It borrows the blobs'
 /// bytes, so they cannot change between questions.
@@ -66,10 +67,10 @@ impl Group {
     }
 }
 
-/// Groups of the same nodes are one if their distances are within this factor.
+/// Groups of the same nodes are merged if their distances are within this factor.
 const LIKE: f32 = 1.25;
 
-/// So many groups are looked at for such a one: those of two leaves come soon after each other.
+/// Only this many latest groups are compared: those of the same nodes come soon after each other.
 const LATEST: usize = 8;
 
 /// The last question.
@@ -78,12 +79,12 @@ struct Last {
     /// Address and number of the nodes of both trees, which identify them.
     of: [(usize, u32); 2],
     pose: Pose,
-    /// Groups in use. 0: they do not hold all pairs.
+    /// Groups in use. 0: they do not hold all pairs, and the next search begins at the roots.
     count: usize,
     /// No group has a lesser distance.
     least: f32,
-    /// The way of the models since the distances were written, common units.
-    way: f64,
+    /// Longest path of a point since the distances were written, common units.
+    path: f64,
 }
 
 impl<const N: usize> Default for CoherentPair<'_, N> {
@@ -139,7 +140,7 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
     /// Meshsweeper 5.1.
     ///
     /// # Errors
-    /// Those of [`Bvh::distance`]. The state stays as it was.
+    /// Those of [`Bvh::distance`]. If the arguments are refused, the state stays as it was.
     pub fn distance(
         &mut self,
         tree: &Bvh<'t>,
@@ -156,8 +157,8 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         }
         let mut nearest = Nearest::new(&pair, &budget);
         let mut search = Search::new(&pair, budget.steps, scratch);
-        let front = Front::moved(&mut self.last, &mut self.groups, &pair, &pose)?;
-        let missed = front.search(&mut search, &mut Wanted::Nearest(&mut nearest))?;
+        let front = PairFront::after_motion(&mut self.last, &mut self.groups, &pair, &pose)?;
+        let missed = front.search(&mut search, &mut Question::Distance(&mut nearest))?;
         nearest.answer(&pair, missed, search.work)
     }
 
@@ -167,11 +168,11 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
     /// Arguments, errors and degenerate cases as there. The verdicts are proved in the same way.
     /// Where a pair is undecided or several are within, another one may be named.
     ///
-    /// Cost: nothing but the way of eight corners while the models may not have come within the
-    /// distance since the last question. Else as for [`distance`](Self::distance).
+    /// Cost: if the motion since the last search is too short to bring the models within the
+    /// distance, the paths of eight corners. Otherwise as for [`distance`](Self::distance).
     ///
     /// # Errors
-    /// Those of [`Bvh::within_of`]. The state stays as it was.
+    /// Those of [`Bvh::within_of`]. If the arguments are refused, the state stays as it was.
     pub fn within(
         &mut self,
         tree: &Bvh<'t>,
@@ -190,41 +191,41 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         }
         let mut threshold = Threshold::new(&pair, distance);
         let mut search = Search::new(&pair, budget.steps, scratch);
-        let front = Front::moved(&mut self.last, &mut self.groups, &pair, &pose)?;
-        let missed = front.search(&mut search, &mut Wanted::Within(&mut threshold))?;
+        let front = PairFront::after_motion(&mut self.last, &mut self.groups, &pair, &pose)?;
+        let missed = front.search(&mut search, &mut Question::Within(&mut threshold))?;
         threshold.answer(missed, search.work)
     }
 }
 
 impl Last {
     const NONE: Last =
-        Last { of: [(0, 0); 2], pose: Pose::IDENTITY, count: 0, least: 0.0, way: 0.0 };
+        Last { of: [(0, 0); 2], pose: Pose::IDENTITY, count: 0, least: 0.0, path: 0.0 };
 }
 
-/// The visitors of both questions. As one type the search is compiled once.
-enum Wanted<'v, 'a> {
-    Nearest(&'v mut Nearest),
+/// The visitors of both questions. As one type, the search is compiled once.
+enum Question<'v, 'a> {
+    Distance(&'v mut Nearest),
     Within(&'v mut Threshold<'a>),
 }
 
-impl GapVisitor for Wanted<'_, '_> {
+impl GapVisitor for Question<'_, '_> {
     fn limit(&self) -> f64 {
         match self {
-            Wanted::Nearest(nearest) => nearest.limit(),
-            Wanted::Within(threshold) => threshold.limit(),
+            Question::Distance(nearest) => nearest.limit(),
+            Question::Within(threshold) => threshold.limit(),
         }
     }
 
     fn take(&mut self, gap: &TriangleGap) -> bool {
         match self {
-            Wanted::Nearest(nearest) => nearest.take(gap),
-            Wanted::Within(threshold) => threshold.take(gap),
+            Question::Distance(nearest) => nearest.take(gap),
+            Question::Within(threshold) => threshold.take(gap),
         }
     }
 }
 
 /// The groups in the caller's memory.
-struct Front<'f> {
+struct PairFront<'f> {
     last: &'f mut Last,
     groups: &'f mut [Group],
     /// Groups at the start of the list that this search did not look at yet.
@@ -233,10 +234,10 @@ struct Front<'f> {
     is_lost: bool,
 }
 
-impl LeftOut for Front<'_> {
-    const TAKES: bool = true;
+impl LeftOut for PairFront<'_> {
+    const KEEPS: bool = true;
 
-    fn take(&mut self, pairs: ChildPairs, distance: f64) {
+    fn keep(&mut self, pairs: ChildPairs, distance: f64) {
         let ChildPairs { nodes, wanted } = pairs;
         let wanted = [wanted as u32, (wanted >> 32) as u32];
         let group = Group { distance: down_to_f32(distance), nodes, wanted };
@@ -256,14 +257,14 @@ impl LeftOut for Front<'_> {
         }
     }
 
-    fn lose(&mut self) {
+    fn overflow(&mut self) {
         self.is_lost = true;
     }
 }
 
-impl<'f> Front<'f> {
-    /// The front after the way from the last pose.
-    fn moved(
+impl<'f> PairFront<'f> {
+    /// The front after the motion from the last pose.
+    fn after_motion(
         last: &'f mut Last,
         groups: &'f mut [Group],
         pair: &StoredPair<'_>,
@@ -275,23 +276,23 @@ impl<'f> Front<'f> {
             Ok::<_, QueryError>((core::ptr::from_ref(boxes).addr(), tree.header().nodes))
         };
         let of = [id(a)?, id(b)?];
-        let (step, _) = quickest(b, &Motion::straight(last.pose, *pose));
-        let way = (last.way + step / pair.lengths.unit) * (1.0 + 4.0 * U64);
-        *last = if last.of == of && way.is_finite() {
-            Last { pose: *pose, way, ..*last }
+        let (step, _) = longest_path(b, &Motion::straight(last.pose, *pose));
+        let path = (last.path + step / pair.lengths.unit) * (1.0 + 4.0 * U64);
+        *last = if last.of == of && path.is_finite() {
+            Last { pose: *pose, path, ..*last }
         } else {
             Last { of, pose: *pose, ..Last::NONE }
         };
-        Ok(Front { last, groups, unseen: 0, is_lost: false })
+        Ok(PairFront { last, groups, unseen: 0, is_lost: false })
     }
 
     /// Searches the groups that may hold a pair within the visitor's limit.
     fn search(
         mut self,
         search: &mut Search<'_, '_>,
-        visitor: &mut Wanted<'_, '_>,
+        visitor: &mut Question<'_, '_>,
     ) -> Result<Option<Missed>, QueryError> {
-        let is_clear = nearer(self.last.least, self.last.way) > visitor.limit();
+        let is_clear = nearer(self.last.least, self.last.path) > visitor.limit();
         if self.last.count > 0 && is_clear {
             return Ok(None);
         }
@@ -307,14 +308,16 @@ impl<'f> Front<'f> {
     fn search_groups(
         &mut self,
         search: &mut Search<'_, '_>,
-        visitor: &mut Wanted<'_, '_>,
+        visitor: &mut Question<'_, '_>,
     ) -> Result<Option<Missed>, QueryError> {
         let mut missed: Option<Missed> = None;
         let mut is_first = true;
         let mut is_fresh = self.unseen == 0;
         loop {
             let start = if is_fresh {
-                (self.last.count, self.unseen) = (0, 0);
+                // What the first group told is looked at again.
+                (self.last.count, self.unseen, self.is_lost) = (0, 0, false);
+                missed = None;
                 (ChildPairs::ALL, 0.0)
             } else {
                 let Some(at) = self.unseen.checked_sub(1) else { return Ok(missed) };
@@ -325,9 +328,9 @@ impl<'f> Front<'f> {
                 }
             };
             match search.descend(start, visitor, self)? {
-                Descent::Whole => {}
-                Descent::Stopped => return Ok(missed),
-                Descent::Missed(now) => {
+                PairDescent::Done => {}
+                PairDescent::Answered => return Ok(missed),
+                PairDescent::Truncated(now) => {
                     let unseen = self.known().iter().take(self.unseen);
                     let lower = unseen.fold(now.lower, |l, g| lesser(l, f64::from(g.distance)));
                     let lower = missed.map_or(lower, |before| lesser(lower, before.lower));
@@ -347,14 +350,14 @@ impl<'f> Front<'f> {
         self.groups.get(..self.last.count).unwrap_or(&[])
     }
 
-    /// Takes the way from all distances. The nearest group comes last: its triangles leave few of
-    /// the others.
+    /// Subtracts the path from all distances. The nearest group comes last: its triangles leave few
+    /// of the others.
     fn bring_nearer(&mut self) {
-        let (count, way) = (self.last.count, self.last.way);
-        (self.unseen, self.last.way) = (count, 0.0);
+        let (count, path) = (self.last.count, self.last.path);
+        (self.unseen, self.last.path) = (count, 0.0);
         let (mut nearest, mut least) = (0, f32::INFINITY);
         for (i, group) in self.groups.iter_mut().take(count).enumerate() {
-            group.distance = down_to_f32(greater(0.0, nearer(group.distance, way)));
+            group.distance = down_to_f32(greater(0.0, nearer(group.distance, path)));
             if group.distance < least {
                 (nearest, least) = (i, group.distance);
             }
@@ -385,9 +388,9 @@ impl<'f> Front<'f> {
     }
 }
 
-/// A distance less a way, rounded down.
-fn nearer(distance: f32, way: f64) -> f64 {
-    (f64::from(distance) - way).next_down()
+/// A distance less a path, rounded down.
+fn nearer(distance: f32, path: f64) -> f64 {
+    (f64::from(distance) - path).next_down()
 }
 
 fn least(groups: &[Group]) -> f32 {

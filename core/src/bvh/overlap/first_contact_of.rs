@@ -70,7 +70,7 @@ impl Bvh<'_> {
         if !motion.is_finite() {
             return Err(QueryError::NotFinite);
         }
-        let (quickest, rounding) = quickest(other, motion);
+        let (longest, rounding) = longest_path(other, motion);
         let mut contact = PairContact {
             clear_until: 0.0,
             points: [[0.0; 3]; 2],
@@ -88,7 +88,7 @@ impl Bvh<'_> {
             (contact.points, contact.triangles) = (found.points, found.triangles);
             let gap = f64::from(found.distance.lower) - (f64::from(keep) + rounding);
             let is_cut = matches!(found.ended, Ended::Steps | Ended::Scratch);
-            let advance = if gap > 0.0 { gap / quickest * ADVANCE_KEPT } else { 0.0 };
+            let advance = if gap > 0.0 { gap / longest * ADVANCE_KEPT } else { 0.0 };
             let next = t + advance;
             if next > 1.0 {
                 return Ok(PairContact {
@@ -110,12 +110,12 @@ impl Bvh<'_> {
 
 /// How far a point of a model goes at most, and how far it may be from its place at a pose that was
 /// rounded to f32. Input units.
-pub(in crate::bvh) fn quickest(tree: &Bvh<'_>, motion: &Motion) -> (f64, f64) {
+pub(in crate::bvh) fn longest_path(tree: &Bvh<'_>, motion: &Motion) -> (f64, f64) {
     // Both are convex functions of the point: a corner goes farthest.
-    corners_of_input(tree).fold((0.0, 0.0), |(quickest, rounding), corner| {
-        let (way, off) = motion.path_bounds(corner);
-        if way.is_finite() && off.is_finite() {
-            (greater(quickest, way), greater(rounding, off))
+    corners_of_input(tree).fold((0.0, 0.0), |(longest, rounding), corner| {
+        let (path, off) = motion.path_bounds(corner);
+        if path.is_finite() && off.is_finite() {
+            (greater(longest, path), greater(rounding, off))
         } else {
             // No distance is enough for that.
             (f64::INFINITY, f64::INFINITY)

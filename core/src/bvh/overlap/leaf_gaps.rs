@@ -39,8 +39,8 @@ pub(super) trait GapVisitor {
 /// What a visit of two leaves showed.
 pub(super) struct LeafVisit {
     pub(super) goes_on: bool,
-    /// No triangles of the leaves are nearer than this, common units. 0 if nobody asks.
-    pub(super) left_out: f64,
+    /// A lower bound of the distance of both leaves, common units. 0 if nothing is kept.
+    pub(super) lower: f64,
 }
 
 /// The search among the triangles of two leaves.
@@ -48,8 +48,8 @@ pub(super) struct LeafGaps<'a> {
     pub(super) pose: &'a RelativePose,
     /// The greater of both surface errors, common units.
     pub(super) surface_error: f64,
-    /// The way between the nearest points so far, its largest component 1. Pairs of triangles far
-    /// apart along it are skipped.
+    /// Direction between the nearest points so far, its largest component 1; zero before the first
+    /// pair. Pairs of triangles far apart along it are skipped.
     pub(super) way: [f32; 3],
 }
 
@@ -75,8 +75,8 @@ impl LeafGaps<'_> {
         let mut limit_sq = reach_sq(visitor);
         let mut seen = Measured { pairs: 0, lower: f64::INFINITY };
         let visit = |way, goes_on, seen: &Measured| {
-            let left_out = if L::TAKES { least_distance(&pair, way, margin, seen)? } else { 0.0 };
-            Some(LeafVisit { goes_on, left_out })
+            let lower = if L::KEEPS { least_distance(&pair, way, margin, seen)? } else { 0.0 };
+            Some(LeafVisit { goes_on, lower })
         };
         if !may_be_near(self.way, limit_sq, &pair) {
             return visit(self.way, true, &seen);
@@ -134,7 +134,7 @@ impl LeafGaps<'_> {
         TriangleGap { place, lower, upper, meets, points }
     }
 
-    /// Takes over the way of a pair that is not in contact.
+    /// Keeps the direction of a pair that is not in contact.
     fn turn_to(&mut self, gap: &TriangleGap) {
         let [[a, b, c], [x, y, z]] = gap.points;
         let way = [x - a, y - b, z - c];
@@ -153,10 +153,11 @@ struct Measured {
     lower: f64,
 }
 
-/// No triangles of these leaves are nearer than this, common units.
+/// A lower bound of the distance of both leaves: of measured pairs their lower ends, of the others
+/// the larger of the gap of their boxes and the gap along the direction (§18). Common units.
 fn least_distance(pair: &LeafPair<'_>, way: [f32; 3], margin: f32, seen: &Measured) -> Option<f64> {
     let mut keys = keys(pair, f32::INFINITY)?;
-    raise_along(&mut keys, way, pair);
+    raise_keys_along(&mut keys, way, pair);
     for (i, key) in keys.0.iter_mut().enumerate() {
         *key = if seen.pairs >> (i & (PAIRS - 1)) & 1 != 0 { NO_PAIR } else { *key };
     }
@@ -213,7 +214,7 @@ fn skip_along(keys: &mut PairKeys, way: [f32; 3], limit_sq: f32, pair: &LeafPair
 }
 
 /// Raises the keys of the pairs that are farther apart along `way` than their boxes.
-fn raise_along(keys: &mut PairKeys, way: [f32; 3], pair: &LeafPair<'_>) {
+fn raise_keys_along(keys: &mut PairKeys, way: [f32; 3], pair: &LeafPair<'_>) {
     let [x, y, z] = way;
     let way_sq = x * x + y * y + z * z;
     if way_sq < LEAST_GAP_SQ {

@@ -1,24 +1,24 @@
 //! Pairs that a search left out.
 
-/// Takes the pairs that a search left out, so that a later search can begin with them.
+/// Keeps the pairs that a search left out, so that a later search can begin with them.
 pub(super) trait LeftOut {
-    /// Whether it takes anything.
-    const TAKES: bool;
+    /// Whether it keeps anything.
+    const KEEPS: bool;
     /// These pairs are not nearer than `distance`, common units.
-    fn take(&mut self, pairs: ChildPairs, distance: f64);
-    /// Pairs were left out that it never gets.
-    fn lose(&mut self);
+    fn keep(&mut self, pairs: ChildPairs, distance: f64);
+    /// Pairs were dropped for lack of scratch memory. It never gets them.
+    fn overflow(&mut self);
 }
 
 /// A search that is not continued.
 pub(super) struct Forgotten;
 
 impl LeftOut for Forgotten {
-    const TAKES: bool = false;
+    const KEEPS: bool = false;
 
-    fn take(&mut self, _: ChildPairs, _: f64) {}
+    fn keep(&mut self, _: ChildPairs, _: f64) {}
 
-    fn lose(&mut self) {}
+    fn overflow(&mut self) {}
 }
 
 /// Pairs of children of two nodes.

@@ -34,5 +34,5 @@ mod within_of;
 pub(super) use axis_intervals::AxisIntervals;
 pub use coherent_pair::CoherentPair;
 pub(super) use descent::extended;
-pub(super) use first_contact_of::quickest;
+pub(super) use first_contact_of::longest_path;
 pub(super) use stored_pair::StoredPair;

@@ -18,19 +18,19 @@ use crate::query::{Ended, QueryError, ScratchEntry, Work};
 
 /// How a search ended.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Descent {
+pub(super) enum PairDescent {
     /// Everything within the limit was looked at.
-    Whole,
+    Done,
     /// The visitor wanted no more.
-    Stopped,
-    Missed(Missed),
+    Answered,
+    Truncated(Missed),
 }
 
-impl Descent {
+impl PairDescent {
     pub(super) fn missed(self) -> Option<Missed> {
         match self {
-            Descent::Missed(missed) => Some(missed),
-            Descent::Whole | Descent::Stopped => None,
+            PairDescent::Truncated(missed) => Some(missed),
+            PairDescent::Done | PairDescent::Answered => None,
         }
     }
 }
@@ -48,13 +48,13 @@ pub(super) struct Missed {
 
 /// Children of two nodes that are still to be looked at.
 #[derive(Clone, Copy)]
-struct Waiting {
+struct PendingPairs {
     /// Not above any of their keys.
     key: u32,
     pairs: ChildPairs,
 }
 
-impl Waiting {
+impl PendingPairs {
     /// Keys are the bits of an f32 that is finite, and node numbers are below 2^24.
     #[inline(always)]
     fn entries(self) -> [ScratchEntry; ENTRIES] {
@@ -63,16 +63,16 @@ impl Waiting {
     }
 
     #[inline(always)]
-    fn of(entries: &[ScratchEntry; ENTRIES]) -> Waiting {
+    fn of(entries: &[ScratchEntry; ENTRIES]) -> PendingPairs {
         let [[key, low], [a, high], [b, _]] = entries.map(ScratchEntry::words);
         let wanted = u64::from(high) << 32 | u64::from(low);
-        Waiting { key, pairs: ChildPairs { nodes: [a, b], wanted } }
+        PendingPairs { key, pairs: ChildPairs { nodes: [a, b], wanted } }
     }
 
     #[inline(always)]
     fn leave_to<L: LeftOut>(self, left: &mut L) {
-        if L::TAKES && self.pairs.wanted != 0 {
-            left.take(self.pairs, distance_of(self.key));
+        if L::KEEPS && self.pairs.wanted != 0 {
+            left.keep(self.pairs, distance_of(self.key));
         }
     }
 }
@@ -81,7 +81,7 @@ impl Waiting {
 pub(super) struct Search<'s, 'a> {
     pub(super) models: Models<'a>,
     pub(super) leaves: LeafGaps<'a>,
-    /// Most pairs of nodes, of all descents together.
+    /// Budget: pairs of nodes, over all descents.
     pub(super) steps: u32,
     pub(super) scratch: &'s mut [ScratchEntry],
     pub(super) work: Work,
@@ -104,7 +104,7 @@ impl<'s, 'a> Search<'s, 'a> {
         (start, distance): (ChildPairs, f32),
         visitor: &mut impl GapVisitor,
         left: &mut L,
-    ) -> Result<Descent, QueryError> {
+    ) -> Result<PairDescent, QueryError> {
         let Search { models, leaves, work, .. } = self;
         let (stack, _) = self.scratch.as_chunks_mut::<ENTRIES>();
         let factor = second_factor(models.pose);
@@ -113,14 +113,17 @@ impl<'s, 'a> Search<'s, 'a> {
         // The least key of the pairs that did not fit the stack.
         let mut dropped = NO_PAIR;
         let key = (distance * distance * SQUARED_SLACK).to_bits();
-        let mut now = Waiting { key, pairs: start };
+        let mut now = PendingPairs { key, pairs: start };
         loop {
             if work.splits >= self.steps {
-                let waiting = stack.iter().take(used).map(|entries| Waiting::of(entries).key);
+                let waiting = stack.iter().take(used).map(|entries| PendingPairs::of(entries).key);
                 let key = waiting.fold(now.key.min(dropped), u32::min);
                 now.leave_to(left);
                 leave_all(stack, used, left);
-                return Ok(Descent::Missed(Missed { why: Ended::Steps, lower: distance_of(key) }));
+                return Ok(PairDescent::Truncated(Missed {
+                    why: Ended::Steps,
+                    lower: distance_of(key),
+                }));
             }
             work.splits += 1;
             let (mut keys, deepest) =
@@ -154,7 +157,7 @@ impl<'s, 'a> Search<'s, 'a> {
                     let wanted =
                         (0..8).fold(0, |bits, i| bits | (columns * (rows >> i & 1)) << (8 * i));
                     let pairs = ChildPairs { nodes: [first, second], wanted };
-                    down = Some(Waiting { key: bound_of(key).to_bits(), pairs });
+                    down = Some(PendingPairs { key: bound_of(key).to_bits(), pairs });
                     continue;
                 }
                 let [first, second] = children;
@@ -162,21 +165,22 @@ impl<'s, 'a> Search<'s, 'a> {
                 let q = models.b.leaf_at(second.at, second.shape).ok_or(QueryError::Unchecked)?;
                 let place = [[nodes[0], indices[0]], [nodes[1], indices[1]]];
                 let visit = leaves.visit::<L>([&p, &q], place, visitor, work);
-                let LeafVisit { goes_on, left_out } = visit.ok_or(QueryError::Unchecked)?;
-                left.take(ChildPairs { nodes, wanted: pair_bit(key) }, left_out);
+                let LeafVisit { goes_on, lower } = visit.ok_or(QueryError::Unchecked)?;
+                left.keep(ChildPairs { nodes, wanted: pair_bit(key) }, lower);
                 if !goes_on {
                     let (wanted, _) = keys.up_to(NO_PAIR - 1);
-                    Waiting { key: now.key, pairs: ChildPairs { nodes, wanted } }.leave_to(left);
+                    PendingPairs { key: now.key, pairs: ChildPairs { nodes, wanted } }
+                        .leave_to(left);
                     leave_all(stack, used, left);
-                    return Ok(Descent::Stopped);
+                    return Ok(PairDescent::Answered);
                 }
             }
             let limit = limit_of(visitor);
             let (near, key) = keys.up_to(limit);
             // Pairs beyond the limit are left out together with the others.
-            let wanted = if L::TAKES { keys.up_to(NO_PAIR - 1).0 } else { near };
+            let wanted = if L::KEEPS { keys.up_to(NO_PAIR - 1).0 } else { near };
             let rest =
-                Waiting { key: bound_of(key).to_bits(), pairs: ChildPairs { nodes, wanted } };
+                PendingPairs { key: bound_of(key).to_bits(), pairs: ChildPairs { nodes, wanted } };
             if near == 0 {
                 rest.leave_to(left);
             }
@@ -189,7 +193,7 @@ impl<'s, 'a> Search<'s, 'a> {
                         }
                         None => {
                             dropped = dropped.min(rest.key);
-                            left.lose();
+                            left.overflow();
                         }
                     }
                 }
@@ -199,13 +203,13 @@ impl<'s, 'a> Search<'s, 'a> {
             now = loop {
                 let Some(top) = used.checked_sub(1) else {
                     if dropped > limit {
-                        return Ok(Descent::Whole);
+                        return Ok(PairDescent::Done);
                     }
                     let lower = distance_of(dropped);
-                    return Ok(Descent::Missed(Missed { why: Ended::Scratch, lower }));
+                    return Ok(PairDescent::Truncated(Missed { why: Ended::Scratch, lower }));
                 };
                 used = top;
-                let waiting = Waiting::of(stack.get(top).ok_or(QueryError::Unchecked)?);
+                let waiting = PendingPairs::of(stack.get(top).ok_or(QueryError::Unchecked)?);
                 if waiting.key <= limit {
                     break waiting;
                 }
@@ -218,7 +222,7 @@ impl<'s, 'a> Search<'s, 'a> {
 /// Leaves out all pairs that wait.
 #[inline(always)]
 fn leave_all(stack: &[[ScratchEntry; ENTRIES]], used: usize, left: &mut impl LeftOut) {
-    stack.iter().take(used).for_each(|entries| Waiting::of(entries).leave_to(left));
+    stack.iter().take(used).for_each(|entries| PendingPairs::of(entries).leave_to(left));
 }
 
 /// Keys of the pairs that wait. Of boxes that meet, the key of the pair that overlaps most:

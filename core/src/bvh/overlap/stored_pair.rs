@@ -1,7 +1,4 @@
-//! Two trees in one frame, as they are stored, and the way back to the input.
-//!
-//! A search for the distance of two surfaces compares stored surfaces. Their errors are added to
-//! the answer, once.
+//! Two trees in one frame, and the conversion of results to input units.
 
 use super::descent::{Models, extended};
 use super::leaf_gaps::LeafGaps;
@@ -15,13 +12,13 @@ use crate::query::{Extended, Placement, QueryError, RelativePose};
 /// Two trees, one of them moved.
 pub(in crate::bvh) struct StoredPair<'a> {
     pub(in crate::bvh) trees: [&'a Bvh<'a>; 2],
-    /// Its errors are of rounding alone.
+    /// Its vertex errors hold rounding only, no surface errors.
     pub(in crate::bvh) pose: RelativePose,
     /// The pose is near enough for f32.
     pub(super) is_in_range: bool,
-    /// With the sum of both surface errors.
+    /// Holds the sum of both surface errors.
     pub(in crate::bvh) lengths: StoredLengths,
-    /// The greater of both.
+    /// The larger surface error, common units.
     greater_error: f64,
     first: Extended,
     second: Extended,

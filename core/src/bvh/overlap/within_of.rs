@@ -19,10 +19,9 @@ impl Bvh<'_> {
     /// asks whether the surfaces meet. The verdict is undecided for lack of precision only if the
     /// distance of the surfaces is within both surface errors and rounding of the one asked about,
     /// or beyond 2^30 grid units and within some 2e-4 of it.
-    /// Only surfaces count: [`penetration`](Bvh::penetration) tells whether one closed mesh is inside
-    /// the other. If the models move in small steps, [`CoherentPair`](crate::CoherentPair) asks for
-    /// less work. For collision avoidance, treat an undecided answer as
-    /// `Yes`.
+    /// Only surfaces count: [`penetration`](Bvh::penetration) tells whether one closed mesh is
+    /// inside the other. If the models move in small steps, [`CoherentPair`](crate::CoherentPair)
+    /// asks for less work. For collision avoidance, treat an undecided answer as `Yes`.
     ///
     /// Arguments and degenerate cases as for [`distance`](Bvh::distance). It ends at the first pair
     /// of triangles that is certainly near enough. `scratch`:

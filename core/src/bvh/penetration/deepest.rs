@@ -5,20 +5,20 @@
 //! meet. So no shorter translation parts the solids. A point outside of one of them counts with its
 //! distance as a negative depth: the sum shrinks at most as fast as the point moves.
 
-use super::asking::Asking;
-use crate::bvh::input_box::corners_of_input;
+use super::pair_queries::PairQueries;
+use crate::bvh::input_box::{bounds_of, corners_of_input};
 use crate::num::{greater, lesser};
 use crate::query::{QueryError, Side};
 
-type Point = [f64; 3];
+type Vector = [f64; 3];
 
-/// Points that are looked at from each start, at most.
+/// Vectors that are looked at from each start, at most.
 const MOST_SAMPLES: u32 = 120;
 
-/// The first steps of the search, as a part of the smaller model's size.
+/// The first steps of the search, as a fraction of the smaller model's size.
 const FIRST_STEP: f64 = 0.25;
 
-/// The search ends where a step is this part of the first one.
+/// The search ends where a step is this fraction of the first one.
 const LAST_STEP: f64 = 1.0 / 1024.0;
 
 /// A point, and how deep it is in both solids together.
@@ -27,57 +27,61 @@ pub(super) struct Deepest {
     pub(super) point: [f32; 3],
     /// A lower bound of the sum of both depths, input units.
     pub(super) depth: f64,
-    /// The ways from the nearest point of each surface. Inside they lead deeper.
-    pub(super) from_surface: [Point; 2],
+    /// For each surface the direction that leads deeper: from its nearest point inside, to it
+    /// outside.
+    pub(super) deeper: [Vector; 2],
 }
 
-/// The deepest point that was found from two starts: the nearest points of the surfaces, and the
-/// middle of what both boxes have in common.
+/// The deeper of two points. One search starts at the first surface's nearest point, the other at
+/// the middle of what both boxes have in common.
 pub(super) fn search(
-    asking: &mut Asking<'_, '_>,
-    near: [[f32; 3]; 2],
+    queries: &mut PairQueries<'_, '_>,
+    start: [f32; 3],
 ) -> Result<Deepest, QueryError> {
-    let (middle, size) = common_box(asking);
-    let [start, _] = near;
-    let first = climb(asking, start, size)?;
-    let second = climb(asking, middle, size)?;
+    let (middle, size) = common_box(queries);
+    let first = climb(queries, start, size)?;
+    let second = climb(queries, middle, size)?;
     Ok(if second.depth > first.depth { second } else { first })
 }
 
+/// Both directions along each axis.
+pub(super) const AXES: [Vector; 6] = [
+    [1.0, 0.0, 0.0],
+    [-1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, -1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [0.0, 0.0, -1.0],
+];
+
 /// Goes to deeper points while there are any.
-fn climb(asking: &mut Asking<'_, '_>, start: [f32; 3], size: f64) -> Result<Deepest, QueryError> {
-    let mut best = sample(asking, start)?;
+fn climb(
+    queries: &mut PairQueries<'_, '_>,
+    start: [f32; 3],
+    size: f64,
+) -> Result<Deepest, QueryError> {
+    let mut best = sample(queries, start)?;
     let (mut step, mut samples) = (size * FIRST_STEP, 1);
     while step > size * FIRST_STEP * LAST_STEP {
         let before = best.depth;
-        let [a, b] = best.from_surface.map(unit);
+        let [a, b] = best.deeper.map(normalized);
         let ([ax, ay, az], [bx, by, bz]) = (a, b);
-        let both = unit([ax + bx, ay + by, az + bz]);
-        let ways = [
-            both,
-            a,
-            b,
-            [1.0, 0.0, 0.0],
-            [-1.0, 0.0, 0.0],
-            [0.0, 1.0, 0.0],
-            [0.0, -1.0, 0.0],
-            [0.0, 0.0, 1.0],
-            [0.0, 0.0, -1.0],
-        ];
+        let both = normalized([ax + bx, ay + by, az + bz]);
+        let directions = [both, a, b].into_iter().chain(AXES);
         let from = best.point.map(f64::from);
-        for way in ways {
-            if samples >= MOST_SAMPLES || asking.is_spent() {
+        for direction in directions {
+            if samples >= MOST_SAMPLES || queries.is_spent() {
                 return Ok(best);
             }
             let mut point = [0.0; 3];
-            point.iter_mut().zip(from.iter().zip(way)).for_each(|(x, (from, way))| {
-                *x = (from + way * step) as f32;
+            point.iter_mut().zip(from.iter().zip(direction)).for_each(|(x, (from, along))| {
+                *x = (from + along * step) as f32;
             });
             if point == best.point || !point.iter().all(|x| x.is_finite()) {
                 continue;
             }
             samples += 1;
-            let found = sample(asking, point)?;
+            let found = sample(queries, point)?;
             if found.depth > best.depth {
                 best = found;
                 break;
@@ -91,47 +95,37 @@ fn climb(asking: &mut Asking<'_, '_>, start: [f32; 3], size: f64) -> Result<Deep
 }
 
 /// How deep a point of the first model's frame is.
-fn sample(asking: &mut Asking<'_, '_>, point: [f32; 3]) -> Result<Deepest, QueryError> {
-    let ([a, b], pose) = (asking.trees, asking.pose);
-    let here = asking.signed(a, point)?;
+fn sample(queries: &mut PairQueries<'_, '_>, point: [f32; 3]) -> Result<Deepest, QueryError> {
+    let ([a, b], pose) = (queries.trees, queries.pose);
+    let here = queries.signed(a, point)?;
     let in_first = -f64::from(here.distance.upper);
     let posed = pose.to_model(point)?;
-    let there = asking.signed(b, posed.point)?;
+    let there = queries.signed(b, posed.point)?;
     let distance = posed.distance(there.closest.distance);
     let is_inside = there.side == Side::Inside && distance.lower > 0.0;
     let in_second = f64::from(if is_inside { distance.lower } else { -distance.upper });
-    let from = |near: [f32; 3], is_inside: bool| {
+    let deeper = |near: [f32; 3], is_inside: bool| {
         let [x, y, z] = point.map(f64::from);
         let [u, v, w] = near.map(f64::from);
-        let way = [x - u, y - v, z - w];
-        // From outside, the way to the surface leads deeper.
-        if is_inside { way } else { way.map(|x| -x) }
+        let from = [x - u, y - v, z - w];
+        if is_inside { from } else { from.map(|x| -x) }
     };
     Ok(Deepest {
         point,
         depth: (in_first + in_second).next_down(),
-        from_surface: [
-            from(here.closest.point, here.side == Side::Inside),
-            from(pose.to_world(there.closest.point), there.side == Side::Inside),
+        deeper: [
+            deeper(here.closest.point, here.side == Side::Inside),
+            deeper(pose.to_world(there.closest.point), there.side == Side::Inside),
         ],
     })
 }
 
 /// The middle of what the boxes of both models have in common, and the size of the smaller one.
-fn common_box(asking: &Asking<'_, '_>) -> ([f32; 3], f64) {
-    let [a, b] = asking.trees;
-    let whole = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-    let grown = |[mut low, mut high]: [Point; 2], corner: Point| {
-        for ((low, high), x) in low.iter_mut().zip(&mut high).zip(corner) {
-            *low = lesser(*low, x);
-            *high = greater(*high, x);
-        }
-        [low, high]
-    };
-    let [low, high] = corners_of_input(a).fold(whole, grown);
-    let moved = corners_of_input(b).map(|corner| asking.pose.carry(corner));
-    let [least, most] = moved.fold(whole, grown);
-    let size = |low: Point, high: Point| {
+fn common_box(queries: &PairQueries<'_, '_>) -> ([f32; 3], f64) {
+    let [a, b] = queries.trees;
+    let [low, high] = bounds_of(corners_of_input(a));
+    let [least, most] = bounds_of(corners_of_input(b).map(|corner| queries.pose.carry(corner)));
+    let size = |low: Vector, high: Vector| {
         low.into_iter().zip(high).fold(0.0, |size, (low, high)| greater(size, high - low))
     };
     let mut middle = [0.0; 3];
@@ -142,9 +136,9 @@ fn common_box(asking: &Asking<'_, '_>) -> ([f32; 3], f64) {
     (middle, lesser(size(low, high), size(least, most)))
 }
 
-/// The unit vector, or nothing.
-pub(super) fn unit(way: Point) -> Point {
-    let [x, y, z] = way;
+/// The vector divided by its length; zero if it has none.
+pub(super) fn normalized(vector: Vector) -> Vector {
+    let [x, y, z] = vector;
     let length = libm::sqrt((x * x + y * y) + z * z);
-    if length > 0.0 && length.is_finite() { way.map(|x| x / length) } else { [0.0; 3] }
+    if length > 0.0 && length.is_finite() { vector.map(|x| x / length) } else { [0.0; 3] }
 }

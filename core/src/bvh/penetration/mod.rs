@@ -1,22 +1,23 @@
 //! Two solids, one of them moved: how they lie to each other, and how deep they are in each other.
 //!
-//! The least translation that parts two solids of any shape is out of reach: their Minkowski sum
-//! has a face for each pair of faces. Both ends of the interval need no such sum.
+//! The exact penetration depth, the length of the shortest separating translation, would need the
+//! Minkowski sum of both solids, with a face for each pair of faces. The interval needs no such
+//! sum.
 //!
 //! | file | owns |
 //! | --- | --- |
 //! | this one | the question |
-//! | `asking` | the questions about points that the searches share |
-//! | `inside` | whether a part of one surface lies inside the other |
+//! | `pair_queries` | the queries that all searches share, and their work |
+//! | `inside` | whether a component of one surface lies inside the other |
 //! | `deepest` | the lower end: a point that is far inside both |
-//! | `way_out` | the upper end: translations that part them |
+//! | `separating` | the upper end: separating translations |
 
-mod asking;
 mod deepest;
 mod inside;
-mod way_out;
+mod pair_queries;
+mod separating;
 
-use asking::Asking;
+use pair_queries::PairQueries;
 
 use crate::bvh::format::Bvh;
 use crate::geom::Pose;
@@ -30,24 +31,26 @@ impl Bvh<'_> {
     /// input units), lies to the solid that this tree bounds, and how deep they are in each other.
     ///
     /// Both ends of [`Penetration::depth`] are proved for the input meshes as they were after
-    /// repair. The upper end is the length of a translation after which the solids are apart. The
-    /// model keeps clear on the whole way from there to infinity. The lower end is proved by a
-    /// point that is inside both. Both are found by searches that may miss the best: the interval
-    /// always holds, and its width is the measure of it. The pose's numbers are taken as exact.
+    /// repair. The upper end is the length of a translation after which the solids are apart. From
+    /// there the other model can leave along a straight line. The lower end is proved by the sum of
+    /// a point's depths in both solids. Two searches find them, and may miss the best: the interval
+    /// holds all the same. The pose's numbers are taken as exact.
     ///
-    /// Inside and outside are the sides of [`signed_distance`](Bvh::signed_distance): of meshes
-    /// whose parts overlap, the nearest surface decides. If a mesh has no sides, the relation is
-    /// undecided ([`Undecided::OpenMesh`]). Surfaces that touch are undecided too.
+    /// Inside and outside are the sides of [`signed_distance`](Bvh::signed_distance). Where
+    /// components of one mesh overlap, the nearest surface decides. The answer is proved for meshes
+    /// that bound a solid: a component that crosses itself must not have a lobe that is inside out.
+    /// If a mesh has no sides, the relation is undecided ([`Undecided::OpenMesh`]). Solids that
+    /// only touch from outside are undecided too.
     ///
     /// `scratch`: [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES), or
     /// [`scratch_entries`](Bvh::scratch_entries) of the larger tree if that is more, are always
-    /// enough. The steps of the budget are those of all searches together. With a tolerance the
-    /// search ends as soon as the interval meets it.
+    /// enough. The steps of the budget are those of all searches together. No more translations are
+    /// tried as soon as the interval meets a tolerance.
     ///
     /// Cost: of solids that are apart, a [`distance`](Bvh::distance), and a signed distance for
-    /// each part of either surface that is nearer to the other than it is large. Of others some
-    /// two hundred signed distances, and a [`first_contact_of`](Bvh::first_contact_of) for each of
-    /// a dozen translations.
+    /// each box of either tree that is the first on its branch to be farther from the other surface
+    /// than it is large. Of others at most 240 points, with a signed distance in each tree, and a
+    /// dozen translations, with a [`first_contact_of`](Bvh::first_contact_of) each.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Pose, Relation, Scratch};
@@ -73,8 +76,8 @@ impl Bvh<'_> {
         if !(self.serves_distances() && other.serves_distances()) {
             return Err(QueryError::NO_DISTANCES);
         }
-        let mut asking = Asking::new([self, other], pose, budget.steps, scratch);
-        let near = asking.distance(&pose)?;
+        let mut queries = PairQueries::new([self, other], pose, budget.steps, scratch);
+        let near = queries.distance(&pose)?;
         let mut found = Penetration {
             relation: Relation::Undecided(Undecided::OpenMesh),
             depth: Interval::new(0.0, f32::INFINITY),
@@ -85,44 +88,44 @@ impl Bvh<'_> {
         };
         if self.is_closed() && other.is_closed() {
             found.relation = if near.distance.lower > 0.0 {
-                asking.relation()?
+                queries.relation()?
             } else if near.distance.upper == 0.0 {
                 Relation::Overlap
             } else {
-                Relation::Undecided(Undecided::Resolution)
+                Relation::Undecided(near.ended.undecided())
             };
             if found.relation == Relation::Apart {
                 (found.depth, found.apart) = (Interval::new(0.0, 0.0), Some(pose));
             } else {
-                part(&mut asking, &mut found, near.points, &budget)?;
+                let [start, _] = near.points;
+                bound_depth(&mut queries, &mut found, start, &budget)?;
             }
-            found.ended = asking.ended();
+            found.ended = queries.ended();
         }
-        found.work = asking.work;
+        found.work = queries.work;
         Ok(found)
     }
 }
 
 /// Bounds the depth of two solids that are not known to be apart.
-fn part(
-    asking: &mut Asking<'_, '_>,
+fn bound_depth(
+    queries: &mut PairQueries<'_, '_>,
     found: &mut Penetration,
-    near: [[f32; 3]; 2],
+    start: [f32; 3],
     budget: &Budget,
 ) -> Result<(), QueryError> {
-    let deepest = deepest::search(asking, near)?;
-    let way = way_out::search(asking, &deepest, budget)?;
+    let deepest = deepest::search(queries, start)?;
+    let separating = separating::search(queries, &deepest, budget)?;
+    let (lower, upper) = (greater(deepest.depth, 0.0), separating.length);
     found.relation = match found.relation {
-        Relation::Undecided(_) if deepest.depth > 0.0 => Relation::Overlap,
-        // The whole way to the pose itself is clear.
-        Relation::Undecided(_) if way.length == 0.0 => Relation::Apart,
+        Relation::Undecided(_) if lower > 0.0 => Relation::Overlap,
+        // The whole motion to the pose itself is clear.
+        Relation::Undecided(_) if upper == 0.0 => Relation::Apart,
         relation => relation,
     };
-    found.depth = Interval::new(
-        down_to_f32(lesser(greater(deepest.depth, 0.0), way.length)),
-        up_to_f32(way.length),
-    );
-    found.apart = way.apart;
-    found.deepest = (deepest.depth > 0.0).then_some(deepest.point);
+    // The lower end is below the upper one, unless the blob's bytes were changed.
+    found.depth = Interval::new(down_to_f32(lesser(lower, upper)), up_to_f32(upper));
+    found.apart = separating.apart;
+    found.deepest = (lower > 0.0).then_some(deepest.point);
     Ok(())
 }

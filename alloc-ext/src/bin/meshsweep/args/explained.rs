@@ -228,12 +228,13 @@ pub fn clearance() -> String {
          half a turn in either direction. Its origin goes along a helix. If a machine moves \
          otherwise, give poses close together, and add the deviation to --within.\n\n\
          With --depth the column 'solids' says how the closed meshes lie to each other: apart; \
-         overlap; first inside or second inside, where the surfaces do not meet and a part of one \
-         lies in the other; or undecided. lower and upper enclose the length of the shortest shift \
-         that parts them. x, y, z is a translation of the second mesh, in place of that of the \
-         pose, at which they are proved to be apart: its shift is upper long. p is the point, \
-         inside both, that proves lower. Both blobs are then built --for closest,segment, as they \
-         are without --for. Deep in each other, upper may be several times lower.\n\n\
+         overlap; first inside or second inside, where the surfaces do not meet and a component of \
+         one lies in the other; or undecided. lower and upper enclose the penetration depth, the \
+         length of the shortest translation that separates them. Put x, y, z in place of the \
+         pose's translation, and they are proved to be apart: it differs by upper at most. p is \
+         the point that proves lower: the sum of its depths in both is lower or more. Both blobs \
+         are then built --for closest,segment, as they are without --for. If the meshes are deep \
+         in each other, upper may be several times as large as lower.\n\n\
          Both blobs are built --for segment. Poses and moves count from 0. Options with poses \
          stand after the blobs.\n\n\
          {QUERIES}\n\n\
