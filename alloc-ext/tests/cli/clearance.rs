@@ -125,7 +125,11 @@ fn meshes_that_meet_have_no_distance_and_few_steps_widen_the_interval() {
 #[test]
 fn solids_are_parted_by_the_translation_that_is_printed() {
     let directory = scratch("clearance_depth");
-    let torus = blob(&directory, "torus.ply", &[]);
+    let serves = ["--for", "closest,segment,winding"];
+    let plain = blob(&directory, "torus.ply", &[]);
+    let output = run(["clearance", arg(&plain), arg(&plain), "--depth"]);
+    assert!(refused(&output, 1, "torus.msw").contains("closest,segment,winding"));
+    let torus = blob(&directory, "torus.ply", &serves);
     let files = ["clearance", arg(&torus), arg(&torus), "--pose"];
     let poses = ["5,0.1,0.2,1,0.5,0.25,0", "0.1,0.2,0,1,0,0,0", "9,0,0,1,0,0,0"];
     let header = "pose,solids,lower,upper,x,y,z,px,py,pz,work";
@@ -141,7 +145,7 @@ fn solids_are_parted_by_the_translation_that_is_printed() {
         assert!(number(&found[0][1]) > 0.0, "{row:?} {found:?}");
     }
     assert_eq!(rows[2][1..4], ["apart", "0", "0"], "{rows:?}");
-    let open = blob(&directory, "evil/open_box.stl", &[]);
+    let open = blob(&directory, "evil/open_box.stl", &serves);
     let output = run(["clearance", arg(&torus), arg(&open), "--depth"]);
     assert!(refused(&output, 1, "open_box.msw").contains("closed"));
 }

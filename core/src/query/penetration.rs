@@ -36,9 +36,8 @@ pub struct Penetration {
     /// Its translation is at most `depth.upper` from the one in the question. `None` if none was
     /// found.
     pub apart: Option<Pose>,
-    /// The point that proves `depth.lower`, in the first model's frame. The sum of its depths in
-    /// both solids is at least `depth.lower`. Outside a solid its depth is minus its distance.
-    /// `None` if the lower end is 0.
+    /// The point that proves `depth.lower`, in the first model's frame. It is inside both solids,
+    /// and the sum of its depths in them is at least `depth.lower`. `None` if the lower end is 0.
     pub deepest: Option<[f32; 3]>,
     /// The work of all searches.
     pub work: Work,

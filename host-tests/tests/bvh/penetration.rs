@@ -238,6 +238,79 @@ fn a_part_inside_is_told_from_one_in_a_cavity() {
     }
 }
 
+/// Components that contain each other or overlap: a grain in the outer one is inside, though the
+/// nearest surface shows it its front.
+#[test]
+fn components_that_overlap_or_contain_each_other_are_one_solid() {
+    let nested = Scene::solid("", joined(&icosphere(2), &scaled(&icosphere(2), 3.0)), 0.0, 0);
+    let identity = |by: f32, at: [f32; 3]| {
+        transformed(&cube(1), [[by, 0.0, 0.0], [0.0, by, 0.0], [0.0, 0.0, by]], at)
+    };
+    let overlapping = joined(&identity(1.0, [0.0; 3]), &identity(1.0, [1.0, 0.1, 0.2]));
+    let overlapping = Scene::solid("", overlapping, 0.0, 0);
+    let grain = Scene::solid("", scaled(&icosphere(1), 0.06), 0.0, 0);
+    let mut rng = Rng::new(63);
+    let mut at = |place: [f32; 3]| placed(&grain, rotation(&mut rng), place);
+    let poses = [1.2, 1.5, 1.96, 2.6].map(|x| at([x, 0.1, 0.2]));
+    assert_eq!(check("nested", &nested, &grain, &poses, 64), [0, 0, 0, 4]);
+    let poses = [-0.15, 0.2, 0.5, 1.2].map(|x| at([x, 0.2, 0.1]));
+    assert_eq!(check("overlapping", &overlapping, &grain, &poses, 65), [0, 0, 0, 4]);
+}
+
+/// Many small bodies, some of them inside: a box of a node holds both kinds.
+#[test]
+fn a_body_inside_is_found_among_many_outside() {
+    let mut rng = Rng::new(66);
+    let balls = (0..3).fold(icosphere(1), |all, k| {
+        let ball = scaled(&icosphere(1), 0.5 + 0.2 * k as f32);
+        joined(&all, &transformed(&ball, IDENTITY, rng.direction().map(|x| 4.0 * x)))
+    });
+    let balls = Scene::solid("", balls, 0.0, 0);
+    let (mut inside, mut apart) = (0, 0);
+    for _ in 0..40 {
+        let grain = scaled(&icosphere(0), 0.02);
+        let mut cloud: Option<Triangles> = None;
+        while cloud.as_ref().is_none_or(|(_, triangles)| triangles.len() < 60 * grain.1.len()) {
+            let at = rng.point_in([-5.0; 3], [5.0; 3]);
+            // Mostly those outside.
+            if at.iter().map(|x| x * x).sum::<f32>() < 1.2 && rng.below(8) > 0 {
+                continue;
+            }
+            let one = transformed(&grain, IDENTITY, at);
+            cloud = Some(cloud.map_or(one.clone(), |all| joined(&all, &one)));
+        }
+        let cloud = Scene::solid("", cloud.expect("grains"), 0.0, 0);
+        for (first, second) in [(&balls, &cloud), (&cloud, &balls)] {
+            let found = ask(&first.bvh(), &second.bvh(), &Pose::IDENTITY, Budget::EXACT);
+            let shares = share_points(first, second, &Pose::IDENTITY);
+            assert_eq!(shares, found.relation != Relation::Apart, "{found:?}");
+            inside += usize::from(shares);
+            apart += usize::from(!shares);
+        }
+    }
+    assert!(inside > 10 && apart > 10, "{inside} {apart}");
+}
+
+/// Triangles without area and walls without thickness hold no solid.
+#[test]
+fn what_holds_no_solid_has_no_depth() {
+    let body = Scene::solid("", cube(1), 0.0, 0);
+    let far = transformed(&cube(1), IDENTITY, [0.0, 0.0, 6.0]);
+    let corner = [0.3, 0.2, 0.25];
+    let wire = (vec![corner, [0.3, 0.2, 3.0], [0.3, 0.2, 1.5]], vec![[0, 1, 2]]);
+    let flat = (
+        vec![[0.1, 0.1, 0.125], [4.0, 0.1, 0.125], [4.0, 0.4, 0.125], [0.1, 0.4, 0.125]],
+        vec![[0, 1, 2], [0, 2, 3], [1, 0, 3], [1, 3, 2]],
+    );
+    for more in [wire, flat] {
+        let other = Scene::solid("", joined(&far, &more), 0.0, 0);
+        for (a, b) in body.trees().iter().zip(other.trees()) {
+            let found = ask(a, &b, &Pose::IDENTITY, Budget::EXACT);
+            assert_eq!(found.depth.lower, 0.0, "{found:?}");
+        }
+    }
+}
+
 #[test]
 fn surfaces_that_touch_and_meshes_without_sides_are_undecided() {
     let a = Scene::solid("", cube(2), 0.0, 0);
@@ -281,6 +354,8 @@ fn budgets_are_kept() {
         let exact = ask(&a.bvh(), &b.bvh(), &pose, Budget::EXACT);
         let rough = ask(&a.bvh(), &b.bvh(), &pose, Budget::EXACT.with_relative(9.0));
         assert!(rough.work.splits <= exact.work.splits, "{rough:?} {exact:?}");
+        let is_wider = rough.depth.upper > exact.depth.upper;
+        assert!(!is_wider || rough.ended == Ended::Tolerance, "{rough:?} {exact:?}");
     }
     assert!(short > 6, "{short}");
 }
@@ -288,6 +363,7 @@ fn budgets_are_kept() {
 #[test]
 fn what_cannot_be_answered_is_refused() {
     let (whole, segments) = (Scene::solid("", cube(1), 0.0, 0), Scene::both("", cube(1)));
+    let points = Scene::tree("", cube(1), false);
     let mut scratch = Scratch::<512>::new();
     let mut refused = |a: &Scene, b: &Scene, pose: Pose, budget: Budget| {
         a.bvh().penetration(&b.bvh(), pose, budget, &mut scratch).expect_err("is refused")
@@ -296,6 +372,7 @@ fn what_cannot_be_answered_is_refused() {
     let served = |error| matches!(error, QueryError::NotServed { .. });
     assert!(served(refused(&whole, &segments, Pose::IDENTITY, exact)));
     assert!(served(refused(&segments, &whole, Pose::IDENTITY, exact)));
+    assert!(served(refused(&whole, &points, Pose::IDENTITY, exact)));
     assert_eq!(refused(&whole, &whole, Pose::IDENTITY, nan), QueryError::Tolerance);
     let pose = Pose { translation: [f32::NAN, 0.0, 0.0], ..Pose::IDENTITY };
     assert_eq!(refused(&whole, &whole, pose, exact), QueryError::NotFinite);

@@ -19,7 +19,9 @@ pub fn run(args: &ClearanceArgs) -> Result<(), Failure> {
     ];
     if args.depth {
         for (file, blob) in [(first, &blob), (second, &other)] {
-            if !served::require_tree(file, blob, BuildFor::Closest)?.is_closed() {
+            let tree = served::require_tree(file, blob, BuildFor::Closest)?;
+            served::require_tree(file, blob, BuildFor::Winding)?;
+            if !tree.is_closed() {
                 return Err(Failure::NotClosed {
                     file: file.clone(),
                     instead: "leave out --depth",

@@ -85,6 +85,8 @@ struct Last {
     least: f32,
     /// Longest path of a point since the distances were written, common units.
     path: f64,
+    /// The leaves of the last answer's triangles, if it named any.
+    leaves: Option<ChildPairs>,
 }
 
 impl<const N: usize> Default for CoherentPair<'_, N> {
@@ -198,14 +200,32 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
 }
 
 impl Last {
-    const NONE: Last =
-        Last { of: [(0, 0); 2], pose: Pose::IDENTITY, count: 0, least: 0.0, path: 0.0 };
+    const NONE: Last = Last {
+        of: [(0, 0); 2],
+        pose: Pose::IDENTITY,
+        count: 0,
+        least: 0.0,
+        path: 0.0,
+        leaves: None,
+    };
 }
 
 /// The visitors of both questions. As one type, the search is compiled once.
 enum Question<'v, 'a> {
     Distance(&'v mut Nearest),
     Within(&'v mut Threshold<'a>),
+}
+
+impl Question<'_, '_> {
+    /// The leaves of the triangles that answer it.
+    fn leaves(&self) -> Option<ChildPairs> {
+        let gap = match self {
+            Question::Distance(nearest) => nearest.best?,
+            Question::Within(threshold) => threshold.near?,
+        };
+        let [[a, i, _], [b, j, _]] = gap.place;
+        Some(ChildPairs { nodes: [a, b], wanted: 1 << ((i & 7) << 3 | j & 7) })
+    }
 }
 
 impl GapVisitor for Question<'_, '_> {
@@ -232,12 +252,17 @@ struct PairFront<'f> {
     unseen: usize,
     /// A group did not fit.
     is_lost: bool,
+    /// Groups already hold what is searched.
+    is_known: bool,
 }
 
 impl LeftOut for PairFront<'_> {
     const KEEPS: bool = true;
 
     fn keep(&mut self, pairs: ChildPairs, distance: f64) {
+        if self.is_known {
+            return;
+        }
         let ChildPairs { nodes, wanted } = pairs;
         let wanted = [wanted as u32, (wanted >> 32) as u32];
         let group = Group { distance: down_to_f32(distance), nodes, wanted };
@@ -258,7 +283,7 @@ impl LeftOut for PairFront<'_> {
     }
 
     fn overflow(&mut self) {
-        self.is_lost = true;
+        self.is_lost = !self.is_known;
     }
 }
 
@@ -283,7 +308,7 @@ impl<'f> PairFront<'f> {
         } else {
             Last { of, pose: *pose, ..Last::NONE }
         };
-        Ok(PairFront { last, groups, unseen: 0, is_lost: false })
+        Ok(PairFront { last, groups, unseen: 0, is_lost: false, is_known: false })
     }
 
     /// Searches the groups that may hold a pair within the visitor's limit.
@@ -298,6 +323,7 @@ impl<'f> PairFront<'f> {
         }
         self.bring_nearer();
         let found = self.search_groups(search, visitor);
+        self.last.leaves = visitor.leaves().or(self.last.leaves);
         if self.is_lost || found.is_err() {
             self.last.count = 0;
         }
@@ -313,8 +339,13 @@ impl<'f> PairFront<'f> {
         let mut missed: Option<Missed> = None;
         let mut is_first = true;
         let mut is_fresh = self.unseen == 0;
+        // The last answer first. If the models still meet there, nothing else is searched.
+        let mut known = self.last.leaves.filter(|_| !is_fresh);
         loop {
-            let start = if is_fresh {
+            self.is_known = known.is_some();
+            let start = if let Some(leaves) = known.take() {
+                (leaves, 0.0)
+            } else if is_fresh {
                 // What the first group told is looked at again.
                 (self.last.count, self.unseen, self.is_lost) = (0, 0, false);
                 missed = None;
@@ -339,6 +370,9 @@ impl<'f> PairFront<'f> {
                         return Ok(missed);
                     }
                 }
+            }
+            if self.is_known {
+                continue;
             }
             is_fresh = is_first && !is_fresh && self.are_many_near(visitor.limit());
             is_first = false;

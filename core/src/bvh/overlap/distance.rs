@@ -78,7 +78,7 @@ impl Bvh<'_> {
 
 /// The visitor that wants the nearest pair. Common units.
 pub(super) struct Nearest {
-    best: Option<TriangleGap>,
+    pub(super) best: Option<TriangleGap>,
     /// The least lower end of all pairs that were measured.
     lower: f64,
     upper: f64,

@@ -75,7 +75,7 @@ pub(super) struct Threshold<'a> {
     /// Common units.
     limit: f64,
     /// A pair that is certainly within.
-    near: Option<TriangleGap>,
+    pub(super) near: Option<TriangleGap>,
     /// A pair that may be within.
     undecided: Option<TriangleGap>,
 }

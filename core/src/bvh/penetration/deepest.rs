@@ -2,18 +2,18 @@
 //!
 //! Let a point be `a` deep in the first solid and `b` deep in the second. Balls of these radii
 //! around it are inside of one solid each. After a translation by less than `a + b` the balls still
-//! meet. So no shorter translation parts the solids. A point outside of one of them counts with its
-//! distance as a negative depth: the sum shrinks at most as fast as the point moves.
+//! meet. So no shorter translation separates the solids. On its way the search passes points
+//! outside: there a depth is minus the distance, and nothing is proved.
 
 use super::pair_queries::PairQueries;
 use crate::bvh::input_box::{bounds_of, corners_of_input};
 use crate::num::{greater, lesser};
-use crate::query::{QueryError, Side};
+use crate::query::{Interval, QueryError, Side};
 
 type Vector = [f64; 3];
 
 /// Vectors that are looked at from each start, at most.
-const MOST_SAMPLES: u32 = 120;
+const MOST_SAMPLES: u32 = 160;
 
 /// The first steps of the search, as a fraction of the smaller model's size.
 const FIRST_STEP: f64 = 0.25;
@@ -21,15 +21,39 @@ const FIRST_STEP: f64 = 0.25;
 /// The search ends where a step is this fraction of the first one.
 const LAST_STEP: f64 = 1.0 / 1024.0;
 
+/// How far a last point goes beyond a wall, as fractions of the smaller model's size.
+const BEYOND: [f64; 3] = [1.0 / 4096.0, 1.0 / 512.0, 1.0 / 64.0];
+
 /// A point, and how deep it is in both solids together.
 #[derive(Clone, Copy)]
 pub(super) struct Deepest {
     pub(super) point: [f32; 3],
     /// A lower bound of the sum of both depths, input units.
     pub(super) depth: f64,
+    /// Lower bounds of both depths. Positive ones are proved.
+    depths: [f64; 2],
     /// For each surface the direction that leads deeper: from its nearest point inside, to it
     /// outside.
     pub(super) deeper: [Vector; 2],
+}
+
+impl Deepest {
+    /// The deeper point; one that is proved to be inside both before all others.
+    fn deeper_of(self, other: Deepest) -> Deepest {
+        let is_other = (other.is_inside(), other.depth) > (self.is_inside(), self.depth);
+        if is_other { other } else { self }
+    }
+
+    /// Whether it is proved to be inside both.
+    fn is_inside(&self) -> bool {
+        let [first, second] = self.depths;
+        first > 0.0 && second > 0.0
+    }
+
+    /// What it proves of the depth of the solids.
+    pub(super) fn proved(&self) -> f64 {
+        if self.is_inside() { greater(self.depth, 0.0) } else { 0.0 }
+    }
 }
 
 /// The deeper of two points. One search starts at the first surface's nearest point, the other at
@@ -41,8 +65,23 @@ pub(super) fn search(
     let (middle, size) = common_box(queries);
     let first = climb(queries, start, size)?;
     let second = climb(queries, middle, size)?;
-    Ok(if second.depth > first.depth { second } else { first })
+    Ok(first.deeper_of(second))
 }
+
+/// A third of the root of three, rounded: the entries of a unit vector along a diagonal.
+const D: f64 = 0.577_350_269_189_625_8;
+
+/// Directions into the corners: a wedge between two walls may hold no axis.
+const DIAGONALS: [Vector; 8] = [
+    [D, D, D],
+    [-D, D, D],
+    [D, -D, D],
+    [-D, -D, D],
+    [D, D, -D],
+    [-D, D, -D],
+    [D, -D, -D],
+    [-D, -D, -D],
+];
 
 /// Both directions along each axis.
 pub(super) const AXES: [Vector; 6] = [
@@ -61,27 +100,23 @@ fn climb(
     size: f64,
 ) -> Result<Deepest, QueryError> {
     let mut best = sample(queries, start)?;
+    let mut proved = best;
     let (mut step, mut samples) = (size * FIRST_STEP, 1);
-    while step > size * FIRST_STEP * LAST_STEP {
+    'climb: while step > size * FIRST_STEP * LAST_STEP {
         let before = best.depth;
         let [a, b] = best.deeper.map(normalized);
         let ([ax, ay, az], [bx, by, bz]) = (a, b);
         let both = normalized([ax + bx, ay + by, az + bz]);
-        let directions = [both, a, b].into_iter().chain(AXES);
-        let from = best.point.map(f64::from);
+        let directions = [both, a, b].into_iter().chain(AXES).chain(DIAGONALS);
+        let from = best.point;
         for direction in directions {
             if samples >= MOST_SAMPLES || queries.is_spent() {
-                return Ok(best);
+                break 'climb;
             }
-            let mut point = [0.0; 3];
-            point.iter_mut().zip(from.iter().zip(direction)).for_each(|(x, (from, along))| {
-                *x = (from + along * step) as f32;
-            });
-            if point == best.point || !point.iter().all(|x| x.is_finite()) {
-                continue;
-            }
+            let Some(point) = moved(from, direction, step) else { continue };
             samples += 1;
             let found = sample(queries, point)?;
+            proved = proved.deeper_of(found);
             if found.depth > best.depth {
                 best = found;
                 break;
@@ -91,19 +126,41 @@ fn climb(
             step *= 0.5;
         }
     }
-    Ok(best)
+    // A point outside of one solid, and far inside the other: across the wall is one inside both.
+    for (depth, deeper) in best.depths.into_iter().zip(best.deeper) {
+        if proved.is_inside() || depth > 0.0 {
+            continue;
+        }
+        for beyond in BEYOND {
+            let across = size * beyond - depth;
+            if let Some(point) = moved(best.point, normalized(deeper), across) {
+                proved = proved.deeper_of(sample(queries, point)?);
+            }
+        }
+    }
+    Ok(proved)
+}
+
+/// A point moved along a unit vector. `None` if f32 has no such point.
+fn moved(point: [f32; 3], direction: Vector, length: f64) -> Option<[f32; 3]> {
+    let mut moved = point;
+    let sides = moved.iter_mut().zip(direction);
+    sides.for_each(|(x, along)| *x = (f64::from(*x) + along * length) as f32);
+    (moved != point && moved.iter().all(|x| x.is_finite())).then_some(moved)
 }
 
 /// How deep a point of the first model's frame is.
 fn sample(queries: &mut PairQueries<'_, '_>, point: [f32; 3]) -> Result<Deepest, QueryError> {
     let ([a, b], pose) = (queries.trees, queries.pose);
     let here = queries.signed(a, point)?;
-    let in_first = -f64::from(here.distance.upper);
     let posed = pose.to_model(point)?;
     let there = queries.signed(b, posed.point)?;
-    let distance = posed.distance(there.closest.distance);
-    let is_inside = there.side == Side::Inside && distance.lower > 0.0;
-    let in_second = f64::from(if is_inside { distance.lower } else { -distance.upper });
+    let depth = |side: Side, distance: Interval| {
+        let is_inside = side == Side::Inside && distance.lower > 0.0;
+        f64::from(if is_inside { distance.lower } else { -distance.upper })
+    };
+    let in_first = depth(here.side, here.closest.distance);
+    let in_second = depth(there.side, posed.distance(there.closest.distance));
     let deeper = |near: [f32; 3], is_inside: bool| {
         let [x, y, z] = point.map(f64::from);
         let [u, v, w] = near.map(f64::from);
@@ -113,6 +170,7 @@ fn sample(queries: &mut PairQueries<'_, '_>, point: [f32; 3]) -> Result<Deepest,
     Ok(Deepest {
         point,
         depth: (in_first + in_second).next_down(),
+        depths: [in_first, in_second],
         deeper: [
             deeper(here.closest.point, here.side == Side::Inside),
             deeper(pose.to_world(there.closest.point), there.side == Side::Inside),

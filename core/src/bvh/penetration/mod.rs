@@ -21,7 +21,7 @@ use pair_queries::PairQueries;
 
 use crate::bvh::format::Bvh;
 use crate::geom::Pose;
-use crate::num::{down_to_f32, greater, lesser, up_to_f32};
+use crate::num::{down_to_f32, lesser, up_to_f32};
 use crate::query::{
     Budget, Ended, Interval, Penetration, QueryError, Relation, ScratchEntry, Undecided, Work,
 };
@@ -36,21 +36,21 @@ impl Bvh<'_> {
     /// a point's depths in both solids. Two searches find them, and may miss the best: the interval
     /// holds all the same. The pose's numbers are taken as exact.
     ///
-    /// Inside and outside are the sides of [`signed_distance`](Bvh::signed_distance). Where
-    /// components of one mesh overlap, the nearest surface decides. The answer is proved for meshes
-    /// that bound a solid: a component that crosses itself must not have a lobe that is inside out.
-    /// If a mesh has no sides, the relation is undecided ([`Undecided::OpenMesh`]). Solids that
-    /// only touch from outside are undecided too.
+    /// The solid of a mesh is where its [`winding_number`](Bvh::winding_number) is above ½: its
+    /// components may overlap, contain each other and cross themselves. Both blobs need moments
+    /// (`--for closest,segment,winding`). If a mesh is not closed, the relation is undecided
+    /// ([`Undecided::OpenMesh`]). Solids that only touch from outside are undecided too. Triangles
+    /// without area count as surface, and hold no solid.
     ///
     /// `scratch`: [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES), or
     /// [`scratch_entries`](Bvh::scratch_entries) of the larger tree if that is more, are always
     /// enough. The steps of the budget are those of all searches together. No more translations are
     /// tried as soon as the interval meets a tolerance.
     ///
-    /// Cost: of solids that are apart, a [`distance`](Bvh::distance), and a signed distance for
-    /// each box of either tree that is the first on its branch to be farther from the other surface
-    /// than it is large. Of others at most 240 points, with a signed distance in each tree, and a
-    /// dozen translations, with a [`first_contact_of`](Bvh::first_contact_of) each.
+    /// Cost: of solids that are apart, a [`distance`](Bvh::distance), and a
+    /// [`signed_by_winding`](Bvh::signed_by_winding) for each box of either tree that is the first
+    /// on its branch to be farther from the other surface than it is large. Of others at most 320
+    /// points, each asked for in both trees, and a dozen translations, with a [`first_contact_of`](Bvh::first_contact_of) each.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Pose, Relation, Scratch};
@@ -63,7 +63,7 @@ impl Bvh<'_> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`distance`](Bvh::distance), [`signed_distance`](Bvh::signed_distance) and
+    /// Those of [`distance`](Bvh::distance), [`signed_by_winding`](Bvh::signed_by_winding) and
     /// [`Pose::to_model`].
     pub fn penetration(
         &self,
@@ -75,6 +75,9 @@ impl Bvh<'_> {
         budget.check_with(scratch)?;
         if !(self.serves_distances() && other.serves_distances()) {
             return Err(QueryError::NO_DISTANCES);
+        }
+        if !(self.serves_winding() && other.serves_winding()) {
+            return Err(QueryError::NO_MOMENTS);
         }
         let mut queries = PairQueries::new([self, other], pose, budget.steps, scratch);
         let near = queries.distance(&pose)?;
@@ -116,7 +119,7 @@ fn bound_depth(
 ) -> Result<(), QueryError> {
     let deepest = deepest::search(queries, start)?;
     let separating = separating::search(queries, &deepest, budget)?;
-    let (lower, upper) = (greater(deepest.depth, 0.0), separating.length);
+    let (lower, upper) = (deepest.proved(), separating.length);
     found.relation = match found.relation {
         Relation::Undecided(_) if lower > 0.0 => Relation::Overlap,
         // The whole motion to the pose itself is clear.

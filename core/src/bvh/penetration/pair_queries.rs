@@ -95,7 +95,7 @@ impl<'s, 'a> PairQueries<'s, 'a> {
         point: [f32; 3],
     ) -> Result<SignedDistance, QueryError> {
         let budget = self.remaining_budget();
-        let found = tree.signed_distance(point, budget, self.scratch)?;
+        let found = tree.signed_by_winding(point, budget, self.scratch)?;
         self.count(found.closest.work, found.closest.ended);
         Ok(found)
     }

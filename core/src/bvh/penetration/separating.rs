@@ -43,8 +43,8 @@ pub(super) fn search(
     let directions = [normalized([bx - ax, by - ay, bz - az]), a.map(|x| -x), b];
     for direction in directions.into_iter().chain(AXES) {
         best.try_direction(queries, direction)?;
-        if best.meets_tolerance(deepest.depth, budget) {
-            queries.met_tolerance = best.length > greater(deepest.depth, 0.0);
+        if best.meets_tolerance(deepest.proved(), budget) {
+            queries.met_tolerance = best.length > deepest.proved();
             return Ok(best);
         }
     }
@@ -62,7 +62,6 @@ pub(super) fn search(
 impl Separating {
     /// Whether the depth is known as well as the budget asks.
     fn meets_tolerance(&self, lower: f64, budget: &Budget) -> bool {
-        let lower = greater(lower, 0.0);
         let relative = lower * (1.0 + f64::from(budget.relative));
         self.length <= greater(relative, lower + f64::from(budget.absolute))
     }

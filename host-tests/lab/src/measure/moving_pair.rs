@@ -34,7 +34,7 @@ fn tree(subject: &Subject) -> Vec<u8> {
         input_triangles: subject.triangles_read,
         ..subject.mesh.as_input()
     };
-    build(input, &TreeOptions::default()).expect("builds").0.to_bytes()
+    build(input, &TreeOptions::default().with_winding(true)).expect("builds").0.to_bytes()
 }
 
 fn failed(error: impl ToString) -> String {

@@ -2,7 +2,7 @@
 
 use super::held::{contains, distance_holds, truth, verdict_holds};
 use meshsweep_core::{
-    Budget, Bvh, CoherentPair, Ended, Motion, Pose, Scratch, ScratchEntry, Verdict,
+    Budget, Bvh, CoherentPair, Ended, Interval, Motion, Pose, Scratch, ScratchEntry, Verdict,
 };
 use meshsweep_host_tests::generate::corpus::slivers;
 use meshsweep_host_tests::generate::{Rng, Triangles, bracket, cube, rough_sphere, torus};
@@ -142,12 +142,66 @@ fn a_model_that_stays_far_is_clear_without_a_look() {
     let (first, second) = (a.bvh(), b.bvh());
     let (_, [right, ..]) = a.bounds();
     let (mut pair, mut memory) = (CoherentPair::<512>::new(), scratch());
+    let mut searched = 0;
     for step in 0..50 {
         let x = right + a.size() - 0.01 * a.size() * step as f32;
         let pose = Pose { translation: [x, 0.0, 0.0], ..Pose::IDENTITY };
         let keep = 0.1 * a.size();
         let found = pair.within(&first, &second, pose, keep, EXACT, &mut memory).expect("answers");
         assert!(found.is_clear());
-        assert!(step % 25 == 0 || found.work.splits <= 4, "{step}: {found:?}");
+        searched += usize::from(found.work.splits > 0);
     }
+    assert!(searched <= 4, "{searched} of 50");
+}
+
+/// Steps toward contact, with memory and steps that change from question to question: no bound that
+/// was kept is too high.
+#[test]
+fn a_pair_contradicts_no_search_from_the_roots() {
+    let meshes =
+        [torus(2.0, 0.75, 16, 8), rough_sphere(2, 0.4, 3), bracket(), slivers(60, 8, true)];
+    let scenes = meshes.map(|mesh| Scene::both("", mesh));
+    let mut rng = Rng::new(44);
+    let mut fresh = scratch();
+    let (mut short, mut whole) = (0, 0);
+    for run in 0..48 {
+        let (a, b) = (&scenes[rng.below(4)], &scenes[rng.below(4)]);
+        let (first, second) = (a.trees()[run & 1], b.trees()[run >> 1 & 1]);
+        let mut pair = CoherentPair::<2048>::new();
+        let mut memory = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
+        let (low, high) = a.bounds();
+        let grown = 0.5 * b.size();
+        let place = rng.point_in(low.map(|x| x - grown), high.map(|x| x + grown));
+        let mut pose = placed(b, rotation(&mut rng), place);
+        for _ in 0..24 {
+            let truth = first.distance(&second, pose, EXACT, &mut fresh).expect("answers");
+            let Interval { lower, upper } = truth.distance;
+            let is_cut = run % 3 > 0 && rng.below(3) == 0;
+            let entries = if is_cut { [1, 3, 6, 9][rng.below(4)] } else { memory.len() };
+            let steps = if is_cut && rng.below(2) == 0 { rng.below(30) as u32 } else { u32::MAX };
+            let budget = EXACT.with_steps(steps);
+            let memory = &mut memory[..entries];
+            for part in [0.5, 0.999_999, 1.000_001, 1.5] {
+                let distance = part * if part < 1.0 { lower } else { upper };
+                let found = pair.within(&first, &second, pose, distance, budget, memory);
+                let found = found.expect("answers").verdict;
+                let name = format!("{run}: {distance} {found:?} {truth:?}");
+                assert!(found != Verdict::Yes || lower <= distance, "{name}");
+                assert!(found != Verdict::No || upper > distance, "{name}");
+            }
+            let found = pair.distance(&first, &second, pose, budget, memory).expect("answers");
+            let name = format!("{run}: {found:?} {truth:?}");
+            assert!(found.distance.lower <= upper && lower <= found.distance.upper, "{name}");
+            short += usize::from(matches!(found.ended, Ended::Steps | Ended::Scratch));
+            whole += usize::from(found.ended == Ended::Exact);
+            // A small part of the way to contact, or a step anywhere.
+            let toward = [0.01, 0.1, 0.5][rng.below(3)];
+            let [here, there] = truth.points;
+            let aside = rng.direction().map(|x| x * 1e-3 * a.size() * rng.unit_f32());
+            for (k, x) in pose.translation.iter_mut().enumerate() {
+                *x -= toward * (there[k] - here[k]) + aside[k];
+            }
+        }
+    }
+    assert!(short > 20 && whole > 500, "{short} {whole}");
 }
