@@ -4,9 +4,9 @@
 //! file ─ read ─ RawMesh ─ repair ─ Mesh + RepairReport ─ require_closed_manifold ─ ready for hulls
 //! ```
 //!
-//! [`read`] takes PLY, OBJ, STL, OFF, glTF and 3MF. [`repair`] mends what can be mended without moving the surface
-//! and reports each mend with its place; it accepts any triangle soup. [`require_closed_manifold`]
-//! is the further demand of an outer hull, kept apart because a distance index is content with a
+//! [`read`] takes PLY, OBJ, STL, OFF, glTF and 3MF. [`repair`] mends what can be mended without
+//! moving the surface and reports each mend with its place; it accepts any triangle soup.
+//! [`require_closed_manifold`] is the further demand of an outer hull, kept apart because a distance index is content with a
 //! soup.
 //!
 //! Numbers of vertices, faces and triangles count from 0 in file order; errors of reading OBJ count
@@ -59,13 +59,16 @@ pub use key_frame::{KeyFrame, key_frame, require_deformable};
 pub use manifold::require_closed_manifold;
 pub(crate) use nesting::Enclosure;
 pub use no_volume::NoVolume;
-pub use read::{FORMATS, read, read_bytes};
+pub use read::{read, read_bytes};
 pub use repair::repair;
 pub use report::{Finding, Place, RepairReport};
 pub use unit::Unit;
 pub(crate) use volume::SignedVolume;
 pub use wire::Wire;
 pub use write_ply::{write_coloured_ply, write_ply};
+
+/// Extensions of the files that [`read`] reads.
+pub const FORMATS: [&str; 7] = ["stl", "ply", "obj", "off", "glb", "gltf", "3mf"];
 
 /// A triangle mesh as the rest of the builder takes it.
 ///

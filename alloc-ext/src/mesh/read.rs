@@ -2,10 +2,7 @@
 
 use std::path::Path;
 
-use super::{MeshError, RawMesh, gltf, obj, off, ply, stl, threemf};
-
-/// Extensions of the files that [`read`] reads.
-pub const FORMATS: [&str; 7] = ["stl", "ply", "obj", "off", "glb", "gltf", "3mf"];
+use super::{FORMATS, MeshError, RawMesh, gltf, obj, off, ply, stl, threemf};
 
 /// Reads a mesh file, whose extension gives its format:
 /// - `.ply`: ASCII, or binary of either byte order; faces and triangle strips.

@@ -31,7 +31,8 @@ fn one_mesh_in_all_formats_has_the_same_triangles() {
     );
     let strip = format!(
         "ply\nformat ascii 1.0\n{header}element tristrips 1\n\
-         property list int int vertex_indices\nend_header\n{at}15 0 2 1 -1 0 1 3 -1 1 2 3 -1 2 0 3\n"
+         property list int int vertex_indices\nend_header\n{at}\
+         15 0 2 1 -1 0 1 3 -1 1 2 3 -1 2 0 3\n"
     );
     let obj = POSITIONS.map(|[x, y, z]| format!("v {x} {y} {z}\n")).concat() + &lines("f", 1).1;
     let corners = |[x, y, z]: [f32; 3]| format!("vertex {x} {y} {z}\n");

@@ -199,6 +199,7 @@ fn content(bytes: &[u8]) -> Option<&'static str> {
         return Some("ply");
     }
     if bytes.starts_with(b"glTF") {
+        // Read under the name of the text form too.
         return Some("glb");
     }
     if bytes.starts_with(b"PK\x03\x04") {

@@ -7,7 +7,8 @@ use serde_json::Value;
 use std::path::{Component, Path};
 use std::rc::Rc;
 
-use super::{MeshError, Source};
+use super::super::MeshError;
+use super::source::Source;
 
 const MAGIC: &[u8] = b"glTF";
 

@@ -1,7 +1,7 @@
 //! 3MF: a ZIP archive of XML.
 //!
-//! The archive and the XML are read by crates. The model is read here: crates for it hold the whole
-//! text, name no triangle in their errors, round to `f32`, or bring thirty others.
+//! The archive and the XML are read by crates. The model is read here: crates for it do not bound
+//! what an archive expands to, and name no triangle in their errors.
 
 mod model;
 mod package;

@@ -1,13 +1,12 @@
 //! The XML of a model: objects and the build.
 
-use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::name::{Namespace, ResolveResult};
 use rustc_hash::FxHashMap;
 
 use super::super::placement::Placement;
 use super::super::{MeshError, Unit};
-use super::package::{Package, relative};
+use super::package::{Package, attribute, relative};
 
 const CORE: Namespace<'_> = Namespace("http://schemas.microsoft.com/3dmanufacturing/core/2015/02");
 
@@ -166,18 +165,6 @@ impl Reading {
         }
         Ok(())
     }
-}
-
-/// An attribute by its name without prefix.
-pub(super) fn attribute(tag: &BytesStart, name: &str) -> Result<Option<String>, String> {
-    for attribute in tag.attributes() {
-        let attribute = attribute.map_err(|error| error.to_string())?;
-        if attribute.key.local_name().as_ref() == name {
-            let value = attribute.normalized_value(XmlVersion::Implicit1_0);
-            return value.map(|value| Some(value.into_owned())).map_err(|e| e.to_string());
-        }
-    }
-    Ok(None)
 }
 
 fn wanted(tag: &BytesStart, name: &str) -> Result<String, String> {

@@ -1,7 +1,8 @@
 //! The archive: parts by their names.
 
 use flate2::bufread::DeflateDecoder;
-use quick_xml::events::Event;
+use quick_xml::XmlVersion;
+use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::NsReader;
 use rawzip::{CompressionMethod, ZipArchive, ZipArchiveEntryWayfinder, ZipSliceArchive};
 use rustc_hash::FxHashMap;
@@ -11,9 +12,8 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 use super::super::MeshError;
-use super::model::attribute;
 
-/// Bytes that parts may have for each byte of the file. A regular grid of triangles has thirty.
+/// Bytes that parts may have for each byte of the file. Text of triangles has a fraction of it.
 const MOST_EXPANSION: u64 = 128;
 
 /// The relationship of a package to its first model.
@@ -100,6 +100,18 @@ fn malformed(file: &Path, place: &str, reason: impl Display) -> MeshError {
         place: place.to_owned(),
         reason: reason.to_string(),
     }
+}
+
+/// An attribute by its name without prefix.
+pub(super) fn attribute(tag: &BytesStart, name: &str) -> Result<Option<String>, String> {
+    for attribute in tag.attributes() {
+        let attribute = attribute.map_err(|error| error.to_string())?;
+        if attribute.key.local_name().as_ref() == name {
+            let value = attribute.normalized_value(XmlVersion::Implicit1_0);
+            return value.map(|value| Some(value.into_owned())).map_err(|e| e.to_string());
+        }
+    }
+    Ok(None)
 }
 
 /// The path of a part as one from the root of the archive.
