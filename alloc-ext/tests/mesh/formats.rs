@@ -83,7 +83,7 @@ fn strips(format: &str, lists: &[&[i32]]) -> Vec<u8> {
             let turn = |bytes: [u8; 4]| if big { bytes } else { [3, 2, 1, 0].map(|i| bytes[i]) };
             at.iter().flatten().for_each(|x| file.extend(turn(x.to_be_bytes())));
             for list in lists {
-                file.extend(turn((list.len() as i32).to_be_bytes()));
+                file.extend(turn((list.len() as u32).to_be_bytes()));
                 list.iter().for_each(|v| file.extend(turn(v.to_be_bytes())));
             }
         }
