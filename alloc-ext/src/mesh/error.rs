@@ -27,8 +27,10 @@ pub struct EdgePlace {
 pub enum MeshError {
     /// The file could not be opened or read.
     Unreadable { file: PathBuf, reason: String },
-    /// The extension is none of `ply`, `obj`, `stl`.
+    /// The extension is none of [`FORMATS`](super::FORMATS).
     UnknownExtension { file: PathBuf },
+    /// The file needs a part of its format that is not read.
+    Unsupported { file: PathBuf, what: String },
     /// The content does not follow its format.
     Malformed { file: PathBuf, line: Option<usize>, place: String, reason: String },
     /// The file ends before what it announced: `what` says of which kind of thing, `found` is the
@@ -109,9 +111,13 @@ impl fmt::Display for MeshError {
             Self::UnknownExtension { file } => {
                 write!(
                     f,
-                    "{}: unknown kind of mesh file; convert it to .ply, .obj or .stl",
-                    file.display()
+                    "{}: unknown kind of mesh file; convert it to one of {}",
+                    file.display(),
+                    super::FORMATS.map(|kind| format!(".{kind}")).join(", ")
                 )
+            }
+            Self::Unsupported { file, what } => {
+                write!(f, "{}: {what} is not read; export the mesh without it", file.display())
             }
             Self::Malformed { file, line, place, reason } => {
                 write!(

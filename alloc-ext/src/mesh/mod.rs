@@ -4,21 +4,24 @@
 //! file ─ read ─ RawMesh ─ repair ─ Mesh + RepairReport ─ require_closed_manifold ─ ready for hulls
 //! ```
 //!
-//! [`read`] takes PLY, OBJ and STL. [`repair`] mends what can be mended without moving the surface
-//! and reports each mend with its place; it accepts any triangle soup. [`require_closed_manifold`]
-//! is the further demand of an outer hull, kept apart because a distance index is content with a
+//! [`read`] takes PLY, OBJ, STL, OFF, glTF and 3MF. [`repair`] mends what can be mended without
+//! moving the surface and reports each mend with its place; it accepts any triangle soup.
+//! [`require_closed_manifold`] is the further demand of an outer hull, kept apart because a distance index is content with a
 //! soup.
 //!
 //! Numbers of vertices, faces and triangles count from 0 in file order; errors of reading OBJ count
 //! from 1, as such a file does. A *face* is what the file lists, perhaps a polygon; a *triangle* is
-//! one after fan triangulation, numbered through in file order.
+//! one after fan triangulation, numbered through in file order. Copies that nodes and items of a
+//! scene make are numbered through in the order of the scene.
 
 mod boundary;
 mod caps;
 mod collinear;
+mod copies;
 mod duplicate;
 mod edges;
 mod error;
+mod gltf;
 mod hash;
 mod input;
 mod key_frame;
@@ -26,14 +29,19 @@ mod manifold;
 mod nesting;
 mod no_volume;
 mod obj;
+mod off;
 mod outward;
+mod placement;
 mod ply;
 mod read;
 mod repair;
 mod report;
 mod round;
 mod stl;
+mod strip;
 mod text;
+mod threemf;
+mod unit;
 mod vertex_fans;
 mod volume;
 mod weld;
@@ -54,9 +62,13 @@ pub use no_volume::NoVolume;
 pub use read::{read, read_bytes};
 pub use repair::repair;
 pub use report::{Finding, Place, RepairReport};
+pub use unit::Unit;
 pub(crate) use volume::SignedVolume;
 pub use wire::Wire;
 pub use write_ply::{write_coloured_ply, write_ply};
+
+/// Extensions of the files that [`read`] reads.
+pub const FORMATS: [&str; 7] = ["stl", "ply", "obj", "off", "glb", "gltf", "3mf"];
 
 /// A triangle mesh as the rest of the builder takes it.
 ///
@@ -82,7 +94,8 @@ pub struct Mesh {
     /// Upper bound, rounded up, of the Euclidean distance that any vertex moved when it was
     /// rounded to `f32`, in the file's unit; 0 if every coordinate was an `f32` already. For
     /// text, the input is the decimal number as written, except that a decimal whose nearest
-    /// `f64` is an `f32` counts as that `f32`.
+    /// `f64` is an `f32` counts as that `f32`. If the file or the caller scales or moves the
+    /// coordinates, the input is their exact places after that.
     pub rounding: f64,
     /// Repair dropped a triangle whose corners are those of another one in opposite order. The two
     /// may be the walls of a shell that rounding has closed. Then the input's winding numbers are
@@ -166,6 +179,22 @@ pub struct RawMesh {
     /// True if the coordinates were decimal text, so that `positions` holds the nearest `f64` of
     /// each.
     pub decimal: bool,
+    /// Upper bound of the distance of a position from the exact one, where the file's transforms
+    /// or another unit moved it; 0 if nothing did. [`Mesh::rounding`] includes it.
+    pub error: f64,
+    /// The unit of the coordinates, if the format tells it.
+    pub unit: Option<Unit>,
+    /// Parts of the file that are no triangles.
+    pub left_out: LeftOut,
+}
+
+/// Parts of a file that a reader leaves out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Triangles of strips with a repeated corner: they join strips and have no surface.
+    pub stitches: usize,
+    /// Primitives of points or lines, one for each copy that a scene makes.
+    pub lines_and_points: usize,
 }
 
 impl RawMesh {
@@ -185,6 +214,9 @@ impl RawMesh {
             file: PathBuf::from("(memory)"),
             polygons_split: 0,
             decimal: false,
+            error: 0.0,
+            unit: None,
+            left_out: LeftOut::default(),
         }
     }
 }

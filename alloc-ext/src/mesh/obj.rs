@@ -61,13 +61,10 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                 vertex_count: positions.len(),
             })
         }
-        _ => Ok(RawMesh {
-            positions,
-            triangles,
-            file: file.to_owned(),
-            polygons_split,
-            decimal: true,
-        }),
+        _ => {
+            let raw = RawMesh::from_f64(positions, triangles);
+            Ok(RawMesh { file: file.to_owned(), polygons_split, decimal: true, ..raw })
+        }
     }
 }
 

@@ -9,10 +9,12 @@ use ply_rs_bw::ply::{
 };
 
 use super::obj::fan;
-use super::{MeshError, RawMesh};
+use super::strip::strip;
+use super::{LeftOut, MeshError, RawMesh};
 
-/// Reads elements `vertex` (`x`, `y`, `z` of any scalar type) and `face` (`vertex_indices` or
-/// `vertex_index`, a list of any integer type); other elements and properties are skipped.
+/// Reads elements `vertex` (`x`, `y`, `z` of any scalar type), `face` and `tristrips`
+/// (`vertex_indices` or `vertex_index`, a list of any integer type); other elements and properties
+/// are skipped. In a list of `tristrips`, −1 begins a new strip.
 ///
 /// A header's counts are limited by the file's size.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
@@ -33,6 +35,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
     let mut polygons_split = 0;
+    let mut stitches = 0;
     let mut corners: Vec<u32> = Vec::new();
     for (name, element) in &header.elements {
         source.check_room(element)?;
@@ -56,10 +59,11 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                     positions.push(at);
                 }
             }
-            "face" => {
+            "face" | "tristrips" => {
                 // Then their indices are checked when all is read.
-                let faces_before_vertices = positions.is_empty();
-                require(file, element, "face needs vertex_indices", |e| {
+                let before_vertices = positions.is_empty();
+                let is_strips = name == "tristrips";
+                require(file, element, &format!("{name} needs vertex_indices"), |e| {
                     e.count == 0 || e.properties.keys().any(|k| is_corners(k))
                 })?;
                 triangles.reserve(element.count);
@@ -67,9 +71,14 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                     let Face(indices) = source.next(element, face)?;
                     corners.clear();
                     for index in indices {
+                        if is_strips && index == -1 {
+                            stitches += strip(&corners, &mut triangles);
+                            corners.clear();
+                            continue;
+                        }
                         let vertex = u32::try_from(index).ok();
-                        let in_range = vertex
-                            .filter(|&v| faces_before_vertices || (v as usize) < positions.len());
+                        let in_range =
+                            vertex.filter(|&v| before_vertices || (v as usize) < positions.len());
                         let Some(vertex) = in_range else {
                             return Err(MeshError::IndexOutOfRange {
                                 file: file.to_owned(),
@@ -81,7 +90,11 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                         };
                         corners.push(vertex);
                     }
-                    polygons_split += usize::from(fan(&corners, &mut triangles));
+                    if is_strips {
+                        stitches += strip(&corners, &mut triangles);
+                    } else {
+                        polygons_split += usize::from(fan(&corners, &mut triangles));
+                    }
                 }
             }
             // Nothing to skip, and a header may announce any number of them.
@@ -98,7 +111,9 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         e.properties.values().any(|p| p.data_type == PropertyType::Scalar(ScalarType::Double))
     });
     let decimal = header.encoding == Encoding::Ascii && has_doubles;
-    Ok(RawMesh { positions, triangles, file: file.to_owned(), polygons_split, decimal })
+    let left_out = LeftOut { stitches, ..LeftOut::default() };
+    let raw = RawMesh::from_f64(positions, triangles);
+    Ok(RawMesh { file: file.to_owned(), polygons_split, decimal, left_out, ..raw })
 }
 
 fn require(
@@ -152,7 +167,9 @@ impl Source<'_> {
                 found: room,
             }),
             // Vertices and faces of no bytes at all would be counted, not read.
-            None if wanted > 0 && matches!(element.name.as_str(), "vertex" | "face") => {
+            None if wanted > 0
+                && matches!(element.name.as_str(), "vertex" | "face" | "tristrips") =>
+            {
                 Err(MeshError::Malformed {
                     file: self.file.to_owned(),
                     line: None,

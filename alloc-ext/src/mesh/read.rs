@@ -2,12 +2,22 @@
 
 use std::path::Path;
 
-use super::{MeshError, RawMesh, obj, ply, stl};
+use super::{FORMATS, MeshError, RawMesh, gltf, obj, off, ply, stl, threemf};
 
-/// Reads a mesh file: `.ply` (ASCII, binary of either byte order), `.obj`, `.stl` (ASCII or binary,
-/// told apart by content). Polygons are split into fans about their first vertex.
+/// Reads a mesh file, whose extension gives its format:
+/// - `.ply`: ASCII, or binary of either byte order; faces and triangle strips.
+/// - `.obj`.
+/// - `.stl`: ASCII or binary, told apart by content.
+/// - `.off`: text, with normals, colours and texture coordinates or without.
+/// - `.glb`, `.gltf`: the triangles of all nodes of all scenes, in metres. Buffers are read from
+///   `data:` or from files beside it. Skins, morphs, Draco and meshopt are refused.
+/// - `.3mf`: the objects of the build, in the unit that the file tells.
 ///
-/// Memory is bounded by a small multiple of the file's size, also if its header announces more.
+/// Polygons are split into fans about their first vertex. Nodes, items and components put copies in
+/// place; one that mirrors keeps the outside outside.
+///
+/// Memory is bounded by a multiple of the file's size, also if its header announces more: a small
+/// one, but 128 for a compressed file. A scene of copies may reach 2²⁴ vertices and triangles.
 ///
 /// # Errors
 /// The file cannot be read, is of another kind, does not follow its format, ends early, holds a
@@ -24,16 +34,19 @@ pub fn read(path: &Path) -> Result<RawMesh, MeshError> {
 /// name for messages.
 ///
 /// # Errors
-/// As [`read`], except that nothing is opened.
+/// As [`read`], except that nothing is opened but the files that a `.gltf` names beside `path`.
 pub fn read_bytes(path: &Path, bytes: Vec<u8>) -> Result<RawMesh, MeshError> {
     let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
     let mesh = match extension.as_deref() {
-        Some("ply" | "obj" | "stl") if bytes.trim_ascii().is_empty() => {
+        Some(kind) if FORMATS.contains(&kind) && bytes.trim_ascii().is_empty() => {
             return Err(MeshError::NoTriangles { file: path.to_owned() });
         }
         Some("ply") => ply::read(path, &bytes)?,
         Some("obj") => obj::read(path, &bytes)?,
         Some("stl") => stl::read(path, bytes)?,
+        Some("off") => off::read(path, &bytes)?,
+        Some("gltf" | "glb") => gltf::read(path, &bytes)?,
+        Some("3mf") => threemf::read(path, &bytes)?,
         _ => return Err(MeshError::UnknownExtension { file: path.to_owned() }),
     };
     check(&mesh)?;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::MeshError;
+use super::{LeftOut, MeshError};
 use crate::counted::Counted;
 
 /// Most places of a list: enough to find the flaw, few enough to read.
@@ -54,6 +54,8 @@ pub struct RepairReport {
     pub triangles_read: usize,
     /// Faces of the input with more than three corners, which were split into triangles.
     pub polygons_split: usize,
+    /// Parts of the file that were not read as triangles.
+    pub left_out: LeftOut,
     /// Vertices in the result.
     pub vertices_kept: usize,
     /// Triangles in the result.
@@ -131,13 +133,15 @@ impl RepairReport {
         ]
     }
 
-    /// True if the result is the input, triangle for triangle: nothing dropped, split, flipped or
-    /// rewound. Welding, unreferenced vertices and rounding do not count.
+    /// True if the result is the input, triangle for triangle: nothing left out, dropped, split,
+    /// flipped or rewound. Welding, unreferenced vertices and rounding do not count.
     #[must_use]
     pub fn is_clean(&self) -> bool {
-        self.findings().iter().all(|(key, _, finding)| {
-            finding.count == 0 || matches!(*key, "welded" | "unreferenced" | "cavities")
-        })
+        let nothing_left_out = self.left_out == LeftOut::default();
+        nothing_left_out
+            && self.findings().iter().all(|(key, _, finding)| {
+                finding.count == 0 || matches!(*key, "welded" | "unreferenced" | "cavities")
+            })
     }
 
     /// Adds to a [`MeshError::Open`] the zero-area triangle whose removal is the likely cause: one
@@ -171,6 +175,18 @@ impl fmt::Display for RepairReport {
                 f,
                 "\n  {} split: numbers of triangles count those that they were split into, in file order",
                 Counted(self.polygons_split, "polygon")
+            )?;
+        }
+        let LeftOut { stitches, lines_and_points } = self.left_out;
+        if stitches > 0 {
+            let stitches = Counted(stitches, "triangle");
+            write!(f, "\n  {stitches} with a repeated corner left out of strips that they join")?;
+        }
+        if lines_and_points > 0 {
+            write!(
+                f,
+                "\n  {} of points or lines left out",
+                Counted(lines_and_points, "primitive")
             )?;
         }
         if self.rounding > 0.0 {

@@ -31,6 +31,9 @@ pub(super) fn round(raw: &RawMesh) -> Result<(Vec<[f32; 3]>, f64), MeshError> {
         // three axes.
         moved = ((moved + 2.0 * f64::EPSILON * largest) * (1.0 + 4.0 * f64::EPSILON)).next_up();
     }
+    if raw.error > 0.0 {
+        moved = (moved + raw.error).next_up();
+    }
     Ok((positions, moved))
 }
 

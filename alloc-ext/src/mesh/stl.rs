@@ -122,5 +122,6 @@ fn read_ascii(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
 fn raw(file: &Path, positions: Vec<[f64; 3]>, polygons_split: usize, decimal: bool) -> RawMesh {
     let triangles =
         (0..positions.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
-    RawMesh { positions, triangles, file: file.to_owned(), polygons_split, decimal }
+    let raw = RawMesh::from_f64(positions, triangles);
+    RawMesh { file: file.to_owned(), polygons_split, decimal, ..raw }
 }

@@ -9,6 +9,7 @@ mod curve;
 mod deform;
 mod distances;
 mod errors;
+mod formats;
 mod hausdorff;
 mod hull;
 mod overlap;

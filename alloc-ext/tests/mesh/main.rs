@@ -1,4 +1,6 @@
 //! Mesh files: reading and repair.
 
+mod formats;
 mod read;
 mod repair;
+mod scenes;

@@ -12,6 +12,7 @@ pub mod evil;
 mod extrude;
 pub mod fixtures;
 mod rng;
+pub mod scenes;
 mod solids;
 mod transform;
 pub mod writers;

@@ -79,6 +79,32 @@ pub fn ascii_ply((positions, triangles): &Triangles) -> Vec<u8> {
     text.into_bytes()
 }
 
+/// OFF. Coordinates as in [`ascii_stl`].
+#[must_use]
+pub fn off((positions, triangles): &Triangles) -> Vec<u8> {
+    let mut text = format!("OFF\n{} {} 0\n", positions.len(), triangles.len());
+    positions.iter().for_each(|&p| push_point(&mut text, p));
+    for [a, b, c] in triangles {
+        let _ = writeln!(text, "3 {a} {b} {c}");
+    }
+    text.into_bytes()
+}
+
+/// Binary little-endian PLY with one list of strips, each of one triangle.
+#[must_use]
+pub fn strip_ply((positions, triangles): &Triangles) -> Vec<u8> {
+    let header = ply_header("binary_little_endian", "float", positions.len(), 1);
+    let header =
+        header.replace("element face", "element tristrips").replace("uchar int", "int int");
+    let mut bytes = header.into_bytes();
+    bytes.extend(positions.iter().flatten().flat_map(|x| x.to_le_bytes()));
+    bytes.extend((4 * triangles.len() as u32).to_le_bytes());
+    for [a, b, c] in triangles {
+        [*a, *b, *c, u32::MAX].iter().for_each(|v| bytes.extend(v.to_le_bytes()));
+    }
+    bytes
+}
+
 /// A PLY header for `vertices` points of type `scalar` and `faces` lists of `int`.
 #[must_use]
 pub fn ply_header(format: &str, scalar: &str, vertices: usize, faces: usize) -> String {

@@ -1,7 +1,7 @@
 //! The fuzz targets on seeded bytes, so that a stable compiler runs them too.
 
 use meshsweep_host_tests::fuzz_targets::{
-    closest, curves, deform, open, outer, overlap, random_input, refine, segment, tight,
+    closest, curves, deform, mesh, open, outer, overlap, random_input, refine, segment, tight,
     tree_closest, tree_coherent, tree_open, tree_overlap, tree_segment, tribox, triboxes,
 };
 use meshsweep_host_tests::generate::Rng;
@@ -97,4 +97,9 @@ fn curves_survive_seeded_edits() {
 #[test]
 fn deform_survives_seeded_edits() {
     drive(14, deform);
+}
+
+#[test]
+fn mesh_files_of_any_bytes_are_digested() {
+    drive(15, mesh);
 }

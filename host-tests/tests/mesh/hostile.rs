@@ -4,7 +4,10 @@ use std::path::Path;
 
 use meshsweep::mesh::{read_bytes, repair, require_closed_manifold};
 use meshsweep_host_tests::generate::evil::evil;
-use meshsweep_host_tests::generate::writers::{ascii_ply, ascii_stl, binary_ply, binary_stl, obj};
+use meshsweep_host_tests::generate::scenes::{glb, threemf};
+use meshsweep_host_tests::generate::writers::{
+    ascii_ply, ascii_stl, binary_ply, binary_stl, obj, off, strip_ply,
+};
 use meshsweep_host_tests::generate::{Rng, torus};
 
 fn samples() -> Vec<(String, Vec<u8>)> {
@@ -17,6 +20,10 @@ fn samples() -> Vec<(String, Vec<u8>)> {
         ("a.obj".into(), obj(&mesh)),
         ("a.ply".into(), binary_ply(&mesh)),
         ("b.ply".into(), ascii_ply(&mesh)),
+        ("c.ply".into(), strip_ply(&mesh)),
+        ("a.off".into(), off(&mesh)),
+        ("a.glb".into(), glb(&mesh)),
+        ("a.3mf".into(), threemf(&mesh)),
     ]);
     all
 }
@@ -61,7 +68,7 @@ fn files_with_random_bytes_changed_are_digested() {
 #[test]
 fn files_under_a_wrong_extension_are_digested() {
     for (_, bytes) in samples() {
-        for name in ["a.ply", "a.obj", "a.stl"] {
+        for name in ["a.ply", "a.obj", "a.stl", "a.off", "a.glb", "a.gltf", "a.3mf"] {
             digest(name, bytes.clone());
         }
     }

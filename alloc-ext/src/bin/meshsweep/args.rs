@@ -50,7 +50,7 @@ pub fn command() -> clap::Command {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Build a blob from a mesh (.stl, .ply, .obj) or from curves (.csv)
+    /// Build a blob from a mesh (.stl, .glb, ...) or from curves (.csv)
     #[command(after_help = explained::BUILD)]
     Build(BuildArgs),
     /// Print the contents of a blob: sections, memory, levels, error bounds

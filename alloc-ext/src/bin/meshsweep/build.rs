@@ -44,17 +44,18 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     if args.is_curve() {
         return curve::build(args);
     }
-    let mut frames = None;
+    let (mut frames, unit) = (None, args.unit);
     let loaded = if wanted.deform {
-        let (loaded, keys) = mesh_file::load_deformable(&args.mesh, &args.frames, Some(INSTEAD))?;
+        let (loaded, keys) =
+            mesh_file::load_deformable(&args.mesh, &args.frames, unit, Some(INSTEAD))?;
         frames = Some(keys);
         loaded
     } else if wanted.hull {
-        mesh_file::load_solid(&args.mesh, args.vertex_bits.format(), Some(INSTEAD))?
+        mesh_file::load_solid(&args.mesh, args.vertex_bits.format(), unit, Some(INSTEAD))?
     } else if wanted.sweep {
-        mesh_file::load_snapped(&args.mesh, args.vertex_bits.format())?
+        mesh_file::load_snapped(&args.mesh, args.vertex_bits.format(), unit)?
     } else {
-        mesh_file::load(&args.mesh)?
+        mesh_file::load(&args.mesh, unit)?
     };
     let hull = match wanted.hierarchy() {
         true => Some(build_hull(args, &loaded, frames.as_deref())?),
@@ -109,6 +110,9 @@ fn refuse_options(args: &BuildArgs) -> Option<String> {
     }
     if args.closed && !args.is_curve() {
         return Some("--closed is for curves; add --for curve".to_owned());
+    }
+    if args.unit.is_some() && args.is_curve() {
+        return Some("--unit is for meshes".to_owned());
     }
     if let Some(option) = args.hull_option().filter(|_| !wanted.hierarchy()) {
         return Some(format!("{option} is for a hull; add hull to --for"));
@@ -189,6 +193,7 @@ impl Report<'_> {
         let Report { args, loaded, hull, tree_time, tribox_time, tight, blob } = self;
         writeln!(out, "{}", args.mesh.display())?;
         writeln!(out, "  {}", loaded.report)?;
+        loaded.write_unit(out)?;
         if let Some(report) = hull {
             write_kind(out, &report.kind)?;
             write_wires(out, report.wires)?;

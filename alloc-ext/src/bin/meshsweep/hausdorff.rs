@@ -8,7 +8,7 @@ use crate::progress::Bar;
 use meshsweep::hausdorff::{
     Attained, Direction, Ended, Hausdorff, Precision, Profile, Refused, hausdorff, profile,
 };
-use meshsweep::mesh::{Mesh, write_coloured_ply};
+use meshsweep::mesh::{Mesh, Unit, write_coloured_ply};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -21,7 +21,10 @@ pub fn run(args: &HausdorffArgs) -> Result<(), Failure> {
         let what = format!("{}: --heat writes PLY; name a file that ends in .ply", file.display());
         return Err(Failure::Usage { what });
     }
-    let [first, second] = [mesh_file::load(&args.first)?, mesh_file::load(&args.second)?];
+    let load = |file| mesh_file::load(file, args.unit);
+    let [first, second] = [load(&args.first)?, load(&args.second)?];
+    mesh_file::refuse_units([(&args.first, first.unit), (&args.second, second.unit)])?;
+    let unit = first.unit.or(second.unit);
     let direction = if args.one_sided { Direction::Forward } else { Direction::Both };
     let precision = Precision { relative: args.rel, absolute: args.abs, at_most: args.at_most };
     let bar = Bar::new(DIGITS, "comparing", "digits");
@@ -50,11 +53,12 @@ pub fn run(args: &HausdorffArgs) -> Result<(), Failure> {
         if args.json {
             serde_json::to_writer_pretty(
                 &mut *out,
-                &as_json(&found, profile.as_ref(), args.at_most),
+                &as_json(&found, unit, profile.as_ref(), args.at_most),
             )?;
             return writeln!(out);
         }
         write(args, &found, seconds, out)?;
+        unit.map_or(Ok(()), |unit| writeln!(out, "  unit: {unit}"))?;
         profile.as_ref().map_or(Ok(()), |profile| write_profile(profile, out))
     })?;
     match args.at_most {
@@ -141,7 +145,12 @@ fn ended(found: &Hausdorff) -> &'static str {
     }
 }
 
-fn as_json(found: &Hausdorff, profile: Option<&Profile>, at_most: Option<f64>) -> Value {
+fn as_json(
+    found: &Hausdorff,
+    unit: Option<Unit>,
+    profile: Option<&Profile>,
+    at_most: Option<f64>,
+) -> Value {
     let Hausdorff { lower, upper, attained, pieces, .. } = found;
     let [a, b] = attained.as_ref().map_or([None; 2], |at| ends(at).map(Some));
     let point = |end: Option<([f64; 3], u32)>| end.map(|(point, _)| point);
@@ -149,6 +158,7 @@ fn as_json(found: &Hausdorff, profile: Option<&Profile>, at_most: Option<f64>) -
     let mut value = json!({
         "lower": lower,
         "upper": upper,
+        "unit": unit.map(Unit::symbol),
         "a": point(a),
         "b": point(b),
         "a_triangle": triangle(a),

@@ -74,6 +74,7 @@ pub fn write_repairs(out: &mut dyn Write, file: &Path, loaded: &Loaded) -> io::R
     if !loaded.report.is_clean() {
         writeln!(out, "{}\n  {}", file.display(), loaded.report)?;
     }
+    loaded.write_unit(out)?;
     if loaded.moved > 0.0 {
         writeln!(out, "vertices of the mesh moved to the grid by up to {}", AtMost(loaded.moved))?;
     }

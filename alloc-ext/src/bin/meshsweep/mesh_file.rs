@@ -1,10 +1,10 @@
 //! From a mesh file to a clean mesh, closed or not, with a report of the repairs.
 
 use crate::failure::Failure;
-use meshsweep::mesh::{self, Input, KeyFrame, Mesh, RawMesh, RepairReport};
+use meshsweep::mesh::{self, FORMATS, Input, KeyFrame, Mesh, RawMesh, RepairReport, Unit};
 use meshsweep::surface::{VertexBits, snap};
 use meshsweep_core::internal::format::layout::MAGIC;
-use std::io::Read;
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -18,8 +18,21 @@ pub struct Loaded {
     pub moved: f64,
     /// Triangles of the file.
     pub input_triangles: usize,
+    /// The unit of the mesh, if it is known.
+    pub unit: Option<Unit>,
+    /// What told the unit.
+    told: Told,
     /// Time of reading and repairing.
     pub time: Duration,
+}
+
+/// What told a unit.
+#[derive(Clone, Copy)]
+enum Told {
+    File,
+    Option,
+    /// The option, and the file another unit.
+    Scaled(Unit),
 }
 
 impl Loaded {
@@ -29,6 +42,16 @@ impl Loaded {
         Input { mesh, moved: *moved, input_triangles: *input_triangles }
     }
 
+    /// Tells the unit, if it is known.
+    pub fn write_unit(&self, out: &mut dyn Write) -> io::Result<()> {
+        let Some(unit) = self.unit else { return Ok(()) };
+        match self.told {
+            Told::File => writeln!(out, "  unit: {unit} (as the file tells)"),
+            Told::Option => writeln!(out, "  unit: {unit} (by --unit)"),
+            Told::Scaled(from) => writeln!(out, "  unit: {unit} (by --unit), scaled from {from}"),
+        }
+    }
+
     /// A margin that the file's vertices keep too, before they were rounded and moved.
     pub fn widened(&self, margin: Option<f64>) -> f64 {
         let moved = (self.moved + self.mesh.rounding) * (1.0 + 4.0 * f64::EPSILON);
@@ -36,22 +59,26 @@ impl Loaded {
     }
 }
 
-/// Reads and repairs any triangle soup.
-pub fn load(file: &Path) -> Result<Loaded, Failure> {
+/// Reads and repairs any triangle soup. All loading is in the wanted unit, if one is.
+pub fn load(file: &Path, unit: Option<Unit>) -> Result<Loaded, Failure> {
     let started = Instant::now();
-    repaired(file, read(file)?, 0.0, started)
+    repaired(file, read(file, unit)?, 0.0, started)
 }
 
 /// Reads, moves to the hull's grid, and repairs any triangle soup.
-pub fn load_snapped(file: &Path, bits: VertexBits) -> Result<Loaded, Failure> {
+pub fn load_snapped(file: &Path, bits: VertexBits, unit: Option<Unit>) -> Result<Loaded, Failure> {
     let started = Instant::now();
-    let (raw, moved) = read_snapped(file, bits)?;
-    repaired(file, raw, moved, started)
+    let (read, moved) = read_snapped(file, bits, unit)?;
+    repaired(file, read, moved, started)
 }
 
 /// A file's mesh on the hull's grid, and the largest distance that a vertex moved.
-fn read_snapped(file: &Path, bits: VertexBits) -> Result<(RawMesh, f64), Failure> {
-    let mut raw = read(file)?;
+fn read_snapped(
+    file: &Path,
+    bits: VertexBits,
+    unit: Option<Unit>,
+) -> Result<((RawMesh, Told), f64), Failure> {
+    let (mut raw, told) = read(file, unit)?;
     let mut moved = snap(&mut raw.positions, bits);
     if moved > 0.0 && raw.decimal {
         // Reading rounded the decimals to f64, by half a unit in the last place per axis. Repair
@@ -59,7 +86,7 @@ fn read_snapped(file: &Path, bits: VertexBits) -> Result<(RawMesh, f64), Failure
         let largest = raw.positions.iter().flatten().fold(0f64, |m, x| m.max(x.abs()));
         moved += 2.0 * f64::EPSILON * largest;
     }
-    Ok((raw, moved))
+    Ok(((raw, told), moved))
 }
 
 /// Reads, moves to the hull's grid, repairs, and refuses meshes that are not closed and manifold.
@@ -67,28 +94,31 @@ fn read_snapped(file: &Path, bits: VertexBits) -> Result<(RawMesh, f64), Failure
 pub fn load_solid(
     file: &Path,
     bits: VertexBits,
+    unit: Option<Unit>,
     instead: Option<&'static str>,
 ) -> Result<Loaded, Failure> {
-    solid(file, load_snapped(file, bits)?, instead)
+    solid(file, load_snapped(file, bits, unit)?, instead)
 }
 
 /// Reads and repairs a solid that deforms, and applies its repairs to its key frames.
 pub fn load_deformable(
     file: &Path,
     frames: &[PathBuf],
+    unit: Option<Unit>,
     instead: Option<&'static str>,
 ) -> Result<(Loaded, Vec<KeyFrame>), Failure> {
     let started = Instant::now();
-    let raw = read(file)?;
-    let loaded = solid(file, repaired(file, raw.clone(), 0.0, started)?, instead)?;
+    let (raw, told) = read(file, unit)?;
+    let loaded = solid(file, repaired(file, (raw.clone(), told), 0.0, started)?, instead)?;
     let refused = |file: &Path| {
         let file = file.to_owned();
         |error| Failure::Mesh { file, error }
     };
     mesh::require_deformable(&raw, &loaded.mesh).map_err(refused(file))?;
     let keys = frames.iter().map(|frame| {
-        let key = mesh::key_frame(&raw, &loaded.mesh, &read(frame)?);
-        key.map_err(refused(frame))
+        let (key, _) = read(frame, unit)?;
+        refuse_units([(file, raw.unit), (frame, key.unit)])?;
+        mesh::key_frame(&raw, &loaded.mesh, &key).map_err(refused(frame))
     });
     let keys = keys.collect::<Result<_, _>>()?;
     Ok((Loaded { time: started.elapsed(), ..loaded }, keys))
@@ -108,7 +138,7 @@ fn solid(file: &Path, loaded: Loaded, instead: Option<&'static str>) -> Result<L
 pub fn is_named_as_mesh(path: &Path) -> bool {
     let extension = path.extension().and_then(|extension| extension.to_str());
     extension.is_some_and(|extension| {
-        ["stl", "ply", "obj"].into_iter().any(|mesh| mesh.eq_ignore_ascii_case(extension))
+        FORMATS.into_iter().any(|mesh| mesh.eq_ignore_ascii_case(extension))
     })
 }
 
@@ -120,20 +150,42 @@ pub fn is_blob(path: &Path) -> bool {
     read.is_ok() && head == MAGIC
 }
 
-fn read(file: &Path) -> Result<RawMesh, Failure> {
+/// Refuses two meshes in different units.
+pub fn refuse_units(meshes: [(&Path, Option<Unit>); 2]) -> Result<(), Failure> {
+    match meshes {
+        [(first, Some(a)), (second, Some(b))] if a != b => {
+            let (first, second) = (first.display(), second.display());
+            let what = format!("{first} is in {a} and {second} in {b}; choose a unit by --unit");
+            Err(Failure::Usage { what })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn read(file: &Path, unit: Option<Unit>) -> Result<(RawMesh, Told), Failure> {
     let bytes =
         std::fs::read(file).map_err(|error| Failure::Read { file: file.to_owned(), error })?;
     if bytes.starts_with(&MAGIC) {
         return Err(Failure::BlobForMesh { file: file.to_owned() });
     }
     let looks_like = content(&bytes);
-    mesh::read_bytes(file, bytes).map_err(|error| {
+    let raw = mesh::read_bytes(file, bytes).map_err(|error| {
         let extension = file.extension().and_then(|e| e.to_str()).unwrap_or_default();
         match looks_like.filter(|kind| !kind.eq_ignore_ascii_case(extension)) {
             Some(content) => Failure::Misnamed { file: file.to_owned(), content },
             None => Failure::Mesh { file: file.to_owned(), error },
         }
-    })
+    })?;
+    let told = match (raw.unit, unit) {
+        (_, None) => Told::File,
+        (Some(from), Some(unit)) if from != unit => Told::Scaled(from),
+        (_, Some(_)) => Told::Option,
+    };
+    let scaled = match unit {
+        Some(unit) => raw.in_unit(unit),
+        None => Ok(raw),
+    };
+    scaled.map(|raw| (raw, told)).map_err(|error| Failure::Mesh { file: file.to_owned(), error })
 }
 
 /// The kind of mesh file by the first bytes, as an extension.
@@ -146,6 +198,16 @@ fn content(bytes: &[u8]) -> Option<&'static str> {
     if begins(b"ply") {
         return Some("ply");
     }
+    if bytes.starts_with(b"glTF") {
+        // Read under the name of the text form too.
+        return Some("glb");
+    }
+    if bytes.starts_with(b"PK\x03\x04") {
+        return Some("3mf");
+    }
+    if begins(b"OFF") || begins(b"COFF") || begins(b"NOFF") {
+        return Some("off");
+    }
     let head = bytes.get(..bytes.len().min(1000)).unwrap_or_default();
     let holds = |word: &[u8]| head.windows(word.len()).any(|at| at == word);
     if head.starts_with(b"solid") && holds(b"facet normal") {
@@ -154,11 +216,16 @@ fn content(bytes: &[u8]) -> Option<&'static str> {
     (head.starts_with(b"v ") || holds(b"\nv ")).then_some("obj")
 }
 
-fn repaired(file: &Path, raw: RawMesh, moved: f64, started: Instant) -> Result<Loaded, Failure> {
-    let input_triangles = raw.triangles.len();
+fn repaired(
+    file: &Path,
+    (raw, told): (RawMesh, Told),
+    moved: f64,
+    started: Instant,
+) -> Result<Loaded, Failure> {
+    let (input_triangles, unit) = (raw.triangles.len(), raw.unit);
     let (mesh, report) =
         mesh::repair(raw).map_err(|error| Failure::Mesh { file: file.to_owned(), error })?;
-    Ok(Loaded { mesh, report, moved, input_triangles, time: started.elapsed() })
+    Ok(Loaded { mesh, report, moved, input_triangles, unit, told, time: started.elapsed() })
 }
 
 #[cfg(test)]
@@ -171,6 +238,9 @@ mod tests {
         assert_eq!(content(b"solid x\n  facet normal 0 0 1\n"), Some("stl"));
         assert_eq!(content(b"# made by hand\nv 1 2 3\n"), Some("obj"));
         assert_eq!(content(b"some prose\n"), None);
+        assert_eq!(content(b"OFF\n8 6 12\n"), Some("off"));
+        assert_eq!(content(b"OFFICE\n"), None);
+        assert_eq!(content(b"glTF\x02\0\0\0"), Some("glb"));
         assert_eq!(content(b"plywood"), None);
         assert_eq!(content(b""), None);
     }

@@ -7,7 +7,7 @@ use crate::mesh_file::{self, Loaded};
 use crate::number::{About, AtLeast, AtMost, Percent};
 use crate::output::{Output, refuse_other_extension, refuse_same_file};
 use meshsweep::counted::Counted;
-use meshsweep::mesh::{Mesh, write_ply};
+use meshsweep::mesh::{Mesh, Unit, write_ply};
 use meshsweep::tribox::{Hierarchy, Level, Measure, box_tree, level, proxies, surface, volume};
 use meshsweep_core::Bvh;
 use serde_json::{Value, json};
@@ -20,7 +20,7 @@ pub fn run(args: &TriboxArgs) -> Result<(), Failure> {
         refuse_same_file(Some(output), &[&args.mesh])?;
         Output::probe(output)?;
     }
-    let loaded = mesh_file::load(&args.mesh)?;
+    let loaded = mesh_file::load(&args.mesh, args.unit)?;
     let started = Instant::now();
     let bytes = box_tree(&loaded.mesh).map_err(|error| Failure::build(&args.mesh, error))?;
     let tree = Bvh::open(&bytes).map_err(|error| Failure::open(&args.mesh, error))?;
@@ -112,6 +112,7 @@ impl Report<'_> {
         if !loaded.report.is_clean() {
             writeln!(out, "  {}", loaded.report)?;
         }
+        loaded.write_unit(out)?;
         writeln!(
             out,
             "triboxes   faces compression      volume    void %  hull error  largest distance to \
@@ -164,6 +165,7 @@ impl Report<'_> {
         };
         json!({
             "triangles": self.faces_of_mesh(),
+            "unit": self.loaded.unit.map(Unit::symbol),
             "is_closed": self.hierarchy.is_solid,
             "volume": self.solid,
             "measure": self.measure(),

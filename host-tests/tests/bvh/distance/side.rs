@@ -370,13 +370,8 @@ fn a_shell_that_rounding_closes_has_no_sides_and_a_thicker_one_keeps_them() {
         let at = |scale: f64| positions.iter().map(move |p| p.map(|x| f64::from(x) * scale));
         let count = positions.len() as u32;
         let inner = triangles.iter().map(|&[a, b, c]| [a + count, c + count, b + count]);
-        let raw = RawMesh {
-            positions: at(1.0).chain(at(1.0 - wall)).collect(),
-            triangles: triangles.iter().copied().chain(inner).collect(),
-            file: "shell".into(),
-            polygons_split: 0,
-            decimal: false,
-        };
+        let positions = at(1.0).chain(at(1.0 - wall)).collect();
+        let raw = RawMesh::from_f64(positions, triangles.iter().copied().chain(inner).collect());
         let (mesh, report) = repair(raw).expect("a mesh");
         let bytes = build(mesh.as_input(), &TreeOptions::default()).expect("builds").0.to_bytes();
         let tree = Bvh::open(&bytes).expect("opens");

@@ -1,14 +1,16 @@
 //! Arguments of the commands that write hulls and triboxes of meshes.
 
 use super::building::{CollapseArgs, StoredBits};
-use super::values::{distance, factor, length, percent, positive, tolerance, whole};
+use super::values::{distance, factor, length, percent, positive, tolerance, unit, whole};
 use crate::number::Typed;
 use clap::Args;
+use meshsweep::mesh::Unit;
 use meshsweep::tribox::SplitOptions;
 use std::path::PathBuf;
 
 /// Options of hulls that are made from a mesh.
-const OF_MESH: [&str; 12] = [
+const OF_MESH: [&str; 13] = [
+    "unit",
     "faces",
     "void",
     "slack",
@@ -83,6 +85,10 @@ pub struct HullArgs {
         conflicts_with = "level"
     )]
     pub tight: Option<u32>,
+    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, and 3MF are scaled to
+    /// it; of other files it is the unit of their numbers
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    pub unit: Option<Unit>,
     /// Bits of a coordinate of a mesh's hull: 16 and 24 move the mesh to a grid; 32 is single
     /// precision; auto is 32, or the fewest that hold the mesh exactly if the hull is progressive
     #[arg(
@@ -119,11 +125,15 @@ pub fn slack_within_margin(slack: Option<f64>, margin: Option<f64>) -> Option<St
 
 #[derive(Debug, Args)]
 pub struct TriboxArgs {
-    /// Mesh file: .stl, .ply or .obj
+    /// Mesh file, as those of build
     pub mesh: PathBuf,
     /// PLY file to write: the triboxes of the finest level
     #[arg(short, long, value_name = "PLY")]
     pub output: Option<PathBuf>,
+    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, and 3MF are scaled to
+    /// it; of other files it is the unit of their numbers
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    pub unit: Option<Unit>,
     /// Levels, of 1, 2, 4, ... triboxes
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = whole::<1, 12>)]
     pub levels: u32,

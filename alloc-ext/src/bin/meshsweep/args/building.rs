@@ -1,9 +1,10 @@
 //! Arguments of the commands that make, describe and cut blobs.
 
-use super::values::{degrees, distance, factor, length, percent, ratio, whole};
+use super::values::{degrees, distance, factor, length, percent, ratio, unit, whole};
 use clap::{ArgGroup, Args, ValueEnum};
 use meshsweep::collapse::{Conditions, Priority};
 use meshsweep::hull::BuildOptions;
+use meshsweep::mesh::Unit;
 use meshsweep::surface::VertexBits;
 use std::path::PathBuf;
 
@@ -12,7 +13,7 @@ pub const FACES: u32 = 200;
 
 #[derive(Debug, Args)]
 pub struct BuildArgs {
-    /// Mesh file: .stl, .ply or .obj; or points of curves: .csv
+    /// Mesh file: .stl, .ply, .obj, .off, .glb, .gltf or .3mf; or points of curves: .csv
     pub mesh: PathBuf,
     /// With --for deform: the same mesh at further key frames, with the same triangles
     pub frames: Vec<PathBuf>,
@@ -28,6 +29,10 @@ pub struct BuildArgs {
         default_value = "closest,segment"
     )]
     pub serves: Vec<Serves>,
+    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, and 3MF are scaled to
+    /// it; of other files it is the unit of their numbers
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    pub unit: Option<Unit>,
     /// Bits of a stored coordinate (see below)
     #[arg(
         long,

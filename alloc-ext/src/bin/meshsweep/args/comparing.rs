@@ -1,7 +1,8 @@
 //! Arguments of the command that compares two meshes.
 
-use super::values::length;
+use super::values::{length, unit};
 use clap::Args;
+use meshsweep::mesh::Unit;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -10,6 +11,10 @@ pub struct HausdorffArgs {
     pub first: PathBuf,
     /// Mesh file to compare it with
     pub second: PathBuf,
+    /// Unit of the meshes: um, mm, cm, m, in or ft. glTF, which is in metres, and 3MF are scaled to
+    /// it; of other files it is the unit of their numbers
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    pub unit: Option<Unit>,
     /// Only how far the first mesh is from the second
     #[arg(long)]
     pub one_sided: bool,

@@ -61,6 +61,12 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     for a file named *.csv. A blank line begins a new polyline; so does another value in a column \
     named polyline. Other columns are skipped. A bad line is named. Repeated points are kept. \
     Segments count from 0 in each polyline.\n\n\
+    OFF is read as text, PLY with faces or triangle strips. Of glTF (.glb, .gltf) the triangles of \
+    all nodes of all scenes are read, of 3MF the objects of the build, each where it is placed. \
+    Their transforms are rounded in double precision; every interval includes that. glTF is in \
+    metres, 3MF in the unit that it tells. Without --unit nothing is scaled. The report tells the \
+    unit, and triangles that only join strips, points and lines, which are left out. Skins, \
+    morphs, Draco and meshopt are refused by name.\n\n\
     Values of --vertex-bits:\n  \
     auto   hull: the fewest bits that store the mesh exactly; box tree: 16\n  \
     16     vertices move to a grid of 16 bits an axis; with tight only those of the hulls, \
@@ -74,6 +80,7 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     Examples:\n  \
     meshsweep build part.stl -o part.msw\n  \
     meshsweep build scan.ply -o scan.msw --for closest\n  \
+    meshsweep build part.stl -o part.msw --unit mm\n  \
     meshsweep build part.stl -o part.msw --for closest,segment,hull --base 500\n  \
     meshsweep build part.stl -o proxy.msw --for triboxes --triboxes 16\n  \
     meshsweep build part.stl -o hulls.msw --for tight --tight 50,200,1000\n  \

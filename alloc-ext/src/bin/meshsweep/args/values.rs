@@ -1,5 +1,6 @@
 //! Values that need more than a number's syntax.
 
+use meshsweep::mesh::Unit;
 use meshsweep_core::Solid;
 use std::num::NonZeroUsize;
 
@@ -38,6 +39,12 @@ pub fn size(text: &str) -> Result<[usize; 3], String> {
         Some(&[x, y, z]) => Ok([x, y, z]),
         _ => Err(wanted.to_owned()),
     }
+}
+
+/// A unit by its symbol.
+pub fn unit(text: &str) -> Result<Unit, String> {
+    let found = Unit::ALL.into_iter().find(|unit| unit.symbol() == text);
+    found.ok_or_else(|| format!("one of {} is wanted", Unit::ALL.map(Unit::symbol).join(", ")))
 }
 
 /// A whole number from `LEAST` to `MOST`.

@@ -16,7 +16,7 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
     Output::probe(&args.output)?;
     let faces = args.faces.unwrap_or(FACES);
     let options = args.collapse.options(faces, args.vertex_bits);
-    let solid = mesh_file::load_solid(&args.input, options.vertex_bits, None)?;
+    let solid = mesh_file::load_solid(&args.input, options.vertex_bits, args.unit, None)?;
     let from = solid.mesh.triangles.len();
     let bar = Bar::new(from.saturating_sub(options.base_faces), "collapsing", "faces");
     let started = Instant::now();

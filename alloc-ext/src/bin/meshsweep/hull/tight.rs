@@ -22,7 +22,7 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
         _ => Goal::Faces(args.faces.unwrap_or(FACES) as usize),
     };
     let limit = args.seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX));
-    let loaded = load_snapped(&args.input, args.vertex_bits.format())?;
+    let loaded = load_snapped(&args.input, args.vertex_bits.format(), args.unit)?;
     let options = Options::new(goal)
         .with_margin(loaded.widened(args.margin))
         .with_effort(args.effort.unwrap_or(1.0))

@@ -1,0 +1,270 @@
+//! The numbers behind glTF's accessors.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use rustc_hash::FxHashMap;
+use serde_json::Value;
+use std::path::{Component, Path};
+use std::rc::Rc;
+
+use super::super::MeshError;
+use super::source::Source;
+
+const MAGIC: &[u8] = b"glTF";
+
+/// The JSON of a file, and the binary chunk if the file is binary and has one.
+pub(super) fn split<'a>(
+    file: &Path,
+    bytes: &'a [u8],
+) -> Result<(&'a [u8], Option<&'a [u8]>), MeshError> {
+    let malformed = |reason: &str| MeshError::Malformed {
+        file: file.to_owned(),
+        line: None,
+        place: "the header".into(),
+        reason: reason.into(),
+    };
+    let Some(after_magic) = bytes.strip_prefix(MAGIC) else {
+        return Ok((bytes, None));
+    };
+    let Some((version, rest)) = word(after_magic) else {
+        return Err(malformed("it ends early"));
+    };
+    if version != 2 {
+        let what = format!("binary glTF {version}");
+        return Err(MeshError::Unsupported { file: file.to_owned(), what });
+    }
+    // The length of the file, which the chunks tell again.
+    let mut rest = rest.get(4..).ok_or_else(|| malformed("it ends early"))?;
+    let mut chunk = |kind: &[u8; 4]| -> Result<Option<&'a [u8]>, MeshError> {
+        let Some((length, after)) = word(rest) else { return Ok(None) };
+        let Some(content) = after.strip_prefix(kind) else { return Ok(None) };
+        let Some((content, after)) = content.split_at_checked(length) else {
+            return Err(MeshError::Truncated {
+                file: file.to_owned(),
+                what: "byte".into(),
+                wanted: length as u64,
+                found: content.len() as u64,
+            });
+        };
+        rest = after;
+        Ok(Some(content))
+    };
+    let json = chunk(b"JSON")?.ok_or_else(|| malformed("no chunk of JSON"))?;
+    Ok((json, Some(chunk(b"BIN\0")?.unwrap_or_default())))
+}
+
+fn word(bytes: &[u8]) -> Option<(usize, &[u8])> {
+    let (word, rest) = bytes.split_first_chunk::<4>()?;
+    Some((usize::try_from(u32::from_le_bytes(*word)).ok()?, rest))
+}
+
+/// The file's buffers, each read when it is wanted.
+pub(super) struct Buffers<'a> {
+    source: Source<'a>,
+    binary: Option<&'a [u8]>,
+    read: FxHashMap<&'a str, Rc<Vec<u8>>>,
+}
+
+/// Types of components.
+const I8: u64 = 5120;
+const U8: u64 = 5121;
+const I16: u64 = 5122;
+const U16: u64 = 5123;
+const U32: u64 = 5125;
+const F32: u64 = 5126;
+
+impl<'a> Buffers<'a> {
+    pub(super) fn new(source: Source<'a>, binary: Option<&'a [u8]>) -> Self {
+        Self { source, binary, read: FxHashMap::default() }
+    }
+
+    /// Positions of vertices.
+    pub(super) fn positions(
+        &mut self,
+        number: usize,
+        accessor: &'a Value,
+    ) -> Result<Vec<[f64; 3]>, MeshError> {
+        let place = format!("accessor {number}");
+        let kind = self.kind(accessor, "VEC3", &[I8, U8, I16, U16, F32], &place)?;
+        if kind != F32 && accessor["normalized"].as_bool() == Some(true) {
+            // A quotient would be rounded, which no placement tells.
+            return Err(self.source.unsupported(format!("{place}, of normalized positions,")));
+        }
+        let step = size(kind);
+        let positions = self.elements(accessor, 3 * step, &place, |element| {
+            [0, 1, 2].map(|axis| number_at(&element[axis * step..], kind))
+        })?;
+        let bad = positions.iter().position(|at: &[f64; 3]| !at.iter().all(|x| x.is_finite()));
+        bad.map_or(Ok(()), |vertex| {
+            let reason = format!("vertex {vertex} is at {:?}", positions[vertex]);
+            Err(self.source.malformed(&place, reason))
+        })?;
+        Ok(positions)
+    }
+
+    /// Numbers of vertices.
+    pub(super) fn indices(
+        &mut self,
+        number: usize,
+        accessor: &'a Value,
+    ) -> Result<Vec<u32>, MeshError> {
+        let place = format!("accessor {number}");
+        let kind = self.kind(accessor, "SCALAR", &[U8, U16, U32], &place)?;
+        // Exact: all are whole and below 2³².
+        self.elements(accessor, size(kind), &place, |element| number_at(element, kind) as u32)
+    }
+
+    /// The type of the components, if it is wanted.
+    fn kind(
+        &self,
+        accessor: &Value,
+        shape: &str,
+        kinds: &[u64],
+        place: &str,
+    ) -> Result<u64, MeshError> {
+        if accessor.get("sparse").is_some() {
+            return Err(self.source.unsupported(format!("{place}, which is sparse,")));
+        }
+        let kind = accessor["componentType"].as_u64().filter(|kind| kinds.contains(kind));
+        match kind {
+            Some(kind) if accessor["type"].as_str() == Some(shape) => Ok(kind),
+            _ => Err(self.source.malformed(place, format!("its type is none of {shape}"))),
+        }
+    }
+
+    /// The elements of an accessor, of so many bytes each.
+    fn elements<T>(
+        &mut self,
+        accessor: &'a Value,
+        bytes: usize,
+        place: &str,
+        read: impl Fn(&[u8]) -> T,
+    ) -> Result<Vec<T>, MeshError> {
+        let source = self.source;
+        let view = source.named(accessor, "bufferView", "bufferViews", place)?;
+        let (_, view) = view.ok_or_else(|| source.malformed(place, "no bufferView"))?;
+        source.refuse_extension(view, &["EXT_meshopt_compression", "KHR_meshopt_compression"])?;
+        let buffer = source.named(view, "buffer", "buffers", place)?;
+        let (number, buffer) = buffer.ok_or_else(|| source.malformed(place, "no buffer"))?;
+        let data = self.buffer(number, buffer)?;
+        let data = data.bytes();
+        let count = source.count(accessor, "count", place)?;
+        let step = match source.count(view, "byteStride", place)? {
+            0 => bytes,
+            stride if stride >= bytes => stride,
+            _ => return Err(source.malformed(place, "byteStride is less than an element")),
+        };
+        let begin = source.count(view, "byteOffset", place)?;
+        let end = begin.checked_add(source.count(view, "byteLength", place)?);
+        let begin = begin.checked_add(source.count(accessor, "byteOffset", place)?);
+        // The last element need not fill its step.
+        let length = match count {
+            0 => Some(0),
+            _ => step.checked_mul(count - 1).and_then(|length| length.checked_add(bytes)),
+        };
+        let wanted = begin.zip(length).and_then(|(begin, length)| begin.checked_add(length));
+        let room = data.len().min(end.unwrap_or(usize::MAX));
+        match (begin, wanted) {
+            (Some(begin), Some(wanted)) if wanted <= room => {
+                let element = |i: usize| read(&data[begin + i * step..][..bytes]);
+                Ok((0..count).map(element).collect())
+            }
+            _ => Err(source.malformed(place, format!("{count} elements reach beyond its buffer"))),
+        }
+    }
+
+    /// The content of a buffer.
+    fn buffer(&mut self, number: usize, buffer: &'a Value) -> Result<Data<'a>, MeshError> {
+        let source = self.source;
+        let place = format!("buffer {number}");
+        let Some(uri) = buffer.get("uri").and_then(Value::as_str) else {
+            let binary = self.binary.filter(|_| number == 0);
+            let data = binary.ok_or_else(|| source.malformed(&place, "no uri"))?;
+            return Ok(Data::Chunk(data));
+        };
+        if let Some(data) = self.read.get(uri) {
+            return Ok(Data::Read(Rc::clone(data)));
+        }
+        let data = match uri.strip_prefix("data:") {
+            Some(data) => {
+                let code = data.split_once(";base64,").map(|(_, code)| code);
+                let data = code.and_then(|code| STANDARD.decode(code).ok());
+                data.ok_or_else(|| source.malformed(&place, "its uri is no base64"))?
+            }
+            None => neighbour(source, uri, &place)?,
+        };
+        let data = Rc::new(data);
+        self.read.insert(uri, Rc::clone(&data));
+        Ok(Data::Read(data))
+    }
+}
+
+/// The content of a buffer.
+enum Data<'a> {
+    Chunk(&'a [u8]),
+    Read(Rc<Vec<u8>>),
+}
+
+impl Data<'_> {
+    fn bytes(&self) -> &[u8] {
+        match self {
+            Self::Chunk(data) => data,
+            Self::Read(data) => data,
+        }
+    }
+}
+
+/// The content of a file beside the mesh.
+fn neighbour(source: Source<'_>, uri: &str, place: &str) -> Result<Vec<u8>, MeshError> {
+    let name = unescaped(uri);
+    let name = name.as_deref().map(Path::new).filter(|name| {
+        !uri.is_empty()
+            && !uri.contains(':')
+            && name.components().all(|part| matches!(part, Component::Normal(_)))
+    });
+    let name =
+        name.ok_or_else(|| source.malformed(place, format!("{uri:?} is no file beside it")))?;
+    let beside = source.file.with_file_name(name);
+    let refused = |reason: String| MeshError::Unreadable { file: beside.clone(), reason };
+    match std::fs::metadata(&beside) {
+        Ok(found) if found.is_file() => {
+            std::fs::read(&beside).map_err(|error| refused(error.to_string()))
+        }
+        Ok(_) => Err(refused("no file".into())),
+        Err(error) => Err(refused(error.to_string())),
+    }
+}
+
+/// A uri without its escapes, as `%20`.
+fn unescaped(uri: &str) -> Option<String> {
+    let mut parts = uri.split('%');
+    let mut bytes = parts.next()?.as_bytes().to_vec();
+    for part in parts {
+        bytes.push(u8::from_str_radix(part.get(..2)?, 16).ok()?);
+        bytes.extend(&part.as_bytes()[2..]);
+    }
+    String::from_utf8(bytes).ok()
+}
+
+fn size(kind: u64) -> usize {
+    match kind {
+        I8 | U8 => 1,
+        I16 | U16 => 2,
+        _ => 4,
+    }
+}
+
+/// The number at the start of an element, which is long enough.
+fn number_at(element: &[u8], kind: u64) -> f64 {
+    let at = |i: usize| element.get(i).copied().unwrap_or_default();
+    let two = [at(0), at(1)];
+    let four = [at(0), at(1), at(2), at(3)];
+    match kind {
+        I8 => i8::from_le_bytes([at(0)]).into(),
+        U8 => at(0).into(),
+        I16 => i16::from_le_bytes(two).into(),
+        U16 => u16::from_le_bytes(two).into(),
+        U32 => u32::from_le_bytes(four).into(),
+        _ => f32::from_le_bytes(four).into(),
+    }
+}

@@ -1,0 +1,136 @@
+//! Where a file puts a copy of a mesh: an affine transform, with a bound of its rounding.
+
+/// An affine transform of points, in `f64`.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Placement {
+    /// `x` becomes `rows · (x, 1)`.
+    rows: [[f64; 4]; 3],
+    /// The same with the magnitudes of all that was added up.
+    bounds: [[f64; 4]; 3],
+    /// Roundings on the way to an entry of `rows`, at most.
+    roundings: f64,
+    is_identity: bool,
+}
+
+impl Placement {
+    pub(super) const IDENTITY: Self =
+        Self { rows: IDENTITY, bounds: IDENTITY, roundings: 0.0, is_identity: true };
+
+    /// A transform by entries that were rounded once, from decimals.
+    pub(super) fn of_rows(rows: [[f64; 4]; 3]) -> Self {
+        let bounds = rows.map(|row| row.map(f64::abs));
+        Self { rows, bounds, roundings: 1.0, is_identity: rows == IDENTITY }
+    }
+
+    /// A translation after a rotation by a quaternion (x, y, z, w) after a scaling.
+    pub(super) fn of_parts(translation: [f64; 3], [x, y, z, w]: [f64; 4], scale: [f64; 3]) -> Self {
+        let [xx, yy, zz] = [x * x, y * y, z * z];
+        let turn = [
+            [1.0 - 2.0 * (yy + zz), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],
+            [2.0 * (x * y + z * w), 1.0 - 2.0 * (xx + zz), 2.0 * (y * z - x * w)],
+            [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (xx + yy)],
+        ];
+        // The same with the magnitudes of all terms.
+        let [xy, xz, yz] = [x * y, x * z, y * z].map(f64::abs);
+        let [xw, yw, zw] = [x * w, y * w, z * w].map(f64::abs);
+        let size = [
+            [1.0 + 2.0 * (yy + zz), 2.0 * (xy + zw), 2.0 * (xz + yw)],
+            [2.0 * (xy + zw), 1.0 + 2.0 * (xx + zz), 2.0 * (yz + xw)],
+            [2.0 * (xz + yw), 2.0 * (yz + xw), 1.0 + 2.0 * (xx + yy)],
+        ];
+        let rows = [0, 1, 2].map(|i| {
+            let [a, b, c] = [0, 1, 2].map(|j| turn[i][j] * scale[j]);
+            [a, b, c, translation[i]]
+        });
+        let bounds = [0, 1, 2].map(|i| {
+            let [a, b, c] = [0, 1, 2].map(|j| size[i][j] * scale[j].abs());
+            [a, b, c, translation[i].abs()]
+        });
+        // Two decimals, their product, a sum, another of 1, and the scale's decimal and product.
+        Self { rows, bounds, roundings: 8.0, is_identity: rows == IDENTITY }
+    }
+
+    /// `self` after `inner`.
+    pub(super) fn after(&self, inner: &Self) -> Self {
+        if self.is_identity {
+            return inner.clone();
+        }
+        if inner.is_identity {
+            return self.clone();
+        }
+        Self {
+            rows: product(&self.rows, &inner.rows),
+            bounds: product(&self.bounds, &inner.bounds),
+            // Four of the sum, one of the product.
+            roundings: self.roundings + inner.roundings + 5.0,
+            is_identity: false,
+        }
+    }
+
+    /// Whether it turns meshes inside out.
+    pub(super) fn mirrors(&self) -> bool {
+        let [a, b, c] = self.rows.map(|[x, y, z, _]| [x, y, z]);
+        let minor = |i: usize, j: usize| b[i] * c[j] - b[j] * c[i];
+        a[0] * minor(1, 2) - a[1] * minor(0, 2) + a[2] * minor(0, 1) < 0.0
+    }
+
+    /// A point where it is put, and a bound of its distance from the exact place. The point's own
+    /// coordinates may be off by half a unit in the last place.
+    pub(super) fn put(&self, at: [f64; 3]) -> ([f64; 3], f64) {
+        if self.is_identity {
+            return (at, 0.0);
+        }
+        let [x, y, z] = at;
+        let sum = |[a, b, c, d]: [f64; 4], [x, y, z]: [f64; 3]| a * x + b * y + c * z + d;
+        let size: f64 = self.bounds.map(|row| sum(row, at.map(f64::abs))).iter().sum();
+        // n roundings are an error of n half-units; half as much again covers their products and
+        // the roundings of `bounds` itself. The least number stands for underflow.
+        let half_units = 1.5 * (self.roundings + 6.0);
+        let error = size * (half_units * 0.5 * f64::EPSILON) + f64::MIN_POSITIVE;
+        (self.rows.map(|row| sum(row, [x, y, z])), error.next_up())
+    }
+}
+
+const IDENTITY: [[f64; 4]; 3] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+
+/// The product of two transforms whose last row is 0, 0, 0, 1.
+fn product(a: &[[f64; 4]; 3], b: &[[f64; 4]; 3]) -> [[f64; 4]; 3] {
+    a.map(|row| {
+        [0, 1, 2, 3].map(|j| {
+            let last = if j == 3 { row[3] } else { 0.0 };
+            row[0] * b[0][j] + row[1] * b[1][j] + row[2] * b[2][j] + last
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rotations_translations_and_mirrors_put_points_where_the_formula_says() {
+        let half = 0.5f64.sqrt();
+        // A quarter turn about z, after doubling x, before a step along x.
+        let turned = Placement::of_parts([5.0, 0.0, 0.0], [0.0, 0.0, half, half], [2.0, 1.0, 1.0]);
+        let (at, error) = turned.put([1.0, 0.0, 7.0]);
+        let off = at.iter().zip([5.0, 2.0, 7.0]).map(|(a, b)| (a - b).abs()).sum::<f64>();
+        assert!(off <= error && error < 1e-13, "{at:?} {off} {error}");
+        let mirror = Placement::of_parts([0.0; 3], [0.0, 0.0, 0.0, 1.0], [-1.0, 1.0, 1.0]);
+        assert!(mirror.mirrors() && !turned.mirrors() && !mirror.after(&mirror).mirrors());
+        assert_eq!(mirror.after(&turned).put([1.0, 0.0, 7.0]).0[0], -at[0]);
+        assert_eq!(Placement::IDENTITY.put([0.1, 0.2, 0.3]), ([0.1, 0.2, 0.3], 0.0));
+    }
+
+    #[test]
+    fn the_error_of_a_chain_bounds_its_distance_from_exact_numbers() {
+        // Thirds are no f64. Three steps of x / 3 + 1 / 3 from 3 come to 40 / 81 + 1 / 9 exactly.
+        let third = 1.0 / 3.0;
+        let mut rows = IDENTITY;
+        rows[0] = [third, 0.0, 0.0, third];
+        let step = Placement::of_rows(rows);
+        let (at, error) = step.after(&step).after(&step).put([3.0, 0.0, 0.0]);
+        // 3/27 + 1/27 + 1/9 + 1/3 = 16/27.
+        let off = (at[0] * 27.0 - 16.0).abs() / 27.0;
+        assert!(off <= error && error < 1e-14, "{off} {error}");
+    }
+}

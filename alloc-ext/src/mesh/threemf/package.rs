@@ -1,0 +1,145 @@
+//! The archive: parts by their names.
+
+use flate2::bufread::DeflateDecoder;
+use quick_xml::XmlVersion;
+use quick_xml::events::{BytesStart, Event};
+use quick_xml::reader::NsReader;
+use rawzip::{CompressionMethod, ZipArchive, ZipArchiveEntryWayfinder, ZipSliceArchive};
+use rustc_hash::FxHashMap;
+use std::cell::Cell;
+use std::fmt::Display;
+use std::io::{self, BufRead, BufReader, Read};
+use std::path::Path;
+
+use super::super::MeshError;
+
+/// Bytes that parts may have for each byte of the file. Text of triangles has a fraction of it.
+const MOST_EXPANSION: u64 = 128;
+
+/// The relationship of a package to its first model.
+const MODEL: &str = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
+
+pub(super) struct Package<'a> {
+    pub(super) file: &'a Path,
+    archive: ZipSliceArchive<&'a [u8]>,
+    entries: FxHashMap<String, (ZipArchiveEntryWayfinder, CompressionMethod)>,
+    /// Bytes that parts may still have.
+    left: Cell<u64>,
+}
+
+impl<'a> Package<'a> {
+    pub(super) fn open(file: &'a Path, bytes: &'a [u8]) -> Result<Self, MeshError> {
+        let refuse = |error: rawzip::Error| malformed(file, "the archive", error);
+        let archive = ZipArchive::from_slice(bytes).map_err(refuse)?;
+        let mut found = FxHashMap::default();
+        let mut entries = archive.entries();
+        while let Some(entry) = entries.next_entry().map_err(refuse)? {
+            let Ok(name) = std::str::from_utf8(entry.file_path().as_bytes()) else { continue };
+            if entry.flags().is_encrypted() {
+                let what = format!("{name}, which is encrypted,");
+                return Err(MeshError::Unsupported { file: file.to_owned(), what });
+            }
+            found.insert(key(name), (entry.wayfinder(), entry.compression_method()));
+        }
+        let left = Cell::new((bytes.len() as u64).saturating_mul(MOST_EXPANSION).max(1 << 16));
+        Ok(Self { file, archive, entries: found, left })
+    }
+
+    pub(super) fn malformed(&self, place: &str, reason: impl Display) -> MeshError {
+        malformed(self.file, place, reason)
+    }
+
+    /// The XML of a part.
+    pub(super) fn part(&self, path: &str) -> Result<NsReader<impl BufRead>, MeshError> {
+        let refuse = |error: rawzip::Error| self.malformed(path, error);
+        let found = self.entries.get(&key(path));
+        let &(at, method) = found.ok_or_else(|| self.malformed(path, "not in the archive"))?;
+        let entry = self.archive.get_entry(at).map_err(refuse)?;
+        let content: Box<dyn Read + '_> = match method {
+            CompressionMethod::STORE => Box::new(entry.data()),
+            CompressionMethod::DEFLATE => Box::new(DeflateDecoder::new(entry.data())),
+            _ => {
+                let what = format!("{path}, compressed by method {},", method.as_u16());
+                return Err(MeshError::Unsupported { file: self.file.to_owned(), what });
+            }
+        };
+        let content = Limited { content: entry.verifying_reader(content), left: &self.left };
+        Ok(NsReader::from_reader(BufReader::new(content)))
+    }
+
+    /// The path of the first model.
+    pub(super) fn root(&self) -> Result<String, MeshError> {
+        let place = "_rels/.rels";
+        let mut reader = self.part(place)?;
+        let mut bytes = Vec::new();
+        loop {
+            bytes.clear();
+            let event = reader.read_event_into(&mut bytes);
+            match event.map_err(|error| self.malformed(place, error))? {
+                Event::Start(tag) | Event::Empty(tag)
+                    if tag.local_name().as_ref() == "Relationship" =>
+                {
+                    let get = |name| attribute(&tag, name).map_err(|e| self.malformed(place, e));
+                    if get("Type")?.as_deref() == Some(MODEL) {
+                        let target = get("Target")?;
+                        let target = target.ok_or_else(|| self.malformed(place, "no Target"))?;
+                        return Ok(relative(&target));
+                    }
+                }
+                Event::Eof => return Err(self.malformed(place, "it names no model")),
+                _ => {}
+            }
+        }
+    }
+}
+
+fn malformed(file: &Path, place: &str, reason: impl Display) -> MeshError {
+    MeshError::Malformed {
+        file: file.to_owned(),
+        line: None,
+        place: place.to_owned(),
+        reason: reason.to_string(),
+    }
+}
+
+/// An attribute by its name without prefix.
+pub(super) fn attribute(tag: &BytesStart, name: &str) -> Result<Option<String>, String> {
+    for attribute in tag.attributes() {
+        let attribute = attribute.map_err(|error| error.to_string())?;
+        if attribute.key.local_name().as_ref() == name {
+            let value = attribute.normalized_value(XmlVersion::Implicit1_0);
+            return value.map(|value| Some(value.into_owned())).map_err(|e| e.to_string());
+        }
+    }
+    Ok(None)
+}
+
+/// The path of a part as one from the root of the archive.
+pub(super) fn relative(path: &str) -> String {
+    path.trim_start_matches('/').to_owned()
+}
+
+/// Names of parts differ in more than the case of their letters.
+fn key(path: &str) -> String {
+    path.to_ascii_lowercase()
+}
+
+/// A part, as long as the archive may expand.
+struct Limited<'a, R> {
+    content: R,
+    left: &'a Cell<u64>,
+}
+
+impl<R: Read> Read for Limited<'_, R> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        let read = self.content.read(into)?;
+        match self.left.get().checked_sub(read as u64) {
+            Some(left) => self.left.set(left),
+            None => {
+                let what = format!("the archive expands more than {MOST_EXPANSION} times");
+                return Err(io::Error::other(what));
+            }
+        }
+        Ok(read)
+    }
+}

@@ -1,0 +1,71 @@
+//! Files of scenes as bytes.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+
+use super::Triangles;
+
+/// Binary glTF: a node that turns and one that mirrors the mesh.
+#[must_use]
+pub fn glb((positions, triangles): &Triangles) -> Vec<u8> {
+    let mut buffer: Vec<u8> = positions.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    let begin = buffer.len();
+    buffer.extend(triangles.iter().flatten().flat_map(|v| v.to_le_bytes()));
+    let (vertices, corners) = (positions.len(), 3 * triangles.len());
+    let (bytes, length) = (buffer.len(), buffer.len() - begin);
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[
+        {{"mesh":0,"rotation":[0,0.6,0,0.8],"children":[1]}},{{"mesh":0,"scale":[-1,1,2]}}],
+        "buffers":[{{"byteLength":{bytes}}}],"bufferViews":[{{"buffer":0,"byteLength":{begin}}},
+        {{"buffer":0,"byteOffset":{begin},"byteLength":{length}}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3","count":{vertices}}},
+        {{"bufferView":1,"componentType":5125,"type":"SCALAR","count":{corners}}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1,"mode":4}}]}}]}}"#
+    );
+    let mut bytes = Vec::from(*b"glTF");
+    bytes.extend(2u32.to_le_bytes());
+    bytes.extend((28 + json.len() as u32 + buffer.len() as u32).to_le_bytes());
+    for (kind, content) in [(b"JSON", json.as_bytes()), (b"BIN\0", &buffer)] {
+        bytes.extend((content.len() as u32).to_le_bytes());
+        bytes.extend(kind);
+        bytes.extend(content);
+    }
+    bytes
+}
+
+/// 3MF, not compressed: an item that turns the mesh.
+///
+/// # Panics
+/// Never: writing to memory does not fail.
+#[must_use]
+pub fn threemf((positions, triangles): &Triangles) -> Vec<u8> {
+    let mut model = String::from(
+        r#"<model unit="inch" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+        <resources><object id="1"><mesh><vertices>"#,
+    );
+    for [x, y, z] in positions.iter().map(|p| p.map(f64::from)) {
+        let _ = write!(model, r#"<vertex x="{x}" y="{y}" z="{z}"/>"#);
+    }
+    model.push_str("</vertices><triangles>");
+    for [a, b, c] in triangles {
+        let _ = write!(model, r#"<triangle v1="{a}" v2="{b}" v3="{c}"/>"#);
+    }
+    model.push_str(
+        r#"</triangles></mesh></object><object id="2"><components><component objectid="1"/>
+        </components></object></resources><build>
+        <item objectid="2" transform="0 1 0 -1 0 0 0 0 1 2 3 4"/></build></model>"#,
+    );
+    let relationships = r#"<Relationships><Relationship Target="/3D/3dmodel.model"
+        Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>"#;
+    let mut bytes = Vec::new();
+    let mut archive = rawzip::ZipArchiveWriter::new(&mut bytes);
+    for (name, text) in [("_rels/.rels", relationships), ("3D/3dmodel.model", &model)] {
+        let (mut entry, config) = archive.new_file(name).start().expect("a name");
+        let mut writer = config.wrap(&mut entry);
+        writer.write_all(text.as_bytes()).expect("memory");
+        let (_, descriptor) = writer.finish().expect("memory");
+        entry.finish(descriptor).expect("memory");
+    }
+    archive.finish().expect("memory");
+    bytes
+}
