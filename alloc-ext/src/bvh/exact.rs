@@ -1,6 +1,6 @@
 //! The box tree of a mesh for the builders' own distances.
 
-use super::build::{TreeOptions, build};
+use super::build::{TreeOptions, build_in};
 use crate::error::BuildError;
 use crate::mesh::{Mesh, Wire};
 
@@ -8,8 +8,21 @@ use crate::mesh::{Mesh, Wire};
 /// wires, as the mesh does: two triangles may share a number of the input file.
 ///
 /// # Errors
-/// As [`build`].
+/// As [`build`](super::build).
 pub fn exact_blob(mesh: &Mesh) -> Result<Vec<u8>, BuildError> {
+    blob(mesh, false)
+}
+
+/// [`exact_blob`] for about so many questions. Where they are few, a quick build saves more time
+/// than its tree costs.
+///
+/// # Errors
+/// As [`build`](super::build).
+pub fn blob_for(mesh: &Mesh, questions: usize) -> Result<Vec<u8>, BuildError> {
+    blob(mesh, questions < 4 * mesh.triangles.len())
+}
+
+fn blob(mesh: &Mesh, is_quick: bool) -> Result<Vec<u8>, BuildError> {
     let count = mesh.triangles.len() as u32;
     let renumber = |(wire, number): (&Wire, u32)| Wire { source: number, ..*wire };
     let mesh = Mesh {
@@ -17,5 +30,5 @@ pub fn exact_blob(mesh: &Mesh) -> Result<Vec<u8>, BuildError> {
         ..Mesh::new(mesh.positions.clone(), mesh.triangles.clone())
     };
     let options = TreeOptions::default().with_segments(false).with_f32(true);
-    Ok(build(mesh.as_input(), &options)?.0.to_bytes())
+    Ok(build_in(mesh.as_input(), &options, is_quick)?.0.to_bytes())
 }

@@ -20,4 +20,4 @@ mod store;
 pub use batch::closest_points;
 pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, build};
 pub use encode::sections_of;
-pub use exact::exact_blob;
+pub use exact::{blob_for, exact_blob};

@@ -20,7 +20,7 @@ use super::piece::{
     CUT_ROUNDING, MAX_DEPTH, Piece, ROUNDED_UP, bounding_ball, farthest_corner, greater,
 };
 use super::surface::{Near, QueryScratch, Surface};
-use crate::bvh::{closest_points, exact_blob};
+use crate::bvh::{blob_for, closest_points};
 use crate::error::BuildError;
 use crate::mesh::Mesh;
 use glam::{DVec3, Vec3};
@@ -112,7 +112,7 @@ pub struct Refused {
 /// more, next to the farthest point. Meshes that are equally far apart everywhere take most.
 ///
 /// # Errors
-/// [`BuildError::Empty`] if a mesh has no triangle, and those of [`exact_blob`].
+/// [`BuildError::Empty`] if a mesh has no triangle, and those of [`blob_for`].
 pub fn hausdorff(
     first: &Mesh,
     second: &Mesh,
@@ -127,9 +127,11 @@ pub fn hausdorff(
         }
     }
     let (to_second, to_first) = rayon::join(
-        || exact_blob(second).map_err(refused(true)),
+        || blob_for(second, first.positions.len()).map_err(refused(true)),
         || match direction {
-            Direction::Both => exact_blob(first).map(Some).map_err(refused(false)),
+            Direction::Both => {
+                blob_for(first, second.positions.len()).map(Some).map_err(refused(false))
+            }
             Direction::Forward => Ok(None),
         },
     );

@@ -6,10 +6,8 @@ use super::adjacency::Adjacency;
 use super::remaining::Remaining;
 use super::score::{Spreads, contact, cut_off};
 use super::window::{Footprint, Run, Window};
-use super::{FanLeaf, MAX_LEAF_TRIANGLES};
+use super::{Effort, FanLeaf, MAX_LEAF_TRIANGLES};
 
-/// Candidates whose score is computed in full. More give no better result.
-const FINALISTS: usize = 16;
 /// Places for masks seen, a power of two well above the number of candidates (76 on average, a few
 /// hundred at most).
 const SEEN: usize = 512;
@@ -137,8 +135,8 @@ impl Candidates {
     }
 
     /// Candidates: every run that contains the seed, alone and with each longest second run that
-    /// joins it.
-    fn collect(&mut self, window: &Window) {
+    /// joins it. Only the `pairs` longest runs are joined.
+    fn collect(&mut self, window: &Window, pairs: usize) {
         self.clear();
         let mut runs = arrayvec::ArrayVec::<
             (Run, u8),
@@ -165,6 +163,10 @@ impl Candidates {
                 }
             }
         }
+        if runs.len() > pairs {
+            runs.sort_unstable_by_key(|&(run, _)| (std::cmp::Reverse(run.len), run));
+            runs.truncate(pairs);
+        }
         for (run, end) in runs {
             self.add_pairs(window, run, end);
         }
@@ -178,23 +180,30 @@ pub(super) struct LeafSearch<'a> {
     window: Window,
     candidates: Candidates,
     spreads: Spreads,
+    effort: Effort,
 }
 
 impl<'a> LeafSearch<'a> {
-    pub(super) fn new(adjacency: &'a Adjacency<'a>, positions: &'a [DVec3]) -> Self {
+    pub(super) fn new(
+        adjacency: &'a Adjacency<'a>,
+        positions: &'a [DVec3],
+        effort: Effort,
+    ) -> Self {
+        let count = adjacency.triangles().len();
         Self {
             adjacency,
             positions,
-            window: Window::new(positions.len(), adjacency.triangles().len()),
+            window: Window::new(positions.len(), count, effort.window),
             candidates: Candidates { list: Vec::new(), seen: [0; SEEN] },
             spreads: Spreads::default(),
+            effort,
         }
     }
 
     /// The best leaf of remaining triangles that contains `seed`.
     pub(super) fn best_leaf(&mut self, remaining: &Remaining, seed: u32) -> FanLeaf {
         self.window.fill(self.adjacency, remaining, seed);
-        self.candidates.collect(&self.window);
+        self.candidates.collect(&self.window, self.effort.pairs);
         let best = self.best();
         let fan = |run, reversed| self.window.fan(self.adjacency, run, reversed);
         FanLeaf {
@@ -210,9 +219,10 @@ impl<'a> LeafSearch<'a> {
 
     fn best(&mut self) -> Candidate {
         let list = &mut self.candidates.list;
-        if list.len() > FINALISTS {
-            list.select_nth_unstable(FINALISTS - 1);
-            list.truncate(FINALISTS);
+        let finalists = self.effort.finalists;
+        if list.len() > finalists {
+            list.select_nth_unstable(finalists - 1);
+            list.truncate(finalists);
         }
         list.sort_unstable();
         self.spreads.clear();

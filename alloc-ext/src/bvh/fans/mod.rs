@@ -37,6 +37,25 @@ pub(super) use pack::pack;
 /// Most triangles in a fan, and in a [`FanLeaf`]: the box tree tests a leaf in 8 lanes.
 pub(super) const MAX_LEAF_TRIANGLES: usize = 8;
 
+/// How many candidates the packing looks at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Effort {
+    /// Triangles of a window, 32 at most: as many as a mask has bits. 20 make half a percent more
+    /// leaves.
+    window: usize,
+    /// Runs that are joined with a second run, the longest first.
+    pairs: usize,
+    /// Candidates whose score is computed in full.
+    finalists: usize,
+}
+
+impl Effort {
+    /// For trees that are stored. More candidates give no better result.
+    pub(super) const FULL: Self = Self { window: window::WINDOW, pairs: usize::MAX, finalists: 16 };
+    /// For trees that are asked few questions.
+    pub(super) const QUICK: Self = Self { window: 16, pairs: 3, finalists: 1 };
+}
+
 /// Triangles about one vertex.
 ///
 /// Triangle `i` is `(centre, ring[i], ring[i + 1])`, in the mesh's winding; if `reversed`, it is

@@ -5,7 +5,7 @@ use super::best_leaf::LeafSearch;
 use super::front::Front;
 use super::remaining::Remaining;
 use super::speculation::Speculation;
-use super::{FanLeaf, MAX_LEAF_TRIANGLES};
+use super::{Effort, FanLeaf, MAX_LEAF_TRIANGLES};
 use crate::surface::EdgeTable;
 use glam::DVec3;
 
@@ -14,9 +14,9 @@ use glam::DVec3;
 /// The paper's rule, with the leaf in place of the fan: the front starts at the boundary edges and
 /// moves inwards. The next seed is the remaining triangle with the fewest remaining neighbours; of
 /// equals, the oldest entry of the queue. In a window of 32 triangles about the seed, every run
-/// that contains the seed is scored, alone and with each longest second run that joins it. The
-/// score counts the leaf's triangles, its edges to remaining triangles, the triangles that it cuts
-/// off, and its box. The best candidate becomes the next leaf.
+/// that contains the seed is scored, alone and with each longest second run that joins it. A low
+/// effort looks at fewer. The score counts the leaf's triangles, its edges to remaining triangles,
+/// the triangles that it cuts off, and its box. The best candidate becomes the next leaf.
 ///
 /// Triangles from different edge-connected components never share a leaf. Of three triangles on an
 /// edge, two are neighbours.
@@ -31,11 +31,12 @@ pub(in crate::bvh) fn pack(
     triangles: &[[u32; 3]],
     edges: &EdgeTable,
     positions: &[DVec3],
+    effort: Effort,
 ) -> Vec<FanLeaf> {
     let adjacency = Adjacency::new(triangles, edges);
     let mut remaining = Remaining::new(&adjacency);
-    let mut search = LeafSearch::new(&adjacency, positions);
-    let mut speculation = Speculation::new(&adjacency, positions);
+    let mut search = LeafSearch::new(&adjacency, positions, effort);
+    let mut speculation = Speculation::new(&adjacency, positions, effort);
     let mut front = Front::default();
     for triangle in 0..triangles.len() as u32 {
         front.push(triangle, remaining.degree(triangle));

@@ -7,12 +7,12 @@
 //! 3. When a seed's turn comes, its leaf is used if the window is unchanged ([`Footprint`]).
 //!    Otherwise the leaf is searched again. That happens near the ends of chunks.
 
-use super::FanLeaf;
 use super::adjacency::Adjacency;
 use super::best_leaf::LeafSearch;
 use super::front::Front;
 use super::remaining::Remaining;
 use super::window::Footprint;
+use super::{Effort, FanLeaf};
 use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
@@ -51,14 +51,18 @@ struct Worker<'a> {
 impl<'a> Speculation<'a> {
     /// One worker for each thread of rayon's current pool, up to [`MAX_WORKERS`]. None if there is
     /// only one thread, or if the soup is small.
-    pub(super) fn new(adjacency: &'a Adjacency<'a>, positions: &'a [DVec3]) -> Self {
+    pub(super) fn new(
+        adjacency: &'a Adjacency<'a>,
+        positions: &'a [DVec3],
+        effort: Effort,
+    ) -> Self {
         let threads = rayon::current_num_threads().min(MAX_WORKERS);
         let count = adjacency.triangles().len();
         let workers = if threads > 1 && count > threads * MIN_CHUNK { threads } else { 0 };
         let worker = |_| Worker {
             adjacency,
             remaining: Remaining::new(adjacency),
-            search: LeafSearch::new(adjacency, positions),
+            search: LeafSearch::new(adjacency, positions, effort),
         };
         Self {
             adjacency,

@@ -1,6 +1,6 @@
 //! Soups of every kind, packed.
 
-use super::{Fan, FanLeaf, MAX_LEAF_TRIANGLES, pack};
+use super::{Effort, Fan, FanLeaf, MAX_LEAF_TRIANGLES, pack};
 use crate::random::SplitMix;
 use crate::surface::EdgeTable;
 use glam::DVec3;
@@ -57,10 +57,15 @@ impl Soup {
         Self::new((0..valence).map(|i| [0, 1 + i, 1 + (i + 1) % valence]).collect())
     }
 
-    /// Leaves, checked; the same twice.
+    /// Leaves, checked; the same twice. Those of a quick packing are checked too.
     fn pack(&self) -> Vec<FanLeaf> {
+        self.pack_with(Effort::QUICK);
+        self.pack_with(Effort::FULL)
+    }
+
+    fn pack_with(&self, effort: Effort) -> Vec<FanLeaf> {
         let edges = EdgeTable::new(self.positions.len(), &self.triangles);
-        let leaves = pack(&self.triangles, &edges, &self.positions);
+        let leaves = pack(&self.triangles, &edges, &self.positions, effort);
         let mut found = vec![0; self.triangles.len()];
         for leaf in &leaves {
             demand_form(leaf);
@@ -76,7 +81,7 @@ impl Soup {
             }
         }
         assert!(found.iter().all(|&count| count == 1), "every triangle is in one fan");
-        assert_eq!(leaves, pack(&self.triangles, &edges, &self.positions));
+        assert_eq!(leaves, pack(&self.triangles, &edges, &self.positions, effort));
         leaves
     }
 

@@ -8,8 +8,7 @@ use super::remaining::Remaining;
 use super::{Fan, MAX_LEAF_TRIANGLES};
 use arrayvec::ArrayVec;
 
-/// Triangles in a window: as many as a mask has bits. 20 make half a percent more leaves, 48 no
-/// fewer.
+/// Most triangles in a window: as many as a mask has bits. 48 make no fewer leaves.
 pub(super) const WINDOW: usize = 32;
 const CORNERS: usize = 3 * WINDOW;
 /// No corner, no triangle, no vertex.
@@ -30,6 +29,8 @@ pub(super) struct Run {
 pub(super) struct Window {
     /// The triangles' numbers; the first is the seed.
     triangles: ArrayVec<u32, WINDOW>,
+    /// Most triangles.
+    size: usize,
     /// For corner k, the triangles with a remaining neighbour across half-edge k, as a mask.
     shared: [u32; 3],
     /// For each triangle its neighbours in the window, as a mask.
@@ -57,9 +58,10 @@ pub(super) struct Window {
 }
 
 impl Window {
-    pub(super) fn new(vertex_count: usize, triangle_count: usize) -> Self {
+    pub(super) fn new(vertex_count: usize, triangle_count: usize, size: usize) -> Self {
         Self {
             triangles: ArrayVec::new(),
+            size: size.min(WINDOW),
             shared: [0; 3],
             neighbours: [0; WINDOW],
             degree_masks: [0; 3],
@@ -92,7 +94,7 @@ impl Window {
             {
                 self.shared[k] |= 1 << i;
                 let slot = &mut self.local_triangle[across as usize / 3];
-                if *slot == NO && self.triangles.len() < WINDOW {
+                if *slot == NO && self.triangles.len() < self.size {
                     *slot = self.triangles.len() as u8;
                     self.triangles.push(across / 3);
                 }

@@ -138,9 +138,9 @@ fn ours([first, second]: [&Mesh; 2], side: Side, precision: f64) -> Result<Answe
     })?;
     // The search builds its trees itself: the same ones are built again.
     let (_, tree_seconds) = timed(|| {
-        side.sources()
-            .iter()
-            .try_for_each(|&from| samples::tree([first, second][1 - from]).map(drop))
+        side.sources().iter().try_for_each(|&from| {
+            samples::tree([first, second][1 - from], [first, second][from]).map(drop)
+        })
     })?;
     let vertices: usize =
         side.sources().iter().map(|&from| [first, second][from].positions.len()).sum();

@@ -1,7 +1,7 @@
 //! Samples of one mesh: points with their closest points on the other mesh.
 
 use glam::{DVec3, Vec3};
-use meshsweep::bvh::exact_blob;
+use meshsweep::bvh::blob_for;
 use meshsweep::mesh::Mesh;
 use meshsweep_core::{Budget, Bvh, ClosestPoint, CoherentQuery, Neighbor, ScratchEntry};
 
@@ -18,12 +18,12 @@ pub struct Sample {
     pub triangle: u32,
 }
 
-/// The box tree of a mesh, for [`Sampler`].
+/// The box tree of a mesh, for a [`Sampler`] of the other one: the tree that ours takes.
 ///
 /// # Errors
 /// The builder's refusal.
-pub fn tree(mesh: &Mesh) -> Result<Vec<u8>, String> {
-    exact_blob(mesh).map_err(|error| error.to_string())
+pub fn tree(mesh: &Mesh, other: &Mesh) -> Result<Vec<u8>, String> {
+    blob_for(mesh, other.positions.len()).map_err(|error| error.to_string())
 }
 
 /// Answers samples of one mesh from the box tree of the other.

@@ -89,7 +89,7 @@ pub fn search(
 ) -> Result<Found, String> {
     let watch = Stopwatch::start();
     let blobs: Vec<(usize, Vec<u8>)> = (side.sources().iter())
-        .map(|&from| Ok((from, tree(meshes[1 - from])?)))
+        .map(|&from| Ok((from, tree(meshes[1 - from], meshes[from])?)))
         .collect::<Result<_, String>>()?;
     let tree_seconds = watch.seconds();
     let coordinates = meshes.iter().flat_map(|mesh| mesh.positions.as_flattened());
