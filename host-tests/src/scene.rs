@@ -88,7 +88,8 @@ impl Scene {
         Self::with_trees(name, mesh, (by, seed), &options)
     }
 
-    /// Any mesh with two box trees for all questions: on a grid, and with f32 vertices. The blobs hold vertices that were moved by up to `by`.
+    /// Any mesh with two box trees for all questions: on a grid, and with f32 vertices. The blobs
+    /// hold vertices that were moved by up to `by`.
     #[must_use]
     pub fn solid(name: &str, mesh: Triangles, by: f32, seed: u64) -> Self {
         Self::with_trees(name, mesh, (by, seed), &TreeOptions::default().with_winding(true))

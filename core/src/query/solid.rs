@@ -7,9 +7,9 @@ use super::work::Work;
 
 /// A convex solid: all points within `radius` of the hull of its corners.
 ///
-/// One corner is a sphere, two are a capsule, three a triangle, eight a box of any orientation, 32 a
-/// tribox ([`Tribox::corners`](crate::Tribox::corners)). Corners and radius are in input units, in
-/// the model's frame, and taken as exact. Corners within the hull, or equal ones, do no harm.
+/// One corner is a sphere, two are a capsule, three a triangle, eight a box of any orientation, 32
+/// a tribox ([`Tribox::corners`](crate::Tribox::corners)). Corners and radius are in input units,
+/// in the model's frame, and taken as exact. Corners within the hull, or equal ones, do no harm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solid<'a> {
     corners: &'a [[f32; 3]],

@@ -44,7 +44,7 @@ pub fn shared_frames(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeBoxes>
     boxes.into_iter().flatten().collect()
 }
 
-/// [`shared_frames`] without the search of a rotation, which takes most of the time. The answers are
+/// [`shared_frames`] without the search of a rotation, which takes most of the time. Answers are
 /// the same, after a few more visits.
 pub fn unturned_frames(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeBoxes> {
     let subtrees = Subtrees::new(topology, leaves);

@@ -50,7 +50,8 @@ impl Bvh<'_> {
     /// Cost: of solids that are apart, a [`distance`](Bvh::distance), and a
     /// [`signed_by_winding`](Bvh::signed_by_winding) for each box of either tree that is the first
     /// on its branch to be farther from the other surface than it is large. Of others at most 320
-    /// points, each asked for in both trees, and a dozen translations, with a [`first_contact_of`](Bvh::first_contact_of) each.
+    /// points, each asked for in both trees, and a dozen translations, with a
+    /// [`first_contact_of`](Bvh::first_contact_of) each.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Pose, Relation, Scratch};

@@ -190,8 +190,8 @@ fn along_paths(subject: &Subject, tree: &Bvh<'_>) -> Result<Table, String> {
         }
     }
     table.note(format!(
-        "{PATHS} paths of {STEPS} poses that turn and shift; the first pose of each is not counted. \
-         Near contact: after {:.0} hundredths of the way to the nearest place. {GROUPS} groups: {} \
+        "{PATHS} paths of {STEPS} poses that turn and shift, without the first pose of each. Near \
+         contact: after {:.0} hundredths of the way to the nearest place. {GROUPS} groups: {} \
          bytes",
         100.0 * (1.0 - LEFT),
         size_of::<CoherentPair<'_, GROUPS>>(),

@@ -96,10 +96,9 @@ pub fn closest() -> String {
     format!(
         "lower and upper enclose the exact distance to the mesh as it was read. They are printed \
          as the shortest decimals that read back as the same f32: round them to f32 before you \
-         compare. px, py, pz is a \
-         point of its surface, at most upper away. {TRIANGLES}. work depends on the other queries: without --rel, \
-         --abs, --steps and --queue the box tree answers thousands at once, and each begins where \
-         a neighbour ended.\n\n\
+         compare. px, py, pz is a point of its surface, at most upper away. {TRIANGLES}. work \
+         depends on the other queries: without --rel, --abs, --steps and --queue the box tree \
+         answers thousands at once, and each begins where a neighbour ended.\n\n\
          A tight hull gives an interval as wide as its distance from the mesh. px, py, pz is then \
          the closest point of the hull, and no triangle is named.\n\n\
          A curve names the polyline and its segment, counted from 0. While a query moves by less \
@@ -239,9 +238,8 @@ pub fn clearance() -> String {
          one lies in the other; or undecided. lower and upper enclose the penetration depth, the \
          length of the shortest translation that separates them. Put x, y, z in place of the \
          pose's translation, and they are proved to be apart: it differs by upper at most. p is \
-         the point inside both that proves lower: the sum of its depths is lower or more. Both blobs \
-         are then built --for closest,segment,winding. If the meshes are deep \
-         in each other, upper may be several times as large as lower.\n\n\
+         the point inside both that proves lower: the sum of its depths is lower or more. Both \
+         blobs are then built --for closest,segment,winding. If the meshes are deep in each other, upper may be several times as large as lower.\n\n\
          Both blobs are built --for segment. Poses and moves count from 0. Options with poses \
          stand after the blobs.\n\n\
          {QUERIES}\n\n\
