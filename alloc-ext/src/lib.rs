@@ -27,6 +27,7 @@
 //! keeps that (`host-tests/tests/house.rs`).
 
 pub mod bvh;
+pub mod check;
 pub mod collapse;
 pub mod counted;
 pub mod curve;

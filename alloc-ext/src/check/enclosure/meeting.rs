@@ -1,8 +1,7 @@
 //! Whether triangles have points in common, in exact arithmetic.
 
-use crate::check::side;
-
-use super::Corners;
+use super::surface::Corners;
+use crate::check::exact::side;
 
 fn of_plane(t: &Corners, p: [f64; 3]) -> i8 {
     side(*t, p).0

@@ -2,41 +2,11 @@
 //! depth.
 
 use super::forest::Forest;
-use super::mesh::canonical;
 use super::parse::{Blob, Split, small_radius};
+use crate::check::distance::{ABSOLUTE, ROUNDING, distance};
+use crate::check::manifold::canonical;
 use glam::DVec3;
 use std::collections::HashMap;
-
-/// A stored radius is a bound of real numbers; these distances are rounded.
-pub(super) const ROUNDING: f64 = 1.0 + 1e-12;
-
-/// Least distance of a point and a triangle, up to some 1e-14 of the lengths: the foot on the plane
-/// if it lies inside three half-planes, else the nearest edge.
-pub(super) fn distance(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
-    let to_edge = |from: DVec3, to: DVec3| {
-        let d = to - from;
-        let t = if d == DVec3::ZERO {
-            0.0
-        } else {
-            (d.dot(p - from) / d.length_squared()).clamp(0.0, 1.0)
-        };
-        (p - from - d * t).length()
-    };
-    let edges = to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a));
-    let normal = (b - a).cross(c - a);
-    let within = |from: DVec3, to: DVec3| (to - from).cross(normal).dot(p - from) <= 0.0;
-    if normal != DVec3::ZERO && within(a, b) && within(b, c) && within(c, a) {
-        return edges.min(normal.dot(p - a).abs() / normal.length());
-    }
-    edges
-}
-
-pub(super) fn at(blob: &Blob, triangle: [u32; 3]) -> [DVec3; 3] {
-    blob.corners(triangle).map(DVec3::from)
-}
-
-/// What a distance in the local frame may be off.
-pub(super) const ABSOLUTE: f64 = 1e-14;
 
 /// Boxes are those of their vertices, to the last bit.
 pub(super) fn boxes(blob: &Blob) -> Result<(), String> {
@@ -71,7 +41,7 @@ pub(super) fn groups(blob: &Blob, forest: &Forest) -> Result<(), String> {
         let below = forest.below[first..first + faces.len()].iter().flatten();
         let standing = faces.iter().enumerate().filter(|(i, _)| forest.has_part[first + i]);
         for &v in standing.flat_map(|(_, face)| face).chain(below) {
-            let d = distance(DVec3::from(blob.vertices[v as usize]), at(blob, corners));
+            let d = distance(DVec3::from(blob.vertices[v as usize]), blob.places(corners));
             if d > radius * ROUNDING + ABSOLUTE {
                 return Err(format!(
                     "base group {index} leaves out vertex {v}: {d:e} > {radius:e}"

@@ -1,8 +1,8 @@
 //! How often a closed surface winds around a point: signed crossings of a ray, in exact arithmetic.
 
 use super::meeting::turn;
-use super::{Corners, Surface};
-use crate::check::side;
+use super::surface::{Corners, Surface};
+use crate::check::exact::side;
 
 /// Faces by the strips of y that they reach into.
 #[derive(Debug)]

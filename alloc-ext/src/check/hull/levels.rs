@@ -1,10 +1,10 @@
 //! What the level table says of volumes and distances.
 
-use super::CheckReport;
-use super::bounds::distance;
 use super::forest::Forest;
-use super::mesh::canonical;
 use super::parse::{Blob, small_radius};
+use super::report::CheckReport;
+use crate::check::distance::distance;
+use crate::check::manifold::canonical;
 use glam::DVec3;
 
 /// Pairs of a sample and a triangle that may be looked at.

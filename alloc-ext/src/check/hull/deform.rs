@@ -7,11 +7,11 @@
 //! it fails, the point is searched whose largest excess over the radii is least: a convex function
 //! of two coordinates.
 
-use super::CheckReport;
-use super::bounds::{ABSOLUTE, ROUNDING};
 use super::forest::Forest;
-use super::parse::{Blob, Cursor, small_radius, width};
-use super::sections::section;
+use super::parse::{Blob, small_radius};
+use super::report::CheckReport;
+use crate::check::bytes::{Cursor, section, width};
+use crate::check::distance::{ABSOLUTE, ROUNDING};
 use glam::DVec3;
 
 /// Steps of a search along one coordinate: each leaves two thirds.

@@ -1,5 +1,4 @@
-//! Proofs from a blob's bytes alone: a parser, exact arithmetic and a replay that share no code
-//! with reader or builder.
+//! Proof of a hull hierarchy from the blob's bytes alone.
 //!
 //! If [`check_blob`] returns `Ok`, the blob's hulls enclose its surface. Each split is undone in
 //! exact integer arithmetic: the vertex that it replaces lies on or outside every plane of the
@@ -9,43 +8,14 @@
 
 mod bounds;
 mod deform;
-mod enclosure;
-mod exact;
 mod forest;
 mod levels;
-mod mesh;
 mod parse;
 mod replay;
-mod sections;
-mod tree;
+mod report;
 
-pub use enclosure::{
-    EnclosureProof, Surface, Winding, check_enclosure, check_enclosure_files, check_margin,
-    read_surface,
-};
-pub use exact::side;
-pub use mesh::{Mesh, canonical};
 pub use parse::Blob;
-pub use tree::{TreeProof, check_tree};
-
-/// What was proved, in numbers.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct CheckReport {
-    /// Splits replayed.
-    pub splits: usize,
-    /// Planes that a replaced vertex was found to lie on or outside.
-    pub planes: usize,
-    /// Of these, the ones that `f64` could not decide.
-    pub exact_planes: usize,
-    /// Triangles of the finest mesh.
-    pub triangles: usize,
-    /// Pairs of a triangle of any level and a vertex of the surface that it stands for.
-    pub covered: usize,
-    /// Pairs of a triangle and a vertex that were followed through all key frames.
-    pub key_pairs: usize,
-    /// Points of the levels' hulls whose distance to the surface was measured.
-    pub samples: usize,
-}
+pub use report::CheckReport;
 
 /// Proves everything that a blob's tables claim of each other.
 ///

@@ -1,11 +1,11 @@
 //! Whether the leaves hold the input's triangles, and as near to where they were as the header
 //! says.
 
-use meshsweep::mesh::Mesh;
+use crate::mesh::Mesh;
 
-use super::TreeProof;
 use super::parse::TreeBlob;
-use crate::oracle::dyadic::Dyadic;
+use super::proof::TreeProof;
+use crate::check::dyadic::Dyadic;
 
 /// Every triangle of the mesh, and every wire as one, is stored exactly once, with its number, its
 /// winding, and its corners within the surface error.

@@ -6,9 +6,9 @@
 //! other triangle's inside, and for each pair of edges. Lengths are compared by their squares, and
 //! divisors are moved to the other side.
 
-use super::Corners;
-use crate::oracle::dyadic::Dyadic;
-use crate::oracle::vector::{cross, dot, minus};
+use super::surface::Corners;
+use crate::check::dyadic::Dyadic;
+use crate::check::vector::{cross, dot, minus};
 
 type Vector = [Dyadic; 3];
 

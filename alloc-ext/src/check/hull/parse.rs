@@ -1,7 +1,7 @@
 //! The hull hierarchy's sections read anew: records of one to four byte indices.
 
-use super::sections::{self, check_header, header_word};
-use crate::corrupt::word;
+use crate::check::bytes::{Cursor, check_header, header_word, section as bytes_of, width, word};
+use glam::DVec3;
 
 /// A vertex split.
 #[derive(Clone, Debug)]
@@ -74,36 +74,6 @@ pub struct Blob {
     pub dependency_depth: u32,
 }
 
-/// A section, read from front to back.
-pub(super) struct Cursor<'a>(pub(super) &'a [u8], pub(super) &'static str);
-
-impl Cursor<'_> {
-    pub(super) fn uint(&mut self, width: usize) -> Result<u32, String> {
-        let Some((head, rest)) = self.0.split_at_checked(width) else {
-            return Err(format!("section {} ends early", self.1));
-        };
-        self.0 = rest;
-        Ok(head.iter().rev().fold(0, |value, &byte| value << 8 | u32::from(byte)))
-    }
-
-    pub(super) fn float(&mut self) -> Result<f32, String> {
-        self.uint(4).map(f32::from_bits)
-    }
-
-    fn triple(&mut self, width: usize) -> Result<[u32; 3], String> {
-        Ok([self.uint(width)?, self.uint(width)?, self.uint(width)?])
-    }
-
-    pub(super) fn end(self) -> Result<(), String> {
-        if self.0.is_empty() { Ok(()) } else { Err(format!("section {} is too long", self.1)) }
-    }
-}
-
-/// Bytes that hold `count` values and one more.
-pub(super) fn width(count: u32) -> usize {
-    [0xFF, 0xFFFF, 0xFF_FFFF].iter().position(|&most| count <= most).map_or(4, |at| at + 1)
-}
-
 fn bfloat(code: u32) -> f64 {
     f64::from(f32::from_bits(code << 16))
 }
@@ -129,7 +99,7 @@ impl Blob {
         check_header(bytes)?;
         let at = |offset: usize| header_word(bytes, offset);
         let section = |kind: u32, name: &'static str| -> Result<Cursor<'_>, String> {
-            Ok(Cursor(sections::section(bytes, kind, name)?, name))
+            Ok(Cursor(bytes_of(bytes, kind, name)?, name))
         };
         let corner = |offset: usize| -> Result<[f64; 3], String> {
             let mut p = [0.0; 3];
@@ -245,6 +215,11 @@ impl Blob {
     /// Coordinates of three vertices.
     pub(super) fn corners(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
         triangle.map(|v| self.vertices[v as usize])
+    }
+
+    /// The same as vectors.
+    pub(super) fn places(&self, triangle: [u32; 3]) -> [DVec3; 3] {
+        self.corners(triangle).map(DVec3::from)
     }
 
     /// Triangles that a split brings, in the order of their radii.

@@ -1,9 +1,9 @@
 //! All splits in order, from the base hull to the surface.
 
-use super::CheckReport;
-use super::exact::side;
-use super::mesh::{Mesh, canonical};
 use super::parse::Blob;
+use super::report::CheckReport;
+use crate::check::exact::side;
+use crate::check::manifold::{Manifold, canonical};
 use std::collections::HashSet;
 
 /// The triangles of each level's hull, without those that close holes.
@@ -17,7 +17,7 @@ pub(super) fn replay(blob: &Blob, report: &mut CheckReport) -> Result<Hulls, Str
         return Err("a triangle names a vertex that does not exist".into());
     }
     splits_with(blob)?;
-    let mut mesh = Mesh::default();
+    let mut mesh = Manifold::default();
     for &triangle in &blob.base {
         if triangle.iter().any(|&v| v >= blob.base_vertices) {
             return Err(format!("base triangle {triangle:?} has a vertex that a split makes"));
@@ -86,7 +86,7 @@ fn splits_with(blob: &Blob) -> Result<(), String> {
 fn split(
     blob: &Blob,
     index: usize,
-    mesh: &mut Mesh,
+    mesh: &mut Manifold,
     report: &mut CheckReport,
 ) -> Result<(), String> {
     let split = &blob.splits[index];

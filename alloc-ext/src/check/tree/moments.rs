@@ -3,9 +3,9 @@
 
 use std::collections::HashMap;
 
-use super::TreeProof;
 use super::parse::{Moments, TreeBlob};
-use crate::oracle::vector::{cross, dot};
+use super::proof::TreeProof;
+use crate::check::vector::{cross, dot};
 
 type Point = [f64; 3];
 

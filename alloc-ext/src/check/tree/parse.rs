@@ -2,8 +2,7 @@
 
 use std::ops::Range;
 
-use crate::check::sections::{check_header, header_word, section};
-use crate::corrupt::word;
+use crate::check::bytes::{check_header, header_word, section, word};
 
 /// A leaf: vertices as stored, centres first.
 #[derive(Clone, Debug)]

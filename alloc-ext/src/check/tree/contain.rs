@@ -1,8 +1,8 @@
 //! Whether boxes contain what is below them, and whether a distance to them is a lower bound.
 
-use super::TreeProof;
 use super::parse::{Boxes, Leaf, Slabs, TreeBlob};
-use crate::oracle::dyadic::{Dyadic, is_semidefinite};
+use super::proof::TreeProof;
+use crate::check::dyadic::{Dyadic, is_semidefinite};
 
 /// For each node its parent and its place there; the root has none.
 pub(super) fn parents(tree: &TreeBlob) -> Result<Vec<Option<(usize, usize)>>, String> {

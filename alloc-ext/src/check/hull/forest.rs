@@ -1,10 +1,10 @@
 //! The triangles of all levels as a forest, built anew from the split tables: which part of the
 //! surface each stands for, and whether its radius contains it.
 
-use super::CheckReport;
-use super::bounds::{ABSOLUTE, ROUNDING, at, distance};
-use super::mesh::canonical;
 use super::parse::{Blob, small_radius};
+use super::report::CheckReport;
+use crate::check::distance::{ABSOLUTE, ROUNDING, distance};
+use crate::check::manifold::canonical;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -89,7 +89,7 @@ impl Forest {
             if self.has_part[index] != blob.has_part(index) {
                 return Err(format!("triangle {index}: its radius {radius:e} denies its part"));
             }
-            let corners = at(blob, triangle);
+            let corners = blob.places(triangle);
             for &v in below {
                 let d = distance(DVec3::from(blob.vertices[v as usize]), corners);
                 if d > radius * ROUNDING + ABSOLUTE && !triangle.contains(&v) {

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 /// Triangles by directed edge; oriented triangles only, each edge at most once in each direction.
 #[derive(Clone, Debug, Default)]
-pub struct Mesh {
+pub struct Manifold {
     /// From edge `(a, b)` to `c`, for the triangle `a b c`.
     opposite: HashMap<(u32, u32), u32>,
     /// Number of triangles at each vertex.
@@ -27,7 +27,7 @@ pub fn canonical([a, b, c]: [u32; 3]) -> [u32; 3] {
     }
 }
 
-impl Mesh {
+impl Manifold {
     /// Adds a triangle.
     ///
     /// # Errors
@@ -63,12 +63,12 @@ impl Mesh {
     }
 
     /// Triangles at a vertex.
-    pub(super) fn valence(&self, vertex: u32) -> usize {
+    pub(crate) fn valence(&self, vertex: u32) -> usize {
         self.valence.get(&vertex).map_or(0, |&n| n as usize)
     }
 
     /// The triangles at a vertex form one closed fan that begins with the edge to `start`.
-    pub(super) fn is_disc_at(&self, vertex: u32, start: u32) -> bool {
+    pub(crate) fn is_disc_at(&self, vertex: u32, start: u32) -> bool {
         let (mut spoke, mut count) = (start, 0);
         loop {
             let Some(&next) = self.opposite.get(&(vertex, spoke)) else { return false };

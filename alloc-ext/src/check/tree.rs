@@ -9,29 +9,12 @@
 mod contain;
 mod moments;
 mod parse;
+mod proof;
 mod surface;
 
-use meshsweep::mesh::Mesh;
+use crate::mesh::Mesh;
 use parse::TreeBlob;
-
-/// What was proved, in numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct TreeProof {
-    /// Triangles found in the mesh, each once.
-    pub triangles: usize,
-    /// Vertices of the leaves.
-    pub vertices: usize,
-    /// Corners whose distance from the input's `f64` could not compare with the surface error.
-    pub exact_corners: usize,
-    /// Frames that make no distance longer.
-    pub frames: usize,
-    /// Coordinates of vertices found between two planes of a box above them.
-    pub contained: usize,
-    /// Of these, the ones that `f64` could not decide.
-    pub exact_contained: usize,
-    /// Nodes whose moments are those of their triangles.
-    pub moments: usize,
-}
+pub use proof::TreeProof;
 
 /// Proves that a blob's box tree is one of `mesh`, which no vertex was moved in before but by
 /// [`Mesh::rounding`].

@@ -1,7 +1,7 @@
 //! On which side of a plane a point lies: a filter in `f64`, then integers.
 
-use crate::oracle::dyadic::Dyadic;
-use crate::oracle::vector::{cross, dot, minus};
+use super::dyadic::Dyadic;
+use super::vector::{cross, dot, minus};
 
 /// Sign of `(d − a) · ((b − a) × (c − a))`: positive in front of the plane of a counter-clockwise
 /// triangle; and whether integers had to decide.

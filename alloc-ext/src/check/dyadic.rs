@@ -10,7 +10,7 @@ use super::vector::{cross, dot};
 
 /// An exact number.
 #[derive(Clone, Debug)]
-pub(crate) struct Dyadic {
+pub struct Dyadic {
     mantissa: BigInt,
     exponent: i32,
 }
@@ -35,7 +35,7 @@ impl From<f64> for Dyadic {
 
 impl Dyadic {
     /// The nearest f64, or one of its neighbours.
-    pub(crate) fn rounded(&self) -> f64 {
+    pub fn rounded(&self) -> f64 {
         let bits = self.mantissa.bits() as i32;
         // A mantissa of more than 64 bits loses its last ones first: converting it whole could
         // overflow.
@@ -47,7 +47,7 @@ impl Dyadic {
     }
 
     /// 1 above 0, −1 below.
-    pub(crate) fn sign(&self) -> i8 {
+    pub fn sign(&self) -> i8 {
         i8::from(self.mantissa.is_positive()) - i8::from(self.mantissa.is_negative())
     }
 
@@ -107,7 +107,7 @@ impl PartialOrd for Dyadic {
 }
 
 /// Whether a symmetric matrix has no negative eigenvalue: all its principal minors are at least 0.
-pub(crate) fn is_semidefinite(m: &[[Dyadic; 3]; 3]) -> bool {
+pub fn is_semidefinite(m: &[[Dyadic; 3]; 3]) -> bool {
     let pair = |i: usize, j: usize| &(&m[i][i] * &m[j][j]) - &(&m[i][j] * &m[j][i]);
     let all = dot(&m[0], &cross(&m[1], &m[2]));
     (0..3).all(|i| m[i][i].sign() >= 0)

@@ -1,6 +1,6 @@
-//! Proof that a hull encloses a mesh, from the two files alone.
+//! Proof that a hull encloses a mesh, from the two surfaces alone.
 //!
-//! If [`check_enclosure`] returns `Ok`, then in exact arithmetic on the files' coordinates
+//! If [`check_enclosure`] returns `Ok`, then in exact arithmetic on their coordinates
 //! 1. the hull is a closed manifold, and its faces have no point in common but the corners and
 //!    edges that they share;
 //! 2. no face of the hull touches or crosses a triangle of the mesh;
@@ -16,14 +16,14 @@
 //! than the margin and does not meet the hull.
 
 mod distance;
-mod files;
 mod meeting;
+mod surface;
 mod winding;
 
-pub use files::{Surface, read_surface};
-
-use super::mesh::Mesh;
+use super::manifold::Manifold;
 use meeting::{apart, area_free, sharing_apart};
+pub(crate) use surface::Corners;
+pub use surface::Surface;
 pub use winding::Winding;
 
 /// What was proved, in numbers.
@@ -38,16 +38,6 @@ pub struct EnclosureProof {
     /// Pairs of a face and a triangle, or of two faces, whose boxes overlap and that were found to
     /// be apart.
     pub pairs: usize,
-}
-
-/// Proves it of two files, each PLY (binary little-endian or text) or STL.
-///
-/// # Errors
-/// What does not hold, in words.
-pub fn check_enclosure_files(mesh: &[u8], hull: &[u8]) -> Result<EnclosureProof, String> {
-    let mesh = read_surface(mesh).map_err(|e| format!("mesh: {e}"))?;
-    let hull = read_surface(hull).map_err(|e| format!("hull: {e}"))?;
-    check_enclosure(&mesh, &hull)
 }
 
 /// Proves it of two surfaces, with a margin in their unit; `pairs` counts those that are nearer
@@ -91,7 +81,7 @@ pub fn check_enclosure(mesh: &Surface, hull: &Surface) -> Result<EnclosureProof,
     if hull.triangles.is_empty() {
         return Err("the hull has no faces".into());
     }
-    let mut connectivity = Mesh::default();
+    let mut connectivity = Manifold::default();
     for &face in &hull.triangles {
         connectivity.add(face)?;
     }
@@ -141,8 +131,6 @@ fn clear_of(mesh: &Surface, hull: &Surface) -> Result<usize, String> {
     }
     Ok(pairs.len())
 }
-
-type Corners = [[f64; 3]; 3];
 
 /// Pairs whose boxes overlap or touch.
 fn overlapping(first: &[Corners], second: &[Corners]) -> Vec<(usize, usize)> {

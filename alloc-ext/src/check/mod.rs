@@ -1,0 +1,27 @@
+//! Proofs from a blob's bytes and the mesh: a parser, exact arithmetic and a replay that share no
+//! code with reader or builder.
+
+mod bytes;
+mod distance;
+#[doc(hidden)]
+pub mod dyadic;
+mod enclosure;
+mod exact;
+mod hull;
+mod manifold;
+mod tree;
+#[doc(hidden)]
+pub mod vector;
+
+#[doc(hidden)]
+pub use bytes::{Entry, crc32, entries, word};
+#[doc(hidden)]
+pub use enclosure::{EnclosureProof, Surface, Winding, check_enclosure, check_margin};
+#[doc(hidden)]
+pub use exact::side;
+#[doc(hidden)]
+pub use hull::{Blob, CheckReport, check_blob};
+#[doc(hidden)]
+pub use manifold::{Manifold, canonical};
+#[doc(hidden)]
+pub use tree::{TreeProof, check_tree};
