@@ -71,6 +71,9 @@ pub(crate) fn header_word(bytes: &[u8], offset: usize) -> Result<u32, String> {
 /// Proves that it is a whole blob whose header's CRC holds.
 pub(crate) fn check_header(bytes: &[u8]) -> Result<(), String> {
     let at = |offset: usize| header_word(bytes, offset);
+    if bytes.len() < TABLE {
+        return Err("the header is cut short".into());
+    }
     if bytes.get(..10) != Some(b"meshswep\x03\x00".as_slice()) || at(16)? as usize != bytes.len() {
         return Err("not a whole blob of version 3".into());
     }

@@ -21,6 +21,7 @@ mod surface;
 mod winding;
 
 use super::manifold::Manifold;
+pub(crate) use distance::point_is_far;
 use meeting::{apart, area_free, sharing_apart};
 pub(crate) use surface::Corners;
 pub use surface::Surface;

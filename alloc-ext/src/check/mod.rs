@@ -2,16 +2,27 @@
 //! code with reader or builder.
 
 mod bytes;
+mod curve;
 mod distance;
 #[doc(hidden)]
 pub mod dyadic;
 mod enclosure;
 mod exact;
+mod finding;
 mod hull;
+mod input;
 mod manifold;
+mod near;
+mod planar;
+mod tight;
 mod tree;
+mod triboxes;
 #[doc(hidden)]
 pub mod vector;
+mod verify;
+
+pub use finding::{Finding, Outcome};
+pub use verify::{Against, verify};
 
 #[doc(hidden)]
 pub use bytes::{Entry, crc32, entries, word};

@@ -10,7 +10,7 @@ use super::surface::Corners;
 use crate::check::dyadic::Dyadic;
 use crate::check::vector::{cross, dot, minus};
 
-type Vector = [Dyadic; 3];
+pub(crate) type Vector = [Dyadic; 3];
 
 /// A margin.
 pub(super) struct Margin {
@@ -85,7 +85,7 @@ fn corner_is_far(p: &Vector, [a, b, c]: &[Vector; 3], most: &Dyadic) -> bool {
 }
 
 /// Whether a point is farther from a segment.
-fn point_is_far(p: &Vector, a: &Vector, b: &Vector, most: &Dyadic) -> bool {
+pub(crate) fn point_is_far(p: &Vector, a: &Vector, b: &Vector, most: &Dyadic) -> bool {
     let (along, to) = (minus(b, a), minus(p, a));
     let (square, foot) = (dot(&along, &along), dot(&along, &to));
     if foot.sign() <= 0 {

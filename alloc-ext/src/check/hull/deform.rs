@@ -21,26 +21,37 @@ const STEPS: usize = 60;
 const KEY_ABSOLUTE: f64 = 64.0 * ABSOLUTE;
 
 /// A key frame: places of the vertices, and radii.
-struct Key<'a> {
-    vertices: Vec<DVec3>,
+pub(super) struct Key<'a> {
+    pub(super) vertices: Vec<DVec3>,
+    /// Claimed greatest distance of a vertex from the input's.
+    pub(super) error: f64,
     radii: &'a [u8],
 }
 
-/// Numbers of the surface's vertices are below their claimed limit.
-pub(super) fn numbers(bytes: &[u8], blob: &Blob) -> Result<(), String> {
+/// Numbers of the surface's vertices, in their order; all are below their claimed limit.
+pub(super) fn numbers(bytes: &[u8], blob: &Blob) -> Result<Vec<u32>, String> {
     let body = section(bytes, 22, "vertex numbers")?;
     if body.is_empty() {
-        return Ok(());
+        return Ok(Vec::new());
     }
     let mut cursor = Cursor(body, "vertex numbers");
     let limit = cursor.uint(4)?;
+    let mut numbers = Vec::new();
     for _ in blob.splits_with.iter().filter(|split| split.is_none()) {
         let number = cursor.uint(width(limit))?;
         if number >= limit {
             return Err(format!("vertex number {number} of {limit}"));
         }
+        numbers.push(number);
     }
-    cursor.end()
+    cursor.end()?;
+    Ok(numbers)
+}
+
+/// The blob's key frames but the first.
+pub(super) fn frames<'a>(bytes: &'a [u8], blob: &Blob) -> Result<Vec<Key<'a>>, String> {
+    let body = section(bytes, 23, "key frames")?;
+    if body.is_empty() { Ok(Vec::new()) } else { read(body, blob) }
 }
 
 /// Radii of key frames cover, and boxes are those of the vertices.
@@ -50,13 +61,13 @@ pub(super) fn keys(
     forest: &Forest,
     report: &mut CheckReport,
 ) -> Result<(), String> {
-    let body = section(bytes, 23, "key frames")?;
-    if body.is_empty() {
+    let frames = frames(bytes, blob)?;
+    if frames.is_empty() {
         return Ok(());
     }
     let rest = blob.vertices.iter().map(|&p| DVec3::from(p)).collect();
-    let mut keys = vec![Key { vertices: rest, radii: &blob.radii }];
-    keys.extend(read(body, blob)?);
+    let mut keys = vec![Key { vertices: rest, error: 0.0, radii: &blob.radii }];
+    keys.extend(frames);
     for (index, (&triangle, below)) in forest.triangles.iter().zip(&forest.below).enumerate() {
         let radius = |key: &Key<'_>| small_radius(key.radii[index]) * ROUNDING + KEY_ABSOLUTE;
         for &v in below.iter().filter(|v| !triangle.contains(v)) {
@@ -92,10 +103,10 @@ fn read<'a>(body: &'a [u8], blob: &Blob) -> Result<Vec<Key<'a>>, String> {
         if !(error >= 0.0 && error.is_finite()) {
             return Err(format!("a key frame has the error {error}"));
         }
-        boxes.push([corner(&mut cursor)?, corner(&mut cursor)?]);
+        boxes.push((error, [corner(&mut cursor)?, corner(&mut cursor)?]));
     }
     let mut keys = Vec::new();
-    for [low, high] in boxes {
+    for (error, [low, high]) in boxes {
         let vertices = blob.vertices.iter().map(|_| corner(&mut cursor));
         let vertices = vertices.collect::<Result<Vec<DVec3>, _>>()?;
         let least = vertices.iter().fold(DVec3::INFINITY, |low, &p| low.min(p));
@@ -106,7 +117,7 @@ fn read<'a>(body: &'a [u8], blob: &Blob) -> Result<Vec<Key<'a>>, String> {
         let split = cursor.0.split_at_checked(blob.radii.len());
         let (radii, rest) = split.ok_or("section key frames ends early")?;
         cursor.0 = rest;
-        keys.push(Key { vertices, radii });
+        keys.push(Key { vertices, error: f64::from(error), radii });
     }
     cursor.end()?;
     Ok(keys)

@@ -3,12 +3,9 @@
 use super::forest::Forest;
 use super::parse::{Blob, small_radius};
 use super::report::CheckReport;
-use crate::check::distance::distance;
 use crate::check::manifold::canonical;
+use crate::check::near::{Near, Verdict};
 use glam::DVec3;
-
-/// Pairs of a sample and a triangle that may be looked at.
-const BUDGET: usize = 20_000_000;
 
 /// Six times the signed volume, around a vertex of the mesh.
 fn volume(blob: &Blob, triangles: &[[u32; 3]]) -> f64 {
@@ -50,8 +47,8 @@ pub(super) fn volumes(blob: &Blob, hulls: &[Vec<[u32; 3]>]) -> Result<(), String
     Ok(())
 }
 
-/// The hull of each level is as near the surface as the table says, at sampled points, and its
-/// radii are below the table's.
+/// The hull of each level is as near the surface as the table says, and its radii are below the
+/// table's.
 pub(super) fn distances(
     blob: &Blob,
     hulls: &[Vec<[u32; 3]>],
@@ -63,11 +60,10 @@ pub(super) fn distances(
         return Err("the finest level is the surface, and the table says that it is not".into());
     }
     if blob.is_cut {
+        report.undecided_levels = blob.levels.len();
         return Ok(());
     }
-    let surface: Vec<[DVec3; 3]> =
-        blob.surface.iter().map(|&t| blob.corners(t).map(DVec3::from)).collect();
-    let budget = (BUDGET / surface.len().max(1) / coarser.len().max(1)).max(8);
+    let surface = Near::new(blob.surface.iter().map(|&t| blob.places(t)).collect());
     for (index, (level, hull)) in coarser.iter().zip(hulls).enumerate() {
         for &triangle in hull {
             let radius = small_radius(blob.radii[forest.number[&canonical(triangle)]]);
@@ -78,20 +74,23 @@ pub(super) fn distances(
                 ));
             }
         }
-        let stride = (hull.len() * 4).div_ceil(budget).max(1);
-        for &triangle in hull.iter().step_by(stride) {
-            let [a, b, c] = blob.corners(triangle).map(DVec3::from);
-            for p in [a, b, c, (a + b + c) / 3.0] {
-                let nearest = surface.iter().map(|&t| distance(p, t)).fold(f64::INFINITY, f64::min);
-                report.samples += 1;
-                if nearest > f64::from(level.hull_to_surface) * (1.0 + 1e-12) + 1e-14 {
+        let mut is_decided = true;
+        for &triangle in hull {
+            match surface.within(blob.places(triangle), f64::from(level.hull_to_surface)) {
+                Verdict::Within => report.level_triangles += 1,
+                Verdict::Beyond(p, d) => {
                     return Err(format!(
-                        "level {index}: {p} is {nearest:e} from the surface, the table says {:e}",
+                        "level {index}: {p} is {d:e} from the surface, the table says {:e}",
                         level.hull_to_surface
                     ));
                 }
+                Verdict::Undecided => {
+                    is_decided = false;
+                    break;
+                }
             }
         }
+        report.undecided_levels += usize::from(!is_decided);
     }
     Ok(())
 }

@@ -38,6 +38,12 @@ pub struct Level {
 /// All that a blob holds, in the local frame.
 #[derive(Clone, Debug)]
 pub struct Blob {
+    /// Input coordinate = local coordinate × 2^this.
+    pub(super) scale_exponent: i32,
+    /// Triangles of the input file.
+    pub(super) input_triangles: u32,
+    /// Claimed Hausdorff distance of input and surface.
+    pub(super) surface_error: f64,
     /// Whether finer levels were cut off.
     pub is_cut: bool,
     /// Whether its levels claim to enclose the surface.
@@ -164,6 +170,9 @@ impl Blob {
         }
         let starts = if is_cut { 0 } else { splits.div_ceil(8) };
         let mut blob = Blob {
+            scale_exponent: at(28)?.cast_signed(),
+            input_triangles: at(84)?,
+            surface_error: f64::from(f32::from_bits(at(88)?)),
             is_cut,
             encloses,
             base_vertices,

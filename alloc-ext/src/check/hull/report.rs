@@ -15,6 +15,8 @@ pub struct CheckReport {
     pub covered: usize,
     /// Pairs of a triangle and a vertex that were followed through all key frames.
     pub key_pairs: usize,
-    /// Points of the levels' hulls whose distance to the surface was measured.
-    pub samples: usize,
+    /// Triangles of the levels' hulls that are as near the surface as the level table says.
+    pub level_triangles: usize,
+    /// Levels of which that could not be decided.
+    pub undecided_levels: usize,
 }

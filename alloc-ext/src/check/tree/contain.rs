@@ -171,5 +171,15 @@ pub(super) fn boxes(
     if vertices.any(|v| (0..3).any(|k| v[k] < low[k] || v[k] > high[k])) {
         return Err("the header's box leaves out a vertex".into());
     }
+    let step = 2f64.powi(tree.grid_exponent);
+    if let Some([low, high]) = tree.surface_box
+        && tree
+            .leaves
+            .iter()
+            .flat_map(|leaf| &leaf.vertices)
+            .any(|v| (0..3).any(|k| !(low[k]..=high[k]).contains(&(v[k] * step))))
+    {
+        return Err("the blob's box of the surface leaves out a vertex".into());
+    }
     Ok(())
 }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::check::bytes::{check_header, header_word, section, word};
+use crate::check::input::Stored;
 
 /// A leaf: vertices as stored, centres first.
 #[derive(Clone, Debug)]
@@ -105,6 +106,11 @@ pub(super) struct TreeBlob {
     pub(super) slabs: Vec<Slabs>,
     /// Empty or one for each node.
     pub(super) moments: Vec<Moments>,
+    /// Empty or one for each leaf: an axis, and the sine of its angle in units of 1/254; 255 is
+    /// unknown.
+    pub(super) cones: Vec<([i8; 3], u8)>,
+    /// The blob's box of the surface, local frame; none if it is that of a hull hierarchy.
+    pub(super) surface_box: Option<[[f64; 3]; 2]>,
     /// For each triangle its number in the input.
     pub(super) source: Vec<u32>,
 }
@@ -134,7 +140,7 @@ fn records<'a>(
     if body.is_empty() || body.len() == bytes * nodes {
         Ok(body.chunks_exact(bytes).collect())
     } else {
-        Err(format!("{name}: not one for each node"))
+        Err(format!("{name}: not one for each of {nodes}"))
     }
 }
 
@@ -196,6 +202,15 @@ impl TreeBlob {
         let frames = records(section(bytes, 14, "frames")?, 76, nodes, "frames")?;
         let slabs = records(section(bytes, 15, "boxes")?, 72, nodes, "boxes")?;
         let moments = records(section(bytes, 24, "moments")?, 60, nodes, "moments")?;
+        let cones = records(section(bytes, 18, "normal cones")?, 4, leaf_count, "normal cones")?;
+        let local = |offset: usize| -> Result<[f64; 3], String> {
+            let [x, y, z] = [0, 4, 8].map(|k| at(offset + k).map(f32::from_bits).map(f64::from));
+            Ok([x?, y?, z?])
+        };
+        let surface_box = match at(60)? {
+            0 => Some([local(116)?, local(128)?]),
+            _ => None,
+        };
         let tree = Self {
             scale_exponent: at(28)?.cast_signed(),
             input_triangles: at(84)?,
@@ -244,9 +259,25 @@ impl TreeBlob {
                     step: floats(record, 60),
                 })
                 .collect(),
+            cones: cones
+                .into_iter()
+                .map(|record| ([0, 1, 2].map(|k| record[k].cast_signed()), record[3]))
+                .collect(),
+            surface_box,
             source: source(section(bytes, 17, "source numbers")?, triangles)?,
         };
         tree.finite()
+    }
+
+    /// Triangles as stored, in the local frame.
+    pub(super) fn triangles(&self) -> impl Iterator<Item = Stored> + '_ {
+        let step = 2f64.powi(self.grid_exponent);
+        let of_leaf = move |leaf: &Leaf| {
+            let corners = |t: usize| leaf.corners(t).map(|v| leaf.vertices[v].map(|x| x * step));
+            let number = |t: usize| self.source[leaf.first_triangle + t];
+            (0..leaf.triangles()).map(|t| (number(t), corners(t))).collect::<Vec<_>>()
+        };
+        self.leaves.iter().flat_map(of_leaf)
     }
 
     fn finite(self) -> Result<Self, String> {

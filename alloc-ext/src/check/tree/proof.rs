@@ -17,4 +17,8 @@ pub struct TreeProof {
     pub exact_contained: usize,
     /// Nodes whose moments are those of their triangles.
     pub moments: usize,
+    /// Leaves whose normals lie in the leaf's cone.
+    pub cones: usize,
+    /// Nodes.
+    pub nodes: usize,
 }

@@ -284,6 +284,19 @@ pub struct InfoArgs {
 }
 
 #[derive(Debug, Args)]
+pub struct VerifyArgs {
+    /// Blob file
+    pub blob: PathBuf,
+    /// The mesh file that it was built from; or the points of its curves: .csv
+    pub mesh: PathBuf,
+    /// Of a blob that deforms: the same mesh at its further key frames, in their order
+    pub frames: Vec<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
 #[command(group(
     ArgGroup::new("kept").args(["level", "triboxes", "tight"]).required(true).multiple(true)
 ))]
