@@ -17,6 +17,9 @@ const TIGHT: f64 = 0.125;
 /// and the part above the nearest triangle has at least this part of its length.
 const PART: f64 = 0.125;
 
+/// Distances from a triangle that differ by less than this part do not tell where to halve.
+const FLAT: f64 = 1e-3;
+
 /// Pieces of one triangle.
 const PIECES: usize = 10_000;
 
@@ -122,7 +125,7 @@ impl Near {
                     continue;
                 }
             }
-            open.extend(halves(&piece));
+            open.extend(halves(&piece, centre, near));
         }
         Verdict::Within
     }
@@ -158,8 +161,18 @@ fn cut(piece: Vec<DVec3>, triangle: [DVec3; 3]) -> (Vec<DVec3>, Vec<Vec<DVec3>>)
     (above, beside)
 }
 
-/// Both halves of a piece, along the longest side of its box.
-fn halves(piece: &[DVec3]) -> [Vec<DVec3>; 2] {
+/// Both halves of a piece, one nearer to a triangle than the other: where two triangles are equally
+/// far along a line, long pieces beside the line are near one of them. If no half is nearer, along
+/// the longest side of the piece's box.
+fn halves(piece: &[DVec3], centre: DVec3, triangle: [DVec3; 3]) -> [Vec<DVec3>; 2] {
+    let away: Vec<f64> = piece.iter().map(|&p| distance(p, triangle)).collect();
+    let mean = away.iter().sum::<f64>() / away.len() as f64;
+    let rise: DVec3 = piece.iter().zip(&away).map(|(&p, d)| (p - centre) * (d - mean)).sum();
+    let [least, most] = [f64::min, f64::max].map(|of| away.iter().copied().fold(mean, of));
+    let nearer = parts(piece, |p| rise.dot(p - centre));
+    if most - least > FLAT * mean && nearer.iter().all(|half| half.len() > 2) {
+        return nearer;
+    }
     let first = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) = piece.iter().fold(first, |(low, high), &p| (low.min(p), high.max(p)));
     let axis = longest(high - low);

@@ -17,4 +17,5 @@ mod refine;
 mod support;
 mod tight;
 mod tribox;
+mod verify;
 mod winding;

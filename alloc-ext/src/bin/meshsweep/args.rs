@@ -116,7 +116,7 @@ pub enum Command {
     /// Cover a mesh with unions of 1, 2, 4, ... triboxes, and write the finest as binary PLY
     #[command(after_help = explained::TRIBOX)]
     Tribox(TriboxArgs),
-    /// Prove what a blob claims from its bytes and the mesh, by code that builder and queries lack
+    /// Prove the claims of a blob again, from its bytes and the mesh that it was built from
     #[command(after_help = explained::VERIFY)]
     Verify(VerifyArgs),
 }
