@@ -21,6 +21,7 @@
 //! | [`bvh`], [`hull`], [`tight`], [`tribox`], [`curve`] | one structure each, as in core |
 //! | [`emit`] | sections to bytes; it knows no builder |
 //! | [`cut`] | a coarser blob out of a finer one |
+//! | [`check`] | proofs of a blob again, from its bytes and the mesh; it uses `mesh` only |
 //!
 //! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `surface` ←
 //! `{collapse, bvh}` ← `hausdorff` ← `{hull, tight, tribox, curve}` ← `cut` ← the program. A test

@@ -1,5 +1,16 @@
 //! Proofs from a blob's bytes and the mesh: a parser, exact arithmetic and a replay that share no
-//! code with reader or builder.
+//! code with reader or builder. [`verify()`] is the way in; the rest is for tests.
+//!
+//! | file | proves or owns |
+//! | --- | --- |
+//! | `verify` | which structures a blob has, and what came of each proof |
+//! | `tree`, `hull`, `tight`, `triboxes`, `curve` | the claims of one structure each |
+//! | `enclosure` | that a hull encloses a mesh |
+//! | `input` | that stored corners are those of the mesh |
+//! | `near` | that all points of a triangle are near a surface |
+//! | `planar` | convex polygons cut in exact arithmetic |
+//! | `dyadic`, `vector`, `exact` | numbers that do not round |
+//! | `bytes` | header, section table, CRC |
 
 mod bytes;
 mod curve;

@@ -47,7 +47,8 @@ impl Triboxes {
         for _ in 0..levels {
             read_levels.push((cursor.uint(4)? as usize, f64::from(cursor.float()?)));
             // Hull error and void ratio.
-            (cursor.uint(4)?, cursor.uint(4)?);
+            cursor.uint(4)?;
+            cursor.uint(4)?;
         }
         let splits = (1..count).step_by(2).map(|_| cursor.uint(2).map(|node| node as usize));
         let splits = splits.collect::<Result<Vec<_>, _>>()?;
