@@ -21,12 +21,14 @@
 //! | [`bvh`], [`hull`], [`tight`], [`tribox`], [`curve`] | one structure each, as in core |
 //! | [`emit`] | sections to bytes; it knows no builder |
 //! | [`cut`] | a coarser blob out of a finer one |
+//! | [`check`] | proofs of a blob again, from its bytes and the mesh; it uses `mesh` only |
 //!
 //! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `surface` ←
 //! `{collapse, bvh}` ← `hausdorff` ← `{hull, tight, tribox, curve}` ← `cut` ← the program. A test
 //! keeps that (`host-tests/tests/house.rs`).
 
 pub mod bvh;
+pub mod check;
 pub mod collapse;
 pub mod counted;
 pub mod curve;

@@ -1,7 +1,6 @@
 //! Oracles, generators and corrupters that the tests, the laboratory and the fuzz targets share.
 
 pub mod blobs;
-pub mod check;
 pub mod corrupt;
 pub mod counted;
 pub mod fuzz_targets;

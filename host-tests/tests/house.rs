@@ -35,13 +35,15 @@ const BENEATH: &[&str] = &[
 
 /// The same of `alloc-ext/src`. `emit` is beneath: it knows sections and no builder. `counted`
 /// prints numbers, `error` says why there is no blob, `random` gives the same numbers in every run.
-/// `cut` is above: it knows all structures.
-const BUILDER: [(&str, &[&str]); 15] = [
+/// `cut` is above: it knows all structures. `check` proves the others' work and shares nothing with
+/// them but meshes.
+const BUILDER: [(&str, &[&str]); 16] = [
     ("counted", &[]),
     ("emit", &[]),
     ("random", &[]),
     ("lp", &["random"]),
     ("mesh", &["counted"]),
+    ("check", &["mesh"]),
     ("error", &["mesh"]),
     ("surface", &["counted", "error", "lp", "mesh"]),
     ("collapse", &["counted", "lp", "mesh", "surface"]),
@@ -434,6 +436,17 @@ fn folders_of_the_core_use_only_folders_beneath() {
 #[test]
 fn folders_of_the_builder_use_only_folders_beneath() {
     none(&House::read("alloc-ext/src", Some("bin")).strays(&BUILDER));
+}
+
+#[test]
+fn the_checker_uses_no_code_of_the_reader() {
+    let mut files = Vec::new();
+    collect(&root().join("alloc-ext/src/check"), &mut files);
+    assert!(files.len() > 20);
+    for file in files {
+        let text = without_comments(&fs::read_to_string(&file).expect("readable"));
+        assert!(!text.contains("meshsweep_core"), "{}", file.display());
+    }
 }
 
 #[test]

@@ -128,20 +128,23 @@ fn every_command_s_help_has_examples_that_run() {
     }
     let everything = ["--for", "closest,segment,cull,hull,triboxes", "--triboxes", "8"];
     let part = blob(&directory, "torus.ply", &everything);
+    let boxed = directory.join("boxed.msw");
+    ok(["build", arg(&directory.join("part.stl")), "-o", arg(&boxed)]);
     let commands = ok(["help"]);
     let commands = commands.lines().skip_while(|line| *line != "Commands:").skip(1);
     let commands: Vec<&str> = commands
         .map_while(|line| line.split_whitespace().next())
         .filter(|command| *command != "help")
         .collect();
-    assert_eq!(commands.len(), 18, "{commands:?}");
+    assert_eq!(commands.len(), 19, "{commands:?}");
     for command in commands {
         let help = ok(["help", command]);
         let examples: Vec<&str> =
             help.lines().filter_map(|line| line.strip_prefix("  meshsweep ")).collect();
         assert!(examples.iter().any(|example| example.starts_with(command)), "{command}: {help}");
         for example in examples {
-            fs::copy(&part, directory.join("part.msw")).unwrap();
+            let of_part = if command == "verify" { &boxed } else { &part };
+            fs::copy(of_part, directory.join("part.msw")).unwrap();
             fs::copy(&part, directory.join("tool.msw")).unwrap();
             let words: Vec<&str> = example.split_whitespace().collect();
             let output = meshsweep().args(words).current_dir(&directory).output().unwrap();
@@ -182,7 +185,7 @@ fn writes(example: &str, directory: &Path) -> bool {
 fn help_names_every_option_with_a_sentence() {
     for command in [
         "build", "info", "closest", "within", "nearest", "signed", "field", "segment", "overlap",
-        "cull", "hull", "refine", "cut",
+        "cull", "hull", "refine", "cut", "verify",
     ] {
         let help = ok(["help", command]);
         // Options are indented; a line of prose may begin with one, too.

@@ -18,4 +18,5 @@ mod refine;
 mod support;
 mod tight;
 mod tribox;
+mod verify;
 mod winding;

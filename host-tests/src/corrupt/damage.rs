@@ -2,8 +2,9 @@
 //! bytes replaced.
 
 use super::seal;
-use super::sections::{Entry, entry};
+use super::sections::entry;
 use crate::generate::Rng;
+use meshsweep::check::Entry;
 use meshsweep_core::{OpenError, SectionKind};
 use std::collections::HashSet;
 use std::mem::{Discriminant, discriminant};

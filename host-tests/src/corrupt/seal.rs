@@ -1,27 +1,7 @@
 //! CRCs of a blob, computed again after it was changed.
 
-use super::sections::{HEADER_CRC, TABLE, entries, put_u32, word};
-
-/// CRC-32 (ISO-HDLC: reflected 0x04C11DB7, all ones in and out), eight bits at a time.
-#[must_use]
-pub fn crc32(bytes: &[u8]) -> u32 {
-    const TABLE: [u32; 256] = {
-        let mut table = [0u32; 256];
-        let mut at = 0;
-        while at < 256 {
-            let mut x = at as u32;
-            let mut bit = 0;
-            while bit < 8 {
-                x = if x & 1 == 0 { x >> 1 } else { x >> 1 ^ 0xEDB8_8320 };
-                bit += 1;
-            }
-            table[at] = x;
-            at += 1;
-        }
-        table
-    };
-    !bytes.iter().fold(!0u32, |crc, &b| crc >> 8 ^ TABLE[((crc ^ u32::from(b)) & 0xFF) as usize])
-}
+use super::sections::{HEADER_CRC, TABLE, put_u32};
+use meshsweep::check::{crc32, entries, word};
 
 /// Writes the CRC of every section that lies inside the blob, of blobs within sections too, then
 /// the header's. So `open` gets past the checksums of a damaged blob, as far as the table can be
@@ -58,15 +38,5 @@ fn seal_hulls(section: &mut [u8]) {
         if end <= section.len() as u64 {
             seal(&mut section[offset as usize..end as usize]);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::crc32;
-
-    #[test]
-    fn crc32_has_the_published_check_value() {
-        assert_eq!(crc32(b"123456789"), 0xCBF4_3926);
     }
 }

@@ -3,13 +3,11 @@
 mod between;
 mod distance;
 mod double;
-pub(crate) mod dyadic;
 pub mod lp;
 pub mod moved;
 mod polyline;
 pub mod polytope;
 mod segment;
-pub(crate) mod vector;
 mod winding;
 
 pub use between::{distance_of_meshes, distance_of_moved_triangles};

@@ -5,8 +5,8 @@
 //! product of two edges, or a normal's product with an edge one lies before the other. Doubles
 //! decide where they can, with a margin of a thousand roundings; else integers do.
 
-use super::dyadic::Dyadic;
-use super::vector::{Number, cross, dot, minus};
+use meshsweep::check::dyadic::Dyadic;
+use meshsweep::check::vector::{Number, cross, dot, minus};
 
 /// A place, and the same rounded.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! Winding number by solid angles (Van Oosterom & Strackee 1983), in f64.
 
-use super::vector::{cross, dot};
+use meshsweep::check::vector::{cross, dot};
 
 /// Sum of the solid angles of all triangles as seen from `p`, over 4π: an integer for a closed
 /// surface, but for rounding. Lengths are divided by `unit` first. Next to the surface f64 cannot

@@ -2,8 +2,8 @@
 //! damaged afterwards.
 
 use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::check::{TreeProof, check_tree};
 use meshsweep::mesh::Mesh;
-use meshsweep_host_tests::check::{TreeProof, check_tree};
 use meshsweep_host_tests::corrupt::{Entry, entry, put_u32, seal, word};
 use meshsweep_host_tests::generate::{
     Triangles, bracket, cube, groove_block, icosphere, needle_comb, rough_sphere, scaled, torus,

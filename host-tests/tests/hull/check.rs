@@ -2,12 +2,12 @@
 //! afterwards.
 
 use super::scenes::{all, options};
+use meshsweep::check::{Blob, check_blob, side};
 use meshsweep::collapse::Priority;
 use meshsweep::cut::cut;
 use meshsweep::hull::BuildOptions;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::Hull;
-use meshsweep_host_tests::check::{Blob, check_blob, side};
 use meshsweep_host_tests::corrupt::{entry, put_u32, seal, swap_entries, word};
 use meshsweep_host_tests::generate::{
     bracket, cube, groove_block, icosphere, rough_sphere, torus, two_parts,

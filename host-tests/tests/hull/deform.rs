@@ -3,13 +3,13 @@
 
 use super::scenes::options;
 use glam::DVec3;
+use meshsweep::check::check_blob;
 use meshsweep::hull::{Built, build_deform};
 use meshsweep::mesh::{KeyFrame, Mesh};
 use meshsweep_core::{
     Blob, Budget, BuildFor, ClosestPoint, DeformableHull, Ended, MovedHull, MovedVertex, OpenError,
     QueryError, ScratchEntry, SectionKind,
 };
-use meshsweep_host_tests::check::check_blob;
 use meshsweep_host_tests::corrupt::{entry, put_u32, seal};
 use meshsweep_host_tests::generate::{Rng, Triangles, cube, icosphere, rough_sphere, torus};
 use std::f64::consts::PI;

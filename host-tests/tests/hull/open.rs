@@ -3,6 +3,7 @@
 
 use super::scenes::options;
 use meshsweep::BuildError;
+use meshsweep::check::check_blob;
 use meshsweep::cut::cut;
 use meshsweep::hull::{Kind, build_for_sweep};
 use meshsweep::mesh::{Mesh, read_bytes, repair};
@@ -10,7 +11,6 @@ use meshsweep_core::{
     Budget, Change, ClosestPoint, Ended, Focus, Hit, Hull, Interval, OpenError, QueryError,
     RefinedHull, ScratchEntry, Search, VertIdx,
 };
-use meshsweep_host_tests::check::check_blob;
 use meshsweep_host_tests::corrupt::{entry, put_u32, seal, word};
 use meshsweep_host_tests::generate::corpus::soups;
 use meshsweep_host_tests::generate::evil::{Outcome, evil};

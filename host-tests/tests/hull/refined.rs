@@ -3,11 +3,11 @@
 
 use super::scenes::all;
 use glam::DVec3;
+use meshsweep::check::{Manifold, Surface, Winding, canonical};
 use meshsweep_core::internal::hull::format::SplitIdx;
 use meshsweep_core::{
     Budget, Change, Focus, Hull, QueryError, RefinedHull, Refinement, Search, SectionKind, VertIdx,
 };
-use meshsweep_host_tests::check::{Mesh, Surface, Winding, canonical};
 use meshsweep_host_tests::corrupt::{entries, seal};
 use meshsweep_host_tests::generate::Rng;
 use meshsweep_host_tests::oracle::distance_to_triangle;
@@ -20,13 +20,13 @@ const ALL: usize = 4096;
 /// A refined hull by the tables alone: a set of splits, and a mesh that refuses what does not fit.
 struct Replayed<'t> {
     hull: Hull<'t>,
-    mesh: Mesh,
+    mesh: Manifold,
     performed: BTreeSet<u32>,
 }
 
 impl<'t> Replayed<'t> {
     fn new(hull: Hull<'t>) -> Self {
-        let mut mesh = Mesh::default();
+        let mut mesh = Manifold::default();
         for triangle in 0..hull.header().base_triangles {
             let corners = hull.base_triangle(triangle).expect("in range");
             mesh.add(corners.map(|v| v.0)).expect("the base hull is a mesh");

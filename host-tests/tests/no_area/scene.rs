@@ -2,10 +2,10 @@
 
 use super::exact::{Corners, about};
 use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::check::check_tree;
 use meshsweep::mesh::{Input, Mesh, RawMesh, RepairReport, read, repair};
 use meshsweep::surface::{VertexBits, snap};
 use meshsweep_core::{Bvh, ScratchEntry};
-use meshsweep_host_tests::check::check_tree;
 use meshsweep_host_tests::generate::{Rng, cube, torus};
 use std::path::Path;
 

@@ -6,10 +6,10 @@ use std::path::Path;
 use std::time::Duration;
 
 use meshsweep::BuildError;
+use meshsweep::check::{Surface, check_enclosure, check_margin};
 use meshsweep::hull::{BuildOptions, hull_of};
 use meshsweep::mesh::{Mesh, NoVolume, RawMesh, Wire, read_bytes, repair};
 use meshsweep::tight::{Goal, Hull, Options, Outcome, Start, split_components, wrap};
-use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::evil::evil;
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, icosphere, inverted, joined, needle_comb,

@@ -4,9 +4,9 @@
 use std::f64::consts::PI;
 
 use meshsweep::BuildError;
+use meshsweep::check::{Surface, check_enclosure, check_margin};
 use meshsweep::mesh::{Mesh, RawMesh, repair};
 use meshsweep::tight::{Goal, Hull, Options, Outcome, Start, wrap};
-use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, cube, groove_block, icosphere, needle_comb, scaled, torus,
 };

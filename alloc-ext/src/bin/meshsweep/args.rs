@@ -16,7 +16,7 @@ pub use asking::{
     WithinArgs,
 };
 pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
-pub use building::{BuildArgs, CutArgs, FACES, HullServes, InfoArgs, StoredBits};
+pub use building::{BuildArgs, CutArgs, FACES, HullServes, InfoArgs, StoredBits, VerifyArgs};
 pub use comparing::HausdorffArgs;
 pub use given::{Given, files, names};
 pub use refining::RefineArgs;
@@ -116,6 +116,9 @@ pub enum Command {
     /// Cover a mesh with unions of 1, 2, 4, ... triboxes, and write the finest as binary PLY
     #[command(after_help = explained::TRIBOX)]
     Tribox(TriboxArgs),
+    /// Prove the claims of a blob again, from its bytes and the mesh that it was built from
+    #[command(after_help = explained::VERIFY)]
+    Verify(VerifyArgs),
 }
 
 #[cfg(test)]

@@ -42,6 +42,8 @@ pub enum Failure {
     Unmet { file: PathBuf, unmet: Unmet },
     /// Two meshes are not proved to be as close to each other as asked for.
     Apart { first: PathBuf, second: PathBuf, most: f64, lower: f64, upper: f64 },
+    /// Not all that the blob claims of the mesh is proved.
+    NotVerified { blob: PathBuf, mesh: PathBuf, open: Vec<String> },
     /// The blob is refused.
     Open { file: PathBuf, error: OpenError },
     /// The blob was built without the structure that the question needs. `other` names an engine
@@ -224,6 +226,9 @@ impl fmt::Display for Failure {
                          little more"
                     )
                 }
+            }
+            Failure::NotVerified { blob, mesh, open } => {
+                write!(f, "{} of {}: {}", blob.display(), mesh.display(), open.join("; "))
             }
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::NoHulls { file } => write!(

@@ -57,6 +57,7 @@ mod side;
 mod signed;
 mod tribox;
 mod unmet;
+mod verify;
 mod winding;
 mod windings;
 mod within;
@@ -93,5 +94,6 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Refine(args)) => refine::run(&args),
         Some(Command::Cut(args)) => cut::run(&args),
         Some(Command::Tribox(args)) => tribox::run(&args),
+        Some(Command::Verify(args)) => verify::run(&args),
     }
 }

@@ -288,8 +288,8 @@ mod tests {
     use super::QUESTIONS;
     use crate::args;
 
-    /// Commands that ask a blob nothing: they take a mesh, or print what a blob holds.
-    const OTHERS: [&str; 4] = ["build", "hausdorff", "info", "tribox"];
+    /// Commands that ask a blob nothing: they take a mesh, or tell what a blob holds.
+    const OTHERS: [&str; 5] = ["build", "hausdorff", "info", "tribox", "verify"];
 
     #[test]
     fn every_command_that_asks_a_blob_has_a_row() {

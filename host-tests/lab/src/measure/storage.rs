@@ -43,7 +43,7 @@ pub fn proofs(bytes: &[u8]) -> Result<Table, String> {
     let columns = ["splits", "planes", "by integers", "violations", "triangles", "cover pairs"];
     let mut table =
         Table::new("proofs", "Proved again from the blob alone, by exact predicates", &columns);
-    let report = meshsweep_host_tests::check::check_blob(bytes)?;
+    let report = meshsweep::check::check_blob(bytes)?;
     table.push(row![
         report.splits,
         report.planes,

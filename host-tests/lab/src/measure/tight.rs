@@ -5,11 +5,11 @@ mod beside;
 mod cluster;
 pub mod picture;
 
+use meshsweep::check::{Surface, check_enclosure};
 use meshsweep::hull::{BuildOptions, hull_of};
 use meshsweep::mesh::{Mesh, require_closed_manifold};
 use meshsweep::tight::{Goal, Hull, Options, Outcome, Start, wrap};
 use meshsweep::tribox::volume;
-use meshsweep_host_tests::check::{Surface, check_enclosure};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
 

@@ -157,7 +157,7 @@ fn proofs(subject: &Subject, trees: [(&str, &Built); 2]) -> Result<Table, String
         &columns,
     );
     for (name, built) in trees {
-        let proof = meshsweep_host_tests::check::check_tree(&built.bytes, &subject.mesh)?;
+        let proof = meshsweep::check::check_tree(&built.bytes, &subject.mesh)?;
         table.push(row![
             name,
             proof.triangles,

@@ -1,13 +1,13 @@
 //! Chains: hulls of falling numbers of faces.
 
 use super::{mesh, of, options};
+use meshsweep::check::{Surface, check_enclosure};
 use meshsweep::cut::{Keep, cut_blob};
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
 use meshsweep::tight::{Goal, cut, hull_mesh};
 use meshsweep::tribox::volume;
 use meshsweep_core::{Blob, TightHulls};
-use meshsweep_host_tests::check::{Surface, check_enclosure};
 use meshsweep_host_tests::generate::{bracket, icosphere, rough_sphere, torus};
 
 fn encloses(outer: &Mesh, inner: &Mesh) {

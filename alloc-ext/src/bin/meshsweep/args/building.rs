@@ -289,6 +289,22 @@ pub struct InfoArgs {
 }
 
 #[derive(Debug, Args)]
+pub struct VerifyArgs {
+    /// Blob file
+    pub blob: PathBuf,
+    /// The mesh file that it was built from; or the points of its curves: .csv
+    pub mesh: PathBuf,
+    /// Of a blob that deforms: the same mesh at its further key frames, in their order
+    pub frames: Vec<PathBuf>,
+    /// The unit of `build --unit`, if it was given
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    pub unit: Option<Unit>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
 #[command(group(
     ArgGroup::new("kept").args(["level", "triboxes", "tight"]).required(true).multiple(true)
 ))]

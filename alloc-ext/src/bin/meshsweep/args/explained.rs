@@ -376,3 +376,21 @@ pub const TRIBOX: &str = "A tribox is the intersection of nine slabs, along the 
     meshsweep tribox part.stl\n  \
     meshsweep tribox part.stl --levels 5 --simplify 0.5 -o proxy.ply\n  \
     meshsweep tribox scan.ply --json";
+
+pub const VERIFY: &str = "The proofs share no code with the builder and with queries, but for \
+    reading the mesh and its repair, which are those of build. So they tell of a blob whether its \
+    answers are about this mesh, and whether the builder erred.\n\n  \
+    box tree        each triangle of the mesh is stored once within the error; boxes, normal cones \
+    and moments hold all that is below them\n  \
+    hull hierarchy  each level encloses the finer ones, radii cover, the finest surface is the mesh\n  \
+    key frames      each vertex is where the frame's mesh has it, radii may be interpolated\n  \
+    tight hulls     each encloses the mesh, and is as near as stated\n  \
+    triboxes        each level holds the mesh, and the inside of a solid\n  \
+    curve           each point is stored within the error and is in all its capsules\n\n\
+    Integers decide planes, boxes, places and meetings. Radii and distances of surfaces are \
+    compared in f64. A line says what was proved, what failed and where, or what there is no proof \
+    of.\n\n\
+    Exit status: 0 all is proved, 1 a proof failed or is missing, 2 wrong usage.\n\n\
+    Examples:\n  \
+    meshsweep verify part.msw part.stl\n  \
+    meshsweep verify part.msw part.stl --json";

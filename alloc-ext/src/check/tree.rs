@@ -1,0 +1,75 @@
+//! Proof of a box tree from the blob's bytes and the mesh, by a parser and arithmetic that share no
+//! code with reader or builder.
+//!
+//! If [`check_tree`] returns `Ok`, then no descent can miss a triangle but by the rounding of the
+//! query itself: every triangle of the mesh is in exactly one leaf, no farther from its place than
+//! the header's surface error; every box on the way to it contains it, by exact arithmetic on the
+//! stored numbers; and no frame makes a distance longer. Moments are those of the triangles below, and
+//! normals lie in their cones.
+
+mod cones;
+mod contain;
+mod moments;
+mod parse;
+mod proof;
+mod surface;
+
+use super::input::{Given, Stored};
+use crate::mesh::{Input, Mesh};
+use parse::TreeBlob;
+pub use proof::TreeProof;
+
+/// Proves that a blob's box tree is one of `mesh`, which no vertex was moved in before but by
+/// [`Mesh::rounding`].
+///
+/// Cost: vertices times depth.
+///
+/// # Errors
+/// The first claim that does not hold, in words.
+pub fn check_tree(bytes: &[u8], mesh: &Mesh) -> Result<TreeProof, String> {
+    prove_tree(bytes, mesh.as_input())
+}
+
+/// The same of a mesh whose vertices were moved before.
+pub(crate) fn prove_tree(bytes: &[u8], input: Input<'_>) -> Result<TreeProof, String> {
+    let tree = TreeBlob::parse(bytes)?;
+    let mut proof = proved(&tree)?;
+    surface::triangles(&tree, &Given::new(input, tree.scale_exponent), &mut proof)?;
+    surface::closed(&tree, input.mesh)?;
+    Ok(proof)
+}
+
+/// A box tree whose boxes hold what is below them, as the triangles that it stores, whatever these
+/// may be.
+pub(crate) struct Faces {
+    /// In the local frame.
+    pub(crate) triangles: Vec<Stored>,
+    /// Input coordinate = local coordinate × 2^this.
+    pub(crate) scale_exponent: i32,
+    /// Local frame.
+    pub(crate) surface_error: f64,
+}
+
+/// Proves all of a blob's box tree but that it is the tree of a mesh.
+pub(crate) fn prove_faces(bytes: &[u8]) -> Result<Faces, String> {
+    let tree = TreeBlob::parse(bytes)?;
+    proved(&tree)?;
+    Ok(Faces {
+        triangles: tree.triangles().collect(),
+        scale_exponent: tree.scale_exponent,
+        surface_error: tree.surface_error,
+    })
+}
+
+fn proved(tree: &TreeBlob) -> Result<TreeProof, String> {
+    let vertices = tree.leaves.iter().map(|leaf| leaf.vertices.len()).sum();
+    let mut proof = TreeProof { vertices, nodes: tree.nodes.len(), ..TreeProof::default() };
+    let parents = contain::parents(tree)?;
+    contain::stack(tree)?;
+    contain::frames(tree, &mut proof)?;
+    contain::boxes(tree, &parents, &mut proof)?;
+    surface::reach(tree)?;
+    moments::moments(tree, &mut proof)?;
+    cones::cones(tree, &mut proof)?;
+    Ok(proof)
+}

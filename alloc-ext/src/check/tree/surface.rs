@@ -1,0 +1,66 @@
+//! Whether the leaves hold the input's triangles, and as near to where they were as the header
+//! says.
+
+use super::parse::TreeBlob;
+use super::proof::TreeProof;
+use crate::check::input::Given;
+use crate::mesh::Mesh;
+
+/// Every triangle of the mesh, and every wire as one, is stored exactly once, with its number, its
+/// winding, and its corners within the surface error.
+pub(super) fn triangles(
+    tree: &TreeBlob,
+    given: &Given<'_>,
+    proof: &mut TreeProof,
+) -> Result<(), String> {
+    let count = given.mesh.all_triangles().count();
+    if tree.source.len() != count {
+        return Err(format!("{} triangles of {count}", tree.source.len()));
+    }
+    if let Some(number) = tree.source.iter().find(|&&number| number >= tree.input_triangles) {
+        return Err(format!("triangle {number} of an input of {}", tree.input_triangles));
+    }
+    let wanted = given.mesh.all_triangles().zip(given.mesh.all_sources());
+    let (found, exact) = given.find(wanted, tree.triangles(), tree.surface_error, false)?;
+    proof.triangles += found.len();
+    proof.exact_corners += exact;
+    Ok(())
+}
+
+/// The header's reach is no less than any triangle's two spokes, by their 1-norms.
+pub(super) fn reach(tree: &TreeBlob) -> Result<(), String> {
+    let norm = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f64>();
+    for leaf in &tree.leaves {
+        for triangle in 0..leaf.triangles() {
+            let [centre, a, b] = leaf.corners(triangle).map(|corner| leaf.vertices[corner]);
+            // Differences of coordinates below 2^25, and sums of six of them.
+            let reach = norm(centre, a) + norm(centre, b);
+            if reach > tree.reach {
+                return Err(format!(
+                    "a triangle of reach {reach:e}, the header says {:e}",
+                    tree.reach
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The header's flag says whether the mesh is closed.
+pub(super) fn closed(tree: &TreeBlob, mesh: &Mesh) -> Result<(), String> {
+    let mut edges: Vec<(u32, u32, i32)> = Vec::with_capacity(3 * mesh.triangles.len());
+    for corners in &mesh.triangles {
+        for k in 0..3 {
+            let (from, to) = (corners[k], corners[(k + 1) % 3]);
+            edges.push((from.min(to), from.max(to), if from < to { 1 } else { -1 }));
+        }
+    }
+    edges.sort_unstable();
+    let balanced = |edge: &[(u32, u32, i32)]| edge.iter().map(|(_, _, way)| way).sum::<i32>() == 0;
+    let closed = !edges.is_empty() && edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(balanced);
+    if closed == tree.closed {
+        Ok(())
+    } else {
+        Err(format!("closed: {closed}, the header says {}", tree.closed))
+    }
+}

@@ -1,0 +1,192 @@
+//! Proof of triboxes from the blob's bytes and the mesh: every level holds the mesh, and the inside
+//! of a solid.
+//!
+//! A triangle is cut by the planes of the triboxes that it meets; nothing may be left. Children are
+//! within their parents, so the finest level decides for all. If the union holds the mesh, the
+//! winding number is the same at all points of a connected component of the union's complement.
+//! Each component lies before a part of the union's boundary. So one point before each part tells
+//! that the winding number is 0 in all of the complement.
+//!
+//! Hull errors and void ratios are not looked at.
+
+mod boundary;
+mod parse;
+mod plane;
+
+use super::enclosure::{Surface, Winding};
+use super::finding::Finding;
+use super::input::Given;
+use super::near::{Near, Verdict};
+use super::planar::Polygon;
+use crate::mesh::Input;
+use boundary::{Exposed, exposed};
+use glam::DVec3;
+use parse::{NORMALS, Slabs, Triboxes};
+use plane::lines;
+
+const TRIBOXES: &str = "triboxes";
+
+/// Corners of all triangles and wires, grid units.
+fn corners(given: &Given<'_>, unit: f64) -> Vec<[[f64; 3]; 3]> {
+    let place = |v: u32| given.place(v).map(|x| x / unit);
+    given.mesh.all_triangles().map(|t| t.map(place)).collect()
+}
+
+/// Whether a tribox certainly holds all of a triangle and `moved` around it.
+fn holds_alone(slabs: &Slabs, triangle: &[[f64; 3]; 3], moved: f64) -> bool {
+    triangle.iter().all(|p| {
+        NORMALS.iter().zip(slabs).enumerate().all(|(slab, (normal, [low, high]))| {
+            let terms = [0, 1, 2].map(|k| normal[k] * p[k]);
+            let product: f64 = terms.iter().sum();
+            let size: f64 = terms.iter().map(|term| term.abs()).sum();
+            // Coordinates alone are exact. A sum rounds, and so does what is added to it.
+            let is_exact = slab < 3 && moved == 0.0;
+            let doubt = if is_exact { 0.0 } else { 8.0 * f64::EPSILON * (size + moved) };
+            let room = 1.5 * moved + doubt;
+            product - room >= *low && product + room <= *high
+        })
+    })
+}
+
+/// Every triangle, and all points within `moved` of it, are in the union. Returns how many had to
+/// be cut.
+fn holds(
+    union: &[(usize, Slabs)],
+    triangles: &[[[f64; 3]; 3]],
+    numbers: impl Iterator<Item = u32>,
+    moved: f64,
+) -> Result<usize, String> {
+    let mut cut = 0;
+    for (triangle, number) in triangles.iter().zip(numbers) {
+        if union.iter().any(|(_, slabs)| holds_alone(slabs, triangle, moved)) {
+            continue;
+        }
+        let mut rest = vec![Polygon::triangle()];
+        let is_near = |slabs: &Slabs| {
+            (0..3).all(|k| {
+                triangle.iter().any(|p| p[k] >= slabs[k][0])
+                    && triangle.iter().any(|p| p[k] <= slabs[k][1])
+            })
+        };
+        for (_, slabs) in union.iter().filter(|(_, slabs)| is_near(slabs)) {
+            let Some(lines) = lines(triangle, slabs, moved) else { continue };
+            rest = rest.into_iter().flat_map(|part| part.minus(&lines)).collect();
+            if rest.is_empty() {
+                break;
+            }
+        }
+        cut += 1;
+        if let Some(at) = rest.first().and_then(|part| part.corners().next()) {
+            return Err(format!(
+                "triangle {number} of the mesh is not held at its barycentric {:?}",
+                [1.0 - at[0] - at[1], at[0], at[1]]
+            ));
+        }
+    }
+    Ok(cut)
+}
+
+/// The winding number is 0 before all parts of the boundary. Returns how many parts there are, and
+/// how many are undecided.
+fn inside(parts: &[Exposed], mesh: &Surface) -> Result<[usize; 2], String> {
+    let winding = Winding::new(mesh);
+    let mut undecided = 0;
+    for part in parts {
+        let Some(p) = part.before() else {
+            undecided += 1;
+            continue;
+        };
+        let turns = winding.around(p)?;
+        if turns != 0 {
+            return Err(format!(
+                "a point of winding number {turns} lies before a face of node {}, at {p:?} in \
+                 grid units",
+                part.node
+            ));
+        }
+    }
+    Ok([parts.len(), undecided])
+}
+
+/// No part of the boundary is farther from the mesh than `limit`, local frame; whether that could
+/// be decided.
+fn is_close(parts: &[Exposed], mesh: &Near, unit: f64, limit: f64) -> Result<bool, String> {
+    for part in parts {
+        for triangle in part.triangles() {
+            match mesh.within(triangle.map(|p| p * unit), limit) {
+                Verdict::Within => {}
+                Verdict::Undecided => return Ok(false),
+                Verdict::Beyond(p, d) => {
+                    return Err(format!(
+                        "{p} on node {} is {d:e} from the mesh, {limit:e} is stated, local frame",
+                        part.node
+                    ));
+                }
+            }
+        }
+    }
+    Ok(true)
+}
+
+/// Proves a blob's triboxes.
+pub(crate) fn verify(bytes: &[u8], input: Input<'_>, out: &mut Vec<Finding>) {
+    if let Err(error) = findings(bytes, input, out) {
+        out.push(Finding::failed(TRIBOXES, error));
+    }
+}
+
+fn findings(bytes: &[u8], input: Input<'_>, out: &mut Vec<Finding>) -> Result<(), String> {
+    let triboxes = Triboxes::parse(bytes)?;
+    triboxes.tree()?;
+    let given = Given::new(input, triboxes.scale_exponent);
+    let unit = 2f64.powi(triboxes.grid_exponent);
+    let mesh = corners(&given, unit);
+    let finest = triboxes.levels.last().map_or(0, |last| last.0);
+    let union = triboxes.union(finest);
+    let cut = holds(&union, &mesh, given.mesh.all_sources(), given.moved() / unit)?;
+    out.push(Finding::proved(
+        TRIBOXES,
+        "every level holds every triangle of the mesh, and what moved when it was read",
+        &[
+            ("level", triboxes.levels.len()),
+            ("tribox", union.len()),
+            ("triangle", mesh.len()),
+            ("cut triangle", cut),
+        ],
+    ));
+    if triboxes.is_solid {
+        let place = |v: u32| given.place(v).map(|x| x / unit);
+        let surface = Surface {
+            positions: (0..given.mesh.positions.len() as u32).map(place).collect(),
+            triangles: given.mesh.triangles.clone(),
+        };
+        let [parts, undecided] = inside(&exposed(&union), &surface)?;
+        out.push(match undecided {
+            0 => Finding::proved(
+                TRIBOXES,
+                "every level holds all points of winding number other than 0",
+                &[("exposed face", parts)],
+            ),
+            _ => Finding::not_proved(TRIBOXES, "that they hold the inside".to_owned()),
+        });
+    }
+    let near =
+        Near::new(mesh.iter().map(|corners| corners.map(|p| DVec3::from(p) * unit)).collect());
+    let mut undecided = Vec::new();
+    for (index, &(count, distance)) in triboxes.levels.iter().enumerate() {
+        let parts = exposed(&triboxes.union(count));
+        let is_decided = is_close(&parts, &near, unit, distance)
+            .map_err(|error| format!("level {index}: {error}"))?;
+        if !is_decided {
+            undecided.push(index.to_string());
+        }
+    }
+    out.push(if undecided.is_empty() {
+        let words = "no boundary of a level is farther from the mesh than stated";
+        Finding::proved(TRIBOXES, words, &[("level", triboxes.levels.len())])
+    } else {
+        let which = undecided.join(", ");
+        Finding::not_proved(TRIBOXES, format!("how far the boundary of level {which} is"))
+    });
+    Ok(())
+}

@@ -1,0 +1,250 @@
+//! `meshsweep verify` proves what `build` wrote, and nothing that was changed afterwards.
+
+use crate::support::{arg, blob, coarse_torus, fixture, ok, refused, run, scratch};
+use meshsweep::check::{crc32, entries, word};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+// Kinds of sections.
+const VERTICES: u32 = 1;
+const RADII: u32 = 5;
+const SOURCE: u32 = 9;
+const LEVELS: u32 = 10;
+const TREE: u32 = 12;
+const SEGMENT_BOXES: u32 = 15;
+const FANS: u32 = 16;
+const TREE_SOURCE: u32 = 17;
+const CONES: u32 = 18;
+const TRIBOXES: u32 = 19;
+const TIGHT: u32 = 20;
+const CURVES: u32 = 21;
+const NUMBERS: u32 = 22;
+const FRAMES: u32 = 23;
+const MOMENTS: u32 = 24;
+
+/// The surface error in the header.
+const ERROR: usize = 88;
+
+/// Writes all CRCs anew, those of blobs in the section of tight hulls too.
+fn mend(bytes: &mut [u8]) {
+    for entry in entries(bytes) {
+        let body = entry.offset as usize..(entry.offset + entry.bytes) as usize;
+        if entry.kind == TIGHT {
+            let hulls = &mut bytes[body.clone()];
+            for record in 0..word(hulls, 0).unwrap() as usize {
+                let field = |at: usize| word(hulls, 8 + 24 * record + at).unwrap() as usize;
+                let (start, length) = (field(0), field(4));
+                mend(&mut hulls[start..start + length]);
+            }
+        }
+        let crc = crc32(&bytes[body]);
+        put(bytes, entry.at + 12, crc);
+    }
+    let table = word(bytes, 12).unwrap() as usize;
+    let crc = crc32(&[&bytes[..156], &bytes[160..table]].concat());
+    put(bytes, 156, crc);
+}
+
+fn put(bytes: &mut [u8], at: usize, value: u32) {
+    bytes[at..at + 4].copy_from_slice(&value.to_le_bytes());
+}
+
+/// Multiplies a stored f32.
+fn scale(bytes: &mut [u8], at: usize, factor: f32) {
+    let value = f32::from_bits(word(bytes, at).unwrap());
+    assert!(value != 0.0);
+    put(bytes, at, (value * factor).to_bits());
+}
+
+fn start(bytes: &[u8], kind: u32) -> usize {
+    entries(bytes).iter().find(|entry| entry.kind == kind).expect("a section").offset as usize
+}
+
+/// A blob, the meshes that it is of, and where the edited copy goes.
+struct Case {
+    blob: PathBuf,
+    meshes: Vec<PathBuf>,
+    edited: PathBuf,
+}
+
+impl Case {
+    fn new(directory: &Path, blob: PathBuf, meshes: &[PathBuf]) -> Self {
+        let case = Self { blob, meshes: meshes.to_vec(), edited: directory.join("edited.msw") };
+        let proved = ok(case.arguments(&case.blob));
+        assert!(!proved.is_empty() && proved.lines().all(|line| !line.contains("not proved")));
+        case
+    }
+
+    fn arguments<'a>(&'a self, blob: &'a Path) -> Vec<&'a str> {
+        let meshes = self.meshes.iter().map(|mesh| arg(mesh));
+        ["verify", arg(blob)].into_iter().chain(meshes).collect()
+    }
+
+    /// Demands that the edited blob is refused because of this.
+    fn fails(&self, because: &str, edit: impl FnOnce(&mut [u8])) {
+        let mut bytes = fs::read(&self.blob).unwrap();
+        let whole = bytes.clone();
+        edit(&mut bytes);
+        assert!(bytes != whole);
+        mend(&mut bytes);
+        fs::write(&self.edited, bytes).unwrap();
+        let line = refused(&run(self.arguments(&self.edited)), 1, "edited.msw");
+        assert!(line.contains(because), "{because}: {line}");
+        assert!(line.contains("failed: "), "{line}");
+    }
+}
+
+#[test]
+fn box_trees_are_proved_and_changed_ones_are_not() {
+    let directory = scratch("verify_tree");
+    let case = Case::new(&directory, fixture("groove.msw"), &[fixture("groove.obj")]);
+    // Low planes of the root's first child along x.
+    case.fails("box tree: axis-aligned box 0 of node", |b| b[start(b, SEGMENT_BOXES)] += 9);
+    case.fails("box tree: ", |b| b[start(b, FANS)] ^= 4);
+    case.fails("box tree: the triangle stored as", |b| b[start(b, TREE_SOURCE)] += 1);
+    case.fails("box tree: moments of node 0", |b| scale(b, start(b, MOMENTS) + 12, 0.9));
+    case.fails("box tree: the normal cone of leaf", |b| {
+        let cones = start(b, CONES);
+        let known = (0..).find(|leaf| b[cones + 4 * leaf + 3] < 255).expect("a cone");
+        b[cones + 4 * known] = b[cones + 4 * known].wrapping_neg().max(1);
+        b[cones + 4 * known + 1] = 77;
+        b[cones + 4 * known + 3] = 0;
+    });
+    let path = blob(&directory, "torus.ply", &[]);
+    let case = Case::new(&directory, path, &[fixture("torus.ply")]);
+    case.fails("box tree: the triangle stored as", |b| scale(b, start(b, TREE) + 40, 0.25));
+}
+
+#[test]
+fn hull_hierarchies_are_proved_and_changed_ones_are_not() {
+    let directory = scratch("verify_hull");
+    let mesh = fixture("groove.obj");
+    let path =
+        blob(&directory, "groove.obj", &["--for", "hull", "--base", "60", "--vertex-bits", "16"]);
+    let case = Case::new(&directory, path, std::slice::from_ref(&mesh));
+    case.fails("hull hierarchy: triangle 0 leaves out vertex", |b| b[start(b, RADII)] -= 2);
+    case.fails("hull hierarchy: split", |b| {
+        let first = start(b, VERTICES);
+        b.copy_within(first + 6..first + 12, first);
+    });
+    case.fails("hull hierarchy: the triangle stored as", |b| b[start(b, SOURCE) + 2] ^= 1);
+    case.fails("from the surface, the table says", |b| scale(b, start(b, LEVELS) + 8, 0.5));
+    // Its mesh is moved to a grid.
+    let path = directory.join("coarse.msw");
+    let mesh = coarse_torus(&directory);
+    let options = ["--for", "hull", "--base", "400", "--vertex-bits", "16", "-o", arg(&path)];
+    ok([&["build", arg(&mesh)], &options[..]].concat());
+    let case = Case::new(&directory, path, std::slice::from_ref(&mesh));
+    case.fails("hull hierarchy: the triangle stored as", |b| scale(b, ERROR, 0.25));
+}
+
+#[test]
+fn key_frames_are_proved_of_their_meshes_alone() {
+    let directory = scratch("verify_deform");
+    let mesh = fixture("groove.obj");
+    let sheared = directory.join("sheared.obj");
+    let text = fs::read_to_string(&mesh).unwrap();
+    let moved = text.lines().map(|line| {
+        let numbers: Vec<f64> =
+            line.split_whitespace().skip(1).filter_map(|x| x.parse().ok()).collect();
+        match (line.starts_with("v "), &numbers[..]) {
+            (true, [x, y, z]) => format!("v {x} {y} {}\n", z + 0.125 * x),
+            _ => format!("{line}\n"),
+        }
+    });
+    fs::write(&sheared, moved.collect::<String>()).unwrap();
+    let path = directory.join("groove.msw");
+    let options = ["--for", "deform", "--base", "60", "-o", arg(&path)];
+    ok([&["build", arg(&mesh), arg(&sheared)][..], &options].concat());
+    let case = Case::new(&directory, path.clone(), &[mesh.clone(), sheared.clone()]);
+    case.fails("vertex numbers: vertex", |b| b[start(b, NUMBERS) + 4] ^= 1);
+    // After the count and one record.
+    case.fails("key 1: triangle 0 leaves out vertex", |b| {
+        let vertices = word(b, 52).unwrap() as usize;
+        let radii = start(b, FRAMES) + 4 + 28 + 12 * vertices;
+        assert!(b[radii] > 9);
+        b[radii] -= 9;
+    });
+    refused(&run(["verify", arg(&path), arg(&mesh)]), 1, "1 key frames are stored, 0 are given");
+    let line = refused(&run(["verify", arg(&path), arg(&mesh), arg(&mesh)]), 1, "groove.msw");
+    assert!(line.contains("failed: key frames: key frame 1: vertex"), "{line}");
+}
+
+#[test]
+fn triboxes_are_proved_and_changed_ones_are_not() {
+    let directory = scratch("verify_triboxes");
+    let case = Case::new(&directory, fixture("torus.msw"), &[fixture("torus.ply")]);
+    // The second level's distance.
+    case.fails("triboxes: level 1: ", |b| scale(b, start(b, TRIBOXES) + 32 + 16 + 4, 0.5));
+    // An open mesh holds no inside, a hollow one does: another claim of the same triboxes.
+    let path = directory.join("open.msw");
+    let open = fixture("evil/open_box.stl");
+    ok(["build", arg(&open), "-o", arg(&path), "--for", "triboxes", "--triboxes", "8"]);
+    Case::new(&directory, path, &[open]);
+}
+
+#[test]
+fn tight_hulls_are_proved_and_changed_ones_are_not() {
+    let directory = scratch("verify_tight");
+    let case = Case::new(&directory, fixture("hulls.msw"), &[fixture("bracket.stl")]);
+    case.fails("tight hulls: hull 0: face", |b| scale(b, start(b, TIGHT) + 8 + 12, 0.5));
+    case.fails("tight hulls: hull 0: triangle", |b| scale(b, start(b, TIGHT) + 8 + 16, 0.5));
+    case.fails("tight hulls: hull 1: its void", |b| scale(b, start(b, TIGHT) + 32 + 20, 0.9));
+    // A corner of the first hull's first leaf.
+    case.fails("tight hulls: hull 0: ", |b| {
+        let hull = start(b, TIGHT) + word(b, start(b, TIGHT) + 8).unwrap() as usize;
+        let fans = hull + start(&b[hull..], FANS);
+        b[fans + 1] ^= 1;
+    });
+}
+
+#[test]
+fn curves_are_proved_and_changed_ones_are_not() {
+    let directory = scratch("verify_curve");
+    let case = Case::new(&directory, fixture("fence.msw"), &[fixture("fence.csv")]);
+    let points = |b: &[u8]| start(b, CURVES) + 32 + 4 * 2;
+    case.fails("curve: polyline 0: point 3", |b| b[points(b) + 12] ^= 2);
+    case.fails("curve: polyline 0: point", |b| scale(b, ERROR, 0.25));
+    // After 76 points: first, last, radius. The exponent's last bit is in the upper byte.
+    case.fails("curve: the capsule of node 0", |b| {
+        b[points(b) + 4 * word(b, start(b, CURVES) + 20).unwrap() as usize + 3] -= 1
+    });
+}
+
+#[test]
+fn a_blob_is_not_proved_of_another_mesh() {
+    let bracket = fixture("bracket.stl");
+    let (torus, fence) = (fixture("torus.ply"), fixture("fence.csv"));
+    for (blob, mesh, structure) in [
+        ("groove.msw", &torus, "box tree"),
+        ("bracket.msw", &torus, "hull hierarchy"),
+        ("torus.msw", &bracket, "triboxes"),
+        ("hulls.msw", &torus, "tight hulls"),
+    ] {
+        let line = refused(&run(["verify", arg(&fixture(blob)), arg(mesh)]), 1, blob);
+        assert!(line.contains(&format!("failed: {structure}: ")), "{line}");
+    }
+    refused(&run(["verify", arg(&fixture("groove.msw")), arg(&fence)]), 1, "fence.csv");
+    refused(&run(["verify", arg(&fixture("fence.msw")), arg(&torus)]), 1, "torus.ply");
+    let two = ["verify", arg(&fixture("groove.msw")), arg(&torus), arg(&torus)].map(str::to_owned);
+    refused(&run(two), 2, "key frames");
+}
+
+#[test]
+fn what_has_no_proof_is_said_and_is_no_success() {
+    let directory = scratch("verify_cut");
+    let path = directory.join("cut.msw");
+    ok(["cut", arg(&fixture("bracket.msw")), "--level", "1", "-o", arg(&path)]);
+    let mesh = fixture("bracket.stl");
+    let output = run(["verify", arg(&path), arg(&mesh), "--json"]);
+    let line = refused(&output, 1, "cut.msw");
+    assert!(line.contains("not proved: hull hierarchy: ") && !line.contains("failed"), "{line}");
+    let said: serde_json::Value = serde_json::from_slice(&output.stdout).expect("it is JSON");
+    assert_eq!(said["proved"], false);
+    let outcomes: Vec<_> =
+        said["findings"].as_array().unwrap().iter().map(|of| of["outcome"].as_str()).collect();
+    assert!(outcomes.contains(&Some("proved")) && outcomes.contains(&Some("not proved")));
+    let whole = ok(["verify", arg(&fixture("groove.msw")), arg(&fixture("groove.obj")), "--json"]);
+    let said: serde_json::Value = serde_json::from_str(&whole).expect("it is JSON");
+    assert!(said["proved"] == true && said["findings"][0]["counts"]["triangle"] == 404, "{said}");
+}
