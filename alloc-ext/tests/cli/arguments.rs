@@ -126,7 +126,7 @@ fn every_command_s_help_has_examples_that_run() {
     for frame in ["rest.ply", "bent.ply"] {
         fs::copy(&scan, directory.join(frame)).unwrap();
     }
-    let everything = ["--for", "closest,segment,cull,hull,triboxes", "--triboxes", "8"];
+    let everything = ["--for", "closest,segment,cull,winding,hull,triboxes", "--triboxes", "8"];
     let part = blob(&directory, "torus.ply", &everything);
     let boxed = directory.join("boxed.msw");
     ok(["build", arg(&directory.join("part.stl")), "-o", arg(&boxed)]);
