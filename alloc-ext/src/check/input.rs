@@ -79,7 +79,7 @@ impl<'a> Given<'a> {
             });
             let what = || {
                 format!(
-                    "the triangle stored as {number}, at {:?} of the local frame, is not the mesh's \
+                    "the triangle stored as {number}, at {:?} of the local frame, is not the input's \
                      within {error:e}",
                     corners[0]
                 )

@@ -144,7 +144,7 @@ fn walls([a, b, c]: [DVec3; 3]) -> [(DVec3, DVec3); 3] {
 
 /// Whether a point is above or below a triangle.
 fn is_above(p: DVec3, triangle: [DVec3; 3]) -> bool {
-    walls(triangle).iter().all(|(from, inward)| inward.dot(p - from) > 0.0)
+    walls(triangle).iter().all(|(from, inward)| inward.dot(p - from) >= 0.0)
 }
 
 /// The part of a piece above or below a triangle, and the convex parts beside it.
@@ -152,7 +152,7 @@ fn cut(piece: Vec<DVec3>, triangle: [DVec3; 3]) -> (Vec<DVec3>, Vec<Vec<DVec3>>)
     let (mut above, mut beside) = (piece, Vec::new());
     for (from, inward) in walls(triangle) {
         // Rounding leaves no sliver beside.
-        let room = ABSOLUTE * inward.length();
+        let room = 0.25 * ABSOLUTE * inward.length();
         let [inner, outer] = parts(&above, |p| inward.dot(p - from) + room);
         beside.push(outer);
         above = inner;
@@ -248,7 +248,7 @@ mod tests {
             assert!(matches!(surface.within(triangle, 0.249), Verdict::Beyond(..)));
         }
         let level = turned.map(|t| t.map(|p| p.with_z(0.0)));
-        assert!(level.iter().all(|&t| surface.within(t, 0.0) == Verdict::Within));
+        assert!(level.iter().all(|&t| surface.within(t, 1e-13) == Verdict::Within));
     }
 
     #[test]

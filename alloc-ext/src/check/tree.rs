@@ -33,9 +33,10 @@ pub fn check_tree(bytes: &[u8], mesh: &Mesh) -> Result<TreeProof, String> {
 /// The same of a mesh whose vertices were moved before.
 pub(crate) fn prove_tree(bytes: &[u8], input: Input<'_>) -> Result<TreeProof, String> {
     let tree = TreeBlob::parse(bytes)?;
-    let mut proof = proved(&tree)?;
+    let mut proof = boxes(&tree)?;
     surface::triangles(&tree, &Given::new(input, tree.scale_exponent), &mut proof)?;
     surface::closed(&tree, input.mesh)?;
+    measures(&tree, &mut proof)?;
     Ok(proof)
 }
 
@@ -53,7 +54,7 @@ pub(crate) struct Faces {
 /// Proves all of a blob's box tree but that it is the tree of a mesh.
 pub(crate) fn prove_faces(bytes: &[u8]) -> Result<Faces, String> {
     let tree = TreeBlob::parse(bytes)?;
-    proved(&tree)?;
+    measures(&tree, &mut boxes(&tree)?)?;
     Ok(Faces {
         triangles: tree.triangles().collect(),
         scale_exponent: tree.scale_exponent,
@@ -61,15 +62,20 @@ pub(crate) fn prove_faces(bytes: &[u8]) -> Result<Faces, String> {
     })
 }
 
-fn proved(tree: &TreeBlob) -> Result<TreeProof, String> {
+/// Every box holds what is below it.
+fn boxes(tree: &TreeBlob) -> Result<TreeProof, String> {
     let vertices = tree.leaves.iter().map(|leaf| leaf.vertices.len()).sum();
     let mut proof = TreeProof { vertices, nodes: tree.nodes.len(), ..TreeProof::default() };
     let parents = contain::parents(tree)?;
     contain::stack(tree)?;
     contain::frames(tree, &mut proof)?;
     contain::boxes(tree, &parents, &mut proof)?;
-    surface::reach(tree)?;
-    moments::moments(tree, &mut proof)?;
-    cones::cones(tree, &mut proof)?;
     Ok(proof)
+}
+
+/// What the header, moments and cones say of the stored triangles.
+fn measures(tree: &TreeBlob, proof: &mut TreeProof) -> Result<(), String> {
+    surface::reach(tree)?;
+    moments::moments(tree, proof)?;
+    cones::cones(tree, proof)
 }
