@@ -61,7 +61,8 @@ pub fn check_margin(mesh: &Surface, hull: &Surface, margin: f64) -> Result<Enclo
                 || exact.is_kept(&triangles[t], &faces[f]);
             if !apart {
                 return Err(format!(
-                    "face {f} of the hull is not farther than {margin:e} from triangle {t} of the mesh"
+                    "face {f} of the hull is not farther than {margin:e} from triangle {t} of the \
+                     mesh"
                 ));
             }
         }

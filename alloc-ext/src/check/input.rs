@@ -37,11 +37,10 @@ impl<'a> Given<'a> {
         if moved > 0.0 { moved.next_up() } else { 0.0 }
     }
 
-    /// The mesh's triangles in the order of `stored`, each from the corner with which the stored one
-    /// begins: each is found by its number and by its
-    /// corners within `error` of the input's, beginning with any of them, in the input's winding or
-    /// in any. Triangles that share a number, which a repaired mesh may have, are told apart by
-    /// their corners.
+    /// The mesh's triangles in the order of `stored`, each from the corner with which the stored
+    /// one begins. Each is found by its number and by its corners within `error` of the input's,
+    /// beginning with any of them, in the input's winding or in any. A repaired mesh may have
+    /// triangles that share a number. Their corners tell them apart.
     ///
     /// # Errors
     /// A stored triangle is none of the mesh, or one of the mesh is missing.
@@ -79,8 +78,8 @@ impl<'a> Given<'a> {
             });
             let what = || {
                 format!(
-                    "the triangle stored as {number}, at {:?} of the local frame, is not the input's \
-                     within {error:e}",
+                    "the triangle stored as {number}, at {:?} of the local frame, is not the \
+                     input's within {error:e}",
                     corners[0]
                 )
             };

@@ -11,13 +11,14 @@ use glam::DVec3;
 /// Triangles in a leaf.
 const LEAF: usize = 4;
 
-/// A piece is halved unless what is left to the limit is less than this part of its radius,
+/// A piece is cut along the edges of the nearest triangle if the limit exceeds its distance by less
+/// than this fraction of its radius. Otherwise it is halved.
 const TIGHT: f64 = 0.125;
 
-/// and the part above the nearest triangle has at least this part of its length.
+/// Least length of the cut part above that triangle, as a fraction of the piece's.
 const PART: f64 = 0.125;
 
-/// Distances from a triangle that differ by less than this part do not tell where to halve.
+/// Distances from a triangle that differ by less than this fraction do not tell where to halve.
 const FLAT: f64 = 1e-3;
 
 /// Pieces of one triangle.

@@ -4,8 +4,8 @@
 //! If [`check_tree`] returns `Ok`, then no descent can miss a triangle but by the rounding of the
 //! query itself: every triangle of the mesh is in exactly one leaf, no farther from its place than
 //! the header's surface error; every box on the way to it contains it, by exact arithmetic on the
-//! stored numbers; and no frame makes a distance longer. Moments are those of the triangles below, and
-//! normals lie in their cones.
+//! stored numbers; and no frame makes a distance longer. Moments are those of the triangles below,
+//! and normals lie in their cones.
 
 mod cones;
 mod contain;

@@ -6,8 +6,8 @@
 //!
 //! [`read`] takes PLY, OBJ, STL, OFF, glTF and 3MF. [`repair`] mends what can be mended without
 //! moving the surface and reports each mend with its place; it accepts any triangle soup.
-//! [`require_closed_manifold`] is the further demand of an outer hull, kept apart because a distance index is content with a
-//! soup.
+//! [`require_closed_manifold`] is the further demand of an outer hull. It is kept apart, because a
+//! distance index is content with a soup.
 //!
 //! Numbers of vertices, faces and triangles count from 0 in file order; errors of reading OBJ count
 //! from 1, as such a file does. A *face* is what the file lists, perhaps a polygon; a *triangle* is

@@ -1,8 +1,8 @@
 //! What the fuzzers run, as plain functions: a driver test calls the same bodies with seeded bytes.
 //!
 //! Input bytes are edits of a valid blob, whose CRCs are then computed again, followed by the
-//! queries' floats; those of [`mesh`](fn@mesh) are a mesh file. A blob that opens must be safe to ask anything: no panic, and no more work than
-//! its tables have records.
+//! queries' floats; those of [`mesh`](fn@mesh) are a mesh file. A blob that opens must be safe to
+//! ask anything: no panic, and no more work than its tables have records.
 
 mod curves;
 mod deform;

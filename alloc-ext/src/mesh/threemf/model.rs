@@ -34,7 +34,7 @@ impl Object {
 
 /// An object, put in place.
 pub(super) struct Part {
-    /// The model, if not that which names it.
+    /// The file of the object's model. `None`: the file that names the object.
     pub(super) path: Option<String>,
     pub(super) object: u32,
     pub(super) placement: Placement,

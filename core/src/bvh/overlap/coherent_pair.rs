@@ -283,7 +283,7 @@ impl LeftOut for PairFront<'_> {
     }
 
     fn overflow(&mut self) {
-        self.is_lost = !self.is_known;
+        self.is_lost |= !self.is_known;
     }
 }
 

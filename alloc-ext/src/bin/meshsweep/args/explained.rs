@@ -239,8 +239,9 @@ pub fn clearance() -> String {
          length of the shortest translation that separates them. Put x, y, z in place of the \
          pose's translation, and they are proved to be apart: it differs by upper at most. p is \
          the point inside both that proves lower: the sum of its depths is lower or more. Both \
-         blobs are then built --for closest,segment,winding. If the meshes are deep in each other, upper may be several times as large as lower.\n\n\
-         Both blobs are built --for segment. Poses and moves count from 0. Options with poses \
+         blobs are then built --for closest,segment,winding. If the meshes are deep in each other, \
+         upper may be several times as large as lower.\n\n\
+         Without --depth both blobs are built --for segment. Poses and moves count from 0. Options with poses \
          stand after the blobs.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \

@@ -12,7 +12,7 @@ use super::motions::Case;
 use crate::measure::rival::Rival;
 use crate::measure::stopwatch::Stopwatch;
 
-/// What is asked of a motion.
+/// A question about two models at a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Question {
     /// How far are the models from each other?
