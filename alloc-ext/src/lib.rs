@@ -21,6 +21,7 @@
 //! | [`bvh`], [`hull`], [`tight`], [`tribox`], [`curve`] | one structure each, as in core |
 //! | [`emit`] | sections to bytes; it knows no builder |
 //! | [`cut`] | a coarser blob out of a finer one |
+//! | [`worst`] | a search for the query that costs most |
 //! | [`check`] | proofs of a blob again, from its bytes and the mesh; it uses `mesh` only |
 //!
 //! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `surface` ←
@@ -43,6 +44,7 @@ mod random;
 pub mod surface;
 pub mod tight;
 pub mod tribox;
+pub mod worst;
 
 pub use error::BuildError;
 pub use hausdorff::Farthest;

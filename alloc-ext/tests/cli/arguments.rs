@@ -136,7 +136,7 @@ fn every_command_s_help_has_examples_that_run() {
         .map_while(|line| line.split_whitespace().next())
         .filter(|command| *command != "help")
         .collect();
-    assert_eq!(commands.len(), 19, "{commands:?}");
+    assert_eq!(commands.len(), 20, "{commands:?}");
     for command in commands {
         let help = ok(["help", command]);
         let examples: Vec<&str> =

@@ -20,3 +20,4 @@ mod tight;
 mod tribox;
 mod verify;
 mod winding;
+mod worst;

@@ -13,7 +13,7 @@ mod values;
 pub use asking::{
     ClearArgs, ClearanceArgs, ClosestArgs, CullArgs, Engine, FieldArgs, MoveKind, MovedArgs,
     NearestArgs, OverlapArgs, PointArgs, SearchArgs, SegmentArgs, SignedArgs, WindingArgs,
-    WithinArgs,
+    WithinArgs, WorstArgs, WorstQuestion,
 };
 pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
 pub use building::{BuildArgs, CutArgs, FACES, HullServes, InfoArgs, StoredBits, VerifyArgs};
@@ -119,6 +119,9 @@ pub enum Command {
     /// Prove the claims of a blob again, from its bytes and the mesh that it was built from
     #[command(after_help = explained::VERIFY)]
     Verify(VerifyArgs),
+    /// Search the dearest query of each question, or the widest interval within a budget
+    #[command(after_help = explained::WORST)]
+    Worst(WorstArgs),
 }
 
 #[cfg(test)]

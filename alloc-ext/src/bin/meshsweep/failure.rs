@@ -55,6 +55,8 @@ pub enum Failure {
         other: Option<&'static str>,
         served: String,
     },
+    /// The blob serves none of the questions whose dearest query can be searched.
+    NothingToSearch { file: PathBuf, served: String },
     /// The levels of the blob's hierarchy enclose nothing.
     NoHulls { file: PathBuf },
     /// All tight hulls of the blob have more faces.
@@ -231,6 +233,11 @@ impl fmt::Display for Failure {
                 write!(f, "{} of {}: {}", blob.display(), mesh.display(), open.join("; "))
             }
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
+            Failure::NothingToSearch { file, served } => write!(
+                f,
+                "{}: serves {served}; worst searches closest, within, signed, winding and segment",
+                file.display()
+            ),
             Failure::NoHulls { file } => write!(
                 f,
                 "{}: was built --for sweep, and its levels are no hulls; build it --for hull from \

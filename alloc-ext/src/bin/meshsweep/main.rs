@@ -61,6 +61,7 @@ mod verify;
 mod winding;
 mod windings;
 mod within;
+mod worst;
 
 use args::{Arguments, Command};
 use failure::Failure;
@@ -95,5 +96,6 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Cut(args)) => cut::run(&args),
         Some(Command::Tribox(args)) => tribox::run(&args),
         Some(Command::Verify(args)) => verify::run(&args),
+        Some(Command::Worst(args)) => worst::run(&args),
     }
 }

@@ -395,3 +395,15 @@ pub const VERIFY: &str = "The proofs share no code with the builder and with que
     Examples:\n  \
     meshsweep verify part.msw part.stl\n  \
     meshsweep verify part.msw part.stl --json";
+
+pub const WORST: &str = "Queries are searched in the box twice the mesh's: from random places and \
+    some of the surface, uphill, by moves of all sizes. The same blob gives the same result. The \
+    search proves nothing: a dearer query may exist. Only --steps bounds the cost of every query. \
+    With it the widest interval is searched too, for questions that have one. Its width at other \
+    queries is most likely less, and any answer tells its own.\n\n\
+    Work is counted as queries count it: nodes or splits opened, bounds (boxes, capsules, balls) \
+    and triangles looked at, and those of them in f64.\n\n\
+    Examples:\n  \
+    meshsweep worst part.msw\n  \
+    meshsweep worst part.msw --ask closest --rel 0.01\n  \
+    meshsweep worst part.msw --steps 16 --json";
