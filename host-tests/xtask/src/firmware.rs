@@ -93,7 +93,7 @@ pub struct Asked {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
     /// All: `cargo xtask firmware`. Boards that compute floats by instructions are asked a quarter
-    /// of the questions about two bodies, which take up to a hundred million instructions each.
+    /// of the questions about two bodies, some of which take hundreds of millions of instructions.
     All,
     /// What can fail: `cargo xtask test`. Code that no table holds is not measured. Boards that
     /// compute floats by instructions take ten times as long as the others, and run a part of the
