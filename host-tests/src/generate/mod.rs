@@ -9,6 +9,7 @@ mod builder;
 pub mod corpus;
 pub mod curves;
 pub mod evil;
+pub mod extremes;
 mod extrude;
 pub mod fixtures;
 mod rng;
