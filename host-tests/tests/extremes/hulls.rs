@@ -183,4 +183,14 @@ fn tight_hulls(extreme: &Extreme) {
 on_every_extreme!(hull_hierarchies_contain_the_truth, super::hull_hierarchy);
 on_every_extreme!(sweeps_contain_the_truth, super::sweep);
 on_every_extreme!(moved_hulls_contain_the_truth, super::deform);
-on_every_extreme!(tight_hulls_contain_the_truth, super::tight_hulls);
+on_every_extreme!(tight_hulls_contain_the_truth, super::tight_hulls;
+    the_largest_numbers
+    ten_thousand_diagonals_away
+    ten_million_diagonals_away
+    a_tower_of_aspect_1e8
+    four_triangles
+);
+on_every_extreme!(
+    ignored because "to build the hulls takes half a minute":
+    all_tight_hulls_contain_the_truth, super::tight_hulls
+);

@@ -33,8 +33,12 @@ pub enum Kind {
 
 impl Scene {
     pub fn new(name: &str, raw: &Raw, kind: Kind) -> Scene {
+        Self::with(name, raw, kind, &TreeOptions::default().with_cull(true))
+    }
+
+    pub fn with(name: &str, raw: &Raw, kind: Kind, options: &TreeOptions) -> Scene {
         let (mesh, moved, _) = repaired(raw, kind);
-        let options = TreeOptions::default().with_cull(true).with_winding(true).with_f32(kind == Kind::F32);
+        let options = options.with_f32(kind == Kind::F32);
         let (tables, _) =
             build(Input { mesh: &mesh, moved, input_triangles: raw.1.len() }, &options)
                 .expect("builds");

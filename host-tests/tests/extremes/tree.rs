@@ -5,6 +5,7 @@ use crate::checks::{
     neighbors_are_complete, verdicts_are_true, wrong_intervals,
 };
 use crate::scene::{Kind, Scene, wide};
+use meshsweep::bvh::TreeOptions;
 use meshsweep_core::{Budget, Bvh, Pose, ScratchEntry, Side, Solid, Verdict};
 use meshsweep_host_tests::generate::extremes::{Extreme, extreme_points};
 use meshsweep_host_tests::generate::{Triangles, cube, scaled};
@@ -13,7 +14,8 @@ use meshsweep_host_tests::oracle::{distance_of_meshes, winding_number};
 use std::cmp::Ordering::{Greater, Less};
 
 pub fn scenes(extreme: &Extreme) -> [Scene; 2] {
-    [Kind::Grid, Kind::F32].map(|kind| Scene::new(extreme.name, &wide(extreme.mesh.clone()), kind))
+    let (raw, options) = (wide(extreme.mesh.clone()), TreeOptions::default().with_winding(true));
+    [Kind::Grid, Kind::F32].map(|kind| Scene::with(extreme.name, &raw, kind, &options))
 }
 
 fn distances(extreme: &Extreme) {
