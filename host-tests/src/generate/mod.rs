@@ -10,6 +10,8 @@ pub mod corpus;
 pub mod curves;
 pub mod evil;
 pub mod extremes;
+
+pub mod defects;
 mod extrude;
 pub mod fixtures;
 mod rng;
