@@ -278,12 +278,8 @@ impl<C: Collect> Along<'_, C> {
             self.doubtful = true;
             let enter = f64::from(key.max(0.0));
             let t = met.map_or(enter, |meet| meet.t);
-            met = Some(SegmentTriangle {
-                t,
-                t_lower: enter.min(t),
-                t_upper: 1.0,
-                is_certain: false,
-            });
+            met =
+                Some(SegmentTriangle { t, t_lower: enter.min(t), t_upper: 1.0, is_certain: false });
         }
         if let Some(meet) = met {
             self.add(meet, candidate.instance);

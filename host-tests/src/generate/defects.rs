@@ -30,11 +30,22 @@ pub fn sound() -> Raw {
 /// All of them.
 #[must_use]
 pub fn defects() -> Vec<Defect> {
-    let mended = |name, spoil, found| Defect { name, spoil, found, unreadable: None, no_solid: None };
-    let unreadable =
-        |name, spoil, error| Defect { name, spoil, found: &[], unreadable: Some(error), no_solid: None };
-    let no_solid =
-        |name, spoil, error| Defect { name, spoil, found: &[], unreadable: None, no_solid: Some(error) };
+    let mended =
+        |name, spoil, found| Defect { name, spoil, found, unreadable: None, no_solid: None };
+    let unreadable = |name, spoil, error| Defect {
+        name,
+        spoil,
+        found: &[],
+        unreadable: Some(error),
+        no_solid: None,
+    };
+    let no_solid = |name, spoil, error| Defect {
+        name,
+        spoil,
+        found: &[],
+        unreadable: None,
+        no_solid: Some(error),
+    };
     vec![
         mended("duplicate vertices", duplicate_vertices, &["welded"]),
         mended("duplicate triangles", |(_, t)| t.push(t[1]), &["duplicate"]),
@@ -53,7 +64,11 @@ pub fn defects() -> Vec<Defect> {
         mended("a solid in a solid", |raw| part(raw, 0.25, [0.1, 0.2, 0.3]), &[]),
         mended("a cavity", cavity, &["cavities"]),
         mended("an isolated vertex", |(p, _)| p.push([7.0, 8.0, 9.0]), &["unreferenced"]),
-        mended("inside out", |(_, t)| t.iter_mut().for_each(|t| t.swap(0, 1)), &["turned_components"]),
+        mended(
+            "inside out",
+            |(_, t)| t.iter_mut().for_each(|t| t.swap(0, 1)),
+            &["turned_components"],
+        ),
         mended("a thin plate", thin_plate, &[]),
         unreadable("NaN", |(p, _)| p[3][1] = f64::NAN, "NotFinite"),
         unreadable("infinity", |(p, _)| p[4][2] = f64::NEG_INFINITY, "NotFinite"),
@@ -111,9 +126,8 @@ fn repeated_corner((_, triangles): &mut Raw) {
 /// the middle.
 fn halved((positions, triangles): &mut Raw, number: usize) -> [u32; 3] {
     let [a, b, c] = triangles[number];
-    let middle = std::array::from_fn(|k| {
-        0.5 * positions[a as usize][k] + 0.5 * positions[b as usize][k]
-    });
+    let middle =
+        std::array::from_fn(|k| 0.5 * positions[a as usize][k] + 0.5 * positions[b as usize][k]);
     let m = push(positions, middle);
     triangles[number] = [a, m, c];
     triangles.push([m, b, c]);

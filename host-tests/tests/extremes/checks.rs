@@ -2,7 +2,8 @@
 
 use crate::scene::Scene;
 use meshsweep_core::{
-    Budget, ClosestPoint, CoherentQuery, Ended, Facing, Hint, Hit, Interval, Neighbor, QueryError, Verdict,
+    Budget, ClosestPoint, CoherentQuery, Ended, Facing, Hint, Hit, Interval, Neighbor, QueryError,
+    Verdict,
 };
 use meshsweep_host_tests::oracle::exact::{Corners, distance_compared, first_meeting};
 use std::cmp::Ordering::{Greater, Less};
@@ -66,8 +67,7 @@ pub fn verdicts_are_true(scene: &Scene, points: &[[f32; 3]], seen: &mut [usize; 
         let about =
             tree.closest_point(p, Budget::EXACT, &mut stack).expect("a point").distance.upper;
         let about = about.min(f32::MAX / 2.0);
-        for distance in
-            [0.0, 0.5 * about, 0.999_999 * about, about, 1.000_001 * about, 2.0 * about]
+        for distance in [0.0, 0.5 * about, 0.999_999 * about, about, 1.000_001 * about, 2.0 * about]
         {
             let is_near = truth
                 .iter()
@@ -194,9 +194,10 @@ pub fn hits_are_true(scene: &Scene, segments: &[[[f32; 3]; 2]], seen: &mut [usiz
                 Verdict::No => match facing {
                     Facing::Both => !truth.is_empty(),
                     // A wire has no sides: who asks for one must not be told that it is clear.
-                    _ => scene.mesh.wire_corners().any(|t| {
-                        first_meeting(from, to, &t.map(|p| p.map(f64::from))).is_some()
-                    }),
+                    _ => scene
+                        .mesh
+                        .wire_corners()
+                        .any(|t| first_meeting(from, to, &t.map(|p| p.map(f64::from))).is_some()),
                 },
                 _ => false,
             };

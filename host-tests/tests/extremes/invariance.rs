@@ -10,7 +10,7 @@ use meshsweep::mesh::Input;
 use meshsweep::tight::{self, ChainOptions};
 use meshsweep::tribox;
 use meshsweep_core::{
-    Bvh, Budget, Curve, DeformableHull, Facing, Hull, MovedVertex, ScratchEntry, TightHulls,
+    Budget, Bvh, Curve, DeformableHull, Facing, Hull, MovedVertex, ScratchEntry, TightHulls,
     Triboxes,
 };
 use meshsweep_host_tests::generate::extremes::extreme_points;
@@ -146,8 +146,15 @@ fn scaling_by_a_power_of_two_scales_every_bit_of_triboxes_and_curves() {
             let bound = triboxes.distance(p, Budget::EXACT, &mut memory).expect("a point");
             let near = curve.closest_point(p, Budget::EXACT, &mut memory).expect("a point");
             let [x, y, z] = near.point;
-            let lengths =
-                vec![bound.lower, near.distance.lower, near.distance.upper, x, y, z, near.safe_motion];
+            let lengths = vec![
+                bound.lower,
+                near.distance.lower,
+                near.distance.upper,
+                x,
+                y,
+                z,
+                near.safe_motion,
+            ];
             (lengths, vec![near.t, near.segment.polyline as f32])
         };
         points.iter().map(ask).collect()

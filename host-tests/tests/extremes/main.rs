@@ -7,6 +7,7 @@ mod named;
 mod bounds;
 mod hulls;
 mod invariance;
+mod large;
 mod no_area;
 mod scene;
 mod tree;

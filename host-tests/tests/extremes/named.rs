@@ -75,7 +75,9 @@ pub fn extreme(name: &str) -> Extreme {
 
 fn is_small(extreme: &Extreme) {
     let (positions, triangles) = &extreme.mesh;
-    assert!((1..=100).contains(&triangles.len()) && positions.iter().flatten().all(|x| x.is_finite()));
+    assert!(
+        (1..=100).contains(&triangles.len()) && positions.iter().flatten().all(|x| x.is_finite())
+    );
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! Meshes with triangles that have no area, or have none when they are stored.
 
-use meshsweep_host_tests::oracle::exact::{Corners, about};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::check::check_tree;
 use meshsweep::mesh::{Input, Mesh, RawMesh, RepairReport, read, repair};
 use meshsweep::surface::{VertexBits, snap};
 use meshsweep_core::{Bvh, ScratchEntry};
 use meshsweep_host_tests::generate::{Rng, cube, torus};
+use meshsweep_host_tests::oracle::exact::{Corners, about};
 use std::path::Path;
 
 /// Positions as in a file, and triangles.

@@ -116,9 +116,8 @@ fn pairs(extreme: &Extreme) {
         for translation in places {
             let at = || format!("{} and a cube at {translation:?}", scene.name);
             let pose = Pose { translation, ..Pose::IDENTITY };
-            let moved = |t: &Corners| {
-                t.map(|p| std::array::from_fn(|k| p[k] + f64::from(translation[k])))
-            };
+            let moved =
+                |t: &Corners| t.map(|p| std::array::from_fn(|k| p[k] + f64::from(translation[k])));
             let cubes: Vec<Corners> = other.corners.iter().map(moved).collect();
             let is_met = scene.corners.iter().any(|t| cubes.iter().any(|c| meet(t, c)));
             if let Ok(found) = tree.overlap(&second, pose, Budget::EXACT, &mut stack) {
@@ -130,9 +129,7 @@ fn pairs(extreme: &Extreme) {
                 assert!(!wrong, "{}: {found:?}, met: {is_met}", at());
             }
             let ours = (extreme.mesh.0.as_slice(), extreme.mesh.1.as_slice());
-            let truth = || {
-                distance_of_meshes(ours, (&probe.0, &probe.1), &IDENTITY, translation)
-            };
+            let truth = || distance_of_meshes(ours, (&probe.0, &probe.1), &IDENTITY, translation);
             if let Ok(found) = tree.distance(&second, pose, Budget::EXACT, &mut stack) {
                 let (lower, upper) = (f64::from(found.distance.lower), found.distance.upper);
                 let truth = truth();
@@ -152,7 +149,9 @@ fn solids(extreme: &Extreme) {
         for (i, &p) in points.iter().enumerate() {
             let ball = [p];
             let solid = Solid::new(&ball, radius).expect("a ball");
-            let Ok(found) = tree.solid_distance(&solid, Budget::EXACT, &mut stack) else { continue };
+            let Ok(found) = tree.solid_distance(&solid, Budget::EXACT, &mut stack) else {
+                continue;
+            };
             let reach = |x: f32| f64::from(x) + f64::from(radius);
             let truth = scene.nearest(p);
             let compared = |t, x: f64| distance_compared(p.map(f64::from), t, x);
@@ -163,7 +162,9 @@ fn solids(extreme: &Extreme) {
             assert!(!is_above && !is_below, "{}: {p:?} {found:?}", scene.name);
             let ends = [p, points[(i + 1) % points.len()]];
             let solid = Solid::new(&ends, 0.0).expect("a segment");
-            let Ok(found) = tree.solid_distance(&solid, Budget::EXACT, &mut stack) else { continue };
+            let Ok(found) = tree.solid_distance(&solid, Budget::EXACT, &mut stack) else {
+                continue;
+            };
             let [a, b] = ends.map(|p| p.map(f64::from));
             let is_met = scene.corners.iter().any(|t| first_meeting(a, b, t).is_some());
             let wrong = is_met && found.distance.lower > 0.0;

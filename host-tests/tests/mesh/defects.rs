@@ -80,8 +80,7 @@ fn build(wanted: &str, raw: &Raw, every: usize) -> Result<(Mesh, RepairReport), 
     let moved = snap(&mut positions, grid);
     let read = RawMesh::from_f64(positions, raw.1.clone());
     let named = |error: &dyn std::fmt::Display, variant: String| format!("{variant}: {error}");
-    let (mesh, report) =
-        repair(read.clone()).map_err(|error| named(&error, variant(&error)))?;
+    let (mesh, report) = repair(read.clone()).map_err(|error| named(&error, variant(&error)))?;
     if ["hull", "deform"].contains(&wanted) {
         require_closed_manifold(&mesh).map_err(|error| {
             let error = report.explain(error);

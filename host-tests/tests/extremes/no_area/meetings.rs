@@ -1,10 +1,10 @@
 //! Segments and overlap on the box tree against the exact oracle.
 
-use meshsweep_host_tests::oracle::exact::{Corners, first_meeting, meet};
-use crate::scene::{Kind, Raw, Scene, inputs, pierced_cube, scenes, wires};
 use crate::checks::hits_are_true;
+use crate::scene::{Kind, Raw, Scene, inputs, pierced_cube, scenes, wires};
 use meshsweep_core::{Budget, Bvh, Facing, Pose, ScratchEntry, TrianglePair, Verdict};
 use meshsweep_host_tests::generate::Rng;
+use meshsweep_host_tests::oracle::exact::{Corners, first_meeting, meet};
 
 type Segment = [[f32; 3]; 2];
 
