@@ -160,8 +160,8 @@ fn outer_hits(
         touch: f32::INFINITY,
     };
     outer.run().ok_or(QueryError::Unchecked)?;
-    let wanted = if search == Search::First { outer.out.t.upper } else { f32::MAX };
-    if outer.touch <= wanted {
+    let first = if search == Search::First { outer.out.t.upper } else { f32::INFINITY };
+    if outer.touch.is_finite() && outer.touch <= first {
         outer.out.ended = outer.out.ended.uncertain();
     }
     let Hits { stored, dropped, .. } = outer.hits;

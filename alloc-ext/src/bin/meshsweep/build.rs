@@ -218,8 +218,8 @@ impl Report<'_> {
         if is_tree_f32 && !args.vertex_bits.is_f32() {
             writeln!(
                 out,
-                "  the mesh is too far from its origin for the box tree's grid: its coordinates are \
-                 stored as f32"
+                "  the mesh is too far from its origin for the box tree's grid: its coordinates \
+                 are stored as f32"
             )?;
         }
         if blob.bvh().is_ok_and(|tree| tree.is_closed() && tree.serves_distances()) {
