@@ -40,7 +40,7 @@ impl Shape {
 
     /// A triangle in the cube from -1 to 1, of any size.
     pub fn triangle(self, rng: &mut Rng) -> [Point; 3] {
-        let size = 2f32.powi(-(rng.below(12) as i32));
+        let size = halved(rng, 12);
         let a = rng.point_in([-0.5; 3], [0.5; 3]);
         let [e, g] = [(); 2].map(|()| scaled(rng.direction(), 0.5 * size * rng.unit_f32()));
         let [b, c] = match self {
@@ -64,7 +64,7 @@ impl Shape {
 /// A point on a triangle, next to it, at a corner, beside an edge, or up to `far` away.
 pub fn point(rng: &mut Rng, &[a, b, c]: &[Point; 3], far: f32) -> Point {
     let away = |rng: &mut Rng, most: f32| {
-        let length = most * 2f32.powi(-(rng.below(40) as i32));
+        let length = most * halved(rng, 40);
         scaled(rng.direction(), length * rng.unit_f32())
     };
     let (mut v, mut w) = (rng.unit_f32(), rng.unit_f32());
@@ -80,6 +80,11 @@ pub fn point(rng: &mut Rng, &[a, b, c]: &[Point; 3], far: f32) -> Point {
         4 => sum(a, away(rng, far)),
         _ => sum(at(v, 1.0 - v), away(rng, 1.0)),
     }
+}
+
+/// A power of ½, the zeroth or a higher one below the given.
+pub fn halved(rng: &mut Rng, below: usize) -> f32 {
+    (0..rng.below(below)).fold(1.0, |size, _| 0.5 * size)
 }
 
 pub fn sum(a: Point, b: Point) -> Point {

@@ -19,7 +19,7 @@ use meshsweep_host_tests::oracle::{
     gap_to_triangle, winding_number,
 };
 
-use super::place::{Point, Shape, point};
+use super::place::{Point, Shape, halved, point};
 
 /// A margin, and a trial of it.
 pub struct Margin {
@@ -312,7 +312,7 @@ fn strip(rng: &mut Rng, shape: Shape) -> Option<f64> {
     let share = rng.unit_f32();
     let onto = |p: f32, q: f32| p + (q - p) * share;
     let edge: Point = std::array::from_fn(|k| onto(a[k], b[k]));
-    let nudge = 2f32.powi(-20 - (rng.below(12) as i32));
+    let nudge = halved(rng, 12) / (1 << 20) as f32;
     let at: Point =
         std::array::from_fn(|k| edge[k] + (edge[k] - c[k]) * (nudge * (2.0 * share - 1.0)));
     let from = rng.point_in([-1.0; 3], [1.0; 3]);
