@@ -10,11 +10,7 @@ use meshsweep::hull::{BuildOptions, build_deform, build_for_sweep};
 use meshsweep::mesh::{KeyFrame, Mesh};
 use meshsweep::tight::{ChainOptions, chain};
 use meshsweep::tribox::store;
-use meshsweep_suite::ask::{
-    self, Refused, Subject, apart, deform, hull, hull_moving, tight, tree, triboxes,
-};
-use meshsweep_suite::fold::Fold;
-use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
+use meshsweep_counted::answers;
 
 use crate::generate::curves::{fence, tool_path};
 use crate::generate::fixtures::write_fixtures;
@@ -49,14 +45,7 @@ pub fn write(folder: &Path) -> Result<(), String> {
         put(&format!("{name}.msw"), blob)?;
         put(&format!("../core/fixtures/{name}.msw"), blob)?;
     }
-    let refused = |refused| format!("the core refuses the blob: {refused:?}");
-    let answers = hull_answers("bracket.msw", &hull).map_err(refused)?
-        + &tree_answers("groove.msw", &tree).map_err(refused)?
-        + &tribox_answers("torus.msw", &triboxes).map_err(refused)?
-        + &tight_answers("hulls.msw", &tight).map_err(refused)?
-        + &curve_answers("fence.msw", &fence).map_err(refused)?
-        + &hull_answers("sieve.msw", &sieve).map_err(refused)?
-        + &deform_answers("bend.msw", &bend).map_err(refused)?;
+    let answers = answers::of_fixtures(folder)?;
     put("answers.txt", answers.as_bytes())
 }
 
@@ -150,89 +139,4 @@ pub fn fence_curves() -> Vec<u8> {
 #[must_use]
 pub fn tool_path_curve() -> Vec<u8> {
     curve::store(&[tool_path(2000)], false).expect("finite").0.to_bytes()
-}
-
-/// A line for each kind of query to a blob's split hierarchy: the blob's name, the kind, and a hash
-/// of all answers' bits.
-///
-/// # Errors
-/// The core's refusal of the blob.
-pub fn hull_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
-    let alone = answers::<hull::Model<'_>>(name, blob, &mut hull::Scratch::new())?;
-    let pair = &mut hull_moving::Scratch::new();
-    Ok(alone + &answers::<hull_moving::Moving<'_>>(name, blob, pair)?)
-}
-
-/// The same for a blob's box tree.
-///
-/// # Errors
-/// The core's refusal of the blob.
-pub fn tree_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
-    let points = answers::<tree::Bvh<'_>>(name, blob, &mut tree::Scratch::new())?;
-    Ok(points + &answers::<apart::Apart<'_>>(name, blob, &mut apart::Scratch::new())?)
-}
-
-/// The same for a blob's triboxes.
-///
-/// # Errors
-/// The core's refusal of the blob.
-pub fn tribox_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
-    answers::<triboxes::Triboxes<'_>>(name, blob, &mut triboxes::Scratch::new())
-}
-
-/// The same for the finest of a blob's tight hulls.
-///
-/// # Errors
-/// The core's refusal of the blob.
-pub fn tight_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
-    answers::<tight::Hulls<'_>>(name, blob, &mut tight::Scratch::new())
-}
-
-/// The same for a blob's curves.
-///
-/// # Errors
-/// The core's refusal of the blob.
-pub fn curve_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
-    answers::<ask::curve::Curve<'_>>(name, blob, &mut ask::curve::Scratch::new())
-}
-
-/// The same for a hull hierarchy that deforms.
-///
-/// # Errors
-/// The core's refusal of the blob.
-pub fn deform_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
-    answers::<deform::DeformableHull<'_>>(name, blob, &mut deform::Scratch::new())
-}
-
-fn answers<'t, S: Subject<'t>>(
-    name: &str,
-    blob: &'t [u8],
-    scratch: &mut S::Scratch,
-) -> Result<String, Refused> {
-    let mut lines = Lines { name: name.to_owned(), fold: Fold::new(), text: String::new() };
-    run::<S>(blob, Plan::STANDARD, scratch, &mut lines)?;
-    Ok(lines.text)
-}
-
-struct Lines {
-    name: String,
-    fold: Fold,
-    text: String,
-}
-
-impl Clock for Lines {}
-
-impl Recorder for Lines {
-    fn kind_begins(&mut self, _kind: Kind) {
-        self.fold = Fold::new();
-    }
-
-    fn block(&mut self, _kind: Kind, _index: u32, hash: u64) {
-        hash.to_le_bytes().into_iter().for_each(|byte| self.fold.byte(byte));
-    }
-
-    fn kind_ends(&mut self, kind: Kind) {
-        let Self { name, fold, text } = self;
-        text.push_str(&format!("{name} {} {:016x}\n", kind.name(), fold.finish()));
-    }
 }

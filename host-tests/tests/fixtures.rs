@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use meshsweep::curve::{read_csv, store};
 use meshsweep_core::{Bvh, Curve, DeformableHull, Hull, TightHulls, Triboxes};
+use meshsweep_counted::answers::of_fixtures;
 use meshsweep_host_tests::golden::{
-    bending_torus, bracket_hulls, bracket_model, curve_answers, deform_answers, fence_curves,
-    groove_tree, hull_answers, tight_answers, torus_sieve, torus_triboxes, tree_answers,
-    tribox_answers,
+    bending_torus, bracket_hulls, bracket_model, fence_curves, groove_tree, torus_sieve,
+    torus_triboxes,
 };
 use meshsweep_host_tests::picture;
 
@@ -115,13 +115,7 @@ fn the_core_packs_the_same_blobs() {
 
 #[test]
 fn answers_have_the_committed_bits() {
-    let here = hull_answers("bracket.msw", &read("bracket.msw")).expect("opens")
-        + &tree_answers("groove.msw", &read("groove.msw")).expect("opens")
-        + &tribox_answers("torus.msw", &read("torus.msw")).expect("opens")
-        + &tight_answers("hulls.msw", &read("hulls.msw")).expect("opens")
-        + &curve_answers("fence.msw", &read("fence.msw")).expect("opens")
-        + &hull_answers("sieve.msw", &read("sieve.msw")).expect("opens")
-        + &deform_answers("bend.msw", &read("bend.msw")).expect("opens");
+    let here = of_fixtures(&folder()).expect("all open");
     let committed = String::from_utf8(read("answers.txt")).expect("text");
     for (here, committed) in here.lines().zip(committed.lines()) {
         assert_eq!(

@@ -21,3 +21,4 @@ pub use batch::closest_points;
 pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, build};
 pub use encode::sections_of;
 pub use exact::{blob_for, exact_blob};
+pub use store::is_too_far_for_grid;

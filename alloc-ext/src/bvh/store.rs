@@ -1,6 +1,6 @@
 //! The tree's grid: vertices in grid units, and how far they moved.
 
-use crate::mesh::Input;
+use crate::mesh::{Input, Mesh};
 use crate::surface::{scale_exponent, split_exponent};
 use glam::DVec3;
 use meshsweep_core::internal::num::exp2;
@@ -26,6 +26,23 @@ const FINEST: i32 = -24;
 
 /// Most steps of the mesh's longest axis. Vertices are rounded to the nearest step, up or down.
 const STEPS: f64 = 65_534.0;
+
+/// Part of the mesh's longest side by which a grid of 16 bits moves vertices at most, where it is
+/// not too far from the origin.
+const MOST_MOVED: f64 = 1.0 / 32_768.0;
+
+/// Whether the mesh is so far from its origin that the grid moves vertices farther than a 32,768th
+/// of its longest side. Then [f32 vertices](super::TreeOptions::with_f32) keep them in their place.
+#[must_use]
+pub fn is_too_far_for_grid(mesh: &Mesh) -> bool {
+    let grid = store(Input { moved: -mesh.rounding, ..mesh.as_input() }, false);
+    let fold = |f: fn(DVec3, DVec3) -> DVec3| grid.positions.iter().copied().reduce(f);
+    let side = match (fold(DVec3::min), fold(DVec3::max)) {
+        (Some(low), Some(high)) => (high - low).max_element() * exp2(grid.exponent),
+        _ => 0.0,
+    };
+    grid.surface_error > side * MOST_MOVED
+}
 
 /// Moves a mesh to the finest power-of-two grid of 16 bits that holds it. With `single`, only its
 /// units change.

@@ -365,3 +365,27 @@ fn an_open_mesh_is_built_for_sweeps_and_its_levels_are_no_hulls() {
     let refined = ok(["refine", arg(&out), "-o", arg(&drawn), "--error", "1e-6"]);
     assert!(refined.contains("3 faces of 3"), "{refined}");
 }
+
+#[test]
+fn a_mesh_too_far_from_its_origin_for_the_grid_is_stored_as_f32_and_the_report_says_so() {
+    let directory = scratch("far");
+    let (near, far) = (directory.join("near.obj"), directory.join("far.obj"));
+    let tetrahedron = |x: f64| {
+        let at = [[0.0, 0.0, 0.3], [1.0, 0.1, 0.0], [0.0, 1.0, 0.0], [0.2, 0.3, 0.9]];
+        let vertices: Vec<_> =
+            at.iter().map(|p| format!("v {} {} {}\n", p[0] + x, p[1], p[2])).collect();
+        vertices.concat() + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+    };
+    fs::write(&near, tetrahedron(0.0)).expect("a file");
+    fs::write(&far, tetrahedron(10_000.0)).expect("a file");
+    let said = "too far from its origin for the box tree's grid";
+    for (mesh, bits, is_said) in
+        [(&near, "auto", false), (&far, "auto", true), (&far, "16", false), (&far, "32", false)]
+    {
+        let blob = directory.join("far.msw");
+        let [mesh, blob] = [mesh, &blob].map(|path| path.to_str().expect("UTF-8"));
+        let report = ok(["build", mesh, "-o", blob, "--vertex-bits", bits]);
+        assert_eq!(report.contains(said), is_said, "{bits}: {report}");
+        assert_eq!(report.contains("coordinates: f32"), is_said || bits == "32", "{report}");
+    }
+}

@@ -20,6 +20,8 @@ pub struct SegmentTriangle {
     pub t_lower: f64,
     /// The real first parameter is not above this (both hold if they meet at all).
     pub t_upper: f64,
+    /// It is proved that they meet.
+    pub is_certain: bool,
 }
 
 /// First common point of the closed segment `a b` and the closed triangle `v0 v1 v2`.
@@ -27,7 +29,8 @@ pub struct SegmentTriangle {
 /// `None` proves that they do not meet. `Some` may be a miss by less than some 1e-15 of the lengths
 /// involved (on a needle, times its aspect ratio): a caller must never hear "clear" by mistake.
 /// Both facings hit. A segment in the triangle's plane hits at their first common point. A segment
-/// of no length hits if its point lies on the triangle.
+/// of no length hits if its point lies on the triangle. Only a segment that goes through the inside of
+/// the triangle is [certain](SegmentTriangle::is_certain) to hit.
 pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<SegmentTriangle> {
     let d = b - a;
     let (p, q, r) = (v0 - a, v1 - a, v2 - a);
@@ -59,10 +62,12 @@ pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<
     if t + error < 0.0 || t - error > 1.0 {
         return None;
     }
+    let is_through = (u > eu && v > ev && w > ew) || (u < -eu && v < -ev && w < -ew);
     Some(SegmentTriangle {
         t: t.clamp(0.0, 1.0),
         t_lower: (t - error).max(0.0),
         t_upper: (t + error).min(1.0),
+        is_certain: is_through && t - error >= 0.0 && t + error <= 1.0,
     })
 }
 
@@ -77,7 +82,7 @@ fn in_plane(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> Option<SegmentTriangle> 
     }
     let [v0, v1, v2] = corners;
     if point_triangle(a, v0, v1, v2).lower <= touch {
-        return Some(SegmentTriangle { t: 0.0, t_lower: 0.0, t_upper: 0.0 });
+        return Some(SegmentTriangle { t: 0.0, t_lower: 0.0, t_upper: 0.0, is_certain: false });
     }
     // The start is outside, so the first common point lies on an edge. The crossing of nearly
     // parallel lines is ill-conditioned. The shadow of the triangle on the segment is not.
@@ -91,7 +96,7 @@ fn in_plane(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> Option<SegmentTriangle> 
         .filter_map(|(from, to)| edge_crossing(a, d, from, to, touch))
         .fold(f64::INFINITY, f64::min);
     let t = if first <= 1.0 { first } else { t_lower };
-    Some(SegmentTriangle { t, t_lower: t_lower.min(t), t_upper: 1.0 })
+    Some(SegmentTriangle { t, t_lower: t_lower.min(t), t_upper: 1.0, is_certain: false })
 }
 
 /// A lower bound of the distance between a segment and a triangle, by separating axes. It is tight

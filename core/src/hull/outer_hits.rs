@@ -61,7 +61,8 @@ impl<'t> Hull<'t> {
     /// rounding, no cut), or the answer is [`Ended::Resolution`] without any bound. The surface
     /// must not wind around any point negatively. A solid that is turned inside out where it passes
     /// through itself does, and the hulls of that mesh do not enclose it there.
-    /// [`first_hit`](Hull::first_hit) has no such conditions.
+    /// [`first_hit`](Hull::first_hit) has no such conditions. A hit through an edge, in a plane or
+    /// at an end of the segment is not proved: the answer ends with [`Ended::Resolution`].
     ///
     /// Of the budget only `steps` matters: vertex splits. Cost: on scanned parts some hundred faces
     /// and some hundred splits a segment. Source: Platis & Theoharis 2003, 3.2 and Table 3.
@@ -156,8 +157,13 @@ fn outer_hits(
         waiting: 0,
         spare: None,
         overflowed: false,
+        touch: f32::INFINITY,
     };
     outer.run().ok_or(QueryError::Unchecked)?;
+    let first = if search == Search::First { outer.out.t.upper } else { f32::INFINITY };
+    if outer.touch.is_finite() && outer.touch <= first {
+        outer.out.ended = outer.out.ended.uncertain();
+    }
     let Hits { stored, dropped, .. } = outer.hits;
     Ok(OuterHits { stored, dropped, ..outer.out })
 }
@@ -180,6 +186,8 @@ struct OuterSearch<'a> {
     /// One candidate that needs none of the caller's memory.
     spare: Option<ScratchEntry>,
     overflowed: bool,
+    /// Least parameter of a hit that is not proved.
+    touch: f32,
 }
 
 impl OuterSearch<'_> {
@@ -315,7 +323,11 @@ impl OuterSearch<'_> {
         let [p, q, r] = positions.map(|v| v.as_dvec3());
         if let Some(meet) = segment_triangle(self.start, self.end, [p, q, r]) {
             self.out.t.lower = self.out.t.lower.min(down_to_f32(meet.t_lower));
-            self.out.t.upper = self.out.t.upper.min(up_to_f32(meet.t_upper));
+            let upper = if meet.is_certain { up_to_f32(meet.t_upper) } else { 1.0 };
+            self.out.t.upper = self.out.t.upper.min(upper);
+            if !meet.is_certain {
+                self.touch = self.touch.min(down_to_f32(meet.t_lower));
+            }
             let point = self.frame.point(self.start + (self.end - self.start) * meet.t);
             let triangle = self.model.number(self.model.instance(face));
             let hit = Hit { t: meet.t as f32, point, triangle };

@@ -18,10 +18,12 @@ impl Hull<'_> {
     /// First common point of the closed segment `a b` (input units) and the surface, both facings.
     ///
     /// If [`FirstHit::is_clear`], that is a proof. A segment that passes within some 1e-15 of the
-    /// lengths involved, or within the surface error, of an edge may be reported as a hit. Segments
-    /// in the plane of a triangle hit where they enter it. A segment of no length hits if its point
-    /// lies on the surface. On a cut blob, and where a grid moved vertices, `hit` is the first
-    /// place where the surface may be, and the answer ends with [`Ended::Resolution`].
+    /// lengths involved, or within the surface error, of the surface may be reported as a hit.
+    /// Segments in the plane of a triangle hit where they enter it. A segment of no length hits if
+    /// its point lies on the surface. If the segment touches the surface within rounding, through
+    /// an edge or a vertex, in a plane or at an end, the hit is not proved, and the answer ends
+    /// with [`Ended::Resolution`]. So it does on a cut blob, and where a grid moved vertices: there
+    /// `hit` is the first place where the surface may be.
     ///
     /// `scratch` as for [`closest_point`](Hull::closest_point). Of the budget only `steps` matters.
     /// Cost: some dozens of nodes on scanned parts.
@@ -55,9 +57,13 @@ impl Hull<'_> {
         });
         let lower = first.least_lower.min(open);
         let lower = if lower.is_finite() { down_to_f32(lower.max(0.0)) } else { f32::INFINITY };
-        let upper = first.best.map_or(f32::INFINITY, |best| up_to_f32(best.meet.t_upper));
+        let upper = first.best.map_or(f32::INFINITY, |Met { meet, .. }| {
+            if meet.is_certain { up_to_f32(meet.t_upper) } else { 1.0 }
+        });
         let t = Interval { lower, upper };
-        Ok(FirstHit { t, hit, work: traced.work, ended: traced.ended })
+        let is_touch = first.best.is_some_and(|best| !best.meet.is_certain);
+        let ended = if is_touch { traced.ended.uncertain() } else { traced.ended };
+        Ok(FirstHit { t, hit, work: traced.work, ended })
     }
 
     /// All common points of the closed segment `a b` (input units) and the surface, by rising
@@ -87,9 +93,10 @@ impl Hull<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<AllHits, QueryError> {
-        let mut all = All { model: self, hits: Hits::new(hits) };
+        let mut all = All { model: self, hits: Hits::new(hits), has_touches: false };
         let traced = trace(self, [a, b], &budget, scratch, &mut all)?;
-        Ok(all.hits.answer(traced.work, traced.ended))
+        let ended = if all.has_touches { traced.ended.uncertain() } else { traced.ended };
+        Ok(all.hits.answer(traced.work, ended))
     }
 }
 
@@ -132,12 +139,15 @@ impl Collect for First {
 struct All<'a> {
     model: &'a Hull<'a>,
     hits: Hits<'a>,
+    /// Some hits are not proved.
+    has_touches: bool,
 }
 
 impl Collect for All<'_> {
     fn add(&mut self, met: Met) {
         let triangle = self.model.number(met.instance);
         let hit = Hit { t: met.meet.t as f32, point: met.point, triangle };
+        self.has_touches |= !met.meet.is_certain;
         self.hits.insert(hit);
     }
 
@@ -268,7 +278,8 @@ impl<C: Collect> Along<'_, C> {
             self.doubtful = true;
             let enter = f64::from(key.max(0.0));
             let t = met.map_or(enter, |meet| meet.t);
-            met = Some(SegmentTriangle { t, t_lower: enter.min(t), t_upper: 1.0 });
+            met =
+                Some(SegmentTriangle { t, t_lower: enter.min(t), t_upper: 1.0, is_certain: false });
         }
         if let Some(meet) = met {
             self.add(meet, candidate.instance);
@@ -280,7 +291,8 @@ impl<C: Collect> Along<'_, C> {
         self.doubtful = true;
         let t = f64::from(key).max(self.clipped.t_start.min(1.0)).max(0.0);
         let t_lower = f64::from(key.max(0.0));
-        self.add(SegmentTriangle { t, t_lower: t_lower.min(t), t_upper: 1.0 }, instance);
+        let t_lower = t_lower.min(t);
+        self.add(SegmentTriangle { t, t_lower, t_upper: 1.0, is_certain: false }, instance);
     }
 
     fn add(&mut self, meet: SegmentTriangle, instance: Instance) {

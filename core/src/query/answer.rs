@@ -45,6 +45,11 @@ impl Ended {
             _ => Undecided::Resolution,
         }
     }
+
+    /// The same, but what is known is not certain.
+    pub(crate) fn uncertain(self) -> Ended {
+        if self == Ended::Exact { Ended::Resolution } else { self }
+    }
 }
 
 /// Closest point of the surface.

@@ -6,6 +6,7 @@
 //! The builder is no part of the counted program: it compiles in a fraction of the time, and the
 //! simulator does not run it.
 
+pub mod answers;
 mod deform;
 mod hull;
 pub mod placed;

@@ -8,8 +8,8 @@ use meshsweep_lab::measure::paper;
 use meshsweep_lab::measure::plot::{self, Measured};
 use meshsweep_lab::measure::tight::picture;
 use meshsweep_lab::measure::{
-    measure, measure_bounds, measure_deform, measure_motion, measure_overlap, measure_tight,
-    measure_tree, measure_triboxes, measure_winding,
+    margins, measure, measure_bounds, measure_deform, measure_motion, measure_overlap,
+    measure_tight, measure_tree, measure_triboxes, measure_winding,
 };
 use meshsweep_xtask::firmware;
 use meshsweep_xtask::say;
@@ -26,6 +26,8 @@ pub struct Options {
     plot: Option<PathBuf>,
     picture: Option<PathBuf>,
     part: Option<Part>,
+    /// Trials of each margin, of no mesh.
+    margins: Option<usize>,
     /// Hulls on a board, or bounds in the simulator.
     is_counted: bool,
 }
@@ -47,7 +49,7 @@ enum Part {
 
 impl Options {
     /// `[--tree | --triboxes | --deform | --overlap | --motion | --winding | --tight [--firmware] |
-    /// --bounds [--count] | --paper TABLE] [--plot FILE.svg] [--picture FILE.svg] [MESH…]`, the
+    /// --bounds [--count] | --paper TABLE | --margins TRIALS] [--plot FILE.svg] [--picture FILE.svg] [MESH…]`, the
     /// picture with `--tight` alone; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
@@ -69,6 +71,10 @@ impl Options {
                 "--deform" => Part::Deform,
                 "--count" | "--firmware" if only.is_none() => {
                     only = Some(if word == "--count" { Part::Bounds } else { Part::Tight });
+                    continue;
+                }
+                "--margins" => {
+                    options.margins = Some(words.next()?.parse().ok()?);
                     continue;
                 }
                 "--plot" => {
@@ -112,7 +118,11 @@ pub fn or_fixtures(meshes: Vec<PathBuf>) -> Vec<PathBuf> {
 /// Measures each mesh, the fixtures if none is named; tight hulls on a board if the firmware is
 /// asked for.
 pub fn run(steps: &mut Steps, options: Options) {
-    let Options { meshes, plot, picture, part, is_counted } = options;
+    let Options { meshes, plot, picture, part, margins, is_counted } = options;
+    if let Some(trials) = margins {
+        steps.run("margins", || margins::table(trials).map(|table| say::text(table.text())));
+        return;
+    }
     let valgrind = if is_counted && part == Some(Part::Bounds) { Valgrind::find() } else { None };
     let tools = if is_counted && part == Some(Part::Tight) { firmware::setup(steps) } else { None };
     let (mut plotted, mut drawn) = (Vec::new(), Vec::new());

@@ -9,6 +9,9 @@ mod builder;
 pub mod corpus;
 pub mod curves;
 pub mod evil;
+pub mod extremes;
+
+pub mod defects;
 mod extrude;
 pub mod fixtures;
 mod rng;

@@ -3,6 +3,7 @@
 mod between;
 mod distance;
 mod double;
+pub mod exact;
 pub mod lp;
 pub mod moved;
 mod polyline;

@@ -222,7 +222,9 @@ fn segments_hit_the_surface_and_are_clear_through_holes() {
             counts[usize::from(first.is_clear())] += 1;
             let found = model.all_hits(a, b, &mut hits, Budget::EXACT, &mut queue);
             let found = found.expect("in the domain");
-            assert_eq!((found.ended, found.dropped), (Ended::Exact, 0));
+            // Touches are not proved.
+            let is_whole = matches!(found.ended, Ended::Exact | Ended::Resolution);
+            assert!(is_whole && found.dropped == 0, "{}: {found:?}", scene.name);
             let named = hits[..found.stored].iter().map(|hit| hit.triangle.expect("whole"));
             let named: Vec<u32> = named.collect();
             // Of triangles on the same corners the first one stays.

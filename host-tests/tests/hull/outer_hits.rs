@@ -90,7 +90,9 @@ fn first_outer_hit_is_the_first_hit() {
             let first = model
                 .first_hit(segment.0, segment.1, Budget::EXACT, &mut queue)
                 .expect("in the domain");
-            assert_eq!(outer.ended, Ended::Exact, "{}: {segment:?}", scene.name);
+            // A touch of either is not proved.
+            let is_whole = matches!(outer.ended, Ended::Exact | Ended::Resolution);
+            assert!(is_whole, "{}: {segment:?} {outer:?}", scene.name);
             // Of several triangles that share a point either may be named first.
             let named = first.hit.map(|hit| (hit.t, hit.triangle));
             let found =

@@ -5,7 +5,10 @@ use super::scenes::{all, exact, options};
 use meshsweep_core::{
     Budget, Ended, FirstHit, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search,
 };
-use meshsweep_host_tests::generate::{Rng, cube, groove_block, rough_sphere, scaled, torus};
+use meshsweep_host_tests::generate::corpus::IDENTITY;
+use meshsweep_host_tests::generate::{
+    Rng, cube, groove_block, rough_sphere, scaled, torus, transformed,
+};
 use meshsweep_host_tests::oracle::{Contact, contacts, gap_to_triangle};
 use meshsweep_host_tests::scene::Scene;
 use proptest::prelude::*;
@@ -83,7 +86,9 @@ fn check_first(scene: &Scene, segment: Segment, answer: &FirstHit, contacts: &[C
             let gap = gap_to_triangle(segment.0, segment.1, corners);
             assert!(gap <= touch(scene, segment), "false hit by {gap:e}: {}", say());
         }
-    } else if answer.ended == Ended::Exact {
+    } else if answer.ended == Ended::Exact
+        || (answer.ended == Ended::Resolution && surface_error(&scene.model()) == 0.0)
+    {
         let hit = answer.hit.unwrap_or_else(|| panic!("missed: {}", say()));
         let gap = gap_to_triangle(
             segment.0,
@@ -99,19 +104,21 @@ fn check_first(scene: &Scene, segment: Segment, answer: &FirstHit, contacts: &[C
 
 #[test]
 fn first_hit_never_misses_and_never_invents() {
-    let mut hits = 0;
+    let (mut hits, mut proved) = (0, 0);
     for scene in exact() {
         let model = scene.model();
         let mut rng = Rng::new(21);
         for segment in segments(scene, 300, &mut rng) {
             let contacts = truth(scene, segment);
             let answer = ask(&model, segment, &Budget::EXACT, 4096);
-            assert_eq!(answer.ended, Ended::Exact);
+            assert!(matches!(answer.ended, Ended::Exact | Ended::Resolution), "{answer:?}");
             check_first(scene, segment, &answer, &contacts);
             hits += usize::from(!contacts.is_empty());
+            proved += usize::from(answer.hit.is_some() && answer.ended == Ended::Exact);
         }
     }
-    assert!(hits > 1500, "only {hits} segments hit");
+    // The others go through vertices and edges, or end on the surface.
+    assert!(hits > 1500 && proved > 1000, "{hits} segments hit, {proved} certainly");
 }
 
 #[test]
@@ -181,7 +188,9 @@ fn all_hits_are_exactly_the_triangles_that_meet_the_segment() {
                 .all_hits(segment.0, segment.1, &mut hits, Budget::EXACT, &mut queue)
                 .expect("in the domain");
             let hits = &hits[..found.stored];
-            assert_eq!((found.ended, found.dropped), (Ended::Exact, 0));
+            // Touches are not proved.
+            let is_whole = matches!(found.ended, Ended::Exact | Ended::Resolution);
+            assert!(is_whole && found.dropped == 0, "{}: {found:?}", scene.name);
             assert!(hits.is_sorted_by(|x, y| x.t <= y.t), "{}: {hits:?}", scene.name);
             let named: Vec<u32> = hits.iter().map(|h| h.triangle.expect("a whole blob")).collect();
             for contact in &contacts {
@@ -411,4 +420,22 @@ proptest! {
         check_first(scene, segment, &answer, &truth(scene, segment));
         prop_assert_eq!(answer.hit.is_some(), !truth(scene, segment).is_empty());
     }
+}
+
+#[test]
+fn a_segment_that_ends_a_rounding_before_the_surface_is_not_said_to_hit_for_certain() {
+    let scene = Scene::hull("cube", cube(1), &options(12));
+    let (model, before) = (scene.model(), 1.0 + f32::EPSILON);
+    let rounding = ([3.0, 0.1, 0.2], [before, 0.1, 0.2]);
+    assert!(ask(&model, rounding, &Budget::EXACT, 64).is_clear());
+    // 1e-20 beside the cube's face, as f32 tells at the origin.
+    let shifted = transformed(&cube(1), IDENTITY, [-1.0, 0.0, 0.0]);
+    let scene = Scene::hull("cube at the origin", shifted, &options(12));
+    let touch = ([3.0, 0.1, 0.2], [1e-20, 0.1, 0.2]);
+    let answer = ask(&scene.model(), touch, &Budget::EXACT, 64);
+    assert_eq!((answer.ended, answer.t.upper), (Ended::Resolution, 1.0), "{answer:?}");
+    let through = ([3.0, 0.1, 0.2], [-0.25, 0.1, 0.2]);
+    let answer = ask(&scene.model(), through, &Budget::EXACT, 64);
+    assert_eq!(answer.ended, Ended::Exact);
+    assert!(answer.t.upper < 0.93, "{answer:?}");
 }

@@ -1,5 +1,6 @@
 //! Mesh files and generated meshes.
 
+mod defects;
 mod fixtures;
 mod generators;
 mod hausdorff;

@@ -3,6 +3,7 @@
 //! ```text
 //! checks (fmt, clippy, tests, docs)
 //! host (the program of host-tests: blobs, expected answers, fixtures, counted questions)
+//! processors (the committed answers on i686, AArch64, with vectors) ─ toolbox
 //! count ──── valgrind (callgrind) on host ─┐
 //!                                          ├─ tables (those of the documents)
 //! firmware ─┬ images ─ cross ───────┬─ toolbox (Debian packages, unpacked aside)
@@ -26,6 +27,7 @@ pub mod firmware;
 pub mod host;
 pub mod images;
 pub mod process;
+pub mod processors;
 pub mod proof;
 pub mod qemu;
 pub mod reading;

@@ -8,12 +8,13 @@ use meshsweep_xtask::firmware::Scope;
 use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::tables::Facts;
 use meshsweep_xtask::valgrind::Valgrind;
-use meshsweep_xtask::{checks, count, firmware, host, say, tables};
+use meshsweep_xtask::{checks, count, firmware, host, processors, say, tables};
 
 const USAGE: &str = "\
 cargo xtask setup                   makes sure of the cross targets, of QEMU and of valgrind
 cargo xtask test                    setup, then everything that has to hold
 cargo xtask firmware                only the firmware: bits, panics, sizes, instructions
+cargo xtask processors              the committed bits on i686 and AArch64, and with all vectors here
 cargo xtask fixtures                writes fixtures/ anew
 cargo xtask picture                 writes fixtures/part.svg anew, the picture of README.md
 cargo xtask tables                  writes the documents' tables of bytes and instructions anew
@@ -68,6 +69,7 @@ fn main() -> ExitCode {
                 firmware::run(&mut steps, &tools);
             }
         }
+        ["processors"] => processors::run(&mut steps),
         [word @ ("fixtures" | "picture")] => {
             steps.run(word, || host::run(&[*word]).map(|text| say!("{text}")));
         }

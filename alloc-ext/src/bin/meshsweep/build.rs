@@ -61,12 +61,14 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         true => Some(build_hull(args, &loaded, frames.as_deref())?),
         false => None,
     };
+    // A grid so coarse would be the greater part of every interval.
+    let is_far = args.vertex_bits == StoredBits::Auto && bvh::is_too_far_for_grid(&loaded.mesh);
     let options = TreeOptions::default()
         .with_closest(wanted.closest)
         .with_segments(wanted.segment)
         .with_cull(wanted.cull)
         .with_winding(wanted.winding)
-        .with_f32(args.vertex_bits.is_f32());
+        .with_f32(args.vertex_bits.is_f32() || is_far);
     let failed = |error| Failure::build(&args.mesh, error);
     let tree = wanted.tree().then(|| bvh::build(loaded.input(), &options)).transpose();
     let tree = tree.map_err(failed)?;
@@ -212,6 +214,14 @@ impl Report<'_> {
             }
         }
         describe::write_blob(out, blob)?;
+        let is_tree_f32 = blob.bvh().is_ok_and(|tree| tree.header().is_f32());
+        if is_tree_f32 && !args.vertex_bits.is_f32() {
+            writeln!(
+                out,
+                "  the mesh is too far from its origin for the box tree's grid: its coordinates \
+                 are stored as f32"
+            )?;
+        }
         if blob.bvh().is_ok_and(|tree| tree.is_closed() && tree.serves_distances()) {
             write_overlaps(out, components_whose_boxes_meet(&loaded.mesh))?;
         }

@@ -11,6 +11,7 @@
 //!                         ├─ overlap  (mesh against mesh) ──┤
 //!                         ├─ motion   (a capsule that moves)┤
 //!                         ├─ winding  (inside or outside) ──┤
+//!                         ├─ margins  (rounding, no mesh) ──┤
 //!                         ├─ deform   (hulls that deform) ─┤
 //!                         ├─ triboxes (their hierarchies) ──┤
 //!                         ├─ tight    (tight hulls, drawn) ─┤
@@ -25,6 +26,7 @@ mod closest;
 mod cuts;
 mod deform;
 mod kept;
+pub mod margins;
 mod motion;
 mod moving_pair;
 mod overlap;

@@ -68,7 +68,8 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     unit, and triangles that only join strips, points and lines, which are left out. Skins, \
     morphs, Draco and meshopt are refused by name.\n\n\
     Values of --vertex-bits:\n  \
-    auto   hull: the fewest bits that store the mesh exactly; box tree: 16\n  \
+    auto   hull: the fewest bits that store the mesh exactly; box tree: 16, or 32 for a mesh so \
+    far from its origin that 16 would move vertices by more than a 32,768th of its longest side\n  \
     16     vertices move to a grid of 16 bits an axis; with tight only those of the hulls, \
     not the mesh's\n  \
     24     hull: a grid of 24 bits an axis; box tree: 32\n  \

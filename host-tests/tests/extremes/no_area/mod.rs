@@ -1,7 +1,5 @@
 //! Points of triangles without area are points of the mesh: no structure's answer forgets them.
 
 mod distances;
-mod exact;
 mod meetings;
-mod scene;
 mod structures;

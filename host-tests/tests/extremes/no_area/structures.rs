@@ -1,13 +1,13 @@
 //! Tight hulls, triboxes and hull levels: they enclose points of triangles without area, or carry
 //! them in their surface error. And what repair says of them.
 
-use super::exact::{distance_compared, first_meeting};
-use super::scene::{Kind, Raw, Scene, inputs, joined, pierced_cube, repaired};
+use crate::scene::{Kind, Raw, Scene, inputs, joined, pierced_cube, repaired};
 use meshsweep::hull::{self, BuildOptions};
 use meshsweep::mesh::{Input, Mesh, MeshError, require_closed_manifold};
 use meshsweep::tight::{self, ChainOptions, hull_mesh};
 use meshsweep::tribox;
 use meshsweep_core::{Budget, Hull, ScratchEntry, TightHulls, Triboxes, Verdict};
+use meshsweep_host_tests::oracle::exact::{distance_compared, first_meeting};
 use meshsweep_host_tests::oracle::winding_number;
 use std::cmp::Ordering::{Greater, Less};
 

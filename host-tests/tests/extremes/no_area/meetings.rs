@@ -1,10 +1,10 @@
 //! Segments and overlap on the box tree against the exact oracle.
 
-use super::exact::{Corners, first_meeting, meet};
-use super::scene::{Kind, Raw, Scene, inputs, pierced_cube, scenes, wires};
-use meshsweep_core::{Budget, Bvh, Ended, Facing, Hit, Pose, ScratchEntry, TrianglePair, Verdict};
+use crate::checks::hits_are_true;
+use crate::scene::{Kind, Raw, Scene, inputs, pierced_cube, scenes, wires};
+use meshsweep_core::{Budget, Bvh, Facing, Pose, ScratchEntry, TrianglePair, Verdict};
 use meshsweep_host_tests::generate::Rng;
-use std::cmp::Ordering::{Greater, Less};
+use meshsweep_host_tests::oracle::exact::{Corners, first_meeting, meet};
 
 type Segment = [[f32; 3]; 2];
 
@@ -42,50 +42,11 @@ fn segments(scene: &Scene, count: usize, seed: u64, off: &[f64]) -> Vec<Segment>
 
 #[test]
 fn no_segment_is_wrongly_clear_and_no_hit_is_wrongly_certain() {
-    let (mut clear, mut certain, mut open) = (0, 0, 0);
+    let mut seen = [0; 3];
     for scene in scenes() {
-        let (tree, mut stack) = (scene.tree(), scene.stack());
-        let mut hits = vec![Hit::EMPTY; 4 * scene.corners.len() + 64];
-        for [a, b] in segments(&scene, 140, 21, &OFF) {
-            let [from, to] = [a, b].map(|p| p.map(f64::from));
-            let truth: Vec<_> =
-                scene.corners.iter().filter_map(|t| first_meeting(from, to, t)).collect();
-            let at = || format!("{}: {a:?} {b:?}", scene.name);
-            let first =
-                tree.first_hit(a, b, Facing::Both, Budget::EXACT, &mut stack).expect("a segment");
-            let is_missed = truth.iter().any(|t| t.compared_with(first.t.lower.into()) == Less);
-            let is_missed = is_missed || (first.is_clear() && !truth.is_empty());
-            assert!(!is_missed, "{}: {first:?}", at());
-            if first.ended == Ended::Exact && first.hit.is_some() {
-                let is_met = truth.iter().any(|t| t.compared_with(first.t.upper.into()) != Greater);
-                assert!(is_met, "{}: {first:?}", at());
-                certain += 1;
-            }
-            open += usize::from(first.ended == Ended::Resolution);
-            clear += usize::from(first.is_clear());
-            for facing in [Facing::Both, Facing::Front, Facing::Back] {
-                let any = tree.any_hit(a, b, facing, Budget::EXACT, &mut stack).expect("a segment");
-                let wrong = match any.verdict {
-                    Verdict::Yes => truth.is_empty(),
-                    Verdict::No => match facing {
-                        Facing::Both => !truth.is_empty(),
-                        // A wire has no sides: who asks for one must not be told that it is clear.
-                        _ => scene.mesh.wire_corners().any(|t| {
-                            first_meeting(from, to, &t.map(|p| p.map(f64::from))).is_some()
-                        }),
-                    },
-                    _ => false,
-                };
-                assert!(!wrong, "{} {facing:?}: {any:?}", at());
-            }
-            let all = tree
-                .all_hits(a, b, Facing::Both, &mut hits, Budget::EXACT, &mut stack)
-                .expect("a segment");
-            if all.ended == Ended::Exact {
-                assert_eq!(all.stored == 0, truth.is_empty(), "{}: {all:?}", at());
-            }
-        }
+        hits_are_true(&scene, &segments(&scene, 140, 21, &OFF), &mut seen);
     }
+    let [clear, certain, open] = seen;
     assert!(clear > 500 && certain > 300 && open > 500, "{clear} {certain} {open}");
 }
 

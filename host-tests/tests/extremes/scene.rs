@@ -1,12 +1,12 @@
 //! Meshes with triangles that have no area, or have none when they are stored.
 
-use super::exact::{Corners, about};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::check::check_tree;
 use meshsweep::mesh::{Input, Mesh, RawMesh, RepairReport, read, repair};
 use meshsweep::surface::{VertexBits, snap};
 use meshsweep_core::{Bvh, ScratchEntry};
 use meshsweep_host_tests::generate::{Rng, cube, torus};
+use meshsweep_host_tests::oracle::exact::{Corners, about};
 use std::path::Path;
 
 /// Positions as in a file, and triangles.
@@ -33,8 +33,12 @@ pub enum Kind {
 
 impl Scene {
     pub fn new(name: &str, raw: &Raw, kind: Kind) -> Scene {
+        Self::with(name, raw, kind, &TreeOptions::default().with_cull(true))
+    }
+
+    pub fn with(name: &str, raw: &Raw, kind: Kind, options: &TreeOptions) -> Scene {
         let (mesh, moved, _) = repaired(raw, kind);
-        let options = TreeOptions::default().with_cull(true).with_f32(kind == Kind::F32);
+        let options = options.with_f32(kind == Kind::F32);
         let (tables, _) =
             build(Input { mesh: &mesh, moved, input_triangles: raw.1.len() }, &options)
                 .expect("builds");
@@ -152,7 +156,7 @@ fn mapped((positions, triangles): &Raw, f: impl Fn([f64; 3]) -> [f64; 3]) -> Raw
     (positions.iter().map(|&p| f(p)).collect(), triangles.clone())
 }
 
-fn wide((positions, triangles): (Vec<[f32; 3]>, Vec<[u32; 3]>)) -> Raw {
+pub fn wide((positions, triangles): (Vec<[f32; 3]>, Vec<[u32; 3]>)) -> Raw {
     (positions.iter().map(|p| p.map(f64::from)).collect(), triangles)
 }
 

@@ -28,6 +28,7 @@ impl Fraction {
     }
 
     /// How it compares with a finite number.
+    #[must_use]
     pub fn compared_with(&self, x: f64) -> Ordering {
         let (mantissa, exponent) = parts(x);
         if exponent >= 0 {
@@ -114,8 +115,13 @@ fn squared_to_side(p: &Vector, [from, to]: [&Vector; 2]) -> Fraction {
     }
 }
 
-/// Whether the distance of a point and a triangle is less than, equal to or greater than `x ≥ 0`.
+/// Whether the distance of a point and a triangle is less than, equal to or greater than `x ≥ 0`,
+/// which may be infinite.
+#[must_use]
 pub fn distance_compared(p: [f64; 3], corners: &Corners, x: f64) -> Ordering {
+    if x == f64::INFINITY {
+        return Ordering::Less;
+    }
     let unit = unit_of(&[*corners, [p, [x; 3], p]].concat());
     let triangle = corners.map(|p| integers(p, unit));
     let (p, [x, ..]) = (integers(p, unit), integers([x; 3], unit));
@@ -132,6 +138,7 @@ pub fn distance_compared(p: [f64; 3], corners: &Corners, x: f64) -> Ordering {
 }
 
 /// The least parameter at which the closed segment from `a` to `b` has a point of a triangle.
+#[must_use]
 pub fn first_meeting(a: [f64; 3], b: [f64; 3], corners: &Corners) -> Option<Fraction> {
     let unit = unit_of(&[*corners, [a, b, a]].concat());
     let triangle = corners.map(|p| integers(p, unit));
@@ -182,6 +189,7 @@ fn first_on_side([a, b]: [&Vector; 2], [u, v]: [&Vector; 2]) -> Option<Fraction>
 }
 
 /// Whether two triangles have a common point.
+#[must_use]
 pub fn meet(first: &Corners, second: &Corners) -> bool {
     let edges_meet = |of: &Corners, with: &Corners| {
         (0..3).any(|k| first_meeting(of[k], of[(k + 1) % 3], with).is_some())
@@ -190,6 +198,7 @@ pub fn meet(first: &Corners, second: &Corners) -> bool {
 }
 
 /// About the distance of a point and a triangle, to 1e-7 of the lengths.
+#[must_use]
 pub fn about(p: [f64; 3], corners: &Corners) -> f64 {
     let sub = |x: [f64; 3], y: [f64; 3]| [x[0] - y[0], x[1] - y[1], x[2] - y[2]];
     let dot = |x: [f64; 3], y: [f64; 3]| x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
@@ -214,22 +223,27 @@ pub fn about(p: [f64; 3], corners: &Corners) -> f64 {
     nearest
 }
 
-#[test]
-fn the_oracle_knows_segments_points_and_triangles() {
-    let o = [0.0; 3];
-    let (x, y) = ([2.0, 0.0, 0.0], [0.0, 2.0, 0.0]);
-    let wire = [o, [1.0, 0.0, 0.0], x];
-    assert_eq!(distance_compared([1.5, 3.0, 4.0], &wire, 5.0), Ordering::Equal);
-    assert_eq!(distance_compared([5.0, 0.0, 4.0], &wire, 5.0), Ordering::Equal);
-    assert_eq!(distance_compared([0.5, 0.5, -1e-300], &[o, x, y], 1e-300), Ordering::Equal);
-    assert_eq!(distance_compared([1e-300, 0.0, 3.0], &[o; 3], 3.0), Ordering::Greater);
-    let at = |a, b, t: &Corners| first_meeting(a, b, t);
-    let t = at([1.0, -1.0, 0.0], [1.0, 3.0, 0.0], &wire).expect("crosses");
-    assert_eq!(t.compared_with(0.25), Ordering::Equal);
-    assert!(at([1.0, -1.0, 1e-300], [1.0, 3.0, 0.0], &wire).is_none());
-    let t = at([-1.0, 0.0, 0.0], [3.0, 0.0, 0.0], &wire).expect("runs along it");
-    assert_eq!(t.compared_with(0.25), Ordering::Equal);
-    assert!(at([3.0, 0.0, 0.0], [4.0, 0.0, 0.0], &wire).is_none());
-    assert!(at([0.5, 0.5, 1.0], [0.5, 0.5, -1.0], &[o, x, y]).is_some());
-    assert!(meet(&wire, &[o; 3]) && !meet(&wire, &[[0.0, 0.0, 1e-9]; 3]));
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_oracle_knows_segments_points_and_triangles() {
+        let o = [0.0; 3];
+        let (x, y) = ([2.0, 0.0, 0.0], [0.0, 2.0, 0.0]);
+        let wire = [o, [1.0, 0.0, 0.0], x];
+        assert_eq!(distance_compared([1.5, 3.0, 4.0], &wire, 5.0), Ordering::Equal);
+        assert_eq!(distance_compared([5.0, 0.0, 4.0], &wire, 5.0), Ordering::Equal);
+        assert_eq!(distance_compared([0.5, 0.5, -1e-300], &[o, x, y], 1e-300), Ordering::Equal);
+        assert_eq!(distance_compared([1e-300, 0.0, 3.0], &[o; 3], 3.0), Ordering::Greater);
+        let at = |a, b, t: &Corners| first_meeting(a, b, t);
+        let t = at([1.0, -1.0, 0.0], [1.0, 3.0, 0.0], &wire).expect("crosses");
+        assert_eq!(t.compared_with(0.25), Ordering::Equal);
+        assert!(at([1.0, -1.0, 1e-300], [1.0, 3.0, 0.0], &wire).is_none());
+        let t = at([-1.0, 0.0, 0.0], [3.0, 0.0, 0.0], &wire).expect("runs along it");
+        assert_eq!(t.compared_with(0.25), Ordering::Equal);
+        assert!(at([3.0, 0.0, 0.0], [4.0, 0.0, 0.0], &wire).is_none());
+        assert!(at([0.5, 0.5, 1.0], [0.5, 0.5, -1.0], &[o, x, y]).is_some());
+        assert!(meet(&wire, &[o; 3]) && !meet(&wire, &[[0.0, 0.0, 1e-9]; 3]));
+    }
 }
