@@ -395,3 +395,20 @@ pub const VERIFY: &str = "The proofs share no code with the builder and with que
     Examples:\n  \
     meshsweep verify part.msw part.stl\n  \
     meshsweep verify part.msw part.stl --json";
+
+pub const TRADE: &str = "The guaranteed error is the width of an interval, which holds; the \
+    largest and the median of the points are printed. It is measured: at another point the \
+    interval may be wider. The found error is the distance in f64, from all triangles, less the \
+    lower end, which a caller uses that must keep clear; and the upper end less that \
+    distance.\n\nInstructions of a Cortex-M4F and a Cortex-M0 are predicted from the nodes, \
+    triangles and splits of each query, which are the same on every target. The costs were fitted \
+    to counts in an emulator; the errors of the prediction are printed below. Flash is the blob \
+    without the library's code.\n\nThe first table has the settings that no other one beats in the \
+    largest guaranteed error, the mean instructions of a Cortex-M4F and the bytes of flash \
+    together. Triboxes have a lower end only. A structure that the mesh does not allow is listed \
+    with the reason. Tight hulls are made with --effort 0; more effort makes them tighter. \
+    Coherent queries are measured along a path and at your own points. build --flash, --ram, \
+    --error and --rate choose among the same settings.\n\nExamples:\n  \
+    meshsweep trade part.stl\n  \
+    meshsweep trade part.stl --at path --points 500\n  \
+    meshsweep trade part.stl --at points.csv --json";
