@@ -72,8 +72,11 @@ pub(super) fn ask(
         }
         Structure::Sweep(_) | Structure::Refined(_) => {
             let hull = blob.hull()?;
-            let least = hull.scratch_entries().min(Setting::SWEEP_ENTRIES);
-            let mut queue = entries(setting, least);
+            let enough = match setting.how {
+                How::Coherent => Setting::SWEEP_ENTRIES,
+                _ => hull.scratch_entries(),
+            };
+            let mut queue = entries(setting, enough);
             let scratch = size_of_val(queue.as_slice());
             let of = Of { budget, shape: Shape::of_hull(&hull), scratch };
             if setting.how == How::Fresh {

@@ -29,14 +29,14 @@ pub struct Setting {
     pub budget: Budget,
     /// What a query keeps of the one before.
     pub how: How,
-    /// Entries of scratch; `None`: as many as suffice, of a sweep at most
-    /// [`SWEEP_ENTRIES`](Self::SWEEP_ENTRIES).
+    /// Entries of scratch; `None`: as many as suffice, or [`SWEEP_ENTRIES`](Self::SWEEP_ENTRIES)
+    /// of a kept sweep.
     pub entries: Option<usize>,
 }
 
 impl Setting {
-    /// Entries of a sweep's queue unless told otherwise: 4 KiB. With fewer than its
-    /// `scratch_entries` a sweep takes more steps.
+    /// Entries of a kept sweep unless told otherwise: 4 KiB. It keeps triangles in them from query
+    /// to query.
     pub const SWEEP_ENTRIES: usize = 512;
 
     /// Fresh queries, to the end, with enough scratch.
@@ -113,10 +113,14 @@ impl fmt::Display for Setting {
     }
 }
 
-/// The settings that are measured by default, for a mesh of this diagonal. Coherent queries are
-/// among them if the points are a path, or the caller's own.
+/// Faces of the tight hulls that are measured. Hulls have no more faces than the mesh, but for the
+/// two coarsest.
+const FACES: [u32; 7] = [20, 50, 100, 200, 500, 1000, 2000];
+
+/// The settings that are measured by default, for a mesh of this diagonal and so many triangles.
+/// Coherent queries are among them if the points are a path, or the caller's own.
 #[must_use]
-pub fn standard(diagonal: f64, points: Option<Points>) -> Vec<Setting> {
+pub fn standard(diagonal: f64, triangles: usize, points: Option<Points>) -> Vec<Setting> {
     let exact = Budget::EXACT;
     let near = |part: f64| one_digit(part * diagonal);
     let tree = Setting::new(Structure::Tree(TreeBits::Sixteen));
@@ -133,9 +137,10 @@ pub fn standard(diagonal: f64, points: Option<Points>) -> Vec<Setting> {
     }
     all.extend([fine, fine.with_budget(exact.with_relative(0.01))]);
     all.push(fine.with_budget(exact.with_steps(16)));
-    all.extend([20, 50, 100, 200, 500, 1000, 2000].map(|n| Setting::new(Structure::Tight(n))));
+    let faces = FACES.into_iter().filter(|&faces| faces as usize <= triangles.max(50));
+    all.extend(faces.map(|faces| Setting::new(Structure::Tight(faces))));
     all.extend([8, 64].map(|count| Setting::new(Structure::Triboxes(count))));
-    all.extend([0.01, 0.001].map(|part| Setting::new(Structure::Refined(near(part)))));
+    all.extend([0.05, 0.01].map(|part| Setting::new(Structure::Refined(near(part)))));
     let bits = [HullBits::Sixteen, HullBits::TwentyFour, HullBits::ThirtyTwo];
     all.extend(bits.map(|bits| Setting::new(Structure::Sweep(bits))));
     let sweep = Setting::new(Structure::Sweep(HullBits::ThirtyTwo));

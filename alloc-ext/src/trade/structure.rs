@@ -55,8 +55,8 @@ pub enum Structure {
     Tree(TreeBits),
     /// A hull hierarchy for sweeps.
     Sweep(HullBits),
-    /// The hull hierarchy of a closed mesh, cut after its coarsest level with at most this error,
-    /// input units: an outer hull, refined to the error.
+    /// The hull hierarchy of a closed mesh, cut after its coarsest level of which no point is
+    /// farther than this from the mesh, input units: an outer hull, refined to an error.
     Refined(f32),
     /// A tight hull of at most so many faces, not polished.
     Tight(u32),
@@ -151,10 +151,8 @@ fn refined(input: Input<'_>, error: f32) -> Result<Vec<u8>, String> {
     let built = built.map_err(|error| error.to_string())?;
     let whole = Hull::open(&built.bytes).map_err(|error| error.to_string())?;
     let unit = whole.scale();
-    let is_fine = |level: &meshsweep_core::Level| {
-        let most = level.hull_to_surface.max(level.surface_to_hull);
-        f64::from(most) * unit <= f64::from(error)
-    };
+    let is_fine =
+        |level: &meshsweep_core::Level| f64::from(level.hull_to_surface) * unit <= f64::from(error);
     let index = whole.levels().position(|level| is_fine(&level));
     let last = whole.header().levels.saturating_sub(1);
     let index = index.map_or(last, |index| index as u32);

@@ -8,6 +8,9 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
+const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n\
+    f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+
 fn measured(mesh: &Path, options: &[&str]) -> Value {
     let text = ok([&["trade", arg(mesh), "--json"], options].concat());
     serde_json::from_str(&text).expect("it is JSON")
@@ -22,14 +25,14 @@ fn worst(row: &Value, of: &str) -> Option<f64> {
 }
 
 #[test]
-fn errors_are_those_of_an_independent_distance_and_within_what_is_guaranteed() {
+fn errors_are_those_of_an_independent_distance_and_the_first_table_is_what_nothing_beats() {
     let directory = scratch("trade_errors");
     let mesh = coarse_torus(&directory);
     let (points, surface) = (directory.join("points.csv"), triangles(&mesh));
     let queries = random_queries::<3>(&surface, 40);
     write_csv(&points, &queries);
     let trade = measured(&mesh, &["--at", arg(&points)]);
-    assert!(rows(&trade).len() > 25, "{}", rows(&trade).len());
+    assert!(rows(&trade).len() > 22, "{}", rows(&trade).len());
     for row in rows(&trade) {
         let Some(guaranteed) = worst(row, "guaranteed") else {
             assert!(row["structure"].as_str().is_some_and(|name| name.starts_with("triboxes")));
@@ -40,6 +43,7 @@ fn errors_are_those_of_an_independent_distance_and_within_what_is_guaranteed() {
             assert!(found <= guaranteed * (1.0 + 1e-12), "{row}");
         }
     }
+    require_pareto(&trade);
     let find = |structure: &str, dials: &str| {
         let is = |row: &&Value| row["structure"] == structure && row["dials"] == dials;
         rows(&trade).iter().find(is).expect("it is measured")
@@ -59,17 +63,17 @@ fn errors_are_those_of_an_independent_distance_and_within_what_is_guaranteed() {
             width = width.max(upper - lower);
             low = low.max(distance(wide(query), &surface) - lower);
         }
-        assert_eq!(worst(row, "guaranteed"), Some(width), "{dials}");
+        // A number of JSON may be read a little off.
+        let guaranteed = worst(row, "guaranteed").unwrap();
+        assert!((guaranteed - width).abs() <= 1e-12 * width, "{dials}: {guaranteed} {width}");
         let found = worst(row, "found_lower").unwrap();
         assert!((found - low).abs() < 1e-6, "{dials}: {found} {low}");
     }
 }
 
-#[test]
-fn the_first_table_is_what_nothing_else_beats() {
-    let directory = scratch("trade_pareto");
-    let trade = measured(&coarse_torus(&directory), &["--points", "20", "--at", "path"]);
-    let all: Vec<Option<[f64; 3]>> = rows(&trade)
+/// That no row of the first table is beaten, and every other one is.
+fn require_pareto(trade: &Value) {
+    let all: Vec<Option<[f64; 3]>> = rows(trade)
         .iter()
         .map(|row| {
             let instructions = row["instructions"][0]["mean"].as_f64()?;
@@ -77,7 +81,7 @@ fn the_first_table_is_what_nothing_else_beats() {
         })
         .collect();
     let beats = |a: [f64; 3], b: [f64; 3]| a != b && (0..3).all(|k| a[k] <= b[k]);
-    for (row, of) in rows(&trade).iter().zip(&all) {
+    for (row, of) in rows(trade).iter().zip(&all) {
         let is_beaten = of.is_none_or(|of| all.iter().flatten().any(|other| beats(*other, of)));
         if row["pareto"] == true {
             assert!(!is_beaten, "{row}");
@@ -86,7 +90,6 @@ fn the_first_table_is_what_nothing_else_beats() {
             assert!(is_beaten || is_equal, "{row}");
         }
     }
-    assert!(rows(&trade).iter().any(|row| row["dials"] == "coherent"));
 }
 
 #[test]
@@ -103,7 +106,8 @@ fn a_structure_that_an_open_mesh_does_not_allow_is_listed_with_its_reason() {
 #[test]
 fn limits_choose_a_setting_that_meets_them_or_name_the_nearest() {
     let directory = scratch("trade_limits");
-    let (mesh, blob) = (coarse_torus(&directory), directory.join("part.msw"));
+    let (mesh, blob) = (directory.join("cube.obj"), directory.join("part.msw"));
+    fs::write(&mesh, CUBE).unwrap();
     let build = ["build", arg(&mesh), "-o", arg(&blob)];
     let limits = ["--flash", "8K", "--ram", "4K", "--error", "0.01", "--cpu", "m4f:168MHz"];
     let text = ok([&build[..], &limits[..], &["--rate", "1kHz"]].concat());
@@ -112,8 +116,8 @@ fn limits_choose_a_setting_that_meets_them_or_name_the_nearest() {
         assert!(text.contains(wanted), "{wanted}: {text}");
     }
     fs::remove_file(&blob).unwrap();
-    let small = run([&build[..], &["--flash", "600", "--error", "1e-9"]].concat());
-    let said = refused(&small, 1, "coarse.obj");
+    let small = run([&build[..], &["--flash", "500", "--error", "1e-9"]].concat());
+    let said = refused(&small, 1, "cube.obj");
     assert!(said.contains("the nearest is") && said.contains("--error"), "{said}");
     assert!(!blob.exists());
     for wrong in [&["--flash", "8K", "--for", "hull"][..], &["--cpu", "m0:48MHz"]] {

@@ -121,8 +121,7 @@ pub enum Command {
     /// Prove the claims of a blob again, from its bytes and the mesh that it was built from
     #[command(after_help = explained::VERIFY)]
     Verify(VerifyArgs),
-    /// Measure what each structure and setting of a mesh promises, finds and costs, and what of it
-    /// nothing else beats
+    /// Measure error, instructions and bytes of each structure and setting of a mesh
     #[command(after_help = explained::TRADE)]
     Trade(TradeArgs),
 }

@@ -54,7 +54,7 @@ fn measured(file: &Path, loaded: &Loaded, at: &At, count: usize) -> Result<Measu
         return Err(Failure::Usage { what });
     }
     let diagonal = diagonal(mesh);
-    let settings = trade::standard(diagonal, kind);
+    let settings = trade::standard(diagonal, mesh.triangles.len(), kind);
     // Its length is known at the first step.
     let bar = Mutex::new(None);
     let progress = |progress: trade::Progress| {

@@ -77,8 +77,15 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     Every interval includes the quantisation error, which build prints. With 32 nothing moves. \
     Intervals still include the rounding of single precision: about two millionths of the \
     distance and of the longest triangle. build prints that too.\n\n\
+    Limits choose structure and dials for distances of points, from what trade measures. With \
+    --error it is the setting of the fewest instructions, else that of the smallest error. The \
+    error is the largest width of an interval among the measured points. Elsewhere an interval \
+    may be wider, and holds. --ram is scratch and stack. --rate asks for the dearest measured \
+    query at two cycles an instruction. If no setting meets the limits, nothing is written, and \
+    the nearest one is named.\n\n\
     Examples:\n  \
     meshsweep build part.stl -o part.msw\n  \
+    meshsweep build part.stl -o small.msw --flash 16K --ram 4K --rate 1kHz --cpu m4f:168MHz\n  \
     meshsweep build scan.ply -o scan.msw --for closest\n  \
     meshsweep build part.stl -o part.msw --unit mm\n  \
     meshsweep build part.stl -o part.msw --for closest,segment,hull --base 500\n  \
