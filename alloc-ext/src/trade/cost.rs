@@ -5,7 +5,6 @@
 //! at least 0. `cargo xtask fit` fits them again, and prints the error on meshes that the fit has
 //! not seen.
 
-use super::costs::COSTS;
 use meshsweep_core::{Budget, Bvh, Hull, TightHull, Triboxes, Work};
 
 /// A processor whose instructions are predicted.
@@ -161,10 +160,4 @@ impl Cost {
     pub fn of(&self, features: &Features) -> f64 {
         self.instructions.iter().zip(features).map(|(cost, count)| cost * count).sum()
     }
-}
-
-/// The fitted costs of a search on a board.
-#[must_use]
-pub fn cost(board: Board, search: Search) -> Option<&'static Cost> {
-    COSTS.iter().find(|(b, s, _)| (*b, *s) == (board, search)).map(|(.., cost)| cost)
 }

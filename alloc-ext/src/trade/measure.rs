@@ -1,7 +1,8 @@
 //! Rows: each setting with its errors and costs, and which of them nothing else beats.
 
 use super::ask::{Asked, ask};
-use super::cost::{Board, cost};
+use super::cost::Board;
+use super::fitted::cost;
 use super::setting::Setting;
 use super::structure::Structure;
 use super::truth::Truth;

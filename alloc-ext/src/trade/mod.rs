@@ -13,7 +13,7 @@
 //! | `ask` | the answers of a setting, their work, and the time of this machine |
 //! | `truth` | the distance from every triangle in f64; it shares no code with queries |
 //! | `cost` | instructions of a board from the work of a query |
-//! | `costs` | the fitted numbers; written by `cargo xtask fit` |
+//! | `costs`, `fitted` | the fitted numbers, written by `cargo xtask fit`; looked up |
 //! | `measure` | the rows, and which of them nothing else beats |
 //!
 //! A guaranteed error is the width of an interval that holds. It is the largest among the measured
@@ -24,13 +24,15 @@
 mod ask;
 mod cost;
 mod costs;
+mod fitted;
 mod measure;
 mod points;
 mod setting;
 mod structure;
 mod truth;
 
-pub use cost::{Board, Cost, FEATURES, Features, Search, Shape, cost};
+pub use cost::{Board, Cost, FEATURES, Features, Search, Shape};
+pub use fitted::cost;
 pub use measure::{Instructions, Missing, Progress, Row, Spread, Trade, measure, pareto};
 pub use points::{Points, points};
 pub use setting::{How, Setting, TreeBits, standard};

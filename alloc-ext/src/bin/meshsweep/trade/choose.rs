@@ -1,6 +1,6 @@
 //! `meshsweep build` with limits: the setting that meets them is chosen by measurement.
 
-use super::{Measured, measured};
+use super::measured::{Measured, measured};
 use crate::args::{At, BuildArgs, Cpu, LimitArgs};
 use crate::describe;
 use crate::failure::Failure;

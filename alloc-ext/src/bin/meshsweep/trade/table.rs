@@ -1,6 +1,6 @@
 //! Rows of a measurement as text and as JSON.
 
-use super::Measured;
+use super::measured::Measured;
 use crate::args::TradeArgs;
 use crate::mesh_file::Loaded;
 use crate::number::AtMost;
