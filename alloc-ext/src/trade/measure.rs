@@ -4,7 +4,7 @@ use super::ask::{Asked, ask};
 use super::cost::Board;
 use super::fitted::cost;
 use super::setting::Setting;
-use super::structure::Structure;
+use super::structure::{Structure, build_all};
 use super::truth::Truth;
 use crate::mesh::{Input, Mesh};
 use glam::DVec3;
@@ -130,13 +130,19 @@ pub fn measure(
     let step = || progress(Progress { done: done.fetch_add(1, Ordering::Relaxed) + 1, of });
     let truth = Truth::of(input.mesh);
     let distances: Vec<f64> = points.par_iter().map(|&point| truth.distance(point)).collect();
-    let build = |&structure: &Structure| {
-        let built = structure.build(input);
-        step();
-        (structure, built)
+    let is_refined = |structure: &Structure| matches!(structure, Structure::Refined(_));
+    let (refined, others): (Vec<Structure>, Vec<Structure>) =
+        structures.into_iter().partition(is_refined);
+    let mut groups: Vec<Vec<Structure>> = others.into_iter().map(|other| vec![other]).collect();
+    groups.push(refined);
+    let build = |group: &Vec<Structure>| {
+        let all = build_all(group, input);
+        group.iter().for_each(|_| step());
+        group.iter().copied().zip(all).collect::<Vec<_>>()
     };
     // The last ones take longest.
-    let built: Vec<_> = structures.par_iter().rev().with_max_len(1).map(build).collect();
+    let built = groups.par_iter().rev().with_max_len(1).flat_map_iter(build);
+    let built: Vec<(Structure, Result<Vec<u8>, String>)> = built.collect();
     let needles = needles(input.mesh);
     let mut trade = Trade { rows: Vec::new(), missing: Vec::new(), needles };
     for (structure, result) in built.iter().rev() {

@@ -107,7 +107,7 @@ impl Structure {
                 bvh::build(input, &options).map_err(said)?.0.to_bytes()
             }
             Self::Sweep(bits) => swept(input, bits)?,
-            Self::Refined(error) => refined(input, error)?,
+            Self::Refined(error) => refined(&hierarchy(input)?, error)?,
             Self::Tight(faces) => {
                 let options = ChainOptions::of_faces(&[faces as usize])
                     .with_boxes(true, false)
@@ -145,11 +145,29 @@ fn swept(input: Input<'_>, bits: HullBits) -> Result<Vec<u8>, String> {
     of(Input { mesh: &mesh, moved: input.error() + moved, input_triangles: input.input_triangles })
 }
 
-fn refined(input: Input<'_>, error: f32) -> Result<Vec<u8>, String> {
+/// The blobs of structures. Refined hulls are cut out of one hierarchy.
+pub(super) fn build_all(
+    structures: &[Structure],
+    input: Input<'_>,
+) -> Vec<Result<Vec<u8>, String>> {
+    let mut whole = None;
+    let mut build = |structure: &Structure| {
+        let Structure::Refined(error) = *structure else { return structure.build(input) };
+        let whole = whole.get_or_insert_with(|| hierarchy(input));
+        whole.as_ref().map_err(String::clone).and_then(|bytes| refined(bytes, error))
+    };
+    structures.iter().map(&mut build).collect()
+}
+
+/// The hull hierarchy of a closed mesh.
+fn hierarchy(input: Input<'_>) -> Result<Vec<u8>, String> {
     require_closed_manifold(input.mesh).map_err(|error| error.to_string())?;
     let built = hull::build(input, &BuildOptions::default(), |_| {});
-    let built = built.map_err(|error| error.to_string())?;
-    let whole = Hull::open(&built.bytes).map_err(|error| error.to_string())?;
+    built.map(|built| built.bytes).map_err(|error| error.to_string())
+}
+
+fn refined(hierarchy: &[u8], error: f32) -> Result<Vec<u8>, String> {
+    let whole = Hull::open(hierarchy).map_err(|error| error.to_string())?;
     let unit = whole.scale();
     let is_fine =
         |level: &meshsweep_core::Level| f64::from(level.hull_to_surface) * unit <= f64::from(error);

@@ -289,7 +289,7 @@ mod tests {
     use crate::args;
 
     /// Commands that ask a blob nothing: they take a mesh, or tell what a blob holds.
-    const OTHERS: [&str; 5] = ["build", "hausdorff", "info", "tribox", "verify"];
+    const OTHERS: [&str; 6] = ["build", "hausdorff", "info", "trade", "tribox", "verify"];
 
     #[test]
     fn every_command_that_asks_a_blob_has_a_row() {

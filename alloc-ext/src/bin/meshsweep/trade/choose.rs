@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::mesh_file;
 use crate::number::{About, AtMost};
 use crate::output::Output;
-use meshsweep::trade::{Board, Instructions, Points, Row};
+use meshsweep::trade::{Board, How, Instructions, Points, Row, Structure};
 use meshsweep_core::{Blob, Budget};
 use std::io::{self, Write};
 
@@ -140,7 +140,14 @@ fn write_choice(
     writeln!(out, "  why: {why}, at {} points {}", measured.points, measured.kind)?;
     write_costs(out, limits, chosen)?;
     writeln!(out, "  built: {}", chosen.setting.structure.options())?;
-    writeln!(out, "  ask with: {}", budget(&chosen.setting.budget))?;
+    let by = match (chosen.setting.how, chosen.setting.structure) {
+        (How::Fresh, _) => "",
+        (How::Hinted, _) => ", from the hint of the last query",
+        (How::Coherent, Structure::Tree(_)) => ", by a CoherentQuery",
+        (How::Coherent, _) => ", by a kept Sweep",
+    };
+    let budget = budget(&chosen.setting.budget);
+    writeln!(out, "  ask with: {budget}{by}, and {} bytes of scratch", chosen.scratch)?;
     if let Some(percent) = instructions(chosen, board(limits)).map(|found| 100.0 * found.error) {
         writeln!(
             out,
