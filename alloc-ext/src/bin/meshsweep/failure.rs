@@ -44,6 +44,8 @@ pub enum Failure {
     Apart { first: PathBuf, second: PathBuf, most: f64, lower: f64, upper: f64 },
     /// Not all that the blob claims of the mesh is proved.
     NotVerified { blob: PathBuf, mesh: PathBuf, open: Vec<String> },
+    /// No setting of the mesh meets the limits.
+    Limits { file: PathBuf, what: String },
     /// The blob is refused.
     Open { file: PathBuf, error: OpenError },
     /// The blob was built without the structure that the question needs. `other` names an engine
@@ -232,6 +234,7 @@ impl fmt::Display for Failure {
             Failure::NotVerified { blob, mesh, open } => {
                 write!(f, "{} of {}: {}", blob.display(), mesh.display(), open.join("; "))
             }
+            Failure::Limits { file, what } => write!(f, "{}: {what}", file.display()),
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::NothingToSearch { file, served } => write!(
                 f,

@@ -289,7 +289,7 @@ mod tests {
     use crate::args;
 
     /// Commands that take a mesh, or tell what a blob holds, or ask all that it serves.
-    const OTHERS: [&str; 6] = ["build", "hausdorff", "info", "tribox", "verify", "worst"];
+    const OTHERS: [&str; 7] = ["build", "hausdorff", "info", "trade", "tribox", "verify", "worst"];
 
     #[test]
     fn every_command_that_asks_a_blob_has_a_row() {

@@ -8,6 +8,7 @@ use crate::served::{self, Engine};
 use crate::side::has_sides;
 use crate::{blob_file, side};
 use meshsweep::counted::Counted;
+use meshsweep::trade::{self, Board, Shape};
 use meshsweep::worst::{Climb, Domain, Summit, climb};
 use meshsweep_core::{
     Blob, Budget, Bvh, Curve, Facing, Hull, Interval, QueryError, ScratchEntry, TightHull, Work,
@@ -69,6 +70,16 @@ struct Found {
     work: Work,
     /// Of the answer's interval, if it has one.
     width: Option<f32>,
+    /// As predicted, on each of [`Board::ALL`].
+    instructions: Option<[f64; 2]>,
+}
+
+impl Found {
+    /// A measure of the work: instructions of a Cortex-M4F if they can be predicted, else the sum
+    /// of all counters.
+    fn effort(&self) -> f64 {
+        self.instructions.map_or(f64::from(self.work.total()), |[on_m4f, _]| on_m4f)
+    }
 }
 
 /// The result of one search.
@@ -165,6 +176,22 @@ impl Structure<'_> {
         Ok((near.distance, near.point, near.work))
     }
 
+    /// Instructions of a closest point with this work, as `meshsweep trade` predicts them.
+    fn instructions(&self, point: [f32; 3], budget: &Budget, work: &Work) -> Option<[f64; 2]> {
+        let (search, shape) = match self {
+            Structure::Tree(tree) if tree.header().is_f32() => {
+                (trade::Search::TreeF32, Shape::of_tree(tree))
+            }
+            Structure::Tree(tree) => (trade::Search::Tree, Shape::of_tree(tree)),
+            Structure::Hull(hull) => (trade::Search::Sweep, Shape::of_hull(hull)),
+            Structure::Tight(hull) => (trade::Search::Tight, Shape::of_tight(hull)),
+            Structure::Curve(_) => return None,
+        };
+        let features = shape.features(point, budget, work);
+        let [m4f, m0] = Board::ALL.map(|board| trade::cost(board, search));
+        Some([m4f?.of(&features), m0?.of(&features)])
+    }
+
     /// The work of `within`. `None` for a structure that does not answer it.
     fn within(
         &self,
@@ -220,7 +247,9 @@ impl Subject<'_> {
                 let search = Search::new("closest", structure, goal, starts);
                 search.points(|point, scratch| {
                     let (distance, _, work) = structure.closest(*point, budget, scratch).ok()?;
-                    Some(Found { work, width: Some(distance.upper - distance.lower) })
+                    let width = Some(distance.upper - distance.lower);
+                    let instructions = structure.instructions(*point, &budget, &work);
+                    Some(Found { work, width, instructions })
                 })
             }
             Subject::Within(structure) => {
@@ -228,7 +257,7 @@ impl Subject<'_> {
                 search.balls(|point, share, scratch| {
                     let (distance, ..) = structure.closest(point, Budget::EXACT, scratch).ok()?;
                     let work = structure.within(point, share * distance.upper, budget, scratch)?;
-                    Some(Found { work, width: None })
+                    Some(Found { work, width: None, instructions: None })
                 })
             }
             Subject::Signed(tree) => {
@@ -237,7 +266,8 @@ impl Subject<'_> {
                 search.points(|point, scratch| {
                     let found = side::signed_distance(tree, *point, budget, scratch).ok()?;
                     let Interval { lower, upper } = found.distance;
-                    Some(Found { work: found.closest.work, width: Some(upper - lower) })
+                    let (work, width) = (found.closest.work, Some(upper - lower));
+                    Some(Found { work, width, instructions: None })
                 })
             }
             Subject::Winding(tree) => {
@@ -246,7 +276,8 @@ impl Subject<'_> {
                 search.points(|point, scratch| {
                     let found = tree.winding_number(*point, budget, scratch).ok()?;
                     let Interval { lower, upper } = found.number;
-                    Some(Found { work: found.work, width: Some(upper - lower) })
+                    let width = Some(upper - lower);
+                    Some(Found { work: found.work, width, instructions: None })
                 })
             }
             Subject::Segment(engine) => {
@@ -260,7 +291,7 @@ impl Subject<'_> {
                         Engine::Tree(tree) => tree.first_hit(a, b, Facing::Both, budget, scratch),
                         Engine::Hull(hull) => hull.first_hit(a, b, budget, scratch),
                     };
-                    Some(Found { work: hit.ok()?.work, width: None })
+                    Some(Found { work: hit.ok()?.work, width: None, instructions: None })
                 })
             }
         }
@@ -360,7 +391,7 @@ impl<'s, 'a> Search<'s, 'a> {
         ask: impl Fn(&[f32; N], &mut [ScratchEntry]) -> Option<Found> + Sync,
     ) -> Option<Row> {
         let value = |found: Found| match self.goal {
-            Goal::Work => Some(f64::from(found.work.total())),
+            Goal::Work => Some(found.effort()),
             Goal::Width => found.width.map(f64::from),
         };
         let of = |query: &[f32; N]| value(ask(query, &mut self.scratch())?);
@@ -386,7 +417,7 @@ impl Row {
 
     fn value(&self) -> f64 {
         match self.goal {
-            Goal::Work => f64::from(self.found.work.total()),
+            Goal::Work => self.found.effort(),
             Goal::Width => self.found.width.map_or(0.0, f64::from),
         }
     }
@@ -405,6 +436,8 @@ impl Row {
             "bounds": nodes,
             "triangles": triangles,
             "exact": exact,
+            "m4f_instructions": self.found.instructions.map(|[m4f, _]| m4f),
+            "m0_instructions": self.found.instructions.map(|[_, m0]| m0),
             "scratch_bytes": self.scratch_bytes,
             "queries_asked": self.asked,
         })
@@ -417,7 +450,7 @@ fn write(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
         let times = About(row.times(row.value()));
         write!(out, "{} by the {}: ", row.question, row.structure)?;
         match row.goal {
-            Goal::Work => write!(out, "dearest, {times} times the mean work of random queries")?,
+            Goal::Work => write!(out, "dearest, {times} times the mean of random queries")?,
             Goal::Width => write!(
                 out,
                 "widest interval, {}, {times} times the mean of random queries",
@@ -435,6 +468,10 @@ fn write(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
             exact,
             Counted(row.scratch_bytes, "byte"),
         )?;
+        if let Some([m4f, m0]) = row.found.instructions {
+            let [on, other] = Board::ALL.map(Board::name);
+            writeln!(out, "  about {m4f:.0} instructions on a {on}, {m0:.0} on a {other}")?;
+        }
     }
     Ok(())
 }
