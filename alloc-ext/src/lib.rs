@@ -21,11 +21,13 @@
 //! | [`bvh`], [`hull`], [`tight`], [`tribox`], [`curve`] | one structure each, as in core |
 //! | [`emit`] | sections to bytes; it knows no builder |
 //! | [`cut`] | a coarser blob out of a finer one |
+//! | [`worst`] | a search for the query that costs most |
 //! | [`check`] | proofs of a blob again, from its bytes and the mesh; it uses `mesh` only |
+//! | [`trade`] | errors and costs of a mesh's structures and settings, measured |
 //!
 //! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `surface` ←
-//! `{collapse, bvh}` ← `hausdorff` ← `{hull, tight, tribox, curve}` ← `cut` ← the program. A test
-//! keeps that (`host-tests/tests/house.rs`).
+//! `{collapse, bvh}` ← `hausdorff` ← `{hull, tight, tribox, curve}` ← `{cut, trade}` ← the program.
+//! `trade` also uses the distance of `check`. A test keeps that (`host-tests/tests/house.rs`).
 
 pub mod bvh;
 pub mod check;
@@ -42,7 +44,9 @@ pub mod mesh;
 mod random;
 pub mod surface;
 pub mod tight;
+pub mod trade;
 pub mod tribox;
+pub mod worst;
 
 pub use error::BuildError;
 pub use hausdorff::Farthest;

@@ -64,6 +64,17 @@ fn memory(target: &str) -> Option<&'static str> {
     })
 }
 
+/// `ask` has all questions in one image, and finds its blob in external RAM. So for a Cortex-M0 it
+/// runs on mps2-an385, which has more of both memories.
+fn of_ask<'t>(target: &str, memory: &'t str) -> &'t str {
+    match target {
+        "thumbv6m-none-eabi" => {
+            "MEMORY { FLASH : ORIGIN = 0x00000000, LENGTH = 2M  RAM : ORIGIN = 0x20000000, LENGTH = 64K }"
+        }
+        _ => memory,
+    }
+}
+
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=bare.x");
@@ -76,12 +87,16 @@ fn main() {
         return;
     };
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
-    let memory = format!("{memory}\nmeshsweep_flash_end = ORIGIN(FLASH) + LENGTH(FLASH);\n");
-    if let Err(error) = fs::write(out.join("memory.x"), memory) {
-        println!("cargo::error=cannot write memory.x: {error}");
-    }
-    println!("cargo::rustc-link-search={}", out.display());
     for image in RUNNING {
+        let memory = if image == "ask" { of_ask(&target, memory) } else { memory };
+        let folder = out.join(image);
+        let memory = format!("{memory}\nmeshsweep_flash_end = ORIGIN(FLASH) + LENGTH(FLASH);\n");
+        let written =
+            fs::create_dir_all(&folder).and_then(|()| fs::write(folder.join("memory.x"), memory));
+        if let Err(error) = written {
+            println!("cargo::error=cannot write memory.x: {error}");
+        }
+        println!("cargo::rustc-link-arg-bin={image}=-L{}", folder.display());
         if target.starts_with("riscv") {
             println!("cargo::rustc-link-arg-bin={image}=-Tmemory.x");
         }

@@ -35,9 +35,9 @@ const BENEATH: &[&str] = &[
 
 /// The same of `alloc-ext/src`. `emit` is beneath: it knows sections and no builder. `counted`
 /// prints numbers, `error` says why there is no blob, `random` gives the same numbers in every run.
-/// `cut` is above: it knows all structures. `check` proves the others' work and shares nothing with
-/// them but meshes.
-const BUILDER: [(&str, &[&str]); 16] = [
+/// `cut` and `trade` are above: they know all structures. `check` proves the others' work and
+/// shares nothing with them but meshes. `trade` measures distances by it.
+const BUILDER: [(&str, &[&str]); 17] = [
     ("counted", &[]),
     ("emit", &[]),
     ("random", &[]),
@@ -56,6 +56,10 @@ const BUILDER: [(&str, &[&str]); 16] = [
     (
         "cut",
         &["counted", "emit", "error", "lp", "mesh", "surface", "bvh", "hull", "tight", "tribox"],
+    ),
+    (
+        "trade",
+        &["check", "emit", "error", "random", "mesh", "surface", "bvh", "hull", "tight", "tribox"],
     ),
 ];
 

@@ -32,6 +32,7 @@ mod triboxes;
 pub mod vector;
 mod verify;
 
+pub(crate) use distance::distance;
 pub use finding::{Finding, Outcome};
 pub use verify::{Against, verify};
 

@@ -136,7 +136,7 @@ fn every_command_s_help_has_examples_that_run() {
         .map_while(|line| line.split_whitespace().next())
         .filter(|command| *command != "help")
         .collect();
-    assert_eq!(commands.len(), 19, "{commands:?}");
+    assert_eq!(commands.len(), 21, "{commands:?}");
     for command in commands {
         let help = ok(["help", command]);
         let examples: Vec<&str> =
@@ -185,7 +185,7 @@ fn writes(example: &str, directory: &Path) -> bool {
 fn help_names_every_option_with_a_sentence() {
     for command in [
         "build", "info", "closest", "within", "nearest", "signed", "field", "segment", "overlap",
-        "cull", "hull", "refine", "cut", "verify",
+        "cull", "hull", "refine", "cut", "verify", "trade",
     ] {
         let help = ok(["help", command]);
         // Options are indented; a line of prose may begin with one, too.

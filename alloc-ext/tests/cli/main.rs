@@ -17,6 +17,8 @@ mod queries;
 mod refine;
 mod support;
 mod tight;
+mod trade;
 mod tribox;
 mod verify;
 mod winding;
+mod worst;

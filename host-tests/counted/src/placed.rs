@@ -40,6 +40,25 @@ pub fn expected(laid: &[u8], queries: usize) -> Result<String, String> {
     Ok(format!("blob {} {hash:016x}\nblock asked 0 {:016x}\ndone\n", blob.len(), fold.finish()))
 }
 
+/// The first `queries` places with their answers.
+///
+/// # Errors
+/// The core's refusal.
+pub fn answers(
+    laid: &[u8],
+    queries: usize,
+    mut each: impl FnMut([f32; 3], &Answer),
+) -> Result<(), String> {
+    let places: Vec<[f32; 3]> = read(laid)?.places().collect();
+    let mut next = places.into_iter();
+    told(laid, queries, |answer| {
+        if let Some(place) = next.next() {
+            each(place, answer);
+        }
+    })?;
+    Ok(())
+}
+
 fn told(laid: &[u8], queries: usize, each: impl FnMut(&Answer)) -> Result<usize, String> {
     let memory = &mut Box::new(Memory::new());
     let bytes = placed::ask(&read(laid)?, queries, memory, &mut (), each);

@@ -10,6 +10,7 @@ use crate::{board, stack};
 pub struct Meter {
     begun: u32,
     overhead: u32,
+    last: u32,
     queries: u32,
     min: u32,
     sum: u64,
@@ -21,8 +22,16 @@ impl Meter {
     /// A meter that has measured what reading the counter costs.
     #[must_use]
     pub fn new() -> Self {
-        let mut meter =
-            Self { begun: 0, overhead: 0, queries: 0, min: u32::MAX, sum: 0, max: 0, deepest: 0 };
+        let mut meter = Self {
+            begun: 0,
+            overhead: 0,
+            last: 0,
+            queries: 0,
+            min: u32::MAX,
+            sum: 0,
+            max: 0,
+            deepest: 0,
+        };
         meter.query_begins();
         meter.overhead = board::elapsed(meter.begun, board::now());
         meter
@@ -36,6 +45,12 @@ impl Meter {
         self.deepest = self.deepest.max(stack::depth());
         println!("block {name} {index} {hash:016x}");
         stack::paint();
+    }
+
+    /// Ticks of the last query.
+    #[must_use]
+    pub const fn last(&self) -> u32 {
+        self.last
     }
 
     /// Prints ticks and stack.
@@ -64,6 +79,7 @@ impl Clock for Meter {
     #[inline]
     fn query_ends(&mut self) {
         let ticks = board::elapsed(self.begun, board::now()).saturating_sub(self.overhead);
+        self.last = ticks;
         self.queries += 1;
         self.min = self.min.min(ticks);
         self.max = self.max.max(ticks);

@@ -9,6 +9,8 @@
 //! host lay QUESTION N FILE
 //!                         writes such a question for a board; prints means, then this machine's
 //!                         answers
+//! host fit FOLDER MESH...
+//!                         writes the questions that costs are fitted to: 0.bin, 0.rows, ...
 //! ```
 
 use std::path::Path;
@@ -34,9 +36,12 @@ fn main() -> ExitCode {
             .map_err(|_| format!("`{queries}` is not a number"))
             .and_then(|queries| counted::lay(&fixtures, question, queries, Path::new(file)))
             .map(|lines| print!("{lines}")),
+        ["fit", folder, others @ ..] => {
+            counted::fit(&fixtures, Path::new(folder), others).map(|lines| print!("{lines}"))
+        }
         _ => Err(
             "host fixtures | host picture | host blobs FOLDER | host place FOLDER QUESTION... | \
-             host lay QUESTION N FILE"
+             host lay QUESTION N FILE | host fit FOLDER MESH..."
                 .to_owned(),
         ),
     };

@@ -1,9 +1,12 @@
 //! Questions to fixtures and blobs that a simulator counts, as bytes: each with its seeded list of
 //! queries. `meshsweep-counted` asks them.
 
+mod fit;
 mod placed;
 
 use std::path::Path;
+
+pub use fit::fit;
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::{Input, Mesh};

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::Vec3;
 use meshsweep::mesh::Mesh;
-use meshsweep_core::{Blob, Hull, VertIdx};
+use meshsweep_core::{Blob, Budget, Hull, VertIdx};
 use meshsweep_suite::ask::placed::{self, Question};
 
 use crate::workload::{Points, Subject, points};
@@ -34,17 +34,19 @@ pub fn lay(fixtures: &Path, question: &str, count: usize) -> Option<Result<Vec<u
     let laid = match *words.as_slice() {
         ["bvh", blob, relative] => read(blob).and_then(|bytes| {
             let bounds = of(&bytes, |blob| Ok(blob.bvh()?.bounds()))?;
-            Ok(written(Question::Tree(number(relative)?), &bytes, &far(bounds, count)))
+            let budget = Budget::EXACT.with_relative(number(relative)?);
+            Ok(written(Question::Tree(budget), &bytes, &far(bounds, count)))
         }),
         ["sweep", blob, step, relative] => read(blob).and_then(|bytes| {
             let bounds = of(&bytes, |blob| Ok(blob.hull()?.bounds()))?;
-            let (step, relative) = (number(step)? * diagonal(bounds), number(relative)?);
+            let step = number(step)? * diagonal(bounds);
+            let budget = Budget::EXACT.with_relative(number(relative)?);
             let places = far(bounds, count.max(2));
             Ok(if step == 0.0 {
-                written(Question::Sweep(relative), &bytes, &places)
+                written(Question::Sweep(budget), &bytes, &places)
             } else {
                 let places = walk(places.into_iter(), step, count);
-                written(Question::KeptSweep(relative), &bytes, &places)
+                written(Question::KeptSweep(budget), &bytes, &places)
             })
         }),
         ["refine", blob, radius, error] => read(blob).and_then(|bytes| {
@@ -100,7 +102,7 @@ fn walk(mut corners: impl Iterator<Item = [f32; 3]>, step: f32, count: usize) ->
     places
 }
 
-fn written(question: Question, blob: &[u8], places: &[[f32; 3]]) -> Vec<u8> {
+pub(crate) fn written(question: Question, blob: &[u8], places: &[[f32; 3]]) -> Vec<u8> {
     let header = placed::header(question, blob.len() as u32, places.len() as u32);
     let places = places.as_flattened().iter().flat_map(|x| x.to_le_bytes());
     header.into_iter().chain(blob.iter().copied()).chain(places).collect()

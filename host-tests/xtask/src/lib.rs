@@ -24,6 +24,7 @@ pub mod count;
 pub mod cross;
 pub mod elf;
 pub mod firmware;
+pub mod fit;
 pub mod host;
 pub mod images;
 pub mod process;

@@ -8,7 +8,7 @@ use meshsweep_xtask::firmware::Scope;
 use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::tables::Facts;
 use meshsweep_xtask::valgrind::Valgrind;
-use meshsweep_xtask::{checks, count, firmware, host, processors, say, tables};
+use meshsweep_xtask::{checks, count, firmware, fit, host, processors, say, tables};
 
 const USAGE: &str = "\
 cargo xtask setup                   makes sure of the cross targets, of QEMU and of valgrind
@@ -21,6 +21,8 @@ cargo xtask tables                  writes the documents' tables of bytes and in
 cargo xtask count [QUESTION...]     instructions a query, by callgrind; are eight lanes vectors?
 cargo xtask count --board QUESTION...
                                     the same on a Cortex-M4F, of `bvh`, `sweep`, `refine` BLOB ...
+cargo xtask fit [MESH...]           fits the costs by which `meshsweep trade` predicts instructions
+cargo xtask fit --kept              the same from the counts of the last run
 cargo xtask measure|race|rival ...  the laboratory, a crate of its own: `cargo xtask measure --help`
 
 environment:
@@ -84,6 +86,12 @@ fn main() -> ExitCode {
         ["count", "--board", questions @ ..] if !questions.is_empty() => {
             if let Some(tools) = firmware::setup(&mut steps) {
                 count::on_board(&mut steps, &tools, questions);
+            }
+        }
+        ["fit", "--kept"] => fit::fit_kept(&mut steps),
+        ["fit", others @ ..] => {
+            if let Some(tools) = firmware::setup(&mut steps) {
+                fit::run(&mut steps, &tools, others);
             }
         }
         ["count", questions @ ..] if !questions.contains(&"--board") => {

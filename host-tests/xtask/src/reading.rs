@@ -50,6 +50,8 @@ pub struct Reading {
     pub scratch: u32,
     /// Bytes of scratch that no query outgrows, as the blob says.
     pub needs: u32,
+    /// Instructions of each query, where the image tells them.
+    pub each: Vec<f64>,
 }
 
 impl Reading {
@@ -87,6 +89,10 @@ impl Reading {
                         max: instructions(max)?,
                         stack: 0,
                     });
+                }
+                ["each", ticks] => {
+                    let rate = board.map_or(0.0, |board| board.instructions_per_tick);
+                    reading.each.push(number::<f64>(ticks)? * rate);
                 }
                 ["stack", kind, bytes] => {
                     let cost = reading.costs.iter_mut().find(|cost| cost.kind == *kind);

@@ -7,18 +7,20 @@ mod building;
 mod comparing;
 mod explained;
 mod given;
+mod measuring;
 mod refining;
 mod values;
 
 pub use asking::{
     ClearArgs, ClearanceArgs, ClosestArgs, CullArgs, Engine, FieldArgs, MoveKind, MovedArgs,
     NearestArgs, OverlapArgs, PointArgs, SearchArgs, SegmentArgs, SignedArgs, WindingArgs,
-    WithinArgs,
+    WithinArgs, WorstArgs, WorstQuestion,
 };
 pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
 pub use building::{BuildArgs, CutArgs, FACES, HullServes, InfoArgs, StoredBits, VerifyArgs};
 pub use comparing::HausdorffArgs;
 pub use given::{Given, files, names};
+pub use measuring::{At, Cpu, LimitArgs, TradeArgs};
 pub use refining::RefineArgs;
 pub use values::Margin;
 
@@ -119,6 +121,12 @@ pub enum Command {
     /// Prove the claims of a blob again, from its bytes and the mesh that it was built from
     #[command(after_help = explained::VERIFY)]
     Verify(VerifyArgs),
+    /// Measure error, instructions and bytes of each structure and setting of a mesh
+    #[command(after_help = explained::TRADE)]
+    Trade(TradeArgs),
+    /// Search the dearest query of each question, or the widest interval within a budget
+    #[command(after_help = explained::WORST)]
+    Worst(WorstArgs),
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use crate::number::{About, AtMost};
 use crate::output::{Output, refuse_same_file};
 use crate::progress::{Bar, StageBars};
 use crate::unmet::Tightness;
-use crate::{curve, describe, windings};
+use crate::{curve, describe, trade, windings};
 use meshsweep::BuildError;
 use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::collapse::Progress;
@@ -41,6 +41,9 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         [&args.mesh].into_iter().chain(&args.frames).map(PathBuf::as_path).collect();
     refuse_same_file(Some(&args.output), &inputs)?;
     Output::probe(&args.output)?;
+    if args.limits.given().is_some() {
+        return trade::build(args);
+    }
     if args.is_curve() {
         return curve::build(args);
     }
@@ -109,6 +112,14 @@ fn refuse_options(args: &BuildArgs) -> Option<String> {
     let wanted = args.wanted();
     if args.asks_mesh_of_curve() {
         return Some("a curve serves --for curve only; name a mesh for anything else".to_owned());
+    }
+    if let Some(option) = args.limits.given()
+        && let Some(other) = args.chosen_option()
+    {
+        return Some(format!("{option} chooses structure and dials; leave out {other}"));
+    }
+    if args.limits.given().is_none() && (args.limits.cpu.is_some() || args.limits.at.is_some()) {
+        return Some("--cpu and --at go with --flash, --ram, --error or --rate".to_owned());
     }
     if args.closed && !args.is_curve() {
         return Some("--closed is for curves; add --for curve".to_owned());

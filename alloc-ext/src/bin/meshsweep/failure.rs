@@ -44,6 +44,8 @@ pub enum Failure {
     Apart { first: PathBuf, second: PathBuf, most: f64, lower: f64, upper: f64 },
     /// Not all that the blob claims of the mesh is proved.
     NotVerified { blob: PathBuf, mesh: PathBuf, open: Vec<String> },
+    /// No setting of the mesh meets the limits.
+    Limits { file: PathBuf, what: String },
     /// The blob is refused.
     Open { file: PathBuf, error: OpenError },
     /// The blob was built without the structure that the question needs. `other` names an engine
@@ -55,6 +57,8 @@ pub enum Failure {
         other: Option<&'static str>,
         served: String,
     },
+    /// The blob serves none of the questions whose dearest query can be searched.
+    NothingToSearch { file: PathBuf, served: String },
     /// The levels of the blob's hierarchy enclose nothing.
     NoHulls { file: PathBuf },
     /// All tight hulls of the blob have more faces.
@@ -230,7 +234,13 @@ impl fmt::Display for Failure {
             Failure::NotVerified { blob, mesh, open } => {
                 write!(f, "{} of {}: {}", blob.display(), mesh.display(), open.join("; "))
             }
+            Failure::Limits { file, what } => write!(f, "{}: {what}", file.display()),
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
+            Failure::NothingToSearch { file, served } => write!(
+                f,
+                "{}: serves {served}; worst searches closest, within, signed, winding and segment",
+                file.display()
+            ),
             Failure::NoHulls { file } => write!(
                 f,
                 "{}: was built --for sweep, and its levels are no hulls; build it --for hull from \

@@ -55,12 +55,14 @@ mod segment;
 mod served;
 mod side;
 mod signed;
+mod trade;
 mod tribox;
 mod unmet;
 mod verify;
 mod winding;
 mod windings;
 mod within;
+mod worst;
 
 use args::{Arguments, Command};
 use failure::Failure;
@@ -95,5 +97,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Cut(args)) => cut::run(&args),
         Some(Command::Tribox(args)) => tribox::run(&args),
         Some(Command::Verify(args)) => verify::run(&args),
+        Some(Command::Trade(args)) => trade::run(&args),
+        Some(Command::Worst(args)) => worst::run(&args),
     }
 }

@@ -288,8 +288,8 @@ mod tests {
     use super::QUESTIONS;
     use crate::args;
 
-    /// Commands that ask a blob nothing: they take a mesh, or tell what a blob holds.
-    const OTHERS: [&str; 5] = ["build", "hausdorff", "info", "tribox", "verify"];
+    /// Commands that take a mesh, or tell what a blob holds, or ask all that it serves.
+    const OTHERS: [&str; 7] = ["build", "hausdorff", "info", "trade", "tribox", "verify", "worst"];
 
     #[test]
     fn every_command_that_asks_a_blob_has_a_row() {

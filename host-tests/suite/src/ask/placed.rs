@@ -6,7 +6,8 @@
 use core::mem::size_of;
 
 use meshsweep_core::{
-    Blob, Budget, Change, ClosestPoint, Focus, QueryError, RefinedHull, Refinement, ScratchEntry,
+    Blob, Bound, Budget, Bvh, Change, ClosestPoint, CoherentQuery, Focus, Hint, Hull, QueryError,
+    RefinedHull, Refinement, ScratchEntry, TightHull, Triboxes,
 };
 
 use super::{Refused, timed};
@@ -16,33 +17,53 @@ use crate::fold::Fold;
 /// The question at each place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Question {
-    /// The box tree's closest point, to a relative tolerance.
-    Tree(f32),
-    /// The closest point of a fresh sweep, to a relative tolerance.
-    Sweep(f32),
-    /// The closest point of one sweep that moves from place to place, to a relative tolerance.
-    KeptSweep(f32),
+    /// The box tree's closest point.
+    Tree(Budget),
+    /// The closest point of a fresh sweep.
+    Sweep(Budget),
+    /// The closest point of one sweep that moves from place to place.
+    KeptSweep(Budget),
     /// The hull refined for a ball of a radius, to an error; both in input units.
     Refine(f32, f32),
+    /// The box tree's closest point, from the leaf of the place before.
+    Hinted(Budget),
+    /// The box tree's closest point, by a front that is kept from place to place.
+    Coherent(Budget),
+    /// The distance of the mesh inside the finest tight hull.
+    Tight(Budget),
+    /// A lower bound of the distance from triboxes.
+    Triboxes(Budget),
 }
 
 impl Question {
-    fn words(self) -> [u32; 3] {
+    fn words(self) -> [u32; 4] {
+        let of = |kind: u32, budget: Budget| {
+            [kind, budget.relative.to_bits(), budget.absolute.to_bits(), budget.steps]
+        };
         match self {
-            Self::Tree(relative) => [0, relative.to_bits(), 0],
-            Self::Sweep(relative) => [1, relative.to_bits(), 0],
-            Self::KeptSweep(relative) => [2, relative.to_bits(), 0],
-            Self::Refine(radius, error) => [3, radius.to_bits(), error.to_bits()],
+            Self::Tree(budget) => of(0, budget),
+            Self::Sweep(budget) => of(1, budget),
+            Self::KeptSweep(budget) => of(2, budget),
+            Self::Refine(radius, error) => [3, radius.to_bits(), error.to_bits(), 0],
+            Self::Hinted(budget) => of(4, budget),
+            Self::Coherent(budget) => of(5, budget),
+            Self::Tight(budget) => of(6, budget),
+            Self::Triboxes(budget) => of(7, budget),
         }
     }
 
-    fn of_words([kind, first, second]: [u32; 3]) -> Option<Self> {
+    fn of_words([kind, first, second, steps]: [u32; 4]) -> Option<Self> {
         let (first, second) = (f32::from_bits(first), f32::from_bits(second));
+        let budget = Budget::EXACT.with_relative(first).with_absolute(second).with_steps(steps);
         Some(match kind {
-            0 => Self::Tree(first),
-            1 => Self::Sweep(first),
-            2 => Self::KeptSweep(first),
+            0 => Self::Tree(budget),
+            1 => Self::Sweep(budget),
+            2 => Self::KeptSweep(budget),
             3 => Self::Refine(first, second),
+            4 => Self::Hinted(budget),
+            5 => Self::Coherent(budget),
+            6 => Self::Tight(budget),
+            7 => Self::Triboxes(budget),
             _ => return None,
         })
     }
@@ -58,17 +79,17 @@ pub struct Placed<'t> {
     places: &'t [[u8; 12]],
 }
 
-/// Bytes of the header: the question in three words, then the bytes of the blob, then the places.
-pub const HEADER: usize = 20;
+/// Bytes of the header: the question in four words, then the bytes of the blob, then the places.
+pub const HEADER: usize = 24;
 
 /// The header of a blob of `bytes` bytes and of some places. The blob follows, then three f32 a
 /// place, little-endian.
 #[must_use]
 pub fn header(question: Question, bytes: u32, places: u32) -> [u8; HEADER] {
-    let [kind, first, second] = question.words();
+    let [kind, first, second, steps] = question.words();
     let mut header = [0; HEADER];
     let (words, _) = header.as_chunks_mut();
-    for (to, word) in words.iter_mut().zip([kind, first, second, bytes, places]) {
+    for (to, word) in words.iter_mut().zip([kind, first, second, steps, bytes, places]) {
         *to = word.to_le_bytes();
     }
     header
@@ -81,10 +102,15 @@ impl<'t> Placed<'t> {
         let (header, rest) = bytes.split_first_chunk::<HEADER>()?;
         let mut words = header.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word));
         let mut next = || words.next();
-        let question = Question::of_words([next()?, next()?, next()?])?;
+        let question = Question::of_words([next()?, next()?, next()?, next()?])?;
         let (blob, rest) = rest.split_at_checked(next()? as usize)?;
         let places = rest.as_chunks().0.get(..next()? as usize)?;
         Some(Self { question, blob, places })
+    }
+
+    /// The places.
+    pub fn places(&self) -> impl Iterator<Item = [f32; 3]> + use<'t> {
+        self.places.iter().map(place)
     }
 }
 
@@ -94,12 +120,16 @@ const ENTRIES: usize = 512;
 /// Splits of the refined hull: 8 KiB.
 const SPLITS: usize = 500;
 
+/// Entries of a coherent query's front.
+const FRONT: usize = 128;
+
 /// What the questions need beside the blob.
 #[derive(Debug)]
 pub struct Memory<'t> {
     entries: [ScratchEntry; ENTRIES],
     refined: RefinedHull<'t, SPLITS>,
     changes: [Change; 64],
+    coherent: CoherentQuery<'t, FRONT>,
 }
 
 impl Memory<'_> {
@@ -110,6 +140,7 @@ impl Memory<'_> {
             entries: [ScratchEntry::EMPTY; ENTRIES],
             refined: RefinedHull::new(),
             changes: [Change::EMPTY; 64],
+            coherent: CoherentQuery::new(),
         }
     }
 }
@@ -125,6 +156,8 @@ impl Default for Memory<'_> {
 pub enum Answer {
     /// A closest point.
     Closest(ClosestPoint),
+    /// A lower bound from triboxes.
+    Bound(Bound),
     /// An update of the refined hull.
     Refined(Refinement),
     /// A refusal.
@@ -136,6 +169,7 @@ impl Answer {
     pub fn told(&self, fold: &mut Fold) {
         match self {
             Self::Closest(answer) => super::closest_point(fold, answer),
+            Self::Bound(bound) => super::triboxes::bound(fold, bound),
             Self::Refined(update) => {
                 for word in [update.faces, update.performed, update.undone, update.dropped] {
                     fold.word(word);
@@ -159,57 +193,201 @@ pub fn ask<'t>(
     clock: &mut impl Clock,
     mut told: impl FnMut(&Answer),
 ) -> Result<usize, Refused> {
-    let Memory { entries, refined, changes } = memory;
     let blob = Blob::open(placed.blob).map_err(Refused::of)?;
-    let hull = || blob.hull().map_err(|_| Refused::NO_SECTION);
-    let places = placed.places.iter().take(queries).map(place);
-    let closest =
-        |answer: Result<ClosestPoint, _>| answer.map_or_else(Answer::Refused, Answer::Closest);
-    let bytes = |entries: usize| entries.saturating_mul(size_of::<ScratchEntry>());
+    // Each a function that is not inlined, so that the stack that is measured is its own.
     match placed.question {
-        Question::Tree(relative) => {
-            let tree = blob.bvh().map_err(|_| Refused::NO_SECTION)?;
-            let stack = entries.get_mut(..tree.scratch_entries()).ok_or(Refused::MEMORY)?;
-            let budget = Budget::EXACT.with_relative(relative);
-            for place in places {
-                let answer = timed(clock, || tree.closest_point(place, budget, stack));
-                told(&closest(answer));
-            }
-            Ok(bytes(stack.len()))
+        Question::Tree(budget) => {
+            fresh(&tree(&blob)?, budget, places(placed, queries), memory, clock, &mut told)
         }
-        Question::Sweep(relative) => {
-            let hull = hull()?;
-            let budget = Budget::EXACT.with_relative(relative);
-            for place in places {
-                let answer = timed(clock, || hull.closest_point(place, budget, entries));
-                told(&closest(answer));
-            }
-            Ok(bytes(ENTRIES))
+        Question::Hinted(budget) => {
+            hinted(&tree(&blob)?, budget, places(placed, queries), memory, clock, &mut told)
         }
-        Question::KeptSweep(relative) => {
-            let hull = hull()?;
-            let budget = Budget::EXACT.with_relative(relative);
-            let begin = placed.places.first().map(place).unwrap_or_default();
-            let mut sweep = hull.sweep(begin, entries).map_err(|_| Refused::MEMORY)?;
-            for place in places {
-                let answer = timed(clock, || {
-                    sweep.move_to(place)?;
-                    sweep.closest_point(budget)
-                });
-                told(&closest(answer));
-            }
-            Ok(bytes(ENTRIES))
+        Question::Coherent(budget) => {
+            coherent(&tree(&blob)?, budget, places(placed, queries), memory, clock, &mut told)
+        }
+        Question::Tight(budget) => {
+            let hulls = blob.tight_hulls().map_err(|_| Refused::NO_SECTION)?;
+            let hull = hulls.finest().ok_or(Refused::NO_SECTION)?;
+            tight(&hull, budget, places(placed, queries), memory, clock, &mut told)
+        }
+        Question::Triboxes(budget) => {
+            let triboxes = blob.triboxes().map_err(|_| Refused::NO_SECTION)?;
+            bound(&triboxes, budget, places(placed, queries), memory, clock, &mut told)
+        }
+        Question::Sweep(budget) => {
+            sweep(&hull(&blob)?, budget, places(placed, queries), memory, clock, &mut told)
+        }
+        Question::KeptSweep(budget) => {
+            kept_sweep(&hull(&blob)?, budget, places(placed, queries), memory, clock, &mut told)
         }
         Question::Refine(radius, error) => {
-            let hull = hull()?;
-            for centre in places {
-                let focus = Focus::Ball { centre, radius };
-                let update = timed(clock, || refined.update(&hull, &focus, error, changes));
-                told(&update.map_or_else(Answer::Refused, Answer::Refined));
-            }
-            Ok(size_of::<RefinedHull<'_, SPLITS>>())
+            let size = (radius, error);
+            refine(&hull(&blob)?, size, places(placed, queries), memory, clock, &mut told)
         }
     }
+}
+
+fn tree<'t>(blob: &Blob<'t>) -> Result<Bvh<'t>, Refused> {
+    blob.bvh().map_err(|_| Refused::NO_SECTION)
+}
+
+fn hull<'t>(blob: &Blob<'t>) -> Result<Hull<'t>, Refused> {
+    blob.hull().map_err(|_| Refused::NO_SECTION)
+}
+
+fn places<'t>(
+    placed: &Placed<'t>,
+    queries: usize,
+) -> impl Iterator<Item = [f32; 3]> + Clone + use<'t> {
+    placed.places.iter().take(queries).map(place)
+}
+
+fn closest(answer: Result<ClosestPoint, QueryError>) -> Answer {
+    answer.map_or_else(Answer::Refused, Answer::Closest)
+}
+
+const fn bytes(entries: usize) -> usize {
+    entries.saturating_mul(size_of::<ScratchEntry>())
+}
+
+#[inline(never)]
+fn fresh(
+    tree: &Bvh<'_>,
+    budget: Budget,
+    places: impl Iterator<Item = [f32; 3]>,
+    memory: &mut Memory<'_>,
+    clock: &mut impl Clock,
+    told: &mut impl FnMut(&Answer),
+) -> Result<usize, Refused> {
+    let stack = memory.entries.get_mut(..tree.scratch_entries()).ok_or(Refused::MEMORY)?;
+    for place in places {
+        told(&closest(timed(clock, || tree.closest_point(place, budget, stack))));
+    }
+    Ok(bytes(stack.len()))
+}
+
+#[inline(never)]
+fn hinted(
+    tree: &Bvh<'_>,
+    budget: Budget,
+    places: impl Iterator<Item = [f32; 3]>,
+    memory: &mut Memory<'_>,
+    clock: &mut impl Clock,
+    told: &mut impl FnMut(&Answer),
+) -> Result<usize, Refused> {
+    let stack = memory.entries.get_mut(..tree.scratch_entries()).ok_or(Refused::MEMORY)?;
+    let mut hint = Hint::NONE;
+    for place in places {
+        let answer = timed(clock, || tree.closest_point_from(place, &mut hint, budget, stack));
+        told(&closest(answer));
+    }
+    Ok(bytes(stack.len()))
+}
+
+#[inline(never)]
+fn coherent<'t>(
+    tree: &Bvh<'t>,
+    budget: Budget,
+    places: impl Iterator<Item = [f32; 3]>,
+    memory: &mut Memory<'t>,
+    clock: &mut impl Clock,
+    told: &mut impl FnMut(&Answer),
+) -> Result<usize, Refused> {
+    let Memory { entries, coherent, .. } = memory;
+    let stack = entries.get_mut(..tree.scratch_entries()).ok_or(Refused::MEMORY)?;
+    for place in places {
+        let answer = timed(clock, || coherent.closest_point(tree, place, budget, stack));
+        told(&closest(answer.map(|near| near.closest)));
+    }
+    Ok(bytes(stack.len()).saturating_add(size_of::<CoherentQuery<'_, FRONT>>()))
+}
+
+#[inline(never)]
+fn tight(
+    hull: &TightHull<'_>,
+    budget: Budget,
+    places: impl Iterator<Item = [f32; 3]>,
+    memory: &mut Memory<'_>,
+    clock: &mut impl Clock,
+    told: &mut impl FnMut(&Answer),
+) -> Result<usize, Refused> {
+    let stack = memory.entries.get_mut(..hull.scratch_entries()).ok_or(Refused::MEMORY)?;
+    for place in places {
+        told(&closest(timed(clock, || hull.closest_point(place, budget, stack))));
+    }
+    Ok(bytes(stack.len()))
+}
+
+#[inline(never)]
+fn bound(
+    triboxes: &Triboxes<'_>,
+    budget: Budget,
+    places: impl Iterator<Item = [f32; 3]>,
+    memory: &mut Memory<'_>,
+    clock: &mut impl Clock,
+    told: &mut impl FnMut(&Answer),
+) -> Result<usize, Refused> {
+    let stack = memory.entries.get_mut(..triboxes.scratch_entries()).ok_or(Refused::MEMORY)?;
+    for place in places {
+        let answer = timed(clock, || triboxes.distance(place, budget, stack));
+        told(&answer.map_or_else(Answer::Refused, Answer::Bound));
+    }
+    Ok(bytes(stack.len()))
+}
+
+#[inline(never)]
+fn sweep(
+    hull: &Hull<'_>,
+    budget: Budget,
+    places: impl Iterator<Item = [f32; 3]>,
+    memory: &mut Memory<'_>,
+    clock: &mut impl Clock,
+    told: &mut impl FnMut(&Answer),
+) -> Result<usize, Refused> {
+    for place in places {
+        let answer = timed(clock, || hull.closest_point(place, budget, &mut memory.entries));
+        told(&closest(answer));
+    }
+    Ok(bytes(ENTRIES))
+}
+
+#[inline(never)]
+fn kept_sweep(
+    hull: &Hull<'_>,
+    budget: Budget,
+    places: impl Iterator<Item = [f32; 3]> + Clone,
+    memory: &mut Memory<'_>,
+    clock: &mut impl Clock,
+    told: &mut impl FnMut(&Answer),
+) -> Result<usize, Refused> {
+    let begin = places.clone().next().unwrap_or_default();
+    let mut sweep = hull.sweep(begin, &mut memory.entries).map_err(|_| Refused::MEMORY)?;
+    for place in places {
+        let answer = timed(clock, || {
+            sweep.move_to(place)?;
+            sweep.closest_point(budget)
+        });
+        told(&closest(answer));
+    }
+    Ok(bytes(ENTRIES))
+}
+
+#[inline(never)]
+fn refine<'t>(
+    hull: &Hull<'t>,
+    (radius, error): (f32, f32),
+    places: impl Iterator<Item = [f32; 3]>,
+    memory: &mut Memory<'t>,
+    clock: &mut impl Clock,
+    told: &mut impl FnMut(&Answer),
+) -> Result<usize, Refused> {
+    let Memory { refined, changes, .. } = memory;
+    for centre in places {
+        let focus = Focus::Ball { centre, radius };
+        let update = timed(clock, || refined.update(hull, &focus, error, changes));
+        told(&update.map_or_else(Answer::Refused, Answer::Refined));
+    }
+    Ok(size_of::<RefinedHull<'_, SPLITS>>())
 }
 
 fn place(bytes: &[u8; 12]) -> [f32; 3] {

@@ -155,7 +155,7 @@ pub fn candidates(
     }
 }
 
-fn bound(fold: &mut Fold, answer: &Bound) {
+pub(super) fn bound(fold: &mut Fold, answer: &Bound) {
     fold.f32(answer.lower);
     number(fold, answer.node);
     how(fold, answer.work, answer.ended);

@@ -335,3 +335,37 @@ impl CullArgs {
         }
     }
 }
+
+#[derive(Debug, Args)]
+pub struct WorstArgs {
+    /// Blob file
+    pub blob: PathBuf,
+    /// Only these questions [default: all that the blob serves]
+    #[arg(long, value_name = "QUESTION", value_enum, value_delimiter = ',')]
+    pub ask: Vec<WorstQuestion>,
+    /// Stop a query after opening so many nodes, and search the widest interval that is left too
+    #[arg(long, value_name = "NODES", value_parser = whole::<0, { u32::MAX }>)]
+    pub steps: Option<u32>,
+    /// Stop a query when upper ≤ lower · (1 + REL)
+    #[arg(long, value_name = "REL", default_value_t = 0.0, value_parser = tolerance)]
+    pub rel: f32,
+    /// Stop a query when upper − lower ≤ ABS, in the mesh's unit
+    #[arg(long, value_name = "ABS", default_value_t = 0.0, value_parser = tolerance)]
+    pub abs: f32,
+    /// Places to climb from
+    #[arg(long, value_name = "N", default_value = "48", value_parser = whole::<1, 100_000>)]
+    pub starts: u32,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Questions whose dearest query can be searched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum WorstQuestion {
+    Closest,
+    Within,
+    Signed,
+    Winding,
+    Segment,
+}

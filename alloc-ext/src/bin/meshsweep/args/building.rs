@@ -1,5 +1,6 @@
 //! Arguments of the commands that make, describe and cut blobs.
 
+use super::measuring::LimitArgs;
 use super::values::{degrees, distance, factor, length, percent, ratio, unit, whole};
 use clap::{ArgGroup, Args, ValueEnum};
 use meshsweep::collapse::{Conditions, Priority};
@@ -87,6 +88,8 @@ pub struct BuildArgs {
     pub closed: bool,
     #[command(flatten)]
     pub collapse: CollapseArgs,
+    #[command(flatten)]
+    pub limits: LimitArgs,
 }
 
 /// Most faces of a stored tight hull.
@@ -185,6 +188,17 @@ impl BuildArgs {
         ]
         .into_iter()
         .find_map(|(option, given)| given.then_some(option))
+    }
+
+    /// The first given option that names what limits choose.
+    pub fn chosen_option(&self) -> Option<&'static str> {
+        let is_default = self.serves == [Serves::Closest, Serves::Segment];
+        let others = [
+            ("--for", !is_default || self.is_curve()),
+            ("--vertex-bits", self.vertex_bits != StoredBits::Auto),
+            ("key frames", !self.frames.is_empty()),
+        ];
+        others.into_iter().find_map(|(option, given)| given.then_some(option))
     }
 
     /// The first given option that applies to the hull hierarchy only.

@@ -78,8 +78,15 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     Every interval includes the quantisation error, which build prints. With 32 nothing moves. \
     Intervals still include the rounding of single precision: about two millionths of the \
     distance and of the longest triangle. build prints that too.\n\n\
+    Limits choose structure and dials for distances of points, from what trade measures. With \
+    --error it is the setting of the fewest instructions, else that of the smallest error. The \
+    error is the largest width of an interval among the measured points. Elsewhere an interval \
+    may be wider, and holds. --ram is scratch and stack. --rate asks for the dearest measured \
+    query at two cycles an instruction. If no setting meets the limits, nothing is written, and \
+    the nearest one is named.\n\n\
     Examples:\n  \
     meshsweep build part.stl -o part.msw\n  \
+    meshsweep build part.stl -o small.msw --flash 16K --ram 4K --rate 1kHz --cpu m4f:168MHz\n  \
     meshsweep build scan.ply -o scan.msw --for closest\n  \
     meshsweep build part.stl -o part.msw --unit mm\n  \
     meshsweep build part.stl -o part.msw --for closest,segment,hull --base 500\n  \
@@ -396,3 +403,33 @@ pub const VERIFY: &str = "The proofs share no code with the builder and with que
     Examples:\n  \
     meshsweep verify part.msw part.stl\n  \
     meshsweep verify part.msw part.stl --json";
+
+pub const TRADE: &str = "The guaranteed error is the width of an interval, which holds; the \
+    largest and the median of the points are printed. It is measured: at another point the \
+    interval may be wider. The found error is the distance in f64, from all triangles, less the \
+    lower end, which a caller uses that must keep clear; and the upper end less that \
+    distance.\n\nInstructions of a Cortex-M4F and a Cortex-M0 are predicted from the nodes, \
+    triangles and splits of each query, which are the same on every target. The costs were fitted \
+    to counts in an emulator; the errors of the prediction are printed below. Flash is the blob \
+    without the library's code.\n\nThe first table has the settings that no other one beats in the \
+    largest guaranteed error, the mean instructions of a Cortex-M4F and the bytes of flash \
+    together. Triboxes have a lower end only. A structure that the mesh does not allow is listed \
+    with the reason. Tight hulls are made with --effort 0; more effort makes them tighter. \
+    Coherent queries are measured along a path and at your own points. build --flash, --ram, \
+    --error and --rate choose among the same settings.\n\nExamples:\n  \
+    meshsweep trade part.stl\n  \
+    meshsweep trade part.stl --at path --points 500\n  \
+    meshsweep trade part.stl --at points.csv --json";
+
+pub const WORST: &str = "Queries are searched in the box twice the mesh's: from random places and \
+    some of the surface, uphill, by moves of all sizes. The same blob gives the same result. The \
+    search proves nothing: a dearer query may exist. Only --steps bounds the cost of every query. \
+    With it the widest interval is searched too, for questions that have one. Its width at other \
+    queries is most likely less, and any answer tells its own.\n\n\
+    Work is counted as queries count it: nodes or splits opened, bounds (boxes, capsules, balls) \
+    and triangles looked at, and those of them in f64. Instructions of boards are predicted from it \
+    for closest, as meshsweep trade does; its help tells how well. They are then what is climbed.\n\n\
+    Examples:\n  \
+    meshsweep worst part.msw\n  \
+    meshsweep worst part.msw --ask closest --rel 0.01\n  \
+    meshsweep worst part.msw --steps 16 --json";

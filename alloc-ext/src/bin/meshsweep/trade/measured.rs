@@ -1,0 +1,71 @@
+//! The standard settings of a mesh, measured with a progress bar.
+
+use crate::args::{At, Given};
+use crate::failure::Failure;
+use crate::mesh_file::Loaded;
+use crate::progress::Bar;
+use crate::queries::Queries;
+use meshsweep::mesh::Mesh;
+use meshsweep::trade::{self, Points, Trade};
+use std::path::Path;
+use std::sync::Mutex;
+
+/// A measurement, and what it is of.
+pub struct Measured {
+    pub trade: Trade,
+    /// Of the mesh's box.
+    pub diagonal: f64,
+    /// Number of points.
+    pub points: usize,
+    /// Their kind, in words.
+    pub kind: String,
+}
+
+/// Measures the standard settings.
+pub fn measured(file: &Path, loaded: &Loaded, at: &At, count: usize) -> Result<Measured, Failure> {
+    let mesh = &loaded.mesh;
+    let (points, kind, words) = match at {
+        At::Made(kind) => (trade::points(mesh, *kind, count), Some(*kind), said(*kind).to_owned()),
+        At::File(path) => {
+            let queries = Queries::<3>::read(&[Given::File(path.clone())])?;
+            if let Some(failure) = queries.broken {
+                return Err(failure);
+            }
+            (queries.rows, None, format!("of {}", path.display()))
+        }
+    };
+    if points.is_empty() {
+        let what = format!("{}: there are no points to ask at", file.display());
+        return Err(Failure::Usage { what });
+    }
+    let diagonal = diagonal(mesh);
+    let settings = trade::standard(diagonal, mesh.triangles.len(), kind);
+    // Its length is known at the first step.
+    let bar = Mutex::new(None);
+    let progress = |progress: trade::Progress| {
+        if let Ok(mut bar) = bar.lock() {
+            bar.get_or_insert_with(|| Bar::new(progress.of, "measuring", "steps"))
+                .show(progress.done);
+        }
+    };
+    let trade = trade::measure(loaded.input(), &points, &settings, progress)
+        .map_err(|error| Failure::Search { file: file.to_owned(), error })?;
+    drop(bar);
+    Ok(Measured { trade, diagonal, points: points.len(), kind: words })
+}
+
+fn said(points: Points) -> &'static str {
+    match points {
+        Points::Far => "far: in a box twice the mesh's",
+        Points::Near => "near the surface",
+        Points::Path => "along a path near the surface",
+    }
+}
+
+fn diagonal(mesh: &Mesh) -> f64 {
+    let side = |k: usize| {
+        let all = || mesh.positions.iter().map(|p| f64::from(p[k]));
+        all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
+    };
+    (0..3).map(|k| side(k).powi(2)).sum::<f64>().sqrt()
+}

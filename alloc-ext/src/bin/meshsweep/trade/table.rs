@@ -1,0 +1,205 @@
+//! Rows of a measurement as text and as JSON.
+
+use super::measured::Measured;
+use crate::args::TradeArgs;
+use crate::mesh_file::Loaded;
+use crate::number::AtMost;
+use meshsweep::counted::Counted;
+use meshsweep::trade::{Board, Row, Spread, pareto};
+use serde_json::{Value, json};
+use std::io::{self, Write};
+
+/// Headings of the columns after structure and dials, each with its width.
+const COLUMNS: [(&str, usize); 11] = [
+    ("error", 11),
+    ("median", 11),
+    ("found low", 11),
+    ("found up", 11),
+    ("M4F mean", 9),
+    ("M4F worst", 9),
+    ("M0 mean", 9),
+    ("flash", 8),
+    ("scratch", 7),
+    ("stack", 5),
+    ("host ns", 8),
+];
+
+pub fn write(
+    out: &mut dyn Write,
+    args: &TradeArgs,
+    loaded: &Loaded,
+    measured: &Measured,
+) -> io::Result<()> {
+    let Measured { trade, diagonal, points, kind } = measured;
+    writeln!(
+        out,
+        "{}: {}, diagonal {}; {} {kind}",
+        args.mesh.display(),
+        Counted(loaded.mesh.triangles.len(), "triangle"),
+        AtMost(*diagonal),
+        Counted(*points, "point"),
+    )?;
+    loaded.write_unit(out)?;
+    let best = pareto(&trade.rows);
+    let of = |rows: &mut dyn Iterator<Item = &Row>| {
+        rows.map(|row| row.setting.structure.to_string().len()).max().unwrap_or(0)
+    };
+    let width = of(&mut trade.rows.iter());
+    writeln!(
+        out,
+        "\nnothing else has as small an error, as few instructions of a Cortex-M4F and as little \
+         flash"
+    )?;
+    write_rows(out, best.iter().filter_map(|&i| trade.rows.get(i)), width)?;
+    writeln!(out, "\nall")?;
+    write_rows(out, trade.rows.iter(), width)?;
+    if !trade.missing.is_empty() {
+        writeln!(out, "\nnot built")?;
+    }
+    for missing in &trade.missing {
+        let reason: Vec<&str> = missing.reason.lines().map(str::trim).collect();
+        writeln!(out, "  {}: {}", missing.structure, reason.join("; "))?;
+    }
+    write_notes(out, &trade.rows)?;
+    if trade.needles < MANY_NEEDLES {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "{:.0} % of the triangles are needles, fifty times as long as high: they take more \
+         instructions than\npredicted, of a comb of needles 2.2 times as many on a Cortex-M4F and \
+         4.5 times on a Cortex-M0",
+        100.0 * trade.needles
+    )
+}
+
+/// Part of the triangles that are needles from which on the report warns of them.
+const MANY_NEEDLES: f64 = 0.1;
+
+fn write_rows<'r>(
+    out: &mut dyn Write,
+    rows: impl Iterator<Item = &'r Row>,
+    width: usize,
+) -> io::Result<()> {
+    write!(out, "  {:<width$}  {:<18}", "structure", "dials")?;
+    for (heading, width) in COLUMNS {
+        write!(out, " {heading:>width$}")?;
+    }
+    writeln!(out)?;
+    for row in rows {
+        let text = row.setting.structure.to_string();
+        write!(out, "  {text:<width$}  {:<18}", row.setting.dials())?;
+        for (cell, (_, width)) in cells(row).iter().zip(COLUMNS) {
+            write!(out, " {cell:>width$}")?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+fn cells(row: &Row) -> [String; 11] {
+    let worst = |spread: Option<Spread>| {
+        spread.map_or("-".to_owned(), |spread| AtMost(spread.worst).to_string())
+    };
+    let median = |spread: Option<Spread>| {
+        spread.map_or("-".to_owned(), |spread| AtMost(spread.median).to_string())
+    };
+    let [m4f, m0] = row.boards;
+    let count = |count: Option<f64>| count.map_or("-".to_owned(), |x| format!("{x:.0}"));
+    [
+        worst(row.guaranteed),
+        median(row.guaranteed),
+        worst(Some(row.found_lower)),
+        worst(row.found_upper),
+        count(m4f.map(|board| board.mean)),
+        count(m4f.map(|board| board.worst)),
+        count(m0.map(|board| board.mean)),
+        row.flash.to_string(),
+        row.scratch.to_string(),
+        m4f.map_or("-".to_owned(), |board| board.stack.to_string()),
+        count(Some(row.nanoseconds)),
+    ]
+}
+
+fn write_notes(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
+    writeln!(
+        out,
+        "\nerror, median: width of the interval that holds, the largest and the median of these \
+         points, in\nthe mesh's unit; at other points it may be wider, and holds. found: the \
+         distance in f64 less the\nlower end, and the upper end less that distance, the largest. \
+         M4F, M0: instructions of a\nCortex-M4F and a Cortex-M0, predicted. flash: bytes of the \
+         blob. scratch: bytes, with what is kept\nbetween queries. stack: bytes of a Cortex-M4F's. \
+         host ns: of this machine, on one thread."
+    )?;
+    let mut said: Vec<String> = Vec::new();
+    for row in rows {
+        for (board, found) in Board::ALL.iter().zip(row.boards) {
+            let Some(found) = found else { continue };
+            let line = format!(
+                "  {}, {}: {:.0} % (median {:.0} %)",
+                board.name(),
+                row.setting.search().name(),
+                100.0 * found.error,
+                100.0 * found.typical
+            );
+            if !said.contains(&line) {
+                said.push(line);
+            }
+        }
+    }
+    said.sort();
+    writeln!(out, "a mean was predicted on meshes that the fit has not seen within")?;
+    said.iter().try_for_each(|line| writeln!(out, "{line}"))
+}
+
+pub fn write_json(out: &mut dyn Write, measured: &Measured) -> io::Result<()> {
+    let Measured { trade, diagonal, points, kind } = measured;
+    let best = pareto(&trade.rows);
+    let rows: Vec<Value> =
+        trade.rows.iter().enumerate().map(|(i, row)| as_json(row, best.contains(&i))).collect();
+    let missing = trade.missing.iter().map(
+        |missing| json!({ "structure": missing.structure.to_string(), "reason": missing.reason }),
+    );
+    let value = json!({
+        "points": points,
+        "kind": kind,
+        "diagonal": diagonal,
+        "pareto": best,
+        "needles": trade.needles,
+        "rows": rows,
+        "not_built": missing.collect::<Vec<_>>(),
+    });
+    serde_json::to_writer_pretty(&mut *out, &value)?;
+    writeln!(out)
+}
+
+fn as_json(row: &Row, is_best: bool) -> Value {
+    let spread = |spread: Spread| json!({ "worst": spread.worst, "median": spread.median });
+    let boards = Board::ALL.iter().zip(row.boards).filter_map(|(board, found)| {
+        let found = found?;
+        Some(json!({
+            "cpu": board.name(),
+            "mean": found.mean,
+            "worst": found.worst,
+            "error": found.error,
+            "typical": found.typical,
+            "stack": found.stack,
+        }))
+    });
+    let [nodes, triangles, exact, splits] = row.work;
+    let work = json!({ "nodes": nodes, "triangles": triangles, "exact": exact, "splits": splits });
+    json!({
+        "structure": row.setting.structure.to_string(),
+        "build": row.setting.structure.options(),
+        "dials": row.setting.dials(),
+        "pareto": is_best,
+        "guaranteed": row.guaranteed.map(spread),
+        "found_lower": spread(row.found_lower),
+        "found_upper": row.found_upper.map(spread),
+        "instructions": boards.collect::<Vec<_>>(),
+        "flash": row.flash,
+        "scratch": row.scratch,
+        "host_ns": row.nanoseconds,
+        "work": work,
+    })
+}

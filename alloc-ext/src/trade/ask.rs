@@ -1,0 +1,146 @@
+//! The answers of a setting, the work that they took, and the time of this machine.
+
+use super::cost::{Features, Shape};
+use super::setting::{How, Setting};
+use super::structure::Structure;
+use meshsweep_core::{
+    Blob, Budget, ClosestPoint, CoherentQuery, Hint, QueryError, ScratchEntry, Work,
+};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Entries of a coherent query's front.
+const FRONT: usize = 128;
+
+/// What one query answered.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Answer {
+    /// The distance is no less.
+    pub lower: f32,
+    /// The distance is no more; infinite if the structure has no upper bound.
+    pub upper: f32,
+    /// What its cost is predicted from.
+    pub features: Features,
+}
+
+/// What all queries answered.
+#[derive(Clone, Debug)]
+pub(super) struct Asked {
+    pub answers: Vec<Answer>,
+    /// Of a mean query on this machine.
+    pub nanoseconds: f64,
+    /// Bytes of scratch, and of what is kept between queries.
+    pub scratch: usize,
+}
+
+/// Asks a blob of a setting's structure twice: for the answers, and for the time.
+///
+/// # Errors
+/// A blob without the structure, or a point that is refused.
+pub(super) fn ask(
+    setting: &Setting,
+    bytes: &[u8],
+    points: &[[f32; 3]],
+) -> Result<Asked, QueryError> {
+    let blob = Blob::open(bytes).map_err(|_| QueryError::Unchecked)?;
+    let budget = setting.budget;
+    match setting.structure {
+        Structure::Tree(_) => {
+            let tree = blob.bvh()?;
+            let mut stack = entries(setting, tree.scratch_entries());
+            let scratch = size_of_val(stack.as_slice());
+            let of = Of { budget, shape: Shape::of_tree(&tree), scratch };
+            match setting.how {
+                How::Fresh => twice(points, &of, |p| {
+                    tree.closest_point(p, budget, &mut stack).map(of_closest)
+                }),
+                How::Hinted => {
+                    let mut hint = Hint::NONE;
+                    twice(points, &of, |p| {
+                        tree.closest_point_from(p, &mut hint, budget, &mut stack).map(of_closest)
+                    })
+                }
+                How::Coherent => {
+                    let mut kept = CoherentQuery::<FRONT>::new();
+                    let of = Of { scratch: scratch + size_of_val(&kept), ..of };
+                    twice(points, &of, |p| {
+                        let near = kept.closest_point(&tree, p, budget, &mut stack);
+                        near.map(|near| of_closest(near.closest))
+                    })
+                }
+            }
+        }
+        Structure::Sweep(_) | Structure::Refined(_) => {
+            let hull = blob.hull()?;
+            let enough = match setting.how {
+                How::Coherent => Setting::SWEEP_ENTRIES,
+                _ => hull.scratch_entries(),
+            };
+            let mut queue = entries(setting, enough);
+            let scratch = size_of_val(queue.as_slice());
+            let of = Of { budget, shape: Shape::of_hull(&hull), scratch };
+            if setting.how == How::Fresh {
+                return twice(points, &of, |p| {
+                    hull.closest_point(p, budget, &mut queue).map(of_closest)
+                });
+            }
+            let begin = points.first().copied().unwrap_or_default();
+            let mut sweep = hull.sweep(begin, &mut queue)?;
+            twice(points, &of, |p| {
+                sweep.move_to(p)?;
+                sweep.closest_point(budget).map(of_closest)
+            })
+        }
+        Structure::Tight(_) => {
+            let hull = blob.tight_hulls()?.finest().ok_or(QueryError::Unchecked)?;
+            let mut stack = entries(setting, hull.scratch_entries());
+            let scratch = size_of_val(stack.as_slice());
+            let of = Of { budget, shape: Shape::of_tight(&hull), scratch };
+            twice(points, &of, |p| hull.closest_point(p, budget, &mut stack).map(of_closest))
+        }
+        Structure::Triboxes(_) => {
+            let triboxes = blob.triboxes()?;
+            let mut stack = entries(setting, triboxes.scratch_entries());
+            let scratch = size_of_val(stack.as_slice());
+            let of = Of { budget, shape: Shape::of_triboxes(&triboxes), scratch };
+            twice(points, &of, |p| {
+                let bound = triboxes.distance(p, budget, &mut stack)?;
+                Ok((bound.lower, f32::INFINITY, bound.work))
+            })
+        }
+    }
+}
+
+fn entries(setting: &Setting, enough: usize) -> Vec<ScratchEntry> {
+    vec![ScratchEntry::EMPTY; setting.entries.unwrap_or(enough).min(enough).max(1)]
+}
+
+fn of_closest(near: ClosestPoint) -> (f32, f32, Work) {
+    (near.distance.lower, near.distance.upper, near.work)
+}
+
+/// What is the same of all queries of a setting.
+#[derive(Clone, Copy)]
+struct Of {
+    budget: Budget,
+    shape: Shape,
+    scratch: usize,
+}
+
+fn twice(
+    points: &[[f32; 3]],
+    of: &Of,
+    mut one: impl FnMut([f32; 3]) -> Result<(f32, f32, Work), QueryError>,
+) -> Result<Asked, QueryError> {
+    let answers = points.iter().map(|&point| {
+        let (lower, upper, work) = one(point)?;
+        Ok(Answer { lower, upper, features: of.shape.features(point, &of.budget, &work) })
+    });
+    let answers = answers.collect::<Result<Vec<_>, QueryError>>()?;
+    let begun = Instant::now();
+    for &point in points {
+        black_box(one(black_box(point))?);
+    }
+    let nanoseconds = begun.elapsed().as_nanos() as f64 / points.len().max(1) as f64;
+    Ok(Asked { answers, nanoseconds, scratch: of.scratch })
+}

@@ -1,0 +1,163 @@
+//! Instructions of a board from the work of a query.
+//!
+//! The work of a query is the same on every target. So the instructions of a board are a sum over
+//! the counters of [`Work`], each times a cost that was fitted to counts in an emulator. A cost is
+//! at least 0. `cargo xtask fit` fits them again, and prints the error on meshes that the fit has
+//! not seen.
+
+use meshsweep_core::{Budget, Bvh, Hull, TightHull, Triboxes, Work};
+
+/// A processor whose instructions are predicted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Board {
+    /// With a unit for f32.
+    CortexM4F,
+    /// Floats by instructions.
+    CortexM0,
+}
+
+impl Board {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::CortexM4F, Self::CortexM0];
+
+    /// Its name in tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::CortexM4F => "Cortex-M4F",
+            Self::CortexM0 => "Cortex-M0",
+        }
+    }
+}
+
+/// The searches whose costs differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Search {
+    /// The box tree's closest point, vertices on a grid of 16 bits.
+    Tree,
+    /// The same with vertices in f32.
+    TreeF32,
+    /// The box tree's closest point, from the leaf of the query before.
+    Hinted,
+    /// The box tree's closest point, by a front that is kept between queries.
+    Coherent,
+    /// The hull hierarchy's closest point, by a fresh sweep.
+    Sweep,
+    /// The same by one sweep that moves.
+    KeptSweep,
+    /// The distance of the mesh inside a tight hull.
+    Tight,
+    /// A lower bound of the distance from triboxes.
+    Triboxes,
+}
+
+impl Search {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::Tree,
+        Self::TreeF32,
+        Self::Hinted,
+        Self::Coherent,
+        Self::Sweep,
+        Self::KeptSweep,
+        Self::Tight,
+        Self::Triboxes,
+    ];
+
+    /// Its name in tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Tree => "box tree",
+            Self::TreeF32 => "box tree, f32",
+            Self::Hinted => "box tree, hinted",
+            Self::Coherent => "box tree, coherent",
+            Self::Sweep => "sweep",
+            Self::KeptSweep => "sweep, kept",
+            Self::Tight => "tight hull",
+            Self::Triboxes => "triboxes",
+        }
+    }
+}
+
+/// What the model multiplies by costs: see [`FEATURES`].
+pub type Features = [f64; 8];
+
+/// Names of the [`Features`]. `inside`: the point is in the structure's box. `leaf`: triangles
+/// divided by those of a mean leaf. `tolerant`: splits of a query with a tolerance.
+pub const FEATURES: [&str; 8] =
+    ["query", "inside", "node", "triangle", "exact", "split", "leaf", "tolerant"];
+
+/// What the features of a query need of its structure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    low: [f32; 3],
+    high: [f32; 3],
+    /// Triangles of a mean leaf; infinite if the structure has no leaves.
+    leaf: f64,
+}
+
+impl Shape {
+    /// Of a box tree.
+    #[must_use]
+    pub fn of_tree(tree: &Bvh<'_>) -> Self {
+        let ([low, high], header) = (tree.bounds(), tree.header());
+        Self { low, high, leaf: f64::from(header.triangles) / f64::from(header.leaves.max(1)) }
+    }
+
+    /// Of a hull hierarchy.
+    #[must_use]
+    pub fn of_hull(hull: &Hull<'_>) -> Self {
+        let [low, high] = hull.bounds();
+        Self { low, high, leaf: f64::INFINITY }
+    }
+
+    /// Of a tight hull.
+    #[must_use]
+    pub fn of_tight(hull: &TightHull<'_>) -> Self {
+        Self::of_tree(hull.bvh())
+    }
+
+    /// Of triboxes.
+    #[must_use]
+    pub fn of_triboxes(triboxes: &Triboxes<'_>) -> Self {
+        let corner = |of: [f32; 9]| [of[0], of[1], of[2]];
+        let corners = triboxes.node(0).map(|root| [root.low, root.high].map(corner));
+        let [low, high] = corners.unwrap_or_default();
+        Self { low, high, leaf: f64::INFINITY }
+    }
+
+    /// The features of a query.
+    #[must_use]
+    pub fn features(&self, point: [f32; 3], budget: &Budget, work: &Work) -> Features {
+        let counters = [work.nodes, work.triangles, work.exact, work.splits].map(f64::from);
+        let [nodes, triangles, exact, splits] = counters;
+        let is_inside = (0..3).all(|k| self.low[k] <= point[k] && point[k] <= self.high[k]);
+        let is_tolerant = budget.relative > 0.0 || budget.absolute > 0.0;
+        let of = |is: bool, count: f64| if is { count } else { 0.0 };
+        let inside = of(is_inside, 1.0);
+        let tolerant = of(is_tolerant, splits);
+        [1.0, inside, nodes, triangles, exact, splits, triangles / self.leaf, tolerant]
+    }
+}
+
+/// The costs of a search on a board.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cost {
+    /// Instructions for one of each feature.
+    pub instructions: Features,
+    /// Most bytes of the processor's stack below the caller that the emulator saw.
+    pub stack: u32,
+    /// Largest relative error of the mean of a question on meshes that the fit has not seen.
+    pub error: f64,
+    /// The median of these errors.
+    pub typical: f64,
+}
+
+impl Cost {
+    /// Instructions of a query, or of a mean query.
+    #[must_use]
+    pub fn of(&self, features: &Features) -> f64 {
+        self.instructions.iter().zip(features).map(|(cost, count)| cost * count).sum()
+    }
+}

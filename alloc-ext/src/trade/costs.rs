@@ -1,0 +1,170 @@
+//! Fitted costs. `cargo xtask fit` writes this file, from instructions that QEMU counts. The
+//! costs are in the order of `FEATURES`. They are fitted to `bracket.stl`, `groove.obj` and
+//! `torus.ply` of `fixtures` and to five meshes that `host-tests/src/counted/fit.rs`
+//! generates. That file also names the meshes that `error` and `typical` are of.
+
+use super::cost::{Board, Cost, Search};
+
+/// Costs by board and search.
+pub(super) const COSTS: [(Board, Search, Cost); 16] = [
+    (
+        Board::CortexM4F,
+        Search::Tree,
+        Cost {
+            instructions: [2153.7, 572.4, 0.0, 0.0, 0.0, 520.9, 1218.2, 132.9],
+            stack: 1660,
+            error: 0.107,
+            typical: 0.032,
+        },
+    ),
+    (
+        Board::CortexM4F,
+        Search::TreeF32,
+        Cost {
+            instructions: [2724.9, 1432.7, 0.0, 154.6, 0.0, 433.5, 1135.3, 108.4],
+            stack: 1660,
+            error: 0.125,
+            typical: 0.054,
+        },
+    ),
+    (
+        Board::CortexM4F,
+        Search::Hinted,
+        Cost {
+            instructions: [3592.7, 652.7, 0.0, 0.0, 0.0, 559.0, 1132.9, 0.0],
+            stack: 1660,
+            error: 0.131,
+            typical: 0.027,
+        },
+    ),
+    (
+        Board::CortexM4F,
+        Search::Coherent,
+        Cost {
+            instructions: [1858.8, 0.0, 70.9, 273.6, 0.0, 272.2, 0.0, 0.0],
+            stack: 1888,
+            error: 0.132,
+            typical: 0.080,
+        },
+    ),
+    (
+        Board::CortexM4F,
+        Search::Sweep,
+        Cost {
+            instructions: [14076.9, 6026.1, 391.6, 600.1, 10324.5, 759.5, 0.0, 367.7],
+            stack: 2924,
+            error: 0.054,
+            typical: 0.014,
+        },
+    ),
+    (
+        Board::CortexM4F,
+        Search::KeptSweep,
+        Cost {
+            instructions: [0.0, 7377.0, 386.2, 1491.8, 21241.9, 1683.9, 0.0, 265.8],
+            stack: 2516,
+            error: 0.169,
+            typical: 0.035,
+        },
+    ),
+    (
+        Board::CortexM4F,
+        Search::Tight,
+        Cost {
+            instructions: [0.0, 9595.5, 0.0, 0.0, 0.0, 668.9, 1456.6, 0.0],
+            stack: 3280,
+            error: 0.188,
+            typical: 0.047,
+        },
+    ),
+    (
+        Board::CortexM4F,
+        Search::Triboxes,
+        Cost {
+            instructions: [78.8, 0.0, 1333.6, 0.0, 0.0, 0.0, 0.0, 0.0],
+            stack: 956,
+            error: 0.043,
+            typical: 0.017,
+        },
+    ),
+    (
+        Board::CortexM0,
+        Search::Tree,
+        Cost {
+            instructions: [27482.1, 13088.8, 0.0, 0.0, 0.0, 0.0, 16902.9, 2251.9],
+            stack: 2100,
+            error: 0.370,
+            typical: 0.109,
+        },
+    ),
+    (
+        Board::CortexM0,
+        Search::TreeF32,
+        Cost {
+            instructions: [20187.4, 51140.6, 0.0, 0.0, 0.0, 0.0, 49299.6, 158.4],
+            stack: 2100,
+            error: 0.322,
+            typical: 0.129,
+        },
+    ),
+    (
+        Board::CortexM0,
+        Search::Hinted,
+        Cost {
+            instructions: [89513.7, 32104.7, 0.0, 0.0, 0.0, 0.0, 16155.6, 0.0],
+            stack: 2100,
+            error: 0.250,
+            typical: 0.092,
+        },
+    ),
+    (
+        Board::CortexM0,
+        Search::Coherent,
+        Cost {
+            instructions: [67711.8, 7302.7, 0.0, 6313.4, 0.0, 0.0, 0.0, 0.0],
+            stack: 2404,
+            error: 0.286,
+            typical: 0.190,
+        },
+    ),
+    (
+        Board::CortexM0,
+        Search::Sweep,
+        Cost {
+            instructions: [52936.8, 99208.5, 8476.5, 4701.9, 24888.3, 3256.5, 0.0, 981.6],
+            stack: 3092,
+            error: 0.078,
+            typical: 0.030,
+        },
+    ),
+    (
+        Board::CortexM0,
+        Search::KeptSweep,
+        Cost {
+            instructions: [0.0, 16441.1, 8188.9, 11034.5, 64526.9, 7813.1, 0.0, 207.8],
+            stack: 2588,
+            error: 0.281,
+            typical: 0.058,
+        },
+    ),
+    (
+        Board::CortexM0,
+        Search::Tight,
+        Cost {
+            instructions: [0.0, 420628.9, 0.0, 0.0, 0.0, 0.0, 27530.0, 0.0],
+            stack: 3756,
+            error: 0.280,
+            typical: 0.171,
+        },
+    ),
+    (
+        Board::CortexM0,
+        Search::Triboxes,
+        Cost {
+            instructions: [28185.3, 0.0, 0.0, 0.0, 0.0, 55015.7, 0.0, 0.0],
+            stack: 1164,
+            error: 0.056,
+            typical: 0.016,
+        },
+    ),
+];

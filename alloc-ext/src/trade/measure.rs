@@ -1,0 +1,224 @@
+//! Rows: each setting with its errors and costs, and which of them nothing else beats.
+
+use super::ask::{Asked, ask};
+use super::cost::Board;
+use super::fitted::cost;
+use super::setting::Setting;
+use super::structure::{Structure, build_all};
+use super::truth::Truth;
+use crate::mesh::{Input, Mesh};
+use glam::DVec3;
+use meshsweep_core::QueryError;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Of all queries the largest value and the median.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// The largest.
+    pub worst: f64,
+    /// Half of the queries have no more.
+    pub median: f64,
+}
+
+impl Spread {
+    /// `None` without values.
+    fn of(mut values: Vec<f64>) -> Option<Self> {
+        values.sort_by(f64::total_cmp);
+        let median = *values.get(values.len() / 2)?;
+        values.last().map(|&worst| Self { worst, median })
+    }
+}
+
+/// Predicted instructions of a board.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instructions {
+    /// Of a mean query.
+    pub mean: f64,
+    /// Of the dearest one.
+    pub worst: f64,
+    /// Largest relative error of a mean on meshes that the fit has not seen.
+    pub error: f64,
+    /// The median of these errors.
+    pub typical: f64,
+    /// Bytes of the processor's stack below the caller.
+    pub stack: u32,
+}
+
+/// A setting, its errors and its costs. Lengths are in the mesh's unit.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Row {
+    /// The setting.
+    pub setting: Setting,
+    /// Width of the interval. `None` if the structure gives a lower bound only.
+    pub guaranteed: Option<Spread>,
+    /// The distance in f64, less the lower end: the error of a caller that must keep clear.
+    pub found_lower: Spread,
+    /// The upper end, less the distance in f64. `None` without an upper end.
+    pub found_upper: Option<Spread>,
+    /// Of a mean query on this machine, on one thread.
+    pub nanoseconds: f64,
+    /// Predicted, in the order of [`Board::ALL`]; `None` if no cost was fitted.
+    pub boards: [Option<Instructions>; 2],
+    /// Bytes of the blob.
+    pub flash: usize,
+    /// Bytes of scratch, and of what is kept between queries.
+    pub scratch: usize,
+    /// Nodes, triangles, exact evaluations and splits of a mean query.
+    pub work: [f64; 4],
+}
+
+impl Row {
+    /// What settings are compared by: the largest guaranteed error, the mean instructions of a
+    /// Cortex-M4F, and the bytes of flash. `None` without an interval or a cost.
+    fn measures(&self) -> Option<[f64; 3]> {
+        let [m4f, _] = self.boards;
+        Some([self.guaranteed?.worst, m4f?.mean, self.flash as f64])
+    }
+}
+
+/// A setting that was not measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Missing {
+    /// Its structure.
+    pub structure: Structure,
+    /// Why.
+    pub reason: String,
+}
+
+/// What came of a measurement.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Trade {
+    /// In the order of the settings.
+    pub rows: Vec<Row>,
+    /// Structures that the mesh does not allow.
+    pub missing: Vec<Missing>,
+    /// The part of the triangles that are needles: fifty times as long as high, or more. Their
+    /// bounds are refined, which no counter tells, so more instructions are needed than predicted.
+    pub needles: f64,
+}
+
+/// How far a measurement is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Structures built, and settings asked.
+    pub done: usize,
+    /// Of so many.
+    pub of: usize,
+}
+
+/// Measures settings of a mesh at some points. Structures are built on all cores. `progress` is
+/// called from any of them.
+///
+/// # Errors
+/// A point that is not finite.
+pub fn measure(
+    input: Input<'_>,
+    points: &[[f32; 3]],
+    settings: &[Setting],
+    progress: impl Fn(Progress) + Sync,
+) -> Result<Trade, QueryError> {
+    let mut structures: Vec<Structure> = Vec::new();
+    for setting in settings {
+        if !structures.contains(&setting.structure) {
+            structures.push(setting.structure);
+        }
+    }
+    let (done, of) = (AtomicUsize::new(0), structures.len() + settings.len());
+    let step = || progress(Progress { done: done.fetch_add(1, Ordering::Relaxed) + 1, of });
+    let truth = Truth::of(input.mesh);
+    let distances: Vec<f64> = points.par_iter().map(|&point| truth.distance(point)).collect();
+    let is_refined = |structure: &Structure| matches!(structure, Structure::Refined(_));
+    let (refined, others): (Vec<Structure>, Vec<Structure>) =
+        structures.into_iter().partition(is_refined);
+    let mut groups: Vec<Vec<Structure>> = others.into_iter().map(|other| vec![other]).collect();
+    groups.push(refined);
+    let build = |group: &Vec<Structure>| {
+        let all = build_all(group, input);
+        group.iter().for_each(|_| step());
+        group.iter().copied().zip(all).collect::<Vec<_>>()
+    };
+    // The last ones take longest.
+    let built = groups.par_iter().rev().with_max_len(1).flat_map_iter(build);
+    let built: Vec<(Structure, Result<Vec<u8>, String>)> = built.collect();
+    let needles = needles(input.mesh);
+    let mut trade = Trade { rows: Vec::new(), missing: Vec::new(), needles };
+    for (structure, result) in built.iter().rev() {
+        if let Err(reason) = result {
+            trade.missing.push(Missing { structure: *structure, reason: reason.clone() });
+        }
+    }
+    for setting in settings {
+        let of = built.iter().find(|(structure, _)| *structure == setting.structure);
+        if let Some((_, Ok(bytes))) = of {
+            let asked = ask(setting, bytes, points)?;
+            trade.rows.extend(row(*setting, bytes.len(), &asked, &distances));
+        }
+        step();
+    }
+    Ok(trade)
+}
+
+/// Length over height from which on a triangle is a needle.
+const NEEDLE: f64 = 50.0;
+
+fn needles(mesh: &Mesh) -> f64 {
+    let is_needle = |[a, b, c]: [DVec3; 3]| {
+        let longest = (b - a).length_squared().max((c - b).length_squared());
+        let longest = longest.max((a - c).length_squared());
+        longest >= NEEDLE * (b - a).cross(c - a).length()
+    };
+    let count = mesh.corners_f64().filter(|&corners| is_needle(corners)).count();
+    count as f64 / mesh.triangles.len().max(1) as f64
+}
+
+fn row(setting: Setting, flash: usize, asked: &Asked, distances: &[f64]) -> Option<Row> {
+    let Asked { answers, nanoseconds, scratch } = asked;
+    let lower = |i: usize| f64::from(answers[i].lower);
+    let upper = |i: usize| f64::from(answers[i].upper);
+    let each = |of: &dyn Fn(usize) -> f64| Spread::of((0..answers.len()).map(of).collect());
+    let is_bounded = answers.iter().all(|answer| answer.upper.is_finite());
+    let boards = Board::ALL.map(|board| {
+        let cost = cost(board, setting.search())?;
+        let all = answers.iter().map(|answer| cost.of(&answer.features));
+        Some(Instructions {
+            mean: all.clone().sum::<f64>() / answers.len() as f64,
+            worst: all.fold(0.0, f64::max),
+            error: cost.error,
+            typical: cost.typical,
+            stack: cost.stack,
+        })
+    });
+    let mean = |feature: usize| {
+        answers.iter().map(|answer| answer.features[feature]).sum::<f64>() / answers.len() as f64
+    };
+    Some(Row {
+        setting,
+        guaranteed: each(&|i| upper(i) - lower(i)).filter(|_| is_bounded),
+        found_lower: each(&|i| (distances[i] - lower(i)).max(0.0))?,
+        found_upper: each(&|i| (upper(i) - distances[i]).max(0.0)).filter(|_| is_bounded),
+        nanoseconds: *nanoseconds,
+        boards,
+        flash,
+        scratch: *scratch,
+        work: [2, 3, 4, 5].map(mean),
+    })
+}
+
+/// The rows that nothing else beats, by their index: no other one has a smaller or equal guaranteed
+/// error, fewer or as many instructions of a Cortex-M4F, and less or as much flash, and is better
+/// in one of them. From the smallest error on. Of equal rows the first.
+#[must_use]
+pub fn pareto(rows: &[Row]) -> Vec<usize> {
+    let all: Vec<(usize, [f64; 3])> =
+        rows.iter().enumerate().filter_map(|(i, row)| Some((i, row.measures()?))).collect();
+    let beats = |(i, a): &(usize, [f64; 3]), (j, b): &(usize, [f64; 3])| {
+        a.iter().zip(b).all(|(a, b)| a <= b) && (a != b || i < j)
+    };
+    let mut best: Vec<_> =
+        all.iter().filter(|one| !all.iter().any(|other| beats(other, one))).collect();
+    best.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
+    best.into_iter().map(|&(index, _)| index).collect()
+}

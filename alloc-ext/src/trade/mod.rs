@@ -1,0 +1,39 @@
+//! The trade of a mesh, measured: what each setting of each structure promises, finds and costs.
+//!
+//! ```text
+//! settings ─ structures ─ blobs ─ ask ─┬─ intervals ─ truth ─ errors ─┬─ rows ─ pareto
+//! queries ─────────────────────────────┴─ work ─ costs ─ instructions ─┘
+//! ```
+//!
+//! | file | owns |
+//! | --- | --- |
+//! | `points` | points far from a mesh, near it, and along a path |
+//! | `setting` | a structure and its dials, and the list that [`measure()`] is given by default |
+//! | `structure` | the blob of a structure, or why there is none |
+//! | `ask` | the answers of a setting, their work, and the time of this machine |
+//! | `truth` | the distance from every triangle in f64; it shares no code with queries |
+//! | `cost` | instructions of a board from the work of a query |
+//! | `costs`, `fitted` | the fitted numbers, written by `cargo xtask fit`; looked up |
+//! | `measure` | the rows, and which of them nothing else beats |
+//!
+//! A guaranteed error is the width of an interval that holds. It is the largest among the measured
+//! queries, not a bound for all queries. Instructions are predicted by a linear model that was
+//! fitted to counts in an emulator. Its error on meshes that the fit has not seen is told by
+//! [`Cost::error`].
+
+mod ask;
+mod cost;
+mod costs;
+mod fitted;
+mod measure;
+mod points;
+mod setting;
+mod structure;
+mod truth;
+
+pub use cost::{Board, Cost, FEATURES, Features, Search, Shape};
+pub use fitted::cost;
+pub use measure::{Instructions, Missing, Progress, Row, Spread, Trade, measure, pareto};
+pub use points::{Points, points};
+pub use setting::{How, Setting, TreeBits, standard};
+pub use structure::{HullBits, Structure};

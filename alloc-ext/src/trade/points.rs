@@ -1,0 +1,115 @@
+//! Points far from a mesh, near it, and along a path.
+
+use crate::mesh::Mesh;
+use crate::random::SplitMix;
+use glam::DVec3;
+
+/// A kind of points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Points {
+    /// Uniform in a box twice the mesh's.
+    Far,
+    /// On the surface by area, then moved by a Gaussian of 1 % of the diagonal on each axis.
+    Near,
+    /// Along straight lines between near points, in steps of 0.1 % of the diagonal.
+    Path,
+}
+
+impl Points {
+    /// All kinds.
+    pub const ALL: [Self; 3] = [Self::Far, Self::Near, Self::Path];
+
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Far => "far",
+            Self::Near => "near",
+            Self::Path => "path",
+        }
+    }
+}
+
+/// Standard deviation of a near point about the surface, as a part of the diagonal.
+const NEAR: f64 = 0.01;
+
+/// Step of a path, as a part of the diagonal.
+const STEP: f64 = 0.001;
+
+/// `count` points of a kind, the same in every run. None if the mesh has no triangle with an area.
+#[must_use]
+pub fn points(mesh: &Mesh, kind: Points, count: usize) -> Vec<[f32; 3]> {
+    let surface = Surface::of(mesh);
+    if surface.sums.last().is_none_or(|&area| area <= 0.0) {
+        return Vec::new();
+    }
+    let mut random = SplitMix::new(0x7472_6164_6500 + kind as u64);
+    let single = |p: DVec3| p.as_vec3().to_array();
+    match kind {
+        Points::Far => {
+            let (middle, size) = ((surface.low + surface.high) * 0.5, surface.high - surface.low);
+            // A direction has coordinates from -1 to 1.
+            (0..count).map(|_| single(middle + random.direction() * size)).collect()
+        }
+        Points::Near => (0..count).map(|_| single(surface.near(&mut random))).collect(),
+        Points::Path => {
+            let step = STEP * surface.diagonal();
+            let (mut here, mut goal) = (surface.near(&mut random), surface.near(&mut random));
+            let mut next = || {
+                let left = goal - here;
+                if left.length() <= step {
+                    here = goal;
+                    goal = surface.near(&mut random);
+                } else {
+                    here += left * (step / left.length());
+                }
+                single(here)
+            };
+            (0..count).map(|_| next()).collect()
+        }
+    }
+}
+
+/// Triangles with running sums of their areas, and the box of all.
+struct Surface {
+    triangles: Vec<[DVec3; 3]>,
+    sums: Vec<f64>,
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Surface {
+    fn of(mesh: &Mesh) -> Self {
+        let triangles: Vec<[DVec3; 3]> = mesh.corners_f64().collect();
+        let mut sum = 0.0;
+        let sums = triangles.iter().map(|[a, b, c]| {
+            sum += (b - a).cross(c - a).length();
+            sum
+        });
+        let sums = sums.collect();
+        let corners = || triangles.iter().flatten();
+        let low = corners().fold(DVec3::INFINITY, |low, &p| low.min(p));
+        let high = corners().fold(DVec3::NEG_INFINITY, |high, &p| high.max(p));
+        Self { triangles, sums, low, high }
+    }
+
+    fn diagonal(&self) -> f64 {
+        (self.high - self.low).length()
+    }
+
+    fn near(&self, random: &mut SplitMix) -> DVec3 {
+        let at = random.roll() * self.sums.last().copied().unwrap_or(0.0);
+        let index = self.sums.partition_point(|&sum| sum <= at).min(self.triangles.len() - 1);
+        let [a, b, c] = self.triangles[index];
+        let (u, v) = (random.roll(), random.roll());
+        let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+        let off = DVec3::from_array([(); 3].map(|()| gaussian(random)));
+        a + (b - a) * u + (c - a) * v + off * (NEAR * self.diagonal())
+    }
+}
+
+/// Box & Muller (1958).
+fn gaussian(random: &mut SplitMix) -> f64 {
+    let radius = (-2.0 * (1.0 - random.roll()).ln()).sqrt();
+    radius * (std::f64::consts::TAU * random.roll()).cos()
+}

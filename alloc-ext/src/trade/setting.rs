@@ -1,0 +1,158 @@
+//! A structure and its dials, and the list that is measured by default.
+
+use super::cost::Search;
+use super::points::Points;
+use super::structure::{HullBits, Structure};
+use meshsweep_core::Budget;
+use std::fmt;
+
+pub use super::structure::TreeBits;
+
+/// What a query keeps of the one before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum How {
+    /// Nothing.
+    Fresh,
+    /// The leaf of the last answer, as in a batch.
+    Hinted,
+    /// A front of the box tree, or the triangles of a sweep.
+    Coherent,
+}
+
+/// A structure and its dials.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Setting {
+    /// The structure.
+    pub structure: Structure,
+    /// When a query may stop.
+    pub budget: Budget,
+    /// What a query keeps of the one before.
+    pub how: How,
+    /// Entries of scratch; `None`: as many as suffice, or [`SWEEP_ENTRIES`](Self::SWEEP_ENTRIES)
+    /// of a kept sweep.
+    pub entries: Option<usize>,
+}
+
+impl Setting {
+    /// Entries of a kept sweep unless told otherwise: 4 KiB. It keeps triangles in them from query
+    /// to query.
+    pub const SWEEP_ENTRIES: usize = 512;
+
+    /// Fresh queries, to the end, with enough scratch.
+    #[must_use]
+    pub const fn new(structure: Structure) -> Self {
+        Self { structure, budget: Budget::EXACT, how: How::Fresh, entries: None }
+    }
+
+    /// Sets the [budget](Self::budget).
+    #[must_use]
+    pub const fn with_budget(self, budget: Budget) -> Self {
+        Self { budget, ..self }
+    }
+
+    /// Sets [what is kept](Self::how).
+    #[must_use]
+    pub const fn with_how(self, how: How) -> Self {
+        Self { how, ..self }
+    }
+
+    /// Sets the [scratch](Self::entries).
+    #[must_use]
+    pub const fn with_entries(self, entries: usize) -> Self {
+        Self { entries: Some(entries), ..self }
+    }
+
+    /// The search whose costs it has.
+    #[must_use]
+    pub const fn search(&self) -> Search {
+        match (self.structure, self.how) {
+            (Structure::Tree(_), How::Coherent) => Search::Coherent,
+            (Structure::Tree(_), How::Hinted) => Search::Hinted,
+            (Structure::Tree(TreeBits::Sixteen), How::Fresh) => Search::Tree,
+            (Structure::Tree(TreeBits::ThirtyTwo), How::Fresh) => Search::TreeF32,
+            (Structure::Sweep(_) | Structure::Refined(_), How::Coherent) => Search::KeptSweep,
+            (Structure::Sweep(_) | Structure::Refined(_), _) => Search::Sweep,
+            (Structure::Tight(_), _) => Search::Tight,
+            (Structure::Triboxes(_), _) => Search::Triboxes,
+        }
+    }
+
+    /// The dials, in words.
+    #[must_use]
+    pub fn dials(&self) -> String {
+        let mut words = Vec::new();
+        match self.how {
+            How::Fresh => {}
+            How::Hinted => words.push("from the last leaf".to_owned()),
+            How::Coherent => words.push("coherent".to_owned()),
+        }
+        let Budget { relative, absolute, steps, .. } = self.budget;
+        if relative > 0.0 {
+            words.push(format!("rel {relative}"));
+        }
+        if absolute > 0.0 {
+            words.push(format!("abs {absolute}"));
+        }
+        if steps != u32::MAX {
+            words.push(format!("steps {steps}"));
+        }
+        if let Some(entries) = self.entries {
+            words.push(format!("scratch {entries}"));
+        }
+        if words.is_empty() {
+            words.push("exact".to_owned());
+        }
+        words.join(", ")
+    }
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.structure, self.dials())
+    }
+}
+
+/// Faces of the tight hulls that are measured. Hulls have no more faces than the mesh, but for the
+/// two coarsest.
+const FACES: [u32; 7] = [20, 50, 100, 200, 500, 1000, 2000];
+
+/// The settings that are measured by default, for a mesh of this diagonal and so many triangles.
+/// Coherent queries are among them if the points are a path, or the caller's own.
+#[must_use]
+pub fn standard(diagonal: f64, triangles: usize, points: Option<Points>) -> Vec<Setting> {
+    let exact = Budget::EXACT;
+    let near = |part: f64| one_digit(part * diagonal);
+    let tree = Setting::new(Structure::Tree(TreeBits::Sixteen));
+    let fine = Setting::new(Structure::Tree(TreeBits::ThirtyTwo));
+    let mut all = vec![tree];
+    all.extend([0.001, 0.01, 0.1].map(|part| tree.with_budget(exact.with_relative(part))));
+    all.extend([0.001, 0.01].map(|part| tree.with_budget(exact.with_absolute(near(part)))));
+    all.extend([4, 8, 16, 32].map(|steps| tree.with_budget(exact.with_steps(steps))));
+    all.push(tree.with_entries(8));
+    all.push(tree.with_how(How::Hinted));
+    let moves = points != Some(Points::Far) && points != Some(Points::Near);
+    if moves {
+        all.push(tree.with_how(How::Coherent));
+    }
+    all.extend([fine, fine.with_budget(exact.with_relative(0.01))]);
+    all.push(fine.with_budget(exact.with_steps(16)));
+    let faces = FACES.into_iter().filter(|&faces| faces as usize <= triangles.max(50));
+    all.extend(faces.map(|faces| Setting::new(Structure::Tight(faces))));
+    all.extend([8, 64].map(|count| Setting::new(Structure::Triboxes(count))));
+    all.extend([0.05, 0.01].map(|part| Setting::new(Structure::Refined(near(part)))));
+    let bits = [HullBits::Sixteen, HullBits::TwentyFour, HullBits::ThirtyTwo];
+    all.extend(bits.map(|bits| Setting::new(Structure::Sweep(bits))));
+    let sweep = Setting::new(Structure::Sweep(HullBits::ThirtyTwo));
+    all.push(sweep.with_budget(exact.with_relative(0.01)));
+    all.push(sweep.with_budget(exact.with_steps(64)));
+    if moves {
+        all.push(sweep.with_how(How::Coherent));
+    }
+    all
+}
+
+/// A length with one digit.
+fn one_digit(length: f64) -> f32 {
+    format!("{length:.0e}").parse().unwrap_or(length as f32)
+}

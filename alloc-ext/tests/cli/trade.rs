@@ -1,0 +1,126 @@
+//! `meshsweep trade`, and `build` with limits.
+
+use crate::support::{
+    arg, coarse_torus, distance, number, ok, parse_csv, random_queries, refused, run, scratch,
+    triangles, wide, write_csv,
+};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n\
+    f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+
+fn measured(mesh: &Path, options: &[&str]) -> Value {
+    let text = ok([&["trade", arg(mesh), "--json"], options].concat());
+    serde_json::from_str(&text).expect("it is JSON")
+}
+
+fn rows(trade: &Value) -> &[Value] {
+    trade["rows"].as_array().expect("there are rows")
+}
+
+fn worst(row: &Value, of: &str) -> Option<f64> {
+    row[of]["worst"].as_f64()
+}
+
+#[test]
+fn errors_are_those_of_an_independent_distance_and_the_first_table_is_what_nothing_beats() {
+    let directory = scratch("trade_errors");
+    let mesh = coarse_torus(&directory);
+    let (points, surface) = (directory.join("points.csv"), triangles(&mesh));
+    let queries = random_queries::<3>(&surface, 40);
+    write_csv(&points, &queries);
+    let trade = measured(&mesh, &["--at", arg(&points)]);
+    assert!(rows(&trade).len() > 22, "{}", rows(&trade).len());
+    for row in rows(&trade) {
+        let Some(guaranteed) = worst(row, "guaranteed") else {
+            assert!(row["structure"].as_str().is_some_and(|name| name.starts_with("triboxes")));
+            continue;
+        };
+        for of in ["found_lower", "found_upper"] {
+            let found = worst(row, of).expect("it is measured");
+            assert!(found <= guaranteed * (1.0 + 1e-12), "{row}");
+        }
+    }
+    require_pareto(&trade);
+    let find = |structure: &str, dials: &str| {
+        let is = |row: &&Value| row["structure"] == structure && row["dials"] == dials;
+        rows(&trade).iter().find(is).expect("it is measured")
+    };
+    let header = "x,y,z,lower,upper,px,py,pz,triangle,work";
+    for (dials, options) in [("exact", &[][..]), ("steps 4", &["--steps", "4"])] {
+        let row = find("box tree, 16 bits", dials);
+        let blob = directory.join("tree.msw");
+        let build = row["build"].as_str().expect("it says how");
+        let words: Vec<&str> = build.split(' ').collect();
+        ok([&["build", arg(&mesh), "-o", arg(&blob)], &words[..]].concat());
+        assert_eq!(fs::metadata(&blob).unwrap().len(), row["flash"].as_u64().unwrap());
+        let answers = ok([&["closest", arg(&blob), arg(&points)], options].concat());
+        let (mut width, mut low) = (0f64, 0f64);
+        for (answer, query) in parse_csv(&answers, header).iter().zip(&queries) {
+            let [lower, upper] = [number(&answer[3]), number(&answer[4])];
+            width = width.max(upper - lower);
+            low = low.max(distance(wide(query), &surface) - lower);
+        }
+        // A number of JSON may be read a little off.
+        let guaranteed = worst(row, "guaranteed").unwrap();
+        assert!((guaranteed - width).abs() <= 1e-12 * width, "{dials}: {guaranteed} {width}");
+        let found = worst(row, "found_lower").unwrap();
+        assert!((found - low).abs() < 1e-6, "{dials}: {found} {low}");
+    }
+}
+
+/// That no row of the first table is beaten, and every other one is.
+fn require_pareto(trade: &Value) {
+    let all: Vec<Option<[f64; 3]>> = rows(trade)
+        .iter()
+        .map(|row| {
+            let instructions = row["instructions"][0]["mean"].as_f64()?;
+            Some([worst(row, "guaranteed")?, instructions, row["flash"].as_f64()?])
+        })
+        .collect();
+    let beats = |a: [f64; 3], b: [f64; 3]| a != b && (0..3).all(|k| a[k] <= b[k]);
+    for (row, of) in rows(trade).iter().zip(&all) {
+        let is_beaten = of.is_none_or(|of| all.iter().flatten().any(|other| beats(*other, of)));
+        if row["pareto"] == true {
+            assert!(!is_beaten, "{row}");
+        } else {
+            let is_equal = of.is_some_and(|of| all.iter().filter(|o| **o == Some(of)).count() > 1);
+            assert!(is_beaten || is_equal, "{row}");
+        }
+    }
+}
+
+#[test]
+fn a_structure_that_an_open_mesh_does_not_allow_is_listed_with_its_reason() {
+    let directory = scratch("trade_open");
+    let mesh = directory.join("open.obj");
+    fs::write(&mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 2 4 3\n").unwrap();
+    let text = ok(["trade", arg(&mesh), "--points", "5"]);
+    let reasons = text.split("not built\n").nth(1).expect("some are not built");
+    assert!(reasons.contains("refined hull") && reasons.contains("edge"), "{reasons}");
+    assert!(text.lines().any(|line| line.trim_start().starts_with("sweep, 16 bits")), "{text}");
+}
+
+#[test]
+fn limits_choose_a_setting_that_meets_them_or_name_the_nearest() {
+    let directory = scratch("trade_limits");
+    let (mesh, blob) = (directory.join("cube.obj"), directory.join("part.msw"));
+    fs::write(&mesh, CUBE).unwrap();
+    let build = ["build", arg(&mesh), "-o", arg(&blob)];
+    let limits = ["--flash", "8K", "--ram", "4K", "--error", "0.01", "--cpu", "m4f:168MHz"];
+    let text = ok([&build[..], &limits[..], &["--rate", "1kHz"]].concat());
+    assert!(fs::metadata(&blob).unwrap().len() <= 8192);
+    for wanted in ["chosen: ", "why: ", "ask with: Budget::EXACT", "second: "] {
+        assert!(text.contains(wanted), "{wanted}: {text}");
+    }
+    fs::remove_file(&blob).unwrap();
+    let small = run([&build[..], &["--flash", "500", "--error", "1e-9"]].concat());
+    let said = refused(&small, 1, "cube.obj");
+    assert!(said.contains("the nearest is") && said.contains("--error"), "{said}");
+    assert!(!blob.exists());
+    for wrong in [&["--flash", "8K", "--for", "hull"][..], &["--cpu", "m0:48MHz"]] {
+        refused(&run([&build[..], wrong].concat()), 2, "--");
+    }
+}

@@ -1,0 +1,178 @@
+//! Questions that the costs of `meshsweep trade` are fitted to, and those that test the fit.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use meshsweep::mesh::{Input, Mesh, RawMesh, repair};
+use meshsweep::trade::{HullBits, Search, Shape, Structure, TreeBits};
+use meshsweep_core::{Blob, Budget, QueryError, Work};
+use meshsweep_counted::placed::{answers, expected};
+use meshsweep_suite::ask::placed::{Answer, Question};
+
+use super::placed::written;
+use crate::generate::{Triangles, cube, needle_comb, rough_sphere, torus, two_parts, uv_sphere};
+use crate::workload::{Points, Subject, points};
+
+/// Queries of a question.
+const QUERIES: usize = 200;
+
+/// Writes the questions of all meshes to `NUMBER.bin` of a folder, with the features of each query
+/// in `NUMBER.rows` and the answers of this machine in `NUMBER.expected`. `others` are mesh files
+/// that are tested only. Returns a line for each question: its search, whether it is fitted or
+/// tested, the mesh, and the question's dials, with tabs between them.
+///
+/// # Errors
+/// A fixture that is missing, a mesh file that is refused, or a folder that cannot be written.
+pub fn fit(fixtures: &Path, folder: &Path, others: &[&str]) -> Result<String, String> {
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let (mut lines, mut number) = (String::new(), 0);
+    for (role, subject) in subjects(fixtures, others)? {
+        for search in Search::ALL {
+            let Some(bytes) = built(&subject, search) else { continue };
+            for (kind, budget) in questions(search, subject.diagonal()) {
+                let question = question(search, budget);
+                let laid = written(question, &bytes, &points(&subject, kind, QUERIES));
+                let rows = rows(&laid, &bytes, search, budget)?;
+                let expected = expected(&laid, QUERIES)?;
+                let all = [
+                    ("bin", laid.as_slice()),
+                    ("rows", rows.as_bytes()),
+                    ("expected", expected.as_bytes()),
+                ];
+                for (ending, bytes) in all {
+                    let file = folder.join(format!("{number}.{ending}"));
+                    let failed = |error| format!("{}: {error}", file.display());
+                    std::fs::write(&file, bytes).map_err(failed)?;
+                }
+                let dials = format!("{} {}", kind.name(), dials(budget));
+                let _ = writeln!(lines, "{search:?}\t{role}\t{}\t{dials}", subject.name);
+                number += 1;
+            }
+        }
+    }
+    Ok(lines)
+}
+
+/// Meshes to fit to, then meshes to test on.
+fn subjects(fixtures: &Path, others: &[&str]) -> Result<Vec<(&'static str, Subject)>, String> {
+    let load = |name: &str| Subject::load(&fixtures.join(name));
+    let made = |name: &str, (positions, triangles): Triangles| {
+        let raw = RawMesh::from_f32(&positions, &triangles);
+        let (mesh, _) = repair(raw).map_err(|error| error.to_string())?;
+        Ok::<_, String>(Subject::of(name, mesh))
+    };
+    let mut all = vec![
+        ("fit", load("bracket.stl")?),
+        ("fit", load("groove.obj")?),
+        ("fit", load("torus.ply")?),
+        ("fit", made("rough sphere 4, 0.05", rough_sphere(4, 0.05, 1))?),
+        ("fit", made("sphere 40x20", uv_sphere(40, 20))?),
+        ("fit", made("torus 120x60", torus(2.0, 0.75, 120, 60))?),
+        ("fit", made("cube 5", cube(5))?),
+        ("fit", made("rough sphere 3, 0.2", rough_sphere(3, 0.2, 7))?),
+        ("test", made("cube 12", cube(12))?),
+        ("test", made("rough sphere 3, 0.3", rough_sphere(3, 0.3, 9))?),
+        ("test", made("rough sphere 5, 0.02", rough_sphere(5, 0.02, 3))?),
+        ("test", made("torus 80x30", torus(3.0, 0.5, 80, 30))?),
+        ("needles", made("needle comb", needle_comb())?),
+        ("test", made("two parts", two_parts())?),
+    ];
+    for other in others {
+        all.push(("other", Subject::load_any(Path::new(other))?));
+    }
+    Ok(all)
+}
+
+fn built(subject: &Subject, search: Search) -> Option<Vec<u8>> {
+    let structure = match search {
+        Search::Tree | Search::Hinted | Search::Coherent => Structure::Tree(TreeBits::Sixteen),
+        Search::TreeF32 => Structure::Tree(TreeBits::ThirtyTwo),
+        Search::Sweep | Search::KeptSweep => Structure::Sweep(HullBits::ThirtyTwo),
+        Search::Tight => Structure::Tight(200),
+        Search::Triboxes => Structure::Triboxes(64),
+    };
+    let mesh: &Mesh = &subject.mesh;
+    let input = Input { input_triangles: subject.triangles_read, ..mesh.as_input() };
+    structure.build(input).ok()
+}
+
+fn questions(search: Search, diagonal: f64) -> Vec<(Points, Budget)> {
+    use Points::{Far, Near, Path};
+    let exact = Budget::EXACT;
+    let steps = |steps: u32| exact.with_steps(steps);
+    match search {
+        Search::Tree | Search::TreeF32 => vec![
+            (Far, exact),
+            (Near, exact),
+            (Near, exact.with_relative(0.01)),
+            (Far, exact.with_relative(0.1)),
+            (Near, exact.with_absolute((0.01 * diagonal) as f32)),
+            (Near, steps(4)),
+            (Far, steps(8)),
+            (Near, steps(16)),
+        ],
+        Search::Sweep => vec![
+            (Far, exact),
+            (Near, exact),
+            (Near, exact.with_relative(0.01)),
+            (Far, exact.with_relative(0.1)),
+            (Far, steps(32)),
+            (Near, steps(64)),
+        ],
+        Search::KeptSweep => vec![(Path, exact), (Path, exact.with_relative(0.1)), (Near, exact)],
+        Search::Coherent => vec![(Path, exact), (Near, exact)],
+        Search::Hinted | Search::Triboxes => vec![(Far, exact), (Near, exact), (Path, exact)],
+        Search::Tight => vec![(Far, exact), (Near, exact), (Near, steps(8)), (Far, steps(4))],
+    }
+}
+
+fn question(search: Search, budget: Budget) -> Question {
+    match search {
+        Search::Tree | Search::TreeF32 => Question::Tree(budget),
+        Search::Hinted => Question::Hinted(budget),
+        Search::Coherent => Question::Coherent(budget),
+        Search::Sweep => Question::Sweep(budget),
+        Search::KeptSweep => Question::KeptSweep(budget),
+        Search::Tight => Question::Tight(budget),
+        Search::Triboxes => Question::Triboxes(budget),
+    }
+}
+
+fn dials(budget: Budget) -> String {
+    let Budget { relative, absolute, steps, .. } = budget;
+    if relative > 0.0 {
+        format!("rel {relative}")
+    } else if absolute > 0.0 {
+        "abs 1 %".to_owned()
+    } else if steps < u32::MAX {
+        format!("steps {steps}")
+    } else {
+        "exact".to_owned()
+    }
+}
+
+/// The features of each query, a line each.
+fn rows(laid: &[u8], blob: &[u8], search: Search, budget: Budget) -> Result<String, String> {
+    let said = |error: QueryError| error.to_string();
+    let blob = Blob::open(blob).map_err(|error| error.to_string())?;
+    let shape = match search {
+        Search::Sweep | Search::KeptSweep => Shape::of_hull(&blob.hull().map_err(said)?),
+        Search::Tight => {
+            let hulls = blob.tight_hulls().map_err(said)?;
+            Shape::of_tight(&hulls.finest().ok_or("no hull")?)
+        }
+        Search::Triboxes => Shape::of_triboxes(&blob.triboxes().map_err(said)?),
+        _ => Shape::of_tree(&blob.bvh().map_err(said)?),
+    };
+    let mut rows = String::new();
+    answers(laid, QUERIES, |point, answer| {
+        let work = match answer {
+            Answer::Closest(near) => near.work,
+            Answer::Bound(bound) => bound.work,
+            _ => Work::NONE,
+        };
+        let row = shape.features(point, &budget, &work).map(|x| x.to_string()).join(" ");
+        let _ = writeln!(rows, "{row}");
+    })?;
+    Ok(rows)
+}
