@@ -15,6 +15,20 @@ pub(crate) struct Given<'a> {
     moved: Vec<f64>,
 }
 
+/// Whether triangles run through every edge as often in one direction as in the other.
+pub(crate) fn is_closed(mesh: &Mesh) -> bool {
+    let mut edges: Vec<(u32, u32, i32)> = Vec::with_capacity(3 * mesh.triangles.len());
+    for corners in &mesh.triangles {
+        for k in 0..3 {
+            let (from, to) = (corners[k], corners[(k + 1) % 3]);
+            edges.push((from.min(to), from.max(to), if from < to { 1 } else { -1 }));
+        }
+    }
+    edges.sort_unstable();
+    let balanced = |edge: &[(u32, u32, i32)]| edge.iter().map(|(_, _, way)| way).sum::<i32>() == 0;
+    !edges.is_empty() && edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(balanced)
+}
+
 /// How often `f64` could not tell whether a corner is near.
 pub(crate) type ByIntegers = usize;
 

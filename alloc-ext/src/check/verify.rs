@@ -5,6 +5,7 @@ use super::finding::Finding;
 use super::tree::prove_tree;
 use super::{curve, hull, tight, triboxes};
 use crate::mesh::{Input, KeyFrame};
+use meshsweep_core::Blob;
 
 const BYTES: &str = "blob";
 const TREE: &str = "box tree";
@@ -29,7 +30,8 @@ const KINDS: [(&str, &[u32]); 5] = [
 ];
 
 /// Proves a blob from its bytes and the mesh or the curves that it was built from. Every claim has
-/// a finding: proved, failed, or without a proof. Structures that the blob lacks have none.
+/// a finding: proved, failed, or without a proof. Structures that the blob lacks have none. Any
+/// bytes are safe. Those that [`Blob::open`] refuses fail.
 ///
 /// Arithmetic: integers decide planes, boxes, corners and meetings. Radii and distances between
 /// surfaces are compared in `f64`, up to 1e-12 of themselves and 1e-14 of the mesh's size.
@@ -38,6 +40,10 @@ const KINDS: [(&str, &[u32]); 5] = [
 /// face and each triangle.
 #[must_use]
 pub fn verify(bytes: &[u8], against: Against<'_>) -> Vec<Finding> {
+    // The reader can only refuse. No proof rests on it.
+    if let Err(error) = Blob::open(bytes) {
+        return vec![Finding::failed(BYTES, error.to_string())];
+    }
     let mut out = Vec::new();
     let kinds: Vec<u32> = entries(bytes).iter().map(|entry| entry.kind).collect();
     let whole = check_header(bytes).and_then(|()| {

@@ -3,7 +3,7 @@
 
 use super::parse::TreeBlob;
 use super::proof::TreeProof;
-use crate::check::input::Given;
+use crate::check::input::{Given, is_closed};
 use crate::mesh::Mesh;
 
 /// Every triangle of the mesh, and every wire as one, is stored exactly once, with its number, its
@@ -46,18 +46,10 @@ pub(super) fn reach(tree: &TreeBlob) -> Result<(), String> {
     Ok(())
 }
 
-/// The header's flag says whether the mesh is closed.
+/// The header's flag says whether the mesh is closed, and has sides: walls that repair merged leave
+/// it none.
 pub(super) fn closed(tree: &TreeBlob, mesh: &Mesh) -> Result<(), String> {
-    let mut edges: Vec<(u32, u32, i32)> = Vec::with_capacity(3 * mesh.triangles.len());
-    for corners in &mesh.triangles {
-        for k in 0..3 {
-            let (from, to) = (corners[k], corners[(k + 1) % 3]);
-            edges.push((from.min(to), from.max(to), if from < to { 1 } else { -1 }));
-        }
-    }
-    edges.sort_unstable();
-    let balanced = |edge: &[(u32, u32, i32)]| edge.iter().map(|(_, _, way)| way).sum::<i32>() == 0;
-    let closed = !edges.is_empty() && edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(balanced);
+    let closed = is_closed(mesh) && !mesh.has_merged_walls;
     if closed == tree.closed {
         Ok(())
     } else {
