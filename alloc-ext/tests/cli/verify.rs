@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 // Kinds of sections.
 const VERTICES: u32 = 1;
+const SPLITS: u32 = 3;
 const RADII: u32 = 5;
 const SOURCE: u32 = 9;
 const LEVELS: u32 = 10;
@@ -125,6 +126,19 @@ fn box_trees_are_proved_and_changed_ones_are_not() {
 }
 
 #[test]
+fn a_crack_that_the_grid_closes_is_a_boundary_still() {
+    let directory = scratch("verify_crack");
+    let (path, mesh) = (directory.join("crack.msw"), directory.join("crack.obj"));
+    let square = |x: f32| format!("v {x} 0 0\nv {} 0 0\nv {} 1 0\nv {x} 1 0\n", x + 1.0, x + 1.0);
+    let faces = "f 1 2 3 4\nf 5 6 7 8\n";
+    fs::write(&mesh, format!("{}{}{faces}", square(0.0), square(1.000_001))).unwrap();
+    ok(["build", arg(&mesh), "-o", arg(&path), "--for", "closest,winding"]);
+    let case = Case::new(&directory, path, &[mesh]);
+    // Eight sides, of which two are those of the crack.
+    case.fails("moments of node 0: a boundary of", |b| scale(b, start(b, MOMENTS) + 56, 0.875));
+}
+
+#[test]
 fn hull_hierarchies_are_proved_and_changed_ones_are_not() {
     let directory = scratch("verify_hull");
     let mesh = fixture("groove.obj");
@@ -138,6 +152,15 @@ fn hull_hierarchies_are_proved_and_changed_ones_are_not() {
     });
     case.fails("hull hierarchy: the triangle stored as", |b| b[start(b, SOURCE) + 2] ^= 1);
     case.fails("its void is", |b| put(b, start(b, LEVELS) + 16, f32::NAN.to_bits()));
+    // Errors of 0 would tell a refinement that no split is needed.
+    case.fails("a part that it removes has no finite radius", |b| {
+        let (first, last) = (start(b, RADII), end(b, RADII));
+        b[first..last].iter_mut().filter(|code| **code > 0).for_each(|code| *code = 255);
+        let record = (end(b, SPLITS) - start(b, SPLITS)) / word(b, 64).unwrap() as usize;
+        (1..=word(b, 64).unwrap() as usize).for_each(|k| b[start(b, SPLITS) + k * record - 1] = 0);
+        let levels = word(b, 80).unwrap() as usize;
+        (1..levels).for_each(|k| put(b, start(b, LEVELS) + 20 * k - 8, f32::INFINITY.to_bits()));
+    });
     // A triangle of the surface: the last split's last one.
     case.fails("is its own part and has radius", |b| {
         let radii = end(b, RADII);

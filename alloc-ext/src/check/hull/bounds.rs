@@ -122,6 +122,8 @@ pub(super) fn errors(blob: &Blob) -> Result<(), String> {
                 radius_of.get(&removed).ok_or(format!("split {index} lacks a triangle"))?;
             if radius.is_finite() {
                 largest = largest.max(*radius);
+            } else if blob.encloses {
+                return Err(format!("split {index}: a part that it removes has no finite radius"));
             }
         }
         if largest != *error {

@@ -7,12 +7,13 @@ use crate::check::input::{Given, is_closed};
 use crate::mesh::Mesh;
 
 /// Every triangle of the mesh, and every wire as one, is stored exactly once, with its number, its
-/// winding, and its corners within the surface error.
+/// winding, and its corners within the surface error. Returns the mesh's vertices at the corners of
+/// all stored triangles.
 pub(super) fn triangles(
     tree: &TreeBlob,
     given: &Given<'_>,
     proof: &mut TreeProof,
-) -> Result<(), String> {
+) -> Result<Vec<[u32; 3]>, String> {
     let count = given.mesh.all_triangles().count();
     if tree.source.len() != count {
         return Err(format!("{} triangles of {count}", tree.source.len()));
@@ -24,7 +25,7 @@ pub(super) fn triangles(
     let (found, exact) = given.find(wanted, tree.triangles(), tree.surface_error, false)?;
     proof.triangles += found.len();
     proof.exact_corners += exact;
-    Ok(())
+    Ok(found)
 }
 
 /// The header's reach is no less than any triangle's two spokes, by their 1-norms.
