@@ -204,16 +204,15 @@ fn a_mesh_of_merged_walls_has_no_sides() {
 }
 
 #[test]
-fn bytes_that_do_not_open_are_no_proof_and_no_panic() {
+fn a_level_of_more_splits_than_there_are_is_no_proof_and_no_panic() {
     let mut bytes = fs::read(fixture("bracket.msw")).unwrap();
-    // More splits than there are.
     let splits = start(&bytes, LEVELS) + 4;
     put(&mut bytes, splits, u32::MAX);
     mend(&mut bytes);
     let (mesh, _) = mesh::repair(mesh::read(&fixture("bracket.stl")).unwrap()).unwrap();
     let findings = verify(&bytes, Against::Mesh(mesh.as_input(), &[]));
     let outcomes: Vec<_> = findings.iter().map(|of| (of.structure, of.outcome)).collect();
-    assert_eq!(outcomes, [("blob", Outcome::Failed)]);
+    assert_eq!(outcomes, [("hull hierarchy", Outcome::Failed)]);
 }
 
 #[test]
