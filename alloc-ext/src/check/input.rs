@@ -15,6 +15,20 @@ pub(crate) struct Given<'a> {
     moved: Vec<f64>,
 }
 
+/// Whether triangles run through every edge as often in one direction as in the other.
+pub(crate) fn is_closed(mesh: &Mesh) -> bool {
+    let mut edges: Vec<(u32, u32, i32)> = Vec::with_capacity(3 * mesh.triangles.len());
+    for corners in &mesh.triangles {
+        for k in 0..3 {
+            let (from, to) = (corners[k], corners[(k + 1) % 3]);
+            edges.push((from.min(to), from.max(to), if from < to { 1 } else { -1 }));
+        }
+    }
+    edges.sort_unstable();
+    let balanced = |edge: &[(u32, u32, i32)]| edge.iter().map(|(_, _, way)| way).sum::<i32>() == 0;
+    !edges.is_empty() && edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(balanced)
+}
+
 /// How often `f64` could not tell whether a corner is near.
 pub(crate) type ByIntegers = usize;
 
@@ -39,7 +53,8 @@ impl<'a> Given<'a> {
 
     /// The mesh's triangles in the order of `stored`, each from the corner with which the stored
     /// one begins. Each is found by its number and by its corners within `error` of the input's,
-    /// beginning with any of them, in the input's winding or in any. A repaired mesh may have
+    /// beginning with any of them, in the input's winding or in any. Where the error does not tell
+    /// corners apart, each is the nearest. A repaired mesh may have
     /// triangles that share a number. Their corners tell them apart.
     ///
     /// # Errors
@@ -61,9 +76,18 @@ impl<'a> Given<'a> {
             let mut free = candidates.filter(|(.., used)| !used);
             let near = |at: [u32; 3], exact: &mut usize| {
                 let turns = (0..3).map(|turn| [0, 1, 2].map(|k| at[(k + turn) % 3]));
-                turns
-                    .into_iter()
-                    .find(|at| (0..3).all(|k| self.is_near(corners[k], at[k], error, exact)))
+                let mut near = turns
+                    .filter(|at| (0..3).all(|k| self.is_near(corners[k], at[k], error, exact)));
+                let first = near.next()?;
+                let away = |at: &[u32; 3]| (0..3).map(|k| self.square(corners[k], at[k])).sum();
+                let (mut best, mut least): ([u32; 3], f64) = (first, away(&first));
+                for at in near {
+                    let here = away(&at);
+                    if here < least {
+                        (best, least) = (at, here);
+                    }
+                }
+                Some(best)
             };
             let turned = |[a, b, c]: [u32; 3]| [a, c, b];
             let slot = free.find_map(|slot| {
@@ -89,6 +113,12 @@ impl<'a> Given<'a> {
             Some((number, ..)) => Err(format!("triangle {number} of the mesh is not stored")),
             None => Ok((found, exact)),
         }
+    }
+
+    /// The squared distance of a stored place from the input's vertex.
+    fn square(&self, stored: [f64; 3], vertex: u32) -> f64 {
+        let there = self.place(vertex);
+        (0..3).map(|k| (stored[k] - there[k]) * (stored[k] - there[k])).sum()
     }
 
     /// Whether a stored place is within `error` of the input's vertex. All factors are powers of

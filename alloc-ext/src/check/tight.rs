@@ -5,10 +5,9 @@ use super::bytes::{Cursor, section};
 use super::enclosure::{Surface, check_enclosure};
 use super::finding::Finding;
 use super::near::{Near, Verdict};
-use super::tree::prove_faces;
+use super::tree::{prove_faces, welded};
 use crate::mesh::{Input, Mesh};
 use glam::DVec3;
-use std::collections::HashMap;
 
 const TIGHT: &str = "tight hulls";
 
@@ -65,23 +64,6 @@ fn hulls(bytes: &[u8]) -> Result<Vec<Hull>, String> {
         });
     }
     Ok(hulls)
-}
-
-/// Corners at the same place are one vertex.
-fn welded(triangles: impl Iterator<Item = [[f64; 3]; 3]>) -> Surface {
-    let mut number: HashMap<[u64; 3], u32> = HashMap::new();
-    let mut surface = Surface::default();
-    for corners in triangles {
-        let corners = corners.map(|p| {
-            // Both zeros are one place.
-            *number.entry(p.map(|x| (x + 0.0).to_bits())).or_insert_with(|| {
-                surface.positions.push(p);
-                surface.positions.len() as u32 - 1
-            })
-        });
-        surface.triangles.push(corners);
-    }
-    surface
 }
 
 fn places(surface: &Surface) -> Vec<[DVec3; 3]> {

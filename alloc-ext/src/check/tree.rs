@@ -14,10 +14,12 @@ mod parse;
 mod proof;
 mod surface;
 
+use super::enclosure::Surface;
 use super::input::{Given, Stored};
 use crate::mesh::{Input, Mesh};
 use parse::TreeBlob;
 pub use proof::TreeProof;
+use std::collections::HashMap;
 
 /// Proves that a blob's box tree is one of `mesh`, which no vertex was moved in before but by
 /// [`Mesh::rounding`].
@@ -34,9 +36,10 @@ pub fn check_tree(bytes: &[u8], mesh: &Mesh) -> Result<TreeProof, String> {
 pub(crate) fn prove_tree(bytes: &[u8], input: Input<'_>) -> Result<TreeProof, String> {
     let tree = TreeBlob::parse(bytes)?;
     let mut proof = boxes(&tree)?;
-    surface::triangles(&tree, &Given::new(input, tree.scale_exponent), &mut proof)?;
+    let given = Given::new(input, tree.scale_exponent);
+    let corners = surface::triangles(&tree, &given, &mut proof)?;
     surface::closed(&tree, input.mesh)?;
-    measures(&tree, &mut proof)?;
+    measures(&tree, &corners, &mut proof)?;
     Ok(proof)
 }
 
@@ -54,12 +57,27 @@ pub(crate) struct Faces {
 /// Proves all of a blob's box tree but that it is the tree of a mesh.
 pub(crate) fn prove_faces(bytes: &[u8]) -> Result<Faces, String> {
     let tree = TreeBlob::parse(bytes)?;
-    measures(&tree, &mut boxes(&tree)?)?;
-    Ok(Faces {
-        triangles: tree.triangles().collect(),
-        scale_exponent: tree.scale_exponent,
-        surface_error: tree.surface_error,
-    })
+    let triangles: Vec<Stored> = tree.triangles().collect();
+    let corners = welded(triangles.iter().map(|(_, corners)| *corners)).triangles;
+    measures(&tree, &corners, &mut boxes(&tree)?)?;
+    Ok(Faces { triangles, scale_exponent: tree.scale_exponent, surface_error: tree.surface_error })
+}
+
+/// Corners at the same place are one vertex.
+pub(crate) fn welded(triangles: impl Iterator<Item = [[f64; 3]; 3]>) -> Surface {
+    let mut number: HashMap<[u64; 3], u32> = HashMap::new();
+    let mut surface = Surface::default();
+    for corners in triangles {
+        let corners = corners.map(|p| {
+            // Both zeros are one place.
+            *number.entry(p.map(|x| (x + 0.0).to_bits())).or_insert_with(|| {
+                surface.positions.push(p);
+                surface.positions.len() as u32 - 1
+            })
+        });
+        surface.triangles.push(corners);
+    }
+    surface
 }
 
 /// Every box holds what is below it.
@@ -73,9 +91,9 @@ fn boxes(tree: &TreeBlob) -> Result<TreeProof, String> {
     Ok(proof)
 }
 
-/// What the header, moments and cones say of the stored triangles.
-fn measures(tree: &TreeBlob, proof: &mut TreeProof) -> Result<(), String> {
+/// What the header, moments and cones say of the stored triangles, whose corners have these numbers.
+fn measures(tree: &TreeBlob, corners: &[[u32; 3]], proof: &mut TreeProof) -> Result<(), String> {
     surface::reach(tree)?;
-    moments::moments(tree, proof)?;
+    moments::moments(tree, corners, proof)?;
     cones::cones(tree, proof)
 }

@@ -15,7 +15,7 @@ mod plane;
 
 use super::enclosure::{Surface, Winding};
 use super::finding::Finding;
-use super::input::Given;
+use super::input::{Given, is_closed};
 use super::near::{Near, Verdict};
 use super::planar::Polygon;
 use crate::mesh::Input;
@@ -155,6 +155,9 @@ fn findings(bytes: &[u8], input: Input<'_>, out: &mut Vec<Finding>) -> Result<()
         ],
     ));
     if triboxes.is_solid {
+        if !is_closed(given.mesh) {
+            return Err("they claim to hold the inside of a mesh that is not closed".into());
+        }
         let place = |v: u32| given.place(v).map(|x| x / unit);
         let surface = Surface {
             positions: (0..given.mesh.positions.len() as u32).map(place).collect(),

@@ -31,11 +31,16 @@ const KINDS: [(&str, &[u32]); 5] = [
 /// Proves a blob from its bytes and the mesh or the curves that it was built from. Every claim has
 /// a finding: proved, failed, or without a proof. Structures that the blob lacks have none.
 ///
+/// The bytes must open, by [`Blob::open`](meshsweep_core::Blob::open).
+///
 /// Arithmetic: integers decide planes, boxes, corners and meetings. Radii and distances between
 /// surfaces are compared in `f64`, up to 1e-12 of themselves and 1e-14 of the mesh's size.
 ///
 /// Cost: of a box tree its vertices times its depth, of hulls some dozen closest points for each
 /// face and each triangle.
+///
+/// # Panics
+/// It may, if the bytes do not open.
 #[must_use]
 pub fn verify(bytes: &[u8], against: Against<'_>) -> Vec<Finding> {
     let mut out = Vec::new();

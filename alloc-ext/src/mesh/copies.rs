@@ -17,19 +17,26 @@ pub(super) struct Copies {
     pub(super) raw: RawMesh,
     most: usize,
     copies: usize,
+    corners: usize,
 }
 
 impl Copies {
     /// Of a file of so many bytes.
     pub(super) fn new(file: &Path, bytes: usize) -> Self {
         let raw = RawMesh { file: file.to_owned(), ..RawMesh::from_f64(Vec::new(), Vec::new()) };
-        Self { raw, most: bytes.max(MOST), copies: 0 }
+        Self { raw, most: bytes.clamp(MOST, u32::MAX as usize / 3), copies: 0, corners: 0 }
     }
 
     /// Counts a copy.
     pub(super) fn count(&mut self) -> Result<(), MeshError> {
         self.copies += 1;
         self.within("copies of meshes", self.copies, MOST_COPIES)
+    }
+
+    /// Counts corners that are read for a copy: a strip may have any number without a triangle.
+    pub(super) fn count_corners(&mut self, corners: usize) -> Result<(), MeshError> {
+        self.corners = self.corners.saturating_add(corners);
+        self.within("corners", self.corners, self.most.saturating_mul(3))
     }
 
     /// Puts vertices in place; the number of the first.
@@ -76,7 +83,7 @@ impl Copies {
     }
 
     fn within(&self, what: &'static str, count: usize, most: usize) -> Result<(), MeshError> {
-        if count <= most.min(u32::MAX as usize / 3) {
+        if count <= most.min(u32::MAX as usize) {
             return Ok(());
         }
         Err(MeshError::Malformed {

@@ -193,8 +193,11 @@ pub struct RawMesh {
 pub struct LeftOut {
     /// Triangles of strips with a repeated corner: they join strips and have no surface.
     pub stitches: usize,
-    /// Primitives of points or lines, one for each copy that a scene makes.
+    /// Primitives of points or lines, one for each copy that a scene makes, and faces of one or two
+    /// corners.
     pub lines_and_points: usize,
+    /// Bytes after the last element that the file announces.
+    pub bytes_after_end: usize,
 }
 
 impl RawMesh {

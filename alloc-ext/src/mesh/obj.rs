@@ -1,12 +1,13 @@
-//! Wavefront OBJ: the `v` and `f` statements. All others are skipped.
+//! Wavefront OBJ: the `v` and `f` statements. `l` and `p` are counted, all others skipped.
 
 use std::path::Path;
 
 use super::text::{lines, point};
-use super::{MeshError, RawMesh};
+use super::{LeftOut, MeshError, RawMesh};
 
 /// Reads `v x y z …` and `f v[/vt[/vn]] …`, indices from 1 or relative (negative), `\` at a line's
-/// end continuing it. Faces of one or two vertices are skipped: they have no surface.
+/// end continuing it, but not a comment: that may end with the path of a directory. Faces of one or
+/// two vertices are left out: they have no surface.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
@@ -17,14 +18,20 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     // OBJ lets a face name a vertex that comes later in the file, so ranges are checked against the
     // final count.
     let mut highest: Option<(u32, usize, usize)> = None;
+    let mut left_out = LeftOut::default();
     let mut joined = String::new();
-    for (number, text) in lines(bytes) {
-        let text = text.trim_end();
-        if let Some(part) = text.strip_suffix('\\') {
+    let mut lines = lines(bytes).peekable();
+    while let Some((number, text)) = lines.next() {
+        let text = text.split('#').next().unwrap_or("").trim_end();
+        let part = text.strip_suffix('\\');
+        if let Some(part) = part
+            && lines.peek().is_some()
+        {
             joined.push_str(part);
             joined.push(' ');
             continue;
         }
+        let text = part.unwrap_or(text);
         let whole;
         let statement = if joined.is_empty() {
             text
@@ -32,7 +39,6 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             whole = std::mem::take(&mut joined) + text;
             &whole
         };
-        let statement = statement.split('#').next().unwrap_or("");
         let mut words = statement.split_ascii_whitespace();
         match words.next() {
             Some("v") => positions.push(point(file, number, positions.len() + 1, &mut words)?),
@@ -45,9 +51,10 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                     }
                     corners.push(vertex);
                 }
-                polygons_split += usize::from(fan(&corners, &mut triangles));
+                polygons_split += usize::from(fan(&corners, &mut triangles, &mut left_out));
                 face += 1;
             }
+            Some("l" | "p") => left_out.lines_and_points += 1,
             _ => {}
         }
     }
@@ -63,7 +70,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         }
         _ => {
             let raw = RawMesh::from_f64(positions, triangles);
-            Ok(RawMesh { file: file.to_owned(), polygons_split, decimal: true, ..raw })
+            Ok(RawMesh { file: file.to_owned(), polygons_split, decimal: true, left_out, ..raw })
         }
     }
 }
@@ -98,11 +105,12 @@ fn index(
     })
 }
 
-/// Splits a polygon into the fan about its first vertex, in order; whether it has more than three
-/// corners.
-pub(super) fn fan(corners: &[u32], triangles: &mut Vec<[u32; 3]>) -> bool {
+/// Splits a polygon into the fan about its first vertex, in order, and counts those of one or two
+/// corners; whether it has more than three.
+pub(super) fn fan(corners: &[u32], triangles: &mut Vec<[u32; 3]>, left_out: &mut LeftOut) -> bool {
     if let [first, rest @ ..] = corners {
         triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
     }
+    left_out.lines_and_points += usize::from((1..3).contains(&corners.len()));
     corners.len() > 3
 }

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use super::obj::fan;
 use super::text::{lines, point};
-use super::{MeshError, RawMesh};
+use super::{LeftOut, MeshError, RawMesh};
 
 /// Reads `OFF` and its variants with normals, colours and texture coordinates (`COFF`, `NOFF`,
 /// `STOFF`): of a vertex's line the first three numbers, of a face's line its corners. Faces of one
-/// or two vertices are skipped: they have no surface.
+/// or two vertices are left out: they have no surface.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let malformed = |line: usize, place: String, reason: String| MeshError::Malformed {
         file: file.to_owned(),
@@ -20,6 +20,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let mut positions: Vec<[f64; 3]> = Vec::new();
     let mut triangles = Vec::new();
     let mut polygons_split = 0;
+    let mut left_out = LeftOut::default();
     let mut corners: Vec<u32> = Vec::new();
     let mut has_keyword = false;
     let mut counts: Option<[usize; 2]> = None;
@@ -52,7 +53,8 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             continue;
         }
         if face == faces {
-            break;
+            left_out.bytes_after_end += text.len();
+            continue;
         }
         let place = || format!("face {face}");
         let size = words.next().unwrap_or("");
@@ -77,7 +79,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             let reason = format!("{} of {size} corners are there", corners.len());
             return Err(malformed(number, place(), reason));
         }
-        polygons_split += usize::from(fan(&corners, &mut triangles));
+        polygons_split += usize::from(fan(&corners, &mut triangles, &mut left_out));
         face += 1;
     }
     let Some([vertices, faces]) = counts else {
@@ -94,7 +96,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         }
     }
     let raw = RawMesh::from_f64(positions, triangles);
-    Ok(RawMesh { file: file.to_owned(), polygons_split, decimal: true, ..raw })
+    Ok(RawMesh { file: file.to_owned(), polygons_split, decimal: true, left_out, ..raw })
 }
 
 /// Whether the first word is that of a form which is read; else the refusal, or none if the word

@@ -29,13 +29,14 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let header = Parser::<Ignored>::new()
         .read_header(&mut reader)
         .map_err(|error| malformed("the header".into(), &error))?;
+    check_names(file, bytes)?;
     let mut source =
         Source { file, encoding: header.encoding, line: reader.line(), rest: reader.into_inner() };
 
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
     let mut polygons_split = 0;
-    let mut stitches = 0;
+    let mut left_out = LeftOut::default();
     let mut corners: Vec<u32> = Vec::new();
     for (name, element) in &header.elements {
         source.check_room(element)?;
@@ -63,8 +64,8 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                 // Then their indices are checked when all is read.
                 let before_vertices = positions.is_empty();
                 let is_strips = name == "tristrips";
-                require(file, element, &format!("{name} needs vertex_indices"), |e| {
-                    e.count == 0 || e.properties.keys().any(|k| is_corners(k))
+                require(file, element, &format!("{name} needs one list vertex_indices"), |e| {
+                    e.count == 0 || e.properties.keys().filter(|k| is_corners(k)).count() == 1
                 })?;
                 triangles.reserve(element.count);
                 for face in 0..element.count {
@@ -72,7 +73,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                     corners.clear();
                     for index in indices {
                         if is_strips && index == -1 {
-                            stitches += strip(&corners, &mut triangles);
+                            left_out.stitches += strip(&corners, &mut triangles);
                             corners.clear();
                             continue;
                         }
@@ -91,9 +92,9 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                         corners.push(vertex);
                     }
                     if is_strips {
-                        stitches += strip(&corners, &mut triangles);
+                        left_out.stitches += strip(&corners, &mut triangles);
                     } else {
-                        polygons_split += usize::from(fan(&corners, &mut triangles));
+                        polygons_split += usize::from(fan(&corners, &mut triangles, &mut left_out));
                     }
                 }
             }
@@ -111,9 +112,41 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         e.properties.values().any(|p| p.data_type == PropertyType::Scalar(ScalarType::Double))
     });
     let decimal = header.encoding == Encoding::Ascii && has_doubles;
-    let left_out = LeftOut { stitches, ..LeftOut::default() };
+    left_out.bytes_after_end = match header.encoding {
+        Encoding::Ascii => source.rest.trim_ascii().len(),
+        _ => source.rest.len(),
+    };
     let raw = RawMesh::from_f64(positions, triangles);
     Ok(RawMesh { file: file.to_owned(), polygons_split, decimal, left_out, ..raw })
+}
+
+/// Refuses two elements of one name, and two properties of an element: the crate keeps only the
+/// last of them.
+fn check_names(file: &Path, bytes: &[u8]) -> Result<(), MeshError> {
+    let (mut elements, mut properties) = (Vec::new(), Vec::new());
+    let lines = bytes.split(|byte| b"\r\n".contains(byte));
+    for line in lines.take_while(|line| !line.starts_with(b"end_header")) {
+        let words: Vec<&[u8]> =
+            line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).collect();
+        let (name, others) = match words[..] {
+            [b"element", name, ..] => {
+                properties.clear();
+                (name, &mut elements)
+            }
+            [b"property", .., name] => (name, &mut properties),
+            _ => continue,
+        };
+        if others.contains(&name) {
+            let reason = format!("{} is there twice", String::from_utf8_lossy(name));
+            return Err(malformed_header(file, reason));
+        }
+        others.push(name);
+    }
+    Ok(())
+}
+
+fn malformed_header(file: &Path, reason: String) -> MeshError {
+    MeshError::Malformed { file: file.to_owned(), line: None, place: "the header".into(), reason }
 }
 
 fn require(
@@ -125,12 +158,7 @@ fn require(
     if holds(element) {
         return Ok(());
     }
-    Err(MeshError::Malformed {
-        file: file.to_owned(),
-        line: None,
-        place: "the header".into(),
-        reason: what.into(),
-    })
+    Err(malformed_header(file, what.into()))
 }
 
 /// The payload that is left.
@@ -170,12 +198,8 @@ impl Source<'_> {
             None if wanted > 0
                 && matches!(element.name.as_str(), "vertex" | "face" | "tristrips") =>
             {
-                Err(MeshError::Malformed {
-                    file: self.file.to_owned(),
-                    line: None,
-                    place: "the header".into(),
-                    reason: format!("element {} has no properties", element.name),
-                })
+                let reason = format!("element {} has no properties", element.name);
+                Err(malformed_header(self.file, reason))
             }
             _ => Ok(()),
         }

@@ -35,8 +35,13 @@ pub fn read(path: &Path) -> Result<RawMesh, MeshError> {
 ///
 /// # Errors
 /// As [`read`], except that nothing is opened but the files that a `.gltf` names beside `path`.
-pub fn read_bytes(path: &Path, bytes: Vec<u8>) -> Result<RawMesh, MeshError> {
+pub fn read_bytes(path: &Path, mut bytes: Vec<u8>) -> Result<RawMesh, MeshError> {
     let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+    // Some editors begin a text with it. It would hide the first word.
+    let is_text = matches!(extension.as_deref(), Some("ply" | "obj" | "off" | "gltf"));
+    if is_text && bytes.starts_with(b"\xEF\xBB\xBF") {
+        bytes.drain(..3);
+    }
     let mesh = match extension.as_deref() {
         Some(kind) if FORMATS.contains(&kind) && bytes.trim_ascii().is_empty() => {
             return Err(MeshError::NoTriangles { file: path.to_owned() });

@@ -177,7 +177,7 @@ impl fmt::Display for RepairReport {
                 Counted(self.polygons_split, "polygon")
             )?;
         }
-        let LeftOut { stitches, lines_and_points } = self.left_out;
+        let LeftOut { stitches, lines_and_points, bytes_after_end } = self.left_out;
         if stitches > 0 {
             let stitches = Counted(stitches, "triangle");
             write!(f, "\n  {stitches} with a repeated corner left out of strips that they join")?;
@@ -188,6 +188,10 @@ impl fmt::Display for RepairReport {
                 "\n  {} of points or lines left out",
                 Counted(lines_and_points, "primitive")
             )?;
+        }
+        if bytes_after_end > 0 {
+            let bytes = Counted(bytes_after_end, "byte");
+            write!(f, "\n  {bytes} after the announced end of the file left out")?;
         }
         if self.rounding > 0.0 {
             write!(f, "\n  rounding to f32 moved vertices by up to {:e}", self.rounding)?;

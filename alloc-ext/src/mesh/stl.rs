@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use super::text::{lines, point};
-use super::{MeshError, RawMesh};
+use super::{LeftOut, MeshError, RawMesh};
 
 const HEADER_BYTES: usize = 80;
 const TRIANGLE_BYTES: u64 = 50;
@@ -51,6 +51,7 @@ fn read_binary(file: &Path, mut bytes: Vec<u8>, count: u32) -> Result<RawMesh, M
     }
     // `stl_io` takes any file that starts with "solid " for ASCII. This one is binary.
     bytes[..HEADER_BYTES].fill(0);
+    let bytes_after_end = bytes.len() - binary_bytes(count) as usize;
     let mut cursor = Cursor::new(bytes);
     let malformed = |triangle: usize, error: std::io::Error| MeshError::Malformed {
         file: file.to_owned(),
@@ -64,7 +65,8 @@ fn read_binary(file: &Path, mut bytes: Vec<u8>, count: u32) -> Result<RawMesh, M
         let triangle = triangle.map_err(|error| malformed(i, error))?;
         positions.extend(triangle.vertices.map(|v| v.0.map(f64::from)));
     }
-    Ok(raw(file, positions, 0, false))
+    let left_out = LeftOut { bytes_after_end, ..LeftOut::default() };
+    Ok(RawMesh { left_out, ..raw(file, positions, 0, false) })
 }
 
 /// Reads the `vertex` lines of all solids in the file. A facet of more than three vertices becomes

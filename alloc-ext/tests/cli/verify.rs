@@ -1,15 +1,18 @@
 //! `meshsweep verify` proves what `build` wrote, and nothing that was changed afterwards.
 
 use crate::support::{arg, blob, coarse_torus, fixture, ok, refused, run, scratch};
-use meshsweep::check::{crc32, entries, word};
+use meshsweep::check::{Against, Outcome, crc32, entries, verify, word};
+use meshsweep::mesh;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 // Kinds of sections.
 const VERTICES: u32 = 1;
+const SPLITS: u32 = 3;
 const RADII: u32 = 5;
 const SOURCE: u32 = 9;
 const LEVELS: u32 = 10;
+const GROUPS: u32 = 11;
 const TREE: u32 = 12;
 const SEGMENT_BOXES: u32 = 15;
 const FANS: u32 = 16;
@@ -58,6 +61,11 @@ fn scale(bytes: &mut [u8], at: usize, factor: f32) {
 
 fn start(bytes: &[u8], kind: u32) -> usize {
     entries(bytes).iter().find(|entry| entry.kind == kind).expect("a section").offset as usize
+}
+
+fn end(bytes: &[u8], kind: u32) -> usize {
+    let entry = entries(bytes).into_iter().find(|entry| entry.kind == kind).expect("a section");
+    (entry.offset + entry.bytes) as usize
 }
 
 /// A blob, the meshes that it is of, and where the edited copy goes.
@@ -118,6 +126,19 @@ fn box_trees_are_proved_and_changed_ones_are_not() {
 }
 
 #[test]
+fn a_crack_that_the_grid_closes_is_a_boundary_still() {
+    let directory = scratch("verify_crack");
+    let (path, mesh) = (directory.join("crack.msw"), directory.join("crack.obj"));
+    let square = |x: f32| format!("v {x} 0 0\nv {} 0 0\nv {} 1 0\nv {x} 1 0\n", x + 1.0, x + 1.0);
+    let faces = "f 1 2 3 4\nf 5 6 7 8\n";
+    fs::write(&mesh, format!("{}{}{faces}", square(0.0), square(1.000_001))).unwrap();
+    ok(["build", arg(&mesh), "-o", arg(&path), "--for", "closest,winding"]);
+    let case = Case::new(&directory, path, &[mesh]);
+    // Eight sides, of which two are those of the crack.
+    case.fails("moments of node 0: a boundary of", |b| scale(b, start(b, MOMENTS) + 56, 0.875));
+}
+
+#[test]
 fn hull_hierarchies_are_proved_and_changed_ones_are_not() {
     let directory = scratch("verify_hull");
     let mesh = fixture("groove.obj");
@@ -130,6 +151,22 @@ fn hull_hierarchies_are_proved_and_changed_ones_are_not() {
         b.copy_within(first + 6..first + 12, first);
     });
     case.fails("hull hierarchy: the triangle stored as", |b| b[start(b, SOURCE) + 2] ^= 1);
+    case.fails("its void is", |b| put(b, start(b, LEVELS) + 16, f32::NAN.to_bits()));
+    // Errors of 0 would tell a refinement that no split is needed.
+    case.fails("a part that it removes has no finite radius", |b| {
+        let (first, last) = (start(b, RADII), end(b, RADII));
+        b[first..last].iter_mut().filter(|code| **code > 0).for_each(|code| *code = 255);
+        let record = (end(b, SPLITS) - start(b, SPLITS)) / word(b, 64).unwrap() as usize;
+        (1..=word(b, 64).unwrap() as usize).for_each(|k| b[start(b, SPLITS) + k * record - 1] = 0);
+        let levels = word(b, 80).unwrap() as usize;
+        (1..levels).for_each(|k| put(b, start(b, LEVELS) + 20 * k - 8, f32::INFINITY.to_bits()));
+    });
+    // A triangle of the surface: the last split's last one.
+    case.fails("is its own part and has radius", |b| {
+        let radii = end(b, RADII);
+        assert_eq!(b[radii - 1], 0);
+        b[radii - 1] = 1;
+    });
     // Its mesh is moved to a grid.
     let path = directory.join("coarse.msw");
     let mesh = coarse_torus(&directory);
@@ -138,6 +175,44 @@ fn hull_hierarchies_are_proved_and_changed_ones_are_not() {
     let case = Case::new(&directory, path, std::slice::from_ref(&mesh));
     case.fails("hull hierarchy: the triangle stored as", |b| scale(b, ERROR, 0.25));
     case.fails("from the surface, the table says", |b| scale(b, start(b, LEVELS) + 8, 0.5));
+}
+
+#[test]
+fn a_group_that_sweeps_would_leave_out_is_not_proved() {
+    let directory = scratch("verify_sweep");
+    let (path, mesh) = (directory.join("open.msw"), fixture("evil/open_box.stl"));
+    ok(["build", arg(&mesh), "-o", arg(&path), "--for", "sweep"]);
+    let case = Case::new(&directory, path, &[mesh]);
+    // The infinite radius says that no triangle of the group stands for a part of the surface.
+    case.fails("base group 0: its radius inf denies its part", |b| {
+        let first =
+            (end(b, GROUPS) - start(b, GROUPS)) / word(b, 60).unwrap().div_ceil(16) as usize;
+        let radius = start(b, GROUPS) + first - 2;
+        b[radius..radius + 2].copy_from_slice(&[0x80, 0x7F]);
+    });
+}
+
+#[test]
+fn a_mesh_of_merged_walls_has_no_sides() {
+    let directory = scratch("verify_walls");
+    let (path, mesh) = (directory.join("shell.msw"), directory.join("shell.obj"));
+    let walls = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
+    fs::write(&mesh, format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n{walls}")).unwrap();
+    ok(["build", arg(&mesh), "-o", arg(&path), "--for", "closest"]);
+    let case = Case::new(&directory, path, &[mesh]);
+    case.fails("closed: false, the header says true", |b| b[start(b, TREE) + 1] |= 1);
+}
+
+#[test]
+fn a_level_of_more_splits_than_there_are_is_no_proof_and_no_panic() {
+    let mut bytes = fs::read(fixture("bracket.msw")).unwrap();
+    let splits = start(&bytes, LEVELS) + 4;
+    put(&mut bytes, splits, u32::MAX);
+    mend(&mut bytes);
+    let (mesh, _) = mesh::repair(mesh::read(&fixture("bracket.stl")).unwrap()).unwrap();
+    let findings = verify(&bytes, Against::Mesh(mesh.as_input(), &[]));
+    let outcomes: Vec<_> = findings.iter().map(|of| (of.structure, of.outcome)).collect();
+    assert_eq!(outcomes, [("hull hierarchy", Outcome::Failed)]);
 }
 
 #[test]
@@ -182,7 +257,8 @@ fn triboxes_are_proved_and_changed_ones_are_not() {
     let path = directory.join("open.msw");
     let open = fixture("evil/open_box.stl");
     ok(["build", arg(&open), "-o", arg(&path), "--for", "triboxes", "--triboxes", "8"]);
-    Case::new(&directory, path, &[open]);
+    let case = Case::new(&directory, path, &[open]);
+    case.fails("the inside of a mesh that is not closed", |b| b[start(b, TRIBOXES)] |= 1);
 }
 
 #[test]

@@ -73,6 +73,49 @@ fn header_announcing_more_than_the_file_can_hold_is_refused_before_reading() {
 }
 
 #[test]
+fn no_line_of_an_obj_hides_another() {
+    let body = "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\np 1\nf 1 2\nf 1 \\\n2 3\nf 1 2 3 \\";
+    for begin in ["", "# C:\\parts\\\n", "\u{FEFF}", "vt 0 0 # 1 \\\n"] {
+        let raw = parse("a.obj", format!("{begin}{body}")).unwrap();
+        assert_eq!((raw.positions.len(), raw.triangles.len()), (3, 2), "{begin}");
+        assert_eq!(raw.left_out.lines_and_points, 3);
+    }
+}
+
+#[test]
+fn bytes_after_the_announced_end_are_counted() {
+    let text = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n\n";
+    let mut stl = [vec![0; 80], 1u32.to_le_bytes().to_vec(), vec![0; 50]].concat();
+    stl[96..100].copy_from_slice(&1f32.to_le_bytes());
+    stl.extend([7; 9]);
+    let off = format!("OFF\n4 1 0\n{text}");
+    for (name, bytes, left) in [
+        ("a.ply", ply("ascii", "float", "uchar int", text.as_bytes()), 7),
+        ("a.off", off.into_bytes(), 7),
+        ("a.stl", stl, 9),
+    ] {
+        let raw = parse(name, bytes).unwrap();
+        assert_eq!((raw.triangles.len(), raw.left_out.bytes_after_end), (1, left), "{name}");
+    }
+}
+
+#[test]
+fn names_that_are_there_twice_in_a_ply_are_refused() {
+    let whole = ply("ascii", "float", "uchar int", b"0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n");
+    let whole = String::from_utf8(whole).unwrap();
+    let list = "property list uchar int vertex_indices\n";
+    let another = list.replace("indices", "index");
+    for (line, twice, why) in [
+        ("property float y\n", "property float y\nproperty float x\n", "x is there twice"),
+        (list, &format!("{list}element face 0\n{list}"), "face is there twice"),
+        (list, &format!("{list}{another}"), "face needs one list vertex_indices"),
+    ] {
+        let error = parse("a.ply", whole.replacen(line, twice, 1)).unwrap_err().to_string();
+        assert!(error.contains(why), "{error}");
+    }
+}
+
+#[test]
 fn unknown_ply_elements_and_properties_are_skipped() {
     let text = "ply\nformat ascii 1.0\nelement camera 1\nproperty list uchar float pose\n\
         element vertex 3\n\

@@ -140,6 +140,26 @@ fn gltf_strips_fans_and_bare_vertices_are_read_and_lines_counted() {
 }
 
 #[test]
+fn gltf_numbers_are_the_nearest_to_their_decimals() {
+    for k in 1..200 {
+        let text = format!("0.{}", 9_876_543_210_987_654_u64 / 7 * k);
+        let node = format!(r#","nodes":[{{"mesh":0,"translation":[{text},0,0]}}]"#);
+        let (json, binary) = gltf_of(&TRIANGLE, &[0, 1, 2], 4, &node);
+        let raw = parse("a.glb", glb(&json, &binary)).unwrap();
+        assert_eq!(raw.positions[0][0], text.parse::<f64>().unwrap());
+    }
+}
+
+#[test]
+fn strips_without_triangles_count_in_the_size_of_a_scene() {
+    let nodes = vec![r#"{"mesh":0}"#; 1 << 10].join(",");
+    let more = format!(r#","nodes":[{nodes}]"#);
+    let (json, binary) = gltf_of(&TRIANGLE, &[0; 1 << 16], 5, &more);
+    let error = parse("a.glb", glb(&json, &binary)).unwrap_err().to_string();
+    assert!(error.contains("corners; 50331648 are read"), "{error}");
+}
+
+#[test]
 fn gltf_buffers_may_be_in_the_text_or_beside_it_but_nowhere_else() {
     let (json, binary) = gltf_of(&TRIANGLE, &[0, 1, 2], 4, "");
     let with =
@@ -178,6 +198,12 @@ fn gltf_refusals_name_node_mesh_or_accessor() {
         (r#"{"mesh":0}"#, r#"{"mesh":7}"#, "node 0: it names 7 of 1 meshes"),
         (r#"{"mesh":0}"#, r#"{"children":[0]}"#, "node 0: it has two parents"),
         (r#"{"mesh":0}"#, r#"{"scale":[1,2]}"#, "node 0: scale has not 3 numbers"),
+        (r#"{"mesh":0}"#, r#"{"rotation":[1,1,0,0]}"#, "node 0: its rotation is no unit quat"),
+        (
+            r#"{"mesh":0}"#,
+            r#"{"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,2]}"#,
+            "node 0: the last row of its matrix is not 0 0 0 1",
+        ),
         (r#""count":3}"#, r#""count":4}"#, "accessor 0: 4 elements reach beyond its buffer"),
         (r#""count":3}"#, r#""count":18446744073709551615}"#, "accessor 0: "),
         (r#""count":3}"#, r#""count":2}"#, "mesh 0, primitive 0: its indices name vertex 2 of 2"),
@@ -229,6 +255,13 @@ fn threemf_components_in_other_parts_of_the_archive_are_followed() {
 }
 
 #[test]
+fn threemf_attributes_of_other_namespaces_move_no_vertex() {
+    let model = model_of(&TRIANGLE, &[[0, 1, 2]], r#"<item objectid="1"/>"#)
+        .replace("<vertex ", r#"<vertex b:x="9" xmlns:b="urn:b" "#);
+    assert_eq!(corners(&parse("a.3mf", threemf(&model)).unwrap()), [TRIANGLE]);
+}
+
+#[test]
 fn threemf_refusals_name_part_object_and_defect() {
     let model = model_of(&TRIANGLE, &[[0, 1, 2]], r#"<item objectid="1"/>"#);
     let own = r#"<components><component objectid="1"/></components></object>"#;
@@ -275,7 +308,16 @@ fn scenes_of_too_many_copies_and_archives_that_expand_too_far_are_refused() {
     let model = model.replacen("</object>", &objects, 1);
     let error = parse("a.3mf", threemf(&model)).unwrap_err().to_string();
     assert!(error.contains("copies of meshes; 1048576 are read"), "{error}");
+    let own = r#"</object><object id="2"><components>"#.to_owned();
+    let many = own + &r#"<component objectid="1"/>"#.repeat(1 << 16) + "</components></object>";
+    let model = model_of(&TRIANGLE, &[[0, 1, 2]], "").replacen("</object>", &many, 1);
+    // So that the archive does not expand too far.
+    let hash = |k: u32| k.wrapping_mul(2_654_435_761).rotate_left(k % 31).to_string();
+    let noise: String = (0..1 << 12).map(hash).collect();
+    let error = parse("a.3mf", archive(&[("3D/a.model", &model), ("noise", &noise)])).unwrap_err();
+    assert!(error.to_string().contains("more objects, components and items"), "{error}");
     let blank = " ".repeat(1 << 20);
+    let model = model_of(&TRIANGLE, &[[0, 1, 2]], "");
     let error = parse("a.3mf", threemf(&model.replacen("<build>", &blank, 1))).unwrap_err();
     assert!(error.to_string().contains("expands more than 128 times"), "{error}");
 }

@@ -39,6 +39,11 @@ pub(super) fn groups(blob: &Blob, forest: &Forest) -> Result<(), String> {
         let (corners, radius) = blob.groups[index];
         let first = 16 * index;
         let below = forest.below[first..first + faces.len()].iter().flatten();
+        let has_part = forest.has_part[first..first + faces.len()].contains(&true);
+        // Of a blob for sweeps only, the infinite radius leaves the whole group out of every sweep.
+        if has_part && !blob.encloses && !radius.is_finite() {
+            return Err(format!("base group {index}: its radius {radius:e} denies its part"));
+        }
         let standing = faces.iter().enumerate().filter(|(i, _)| forest.has_part[first + i]);
         for &v in standing.flat_map(|(_, face)| face).chain(below) {
             let d = distance(DVec3::from(blob.vertices[v as usize]), blob.places(corners));
@@ -117,6 +122,8 @@ pub(super) fn errors(blob: &Blob) -> Result<(), String> {
                 radius_of.get(&removed).ok_or(format!("split {index} lacks a triangle"))?;
             if radius.is_finite() {
                 largest = largest.max(*radius);
+            } else if blob.encloses {
+                return Err(format!("split {index}: a part that it removes has no finite radius"));
             }
         }
         if largest != *error {

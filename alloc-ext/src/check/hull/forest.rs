@@ -46,7 +46,7 @@ impl Forest {
         for (index, &t) in triangles.iter().enumerate().filter(|(_, t)| blob.is_final(**t)) {
             has_part[index] = blob.has_part(index);
             if has_part[index] && !blob.is_cut {
-                below[index] = t.to_vec();
+                below[index] = sorted(t).to_vec();
             }
         }
         let mut waiting = vec![0; triangles.len()];

@@ -34,7 +34,8 @@ pub(super) fn volumes(blob: &Blob, hulls: &[Vec<[u32; 3]>]) -> Result<(), String
     for (index, (level, hull)) in blob.levels.iter().zip(hulls).enumerate() {
         let void = volume(blob, hull) / surface - 1.0;
         let stored = f64::from(level.void_ratio);
-        if (void - stored).abs() > 1e-6 * void.abs() + 1e-9 {
+        let is_near = (void - stored).abs() <= 1e-6 * void.abs() + 1e-9;
+        if !is_near {
             return Err(format!("level {index}: its void is {void:e}, the table says {stored:e}"));
         }
         if void > before + 1e-9 {

@@ -13,6 +13,7 @@ pub(super) type Hulls = Vec<Vec<[u32; 3]>>;
 pub(super) fn replay(blob: &Blob, report: &mut CheckReport) -> Result<Hulls, String> {
     let vertices = blob.vertices.len() as u32;
     let named = blob.base.iter().flatten().chain(blob.splits.iter().flat_map(|s| &s.ring));
+    let named = named.chain(blob.groups.iter().flat_map(|(corners, _)| corners));
     if named.chain(blob.surface.iter().flatten()).any(|&v| v >= vertices) {
         return Err("a triangle names a vertex that does not exist".into());
     }
@@ -28,6 +29,9 @@ pub(super) fn replay(blob: &Blob, report: &mut CheckReport) -> Result<Hulls, Str
     let partless = partless(blob);
     let mut hulls = Hulls::new();
     for level in &blob.levels {
+        if level.splits as usize > blob.splits.len() {
+            return Err(format!("a level of {} splits, there are fewer", level.splits));
+        }
         while report.splits < level.splits as usize {
             let index = report.splits;
             split(blob, index, &mut mesh, report).map_err(|e| format!("split {index}: {e}"))?;

@@ -3,16 +3,17 @@
 
 use super::parse::TreeBlob;
 use super::proof::TreeProof;
-use crate::check::input::Given;
+use crate::check::input::{Given, is_closed};
 use crate::mesh::Mesh;
 
 /// Every triangle of the mesh, and every wire as one, is stored exactly once, with its number, its
-/// winding, and its corners within the surface error.
+/// winding, and its corners within the surface error. Returns the mesh's vertices at the corners of
+/// all stored triangles.
 pub(super) fn triangles(
     tree: &TreeBlob,
     given: &Given<'_>,
     proof: &mut TreeProof,
-) -> Result<(), String> {
+) -> Result<Vec<[u32; 3]>, String> {
     let count = given.mesh.all_triangles().count();
     if tree.source.len() != count {
         return Err(format!("{} triangles of {count}", tree.source.len()));
@@ -24,7 +25,7 @@ pub(super) fn triangles(
     let (found, exact) = given.find(wanted, tree.triangles(), tree.surface_error, false)?;
     proof.triangles += found.len();
     proof.exact_corners += exact;
-    Ok(())
+    Ok(found)
 }
 
 /// The header's reach is no less than any triangle's two spokes, by their 1-norms.
@@ -46,18 +47,10 @@ pub(super) fn reach(tree: &TreeBlob) -> Result<(), String> {
     Ok(())
 }
 
-/// The header's flag says whether the mesh is closed.
+/// The header's flag says whether the mesh is closed, and has sides: walls that repair merged leave
+/// it none.
 pub(super) fn closed(tree: &TreeBlob, mesh: &Mesh) -> Result<(), String> {
-    let mut edges: Vec<(u32, u32, i32)> = Vec::with_capacity(3 * mesh.triangles.len());
-    for corners in &mesh.triangles {
-        for k in 0..3 {
-            let (from, to) = (corners[k], corners[(k + 1) % 3]);
-            edges.push((from.min(to), from.max(to), if from < to { 1 } else { -1 }));
-        }
-    }
-    edges.sort_unstable();
-    let balanced = |edge: &[(u32, u32, i32)]| edge.iter().map(|(_, _, way)| way).sum::<i32>() == 0;
-    let closed = !edges.is_empty() && edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(balanced);
+    let closed = is_closed(mesh) && !mesh.has_merged_walls;
     if closed == tree.closed {
         Ok(())
     } else {

@@ -62,7 +62,8 @@ fn word(bytes: &[u8]) -> Option<(usize, &[u8])> {
 pub(super) struct Buffers<'a> {
     source: Source<'a>,
     binary: Option<&'a [u8]>,
-    read: FxHashMap<&'a str, Rc<Vec<u8>>>,
+    /// By the number of a buffer in the text, else by the name of the file, which several may share.
+    read: FxHashMap<(Option<usize>, &'a str), Rc<Vec<u8>>>,
 }
 
 /// Types of components.
@@ -182,7 +183,9 @@ impl<'a> Buffers<'a> {
             let data = binary.ok_or_else(|| source.malformed(&place, "no uri"))?;
             return Ok(Data::Chunk(data));
         };
-        if let Some(data) = self.read.get(uri) {
+        // The text of a buffer is as long as its content: too long for a key.
+        let key = if uri.starts_with("data:") { (Some(number), "") } else { (None, uri) };
+        if let Some(data) = self.read.get(&key) {
             return Ok(Data::Read(Rc::clone(data)));
         }
         let data = match uri.strip_prefix("data:") {
@@ -194,7 +197,7 @@ impl<'a> Buffers<'a> {
             None => neighbour(source, uri, &place)?,
         };
         let data = Rc::new(data);
-        self.read.insert(uri, Rc::clone(&data));
+        self.read.insert(key, Rc::clone(&data));
         Ok(Data::Read(data))
     }
 }

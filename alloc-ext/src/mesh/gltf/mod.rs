@@ -6,6 +6,7 @@
 mod buffers;
 mod source;
 
+use rustc_hash::FxHashMap;
 use serde_json::Value;
 use std::path::Path;
 
@@ -114,7 +115,7 @@ impl Scene<'_> {
     ) -> Result<(), MeshError> {
         let source = self.source;
         // Primitives may share their vertices.
-        let mut shared: Vec<(usize, u32, usize)> = Vec::new();
+        let mut shared: FxHashMap<usize, (u32, usize)> = FxHashMap::default();
         for (i, primitive) in list(mesh, "primitives").iter().enumerate() {
             let place = format!("mesh {number}, primitive {i}");
             self.copies.count()?;
@@ -133,13 +134,12 @@ impl Scene<'_> {
             }
             let at = source.named(&primitive["attributes"], "POSITION", "accessors", &place)?;
             let (accessor, at) = at.ok_or_else(|| source.malformed(&place, "no POSITION"))?;
-            let known = shared.iter().find(|(of, ..)| *of == accessor);
-            let (first, count) = match known {
-                Some(&(_, first, count)) => (first, count),
+            let (first, count) = match shared.get(&accessor) {
+                Some(&known) => known,
                 None => {
                     let positions = self.buffers.positions(accessor, at)?;
                     let first = self.copies.put(&positions, placement)?;
-                    shared.push((accessor, first, positions.len()));
+                    shared.insert(accessor, (first, positions.len()));
                     (first, positions.len())
                 }
             };
@@ -147,6 +147,7 @@ impl Scene<'_> {
                 Some((accessor, indices)) => self.buffers.indices(accessor, indices)?,
                 None => (0..count as u32).collect(),
             };
+            self.copies.count_corners(corners.len())?;
             if let Some(v) = corners.iter().find(|&&v| v as usize >= count) {
                 let reason = format!("its indices name vertex {v} of {count}");
                 return Err(source.malformed(&place, reason));

@@ -16,6 +16,9 @@ const HARMLESS: [&str; 6] = [
     "MSFT_texture_dds",
 ];
 
+/// How far the last row of an affine matrix may be off, where a program multiplied matrices.
+const NOISE: f64 = 1e-6;
+
 /// The file's JSON.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
@@ -108,13 +111,22 @@ impl<'a> Source<'a> {
     /// Where a node is in its parent.
     pub(super) fn placement(&self, node: &Value, place: &str) -> Result<Placement, MeshError> {
         if let Some(m) = self.numbers::<16>(node, "matrix", place)? {
+            let last = [m[3], m[7], m[11], m[15] - 1.0];
+            if last.iter().any(|x| x.abs() > NOISE) {
+                return Err(self.malformed(place, "the last row of its matrix is not 0 0 0 1"));
+            }
             // In columns.
             return Ok(Placement::of_rows(
                 [0, 1, 2].map(|i| [m[i], m[i + 4], m[i + 8], m[i + 12]]),
             ));
         }
         let translation = self.numbers(node, "translation", place)?;
-        let rotation = self.numbers(node, "rotation", place)?;
+        let rotation: Option<[f64; 4]> = self.numbers(node, "rotation", place)?;
+        let square = rotation.map_or(1.0, |q| q.iter().map(|x| x * x).sum());
+        // Three decimals are enough.
+        if (square - 1.0).abs() > 0.01 {
+            return Err(self.malformed(place, "its rotation is no unit quaternion"));
+        }
         let scale = self.numbers(node, "scale", place)?;
         Ok(Placement::of_parts(
             translation.unwrap_or_default(),

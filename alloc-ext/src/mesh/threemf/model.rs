@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::super::placement::Placement;
 use super::super::{MeshError, Unit};
-use super::package::{Package, attribute, relative};
+use super::package::{Package, attribute, prefixed, relative};
 
 const CORE: Namespace<'_> = Namespace("http://schemas.microsoft.com/3dmanufacturing/core/2015/02");
 
@@ -70,7 +70,7 @@ impl From<String> for Refused {
 /// Reads one model of the archive.
 pub(super) fn read(package: &Package<'_>, path: &str) -> Result<Model, MeshError> {
     let model = Model { unit: Unit::Mm, objects: FxHashMap::default(), items: Vec::new() };
-    let mut reading = Reading { model, object: None, is_complete: false };
+    let mut reading = Reading { package, model, object: None, is_complete: false };
     let mut reader = package.part(path)?;
     let mut bytes = Vec::new();
     loop {
@@ -93,7 +93,8 @@ pub(super) fn read(package: &Package<'_>, path: &str) -> Result<Model, MeshError
 }
 
 /// A model as far as it is read.
-struct Reading {
+struct Reading<'a> {
+    package: &'a Package<'a>,
     model: Model,
     /// The object that is open, and its number.
     object: Option<(u32, Object)>,
@@ -101,7 +102,7 @@ struct Reading {
     is_complete: bool,
 }
 
-impl Reading {
+impl Reading<'_> {
     /// How far it is read.
     fn place(&self, path: &str) -> String {
         let Some((id, Object { positions, triangles, .. })) = &self.object else {
@@ -137,6 +138,9 @@ impl Reading {
                 "model" => Err("it is not in the namespace of 3MF".to_owned().into()),
                 _ => Ok(()),
             };
+        }
+        if matches!(name, "object" | "component" | "item") {
+            self.package.count()?;
         }
         match (name, &mut self.object) {
             ("model", _) => {
@@ -212,7 +216,7 @@ fn part(tag: &BytesStart) -> Result<Part, String> {
             Placement::of_rows([0, 1, 2].map(|i| [m[i], m[i + 3], m[i + 6], m[i + 9]]))
         }
     };
-    let path = attribute(tag, "path")?.map(|path| relative(&path));
+    let path = prefixed(tag, "path")?.map(|path| relative(&path));
     Ok(Part { path, object: number(tag, "objectid")?, placement })
 }
 
@@ -232,7 +236,7 @@ fn unit(tag: &BytesStart) -> Result<Unit, String> {
 fn check_extensions(tag: &BytesStart) -> Result<(), Refused> {
     let required = attribute(tag, "requiredextensions")?.unwrap_or_default();
     for prefix in required.split_ascii_whitespace() {
-        let space = wanted(tag, prefix)?;
+        let space = wanted(tag, &format!("xmlns:{prefix}"))?;
         if !KNOWN.contains(&space.as_str()) {
             return Err(Refused::Unsupported(format!("the extension {space}")));
         }

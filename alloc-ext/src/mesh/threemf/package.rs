@@ -3,6 +3,7 @@
 use flate2::bufread::DeflateDecoder;
 use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};
+use quick_xml::name::QName;
 use quick_xml::reader::NsReader;
 use rawzip::{CompressionMethod, ZipArchive, ZipArchiveEntryWayfinder, ZipSliceArchive};
 use rustc_hash::FxHashMap;
@@ -16,6 +17,11 @@ use super::super::MeshError;
 /// Bytes that parts may have for each byte of the file. Text of triangles has a fraction of it.
 const MOST_EXPANSION: u64 = 128;
 
+/// Bytes of the file for each object, component or item, where it has more than these. One takes 256
+/// in memory, and in a file without those that say the same again a dozen.
+const BYTES_OF_PART: usize = 4;
+const LEAST_PARTS: usize = 1 << 16;
+
 /// The relationship of a package to its first model.
 const MODEL: &str = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
 
@@ -25,6 +31,8 @@ pub(super) struct Package<'a> {
     entries: FxHashMap<String, (ZipArchiveEntryWayfinder, CompressionMethod)>,
     /// Bytes that parts may still have.
     left: Cell<u64>,
+    /// Objects, components and items that may still follow.
+    parts_left: Cell<usize>,
 }
 
 impl<'a> Package<'a> {
@@ -42,7 +50,8 @@ impl<'a> Package<'a> {
             found.insert(key(name), (entry.wayfinder(), entry.compression_method()));
         }
         let left = Cell::new((bytes.len() as u64).saturating_mul(MOST_EXPANSION).max(1 << 16));
-        Ok(Self { file, archive, entries: found, left })
+        let parts_left = Cell::new((bytes.len() / BYTES_OF_PART).max(LEAST_PARTS));
+        Ok(Self { file, archive, entries: found, left, parts_left })
     }
 
     pub(super) fn malformed(&self, place: &str, reason: impl Display) -> MeshError {
@@ -65,6 +74,13 @@ impl<'a> Package<'a> {
         };
         let content = Limited { content: entry.verifying_reader(content), left: &self.left };
         Ok(NsReader::from_reader(BufReader::new(content)))
+    }
+
+    /// Counts an object, a component or an item: in memory each is many times its text.
+    pub(super) fn count(&self) -> Result<(), String> {
+        let left = self.parts_left.get().checked_sub(1);
+        self.parts_left.set(left.ok_or("more objects, components and items than are read")?);
+        Ok(())
     }
 
     /// The path of the first model.
@@ -102,11 +118,20 @@ fn malformed(file: &Path, place: &str, reason: impl Display) -> MeshError {
     }
 }
 
-/// An attribute by its name without prefix.
+/// An attribute by its name. One with a prefix is of an extension, whatever its name.
 pub(super) fn attribute(tag: &BytesStart, name: &str) -> Result<Option<String>, String> {
+    find(tag, |key| key.as_ref() == name)
+}
+
+/// An attribute of an extension, by its name without prefix.
+pub(super) fn prefixed(tag: &BytesStart, name: &str) -> Result<Option<String>, String> {
+    find(tag, |key| key.prefix().is_some() && key.local_name().as_ref() == name)
+}
+
+fn find(tag: &BytesStart, is_it: impl Fn(QName<'_>) -> bool) -> Result<Option<String>, String> {
     for attribute in tag.attributes() {
         let attribute = attribute.map_err(|error| error.to_string())?;
-        if attribute.key.local_name().as_ref() == name {
+        if is_it(attribute.key) {
             let value = attribute.normalized_value(XmlVersion::Implicit1_0);
             return value.map(|value| Some(value.into_owned())).map_err(|e| e.to_string());
         }
