@@ -91,7 +91,8 @@ fn boxes(tree: &TreeBlob) -> Result<TreeProof, String> {
     Ok(proof)
 }
 
-/// What the header, moments and cones say of the stored triangles, whose corners have these numbers.
+/// What the header, moments and cones say of the stored triangles, whose corners have these
+/// numbers.
 fn measures(tree: &TreeBlob, corners: &[[u32; 3]], proof: &mut TreeProof) -> Result<(), String> {
     surface::reach(tree)?;
     moments::moments(tree, corners, proof)?;

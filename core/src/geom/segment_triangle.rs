@@ -29,8 +29,8 @@ pub struct SegmentTriangle {
 /// `None` proves that they do not meet. `Some` may be a miss by less than some 1e-15 of the lengths
 /// involved (on a needle, times its aspect ratio): a caller must never hear "clear" by mistake.
 /// Both facings hit. A segment in the triangle's plane hits at their first common point. A segment
-/// of no length hits if its point lies on the triangle. Only a segment that goes through the inside of
-/// the triangle is [certain](SegmentTriangle::is_certain) to hit.
+/// of no length hits if its point lies on the triangle. Only a segment that goes through the inside
+/// of the triangle is [certain](SegmentTriangle::is_certain) to hit.
 pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<SegmentTriangle> {
     let d = b - a;
     let (p, q, r) = (v0 - a, v1 - a, v2 - a);

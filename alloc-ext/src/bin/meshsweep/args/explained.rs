@@ -427,8 +427,9 @@ pub const WORST: &str = "Queries are searched in the box twice the mesh's: from 
     With it the widest interval is searched too, for questions that have one. Its width at other \
     queries is most likely less, and any answer tells its own.\n\n\
     Work is counted as queries count it: nodes or splits opened, bounds (boxes, capsules, balls) \
-    and triangles looked at, and those of them in f64. Instructions of boards are predicted from it \
-    for closest, as meshsweep trade does; its help tells how well. They are then what is climbed.\n\n\
+    and triangles looked at, and those of them in f64. For closest, instructions of boards are \
+    predicted from it, as meshsweep trade does; its help tells how well. They are then what is \
+    climbed.\n\n\
     Examples:\n  \
     meshsweep worst part.msw\n  \
     meshsweep worst part.msw --ask closest --rel 0.01\n  \
