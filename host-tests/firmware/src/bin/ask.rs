@@ -9,8 +9,8 @@
 use core::ptr::addr_of_mut;
 
 use meshsweep_firmware::{board, meter::Meter, stack};
-use meshsweep_suite::ask::placed::{self, Answer, Memory, Placed};
 use meshsweep_suite::Clock;
+use meshsweep_suite::ask::placed::{self, Answer, Memory, Placed};
 use meshsweep_suite::fold::Fold;
 use semihosting::{println, process};
 
