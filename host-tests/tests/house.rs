@@ -61,6 +61,7 @@ const BUILDER: [(&str, &[&str]); 17] = [
         "trade",
         &["check", "emit", "error", "random", "mesh", "surface", "bvh", "hull", "tight", "tribox"],
     ),
+    ("worst", &["random"]),
 ];
 
 /// A module's path from its crate's root: `["bvh", "node"]`.
