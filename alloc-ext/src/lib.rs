@@ -27,7 +27,8 @@
 //!
 //! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `surface` ←
 //! `{collapse, bvh}` ← `hausdorff` ← `{hull, tight, tribox, curve}` ← `{cut, trade}` ← the program.
-//! `trade` also uses the distance of `check`. A test keeps that (`host-tests/tests/house.rs`).
+//! `trade` also uses the distance of `check`, and `worst` uses no room. A test keeps that
+//! (`host-tests/tests/house.rs`).
 
 pub mod bvh;
 pub mod check;
