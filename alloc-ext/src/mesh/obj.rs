@@ -1,18 +1,20 @@
-//! Wavefront OBJ: the `v` and `f` statements. All others are skipped.
+//! Wavefront OBJ: the `v` and `f` statements. All others are skipped, points and lines are counted.
 
 use std::path::Path;
 
+use super::polygons::{FacePlace, Faces};
 use super::text::{lines, point};
-use super::{MeshError, RawMesh};
+use super::{LeftOut, MeshError, RawMesh};
 
 /// Reads `v x y z …` and `f v[/vt[/vn]] …`, indices from 1 or relative (negative), `\` at a line's
-/// end continuing it. Faces of one or two vertices are skipped: they have no surface.
+/// end continuing it. Faces of one or two vertices have no surface and are counted, as points and
+/// lines are (`p`, `l`).
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let mut positions = Vec::new();
-    let mut triangles = Vec::new();
+    let mut faces = Faces::default();
+    let mut lines_and_points = 0;
     // From 1, as everything in such a file.
     let mut face = 1;
-    let mut polygons_split = 0;
     let mut corners: Vec<u32> = Vec::new();
     // OBJ lets a face name a vertex that comes later in the file, so ranges are checked against the
     // final count.
@@ -45,9 +47,10 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                     }
                     corners.push(vertex);
                 }
-                polygons_split += usize::from(fan(&corners, &mut triangles));
+                faces.add(&corners, FacePlace { face, line: Some(number) });
                 face += 1;
             }
+            Some("l" | "p") => lines_and_points += 1,
             _ => {}
         }
     }
@@ -62,8 +65,11 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             })
         }
         _ => {
+            let small_faces = faces.small;
+            let (triangles, polygons) = faces.finish(&positions);
+            let left_out = LeftOut { lines_and_points, small_faces, ..LeftOut::default() };
             let raw = RawMesh::from_f64(positions, triangles);
-            Ok(RawMesh { file: file.to_owned(), polygons_split, decimal: true, ..raw })
+            Ok(RawMesh { file: file.to_owned(), polygons, decimal: true, left_out, ..raw })
         }
     }
 }
@@ -96,13 +102,4 @@ fn index(
         index,
         vertex_count,
     })
-}
-
-/// Splits a polygon into the fan about its first vertex, in order; whether it has more than three
-/// corners.
-pub(super) fn fan(corners: &[u32], triangles: &mut Vec<[u32; 3]>) -> bool {
-    if let [first, rest @ ..] = corners {
-        triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
-    }
-    corners.len() > 3
 }

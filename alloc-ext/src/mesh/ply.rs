@@ -8,7 +8,7 @@ use ply_rs_bw::ply::{
     ElementDef, Encoding, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
 };
 
-use super::obj::fan;
+use super::polygons::{FacePlace, Faces};
 use super::strip::strip;
 use super::{LeftOut, MeshError, RawMesh};
 
@@ -33,8 +33,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         Source { file, encoding: header.encoding, line: reader.line(), rest: reader.into_inner() };
 
     let mut positions = Vec::new();
-    let mut triangles = Vec::new();
-    let mut polygons_split = 0;
+    let mut surface = Faces::default();
     let mut stitches = 0;
     let mut corners: Vec<u32> = Vec::new();
     for (name, element) in &header.elements {
@@ -66,13 +65,13 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                 require(file, element, &format!("{name} needs vertex_indices"), |e| {
                     e.count == 0 || e.properties.keys().any(|k| is_corners(k))
                 })?;
-                triangles.reserve(element.count);
+                surface.triangles.reserve(element.count);
                 for face in 0..element.count {
                     let Face(indices) = source.next(element, face)?;
                     corners.clear();
                     for index in indices {
                         if is_strips && index == -1 {
-                            stitches += strip(&corners, &mut triangles);
+                            stitches += strip(&corners, &mut surface.triangles);
                             corners.clear();
                             continue;
                         }
@@ -91,9 +90,9 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                         corners.push(vertex);
                     }
                     if is_strips {
-                        stitches += strip(&corners, &mut triangles);
+                        stitches += strip(&corners, &mut surface.triangles);
                     } else {
-                        polygons_split += usize::from(fan(&corners, &mut triangles));
+                        surface.add(&corners, FacePlace { face, line: source.line() });
                     }
                 }
             }
@@ -111,9 +110,10 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         e.properties.values().any(|p| p.data_type == PropertyType::Scalar(ScalarType::Double))
     });
     let decimal = header.encoding == Encoding::Ascii && has_doubles;
-    let left_out = LeftOut { stitches, ..LeftOut::default() };
+    let left_out = LeftOut { stitches, small_faces: surface.small, ..LeftOut::default() };
+    let (triangles, polygons) = surface.finish(&positions);
     let raw = RawMesh::from_f64(positions, triangles);
-    Ok(RawMesh { file: file.to_owned(), polygons_split, decimal, left_out, ..raw })
+    Ok(RawMesh { file: file.to_owned(), polygons, decimal, left_out, ..raw })
 }
 
 fn require(

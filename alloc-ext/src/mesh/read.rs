@@ -13,7 +13,8 @@ use super::{FORMATS, MeshError, RawMesh, gltf, obj, off, ply, stl, threemf};
 ///   `data:` or from files beside it. Skins, morphs, Draco and meshopt are refused.
 /// - `.3mf`: the objects of the build, in the unit that the file tells.
 ///
-/// Polygons are split into fans about their first vertex. Nodes, items and components put copies in
+/// A polygon of n corners becomes n − 2 triangles: the fan about its first corner, or ears if that
+/// corner does not see all of it. Nodes, items and components put copies in
 /// place; one that mirrors keeps the outside outside.
 ///
 /// Memory is bounded by a multiple of the file's size, also if its header announces more: a small

@@ -22,7 +22,7 @@ const QUERIES: &str = "Queries are arguments, files, or both, in any number. The
     work counts the boxes and triangles that a query looked at.";
 
 const TRIANGLES: &str = "triangle is the index of the triangle in the mesh file, counted from 0; \
-    a polygon counts as the triangles about its first corner";
+    a polygon counts as the triangles that it is split into";
 
 pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     closest   closest, within, nearest, field; for a closed mesh also signed: 13 to 14 bytes a \
@@ -61,6 +61,10 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     for a file named *.csv. A blank line begins a new polyline; so does another value in a column \
     named polyline. Other columns are skipped. A bad line is named. Repeated points are kept. \
     Segments count from 0 in each polyline.\n\n\
+    A polygon of n corners is split into n - 2 triangles: those about its first corner, or ears if \
+    that corner does not see all of it. One that crosses itself, seen along the axis nearest to \
+    its normal, is split about its first corner. The report counts these, and faces of fewer than \
+    three corners, which are left out, and names the first with its line.\n\n\
     OFF is read as text, PLY with faces or triangle strips. Of glTF (.glb, .gltf) the triangles of \
     all nodes of all scenes are read, of 3MF the objects of the build, each where it is placed. \
     Their transforms are rounded in double precision; every interval includes that. glTF is in \
@@ -346,7 +350,7 @@ pub const HAUSDORFF: &str = "lower and upper enclose the exact distance of the m
     read, open or closed, with any number of connected components. a and b are points of the first \
     and of the second mesh: one of them is the farthest that was found, the other its closest \
     point. ended says whether the precision was reached, or why not. Triangles are counted from \
-    0 in their file; a polygon counts as the triangles about its first corner. Triangles without \
+    0 in their file; a polygon counts as the triangles that it is split into. Triangles without \
     area count like all others.\n\n\
     --profile and --heat look at the first mesh alone: holes of a scan show only with the complete \
     mesh first. quantiles bound the distance that a part of the area does not exceed.\n\n\
