@@ -187,6 +187,8 @@ pub struct RawMesh {
     pub error: f64,
     /// The unit of the coordinates, if the format tells it.
     pub unit: Option<Unit>,
+    /// True if the file names no unit, and `unit` is its format's default.
+    pub unit_by_default: bool,
     /// Parts of the file that are no triangles.
     pub left_out: LeftOut,
 }
@@ -221,6 +223,7 @@ impl RawMesh {
             decimal: false,
             error: 0.0,
             unit: None,
+            unit_by_default: false,
             left_out: LeftOut::default(),
         }
     }

@@ -115,7 +115,8 @@ impl Faces {
         self.triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
     }
 
-    /// The triangles of all faces. Each corner must name one of `positions`.
+    /// The triangles of all faces. A face with a corner that is none of `positions` keeps its fan,
+    /// which the checks of all formats refuse.
     pub fn finish(mut self, positions: &[[f64; 3]]) -> (Vec<[u32; 3]>, Polygons) {
         let mut polygons = Polygons::default();
         let mut corners: Vec<u32> = Vec::new();
@@ -126,7 +127,10 @@ impl Faces {
             corners.extend(&triangles[0][..2]);
             corners.extend(triangles.iter().map(|triangle| triangle[2]));
             at.clear();
-            at.extend(corners.iter().map(|&v| positions[v as usize]));
+            at.extend(corners.iter().filter_map(|&v| positions.get(v as usize)));
+            if at.len() < corners.len() {
+                continue;
+            }
             let line = (line > 0).then_some(line as usize);
             let place = FacePlace { face: face as usize, line };
             if let Some(ears) = polygons.ears(&at, place) {

@@ -21,7 +21,7 @@ use super::{FORMATS, MeshError, RawMesh, gltf, obj, off, ply, stl, threemf};
 /// one, but 128 for a compressed file. A scene of copies may reach 2²⁴ vertices and triangles.
 ///
 /// # Errors
-/// The file cannot be read, is of another kind, does not follow its format, ends early, holds a
+/// The file cannot be read, is empty, is of another kind, does not follow its format, ends early, holds a
 /// coordinate that is not finite, names a vertex that is not there, or holds no face.
 pub fn read(path: &Path) -> Result<RawMesh, MeshError> {
     let bytes = std::fs::read(path).map_err(|error| MeshError::Unreadable {
@@ -40,7 +40,7 @@ pub fn read_bytes(path: &Path, bytes: Vec<u8>) -> Result<RawMesh, MeshError> {
     let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
     let mesh = match extension.as_deref() {
         Some(kind) if FORMATS.contains(&kind) && bytes.trim_ascii().is_empty() => {
-            return Err(MeshError::NoTriangles { file: path.to_owned() });
+            return Err(MeshError::Empty { file: path.to_owned() });
         }
         Some("ply") => ply::read(path, &bytes)?,
         Some("obj") => obj::read(path, &bytes)?,

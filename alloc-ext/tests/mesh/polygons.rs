@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use glam::{DVec3, I64Vec2, dvec3};
-use meshsweep::mesh::{RawMesh, read_bytes, repair, require_closed_manifold};
+use meshsweep::mesh::{MeshError, RawMesh, read_bytes, repair, require_closed_manifold};
 
 /// The faces of a prism, 1 high, over an L: corners 0 to 5 below, 6 to 11 above. The corner (2, 0),
 /// at which the caps begin, does not see all of the L.
@@ -26,8 +26,10 @@ fn in_all_formats(positions: &[[i64; 3]], faces: &[Vec<usize>]) -> Vec<RawMesh> 
     };
     let at: Vec<Vec<i64>> = positions.iter().map(|p| p.to_vec()).collect();
     let from = |first: i64, with_size: bool| -> Vec<Vec<i64>> {
-        let size = |face: &Vec<usize>| with_size.then_some(face.len() as i64);
-        let named = |face: &Vec<usize>| face.iter().map(|&v| v as i64 + first).collect::<Vec<_>>();
+        let size = |face: &Vec<usize>| with_size.then(|| face.len().cast_signed() as i64);
+        let named = |face: &Vec<usize>| {
+            face.iter().map(|&v| v.cast_signed() as i64 + first).collect::<Vec<_>>()
+        };
         faces.iter().map(|face| size(face).into_iter().chain(named(face)).collect()).collect()
     };
     let counted = lines("", &from(0, true));
@@ -138,7 +140,7 @@ struct Sequence(u64);
 impl Sequence {
     fn below(&mut self, end: i64) -> i64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (self.0 >> 33) as i64 % end
+        (self.0 >> 33).cast_signed() % end
     }
 }
 
@@ -271,4 +273,13 @@ fn faces_of_fewer_than_three_corners_are_counted_and_the_first_is_named() {
         let wanted = format!("\n  2 faces of fewer than three corners left out: {place} …");
         assert!(report.to_string().contains(&wanted), "{report}");
     }
+}
+
+#[test]
+fn a_polygon_before_its_vertices_that_names_none_is_refused() {
+    let ply = "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n\
+        element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n\
+        4 0 1 2 3\n0 0 0\n1 0 0\n0 1 0\n";
+    let error = read_bytes(Path::new("a.ply"), ply.into()).unwrap_err();
+    assert!(matches!(error, MeshError::IndexOutOfRange { index: 3, .. }), "{error}");
 }

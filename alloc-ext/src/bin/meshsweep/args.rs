@@ -16,7 +16,9 @@ pub use asking::{
     WithinArgs,
 };
 pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
-pub use building::{BuildArgs, CutArgs, FACES, HullServes, InfoArgs, StoredBits, VerifyArgs};
+pub use building::{
+    BuildArgs, CutArgs, FACES, HullServes, InfoArgs, Serves, StoredBits, VerifyArgs,
+};
 pub use comparing::HausdorffArgs;
 pub use given::{Given, files, names};
 pub use refining::RefineArgs;

@@ -1,5 +1,6 @@
 //! What can go wrong. Each variant is one line that names the file, the place and the remedy.
 
+use crate::mesh_file::Content;
 use crate::number::Typed;
 use crate::unmet::Unmet;
 use meshsweep::BuildError;
@@ -29,7 +30,7 @@ pub enum Failure {
     /// The mesh is refused.
     Mesh { file: PathBuf, error: MeshError },
     /// A mesh file's content is not of the kind that its name says.
-    Misnamed { file: PathBuf, content: &'static str },
+    Misnamed { file: PathBuf, content: Content },
     /// The mesh does not bound a solid, and a hull is wanted.
     NotSolid { file: PathBuf, error: Box<MeshError>, instead: Option<&'static str> },
     /// A mesh is wanted, and a blob is given.
@@ -42,8 +43,8 @@ pub enum Failure {
     Unmet { file: PathBuf, unmet: Unmet },
     /// Two meshes are not proved to be as close to each other as asked for.
     Apart { first: PathBuf, second: PathBuf, most: f64, lower: f64, upper: f64 },
-    /// Not all that the blob claims of the mesh is proved.
-    NotVerified { blob: PathBuf, mesh: PathBuf, open: Vec<String> },
+    /// Not all that the blob claims of the mesh is proved; `open` says how much.
+    NotVerified { blob: PathBuf, mesh: PathBuf, open: String },
     /// The blob is refused.
     Open { file: PathBuf, error: OpenError },
     /// The blob was built without the structure that the question needs. `other` names an engine
@@ -75,6 +76,8 @@ pub enum Failure {
     Query { place: Place, error: QueryError },
     /// A pose's quaternion is 0.
     NoRotation { place: Place },
+    /// A pose's matrix has an entry that is too large, or is no rotation where one is needed.
+    Matrix { place: Place, fault: String },
     /// An end of a segment is too far away; `limit` says how far it may be.
     TooFar { place: Place, limit: String },
     /// The queries end early, so no file of answers is written.
@@ -130,11 +133,11 @@ impl Failure {
         let line = text.lines().map(str::trim).collect::<Vec<_>>().join("; ");
         // If the standard error is closed too, nobody can be told.
         let _ = writeln!(io::stderr(), "error: {line}");
-        let is_usage = matches!(
-            self,
-            Failure::Usage { .. } | Failure::NoRotation { place: Place::Argument { .. } }
-        );
-        ExitCode::from(if is_usage { 2 } else { 1 })
+        ExitCode::from(match self {
+            Failure::Usage { .. } | Failure::NoRotation { place: Place::Argument { .. } } => 2,
+            Failure::Apart { .. } | Failure::NotVerified { .. } => 3,
+            _ => 1,
+        })
     }
 }
 
@@ -198,9 +201,10 @@ impl fmt::Display for Failure {
             }
             Failure::Misnamed { file, content } => write!(
                 f,
-                "{}: the content looks like {}; rename the file to end in .{content}",
+                "{}: the content looks like {}; rename the file to end in .{}",
                 file.display(),
-                content.to_ascii_uppercase()
+                content.name,
+                content.extension
             ),
             Failure::BlobForMesh { file } => {
                 write!(
@@ -209,8 +213,12 @@ impl fmt::Display for Failure {
                     file.display()
                 )
             }
-            // The error begins with a line of the file, or with what all of the file lacks.
-            Failure::Curve { file, error } => write!(f, "{}, {error}", file.display()),
+            Failure::Curve { file, error } => {
+                let text = error.to_string();
+                // A line of the file, else what all of the file lacks.
+                let mark = if text.starts_with("line ") { "," } else { ":" };
+                write!(f, "{}{mark} {text}", file.display())
+            }
             Failure::Unmet { file, unmet } => {
                 write!(f, "{}: {unmet}; nothing is written", file.display())
             }
@@ -228,7 +236,7 @@ impl fmt::Display for Failure {
                 }
             }
             Failure::NotVerified { blob, mesh, open } => {
-                write!(f, "{} of {}: {}", blob.display(), mesh.display(), open.join("; "))
+                write!(f, "{} of {}: {open}", blob.display(), mesh.display())
             }
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::NoHulls { file } => write!(
@@ -301,6 +309,7 @@ impl fmt::Display for Failure {
                     "{place}: the quaternion is 0, which says no rotation; 1,0,0,0 turns nothing"
                 )
             }
+            Failure::Matrix { place, fault } => write!(f, "{place}: {fault}"),
             Failure::TooFar { place, limit } => {
                 write!(
                     f,

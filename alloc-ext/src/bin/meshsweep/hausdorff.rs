@@ -31,6 +31,11 @@ pub fn run(args: &HausdorffArgs) -> Result<(), Failure> {
         }
     }
     let unit = first.unit.or(second.unit);
+    for (file, of) in [(&args.first, first.unit), (&args.second, second.unit)] {
+        if let (None, Some(unit)) = (of, unit) {
+            let _ = writeln!(io::stderr(), "{} names no unit; taken as {unit}", file.display());
+        }
+    }
     let direction = if args.one_sided { Direction::Forward } else { Direction::Both };
     let precision = Precision { relative: args.rel, absolute: args.abs, at_most: args.at_most };
     let bar = Bar::new(DIGITS, "comparing", "digits");
