@@ -179,6 +179,10 @@ pub struct RawMesh {
     /// Faces of the file with more than three corners, which [`triangles`](Self::triangles) has in
     /// parts.
     pub polygons: Polygons,
+    /// For each triangle that is an ear of a concave polygon, its number and the polygon's corners
+    /// in its place: those of the fan, or in STL the ear's, counted from 0. With them two files of
+    /// one topology are equal, also if a polygon is concave in one of them only.
+    pub fans: Vec<(usize, [u32; 3])>,
     /// True if the coordinates were decimal text, so that `positions` holds the nearest `f64` of
     /// each.
     pub decimal: bool,
@@ -205,6 +209,17 @@ pub struct LeftOut {
 }
 
 impl RawMesh {
+    /// The triangles as they would be if no polygon were concave.
+    pub(crate) fn fan_triangles(&self) -> Vec<[u32; 3]> {
+        let mut triangles = self.triangles.clone();
+        for &(number, fan) in &self.fans {
+            if let Some(triangle) = triangles.get_mut(number) {
+                *triangle = fan;
+            }
+        }
+        triangles
+    }
+
     /// A raw mesh from arrays in memory. [`repair`] checks coordinates and indices.
     #[must_use]
     pub fn from_f32(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Self {
@@ -220,6 +235,7 @@ impl RawMesh {
             triangles,
             file: PathBuf::from("(memory)"),
             polygons: Polygons::default(),
+            fans: Vec::new(),
             decimal: false,
             error: 0.0,
             unit: None,

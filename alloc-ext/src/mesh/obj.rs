@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::polygons::{FacePlace, Faces};
+use super::polygons::{FacePlace, Faces, Split};
 use super::text::{lines, point};
 use super::{LeftOut, MeshError, RawMesh};
 
@@ -66,10 +66,10 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         }
         _ => {
             let small_faces = faces.small;
-            let (triangles, polygons) = faces.finish(&positions);
+            let Split { triangles, polygons, fans } = faces.finish(&positions);
             let left_out = LeftOut { lines_and_points, small_faces, ..LeftOut::default() };
             let raw = RawMesh::from_f64(positions, triangles);
-            Ok(RawMesh { file: file.to_owned(), polygons, decimal: true, left_out, ..raw })
+            Ok(RawMesh { file: file.to_owned(), polygons, fans, decimal: true, left_out, ..raw })
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::polygons::{FacePlace, Faces};
+use super::polygons::{FacePlace, Faces, Split};
 use super::text::{lines, point};
 use super::{LeftOut, MeshError, RawMesh};
 
@@ -93,9 +93,9 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         }
     }
     let left_out = LeftOut { small_faces: surface.small, ..LeftOut::default() };
-    let (triangles, polygons) = surface.finish(&positions);
+    let Split { triangles, polygons, fans } = surface.finish(&positions);
     let raw = RawMesh::from_f64(positions, triangles);
-    Ok(RawMesh { file: file.to_owned(), polygons, decimal: true, left_out, ..raw })
+    Ok(RawMesh { file: file.to_owned(), polygons, fans, decimal: true, left_out, ..raw })
 }
 
 /// Whether the first word is that of a form which is read; else the refusal, or none if the word

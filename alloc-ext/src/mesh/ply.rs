@@ -8,7 +8,7 @@ use ply_rs_bw::ply::{
     ElementDef, Encoding, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
 };
 
-use super::polygons::{FacePlace, Faces};
+use super::polygons::{FacePlace, Faces, Split};
 use super::strip::strip;
 use super::{LeftOut, MeshError, RawMesh};
 
@@ -111,9 +111,9 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     });
     let decimal = header.encoding == Encoding::Ascii && has_doubles;
     let left_out = LeftOut { stitches, small_faces: surface.small, ..LeftOut::default() };
-    let (triangles, polygons) = surface.finish(&positions);
+    let Split { triangles, polygons, fans } = surface.finish(&positions);
     let raw = RawMesh::from_f64(positions, triangles);
-    Ok(RawMesh { file: file.to_owned(), polygons, decimal, left_out, ..raw })
+    Ok(RawMesh { file: file.to_owned(), polygons, fans, decimal, left_out, ..raw })
 }
 
 fn require(

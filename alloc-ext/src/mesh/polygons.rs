@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::ears::{Split, split};
+use super::ears;
 use crate::counted::Counted;
 
 /// Faces of a file with more than three corners. A face of n corners is n − 2 triangles.
@@ -66,13 +66,13 @@ impl Polygons {
         place: FacePlace,
     ) -> Option<Vec<[usize; 3]>> {
         self.split += 1;
-        match split(corners) {
-            Split::Fan => None,
-            Split::Ears(ears) => {
+        match ears::split(corners) {
+            ears::Split::Fan => None,
+            ears::Split::Ears(ears) => {
                 self.by_ears += 1;
                 Some(ears)
             }
-            Split::Unsound => {
+            ears::Split::Unsound => {
                 self.unsound.add(place);
                 None
             }
@@ -88,6 +88,13 @@ pub(super) struct Faces {
     /// Faces of fewer than three corners, which are left out.
     pub small: NamedFaces,
     polygons: Vec<Polygon>,
+}
+
+/// Faces as triangles; the fields are those of a [`RawMesh`](super::RawMesh).
+pub(super) struct Split {
+    pub triangles: Vec<[u32; 3]>,
+    pub polygons: Polygons,
+    pub fans: Vec<(usize, [u32; 3])>,
 }
 
 struct Polygon {
@@ -117,7 +124,8 @@ impl Faces {
 
     /// The triangles of all faces. A face with a corner that is none of `positions` keeps its fan,
     /// which the checks of all formats refuse.
-    pub fn finish(mut self, positions: &[[f64; 3]]) -> (Vec<[u32; 3]>, Polygons) {
+    pub fn finish(mut self, positions: &[[f64; 3]]) -> Split {
+        let mut fans = Vec::new();
         let mut polygons = Polygons::default();
         let mut corners: Vec<u32> = Vec::new();
         let mut at: Vec<[f64; 3]> = Vec::new();
@@ -134,11 +142,12 @@ impl Faces {
             let line = (line > 0).then_some(line as usize);
             let place = FacePlace { face: face as usize, line };
             if let Some(ears) = polygons.ears(&at, place) {
-                for (triangle, ear) in triangles.iter_mut().zip(ears) {
+                for ((number, triangle), ear) in (first_triangle..).zip(triangles).zip(ears) {
+                    fans.push((number, *triangle));
                     *triangle = ear.map(|corner| corners[corner]);
                 }
             }
         }
-        (self.triangles, polygons)
+        Split { triangles: self.triangles, polygons, fans }
     }
 }

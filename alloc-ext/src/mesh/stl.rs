@@ -81,6 +81,7 @@ fn read_ascii(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let mut vertex = 0;
     let mut facet = 0;
     let mut polygons = Polygons::default();
+    let mut fans = Vec::new();
     let mut polygon: Option<Vec<[f64; 3]>> = None;
     let mut last = 0;
     for (number, text) in lines(bytes) {
@@ -105,7 +106,11 @@ fn read_ascii(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                     let place = FacePlace { face: facet, line: Some(number) };
                     let is_polygon = rest.len() > 2;
                     match is_polygon.then(|| polygons.ears(corners, place)).flatten() {
-                        Some(ears) => positions.extend(ears.iter().flatten().map(|&k| corners[k])),
+                        Some(ears) => {
+                            let number = positions.len() / 3;
+                            fans.extend((number..).zip(ears.iter().map(|e| e.map(|k| k as u32))));
+                            positions.extend(ears.iter().flatten().map(|&k| corners[k]));
+                        }
                         None => positions
                             .extend(rest.windows(2).flat_map(|pair| [*first, pair[0], pair[1]])),
                     }
@@ -121,7 +126,7 @@ fn read_ascii(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     if polygon.is_some() {
         return Err(malformed(last, facet, "the file ends inside a facet"));
     }
-    Ok(raw(file, positions, polygons, true))
+    Ok(RawMesh { fans, ..raw(file, positions, polygons, true) })
 }
 
 /// Three positions for each triangle.

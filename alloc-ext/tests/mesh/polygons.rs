@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use glam::{DVec3, I64Vec2, dvec3};
-use meshsweep::mesh::{MeshError, RawMesh, read_bytes, repair, require_closed_manifold};
+use meshsweep::mesh::{MeshError, RawMesh, key_frame, read_bytes, repair, require_closed_manifold};
 
 /// The faces of a prism, 1 high, over an L: corners 0 to 5 below, 6 to 11 above. The corner (2, 0),
 /// at which the caps begin, does not see all of the L.
@@ -282,4 +282,29 @@ fn a_polygon_before_its_vertices_that_names_none_is_refused() {
         4 0 1 2 3\n0 0 0\n1 0 0\n0 1 0\n";
     let error = read_bytes(Path::new("a.ply"), ply.into()).unwrap_err();
     assert!(matches!(error, MeshError::IndexOutOfRange { index: 3, .. }), "{error}");
+}
+
+#[test]
+fn a_frame_in_which_another_polygon_is_concave_keeps_the_triangles_of_the_first_mesh() {
+    let (positions, faces) = l_prism();
+    // The corner at the bottom of the notch moves until the caps are convex.
+    let mut filled = positions.clone();
+    for corner in [2, 8] {
+        filled[corner] = [2, 2, filled[corner][2]];
+    }
+    let meshes = [&positions, &filled].map(|positions| in_all_formats(positions, &faces));
+    let [concave, convex] = &meshes;
+    for (first, frame) in concave.iter().zip(convex).chain(convex.iter().zip(concave)) {
+        assert_ne!(first.polygons.by_ears, frame.polygons.by_ears);
+        let (mesh, _) = repair(first.clone()).unwrap();
+        let found = key_frame(first, &mesh, frame);
+        if first.file.ends_with("a.stl") {
+            // Its vertices have no numbers.
+            assert!(matches!(found, Err(MeshError::FrameTriangle { .. })), "{found:?}");
+            continue;
+        }
+        let places = mesh.vertex_source.iter().map(|&v| frame.positions[v as usize]);
+        let places: Vec<[f32; 3]> = places.map(|p| p.map(|x| x as f32)).collect();
+        assert_eq!(found.unwrap().positions, places);
+    }
 }
