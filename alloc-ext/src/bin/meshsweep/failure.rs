@@ -1,6 +1,5 @@
 //! What can go wrong. Each variant is one line that names the file, the place and the remedy.
 
-use crate::mesh_file::Content;
 use crate::number::Typed;
 use crate::unmet::Unmet;
 use meshsweep::BuildError;
@@ -88,6 +87,13 @@ pub enum Failure {
     Usage { what: String },
     /// The reader of the standard output has closed it: no error.
     ClosedPipe,
+}
+
+/// A kind of mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Content {
+    pub name: &'static str,
+    pub extension: &'static str,
 }
 
 /// Which query.

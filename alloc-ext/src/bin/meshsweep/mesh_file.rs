@@ -1,6 +1,6 @@
 //! From a mesh file to a clean mesh, closed or not, with a report of the repairs.
 
-use crate::failure::Failure;
+use crate::failure::{Content, Failure};
 use meshsweep::mesh::{self, FORMATS, Input, KeyFrame, Mesh, RawMesh, RepairReport, Unit};
 use meshsweep::surface::{VertexBits, snap};
 use meshsweep_core::internal::format::layout::MAGIC;
@@ -195,13 +195,6 @@ fn read(file: &Path, unit: Option<Unit>) -> Result<(RawMesh, Told), Failure> {
         None => Ok(raw),
     };
     scaled.map(|raw| (raw, told)).map_err(|error| Failure::Mesh { file: file.to_owned(), error })
-}
-
-/// A kind of mesh file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Content {
-    pub name: &'static str,
-    pub extension: &'static str,
 }
 
 /// The kind of mesh file by the first bytes, and of binary STL by the size.
