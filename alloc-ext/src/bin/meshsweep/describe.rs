@@ -53,6 +53,9 @@ fn input_box(blob: &Blob<'_>) -> [[f64; 3]; 2] {
     let of_tree = blob.bvh().map_or(0.0, |tree| f64::from(tree.surface_error()));
     let error = of_header.max(of_tree);
     let [low, high] = surface_box(blob);
+    if error == 0.0 {
+        return [low, high];
+    }
     [low.map(|x| (x - error).next_down()), high.map(|x| (x + error).next_up())]
 }
 

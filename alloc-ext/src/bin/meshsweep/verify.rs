@@ -53,9 +53,9 @@ fn unproved(findings: &[Finding]) -> Option<String> {
             .collect();
         let mut names = found.clone();
         names.dedup();
-        let all = Counted(findings.len(), "proof");
+        let all = findings.len();
         (!found.is_empty())
-            .then(|| format!("{} of {all} {words}: {}", found.len(), names.join(", ")))
+            .then(|| format!("{} of {all} proofs {words}: {}", found.len(), names.join(", ")))
     };
     let open = [of(Outcome::Failed, "failed"), of(Outcome::NotProved, "could not be made")];
     let open: Vec<String> = open.into_iter().flatten().collect();
