@@ -13,9 +13,3 @@ pub mod oracle;
 pub mod picture;
 pub mod scene;
 pub mod workload;
-
-/// The Rust of `README.md`, run unchanged. Its paths start in the root's `fixtures`, to which
-/// `fixtures` is a link here.
-#[cfg(doctest)]
-#[doc = include_str!("../../README.md")]
-mod readme {}

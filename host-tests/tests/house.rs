@@ -37,7 +37,7 @@ const BENEATH: &[&str] = &[
 /// prints numbers, `error` says why there is no blob, `random` gives the same numbers in every run.
 /// `cut` and `trade` are above: they know all structures. `check` proves the others' work and
 /// shares nothing with them but meshes. `trade` measures distances by it.
-const BUILDER: [(&str, &[&str]); 17] = [
+const BUILDER: [(&str, &[&str]); 18] = [
     ("counted", &[]),
     ("emit", &[]),
     ("random", &[]),

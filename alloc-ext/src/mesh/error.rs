@@ -47,6 +47,8 @@ pub enum MeshError {
         index: i64,
         vertex_count: usize,
     },
+    /// The file holds nothing, or blanks only.
+    Empty { file: PathBuf },
     /// The file holds no face.
     NoTriangles { file: PathBuf },
     /// More vertices or triangles than 32-bit numbers can name.
@@ -148,6 +150,9 @@ impl fmt::Display for MeshError {
                 if *vertex_count == 1 { "is" } else { "are" },
                 Counted(*vertex_count, "vertex")
             ),
+            Self::Empty { file } => {
+                write!(f, "{}: the file is empty; copy or export it again", file.display())
+            }
             Self::NoTriangles { file } => {
                 write!(
                     f,

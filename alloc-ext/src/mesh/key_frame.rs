@@ -65,8 +65,9 @@ pub fn key_frame(first: &RawMesh, mesh: &Mesh, frame: &RawMesh) -> Result<KeyFra
             return Err(MeshError::FrameCount { file: file(), what, found, wanted });
         }
     }
-    let both = frame.triangles.iter().zip(&first.triangles);
-    if let Some((triangle, (&found, &wanted))) = both.enumerate().find(|(_, (a, b))| a != b) {
+    // A polygon may be concave in one frame only. All frames have the triangles of the first mesh.
+    let both = frame.fan_triangles().into_iter().zip(first.fan_triangles());
+    if let Some((triangle, (found, wanted))) = both.enumerate().find(|(_, (a, b))| a != b) {
         return Err(MeshError::FrameTriangle { file: file(), triangle, found, wanted });
     }
     let (positions, rounding) = round(frame)?;

@@ -11,7 +11,7 @@
 //!
 //! Numbers of vertices, faces and triangles count from 0 in file order; errors of reading OBJ count
 //! from 1, as such a file does. A *face* is what the file lists, perhaps a polygon; a *triangle* is
-//! one after fan triangulation, numbered through in file order. Copies that nodes and items of a
+//! one after polygons are split, numbered through in file order. Copies that nodes and items of a
 //! scene make are numbered through in the order of the scene.
 
 mod boundary;
@@ -19,6 +19,7 @@ mod caps;
 mod collinear;
 mod copies;
 mod duplicate;
+mod ears;
 mod edges;
 mod error;
 mod gltf;
@@ -33,6 +34,7 @@ mod off;
 mod outward;
 mod placement;
 mod ply;
+mod polygons;
 mod read;
 mod repair;
 mod report;
@@ -59,6 +61,7 @@ pub use key_frame::{KeyFrame, key_frame, require_deformable};
 pub use manifold::require_closed_manifold;
 pub(crate) use nesting::Enclosure;
 pub use no_volume::NoVolume;
+pub use polygons::{FacePlace, NamedFaces, Polygons};
 pub use read::{read, read_bytes};
 pub use repair::repair;
 pub use report::{Finding, Place, RepairReport};
@@ -82,8 +85,8 @@ pub struct Mesh {
     pub positions: Vec<[f32; 3]>,
     /// Three vertex indices per triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// Per triangle its number in the input file: polygons are fan-triangulated in file order,
-    /// then numbered from 0. Two triangles share a number where an edge flip removed a flat
+    /// Per triangle its number in the input file: polygons are split in file order, then
+    /// numbered from 0. Two triangles share a number where an edge flip removed a flat
     /// cap (see [`RepairReport::flipped_caps`]).
     pub source: Vec<u32>,
     /// Per vertex its number in the input file: of welded vertices the first, and that of the
@@ -168,14 +171,18 @@ pub struct RawMesh {
     /// Vertex positions in the file's unit and frame. STL shares no vertices, so it gives three
     /// per triangle.
     pub positions: Vec<[f64; 3]>,
-    /// Three vertex indices per triangle, in the file's winding; polygons are split into fans
-    /// about their first vertex.
+    /// Three vertex indices per triangle, in the file's winding; polygons are split, into
+    /// the fan about their first corner where that is the polygon.
     pub triangles: Vec<[u32; 3]>,
     /// Where it came from; only for messages.
     pub file: PathBuf,
     /// Faces of the file with more than three corners, which [`triangles`](Self::triangles) has in
     /// parts.
-    pub polygons_split: usize,
+    pub polygons: Polygons,
+    /// For each triangle that is an ear of a concave polygon, its number and the polygon's corners
+    /// in its place: those of the fan, or in STL the ear's, counted from 0. With them two files of
+    /// one topology are equal, also if a polygon is concave in one of them only.
+    pub fans: Vec<(usize, [u32; 3])>,
     /// True if the coordinates were decimal text, so that `positions` holds the nearest `f64` of
     /// each.
     pub decimal: bool,
@@ -184,6 +191,8 @@ pub struct RawMesh {
     pub error: f64,
     /// The unit of the coordinates, if the format tells it.
     pub unit: Option<Unit>,
+    /// True if the file names no unit, and `unit` is its format's default.
+    pub unit_by_default: bool,
     /// Parts of the file that are no triangles.
     pub left_out: LeftOut,
 }
@@ -193,14 +202,26 @@ pub struct RawMesh {
 pub struct LeftOut {
     /// Triangles of strips with a repeated corner: they join strips and have no surface.
     pub stitches: usize,
-    /// Primitives of points or lines, one for each copy that a scene makes, and faces of one or two
-    /// corners.
+    /// Primitives of points or lines, one for each copy that a scene makes.
     pub lines_and_points: usize,
     /// Bytes after the last element that the file announces.
     pub bytes_after_end: usize,
+    /// Faces of one or two corners, or of none.
+    pub small_faces: NamedFaces,
 }
 
 impl RawMesh {
+    /// The triangles as they would be if no polygon were concave.
+    pub(crate) fn fan_triangles(&self) -> Vec<[u32; 3]> {
+        let mut triangles = self.triangles.clone();
+        for &(number, fan) in &self.fans {
+            if let Some(triangle) = triangles.get_mut(number) {
+                *triangle = fan;
+            }
+        }
+        triangles
+    }
+
     /// A raw mesh from arrays in memory. [`repair`] checks coordinates and indices.
     #[must_use]
     pub fn from_f32(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Self {
@@ -215,10 +236,12 @@ impl RawMesh {
             positions,
             triangles,
             file: PathBuf::from("(memory)"),
-            polygons_split: 0,
+            polygons: Polygons::default(),
+            fans: Vec::new(),
             decimal: false,
             error: 0.0,
             unit: None,
+            unit_by_default: false,
             left_out: LeftOut::default(),
         }
     }

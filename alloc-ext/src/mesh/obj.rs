@@ -2,23 +2,23 @@
 
 use std::path::Path;
 
+use super::polygons::{FacePlace, Faces, Split};
 use super::text::{lines, point};
 use super::{LeftOut, MeshError, RawMesh};
 
 /// Reads `v x y z …` and `f v[/vt[/vn]] …`, indices from 1 or relative (negative), `\` at a line's
 /// end continuing it, but not a comment: that may end with the path of a directory. Faces of one or
-/// two vertices are left out: they have no surface.
+/// two vertices have no surface and are counted, as points and lines are (`p`, `l`).
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let mut positions = Vec::new();
-    let mut triangles = Vec::new();
+    let mut faces = Faces::default();
+    let mut lines_and_points = 0;
     // From 1, as everything in such a file.
     let mut face = 1;
-    let mut polygons_split = 0;
     let mut corners: Vec<u32> = Vec::new();
     // OBJ lets a face name a vertex that comes later in the file, so ranges are checked against the
     // final count.
     let mut highest: Option<(u32, usize, usize)> = None;
-    let mut left_out = LeftOut::default();
     let mut joined = String::new();
     let mut lines = lines(bytes).peekable();
     while let Some((number, text)) = lines.next() {
@@ -51,10 +51,10 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                     }
                     corners.push(vertex);
                 }
-                polygons_split += usize::from(fan(&corners, &mut triangles, &mut left_out));
+                faces.add(&corners, FacePlace { face, line: Some(number) });
                 face += 1;
             }
-            Some("l" | "p") => left_out.lines_and_points += 1,
+            Some("l" | "p") => lines_and_points += 1,
             _ => {}
         }
     }
@@ -69,8 +69,11 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             })
         }
         _ => {
+            let small_faces = faces.small;
+            let Split { triangles, polygons, fans } = faces.finish(&positions);
+            let left_out = LeftOut { lines_and_points, small_faces, ..LeftOut::default() };
             let raw = RawMesh::from_f64(positions, triangles);
-            Ok(RawMesh { file: file.to_owned(), polygons_split, decimal: true, left_out, ..raw })
+            Ok(RawMesh { file: file.to_owned(), polygons, fans, decimal: true, left_out, ..raw })
         }
     }
 }
@@ -103,14 +106,4 @@ fn index(
         index,
         vertex_count,
     })
-}
-
-/// Splits a polygon into the fan about its first vertex, in order, and counts those of one or two
-/// corners; whether it has more than three.
-pub(super) fn fan(corners: &[u32], triangles: &mut Vec<[u32; 3]>, left_out: &mut LeftOut) -> bool {
-    if let [first, rest @ ..] = corners {
-        triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
-    }
-    left_out.lines_and_points += usize::from((1..3).contains(&corners.len()));
-    corners.len() > 3
 }

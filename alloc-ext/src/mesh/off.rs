@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use super::obj::fan;
+use super::polygons::{FacePlace, Faces, Split};
 use super::text::{lines, point};
 use super::{LeftOut, MeshError, RawMesh};
 
 /// Reads `OFF` and its variants with normals, colours and texture coordinates (`COFF`, `NOFF`,
 /// `STOFF`): of a vertex's line the first three numbers, of a face's line its corners. Faces of one
-/// or two vertices are left out: they have no surface.
+/// or two vertices have no surface and are counted.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let malformed = |line: usize, place: String, reason: String| MeshError::Malformed {
         file: file.to_owned(),
@@ -18,9 +18,8 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     };
     let header = |line: usize, reason: &str| malformed(line, "the header".into(), reason.into());
     let mut positions: Vec<[f64; 3]> = Vec::new();
-    let mut triangles = Vec::new();
-    let mut polygons_split = 0;
-    let mut left_out = LeftOut::default();
+    let mut surface = Faces::default();
+    let mut bytes_after_end = 0;
     let mut corners: Vec<u32> = Vec::new();
     let mut has_keyword = false;
     let mut counts: Option<[usize; 2]> = None;
@@ -53,7 +52,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             continue;
         }
         if face == faces {
-            left_out.bytes_after_end += text.len();
+            bytes_after_end += text.len();
             continue;
         }
         let place = || format!("face {face}");
@@ -79,7 +78,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             let reason = format!("{} of {size} corners are there", corners.len());
             return Err(malformed(number, place(), reason));
         }
-        polygons_split += usize::from(fan(&corners, &mut triangles, &mut left_out));
+        surface.add(&corners, FacePlace { face, line: Some(number) });
         face += 1;
     }
     let Some([vertices, faces]) = counts else {
@@ -95,8 +94,11 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             });
         }
     }
+    let small_faces = surface.small;
+    let left_out = LeftOut { small_faces, bytes_after_end, ..LeftOut::default() };
+    let Split { triangles, polygons, fans } = surface.finish(&positions);
     let raw = RawMesh::from_f64(positions, triangles);
-    Ok(RawMesh { file: file.to_owned(), polygons_split, decimal: true, left_out, ..raw })
+    Ok(RawMesh { file: file.to_owned(), polygons, fans, decimal: true, left_out, ..raw })
 }
 
 /// Whether the first word is that of a form which is read; else the refusal, or none if the word

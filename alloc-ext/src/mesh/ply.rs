@@ -8,7 +8,7 @@ use ply_rs_bw::ply::{
     ElementDef, Encoding, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
 };
 
-use super::obj::fan;
+use super::polygons::{FacePlace, Faces, Split};
 use super::strip::strip;
 use super::{LeftOut, MeshError, RawMesh};
 
@@ -34,9 +34,8 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         Source { file, encoding: header.encoding, line: reader.line(), rest: reader.into_inner() };
 
     let mut positions = Vec::new();
-    let mut triangles = Vec::new();
-    let mut polygons_split = 0;
-    let mut left_out = LeftOut::default();
+    let mut surface = Faces::default();
+    let mut stitches = 0;
     let mut corners: Vec<u32> = Vec::new();
     for (name, element) in &header.elements {
         source.check_room(element)?;
@@ -67,13 +66,13 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                 require(file, element, &format!("{name} needs one list vertex_indices"), |e| {
                     e.count == 0 || e.properties.keys().filter(|k| is_corners(k)).count() == 1
                 })?;
-                triangles.reserve(element.count);
+                surface.triangles.reserve(element.count);
                 for face in 0..element.count {
                     let Face(indices) = source.next(element, face)?;
                     corners.clear();
                     for index in indices {
                         if is_strips && index == -1 {
-                            left_out.stitches += strip(&corners, &mut triangles);
+                            stitches += strip(&corners, &mut surface.triangles);
                             corners.clear();
                             continue;
                         }
@@ -92,9 +91,9 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                         corners.push(vertex);
                     }
                     if is_strips {
-                        left_out.stitches += strip(&corners, &mut triangles);
+                        stitches += strip(&corners, &mut surface.triangles);
                     } else {
-                        polygons_split += usize::from(fan(&corners, &mut triangles, &mut left_out));
+                        surface.add(&corners, FacePlace { face, line: source.line() });
                     }
                 }
             }
@@ -112,12 +111,15 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         e.properties.values().any(|p| p.data_type == PropertyType::Scalar(ScalarType::Double))
     });
     let decimal = header.encoding == Encoding::Ascii && has_doubles;
-    left_out.bytes_after_end = match header.encoding {
+    let bytes_after_end = match header.encoding {
         Encoding::Ascii => source.rest.trim_ascii().len(),
         _ => source.rest.len(),
     };
+    let small_faces = surface.small;
+    let left_out = LeftOut { stitches, small_faces, bytes_after_end, ..LeftOut::default() };
+    let Split { triangles, polygons, fans } = surface.finish(&positions);
     let raw = RawMesh::from_f64(positions, triangles);
-    Ok(RawMesh { file: file.to_owned(), polygons_split, decimal, left_out, ..raw })
+    Ok(RawMesh { file: file.to_owned(), polygons, fans, decimal, left_out, ..raw })
 }
 
 /// Refuses two elements of one name, and two properties of an element: the crate keeps only the

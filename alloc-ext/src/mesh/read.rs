@@ -13,14 +13,15 @@ use super::{FORMATS, MeshError, RawMesh, gltf, obj, off, ply, stl, threemf};
 ///   `data:` or from files beside it. Skins, morphs, Draco and meshopt are refused.
 /// - `.3mf`: the objects of the build, in the unit that the file tells.
 ///
-/// Polygons are split into fans about their first vertex. Nodes, items and components put copies in
+/// A polygon of n corners becomes n − 2 triangles: the fan about its first corner, or ears if that
+/// corner does not see all of it. Nodes, items and components put copies in
 /// place; one that mirrors keeps the outside outside.
 ///
 /// Memory is bounded by a multiple of the file's size, also if its header announces more: a small
 /// one, but 128 for a compressed file. A scene of copies may reach 2²⁴ vertices and triangles.
 ///
 /// # Errors
-/// The file cannot be read, is of another kind, does not follow its format, ends early, holds a
+/// The file cannot be read, is empty, is of another kind, does not follow its format, ends early, holds a
 /// coordinate that is not finite, names a vertex that is not there, or holds no face.
 pub fn read(path: &Path) -> Result<RawMesh, MeshError> {
     let bytes = std::fs::read(path).map_err(|error| MeshError::Unreadable {
@@ -44,7 +45,7 @@ pub fn read_bytes(path: &Path, mut bytes: Vec<u8>) -> Result<RawMesh, MeshError>
     }
     let mesh = match extension.as_deref() {
         Some(kind) if FORMATS.contains(&kind) && bytes.trim_ascii().is_empty() => {
-            return Err(MeshError::NoTriangles { file: path.to_owned() });
+            return Err(MeshError::Empty { file: path.to_owned() });
         }
         Some("ply") => ply::read(path, &bytes)?,
         Some("obj") => obj::read(path, &bytes)?,

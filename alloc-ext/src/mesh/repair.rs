@@ -39,11 +39,11 @@ use super::{Mesh, MeshError, RawMesh};
 pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
     check(&raw)?;
     let (mut positions, rounding) = round(&raw)?;
-    let RawMesh { mut triangles, polygons_split, left_out, .. } = raw;
+    let RawMesh { mut triangles, polygons, left_out, .. } = raw;
     let mut report = RepairReport {
         vertices_read: positions.len(),
         triangles_read: triangles.len(),
-        polygons_split,
+        polygons,
         left_out,
         rounding,
         ..RepairReport::default()

@@ -2,13 +2,13 @@
 
 use std::fmt;
 
-use super::{LeftOut, MeshError};
+use super::{LeftOut, MeshError, Polygons};
 use crate::counted::Counted;
 
 /// Most places of a list: enough to find the flaw, few enough to read.
 pub(super) const PLACES_KEPT: usize = 5;
 
-/// A place in the input file. Numbers count from 0; triangles after fan triangulation.
+/// A place in the input file. Numbers count from 0; triangles after polygons are split.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// Number of the triangle in the input, if the place is one.
@@ -53,7 +53,7 @@ pub struct RepairReport {
     /// Triangles in the input.
     pub triangles_read: usize,
     /// Faces of the input with more than three corners, which were split into triangles.
-    pub polygons_split: usize,
+    pub polygons: Polygons,
     /// Parts of the file that were not read as triangles.
     pub left_out: LeftOut,
     /// Vertices in the result.
@@ -134,14 +134,24 @@ impl RepairReport {
     }
 
     /// True if the result is the input, triangle for triangle: nothing left out, dropped, split,
-    /// flipped or rewound. Welding, unreferenced vertices and rounding do not count.
+    /// flipped or rewound, and no polygon that crosses itself. Welding, unreferenced vertices and rounding do not count.
     #[must_use]
     pub fn is_clean(&self) -> bool {
         let nothing_left_out = self.left_out == LeftOut::default();
         nothing_left_out
+            && self.polygons.unsound.count == 0
             && self.findings().iter().all(|(key, _, finding)| {
                 finding.count == 0 || matches!(*key, "welded" | "unreferenced" | "cavities")
             })
+    }
+
+    /// Sentences about faces of the file that are no polygons: those that cross themselves, and
+    /// those of fewer than three corners. Each names the first.
+    pub fn doubtful_faces(&self) -> impl Iterator<Item = String> {
+        let fan = "too warped or crossing itself, split about its first corner";
+        let small = "of fewer than three corners left out";
+        let unsound = self.polygons.unsound.said("polygon", fan);
+        unsound.into_iter().chain(self.left_out.small_faces.said("face", small))
     }
 
     /// Adds to a [`MeshError::Open`] the zero-area triangle whose removal is the likely cause: one
@@ -170,14 +180,21 @@ impl fmt::Display for RepairReport {
             Counted(self.triangles_kept, "triangle"),
             Counted(self.component_count, "connected component")
         )?;
-        if self.polygons_split > 0 {
+        let Polygons { split, by_ears, .. } = self.polygons;
+        if split > 0 {
             write!(
                 f,
                 "\n  {} split: numbers of triangles count those that they were split into, in file order",
-                Counted(self.polygons_split, "polygon")
+                Counted(split, "polygon")
             )?;
         }
-        let LeftOut { stitches, lines_and_points, bytes_after_end } = self.left_out;
+        if by_ears > 0 {
+            write!(f, "\n  {} split by ears", Counted(by_ears, "concave polygon"))?;
+        }
+        for said in self.doubtful_faces() {
+            write!(f, "\n  {said}")?;
+        }
+        let LeftOut { stitches, lines_and_points, bytes_after_end, .. } = self.left_out;
         if stitches > 0 {
             let stitches = Counted(stitches, "triangle");
             write!(f, "\n  {stitches} with a repeated corner left out of strips that they join")?;

@@ -3,6 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
+use super::polygons::{FacePlace, Polygons};
 use super::text::{lines, point};
 use super::{LeftOut, MeshError, RawMesh};
 
@@ -66,11 +67,11 @@ fn read_binary(file: &Path, mut bytes: Vec<u8>, count: u32) -> Result<RawMesh, M
         positions.extend(triangle.vertices.map(|v| v.0.map(f64::from)));
     }
     let left_out = LeftOut { bytes_after_end, ..LeftOut::default() };
-    Ok(RawMesh { left_out, ..raw(file, positions, 0, false) })
+    Ok(RawMesh { left_out, ..raw(file, positions, Polygons::default(), false) })
 }
 
-/// Reads the `vertex` lines of all solids in the file. A facet of more than three vertices becomes
-/// a fan.
+/// Reads the `vertex` lines of all solids in the file. A facet of more than three vertices is
+/// split.
 fn read_ascii(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let malformed = |line: usize, facet: usize, reason: &str| MeshError::Malformed {
         file: file.to_owned(),
@@ -81,7 +82,8 @@ fn read_ascii(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let mut positions: Vec<[f64; 3]> = Vec::new();
     let mut vertex = 0;
     let mut facet = 0;
-    let mut polygons_split = 0;
+    let mut polygons = Polygons::default();
+    let mut fans = Vec::new();
     let mut polygon: Option<Vec<[f64; 3]>> = None;
     let mut last = 0;
     for (number, text) in lines(bytes) {
@@ -102,9 +104,18 @@ fn read_ascii(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                 }
             }
             "endfacet" => match polygon.take().as_deref() {
-                Some([first, rest @ ..]) if rest.len() >= 2 => {
-                    polygons_split += usize::from(rest.len() > 2);
-                    positions.extend(rest.windows(2).flat_map(|pair| [*first, pair[0], pair[1]]));
+                Some(corners @ [first, rest @ ..]) if rest.len() >= 2 => {
+                    let place = FacePlace { face: facet, line: Some(number) };
+                    let is_polygon = rest.len() > 2;
+                    match is_polygon.then(|| polygons.ears(corners, place)).flatten() {
+                        Some(ears) => {
+                            let number = positions.len() / 3;
+                            fans.extend((number..).zip(ears.iter().map(|e| e.map(|k| k as u32))));
+                            positions.extend(ears.iter().flatten().map(|&k| corners[k]));
+                        }
+                        None => positions
+                            .extend(rest.windows(2).flat_map(|pair| [*first, pair[0], pair[1]])),
+                    }
                     facet += 1;
                 }
                 _ => return Err(malformed(number, facet, "fewer than three vertices")),
@@ -117,13 +128,13 @@ fn read_ascii(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     if polygon.is_some() {
         return Err(malformed(last, facet, "the file ends inside a facet"));
     }
-    Ok(raw(file, positions, polygons_split, true))
+    Ok(RawMesh { fans, ..raw(file, positions, polygons, true) })
 }
 
 /// Three positions for each triangle.
-fn raw(file: &Path, positions: Vec<[f64; 3]>, polygons_split: usize, decimal: bool) -> RawMesh {
+fn raw(file: &Path, positions: Vec<[f64; 3]>, polygons: Polygons, decimal: bool) -> RawMesh {
     let triangles =
         (0..positions.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
     let raw = RawMesh::from_f64(positions, triangles);
-    RawMesh { file: file.to_owned(), polygons_split, decimal, ..raw }
+    RawMesh { file: file.to_owned(), polygons, decimal, ..raw }
 }

@@ -5,6 +5,7 @@ use crate::support::{
     scratch, triangles, write_csv,
 };
 use std::fs;
+use std::path::Path;
 
 #[test]
 fn without_arguments_it_explains_itself_in_ten_lines_with_numbers() {
@@ -59,6 +60,49 @@ fn build_reports_mesh_sections_memory_and_levels() {
         assert!(text.contains(part), "{part} in {text}");
     }
     assert_eq!(fs::read_dir(&directory).unwrap().count(), 1, "nothing but the blob is left");
+}
+
+/// The numbers of `info`'s box: three low, three high.
+fn printed_box(blob: &Path) -> [[f64; 3]; 2] {
+    let said = ok(["info", arg(blob)]);
+    let after = said.split("box ").nth(1).expect("a box");
+    let line = after.lines().next().unwrap_or_default().replace(" to ", ", ");
+    let numbers: Vec<f64> = line.split(", ").map(|x| x.parse().expect("a number")).collect();
+    [0, 3].map(|at| [0, 1, 2].map(|k| numbers[at + k]))
+}
+
+#[test]
+fn the_box_of_info_contains_the_mesh_as_it_was_read() {
+    let directory = scratch("info_box");
+    let groove = fixture("groove.obj");
+    let moved = directory.join("tenths.obj");
+    let text = fs::read_to_string(&groove).unwrap();
+    let third = |line: &str| {
+        let words = line.split(' ').skip(1).map(|x| x.parse::<f64>().unwrap() / 3.0);
+        format!("v{}\n", words.map(|x| format!(" {x}")).collect::<String>())
+    };
+    let lines = text.lines().map(|line| match line.starts_with("v ") {
+        true => third(line),
+        false => format!("{line}\n"),
+    });
+    fs::write(&moved, lines.collect::<String>()).unwrap();
+    let of_moved = ["--for", "closest,segment,hull", "--base", "60", "--vertex-bits", "16"];
+    let path = directory.join("tenths.msw");
+    ok([&["build", arg(&moved), "-o", arg(&path)], &of_moved[..]].concat());
+    for (blob, mesh) in [
+        (path, moved),
+        (fixture("bracket.msw"), fixture("bracket.stl")),
+        (fixture("torus.msw"), fixture("torus.ply")),
+        (fixture("hulls.msw"), fixture("bracket.stl")),
+    ] {
+        let json = serde_json::from_value(info(&blob)["input_box"].clone()).expect("a box");
+        let boxes: [[[f64; 3]; 2]; 2] = [printed_box(&blob), json];
+        for ([low, high], k) in boxes.into_iter().flat_map(|found| [0, 1, 2].map(|k| (found, k))) {
+            for x in triangles(&mesh).iter().flatten().map(|p| p[k]) {
+                assert!(low[k] <= x && x <= high[k], "{blob:?}: {} {x} {}", low[k], high[k]);
+            }
+        }
+    }
 }
 
 #[test]
@@ -217,7 +261,7 @@ fn every_evil_fixture_is_built_or_refused_in_one_line_and_leaves_nothing_behind(
 }
 
 /// Builds a mesh written by hand; the report.
-fn report(directory: &std::path::Path, name: &str, content: &str) -> String {
+fn report(directory: &Path, name: &str, content: &str) -> String {
     let (mesh, out) = (directory.join(name), directory.join("out.msw"));
     fs::write(&mesh, content).unwrap();
     ok(["build", arg(&mesh), "-o", arg(&out)])

@@ -87,12 +87,14 @@ fn bad_curves_and_wrong_options_are_refused() {
         ("0,0\n1,nan\n", "bad.csv, line 2, field 2: \"nan\" is no finite number"),
         ("0,0\n1,1,1\n", "bad.csv, line 2: 3 fields, and a point needs 2"),
         ("0,0\n1,1\n\n5,5\n", "bad.csv, line 4: a polyline of one point"),
-        ("", "bad.csv, no points"),
+        ("", "bad.csv: no points"),
     ] {
         let told = refused(&build(text, &[]), 1, "bad.csv");
         assert!(told.contains(why), "{told}");
     }
     let fine = "0,0\n1,1\n";
+    let torus = run(["build", arg(&fixture("torus.ply")), "-o", "x.msw", "--for", "closest,curve"]);
+    refused(&torus, 2, "--for curve needs a .csv");
     let told = refused(&build(fine, &["--for", "curve,hull"]), 2, "--for curve");
     assert!(told.contains("a mesh for anything else"), "{told}");
     assert!(!output.exists());

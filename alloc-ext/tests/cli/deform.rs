@@ -64,6 +64,9 @@ fn frames_are_answered_as_the_files_say() {
         }
     }
     let output = arg(&output);
+    let wrong = run(["closest", output, "1,2,3", "--frame", "x"]);
+    let line = String::from_utf8_lossy(&wrong.stderr);
+    assert!(wrong.status.code() == Some(2) && line.contains("a key frame from 0"), "{line}");
     for frame in ["-1", "1.5", "nan"] {
         let output = run(["closest", output, "1,2,3", &format!("--frame={frame}")]);
         let message = refused(&output, 1, "bend.msw");

@@ -95,16 +95,16 @@ fn files_that_cannot_be_read_are_named() {
 #[test]
 fn a_mesh_file_without_triangles_is_named() {
     let directory = scratch("no_triangles");
-    for (name, content) in [
-        ("zero.ply", ""),
-        ("zero.stl", ""),
-        ("blank.obj", " \n"),
-        ("empty.stl", "solid a\nendsolid a\n"),
-        ("points.obj", "v 0 0 0\n"),
+    for (name, content, wanted) in [
+        ("zero.ply", "", "the file is empty; "),
+        ("zero.stl", "", "the file is empty; "),
+        ("blank.obj", " \n", "the file is empty; "),
+        ("empty.stl", "solid a\nendsolid a\n", "holds no triangles; export the surface"),
+        ("points.obj", "v 0 0 0\n", "holds no triangles; export the surface"),
     ] {
         let mesh = file(&directory, name, content);
         let line = refused(&run(["build", arg(&mesh), "-o", "x.msw"]), 1, name);
-        assert!(line.contains("holds no triangles; export the surface"), "{line}");
+        assert!(line.contains(wanted), "{line}");
     }
 }
 
@@ -163,6 +163,7 @@ fn a_mesh_under_a_name_of_another_kind_is_refused_with_its_kind() {
         ("torus.ply", "noname", "PLY"),
         ("groove.obj", "b.ply", "OBJ"),
         ("groove.obj", "b.STL", "OBJ"),
+        ("bracket.stl", "b.obj", "binary STL"),
     ] {
         let mesh = file(&directory, name, fs::read(fixture(from)).unwrap());
         let line = refused(&run(["build", arg(&mesh), "-o", arg(&out)]), 1, name);

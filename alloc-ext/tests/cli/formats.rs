@@ -1,6 +1,6 @@
 //! Mesh files of other kinds, and units.
 
-use crate::support::{arg, ok, run, scratch};
+use crate::support::{arg, ok, refused, run, scratch};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write;
@@ -48,6 +48,13 @@ fn a_unit_scales_what_knows_its_own_and_is_told() {
     let compared = ok([&["hausdorff", arg(&metres), arg(&other)][..], &options].concat());
     let value: serde_json::Value = serde_json::from_str(&compared).unwrap();
     assert_eq!((&value["unit"], &value["holds"]), (&"mm".into(), &true.into()), "{compared}");
+    let bare = run(["hausdorff", arg(&metres), arg(&other)]);
+    let said = String::from_utf8_lossy(&bare.stderr);
+    assert!(bare.status.success() && said.contains("a.off names no unit; taken as m"), "{said}");
+    // The blob is in millimetres, and the mesh is read in metres.
+    let output = run(["verify", arg(&first), arg(&metres)]);
+    refused(&output, 3, "; was it built with --unit?");
+    ok(["verify", arg(&first), arg(&metres), "--unit", "mm"]);
     let wrong = run(["build", arg(&other), "-o", "x", "--unit", "ell"]);
     let line = String::from_utf8_lossy(&wrong.stderr);
     assert!(wrong.status.code() == Some(2) && line.contains("one of um, mm, cm"), "{line}");

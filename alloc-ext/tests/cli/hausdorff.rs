@@ -48,10 +48,12 @@ fn a_limit_is_the_exit_status() {
         (plate(&directory, "low.obj", 1.0, 0.0), plate(&directory, "high.obj", 1.0, 0.25));
     let ask = |most: &str| run(["hausdorff", arg(&low), arg(&high), "--at-most", most]);
     assert!(ask("0.26").status.success());
-    let line = refused(&ask("0.24"), 1, "low.obj");
+    let line = refused(&ask("0.24"), 3, "low.obj");
     assert!(line.contains("at least 0.249") && line.contains("0.24 was asked"), "{line}");
-    let line = refused(&ask("0.25"), 1, "low.obj");
+    let line = refused(&ask("0.25"), 3, "low.obj");
     assert!(line.contains("to be decided"), "{line}");
+    let broken = run(["hausdorff", arg(&low), "absent.stl", "--at-most", "1"]);
+    refused(&broken, 1, "absent.stl");
 }
 
 #[test]

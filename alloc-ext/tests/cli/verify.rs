@@ -98,9 +98,11 @@ impl Case {
         fs::write(&self.edited, bytes).unwrap();
         let output = run(self.arguments(&self.edited));
         assert!(!output.status.success(), "{because}: proved");
-        let line = refused(&output, 1, "edited.msw");
-        assert!(line.contains(because), "{because}: {line}");
-        assert!(line.contains("failed: "), "{line}");
+        let line = refused(&output, 3, "edited.msw");
+        assert!(line.contains(" failed: ") && !line.contains(because), "{line}");
+        let said = String::from_utf8_lossy(&output.stdout);
+        let failed = said.lines().find(|line| line.starts_with("failed: "));
+        assert!(failed.is_some_and(|line| line.contains(because)), "{because}: {said}");
     }
 }
 
@@ -242,9 +244,15 @@ fn key_frames_are_proved_of_their_meshes_alone() {
         assert!(b[radii] > 9);
         b[radii] -= 9;
     });
-    refused(&run(["verify", arg(&path), arg(&mesh)]), 1, "1 key frames are stored, 0 are given");
-    let line = refused(&run(["verify", arg(&path), arg(&mesh), arg(&mesh)]), 1, "groove.msw");
-    assert!(line.contains("failed: key frames: key frame 1: vertex"), "{line}");
+    let output = run(["verify", arg(&path), arg(&mesh)]);
+    refused(&output, 3, "failed: key frames");
+    let said = String::from_utf8_lossy(&output.stdout);
+    let wanted = "key frames, frame 0 included: 2 stored, 1 given";
+    assert!(said.contains(wanted), "{said}");
+    let output = run(["verify", arg(&path), arg(&mesh), arg(&mesh)]);
+    refused(&output, 3, "groove.msw");
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(said.contains("failed: key frames: key frame 1: vertex"), "{said}");
 }
 
 #[test]
@@ -299,11 +307,17 @@ fn a_blob_is_not_proved_of_another_mesh() {
         ("torus.msw", &bracket, "triboxes"),
         ("hulls.msw", &torus, "tight hulls"),
     ] {
-        let line = refused(&run(["verify", arg(&fixture(blob)), arg(mesh)]), 1, blob);
-        assert!(line.contains(&format!("failed: {structure}: ")), "{line}");
+        let output = run(["verify", arg(&fixture(blob)), arg(mesh)]);
+        let line = refused(&output, 3, blob);
+        assert!(line.contains(" failed: ") && line.contains(structure), "{line}");
+        assert!(line.contains("; the blob was built from another mesh, of "), "{line}");
+        let said = String::from_utf8_lossy(&output.stdout);
+        assert!(said.contains(&format!("failed: {structure}: ")), "{said}");
     }
-    refused(&run(["verify", arg(&fixture("groove.msw")), arg(&fence)]), 1, "fence.csv");
-    refused(&run(["verify", arg(&fixture("fence.msw")), arg(&torus)]), 1, "torus.ply");
+    let line = refused(&run(["verify", arg(&fixture("groove.msw")), arg(&fence)]), 2, "fence.csv");
+    assert!(line.contains("name the mesh file"), "{line}");
+    let line = refused(&run(["verify", arg(&fixture("fence.msw")), arg(&torus)]), 2, "torus.ply");
+    assert!(line.contains("is of curves") && line.contains(".csv"), "{line}");
     let two = ["verify", arg(&fixture("groove.msw")), arg(&torus), arg(&torus)].map(str::to_owned);
     refused(&run(two), 2, "key frames");
 }
@@ -315,8 +329,9 @@ fn what_has_no_proof_is_said_and_is_no_success() {
     ok(["cut", arg(&fixture("bracket.msw")), "--level", "1", "-o", arg(&path)]);
     let mesh = fixture("bracket.stl");
     let output = run(["verify", arg(&path), arg(&mesh), "--json"]);
-    let line = refused(&output, 1, "cut.msw");
-    assert!(line.contains("not proved: hull hierarchy: ") && !line.contains("failed"), "{line}");
+    let line = refused(&output, 3, "cut.msw");
+    assert!(line.contains(" could not be made: hull hierarchy"), "{line}");
+    assert!(!line.contains("failed"), "{line}");
     let said: serde_json::Value = serde_json::from_slice(&output.stdout).expect("it is JSON");
     assert_eq!(said["proved"], false);
     let outcomes: Vec<_> =

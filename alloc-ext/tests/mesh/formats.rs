@@ -131,7 +131,7 @@ fn off_reads_variants_comments_polygons_and_colours() {
         let text = format!("{head}{square}4 0 1 2 3 255 0 0\n2 0 1\n3 2 1 0 0.5 0.5 0.5 1\n");
         let raw = parse("a.off", text).unwrap();
         assert_eq!(raw.triangles, [[0, 1, 2], [0, 2, 3], [2, 1, 0]], "{head}");
-        assert_eq!((raw.polygons_split, raw.positions.len(), raw.decimal), (1, 4, true));
+        assert_eq!((raw.polygons.split, raw.positions.len(), raw.decimal), (1, 4, true));
     }
 }
 

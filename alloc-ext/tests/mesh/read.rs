@@ -281,14 +281,14 @@ fn coordinates_beyond_f32_or_wholly_below_its_normal_range_are_refused_by_name()
 fn faces_of_more_than_three_corners_are_counted() {
     let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
     let raw = parse("a.obj", format!("{square}f 1 2 3 4\nf 1 2 3\nf 1 2\n")).unwrap();
-    assert_eq!((raw.polygons_split, raw.triangles.len()), (1, 3));
+    assert_eq!((raw.polygons.split, raw.triangles.len()), (1, 3));
     let raw = parse(
         "a.ply",
         ply("ascii", "float", "uchar int", b"0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"),
     )
     .unwrap();
-    assert_eq!(raw.polygons_split, 1);
+    assert_eq!(raw.polygons.split, 1);
     let facet = FACET.replace("endloop", "vertex -1 1 0\nendloop");
     let raw = parse("a.stl", format!("solid\n{FACET}{facet}endsolid\n")).unwrap();
-    assert_eq!((raw.polygons_split, raw.triangles.len()), (1, 3));
+    assert_eq!((raw.polygons.split, raw.triangles.len()), (1, 3));
 }

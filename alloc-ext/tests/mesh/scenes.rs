@@ -237,6 +237,9 @@ fn threemf_items_and_components_are_placed_and_mirrors_keep_the_outside() {
     let mirrored = [[0.0, 0.0, 5.0], [0.0, 1.0, 5.0], [-1.0, 0.0, 5.0]];
     assert_eq!(corners(&raw), [turned, mirrored]);
     assert!(raw.decimal && raw.unit == Some(Unit::In) && raw.error < 1e-13);
+    let unnamed = parse("a.3mf", threemf(&model.replacen(r#"unit="inch""#, "", 1))).unwrap();
+    assert_eq!([&raw, &unnamed].map(|raw| raw.unit_by_default), [false, true]);
+    assert_eq!(unnamed.unit, Some(Unit::Mm));
     let millimetres = raw.in_unit(Unit::Mm).unwrap();
     assert_eq!(corners(&millimetres)[0][1], [0.0, 127.0, 0.0]);
 }
@@ -286,6 +289,7 @@ fn threemf_refusals_name_part_object_and_defect() {
         ),
         ("<triangles>", r#"<b:beamlattice xmlns:b="urn:b"/><triangles>"#, "the beam lattice of 3D"),
         ("</model>", "", "3D/3dmodel.model: the text ends early"),
+        (r#"<item objectid="1"/>"#, "", "3D/3dmodel.model: the build lists no item"),
     ] {
         let changed = model.replacen(from, to, 1);
         assert_ne!(changed, model);

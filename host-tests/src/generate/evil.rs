@@ -72,9 +72,9 @@ fn unreadable() -> Vec<Evil> {
             "Truncated",
             "ends among its vertices (ASCII)",
         ),
-        file("empty.obj", Vec::new(), "NoTriangles", "0 bytes"),
-        file("empty.ply", Vec::new(), "NoTriangles", "0 bytes"),
-        file("empty.stl", Vec::new(), "NoTriangles", "0 bytes"),
+        file("empty.obj", Vec::new(), "Empty", "0 bytes"),
+        file("empty.ply", Vec::new(), "Empty", "0 bytes"),
+        file("empty.stl", Vec::new(), "Empty", "0 bytes"),
         file(
             "huge.obj",
             TETRAHEDRON.replace("0 0 1", "0 0 1e39").into(),

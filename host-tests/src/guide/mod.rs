@@ -1,4 +1,9 @@
-//! The recipes of the guide, run unchanged. They name blobs as `core/docs` does, one folder up: so
-//! this module is a folder, beside the link `fixtures`.
+//! The recipes of the guide, run unchanged. They name blobs as the `src/main.rs` of a crate beside
+//! the clone does: two folders up, then `meshsweep/core/fixtures`. So this module is a folder, and
+//! `host-tests/meshsweep/core/fixtures` is a link.
 
 #![doc = include_str!("../../../core/docs/guide.md")]
+
+/// The Rust of `README.md`, run unchanged too.
+#[doc = include_str!("../../../README.md")]
+mod readme {}

@@ -2,7 +2,8 @@
 //! `cargo xtask tables`, compared by `cargo xtask test`.
 //!
 //! Only numbers that repeat are here: bytes and instructions. Bytes have to be equal. Instructions
-//! and code sizes depend on the compiler too, so they may differ by 2 %.
+//! and code sizes depend on the compiler too, and a tick of the Cortex-M33's counter is 50
+//! instructions. So they may differ by 4 %.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -37,7 +38,7 @@ pub const QUESTIONS: [&str; 6] = [
 pub const CODE: [&str; 2] = ["closest", "tree_alone"];
 
 /// Part by which a count may differ from the written one.
-const TOLERANCE: f64 = 0.02;
+const TOLERANCE: f64 = 0.04;
 
 /// Everything that tables are made of.
 pub struct Facts<'a> {
@@ -310,7 +311,7 @@ mod tests {
         let written = markdown(&lines(27_524, &[1000.0, 2000.0]));
         assert_eq!(written, "| what | bytes |\n| --- | --- |\n| 27,524 | 1,000 / 2,000 |\n");
         assert_eq!(compare(&written, &lines(27_524, &[1015.0, 1970.0])), Ok(()));
-        assert!(compare(&written, &lines(27_524, &[1030.0, 2000.0])).is_err());
+        assert!(compare(&written, &lines(27_524, &[1050.0, 2000.0])).is_err());
         assert!(compare(&written, &lines(27_525, &[1000.0, 2000.0])).is_err());
         assert_eq!([0, 999, 1000, 1_234_567].map(thousands), ["0", "999", "1,000", "1,234,567"]);
     }

@@ -17,7 +17,9 @@ pub use asking::{
     WithinArgs, WorstArgs, WorstQuestion,
 };
 pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
-pub use building::{BuildArgs, CutArgs, FACES, HullServes, InfoArgs, StoredBits, VerifyArgs};
+pub use building::{
+    BuildArgs, CutArgs, FACES, HullServes, InfoArgs, Serves, StoredBits, VerifyArgs,
+};
 pub use comparing::HausdorffArgs;
 pub use given::{Given, files, names};
 pub use measuring::{At, Cpu, LimitArgs, TradeArgs};

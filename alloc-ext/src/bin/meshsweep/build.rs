@@ -1,6 +1,6 @@
 //! `meshsweep build`: a mesh file in, a blob and a report out.
 
-use crate::args::{BuildArgs, FACES, HullServes, StoredBits, slack_within_margin};
+use crate::args::{BuildArgs, FACES, HullServes, Serves, StoredBits, slack_within_margin};
 use crate::failure::Failure;
 use crate::hull_report::{
     require_met, why_stuck, write_margin, write_no_void, write_start, write_wires,
@@ -110,6 +110,9 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
 /// Why the options do not go together, if they do not.
 fn refuse_options(args: &BuildArgs) -> Option<String> {
     let wanted = args.wanted();
+    if args.serves.contains(&Serves::Curve) && mesh_file::is_named_as_mesh(&args.mesh) {
+        return Some("--for curve needs a .csv; leave it out for a mesh".to_owned());
+    }
     if args.asks_mesh_of_curve() {
         return Some("a curve serves --for curve only; name a mesh for anything else".to_owned());
     }

@@ -152,7 +152,11 @@ impl Clearance<'_> {
         let mut checked = poses.rows.iter().enumerate();
         let bad = checked.find_map(|(index, row)| Some((index, refused(row)?)));
         if let (MoveKind::Screw, Some((index, error))) = (kind, bad) {
-            let failure = Failure::Query { place: poses.place(index), error };
+            let place = poses.place(index);
+            let failure = match poses::no_rotation(&pose_of(poses.rows[index])) {
+                Some(fault) => Failure::Matrix { place, fault },
+                None => Failure::Query { place, error },
+            };
             poses.end_at(index, failure)?;
         }
         let moves = poses.moves(|from, to| row_of_poses([pose_of(from), pose_of(to)]))?;

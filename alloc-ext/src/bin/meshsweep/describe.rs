@@ -46,6 +46,24 @@ pub fn surface_box(blob: &Blob<'_>) -> [[f64; 3]; 2] {
     in_input_units(blob, blob.header().surface_box)
 }
 
+/// A box that contains the input, in its unit: that of the stored mesh, grown by the surface error.
+fn input_box(blob: &Blob<'_>) -> [[f64; 3]; 2] {
+    let header = blob.header();
+    let of_header = f64::from(header.surface_error) * exp2(header.scale_exponent);
+    let of_tree = blob.bvh().map_or(0.0, |tree| f64::from(tree.surface_error()));
+    let error = of_header.max(of_tree);
+    let [low, high] = surface_box(blob);
+    if error == 0.0 {
+        return [low, high];
+    }
+    [low.map(|x| (x - error).next_down()), high.map(|x| (x + error).next_up())]
+}
+
+/// Triangles of the file that the blob was built from; 0 of a curve.
+pub fn input_triangles(blob: &Blob<'_>) -> u32 {
+    blob.bvh().map_or(blob.header().input_triangles, |tree| tree.input_triangles())
+}
+
 /// The diagonal of the mesh's box, in its unit.
 fn diagonal(blob: &Blob<'_>) -> f64 {
     let [low, high] = surface_box(blob);
@@ -128,12 +146,11 @@ pub fn write_blob(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
 /// Format, input and hull hierarchy, before the tables of `info`.
 pub fn write_header(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
     let h = blob.header();
-    let [low, high] = surface_box(blob);
+    let [low, high] = input_box(blob);
     let low = low.map(|x| AtLeast(x).to_string());
     let high = high.map(|x| AtMost(x).to_string());
     let cut = if h.flags & FLAG_CUT != 0 { ", cut: finer levels are not there" } else { "" };
-    let input =
-        Counted(blob.bvh().map_or(h.input_triangles, |tree| tree.input_triangles()), "triangle");
+    let input = Counted(input_triangles(blob), "triangle");
     writeln!(out, "  format {VERSION_MAJOR}, {} bytes{cut}", h.total_bytes)?;
     let of =
         if blob.curve().is_ok() { String::new() } else { format!("{input} in the input file; ") };
@@ -180,6 +197,7 @@ pub fn as_json(blob: &Blob<'_>) -> Value {
         "scale_exponent": h.scale_exponent,
         "input_triangles": h.input_triangles,
         "surface_box": surface_box(blob),
+        "input_box": input_box(blob),
         "serves": served::questions(blob),
         "sections": sections,
         "hull": blob.hull().ok().map(|hull| hull::as_json(&hull, in_input_units(blob, h.hull_box))),

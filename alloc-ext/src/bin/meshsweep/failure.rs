@@ -29,7 +29,7 @@ pub enum Failure {
     /// The mesh is refused.
     Mesh { file: PathBuf, error: MeshError },
     /// A mesh file's content is not of the kind that its name says.
-    Misnamed { file: PathBuf, content: &'static str },
+    Misnamed { file: PathBuf, content: Content },
     /// The mesh does not bound a solid, and a hull is wanted.
     NotSolid { file: PathBuf, error: Box<MeshError>, instead: Option<&'static str> },
     /// A mesh is wanted, and a blob is given.
@@ -42,8 +42,8 @@ pub enum Failure {
     Unmet { file: PathBuf, unmet: Unmet },
     /// Two meshes are not proved to be as close to each other as asked for.
     Apart { first: PathBuf, second: PathBuf, most: f64, lower: f64, upper: f64 },
-    /// Not all that the blob claims of the mesh is proved.
-    NotVerified { blob: PathBuf, mesh: PathBuf, open: Vec<String> },
+    /// Not all that the blob claims of the mesh is proved; `open` says how much.
+    NotVerified { blob: PathBuf, mesh: PathBuf, open: String },
     /// No setting of the mesh meets the limits.
     Limits { file: PathBuf, what: String },
     /// The blob is refused.
@@ -79,6 +79,8 @@ pub enum Failure {
     Query { place: Place, error: QueryError },
     /// A pose's quaternion is 0.
     NoRotation { place: Place },
+    /// A pose's matrix has an entry that is too large, or is no rotation where one is needed.
+    Matrix { place: Place, fault: String },
     /// An end of a segment is too far away; `limit` says how far it may be.
     TooFar { place: Place, limit: String },
     /// The queries end early, so no file of answers is written.
@@ -89,6 +91,13 @@ pub enum Failure {
     Usage { what: String },
     /// The reader of the standard output has closed it: no error.
     ClosedPipe,
+}
+
+/// A kind of mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Content {
+    pub name: &'static str,
+    pub extension: &'static str,
 }
 
 /// Which query.
@@ -134,11 +143,11 @@ impl Failure {
         let line = text.lines().map(str::trim).collect::<Vec<_>>().join("; ");
         // If the standard error is closed too, nobody can be told.
         let _ = writeln!(io::stderr(), "error: {line}");
-        let is_usage = matches!(
-            self,
-            Failure::Usage { .. } | Failure::NoRotation { place: Place::Argument { .. } }
-        );
-        ExitCode::from(if is_usage { 2 } else { 1 })
+        ExitCode::from(match self {
+            Failure::Usage { .. } | Failure::NoRotation { place: Place::Argument { .. } } => 2,
+            Failure::Apart { .. } | Failure::NotVerified { .. } => 3,
+            _ => 1,
+        })
     }
 }
 
@@ -202,9 +211,10 @@ impl fmt::Display for Failure {
             }
             Failure::Misnamed { file, content } => write!(
                 f,
-                "{}: the content looks like {}; rename the file to end in .{content}",
+                "{}: the content looks like {}; rename the file to end in .{}",
                 file.display(),
-                content.to_ascii_uppercase()
+                content.name,
+                content.extension
             ),
             Failure::BlobForMesh { file } => {
                 write!(
@@ -213,8 +223,12 @@ impl fmt::Display for Failure {
                     file.display()
                 )
             }
-            // The error begins with a line of the file, or with what all of the file lacks.
-            Failure::Curve { file, error } => write!(f, "{}, {error}", file.display()),
+            Failure::Curve { file, error } => {
+                let text = error.to_string();
+                // A line of the file, else what all of the file lacks.
+                let mark = if text.starts_with("line ") { "," } else { ":" };
+                write!(f, "{}{mark} {text}", file.display())
+            }
             Failure::Unmet { file, unmet } => {
                 write!(f, "{}: {unmet}; nothing is written", file.display())
             }
@@ -232,7 +246,7 @@ impl fmt::Display for Failure {
                 }
             }
             Failure::NotVerified { blob, mesh, open } => {
-                write!(f, "{} of {}: {}", blob.display(), mesh.display(), open.join("; "))
+                write!(f, "{} of {}: {open}", blob.display(), mesh.display())
             }
             Failure::Limits { file, what } => write!(f, "{}: {what}", file.display()),
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
@@ -311,6 +325,7 @@ impl fmt::Display for Failure {
                     "{place}: the quaternion is 0, which says no rotation; 1,0,0,0 turns nothing"
                 )
             }
+            Failure::Matrix { place, fault } => write!(f, "{place}: {fault}"),
             Failure::TooFar { place, limit } => {
                 write!(
                     f,

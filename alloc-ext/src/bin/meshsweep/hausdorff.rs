@@ -24,7 +24,18 @@ pub fn run(args: &HausdorffArgs) -> Result<(), Failure> {
     let load = |file| mesh_file::load(file, args.unit);
     let [first, second] = [load(&args.first)?, load(&args.second)?];
     mesh_file::refuse_units([(&args.first, first.unit), (&args.second, second.unit)])?;
+    for (file, loaded) in [(&args.first, &first), (&args.second, &second)] {
+        for said in loaded.report.doubtful_faces() {
+            // A closed standard error does not withhold the answers.
+            let _ = writeln!(io::stderr(), "{}: {said}", file.display());
+        }
+    }
     let unit = first.unit.or(second.unit);
+    for (file, of) in [(&args.first, first.unit), (&args.second, second.unit)] {
+        if let (None, Some(unit)) = (of, unit) {
+            let _ = writeln!(io::stderr(), "{} names no unit; taken as {unit}", file.display());
+        }
+    }
     let direction = if args.one_sided { Direction::Forward } else { Direction::Both };
     let precision = Precision { relative: args.rel, absolute: args.abs, at_most: args.at_most };
     let bar = Bar::new(DIGITS, "comparing", "digits");

@@ -1,6 +1,6 @@
 //! From a mesh file to a clean mesh, closed or not, with a report of the repairs.
 
-use crate::failure::Failure;
+use crate::failure::{Content, Failure};
 use meshsweep::mesh::{self, FORMATS, Input, KeyFrame, Mesh, RawMesh, RepairReport, Unit};
 use meshsweep::surface::{VertexBits, snap};
 use meshsweep_core::internal::format::layout::MAGIC;
@@ -30,6 +30,8 @@ pub struct Loaded {
 #[derive(Clone, Copy)]
 enum Told {
     File,
+    /// The file tells none, and its format says which one it is then.
+    Format,
     Option,
     /// The option, and the file another unit.
     Scaled(Unit),
@@ -42,11 +44,17 @@ impl Loaded {
         Input { mesh, moved: *moved, input_triangles: *input_triangles }
     }
 
+    /// Whether the unit of the mesh comes from its file, without `--unit`.
+    pub fn is_in_own_unit(&self) -> bool {
+        self.unit.is_some() && matches!(self.told, Told::File | Told::Format)
+    }
+
     /// Tells the unit, if it is known.
     pub fn write_unit(&self, out: &mut dyn Write) -> io::Result<()> {
         let Some(unit) = self.unit else { return Ok(()) };
         match self.told {
             Told::File => writeln!(out, "  unit: {unit} (as the file tells)"),
+            Told::Format => writeln!(out, "  unit: {unit} (3MF's default)"),
             Told::Option => writeln!(out, "  unit: {unit} (by --unit)"),
             Told::Scaled(from) => writeln!(out, "  unit: {unit} (by --unit), scaled from {from}"),
         }
@@ -171,12 +179,13 @@ fn read(file: &Path, unit: Option<Unit>) -> Result<(RawMesh, Told), Failure> {
     let looks_like = content(&bytes);
     let raw = mesh::read_bytes(file, bytes).map_err(|error| {
         let extension = file.extension().and_then(|e| e.to_str()).unwrap_or_default();
-        match looks_like.filter(|kind| !kind.eq_ignore_ascii_case(extension)) {
+        match looks_like.filter(|content| !content.extension.eq_ignore_ascii_case(extension)) {
             Some(content) => Failure::Misnamed { file: file.to_owned(), content },
             None => Failure::Mesh { file: file.to_owned(), error },
         }
     })?;
     let told = match (raw.unit, unit) {
+        (_, None) if raw.unit_by_default => Told::Format,
         (_, None) => Told::File,
         (Some(from), Some(unit)) if from != unit => Told::Scaled(from),
         (_, Some(_)) => Told::Option,
@@ -188,32 +197,37 @@ fn read(file: &Path, unit: Option<Unit>) -> Result<(RawMesh, Told), Failure> {
     scaled.map(|raw| (raw, told)).map_err(|error| Failure::Mesh { file: file.to_owned(), error })
 }
 
-/// The kind of mesh file by the first bytes, as an extension.
-fn content(bytes: &[u8]) -> Option<&'static str> {
+/// The kind of mesh file by the first bytes, and of binary STL by the size.
+fn content(bytes: &[u8]) -> Option<Content> {
     let begins = |with: &[u8]| {
         bytes
             .strip_prefix(with)
             .is_some_and(|rest| rest.starts_with(b"\n") || rest.starts_with(b"\r"))
     };
-    if begins(b"ply") {
-        return Some("ply");
-    }
-    if bytes.starts_with(b"glTF") {
-        // Read under the name of the text form too.
-        return Some("glb");
-    }
-    if bytes.starts_with(b"PK\x03\x04") {
-        return Some("3mf");
-    }
-    if begins(b"OFF") || begins(b"COFF") || begins(b"NOFF") {
-        return Some("off");
-    }
     let head = bytes.get(..bytes.len().min(1000)).unwrap_or_default();
     let holds = |word: &[u8]| head.windows(word.len()).any(|at| at == word);
-    if head.starts_with(b"solid") && holds(b"facet normal") {
-        return Some("stl");
-    }
-    (head.starts_with(b"v ") || holds(b"\nv ")).then_some("obj")
+    // After a header of 80 bytes, the number of triangles of 50 bytes each.
+    let triangles = bytes.get(80..84).and_then(|count| count.try_into().ok());
+    let stl_bytes = triangles.map(|count| 84 + 50 * u64::from(u32::from_le_bytes(count)));
+    let (name, extension) = if begins(b"ply") {
+        ("PLY", "ply")
+    } else if bytes.starts_with(b"glTF") {
+        // Read under the name of the text form too.
+        ("GLB", "glb")
+    } else if bytes.starts_with(b"PK\x03\x04") {
+        ("3MF", "3mf")
+    } else if begins(b"OFF") || begins(b"COFF") || begins(b"NOFF") {
+        ("OFF", "off")
+    } else if bytes.len() > 84 && stl_bytes == Some(bytes.len() as u64) {
+        ("binary STL", "stl")
+    } else if head.starts_with(b"solid") && holds(b"facet normal") {
+        ("STL", "stl")
+    } else if head.starts_with(b"v ") || holds(b"\nv ") {
+        ("OBJ", "obj")
+    } else {
+        return None;
+    };
+    Some(Content { name, extension })
 }
 
 fn repaired(
@@ -234,14 +248,19 @@ mod tests {
 
     #[test]
     fn content_gives_the_kind_away() {
-        assert_eq!(content(b"ply\r\nformat ascii 1.0\n"), Some("ply"));
-        assert_eq!(content(b"solid x\n  facet normal 0 0 1\n"), Some("stl"));
-        assert_eq!(content(b"# made by hand\nv 1 2 3\n"), Some("obj"));
-        assert_eq!(content(b"some prose\n"), None);
-        assert_eq!(content(b"OFF\n8 6 12\n"), Some("off"));
-        assert_eq!(content(b"OFFICE\n"), None);
-        assert_eq!(content(b"glTF\x02\0\0\0"), Some("glb"));
-        assert_eq!(content(b"plywood"), None);
-        assert_eq!(content(b""), None);
+        let kind = |bytes: &[u8]| content(bytes).map(|content| content.name);
+        assert_eq!(kind(b"ply\r\nformat ascii 1.0\n"), Some("PLY"));
+        assert_eq!(kind(b"solid x\n  facet normal 0 0 1\n"), Some("STL"));
+        assert_eq!(kind(b"# made by hand\nv 1 2 3\n"), Some("OBJ"));
+        assert_eq!(kind(b"some prose\n"), None);
+        assert_eq!(kind(b"OFF\n8 6 12\n"), Some("OFF"));
+        assert_eq!(kind(b"OFFICE\n"), None);
+        assert_eq!(kind(b"glTF\x02\0\0\0"), Some("GLB"));
+        assert_eq!(kind(b"plywood"), None);
+        assert_eq!(kind(b""), None);
+        let mut stl = [0; 134];
+        stl[80] = 1;
+        assert_eq!(kind(&stl), Some("binary STL"));
+        assert_eq!(kind(&stl[..133]), None);
     }
 }

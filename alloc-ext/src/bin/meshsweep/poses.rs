@@ -2,9 +2,11 @@
 
 use crate::args::{Given, MovedArgs, SearchArgs, files};
 use crate::failure::Failure;
+use crate::number::Short;
 use crate::output;
 use crate::queries::Queries;
 use meshsweep_core::Pose;
+use meshsweep_core::internal::num::tolerance::SCREW_DEFECT;
 
 /// A question about poses, given as `N` numbers each.
 pub trait AskPoses {
@@ -28,7 +30,12 @@ pub fn ask(
     question: impl AskPoses,
 ) -> Result<(), Failure> {
     if !matrix.is_empty() {
-        return question.ask(Queries::read(matrix)?, of_matrix);
+        let mut poses = Queries::read(matrix)?;
+        if let Some((index, fault)) = first_fault(&poses.rows) {
+            let failure = Failure::Matrix { place: poses.place(index), fault };
+            poses.end_at(index, failure)?;
+        }
+        return question.ask(poses, of_matrix);
     }
     let as_built = [Given::Query([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])];
     let mut poses = Queries::read(if pose.is_empty() { &as_built } else { pose })?;
@@ -51,6 +58,36 @@ fn of_quaternion([x, y, z, qw, qx, qy, qz]: [f32; 7]) -> Pose {
         [two * (a * c - w * b), two * (b * c + w * a), 1.0 - two * (a * a + b * b)],
     ];
     Pose { rotation: rotation.map(|row| row.map(|x| x as f32)), translation: [x, y, z] }
+}
+
+/// The first matrix that has an entry beyond 2, and which entry.
+fn first_fault(rows: &[[f32; 12]]) -> Option<(usize, String)> {
+    rows.iter().enumerate().find_map(|(index, numbers)| {
+        let at = (0..12).find(|at| at % 4 < 3 && numbers[*at].abs() > 2.0)?;
+        let (row, column, entry) = (at / 4 + 1, at % 4 + 1, Short(numbers[at]));
+        Some((index, format!("entry {column} of row {row} is {entry}, beyond 2")))
+    })
+}
+
+/// Why a matrix begins no screw: which rows are not those of a rotation, if they are not.
+pub fn no_rotation(pose: &Pose) -> Option<String> {
+    let rows = pose.rotation.map(|row| row.map(f64::from));
+    let dot = |a: usize, b: usize| -> f64 { (0..3).map(|k| rows[a][k] * rows[b][k]).sum() };
+    // As `Motion::screw` demands, but for its rounding.
+    let long = (0..3).find(|&row| (dot(row, row) - 1.0).abs() > SCREW_DEFECT);
+    let skew = [(0, 1), (1, 2), (0, 2)].into_iter().find(|&(a, b)| dot(a, b).abs() > SCREW_DEFECT);
+    let [a, b, c] = rows.map(glam::DVec3::from);
+    if let Some(row) = long {
+        let length = dot(row, row).sqrt();
+        Some(format!("row {} has length {length:.4}, and a screw needs 1", row + 1))
+    } else if let Some((a, b)) = skew {
+        let cosine = dot(a, b);
+        let (a, b) = (a + 1, b + 1);
+        Some(format!("rows {a} and {b} are not at right angles: their product is {cosine:.4}"))
+    } else {
+        let is_mirror = a.dot(b.cross(c)) <= 0.0;
+        is_mirror.then(|| "the matrix is a mirror, and a screw needs a rotation".to_owned())
+    }
 }
 
 /// The pose of a matrix's rows, each with its translation.

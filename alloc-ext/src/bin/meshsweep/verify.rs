@@ -1,8 +1,9 @@
 //! `meshsweep verify`: proves a blob from its bytes and the mesh, by code of its own.
 
 use crate::args::VerifyArgs;
+use crate::describe;
 use crate::failure::Failure;
-use crate::mesh_file::{self, Loaded};
+use crate::mesh_file::{self, Loaded, is_named_as_mesh};
 use crate::output::Output;
 use meshsweep::check::{Against, Finding, Outcome, verify};
 use meshsweep::counted::Counted;
@@ -18,7 +19,7 @@ pub fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let bytes = std::fs::read(&args.blob)
         .map_err(|error| Failure::Read { file: args.blob.clone(), error })?;
     let blob = Blob::open(&bytes).map_err(|error| Failure::open(&args.blob, error))?;
-    let findings = findings(args, &bytes, &blob)?;
+    let Proofs { findings, hint } = prove(args, &bytes, &blob)?;
     Output::stdout().finish(|out| match args.json {
         true => {
             serde_json::to_writer_pretty(&mut *out, &as_json(&findings))?;
@@ -26,47 +27,110 @@ pub fn run(args: &VerifyArgs) -> Result<(), Failure> {
         }
         false => findings.iter().try_for_each(|finding| write(out, finding)),
     })?;
-    let is_open = |finding: &&Finding| finding.outcome != Outcome::Proved;
-    let open: Vec<String> = findings.iter().filter(is_open).map(said).collect();
-    if open.is_empty() {
-        return Ok(());
+    match unproved(&findings) {
+        None => Ok(()),
+        Some(open) => Err(Failure::NotVerified {
+            blob: args.blob.clone(),
+            mesh: args.mesh.clone(),
+            open: open + &hint,
+        }),
     }
-    Err(Failure::NotVerified { blob: args.blob.clone(), mesh: args.mesh.clone(), open })
 }
 
-fn findings(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Vec<Finding>, Failure> {
+/// What came of the proofs, and a guess at the cause if not all hold.
+struct Proofs {
+    findings: Vec<Finding>,
+    hint: String,
+}
+
+/// How many claims are not proved, and of which structures, if any are not.
+fn unproved(findings: &[Finding]) -> Option<String> {
+    let of = |outcome: Outcome, words: &str| {
+        let found: Vec<&str> = findings
+            .iter()
+            .filter(|finding| finding.outcome == outcome)
+            .map(|finding| finding.structure)
+            .collect();
+        let mut names = found.clone();
+        names.dedup();
+        let all = findings.len();
+        (!found.is_empty())
+            .then(|| format!("{} of {all} proofs {words}: {}", found.len(), names.join(", ")))
+    };
+    let open = [of(Outcome::Failed, "failed"), of(Outcome::NotProved, "could not be made")];
+    let open: Vec<String> = open.into_iter().flatten().collect();
+    (!open.is_empty()).then(|| open.join("; "))
+}
+
+fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Failure> {
+    let is_csv = args.mesh.extension().is_some_and(|csv| csv.eq_ignore_ascii_case("csv"));
     if blob.curve().is_ok() {
         let file = &args.mesh;
+        if is_named_as_mesh(file) {
+            let (blob, file) = (args.blob.display(), file.display());
+            let what =
+                format!("{blob} is of curves, and {file} is a mesh; name their points, .csv");
+            return Err(Failure::Usage { what });
+        }
         let text =
             std::fs::read(file).map_err(|error| Failure::Read { file: file.clone(), error })?;
         let polylines =
             read_csv(&text, false).map_err(|error| Failure::Curve { file: file.clone(), error })?;
         let points: Vec<_> = polylines.into_iter().map(|polyline| polyline.points).collect();
-        return Ok(verify(bytes, Against::Curves(&points)));
+        let findings = verify(bytes, Against::Curves(&points));
+        return Ok(Proofs { findings, hint: String::new() });
+    }
+    if is_csv {
+        let (blob, file) = (args.blob.display(), args.mesh.display());
+        let what = format!(
+            "{blob} is of a mesh, and {file} holds points of curves; name the mesh file that it \
+             was built from"
+        );
+        return Err(Failure::Usage { what });
     }
     if blob.deformable_hull().is_ok() {
         let (loaded, keys) = mesh_file::load_deformable(&args.mesh, &args.frames, args.unit, None)?;
-        return Ok(of_mesh(bytes, &loaded, &keys));
+        return Ok(of_mesh(args, bytes, blob, &loaded, &keys));
     }
     if !args.frames.is_empty() {
         let what = "several meshes are key frames, and the blob has none; name one mesh".to_owned();
         return Err(Failure::Usage { what });
     }
-    let found = of_mesh(bytes, &mesh_file::load(&args.mesh, args.unit)?, &[]);
+    let found = of_mesh(args, bytes, blob, &mesh_file::load(&args.mesh, args.unit)?, &[]);
     // A hull on a grid may have moved the mesh before its repair, as --vertex-bits says.
     let bits = match blob.hull().map(|_| blob.header().vertex_format) {
         Ok(VertexFormat::Grid16) => VertexBits::Grid16,
         Ok(VertexFormat::Grid24) => VertexBits::Grid24,
         _ => return Ok(found),
     };
-    if found.iter().all(|finding| finding.outcome == Outcome::Proved) {
+    if found.findings.iter().all(|finding| finding.outcome == Outcome::Proved) {
         return Ok(found);
     }
-    Ok(of_mesh(bytes, &mesh_file::load_snapped(&args.mesh, bits, args.unit)?, &[]))
+    let snapped = mesh_file::load_snapped(&args.mesh, bits, args.unit)?;
+    Ok(of_mesh(args, bytes, blob, &snapped, &[]))
 }
 
-fn of_mesh(bytes: &[u8], loaded: &Loaded, keys: &[KeyFrame]) -> Vec<Finding> {
-    verify(bytes, Against::Mesh(loaded.input(), keys))
+fn of_mesh(
+    args: &VerifyArgs,
+    bytes: &[u8],
+    blob: &Blob<'_>,
+    loaded: &Loaded,
+    keys: &[KeyFrame],
+) -> Proofs {
+    let findings = verify(bytes, Against::Mesh(loaded.input(), keys));
+    let (stored, given) = (describe::input_triangles(blob) as usize, loaded.input_triangles);
+    let hint = if stored > 0 && stored != given {
+        format!(
+            "; the blob was built from another mesh, of {}, and {} has {given}",
+            Counted(stored, "triangle"),
+            args.mesh.display()
+        )
+    } else if loaded.is_in_own_unit() {
+        "; was it built with --unit? Then give the same".to_owned()
+    } else {
+        String::new()
+    };
+    Proofs { findings, hint }
 }
 
 fn name(outcome: Outcome) -> &'static str {

@@ -87,7 +87,8 @@ pub(super) fn frames(
 ) -> Result<usize, String> {
     let stored = deform::frames(bytes, blob)?;
     if stored.len() != keys.len() {
-        return Err(format!("{} key frames are stored, {} are given", stored.len(), keys.len()));
+        let (stored, given) = (stored.len() + 1, keys.len() + 1);
+        return Err(format!("key frames, frame 0 included: {stored} stored, {given} given"));
     }
     let (mut compared, mut exact) = (0, 0);
     for (index, (frame, key)) in stored.iter().zip(keys).enumerate() {

@@ -34,6 +34,9 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     if let Some((path, _)) = models.iter().find(|(_, model)| model.unit != unit) {
         return Err(package.malformed(path, "its unit is not that of the first model"));
     }
+    if models[&root].items.is_empty() {
+        return Err(package.malformed(&root, "the build lists no item"));
+    }
     let mut copies = Copies::new(file, bytes.len());
     let all: usize = models.values().map(|model| model.objects.len()).sum();
     for (i, item) in models[&root].items.iter().enumerate() {
@@ -63,5 +66,6 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             open.extend(components.map(|part| (path, part, placement.clone(), depth + 1)));
         }
     }
-    Ok(RawMesh { unit: Some(unit), decimal: true, ..copies.raw })
+    let unit_by_default = !models[&root].names_unit;
+    Ok(RawMesh { unit: Some(unit), unit_by_default, decimal: true, ..copies.raw })
 }

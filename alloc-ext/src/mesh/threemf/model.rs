@@ -42,6 +42,8 @@ pub(super) struct Part {
 
 pub(super) struct Model {
     pub(super) unit: Unit,
+    /// Whether the model names its unit.
+    pub(super) names_unit: bool,
     pub(super) objects: FxHashMap<u32, Object>,
     /// Of the build.
     pub(super) items: Vec<Part>,
@@ -69,7 +71,8 @@ impl From<String> for Refused {
 
 /// Reads one model of the archive.
 pub(super) fn read(package: &Package<'_>, path: &str) -> Result<Model, MeshError> {
-    let model = Model { unit: Unit::Mm, objects: FxHashMap::default(), items: Vec::new() };
+    let (unit, objects, items) = (Unit::Mm, FxHashMap::default(), Vec::new());
+    let model = Model { unit, names_unit: false, objects, items };
     let mut reading = Reading { package, model, object: None, is_complete: false };
     let mut reader = package.part(path)?;
     let mut bytes = Vec::new();
@@ -145,6 +148,7 @@ impl Reading<'_> {
         match (name, &mut self.object) {
             ("model", _) => {
                 self.model.unit = unit(tag)?;
+                self.model.names_unit = attribute(tag, "unit")?.is_some();
                 check_extensions(tag)?;
             }
             ("object", None) => {

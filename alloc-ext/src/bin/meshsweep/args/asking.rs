@@ -2,7 +2,7 @@
 
 use super::given::{self, Given};
 use super::values::{
-    Margin, Tool, direction, margin, point, size, threads, tolerance, tool, whole,
+    Margin, Tool, direction, frame, margin, point, size, threads, tolerance, tool, whole,
 };
 use clap::{Args, ValueEnum};
 use meshsweep_core::{Eye, Facing};
@@ -65,7 +65,12 @@ pub struct ClosestArgs {
     pub tight: Option<u32>,
     /// Key frame of a blob built --for deform, from 0; 1.25 is a quarter of the way from frame 1 to
     /// frame 2
-    #[arg(long, value_name = "FRAME", conflicts_with_all = ["engine", "tight"])]
+    #[arg(
+        long,
+        value_name = "FRAME",
+        value_parser = frame,
+        conflicts_with_all = ["engine", "tight"]
+    )]
     pub frame: Option<f32>,
     #[command(flatten)]
     pub search: SearchArgs,

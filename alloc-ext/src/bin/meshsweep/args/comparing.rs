@@ -24,7 +24,7 @@ pub struct HausdorffArgs {
     /// Stop when upper − lower ≤ ABS, in the meshes' unit
     #[arg(long, value_name = "ABS", value_parser = length, default_value = "0")]
     pub abs: f64,
-    /// Only decide whether the distance is at most this; exit status 1 if that is not proved
+    /// Only decide whether the distance is at most this; exit status 3 if that is not proved
     #[arg(
         long,
         value_name = "DISTANCE",

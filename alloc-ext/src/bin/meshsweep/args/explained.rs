@@ -1,7 +1,8 @@
 //! The texts that `meshsweep help COMMAND` prints below the options.
 
-pub const EXIT_STATUS: &str = "Exit status: 0 done, 1 a file or its content is not usable, no hull \
-    is as tight or no distance as small as asked for, 2 wrong usage.";
+pub const EXIT_STATUS: &str = "Exit status: 0 done, 1 a file or its content is not usable, or no \
+    hull is as tight as asked for, 2 wrong usage, 3 not proved: a claim that verify proves, or \
+    the distance of hausdorff --at-most.";
 
 /// `--queue` of the commands with `--engine`.
 pub const QUEUE: &str = "Scratch entries to search with [default: what the blob needs; on the \
@@ -22,7 +23,7 @@ const QUERIES: &str = "Queries are arguments, files, or both, in any number. The
     work counts the boxes and triangles that a query looked at.";
 
 const TRIANGLES: &str = "triangle is the index of the triangle in the mesh file, counted from 0; \
-    a polygon counts as the triangles about its first corner";
+    a polygon counts as the triangles that it is split into";
 
 pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     closest   closest, within, nearest, field; for a closed mesh also signed: 13 to 14 bytes a \
@@ -61,12 +62,17 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     for a file named *.csv. A blank line begins a new polyline; so does another value in a column \
     named polyline. Other columns are skipped. A bad line is named. Repeated points are kept. \
     Segments count from 0 in each polyline.\n\n\
+    A polygon of n corners is split into n - 2 triangles: those about its first corner, or ears if \
+    that corner does not see all of it. One that crosses itself, seen along the axis nearest to \
+    its normal, is split about its first corner. The report counts these, and faces of fewer than \
+    three corners, which are left out, and names the first with its line.\n\n\
     OFF is read as text, PLY with faces or triangle strips. Of glTF (.glb, .gltf) the triangles of \
     all nodes of all scenes are read, of 3MF the objects of the build, each where it is placed. \
     Their transforms are rounded in double precision; every interval includes that. glTF is in \
     metres, 3MF in the unit that it tells. Without --unit nothing is scaled. The report tells the \
     unit, and triangles that only join strips, points and lines, which are left out. Skins, \
-    morphs, Draco and meshopt are refused by name.\n\n\
+    morphs, Draco and meshopt are refused by name. The unit is not stored in the blob: blobs of \
+    different units are not told apart, in clearance and overlap too.\n\n\
     Values of --vertex-bits:\n  \
     auto   hull: the fewest bits that store the mesh exactly; box tree: 16, or 32 for a mesh so \
     far from its origin that 16 would move vertices by more than a 32,768th of its longest side\n  \
@@ -76,7 +82,7 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     32     single precision; box tree: 8 bytes a triangle more, and no hit is undecided because \
     of the grid\n\
     Every interval includes the quantisation error, which build prints. With 32 nothing moves. \
-    Intervals still include the rounding of single precision: about two millionths of the \
+    Intervals still include the rounding of single precision: up to four millionths of the \
     distance and of the longest triangle. build prints that too.\n\n\
     Limits choose structure and dials for distances of points, from what trade measures. With \
     --error it is the setting of the fewest instructions, else that of the smallest error. The \
@@ -353,10 +359,12 @@ pub const HAUSDORFF: &str = "lower and upper enclose the exact distance of the m
     read, open or closed, with any number of connected components. a and b are points of the first \
     and of the second mesh: one of them is the farthest that was found, the other its closest \
     point. ended says whether the precision was reached, or why not. Triangles are counted from \
-    0 in their file; a polygon counts as the triangles about its first corner. Triangles without \
+    0 in their file; a polygon counts as the triangles that it is split into. Triangles without \
     area count like all others.\n\n\
     --profile and --heat look at the first mesh alone: holes of a scan show only with the complete \
     mesh first. quantiles bound the distance that a part of the area does not exceed.\n\n\
+    With --at-most the exit status is 0 if the distance is proved to be at most that, 3 if it is \
+    not, 1 if a file is not usable, 2 for wrong usage.\n\n\
     Examples:\n  \
     meshsweep hausdorff part.stl scan.ply --rel 1e-6\n  \
     meshsweep hausdorff part.stl scan.ply --one-sided --json\n  \
@@ -399,7 +407,8 @@ pub const VERIFY: &str = "The proofs share no code with the builder and with que
     Integers decide planes, boxes, places and meetings. Radii and distances of surfaces are \
     compared in f64. A line says what was proved, what failed and where, or what there is no proof \
     of.\n\n\
-    Exit status: 0 all is proved, 1 a proof failed or is missing, 2 wrong usage.\n\n\
+    Exit status: 0 all is proved, 1 a file is not usable, 2 wrong usage, 3 a proof failed or is \
+    missing.\n\n\
     Examples:\n  \
     meshsweep verify part.msw part.stl\n  \
     meshsweep verify part.msw part.stl --json";

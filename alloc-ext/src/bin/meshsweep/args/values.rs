@@ -125,6 +125,12 @@ pub fn tolerance(text: &str) -> Result<f32, String> {
     text.parse().ok().filter(|x: &f32| *x >= 0.0 && x.is_finite()).ok_or_else(|| wanted.to_owned())
 }
 
+/// A key frame, or a place between two. The blob tells the last one.
+pub fn frame(text: &str) -> Result<f32, String> {
+    let wanted = "a key frame from 0 is wanted, as 2, or a place between two, as 1.25";
+    text.parse().map_err(|_| wanted.to_owned())
+}
+
 fn up_to(text: &str, most: f64) -> Result<f64, String> {
     let wanted = || format!("a number from 0 to {most} is wanted");
     text.parse().ok().filter(|x| (0.0..=most).contains(x)).ok_or_else(wanted)
