@@ -121,7 +121,7 @@ pub fn is_within(
 
 /// An interval wider than this fraction of its upper end is computed again in f64. A search could
 /// not end on it.
-const WIDE: f64 = 1.0 / 64.0;
+pub(super) const WIDE: f64 = 1.0 / 64.0;
 
 /// Where the nearest triangle of a mesh is, by the mesh's [box tree](crate::bvh::exact_blob).
 pub fn nearest_in<'a>(

@@ -10,6 +10,9 @@
 //! edge of the surface triangle next to it. Near a flat wall the Lipschitz bound needs pieces no
 //! larger than the gap. Over one wall triangle the convex bound is exact.
 //!
+//! Vertices are read as f32. The interval includes that rounding of both meshes, so no distance is
+//! known better. The search ends where it could only bound the rounding more closely.
+//!
 //! | file | owns |
 //! | --- | --- |
 //! | `piece` | a part of a triangle: its bound, and its parts |

@@ -10,12 +10,14 @@
 //!
 //! The box tree answers in f32. Bounds from above are then computed in f64 against the triangle
 //! that it names. A point that may be the farthest is compared in f64 with every triangle that is
-//! not certainly farther. So the precision ends where f64 does.
+//! not certainly farther. So is the centre of a piece that is almost on the surface: there f32 does
+//! not tell the nearest triangle from one next to it. So the precision ends where f64 does.
 //!
 //! Branch and bound after Tang, Lee and Kim, *Interactive Hausdorff distance computation for
 //! general polygonal models* (2009). The order of the bounds, cheap ones first, is that of Sacht
 //! and Jacobson, *Cascading upper bounds for triangle soup Pompeiu-Hausdorff distance* (2024).
 
+use super::farthest::WIDE;
 use super::piece::{
     CUT_ROUNDING, MAX_DEPTH, Piece, ROUNDED_UP, bounding_ball, farthest_corner, greater,
 };
@@ -423,7 +425,12 @@ impl Side<'_> {
         let triangle = |index: usize| self.surface.triangles.get(index).copied();
         let bounded = |corners: [DVec3; 3]| {
             let (centre, _) = bounding_ball(&corners);
-            let near = self.surface.near(centre, scratch);
+            let mut near = self.surface.near(centre, scratch);
+            // Below the precision of f32 the tree may name a triangle that is far from the nearest:
+            // the bound would not fall.
+            if near.upper - near.lower > WIDE * near.upper {
+                near = self.surface.bounds_in_f64(centre, near, scratch);
+            }
             let place = Place { next_to: near.triangle as u32, ..piece.of };
             let depth = piece.depth + 1;
             let part = Piece::new(corners, depth, near.upper, triangle(near.triangle), place);

@@ -178,6 +178,73 @@ fn the_depth_of_balls_is_what_their_radii_have_too_much() {
     }
 }
 
+/// A prism over a polygon, about z = 0: its corners counter-clockwise, and the triangles of a cap.
+fn prism(corners: &[[f32; 2]], cap: &[[u32; 3]], height: f32) -> Triangles {
+    let n = corners.len() as u32;
+    let at = |z: f32| corners.iter().map(move |[x, y]| [*x, *y, z]);
+    let positions = at(-0.5 * height).chain(at(0.5 * height)).collect();
+    let caps = cap.iter().flat_map(|&[a, b, c]| [[a, c, b], [a + n, b + n, c + n]]);
+    let walls =
+        (0..n).map(|i| (i, (i + 1) % n)).flat_map(|(i, j)| [[i, j, j + n], [i, j + n, i + n]]);
+    (positions, caps.chain(walls).collect())
+}
+
+fn cylinder(radius: f32, height: f32) -> Triangles {
+    let n = 24;
+    let turn = |i: u32| (i as f32 * std::f32::consts::TAU / n as f32).sin_cos();
+    let corners: Vec<_> = (0..n).map(turn).map(|(y, x)| [radius * x, radius * y]).collect();
+    let cap: Vec<_> = (1..n - 1).map(|i| [0, i, i + 1]).collect();
+    prism(&corners, &cap, height)
+}
+
+/// A block of 8 by 10 by 12 with a slot of 4 by 10 by 8: its floor is y = 0.
+fn slotted() -> Triangles {
+    let outer = [[-4.0, -4.0], [4.0, -4.0], [4.0, 8.0], [2.0, 8.0]];
+    let inner = [[2.0, 0.0], [-2.0, 0.0], [-2.0, 8.0], [-4.0, 8.0]];
+    let cap = [[0, 1, 4], [0, 4, 5], [1, 2, 4], [2, 3, 4], [0, 5, 6], [0, 6, 7]];
+    prism(&[outer, inner].concat(), &cap, 10.0)
+}
+
+/// In a hole or a slot the way out is short, and leads to a place that is not beside the solid.
+#[test]
+fn a_shallow_contact_in_a_hole_or_a_slot_is_known_to_a_factor() {
+    let ring = Scene::solid("", torus(10.0, 3.0, 24, 12), 0.0, 0);
+    let slot = Scene::solid("", slotted(), 0.0, 0);
+    let pin = Scene::solid("", cylinder(2.0, 20.0), 0.0, 0);
+    let ball = Scene::solid("", icosphere(2), 0.0, 0);
+    let block =
+        transformed(&cube(2), [[1.8, 0.0, 0.0], [0.0, 2.5, 0.0], [0.0, 0.0, 4.0]], [0.0; 3]);
+    let block = Scene::solid("", block, 0.0, 0);
+    let mut rng = Rng::new(67);
+    // Corners of the ring, of the pin and of the ball lie on the circles that nearly touch. The
+    // block's wall is 1.8 from its middle, its floor 2.5, its faces towards z are outside.
+    for (name, a, b, at, depth) in [
+        ("pin", &ring, &pin, [5.05, 0.0, 0.0], 0.05),
+        ("pin", &ring, &pin, [5.5, 0.0, 1.0], 0.5),
+        ("pin", &ring, &pin, [0.0, -5.1, 0.3], 0.1),
+        ("ball", &ring, &ball, [6.1, 0.0, 0.0], 0.1),
+        ("ball", &ring, &ball, [0.0, 6.02, 0.0], 0.02),
+        ("wall", &slot, &block, [0.25, 4.0, 0.0], 0.05),
+        ("wall", &slot, &block, [-0.21, 3.0, 1.0], 0.01),
+        ("floor", &slot, &block, [0.1, 2.4, 0.5], 0.1),
+        ("corner", &slot, &block, [0.3, 2.4, 0.2], 0.02f64.sqrt()),
+        ("touching", &slot, &block, [0.2, 4.0, 0.5], 0.0),
+    ] {
+        let pose = Pose { rotation: IDENTITY, translation: at };
+        for (i, (first, second)) in a.trees().iter().zip(b.trees()).enumerate() {
+            let found = ask(first, &second, &pose, Budget::EXACT);
+            let Interval { lower, upper } = found.depth;
+            let name = format!("{name}: {depth} {found:?}");
+            assert!(f64::from(lower) <= depth + 1e-6 && depth - 1e-6 <= f64::from(upper), "{name}");
+            assert!(f64::from(upper) <= 1.5 * depth + 2e-3 && found.apart.is_some(), "{name}");
+            assert!(depth == 0.0 || upper <= 4.0 * lower, "{name}");
+            if i == 0 {
+                holds(&name, [a, b], &pose, &found, &mut rng);
+            }
+        }
+    }
+}
+
 fn check(name: &str, a: &Scene, b: &Scene, poses: &[Pose], seed: u64) -> [usize; 4] {
     let mut rng = Rng::new(seed);
     let mut counts = [0; 4];

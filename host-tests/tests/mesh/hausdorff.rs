@@ -221,6 +221,36 @@ fn a_precision_that_rounding_forbids_is_told() {
     assert!(found.lower <= 0.25 && 0.25 < found.upper, "{found:?}");
 }
 
+/// One part in two formats: f32, and decimals that are rounded to f32. Next to each other f32 does
+/// not tell which triangle is the nearest.
+#[test]
+fn two_roundings_of_a_mesh_end_at_their_rounding() {
+    use std::f64::consts::TAU;
+    let (_, triangles) = torus(10.0, 3.0, 16, 8);
+    let exact = (0..16 * 8).map(|k| {
+        let (a, b) = (f64::from(k / 8) * TAU / 16.0, f64::from(k % 8) * TAU / 8.0);
+        let out = 10.0 + 3.0 * b.cos();
+        [out * a.cos(), out * a.sin(), 3.0 * b.sin()]
+    });
+    let exact: Vec<[f64; 3]> = exact.collect();
+    let single: Vec<[f32; 3]> = exact.iter().map(|p| p.map(|x| x as f32)).collect();
+    let first = RawMesh::from_f32(&single, &triangles);
+    let mut second = RawMesh::from_f32(&single, &triangles);
+    second.positions = exact.iter().map(|p| p.map(|x| (x * 1e8).round() / 1e8)).collect();
+    second.decimal = true;
+    let [first, second] = [first, second].map(|raw| repair(raw).expect("a mesh").0);
+    let precision = Precision { relative: 1e-4, ..FINE };
+    let found = hausdorff(&first, &second, Direction::Both, &precision, |_, _| ()).expect("meshes");
+    assert_eq!(found.ended, Ended::Rounding, "{found:?}");
+    assert!(found.pieces < 30_000, "{found:?}");
+    let rounding = first.rounding + second.rounding;
+    assert!(rounding > 1e-7 && found.upper - found.lower <= 2.5 * rounding, "{found:?}");
+    // A vertex is off by both roundings at most.
+    let off = exact.iter().zip(&single).flat_map(|(p, q)| (0..3).map(|k| p[k] - f64::from(q[k])));
+    let off = off.fold(0.0, |most: f64, x| most.max(x.abs()));
+    assert!(found.lower <= 2.0 * off + 2e-8, "{off} {found:?}");
+}
+
 #[test]
 fn a_search_that_ends_at_once_names_a_point() {
     let (a, b) = (plate(2, 0.0), plate(3, 0.25));

@@ -72,7 +72,7 @@ pub(super) fn search(
 const D: f64 = 0.577_350_269_189_625_8;
 
 /// Directions into the corners: a wedge between two walls may hold no axis.
-const DIAGONALS: [Vector; 8] = [
+pub(super) const DIAGONALS: [Vector; 8] = [
     [D, D, D],
     [-D, D, D],
     [D, -D, D],
@@ -142,7 +142,7 @@ fn climb(
 }
 
 /// A point moved along a unit vector. `None` if f32 has no such point.
-fn moved(point: [f32; 3], direction: Vector, length: f64) -> Option<[f32; 3]> {
+pub(super) fn moved(point: [f32; 3], direction: Vector, length: f64) -> Option<[f32; 3]> {
     let mut moved = point;
     let sides = moved.iter_mut().zip(direction);
     sides.for_each(|(x, along)| *x = (f64::from(*x) + along * length) as f32);

@@ -17,14 +17,14 @@ use crate::query::{QueryError, Relation, Side, Undecided};
 const LEVELS: usize = 64;
 
 impl PairQueries<'_, '_> {
-    /// How two solids lie to each other whose surfaces do not meet.
-    pub(super) fn relation(&mut self) -> Result<Relation, QueryError> {
-        let ([a, b], pose) = (self.trees, self.pose);
-        let second = self.side_of_surface(&MovedSurface::new([a, b], &pose, 0.0)?)?;
+    /// How two solids lie to each other whose surfaces do not meet at a pose.
+    pub(super) fn relation(&mut self, pose: &Pose) -> Result<Relation, QueryError> {
+        let [a, b] = self.trees;
+        let second = self.side_of_surface(&MovedSurface::new([a, b], pose, 0.0)?)?;
         if second == Side::Inside {
             return Ok(Relation::SecondInside);
         }
-        let placed = [Placed { tree: *b, pose }, Placed { tree: *a, pose: Pose::IDENTITY }];
+        let placed = [Placed { tree: *b, pose: *pose }, Placed { tree: *a, pose: Pose::IDENTITY }];
         let [world, moved] = &placed;
         let relative = Relative::new(world, moved)?;
         let first =

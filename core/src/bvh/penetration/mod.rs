@@ -31,9 +31,9 @@ impl Bvh<'_> {
     /// input units), lies to the solid that this tree bounds, and how deep they are in each other.
     ///
     /// Both ends of [`Penetration::depth`] are proved for the input meshes as they were after
-    /// repair. The upper end is the length of a translation after which the solids are apart. From
-    /// there the other model can leave along a straight line. The lower end is proved by the sum of
-    /// a point's depths in both solids. Two searches find them, and may miss the best: the interval
+    /// repair. The upper end is the length of a translation after which the solids are apart. The
+    /// other model may be in a hole or a cavity there. The lower end is proved by the sum of a
+    /// point's depths in both solids. Two searches find them, and may miss the best: the interval
     /// holds all the same. The pose's numbers are taken as exact.
     ///
     /// The solid of a mesh is where its [`winding_number`](Bvh::winding_number) is above ½: its
@@ -50,8 +50,10 @@ impl Bvh<'_> {
     /// Cost: of solids that are apart, a [`distance`](Bvh::distance), and a
     /// [`signed_by_winding`](Bvh::signed_by_winding) for each box of either tree that is the first
     /// on its branch to be farther from the other surface than it is large. Of others at most 320
-    /// points, each asked for in both trees, and a dozen translations, with a
-    /// [`first_contact_of`](Bvh::first_contact_of) each.
+    /// points, each asked for in both trees; a dozen translations from afar, with a
+    /// [`first_contact_of`](Bvh::first_contact_of) each; and 17 short ones for each factor of 1.5
+    /// between both ends, with a [`within_of`](Bvh::within_of) each. Of solids that only touch
+    /// there are 35 such factors.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Pose, Relation, Scratch};
@@ -92,7 +94,7 @@ impl Bvh<'_> {
         };
         if self.is_closed() && other.is_closed() {
             found.relation = if near.distance.lower > 0.0 {
-                queries.relation()?
+                queries.relation(&pose)?
             } else if near.distance.upper == 0.0 {
                 Relation::Overlap
             } else {

@@ -1,23 +1,43 @@
 //! The upper end of the depth: separating translations.
 //!
-//! The second model is moved along a direction until the boxes are apart. From there it goes
+//! From afar: the second model is moved along a direction until the boxes are apart. In place: it
+//! is moved by a short way, and the solids are proved apart there. From both places it goes
 //! straight back to its pose. Until the first contact the solids are apart. The translation from
 //! the pose to that place separates them.
+//!
+//! The way from afar crosses all walls: it finds no place inside a hole or a slot. Short ways do.
 
-use super::deepest::{AXES, Deepest, normalized};
+use super::deepest::{AXES, DIAGONALS, Deepest, moved, normalized};
 use super::pair_queries::PairQueries;
 use crate::bvh::input_box::corners_of_input;
 use crate::bvh::overlap::longest_path;
 use crate::geom::{Pose, dot};
 use crate::num::tolerance::{PARTED, U32, U64};
 use crate::num::{greater, lesser, up_to_f32};
-use crate::query::{Budget, Motion, QueryError};
+use crate::query::{Budget, Motion, QueryError, Relation};
 
 type Vector = [f64; 3];
 
 /// Fractions of the motion by which the pose is moved back from the contact, until the surfaces at
 /// the pose, rounded to f32, are proved apart.
 const BACK: [f32; 5] = [1.0 / 4194304.0, 1.0 / 262144.0, 1.0 / 16384.0, 1.0 / 1024.0, 1.0 / 64.0];
+
+/// Directions that are tried from afar: the first ones, and the axes.
+const FROM_AFAR: usize = 9;
+
+/// The first way that is tried in place, as a part of the lower end.
+const FIRST_WAY: f64 = 1.125;
+
+/// Its least length, as a part of the best translation from afar. Of solids that only touch the
+/// lower end is 0.
+const LEAST_WAY: f64 = 1.0 / 1_048_576.0;
+
+/// Each way is longer than the last one by this factor. So a hole whose play is at least half of
+/// the depth has a way that ends in it.
+const LONGER: f64 = 1.5;
+
+/// A way across the surfaces at the contact, as a part of the best translation.
+const ACROSS: f64 = 0.9375;
 
 /// A pose at which the solids are apart.
 #[derive(Clone, Copy)]
@@ -41,17 +61,32 @@ pub(super) fn search(
     // The deepest point leaves the first solid through its nearest wall (-a), the second one
     // through its nearest wall (b), or both; then the axes.
     let directions = [normalized([bx - ax, by - ay, bz - az]), a.map(|x| -x), b];
-    for direction in directions.into_iter().chain(AXES) {
-        best.try_direction(queries, direction)?;
-        if best.meets_tolerance(deepest.proved(), budget) {
-            queries.met_tolerance = best.length > deepest.proved();
+    let directions = directions.into_iter().chain(AXES).chain(DIAGONALS);
+    let lower = deepest.proved();
+    for direction in directions.clone().take(FROM_AFAR) {
+        best.try_from_afar(queries, direction)?;
+        if best.meets_tolerance(lower, budget) {
+            queries.met_tolerance = best.length > lower;
             return Ok(best);
         }
+    }
+    let mut way = greater(lower * FIRST_WAY, best.length * LEAST_WAY);
+    while way < best.length {
+        for direction in directions.clone() {
+            best.try_in_place(queries, direction, way)?;
+        }
+        if best.meets_tolerance(lower, budget) {
+            queries.met_tolerance = best.length > lower;
+            return Ok(best);
+        }
+        way *= LONGER;
     }
     // Across the surfaces at the contact.
     for _ in 0..3 {
         let before = best.length;
-        best.try_direction(queries, normalized(best.contact))?;
+        let across = normalized(best.contact);
+        best.try_from_afar(queries, across)?;
+        best.try_in_place(queries, across, before * ACROSS)?;
         if best.length >= before {
             break;
         }
@@ -66,8 +101,8 @@ impl Separating {
         self.length <= greater(relative, lower + f64::from(budget.absolute))
     }
 
-    /// Looks for a translation along a unit vector.
-    fn try_direction(
+    /// Looks for a translation along a unit vector that comes back from where the boxes are apart.
+    fn try_from_afar(
         &mut self,
         queries: &mut PairQueries<'_, '_>,
         direction: Vector,
@@ -75,8 +110,39 @@ impl Separating {
         if direction == [0.0; 3] || queries.is_spent() {
             return Ok(());
         }
+        match beside(queries, direction) {
+            Some(start) => self.come_back(queries, start),
+            None => Ok(()),
+        }
+    }
+
+    /// Looks for a translation along a unit vector that is no longer than a way, if that is shorter
+    /// than the best one.
+    fn try_in_place(
+        &mut self,
+        queries: &mut PairQueries<'_, '_>,
+        direction: Vector,
+        way: f64,
+    ) -> Result<(), QueryError> {
+        let Some(start) = shifted(&queries.pose, direction, way) else { return Ok(()) };
+        let is_shorter = length_between(&start, &queries.pose) < self.length;
+        if !is_shorter || direction == [0.0; 3] || queries.is_spent() {
+            return Ok(());
+        }
+        // The surfaces do not meet, and neither lies inside the other.
+        if queries.is_clear(&start, 0.0)? && queries.relation(&start)? == Relation::Apart {
+            return self.come_back(queries, start);
+        }
+        Ok(())
+    }
+
+    /// Goes straight back to the pose from one at which the solids are apart.
+    fn come_back(
+        &mut self,
+        queries: &mut PairQueries<'_, '_>,
+        start: Pose,
+    ) -> Result<(), QueryError> {
         let pose = queries.pose;
-        let Some(start) = beside(queries, direction) else { return Ok(()) };
         let motion = Motion::straight(start, pose);
         let met = queries.first_contact(&motion)?;
         if met.is_clear() {
@@ -133,12 +199,7 @@ fn beside(queries: &PairQueries<'_, '_>, direction: Vector) -> Option<Pose> {
     let gap = greater(most - least, 0.0);
     let mut room = size * (8.0 * f64::from(U32));
     for _ in 0..4 {
-        let mut start = queries.pose;
-        let sides = start.translation.iter_mut().zip(direction);
-        sides.for_each(|(x, along)| *x = (f64::from(*x) + along * (gap + room)) as f32);
-        if !start.translation.iter().all(|x| x.is_finite()) {
-            return None;
-        }
+        let start = shifted(&queries.pose, direction, gap + room)?;
         let (least, size) = begins(&start);
         if least - most > PARTED * U64 * size {
             return Some(start);
@@ -146,6 +207,11 @@ fn beside(queries: &PairQueries<'_, '_>, direction: Vector) -> Option<Pose> {
         room *= 4.0;
     }
     None
+}
+
+/// The pose moved along a unit vector. `None` if f32 has no such translation.
+fn shifted(pose: &Pose, direction: Vector, way: f64) -> Option<Pose> {
+    Some(Pose { translation: moved(pose.translation, direction, way)?, ..*pose })
 }
 
 /// How far the translations of two poses are from each other, rounded up.

@@ -358,9 +358,10 @@ pub const REFINE: &str = "Of a blob built --for hull the mesh that is written is
 pub const HAUSDORFF: &str = "lower and upper enclose the exact distance of the meshes as they were \
     read, open or closed, with any number of connected components. a and b are points of the first \
     and of the second mesh: one of them is the farthest that was found, the other its closest \
-    point. ended says whether the precision was reached, or why not. Triangles are counted from \
-    0 in their file; a polygon counts as the triangles that it is split into. Triangles without \
-    area count like all others.\n\n\
+    point. ended says whether the precision was reached, or why not. Vertices are read as f32: \
+    lower and upper include that rounding, and no distance is known better. Triangles are counted \
+    from 0 in their file; a polygon counts as the triangles that it is split into. Triangles \
+    without area count like all others.\n\n\
     --profile and --heat look at the first mesh alone: holes of a scan show only with the complete \
     mesh first. quantiles bound the distance that a part of the area does not exceed.\n\n\
     With --at-most the exit status is 0 if the distance is proved to be at most that, 3 if it is \
