@@ -148,9 +148,15 @@ pub struct Cost {
     pub instructions: Features,
     /// Most bytes of the processor's stack below the caller that the emulator saw.
     pub stack: u32,
-    /// Largest relative error of the mean of a question on meshes that the fit has not seen.
+    /// The least instructions of a query that the emulator counted.
+    pub least: f64,
+    /// Largest factor by which the dearest query of a question was dearer than the dearest
+    /// prediction; a comb of needles is left out.
+    pub dearest: f64,
+    /// Largest relative error of the mean of a question on all meshes of the fit and of its tests,
+    /// but for a comb of needles.
     pub error: f64,
-    /// The median of these errors.
+    /// The median of these errors on meshes that the fit has not seen.
     pub typical: f64,
 }
 
@@ -158,6 +164,7 @@ impl Cost {
     /// Instructions of a query, or of a mean query.
     #[must_use]
     pub fn of(&self, features: &Features) -> f64 {
-        self.instructions.iter().zip(features).map(|(cost, count)| cost * count).sum()
+        let all = self.instructions.iter().zip(features);
+        all.map(|(cost, count)| cost * count).sum::<f64>().max(self.least)
     }
 }

@@ -37,9 +37,11 @@ pub struct Instructions {
     pub mean: f64,
     /// Of the dearest one.
     pub worst: f64,
-    /// Largest relative error of a mean on meshes that the fit has not seen.
+    /// Factor by which the dearest query may be dearer: see [`Cost::dearest`](super::Cost::dearest).
+    pub dearest: f64,
+    /// Largest relative error of a mean: see [`Cost::error`](super::Cost::error).
     pub error: f64,
-    /// The median of these errors.
+    /// The median of these errors on meshes that the fit has not seen.
     pub typical: f64,
     /// Bytes of the processor's stack below the caller.
     pub stack: u32,
@@ -186,6 +188,7 @@ fn row(setting: Setting, flash: usize, asked: &Asked, distances: &[f64]) -> Opti
         Some(Instructions {
             mean: all.clone().sum::<f64>() / answers.len() as f64,
             worst: all.fold(0.0, f64::max),
+            dearest: cost.dearest,
             error: cost.error,
             typical: cost.typical,
             stack: cost.stack,

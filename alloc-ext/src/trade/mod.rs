@@ -18,8 +18,7 @@
 //!
 //! A guaranteed error is the width of an interval that holds. It is the largest among the measured
 //! queries, not a bound for all queries. Instructions are predicted by a linear model that was
-//! fitted to counts in an emulator. Its error on meshes that the fit has not seen is told by
-//! [`Cost::error`].
+//! fitted to counts in an emulator. Its errors are told by [`Cost`].
 
 mod ask;
 mod cost;

@@ -82,7 +82,7 @@ impl Structure {
     #[must_use]
     pub fn options(&self) -> String {
         match self {
-            Self::Tree(TreeBits::Sixteen) => "--for closest".to_owned(),
+            Self::Tree(TreeBits::Sixteen) => "--for closest --vertex-bits 16".to_owned(),
             Self::Tree(TreeBits::ThirtyTwo) => "--for closest --vertex-bits 32".to_owned(),
             Self::Sweep(bits) => format!("--for sweep --vertex-bits {}", bits.number()),
             Self::Refined(_) => "--for hull, then cut --level".to_owned(),

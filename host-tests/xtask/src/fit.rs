@@ -45,6 +45,12 @@ impl Counted {
         self.instructions.iter().sum::<f64>() / self.instructions.len() as f64
     }
 
+    /// How many times its dearest prediction the dearest query took.
+    fn dearest(&self, costs: &[f64; FEATURES]) -> f64 {
+        let predicted = self.rows.iter().map(|row| dot(row, costs)).fold(0.0, f64::max);
+        self.instructions.iter().copied().fold(0.0, f64::max) / predicted
+    }
+
     /// The predicted mean.
     fn predicted(&self, costs: &[f64; FEATURES]) -> f64 {
         self.rows.iter().map(|row| dot(row, costs)).sum::<f64>() / self.rows.len() as f64
@@ -197,6 +203,12 @@ fn fitted(name: &str, board: &Board, counted: &[Counted]) -> (String, Vec<String
             all.map(|one| one.error(&costs).abs()).fold(0.0, f64::max)
         };
         let unseen = most(&mut of_search().filter(|one| one.role == "test"));
+        // A comb of needles is told of apart.
+        let plain = || of_search().filter(|one| one.role != "needles");
+        let error = most(&mut plain());
+        let dearest = plain().map(|one| one.dearest(&costs)).fold(1.0, f64::max);
+        let least = of_search().flat_map(|one| &one.instructions).copied();
+        let least = least.fold(f64::INFINITY, f64::min);
         let mut typical: Vec<f64> = of_search()
             .filter(|one| one.role == "test")
             .map(|one| one.error(&costs).abs())
@@ -234,10 +246,11 @@ fn fitted(name: &str, board: &Board, counted: &[Counted]) -> (String, Vec<String
         let _ = write!(
             lines,
             "    (\n        Board::{name},\n        Search::{search},\n        Cost {{\n            \
-             instructions: [{}],\n            stack: {stack},\n            error: {:.3},\n            \
-             typical: {:.3},\n        }},\n    ),\n",
+             instructions: [{}],\n            stack: {stack},\n            least: \
+             {least:.1},\n            dearest: {:.3},\n            error: {:.4},\n            typical: {:.3},\n        }},\n    ),\n",
             told.join(", "),
-            (1000.0 * unseen).ceil() / 1000.0,
+            (1000.0 * dearest).ceil() / 1000.0,
+            (10_000.0 * error).ceil() / 10_000.0,
             (1000.0 * typical).ceil() / 1000.0
         );
     }

@@ -110,7 +110,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
 /// Why the options do not go together, if they do not.
 fn refuse_options(args: &BuildArgs) -> Option<String> {
     let wanted = args.wanted();
-    if args.serves.contains(&Serves::Curve) && mesh_file::is_named_as_mesh(&args.mesh) {
+    if args.serves().contains(&Serves::Curve) && mesh_file::is_named_as_mesh(&args.mesh) {
         return Some("--for curve needs a .csv; leave it out for a mesh".to_owned());
     }
     if args.asks_mesh_of_curve() {

@@ -323,8 +323,8 @@ impl<'s, 'a> Search<'s, 'a> {
             structure,
             goal,
             climb: Climb::default().with_starts(starts),
-            low: std::array::from_fn(|k| low[k] - half(k)),
-            high: std::array::from_fn(|k| high[k] + half(k)),
+            low: std::array::from_fn(|k| (low[k] - half(k)).max(f32::MIN)),
+            high: std::array::from_fn(|k| (high[k] + half(k)).min(f32::MAX)),
         }
     }
 

@@ -22,14 +22,9 @@ pub struct BuildArgs {
     #[arg(short, long, value_name = "BLOB")]
     pub output: PathBuf,
     /// Questions that the blob must serve; only the sections that they need are written (see below)
-    #[arg(
-        long = "for",
-        value_enum,
-        value_delimiter = ',',
-        value_name = "QUESTIONS",
-        default_value = "closest,segment"
-    )]
-    pub serves: Vec<Serves>,
+    /// [default: closest,segment]
+    #[arg(long = "for", value_enum, value_delimiter = ',', value_name = "QUESTIONS")]
+    serves: Option<Vec<Serves>>,
     /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, and 3MF are scaled to
     /// it; of other files it is the unit of their numbers
     #[arg(long, value_name = "UNIT", value_parser = unit)]
@@ -149,8 +144,13 @@ impl Wanted {
 }
 
 impl BuildArgs {
+    /// The questions that the blob must serve.
+    pub fn serves(&self) -> &[Serves] {
+        self.serves.as_deref().unwrap_or(&[Serves::Closest, Serves::Segment])
+    }
+
     pub fn wanted(&self) -> Wanted {
-        let has = |what: Serves| self.serves.contains(&what);
+        let has = |what: Serves| self.serves().contains(&what);
         Wanted {
             closest: has(Serves::Closest),
             segment: has(Serves::Segment),
@@ -167,13 +167,12 @@ impl BuildArgs {
     /// Whether a curve is to be built: the file is CSV, or `--for` says so.
     pub fn is_curve(&self) -> bool {
         let is_csv = self.mesh.extension().is_some_and(|csv| csv.eq_ignore_ascii_case("csv"));
-        is_csv || self.serves.contains(&Serves::Curve)
+        is_csv || self.serves().contains(&Serves::Curve)
     }
 
     /// Whether `--for` asks of a curve what only meshes have. Its default does not count.
     pub fn asks_mesh_of_curve(&self) -> bool {
-        let default = [Serves::Closest, Serves::Segment];
-        self.is_curve() && self.serves != default && self.serves != [Serves::Curve]
+        self.is_curve() && self.serves.as_ref().is_some_and(|asked| *asked != [Serves::Curve])
     }
 
     /// The first given option that applies to tight hulls only.
@@ -192,9 +191,8 @@ impl BuildArgs {
 
     /// The first given option that names what limits choose.
     pub fn chosen_option(&self) -> Option<&'static str> {
-        let is_default = self.serves == [Serves::Closest, Serves::Segment];
         let others = [
-            ("--for", !is_default || self.is_curve()),
+            ("--for", self.serves.is_some() || self.is_curve()),
             ("--vertex-bits", self.vertex_bits != StoredBits::Auto),
             ("key frames", !self.frames.is_empty()),
         ];

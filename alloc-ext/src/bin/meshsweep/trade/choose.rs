@@ -1,6 +1,7 @@
 //! `meshsweep build` with limits: the setting that meets them is chosen by measurement.
 
 use super::measured::{Measured, measured};
+use super::table::MANY_NEEDLES;
 use crate::args::{At, BuildArgs, Cpu, LimitArgs};
 use crate::describe;
 use crate::failure::Failure;
@@ -24,6 +25,14 @@ pub fn build(args: &BuildArgs) -> Result<(), Failure> {
     let loaded = mesh_file::load(&args.mesh, args.unit)?;
     let at = limits.at.clone().unwrap_or(At::Made(Points::Near));
     let measured = measured(&args.mesh, &loaded, &at, POINTS)?;
+    if limits.rate.is_some() && measured.trade.needles >= MANY_NEEDLES {
+        let what = format!(
+            "{:.0} % of the triangles are needles, whose instructions are not predicted; leave \
+             --rate out, and count them",
+            100.0 * measured.trade.needles
+        );
+        return Err(Failure::Limits { file: args.mesh.clone(), what });
+    }
     let rows: Vec<&Row> =
         measured.trade.rows.iter().filter(|row| row.guaranteed.is_some()).collect();
     let Some((chosen, second)) = best_two(limits, &rows) else {
@@ -50,7 +59,7 @@ fn limited(limits: &LimitArgs, row: &Row) -> [(&'static str, f64, Option<f64>); 
     let on_board = instructions(row, board);
     let stack = on_board.map_or(0.0, |found| f64::from(found.stack));
     // A cost that was not fitted meets no rate.
-    let cycles = on_board.map_or(f64::INFINITY, |found| found.worst * CYCLES);
+    let cycles = on_board.map_or(f64::INFINITY, |found| dearest(found) * CYCLES);
     let cycles_there = limits.rate.zip(limits.cpu).map(|(rate, cpu)| cpu.hertz / rate);
     [
         ("--flash", row.flash as f64, limits.flash.map(|bytes| bytes as f64)),
@@ -58,6 +67,11 @@ fn limited(limits: &LimitArgs, row: &Row) -> [(&'static str, f64, Option<f64>); 
         ("--error", error(row), limits.error),
         ("--rate", cycles, cycles_there),
     ]
+}
+
+/// Instructions of the dearest query, with what the fit missed at most.
+fn dearest(found: Instructions) -> f64 {
+    found.worst * found.dearest
 }
 
 fn board(limits: &LimitArgs) -> Board {
@@ -110,9 +124,10 @@ fn refusal(limits: &LimitArgs, rows: &[&Row]) -> String {
     let beyond = limited(limits, nearest).into_iter().filter_map(|(option, value, limit)| {
         let limit = limit.filter(|&limit| value > limit)?;
         Some(match (option, limits.cpu) {
-            ("--rate", Some(cpu)) => {
+            ("--rate", Some(cpu)) if cpu.hertz >= value => {
                 format!("--rate {}Hz", (cpu.hertz / value).floor())
             }
+            ("--rate", _) => format!("{value:.0} cycles"),
             ("--error", _) => format!("--error {}", AtMost(value)),
             _ => format!("{option} {value:.0} instead of {limit:.0}"),
         })
@@ -143,25 +158,24 @@ fn write_choice(
     let by = match (chosen.setting.how, chosen.setting.structure) {
         (How::Fresh, _) => "",
         (How::Hinted, _) => ", from the hint of the last query",
-        (How::Coherent, Structure::Tree(_)) => ", by a CoherentQuery",
+        (How::Coherent, Structure::Tree(_)) => ", by a CoherentQuery::<128>",
         (How::Coherent, _) => ", by a kept Sweep",
     };
     let budget = budget(&chosen.setting.budget);
-    writeln!(out, "  ask with: {budget}{by}, and {} bytes of scratch", chosen.scratch)?;
+    let kept = if chosen.setting.how == How::Coherent { ", what is kept among it" } else { "" };
+    let scratch = chosen.scratch;
+    writeln!(out, "  ask with: {budget}{by}, and {scratch} bytes of scratch{kept}")?;
     if let Some(percent) = instructions(chosen, board(limits)).map(|found| 100.0 * found.error) {
         writeln!(
             out,
-            "  predicted: a mean query within {percent:.0} % on meshes that the fit has not seen, \
+            "  predicted: a mean query of the fit's meshes and tests within {percent:.0} %; \
              {CYCLES} cycles an instruction"
         )?;
     }
-    if limits.error.is_some() {
-        writeln!(
-            out,
-            "  the error is the largest of these points; elsewhere an interval may be wider, and \
-             holds"
-        )?;
-    }
+    writeln!(
+        out,
+        "  the error is the largest of these points; elsewhere an interval may be wider, and holds"
+    )?;
     match second {
         Some(second) => {
             writeln!(out, "second: {}", second.setting)?;
@@ -182,11 +196,11 @@ fn write_costs(out: &mut dyn Write, limits: &LimitArgs, row: &Row) -> io::Result
             ", {:.0} instructions of a {}, at worst {:.0}",
             found.mean,
             board.name(),
-            found.worst
+            dearest(found)
         )?;
     }
     if let (Some(cpu), Some(found)) = (limits.cpu, instructions(row, board)) {
-        let microseconds = 1e6 * found.worst * CYCLES / cpu.hertz;
+        let microseconds = 1e6 * dearest(found) * CYCLES / cpu.hertz;
         write!(out, ": {} us", About((10.0 * microseconds).round() / 10.0))?;
     }
     writeln!(out)

@@ -74,7 +74,7 @@ pub fn write(
 }
 
 /// Part of the triangles that are needles from which on the report warns of them.
-const MANY_NEEDLES: f64 = 0.1;
+pub(super) const MANY_NEEDLES: f64 = 0.1;
 
 fn write_rows<'r>(
     out: &mut dyn Write,
@@ -148,8 +148,13 @@ fn write_notes(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
         }
     }
     said.sort();
-    writeln!(out, "a mean was predicted on meshes that the fit has not seen within")?;
-    said.iter().try_for_each(|line| writeln!(out, "{line}"))
+    writeln!(out, "a mean of the fit's meshes and of its tests was predicted within")?;
+    said.iter().try_for_each(|line| writeln!(out, "{line}"))?;
+    writeln!(
+        out,
+        "of unknown error, as none of their kind was counted: refined hulls, sweeps of 16 and 24 \
+         bits, 8\ntriboxes, tight hulls of other than 200 faces, scratch 8"
+    )
 }
 
 pub fn write_json(out: &mut dyn Write, measured: &Measured) -> io::Result<()> {

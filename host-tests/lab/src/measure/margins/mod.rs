@@ -61,7 +61,7 @@ pub fn table(count: usize) -> Result<Table, String> {
             shape.name(),
         ]);
     }
-    table.note("share: error over margin; 106 bits decide; the margin that is proved is a part of it too: proved over units");
+    table.note("share: largest error over margin, by 106 bits; a proof allows no share above proved / units");
     if wrong.is_empty() { Ok(table) } else { Err(format!("{}\nabove 1: {wrong:?}", table.text())) }
 }
 

@@ -305,7 +305,7 @@ fn parameter(rng: &mut Rng, shape: Shape) -> Option<f64> {
     Some(below.max(above))
 }
 
-/// The widest part of the strip within which a narrower one would have decided wrongly.
+/// The part of the strip that suffices, in steps: the next narrower one decides wrongly.
 fn strip(rng: &mut Rng, shape: Shape) -> Option<f64> {
     const PARTS: [f32; 8] = [1.0, 0.75, 0.5, 0.35, 0.25, 0.1, 0.05, 0.02];
     let corners @ [a, b, c] = shape.triangle(rng);
@@ -329,7 +329,12 @@ fn strip(rng: &mut Rng, shape: Shape) -> Option<f64> {
         let found = ray.crossing(corners.map(|corner| ray.shadow(vec3(corner))), 0.0);
         found.is_none_or(|found| found.certain) && found.is_some() != meets
     };
-    PARTS.into_iter().find(|&part| is_wrong(part)).map_or(Some(0.0), |part| Some(f64::from(part)))
+    match PARTS.into_iter().position(is_wrong) {
+        Some(0) => Some(f64::INFINITY),
+        // The step before was enough.
+        Some(step) => PARTS.get(step - 1).map(|&part| f64::from(part)),
+        None => Some(0.0),
+    }
 }
 
 fn segment_interval(rng: &mut Rng, shape: Shape) -> Option<f64> {
