@@ -78,7 +78,8 @@ fn no_line_of_an_obj_hides_another() {
     for begin in ["", "# C:\\parts\\\n", "\u{FEFF}", "vt 0 0 # 1 \\\n"] {
         let raw = parse("a.obj", format!("{begin}{body}")).unwrap();
         assert_eq!((raw.positions.len(), raw.triangles.len()), (3, 2), "{begin}");
-        assert_eq!(raw.left_out.lines_and_points, 3);
+        let left_out = raw.left_out;
+        assert_eq!((left_out.lines_and_points, left_out.small_faces.count), (2, 1));
     }
 }
 
