@@ -21,8 +21,8 @@ use super::{FORMATS, MeshError, RawMesh, gltf, obj, off, ply, stl, threemf};
 /// one, but 128 for a compressed file. A scene of copies may reach 2²⁴ vertices and triangles.
 ///
 /// # Errors
-/// The file cannot be read, is empty, is of another kind, does not follow its format, ends early, holds a
-/// coordinate that is not finite, names a vertex that is not there, or holds no face.
+/// The file cannot be read, is empty, is of another kind, does not follow its format, ends early,
+/// holds a coordinate that is not finite, names a vertex that is not there, or holds no face.
 pub fn read(path: &Path) -> Result<RawMesh, MeshError> {
     let bytes = std::fs::read(path).map_err(|error| MeshError::Unreadable {
         file: path.to_owned(),

@@ -134,7 +134,8 @@ impl RepairReport {
     }
 
     /// True if the result is the input, triangle for triangle: nothing left out, dropped, split,
-    /// flipped or rewound, and no polygon that crosses itself. Welding, unreferenced vertices and rounding do not count.
+    /// flipped or rewound, and no polygon that crosses itself. Welding, unreferenced vertices and
+    /// rounding do not count.
     #[must_use]
     pub fn is_clean(&self) -> bool {
         let nothing_left_out = self.left_out == LeftOut::default();

@@ -29,7 +29,7 @@ pub(super) struct Asked {
     pub answers: Vec<Answer>,
     /// Of a mean query on this machine.
     pub nanoseconds: f64,
-    /// Bytes of scratch, and of what is kept between queries.
+    /// Bytes of scratch, and of memory that is kept between queries.
     pub scratch: usize,
 }
 
@@ -119,7 +119,7 @@ fn of_closest(near: ClosestPoint) -> (f32, f32, Work) {
     (near.distance.lower, near.distance.upper, near.work)
 }
 
-/// What is the same of all queries of a setting.
+/// Parts that all queries of a setting share.
 #[derive(Clone, Copy)]
 struct Of {
     budget: Budget,

@@ -37,9 +37,10 @@ pub struct Instructions {
     pub mean: f64,
     /// Of the dearest one.
     pub worst: f64,
-    /// Factor by which the dearest query may be dearer: see [`Cost::dearest`](super::Cost::dearest).
+    /// Factor by which the dearest query may be dearer:
+    /// [`Cost::dearest`](super::Cost::dearest).
     pub dearest: f64,
-    /// Largest relative error of a mean: see [`Cost::error`](super::Cost::error).
+    /// Largest relative error of a mean: [`Cost::error`](super::Cost::error).
     pub error: f64,
     /// The median of these errors on meshes that the fit has not seen.
     pub typical: f64,
@@ -65,7 +66,7 @@ pub struct Row {
     pub boards: [Option<Instructions>; 2],
     /// Bytes of the blob.
     pub flash: usize,
-    /// Bytes of scratch, and of what is kept between queries.
+    /// Bytes of scratch, and of memory that is kept between queries.
     pub scratch: usize,
     /// Nodes, triangles, exact evaluations and splits of a mean query.
     pub work: [f64; 4],

@@ -51,7 +51,7 @@ impl Setting {
         Self { budget, ..self }
     }
 
-    /// Sets [what is kept](Self::how).
+    /// Sets [what a query takes over from the one before](Self::how).
     #[must_use]
     pub const fn with_how(self, how: How) -> Self {
         Self { how, ..self }

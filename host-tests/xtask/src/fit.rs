@@ -1,7 +1,7 @@
 //! `cargo xtask fit`: costs that predict instructions of a board from the work of a query.
 //!
 //! ```text
-//! host fit (questions, features) ─ ask on a board in QEMU ─ least squares ─ costs.rs of the library
+//! host fit (questions, features) ─ ask on a board in QEMU ─ least squares ─ costs.rs
 //! ```
 //! The host writes questions of meshes to fit to, and of meshes to test on. The emulator counts the
 //! instructions of each query. A linear model is fitted for each board and search, with costs that

@@ -56,7 +56,7 @@ enum Structure<'a> {
     Curve(Curve<'a>),
 }
 
-/// What is searched for.
+/// The goal of a search.
 #[derive(Clone, Copy, PartialEq)]
 enum Goal {
     Work,

@@ -62,7 +62,8 @@ fn word(bytes: &[u8]) -> Option<(usize, &[u8])> {
 pub(super) struct Buffers<'a> {
     source: Source<'a>,
     binary: Option<&'a [u8]>,
-    /// By the number of a buffer in the text, else by the name of the file, which several may share.
+    /// By the number of a buffer in the text, else by the name of the file, which several may
+    /// share.
     read: FxHashMap<(Option<usize>, &'a str), Rc<Vec<u8>>>,
 }
 

@@ -1,7 +1,7 @@
 //! glTF 2.0, as text with buffers beside it or as one binary file.
 //!
-//! The crate `gltf` is not used: its accessors panic on damaged files, and a mesh needs ten fields of
-//! its whole schema.
+//! The crate `gltf` is not used: its accessors panic on damaged files, and a mesh needs ten fields
+//! of its whole schema.
 
 mod buffers;
 mod source;

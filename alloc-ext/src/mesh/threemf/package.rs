@@ -17,8 +17,8 @@ use super::super::MeshError;
 /// Bytes that parts may have for each byte of the file. Text of triangles has a fraction of it.
 const MOST_EXPANSION: u64 = 128;
 
-/// Bytes of the file for each object, component or item, where it has more than these. One takes 256
-/// in memory, and in a file without those that say the same again a dozen.
+/// Bytes of the file for each object, component or item, where it has more than these. One takes
+/// 256 in memory, and in a file without those that say the same again a dozen.
 const BYTES_OF_PART: usize = 4;
 const LEAST_PARTS: usize = 1 << 16;
 

@@ -90,8 +90,8 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     may be wider, and holds. --flash is the blob; the library's code comes on top, 18 KB for \
     closest points on a Cortex-M4F. --ram is scratch, what is kept between queries, and the \
     processor's stack. --rate asks for the dearest measured query, times the largest factor by \
-    which the fit missed a question's dearest query, at two cycles an instruction. If no setting meets the limits, nothing is written, and \
-    the nearest one is named.\n\n\
+    which the fit missed a question's dearest query, at two cycles an instruction. If no setting \
+    meets the limits, nothing is written, and the nearest one is named.\n\n\
     Examples:\n  \
     meshsweep build part.stl -o part.msw\n  \
     meshsweep build part.stl -o small.msw --flash 16K --ram 4K --rate 1kHz --cpu m4f:168MHz\n  \
@@ -257,8 +257,8 @@ pub fn clearance() -> String {
          the point inside both that proves lower: the sum of its depths is lower or more. Both \
          blobs are then built --for closest,segment,winding. If the meshes are deep in each other, \
          upper may be several times as large as lower.\n\n\
-         Without --depth both blobs are built --for segment. Poses and moves count from 0. Options with poses \
-         stand after the blobs.\n\n\
+         Without --depth both blobs are built --for segment. Poses and moves count from 0. \
+         Options with poses stand after the blobs.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep clearance part.msw tool.msw --pose 30,0,0,1,0,0,0\n  \

@@ -162,7 +162,7 @@ fn write_choice(
         (How::Coherent, _) => ", by a kept Sweep",
     };
     let budget = budget(&chosen.setting.budget);
-    let kept = if chosen.setting.how == How::Coherent { ", what is kept among it" } else { "" };
+    let kept = if chosen.setting.how == How::Coherent { ", the memory kept among it" } else { "" };
     let scratch = chosen.scratch;
     writeln!(out, "  ask with: {budget}{by}, and {scratch} bytes of scratch{kept}")?;
     if let Some(percent) = instructions(chosen, board(limits)).map(|found| 100.0 * found.error) {
