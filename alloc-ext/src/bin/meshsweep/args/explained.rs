@@ -1,8 +1,8 @@
 //! The texts that `meshsweep help COMMAND` prints below the options.
 
 pub const EXIT_STATUS: &str = "Exit status: 0 done, 1 a file or its content is not usable, or no \
-    hull is as tight as asked for, 2 wrong usage, 3 not proved: a claim that verify proves, or \
-    the distance of hausdorff --at-most.";
+    hull is as tight as asked for, or no setting meets the limits, 2 wrong usage, 3 not proved: a \
+    claim that verify proves, or the distance of hausdorff --at-most.";
 
 /// `--queue` of the commands with `--engine`.
 pub const QUEUE: &str = "Scratch entries to search with [default: what the blob needs; on the \
