@@ -10,35 +10,10 @@ pub mod pose;
 pub mod sphere;
 mod subject;
 
+pub use meshsweep::trade::Points;
 pub use subject::Subject;
 
 use crate::generate::Rng;
-
-/// Points to ask the closest point of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Points {
-    /// Uniform in a box twice the mesh's.
-    Far,
-    /// On the surface by area, then moved by a Gaussian of 1 % of the diagonal on each axis.
-    Near,
-    /// Along straight lines between near points, in steps of 0.1 % of the diagonal.
-    Path,
-}
-
-impl Points {
-    /// All kinds.
-    pub const ALL: [Self; 3] = [Self::Far, Self::Near, Self::Path];
-
-    /// Its name in tables.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Far => "far",
-            Self::Near => "near",
-            Self::Path => "path",
-        }
-    }
-}
 
 /// `count` points.
 #[must_use]

@@ -191,6 +191,6 @@ on_every_extreme!(tight_hulls_contain_the_truth, super::tight_hulls;
     four_triangles
 );
 on_every_extreme!(
-    ignored because "to build the hulls takes half a minute":
+    ignored because "tight hulls of all extremes take half a minute; five of them are always built":
     all_tight_hulls_contain_the_truth, super::tight_hulls
 );

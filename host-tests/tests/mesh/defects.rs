@@ -244,7 +244,7 @@ fn a_hull_that_deforms_serves_every_triangle_of_a_bad_mesh_or_names_the_defect()
 }
 
 #[test]
-#[ignore = "to build the hulls takes minutes"]
+#[ignore = "tight hulls of all pairs take minutes; the test below builds some"]
 fn a_tight_hull_serves_every_triangle_of_a_bad_mesh_or_names_the_defect() {
     all(&FOR[8..]);
 }

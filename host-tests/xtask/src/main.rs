@@ -14,7 +14,7 @@ const USAGE: &str = "\
 cargo xtask setup                   makes sure of the cross targets, of QEMU and of valgrind
 cargo xtask test                    setup, then everything that has to hold
 cargo xtask firmware                only the firmware: bits, panics, sizes, instructions
-cargo xtask processors              the committed bits on i686 and AArch64, and with all vectors here
+cargo xtask processors              the committed bits on i686, AArch64, and with all vectors here
 cargo xtask fixtures                writes fixtures/ anew
 cargo xtask picture                 writes fixtures/part.svg anew, the picture of README.md
 cargo xtask tables                  writes the documents' tables of bytes and instructions anew

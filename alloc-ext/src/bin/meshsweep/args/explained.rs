@@ -402,7 +402,8 @@ pub const VERIFY: &str = "The proofs share no code with the builder and with que
     answers are about this mesh, and whether the builder erred.\n\n  \
     box tree        each triangle of the mesh is stored once within the error; boxes, normal cones \
     and moments hold all that is below them\n  \
-    hull hierarchy  each level encloses the finer ones, radii cover, the finest surface is the mesh\n  \
+    hull hierarchy  each level encloses the finer ones, radii cover, the finest surface is the \
+    mesh\n  \
     key frames      each vertex is where the frame's mesh has it, radii may be interpolated\n  \
     tight hulls     each encloses the mesh, and is as near as stated\n  \
     triboxes        each level holds the mesh, and the inside of a solid\n  \

@@ -128,8 +128,8 @@ fn write_notes(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
          points, in\nthe mesh's unit; at other points it may be wider, and holds. found: the \
          distance in f64 less the\nlower end, and the upper end less that distance, the largest. \
          M4F, M0: instructions of a\nCortex-M4F and a Cortex-M0, predicted. flash: bytes of the \
-         blob. scratch: bytes, memory kept\nbetween queries among them. stack: bytes of a Cortex-M4F's. \
-         host ns: of this machine, on one thread."
+         blob. scratch: bytes, memory kept\nbetween queries among them. stack: bytes of a \
+         Cortex-M4F's. host ns: of this machine, on one thread."
     )?;
     let mut said: Vec<String> = Vec::new();
     for row in rows {

@@ -61,7 +61,8 @@ pub fn table(count: usize) -> Result<Table, String> {
             shape.name(),
         ]);
     }
-    table.note("share: largest error over margin, by 106 bits; a proof allows no share above proved / units");
+    table.note("share: largest error over margin, by 106 bits");
+    table.note("a proof allows no share above proved / units");
     if wrong.is_empty() { Ok(table) } else { Err(format!("{}\nabove 1: {wrong:?}", table.text())) }
 }
 
