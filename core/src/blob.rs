@@ -2,8 +2,8 @@
 
 use crate::bvh::format::Bvh;
 use crate::curve::format::Curve;
-use crate::format::layout::SectionKind;
-use crate::format::{Bytes, Header, OpenError, Section, read_header, section};
+use crate::format::layout::{SectionKind, field};
+use crate::format::{Bytes, Header, OpenError, Section, SectionTable, ok, section};
 use crate::hull::format::{DeformableHull, Hull};
 use crate::query::QueryError;
 use crate::tight::format::TightHulls;
@@ -45,15 +45,17 @@ impl<'a> Blob<'a> {
     /// # Errors
     /// [`OpenError`] names what was wanted and what was found.
     pub fn open(bytes: &'a [u8]) -> Result<Blob<'a>, OpenError> {
-        let blob = Blob { header: read_header(bytes)?, bytes };
-        let hull = Hull::place(bytes, true)?;
+        let table = SectionTable::open(bytes)?;
+        table.check_crcs(SectionKind::is_hull)?;
+        let hull = Hull::place(&table)?;
+        let has = |kind: SectionKind| table.has(kind);
         let kinds = || SectionKind::ALL.into_iter();
         // Any section of the box tree needs the others, so one is enough to check for all.
-        let has_bvh = kinds().any(|kind| kind.is_bvh() && blob.has(kind));
-        let has_triboxes = blob.has(SectionKind::Triboxes);
-        let has_tight_hulls = blob.has(SectionKind::TightHulls);
-        let has_curves = blob.has(SectionKind::Curves);
-        let deforms = kinds().any(|kind| kind.is_deform() && blob.has(kind));
+        let has_bvh = kinds().any(|kind| kind.is_bvh() && has(kind));
+        let has_triboxes = has(SectionKind::Triboxes);
+        let has_tight_hulls = has(SectionKind::TightHulls);
+        let has_curves = has(SectionKind::Curves);
+        let deforms = kinds().any(|kind| kind.is_deform() && has(kind));
         if has_bvh {
             Bvh::open(bytes)?;
         }
@@ -74,7 +76,24 @@ impl<'a> Blob<'a> {
         } else {
             hull.check()?;
         }
-        Ok(blob)
+        Ok(Blob { header: table.header, bytes })
+    }
+
+    /// Checks the CRCs of header, section table and sections, and returns the first of them. It
+    /// covers the others, so it names the contents of the blob. No record is looked at.
+    ///
+    /// A constant function: `meshsweep build --emit rust` compares the blob with this number at
+    /// compile time. At start-up it tells whether flash has kept the bytes, before
+    /// [`Bvh::open_trusted`]. A CRC finds damage, but no intent.
+    ///
+    /// Cost: a dozen instructions a byte.
+    ///
+    /// # Errors
+    /// [`OpenError`] of the first part that is wrong.
+    pub const fn checksum(bytes: &[u8]) -> Result<u32, OpenError> {
+        let table = ok!(SectionTable::open(bytes));
+        ok!(table.check_all_crcs());
+        Ok(Bytes(bytes).word(field::CRC))
     }
 
     /// The box tree: distances, sides, segments, overlaps.
@@ -90,7 +109,7 @@ impl<'a> Blob<'a> {
     /// # Errors
     /// [`QueryError::NotServed`] if the blob was built without it.
     pub fn hull(&self) -> Result<Hull<'a>, QueryError> {
-        let hull = Hull::place(self.bytes, false).map_err(|_| QueryError::NO_HULL)?;
+        let hull = Hull::view(self.bytes).map_err(|_| QueryError::NO_HULL)?;
         if hull.has_hull() { Ok(hull) } else { Err(QueryError::NO_HULL) }
     }
 
@@ -142,9 +161,5 @@ impl<'a> Blob<'a> {
     #[doc(hidden)]
     pub fn header(&self) -> &Header {
         &self.header
-    }
-
-    fn has(&self, kind: SectionKind) -> bool {
-        self.sections().any(|section| section.kind == kind)
     }
 }

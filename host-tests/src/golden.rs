@@ -6,10 +6,12 @@ use std::path::Path;
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::curve;
+use meshsweep::emit::source::{SourceNames, c_header, c_source, rust_module};
 use meshsweep::hull::{BuildOptions, build_deform, build_for_sweep};
 use meshsweep::mesh::{KeyFrame, Mesh};
 use meshsweep::tight::{ChainOptions, chain};
 use meshsweep::tribox::store;
+use meshsweep_core::Blob;
 use meshsweep_counted::answers;
 
 use crate::generate::curves::{fence, tool_path};
@@ -45,6 +47,9 @@ pub fn write(folder: &Path) -> Result<(), String> {
         put(&format!("{name}.msw"), blob)?;
         put(&format!("../core/fixtures/{name}.msw"), blob)?;
     }
+    for (name, text) in groove_sources() {
+        put(&format!("../core/fixtures/{name}"), text.as_bytes())?;
+    }
     let answers = answers::of_fixtures(folder)?;
     put("answers.txt", answers.as_bytes())
 }
@@ -70,6 +75,22 @@ pub fn torus_sieve() -> Vec<u8> {
     let mesh = Mesh::new(positions, triangles);
     let options = BuildOptions { base_faces: 50, ..BuildOptions::default() };
     build_for_sweep(mesh.as_input(), &options, |_| ()).expect("an area").bytes
+}
+
+/// Names and texts of `groove.msw` as source, in each language.
+///
+/// # Panics
+/// Never: the builder's blob opens.
+#[must_use]
+pub fn groove_sources() -> [(&'static str, String); 3] {
+    let bytes = groove_tree();
+    let blob = Blob::open(&bytes).expect("the builder's blob opens");
+    let names = SourceNames { mesh: "groove.obj", blob: "groove.msw" };
+    [
+        ("groove.rs", rust_module(&blob, names)),
+        ("groove.h", c_header(&blob, names)),
+        ("groove.c", c_source(&blob, names)),
+    ]
 }
 
 /// The box tree of `groove_block()`, with every section that a tree can have.

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use meshsweep::curve::{read_csv, store};
-use meshsweep_core::{Bvh, Curve, DeformableHull, Hull, TightHulls, Triboxes};
+use meshsweep_core::{Blob, Budget, Bvh, Curve, DeformableHull, Hull, TightHulls, Triboxes};
 use meshsweep_counted::answers::of_fixtures;
 use meshsweep_host_tests::golden::{
-    bending_torus, bracket_hulls, bracket_model, fence_curves, groove_tree, torus_sieve,
-    torus_triboxes,
+    bending_torus, bracket_hulls, bracket_model, fence_curves, groove_sources, groove_tree,
+    torus_sieve, torus_triboxes,
 };
 use meshsweep_host_tests::picture;
 
@@ -43,6 +43,32 @@ fn committed_tree_opens_with_every_triangle_and_every_section() {
     assert_eq!(tree.header().triangles, tree.input_triangles());
     assert!(tree.serves_distances() && tree.serves_segments() && tree.serves_culling());
     assert!(tree.header().is_closed());
+}
+
+/// Compiled from what the builder wrote.
+#[path = "../../core/fixtures/groove.rs"]
+mod groove;
+
+#[test]
+fn committed_sources_are_what_the_builder_writes() {
+    for (name, text) in groove_sources() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../core/fixtures").join(name);
+        let committed = std::fs::read_to_string(&file).expect("the fixture is there");
+        assert!(committed == text, "{name} is out of date: run `cargo xtask fixtures`");
+    }
+}
+
+#[test]
+fn a_tree_that_the_compiler_opened_is_the_one_that_open_gives() {
+    let bytes = read("groove.msw");
+    let opened = Bvh::open(&bytes).expect("opens");
+    assert_eq!(format!("{:?}", groove::TREE), format!("{opened:?}"));
+    assert_eq!(groove::SCRATCH_ENTRIES, opened.scratch_entries());
+    assert_eq!(Blob::checksum(&groove::BYTES.0), Blob::checksum(&bytes));
+    assert_eq!(std::ptr::from_ref(&groove::BYTES).addr() % 4, 0);
+    let mut scratch = groove::scratch::<{ groove::SCRATCH_ENTRIES }>();
+    let near = groove::TREE.closest_point([3.0, 0.0, 4.0], Budget::EXACT, &mut scratch);
+    assert_eq!(near, opened.closest_point([3.0, 0.0, 4.0], Budget::EXACT, &mut scratch));
 }
 
 #[test]

@@ -1,4 +1,6 @@
-//! Sections to bytes. It knows sections, and no builder.
+//! Sections to bytes, and a blob to source text. It knows sections, and no builder.
+
+pub mod source;
 
 use meshsweep_core::SectionKind;
 use meshsweep_core::internal::format::layout::{

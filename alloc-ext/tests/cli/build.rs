@@ -36,6 +36,40 @@ fn build_is_deterministic() {
 }
 
 #[test]
+fn emitted_sources_depend_on_the_blob_and_on_names_of_files_alone() {
+    let texts = ["emit_one", "emit_other"].map(|name| {
+        let directory = scratch(name);
+        let (mesh, out) = (fixture("groove.obj"), directory.join("3 part.msw"));
+        let text = ok(["build", arg(&mesh), "-o", arg(&out), "--emit", "rust,c"]);
+        let texts = ["rs", "h", "c"].map(|extension| {
+            let file = out.with_extension(extension);
+            assert!(text.contains(arg(&file)), "{text}");
+            fs::read_to_string(file).unwrap()
+        });
+        (texts, fs::read(out).unwrap())
+    });
+    assert_eq!(texts[0], texts[1]);
+    let ([rust, header, source], bytes) = &texts[0];
+    assert!(rust.contains("`#[path = \"3 part.rs\"] mod _3_part;`"), "{rust}");
+    assert!(rust.contains("include_bytes!(\"3 part.msw\")"), "{rust}");
+    assert!(header.contains("#define _3_PART_SCRATCH_ENTRIES 25u"), "{header}");
+    let listed = source.split_once("= {").unwrap().1.split(',').map(|byte| byte.trim().parse());
+    let listed: Vec<u8> = listed.map_while(Result::ok).collect();
+    assert!(&listed == bytes);
+}
+
+#[test]
+fn emitted_sources_overwrite_no_input() {
+    let directory = scratch("emit_over_input");
+    let mesh = directory.join("part.c");
+    fs::copy(fixture("groove.obj"), &mesh).unwrap();
+    let out = directory.join("part.msw");
+    let output = run(["build", arg(&mesh), "-o", arg(&out), "--emit", "c"]);
+    refused(&output, 2, "part.c");
+    assert_eq!(fs::read(mesh).unwrap(), fs::read(fixture("groove.obj")).unwrap());
+}
+
+#[test]
 fn build_reports_mesh_sections_memory_and_levels() {
     let directory = scratch("build_reports");
     let (mesh, out) = (fixture("bracket.stl"), directory.join("b.msw"));

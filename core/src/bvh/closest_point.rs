@@ -359,15 +359,15 @@ fn from_afar(
     let (near, far) = (sqrt_approx(outside.dot(outside)), sqrt_approx(farthest.dot(farthest)));
     let margin =
         |distance: f32| distance * (2.0 * FAN_RELATIVE * U32) + scaled(query.fixed_error());
-    let mut node = 0;
-    let (links, leaf) = loop {
-        let links = tree.links(node).ok_or(QueryError::Unchecked)?;
-        let child = links.child(0);
-        if child.is_leaf() {
-            break (links, tree.leaf_at(child.at, child.shape).ok_or(QueryError::Unchecked)?);
+    let mut links = tree.links(0).ok_or(QueryError::Unchecked)?;
+    for _ in 0..tree.most_steps() {
+        if links.child(0).is_leaf() {
+            break;
         }
-        node = child.at;
-    };
+        links = tree.links(links.child(0).at).ok_or(QueryError::Unchecked)?;
+    }
+    let child = links.child(0);
+    let leaf = tree.leaf_at(child.at, child.shape).ok_or(QueryError::Unchecked)?;
     Ok(ClosestPoint {
         distance: Interval::new(
             at_least((near - margin(near)) * down),

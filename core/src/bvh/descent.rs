@@ -190,6 +190,7 @@ pub(crate) fn descend(
     work: &mut Work,
 ) -> Result<Descent, QueryError> {
     let stack = Stack { entries: scratch, used: 0, dropped: NOTHING };
+    let steps = lesser(steps, work.splits.saturating_add(tree.most_steps()));
     walk(tree, query, steps, stack, visitor, work).ok_or(QueryError::Unchecked)
 }
 
@@ -232,8 +233,8 @@ fn walk(
                     node = child.at;
                     break;
                 }
-                work.triangles += child.shape.triangles() as u32;
                 let leaf = tree.leaf_at(child.at, child.shape)?;
+                work.triangles += child.shape.triangles() as u32;
                 let child = entry.small_word() & CHILD_MASK;
                 let visit = LeafVisit { leaf, key: bound, node: entry.node(), child };
                 if !visitor.leaf(&visit)? {

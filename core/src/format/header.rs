@@ -59,67 +59,56 @@ pub struct Header {
 
 impl Header {
     /// Reads and checks the fixed header. The caller checks the CRC.
-    pub(crate) fn read(bytes: Bytes<'_>) -> Result<Header, OpenError> {
+    pub(crate) const fn read(bytes: Bytes<'_>) -> Result<Header, OpenError> {
         let short = OpenError::Truncated { needed: HEADER_BYTES as u32, found: bytes.len() as u32 };
-        if bytes.slice(field::MAGIC, MAGIC.len()).ok_or(short)? != MAGIC {
+        let magic: [u8; MAGIC.len()] = ok!(bytes.array(field::MAGIC), short);
+        if u64::from_le_bytes(magic) != u64::from_le_bytes(MAGIC) {
             return Err(OpenError::NotABlob);
         }
-        if bytes.len() < HEADER_BYTES {
-            return Err(short);
-        }
-        let word = |at: usize| bytes.u32(at).ok_or(short);
-        let version = bytes.u16(field::VERSION_MAJOR).ok_or(short)?;
+        let Some(head) = bytes.slice(0, HEADER_BYTES) else { return Err(short) };
+        let head = Bytes(head);
+        let version = ok!(head.u16(field::VERSION_MAJOR), short);
         if version != VERSION_MAJOR {
             return Err(OpenError::Version { found: version });
         }
-        let finite = |is_finite: bool, field: &'static str| {
-            if is_finite { Ok(()) } else { Err(OpenError::NotFinite { field }) }
-        };
-        let float = |at: usize, name: &'static str| {
-            let x = f32::from_bits(word(at)?);
-            finite(x.is_finite(), name).map(|()| x)
-        };
-        let corner = |at: usize, name: &'static str| {
-            let corner = bytes.u32x3(at).ok_or(short)?.map(f32::from_bits);
-            finite(corner.iter().all(|x| x.is_finite()), name).map(|()| corner)
-        };
-        let code = bytes.u8(field::VERTEX_FORMAT).ok_or(short)?;
+        let code = ok!(head.u8(field::VERTEX_FORMAT), short);
         let vertex_format =
-            VertexFormat::from_code(code).ok_or(OpenError::VertexFormat { found: code })?;
+            ok!(VertexFormat::from_code(code), OpenError::VertexFormat { found: code });
         let header = Header {
-            header_bytes: word(field::HEADER_BYTES)?,
-            total_bytes: word(field::TOTAL_BYTES)?,
-            section_count: word(field::SECTION_COUNT)?,
-            flags: word(field::FLAGS)?,
-            scale_exponent: word(field::SCALE_EXPONENT)?.cast_signed(),
+            header_bytes: head.word(field::HEADER_BYTES),
+            total_bytes: head.word(field::TOTAL_BYTES),
+            section_count: head.word(field::SECTION_COUNT),
+            flags: head.word(field::FLAGS),
+            scale_exponent: head.word(field::SCALE_EXPONENT).cast_signed(),
             vertex_format,
-            grid_exponent: word(field::GRID_EXPONENT)?.cast_signed(),
-            grid_origin: bytes.u32x3(field::GRID_ORIGIN).ok_or(short)?.map(u32::cast_signed),
-            vertices: word(field::VERTICES)?,
-            base_vertices: word(field::BASE_VERTICES)?,
-            base_triangles: word(field::BASE_TRIANGLES)?,
-            splits: word(field::SPLITS)?,
-            rings: word(field::RINGS)?,
-            surface_triangles: word(field::SURFACE_TRIANGLES)?,
-            levels: word(field::LEVELS)?,
-            input_triangles: word(field::INPUT_TRIANGLES)?,
-            surface_error: float(field::SURFACE_ERROR, "surface error")?,
-            hull_box: [
-                corner(field::HULL_BOX, "hull box")?,
-                corner(field::HULL_BOX + 12, "hull box")?,
-            ],
-            surface_box: [
-                corner(field::SURFACE_BOX, "surface box")?,
-                corner(field::SURFACE_BOX + 12, "surface box")?,
-            ],
-            queue_capacity: word(field::QUEUE_CAPACITY)?,
-            dependency_depth: word(field::DEPENDENCY_DEPTH)?,
+            grid_exponent: head.word(field::GRID_EXPONENT).cast_signed(),
+            grid_origin: head.i32x3(field::GRID_ORIGIN),
+            vertices: head.word(field::VERTICES),
+            base_vertices: head.word(field::BASE_VERTICES),
+            base_triangles: head.word(field::BASE_TRIANGLES),
+            splits: head.word(field::SPLITS),
+            rings: head.word(field::RINGS),
+            surface_triangles: head.word(field::SURFACE_TRIANGLES),
+            levels: head.word(field::LEVELS),
+            input_triangles: head.word(field::INPUT_TRIANGLES),
+            surface_error: f32::from_bits(head.word(field::SURFACE_ERROR)),
+            hull_box: [head.corner(field::HULL_BOX), head.corner(field::HULL_BOX + 12)],
+            surface_box: [head.corner(field::SURFACE_BOX), head.corner(field::SURFACE_BOX + 12)],
+            queue_capacity: head.word(field::QUEUE_CAPACITY),
+            dependency_depth: head.word(field::DEPENDENCY_DEPTH),
         };
-        let zero =
-            |at: usize, len: usize| bytes.slice(at, len).is_some_and(|b| b.iter().all(|&b| b == 0));
-        if !zero(field::RESERVED_BESIDE_FORMAT, 3)
-            || !zero(field::RESERVED_BESIDE_RINGS, 4)
-            || !zero(field::RESERVED, 8)
+        if !header.surface_error.is_finite() {
+            return Err(OpenError::NotFinite { field: "surface error" });
+        }
+        if !is_finite(&header.hull_box) {
+            return Err(OpenError::NotFinite { field: "hull box" });
+        }
+        if !is_finite(&header.surface_box) {
+            return Err(OpenError::NotFinite { field: "surface box" });
+        }
+        if !head.is_zero(field::RESERVED_BESIDE_FORMAT, 3)
+            || !head.is_zero(field::RESERVED_BESIDE_RINGS, 4)
+            || !head.is_zero(field::RESERVED, 8)
             || header.flags & !(FLAG_CUT | FLAG_SWEEP_ONLY) != 0
         {
             return Err(OpenError::Reserved);
@@ -210,4 +199,14 @@ impl Header {
     pub fn group_bytes(&self) -> usize {
         3 * self.vertex_index_bytes() + 2
     }
+}
+
+const fn is_finite([low, high]: &[[f32; 3]; 2]) -> bool {
+    let [[a, b, c], [x, y, z]] = [low, high];
+    a.is_finite()
+        && b.is_finite()
+        && c.is_finite()
+        && x.is_finite()
+        && y.is_finite()
+        && z.is_finite()
 }

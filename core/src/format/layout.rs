@@ -109,8 +109,20 @@ impl SectionKind {
         SectionKind::KeyFrames,
     ];
 
+    /// The kind with this number.
+    pub(crate) const fn from_code(code: u32) -> Option<Self> {
+        let mut kinds: &[SectionKind] = &Self::ALL;
+        while let Some((kind, rest)) = kinds.split_first() {
+            if *kind as u32 == code {
+                return Some(*kind);
+            }
+            kinds = rest;
+        }
+        None
+    }
+
     /// Whether the section belongs to the hull hierarchy.
-    pub fn is_hull(self) -> bool {
+    pub const fn is_hull(self) -> bool {
         (self as u32) < SectionKind::Bvh as u32
     }
 
@@ -240,7 +252,7 @@ impl VertexFormat {
     }
 
     /// The format that a header byte names.
-    pub fn from_code(code: u8) -> Option<Self> {
+    pub const fn from_code(code: u8) -> Option<Self> {
         match code {
             0 => Some(VertexFormat::F32),
             1 => Some(VertexFormat::Grid16),

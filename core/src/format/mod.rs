@@ -8,6 +8,33 @@
 //! | `sections` | the section table and the CRCs |
 //! | `error` | [`OpenError`]: why a blob was not opened |
 
+/// `?` of an `Option` in a constant function, where Rust has no `?` yet.
+macro_rules! some {
+    ($value:expr) => {
+        match $value {
+            Some(value) => value,
+            None => return None,
+        }
+    };
+}
+
+/// `?` of a `Result`, or of an `Option` with an error for `None`, in a constant function.
+macro_rules! ok {
+    ($value:expr) => {
+        match $value {
+            Ok(value) => value,
+            Err(error) => return Err(error),
+        }
+    };
+    ($value:expr, $error:expr) => {
+        match $value {
+            Some(value) => value,
+            None => return Err($error),
+        }
+    };
+}
+pub(crate) use {ok, some};
+
 mod bytes;
 mod error;
 mod header;
@@ -18,4 +45,4 @@ pub(crate) use bytes::Bytes;
 pub use error::OpenError;
 pub use header::Header;
 pub use sections::{Section, section_crc};
-pub(crate) use sections::{place_sections, read_header, section};
+pub(crate) use sections::{SectionTable, section};

@@ -12,15 +12,17 @@ use crc::{CRC_32_ISO_HDLC, Crc, Table};
 const CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
 /// CRC-32 (ISO-HDLC) of a section, as the table stores it.
-pub fn section_crc(bytes: &[u8]) -> u32 {
+pub const fn section_crc(bytes: &[u8]) -> u32 {
     CRC.checksum(bytes)
 }
 
 /// CRC of header and section table, without the field that stores this CRC.
-fn header_crc(bytes: &[u8]) -> Option<u32> {
+const fn header_crc(head: &[u8]) -> Option<u32> {
+    let (before, rest) = some!(head.split_at_checked(field::CRC));
+    let (_, after) = some!(rest.split_at_checked(4));
     let mut digest = CRC.digest();
-    digest.update(bytes.get(..field::CRC)?);
-    digest.update(bytes.get(field::CRC + 4..)?);
+    digest.update(before);
+    digest.update(after);
     Some(digest.finalize())
 }
 
@@ -39,9 +41,9 @@ pub struct Section {
 }
 
 /// Reads the header. Checks its CRC, the size of the section table, and the length of `bytes`.
-pub(crate) fn read_header(bytes: &[u8]) -> Result<Header, OpenError> {
+const fn read_header(bytes: &[u8]) -> Result<Header, OpenError> {
     let all = Bytes(bytes);
-    let header = Header::read(all)?;
+    let header = ok!(Header::read(all));
     let (total, found) = (header.total_bytes as usize, bytes.len());
     if found < total || total < HEADER_BYTES {
         return Err(OpenError::Truncated { needed: header.total_bytes, found: found as u32 });
@@ -50,78 +52,163 @@ pub(crate) fn read_header(bytes: &[u8]) -> Result<Header, OpenError> {
         return Err(OpenError::TrailingBytes { expected: header.total_bytes, found: found as u32 });
     }
     let sections = header.section_count as usize;
+    let wrong = OpenError::Counts { what: "size of the section table" };
     if sections > MAX_SECTIONS
         || header.header_bytes as usize != HEADER_BYTES + sections * SECTION_ENTRY_BYTES
         || header.header_bytes > header.total_bytes
     {
-        return Err(OpenError::Counts { what: "size of the section table" });
+        return Err(wrong);
     }
-    let head = all.slice(0, header.header_bytes as usize).unwrap_or_default();
-    if header_crc(head) != all.u32(field::CRC) {
-        return Err(OpenError::Crc { section: None });
+    let head = ok!(all.slice(0, header.header_bytes as usize), wrong);
+    match (header_crc(head), all.u32(field::CRC)) {
+        (Some(computed), Some(stored)) if computed == stored => Ok(header),
+        _ => Err(OpenError::Crc { section: None }),
     }
-    Ok(header)
 }
 
 /// Entry `index` of the section table; `Ok(None)` if its kind is unknown.
-pub(crate) fn section(bytes: Bytes<'_>, index: u32) -> Result<Option<Section>, OpenError> {
+pub(crate) const fn section(bytes: Bytes<'_>, index: u32) -> Result<Option<Section>, OpenError> {
     let malformed = OpenError::Section { index };
     let at = HEADER_BYTES + index as usize * SECTION_ENTRY_BYTES;
-    let word = |field: usize| bytes.u32(at + field).ok_or(malformed);
-    let code = word(entry::KIND)?;
-    let kind = SectionKind::ALL.into_iter().find(|kind| *kind as u32 == code);
-    let (offset, bytes, crc) = (word(entry::OFFSET)?, word(entry::BYTES)?, word(entry::CRC)?);
-    Ok(kind.map(|kind| Section { kind, offset, bytes, crc }))
+    let code = ok!(bytes.u32(at + entry::KIND), malformed);
+    let offset = ok!(bytes.u32(at + entry::OFFSET), malformed);
+    let length = ok!(bytes.u32(at + entry::BYTES), malformed);
+    let crc = ok!(bytes.u32(at + entry::CRC), malformed);
+    Ok(match SectionKind::from_code(code) {
+        Some(kind) => Some(Section { kind, offset, bytes: length, crc }),
+        None => None,
+    })
 }
 
-/// Checks the section table, and calls `place` with the index, kind and bytes of every section that
-/// `wants` accepts. Checks the CRCs of these sections if `check`. Returns a bit for each kind in
-/// the table.
-pub(crate) fn place_sections<'a>(
-    header: &Header,
+/// A checked header and section table.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SectionTable<'a> {
+    pub(crate) header: Header,
     bytes: Bytes<'a>,
-    check: bool,
-    wants: impl Fn(SectionKind) -> bool,
-    mut place: impl FnMut(u32, SectionKind, &'a [u8]) -> Result<(), OpenError>,
-) -> Result<u32, OpenError> {
-    let mut end = header.header_bytes;
-    let mut seen = 0u32;
-    for index in 0..header.section_count {
-        let malformed = OpenError::Section { index };
-        // A later minor version may add a kind. Its section must keep the rules all the same.
-        let at = HEADER_BYTES + index as usize * SECTION_ENTRY_BYTES;
-        let offset = bytes.u32(at + entry::OFFSET).ok_or(malformed)?;
-        let length = bytes.u32(at + entry::BYTES).ok_or(malformed)?;
-        let section_end = offset.checked_add(length).ok_or(malformed)?;
-        if offset < end
-            || section_end > header.total_bytes
-            || !(offset as usize).is_multiple_of(SECTION_ALIGNMENT)
-        {
-            return Err(malformed);
-        }
-        // The gap between sections is padding: shorter than the alignment, and zero.
-        let gap = bytes.slice(end as usize, (offset - end) as usize).ok_or(malformed)?;
-        if gap.len() >= SECTION_ALIGNMENT || gap.iter().any(|&b| b != 0) {
-            return Err(malformed);
-        }
-        end = section_end;
-        let Some(section) = section(bytes, index)? else { continue };
-        let bit = 1u32.checked_shl(section.kind as u32).ok_or(malformed)?;
-        if seen & bit != 0 {
-            return Err(malformed);
-        }
-        seen |= bit;
-        if !wants(section.kind) {
-            continue;
-        }
-        let data = bytes.slice(offset as usize, length as usize).ok_or(malformed)?;
-        if check && section_crc(data) != section.crc {
-            return Err(OpenError::Crc { section: Some(section.kind) });
-        }
-        place(index, section.kind, data)?;
+    /// By kind the number of its entry plus one, or 0.
+    entries: [u8; MAX_SECTIONS],
+}
+
+impl<'a> SectionTable<'a> {
+    /// Checks header and section table, and the CRC of both.
+    pub(crate) const fn open(bytes: &'a [u8]) -> Result<Self, OpenError> {
+        Self::of(ok!(read_header(bytes)), bytes)
     }
-    if end != header.total_bytes {
-        return Err(OpenError::Counts { what: "bytes after the last section" });
+
+    /// The same of bytes that were opened before: without the CRC.
+    pub(crate) const fn view(bytes: &'a [u8]) -> Result<Self, OpenError> {
+        Self::of(ok!(Header::read(Bytes(bytes))), bytes)
     }
-    Ok(seen)
+
+    const fn of(header: Header, bytes: &'a [u8]) -> Result<Self, OpenError> {
+        let bytes = Bytes(bytes);
+        let mut entries = [0; MAX_SECTIONS];
+        let mut end = header.header_bytes;
+        let mut index = 0;
+        while index < header.section_count {
+            let malformed = OpenError::Section { index };
+            // A later minor version may add a kind. Its section must keep the rules all the same.
+            let at = HEADER_BYTES + index as usize * SECTION_ENTRY_BYTES;
+            let offset = ok!(bytes.u32(at + entry::OFFSET), malformed);
+            let length = ok!(bytes.u32(at + entry::BYTES), malformed);
+            let section_end = ok!(offset.checked_add(length), malformed);
+            if offset < end
+                || section_end > header.total_bytes
+                || !(offset as usize).is_multiple_of(SECTION_ALIGNMENT)
+            {
+                return Err(malformed);
+            }
+            // The gap between sections is padding: shorter than the alignment, and zero.
+            let gap = (offset - end) as usize;
+            if gap >= SECTION_ALIGNMENT || !bytes.is_zero(end as usize, gap) {
+                return Err(malformed);
+            }
+            end = section_end;
+            index += 1;
+            let Some(section) = ok!(section(bytes, index - 1)) else { continue };
+            let (_, rest) = entries.split_at_mut(section.kind as usize % MAX_SECTIONS);
+            match rest.split_first_mut() {
+                Some((entry, _)) if *entry == 0 => *entry = index as u8,
+                _ => return Err(malformed),
+            }
+        }
+        if end != header.total_bytes {
+            return Err(OpenError::Counts { what: "bytes after the last section" });
+        }
+        Ok(SectionTable { header, bytes, entries })
+    }
+
+    /// The entry of a kind, and its number.
+    const fn entry(&self, kind: SectionKind) -> Option<(u32, Section)> {
+        let Some(index) = self.entries[kind as usize % MAX_SECTIONS].checked_sub(1) else {
+            return None;
+        };
+        match section(self.bytes, index as u32) {
+            Ok(Some(section)) => Some((index as u32, section)),
+            _ => None,
+        }
+    }
+
+    /// Whether the blob has a section of this kind.
+    pub(crate) const fn has(&self, kind: SectionKind) -> bool {
+        self.entry(kind).is_some()
+    }
+
+    /// The bytes of a section; none if it is missing.
+    pub(crate) const fn bytes(&self, kind: SectionKind) -> &'a [u8] {
+        match self.entry(kind) {
+            Some((_, section)) => {
+                match self.bytes.slice(section.offset as usize, section.bytes as usize) {
+                    Some(bytes) => bytes,
+                    None => &[],
+                }
+            }
+            None => &[],
+        }
+    }
+
+    /// The error of a section whose bytes have the wrong number or content.
+    pub(crate) const fn malformed(&self, kind: SectionKind) -> OpenError {
+        match self.entry(kind) {
+            Some((index, _)) => OpenError::Section { index },
+            None => OpenError::MissingSection { section: kind },
+        }
+    }
+
+    /// The records of a section; none if it is missing.
+    pub(crate) const fn records<const N: usize>(
+        &self,
+        kind: SectionKind,
+    ) -> Result<&'a [[u8; N]], OpenError> {
+        match self.bytes(kind).as_chunks() {
+            (records, []) => Ok(records),
+            _ => Err(self.malformed(kind)),
+        }
+    }
+
+    /// Checks the CRCs of the sections of some kinds.
+    pub(crate) fn check_crcs(&self, wants: impl Fn(SectionKind) -> bool) -> Result<(), OpenError> {
+        let kinds = SectionKind::ALL.into_iter().filter(|kind| wants(*kind));
+        kinds.into_iter().try_for_each(|kind| self.check_crc(kind))
+    }
+
+    /// Checks the CRCs of all sections of known kinds.
+    pub(crate) const fn check_all_crcs(&self) -> Result<(), OpenError> {
+        let mut kinds: &[SectionKind] = &SectionKind::ALL;
+        while let Some((kind, rest)) = kinds.split_first() {
+            ok!(self.check_crc(*kind));
+            kinds = rest;
+        }
+        Ok(())
+    }
+
+    /// Checks the CRC of a section, if it is there.
+    const fn check_crc(&self, kind: SectionKind) -> Result<(), OpenError> {
+        match self.entry(kind) {
+            Some((_, section)) if section_crc(self.bytes(kind)) != section.crc => {
+                Err(OpenError::Crc { section: Some(kind) })
+            }
+            _ => Ok(()),
+        }
+    }
 }

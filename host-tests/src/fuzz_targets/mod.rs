@@ -13,6 +13,7 @@ mod tight;
 mod tree;
 mod tribox;
 mod triboxes;
+mod trusted;
 
 pub use curves::{ask_curve, curve_seeds, curves};
 pub use deform::{deform, deform_seeds};
@@ -23,3 +24,4 @@ pub use tight::{ask_tight, tight, tight_seeds};
 pub use tree::{tree_closest, tree_coherent, tree_open, tree_overlap, tree_seeds, tree_segment};
 pub use tribox::tribox;
 pub use triboxes::{ask_triboxes, triboxes, triboxes_seeds};
+pub use trusted::{tight_trusted, tree_trusted};

@@ -4,6 +4,16 @@
 
 #![doc = include_str!("../../../core/docs/guide.md")]
 
+/// Fewer scratch entries than a blob needs do not compile.
+///
+/// ```compile_fail,E0080
+/// mod part {
+///     include!("../../meshsweep/core/fixtures/groove.rs");
+/// }
+/// part::scratch::<{ part::SCRATCH_ENTRIES - 1 }>();
+/// ```
+mod too_little_scratch {}
+
 /// The Rust of `README.md`, run unchanged too.
 #[doc = include_str!("../../../README.md")]
 mod readme {}

@@ -2,7 +2,8 @@
 
 use meshsweep_host_tests::fuzz_targets::{
     closest, curves, deform, mesh, open, outer, overlap, random_input, refine, segment, tight,
-    tree_closest, tree_coherent, tree_open, tree_overlap, tree_segment, tribox, triboxes,
+    tight_trusted, tree_closest, tree_coherent, tree_open, tree_overlap, tree_segment,
+    tree_trusted, tribox, triboxes,
 };
 use meshsweep_host_tests::generate::Rng;
 
@@ -67,6 +68,16 @@ fn tree_segment_survives_seeded_edits() {
 #[test]
 fn tree_coherent_survives_seeded_edits() {
     drive(8, tree_coherent);
+}
+
+#[test]
+fn trees_of_unchecked_records_end_every_question() {
+    drive(16, tree_trusted);
+}
+
+#[test]
+fn tight_hulls_of_unchecked_records_end_every_question() {
+    drive(17, tight_trusted);
 }
 
 #[test]

@@ -18,7 +18,7 @@ pub use asking::{
 };
 pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
 pub use building::{
-    BuildArgs, CutArgs, FACES, HullServes, InfoArgs, Serves, StoredBits, VerifyArgs,
+    BuildArgs, CutArgs, FACES, HullServes, InfoArgs, Language, Serves, StoredBits, VerifyArgs,
 };
 pub use comparing::HausdorffArgs;
 pub use given::{Given, files, names};

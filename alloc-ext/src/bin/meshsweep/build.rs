@@ -10,7 +10,7 @@ use crate::number::{About, AtMost};
 use crate::output::{Output, refuse_same_file};
 use crate::progress::{Bar, StageBars};
 use crate::unmet::Tightness;
-use crate::{curve, describe, trade, windings};
+use crate::{curve, describe, source, trade, windings};
 use meshsweep::BuildError;
 use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::collapse::Progress;
@@ -41,6 +41,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         [&args.mesh].into_iter().chain(&args.frames).map(PathBuf::as_path).collect();
     refuse_same_file(Some(&args.output), &inputs)?;
     Output::probe(&args.output)?;
+    source::probe(args)?;
     if args.limits.given().is_some() {
         return trade::build(args);
     }
@@ -94,7 +95,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     }
     // A blob that does not open must not be written.
     let blob = Blob::open(&bytes).map_err(|error| failed(BuildError::Reopen(error)))?;
-    Output::file(&args.output)?.finish(|out| out.write_all(&bytes))?;
+    source::write(args, &blob)?;
     let report = Report {
         args,
         loaded: &loaded,
@@ -218,6 +219,7 @@ impl Report<'_> {
             writeln!(out, "  vertices moved to the hull's grid by up to {}", AtMost(loaded.moved))?;
         }
         writeln!(out, "{}", args.output.display())?;
+        source::report(args, out)?;
         if let Some(report) = hull {
             writeln!(out, "  base hull: {}", Counted(report.base_faces, "face"))?;
             if let Some(stuck) = report.stuck {

@@ -2,10 +2,10 @@
 
 use crate::args::{BuildArgs, ClosestArgs, WithinArgs};
 use crate::ask::{self, Answer, Question, verdict_name, write_numbers};
-use crate::describe;
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::queries::Queries;
+use crate::{describe, source};
 use meshsweep::BuildError;
 use meshsweep::counted::Counted;
 use meshsweep::curve::{CurveError, CurveReport, read_csv, store};
@@ -23,7 +23,7 @@ pub fn build(args: &BuildArgs) -> Result<(), Failure> {
     // A blob that does not open must not be written.
     let blob = Blob::open(&bytes)
         .map_err(|error| Failure::Build { file: file.clone(), error: BuildError::Reopen(error) })?;
-    Output::file(&args.output)?.finish(|out| out.write_all(&bytes))?;
+    source::write(args, &blob)?;
     Output::stdout().finish(|out| write_report(out, args, &blob, &report))
 }
 
@@ -39,6 +39,7 @@ fn write_report(
         writeln!(out, "  {points} repeated: kept, as segments without length")?;
     }
     writeln!(out, "{}", args.output.display())?;
+    source::report(args, out)?;
     describe::write_blob(out, blob)?;
     writeln!(out, "seconds: hierarchy {:.3}", report.time.as_secs_f64())
 }

@@ -55,6 +55,7 @@ mod segment;
 mod served;
 mod side;
 mod signed;
+mod source;
 mod trade;
 mod tribox;
 mod unmet;

@@ -124,7 +124,8 @@ impl<'a, 't> Follow<'a, 't> {
             plane_error,
             shortfall,
             cost: 0,
-            steps,
+            // Every node by the front, and again when it begins anew.
+            steps: lesser(steps, tree.most_steps().saturating_mul(2)),
         }
     }
 

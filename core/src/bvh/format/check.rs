@@ -10,7 +10,7 @@ use super::moments::NodeMoments;
 use super::units::Units;
 use super::view::Bvh;
 use crate::format::layout::SectionKind;
-use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
+use crate::format::{Bytes, OpenError, SectionTable, ok};
 use crate::geom::fan::WIDTH;
 use crate::num::greater;
 use crate::num::tolerance::{MOST_SURFACE_ERROR, U32};
@@ -43,6 +43,22 @@ fn is_sound_frame(record: &[u8; FRAME_BYTES]) -> bool {
         && zero == 0
 }
 
+const fn wrong(what: &'static str) -> Result<(), OpenError> {
+    Err(OpenError::Counts { what })
+}
+
+const fn missing(section: SectionKind) -> Result<(), OpenError> {
+    Err(OpenError::MissingSection { section })
+}
+
+const fn is_within(x: i32, least: i32, most: i32) -> bool {
+    least <= x && x <= most
+}
+
+const fn is_origin(x: i32) -> bool {
+    is_within(x, -(1 << 24), (1 << 24) - 0xFFFF)
+}
+
 impl<'a> Bvh<'a> {
     /// Opens the box tree of a blob where it lies and checks all of it: CRCs, every link, every
     /// coordinate. Any bytes are safe to open. It does not look at other sections, so that their
@@ -54,56 +70,73 @@ impl<'a> Bvh<'a> {
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without a tree.
     pub fn open(bytes: &'a [u8]) -> Result<Bvh<'a>, OpenError> {
-        let tree = Bvh::place(bytes, true)?;
+        let table = SectionTable::open(bytes)?;
+        table.check_crcs(SectionKind::is_bvh)?;
+        let tree = Bvh::place(&table)?;
         tree.check()?;
         Ok(tree)
     }
 
-    /// The tree of bytes that were opened before.
-    pub(crate) fn view(bytes: &'a [u8]) -> Result<Bvh<'a>, OpenError> {
-        Bvh::place(bytes, false)
+    /// Opens the box tree of an image that was verified before, and checks header, section table
+    /// and counts only. It is a constant function: a `static` tree costs no start-up, and the
+    /// compiler refuses bytes that are no blob.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Scratch};
+    /// const PART: Bvh<'static> = match Bvh::open_trusted(include_bytes!(concat!(
+    ///     env!("CARGO_MANIFEST_DIR"),
+    ///     "/fixtures/groove.msw"
+    /// ))) {
+    ///     Ok(part) => part,
+    ///     Err(_) => panic!("groove.msw has no box tree"),
+    /// };
+    /// let mut scratch = Scratch::<{ PART.scratch_entries() }>::new();
+    /// let near = PART.closest_point([3.0, 0.0, 4.0], Budget::EXACT, &mut scratch)?;
+    /// # Ok::<(), meshsweep_core::QueryError>(())
+    /// ```
+    ///
+    /// Verified means: [`open`](Self::open) once accepted these bytes, for example on the host, and
+    /// something else guards them since, such as the signature of the firmware. Of bytes that were
+    /// changed since, any answer of this tree may be wrong. All the same no question panics in a
+    /// release build, reads outside of the bytes, or runs for ever: a search opens no more nodes,
+    /// or pairs of nodes, than the tree has. Such an answer or error is not told from a right one.
+    ///
+    /// Cost: none in a constant; else some thousand instructions.
+    ///
+    /// # Errors
+    /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without a tree.
+    pub const fn open_trusted(bytes: &'a [u8]) -> Result<Bvh<'a>, OpenError> {
+        let tree = ok!(Bvh::place(&ok!(SectionTable::open(bytes))));
+        ok!(tree.check_counts());
+        Ok(tree)
     }
 
-    fn place(bytes: &'a [u8], check: bool) -> Result<Bvh<'a>, OpenError> {
-        let header = if check { read_header(bytes)? } else { Header::read(Bytes(bytes))? };
-        let mut head: &[u8] = &[];
-        let mut tree = Bvh {
-            header: BvhHeader::EMPTY,
-            scale_exponent: header.scale_exponent,
-            input_triangles: header.input_triangles,
-            units: Units::new(&BvhHeader::EMPTY, 0),
-            grid_bounds: BvhHeader::EMPTY.grid_bounds(),
-            links: &[],
-            frames: &[],
-            boxes: &[],
-            fans: &[],
-            source: Bytes(&[]),
-            cones: &[],
-            moments: &[],
-        };
-        let wants = |kind: SectionKind| kind.is_bvh();
-        place_sections(&header, Bytes(bytes), check, wants, |index, kind, data| {
-            let rest: &[u8];
-            match kind {
-                SectionKind::Bvh => (head, rest) = (data, &[]),
-                SectionKind::TreeLinks => (tree.links, rest) = data.as_chunks(),
-                SectionKind::TreeFrames => (tree.frames, rest) = data.as_chunks(),
-                SectionKind::TreeBoxes => (tree.boxes, rest) = data.as_chunks(),
-                SectionKind::TreeFans => (tree.fans, rest) = (data, &[]),
-                SectionKind::TreeSource => (tree.source, rest) = (Bytes(data), &[]),
-                SectionKind::TreeCones => (tree.cones, rest) = data.as_chunks(),
-                SectionKind::TreeMoments => (tree.moments, rest) = data.as_chunks(),
-                _ => rest = &[],
-            }
-            if rest.is_empty() { Ok(()) } else { Err(OpenError::Section { index }) }
-        })?;
+    /// The tree of bytes that were opened before.
+    pub(crate) const fn view(bytes: &'a [u8]) -> Result<Bvh<'a>, OpenError> {
+        Bvh::place(&ok!(SectionTable::view(bytes)))
+    }
+
+    const fn place(table: &SectionTable<'a>) -> Result<Bvh<'a>, OpenError> {
+        let head = table.bytes(SectionKind::Bvh);
         if head.len() != BVH_BYTES {
-            return Err(OpenError::MissingSection { section: SectionKind::Bvh });
+            return Err(table.malformed(SectionKind::Bvh));
         }
-        tree.header = BvhHeader::read(Bytes(head))?;
-        tree.units = Units::new(&tree.header, tree.scale_exponent);
-        tree.grid_bounds = tree.header.grid_bounds();
-        Ok(tree)
+        let header = ok!(BvhHeader::read(Bytes(head)));
+        let scale_exponent = table.header.scale_exponent;
+        Ok(Bvh {
+            header,
+            scale_exponent,
+            input_triangles: table.header.input_triangles,
+            units: Units::new(&header, scale_exponent),
+            grid_bounds: header.grid_bounds(),
+            links: ok!(table.records(SectionKind::TreeLinks)),
+            frames: ok!(table.records(SectionKind::TreeFrames)),
+            boxes: ok!(table.records(SectionKind::TreeBoxes)),
+            fans: table.bytes(SectionKind::TreeFans),
+            source: Bytes(table.bytes(SectionKind::TreeSource)),
+            cones: ok!(table.records(SectionKind::TreeCones)),
+            moments: ok!(table.records(SectionKind::TreeMoments)),
+        })
     }
 
     fn check(&self) -> Result<(), OpenError> {
@@ -114,20 +147,20 @@ impl<'a> Bvh<'a> {
         self.check_source()
     }
 
-    fn check_counts(&self) -> Result<(), OpenError> {
+    const fn check_counts(&self) -> Result<(), OpenError> {
         let h = &self.header;
-        let wrong = |what: &'static str| Err(OpenError::Counts { what });
         if h.nodes == 0 || h.leaves == 0 || h.triangles == 0 {
             return wrong("an empty tree");
         }
-        if h.nodes > 0xFF_FFFF || h.vertices.max(h.triangles) > u32::MAX / 64 {
+        let most = u32::MAX / 64;
+        if h.nodes > 0xFF_FFFF || h.vertices > most || h.triangles > most {
             return wrong("more tree records than a blob can address");
         }
-        if !(-180..=180).contains(&self.scale_exponent) || !(-60..=0).contains(&h.grid_exponent) {
-            return wrong("tree grid out of range");
-        }
-        let limit = 1 << 24;
-        if !h.grid_origin.iter().all(|&o| o >= -limit && o <= limit - 0xFFFF) {
+        let [x, y, z] = h.grid_origin;
+        if !is_within(self.scale_exponent, -180, 180)
+            || !is_within(h.grid_exponent, -60, 0)
+            || !(is_origin(x) && is_origin(y) && is_origin(z))
+        {
             return wrong("tree grid out of range");
         }
         if !(h.surface_error >= 0.0
@@ -137,7 +170,8 @@ impl<'a> Bvh<'a> {
         {
             return wrong("negative or infinite error bound of the tree");
         }
-        if h.low.iter().zip(&h.high).any(|(low, high)| low > high) {
+        let ([lx, ly, lz], [hx, hy, hz]) = (h.low, h.high);
+        if lx > hx || ly > hy || lz > hz {
             return wrong("the tree's box is inverted");
         }
         let nodes = h.nodes as usize;
@@ -146,7 +180,6 @@ impl<'a> Bvh<'a> {
         {
             return wrong("stack entries of the tree");
         }
-        let missing = |section| Err(OpenError::MissingSection { section });
         if self.links.len() != nodes {
             return missing(SectionKind::TreeLinks);
         }
@@ -163,9 +196,8 @@ impl<'a> Bvh<'a> {
             return missing(SectionKind::TreeMoments);
         }
         let padding = FAN_PADDING / 6 * h.vertex_bytes();
-        let zero = |bytes: Option<&[u8]>| bytes.is_some_and(|b| b.iter().all(|&b| b == 0));
         let used = h.vertices as usize * h.vertex_bytes();
-        if self.fans.len() != used + padding || !zero(self.fans.get(used..)) {
+        if self.fans.len() != used + padding || !Bytes(self.fans).is_zero(used, padding) {
             return missing(SectionKind::TreeFans);
         }
         Ok(())

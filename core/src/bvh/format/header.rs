@@ -2,7 +2,7 @@
 
 use super::layout::{BVH_BYTES, BVH_CLOSED, BVH_F32, field};
 use crate::format::layout::SectionKind;
-use crate::format::{Bytes, OpenError};
+use crate::format::{Bytes, OpenError, ok};
 use glam::Vec3;
 
 /// The box tree's header.
@@ -39,77 +39,58 @@ pub struct BvhHeader {
 }
 
 impl BvhHeader {
-    /// The header before it is read.
-    pub(crate) const EMPTY: BvhHeader = BvhHeader {
-        flags: 0,
-        grid_exponent: 0,
-        grid_origin: [0; 3],
-        nodes: 0,
-        leaves: 0,
-        vertices: 0,
-        triangles: 0,
-        stack_entries: 0,
-        surface_error: 0.0,
-        star_radius: 0.0,
-        low: [0; 3],
-        high: [0; 3],
-    };
-
     /// Whether the sign of a distance is defined.
-    pub fn is_closed(&self) -> bool {
+    pub const fn is_closed(&self) -> bool {
         self.flags & BVH_CLOSED != 0
     }
 
     /// Whether leaf vertices are f32.
-    pub fn is_f32(&self) -> bool {
+    pub const fn is_f32(&self) -> bool {
         self.flags & BVH_F32 != 0
     }
 
     /// Bytes of one leaf vertex.
-    pub fn vertex_bytes(&self) -> usize {
+    pub const fn vertex_bytes(&self) -> usize {
         if self.is_f32() { 12 } else { 6 }
     }
 
     /// Corners of the box of the stored vertices, grid units.
-    pub(super) fn grid_bounds(&self) -> (Vec3, Vec3) {
-        let [ox, oy, oz] = self.grid_origin;
-        let corner = |[x, y, z]: [u16; 3]| {
-            let sum = |stored: u16, origin: i32| i32::from(stored).wrapping_add(origin) as f32;
-            Vec3::new(sum(x, ox), sum(y, oy), sum(z, oz))
-        };
-        (corner(self.low), corner(self.high))
+    pub(super) const fn grid_bounds(&self) -> (Vec3, Vec3) {
+        (self.grid_corner(self.low), self.grid_corner(self.high))
     }
 
-    pub(crate) fn read(bytes: Bytes<'_>) -> Result<BvhHeader, OpenError> {
+    const fn grid_corner(&self, [x, y, z]: [u16; 3]) -> Vec3 {
+        let [ox, oy, oz] = self.grid_origin;
+        Vec3::new(
+            (x as i32).wrapping_add(ox) as f32,
+            (y as i32).wrapping_add(oy) as f32,
+            (z as i32).wrapping_add(oz) as f32,
+        )
+    }
+
+    pub(crate) const fn read(bytes: Bytes<'_>) -> Result<BvhHeader, OpenError> {
         let short = OpenError::Record { section: SectionKind::Bvh, index: 0 };
-        let word = |at: usize| bytes.u32(at).ok_or(short);
-        let short3 = |at: usize| {
-            Ok([
-                bytes.u16(at).ok_or(short)?,
-                bytes.u16(at + 2).ok_or(short)?,
-                bytes.u16(at + 4).ok_or(short)?,
-            ])
-        };
-        let flags = bytes.u8(field::FLAGS).ok_or(short)?;
-        let reserved = bytes.u8(field::RESERVED) == Some(0)
-            && bytes.u16(field::RESERVED_BESIDE_FLAGS) == Some(0)
-            && word(field::RESERVED_AT_END)? == 0;
+        let head = Bytes(ok!(bytes.slice(0, BVH_BYTES), short));
+        let flags = ok!(head.u8(field::FLAGS), short);
+        let reserved = head.is_zero(field::RESERVED, 1)
+            && head.is_zero(field::RESERVED_BESIDE_FLAGS, 2)
+            && head.is_zero(field::RESERVED_AT_END, 4);
         if !reserved || flags & !(BVH_CLOSED | BVH_F32) != 0 {
             return Err(OpenError::Reserved);
         }
         Ok(BvhHeader {
             flags,
-            grid_exponent: word(field::GRID_EXPONENT)?.cast_signed(),
-            grid_origin: bytes.u32x3(field::GRID_ORIGIN).ok_or(short)?.map(u32::cast_signed),
-            nodes: word(field::NODES)?,
-            leaves: word(field::LEAVES)?,
-            vertices: word(field::VERTICES)?,
-            triangles: word(field::TRIANGLES)?,
-            stack_entries: word(field::STACK_ENTRIES)?,
-            surface_error: f32::from_bits(word(field::SURFACE_ERROR)?),
-            star_radius: f32::from_bits(word(field::STAR_RADIUS)?),
-            low: short3(field::LOW)?,
-            high: short3(field::HIGH)?,
+            grid_exponent: head.word(field::GRID_EXPONENT).cast_signed(),
+            grid_origin: head.i32x3(field::GRID_ORIGIN),
+            nodes: head.word(field::NODES),
+            leaves: head.word(field::LEAVES),
+            vertices: head.word(field::VERTICES),
+            triangles: head.word(field::TRIANGLES),
+            stack_entries: head.word(field::STACK_ENTRIES),
+            surface_error: f32::from_bits(head.word(field::SURFACE_ERROR)),
+            star_radius: f32::from_bits(head.word(field::STAR_RADIUS)),
+            low: head.u16x3(field::LOW),
+            high: head.u16x3(field::HIGH),
         })
     }
 

@@ -17,7 +17,7 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    pub(super) fn new(header: &BvhHeader, scale_exponent: i32) -> Units {
+    pub(super) const fn new(header: &BvhHeader, scale_exponent: i32) -> Units {
         let exponent = scale_exponent.wrapping_add(header.grid_exponent);
         let half = exponent / 2;
         let rest = exponent.wrapping_sub(half);
@@ -73,6 +73,11 @@ pub(crate) fn at_most(x: f32) -> f32 {
 }
 
 /// `2^exponent`, exactly, within f32's range.
-fn power(exponent: i32) -> f32 {
-    f32::from_bits(((127 + exponent.clamp(-126, 127)).cast_unsigned()) << 23)
+const fn power(exponent: i32) -> f32 {
+    let exponent = match exponent {
+        ..-126 => -126,
+        128.. => 127,
+        exponent => exponent,
+    };
+    f32::from_bits((127 + exponent).cast_unsigned() << 23)
 }

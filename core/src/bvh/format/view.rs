@@ -13,6 +13,7 @@ use super::leaf::{FanLeaf, LeafShape};
 use super::moments::NodeMoments;
 use super::units::Units;
 use crate::format::Bytes;
+use crate::geom::fan::WIDTH;
 use crate::num::sum_up;
 use crate::num::tolerance::{MOST_SURFACE_ERROR, U32};
 use crate::query::QueryError;
@@ -169,7 +170,7 @@ impl Bvh<'_> {
     /// With this many scratch entries no question about one point, one segment or one solid ends
     /// for lack of memory.
     #[inline]
-    pub fn scratch_entries(&self) -> usize {
+    pub const fn scratch_entries(&self) -> usize {
         self.header.stack_entries as usize
     }
 
@@ -180,7 +181,7 @@ impl Bvh<'_> {
     }
 
     /// Triangles of the tree.
-    pub fn triangle_count(&self) -> u32 {
+    pub const fn triangle_count(&self) -> u32 {
         self.header.triangles
     }
 
@@ -223,32 +224,32 @@ impl Bvh<'_> {
 
     /// Whether every edge belongs to two triangles that run through it in opposite directions, so
     /// that the sign of a distance is defined.
-    pub fn is_closed(&self) -> bool {
+    pub const fn is_closed(&self) -> bool {
         self.header.is_closed()
     }
 
     /// Triangles of the input file.
-    pub fn input_triangles(&self) -> u32 {
+    pub const fn input_triangles(&self) -> u32 {
         self.input_triangles
     }
 
     /// Whether the tree was built for distances.
-    pub fn serves_distances(&self) -> bool {
+    pub const fn serves_distances(&self) -> bool {
         !self.frames.is_empty()
     }
 
     /// Whether the tree was built for segments and overlaps.
-    pub fn serves_segments(&self) -> bool {
+    pub const fn serves_segments(&self) -> bool {
         !self.boxes.is_empty()
     }
 
     /// Whether the tree was built for [`front_facing`](Bvh::front_facing).
-    pub fn serves_culling(&self) -> bool {
+    pub const fn serves_culling(&self) -> bool {
         !self.cones.is_empty()
     }
 
     /// Whether the tree was built for [`winding_number`](Bvh::winding_number).
-    pub fn serves_winding(&self) -> bool {
+    pub const fn serves_winding(&self) -> bool {
         !self.moments.is_empty()
     }
 }
@@ -276,6 +277,13 @@ impl<'a> Bvh<'a> {
     #[inline(always)]
     pub(crate) fn grid_bounds(&self) -> (Vec3, Vec3) {
         self.grid_bounds
+    }
+
+    /// No search opens more nodes: each has one parent. It ends searches in a tree whose links were
+    /// not checked.
+    #[inline(always)]
+    pub(crate) fn most_steps(&self) -> u32 {
+        self.links.len() as u32
     }
 
     /// Links of a node.
@@ -319,9 +327,13 @@ impl<'a> Bvh<'a> {
         if child.is_leaf() { self.leaf_at(child.at, child.shape) } else { None }
     }
 
-    /// The leaf whose vertices begin at `vertex`.
+    /// The leaf whose vertices begin at `vertex`. Kernels rely on 1 to 8 triangles, also in a tree
+    /// whose links were not checked.
     #[inline(always)]
     pub fn leaf_at(&self, vertex: u32, shape: LeafShape) -> Option<FanLeaf<'a>> {
+        if shape.triangles().wrapping_sub(1) >= WIDTH {
+            return None;
+        }
         let is_f32 = self.header.is_f32();
         let at = (vertex as usize).wrapping_mul(if is_f32 { 12 } else { 6 });
         Some(FanLeaf {

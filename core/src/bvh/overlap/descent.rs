@@ -9,8 +9,9 @@ use super::axis_intervals::{AxisIntervals, Pairs, pairs};
 use super::leaf_pair::LeafPair;
 use crate::bvh::format::layout::boxes;
 use crate::bvh::format::{Bvh, BvhChild};
+use crate::geom::fan::WIDTH;
 use crate::geom::{Contact, Pose};
-use crate::num::greater;
+use crate::num::{greater, lesser};
 use crate::query::{
     Budget, Ended, Extended, PairVisitor, QueryError, RelativePose, ScratchEntry, Work,
 };
@@ -67,13 +68,14 @@ pub(crate) fn descend(
         return Ok((None, work));
     };
     let models = Models { a, b, pose: &pose };
+    let steps = lesser(budget.steps, models.most_pairs());
     let mut truncated = None;
     let mut used = 0usize;
     let mut nodes = [0u32; 2];
     // The children of each node that still count, as bits.
     let mut wanted = [u32::MAX; 2];
     loop {
-        if work.splits >= budget.steps {
+        if work.splits >= steps {
             return Ok((Some(Ended::Steps), work));
         }
         work.splits += 1;
@@ -163,6 +165,13 @@ pub(super) struct Models<'a> {
 }
 
 impl Models<'_> {
+    /// No search opens more pairs: on each side is a node or a child of a node, and no pair comes
+    /// twice. It ends searches in trees whose links were not checked.
+    pub(super) fn most_pairs(&self) -> u32 {
+        let places = |tree: &Bvh<'_>| tree.most_steps().saturating_mul(1 + WIDTH as u32);
+        places(self.a).saturating_mul(places(self.b))
+    }
+
     /// Which of two children to open: both, unless one is a leaf or much smaller.
     #[inline(always)]
     pub(super) fn opened(&self, [first, second]: &[BvhChild; 2]) -> Option<[bool; 2]> {

@@ -13,6 +13,7 @@ use super::pair_keys::{
 };
 use super::stored_pair::StoredPair;
 use crate::bvh::stored_lengths::square_limit;
+use crate::num::lesser;
 use crate::num::tolerance::SQUARED_SLACK;
 use crate::query::{Ended, QueryError, ScratchEntry, Work};
 
@@ -106,6 +107,7 @@ impl<'s, 'a> Search<'s, 'a> {
         left: &mut L,
     ) -> Result<PairDescent, QueryError> {
         let Search { models, leaves, work, .. } = self;
+        let steps = lesser(self.steps, work.splits.saturating_add(models.most_pairs()));
         let (stack, _) = self.scratch.as_chunks_mut::<ENTRIES>();
         let factor = second_factor(models.pose);
         let limit_of = |visitor: &_| key_limit(square_limit(GapVisitor::limit(visitor)));
@@ -115,7 +117,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let key = (distance * distance * SQUARED_SLACK).to_bits();
         let mut now = PendingPairs { key, pairs: start };
         loop {
-            if work.splits >= self.steps {
+            if work.splits >= steps {
                 let waiting = stack.iter().take(used).map(|entries| PendingPairs::of(entries).key);
                 let key = waiting.fold(now.key.min(dropped), u32::min);
                 now.leave_to(left);

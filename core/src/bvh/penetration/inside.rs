@@ -42,7 +42,12 @@ impl PairQueries<'_, '_> {
         let mut used = 0;
         let mut side = Side::Outside;
         let mut now = Some(0);
+        let mut opened = 0;
         while let Some(node) = now {
+            opened += 1;
+            if opened > surface.tree().most_steps() {
+                return Err(QueryError::Unchecked);
+            }
             let open = match self.side_of_children(surface, node)? {
                 Children { side: Side::Inside, .. } => return Ok(Side::Inside),
                 Children { side: Side::Undecided(why), open } => {

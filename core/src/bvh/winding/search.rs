@@ -130,8 +130,10 @@ impl Search<'_> {
             cut_short: None,
         };
         let mut waiting = 0;
+        let mut left = self.tree.most_steps();
         let mut next = Some(Waiting { node: 0, moves_counted: false });
         while let Some(Waiting { node, moves_counted }) = next {
+            left = left.checked_sub(1).ok_or(QueryError::Unchecked)?;
             let moments = self.tree.moments(node).ok_or(QueryError::Unchecked)?;
             let seen = SeenNode::new(moments, self.p, self.error);
             self.work.nodes = self.work.nodes.saturating_add(1);

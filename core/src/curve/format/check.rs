@@ -6,7 +6,7 @@ use super::layout::{
 };
 use super::view::{Curve, CurvesHeader, Run};
 use crate::format::layout::SectionKind;
-use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
+use crate::format::{Bytes, OpenError, SectionTable};
 use crate::geom::Aabb;
 use crate::num::exp2;
 use crate::query::Frame;
@@ -25,27 +25,22 @@ impl<'a> Curve<'a> {
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without curves.
     pub fn open(bytes: &'a [u8]) -> Result<Curve<'a>, OpenError> {
-        let curve = Curve::place(bytes, true)?;
+        let table = SectionTable::open(bytes)?;
+        table.check_crcs(|kind| kind == SectionKind::Curves)?;
+        let curve = Curve::place(&table)?;
         curve.check()?;
         Ok(curve)
     }
 
     /// The curves of bytes that were checked before.
     pub(crate) fn view(bytes: &'a [u8]) -> Result<Curve<'a>, OpenError> {
-        Curve::place(bytes, false)
+        Curve::place(&SectionTable::view(bytes)?)
     }
 
-    fn place(bytes: &'a [u8], check: bool) -> Result<Curve<'a>, OpenError> {
-        let blob = if check { read_header(bytes)? } else { Header::read(Bytes(bytes))? };
-        let mut section: Option<(u32, &[u8])> = None;
-        let wants = |kind: SectionKind| kind == SectionKind::Curves;
-        place_sections(&blob, Bytes(bytes), check, wants, |index, _, data| {
-            section = Some((index, data));
-            Ok(())
-        })?;
-        let missing = OpenError::MissingSection { section: SectionKind::Curves };
-        let (index, data) = section.ok_or(missing)?;
-        let malformed = OpenError::Section { index };
+    fn place(table: &SectionTable<'a>) -> Result<Curve<'a>, OpenError> {
+        let blob = &table.header;
+        let malformed = table.malformed(SectionKind::Curves);
+        let data = table.bytes(SectionKind::Curves);
         let (head, rest) = data.split_at_checked(CURVES_BYTES).ok_or(malformed)?;
         let header = CurvesHeader::read(Bytes(head))?;
         if header.flags & !(CURVES_PLANAR | CURVES_F32) != 0 {
@@ -85,7 +80,7 @@ impl<'a> Curve<'a> {
         let (table, places, nodes) = slices().ok_or(malformed)?;
         Ok(Curve {
             header,
-            frame: Frame::of(&blob),
+            frame: Frame::of(blob),
             bounds: Aabb::of(blob.surface_box),
             unit: exp2(header.grid_exponent.clamp(-60, 0)) as f32,
             polylines: table.as_chunks().0,

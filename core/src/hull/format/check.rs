@@ -4,7 +4,7 @@ use super::index::{SplitIdx, TriIdx, VertIdx};
 use super::layout::{BASE_GROUP, LEVEL_BYTES, MAX_RING, SLOTS, START_GROUP};
 use super::view::{Hull, Vertices, Widths};
 use crate::format::layout::{MAX_LEVELS, SectionKind, VertexFormat};
-use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
+use crate::format::{Bytes, OpenError, SectionTable};
 use crate::geom::Aabb;
 
 impl<'a> Hull<'a> {
@@ -18,7 +18,9 @@ impl<'a> Hull<'a> {
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without a hull.
     pub fn open(bytes: &'a [u8]) -> Result<Hull<'a>, OpenError> {
-        let hull = Hull::place(bytes, true)?;
+        let table = SectionTable::open(bytes)?;
+        table.check_crcs(SectionKind::is_hull)?;
+        let hull = Hull::place(&table)?;
         if !hull.has_hull() {
             return Err(OpenError::MissingSection { section: SectionKind::BaseTriangles });
         }
@@ -26,62 +28,38 @@ impl<'a> Hull<'a> {
         Ok(hull)
     }
 
-    /// The sections where they lie, of the right lengths, their CRCs checked if `check`. A blob
-    /// without a hull hierarchy has none of them.
-    pub(crate) fn place(bytes: &'a [u8], check: bool) -> Result<Hull<'a>, OpenError> {
-        let all = Bytes(bytes);
-        let header = if check { read_header(bytes)? } else { Header::read(all)? };
-        let mut hull = Hull {
-            header,
-            widths: Widths::of(&header),
-            vertices: Vertices::new(header.vertex_format, &[]),
-            base: Bytes(&[]),
-            groups: Bytes(&[]),
-            splits: Bytes(&[]),
-            rings: Bytes(&[]),
-            radii: Bytes(&[]),
-            splits_with: Bytes(&[]),
-            source_starts: Bytes(&[]),
-            source: Bytes(&[]),
-            levels: Bytes(&[]),
-        };
-        let wants = SectionKind::is_hull;
-        let seen = place_sections(&header, all, check, wants, |index, kind, data| {
-            if Some(data.len()) != hull.section_len(kind) {
-                return Err(OpenError::Section { index });
-            }
-            hull.place_section(kind, data);
-            Ok(())
-        })?;
-        let has = |kind: SectionKind| seen.checked_shr(kind as u32).unwrap_or(0) & 1 != 0;
-        let missing = SectionKind::ALL
-            .into_iter()
-            .filter(|kind| kind.is_hull())
-            .find(|&kind| !has(kind) && hull.section_len(kind) != Some(0));
-        match missing {
-            Some(section) => Err(OpenError::MissingSection { section }),
-            None => Ok(hull),
-        }
+    /// The hull hierarchy of bytes that were opened before.
+    pub(crate) fn view(bytes: &'a [u8]) -> Result<Hull<'a>, OpenError> {
+        Hull::place(&SectionTable::view(bytes)?)
     }
 
-    fn place_section(&mut self, kind: SectionKind, data: &'a [u8]) {
-        let slot = match kind {
-            SectionKind::Vertices => {
-                self.vertices = Vertices::new(self.header.vertex_format, data);
-                return;
-            }
-            SectionKind::BaseTriangles => &mut self.base,
-            SectionKind::BaseGroups => &mut self.groups,
-            SectionKind::Splits => &mut self.splits,
-            SectionKind::Rings => &mut self.rings,
-            SectionKind::Radii => &mut self.radii,
-            SectionKind::SplitsWith => &mut self.splits_with,
-            SectionKind::SourceStarts => &mut self.source_starts,
-            SectionKind::Source => &mut self.source,
-            SectionKind::Levels => &mut self.levels,
-            _ => return,
+    /// The sections where they lie, of the right lengths. A blob without a hull hierarchy has none
+    /// of them.
+    pub(crate) fn place(table: &SectionTable<'a>) -> Result<Hull<'a>, OpenError> {
+        let header = table.header;
+        let part = |kind: SectionKind| Bytes(table.bytes(kind));
+        let hull = Hull {
+            header,
+            widths: Widths::of(&header),
+            vertices: Vertices::new(header.vertex_format, table.bytes(SectionKind::Vertices)),
+            base: part(SectionKind::BaseTriangles),
+            groups: part(SectionKind::BaseGroups),
+            splits: part(SectionKind::Splits),
+            rings: part(SectionKind::Rings),
+            radii: part(SectionKind::Radii),
+            splits_with: part(SectionKind::SplitsWith),
+            source_starts: part(SectionKind::SourceStarts),
+            source: part(SectionKind::Source),
+            levels: part(SectionKind::Levels),
         };
-        *slot = Bytes(data);
+        let wrong = SectionKind::ALL
+            .into_iter()
+            .filter(|kind| kind.is_hull())
+            .find(|&kind| hull.section_len(kind) != Some(table.bytes(kind).len()));
+        match wrong {
+            Some(kind) => Err(table.malformed(kind)),
+            None => Ok(hull),
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use super::index::VertIdx;
 use super::layout::{KEY_BYTES, KEYS_HEADER_BYTES, MAX_KEYS, NUMBERS_HEADER_BYTES, key};
 use super::view::Hull;
 use crate::format::layout::{SectionKind, index_bytes};
-use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
+use crate::format::{Bytes, OpenError, SectionTable};
 use crate::geom::Aabb;
 use crate::num::Radius8;
 use crate::num::tolerance::DEFORM_COARSE;
@@ -54,34 +54,31 @@ impl<'a> DeformableHull<'a> {
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was not built `--for deform`.
     pub fn open(bytes: &'a [u8]) -> Result<DeformableHull<'a>, OpenError> {
         let hull = Hull::open(bytes)?;
-        let opened = DeformableHull::place(hull, bytes, true)?;
+        let table = SectionTable::view(bytes)?;
+        table.check_crcs(SectionKind::is_deform)?;
+        let opened = DeformableHull::place(hull, &table)?;
         opened.check()?;
         Ok(opened)
     }
 
     /// A view of a blob that was checked before.
     pub(crate) fn view(bytes: &'a [u8]) -> Result<DeformableHull<'a>, OpenError> {
-        DeformableHull::place(Hull::place(bytes, false)?, bytes, false)
+        let table = SectionTable::view(bytes)?;
+        DeformableHull::place(Hull::place(&table)?, &table)
     }
 
-    fn place(hull: Hull<'a>, bytes: &'a [u8], check: bool) -> Result<Self, OpenError> {
-        let all = Bytes(bytes);
-        let header = if check { read_header(bytes)? } else { Header::read(all)? };
-        let mut opened = DeformableHull { hull, numbers: Bytes(&[]), keys: Bytes(&[]) };
-        place_sections(&header, all, check, SectionKind::is_deform, |index, kind, data| {
-            let data = Bytes(data);
-            let (slot, wanted) = if kind == SectionKind::VertexNumbers {
-                (&mut opened.numbers, numbers_len(&hull, data))
-            } else {
-                (&mut opened.keys, keys_len(&hull, data))
-            };
-            *slot = data;
-            if wanted == Some(data.len()) { Ok(()) } else { Err(OpenError::Section { index }) }
-        })?;
-        if opened.numbers.len() == 0 {
+    fn place(hull: Hull<'a>, table: &SectionTable<'a>) -> Result<Self, OpenError> {
+        let part = |kind: SectionKind, wanted: fn(&Hull<'_>, Bytes<'_>) -> Option<usize>| {
+            let data = Bytes(table.bytes(kind));
+            let is_whole = !table.has(kind) || wanted(&hull, data) == Some(data.len());
+            if is_whole { Ok(data) } else { Err(table.malformed(kind)) }
+        };
+        let numbers = part(SectionKind::VertexNumbers, numbers_len)?;
+        let keys = part(SectionKind::KeyFrames, keys_len)?;
+        if numbers.len() == 0 {
             return Err(OpenError::MissingSection { section: SectionKind::VertexNumbers });
         }
-        Ok(opened)
+        Ok(DeformableHull { hull, numbers, keys })
     }
 
     fn check(&self) -> Result<(), OpenError> {

@@ -4,7 +4,7 @@ use super::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES, field};
 use super::view::{TightHulls, read};
 use crate::bvh::format::Bvh;
 use crate::format::layout::{MAX_LEVELS, SECTION_ALIGNMENT, SectionKind};
-use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
+use crate::format::{Bytes, OpenError, SectionTable, ok};
 use crate::num::Radius16;
 
 impl<'a> TightHulls<'a> {
@@ -18,38 +18,43 @@ impl<'a> TightHulls<'a> {
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without tight hulls.
     pub fn open(bytes: &'a [u8]) -> Result<TightHulls<'a>, OpenError> {
-        let hulls = TightHulls::place(bytes, true)?;
+        let table = SectionTable::open(bytes)?;
+        table.check_crcs(|kind| kind == SectionKind::TightHulls)?;
+        let hulls = TightHulls::place(&table)?;
         hulls.check()?;
         Ok(hulls)
     }
 
-    /// The hulls of bytes that were checked before.
-    pub(crate) fn view(bytes: &'a [u8]) -> Result<TightHulls<'a>, OpenError> {
-        TightHulls::place(bytes, false)
+    /// Opens the tight hulls of an image that was verified before, and checks header and tables
+    /// only. It is a constant function, as [`Bvh::open_trusted`], which says what changed bytes can
+    /// do and what they cannot. [`get`](Self::get) is constant too, so a hull can be a `static`.
+    ///
+    /// # Errors
+    /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without tight hulls.
+    pub const fn open_trusted(bytes: &'a [u8]) -> Result<TightHulls<'a>, OpenError> {
+        TightHulls::place(&ok!(SectionTable::open(bytes)))
     }
 
-    fn place(bytes: &'a [u8], check: bool) -> Result<TightHulls<'a>, OpenError> {
-        let blob = if check { read_header(bytes)? } else { Header::read(Bytes(bytes))? };
-        let mut section: Option<(u32, &[u8])> = None;
-        let wants = |kind: SectionKind| kind == SectionKind::TightHulls;
-        place_sections(&blob, Bytes(bytes), check, wants, |index, _, data| {
-            section = Some((index, data));
-            Ok(())
-        })?;
-        let missing = OpenError::MissingSection { section: SectionKind::TightHulls };
-        let (index, data) = section.ok_or(missing)?;
-        let malformed = OpenError::Section { index };
-        let (head, rest) = data.split_at_checked(TIGHT_BYTES).ok_or(malformed)?;
-        let head = Bytes(head);
-        let count = head.u32(field::COUNT).ok_or(malformed)?;
-        if head.u32(field::RESERVED) != Some(0) {
+    /// The hulls of bytes that were checked before.
+    pub(crate) const fn view(bytes: &'a [u8]) -> Result<TightHulls<'a>, OpenError> {
+        TightHulls::place(&ok!(SectionTable::view(bytes)))
+    }
+
+    const fn place(table: &SectionTable<'a>) -> Result<TightHulls<'a>, OpenError> {
+        let kind = SectionKind::TightHulls;
+        if !table.has(kind) {
+            return Err(OpenError::MissingSection { section: kind });
+        }
+        let data = Bytes(table.bytes(kind));
+        let count = ok!(data.u32(field::COUNT), table.malformed(kind));
+        if !data.is_zero(field::RESERVED, 4) {
             return Err(OpenError::Reserved);
         }
-        if !(1..=MAX_LEVELS).contains(&count) {
+        if count == 0 || count > MAX_LEVELS {
             return Err(OpenError::Counts { what: "number of tight hulls" });
         }
-        let table = rest.get(..count as usize * TIGHT_HULL_BYTES).ok_or(malformed)?;
-        Ok(TightHulls { records: table.as_chunks().0, data: Bytes(data) })
+        let records = data.slice(TIGHT_BYTES, count as usize * TIGHT_HULL_BYTES);
+        Ok(TightHulls { records: ok!(records, table.malformed(kind)).as_chunks().0, data })
     }
 
     fn check(&self) -> Result<(), OpenError> {
@@ -57,7 +62,7 @@ impl<'a> TightHulls<'a> {
         let mut faces_before = 0;
         for (index, bytes) in (0u32..).zip(self.records) {
             let bad = OpenError::Record { section: SectionKind::TightHulls, index };
-            let (place, record) = read(bytes).ok_or(bad)?;
+            let (place, record) = read(bytes);
             // Hulls follow each other. Bytes between them are zeros, fewer than the alignment.
             let start = end.next_multiple_of(SECTION_ALIGNMENT);
             let gap = self.data.slice(end, start - end).ok_or(bad)?;

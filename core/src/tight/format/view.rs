@@ -7,7 +7,7 @@
 
 use super::layout::{TIGHT_HULL_BYTES, record};
 use crate::bvh::format::Bvh;
-use crate::format::Bytes;
+use crate::format::{Bytes, some};
 use crate::num::Radius16;
 use crate::num::lesser;
 
@@ -55,16 +55,16 @@ pub(crate) struct Place {
 }
 
 /// A record of the table.
-pub(crate) fn read(record: &[u8; TIGHT_HULL_BYTES]) -> Option<(Place, TightRecord)> {
+pub(crate) const fn read(record: &[u8; TIGHT_HULL_BYTES]) -> (Place, TightRecord) {
     let bytes = Bytes(record);
-    let place = Place { offset: bytes.u32(record::OFFSET)?, bytes: bytes.u32(record::BYTES)? };
+    let place = Place { offset: bytes.word(record::OFFSET), bytes: bytes.word(record::BYTES) };
     let of = TightRecord {
-        faces: bytes.u32(record::FACES)?,
-        slack: bytes.f32(record::SLACK)?,
-        depth: bytes.f32(record::DEPTH)?,
-        void_ratio: bytes.f32(record::VOID_RATIO)?,
+        faces: bytes.word(record::FACES),
+        slack: f32::from_bits(bytes.word(record::SLACK)),
+        depth: f32::from_bits(bytes.word(record::DEPTH)),
+        void_ratio: f32::from_bits(bytes.word(record::VOID_RATIO)),
     };
-    Some((place, of))
+    (place, of)
 }
 
 impl TightRecord {
@@ -81,45 +81,51 @@ impl TightRecord {
 
 impl<'a> TightHulls<'a> {
     /// Number of hulls, at least one.
-    pub fn count(&self) -> u32 {
+    pub const fn count(&self) -> u32 {
         self.records.len() as u32
     }
 
     /// The records, coarse to fine.
     pub fn records(&self) -> impl Iterator<Item = TightRecord> + 'a {
-        self.records.iter().filter_map(|record| read(record).map(|(_, record)| record))
+        self.records.iter().map(|record| read(record).1)
     }
 
     /// Hull `index`, 0 being the coarsest. Cost: some thousand instructions. Keep the hull, not its
     /// number.
-    pub fn get(&self, index: u32) -> Option<TightHull<'a>> {
-        let (place, record) = read(self.records.get(index as usize)?)?;
-        let (bytes, slacks) = self.parts(place, record.faces)?;
-        Some(TightHull { bvh: Bvh::view(bytes).ok()?, record, slacks, bytes })
+    pub const fn get(&self, index: u32) -> Option<TightHull<'a>> {
+        let (_, rest) = some!(self.records.split_at_checked(index as usize));
+        let (place, record) = read(some!(rest.first()));
+        let (bytes, slacks) = some!(self.parts(place, record.faces));
+        let Ok(bvh) = Bvh::view(bytes) else { return None };
+        Some(TightHull { bvh, record, slacks, bytes })
     }
 
     /// The finest hull: the tightest.
-    pub fn finest(&self) -> Option<TightHull<'a>> {
+    pub const fn finest(&self) -> Option<TightHull<'a>> {
         self.get(self.count().wrapping_sub(1))
     }
 
     /// A hull's blob, and the distances of its faces.
-    pub(crate) fn parts(&self, place: Place, faces: u32) -> Option<(&'a [u8], &'a [[u8; 2]])> {
-        let bytes = self.data.slice(place.offset as usize, place.bytes as usize)?;
-        let after = (place.offset as usize).checked_add(place.bytes as usize)?;
-        let slacks = self.data.slice(after, (faces as usize).checked_mul(2)?)?;
+    pub(crate) const fn parts(
+        &self,
+        place: Place,
+        faces: u32,
+    ) -> Option<(&'a [u8], &'a [[u8; 2]])> {
+        let bytes = some!(self.data.slice(place.offset as usize, place.bytes as usize));
+        let after = some!((place.offset as usize).checked_add(place.bytes as usize));
+        let slacks = some!(self.data.slice(after, some!((faces as usize).checked_mul(2))));
         Some((bytes, slacks.as_chunks().0))
     }
 }
 
 impl<'a> TightHull<'a> {
     /// The hull's own box tree. Source numbers are those of its faces.
-    pub fn bvh(&self) -> &Bvh<'a> {
+    pub const fn bvh(&self) -> &Bvh<'a> {
         &self.bvh
     }
 
     /// With this many scratch entries no question about one point ends for lack of memory.
-    pub fn scratch_entries(&self) -> usize {
+    pub const fn scratch_entries(&self) -> usize {
         self.bvh.scratch_entries()
     }
 

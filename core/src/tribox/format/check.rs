@@ -5,7 +5,7 @@ use super::layout::{
 };
 use super::view::{Triboxes, TriboxesHeader, UNSPLIT};
 use crate::format::layout::{MAX_LEVELS, SectionKind};
-use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
+use crate::format::{Bytes, OpenError, SectionTable};
 use crate::num::exp2;
 use crate::tribox::directions::FACES;
 
@@ -88,27 +88,22 @@ impl<'a> Triboxes<'a> {
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without triboxes.
     pub fn open(bytes: &'a [u8]) -> Result<Triboxes<'a>, OpenError> {
-        let triboxes = Triboxes::place(bytes, true)?;
+        let table = SectionTable::open(bytes)?;
+        table.check_crcs(|kind| kind == SectionKind::Triboxes)?;
+        let triboxes = Triboxes::place(&table)?;
         triboxes.check()?;
         Ok(triboxes)
     }
 
     /// The triboxes of bytes that were checked before.
     pub(crate) fn view(bytes: &'a [u8]) -> Result<Triboxes<'a>, OpenError> {
-        Triboxes::place(bytes, false)
+        Triboxes::place(&SectionTable::view(bytes)?)
     }
 
-    fn place(bytes: &'a [u8], check: bool) -> Result<Triboxes<'a>, OpenError> {
-        let blob = if check { read_header(bytes)? } else { Header::read(Bytes(bytes))? };
-        let mut section: Option<(u32, &[u8])> = None;
-        let wants = |kind: SectionKind| kind == SectionKind::Triboxes;
-        place_sections(&blob, Bytes(bytes), check, wants, |index, _, data| {
-            section = Some((index, data));
-            Ok(())
-        })?;
-        let missing = OpenError::MissingSection { section: SectionKind::Triboxes };
-        let (index, data) = section.ok_or(missing)?;
-        let malformed = OpenError::Section { index };
+    fn place(table: &SectionTable<'a>) -> Result<Triboxes<'a>, OpenError> {
+        let blob = &table.header;
+        let malformed = table.malformed(SectionKind::Triboxes);
+        let data = table.bytes(SectionKind::Triboxes);
         let (head, rest) = data.split_at_checked(TRIBOXES_BYTES).ok_or(malformed)?;
         let header = TriboxesHeader::read(Bytes(head))?;
         let wrong = |what: &'static str| Err(OpenError::Counts { what });

@@ -6,7 +6,7 @@ mod sight;
 
 pub use meshsweep_core::Bvh;
 use meshsweep_core::Hit;
-use meshsweep_core::{CoherentQuery, Hint, Neighbor, ScratchEntry, TrianglePair};
+use meshsweep_core::{Blob, CoherentQuery, Hint, Neighbor, ScratchEntry, TrianglePair};
 
 use super::{Asked, Refused, Subject};
 use crate::fold::Fold;
@@ -132,6 +132,15 @@ impl<'t> Subject<'t> for Bvh<'t> {
 /// The core's refusal.
 pub fn open(bytes: &[u8]) -> Result<Bvh<'_>, Refused> {
     Bvh::open(bytes).map_err(Refused::of)
+}
+
+/// Opens without a check of the records.
+///
+/// # Errors
+/// The core's refusal.
+pub fn trusted(bytes: &[u8]) -> Result<Bvh<'_>, Refused> {
+    Blob::checksum(bytes).map_err(Refused::of)?;
+    Bvh::open_trusted(bytes).map_err(Refused::of)
 }
 
 /// The surface's box in input units: products of a small integer and a power of two, the same

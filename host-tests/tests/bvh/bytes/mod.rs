@@ -4,6 +4,7 @@
 mod header;
 mod links;
 mod records;
+mod trusted;
 mod whole;
 
 use meshsweep::bvh::{TreeOptions, build};

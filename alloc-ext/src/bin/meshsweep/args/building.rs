@@ -81,6 +81,9 @@ pub struct BuildArgs {
     /// With --for curve: join the last point of each polyline with its first
     #[arg(long)]
     pub closed: bool,
+    /// Write the blob as source text too, beside it: part.rs, or part.h and part.c
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "LANGUAGE")]
+    pub emit: Vec<Language>,
     #[command(flatten)]
     pub collapse: CollapseArgs,
     #[command(flatten)]
@@ -89,6 +92,15 @@ pub struct BuildArgs {
 
 /// Most faces of a stored tight hull.
 const MAX_TIGHT: u32 = 1_000_000;
+
+/// A language of firmware.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Language {
+    // A module with the opened structures.
+    Rust,
+    // A header and the bytes.
+    C,
+}
 
 /// Questions to a tight hull.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -3,11 +3,11 @@
 use super::measured::{Measured, measured};
 use super::table::MANY_NEEDLES;
 use crate::args::{At, BuildArgs, Cpu, LimitArgs};
-use crate::describe;
 use crate::failure::Failure;
 use crate::mesh_file;
 use crate::number::{About, AtMost};
 use crate::output::Output;
+use crate::{describe, source};
 use meshsweep::trade::{Board, How, Instructions, Points, Row, Structure};
 use meshsweep_core::{Blob, Budget};
 use std::io::{self, Write};
@@ -42,13 +42,14 @@ pub fn build(args: &BuildArgs) -> Result<(), Failure> {
     let built = chosen.setting.structure.build(loaded.input());
     let bytes = built.map_err(|what| Failure::Limits { file: args.mesh.clone(), what })?;
     let blob = Blob::open(&bytes).map_err(|error| Failure::open(&args.output, error))?;
-    Output::file(&args.output)?.finish(|out| out.write_all(&bytes))?;
+    source::write(args, &blob)?;
     Output::stdout().finish(|out| {
         writeln!(out, "{}", args.mesh.display())?;
         writeln!(out, "  {}", loaded.report)?;
         loaded.write_unit(out)?;
         write_choice(out, limits, &measured, chosen, second)?;
         writeln!(out, "{}", args.output.display())?;
+        source::report(args, out)?;
         describe::write_blob(out, &blob)
     })
 }

@@ -1,0 +1,85 @@
+//! A blob as source text for firmware: in Rust or in C, with what a program must know of it at
+//! compile time.
+//!
+//! The text depends on the blob and on the names of files alone: it has no date and no path.
+
+mod c;
+mod rust;
+
+pub use c::{c_header, c_source};
+pub use rust::rust_module;
+
+use meshsweep_core::Blob;
+
+/// Names in the text.
+#[derive(Clone, Copy, Debug)]
+pub struct SourceNames<'a> {
+    /// The mesh file, without folders.
+    pub mesh: &'a str,
+    /// The blob's file, without folders.
+    pub blob: &'a str,
+}
+
+impl SourceNames<'_> {
+    /// The blob's name without extension, as an identifier in lower case.
+    fn stem(&self) -> String {
+        let stem = self.blob.rsplit_once('.').map_or(self.blob, |(stem, _)| stem);
+        let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
+        let name: String = stem.chars().map(letter).collect();
+        // A number cannot begin an identifier.
+        if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
+    }
+}
+
+/// A name that ends no comment and begins no other.
+fn in_comment(name: &str) -> String {
+    name.replace("*/", "*_").replace("/*", "_*").replace(['\n', '\r'], " ")
+}
+
+/// Facts of a blob that the text states.
+struct Facts {
+    bytes: usize,
+    checksum: u32,
+    triangles: u32,
+    /// Scratch entries with which no question about a point, a segment or a solid runs out.
+    scratch: usize,
+    has_tree: bool,
+    /// Tight hulls.
+    hulls: u32,
+    /// A structure that a `static` cannot hold.
+    has_more: bool,
+    is_closed: Option<bool>,
+    surface_error: Option<f32>,
+    bounds: Option<[[f32; 3]; 2]>,
+}
+
+impl Facts {
+    fn of(blob: &Blob<'_>) -> Self {
+        let tree = blob.bvh().ok();
+        let tight = blob.tight_hulls().ok();
+        let (hull, triboxes, curve) = (blob.hull().ok(), blob.triboxes().ok(), blob.curve().ok());
+        let of_hulls = (0..tight.map_or(0, |hulls| hulls.count()))
+            .filter_map(|index| tight?.get(index))
+            .map(|hull| hull.scratch_entries());
+        let scratch = [
+            tree.map(|tree| tree.scratch_entries()),
+            of_hulls.max(),
+            hull.map(|hull| hull.scratch_entries()),
+            triboxes.map(|triboxes| triboxes.scratch_entries()),
+            curve.map(|curve| curve.scratch_entries()),
+        ];
+        let finest = tight.and_then(|hulls| hulls.finest());
+        Self {
+            bytes: blob.bytes().len(),
+            checksum: Blob::checksum(blob.bytes()).unwrap_or(0),
+            triangles: blob.header().input_triangles,
+            scratch: scratch.into_iter().flatten().max().unwrap_or(1),
+            has_tree: tree.is_some(),
+            hulls: tight.map_or(0, |hulls| hulls.count()),
+            has_more: hull.is_some() || triboxes.is_some() || curve.is_some(),
+            is_closed: tree.map(|tree| tree.is_closed()),
+            surface_error: tree.map(|tree| tree.surface_error()),
+            bounds: tree.or(finest.map(|hull| *hull.bvh())).map(|tree| tree.bounds()),
+        }
+    }
+}

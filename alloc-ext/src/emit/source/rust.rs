@@ -1,0 +1,134 @@
+//! A Rust module.
+
+use super::{Facts, SourceNames, in_comment};
+use meshsweep_core::Blob;
+use std::fmt::Write;
+
+/// A module with the blob's structures as `static`s, opened by the compiler. It includes the blob
+/// from its own folder, and does not compile with another one.
+#[must_use]
+pub fn rust_module(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
+    let facts = Facts::of(blob);
+    let mut out = head(&facts, names);
+    for part in [Some(bytes(&facts, names)), tree(&facts), hulls(&facts), more(&facts)] {
+        out.extend(part);
+    }
+    out
+}
+
+fn head(facts: &Facts, names: SourceNames<'_>) -> String {
+    let stem = names.stem();
+    let path = match names.blob.rsplit_once('.').map_or(names.blob, |(stem, _)| stem) {
+        same if same == stem => String::new(),
+        other => format!("#[path = {:?}] ", format!("{}.rs", in_comment(other))),
+    };
+    let mut out = format!(
+        "// The blob `{}` of `{}`, opened by the compiler.\n//\n\
+         // Written by `meshsweep build --emit rust`. Keep both files in one folder, and write\n\
+         // `{}mod {stem};` in a crate that depends on `meshsweep-core` {}.\n//\n\
+         // - triangles in the mesh file: {}\n",
+        in_comment(names.blob),
+        in_comment(names.mesh),
+        path,
+        env!("CARGO_PKG_VERSION"),
+        facts.triangles,
+    );
+    let facts_of_tree = [
+        facts.is_closed.map(|closed| (if closed { "closed" } else { "not closed" }).to_owned()),
+        facts.bounds.map(|[low, high]| format!("box of the stored vertices: {low:?} to {high:?}")),
+        facts.surface_error.map(|error| {
+            format!("no point of the mesh is farther than {error:?} from the stored surface")
+        }),
+    ];
+    for fact in facts_of_tree.into_iter().flatten() {
+        let _ = writeln!(out, "// - {fact}");
+    }
+    let _ = writeln!(
+        out,
+        "//\n// Distances are in the mesh's unit. Intervals hold of the mesh, not only of the stored \
+         surface.\n\nuse meshsweep_core::{{{}}};\n",
+        imports(facts).join(", ")
+    );
+    out
+}
+
+fn imports(facts: &Facts) -> Vec<&'static str> {
+    let uses = [
+        (true, "Blob"),
+        (facts.has_tree, "Bvh"),
+        (facts.has_more, "OpenError"),
+        (true, "Scratch"),
+        (facts.hulls > 0, "TightHull"),
+        (facts.hulls > 0, "TightHulls"),
+    ];
+    uses.into_iter().filter_map(|(is_used, name)| is_used.then_some(name)).collect()
+}
+
+fn bytes(facts: &Facts, names: SourceNames<'_>) -> String {
+    let (size, checksum, file) = (facts.bytes, facts.checksum, names.blob);
+    format!(
+        "/// Bytes that begin at a multiple of four.\n\
+         #[repr(C, align(4))]\n\
+         pub struct Aligned<const N: usize>(pub [u8; N]);\n\n\
+         /// The blob.\n\
+         #[allow(dead_code)]\n\
+         pub static BYTES: Aligned<{size}> = Aligned(*include_bytes!({file:?}));\n\n\
+         #[allow(long_running_const_eval, reason = \"every byte is compared\")]\n\
+         const _: () = assert!(\n    \
+             matches!(Blob::checksum(include_bytes!({file:?})), Ok({checksum:#010x})),\n    \
+             \"the file is another blob than this module was written for\"\n);\n\n\
+         /// With so many scratch entries no question about one point, segment or solid runs out.\n\
+         #[allow(dead_code)]\n\
+         pub const SCRATCH_ENTRIES: usize = {};\n\n\
+         /// Scratch memory. Fewer than `SCRATCH_ENTRIES` do not compile.\n\
+         #[allow(dead_code)]\n\
+         pub const fn scratch<const N: usize>() -> Scratch<N> {{\n    \
+             const {{ assert!(N >= SCRATCH_ENTRIES, \"too few scratch entries\") }}\n    \
+             Scratch::new()\n}}\n",
+        facts.scratch,
+    )
+}
+
+fn tree(facts: &Facts) -> Option<String> {
+    facts.has_tree.then(|| {
+        "\n/// The box tree.\n\
+         #[allow(dead_code)]\n\
+         pub static TREE: Bvh<'static> = match Bvh::open_trusted(&BYTES.0) {\n    \
+             Ok(tree) => tree,\n    \
+             Err(_) => panic!(\"the blob has no box tree\"),\n};\n"
+            .to_owned()
+    })
+}
+
+fn hulls(facts: &Facts) -> Option<String> {
+    (facts.hulls > 0).then(|| {
+        format!(
+            "\n/// Tight hulls, coarse to fine: {} of them.\n\
+             #[allow(dead_code)]\n\
+         pub static TIGHT_HULLS: TightHulls<'static> = match \
+             TightHulls::open_trusted(&BYTES.0) {{\n    \
+                 Ok(hulls) => hulls,\n    \
+                 Err(_) => panic!(\"the blob has no tight hulls\"),\n}};\n\n\
+             /// The tightest of them.\n\
+             #[allow(dead_code)]\n\
+         pub static FINEST_HULL: TightHull<'static> = match TIGHT_HULLS.finest() {{\n    \
+                 Some(hull) => hull,\n    \
+                 None => panic!(\"the blob has no tight hulls\"),\n}};\n",
+            facts.hulls
+        )
+    })
+}
+
+fn more(facts: &Facts) -> Option<String> {
+    facts.has_more.then(|| {
+        "\n/// Opens all structures of the blob and checks every byte. The compiler cannot open hull\n\
+         /// hierarchies, triboxes and curves.\n\
+         ///\n\
+         /// # Errors\n\
+         /// Flash does not hold the blob any more.\n\
+         #[allow(dead_code)]\n\
+         pub fn open() -> Result<Blob<'static>, OpenError> {\n    \
+             Blob::open(&BYTES.0)\n}\n"
+            .to_owned()
+    })
+}
