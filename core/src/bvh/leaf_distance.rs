@@ -20,10 +20,6 @@ pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option
 
 /// What a triangle has to be near to count.
 #[derive(Clone, Copy)]
-#[cfg_attr(
-    any(target_arch = "x86_64", target_arch = "aarch64"),
-    expect(dead_code, reason = "all lanes of a leaf are looked at")
-)]
 pub(crate) struct LeafLimit {
     /// A triangle that is farther than the root of this does not count.
     pub(crate) distance_sq: f32,
@@ -46,9 +42,10 @@ impl LeafLimit {
         low_sq: 0.0,
     };
 
-    /// All triangles count. Those whose squared lower bound is not above `low_sq` are told.
-    pub(crate) fn all_low(low_sq: f32) -> LeafLimit {
-        LeafLimit { low_sq, ..LeafLimit::NONE }
+    /// Triangles whose squared lower bound is not above `low_sq` are told. Others may be left out.
+    #[inline(always)]
+    pub(crate) fn all_low(query: &PointQuery, low_sq: f32) -> LeafLimit {
+        LeafLimit { distance_sq: query.limit(low_sq), low_sq, ..LeafLimit::NONE }
     }
 }
 

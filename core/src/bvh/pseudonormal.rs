@@ -21,6 +21,7 @@ use super::point_query::PointQuery;
 use super::side_search::Search;
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
 use crate::bvh::format::FanLeaf;
+use crate::geom::fan::Nearness;
 use crate::num::tolerance::{
     EXACT_INTEGERS, SIGN_COSINE, SIGN_TRIPLE_PRODUCT, TRUSTED_DIRECTION_SQ, U32,
 };
@@ -52,17 +53,15 @@ fn cross(e: Vec3, g: Vec3) -> (Vec3, Vec3) {
     (e.cross(g), Vec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x))
 }
 
-/// How triangle `lane` faces `p`.
+/// How triangle `lane` faces the point from which it is `seen` ([`seen_from`](super::triangle_bounds::seen_from)).
 #[inline]
-pub(crate) fn viewed_side(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> ViewedSide {
+pub(crate) fn viewed_side(leaf: &FanLeaf<'_>, lane: usize, seen: &[Vec3; 3]) -> ViewedSide {
     let second = lane >= leaf.shape().turn();
-    let which = usize::from(second);
-    let (e, g) = (leaf.spoke(lane, which), leaf.spoke(lane + 1, which));
+    let &[s, e, g] = seen;
     let (normal, size) = cross(e, g);
     if normal == Vec3::ZERO && is_flat(leaf, lane, norm_1(size)) {
         return ViewedSide::Flat;
     }
-    let s = p - leaf.centre(which);
     let volume = normal.dot(s);
     // Underflow adds some hundred times less than the last term.
     let rounding =
@@ -152,11 +151,12 @@ impl LeafVisitor for Shared<'_> {
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let (leaf, query) = (&visit.leaf, self.candidates.query);
-        let low = nearest_within(leaf, query, &LeafLimit::all_low(self.limit))?.low;
-        each_triangle(query, leaf, low, |lane, distance_sq, lower_bound_sq| {
+        let low = nearest_within(leaf, query, &LeafLimit::all_low(query, self.limit))?.low;
+        each_triangle(query, leaf, low, |lane, seen, near| {
+            let Nearness { distance_sq, lower_bound_sq, .. } = *near;
             if lower_bound_sq > self.limit
                 || lower_of(leaf, lane, query.p, distance_sq, lower_bound_sq) > self.candidates.band
-                || viewed_side(leaf, lane, query.p) == ViewedSide::Flat
+                || viewed_side(leaf, lane, seen) == ViewedSide::Flat
             {
                 return;
             }

@@ -32,19 +32,19 @@ pub(crate) fn nearness(seen: &[Vec3; 3]) -> Nearness {
     lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g))
 }
 
-/// Calls `each` for the triangles of a leaf whose bits in `lanes` are ones, in order: lane, squared
-/// distance, squared lower bound.
+/// Calls `each` for the triangles of a leaf whose bits in `lanes` are ones, in order: lane, the
+/// triangle [seen](seen_from) from the query, its distance.
 #[inline]
 pub(crate) fn each_triangle(
     query: &PointQuery,
     leaf: &FanLeaf<'_>,
     lanes: u32,
-    mut each: impl FnMut(usize, f32, f32),
+    mut each: impl FnMut(usize, &[Vec3; 3], &Nearness),
 ) {
     for lane in lanes_of(lanes & !(u32::MAX << (leaf.shape().triangles() & 31))) {
         let seen = seen_from(leaf, lane, query.p);
         let near = refine_sliver(query, &seen, nearness(&seen));
-        each(lane, near.distance_sq, near.lower_bound_sq);
+        each(lane, &seen, &near);
     }
 }
 
