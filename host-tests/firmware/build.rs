@@ -22,7 +22,8 @@ const BARE: [&str; 14] = [
 ];
 
 /// Images that run.
-const RUNNING: [&str; 9] = [
+const RUNNING: [&str; 10] = [
+    "dev_tree",
     "ask",
     "suite_hull",
     "suite_apart",

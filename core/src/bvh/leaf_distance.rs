@@ -240,7 +240,7 @@ mod narrow {
     use crate::bvh::triangle_bounds::{nearness, seen_from};
     use crate::geom::fan::{
         Nearness, PointFan, SpokeTerms, WIDTH, Whole, WholeBounds, WholeLimit, WholePoint,
-        point_leaf, whole_bounds,
+        is_certain_corner, less, point_leaf, whole_bounds,
     };
     use crate::num::SOFT_FLOAT;
     use crate::num::lesser;
@@ -348,25 +348,59 @@ mod narrow {
             }
         }
         let mut within = limit.distance_sq;
-        let mut look = |lane: usize, direction: Whole, within: &mut f32| {
-            let seen = seen_from(leaf, lane, p);
-            let near = nearness(&seen);
-            *within = lesser(*within, limit_of(near.distance_sq, limit.allowance));
+        let mut look = |lane: usize, bounds: &WholeBounds, within: &mut f32| {
+            let corners = ring.corners(lane, turn)?;
+            let near = match corner_nearness(leaf, p, point, &corners, lane, bounds.corner) {
+                Some(near) => near,
+                None => nearness(&seen_from(leaf, lane, p)),
+            };
+            if near.distance_sq < nearest.distance_sq {
+                *within = lesser(*within, limit_of(near.distance_sq, limit.allowance));
+            }
             nearest.take(lane, &near, limit.low_sq);
             if nearest.lanes.lane == lane {
-                nearest.lanes.direction = direction;
+                nearest.lanes.direction = bounds.direction;
             }
+            Some(WholeLimit::of(*within))
         };
-        look(likeliest, bounds.get(likeliest)?.direction, &mut within);
-        let mut whole_limit = WholeLimit::of(within);
+        let mut whole_limit = look(likeliest, bounds.get(likeliest)?, &mut within)?;
         for (lane, bounds) in bounds.iter().enumerate() {
             let is_wanted = wanted >> lane & 1 != 0 && lane != likeliest;
             if is_wanted && !(within < f32::INFINITY && bounds.is_beyond(whole_limit)) {
-                look(lane, bounds.direction, &mut within);
-                whole_limit = WholeLimit::of(within);
+                whole_limit = look(lane, bounds, &mut within)?;
             }
         }
         Some(())
+    }
+
+    /// What the f32 kernel finds where a corner is certainly the closest point: the same bits.
+    #[inline(never)]
+    fn corner_nearness(
+        leaf: &FanLeaf<'_>,
+        p: Vec3,
+        point: &WholePoint,
+        &[centre, a, b]: &[Whole; 3],
+        lane: usize,
+        corner: usize,
+    ) -> Option<Nearness> {
+        let (vertex, others) = match corner {
+            0 => (centre, [a, b]),
+            1 => (a, [b, centre]),
+            2 => (b, [centre, a]),
+            _ => return None,
+        };
+        if !is_certain_corner(point, vertex, others.map(|other| less(other, vertex))) {
+            return None;
+        }
+        let mut way = p - leaf.centre(usize::from(lane >= leaf.shape().turn()));
+        let (mut v, mut w) = (0.0, 0.0);
+        if corner > 0 {
+            let [x, y, z] = less(vertex, centre);
+            way -= Vec3::new(x as f32, y as f32, z as f32);
+            (v, w) = if corner == 1 { (1.0, 0.0) } else { (0.0, 1.0) };
+        }
+        let distance_sq = way.x * way.x + way.y * way.y + way.z * way.z;
+        Some(Nearness { distance_sq, lower_bound_sq: distance_sq, v, w })
     }
 
     /// Reads every stored number once. Integers are subtracted before they become f32.

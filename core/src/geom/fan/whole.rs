@@ -7,6 +7,9 @@
 //! weak lower bound, and the f32 kernel then decides. Proof: `core/docs/rounding.md` §8, "Whole
 //! numbers".
 
+/// No corner of a triangle.
+const NO_CORNER: usize = 3;
+
 /// A vector of whole numbers.
 pub type Whole = [i32; 3];
 
@@ -16,6 +19,8 @@ const FRACTION_BITS: u32 = 3;
 pub const WHOLE_BITS: u32 = 17;
 /// Bits of a barycentric weight.
 const WEIGHT_BITS: u32 = 12;
+/// The weight of a whole.
+const ONE: i32 = 1 << WEIGHT_BITS;
 /// Bits of the components of a direction.
 const DIRECTION_BITS: u32 = 12;
 
@@ -101,7 +106,7 @@ fn dot([a, b, c]: Whole, [x, y, z]: Whole) -> i32 {
 }
 
 #[inline(always)]
-fn less([a, b, c]: Whole, [x, y, z]: Whole) -> Whole {
+pub fn less([a, b, c]: Whole, [x, y, z]: Whole) -> Whole {
     [a.wrapping_sub(x), b.wrapping_sub(y), c.wrapping_sub(z)]
 }
 
@@ -112,6 +117,8 @@ pub struct WholeBounds {
     pub estimate: u32,
     /// From the estimated point to the query, of twelve bits.
     pub direction: Whole,
+    /// The corner that the estimated point is: 0, 1 or 2; else 3.
+    pub corner: usize,
     /// Along the direction the query is at least this far from the triangle, in products of
     /// direction and grid units.
     along: i32,
@@ -119,7 +126,8 @@ pub struct WholeBounds {
 
 impl WholeBounds {
     /// Of a triangle that nothing is known of, and that is looked at last.
-    pub const NONE: WholeBounds = WholeBounds { estimate: u32::MAX, direction: [0; 3], along: 0 };
+    pub const NONE: WholeBounds =
+        WholeBounds { estimate: u32::MAX, direction: [0; 3], corner: NO_CORNER, along: 0 };
 
     /// Whether the triangle is certainly farther than the root of `limit`.
     #[inline(always)]
@@ -165,16 +173,42 @@ pub fn whole_bounds(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> WholeBounds {
     let up = square.leading_zeros();
     // An exponent and a mantissa, as in a floating-point number.
     let estimate = (2 * cut + 32 - up) << 24 | (square << (up & 31)) >> 8;
+    let corner = match (v, w) {
+        (0, 0) => 0,
+        (ONE, 0) => 1,
+        (0, ONE) => 2,
+        _ => NO_CORNER,
+    };
     let farthest = dot(direction, *a).max(dot(direction, *b)).max(dot(direction, *c));
     let along = p.along(direction).wrapping_sub(farthest);
-    WholeBounds { estimate, direction, along }
+    WholeBounds { estimate, direction, corner, along }
+}
+
+/// Whether the f32 kernel certainly takes the corner `vertex` for the closest point. The vectors
+/// `to_others` lead from it to the other corners.
+///
+/// Both make an obtuse angle with the way to the query, by more than all roundings: those of the
+/// point here, and those of the kernel. Then no other region of the kernel applies, and its lower
+/// bound is the distance.
+#[inline(never)]
+pub fn is_certain_corner(p: &WholePoint, vertex: Whole, to_others: [Whole; 2]) -> bool {
+    let [x, y, z] = less(p.at, vertex);
+    let [i, j, k] = p.eighths;
+    let way = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
+    let size = |[x, y, z]: Whole| x.abs() + y.abs() + z.abs();
+    let [one, other] = to_others;
+    let edges = 2 * (size(one) + size(other));
+    let room = edges * (3 + ((size(way) >> FRACTION_BITS) + edges >> 17));
+    let along = |edge: Whole| {
+        way.into_iter().zip(edge).fold(0, |sum, (x, y)| sum + i64::from(x) * i64::from(y))
+    };
+    to_others.into_iter().all(|edge| along(edge) < -i64::from(room))
 }
 
 /// Weights of the second and third corner at a point near the closest one, of twelve bits;
 /// their sum is at most one. Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
 #[inline(always)]
 fn weights(s: Whole, e: Whole, g: Whole) -> (i32, i32) {
-    const ONE: i32 = 1 << WEIGHT_BITS;
     // Products of 14 bits and 15 bits have a sum below 2^31.
     let size = bits(largest(e).max(largest(g)));
     let down = size.saturating_sub(14);
