@@ -363,10 +363,14 @@ mod narrow {
             }
             Some(WholeLimit::of(*within))
         };
-        let mut whole_limit = look(likeliest, bounds.get(likeliest)?, &mut within)?;
+        let mut whole_limit = WholeLimit::of(within);
+        let first = bounds.get(likeliest)?;
+        if !first.is_beyond(whole_limit) {
+            whole_limit = look(likeliest, first, &mut within)?;
+        }
         for (lane, bounds) in bounds.iter().enumerate() {
             let is_wanted = wanted >> lane & 1 != 0 && lane != likeliest;
-            if is_wanted && !(within < f32::INFINITY && bounds.is_beyond(whole_limit)) {
+            if is_wanted && !bounds.is_beyond(whole_limit) {
                 whole_limit = look(lane, bounds, &mut within)?;
             }
         }
