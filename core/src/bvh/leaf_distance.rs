@@ -6,6 +6,8 @@
 use super::leaf_plane::LeafPlane;
 use super::point_query::PointQuery;
 use crate::bvh::format::FanLeaf;
+use crate::geom::fan::WIDTH;
+use crate::num::SOFT_FLOAT;
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use narrow::{Lanes, nearest_and_edges, nearest_within};
@@ -15,7 +17,7 @@ pub(crate) use wide::{Lanes, LeafEdges, leaf_edges, nearest_and_edges, nearest_w
 /// The nearest triangle of a leaf, without a limit.
 #[inline(always)]
 pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option<LeafNearest> {
-    nearest_within(leaf, query, &LeafLimit::NONE)
+    nearest_within(leaf, query, &LeafLimit::NONE, None)
 }
 
 /// What a triangle has to be near to count.
@@ -72,6 +74,26 @@ pub(crate) struct LeafNearest {
     pub(crate) low: u32,
 }
 
+/// Squared distances and squared lower bounds of a leaf's [`LeafNearest::low`] triangles, where
+/// computing them again is dear: without floating point.
+pub(crate) struct Known {
+    squares: [[f32; 2]; KNOWN],
+    /// Bits of the triangles that are kept.
+    lanes: u32,
+}
+
+const KNOWN: usize = if SOFT_FLOAT { WIDTH } else { 0 };
+
+impl Known {
+    pub(crate) const NONE: Known = Known { squares: [[0.0; 2]; KNOWN], lanes: 0 };
+
+    /// Of a triangle of the last leaf.
+    #[inline(always)]
+    pub(crate) fn of(&self, lane: usize) -> Option<[f32; 2]> {
+        if self.lanes >> (lane & 31) & 1 == 0 { None } else { self.squares.get(lane).copied() }
+    }
+}
+
 impl LeafNearest {
     /// The least lane at this distance, and the closest point on its triangle (see
     /// [`FanLeaf::point`]).
@@ -83,7 +105,7 @@ impl LeafNearest {
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod wide {
-    use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, PointQuery};
+    use super::{FanLeaf, Known, LeafLimit, LeafNearest, LeafSeen, PointQuery};
     use crate::bvh::format::LanePoint;
     use crate::geom::fan::Lanes as Register;
     use crate::geom::fan::{
@@ -134,9 +156,7 @@ mod wide {
             let (v, w): ([f32; WIDTH], [f32; WIDTH]) = (cast(self.v), cast(self.w));
             (lane, v[lane], w[lane])
         }
-    }
 
-    impl LeafNearest {
         /// No plane: all lanes of a leaf are looked at.
         #[inline(always)]
         pub(crate) fn direction(&self) -> Whole {
@@ -149,6 +169,7 @@ mod wide {
         leaf: &FanLeaf<'_>,
         query: &PointQuery,
         limit: &LeafLimit,
+        _: Option<&mut Known>,
     ) -> Option<LeafNearest> {
         let &LeafLimit { distance_sq: limit, low_sq, .. } = limit;
         let limit = if limit < f32::INFINITY { Some(limit) } else { None };
@@ -235,7 +256,7 @@ mod wide {
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod narrow {
-    use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, PointQuery};
+    use super::{FanLeaf, Known, LeafLimit, LeafNearest, LeafSeen, PointQuery, nearest_triangle};
     use crate::bvh::point_query::limit_of;
     use crate::bvh::triangle_bounds::{nearness, seen_from};
     use crate::geom::fan::{
@@ -269,6 +290,12 @@ mod narrow {
         pub(crate) fn at(&self, _: f32) -> (usize, f32, f32) {
             (self.lane, self.v, self.w)
         }
+
+        /// The normal of a [`LeafPlane`](super::LeafPlane) in front of the nearest triangle.
+        #[inline(always)]
+        pub(crate) fn direction(&self) -> Whole {
+            self.direction
+        }
     }
 
     #[inline(never)]
@@ -276,8 +303,12 @@ mod narrow {
         leaf: &FanLeaf<'_>,
         query: &PointQuery,
         limit: &LeafLimit,
+        mut known: Option<&mut Known>,
     ) -> Option<LeafNearest> {
         let p = query.p;
+        if SOFT_FLOAT && let Some(known) = &mut known {
+            known.lanes = 0;
+        }
         let mut nearest = LeafNearest {
             distance_sq: f32::INFINITY,
             lower_bound_sq: f32::INFINITY,
@@ -287,7 +318,7 @@ mod narrow {
         if leaf.is_f32() {
             f32_nearest(leaf, p, limit.low_sq, &mut nearest);
         } else if SOFT_FLOAT && let Some(point) = &query.whole {
-            whole_nearest(leaf, p, point, limit, &mut nearest)?;
+            whole_nearest(leaf, p, point, limit, known, &mut nearest)?;
         } else {
             grid_nearest(leaf, p, limit, &mut nearest)?;
         }
@@ -296,15 +327,10 @@ mod narrow {
 
     #[inline(always)]
     pub(crate) fn nearest_and_edges(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option<LeafSeen> {
-        Some((nearest_within(leaf, query, &LeafLimit::NONE)?, None))
+        Some((nearest_triangle(leaf, query)?, None))
     }
 
     impl LeafNearest {
-        /// The normal of a [`LeafPlane`](super::LeafPlane) in front of the nearest triangle.
-        pub(crate) fn direction(&self) -> Whole {
-            self.lanes.direction
-        }
-
         #[inline(always)]
         fn take(&mut self, lane: usize, near: &Nearness, low_sq: f32) {
             let (here, best) = (near.distance_sq, self.distance_sq);
@@ -329,6 +355,7 @@ mod narrow {
         p: Vec3,
         point: &WholePoint,
         limit: &LeafLimit,
+        mut known: Option<&mut Known>,
         nearest: &mut LeafNearest,
     ) -> Option<()> {
         let ring = leaf.grid_ring()?;
@@ -358,6 +385,12 @@ mod narrow {
                 *within = lesser(*within, limit_of(near.distance_sq, limit.allowance));
             }
             nearest.take(lane, &near, limit.low_sq);
+            if let Some(known) = &mut known
+                && let Some(squares) = known.squares.get_mut(lane)
+            {
+                *squares = [near.distance_sq, near.lower_bound_sq];
+                known.lanes |= 1 << (lane & 31);
+            }
             if nearest.lanes.lane == lane {
                 nearest.lanes.direction = bounds.direction;
             }

@@ -16,12 +16,11 @@
 //! So the product with u has the right sign if it exceeds this error and rounding.
 
 use super::descent::{LeafVisit, LeafVisitor};
-use super::leaf_distance::{LeafLimit, nearest_within};
+use super::leaf_distance::{Known, LeafLimit, nearest_within};
 use super::point_query::PointQuery;
 use super::side_search::Search;
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
 use crate::bvh::format::FanLeaf;
-use crate::geom::fan::Nearness;
 use crate::num::tolerance::{
     EXACT_INTEGERS, SIGN_COSINE, SIGN_TRIPLE_PRODUCT, TRUSTED_DIRECTION_SQ, U32,
 };
@@ -119,7 +118,8 @@ pub(crate) fn side_of_shared_feature(
 ) -> Result<Option<Side>, QueryError> {
     let limit = limit_of(candidates.query, candidates.band);
     let key_limit = candidates.query.key_limit(limit);
-    let mut shared = Shared { candidates, limit, key_limit, corners, kept: [true; 3] };
+    let mut shared =
+        Shared { candidates, limit, key_limit, known: Known::NONE, corners, kept: [true; 3] };
     if !search.descend(candidates.query, &mut shared)? {
         return Ok(None);
     }
@@ -140,6 +140,7 @@ struct Shared<'a> {
     candidates: &'a Candidates<'a>,
     limit: f32,
     key_limit: u32,
+    known: Known,
     corners: [Vec3; 3],
     kept: [bool; 3],
 }
@@ -151,20 +152,26 @@ impl LeafVisitor for Shared<'_> {
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let (leaf, query) = (&visit.leaf, self.candidates.query);
-        let low = nearest_within(leaf, query, &LeafLimit::all_low(query, self.limit))?.low;
-        each_triangle(query, leaf, low, |lane, seen, near| {
-            let Nearness { distance_sq, lower_bound_sq, .. } = *near;
-            if lower_bound_sq > self.limit
-                || lower_of(leaf, lane, query.p, distance_sq, lower_bound_sq) > self.candidates.band
-                || viewed_side(leaf, lane, seen) == ViewedSide::Flat
-            {
-                return;
-            }
-            let corners = leaf.corners(lane);
-            for (kept, corner) in self.kept.iter_mut().zip(&self.corners) {
-                *kept &= corners.contains(corner);
-            }
-        });
+        let limit = LeafLimit::all_low(query, self.limit);
+        let low = nearest_within(leaf, query, &limit, Some(&mut self.known))?.low;
+        each_triangle(
+            query,
+            leaf,
+            (low, &self.known),
+            |lane, seen, [distance_sq, lower_bound_sq]| {
+                if lower_bound_sq > self.limit
+                    || lower_of(leaf, lane, query.p, distance_sq, lower_bound_sq)
+                        > self.candidates.band
+                    || viewed_side(leaf, lane, seen) == ViewedSide::Flat
+                {
+                    return;
+                }
+                let corners = leaf.corners(lane);
+                for (kept, corner) in self.kept.iter_mut().zip(&self.corners) {
+                    *kept &= corners.contains(corner);
+                }
+            },
+        );
         Some(self.kept != [false; 3])
     }
 }

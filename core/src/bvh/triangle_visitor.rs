@@ -2,12 +2,11 @@
 //! counts.
 
 use super::descent::{LeafVisit, LeafVisitor};
-use super::leaf_distance::{LeafLimit, LeafNearest, nearest_within};
+use super::leaf_distance::{Known, LeafLimit, LeafNearest, nearest_within};
 use super::leaf_plane::LeafPlane;
 use super::point_query::PointQuery;
 use super::triangle_bounds::{each_triangle, lower_of};
 use crate::bvh::format::{Bvh, FanLeaf};
-use crate::geom::fan::Nearness;
 use crate::num::SOFT_FLOAT;
 use glam::Vec3;
 
@@ -90,6 +89,7 @@ pub(crate) struct TriangleVisitor<'a, C> {
     key_limit: u32,
     /// `limit` for the leaves.
     beyond: LeafLimit,
+    known: Known,
     pub(crate) collector: C,
 }
 
@@ -97,7 +97,8 @@ impl<'a, C> TriangleVisitor<'a, C> {
     /// A visitor that begins with this squared limit.
     pub(crate) fn new(tree: &'a Bvh<'a>, query: &'a PointQuery, limit: f32, collector: C) -> Self {
         let beyond = LeafLimit::all_low(query, limit);
-        TriangleVisitor { tree, query, limit, key_limit: query.key_limit(limit), beyond, collector }
+        let (key_limit, known) = (query.key_limit(limit), Known::NONE);
+        TriangleVisitor { tree, query, limit, key_limit, beyond, known, collector }
     }
 
     /// Makes the other limits follow `limit`.
@@ -118,7 +119,7 @@ impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         self.beyond.allowance = self.collector.allowance();
-        let near = nearest_within(&visit.leaf, self.query, &self.beyond)?;
+        let near = nearest_within(&visit.leaf, self.query, &self.beyond, Some(&mut self.known))?;
         let before = self.limit;
         let next = self.collector.nearest(visit, near.distance_sq, &mut self.limit)?;
         if self.limit < before {
@@ -138,7 +139,7 @@ impl<C: TriangleCollector> TriangleVisitor<'_, C> {
     #[inline(always)]
     fn part_from(&mut self, near: &LeafNearest) {
         if SOFT_FLOAT && let Some(point) = &self.query.whole {
-            let normal = near.direction();
+            let normal = near.lanes.direction();
             self.beyond.plane = LeafPlane::new(point, normal, self.beyond.distance_sq);
         }
     }
@@ -146,12 +147,11 @@ impl<C: TriangleCollector> TriangleVisitor<'_, C> {
     /// Hands the triangles of a leaf to the collector. Returns whether to go on.
     #[inline(never)]
     fn each(&mut self, visit: &LeafVisit<'_>, low: u32) -> Option<bool> {
-        let TriangleVisitor { tree, query, limit, collector, .. } = self;
+        let TriangleVisitor { tree, query, limit, known, collector, .. } = self;
         let before = *limit;
         let LeafVisit { leaf, node, child, .. } = visit;
         let first = tree.links(*node)?.triangle(*child);
-        each_triangle(query, leaf, low, |lane, seen, near| {
-            let Nearness { distance_sq, lower_bound_sq, .. } = *near;
+        each_triangle(query, leaf, (low, known), |lane, seen, [distance_sq, lower_bound_sq]| {
             if lower_bound_sq > *limit {
                 return;
             }

@@ -105,6 +105,7 @@ fn dot([a, b, c]: Whole, [x, y, z]: Whole) -> i32 {
     a.wrapping_mul(x).wrapping_add(b.wrapping_mul(y)).wrapping_add(c.wrapping_mul(z))
 }
 
+/// The difference. It wraps around.
 #[inline(always)]
 pub fn less([a, b, c]: Whole, [x, y, z]: Whole) -> Whole {
     [a.wrapping_sub(x), b.wrapping_sub(y), c.wrapping_sub(z)]
