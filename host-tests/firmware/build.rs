@@ -22,8 +22,7 @@ const BARE: [&str; 14] = [
 ];
 
 /// Images that run.
-const RUNNING: [&str; 10] = [
-    "dev_tree",
+const RUNNING: [&str; 9] = [
     "ask",
     "suite_hull",
     "suite_apart",

@@ -268,6 +268,8 @@ fn weights(s: Whole, e: Whole, g: Whole) -> (i32, i32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::fan::{Nearness, PointFan};
+    use glam::Vec3;
 
     /// Squared distance in f64, by the kernel of the hull hierarchy.
     fn exact(p: [f64; 3], corners: &[Whole; 3]) -> f64 {
@@ -337,6 +339,49 @@ mod tests {
             }
         }
         assert!(proved * 10 > all * 9, "{proved} of {all}");
+    }
+
+    #[test]
+    fn a_certain_corner_is_the_kernels_and_few_are_missed() {
+        let mut noise = Noise(13);
+        let (mut certain, mut clear) = (0, 0);
+        for round in 0..300_000 {
+            let corners = triangle(&mut noise, 1 << (round % 17));
+            let which = noise.below(3) as usize;
+            let vertex = corners[which];
+            let others = [corners[(which + 1) % 3], corners[(which + 2) % 3]];
+            let to_others = others.map(|other| less(other, vertex));
+            let away = 1 << noise.below(17);
+            let off = noise.whole(away);
+            let origin = -noise.below(100_000) as f32;
+            let part = noise.below(1000) as f32 / 1000.0;
+            let p = [0, 1, 2].map(|k| (vertex[k] + off[k]) as f32 + part + origin);
+            let Some(point) = WholePoint::new(p.map(|x| x - origin)) else { continue };
+            // Twice the room: within 20 units of a wall of the corner's region none is certain.
+            let far = |edge: &Whole| {
+                let size = f64::from(edge.map(i32::abs).into_iter().sum::<i32>());
+                f64::from(dot(*edge, off.map(|x| x.clamp(-8000, 8000)))) < -20.0 * size
+            };
+            let is_certain = is_certain_corner(&point, vertex, to_others);
+            if round % 17 < 12 && off.iter().all(|x| x.abs() < 8000) && to_others.iter().all(far) {
+                clear += 1;
+                certain += i32::from(is_certain);
+            }
+            if is_certain {
+                let at = |v: Whole| Vec3::from_array(v.map(|x| x as f32 + origin));
+                let edge = |v: Whole| Vec3::from_array(less(v, corners[0]).map(|x| x as f32));
+                let s = Vec3::from_array(p) - at(corners[0]);
+                let fan = PointFan::new(s);
+                let [e, g] = [edge(corners[1]), edge(corners[2])];
+                let near = fan.triangle(&fan.spoke(e), &fan.spoke(g));
+                let way = [s, s - e, s - g][which];
+                let distance_sq = way.x * way.x + way.y * way.y + way.z * way.z;
+                let (v, w) = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)][which];
+                let expected = Nearness { distance_sq, lower_bound_sq: distance_sq, v, w };
+                assert_eq!(near, expected, "{p:?} {corners:?}");
+            }
+        }
+        assert!(certain * 10 > clear * 9 && clear > 10_000, "{certain} of {clear}");
     }
 
     #[test]
