@@ -4,10 +4,9 @@
 //! (`narrow`). Both give the same bits.
 
 use super::leaf_plane::LeafPlane;
+use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use crate::bvh::format::FanLeaf;
-use crate::geom::fan::WIDTH;
-use crate::num::SOFT_FLOAT;
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use narrow::{Lanes, nearest_and_edges, nearest_within};
@@ -74,26 +73,6 @@ pub(crate) struct LeafNearest {
     pub(crate) low: u32,
 }
 
-/// Squared distances and squared lower bounds of a leaf's [`LeafNearest::low`] triangles, where
-/// computing them again is dear: without floating point.
-pub(crate) struct Known {
-    squares: [[f32; 2]; KNOWN],
-    /// Bits of the triangles that are kept.
-    lanes: u32,
-}
-
-const KNOWN: usize = if SOFT_FLOAT { WIDTH } else { 0 };
-
-impl Known {
-    pub(crate) const NONE: Known = Known { squares: [[0.0; 2]; KNOWN], lanes: 0 };
-
-    /// Of a triangle of the last leaf.
-    #[inline(always)]
-    pub(crate) fn of(&self, lane: usize) -> Option<[f32; 2]> {
-        if self.lanes >> (lane & 31) & 1 == 0 { None } else { self.squares.get(lane).copied() }
-    }
-}
-
 impl LeafNearest {
     /// The least lane at this distance, and the closest point on its triangle (see
     /// [`FanLeaf::point`]).
@@ -105,7 +84,7 @@ impl LeafNearest {
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod wide {
-    use super::{FanLeaf, Known, LeafLimit, LeafNearest, LeafSeen, PointQuery};
+    use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, LeafSquares, PointQuery};
     use crate::bvh::format::LanePoint;
     use crate::geom::fan::Lanes as Register;
     use crate::geom::fan::{
@@ -169,7 +148,7 @@ mod wide {
         leaf: &FanLeaf<'_>,
         query: &PointQuery,
         limit: &LeafLimit,
-        _: Option<&mut Known>,
+        _: Option<&mut LeafSquares>,
     ) -> Option<LeafNearest> {
         let &LeafLimit { distance_sq: limit, low_sq, .. } = limit;
         let limit = if limit < f32::INFINITY { Some(limit) } else { None };
@@ -256,7 +235,9 @@ mod wide {
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod narrow {
-    use super::{FanLeaf, Known, LeafLimit, LeafNearest, LeafSeen, PointQuery, nearest_triangle};
+    use super::{
+        FanLeaf, LeafLimit, LeafNearest, LeafSeen, LeafSquares, PointQuery, nearest_triangle,
+    };
     use crate::bvh::point_query::limit_of;
     use crate::bvh::triangle_bounds::{nearness, seen_from};
     use crate::geom::fan::{
@@ -303,11 +284,11 @@ mod narrow {
         leaf: &FanLeaf<'_>,
         query: &PointQuery,
         limit: &LeafLimit,
-        mut known: Option<&mut Known>,
+        mut known: Option<&mut LeafSquares>,
     ) -> Option<LeafNearest> {
         let p = query.p;
-        if SOFT_FLOAT && let Some(known) = &mut known {
-            known.lanes = 0;
+        if let Some(known) = &mut known {
+            known.clear();
         }
         let mut nearest = LeafNearest {
             distance_sq: f32::INFINITY,
@@ -355,7 +336,7 @@ mod narrow {
         p: Vec3,
         point: &WholePoint,
         limit: &LeafLimit,
-        mut known: Option<&mut Known>,
+        mut known: Option<&mut LeafSquares>,
         nearest: &mut LeafNearest,
     ) -> Option<()> {
         let ring = leaf.grid_ring()?;
@@ -385,11 +366,8 @@ mod narrow {
                 *within = lesser(*within, limit_of(near.distance_sq, limit.allowance));
             }
             nearest.take(lane, &near, limit.low_sq);
-            if let Some(known) = &mut known
-                && let Some(squares) = known.squares.get_mut(lane)
-            {
-                *squares = [near.distance_sq, near.lower_bound_sq];
-                known.lanes |= 1 << (lane & 31);
+            if let Some(known) = &mut known {
+                known.keep(lane, [near.distance_sq, near.lower_bound_sq]);
             }
             if nearest.lanes.lane == lane {
                 nearest.lanes.direction = bounds.direction;

@@ -16,7 +16,8 @@
 //! So the product with u has the right sign if it exceeds this error and rounding.
 
 use super::descent::{LeafVisit, LeafVisitor};
-use super::leaf_distance::{Known, LeafLimit, nearest_within};
+use super::leaf_distance::{LeafLimit, nearest_within};
+use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use super::side_search::Search;
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
@@ -119,7 +120,7 @@ pub(crate) fn side_of_shared_feature(
     let limit = limit_of(candidates.query, candidates.band);
     let key_limit = candidates.query.key_limit(limit);
     let mut shared =
-        Shared { candidates, limit, key_limit, known: Known::NONE, corners, kept: [true; 3] };
+        Shared { candidates, limit, key_limit, known: LeafSquares::NONE, corners, kept: [true; 3] };
     if !search.descend(candidates.query, &mut shared)? {
         return Ok(None);
     }
@@ -140,7 +141,7 @@ struct Shared<'a> {
     candidates: &'a Candidates<'a>,
     limit: f32,
     key_limit: u32,
-    known: Known,
+    known: LeafSquares,
     corners: [Vec3; 3],
     kept: [bool; 3],
 }

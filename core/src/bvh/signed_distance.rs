@@ -35,8 +35,7 @@
 //!    High above a face and next to its edge, rounding cannot tell this face from the one beyond
 //!    the edge. From a sixteenth of the distance it can.
 
-use super::descent::LeafVisit;
-use super::descent::{Descent, descend};
+use super::descent::{Descent, LeafVisit, descend};
 use super::point_query::PointQuery;
 use super::pseudonormal::{Candidates, ViewedSide, side_of_shared_feature, viewed_side};
 use super::side_search::Search;
@@ -207,7 +206,8 @@ impl Search<'_, '_> {
         if is_known || survey.best.is_none() || self.truncated.is_some() {
             return Ok(survey);
         }
-        self.survey(query, Bounding::WithArea)
+        let again = self.survey(query, Bounding::WithArea)?;
+        Ok(if self.truncated.is_some() { survey } else { again })
     }
 
     fn survey<'p>(

@@ -1,6 +1,6 @@
 //! Bounds of single triangles of a leaf, for questions that look at triangles one by one.
 
-use super::leaf_distance::Known;
+use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use crate::bvh::format::{FanLeaf, lanes_of};
 use crate::geom::fan::{Nearness, PointFan, lone_triangle, lower_bound, refined};
@@ -45,7 +45,7 @@ pub(crate) fn nearness(seen: &[Vec3; 3]) -> Nearness {
 pub(crate) fn each_triangle(
     query: &PointQuery,
     leaf: &FanLeaf<'_>,
-    (low, known): (u32, &Known),
+    (low, known): (u32, &LeafSquares),
     mut each: impl FnMut(usize, &[Vec3; 3], [f32; 2]),
 ) {
     for lane in lanes_of(low & !(u32::MAX << (leaf.shape().triangles() & 31))) {

@@ -2,8 +2,9 @@
 //! counts.
 
 use super::descent::{LeafVisit, LeafVisitor};
-use super::leaf_distance::{Known, LeafLimit, LeafNearest, nearest_within};
+use super::leaf_distance::{LeafLimit, LeafNearest, nearest_within};
 use super::leaf_plane::LeafPlane;
+use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use super::triangle_bounds::{each_triangle, lower_of};
 use crate::bvh::format::{Bvh, FanLeaf};
@@ -89,7 +90,7 @@ pub(crate) struct TriangleVisitor<'a, C> {
     key_limit: u32,
     /// `limit` for the leaves.
     beyond: LeafLimit,
-    known: Known,
+    known: LeafSquares,
     pub(crate) collector: C,
 }
 
@@ -97,7 +98,7 @@ impl<'a, C> TriangleVisitor<'a, C> {
     /// A visitor that begins with this squared limit.
     pub(crate) fn new(tree: &'a Bvh<'a>, query: &'a PointQuery, limit: f32, collector: C) -> Self {
         let beyond = LeafLimit::all_low(query, limit);
-        let (key_limit, known) = (query.key_limit(limit), Known::NONE);
+        let (key_limit, known) = (query.key_limit(limit), LeafSquares::NONE);
         TriangleVisitor { tree, query, limit, key_limit, beyond, known, collector }
     }
 

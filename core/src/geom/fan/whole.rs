@@ -78,7 +78,7 @@ pub struct WholeLimit {
 }
 
 impl WholeLimit {
-    /// `square` or a little more, for a positive finite number.
+    /// `square` or a little more, for a positive number. Nothing is beyond an infinite one.
     #[inline(always)]
     pub fn of(square: f32) -> WholeLimit {
         let bits = square.to_bits();
