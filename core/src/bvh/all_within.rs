@@ -8,6 +8,7 @@ use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::sqrt_approx;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
+use glam::Vec3;
 
 /// How a search for all triangles within a distance went. They are in the caller's slice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,7 +111,7 @@ struct CollectWithin<'a> {
 
 impl TriangleCollector for CollectWithin<'_> {
     #[inline(always)]
-    fn take(&mut self, triangle: LeafTriangle, leaf: &FanLeaf<'_>, _: &mut f32) {
+    fn take(&mut self, triangle: LeafTriangle, leaf: &FanLeaf<'_>, _: &[Vec3; 3], _: &mut f32) {
         let is_within = self.query.upper(sqrt_approx(triangle.distance_sq)) <= self.distance
             || self.query.lower(triangle.lower(leaf, self.query)) <= self.distance;
         if is_within && self.heap.offer(triangle).is_some() {

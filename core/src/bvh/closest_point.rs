@@ -1,12 +1,12 @@
 //! The closest point, with an interval of the distance.
 
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
-use super::leaf_distance::{Lanes, LeafLimit, LeafNearest, nearest_triangle, nearest_within};
+use super::leaf_distance::{Lanes, LeafLimit, nearest_triangle, nearest_within};
 use super::leaf_plane::LeafPlane;
 use super::point_query::{EVERY_KEY, PointQuery};
-use super::triangle_bounds::{nearness, refine_sliver, seen_from};
+use super::triangle_bounds::{nearness, seen_from, sliver};
 use crate::bvh::format::{Bvh, FanLeaf, at_least, at_most, lanes_of};
-use crate::geom::fan::lower_bound;
+use crate::geom::fan::{lower_bound, refined};
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
 use crate::num::{SOFT_FLOAT, greater, sqrt_approx};
 use crate::query::Interval;
@@ -120,6 +120,8 @@ struct Best {
     distance_sq: f32,
     node: u32,
     child: u32,
+    /// The leaf's first triangle, once it was asked for; else `u32::MAX`.
+    first: u32,
     lanes: Lanes,
 }
 
@@ -156,7 +158,13 @@ impl<'a> Closest<'a> {
                 low_sq: EVERYTHING_SQ,
                 ..LeafLimit::NONE
             },
-            best: Best { distance_sq: f32::MAX, node: u32::MAX, child: 0, lanes: Lanes::NONE },
+            best: Best {
+                distance_sq: f32::MAX,
+                node: u32::MAX,
+                child: 0,
+                first: u32::MAX,
+                lanes: Lanes::NONE,
+            },
             refine_below: f32::NEG_INFINITY,
             refined_lower_sq: f32::INFINITY,
             tolerant: budget.relative > 0.0 || budget.absolute > 0.0,
@@ -185,13 +193,18 @@ impl<'a> Closest<'a> {
     }
 
     #[inline(always)]
-    fn improve(&mut self, near: &LeafNearest, visit: &LeafVisit<'_>) {
-        let distance_sq = near.distance_sq;
+    fn improve(&mut self, distance_sq: f32, lanes: &Lanes, visit: &LeafVisit<'_>) {
         let has_best = self.best.node != u32::MAX;
         if distance_sq == self.best.distance_sq && has_best && self.comes_later(visit) {
             return;
         }
-        self.best = Best { distance_sq, node: visit.node, child: visit.child, lanes: near.lanes };
+        self.best = Best {
+            distance_sq,
+            node: visit.node,
+            child: visit.child,
+            first: u32::MAX,
+            lanes: *lanes,
+        };
         self.refine_below = self.query.refine_below(distance_sq);
         self.beyond.low_sq = self.refine_below;
         let beyond = self.query.limit(distance_sq);
@@ -199,8 +212,7 @@ impl<'a> Closest<'a> {
             self.beyond.distance_sq = beyond;
         }
         if SOFT_FLOAT && let Some(point) = &self.query.whole {
-            let normal = near.direction();
-            self.beyond.plane = LeafPlane::new(point, normal, self.beyond.distance_sq);
+            self.beyond.plane = LeafPlane::new(point, lanes.direction(), self.beyond.distance_sq);
         }
         let limit =
             if self.tolerant { self.tolerant_limit(distance_sq) } else { self.beyond.distance_sq };
@@ -209,9 +221,16 @@ impl<'a> Closest<'a> {
 
     /// Whether the leaf's triangles have greater numbers than the best one's.
     #[cold]
-    fn comes_later(&self, visit: &LeafVisit<'_>) -> bool {
-        let first = |node, child| Some(self.tree.links(node)?.triangle(child));
-        first(visit.node, visit.child) > first(self.best.node, self.best.child)
+    fn comes_later(&mut self, visit: &LeafVisit<'_>) -> bool {
+        let Best { node, child, first, .. } = self.best;
+        if visit.node == node {
+            return visit.child > child;
+        }
+        let first_of = |node, child| Some(self.tree.links(node)?.triangle(child));
+        if first == u32::MAX {
+            self.best.first = first_of(node, child).unwrap_or(first);
+        }
+        first_of(visit.node, visit.child) > Some(self.best.first)
     }
 
     /// Refines triangles whose lower bound falls short of the best distance by more than rounding:
@@ -231,24 +250,16 @@ impl<'a> Closest<'a> {
             if near.lower_bound_sq >= self.refine_below {
                 continue;
             }
-            let better = refine_sliver(query, &seen, near);
+            let again = refined(&seen, &near);
+            let better = sliver(query, near, &again);
             let (best_sq, lanes) = (self.best.distance_sq, &self.best.lanes);
             let here = visit.node == self.best.node && visit.child == self.best.child;
             let first = !here || lane < lanes.at(best_sq).0;
             let nearer = better.distance_sq < best_sq || (better.distance_sq == best_sq && first);
             if better.distance_sq < near.distance_sq && nearer {
-                let lanes = Lanes::one(lane, &better);
-                let near = LeafNearest {
-                    distance_sq: better.distance_sq,
-                    lower_bound_sq: near.lower_bound_sq,
-                    lanes,
-                    low,
-                };
-                self.improve(&near, visit);
+                self.improve(better.distance_sq, &Lanes::one(lane, &better), visit);
             }
-            let [s, e, g] = seen;
-            let lower = lower_bound(s, e, g);
-            let lower_sq = square(lower);
+            let lower_sq = square(lower_bound(&seen, &again));
             let lower_sq = greater(box_sq, lower_sq);
             // The plane's bound may be the greater one.
             let lower_sq = greater(near.lower_bound_sq, lower_sq);
@@ -265,7 +276,7 @@ impl<'a> Closest<'a> {
         work: Work,
         hint: &mut Hint,
     ) -> Result<ClosestPoint, QueryError> {
-        let Best { distance_sq, node, child, lanes } = self.best;
+        let Best { distance_sq, node, child, lanes, .. } = self.best;
         // Every triangle that was not refined has at least this squared lower bound.
         let mut least_sq = match self.refine_below {
             below if below > 0.0 => below,
@@ -319,9 +330,9 @@ impl LeafVisitor for Closest<'_> {
 
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let near = nearest_within(&visit.leaf, self.query, &self.beyond)?;
+        let near = nearest_within(&visit.leaf, self.query, &self.beyond, None)?;
         if near.distance_sq <= self.best.distance_sq {
-            self.improve(&near, visit);
+            self.improve(near.distance_sq, &near.lanes, visit);
         }
         if near.lower_bound_sq < self.refine_below {
             self.refine(visit, near.low);

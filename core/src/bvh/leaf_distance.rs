@@ -4,6 +4,7 @@
 //! (`narrow`). Both give the same bits.
 
 use super::leaf_plane::LeafPlane;
+use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use crate::bvh::format::FanLeaf;
 
@@ -15,15 +16,11 @@ pub(crate) use wide::{Lanes, LeafEdges, leaf_edges, nearest_and_edges, nearest_w
 /// The nearest triangle of a leaf, without a limit.
 #[inline(always)]
 pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option<LeafNearest> {
-    nearest_within(leaf, query, &LeafLimit::NONE)
+    nearest_within(leaf, query, &LeafLimit::NONE, None)
 }
 
 /// What a triangle has to be near to count.
 #[derive(Clone, Copy)]
-#[cfg_attr(
-    any(target_arch = "x86_64", target_arch = "aarch64"),
-    expect(dead_code, reason = "all lanes of a leaf are looked at")
-)]
 pub(crate) struct LeafLimit {
     /// A triangle that is farther than the root of this does not count.
     pub(crate) distance_sq: f32,
@@ -46,9 +43,10 @@ impl LeafLimit {
         low_sq: 0.0,
     };
 
-    /// All triangles count. Those whose squared lower bound is not above `low_sq` are told.
-    pub(crate) fn all_low(low_sq: f32) -> LeafLimit {
-        LeafLimit { low_sq, ..LeafLimit::NONE }
+    /// Triangles whose squared lower bound is not above `low_sq` are told. Others may be left out.
+    #[inline(always)]
+    pub(crate) fn all_low(query: &PointQuery, low_sq: f32) -> LeafLimit {
+        LeafLimit { distance_sq: query.limit(low_sq), low_sq, ..LeafLimit::NONE }
     }
 }
 
@@ -86,7 +84,7 @@ impl LeafNearest {
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod wide {
-    use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, PointQuery};
+    use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, LeafSquares, PointQuery};
     use crate::bvh::format::LanePoint;
     use crate::geom::fan::Lanes as Register;
     use crate::geom::fan::{
@@ -137,9 +135,7 @@ mod wide {
             let (v, w): ([f32; WIDTH], [f32; WIDTH]) = (cast(self.v), cast(self.w));
             (lane, v[lane], w[lane])
         }
-    }
 
-    impl LeafNearest {
         /// No plane: all lanes of a leaf are looked at.
         #[inline(always)]
         pub(crate) fn direction(&self) -> Whole {
@@ -152,6 +148,7 @@ mod wide {
         leaf: &FanLeaf<'_>,
         query: &PointQuery,
         limit: &LeafLimit,
+        _: Option<&mut LeafSquares>,
     ) -> Option<LeafNearest> {
         let &LeafLimit { distance_sq: limit, low_sq, .. } = limit;
         let limit = if limit < f32::INFINITY { Some(limit) } else { None };
@@ -238,12 +235,14 @@ mod wide {
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod narrow {
-    use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, PointQuery};
+    use super::{
+        FanLeaf, LeafLimit, LeafNearest, LeafSeen, LeafSquares, PointQuery, nearest_triangle,
+    };
     use crate::bvh::point_query::limit_of;
     use crate::bvh::triangle_bounds::{nearness, seen_from};
     use crate::geom::fan::{
         Nearness, PointFan, SpokeTerms, WIDTH, Whole, WholeBounds, WholeLimit, WholePoint,
-        point_leaf, whole_bounds,
+        is_certain_corner, less, point_leaf, whole_bounds,
     };
     use crate::num::SOFT_FLOAT;
     use crate::num::lesser;
@@ -272,6 +271,12 @@ mod narrow {
         pub(crate) fn at(&self, _: f32) -> (usize, f32, f32) {
             (self.lane, self.v, self.w)
         }
+
+        /// The normal of a [`LeafPlane`](super::LeafPlane) in front of the nearest triangle.
+        #[inline(always)]
+        pub(crate) fn direction(&self) -> Whole {
+            self.direction
+        }
     }
 
     #[inline(never)]
@@ -279,8 +284,12 @@ mod narrow {
         leaf: &FanLeaf<'_>,
         query: &PointQuery,
         limit: &LeafLimit,
+        mut known: Option<&mut LeafSquares>,
     ) -> Option<LeafNearest> {
         let p = query.p;
+        if let Some(known) = &mut known {
+            known.clear();
+        }
         let mut nearest = LeafNearest {
             distance_sq: f32::INFINITY,
             lower_bound_sq: f32::INFINITY,
@@ -290,7 +299,7 @@ mod narrow {
         if leaf.is_f32() {
             f32_nearest(leaf, p, limit.low_sq, &mut nearest);
         } else if SOFT_FLOAT && let Some(point) = &query.whole {
-            whole_nearest(leaf, p, point, limit, &mut nearest)?;
+            whole_nearest(leaf, p, point, limit, known, &mut nearest)?;
         } else {
             grid_nearest(leaf, p, limit, &mut nearest)?;
         }
@@ -299,15 +308,10 @@ mod narrow {
 
     #[inline(always)]
     pub(crate) fn nearest_and_edges(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option<LeafSeen> {
-        Some((nearest_within(leaf, query, &LeafLimit::NONE)?, None))
+        Some((nearest_triangle(leaf, query)?, None))
     }
 
     impl LeafNearest {
-        /// The normal of a [`LeafPlane`](super::LeafPlane) in front of the nearest triangle.
-        pub(crate) fn direction(&self) -> Whole {
-            self.lanes.direction
-        }
-
         #[inline(always)]
         fn take(&mut self, lane: usize, near: &Nearness, low_sq: f32) {
             let (here, best) = (near.distance_sq, self.distance_sq);
@@ -332,6 +336,7 @@ mod narrow {
         p: Vec3,
         point: &WholePoint,
         limit: &LeafLimit,
+        mut known: Option<&mut LeafSquares>,
         nearest: &mut LeafNearest,
     ) -> Option<()> {
         let ring = leaf.grid_ring()?;
@@ -351,25 +356,66 @@ mod narrow {
             }
         }
         let mut within = limit.distance_sq;
-        let mut look = |lane: usize, direction: Whole, within: &mut f32| {
-            let seen = seen_from(leaf, lane, p);
-            let near = nearness(&seen);
-            *within = lesser(*within, limit_of(near.distance_sq, limit.allowance));
-            nearest.take(lane, &near, limit.low_sq);
-            if nearest.lanes.lane == lane {
-                nearest.lanes.direction = direction;
+        let mut look = |lane: usize, bounds: &WholeBounds, within: &mut f32| {
+            let corners = ring.corners(lane, turn)?;
+            let near = match corner_nearness(leaf, p, point, &corners, lane, bounds.corner) {
+                Some(near) => near,
+                None => nearness(&seen_from(leaf, lane, p)),
+            };
+            if near.distance_sq < nearest.distance_sq {
+                *within = lesser(*within, limit_of(near.distance_sq, limit.allowance));
             }
+            nearest.take(lane, &near, limit.low_sq);
+            if let Some(known) = &mut known {
+                known.keep(lane, [near.distance_sq, near.lower_bound_sq]);
+            }
+            if nearest.lanes.lane == lane {
+                nearest.lanes.direction = bounds.direction;
+            }
+            Some(WholeLimit::of(*within))
         };
-        look(likeliest, bounds.get(likeliest)?.direction, &mut within);
         let mut whole_limit = WholeLimit::of(within);
+        let first = bounds.get(likeliest)?;
+        if !first.is_beyond(whole_limit) {
+            whole_limit = look(likeliest, first, &mut within)?;
+        }
         for (lane, bounds) in bounds.iter().enumerate() {
             let is_wanted = wanted >> lane & 1 != 0 && lane != likeliest;
-            if is_wanted && !(within < f32::INFINITY && bounds.is_beyond(whole_limit)) {
-                look(lane, bounds.direction, &mut within);
-                whole_limit = WholeLimit::of(within);
+            if is_wanted && !bounds.is_beyond(whole_limit) {
+                whole_limit = look(lane, bounds, &mut within)?;
             }
         }
         Some(())
+    }
+
+    /// What the f32 kernel finds where a corner is certainly the closest point: the same bits.
+    #[inline(never)]
+    fn corner_nearness(
+        leaf: &FanLeaf<'_>,
+        p: Vec3,
+        point: &WholePoint,
+        &[centre, a, b]: &[Whole; 3],
+        lane: usize,
+        corner: usize,
+    ) -> Option<Nearness> {
+        let (vertex, others) = match corner {
+            0 => (centre, [a, b]),
+            1 => (a, [b, centre]),
+            2 => (b, [centre, a]),
+            _ => return None,
+        };
+        if !is_certain_corner(point, vertex, others.map(|other| less(other, vertex))) {
+            return None;
+        }
+        let mut way = p - leaf.centre(usize::from(lane >= leaf.shape().turn()));
+        let (mut v, mut w) = (0.0, 0.0);
+        if corner > 0 {
+            let [x, y, z] = less(vertex, centre);
+            way -= Vec3::new(x as f32, y as f32, z as f32);
+            (v, w) = if corner == 1 { (1.0, 0.0) } else { (0.0, 1.0) };
+        }
+        let distance_sq = way.x * way.x + way.y * way.y + way.z * way.z;
+        Some(Nearness { distance_sq, lower_bound_sq: distance_sq, v, w })
     }
 
     /// Reads every stored number once. Integers are subtracted before they become f32.

@@ -10,6 +10,7 @@
 //! | `descent` | the descent of one tree, for a point or a segment |
 //! | `leaf_distance`, `triangle_bounds` | a point and the triangles of a leaf |
 //! | `leaf_plane` | without floating point: a plane behind which no triangle counts |
+//! | `leaf_squares` | without floating point: distances of triangles that are looked at again |
 //! | `triangle_visitor` | the visitor of point questions that look at triangles one by one |
 //! | `segment_leaf` | a segment and the triangles of a leaf; the visitor of segment questions |
 //! | `closest_point`, `closest_points` | one closest point, many of them |
@@ -57,6 +58,7 @@ mod front_facing;
 mod input_box;
 mod leaf_distance;
 mod leaf_plane;
+mod leaf_squares;
 mod nearest;
 mod neighbors;
 pub mod node;

@@ -9,6 +9,7 @@ use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::tolerance::EVERYTHING_SQ;
 use crate::num::{lesser, sqrt_approx};
 use crate::query::{Budget, Ended, QueryError, ScratchEntry, Work};
+use glam::Vec3;
 
 /// How a search for the nearest triangles went. They are in the caller's slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,7 +109,7 @@ struct CollectNearest<'a> {
 
 impl TriangleCollector for CollectNearest<'_> {
     #[inline(always)]
-    fn take(&mut self, triangle: LeafTriangle, _: &FanLeaf<'_>, limit: &mut f32) {
+    fn take(&mut self, triangle: LeafTriangle, _: &FanLeaf<'_>, _: &[Vec3; 3], limit: &mut f32) {
         if let Some(out) = self.heap.offer(triangle) {
             let lower = out.leaf(self.tree).map_or(0.0, |leaf| out.lower(&leaf, self.query));
             if lower < self.rest {

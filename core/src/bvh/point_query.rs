@@ -19,6 +19,9 @@ const GROWTH: f32 = 1.0 + 1.0 / 8192.0;
 /// Factor of the square of a triangle's rounding in a limit.
 const ALLOWANCE: f32 = 32_768.0;
 
+/// Factor of [`ALLOWANCE`] where a side is asked. Proved: 41 (`core/docs/rounding.md` §8).
+const SIDE: f32 = 64.0;
+
 /// Key limit that lets every child pass.
 pub(crate) const EVERY_KEY: u32 = NO_CHILD - 1;
 
@@ -116,6 +119,14 @@ impl PointQuery {
     #[inline(always)]
     pub(crate) fn limit(&self, distance_sq: f32) -> f32 {
         limit_of(distance_sq, self.allowance)
+    }
+
+    /// [`allowance`](Self::allowance) with room for all candidates of a side.
+    ///
+    /// (D·(1 + 500u) + 9f)² ≤ D²·[`GROWTH`] + [`SIDE`]·[`ALLOWANCE`]·f².
+    #[inline(always)]
+    pub(crate) fn side_allowance(&self) -> f32 {
+        SIDE * self.allowance
     }
 
     /// A child with a greater key is farther than the root of `limit`.

@@ -17,6 +17,7 @@
 
 use super::descent::{LeafVisit, LeafVisitor};
 use super::leaf_distance::{LeafLimit, nearest_within};
+use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use super::side_search::Search;
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
@@ -52,17 +53,15 @@ fn cross(e: Vec3, g: Vec3) -> (Vec3, Vec3) {
     (e.cross(g), Vec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x))
 }
 
-/// How triangle `lane` faces `p`.
+/// How triangle `lane` faces the point from which it is `seen` ([`seen_from`](super::triangle_bounds::seen_from)).
 #[inline]
-pub(crate) fn viewed_side(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> ViewedSide {
+pub(crate) fn viewed_side(leaf: &FanLeaf<'_>, lane: usize, seen: &[Vec3; 3]) -> ViewedSide {
     let second = lane >= leaf.shape().turn();
-    let which = usize::from(second);
-    let (e, g) = (leaf.spoke(lane, which), leaf.spoke(lane + 1, which));
+    let &[s, e, g] = seen;
     let (normal, size) = cross(e, g);
     if normal == Vec3::ZERO && is_flat(leaf, lane, norm_1(size)) {
         return ViewedSide::Flat;
     }
-    let s = p - leaf.centre(which);
     let volume = normal.dot(s);
     // Underflow adds some hundred times less than the last term.
     let rounding =
@@ -120,7 +119,8 @@ pub(crate) fn side_of_shared_feature(
 ) -> Result<Option<Side>, QueryError> {
     let limit = limit_of(candidates.query, candidates.band);
     let key_limit = candidates.query.key_limit(limit);
-    let mut shared = Shared { candidates, limit, key_limit, corners, kept: [true; 3] };
+    let mut shared =
+        Shared { candidates, limit, key_limit, known: LeafSquares::NONE, corners, kept: [true; 3] };
     if !search.descend(candidates.query, &mut shared)? {
         return Ok(None);
     }
@@ -141,6 +141,7 @@ struct Shared<'a> {
     candidates: &'a Candidates<'a>,
     limit: f32,
     key_limit: u32,
+    known: LeafSquares,
     corners: [Vec3; 3],
     kept: [bool; 3],
 }
@@ -152,19 +153,26 @@ impl LeafVisitor for Shared<'_> {
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let (leaf, query) = (&visit.leaf, self.candidates.query);
-        let low = nearest_within(leaf, query, &LeafLimit::all_low(self.limit))?.low;
-        each_triangle(query, leaf, low, |lane, distance_sq, lower_bound_sq| {
-            if lower_bound_sq > self.limit
-                || lower_of(leaf, lane, query.p, distance_sq, lower_bound_sq) > self.candidates.band
-                || viewed_side(leaf, lane, query.p) == ViewedSide::Flat
-            {
-                return;
-            }
-            let corners = leaf.corners(lane);
-            for (kept, corner) in self.kept.iter_mut().zip(&self.corners) {
-                *kept &= corners.contains(corner);
-            }
-        });
+        let limit = LeafLimit::all_low(query, self.limit);
+        let low = nearest_within(leaf, query, &limit, Some(&mut self.known))?.low;
+        each_triangle(
+            query,
+            leaf,
+            (low, &self.known),
+            |lane, seen, [distance_sq, lower_bound_sq]| {
+                if lower_bound_sq > self.limit
+                    || lower_of(leaf, lane, query.p, distance_sq, lower_bound_sq)
+                        > self.candidates.band
+                    || viewed_side(leaf, lane, seen) == ViewedSide::Flat
+                {
+                    return;
+                }
+                let corners = leaf.corners(lane);
+                for (kept, corner) in self.kept.iter_mut().zip(&self.corners) {
+                    *kept &= corners.contains(corner);
+                }
+            },
+        );
         Some(self.kept != [false; 3])
     }
 }

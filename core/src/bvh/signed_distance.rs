@@ -35,12 +35,12 @@
 //!    High above a face and next to its edge, rounding cannot tell this face from the one beyond
 //!    the edge. From a sixteenth of the distance it can.
 
-use super::descent::{Descent, descend};
+use super::descent::{Descent, LeafVisit, descend};
 use super::point_query::PointQuery;
 use super::pseudonormal::{Candidates, ViewedSide, side_of_shared_feature, viewed_side};
 use super::side_search::Search;
 use super::triangle_bounds::{limit_of, lower_of_box, witness};
-use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
+use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_DISTANCE, U32};
 use crate::num::{greater, lesser, sqrt_approx};
@@ -123,7 +123,7 @@ impl Bvh<'_> {
         let closed = tree.is_closed();
         let (steps, stack) = (budget.steps, scratch);
         let mut search = Search { tree, steps, stack, work: Work::default(), truncated: None };
-        let survey = if query.far { None } else { Some(search.survey(&query)?) };
+        let survey = if query.far { None } else { Some(search.survey_with_area(&query)?) };
         let mut closest = match &survey {
             Some(survey) => survey.closest(&search, point)?,
             None => tree.closest_point(point, Budget::EXACT.with_steps(steps), search.stack)?,
@@ -139,7 +139,7 @@ impl Bvh<'_> {
             && search.truncated.is_none()
             && let Some(nearby) = outside_of_box(tree, &query)
         {
-            let survey = search.survey(&nearby)?;
+            let survey = search.survey_with_area(&nearby)?;
             side = search.side(&survey)?;
         }
         if side.is_none()
@@ -199,11 +199,29 @@ fn outside_of_box(tree: &Bvh<'_>, query: &PointQuery) -> Option<PointQuery> {
 }
 
 impl Search<'_, '_> {
-    fn survey<'p>(&mut self, query: &'p PointQuery) -> Result<Survey<'p>, QueryError> {
+    /// A survey that knows all triangles with an area that may be the closest of these.
+    fn survey_with_area<'p>(&mut self, query: &'p PointQuery) -> Result<Survey<'p>, QueryError> {
+        let survey = self.survey(query, Bounding::Any)?;
+        let is_known = survey.with_area.distance_sq <= survey.best.distance_sq;
+        if is_known || survey.best.is_none() || self.truncated.is_some() {
+            return Ok(survey);
+        }
+        let again = self.survey(query, Bounding::WithArea)?;
+        Ok(if self.truncated.is_some() { survey } else { again })
+    }
+
+    fn survey<'p>(
+        &mut self,
+        query: &'p PointQuery,
+        bounding: Bounding,
+    ) -> Result<Survey<'p>, QueryError> {
         let tree = *self.tree;
         let collector = Survey {
             query,
             margin: FAN_DISTANCE * U32 * tree.header().star_radius,
+            bounding,
+            bound_sq: f32::INFINITY,
+            band: f32::INFINITY,
             best: LeafTriangle::NONE,
             with_area: LeafTriangle::NONE,
             by_side: [LeafTriangle::NONE; 3],
@@ -252,7 +270,7 @@ impl Search<'_, '_> {
         let mut nearer = survey.nearer(self.tree, place);
         for _ in 0..NEARER {
             let Some(query) = nearer else { break };
-            let survey = self.survey(&query)?;
+            let survey = self.survey_with_area(&query)?;
             let side = self.side(&survey)?;
             if side.is_some() || self.truncated.is_some() {
                 return Ok(side);
@@ -305,10 +323,24 @@ impl LeafTriangle {
     }
 }
 
+/// The triangles whose distance bounds a survey.
+#[derive(Clone, Copy, PartialEq)]
+enum Bounding {
+    /// All. If one without an area is the nearest, others with an area may be missed.
+    Any,
+    /// Those with an area.
+    WithArea,
+}
+
 /// The triangles near a point.
 struct Survey<'p> {
     query: &'p PointQuery,
     margin: f32,
+    bounding: Bounding,
+    /// The least squared distance of a bounding triangle.
+    bound_sq: f32,
+    /// The [`Candidates::band`] of `bound_sq`: farther triangles are no candidates.
+    band: f32,
     /// The closest triangle.
     best: LeafTriangle,
     /// The closest triangle with an area.
@@ -323,6 +355,16 @@ struct Survey<'p> {
 }
 
 impl Survey<'_> {
+    /// Takes the distance of a triangle that bounds the survey.
+    #[inline(always)]
+    fn bound(&mut self, distance_sq: f32, limit: &mut f32) {
+        if distance_sq < self.bound_sq {
+            self.bound_sq = distance_sq;
+            self.band = Candidates::new(self.query, self.margin, distance_sq).band;
+            *limit = lesser(*limit, limit_of(self.query, self.band));
+        }
+    }
+
     /// Whether a triangle with an area may be the closest one.
     fn has_sides(&self) -> bool {
         if self.with_area.distance_sq <= self.best.distance_sq {
@@ -384,20 +426,40 @@ impl Survey<'_> {
 }
 
 impl TriangleCollector for Survey<'_> {
+    /// A distance that is not refined yet bounds as well.
     #[inline(always)]
-    fn take(&mut self, here: LeafTriangle, leaf: &FanLeaf<'_>, limit: &mut f32) {
+    fn nearest(&mut self, _: &LeafVisit<'_>, distance_sq: f32, limit: &mut f32) -> Option<Next> {
+        if self.bounding == Bounding::Any {
+            self.bound(distance_sq, limit);
+        }
+        Some(Next::Triangles)
+    }
+
+    #[inline(always)]
+    fn allowance(&self) -> f32 {
+        match self.bounding {
+            Bounding::Any => self.query.side_allowance(),
+            Bounding::WithArea => f32::INFINITY,
+        }
+    }
+
+    #[inline(always)]
+    fn take(&mut self, here: LeafTriangle, leaf: &FanLeaf<'_>, seen: &[Vec3; 3], limit: &mut f32) {
+        let lower = here.lower(leaf, self.query);
+        if lower > self.band {
+            return;
+        }
         self.best.improve(here);
-        let facing = viewed_side(leaf, here.lane as usize, self.query.p);
-        if facing != ViewedSide::Flat && here.distance_sq <= self.with_area.distance_sq {
+        let facing = viewed_side(leaf, here.lane as usize, seen);
+        if facing != ViewedSide::Flat {
             self.with_area.improve(here);
-            let band = Candidates::new(self.query, self.margin, self.with_area.distance_sq).band;
-            let lower = limit_of(self.query, band);
-            *limit = lesser(*limit, lower);
+        }
+        if facing != ViewedSide::Flat || self.bounding == Bounding::Any {
+            self.bound(here.distance_sq, limit);
         }
         if let Some(by_side) = self.by_side.get_mut(facing as usize) {
             by_side.improve(here);
         }
-        let lower = here.lower(leaf, self.query);
         if let Some(least) = self.least.get_mut(facing as usize)
             && lower < *least
         {

@@ -1,5 +1,6 @@
 //! Bounds of single triangles of a leaf, for questions that look at triangles one by one.
 
+use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use crate::bvh::format::{FanLeaf, lanes_of};
 use crate::geom::fan::{Nearness, PointFan, lone_triangle, lower_bound, refined};
@@ -14,8 +15,14 @@ pub(crate) fn refine_sliver(query: &PointQuery, seen: &[Vec3; 3], near: Nearness
     if near.lower_bound_sq >= query.refine_below(near.distance_sq) {
         return near;
     }
-    let better = refined(seen, &near);
-    if near.lower_bound_sq < query.refine_below(better.distance_sq) { better } else { near }
+    sliver(query, near, &refined(seen, &near))
+}
+
+/// [`refine_sliver`] for a triangle that is [`refined`] already.
+#[inline(always)]
+pub(crate) fn sliver(query: &PointQuery, near: Nearness, better: &Nearness) -> Nearness {
+    let falls_short = |of: &Nearness| near.lower_bound_sq < query.refine_below(of.distance_sq);
+    if falls_short(&near) && falls_short(better) { *better } else { near }
 }
 
 /// Triangle `lane` from `p`: the way from its centre, and its spokes.
@@ -32,19 +39,27 @@ pub(crate) fn nearness(seen: &[Vec3; 3]) -> Nearness {
     lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g))
 }
 
-/// Calls `each` for the triangles of a leaf whose bits in `lanes` are ones, in order: lane, squared
-/// distance, squared lower bound.
+/// Calls `each` for the triangles of a leaf whose bits in `low` are ones, in order: lane, the
+/// triangle [seen](seen_from) from the query, its squared distance and lower bound.
 #[inline]
 pub(crate) fn each_triangle(
     query: &PointQuery,
     leaf: &FanLeaf<'_>,
-    lanes: u32,
-    mut each: impl FnMut(usize, f32, f32),
+    (low, known): (u32, &LeafSquares),
+    mut each: impl FnMut(usize, &[Vec3; 3], [f32; 2]),
 ) {
-    for lane in lanes_of(lanes & !(u32::MAX << (leaf.shape().triangles() & 31))) {
+    for lane in lanes_of(low & !(u32::MAX << (leaf.shape().triangles() & 31))) {
         let seen = seen_from(leaf, lane, query.p);
-        let near = refine_sliver(query, &seen, nearness(&seen));
-        each(lane, near.distance_sq, near.lower_bound_sq);
+        let squares = match known.of(lane) {
+            Some([distance_sq, low_sq]) if low_sq >= query.refine_below(distance_sq) => {
+                [distance_sq, low_sq]
+            }
+            _ => {
+                let near = refine_sliver(query, &seen, nearness(&seen));
+                [near.distance_sq, near.lower_bound_sq]
+            }
+        };
+        each(lane, &seen, squares);
     }
 }
 
@@ -75,8 +90,8 @@ pub(crate) fn lower_of(
 #[cold]
 #[inline(never)]
 fn supporting_plane_bound(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> f32 {
-    let [s, e, g] = seen_from(leaf, lane, p);
-    lower_bound(s, e, g)
+    let seen = seen_from(leaf, lane, p);
+    lower_bound(&seen, &refined(&seen, &nearness(&seen)))
 }
 
 /// Squared bound above which nothing is within `distance` (input units) of the input mesh.

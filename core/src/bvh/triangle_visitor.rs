@@ -2,10 +2,14 @@
 //! counts.
 
 use super::descent::{LeafVisit, LeafVisitor};
-use super::leaf_distance::{LeafLimit, nearest_within};
+use super::leaf_distance::{LeafLimit, LeafNearest, nearest_within};
+use super::leaf_plane::LeafPlane;
+use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use super::triangle_bounds::{each_triangle, lower_of};
 use crate::bvh::format::{Bvh, FanLeaf};
+use crate::num::SOFT_FLOAT;
+use glam::Vec3;
 
 /// A triangle that a descent has reached.
 #[derive(Clone, Copy)]
@@ -46,14 +50,27 @@ pub(crate) enum Next {
 
 /// Takes the triangles of a question one by one, in any order.
 pub(crate) trait TriangleCollector {
-    /// Takes a triangle whose squared lower bound is not beyond `limit`. May lower the limit.
-    fn take(&mut self, triangle: LeafTriangle, leaf: &FanLeaf<'_>, limit: &mut f32);
+    /// Takes a triangle whose squared lower bound is not beyond `limit`. May lower the limit. For
+    /// `seen` see [`seen_from`](super::triangle_bounds::seen_from).
+    fn take(
+        &mut self,
+        triangle: LeafTriangle,
+        leaf: &FanLeaf<'_>,
+        seen: &[Vec3; 3],
+        limit: &mut f32,
+    );
 
-    /// Looks at the nearest triangle of a leaf, before [`take`](Self::take). `None` says that the
-    /// tree is unchecked.
+    /// Looks at the nearest triangle of a leaf, before [`take`](Self::take). May lower the limit.
+    /// `None` says that the tree is unchecked.
     #[inline(always)]
-    fn nearest(&mut self, _: &LeafVisit<'_>, _distance_sq: f32, _limit: f32) -> Option<Next> {
+    fn nearest(&mut self, _: &LeafVisit<'_>, _distance_sq: f32, _limit: &mut f32) -> Option<Next> {
         Some(Next::Triangles)
+    }
+
+    /// See [`LeafLimit::allowance`].
+    #[inline(always)]
+    fn allowance(&self) -> f32 {
+        f32::INFINITY
     }
 
     /// Whether the question is answered.
@@ -71,13 +88,26 @@ pub(crate) struct TriangleVisitor<'a, C> {
     limit: f32,
     /// [`PointQuery::key_limit`] of `limit`.
     key_limit: u32,
+    /// `limit` for the leaves.
+    beyond: LeafLimit,
+    known: LeafSquares,
     pub(crate) collector: C,
 }
 
 impl<'a, C> TriangleVisitor<'a, C> {
     /// A visitor that begins with this squared limit.
     pub(crate) fn new(tree: &'a Bvh<'a>, query: &'a PointQuery, limit: f32, collector: C) -> Self {
-        TriangleVisitor { tree, query, limit, key_limit: query.key_limit(limit), collector }
+        let beyond = LeafLimit::all_low(query, limit);
+        let (key_limit, known) = (query.key_limit(limit), LeafSquares::NONE);
+        TriangleVisitor { tree, query, limit, key_limit, beyond, known, collector }
+    }
+
+    /// Makes the other limits follow `limit`.
+    #[inline(never)]
+    fn lower_limits(&mut self) {
+        self.key_limit = self.query.key_limit(self.limit);
+        let LeafLimit { distance_sq, low_sq, .. } = LeafLimit::all_low(self.query, self.limit);
+        (self.beyond.distance_sq, self.beyond.low_sq) = (distance_sq, low_sq);
     }
 }
 
@@ -89,8 +119,15 @@ impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
 
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let near = nearest_within(&visit.leaf, self.query, &LeafLimit::all_low(self.limit))?;
-        match self.collector.nearest(visit, near.distance_sq, self.limit)? {
+        self.beyond.allowance = self.collector.allowance();
+        let near = nearest_within(&visit.leaf, self.query, &self.beyond, Some(&mut self.known))?;
+        let before = self.limit;
+        let next = self.collector.nearest(visit, near.distance_sq, &mut self.limit)?;
+        if self.limit < before {
+            self.lower_limits();
+            self.part_from(&near);
+        }
+        match next {
             Next::Triangles if near.lower_bound_sq <= self.limit => self.each(visit, near.low),
             Next::Triangles | Next::Leaf => Some(true),
             Next::Nothing => Some(false),
@@ -99,22 +136,34 @@ impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
 }
 
 impl<C: TriangleCollector> TriangleVisitor<'_, C> {
+    /// Without floating point: a plane in front of the nearest triangle.
+    #[inline(always)]
+    fn part_from(&mut self, near: &LeafNearest) {
+        if SOFT_FLOAT && let Some(point) = &self.query.whole {
+            let normal = near.lanes.direction();
+            self.beyond.plane = LeafPlane::new(point, normal, self.beyond.distance_sq);
+        }
+    }
+
     /// Hands the triangles of a leaf to the collector. Returns whether to go on.
     #[inline(never)]
     fn each(&mut self, visit: &LeafVisit<'_>, low: u32) -> Option<bool> {
-        let TriangleVisitor { tree, query, limit, key_limit, collector } = self;
+        let TriangleVisitor { tree, query, limit, known, collector, .. } = self;
+        let before = *limit;
         let LeafVisit { leaf, node, child, .. } = visit;
         let first = tree.links(*node)?.triangle(*child);
-        each_triangle(query, leaf, low, |lane, distance_sq, lower_bound_sq| {
+        each_triangle(query, leaf, (low, known), |lane, seen, [distance_sq, lower_bound_sq]| {
             if lower_bound_sq > *limit {
                 return;
             }
             let (node, child, lane) = (*node, *child, lane as u32);
             let number = first.wrapping_add(lane);
             let here = LeafTriangle { distance_sq, lower_bound_sq, number, node, child, lane };
-            collector.take(here, leaf, limit);
+            collector.take(here, leaf, seen, limit);
         });
-        *key_limit = query.key_limit(*limit);
-        Some(!collector.is_answered())
+        if self.limit < before {
+            self.lower_limits();
+        }
+        Some(!self.collector.is_answered())
     }
 }

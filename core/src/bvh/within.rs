@@ -10,6 +10,7 @@ use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVis
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::sqrt_approx;
 use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Undecided, Verdict, Work};
+use glam::Vec3;
 
 /// Whether the mesh is within a distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -123,8 +124,13 @@ struct Threshold<'a> {
 
 impl TriangleCollector for Threshold<'_> {
     #[inline(always)]
-    fn nearest(&mut self, visit: &LeafVisit<'_>, distance_sq: f32, limit: f32) -> Option<Next> {
-        if distance_sq <= limit && self.is_within(distance_sq) {
+    fn nearest(
+        &mut self,
+        visit: &LeafVisit<'_>,
+        distance_sq: f32,
+        limit: &mut f32,
+    ) -> Option<Next> {
+        if distance_sq <= *limit && self.is_within(distance_sq) {
             self.near = Some(self.number(visit, distance_sq)?);
             return Some(Next::Nothing);
         }
@@ -134,7 +140,7 @@ impl TriangleCollector for Threshold<'_> {
     /// A triangle that is not certainly beyond the distance leaves the verdict undecided. A refined
     /// sliver may be certainly within.
     #[inline(always)]
-    fn take(&mut self, triangle: LeafTriangle, leaf: &FanLeaf<'_>, _: &mut f32) {
+    fn take(&mut self, triangle: LeafTriangle, leaf: &FanLeaf<'_>, _: &[Vec3; 3], _: &mut f32) {
         if self.near.is_none() && self.is_within(triangle.distance_sq) {
             self.near = Some(triangle.number);
         }

@@ -23,4 +23,6 @@ pub use point::{Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, poin
 pub use point8::{Edges, LaneNearness, point_lanes};
 pub use ray::{Crossing, FanRay, Shadow, ray_leaf};
 pub use ray8::{Ring8, ray_leaf8};
-pub use whole::{Whole, WholeBounds, WholeLimit, WholePoint, whole_bounds};
+pub use whole::{
+    Whole, WholeBounds, WholeLimit, WholePoint, is_certain_corner, less, whole_bounds,
+};

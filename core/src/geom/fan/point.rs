@@ -219,12 +219,11 @@ pub fn point_leaf(
 /// of its plane and of supporting planes along the residual and along the residual made orthogonal
 /// to each edge. `s` is the point less the centre, `e` and `g` are the spokes.
 ///
-/// It holds for any triangle up to the rounding that `FAN_DISTANCE` covers. Cost: five roots.
+/// It holds for any triangle up to the rounding that `FAN_DISTANCE` covers. `near` is what
+/// [`refined`] finds. Cost: five roots.
 #[inline]
-pub fn lower_bound(s: Vec3, e: Vec3, g: Vec3) -> f32 {
-    let fan = PointFan::new(s);
-    let near = lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g));
-    let near = refined(&[s, e, g], &near);
+pub fn lower_bound(seen: &[Vec3; 3], near: &Nearness) -> f32 {
+    let &[s, e, g] = seen;
     let r = residual(s, e, g, near.v, near.w);
     let orthogonal = |edge: Vec3| {
         let length_sq = dot(edge, edge);
@@ -233,11 +232,10 @@ pub fn lower_bound(s: Vec3, e: Vec3, g: Vec3) -> f32 {
     let normal = normal(e, g);
     let side = if dot(normal, s) < 0.0 { -normal } else { normal };
     // Along `s` too: a triangle that `is_beyond` leaves out must be as far here.
-    let seen = [s, e, g];
-    let best = greater(0.0, greater(supported(s, &seen), supported(r, &seen)));
+    let best = greater(0.0, greater(supported(s, seen), supported(r, seen)));
     let best =
-        greater(best, greater(supported(orthogonal(e), &seen), supported(orthogonal(g), &seen)));
-    greater(best, greater(supported(orthogonal(g - e), &seen), supported(side, &seen)))
+        greater(best, greater(supported(orthogonal(e), seen), supported(orthogonal(g), seen)));
+    greater(best, greater(supported(orthogonal(g - e), seen), supported(side, seen)))
 }
 
 /// Distance of the supporting plane across `direction`; 0 if `direction` has no length.

@@ -7,6 +7,9 @@
 //! weak lower bound, and the f32 kernel then decides. Proof: `core/docs/rounding.md` §8, "Whole
 //! numbers".
 
+/// No corner of a triangle.
+const NO_CORNER: usize = 3;
+
 /// A vector of whole numbers.
 pub type Whole = [i32; 3];
 
@@ -16,6 +19,8 @@ const FRACTION_BITS: u32 = 3;
 pub const WHOLE_BITS: u32 = 17;
 /// Bits of a barycentric weight.
 const WEIGHT_BITS: u32 = 12;
+/// The weight of a whole.
+const ONE: i32 = 1 << WEIGHT_BITS;
 /// Bits of the components of a direction.
 const DIRECTION_BITS: u32 = 12;
 
@@ -73,7 +78,7 @@ pub struct WholeLimit {
 }
 
 impl WholeLimit {
-    /// `square` or a little more, for a positive finite number.
+    /// `square` or a little more, for a positive number. Nothing is beyond an infinite one.
     #[inline(always)]
     pub fn of(square: f32) -> WholeLimit {
         let bits = square.to_bits();
@@ -100,8 +105,9 @@ fn dot([a, b, c]: Whole, [x, y, z]: Whole) -> i32 {
     a.wrapping_mul(x).wrapping_add(b.wrapping_mul(y)).wrapping_add(c.wrapping_mul(z))
 }
 
+/// The difference. It wraps around.
 #[inline(always)]
-fn less([a, b, c]: Whole, [x, y, z]: Whole) -> Whole {
+pub fn less([a, b, c]: Whole, [x, y, z]: Whole) -> Whole {
     [a.wrapping_sub(x), b.wrapping_sub(y), c.wrapping_sub(z)]
 }
 
@@ -112,6 +118,8 @@ pub struct WholeBounds {
     pub estimate: u32,
     /// From the estimated point to the query, of twelve bits.
     pub direction: Whole,
+    /// The corner that the estimated point is: 0, 1 or 2; else 3.
+    pub corner: usize,
     /// Along the direction the query is at least this far from the triangle, in products of
     /// direction and grid units.
     along: i32,
@@ -119,7 +127,8 @@ pub struct WholeBounds {
 
 impl WholeBounds {
     /// Of a triangle that nothing is known of, and that is looked at last.
-    pub const NONE: WholeBounds = WholeBounds { estimate: u32::MAX, direction: [0; 3], along: 0 };
+    pub const NONE: WholeBounds =
+        WholeBounds { estimate: u32::MAX, direction: [0; 3], corner: NO_CORNER, along: 0 };
 
     /// Whether the triangle is certainly farther than the root of `limit`.
     #[inline(always)]
@@ -165,16 +174,42 @@ pub fn whole_bounds(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> WholeBounds {
     let up = square.leading_zeros();
     // An exponent and a mantissa, as in a floating-point number.
     let estimate = (2 * cut + 32 - up) << 24 | (square << (up & 31)) >> 8;
+    let corner = match (v, w) {
+        (0, 0) => 0,
+        (ONE, 0) => 1,
+        (0, ONE) => 2,
+        _ => NO_CORNER,
+    };
     let farthest = dot(direction, *a).max(dot(direction, *b)).max(dot(direction, *c));
     let along = p.along(direction).wrapping_sub(farthest);
-    WholeBounds { estimate, direction, along }
+    WholeBounds { estimate, direction, corner, along }
+}
+
+/// Whether the f32 kernel certainly takes the corner `vertex` for the closest point. The vectors
+/// `to_others` lead from it to the other corners.
+///
+/// Both make an obtuse angle with the way to the query, by more than all roundings: those of the
+/// point here, and those of the kernel. Then no other region of the kernel applies, and its lower
+/// bound is the distance.
+#[inline(never)]
+pub fn is_certain_corner(p: &WholePoint, vertex: Whole, to_others: [Whole; 2]) -> bool {
+    let [x, y, z] = less(p.at, vertex);
+    let [i, j, k] = p.eighths;
+    let way = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
+    let size = |[x, y, z]: Whole| x.abs() + y.abs() + z.abs();
+    let [one, other] = to_others;
+    let edges = 2 * (size(one) + size(other));
+    let room = edges * (3 + ((size(way) >> FRACTION_BITS) + edges >> 17));
+    let along = |edge: Whole| {
+        way.into_iter().zip(edge).fold(0, |sum, (x, y)| sum + i64::from(x) * i64::from(y))
+    };
+    to_others.into_iter().all(|edge| along(edge) < -i64::from(room))
 }
 
 /// Weights of the second and third corner at a point near the closest one, of twelve bits;
 /// their sum is at most one. Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
 #[inline(always)]
 fn weights(s: Whole, e: Whole, g: Whole) -> (i32, i32) {
-    const ONE: i32 = 1 << WEIGHT_BITS;
     // Products of 14 bits and 15 bits have a sum below 2^31.
     let size = bits(largest(e).max(largest(g)));
     let down = size.saturating_sub(14);
@@ -233,6 +268,8 @@ fn weights(s: Whole, e: Whole, g: Whole) -> (i32, i32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::fan::{Nearness, PointFan};
+    use glam::Vec3;
 
     /// Squared distance in f64, by the kernel of the hull hierarchy.
     fn exact(p: [f64; 3], corners: &[Whole; 3]) -> f64 {
@@ -302,6 +339,49 @@ mod tests {
             }
         }
         assert!(proved * 10 > all * 9, "{proved} of {all}");
+    }
+
+    #[test]
+    fn a_certain_corner_is_the_kernels_and_few_are_missed() {
+        let mut noise = Noise(13);
+        let (mut certain, mut clear) = (0, 0);
+        for round in 0..300_000 {
+            let corners = triangle(&mut noise, 1 << (round % 17));
+            let which = noise.below(3) as usize;
+            let vertex = corners[which];
+            let others = [corners[(which + 1) % 3], corners[(which + 2) % 3]];
+            let to_others = others.map(|other| less(other, vertex));
+            let away = 1 << noise.below(17);
+            let off = noise.whole(away);
+            let origin = -noise.below(100_000) as f32;
+            let part = noise.below(1000) as f32 / 1000.0;
+            let p = [0, 1, 2].map(|k| (vertex[k] + off[k]) as f32 + part + origin);
+            let Some(point) = WholePoint::new(p.map(|x| x - origin)) else { continue };
+            // Twice the room: within 20 units of a wall of the corner's region none is certain.
+            let far = |edge: &Whole| {
+                let size = f64::from(edge.map(i32::abs).into_iter().sum::<i32>());
+                f64::from(dot(*edge, off.map(|x| x.clamp(-8000, 8000)))) < -20.0 * size
+            };
+            let is_certain = is_certain_corner(&point, vertex, to_others);
+            if round % 17 < 12 && off.iter().all(|x| x.abs() < 8000) && to_others.iter().all(far) {
+                clear += 1;
+                certain += i32::from(is_certain);
+            }
+            if is_certain {
+                let at = |v: Whole| Vec3::from_array(v.map(|x| x as f32 + origin));
+                let edge = |v: Whole| Vec3::from_array(less(v, corners[0]).map(|x| x as f32));
+                let s = Vec3::from_array(p) - at(corners[0]);
+                let fan = PointFan::new(s);
+                let [e, g] = [edge(corners[1]), edge(corners[2])];
+                let near = fan.triangle(&fan.spoke(e), &fan.spoke(g));
+                let way = [s, s - e, s - g][which];
+                let distance_sq = way.x * way.x + way.y * way.y + way.z * way.z;
+                let (v, w) = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)][which];
+                let expected = Nearness { distance_sq, lower_bound_sq: distance_sq, v, w };
+                assert_eq!(near, expected, "{p:?} {corners:?}");
+            }
+        }
+        assert!(certain * 10 > clear * 9 && clear > 10_000, "{certain} of {clear}");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! One trial of each margin: a random input, the kernel, the truth.
 
 use glam::{DVec3, Vec3};
-use meshsweep_core::internal::geom::fan::{FanRay, PointFan, lower_bound};
+use meshsweep_core::internal::geom::fan::{FanRay, PointFan, lower_bound, refined};
 use meshsweep_core::internal::geom::{
     Aabb, CapsulePoint, SeenCorner, SolidAngles, SweptPoint, SweptSegment, convex_gap,
     point_segment, point_triangle, segment_triangle, triangle_distance,
@@ -258,7 +258,8 @@ fn fan_lower(rng: &mut Rng, shape: Shape) -> Option<f64> {
     let near = fan.triangle(&fan.spoke(e), &fan.spoke(g));
     let least = near.distance_sq * CERTIFIED_PART;
     let is_certified = near.lower_bound_sq >= least;
-    let lower = if is_certified { sqrt_approx(least) } else { lower_bound(s, e, g) };
+    let lower =
+        if is_certified { sqrt_approx(least) } else { lower_bound(&seen, &refined(&seen, &near)) };
     let margin = fan_margin(sqrt_approx(near.distance_sq), seen);
     let truth = distance_to_triangle(p, corners);
     (margin > 0.0).then(|| (f64::from(lower) - truth.upper) / margin)
