@@ -76,7 +76,12 @@ impl Chromium {
         // Fonts and their settings of the packages, not of the machine.
         command.env("FONTCONFIG_SYSROOT", self.toolbox.path(""));
         // The sandbox needs rights that a container lacks. The page is our own.
-        command.args(["--headless", "--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars"]);
+        command.args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-dev-shm-usage",
+            "--hide-scrollbars",
+        ]);
         command.args(["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]);
         command.arg(format!("--window-size={width},{height}")).arg("--remote-debugging-pipe");
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
@@ -114,8 +119,10 @@ impl Page {
     /// # Errors
     /// The script's, or no end.
     pub fn run(&mut self, script: &str) -> Result<String, String> {
-        let with =
-            format!("\"expression\":{},\"awaitPromise\":true,\"returnByValue\":true", quoted(script));
+        let with = format!(
+            "\"expression\":{},\"awaitPromise\":true,\"returnByValue\":true",
+            quoted(script)
+        );
         let answer = self.call("Runtime.evaluate", &with)?;
         if answer.contains("\"exceptionDetails\"") {
             return Err(answer);

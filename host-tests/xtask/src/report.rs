@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::checks::cargo;
-use crate::chromium::Chromium;
+use crate::chromium::{Chromium, Page};
 use crate::process;
 use crate::steps::Steps;
 use crate::workspace;
@@ -31,7 +31,7 @@ pub fn run(steps: &mut Steps, meshes: &[&str]) {
             continue;
         };
         steps.run(&format!("{name} in the browser"), || {
-            opened(&browser, &page).map(|verdict| say!("   {verdict}"))
+            opened(&browser, &page).map(|seen| say!("   {seen}"))
         });
         if number == 0 {
             steps.run("a page that fails is noticed", || fails(&browser, &page));
@@ -56,10 +56,10 @@ fn written(program: &Path, mesh: &Path) -> Result<PathBuf, String> {
     Ok(page)
 }
 
-/// Opens a page and probes it; the probe's verdict. The screenshot lies beside the page.
+/// Opens a page and probes it; what the probe saw. The screenshot lies beside the page.
 fn opened(browser: &Chromium, page: &Path) -> Result<String, String> {
     let mut open = browser.open(page, WINDOW)?;
-    let verdict = open.run(PROBE)?;
+    open.run("drawn.then(() => 'drawn')")?;
     let picture = page.with_extension("png");
     let packed = page.with_extension("base64");
     let failed = |error: std::io::Error| format!("{}: {error}", page.display());
@@ -68,11 +68,14 @@ fn opened(browser: &Chromium, page: &Path) -> Result<String, String> {
     let unpacked = process::output(unpack.arg("-d").arg(&packed))?;
     fs::write(&picture, unpacked.stdout).map_err(failed)?;
     fs::remove_file(&packed).map_err(failed)?;
-    match open.errors.first() {
-        _ if !verdict.starts_with("passed") => Err(verdict),
-        Some(error) => Err(format!("in the console: {error}")),
-        None => Ok(format!("{verdict}\n{}", picture.display())),
-    }
+    require_quiet(&open)?;
+    let seen = open.run(PROBE)?;
+    require_quiet(&open)?;
+    Ok(format!("{seen}\n   {}", picture.display()))
+}
+
+fn require_quiet(page: &Page) -> Result<(), String> {
+    page.errors.first().map_or(Ok(()), |error| Err(format!("in the console: {error}")))
 }
 
 /// A page with a fault must not pass, whatever the fault: an error of a script, one that is only
@@ -83,7 +86,11 @@ fn fails(browser: &Chromium, page: &Path) -> Result<(), String> {
         ("prints", "await drawPath();", "await drawPath(); console.error(1);"),
         ("empty", "return Plotly.react(\"scene\", traces,", "return Plotly.react(\"scene\", [],"),
         ("stuck", "[...switches, \"colour\", \"axis\", \"cut\"]", "switches"),
-        ("asks", "await drawPath();", "new Image().src = \"https://example.org/x.png\";"),
+        (
+            "asks",
+            "await drawPath();",
+            "await drawPath(); new Image().src = \"https://example.org/x.png\";",
+        ),
     ];
     let failed = |error: std::io::Error| format!("{}: {error}", page.display());
     let text = fs::read_to_string(page).map_err(failed)?;
@@ -96,7 +103,7 @@ fn fails(browser: &Chromium, page: &Path) -> Result<(), String> {
         match opened(browser, &copy) {
             Ok(_) => return Err(format!("a page that {name} passed")),
             Err(reason) => {
-                say!("   {name}: {}", reason.chars().take(160).collect::<String>());
+                say!("   {name}: {}", reason.chars().take(300).collect::<String>());
             }
         }
     }

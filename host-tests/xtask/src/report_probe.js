@@ -1,8 +1,11 @@
 // Runs in a page of `meshsweep trade --report`: moves each of its controls, and looks whether the
-// pictures change and come back. A promise of a text: `passed` or `failed`, and what was seen.
+// pictures change and come back. A promise of a text that tells what was seen.
 (async () => {
-  const [seen, faults] = [[], []];
-  const require = (is, what) => (is ? seen : faults).push(what);
+  const seen = [];
+  const require = (is, what) => {
+    if (!is) throw new Error(what);
+    seen.push(what);
+  };
   const pause = () => new Promise((done) => setTimeout(done, 250));
 
   // What a picture shows: the pixels of WebGL, read back; of other pictures the drawn paths.
@@ -36,7 +39,9 @@
     require(count > 5 && left === 0, `${id} changes ${count} parts of ${picture}, ${left} stay`);
   };
 
-  await drawn;
+  // Small, because a processor draws it here.
+  Object.assign(document.getElementById("scene").style, { width: "400px", height: "300px" });
+  await Plotly.Plots.resize("scene");
   await pause();
   require(getComputedStyle(document.getElementById("failed")).display === "none", "no failure");
   for (const [id, least] of [["cost", 50], ["bytes", 50], ["along", 10], ["scene", 500]]) {
@@ -55,5 +60,5 @@
   for (const { id } of document.querySelectorAll("#bodies input")) {
     await drive("scene", id, (control) => (control.checked = !control.checked));
   }
-  return [faults.length ? "failed" : "passed", ...faults, ...seen].join("; ");
+  return seen.join("; ");
 })()

@@ -24,8 +24,12 @@ pub fn run(args: &TradeArgs) -> Result<(), Failure> {
     if let Some(page) = &args.report {
         report::write(page, &args.mesh, &loaded, &measured)?;
     }
-    Output::stdout().finish(|out| match args.json {
-        true => table::write_json(out, &measured),
-        false => table::write(out, args, &loaded, &measured),
+    Output::stdout().finish(|out| {
+        if args.json {
+            return table::write_json(out, &measured);
+        }
+        table::write(out, args, &loaded, &measured)?;
+        let page = args.report.as_ref();
+        page.map_or(Ok(()), |page| writeln!(out, "\n{}: open it in a browser", page.display()))
     })
 }

@@ -58,12 +58,9 @@ fn fill(out: &mut dyn Write, data: &Value) -> io::Result<()> {
     let data = data.to_string().replace('<', "\\u003c");
     let library = BASE64_STANDARD.encode(PLOTLY);
     let mut rest = PAGE;
-    for (mark, content) in [
-        ("@LICENSE@", LICENSE),
-        ("@DATA@", &data),
-        ("@LIBRARY@", &library),
-        ("@SCRIPT@", SCRIPT),
-    ] {
+    for (mark, content) in
+        [("@LICENSE@", LICENSE), ("@DATA@", &data), ("@LIBRARY@", &library), ("@SCRIPT@", SCRIPT)]
+    {
         let (before, after) = rest.split_once(mark).ok_or(io::ErrorKind::InvalidData)?;
         out.write_all(before.as_bytes())?;
         out.write_all(content.as_bytes())?;

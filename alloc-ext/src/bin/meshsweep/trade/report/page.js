@@ -10,6 +10,7 @@ const COLOURS = {
   triboxes: "#b8860b",
 };
 const BODY_COLOURS = { mesh: "#9a9a9a", tight: "#009e73", triboxes: "#e69f00", refined: "#cc79a7" };
+const HEAT = [[0, "#f3efe0"], [0.5, "#f4a04a"], [1, "#a50f15"]];
 const CONFIG = { displaylogo: false, responsive: true,
   modeBarButtons: [["toImage", "zoom2d", "pan2d", "resetScale2d"]] };
 const CONFIG_3D = { ...CONFIG,
@@ -32,7 +33,6 @@ function numbers({ f32, u32 }) {
   return f32 === undefined ? new Uint32Array(buffer) : new Float32Array(buffer);
 }
 
-/** A number in few digits. */
 const short = (x) => (x == null ? "–" : Number(x.toPrecision(3)).toString());
 
 const familyOf = (row) => row.structure.split(",")[0];
@@ -45,9 +45,9 @@ function textOf(row) {
   const error = row.guaranteed
     ? `guaranteed ${short(row.guaranteed.worst)}, median ${short(row.guaranteed.median)}`
     : "no upper end, so no interval";
-  return `<b>${row.structure}: ${row.dials}</b><br>${error}<br>found ${short(foundOf(row, "worst"))}, ` +
-    `median ${short(foundOf(row, "median"))}<br>instructions: M4F ${board(0)}, M0 ${board(1)}<br>` +
-    `blob ${row.flash} bytes, scratch ${row.scratch} bytes`;
+  const found = `found ${short(foundOf(row, "worst"))}, median ${short(foundOf(row, "median"))}`;
+  return `<b>${row.structure}: ${row.dials}</b><br>${error}<br>${found}<br>instructions: ` +
+    `M4F ${board(0)}, M0 ${board(1)}<br>blob ${row.flash} bytes, scratch ${row.scratch} bytes`;
 }
 
 const axis = (title, type, dtick) => ({
@@ -101,27 +101,6 @@ async function drawCosts() {
   const exact = data.trade.rows.filter((row) => foundOf(row, spread) <= 0).length;
   byId("hidden").textContent =
     exact ? `Of ${exact} settings the error found is 0; it has no place on these axes.` : "";
-}
-
-function drawTable() {
-  const heads = ["setting", `guaranteed${unit}`, "median", "found", "M4F mean", "M4F worst",
-    "M0 mean", "bytes", "scratch"];
-  const cell = (row, name, text) => {
-    row.append(Object.assign(document.createElement(name), { textContent: text }));
-  };
-  const line = (name, texts, isBest) => {
-    const row = byId("table").insertRow();
-    row.className = isBest ? "best" : "";
-    texts.forEach((text) => cell(row, name, text));
-  };
-  line("th", heads, false);
-  const rows = [...data.trade.rows].sort((a, b) => b.pareto - a.pareto);
-  for (const row of rows) {
-    const board = (i, of) => (row.instructions[i] ? Math.round(row.instructions[i][of]) : "–");
-    line("td", [`${row.structure}: ${row.dials}`, short(row.guaranteed?.worst),
-      short(row.guaranteed?.median), short(foundOf(row, "worst")), board(0, "mean"),
-      board(0, "worst"), board(1, "mean"), row.flash, row.scratch], row.pareto);
-  }
 }
 
 const PATH_COLOURS = ["#0072b2", "#56b4e9", "#d55e00", "#009e73", "#cc79a7"];
@@ -200,11 +179,13 @@ function drawScene() {
     const { x, y, z, i, j, k, kept, cut } = clipped(body, colour?.values, across, most);
     const isGlass = body.key !== "mesh" && !colour;
     const paint = colour
-      ? { intensity: kept, intensitymode: "cell", colorscale: "Viridis", cmin: 0, cmax: colour.most,
+      ? { intensity: kept, intensitymode: "cell", colorscale: HEAT, cmin: 0, cmax: colour.most,
         colorbar: { title: { text: `length${unit}`, side: "right" }, len: 0.7, thickness: 16,
           exponentformat: "power" } }
       : { color: BODY_COLOURS[body.key] };
-    traces.push({ type: "mesh3d", x, y, z, i, j, k, name: body.name, ...paint, flatshading: true,
+    // With a number of its own for each colouring: a body keeps its colours when they change.
+    traces.push({ type: "mesh3d", uid: body.key + (colour?.name ?? ""), x, y, z, i, j, k,
+      name: body.name, ...paint, flatshading: true,
       opacity: isGlass ? 0.25 : 1, hoverinfo: "name",
       lighting: { ambient: 0.55, diffuse: 0.7, specular: 0.05, facenormalsepsilon: 0 } });
     traces.push({ type: "scatter3d", mode: "lines", x: cut[0], y: cut[1], z: cut[2],
@@ -269,11 +250,10 @@ function prepareScene() {
     const cost = query.key === "dearest"
       ? `about ${Math.round(query.instructions)} instructions on a Cortex-M4F`
       : `${length(query.width)} wide`;
-    const item = document.createElement("li");
-    item.textContent = `${i + 1}: ${query.name}, ${cost}, ${short(query.times)} times the mean of ` +
-      `random queries, at ${query.query.map(short).join(", ")}; found by hill climbing in a box ` +
-      "twice the mesh's. The red line leads to the closest point.";
-    byId("worst").append(item);
+    byId("worst").append(Object.assign(document.createElement("li"), {
+      textContent: `${query.name}, ${cost}, ${short(query.times)} times the mean of random ` +
+        `queries, at ${query.query.map(short).join(", ")}`,
+    }));
   });
   if (bodies.some((body) => body.is_coarse)) {
     byId("coarse").textContent = "The picture shows at most 50,000 triangles of a body: vertices " +
@@ -283,17 +263,12 @@ function prepareScene() {
 
 /** Draws anew once the browser is ready, however often a control moves until then. */
 function whenMoved(ids, draw) {
-  let isAsked = false;
-  for (const element of ids.map(byId)) {
-    element.addEventListener("input", () => {
-      if (isAsked) return;
-      isAsked = true;
-      requestAnimationFrame(() => {
-        isAsked = false;
-        draw();
-      });
-    });
-  }
+  let asked = 0;
+  const ask = () => {
+    cancelAnimationFrame(asked);
+    asked = requestAnimationFrame(draw);
+  };
+  ids.forEach((id) => byId(id).addEventListener("input", ask));
 }
 
 async function main() {
@@ -312,7 +287,6 @@ async function main() {
   document.head.append(library);
   prepareScene();
   await drawCosts();
-  drawTable();
   await drawPath();
   await drawScene();
   whenMoved(["board", "spread"], drawCosts);

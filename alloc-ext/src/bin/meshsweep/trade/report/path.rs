@@ -25,9 +25,8 @@ pub fn asked(measured: &Measured) -> Vec<Setting> {
                 && (has, absolute, within) == (relative, 0.0, steps)
         })
     };
-    let tight = all().rfind(
-        |setting| matches!(setting.structure, Structure::Tight(faces) if faces <= FACES),
-    );
+    let tight = all()
+        .rfind(|setting| matches!(setting.structure, Structure::Tight(faces) if faces <= FACES));
     let refined = all().rfind(|setting| matches!(setting.structure, Structure::Refined(_)));
     let each = [of_tree(0.0, u32::MAX), of_tree(0.1, u32::MAX), of_tree(0.0, 8), tight, refined];
     each.into_iter().flatten().collect()
