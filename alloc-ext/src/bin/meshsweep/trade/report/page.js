@@ -184,7 +184,7 @@ function drawScene() {
           exponentformat: "power" } }
       : { color: BODY_COLOURS[body.key] };
     // With a number of its own for each colouring: a body keeps its colours when they change.
-    traces.push({ type: "mesh3d", uid: body.key + (colour?.name ?? ""), x, y, z, i, j, k,
+    traces.push({ type: "mesh3d", uid: `${body.key}-${colour ? index : "plain"}`, x, y, z, i, j, k,
       name: body.name, ...paint, flatshading: true,
       opacity: isGlass ? 0.25 : 1, hoverinfo: "name",
       lighting: { ambient: 0.55, diffuse: 0.7, specular: 0.05, facenormalsepsilon: 0 } });
