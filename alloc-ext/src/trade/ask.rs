@@ -33,6 +33,20 @@ pub(super) struct Asked {
     pub scratch: usize,
 }
 
+/// The interval of the distance of each point, lower and upper end. The upper end is infinite if
+/// the structure has none.
+///
+/// # Errors
+/// A blob without the setting's structure, or a point that is refused.
+pub fn intervals(
+    setting: &Setting,
+    bytes: &[u8],
+    points: &[[f32; 3]],
+) -> Result<Vec<[f32; 2]>, QueryError> {
+    let asked = ask(setting, bytes, points)?;
+    Ok(asked.answers.iter().map(|answer| [answer.lower, answer.upper]).collect())
+}
+
 /// Asks a blob of a setting's structure twice: for the answers, and for the time.
 ///
 /// # Errors

@@ -101,6 +101,17 @@ pub struct Trade {
     /// The part of the triangles that are needles: fifty times as long as high, or more. Their
     /// bounds are refined, which no counter tells, so more instructions are needed than predicted.
     pub needles: f64,
+    /// The blobs of the structures.
+    pub blobs: Vec<(Structure, Vec<u8>)>,
+}
+
+impl Trade {
+    /// The blob of a structure, if it was built.
+    #[must_use]
+    pub fn blob(&self, structure: Structure) -> Option<&[u8]> {
+        let found = self.blobs.iter().find(|(of, _)| *of == structure);
+        found.map(|(_, bytes)| bytes.as_slice())
+    }
 }
 
 /// How far a measurement is.
@@ -131,8 +142,7 @@ pub fn measure(
     }
     let (done, of) = (AtomicUsize::new(0), structures.len() + settings.len());
     let step = || progress(Progress { done: done.fetch_add(1, Ordering::Relaxed) + 1, of });
-    let truth = Truth::of(input.mesh);
-    let distances: Vec<f64> = points.par_iter().map(|&point| truth.distance(point)).collect();
+    let distances = distances(input.mesh, points);
     let is_refined = |structure: &Structure| matches!(structure, Structure::Refined(_));
     let (refined, others): (Vec<Structure>, Vec<Structure>) =
         structures.into_iter().partition(is_refined);
@@ -147,21 +157,29 @@ pub fn measure(
     let built = groups.par_iter().rev().with_max_len(1).flat_map_iter(build);
     let built: Vec<(Structure, Result<Vec<u8>, String>)> = built.collect();
     let needles = needles(input.mesh);
-    let mut trade = Trade { rows: Vec::new(), missing: Vec::new(), needles };
-    for (structure, result) in built.iter().rev() {
-        if let Err(reason) = result {
-            trade.missing.push(Missing { structure: *structure, reason: reason.clone() });
+    let mut trade = Trade { rows: Vec::new(), missing: Vec::new(), needles, blobs: Vec::new() };
+    for (structure, result) in built.into_iter().rev() {
+        match result {
+            Ok(bytes) => trade.blobs.push((structure, bytes)),
+            Err(reason) => trade.missing.push(Missing { structure, reason }),
         }
     }
     for setting in settings {
-        let of = built.iter().find(|(structure, _)| *structure == setting.structure);
-        if let Some((_, Ok(bytes))) = of {
+        if let Some(bytes) = trade.blob(setting.structure) {
             let asked = ask(setting, bytes, points)?;
-            trade.rows.extend(row(*setting, bytes.len(), &asked, &distances));
+            let row = row(*setting, bytes.len(), &asked, &distances);
+            trade.rows.extend(row);
         }
         step();
     }
     Ok(trade)
+}
+
+/// The distances of points from a mesh, in f64, from all of its triangles.
+#[must_use]
+pub fn distances(mesh: &Mesh, points: &[[f32; 3]]) -> Vec<f64> {
+    let truth = Truth::of(mesh);
+    points.par_iter().map(|&point| truth.distance(point)).collect()
 }
 
 /// Length over height from which on a triangle is a needle.

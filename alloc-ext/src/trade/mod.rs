@@ -30,9 +30,12 @@ mod setting;
 mod structure;
 mod truth;
 
+pub use ask::intervals;
 pub use cost::{Board, Cost, FEATURES, Features, Search, Shape};
 pub use fitted::cost;
-pub use measure::{Instructions, Missing, Progress, Row, Spread, Trade, measure, pareto};
+pub use measure::{
+    Instructions, Missing, Progress, Row, Spread, Trade, distances, measure, pareto,
+};
 pub use points::{Points, points};
 pub use setting::{How, Setting, TreeBits, standard};
 pub use structure::{HullBits, Structure};

@@ -124,3 +124,58 @@ fn limits_choose_a_setting_that_meets_them_or_name_the_nearest() {
         refused(&run([&build[..], wrong].concat()), 2, "--");
     }
 }
+
+#[test]
+fn a_page_asks_for_nothing_and_its_intervals_hold_the_truth() {
+    let directory = scratch("trade_report");
+    // A name that would end the script, and begin a tag.
+    let mesh = directory.join("<cube> & </script>.obj".replace('/', "\u{2215}"));
+    fs::write(&mesh, CUBE).unwrap();
+    let written = || {
+        let page = directory.join("page.html");
+        let text = ok(["trade", arg(&mesh), "--points", "20", "--report", arg(&page)]);
+        assert!(text.contains("page.html"), "{text}");
+        fs::read_to_string(page).unwrap()
+    };
+    let page = written();
+    for address in ["src=", "href=", "http://", "https://", "@import", "url("] {
+        assert!(!page.contains(address), "{address}");
+    }
+    assert!(page.contains("default-src 'none'") && !page.contains("<cube>"));
+    let (_, rest) = page.split_once("id=\"data\">").unwrap();
+    let (data, rest) = rest.split_once("</script>").unwrap();
+    assert!(rest.contains("id=\"library\""), "nothing ends the data but their own end");
+    let data: Value = serde_json::from_str(data).expect("it is JSON");
+    assert_eq!(data["name"], mesh.file_name().unwrap().to_str().unwrap());
+    for row in rows(&data["trade"]) {
+        let Some(guaranteed) = worst(row, "guaranteed") else { continue };
+        for of in ["found_lower", "found_upper"] {
+            assert!(worst(row, of).unwrap() <= guaranteed * (1.0 + 1e-12), "{row}");
+        }
+    }
+    let surface = triangles(&mesh);
+    let list = |value: &Value| -> Vec<f64> { serde_json::from_value(value.clone()).unwrap() };
+    let points: Vec<[f32; 3]> = serde_json::from_value(data["path"]["points"].clone()).unwrap();
+    let truth: Vec<f64> = points.iter().map(|p| distance(wide(p), &surface)).collect();
+    let settings = data["path"]["settings"].as_array().unwrap();
+    assert!(settings.len() >= 4 && points.len() == 500);
+    for setting in settings {
+        let (lower, upper) = (list(&setting["lower"]), list(&setting["upper"]));
+        for ((lower, upper), truth) in lower.iter().zip(&upper).zip(&truth) {
+            let rounding = 1e-12 * truth;
+            assert!(lower - rounding <= *truth && *truth <= upper + rounding, "{setting}");
+        }
+    }
+    let keys = data["scene"]["bodies"].as_array().unwrap().iter().map(|body| &body["key"]);
+    assert_eq!(keys.collect::<Vec<_>>(), ["mesh", "tight", "triboxes"]);
+    // The same bytes but for the host's times.
+    let without_times = |page: &str| {
+        let parts = page.split("\"host_ns\":").enumerate();
+        let rest = parts.map(|(i, part)| match i {
+            0 => part.to_owned(),
+            _ => part.trim_start_matches(|c: char| !",}".contains(c)).to_owned(),
+        });
+        rest.collect::<Vec<_>>().join("\"host_ns\":")
+    };
+    assert!(without_times(&page) == without_times(&written()), "two runs differ");
+}

@@ -4,6 +4,7 @@
 //! checks (fmt, clippy, tests, docs)
 //! host (the program of host-tests: blobs, expected answers, fixtures, counted questions)
 //! processors (the committed answers on i686, AArch64, with vectors) ─ toolbox
+//! report ─── chromium (the page of `meshsweep trade --report`) ─ toolbox
 //! count ──── valgrind (callgrind) on host ─┐
 //!                                          ├─ tables (those of the documents)
 //! firmware ─┬ images ─ cross ───────┬─ toolbox (Debian packages, unpacked aside)
@@ -19,6 +20,7 @@ pub mod say;
 pub mod blobs;
 pub mod boards;
 pub mod checks;
+pub mod chromium;
 pub mod cost;
 pub mod count;
 pub mod cross;
@@ -32,6 +34,7 @@ pub mod processors;
 pub mod proof;
 pub mod qemu;
 pub mod reading;
+pub mod report;
 pub mod steps;
 pub mod table;
 pub mod tables;

@@ -8,7 +8,7 @@ use meshsweep_xtask::firmware::Scope;
 use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::tables::Facts;
 use meshsweep_xtask::valgrind::Valgrind;
-use meshsweep_xtask::{checks, count, firmware, fit, host, processors, say, tables};
+use meshsweep_xtask::{checks, count, firmware, fit, host, processors, report, say, tables};
 
 const USAGE: &str = "\
 cargo xtask setup                   makes sure of the cross targets, of QEMU and of valgrind
@@ -23,6 +23,7 @@ cargo xtask count --board QUESTION...
                                     the same on a Cortex-M4F, of `bvh`, `sweep`, `refine` BLOB ...
 cargo xtask fit [MESH...]           fits the costs by which `meshsweep trade` predicts instructions
 cargo xtask fit --kept              the same from the counts of the last run
+cargo xtask report [MESH...]        opens the page of `meshsweep trade --report` in Chromium, tests it
 cargo xtask measure|race|rival ...  the laboratory, a crate of its own: `cargo xtask measure --help`
 
 environment:
@@ -94,6 +95,7 @@ fn main() -> ExitCode {
                 fit::run(&mut steps, &tools, others);
             }
         }
+        ["report", meshes @ ..] => report::run(&mut steps, meshes),
         ["count", questions @ ..] if !questions.contains(&"--board") => {
             count::run(&mut steps, questions)
         }

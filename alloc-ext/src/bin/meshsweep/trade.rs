@@ -2,6 +2,7 @@
 
 mod choose;
 mod measured;
+mod report;
 mod table;
 
 pub use choose::build;
@@ -9,14 +10,26 @@ pub use choose::build;
 use crate::args::TradeArgs;
 use crate::failure::Failure;
 use crate::mesh_file;
-use crate::output::Output;
+use crate::output::{Output, refuse_other_extension, refuse_same_file};
 use measured::measured;
 
 pub fn run(args: &TradeArgs) -> Result<(), Failure> {
+    if let Some(page) = &args.report {
+        refuse_other_extension(page, "html", "the report is a page")?;
+        refuse_same_file(Some(page), &[&args.mesh])?;
+        Output::probe(page)?;
+    }
     let loaded = mesh_file::load(&args.mesh, args.unit)?;
     let measured = measured(&args.mesh, &loaded, &args.at, args.points as usize)?;
-    Output::stdout().finish(|out| match args.json {
-        true => table::write_json(out, &measured),
-        false => table::write(out, args, &loaded, &measured),
+    if let Some(page) = &args.report {
+        report::write(page, &args.mesh, &loaded, &measured)?;
+    }
+    Output::stdout().finish(|out| {
+        if args.json {
+            return table::write_json(out, &measured);
+        }
+        table::write(out, args, &loaded, &measured)?;
+        let page = args.report.as_ref();
+        page.map_or(Ok(()), |page| writeln!(out, "\n{}: open it in a browser", page.display()))
     })
 }

@@ -49,7 +49,7 @@ enum Subject<'a> {
 }
 
 /// A structure that answers points.
-enum Structure<'a> {
+pub enum Structure<'a> {
     Tree(Bvh<'a>),
     Hull(Hull<'a>),
     Tight(TightHull<'a>),
@@ -58,7 +58,8 @@ enum Structure<'a> {
 
 /// The goal of a search.
 #[derive(Clone, Copy, PartialEq)]
-enum Goal {
+pub enum Goal {
+    /// The most work.
     Work,
     /// The widest interval that is left.
     Width,
@@ -66,12 +67,12 @@ enum Goal {
 
 /// An answer, as far as the search wants to know it.
 #[derive(Clone, Copy)]
-struct Found {
+pub struct Found {
     work: Work,
     /// Of the answer's interval, if it has one.
-    width: Option<f32>,
+    pub width: Option<f32>,
     /// As predicted, on each of [`Board::ALL`].
-    instructions: Option<[f64; 2]>,
+    pub instructions: Option<[f64; 2]>,
 }
 
 impl Found {
@@ -83,12 +84,12 @@ impl Found {
 }
 
 /// The result of one search.
-struct Row {
+pub struct Row {
     question: &'static str,
     structure: &'static str,
     goal: Goal,
-    query: Vec<f32>,
-    found: Found,
+    pub query: Vec<f32>,
+    pub found: Found,
     /// Mean value of random queries.
     typical: f64,
     asked: usize,
@@ -130,6 +131,11 @@ fn subjects<'a>(blob: &Blob<'a>) -> Vec<Subject<'a>> {
 }
 
 impl Structure<'_> {
+    /// Searches the worst query of closest points.
+    pub fn worst(self, goal: Goal, budget: Budget) -> Option<Row> {
+        Subject::Closest(self).row(goal, budget, Climb::default().starts)
+    }
+
     fn name(&self) -> &'static str {
         match self {
             Structure::Tree(_) => "box tree",
@@ -411,11 +417,11 @@ impl<'s, 'a> Search<'s, 'a> {
 
 impl Row {
     /// How many times the mean of random queries the value is.
-    fn times(&self, value: f64) -> f64 {
+    pub fn times(&self, value: f64) -> f64 {
         value / self.typical.max(f64::MIN_POSITIVE)
     }
 
-    fn value(&self) -> f64 {
+    pub fn value(&self) -> f64 {
         match self.goal {
             Goal::Work => self.found.effort(),
             Goal::Width => self.found.width.map_or(0.0, f64::from),

@@ -429,8 +429,13 @@ pub const TRADE: &str = "The guaranteed error is the width of an interval, which
     together. Triboxes have a lower end only. A structure that the mesh does not allow is listed \
     with the reason. Tight hulls are made with --effort 0; more effort makes them tighter. \
     Coherent queries are measured along a path and at your own points. build --flash, --ram, \
-    --error and --rate choose among the same settings.\n\nExamples:\n  \
+    --error and --rate choose among the same settings.\n\n--report writes one HTML file, which a \
+    browser shows without a network. It has the numbers of --json: error against instructions and \
+    bytes; the intervals of a few settings along a path, and the true distance; the mesh with a \
+    tight hull, triboxes and a refined hull, to turn and to cut, coloured by the hull's distance \
+    from the mesh or by the width of intervals, with the worst queries marked.\n\nExamples:\n  \
     meshsweep trade part.stl\n  \
+    meshsweep trade part.stl --report part.html\n  \
     meshsweep trade part.stl --at path --points 500\n  \
     meshsweep trade part.stl --at points.csv --json";
 

@@ -21,6 +21,9 @@ pub struct TradeArgs {
     /// it; of other files it is the unit of their numbers
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     pub unit: Option<Unit>,
+    /// Write a page with pictures too: one HTML file, which needs no network
+    #[arg(long, value_name = "PAGE.html")]
+    pub report: Option<PathBuf>,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,

@@ -158,14 +158,20 @@ fn write_notes(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
 }
 
 pub fn write_json(out: &mut dyn Write, measured: &Measured) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, &as_json(measured))?;
+    writeln!(out)
+}
+
+/// All rows, and the points that they were measured at.
+pub fn as_json(measured: &Measured) -> Value {
     let Measured { trade, diagonal, points, kind } = measured;
     let best = pareto(&trade.rows);
     let rows: Vec<Value> =
-        trade.rows.iter().enumerate().map(|(i, row)| as_json(row, best.contains(&i))).collect();
+        trade.rows.iter().enumerate().map(|(i, row)| of_row(row, best.contains(&i))).collect();
     let missing = trade.missing.iter().map(
         |missing| json!({ "structure": missing.structure.to_string(), "reason": missing.reason }),
     );
-    let value = json!({
+    json!({
         "points": points,
         "kind": kind,
         "diagonal": diagonal,
@@ -173,12 +179,10 @@ pub fn write_json(out: &mut dyn Write, measured: &Measured) -> io::Result<()> {
         "needles": trade.needles,
         "rows": rows,
         "not_built": missing.collect::<Vec<_>>(),
-    });
-    serde_json::to_writer_pretty(&mut *out, &value)?;
-    writeln!(out)
+    })
 }
 
-fn as_json(row: &Row, is_best: bool) -> Value {
+fn of_row(row: &Row, is_best: bool) -> Value {
     let spread = |spread: Spread| json!({ "worst": spread.worst, "median": spread.median });
     let boards = Board::ALL.iter().zip(row.boards).filter_map(|(board, found)| {
         let found = found?;

@@ -1,0 +1,75 @@
+//! The settings that the page shows in detail, and their intervals along a path.
+
+use super::super::measured::Measured;
+use crate::mesh_file::Loaded;
+use glam::Vec3;
+use meshsweep::trade::{self, How, Points, Setting, Structure, TreeBits};
+use meshsweep_core::{Budget, QueryError};
+use serde_json::{Value, json};
+
+/// Points of the path: half a diagonal.
+const POINTS: usize = 500;
+
+/// Most faces of the tight hull that the page shows.
+const FACES: u32 = 200;
+
+/// A few settings of the table that differ most: an exact one, a tolerance, a step budget, a tight
+/// hull, a refined hull.
+pub fn asked(measured: &Measured) -> Vec<Setting> {
+    let all = || measured.trade.rows.iter().map(|row| row.setting);
+    let of_tree = |relative: f32, steps: u32| {
+        all().find(|setting| {
+            let Budget { relative: has, absolute, steps: within, .. } = setting.budget;
+            setting.structure == Structure::Tree(TreeBits::Sixteen)
+                && (setting.how, setting.entries) == (How::Fresh, None)
+                && (has, absolute, within) == (relative, 0.0, steps)
+        })
+    };
+    let tight = all()
+        .rfind(|setting| matches!(setting.structure, Structure::Tight(faces) if faces <= FACES));
+    let refined = all().rfind(|setting| matches!(setting.structure, Structure::Refined(_)));
+    let each = [of_tree(0.0, u32::MAX), of_tree(0.1, u32::MAX), of_tree(0.0, 8), tight, refined];
+    each.into_iter().flatten().collect()
+}
+
+/// The path, the distance of each of its points, and the intervals of some settings there.
+pub fn as_json(
+    loaded: &Loaded,
+    measured: &Measured,
+    asked: &[Setting],
+) -> Result<Value, QueryError> {
+    let points = trade::points(&loaded.mesh, Points::Path, POINTS);
+    let steps = points.windows(2).map(|pair| {
+        let [a, b] = [pair[0], pair[1]].map(|p| Vec3::from(p).as_dvec3());
+        a.distance(b)
+    });
+    let along = steps.scan(0.0, |sum, step| {
+        *sum += step;
+        Some(*sum)
+    });
+    let along: Vec<f64> = std::iter::once(0.0).chain(along).take(points.len()).collect();
+    let settings = asked.iter().map(|setting| {
+        let intervals = intervals(measured, setting, &points)?;
+        Ok(json!({
+            "name": setting.to_string(),
+            "lower": intervals.iter().map(|[lower, _]| f64::from(*lower)).collect::<Vec<_>>(),
+            "upper": intervals.iter().map(|[_, upper]| f64::from(*upper)).collect::<Vec<_>>(),
+        }))
+    });
+    Ok(json!({
+        "settings": settings.collect::<Result<Vec<_>, QueryError>>()?,
+        "points": points,
+        "along": along,
+        "truth": trade::distances(&loaded.mesh, &points),
+    }))
+}
+
+/// The intervals of a setting that was measured.
+pub fn intervals(
+    measured: &Measured,
+    setting: &Setting,
+    points: &[[f32; 3]],
+) -> Result<Vec<[f32; 2]>, QueryError> {
+    let bytes = measured.trade.blob(setting.structure).unwrap_or_default();
+    trade::intervals(setting, bytes, points)
+}
