@@ -1,0 +1,17 @@
+/* The blobs that answers.c asks about, from the folder that -Wa,-I names. */
+    .macro blob name
+    .global \name, \name\()_end
+    .balign 4
+\name:
+    .incbin "\name\().msw"
+\name\()_end:
+    .endm
+
+    .section .rodata, "a"
+    blob groove
+    blob hulls
+    blob bracket
+
+#ifdef __linux__
+    .section .note.GNU-stack, "", %progbits
+#endif
