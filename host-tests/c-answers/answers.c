@@ -1,7 +1,7 @@
 /* Asks every question of the C interface about committed blobs, and prints one line for each kind:
  * its name, and a hash of all words of all answers. `host c-answers` prints the same lines from
- * Rust, without the C interface. Runs on this machine and on boards: print() and the blobs are
- * whatever it is linked with. */
+ * Rust, without the C interface. It runs on this machine and on boards: print() is that of the
+ * examples. */
 
 #include "meshsweep.h"
 
@@ -56,15 +56,17 @@ static void fold_word(uint32_t word)
 
 static void end(const char *kind)
 {
-    char digits[10];
-    for (int digit = 0; digit < 8; digit++) {
-        digits[digit] = "0123456789abcdef"[hash >> (28 - 4 * digit) & 15];
+    char line[32];
+    size_t length = 0;
+    for (; kind[length] != 0; length++) {
+        line[length] = kind[length];
     }
-    digits[8] = '\n';
-    digits[9] = 0;
-    print(kind);
-    print(" ");
-    print(digits);
+    line[length++] = ' ';
+    for (int digit = 0; digit < 8; digit++) {
+        line[length++] = "0123456789abcdef"[hash >> (28 - 4 * digit) & 15];
+    }
+    line[length] = 0;
+    print(line);
 }
 
 /* Exact, then with few steps, then with a tolerance and little scratch. */

@@ -305,9 +305,8 @@ fn refusals() -> String {
 /// # Errors
 /// A blob that is not there, does not open or refuses a question.
 pub fn of_fixtures(folder: &std::path::Path) -> Result<String, String> {
-    let read = |name: &str| {
-        std::fs::read(folder.join(name)).map_err(|error| format!("{name}: {error}"))
-    };
+    let read =
+        |name: &str| std::fs::read(folder.join(name)).map_err(|error| format!("{name}: {error}"));
     let [groove, hulls, bracket] = [read("groove.msw")?, read("hulls.msw")?, read("bracket.msw")?];
     lines(&groove, &hulls, &bracket).map_err(|error| error.to_string())
 }

@@ -41,11 +41,9 @@ fn main() -> ExitCode {
         ["fit", folder, others @ ..] => {
             counted::fit(&fixtures, Path::new(folder), others).map(|lines| print!("{lines}"))
         }
-        _ => Err(
-            "host fixtures | host picture | host blobs FOLDER | host c-answers | \
+        _ => Err("host fixtures | host picture | host blobs FOLDER | host c-answers | \
              host place FOLDER QUESTION... | host lay QUESTION N FILE | host fit FOLDER MESH..."
-                .to_owned(),
-        ),
+            .to_owned()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

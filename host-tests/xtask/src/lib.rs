@@ -4,6 +4,8 @@
 //! checks (fmt, clippy, tests, docs)
 //! host (the program of host-tests: blobs, expected answers, fixtures, counted questions)
 //! processors (the committed answers on i686, AArch64, with vectors) ─ toolbox
+//! c_checks (C programs) ┐
+//! dist (archives) ──────┴ c_library (one object that defines msw_*) ─ toolbox, cross
 //! count ──── valgrind (callgrind) on host ─┐
 //!                                          ├─ tables (those of the documents)
 //! firmware ─┬ images ─ cross ───────┬─ toolbox (Debian packages, unpacked aside)
@@ -18,10 +20,13 @@ pub mod say;
 
 pub mod blobs;
 pub mod boards;
+pub mod c_checks;
+pub mod c_library;
 pub mod checks;
 pub mod cost;
 pub mod count;
 pub mod cross;
+pub mod dist;
 pub mod elf;
 pub mod firmware;
 pub mod fit;
