@@ -7,9 +7,12 @@
 
 void print(const char *text);
 
-extern const unsigned char groove[], groove_end[];
-extern const unsigned char hulls[], hulls_end[];
-extern const unsigned char bracket[], bracket_end[];
+extern const unsigned char groove[];
+extern const uint32_t groove_bytes;
+extern const unsigned char hulls[];
+extern const uint32_t hulls_bytes;
+extern const unsigned char bracket[];
+extern const uint32_t bracket_bytes;
 
 enum { ROUNDS = 24, SPLITS = 60, FACES = 160 };
 
@@ -186,7 +189,7 @@ static void tight_hull(void)
     static msw_tight hull;
     begin();
     for (uint32_t index = 0; index < 2; index++) {
-        fold_word((uint32_t)msw_open_tight(&hull, hulls, (size_t)(hulls_end - hulls),
+        fold_word((uint32_t)msw_open_tight(&hull, hulls, hulls_bytes,
                                            index == 1 ? MSW_FINEST : 0));
         fold_word(msw_tight_scratch_entries(&hull));
         for (int round = 0; round < ROUNDS; round++) {
@@ -205,7 +208,7 @@ static void refined_hull(void)
 {
     static msw_hull hull;
     begin();
-    fold_word((uint32_t)msw_open_hull(&hull, bracket, (size_t)(bracket_end - bracket)));
+    fold_word((uint32_t)msw_open_hull(&hull, bracket, bracket_bytes));
     for (int32_t kind = 0; kind < 10; kind++) {
         msw_focus focus = {0};
         focus.kind = kind % 5;
@@ -262,12 +265,12 @@ static void refusals(const msw_model *model)
     fold_word((uint32_t)msw_overlap(model, model, &zeros, NULL, scratch, count, &overlap));
     fold_word((uint32_t)msw_open(&damaged, groove, 100));
     fold_word((uint32_t)msw_closest_point(&damaged, point, NULL, scratch, count, &answer));
-    fold_word((uint32_t)msw_open(&damaged, hulls, (size_t)(hulls_end - hulls)));
+    fold_word((uint32_t)msw_open(&damaged, hulls, hulls_bytes));
     fold_word((uint32_t)msw_open(&damaged, groove + 1, 400));
     static msw_tight tight;
-    fold_word((uint32_t)msw_open_tight(&tight, hulls, (size_t)(hulls_end - hulls), 2));
+    fold_word((uint32_t)msw_open_tight(&tight, hulls, hulls_bytes, 2));
     static msw_hull hull;
-    fold_word((uint32_t)msw_open_hull(&hull, bracket, (size_t)(bracket_end - bracket)));
+    fold_word((uint32_t)msw_open_hull(&hull, bracket, bracket_bytes));
     /* It was used with another count. */
     fold_word((uint32_t)msw_refine(&hull, refined, 7, NULL, 1.0f, &refinement));
     fold_word((uint32_t)msw_refine(&hull, refined, 1, NULL, 1.0f, &refinement));
@@ -278,7 +281,7 @@ int main(void)
 {
     static msw_model model;
     begin();
-    fold_word((uint32_t)msw_open(&model, groove, (size_t)(groove_end - groove)));
+    fold_word((uint32_t)msw_open(&model, groove, groove_bytes));
     fold_word(msw_scratch_entries(&model));
     fold_word(msw_version());
     fold_word(msw_format_version() >> 16);

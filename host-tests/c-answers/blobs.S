@@ -1,10 +1,13 @@
 /* The blobs that answers.c asks about, from the folder that -Wa,-I names. */
     .macro blob name
-    .global \name, \name\()_end
+    .global \name, \name\()_bytes
     .balign 4
 \name:
     .incbin "\name\().msw"
-\name\()_end:
+0:
+    .balign 4
+\name\()_bytes:
+    .long 0b - \name
     .endm
 
     .section .rodata, "a"

@@ -4,11 +4,14 @@
 #endif
 
     .section .rodata.part_blob, "a"
-    .global part_blob, part_blob_end
+    .global part_blob, part_blob_bytes
     .balign 4
 part_blob:
     .incbin PART
-part_blob_end:
+0:
+    .balign 4
+part_blob_bytes:
+    .long 0b - part_blob
 
 #ifdef __linux__
     .section .note.GNU-stack, "", %progbits

@@ -9,7 +9,8 @@
 void print(const char *text);
 
 /* The blob, in flash: part.S includes the file. */
-extern const unsigned char part_blob[], part_blob_end[];
+extern const unsigned char part_blob[];
+extern const uint32_t part_blob_bytes;
 
 /* `meshsweep build` prints how many entries suffice: 25 for this part. */
 static msw_scratch_entry scratch[25];
@@ -26,7 +27,7 @@ static int must_stop(const float tip[3], float clearance)
 
 int main(void)
 {
-    int32_t error = msw_open(&part, part_blob, (size_t)(part_blob_end - part_blob));
+    int32_t error = msw_open(&part, part_blob, part_blob_bytes);
     if (error != MSW_OK || msw_scratch_entries(&part) > 25) {
         print(msw_strerror(error));
         return 1;

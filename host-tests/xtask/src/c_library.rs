@@ -54,7 +54,11 @@ impl CTools {
     /// it is started.
     pub fn cppcheck(&self) -> Command {
         let mut command = self.command("cppcheck");
-        command.current_dir(self.toolbox.path("usr/share/cppcheck/cfg"));
+        let folders = self.toolbox.libraries();
+        let mut folders = folders.into_iter().map(|folder| folder.join("cppcheck/cfg"));
+        if let Some(folder) = folders.find(|folder| folder.is_dir()) {
+            command.current_dir(folder);
+        }
         command
     }
 

@@ -35,11 +35,18 @@ const PROGRAMS: [(&str, &[&str]); 5] = [
 /// Folders and files of the interface that an archive has.
 const PACKED: [&str; 6] = ["include", "examples", "cmake", "zephyr", "CMakeLists.txt", "README.md"];
 
-/// Writes them into `target/dist`, and prints what a program takes of them.
-pub fn run(steps: &mut Steps, tools: &Tools) {
+/// Writes those of the named targets, or all, into `target/dist`, and prints what a program takes of
+/// them.
+pub fn run(steps: &mut Steps, tools: &Tools, wanted: &[&str]) {
     let Some(c) = steps.run("setup: arm-none-eabi-gcc, cppcheck", CTools::find) else { return };
     let mut rows = Vec::new();
-    for target in TARGETS {
+    if let Some(unknown) = wanted.iter().find(|target| !TARGETS.contains(target)) {
+        let known = TARGETS.join(", ");
+        steps.run("targets", || Err::<(), _>(format!("no target `{unknown}`; there are {known}")));
+        return;
+    }
+    for target in TARGETS.into_iter().filter(|target| wanted.is_empty() || wanted.contains(target))
+    {
         rows.extend(steps.run(target, || archive(tools, &c, target)).into_iter().flatten());
     }
     let names: Vec<&str> = PROGRAMS.iter().map(|(name, _)| *name).collect();

@@ -17,7 +17,7 @@ cargo xtask setup                   makes sure of the cross targets, of QEMU and
 cargo xtask test                    setup, then everything that has to hold
 cargo xtask firmware                only the firmware: bits, panics, sizes, instructions
 cargo xtask c                       only the C interface: its programs here and in QEMU
-cargo xtask dist                    static libraries for C, an archive a target, in target/dist
+cargo xtask dist [TARGET...]        static libraries for C, an archive a target, in target/dist
 cargo xtask processors              the committed bits on i686, AArch64, and with all vectors here
 cargo xtask fixtures                writes fixtures/ anew
 cargo xtask picture                 writes fixtures/part.svg anew, the picture of README.md
@@ -83,9 +83,9 @@ fn main() -> ExitCode {
                 c_checks::run(&mut steps, &tools);
             }
         }
-        ["dist"] => {
+        ["dist", targets @ ..] => {
             if let Some(tools) = firmware::setup(&mut steps) {
-                dist::run(&mut steps, &tools);
+                dist::run(&mut steps, &tools, targets);
             }
         }
         ["processors"] => processors::run(&mut steps),

@@ -11,17 +11,35 @@ void reset(void);
 void stop(void);
 
 /* A call of the debugger: its number and its argument. */
-static void semihosting(uint32_t number, const void *argument)
+static uintptr_t semihosting(uint32_t number, const void *argument)
 {
-    register uint32_t r0 __asm__("r0") = number;
+    register uintptr_t r0 __asm__("r0") = number;
     register const void *r1 __asm__("r1") = argument;
     __asm__ volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+    return r0;
+}
+
+static void write_text(const char *text)
+{
+    static uintptr_t console;
+    uintptr_t length = 0;
+    while (text[length] != 0) {
+        length++;
+    }
+    if (console == 0) {
+        /* SYS_OPEN of the console, for writing. */
+        const uintptr_t open[3] = {(uintptr_t) ":tt", 4, 3};
+        console = semihosting(0x01, open);
+    }
+    /* SYS_WRITE. */
+    const uintptr_t block[3] = {console, (uintptr_t)text, length};
+    semihosting(0x05, block);
 }
 
 void print(const char *text)
 {
-    semihosting(0x04, text); /* SYS_WRITE0 */
-    semihosting(0x04, "\n");
+    write_text(text);
+    write_text("\n");
 }
 
 static void leave(int status)
