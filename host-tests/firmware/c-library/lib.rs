@@ -1,4 +1,4 @@
-//! The functions of `meshsweep-c`, and a panic handler that nothing reaches.
+//! The functions of `meshsweep-c`, and a panic handler that none of them reaches.
 #![no_std]
 
 pub use meshsweep_c::*;
@@ -12,4 +12,10 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
     }
     // SAFETY: never linked, so never called.
     unsafe { meshsweep_core_panics_here() }
+}
+
+/// Can panic, and is dropped as no function of the header. It shows that a panic leaves the name.
+#[unsafe(no_mangle)]
+pub extern "C" fn can_panic(index: usize) -> u8 {
+    [1, 2, 3][index]
 }

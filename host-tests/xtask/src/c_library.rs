@@ -24,6 +24,9 @@ const WANTED: Wanted = Wanted {
 /// This machine, as a target.
 pub const HOST: &str = "x86_64-unknown-linux-gnu";
 
+/// What the panic handler of `c-library` calls and nobody defines.
+const PANIC: &str = "meshsweep_core_panics_here";
+
 /// What a program on a machine with an operating system has anyway.
 const OF_THE_HOST: [&str; 5] = ["memcpy", "memmove", "memset", "memcmp", "bcmp"];
 
@@ -120,6 +123,12 @@ pub fn build(
     std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let (object, library) = (folder.join("meshsweep.o"), folder.join("libmeshsweep.a"));
 
+    // `can_panic` leaves the name there, or its absence from the object proves nothing.
+    let before = process::capture(tools.binutil(target, "nm").arg("--undefined-only").arg(&made))?;
+    if !before.contains(PANIC) {
+        return Err(format!("{target}: a panic does not leave `{PANIC}` in rustc's library"));
+    }
+
     let functions = functions()?;
     let mut ld = tools.linker(target);
     ld.args(["-r", "--gc-sections"]);
@@ -164,7 +173,7 @@ fn check_symbols(
     if defined != functions {
         return Err(format!("{target}: the library defines {defined:?}, the header {functions:?}"));
     }
-    if undefined.contains(&"meshsweep_core_panics_here") {
+    if undefined.contains(&PANIC) {
         return Err(format!("{target}: a question can panic"));
     }
     undefined.retain(|name| target != HOST || !OF_THE_HOST.contains(name));
