@@ -137,7 +137,9 @@ pub fn build(
     }
     process::capture(ld.arg(&made).arg("-o").arg(&object))?;
     let mut objcopy = tools.binutil(target, "objcopy");
-    objcopy.args(["--wildcard", "--keep-global-symbol=msw_*", "--strip-debug"]);
+    objcopy.args(["--wildcard", "--keep-global-symbol=msw_*"]);
+    // Also drops names that only dropped functions use: the linker leaves these in the table.
+    objcopy.arg("--strip-unneeded");
     if target != HOST {
         // It would let GNU ld warn of the user's files, which have none.
         objcopy.args(["--remove-section", ".note.GNU-stack"]);

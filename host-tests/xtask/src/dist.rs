@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::c_library::{self, CTools, HOST};
-use crate::firmware::Tools;
+use crate::cross::Cross;
 use crate::images::Profile;
 use crate::process;
 use crate::steps::Steps;
@@ -37,7 +37,8 @@ const PACKED: [&str; 6] = ["include", "examples", "cmake", "zephyr", "CMakeLists
 
 /// Writes those of the named targets, or all, into `target/dist`, and prints what a program takes of
 /// them.
-pub fn run(steps: &mut Steps, tools: &Tools, wanted: &[&str]) {
+pub fn run(steps: &mut Steps, wanted: &[&str]) {
+    let Some(cross) = steps.run("setup: std for the boards", Cross::find) else { return };
     let Some(c) = steps.run("setup: arm-none-eabi-gcc, cppcheck", CTools::find) else { return };
     let mut rows = Vec::new();
     if let Some(unknown) = wanted.iter().find(|target| !TARGETS.contains(target)) {
@@ -47,7 +48,7 @@ pub fn run(steps: &mut Steps, tools: &Tools, wanted: &[&str]) {
     }
     for target in TARGETS.into_iter().filter(|target| wanted.is_empty() || wanted.contains(target))
     {
-        rows.extend(steps.run(target, || archive(tools, &c, target)).into_iter().flatten());
+        rows.extend(steps.run(target, || archive(&cross, &c, target)).into_iter().flatten());
     }
     let names: Vec<&str> = PROGRAMS.iter().map(|(name, _)| *name).collect();
     say!("\nbytes of code and constants of a program that calls nothing else");
@@ -57,8 +58,8 @@ pub fn run(steps: &mut Steps, tools: &Tools, wanted: &[&str]) {
     }
 }
 
-fn archive(tools: &Tools, c: &CTools, target: &str) -> Result<Vec<Vec<String>>, String> {
-    tools.cross.add(target)?;
+fn archive(cross: &Cross, c: &CTools, target: &str) -> Result<Vec<Vec<String>>, String> {
+    cross.add(target)?;
     let name = format!("meshsweep-c-{}-{target}", env!("CARGO_PKG_VERSION"));
     let dist = workspace::target().join("dist");
     let folder = dist.join(&name);
@@ -68,7 +69,7 @@ fn archive(tools: &Tools, c: &CTools, target: &str) -> Result<Vec<Vec<String>>, 
     // For a workstation size does not matter.
     let profiles = if target == HOST { &[Profile::Release][..] } else { &Profile::ALL };
     for &profile in profiles {
-        let library = c_library::build(&tools.cross, c, target, profile)?;
+        let library = c_library::build(cross, c, target, profile)?;
         let (file, level) = match profile {
             Profile::Release => ("libmeshsweep.a", "3"),
             Profile::Small => ("libmeshsweep_small.a", "s"),

@@ -83,11 +83,7 @@ fn main() -> ExitCode {
                 c_checks::run(&mut steps, &tools);
             }
         }
-        ["dist", targets @ ..] => {
-            if let Some(tools) = firmware::setup(&mut steps) {
-                dist::run(&mut steps, &tools, targets);
-            }
-        }
+        ["dist", targets @ ..] => dist::run(&mut steps, targets),
         ["processors"] => processors::run(&mut steps),
         [word @ ("fixtures" | "picture")] => {
             steps.run(word, || host::run(&[*word]).map(|text| say!("{text}")));
