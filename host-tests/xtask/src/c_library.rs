@@ -141,8 +141,11 @@ pub fn build(
     // Also drops names that only dropped functions use: the linker leaves these in the table.
     objcopy.arg("--strip-unneeded");
     if target != HOST {
-        // It would let GNU ld warn of the user's files, which have none.
-        objcopy.args(["--remove-section", ".note.GNU-stack"]);
+        // The first would let GNU ld warn of the user's files, which have none. The second would
+        // keep all functions, as it names them; nothing unwinds.
+        for section in [".note.GNU-stack", ".eh_frame", ".llvmbc", ".llvmcmd"] {
+            objcopy.args(["--remove-section", section]);
+        }
     }
     process::capture(objcopy.arg(&object))?;
     // `ar` adds to what is there.

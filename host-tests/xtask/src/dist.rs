@@ -76,8 +76,9 @@ fn archive(cross: &Cross, c: &CTools, target: &str) -> Result<Vec<Vec<String>>, 
         };
         if target == HOST {
             c_checks::programs_on_host(&library, &host::run(&["c-answers"])?)?;
+        } else {
+            rows.push(row(c, target, level, &library)?);
         }
-        rows.push(row(c, target, level, &library)?);
         copy(&library, &folder.join("lib").join(file))?;
     }
     for part in PACKED {
