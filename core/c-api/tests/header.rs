@@ -100,13 +100,13 @@ fn constants() -> String {
     ] {
         holds(&mut text, &format!("MSW_{name}"), code);
     }
-    for (code, name) in ["BOTH", "FRONT", "BACK"].into_iter().enumerate() {
-        let wanted = [Facing::Both, Facing::Front, Facing::Back][code];
-        assert!(facing(code as i32) == Ok(wanted));
+    let facings = [("BOTH", Facing::Both), ("FRONT", Facing::Front), ("BACK", Facing::Back)];
+    for (code, (name, wanted)) in (0..).zip(facings) {
+        assert!(facing(code) == Ok(wanted));
         holds(&mut text, &format!("MSW_FACING_{name}"), code);
     }
-    for (code, name) in ["EVERYWHERE", "BALL", "BOX", "SEGMENT", "EYE"].into_iter().enumerate() {
-        let focus = FocusC { kind: code as i32, ..FocusC::EVERYWHERE }.focus();
+    for (code, name) in (0..).zip(["EVERYWHERE", "BALL", "BOX", "SEGMENT", "EYE"]) {
+        let focus = FocusC { kind: code, ..FocusC::EVERYWHERE }.focus();
         assert!(matches!(
             (name, focus),
             ("EVERYWHERE", Ok(Focus::Everywhere))
