@@ -1,6 +1,7 @@
 //! Oracles, generators and corrupters that the tests, the laboratory and the fuzz targets share.
 
 pub mod blobs;
+pub mod c_answers;
 pub mod corrupt;
 pub mod counted;
 pub mod fuzz_targets;

@@ -43,4 +43,4 @@ pub use moved_hull::{MovedHull, MovedVertex};
 pub use outer_hits::{OuterHits, Search};
 pub use overlap::TriangleOverlap;
 pub use refine::{Change, Refinement};
-pub use refined_hull::RefinedHull;
+pub use refined_hull::{ErasedHull, RefinedHull};

@@ -11,7 +11,7 @@
 //! falls again when there is room.
 
 use super::focus::{Focus, FocusQuery};
-use super::refined_hull::{Refined, RefinedHull, erased, live_faces};
+use super::refined_hull::{ErasedHull, Refined, RefinedHull, erased, live_faces};
 use crate::hull::format::{Hull, SplitIdx, VertIdx};
 use crate::num::up_to_f32;
 use crate::query::QueryError;
@@ -141,6 +141,22 @@ impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {
         changes: &mut [Change],
     ) -> Result<Refinement, QueryError> {
         update(erased(&mut self.state), hull, focus, error, changes)
+    }
+}
+
+impl<'t> ErasedHull<'t> {
+    /// As [`RefinedHull::update`].
+    ///
+    /// # Errors
+    /// Those of [`RefinedHull::update`].
+    pub fn update(
+        &mut self,
+        hull: &Hull<'t>,
+        focus: &Focus,
+        error: f32,
+        changes: &mut [Change],
+    ) -> Result<Refinement, QueryError> {
+        update(&mut self.state, hull, focus, error, changes)
     }
 }
 

@@ -85,6 +85,23 @@ impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {
     }
 }
 
+/// A [`RefinedHull`] in memory whose length is known at run time: it ends with as many slots of
+/// sixteen bytes as its pointer says. A value whose bytes are all 0 is the base hull. For the C
+/// interface, which makes it of the caller's memory.
+#[derive(Debug)]
+#[repr(transparent)]
+pub struct ErasedHull<'t> {
+    bytes: PhantomData<&'t [u8]>,
+    pub(crate) state: Refined,
+}
+
+impl<'t> ErasedHull<'t> {
+    /// As [`RefinedHull::faces`].
+    pub fn faces(&self, hull: &Hull<'t>) -> impl Iterator<Item = HullFace> {
+        live_faces(*hull, self.state.is_of(hull).then_some(&self.state.splits))
+    }
+}
+
 /// Triangles of a hull after the splits of a set, or of the base hull.
 pub(crate) fn live_faces(
     hull: Hull<'_>,

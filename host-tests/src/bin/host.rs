@@ -4,6 +4,7 @@
 //! host fixtures           writes fixtures/ anew
 //! host picture            writes fixtures/part.svg
 //! host blobs FOLDER       writes the firmware's blobs, each beside this machine's answers
+//! host c-answers          prints the lines that c-answers/answers.c has to print
 //! host place FOLDER QUESTION...
 //!                         writes questions for `counted`, which a simulator runs: 0.bin, 1.bin ...
 //! host lay QUESTION N FILE
@@ -16,7 +17,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use meshsweep_host_tests::{blobs, counted, golden, picture};
+use meshsweep_host_tests::{blobs, c_answers, counted, golden, picture};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -28,6 +29,7 @@ fn main() -> ExitCode {
             std::fs::write(fixtures.join("part.svg"), svg).map_err(|error| error.to_string())
         }),
         ["blobs", folder] => blobs::write(Path::new(folder)),
+        ["c-answers"] => c_answers::of_fixtures(&fixtures).map(|lines| print!("{lines}")),
         ["place", folder, questions @ ..] => {
             counted::place(&fixtures, Path::new(folder), questions)
         }
@@ -39,11 +41,9 @@ fn main() -> ExitCode {
         ["fit", folder, others @ ..] => {
             counted::fit(&fixtures, Path::new(folder), others).map(|lines| print!("{lines}"))
         }
-        _ => Err(
-            "host fixtures | host picture | host blobs FOLDER | host place FOLDER QUESTION... | \
-             host lay QUESTION N FILE | host fit FOLDER MESH..."
-                .to_owned(),
-        ),
+        _ => Err("host fixtures | host picture | host blobs FOLDER | host c-answers | \
+             host place FOLDER QUESTION... | host lay QUESTION N FILE | host fit FOLDER MESH..."
+            .to_owned()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

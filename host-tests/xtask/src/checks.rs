@@ -14,7 +14,7 @@ use crate::workspace;
 pub fn run(steps: &mut Steps) {
     steps.run("formatting", || process::run(&mut cargo(&["fmt", "--all", "--check"])));
     steps.run("formatting of the firmware", || {
-        process::run(cargo(&["fmt", "--check"]).current_dir(workspace::firmware()))
+        process::run(cargo(&["fmt", "--all", "--check"]).current_dir(workspace::firmware()))
     });
     steps.run("tests", || process::run(&mut cargo(&["test", "--workspace", "--no-fail-fast"])));
     steps.run("documentation", || {

@@ -88,6 +88,15 @@ impl Cross {
         Ok(Self::Debian { linker: linker(&rust)?, rust })
     }
 
+    /// Makes sure of std for a target that is no board's. Debian's compiler builds it.
+    pub fn add(&self, target: &str) -> Result<(), String> {
+        if matches!(self, Self::Debian { .. }) || has_std(&sysroot()?, target) {
+            return Ok(());
+        }
+        process::capture_within(Command::new("rustup").args(["target", "add", target]), LIMIT)
+            .map(drop)
+    }
+
     /// `cargo SUBCOMMAND --target TARGET...`, at home in the firmware's workspace.
     #[must_use]
     pub fn cargo(&self, subcommand: &str, targets: &[&str]) -> Command {

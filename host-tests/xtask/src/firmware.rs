@@ -17,8 +17,8 @@ use crate::{blobs, elf, proof, tables};
 /// What the firmware's part needs beside cargo.
 #[derive(Clone, Debug)]
 pub struct Tools {
-    cross: Cross,
-    qemu: Qemu,
+    pub(crate) cross: Cross,
+    pub(crate) qemu: Qemu,
 }
 
 /// Makes sure of the tools.

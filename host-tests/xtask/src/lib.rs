@@ -5,6 +5,8 @@
 //! host (the program of host-tests: blobs, expected answers, fixtures, counted questions)
 //! processors (the committed answers on i686, AArch64, with vectors) ─ toolbox
 //! report ─── chromium (the page of `meshsweep trade --report`) ─ toolbox
+//! c_checks (C programs) ┐
+//! dist (archives) ──────┴ c_library (one object that defines msw_*) ─ toolbox, cross
 //! count ──── valgrind (callgrind) on host ─┐
 //!                                          ├─ tables (those of the documents)
 //! firmware ─┬ images ─ cross ───────┬─ toolbox (Debian packages, unpacked aside)
@@ -19,11 +21,14 @@ pub mod say;
 
 pub mod blobs;
 pub mod boards;
+pub mod c_checks;
+pub mod c_library;
 pub mod checks;
 pub mod chromium;
 pub mod cost;
 pub mod count;
 pub mod cross;
+pub mod dist;
 pub mod elf;
 pub mod firmware;
 pub mod fit;

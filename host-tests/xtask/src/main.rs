@@ -8,12 +8,16 @@ use meshsweep_xtask::firmware::Scope;
 use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::tables::Facts;
 use meshsweep_xtask::valgrind::Valgrind;
-use meshsweep_xtask::{checks, count, firmware, fit, host, processors, report, say, tables};
+use meshsweep_xtask::{
+    c_checks, checks, count, dist, firmware, fit, host, processors, report, say, tables,
+};
 
 const USAGE: &str = "\
 cargo xtask setup                   makes sure of the cross targets, of QEMU and of valgrind
 cargo xtask test                    setup, then everything that has to hold
 cargo xtask firmware                only the firmware: bits, panics, sizes, instructions
+cargo xtask c                       only the C interface: its programs here and in QEMU
+cargo xtask dist [TARGET...]        static libraries for C, an archive a target, in target/dist
 cargo xtask processors              the committed bits on i686, AArch64, and with all vectors here
 cargo xtask fixtures                writes fixtures/ anew
 cargo xtask picture                 writes fixtures/part.svg anew, the picture of README.md
@@ -54,6 +58,9 @@ fn main() -> ExitCode {
                     if let Some(counts) = &counts {
                         count::check_lanes(&mut steps, counts);
                     }
+                    if let Some(tools) = &tools {
+                        c_checks::run(&mut steps, tools);
+                    }
                     let mut rows = Vec::new();
                     if let (Some(tools), Some(images)) = (&tools, images) {
                         rows = firmware::ask(&mut steps, tools, &images, Scope::Compared);
@@ -72,6 +79,12 @@ fn main() -> ExitCode {
                 firmware::run(&mut steps, &tools);
             }
         }
+        ["c"] => {
+            if let Some(tools) = firmware::setup(&mut steps) {
+                c_checks::run(&mut steps, &tools);
+            }
+        }
+        ["dist", targets @ ..] => dist::run(&mut steps, targets),
         ["processors"] => processors::run(&mut steps),
         [word @ ("fixtures" | "picture")] => {
             steps.run(word, || host::run(&[*word]).map(|text| say!("{text}")));

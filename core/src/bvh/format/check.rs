@@ -157,10 +157,12 @@ impl<'a> Bvh<'a> {
             return wrong("more tree records than a blob can address");
         }
         let [x, y, z] = h.grid_origin;
-        if !is_within(self.scale_exponent, -180, 180)
-            || !is_within(h.grid_exponent, -60, 0)
-            || !(is_origin(x) && is_origin(y) && is_origin(z))
-        {
+        let in_range = is_within(self.scale_exponent, -180, 180)
+            && is_within(h.grid_exponent, -60, 0)
+            && is_origin(x)
+            && is_origin(y)
+            && is_origin(z);
+        if !in_range {
             return wrong("tree grid out of range");
         }
         if !(h.surface_error >= 0.0

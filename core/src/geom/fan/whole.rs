@@ -199,7 +199,7 @@ pub fn is_certain_corner(p: &WholePoint, vertex: Whole, to_others: [Whole; 2]) -
     let size = |[x, y, z]: Whole| x.abs() + y.abs() + z.abs();
     let [one, other] = to_others;
     let edges = 2 * (size(one) + size(other));
-    let room = edges * (3 + ((size(way) >> FRACTION_BITS) + edges >> 17));
+    let room = edges * (3 + (((size(way) >> FRACTION_BITS) + edges) >> 17));
     let along = |edge: Whole| {
         way.into_iter().zip(edge).fold(0, |sum, (x, y)| sum + i64::from(x) * i64::from(y))
     };

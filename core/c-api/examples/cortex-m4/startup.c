@@ -1,0 +1,78 @@
+/* Start-up of a Cortex-M4F, and output to a debugger or to QEMU (semihosting). Nothing of a C
+ * library is needed. */
+
+#include <stdint.h>
+
+extern uint32_t stack_top[], data_begin[], data_end[], data_in_flash[], bss_begin[], bss_end[];
+
+int main(void);
+void print(const char *text);
+void reset(void);
+void stop(void);
+
+/* A call of the debugger: its number and its argument. */
+static uintptr_t semihosting(uint32_t number, const void *argument)
+{
+    register uintptr_t r0 __asm__("r0") = number;
+    register const void *r1 __asm__("r1") = argument;
+    __asm__ volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+    return r0;
+}
+
+static void write_text(const char *text)
+{
+    static uintptr_t console;
+    uintptr_t length = 0;
+    while (text[length] != 0) {
+        length++;
+    }
+    if (console == 0) {
+        /* SYS_OPEN of the console, for writing. */
+        const uintptr_t open[3] = {(uintptr_t) ":tt", 4, 3};
+        console = semihosting(0x01, open);
+    }
+    /* SYS_WRITE. */
+    const uintptr_t block[3] = {console, (uintptr_t)text, length};
+    semihosting(0x05, block);
+}
+
+void print(const char *text)
+{
+    write_text(text);
+    write_text("\n");
+}
+
+static void leave(int status)
+{
+    /* SYS_EXIT_EXTENDED with ADP_Stopped_ApplicationExit. */
+    const uint32_t block[2] = {0x20026, (uint32_t)status};
+    semihosting(0x20, block);
+    for (;;) {
+    }
+}
+
+void stop(void)
+{
+    leave(2);
+}
+
+void reset(void)
+{
+    const uint32_t *from = data_in_flash;
+    for (uint32_t *to = data_begin; to != data_end; to++) {
+        *to = *from++;
+    }
+    for (uint32_t *to = bss_begin; to != bss_end; to++) {
+        *to = 0;
+    }
+    /* CPACR: the floating-point unit, which the library's hard-float code uses. */
+    *(volatile uint32_t *)0xE000ED88 |= 0xFu << 20;
+    __asm__ volatile("dsb\n\tisb");
+    leave(main());
+}
+
+/* The processor reads the stack and the entry from here; every fault stops. */
+__attribute__((section(".vectors"), used)) static const uintptr_t vectors[16] = {
+    (uintptr_t)stack_top, (uintptr_t)reset, (uintptr_t)stop, (uintptr_t)stop,
+    (uintptr_t)stop,      (uintptr_t)stop,  (uintptr_t)stop,
+};

@@ -1,0 +1,55 @@
+/* How far is the tip of a probe from a part? The same file runs on this machine and on a Cortex-M4F.
+ *
+ * The part is groove.msw: a block of 40 by 40 by 30 with a slot, as `meshsweep build` stores it.
+ */
+
+#include "meshsweep.h"
+
+/* Prints a line. host.c has one, cortex-m4/startup.c another. */
+void print(const char *text);
+
+/* The blob, in flash: part.S includes the file. */
+extern const unsigned char part_blob[];
+extern const uint32_t part_blob_bytes;
+
+/* `meshsweep build` prints how many entries suffice: 25 for this part. */
+static msw_scratch_entry scratch[25];
+static msw_model part;
+
+/* Whether the probe has to stop. Anything but a proof that the part is farther says so. */
+static int must_stop(const float tip[3], float clearance)
+{
+    const msw_budget bounded = {.steps = 64}; /* so many nodes at most: a bounded time */
+    msw_within_answer near;
+    int32_t error = msw_within(&part, tip, clearance, &bounded, scratch, 25, &near);
+    return error != MSW_OK || !msw_is_clear(near.verdict);
+}
+
+int main(void)
+{
+    int32_t error = msw_open(&part, part_blob, part_blob_bytes);
+    if (error != MSW_OK || msw_scratch_entries(&part) > 25) {
+        print(msw_strerror(error));
+        return 1;
+    }
+
+    /* On the way down to the slot. */
+    float tip[3] = {20.0f, 20.0f, 60.0f};
+    while (!must_stop(tip, 2.0f) && tip[2] > 0.0f) {
+        tip[2] -= 0.25f;
+    }
+
+    msw_closest near;
+    error = msw_closest_point(&part, tip, NULL, scratch, 25, &near);
+    if (error != MSW_OK) {
+        print(msw_strerror(error));
+        return 1;
+    }
+    /* Proved: the part is nearer than 2.25, and was not within 2 one step before. */
+    if (near.distance.lower > 2.0f || near.distance.upper < 1.5f) {
+        print("the probe stopped elsewhere");
+        return 1;
+    }
+    print("the probe stopped 2 above the part");
+    return 0;
+}

@@ -1,0 +1,436 @@
+/* meshsweep: geometric questions about triangle meshes, answered where there is no heap.
+ *
+ * A host tool (`meshsweep build part.stl -o part.msw`) turns a mesh into a blob. These functions
+ * read the blob where it lies, in flash or in a mapped file. They allocate nothing, they do not
+ * recurse, they keep no state, and they call nothing outside of the library. Any number of threads
+ * may ask at once, each with its own scratch memory.
+ *
+ * Units and frame. Coordinates and lengths are those of the mesh file, in the mesh's frame.
+ *
+ * Answers. A function returns 0 (MSW_OK) or a negative MSW_ERROR_..., which msw_strerror explains.
+ * After an error the answer holds zeros, if its pointer is valid. A distance is an interval that
+ * contains the true distance to the input mesh: lower and upper are rounded outwards. Zeros always
+ * read as "nothing is proved": MSW_UNDECIDED, or a distance of 0. For collision avoidance treat
+ * MSW_UNDECIDED as MSW_YES; msw_is_clear does that.
+ *
+ * Memory. All of it is the caller's. Memory that a call writes (scratch, answers, models that are
+ * opened) overlaps no other argument. NULL and misaligned pointers are refused with an error. A
+ * count that is larger than its array cannot be noticed.
+ *
+ * Scratch. Working memory of a question; its contents mean nothing between questions.
+ * msw_scratch_entries tells how many entries are always enough. With fewer, at least one, the
+ * search may end early: the answer still holds and says MSW_ENDED_SCRATCH.
+ *
+ * Budget. NULL, or a structure of zeros: search until the answer is exact. A step opens a node of
+ * the hierarchy. A limit of steps bounds the time of a question, and the answer still holds.
+ *
+ * The same blob and question give the same bits on x86-64, Cortex-M and RISC-V.
+ */
+#ifndef MESHSWEEP_H
+#define MESHSWEEP_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The version of this header: major << 16 | minor << 8 | patch. Compare it with msw_version(). */
+#define MSW_VERSION 0x000100u
+
+/* ---- Constants. Answers hold them as int32_t, so that their size depends on no option. ---- */
+
+/* What functions return. */
+enum {
+    MSW_OK = 0,
+    MSW_ERROR_NULL = -1,            /* a pointer is NULL */
+    MSW_ERROR_ALIGNMENT = -2,       /* a pointer is not aligned for its type */
+    MSW_ERROR_NOT_OPENED = -3,      /* the model was not opened, or its open function failed */
+    MSW_ERROR_COUNT = -4,           /* a count is larger than memory or a limit */
+    MSW_ERROR_VALUE = -5,           /* a facing or kind of focus is no constant of this header */
+    MSW_ERROR_MEMORY = -6,          /* a refined hull's memory, see msw_refine */
+    MSW_ERROR_NO_SUCH_HULL = -7,    /* the blob has no tight hull of this number */
+    /* Of the open functions: */
+    MSW_ERROR_TRUNCATED = -20,      /* the blob is cut short */
+    MSW_ERROR_TRAILING_BYTES = -21, /* more bytes than the blob's header announces */
+    MSW_ERROR_NOT_A_BLOB = -22,     /* other bytes */
+    MSW_ERROR_VERSION = -23,        /* another major version of the format */
+    MSW_ERROR_CRC = -24,            /* the blob is damaged */
+    MSW_ERROR_MALFORMED = -25,      /* the blob's bytes contradict each other */
+    MSW_ERROR_MISSING_SECTION = -26,/* the blob was built without this structure */
+    /* Of questions: */
+    MSW_ERROR_NOT_FINITE = -40,     /* a coordinate is NaN or infinite */
+    MSW_ERROR_TOLERANCE = -41,      /* a tolerance, distance or radius is negative, NaN, infinite */
+    MSW_ERROR_OUT_OF_DOMAIN = -42,  /* a point or end is too far away: clip segments first */
+    MSW_ERROR_POSE = -43,           /* a pose is all zeros, or far from a rotation, or too large */
+    MSW_ERROR_NO_SCRATCH = -44,     /* the scratch memory has no entries */
+    MSW_ERROR_NOT_SERVED = -45,     /* the blob lacks the sections of this question: build --for */
+    MSW_ERROR_INTERNAL = -46        /* a fault of the library, or an overwritten blob */
+};
+
+/* Verdicts. MSW_YES and MSW_NO are proved. `!verdict` is not "no": compare, or use msw_is_clear. */
+enum { MSW_UNDECIDED = 0, MSW_YES = 1, MSW_NO = 2 };
+
+/* Sides of a closed mesh. Inside and outside are proved. */
+enum { MSW_SIDE_UNDECIDED = 0, MSW_SIDE_INSIDE = 1, MSW_SIDE_OUTSIDE = 2 };
+
+/* Why a verdict or a side is undecided. */
+enum {
+    MSW_REASON_NOT_ASKED = 0,  /* zeros: no question was answered */
+    MSW_REASON_DECIDED = 1,    /* it is decided */
+    MSW_REASON_STEPS = 2,      /* the steps of the budget were used up */
+    MSW_REASON_SCRATCH = 3,    /* the scratch memory was too short */
+    MSW_REASON_RESOLUTION = 4, /* nearer than the stored precision and rounding can tell */
+    MSW_REASON_OPEN_MESH = 5,  /* no side: the mesh is not closed, or its winding inconsistent */
+    MSW_REASON_ON_SURFACE = 6, /* the point is too near to the surface for a side */
+    MSW_REASON_FEATURE = 7     /* the closest features disagree, or have no certain normal */
+};
+
+/* Why a search ended. The interval holds with every reason. */
+enum {
+    MSW_ENDED_NOT_ASKED = 0,  /* zeros: no question was answered */
+    MSW_ENDED_EXACT = 1,      /* complete: as narrow as the stored surface allows */
+    MSW_ENDED_TOLERANCE = 2,  /* the tolerance of the budget was met */
+    MSW_ENDED_STEPS = 3,      /* the steps of the budget were used up */
+    MSW_ENDED_SCRATCH = 4,    /* the scratch memory was too short */
+    MSW_ENDED_RESOLUTION = 5  /* stored precision or rounding leaves it undecided */
+};
+
+/* Which sides of triangles a segment hits. */
+enum { MSW_FACING_BOTH = 0, MSW_FACING_FRONT = 1, MSW_FACING_BACK = 2 };
+
+/* Where a hull is refined. */
+enum {
+    MSW_FOCUS_EVERYWHERE = 0, /* on the whole hull; no other field counts */
+    MSW_FOCUS_BALL = 1,       /* within `radius` of `a` */
+    MSW_FOCUS_BOX = 2,        /* in the box of the corners `a` and `b` */
+    MSW_FOCUS_SEGMENT = 3,    /* within `radius` of the segment from `a` to `b` */
+    MSW_FOCUS_EYE = 4         /* seen from `a` along `b`, see msw_focus */
+};
+
+#define MSW_NO_TRIANGLE UINT32_MAX /* in the place of a triangle's number: there is none */
+#define MSW_NO_MODEL UINT32_MAX    /* in the place of a model's index: there is none */
+#define MSW_FINEST UINT32_MAX      /* for msw_open_tight: the tightest hull */
+#define MSW_OVERLAP_ENTRIES 256    /* scratch entries that are always enough for msw_overlap */
+#define MSW_DISTANCE_ENTRIES 384   /* the same for msw_models_within */
+
+/* ---- Memory of the caller ---- */
+
+#if UINTPTR_MAX > 0xFFFFFFFFu
+#define MSW_MODEL_WORDS 32
+#define MSW_TIGHT_WORDS 40
+#define MSW_HULL_WORDS 48
+#else
+#define MSW_MODEL_WORDS 48
+#define MSW_TIGHT_WORDS 56
+#define MSW_HULL_WORDS 64
+#endif
+
+/* An opened box tree, an opened tight hull, an opened hull hierarchy. They point into the blob,
+ * which must stay where it is, unchanged, as long as they are used. Copies are as good. A storage
+ * of zeros is not opened, and every question about it is refused. */
+typedef struct { uintptr_t opaque[MSW_MODEL_WORDS]; } msw_model;
+typedef struct { uintptr_t opaque[MSW_TIGHT_WORDS]; } msw_tight;
+typedef struct { uintptr_t opaque[MSW_HULL_WORDS]; } msw_hull;
+
+/* Eight bytes of working memory. Need not be initialised. */
+typedef struct { uint32_t opaque[2]; } msw_scratch_entry;
+
+/* Sixteen bytes of a refined hull's memory, and how many hold a hull of so many splits. A hull of
+ * f faces needs (f - faces of the coarsest hull) / 2 splits. */
+typedef struct { uintptr_t opaque[16 / sizeof(uintptr_t)]; } msw_refined_entry;
+#define MSW_REFINED_ENTRIES(splits) ((splits) + 2)
+
+/* ---- Arguments ---- */
+
+/* When a question may end before its answer is exact. Tolerances are not negative. */
+typedef struct {
+    float relative; /* end when upper <= lower * (1 + relative) */
+    float absolute; /* end when upper - lower <= absolute */
+    uint32_t steps; /* end after so many nodes were opened; 0: no limit */
+} msw_budget;
+
+/* A motion: rotation * p + translation; each row of the matrix gives a coordinate. */
+typedef struct {
+    float rotation[3][3];
+    float translation[3];
+} msw_pose;
+
+/* A model at its place: from the model's frame to the world. A model may stand in several. */
+typedef struct {
+    const msw_model *model;
+    msw_pose pose;
+} msw_placed;
+
+/* Where msw_refine refines. Of an eye: `b` is the middle of the view, of any length; `cosine` that
+ * of half the cone's opening angle; `error_per_distance` the error that is allowed at distance 1.
+ */
+typedef struct {
+    int32_t kind; /* MSW_FOCUS_... */
+    float a[3];
+    float b[3];
+    float radius;
+    float cosine;
+    float error_per_distance;
+} msw_focus;
+
+/* ---- Answers ---- */
+
+/* The true value lies in lower ..= upper. */
+typedef struct {
+    float lower;
+    float upper;
+} msw_interval;
+
+/* The work of a question. The numbers are the same on every target: choose budgets on the host. */
+typedef struct {
+    uint32_t nodes;     /* boxes tested */
+    uint32_t triangles; /* triangles tested in float */
+    uint32_t exact;     /* triangles tested in double */
+    uint32_t splits;    /* nodes opened: the steps of a budget. Of hulls: splits */
+} msw_work;
+
+typedef struct {
+    msw_interval distance; /* to the input mesh, without sign */
+    float point[3];        /* of the surface, at most distance.upper away; rounded to float */
+    uint32_t triangle;     /* which holds `point`, by its number in the input file */
+    int32_t ended;         /* MSW_ENDED_... */
+    msw_work work;
+} msw_closest;
+
+typedef struct {
+    int32_t side;          /* MSW_SIDE_... */
+    int32_t reason;        /* MSW_REASON_... */
+    msw_interval distance; /* negative inside; if the side is undecided, from -upper to upper */
+    msw_closest closest;   /* the closest point; work and ended are those of the whole search */
+} msw_signed;
+
+typedef struct {
+    int32_t verdict;   /* whether the segment meets the mesh. MSW_NO: proved clear */
+    int32_t ended;     /* MSW_ENDED_... */
+    msw_interval t;    /* parameter of the first common point, 0 at a and 1 at b. MSW_NO: infinite.
+                        * No point before t.lower lies on the mesh, whatever the verdict */
+    float hit_t;       /* parameter of `point`; infinite if there is none */
+    float point[3];    /* the first hit found, on the stored surface. Proved with MSW_YES only */
+    uint32_t triangle; /* which holds `point`, or MSW_NO_TRIANGLE: no hit was found */
+    msw_work work;
+} msw_hit;
+
+typedef struct {
+    int32_t verdict;   /* MSW_NO: all of the mesh is farther. MSW_YES: a point of it is not */
+    int32_t reason;    /* MSW_REASON_... */
+    uint32_t triangle; /* with MSW_YES one that is not farther, else MSW_NO_TRIANGLE */
+    msw_work work;
+} msw_within_answer;
+
+typedef struct {
+    msw_interval distance; /* to the triangle */
+    float point[3];        /* of the triangle, at most distance.upper away but for its rounding */
+    uint32_t triangle;     /* its number in the input file */
+} msw_neighbor;
+
+typedef struct {
+    uint32_t stored;  /* neighbors that were written */
+    int32_t ended;    /* MSW_ENDED_EXACT: they are the nearest */
+    float rest_lower; /* no other triangle is nearer; infinite if there is no other */
+    msw_work work;
+} msw_nearest_answer;
+
+typedef struct {
+    int32_t verdict;       /* MSW_YES: the surfaces meet. MSW_NO: they have no common point */
+    int32_t reason;        /* MSW_REASON_... */
+    uint32_t triangles[2]; /* of both models, which meet or may meet, or MSW_NO_TRIANGLE */
+    msw_work work;         /* splits: pairs of nodes opened */
+} msw_overlap_answer;
+
+typedef struct {
+    int32_t verdict;    /* MSW_NO: all pairs are farther from each other. MSW_YES: one is not */
+    int32_t reason;     /* MSW_REASON_... */
+    uint32_t models[2]; /* the pair that is within, else the first undecided one, or MSW_NO_MODEL */
+    msw_work work;
+} msw_models_answer;
+
+typedef struct {
+    uint32_t is_complete; /* 1: every split that the focus needs is performed. 0: see error_left */
+    float error_left;     /* the largest error among needed splits that did not fit; rounded up */
+    uint32_t faces;       /* of the refined hull */
+    uint32_t performed;   /* splits performed by this call */
+    uint32_t undone;      /* splits undone by this call */
+} msw_refinement;
+
+typedef struct {
+    float corners[3][3]; /* counter-clockwise seen from outside */
+    float error;         /* its part of the surface is no farther from it; may be infinite */
+} msw_face;
+
+typedef struct {
+    uint32_t stored;  /* faces that were written */
+    uint32_t dropped; /* faces that did not fit */
+} msw_faces_answer;
+
+/* ---- The box tree: build --for closest,segment, which is the default ---- */
+
+/* Opens the box tree of a blob: `count` bytes, of any alignment.
+ *
+ * Checks every byte that the tree's questions read, so any bytes are safe: damaged ones give an
+ * error. The blob stays where it is, and `model` refers to it. After an error `model` is not
+ * opened. Cost: linear in the blob; once per start. No scratch. */
+int32_t msw_open(msw_model *model, const void *bytes, size_t count);
+
+/* How many scratch entries are always enough for a question about a point or a segment.
+ * `meshsweep build` prints the same number. 0 if `model` is NULL, misaligned or not opened. */
+uint32_t msw_scratch_entries(const msw_model *model);
+
+/* The closest point of the surface, with an interval that contains its distance.
+ *
+ * Of equidistant triangles the answer is the least in blob order. A point on the surface has
+ * distance.lower 0. Farther than a million model sizes the model's box gives the interval.
+ * Cost: five to fifteen nodes and three to twelve leaves on scanned parts. The worst case is the
+ * whole tree, at the centre of a sphere: set budget->steps where time is bounded. */
+int32_t msw_closest_point(const msw_model *model, const float point[3],
+                          const msw_budget *budget,
+                          msw_scratch_entry *scratch, size_t scratch_count,
+                          msw_closest *answer);
+
+/* The signed distance of a closed mesh: negative where the nearest surface has its back to the
+ * point. Of the budget only `steps` matters.
+ *
+ * The side is never wrong. It is undecided if the mesh is not closed and consistently wound, on the
+ * surface, next to walls thinner than the surface error, and next to slivers without a normal.
+ * Components that overlap are not united: the nearest surface decides.
+ * Cost: one to three times that of msw_closest_point, up to four times more next to edges. */
+int32_t msw_signed_distance(const msw_model *model, const float point[3],
+                            const msw_budget *budget,
+                            msw_scratch_entry *scratch, size_t scratch_count,
+                            msw_signed *answer);
+
+/* Whether the mesh is at most `distance` from `point`. Of the budget only `steps` matters.
+ *
+ * Distances are to the surface: deep inside a part nothing is near. A distance of 0 asks whether
+ * the point touches: the answer is MSW_NO or undecided, as rounding cannot prove a contact.
+ * Cost: less than that of the closest point. It ends at the first triangle that is near enough. */
+int32_t msw_within(const msw_model *model, const float point[3], float distance,
+                   const msw_budget *budget,
+                   msw_scratch_entry *scratch, size_t scratch_count,
+                   msw_within_answer *answer);
+
+/* The first common point of the segment from `a` to `b` and the surface. `facing` is one of
+ * MSW_FACING_...: back faces, or front faces, may be left out. Of the budget only `steps` matters.
+ *
+ * MSW_NO: no point of the segment lies on the mesh. MSW_YES: it meets the mesh, and t contains the
+ * parameter of the first common point. A segment in a triangle's plane, of no length, or through a
+ * triangle without area may hit, and is then undecided. MSW_ERROR_OUT_OF_DOMAIN: an end is farther
+ * than a million model sizes. Cost: two nodes and half a leaf on scanned parts; a segment along the
+ * surface visits all boxes that it touches. */
+int32_t msw_first_hit(const msw_model *model, const float a[3], const float b[3], int32_t facing,
+                      const msw_budget *budget,
+                      msw_scratch_entry *scratch, size_t scratch_count,
+                      msw_hit *answer);
+
+/* The `neighbor_count` triangles nearest to `point`, by rising distance, into `neighbors`. Of the
+ * budget only `steps` matters.
+ *
+ * Of two triangles whose intervals overlap, the farther one may come first. If the mesh has fewer
+ * triangles, all are written. After an error the contents of `neighbors` are undefined. No
+ * neighbors (NULL and 0) is no error: nothing is looked at.
+ * Cost: for few triangles that of the closest point, and log(neighbor_count) for each that enters.
+ */
+int32_t msw_nearest(const msw_model *model, const float point[3],
+                    msw_neighbor *neighbors, size_t neighbor_count,
+                    const msw_budget *budget,
+                    msw_scratch_entry *scratch, size_t scratch_count,
+                    msw_nearest_answer *answer);
+
+/* Whether the surface of `other`, moved by `pose` into the frame of `model`, meets the surface of
+ * `model`. NULL: `other` is where it is. Of the budget only `steps` matters: pairs of nodes.
+ *
+ * Both verdicts are proved. Surfaces that touch without passing through each other are undecided.
+ * Only surfaces count: one part may lie inside the other. Both models may be the same.
+ * MSW_OVERLAP_ENTRIES are always enough scratch. MSW_ERROR_POSE: an entry of the matrix is beyond
+ * 2, or all are 0. Cost: in proportion to the surface that is near the other model. */
+int32_t msw_overlap(const msw_model *model, const msw_model *other, const msw_pose *pose,
+                    const msw_budget *budget,
+                    msw_scratch_entry *scratch, size_t scratch_count,
+                    msw_overlap_answer *answer);
+
+/* Whether the surfaces of any two of a few dozen models are at most `distance` apart in the world.
+ * Of the budget only `steps` matters, of all pairs together.
+ *
+ * `skipped` lists pairs of indices, in any order, that are not asked about, such as neighbours that
+ * touch at a joint; NULL and 0 for none. Without pairs the verdict is MSW_NO. A distance of 0 is
+ * answered by MSW_NO or undecided. It ends at the first pair that certainly is within.
+ * MSW_DISTANCE_ENTRIES are always enough scratch. MSW_ERROR_POSE: a pose is far from a rotation.
+ * Cost: some hundred operations for each pair, and a search for each pair whose boxes are near. */
+int32_t msw_models_within(const msw_placed *models, size_t model_count, float distance,
+                          const uint32_t (*skipped)[2], size_t skipped_count,
+                          const msw_budget *budget,
+                          msw_scratch_entry *scratch, size_t scratch_count,
+                          msw_models_answer *answer);
+
+/* ---- Tight hulls: build --for tight. A few kilobytes for a part of any size ---- */
+
+/* Opens a tight hull of a blob: a closed surface of few faces that encloses the mesh. `index` 0 is
+ * the coarsest, MSW_FINEST the tightest. As msw_open in all else. */
+int32_t msw_open_tight(msw_tight *hull, const void *bytes, size_t count, uint32_t index);
+
+/* As msw_scratch_entries. */
+uint32_t msw_tight_scratch_entries(const msw_tight *hull);
+
+/* Whether the part inside the hull is at most `distance` from `point`.
+ *
+ * MSW_NO only outside the hull, so it holds for a solid part with its inside. Within the hull, and
+ * nearer to it than it is tight, the answer is MSW_YES or undecided. There is no triangle.
+ * Cost: that of msw_within about a mesh of as few faces, and inside the hull's box also that of its
+ * signed distance. */
+int32_t msw_tight_within(const msw_tight *hull, const float point[3], float distance,
+                         const msw_budget *budget,
+                         msw_scratch_entry *scratch, size_t scratch_count,
+                         msw_within_answer *answer);
+
+/* ---- The hull hierarchy: build --for hull. Nested meshes, refined where a scene needs it ---- */
+
+/* Opens the hull hierarchy of a blob. As msw_open. */
+int32_t msw_open_hull(msw_hull *hull, const void *bytes, size_t count);
+
+/* Refines a hull around `focus` (NULL: everywhere) until its faces there are no farther than
+ * `error` from their part of the surface, and coarsens it elsewhere.
+ *
+ * `refined` keeps the hull between calls: MSW_REFINED_ENTRIES(splits) entries, with the same count
+ * each time. Zeros are the coarsest hull: zero the memory before the first call, or to start anew.
+ * MSW_ERROR_MEMORY: another count than before, or fewer than two. With another `hull` it starts
+ * from that one's coarsest. Every state is a closed mesh that encloses the surface. If there are
+ * too few splits, those of the greatest need are performed, and error_left tells the rest.
+ * Cost: some hundred instructions for each vertex of the coarsest hull and each performed split,
+ * some thousand for each change. */
+int32_t msw_refine(const msw_hull *hull, msw_refined_entry *refined, size_t refined_count,
+                   const msw_focus *focus, float error,
+                   msw_refinement *answer);
+
+/* The faces of a refined hull. With another hull than the one that was refined, and of zeros, they
+ * are the coarsest hull's. `faces` may be NULL with a count of 0: `dropped` is then their number.
+ * Cost: linear in the coarsest hull and the performed splits. */
+int32_t msw_refined_faces(const msw_hull *hull, msw_refined_entry *refined, size_t refined_count,
+                          msw_face *faces, size_t face_count,
+                          msw_faces_answer *answer);
+
+/* ---- The library ---- */
+
+/* What a return value means, as English text that lives for ever. Any number is fine. */
+const char *msw_strerror(int32_t error);
+
+/* The version of the library, as MSW_VERSION. */
+uint32_t msw_version(void);
+
+/* The newest version of the blob format that it knows: major << 16 | minor. It opens blobs of the
+ * same major version. */
+uint32_t msw_format_version(void);
+
+/* Whether a verdict proves that there is no contact. 1 only for MSW_NO. */
+static inline int msw_is_clear(int32_t verdict) { return verdict == MSW_NO; }
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,277 @@
+//! Answers. Each field is as in `meshsweep.h`. All zeros is what a function leaves after an error,
+//! and reads as "nothing is proved": undecided, at distance 0.
+
+#![allow(missing_docs, reason = "meshsweep.h says it")]
+
+use meshsweep_core::{
+    ClosestPoint, Ended, FirstHit, Interval, KNearest, Neighbor, Overlap, Side, SignedDistance,
+    Undecided, Verdict, Within, Work,
+};
+
+/// `MSW_NO_TRIANGLE`.
+pub const NO_TRIANGLE: u32 = u32::MAX;
+/// `MSW_NO_MODEL`.
+pub const NO_MODEL: u32 = u32::MAX;
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct IntervalC {
+    pub lower: f32,
+    pub upper: f32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct WorkC {
+    pub nodes: u32,
+    pub triangles: u32,
+    pub exact: u32,
+    pub splits: u32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ClosestC {
+    pub distance: IntervalC,
+    pub point: [f32; 3],
+    pub triangle: u32,
+    pub ended: i32,
+    pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SignedC {
+    pub side: i32,
+    pub reason: i32,
+    pub distance: IntervalC,
+    pub closest: ClosestC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct HitC {
+    pub verdict: i32,
+    pub ended: i32,
+    pub t: IntervalC,
+    pub hit_t: f32,
+    pub point: [f32; 3],
+    pub triangle: u32,
+    pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct WithinC {
+    pub verdict: i32,
+    pub reason: i32,
+    pub triangle: u32,
+    pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NeighborC {
+    pub distance: IntervalC,
+    pub point: [f32; 3],
+    pub triangle: u32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NearestC {
+    pub stored: u32,
+    pub ended: i32,
+    pub rest_lower: f32,
+    pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OverlapC {
+    pub verdict: i32,
+    pub reason: i32,
+    pub triangles: [u32; 2],
+    pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ModelsC {
+    pub verdict: i32,
+    pub reason: i32,
+    pub models: [u32; 2],
+    pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RefinementC {
+    pub is_complete: u32,
+    pub error_left: f32,
+    pub faces: u32,
+    pub performed: u32,
+    pub undone: u32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FaceC {
+    pub corners: [[f32; 3]; 3],
+    pub error: f32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FacesC {
+    pub stored: u32,
+    pub dropped: u32,
+}
+
+impl From<Interval> for IntervalC {
+    fn from(Interval { lower, upper }: Interval) -> Self {
+        IntervalC { lower, upper }
+    }
+}
+
+impl From<Work> for WorkC {
+    fn from(Work { nodes, triangles, exact, splits, .. }: Work) -> Self {
+        WorkC { nodes, triangles, exact, splits }
+    }
+}
+
+impl WorkC {
+    /// The work of both.
+    pub fn and(self, other: WorkC) -> WorkC {
+        WorkC {
+            nodes: self.nodes.saturating_add(other.nodes),
+            triangles: self.triangles.saturating_add(other.triangles),
+            exact: self.exact.saturating_add(other.exact),
+            splits: self.splits.saturating_add(other.splits),
+        }
+    }
+}
+
+/// `MSW_ENDED_…`.
+pub fn ended(ended: Ended) -> i32 {
+    match ended {
+        Ended::Exact => 1,
+        Ended::Tolerance => 2,
+        Ended::Steps => 3,
+        Ended::Scratch => 4,
+        _ => 5,
+    }
+}
+
+/// `MSW_REASON_…`.
+pub fn reason(reason: Undecided) -> i32 {
+    match reason {
+        Undecided::Steps => 2,
+        Undecided::Scratch => 3,
+        Undecided::OpenMesh => 5,
+        Undecided::OnSurface => 6,
+        Undecided::Feature => 7,
+        _ => 4,
+    }
+}
+
+/// `MSW_REASON_DECIDED`.
+const DECIDED: i32 = 1;
+
+/// `MSW_UNDECIDED`, `MSW_YES` or `MSW_NO`, and the reason.
+pub fn verdict(verdict: Verdict) -> (i32, i32) {
+    match verdict {
+        Verdict::Yes => (1, DECIDED),
+        Verdict::No => (2, DECIDED),
+        Verdict::Undecided(why) => (0, reason(why)),
+        _ => (0, 0),
+    }
+}
+
+/// `MSW_SIDE_…`, and the reason.
+pub fn side(side: Side) -> (i32, i32) {
+    match side {
+        Side::Inside => (1, DECIDED),
+        Side::Outside => (2, DECIDED),
+        Side::Undecided(why) => (0, reason(why)),
+        _ => (0, 0),
+    }
+}
+
+impl From<ClosestPoint> for ClosestC {
+    fn from(found: ClosestPoint) -> Self {
+        ClosestC {
+            distance: found.distance.into(),
+            point: found.point,
+            triangle: found.triangle.unwrap_or(NO_TRIANGLE),
+            ended: ended(found.ended),
+            work: found.work.into(),
+        }
+    }
+}
+
+impl From<SignedDistance> for SignedC {
+    fn from(found: SignedDistance) -> Self {
+        let (side, reason) = side(found.side);
+        let (distance, closest) = (found.distance.into(), found.closest.into());
+        SignedC { side, reason, distance, closest }
+    }
+}
+
+impl From<FirstHit> for HitC {
+    fn from(found: FirstHit) -> Self {
+        // The verdict of meshsweep.h, which C would have to work out from infinities.
+        let verdict = match (found.is_clear(), found.hit, found.ended) {
+            (true, ..) => 2,
+            (false, Some(_), Ended::Exact) => 1,
+            _ => 0,
+        };
+        let hit = found.hit.unwrap_or(meshsweep_core::Hit::EMPTY);
+        HitC {
+            verdict,
+            ended: ended(found.ended),
+            t: found.t.into(),
+            hit_t: hit.t,
+            point: hit.point,
+            triangle: hit.triangle.unwrap_or(NO_TRIANGLE),
+            work: found.work.into(),
+        }
+    }
+}
+
+impl From<Within> for WithinC {
+    fn from(found: Within) -> Self {
+        let (verdict, reason) = verdict(found.verdict);
+        let triangle = found.triangle.unwrap_or(NO_TRIANGLE);
+        WithinC { verdict, reason, triangle, work: found.work.into() }
+    }
+}
+
+impl From<Neighbor> for NeighborC {
+    fn from(near: Neighbor) -> Self {
+        NeighborC {
+            distance: near.distance().into(),
+            point: near.point(),
+            triangle: near.triangle(),
+        }
+    }
+}
+
+impl From<KNearest> for NearestC {
+    fn from(found: KNearest) -> Self {
+        NearestC {
+            stored: found.stored as u32,
+            ended: ended(found.ended),
+            rest_lower: found.rest_lower,
+            work: found.work.into(),
+        }
+    }
+}
+
+impl From<Overlap> for OverlapC {
+    fn from(found: Overlap) -> Self {
+        let (verdict, reason) = verdict(found.verdict);
+        let triangles = found.triangles.unwrap_or([NO_TRIANGLE; 2]);
+        OverlapC { verdict, reason, triangles, work: found.work.into() }
+    }
+}

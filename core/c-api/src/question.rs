@@ -1,0 +1,108 @@
+//! Arguments that are structures. Each field is as in `meshsweep.h`.
+
+use meshsweep_core::{Budget, Facing, Focus, Pose};
+
+use crate::error::Error;
+use crate::memory::AnyBits;
+
+/// `msw_budget`: all zeros is exact.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "meshsweep.h says it")]
+pub struct BudgetC {
+    pub relative: f32,
+    pub absolute: f32,
+    /// 0: no limit.
+    pub steps: u32,
+}
+
+/// `msw_pose`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "meshsweep.h says it")]
+pub struct PoseC {
+    pub rotation: [[f32; 3]; 3],
+    pub translation: [f32; 3],
+}
+
+/// `msw_focus`: all zeros is the whole hull.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "meshsweep.h says it")]
+pub struct FocusC {
+    pub kind: i32,
+    pub a: [f32; 3],
+    pub b: [f32; 3],
+    pub radius: f32,
+    pub cosine: f32,
+    pub error_per_distance: f32,
+}
+
+// SAFETY: integers and floats.
+unsafe impl AnyBits for BudgetC {}
+// SAFETY: floats.
+unsafe impl AnyBits for PoseC {}
+// SAFETY: integers and floats.
+unsafe impl AnyBits for FocusC {}
+
+impl BudgetC {
+    /// What NULL stands for.
+    pub const EXACT: BudgetC = BudgetC { relative: 0.0, absolute: 0.0, steps: 0 };
+
+    /// The budget.
+    pub fn budget(self) -> Budget {
+        let BudgetC { relative, absolute, steps } = self;
+        let steps = if steps == 0 { u32::MAX } else { steps };
+        Budget::EXACT.with_relative(relative).with_absolute(absolute).with_steps(steps)
+    }
+}
+
+impl PoseC {
+    /// What NULL stands for.
+    pub const IDENTITY: PoseC =
+        PoseC { rotation: Pose::IDENTITY.rotation, translation: Pose::IDENTITY.translation };
+
+    /// The pose. All zeros is refused: a structure that nobody filled in.
+    pub fn pose(self) -> Result<Pose, Error> {
+        let PoseC { rotation, translation } = self;
+        if rotation.iter().flatten().all(|entry| *entry == 0.0) {
+            return Err(Error::Pose);
+        }
+        Ok(Pose { rotation, translation })
+    }
+}
+
+impl FocusC {
+    /// What NULL stands for.
+    pub const EVERYWHERE: FocusC = FocusC {
+        kind: 0,
+        a: [0.0; 3],
+        b: [0.0; 3],
+        radius: 0.0,
+        cosine: 0.0,
+        error_per_distance: 0.0,
+    };
+
+    /// The focus.
+    pub fn focus(self) -> Result<Focus, Error> {
+        let FocusC { kind, a, b, radius, cosine, error_per_distance } = self;
+        Ok(match kind {
+            0 => Focus::Everywhere,
+            1 => Focus::Ball { centre: a, radius },
+            2 => Focus::Box { a, b },
+            3 => Focus::Segment { a, b, radius },
+            4 => Focus::Eye { position: a, axis: b, cosine, error_per_distance },
+            _ => return Err(Error::Value),
+        })
+    }
+}
+
+/// `MSW_FACING_…`.
+pub fn facing(code: i32) -> Result<Facing, Error> {
+    match code {
+        0 => Ok(Facing::Both),
+        1 => Ok(Facing::Front),
+        2 => Ok(Facing::Back),
+        _ => Err(Error::Value),
+    }
+}

@@ -1,0 +1,163 @@
+//! Questions about the box tree.
+
+use meshsweep_core::{Budget, Bvh, Neighbor, ScratchEntry};
+
+use crate::answer::{ClosestC, HitC, NearestC, NeighborC, OverlapC, SignedC, WithinC};
+use crate::error::Error;
+use crate::memory::{In, Out, Storage, View};
+use crate::question::{BudgetC, PoseC, facing};
+
+/// Words of `msw_model`.
+pub const MODEL_WORDS: usize = if cfg!(target_pointer_width = "64") { 32 } else { 48 };
+
+/// `msw_model`.
+pub type Model = Storage<Bvh<'static>, MODEL_WORDS>;
+
+impl View for Bvh<'static> {
+    const TAG: usize = 0x6d73_7701;
+}
+
+/// The part that all questions about a point share.
+pub(crate) fn ask<T>(
+    budget: In<BudgetC>,
+    mut scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    question: impl FnOnce(Budget, &mut [ScratchEntry]) -> Result<T, Error>,
+) -> Result<T, Error> {
+    let budget = budget.get_or(BudgetC::EXACT)?.budget();
+    question(budget, scratch.slice(scratch_count)?)
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_open(model: Out<Model>, bytes: In<u8>, count: usize) -> i32 {
+    model.open(|| Ok(Bvh::open(bytes.slice(count)?)?))
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_scratch_entries(model: In<Model>) -> u32 {
+    model.view().map_or(0, |model| model.scratch_entries() as u32)
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_closest_point(
+    model: In<Model>,
+    point: In<[f32; 3]>,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<ClosestC>,
+) -> i32 {
+    answer.answer(|| {
+        let (model, point) = (model.view()?, point.get()?);
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(model.closest_point(point, budget, scratch)?.into())
+        })
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_signed_distance(
+    model: In<Model>,
+    point: In<[f32; 3]>,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<SignedC>,
+) -> i32 {
+    answer.answer(|| {
+        let (model, point) = (model.view()?, point.get()?);
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(model.signed_distance(point, budget, scratch)?.into())
+        })
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_within(
+    model: In<Model>,
+    point: In<[f32; 3]>,
+    distance: f32,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<WithinC>,
+) -> i32 {
+    answer.answer(|| {
+        let (model, point) = (model.view()?, point.get()?);
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(model.within(point, distance, budget, scratch)?.into())
+        })
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_first_hit(
+    model: In<Model>,
+    a: In<[f32; 3]>,
+    b: In<[f32; 3]>,
+    facing_code: i32,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<HitC>,
+) -> i32 {
+    answer.answer(|| {
+        let (model, a, b, facing) = (model.view()?, a.get()?, b.get()?, facing(facing_code)?);
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(model.first_hit(a, b, facing, budget, scratch)?.into())
+        })
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_nearest(
+    model: In<Model>,
+    point: In<[f32; 3]>,
+    mut neighbors: Out<NeighborC>,
+    neighbor_count: usize,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<NearestC>,
+) -> i32 {
+    answer.answer(|| {
+        let (model, point) = (model.view()?, point.get()?);
+        // The search keeps its state where the answers will be.
+        let mut held = neighbors.held();
+        let found = ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(model.nearest(point, held.slice(neighbor_count)?, budget, scratch)?)
+        })?;
+        for index in 0..found.stored {
+            let near: Option<Neighbor> = held.slice(neighbor_count)?.get(index).copied();
+            neighbors.set(neighbor_count, index, near.ok_or(Error::Internal)?.into())?;
+        }
+        Ok(found.into())
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_overlap(
+    model: In<Model>,
+    other: In<Model>,
+    pose: In<PoseC>,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<OverlapC>,
+) -> i32 {
+    answer.answer(|| {
+        let (model, other) = (model.view()?, other.view()?);
+        let pose = pose.get_or(PoseC::IDENTITY)?.pose()?;
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(model.overlap(other, pose, budget, scratch)?.into())
+        })
+    })
+}

@@ -1,0 +1,296 @@
+/* Asks every question of the C interface about committed blobs, and prints one line for each kind:
+ * its name, and a hash of all words of all answers. `host c-answers` prints the same lines from
+ * Rust, without the C interface. It runs on this machine and on boards: print() is that of the
+ * examples. */
+
+#include "meshsweep.h"
+
+void print(const char *text);
+
+extern const unsigned char groove[];
+extern const uint32_t groove_bytes;
+extern const unsigned char hulls[];
+extern const uint32_t hulls_bytes;
+extern const unsigned char bracket[];
+extern const uint32_t bracket_bytes;
+
+enum { ROUNDS = 24, SPLITS = 60, FACES = 160 };
+
+static msw_scratch_entry scratch[MSW_DISTANCE_ENTRIES];
+static msw_refined_entry refined[MSW_REFINED_ENTRIES(SPLITS)];
+static msw_face faces[FACES];
+
+static uint32_t state;
+static uint32_t hash;
+
+/* Integers times a power of two, so that no compiler can round otherwise. */
+static float random_coordinate(void)
+{
+    state = state * 1664525u + 1013904223u;
+    return (float)((int32_t)(state >> 16) - 32768) * (1.0f / 512.0f);
+}
+
+static void random_point(float point[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        point[axis] = random_coordinate();
+    }
+}
+
+static void begin(void)
+{
+    state = 1;
+    hash = 2166136261u;
+}
+
+/* All answers are made of words. FNV-1a, a word at a time. */
+static void fold(const void *answer, size_t bytes)
+{
+    const uint32_t *words = answer;
+    for (size_t at = 0; at < bytes / 4; at++) {
+        hash = (hash ^ words[at]) * 16777619u;
+    }
+}
+
+static void fold_word(uint32_t word)
+{
+    fold(&word, sizeof word);
+}
+
+static void end(const char *kind)
+{
+    char line[32];
+    size_t length = 0;
+    for (; kind[length] != 0; length++) {
+        line[length] = kind[length];
+    }
+    line[length++] = ' ';
+    for (int digit = 0; digit < 8; digit++) {
+        line[length++] = "0123456789abcdef"[hash >> (28 - 4 * digit) & 15];
+    }
+    line[length] = 0;
+    print(line);
+}
+
+/* Exact, then with few steps, then with a tolerance and little scratch. */
+static const msw_budget *budget_of(int round)
+{
+    static const msw_budget few = {0.0f, 0.0f, 3};
+    static const msw_budget wide = {0.25f, 0.5f, 0};
+    return round % 3 == 0 ? NULL : round % 3 == 1 ? &few : &wide;
+}
+
+static size_t scratch_of(int round)
+{
+    return round % 3 == 2 ? 6 : MSW_DISTANCE_ENTRIES;
+}
+
+static msw_pose pose_of(int round)
+{
+    static const msw_pose half_turn = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}, {0, 0, 0}};
+    static const msw_pose none = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
+    msw_pose pose = round % 2 ? half_turn : none;
+    random_point(pose.translation);
+    return pose;
+}
+
+static void points(const msw_model *model)
+{
+    begin();
+    for (int round = 0; round < ROUNDS; round++) {
+        float point[3];
+        random_point(point);
+        msw_closest answer;
+        fold_word((uint32_t)msw_closest_point(model, point, budget_of(round), scratch,
+                                              scratch_of(round), &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("closest_point");
+
+    begin();
+    for (int round = 0; round < ROUNDS; round++) {
+        float point[3];
+        random_point(point);
+        msw_signed answer;
+        fold_word((uint32_t)msw_signed_distance(model, point, budget_of(round), scratch,
+                                                scratch_of(round), &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("signed_distance");
+
+    begin();
+    for (int round = 0; round < ROUNDS; round++) {
+        float point[3];
+        random_point(point);
+        msw_within_answer answer;
+        fold_word((uint32_t)msw_within(model, point, 20.0f, budget_of(round), scratch,
+                                       scratch_of(round), &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("within");
+
+    begin();
+    for (int round = 0; round < ROUNDS; round++) {
+        float point[3];
+        random_point(point);
+        msw_neighbor near[5];
+        msw_nearest_answer answer;
+        fold_word((uint32_t)msw_nearest(model, point, near, 5, budget_of(round), scratch,
+                                        scratch_of(round), &answer));
+        fold(&answer, sizeof answer);
+        fold(near, answer.stored * sizeof near[0]);
+    }
+    end("nearest");
+}
+
+static void segments(const msw_model *model)
+{
+    begin();
+    for (int round = 0; round < ROUNDS; round++) {
+        float a[3], b[3];
+        random_point(a);
+        random_point(b);
+        msw_hit answer;
+        fold_word((uint32_t)msw_first_hit(model, a, b, round % 4 == 3 ? 0 : round % 4,
+                                          budget_of(round), scratch, scratch_of(round), &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("first_hit");
+}
+
+static void two_models(const msw_model *model)
+{
+    begin();
+    for (int round = 0; round < ROUNDS; round++) {
+        const msw_pose pose = pose_of(round);
+        msw_overlap_answer answer;
+        fold_word((uint32_t)msw_overlap(model, model, &pose, budget_of(round), scratch,
+                                        scratch_of(round), &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("overlap");
+
+    begin();
+    for (int round = 0; round < ROUNDS; round++) {
+        static const uint32_t skipped[1][2] = {{2, 1}};
+        const msw_placed models[3] = {
+            {model, pose_of(round)}, {model, pose_of(round)}, {model, pose_of(round)}};
+        msw_models_answer answer;
+        fold_word((uint32_t)msw_models_within(models, 3, 4.0f, skipped, (size_t)(round % 2),
+                                              budget_of(round), scratch, scratch_of(round),
+                                              &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("models_within");
+}
+
+static void tight_hull(void)
+{
+    static msw_tight hull;
+    begin();
+    for (uint32_t index = 0; index < 2; index++) {
+        fold_word((uint32_t)msw_open_tight(&hull, hulls, hulls_bytes,
+                                           index == 1 ? MSW_FINEST : 0));
+        fold_word(msw_tight_scratch_entries(&hull));
+        for (int round = 0; round < ROUNDS; round++) {
+            float point[3];
+            random_point(point);
+            msw_within_answer answer;
+            fold_word((uint32_t)msw_tight_within(&hull, point, 20.0f, budget_of(round), scratch,
+                                                 scratch_of(round), &answer));
+            fold(&answer, sizeof answer);
+        }
+    }
+    end("tight_within");
+}
+
+static void refined_hull(void)
+{
+    static msw_hull hull;
+    begin();
+    fold_word((uint32_t)msw_open_hull(&hull, bracket, bracket_bytes));
+    for (int32_t kind = 0; kind < 10; kind++) {
+        msw_focus focus = {0};
+        focus.kind = kind % 5;
+        random_point(focus.a);
+        random_point(focus.b);
+        focus.radius = 3.0f;
+        focus.cosine = 0.5f;
+        focus.error_per_distance = 0.125f;
+        msw_refinement answer;
+        fold_word((uint32_t)msw_refine(&hull, refined, MSW_REFINED_ENTRIES(SPLITS), &focus,
+                                       0.5f, &answer));
+        fold(&answer, sizeof answer);
+        msw_faces_answer written;
+        fold_word((uint32_t)msw_refined_faces(&hull, refined, MSW_REFINED_ENTRIES(SPLITS), faces,
+                                              FACES, &written));
+        fold(&written, sizeof written);
+        fold(faces, written.stored * sizeof faces[0]);
+    }
+    end("refine");
+}
+
+/* What is refused, and that the answer is zeroed. */
+static void refusals(const msw_model *model)
+{
+    static const float point[3] = {1, 2, 3};
+    static const msw_model never_opened;
+    static const msw_pose zeros;
+    static msw_model damaged;
+    float not_a_number[3] = {1, 2, 3};
+    uint32_t nan_bits = 0x7fc00000u;
+    for (size_t byte = 0; byte < sizeof nan_bits; byte++) {
+        ((unsigned char *)&not_a_number[2])[byte] = ((const unsigned char *)&nan_bits)[byte];
+    }
+    msw_closest answer;
+    msw_hit hit;
+    msw_overlap_answer overlap;
+    msw_refinement refinement;
+    const size_t count = MSW_DISTANCE_ENTRIES;
+
+    begin();
+    fold_word((uint32_t)msw_closest_point(NULL, point, NULL, scratch, count, &answer));
+    fold_word((uint32_t)msw_closest_point(model, NULL, NULL, scratch, count, &answer));
+    fold_word((uint32_t)msw_closest_point(model, point, NULL, NULL, count, &answer));
+    fold_word((uint32_t)msw_closest_point(model, point, NULL, scratch, count, NULL));
+    const uintptr_t odd = (uintptr_t)point + 1;
+    fold_word((uint32_t)msw_closest_point(model, (const float *)odd, NULL, scratch, count,
+                                          &answer));
+    fold_word((uint32_t)msw_closest_point(&never_opened, point, NULL, scratch, count, &answer));
+    fold_word((uint32_t)msw_closest_point(model, point, NULL, NULL, 0, &answer));
+    fold_word((uint32_t)msw_closest_point(model, point, NULL, scratch, SIZE_MAX / 2, &answer));
+    fold_word((uint32_t)msw_closest_point(model, not_a_number, NULL, scratch, count, &answer));
+    fold(&answer, sizeof answer);
+    fold_word((uint32_t)msw_first_hit(model, point, point, 3, NULL, scratch, count, &hit));
+    fold_word((uint32_t)msw_overlap(model, model, &zeros, NULL, scratch, count, &overlap));
+    fold_word((uint32_t)msw_open(&damaged, groove, 100));
+    fold_word((uint32_t)msw_closest_point(&damaged, point, NULL, scratch, count, &answer));
+    fold_word((uint32_t)msw_open(&damaged, hulls, hulls_bytes));
+    fold_word((uint32_t)msw_open(&damaged, groove + 1, 400));
+    static msw_tight tight;
+    fold_word((uint32_t)msw_open_tight(&tight, hulls, hulls_bytes, 2));
+    static msw_hull hull;
+    fold_word((uint32_t)msw_open_hull(&hull, bracket, bracket_bytes));
+    /* It was used with another count. */
+    fold_word((uint32_t)msw_refine(&hull, refined, 7, NULL, 1.0f, &refinement));
+    fold_word((uint32_t)msw_refine(&hull, refined, 1, NULL, 1.0f, &refinement));
+    end("refusals");
+}
+
+int main(void)
+{
+    static msw_model model;
+    begin();
+    fold_word((uint32_t)msw_open(&model, groove, groove_bytes));
+    fold_word(msw_scratch_entries(&model));
+    fold_word(msw_version());
+    fold_word(msw_format_version() >> 16);
+    end("open");
+    points(&model);
+    segments(&model);
+    two_models(&model);
+    tight_hull();
+    refined_hull();
+    refusals(&model);
+    return 0;
+}

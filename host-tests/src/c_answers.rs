@@ -1,0 +1,312 @@
+//! The lines that `c-answers/answers.c` has to print: the same questions, asked of `meshsweep-core`
+//! itself. It shares no code with the C interface: codes and the order of fields are written here
+//! once more.
+
+use meshsweep_core::internal::format::layout::VERSION_MAJOR;
+use meshsweep_core::{
+    Budget, Bvh, ClosestPoint, Ended, Facing, Focus, Hit, Hull, Interval, Neighbor, Placed, Pose,
+    QueryError, RefinedHull, Scene, Scratch, Side, TightHulls, Undecided, Verdict, Work,
+};
+
+const ROUNDS: usize = 24;
+const SPLITS: usize = 60;
+const FACES: usize = 160;
+const SCRATCH: usize = Bvh::DISTANCE_ENTRIES;
+
+/// Random numbers, and the hash of answers.
+struct Kind {
+    state: u32,
+    hash: u32,
+}
+
+impl Kind {
+    const fn begin() -> Self {
+        Self { state: 1, hash: 0x811C_9DC5 }
+    }
+
+    fn coordinate(&mut self) -> f32 {
+        self.state = self.state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (f64::from(self.state >> 16) - 32768.0) as f32 / 512.0
+    }
+
+    fn point(&mut self) -> [f32; 3] {
+        [(); 3].map(|()| self.coordinate())
+    }
+
+    fn pose(&mut self, round: usize) -> Pose {
+        let turned = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+        let rotation = if round % 2 == 1 { turned } else { Pose::IDENTITY.rotation };
+        Pose { rotation, translation: self.point() }
+    }
+
+    fn words(&mut self, words: &[u32]) {
+        for word in words {
+            self.hash = (self.hash ^ word).wrapping_mul(16_777_619);
+        }
+    }
+
+    fn floats(&mut self, floats: &[f32]) {
+        floats.iter().for_each(|float| self.words(&[float.to_bits()]));
+    }
+
+    fn interval(&mut self, Interval { lower, upper }: Interval) {
+        self.floats(&[lower, upper]);
+    }
+
+    fn work(&mut self, work: Work) {
+        self.words(&[work.nodes, work.triangles, work.exact, work.splits]);
+    }
+
+    fn verdict(&mut self, verdict: Verdict) {
+        self.words(&match verdict {
+            Verdict::Yes => [1, 1],
+            Verdict::No => [2, 1],
+            Verdict::Undecided(why) => [0, reason(why)],
+            other => unreachable!("{other:?}"),
+        });
+    }
+
+    fn closest(&mut self, near: &ClosestPoint) {
+        self.interval(near.distance);
+        self.floats(&near.point);
+        self.words(&[near.triangle.unwrap_or(u32::MAX), ended(near.ended)]);
+        self.work(near.work);
+    }
+
+    fn line(&self, name: &str) -> String {
+        format!("{name} {:08x}\n", self.hash)
+    }
+}
+
+fn ended(ended: Ended) -> u32 {
+    match ended {
+        Ended::Exact => 1,
+        Ended::Tolerance => 2,
+        Ended::Steps => 3,
+        Ended::Scratch => 4,
+        Ended::Resolution => 5,
+        other => unreachable!("{other:?}"),
+    }
+}
+
+fn reason(why: Undecided) -> u32 {
+    match why {
+        Undecided::Steps => 2,
+        Undecided::Scratch => 3,
+        Undecided::Resolution => 4,
+        Undecided::OpenMesh => 5,
+        Undecided::OnSurface => 6,
+        Undecided::Feature => 7,
+        other => unreachable!("{other:?}"),
+    }
+}
+
+fn budget(round: usize) -> Budget {
+    match round % 3 {
+        0 => Budget::EXACT,
+        1 => Budget::EXACT.with_steps(3),
+        _ => Budget::EXACT.with_relative(0.25).with_absolute(0.5),
+    }
+}
+
+fn entries(round: usize) -> usize {
+    if round % 3 == 2 { 6 } else { SCRATCH }
+}
+
+/// One line for each kind of question.
+///
+/// # Errors
+/// A blob that does not open, or a refused question.
+pub fn lines(
+    groove: &[u8],
+    hulls: &[u8],
+    bracket: &[u8],
+) -> Result<String, Box<dyn std::error::Error>> {
+    let model = Bvh::open(groove)?;
+    let mut kind = Kind::begin();
+    let version = env!("CARGO_PKG_VERSION").split('.').map(str::parse::<u32>);
+    let version = version.collect::<Result<Vec<_>, _>>()?.iter().fold(0, |all, n| all << 8 | n);
+    kind.words(&[0, model.scratch_entries() as u32, version, VERSION_MAJOR.into()]);
+    let mut text = kind.line("open");
+    text += &points(&model)?;
+    text += &segments(&model)?;
+    text += &two_models(&model)?;
+    text += &tight_hull(hulls)?;
+    text += &refined_hull(bracket)?;
+    Ok(text + &refusals())
+}
+
+/// Asks a question of each round; 0, as C returns, comes before each answer.
+fn rounds(
+    name: &str,
+    mut ask: impl FnMut(&mut Kind, usize, Budget, &mut Scratch<SCRATCH>) -> Result<(), QueryError>,
+) -> Result<String, QueryError> {
+    let (mut kind, mut scratch) = (Kind::begin(), Scratch::new());
+    for round in 0..ROUNDS {
+        ask(&mut kind, round, budget(round), &mut scratch)?;
+    }
+    Ok(kind.line(name))
+}
+
+fn points(model: &Bvh<'_>) -> Result<String, QueryError> {
+    let closest = rounds("closest_point", |kind, round, budget, scratch| {
+        let near = model.closest_point(kind.point(), budget, &mut scratch[..entries(round)])?;
+        kind.words(&[0]);
+        kind.closest(&near);
+        Ok(())
+    })?;
+    let signed = rounds("signed_distance", |kind, round, budget, scratch| {
+        let found = model.signed_distance(kind.point(), budget, &mut scratch[..entries(round)])?;
+        kind.words(&[0]);
+        kind.words(&match found.side {
+            Side::Inside => [1, 1],
+            Side::Outside => [2, 1],
+            Side::Undecided(why) => [0, reason(why)],
+            other => unreachable!("{other:?}"),
+        });
+        kind.interval(found.distance);
+        kind.closest(&found.closest);
+        Ok(())
+    })?;
+    let within = rounds("within", |kind, round, budget, scratch| {
+        let found = model.within(kind.point(), 20.0, budget, &mut scratch[..entries(round)])?;
+        kind.words(&[0]);
+        kind.verdict(found.verdict);
+        kind.words(&[found.triangle.unwrap_or(u32::MAX)]);
+        kind.work(found.work);
+        Ok(())
+    })?;
+    let nearest = rounds("nearest", |kind, round, budget, scratch| {
+        let mut near = [Neighbor::EMPTY; 5];
+        let (point, scratch) = (kind.point(), &mut scratch[..entries(round)]);
+        let found = model.nearest(point, &mut near, budget, scratch)?;
+        kind.words(&[0, found.stored as u32, ended(found.ended)]);
+        kind.floats(&[found.rest_lower]);
+        kind.work(found.work);
+        for near in &near[..found.stored] {
+            kind.interval(near.distance());
+            kind.floats(&near.point());
+            kind.words(&[near.triangle()]);
+        }
+        Ok(())
+    })?;
+    Ok(closest + &signed + &within + &nearest)
+}
+
+fn segments(model: &Bvh<'_>) -> Result<String, QueryError> {
+    rounds("first_hit", |kind, round, budget, scratch| {
+        let facing = [Facing::Both, Facing::Front, Facing::Back, Facing::Both][round % 4];
+        let (a, b, scratch) = (kind.point(), kind.point(), &mut scratch[..entries(round)]);
+        let found = model.first_hit(a, b, facing, budget, scratch)?;
+        let is_proved = found.hit.is_some() && found.ended == Ended::Exact;
+        let verdict = if found.is_clear() { 2 } else { u32::from(is_proved) };
+        kind.words(&[0, verdict, ended(found.ended)]);
+        kind.interval(found.t);
+        let hit = found.hit.unwrap_or(Hit::EMPTY);
+        kind.floats(&[hit.t]);
+        kind.floats(&hit.point);
+        kind.words(&[hit.triangle.unwrap_or(u32::MAX)]);
+        kind.work(found.work);
+        Ok(())
+    })
+}
+
+fn two_models(model: &Bvh<'_>) -> Result<String, QueryError> {
+    let overlap = rounds("overlap", |kind, round, budget, scratch| {
+        let (pose, scratch) = (kind.pose(round), &mut scratch[..entries(round)]);
+        let found = model.overlap(model, pose, budget, scratch)?;
+        kind.words(&[0]);
+        kind.verdict(found.verdict);
+        kind.words(&found.triangles.unwrap_or([u32::MAX; 2]));
+        kind.work(found.work);
+        Ok(())
+    })?;
+    let within = rounds("models_within", |kind, round, budget, scratch| {
+        let models = [(); 3].map(|()| Placed { tree: *model, pose: kind.pose(round) });
+        let is_asked = |a: usize, b: usize| round % 2 == 0 || [a, b] != [1, 2];
+        let (scene, scratch) = (Scene::new(&models), &mut scratch[..entries(round)]);
+        let found = scene.within(4.0, is_asked, budget, scratch)?;
+        kind.words(&[0]);
+        kind.verdict(found.verdict);
+        kind.words(&found.models.map_or([u32::MAX; 2], |pair| pair.map(|index| index as u32)));
+        kind.work(found.work);
+        Ok(())
+    })?;
+    Ok(overlap + &within)
+}
+
+fn tight_hull(hulls: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
+    let hulls = TightHulls::open(hulls)?;
+    let (mut kind, mut scratch) = (Kind::begin(), Scratch::<SCRATCH>::new());
+    for hull in [hulls.get(0), hulls.finest()] {
+        let hull = hull.ok_or("no hull")?;
+        kind.words(&[0, hull.scratch_entries() as u32]);
+        for round in 0..ROUNDS {
+            let (point, scratch) = (kind.point(), &mut scratch[..entries(round)]);
+            let found = hull.within(point, 20.0, budget(round), scratch)?;
+            kind.words(&[0]);
+            kind.verdict(found.verdict);
+            kind.words(&[found.triangle.unwrap_or(u32::MAX)]);
+            kind.work(found.work);
+        }
+    }
+    Ok(kind.line("tight_within"))
+}
+
+fn refined_hull(bracket: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
+    let hull = Hull::open(bracket)?;
+    let (mut kind, mut refined) = (Kind::begin(), RefinedHull::<SPLITS>::new());
+    kind.words(&[0]);
+    for number in 0..10 {
+        let (a, b, radius) = (kind.point(), kind.point(), 3.0);
+        let focus = match number % 5 {
+            0 => Focus::Everywhere,
+            1 => Focus::Ball { centre: a, radius },
+            2 => Focus::Box { a, b },
+            3 => Focus::Segment { a, b, radius },
+            _ => Focus::Eye { position: a, axis: b, cosine: 0.5, error_per_distance: 0.125 },
+        };
+        let found = refined.update(&hull, &focus, 0.5, &mut [])?;
+        kind.words(&[0, u32::from(found.error_left == 0.0), found.error_left.to_bits()]);
+        kind.words(&[found.faces, found.performed, found.undone]);
+        let faces: Vec<_> = refined.faces(&hull).collect();
+        let stored = faces.len().min(FACES);
+        kind.words(&[0, stored as u32, (faces.len() - stored) as u32]);
+        for face in &faces[..stored] {
+            for corner in face.corners {
+                kind.floats(&hull.vertex(corner).ok_or("no such vertex")?);
+            }
+            kind.floats(&[(f64::from(face.radius) * hull.scale()) as f32]);
+        }
+    }
+    Ok(kind.line("refine"))
+}
+
+/// The numbers of `meshsweep.h`, in the order in which `answers.c` is refused.
+fn refusals() -> String {
+    let mut kind = Kind::begin();
+    let zeros = [0; 11];
+    let codes = |kind: &mut Kind, codes: &[i32]| {
+        codes.iter().for_each(|code| kind.words(&[code.cast_unsigned()]));
+    };
+    // NULL four times, misaligned, never opened, no scratch, too much of it, NaN.
+    codes(&mut kind, &[-1, -1, -1, -1, -2, -3, -44, -4, -40]);
+    kind.words(&zeros);
+    // An unknown facing, a pose of zeros, a blob that is cut short, the model that it left, a blob
+    // without a tree, other bytes.
+    codes(&mut kind, &[-5, -43, -20, -3, -26, -22]);
+    // No such hull, then memory of another count, and too little.
+    codes(&mut kind, &[-7, 0, -6, -6]);
+    kind.line("refusals")
+}
+
+/// The lines about the committed blobs.
+///
+/// # Errors
+/// A blob that is not there, does not open or refuses a question.
+pub fn of_fixtures(folder: &std::path::Path) -> Result<String, String> {
+    let read =
+        |name: &str| std::fs::read(folder.join(name)).map_err(|error| format!("{name}: {error}"));
+    let [groove, hulls, bracket] = [read("groove.msw")?, read("hulls.msw")?, read("bracket.msw")?];
+    lines(&groove, &hulls, &bracket).map_err(|error| error.to_string())
+}
