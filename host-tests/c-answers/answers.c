@@ -279,14 +279,18 @@ static void refusals(const msw_model *model)
 
 int main(void)
 {
-    static msw_model model;
+    static msw_model model, trusted;
+    uint32_t checksum;
     begin();
     fold_word((uint32_t)msw_open(&model, groove, groove_bytes));
+    fold_word((uint32_t)msw_open_trusted(&trusted, groove, groove_bytes));
+    fold_word((uint32_t)msw_checksum(groove, groove_bytes, &checksum));
+    fold_word(checksum);
     fold_word(msw_scratch_entries(&model));
     fold_word(msw_version());
     fold_word(msw_format_version() >> 16);
     end("open");
-    points(&model);
+    points(&trusted);
     segments(&model);
     two_models(&model);
     tight_hull();

@@ -4,8 +4,8 @@
 
 use meshsweep_core::internal::format::layout::VERSION_MAJOR;
 use meshsweep_core::{
-    Budget, Bvh, ClosestPoint, Ended, Facing, Focus, Hit, Hull, Interval, Neighbor, Placed, Pose,
-    QueryError, RefinedHull, Scene, Scratch, Side, TightHulls, Undecided, Verdict, Work,
+    Blob, Budget, Bvh, ClosestPoint, Ended, Facing, Focus, Hit, Hull, Interval, Neighbor, Placed,
+    Pose, QueryError, RefinedHull, Scene, Scratch, Side, TightHulls, Undecided, Verdict, Work,
 };
 
 const ROUNDS: usize = 24;
@@ -126,7 +126,9 @@ pub fn lines(
     let mut kind = Kind::begin();
     let version = env!("CARGO_PKG_VERSION").split('.').map(str::parse::<u32>);
     let version = version.collect::<Result<Vec<_>, _>>()?.iter().fold(0, |all, n| all << 8 | n);
-    kind.words(&[0, model.scratch_entries() as u32, version, VERSION_MAJOR.into()]);
+    let checksum = Blob::checksum(groove)?;
+    let entries = model.scratch_entries() as u32;
+    kind.words(&[0, 0, 0, checksum, entries, version, VERSION_MAJOR.into()]);
     let mut text = kind.line("open");
     text += &points(&model)?;
     text += &segments(&model)?;

@@ -278,6 +278,18 @@ typedef struct {
  * opened. Cost: linear in the blob; once per start. No scratch. */
 int32_t msw_open(msw_model *model, const void *bytes, size_t count);
 
+/* The same for bytes that were verified before, for example by the signature of the firmware.
+ *
+ * Checks header and section table, and looks at no record. If the bytes were changed since msw_open
+ * accepted them, here or on the host, any answer may be wrong. No question then crashes, runs for
+ * ever, or reads outside of the bytes. Cost: some thousand instructions. No scratch. */
+int32_t msw_open_trusted(msw_model *model, const void *bytes, size_t count);
+
+/* Checks the CRCs of header, section table and sections, and stores the first, which covers the
+ * others. It equals PART_CHECKSUM in a header by `meshsweep build --emit c`. A CRC finds damage,
+ * but no intent. After an error `*checksum` is 0. Cost: a dozen instructions a byte. */
+int32_t msw_checksum(const void *bytes, size_t count, uint32_t *checksum);
+
 /* How many scratch entries are always enough for a question about a point or a segment.
  * `meshsweep build` prints the same number. 0 if `model` is NULL, misaligned or not opened. */
 uint32_t msw_scratch_entries(const msw_model *model);

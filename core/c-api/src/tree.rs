@@ -1,6 +1,6 @@
 //! Questions about the box tree.
 
-use meshsweep_core::{Budget, Bvh, Neighbor, ScratchEntry};
+use meshsweep_core::{Blob, Budget, Bvh, Neighbor, ScratchEntry};
 
 use crate::answer::{ClosestC, HitC, NearestC, NeighborC, OverlapC, SignedC, WithinC};
 use crate::error::Error;
@@ -32,6 +32,18 @@ pub(crate) fn ask<T>(
 #[unsafe(no_mangle)]
 pub extern "C" fn msw_open(model: Out<Model>, bytes: In<u8>, count: usize) -> i32 {
     model.open(|| Ok(Bvh::open(bytes.slice(count)?)?))
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_open_trusted(model: Out<Model>, bytes: In<u8>, count: usize) -> i32 {
+    model.open(|| Ok(Bvh::open_trusted(bytes.slice(count)?)?))
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_checksum(bytes: In<u8>, count: usize, checksum: Out<u32>) -> i32 {
+    checksum.answer(|| Ok(Blob::checksum(bytes.slice(count)?)?))
 }
 
 /// See `meshsweep.h`.

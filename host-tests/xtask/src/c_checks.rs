@@ -46,6 +46,11 @@ fn examples() -> PathBuf {
     c_library::folder().join("examples")
 }
 
+/// Blobs, and the part of the example as C.
+pub fn fixtures() -> PathBuf {
+    workspace::root().join("core/fixtures")
+}
+
 fn answers() -> PathBuf {
     workspace::root().join("host-tests/c-answers")
 }
@@ -53,7 +58,7 @@ fn answers() -> PathBuf {
 /// A compiler with the flags that both programs share.
 fn compiler(mut command: Command) -> Command {
     command.args(WARNINGS).arg("-I").arg(c_library::folder().join("include"));
-    command.arg(format!("-Wa,-I{}", workspace::root().join("fixtures").display()));
+    command.arg("-I").arg(fixtures()).arg(format!("-Wa,-I{}", fixtures().display()));
     command
 }
 
@@ -99,7 +104,7 @@ fn on_board(tools: &Tools, c: &CTools, expected: &str) -> Result<(), String> {
 /// The sources of the example and of the program with all questions, and what they print.
 fn programs(expected: &str) -> [([PathBuf; 2], &str); 2] {
     [
-        (["probe.c", "part.S"].map(|file| examples().join(file)), PROBE),
+        ([examples().join("probe.c"), fixtures().join("groove.c")], PROBE),
         (["answers.c", "blobs.S"].map(|file| answers().join(file)), expected),
     ]
 }
@@ -116,7 +121,7 @@ fn cppcheck(c: &CTools) -> Result<(), String> {
     command.args(["--quiet", "--std=c11", "--error-exitcode=1"]);
     command.args(["--enable=warning,style,performance,portability", "--inline-suppr"]);
     command.arg("-I").arg(c_library::folder().join("include"));
-    command.arg("--suppress=missingIncludeSystem");
+    command.arg("-I").arg(fixtures()).arg("--suppress=missingIncludeSystem");
     for file in ["probe.c", "host.c", "cortex-m4/startup.c"] {
         command.arg(examples().join(file));
     }

@@ -88,8 +88,9 @@ fn archive(cross: &Cross, c: &CTools, target: &str) -> Result<Vec<Vec<String>>, 
         copy(&workspace::root().join(licence), &folder.join(licence))?;
     }
     // The blob of the example.
-    let fixtures = workspace::root().join("core/fixtures");
-    copy(&fixtures.join("groove.msw"), &folder.join("examples/groove.msw"))?;
+    for file in ["groove.h", "groove.c"] {
+        copy(&c_checks::fixtures().join(file), &folder.join("examples").join(file))?;
+    }
     // No date and no user, so that the same sources give the same bytes.
     let mut tar = Command::new("tar");
     tar.args(["--sort=name", "--mtime=@0", "--owner=0", "--group=0", "--numeric-owner"]);
