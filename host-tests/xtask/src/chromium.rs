@@ -19,7 +19,7 @@ const CHROMIUM: Wanted = Wanted {
 };
 
 /// A page takes seconds; WebGL by the processor is slow.
-const LIMIT: Duration = Duration::from_secs(90);
+const LIMIT: Duration = Duration::from_secs(200);
 
 /// Events that tell of an error in a page.
 const ERRORS: [&str; 3] = [
