@@ -157,6 +157,12 @@ impl<'a> Blob<'a> {
         self.bytes
     }
 
+    /// The number that [`checksum`](Self::checksum) returns.
+    #[doc(hidden)]
+    pub const fn header_crc(&self) -> u32 {
+        Bytes(self.bytes).word(field::CRC)
+    }
+
     /// The fixed header.
     #[doc(hidden)]
     pub fn header(&self) -> &Header {

@@ -1,6 +1,6 @@
-/* How far is the tip of a probe from a part? The same file runs on this machine and on a Cortex-M4F.
+/* How far is the tip of a probe from a part? The same file runs here and on a Cortex-M4F.
  *
- * The part is a block of 40 by 40 by 30 with a slot. groove.h and groove.c are it, written by
+ * The part is a block of 40 by 40 by 30 with a slot. groove.h and groove.c hold its blob, by
  * `meshsweep build groove.obj -o groove.msw --emit c`.
  */
 
@@ -28,7 +28,7 @@ static int must_stop(const float tip[3], float clearance)
 
 int main(void)
 {
-    /* Checks every byte. If something else guards the flash, msw_open_trusted takes no time. */
+    /* Checks every byte. If something else guards the flash, msw_open_trusted is quicker. */
     int32_t error = msw_open(&part, groove_bytes, GROOVE_BYTES);
     if (error != MSW_OK) {
         print(msw_strerror(error));
@@ -47,8 +47,8 @@ int main(void)
         print(msw_strerror(error));
         return 1;
     }
-    /* Proved: the part is nearer than 2.25, and was not within 2 one step before. */
-    if (near.distance.lower > 2.0f || near.distance.upper < 1.5f) {
+    /* One step of 0.25 before, the part was proved farther than 2. Now it is 1.75 away at least. */
+    if (near.distance.lower > 2.0f || near.distance.upper < 1.75f) {
         print("the probe stopped elsewhere");
         return 1;
     }

@@ -8,10 +8,12 @@
  * Units and frame. Coordinates and lengths are those of the mesh file, in the mesh's frame.
  *
  * Answers. A function returns 0 (MSW_OK) or a negative MSW_ERROR_..., which msw_strerror explains.
- * After an error the answer holds zeros, if its pointer is valid. A distance is an interval that
- * contains the true distance to the input mesh: lower and upper are rounded outwards. Zeros always
- * read as "nothing is proved": MSW_UNDECIDED, or a distance of 0. For collision avoidance treat
- * MSW_UNDECIDED as MSW_YES; msw_is_clear does that.
+ * After an error the answer holds zeros, if its pointer is valid. Every question may return
+ * MSW_ERROR_NULL, _ALIGNMENT, _NOT_OPENED, _COUNT, _NOT_FINITE, _TOLERANCE, _OUT_OF_DOMAIN,
+ * _NO_SCRATCH, _NOT_SERVED and _INTERNAL; a function's own text names others. A distance is an
+ * interval that contains the true distance to the input mesh: lower and upper are rounded outwards.
+ * Zeros always read as "nothing is proved": MSW_UNDECIDED, or a distance of 0. For collision
+ * avoidance treat MSW_UNDECIDED as MSW_YES; msw_is_clear does that.
  *
  * Memory. All of it is the caller's. Memory that a call writes (scratch, answers, models that are
  * opened) overlaps no other argument. NULL and misaligned pointers are refused with an error. A
@@ -66,7 +68,7 @@ enum {
     MSW_ERROR_POSE = -43,           /* a pose is all zeros, or far from a rotation, or too large */
     MSW_ERROR_NO_SCRATCH = -44,     /* the scratch memory has no entries */
     MSW_ERROR_NOT_SERVED = -45,     /* the blob lacks the sections of this question: build --for */
-    MSW_ERROR_INTERNAL = -46        /* a fault of the library, or an overwritten blob */
+    MSW_ERROR_INTERNAL = -46        /* the bytes of the blob changed, or a fault of the library */
 };
 
 /* Verdicts. MSW_YES and MSW_NO are proved. `!verdict` is not "no": compare, or use msw_is_clear. */
@@ -252,7 +254,7 @@ typedef struct {
 } msw_models_answer;
 
 typedef struct {
-    uint32_t is_complete; /* 1: every split that the focus needs is performed. 0: see error_left */
+    uint32_t is_complete; /* 1: all splits that the focus needs are performed. 0: see below */
     float error_left;     /* the largest error among needed splits that did not fit; rounded up */
     uint32_t faces;       /* of the refined hull */
     uint32_t performed;   /* splits performed by this call */
@@ -261,7 +263,7 @@ typedef struct {
 
 typedef struct {
     float corners[3][3]; /* counter-clockwise seen from outside */
-    float error;         /* its part of the surface is no farther from it; may be infinite */
+    float error; /* the surface that this face stands for is no farther from it; may be infinite */
 } msw_face;
 
 typedef struct {
@@ -282,7 +284,8 @@ int32_t msw_open(msw_model *model, const void *bytes, size_t count);
  *
  * Checks header and section table, and looks at no record. If the bytes were changed since msw_open
  * accepted them, here or on the host, any answer may be wrong. No question then crashes, runs for
- * ever, or reads outside of the bytes. Cost: some thousand instructions. No scratch. */
+ * ever, or reads outside of the bytes; it may return MSW_ERROR_INTERNAL. msw_checksum tells
+ * whether the bytes are the verified ones. Cost: some thousand instructions. No scratch. */
 int32_t msw_open_trusted(msw_model *model, const void *bytes, size_t count);
 
 /* Checks the CRCs of header, section table and sections, and stores the first, which covers the

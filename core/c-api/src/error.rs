@@ -40,7 +40,8 @@ errors! {
     /// A constant is unknown.
     Value = -5, c"a facing or a kind of focus is none of the named constants";
     /// Memory of a refined hull.
-    Memory = -6, c"a refined hull needs MSW_REFINED_ENTRIES(splits) entries, zeroed before the first use, and always the same count";
+    Memory = -6,
+        c"a refined hull needs MSW_REFINED_ENTRIES(splits) entries, zeroed, always as many";
     /// A tight hull that is not there.
     NoSuchHull = -7, c"the blob has no tight hull of this number";
 
@@ -66,13 +67,15 @@ errors! {
     /// Too far away.
     OutOfDomain = -42, c"a point or a segment's end is too far from the model: clip segments first";
     /// A pose that nothing can be computed with.
-    Pose = -43, c"a pose is all zeros, has an entry beyond 2, or is far from a rotation where one is needed";
+    Pose = -43,
+        c"a pose is all zeros, has an entry beyond 2, or is no rotation where one is needed";
     /// No scratch memory.
     NoScratch = -44, c"the scratch memory has no entries";
     /// The blob lacks sections.
-    NotServed = -45, c"the blob was built without the sections that this question needs: see build --for";
+    NotServed = -45,
+        c"the blob was built without the sections of this question: see build --for";
     /// A fault of the library.
-    Internal = -46, c"a fault of the library, or a model whose blob was overwritten";
+    Internal = -46, c"the bytes of the blob changed, or a fault of the library";
 }
 
 impl Error {

@@ -34,11 +34,11 @@ pub extern "C" fn msw_strerror(code: i32) -> *const c_char {
     Error::text(code).as_ptr()
 }
 
-/// A number of a version: 0 where it is not written in digits.
+/// A number of a version.
 const fn number(text: &str) -> u32 {
     match u32::from_str_radix(text, 10) {
         Ok(number) => number,
-        Err(_) => 0,
+        Err(_) => panic!("a version in digits"),
     }
 }
 

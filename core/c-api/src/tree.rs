@@ -17,7 +17,7 @@ impl View for Bvh<'static> {
     const TAG: usize = 0x6d73_7701;
 }
 
-/// The part that all questions about a point share.
+/// Reads budget and scratch, and asks.
 pub(crate) fn ask<T>(
     budget: In<BudgetC>,
     mut scratch: Out<ScratchEntry>,

@@ -42,7 +42,7 @@ use super::side_search::Search;
 use super::triangle_bounds::{limit_of, lower_of_box, witness};
 use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
 use crate::bvh::format::{Bvh, FanLeaf};
-use crate::num::tolerance::{EVERYTHING_SQ, FAN_DISTANCE, U32};
+use crate::num::tolerance::{EMPTY_BALL, EVERYTHING_SQ, FAN_DISTANCE, U32};
 use crate::num::{greater, lesser, sqrt_approx};
 use crate::query::{
     Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry, Side, Undecided, Work,
@@ -391,7 +391,7 @@ impl Survey<'_> {
         let nearer = PointQuery::new(tree, query.units.point(place)).ok()?;
         let way = nearer.p - query.p;
         let empty = query.units.inward(self.lower());
-        (way.dot(way) < empty * empty * (1.0 - 64.0 * U32)).then_some(nearer)
+        (way.dot(way) < empty * empty * (1.0 - EMPTY_BALL)).then_some(nearer)
     }
 
     fn closest(

@@ -45,7 +45,7 @@ const fn read_header(bytes: &[u8]) -> Result<Header, OpenError> {
     let all = Bytes(bytes);
     let header = ok!(Header::read(all));
     let (total, found) = (header.total_bytes as usize, bytes.len());
-    if found < total || total < HEADER_BYTES {
+    if found < total {
         return Err(OpenError::Truncated { needed: header.total_bytes, found: found as u32 });
     }
     if found > total {
@@ -95,13 +95,14 @@ impl<'a> SectionTable<'a> {
         Self::of(ok!(read_header(bytes)), bytes)
     }
 
-    /// The same of bytes that were opened before: without the CRC.
+    /// Reads the table of bytes that were opened before: without the CRC.
     pub(crate) const fn view(bytes: &'a [u8]) -> Result<Self, OpenError> {
         Self::of(ok!(Header::read(Bytes(bytes))), bytes)
     }
 
     const fn of(header: Header, bytes: &'a [u8]) -> Result<Self, OpenError> {
         let bytes = Bytes(bytes);
+        // Kinds are below `MAX_SECTIONS`; the remainder spares a bounds check that could panic.
         let mut entries = [0; MAX_SECTIONS];
         let mut end = header.header_bytes;
         let mut index = 0;
@@ -188,8 +189,8 @@ impl<'a> SectionTable<'a> {
 
     /// Checks the CRCs of the sections of some kinds.
     pub(crate) fn check_crcs(&self, wants: impl Fn(SectionKind) -> bool) -> Result<(), OpenError> {
-        let kinds = SectionKind::ALL.into_iter().filter(|kind| wants(*kind));
-        kinds.into_iter().try_for_each(|kind| self.check_crc(kind))
+        let mut kinds = SectionKind::ALL.into_iter().filter(|kind| wants(*kind));
+        kinds.try_for_each(|kind| self.check_crc(kind))
     }
 
     /// Checks the CRCs of all sections of known kinds.

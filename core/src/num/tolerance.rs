@@ -376,6 +376,11 @@ pub const SHORTFALL: f32 = 1.0 / 16_384.0;
 /// Rounding of a root and a few products, relative, 2^-20.
 pub const ROOT_AND_PRODUCTS: f32 = 1.0 / 1_048_576.0;
 
+/// Part of the squared radius of an empty ball that roundings may take: 2^-18. Both places convert
+/// exactly, so the way between them carries u, its square 5u, and the radius and its square 4u. The
+/// rest is spare.
+pub const EMPTY_BALL: f32 = 1.0 / 262_144.0;
+
 /// Rounding of the length of a scaled normal, relative, 2^-18.
 pub const PLANE_NORMAL: f32 = 1.0 / 262_144.0;
 

@@ -192,13 +192,18 @@ fn check_symbols(
 /// Bytes of code and constants of a program that calls some of the functions and nothing else.
 ///
 /// # Errors
-/// The linker's.
+/// The linker's, or a function that the header does not have.
 pub fn bytes(
     tools: &CTools,
     target: &str,
     library: &Path,
     functions: &[&str],
 ) -> Result<u64, String> {
+    // The linker would pass over a name that is not there.
+    let known = self::functions()?;
+    if let Some(unknown) = functions.iter().find(|name| !known.iter().any(|known| known == *name)) {
+        return Err(format!("meshsweep.h has no {unknown}"));
+    }
     let image = library.with_file_name("linked");
     let mut ld = tools.linker(target);
     ld.args(["--gc-sections", "--unresolved-symbols=ignore-all", "--entry=0", "-Ttext=0x10000"]);

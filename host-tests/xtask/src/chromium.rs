@@ -18,7 +18,7 @@ const CHROMIUM: Wanted = Wanted {
     ignore_installed: &["chromium", "fonts-dejavu", "fontconfig-config"],
 };
 
-/// A page takes seconds; WebGL by the processor is slow.
+/// Limit of all calls to one page. A page takes seconds; WebGL in software is slow.
 const LIMIT: Duration = Duration::from_secs(200);
 
 /// Events that tell of an error in a page.
@@ -173,7 +173,7 @@ impl Page {
 
 impl Drop for Page {
     fn drop(&mut self) {
-        // Its input ends, so it ends; no harm if it has ended before.
+        // The end of its input ends the browser. The kill is for one that hangs.
         self.to = None;
         let _ = self.browser.kill();
         let _ = self.browser.wait();

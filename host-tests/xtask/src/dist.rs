@@ -35,8 +35,8 @@ const PROGRAMS: [(&str, &[&str]); 5] = [
 /// Folders and files of the interface that an archive has.
 const PACKED: [&str; 6] = ["include", "examples", "cmake", "zephyr", "CMakeLists.txt", "README.md"];
 
-/// Writes those of the named targets, or all, into `target/dist`, and prints what a program takes of
-/// them.
+/// Writes archives of the wanted targets (all, if none) into `target/dist`. Prints the bytes of
+/// programs with the libraries.
 pub fn run(steps: &mut Steps, wanted: &[&str]) {
     let Some(cross) = steps.run("setup: std for the boards", Cross::find) else { return };
     let Some(c) = steps.run("setup: arm-none-eabi-gcc, cppcheck", CTools::find) else { return };

@@ -4,20 +4,24 @@ use super::{Facts, SourceNames, in_comment};
 use meshsweep_core::Blob;
 use std::fmt::Write;
 
-/// The header: sizes and facts as macros, a declaration of the bytes, and functions that open them.
+/// The end of a header, with marks in the place of its name.
+const DECLARATIONS: &str = include_str!("part.h.txt");
+
+/// The header: sizes and facts as macros, a declaration of the bytes, a check of scratch memory.
 #[must_use]
 pub fn c_header(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
     let facts = Facts::of(blob);
-    let (lower, upper) = (names.stem(), names.stem().to_ascii_uppercase());
+    let (lower, upper) = (names.identifier(), names.identifier().to_ascii_uppercase());
     let mut out = format!(
         "/* The blob `{}` of `{}`.\n *\n \
-         * Written by `meshsweep build --emit c`, for version {} of the library. Compile {lower}.c\n \
-         * with your program, and give {lower}_bytes to an open function of meshsweep.h.\n */\n\
+         * Written by `meshsweep build --emit c`, for version {} of the library. Compile {}.c\n \
+         * with your program. Give {lower}_bytes to an open function of meshsweep.h.\n */\n\
          #ifndef {upper}_MSW_H\n#define {upper}_MSW_H\n\n#include <meshsweep.h>\n\n\
          #ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n",
         in_comment(names.blob),
         in_comment(names.mesh),
         env!("CARGO_PKG_VERSION"),
+        in_comment(names.file_stem()),
     );
     let mut define = |name: &str, value: String, about: &str| {
         let _ = writeln!(out, "#define {upper}_{name} {value} /* {about} */");
@@ -31,7 +35,7 @@ pub fn c_header(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
         define("IS_CLOSED", u8::from(closed).to_string(), "whether distances have signs");
     }
     if let Some(error) = facts.surface_error {
-        define("SURFACE_ERROR", float(error), "from the mesh to the stored surface, at most");
+        define("SURFACE_ERROR", float(error), "most distance of the mesh from the stored surface");
     }
     for (name, corner) in ["BOX_LOW", "BOX_HIGH"].into_iter().zip(facts.bounds.iter().flatten()) {
         let [x, y, z] = corner.map(float);
@@ -40,36 +44,23 @@ pub fn c_header(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
     if facts.hulls > 0 {
         define("TIGHT_HULLS", format!("{}u", facts.hulls), "coarse to fine, for msw_open_tight");
     }
-    let _ = write!(
-        out,
-        "\n/* The blob; it begins at a multiple of four. */\n\
-         extern const uint8_t {lower}_bytes[{upper}_BYTES];\n\n\
-         /* Does not compile if a question could run out of entries of this array. */\n\
-         #ifdef __cplusplus\n#define {upper}_CHECK_SCRATCH(array) \\\n    \
-             static_assert(sizeof(array) / sizeof((array)[0]) >= {upper}_SCRATCH_ENTRIES, \\\n        \
-                 \"too few scratch entries for {lower}\")\n\
-         #else\n#define {upper}_CHECK_SCRATCH(array) \\\n    \
-             _Static_assert(sizeof(array) / sizeof((array)[0]) >= {upper}_SCRATCH_ENTRIES, \\\n        \
-                 \"too few scratch entries for {lower}\")\n\
-         #endif\n\n\
-         #ifdef __cplusplus\n}}\n#endif\n\n#endif\n"
-    );
-    out
+    out + &DECLARATIONS.replace("LOWER", &lower).replace("UPPER", &upper)
 }
 
 /// The file with the bytes.
 #[must_use]
 pub fn c_source(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
     let facts = Facts::of(blob);
-    let (lower, upper) = (names.stem(), names.stem().to_ascii_uppercase());
+    let (lower, upper) = (names.identifier(), names.identifier().to_ascii_uppercase());
     let mut out = format!(
         "/* The {} bytes of `{}`. Written by `meshsweep build --emit c`. */\n\
-         #include \"{lower}.h\"\n\n\
+         #include \"{}.h\"\n\n\
          #if {upper}_CHECKSUM != {:#010x}u\n\
-         #error \"{lower}.h and {lower}.c are of different blobs\"\n#endif\n\n\
+         #error \"this file and its header are of different blobs\"\n#endif\n\n\
          _Alignas(4) const uint8_t {lower}_bytes[{upper}_BYTES] = {{\n",
         facts.bytes,
         in_comment(names.blob),
+        in_comment(names.file_stem()),
         facts.checksum,
     );
     for row in blob.bytes().chunks(20) {

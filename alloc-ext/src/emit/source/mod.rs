@@ -21,11 +21,15 @@ pub struct SourceNames<'a> {
 }
 
 impl SourceNames<'_> {
-    /// The blob's name without extension, as an identifier in lower case.
-    fn stem(&self) -> String {
-        let stem = self.blob.rsplit_once('.').map_or(self.blob, |(stem, _)| stem);
+    /// The blob's name without extension.
+    fn file_stem(&self) -> &str {
+        self.blob.rsplit_once('.').map_or(self.blob, |(stem, _)| stem)
+    }
+
+    /// The same as an identifier in lower case.
+    fn identifier(&self) -> String {
         let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
-        let name: String = stem.chars().map(letter).collect();
+        let name: String = self.file_stem().chars().map(letter).collect();
         // A number cannot begin an identifier.
         if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
     }
@@ -41,7 +45,7 @@ struct Facts {
     bytes: usize,
     checksum: u32,
     triangles: u32,
-    /// Scratch entries with which no question about a point, a segment or a solid runs out.
+    /// No question about one point, segment or solid needs more scratch entries.
     scratch: usize,
     has_tree: bool,
     /// Tight hulls.
@@ -71,7 +75,7 @@ impl Facts {
         let finest = tight.and_then(|hulls| hulls.finest());
         Self {
             bytes: blob.bytes().len(),
-            checksum: Blob::checksum(blob.bytes()).unwrap_or(0),
+            checksum: blob.header_crc(),
             triangles: blob.header().input_triangles,
             scratch: scratch.into_iter().flatten().max().unwrap_or(1),
             has_tree: tree.is_some(),

@@ -17,10 +17,11 @@ pub fn rust_module(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
 }
 
 fn head(facts: &Facts, names: SourceNames<'_>) -> String {
-    let stem = names.stem();
-    let path = match names.blob.rsplit_once('.').map_or(names.blob, |(stem, _)| stem) {
-        same if same == stem => String::new(),
-        other => format!("#[path = {:?}] ", format!("{}.rs", in_comment(other))),
+    let (stem, file) = (names.identifier(), names.file_stem());
+    let path = if file == stem {
+        String::new()
+    } else {
+        format!("#[path = {:?}] ", format!("{}.rs", in_comment(file)))
     };
     let mut out = format!(
         "// The blob `{}` of `{}`, opened by the compiler.\n//\n\
@@ -45,8 +46,8 @@ fn head(facts: &Facts, names: SourceNames<'_>) -> String {
     }
     let _ = writeln!(
         out,
-        "//\n// Distances are in the mesh's unit. Intervals hold of the mesh, not only of the stored \
-         surface.\n\nuse meshsweep_core::{{{}}};\n",
+        "//\n// Distances are in the mesh's unit. Intervals hold of the mesh, not only of the \
+         stored surface.\n\nuse meshsweep_core::{{{}}};\n",
         imports(facts).join(", ")
     );
     out
@@ -77,7 +78,7 @@ fn bytes(facts: &Facts, names: SourceNames<'_>) -> String {
          const _: () = assert!(\n    \
              matches!(Blob::checksum(include_bytes!({file:?})), Ok({checksum:#010x})),\n    \
              \"the file is another blob than this module was written for\"\n);\n\n\
-         /// With so many scratch entries no question about one point, segment or solid runs out.\n\
+         /// No question about one point, segment or solid needs more scratch entries.\n\
          #[allow(dead_code)]\n\
          pub const SCRATCH_ENTRIES: usize = {};\n\n\
          /// Scratch memory. Fewer than `SCRATCH_ENTRIES` do not compile.\n\
@@ -121,8 +122,8 @@ fn hulls(facts: &Facts) -> Option<String> {
 
 fn more(facts: &Facts) -> Option<String> {
     facts.has_more.then(|| {
-        "\n/// Opens all structures of the blob and checks every byte. The compiler cannot open hull\n\
-         /// hierarchies, triboxes and curves.\n\
+        "\n/// Opens all structures of the blob and checks every byte. The compiler cannot open\n\
+         /// hull hierarchies, triboxes and curves.\n\
          ///\n\
          /// # Errors\n\
          /// Flash does not hold the blob any more.\n\

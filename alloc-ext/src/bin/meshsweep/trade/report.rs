@@ -40,7 +40,7 @@ pub fn write(
     let failed = |error| Failure::Search { file: mesh.to_owned(), error };
     let asked = path::asked(measured);
     let data = json!({
-        "name": mesh.file_name().map_or_else(|| mesh.to_string_lossy(), |name| name.to_string_lossy()),
+        "name": mesh.file_name().unwrap_or(mesh.as_os_str()).to_string_lossy(),
         "command": command(),
         "program": env!("CARGO_PKG_VERSION"),
         "unit": loaded.unit.map(Unit::symbol),

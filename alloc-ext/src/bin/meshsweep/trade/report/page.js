@@ -100,7 +100,7 @@ async function drawCosts() {
   await drawCost("bytes", "bytes of the blob", (row) => row.flash, spread);
   const exact = data.trade.rows.filter((row) => foundOf(row, spread) <= 0).length;
   byId("hidden").textContent =
-    exact ? `Of ${exact} settings the error found is 0; it has no place on these axes.` : "";
+    exact ? `${exact} settings have no open circle: their error found is 0.` : "";
 }
 
 const PATH_COLOURS = ["#0072b2", "#56b4e9", "#d55e00", "#009e73", "#cc79a7"];
