@@ -79,8 +79,8 @@ impl<'a> Blob<'a> {
         Ok(Blob { header: table.header, bytes })
     }
 
-    /// Checks the CRCs of header, section table and sections, and returns the first of them. It
-    /// covers the others, so it names the contents of the blob. No record is looked at.
+    /// Checks the CRCs of header, section table and sections of known kinds, and returns the first
+    /// of them. It covers the others, so it names the contents of the blob. No record is looked at.
     ///
     /// A constant function: `meshsweep build --emit rust` compares the blob with this number at
     /// compile time. At start-up it tells whether flash has kept the bytes, before

@@ -12,7 +12,8 @@
  * MSW_ERROR_NULL, _ALIGNMENT, _NOT_OPENED, _COUNT, _NOT_FINITE, _TOLERANCE, _OUT_OF_DOMAIN,
  * _NO_SCRATCH, _NOT_SERVED and _INTERNAL; a function's own text names others. A distance is an
  * interval that contains the true distance to the input mesh: lower and upper are rounded outwards.
- * Zeros always read as "nothing is proved": MSW_UNDECIDED, or a distance of 0. For collision
+ * A verdict, a side or a distance of zeros reads as "nothing is proved": MSW_UNDECIDED, or 0.
+ * Numbers, points and counts of zeros mean nothing: look at the returned code. For collision
  * avoidance treat MSW_UNDECIDED as MSW_YES; msw_is_clear does that.
  *
  * Memory. All of it is the caller's. Memory that a call writes (scratch, answers, models that are
@@ -26,7 +27,9 @@
  * Budget. NULL, or a structure of zeros: search until the answer is exact. A step opens a node of
  * the hierarchy. A limit of steps bounds the time of a question, and the answer still holds.
  *
- * The same blob and question give the same bits on x86-64, Cortex-M and RISC-V.
+ * The same blob and question give the same bits on x86-64, Cortex-M and RISC-V. Intervals hold and
+ * bits are equal if the processor rounds to nearest and keeps subnormal numbers. Both are so at
+ * start. Do not link with -ffast-math, nor set flush-to-zero or another rounding mode.
  */
 #ifndef MESHSWEEP_H
 #define MESHSWEEP_H
@@ -283,9 +286,10 @@ int32_t msw_open(msw_model *model, const void *bytes, size_t count);
 /* The same for bytes that were verified before, for example by the signature of the firmware.
  *
  * Checks header and section table, and looks at no record. If the bytes were changed since msw_open
- * accepted them, here or on the host, any answer may be wrong. No question then crashes, runs for
- * ever, or reads outside of the bytes; it may return MSW_ERROR_INTERNAL. msw_checksum tells
- * whether the bytes are the verified ones. Cost: some thousand instructions. No scratch. */
+ * accepted them, here or on the host, any answer may be wrong. No question then crashes or reads
+ * outside of the bytes, and each ends, msw_overlap and msw_models_within perhaps after minutes. It
+ * may return MSW_ERROR_INTERNAL. msw_checksum tells whether the bytes are the verified ones.
+ * Cost: some thousand instructions. No scratch. */
 int32_t msw_open_trusted(msw_model *model, const void *bytes, size_t count);
 
 /* Checks the CRCs of header, section table and sections, and stores the first, which covers the

@@ -32,11 +32,14 @@ pub fn tight_trusted(data: &[u8]) {
     let Ok(hulls) = TightHulls::open_trusted(&blob) else { return };
     let stack = &mut vec![ScratchEntry::EMPTY; usize::from(input.byte())];
     let (point, distance) = (input.point(), input.float());
+    let points = [point, input.point(), input.point()];
     for index in 0..hulls.count() {
         let Some(hull) = hulls.get(index) else { continue };
         let bound = bounds(hull.bvh());
         ends(hull.closest_point(point, Budget::EXACT, stack).map(|found| found.work), bound);
         ends(hull.within(point, distance, Budget::EXACT, stack).map(|found| found.work), bound);
+        ask_points(hull.bvh(), &points, distance, stack);
+        ask_segments(hull.bvh(), &points, distance, stack);
     }
 }
 

@@ -41,7 +41,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         [&args.mesh].into_iter().chain(&args.frames).map(PathBuf::as_path).collect();
     refuse_same_file(Some(&args.output), &inputs)?;
     Output::probe(&args.output)?;
-    source::probe(args)?;
+    source::probe(args, &inputs)?;
     if args.limits.given().is_some() {
         return trade::build(args);
     }

@@ -22,13 +22,24 @@ fn files(args: &BuildArgs) -> Vec<PathBuf> {
 }
 
 /// Refuses files that cannot be written, or that the build reads.
-pub fn probe(args: &BuildArgs) -> Result<(), Failure> {
+pub fn probe(args: &BuildArgs, inputs: &[&Path]) -> Result<(), Failure> {
+    if args.emit.is_empty() {
+        return Ok(());
+    }
+    if args.output.file_stem().and_then(|stem| stem.to_str()).is_none() {
+        let what = format!("{}: --emit needs a name in UTF-8", args.output.display());
+        return Err(Failure::Usage { what });
+    }
+    if args.emit.contains(&Language::C) && args.is_curve() {
+        let what = "--emit c: the C interface has no curves".to_owned();
+        return Err(Failure::Usage { what });
+    }
     for file in files(args) {
         if file == args.output {
             let what = format!("{}: the blob and its source in one file", file.display());
             return Err(Failure::Usage { what });
         }
-        refuse_same_file(Some(&file), &[&args.mesh])?;
+        refuse_same_file(Some(&file), inputs)?;
         Output::probe(&file)?;
     }
     Ok(())

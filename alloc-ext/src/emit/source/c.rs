@@ -16,7 +16,7 @@ pub fn c_header(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
         "/* The blob `{}` of `{}`.\n *\n \
          * Written by `meshsweep build --emit c`, for version {} of the library. Compile {}.c\n \
          * with your program. Give {lower}_bytes to an open function of meshsweep.h.\n */\n\
-         #ifndef {upper}_MSW_H\n#define {upper}_MSW_H\n\n#include <meshsweep.h>\n\n\
+         #ifndef {upper}_MSW_H\n#define {upper}_MSW_H\n\n#include <stdint.h>\n\n\
          #ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n",
         in_comment(names.blob),
         in_comment(names.mesh),
@@ -28,7 +28,9 @@ pub fn c_header(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
     };
     define("BYTES", format!("{}u", facts.bytes), "of the blob");
     define("CHECKSUM", format!("{:#010x}u", facts.checksum), "of header and section table");
-    define("TRIANGLES", format!("{}u", facts.triangles), "of the mesh");
+    if facts.triangles > 0 {
+        define("TRIANGLES", format!("{}u", facts.triangles), "of the mesh");
+    }
     let entries = format!("{}u", facts.scratch);
     define("SCRATCH_ENTRIES", entries, "no question about a point or a segment needs more");
     if let Some(closed) = facts.is_closed {

@@ -37,7 +37,14 @@ impl SourceNames<'_> {
 
 /// A name that ends no comment and begins no other.
 fn in_comment(name: &str) -> String {
-    name.replace("*/", "*_").replace("/*", "_*").replace(['\n', '\r'], " ")
+    // Compilers refuse characters that change the direction of text.
+    let turns = |c: char| {
+        matches!(c, '\u{200E}' | '\u{200F}' | '\u{202A}'..='\u{202E}')
+            || matches!(c, '\u{2066}'..='\u{2069}')
+    };
+    let harmless = |c: char| if c.is_control() || turns(c) { '?' } else { c };
+    let name: String = name.chars().map(harmless).collect();
+    name.replace("*/", "*_").replace("/*", "_*")
 }
 
 /// Facts of a blob that the text states.

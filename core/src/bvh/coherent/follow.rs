@@ -171,7 +171,12 @@ impl<'a, 't> Follow<'a, 't> {
             if self.bound < self.front.state.rest || !self.front.has_inactive() {
                 break;
             }
+            let active = self.front.state.active;
             self.front.activate(self.bound + self.ahead);
+            // Keys that are no numbers, of a tree that was not checked, would never end.
+            if self.front.state.active == active {
+                return Err(NoAnswer::Lost);
+            }
             self.cost += self.front.state.count as u32 / cost::ENTRIES_READ;
         }
         if self.bound >= self.front.state.dropped || self.best.at == usize::MAX {

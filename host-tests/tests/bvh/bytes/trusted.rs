@@ -38,6 +38,19 @@ fn trust_refuses_a_beginning_and_any_flipped_bit_before_the_sections() {
     }
 }
 
+/// Such a tree kept a coherent query from its end.
+#[test]
+fn a_trusted_tight_hull_whose_header_has_no_numbers_is_not_given_out() {
+    let mut bytes = std::fs::read("../fixtures/hulls.msw").expect("the fixture is there");
+    let hulls = TightHulls::open(&bytes).expect("opens");
+    let inner = hulls.get(0).expect("a hull").bytes();
+    let at = inner.as_ptr().addr() - bytes.as_ptr().addr();
+    let star_radius = at + entry(inner, SectionKind::Bvh as u32).offset as usize + 44;
+    bytes[star_radius..][..4].copy_from_slice(&f32::NAN.to_le_bytes());
+    let hulls = TightHulls::open_trusted(&bytes).expect("opens");
+    assert!(hulls.get(0).is_none() && hulls.get(1).is_some());
+}
+
 #[test]
 fn a_checksum_tells_every_flipped_bit() {
     let small = blob_of(icosphere(0), &TreeOptions::default());

@@ -84,7 +84,7 @@ function drawCost(id, title, costOf, spread) {
     traces.push({ x: [null], y: [null], mode: "markers", name, marker, hoverinfo: "skip" });
   key("guaranteed", { color: "#888", size: 11 });
   key("found", { color: "#888", size: 8, symbol: "circle-open" });
-  key("nothing beats it", { color: "#fff", size: 11, line: { color: "#000", width: 2.5 } });
+  key("nothing beats it (largest error, Cortex-M4F, flash)", { color: "#fff", size: 11, line: { color: "#000", width: 2.5 } });
   return Plotly.react(id, traces, {
     font: FONT, margin: { l: 70, r: 10, t: 10, b: 50 }, hovermode: "closest", uirevision: "kept",
     legend: { orientation: "h", y: -0.2, yanchor: "top" }, hoverlabel: { align: "left" },
@@ -257,7 +257,8 @@ function prepareScene() {
   });
   if (bodies.some((body) => body.is_coarse)) {
     byId("coarse").textContent = "The picture shows at most 50,000 triangles of a body: vertices " +
-      "that lie close together are drawn as one. All numbers are of the whole mesh.";
+      "that lie close together are drawn as one. Colours are of the drawn triangles, all other " +
+      "numbers of the whole mesh.";
   }
 }
 
