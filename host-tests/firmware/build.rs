@@ -102,6 +102,8 @@ fn main() {
         }
         println!("cargo::rustc-link-arg-bin={image}=-Tlink.x");
     }
+    // Packages that depend on this one link with the layout of the suite's images.
+    println!("cargo::metadata=memory={}", out.join("suite_tree").display());
     let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     for image in BARE {
         println!("cargo::rustc-link-arg-bin={image}=-T{}", here.join("bare.x").display());

@@ -43,8 +43,19 @@ impl Rival {
 
     /// Parameter of the first hit of a segment.
     #[must_use]
-    pub fn first_hit(&self, [a, b]: [[f32; 3]; 2]) -> Option<f32> {
-        let direction = Vector::new(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
-        self.0.cast_local_ray(&Ray::new(Vector::new(a[0], a[1], a[2]), direction), 1.0, false)
+    pub fn first_hit(&self, segment: [[f32; 3]; 2]) -> Option<f32> {
+        self.0.cast_local_ray(&along(segment), 1.0, false)
     }
+
+    /// Whether a segment meets the surface. parry3d 0.31 looks for its first hit.
+    #[must_use]
+    pub fn meets(&self, segment: [[f32; 3]; 2]) -> bool {
+        self.0.intersects_local_ray(&along(segment), 1.0)
+    }
+}
+
+/// The segment is the ray up to 1.
+fn along([a, b]: [[f32; 3]; 2]) -> Ray {
+    let direction = Vector::new(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+    Ray::new(Vector::new(a[0], a[1], a[2]), direction)
 }

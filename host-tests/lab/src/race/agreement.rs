@@ -3,7 +3,7 @@
 use meshsweep_host_tests::workload::Subject;
 
 use super::engine::Answer;
-use super::workload::Queries;
+use super::workload::{HitKind, Queries};
 use crate::measure::brute::Brute;
 
 /// How well an engine's answers agree with others'.
@@ -20,6 +20,10 @@ pub struct Agreement {
     pub apart: f64,
     /// Hits where parry3d has a miss, and the other way round.
     pub other_hits: usize,
+    /// Segments that are said to hit.
+    pub hits: usize,
+    /// Answers that are compared with nothing, because neither hit nor miss is proved.
+    pub undecided: usize,
 }
 
 /// A workload with the true answers to some of its queries.
@@ -28,7 +32,7 @@ pub struct Truth<'a> {
     diagonal: f64,
     /// Of the queries every how many-th is known.
     stride: usize,
-    /// Distances or parameters, infinity for a miss; `None` where rounding may decide.
+    /// As [`Truth::value`]; `None` where rounding may decide.
     known: Vec<Option<f64>>,
 }
 
@@ -41,10 +45,11 @@ impl<'a> Truth<'a> {
             Queries::Points(points) => {
                 points.iter().map(|&point| Some(brute.distance(point))).collect()
             }
-            Queries::Segments(segments) => segments
+            Queries::Segments(segments, kind) => segments
                 .iter()
                 .map(|&segment| {
                     let (hit, clear) = brute.first_hit(segment);
+                    let hit = if kind == HitKind::Any { hit.map(|_| 0.0) } else { hit };
                     clear.then_some(hit.unwrap_or(f64::INFINITY))
                 })
                 .collect(),
@@ -56,7 +61,11 @@ impl<'a> Truth<'a> {
     pub fn compare(&self, answers: &[Answer], reference: &[Answer]) -> Agreement {
         let mut agreement = Agreement::default();
         for (query, answer) in answers.iter().enumerate() {
-            let value = self.value(query, answer);
+            let Some(value) = self.value(query, answer) else {
+                agreement.undecided += 1;
+                continue;
+            };
+            agreement.hits += usize::from(value.is_finite());
             if query.is_multiple_of(self.stride)
                 && let Some(truth) = self.known[query / self.stride]
             {
@@ -71,7 +80,8 @@ impl<'a> Truth<'a> {
             }
             let scale =
                 if matches!(self.queries, Queries::Points(_)) { self.diagonal } else { 1.0 };
-            match difference(value, self.value(query, &reference[query])) {
+            let Some(other) = self.value(query, &reference[query]) else { continue };
+            match difference(value, other) {
                 Some(difference) => {
                     agreement.apart = agreement.apart.max(relative(difference, scale))
                 }
@@ -81,12 +91,14 @@ impl<'a> Truth<'a> {
         agreement
     }
 
-    /// A distance or a parameter, infinity for a miss.
-    fn value(&self, query: usize, answer: &Answer) -> f64 {
+    /// A distance or a parameter: zero for any hit, infinity for a miss. `None` if undecided.
+    fn value(&self, query: usize, answer: &Answer) -> Option<f64> {
         match (answer, self.queries) {
-            (Answer::Hit(value), _) => f64::from(*value),
-            (Answer::Point(point), Queries::Points(asked)) => distance(asked[query], *point),
-            (Answer::Point(_), Queries::Segments(_)) | (Answer::Miss, _) => f64::INFINITY,
+            (Answer::Hit(value), _) => Some(f64::from(*value)),
+            (Answer::Meets, _) => Some(0.0),
+            (Answer::Point(point), Queries::Points(asked)) => Some(distance(asked[query], *point)),
+            (Answer::Point(_), Queries::Segments(..)) | (Answer::Miss, _) => Some(f64::INFINITY),
+            (Answer::Undecided, _) => None,
         }
     }
 }

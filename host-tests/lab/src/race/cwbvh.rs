@@ -19,7 +19,7 @@ use obvhs::ray::{Ray, RayHit};
 use obvhs::triangle::Triangle;
 
 use super::engine::{Answer, Engine, each};
-use super::workload::Workload;
+use super::workload::{HitKind, Workload};
 
 struct Compressed {
     tree: CwBvh,
@@ -56,31 +56,40 @@ impl Engine for Compressed {
     }
 
     fn answers(&self, workload: Workload) -> bool {
-        workload == Workload::Segments
+        matches!(workload, Workload::Segments | Workload::AnyHit)
     }
 
     fn closest(&mut self, _: &[[f32; 3]], _: &mut Vec<Answer>) -> Result<(), String> {
         Err("obvhs answers no closest points".to_owned())
     }
 
-    fn first_hits(
+    fn hits(
         &mut self,
         segments: &[[[f32; 3]; 2]],
+        kind: HitKind,
         answers: &mut Vec<Answer>,
     ) -> Result<(), String> {
-        each(segments, answers, |[a, b]| {
-            let direction = std::array::from_fn(|k| b[k] - a[k]);
-            let ray = Ray::new(a.into(), <[f32; 3]>::into(direction), 0.0, 1.0);
-            let mut hit = RayHit::none();
-            if self.tree.ray_traverse(ray, &mut hit, |ray, index| meet(&self.triangles[index], ray))
-            {
-                Answer::Hit(hit.t)
-            } else {
-                Answer::Miss
-            }
-        });
+        let at = |ray: &Ray, index: usize| meet(&self.triangles[index], ray);
+        match kind {
+            HitKind::First => each(segments, answers, |segment| {
+                let mut hit = RayHit::none();
+                let is_hit = self.tree.ray_traverse(along(segment), &mut hit, at);
+                if is_hit { Answer::Hit(hit.t) } else { Answer::Miss }
+            }),
+            HitKind::Any => each(segments, answers, |segment| {
+                let is_miss = self.tree.ray_traverse_miss(along(segment), at);
+                if is_miss { Answer::Miss } else { Answer::Meets }
+            }),
+        }
         Ok(())
     }
+}
+
+/// The segment is the ray up to 1.
+#[inline(always)]
+fn along([a, b]: [[f32; 3]; 2]) -> Ray {
+    let direction = std::array::from_fn(|k| b[k] - a[k]);
+    Ray::new(a.into(), <[f32; 3]>::into(direction), 0.0, 1.0)
 }
 
 /// Parameter at which a ray meets a triangle of either facing (Möller & Trumbore 1997), infinity

@@ -6,7 +6,8 @@
 // Then any number of times, until the input ends:
 //   u32 question, u32 count, f32 [count][3] points or [count][2][3] segments
 // Answered by:
-//   f64 seconds, f32 [count][3] closest points or f32 [count] parameters, -1 for a miss
+//   f64 seconds, f32 [count][3] closest points or f32 [count] parameters, -1 for a miss and 0 for
+//   any hit
 
 #include "child.h"
 
@@ -29,7 +30,7 @@ struct Segment {
     Point from, to;
 };
 
-enum Question : uint32_t { CLOSEST_POINT = 0, FIRST_HIT = 1 };
+enum Question : uint32_t { CLOSEST_POINT = 0, FIRST_HIT = 1, ANY_HIT = 2 };
 
 std::atomic<int64_t> bytes_held{0};
 
@@ -107,6 +108,15 @@ float first_hit(RTCScene scene, Segment segment) {
     return hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? -1 : hit.ray.tfar;
 }
 
+float any_hit(RTCScene scene, Segment segment) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray = ray_along(segment);
+    rtcOccluded1(scene, &context, &ray);
+    // Embree marks a ray that hits by an infinite negative end.
+    return ray.tfar < 0 ? 0 : -1;
+}
+
 RTCScene build(RTCDevice device, const Mesh &mesh) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto fill = [&](RTCBufferType type, RTCFormat format, const auto &items) {
@@ -150,6 +160,9 @@ int main() {
             break;
         case FIRST_HIT:
             answer<Segment, float>(count, [&](Segment s) { return first_hit(scene, s); });
+            break;
+        case ANY_HIT:
+            answer<Segment, float>(count, [&](Segment s) { return any_hit(scene, s); });
             break;
         default:
             return 4;

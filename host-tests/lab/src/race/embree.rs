@@ -10,7 +10,7 @@ use meshsweep_xtask::toolbox::Wanted;
 
 use super::child::{Child, Program, Source};
 use super::engine::{Answer, Engine};
-use super::workload::Workload;
+use super::workload::{HitKind, Workload};
 
 const SOURCE: Source = Source {
     wanted: Wanted {
@@ -26,6 +26,7 @@ const SOURCE: Source = Source {
 /// The first number of a list, as `embree.cpp` names them.
 const CLOSEST_POINT: u32 = 0;
 const FIRST_HIT: u32 = 1;
+const ANY_HIT: u32 = 2;
 
 /// Compiled once in a run.
 static PROGRAM: LazyLock<Result<Program, String>> = LazyLock::new(|| Program::compile(&SOURCE));
@@ -91,16 +92,25 @@ impl Engine for Embree {
         Ok(())
     }
 
-    fn first_hits(
+    fn hits(
         &mut self,
         segments: &[[[f32; 3]; 2]],
+        kind: HitKind,
         answers: &mut Vec<Answer>,
     ) -> Result<(), String> {
         answers.clear();
-        self.ask(FIRST_HIT, segments.len(), segments.as_flattened().as_flattened())?;
+        let question = match kind {
+            HitKind::First => FIRST_HIT,
+            HitKind::Any => ANY_HIT,
+        };
+        self.ask(question, segments.len(), segments.as_flattened().as_flattened())?;
         for _ in segments {
             let parameter = self.child.float()?;
-            answers.push(if parameter < 0.0 { Answer::Miss } else { Answer::Hit(parameter) });
+            answers.push(match kind {
+                _ if parameter < 0.0 => Answer::Miss,
+                HitKind::First => Answer::Hit(parameter),
+                HitKind::Any => Answer::Meets,
+            });
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use meshsweep_host_tests::workload::Subject;
 
-use super::workload::Workload;
+use super::workload::{HitKind, Workload};
 use super::{cwbvh, embree, parry, tree};
 
 /// An index over one mesh that answers lists of queries. A list is one call, so that the call's
@@ -33,14 +33,15 @@ pub trait Engine {
     /// The engine's refusal.
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String>;
 
-    /// Replaces `answers` by those to `segments`, in their order: [`Answer::Hit`] or
-    /// [`Answer::Miss`].
+    /// Replaces `answers` by those to `segments`, in their order: [`Answer::Hit`] of first hits,
+    /// [`Answer::Meets`] or [`Answer::Undecided`] of any, [`Answer::Miss`] of both.
     ///
     /// # Errors
     /// The engine's refusal.
-    fn first_hits(
+    fn hits(
         &mut self,
         segments: &[[[f32; 3]; 2]],
+        kind: HitKind,
         answers: &mut Vec<Answer>,
     ) -> Result<(), String>;
 }
@@ -52,8 +53,12 @@ pub enum Answer {
     Point([f32; 3]),
     /// The parameter of the first hit, 0 at the segment's start, 1 at its end.
     Hit(f32),
+    /// There is a hit.
+    Meets,
     /// No hit.
     Miss,
+    /// Neither is proved.
+    Undecided,
 }
 
 /// A mesh's engine. The blob is for one that reads its index from bytes, which have to outlive it.
@@ -78,25 +83,25 @@ pub const REFERENCE: &str = "parry3d";
 pub const ENTRANTS: [Entrant; 7] = [
     Entrant {
         name: REFERENCE,
-        remark: "TriMesh: project_local_point, cast_local_ray",
+        remark: "TriMesh: project_local_point, cast_local_ray, intersects_local_ray",
         missing: || None,
         build: parry::build,
     },
     Entrant {
         name: "obvhs",
-        remark: "CWBVH, very slow build, own triangle test; no closest points",
+        remark: "CWBVH, very slow build, own triangle test: ray_traverse, ray_traverse_miss",
         missing: || None,
         build: cwbvh::build,
     },
     Entrant {
         name: "embree",
-        remark: "Debian's, C++ with SIMD of the processor: rtcPointQuery, rtcIntersect1; robust",
+        remark: "Debian's, C++ with the processor's SIMD, robust: rtcPointQuery, rtcIntersect1, rtcOccluded1",
         missing: embree::missing,
         build: embree::build,
     },
     Entrant {
         name: "tree",
-        remark: "closest_point, first_hit on the box tree, 16-bit grid",
+        remark: "closest_point, first_hit, any_hit on the box tree, 16-bit grid",
         missing: || None,
         build: tree::build,
     },

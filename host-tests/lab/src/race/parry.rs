@@ -3,7 +3,7 @@
 use meshsweep_host_tests::workload::Subject;
 
 use super::engine::{Answer, Engine, each};
-use super::workload::Workload;
+use super::workload::{HitKind, Workload};
 use crate::measure::rival::Rival;
 
 struct Parry(Rival);
@@ -30,14 +30,20 @@ impl Engine for Parry {
         Ok(())
     }
 
-    fn first_hits(
+    fn hits(
         &mut self,
         segments: &[[[f32; 3]; 2]],
+        kind: HitKind,
         answers: &mut Vec<Answer>,
     ) -> Result<(), String> {
-        each(segments, answers, |segment| {
-            self.0.first_hit(segment).map_or(Answer::Miss, Answer::Hit)
-        });
+        match kind {
+            HitKind::First => each(segments, answers, |segment| {
+                self.0.first_hit(segment).map_or(Answer::Miss, Answer::Hit)
+            }),
+            HitKind::Any => each(segments, answers, |segment| {
+                if self.0.meets(segment) { Answer::Meets } else { Answer::Miss }
+            }),
+        }
         Ok(())
     }
 }

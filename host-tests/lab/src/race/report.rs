@@ -37,11 +37,15 @@ pub fn laps(laps: &[Lap], scale: Scale) -> Table {
         "wrong hits",
         "off parry3d",
         "other hits",
+        "hits",
+        "undecided",
     ];
     let mut table = Table::new("laps", "Nanoseconds a query, one thread", &columns);
     for lap in laps {
         let agreement = lap.agreement;
-        let hits = |count: usize| (lap.workload == Workload::Segments).then_some(count);
+        let is_any = lap.workload == Workload::AnyHit;
+        let hits = |count: usize| (is_any || lap.workload == Workload::Segments).then_some(count);
+        let error = |error: f64| if is_any { Cell::Empty } else { scientific(error) };
         table.push(row![
             lap.workload.name(),
             lap.engine,
@@ -49,16 +53,19 @@ pub fn laps(laps: &[Lap], scale: Scale) -> Table {
             fixed(lap.nanoseconds, 0),
             fixed(lap.speed, 3),
             agreement.checked,
-            scientific(agreement.error),
+            error(agreement.error),
             hits(agreement.wrong_hits),
-            if lap.engine == REFERENCE { Cell::Empty } else { scientific(agreement.apart) },
+            if lap.engine == REFERENCE { Cell::Empty } else { error(agreement.apart) },
             if lap.engine == REFERENCE { Cell::Empty } else { hits(agreement.other_hits).into() },
+            hits(agreement.hits),
+            is_any.then_some(agreement.undecided),
         ]);
     }
     let side = scale.side;
     table.note("x parry3d: how many times as fast; error, wrong hits: against every triangle in f64, relative for distances");
     table.note("off parry3d: largest difference from its answers, distances in diagonals of the mesh; other hits: hit here and miss there");
-    table.note("far, segments: box twice the mesh's; near: Gaussian of 1 % of the diagonal; path: 1 % off the surface, orbit: around and through");
+    table.note("undecided: neither hit nor miss is proved, and neither is compared");
+    table.note("far, segments, any hit: box twice the mesh's; near: Gaussian of 1 % of the diagonal; path: 1 % off the surface, orbit: around and through");
     table.note(format!(
         "path, orbit: steps of 0.03 % of the diagonal; field: {side}^3 nodes row by row"
     ));

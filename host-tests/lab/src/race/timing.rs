@@ -97,8 +97,8 @@ fn rounds(
             let begun = Stopwatch::start();
             match queries {
                 Queries::Points(points) => lane.engine.closest(points, &mut run.answers)?,
-                Queries::Segments(segments) => {
-                    lane.engine.first_hits(segments, &mut run.answers)?
+                Queries::Segments(segments, kind) => {
+                    lane.engine.hits(segments, *kind, &mut run.answers)?
                 }
             }
             let own = lane.engine.own_seconds().map(|s| s * 1e9 / queries.len() as f64);

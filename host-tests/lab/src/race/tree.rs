@@ -6,11 +6,13 @@
 use std::hint::black_box;
 
 use meshsweep::bvh::{TreeOptions, build as build_tree};
-use meshsweep_core::{Budget, Bvh, ClosestPoint, CoherentQuery, Facing, Hint, ScratchEntry};
+use meshsweep_core::{
+    Budget, Bvh, ClosestPoint, CoherentQuery, Facing, Hint, ScratchEntry, Verdict,
+};
 use meshsweep_host_tests::workload::Subject;
 
 use super::engine::{Answer, Engine, try_each};
-use super::workload::Workload;
+use super::workload::{HitKind, Workload};
 
 /// How a list of points is asked.
 #[derive(Clone, Copy, PartialEq)]
@@ -69,7 +71,7 @@ pub fn build_single<'a>(
     subject: &Subject,
     blob: &'a mut Vec<u8>,
 ) -> Result<Box<dyn Engine + 'a>, String> {
-    let workloads = &[Workload::Far, Workload::Near, Workload::Segments];
+    let workloads = &[Workload::Far, Workload::Near, Workload::Segments, Workload::AnyHit];
     open(subject, true, blob, Way::Alone, workloads)
 }
 
@@ -134,16 +136,27 @@ impl Engine for Tree<'_> {
         }
     }
 
-    fn first_hits(
+    fn hits(
         &mut self,
         segments: &[[[f32; 3]; 2]],
+        kind: HitKind,
         answers: &mut Vec<Answer>,
     ) -> Result<(), String> {
-        try_each(segments, answers, |[a, b]| {
-            let found =
-                black_box(self.tree.first_hit(a, b, Facing::Both, Budget::EXACT, &mut self.stack));
-            let found = found.map_err(|error| error.to_string())?;
-            Ok(found.hit.map_or(Answer::Miss, |hit| Answer::Hit(hit.t)))
-        })
+        let Self { tree, stack, .. } = self;
+        match kind {
+            HitKind::First => try_each(segments, answers, |[a, b]| {
+                let found = black_box(tree.first_hit(a, b, Facing::Both, Budget::EXACT, stack));
+                let found = found.map_err(|error| error.to_string())?;
+                Ok(found.hit.map_or(Answer::Miss, |hit| Answer::Hit(hit.t)))
+            }),
+            HitKind::Any => try_each(segments, answers, |[a, b]| {
+                let found = black_box(tree.any_hit(a, b, Facing::Both, Budget::EXACT, stack));
+                Ok(match found.map_err(|error| error.to_string())?.verdict {
+                    Verdict::Yes => Answer::Meets,
+                    Verdict::No => Answer::Miss,
+                    _ => Answer::Undecided,
+                })
+            }),
+        }
     }
 }

@@ -21,12 +21,14 @@ pub enum Workload {
     Field,
     /// First hits of segments across a box twice the mesh's.
     Segments,
+    /// Whether each of the same segments meets the mesh.
+    AnyHit,
 }
 
 impl Workload {
     /// All, in the order of the tables.
-    pub const ALL: [Self; 6] =
-        [Self::Far, Self::Near, Self::Path, Self::Orbit, Self::Field, Self::Segments];
+    pub const ALL: [Self; 7] =
+        [Self::Far, Self::Near, Self::Path, Self::Orbit, Self::Field, Self::Segments, Self::AnyHit];
 
     /// Its name in tables.
     #[must_use]
@@ -38,6 +40,7 @@ impl Workload {
             Self::Orbit => "orbit",
             Self::Field => "field",
             Self::Segments => "segments",
+            Self::AnyHit => "any hit",
         }
     }
 
@@ -52,7 +55,8 @@ impl Workload {
             }
             Self::Orbit => Queries::Points(orbit(subject, scale.coherent)),
             Self::Field => Queries::Points(field(subject, scale.side)),
-            Self::Segments => Queries::Segments(segments(subject, scale.random)),
+            Self::Segments => Queries::Segments(segments(subject, scale.random), HitKind::First),
+            Self::AnyHit => Queries::Segments(segments(subject, scale.random), HitKind::Any),
         }
     }
 }
@@ -77,18 +81,27 @@ impl Scale {
     pub const QUICK: Self = Self { random: 4_000, coherent: 8_000, side: 24, checked: 60 };
 }
 
+/// Which hit of a segment is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HitKind {
+    /// The parameter of the first.
+    First,
+    /// Whether there is one.
+    Any,
+}
+
 /// A list of queries of one kind.
 #[derive(Clone, Debug)]
 pub(super) enum Queries {
     Points(Vec<[f32; 3]>),
-    Segments(Vec<[[f32; 3]; 2]>),
+    Segments(Vec<[[f32; 3]; 2]>, HitKind),
 }
 
 impl Queries {
     pub fn len(&self) -> usize {
         match self {
             Self::Points(points) => points.len(),
-            Self::Segments(segments) => segments.len(),
+            Self::Segments(segments, _) => segments.len(),
         }
     }
 
@@ -96,8 +109,8 @@ impl Queries {
     pub fn thinned(&self, stride: usize) -> Self {
         match self {
             Self::Points(points) => Self::Points(points.iter().copied().step_by(stride).collect()),
-            Self::Segments(segments) => {
-                Self::Segments(segments.iter().copied().step_by(stride).collect())
+            Self::Segments(segments, kind) => {
+                Self::Segments(segments.iter().copied().step_by(stride).collect(), *kind)
             }
         }
     }
