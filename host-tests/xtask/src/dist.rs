@@ -74,9 +74,7 @@ fn archive(cross: &Cross, c: &CTools, target: &str) -> Result<Vec<Vec<String>>, 
             Profile::Release => ("libmeshsweep.a", "3"),
             Profile::Small => ("libmeshsweep_small.a", "s"),
         };
-        if target == HOST {
-            c_checks::programs_on_host(&library, &host::run(&["c-answers"])?)?;
-        } else {
+        if target != HOST {
             rows.push(row(c, target, level, &library)?);
         }
         copy(&library, &folder.join("lib").join(file))?;
@@ -98,6 +96,11 @@ fn archive(cross: &Cross, c: &CTools, target: &str) -> Result<Vec<Vec<String>>, 
     tar.arg(format!("{name}.tar.gz")).arg(&name);
     process::capture(tar.current_dir(&dist))?;
     say!("   {}", dist.join(format!("{name}.tar.gz")).display());
+    if target == HOST {
+        say!("   compares its answers with Rust's, whose program takes a while to build");
+        let library = folder.join("lib/libmeshsweep.a");
+        c_checks::programs_on_host(&library, &host::run(&["c-answers"])?)?;
+    }
     Ok(rows)
 }
 

@@ -27,7 +27,11 @@ pub fn c_header(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
         let _ = writeln!(out, "#define {upper}_{name} {value} /* {about} */");
     };
     define("BYTES", format!("{}u", facts.bytes), "of the blob");
-    define("CHECKSUM", format!("{:#010x}u", facts.checksum), "of header and section table");
+    define(
+        "CHECKSUM",
+        format!("{:#010x}u", facts.checksum),
+        "by msw_checksum; covers all sections",
+    );
     if facts.triangles > 0 {
         define("TRIANGLES", format!("{}u", facts.triangles), "of the mesh");
     }
@@ -41,7 +45,7 @@ pub fn c_header(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
     }
     for (name, corner) in ["BOX_LOW", "BOX_HIGH"].into_iter().zip(facts.bounds.iter().flatten()) {
         let [x, y, z] = corner.map(float);
-        define(name, format!("{{{x}, {y}, {z}}}"), "a corner of the stored vertices' box");
+        define(name, format!("{{{x}, {y}, {z}}}"), "of a box that contains the mesh");
     }
     if facts.hulls > 0 {
         define("TIGHT_HULLS", format!("{}u", facts.hulls), "coarse to fine, for msw_open_tight");

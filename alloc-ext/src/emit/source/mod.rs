@@ -9,7 +9,7 @@ mod rust;
 pub use c::{c_header, c_source};
 pub use rust::rust_module;
 
-use meshsweep_core::Blob;
+use meshsweep_core::{Blob, Bvh};
 
 /// Names in the text.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +33,15 @@ impl SourceNames<'_> {
         // A number cannot begin an identifier.
         if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
     }
+}
+
+/// A box that contains the mesh: that of the stored vertices, grown by the surface error.
+fn around(tree: &Bvh<'_>) -> [[f32; 3]; 2] {
+    let ([low, high], error) = (tree.bounds(), tree.surface_error());
+    if error == 0.0 {
+        return [low, high];
+    }
+    [low.map(|x| (x - error).next_down()), high.map(|x| (x + error).next_up())]
 }
 
 /// A name that ends no comment and begins no other.
@@ -61,6 +70,7 @@ struct Facts {
     has_more: bool,
     is_closed: Option<bool>,
     surface_error: Option<f32>,
+    /// Contains the mesh, or the tightest hull.
     bounds: Option<[[f32; 3]; 2]>,
 }
 
@@ -90,7 +100,7 @@ impl Facts {
             has_more: hull.is_some() || triboxes.is_some() || curve.is_some(),
             is_closed: tree.map(|tree| tree.is_closed()),
             surface_error: tree.map(|tree| tree.surface_error()),
-            bounds: tree.or(finest.map(|hull| *hull.bvh())).map(|tree| tree.bounds()),
+            bounds: tree.or(finest.map(|hull| *hull.bvh())).map(|tree| around(&tree)),
         }
     }
 }

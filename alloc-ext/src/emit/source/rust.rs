@@ -36,7 +36,7 @@ fn head(facts: &Facts, names: SourceNames<'_>) -> String {
     );
     let facts_of_tree = [
         facts.is_closed.map(|closed| (if closed { "closed" } else { "not closed" }).to_owned()),
-        facts.bounds.map(|[low, high]| format!("box of the stored vertices: {low:?} to {high:?}")),
+        facts.bounds.map(|[low, high]| format!("a box that contains it: {low:?} to {high:?}")),
         facts.surface_error.map(|error| {
             format!("no point of the mesh is farther than {error:?} from the stored surface")
         }),
@@ -74,14 +74,17 @@ fn bytes(facts: &Facts, names: SourceNames<'_>) -> String {
          /// The blob.\n\
          #[allow(dead_code)]\n\
          pub static BYTES: Aligned<{size}> = Aligned(*include_bytes!({file:?}));\n\n\
+         /// What `Blob::checksum` gives while the bytes are those of the builder.\n\
+         #[allow(dead_code)]\n\
+         pub const CHECKSUM: u32 = {checksum:#010x};\n\n\
          #[allow(long_running_const_eval, reason = \"every byte is compared\")]\n\
          const _: () = assert!(\n    \
-             matches!(Blob::checksum(include_bytes!({file:?})), Ok({checksum:#010x})),\n    \
+             matches!(Blob::checksum(include_bytes!({file:?})), Ok(CHECKSUM)),\n    \
              \"the file is another blob than this module was written for\"\n);\n\n\
          /// No question about one point, segment or solid needs more scratch entries.\n\
          #[allow(dead_code)]\n\
          pub const SCRATCH_ENTRIES: usize = {};\n\n\
-         /// Scratch memory. Fewer than `SCRATCH_ENTRIES` do not compile.\n\
+         /// Scratch memory. `cargo build` refuses fewer than `SCRATCH_ENTRIES`.\n\
          #[allow(dead_code)]\n\
          pub const fn scratch<const N: usize>() -> Scratch<N> {{\n    \
              const {{ assert!(N >= SCRATCH_ENTRIES, \"too few scratch entries\") }}\n    \
