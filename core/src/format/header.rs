@@ -59,6 +59,7 @@ pub struct Header {
 
 impl Header {
     /// Reads and checks the fixed header. The caller checks the CRC.
+    #[inline(never)]
     pub(crate) const fn read(bytes: Bytes<'_>) -> Result<Header, OpenError> {
         let short = OpenError::Truncated { needed: HEADER_BYTES as u32, found: bytes.len() as u32 };
         let magic: [u8; MAGIC.len()] = ok!(bytes.array(field::MAGIC), short);

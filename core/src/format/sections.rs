@@ -41,6 +41,7 @@ pub struct Section {
 }
 
 /// Reads the header. Checks its CRC, the size of the section table, and the length of `bytes`.
+#[inline(never)]
 const fn read_header(bytes: &[u8]) -> Result<Header, OpenError> {
     let all = Bytes(bytes);
     let header = ok!(Header::read(all));
@@ -100,6 +101,8 @@ impl<'a> SectionTable<'a> {
         Self::of(ok!(Header::read(Bytes(bytes))), bytes)
     }
 
+    // Not inlined, here and below: each structure would have a copy.
+    #[inline(never)]
     const fn of(header: Header, bytes: &'a [u8]) -> Result<Self, OpenError> {
         let bytes = Bytes(bytes);
         // Kinds are below `MAX_SECTIONS`; the remainder spares a bounds check that could panic.
@@ -140,6 +143,7 @@ impl<'a> SectionTable<'a> {
     }
 
     /// The entry of a kind, and its number.
+    #[inline(never)]
     const fn entry(&self, kind: SectionKind) -> Option<(u32, Section)> {
         let Some(index) = self.entries[kind as usize % MAX_SECTIONS].checked_sub(1) else {
             return None;
@@ -156,6 +160,7 @@ impl<'a> SectionTable<'a> {
     }
 
     /// The bytes of a section; none if it is missing.
+    #[inline(never)]
     pub(crate) const fn bytes(&self, kind: SectionKind) -> &'a [u8] {
         match self.entry(kind) {
             Some((_, section)) => {
@@ -169,6 +174,7 @@ impl<'a> SectionTable<'a> {
     }
 
     /// The error of a section whose bytes have the wrong number or content.
+    #[inline(never)]
     pub(crate) const fn malformed(&self, kind: SectionKind) -> OpenError {
         match self.entry(kind) {
             Some((index, _)) => OpenError::Section { index },
