@@ -206,7 +206,8 @@ pub fn check(steps: &mut Steps, facts: &Facts<'_>) {
                     continue;
                 };
                 if let Err(reason) = compare(written, &lines) {
-                    stale.push(format!("{}: table {name}: {reason}", path.display()));
+                    let file = path.display();
+                    stale.push(format!("{file}: table {name}: {reason}\n{}", markdown(&lines)));
                 }
             }
         }
