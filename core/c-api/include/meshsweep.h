@@ -435,7 +435,7 @@ int32_t msw_refined_faces(const msw_hull *hull, msw_refined_entry *refined, size
 
 /* ---- The library ---- */
 
-/* What a return value means, as English text that lives for ever. Any number is fine. */
+/* The meaning of a returned number, as English text that lives for ever. Any number is fine. */
 const char *msw_strerror(int32_t error);
 
 /* The version of the library, as MSW_VERSION. */

@@ -1,5 +1,5 @@
-//! Answers. Each field is as in `meshsweep.h`. All zeros is what a function leaves after an error,
-//! and reads as "nothing is proved": undecided, at distance 0.
+//! Answers. Each field is as in `meshsweep.h`. After an error a function leaves zeros, which prove
+//! nothing: undecided, at distance 0.
 
 #![allow(missing_docs, reason = "meshsweep.h says it")]
 

@@ -16,7 +16,7 @@ macro_rules! errors {
             /// All of them.
             pub const ALL: &[Error] = &[$(Error::$name),*];
 
-            /// What it means and what to do about it.
+            /// Its meaning and a remedy.
             pub fn text(code: i32) -> &'static CStr {
                 match code {
                     0 => c"no error",

@@ -99,7 +99,7 @@ impl<T: AnyBits> Out<T> {
     pub fn slice(&mut self, count: usize) -> Result<&mut [T], Error> {
         match check_slice(self.0, count)? {
             // SAFETY: neither NULL nor misaligned, so by contract `count` elements that overlap
-            // nothing else. What they hold are some bits, and all bits are values.
+            // nothing else. All bits are values of these types.
             Some(()) => Ok(unsafe { core::slice::from_raw_parts_mut(self.0, count) }),
             None => Ok(&mut []),
         }
@@ -149,7 +149,7 @@ pub trait View: Copy {
     const TAG: usize;
 }
 
-/// What a storage holds.
+/// Contents of a storage.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Opened<T: Copy> {

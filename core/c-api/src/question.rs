@@ -46,7 +46,7 @@ unsafe impl AnyBits for PoseC {}
 unsafe impl AnyBits for FocusC {}
 
 impl BudgetC {
-    /// What NULL stands for.
+    /// In the place of a NULL pointer.
     pub const EXACT: BudgetC = BudgetC { relative: 0.0, absolute: 0.0, steps: 0 };
 
     /// The budget.
@@ -58,7 +58,7 @@ impl BudgetC {
 }
 
 impl PoseC {
-    /// What NULL stands for.
+    /// In the place of a NULL pointer.
     pub const IDENTITY: PoseC =
         PoseC { rotation: Pose::IDENTITY.rotation, translation: Pose::IDENTITY.translation };
 
@@ -73,7 +73,7 @@ impl PoseC {
 }
 
 impl FocusC {
-    /// What NULL stands for.
+    /// In the place of a NULL pointer.
     pub const EVERYWHERE: FocusC = FocusC {
         kind: 0,
         a: [0.0; 3],

@@ -53,7 +53,8 @@ fn cross(e: Vec3, g: Vec3) -> (Vec3, Vec3) {
     (e.cross(g), Vec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x))
 }
 
-/// How triangle `lane` faces the point from which it is `seen` ([`seen_from`](super::triangle_bounds::seen_from)).
+/// How triangle `lane` faces the point from which it is `seen`, by
+/// [`seen_from`](super::triangle_bounds::seen_from).
 #[inline]
 pub(crate) fn viewed_side(leaf: &FanLeaf<'_>, lane: usize, seen: &[Vec3; 3]) -> ViewedSide {
     let second = lane >= leaf.shape().turn();

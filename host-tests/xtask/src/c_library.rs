@@ -27,7 +27,7 @@ pub const HOST: &str = "x86_64-unknown-linux-gnu";
 /// What the panic handler of `c-library` calls and nobody defines.
 const PANIC: &str = "meshsweep_core_panics_here";
 
-/// What a program on a machine with an operating system has anyway.
+/// Functions of the C library that compilers call; a workstation has them.
 const OF_THE_HOST: [&str; 5] = ["memcpy", "memmove", "memset", "memcmp", "bcmp"];
 
 /// Compilers of C, linkers, and cppcheck.

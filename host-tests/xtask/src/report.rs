@@ -45,7 +45,7 @@ fn program() -> Result<PathBuf, String> {
     Ok(workspace::target().join("debug/meshsweep"))
 }
 
-/// The page of a mesh, measured at few points: what is tested is how it is drawn.
+/// The page of a mesh, measured at few points: the test is of the drawing.
 fn written(program: &Path, mesh: &Path) -> Result<PathBuf, String> {
     let folder = workspace::target().join("report");
     fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
@@ -78,7 +78,7 @@ fn require_quiet(page: &Page) -> Result<(), String> {
     page.errors.first().map_or(Ok(()), |error| Err(format!("in the console: {error}")))
 }
 
-/// A page with a fault must not pass, whatever the fault: an error of a script, one that is only
+/// A page with a fault of any kind must not pass: an error of a script, one that is only
 /// printed, an empty picture, a slider without effect, an address of the network.
 fn fails(browser: &Chromium, page: &Path) -> Result<(), String> {
     const DRAWN: &str = "await drawPath();";

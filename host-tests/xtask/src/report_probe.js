@@ -8,7 +8,7 @@
   };
   const pause = () => new Promise((done) => setTimeout(done, 250));
 
-  // What a picture shows: the pixels of WebGL, read back; of other pictures the drawn paths.
+  // The pixels of WebGL, read back; of other pictures the drawn paths.
   const shown = (id) => {
     const picture = document.getElementById(id);
     const scene = picture._fullLayout.scene?._scene.glplot;

@@ -1,4 +1,4 @@
-//! A blob as source text for firmware: in Rust or in C, with what a program must know of it at
+//! A blob as source text for firmware: in Rust or in C, with the facts that a program needs at
 //! compile time.
 //!
 //! The text depends on the blob and on the names of files alone: it has no date and no path.

@@ -84,7 +84,8 @@ function drawCost(id, title, costOf, spread) {
     traces.push({ x: [null], y: [null], mode: "markers", name, marker, hoverinfo: "skip" });
   key("guaranteed", { color: "#888", size: 11 });
   key("found", { color: "#888", size: 8, symbol: "circle-open" });
-  key("nothing beats it (largest error, Cortex-M4F, flash)", { color: "#fff", size: 11, line: { color: "#000", width: 2.5 } });
+  const ring = { color: "#fff", size: 11, line: { color: "#000", width: 2.5 } };
+  key("nothing beats it (largest error, Cortex-M4F, flash)", ring);
   return Plotly.react(id, traces, {
     font: FONT, margin: { l: 70, r: 10, t: 10, b: 50 }, hovermode: "closest", uirevision: "kept",
     legend: { orientation: "h", y: -0.2, yanchor: "top" }, hoverlabel: { align: "left" },
