@@ -16,7 +16,7 @@ use meshsweep_suite::ask::{
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, Subject, run};
 
-use crate::generate::{Triangles, bracket, torus};
+use crate::generate::{Triangles, bracket, groove_block, torus};
 use crate::golden::{
     bending_torus, bracket_hulls, fence_curves, tool_path_curve, torus_sieve, torus_triboxes,
 };
@@ -38,7 +38,8 @@ pub enum Blob {
     Sieve,
     /// A smaller torus, asked about points that move and about its moved copy.
     Moving,
-    /// The bracket's box tree, asked about other bodies.
+    /// The box tree of a block with a slot, asked about other bodies. With the bracket's the image
+    /// would not fit into the flash of the smallest board.
     Apart,
     /// The torus's box tree, vertices on a grid.
     TorusTree,
@@ -125,7 +126,7 @@ impl Blob {
             }
             Self::Sieve => Ok(torus_sieve()),
             Self::TorusTree => Ok(box_tree(small_torus(), &default)),
-            Self::Apart => Ok(box_tree(bracket(), &default.with_winding(true))),
+            Self::Apart => Ok(box_tree(groove_block(), &default.with_winding(true))),
             Self::BracketTree => Ok(box_tree(bracket(), &default)),
             // Fewer triangles: with f32 vertices and all questions the image just fits into the
             // flash of the smallest board.

@@ -47,6 +47,7 @@ impl<'a> Bytes<'a> {
     }
 
     /// Whether `len` bytes are there, and all are 0.
+    #[inline(never)]
     pub(crate) const fn is_zero(self, at: usize, len: usize) -> bool {
         let Some(mut bytes) = self.slice(at, len) else { return false };
         while let Some((first, rest)) = bytes.split_first() {
@@ -72,6 +73,7 @@ impl<'a> Bytes<'a> {
     }
 
     /// A word of a header whose length was checked.
+    #[inline(never)]
     pub(crate) const fn word(self, at: usize) -> u32 {
         match self.u32(at) {
             Some(word) => word,

@@ -183,6 +183,7 @@ impl<'a> SectionTable<'a> {
     }
 
     /// The records of a section; none if it is missing.
+    #[inline(never)]
     pub(crate) const fn records<const N: usize>(
         &self,
         kind: SectionKind,

@@ -120,6 +120,7 @@ impl<'a> Bvh<'a> {
         Ok(tree)
     }
 
+    #[inline(never)]
     const fn place(table: &SectionTable<'a>) -> Result<Bvh<'a>, OpenError> {
         let head = table.bytes(SectionKind::Bvh);
         if head.len() != BVH_BYTES {
@@ -151,6 +152,7 @@ impl<'a> Bvh<'a> {
         self.check_source()
     }
 
+    #[inline(never)]
     const fn check_counts(&self) -> Result<(), OpenError> {
         let h = &self.header;
         if h.nodes == 0 || h.leaves == 0 || h.triangles == 0 {
