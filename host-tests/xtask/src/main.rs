@@ -27,7 +27,7 @@ cargo xtask count --board QUESTION...
                                     the same on a Cortex-M4F, of `bvh`, `sweep`, `refine` BLOB ...
 cargo xtask fit [MESH...]           fits the costs by which `meshsweep trade` predicts instructions
 cargo xtask fit --kept              the same from the counts of the last run
-cargo xtask report [MESH...]        opens the page of `meshsweep trade --report` in Chromium, tests it
+cargo xtask report [MESH...]        tests the page of `meshsweep trade --report` in Chromium
 cargo xtask measure|race|rival ...  the laboratory, a crate of its own: `cargo xtask measure --help`
 
 environment:

@@ -201,7 +201,7 @@ impl Search<'_> {
             let shape = leaf.shape();
             let (triangles, turn) = (shape.triangles(), shape.turn());
             self.work.triangles = self.work.triangles.saturating_add(triangles as u32);
-            // A vertex of the ring serves two neighbouring triangles, and is measured once.
+            // Neighbouring triangles share a vertex of the ring: one measurement serves both.
             let seen = |v: Vec3| SeenCorner::new(v - self.p);
             let first = seen(leaf.centre(0));
             let second = if shape.centres() > 1 { seen(leaf.centre(1)) } else { first };

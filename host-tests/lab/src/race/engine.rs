@@ -95,7 +95,7 @@ pub const ENTRANTS: [Entrant; 7] = [
     },
     Entrant {
         name: "embree",
-        remark: "Debian's, C++ with the processor's SIMD, robust: rtcPointQuery, rtcIntersect1, rtcOccluded1",
+        remark: "Debian's, C++, SIMD, robust: rtcPointQuery, rtcIntersect1, rtcOccluded1",
         missing: embree::missing,
         build: embree::build,
     },

@@ -65,7 +65,10 @@ pub fn laps(laps: &[Lap], scale: Scale) -> Table {
     table.note("x parry3d: how many times as fast; error, wrong hits: against every triangle in f64, relative for distances");
     table.note("off parry3d: largest difference from its answers, distances in diagonals of the mesh; other hits: hit here and miss there");
     table.note("undecided: neither hit nor miss is proved, and neither is compared");
-    table.note("far, segments, any hit: box twice the mesh's; near: Gaussian of 1 % of the diagonal; path: 1 % off the surface, orbit: around and through");
+    table.note(
+        "far, segments, any hit: box twice the mesh's; near: Gaussian of 1 % of the diagonal; \
+         path: 1 % off the surface, orbit: around and through",
+    );
     table.note(format!(
         "path, orbit: steps of 0.03 % of the diagonal; field: {side}^3 nodes row by row"
     ));
