@@ -5,6 +5,11 @@
 //! caller's memory, unsorted. Sorted children, or a heap, visit fewer nodes and take longer: they
 //! cost mispredicted branches.
 //!
+//! With a limit of steps that may end the search, the order changes after the first leaf: the child
+//! or entry with the least key comes next. The search then ends with the greatest lower bound that
+//! so many steps can give. This order needs more memory, so it is taken only while
+//! [`Limit::has_room`].
+//!
 //! Keys never fall from parent to child. So the leaves that can change an answer are the same in
 //! every order of visits.
 
@@ -15,6 +20,7 @@ use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::fan::WIDTH;
 use crate::num::lesser;
 use crate::query::{Ended, QueryError, ScratchEntry, Work};
+use core::mem::swap;
 
 /// A point, a segment or a solid that is prepared for the descent.
 ///
@@ -131,6 +137,20 @@ impl Stack<'_> {
         }
     }
 
+    /// Exchanges `entry` with the entry of the least key, if that key is less.
+    #[cold]
+    #[inline(never)]
+    fn exchange_least(&mut self, entry: &mut ScratchEntry) -> bool {
+        let waiting = self.entries.iter_mut().take(self.used);
+        match waiting.min_by_key(|waiting| waiting.small_word()) {
+            Some(least) if least.small_word() < entry.small_word() => {
+                swap(least, entry);
+                true
+            }
+            _ => false,
+        }
+    }
+
     /// Least key of everything that is left, or that did not fit.
     #[cold]
     fn least(&self) -> u32 {
@@ -178,6 +198,31 @@ fn put_wanted(
     WIDTH - free.len()
 }
 
+/// How many nodes a descent opens at most.
+struct Limit {
+    /// Count of [`Work`] at which it ends.
+    steps: u32,
+    /// Whether it can end a search before the tree is exhausted.
+    is_short: bool,
+    /// Entries that no descent in depth-first order outgrows.
+    entries: usize,
+}
+
+impl Limit {
+    /// Whether the entry of the least key may be taken in place of the stack's top, without any
+    /// need of more memory than there is.
+    ///
+    /// A child from anywhere in the tree, taken while `used` entries wait, needs at most `entries`
+    /// above them in depth-first order, and this order is kept until no more than `used` wait. Or
+    /// else the steps that are left cannot fill the memory: each one adds fewer than [`WIDTH`].
+    #[inline(never)]
+    fn has_room(&self, stack: &Stack<'_>, work: &Work) -> bool {
+        let free = stack.entries.len().saturating_sub(stack.used);
+        let left = self.steps.saturating_sub(work.splits) as usize;
+        free >= self.entries || free >= left.saturating_mul(WIDTH)
+    }
+}
+
 /// Visits every leaf within the visitor's limit. Opens nodes until `work` counts `steps` of them,
 /// earlier descents included.
 #[inline(always)]
@@ -190,8 +235,10 @@ pub(crate) fn descend(
     work: &mut Work,
 ) -> Result<Descent, QueryError> {
     let stack = Stack { entries: scratch, used: 0, dropped: NOTHING };
-    let steps = lesser(steps, work.splits.saturating_add(tree.most_steps()));
-    walk(tree, query, steps, stack, visitor, work).ok_or(QueryError::Unchecked)
+    let all = work.splits.saturating_add(tree.most_steps());
+    let limit =
+        Limit { steps: lesser(steps, all), is_short: steps < all, entries: tree.scratch_entries() };
+    walk(tree, query, &limit, stack, visitor, work).ok_or(QueryError::Unchecked)
 }
 
 /// The descent. `None` says that the tree is unchecked: the loop carries no other error.
@@ -199,15 +246,16 @@ pub(crate) fn descend(
 fn walk(
     tree: &Bvh<'_>,
     query: &impl NodeQuery,
-    steps: u32,
+    most: &Limit,
     mut stack: Stack<'_>,
     visitor: &mut impl LeafVisitor,
     work: &mut Work,
 ) -> Option<Descent> {
     let mut node = 0u32;
     let mut bound = 0u32;
+    let mut least_first = false;
     loop {
-        if work.splits >= steps {
+        if work.splits >= most.steps {
             return Some(Descent::Truncated {
                 least: bound.min(stack.least()),
                 ended: Ended::Steps,
@@ -226,6 +274,10 @@ fn walk(
         // parent's links again.
         let mut child = links.child(nearest & CHILD_MASK);
         let mut entry = ScratchEntry::of_words([nearest, node]);
+        if least_first && most.has_room(&stack, work) && stack.exchange_least(&mut entry) {
+            is_wanted = entry.small_word() <= limit;
+            child = tree.child(entry.node(), entry.small_word() & CHILD_MASK)?;
+        }
         loop {
             if is_wanted {
                 bound = entry.small_word() & !CHILD_MASK;
@@ -240,6 +292,7 @@ fn walk(
                 if !visitor.leaf(&visit)? {
                     return Some(Descent::Answered);
                 }
+                least_first = most.is_short;
             }
             is_wanted = true;
             loop {
@@ -252,8 +305,15 @@ fn walk(
                 };
                 stack.used = top;
                 entry = stack.entries.get(top).copied()?;
+                let is_least = least_first && most.has_room(&stack, work);
+                if is_least {
+                    stack.exchange_least(&mut entry);
+                }
                 if entry.small_word() <= visitor.limit() {
                     break;
+                }
+                if is_least {
+                    stack.used = 0;
                 }
             }
             child = tree.child(entry.node(), entry.small_word() & CHILD_MASK)?;

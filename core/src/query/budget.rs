@@ -14,7 +14,9 @@ pub struct Budget {
     pub relative: f32,
     /// Stop when `upper − lower ≤ absolute`, input units. 0 for exact.
     pub absolute: f32,
-    /// Stop after this many nodes were opened.
+    /// Stop after this many nodes were opened. A box tree then opens the nodes of the least lower
+    /// bounds first, while there is room. Twice its `scratch_entries` are room for all steps. With
+    /// less room intervals are wider.
     pub steps: u32,
 }
 

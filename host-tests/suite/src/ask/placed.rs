@@ -246,6 +246,12 @@ fn closest(answer: Result<ClosestPoint, QueryError>) -> Answer {
     answer.map_or_else(Answer::Refused, Answer::Closest)
 }
 
+/// Entries with which a limit of steps leaves the narrowest interval.
+const fn of_budget(tree: &Bvh<'_>, budget: &Budget) -> usize {
+    let enough = tree.scratch_entries();
+    if budget.steps < u32::MAX { enough.saturating_mul(2) } else { enough }
+}
+
 const fn bytes(entries: usize) -> usize {
     entries.saturating_mul(size_of::<ScratchEntry>())
 }
@@ -259,7 +265,7 @@ fn fresh(
     clock: &mut impl Clock,
     told: &mut impl FnMut(&Answer),
 ) -> Result<usize, Refused> {
-    let stack = memory.entries.get_mut(..tree.scratch_entries()).ok_or(Refused::MEMORY)?;
+    let stack = memory.entries.get_mut(..of_budget(tree, &budget)).ok_or(Refused::MEMORY)?;
     for place in places {
         told(&closest(timed(clock, || tree.closest_point(place, budget, stack))));
     }
@@ -275,7 +281,7 @@ fn hinted(
     clock: &mut impl Clock,
     told: &mut impl FnMut(&Answer),
 ) -> Result<usize, Refused> {
-    let stack = memory.entries.get_mut(..tree.scratch_entries()).ok_or(Refused::MEMORY)?;
+    let stack = memory.entries.get_mut(..of_budget(tree, &budget)).ok_or(Refused::MEMORY)?;
     let mut hint = Hint::NONE;
     for place in places {
         let answer = timed(clock, || tree.closest_point_from(place, &mut hint, budget, stack));
@@ -294,7 +300,7 @@ fn coherent<'t>(
     told: &mut impl FnMut(&Answer),
 ) -> Result<usize, Refused> {
     let Memory { entries, coherent, .. } = memory;
-    let stack = entries.get_mut(..tree.scratch_entries()).ok_or(Refused::MEMORY)?;
+    let stack = entries.get_mut(..of_budget(tree, &budget)).ok_or(Refused::MEMORY)?;
     for place in places {
         let answer = timed(clock, || coherent.closest_point(tree, place, budget, stack));
         told(&closest(answer.map(|near| near.closest)));

@@ -1,7 +1,7 @@
 //! The closest point.
 
 use super::scenes::{STACK, all, allowed_width, order, stack, surface_error};
-use meshsweep_core::{Budget, Bvh, ClosestPoint, Ended, Hint, QueryError, Verdict};
+use meshsweep_core::{Budget, Bvh, ClosestPoint, Ended, Hint, Interval, QueryError, Verdict};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, cube, icosphere, rough_sphere, scaled, torus,
 };
@@ -253,6 +253,64 @@ fn nan_infinity_bad_tolerances_and_no_stack_are_typed_errors() {
         }
     }
     assert_eq!(tree.closest_point([0.0; 3], Budget::EXACT, &mut []), Err(QueryError::NoScratch));
+}
+
+/// Entries with which a tree takes the least lower bound first at every step.
+fn room(tree: &Bvh<'_>) -> usize {
+    2 * tree.scratch_entries()
+}
+
+#[test]
+fn a_limit_of_steps_never_outgrows_the_scratch_that_suffices() {
+    for scene in all() {
+        let tree = scene.bvh();
+        let enough = tree.scratch_entries();
+        for p in scene.points(POINTS / 3, &mut Rng::new(17)) {
+            for entries in [enough, enough + 1, enough + 7, 3 * enough / 2, room(&tree)] {
+                for steps in [0, 1, 2, 3, 5, 8, 13, 21, 34, 55, 1000] {
+                    let answer = ask(&tree, p, &Budget::EXACT.with_steps(steps), entries);
+                    assert_ne!(answer.ended, Ended::Scratch, "{p:?}, {steps}: {answer:?}");
+                }
+            }
+        }
+    }
+}
+
+/// After the first leaf the order of visits is that of the lower bounds, so each step can only raise
+/// the least of them.
+#[test]
+fn with_room_another_step_never_lowers_the_lower_bound_nor_raises_the_upper() {
+    for scene in all() {
+        let tree = scene.bvh();
+        for p in scene.points(POINTS / 3, &mut Rng::new(18)) {
+            let after = |steps| ask(&tree, p, &Budget::EXACT.with_steps(steps), room(&tree));
+            let answers = (1..40).map(after).filter(|answer| answer.work.triangles > 0);
+            let intervals: Vec<_> = answers.map(|answer| answer.distance).collect();
+            for pair in intervals.windows(2) {
+                let rounding = allowed_width(scene, f64::from(pair[0].upper)) as f32;
+                assert!(pair[1].lower >= pair[0].lower - rounding, "{p:?}: {pair:?}");
+                assert!(pair[1].upper <= pair[0].upper + rounding, "{p:?}: {pair:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn with_room_as_many_steps_leave_narrower_intervals_after_fewer_triangles() {
+    let scene = Scene::tree("torus", torus(2.0, 0.75, 120, 60), false);
+    let tree = scene.bvh();
+    let mut rng = Rng::new(19);
+    let points: Vec<_> = (0..400).map(|_| rng.direction().map(|x| 4.0 * x)).collect();
+    let sums = |entries: usize| {
+        let answers = points.iter().map(|&p| ask(&tree, p, &Budget::EXACT.with_steps(16), entries));
+        answers.fold((0.0, 0), |(width, triangles), answer| {
+            let Interval { lower, upper } = answer.distance;
+            (width + f64::from(upper - lower), triangles + answer.work.triangles)
+        })
+    };
+    let (depth_first, least_first) = (sums(tree.scratch_entries()), sums(room(&tree)));
+    assert!(least_first.0 < 0.8 * depth_first.0, "{least_first:?} beside {depth_first:?}");
+    assert!(least_first.1 < depth_first.1, "{least_first:?} beside {depth_first:?}");
 }
 
 proptest! {
