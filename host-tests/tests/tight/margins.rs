@@ -50,8 +50,12 @@ fn solids_keep_their_margin_small_or_large() {
     ];
     for (name, of, part) in &meshes {
         let mesh = mesh_of(of);
-        let report =
-            proved(&format!("{name} by {part}"), &mesh, &options(100, part * size(&mesh))).report;
+        let report = proved(
+            &format!("{name} by {part}"),
+            &mesh,
+            &options(100, part * size(&mesh)).with_effort(0.0),
+        )
+        .report;
         assert!(
             report.faces <= 100 && report.stop == Outcome::Reached,
             "{name} {part}: {report:?}"
@@ -82,7 +86,9 @@ fn triangles_of_any_kind_keep_their_margin() {
     for (name, mesh, margin) in
         [("soup", &soup, 0.2), ("open", &open, 0.1), ("one", &one, 0.5), ("one", &one, 1e-5)]
     {
-        let report = proved(&format!("{name} by {margin}"), mesh, &options(100, margin)).report;
+        let report =
+            proved(&format!("{name} by {margin}"), mesh, &options(100, margin).with_effort(0.0))
+                .report;
         assert!(report.void.is_err() && !matches!(report.start, Start::Progressive { .. }));
     }
 }

@@ -33,7 +33,7 @@ fn every_word_replaced_by_a_hostile_one_is_refused_or_safe_to_ask() {
         for section in entries(&bytes) {
             for at in (section.offset..section.offset + section.bytes).step_by(4) {
                 // All of what is small, and a part of what repeats itself.
-                if section.bytes > 1000 && at / 4 % 7 != 0 {
+                if section.bytes > 1000 && at / 4 % 17 != 0 {
                     continue;
                 }
                 for value in HOSTILE {

@@ -65,7 +65,7 @@ fn side_is_the_winding_numbers_and_defined_wherever_the_distance_is_clear() {
     for scene in closed() {
         assert!(scene.bvh().header().is_closed());
         let (mut undefined, mut clear) = (0, 0);
-        for p in scene.points(480, &mut Rng::new(61)) {
+        for p in scene.points(240, &mut Rng::new(61)) {
             let answer = ask(scene, p, &Budget::EXACT, STACK);
             let defined = check(scene, p, 1, &answer);
             let truth = scene.truth(p);

@@ -100,7 +100,7 @@ fn surfaces_keep_their_distance_as_long_as_is_said_and_not_much_longer() {
     let mut rng = Rng::new(1);
     let (mut clear, mut stopped) = (0, 0);
     for (number, (a, b)) in pairs.iter().enumerate() {
-        let poses = motions(a, b, 24, 5 + number as u64);
+        let poses = motions(a, b, 12, 5 + number as u64);
         for ends in poses.chunks_exact(2) {
             let turned = Pose { translation: ends[1].translation, ..ends[0] };
             let keep = 0.3 * rng.unit_f32();

@@ -34,12 +34,12 @@ fn distances_of_solids_are_those_of_their_input() {
 
 #[test]
 fn distances_of_needles_slivers_and_soups_are_those_of_their_input() {
-    check("needles, cube", needle_comb(), cube(3), 24, 6);
-    check("needles, needles", needle_comb(), needle_comb(), 16, 7);
+    check("needles, cube", needle_comb(), cube(3), 12, 6);
+    check("needles, needles", needle_comb(), needle_comb(), 8, 7);
     for along in [false, true] {
-        check("slivers", slivers(60, 8, along), slivers(60, 9, !along), 16, 8);
+        check("slivers", slivers(60, 8, along), slivers(60, 9, !along), 8, 8);
     }
-    check("mixed", mixed(80, 10), cube(2), 16, 10);
+    check("mixed", mixed(80, 10), cube(2), 8, 10);
 }
 
 #[test]
