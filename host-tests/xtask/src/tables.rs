@@ -393,7 +393,9 @@ fn is_near(there: &str, here: &str, rule: Rule) -> bool {
     let near = |(index, (there, here)): (usize, (&Option<f64>, &Option<f64>))| match (there, here) {
         (Some(there), Some(here)) => {
             let seen_less = rule == Rule::Stack && index == 0 && here <= there;
-            seen_less || (there - here).abs() <= TOLERANCE * here
+            // A bound is the largest of several images, and `test` does not build all of them.
+            let fewer_images = rule == Rule::Stack && (0.9 * there..=*there).contains(here);
+            seen_less || fewer_images || (there - here).abs() <= TOLERANCE * here
         }
         (_, None) => true,
         (None, _) => false,
@@ -432,7 +434,7 @@ mod tests {
         assert_eq!(now(None, None), Ok(()));
         assert!(now(Some(1100), Some(2000)).is_err());
         assert!(now(Some(1000), Some(2200)).is_err());
-        assert!(now(Some(1000), Some(1800)).is_err());
+        assert!(now(Some(1000), Some(1700)).is_err());
     }
 
     #[test]
