@@ -44,6 +44,7 @@ impl<'a> Blob<'a> {
     ///
     /// # Errors
     /// [`OpenError`] names what was wanted and what was found.
+    #[inline(never)]
     pub fn open(bytes: &'a [u8]) -> Result<Blob<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(SectionKind::is_hull)?;
@@ -90,6 +91,7 @@ impl<'a> Blob<'a> {
     ///
     /// # Errors
     /// [`OpenError`] of the first part that is wrong.
+    #[inline(never)]
     pub const fn checksum(bytes: &[u8]) -> Result<u32, OpenError> {
         let table = ok!(SectionTable::open(bytes));
         ok!(table.check_all_crcs());

@@ -32,6 +32,7 @@ impl Bvh<'_> {
     ///
     /// # Errors
     /// Those of [`first_hit`](Bvh::first_hit).
+    #[inline(never)]
     pub fn all_hits(
         &self,
         a: [f32; 3],

@@ -53,6 +53,7 @@ impl Bvh<'_> {
     ///
     /// # Errors
     /// Those of [`within`](Bvh::within).
+    #[inline(never)]
     pub fn all_within(
         &self,
         point: [f32; 3],

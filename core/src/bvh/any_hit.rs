@@ -38,7 +38,7 @@ impl Bvh<'_> {
     ///
     /// # Errors
     /// Those of [`first_hit`](Bvh::first_hit).
-    #[inline]
+    #[inline(never)]
     pub fn any_hit(
         &self,
         a: [f32; 3],

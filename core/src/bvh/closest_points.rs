@@ -42,6 +42,7 @@ impl Bvh<'_> {
     /// # Errors
     /// [`QueryError::AnswerCount`], [`QueryError::PointNotFinite`], and those of
     /// [`closest_point`](Bvh::closest_point). Then nothing was computed.
+    #[inline(never)]
     pub fn closest_points(
         &self,
         points: &[[f32; 3]],

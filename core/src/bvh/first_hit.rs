@@ -49,7 +49,7 @@ impl Bvh<'_> {
     /// [`QueryError::OutOfDomain`] if an end is farther than 2^38 grid units away: a million model
     /// sizes or more, unless the model lies as far from its own origin. Far starts are clipped
     /// without loss.
-    #[inline]
+    #[inline(never)]
     pub fn first_hit(
         &self,
         a: [f32; 3],

@@ -127,13 +127,12 @@ impl GridEye {
 
     /// Whether certainly no triangle of a leaf faces the eye.
     fn is_behind(&self, cone: &NormalCone, leaf: &FanLeaf<'_>) -> bool {
-        let all = |way: &dyn Fn(Vec3) -> Vec3| {
-            (0..leaf.shape().centres()).all(|which| cone.is_behind(way(leaf.centre(which))))
+        // A product with 1 keeps the bits.
+        let (eye, scale) = match *self {
+            GridEye::Towards(way) => return cone.is_behind(way),
+            GridEye::At(eye) => (eye, 1.0),
+            GridEye::FarAt(eye) => (eye, DOWN),
         };
-        match *self {
-            GridEye::Towards(way) => cone.is_behind(way),
-            GridEye::At(eye) => all(&|centre| eye - centre),
-            GridEye::FarAt(eye) => all(&|centre| (eye - centre) * DOWN),
-        }
+        (0..leaf.shape().centres()).all(|which| cone.is_behind((eye - leaf.centre(which)) * scale))
     }
 }

@@ -58,6 +58,7 @@ impl Bvh<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`],
     /// [`QueryError::NotServed`].
+    #[inline(never)]
     pub fn nearest(
         &self,
         point: [f32; 3],

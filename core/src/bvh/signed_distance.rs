@@ -112,6 +112,7 @@ impl Bvh<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`],
     /// [`QueryError::NotServed`].
+    #[inline(never)]
     pub fn signed_distance(
         &self,
         point: [f32; 3],

@@ -61,6 +61,7 @@ impl Bvh<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative,
     /// NaN or infinite; [`QueryError::NoScratch`]; [`QueryError::NotServed`].
+    #[inline(never)]
     pub fn within(
         &self,
         point: [f32; 3],

@@ -56,7 +56,7 @@ impl Curve<'_> {
     ///
     /// # Errors
     /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`].
-    #[inline]
+    #[inline(never)]
     pub fn closest_point(
         &self,
         point: [f32; 3],

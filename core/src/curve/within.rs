@@ -50,6 +50,7 @@ impl Curve<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative,
     /// NaN or infinite; [`QueryError::NoScratch`].
+    #[inline(never)]
     pub fn within(
         &self,
         point: [f32; 3],

@@ -92,21 +92,21 @@ impl Simplex {
             *slot = corner;
             simplex.count += 1;
         }
-        let [a, b, c, d] = simplex.corners;
+        let [a, b, c, _] = &simplex.corners;
         match simplex.count {
             1 => simplex,
             2 => segment([a, b]),
             3 => triangle([a, b, c]),
-            _ => tetrahedron([a, b, c, d]),
+            _ => tetrahedron(&simplex.corners),
         }
     }
 
     /// Of corners with these weights. Corners without weight are left out.
     #[inline(always)]
-    fn weighted<const N: usize>(corners: [Difference; N], weights: [f64; N]) -> Simplex {
-        let [first, ..] = corners.first_chunk::<1>().copied().unwrap_or([NOWHERE]);
-        let mut simplex = Simplex { count: 0, weights: [0.0; 4], ..Simplex::of(first) };
-        for (corner, weight) in corners.into_iter().zip(weights) {
+    fn weighted<const N: usize>(corners: [&Difference; N], weights: [f64; N]) -> Simplex {
+        let first = corners.first().copied().unwrap_or(&NOWHERE);
+        let mut simplex = Simplex { count: 0, weights: [0.0; 4], ..Simplex::of(*first) };
+        for (&corner, weight) in corners.into_iter().zip(weights) {
             let mut slots = simplex.corners.iter_mut().zip(&mut simplex.weights);
             if weight > 0.0
                 && let Some((place, share)) = slots.nth(simplex.count)
@@ -121,7 +121,7 @@ impl Simplex {
 
 const NOWHERE: Difference = Difference { vector: [0.0; 3], ends: [[0.0; 3]; 2] };
 
-fn segment(corners: [Difference; 2]) -> Simplex {
+fn segment(corners: [&Difference; 2]) -> Simplex {
     let [a, b] = corners.map(|corner| corner.vector);
     let along = minus(b, a);
     let length_sq = dot(along, along);
@@ -129,13 +129,15 @@ fn segment(corners: [Difference; 2]) -> Simplex {
     Simplex::weighted(corners, [1.0 - t, t])
 }
 
-fn triangle(corners: [Difference; 3]) -> Simplex {
+#[inline(never)]
+fn triangle(corners: [&Difference; 3]) -> Simplex {
     let [a, b, c] = corners.map(|corner| DVec3::from_array(corner.vector));
     let (v, w, _) = closest(-a, b - a, c - a);
     Simplex::weighted(corners, [greater(0.0, 1.0 - v - w), v, w])
 }
 
-fn tetrahedron(corners: [Difference; 4]) -> Simplex {
+#[inline(never)]
+fn tetrahedron(corners: &[Difference; 4]) -> Simplex {
     let [a, b, c, d] = corners;
     let mut nearest: Option<(f64, Simplex)> = None;
     let mut heights = [0f64; 4];
@@ -173,7 +175,7 @@ fn tetrahedron(corners: [Difference; 4]) -> Simplex {
         _ => {
             let [p, q, r, s] = heights;
             let sum = (p + q) + (r + s);
-            let simplex = Simplex::weighted(corners, heights.map(|height| height / sum));
+            let simplex = Simplex::weighted([a, b, c, d], heights.map(|height| height / sum));
             Simplex { depth: Some(depth), ..simplex }
         }
     }

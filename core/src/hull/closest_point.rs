@@ -41,7 +41,7 @@ impl Hull<'_> {
     ///
     /// # Errors
     /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`].
-    #[inline]
+    #[inline(never)]
     pub fn closest_point(
         &self,
         point: [f32; 3],

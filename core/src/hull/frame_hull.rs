@@ -92,7 +92,7 @@ impl FrameHull<'_> {
     ///
     /// # Errors
     /// Those of [`Hull::closest_point`].
-    #[inline]
+    #[inline(never)]
     pub fn closest_point(
         &self,
         point: [f32; 3],

@@ -183,6 +183,7 @@ impl Sweep<'_, '_> {
     ///
     /// # Errors
     /// [`QueryError::Tolerance`].
+    #[inline(never)]
     pub fn closest_point(&mut self, budget: Budget) -> Result<ClosestPoint, QueryError> {
         budget.check()?;
         self.nearest(&budget).ok_or(QueryError::Unchecked)
@@ -197,6 +198,7 @@ impl Sweep<'_, '_> {
     ///
     /// # Errors
     /// [`QueryError::Tolerance`].
+    #[inline(never)]
     pub fn next_triangle(&mut self, budget: Budget) -> Result<Option<ClosestPoint>, QueryError> {
         budget.check()?;
         self.next(&budget).ok_or(QueryError::Unchecked)

@@ -205,7 +205,7 @@ impl MovedHull<'_, '_> {
     ///
     /// # Errors
     /// Those of [`Hull::closest_point`]; [`QueryError::NoPose`] after an update that failed.
-    #[inline]
+    #[inline(never)]
     pub fn closest_point(
         &self,
         point: [f32; 3],

@@ -40,6 +40,7 @@ impl Hull<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`], [`QueryError::NoScratch`],
     /// [`QueryError::Tolerance`].
+    #[inline(never)]
     pub fn first_hit(
         &self,
         a: [f32; 3],
@@ -85,6 +86,7 @@ impl Hull<'_> {
     ///
     /// # Errors
     /// Those of [`first_hit`](Hull::first_hit).
+    #[inline(never)]
     pub fn all_hits(
         &self,
         a: [f32; 3],

@@ -35,6 +35,7 @@ impl TightHull<'_> {
     ///
     /// # Errors
     /// Those of [`Bvh::closest_point`](crate::Bvh::closest_point).
+    #[inline(never)]
     pub fn closest_point(
         &self,
         point: [f32; 3],

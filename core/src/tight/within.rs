@@ -30,6 +30,7 @@ impl TightHull<'_> {
     ///
     /// # Errors
     /// Those of [`Bvh::within`](crate::Bvh::within).
+    #[inline(never)]
     pub fn within(
         &self,
         point: [f32; 3],

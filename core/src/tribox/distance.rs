@@ -46,6 +46,7 @@ impl Triboxes<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`] and [`QueryError::OutOfDomain`] (beyond [`Tribox::DOMAIN`]) of the
     /// point; [`QueryError::Tolerance`], [`QueryError::NoScratch`].
+    #[inline(never)]
     pub fn distance(
         &self,
         point: [f32; 3],
@@ -75,6 +76,7 @@ impl Triboxes<'_> {
     ///
     /// # Errors
     /// Those of [`distance`](Triboxes::distance), of both ends.
+    #[inline(never)]
     pub fn clip(
         &self,
         a: [f32; 3],

@@ -102,6 +102,7 @@ impl Triboxes<'_> {
     /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] for an entry of the matrix beyond
     /// 2 or a translation beyond [`Tribox::DOMAIN`](crate::Tribox::DOMAIN);
     /// [`QueryError::Tolerance`], [`QueryError::NoScratch`].
+    #[inline(never)]
     pub fn separation(
         &self,
         other: &Triboxes<'_>,
@@ -135,6 +136,7 @@ impl Triboxes<'_> {
     ///
     /// # Errors
     /// Those of [`separation`](Triboxes::separation).
+    #[inline(never)]
     pub fn candidates(
         &self,
         other: &Triboxes<'_>,

@@ -5,10 +5,12 @@ use semihosting::println;
 
 use crate::{board, stack};
 
-/// Ticks of one kind, and the stack below the suite's own loop.
+/// Ticks of one kind, and the stack below the functions of the suite that call the core.
 #[derive(Debug)]
 pub struct Meter {
     begun: u32,
+    /// Where the stack ended when the core was called.
+    pointer: usize,
     overhead: u32,
     last: u32,
     queries: u32,
@@ -24,6 +26,7 @@ impl Meter {
     pub fn new() -> Self {
         let mut meter = Self {
             begun: 0,
+            pointer: 0,
             overhead: 0,
             last: 0,
             queries: 0,
@@ -42,7 +45,7 @@ impl Meter {
     /// Prints the hash of a block of answers, and looks how deep the stack was.
     pub fn block_of(&mut self, name: &str, index: u32, hash: u64) {
         // Before and after printing, whose own frames must not count.
-        self.deepest = self.deepest.max(stack::depth());
+        self.deepest = self.deepest.max(self.pointer.saturating_sub(stack::lowest()));
         println!("block {name} {index} {hash:016x}");
         stack::paint();
     }
@@ -73,6 +76,7 @@ impl Default for Meter {
 impl Clock for Meter {
     #[inline]
     fn query_begins(&mut self) {
+        self.pointer = board::stack_pointer();
         self.begun = board::now();
     }
 
@@ -88,7 +92,15 @@ impl Clock for Meter {
 }
 
 impl Recorder for Meter {
+    #[inline(always)]
+    fn opening_begins(&mut self) {
+        self.pointer = board::stack_pointer();
+        stack::paint();
+    }
+
     fn begins(&mut self, memory: usize) {
+        let opening = self.pointer.saturating_sub(stack::lowest());
+        println!("opening {opening}");
         println!("scratch {memory}");
     }
 

@@ -4,7 +4,7 @@
 use crate::board::stack_pointer;
 
 const PAINT: u32 = 0xA5C3_5A3C;
-/// Left alone below the stack pointer: the frames of `paint` and `depth` themselves.
+/// Left alone below the stack pointer: the frames of `paint` and `lowest` themselves.
 const MARGIN: usize = 64;
 
 unsafe extern "C" {
@@ -31,17 +31,16 @@ pub fn paint() {
     }
 }
 
-/// Bytes between the present stack pointer and the lowest word that was used since `paint`. No less
-/// than the margin, which is never painted.
+/// The lowest word that was used since `paint`. Words within the margin, which are never painted,
+/// count as used.
 #[inline(never)]
-pub fn depth() -> usize {
-    let pointer = stack_pointer();
-    let top = (pointer - MARGIN) as *mut u32;
+pub fn lowest() -> usize {
+    let top = (stack_pointer() - MARGIN) as *mut u32;
     let mut word = bottom();
     // SAFETY: only reads, and below the stack pointer.
     while word < top && unsafe { word.read_volatile() } == PAINT {
         // SAFETY: as above.
         word = unsafe { word.add(1) };
     }
-    pointer - word as usize
+    word as usize
 }

@@ -4,6 +4,7 @@
 //! ```text
 //! blob BYTES HASH
 //! calibration INSTRUCTIONS TICKS
+//! opening BYTES
 //! scratch BYTES
 //! block KIND INDEX HASH
 //! ticks KIND QUERIES MIN SUM MAX

@@ -277,9 +277,11 @@ impl<C: Clock> Clock for &mut C {
     }
 }
 
-/// Told what happens, in this order: begins, then kind by kind: kind begins, (query begins, query
+/// Told what happens, in this order: opening begins, begins, then kind by kind: kind begins, (query begins, query
 /// ends) × queries, block, …, kind ends.
 pub trait Recorder: Clock {
+    /// The blob is about to be opened.
+    fn opening_begins(&mut self) {}
     /// The blob was opened; queries need so many bytes of RAM beside the stack.
     fn begins(&mut self, _memory: usize) {}
     /// The first query of `kind` is about to be placed.
@@ -301,6 +303,7 @@ pub fn run<'t, S: Subject<'t>>(
     scratch: &mut S::Scratch,
     recorder: &mut impl Recorder,
 ) -> Result<(), Refused> {
+    recorder.opening_begins();
     let subject = S::open(blob)?;
     if !subject.memory_suffices() {
         return Err(Refused::MEMORY);

@@ -71,6 +71,12 @@ impl Blob {
         self == APART || Self::standard(flash).contains(&self)
     }
 
+    /// Whether its image paints the stack with both optimisations.
+    #[must_use]
+    pub fn is_painted(self) -> bool {
+        self == MOVING || self.is_reported(Flash::Large)
+    }
+
     /// The blob of a name.
     ///
     /// # Errors

@@ -143,7 +143,7 @@ pub fn build(
     if target != HOST {
         // The first would let GNU ld warn of the user's files, which have none. The second would
         // keep all functions, as it names them; nothing unwinds.
-        for section in [".note.GNU-stack", ".eh_frame", ".llvmbc", ".llvmcmd"] {
+        for section in [".note.GNU-stack", ".eh_frame", ".llvmbc", ".llvmcmd", ".stack_sizes"] {
             objcopy.args(["--remove-section", section]);
         }
     }

@@ -6,6 +6,7 @@ use crate::boards::Board;
 use crate::elf::Size;
 use crate::images::Profile;
 use crate::reading::{Cost, Reading};
+use crate::stack::{self, Stack, Stacks};
 
 /// What one image adds to the empty one.
 #[derive(Clone, Debug)]
@@ -38,6 +39,8 @@ pub struct Row {
     pub readings: Vec<Measured>,
     /// Each question's code.
     pub added: Vec<Added>,
+    /// Each question's stack.
+    pub stacks: Stacks,
 }
 
 /// The table for people.
@@ -74,6 +77,24 @@ pub fn text(rows: &[Row]) -> String {
                 let _ = writeln!(
                     table,
                     "{cpu:<12}{blob:<14}{profile:<9}{kind:<14}{queries:>7}{min:>10.0}{mean:>10.0}{max:>10.0}{stack:>8}{scratch:>9}",
+                );
+            }
+        }
+    }
+    table.push_str("\nstack of a question, bytes: most seen, and bound\n");
+    for row in rows {
+        for profile in Profile::ALL {
+            let stacks = stack::QUESTIONS.iter().zip(row.stacks.of(profile));
+            for (question, Stack { painted, bound }) in stacks {
+                let text = |bytes: Option<u32>| bytes.map_or("-".to_owned(), |b| b.to_string());
+                let _ = writeln!(
+                    table,
+                    "{:<12}{:<32}{:<9}{:>8}{:>8}",
+                    row.board.cpu,
+                    question.name,
+                    profile.name(),
+                    text(painted),
+                    text(bound)
                 );
             }
         }

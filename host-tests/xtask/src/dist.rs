@@ -71,8 +71,8 @@ fn archive(cross: &Cross, c: &CTools, target: &str) -> Result<Vec<Vec<String>>, 
     for &profile in profiles {
         let library = c_library::build(cross, c, target, profile)?;
         let (file, level) = match profile {
-            Profile::Release => ("libmeshsweep.a", "3"),
             Profile::Small => ("libmeshsweep_small.a", "s"),
+            _ => ("libmeshsweep.a", "3"),
         };
         if target != HOST {
             rows.push(row(c, target, level, &library)?);

@@ -130,7 +130,11 @@ fn is_code(flags: SectionFlags) -> bool {
     matches!(flags, SectionFlags::Elf { sh_flags, .. } if sh_flags.0 & elf::SHF_EXECINSTR.0 != 0)
 }
 
-fn with<T>(image: &Path, read: impl FnOnce(&ElfFile32<'_, Endianness>) -> T) -> Result<T, String> {
+/// Reads an image.
+pub(crate) fn with<T>(
+    image: &Path,
+    read: impl FnOnce(&ElfFile32<'_, Endianness>) -> T,
+) -> Result<T, String> {
     let bytes =
         fs::read(image).map_err(|error| format!("cannot read {}: {error}", image.display()))?;
     object::read::elf::ElfFile::<FileHeader32<Endianness>>::parse(bytes.as_slice())

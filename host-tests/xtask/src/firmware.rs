@@ -4,13 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::blobs::{Blob, Blocks};
-use crate::boards::{BOARDS, Board};
+use crate::boards::{BOARDS, Board, Flash};
 use crate::cost::{self, Added, Measured, Row};
 use crate::cross::Cross;
 use crate::images::{self, Profile};
 use crate::process;
 use crate::qemu::Qemu;
 use crate::reading::Reading;
+use crate::stack::{self, Stacks};
 use crate::steps::Steps;
 use crate::{blobs, elf, proof, tables};
 
@@ -86,6 +87,7 @@ impl Tools {
 pub struct Asked {
     board: Board,
     blob: Blob,
+    profile: Profile,
     image: PathBuf,
 }
 
@@ -117,11 +119,17 @@ impl Scope {
         }
     }
 
-    /// Whether a board is asked about a blob. The Cortex-M33 runs nearly the instructions of the
-    /// Cortex-M4F: `cargo xtask test` asks it about the two structures that have tables.
-    fn asks(self, board: &Board, blob: Blob) -> bool {
+    /// Whether a board is asked about a blob, by an image with this optimisation. The Cortex-M33
+    /// runs nearly the instructions of the Cortex-M4F: `cargo xtask test` asks it about the two
+    /// structures that have tables. The other optimisation is asked for the stack that it takes.
+    fn asks(self, board: &Board, blob: Blob, profile: Profile) -> bool {
         let has_table = matches!(blob.image, "suite_hull" | "suite_tree");
-        self == Self::All || has_table || board.cpu != "Cortex-M33"
+        let is_first = profile == blob.profile(board.flash);
+        let all = is_first || board.flash == Flash::Large && blob.is_painted();
+        match self {
+            Self::All => all,
+            Self::Compared => is_first && (has_table || board.cpu != "Cortex-M33"),
+        }
     }
 
     /// Whether the proof image is linked for a board with a profile.
@@ -130,10 +138,19 @@ impl Scope {
     }
 
     /// Questions whose code is measured, each by an image of its own.
-    const fn questions(self) -> &'static [&'static str] {
+    fn questions(self) -> Vec<&'static str> {
         match self {
-            Self::All => &QUESTIONS,
-            Self::Compared => &tables::CODE,
+            Self::All => QUESTIONS.iter().map(|(image, _)| *image).collect(),
+            Self::Compared => tables::CODE.to_vec(),
+        }
+    }
+
+    /// Debug builds whose stack is bounded.
+    fn debug_profiles(self, board: &Board) -> &'static [Profile] {
+        match self {
+            Self::All if DEBUGGED.contains(&board.cpu) => &Profile::DEBUG,
+            Self::Compared if DEBUGGED[0] == board.cpu => &[Profile::Overridden],
+            _ => &[],
         }
     }
 
@@ -173,23 +190,46 @@ pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> V
     });
     let Some(flash) = written else { return Vec::new() };
     let runs: Vec<(&Asked, &(PathBuf, u32))> = asked.iter().zip(&flash).collect();
-    let readings = process::parallel(&runs, |(Asked { board, blob, image }, (flash, least))| {
-        tools.asked_in_flash(board, image, flash, &blob.expected()?, *least)
-    });
+    let readings =
+        process::parallel(&runs, |(Asked { board, blob, image, .. }, (flash, least))| {
+            tools.asked_in_flash(board, image, flash, &blob.expected()?, *least)
+        });
     let mut rows: Vec<Row> = BOARDS
         .iter()
-        .map(|board| Row { board: *board, readings: Vec::new(), added: Vec::new() })
+        .map(|board| Row {
+            board: *board,
+            readings: Vec::new(),
+            added: Vec::new(),
+            stacks: Stacks::default(),
+        })
         .collect();
-    for (Asked { board, blob, .. }, (reading, seconds)) in asked.iter().zip(readings) {
-        let name = format!("{}: the host's bits, {}", board.cpu, blob.name);
-        let reading = steps.ended(&name, seconds, reading);
+    for (asked, (reading, seconds)) in asked.iter().zip(readings) {
+        let Asked { board, blob, profile, image } = asked;
+        let name = format!("{}: the host's bits, {}, {}", board.cpu, blob.name, profile.name());
         let row = rows.iter_mut().find(|row| row.board.cpu == board.cpu);
-        if let (Some(reading), Some(row)) = (reading, row)
+        let Some(row) = row else { continue };
+        let reading = reading.and_then(|reading| {
+            row.stacks.paint(*profile, image, &reading)?;
+            Ok(reading)
+        });
+        if let Some(reading) = steps.ended(&name, seconds, reading)
             && blob.is_reported(board.flash)
         {
-            let profile = blob.profile(board.flash);
-            row.readings.push(Measured { blob: blob.name, profile, reading });
+            row.readings.push(Measured { blob: blob.name, profile: *profile, reading });
         }
+    }
+    for Row { board, stacks, .. } in &mut rows {
+        steps.run(&format!("{}: bounds of the stack", board.cpu), || {
+            for profile in Profile::ALL {
+                if scope.is_proved(board, profile) {
+                    stacks.bound(cross, board, profile)?;
+                }
+            }
+            for &profile in scope.debug_profiles(board) {
+                stacks.bound_debug(cross, board, profile)?;
+            }
+            Ok(())
+        });
     }
     for row in &mut rows {
         let name = format!("{}: sizes", row.board.cpu);
@@ -215,8 +255,17 @@ fn proofs_and_sizes(steps: &mut Steps, cross: &Cross, scope: Scope) {
         let name = format!("{}: a panic is noticed", board.cpu);
         steps.run(&name, || proof::notices_a_panic(cross, board.target, Profile::Release));
     }
+    for profile in Profile::DEBUG {
+        let boards = BOARDS.iter().filter(|board| scope.debug_profiles(board).contains(&profile));
+        let targets: Vec<&str> = boards.map(|board| board.target).collect();
+        if !targets.is_empty() {
+            steps.run(&format!("a debug build, {}", profile.name()), || {
+                images::sizes(cross, &targets, profile, &[stack::DEBUG_IMAGE])
+            });
+        }
+    }
     for &profile in scope.profiles() {
-        let names = size_images(scope.questions());
+        let names = size_images(&scope.questions());
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let name = format!("images for sizes, {}", profile.name());
         steps.run(&name, || images::sizes(cross, &targets, profile, &names));
@@ -231,10 +280,13 @@ fn suites(cross: &Cross, scope: Scope) -> Result<Vec<Asked>, String> {
     for board in BOARDS {
         let mut names = Profile::ALL.map(|profile| (profile, Vec::new()));
         let blobs = Blob::standard(board.flash).into_iter().chain(Blob::VARIANTS);
-        for blob in blobs.filter(|&blob| scope.asks(&board, blob)) {
-            let profile = blob.profile(board.flash);
+        let asks = |blob| Profile::ALL.map(|profile| (blob, profile));
+        for (blob, profile) in blobs.flat_map(asks) {
+            if !scope.asks(&board, blob, profile) {
+                continue;
+            }
             let image = images::image(cross, board.target, profile, blob.image);
-            asked.push(Asked { board, blob, image });
+            asked.push(Asked { board, blob, profile, image });
             for (_, names) in names.iter_mut().filter(|(of, _)| *of == profile) {
                 if !names.contains(&blob.image) {
                     names.push(blob.image);
@@ -271,20 +323,24 @@ pub fn reading(
     tools.asked_in_flash(board, &image, &flash, &Reading::parse(expected, None)?, least)
 }
 
-/// Questions whose code is measured, each by an image of its own.
-const QUESTIONS: [&str; 12] = [
-    "open",
-    "closest",
-    "segment",
-    "outer",
-    "tree_open",
-    "tree_closest",
-    "tree_alone",
-    "tree_segment",
-    "tree_coherent",
-    "triboxes",
-    "tight",
-    "curve",
+/// Boards whose debug builds are looked at: with floating point, and without.
+pub const DEBUGGED: [&str; 2] = ["Cortex-M4F", "Cortex-M0"];
+
+/// Questions whose code is measured, each by an image of its own, and their names in tables.
+pub const QUESTIONS: [(&str, &str); 13] = [
+    ("tree_open", "open a box tree"),
+    ("tree_alone", "closest point"),
+    ("tree_closest", "open, closest point"),
+    ("tree_segment", "open, first hit"),
+    ("tree_coherent", "open, coherent query"),
+    ("tree_four", "open, closest point, first hit, within, signed distance"),
+    ("tight", "open tight hulls, within"),
+    ("triboxes", "open triboxes, apart"),
+    ("curve", "open curves, closest point"),
+    ("open", "open a hull hierarchy"),
+    ("closest", "open a hull hierarchy, closest point"),
+    ("segment", "open a hull hierarchy, first hit"),
+    ("outer", "open a hull hierarchy, outer hits"),
 ];
 
 /// The image that asks nothing, then one for each question.
@@ -297,7 +353,7 @@ fn sizes(cross: &Cross, board: &Board, scope: Scope) -> Result<Vec<Added>, Strin
     let questions = scope.questions();
     for &profile in scope.profiles() {
         let size = |name: &String| elf::size(&images::image(cross, board.target, profile, name));
-        let sizes = size_images(questions).iter().map(size).collect::<Result<Vec<_>, _>>()?;
+        let sizes = size_images(&questions).iter().map(size).collect::<Result<Vec<_>, _>>()?;
         if let [empty, others @ ..] = sizes.as_slice() {
             added.extend(questions.iter().zip(others).map(|(question, size)| {
                 let size = size.beyond(*empty);

@@ -14,11 +14,18 @@ pub enum Profile {
     Release,
     /// `opt-level = "s"`.
     Small,
+    /// A debug build of firmware whose core is compiled at `opt-level = "s"`.
+    Overridden,
+    /// A debug build.
+    Unoptimised,
 }
 
 impl Profile {
-    /// Both.
+    /// Those of firmware that is shipped.
     pub const ALL: [Self; 2] = [Self::Release, Self::Small];
+
+    /// Those of debug builds.
+    pub const DEBUG: [Self; 2] = [Self::Overridden, Self::Unoptimised];
 
     /// cargo's name for it.
     #[must_use]
@@ -26,6 +33,8 @@ impl Profile {
         match self {
             Self::Release => "release",
             Self::Small => "small",
+            Self::Overridden => "overridden",
+            Self::Unoptimised => "unoptimised",
         }
     }
 }
@@ -82,6 +91,9 @@ pub fn cargo(cross: &Cross, subcommand: &str, targets: &[&str], profile: Profile
     command
         .current_dir(workspace::firmware())
         .env("CARGO_TARGET_DIR", workspace::target().join(cross.folder()));
+    // Each image tells the frame of each function: `call_graph` reads them. The option is not
+    // stable; it adds a section to the file and nothing to the code.
+    command.env("RUSTC_BOOTSTRAP", "1").env("CARGO_ENCODED_RUSTFLAGS", "-Zemit-stack-sizes");
     command.args(["--quiet", "--profile", profile.name()]);
     command
 }

@@ -13,6 +13,7 @@
 //!           ├ qemu ─────────────────┘
 //!           ├ reading (what an image printed) ─ compared with the host's own run
 //!           ├ proof   (no panic left)
+//!           ├ stack   (painted, and bounded by call_graph ─ instructions)
 //!           └ elf     (sizes) ─ cost ─────────┘
 //! ```
 
@@ -23,6 +24,7 @@ pub mod blobs;
 pub mod boards;
 pub mod c_checks;
 pub mod c_library;
+pub mod call_graph;
 pub mod checks;
 pub mod chromium;
 pub mod cost;
@@ -34,12 +36,14 @@ pub mod firmware;
 pub mod fit;
 pub mod host;
 pub mod images;
+pub mod instructions;
 pub mod process;
 pub mod processors;
 pub mod proof;
 pub mod qemu;
 pub mod reading;
 pub mod report;
+pub mod stack;
 pub mod steps;
 pub mod table;
 pub mod tables;

@@ -33,7 +33,7 @@ pub struct Cost {
     pub mean: f64,
     /// Of the dearest one.
     pub max: f64,
-    /// Bytes below the suite's loop.
+    /// Bytes below the function of the suite that calls the core.
     pub stack: u32,
 }
 
@@ -46,6 +46,8 @@ pub struct Reading {
     pub blocks: Vec<Block>,
     /// Costs in the order of asking.
     pub costs: Vec<Cost>,
+    /// Bytes of stack that opening took.
+    pub opening: u32,
     /// Bytes of memory that the image hands to queries.
     pub scratch: u32,
     /// Bytes of scratch that no query outgrows, as the blob says.
@@ -66,6 +68,7 @@ impl Reading {
             let words: Vec<&str> = line.split(' ').collect();
             match words.as_slice() {
                 ["blob", bytes, hash] => reading.blob = format!("{bytes} {hash}"),
+                ["opening", bytes] => reading.opening = number(bytes)?,
                 ["scratch", bytes] => reading.scratch = number(bytes)?,
                 ["needs", bytes] => reading.needs = number(bytes)?,
                 ["calibration", instructions, ticks] => {
@@ -177,7 +180,7 @@ mod tests {
     use super::{Block, Reading};
     use crate::boards::BOARDS;
 
-    const PRINTED: &str = "blob 3 0000000000000001\ncalibration 2000000 50000\nscratch 256\n\
+    const PRINTED: &str = "blob 3 0000000000000001\ncalibration 2000000 50000\nopening 80\nscratch 256\n\
         block arith 0 000000000000000a\nticks arith 2 1 4 3\nstack arith 64\ndone\n";
 
     #[test]

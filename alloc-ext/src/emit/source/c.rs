@@ -15,13 +15,16 @@ pub fn c_header(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
     let mut out = format!(
         "/* The blob `{}` of `{}`.\n *\n \
          * Written by `meshsweep build --emit c`, for version {} of the library. Compile {}.c\n \
-         * with your program. Give {lower}_bytes to an open function of meshsweep.h.\n */\n\
+         * with your program. Give {lower}_bytes to an open function of meshsweep.h.\n *\n \
+         * Bytes of the processor's stack that a question takes in libmeshsweep_small.a /\n \
+         * libmeshsweep.a, without the frame of its msw_ function:\n{} */\n\
          #ifndef {upper}_MSW_H\n#define {upper}_MSW_H\n\n#include <stdint.h>\n\n\
          #ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n",
         in_comment(names.blob),
         in_comment(names.mesh),
         env!("CARGO_PKG_VERSION"),
         in_comment(names.file_stem()),
+        facts.stack.iter().map(|line| format!(" *   {line}\n")).collect::<String>(),
     );
     let mut define = |name: &str, value: String, about: &str| {
         let _ = writeln!(out, "#define {upper}_{name} {value} /* {about} */");

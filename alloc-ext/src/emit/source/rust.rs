@@ -44,6 +44,13 @@ fn head(facts: &Facts, names: SourceNames<'_>) -> String {
     for fact in facts_of_tree.into_iter().flatten() {
         let _ = writeln!(out, "// - {fact}");
     }
+    out.push_str(
+        "//\n// Bytes of the processor's stack that a question takes, at opt-level \"s\" / 3. Debug \
+         builds\n// take several times as much: core/docs/guide.md tells how to avoid it.\n",
+    );
+    for line in &facts.stack {
+        let _ = writeln!(out, "//   {line}");
+    }
     let _ = writeln!(
         out,
         "//\n// Distances are in the mesh's unit. Intervals hold of the mesh, not only of the \

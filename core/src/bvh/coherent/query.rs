@@ -247,7 +247,7 @@ impl Memory {
         policy: FrontPolicy::EMPTY,
     };
 
-    #[inline]
+    #[inline(never)]
     fn closest_point(
         &mut self,
         keys: &mut [f32],

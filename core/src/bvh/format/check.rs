@@ -69,6 +69,7 @@ impl<'a> Bvh<'a> {
     ///
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without a tree.
+    #[inline(never)]
     pub fn open(bytes: &'a [u8]) -> Result<Bvh<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(SectionKind::is_bvh)?;

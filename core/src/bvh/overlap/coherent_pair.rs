@@ -143,6 +143,7 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
     ///
     /// # Errors
     /// Those of [`Bvh::distance`]. If the arguments are refused, the state stays as it was.
+    #[inline(never)]
     pub fn distance(
         &mut self,
         tree: &Bvh<'t>,
@@ -175,6 +176,7 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
     ///
     /// # Errors
     /// Those of [`Bvh::within_of`]. If the arguments are refused, the state stays as it was.
+    #[inline(never)]
     pub fn within(
         &mut self,
         tree: &Bvh<'t>,

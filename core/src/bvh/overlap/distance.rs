@@ -56,6 +56,7 @@ impl Bvh<'_> {
     /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is
     /// beyond 2 or one grid is 2^40 times as coarse as the other; [`QueryError::NotServed`] unless
     /// both trees have boxes for segments; [`QueryError::Tolerance`], [`QueryError::NoScratch`].
+    #[inline(never)]
     pub fn distance(
         &self,
         other: &Bvh<'_>,

@@ -45,6 +45,7 @@ impl Bvh<'_> {
     /// # Errors
     /// Those of [`distance`](Bvh::distance), also for a `keep` that is negative, NaN or infinite,
     /// and [`QueryError::NotFinite`] if a pose on the way leaves f32's range.
+    #[inline(never)]
     pub fn first_contact_of(
         &self,
         other: &Bvh<'_>,

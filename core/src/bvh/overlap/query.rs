@@ -43,6 +43,7 @@ impl Bvh<'_> {
     /// beyond 2, one grid is 2^40 times as coarse as the other, or a surface error is beyond 2^30
     /// grid units; [`QueryError::NotServed`] unless both trees have boxes for segments;
     /// [`QueryError::Tolerance`], [`QueryError::NoScratch`].
+    #[inline(never)]
     pub fn overlap(
         &self,
         other: &Bvh<'_>,
@@ -78,6 +79,7 @@ impl Bvh<'_> {
     ///
     /// # Errors
     /// Those of [`overlap`](Bvh::overlap).
+    #[inline(never)]
     pub fn overlaps(
         &self,
         other: &Bvh<'_>,

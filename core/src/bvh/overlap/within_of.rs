@@ -43,6 +43,7 @@ impl Bvh<'_> {
     /// # Errors
     /// Those of [`distance`](Bvh::distance); [`QueryError::Tolerance`] also for a distance that is
     /// negative, NaN or infinite.
+    #[inline(never)]
     pub fn within_of(
         &self,
         other: &Bvh<'_>,

@@ -68,6 +68,7 @@ impl Bvh<'_> {
     /// # Errors
     /// Those of [`distance`](Bvh::distance), [`signed_by_winding`](Bvh::signed_by_winding) and
     /// [`Pose::to_model`].
+    #[inline(never)]
     pub fn penetration(
         &self,
         other: &Bvh<'_>,

@@ -103,6 +103,7 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// Those of [`Bvh::distance`](crate::Bvh::distance); [`QueryError::PoseOutOfDomain`] also if a
     /// pose, of any model, is far from a rotation; [`QueryError::OutOfDomain`] if two models are
     /// farther from each other than f32 reaches.
+    #[inline(never)]
     pub fn nearest_pair(
         &self,
         asks_about: impl Fn(usize, usize) -> bool,
@@ -159,6 +160,7 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// # Errors
     /// Those of [`nearest_pair`](Self::nearest_pair); [`QueryError::Tolerance`] also for a distance
     /// that is negative, NaN or infinite.
+    #[inline(never)]
     pub fn within(
         &self,
         distance: f32,

@@ -60,6 +60,7 @@ impl Bvh<'_> {
     /// # Errors
     /// [`QueryError::Corners`] if `to` has not as many corners as `from`; else those of
     /// [`solid_distance`](Bvh::solid_distance).
+    #[inline(never)]
     pub fn first_contact(
         &self,
         from: &Solid<'_>,

@@ -48,6 +48,7 @@ impl Bvh<'_> {
     /// [`QueryError::OutOfDomain`] for a corner or a radius beyond 2^30 grid units;
     /// [`QueryError::Tolerance`] if a tolerance of the budget is negative, NaN or infinite;
     /// [`QueryError::NoScratch`] for scratch without entries.
+    #[inline(never)]
     pub fn solid_distance(
         &self,
         solid: &Solid<'_>,

@@ -43,6 +43,7 @@ impl Bvh<'_> {
     /// # Errors
     /// Those of [`solid_distance`](Bvh::solid_distance); [`QueryError::Tolerance`] also for a
     /// distance that is negative, NaN or infinite.
+    #[inline(never)]
     pub fn solid_within(
         &self,
         solid: &Solid<'_>,

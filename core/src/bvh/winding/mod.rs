@@ -84,6 +84,7 @@ impl Bvh<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`];
     /// [`QueryError::NotServed`] if the blob was built without moments (`--for winding`).
+    #[inline(never)]
     pub fn winding_number(
         &self,
         point: [f32; 3],
@@ -128,6 +129,7 @@ impl Bvh<'_> {
     /// # Errors
     /// Those of [`closest_point`](Bvh::closest_point) and of
     /// [`winding_number`](Bvh::winding_number).
+    #[inline(never)]
     pub fn signed_by_winding(
         &self,
         point: [f32; 3],

@@ -24,6 +24,7 @@ impl<'a> Curve<'a> {
     ///
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without curves.
+    #[inline(never)]
     pub fn open(bytes: &'a [u8]) -> Result<Curve<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(|kind| kind == SectionKind::Curves)?;

@@ -17,6 +17,7 @@ impl<'a> Hull<'a> {
     ///
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without a hull.
+    #[inline(never)]
     pub fn open(bytes: &'a [u8]) -> Result<Hull<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(SectionKind::is_hull)?;

@@ -52,6 +52,7 @@ impl<'a> DeformableHull<'a> {
     ///
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was not built `--for deform`.
+    #[inline(never)]
     pub fn open(bytes: &'a [u8]) -> Result<DeformableHull<'a>, OpenError> {
         let hull = Hull::open(bytes)?;
         let table = SectionTable::view(bytes)?;

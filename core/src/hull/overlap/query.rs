@@ -55,6 +55,7 @@ impl Hull<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`], [`QueryError::NoScratch`],
     /// [`QueryError::Tolerance`].
+    #[inline(never)]
     pub fn meets_triangle(
         &self,
         corners: [[f32; 3]; 3],
@@ -109,6 +110,7 @@ impl Hull<'_> {
     /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is
     /// beyond 2, one model is 2^40 times as large as the other, or a surface error is far larger
     /// than its model; [`QueryError::NoScratch`], [`QueryError::Tolerance`].
+    #[inline(never)]
     pub fn overlap(
         &self,
         other: &Hull<'_>,
@@ -148,6 +150,7 @@ impl Hull<'_> {
     ///
     /// # Errors
     /// Those of [`overlap`](Hull::overlap).
+    #[inline(never)]
     pub fn overlaps(
         &self,
         other: &Hull<'_>,

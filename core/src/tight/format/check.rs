@@ -17,6 +17,7 @@ impl<'a> TightHulls<'a> {
     ///
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without tight hulls.
+    #[inline(never)]
     pub fn open(bytes: &'a [u8]) -> Result<TightHulls<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(|kind| kind == SectionKind::TightHulls)?;

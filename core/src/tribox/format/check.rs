@@ -87,6 +87,7 @@ impl<'a> Triboxes<'a> {
     ///
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without triboxes.
+    #[inline(never)]
     pub fn open(bytes: &'a [u8]) -> Result<Triboxes<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(|kind| kind == SectionKind::Triboxes)?;

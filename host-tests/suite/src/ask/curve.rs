@@ -78,6 +78,7 @@ impl<'t> Subject<'t> for Curve<'t> {
 ///
 /// # Errors
 /// The core's refusal.
+#[inline(never)]
 pub fn open(bytes: &[u8]) -> Result<Curve<'_>, Refused> {
     Curve::open(bytes).map_err(Refused::of)
 }

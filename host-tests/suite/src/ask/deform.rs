@@ -85,6 +85,7 @@ impl<'t> Subject<'t> for DeformableHull<'t> {
 ///
 /// # Errors
 /// The core's refusal.
+#[inline(never)]
 pub fn open(bytes: &[u8]) -> Result<DeformableHull<'_>, Refused> {
     DeformableHull::open(bytes).map_err(Refused::of)
 }

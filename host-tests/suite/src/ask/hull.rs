@@ -117,6 +117,7 @@ impl<'t> Subject<'t> for Model<'t> {
 ///
 /// # Errors
 /// The core's refusal.
+#[inline(never)]
 pub fn open(bytes: &[u8]) -> Result<Model<'_>, Refused> {
     let blob = Blob::open(bytes).map_err(Refused::of)?;
     let hull = blob.hull().map_err(|_| Refused::NO_SECTION)?;
@@ -150,6 +151,7 @@ pub fn contents(model: &Model<'_>, fold: &mut Fold) {
 }
 
 /// Closest point; returns the witness.
+#[inline(never)]
 pub fn closest(
     model: &Model<'_>,
     point: [f32; 3],
@@ -170,6 +172,7 @@ pub fn closest(
 }
 
 /// First point of the segment from `a` to `b` on the surface.
+#[inline(never)]
 pub fn first_hit(
     model: &Model<'_>,
     [a, b]: [[f32; 3]; 2],
@@ -184,6 +187,7 @@ pub fn first_hit(
 }
 
 /// Every point of the segment from `a` to `b` on the surface.
+#[inline(never)]
 pub fn all_hits(
     model: &Model<'_>,
     [a, b]: [[f32; 3]; 2],
@@ -205,6 +209,7 @@ pub fn all_hits(
 
 /// The hits of the segment from `a` to `b` that the refined hull finds from outside: from the base
 /// hull, then from the hull that this leaves.
+#[inline(never)]
 pub fn outer_hits<'t>(
     model: &Model<'t>,
     [a, b]: [[f32; 3]; 2],
@@ -252,6 +257,7 @@ fn focus(model: &Model<'_>, place: &mut Placer) -> (Focus, f32) {
 }
 
 /// The hull that a focus needs: the update, its changes, and all faces.
+#[inline(never)]
 pub fn refine<'t>(
     model: &Model<'t>,
     focus: &Focus,

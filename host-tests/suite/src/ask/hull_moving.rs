@@ -71,6 +71,7 @@ impl<'t> Subject<'t> for Moving<'t> {
 const STEPS: u32 = 48;
 
 /// Whether the surface meets its moved copy, and a triangle.
+#[inline(never)]
 pub fn overlap(
     Moving(model): &Moving<'_>,
     pose: Pose,
@@ -102,6 +103,7 @@ pub fn overlap(
 
 /// A sweep about three points, one after the other: a few steps at each, then its end, and the next
 /// triangles of the last one.
+#[inline(never)]
 pub fn sweep(
     Moving(model): &Moving<'_>,
     points: [[f32; 3]; 3],
@@ -133,6 +135,7 @@ pub fn sweep(
 }
 
 /// Closest point of the moved model.
+#[inline(never)]
 pub fn posed(
     Moving(model): &Moving<'_>,
     pose: Pose,

@@ -83,6 +83,7 @@ impl<'t> Subject<'t> for Hulls<'t> {
 ///
 /// # Errors
 /// The core's refusal.
+#[inline(never)]
 pub fn open(bytes: &[u8]) -> Result<Hulls<'_>, Refused> {
     finest(TightHulls::open(bytes).map_err(Refused::of)?)
 }

@@ -130,6 +130,7 @@ impl<'t> Subject<'t> for Bvh<'t> {
 ///
 /// # Errors
 /// The core's refusal.
+#[inline(never)]
 pub fn open(bytes: &[u8]) -> Result<Bvh<'_>, Refused> {
     Bvh::open(bytes).map_err(Refused::of)
 }

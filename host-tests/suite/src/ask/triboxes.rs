@@ -90,6 +90,7 @@ impl<'t> Subject<'t> for Triboxes<'t> {
 ///
 /// # Errors
 /// The core's refusal.
+#[inline(never)]
 pub fn open(bytes: &[u8]) -> Result<Triboxes<'_>, Refused> {
     Triboxes::open(bytes).map_err(Refused::of)
 }

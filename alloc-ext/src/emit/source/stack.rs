@@ -1,0 +1,53 @@
+//! The processor's stack that questions take on boards.
+
+use meshsweep_core::Blob;
+use std::fmt::Write;
+
+/// Bounds by question and board, with some room for other compilers. `cargo xtask tables` writes
+/// them from the images' call graphs, and `cargo xtask test` compares them.
+const BOUNDS: &str = include_str!("stack.csv");
+
+/// Columns of the text.
+const NAME: usize = 28;
+const BOARD: usize = 15;
+
+/// The bounds of the questions that a blob serves: a heading, then a line a question.
+pub(super) fn lines(blob: &Blob<'_>) -> Vec<String> {
+    let served = served(blob);
+    let mut rows = BOUNDS.lines().map(|row| row.split(','));
+    let boards: Vec<&str> = rows.next().into_iter().flatten().skip(2).step_by(2).collect();
+    let cpus = boards.iter().map(|board| board.split(' ').next().unwrap_or_default());
+    let mut lines = vec![cpus.fold(" ".repeat(NAME), |mut line, cpu| {
+        let _ = write!(line, "{cpu:>BOARD$}");
+        line
+    })];
+    for mut row in rows {
+        let (Some(name), Some(needs)) = (row.next(), row.next()) else { continue };
+        if served.contains(&needs) {
+            let mut line = format!("{name:<NAME$}");
+            while let (Some(small), Some(fast)) = (row.next(), row.next()) {
+                let _ = write!(line, "{:>BOARD$}", format!("{small} / {fast}"));
+            }
+            lines.push(line);
+        }
+    }
+    lines
+}
+
+/// What a blob has, as the table names it.
+fn served(blob: &Blob<'_>) -> Vec<&'static str> {
+    let tree = blob.bvh().ok();
+    let of_tree = |serves: fn(&meshsweep_core::Bvh<'_>) -> bool| tree.as_ref().is_some_and(serves);
+    let all = [
+        ("tree", tree.is_some()),
+        ("closest", of_tree(|tree| tree.serves_distances())),
+        ("segment", of_tree(|tree| tree.serves_segments())),
+        ("cull", of_tree(|tree| tree.serves_culling())),
+        ("winding", of_tree(|tree| tree.serves_winding())),
+        ("tight", blob.tight_hulls().is_ok()),
+        ("hull", blob.hull().is_ok()),
+        ("triboxes", blob.triboxes().is_ok()),
+        ("curve", blob.curve().is_ok()),
+    ];
+    all.into_iter().filter_map(|(name, is_served)| is_served.then_some(name)).collect()
+}

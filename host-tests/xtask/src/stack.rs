@@ -1,0 +1,327 @@
+//! The processor's stack that each question takes on the boards: measured by painting, and bounded
+//! by the image's own call graph.
+//!
+//! A question is a function of the suite that asks the core and folds the answer. What the suite's
+//! images paint is below the call of the core in it. So the frame of the function itself, of the
+//! instance with the meter, is added, and the sum is no more than the function's bound in the same image. The bounds of the documents
+//! are the larger ones of that image and of the proof's, which has all questions and no panic.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::boards::Board;
+use crate::call_graph::CallGraph;
+use crate::cost::Row;
+use crate::cross::Cross;
+use crate::images::{self, Profile};
+use crate::reading::Reading;
+use crate::workspace;
+
+/// The question that is asked most.
+const CLOSEST: &str = "closest point";
+
+/// Bytes of stack that it may take in a debug build with the override of `core/docs/guide.md`.
+const MOST_IN_DEBUG: u32 = 2560;
+
+/// The image that is built for debug builds: it asks a box tree four questions.
+pub const DEBUG_IMAGE: &str = "size_tree_four";
+
+/// A question, as the tables name it.
+#[derive(Clone, Copy, Debug)]
+pub struct Question {
+    /// Its name.
+    pub name: &'static str,
+    /// What a blob has to have, as the builder's table of stacks names it.
+    pub needs: &'static str,
+    /// The function of the suite.
+    function: &'static str,
+    /// The suite's kinds of queries that call the function; none of opening.
+    kinds: &'static [&'static str],
+    /// The image of the suite that asks it.
+    image: &'static str,
+}
+
+const fn question(
+    name: &'static str,
+    needs: &'static str,
+    function: &'static str,
+    kinds: &'static [&'static str],
+    image: &'static str,
+) -> Question {
+    Question { name, needs, function, kinds, image }
+}
+
+/// The questions of the tables.
+pub const QUESTIONS: [Question; 34] = {
+    const TREE: &str = "suite_tree";
+    const APART: &str = "suite_apart";
+    const HULL: &str = "suite_hull";
+    [
+        question("open a box tree", "tree", "tree::open", &[], TREE),
+        question(
+            CLOSEST,
+            "closest",
+            "tree::distance::closest",
+            &["closest_far", "closest_near"],
+            TREE,
+        ),
+        question(
+            "closest point from a hint",
+            "closest",
+            "tree::distance::follow",
+            &["closest_path"],
+            TREE,
+        ),
+        question("coherent query", "closest", "tree::distance::coherent", &["session"], TREE),
+        question("closest points", "closest", "tree::distance::batch", &["batch_of_8"], TREE),
+        question("within", "closest", "tree::distance::is_within", &["within"], TREE),
+        question("nearest triangles", "closest", "tree::distance::nearest", &["nearest"], TREE),
+        question("all within", "closest", "tree::distance::all_within", &["all_within"], TREE),
+        question("signed distance", "closest", "tree::distance::signed", &["signed"], TREE),
+        question("winding number", "winding", "apart::winding", &["winding"], APART),
+        question("front facing", "cull", "tree::sight::cull", &["cull"], TREE),
+        question("first hit", "segment", "tree::sight::first_hit", &["first_hit"], TREE),
+        question("any hit", "segment", "tree::sight::any_hit", &["any_hit"], TREE),
+        question("all hits", "segment", "tree::sight::all_hits", &["all_hits"], TREE),
+        question("overlap", "segment", "tree::meeting::overlap", &["overlap"], TREE),
+        question("distance of two models", "segment", "apart::distance", &["pair_distance"], APART),
+        question("coherent pair", "segment", "apart::coherent", &["coherent_pair"], APART),
+        question("scene", "segment", "apart::scene", &["scene"], APART),
+        question("distance of a solid", "segment", "apart::solid", &["solid"], APART),
+        question("first contact", "segment", "apart::contact", &["first_contact"], APART),
+        question("penetration", "winding", "apart::penetration", &["penetration"], APART),
+        question("open tight hulls", "tight", "tight::open", &[], "suite_tight"),
+        question(
+            "closest point of tight hulls",
+            "tight",
+            "tight::closest",
+            &["closest_far", "closest_near"],
+            "suite_tight",
+        ),
+        question("within of tight hulls", "tight", "tight::is_within", &["within"], "suite_tight"),
+        question("open a hull hierarchy", "hull", "hull::open", &[], HULL),
+        question(
+            "closest point of a hull",
+            "hull",
+            "hull::closest",
+            &["closest_far", "closest_near", "closest_path"],
+            HULL,
+        ),
+        question("first hit of a hull", "hull", "hull::first_hit", &["first_hit"], HULL),
+        question("outer hits", "hull", "hull::outer_hits", &["outer_hits"], HULL),
+        question("refine", "hull", "hull::refine", &["refine"], HULL),
+        question("sweep", "hull", "hull_moving::sweep", &["sweep"], "suite_moving"),
+        question("open triboxes", "triboxes", "triboxes::open", &[], "suite_triboxes"),
+        question(
+            "triboxes apart",
+            "triboxes",
+            "triboxes::reject",
+            &["triboxes_apart"],
+            "suite_triboxes",
+        ),
+        question("open curves", "curve", "curve::open", &[], "suite_curve"),
+        question(
+            "closest point of curves",
+            "curve",
+            "curve::closest",
+            &["closest_far", "closest_near"],
+            "suite_curve",
+        ),
+    ]
+};
+
+impl Question {
+    fn path(&self) -> String {
+        format!("meshsweep_suite::ask::{}", self.function)
+    }
+}
+
+/// What a question takes with one optimisation on one board.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Stack {
+    /// Most bytes that were seen.
+    pub painted: Option<u32>,
+    /// Bytes that are never exceeded.
+    pub bound: Option<u32>,
+}
+
+/// What all questions take on a board, by profile.
+#[derive(Clone, Debug)]
+pub struct Stacks([[Stack; QUESTIONS.len()]; Profile::ALL.len() + Profile::DEBUG.len()]);
+
+impl Default for Stacks {
+    fn default() -> Self {
+        Self([[Stack::default(); QUESTIONS.len()]; Profile::ALL.len() + Profile::DEBUG.len()])
+    }
+}
+
+impl Stacks {
+    /// What each question takes with a profile.
+    pub fn of(&self, profile: Profile) -> [Stack; QUESTIONS.len()] {
+        self.0[profile as usize]
+    }
+
+    /// Reads the bounds from the image of the proof.
+    ///
+    /// # Errors
+    /// A question has none.
+    pub fn bound(&mut self, cross: &Cross, board: &Board, profile: Profile) -> Result<(), String> {
+        let graph = CallGraph::of(&images::image(cross, board.target, profile, "proof"))?;
+        if graph.takes_addresses {
+            return Err("the address of a function is taken, so it may be called by it".to_owned());
+        }
+        let mut refused = Vec::new();
+        for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize]) {
+            match graph.bound(&question.path()) {
+                Ok(bound) => stack.bound = stack.bound.max(Some(bound.bytes)),
+                Err(reason) => refused.push(format!("{}: {reason}", question.name)),
+            }
+        }
+        if refused.is_empty() { Ok(()) } else { Err(refused.join("\n")) }
+    }
+
+    /// Reads the bounds of a debug build, of the questions that its image asks.
+    ///
+    /// # Errors
+    /// With the override a closest point takes more than the guide says.
+    pub fn bound_debug(
+        &mut self,
+        cross: &Cross,
+        board: &Board,
+        profile: Profile,
+    ) -> Result<(), String> {
+        let graph = CallGraph::of(&images::image(cross, board.target, profile, DEBUG_IMAGE))?;
+        for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize]) {
+            let bound = graph.bound(&question.path()).ok();
+            stack.bound = bound.as_ref().map(|bound| bound.bytes);
+            if profile == Profile::Overridden && question.name == CLOSEST {
+                match bound {
+                    Some(bound) if bound.bytes <= MOST_IN_DEBUG => {}
+                    Some(bound) => {
+                        return Err(format!(
+                            "{CLOSEST}: {} bytes of stack in a debug build, not {MOST_IN_DEBUG}\n{}",
+                            bound.bytes,
+                            bound.text()
+                        ));
+                    }
+                    None => return Err(format!("{CLOSEST}: no bound in a debug build")),
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes what an image of the suite painted.
+    ///
+    /// # Errors
+    /// It is more than the bound of the same image.
+    pub fn paint(
+        &mut self,
+        profile: Profile,
+        image: &Path,
+        reading: &Reading,
+    ) -> Result<(), String> {
+        let graph = CallGraph::of(image)?;
+        for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize]) {
+            if !image.ends_with(question.image) {
+                continue;
+            }
+            let path = question.path();
+            let asked =
+                reading.costs.iter().filter(|cost| question.kinds.contains(&cost.kind.as_str()));
+            let Some(below) = asked
+                .map(|cost| cost.stack)
+                .max()
+                .or_else(|| question.kinds.is_empty().then_some(reading.opening))
+            else {
+                continue;
+            };
+            // The stack of opening is painted below its caller.
+            let own = if question.kinds.is_empty() { Some(0) } else { graph.frame(&path, "Meter") };
+            let painted = below + own.ok_or_else(|| format!("no function `{path}`"))?;
+            let bound =
+                graph.bound(&path).map_err(|reason| format!("{}: {reason}", question.name))?;
+            if painted > bound.bytes {
+                return Err(format!(
+                    "{}: {painted} bytes of stack were seen, and {} are the bound:\n{}",
+                    question.name,
+                    bound.bytes,
+                    bound.text()
+                ));
+            }
+            stack.painted = stack.painted.max(Some(painted));
+            stack.bound = stack.bound.max(Some(bound.bytes));
+        }
+        Ok(())
+    }
+}
+
+/// The builder's table, from which `meshsweep build --emit` takes what it writes.
+fn file() -> PathBuf {
+    workspace::root().join("alloc-ext/src/emit/source/stack.csv")
+}
+
+/// What the builder is told of a bound: another compiler's may be a little more.
+fn with_room(bound: u32) -> u32 {
+    (bound + 64).next_multiple_of(64)
+}
+
+/// Columns of the builder's table: a board, and how it is optimised.
+fn columns(rows: &[Row]) -> impl Iterator<Item = (&Row, Profile)> {
+    rows.iter().flat_map(|row| [Profile::Small, Profile::Release].map(|profile| (row, profile)))
+}
+
+/// Writes the builder's table, if all bounds are known.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write(rows: &[Row]) -> Result<(), String> {
+    let mut text = "question,needs".to_owned();
+    for (row, profile) in columns(rows) {
+        let level = if profile == Profile::Small { "s" } else { "3" };
+        text.push_str(&format!(",{} {level}", row.board.cpu));
+    }
+    for (index, question) in QUESTIONS.iter().enumerate() {
+        text.push_str(&format!("\n{},{}", question.name, question.needs));
+        for (row, profile) in columns(rows) {
+            let Some(bound) = row.stacks.of(profile)[index].bound else {
+                say!("   stack.csv: {} is not known of all boards", question.name);
+                return Ok(());
+            };
+            text.push_str(&format!(",{}", with_room(bound)));
+        }
+    }
+    text.push('\n');
+    fs::write(file(), text).map_err(|error| format!("{}: {error}", file().display()))
+}
+
+/// Compares the builder's table with the bounds that are known.
+///
+/// # Errors
+/// A number below a bound, or far above it.
+pub fn check(rows: &[Row]) -> Result<(), String> {
+    let text = fs::read_to_string(file());
+    let text = text.map_err(|error| format!("{}: {error}", file().display()))?;
+    let mut lines = text.lines().skip(1);
+    for (index, question) in QUESTIONS.iter().enumerate() {
+        let mut cells = lines.next().unwrap_or_default().split(',');
+        let named = [cells.next(), cells.next()];
+        if named != [Some(question.name), Some(question.needs)] {
+            return Err(format!("stack.csv: {named:?}, not {}", question.name));
+        }
+        for (row, profile) in columns(rows) {
+            let written = cells.next().and_then(|cell| cell.parse::<u32>().ok()).unwrap_or(0);
+            let Some(bound) = row.stacks.of(profile)[index].bound else { continue };
+            let most = with_room(bound) + 64 + bound / 8;
+            if !(bound..=most).contains(&written) {
+                return Err(format!(
+                    "stack.csv: {}, {}, {}: {written}, and the bound is {bound}",
+                    question.name,
+                    row.board.cpu,
+                    profile.name()
+                ));
+            }
+        }
+    }
+    Ok(())
+}
