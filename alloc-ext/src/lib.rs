@@ -8,6 +8,8 @@
 //! CSV of points ─────────────── curve     runs of points in capsules     ─┘
 //! ```
 //!
+//! [`Builder`] goes all of this way, for the questions that a blob has to serve.
+//!
 //! Each stage takes a value and returns a value with one invariant more. Kernels are those of
 //! `meshsweep-core`, so builder and reader compute the same bits.
 //!
@@ -17,19 +19,23 @@
 //! | [`mesh`] | mesh files, defects of a mesh, repair, report |
 //! | [`surface`] | the triangle surface that all builders share |
 //! | [`collapse`] | edge collapses: the loop, the star, where the vertex goes |
+//! | [`load`] | a mesh file in one unit, on a hull's grid, repaired |
 //! | `hausdorff` | certified distances between two meshes |
 //! | [`bvh`], [`hull`], [`tight`], [`tribox`], [`curve`] | one structure each, as in core |
 //! | [`emit`] | sections to bytes; it knows no builder |
+//! | [`builder`] | from options and a mesh to a blob in memory: what the program does |
+//! | [`progress`] | how much of a build is done, and whether to go on |
 //! | [`cut`] | a coarser blob out of a finer one |
 //! | [`worst`] | a search for the query that costs most |
 //! | [`check`] | proofs of a blob again, from its bytes and the mesh; it uses `mesh` only |
 //! | [`trade`] | errors and costs of a mesh's structures and settings, measured |
 //!
-//! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `surface` ←
-//! `{collapse, bvh}` ← `hausdorff` ← `{hull, tight, tribox, curve}` ← `{cut, trade}` ← the program.
-//! `trade` also uses the distance of `check`, and `worst` uses no room. A test keeps that
-//! (`host-tests/tests/house.rs`).
+//! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `progress` ←
+//! `surface` ← `{collapse, bvh, load}` ← `hausdorff` ← `{hull, tight, tribox, curve}` ← `{cut, trade,
+//! builder}` ← the program. `trade` also uses the distance of `check`, and `worst` uses no room. A
+//! test keeps that (`host-tests/tests/house.rs`).
 
+pub mod builder;
 pub mod bvh;
 pub mod check;
 pub mod collapse;
@@ -40,8 +46,12 @@ pub mod emit;
 mod error;
 pub mod hausdorff;
 pub mod hull;
+pub mod load;
 pub mod lp;
 pub mod mesh;
+#[doc(hidden)]
+pub mod number;
+pub mod progress;
 mod random;
 pub mod surface;
 pub mod tight;
@@ -49,5 +59,8 @@ pub mod trade;
 pub mod tribox;
 pub mod worst;
 
+pub use builder::{Builder, Built};
 pub use error::BuildError;
+#[doc(hidden)]
+pub use error::io_remedy;
 pub use hausdorff::Farthest;

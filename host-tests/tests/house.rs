@@ -22,8 +22,10 @@ const CORE: [(&str, &[&str]); 10] = [
 /// Folders that all structures of the builder may use.
 const BENEATH: &[&str] = &[
     "counted",
+    "number",
     "emit",
     "error",
+    "progress",
     "random",
     "lp",
     "mesh",
@@ -33,21 +35,25 @@ const BENEATH: &[&str] = &[
     "hausdorff",
 ];
 
-/// The same of `alloc-ext/src`. `emit` is beneath: it knows sections and no builder. `counted`
-/// prints numbers, `error` says why there is no blob, `random` gives the same numbers in every run.
-/// `cut` and `trade` are above: they know all structures. `check` proves the others' work and
-/// shares nothing with them but meshes. `trade` measures distances by it.
-const BUILDER: [(&str, &[&str]); 18] = [
+/// The same of `alloc-ext/src`. `emit` is beneath: it knows sections and no builder. `counted` and
+/// `number` print numbers, `error` says why there is no blob, `progress` tells how much is done and
+/// asks whether to go on, `random` gives the same numbers in every run. `cut`, `trade` and `builder`
+/// are above: they know all structures. `load` makes a clean mesh of a file for them. `check` proves
+/// the others' work and shares nothing with them but meshes. `trade` measures distances by it.
+const BUILDER: [(&str, &[&str]); 22] = [
     ("counted", &[]),
+    ("number", &[]),
     ("emit", &[]),
     ("random", &[]),
     ("lp", &["random"]),
     ("mesh", &["counted"]),
     ("check", &["mesh"]),
-    ("error", &["mesh"]),
+    ("error", &["counted", "mesh", "number"]),
+    ("progress", &["error"]),
     ("surface", &["counted", "error", "lp", "mesh"]),
-    ("collapse", &["counted", "lp", "mesh", "surface"]),
-    ("bvh", &["counted", "emit", "error", "lp", "mesh", "surface"]),
+    ("load", &["error", "mesh", "surface"]),
+    ("collapse", &["counted", "lp", "mesh", "progress", "surface"]),
+    ("bvh", &["counted", "emit", "error", "lp", "mesh", "progress", "surface"]),
     ("hausdorff", &["bvh", "error", "mesh"]),
     ("hull", BENEATH),
     ("tight", BENEATH),
@@ -60,6 +66,13 @@ const BUILDER: [(&str, &[&str]); 18] = [
     (
         "trade",
         &["check", "emit", "error", "random", "mesh", "surface", "bvh", "hull", "tight", "tribox"],
+    ),
+    (
+        "builder",
+        &[
+            "counted", "number", "emit", "error", "progress", "mesh", "surface", "load",
+            "collapse", "bvh", "hull", "tight", "tribox", "curve",
+        ],
     ),
     ("worst", &["random"]),
 ];

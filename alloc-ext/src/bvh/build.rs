@@ -11,6 +11,7 @@ use super::store::{OnGrid, store};
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::{Input, Mesh, Wire};
+use crate::progress::Watch;
 use crate::surface::{EdgeTable, ends, require_valid};
 use glam::DVec3;
 use meshsweep_core::SectionKind;
@@ -100,6 +101,13 @@ pub struct TreeReport {
 /// format's range.
 pub const MAX_TRIANGLES: usize = 1 << 24;
 
+/// Part of the work after which leaves are packed; then frames are searched; then boxes are made.
+const PACKED: f64 = 0.5;
+/// See [`PACKED`].
+const FRAMED: f64 = 0.9;
+/// See [`PACKED`].
+const BOXED: f64 = 0.95;
+
 /// Builds the box tree of any triangle soup.
 ///
 /// Every triangle is kept, even if the grid makes it degenerate. Each [`Wire`] is kept as a
@@ -116,7 +124,16 @@ pub fn build(
     input: Input<'_>,
     options: &TreeOptions,
 ) -> Result<(Sections, TreeReport), BuildError> {
-    build_in(input, options, false)
+    build_watched(input, options, Watch::NONE)
+}
+
+/// [`build`] under a watch.
+pub(crate) fn build_watched(
+    input: Input<'_>,
+    options: &TreeOptions,
+    watch: Watch<'_>,
+) -> Result<(Sections, TreeReport), BuildError> {
+    build_in(input, options, false, watch)
 }
 
 /// [`build`]; a quick build takes a third of the time, and its tree a little more for each answer.
@@ -124,6 +141,7 @@ pub(super) fn build_in(
     input: Input<'_>,
     options: &TreeOptions,
     is_quick: bool,
+    watch: Watch<'_>,
 ) -> Result<(Sections, TreeReport), BuildError> {
     let mesh = input.mesh;
     require_valid(mesh, MAX_TRIANGLES)?;
@@ -132,25 +150,27 @@ pub(super) fn build_in(
     let grid = store(input, options.is_f32);
     let edges = EdgeTable::new(mesh.positions.len(), &mesh.triangles);
     let effort = if is_quick { Effort::QUICK } else { Effort::FULL };
-    let mut leaves = fans::pack(&mesh.triangles, &edges, &grid.positions, effort);
+    let part = watch.part(0.0, PACKED);
+    let mut leaves = fans::pack(&mesh.triangles, &edges, &grid.positions, effort, part)?;
     leaves.extend((mesh.triangles.len() as u32..).zip(&mesh.wires).map(wire_leaf));
     let points: Vec<Vec<DVec3>> = leaves.par_iter().map(|leaf| points(leaf, &grid)).collect();
     let views: Vec<&[DVec3]> = points.iter().map(Vec::as_slice).collect();
     let bounds: Vec<(DVec3, DVec3)> = points.par_iter().map(|points| bounds(points)).collect();
+    watch.part(PACKED, 1.0).step(0, 1)?;
     let topology = topology(&bounds);
+    let framed = watch.part(PACKED, FRAMED);
+    framed.step(0, 1)?;
     let mut sections = vec![(SectionKind::TreeLinks, encode::links(&topology, &leaves))];
     if options.closest || !options.segments {
         let frames = match is_quick {
-            true => unturned_frames(&topology, &views),
-            false => shared_frames(&topology, &views),
+            true => unturned_frames(&topology, &views, framed)?,
+            false => shared_frames(&topology, &views, framed)?,
         };
         sections.push((SectionKind::TreeFrames, encode::frames(&frames)));
     }
     if options.segments {
-        sections.push((
-            SectionKind::TreeBoxes,
-            encode::boxes(&axis_aligned_boxes(&topology, &views), grid.origin),
-        ));
+        let boxes = axis_aligned_boxes(&topology, &views, watch.part(FRAMED, BOXED))?;
+        sections.push((SectionKind::TreeBoxes, encode::boxes(&boxes, grid.origin)));
     }
     sections.push((SectionKind::TreeFans, encode::fans(&topology, &leaves, &grid, options.is_f32)));
     let sources: Vec<u32> = mesh.all_sources().collect();
@@ -165,7 +185,7 @@ pub(super) fn build_in(
         sections.push((SectionKind::TreeCones, cones(&topology, &leaves, &grid.positions)));
     }
     if options.winding {
-        let bytes = moments(mesh, &edges, &topology, &leaves, &grid);
+        let bytes = moments(mesh, &edges, &topology, &leaves, &grid, watch.part(BOXED, 1.0))?;
         sections.push((SectionKind::TreeMoments, bytes));
     }
     let header = header(mesh, &edges, &grid, &leaves, &bounds, options, topology.waiting_entries);

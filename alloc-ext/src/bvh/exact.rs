@@ -3,6 +3,7 @@
 use super::build::{TreeOptions, build_in};
 use crate::error::BuildError;
 use crate::mesh::{Mesh, Wire};
+use crate::progress::Watch;
 
 /// A blob of a mesh's box tree with vertices in f32, for distances. It numbers triangles, then
 /// wires, as the mesh does: two triangles may share a number of the input file.
@@ -10,7 +11,12 @@ use crate::mesh::{Mesh, Wire};
 /// # Errors
 /// As [`build`](super::build).
 pub fn exact_blob(mesh: &Mesh) -> Result<Vec<u8>, BuildError> {
-    blob(mesh, false)
+    exact_blob_watched(mesh, Watch::NONE)
+}
+
+/// [`exact_blob`] under a watch.
+pub(crate) fn exact_blob_watched(mesh: &Mesh, watch: Watch<'_>) -> Result<Vec<u8>, BuildError> {
+    blob(mesh, false, watch)
 }
 
 /// [`exact_blob`] for about so many questions. Where they are few, a quick build saves more time
@@ -19,10 +25,10 @@ pub fn exact_blob(mesh: &Mesh) -> Result<Vec<u8>, BuildError> {
 /// # Errors
 /// As [`build`](super::build).
 pub fn blob_for(mesh: &Mesh, questions: usize) -> Result<Vec<u8>, BuildError> {
-    blob(mesh, questions < 4 * mesh.triangles.len())
+    blob(mesh, questions < 4 * mesh.triangles.len(), Watch::NONE)
 }
 
-fn blob(mesh: &Mesh, is_quick: bool) -> Result<Vec<u8>, BuildError> {
+fn blob(mesh: &Mesh, is_quick: bool, watch: Watch<'_>) -> Result<Vec<u8>, BuildError> {
     let count = mesh.triangles.len() as u32;
     let renumber = |(wire, number): (&Wire, u32)| Wire { source: number, ..*wire };
     let mesh = Mesh {
@@ -30,5 +36,5 @@ fn blob(mesh: &Mesh, is_quick: bool) -> Result<Vec<u8>, BuildError> {
         ..Mesh::new(mesh.positions.clone(), mesh.triangles.clone())
     };
     let options = TreeOptions::default().with_segments(false).with_f32(true);
-    Ok(build_in(mesh.as_input(), &options, is_quick)?.0.to_bytes())
+    Ok(build_in(mesh.as_input(), &options, is_quick, watch)?.0.to_bytes())
 }

@@ -18,7 +18,9 @@ mod source;
 mod store;
 
 pub use batch::closest_points;
+pub(crate) use build::build_watched;
 pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, build};
 pub use encode::sections_of;
+pub(crate) use exact::exact_blob_watched;
 pub use exact::{blob_for, exact_blob};
 pub use store::is_too_far_for_grid;

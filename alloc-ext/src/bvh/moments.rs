@@ -3,12 +3,13 @@
 use super::fans::FanLeaf;
 use super::nodes::order::Topology;
 use super::store::OnGrid;
+use crate::error::BuildError;
 use crate::mesh::Mesh;
+use crate::progress::Watch;
 use crate::surface::{EdgeTable, ends};
 use glam::{DMat3, DVec3};
 use meshsweep_core::internal::bvh::format::NodeMoments;
 use meshsweep_core::internal::num::{exp2, up_to_f32};
-use rayon::prelude::*;
 
 /// The section's bytes, in the order of nodes.
 pub(super) fn moments(
@@ -17,7 +18,8 @@ pub(super) fn moments(
     topology: &Topology,
     leaves: &[FanLeaf],
     grid: &OnGrid,
-) -> Vec<u8> {
+    watch: Watch<'_>,
+) -> Result<Vec<u8>, BuildError> {
     let tree = Tree::new(mesh, topology, leaves);
     let moved = grid.surface_error / exp2(grid.exponent);
     let boundaries = tree.boundaries(&mesh.triangles, edges, &grid.positions, moved);
@@ -30,8 +32,7 @@ pub(super) fn moments(
             .collect();
         of_triangles(&corners, boundaries[node]).write()
     };
-    let records: Vec<_> = (0..topology.nodes.len()).into_par_iter().map(of_node).collect();
-    records.into_flattened()
+    Ok(watch.map(topology.nodes.len(), of_node)?.into_flattened())
 }
 
 /// Which node holds which triangles. Wires have no area, so they are left out.

@@ -12,6 +12,7 @@ use super::placement::{Placement, Refusal};
 use super::star::{Connectivity, MAX_STAR};
 use super::surface::Surface;
 use super::{Conditions, Priority};
+use crate::progress::Answer;
 use crate::surface::Grid;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -40,6 +41,22 @@ pub struct Stuck {
     pub shape: usize,
 }
 
+impl Stuck {
+    /// Why a progressive hull has more faces than `wanted`.
+    #[must_use]
+    pub fn why(&self, wanted: u32) -> String {
+        format!(
+            "stopped before {wanted} faces, for no edge may collapse: {} by topology or valence, \
+             {} because no vertex is outside all planes, {} by compactness or normals; \
+             --max-valence, --compactness and --max-normal-deviation relax the conditions",
+            self.topology, self.no_vertex, self.shape
+        )
+    }
+}
+
+/// Collapses, or edges evaluated at first, between two calls of progress.
+const STEPS: usize = 512;
+
 /// State of an edge.
 #[derive(Clone, Copy, Debug)]
 enum EdgeState {
@@ -53,6 +70,8 @@ enum EdgeState {
 pub struct Engine {
     edges: Edges,
     schedule: Schedule,
+    /// Whether every edge was evaluated once.
+    is_scheduled: bool,
 }
 
 /// The edges of the mesh, and the record of their collapses.
@@ -69,7 +88,7 @@ struct Edges {
 }
 
 impl Engine {
-    /// A closed manifold mesh, positions on `grid`. Evaluates every edge.
+    /// A closed manifold mesh, positions on `grid`.
     pub fn new(
         positions: &[DVec3],
         triangles: &[[u32; 3]],
@@ -117,11 +136,8 @@ impl Engine {
             priority,
         };
         edges.states.reserve(triangles.len() * 3 / 2);
-        let mut schedule = Schedule::new(positions.len());
-        for ends in edges.surface.mesh.edges() {
-            edges.evaluate(ends, &mut schedule);
-        }
-        Engine { edges, schedule }
+        let schedule = Schedule::new(positions.len());
+        Engine { edges, schedule, is_scheduled: false }
     }
 
     /// Progress so far.
@@ -145,13 +161,33 @@ impl Engine {
     }
 
     /// Collapses until at most `target` faces are left; `Some` if no legal collapse is left before.
-    pub fn run(&mut self, target: usize, mut on_progress: impl FnMut(Progress)) -> Option<Stuck> {
-        let show = |edges: &Edges| {
-            if edges.history.collapses.len().is_multiple_of(1024) {
-                on_progress(edges.progress());
+    /// The first run evaluates every edge. A callback that asks to end is not called again.
+    pub fn run<A: Answer>(
+        &mut self,
+        target: usize,
+        mut on_progress: impl FnMut(Progress) -> A,
+    ) -> Option<Stuck> {
+        if !self.is_scheduled {
+            for (number, ends) in self.edges.surface.mesh.edges().into_iter().enumerate() {
+                if number % STEPS == STEPS - 1 && !on_progress(self.progress()).goes_on() {
+                    return None;
+                }
+                self.edges.evaluate(ends, &mut self.schedule);
             }
+            self.is_scheduled = true;
+        }
+        let mut goes_on = true;
+        let show = |edges: &Edges| {
+            if edges.history.collapses.len().is_multiple_of(STEPS) {
+                goes_on = on_progress(edges.progress()).goes_on();
+            }
+            goes_on
         };
-        if !greedy::run(&mut self.edges, &mut self.schedule, target, show) {
+        let is_reached = greedy::run(&mut self.edges, &mut self.schedule, target, show);
+        if !goes_on {
+            return None;
+        }
+        if !is_reached {
             return Some(self.edges.why_stuck());
         }
         on_progress(self.progress());

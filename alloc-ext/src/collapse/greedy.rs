@@ -133,12 +133,12 @@ pub(crate) trait Collapsing {
 }
 
 /// Collapses the cheapest edge until at most `target` faces are left; false if it ends before.
-/// `on_collapse` is called after each collapse.
+/// `on_collapse` is called after each collapse, and tells whether to go on.
 pub(crate) fn run<C: Collapsing>(
     of: &mut C,
     schedule: &mut Schedule<C::Note>,
     target: usize,
-    mut on_collapse: impl FnMut(&C),
+    mut on_collapse: impl FnMut(&C) -> bool,
 ) -> bool {
     let mut ring = Vec::new();
     while of.mesh().alive_count() > target {
@@ -162,7 +162,9 @@ pub(crate) fn run<C: Collapsing>(
             ring.extend(of.mesh().neighbours(vertex));
             schedule.mark(vertex, &ring);
             of.reconsider(vertex, &ring, schedule);
-            on_collapse(of);
+            if !on_collapse(of) {
+                return false;
+            }
         }
     }
     true

@@ -8,6 +8,7 @@
 mod engine;
 mod greedy;
 mod history;
+mod options;
 mod placement;
 mod quadric;
 mod star;
@@ -17,6 +18,7 @@ mod thin;
 pub use engine::{Engine, Progress, Stuck};
 pub(crate) use greedy::{Candidate, Collapsing, Schedule, run};
 pub use history::{Collapse, History, VertexOrder};
+pub use options::CollapseOptions;
 pub use star::{Connectivity, MAX_STAR, Wings};
 pub use thin::thin;
 

@@ -37,7 +37,7 @@ pub fn thin(
     let mut schedule = Schedule::new(positions.len());
     let surface = Surface::new(positions.to_vec(), triangles, conditions, grid);
     let mut rounds = Rounds { surface, conditions, grid, costs: Vec::new(), round: None, stop };
-    greedy::run(&mut rounds, &mut schedule, target + 1, |_| ());
+    greedy::run(&mut rounds, &mut schedule, target + 1, |_| true);
     rounds.surface.compact()
 }
 

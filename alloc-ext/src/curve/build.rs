@@ -1,5 +1,6 @@
 //! The hierarchy of capsules over the points of a curve (Ramer 1972; Guéziec 2000, 3.1).
 
+use crate::progress::Watch;
 use glam::DVec3;
 use meshsweep_core::internal::curve::format::layout::MAX_CURVE_DEPTH;
 use meshsweep_core::internal::geom::point_segment;
@@ -16,18 +17,30 @@ pub(super) struct Node {
 /// The larger part of a split has at most this part of the segments: 3 of 4.
 const SMALLER_PART: usize = 4;
 
+/// Points that are looked at between two calls of progress.
+const POINTS: usize = 10_000;
+
 /// Nodes in the order of a descent, left before right, and the longest way down.
 ///
 /// Ramer splits a run at the point that is farthest from the segment between its ends. If that
 /// leaves less than a fourth of the segments on one side, the nearest split that does not is
 /// taken: the bound holds for any split. Cost: points times depth.
-pub(super) fn nodes(points: &[DVec3]) -> (Vec<Node>, u32) {
+///
+/// If the watch asks to end, nodes are missing.
+pub(super) fn nodes(points: &[DVec3], watch: Watch<'_>) -> (Vec<Node>, u32) {
     let mut nodes = Vec::with_capacity(points.len().saturating_sub(2));
-    let mut deepest = 0;
+    let (mut deepest, mut looked) = (0, 0);
     let mut waiting = vec![(0, points.len() - 1, 1)];
     while let Some((first, last, depth)) = waiting.pop() {
         if last - first < 2 {
             continue;
+        }
+        looked += last - first;
+        if looked > POINTS {
+            looked = 0;
+            if !watch.goes_on(nodes.len() as f64 / points.len() as f64) {
+                break;
+            }
         }
         let (mut farthest, mut radius) = ((-1.0, first + 1), 0f64);
         for (index, &point) in points.iter().enumerate().take(last).skip(first + 1) {

@@ -1,9 +1,10 @@
 //! Curves as a section of a blob.
 
 use super::build::nodes;
-use super::error::CurveError;
 use super::read::Polyline;
 use crate::emit::Sections;
+use crate::error::CurveError;
+use crate::progress::Watch;
 use crate::surface::{Bounds, Grid, fitting_grid, split_exponent};
 use glam::DVec3;
 use meshsweep_core::SectionKind;
@@ -37,6 +38,15 @@ pub struct CurveReport {
 /// [`CurveError`] if a polyline has fewer than two points, a coordinate is not finite in f32, or
 /// the points are too many or all tiny.
 pub fn store(polylines: &[Polyline], is_f32: bool) -> Result<(Sections, CurveReport), CurveError> {
+    store_watched(polylines, is_f32, Watch::NONE)
+}
+
+/// [`store`] under a watch. If it asks to end, the sections mean nothing.
+pub(crate) fn store_watched(
+    polylines: &[Polyline],
+    is_f32: bool,
+    watch: Watch<'_>,
+) -> Result<(Sections, CurveReport), CurveError> {
     let started = Instant::now();
     let (points, table) = joined(polylines)?;
     let largest = points.iter().fold(0f64, |most, point| most.max(point.abs().max_element()));
@@ -52,7 +62,7 @@ pub fn store(polylines: &[Polyline], is_f32: bool) -> Result<(Sections, CurveRep
     // Reading rounded the decimals to f64, by half a unit in the last place per axis.
     let surface_error = moved * (1.0 + 1e-15) + f64::EPSILON;
     let is_planar = stored.iter().all(|point| point.z == 0.0);
-    let (nodes, depth) = nodes(&stored);
+    let (nodes, depth) = nodes(&stored, watch);
     let is_f32 = grid.format == VertexFormat::F32;
     let header = CurvesHeader {
         flags: if is_planar { CURVES_PLANAR } else { 0 } | if is_f32 { CURVES_F32 } else { 0 },

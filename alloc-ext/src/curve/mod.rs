@@ -4,11 +4,12 @@
 //! CSV ─ read ─ Polylines ─ encode (stored precision) ─ build (runs and capsules) ─ sections
 //! ```
 
+pub use crate::error::CurveError;
+
 mod build;
 mod encode;
-mod error;
 mod read;
 
+pub(crate) use encode::store_watched;
 pub use encode::{CurveReport, store};
-pub use error::CurveError;
 pub use read::{Polyline, read_csv};

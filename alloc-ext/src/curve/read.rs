@@ -1,6 +1,6 @@
 //! Curves from CSV: x,y or x,y,z on a line.
 
-use super::error::CurveError;
+use crate::error::CurveError;
 use csv::{ByteRecord, ReaderBuilder, Trim};
 
 /// Points that are joined in their order.

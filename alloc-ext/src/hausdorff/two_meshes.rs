@@ -95,7 +95,7 @@ pub enum Ended {
 }
 
 /// Which mesh was refused, and why.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Refused {
     /// The second mesh.
     pub is_second: bool,

@@ -10,6 +10,7 @@ use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, Ve
 use crate::emit::{self, Sections};
 use crate::error::BuildError;
 use crate::mesh::{Input, KeyFrame, Mesh};
+use crate::progress::{Answer, Callback};
 use crate::surface::{Closed, SignedVolume, Stored, VertexBits, close, require_valid, store};
 use glam::{DVec3, Vec3};
 use meshsweep_core::Hull;
@@ -17,6 +18,7 @@ use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::hull::format::layout::{MAX_RING, START_GROUP};
 use meshsweep_core::internal::num::{Radius8, Radius16, sum_up, up_to_f32};
 use meshsweep_core::{DeformableHull, SectionKind};
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 /// Options of a build.
@@ -96,6 +98,9 @@ pub struct Built {
     pub report: BuildReport,
 }
 
+/// A callback, and whether to go on.
+type OnProgress<'a> = dyn FnMut(Progress) -> bool + 'a;
+
 /// Most triangles of a mesh: instances and ring entries must fit the format's counts.
 const MAX_TRIANGLES: usize = 20_000_000;
 
@@ -111,12 +116,12 @@ const MAX_TRIANGLES: usize = 20_000_000;
 ///
 /// # Errors
 /// [`BuildError`].
-pub fn build(
+pub fn build<A: Answer>(
     input: Input<'_>,
     options: &BuildOptions,
-    on_progress: impl FnMut(Progress),
+    mut on_progress: impl FnMut(Progress) -> A,
 ) -> Result<Built, BuildError> {
-    build_with(input, None, options, on_progress)
+    build_with(input, None, options, &mut |progress| on_progress(progress).goes_on())
 }
 
 /// Builds the hull hierarchy of a mesh that deforms: by any motion of its vertices, and between
@@ -127,20 +132,20 @@ pub fn build(
 ///
 /// # Errors
 /// [`BuildError`]: those of [`build`]; [`BuildError::NotExact`], [`BuildError::FrameTooFar`].
-pub fn build_deform(
+pub fn build_deform<A: Answer>(
     input: Input<'_>,
     frames: &[KeyFrame],
     options: &BuildOptions,
-    on_progress: impl FnMut(Progress),
+    mut on_progress: impl FnMut(Progress) -> A,
 ) -> Result<Built, BuildError> {
-    build_with(input, Some(frames), options, on_progress)
+    build_with(input, Some(frames), options, &mut |progress| on_progress(progress).goes_on())
 }
 
 fn build_with(
     input: Input<'_>,
     frames: Option<&[KeyFrame]>,
     options: &BuildOptions,
-    mut on_progress: impl FnMut(Progress),
+    on_progress: &mut OnProgress<'_>,
 ) -> Result<Built, BuildError> {
     let mesh = input.mesh;
     let is_exact = matches!(options.vertex_bits, VertexBits::Auto | VertexBits::F32);
@@ -155,9 +160,9 @@ fn build_with(
     let wires = wires_off_surface(mesh)?;
     let started = Instant::now();
     let (history, stuck, programs) =
-        collapse(&stored, mesh, options, options.base_faces, &mut on_progress);
+        collapse(&stored, mesh, options, options.base_faces, on_progress)?;
     let collapsed = Collapsed { stored, history, stuck, programs, time: started.elapsed() };
-    finish(input, frames, collapsed, Kind::Hulls { volume }, wires)
+    finish(input, frames, collapsed, Kind::Hulls { volume }, wires, on_progress)
 }
 
 /// Builds a hierarchy for distances and segments of any mesh: open, crossing itself, inside out,
@@ -169,11 +174,12 @@ fn build_with(
 ///
 /// # Errors
 /// [`BuildError`].
-pub fn build_for_sweep(
+pub fn build_for_sweep<A: Answer>(
     input: Input<'_>,
     options: &BuildOptions,
-    mut on_progress: impl FnMut(Progress),
+    mut on_progress: impl FnMut(Progress) -> A,
 ) -> Result<Built, BuildError> {
+    let on_progress: &mut OnProgress<'_> = &mut |progress| on_progress(progress).goes_on();
     let mesh = input.mesh;
     require_valid(mesh, MAX_TRIANGLES)?;
     if mesh.triangles.is_empty() {
@@ -192,9 +198,9 @@ pub fn build_for_sweep(
     let positions: Vec<DVec3> = places.iter().map(at).collect();
     let (conditions, grid) = (options.conditions, stored.grid);
     let engine = Engine::near(&positions, &triangles, count - fillers, conditions, grid);
-    let (history, stuck, programs) = run(engine, options.base_faces, &mut on_progress);
+    let (history, stuck, programs) = run(engine, options.base_faces, on_progress)?;
     let collapsed = Collapsed { stored, history, stuck, programs, time: started.elapsed() };
-    finish(input, None, collapsed, Kind::SweepOnly { holes, copies }, wires)
+    finish(input, None, collapsed, Kind::SweepOnly { holes, copies }, wires, on_progress)
 }
 
 /// A mesh and its collapses.
@@ -213,15 +219,22 @@ fn finish(
     collapsed: Collapsed,
     kind: Kind,
     wires: f64,
+    on_progress: &mut OnProgress<'_>,
 ) -> Result<Built, BuildError> {
     let Collapsed { stored, history, stuck, programs, time: collapse_time } = collapsed;
+    // Counts stand still from here on.
+    let faces = history.base.len();
+    let end = Progress { faces, collapses: history.collapses.len(), programs };
+    let callback = Callback::new(|_| on_progress(end));
+    let watch = callback.watch();
     let started = Instant::now();
     let order = VertexOrder::new(&history);
     let mesh = input.mesh;
     let mut tracks = KeyTracks::new(&history, &stored, mesh, frames.unwrap_or(&[]))?;
-    let forest = grow(&history, |instance, below, corners| {
+    let cover = |instance: u32, below: &[u32], corners| {
         tracks.cover(&history.positions, instance, below, corners);
-    });
+    };
+    let forest = grow(&history, cover, watch)?;
     let sweep_time = started.elapsed();
     let started = Instant::now();
     let mut tables = assemble(&stored, input, &history, &order, &forest);
@@ -231,7 +244,7 @@ fn finish(
     };
     tables.encloses = volume.is_some();
     tables.levels = levels(&history, volume);
-    certify(&mut tables, &history)?;
+    certify(&mut tables, &history, watch)?;
     // Levels were measured against triangles with an area. The wires' distance joins only now.
     if wires > 0.0 {
         let off = wires * meshsweep_core::internal::num::exp2(-stored.scale_exponent);
@@ -283,16 +296,17 @@ fn store_solid(mesh: &Mesh, bits: VertexBits) -> Stored {
 /// collapses ended early. It encloses the mesh without its wires.
 ///
 /// # Errors
-/// [`BuildError::NotPositive`].
-pub fn hull_of(
+/// [`BuildError::NotPositive`], [`BuildError::Cancelled`].
+pub fn hull_of<A: Answer>(
     mesh: &Mesh,
     faces: usize,
     options: &BuildOptions,
-    mut on_progress: impl FnMut(Progress),
+    mut on_progress: impl FnMut(Progress) -> A,
 ) -> Result<(Mesh, f64, Option<Stuck>), BuildError> {
     let stored = store_solid(mesh, options.vertex_bits);
     let volume = positive_volume(&stored, mesh)?;
-    let (history, stuck, _) = collapse(&stored, mesh, options, faces, &mut on_progress);
+    let on_progress: &mut OnProgress<'_> = &mut |progress| on_progress(progress).goes_on();
+    let (history, stuck, _) = collapse(&stored, mesh, options, faces, on_progress)?;
     let order = VertexOrder::new(&history);
     let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     let positions = order.label[..order.base as usize]
@@ -321,8 +335,8 @@ fn collapse(
     mesh: &Mesh,
     options: &BuildOptions,
     faces: usize,
-    on_progress: &mut impl FnMut(Progress),
-) -> (History, Option<Stuck>, u64) {
+    on_progress: &mut OnProgress<'_>,
+) -> Result<(History, Option<Stuck>, u64), BuildError> {
     let Stored { positions, grid, .. } = stored;
     let (conditions, priority) = (options.conditions, options.priority);
     run(Engine::new(positions, &mesh.triangles, conditions, priority, *grid), faces, on_progress)
@@ -331,13 +345,22 @@ fn collapse(
 fn run(
     mut engine: Engine,
     faces: usize,
-    on_progress: &mut impl FnMut(Progress),
-) -> (History, Option<Stuck>, u64) {
-    let stuck = engine.run(faces, on_progress);
+    on_progress: &mut OnProgress<'_>,
+) -> Result<(History, Option<Stuck>, u64), BuildError> {
+    let mut answer = ControlFlow::Continue(());
+    let stuck = engine.run(faces, |progress| {
+        if !on_progress(progress) {
+            answer = ControlFlow::Break(());
+        }
+        answer
+    });
+    if answer.is_break() {
+        return Err(BuildError::Cancelled);
+    }
     let programs = engine.progress().programs;
     let mut history = engine.finish();
     sort_base(&mut history);
-    (history, stuck, programs)
+    Ok((history, stuck, programs))
 }
 
 fn assemble(

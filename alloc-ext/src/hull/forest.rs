@@ -1,6 +1,8 @@
 //! Radii of all triangle instances.
 
 use crate::collapse::History;
+use crate::error::BuildError;
+use crate::progress::Watch;
 use glam::DVec3;
 use meshsweep_core::internal::geom::point_triangle;
 use meshsweep_core::internal::hull::format::layout::BASE_GROUP;
@@ -29,6 +31,9 @@ pub fn cover_radius(positions: &[DVec3], vertices: &[u32], [a, b, c]: [DVec3; 3]
     })
 }
 
+/// Collapses between two calls of progress. A coarse one takes as long as a thousand fine ones.
+const COLLAPSES: usize = 64;
+
 /// Replays the collapses fine to coarse. A fine triangle at a ring edge is a child of the coarse
 /// one at the same edge. Each of the two at the wings is a child of one of the coarse two beside
 /// it: of the one that covers it more tightly. Triangles that stand for no part of the surface
@@ -37,7 +42,14 @@ pub fn cover_radius(positions: &[DVec3], vertices: &[u32], [a, b, c]: [DVec3; 3]
 /// `cover` gets each coarse instance, the original vertices of its part, and its corners: labels.
 ///
 /// Cost: linear in the vertices below each fragment.
-pub fn grow(history: &History, mut cover: impl FnMut(u32, &[u32], [u32; 3])) -> Forest {
+///
+/// # Errors
+/// [`BuildError::Cancelled`].
+pub fn grow(
+    history: &History,
+    mut cover: impl FnMut(u32, &[u32], [u32; 3]),
+    watch: Watch<'_>,
+) -> Result<Forest, BuildError> {
     let count = history.instances();
     let mut radius = vec![0.0; count];
     // A triangle that closes a hole stands for no part of the surface.
@@ -50,6 +62,9 @@ pub fn grow(history: &History, mut cover: impl FnMut(u32, &[u32], [u32; 3])) -> 
         .collect();
     below.resize(count, Vec::new());
     for (index, collapse) in history.collapses.iter().enumerate() {
+        if index.is_multiple_of(COLLAPSES) {
+            watch.step(index, history.collapses.len())?;
+        }
         let first = history.first_coarse(index) as usize;
         let ring_len = collapse.ring_len as usize;
         let fine = history.fine(index);
@@ -91,7 +106,7 @@ pub fn grow(history: &History, mut cover: impl FnMut(u32, &[u32], [u32; 3])) -> 
     let group = |instances: &[u32]| entries(instances.iter().map(|&i| waiting[i as usize]));
     let groups = history.base_instances.chunks(BASE_GROUP as usize).map(group);
     let queue_entries = entries(groups.map(|group| group.max(1))).max(1);
-    Forest { radius, wings, base_vertices, queue_entries }
+    Ok(Forest { radius, wings, base_vertices, queue_entries })
 }
 
 /// Queue entries that a depth-first sweep of triangles needs which enter the queue together, from

@@ -1,11 +1,12 @@
 //! The level table: faces, void, and certified distances between each level and the surface.
 
 use super::tables::Tables;
-use crate::bvh::exact_blob;
+use crate::bvh::exact_blob_watched;
 use crate::collapse::History;
 use crate::error::BuildError;
 use crate::hausdorff::{farthest, nearest_in};
 use crate::mesh::Mesh;
+use crate::progress::Watch;
 use meshsweep_core::internal::num::up_to_f32;
 use meshsweep_core::{Bvh, Hull, Level, VertIdx};
 
@@ -45,7 +46,10 @@ pub fn levels(history: &History, volume: Option<f64>) -> Vec<Level> {
 
 /// Fills in certified distances between each level's hull and the surface, both ways, and counts
 /// the faces. A box tree of the surface's triangles gives the distances to it.
-pub fn certify(tables: &mut Tables, history: &History) -> Result<(), BuildError> {
+///
+/// # Errors
+/// [`BuildError`].
+pub fn certify(tables: &mut Tables, history: &History, watch: Watch<'_>) -> Result<(), BuildError> {
     let bytes = tables.to_bytes();
     let model = Hull::open(&bytes).map_err(BuildError::Reopen)?;
     let position = |label: usize| history.positions[label].as_vec3().to_array();
@@ -53,9 +57,10 @@ pub fn certify(tables: &mut Tables, history: &History) -> Result<(), BuildError>
         (0..history.original_vertices as usize).map(position).collect(),
         history.original_triangles[..history.surface_triangles].to_vec(),
     );
-    let tree = exact_blob(&surface)?;
+    let tree = exact_blob_watched(&surface, watch.part(0.0, 0.5))?;
     let tree = Bvh::open(&tree).map_err(BuildError::Reopen)?;
-    let mut nearest = nearest_in(&tree, &surface);
+    let queries = 2 * surface.triangles.len();
+    let mut nearest = watch.part(0.5, 1.0).asks(queries, nearest_in(&tree, &surface));
     let at = |v: VertIdx| tables.vertices[v.0 as usize].as_dvec3();
     let last = tables.levels.len() - 1;
     let mut measured = Vec::new();
@@ -71,6 +76,7 @@ pub fn certify(tables: &mut Tables, history: &History) -> Result<(), BuildError>
         let hull_to_surface = farthest(triangles, 0.0, &mut nearest).upper;
         measured.push((count, up_to_f32(hull_to_surface), surface_to_hull));
     }
+    watch.check()?;
     for (level, (faces, hull_to_surface, surface_to_hull)) in tables.levels.iter_mut().zip(measured)
     {
         level.faces = faces;

@@ -22,4 +22,4 @@ pub use build::{
 };
 pub use cut::cut;
 pub use tables::{SplitRecord, Tables};
-pub use wires::wires_off_surface;
+pub use wires::{wires_note, wires_off_surface};

@@ -4,6 +4,7 @@ use crate::bvh::exact_blob;
 use crate::error::BuildError;
 use crate::hausdorff::{farthest, nearest_in};
 use crate::mesh::Mesh;
+use crate::number::AtMost;
 use glam::Vec3;
 use meshsweep_core::Bvh;
 
@@ -29,4 +30,16 @@ pub fn wires_off_surface(mesh: &Mesh) -> Result<f64, BuildError> {
     let tree = Bvh::open(&bytes).map_err(BuildError::Reopen)?;
     let wires = mesh.wire_corners().map(|corners| corners.map(|p| Vec3::from(p).as_dvec3()));
     Ok(farthest(wires, 0.0, nearest_in(&tree, &surface)).upper)
+}
+
+/// Says how far the points of triangles without area lie off the surface, if any do.
+#[must_use]
+pub fn wires_note(off: f64) -> Option<String> {
+    (off > 0.0).then(|| {
+        format!(
+            "triangles without area lie up to {} off the surface: hulls may leave them out by as \
+             much",
+            AtMost(off)
+        )
+    })
 }

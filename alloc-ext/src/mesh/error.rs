@@ -27,6 +27,12 @@ pub struct EdgePlace {
 pub enum MeshError {
     /// The file could not be opened or read.
     Unreadable { file: PathBuf, reason: String },
+    /// The file is a blob.
+    Blob { file: PathBuf },
+    /// The file's content is not of the kind that its name says.
+    Misnamed { file: PathBuf, content: &'static str, extension: &'static str },
+    /// A mesh and its key frame, or two meshes, are in different units, given by their symbols.
+    Units { files: [PathBuf; 2], units: [&'static str; 2] },
     /// The extension is none of [`FORMATS`](super::FORMATS).
     UnknownExtension { file: PathBuf },
     /// The file needs a part of its format that is not read.
@@ -110,6 +116,22 @@ impl fmt::Display for MeshError {
                     file.display()
                 )
             }
+            Self::Blob { file } => write!(
+                f,
+                "{}: is a blob already; name the mesh that it was built from",
+                file.display()
+            ),
+            Self::Misnamed { file, content, extension } => write!(
+                f,
+                "{}: the content looks like {content}; rename the file to end in .{extension}",
+                file.display()
+            ),
+            Self::Units { files: [first, second], units: [a, b] } => write!(
+                f,
+                "{} is in {a} and {} in {b}; choose a unit by --unit",
+                first.display(),
+                second.display()
+            ),
             Self::UnknownExtension { file } => {
                 write!(
                     f,

@@ -39,7 +39,7 @@ mod tests {
     fn more_triangles_than_a_structure_holds_are_refused_before_they_are_read() {
         let mesh = Mesh { triangles: vec![[0; 3]; 9], ..Mesh::default() };
         let wanted = BuildError::TooLarge { triangles: 9, most: 8 };
-        assert_eq!(require_valid(&mesh, 8), Err(wanted));
+        assert_eq!(require_valid(&mesh, 8), Err(wanted.clone()));
         assert!(wanted.to_string().starts_with("9 triangles are more than the 8"));
     }
 

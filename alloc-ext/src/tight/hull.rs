@@ -1,5 +1,6 @@
 //! From any triangles to their tight hull: options are checked, the hull is searched and measured.
 
+use super::deadline::Deadline;
 use super::moves::slack;
 use super::options::{Goal, Options};
 use super::proof::{Obstacle, Solid, crosses_itself};
@@ -8,11 +9,13 @@ use super::search::{CandidateHull, HullSearch};
 use crate::bvh::MAX_TRIANGLES;
 use crate::error::BuildError;
 use crate::mesh::Mesh;
+use crate::progress::Answer;
 use crate::surface::Bounds;
 use crate::surface::{Stored, VertexBits, require_valid, store};
 use glam::{DVec3, Vec3};
 use meshsweep_core::internal::num::exp2;
 use std::borrow::Cow;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// A tight hull and its measures.
@@ -32,10 +35,10 @@ pub struct Hull {
 ///
 /// # Errors
 /// [`BuildError`].
-pub fn wrap(
+pub fn wrap<A: Answer>(
     mesh: &Mesh,
     options: &Options,
-    mut on_progress: impl FnMut(Progress),
+    mut on_progress: impl FnMut(Progress) -> A,
 ) -> Result<Hull, BuildError> {
     let started = Instant::now();
     require_valid(mesh, MAX_TRIANGLES)?;
@@ -84,6 +87,12 @@ pub fn wrap(
     // mesh as it is.
     let is_moved = stored.surface_error > mesh.rounding * exp2(-stored.scale_exponent);
     let stored = if is_moved { store(mesh, VertexBits::F32) } else { stored };
+    let is_cancelled = AtomicBool::new(false);
+    let mut show = |progress| {
+        if !is_cancelled.load(Ordering::Relaxed) && !on_progress(progress).goes_on() {
+            is_cancelled.store(true, Ordering::Relaxed);
+        }
+    };
     let mut search = HullSearch {
         mesh,
         stored: &stored,
@@ -92,11 +101,18 @@ pub fn wrap(
         solid: solid.ok(),
         options,
         // A limit beyond the range of the clock is no limit.
-        deadline: options.time_limit.and_then(|limit| started.checked_add(limit)),
+        deadline: Deadline {
+            at: options.time_limit.and_then(|limit| started.checked_add(limit)),
+            cancelled: Some(&is_cancelled),
+        },
         is_hurried: false,
-        on_progress: &mut on_progress,
+        on_progress: &mut show,
     };
-    let CandidateHull { mut editor, start, filled, mut stop } = search.run()?;
+    let found = search.run();
+    if is_cancelled.load(Ordering::Relaxed) {
+        return Err(BuildError::Cancelled);
+    }
+    let CandidateHull { mut editor, start, filled, mut stop } = found?;
     editor.drop_enclosed();
     if search.is_hurried && stop == Outcome::Reached {
         stop = Outcome::OutOfTime;

@@ -12,6 +12,8 @@
 //! | `hull.rs` | [`wrap()`]: options checked, hull built, hull measured |
 //! | `options.rs` | the goal and the options of a hull |
 //! | `report.rs` | measures of a hull and of the work for it; progress |
+//! | `deadline.rs` | when a search has to end |
+//! | `unmet.rs` | whether a hull is as tight as asked for |
 //! | `shared_map.rs` | maps that searches on several threads share |
 //! | `components.rs` | splits a mesh into the components that get a hull each |
 //! | `initial/` | the first hull: a progressive level, a voxel closure, or the grown bounding box |
@@ -42,6 +44,7 @@
 //! own.
 
 mod components;
+mod deadline;
 mod hull;
 mod initial;
 mod moves;
@@ -51,11 +54,13 @@ mod report;
 mod search;
 mod shared_map;
 mod store;
+mod unmet;
 
+pub use crate::error::{Tightness, Unmet};
 pub use components::split_components;
 pub use hull::{Hull, wrap};
 pub use options::{Goal, Options};
-pub use report::{Outcome, Progress, Report, Stage as HullStage, Start};
+pub use report::{Outcome, Progress, Report, Stage as HullStage, Start, margin_note, no_void_note};
 pub use store::{
     ChainOptions, Distances, HullReport, MAX_HULLS, Stage, chain, cut, distances, hull_mesh,
 };

@@ -1,7 +1,9 @@
 //! Measures of a tight hull and of the work for it, and the progress of that work.
 
+use crate::counted::Counted;
 use crate::hausdorff::Farthest;
 use crate::mesh::NoVolume;
+use crate::number::{About, Typed};
 use std::time::Duration;
 
 /// The initial hull that a hull was made from.
@@ -88,4 +90,51 @@ pub enum Stage {
     Wrapping,
     /// Polishing; counts stars.
     Polishing,
+}
+
+impl Report {
+    /// Says whether the mesh's volume is sure, how the hull began if not as the progressive hull,
+    /// and which cavities it fills.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        let mut texts = Vec::new();
+        if self.crosses {
+            texts.push(
+                "the mesh crosses or touches itself: its volume may count places more than once, \
+                 so that the true void may be larger"
+                    .to_owned(),
+            );
+        }
+        if let Start::VoxelClosure { edge, .. } = self.start {
+            texts.push(format!(
+                "the hull began as a voxel closure: the outside of the voxels of edge {} that the \
+                 mesh meets",
+                About(edge)
+            ));
+        }
+        if self.start == Start::Box {
+            texts.push("the hull began as the mesh's box".to_owned());
+        }
+        if self.filled > 0 {
+            texts.push(format!(
+                "{} filled: a cavity, or a connected component inside another",
+                Counted(self.filled, "shell")
+            ));
+        }
+        texts
+    }
+}
+
+/// Says that a hull keeps its margin, if it has one. `of` names what it encloses.
+#[must_use]
+pub fn margin_note(margin: Option<f64>, of: &str) -> Option<String> {
+    let margin = margin.filter(|&margin| margin > 0.0)?;
+    Some(format!("all points within {} of the {of} are inside", Typed(margin)))
+}
+
+/// Says why there is no void, if there is none.
+#[must_use]
+pub fn no_void_note(void: &Result<f64, NoVolume>) -> Option<String> {
+    let why = void.as_ref().err()?;
+    Some(format!("{why}; there is no volume to measure void against"))
 }

@@ -5,6 +5,7 @@ use super::cell::{Cell, Trust, Whole, section};
 use super::extent::Extent;
 use super::polygons::HalfSpace;
 use super::span::{Span, projections};
+use crate::progress::Watch;
 use meshsweep_core::internal::tribox::SLABS;
 
 /// The measure that splits minimise.
@@ -26,8 +27,8 @@ pub enum Planes {
 }
 
 /// Choice of planes.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Choosing {
+#[derive(Clone, Copy)]
+pub(super) struct Choosing<'a> {
     pub planes: Planes,
     pub measure: Measure,
     /// Planes are at multiples of it.
@@ -36,6 +37,7 @@ pub(super) struct Choosing {
     pub foresight: f64,
     /// Certainty of points' sides.
     pub trust: Trust,
+    pub watch: Watch<'a>,
 }
 
 /// A plane, and the gain of a split there.
@@ -58,9 +60,9 @@ impl Measure {
     }
 }
 
-impl Choosing {
+impl Choosing<'_> {
     /// The plane of the greatest gain, the first one of several; `None` if no plane leaves
-    /// something on both sides.
+    /// something on both sides, or the watch asks to end.
     ///
     /// Where the gain is small, as at a hole in the middle of the cell, each direction's bisecting
     /// plane is tried together with the best splits of both parts.
@@ -106,6 +108,9 @@ impl Choosing {
             Planes::Nine(count) => (0..SLABS).map(|slab| (slab, count)).collect(),
         };
         for (slab, count) in slabs {
+            if !self.watch.goes_on(0.0) {
+                return None;
+            }
             let planes = self.evenly(cell, slab, count);
             for (at, parts) in planes.iter().zip(self.sides(whole, cell, &corners, slab, &planes)) {
                 if parts.iter().any(Span::is_empty) {

@@ -7,9 +7,13 @@ use super::split::Hierarchy;
 use super::union::boundary_of_union;
 use crate::hausdorff::{Farthest, farthest, nearest_in};
 use crate::mesh::Mesh;
+use crate::progress::Watch;
 use meshsweep_core::Bvh;
 use meshsweep_core::Tribox;
 use meshsweep_core::internal::tribox::FACES;
+
+/// About the number of queries of a level.
+const QUERIES: usize = 10_000;
 
 /// A union of triboxes that covers a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +63,17 @@ pub fn proxies(hierarchy: &Hierarchy, count: usize) -> Vec<Tribox> {
 /// the farthest.
 #[must_use]
 pub fn level(hierarchy: &Hierarchy, count: usize, mesh: &Mesh, tree: &Bvh<'_>) -> Level {
+    level_watched(hierarchy, count, mesh, tree, Watch::NONE)
+}
+
+/// [`level`] under a watch. If it asks to end, the distance means nothing.
+pub(super) fn level_watched(
+    hierarchy: &Hierarchy,
+    count: usize,
+    mesh: &Mesh,
+    tree: &Bvh<'_>,
+    watch: Watch<'_>,
+) -> Level {
     let triboxes = proxies(hierarchy, count);
     let errors =
         hierarchy.leaves(count).into_iter().map(|node| hierarchy.nodes[node as usize].error);
@@ -71,11 +86,11 @@ pub fn level(hierarchy: &Hierarchy, count: usize, mesh: &Mesh, tree: &Bvh<'_>) -
         faces: triboxes.iter().map(faces_of).sum(),
         volume: triboxes.iter().map(|tribox| Extent::of(tribox).volume).sum(),
         error: errors.fold(0.0, f64::max),
-        distance: distance(&triboxes, mesh, tree),
+        distance: distance(&triboxes, mesh, tree, watch),
     }
 }
 
-fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Bvh<'_>) -> Farthest {
+fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Bvh<'_>, watch: Watch<'_>) -> Farthest {
     let largest = |most: f64, x: f32| most.max(f64::from(x).abs());
     let size = triboxes
         .iter()
@@ -85,7 +100,8 @@ fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Bvh<'_>) -> Farthest {
     let triangles = pieces
         .iter()
         .flat_map(|piece| piece.windows(2).skip(1).map(|edge| [piece[0], edge[0], edge[1]]));
-    let Farthest { lower, upper } = farthest(triangles, 0.0, nearest_in(tree, mesh));
+    let Farthest { lower, upper } =
+        farthest(triangles, 0.0, watch.asks(QUERIES, nearest_in(tree, mesh)));
     // Room for the rounding of the pieces, and for missing slivers.
     Farthest { lower: (lower - margin(size)).max(0.0), upper: upper + margin(size) }
 }

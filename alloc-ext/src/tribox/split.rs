@@ -9,6 +9,7 @@ use super::polygons::HalfSpace;
 use crate::bvh::MAX_TRIANGLES;
 use crate::error::BuildError;
 use crate::mesh::Mesh;
+use crate::progress::Watch;
 use crate::surface::require_valid;
 use meshsweep_core::Bvh;
 use meshsweep_core::Tribox;
@@ -138,6 +139,16 @@ impl Hierarchy {
         tree: &Bvh<'_>,
         options: &SplitOptions,
     ) -> Result<Hierarchy, BuildError> {
+        Self::watched(mesh, tree, options, Watch::NONE)
+    }
+
+    /// [`new`](Self::new) under a watch.
+    pub(super) fn watched(
+        mesh: &Mesh,
+        tree: &Bvh<'_>,
+        options: &SplitOptions,
+        watch: Watch<'_>,
+    ) -> Result<Hierarchy, BuildError> {
         require_valid(mesh, MAX_TRIANGLES)?;
         let whole = Whole::new(mesh, tree);
         let root = whole.root(mesh)?;
@@ -155,6 +166,7 @@ impl Hierarchy {
             unit,
             foresight: options.foresight,
             trust: Trust::Sketch,
+            watch,
         };
         let mut growing =
             Growing { whole, options, choosing, nodes: Vec::new(), heap: BinaryHeap::new() };
@@ -164,15 +176,18 @@ impl Hierarchy {
             return Ok(Hierarchy { nodes, order: Vec::new(), is_solid, measure });
         }
         growing.put(root, 0);
+        watch.check()?;
         let mut order = Vec::new();
         while order.len() + 1 < options.leaves.max(1)
             && let Some(leaf) = growing.heap.pop()
         {
             let Leaf { node, depth, choice: Choice { slab, at, .. }, parts } = leaf;
+            watch.step(order.len() + 1, options.leaves)?;
             let children = parts.map(|part| growing.put(part, depth + 1));
             growing.nodes[node as usize].split = Some(Split { slab, at: at as f32, children });
             order.push(node);
         }
+        watch.check()?;
         Ok(Hierarchy { nodes: growing.nodes, order, is_solid, measure })
     }
 
@@ -235,7 +250,7 @@ impl Eq for Leaf {}
 struct Growing<'a> {
     whole: Whole<'a>,
     options: &'a SplitOptions,
-    choosing: Choosing,
+    choosing: Choosing<'a>,
     nodes: Vec<Node>,
     heap: BinaryHeap<Leaf>,
 }

@@ -1,12 +1,13 @@
 //! Tribox hierarchies as a section of a blob.
 
 use super::lattice::Lattice;
-use super::level::{Level, level};
+use super::level::{Level, level_watched};
 use super::split::{Hierarchy, Node, SplitOptions};
-use crate::bvh::exact_blob;
+use crate::bvh::exact_blob_watched;
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::{Input, Mesh};
+use crate::progress::Watch;
 use crate::surface::SignedVolume;
 use glam::Vec3;
 use meshsweep_core::SectionKind;
@@ -42,6 +43,15 @@ pub struct TriboxReport {
 /// [`BuildError::Triboxes`] if a coordinate is not finite or beyond
 /// [`Tribox::DOMAIN`](meshsweep_core::Tribox::DOMAIN); those of [`bvh::build`](crate::bvh::build).
 pub fn store(input: Input<'_>, count: u32) -> Result<(Sections, TriboxReport), BuildError> {
+    store_watched(input, count, Watch::NONE)
+}
+
+/// [`store`] under a watch.
+pub(crate) fn store_watched(
+    input: Input<'_>,
+    count: u32,
+    watch: Watch<'_>,
+) -> Result<(Sections, TriboxReport), BuildError> {
     let started = Instant::now();
     let mesh = input.mesh;
     let lattice = Lattice::of(mesh, input.error())?;
@@ -50,14 +60,21 @@ pub fn store(input: Input<'_>, count: u32) -> Result<(Sections, TriboxReport), B
         let tables = sections(lattice.scale_exponent, 0.0, 0, bounds, Vec::new());
         return Ok((tables, TriboxReport { levels: Vec::new(), time: started.elapsed() }));
     }
-    let bytes = exact_blob(mesh)?;
+    let bytes = exact_blob_watched(mesh, watch.part(0.0, 0.1))?;
     let tree = Bvh::open(&bytes).map_err(BuildError::Reopen)?;
     let leaves = count.clamp(1, MAX_TRIBOXES) as usize;
     let options = SplitOptions { leaves, lattice: Some(lattice), ..SplitOptions::default() };
-    let hierarchy = Hierarchy::new(mesh, &tree, &options)?;
+    let hierarchy = Hierarchy::watched(mesh, &tree, &options, watch.part(0.1, 0.8))?;
     let counts = (0..).map(|k| 1usize << k).take_while(|&count| count < hierarchy.order.len() + 1);
     let counts = counts.chain([hierarchy.order.len() + 1]);
-    let levels: Vec<Level> = counts.map(|count| level(&hierarchy, count, mesh, &tree)).collect();
+    let counts: Vec<usize> = counts.collect();
+    let mut levels = Vec::with_capacity(counts.len());
+    let ends = |level: usize| 0.8 + 0.2 * level as f64 / counts.len() as f64;
+    for (number, &count) in counts.iter().enumerate() {
+        let part = watch.part(ends(number), ends(number + 1));
+        levels.push(level_watched(&hierarchy, count, mesh, &tree, part));
+        part.step(1, 1)?;
+    }
     let solid = hierarchy.is_solid.then(|| volume(mesh)).filter(|&volume| volume > 0.0);
     let local = exp2(-lattice.scale_exponent);
     let records = levels.iter().map(|level| TriboxLevel {

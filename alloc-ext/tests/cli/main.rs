@@ -2,6 +2,7 @@
 
 mod arguments;
 mod build;
+mod builder;
 mod clear;
 mod clearance;
 mod cull;

@@ -17,9 +17,7 @@ pub use asking::{
     WithinArgs, WorstArgs, WorstQuestion,
 };
 pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
-pub use building::{
-    BuildArgs, CutArgs, FACES, HullServes, InfoArgs, Language, Serves, StoredBits, VerifyArgs,
-};
+pub use building::{BuildArgs, CutArgs, InfoArgs, Language, VerifyArgs};
 pub use comparing::HausdorffArgs;
 pub use given::{Given, files, names};
 pub use measuring::{At, Cpu, LimitArgs, TradeArgs};

@@ -6,10 +6,10 @@ pub mod threads;
 
 use crate::args::SearchArgs;
 use crate::failure::Failure;
-use crate::number::Short;
 use crate::output::Output;
 use crate::queries::Queries;
 use meshsweep::counted::Counted;
+use meshsweep::number::Short;
 use meshsweep_core::{
     Budget, Ended, Interval, Neighbor, QueryError, ScratchEntry, Undecided, Verdict, Work,
 };

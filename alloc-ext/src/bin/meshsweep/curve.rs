@@ -1,48 +1,11 @@
-//! Curves: `build` from CSV, and `closest` and `within` of blobs that hold them.
+//! `closest` and `within` of blobs that hold curves.
 
-use crate::args::{BuildArgs, ClosestArgs, WithinArgs};
+use crate::args::{ClosestArgs, WithinArgs};
 use crate::ask::{self, Answer, Question, verdict_name, write_numbers};
 use crate::failure::Failure;
-use crate::output::Output;
 use crate::queries::Queries;
-use crate::{describe, source};
-use meshsweep::BuildError;
-use meshsweep::counted::Counted;
-use meshsweep::curve::{CurveError, CurveReport, read_csv, store};
-use meshsweep_core::{Blob, Budget, Curve, CurveSegment, Interval};
+use meshsweep_core::{Budget, Curve, CurveSegment, Interval};
 use std::io::{self, Write};
-
-/// Builds a blob of curves.
-pub fn build(args: &BuildArgs) -> Result<(), Failure> {
-    let file = &args.mesh;
-    let refused = |error: CurveError| Failure::Curve { file: file.clone(), error };
-    let text = std::fs::read(file).map_err(|error| Failure::Read { file: file.clone(), error })?;
-    let polylines = read_csv(&text, args.closed).map_err(refused)?;
-    let (sections, report) = store(&polylines, args.vertex_bits.is_f32()).map_err(refused)?;
-    let bytes = sections.to_bytes();
-    // A blob that does not open must not be written.
-    let blob = Blob::open(&bytes)
-        .map_err(|error| Failure::Build { file: file.clone(), error: BuildError::Reopen(error) })?;
-    source::write(args, &blob)?;
-    Output::stdout().finish(|out| write_report(out, args, &blob, &report))
-}
-
-fn write_report(
-    out: &mut dyn Write,
-    args: &BuildArgs,
-    blob: &Blob<'_>,
-    report: &CurveReport,
-) -> io::Result<()> {
-    writeln!(out, "{}", args.mesh.display())?;
-    if report.repeated > 0 {
-        let points = Counted(report.repeated, "point");
-        writeln!(out, "  {points} repeated: kept, as segments without length")?;
-    }
-    writeln!(out, "{}", args.output.display())?;
-    source::report(args, out)?;
-    describe::write_blob(out, blob)?;
-    writeln!(out, "seconds: hierarchy {:.3}", report.time.as_secs_f64())
-}
 
 /// Asks for closest points.
 pub fn closest(

@@ -4,6 +4,7 @@ use crate::describe;
 use crate::failure::{Failure, Place};
 use crate::output::Output;
 use crate::side::name;
+use meshsweep::BuildError;
 use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::mesh;
 use meshsweep_core::{Budget, Bvh, Ended, Facing, Interval, ScratchEntry};
@@ -14,7 +15,9 @@ const BRACKET: &[u8] = include_bytes!("demo/bracket.stl");
 
 pub fn run() -> Result<(), Failure> {
     let file = Path::new("(built-in) bracket.stl");
-    let refuse = |error| Failure::Mesh { file: file.to_owned(), error };
+    let refuse = |error| {
+        Failure::build(file, BuildError::Mesh { file: file.to_owned(), error: Box::new(error) })
+    };
     let raw = mesh::read_bytes(file, BRACKET.to_vec()).map_err(refuse)?;
     let triangles = raw.triangles.len();
     let (mesh, _) = mesh::repair(raw).map_err(refuse)?;

@@ -8,9 +8,9 @@ pub mod tight;
 pub mod tree;
 mod triboxes;
 
-use crate::number::{AtLeast, AtMost};
 use crate::served;
 use meshsweep::counted::Counted;
+use meshsweep::number::{AtLeast, AtMost};
 use meshsweep_core::internal::format::layout::{FLAG_CUT, VERSION_MAJOR, VERSION_MINOR};
 use meshsweep_core::internal::num::exp2;
 use meshsweep_core::{Blob, SectionKind};

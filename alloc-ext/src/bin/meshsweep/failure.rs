@@ -1,11 +1,9 @@
 //! What can go wrong. Each variant is one line that names the file, the place and the remedy.
 
-use crate::number::Typed;
-use crate::unmet::Unmet;
-use meshsweep::BuildError;
 use meshsweep::counted::Counted;
-use meshsweep::curve::CurveError;
 use meshsweep::mesh::MeshError;
+use meshsweep::number::Typed;
+use meshsweep::{BuildError, io_remedy};
 use meshsweep_core::{OpenError, QueryError};
 use std::fmt;
 use std::io::{self, Write};
@@ -26,20 +24,8 @@ pub enum Failure {
     SameFile { file: PathBuf },
     /// The directory of an output does not exist.
     NoDirectory { file: PathBuf, directory: PathBuf },
-    /// The mesh is refused.
-    Mesh { file: PathBuf, error: MeshError },
-    /// A mesh file's content is not of the kind that its name says.
-    Misnamed { file: PathBuf, content: Content },
-    /// The mesh does not bound a solid, and a hull is wanted.
-    NotSolid { file: PathBuf, error: Box<MeshError>, instead: Option<&'static str> },
-    /// A mesh is wanted, and a blob is given.
-    BlobForMesh { file: PathBuf },
     /// The blob cannot be built or cut.
     Build { file: PathBuf, error: BuildError },
-    /// The curve is refused.
-    Curve { file: PathBuf, error: CurveError },
-    /// No hull is as tight as asked for.
-    Unmet { file: PathBuf, unmet: Unmet },
     /// Two meshes are not proved to be as close to each other as asked for.
     Apart { first: PathBuf, second: PathBuf, most: f64, lower: f64, upper: f64 },
     /// Not all that the blob claims of the mesh is proved; `open` says how much.
@@ -93,13 +79,6 @@ pub enum Failure {
     ClosedPipe,
 }
 
-/// A kind of mesh file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Content {
-    pub name: &'static str,
-    pub extension: &'static str,
-}
-
 /// Which query.
 #[derive(Debug)]
 pub enum Place {
@@ -115,6 +94,14 @@ pub enum Place {
 
 impl Failure {
     pub fn build(file: &Path, error: BuildError) -> Self {
+        let is_usage = match &error {
+            BuildError::Option { .. } | BuildError::TooManyHulls { .. } => true,
+            BuildError::Mesh { error, .. } => matches!(**error, MeshError::Units { .. }),
+            _ => false,
+        };
+        if is_usage {
+            return Failure::Usage { what: error.to_string() };
+        }
         Failure::Build { file: file.to_owned(), error }
     }
 
@@ -156,17 +143,7 @@ struct Cause<'a>(&'a io::Error);
 
 impl fmt::Display for Cause<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let remedy = match self.0.kind() {
-            io::ErrorKind::NotFound => "check the path",
-            io::ErrorKind::IsADirectory => "name a file in it",
-            io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
-                "change permissions or the path"
-            }
-            io::ErrorKind::StorageFull => "make room",
-            io::ErrorKind::FileTooLarge => "ask for less, or choose another file system",
-            _ => "check path and medium",
-        };
-        write!(f, "{}; {remedy}", self.0)
+        write!(f, "{}; {}", self.0, io_remedy(self.0.kind()))
     }
 }
 
@@ -195,43 +172,6 @@ impl fmt::Display for Failure {
                 file.display(),
                 directory.display()
             ),
-            Failure::Mesh { file, error } => {
-                let text = error.to_string();
-                // Errors of reading name the file themselves.
-                if text.starts_with(&*file.to_string_lossy()) {
-                    f.write_str(&text)
-                } else {
-                    write!(f, "{}: {text}", file.display())
-                }
-            }
-            Failure::NotSolid { file, error, instead } => {
-                write!(f, "{}: {error}", file.display())?;
-                // On a line of its own, like places.
-                instead.map_or(Ok(()), |instead| write!(f, "\n{instead}"))
-            }
-            Failure::Misnamed { file, content } => write!(
-                f,
-                "{}: the content looks like {}; rename the file to end in .{}",
-                file.display(),
-                content.name,
-                content.extension
-            ),
-            Failure::BlobForMesh { file } => {
-                write!(
-                    f,
-                    "{}: is a blob already; name the mesh that it was built from",
-                    file.display()
-                )
-            }
-            Failure::Curve { file, error } => {
-                let text = error.to_string();
-                // A line of the file, else what all of the file lacks.
-                let mark = if text.starts_with("line ") { "," } else { ":" };
-                write!(f, "{}{mark} {text}", file.display())
-            }
-            Failure::Unmet { file, unmet } => {
-                write!(f, "{}: {unmet}; nothing is written", file.display())
-            }
             Failure::Apart { first, second, most, lower, upper } => {
                 let most = Typed(*most);
                 write!(f, "{} and {}: the distance is ", first.display(), second.display())?;
@@ -249,7 +189,16 @@ impl fmt::Display for Failure {
                 write!(f, "{} of {}: {open}", blob.display(), mesh.display())
             }
             Failure::Limits { file, what } => write!(f, "{}: {what}", file.display()),
-            Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
+            Failure::Build { file, error } => match error {
+                BuildError::Unreadable { .. }
+                | BuildError::Mesh { .. }
+                | BuildError::NotSolid { .. }
+                | BuildError::Curve { .. } => error.fmt(f),
+                BuildError::Unmet(_) => {
+                    write!(f, "{}: {error}; nothing is written", file.display())
+                }
+                _ => write!(f, "{}: {error}", file.display()),
+            },
             Failure::NothingToSearch { file, served } => write!(
                 f,
                 "{}: serves {served}; worst searches closest, within, signed, winding and segment",

@@ -10,6 +10,7 @@ use crate::args::{HullArgs, slack_within_margin};
 use crate::failure::Failure;
 use crate::mesh_file;
 use crate::output::{refuse_other_extension, refuse_same_file};
+use meshsweep::load::is_named_as_mesh;
 
 pub fn run(args: &HullArgs) -> Result<(), Failure> {
     let usage = |what: String| Err(Failure::Usage { what });
@@ -20,7 +21,7 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
     refuse_same_file(Some(&args.output), &[&args.input])?;
     let name = args.input.display();
     let is_blob = mesh_file::is_blob(&args.input);
-    let is_mesh = !is_blob && mesh_file::is_named_as_mesh(&args.input);
+    let is_mesh = !is_blob && is_named_as_mesh(&args.input);
     if let Some(level) = args.level {
         return if is_mesh {
             usage(format!(

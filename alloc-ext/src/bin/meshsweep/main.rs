@@ -4,15 +4,14 @@
 //! | --- | --- |
 //! | `args` | the command line |
 //! | `failure` | what can go wrong, each in one line, and the exit status |
-//! | `number` | numbers as text: short, and bounds stay bounds |
-//! | `mesh_file` | from a mesh file to a clean mesh, closed if a hull is wanted |
+//! | `mesh_file` | mesh files for commands that build no blob |
 //! | `blob_file`, `served` | opening a blob, and which questions it serves |
 //! | `queries` | points, segments and poses of arguments and files |
 //! | `poses` | poses of a second mesh, as quaternions or as matrices |
 //! | `ask` | one question about many queries, on several threads, answered as CSV |
 //! | `output` | files that are complete or not there, and pipes that close early |
 //! | `describe` | tables and JSON of sections, levels and memory |
-//! | `hull_report`, `unmet` | sentences about hulls that were made, or are too loose |
+//! | `hull_report` | what `hull` says of the mesh |
 //! | `progress` | progress bars |
 //! | `curve` | what commands do with curves |
 //! | all others | one command each |
@@ -44,7 +43,6 @@ mod hull_report;
 mod info;
 mod mesh_file;
 mod nearest;
-mod number;
 mod output;
 mod overlap;
 mod poses;
@@ -58,10 +56,8 @@ mod signed;
 mod source;
 mod trade;
 mod tribox;
-mod unmet;
 mod verify;
 mod winding;
-mod windings;
 mod within;
 mod worst;
 

@@ -2,9 +2,9 @@
 
 use crate::args::{Given, MovedArgs, SearchArgs, files};
 use crate::failure::Failure;
-use crate::number::Short;
 use crate::output;
 use crate::queries::Queries;
+use meshsweep::number::Short;
 use meshsweep_core::Pose;
 use meshsweep_core::internal::num::tolerance::SCREW_DEFECT;
 

@@ -1,7 +1,8 @@
 //! Progress bars, on a terminal only.
 
 use indicatif::{ProgressBar, ProgressStyle};
-use meshsweep::tight::{HullStage as Stage, Progress};
+use meshsweep::builder::Stage;
+use meshsweep::tight::{self, HullStage, Progress};
 use std::io::IsTerminal;
 
 /// A bar that is cleared when it is dropped.
@@ -42,29 +43,41 @@ impl Drop for Bar {
     }
 }
 
-/// A bar for each stage of making a tight hull.
+/// A bar for each stage of making hulls.
 #[derive(Default)]
 pub struct StageBars {
-    stage: Option<(Stage, usize)>,
+    stage: Option<(&'static str, usize)>,
     bar: Option<Bar>,
 }
 
 impl StageBars {
     pub fn show(&mut self, progress: Progress) {
-        let stage = (progress.stage, progress.of);
-        if self.stage != Some(stage) {
-            let (doing, things) = match progress.stage {
-                Stage::Collapsing => ("collapsing", "faces"),
-                Stage::Wrapping => ("wrapping", "faces"),
-                Stage::Polishing => ("polishing", "steps"),
-            };
+        let (doing, things) = match progress.stage {
+            HullStage::Collapsing => ("collapsing", "faces"),
+            HullStage::Wrapping => ("wrapping", "faces"),
+            HullStage::Polishing => ("polishing", "steps"),
+        };
+        self.step(doing, things, progress.done, progress.of);
+    }
+
+    /// Of a build, stages without a count have no bar.
+    pub fn show_build(&mut self, stage: Stage) {
+        match stage {
+            Stage::Hull { done, of } => self.step("collapsing", "faces", done, of),
+            Stage::Tight(tight::Stage::Wrapping { progress, .. }) => self.show(progress),
+            _ => *self = Self::default(),
+        }
+    }
+
+    fn step(&mut self, doing: &'static str, things: &str, done: usize, of: usize) {
+        if self.stage != Some((doing, of)) {
             // Clears the old bar before the new one is drawn.
             self.bar = None;
-            self.bar = Some(Bar::new(progress.of, doing, things));
-            self.stage = Some(stage);
+            self.bar = Some(Bar::new(of, doing, things));
+            self.stage = Some((doing, of));
         }
         if let Some(bar) = &self.bar {
-            bar.show(progress.done);
+            bar.show(done);
         }
     }
 }

@@ -5,7 +5,7 @@ mod text;
 
 use crate::args::{Given, names};
 use crate::failure::{Failure, Place};
-use crate::number::Short;
+use meshsweep::number::Short;
 use meshsweep_core::QueryError;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};

@@ -3,11 +3,11 @@
 use crate::args::RefineArgs;
 use crate::failure::Failure;
 use crate::hull::mesh_of;
-use crate::number::AtMost;
 use crate::output::{Output, refuse_other_extension, refuse_same_file};
 use crate::{blob_file, served};
 use meshsweep::counted::Counted;
 use meshsweep::mesh::write_ply;
+use meshsweep::number::AtMost;
 use meshsweep_core::{RefinedHull, Refinement};
 use std::sync::{Mutex, PoisonError};
 

@@ -3,11 +3,12 @@
 
 use crate::args::TriboxArgs;
 use crate::failure::Failure;
-use crate::mesh_file::{self, Loaded};
-use crate::number::{About, AtLeast, AtMost, Percent};
+use crate::mesh_file;
 use crate::output::{Output, refuse_other_extension, refuse_same_file};
 use meshsweep::counted::Counted;
+use meshsweep::load::Loaded;
 use meshsweep::mesh::{Mesh, Unit, write_ply};
+use meshsweep::number::{About, AtLeast, AtMost, Percent};
 use meshsweep::tribox::{Hierarchy, Level, Measure, box_tree, level, proxies, surface, volume};
 use meshsweep_core::Bvh;
 use serde_json::{Value, json};
@@ -112,7 +113,7 @@ impl Report<'_> {
         if !loaded.report.is_clean() {
             writeln!(out, "  {}", loaded.report)?;
         }
-        loaded.write_unit(out)?;
+        loaded.unit_note().map_or(Ok(()), |note| writeln!(out, "  {note}"))?;
         writeln!(
             out,
             "triboxes   faces compression      volume    void %  hull error  largest distance to \

@@ -3,11 +3,13 @@
 use crate::args::VerifyArgs;
 use crate::describe;
 use crate::failure::Failure;
-use crate::mesh_file::{self, Loaded, is_named_as_mesh};
+use crate::mesh_file;
 use crate::output::Output;
+use meshsweep::BuildError;
 use meshsweep::check::{Against, Finding, Outcome, verify};
 use meshsweep::counted::Counted;
 use meshsweep::curve::read_csv;
+use meshsweep::load::{Loaded, is_named_as_mesh};
 use meshsweep::mesh::KeyFrame;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::Blob;
@@ -74,8 +76,9 @@ fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Fai
         }
         let text =
             std::fs::read(file).map_err(|error| Failure::Read { file: file.clone(), error })?;
-        let polylines =
-            read_csv(&text, false).map_err(|error| Failure::Curve { file: file.clone(), error })?;
+        let polylines = read_csv(&text, false).map_err(|error| {
+            Failure::build(file, BuildError::Curve { file: file.clone(), error })
+        })?;
         let points: Vec<_> = polylines.into_iter().map(|polyline| polyline.points).collect();
         let findings = verify(bytes, Against::Curves(&points));
         return Ok(Proofs { findings, hint: String::new() });
@@ -89,7 +92,7 @@ fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Fai
         return Err(Failure::Usage { what });
     }
     if blob.deformable_hull().is_ok() {
-        let (loaded, keys) = mesh_file::load_deformable(&args.mesh, &args.frames, args.unit, None)?;
+        let (loaded, keys) = mesh_file::load_deformable(&args.mesh, &args.frames, args.unit)?;
         return Ok(of_mesh(args, bytes, blob, &loaded, &keys));
     }
     if !args.frames.is_empty() {

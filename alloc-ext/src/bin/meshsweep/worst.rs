@@ -2,12 +2,12 @@
 
 use crate::args::{WorstArgs, WorstQuestion};
 use crate::failure::Failure;
-use crate::number::{About, Short};
 use crate::output::Output;
 use crate::served::{self, Engine};
 use crate::side::has_sides;
 use crate::{blob_file, side};
 use meshsweep::counted::Counted;
+use meshsweep::number::{About, Short};
 use meshsweep::trade::{self, Board, Shape};
 use meshsweep::worst::{Climb, Domain, Summit, climb};
 use meshsweep_core::{

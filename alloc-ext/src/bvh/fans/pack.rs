@@ -6,8 +6,13 @@ use super::front::Front;
 use super::remaining::Remaining;
 use super::speculation::Speculation;
 use super::{Effort, FanLeaf, MAX_LEAF_TRIANGLES};
+use crate::error::BuildError;
+use crate::progress::Watch;
 use crate::surface::EdgeTable;
 use glam::DVec3;
+
+/// Leaves between two calls of progress.
+const LEAVES: usize = 256;
 
 /// Packs a soup into leaves of the box tree. Every triangle is in exactly one leaf.
 ///
@@ -25,6 +30,9 @@ use glam::DVec3;
 ///
 /// Cost: linear time and memory, about 10 µs a leaf, for any valences.
 ///
+/// # Errors
+/// [`BuildError::Cancelled`].
+///
 /// # Panics
 /// If a triangle names a vertex that has no position, or if there are 2³²/3 triangles or more.
 pub(in crate::bvh) fn pack(
@@ -32,7 +40,8 @@ pub(in crate::bvh) fn pack(
     edges: &EdgeTable,
     positions: &[DVec3],
     effort: Effort,
-) -> Vec<FanLeaf> {
+    watch: Watch<'_>,
+) -> Result<Vec<FanLeaf>, BuildError> {
     let adjacency = Adjacency::new(triangles, edges);
     let mut remaining = Remaining::new(&adjacency);
     let mut search = LeafSearch::new(&adjacency, positions, effort);
@@ -42,6 +51,7 @@ pub(in crate::bvh) fn pack(
         front.push(triangle, remaining.degree(triangle));
     }
     let mut leaves = Vec::with_capacity(triangles.len() / MAX_LEAF_TRIANGLES);
+    let mut packed = 0;
     while let Some(degree) = front.lowest(&remaining) {
         speculation.prefetch(&front, degree, &remaining, &leaves);
         let Some(seed) = front.pop(&remaining) else { break };
@@ -49,7 +59,11 @@ pub(in crate::bvh) fn pack(
             .take_if_current(seed, &remaining)
             .unwrap_or_else(|| search.best_leaf(&remaining, seed));
         front.take(&leaf, &adjacency, &mut remaining);
+        packed += leaf.triangle_count();
         leaves.push(leaf);
+        if leaves.len().is_multiple_of(LEAVES) {
+            watch.step(packed, triangles.len())?;
+        }
     }
-    leaves
+    Ok(leaves)
 }

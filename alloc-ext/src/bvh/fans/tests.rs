@@ -1,6 +1,7 @@
 //! Soups of every kind, packed.
 
 use super::{Effort, Fan, FanLeaf, MAX_LEAF_TRIANGLES, pack};
+use crate::progress::Watch;
 use crate::random::SplitMix;
 use crate::surface::EdgeTable;
 use glam::DVec3;
@@ -65,7 +66,7 @@ impl Soup {
 
     fn pack_with(&self, effort: Effort) -> Vec<FanLeaf> {
         let edges = EdgeTable::new(self.positions.len(), &self.triangles);
-        let leaves = pack(&self.triangles, &edges, &self.positions, effort);
+        let leaves = pack(&self.triangles, &edges, &self.positions, effort, Watch::NONE).unwrap();
         let mut found = vec![0; self.triangles.len()];
         for leaf in &leaves {
             demand_form(leaf);
@@ -81,7 +82,8 @@ impl Soup {
             }
         }
         assert!(found.iter().all(|&count| count == 1), "every triangle is in one fan");
-        assert_eq!(leaves, pack(&self.triangles, &edges, &self.positions, effort));
+        let again = pack(&self.triangles, &edges, &self.positions, effort, Watch::NONE);
+        assert_eq!(Ok(&leaves), again.as_ref());
         leaves
     }
 

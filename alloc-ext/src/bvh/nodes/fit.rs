@@ -6,33 +6,42 @@ use super::frame::{SEARCH_POINTS, best_quaternion};
 use super::order::Topology;
 use super::rotation::stored_rotation;
 use super::subtree::Subtrees;
+use crate::error::BuildError;
+use crate::progress::Watch;
 use glam::DVec3;
-use rayon::prelude::*;
 
 /// Boxes of every node, in the order of `topology.nodes`; lanes as in the node: inner children
 /// first, then leaves. `leaves` are the items' points in grid units.
 ///
 /// The frame is searched on extreme points that are passed up the tree, the boxes cover every point
 /// of the subtree. Cost: O(nodes), on all threads.
-pub fn shared_frames(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeBoxes> {
+///
+/// # Errors
+/// [`BuildError::Cancelled`].
+pub fn shared_frames(
+    topology: &Topology,
+    leaves: &[&[DVec3]],
+    watch: Watch<'_>,
+) -> Result<Vec<NodeBoxes>, BuildError> {
     let subtrees = Subtrees::new(topology, leaves);
     let mut extremes: Vec<Vec<DVec3>> = vec![Vec::new(); topology.nodes.len()];
     let mut boxes: Vec<Option<NodeBoxes>> = vec![None; topology.nodes.len()];
+    let (mut done, all) = (0, topology.nodes.len() as f64);
     for level in levels_from_below(topology) {
-        let fitted: Vec<(NodeBoxes, Vec<DVec3>)> = level
-            .par_iter()
-            .map(|&index| {
-                let node = &topology.nodes[index as usize];
-                let of_leaves = node.leaves.iter().map(|&item| leaves[item as usize]);
-                let of_leaves: Vec<Vec<DVec3>> =
-                    of_leaves.map(|points| extreme_points(points, SEARCH_POINTS)).collect();
-                let of_inner = node.inner.iter().map(|&child| &extremes[child as usize]);
-                let search: Vec<&[DVec3]> = of_inner.chain(&of_leaves).map(Vec::as_slice).collect();
-                let children = subtrees.below(index, |child| &extremes[child as usize]);
-                let boxes = quantise(stored_rotation(best_quaternion(&search)), &children);
-                (boxes, extreme_points(&search.concat(), SEARCH_POINTS))
-            })
-            .collect();
+        let part = watch.part(f64::from(done) / all, f64::from(done + level.len() as u32) / all);
+        done += level.len() as u32;
+        let fitted: Vec<(NodeBoxes, Vec<DVec3>)> = part.map(level.len(), |at| {
+            let index = level[at];
+            let node = &topology.nodes[index as usize];
+            let of_leaves = node.leaves.iter().map(|&item| leaves[item as usize]);
+            let of_leaves: Vec<Vec<DVec3>> =
+                of_leaves.map(|points| extreme_points(points, SEARCH_POINTS)).collect();
+            let of_inner = node.inner.iter().map(|&child| &extremes[child as usize]);
+            let search: Vec<&[DVec3]> = of_inner.chain(&of_leaves).map(Vec::as_slice).collect();
+            let children = subtrees.below(index, |child| &extremes[child as usize]);
+            let boxes = quantise(stored_rotation(best_quaternion(&search)), &children);
+            (boxes, extreme_points(&search.concat(), SEARCH_POINTS))
+        })?;
         for (&index, (fitted, points)) in level.iter().zip(fitted) {
             boxes[index as usize] = Some(fitted);
             extremes[index as usize] = points;
@@ -41,26 +50,36 @@ pub fn shared_frames(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeBoxes>
             }
         }
     }
-    boxes.into_iter().flatten().collect()
+    Ok(boxes.into_iter().flatten().collect())
 }
 
 /// [`shared_frames`] without the search of a rotation, which takes most of the time. Answers are
 /// the same, after a few more visits.
-pub fn unturned_frames(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeBoxes> {
+///
+/// # Errors
+/// [`BuildError::Cancelled`].
+pub fn unturned_frames(
+    topology: &Topology,
+    leaves: &[&[DVec3]],
+    watch: Watch<'_>,
+) -> Result<Vec<NodeBoxes>, BuildError> {
     let subtrees = Subtrees::new(topology, leaves);
-    (0..topology.nodes.len() as u32)
-        .into_par_iter()
-        .map(|index| quantise(IDENTITY, &subtrees.below(index, |_| &[])))
-        .collect()
+    watch.map(topology.nodes.len(), |index| {
+        quantise(IDENTITY, &subtrees.below(index as u32, |_| &[]))
+    })
 }
 
 /// [`shared_frames`] without rotation: the boxes for segment queries.
-pub fn axis_aligned_boxes(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeBoxes> {
+///
+/// # Errors
+/// [`BuildError::Cancelled`].
+pub fn axis_aligned_boxes(
+    topology: &Topology,
+    leaves: &[&[DVec3]],
+    watch: Watch<'_>,
+) -> Result<Vec<NodeBoxes>, BuildError> {
     let subtrees = Subtrees::new(topology, leaves);
-    (0..topology.nodes.len() as u32)
-        .into_par_iter()
-        .map(|index| axis_aligned(&subtrees.below(index, |_| &[])))
-        .collect()
+    watch.map(topology.nodes.len(), |index| axis_aligned(&subtrees.below(index as u32, |_| &[])))
 }
 
 /// Nodes by height. Nodes without inner children come first.
@@ -137,9 +156,10 @@ mod tests {
                 let leaves = leaves(count, fractional);
                 let slices: Vec<&[DVec3]> = leaves.iter().map(Vec::as_slice).collect();
                 let tree = topology(&slices.iter().map(|leaf| bounds(leaf)).collect::<Vec<_>>());
-                assert_covers_subtrees(&tree, &slices, &shared_frames(&tree, &slices));
-                assert_covers_subtrees(&tree, &slices, &unturned_frames(&tree, &slices));
-                assert_covers_subtrees(&tree, &slices, &axis_aligned_boxes(&tree, &slices));
+                for fit in [shared_frames, unturned_frames, axis_aligned_boxes] {
+                    let boxes = fit(&tree, &slices, Watch::NONE).expect("nobody cancels");
+                    assert_covers_subtrees(&tree, &slices, &boxes);
+                }
             }
         }
     }
@@ -150,7 +170,8 @@ mod tests {
         let slices: Vec<&[DVec3]> = leaves.iter().map(Vec::as_slice).collect();
         let tree = topology(&slices.iter().map(|leaf| bounds(leaf)).collect::<Vec<_>>());
         assert!(
-            axis_aligned_boxes(&tree, &slices)
+            axis_aligned_boxes(&tree, &slices, Watch::NONE)
+                .expect("nobody cancels")
                 .iter()
                 .all(|b| b.matrix == [[8192, 0, 0], [0, 8192, 0], [0, 0, 8192]])
         );

@@ -1,10 +1,10 @@
 //! A proved hull that a search may start from.
 
 use crate::surface::Stored;
+use crate::tight::deadline::Deadline;
 use crate::tight::moves::{Rounding, Shell};
 use crate::tight::proof::{Obstacle, is_outer_hull};
 use crate::tight::report::Start;
-use std::time::Instant;
 
 /// A proved hull that a search may start from.
 pub(crate) struct InitialHull {
@@ -34,5 +34,5 @@ pub(crate) struct InitialInput<'a> {
     pub obstacle: &'a Obstacle,
     /// Rounding to the coordinates of the hull.
     pub rounding: Rounding,
-    pub deadline: Option<Instant>,
+    pub deadline: Deadline<'a>,
 }

@@ -9,7 +9,7 @@ use crate::surface::compact;
 use crate::tight::report::{Progress, Stage};
 use glam::DVec3;
 use meshsweep_core::internal::num::exp2;
-use std::time::Instant;
+use std::ops::ControlFlow::{Break, Continue};
 
 /// Positions and triangles.
 pub(super) type Faces = (Vec<DVec3>, Vec<[u32; 3]>);
@@ -73,7 +73,7 @@ impl ClosedSurface<'_> {
         thins: bool,
         on_progress: &mut dyn FnMut(Progress),
     ) -> Option<Levels> {
-        let is_late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
+        let is_late = || deadline.has_passed();
         let Self { positions, triangles, conditions } = *self;
         let from = triangles.len();
         let mut show = |faces: usize| {
@@ -113,7 +113,11 @@ impl ClosedSurface<'_> {
             // A surface that is stuck at more faces is a level as well.
             while engine.progress().faces > faces && !is_late() {
                 let next = engine.progress().faces.saturating_sub(FACES_PER_LOOK).max(faces);
-                if engine.run(next, |progress| show(progress.faces)).is_some() {
+                let stuck = engine.run(next, |progress| {
+                    show(progress.faces);
+                    if is_late() { Break(()) } else { Continue(()) }
+                });
+                if stuck.is_some() {
                     break;
                 }
             }

@@ -25,11 +25,11 @@
 use super::triangle_voxels::{Block, visit_voxels};
 use crate::surface::Bounds;
 use crate::surface::split_exponent;
+use crate::tight::deadline::Deadline;
 use crate::tight::proof::{Obstacle, Triangle};
 use glam::DVec3;
 use meshsweep_core::internal::num::exp2;
 use rustc_hash::FxHashMap;
-use std::time::Instant;
 
 /// A closed surface around triangles, and the grid that it came from.
 #[derive(Clone, Debug)]
@@ -59,7 +59,7 @@ const MOST_HALVES: f64 = 16_777_216.0;
 pub(super) fn voxel_closure(
     obstacle: &Obstacle,
     voxels: usize,
-    deadline: Option<Instant>,
+    deadline: Deadline<'_>,
 ) -> Option<VoxelClosure> {
     let bounds = obstacle.bounds().grown(obstacle.margin());
     let extent = (bounds.high - bounds.low).max_element();
@@ -191,12 +191,12 @@ impl Grid {
         &self,
         obstacle: &Obstacle,
         level: f64,
-        deadline: Option<Instant>,
+        deadline: Deadline<'_>,
     ) -> Option<Vec<bool>> {
         let mut near = vec![false; self.all().len()];
         let [nx, ny, nz] = self.corners;
         for k in 0..nz {
-            if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+            if deadline.has_passed() {
                 return None;
             }
             for j in 0..ny {
@@ -359,7 +359,7 @@ mod tests {
         let triangle =
             [DVec3::new(0.1, 0.2, 0.3), DVec3::new(1.0, 0.25, 0.125), DVec3::new(0.5, 1.5, 0.75)];
         for voxels in [1, 2, 5, 16] {
-            let surface = voxel_closure(&around(&[triangle]), voxels, None).unwrap();
+            let surface = voxel_closure(&around(&[triangle]), voxels, Deadline::default()).unwrap();
             assert!(volume(&surface) > 0.0);
             let mut edges: Vec<_> =
                 surface.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
@@ -379,16 +379,16 @@ mod tests {
             .iter()
             .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]].map(|t| t.map(corner)))
             .collect();
-        let surface = voxel_closure(&around(&triangles), 16, None).unwrap();
+        let surface = voxel_closure(&around(&triangles), 16, Deadline::default()).unwrap();
         assert!(volume(&surface) > 1.0 && volume(&surface) < 2.0, "{}", volume(&surface));
     }
 
     #[test]
     fn a_point_has_no_closure_and_far_triangles_have_larger_voxels() {
-        assert!(voxel_closure(&around(&[[DVec3::ONE; 3]]), 8, None).is_none());
+        assert!(voxel_closure(&around(&[[DVec3::ONE; 3]]), 8, Deadline::default()).is_none());
         let far =
             [DVec3::new(1e7, 0.0, 0.0), DVec3::new(1e7 + 4.0, 0.0, 0.0), DVec3::new(1e7, 4.0, 0.0)];
-        let surface = voxel_closure(&around(&[far]), 64, None).unwrap();
+        let surface = voxel_closure(&around(&[far]), 64, Deadline::default()).unwrap();
         assert!(
             surface.voxels < 64 && surface.positions.iter().all(|p| p.as_vec3().as_dvec3() == *p)
         );

@@ -101,6 +101,7 @@ impl HullEditor<'_> {
         let mut edges = Edges { editor: self, refilled: 0 };
         collapse::run(&mut edges, &mut schedule, target, |edges| {
             on_progress(edges.editor.shell.face_count());
+            true
         })
     }
 

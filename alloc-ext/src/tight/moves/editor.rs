@@ -20,9 +20,9 @@ use super::rounding::Rounding;
 use super::shell::Shell;
 use super::star::{StarFace, added_volume, corners};
 use crate::surface::Bounds;
+use crate::tight::deadline::Deadline;
 use crate::tight::proof::{DistanceField, Face, Obstacle, Triangle, are_apart, is_degenerate};
 use glam::DVec3;
-use std::time::Instant;
 
 /// Shape conditions of edits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +52,7 @@ pub(crate) struct HullEditor<'a> {
     pub shape: Shape,
     /// Number of stars after which no new edit begins.
     pub star_limit: Option<u64>,
-    pub deadline: Option<Instant>,
+    pub deadline: Deadline<'a>,
     /// Components that [`drop_enclosed`](Self::drop_enclosed) has dropped.
     pub enclosed: usize,
     /// No point of a new face is farther than this from the mesh.
@@ -86,7 +86,7 @@ impl<'a> HullEditor<'a> {
             rounding,
             shape,
             star_limit: None,
-            deadline: None,
+            deadline: Deadline::default(),
             enclosed: 0,
             max_distance: f64::INFINITY,
             distance_field: DistanceField::new(f64::INFINITY),
@@ -112,7 +112,7 @@ impl<'a> HullEditor<'a> {
 
     /// Whether the deadline has passed.
     pub fn is_late(&self) -> bool {
-        self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+        self.deadline.has_passed()
     }
 
     /// Whether stars or time are used up.

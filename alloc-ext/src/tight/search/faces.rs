@@ -22,7 +22,6 @@ use crate::error::BuildError;
 use crate::tight::initial::{InitialHull, InitialInput, closure_hull, grown_box, lifted_levels};
 use crate::tight::moves::HullEditor;
 use crate::tight::report::{Outcome, Start};
-use std::time::Instant;
 
 /// Voxels along the longest side of the closures that are tried after the [`finest`]; `None` is the
 /// grown box.
@@ -152,7 +151,7 @@ impl<'a> HullSearch<'a, '_> {
     ///
     /// | best so far | in time | out of time |
     /// | --- | --- | --- |
-    /// | none | try | skip to the grown box, which is quick |
+    /// | none | try | skip to the grown box, which is quick; stop if the caller wants no hull |
     /// | stuck | try | stop |
     /// | reached, `is_open` | try all but the last resort | stop |
     /// | reached, not `is_open` | stop | stop |
@@ -164,6 +163,9 @@ impl<'a> HullSearch<'a, '_> {
     ) -> Next {
         let is_late = self.is_late();
         let Some(best) = best else {
+            if self.deadline.is_cancelled() {
+                return Next::Stop;
+            }
             if is_late && voxels.is_some() {
                 self.is_hurried = true;
                 return Next::Skip;
@@ -183,10 +185,7 @@ impl<'a> HullSearch<'a, '_> {
     /// Tries levels of the mesh's own progressive hull, in half of the time: the other half is for
     /// the other initial hulls.
     fn try_levels(&mut self, target: Target, best: &mut Option<CandidateHull<'a>>) {
-        let half = self.deadline.map(|deadline| {
-            let now = Instant::now();
-            now + deadline.saturating_duration_since(now) / 2
-        });
+        let half = self.deadline.half();
         let input = InitialInput { stored: self.stored, deadline: half, ..self.initial_input() };
         let levels = lifted_levels(&input, self.mesh, target.faces, self.on_progress);
         for initial in [levels.ample, levels.exact].into_iter().flatten() {
@@ -194,7 +193,7 @@ impl<'a> HullSearch<'a, '_> {
                 keep_better(best, self.prepare(initial, target));
             }
         }
-        self.is_hurried |= best.is_none() && half.is_some_and(|half| Instant::now() >= half);
+        self.is_hurried |= best.is_none() && half.has_passed();
     }
 
     /// Whether the mesh has no more faces than asked for, and a hull that reached its goal has next

@@ -3,12 +3,12 @@
 use crate::error::BuildError;
 use crate::mesh::Mesh;
 use crate::surface::Stored;
+use crate::tight::deadline::Deadline;
 use crate::tight::initial::InitialInput;
 use crate::tight::moves::Rounding;
 use crate::tight::options::Options;
 use crate::tight::proof::{Obstacle, Solid};
 use crate::tight::report::Progress;
-use std::time::Instant;
 
 /// The inputs and the state of a search.
 pub(crate) struct HullSearch<'a, 'p> {
@@ -21,7 +21,7 @@ pub(crate) struct HullSearch<'a, 'p> {
     /// `None` if the mesh bounds no volume.
     pub solid: Option<Solid>,
     pub options: &'a Options,
-    pub deadline: Option<Instant>,
+    pub deadline: Deadline<'a>,
     /// Whether the best initial hull was given up for lack of time.
     pub is_hurried: bool,
     pub on_progress: &'p mut dyn FnMut(Progress),
@@ -69,6 +69,6 @@ impl<'a> HullSearch<'a, '_> {
     }
 
     pub(super) fn is_late(&self) -> bool {
-        self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+        self.deadline.has_passed()
     }
 }

@@ -1,12 +1,13 @@
 //! A chain of hulls of one mesh.
 
-use super::distances::{Distances, distances};
+use super::distances::{Distances, distances_watched};
 use super::section::{Stored, sections};
 use crate::bvh::TreeOptions;
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::Input;
 use crate::mesh::NoVolume;
+use crate::progress::{Answer, Callback};
 use crate::surface::VertexBits;
 use crate::tight::hull::{Hull, wrap};
 use crate::tight::options::{Goal, Options};
@@ -171,10 +172,10 @@ pub struct HullReport {
 ///
 /// # Errors
 /// [`BuildError`].
-pub fn chain(
+pub fn chain<A: Answer>(
     input: Input<'_>,
     options: &ChainOptions,
-    mut on_progress: impl FnMut(Stage),
+    mut on_progress: impl FnMut(Stage) -> A,
 ) -> Result<(Sections, Vec<HullReport>), BuildError> {
     let Input { mesh, moved, .. } = input;
     let goals = options.goals();
@@ -192,8 +193,10 @@ pub fn chain(
         {
             continue;
         }
-        on_progress(Stage::Certifying);
-        let mut distances = distances(&hull.mesh, mesh);
+        let callback = Callback::new(|_| on_progress(Stage::Certifying).goes_on());
+        callback.watch().step(0, 1)?;
+        let mut distances = distances_watched(&hull.mesh, mesh, callback.watch());
+        callback.watch().check()?;
         if let Goal::Slack(_) = goal {
             // The search proved a smaller distance, face by face, than branch and bound finds.
             let most = hull.report.slack.upper;

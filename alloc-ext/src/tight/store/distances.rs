@@ -2,6 +2,7 @@
 
 use crate::hausdorff::{Farthest, Nearest, farthest};
 use crate::mesh::Mesh;
+use crate::progress::Watch;
 use crate::tight::proof::Obstacle;
 use glam::DVec3;
 
@@ -25,19 +26,25 @@ const FINE: f64 = 1.0 / 512.0;
 /// Cost: a branch and bound by nearest points for each face of the hull, and once for all of the
 /// mesh.
 pub fn distances(hull: &Mesh, mesh: &Mesh) -> Distances {
+    distances_watched(hull, mesh, Watch::NONE)
+}
+
+/// [`distances`] under a watch. If it asks to end, they mean nothing.
+pub(super) fn distances_watched(hull: &Mesh, mesh: &Mesh, watch: Watch<'_>) -> Distances {
     let (hull_surface, mesh_surface) = (Obstacle::of(hull), Obstacle::of(mesh));
     let to = |surface: &Obstacle, p: DVec3| {
         let (triangle, [lower, upper]) = surface.nearest(p)?;
         Some(Nearest { lower, upper, triangle: Some(triangle) })
     };
-    let slack = farthest(hull.corners_f64(), 0.0, |p| to(&mesh_surface, p));
+    let all = mesh.triangles.len();
+    let mut to_mesh = watch.asks(all, |p| to(&mesh_surface, p));
+    let slack = farthest(hull.corners_f64(), 0.0, &mut to_mesh);
     let enough = slack.lower * FINE;
     let slacks = hull
         .corners_f64()
-        .map(|face| {
-            farthest(std::iter::once(face), enough, |p| to(&mesh_surface, p)).upper.min(slack.upper)
-        })
+        .map(|face| farthest(std::iter::once(face), enough, &mut to_mesh).upper.min(slack.upper))
         .collect();
-    let depth = farthest(mesh.all_corners_f64(), 0.0, |p| to(&hull_surface, p));
+    let to_hull = watch.asks(all, |p| to(&hull_surface, p));
+    let depth = farthest(mesh.all_corners_f64(), 0.0, to_hull);
     Distances { slacks, slack, depth }
 }

@@ -2,9 +2,9 @@
 
 use super::building::{CollapseArgs, StoredBits};
 use super::values::{distance, factor, length, percent, positive, tolerance, unit, whole};
-use crate::number::Typed;
 use clap::Args;
 use meshsweep::mesh::Unit;
+use meshsweep::number::Typed;
 use meshsweep::tribox::SplitOptions;
 use std::path::PathBuf;
 
@@ -106,7 +106,7 @@ pub struct HullArgs {
 impl HullArgs {
     /// The first given option that applies to a progressive hull only.
     pub fn progressive_option(&self) -> Option<&'static str> {
-        self.collapse.given()
+        self.collapse.options().given()
     }
 }
 

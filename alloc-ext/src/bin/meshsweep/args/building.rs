@@ -2,15 +2,14 @@
 
 use super::measuring::LimitArgs;
 use super::values::{degrees, distance, factor, length, percent, ratio, unit, whole};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args, ValueEnum};
-use meshsweep::collapse::{Conditions, Priority};
-use meshsweep::hull::BuildOptions;
+use meshsweep::Builder;
+use meshsweep::builder::For;
+use meshsweep::collapse::CollapseOptions;
 use meshsweep::mesh::Unit;
 use meshsweep::surface::VertexBits;
 use std::path::PathBuf;
-
-/// Faces of a hull unless told otherwise.
-pub const FACES: u32 = 200;
 
 #[derive(Debug, Args)]
 pub struct BuildArgs {
@@ -23,8 +22,13 @@ pub struct BuildArgs {
     pub output: PathBuf,
     /// Questions that the blob must serve; only the sections that they need are written (see below)
     /// [default: closest,segment]
-    #[arg(long = "for", value_enum, value_delimiter = ',', value_name = "QUESTIONS")]
-    serves: Option<Vec<Serves>>,
+    #[arg(
+        long = "for",
+        value_parser = PossibleValuesParser::new(For::ALL.map(For::name)).map(question),
+        value_delimiter = ',',
+        value_name = "QUESTIONS"
+    )]
+    serves: Option<Vec<For>>,
     /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, and 3MF are scaled to
     /// it; of other files it is the unit of their numbers
     #[arg(long, value_name = "UNIT", value_parser = unit)]
@@ -114,91 +118,38 @@ pub enum HullServes {
 /// Most triboxes of a blob. More take too long.
 const MAX_TRIBOXES: u32 = 4096;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Serves {
-    Closest,
-    Segment,
-    Hull,
-    Sweep,
-    Cull,
-    Triboxes,
-    Tight,
-    Curve,
-    Deform,
-    Winding,
-}
-
-/// The questions that a blob must serve.
-#[derive(Clone, Copy, Debug)]
-pub struct Wanted {
-    pub closest: bool,
-    pub segment: bool,
-    pub hull: bool,
-    /// A hierarchy for sweeps alone. Hulls serve sweeps too.
-    pub sweep: bool,
-    pub cull: bool,
-    pub winding: bool,
-    pub triboxes: bool,
-    pub tight: bool,
-    pub deform: bool,
-}
-
-impl Wanted {
-    /// Whether any question needs the box tree.
-    pub fn tree(self) -> bool {
-        self.closest || self.segment || self.cull || self.winding
-    }
-
-    /// Whether any question needs the hull hierarchy.
-    pub fn hierarchy(self) -> bool {
-        self.hull || self.sweep
-    }
+/// A question by its name, which is one of all.
+fn question(name: String) -> For {
+    For::ALL.into_iter().find(|of| of.name() == name).unwrap_or(For::Closest)
 }
 
 impl BuildArgs {
-    /// The questions that the blob must serve.
-    pub fn serves(&self) -> &[Serves] {
-        self.serves.as_deref().unwrap_or(&[Serves::Closest, Serves::Segment])
+    /// What builds the blob.
+    pub fn builder(&self) -> Builder<'_> {
+        let builder = Builder::new()
+            .serve_all(self.serves.iter().flatten().copied())
+            .unit(self.unit)
+            .vertex_bits(self.vertex_bits.format())
+            .base_faces(self.base)
+            .collapse(self.collapse.options())
+            .triboxes(self.triboxes)
+            .tight_faces(&self.tight)
+            .slack(self.slack)
+            .void_percent(self.void)
+            .margin(self.margin)
+            .effort(self.effort)
+            .closed(self.closed);
+        let asked = |of: HullServes| self.tight_for.contains(&of);
+        let builder = match self.tight_for.as_slice() {
+            [] => builder,
+            _ => builder.tight_for(asked(HullServes::Closest), asked(HullServes::Segment)),
+        };
+        self.frames.iter().fold(builder, Builder::frame_file)
     }
 
-    pub fn wanted(&self) -> Wanted {
-        let has = |what: Serves| self.serves().contains(&what);
-        Wanted {
-            closest: has(Serves::Closest),
-            segment: has(Serves::Segment),
-            hull: has(Serves::Hull) || has(Serves::Deform),
-            sweep: has(Serves::Sweep) && !has(Serves::Hull) && !has(Serves::Deform),
-            cull: has(Serves::Cull),
-            winding: has(Serves::Winding),
-            triboxes: has(Serves::Triboxes),
-            tight: has(Serves::Tight),
-            deform: has(Serves::Deform),
-        }
-    }
-
-    /// Whether a curve is to be built: the file is CSV, or `--for` says so.
+    /// Whether a curve is to be built.
     pub fn is_curve(&self) -> bool {
-        let is_csv = self.mesh.extension().is_some_and(|csv| csv.eq_ignore_ascii_case("csv"));
-        is_csv || self.serves().contains(&Serves::Curve)
-    }
-
-    /// Whether `--for` asks of a curve what only meshes have. Its default does not count.
-    pub fn asks_mesh_of_curve(&self) -> bool {
-        self.is_curve() && self.serves.as_ref().is_some_and(|asked| *asked != [Serves::Curve])
-    }
-
-    /// The first given option that applies to tight hulls only.
-    pub fn tight_option(&self) -> Option<&'static str> {
-        [
-            ("--tight", !self.tight.is_empty()),
-            ("--slack", self.slack.is_some()),
-            ("--void", self.void.is_some()),
-            ("--margin", self.margin.is_some()),
-            ("--effort", self.effort.is_some()),
-            ("--tight-for", !self.tight_for.is_empty()),
-        ]
-        .into_iter()
-        .find_map(|(option, given)| given.then_some(option))
+        self.builder().builds_curve(&self.mesh)
     }
 
     /// The first given option that names what limits choose.
@@ -209,11 +160,6 @@ impl BuildArgs {
             ("key frames", !self.frames.is_empty()),
         ];
         others.into_iter().find_map(|(option, given)| given.then_some(option))
-    }
-
-    /// The first given option that applies to the hull hierarchy only.
-    pub fn hull_option(&self) -> Option<&'static str> {
-        if self.base.is_some() { Some("--base") } else { self.collapse.given() }
     }
 }
 
@@ -232,41 +178,10 @@ pub struct CollapseArgs {
 }
 
 impl CollapseArgs {
-    /// The first given option.
-    pub fn given(&self) -> Option<&'static str> {
-        let Self { max_valence, compactness, max_normal_deviation } = self;
-        [
-            ("--max-valence", max_valence.is_some()),
-            ("--compactness", compactness.is_some()),
-            ("--max-normal-deviation", max_normal_deviation.is_some()),
-        ]
-        .into_iter()
-        .find_map(|(option, given)| given.then_some(option))
-    }
-
-    /// Options of a progressive hull of so many faces.
-    pub fn options(&self, faces: u32, bits: StoredBits) -> BuildOptions {
-        BuildOptions {
-            base_faces: faces as usize,
-            priority: Priority::Program,
-            conditions: self.conditions(),
-            vertex_bits: bits.format(),
-        }
-    }
-
-    fn conditions(&self) -> Conditions {
-        let default = Conditions::default();
-        // The library's cosine of 45° may differ from this one in the last bit, and so would the
-        // blob's bytes.
-        let cosine = |degrees: f64| {
-            if degrees == 45.0 { default.min_normal_cosine } else { degrees.to_radians().cos() }
-        };
-        Conditions {
-            max_valence: self.max_valence.map_or(default.max_valence, |edges| edges as usize),
-            compactness_ratio: self.compactness.unwrap_or(default.compactness_ratio),
-            min_normal_cosine: self.max_normal_deviation.map_or(default.min_normal_cosine, cosine),
-            ..default
-        }
+    /// As the library takes them.
+    pub fn options(&self) -> CollapseOptions {
+        let Self { max_valence, compactness, max_normal_deviation } = *self;
+        CollapseOptions { max_valence, compactness, max_normal_deviation }
     }
 }
 
@@ -290,16 +205,6 @@ impl StoredBits {
             StoredBits::TwentyFour => VertexBits::Grid24,
             StoredBits::ThirtyTwo => VertexBits::F32,
         }
-    }
-
-    /// Whether vertices move to a grid of this many bits.
-    pub fn is_grid(self) -> bool {
-        matches!(self, StoredBits::Sixteen | StoredBits::TwentyFour)
-    }
-
-    /// Whether the box tree's vertices are f32.
-    pub fn is_f32(self) -> bool {
-        matches!(self, StoredBits::TwentyFour | StoredBits::ThirtyTwo)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Queries as the command line gives them: numbers, or a file of numbers.
 
-use crate::number;
 use clap::builder::{OsStringValueParser, TypedValueParser};
+use meshsweep::number;
 use meshsweep_core::internal::format::layout::MAGIC;
 use std::ffi::OsString;
 use std::fs::File;

@@ -1,7 +1,7 @@
 //! Curves: what they hold, memory, error.
 
-use crate::number::AtMost;
 use meshsweep::counted::Counted;
+use meshsweep::number::AtMost;
 use meshsweep_core::{Curve, ScratchEntry};
 use serde_json::{Value, json};
 use std::io::{self, Write};

@@ -1,7 +1,7 @@
 //! The hull hierarchy: memory, levels, surface error.
 
-use crate::number::{AtMost, Percent};
 use meshsweep::counted::Counted;
+use meshsweep::number::{AtMost, Percent};
 use meshsweep_core::internal::format::Header;
 use meshsweep_core::internal::format::layout::VertexFormat;
 use meshsweep_core::internal::num::{exp2, up_to_f32};

@@ -1,8 +1,8 @@
 //! Tight hulls: faces, void, distances, bytes, memory.
 
 use super::tree::{format_name, scratch_bytes};
-use crate::number::{AtMost, Percent};
 use meshsweep::counted::Counted;
+use meshsweep::number::{AtMost, Percent};
 use meshsweep_core::{TightHull, TightHulls, TightRecord};
 use serde_json::{Value, json};
 use std::io::{self, Write};

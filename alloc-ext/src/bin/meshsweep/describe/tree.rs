@@ -1,8 +1,8 @@
 //! The box tree: shape, memory, surface error, whether sides are defined.
 
 use super::shape::Shape;
-use crate::number::AtMost;
 use meshsweep::counted::Counted;
+use meshsweep::number::AtMost;
 use meshsweep_core::internal::num::exp2;
 use meshsweep_core::internal::num::tolerance::{CERTIFIED_PART, FAN_DISTANCE, FAN_RELATIVE, U32};
 use meshsweep_core::{Bvh, ScratchEntry};

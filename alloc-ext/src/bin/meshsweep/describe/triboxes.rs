@@ -1,7 +1,7 @@
 //! The tribox hierarchy: size, levels, memory.
 
-use crate::number::{AtMost, Percent};
 use meshsweep::counted::Counted;
+use meshsweep::number::{AtMost, Percent};
 use meshsweep_core::{TriboxLevel, Triboxes};
 use serde_json::{Value, json};
 use std::io::{self, Write};

@@ -1,22 +1,28 @@
 //! The progressive hull of a closed mesh.
 
-use crate::args::{FACES, HullArgs};
+use crate::args::HullArgs;
 use crate::failure::Failure;
-use crate::hull_report::{why_stuck, write_repairs, write_wires};
+use crate::hull_report::write_repairs;
 use crate::mesh_file;
-use crate::number::Percent;
 use crate::output::Output;
 use crate::progress::Bar;
+use meshsweep::builder::FACES;
 use meshsweep::counted::Counted;
-use meshsweep::hull::{hull_of, wires_off_surface};
+use meshsweep::hull::{BuildOptions, hull_of, wires_note, wires_off_surface};
 use meshsweep::mesh::write_ply;
+use meshsweep::number::Percent;
 use std::time::Instant;
 
 pub fn run(args: &HullArgs) -> Result<(), Failure> {
     Output::probe(&args.output)?;
     let faces = args.faces.unwrap_or(FACES);
-    let options = args.collapse.options(faces, args.vertex_bits);
-    let solid = mesh_file::load_solid(&args.input, options.vertex_bits, args.unit, None)?;
+    let options = BuildOptions {
+        base_faces: faces as usize,
+        conditions: args.collapse.options().conditions(),
+        vertex_bits: args.vertex_bits.format(),
+        ..BuildOptions::default()
+    };
+    let solid = mesh_file::load_solid(&args.input, options.vertex_bits, args.unit)?;
     let from = solid.mesh.triangles.len();
     let bar = Bar::new(from.saturating_sub(options.base_faces), "collapsing", "faces");
     let started = Instant::now();
@@ -39,7 +45,7 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
             Percent((void * 100.0).max(0.0)),
             time.as_secs_f64()
         )?;
-        write_wires(out, wires)?;
-        stuck.map_or(Ok(()), |stuck| writeln!(out, "{}", why_stuck(faces, &stuck)))
+        wires_note(wires).map_or(Ok(()), |note| writeln!(out, "  {note}"))?;
+        stuck.map_or(Ok(()), |stuck| writeln!(out, "{}", stuck.why(faces)))
     })
 }

@@ -2,12 +2,12 @@
 
 use crate::args::HullArgs;
 use crate::failure::Failure;
-use crate::number::{AtMost, Percent};
 use crate::output::Output;
 use crate::{blob_file, describe, served};
 use meshsweep::BuildError;
 use meshsweep::counted::Counted;
 use meshsweep::mesh::{Mesh, write_ply};
+use meshsweep::number::{AtMost, Percent};
 use meshsweep::tight::hull_mesh;
 use meshsweep_core::{Hull, HullFace, VertIdx};
 

@@ -1,16 +1,19 @@
 //! The tight hull of a mesh, which need not be closed.
 
-use crate::args::{FACES, HullArgs};
+use crate::args::HullArgs;
 use crate::failure::Failure;
-use crate::hull_report::{require_met, write_margin, write_no_void, write_repairs, write_start};
+use crate::hull_report::write_repairs;
 use crate::mesh_file::load_snapped;
-use crate::number::{AtLeast, AtMost, Percent};
 use crate::output::Output;
 use crate::progress::StageBars;
-use crate::unmet::Tightness;
+use meshsweep::builder::FACES;
 use meshsweep::counted::Counted;
 use meshsweep::mesh::{Mesh, write_ply};
-use meshsweep::tight::{Goal, Hull, Options, Outcome, Report, split_components, wrap};
+use meshsweep::number::{AtLeast, AtMost, Percent};
+use meshsweep::tight::{
+    Goal, Hull, Options, Outcome, Report, Tightness, margin_note, no_void_note, split_components,
+    wrap,
+};
 use std::io::{self, Write};
 use std::time::Duration;
 
@@ -38,7 +41,9 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
         hulls.push(hull.map_err(|error| Failure::build(&args.input, error))?);
     }
     let asked = Tightness { slack: args.slack, void: args.void, by_faces: "--faces" };
-    require_met(&args.input, asked, hulls.iter().map(|hull| &hull.report))?;
+    asked
+        .require(hulls.iter().map(|hull| &hull.report))
+        .map_err(|error| Failure::build(&args.input, error))?;
     Output::file(&args.output)?.finish(|out| write_ply(&joined(&hulls), out))?;
     Output::stdout().finish(|out| {
         write_repairs(out, &args.input, &loaded)?;
@@ -86,9 +91,8 @@ fn describe(
         AtLeast(report.slack.lower),
         report.time.as_secs_f64()
     )?;
-    write_margin(out, margin, of)?;
-    write_no_void(out, &report.void)?;
-    write_start(out, report)?;
+    let notes = margin_note(margin, of).into_iter().chain(no_void_note(&report.void));
+    notes.chain(report.notes()).try_for_each(|note| writeln!(out, "  {note}"))?;
     match (report.stop, goal) {
         (Outcome::Reached, _) => Ok(()),
         (Outcome::Stuck, Goal::Faces(faces)) => writeln!(

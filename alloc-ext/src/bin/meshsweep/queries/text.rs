@@ -5,7 +5,7 @@
 
 use crate::args::names;
 use crate::failure::Failure;
-use crate::number;
+use meshsweep::number;
 use std::path::Path;
 
 /// The queries of a text, up to its end or to the first line that is no query.

@@ -5,9 +5,9 @@ use super::table::MANY_NEEDLES;
 use crate::args::{At, BuildArgs, Cpu, LimitArgs};
 use crate::failure::Failure;
 use crate::mesh_file;
-use crate::number::{About, AtMost};
 use crate::output::Output;
 use crate::{describe, source};
+use meshsweep::number::{About, AtMost};
 use meshsweep::trade::{Board, How, Instructions, Points, Row, Structure};
 use meshsweep_core::{Blob, Budget};
 use std::io::{self, Write};
@@ -46,7 +46,7 @@ pub fn build(args: &BuildArgs) -> Result<(), Failure> {
     Output::stdout().finish(|out| {
         writeln!(out, "{}", args.mesh.display())?;
         writeln!(out, "  {}", loaded.report)?;
-        loaded.write_unit(out)?;
+        loaded.unit_note().map_or(Ok(()), |note| writeln!(out, "  {note}"))?;
         write_choice(out, limits, &measured, chosen, second)?;
         writeln!(out, "{}", args.output.display())?;
         source::report(args, out)?;

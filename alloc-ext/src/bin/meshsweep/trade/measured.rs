@@ -2,9 +2,9 @@
 
 use crate::args::{At, Given};
 use crate::failure::Failure;
-use crate::mesh_file::Loaded;
 use crate::progress::Bar;
 use crate::queries::Queries;
+use meshsweep::load::Loaded;
 use meshsweep::mesh::Mesh;
 use meshsweep::trade::{self, Points, Trade};
 use std::path::Path;

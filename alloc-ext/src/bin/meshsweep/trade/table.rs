@@ -2,9 +2,9 @@
 
 use super::measured::Measured;
 use crate::args::TradeArgs;
-use crate::mesh_file::Loaded;
-use crate::number::AtMost;
 use meshsweep::counted::Counted;
+use meshsweep::load::Loaded;
+use meshsweep::number::AtMost;
 use meshsweep::trade::{Board, Row, Spread, pareto};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -39,7 +39,7 @@ pub fn write(
         AtMost(*diagonal),
         Counted(*points, "point"),
     )?;
-    loaded.write_unit(out)?;
+    loaded.unit_note().map_or(Ok(()), |note| writeln!(out, "  {note}"))?;
     let best = pareto(&trade.rows);
     let of = |rows: &mut dyn Iterator<Item = &Row>| {
         rows.map(|row| row.setting.structure.to_string().len()).max().unwrap_or(0)

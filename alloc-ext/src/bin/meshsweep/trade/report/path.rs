@@ -1,8 +1,8 @@
 //! The settings that the page shows in detail, and their intervals along a path.
 
 use super::super::measured::Measured;
-use crate::mesh_file::Loaded;
 use glam::Vec3;
+use meshsweep::load::Loaded;
 use meshsweep::trade::{self, How, Points, Setting, Structure, TreeBits};
 use meshsweep_core::{Budget, QueryError};
 use serde_json::{Value, json};

@@ -1,11 +1,10 @@
 //! Whether a hull is as tight as asked for. Lengths are in the mesh's unit.
 
 use crate::number::{AtMost, Typed};
-use meshsweep::tight::{Outcome, Report};
 use std::fmt;
 
 /// How tight a hull has to be.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tightness {
     /// Largest distance from the mesh.
     pub slack: Option<f64>,
@@ -16,45 +15,18 @@ pub struct Tightness {
 }
 
 /// A hull that is looser than asked for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unmet {
-    tightness: Tightness,
+    /// What was asked for.
+    pub tightness: Tightness,
     /// Slack or void of the tightest hull.
-    found: f64,
-    faces: usize,
-    is_out_of_time: bool,
+    pub found: f64,
+    /// Its faces.
+    pub faces: usize,
+    /// Whether the time was up before.
+    pub is_out_of_time: bool,
     /// The component, if each one has a hull.
-    component: Option<usize>,
-}
-
-impl Tightness {
-    /// The first hull of a file that is looser than asked for.
-    pub fn unmet<'a>(self, reports: impl ExactSizeIterator<Item = &'a Report>) -> Option<Unmet> {
-        let count = reports.len();
-        reports.enumerate().find_map(|(index, report)| {
-            Some(Unmet {
-                tightness: self,
-                found: self.excess(report)?,
-                faces: report.faces,
-                is_out_of_time: report.stop == Outcome::OutOfTime,
-                component: (count > 1).then_some(index),
-            })
-        })
-    }
-
-    /// Slack or void of a hull that is too loose.
-    fn excess(self, report: &Report) -> Option<f64> {
-        match (self.slack, self.void) {
-            (Some(asked), _) => Some(report.slack.upper).filter(|&found| found > asked),
-            (None, Some(asked)) => {
-                let found = 100.0 * report.void.unwrap_or(f64::INFINITY);
-                // The search compares volumes; this ratio of them is rounded.
-                let is_above = found - asked > 4.0 * f64::EPSILON * (100.0 + asked);
-                is_above.then_some(found)
-            }
-            (None, None) => None,
-        }
-    }
+    pub component: Option<usize>,
 }
 
 impl fmt::Display for Unmet {

@@ -55,6 +55,16 @@ pub enum CurveError {
     },
 }
 
+impl CurveError {
+    /// Whether the message begins with a line of the file.
+    pub(super) fn names_line(&self) -> bool {
+        matches!(
+            self,
+            Self::Header { .. } | Self::Fields { .. } | Self::Number { .. } | Self::OnePoint { .. }
+        )
+    }
+}
+
 impl fmt::Display for CurveError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

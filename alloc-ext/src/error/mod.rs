@@ -1,13 +1,68 @@
 //! Why there is no blob.
 
-use crate::mesh::NoVolume;
+mod curve;
+mod unmet;
+
+use crate::mesh::{MeshError, NoVolume};
 use meshsweep_core::{OpenError, TriboxError};
 use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+pub use curve::CurveError;
+pub use unmet::{Tightness, Unmet};
 
 /// Why there is no blob. Each message names what was wanted, what was found, and what to do.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum BuildError {
+    /// A file cannot be read.
+    Unreadable {
+        /// The file.
+        file: PathBuf,
+        /// The kind of the operating system's error.
+        kind: io::ErrorKind,
+        /// Its message.
+        reason: String,
+    },
+    /// The mesh, or a key frame of it, is refused.
+    Mesh {
+        /// Its file.
+        file: PathBuf,
+        /// Why.
+        error: Box<MeshError>,
+    },
+    /// A hull encloses a solid, and the mesh bounds none.
+    NotSolid {
+        /// Its file.
+        file: PathBuf,
+        /// Why.
+        error: Box<MeshError>,
+    },
+    /// The curve is refused.
+    Curve {
+        /// Its file.
+        file: PathBuf,
+        /// Why.
+        error: CurveError,
+    },
+    /// An option says nothing about what the blob is to serve, or contradicts it. Options have the
+    /// names of the program's.
+    Option {
+        /// Its name.
+        option: &'static str,
+        /// Why, and the remedy.
+        why: &'static str,
+    },
+    /// More tight hulls were asked for than a blob holds.
+    TooManyHulls {
+        /// Most hulls.
+        most: usize,
+    },
+    /// No tight hull is as tight as asked for.
+    Unmet(Unmet),
+    /// A callback of progress asked to end the build.
+    Cancelled,
     /// More triangles, wires among them, than the structure can number.
     TooLarge {
         /// Triangles of the mesh.
@@ -88,9 +143,62 @@ pub enum BuildError {
     Reopen(OpenError),
 }
 
+/// The remedy for a mesh that is not closed, on a line of its own, like places.
+const NO_SOLID: &str =
+    "for distances and segments, --for closest,segment and --for sweep need no closed mesh";
+
+/// What to do about an error of the operating system.
+#[doc(hidden)]
+#[must_use]
+pub fn io_remedy(kind: io::ErrorKind) -> &'static str {
+    match kind {
+        io::ErrorKind::NotFound => "check the path",
+        io::ErrorKind::IsADirectory => "name a file in it",
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "change permissions or the path"
+        }
+        io::ErrorKind::StorageFull => "make room",
+        io::ErrorKind::FileTooLarge => "ask for less, or choose another file system",
+        _ => "check path and medium",
+    }
+}
+
+/// Writes an error after its file's name, which it may begin with itself.
+fn write_of(
+    f: &mut fmt::Formatter<'_>,
+    file: &Path,
+    mark: &str,
+    error: &impl fmt::Display,
+) -> fmt::Result {
+    let text = error.to_string();
+    if text.starts_with(&*file.to_string_lossy()) {
+        return f.write_str(&text);
+    }
+    write!(f, "{}{mark} {text}", file.display())
+}
+
 impl fmt::Display for BuildError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Unreadable { file, kind, reason } => {
+                write!(f, "{}: cannot be read: {reason}; {}", file.display(), io_remedy(*kind))
+            }
+            Self::Mesh { file, error } => write_of(f, file, ":", error),
+            Self::NotSolid { file, error } => {
+                write_of(f, file, ":", error)?;
+                f.write_str("\n")?;
+                f.write_str(NO_SOLID)
+            }
+            Self::Curve { file, error } => {
+                // A line of the file, else what all of the file lacks.
+                write_of(f, file, if error.names_line() { "," } else { ":" }, error)
+            }
+            Self::Option { option, why } => write!(f, "{option} {why}"),
+            Self::TooManyHulls { most } => {
+                write!(f, "--tight takes at most {most} numbers of faces")
+            }
+            Self::Unmet(unmet) => unmet.fmt(f),
+            Self::Cancelled => f.write_str("the build was cancelled"),
             Self::TooLarge { triangles, most } => write!(
                 f,
                 "{triangles} triangles are more than the {most} that the structure holds: simplify \

@@ -1,0 +1,226 @@
+//! From a mesh and the questions that it has to serve to a blob in memory.
+//!
+//! ```text
+//! options ─ check ─ load ─ structures ─ emit ─ Blob::open ─ Built: bytes and notes
+//! ```
+
+mod build;
+mod built;
+mod notes;
+mod options;
+mod stage;
+
+use crate::collapse::CollapseOptions;
+use crate::curve::Polyline;
+use crate::error::BuildError;
+use crate::mesh::{RawMesh, Unit};
+use crate::progress::Answer;
+use crate::surface::VertexBits;
+use build::{Frame, Input};
+use options::{Options, Subject};
+use std::fmt;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+pub use built::Built;
+pub use notes::{Note, Topic};
+pub use options::{FACES, For, TRIBOXES};
+pub use stage::Stage;
+
+/// Builds a blob in memory, with the program's options and defaults.
+///
+/// The same mesh and options give the bytes that `meshsweep build` writes. A setter takes a value,
+/// or an `Option` whose `None` is the default. Without [`serve`](Self::serve) a blob serves
+/// distances and segments.
+///
+/// ```
+/// use meshsweep::builder::For;
+/// use meshsweep_core::{Budget, ScratchEntry};
+///
+/// # let part = concat!(env!("CARGO_MANIFEST_DIR"), "/src/bin/meshsweep/demo/bracket.stl");
+/// let built = meshsweep::Builder::new().serve(For::Closest).build_file(part)?;
+/// for note in built.report() {
+///     println!("{note}"); // what was repaired: nothing is lost silently
+/// }
+/// let tree = built.blob().bvh()?;
+/// let mut scratch = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
+/// let near = tree.closest_point([10.0, 4.5, 7.0], Budget::EXACT, &mut scratch)?;
+/// assert!(near.distance.lower <= near.distance.upper);
+/// # let file = std::env::temp_dir().join("meshsweep-builder-part.msw");
+/// std::fs::write(file, built.bytes())?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+#[derive(Default)]
+pub struct Builder<'a> {
+    options: Options,
+    frames: Vec<Frame>,
+    on_progress: Option<Box<stage::OnProgress<'a>>>,
+}
+
+impl fmt::Debug for Builder<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { options, frames, .. } = self;
+        f.debug_struct("Builder").field("options", options).field("frames", frames).finish()
+    }
+}
+
+/// One setter for an option.
+macro_rules! setters {
+    ($($(#[$doc:meta])* $name:ident: $value:ty => $field:ident,)*) => {
+        $(
+            $(#[$doc])*
+            pub fn $name(mut self, value: impl Into<Option<$value>>) -> Self {
+                self.options.$field = value.into();
+                self
+            }
+        )*
+    };
+}
+
+impl<'a> Builder<'a> {
+    setters! {
+        /// Unit of the mesh. A mesh that tells its unit is scaled to it; of others it is the unit
+        /// of their numbers.
+        unit: Unit => unit,
+        /// Faces of the base hull, for [`For::Hull`], [`For::Sweep`] and [`For::Deform`]:
+        /// [`FACES`] unless told otherwise.
+        base_faces: u32 => base,
+        /// Most triboxes of the finest level: [`TRIBOXES`] unless told otherwise.
+        triboxes: u32 => triboxes,
+        /// Instead of numbers of faces: one tight hull, with the fewest faces found such that no
+        /// point of it is farther than this from the mesh, in its unit.
+        slack: f64 => slack,
+        /// Instead of numbers of faces: one tight hull, with the fewest faces found that leave at
+        /// most this void, in percent of the mesh's volume. It goes before
+        /// [`slack`](Self::slack).
+        void_percent: f64 => void_percent,
+        /// Distance that tight hulls keep from the mesh, in its unit. Default: 0.
+        margin: f64 => margin,
+        /// How long to polish tight hulls, as a factor: 0 not at all. Default: 1.
+        effort: f64 => effort,
+    }
+
+    /// Distances and segments of a mesh, the program's default.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a question that the blob must serve. Only the sections that it needs are written.
+    pub fn serve(self, question: For) -> Self {
+        self.serve_all([question])
+    }
+
+    /// Adds questions that the blob must serve.
+    pub fn serve_all(mut self, questions: impl IntoIterator<Item = For>) -> Self {
+        self.options.serves.extend(questions);
+        self
+    }
+
+    /// Bits of a stored coordinate. Default: [`VertexBits::Auto`].
+    pub fn vertex_bits(mut self, bits: VertexBits) -> Self {
+        self.options.vertex_bits = bits;
+        self
+    }
+
+    /// Conditions on the edge collapses of a hull hierarchy.
+    pub fn collapse(mut self, options: CollapseOptions) -> Self {
+        self.options.collapse = options;
+        self
+    }
+
+    /// Faces of each tight hull, for [`For::Tight`]: one of [`FACES`] unless told otherwise.
+    pub fn tight_faces(mut self, faces: &[u32]) -> Self {
+        self.options.tight = faces.to_vec();
+        self
+    }
+
+    /// Whether tight hulls serve distances, and whether segments. Default: both.
+    pub fn tight_for(mut self, closest: bool, segment: bool) -> Self {
+        self.options.tight_for = Some([closest, segment]);
+        self
+    }
+
+    /// Whether the last point of each polyline of a CSV file is joined with its first.
+    pub fn closed(mut self, is_closed: bool) -> Self {
+        self.options.is_closed = is_closed;
+        self
+    }
+
+    /// Adds a key frame for [`For::Deform`]: a mesh with the same triangles, which the first one
+    /// deforms to.
+    pub fn frame(mut self, mesh: RawMesh) -> Self {
+        self.frames.push(Frame::Mesh(mesh));
+        self
+    }
+
+    /// Adds a key frame in a file. It is read when the blob is built.
+    pub fn frame_file(mut self, file: impl Into<PathBuf>) -> Self {
+        self.frames.push(Frame::File(file.into()));
+        self
+    }
+
+    /// Calls `on_progress` with the stage and the part of the work that is done, on the thread that
+    /// builds. The part never falls. The last call has [`Stage::Done`] and 1.
+    ///
+    /// A callback that returns [`ControlFlow::Break`] ends the build with
+    /// [`BuildError::Cancelled`], and is not called again. One that returns nothing only watches.
+    ///
+    /// The part is estimated from the numbers of faces and nodes. It is no measure of time.
+    pub fn on_progress<A: Answer>(
+        mut self,
+        mut on_progress: impl FnMut(Stage, f64) -> A + 'a,
+    ) -> Self {
+        self.on_progress =
+            Some(Box::new(move |stage, part| match on_progress(stage, part).goes_on() {
+                true => ControlFlow::Continue(()),
+                false => ControlFlow::Break(()),
+            }));
+        self
+    }
+
+    /// Whether a blob of curves is built from this file: it is CSV, or [`For::Curve`] was asked
+    /// for.
+    #[must_use]
+    pub fn builds_curve(&self, file: &Path) -> bool {
+        self.options.is_curve(Subject::File(file))
+    }
+
+    /// Refuses options that do not go together, before a file is read.
+    /// [`build_file`](Self::build_file) does it first.
+    ///
+    /// # Errors
+    /// [`BuildError::Option`], [`BuildError::TooManyHulls`].
+    pub fn check(&self, file: &Path) -> Result<(), BuildError> {
+        self.options.check(Subject::File(file), !self.frames.is_empty())
+    }
+
+    /// Builds the blob of a mesh file; or of the points of curves, if it is CSV.
+    ///
+    /// # Errors
+    /// [`BuildError`].
+    pub fn build_file(self, file: impl AsRef<Path>) -> Result<Built, BuildError> {
+        self.build_of(Input::File(file.as_ref()))
+    }
+
+    /// Builds the blob of a mesh in memory. [`RawMesh::from_f32`] makes one of vertices and
+    /// triangles, which are checked and repaired as those of a file.
+    ///
+    /// # Errors
+    /// [`BuildError`].
+    pub fn build(self, mesh: RawMesh) -> Result<Built, BuildError> {
+        self.build_of(Input::Mesh(mesh))
+    }
+
+    /// Builds the blob of curves in memory.
+    ///
+    /// # Errors
+    /// [`BuildError`].
+    pub fn build_curves(self, polylines: &[Polyline]) -> Result<Built, BuildError> {
+        self.build_of(Input::Curves(polylines))
+    }
+
+    fn build_of(mut self, input: Input<'_>) -> Result<Built, BuildError> {
+        build::build(input, &self.options, self.frames, self.on_progress.as_deref_mut())
+    }
+}

@@ -1,0 +1,215 @@
+//! The report of a build, in sentences.
+
+use super::options::{For, Options};
+use crate::counted::Counted;
+use crate::curve::CurveReport;
+use crate::hull::{BuildReport, Kind, wires_note};
+use crate::load::Loaded;
+use crate::mesh::Mesh;
+use crate::number::{About, AtMost};
+use crate::surface::{VertexBits, components_whose_boxes_meet};
+use crate::tight::{Goal, HullReport, margin_note, no_void_note};
+use meshsweep_core::Blob;
+use meshsweep_core::internal::format::layout::VertexFormat;
+use std::fmt;
+
+/// A sentence of the report. `Display` prints it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Note {
+    /// What it is about.
+    pub topic: Topic,
+    /// The sentence.
+    pub text: String,
+}
+
+/// What a note is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Topic {
+    /// The mesh or the curves: what was read, repaired and moved.
+    Input,
+    /// The hull hierarchy.
+    Hull,
+    /// The box tree.
+    BoxTree,
+    /// Where the side of a point is doubtful.
+    Sides,
+    /// Tight hulls.
+    Tight,
+    /// Why winding numbers are doubtful.
+    Winding,
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+/// Notes of one topic.
+fn notes(topic: Topic, texts: impl IntoIterator<Item = String>) -> impl Iterator<Item = Note> {
+    texts.into_iter().map(move |text| Note { topic, text })
+}
+
+/// The curves' points that repeat the one before.
+pub(super) fn of_curve(report: &CurveReport) -> Option<Note> {
+    let points = Counted(report.repeated, "point");
+    let text = format!("{points} repeated: kept, as segments without length");
+    (report.repeated > 0).then_some(Note { topic: Topic::Input, text })
+}
+
+/// What was read, repaired and moved.
+pub(super) fn of_mesh(loaded: &Loaded, hull: Option<&BuildReport>) -> Vec<Note> {
+    let mut texts: Vec<String> =
+        loaded.report.to_string().lines().map(|line| line.trim_start().to_owned()).collect();
+    texts.extend(loaded.unit_note());
+    if let Some(report) = hull {
+        texts.push(kind(&report.kind));
+        texts.extend(wires_note(report.wires));
+    }
+    if loaded.moved > 0.0 {
+        let moved = AtMost(loaded.moved);
+        texts.push(format!("vertices moved to the hull's grid by up to {moved}"));
+    }
+    notes(Topic::Input, texts).collect()
+}
+
+/// What the structures lack, and what is doubtful about them.
+pub(super) fn of_blob(
+    options: &Options,
+    loaded: &Loaded,
+    blob: &Blob<'_>,
+    of_hull: Option<&BuildReport>,
+    reports: &[HullReport],
+) -> Vec<Note> {
+    let (mut hull, mut tree, mut sides, mut tight) = (vec![], vec![], vec![], vec![]);
+    if let Some(report) = of_hull {
+        hull.push(format!("base hull: {}", Counted(report.base_faces, "face")));
+        hull.extend(report.stuck.map(|stuck| stuck.why(options.base_faces())));
+        hull.extend(other_format(options.vertex_bits, blob.header().vertex_format));
+    }
+    if let Ok(bvh) = blob.bvh() {
+        if bvh.header().is_f32() && !options.is_f32() {
+            tree.push(
+                "the mesh is too far from its origin for the box tree's grid: its coordinates are \
+                 stored as f32"
+                    .to_owned(),
+            );
+        }
+        if bvh.is_closed() && bvh.serves_distances() {
+            sides.extend(overlaps(components_whose_boxes_meet(&loaded.mesh)));
+        }
+    }
+    if let Some(first) = reports.first() {
+        tight.extend(left_out(options, reports));
+        tight.extend(margin_note(options.margin, "mesh"));
+        tight.extend(no_void_note(&first.void));
+        reports.iter().for_each(|report| tight.extend(of_tight(report)));
+    }
+    let winding = if options.serves(For::Winding) { of_winding(loaded) } else { vec![] };
+    notes(Topic::Hull, hull)
+        .chain(notes(Topic::BoxTree, tree))
+        .chain(notes(Topic::Sides, sides))
+        .chain(notes(Topic::Tight, tight))
+        .chain(notes(Topic::Winding, winding))
+        .collect()
+}
+
+/// Says what the levels of the hierarchy are.
+fn kind(kind: &Kind) -> String {
+    match *kind {
+        Kind::Hulls { volume } => format!("volume {}", About(volume)),
+        Kind::SweepOnly { holes, copies } => format!(
+            "no hulls, distances and segments only: {}, {} where the mesh is no manifold",
+            Counted(holes, "hole"),
+            Counted(copies, "copied vertex")
+        ),
+    }
+}
+
+/// A note if the hull could not have the wanted format.
+fn other_format(wanted: VertexBits, got: VertexFormat) -> Option<String> {
+    let wanted = match wanted {
+        VertexBits::Grid16 => VertexFormat::Grid16,
+        VertexBits::Grid24 => VertexFormat::Grid24,
+        VertexBits::Auto | VertexBits::F32 => return None,
+    };
+    let text = "the mesh is too small or too far from its origin for the hull's grid: its \
+                coordinates are stored as f32";
+    (got != wanted).then(|| text.to_owned())
+}
+
+/// Says of how many connected components the inside may be answered as outside.
+fn overlaps(components: usize) -> Option<String> {
+    (components > 0).then(|| {
+        format!(
+            "connected components whose boxes overlap: {components}; they are not united: where \
+             they overlap, a side is that of the nearest surface"
+        )
+    })
+}
+
+/// Names the tight hulls that the blob lacks.
+fn left_out(options: &Options, reports: &[HullReport]) -> Vec<String> {
+    let mut asked = options.tight.clone();
+    asked.sort_unstable();
+    asked.dedup();
+    asked.retain(|&faces| reports.iter().all(|report| report.asked != Goal::Faces(faces as usize)));
+    let said = |faces| {
+        format!("no tight hull of {faces} faces: it came to no fewer than the next finer one")
+    };
+    asked.into_iter().map(said).collect()
+}
+
+/// Why a tight hull has more faces than asked for, and how it began.
+fn of_tight(report: &HullReport) -> Vec<String> {
+    let mut texts = Vec::new();
+    if let Goal::Faces(asked) = report.asked
+        && report.wrapped.faces > asked
+    {
+        texts.push(format!(
+            "tight hull of {}: stopped before {asked}, where no edge may collapse and leave it \
+             closed, clear of the mesh and of itself",
+            Counted(report.wrapped.faces, "face")
+        ));
+    }
+    texts.extend(report.wrapped.notes());
+    texts
+}
+
+/// What makes the winding numbers of a mesh doubtful.
+fn of_winding(Loaded { mesh, report, .. }: &Loaded) -> Vec<String> {
+    let mut texts = Vec::new();
+    let (parts, triangles) = (report.component_count, mesh.triangles.len());
+    if triangles > 1 && 2 * parts > triangles {
+        texts.push(format!(
+            "{parts} connected parts of {triangles} triangles: which way each faces is taken from \
+             the file, and winding numbers rely on it; weld the vertices first"
+        ));
+    }
+    if faces_inwards(mesh) {
+        texts.push(
+            "the mesh faces inwards: its winding numbers are negative inside, so every point is \
+             outside; reverse its triangles"
+                .to_owned(),
+        );
+    }
+    texts
+}
+
+/// Whether the volume between the triangles and the middle of all vertices is clearly negative.
+fn faces_inwards(mesh: &Mesh) -> bool {
+    let count = mesh.positions.len().max(1) as f64;
+    let middle =
+        [0, 1, 2].map(|k| mesh.positions.iter().map(|p| f64::from(p[k])).sum::<f64>() / count);
+    let triple = |triangle: usize| {
+        let Some(corners) = mesh.corners(triangle) else { return 0.0 };
+        let [a, b, c] = corners.map(|p| [0, 1, 2].map(|k| f64::from(p[k]) - middle[k]));
+        a[0] * (b[1] * c[2] - b[2] * c[1])
+            + a[1] * (b[2] * c[0] - b[0] * c[2])
+            + a[2] * (b[0] * c[1] - b[1] * c[0])
+    };
+    let terms = || (0..mesh.triangles.len()).map(triple);
+    terms().sum::<f64>() < -0.01 * terms().map(f64::abs).sum::<f64>()
+}

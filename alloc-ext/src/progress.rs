@@ -1,0 +1,152 @@
+//! Progress of a build, and the wish of its caller to end it.
+
+use crate::error::BuildError;
+use rayon::prelude::*;
+use std::cell::{Cell, RefCell};
+use std::ops::ControlFlow;
+
+/// What a callback of progress returns: nothing, or whether to go on.
+pub trait Answer {
+    /// Whether the work goes on.
+    fn goes_on(self) -> bool;
+}
+
+impl Answer for () {
+    fn goes_on(self) -> bool {
+        true
+    }
+}
+
+impl Answer for ControlFlow<()> {
+    fn goes_on(self) -> bool {
+        self.is_continue()
+    }
+}
+
+/// A callback that gets the part of the work that is done, from 0 to 1, and tells whether to go on.
+/// Once it asks to end, it is not called again.
+pub(crate) struct Callback<F> {
+    show: RefCell<F>,
+    is_cancelled: Cell<bool>,
+}
+
+/// A callback without its type.
+trait Call {
+    /// Whether to go on.
+    fn call(&self, at: f64) -> bool;
+
+    fn is_cancelled(&self) -> bool;
+}
+
+impl<F: FnMut(f64) -> bool> Call for Callback<F> {
+    fn call(&self, at: f64) -> bool {
+        if !self.is_cancelled.get() {
+            self.is_cancelled.set(!(self.show.borrow_mut())(at));
+        }
+        !self.is_cancelled.get()
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.is_cancelled.get()
+    }
+}
+
+impl<F: FnMut(f64) -> bool> Callback<F> {
+    pub fn new(show: F) -> Self {
+        Self { show: RefCell::new(show), is_cancelled: Cell::new(false) }
+    }
+
+    /// A watch over all of the work.
+    pub fn watch(&self) -> Watch<'_> {
+        Watch { callback: Some(self), from: 0.0, to: 1.0 }
+    }
+}
+
+/// The caller's view of a part of the work. It stays on the thread that began the build.
+#[derive(Clone, Copy)]
+pub(crate) struct Watch<'a> {
+    callback: Option<&'a dyn Call>,
+    from: f64,
+    to: f64,
+}
+
+/// Items that are done in parallel between two calls.
+const BLOCK: usize = 1024;
+
+/// Queries between two calls.
+const QUERIES: u32 = 256;
+
+impl Watch<'_> {
+    /// Nobody watches.
+    pub const NONE: Watch<'static> = Watch { callback: None, from: 0.0, to: 1.0 };
+
+    /// The view of the part of the work between two fractions of this one.
+    pub fn part(self, from: f64, to: f64) -> Self {
+        let at = |fraction: f64| self.from + (self.to - self.from) * fraction;
+        Self { callback: self.callback, from: at(from), to: at(to) }
+    }
+
+    /// Tells how much of this part is done; whether to go on.
+    pub fn goes_on(self, fraction: f64) -> bool {
+        let at = self.from + (self.to - self.from) * fraction.clamp(0.0, 1.0);
+        self.callback.is_none_or(|callback| callback.call(at))
+    }
+
+    /// As [`goes_on`](Self::goes_on), for `done` of `all` steps.
+    ///
+    /// # Errors
+    /// [`BuildError::Cancelled`].
+    pub fn step(self, done: usize, all: usize) -> Result<(), BuildError> {
+        if self.goes_on(done as f64 / all.max(1) as f64) {
+            Ok(())
+        } else {
+            Err(BuildError::Cancelled)
+        }
+    }
+
+    /// Refuses a result that was cut short, without a call.
+    ///
+    /// # Errors
+    /// [`BuildError::Cancelled`].
+    pub fn check(self) -> Result<(), BuildError> {
+        let is_cancelled = self.callback.is_some_and(|callback| callback.is_cancelled());
+        if is_cancelled { Err(BuildError::Cancelled) } else { Ok(()) }
+    }
+
+    /// `of` for all numbers below `count`, on all threads.
+    ///
+    /// # Errors
+    /// [`BuildError::Cancelled`].
+    pub fn map<T: Send>(
+        self,
+        count: usize,
+        of: impl Fn(usize) -> T + Sync + Send,
+    ) -> Result<Vec<T>, BuildError> {
+        if self.callback.is_none() {
+            return Ok((0..count).into_par_iter().map(of).collect());
+        }
+        let mut all = Vec::with_capacity(count);
+        while all.len() < count {
+            let end = count.min(all.len() + BLOCK);
+            all.par_extend((all.len()..end).into_par_iter().map(&of));
+            self.step(end, count)?;
+        }
+        Ok(all)
+    }
+
+    /// A query that has no answer any more after the caller asked to end. `all` is about the number
+    /// of queries.
+    pub fn asks<Q, T>(
+        self,
+        all: usize,
+        mut query: impl FnMut(Q) -> Option<T>,
+    ) -> impl FnMut(Q) -> Option<T> {
+        let mut asked = 0u32;
+        move |of| {
+            asked += 1;
+            let is_turn = asked.is_multiple_of(QUERIES);
+            let goes_on = !is_turn || self.goes_on(f64::from(asked) / all.max(1) as f64);
+            if goes_on && self.check().is_ok() { query(of) } else { None }
+        }
+    }
+}
