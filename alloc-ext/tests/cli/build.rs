@@ -68,6 +68,27 @@ fn emitted_sources_depend_on_the_blob_and_on_names_of_files_alone() {
     assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
 }
 
+/// `rustc` says whether the line that the file recommends compiles. `mod` reads the file itself, so
+/// one that stands in for it suffices.
+#[test]
+fn an_emitted_module_named_by_a_reserved_word_can_be_declared() {
+    let directory = scratch("emit_reserved");
+    for word in ["move", "self", "gen", "_", "part"] {
+        let out = directory.join(format!("{word}.msw"));
+        ok(["build", arg(&fixture("groove.obj")), "-o", arg(&out), "--emit", "rust,c"]);
+        let rust = fs::read_to_string(out.with_extension("rs")).unwrap();
+        let line = rust.split('`').find(|text| text.contains("mod ")).unwrap();
+        assert_eq!(line.contains("#[path"), word != "part", "{line}");
+        fs::write(out.with_extension("rs"), "").unwrap();
+        let user = directory.join("user.rs");
+        fs::write(&user, format!("{line}\n")).unwrap();
+        let mut rustc = std::process::Command::new("rustc");
+        rustc.args(["--edition=2024", "--crate-type=lib", "--emit=metadata", "--out-dir"]);
+        let output = rustc.arg(&directory).arg(&user).output().expect("rustc");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+}
+
 #[test]
 fn emitted_sources_overwrite_no_input() {
     let directory = scratch("emit_over_input");

@@ -17,7 +17,7 @@ pub fn rust_module(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
 }
 
 fn head(facts: &Facts, names: SourceNames<'_>) -> String {
-    let (stem, file) = (names.identifier(), names.file_stem());
+    let (stem, file) = (module(&names.identifier()), names.file_stem());
     let path = if file == stem {
         String::new()
     } else {
@@ -58,6 +58,21 @@ fn head(facts: &Facts, names: SourceNames<'_>) -> String {
         imports(facts).join(", ")
     );
     out
+}
+
+/// Words that name no module, in any edition, and the name that is none.
+const RESERVED: [&str; 52] = [
+    "_", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue",
+    "crate", "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if",
+    "impl", "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub",
+    "ref", "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
+    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+
+/// A module of this name. `r#` does not serve all reserved words.
+fn module(identifier: &str) -> String {
+    let mark = if RESERVED.contains(&identifier) { "_" } else { "" };
+    format!("{identifier}{mark}")
 }
 
 fn imports(facts: &Facts) -> Vec<&'static str> {
