@@ -45,6 +45,12 @@
 //! | closest point, hits, and the next triangles on the split tables | [`Hull::closest_point`], [`Hull::first_hit`], [`Hull::sweep`] |
 //! | closest point of a mesh that deforms | [`FrameHull::closest_point`], [`MovedHull::closest_point`] |
 //!
+//! # Features
+//! - `defmt`, off by default: answers, errors, verdicts and budgets implement `defmt::Format`, so
+//!   that firmware can log them. Nothing else changes.
+//!
+//! Examples for a board, in Rust and in C, are in the repository's folder `core/examples`.
+//!
 //! # Layers
 //! A folder may use only folders to its left in this line:
 //! `num` ← `geom` ← `format` ← `query` ← {`bvh`, `hull`, `tribox`, `curve`} ← `tight` ← `blob`.

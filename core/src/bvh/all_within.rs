@@ -12,6 +12,7 @@ use glam::Vec3;
 
 /// How a search for all triangles within a distance went. They are in the caller's slice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct AllWithin {
     /// Triangles in the slice.

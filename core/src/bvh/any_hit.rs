@@ -9,6 +9,7 @@ use crate::query::{Budget, QueryError, ScratchEntry, Undecided, Verdict, Work};
 
 /// Whether a segment meets the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct AnyHit {
     /// `Yes`: the segment meets the input mesh. `No`: no point of the segment lies on a triangle of

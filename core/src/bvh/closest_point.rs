@@ -16,6 +16,7 @@ use glam::Vec3;
 /// The leaf of an answer, to visit first for a query nearby. Any value is safe. A bad one costs a
 /// leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Hint(u32);
 
 impl Hint {

@@ -9,6 +9,7 @@ use glam::Vec3;
 
 /// The point or direction that a scene is seen from.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Eye {
     /// From a viewpoint, input units.
@@ -20,6 +21,7 @@ pub enum Eye {
 
 /// The result of [`Bvh::front_facing`]. The triangles are in the caller's slice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct FrontFacing {
     /// Triangles in the slice.

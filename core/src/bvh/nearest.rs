@@ -13,6 +13,7 @@ use glam::Vec3;
 
 /// How a search for the nearest triangles went. They are in the caller's slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct KNearest {
     /// Triangles in the slice.

@@ -11,6 +11,7 @@ use crate::query::{Interval, QueryError};
 /// A place for a triangle near a point: six words of the caller's memory. While a search runs, they
 /// hold a triangle's place. After it they hold the answer.
 #[derive(Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Neighbor {
     words: [u32; 6],
 }

@@ -23,6 +23,7 @@ use crate::num::SOFT_FLOAT;
 /// Which sides of triangles a segment meets. The front is where corners run counter-clockwise, in
 /// the input's winding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Facing {
     /// Both.

@@ -51,6 +51,7 @@ use glam::Vec3;
 
 /// Signed distance: positive outside, negative inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct SignedDistance {
     /// The signed distance to the input mesh, input units. If the side is undecided, from minus the

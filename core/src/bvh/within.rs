@@ -14,6 +14,7 @@ use glam::Vec3;
 
 /// Whether the mesh is within a distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Within {
     /// `Yes`: a point of the mesh is not farther. `No`: the whole mesh is farther. Undecided for

@@ -12,6 +12,7 @@ use glam::DVec3;
 
 /// Closest point of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct CurveClosest {
     /// The distance to the input curve, input units.

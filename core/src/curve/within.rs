@@ -8,6 +8,7 @@ use crate::query::{Budget, QueryError, ScratchEntry, SweepQueue, Taken, Undecide
 
 /// Whether a curve is within a distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct CurveWithin {
     /// `Yes`: a point of the curve is not farther. `No`: the whole curve is farther. Undecided for

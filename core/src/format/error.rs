@@ -4,6 +4,7 @@ use super::layout::{SectionKind, VERSION_MAJOR};
 
 /// Why a blob was not opened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum OpenError {
     /// Fewer bytes than the header announces, or than a header has.

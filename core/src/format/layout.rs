@@ -26,6 +26,7 @@ pub const FLAG_SWEEP_ONLY: u32 = 2;
 
 /// The contents of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u32)]
 #[non_exhaustive]
 pub enum SectionKind {
@@ -192,6 +193,7 @@ impl SectionKind {
 
 /// A value of `meshsweep build --for`. It prints as that value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum BuildFor {
     /// Distances on the box tree.

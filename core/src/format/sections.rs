@@ -28,6 +28,7 @@ const fn header_crc(head: &[u8]) -> Option<u32> {
 
 /// A section as the table lists it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Section {
     /// Its contents.

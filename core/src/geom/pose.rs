@@ -5,6 +5,7 @@
 /// The numbers are taken as they are, in real arithmetic. If the matrix is a rotation up to
 /// rounding, the motion is rigid up to the same rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Pose {
     /// Rows of the matrix; entries of at most 1, up to rounding.
     pub rotation: [[f32; 3]; 3],

@@ -9,6 +9,7 @@ use glam::Vec3;
 /// Where [`RefinedHull::update`](crate::RefinedHull::update) refines. Lengths and coordinates are
 /// in input units.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Focus {
     /// On the whole hull.

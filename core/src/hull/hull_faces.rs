@@ -4,6 +4,7 @@ use crate::hull::format::{Hull, Level, SplitIdx, VertIdx};
 
 /// One triangle of a hull.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct HullFace {
     /// Corners, counter-clockwise seen from outside.
     pub corners: [VertIdx; 3],

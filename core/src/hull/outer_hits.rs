@@ -19,6 +19,7 @@ use glam::DVec3;
 
 /// The extent of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Search {
     /// Until the first hit is certain.
@@ -29,6 +30,7 @@ pub enum Search {
 
 /// The answer of the refined hull about a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct OuterHits {
     /// The parameter of the first common point. `lower` is infinite if no common point exists,
     /// `upper` if none is known.

@@ -18,6 +18,7 @@ use crate::query::QueryError;
 
 /// What an update did, and what it left undone.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Refinement {
     /// Faces of the refined hull.
     pub faces: u32,
@@ -36,6 +37,7 @@ pub struct Refinement {
 
 /// A split that an update performed or undid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Change {
     /// The split.
     split: SplitIdx,

@@ -5,6 +5,7 @@ use super::work::Work;
 
 /// The true value lies in `lower ..= upper`: that of the input mesh, in real arithmetic.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Interval {
     /// Not above the true value.
     pub lower: f32,
@@ -21,6 +22,7 @@ impl Interval {
 
 /// Why a search ended. The interval holds with every reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Ended {
     /// The search is complete: the interval is as narrow as the stored surface allows.
@@ -54,6 +56,7 @@ impl Ended {
 
 /// Closest point of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct ClosestPoint {
     /// The distance to the input mesh, input units.

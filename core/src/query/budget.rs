@@ -8,6 +8,7 @@ use super::scratch::ScratchEntry;
 /// Every question refuses a tolerance that is negative, NaN or infinite. A question that does not
 /// use a part of the budget ignores this part, and says so.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Budget {
     /// Stop when `upper ≤ lower · (1 + relative)`. 0 for exact.

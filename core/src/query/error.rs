@@ -5,6 +5,7 @@ use crate::format::layout::BuildFor;
 /// Why a query was refused. No answer was computed. An error has twelve bytes, so that it makes no
 /// answer larger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum QueryError {
     /// A coordinate of the query is NaN or infinite.

@@ -5,6 +5,7 @@ use super::work::Work;
 
 /// A common point of a segment and the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Hit {
     /// Parameter, 0 at the start of the segment or the motion, 1 at its end.
     pub t: f32,
@@ -24,6 +25,7 @@ impl Hit {
 /// No point of the segment before `t.lower` lies on the surface. If `hit` is `Some` and `ended` is
 /// [`Ended::Exact`], the parameter of the first common point lies in `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct FirstHit {
     /// The parameter of the first common point. `lower` is infinite if it is proved that there is
@@ -56,6 +58,7 @@ impl FirstHit {
 
 /// How a search for all hits went. The hits are in the caller's slice, by rising `t`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct AllHits {
     /// Hits in the slice.

@@ -7,6 +7,7 @@ use crate::geom::Contact;
 
 /// Whether two surfaces meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Overlap {
     /// `Yes`: the surfaces of the input meshes meet. `No`: they have no common point. Undecided for
@@ -24,6 +25,7 @@ pub struct Overlap {
 
 /// Two triangles that meet or may meet: their numbers in the input files, the first mesh's first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct TrianglePair {
     /// The triangles.
@@ -39,6 +41,7 @@ impl TrianglePair {
 
 /// All pairs that meet or may meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Overlaps {
     /// Pairs in the slice.

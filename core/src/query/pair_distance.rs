@@ -6,6 +6,7 @@ use super::work::Work;
 
 /// The distance of two surfaces, and where they are nearest.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct PairDistance {
     /// The least distance of the input meshes, input units. `0 ..= 0` if it is proved that they
@@ -28,6 +29,7 @@ pub struct PairDistance {
 
 /// Whether two surfaces are within a distance of each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct PairWithin {
     /// `Yes`: a point of one mesh is not farther from a point of the other. `No`: all points are
@@ -51,6 +53,7 @@ impl PairWithin {
 
 /// Where a model that moves first comes near another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct PairContact {
     /// The part of the motion, from 0 to 1, before which the surfaces are proved to keep the

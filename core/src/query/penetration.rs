@@ -7,6 +7,7 @@ use crate::geom::Pose;
 
 /// How two solids lie to each other. All but `Undecided` are proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Relation {
     /// No point is inside both.
@@ -25,6 +26,7 @@ pub enum Relation {
 
 /// How two solids lie to each other, and how deep they are in each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Penetration {
     /// How they lie to each other.

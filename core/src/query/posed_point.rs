@@ -13,6 +13,7 @@ use crate::num::{down_to_f32, up_to_f32};
 /// [`CoherentQuery`](crate::CoherentQuery), [`Sweep::move_to`](crate::Sweep::move_to) and the
 /// others. Point and model may both move between two questions.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct PosedPoint {
     /// The point to ask about, in the model's frame.

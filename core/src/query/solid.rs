@@ -69,6 +69,7 @@ impl<'a> Solid<'a> {
 
 /// The distance of a convex solid and a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct SolidDistance {
     /// The least distance of a point of the solid from the input mesh, input units. Its upper end
@@ -87,6 +88,7 @@ pub struct SolidDistance {
 
 /// Whether a convex solid and a surface are within a distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct SolidWithin {
     /// `Yes`: a point of the solid is not farther from a point of the input mesh. `No`: all points

@@ -2,6 +2,7 @@
 
 /// Why a question is undecided. For collision avoidance, treat an undecided answer as a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Undecided {
     /// The steps of the budget were used up.
@@ -34,6 +35,7 @@ impl core::fmt::Display for Undecided {
 
 /// An answer about the input mesh in real arithmetic. `Yes` and `No` are proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Verdict {
     /// Proved.
@@ -47,6 +49,7 @@ pub enum Verdict {
 /// On which side of a surface a point lies. `Inside` and `Outside` are proved. By the [winding
 /// number](crate::WindingNumber) they mean above and below ½.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Side {
     /// The nearest surface has its back to the point.

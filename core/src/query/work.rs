@@ -3,6 +3,7 @@
 /// The work of a query. The numbers are the same on every target, so a budget can be chosen on the
 /// host.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Work {
     /// Bounds tested: boxes of [`Bvh`](crate::Bvh) children, triboxes, swept triangles,

@@ -26,6 +26,7 @@ pub struct Tribox {
 
 /// Why a tribox could not be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum TriboxError {
     /// A coordinate is NaN or infinite.

@@ -8,6 +8,7 @@ use crate::tribox::format::Triboxes;
 
 /// A lower bound from a union of triboxes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Bound {
     /// No point of the mesh, or of a solid's inside, is nearer than this (input units) or at a

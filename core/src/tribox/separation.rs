@@ -9,6 +9,7 @@ use core::ops::ControlFlow;
 
 /// A node of each hierarchy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct NodePair {
     /// Node of the first.
@@ -24,6 +25,7 @@ impl NodePair {
 
 /// Whether two models are apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Separation {
     /// A pair of nodes that may meet: the first one found. Both are leaves unless `ended` says
@@ -46,6 +48,7 @@ impl Separation {
 /// Where two models may meet. The pairs are in the caller's slice. Without any the models are
 /// proved to be apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Candidates {
     /// Pairs in the slice.

@@ -17,6 +17,7 @@ use glam::Vec3;
 
 /// The answer of a [`CoherentQuery`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct CoherentClosest {
     /// The answer of [`Bvh::closest_point`], with the same bits. `work` is that of this query.

@@ -25,6 +25,7 @@ pub struct Scene<'s, 'a> {
 
 /// The nearest pair of models of a [`Scene`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct SceneDistance {
     /// The least distance of two surfaces, of all pairs asked about. From 0 to infinity if there is
@@ -47,6 +48,7 @@ pub struct SceneDistance {
 
 /// Whether any two models of a [`Scene`] are within a distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct SceneWithin {
     /// `No`: all pairs asked about are farther from each other. `Yes`: one is not.

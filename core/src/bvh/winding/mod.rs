@@ -30,6 +30,7 @@ use search::{Search, side_of};
 
 /// The winding number about a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct WindingNumber {
     /// The winding number of the mesh as repaired.

@@ -98,6 +98,7 @@ impl CurvesHeader {
 
 /// A segment of a curve. Both numbers count from 0, in the order of the input file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CurveSegment {
     /// The polyline.
     pub polyline: u32,

@@ -167,6 +167,7 @@ impl Split<'_> {
 /// One level of the hierarchy: the hull after the first `splits` splits. Lengths in the local
 /// frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Level {
     /// Triangles of the hull.
     pub faces: u32,

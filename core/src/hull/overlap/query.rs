@@ -11,6 +11,7 @@ use crate::query::{
 
 /// Whether a triangle meets a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct TriangleOverlap {
     /// `Yes`: the triangle meets the surface of the input mesh. `No`: they have no common point.

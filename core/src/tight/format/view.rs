@@ -13,6 +13,7 @@ use crate::num::lesser;
 
 /// The record of a tight hull. Lengths are in input units.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TightRecord {
     /// Faces.
     pub faces: u32,

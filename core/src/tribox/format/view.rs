@@ -80,6 +80,7 @@ impl TriboxesHeader {
 
 /// A level of detail: a union of triboxes that holds the mesh. Lengths are in input units.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TriboxLevel {
     /// How many.
     pub triboxes: u32,
