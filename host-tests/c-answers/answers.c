@@ -3,9 +3,8 @@
  * Rust, without the C interface. It runs on this machine and on boards: print() is that of the
  * examples. */
 
+#include "board.h"
 #include "meshsweep.h"
-
-void print(const char *text);
 
 extern const unsigned char groove[];
 extern const uint32_t groove_bytes;
@@ -68,6 +67,7 @@ static void end(const char *kind)
     for (int digit = 0; digit < 8; digit++) {
         line[length++] = "0123456789abcdef"[hash >> (28 - 4 * digit) & 15];
     }
+    line[length++] = '\n';
     line[length] = 0;
     print(line);
 }
@@ -141,6 +141,24 @@ static void points(const msw_model *model)
         fold(near, answer.stored * sizeof near[0]);
     }
     end("nearest");
+
+    /* A walk, so that most answers come from what is kept. */
+    static msw_coherent coherent;
+    begin();
+    float place[3];
+    random_point(place);
+    for (int round = 0; round < ROUNDS; round++) {
+        float step[3];
+        random_point(step);
+        for (int axis = 0; axis < 3; axis++) {
+            place[axis] += step[axis] * (1.0f / 1024.0f);
+        }
+        msw_coherent_closest answer;
+        fold_word((uint32_t)msw_coherent_closest_point(model, &coherent, place, budget_of(round),
+                                                       scratch, scratch_of(round), &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("coherent");
 }
 
 static void segments(const msw_model *model)
@@ -156,6 +174,20 @@ static void segments(const msw_model *model)
         fold(&answer, sizeof answer);
     }
     end("first_hit");
+
+    begin();
+    for (int round = 0; round < ROUNDS; round++) {
+        float corners[4][3];
+        for (int corner = 0; corner < 4; corner++) {
+            random_point(corners[corner]);
+        }
+        msw_hit answer;
+        fold_word((uint32_t)msw_first_contact(model, corners[0], corners[2], 2, 1.5f,
+                                              budget_of(round), scratch, scratch_of(round),
+                                              &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("first_contact");
 }
 
 static void two_models(const msw_model *model)
@@ -202,6 +234,18 @@ static void tight_hull(void)
         }
     }
     end("tight_within");
+
+    static msw_model surface;
+    begin();
+    fold_word((uint32_t)msw_tight_model(&surface, &hull));
+    for (int round = 0; round < ROUNDS; round++) {
+        const msw_placed models[2] = {{&surface, pose_of(round)}, {&surface, pose_of(round)}};
+        msw_models_answer answer;
+        fold_word((uint32_t)msw_models_within(models, 2, 4.0f, NULL, 0, budget_of(round), scratch,
+                                              scratch_of(round), &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("tight_models");
 }
 
 static void refined_hull(void)
@@ -244,6 +288,7 @@ static void refusals(const msw_model *model)
     }
     msw_closest answer;
     msw_hit hit;
+    msw_coherent_closest moving;
     msw_overlap_answer overlap;
     msw_refinement refinement;
     const size_t count = MSW_DISTANCE_ENTRIES;
@@ -263,11 +308,17 @@ static void refusals(const msw_model *model)
     fold(&answer, sizeof answer);
     fold_word((uint32_t)msw_first_hit(model, point, point, 3, NULL, scratch, count, &hit));
     fold_word((uint32_t)msw_overlap(model, model, &zeros, NULL, scratch, count, &overlap));
+    fold_word((uint32_t)msw_first_contact(model, NULL, NULL, 0, 1.0f, NULL, scratch, count, &hit));
+    fold_word((uint32_t)msw_first_contact(model, point, point, 1, -1.0f, NULL, scratch, count,
+                                          &hit));
+    fold_word((uint32_t)msw_coherent_closest_point(model, NULL, point, NULL, scratch, count,
+                                                   &moving));
     fold_word((uint32_t)msw_open(&damaged, groove, 100));
     fold_word((uint32_t)msw_closest_point(&damaged, point, NULL, scratch, count, &answer));
     fold_word((uint32_t)msw_open(&damaged, hulls, hulls_bytes));
     fold_word((uint32_t)msw_open(&damaged, groove + 1, 400));
     static msw_tight tight;
+    fold_word((uint32_t)msw_tight_model(&damaged, &tight));
     fold_word((uint32_t)msw_open_tight(&tight, hulls, hulls_bytes, 2));
     static msw_hull hull;
     fold_word((uint32_t)msw_open_hull(&hull, bracket, bracket_bytes));

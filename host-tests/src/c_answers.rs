@@ -4,8 +4,9 @@
 
 use meshsweep_core::internal::format::layout::VERSION_MAJOR;
 use meshsweep_core::{
-    Blob, Budget, Bvh, ClosestPoint, Ended, Facing, Focus, Hit, Hull, Interval, Neighbor, Placed,
-    Pose, QueryError, RefinedHull, Scene, Scratch, Side, TightHulls, Undecided, Verdict, Work,
+    Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Ended, Facing, FirstHit, Focus, Hit, Hull,
+    Interval, Neighbor, Placed, Pose, QueryError, RefinedHull, Scene, Scratch, Side, Solid,
+    TightHulls, Undecided, Verdict, Work,
 };
 
 const ROUNDS: usize = 24;
@@ -73,6 +74,18 @@ impl Kind {
         self.work(near.work);
     }
 
+    fn first_hit(&mut self, found: &FirstHit) {
+        let is_proved = found.hit.is_some() && found.ended == Ended::Exact;
+        let verdict = if found.is_clear() { 2 } else { u32::from(is_proved) };
+        self.words(&[verdict, ended(found.ended)]);
+        self.interval(found.t);
+        let hit = found.hit.unwrap_or(Hit::EMPTY);
+        self.floats(&[hit.t]);
+        self.floats(&hit.point);
+        self.words(&[hit.triangle.unwrap_or(u32::MAX)]);
+        self.work(found.work);
+    }
+
     fn line(&self, name: &str) -> String {
         format!("{name} {:08x}\n", self.hash)
     }
@@ -131,7 +144,9 @@ pub fn lines(
     kind.words(&[0, 0, 0, checksum, entries, version, VERSION_MAJOR.into()]);
     let mut text = kind.line("open");
     text += &points(&model)?;
+    text += &a_walk(&model)?;
     text += &segments(&model)?;
+    text += &moved_solids(&model)?;
     text += &two_models(&model)?;
     text += &tight_hull(hulls)?;
     text += &refined_hull(bracket)?;
@@ -199,16 +214,35 @@ fn segments(model: &Bvh<'_>) -> Result<String, QueryError> {
     rounds("first_hit", |kind, round, budget, scratch| {
         let facing = [Facing::Both, Facing::Front, Facing::Back, Facing::Both][round % 4];
         let (a, b, scratch) = (kind.point(), kind.point(), &mut scratch[..entries(round)]);
-        let found = model.first_hit(a, b, facing, budget, scratch)?;
-        let is_proved = found.hit.is_some() && found.ended == Ended::Exact;
-        let verdict = if found.is_clear() { 2 } else { u32::from(is_proved) };
-        kind.words(&[0, verdict, ended(found.ended)]);
-        kind.interval(found.t);
-        let hit = found.hit.unwrap_or(Hit::EMPTY);
-        kind.floats(&[hit.t]);
-        kind.floats(&hit.point);
-        kind.words(&[hit.triangle.unwrap_or(u32::MAX)]);
-        kind.work(found.work);
+        kind.words(&[0]);
+        kind.first_hit(&model.first_hit(a, b, facing, budget, scratch)?);
+        Ok(())
+    })
+}
+
+fn moved_solids(model: &Bvh<'_>) -> Result<String, QueryError> {
+    rounds("first_contact", |kind, round, budget, scratch| {
+        let [from, to] = [(); 2].map(|()| [kind.point(), kind.point()]);
+        let (from, to) = (Solid::new(&from, 1.5)?, Solid::new(&to, 1.5)?);
+        let scratch = &mut scratch[..entries(round)];
+        kind.words(&[0]);
+        kind.first_hit(&model.first_contact(&from, &to, budget, scratch)?);
+        Ok(())
+    })
+}
+
+fn a_walk(model: &Bvh<'_>) -> Result<String, QueryError> {
+    let (mut query, mut place) = (CoherentQuery::<128>::new(), None);
+    rounds("coherent", |kind, round, budget, scratch| {
+        let from = place.unwrap_or_else(|| kind.point());
+        let step = kind.point();
+        let here = [0, 1, 2].map(|axis| from[axis] + step[axis] / 1024.0);
+        place = Some(here);
+        let scratch = &mut scratch[..entries(round)];
+        let found = query.closest_point(model, here, budget, scratch)?;
+        kind.words(&[0]);
+        kind.closest(&found.closest);
+        kind.floats(&[found.safe_radius]);
         Ok(())
     })
 }
@@ -252,7 +286,22 @@ fn tight_hull(hulls: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
             kind.work(found.work);
         }
     }
-    Ok(kind.line("tight_within"))
+    let text = kind.line("tight_within");
+    let tree = *hulls.finest().ok_or("no hull")?.bvh();
+    let tight = rounds("tight_models", |kind, round, budget, scratch| {
+        let models = [(); 2].map(|()| Placed { tree, pose: kind.pose(round) });
+        let scratch = &mut scratch[..entries(round)];
+        let found = Scene::new(&models).within(4.0, |_, _| true, budget, scratch)?;
+        if round == 0 {
+            kind.words(&[0]); // The model is opened.
+        }
+        kind.words(&[0]);
+        kind.verdict(found.verdict);
+        kind.words(&found.models.map_or([u32::MAX; 2], |pair| pair.map(|index| index as u32)));
+        kind.work(found.work);
+        Ok(())
+    })?;
+    Ok(text + &tight)
 }
 
 fn refined_hull(bracket: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
@@ -294,11 +343,12 @@ fn refusals() -> String {
     // NULL four times, misaligned, never opened, no scratch, too much of it, NaN.
     codes(&mut kind, &[-1, -1, -1, -1, -2, -3, -44, -4, -40]);
     kind.words(&zeros);
-    // An unknown facing, a pose of zeros, a blob that is cut short, the model that it left, a blob
-    // without a tree, other bytes.
-    codes(&mut kind, &[-5, -43, -20, -3, -26, -22]);
-    // No such hull, then memory of another count, and too little.
-    codes(&mut kind, &[-7, 0, -6, -6]);
+    // An unknown facing, a pose of zeros, no corner, a radius below 0, no memory of a walk.
+    codes(&mut kind, &[-5, -43, -4, -41, -1]);
+    // A blob that is cut short, the model that it left, a blob without a tree, other bytes.
+    codes(&mut kind, &[-20, -3, -26, -22]);
+    // A hull that was not opened, no such hull, then memory of another count, and too little.
+    codes(&mut kind, &[-3, -7, 0, -6, -6]);
     kind.line("refusals")
 }
 

@@ -16,7 +16,7 @@ use meshsweep_counted::answers;
 
 use crate::generate::curves::{fence, tool_path};
 use crate::generate::fixtures::write_fixtures;
-use crate::generate::{bracket, groove_block, torus};
+use crate::generate::{bracket, clamps, groove_block, link, torus};
 use crate::workload;
 
 /// Writes the committed fixtures: meshes by their generators, blobs by the builder, then answers.
@@ -47,8 +47,8 @@ pub fn write(folder: &Path) -> Result<(), String> {
         put(&format!("{name}.msw"), blob)?;
         put(&format!("../core/fixtures/{name}.msw"), blob)?;
     }
-    for (name, text) in groove_sources() {
-        put(&format!("../core/fixtures/{name}"), text.as_bytes())?;
+    for (file, bytes) in sources() {
+        put(&format!("../core/{file}"), &bytes)?;
     }
     let answers = answers::of_fixtures(folder)?;
     put("answers.txt", answers.as_bytes())
@@ -77,20 +77,57 @@ pub fn torus_sieve() -> Vec<u8> {
     build_for_sweep(mesh.as_input(), &options, |_| ()).expect("an area").bytes
 }
 
-/// Names and texts of `groove.msw` as source, in each language.
+/// What `meshsweep build --emit rust,c` writes of the models of guide and examples, and of each the
+/// blob that its Rust file includes: paths in `core`, and contents.
 ///
 /// # Panics
-/// Never: the builder's blob opens.
+/// Never: the builder's blobs open.
 #[must_use]
-pub fn groove_sources() -> [(&'static str, String); 3] {
-    let bytes = groove_tree();
-    let blob = Blob::open(&bytes).expect("the builder's blob opens");
-    let names = SourceNames { mesh: "groove.obj", blob: "groove.msw" };
-    [
-        ("groove.rs", rust_module(&blob, names)),
-        ("groove.h", c_header(&blob, names)),
-        ("groove.c", c_source(&blob, names)),
-    ]
+pub fn sources() -> Vec<(String, Vec<u8>)> {
+    let (groove, clamps, link) = (groove_tree(), clamps_tree(), link_hull());
+    let mut files = Vec::new();
+    for (name, bytes, folders) in [
+        ("groove", &groove, &["fixtures", "examples/probe/src", "examples/haptics/src"][..]),
+        ("clamps", &clamps, &["examples/keep_out/src"]),
+        ("link", &link, &["examples/guard/src"]),
+    ] {
+        let blob = Blob::open(bytes).expect("the builder's blob opens");
+        let (mesh, file) = (format!("{name}.obj"), format!("{name}.msw"));
+        let names = SourceNames { mesh: &mesh, blob: &file };
+        for folder in folders {
+            files.push((format!("{folder}/{name}.rs"), rust_module(&blob, names).into_bytes()));
+            files.push((format!("{folder}/{file}"), bytes.clone()));
+        }
+        let c = format!("c-api/examples/{name}");
+        files.push((format!("{c}.h"), c_header(&blob, names).into_bytes()));
+        files.push((format!("{c}.c"), c_source(&blob, names).into_bytes()));
+    }
+    files
+}
+
+/// The box tree of the clamps of the example `keep_out`, by the builder's defaults.
+///
+/// # Panics
+/// Never: the clamps have an area.
+#[must_use]
+pub fn clamps_tree() -> Vec<u8> {
+    let (positions, triangles) = clamps();
+    let mesh = Mesh::new(positions, triangles);
+    let (tables, _) = build(mesh.as_input(), &TreeOptions::default()).expect("builds");
+    tables.to_bytes()
+}
+
+/// A tight hull of the link of the example `guard`, and nothing else.
+///
+/// # Panics
+/// Never: there is room around the link.
+#[must_use]
+pub fn link_hull() -> Vec<u8> {
+    let (positions, triangles) = link();
+    let mesh = Mesh::new(positions, triangles);
+    let options = ChainOptions::of_faces(&[40]);
+    let (tables, _) = chain(mesh.as_input(), &options, |_| {}).expect("room around it");
+    tables.to_bytes()
 }
 
 /// The box tree of `groove_block()`, with every section that a tree can have.

@@ -6,8 +6,8 @@ use meshsweep::curve::{read_csv, store};
 use meshsweep_core::{Blob, Budget, Bvh, Curve, DeformableHull, Hull, TightHulls, Triboxes};
 use meshsweep_counted::answers::of_fixtures;
 use meshsweep_host_tests::golden::{
-    bending_torus, bracket_hulls, bracket_model, fence_curves, groove_sources, groove_tree,
-    torus_sieve, torus_triboxes,
+    bending_torus, bracket_hulls, bracket_model, fence_curves, groove_tree, sources, torus_sieve,
+    torus_triboxes,
 };
 use meshsweep_host_tests::picture;
 
@@ -50,11 +50,11 @@ fn committed_tree_opens_with_every_triangle_and_every_section() {
 mod groove;
 
 #[test]
-fn committed_sources_are_what_the_builder_writes() {
-    for (name, text) in groove_sources() {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../core/fixtures").join(name);
-        let committed = std::fs::read_to_string(&file).expect("the fixture is there");
-        assert!(committed == text, "{name} is out of date: run `cargo xtask fixtures`");
+fn committed_sources_and_models_of_examples_are_what_the_builder_writes() {
+    for (file, made) in sources() {
+        let committed = Path::new(env!("CARGO_MANIFEST_DIR")).join("../core").join(&file);
+        let committed = std::fs::read(&committed).expect("the fixture is there");
+        assert!(committed == made, "core/{file} is out of date: run `cargo xtask fixtures`");
     }
 }
 

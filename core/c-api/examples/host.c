@@ -1,10 +1,34 @@
-/* Output on this machine. */
+/* Output and time on this machine. */
+
+#include "board.h"
 
 #include <stdio.h>
-
-void print(const char *text);
+#include <time.h>
 
 void print(const char *text)
 {
-    puts(text);
+    fputs(text, stdout);
+}
+
+void print_number(uint32_t number)
+{
+    printf("%lu", (unsigned long)number);
+}
+
+/* Nobody waits here: each call is the next period. */
+static uint32_t waited;
+
+uint32_t periods(void)
+{
+    return waited;
+}
+
+void wait_for_period(void)
+{
+    waited++;
+}
+
+uint32_t instructions(void)
+{
+    return (uint32_t)(clock() * (1000000 / CLOCKS_PER_SEC));
 }

@@ -52,7 +52,7 @@ enum {
     MSW_ERROR_NULL = -1,            /* a pointer is NULL */
     MSW_ERROR_ALIGNMENT = -2,       /* a pointer is not aligned for its type */
     MSW_ERROR_NOT_OPENED = -3,      /* the model was not opened, or its open function failed */
-    MSW_ERROR_COUNT = -4,           /* a count is larger than memory or a limit */
+    MSW_ERROR_COUNT = -4,           /* a count is larger than memory or a limit; no corner */
     MSW_ERROR_VALUE = -5,           /* a facing or kind of focus is no constant of this header */
     MSW_ERROR_MEMORY = -6,          /* a refined hull's memory, see msw_refine */
     MSW_ERROR_NO_SUCH_HULL = -7,    /* the blob has no tight hull of this number */
@@ -117,6 +117,7 @@ enum {
 #define MSW_NO_TRIANGLE UINT32_MAX /* in the place of a triangle's number: there is none */
 #define MSW_NO_MODEL UINT32_MAX    /* in the place of a model's index: there is none */
 #define MSW_FINEST UINT32_MAX      /* for msw_open_tight: the tightest hull */
+#define MSW_MOST_CORNERS 32        /* of a solid, for msw_first_contact */
 #define MSW_OVERLAP_ENTRIES 256    /* scratch entries that are always enough for msw_overlap */
 #define MSW_DISTANCE_ENTRIES 384   /* the same for msw_models_within */
 
@@ -126,10 +127,12 @@ enum {
 #define MSW_MODEL_WORDS 32
 #define MSW_TIGHT_WORDS 40
 #define MSW_HULL_WORDS 48
+#define MSW_COHERENT_WORDS 256
 #else
 #define MSW_MODEL_WORDS 48
 #define MSW_TIGHT_WORDS 56
 #define MSW_HULL_WORDS 64
+#define MSW_COHERENT_WORDS 480
 #endif
 
 /* An opened box tree, an opened tight hull, an opened hull hierarchy. They point into the blob,
@@ -138,6 +141,10 @@ enum {
 typedef struct { uintptr_t opaque[MSW_MODEL_WORDS]; } msw_model;
 typedef struct { uintptr_t opaque[MSW_TIGHT_WORDS]; } msw_tight;
 typedef struct { uintptr_t opaque[MSW_HULL_WORDS]; } msw_hull;
+
+/* What a query that moves keeps between calls. Zero it before the first call, or to start anew. It
+ * refers to the blob of the last model that it was used with. */
+typedef struct { uintptr_t opaque[MSW_COHERENT_WORDS]; } msw_coherent;
 
 /* Eight bytes of working memory. Need not be initialised. */
 typedef struct { uint32_t opaque[2]; } msw_scratch_entry;
@@ -203,6 +210,11 @@ typedef struct {
     int32_t ended;         /* MSW_ENDED_... */
     msw_work work;
 } msw_closest;
+
+typedef struct {
+    msw_closest closest; /* the answer of msw_closest_point, but for the work */
+    float safe_radius;   /* a query within it has the same closest triangle; 0: unknown */
+} msw_coherent_closest;
 
 typedef struct {
     int32_t side;          /* MSW_SIDE_... */
@@ -312,6 +324,21 @@ int32_t msw_closest_point(const msw_model *model, const float point[3],
                           msw_scratch_entry *scratch, size_t scratch_count,
                           msw_closest *answer);
 
+/* The same for a query that moves: the same bits in distance, point and triangle. The less it moved
+ * since the last call with `coherent`, the less work it takes.
+ *
+ * With another model than in the last call it starts anew. With a tolerance in the budget it is
+ * msw_closest_point. Steps bound the search on the kept state and, if that fails, the plain search
+ * after it: together at most twice as many nodes, and the answer may be exact where the plain one
+ * is not. After an error the state is as before.
+ * Cost: one triangle within safe_radius of the last query; one to three leaves for steps of 3e-4 of
+ * the model's diagonal; that of msw_closest_point for jumps. */
+int32_t msw_coherent_closest_point(const msw_model *model, msw_coherent *coherent,
+                                   const float point[3],
+                                   const msw_budget *budget,
+                                   msw_scratch_entry *scratch, size_t scratch_count,
+                                   msw_coherent_closest *answer);
+
 /* The signed distance of a closed mesh: negative where the nearest surface has its back to the
  * point. Of the budget only `steps` matters.
  *
@@ -347,6 +374,27 @@ int32_t msw_first_hit(const msw_model *model, const float a[3], const float b[3]
                       msw_scratch_entry *scratch, size_t scratch_count,
                       msw_hit *answer);
 
+/* Where a convex solid that moves first meets the surface. The solid is all that is within `radius`
+ * of the hull of its corners: one corner is a sphere, two are a capsule, eight a box. Each corner
+ * goes along a straight line from its place in `from` to its place in `to`, all at a steady pace.
+ * Three floats a corner: of `float corners[8][3]` pass corners[0].
+ * Of the budget only `steps` matters.
+ *
+ * The answer is that of msw_first_hit, with the part of the motion as parameter. Before t.lower no
+ * point of the solid touches the mesh at any instant. MSW_NO: none does during all of it. To keep a
+ * distance, add it to the radius. Only the surface counts: a motion inside of a closed mesh may be
+ * clear. If `from` and `to` are equal the answer is a contact at 0, or MSW_NO. A solid that starts
+ * on the surface has a t.lower of 0. One that only touches the mesh is undecided, and so may be a
+ * flat one without radius. MSW_ERROR_COUNT: no corner, or more than MSW_MOST_CORNERS.
+ * Cost: the nodes that the solid passes, and one to ten distances in double for each triangle that
+ * it may reach. */
+int32_t msw_first_contact(const msw_model *model,
+                          const float *from, const float *to, size_t corner_count,
+                          float radius,
+                          const msw_budget *budget,
+                          msw_scratch_entry *scratch, size_t scratch_count,
+                          msw_hit *answer);
+
 /* The `neighbor_count` triangles nearest to `point`, by rising distance, into `neighbors`. Of the
  * budget only `steps` matters.
  *
@@ -376,11 +424,17 @@ int32_t msw_overlap(const msw_model *model, const msw_model *other, const msw_po
 /* Whether the surfaces of any two of a few dozen models are at most `distance` apart in the world.
  * Of the budget only `steps` matters, of all pairs together.
  *
- * `skipped` lists pairs of indices, in any order, that are not asked about, such as neighbours that
- * touch at a joint; NULL and 0 for none. Without pairs the verdict is MSW_NO. A distance of 0 is
- * answered by MSW_NO or undecided. It ends at the first pair that certainly is within.
- * MSW_DISTANCE_ENTRIES are always enough scratch. MSW_ERROR_POSE: a pose is far from a rotation.
- * Cost: some hundred operations for each pair, and a search for each pair whose boxes are near. */
+ * Units: `distance` and the translations of the poses are in the world's unit. A pose does not
+ * scale, so this is also the unit of all models. `skipped` lists pairs of indices, in any order,
+ * that are not asked about, such as neighbours that touch at a joint; NULL and 0 for none. Without
+ * pairs the verdict is MSW_NO. A distance of 0 is answered by MSW_NO or undecided. It ends at the
+ * first pair that certainly is within. Only surfaces count: one part may lie inside the other.
+ * MSW_DISTANCE_ENTRIES are always enough scratch.
+ * Errors: MSW_ERROR_POSE: a pose is all zeros, or far from a rotation. MSW_ERROR_OUT_OF_DOMAIN: two
+ * models are farther from each other than float reaches. MSW_ERROR_NOT_OPENED: of any of the
+ * models. MSW_ERROR_NOT_SERVED: a model was built without segments.
+ * Cost: some hundred operations for each pair, and a search for each pair whose boxes are within
+ * the distance: in proportion to the surface that is near the other model. */
 int32_t msw_models_within(const msw_placed *models, size_t model_count, float distance,
                           const uint32_t (*skipped)[2], size_t skipped_count,
                           const msw_budget *budget,
@@ -390,8 +444,22 @@ int32_t msw_models_within(const msw_placed *models, size_t model_count, float di
 /* ---- Tight hulls: build --for tight. A few kilobytes for a part of any size ---- */
 
 /* Opens a tight hull of a blob: a closed surface of few faces that encloses the mesh. `index` 0 is
- * the coarsest, MSW_FINEST the tightest. As msw_open in all else. */
+ * the coarsest, MSW_FINEST the tightest.
+ *
+ * The bytes may have any alignment. They stay where they are, and `hull` refers to them. Units and
+ * frame are those of the mesh file. After an error `hull` is not opened.
+ * Errors: those of msw_open; MSW_ERROR_MISSING_SECTION: the blob was built without --for tight;
+ * MSW_ERROR_NO_SUCH_HULL: it has no more than `index` hulls.
+ * Cost: every byte of all hulls is checked, linear in the blob; once per start. No scratch. */
 int32_t msw_open_tight(msw_tight *hull, const void *bytes, size_t count, uint32_t index);
+
+/* The surface of a tight hull as a model, for all questions about models.
+ *
+ * A body that begins outside of the hull and is clear of its surface is clear of the part inside.
+ * distance.lower is then a lower bound of the distance to the part; distance.upper is none.
+ * Triangles are faces of the hull. `model` refers to the blob, and no longer to `hull`. After an
+ * error `model` is not opened. Cost: a copy. */
+int32_t msw_tight_model(msw_model *model, const msw_tight *hull);
 
 /* As msw_scratch_entries. */
 uint32_t msw_tight_scratch_entries(const msw_tight *hull);
@@ -415,11 +483,17 @@ int32_t msw_open_hull(msw_hull *hull, const void *bytes, size_t count);
 /* Refines a hull around `focus` (NULL: everywhere) until its faces there are no farther than
  * `error` from their part of the surface, and coarsens it elsewhere.
  *
+ * Units: `error`, `error_left` and the lengths in `focus` are in the mesh's unit and frame. An
+ * `error` of 0 asks for the finest hull. For an eye `error` is the least that counts.
  * `refined` keeps the hull between calls: MSW_REFINED_ENTRIES(splits) entries, with the same count
  * each time. Zeros are the coarsest hull: zero the memory before the first call, or to start anew.
- * MSW_ERROR_MEMORY: another count than before, or fewer than two. With another `hull` it starts
- * from that one's coarsest. Every state is a closed mesh that encloses the surface. If there are
- * too few splits, those of the greatest need are performed, and error_left tells the rest.
+ * With another `hull` it starts from that one's coarsest. Every state is a closed mesh that
+ * encloses the surface. If there are too few splits, those of the greatest need are performed, and
+ * error_left tells the rest. No scratch.
+ * Errors: MSW_ERROR_MEMORY: another count than before, or fewer than two. MSW_ERROR_COUNT: more
+ * than 2^24 splits. MSW_ERROR_VALUE: an unknown kind of focus. MSW_ERROR_TOLERANCE: `error` or a
+ * length of `focus` is negative, NaN or infinite. MSW_ERROR_NOT_FINITE: a point of `focus` is NaN
+ * or infinite. After these errors the hull is as before.
  * Cost: some hundred instructions for each vertex of the coarsest hull and each performed split,
  * some thousand for each change. */
 int32_t msw_refine(const msw_hull *hull, msw_refined_entry *refined, size_t refined_count,

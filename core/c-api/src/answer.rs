@@ -4,8 +4,8 @@
 #![allow(missing_docs, reason = "meshsweep.h says it")]
 
 use meshsweep_core::{
-    ClosestPoint, Ended, FirstHit, Interval, KNearest, Neighbor, Overlap, Side, SignedDistance,
-    Undecided, Verdict, Within, Work,
+    ClosestPoint, CoherentClosest, Ended, FirstHit, Interval, KNearest, Neighbor, Overlap, Side,
+    SignedDistance, Undecided, Verdict, Within, Work,
 };
 
 /// `MSW_NO_TRIANGLE`.
@@ -37,6 +37,13 @@ pub struct ClosestC {
     pub triangle: u32,
     pub ended: i32,
     pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CoherentC {
+    pub closest: ClosestC,
+    pub safe_radius: f32,
 }
 
 #[repr(C)]
@@ -207,6 +214,12 @@ impl From<ClosestPoint> for ClosestC {
             ended: ended(found.ended),
             work: found.work.into(),
         }
+    }
+}
+
+impl From<CoherentClosest> for CoherentC {
+    fn from(found: CoherentClosest) -> Self {
+        CoherentC { closest: found.closest.into(), safe_radius: found.safe_radius }
     }
 }
 

@@ -36,7 +36,7 @@ errors! {
     /// A storage holds no opened model.
     NotOpened = -3, c"the model was not opened, or its open function failed";
     /// An array is larger than memory.
-    Count = -4, c"a count of elements is larger than memory or a limit";
+    Count = -4, c"a count of elements is larger than memory or a limit, or a solid has no corner";
     /// A constant is unknown.
     Value = -5, c"a facing or a kind of focus is none of the named constants";
     /// Memory of a refined hull.
@@ -103,6 +103,7 @@ impl From<QueryError> for Error {
     fn from(error: QueryError) -> Error {
         match error {
             QueryError::NotFinite => Error::NotFinite,
+            QueryError::Corners { .. } => Error::Count,
             QueryError::Tolerance => Error::Tolerance,
             QueryError::OutOfDomain => Error::OutOfDomain,
             QueryError::PoseOutOfDomain => Error::Pose,

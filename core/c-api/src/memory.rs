@@ -6,11 +6,11 @@
 //! pointer that is neither NULL nor misaligned leads to as many elements as its function says,
 //! nobody writes to them during the call, and memory that a call writes overlaps nothing else.
 
-use core::mem::{MaybeUninit, align_of, size_of};
+use core::mem::{ManuallyDrop, MaybeUninit, align_of, size_of};
 use core::ptr;
 
 use meshsweep_core::internal::hull::ErasedHull;
-use meshsweep_core::{Neighbor, ScratchEntry};
+use meshsweep_core::{CoherentQuery, Neighbor, ScratchEntry};
 
 use crate::answer::NeighborC;
 use crate::error::Error;
@@ -202,6 +202,51 @@ impl<T: View, const WORDS: usize> Out<Storage<T, WORDS>> {
         // SAFETY: neither NULL nor misaligned, so by contract a storage, which has room.
         unsafe { (&raw mut (*self.0).opened).write(Opened { tag, view }) };
         code
+    }
+}
+
+/// Entries of a coherent query: enough for steps of a thousandth of the model.
+pub const COHERENT_ENTRIES: usize = 128;
+
+/// Words of `msw_coherent`.
+pub const COHERENT_WORDS: usize = if cfg!(target_pointer_width = "64") { 256 } else { 480 };
+
+/// `msw_coherent`: what a coherent query keeps between calls.
+#[repr(C)]
+#[allow(missing_debug_implementations, reason = "which field holds is known at run time")]
+pub union CoherentStorage {
+    kept: ManuallyDrop<KeptQuery>,
+    words: [usize; COHERENT_WORDS],
+}
+
+#[repr(C)]
+struct KeptQuery {
+    tag: usize,
+    query: CoherentQuery<'static, COHERENT_ENTRIES>,
+}
+
+const _: () = assert!(
+    size_of::<CoherentStorage>() == COHERENT_WORDS * size_of::<usize>()
+        && align_of::<CoherentStorage>() == align_of::<usize>()
+);
+
+/// The first word of a coherent query's memory in use.
+const COHERENT_TAG: usize = 0x6d73_7704;
+
+impl Out<CoherentStorage> {
+    /// The query that the storage keeps. It is a new one if the memory is all zeros.
+    pub fn kept(&mut self) -> Result<&mut CoherentQuery<'static, COHERENT_ENTRIES>, Error> {
+        check(self.0)?;
+        // SAFETY: neither NULL nor misaligned, so by contract a storage. Its first word is always
+        // some integer.
+        let kept = unsafe { &raw mut (*self.0).kept }.cast::<KeptQuery>();
+        // SAFETY: as above.
+        if unsafe { (&raw const (*kept).tag).read() } != COHERENT_TAG {
+            // SAFETY: the storage has room. What lies there needs no drop.
+            unsafe { kept.write(KeptQuery { tag: COHERENT_TAG, query: CoherentQuery::new() }) };
+        }
+        // SAFETY: the tag is only written with a query.
+        Ok(unsafe { &mut (*kept).query })
     }
 }
 

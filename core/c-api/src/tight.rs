@@ -6,7 +6,7 @@ use crate::answer::WithinC;
 use crate::error::Error;
 use crate::memory::{In, Out, Storage, View};
 use crate::question::BudgetC;
-use crate::tree::ask;
+use crate::tree::{Model, ask};
 
 /// Words of `msw_tight`.
 pub const TIGHT_WORDS: usize = if cfg!(target_pointer_width = "64") { 40 } else { 56 };
@@ -35,6 +35,12 @@ pub extern "C" fn msw_open_tight(hull: Out<Tight>, bytes: In<u8>, count: usize, 
 #[unsafe(no_mangle)]
 pub extern "C" fn msw_tight_scratch_entries(hull: In<Tight>) -> u32 {
     hull.view().map_or(0, |hull| hull.scratch_entries() as u32)
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_tight_model(model: Out<Model>, hull: In<Tight>) -> i32 {
+    model.open(|| Ok(*hull.view()?.bvh()))
 }
 
 /// See `meshsweep.h`.

@@ -1,10 +1,10 @@
 //! Questions about the box tree.
 
-use meshsweep_core::{Blob, Budget, Bvh, Neighbor, ScratchEntry};
+use meshsweep_core::{Blob, Budget, Bvh, Neighbor, ScratchEntry, Solid};
 
-use crate::answer::{ClosestC, HitC, NearestC, NeighborC, OverlapC, SignedC, WithinC};
+use crate::answer::{ClosestC, CoherentC, HitC, NearestC, NeighborC, OverlapC, SignedC, WithinC};
 use crate::error::Error;
-use crate::memory::{In, Out, Storage, View};
+use crate::memory::{CoherentStorage, In, Out, Storage, View};
 use crate::question::{BudgetC, PoseC, facing};
 
 /// Words of `msw_model`.
@@ -72,6 +72,25 @@ pub extern "C" fn msw_closest_point(
 
 /// See `meshsweep.h`.
 #[unsafe(no_mangle)]
+pub extern "C" fn msw_coherent_closest_point(
+    model: In<Model>,
+    mut coherent: Out<CoherentStorage>,
+    point: In<[f32; 3]>,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<CoherentC>,
+) -> i32 {
+    answer.answer(|| {
+        let (model, query, point) = (model.view()?, coherent.kept()?, point.get()?);
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(query.closest_point(model, point, budget, scratch)?.into())
+        })
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
 pub extern "C" fn msw_signed_distance(
     model: In<Model>,
     point: In<[f32; 3]>,
@@ -123,6 +142,28 @@ pub extern "C" fn msw_first_hit(
         let (model, a, b, facing) = (model.view()?, a.get()?, b.get()?, facing(facing_code)?);
         ask(budget, scratch, scratch_count, |budget, scratch| {
             Ok(model.first_hit(a, b, facing, budget, scratch)?.into())
+        })
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_first_contact(
+    model: In<Model>,
+    from: In<[f32; 3]>,
+    to: In<[f32; 3]>,
+    corner_count: usize,
+    radius: f32,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<HitC>,
+) -> i32 {
+    answer.answer(|| {
+        let (model, [from, to]) = (model.view()?, [from, to].map(|at| at.slice(corner_count)));
+        let (from, to) = (Solid::new(from?, radius)?, Solid::new(to?, radius)?);
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(model.first_contact(&from, &to, budget, scratch)?.into())
         })
     })
 }

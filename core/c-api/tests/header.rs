@@ -9,12 +9,12 @@ use std::process::Command;
 use meshsweep_c::answer::*;
 use meshsweep_c::error::Error;
 use meshsweep_c::hull::{HULL_WORDS, HullStorage};
-use meshsweep_c::memory::{REFINED_ENTRIES, RefinedEntry};
+use meshsweep_c::memory::{COHERENT_WORDS, CoherentStorage, REFINED_ENTRIES, RefinedEntry};
 use meshsweep_c::models::PlacedC;
 use meshsweep_c::question::{BudgetC, FocusC, PoseC, facing};
 use meshsweep_c::tight::{FINEST, TIGHT_WORDS, Tight};
 use meshsweep_c::tree::{MODEL_WORDS, Model};
-use meshsweep_core::{Bvh, Ended, Facing, Focus, ScratchEntry, Side, Undecided, Verdict};
+use meshsweep_core::{Bvh, Ended, Facing, Focus, ScratchEntry, Side, Solid, Undecided, Verdict};
 
 macro_rules! layouts {
     ($($name:literal: $rust:ty { $($field:ident),* })*) => {{
@@ -42,6 +42,7 @@ fn layouts() -> String {
         "msw_model": Model {}
         "msw_tight": Tight {}
         "msw_hull": HullStorage {}
+        "msw_coherent": CoherentStorage {}
         "msw_scratch_entry": ScratchEntry {}
         "msw_refined_entry": RefinedEntry {}
         "msw_budget": BudgetC { relative, absolute, steps }
@@ -51,6 +52,7 @@ fn layouts() -> String {
         "msw_interval": IntervalC { lower, upper }
         "msw_work": WorkC { nodes, triangles, exact, splits }
         "msw_closest": ClosestC { distance, point, triangle, ended, work }
+        "msw_coherent_closest": CoherentC { closest, safe_radius }
         "msw_signed": SignedC { side, reason, distance, closest }
         "msw_hit": HitC { verdict, ended, t, hit_t, point, triangle, work }
         "msw_within_answer": WithinC { verdict, reason, triangle, work }
@@ -70,6 +72,8 @@ fn constants() -> String {
     holds(&mut text, "MSW_MODEL_WORDS", MODEL_WORDS);
     holds(&mut text, "MSW_TIGHT_WORDS", TIGHT_WORDS);
     holds(&mut text, "MSW_HULL_WORDS", HULL_WORDS);
+    holds(&mut text, "MSW_COHERENT_WORDS", COHERENT_WORDS);
+    holds(&mut text, "MSW_MOST_CORNERS", Solid::MOST_CORNERS);
     holds(&mut text, "MSW_REFINED_ENTRIES(7)", REFINED_ENTRIES + 7);
     holds(&mut text, "MSW_OVERLAP_ENTRIES", Bvh::OVERLAP_ENTRIES);
     holds(&mut text, "MSW_DISTANCE_ENTRIES", Bvh::DISTANCE_ENTRIES);

@@ -1,7 +1,7 @@
 //! Prisms over a polygon.
 
-use super::Triangles;
 use super::builder::Builder;
+use super::{Triangles, joined};
 
 /// A block 40 × 40 × 30 with a slot 4 wide and 24 deep along y that widens to 16 at its bottom, a
 /// T-slot: 404 triangles, genus 0. An outer hull soon bridges the slot, and then a segment inside
@@ -29,6 +29,29 @@ pub fn needle_comb() -> Triangles {
     }
     profile.push([0.0, 0.0]);
     extrude(&profile, 64.0, 1)
+}
+
+/// Two clamps that reach over a table, at x from 0 to 30 and from 70 to 100: each a post 20 high with
+/// a strap 8 thick on it, 16 wide along y. Closed, two components, 40 triangles.
+#[must_use]
+pub fn clamps() -> Triangles {
+    let left = [[0.0, 0.0], [10.0, 0.0], [10.0, 20.0], [30.0, 20.0], [30.0, 28.0], [0.0, 28.0]];
+    let mut right = left.map(|[x, z]| [100.0 - x, z]);
+    right.reverse();
+    joined(&extrude(&left, 16.0, 1), &extrude(&right, 16.0, 1))
+}
+
+/// A link of a robot: eyes of radius 6 around (0, z = 0) and (60, z = 0), a bar 6 high between
+/// them, 8 thick along y. Closed, genus 0, 284 triangles.
+#[must_use]
+pub fn link() -> Triangles {
+    #[rustfmt::skip]
+    let outline = [
+        [6.0, -3.0], [54.0, -3.0], [57.5, -6.0], [62.5, -6.0], [66.0, -2.5], [66.0, 2.5],
+        [62.5, 6.0], [57.5, 6.0], [54.0, 3.0], [6.0, 3.0], [2.5, 6.0], [-2.5, 6.0],
+        [-6.0, 2.5], [-6.0, -2.5], [-2.5, -6.0], [2.5, -6.0],
+    ];
+    extrude(&outline, 8.0, 8)
 }
 
 /// The prism over a simple polygon in x and z, counter-clockwise seen from −y, from y = 0 to

@@ -6,6 +6,7 @@ mod check;
 mod coherent;
 mod cull;
 mod distance;
+mod examples;
 mod kernels;
 mod overlap;
 mod pair_distance;

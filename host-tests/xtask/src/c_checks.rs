@@ -7,6 +7,7 @@ use std::process::Command;
 use crate::boards::BOARDS;
 use crate::c_library::{self, CTools};
 use crate::checks::cargo;
+use crate::examples::{self, EXAMPLES, Example};
 use crate::firmware::Tools;
 use crate::images::Profile;
 use crate::process;
@@ -28,26 +29,22 @@ const CORTEX_M4F: [&str; 9] = [
     "-Wl,--gc-sections",
 ];
 
-/// The line that the example prints.
-const PROBE: &str = "the probe stopped 2 above the part\n";
-
 /// All of it.
 pub fn run(steps: &mut Steps, tools: &Tools) {
     let Some(c) = steps.run("setup: arm-none-eabi-gcc, cppcheck", CTools::find) else { return };
-    let Some(expected) = steps.run("C: Rust's answers", || host::run(&["c-answers"])) else {
-        return;
-    };
-    steps.run("C: a program on this machine has Rust's bits", || on_host(&expected));
-    steps.run("C: an image on the Cortex-M4F has Rust's bits", || on_board(tools, &c, &expected));
+    let programs = || programs(&host::run(&["c-answers"])?);
+    let Some(programs) = steps.run("C: Rust's answers", programs) else { return };
+    steps.run("C: programs on this machine have Rust's bits", || on_host(&programs));
+    steps.run("C: images on the Cortex-M4F have Rust's bits", || on_board(tools, &c, &programs));
     steps.run("C: cppcheck", || cppcheck(&c));
 }
 
-fn examples() -> PathBuf {
+fn folder() -> PathBuf {
     c_library::folder().join("examples")
 }
 
-/// Blobs, and the part of the example as C.
-pub fn fixtures() -> PathBuf {
+/// Blobs.
+fn fixtures() -> PathBuf {
     workspace::root().join("core/fixtures")
 }
 
@@ -55,61 +52,76 @@ fn answers() -> PathBuf {
     workspace::root().join("host-tests/c-answers")
 }
 
-/// A compiler with the flags that both programs share.
+/// A compiler with the flags that all programs share.
 fn compiler(mut command: Command) -> Command {
     command.args(WARNINGS).arg("-I").arg(c_library::folder().join("include"));
-    command.arg("-I").arg(fixtures()).arg(format!("-Wa,-I{}", fixtures().display()));
+    command.arg("-I").arg(folder()).arg(format!("-Wa,-I{}", fixtures().display()));
     command
 }
 
-/// Both programs on this machine. The library has the settings of the tests, so that it takes
+/// The programs on this machine. The library has the settings of the tests, so that it takes
 /// seconds; `cargo xtask dist` does the same with the one that it packs.
-fn on_host(expected: &str) -> Result<(), String> {
+fn on_host(programs: &[Program]) -> Result<(), String> {
     process::capture(&mut cargo(&["build", "--quiet", "--workspace", "--lib"]))?;
     let library = workspace::target().join("debug/libmeshsweep_c_host.a");
-    programs_on_host(&library, expected)
+    build_and_run(&library, programs)
 }
 
-/// Builds and runs both programs with a library of this machine.
+/// Builds and runs the programs with a library of this machine.
 ///
 /// # Errors
 /// Another line than Rust's, or the compiler's.
 pub fn programs_on_host(library: &std::path::Path, expected: &str) -> Result<(), String> {
-    let folder = workspace::target().join("c");
-    std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    for (sources, wanted) in programs(expected) {
-        let program = folder.join("host-program");
+    build_and_run(library, &programs(expected)?)
+}
+
+fn build_and_run(library: &std::path::Path, programs: &[Program]) -> Result<(), String> {
+    let made = workspace::target().join("c");
+    std::fs::create_dir_all(&made).map_err(|error| format!("{}: {error}", made.display()))?;
+    for Program { sources, lines } in programs {
+        let program = made.join("host-program");
         let mut cc = compiler(Command::new("cc"));
-        cc.args(["-O2"]).arg(examples().join("host.c")).args(sources).arg(library);
+        cc.args(["-O2"]).arg(folder().join("host.c")).args(sources).arg(library);
         process::capture(cc.args(["-lpthread", "-ldl", "-lm", "-o"]).arg(&program))?;
-        compare(&process::capture(&mut Command::new(&program))?, wanted)?;
+        compare(&process::capture(&mut Command::new(&program))?, lines)?;
     }
     Ok(())
 }
 
-fn on_board(tools: &Tools, c: &CTools, expected: &str) -> Result<(), String> {
+fn on_board(tools: &Tools, c: &CTools, programs: &[Program]) -> Result<(), String> {
     let board = &BOARDS[0];
     let library = c_library::build(&tools.cross, c, board.target, Profile::Release)?;
-    let start = examples().join("cortex-m4");
-    for (sources, wanted) in programs(expected) {
+    let start = folder().join("cortex-m4");
+    for Program { sources, lines } in programs {
         let image = library.with_file_name("image.elf");
         let mut gcc = compiler(c.command("arm-none-eabi-gcc"));
         gcc.args(CORTEX_M4F).arg("-T").arg(start.join("image.ld")).arg(start.join("startup.c"));
         process::capture(gcc.args(sources).arg(&library).args(["-lgcc", "-o"]).arg(&image))?;
-        compare(&tools.qemu.run(board.machine, &image, None)?, wanted)?;
+        compare(&tools.qemu.run(board.machine, &image, None)?, lines)?;
     }
     Ok(())
 }
 
-/// The sources of the example and of the program with all questions, and what they print.
-fn programs(expected: &str) -> [([PathBuf; 2], &str); 2] {
-    [
-        ([examples().join("probe.c"), fixtures().join("groove.c")], PROBE),
-        (["answers.c", "blobs.S"].map(|file| answers().join(file)), expected),
-    ]
+/// A program's own sources, and the lines that it prints.
+struct Program {
+    sources: Vec<PathBuf>,
+    lines: String,
+}
+
+/// The examples, and the program with all questions.
+fn programs(answers_of_rust: &str) -> Result<Vec<Program>, String> {
+    let mut programs = Vec::new();
+    for Example { name, model } in EXAMPLES {
+        let sources = [name, model].map(|stem| folder().join(format!("{stem}.c"))).to_vec();
+        programs.push(Program { sources, lines: examples::promised(name)? });
+    }
+    let sources = ["answers.c", "blobs.S"].map(|file| answers().join(file)).to_vec();
+    programs.push(Program { sources, lines: answers_of_rust.to_owned() });
+    Ok(programs)
 }
 
 fn compare(printed: &str, expected: &str) -> Result<(), String> {
+    let printed = examples::without_costs(printed);
     if printed == expected {
         return Ok(());
     }
@@ -121,9 +133,12 @@ fn cppcheck(c: &CTools) -> Result<(), String> {
     command.args(["--quiet", "--std=c11", "--error-exitcode=1"]);
     command.args(["--enable=warning,style,performance,portability", "--inline-suppr"]);
     command.arg("-I").arg(c_library::folder().join("include"));
-    command.arg("-I").arg(fixtures()).arg("--suppress=missingIncludeSystem");
-    for file in ["probe.c", "host.c", "cortex-m4/startup.c"] {
-        command.arg(examples().join(file));
+    command.arg("-I").arg(folder()).arg("--suppress=missingIncludeSystem");
+    for Example { name, .. } in EXAMPLES {
+        command.arg(folder().join(name).with_extension("c"));
+    }
+    for file in ["host.c", "cortex-m4/startup.c"] {
+        command.arg(folder().join(file));
     }
     process::capture(command.arg(answers().join("answers.c"))).map(drop)
 }

@@ -85,10 +85,6 @@ fn archive(cross: &Cross, c: &CTools, target: &str) -> Result<Vec<Vec<String>>, 
     for licence in ["LICENSE-APACHE", "LICENSE-MIT"] {
         copy(&workspace::root().join(licence), &folder.join(licence))?;
     }
-    // The blob of the example.
-    for file in ["groove.h", "groove.c"] {
-        copy(&c_checks::fixtures().join(file), &folder.join("examples").join(file))?;
-    }
     // No date and no user, so that the same sources give the same bytes.
     let mut tar = Command::new("tar");
     tar.args(["--sort=name", "--mtime=@0", "--owner=0", "--group=0", "--numeric-owner"]);

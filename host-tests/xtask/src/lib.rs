@@ -5,6 +5,7 @@
 //! host (the program of host-tests: blobs, expected answers, fixtures, counted questions)
 //! processors (the committed answers on i686, AArch64, with vectors) ─ toolbox
 //! report ─── chromium (the page of `meshsweep trade --report`) ─ toolbox
+//! examples (core/examples) ─ images, qemu
 //! c_checks (C programs) ┐
 //! dist (archives) ──────┴ c_library (one object that defines msw_*) ─ toolbox, cross
 //! count ──── valgrind (callgrind) on host ─┐
@@ -32,6 +33,7 @@ pub mod count;
 pub mod cross;
 pub mod dist;
 pub mod elf;
+pub mod examples;
 pub mod firmware;
 pub mod fit;
 pub mod host;

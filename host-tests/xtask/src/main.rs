@@ -9,13 +9,14 @@ use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::tables::Facts;
 use meshsweep_xtask::valgrind::Valgrind;
 use meshsweep_xtask::{
-    c_checks, checks, count, dist, firmware, fit, host, processors, report, say, tables,
+    c_checks, checks, count, dist, examples, firmware, fit, host, processors, report, say, tables,
 };
 
 const USAGE: &str = "\
 cargo xtask setup                   makes sure of the cross targets, of QEMU and of valgrind
 cargo xtask test                    setup, then everything that has to hold
 cargo xtask firmware                only the firmware: bits, panics, sizes, instructions
+cargo xtask examples                only core/examples, on a Cortex-M4F, and defmt
 cargo xtask c                       only the C interface: its programs here and in QEMU
 cargo xtask dist [TARGET...]        static libraries for C, an archive a target, in target/dist
 cargo xtask processors              the committed bits on i686, AArch64, and with all vectors here
@@ -59,6 +60,7 @@ fn main() -> ExitCode {
                         count::check_lanes(&mut steps, counts);
                     }
                     if let Some(tools) = &tools {
+                        examples::run(&mut steps, tools);
                         c_checks::run(&mut steps, tools);
                     }
                     let mut rows = Vec::new();
@@ -77,6 +79,11 @@ fn main() -> ExitCode {
         ["firmware"] => {
             if let Some(tools) = firmware::setup(&mut steps) {
                 firmware::run(&mut steps, &tools);
+            }
+        }
+        ["examples"] => {
+            if let Some(tools) = firmware::setup(&mut steps) {
+                examples::run(&mut steps, &tools);
             }
         }
         ["c"] => {

@@ -84,8 +84,9 @@ impl Qemu {
         let mut command = self.command(machine);
         command.args(["-M", machine.name(), "-nographic", "-monitor", "none", "-serial", "none"]);
         // One nanosecond of the board's time an instruction: counters become instruction counts,
-        // and runs repeat exactly.
-        command.args(["-icount", "shift=0", "-semihosting-config", "enable=on,target=native"]);
+        // and runs repeat exactly. A processor that sleeps wakes at once.
+        command.args(["-icount", "shift=0,sleep=off"]);
+        command.args(["-semihosting-config", "enable=on,target=native"]);
         if matches!(machine, Machine::Riscv32(_)) {
             command.args(["-bios", "none"]);
         }

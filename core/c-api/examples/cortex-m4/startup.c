@@ -1,14 +1,25 @@
-/* Start-up of a Cortex-M4F, and output to a debugger or to QEMU (semihosting). Nothing of a C
- * library is needed. */
+/* Start-up of a Cortex-M4F, time by SysTick, and output to a debugger or to QEMU (semihosting).
+ * Nothing of a C library is needed. */
 
-#include <stdint.h>
+#include "../board.h"
+
+/* Processor clock of mps2-an386. For your board write its own. */
+#define CLOCK_HZ 25000000u
+/* Ticks of a millisecond. */
+#define PERIOD (CLOCK_HZ / 1000u)
+/* In QEMU an instruction takes 1 ns, and a tick 40. On a board write 1: a tick is a cycle. */
+#define PER_TICK 40u
+
+#define SYST_CSR ((volatile uint32_t *)0xE000E010)
+#define SYST_RVR ((volatile uint32_t *)0xE000E014)
+#define SYST_CVR ((volatile uint32_t *)0xE000E018)
 
 extern uint32_t stack_top[], data_begin[], data_end[], data_in_flash[], bss_begin[], bss_end[];
 
 int main(void);
-void print(const char *text);
 void reset(void);
 void stop(void);
+void systick(void);
 
 /* A call of the debugger: its number and its argument. */
 static uintptr_t semihosting(uint32_t number, const void *argument)
@@ -19,7 +30,7 @@ static uintptr_t semihosting(uint32_t number, const void *argument)
     return r0;
 }
 
-static void write_text(const char *text)
+void print(const char *text)
 {
     static uintptr_t console;
     uintptr_t length = 0;
@@ -36,10 +47,47 @@ static void write_text(const char *text)
     semihosting(0x05, block);
 }
 
-void print(const char *text)
+void print_number(uint32_t number)
 {
-    write_text(text);
-    write_text("\n");
+    char digits[11];
+    char *first = &digits[10];
+    *first = 0;
+    do {
+        *--first = (char)('0' + number % 10);
+        number /= 10;
+    } while (number != 0);
+    print(first);
+}
+
+static volatile uint32_t interrupts;
+
+void systick(void)
+{
+    interrupts++;
+}
+
+uint32_t periods(void)
+{
+    return interrupts;
+}
+
+void wait_for_period(void)
+{
+    const uint32_t now = interrupts;
+    do {
+        __asm__ volatile("wfi");
+    } while (interrupts == now);
+}
+
+uint32_t instructions(void)
+{
+    uint32_t now, left;
+    do {
+        now = interrupts;
+        left = *SYST_CVR;
+    } while (interrupts != now);
+    /* The interrupt comes at 0. The next tick has PERIOD - 1 left. */
+    return (now * PERIOD + (PERIOD - left) % PERIOD) * PER_TICK;
 }
 
 static void leave(int status)
@@ -68,11 +116,15 @@ void reset(void)
     /* CPACR: the floating-point unit, which the library's hard-float code uses. */
     *(volatile uint32_t *)0xE000ED88 |= 0xFu << 20;
     __asm__ volatile("dsb\n\tisb");
+    /* The processor's clock, with an interrupt each period. */
+    *SYST_RVR = PERIOD - 1;
+    *SYST_CVR = 0;
+    *SYST_CSR = 7;
     leave(main());
 }
 
-/* The processor reads the stack and the entry from here; every fault stops. */
+/* The processor reads the stack and the entry from here; every fault stops. SysTick is the last. */
 __attribute__((section(".vectors"), used)) static const uintptr_t vectors[16] = {
     (uintptr_t)stack_top, (uintptr_t)reset, (uintptr_t)stop, (uintptr_t)stop,
-    (uintptr_t)stop,      (uintptr_t)stop,  (uintptr_t)stop,
+    (uintptr_t)stop,      (uintptr_t)stop,  (uintptr_t)stop, [15] = (uintptr_t)systick,
 };

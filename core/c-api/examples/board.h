@@ -1,0 +1,33 @@
+/* What the examples need of a board. cortex-m4/startup.c has it for a Cortex-M4F, host.c for a
+ * workstation. */
+#ifndef BOARD_H
+#define BOARD_H
+
+#include <stdint.h>
+
+/* Writes text as it is. */
+void print(const char *text);
+
+/* Writes a number in decimal. */
+void print_number(uint32_t number);
+
+/* A line: text, a number, text. */
+static inline void print_line(const char *before, uint32_t number, const char *after)
+{
+    print(before);
+    print_number(number);
+    print(after);
+    print("\n");
+}
+
+/* Milliseconds since the start. */
+uint32_t periods(void);
+
+/* Sleeps until the next of them. */
+void wait_for_period(void);
+
+/* Instructions since the start, as QEMU counts them. Wraps around: only differences mean something.
+ * On a workstation microseconds. */
+uint32_t instructions(void);
+
+#endif

@@ -1,0 +1,108 @@
+/* A fingertip feels a part: a force pushes it out where it is inside. The same program in Rust:
+ * core/examples/haptics.
+ *
+ * The tip moves in small steps. A coherent query keeps what earlier answers ruled out, and gives
+ * the bits of a fresh query for less work. This program asks both, to show the difference.
+ */
+
+#include "board.h"
+#include "groove.h"
+#include "meshsweep.h"
+
+#define STEP 0.015625f   /* length of a step, mm */
+#define STIFFNESS 500.0f /* mN for a mm */
+
+/* From 1 above the top, which is at 30, to half a mm inside, along it over the slot, and out. */
+static const float start[3] = {8, 20, 31};
+enum { LEGS = 3 };
+static const struct {
+    float step[3];
+    uint32_t count;
+} legs[LEGS] = {{{0, 0, -STEP}, 96}, {{STEP, 0, 0}, 1024}, {{0, 0, STEP}, 96}};
+
+static msw_scratch_entry scratch[GROOVE_SCRATCH_ENTRIES];
+GROOVE_CHECK_SCRATCH(scratch);
+
+static msw_model part;
+static msw_coherent moving; /* Zeros: it begins anew. */
+
+static int is_same(const msw_closest *a, const msw_closest *b)
+{
+    int same = a->distance.lower == b->distance.lower && a->distance.upper == b->distance.upper;
+    for (int axis = 0; axis < 3; axis++) {
+        same = same && a->point[axis] == b->point[axis];
+    }
+    return same;
+}
+
+static int32_t run(void)
+{
+    int32_t error = msw_open(&part, groove_bytes, GROOVE_BYTES);
+    float finger[3] = {start[0], start[1], start[2]};
+    float largest = 0;
+    int is_inside = 0;
+    uint32_t questions = 0, same = 0, boxes = 0, triangles = 0, cost = 0;
+    uint32_t fresh_boxes = 0, fresh_triangles = 0, fresh_cost = 0;
+    for (uint32_t at = 0, leg = 0; leg < LEGS && error == MSW_OK;) {
+        for (int axis = 0; axis < 3; axis++) {
+            finger[axis] += legs[leg].step[axis];
+        }
+        msw_coherent_closest answer;
+        uint32_t from = instructions();
+        error = msw_coherent_closest_point(&part, &moving, finger, NULL, scratch,
+                                           GROOVE_SCRATCH_ENTRIES, &answer);
+        cost += instructions() - from;
+        const msw_closest near = answer.closest;
+        /* Farther than some steps from the surface the finger is on the side where it was. */
+        if (error == MSW_OK && near.distance.lower <= 4.0f * STEP) {
+            msw_signed found;
+            error = msw_signed_distance(&part, finger, NULL, scratch, GROOVE_SCRATCH_ENTRIES,
+                                        &found);
+            if (found.side != MSW_SIDE_UNDECIDED) { /* Undecided: as before. */
+                is_inside = found.side == MSW_SIDE_INSIDE;
+            }
+        }
+        const float force = is_inside ? STIFFNESS * near.distance.lower : 0.0f;
+        largest = force > largest ? force : largest;
+
+        if (error == MSW_OK) {
+            msw_closest fresh;
+            from = instructions();
+            error = msw_closest_point(&part, finger, NULL, scratch, GROOVE_SCRATCH_ENTRIES, &fresh);
+            fresh_cost += instructions() - from;
+            questions++;
+            same += (uint32_t)is_same(&near, &fresh);
+            boxes += near.work.nodes;
+            triangles += near.work.triangles;
+            fresh_boxes += fresh.work.nodes;
+            fresh_triangles += fresh.work.triangles;
+        }
+        at++;
+        if (at == legs[leg].count) {
+            at = 0;
+            leg++;
+        }
+    }
+    if (error != MSW_OK) {
+        return error;
+    }
+    print_line("questions: ", questions, "");
+    print_line("answers with the bits of a fresh query: ", same, "");
+    print_line("largest force: ", (uint32_t)largest, " mN");
+    print_line("boxes tested: ", boxes, "");
+    print_line("  by fresh queries: ", fresh_boxes, "");
+    print_line("triangles tested: ", triangles, "");
+    print_line("  by fresh queries: ", fresh_triangles, "");
+    print_line("cost: a question took ", cost / questions, " instructions");
+    print_line("cost: a fresh one took ", fresh_cost / questions, " instructions");
+    return MSW_OK;
+}
+
+int main(void)
+{
+    const int32_t error = run();
+    if (error != MSW_OK) {
+        print(msw_strerror(error));
+    }
+    return error != MSW_OK;
+}
