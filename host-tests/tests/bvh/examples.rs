@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use meshsweep_core::Solid;
+use meshsweep_core::{Solid, TightHulls};
 use meshsweep_host_tests::generate::{Triangles, clamps, groove_block, link};
 use meshsweep_host_tests::oracle::{distance_of_meshes, distance_to_mesh};
 
@@ -132,6 +132,9 @@ fn arm_distance(number: u32) -> f64 {
 
 #[test]
 fn the_arm_goes_on_while_the_links_themselves_keep_the_distance_and_stops_in_time() {
+    let hulls = include_bytes!("../../../core/examples/guard/src/link.msw");
+    let hull = TightHulls::open(hulls).expect("opens").finest().expect("there");
+    assert_eq!((hull.record().faces, link().1.len()), (40, 284));
     let stopped = numbers(&promised("guard"), "stopped before pose ")[0];
     for number in [0, stopped / 2, stopped - 1] {
         assert!(arm_distance(number) > 6.5, "{number}");
