@@ -2,6 +2,13 @@
  *
  * Written by `meshsweep build --emit c`, for version 0.1.0 of the library. Compile link.c
  * with your program. Give link_bytes to an open function of meshsweep.h.
+ *
+ * Bytes of the processor's stack that a question takes in libmeshsweep_small.a /
+ * libmeshsweep.a, without the frame of its msw_ function:
+ *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
+ *   open tight hulls                3200 / 2944    3136 / 3008    3200 / 2944    3136 / 2880
+ *   closest point of tight hulls    4032 / 4032    4736 / 4736    4032 / 4032    4480 / 4416
+ *   within of tight hulls           3968 / 3904    4736 / 4800    3968 / 3904    4480 / 4416
  */
 #ifndef LINK_MSW_H
 #define LINK_MSW_H

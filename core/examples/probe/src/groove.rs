@@ -8,6 +8,31 @@
 // - a box that contains it: [0.0, 0.0, 0.0] to [40.0, 40.0, 30.0]
 // - no point of the mesh is farther than 0.0 from the stored surface
 //
+// Bytes of the processor's stack that a question takes, at opt-level "s" / 3. Debug builds
+// take several times as much: core/docs/guide.md tells how to avoid it.
+//                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
+//   open a box tree                 2560 / 2240    2624 / 2304    2560 / 2240    2496 / 2240
+//   closest point                   1344 / 1280    2240 / 2112    1344 / 1280    2048 / 1856
+//   closest point from a hint       1344 / 1280    2240 / 2048    1344 / 1280    1984 / 1792
+//   coherent query                  1792 / 1728    2816 / 2624    1792 / 1728    2496 / 2304
+//   closest points                  3072 / 3008    3968 / 3904    3072 / 3008    3712 / 3520
+//   within                          1984 / 1856    2944 / 2752    1984 / 1856    2624 / 2432
+//   nearest triangles               1856 / 1792    2816 / 2688    1856 / 1728    2496 / 2368
+//   all within                      1856 / 1792    2816 / 2688    1856 / 1792    2560 / 2368
+//   signed distance                 3712 / 3776    4480 / 4544    3712 / 3776    4224 / 4224
+//   winding number                   1088 / 896    1664 / 1280     1088 / 896    1472 / 1152
+//   front facing                      640 / 576      960 / 960      640 / 576      832 / 768
+//   first hit                       1792 / 1280    2048 / 1792    1792 / 1280    1792 / 1536
+//   any hit                         1664 / 1152    1920 / 1664    1664 / 1216    1728 / 1408
+//   all hits                        1856 / 1344    2048 / 1664    1856 / 1344    1792 / 1600
+//   overlap                         6592 / 6144    6464 / 5952    6592 / 6144    6016 / 5696
+//   distance of two models        10112 / 10432   9984 / 10048  10112 / 10432    9216 / 9472
+//   coherent pair                 12032 / 12544  11968 / 12288  12032 / 12544  11264 / 11712
+//   scene                         10816 / 11904  10688 / 11648  10816 / 11904   9984 / 11136
+//   distance of a solid           12928 / 11264  12864 / 11136  12928 / 11264  12352 / 10560
+//   first contact                 11136 / 10560  11072 / 10304  11136 / 10560   10688 / 9856
+//   penetration                   11392 / 12288  11264 / 11904  11456 / 12288  10560 / 11264
+//
 // Distances are in the mesh's unit. Intervals hold of the mesh, not only of the stored surface.
 
 use meshsweep_core::{Blob, Bvh, Scratch};
