@@ -31,9 +31,9 @@
 //! | [`trade`] | errors and costs of a mesh's structures and settings, measured |
 //!
 //! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `progress` ←
-//! `surface` ← `{collapse, bvh, load}` ← `hausdorff` ← `{hull, tight, tribox, curve}` ← `{cut, trade,
-//! builder}` ← the program. `trade` also uses the distance of `check`, and `worst` uses no room. A
-//! test keeps that (`host-tests/tests/house.rs`).
+//! `surface` ← `{collapse, bvh, load}` ← `hausdorff` ← `{hull, tight, tribox, curve}` ←
+//! `{cut, trade, builder}` ← the program. `trade` also uses the distance of `check`, and `worst`
+//! uses no room. A test keeps that (`host-tests/tests/house.rs`).
 
 pub mod builder;
 pub mod bvh;

@@ -31,8 +31,8 @@ pub fn needle_comb() -> Triangles {
     extrude(&profile, 64.0, 1)
 }
 
-/// Two clamps that reach over a table, at x from 0 to 30 and from 70 to 100: each a post 20 high with
-/// a strap 8 thick on it, 16 wide along y. Closed, two components, 40 triangles.
+/// Two clamps that reach over a table, at x from 0 to 30 and from 70 to 100. Each is a post 20 high
+/// with a strap 8 thick on it, 16 wide along y. Closed, two components, 40 triangles.
 #[must_use]
 pub fn clamps() -> Triangles {
     let left = [[0.0, 0.0], [10.0, 0.0], [10.0, 20.0], [30.0, 20.0], [30.0, 28.0], [0.0, 28.0]];

@@ -277,8 +277,8 @@ impl<C: Clock> Clock for &mut C {
     }
 }
 
-/// Told what happens, in this order: opening begins, begins, then kind by kind: kind begins, (query begins, query
-/// ends) × queries, block, …, kind ends.
+/// Told what happens, in this order: opening begins, begins, then kind by kind: kind begins,
+/// (query begins, query ends) × queries, block, …, kind ends.
 pub trait Recorder: Clock {
     /// The blob is about to be opened.
     fn opening_begins(&mut self) {}

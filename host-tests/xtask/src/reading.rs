@@ -180,8 +180,8 @@ mod tests {
     use super::{Block, Reading};
     use crate::boards::BOARDS;
 
-    const PRINTED: &str = "blob 3 0000000000000001\ncalibration 2000000 50000\nopening 80\nscratch 256\n\
-        block arith 0 000000000000000a\nticks arith 2 1 4 3\nstack arith 64\ndone\n";
+    const PRINTED: &str = "blob 3 0000000000000001\ncalibration 2000000 50000\nopening 80\n\
+        scratch 256\nblock arith 0 000000000000000a\nticks arith 2 1 4 3\nstack arith 64\ndone\n";
 
     #[test]
     fn a_reading_holds_what_was_printed() {

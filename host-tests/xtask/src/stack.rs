@@ -3,8 +3,9 @@
 //!
 //! A question is a function of the suite that asks the core and folds the answer. What the suite's
 //! images paint is below the call of the core in it. So the frame of the function itself, of the
-//! instance with the meter, is added, and the sum is no more than the function's bound in the same image. The bounds of the documents
-//! are the larger ones of that image and of the proof's, which has all questions and no panic.
+//! instance with the meter, is added. The sum is no more than the function's bound in the same
+//! image. The bounds of the documents are the larger ones of that image and of the proof's, which
+//! has all questions and no panic.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -199,7 +200,8 @@ impl Stacks {
                     Some(bound) if bound.bytes <= MOST_IN_DEBUG => {}
                     Some(bound) => {
                         return Err(format!(
-                            "{CLOSEST}: {} bytes of stack in a debug build, not {MOST_IN_DEBUG}\n{}",
+                            "{CLOSEST}: {} bytes of stack in a debug build, not {MOST_IN_DEBUG}\n\
+                             {}",
                             bound.bytes,
                             bound.text()
                         ));

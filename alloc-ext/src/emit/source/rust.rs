@@ -45,8 +45,8 @@ fn head(facts: &Facts, names: SourceNames<'_>) -> String {
         let _ = writeln!(out, "// - {fact}");
     }
     out.push_str(
-        "//\n// Bytes of the processor's stack that a question takes, at opt-level \"s\" / 3. Debug \
-         builds\n// take several times as much: core/docs/guide.md tells how to avoid it.\n",
+        "//\n// Bytes of the processor's stack that a question takes, at opt-level \"s\" / 3. \
+         Debug builds\n// take several times as much: core/docs/guide.md tells how to avoid it.\n",
     );
     for line in &facts.stack {
         let _ = writeln!(out, "//   {line}");

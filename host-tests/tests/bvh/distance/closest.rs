@@ -276,7 +276,7 @@ fn a_limit_of_steps_never_outgrows_the_scratch_that_suffices() {
     }
 }
 
-/// After the first leaf the order of visits is that of the lower bounds, so each step can only raise
+/// After the first leaf nodes are visited in the order of lower bounds. So a step can only raise
 /// the least of them.
 #[test]
 fn with_room_another_step_never_lowers_the_lower_bound_nor_raises_the_upper() {
