@@ -137,20 +137,6 @@ impl Stack<'_> {
         }
     }
 
-    /// Exchanges `entry` with the entry of the least key, if that key is less.
-    #[cold]
-    #[inline(never)]
-    fn exchange_least(&mut self, entry: &mut ScratchEntry) -> bool {
-        let waiting = self.entries.iter_mut().take(self.used);
-        match waiting.min_by_key(|waiting| waiting.small_word()) {
-            Some(least) if least.small_word() < entry.small_word() => {
-                swap(least, entry);
-                true
-            }
-            _ => false,
-        }
-    }
-
     /// Least key of everything that is left, or that did not fit.
     #[cold]
     fn least(&self) -> u32 {
@@ -215,11 +201,41 @@ impl Limit {
     /// A child from anywhere in the tree, taken while `used` entries wait, needs at most `entries`
     /// above them in depth-first order, and this order is kept until no more than `used` wait. Or
     /// else the steps that are left cannot fill the memory: each one adds fewer than [`WIDTH`].
-    #[inline(never)]
     fn has_room(&self, stack: &Stack<'_>, work: &Work) -> bool {
         let free = stack.entries.len().saturating_sub(stack.used);
         let left = self.steps.saturating_sub(work.splits) as usize;
         free >= self.entries || free >= left.saturating_mul(WIDTH)
+    }
+
+    /// Pushes the nearest child, for another entry may have a lesser key. False if there is no
+    /// room for that.
+    #[cold]
+    #[inline(never)]
+    fn push_nearest(&self, stack: &mut Stack<'_>, work: &Work, nearest: ScratchEntry) -> bool {
+        if !self.has_room(stack, work) {
+            return false;
+        }
+        let Some(slot) = stack.entries.get_mut(stack.used) else { return false };
+        *slot = nearest;
+        stack.used += 1;
+        true
+    }
+
+    /// Exchanges the popped `entry` with the entry of the least key, if there is room for that.
+    /// True if nothing on the stack has a lesser key.
+    #[cold]
+    #[inline(never)]
+    fn take_least(&self, stack: &mut Stack<'_>, work: &Work, entry: &mut ScratchEntry) -> bool {
+        if !self.has_room(stack, work) {
+            return false;
+        }
+        let waiting = stack.entries.iter_mut().take(stack.used);
+        if let Some(least) = waiting.min_by_key(|waiting| waiting.small_word())
+            && least.small_word() < entry.small_word()
+        {
+            swap(least, entry);
+        }
+        true
     }
 }
 
@@ -274,9 +290,8 @@ fn walk(
         // parent's links again.
         let mut child = links.child(nearest & CHILD_MASK);
         let mut entry = ScratchEntry::of_words([nearest, node]);
-        if least_first && most.has_room(&stack, work) && stack.exchange_least(&mut entry) {
-            is_wanted = entry.small_word() <= limit;
-            child = tree.child(entry.node(), entry.small_word() & CHILD_MASK)?;
+        if least_first && is_wanted && most.push_nearest(&mut stack, work, entry) {
+            is_wanted = false;
         }
         loop {
             if is_wanted {
@@ -305,10 +320,7 @@ fn walk(
                 };
                 stack.used = top;
                 entry = stack.entries.get(top).copied()?;
-                let is_least = least_first && most.has_room(&stack, work);
-                if is_least {
-                    stack.exchange_least(&mut entry);
-                }
+                let is_least = least_first && most.take_least(&mut stack, work, &mut entry);
                 if entry.small_word() <= visitor.limit() {
                     break;
                 }
