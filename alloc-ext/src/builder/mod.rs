@@ -92,7 +92,7 @@ impl<'a> Builder<'a> {
         /// point of it is farther than this from the mesh, in its unit.
         slack: f64 => slack,
         /// Instead of numbers of faces: one tight hull, with the fewest faces found that leave at
-        /// most this void, in percent of the mesh's volume. It goes before
+        /// most this void, in percent of the mesh's volume. Refused together with
         /// [`slack`](Self::slack).
         void_percent: f64 => void_percent,
         /// Distance that tight hulls keep from the mesh, in its unit. Default: 0.

@@ -211,6 +211,11 @@ impl Options {
             ),
             (tight.is_some(), tight.unwrap_or_default(), "is for tight hulls; add tight to --for"),
             (
+                self.slack.is_some() && self.void_percent.is_some(),
+                "--slack",
+                "and --void are two goals; leave one of them out",
+            ),
+            (
                 self.slack.is_some_and(|slack| !is_positive(slack)),
                 "--slack",
                 "wants a finite number above 0, in the mesh's unit",

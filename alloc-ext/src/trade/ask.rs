@@ -129,7 +129,7 @@ fn entries(setting: &Setting, enough: usize) -> Vec<ScratchEntry> {
     vec![ScratchEntry::EMPTY; setting.entries.unwrap_or(enough).min(enough).max(1)]
 }
 
-/// Entries with which a limit of steps leaves the narrowest interval.
+/// Entries: twice those that suffice with a limit of steps, for narrower intervals.
 fn of_budget(tree: &Bvh<'_>, budget: &Budget) -> usize {
     let is_limited = budget.steps < u32::MAX;
     tree.scratch_entries() * if is_limited { 2 } else { 1 }

@@ -23,8 +23,8 @@ static inline void print_line(const char *before, uint32_t number, const char *a
 /* Milliseconds since the start. */
 uint32_t periods(void);
 
-/* Sleeps until the next of them. */
-void wait_for_period(void);
+/* Sleeps until periods() is not `period` any more. */
+void sleep_during(uint32_t period);
 
 /* Instructions since the start, as QEMU counts them. Wraps around: only differences mean something.
  * On a workstation microseconds. */

@@ -3,7 +3,7 @@
  *
  * A tight hull of 40 faces stands for each link of 284 triangles. It encloses the link: where hulls
  * are apart, links are. Each pose is proved clear before the arm goes there. link.h and link.c are
- * by `meshsweep build link.obj -o link.msw --for tight --emit c`.
+ * by `meshsweep build link.obj -o link.msw --for tight --tight 40 --emit c`.
  */
 
 #include "board.h"
@@ -63,7 +63,7 @@ static int32_t run(void)
         if (error == MSW_OK && !msw_is_clear(near.verdict)) {
             print_line("stopped before pose ", number, "");
             print_line("  link ", near.models[0], "");
-            print_line("  and link ", near.models[1], " would be too near");
+            print_line("  and link ", near.models[1], " may be too near");
             break;
         }
         /* Here the arm moves. */

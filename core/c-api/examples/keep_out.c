@@ -74,7 +74,8 @@ static int32_t head_clear_until(const float from[3], const float to[3], float *u
 static int32_t run(void)
 {
     int32_t error = msw_open(&clamps, clamps_bytes, CLAMPS_BYTES);
-    /* Moves are asked about surfaces. So the head must begin outside of the clamps, and clear. */
+    /* Moves are asked about surfaces. So the head must begin outside of the clamps, and clear. The
+     * head is connected: where it is clear, the side of one point is the side of all. */
     msw_signed side;
     float until = 0;
     if (error == MSW_OK) {
@@ -88,6 +89,9 @@ static int32_t run(void)
     }
     const int is_fine = side.side == MSW_SIDE_OUTSIDE && until > 1.0f;
     print_line("the start is outside and clear: ", (uint32_t)is_fine, "");
+    if (!is_fine) {
+        return MSW_OK;
+    }
 
     const float *place = start;
     uint32_t worst = 0;

@@ -7,8 +7,8 @@
  * libmeshsweep.a, without the frame of its msw_ function:
  *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
  *   open tight hulls                3200 / 2944    3136 / 3008    3200 / 2944    3136 / 2880
- *   closest point of tight hulls    4032 / 4032    4736 / 4736    4032 / 4032    4480 / 4416
- *   within of tight hulls           3968 / 3904    4736 / 4800    3968 / 3904    4480 / 4416
+ *   closest point of tight hulls    4032 / 4096    4800 / 4800    4032 / 4096    4480 / 4480
+ *   within of tight hulls           3968 / 3968    4736 / 4800    3968 / 3968    4480 / 4480
  */
 #ifndef LINK_MSW_H
 #define LINK_MSW_H

@@ -2,9 +2,9 @@
  * program in Rust: core/examples/probe.
  *
  * The part is a block of 40 by 40 by 30 with a slot. groove.h and groove.c hold its blob, by
- * `meshsweep build groove.obj -o groove.msw --emit c`. The tip comes down on the slot, which is 4
- * wide, and keeps 2 away from the part, so it stops at the mouth. It never moves farther than half
- * of what the last answer proved free.
+ * `meshsweep build groove.obj -o groove.msw --for closest,segment,cull,winding --emit c`. The tip
+ * comes down on the slot, which is 4 wide, and keeps 2 away from the part, so it stops at the
+ * mouth. It never moves farther than half of what the last answer proved free.
  */
 
 #include "board.h"
@@ -51,7 +51,7 @@ static int32_t descend(uint32_t steps)
         }
         tip[2] -= 0.5f * free < FEED ? 0.5f * free : FEED;
         late += periods() != period;
-        wait_for_period();
+        sleep_during(period);
     }
     print_line("at most ", steps, " nodes a question");
     print_line("  stopped at a height of ", um(tip[2]), " um");

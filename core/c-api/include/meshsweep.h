@@ -327,7 +327,9 @@ int32_t msw_closest_point(const msw_model *model, const float point[3],
 /* The same for a query that moves: the same bits in distance, point and triangle. The less it moved
  * since the last call with `coherent`, the less work it takes.
  *
- * With another model than in the last call it starts anew. With a tolerance in the budget it is
+ * With a model at another address than in the last call it starts anew. Fill `coherent` with zeros
+ * before you put another blob in the place of the model's bytes. Else it answers about the old one.
+ * With a tolerance in the budget it is
  * msw_closest_point. Steps bound the search on the kept state and, if that fails, the plain search
  * after it: together at most twice as many nodes, and the answer may be exact where the plain one
  * is not. After an error the state is as before.

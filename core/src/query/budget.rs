@@ -16,8 +16,8 @@ pub struct Budget {
     /// Stop when `upper − lower ≤ absolute`, input units. 0 for exact.
     pub absolute: f32,
     /// Stop after this many nodes were opened. A box tree then opens the nodes of the least lower
-    /// bounds first, while there is room. Twice its `scratch_entries` are room for all steps. With
-    /// less room intervals are wider.
+    /// bounds first, while its scratch has room for this order: always with 8 entries a step,
+    /// mostly with twice its `scratch_entries`. So the answer depends on the number of entries too.
     pub steps: u32,
 }
 

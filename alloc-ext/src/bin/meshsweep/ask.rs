@@ -136,10 +136,9 @@ impl SearchArgs {
         Budget::EXACT.with_steps(self.steps.unwrap_or(u32::MAX))
     }
 
-    /// So many entries, or twice as many with `--steps`, unless `--queue` says otherwise.
+    /// So many entries, unless `--queue` says otherwise.
     pub fn scratch(&self, entries: usize) -> Vec<ScratchEntry> {
-        let suffice = if self.steps.is_some() { 2 * entries } else { entries };
-        vec![ScratchEntry::EMPTY; self.queue.map_or(suffice, |entries| entries as usize)]
+        vec![ScratchEntry::EMPTY; self.queue.map_or(entries, |entries| entries as usize)]
     }
 }
 

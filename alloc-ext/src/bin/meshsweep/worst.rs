@@ -154,10 +154,8 @@ impl Structure<'_> {
         }
     }
 
-    /// Entries that suffice; with a limit of steps, those that leave the narrowest interval.
-    fn scratch_entries(&self, budget: &Budget) -> usize {
+    fn scratch_entries(&self) -> usize {
         match self {
-            Structure::Tree(tree) if budget.steps < u32::MAX => 2 * tree.scratch_entries(),
             Structure::Tree(tree) => tree.scratch_entries(),
             Structure::Hull(hull) => hull.scratch_entries(),
             Structure::Tight(hull) => hull.bvh().scratch_entries(),
@@ -252,7 +250,7 @@ impl Subject<'_> {
     fn row(&self, goal: Goal, budget: Budget, starts: usize) -> Option<Row> {
         match self {
             Subject::Closest(structure) => {
-                let search = Search::new("closest", structure, goal, starts, &budget);
+                let search = Search::new("closest", structure, goal, starts);
                 search.points(|point, scratch| {
                     let (distance, _, work) = structure.closest(*point, budget, scratch).ok()?;
                     let width = Some(distance.upper - distance.lower);
@@ -261,7 +259,7 @@ impl Subject<'_> {
                 })
             }
             Subject::Within(structure) => {
-                let search = Search::new("within", structure, goal, starts, &budget);
+                let search = Search::new("within", structure, goal, starts);
                 search.balls(|point, share, scratch| {
                     let (distance, ..) = structure.closest(point, Budget::EXACT, scratch).ok()?;
                     let work = structure.within(point, share * distance.upper, budget, scratch)?;
@@ -270,7 +268,7 @@ impl Subject<'_> {
             }
             Subject::Signed(tree) => {
                 let structure = Structure::Tree(*tree);
-                let search = Search::new("signed", &structure, goal, starts, &budget);
+                let search = Search::new("signed", &structure, goal, starts);
                 search.points(|point, scratch| {
                     let found = side::signed_distance(tree, *point, budget, scratch).ok()?;
                     let Interval { lower, upper } = found.distance;
@@ -280,7 +278,7 @@ impl Subject<'_> {
             }
             Subject::Winding(tree) => {
                 let structure = Structure::Tree(*tree);
-                let search = Search::new("winding", &structure, goal, starts, &budget);
+                let search = Search::new("winding", &structure, goal, starts);
                 search.points(|point, scratch| {
                     let found = tree.winding_number(*point, budget, scratch).ok()?;
                     let Interval { lower, upper } = found.number;
@@ -293,7 +291,7 @@ impl Subject<'_> {
                     Engine::Tree(tree) => Structure::Tree(*tree),
                     Engine::Hull(hull) => Structure::Hull(*hull),
                 };
-                let search = Search::new("segment", &structure, goal, starts, &budget);
+                let search = Search::new("segment", &structure, goal, starts);
                 search.segments(|a, b, scratch| {
                     let hit = match engine {
                         Engine::Tree(tree) => tree.first_hit(a, b, Facing::Both, budget, scratch),
@@ -311,8 +309,6 @@ struct Search<'s, 'a> {
     question: &'static str,
     structure: &'s Structure<'a>,
     goal: Goal,
-    /// Entries of scratch.
-    entries: usize,
     climb: Climb,
     /// The model's box, doubled.
     low: [f32; 3],
@@ -325,7 +321,6 @@ impl<'s, 'a> Search<'s, 'a> {
         structure: &'s Structure<'a>,
         goal: Goal,
         starts: usize,
-        budget: &Budget,
     ) -> Self {
         let [low, high] = structure.bounds();
         let half = |k: usize| 0.5 * high[k] - 0.5 * low[k];
@@ -333,7 +328,6 @@ impl<'s, 'a> Search<'s, 'a> {
             question,
             structure,
             goal,
-            entries: structure.scratch_entries(budget),
             climb: Climb::default().with_starts(starts),
             low: std::array::from_fn(|k| (low[k] - half(k)).max(f32::MIN)),
             high: std::array::from_fn(|k| (high[k] + half(k)).min(f32::MAX)),
@@ -363,7 +357,7 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     fn scratch(&self) -> Vec<ScratchEntry> {
-        vec![ScratchEntry::EMPTY; self.entries]
+        vec![ScratchEntry::EMPTY; self.structure.scratch_entries()]
     }
 
     fn points(
@@ -416,7 +410,7 @@ impl<'s, 'a> Search<'s, 'a> {
             found: ask(&query, &mut self.scratch())?,
             typical,
             asked,
-            scratch_bytes: self.entries * size_of::<ScratchEntry>(),
+            scratch_bytes: self.structure.scratch_entries() * size_of::<ScratchEntry>(),
         })
     }
 }

@@ -71,12 +71,17 @@ uint32_t periods(void)
     return interrupts;
 }
 
-void wait_for_period(void)
+/* A pending interrupt ends the sleep although it is masked. So none is missed between the
+ * comparison and the sleep. */
+void sleep_during(uint32_t period)
 {
-    const uint32_t now = interrupts;
-    do {
-        __asm__ volatile("wfi");
-    } while (interrupts == now);
+    while (interrupts == period) {
+        __asm__ volatile("cpsid i" ::: "memory");
+        if (interrupts == period) {
+            __asm__ volatile("wfi");
+        }
+        __asm__ volatile("cpsie i" ::: "memory");
+    }
 }
 
 uint32_t instructions(void)

@@ -64,7 +64,7 @@ fn run() -> Result<(), QueryError> {
             let [a, b] = near.models.unwrap_or_default();
             println!("stopped before pose {number}");
             println!("  link {a}");
-            println!("  and link {b} would be too near");
+            println!("  and link {b} may be too near");
             break;
         }
         // Here the arm moves.

@@ -33,10 +33,17 @@ pub fn periods() -> u32 {
     PERIODS.load(Relaxed)
 }
 
-/// Sleeps until the next interrupt.
+/// Sleeps until another period than this one. A pending interrupt ends the sleep although it is
+/// masked, so none is missed between the comparison and the sleep.
 #[allow(dead_code, reason = "only loops with a period wait for it")]
-pub fn sleep() {
-    cortex_m::asm::wfi();
+pub fn sleep_during(period: u32) {
+    while periods() == period {
+        cortex_m::interrupt::free(|_| {
+            if periods() == period {
+                cortex_m::asm::wfi();
+            }
+        });
+    }
 }
 
 /// What a call returns, and the instructions that it took.

@@ -59,10 +59,15 @@ fn head_clear_until(way: [[f32; 3]; 2], scratch: &mut Entries) -> Result<f32, Qu
 fn run() -> Result<(), QueryError> {
     let mut scratch = clamps::scratch();
     board::start();
-    // Moves are asked about surfaces. So the head must begin outside of the clamps, and clear.
+    // Moves are asked about surfaces. So the head must begin outside of the clamps, and clear. The
+    // head is connected: where it is clear, the side of one point is the side of all.
     let side = clamps::TREE.signed_distance(START, Budget::EXACT, &mut scratch)?.side;
     let is_clear = head_clear_until([START; 2], &mut scratch)? == f32::INFINITY;
-    println!("the start is outside and clear: {}", u32::from(side == Side::Outside && is_clear));
+    let may_move = side == Side::Outside && is_clear;
+    println!("the start is outside and clear: {}", u32::from(may_move));
+    if !may_move {
+        return Ok(());
+    }
     let (mut place, mut worst) = (START, 0);
     for (number, to) in MOVES.into_iter().enumerate() {
         let (until, cost) = board::timed(|| head_clear_until([place, to], &mut scratch));

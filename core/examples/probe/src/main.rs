@@ -41,9 +41,7 @@ fn descend(steps: u32) -> Result<(), QueryError> {
         }
         tip[2] -= FEED.min(0.5 * free);
         late += u32::from(board::periods() != period);
-        while board::periods() == period {
-            board::sleep();
-        }
+        board::sleep_during(period);
         period = board::periods();
     };
     let um = |mm: f32| (mm * 1000.0) as i32;

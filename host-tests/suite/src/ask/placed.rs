@@ -246,7 +246,7 @@ fn closest(answer: Result<ClosestPoint, QueryError>) -> Answer {
     answer.map_or_else(Answer::Refused, Answer::Closest)
 }
 
-/// Entries with which a limit of steps leaves the narrowest interval.
+/// Entries: twice those that suffice with a limit of steps, for narrower intervals.
 const fn of_budget(tree: &Bvh<'_>, budget: &Budget) -> usize {
     let enough = tree.scratch_entries();
     if budget.steps < u32::MAX { enough.saturating_mul(2) } else { enough }
