@@ -191,6 +191,7 @@ fn arrays_that_are_no_mesh_are_refused_by_type() {
     let tight = || Builder::new().serve(For::Tight);
     for (builder, wanted) in [
         (tight().slack(f64::NAN), "--slack"),
+        (tight().slack(1.0).void_percent(5.0), "--slack"),
         (tight().void_percent(-1.0), "--void"),
         (tight().margin(f64::NAN), "--margin"),
         (tight().effort(f64::INFINITY), "--effort"),
