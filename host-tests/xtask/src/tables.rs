@@ -43,6 +43,9 @@ pub const CODE: [&str; 2] = ["closest", "tree_alone"];
 /// Part by which a count may differ from the written one.
 const TOLERANCE: f64 = 0.04;
 
+/// Part by which a debug build's stack may differ: 7 % were seen between two folders.
+const DEBUG_TOLERANCE: f64 = 0.15;
+
 /// Everything that tables are made of.
 pub struct Facts<'a> {
     /// Instructions on this machine.
@@ -66,6 +69,9 @@ enum Rule {
     Near,
     /// The same of the most that was seen, and of a bound; but fewer queries see less.
     Stack,
+    /// A bound of a debug build. The compiler inlines otherwise in another folder, so it may differ
+    /// by [`DEBUG_TOLERANCE`]. The limit that the guide promises is checked apart from this.
+    Debug,
 }
 
 /// A number that is not known.
@@ -84,8 +90,9 @@ fn about(counts: &[f64]) -> Cell {
     near(texts.join(" / "))
 }
 
-fn bound_cell(of: Stack) -> Cell {
-    near(of.bound.map_or_else(|| UNKNOWN.to_owned(), |bound| thousands(bound.into())))
+fn debug_cell(of: Stack) -> Cell {
+    let text = of.bound.map_or_else(|| UNKNOWN.to_owned(), |bound| thousands(bound.into()));
+    Cell { text, rule: Rule::Debug }
 }
 
 fn near(text: impl Into<String>) -> Cell {
@@ -174,7 +181,7 @@ fn table(name: &str, facts: &Facts<'_>) -> Result<Option<Vec<Vec<Cell>>>, String
             let rows = facts.rows.iter().filter(|row| firmware::DEBUGGED.contains(&row.board.cpu));
             lines = by_board(rows, &DEBUG, stacks);
             // The image asks few questions.
-            let is_known = |cell: &Cell| cell.rule == Rule::Near && cell.text != UNKNOWN;
+            let is_known = |cell: &Cell| cell.rule == Rule::Debug && cell.text != UNKNOWN;
             let mut is_heading = true;
             lines.retain(|line| mem::take(&mut is_heading) || line.iter().any(is_known));
         }
@@ -219,7 +226,7 @@ fn by_board<'a>(
 fn stacks(row: &Row, profile: Profile) -> Vec<(&'static str, Cell)> {
     let cell = |(question, of): (&stack::Question, Stack)| {
         let is_debug = Profile::DEBUG.contains(&profile);
-        (question.name, if is_debug { bound_cell(of) } else { stack_cell(of) })
+        (question.name, if is_debug { debug_cell(of) } else { stack_cell(of) })
     };
     stack::QUESTIONS.iter().zip(row.stacks.of(profile)).map(cell).collect()
 }
@@ -395,7 +402,8 @@ fn is_near(there: &str, here: &str, rule: Rule) -> bool {
             let seen_less = rule == Rule::Stack && index == 0 && here <= there;
             // A bound is the largest of several images, and `test` does not build all of them.
             let fewer_images = rule == Rule::Stack && (0.9 * there..=*there).contains(here);
-            seen_less || fewer_images || (there - here).abs() <= TOLERANCE * here
+            let tolerance = if rule == Rule::Debug { DEBUG_TOLERANCE } else { TOLERANCE };
+            seen_less || fewer_images || (there - here).abs() <= tolerance * here
         }
         (_, None) => true,
         (None, _) => false,
@@ -408,7 +416,8 @@ fn is_near(there: &str, here: &str, rule: Rule) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{
-        Part, Stack, about, bytes, compare, markdown, parts, stack_cell, thousands, words,
+        Part, Stack, about, bytes, compare, debug_cell, markdown, parts, stack_cell, thousands,
+        words,
     };
 
     #[test]
@@ -435,6 +444,14 @@ mod tests {
         assert!(now(Some(1100), Some(2000)).is_err());
         assert!(now(Some(1000), Some(2200)).is_err());
         assert!(now(Some(1000), Some(1700)).is_err());
+    }
+
+    #[test]
+    fn the_stack_of_a_debug_build_may_differ_between_folders() {
+        let cell = |bound| vec![vec![debug_cell(Stack { painted: None, bound })]];
+        let now = |bound| compare(&markdown(&cell(Some(1688))), &cell(bound));
+        assert_eq!([Some(1576), Some(1800), None].map(now), [Ok(()), Ok(()), Ok(())]);
+        assert!(now(Some(1400)).is_err() && now(Some(2100)).is_err());
     }
 
     #[test]
