@@ -33,15 +33,12 @@ pub(super) enum Frame {
     Mesh(RawMesh),
 }
 
-/// Weights of the parts of a build: about their times for a large mesh.
+// Weights of the parts of a build: about their times for a large mesh.
 const LOADING: f64 = 1.0;
-/// See [`LOADING`].
 const HULL: f64 = 20.0;
-/// See [`LOADING`].
 const TREE: f64 = 4.0;
-/// See [`LOADING`].
 const TRIBOXES: f64 = 10.0;
-/// See [`LOADING`]; of each hull.
+/// Of all tight hulls together.
 const TIGHT: f64 = 40.0;
 
 /// The part of a hull hierarchy's build in which edges collapse.

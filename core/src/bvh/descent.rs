@@ -6,9 +6,8 @@
 //! cost mispredicted branches.
 //!
 //! With a limit of steps that may end the search, the order changes after the first leaf: the child
-//! or entry with the least key comes next. The search then ends with the greatest lower bound that
-//! so many steps can give. This order needs more memory, so it is taken only while
-//! [`Limit::has_room`].
+//! or entry with the least key comes next, so that each step raises the lower bound the most. This
+//! order needs more memory, so it is taken only while [`Limit::has_room`].
 //!
 //! Keys never fall from parent to child. So the leaves that can change an answer are the same in
 //! every order of visits.
@@ -195,12 +194,12 @@ struct Limit {
 }
 
 impl Limit {
-    /// Whether the entry of the least key may be taken in place of the stack's top, without any
-    /// need of more memory than there is.
+    /// Whether the entry of the least key may be taken in place of the stack's top, and the memory
+    /// still suffices. There are two reasons why it does.
     ///
-    /// A child from anywhere in the tree, taken while `used` entries wait, needs at most `entries`
-    /// above them in depth-first order, and this order is kept until no more than `used` wait. Or
-    /// else the steps that are left cannot fill the memory: each one adds fewer than [`WIDTH`].
+    /// The free entries hold a whole search: the search below the taken entry needs no more of
+    /// them, and no other entry is taken before it is back at as many as wait now. Or the steps
+    /// that are left cannot fill them: each step adds fewer than [`WIDTH`] entries.
     fn has_room(&self, stack: &Stack<'_>, work: &Work) -> bool {
         let free = stack.entries.len().saturating_sub(stack.used);
         let left = self.steps.saturating_sub(work.splits) as usize;

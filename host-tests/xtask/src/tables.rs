@@ -65,7 +65,7 @@ struct Cell {
 enum Rule {
     /// Equal.
     Exact,
-    /// Each number is near the written one. What is not known is not compared.
+    /// Each number is near the written one. An unknown number is not compared.
     Near,
     /// The same of the most that was seen, and of a bound; but fewer queries see less.
     Stack,
