@@ -12,12 +12,16 @@
 //!                         answers
 //! host fit FOLDER MESH...
 //!                         writes the questions that costs are fitted to: 0.bin, 0.rows, ...
+//! host fuzz               prints the names of the fuzz targets
+//! host unpack TARGET FOLDER
+//!                         writes the inputs that fuzzing a target begins with
+//! host pack TARGET FOLDER writes such inputs as the target's corpus; prints how many they are
 //! ```
 
 use std::path::Path;
 use std::process::ExitCode;
 
-use meshsweep_host_tests::{blobs, c_answers, counted, golden, picture};
+use meshsweep_host_tests::{blobs, c_answers, counted, fuzz_targets, golden, picture};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -41,9 +45,15 @@ fn main() -> ExitCode {
         ["fit", folder, others @ ..] => {
             counted::fit(&fixtures, Path::new(folder), others).map(|lines| print!("{lines}"))
         }
-        _ => Err("host fixtures | host picture | host blobs FOLDER | host c-answers | \
-             host place FOLDER QUESTION... | host lay QUESTION N FILE | host fit FOLDER MESH..."
-            .to_owned()),
+        ["fuzz"] => {
+            fuzz_targets::TARGETS.iter().for_each(|target| println!("{}", target.name));
+            Ok(())
+        }
+        ["unpack", target, folder] => fuzz_targets::unpack(target, Path::new(folder)),
+        ["pack", target, folder] => {
+            fuzz_targets::pack(target, Path::new(folder)).map(|inputs| println!("{inputs}"))
+        }
+        _ => Err("host: unknown words; its source lists what it does".to_owned()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

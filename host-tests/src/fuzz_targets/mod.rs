@@ -1,9 +1,12 @@
-//! What the fuzzers run, as plain functions: a driver test calls the same bodies with seeded bytes.
+//! The bodies of the fuzz targets, as plain functions: tests call them too.
 //!
 //! Input bytes are edits of a valid blob, whose CRCs are then computed again, followed by the
-//! queries' floats; those of [`mesh`](fn@mesh) are a mesh file. A blob that opens must be safe to
-//! ask anything: no panic, and no more work than its tables have records.
+//! queries' floats. Those of [`mesh`](fn@mesh) are a mesh file, those of [`build`](fn@build) edits
+//! of a mesh. A blob that opens must be safe to ask anything: no panic, and no more work than its
+//! tables have records.
 
+mod build;
+mod corpus;
 mod curves;
 mod deform;
 mod hull;
@@ -15,13 +18,52 @@ mod tribox;
 mod triboxes;
 mod trusted;
 
-pub use curves::{ask_curve, curve_seeds, curves};
-pub use deform::{deform, deform_seeds};
-pub use hull::{closest, open, outer, overlap, refine, seeds, segment};
+pub use corpus::{corpus, pack, unpack};
+pub use curves::{ask_curve, curve_seeds};
+pub use deform::deform_seeds;
+pub use hull::seeds;
 pub use input::random_input;
-pub use mesh::mesh;
-pub use tight::{ask_tight, tight, tight_seeds};
-pub use tree::{tree_closest, tree_coherent, tree_open, tree_overlap, tree_seeds, tree_segment};
-pub use tribox::tribox;
-pub use triboxes::{ask_triboxes, triboxes, triboxes_seeds};
-pub use trusted::{tight_trusted, tree_trusted};
+pub use tight::{ask_tight, tight_seeds};
+pub use tree::tree_seeds;
+pub use triboxes::{ask_triboxes, triboxes_seeds};
+
+/// A fuzz target.
+#[derive(Clone, Copy, Debug)]
+pub struct Target {
+    /// Its name, also that of its corpus.
+    pub name: &'static str,
+    /// Takes any bytes. A panic is a finding.
+    pub run: fn(&[u8]),
+}
+
+macro_rules! targets {
+    ($($module:ident: $($name:ident)*;)*) => {
+        /// Every target.
+        pub const TARGETS: &[Target] =
+            &[$($(Target { name: stringify!($name), run: $module::$name },)*)*];
+    };
+}
+
+targets! {
+    hull: open closest segment outer overlap refine;
+    tree: tree_open tree_closest tree_segment tree_coherent tree_overlap;
+    trusted: tree_trusted tight_trusted;
+    tribox: tribox;
+    triboxes: triboxes;
+    tight: tight;
+    curves: curves;
+    deform: deform;
+    mesh: mesh;
+    build: build;
+}
+
+/// The target of this name.
+///
+/// # Errors
+/// There is none; the message lists them.
+pub fn target(name: &str) -> Result<Target, String> {
+    TARGETS.iter().find(|target| target.name == name).copied().ok_or_else(|| {
+        let names: Vec<&str> = TARGETS.iter().map(|target| target.name).collect();
+        format!("no fuzz target `{name}`; there are {}", names.join(", "))
+    })
+}

@@ -1,4 +1,87 @@
-//! The fuzz targets on a stable compiler: seeded bytes, and inputs by name.
+//! The fuzz targets on a stable compiler: their committed corpora, seeded bytes, and inputs at the
+//! edge.
 
-mod regressions;
-mod seeded;
+use meshsweep_host_tests::fuzz_targets::{Target, corpus, random_input, target};
+use meshsweep_host_tests::generate::Rng;
+
+/// Runs a target; names the input that it panics at.
+fn run(target: Target, data: &[u8]) {
+    if let Err(panic) = std::panic::catch_unwind(|| (target.run)(data)) {
+        eprintln!("target {} on {data:?}", target.name);
+        std::panic::resume_unwind(panic);
+    }
+}
+
+fn named(name: &str) -> Target {
+    target(name).expect("it is in the list")
+}
+
+fn survives_its_corpus(name: &str) {
+    let inputs = corpus(name).expect("`cargo xtask fuzz` wrote it");
+    assert!(!inputs.is_empty());
+    inputs.iter().for_each(|input| run(named(name), input));
+}
+
+fn survives_seeded_bytes(name: &str, runs: u64) {
+    let seed = name.bytes().fold(0, |seed: u64, byte| seed.wrapping_mul(31) + u64::from(byte));
+    for number in 0..runs {
+        run(named(name), &random_input(&mut Rng::new(seed << 32 | number)));
+    }
+}
+
+/// No bytes, and each kind of blob without an edit.
+fn survives_the_edges(name: &str) {
+    run(named(name), &[]);
+    (0..8).for_each(|kind| run(named(name), &[kind, 0, 200]));
+}
+
+macro_rules! tests {
+    ($($name:ident: $runs:literal;)*) => {
+        $(mod $name {
+            #[test]
+            fn survives_its_corpus() {
+                super::survives_its_corpus(stringify!($name));
+            }
+
+            #[test]
+            fn survives_seeded_bytes() {
+                super::survives_seeded_bytes(stringify!($name), $runs);
+            }
+
+            #[test]
+            fn survives_the_edges() {
+                super::survives_the_edges(stringify!($name));
+            }
+        })*
+
+        #[test]
+        fn every_target_is_tested() {
+            let listed = meshsweep_host_tests::fuzz_targets::TARGETS.iter().map(|it| it.name);
+            assert!(listed.eq([$(stringify!($name)),*]));
+        }
+    };
+}
+
+// Fewer where a run is dear.
+tests! {
+    open: 5000;
+    closest: 5000;
+    segment: 5000;
+    outer: 5000;
+    overlap: 5000;
+    refine: 5000;
+    tree_open: 5000;
+    tree_closest: 5000;
+    tree_segment: 5000;
+    tree_coherent: 5000;
+    tree_overlap: 5000;
+    tree_trusted: 1500;
+    tight_trusted: 1500;
+    tribox: 5000;
+    triboxes: 5000;
+    tight: 5000;
+    curves: 5000;
+    deform: 5000;
+    mesh: 5000;
+    build: 40;
+}

@@ -3,6 +3,7 @@
 //! ```text
 //! checks (fmt, clippy, tests, docs)
 //! host (the program of host-tests: blobs, expected answers, fixtures, counted questions)
+//! fuzz (cargo-fuzz, on a nightly compiler) ─ host
 //! processors (the committed answers on i686, AArch64, with vectors) ─ toolbox
 //! report ─── chromium (the page of `meshsweep trade --report`) ─ toolbox
 //! examples (core/examples) ─ images, qemu
@@ -36,6 +37,7 @@ pub mod elf;
 pub mod examples;
 pub mod firmware;
 pub mod fit;
+pub mod fuzz;
 pub mod host;
 pub mod images;
 pub mod instructions;

@@ -9,7 +9,8 @@ use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::tables::Facts;
 use meshsweep_xtask::valgrind::Valgrind;
 use meshsweep_xtask::{
-    c_checks, checks, count, dist, examples, firmware, fit, host, processors, report, say, tables,
+    c_checks, checks, count, dist, examples, firmware, fit, fuzz, host, processors, report, say,
+    tables,
 };
 
 const USAGE: &str = "\
@@ -19,6 +20,8 @@ cargo xtask firmware                only the firmware: bits, panics, sizes, inst
 cargo xtask examples                only core/examples, on a Cortex-M4F, and defmt
 cargo xtask c                       only the C interface: its programs here and in QEMU
 cargo xtask dist [TARGET...]        static libraries for C, an archive a target, in target/dist
+cargo xtask fuzz [MINUTES] [TARGET...]
+                                    fuzzes each target for 30 minutes; keeps inputs for `cargo test`
 cargo xtask processors              the committed bits on i686, AArch64, and with all vectors here
 cargo xtask fixtures                writes fixtures/ anew
 cargo xtask picture                 writes fixtures/part.svg anew, the picture of README.md
@@ -92,6 +95,11 @@ fn main() -> ExitCode {
             }
         }
         ["dist", targets @ ..] => dist::run(&mut steps, targets),
+        ["fuzz", words @ ..] => {
+            let minutes = words.first().and_then(|word| word.parse().ok());
+            let targets = if minutes.is_some() { &words[1..] } else { words };
+            fuzz::run(&mut steps, minutes.unwrap_or(30), targets);
+        }
         ["processors"] => processors::run(&mut steps),
         [word @ ("fixtures" | "picture")] => {
             steps.run(word, || host::run(&[*word]).map(|text| say!("{text}")));

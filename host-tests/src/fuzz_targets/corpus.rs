@@ -1,0 +1,66 @@
+//! The committed corpora: a text file for each target, a line of hexadecimal digits for each input.
+//!
+//! A fuzzer wants a file for each input. Two thousand files of some fifty bytes would hide the rest
+//! of the repository.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn file(target: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(target).with_extension("hex")
+}
+
+/// The committed inputs of a target.
+///
+/// # Errors
+/// The file cannot be read, or is not of pairs of hexadecimal digits.
+pub fn corpus(target: &str) -> Result<Vec<Vec<u8>>, String> {
+    let file = file(target);
+    let text = fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
+    let input = |(number, line): (usize, &str)| {
+        let digits = line.as_bytes().chunks(2);
+        let bytes = digits.map(|pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok());
+        let bytes: Option<Vec<u8>> = bytes.collect();
+        bytes.ok_or_else(|| format!("{}:{}: no hexadecimal digits", file.display(), number + 1))
+    };
+    text.lines().enumerate().map(input).collect()
+}
+
+/// Writes the inputs that a run of a fuzzer begins with into a folder, a file each: the committed
+/// ones, and what the target brings along.
+///
+/// # Errors
+/// A file cannot be read or written.
+pub fn unpack(target: &str, folder: &Path) -> Result<(), String> {
+    let mut inputs = if file(target).exists() { corpus(target)? } else { Vec::new() };
+    if target == "mesh" {
+        inputs.extend(super::mesh::mesh_files());
+    }
+    fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    for (number, input) in inputs.iter().enumerate() {
+        let path = folder.join(format!("{number:05}"));
+        fs::write(&path, input).map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    Ok(())
+}
+
+/// Writes a folder of inputs as the target's corpus, the shortest first; how many.
+///
+/// # Errors
+/// A file cannot be read or written.
+pub fn pack(target: &str, folder: &Path) -> Result<usize, String> {
+    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
+    let mut inputs = Vec::new();
+    for entry in fs::read_dir(folder).map_err(failed)? {
+        inputs.push(fs::read(entry.map_err(failed)?.path()).map_err(failed)?);
+    }
+    inputs.sort_by(|a, b| (a.len(), a).cmp(&(b.len(), b)));
+    inputs.dedup();
+    let line = |input: &Vec<u8>| {
+        input.iter().map(|byte| format!("{byte:02x}")).chain(["\n".to_owned()]).collect::<String>()
+    };
+    let text: String = inputs.iter().map(line).collect();
+    let file = file(target);
+    fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
+    Ok(inputs.len())
+}
