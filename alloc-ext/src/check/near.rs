@@ -22,7 +22,7 @@ const PART: f64 = 0.125;
 const FLAT: f64 = 1e-3;
 
 /// Pieces of one triangle.
-const PIECES: usize = 10_000;
+const PIECES: usize = 1_000_000;
 
 /// Whether all points are near.
 #[derive(Clone, Copy, Debug, PartialEq)]

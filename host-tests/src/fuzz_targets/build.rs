@@ -35,6 +35,7 @@ pub fn build(data: &[u8]) {
     let builder = Builder::new()
         .serve_all(served.iter().copied())
         .vertex_bits(bits)
+        .triboxes(served.contains(&For::Triboxes).then_some(1 + u32::from(input.byte() % 32)))
         .effort(served.contains(&For::Tight).then_some(0.0));
     let Ok(built) = builder.build(mesh.clone()) else { return };
     let loaded = Source::of(mesh, None).and_then(Source::repaired).expect("it was just built");

@@ -1,6 +1,5 @@
 //! The target for mesh files.
 
-use crate::generate::cube;
 use crate::generate::evil::evil;
 use crate::generate::scenes::{glb, threemf};
 use crate::generate::writers::{ascii_ply, ascii_stl, binary_ply, binary_stl, obj, off, strip_ply};
@@ -16,10 +15,11 @@ pub fn mesh(data: &[u8]) {
         read_bytes(&name, bytes.to_vec()).and_then(|raw| raw.in_unit(Unit::In)).and_then(repair);
 }
 
-/// Inputs that begin a run: a cube in each format, and files that must be refused. A fuzzer
+/// Inputs that begin a run: a tetrahedron in each format, and files that must be refused. A fuzzer
 /// does not find the words of a format by itself.
 pub fn mesh_files() -> Vec<Vec<u8>> {
-    let sound = cube(1);
+    let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let sound = (corners.to_vec(), vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]);
     let sound = [
         ("a.stl", binary_stl(&sound)),
         ("a.stl", ascii_stl(&sound)),

@@ -35,6 +35,12 @@ fn survives_the_edges(name: &str) {
     (0..8).for_each(|kind| run(named(name), &[kind, 0, 200]));
 }
 
+/// A fuzzer found it: the checker gave up after too few pieces of the boundary.
+#[test]
+fn the_distance_of_the_boundary_of_triboxes_in_a_groove_is_proved() {
+    run(named("build"), &[5, 3, 0, 0, 0, 31]);
+}
+
 macro_rules! tests {
     ($($name:ident: $runs:literal;)*) => {
         $(mod $name {
