@@ -74,6 +74,9 @@ pub(super) fn ask(
                         tree.closest_point_from(p, &mut hint, budget, &mut stack).map(of_closest)
                     })
                 }
+                How::Precise => twice(points, &of, |p| {
+                    tree.closest_point_precise(p, budget, &mut stack).map(of_closest)
+                }),
                 How::Coherent => {
                     let mut kept = CoherentQuery::<FRONT>::new();
                     let of = Of { scratch: scratch + size_of_val(&kept), ..of };

@@ -37,6 +37,8 @@ pub enum Search {
     Tree,
     /// The same with vertices in f32.
     TreeF32,
+    /// The box tree's closest point in f64, vertices in f32.
+    Precise,
     /// The box tree's closest point, from the leaf of the query before.
     Hinted,
     /// The box tree's closest point, by a front that is kept between queries.
@@ -53,9 +55,10 @@ pub enum Search {
 
 impl Search {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Tree,
         Self::TreeF32,
+        Self::Precise,
         Self::Hinted,
         Self::Coherent,
         Self::Sweep,
@@ -70,6 +73,7 @@ impl Search {
         match self {
             Self::Tree => "box tree",
             Self::TreeF32 => "box tree, f32",
+            Self::Precise => "box tree, precise",
             Self::Hinted => "box tree, hinted",
             Self::Coherent => "box tree, coherent",
             Self::Sweep => "sweep",

@@ -8,7 +8,7 @@ use std::fmt;
 
 pub use super::structure::TreeBits;
 
-/// What a query keeps of the one before.
+/// What a query keeps of the one before, and how it measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum How {
     /// Nothing.
@@ -17,6 +17,8 @@ pub enum How {
     Hinted,
     /// A front of the box tree, or the triangles of a sweep.
     Coherent,
+    /// Nothing, and the box tree measures in f64.
+    Precise,
 }
 
 /// A structure and its dials.
@@ -69,6 +71,7 @@ impl Setting {
         match (self.structure, self.how) {
             (Structure::Tree(_), How::Coherent) => Search::Coherent,
             (Structure::Tree(_), How::Hinted) => Search::Hinted,
+            (Structure::Tree(_), How::Precise) => Search::Precise,
             (Structure::Tree(TreeBits::Sixteen), How::Fresh) => Search::Tree,
             (Structure::Tree(TreeBits::ThirtyTwo), How::Fresh) => Search::TreeF32,
             (Structure::Sweep(_) | Structure::Refined(_), How::Coherent) => Search::KeptSweep,
@@ -86,6 +89,7 @@ impl Setting {
             How::Fresh => {}
             How::Hinted => words.push("from the last leaf".to_owned()),
             How::Coherent => words.push("coherent".to_owned()),
+            How::Precise => words.push("precise".to_owned()),
         }
         let Budget { relative, absolute, steps, .. } = self.budget;
         if relative > 0.0 {
@@ -137,6 +141,7 @@ pub fn standard(diagonal: f64, triangles: usize, points: Option<Points>) -> Vec<
     }
     all.extend([fine, fine.with_budget(exact.with_relative(0.01))]);
     all.push(fine.with_budget(exact.with_steps(16)));
+    all.push(fine.with_how(How::Precise));
     let faces = FACES.into_iter().filter(|&faces| faces as usize <= triangles.max(50));
     all.extend(faces.map(|faces| Setting::new(Structure::Tight(faces))));
     all.extend([8, 64].map(|count| Setting::new(Structure::Triboxes(count))));

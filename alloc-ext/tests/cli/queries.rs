@@ -25,6 +25,20 @@ fn closest(blob: &Path, points: &Path, options: &[&str]) -> Vec<Vec<String>> {
 }
 
 #[test]
+fn precise_intervals_contain_the_distance_to_the_file_and_are_as_narrow_as_f32() {
+    let directory = scratch("precise");
+    let (points, mesh) = (directory.join("points.csv"), triangles(&fixture("bracket.stl")));
+    let rows = random_queries::<3>(&mesh, 100);
+    write_csv(&points, &rows);
+    let path = blob(&directory, "bracket.stl", &["--vertex-bits", "32"]);
+    for (answer, point) in closest(&path, &points, &["--precise"]).iter().zip(&rows) {
+        let truth = distance(wide(point), &mesh);
+        assert!(contains(answer, truth), "{answer:?} {truth}");
+        assert!(number(&answer[4]) - number(&answer[3]) <= 3e-7 * truth, "{answer:?}");
+    }
+}
+
+#[test]
 fn the_interval_contains_the_distance_to_the_file() {
     let directory = scratch("interval_contains");
     for (name, options) in [

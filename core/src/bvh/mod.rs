@@ -14,6 +14,7 @@
 //! | `triangle_visitor` | the visitor of point questions that look at triangles one by one |
 //! | `segment_leaf` | a segment and the triangles of a leaf; the visitor of segment questions |
 //! | `closest_point`, `closest_points` | one closest point, many of them |
+//! | `closest_point_precise` | the closest point, its candidates measured in f64 |
 //! | `within`, `all_within`, `nearest` | distance verdicts, and the nearest triangles |
 //! | `neighbors` | the heap of nearest triangles in the caller's slice |
 //! | `signed_distance`, `side_search`, `pseudonormal` | on which side of a closed mesh a point lies |
@@ -49,6 +50,7 @@ mod all_hits;
 mod all_within;
 mod any_hit;
 mod closest_point;
+mod closest_point_precise;
 mod closest_points;
 mod coherent;
 mod descent;

@@ -2,8 +2,9 @@
 //!
 //! A search for a distance compares stored surfaces. Their errors are added to the answer, once.
 
+use crate::bvh::format::Bvh;
 use crate::num::tolerance::{GAP_SLACK, LEAST_GAP_SQ, U32};
-use crate::num::{down_to_f32, greater, up_to_f32};
+use crate::num::{down_to_f32, exp2, greater, up_to_f32};
 use crate::query::Interval;
 
 /// The limit of squared bounds in f32 for a distance.
@@ -31,7 +32,13 @@ pub(super) struct StoredLengths {
 }
 
 impl StoredLengths {
-    /// A length in stored units.
+    /// Those of a tree.
+    pub(super) fn of(tree: &Bvh<'_>) -> StoredLengths {
+        let exponent = tree.scale_exponent().wrapping_add(tree.header().grid_exponent);
+        StoredLengths { error: f64::from(tree.units().surface_error), unit: exp2(exponent) }
+    }
+
+    /// A length or a coordinate in stored units.
     pub(super) fn inward(&self, length: f32) -> f64 {
         f64::from(length) / self.unit
     }

@@ -46,6 +46,9 @@ impl Asker {
             if let Some(answer) = answered(tree.closest_point_from(point, hint, *stop, stack)) {
                 closest(tree, &answer, once + 16);
             }
+            if let Some(answer) = answered(tree.closest_point_precise(point, *stop, stack)) {
+                closest(tree, &answer, 3 * once);
+            }
             if let Some(answer) = answered(tree.within(point, distance, *stop, stack)) {
                 ends(answer.work, once);
                 let named = answer.triangle.is_some_and(|number| number < tree.input_triangles());

@@ -86,7 +86,7 @@ fn subjects(fixtures: &Path, others: &[&str]) -> Result<Vec<(&'static str, Subje
 fn built(subject: &Subject, search: Search) -> Option<Vec<u8>> {
     let structure = match search {
         Search::Tree | Search::Hinted | Search::Coherent => Structure::Tree(TreeBits::Sixteen),
-        Search::TreeF32 => Structure::Tree(TreeBits::ThirtyTwo),
+        Search::TreeF32 | Search::Precise => Structure::Tree(TreeBits::ThirtyTwo),
         Search::Sweep | Search::KeptSweep => Structure::Sweep(HullBits::ThirtyTwo),
         Search::Tight => Structure::Tight(200),
         Search::Triboxes => Structure::Triboxes(64),
@@ -121,7 +121,9 @@ fn questions(search: Search, diagonal: f64) -> Vec<(Points, Budget)> {
         ],
         Search::KeptSweep => vec![(Path, exact), (Path, exact.with_relative(0.1)), (Near, exact)],
         Search::Coherent => vec![(Path, exact), (Near, exact)],
-        Search::Hinted | Search::Triboxes => vec![(Far, exact), (Near, exact), (Path, exact)],
+        Search::Hinted | Search::Precise | Search::Triboxes => {
+            vec![(Far, exact), (Near, exact), (Path, exact)]
+        }
         Search::Tight => vec![(Far, exact), (Near, exact), (Near, steps(8)), (Far, steps(4))],
     }
 }
@@ -129,6 +131,7 @@ fn questions(search: Search, diagonal: f64) -> Vec<(Points, Budget)> {
 fn question(search: Search, budget: Budget) -> Question {
     match search {
         Search::Tree | Search::TreeF32 => Question::Tree(budget),
+        Search::Precise => Question::Precise(budget),
         Search::Hinted => Question::Hinted(budget),
         Search::Coherent => Question::Coherent(budget),
         Search::Sweep => Question::Sweep(budget),

@@ -51,6 +51,8 @@ fn ask_points(tree: &Bvh<'_>, points: &[[f32; 3]; 3], size: f32, stack: &mut [Sc
     let mut coherent = CoherentQuery::<64>::new();
     for &point in points {
         ends(tree.closest_point(point, budget, stack).map(|found| found.work), bound);
+        let precise = tree.closest_point_precise(point, budget, stack);
+        ends(precise.map(|found| found.work), 3 * bound);
         let hinted = tree.closest_point_from(point, &mut hint, budget, stack);
         ends(hinted.map(|found| found.work), bound);
         ends(tree.within(point, size, budget, stack).map(|found| found.work), bound);

@@ -92,11 +92,13 @@ pub enum Kind {
     CoherentPair,
     /// How deep the solid is in its moved copy.
     Penetration,
+    /// Closest point in f64 from near the surface.
+    ClosestPrecise,
 }
 
 impl Kind {
     /// All kinds in the order in which they are run.
-    pub const ALL: [Self; 42] = [
+    pub const ALL: [Self; 43] = [
         Self::Arith,
         Self::Contents,
         Self::ClosestFar,
@@ -139,6 +141,7 @@ impl Kind {
         Self::Frame,
         Self::Update,
         Self::Moved,
+        Self::ClosestPrecise,
     ];
 
     /// The name in reports: one word.
@@ -150,6 +153,7 @@ impl Kind {
             Self::ClosestFar => "closest_far",
             Self::ClosestNear => "closest_near",
             Self::ClosestPath => "closest_path",
+            Self::ClosestPrecise => "closest_precise",
             Self::FirstHit => "first_hit",
             Self::AllHits => "all_hits",
             Self::OuterHits => "outer_hits",

@@ -27,6 +27,13 @@ pub fn wrong_intervals(scene: &Scene, points: &[[f32; 3]]) -> Vec<String> {
             if !holds(&truth, p, answer.distance) {
                 wrong.push(format!("{}: {p:?} {budget:?}: {answer:?}", scene.name));
             }
+            let precise = tree.closest_point_precise(p, budget, &mut stack).expect("a point");
+            let (ours, theirs) = (precise.distance, answer.distance);
+            let is_wider =
+                budget == Budget::EXACT && (ours.lower < theirs.lower || ours.upper > theirs.upper);
+            if !holds(&truth, p, ours) || is_wider {
+                wrong.push(format!("{}: {p:?} {budget:?}, precise: {precise:?}", scene.name));
+            }
         }
     }
     wrong

@@ -23,6 +23,7 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
         && args.engine.is_none()
         && args.tight.is_none()
         && args.frame.is_none()
+        && !args.precise
     {
         return curve::closest(curve, args, Queries::read(points)?, budget);
     }
@@ -36,7 +37,10 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
         };
         return question(Queries::read(points)?).ask(asker, write);
     }
-    let tree_chosen = args.engine.map(|engine| engine == EngineName::Tree);
+    let tree_chosen = match args.precise {
+        true => Some(true),
+        false => args.engine.map(|engine| engine == EngineName::Tree),
+    };
     let hull = match tree_chosen {
         Some(_) => None,
         None => served::tight_hull(file, &blob, args.tight)?,
@@ -61,6 +65,13 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
             return question(points).ask(asker, write);
         }
     };
+    if args.precise {
+        let asker = || {
+            let mut scratch = search.scratch(tree.scratch_entries());
+            move |point| Ok(answer(tree.closest_point_precise(point, budget, &mut scratch)?))
+        };
+        return question(points).ask(asker, write);
+    }
     // Two entries more for each point sort a batch.
     let entries = tree.scratch_entries() + 2 * BATCH.min(points.rows.len());
     let worker = || {

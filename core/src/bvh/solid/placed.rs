@@ -90,7 +90,7 @@ impl PlacedSolid {
             [x - ox, y - oy, z - oz]
         };
         self.count = count;
-        self.lengths = StoredLengths { error: stored.error, unit: exp2(stored.exponent) };
+        self.lengths = StoredLengths::of(tree);
         self.directions.origin = stored.origin.map(|x| x as f32);
         self.tree = stored;
         let radius = end.map_or(solid.radius(), |end| greater(solid.radius(), end.radius()));

@@ -102,6 +102,9 @@ ask! {
     ask_tree_follow: tree::Bvh<'t>, |tree, input, scratch, fold| {
         tree::follow(tree, input.a, scratch, &mut Asked::new((), fold))
     };
+    ask_tree_precise: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::precise(tree, input.a, scratch, &mut Asked::new((), fold))
+    };
     ask_tree_coherent: tree::Bvh<'t>, |tree, input, scratch, fold| {
         tree::coherent(tree, input.a, scratch, &mut Asked::new((), fold))
     };

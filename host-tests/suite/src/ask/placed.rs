@@ -33,6 +33,8 @@ pub enum Question {
     Tight(Budget),
     /// A lower bound of the distance from triboxes.
     Triboxes(Budget),
+    /// The box tree's closest point in f64.
+    Precise(Budget),
 }
 
 impl Question {
@@ -49,6 +51,7 @@ impl Question {
             Self::Coherent(budget) => of(5, budget),
             Self::Tight(budget) => of(6, budget),
             Self::Triboxes(budget) => of(7, budget),
+            Self::Precise(budget) => of(8, budget),
         }
     }
 
@@ -64,6 +67,7 @@ impl Question {
             5 => Self::Coherent(budget),
             6 => Self::Tight(budget),
             7 => Self::Triboxes(budget),
+            8 => Self::Precise(budget),
             _ => return None,
         })
     }
@@ -199,6 +203,9 @@ pub fn ask<'t>(
         Question::Tree(budget) => {
             fresh(&tree(&blob)?, budget, places(placed, queries), memory, clock, &mut told)
         }
+        Question::Precise(budget) => {
+            precise(&tree(&blob)?, budget, places(placed, queries), memory, clock, &mut told)
+        }
         Question::Hinted(budget) => {
             hinted(&tree(&blob)?, budget, places(placed, queries), memory, clock, &mut told)
         }
@@ -268,6 +275,22 @@ fn fresh(
     let stack = memory.entries.get_mut(..of_budget(tree, &budget)).ok_or(Refused::MEMORY)?;
     for place in places {
         told(&closest(timed(clock, || tree.closest_point(place, budget, stack))));
+    }
+    Ok(bytes(stack.len()))
+}
+
+#[inline(never)]
+fn precise(
+    tree: &Bvh<'_>,
+    budget: Budget,
+    places: impl Iterator<Item = [f32; 3]>,
+    memory: &mut Memory<'_>,
+    clock: &mut impl Clock,
+    told: &mut impl FnMut(&Answer),
+) -> Result<usize, Refused> {
+    let stack = memory.entries.get_mut(..tree.scratch_entries()).ok_or(Refused::MEMORY)?;
+    for place in places {
+        told(&closest(timed(clock, || tree.closest_point_precise(place, budget, stack))));
     }
     Ok(bytes(stack.len()))
 }

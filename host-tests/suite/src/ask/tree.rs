@@ -14,7 +14,7 @@ use crate::place::{Bounds, Placer};
 use crate::{Clock, Kind};
 
 pub use distance::{
-    all_within, batch, closest, coherent, follow, is_within, nearest, signed, stopped,
+    all_within, batch, closest, coherent, follow, is_within, nearest, precise, signed, stopped,
 };
 pub use meeting::{all_overlaps, overlap, pose};
 pub use sight::{all_hits, any_hit, cull, facing, first_hit};
@@ -107,6 +107,10 @@ impl<'t> Subject<'t> for Bvh<'t> {
                 closest(self, place.near(base), scratch, to);
             }
             Kind::ClosestPath => follow(self, place.step(), scratch, to),
+            Kind::ClosestPrecise => {
+                let base = closest(self, place.far(), scratch, &mut Asked::new((), to.fold));
+                precise(self, place.near(base), scratch, to);
+            }
             Kind::CoherentQuery => coherent(self, place.step_or_jump(), scratch, to),
             Kind::Stopped => stopped(self, place.far(), place.distance(), scratch, to),
             Kind::Within => is_within(self, place.far(), place.distance(), scratch, to),

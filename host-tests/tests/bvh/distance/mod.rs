@@ -3,6 +3,7 @@
 mod all_within;
 mod closest;
 mod nearest;
+mod precise;
 pub mod scenes;
 mod side;
 mod within;

@@ -53,6 +53,9 @@ pub struct ClosestArgs {
     /// one]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub engine: Option<Engine>,
+    /// Measure in f64 what may be the closest; for a box tree built with --vertex-bits 32
+    #[arg(long, conflicts_with_all = ["rel", "abs", "engine", "tight", "frame"])]
+    pub precise: bool,
     /// Ask the finest tight hull of at most FACES faces; the interval is that of the distance to
     /// the mesh inside the hull [default: the finest hull, if the blob has no other structure for
     /// distances]

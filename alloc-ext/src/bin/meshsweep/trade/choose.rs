@@ -161,6 +161,7 @@ fn write_choice(
         (How::Hinted, _) => ", from the hint of the last query",
         (How::Coherent, Structure::Tree(_)) => ", by a CoherentQuery::<128>",
         (How::Coherent, _) => ", by a kept Sweep",
+        (How::Precise, _) => ", by closest_point_precise",
     };
     let budget = budget(&chosen.setting.budget);
     let kept = if chosen.setting.how == How::Coherent { ", the memory kept among it" } else { "" };

@@ -27,6 +27,13 @@ pub fn follow(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, 
     to.answer(call, ask::closest_point);
 }
 
+/// Closest point, its candidates in f64.
+#[inline(never)]
+pub fn precise(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
+    let call = || tree.closest_point_precise(p, Budget::EXACT, &mut s.stack);
+    to.answer(call, ask::closest_point);
+}
+
 /// Closest point, by a query that remembers what the last answers ruled out.
 #[inline(never)]
 pub fn coherent<'t>(
