@@ -161,6 +161,71 @@ static void points(const msw_model *model)
     end("coherent");
 }
 
+/* Continues a CRC-32 (ISO-HDLC). */
+static uint32_t crc(uint32_t sum, const unsigned char *bytes, uint32_t count)
+{
+    for (; count > 0; count--) {
+        sum ^= *bytes++;
+        for (int bit = 0; bit < 8; bit++) {
+            sum = sum >> 1 ^ (sum & 1 ? 0xedb88320u : 0);
+        }
+    }
+    return sum;
+}
+
+static uint32_t word_at(const unsigned char *bytes)
+{
+    return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+}
+
+static void put_word(unsigned char *bytes, uint32_t word)
+{
+    for (int byte = 0; byte < 4; byte++) {
+        bytes[byte] = (unsigned char)(word >> (8 * byte));
+    }
+}
+
+/* Moves the groove by 16 along x. The first section is the tree's header, with the grid's origin at
+ * byte 8. */
+static void move_groove(unsigned char *blob)
+{
+    unsigned char *header = blob + word_at(blob + 164);
+    put_word(header + 8, word_at(header + 8) + 16384);
+    put_word(blob + 172, ~crc(~0u, header, word_at(blob + 168)));
+    const uint32_t sum = crc(~0u, blob, 156);
+    put_word(blob + 156, ~crc(sum, blob + 160, word_at(blob + 12) - 160));
+}
+
+/* A walk about a model that another one of as many nodes replaces, at the same address. */
+static void replaced(void)
+{
+    static unsigned char blob[8192];
+    static msw_model model;
+    static msw_coherent coherent;
+    begin();
+    for (uint32_t byte = 0; byte < groove_bytes; byte++) {
+        blob[byte] = groove[byte];
+    }
+    float place[3];
+    random_point(place);
+    for (int round = 0; round < ROUNDS; round++) {
+        if (round % 8 == 0) {
+            move_groove(blob);
+            fold_word((uint32_t)msw_open(&model, blob, groove_bytes));
+        }
+        float step[3];
+        random_point(step);
+        for (int axis = 0; axis < 3; axis++) {
+            place[axis] += step[axis] * (1.0f / 1024.0f);
+        }
+        msw_coherent_closest answer;
+        fold_word((uint32_t)msw_coherent_closest_point(&model, &coherent, place, NULL, scratch,
+                                                       MSW_DISTANCE_ENTRIES, &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("replaced");
+}
+
 static void segments(const msw_model *model)
 {
     begin();
@@ -342,6 +407,7 @@ int main(void)
     fold_word(msw_format_version() >> 16);
     end("open");
     points(&trusted);
+    replaced();
     segments(&model);
     two_models(&model);
     tight_hull();

@@ -2,6 +2,7 @@
 //! itself. It shares no code with the C interface: codes and the order of fields are written here
 //! once more.
 
+use crate::corrupt::{entry, put_u32, seal, word};
 use meshsweep_core::internal::format::layout::VERSION_MAJOR;
 use meshsweep_core::{
     Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Ended, Facing, FirstHit, Focus, Hit, Hull,
@@ -13,6 +14,9 @@ const ROUNDS: usize = 24;
 const SPLITS: usize = 60;
 const FACES: usize = 160;
 const SCRATCH: usize = Bvh::DISTANCE_ENTRIES;
+/// The kind of section that holds the box tree's header, and the place of the grid's origin in it.
+const BOX_TREE: u32 = 12;
+const GRID_ORIGIN: usize = 8;
 
 /// Random numbers, and the hash of answers.
 struct Kind {
@@ -145,6 +149,7 @@ pub fn lines(
     let mut text = kind.line("open");
     text += &points(&model)?;
     text += &a_walk(&model)?;
+    text += &a_replaced_model(groove)?;
     text += &segments(&model)?;
     text += &moved_solids(&model)?;
     text += &two_models(&model)?;
@@ -245,6 +250,34 @@ fn a_walk(model: &Bvh<'_>) -> Result<String, QueryError> {
         kind.floats(&[found.safe_radius]);
         Ok(())
     })
+}
+
+/// C has these models at one address, Rust at three.
+fn a_replaced_model(groove: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
+    let blobs = [1, 2, 3].map(|moves| {
+        let mut blob = groove.to_vec();
+        let origin = entry(&blob, BOX_TREE).offset as usize + GRID_ORIGIN;
+        let x = word(&blob, origin).unwrap_or(0);
+        put_u32(&mut blob, origin, x + moves * 16_384);
+        seal(&mut blob);
+        blob
+    });
+    let (mut query, mut kind) = (CoherentQuery::<128>::new(), Kind::begin());
+    let mut scratch = Scratch::<SCRATCH>::new();
+    let mut place = kind.point();
+    for blob in &blobs {
+        let model = Bvh::open(blob)?;
+        kind.words(&[0]);
+        for _ in 0..ROUNDS / 3 {
+            let step = kind.point();
+            place = [0, 1, 2].map(|axis| place[axis] + step[axis] / 1024.0);
+            let found = query.closest_point(&model, place, Budget::EXACT, &mut scratch)?;
+            kind.words(&[0]);
+            kind.closest(&found.closest);
+            kind.floats(&[found.safe_radius]);
+        }
+    }
+    Ok(kind.line("replaced"))
 }
 
 fn two_models(model: &Bvh<'_>) -> Result<String, QueryError> {

@@ -143,7 +143,7 @@ typedef struct { uintptr_t opaque[MSW_TIGHT_WORDS]; } msw_tight;
 typedef struct { uintptr_t opaque[MSW_HULL_WORDS]; } msw_hull;
 
 /* What a query that moves keeps between calls. Zero it before the first call, or to start anew. It
- * refers to the blob of the last model that it was used with. */
+ * belongs to one model at a time, and points to nothing. */
 typedef struct { uintptr_t opaque[MSW_COHERENT_WORDS]; } msw_coherent;
 
 /* Eight bytes of working memory. Need not be initialised. */
@@ -327,12 +327,11 @@ int32_t msw_closest_point(const msw_model *model, const float point[3],
 /* The same for a query that moves: the same bits in distance, point and triangle. The less it moved
  * since the last call with `coherent`, the less work it takes.
  *
- * With a model at another address than in the last call it starts anew. Fill `coherent` with zeros
- * before you put another blob in the place of the model's bytes. Else it answers about the old one.
- * With a tolerance in the budget it is
- * msw_closest_point. Steps bound the search on the kept state and, if that fails, the plain search
- * after it: together at most twice as many nodes, and the answer may be exact where the plain one
- * is not. After an error the state is as before.
+ * With another model than in the last call it starts anew. A model is told by its blob: by the
+ * address and the checksum. So another blob may take the place of the first one; open it again.
+ * With a tolerance in the budget it is msw_closest_point. Steps bound the search on the kept state
+ * and, if that fails, the plain search after it: together at most twice as many nodes, and the
+ * answer may be exact where the plain one is not. After an error the state is as before.
  * Cost: one triangle within safe_radius of the last query; one to three leaves for steps of 3e-4 of
  * the model's diagonal; that of msw_closest_point for jumps. */
 int32_t msw_coherent_closest_point(const msw_model *model, msw_coherent *coherent,

@@ -143,6 +143,11 @@ impl<'a> SectionTable<'a> {
         Ok(SectionTable { header, bytes, entries })
     }
 
+    /// The CRC of header and section table. It covers the CRCs of the sections.
+    pub(crate) const fn checksum(&self) -> u32 {
+        self.bytes.word(field::CRC)
+    }
+
     /// The entry of a kind, and its number.
     #[inline(never)]
     const fn entry(&self, kind: SectionKind) -> Option<(u32, Section)> {

@@ -44,7 +44,12 @@ impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {
     pub const fn new() -> Self {
         const { assert!(SPLITS <= MOST_SPLITS, "positions of splits are products of 32 bits") }
         RefinedHull {
-            state: Refined { hull: 0, floor: 0.0, splits: SplitSet::<[SplitSlot; SPLITS]>::new() },
+            state: Refined {
+                hull: 0,
+                checksum: 0,
+                floor: 0.0,
+                splits: SplitSet::<[SplitSlot; SPLITS]>::new(),
+            },
             bytes: PhantomData,
         }
     }
@@ -128,6 +133,8 @@ pub(crate) fn erased<const N: usize>(state: &mut Refined<[SplitSlot; N]>) -> &mu
 pub(crate) struct Refined<S: ?Sized = [SplitSlot]> {
     /// Address of the hull's split table, by which another hull is told.
     hull: usize,
+    /// The blob's checksum. In C the caller may put another blob at the same address.
+    checksum: u32,
     /// Splits of no greater need are left out, because the memory was too short for them.
     pub(crate) floor: f32,
     pub(crate) splits: SplitSet<S>,
@@ -141,7 +148,7 @@ impl<const N: usize> Refined<[SplitSlot; N]> {
 
 impl<S: ?Sized> Refined<S> {
     fn is_of(&self, hull: &Hull<'_>) -> bool {
-        self.hull == address(hull)
+        self.hull == address(hull) && self.checksum == hull.checksum
     }
 }
 
@@ -159,7 +166,7 @@ impl Refined {
     pub(crate) fn begin(&mut self, hull: &Hull<'_>) {
         if !self.is_of(hull) {
             self.reset();
-            self.hull = address(hull);
+            (self.hull, self.checksum) = (address(hull), hull.checksum);
         }
     }
 
@@ -261,4 +268,20 @@ const PATH: usize = 32;
 #[inline]
 pub(crate) fn split_of_face(hull: &Hull<'_>, corners: [VertIdx; 3]) -> Option<SplitIdx> {
     corners.into_iter().filter_map(|corner| hull.split_of(corner)).min()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hull::focus::Focus;
+
+    #[test]
+    fn another_blob_at_the_same_address_starts_from_its_base() {
+        let hull = Hull::open(include_bytes!("../../fixtures/bracket.msw")).unwrap();
+        let mut refined = RefinedHull::<60>::new();
+        refined.update(&hull, &Focus::Everywhere, 0.0, &mut []).unwrap();
+        let other = Hull { checksum: !hull.checksum, ..hull };
+        assert!(refined.faces(&hull).count() > hull.base_faces().count());
+        assert!(refined.faces(&other).eq(hull.base_faces()));
+    }
 }

@@ -203,7 +203,7 @@ impl FrontPolicy {
 /// The state of a coherent query, without the front's entries.
 #[derive(Clone, Copy, Debug)]
 struct Memory {
-    /// Address and number of the tree's nodes, which identify the tree.
+    /// The tree's identity.
     of: (usize, u32),
     state: FrontState,
     planes: Planes,
@@ -259,12 +259,11 @@ impl Memory {
         scratch: &mut [ScratchEntry],
     ) -> Result<CoherentClosest, QueryError> {
         let query = PointQuery::prepare(tree, point, budget, scratch)?;
-        let first = tree.frame(0).ok_or(QueryError::Unchecked)?;
         if query.far || budget.relative > 0.0 || budget.absolute > 0.0 {
             let closest = tree.closest_point(point, *budget, scratch)?;
             return Ok(CoherentClosest { closest, safe_radius: 0.0 });
         }
-        let of = (core::ptr::from_ref(first).addr(), tree.header().nodes);
+        let of = tree.identity();
         if self.of != of {
             *self = Memory { of, ..Memory::EMPTY };
         }

@@ -133,6 +133,7 @@ impl<'a> Bvh<'a> {
             header,
             scale_exponent,
             input_triangles: table.header.input_triangles,
+            checksum: table.checksum(),
             units: Units::new(&header, scale_exponent),
             grid_bounds: header.grid_bounds(),
             links: ok!(table.records(SectionKind::TreeLinks)),

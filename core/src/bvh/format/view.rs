@@ -36,6 +36,8 @@ pub struct Bvh<'a> {
     pub(crate) source: Bytes<'a>,
     pub(crate) cones: &'a [[u8; CONE_BYTES]],
     pub(crate) moments: &'a [[u8; MOMENTS_BYTES]],
+    /// The blob's [`checksum`](crate::Blob::checksum), which names its contents.
+    pub(crate) checksum: u32,
 }
 
 /// Links to the children of a node: inner nodes first, then leaves.
@@ -277,6 +279,13 @@ impl<'a> Bvh<'a> {
     #[inline(always)]
     pub(crate) fn grid_bounds(&self) -> (Vec3, Vec3) {
         self.grid_bounds
+    }
+
+    /// Tells the tree from others: an address, and the blob's checksum. In Rust the address
+    /// suffices. In C the caller may put another blob at the same place.
+    #[inline(always)]
+    pub(crate) fn identity(&self) -> (usize, u32) {
+        (self.links.as_ptr().addr(), self.checksum)
     }
 
     /// No search opens more nodes: each has one parent. It ends searches in a tree whose links were

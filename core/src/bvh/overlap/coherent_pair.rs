@@ -76,7 +76,7 @@ const LATEST: usize = 8;
 /// The last question.
 #[derive(Clone, Copy, Debug)]
 struct Last {
-    /// Address and number of the nodes of both trees, which identify them.
+    /// The identities of both trees.
     of: [(usize, u32); 2],
     pose: Pose,
     /// Groups in use. 0: they do not hold all pairs, and the next search begins at the roots.
@@ -160,7 +160,7 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         }
         let mut nearest = Nearest::new(&pair, &budget);
         let mut search = Search::new(&pair, budget.steps, scratch);
-        let front = PairFront::after_motion(&mut self.last, &mut self.groups, &pair, &pose)?;
+        let front = PairFront::after_motion(&mut self.last, &mut self.groups, &pair, &pose);
         let missed = front.search(&mut search, &mut Question::Distance(&mut nearest))?;
         nearest.answer(&pair, missed, search.work)
     }
@@ -195,7 +195,7 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         }
         let mut threshold = Threshold::new(&pair, distance);
         let mut search = Search::new(&pair, budget.steps, scratch);
-        let front = PairFront::after_motion(&mut self.last, &mut self.groups, &pair, &pose)?;
+        let front = PairFront::after_motion(&mut self.last, &mut self.groups, &pair, &pose);
         let missed = front.search(&mut search, &mut Question::Within(&mut threshold))?;
         threshold.answer(missed, search.work)
     }
@@ -296,13 +296,9 @@ impl<'f> PairFront<'f> {
         groups: &'f mut [Group],
         pair: &StoredPair<'_>,
         pose: &Pose,
-    ) -> Result<Self, QueryError> {
+    ) -> Self {
         let [a, b] = pair.trees;
-        let id = |tree: &Bvh<'_>| {
-            let boxes = tree.boxes(0).ok_or(QueryError::Unchecked)?;
-            Ok::<_, QueryError>((core::ptr::from_ref(boxes).addr(), tree.header().nodes))
-        };
-        let of = [id(a)?, id(b)?];
+        let of = [a.identity(), b.identity()];
         let (step, _) = longest_path(b, &Motion::straight(last.pose, *pose));
         let path = (last.path + step / pair.lengths.unit) * (1.0 + 4.0 * U64);
         *last = if last.of == of && path.is_finite() {
@@ -310,7 +306,7 @@ impl<'f> PairFront<'f> {
         } else {
             Last { of, pose: *pose, ..Last::NONE }
         };
-        Ok(PairFront { last, groups, unseen: 0, is_lost: false, is_known: false })
+        PairFront { last, groups, unseen: 0, is_lost: false, is_known: false }
     }
 
     /// Searches the groups that may hold a pair within the visitor's limit.

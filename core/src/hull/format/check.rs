@@ -41,6 +41,7 @@ impl<'a> Hull<'a> {
         let part = |kind: SectionKind| Bytes(table.bytes(kind));
         let hull = Hull {
             header,
+            checksum: table.checksum(),
             widths: Widths::of(&header),
             vertices: Vertices::new(header.vertex_format, table.bytes(SectionKind::Vertices)),
             base: part(SectionKind::BaseTriangles),
@@ -84,7 +85,7 @@ impl Hull<'_> {
             SectionKind::SourceStarts if !self.is_cut() => {
                 (h.splits.div_ceil(START_GROUP) as usize, self.widths.start)
             }
-            SectionKind::Source => (h.surface_triangles as usize, self.widths.source),
+            SectionKind::Source => (h.surface_triangles as usize, h.source_index_bytes()),
             SectionKind::Levels => (h.levels as usize, LEVEL_BYTES),
             _ => (0, 0),
         };

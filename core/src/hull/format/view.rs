@@ -19,6 +19,8 @@ use glam::Vec3;
 #[derive(Clone, Copy, Debug)]
 pub struct Hull<'a> {
     pub(crate) header: Header,
+    /// The blob's [`checksum`](crate::Blob::checksum), which names its contents.
+    pub(crate) checksum: u32,
     pub(crate) widths: Widths,
     pub(crate) vertices: Vertices<'a>,
     pub(crate) base: Bytes<'a>,
@@ -58,7 +60,6 @@ pub(crate) struct Widths {
     pub(crate) split: usize,
     pub(crate) ring: usize,
     pub(crate) start: usize,
-    pub(crate) source: usize,
     pub(crate) grid_step: f32,
 }
 
@@ -69,7 +70,6 @@ impl Widths {
             split: header.split_index_bytes(),
             ring: header.ring_index_bytes(),
             start: header.start_index_bytes(),
-            source: header.source_index_bytes(),
             grid_step: exp2(header.grid_exponent) as f32,
         }
     }
@@ -330,7 +330,8 @@ impl<'a> Hull<'a> {
     /// Number of a surface triangle in the input file.
     #[inline(always)]
     pub fn source(&self, triangle: TriIdx) -> Option<u32> {
-        self.source.index(triangle.usize().checked_mul(self.widths.source)?, self.widths.source)
+        let width = self.header.source_index_bytes();
+        self.source.index(triangle.usize().checked_mul(width)?, width)
     }
 
     /// A vertex split ("splits with" gives its number).
