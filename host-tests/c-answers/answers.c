@@ -36,6 +36,15 @@ static void random_point(float point[3])
     }
 }
 
+static void random_step(float place[3])
+{
+    float step[3];
+    random_point(step);
+    for (int axis = 0; axis < 3; axis++) {
+        place[axis] += step[axis] * (1.0f / 1024.0f);
+    }
+}
+
 static void begin(void)
 {
     state = 1;
@@ -122,6 +131,17 @@ static void points(const msw_model *model)
     for (int round = 0; round < ROUNDS; round++) {
         float point[3];
         random_point(point);
+        msw_winding answer;
+        fold_word((uint32_t)msw_winding_number(model, point, budget_of(round), scratch,
+                                               scratch_of(round), &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("winding_number");
+
+    begin();
+    for (int round = 0; round < ROUNDS; round++) {
+        float point[3];
+        random_point(point);
         msw_within_answer answer;
         fold_word((uint32_t)msw_within(model, point, 20.0f, budget_of(round), scratch,
                                        scratch_of(round), &answer));
@@ -142,17 +162,25 @@ static void points(const msw_model *model)
     }
     end("nearest");
 
-    /* A walk, so that most answers come from what is kept. */
-    static msw_coherent coherent;
-    begin();
+    /* Walks. Most answers of the second one come from what is kept. */
+    msw_hint hint = {0};
     float place[3];
+    begin();
     random_point(place);
     for (int round = 0; round < ROUNDS; round++) {
-        float step[3];
-        random_point(step);
-        for (int axis = 0; axis < 3; axis++) {
-            place[axis] += step[axis] * (1.0f / 1024.0f);
-        }
+        random_step(place);
+        msw_closest answer;
+        fold_word((uint32_t)msw_closest_point_from(model, &hint, place, budget_of(round), scratch,
+                                                   scratch_of(round), &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("closest_point_from");
+
+    static msw_coherent coherent;
+    begin();
+    random_point(place);
+    for (int round = 0; round < ROUNDS; round++) {
+        random_step(place);
         msw_coherent_closest answer;
         fold_word((uint32_t)msw_coherent_closest_point(model, &coherent, place, budget_of(round),
                                                        scratch, scratch_of(round), &answer));
@@ -213,11 +241,7 @@ static void replaced(void)
             move_groove(blob);
             fold_word((uint32_t)msw_open(&model, blob, groove_bytes));
         }
-        float step[3];
-        random_point(step);
-        for (int axis = 0; axis < 3; axis++) {
-            place[axis] += step[axis] * (1.0f / 1024.0f);
-        }
+        random_step(place);
         msw_coherent_closest answer;
         fold_word((uint32_t)msw_coherent_closest_point(&model, &coherent, place, NULL, scratch,
                                                        MSW_DISTANCE_ENTRIES, &answer));
@@ -378,6 +402,7 @@ static void refusals(const msw_model *model)
                                           &hit));
     fold_word((uint32_t)msw_coherent_closest_point(model, NULL, point, NULL, scratch, count,
                                                    &moving));
+    fold_word((uint32_t)msw_closest_point_from(model, NULL, point, NULL, scratch, count, &answer));
     fold_word((uint32_t)msw_open(&damaged, groove, 100));
     fold_word((uint32_t)msw_closest_point(&damaged, point, NULL, scratch, count, &answer));
     fold_word((uint32_t)msw_open(&damaged, hulls, hulls_bytes));

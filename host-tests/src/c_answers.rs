@@ -5,8 +5,8 @@
 use crate::corrupt::{entry, put_u32, seal, word};
 use meshsweep_core::internal::format::layout::VERSION_MAJOR;
 use meshsweep_core::{
-    Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Ended, Facing, FirstHit, Focus, Hit, Hull,
-    Interval, Neighbor, Placed, Pose, QueryError, RefinedHull, Scene, Scratch, Side, Solid,
+    Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Ended, Facing, FirstHit, Focus, Hint, Hit,
+    Hull, Interval, Neighbor, Placed, Pose, QueryError, RefinedHull, Scene, Scratch, Side, Solid,
     TightHulls, Undecided, Verdict, Work,
 };
 
@@ -69,6 +69,21 @@ impl Kind {
             Verdict::Undecided(why) => [0, reason(why)],
             other => unreachable!("{other:?}"),
         });
+    }
+
+    fn side(&mut self, side: Side) {
+        self.words(&match side {
+            Side::Inside => [1, 1],
+            Side::Outside => [2, 1],
+            Side::Undecided(why) => [0, reason(why)],
+            other => unreachable!("{other:?}"),
+        });
+    }
+
+    /// A step from `place`.
+    fn step(&mut self, place: &mut [f32; 3]) {
+        let step = self.point();
+        *place = [0, 1, 2].map(|axis| place[axis] + step[axis] / 1024.0);
     }
 
     fn closest(&mut self, near: &ClosestPoint) {
@@ -148,7 +163,7 @@ pub fn lines(
     kind.words(&[0, 0, 0, checksum, entries, version, VERSION_MAJOR.into()]);
     let mut text = kind.line("open");
     text += &points(&model)?;
-    text += &a_walk(&model)?;
+    text += &walks(&model)?;
     text += &a_replaced_model(groove)?;
     text += &segments(&model)?;
     text += &moved_solids(&model)?;
@@ -180,14 +195,18 @@ fn points(model: &Bvh<'_>) -> Result<String, QueryError> {
     let signed = rounds("signed_distance", |kind, round, budget, scratch| {
         let found = model.signed_distance(kind.point(), budget, &mut scratch[..entries(round)])?;
         kind.words(&[0]);
-        kind.words(&match found.side {
-            Side::Inside => [1, 1],
-            Side::Outside => [2, 1],
-            Side::Undecided(why) => [0, reason(why)],
-            other => unreachable!("{other:?}"),
-        });
+        kind.side(found.side);
         kind.interval(found.distance);
         kind.closest(&found.closest);
+        Ok(())
+    })?;
+    let winding = rounds("winding_number", |kind, round, budget, scratch| {
+        let found = model.winding_number(kind.point(), budget, &mut scratch[..entries(round)])?;
+        kind.words(&[0]);
+        kind.interval(found.number);
+        kind.side(found.side);
+        kind.words(&[ended(found.ended)]);
+        kind.work(found.work);
         Ok(())
     })?;
     let within = rounds("within", |kind, round, budget, scratch| {
@@ -212,7 +231,7 @@ fn points(model: &Bvh<'_>) -> Result<String, QueryError> {
         }
         Ok(())
     })?;
-    Ok(closest + &signed + &within + &nearest)
+    Ok(closest + &signed + &winding + &within + &nearest)
 }
 
 fn segments(model: &Bvh<'_>) -> Result<String, QueryError> {
@@ -236,20 +255,29 @@ fn moved_solids(model: &Bvh<'_>) -> Result<String, QueryError> {
     })
 }
 
-fn a_walk(model: &Bvh<'_>) -> Result<String, QueryError> {
-    let (mut query, mut place) = (CoherentQuery::<128>::new(), None);
-    rounds("coherent", |kind, round, budget, scratch| {
-        let from = place.unwrap_or_else(|| kind.point());
-        let step = kind.point();
-        let here = [0, 1, 2].map(|axis| from[axis] + step[axis] / 1024.0);
-        place = Some(here);
+fn walks(model: &Bvh<'_>) -> Result<String, QueryError> {
+    let (mut hint, mut place) = (Hint::NONE, None);
+    let from_hints = rounds("closest_point_from", |kind, round, budget, scratch| {
+        let here = place.get_or_insert_with(|| kind.point());
+        kind.step(here);
         let scratch = &mut scratch[..entries(round)];
-        let found = query.closest_point(model, here, budget, scratch)?;
+        let near = model.closest_point_from(*here, &mut hint, budget, scratch)?;
+        kind.words(&[0]);
+        kind.closest(&near);
+        Ok(())
+    })?;
+    let (mut query, mut place) = (CoherentQuery::<128>::new(), None);
+    let coherent = rounds("coherent", |kind, round, budget, scratch| {
+        let here = place.get_or_insert_with(|| kind.point());
+        kind.step(here);
+        let scratch = &mut scratch[..entries(round)];
+        let found = query.closest_point(model, *here, budget, scratch)?;
         kind.words(&[0]);
         kind.closest(&found.closest);
         kind.floats(&[found.safe_radius]);
         Ok(())
-    })
+    })?;
+    Ok(from_hints + &coherent)
 }
 
 /// C has these models at one address, Rust at three.
@@ -269,8 +297,7 @@ fn a_replaced_model(groove: &[u8]) -> Result<String, Box<dyn std::error::Error>>
         let model = Bvh::open(blob)?;
         kind.words(&[0]);
         for _ in 0..ROUNDS / 3 {
-            let step = kind.point();
-            place = [0, 1, 2].map(|axis| place[axis] + step[axis] / 1024.0);
+            kind.step(&mut place);
             let found = query.closest_point(&model, place, Budget::EXACT, &mut scratch)?;
             kind.words(&[0]);
             kind.closest(&found.closest);
@@ -376,8 +403,8 @@ fn refusals() -> String {
     // NULL four times, misaligned, never opened, no scratch, too much of it, NaN.
     codes(&mut kind, &[-1, -1, -1, -1, -2, -3, -44, -4, -40]);
     kind.words(&zeros);
-    // An unknown facing, a pose of zeros, no corner, a radius below 0, no memory of a walk.
-    codes(&mut kind, &[-5, -43, -4, -41, -1]);
+    // An unknown facing, a pose of zeros, no corner, a radius below 0, no memory of a walk, no hint.
+    codes(&mut kind, &[-5, -43, -4, -41, -1, -1]);
     // A blob that is cut short, the model that it left, a blob without a tree, other bytes.
     codes(&mut kind, &[-20, -3, -26, -22]);
     // A hull that was not opened, no such hull, then memory of another count, and too little.

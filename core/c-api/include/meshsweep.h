@@ -146,6 +146,10 @@ typedef struct { uintptr_t opaque[MSW_HULL_WORDS]; } msw_hull;
  * belongs to one model at a time, and points to nothing. */
 typedef struct { uintptr_t opaque[MSW_COHERENT_WORDS]; } msw_coherent;
 
+/* Where the last closest point was found. Zeros are no hint. Any contents are safe, of another model
+ * too: a bad hint costs a leaf. */
+typedef struct { uint32_t opaque; } msw_hint;
+
 /* Eight bytes of working memory. Need not be initialised. */
 typedef struct { uint32_t opaque[2]; } msw_scratch_entry;
 
@@ -222,6 +226,14 @@ typedef struct {
     msw_interval distance; /* negative inside; if the side is undecided, from -upper to upper */
     msw_closest closest;   /* the closest point; work and ended are those of the whole search */
 } msw_signed;
+
+typedef struct {
+    msw_interval number; /* the winding number of the mesh as the builder repaired it */
+    int32_t side;        /* MSW_SIDE_...: inside above 1/2, outside below */
+    int32_t reason;      /* MSW_REASON_... */
+    int32_t ended;       /* MSW_ENDED_... */
+    msw_work work;
+} msw_winding;
 
 typedef struct {
     int32_t verdict;   /* whether the segment meets the mesh. MSW_NO: proved clear */
@@ -324,8 +336,19 @@ int32_t msw_closest_point(const msw_model *model, const float point[3],
                           msw_scratch_entry *scratch, size_t scratch_count,
                           msw_closest *answer);
 
-/* The same for a query that moves: the same bits in distance, point and triangle. The less it moved
- * since the last call with `coherent`, the less work it takes.
+/* msw_closest_point that looks at the leaf of `hint` first and leaves its own there. So a query near
+ * the last one takes less work, in four bytes of memory.
+ *
+ * An exact answer has the same bits with every hint. With a tolerance or steps the interval holds,
+ * and may be another one. After an error the hint is as before. MSW_ERROR_NULL: `hint` is NULL.
+ * Cost: less than that of msw_closest_point near the last query, else a leaf more. */
+int32_t msw_closest_point_from(const msw_model *model, msw_hint *hint, const float point[3],
+                               const msw_budget *budget,
+                               msw_scratch_entry *scratch, size_t scratch_count,
+                               msw_closest *answer);
+
+/* msw_closest_point for a query that moves: the same bits in distance, point and triangle. The less
+ * it moved since the last call with `coherent`, the less work it takes.
  *
  * With another model than in the last call it starts anew. A model is told by its blob: by the
  * address and the checksum. So another blob may take the place of the first one; open it again.
@@ -351,6 +374,22 @@ int32_t msw_signed_distance(const msw_model *model, const float point[3],
                             const msw_budget *budget,
                             msw_scratch_entry *scratch, size_t scratch_count,
                             msw_signed *answer);
+
+/* How often the surface encloses `point`: its generalised winding number. The mesh need not be
+ * closed: the side is that of the surface as a whole. Build --for closest,winding.
+ *
+ * The number is nearly 1 inside and nearly 0 outside, and between them in a hole. Components that
+ * overlap are united, if they are wound alike. An open mesh that is inside out is outside
+ * everywhere. The search ends as soon as the side is decided and the interval is no wider than
+ * budget->absolute, a pure number here; budget->relative is ignored. The side is undecided within
+ * some ten surface errors of the surface, and where the number is 1/2.
+ * MSW_ERROR_NOT_SERVED: the blob was built without --for winding.
+ * Cost: far from the mesh one node; else the nodes and triangles within a few times the distance
+ * from the surface; several times as much where the side stays undecided. */
+int32_t msw_winding_number(const msw_model *model, const float point[3],
+                           const msw_budget *budget,
+                           msw_scratch_entry *scratch, size_t scratch_count,
+                           msw_winding *answer);
 
 /* Whether the mesh is at most `distance` from `point`. Of the budget only `steps` matters.
  *

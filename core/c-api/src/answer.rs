@@ -5,7 +5,7 @@
 
 use meshsweep_core::{
     ClosestPoint, CoherentClosest, Ended, FirstHit, Interval, KNearest, Neighbor, Overlap, Side,
-    SignedDistance, Undecided, Verdict, Within, Work,
+    SignedDistance, Undecided, Verdict, WindingNumber, Within, Work,
 };
 
 /// `MSW_NO_TRIANGLE`.
@@ -53,6 +53,16 @@ pub struct SignedC {
     pub reason: i32,
     pub distance: IntervalC,
     pub closest: ClosestC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct WindingC {
+    pub number: IntervalC,
+    pub side: i32,
+    pub reason: i32,
+    pub ended: i32,
+    pub work: WorkC,
 }
 
 #[repr(C)]
@@ -228,6 +238,14 @@ impl From<SignedDistance> for SignedC {
         let (side, reason) = side(found.side);
         let (distance, closest) = (found.distance.into(), found.closest.into());
         SignedC { side, reason, distance, closest }
+    }
+}
+
+impl From<WindingNumber> for WindingC {
+    fn from(found: WindingNumber) -> Self {
+        let (side, reason) = side(found.side);
+        let (number, ended) = (found.number.into(), ended(found.ended));
+        WindingC { number, side, reason, ended, work: found.work.into() }
     }
 }
 

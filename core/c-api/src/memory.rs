@@ -95,6 +95,14 @@ impl<T: AnyBits> In<T> {
 }
 
 impl<T: AnyBits> Out<T> {
+    /// The element.
+    pub fn one(&mut self) -> Result<&mut T, Error> {
+        check(self.0)?;
+        // SAFETY: neither NULL nor misaligned, so by contract an element that overlaps nothing else.
+        // All bits are values of these types.
+        Ok(unsafe { &mut *self.0 })
+    }
+
     /// As many elements.
     pub fn slice(&mut self, count: usize) -> Result<&mut [T], Error> {
         match check_slice(self.0, count)? {

@@ -25,6 +25,14 @@ pub struct PoseC {
     pub translation: [f32; 3],
 }
 
+/// `msw_hint`: a word of zeros is no hint.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "meshsweep.h says it")]
+pub struct HintC {
+    pub word: u32,
+}
+
 /// `msw_focus`: all zeros is the whole hull.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +48,8 @@ pub struct FocusC {
 
 // SAFETY: integers and floats.
 unsafe impl AnyBits for BudgetC {}
+// SAFETY: an integer.
+unsafe impl AnyBits for HintC {}
 // SAFETY: floats.
 unsafe impl AnyBits for PoseC {}
 // SAFETY: integers and floats.

@@ -1,11 +1,13 @@
 //! Questions about the box tree.
 
-use meshsweep_core::{Blob, Budget, Bvh, Neighbor, ScratchEntry, Solid};
+use meshsweep_core::{Blob, Budget, Bvh, Hint, Neighbor, ScratchEntry, Solid};
 
-use crate::answer::{ClosestC, CoherentC, HitC, NearestC, NeighborC, OverlapC, SignedC, WithinC};
+use crate::answer::{
+    ClosestC, CoherentC, HitC, NearestC, NeighborC, OverlapC, SignedC, WindingC, WithinC,
+};
 use crate::error::Error;
 use crate::memory::{CoherentStorage, In, Out, Storage, View};
-use crate::question::{BudgetC, PoseC, facing};
+use crate::question::{BudgetC, HintC, PoseC, facing};
 
 /// Words of `msw_model`.
 pub const MODEL_WORDS: usize = if cfg!(target_pointer_width = "64") { 32 } else { 48 };
@@ -72,6 +74,28 @@ pub extern "C" fn msw_closest_point(
 
 /// See `meshsweep.h`.
 #[unsafe(no_mangle)]
+pub extern "C" fn msw_closest_point_from(
+    model: In<Model>,
+    mut hint: Out<HintC>,
+    point: In<[f32; 3]>,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<ClosestC>,
+) -> i32 {
+    answer.answer(|| {
+        let (model, kept, point) = (model.view()?, hint.one()?, point.get()?);
+        let mut hint = Hint::of_word(kept.word);
+        let near = ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(model.closest_point_from(point, &mut hint, budget, scratch)?)
+        })?;
+        kept.word = hint.word();
+        Ok(near.into())
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
 pub extern "C" fn msw_coherent_closest_point(
     model: In<Model>,
     mut coherent: Out<CoherentStorage>,
@@ -103,6 +127,24 @@ pub extern "C" fn msw_signed_distance(
         let (model, point) = (model.view()?, point.get()?);
         ask(budget, scratch, scratch_count, |budget, scratch| {
             Ok(model.signed_distance(point, budget, scratch)?.into())
+        })
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_winding_number(
+    model: In<Model>,
+    point: In<[f32; 3]>,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<WindingC>,
+) -> i32 {
+    answer.answer(|| {
+        let (model, point) = (model.view()?, point.get()?);
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(model.winding_number(point, budget, scratch)?.into())
         })
     })
 }

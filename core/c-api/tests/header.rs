@@ -11,7 +11,7 @@ use meshsweep_c::error::Error;
 use meshsweep_c::hull::{HULL_WORDS, HullStorage};
 use meshsweep_c::memory::{COHERENT_WORDS, CoherentStorage, REFINED_ENTRIES, RefinedEntry};
 use meshsweep_c::models::PlacedC;
-use meshsweep_c::question::{BudgetC, FocusC, PoseC, facing};
+use meshsweep_c::question::{BudgetC, FocusC, HintC, PoseC, facing};
 use meshsweep_c::tight::{FINEST, TIGHT_WORDS, Tight};
 use meshsweep_c::tree::{MODEL_WORDS, Model};
 use meshsweep_core::{Bvh, Ended, Facing, Focus, ScratchEntry, Side, Solid, Undecided, Verdict};
@@ -43,6 +43,7 @@ fn layouts() -> String {
         "msw_tight": Tight {}
         "msw_hull": HullStorage {}
         "msw_coherent": CoherentStorage {}
+        "msw_hint": HintC {}
         "msw_scratch_entry": ScratchEntry {}
         "msw_refined_entry": RefinedEntry {}
         "msw_budget": BudgetC { relative, absolute, steps }
@@ -54,6 +55,7 @@ fn layouts() -> String {
         "msw_closest": ClosestC { distance, point, triangle, ended, work }
         "msw_coherent_closest": CoherentC { closest, safe_radius }
         "msw_signed": SignedC { side, reason, distance, closest }
+        "msw_winding": WindingC { number, side, reason, ended, work }
         "msw_hit": HitC { verdict, ended, t, hit_t, point, triangle, work }
         "msw_within_answer": WithinC { verdict, reason, triangle, work }
         "msw_neighbor": NeighborC { distance, point, triangle }

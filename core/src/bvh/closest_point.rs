@@ -24,6 +24,20 @@ impl Hint {
     pub const NONE: Hint = Hint(u32::MAX);
 }
 
+/// For the C interface, where zeros are no hint.
+#[doc(hidden)]
+impl Hint {
+    /// The hint of a word.
+    pub const fn of_word(word: u32) -> Hint {
+        Hint(!word)
+    }
+
+    /// The word of a hint; 0 of none.
+    pub const fn word(self) -> u32 {
+        !self.0
+    }
+}
+
 impl Bvh<'_> {
     /// Closest point of the surface to `point`, with an interval that contains the distance to the
     /// input mesh.
