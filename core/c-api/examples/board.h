@@ -26,8 +26,11 @@ uint32_t periods(void);
 /* Sleeps until periods() is not `period` any more. */
 void sleep_during(uint32_t period);
 
-/* Instructions since the start, as QEMU counts them. Wraps around: only differences mean something.
- * On a workstation microseconds. */
-uint32_t instructions(void);
+/* Instructions since the start, as QEMU counts them; on a workstation microseconds. Wraps around:
+ * only differences mean something. */
+uint32_t clock_count(void);
+
+/* Its unit, after a space. */
+extern const char clock_unit[];
 
 #endif

@@ -54,16 +54,20 @@ static int32_t run(void)
                           LENGTH * links[0].pose.rotation[2][0]);
         links[2] = turned(0, 40, -50);
         msw_models_answer near;
-        const uint32_t from = instructions();
+        const uint32_t from = clock_count();
         error = msw_models_within(links, LINKS, KEEP + MOST_PER_POSE, joint, 1, &budget, scratch,
                                   MSW_DISTANCE_ENTRIES, &near);
-        const uint32_t took = instructions() - from;
+        const uint32_t took = clock_count() - from;
         worst = took > worst ? took : worst;
         most_pairs = near.work.splits > most_pairs ? near.work.splits : most_pairs;
         if (error == MSW_OK && !msw_is_clear(near.verdict)) {
             print_line("stopped before pose ", number, "");
-            print_line("  link ", near.models[0], "");
-            print_line("  and link ", near.models[1], " may be too near");
+            if (near.models[0] == MSW_NO_MODEL) {
+                print("  it is not known which links may be too near\n");
+            } else {
+                print_line("  link ", near.models[0], "");
+                print_line("  and link ", near.models[1], " may be too near");
+            }
             break;
         }
         /* Here the arm moves. */
@@ -72,7 +76,7 @@ static int32_t run(void)
         return error;
     }
     print_line("most pairs of nodes that a pose opened: ", most_pairs, "");
-    print_line("cost: the worst pose took ", worst, " instructions");
+    print_line("cost: the worst pose took ", worst, clock_unit);
     return MSW_OK;
 }
 

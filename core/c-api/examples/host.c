@@ -28,7 +28,9 @@ void sleep_during(uint32_t period)
     waited += waited == period;
 }
 
-uint32_t instructions(void)
+const char clock_unit[] = " microseconds";
+
+uint32_t clock_count(void)
 {
     return (uint32_t)(clock() * (1000000 / CLOCKS_PER_SEC));
 }

@@ -96,12 +96,12 @@ static int32_t run(void)
     const float *place = start;
     uint32_t worst = 0;
     for (uint32_t number = 0; number < MOVES; number++) {
-        const uint32_t from = instructions();
+        const uint32_t from = clock_count();
         error = head_clear_until(place, moves[number], &until);
         if (error != MSW_OK) {
             return error;
         }
-        const uint32_t took = instructions() - from;
+        const uint32_t took = clock_count() - from;
         worst = took > worst ? took : worst;
         if (until > 1.0f) {
             place = moves[number]; /* Here the machine moves. */
@@ -111,7 +111,7 @@ static int32_t run(void)
             print_line("  thousandths of it that are clear: ", (uint32_t)(until * 1000.0f), "");
         }
     }
-    print_line("cost: the worst move took ", worst, " instructions");
+    print_line("cost: the worst move took ", worst, clock_unit);
     return MSW_OK;
 }
 

@@ -34,13 +34,13 @@ static int32_t descend(uint32_t steps)
     uint32_t cut_short = 0, late = 0, worst = 0, questions = 0;
     msw_closest near;
     for (;;) {
-        const uint32_t period = periods(), from = instructions();
+        const uint32_t period = periods(), from = clock_count();
         const int32_t error = msw_closest_point(&part, tip, &budget, scratch,
                                                 GROOVE_SCRATCH_ENTRIES, &near);
         if (error != MSW_OK) {
             return error;
         }
-        const uint32_t took = instructions() - from;
+        const uint32_t took = clock_count() - from;
         worst = took > worst ? took : worst;
         questions++;
         /* If the steps ended the search, the interval is wider. Its lower end still holds. */
@@ -60,7 +60,7 @@ static int32_t descend(uint32_t steps)
     print_line("  questions: ", questions, "");
     print_line("  cut short by the budget: ", cut_short, "");
     print_line("  longer than their period of 1 ms: ", late, "");
-    print_line("cost: the worst of them took ", worst, " instructions");
+    print_line("cost: the worst of them took ", worst, clock_unit);
     return MSW_OK;
 }
 

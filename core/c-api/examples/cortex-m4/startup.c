@@ -84,7 +84,9 @@ void sleep_during(uint32_t period)
     }
 }
 
-uint32_t instructions(void)
+const char clock_unit[] = " instructions";
+
+uint32_t clock_count(void)
 {
     uint32_t now, left;
     do {

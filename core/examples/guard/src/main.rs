@@ -61,10 +61,13 @@ fn run() -> Result<(), QueryError> {
         most_pairs = most_pairs.max(near.work.splits);
         worst = worst.max(cost);
         if !near.is_clear() {
-            let [a, b] = near.models.unwrap_or_default();
             println!("stopped before pose {number}");
-            println!("  link {a}");
-            println!("  and link {b} may be too near");
+            if let Some([a, b]) = near.models {
+                println!("  link {a}");
+                println!("  and link {b} may be too near");
+            } else {
+                println!("  it is not known which links may be too near");
+            }
             break;
         }
         // Here the arm moves.

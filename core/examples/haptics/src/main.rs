@@ -13,6 +13,9 @@ use cortex_m_rt::entry;
 use meshsweep_core::{Budget, CoherentQuery, QueryError, Side};
 use semihosting::{println, process};
 
+// An open part has no inside: no force would push the finger out.
+const _: () = assert!(groove::TREE.is_closed(), "the part is not closed");
+
 /// Length of a step, mm.
 const STEP: f32 = 0.015625;
 /// mN for a mm.
