@@ -8,6 +8,7 @@ mod build;
 mod built;
 mod notes;
 mod options;
+pub mod ranges;
 mod stage;
 
 use crate::collapse::CollapseOptions;
@@ -89,11 +90,13 @@ impl<'a> Builder<'a> {
         /// Most triboxes of the finest level: [`TRIBOXES`] unless told otherwise.
         triboxes: u32 => triboxes,
         /// Instead of numbers of faces: one tight hull, with the fewest faces found such that no
-        /// point of it is farther than this from the mesh, in its unit.
+        /// point of it is farther than this from the mesh, in its unit. More than the
+        /// [`margin`](Self::margin).
         slack: f64 => slack,
         /// Instead of numbers of faces: one tight hull, with the fewest faces found that leave at
         /// most this void, in percent of the mesh's volume. Refused together with
-        /// [`slack`](Self::slack).
+        /// [`slack`](Self::slack). Either is refused together with
+        /// [`tight_faces`](Self::tight_faces).
         void_percent: f64 => void_percent,
         /// Distance that tight hulls keep from the mesh, in its unit. Default: 0.
         margin: f64 => margin,
@@ -141,7 +144,8 @@ impl<'a> Builder<'a> {
         self
     }
 
-    /// Whether the last point of each polyline of a CSV file is joined with its first.
+    /// Whether the last point of each polyline of a CSV file is joined with its first. Refused for
+    /// polylines in memory, which say it themselves.
     pub fn closed(mut self, is_closed: bool) -> Self {
         self.options.is_closed = is_closed;
         self
@@ -186,11 +190,12 @@ impl<'a> Builder<'a> {
         self.options.is_curve(Subject::File(file))
     }
 
-    /// Refuses options that do not go together, before a file is read.
+    /// Refuses options that do not go together or are out of [range](ranges), before a file is read.
     /// [`build_file`](Self::build_file) does it first.
     ///
     /// # Errors
-    /// [`BuildError::Option`], [`BuildError::TooManyHulls`].
+    /// [`BuildError::Option`], [`BuildError::OutOfRange`], [`BuildError::TooManyHulls`],
+    /// [`BuildError::SlackWithinMargin`].
     pub fn check(&self, file: &Path) -> Result<(), BuildError> {
         self.options.check(Subject::File(file), !self.frames.is_empty())
     }

@@ -1,5 +1,6 @@
 //! What a blob is to serve, the options of its structures, and which of them do not go together.
 
+use super::ranges;
 use crate::collapse::CollapseOptions;
 use crate::error::BuildError;
 use crate::hull::BuildOptions;
@@ -192,6 +193,11 @@ impl Options {
                 "serves --for curve only; name a mesh for anything else",
             ),
             (self.is_closed && !is_curve, "--closed", "is for curves; add --for curve"),
+            (
+                self.is_closed && matches!(of, Subject::Curves),
+                "--closed",
+                "is for curves of a file; set Polyline::is_closed of those in memory",
+            ),
             (self.unit.is_some() && is_curve, "--unit", "is for meshes"),
             (hull.is_some(), hull.unwrap_or_default(), "is for a hull; add hull to --for"),
             (
@@ -216,6 +222,16 @@ impl Options {
                 "and --void are two goals; leave one of them out",
             ),
             (
+                self.slack.is_some() && !self.tight.is_empty(),
+                "--slack",
+                "and --tight are two goals; leave one of them out",
+            ),
+            (
+                self.void_percent.is_some() && !self.tight.is_empty(),
+                "--void",
+                "and --tight are two goals; leave one of them out",
+            ),
+            (
                 self.slack.is_some_and(|slack| !is_positive(slack)),
                 "--slack",
                 "wants a finite number above 0, in the mesh's unit",
@@ -230,11 +246,6 @@ impl Options {
                 "--margin",
                 "wants a finite number from 0, in the mesh's unit",
             ),
-            (
-                self.effort.is_some_and(|effort| effort != 0.0 && !is_positive(effort)),
-                "--effort",
-                "wants a finite factor from 0",
-            ),
         ];
         let broken = rules.into_iter().find(|&(is_broken, ..)| is_broken);
         if let Some((_, option, why)) = broken {
@@ -243,7 +254,36 @@ impl Options {
         if self.tight.len() > MAX_HULLS {
             return Err(BuildError::TooManyHulls { most: MAX_HULLS });
         }
-        Ok(())
+        self.check_ranges()?;
+        self.slack.map_or(Ok(()), |slack| Goal::Slack(slack).check(self.margin.unwrap_or(0.0)))
+    }
+
+    /// Refuses numbers out of range.
+    fn check_ranges(&self) -> Result<(), BuildError> {
+        let collapse = &self.collapse;
+        let counts = [
+            ("--base", self.base, ranges::BASE_FACES),
+            ("--triboxes", self.triboxes, ranges::TRIBOX_COUNT),
+            ("--max-valence", collapse.max_valence, ranges::MAX_VALENCE),
+        ];
+        let counts = counts.into_iter().chain(
+            // One rule for each hull.
+            self.tight.iter().map(|&faces| ("--tight", Some(faces), ranges::TIGHT_FACES)),
+        );
+        let numbers = [
+            ("--effort", self.effort, ranges::EFFORT),
+            ("--compactness", collapse.compactness, ranges::COMPACTNESS),
+            ("--max-normal-deviation", collapse.max_normal_deviation, ranges::NORMAL_DEVIATION),
+        ];
+        counts
+            .map(|(option, given, range)| (option, given.map(f64::from), range.map(f64::from)))
+            .chain(numbers)
+            .try_for_each(|(option, given, [least, most])| match given {
+                Some(found) if !(least..=most).contains(&found) => {
+                    Err(BuildError::OutOfRange { option, found, least, most })
+                }
+                _ => Ok(()),
+            })
     }
 
     /// The first given option that applies to the hull hierarchy only.

@@ -4,6 +4,7 @@ mod curve;
 mod unmet;
 
 use crate::mesh::{MeshError, NoVolume};
+use crate::number::Typed;
 use meshsweep_core::{OpenError, TriboxError};
 use std::fmt;
 use std::io;
@@ -53,6 +54,17 @@ pub enum BuildError {
         option: &'static str,
         /// Why, and the remedy.
         why: &'static str,
+    },
+    /// The number of an option is out of range, or NaN.
+    OutOfRange {
+        /// The option's name.
+        option: &'static str,
+        /// The number.
+        found: f64,
+        /// Least number.
+        least: f64,
+        /// Greatest number.
+        most: f64,
     },
     /// More tight hulls were asked for than a blob holds.
     TooManyHulls {
@@ -112,7 +124,9 @@ pub enum BuildError {
     MarginTooLarge,
     /// The slack is not more than the margin.
     SlackWithinMargin {
-        /// The margin.
+        /// The slack.
+        slack: f64,
+        /// The margin, with what rounding of the mesh may take from it.
         margin: f64,
     },
     /// Triboxes do not hold the mesh's coordinates.
@@ -194,6 +208,9 @@ impl fmt::Display for BuildError {
                 write_of(f, file, if error.names_line() { "," } else { ":" }, error)
             }
             Self::Option { option, why } => write!(f, "{option} {why}"),
+            Self::OutOfRange { option, found, least, most } => {
+                write!(f, "{option} {}: a number from {least} to {most} is wanted", Typed(*found))
+            }
             Self::TooManyHulls { most } => {
                 write!(f, "--tight takes at most {most} numbers of faces")
             }
@@ -235,10 +252,12 @@ impl fmt::Display for BuildError {
                 "the mesh and its margin leave the range of single precision, 3.4e38; ask for \
                  less, or scale both down",
             ),
-            Self::SlackWithinMargin { margin } => write!(
+            Self::SlackWithinMargin { slack, margin } => write!(
                 f,
-                "no hull can be within the slack: it is not more than {margin:e}, the margin with \
-                 what rounding may take from it; ask for a larger slack"
+                "--slack {} is no more than --margin {}: the hull is farther from the mesh than \
+                 the margin; ask for a larger --slack",
+                Typed(*slack),
+                Typed(*margin)
             ),
             Self::NotExact => f.write_str(
                 "a hull that deforms keeps the vertices as they are: leave out --vertex-bits",

@@ -46,12 +46,7 @@ pub fn wrap<A: Answer>(
     if triangles.is_empty() {
         return Err(BuildError::Empty);
     }
-    if !(options.margin >= 0.0 && options.margin.is_finite()) {
-        return Err(BuildError::BadMargin { margin: options.margin });
-    }
-    if matches!(options.goal, Goal::Slack(most) if most.is_nan() || most <= options.margin) {
-        return Err(BuildError::SlackWithinMargin { margin: options.margin });
-    }
+    options.goal.check(options.margin)?;
     let positions: Vec<DVec3> = mesh.positions.iter().map(|&p| Vec3::from(p).as_dvec3()).collect();
     let obstacle = Obstacle::new(&positions, &triangles).with_margin(options.margin);
     // The surface that the search starts from has no wires, unless the mesh has only wires.

@@ -1,5 +1,6 @@
 //! The goal and the options of a tight hull.
 
+use crate::error::BuildError;
 use crate::surface::VertexBits;
 use std::time::Duration;
 
@@ -17,6 +18,25 @@ pub enum Goal {
     /// The fewest faces found of which no point is farther than this from the mesh, in its unit;
     /// more than the margin.
     Slack(f64),
+}
+
+impl Goal {
+    /// Refuses a margin that is none, and a slack within the margin. [`wrap`](super::wrap) does it
+    /// first.
+    ///
+    /// # Errors
+    /// [`BuildError::BadMargin`], [`BuildError::SlackWithinMargin`].
+    pub fn check(self, margin: f64) -> Result<(), BuildError> {
+        if !(margin >= 0.0 && margin.is_finite()) {
+            return Err(BuildError::BadMargin { margin });
+        }
+        match self {
+            Self::Slack(slack) if slack.is_nan() || slack <= margin => {
+                Err(BuildError::SlackWithinMargin { slack, margin })
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 /// How to make a hull.

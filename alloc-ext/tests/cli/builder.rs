@@ -1,7 +1,7 @@
 //! The library's `Builder` gives what the program writes and says, and ends when it is told to.
 
 use crate::support::{arg, coarse_torus, fixture, run, scratch};
-use meshsweep::builder::{For, Stage, Topic};
+use meshsweep::builder::{For, Stage, Topic, ranges};
 use meshsweep::collapse::CollapseOptions;
 use meshsweep::curve::read_csv;
 use meshsweep::mesh::{self, MeshError, RawMesh, Unit};
@@ -194,7 +194,8 @@ fn arrays_that_are_no_mesh_are_refused_by_type() {
         (tight().slack(1.0).void_percent(5.0), "--slack"),
         (tight().void_percent(-1.0), "--void"),
         (tight().margin(f64::NAN), "--margin"),
-        (tight().effort(f64::INFINITY), "--effort"),
+        (tight().slack(1.0).tight_faces(&[60]), "--slack"),
+        (tight().void_percent(5.0).tight_faces(&[60]), "--void"),
         (Builder::new().slack(1.0), "--slack"),
         (Builder::new().serve(For::Curve), "--for curve"),
     ] {
@@ -206,6 +207,80 @@ fn arrays_that_are_no_mesh_are_refused_by_type() {
     }
     let error = Builder::new().build_curves(&[]).expect_err("no points");
     assert!(matches!(error, BuildError::Curve { .. }), "{error:?}");
+    let error = Builder::new().closed(true).build_curves(&[]).expect_err("they say it themselves");
+    assert!(matches!(error, BuildError::Option { option: "--closed", .. }), "{error:?}");
+}
+
+/// An option, its range, and a builder with a number for it.
+type Ranged = (&'static str, [f64; 2], fn(f64) -> Builder<'static>);
+
+/// Of the hull hierarchy, with one condition on collapses.
+fn collapsing(set: impl FnOnce(&mut CollapseOptions)) -> Builder<'static> {
+    let mut options = CollapseOptions::default();
+    set(&mut options);
+    Builder::new().serve(For::Hull).collapse(options)
+}
+
+#[test]
+fn numbers_are_taken_in_their_range_and_refused_outside_of_it() {
+    let whole = |[least, most]: [u32; 2]| [least, most].map(f64::from);
+    let options: [Ranged; 7] = [
+        ("--base", whole(ranges::BASE_FACES), |x| {
+            Builder::new().serve(For::Hull).base_faces(x as u32)
+        }),
+        ("--triboxes", whole(ranges::TRIBOX_COUNT), |x| {
+            Builder::new().serve(For::Triboxes).triboxes(x as u32)
+        }),
+        ("--tight", whole(ranges::TIGHT_FACES), |x| {
+            Builder::new().serve(For::Tight).tight_faces(&[200, x as u32])
+        }),
+        ("--max-valence", whole(ranges::MAX_VALENCE), |x| {
+            collapsing(|options| options.max_valence = Some(x as u32))
+        }),
+        ("--effort", ranges::EFFORT, |x| Builder::new().serve(For::Tight).effort(x)),
+        ("--compactness", ranges::COMPACTNESS, |x| {
+            collapsing(|options| options.compactness = Some(x))
+        }),
+        ("--max-normal-deviation", ranges::NORMAL_DEVIATION, |x| {
+            collapsing(|options| options.max_normal_deviation = Some(x))
+        }),
+    ];
+    let part = Path::new("part.stl");
+    for (name, [least, most], builder) in options {
+        for inside in [least, least / 2.0 + most / 2.0, most] {
+            assert_eq!(builder(inside).check(part), Ok(()), "{name} {inside}");
+        }
+        let is_whole = ["--base", "--triboxes", "--tight", "--max-valence"].contains(&name);
+        let outside = if is_whole {
+            // As u32 the greatest base has nothing above it.
+            vec![least - 1.0, if most < f64::from(u32::MAX) { most + 1.0 } else { 0.0 }]
+        } else {
+            vec![least - 1e-300, -1.0, most.next_up(), f64::NAN, f64::INFINITY, -f64::INFINITY]
+        };
+        for wrong in outside {
+            let refused = builder(wrong).check(part);
+            assert!(
+                matches!(refused, Err(BuildError::OutOfRange { option, .. }) if option == name),
+                "{name} {wrong}: {refused:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_slack_is_more_than_the_margin() {
+    let check = |slack, margin: Option<f64>| {
+        let builder = Builder::new().serve(For::Tight).slack(slack).margin(margin);
+        builder.check(Path::new("part.stl"))
+    };
+    for margin in [1e-30, 0.25, 1e30] {
+        assert_eq!(check(f64::next_up(margin), Some(margin)), Ok(()));
+        for slack in [margin, margin.next_down(), margin / 2.0] {
+            let refused = check(slack, Some(margin));
+            assert_eq!(refused, Err(BuildError::SlackWithinMargin { slack, margin }));
+        }
+    }
+    assert_eq!(check(f64::MIN_POSITIVE, None), Ok(()));
 }
 
 /// The stages and parts that a build tells.

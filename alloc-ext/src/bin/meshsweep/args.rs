@@ -16,7 +16,7 @@ pub use asking::{
     NearestArgs, OverlapArgs, PointArgs, SearchArgs, SegmentArgs, SignedArgs, WindingArgs,
     WithinArgs, WorstArgs, WorstQuestion,
 };
-pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
+pub use bounding::{HullArgs, TriboxArgs};
 pub use building::{BuildArgs, CutArgs, InfoArgs, Language, VerifyArgs};
 pub use comparing::HausdorffArgs;
 pub use given::{Given, files, names};

@@ -1,6 +1,6 @@
 //! `meshsweep build`: a mesh file in, a blob and a report out.
 
-use crate::args::{BuildArgs, slack_within_margin};
+use crate::args::BuildArgs;
 use crate::failure::Failure;
 use crate::output::{Output, refuse_same_file};
 use crate::progress::StageBars;
@@ -17,8 +17,6 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     let failed = |error| Failure::build(&args.mesh, error);
     refuse_options(args).map_or(Ok(()), |what| Err(Failure::Usage { what }))?;
     builder.check(&args.mesh).map_err(failed)?;
-    let too_tight = slack_within_margin(args.slack, args.margin);
-    too_tight.map_or(Ok(()), |what| Err(Failure::Usage { what }))?;
     let inputs: Vec<&Path> =
         [&args.mesh].into_iter().chain(&args.frames).map(PathBuf::as_path).collect();
     refuse_same_file(Some(&args.output), &inputs)?;

@@ -95,7 +95,10 @@ pub enum Place {
 impl Failure {
     pub fn build(file: &Path, error: BuildError) -> Self {
         let is_usage = match &error {
-            BuildError::Option { .. } | BuildError::TooManyHulls { .. } => true,
+            BuildError::Option { .. }
+            | BuildError::OutOfRange { .. }
+            | BuildError::TooManyHulls { .. }
+            | BuildError::SlackWithinMargin { .. } => true,
             BuildError::Mesh { error, .. } => matches!(**error, MeshError::Units { .. }),
             _ => false,
         };

@@ -6,17 +6,19 @@ mod tight;
 
 pub use stored::mesh_of;
 
-use crate::args::{HullArgs, slack_within_margin};
+use crate::args::HullArgs;
 use crate::failure::Failure;
 use crate::mesh_file;
 use crate::output::{refuse_other_extension, refuse_same_file};
 use meshsweep::load::is_named_as_mesh;
+use meshsweep::tight::Goal;
 
 pub fn run(args: &HullArgs) -> Result<(), Failure> {
     let usage = |what: String| Err(Failure::Usage { what });
     refuse_other_extension(&args.output, "ply", "the hull is written as PLY")?;
-    if let Some(what) = slack_within_margin(args.slack, args.margin) {
-        return usage(what);
+    if let Some(slack) = args.slack {
+        let refused = |error| Failure::build(&args.input, error);
+        Goal::Slack(slack).check(args.margin.unwrap_or(0.0)).map_err(refused)?;
     }
     refuse_same_file(Some(&args.output), &[&args.input])?;
     let name = args.input.display();

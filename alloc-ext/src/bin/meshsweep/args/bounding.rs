@@ -4,7 +4,6 @@ use super::building::{CollapseArgs, StoredBits};
 use super::values::{distance, factor, length, percent, positive, tolerance, unit, whole};
 use clap::Args;
 use meshsweep::mesh::Unit;
-use meshsweep::number::Typed;
 use meshsweep::tribox::SplitOptions;
 use std::path::PathBuf;
 
@@ -108,19 +107,6 @@ impl HullArgs {
     pub fn progressive_option(&self) -> Option<&'static str> {
         self.collapse.options().given()
     }
-}
-
-/// Why no hull can have both this slack and this margin, if none can.
-pub fn slack_within_margin(slack: Option<f64>, margin: Option<f64>) -> Option<String> {
-    let (slack, margin) = (slack?, margin?);
-    let is_within = slack <= margin;
-    is_within.then(|| {
-        let (slack, margin) = (Typed(slack), Typed(margin));
-        format!(
-            "--slack {slack} is no more than --margin {margin}: the hull is farther from the mesh \
-             than the margin; ask for a larger --slack"
-        )
-    })
 }
 
 #[derive(Debug, Args)]

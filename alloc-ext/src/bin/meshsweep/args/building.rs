@@ -6,6 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args, ValueEnum};
 use meshsweep::Builder;
 use meshsweep::builder::For;
+use meshsweep::builder::ranges::{BASE_FACES, MAX_VALENCE, TIGHT_FACES, TRIBOX_COUNT};
 use meshsweep::collapse::CollapseOptions;
 use meshsweep::mesh::Unit;
 use meshsweep::surface::VertexBits;
@@ -43,26 +44,26 @@ pub struct BuildArgs {
     )]
     pub vertex_bits: StoredBits,
     /// Faces of the base hull, with --for hull or sweep [default: 200]
-    #[arg(long, value_name = "FACES", value_parser = whole::<4, { u32::MAX }>)]
+    #[arg(long, value_name = "FACES", value_parser = whole::<{ BASE_FACES[0] }, { BASE_FACES[1] }>)]
     pub base: Option<u32>,
     /// Most triboxes of the finest level, with --for triboxes [default: 64]
-    #[arg(long, value_name = "N", value_parser = whole::<1, MAX_TRIBOXES>)]
+    #[arg(long, value_name = "N", value_parser = whole::<{ TRIBOX_COUNT[0] }, { TRIBOX_COUNT[1] }>)]
     pub triboxes: Option<u32>,
     /// Faces of each tight hull, with --for tight [default: 200]
-    #[arg(long, value_name = "FACES", value_delimiter = ',', value_parser = whole::<4, MAX_TIGHT>)]
+    #[arg(
+        long,
+        value_name = "FACES",
+        value_delimiter = ',',
+        value_parser = whole::<{ TIGHT_FACES[0] }, { TIGHT_FACES[1] }>
+    )]
     pub tight: Vec<u32>,
     /// Instead of numbers of faces: one tight hull, with the fewest faces found such that no point
     /// of it is farther than this from the mesh, in its unit
-    #[arg(long, value_name = "DISTANCE", value_parser = distance, conflicts_with = "tight")]
+    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
     pub slack: Option<f64>,
     /// Instead of numbers of faces: one tight hull, with the fewest faces found that leave at most
     /// this void, in percent of the mesh's volume
-    #[arg(
-        long,
-        value_name = "PERCENT",
-        value_parser = percent,
-        conflicts_with_all = ["tight", "slack"]
-    )]
+    #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub void: Option<f64>,
     /// Distance that tight hulls keep from the mesh, in its unit: all points up to it are inside
     /// [default: 0]
@@ -94,9 +95,6 @@ pub struct BuildArgs {
     pub limits: LimitArgs,
 }
 
-/// Most faces of a stored tight hull.
-const MAX_TIGHT: u32 = 1_000_000;
-
 /// A language of firmware.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Language {
@@ -114,9 +112,6 @@ pub enum HullServes {
     // Segments, and overlap of hulls.
     Segment,
 }
-
-/// Most triboxes of a blob. More take too long.
-const MAX_TRIBOXES: u32 = 4096;
 
 /// A question by its name, which is one of all.
 fn question(name: String) -> For {
@@ -167,7 +162,7 @@ impl BuildArgs {
 #[derive(Debug, Args)]
 pub struct CollapseArgs {
     /// Largest valence of a hull vertex [default: 12]
-    #[arg(long, value_name = "EDGES", value_parser = whole::<3, 255>)]
+    #[arg(long, value_name = "EDGES", value_parser = whole::<{ MAX_VALENCE[0] }, { MAX_VALENCE[1] }>)]
     pub max_valence: Option<u32>,
     /// Least ratio of a star's worst compactness after a collapse to that before it [default: 0.8]
     #[arg(long, value_name = "RATIO", value_parser = ratio)]

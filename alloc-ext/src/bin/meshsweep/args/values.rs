@@ -1,5 +1,6 @@
 //! Values that need more than a number's syntax.
 
+use meshsweep::builder::ranges;
 use meshsweep::mesh::Unit;
 use meshsweep_core::Solid;
 use std::num::NonZeroUsize;
@@ -131,9 +132,9 @@ pub fn frame(text: &str) -> Result<f32, String> {
     text.parse().map_err(|_| wanted.to_owned())
 }
 
-fn up_to(text: &str, most: f64) -> Result<f64, String> {
-    let wanted = || format!("a number from 0 to {most} is wanted");
-    text.parse().ok().filter(|x| (0.0..=most).contains(x)).ok_or_else(wanted)
+fn number(text: &str, [least, most]: [f64; 2]) -> Result<f64, String> {
+    let wanted = || format!("a number from {least} to {most} is wanted");
+    text.parse().ok().filter(|x| (least..=most).contains(x)).ok_or_else(wanted)
 }
 
 /// A number above 0.
@@ -162,15 +163,15 @@ pub fn percent(text: &str) -> Result<f64, String> {
 
 /// A factor from 0.
 pub fn factor(text: &str) -> Result<f64, String> {
-    up_to(text, 1e6)
+    number(text, ranges::EFFORT)
 }
 
 pub fn ratio(text: &str) -> Result<f64, String> {
-    up_to(text, 1.0)
+    number(text, ranges::COMPACTNESS)
 }
 
 pub fn degrees(text: &str) -> Result<f64, String> {
-    up_to(text, 180.0)
+    number(text, ranges::NORMAL_DEVIATION)
 }
 
 #[cfg(test)]
