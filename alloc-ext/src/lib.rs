@@ -33,7 +33,7 @@
 //! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `progress` ←
 //! `surface` ← `{collapse, bvh, load}` ← `hausdorff` ← `{hull, tight, tribox, curve}` ←
 //! `{cut, trade, builder}` ← the program. `trade` also uses the distance of `check`, and `worst`
-//! uses no room. A test keeps that (`host-tests/tests/house.rs`).
+//! uses no room. A test keeps that (`host-tests/tests/house`).
 
 pub mod builder;
 pub mod bvh;

@@ -4,7 +4,7 @@ use super::cost::{Features, Shape};
 use super::setting::{How, Setting};
 use super::structure::Structure;
 use meshsweep_core::{
-    Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Hint, QueryError, ScratchEntry, Work,
+    Blob, Budget, ClosestPoint, CoherentQuery, Hint, QueryError, ScratchEntry, Work,
 };
 use std::hint::black_box;
 use std::time::Instant;
@@ -61,7 +61,7 @@ pub(super) fn ask(
     match setting.structure {
         Structure::Tree(_) => {
             let tree = blob.bvh()?;
-            let mut stack = entries(setting, of_budget(&tree, &budget));
+            let mut stack = entries(setting, tree.scratch_entries_for(budget));
             let scratch = size_of_val(stack.as_slice());
             let of = Of { budget, shape: Shape::of_tree(&tree), scratch };
             match setting.how {
@@ -130,12 +130,6 @@ pub(super) fn ask(
 
 fn entries(setting: &Setting, enough: usize) -> Vec<ScratchEntry> {
     vec![ScratchEntry::EMPTY; setting.entries.unwrap_or(enough).min(enough).max(1)]
-}
-
-/// Entries: twice those that suffice with a limit of steps, for narrower intervals.
-fn of_budget(tree: &Bvh<'_>, budget: &Budget) -> usize {
-    let is_limited = budget.steps < u32::MAX;
-    tree.scratch_entries() * if is_limited { 2 } else { 1 }
 }
 
 fn of_closest(near: ClosestPoint) -> (f32, f32, Work) {

@@ -16,7 +16,7 @@ use crate::format::Bytes;
 use crate::geom::fan::WIDTH;
 use crate::num::sum_up;
 use crate::num::tolerance::{MOST_SURFACE_ERROR, U32};
-use crate::query::QueryError;
+use crate::query::{Budget, QueryError};
 use glam::Vec3;
 
 /// The box tree of a blob: a static 8-wide tree over triangle fans. Copies are cheap: it borrows
@@ -174,6 +174,15 @@ impl Bvh<'_> {
     #[inline]
     pub const fn scratch_entries(&self) -> usize {
         self.header.stack_entries as usize
+    }
+
+    /// Scratch entries for questions under `budget`: with a limit of steps twice
+    /// [`scratch_entries`](Self::scratch_entries), by which intervals are mostly narrower. Without a
+    /// limit as many as those.
+    #[inline]
+    pub const fn scratch_entries_for(&self, budget: Budget) -> usize {
+        let enough = self.scratch_entries();
+        if budget.steps < u32::MAX { enough.saturating_mul(2) } else { enough }
     }
 
     /// Least and greatest corner of the box of the stored vertices, input units, rounded to f32.

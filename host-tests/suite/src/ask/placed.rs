@@ -253,12 +253,6 @@ fn closest(answer: Result<ClosestPoint, QueryError>) -> Answer {
     answer.map_or_else(Answer::Refused, Answer::Closest)
 }
 
-/// Entries: twice those that suffice with a limit of steps, for narrower intervals.
-const fn of_budget(tree: &Bvh<'_>, budget: &Budget) -> usize {
-    let enough = tree.scratch_entries();
-    if budget.steps < u32::MAX { enough.saturating_mul(2) } else { enough }
-}
-
 const fn bytes(entries: usize) -> usize {
     entries.saturating_mul(size_of::<ScratchEntry>())
 }
@@ -272,7 +266,8 @@ fn fresh(
     clock: &mut impl Clock,
     told: &mut impl FnMut(&Answer),
 ) -> Result<usize, Refused> {
-    let stack = memory.entries.get_mut(..of_budget(tree, &budget)).ok_or(Refused::MEMORY)?;
+    let enough = tree.scratch_entries_for(budget);
+    let stack = memory.entries.get_mut(..enough).ok_or(Refused::MEMORY)?;
     for place in places {
         told(&closest(timed(clock, || tree.closest_point(place, budget, stack))));
     }
@@ -304,7 +299,8 @@ fn hinted(
     clock: &mut impl Clock,
     told: &mut impl FnMut(&Answer),
 ) -> Result<usize, Refused> {
-    let stack = memory.entries.get_mut(..of_budget(tree, &budget)).ok_or(Refused::MEMORY)?;
+    let enough = tree.scratch_entries_for(budget);
+    let stack = memory.entries.get_mut(..enough).ok_or(Refused::MEMORY)?;
     let mut hint = Hint::NONE;
     for place in places {
         let answer = timed(clock, || tree.closest_point_from(place, &mut hint, budget, stack));
@@ -323,7 +319,8 @@ fn coherent<'t>(
     told: &mut impl FnMut(&Answer),
 ) -> Result<usize, Refused> {
     let Memory { entries, coherent, .. } = memory;
-    let stack = entries.get_mut(..of_budget(tree, &budget)).ok_or(Refused::MEMORY)?;
+    let enough = tree.scratch_entries_for(budget);
+    let stack = entries.get_mut(..enough).ok_or(Refused::MEMORY)?;
     for place in places {
         let answer = timed(clock, || coherent.closest_point(tree, place, budget, stack));
         told(&closest(answer.map(|near| near.closest)));

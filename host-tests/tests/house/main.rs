@@ -1,0 +1,116 @@
+//! Which folder may use which, and no files that use each other in a circle. Both are read from the
+//! paths of the source files, from `use` lines and from inline paths.
+
+mod arrows;
+mod defmt;
+mod source;
+
+use std::fs;
+
+use arrows::House;
+use source::{collect, root, without_comments};
+
+/// The folders of `core/src`, each with the folders that it may use.
+const CORE: [(&str, &[&str]); 10] = [
+    ("num", &[]),
+    ("geom", &["num"]),
+    ("format", &["num", "geom"]),
+    ("query", &["num", "geom", "format"]),
+    ("bvh", &["num", "geom", "format", "query"]),
+    ("hull", &["num", "geom", "format", "query"]),
+    ("tribox", &["num", "geom", "format", "query"]),
+    ("curve", &["num", "geom", "format", "query"]),
+    ("tight", &["num", "geom", "format", "query", "bvh"]),
+    ("blob", &["num", "geom", "format", "query", "bvh", "hull", "tribox", "curve", "tight"]),
+];
+
+/// Folders that all structures of the builder may use.
+const BENEATH: &[&str] = &[
+    "counted",
+    "number",
+    "emit",
+    "error",
+    "progress",
+    "random",
+    "lp",
+    "mesh",
+    "surface",
+    "collapse",
+    "bvh",
+    "hausdorff",
+];
+
+/// The same of `alloc-ext/src`. `emit` is beneath: it knows sections and no builder. `counted` and
+/// `number` print numbers, `error` says why there is no blob, `progress` tells how much is done and
+/// asks whether to go on, `random` gives the same numbers in every run. `cut`, `trade` and
+/// `builder` are above: they know all structures. `load` makes a clean mesh of a file for them.
+/// `check` proves the others' work and shares nothing with them but meshes. `trade` measures
+/// distances by it.
+const BUILDER: [(&str, &[&str]); 22] = [
+    ("counted", &[]),
+    ("number", &[]),
+    ("emit", &[]),
+    ("random", &[]),
+    ("lp", &["random"]),
+    ("mesh", &["counted"]),
+    ("check", &["mesh"]),
+    ("error", &["counted", "mesh", "number"]),
+    ("progress", &["error"]),
+    ("surface", &["counted", "error", "lp", "mesh"]),
+    ("load", &["error", "mesh", "surface"]),
+    ("collapse", &["counted", "lp", "mesh", "progress", "surface"]),
+    ("bvh", &["counted", "emit", "error", "lp", "mesh", "progress", "surface"]),
+    ("hausdorff", &["bvh", "error", "mesh"]),
+    ("hull", BENEATH),
+    ("tight", BENEATH),
+    ("tribox", BENEATH),
+    ("curve", BENEATH),
+    (
+        "cut",
+        &["counted", "emit", "error", "lp", "mesh", "surface", "bvh", "hull", "tight", "tribox"],
+    ),
+    (
+        "trade",
+        &["check", "emit", "error", "random", "mesh", "surface", "bvh", "hull", "tight", "tribox"],
+    ),
+    (
+        "builder",
+        &[
+            "counted", "number", "emit", "error", "progress", "mesh", "surface", "load",
+            "collapse", "bvh", "hull", "tight", "tribox", "curve",
+        ],
+    ),
+    ("worst", &["random"]),
+];
+
+fn none(found: &[String]) {
+    assert!(found.is_empty(), "\n{}", found.join("\n"));
+}
+
+#[test]
+fn folders_of_the_core_use_only_folders_beneath() {
+    none(&House::read("core/src", None).strays(&CORE));
+}
+
+#[test]
+fn folders_of_the_builder_use_only_folders_beneath() {
+    none(&House::read("alloc-ext/src", Some("bin")).strays(&BUILDER));
+}
+
+#[test]
+fn the_checker_uses_no_code_of_the_reader() {
+    let mut files = Vec::new();
+    collect(&root().join("alloc-ext/src/check"), &mut files);
+    assert!(files.len() > 20);
+    for file in files {
+        let text = without_comments(&fs::read_to_string(&file).expect("readable"));
+        assert!(!text.contains("meshsweep_core"), "{}", file.display());
+    }
+}
+
+#[test]
+fn no_files_use_each_other_in_a_circle() {
+    none(&House::read("core/src", None).circles());
+    none(&House::read("alloc-ext/src", Some("bin")).circles());
+    none(&House::read("alloc-ext/src/bin/meshsweep", None).circles());
+}
