@@ -142,8 +142,7 @@ fn graph(file: &File<'_>) -> Result<CallGraph, String> {
             if data.range(..=place).next_back().is_some_and(|(_, is_data)| *is_data) {
                 continue;
             }
-            // The second instruction of a pair has the address of the first in its relocation.
-            let is_known = [0, 4].iter().any(|back| references.calls.contains(&(place - back)));
+            let is_known = references.calls.contains(&place);
             match does {
                 Does::Lowers(bytes) => frame = frame.map(|all: u32| all + bytes),
                 Does::SetsStack => frame = None,
@@ -265,7 +264,7 @@ impl References {
                 let Some((&caller, function)) = caller else { continue };
                 let is_within = (caller..caller + function.bytes).contains(&to);
                 if reference == Reference::Call || !is_within {
-                    all.calls.insert(at);
+                    all.calls.insert(at + behind(set, code));
                     // What the handler of a panic takes is the firmware's.
                     let name = symbol.name().unwrap_or_default();
                     if !name.ends_with("rust_begin_unwind") {
@@ -276,6 +275,12 @@ impl References {
         }
         if any { Ok(all) } else { Err("an image without relocations".to_owned()) }
     }
+}
+
+/// Bytes from a relocation of a call to the instruction that calls. AUIPC is the first of a pair.
+fn behind(set: Set, code: &[u8]) -> u64 {
+    let is_pair = set == Set::RiscV && code.first().is_some_and(|byte| byte & 0x7F == 0x17);
+    if is_pair { 4 } else { 0 }
 }
 
 /// What a relocation is for.
@@ -323,5 +328,20 @@ impl Reference {
             ) => Self::Nothing,
             _ => Self::Address,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_call_is_known_at_the_instruction_that_calls() {
+        let auipc_to_ra = [0x97, 0x00, 0x00, 0x00];
+        let jal = [0xEF, 0x00, 0x00, 0x00];
+        let bl = [0xFF, 0xF7, 0xFE, 0xFF];
+        assert_eq!([behind(Set::RiscV, &auipc_to_ra), behind(Set::RiscV, &jal)], [4, 0]);
+        // What follows a BL may be a call through a pointer.
+        assert_eq!([behind(Set::Thumb, &bl), behind(Set::Thumb, &auipc_to_ra)], [0, 0]);
     }
 }
