@@ -198,38 +198,51 @@ pub fn ask<'t>(
     mut told: impl FnMut(&Answer),
 ) -> Result<usize, Refused> {
     let blob = Blob::open(placed.blob).map_err(Refused::of)?;
+    let places = placed.places.iter().take(queries).map(place);
+    let asking = Asking { places, clock, told: &mut told };
     // Each a function that is not inlined, so that the stack that is measured is its own.
     match placed.question {
-        Question::Tree(budget) => {
-            fresh(&tree(&blob)?, budget, places(placed, queries), memory, clock, &mut told)
-        }
-        Question::Precise(budget) => {
-            precise(&tree(&blob)?, budget, places(placed, queries), memory, clock, &mut told)
-        }
-        Question::Hinted(budget) => {
-            hinted(&tree(&blob)?, budget, places(placed, queries), memory, clock, &mut told)
-        }
-        Question::Coherent(budget) => {
-            coherent(&tree(&blob)?, budget, places(placed, queries), memory, clock, &mut told)
-        }
+        Question::Tree(budget) => fresh(&tree(&blob)?, budget, memory, asking),
+        Question::Precise(budget) => precise(&tree(&blob)?, budget, memory, asking),
+        Question::Hinted(budget) => hinted(&tree(&blob)?, budget, memory, asking),
+        Question::Coherent(budget) => coherent(&tree(&blob)?, budget, memory, asking),
         Question::Tight(budget) => {
             let hulls = blob.tight_hulls().map_err(|_| Refused::NO_SECTION)?;
             let hull = hulls.finest().ok_or(Refused::NO_SECTION)?;
-            tight(&hull, budget, places(placed, queries), memory, clock, &mut told)
+            tight(&hull, budget, memory, asking)
         }
         Question::Triboxes(budget) => {
             let triboxes = blob.triboxes().map_err(|_| Refused::NO_SECTION)?;
-            bound(&triboxes, budget, places(placed, queries), memory, clock, &mut told)
+            bound(&triboxes, budget, memory, asking)
         }
-        Question::Sweep(budget) => {
-            sweep(&hull(&blob)?, budget, places(placed, queries), memory, clock, &mut told)
-        }
-        Question::KeptSweep(budget) => {
-            kept_sweep(&hull(&blob)?, budget, places(placed, queries), memory, clock, &mut told)
-        }
-        Question::Refine(radius, error) => {
-            let size = (radius, error);
-            refine(&hull(&blob)?, size, places(placed, queries), memory, clock, &mut told)
+        Question::Sweep(budget) => sweep(&hull(&blob)?, budget, memory, asking),
+        Question::KeptSweep(budget) => kept_sweep(&hull(&blob)?, budget, memory, asking),
+        Question::Refine(radius, error) => refine(&hull(&blob)?, (radius, error), memory, asking),
+    }
+}
+
+/// Where a question is asked, and who is told of the core's work and of the answers.
+struct Asking<'a, P, C, T> {
+    places: P,
+    clock: &'a mut C,
+    told: &'a mut T,
+}
+
+impl<P, C, T> Asking<'_, P, C, T>
+where
+    P: Iterator<Item = [f32; 3]>,
+    C: Clock,
+    T: FnMut(&Answer),
+{
+    #[inline(always)]
+    fn each<A>(
+        self,
+        mut ask: impl FnMut([f32; 3]) -> Result<A, QueryError>,
+        answer: impl Fn(A) -> Answer,
+    ) {
+        for place in self.places {
+            let found = timed(self.clock, || ask(place));
+            (self.told)(&found.map_or_else(Answer::Refused, &answer));
         }
     }
 }
@@ -242,17 +255,6 @@ fn hull<'t>(blob: &Blob<'t>) -> Result<Hull<'t>, Refused> {
     blob.hull().map_err(|_| Refused::NO_SECTION)
 }
 
-fn places<'t>(
-    placed: &Placed<'t>,
-    queries: usize,
-) -> impl Iterator<Item = [f32; 3]> + Clone + use<'t> {
-    placed.places.iter().take(queries).map(place)
-}
-
-fn closest(answer: Result<ClosestPoint, QueryError>) -> Answer {
-    answer.map_or_else(Answer::Refused, Answer::Closest)
-}
-
 const fn bytes(entries: usize) -> usize {
     entries.saturating_mul(size_of::<ScratchEntry>())
 }
@@ -261,16 +263,12 @@ const fn bytes(entries: usize) -> usize {
 fn fresh(
     tree: &Bvh<'_>,
     budget: Budget,
-    places: impl Iterator<Item = [f32; 3]>,
     memory: &mut Memory<'_>,
-    clock: &mut impl Clock,
-    told: &mut impl FnMut(&Answer),
+    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
 ) -> Result<usize, Refused> {
-    let enough = tree.scratch_entries_for(budget);
-    let stack = memory.entries.get_mut(..enough).ok_or(Refused::MEMORY)?;
-    for place in places {
-        told(&closest(timed(clock, || tree.closest_point(place, budget, stack))));
-    }
+    let stack =
+        memory.entries.get_mut(..tree.scratch_entries_for(budget)).ok_or(Refused::MEMORY)?;
+    asking.each(|place| tree.closest_point(place, budget, stack), Answer::Closest);
     Ok(bytes(stack.len()))
 }
 
@@ -278,15 +276,11 @@ fn fresh(
 fn precise(
     tree: &Bvh<'_>,
     budget: Budget,
-    places: impl Iterator<Item = [f32; 3]>,
     memory: &mut Memory<'_>,
-    clock: &mut impl Clock,
-    told: &mut impl FnMut(&Answer),
+    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
 ) -> Result<usize, Refused> {
     let stack = memory.entries.get_mut(..tree.scratch_entries()).ok_or(Refused::MEMORY)?;
-    for place in places {
-        told(&closest(timed(clock, || tree.closest_point_precise(place, budget, stack))));
-    }
+    asking.each(|place| tree.closest_point_precise(place, budget, stack), Answer::Closest);
     Ok(bytes(stack.len()))
 }
 
@@ -294,18 +288,14 @@ fn precise(
 fn hinted(
     tree: &Bvh<'_>,
     budget: Budget,
-    places: impl Iterator<Item = [f32; 3]>,
     memory: &mut Memory<'_>,
-    clock: &mut impl Clock,
-    told: &mut impl FnMut(&Answer),
+    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
 ) -> Result<usize, Refused> {
-    let enough = tree.scratch_entries_for(budget);
-    let stack = memory.entries.get_mut(..enough).ok_or(Refused::MEMORY)?;
+    let stack =
+        memory.entries.get_mut(..tree.scratch_entries_for(budget)).ok_or(Refused::MEMORY)?;
     let mut hint = Hint::NONE;
-    for place in places {
-        let answer = timed(clock, || tree.closest_point_from(place, &mut hint, budget, stack));
-        told(&closest(answer));
-    }
+    let ask = |place| tree.closest_point_from(place, &mut hint, budget, stack);
+    asking.each(ask, Answer::Closest);
     Ok(bytes(stack.len()))
 }
 
@@ -313,18 +303,13 @@ fn hinted(
 fn coherent<'t>(
     tree: &Bvh<'t>,
     budget: Budget,
-    places: impl Iterator<Item = [f32; 3]>,
     memory: &mut Memory<'t>,
-    clock: &mut impl Clock,
-    told: &mut impl FnMut(&Answer),
+    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
 ) -> Result<usize, Refused> {
     let Memory { entries, coherent, .. } = memory;
-    let enough = tree.scratch_entries_for(budget);
-    let stack = entries.get_mut(..enough).ok_or(Refused::MEMORY)?;
-    for place in places {
-        let answer = timed(clock, || coherent.closest_point(tree, place, budget, stack));
-        told(&closest(answer.map(|near| near.closest)));
-    }
+    let stack = entries.get_mut(..tree.scratch_entries_for(budget)).ok_or(Refused::MEMORY)?;
+    let ask = |place| coherent.closest_point(tree, place, budget, stack);
+    asking.each(ask, |near| Answer::Closest(near.closest));
     Ok(bytes(stack.len()).saturating_add(size_of::<CoherentQuery<'_, FRONT>>()))
 }
 
@@ -332,15 +317,11 @@ fn coherent<'t>(
 fn tight(
     hull: &TightHull<'_>,
     budget: Budget,
-    places: impl Iterator<Item = [f32; 3]>,
     memory: &mut Memory<'_>,
-    clock: &mut impl Clock,
-    told: &mut impl FnMut(&Answer),
+    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
 ) -> Result<usize, Refused> {
     let stack = memory.entries.get_mut(..hull.scratch_entries()).ok_or(Refused::MEMORY)?;
-    for place in places {
-        told(&closest(timed(clock, || hull.closest_point(place, budget, stack))));
-    }
+    asking.each(|place| hull.closest_point(place, budget, stack), Answer::Closest);
     Ok(bytes(stack.len()))
 }
 
@@ -348,16 +329,11 @@ fn tight(
 fn bound(
     triboxes: &Triboxes<'_>,
     budget: Budget,
-    places: impl Iterator<Item = [f32; 3]>,
     memory: &mut Memory<'_>,
-    clock: &mut impl Clock,
-    told: &mut impl FnMut(&Answer),
+    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
 ) -> Result<usize, Refused> {
     let stack = memory.entries.get_mut(..triboxes.scratch_entries()).ok_or(Refused::MEMORY)?;
-    for place in places {
-        let answer = timed(clock, || triboxes.distance(place, budget, stack));
-        told(&answer.map_or_else(Answer::Refused, Answer::Bound));
-    }
+    asking.each(|place| triboxes.distance(place, budget, stack), Answer::Bound);
     Ok(bytes(stack.len()))
 }
 
@@ -365,15 +341,11 @@ fn bound(
 fn sweep(
     hull: &Hull<'_>,
     budget: Budget,
-    places: impl Iterator<Item = [f32; 3]>,
     memory: &mut Memory<'_>,
-    clock: &mut impl Clock,
-    told: &mut impl FnMut(&Answer),
+    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
 ) -> Result<usize, Refused> {
-    for place in places {
-        let answer = timed(clock, || hull.closest_point(place, budget, &mut memory.entries));
-        told(&closest(answer));
-    }
+    let ask = |place| hull.closest_point(place, budget, &mut memory.entries);
+    asking.each(ask, Answer::Closest);
     Ok(bytes(ENTRIES))
 }
 
@@ -381,20 +353,16 @@ fn sweep(
 fn kept_sweep(
     hull: &Hull<'_>,
     budget: Budget,
-    places: impl Iterator<Item = [f32; 3]> + Clone,
     memory: &mut Memory<'_>,
-    clock: &mut impl Clock,
-    told: &mut impl FnMut(&Answer),
+    asking: Asking<'_, impl Iterator<Item = [f32; 3]> + Clone, impl Clock, impl FnMut(&Answer)>,
 ) -> Result<usize, Refused> {
-    let begin = places.clone().next().unwrap_or_default();
+    let begin = asking.places.clone().next().unwrap_or_default();
     let mut sweep = hull.sweep(begin, &mut memory.entries).map_err(|_| Refused::MEMORY)?;
-    for place in places {
-        let answer = timed(clock, || {
-            sweep.move_to(place)?;
-            sweep.closest_point(budget)
-        });
-        told(&closest(answer));
-    }
+    let ask = |place| {
+        sweep.move_to(place)?;
+        sweep.closest_point(budget)
+    };
+    asking.each(ask, Answer::Closest);
     Ok(bytes(ENTRIES))
 }
 
@@ -402,17 +370,12 @@ fn kept_sweep(
 fn refine<'t>(
     hull: &Hull<'t>,
     (radius, error): (f32, f32),
-    places: impl Iterator<Item = [f32; 3]>,
     memory: &mut Memory<'t>,
-    clock: &mut impl Clock,
-    told: &mut impl FnMut(&Answer),
+    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
 ) -> Result<usize, Refused> {
     let Memory { refined, changes, .. } = memory;
-    for centre in places {
-        let focus = Focus::Ball { centre, radius };
-        let update = timed(clock, || refined.update(hull, &focus, error, changes));
-        told(&update.map_or_else(Answer::Refused, Answer::Refined));
-    }
+    let ask = |centre| refined.update(hull, &Focus::Ball { centre, radius }, error, changes);
+    asking.each(ask, Answer::Refined);
     Ok(size_of::<RefinedHull<'_, SPLITS>>())
 }
 
