@@ -11,7 +11,6 @@ use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
 use crate::num::{SOFT_FLOAT, greater, sqrt_approx};
 use crate::query::Interval;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
-use glam::Vec3;
 
 /// The leaf of an answer, to visit first for a query nearby. Any value is safe. A bad one costs a
 /// leaf.
@@ -368,21 +367,23 @@ fn from_afar(
     query: &PointQuery,
 ) -> Result<ClosestPoint, QueryError> {
     let (low, high) = tree.grid_bounds();
-    let point = Vec3::from_array(point);
-    let corners = [low, high].map(|corner| Vec3::from_array(query.units.point(corner)).abs());
-    let size = point.abs().max(corners[0]).max(corners[1]).max_element();
+    let corners = [low, high].map(|corner| query.units.point(corner));
+    let sizes = corners.iter().flatten().chain(&point).map(|x| x.abs());
+    let size = sizes.fold(0.0, greater);
     let (up, down) = match size {
         size if size > POWER_40 => (1.0 / POWER_70, POWER_70),
         size if size < 1.0 / POWER_40 => (POWER_70, 1.0 / POWER_70),
         _ => (1.0, 1.0),
     };
     let scaled = |x: f32| query.units.outward(x, up);
-    let [low, high] =
-        [low, high].map(|corner| Vec3::new(scaled(corner.x), scaled(corner.y), scaled(corner.z)));
-    let p = point * up;
-    let outside = (low - p).max(p - high).max(Vec3::ZERO);
-    let farthest = (low - p).abs().max((p - high).abs());
-    let (near, far) = (sqrt_approx(outside.dot(outside)), sqrt_approx(farthest.dot(farthest)));
+    let (mut near_sq, mut far_sq) = (0.0, 0.0);
+    let bounds = low.to_array().into_iter().zip(high.to_array());
+    for (x, (low, high)) in point.into_iter().zip(bounds) {
+        let (below, above) = (scaled(low) - x * up, x * up - scaled(high));
+        near_sq += square(greater(0.0, greater(below, above)));
+        far_sq += square(greater(below.abs(), above.abs()));
+    }
+    let (near, far) = (sqrt_approx(near_sq), sqrt_approx(far_sq));
     let margin =
         |distance: f32| distance * (2.0 * FAN_RELATIVE * U32) + scaled(query.fixed_error());
     let mut links = tree.links(0).ok_or(QueryError::Unchecked)?;

@@ -15,7 +15,7 @@
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use super::node::places_of_wanted;
 use super::node::{CHILD_MASK, NO_CHILD, WIDE, least_key};
-use crate::bvh::format::{Bvh, FanLeaf};
+use crate::bvh::format::{Bvh, BvhChild, FanLeaf};
 use crate::geom::fan::WIDTH;
 use crate::num::lesser;
 use crate::query::{Ended, QueryError, ScratchEntry, Work};
@@ -164,7 +164,7 @@ fn put_wanted(
 
 /// Writes the children with keys up to `limit`, except `nearest`, and tells how many they are.
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-#[inline(never)]
+#[inline(always)]
 fn put_wanted(
     slots: &mut [ScratchEntry; WIDTH],
     node: u32,
@@ -249,85 +249,159 @@ pub(crate) fn descend(
     visitor: &mut impl LeafVisitor,
     work: &mut Work,
 ) -> Result<Descent, QueryError> {
-    let stack = Stack { entries: scratch, used: 0, dropped: NOTHING };
-    let all = work.splits.saturating_add(tree.most_steps());
-    let limit =
-        Limit { steps: lesser(steps, all), is_short: steps < all, entries: tree.scratch_entries() };
-    walk(tree, query, &limit, stack, visitor, work).ok_or(QueryError::Unchecked)
+    let mut walk = Walk::new(tree, steps, scratch, work);
+    let mut visit = LeafVisit { leaf: FanLeaf::NONE, key: 0, node: 0, child: 0 };
+    while walk
+        .next_leaf(tree, query, visitor.limit(), work, &mut visit)
+        .ok_or(QueryError::Unchecked)?
+    {
+        if !visitor.leaf(&visit).ok_or(QueryError::Unchecked)? {
+            return Ok(Descent::Answered);
+        }
+    }
+    Ok(walk.ended)
 }
 
-/// The descent. `None` says that the tree is unchecked: the loop carries no other error.
-#[inline(always)]
-fn walk(
-    tree: &Bvh<'_>,
-    query: &impl NodeQuery,
-    most: &Limit,
-    mut stack: Stack<'_>,
-    visitor: &mut impl LeafVisitor,
-    work: &mut Work,
-) -> Option<Descent> {
-    let mut node = 0u32;
-    let mut bound = 0u32;
-    let mut least_first = false;
-    loop {
-        if work.splits >= most.steps {
-            return Some(Descent::Truncated {
-                least: bound.min(stack.least()),
-                ended: Ended::Steps,
-            });
+/// A descent between two leaves.
+struct Walk<'a> {
+    limit: Limit,
+    stack: Stack<'a>,
+    /// Whether the root was opened.
+    has_begun: bool,
+    /// Whether the least key comes next.
+    least_first: bool,
+    /// How it ended, if there is no further leaf.
+    ended: Descent,
+}
+
+/// A node or leaf, with its entry.
+type Place = (ScratchEntry, BvhChild);
+
+impl<'s> Walk<'s> {
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    fn new(tree: &Bvh<'_>, steps: u32, scratch: &'s mut [ScratchEntry], work: &Work) -> Self {
+        let all = work.splits.saturating_add(tree.most_steps());
+        Walk {
+            limit: Limit {
+                steps: lesser(steps, all),
+                is_short: steps < all,
+                entries: tree.scratch_entries(),
+            },
+            stack: Stack { entries: scratch, used: 0, dropped: NOTHING },
+            has_begun: false,
+            least_first: false,
+            ended: Descent::Answered,
         }
+    }
+
+    /// Goes on to the next leaf with a key up to `most`, and writes it to `visit`. Returns whether
+    /// there is one. `None` says that the tree is unchecked: the loop carries no other error.
+    ///
+    /// On boards it is a call, and all questions about a point share it.
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    fn next_leaf<'t>(
+        &mut self,
+        tree: &Bvh<'t>,
+        query: &impl NodeQuery,
+        most: u32,
+        work: &mut Work,
+        visit: &mut LeafVisit<'t>,
+    ) -> Option<bool> {
+        let (mut node, mut bound) = (0, 0);
+        let mut opens = !self.has_begun;
+        self.has_begun = true;
+        loop {
+            let mut place = None;
+            if opens {
+                if work.splits >= self.limit.steps {
+                    let least = bound.min(self.stack.least());
+                    self.ended = Descent::Truncated { least, ended: Ended::Steps };
+                    return Some(false);
+                }
+                place = self.open(tree, query, [node, bound, most], work)?;
+            }
+            let (entry, child) = match place {
+                Some(nearest) => nearest,
+                None => match self.pop(tree, most, work)? {
+                    Some(waiting) => waiting,
+                    None => {
+                        self.ended = self.end(most);
+                        return Some(false);
+                    }
+                },
+            };
+            bound = entry.small_word() & !CHILD_MASK;
+            if child.is_leaf() {
+                let leaf = tree.leaf_at(child.at, child.shape)?;
+                work.triangles += child.shape.triangles() as u32;
+                self.least_first = self.limit.is_short;
+                let child = entry.small_word() & CHILD_MASK;
+                *visit = LeafVisit { leaf, key: bound, node: entry.node(), child };
+                return Some(true);
+            }
+            node = child.at;
+            opens = true;
+        }
+    }
+
+    /// Opens a node: pushes its children, but for the nearest one, which comes next. `Some(None)`
+    /// says that an entry of the stack comes next.
+    #[inline(always)]
+    fn open(
+        &mut self,
+        tree: &Bvh<'_>,
+        query: &impl NodeQuery,
+        [node, bound, limit]: [u32; 3],
+        work: &mut Work,
+    ) -> Option<Option<Place>> {
         let links = tree.links(node)?;
-        let opened = OpenedNode { node, count: links.count, bound, limit: visitor.limit() };
+        let opened = OpenedNode { node, count: links.count, bound, limit };
         let mut keys = [NO_CHILD; WIDTH];
         query.keys(tree, &opened, &mut keys)?;
         work.splits += 1;
         work.nodes += links.count;
-        let limit = visitor.limit();
-        let nearest = stack.push_children(node, &keys, links.count, limit);
-        let mut is_wanted = nearest <= limit;
-        // The nearest child's links are read already. An entry from the stack has to read its
-        // parent's links again.
-        let mut child = links.child(nearest & CHILD_MASK);
-        let mut entry = ScratchEntry::of_words([nearest, node]);
-        if least_first && is_wanted && most.push_nearest(&mut stack, work, entry) {
-            is_wanted = false;
+        let nearest = self.stack.push_children(node, &keys, links.count, limit);
+        if nearest > limit {
+            return Some(None);
         }
+        let entry = ScratchEntry::of_words([nearest, node]);
+        if self.least_first && self.limit.push_nearest(&mut self.stack, work, entry) {
+            return Some(None);
+        }
+        // The links are read already. For an entry from the stack they are read again.
+        Some(Some((entry, links.child(nearest & CHILD_MASK))))
+    }
+
+    /// Takes an entry with a key up to `most` from the stack. `Some(None)`: there is none.
+    #[inline(always)]
+    fn pop(&mut self, tree: &Bvh<'_>, most: u32, work: &Work) -> Option<Option<Place>> {
+        let mut entry;
         loop {
-            if is_wanted {
-                bound = entry.small_word() & !CHILD_MASK;
-                if !child.is_leaf() {
-                    node = child.at;
-                    break;
-                }
-                let leaf = tree.leaf_at(child.at, child.shape)?;
-                work.triangles += child.shape.triangles() as u32;
-                let child = entry.small_word() & CHILD_MASK;
-                let visit = LeafVisit { leaf, key: bound, node: entry.node(), child };
-                if !visitor.leaf(&visit)? {
-                    return Some(Descent::Answered);
-                }
-                least_first = most.is_short;
+            let Some(top) = self.stack.used.checked_sub(1) else { return Some(None) };
+            self.stack.used = top;
+            entry = self.stack.entries.get(top).copied()?;
+            let is_least =
+                self.least_first && self.limit.take_least(&mut self.stack, work, &mut entry);
+            if entry.small_word() <= most {
+                break;
             }
-            is_wanted = true;
-            loop {
-                let Some(top) = stack.used.checked_sub(1) else {
-                    return Some(if stack.dropped <= visitor.limit() {
-                        Descent::Truncated { least: stack.dropped, ended: Ended::Scratch }
-                    } else {
-                        Descent::Done
-                    });
-                };
-                stack.used = top;
-                entry = stack.entries.get(top).copied()?;
-                let is_least = least_first && most.take_least(&mut stack, work, &mut entry);
-                if entry.small_word() <= visitor.limit() {
-                    break;
-                }
-                if is_least {
-                    stack.used = 0;
-                }
+            if is_least {
+                self.stack.used = 0;
             }
-            child = tree.child(entry.node(), entry.small_word() & CHILD_MASK)?;
+        }
+        Some(Some((entry, tree.child(entry.node(), entry.small_word() & CHILD_MASK)?)))
+    }
+
+    /// How a descent without entries up to `most` ended.
+    #[inline(always)]
+    fn end(&self, most: u32) -> Descent {
+        let least = self.stack.dropped;
+        if least <= most {
+            Descent::Truncated { least, ended: Ended::Scratch }
+        } else {
+            Descent::Done
         }
     }
 }

@@ -242,7 +242,7 @@ mod narrow {
     use crate::bvh::triangle_bounds::{nearness, seen_from};
     use crate::geom::fan::{
         Nearness, PointFan, SpokeTerms, WIDTH, Whole, WholeBounds, WholeLimit, WholePoint,
-        is_certain_corner, less, point_leaf, whole_bounds,
+        is_certain_corner, less, whole_bounds,
     };
     use crate::num::SOFT_FLOAT;
     use crate::num::lesser;
@@ -429,8 +429,14 @@ mod narrow {
         let ring = leaf.grid_ring()?;
         let turn = leaf.shape().turn();
         let mut within = limit.distance_sq;
+        let fan_about = |centre: Whole| {
+            let [ox, oy, oz] = ring.origin;
+            let [x, y, z] = centre;
+            let centre = [x.wrapping_add(ox), y.wrapping_add(oy), z.wrapping_add(oz)];
+            PointFan::new(p - spoke(centre, [0; 3]))
+        };
         let mut centre = ring.centres[0];
-        let mut fan = PointFan::new(p - leaf.centre(0));
+        let mut fan = fan_about(centre);
         let mut before = [0i32; 3];
         let mut a: Option<SpokeTerms> = None;
         for (i, ((x, y), z)) in ring.x.iter().zip(ring.y).zip(ring.z).enumerate() {
@@ -438,7 +444,7 @@ mod narrow {
             if let Some(mut first) = a {
                 if i == turn + 1 {
                     centre = ring.centres[1];
-                    fan = PointFan::new(p - leaf.centre(1));
+                    fan = fan_about(centre);
                     first = fan.spoke(spoke(before, centre));
                 }
                 let second = fan.spoke(spoke(here, centre));
@@ -471,13 +477,14 @@ mod narrow {
     #[inline(never)]
     fn f32_nearest(leaf: &FanLeaf<'_>, p: Vec3, low_sq: f32, nearest: &mut LeafNearest) {
         let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
-        let s = [p - leaf.centre(0), p - leaf.centre(leaf.shape().centres() - 1)];
-        point_leaf(
-            count,
-            turn,
-            s,
-            |i, which| leaf.spoke(i, which),
-            |lane, near| nearest.take(lane, &near, low_sq),
-        );
+        let centres = [0, leaf.shape().centres() - 1].map(|which| leaf.centre(which));
+        let mut from = leaf.ring(0);
+        for lane in 0..count {
+            let centre = centres[usize::from(lane >= turn)];
+            let to = leaf.ring(lane + 1);
+            let near = nearness(&[p - centre, from - centre, to - centre]);
+            nearest.take(lane, &near, low_sq);
+            from = to;
+        }
     }
 }

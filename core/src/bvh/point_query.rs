@@ -58,7 +58,8 @@ pub(crate) struct PointQuery {
 impl PointQuery {
     /// Prepares a question: refuses a tree without boxes for distances, the budget, the scratch
     /// memory or the point.
-    #[inline(always)]
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn prepare(
         tree: &Bvh<'_>,
         point: [f32; 3],
@@ -143,9 +144,8 @@ impl PointQuery {
         sqrt_approx(square) * (1.0 - 4.0 * U32)
     }
 
-    /// Keys of a node's children. On boards a call, for each question has a descent of its own.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    /// Keys of a node's children.
+    #[inline(always)]
     pub(crate) fn keys_of(
         &self,
         tree: &Bvh<'_>,
@@ -166,7 +166,8 @@ impl PointQuery {
 
     /// Upper bound of the distance to the input surface, input units, from a computed distance to
     /// the stored surface.
-    #[inline(always)]
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn upper(&self, distance: f32) -> f32 {
         self.units.upper(
             distance
@@ -181,7 +182,8 @@ impl PointQuery {
     }
 
     /// Lower bound of the distance to the input surface, input units, from a computed one.
-    #[inline(always)]
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn lower(&self, distance: f32) -> f32 {
         self.units.lower(
             distance

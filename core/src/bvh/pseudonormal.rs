@@ -82,7 +82,8 @@ pub(crate) fn viewed_side(leaf: &FanLeaf<'_>, lane: usize, seen: &[Vec3; 3]) -> 
 #[cold]
 fn is_flat(leaf: &FanLeaf<'_>, lane: usize, size: f32) -> bool {
     let [a, b, c] = leaf.corners(lane);
-    let integral = |v: Vec3| v.floor() == v && v.abs().max_element() < EXACT_INTEGERS;
+    let is_whole = |x: f32| x as i32 as f32 == x && x.abs() < EXACT_INTEGERS;
+    let integral = |v: Vec3| v.to_array().into_iter().all(is_whole);
     a == b
         || b == c
         || c == a
@@ -102,7 +103,8 @@ pub(crate) struct Candidates<'p> {
 
 impl<'p> Candidates<'p> {
     /// `margin` is the rounding that does not grow with the distance.
-    #[inline]
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn new(query: &'p PointQuery, margin: f32, distance_sq: f32) -> Self {
         let distance = sqrt_approx(distance_sq);
         let band = distance * (1.0 + 128.0 * U32) + 8.0 * margin;

@@ -17,7 +17,7 @@ use super::descent::{LeafVisit, LeafVisitor};
 use super::node::WIDE;
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::FanLeaf;
-use crate::geom::fan::{Crossing, FanRay, LANES_BELOW, WIDTH, ray_leaf, ray_leaf8};
+use crate::geom::fan::{Crossing, FanRay, LANES_BELOW, Shadow, WIDTH, ray_leaf, ray_leaf8};
 use crate::num::SOFT_FLOAT;
 
 /// Which sides of triangles a segment meets. The front is where corners run counter-clockwise, in
@@ -121,16 +121,29 @@ fn flagged_near(leaf: &FanLeaf<'_>, ray: &FanRay, near: u32) -> u32 {
         left &= left - 1;
         let centre = ray.shadow(leaf.centre(usize::from(lane >= leaf.shape().turn())));
         let ends = [lane, lane + 1].map(|i| ray.shadow(leaf.ring(i)));
-        flagged |= ray_leaf(ray, WIDTH, [centre; 2], ends.into_iter()) << lane;
+        flagged |= flagged_alone(ray, centre, ends) << lane;
     }
     flagged
+}
+
+/// Whether one triangle of a fan is flagged.
+#[inline(never)]
+fn flagged_alone(ray: &FanRay, centre: Shadow, ends: [Shadow; 2]) -> u32 {
+    ray_leaf(ray, WIDTH, [centre; 2], ends.into_iter())
 }
 
 #[inline(never)]
 fn flagged_f32(leaf: &FanLeaf<'_>, ray: &FanRay) -> u32 {
     let shape = leaf.shape();
     let centres = [0, shape.centres() - 1].map(|which| ray.shadow(leaf.centre(which)));
-    ray_leaf(ray, shape.turn(), centres, (0..=shape.triangles()).map(|i| ray.shadow(leaf.ring(i))))
+    let (mut flagged, mut from) = (0, ray.shadow(leaf.ring(0)));
+    for lane in 0..shape.triangles() {
+        let to = ray.shadow(leaf.ring(lane + 1));
+        let centre = centres[usize::from(lane >= shape.turn())];
+        flagged |= flagged_alone(ray, centre, [from, to]) << lane;
+        from = to;
+    }
+    flagged
 }
 
 impl<C: CrossingCollector> SegmentVisitor<'_, C> {

@@ -32,6 +32,17 @@ pub(crate) struct SegmentQuery {
     still: bool,
 }
 
+/// Where a line begins.
+struct Start {
+    origin: Vec3,
+    /// By axis, the distance of the farthest corner of the model's box.
+    far: Vec3,
+    /// The caller's parameter of `origin`.
+    start: f32,
+    /// Upper bound of the distance of `origin` from the segment.
+    off: f32,
+}
+
 impl SegmentQuery {
     /// Prepares a question: refuses a tree without boxes for segments, the budget, the scratch
     /// memory or the segment. `None`: the segment is proved clear of the model.
@@ -66,24 +77,17 @@ impl SegmentQuery {
         if misses([a, b], [low, high], units.surface_error, size + size_b) {
             return Ok(None);
         }
+        let mut start = Start { origin: a, far, start: 0.0, off: 0.0 };
         if size > NEAR_START * norm_1(high - low) {
-            return Ok(approach(tree, [a, b], [low, high], size));
+            let Some(nearer) = approach(tree, [a, b], [low, high], size) else { return Ok(None) };
+            start = nearer;
         }
-        Ok(Some(SegmentQuery::at(tree, a, b - a, far, 0.0, 0.0)))
+        Ok(Some(SegmentQuery::at(tree, start, b - a)))
     }
 
-    /// The query along the line from `origin`, which the caller's segment passes at its parameter
-    /// `start`. `far`: by axis, the distance of the farthest corner of the model's box. `off`:
-    /// upper bound of the distance of `origin` from the segment.
+    /// The query along the line from a place. One instance: it is much code.
     #[inline(always)]
-    fn at(
-        tree: &Bvh<'_>,
-        origin: Vec3,
-        direction: Vec3,
-        far: Vec3,
-        start: f32,
-        off: f32,
-    ) -> SegmentQuery {
+    fn at(tree: &Bvh<'_>, Start { origin, far, start, off }: Start, direction: Vec3) -> Self {
         let units = tree.units();
         let surface = units.surface_error + off;
         let inverse = |d: f32| 1.0 / if d.abs() > STILL { d } else { STILL.copysign(d) };
@@ -203,12 +207,7 @@ fn misses([a, b]: [Vec3; 2], [low, high]: [Vec3; 2], surface_error: f32, size: f
 /// `core/docs/rounding.md` §9.
 #[cold]
 #[inline(never)]
-fn approach(
-    tree: &Bvh<'_>,
-    [a, b]: [Vec3; 2],
-    [low, high]: [Vec3; 2],
-    size: f32,
-) -> Option<SegmentQuery> {
+fn approach(tree: &Bvh<'_>, [a, b]: [Vec3; 2], [low, high]: [Vec3; 2], size: f32) -> Option<Start> {
     let surface_error = tree.units().surface_error;
     let direction = b - a;
     // Eight times the error of the slab test below.
@@ -235,7 +234,7 @@ fn approach(
     let origin = Vec3::new(at(a.x, b.x), at(a.y, b.y), at(a.z, b.z));
     let far = farthest(origin, low, high);
     let off = 2.0 * U32 * norm_1(origin) + (64.0 * U32 * U32) * (size + norm_1(direction));
-    Some(SegmentQuery::at(tree, origin, direction, far, start, off))
+    Some(Start { origin, far, start, off })
 }
 
 /// `a + t·(b − a)`, computed with twice f32's precision and rounded once (Dekker 1971; Knuth, TAOCP

@@ -217,7 +217,7 @@ impl Search<'_, '_> {
         query: &'p PointQuery,
         bounding: Bounding,
     ) -> Result<Survey<'p>, QueryError> {
-        let tree = *self.tree;
+        let tree = self.tree;
         let collector = Survey {
             query,
             margin: FAN_DISTANCE * U32 * tree.header().star_radius,
@@ -230,8 +230,8 @@ impl Search<'_, '_> {
             least: [f32::INFINITY; 4],
             missed: None,
         };
-        let mut visitor = TriangleVisitor::new(&tree, query, EVERYTHING_SQ, collector);
-        let descent = descend(&tree, query, self.steps, self.stack, &mut visitor, &mut self.work)?;
+        let mut visitor = TriangleVisitor::new(tree, query, EVERYTHING_SQ, collector);
+        let descent = descend(tree, query, self.steps, self.stack, &mut visitor, &mut self.work)?;
         let mut survey = visitor.collector;
         if let Descent::Truncated { least, ended } = descent {
             survey.missed = Some(least);
@@ -316,6 +316,8 @@ impl LeafTriangle {
     }
 
     /// Takes the nearer triangle; of two equally near ones the lesser number.
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn improve(&mut self, other: LeafTriangle) {
         if other.distance_sq < self.distance_sq
             || (other.distance_sq == self.distance_sq && other.number < self.number)

@@ -32,7 +32,8 @@ pub(crate) fn seen_from(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> [Vec3; 3] {
     [p - centre, e, g]
 }
 
-#[inline(always)]
+/// The distance of a triangle that is [seen](seen_from), as computed.
+#[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
 pub(crate) fn nearness(seen: &[Vec3; 3]) -> Nearness {
     let &[s, e, g] = seen;
     let fan = PointFan::new(s);
@@ -55,7 +56,7 @@ pub(crate) fn each_triangle(
                 [distance_sq, low_sq]
             }
             _ => {
-                let near = refine_sliver(query, &seen, nearness(&seen));
+                let near = refined_nearness(query, &seen);
                 [near.distance_sq, near.lower_bound_sq]
             }
         };
@@ -65,9 +66,14 @@ pub(crate) fn each_triangle(
 
 /// The closest point of one triangle, grid units.
 pub(crate) fn witness(query: &PointQuery, leaf: &FanLeaf<'_>, lane: usize) -> Vec3 {
-    let seen = seen_from(leaf, lane, query.p);
-    let near = refine_sliver(query, &seen, nearness(&seen));
+    let near = refined_nearness(query, &seen_from(leaf, lane, query.p));
     leaf.point(lane, near.v, near.w)
+}
+
+/// [`nearness`], then [`refine_sliver`].
+#[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+fn refined_nearness(query: &PointQuery, seen: &[Vec3; 3]) -> Nearness {
+    refine_sliver(query, seen, nearness(seen))
 }
 
 /// Lower bound of a triangle's distance, grid units. [`PointQuery::lower`] then subtracts the

@@ -284,7 +284,8 @@ impl<'a, 't> Follow<'a, 't> {
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn look(&mut self, i: usize, child: Child) -> Result<(), NoAnswer> {
-        let leaf = self.tree.leaf(child.node(), child.index()).ok_or(NoAnswer::Unchecked)?;
+        let found = self.tree.child(child.node(), child.index()).ok_or(NoAnswer::Unchecked)?;
+        let leaf = self.tree.leaf_at(found.at, found.shape).ok_or(NoAnswer::Unchecked)?;
         let (near, edges) = nearest_and_edges(&leaf, self.query).ok_or(NoAnswer::Unchecked)?;
         self.work.triangles += leaf.shape().triangles() as u32;
         self.cost += cost::LEAF;
@@ -332,12 +333,15 @@ impl<'a, 't> Follow<'a, 't> {
     #[inline(always)]
     fn each(&mut self, leaf: &FanLeaf<'_>, mut then: impl FnMut(&mut Self, usize, Nearness)) {
         let (p, shape) = (self.query.p, leaf.shape());
-        let s = [p - leaf.centre(0), p - leaf.centre(shape.centres() - 1)];
+        let centres = [0, shape.centres() - 1].map(|which| leaf.centre(which));
         point_leaf(
             shape.triangles(),
             shape.turn(),
-            s,
-            |i, which| leaf.spoke(i, which),
+            centres.map(|centre| p - centre),
+            |i, which| match leaf.is_f32() {
+                true => leaf.ring(i) - centres[which & 1],
+                false => leaf.spoke(i, which),
+            },
             |lane, near| then(self, lane, near),
         );
     }

@@ -138,11 +138,6 @@ fn short(bytes: &[u8], at: usize) -> i32 {
 }
 
 #[inline(always)]
-fn less([a, b, c]: [i32; 3], [x, y, z]: [i32; 3]) -> [i32; 3] {
-    [a.wrapping_sub(x), b.wrapping_sub(y), c.wrapping_sub(z)]
-}
-
-#[inline(always)]
 fn f32_at(bytes: &[u8], at: usize) -> f32 {
     match bytes.get(at..).and_then(|b| b.first_chunk::<4>()) {
         Some(&word) => f32::from_le_bytes(word),
@@ -175,6 +170,10 @@ fn three(window: &[u8; GRID_WINDOW], at: usize) -> [i32; 3] {
 }
 
 impl<'a> FanLeaf<'a> {
+    /// No leaf: a place for one.
+    pub(crate) const NONE: FanLeaf<'static> =
+        FanLeaf { bytes: &[], shape: LeafShape(0), is_f32: false, origin: [0; 3] };
+
     /// Its shape.
     #[inline(always)]
     pub fn shape(&self) -> LeafShape {
@@ -185,15 +184,23 @@ impl<'a> FanLeaf<'a> {
     /// or triangles gives some number.
     #[inline(always)]
     pub fn centre(&self, which: usize) -> Vec3 {
+        self.vertex(6 * which, 2)
+    }
+
+    /// The vertex whose first coordinate would be at this byte on the grid, and the next ones so
+    /// many bytes farther. On boards a call: reading a vertex is much code.
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    fn vertex(&self, at: usize, step: usize) -> Vec3 {
         if self.is_f32 {
-            let at = 12 * which;
+            // Every number is twice as long.
+            let (at, step) = (2 * at, 2 * step);
             return Vec3::new(
                 f32_at(self.bytes, at),
-                f32_at(self.bytes, at + 4),
-                f32_at(self.bytes, at + 8),
+                f32_at(self.bytes, at + step),
+                f32_at(self.bytes, at + 2 * step),
             );
         }
-        let [x, y, z] = self.stored(6 * which, 2);
+        let [x, y, z] = self.stored(at, step);
         let [ox, oy, oz] = self.origin;
         Vec3::new(x.wrapping_add(ox) as f32, y.wrapping_add(oy) as f32, z.wrapping_add(oz) as f32)
     }
@@ -252,19 +259,7 @@ impl<'a> FanLeaf<'a> {
     /// Ring vertex `i ≤ triangles`, grid units, exactly.
     #[inline(always)]
     pub fn ring(&self, i: usize) -> Vec3 {
-        let entries = self.shape.triangles() + 1;
-        if self.is_f32 {
-            let at = 12 * self.shape.centres() + 4 * i;
-            let step = 4 * entries;
-            return Vec3::new(
-                f32_at(self.bytes, at),
-                f32_at(self.bytes, at + step),
-                f32_at(self.bytes, at + 2 * step),
-            );
-        }
-        let [x, y, z] = self.stored(6 * self.shape.centres() + 2 * i, 2 * entries);
-        let [ox, oy, oz] = self.origin;
-        Vec3::new(x.wrapping_add(ox) as f32, y.wrapping_add(oy) as f32, z.wrapping_add(oz) as f32)
+        self.vertex(6 * self.shape.centres() + 2 * i, 2 * (self.shape.triangles() + 1))
     }
 
     /// Ring vertex `i` less centre `which`: exact on the grid, rounded once with f32 vertices.
@@ -330,16 +325,33 @@ impl<'a> FanLeaf<'a> {
     #[inline(never)]
     pub fn spokes(&self, lane: usize) -> [Vec3; 3] {
         let which = usize::from(lane >= self.shape.turn());
-        if let (false, Some(ring)) = (self.is_f32, self.grid_ring())
-            && let Some([centre, a, b]) = ring.corners(lane, self.shape.turn())
-        {
-            let spoke = |v: [i32; 3]| less(v, centre).map(|x| x as f32).into();
-            let [cx, cy, cz] = centre;
+        if let (false, Some(stored)) = (self.is_f32, self.stored_triangle(lane, which)) {
+            let [(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])] = stored;
             let [ox, oy, oz] = self.origin;
-            let centre = [cx.wrapping_add(ox), cy.wrapping_add(oy), cz.wrapping_add(oz)];
-            return [centre.map(|x| x as f32).into(), spoke(a), spoke(b)];
+            let sum = |x: i32, o: i32| x.wrapping_add(o) as f32;
+            let less = |x: i32, c: i32| x.wrapping_sub(c) as f32;
+            return [
+                Vec3::new(sum(cx, ox), sum(cy, oy), sum(cz, oz)),
+                Vec3::new(less(ax, cx), less(ay, cy), less(az, cz)),
+                Vec3::new(less(bx, cx), less(by, cy), less(bz, cz)),
+            ];
         }
-        [self.centre(which), self.spoke(lane, which), self.spoke(lane + 1, which)]
+        let centre = self.centre(which);
+        [centre, self.ring(lane) - centre, self.ring(lane + 1) - centre]
+    }
+
+    /// By axis the stored integers of centre `which`, and of ring vertices `lane` and `lane + 1`.
+    #[inline(always)]
+    fn stored_triangle(&self, lane: usize, which: usize) -> Option<[(i32, [i32; 2]); 3]> {
+        let &[a, b, c, d, e, f] = self.bytes.get(6 * which..)?.first_chunk::<6>()?;
+        let step = 2 * (self.shape.triangles() + 1);
+        let first = 6 * self.shape.centres() + 2 * lane;
+        let axis = |centre: [u8; 2], at: usize| {
+            let &[a, b, c, d] = self.bytes.get(at..)?.first_chunk::<4>()?;
+            let short = |pair| i32::from(u16::from_le_bytes(pair));
+            Some((short(centre), [short([a, b]), short([c, d])]))
+        };
+        Some([axis([a, b], first)?, axis([c, d], first + step)?, axis([e, f], first + 2 * step)?])
     }
 
     /// Corners of triangle `lane`, grid units, in the input's winding.

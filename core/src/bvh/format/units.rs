@@ -36,7 +36,7 @@ impl Units {
     }
 
     /// A coordinate in input units, kept finite.
-    #[inline(always)]
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     pub(crate) fn point(&self, p: Vec3) -> [f32; 3] {
         p.to_array().map(|x| (x * self.outward[0] * self.outward[1]).clamp(-f32::MAX, f32::MAX))
     }

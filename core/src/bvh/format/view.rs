@@ -86,18 +86,17 @@ fn byte(bytes: u64, index: u32) -> u8 {
     (word >> (8 * (index & 3))) as u8
 }
 
-/// Sum of the bytes before number `index` of eight. It must be below 256.
+/// Sum of the bytes before number `index` of eight. It must be below 256, and each byte below 128.
 #[inline(always)]
 fn sum_before(bytes: u64, index: u32) -> u32 {
-    let sums = if cfg!(target_pointer_width = "64") {
-        bytes.wrapping_mul(0x0101_0101_0101_0101) << 8
-    } else {
-        let [low, high] =
-            [bytes as u32, (bytes >> 32) as u32].map(|word| word.wrapping_mul(0x0101_0101));
-        let high = (high << 8).wrapping_add((low >> 24).wrapping_mul(0x0101_0101));
-        u64::from(high) << 32 | u64::from(low << 8)
-    };
-    u32::from(byte(sums, index))
+    if cfg!(target_pointer_width = "64") {
+        let sums = bytes.wrapping_mul(0x0101_0101_0101_0101) << 8;
+        return u32::from(byte(sums, index));
+    }
+    let (low, high) = (bytes as u32, (bytes >> 32) as u32);
+    let before = !(u32::MAX << (8 * (index & 3)));
+    let both = if index < 4 { low & before } else { low.wrapping_add(high & before) };
+    both.wrapping_mul(0x0101_0101) >> 24
 }
 
 impl Links {
@@ -339,10 +338,11 @@ impl<'a> Bvh<'a> {
     }
 
     /// Child number `index` of `node` if it is a leaf.
-    #[inline(always)]
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     pub fn leaf(&self, node: u32, index: u32) -> Option<FanLeaf<'a>> {
         let child = self.child(node, index)?;
-        if child.is_leaf() { self.leaf_at(child.at, child.shape) } else { None }
+        // The shape of a node is refused.
+        self.leaf_at(child.at, child.shape)
     }
 
     /// The leaf whose vertices begin at `vertex`. Kernels rely on 1 to 8 triangles, also in a tree

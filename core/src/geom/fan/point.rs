@@ -135,33 +135,36 @@ pub fn lone_triangle(fan: &PointFan, a: &SpokeTerms, b: &SpokeTerms) -> Nearness
 /// well-conditioned. The result is the nearest of these points. `lower_bound_sq` stays.
 #[inline(never)]
 pub fn refined(&[s, e, g]: &[Vec3; 3], near: &Nearness) -> Nearness {
-    let mut best = *near;
-    let mut offer = |v: f32, w: f32| {
-        let r = residual(s, e, g, v, w);
-        let distance_sq = dot(r, r);
-        if distance_sq < best.distance_sq {
-            (best.distance_sq, best.v, best.w) = (distance_sq, v, w);
-        }
-    };
+    // A place without an area to project into is none.
+    let mut places = [(-1.0, 0.0); 4];
+    let [in_plane, on_first, on_second, on_rim] = &mut places;
     let normal = cross(e, g);
     let area_sq = dot(normal, normal);
     if area_sq > LEAST_DENOMINATOR {
         let r = residual(s, e, g, near.v, near.w);
         let v = near.v + dot(cross(r, g), normal) / area_sq;
         let w = near.w + dot(cross(e, r), normal) / area_sq;
-        if v >= 0.0 && w >= 0.0 && v + w <= 1.0 {
-            offer(v, w);
+        if v + w <= 1.0 {
+            *in_plane = (v, w);
         }
     }
-    let share = |along: f32, length_sq: f32| {
-        let share = greater(0.0, along) / greater(LEAST_DENOMINATOR, length_sq);
+    let share = |from: Vec3, edge: Vec3| {
+        let along = greater(0.0, dot(from, edge));
+        let share = along / greater(LEAST_DENOMINATOR, dot(edge, edge));
         if share < 1.0 { share } else { 1.0 }
     };
-    offer(share(dot(s, e), dot(e, e)), 0.0);
-    offer(0.0, share(dot(s, g), dot(g, g)));
-    let rim = g - e;
-    let w = share(dot(s - e, rim), dot(rim, rim));
-    offer(1.0 - w, w);
+    on_first.0 = share(s, e);
+    *on_second = (0.0, share(s, g));
+    let w = share(s - e, g - e);
+    *on_rim = (1.0 - w, w);
+    let mut best = *near;
+    for (v, w) in places {
+        let r = residual(s, e, g, v, w);
+        let distance_sq = dot(r, r);
+        if v >= 0.0 && w >= 0.0 && distance_sq < best.distance_sq {
+            (best.distance_sq, best.v, best.w) = (distance_sq, v, w);
+        }
+    }
     best
 }
 
@@ -225,17 +228,17 @@ pub fn point_leaf(
 pub fn lower_bound(seen: &[Vec3; 3], near: &Nearness) -> f32 {
     let &[s, e, g] = seen;
     let r = residual(s, e, g, near.v, near.w);
-    let orthogonal = |edge: Vec3| {
-        let length_sq = dot(edge, edge);
-        if length_sq > LEAST_DENOMINATOR { r - edge * (dot(r, edge) / length_sq) } else { r }
-    };
     let normal = normal(e, g);
     let side = if dot(normal, s) < 0.0 { -normal } else { normal };
     // Along `s` too: a triangle that `is_beyond` leaves out must be as far here.
-    let best = greater(0.0, greater(supported(s, seen), supported(r, seen)));
-    let best =
-        greater(best, greater(supported(orthogonal(e), seen), supported(orthogonal(g), seen)));
-    greater(best, greater(supported(orthogonal(g - e), seen), supported(side, seen)))
+    let mut directions = [s, r, e, g, g - e, side];
+    let [_, _, edges @ .., _] = &mut directions;
+    for edge in edges {
+        let length_sq = dot(*edge, *edge);
+        let share = if length_sq > LEAST_DENOMINATOR { dot(r, *edge) / length_sq } else { 0.0 };
+        *edge = r - *edge * share;
+    }
+    directions.iter().fold(0.0, |best, direction| greater(best, supported(*direction, seen)))
 }
 
 /// Distance of the supporting plane across `direction`; 0 if `direction` has no length.

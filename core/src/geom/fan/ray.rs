@@ -167,7 +167,7 @@ impl FanRay {
     }
 
     /// The shadow of a vertex.
-    #[inline(always)]
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     pub fn shadow(&self, vertex: Vec3) -> Shadow {
         self.shadow_in_order(self.in_order(vertex.to_array()))
     }
