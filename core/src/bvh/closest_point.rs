@@ -367,7 +367,7 @@ fn from_afar(
     query: &PointQuery,
 ) -> Result<ClosestPoint, QueryError> {
     let (low, high) = tree.grid_bounds();
-    let corners = [low, high].map(|corner| query.units.point(corner));
+    let corners = [query.units.point(low), query.units.point(high)];
     let sizes = corners.iter().flatten().chain(&point).map(|x| x.abs());
     let size = sizes.fold(0.0, greater);
     let (up, down) = match size {

@@ -477,7 +477,7 @@ mod narrow {
     #[inline(never)]
     fn f32_nearest(leaf: &FanLeaf<'_>, p: Vec3, low_sq: f32, nearest: &mut LeafNearest) {
         let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
-        let centres = [0, leaf.shape().centres() - 1].map(|which| leaf.centre(which));
+        let centres = [leaf.centre(0), leaf.centre(leaf.shape().centres() - 1)];
         let mut from = leaf.ring(0);
         for lane in 0..count {
             let centre = centres[usize::from(lane >= turn)];

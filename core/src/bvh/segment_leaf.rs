@@ -107,9 +107,10 @@ fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
         ray.shadow_in_order([sum(x, ox), sum(y, oy), sum(z, oz)])
     };
     let vertices = ring.x.iter().zip(ring.y).zip(ring.z);
-    let vertices =
-        vertices.map(|((x, y), z)| [x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair))));
-    Some(ray_leaf(ray, shape.turn(), ring.centres.map(shadow), vertices.map(shadow)))
+    let short = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
+    let vertices = vertices.map(|((x, y), z)| [short(x), short(y), short(z)]);
+    let centres = [shadow(ring.centres[0]), shadow(ring.centres[1])];
+    Some(ray_leaf(ray, shape.turn(), centres, vertices.map(shadow)))
 }
 
 /// The flagged ones of a few triangles.
@@ -135,7 +136,8 @@ fn flagged_alone(ray: &FanRay, centre: Shadow, ends: [Shadow; 2]) -> u32 {
 #[inline(never)]
 fn flagged_f32(leaf: &FanLeaf<'_>, ray: &FanRay) -> u32 {
     let shape = leaf.shape();
-    let centres = [0, shape.centres() - 1].map(|which| ray.shadow(leaf.centre(which)));
+    let shadow = |centre: usize| ray.shadow(leaf.centre(centre));
+    let centres = [shadow(0), shadow(shape.centres() - 1)];
     let (mut flagged, mut from) = (0, ray.shadow(leaf.ring(0)));
     for lane in 0..shape.triangles() {
         let to = ray.shadow(leaf.ring(lane + 1));
@@ -170,9 +172,10 @@ impl<C: CrossingCollector> SegmentVisitor<'_, C> {
             left &= left - 1;
             let second = lane as usize >= shape.turn();
             let fan = usize::from(second);
+            let ring = |i: usize| ray.shadow(leaf.ring(i));
             let corners =
-                [leaf.centre(fan), leaf.ring(lane as usize), leaf.ring(lane as usize + 1)];
-            let found = ray.crossing(corners.map(|v| ray.shadow(v)), wanted(second));
+                [ray.shadow(leaf.centre(fan)), ring(lane as usize), ring(lane as usize + 1)];
+            let found = ray.crossing(corners, wanted(second));
             let Some(mut crossing) = found else { continue };
             // The whole leaf lies in its box, so no parameter below the box's bound is possible.
             // Without this the answer would depend on the order of visits.

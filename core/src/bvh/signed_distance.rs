@@ -249,11 +249,11 @@ impl Search<'_, '_> {
     fn side_from_nearer(&mut self, survey: &Survey<'_>) -> Result<Option<Side>, QueryError> {
         let band = Candidates::new(survey.query, survey.margin, survey.with_area.distance_sq).band;
         let mut agreed = None;
-        for (place, lower) in survey.by_side.into_iter().zip(survey.least) {
-            if place.is_none() || lower > band {
+        for (place, lower) in survey.by_side.iter().zip(&survey.least) {
+            if place.is_none() || *lower > band {
                 continue;
             }
-            let side = self.side_on_the_way(survey, place)?;
+            let side = self.side_on_the_way(survey, *place)?;
             if side.is_none() || agreed.is_some() && agreed != side {
                 return Ok(None);
             }
@@ -383,7 +383,7 @@ impl Survey<'_> {
     /// opened.
     fn lower(&self) -> f32 {
         let distance = sqrt_approx(self.best.distance_sq);
-        self.query.lower(self.least.into_iter().fold(distance, lesser))
+        self.query.lower(self.least.iter().copied().fold(distance, lesser))
     }
 
     /// A point on the way to a triangle, a sixteenth of the distance from the triangle, within the

@@ -12,8 +12,9 @@ use super::view::Bvh;
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError, SectionTable, ok};
 use crate::geom::fan::WIDTH;
-use crate::num::greater;
 use crate::num::tolerance::{MOST_SURFACE_ERROR, U32};
+use crate::num::{SOFT_FLOAT, greater};
+use glam::Vec3;
 
 /// Nodes on the longest path from the root: eight-fold branching needs fewer than ten, degenerate
 /// input a few more.
@@ -338,10 +339,10 @@ impl<'a> Bvh<'a> {
     }
 
     fn check_leaf(&self, leaf: &FanLeaf<'_>, index: u32) -> Result<(), OpenError> {
-        let sound = if leaf.is_f32() {
-            self.is_sound(leaf)
-        } else {
+        let sound = if SOFT_FLOAT && !leaf.is_f32() {
             self.is_sound_on_grid(leaf) == Some(true)
+        } else {
+            self.is_sound(leaf)
         };
         if sound {
             Ok(())
@@ -352,28 +353,33 @@ impl<'a> Bvh<'a> {
 
     /// All vertices lie in the model's box, and no triangle is larger than the header says.
     fn is_sound(&self, leaf: &FanLeaf<'_>) -> bool {
-        let h = &self.header;
-        let inside = |p: glam::Vec3| {
-            (0..3).all(|axis| {
-                let (x, o) = (p.to_array()[axis], h.grid_origin[axis]);
-                // Exact: sums of u16 and the origin fit f32.
-                x >= (o + i32::from(h.low[axis])) as f32
-                    && x <= (o + i32::from(h.high[axis])) as f32
-            })
-        };
+        let inside = |p: Vec3| self.is_inside(p);
         let shape = leaf.shape();
-        (0..shape.centres()).all(|which| inside(leaf.centre(which)))
-            && (0..=shape.triangles()).all(|i| inside(leaf.ring(i)))
-            && (0..shape.triangles()).all(|i| {
-                let which = usize::from(i >= shape.turn());
-                let norm = |v: glam::Vec3| v.x.abs() + v.y.abs() + v.z.abs();
-                // Off by a few roundings, for which the bounds with `star_radius` have room.
-                norm(leaf.spoke(i, which)) + norm(leaf.spoke(i + 1, which))
-                    <= h.star_radius * (1.0 + 8.0 * U32)
-            })
+        let centres = [leaf.centre(0), leaf.centre(shape.centres() - 1)];
+        let mut sound = inside(centres[0]) & inside(centres[1]);
+        let mut from = leaf.ring(0);
+        sound &= inside(from);
+        for lane in 0..shape.triangles() {
+            let centre = centres[usize::from(lane >= shape.turn())];
+            let to = leaf.ring(lane + 1);
+            let norm = |v: Vec3| v.x.abs() + v.y.abs() + v.z.abs();
+            // Exact on a grid; else off by a few roundings, for which the bounds with `star_radius`
+            // have room.
+            let size = norm(from - centre) + norm(to - centre);
+            sound &= inside(to) & (size <= self.header.star_radius * (1.0 + 8.0 * U32));
+            from = to;
+        }
+        sound
     }
 
-    /// The same in integers: exact, and cheap without floating point.
+    /// Whether a vertex lies in the model's box. A call, because it is asked at four places.
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    fn is_inside(&self, p: Vec3) -> bool {
+        let (low, high) = self.grid_bounds;
+        p.cmpge(low).all() & p.cmple(high).all()
+    }
+
+    /// [`is_sound`](Self::is_sound) on a grid in integers, for targets without floating point.
     fn is_sound_on_grid(&self, leaf: &FanLeaf<'_>) -> Option<bool> {
         let (h, ring, shape) = (&self.header, leaf.grid_ring()?, leaf.shape());
         let (low, high) = (h.low.map(i32::from), h.high.map(i32::from));

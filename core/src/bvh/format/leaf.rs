@@ -303,10 +303,13 @@ impl<'a> FanLeaf<'a> {
             Some(row.as_chunks::<2>().0)
         };
         let [u, v, w] = axes;
+        let origin = |axis: usize| self.origin.get(axis).copied().unwrap_or(0);
+        // Not by `map`, of which small code has much.
+        let stored = |at: usize, axis: usize| short(self.bytes, at + 2 * axis);
+        let centre = |at: usize| [stored(at, u), stored(at, v), stored(at, w)];
         Some(GridRing {
-            origin: axes.map(|axis| self.origin.get(axis).copied().unwrap_or(0)),
-            centres: [0, 6 * (centres - 1)]
-                .map(|at| axes.map(|axis| short(self.bytes, at + 2 * axis))),
+            origin: [origin(u), origin(v), origin(w)],
+            centres: [centre(0), centre(6 * (centres - 1))],
             x: ring(u)?,
             y: ring(v)?,
             z: ring(w)?,

@@ -37,8 +37,10 @@ impl Units {
 
     /// A coordinate in input units, kept finite.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn point(&self, p: Vec3) -> [f32; 3] {
-        p.to_array().map(|x| (x * self.outward[0] * self.outward[1]).clamp(-f32::MAX, f32::MAX))
+        let outward = |x: f32| self.outward(x, 1.0).clamp(-f32::MAX, f32::MAX);
+        [outward(p.x), outward(p.y), outward(p.z)]
     }
 
     /// A lower bound in input units: at least 0, and below f32's normal range 0.

@@ -182,13 +182,16 @@ fn cross(a: Vec3, b: Vec3) -> Vec3 {
 /// terms of a needle nearly cancel.
 fn normal(e: Vec3, g: Vec3) -> Vec3 {
     // Spokes on a grid are below 2^17. Above 2^30 a sum of two products might not fit.
-    let whole = |v: Vec3| {
-        let whole = v.to_array().map(|x| x as i32);
-        let is_whole = whole.map(|x| x as f32) == v.to_array();
-        (is_whole && v.abs().max_element() < (1 << 30) as f32).then_some(whole.map(i64::from))
-    };
-    let (Some([a, b, c]), Some([x, y, z])) = (whole(e), whole(g)) else { return cross(e, g) };
-    Vec3::new((b * z - c * y) as f32, (c * x - a * z) as f32, (a * y - b * x) as f32)
+    let is_whole = |x: f32| x as i32 as f32 == x && x.abs() < (1 << 30) as f32;
+    if !e.to_array().into_iter().chain(g.to_array()).all(is_whole) {
+        return cross(e, g);
+    }
+    let product = |a: f32, b: f32| i64::from(a as i32) * i64::from(b as i32);
+    Vec3::new(
+        (product(e.y, g.z) - product(e.z, g.y)) as f32,
+        (product(e.z, g.x) - product(e.x, g.z)) as f32,
+        (product(e.x, g.y) - product(e.y, g.x)) as f32,
+    )
 }
 
 /// All triangles of a leaf, in order. `s` gives the point less the first or the second centre,
