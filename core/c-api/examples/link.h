@@ -7,8 +7,8 @@
  * libmeshsweep.a, without the frame of its msw_ function:
  *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
  *   open tight hulls                3200 / 2944    3136 / 3008    3200 / 2944    3136 / 2880
- *   closest point of tight hulls    4032 / 4096    4800 / 4800    4032 / 4096    4480 / 4480
- *   within of tight hulls           3968 / 3968    4736 / 4800    3968 / 3968    4480 / 4480
+ *   closest point of tight hulls    3328 / 3456    4224 / 4288    3328 / 3456    3904 / 3904
+ *   within of tight hulls           3264 / 3328    4160 / 4288    3264 / 3328    3904 / 3904
  */
 #ifndef LINK_MSW_H
 #define LINK_MSW_H

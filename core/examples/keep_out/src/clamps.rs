@@ -11,24 +11,24 @@
 // Bytes of the processor's stack that a question takes, at opt-level "s" / 3. Debug builds
 // take several times as much: core/docs/guide.md tells how to avoid it.
 //                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
-//   open a box tree                 2560 / 2240    2624 / 2304    2560 / 2240    2496 / 2240
-//   closest point                   1408 / 1344    2240 / 2112    1408 / 1344    2048 / 1856
-//   closest point from a hint       1344 / 1280    2240 / 2112    1344 / 1280    2048 / 1856
-//   coherent query                  1856 / 1728    2816 / 2624    1856 / 1728    2560 / 2368
-//   closest points                  3072 / 3008    3968 / 3904    3072 / 3008    3712 / 3520
-//   within                          2048 / 1920    2944 / 2816    2048 / 1920    2688 / 2496
-//   nearest triangles               1856 / 1856    2816 / 2688    1856 / 1792    2560 / 2432
-//   all within                      1856 / 1856    2880 / 2752    1856 / 1856    2560 / 2432
-//   signed distance                 3712 / 3840    4480 / 4544    3712 / 3840    4288 / 4224
-//   first hit                       1792 / 1280    2112 / 1792    1792 / 1280    1792 / 1536
-//   any hit                         1728 / 1216    1920 / 1664    1728 / 1216    1728 / 1408
-//   all hits                        1856 / 1344    2048 / 1728    1856 / 1344    1856 / 1600
+//   open a box tree                 2560 / 2240    2688 / 2368    2560 / 2240    2496 / 2240
+//   closest point                   1280 / 1216    2112 / 2048    1280 / 1216    1920 / 1728
+//   closest point from a hint       1280 / 1152    2048 / 2048    1280 / 1152    1920 / 1728
+//   coherent query                  1728 / 1664    2624 / 2624    1728 / 1664    2368 / 2240
+//   closest points                  2944 / 2880    3840 / 3840    2944 / 2944    3584 / 3456
+//   within                          1792 / 1664    2624 / 2560    1792 / 1664    2432 / 2240
+//   nearest triangles               1664 / 1600    2496 / 2496    1664 / 1600    2304 / 2176
+//   all within                      1664 / 1600    2560 / 2496    1664 / 1600    2304 / 2176
+//   signed distance                 3072 / 3200    3904 / 4032    3072 / 3200    3712 / 3712
+//   first hit                       1472 / 1152    1792 / 1664    1472 / 1152    1536 / 1408
+//   any hit                         1344 / 1088    1664 / 1536    1344 / 1088    1472 / 1344
+//   all hits                        1472 / 1216    1792 / 1600    1472 / 1216    1600 / 1536
 //   overlap                         6592 / 6144    6464 / 5952    6592 / 6144    6016 / 5696
 //   distance of two models        10112 / 10432   9984 / 10048  10112 / 10432    9216 / 9472
 //   coherent pair                 12032 / 12544  11968 / 12288  12032 / 12544  11264 / 11712
-//   scene                         10816 / 11904  10688 / 11648  10816 / 11904   9984 / 11136
-//   distance of a solid           12928 / 11264  12864 / 11136  12928 / 11328  12352 / 10560
-//   first contact                 11200 / 10560  11072 / 10304  11200 / 10624   10752 / 9856
+//   scene                         10816 / 11904  10688 / 11648  10816 / 11904   9984 / 11072
+//   distance of a solid           12032 / 10368  11840 / 10240  12032 / 10432   11456 / 9664
+//   first contact                 10688 / 10112   10624 / 9792  10688 / 10112   10240 / 9344
 //
 // Distances are in the mesh's unit. Intervals hold of the mesh, not only of the stored surface.
 
