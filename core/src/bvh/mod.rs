@@ -17,7 +17,7 @@
 //! | `closest_point_precise` | the closest point, its candidates measured in f64 |
 //! | `within`, `all_within`, `nearest` | distance verdicts, and the nearest triangles |
 //! | `neighbors` | the heap of nearest triangles in the caller's slice |
-//! | `signed_distance`, `side_search`, `pseudonormal` | on which side of a closed mesh a point lies |
+//! | `signed_distance`, `side_survey`, `side_search`, `pseudonormal` | on which side of a closed mesh a point lies |
 //! | `winding/` | the winding number about a point, of a mesh that need not be closed |
 //! | `first_hit`, `any_hit`, `all_hits` | segments |
 //! | `front_facing` | triangles that may face an eye |
@@ -72,6 +72,7 @@ mod scene;
 mod segment_leaf;
 mod segment_query;
 mod side_search;
+mod side_survey;
 mod signed_distance;
 mod solid;
 mod stored_lengths;
