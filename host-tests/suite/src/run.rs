@@ -330,7 +330,7 @@ pub fn run<'t, S: Subject<'t>>(
                     recorder.query_begins();
                     arith::chain(&mut placer.rng, &mut fold);
                     recorder.query_ends();
-                } else if kind.is_tribox() {
+                } else if S::ASKS_TRIBOXES_OF_POINTS && kind.is_tribox() {
                     tribox::ask(kind, &mut placer, recorder, &mut fold);
                 } else {
                     subject.ask(kind, &mut placer, scratch, recorder, &mut fold);

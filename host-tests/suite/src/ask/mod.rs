@@ -26,6 +26,10 @@ use crate::{Clock, Kind};
 /// The structure of a blob that answers. It is a trait and not an enum, so that an image links only
 /// the structure that it asks.
 pub trait Subject<'t>: Sized {
+    /// Whether questions about triboxes of points are asked too, without the blob. Images of other
+    /// subjects leave their code out.
+    const ASKS_TRIBOXES_OF_POINTS: bool = false;
+
     /// What the queries need beside the blob: it must fit in the smallest part's RAM beside the
     /// stack.
     type Scratch;

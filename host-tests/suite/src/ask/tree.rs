@@ -59,6 +59,8 @@ impl Default for Scratch<'_> {
 }
 
 impl<'t> Subject<'t> for Bvh<'t> {
+    const ASKS_TRIBOXES_OF_POINTS: bool = true;
+
     type Scratch = Scratch<'t>;
 
     fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
