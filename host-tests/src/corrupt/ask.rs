@@ -10,6 +10,9 @@ use meshsweep_core::{
     Work,
 };
 
+/// Descents of a signed distance: two surveys and two about a feature from each of eleven places.
+const SIDE_DESCENTS: u32 = 44;
+
 /// The caller's memory, of any length.
 #[derive(Debug)]
 pub struct Asker {
@@ -77,7 +80,7 @@ impl Asker {
                 let mut near = answer.closest;
                 near.work = Work::default();
                 closest(tree, &near, 0);
-                ends(answer.closest.work, 8 * once);
+                ends(answer.closest.work, SIDE_DESCENTS * once);
                 assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
                 assert!(
                     tree.header().is_closed() || matches!(answer.side, Side::Undecided(_)),

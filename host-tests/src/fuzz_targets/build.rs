@@ -9,7 +9,8 @@ use meshsweep::load::Source;
 use meshsweep::mesh::RawMesh;
 use meshsweep::surface::VertexBits;
 
-/// What a blob is built for. Hulls that deform come apart: they load their mesh in another way.
+/// What a blob is built for. Curves and deforming hulls are left out: they are not built from such
+/// a mesh.
 const SERVED: [&[For]; 7] = [
     &[For::Closest],
     &[For::Segment],
@@ -29,9 +30,7 @@ pub fn build(data: &[u8]) {
     let mut input = Input(data);
     let served = SERVED[usize::from(input.byte()) % SERVED.len()];
     let mesh = mesh(&mut input);
-    // A hull on a grid is of the mesh that the grid moved.
-    let is_hull = served == [For::Hull];
-    let bits = if is_hull || input.byte() % 2 == 0 { VertexBits::F32 } else { VertexBits::Auto };
+    let bits = if input.byte() % 2 == 0 { VertexBits::F32 } else { VertexBits::Auto };
     let builder = Builder::new()
         .serve_all(served.iter().copied())
         .vertex_bits(bits)
@@ -44,7 +43,7 @@ pub fn build(data: &[u8]) {
     }
 }
 
-/// One of some small meshes, or a soup of its corners, with edits of coordinates and of corners.
+/// One of some small meshes or a triangle of any corners, with edits of coordinates and of corners.
 fn mesh(input: &mut Input<'_>) -> RawMesh {
     let (mut positions, mut triangles): Triangles = match input.byte() % 5 {
         0 => cube(1),

@@ -1,7 +1,7 @@
 //! The committed corpora: a text file for each target, a line of hexadecimal digits for each input.
 //!
-//! A fuzzer wants a file for each input. Two thousand files of some fifty bytes would hide the rest
-//! of the repository.
+//! A fuzzer wants a file for each input. Thousands of small files would hide the rest of the
+//! repository.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -18,12 +18,23 @@ pub fn corpus(target: &str) -> Result<Vec<Vec<u8>>, String> {
     let file = file(target);
     let text = fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
     let input = |(number, line): (usize, &str)| {
-        let digits = line.as_bytes().chunks(2);
-        let bytes = digits.map(|pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok());
-        let bytes: Option<Vec<u8>> = bytes.collect();
-        bytes.ok_or_else(|| format!("{}:{}: no hexadecimal digits", file.display(), number + 1))
+        let place =
+            || format!("{}:{}: not pairs of hexadecimal digits", file.display(), number + 1);
+        of_hex(line).ok_or_else(place)
     };
     text.lines().enumerate().map(input).collect()
+}
+
+/// The bytes of pairs of hexadecimal digits; `None` if the text is anything else.
+#[must_use]
+pub fn of_hex(digits: &str) -> Option<Vec<u8>> {
+    let digit = |digit: &u8| char::from(*digit).to_digit(16);
+    let byte = |pair: &[u8; 2]| {
+        let [high, low] = pair;
+        Some((16 * digit(high)? + digit(low)?) as u8)
+    };
+    let (pairs, rest) = digits.as_bytes().as_chunks();
+    if rest.is_empty() { pairs.iter().map(byte).collect() } else { None }
 }
 
 /// Writes the inputs that a run of a fuzzer begins with into a folder, a file each: the committed
@@ -44,7 +55,7 @@ pub fn unpack(target: &str, folder: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Writes a folder of inputs as the target's corpus, the shortest first; how many.
+/// Writes a folder of inputs as the target's corpus, the shortest first. Returns their number.
 ///
 /// # Errors
 /// A file cannot be read or written.

@@ -2,8 +2,8 @@
 //!
 //! Input bytes are edits of a valid blob, whose CRCs are then computed again, followed by the
 //! queries' floats. Those of [`mesh`](fn@mesh) are a mesh file, those of [`build`](fn@build) edits
-//! of a mesh. A blob that opens must be safe to ask anything: no panic, and no more work than its
-//! tables have records.
+//! of a mesh. A blob that opens must be safe to ask anything: no panic, and no more work than a
+//! fixed multiple of its records.
 
 mod build;
 mod corpus;
@@ -18,7 +18,7 @@ mod tribox;
 mod triboxes;
 mod trusted;
 
-pub use corpus::{corpus, pack, unpack};
+pub use corpus::{corpus, of_hex, pack, unpack};
 pub use curves::{ask_curve, curve_seeds};
 pub use deform::deform_seeds;
 pub use hull::seeds;
@@ -60,7 +60,7 @@ targets! {
 /// The target of this name.
 ///
 /// # Errors
-/// There is none; the message lists them.
+/// No target has this name. The message lists the names.
 pub fn target(name: &str) -> Result<Target, String> {
     TARGETS.iter().find(|target| target.name == name).copied().ok_or_else(|| {
         let names: Vec<&str> = TARGETS.iter().map(|target| target.name).collect();

@@ -62,7 +62,7 @@ fn ask_points(tree: &Bvh<'_>, points: &[[f32; 3]; 3], size: f32, stack: &mut [Sc
         ends(tree.winding_number(point, budget, stack).map(|found| found.work), 8 * bound);
         ends(
             tree.signed_distance(point, budget, stack).map(|found| found.closest.work),
-            16 * bound,
+            44 * bound,
         );
         let signed = tree.signed_by_winding(point, budget, stack);
         ends(signed.map(|found| found.closest.work), 16 * bound);
