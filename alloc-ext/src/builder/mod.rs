@@ -81,8 +81,8 @@ macro_rules! setters {
 
 impl<'a> Builder<'a> {
     setters! {
-        /// Unit of the mesh. A mesh that tells its unit is scaled to it; of others it is the unit
-        /// of their numbers.
+        /// Unit of the blob. A mesh that names its unit is converted. Other meshes are taken to be
+        /// in this unit already.
         unit: Unit => unit,
         /// Faces of the base hull, for [`For::Hull`], [`For::Sweep`] and [`For::Deform`]:
         /// [`FACES`] unless told otherwise.

@@ -142,7 +142,7 @@ impl Options {
         self.base.unwrap_or(FACES)
     }
 
-    /// Whether the box tree's vertices are to be f32.
+    /// Whether the box tree's vertices are to be f32: a tree has no grid of 24 bits.
     pub fn is_f32(&self) -> bool {
         matches!(self.vertex_bits, VertexBits::Grid24 | VertexBits::F32)
     }
@@ -169,7 +169,7 @@ impl Options {
             .with_boxes(closest, segment)
     }
 
-    /// Refuses options that do not go together.
+    /// Refuses options out of range, and options that do not go together.
     pub fn check(&self, of: Subject<'_>, has_frames: bool) -> Result<(), BuildError> {
         let is_mesh = match of {
             Subject::File(file) => is_named_as_mesh(file),

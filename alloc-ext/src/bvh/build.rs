@@ -188,7 +188,7 @@ pub(super) fn build_in(
         let bytes = moments(mesh, &edges, &topology, &leaves, &grid, watch.part(BOXED, 1.0))?;
         sections.push((SectionKind::TreeMoments, bytes));
     }
-    let header = header(mesh, &edges, &grid, &leaves, &bounds, options, topology.waiting_entries);
+    let header = header(mesh, &edges, &grid, &leaves, options, topology.waiting_entries);
     let header = BvhHeader { nodes: topology.nodes.len() as u32, ..header };
     sections.insert(0, (SectionKind::Bvh, header.write().to_vec()));
     debug_assert_eq!(sections[1].1.len(), topology.nodes.len() * LINK_BYTES);
@@ -230,7 +230,6 @@ fn header(
     edges: &EdgeTable,
     grid: &OnGrid,
     leaves: &[FanLeaf],
-    bounds: &[(DVec3, DVec3)],
     options: &TreeOptions,
     waiting_entries: usize,
 ) -> BvhHeader {
@@ -245,9 +244,19 @@ fn header(
             }
         }
     }
-    let (low, high) = bounds
-        .iter()
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), b| (l.min(b.0), h.max(b.1)));
+    // Rounded before the origin is subtracted: a difference may lose a tiny coordinate.
+    let origin = DVec3::from(grid.origin.map(f64::from));
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = leaves.iter().fold(nothing, |(low, high), leaf| {
+        let (centres, ring) = encode::vertices(leaf);
+        centres
+            .iter()
+            .chain(&ring)
+            .map(|&v| grid.positions[v as usize])
+            .fold((low, high), |(low, high), p| {
+                (low.min(p.floor() - origin), high.max(p.ceil() - origin))
+            })
+    });
     let short = |v: DVec3| [v.x as u16, v.y as u16, v.z as u16];
     let vertices: usize = leaves.iter().map(|leaf| encode::tag(leaf).vertices()).sum();
     let has_sides = !mesh.has_merged_walls && is_closed(&mesh.triangles, edges);
@@ -264,8 +273,8 @@ fn header(
         surface_error: up_to_f32(grid.surface_error),
         // Spokes are rounded when they are f32.
         star_radius: up_to_f32(reach * (1.0 + 1e-6)),
-        low: short(low.floor()),
-        high: short(high.ceil()),
+        low: short(low),
+        high: short(high),
     }
 }
 

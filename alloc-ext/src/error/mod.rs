@@ -254,8 +254,8 @@ impl fmt::Display for BuildError {
             ),
             Self::SlackWithinMargin { slack, margin } => write!(
                 f,
-                "--slack {} is no more than --margin {}: the hull is farther from the mesh than \
-                 the margin; ask for a larger --slack",
+                "--slack {} is no more than {}, the margin with what rounding may take from it; \
+                 ask for a larger --slack",
                 Typed(*slack),
                 Typed(*margin)
             ),

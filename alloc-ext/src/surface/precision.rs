@@ -12,13 +12,14 @@ use meshsweep_core::internal::num::exp2;
 /// Choice of the coordinate format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum VertexBits {
-    /// The narrowest that stores the mesh exactly.
+    /// A hull stores its vertices exactly, in the narrowest format that can. A box tree's vertices
+    /// move to a grid of 16 bits, unless the mesh is far from its origin.
     #[default]
     Auto,
     /// 16 bits a coordinate. Vertices that are not on the grid move to it, and the blob's surface
     /// error includes the distance.
     Grid16,
-    /// 24 bits a coordinate; the same.
+    /// 24 bits a coordinate; the same. A box tree has no such grid: its vertices are f32.
     Grid24,
     /// f32.
     F32,

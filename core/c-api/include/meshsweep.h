@@ -24,7 +24,8 @@
  * msw_scratch_entries tells how many entries are always enough. With fewer, at least one, the
  * search may end early: the answer still holds and says MSW_ENDED_SCRATCH.
  *
- * Budget. NULL, or a structure of zeros: search until the answer is exact. A step opens a node of
+ * Budget. NULL, or a structure of zeros: search until the answer is exact; a winding number, until
+ * the side is decided. A step opens a node of
  * the hierarchy. A limit of steps bounds the time of a question, and the answer still holds.
  *
  * The same blob and question give the same bits on x86-64, Cortex-M and RISC-V. Intervals hold and

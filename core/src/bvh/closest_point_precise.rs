@@ -8,14 +8,14 @@ use super::triangle_bounds::limit_of;
 use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::{convex_gap, point_triangle};
-use crate::num::tolerance::{FAN_DISTANCE, FAN_RELATIVE, U32};
+use crate::num::tolerance::{FAN_RELATIVE, U32};
 use crate::num::{greater, lesser};
-use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry, Work};
+use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry};
 use glam::{DVec3, Vec3};
 
 impl Bvh<'_> {
-    /// [`closest_point`](Bvh::closest_point) with an interval that is as narrow as f32 can tell, if
-    /// the tree was built with `--vertex-bits 32`.
+    /// [`closest_point`](Bvh::closest_point) with an interval of about one f32 rounding at each end,
+    /// if the tree was built with `--vertex-bits 32`.
     ///
     /// Triangles that rounding in f32 cannot tell from the closest one are measured in f64. What is
     /// left of the width is the surface error, a rounding of f32 at each end, and on a sliver 1e-15
@@ -51,20 +51,19 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
         let tree = self;
+        let query = PointQuery::prepare(tree, point, &budget, scratch)?;
         let of_f32 = Budget::EXACT.with_steps(budget.steps);
-        budget.check_with(scratch)?;
         let near = tree.closest_point(point, of_f32, scratch)?;
-        let query = PointQuery::new(tree, point)?;
         if near.ended != Ended::Exact || query.far {
             return Ok(near);
         }
         let lengths = StoredLengths::of(tree);
-        let rounding = FAN_DISTANCE * U32 * tree.header().star_radius;
+        let rounding = query.rounding;
         let farthest = query.units.inward(near.distance.upper);
         let candidates = Candidates {
             query: &query,
             place: DVec3::from_array(point.map(|x| lengths.inward(x))),
-            rounding,
+            // Proof: `core/docs/rounding.md` §8, In f64.
             band: farthest * (1.0 + 64.0 * U32) + 4.0 * rounding,
             best: None,
             lower: f64::INFINITY,
@@ -72,11 +71,9 @@ impl Bvh<'_> {
         };
         let limit = limit_of(&query, candidates.band);
         let mut visitor = TriangleVisitor::new(tree, &query, limit, candidates);
-        let steps = budget.steps.saturating_sub(near.work.splits);
-        let mut work = Work { splits: 0, ..near.work };
-        let descent = descend(tree, &query, steps, scratch, &mut visitor, &mut work)?;
+        let mut work = near.work;
+        let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
         let Candidates { best, lower, measured, .. } = visitor.collector;
-        work.splits = work.splits.saturating_add(near.work.splits);
         work.exact = measured;
         match best {
             Some((best, number)) if descent.ended() == Ended::Exact => {
@@ -132,8 +129,6 @@ struct Candidates<'a> {
     query: &'a PointQuery,
     /// The query's point, grid units, exactly.
     place: DVec3,
-    /// Rounding of f32 that does not grow with the distance, grid units.
-    rounding: f32,
     /// Triangles with a greater lower bound in f32 are farther than the closest, grid units.
     band: f32,
     /// The one with the least upper end, and its number in the blob.
@@ -153,7 +148,7 @@ impl TriangleCollector for Candidates<'_> {
         self.measured = self.measured.saturating_add(1);
         // On slivers the bound of f32 may be the better one.
         let relative = 1.0 - f64::from(FAN_RELATIVE * U32);
-        let in_f32 = f64::from(lower) * relative - f64::from(self.rounding);
+        let in_f32 = f64::from(lower) * relative - f64::from(self.query.rounding);
         self.lower = lesser(self.lower, greater(near.lower, in_f32));
         let number = triangle.number;
         let is_nearer = self.best.is_none_or(|(best, first)| {

@@ -197,9 +197,9 @@ impl Limit {
     /// Whether the entry of the least key may be taken in place of the stack's top, and the memory
     /// still suffices. There are two reasons why it does.
     ///
-    /// The free entries hold a whole search: the search below the taken entry needs no more of
-    /// them, and no other entry is taken before it is back at as many as wait now. Or the steps
-    /// that are left cannot fill them: each step adds fewer than [`WIDTH`] entries.
+    /// The free entries hold a whole search. The search below the taken entry needs no more. While
+    /// it runs, fewer are free, so no second exchange happens before that search ends. Or the steps
+    /// that are left cannot fill the free entries: each step adds fewer than [`WIDTH`].
     fn has_room(&self, stack: &Stack<'_>, work: &Work) -> bool {
         let free = stack.entries.len().saturating_sub(stack.used);
         let left = self.steps.saturating_sub(work.splits) as usize;
@@ -270,7 +270,7 @@ struct Walk<'a> {
     has_begun: bool,
     /// Whether the least key comes next.
     least_first: bool,
-    /// How it ended, if there is no further leaf.
+    /// How the descent ended. No meaning while there is a further leaf.
     ended: Descent,
 }
 
@@ -295,8 +295,8 @@ impl<'s> Walk<'s> {
         }
     }
 
-    /// Goes on to the next leaf with a key up to `most`, and writes it to `visit`. Returns whether
-    /// there is one. `None` says that the tree is unchecked: the loop carries no other error.
+    /// Goes on to the next leaf with a key up to `most`, and writes that leaf to `visit`. Returns
+    /// whether there is one. `None` says that the tree is unchecked: the loop carries no other error.
     ///
     /// On boards it is a call, and all questions about a point share it.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]

@@ -7,7 +7,8 @@ use crate::bvh::format::LanePoint;
 use crate::bvh::format::{Bvh, Units};
 use crate::geom::fan::{WIDTH, WholePoint};
 use crate::num::tolerance::{
-    BVH_FAR, CERTIFIED_PART, CERTIFIED_SHORTFALL, FAN_DISTANCE, FAN_RELATIVE, PLANE_DISTANCE, U32,
+    BVH_FAR, CERTIFIED_PART, CERTIFIED_SHORTFALL, FAN_DISTANCE, FAN_RELATIVE, LEAST_FAN_ROUNDING,
+    PLANE_DISTANCE, U32,
 };
 use crate::num::{SOFT_FLOAT, greater, sqrt_approx};
 use crate::query::{Budget, QueryError, ScratchEntry};
@@ -36,7 +37,7 @@ pub(crate) struct PointQuery {
     pub(crate) units: Units,
     /// Rounding of a computed distance, grid units, in addition to [`FAN_RELATIVE`] roundings of
     /// the distance itself.
-    rounding: f32,
+    pub(crate) rounding: f32,
     /// Added to a squared limit, so that no rounding hides a candidate.
     pub(crate) allowance: f32,
     /// The point in integers, on targets without floating point, if the model is near and on a
@@ -85,7 +86,7 @@ impl PointQuery {
         let farthest = (p - low).abs().max((p - high).abs());
         let size = farthest.x + farthest.y + farthest.z;
         let near = size <= BVH_FAR;
-        let fan = FAN_DISTANCE * U32 * header.star_radius;
+        let fan = greater(FAN_DISTANCE * U32 * header.star_radius, LEAST_FAN_ROUNDING);
         let shortfall_sq = if header.is_f32() { 0.0 } else { CERTIFIED_SHORTFALL };
         let [ox, oy, oz] = header.grid_origin.map(|x| x as f32);
         let most = greater(greater(farthest.x, farthest.y), farthest.z);

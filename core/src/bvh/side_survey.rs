@@ -8,7 +8,7 @@ use super::side_search::Search;
 use super::triangle_bounds::{limit_of, lower_of_box, witness};
 use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
 use crate::bvh::format::{Bvh, FanLeaf};
-use crate::num::tolerance::{EMPTY_BALL, EVERYTHING_SQ, FAN_DISTANCE, U32};
+use crate::num::tolerance::{EMPTY_BALL, EVERYTHING_SQ};
 use crate::num::{lesser, sqrt_approx};
 use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry};
 use glam::Vec3;
@@ -40,7 +40,7 @@ impl Search<'_, '_> {
         let tree = self.tree;
         let collector = Survey {
             query,
-            margin: FAN_DISTANCE * U32 * tree.header().star_radius,
+            margin: query.rounding,
             bounding,
             bound_sq: f32::INFINITY,
             band: f32::INFINITY,

@@ -162,6 +162,11 @@ pub const LEAST_DENOMINATOR: f32 = 1.0 / ((1u64 << 60) as f32);
 /// one loses the guarantee.
 pub const FAN_DISTANCE: f32 = 32.0;
 
+/// Least rounding of that distance, grid units: 2^-48. Squares below 2^-126 are not exact, and their
+/// roots are off by up to 2^-63. Without this floor, intervals miss the truth next to triangles that
+/// are points (§8).
+pub const LEAST_FAN_ROUNDING: f32 = 1.0 / ((1u64 << 48) as f32);
+
 /// Rounding of the same distance, in units of [`U32`] times the distance itself. Proved: 9 (§8).
 pub const FAN_RELATIVE: f32 = 16.0;
 

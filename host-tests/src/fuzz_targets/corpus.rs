@@ -3,8 +3,13 @@
 //! A fuzzer wants a file for each input. Thousands of small files would hide the rest of the
 //! repository.
 
+use super::input::random_input;
+use crate::generate::Rng;
 use std::fs;
 use std::path::{Path, PathBuf};
+
+/// Random inputs that a run begins with, beside the committed ones.
+const SEEDED: usize = 64;
 
 fn file(target: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(target).with_extension("hex")
@@ -38,12 +43,15 @@ pub fn of_hex(digits: &str) -> Option<Vec<u8>> {
 }
 
 /// Writes the inputs that a run of a fuzzer begins with into a folder, a file each: the committed
-/// ones, and what the target brings along.
+/// ones, random ones, and files of meshes for the target that reads them.
 ///
 /// # Errors
 /// A file cannot be read or written.
 pub fn unpack(target: &str, folder: &Path) -> Result<(), String> {
     let mut inputs = if file(target).exists() { corpus(target)? } else { Vec::new() };
+    // A fuzzer lengthens inputs of slow targets late. So some are long from the start.
+    let mut rng = Rng::new(0);
+    inputs.extend((0..SEEDED).map(|_| random_input(&mut rng)));
     if target == "mesh" {
         inputs.extend(super::mesh::mesh_files());
     }

@@ -41,6 +41,15 @@ fn the_distance_of_the_boundary_of_triboxes_in_a_groove_is_proved() {
     run(named("build"), &[5, 3, 0, 0, 0, 31]);
 }
 
+/// Seeded bytes found it: a corner at 1e36 gives a grid whose origin absorbs the other coordinates,
+/// and the tree's box left them out.
+#[test]
+fn a_mesh_with_one_corner_far_away_builds_a_blob_that_opens() {
+    let input =
+        of_hex("a501a53951a7d2d34e35e986a2d0a64b46e09d29ab638e54193476acacb04f8b697b99de4007b8");
+    run(named("build"), &input.expect("digits"));
+}
+
 /// A fuzzer found it: on a torus with an edited vertex, fourteen descents look for a side.
 #[test]
 fn a_side_takes_no_more_descents_than_documented() {

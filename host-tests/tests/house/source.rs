@@ -147,7 +147,7 @@ fn expand(tree: &str, before: &[String], paths: &mut Vec<(Vec<String>, String)>)
     paths.push((path, name));
 }
 
-/// Paths from `crate`, `super` and `self` in the middle of code.
+/// Paths from `crate` and `super` in the middle of code.
 fn inline(line: &str) -> Vec<Vec<String>> {
     let mut paths = Vec::new();
     for start in ["crate::", "super::"] {

@@ -267,7 +267,7 @@ fn head() -> String {
      //! generates. That file also names the meshes that `error` and `typical` are of.\n\n\
      use super::cost::{Board, Cost, Search};\n\n\
      /// Costs by board and search.\n\
-     pub(super) const COSTS: [(Board, Search, Cost); 16] = [\n"
+     pub(super) const COSTS: &[(Board, Search, Cost)] = &[\n"
         .to_owned()
 }
 

@@ -1,5 +1,6 @@
 //! `cargo xtask`: what takes more than one cargo command. This file only dispatches.
 
+use std::num::NonZeroU32;
 use std::panic::resume_unwind;
 use std::process::ExitCode;
 use std::thread;
@@ -96,9 +97,9 @@ fn main() -> ExitCode {
         }
         ["dist", targets @ ..] => dist::run(&mut steps, targets),
         ["fuzz", words @ ..] => {
-            let minutes = words.first().and_then(|word| word.parse().ok());
+            let minutes: Option<NonZeroU32> = words.first().and_then(|word| word.parse().ok());
             let targets = if minutes.is_some() { &words[1..] } else { words };
-            fuzz::run(&mut steps, minutes.unwrap_or(30), targets);
+            fuzz::run(&mut steps, minutes.map_or(30, NonZeroU32::get), targets);
         }
         ["processors"] => processors::run(&mut steps),
         [word @ ("fixtures" | "picture")] => {

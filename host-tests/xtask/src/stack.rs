@@ -53,7 +53,7 @@ const fn question(
 }
 
 /// The questions of the tables.
-pub const QUESTIONS: [Question; 34] = {
+pub const QUESTIONS: [Question; 35] = {
     const TREE: &str = "suite_tree";
     const APART: &str = "suite_apart";
     const HULL: &str = "suite_hull";
@@ -71,6 +71,13 @@ pub const QUESTIONS: [Question; 34] = {
             "closest",
             "tree::distance::follow",
             &["closest_path"],
+            TREE,
+        ),
+        question(
+            "closest point in f64",
+            "closest",
+            "tree::distance::precise",
+            &["closest_precise"],
             TREE,
         ),
         question("coherent query", "closest", "tree::distance::coherent", &["session"], TREE),

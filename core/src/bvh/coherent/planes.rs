@@ -3,7 +3,7 @@
 //! A leaf lies beyond its plane wherever the query moves. So the distance of the query from the
 //! plane stays a lower bound of the leaf's distance. After a step this bound loses only the order
 //! of the step's square. The bound by path length (Guéziec 2000, 5.1) loses the whole step. To make
-//! a plane costs as much as half a leaf. To use it costs six products.
+//! a plane costs as much as half a leaf. To use it costs four products.
 
 use super::front::Child;
 use crate::bvh::format::{Bvh, FanLeaf};
@@ -46,8 +46,8 @@ impl Planes {
     }
 
     /// Puts a plane between a leaf without slivers and the query, across the way from the leaf's
-    /// closest point, on triangle `lane`. `way` as above. `margin` is the error of triangles'
-    /// bounds, beside [`SHORTFALL`] of themselves.
+    /// closest point, on triangle `lane`. `way` as above. `margin` is the error of a
+    /// triangle's bound, in addition to the part [`SHORTFALL`] of the bound.
     #[inline(always)]
     pub(crate) fn put(
         &mut self,

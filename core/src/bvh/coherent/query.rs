@@ -10,7 +10,7 @@ use crate::bvh::closest_point::Hint;
 use crate::bvh::format::Bvh;
 use crate::bvh::point_query::PointQuery;
 use crate::num::sqrt_approx;
-use crate::num::tolerance::{FAN_DISTANCE, LEAST_DENOMINATOR, LONG_PATH, ROOT_AND_PRODUCTS, U32};
+use crate::num::tolerance::{LEAST_DENOMINATOR, LONG_PATH, ROOT_AND_PRODUCTS};
 use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry, Work};
 use core::marker::PhantomData;
 use glam::Vec3;
@@ -23,8 +23,8 @@ pub struct CoherentClosest {
     /// The answer of [`Bvh::closest_point`], with the same bits. `work` is that of this query.
     pub closest: ClosestPoint,
     /// Within this distance of the query, in input units, [`ClosestPoint::triangle`] stays the
-    /// closest triangle of the input mesh. Rounded down. 0 if unknown: on edges and vertices, after
-    /// a jump, and where it would be less than the last step.
+    /// closest triangle of the input mesh. Rounded down. 0 if unknown: on edges, vertices and
+    /// slivers, after a jump, far away, with a tolerance, and in a pause of the front.
     pub safe_radius: f32,
 }
 
@@ -95,7 +95,7 @@ impl<'t, const N: usize> CoherentQuery<'t, N> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Bvh::closest_point`]. The state stays as it was.
+    /// Those of [`Bvh::closest_point`]. An argument that is refused leaves the state as it was.
     pub fn closest_point(
         &mut self,
         tree: &Bvh<'t>,
@@ -132,8 +132,9 @@ const RELIABLE: u32 = 64;
 /// The rule that decides whether the front pays.
 ///
 /// Cost is counted in half leaves: about 250 instructions without vectors, 30 ns with them. The
-/// front's cost counts one and a half times. With vectors it takes that long, because each step has
-/// to wait for the leaf before it. The rule is the same on every target, so the answers are too.
+/// front's cost counts one and a half times. With vectors it takes that long, because each leaf
+/// waits for the one before. The rule is the same on every target: it decides the safe radius, the
+/// work and how a short search ends.
 #[derive(Clone, Copy, Debug)]
 struct FrontPolicy {
     /// Cost of a plain query here: a moving average. 0 before the first.
@@ -349,7 +350,7 @@ impl Memory {
         };
         let distance = sqrt_approx(nearest.distance_sq);
         let below = query.refine_below(nearest.distance_sq);
-        let error = tree.header().star_radius * (FAN_DISTANCE * U32) + query.units.surface_error;
+        let error = query.fixed_error();
         let path = follow.front.state.path;
         let safe = |other_key: f32| {
             0.5 * ((other_key - path) * (1.0 - ROOT_AND_PRODUCTS)

@@ -62,8 +62,8 @@ const fn is_origin(x: i32) -> bool {
 
 impl<'a> Bvh<'a> {
     /// Opens the box tree of a blob where it lies and checks all of it: CRCs, every link, every
-    /// coordinate. Any bytes are safe to open. It does not look at other sections, so that their
-    /// checks are not linked.
+    /// coordinate. Any bytes are safe to open. Other sections are not looked at, so the linker drops
+    /// their checks.
     ///
     /// Cost: linear in the tree, no allocation; once per start. Alignment of `bytes` does not
     /// matter.
@@ -102,8 +102,7 @@ impl<'a> Bvh<'a> {
     /// changed since, any answer of this tree may be wrong. All the same no question panics in a
     /// release build or reads outside of the bytes, and each ends. A search opens no more nodes
     /// than the tree has. A search in two trees of n and m nodes opens up to 81·n·m pairs, which
-    /// may take minutes: give it a budget of steps. Wrong answers and errors are not told from
-    /// right ones.
+    /// may take minutes: give that search a budget of steps. Nothing marks a wrong answer.
     ///
     /// Cost: none in a constant; else some thousand instructions.
     ///

@@ -74,13 +74,15 @@ pub fn lanes_of(bits: u32) -> impl Iterator<Item = usize> {
 /// A leaf: one or two fans.
 #[derive(Clone, Copy, Debug)]
 pub struct FanLeaf<'a> {
+    /// To the end of the section, whose padding lets every leaf be read at full width.
     pub(crate) bytes: &'a [u8],
     pub(crate) shape: LeafShape,
     pub(crate) is_f32: bool,
     pub(crate) origin: [i32; 3],
 }
 
-/// Stored integers of a leaf on the grid, without the grid's origin, in an order of the axes.
+/// Stored integers of a leaf on the grid, in an order of the axes. They do not include the grid's
+/// origin.
 #[derive(Clone, Copy, Debug)]
 pub struct GridRing<'a> {
     /// The grid's origin.
@@ -158,7 +160,7 @@ fn eight(window: &[u8; GRID_WINDOW], at: usize) -> [f32; WIDTH] {
     out
 }
 
-/// Three u16 at a byte offset that the compiler knows.
+/// Three u16 at a byte offset.
 #[inline(always)]
 fn three(window: &[u8; GRID_WINDOW], at: usize) -> [i32; 3] {
     match window.get(at..).and_then(|b| b.first_chunk::<6>()) {
@@ -187,8 +189,8 @@ impl<'a> FanLeaf<'a> {
         self.vertex(6 * which, 2)
     }
 
-    /// The vertex whose first coordinate would be at this byte on the grid, and the next ones so
-    /// many bytes farther. On boards a call: reading a vertex is much code.
+    /// The vertex with coordinates at bytes `at`, `at + step` and `at + 2·step` of a leaf on the grid.
+    /// An f32 leaf has twice the offsets. On boards a call: reading a vertex is much code.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     fn vertex(&self, at: usize, step: usize) -> Vec3 {
         if self.is_f32 {
@@ -304,7 +306,7 @@ impl<'a> FanLeaf<'a> {
         };
         let [u, v, w] = axes;
         let origin = |axis: usize| self.origin.get(axis).copied().unwrap_or(0);
-        // Not by `map`, of which small code has much.
+        // Not by `map`: the compiler does not inline that at `opt-level = "s"`.
         let stored = |at: usize, axis: usize| short(self.bytes, at + 2 * axis);
         let centre = |at: usize| [stored(at, u), stored(at, v), stored(at, w)];
         Some(GridRing {

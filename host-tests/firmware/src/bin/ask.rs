@@ -30,6 +30,10 @@ struct Kept {
 impl Clock for Kept {
     #[inline]
     fn query_begins(&mut self) {
+        if self.queries == 0 {
+            // The blob was opened since the last paint.
+            stack::paint();
+        }
         self.meter.query_begins();
     }
 

@@ -83,7 +83,7 @@ pub struct Placed<'t> {
     places: &'t [[u8; 12]],
 }
 
-/// Bytes of the header: the question in four words, then the bytes of the blob, then the places.
+/// Bytes of the header: the question in four words, the length of the blob, the number of places.
 pub const HEADER: usize = 24;
 
 /// The header of a blob of `bytes` bytes and of some places. The blob follows, then three f32 a

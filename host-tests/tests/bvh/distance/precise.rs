@@ -1,7 +1,7 @@
 //! The closest point in f64.
 
 use super::scenes::{STACK, all, stack, surface_error};
-use meshsweep_core::{Budget, ClosestPoint, Ended};
+use meshsweep_core::{Budget, ClosestPoint, Ended, Verdict};
 use meshsweep_host_tests::generate::{Rng, needle_comb, scaled, uv_sphere};
 use meshsweep_host_tests::oracle::distance_to_triangle;
 use meshsweep_host_tests::scene::Scene;
@@ -74,6 +74,30 @@ fn few_steps_and_little_scratch_leave_an_interval_that_contains_the_truth() {
         }
     }
     assert!(cut_short > 1000, "{cut_short} of all queries were cut short");
+}
+
+/// Squares of such distances leave the range of f32.
+#[test]
+fn next_to_triangles_that_are_points_beside_the_model_no_answer_is_wrong() {
+    for edge in [0.0, 2f32.powi(-100), 2f32.powi(-90)] {
+        let corners = [[0.0; 3], [0.0, edge, 0.0], [0.0, 0.0, edge]];
+        let there = corners.map(|[x, y, z]| [x + 1.0, y, z]);
+        let mesh = ([corners, there].concat(), vec![[0, 1, 2], [3, 4, 5]]);
+        for single in [false, true] {
+            let scene = Scene::tree("points", mesh.clone(), single);
+            let tree = scene.bvh();
+            for at in [1e-37, 1e-30, 1e-28, 1e-27, 1e-25, 1e-20, 1e-15, 1e-10, 0.5] {
+                let p = [at, 0.0, 0.0];
+                let plain = tree.closest_point(p, Budget::EXACT, &mut stack(STACK));
+                contains(&scene, p, &plain.expect("a point"));
+                contains(&scene, p, &ask(&scene, p, Budget::EXACT));
+                let within = tree.within(p, 1.05 * at, Budget::EXACT, &mut stack(STACK));
+                assert_ne!(within.expect("a point").verdict, Verdict::No, "{edge:e} {at:e}");
+                let signed = tree.signed_distance(p, Budget::EXACT, &mut stack(STACK));
+                contains(&scene, p, &signed.expect("a point").closest);
+            }
+        }
+    }
 }
 
 /// At the centre every triangle is a candidate, on needles the bounds of f32 are poor.
