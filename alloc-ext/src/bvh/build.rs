@@ -215,10 +215,35 @@ fn wire_leaf((number, wire): (u32, &Wire)) -> FanLeaf {
     FanLeaf { first: Fan { centre, ring, triangles, reversed: false }, second: None }
 }
 
+/// Points from the grid's origin whose convex hull holds the leaf's vertices. A vertex that is not
+/// exact from there, because a coordinate is tiny beside the origin, is held by up to eight points.
 fn points(leaf: &FanLeaf, grid: &OnGrid) -> Vec<DVec3> {
     let (centres, ring) = encode::vertices(leaf);
-    let origin = DVec3::from(grid.origin.map(f64::from));
-    centres.iter().chain(&ring).map(|&v| grid.positions[v as usize] - origin).collect()
+    let mut out = Vec::with_capacity(centres.len() + ring.len());
+    for &v in centres.iter().chain(&ring) {
+        let from = out.len();
+        out.push(DVec3::ZERO);
+        for axis in 0..3 {
+            let ends = difference(grid.positions[v as usize][axis], grid.origin[axis].into());
+            let count = out.len();
+            if ends[0] < ends[1] {
+                out.extend_from_within(from..count);
+            }
+            let (low, high) = out[from..].split_at_mut(count - from);
+            low.iter_mut().for_each(|point| point[axis] = ends[0]);
+            high.iter_mut().for_each(|point| point[axis] = ends[1]);
+        }
+    }
+    out
+}
+
+/// Ends of an interval that contains `a` − `b`, equal if the difference is exact (Knuth, TAOCP
+/// 4.2.2).
+fn difference(a: f64, b: f64) -> [f64; 2] {
+    let difference = a - b;
+    let of_b = a - difference;
+    let error = (a - (difference + of_b)) + (of_b - b);
+    if error == 0.0 { [difference; 2] } else { [difference.next_down(), difference.next_up()] }
 }
 
 fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
@@ -294,6 +319,14 @@ fn is_closed(triangles: &[[u32; 3]], edges: &EdgeTable) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_difference_that_is_not_exact_is_between_its_ends() {
+        assert_eq!(difference(3.5, -2.0), [5.5; 2]);
+        assert_eq!(difference(1e-40, 0.0), [1e-40; 2]);
+        let [low, high] = difference(-1e-40, 1.0);
+        assert!(low < -1.0 && -1.0 < high);
+    }
 
     #[test]
     fn a_mesh_of_more_triangles_than_a_tree_numbers_is_refused() {
