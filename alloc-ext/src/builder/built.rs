@@ -18,20 +18,20 @@ pub struct Built {
     pub(super) notes: Vec<Note>,
     /// The repaired mesh and its repairs; of curves: `None`.
     pub loaded: Option<Loaded>,
-    /// Of the hull hierarchy.
+    /// Report of the hull hierarchy.
     pub hull: Option<BuildReport>,
-    /// Of the box tree.
+    /// Report of the box tree.
     pub tree: Option<TreeReport>,
-    /// Of the triboxes.
+    /// Report of the triboxes.
     pub triboxes: Option<TriboxReport>,
-    /// Of each tight hull.
+    /// Report of each tight hull.
     pub tight: Vec<HullReport>,
-    /// Of the curves.
+    /// Report of the curves.
     pub curve: Option<CurveReport>,
 }
 
 impl Built {
-    /// A blob that does not open must not be handed out.
+    /// The blob, if it opens. One that does not open must not be handed out.
     pub(super) fn of(bytes: Vec<u8>) -> Result<Self, BuildError> {
         Blob::open(&bytes).map_err(BuildError::Reopen)?;
         Ok(Self {
@@ -65,7 +65,7 @@ impl Built {
         Blob::open(&self.bytes).expect("it opened before")
     }
 
-    /// What was repaired, moved or left out, and what is doubtful.
+    /// Notes on repairs, on moved and left out parts, and on doubts.
     pub fn report(&self) -> impl Iterator<Item = &Note> {
         self.notes.iter()
     }

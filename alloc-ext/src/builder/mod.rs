@@ -200,10 +200,14 @@ impl<'a> Builder<'a> {
         self.options.check(Subject::File(file), !self.frames.is_empty())
     }
 
-    /// Builds the blob of a mesh file; or of the points of curves, if it is CSV.
+    /// Builds the blob of a mesh file. A CSV file holds the points of curves.
+    ///
+    /// Cost: a second for some 300,000 triangles of a box tree on one core, seconds for tight hulls
+    /// of any mesh. [`on_progress`](Self::on_progress) can end it.
     ///
     /// # Errors
-    /// [`BuildError`].
+    /// [`BuildError::Unreadable`]; [`BuildError::Mesh`] names the defect of a mesh and its place;
+    /// those of [`check`](Self::check); the refusals of the structures that were asked for.
     pub fn build_file(self, file: impl AsRef<Path>) -> Result<Built, BuildError> {
         self.build_of(Input::File(file.as_ref()))
     }
@@ -212,7 +216,7 @@ impl<'a> Builder<'a> {
     /// triangles, which are checked and repaired as those of a file.
     ///
     /// # Errors
-    /// [`BuildError`].
+    /// Those of [`build_file`](Self::build_file), but for reading.
     pub fn build(self, mesh: RawMesh) -> Result<Built, BuildError> {
         self.build_of(Input::Mesh(mesh))
     }
@@ -220,7 +224,7 @@ impl<'a> Builder<'a> {
     /// Builds the blob of curves in memory.
     ///
     /// # Errors
-    /// [`BuildError`].
+    /// [`BuildError::Curve`] names the point; those of [`check`](Self::check).
     pub fn build_curves(self, polylines: &[Polyline]) -> Result<Built, BuildError> {
         self.build_of(Input::Curves(polylines))
     }

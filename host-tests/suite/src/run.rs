@@ -164,7 +164,7 @@ impl Kind {
             Self::Signed => "signed",
             Self::Facing => "facing",
             Self::AnyHit => "any_hit",
-            Self::CoherentQuery => "session",
+            Self::CoherentQuery => "coherent_query",
             Self::Batch => "batch_of_8",
             Self::Cull => "cull",
             Self::Overlap => "overlap",
