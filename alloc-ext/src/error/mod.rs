@@ -254,8 +254,8 @@ impl fmt::Display for BuildError {
             ),
             Self::SlackWithinMargin { slack, margin } => write!(
                 f,
-                "--slack {} is no more than {}, the margin with what rounding may take from it; \
-                 ask for a larger --slack",
+                "--slack {} is no more than the margin of {} (--margin, and what rounding may \
+                 add); ask for a larger --slack",
                 Typed(*slack),
                 Typed(*margin)
             ),

@@ -191,8 +191,12 @@ fn help_names_every_option_with_a_sentence() {
         "cull", "hull", "refine", "cut", "verify", "trade",
     ] {
         let help = ok(["help", command]);
-        // Options are indented; a line of prose may begin with one, too.
-        let is_option = |line: &&str| line.starts_with("  ") && line.trim_start().starts_with('-');
+        // Options are indented by at most six blanks. A sentence that goes on in the next line is
+        // indented by more, and prose by none; both may begin with an option's name.
+        let is_option = |line: &&str| {
+            let option = line.trim_start();
+            (2..=6).contains(&(line.len() - option.len())) && option.starts_with('-')
+        };
         let options: Vec<&str> = help.lines().filter(is_option).collect();
         assert!(
             options.iter().all(|line| line.trim().split("  ").count() > 1),

@@ -151,7 +151,7 @@ fn hulls_of_a_margin_a_slack_and_a_void_tell_the_truth_about_the_mesh() {
     };
     assert!(
         refuse(&["--slack", "0.2", "--margin", "0.25"], 2, "--slack 0.2")
-            .contains("0.25, the margin with")
+            .contains("the margin of 0.25 (")
     );
     let line = refuse(&["--slack", "1e-9"], 1, "coarse.obj");
     assert!(

@@ -23,7 +23,7 @@ impl Bvh<'_> {
     ///
     /// `scratch`, far points and units as for [`closest_point`](Bvh::closest_point). Of the budget
     /// only `steps` matters. If they or the scratch run out, the answer is that of f32. Of triangles
-    /// with the same upper end in f64 the answer is the least in blob order. [`Work::exact`] counts
+    /// with the same upper end in f64 the answer is the least in blob order. [`exact`](crate::Work::exact) of the work counts
     /// triangles measured in f64.
     ///
     /// Cost: the closest point's, most of it again, and a kernel in f64 for each triangle that may

@@ -65,5 +65,8 @@ pub fn allowed_width(scene: &Scene, distance: f64) -> f64 {
     let rounding = roundings * f64::from(f32::EPSILON);
     let units = ((distance - surface_error(scene) - rounding) / unit).max(1.0);
     let short = if tree.header().is_f32() { 0.0 } else { units - (units * units - 1.0).sqrt() };
-    2.0 * surface_error(scene) + rounding + short * unit
+    // Squares of lengths far below the grid unit leave the range of f32. It matters where no
+    // triangle has an extent.
+    let least = 4.0 * 2f64.powi(-48) * unit;
+    2.0 * surface_error(scene) + rounding + least + short * unit
 }
