@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::{env, fs};
 
 /// Images without a runtime: linked by `bare.x`, never started.
-const BARE: [&str; 15] = [
+const BARE: [&str; 17] = [
     "proof",
     "size_empty",
     "size_open",
@@ -14,6 +14,8 @@ const BARE: [&str; 15] = [
     "size_tree_open",
     "size_tree_closest",
     "size_tree_alone",
+    "size_tree_alone_two",
+    "size_tree_alone_four",
     "size_tree_segment",
     "size_tree_coherent",
     "size_tree_four",

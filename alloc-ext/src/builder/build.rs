@@ -132,7 +132,8 @@ impl Work<'_, '_> {
         built.triboxes = triboxes.map(|(_, report)| report);
         built.tight = tight.map(|(_, reports)| reports).unwrap_or_default();
         let mut notes: Vec<Note> = of_mesh(&loaded, built.hull.as_ref());
-        notes.extend(of_blob(options, &loaded, &built.blob(), built.hull.as_ref(), &built.tight));
+        let (hull, tree) = (built.hull.as_ref(), built.tree.as_ref());
+        notes.extend(of_blob(options, &loaded, &built.blob(), hull, tree, &built.tight));
         built.notes = notes;
         built.loaded = Some(loaded);
         Ok(built)
@@ -172,15 +173,13 @@ impl Work<'_, '_> {
             return Ok(None);
         }
         self.begin(TREE, Stage::BoxTree)?;
-        // A grid so coarse would be the greater part of every interval.
-        let is_far =
-            wanted.vertex_bits == VertexBits::Auto && bvh::is_too_far_for_grid(&loaded.mesh);
         let options = TreeOptions::default()
             .with_closest(wanted.serves(For::Closest))
             .with_segments(wanted.serves(For::Segment))
             .with_cull(wanted.serves(For::Cull))
             .with_winding(wanted.serves(For::Winding))
-            .with_f32(wanted.is_f32() || is_far);
+            .with_f32(wanted.is_f32())
+            .with_leaving_grid(wanted.vertex_bits == VertexBits::Auto);
         let callback = Callback::new(|part| self.progress.show(Stage::BoxTree, part));
         bvh::build_watched(loaded.input(), &options, callback.watch()).map(Some)
     }

@@ -1,6 +1,7 @@
 //! The report of a build, in sentences.
 
 use super::options::{For, Options};
+use crate::bvh::{TreeReport, WhyF32};
 use crate::counted::Counted;
 use crate::curve::CurveReport;
 use crate::hull::{BuildReport, Kind, wires_note};
@@ -80,25 +81,22 @@ pub(super) fn of_blob(
     options: &Options,
     loaded: &Loaded,
     blob: &Blob<'_>,
-    of_hull: Option<&BuildReport>,
+    hull_report: Option<&BuildReport>,
+    tree_report: Option<&TreeReport>,
     reports: &[HullReport],
 ) -> Vec<Note> {
     let (mut hull, mut tree, mut sides, mut tight) = (vec![], vec![], vec![], vec![]);
-    if let Some(report) = of_hull {
+    if let Some(report) = hull_report {
         hull.push(format!("base hull: {}", Counted(report.base_faces, "face")));
         hull.extend(report.stuck.map(|stuck| stuck.why(options.base_faces())));
         hull.extend(other_format(options.vertex_bits, blob.header().vertex_format));
     }
     if let Ok(bvh) = blob.bvh() {
-        if bvh.header().is_f32() && !options.is_f32() {
-            tree.push(
-                "the mesh is too far from its origin for the box tree's grid: its coordinates are \
-                 stored as f32"
-                    .to_owned(),
-            );
-        }
-        if bvh.is_closed() && bvh.serves_distances() {
+        tree.extend(tree_report.and_then(|report| report.why_f32).map(off_grid));
+        if bvh.has_sides() && bvh.serves_distances() {
             sides.extend(overlaps(components_whose_boxes_meet(&loaded.mesh)));
+        } else if bvh.is_closed() && bvh.serves_distances() && !bvh.serves_winding() {
+            sides.push(lost(bvh.header().is_f32()));
         }
     }
     if let Some(first) = reports.first() {
@@ -138,6 +136,31 @@ fn other_format(wanted: VertexBits, got: VertexFormat) -> Option<String> {
     let text = "the mesh is too small or too far from its origin for the hull's grid: its \
                 coordinates are stored as f32";
     (got != wanted).then(|| text.to_owned())
+}
+
+/// Says why the box tree's coordinates are f32.
+fn off_grid(why: WhyF32) -> String {
+    let why = match why {
+        WhyF32::TooFar => "the mesh is too far from its origin for the box tree's grid",
+        WhyF32::Sides => {
+            "on the box tree's grid the surface would touch or cross itself, and sides could be wrong"
+        }
+    };
+    format!("{why}: its coordinates are stored as f32")
+}
+
+/// Says why every side is undecided.
+fn lost(is_f32: bool) -> String {
+    let (place, remedy) = match is_f32 {
+        true => ("in f32", "--for closest,winding decides them"),
+        false => {
+            ("on the grid", "--vertex-bits 32 may keep them, --for closest,winding decides them")
+        }
+    };
+    format!(
+        "sides by the nearest triangle are undecided: the surface touches or crosses itself {place}, \
+         where walls may have changed places; {remedy}"
+    )
 }
 
 /// Says of how many connected components the inside may be answered as outside.

@@ -6,8 +6,8 @@ use super::fans::{self, Effort, Fan, FanLeaf};
 use super::moments::moments;
 use super::nodes::fit::{axis_aligned_boxes, shared_frames, unturned_frames};
 use super::nodes::order::topology;
-use super::source;
 use super::store::{OnGrid, store};
+use super::{sides, source};
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::{Input, Mesh, Wire};
@@ -16,7 +16,9 @@ use crate::surface::{EdgeTable, ends, require_valid};
 use glam::DVec3;
 use meshsweep_core::SectionKind;
 use meshsweep_core::internal::bvh::format::BvhHeader;
-use meshsweep_core::internal::bvh::format::layout::{BVH_CLOSED, BVH_F32, LINK_BYTES};
+use meshsweep_core::internal::bvh::format::layout::{
+    BVH_CLOSED, BVH_F32, BVH_SIDES_LOST, LINK_BYTES,
+};
 use meshsweep_core::internal::geom::fan::WIDTH;
 use meshsweep_core::internal::num::up_to_f32;
 use rayon::prelude::*;
@@ -36,12 +38,32 @@ pub struct TreeOptions {
     pub winding: bool,
     /// Whether to store vertices in f32 instead of 16 bits on a grid.
     pub is_f32: bool,
+    /// Whether to store them in f32 where a grid would do harm: see [`WhyF32`].
+    pub leaves_grid: bool,
+}
+
+/// Why vertices are stored in f32 although nobody asked for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum WhyF32 {
+    /// The mesh is too far from its origin: a grid would move vertices farther than a 32,768th of
+    /// its longest side.
+    TooFar,
+    /// On a grid walls may change places, so that a tree for closest points would decide no sides.
+    Sides,
 }
 
 impl Default for TreeOptions {
     /// Closest points and segments, no culling, no winding numbers, vertices on a grid.
     fn default() -> Self {
-        TreeOptions { closest: true, segments: true, cull: false, winding: false, is_f32: false }
+        TreeOptions {
+            closest: true,
+            segments: true,
+            cull: false,
+            winding: false,
+            is_f32: false,
+            leaves_grid: false,
+        }
     }
 }
 
@@ -75,6 +97,12 @@ impl TreeOptions {
     pub const fn with_f32(self, is_f32: bool) -> Self {
         Self { is_f32, ..self }
     }
+
+    /// Sets whether vertices [leave a grid](Self::leaves_grid) that would do harm.
+    #[must_use]
+    pub const fn with_leaving_grid(self, leaves_grid: bool) -> Self {
+        Self { leaves_grid, ..self }
+    }
 }
 
 /// Counts and time of a build.
@@ -93,6 +121,8 @@ pub struct TreeReport {
     pub depth: usize,
     /// The tree's header.
     pub header: BvhHeader,
+    /// Why vertices are f32 although [`TreeOptions::is_f32`] was not set.
+    pub why_f32: Option<WhyF32>,
     /// Time of the whole build.
     pub time: Duration,
 }
@@ -147,8 +177,9 @@ pub(super) fn build_in(
     require_valid(mesh, MAX_TRIANGLES)?;
     let triangles = mesh.triangles.len() + mesh.wires.len();
     let started = Instant::now();
-    let grid = store(input, options.is_f32);
     let edges = EdgeTable::new(mesh.positions.len(), &mesh.triangles);
+    let Places { grid, flags, why_f32 } = places(input, &edges, options, is_quick);
+    let is_f32 = flags & BVH_F32 != 0;
     let effort = if is_quick { Effort::QUICK } else { Effort::FULL };
     let part = watch.part(0.0, PACKED);
     let mut leaves = fans::pack(&mesh.triangles, &edges, &grid.positions, effort, part)?;
@@ -172,7 +203,7 @@ pub(super) fn build_in(
         let boxes = axis_aligned_boxes(&topology, &views, watch.part(FRAMED, BOXED))?;
         sections.push((SectionKind::TreeBoxes, encode::boxes(&boxes, grid.origin)));
     }
-    sections.push((SectionKind::TreeFans, encode::fans(&topology, &leaves, &grid, options.is_f32)));
+    sections.push((SectionKind::TreeFans, encode::fans(&topology, &leaves, &grid, is_f32)));
     let sources: Vec<u32> = mesh.all_sources().collect();
     let numbers: Vec<u32> = topology
         .leaf_order
@@ -188,7 +219,7 @@ pub(super) fn build_in(
         let bytes = moments(mesh, &edges, &topology, &leaves, &grid, watch.part(BOXED, 1.0))?;
         sections.push((SectionKind::TreeMoments, bytes));
     }
-    let header = header(mesh, &edges, &grid, &leaves, options, topology.waiting_entries);
+    let header = header(mesh, &grid, &leaves, flags, topology.waiting_entries);
     let header = BvhHeader { nodes: topology.nodes.len() as u32, ..header };
     sections.insert(0, (SectionKind::Bvh, header.write().to_vec()));
     debug_assert_eq!(sections[1].1.len(), topology.nodes.len() * LINK_BYTES);
@@ -200,6 +231,7 @@ pub(super) fn build_in(
         mean_children: children as f64 / topology.nodes.len().max(1) as f64,
         depth: topology.depth,
         header,
+        why_f32,
         time: started.elapsed(),
     };
     let sections = encode::sections(grid.scale_exponent, input.triangle_count(), &header, sections);
@@ -250,12 +282,45 @@ fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
     points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)))
 }
 
+/// Vertices as they are stored, and the tree's flags.
+struct Places {
+    grid: OnGrid,
+    flags: u8,
+    why_f32: Option<WhyF32>,
+}
+
+/// Stores the vertices in the format that is asked for, or in f32 where the grid would do harm.
+/// Sides of a quick build are not tested: they only choose.
+fn places(input: Input<'_>, edges: &EdgeTable, options: &TreeOptions, is_quick: bool) -> Places {
+    let mesh = input.mesh;
+    let is_closed = !mesh.has_merged_walls && is_closed(&mesh.triangles, edges);
+    let flags = |grid: &OnGrid, is_f32: bool| {
+        let is_lost = is_closed && !is_quick && !sides::are_kept(mesh, grid);
+        [(is_closed, BVH_CLOSED), (is_f32, BVH_F32), (is_lost, BVH_SIDES_LOST)]
+            .into_iter()
+            .fold(0, |flags, (is_set, flag)| if is_set { flags | flag } else { flags })
+    };
+    let grid = store(input, options.is_f32);
+    let kept = flags(&grid, options.is_f32);
+    let why_f32 = if options.is_f32 || !options.leaves_grid {
+        None
+    } else if grid.is_coarse() {
+        Some(WhyF32::TooFar)
+    } else {
+        (options.closest && kept & BVH_SIDES_LOST != 0).then_some(WhyF32::Sides)
+    };
+    if why_f32.is_none() {
+        return Places { grid, flags: kept, why_f32 };
+    }
+    let grid = store(input, true);
+    Places { flags: flags(&grid, true), grid, why_f32 }
+}
+
 fn header(
     mesh: &Mesh,
-    edges: &EdgeTable,
     grid: &OnGrid,
     leaves: &[FanLeaf],
-    options: &TreeOptions,
+    flags: u8,
     waiting_entries: usize,
 ) -> BvhHeader {
     let norm = |v: DVec3| v.x.abs() + v.y.abs() + v.z.abs();
@@ -284,10 +349,8 @@ fn header(
     });
     let short = |v: DVec3| [v.x as u16, v.y as u16, v.z as u16];
     let vertices: usize = leaves.iter().map(|leaf| encode::tag(leaf).vertices()).sum();
-    let has_sides = !mesh.has_merged_walls && is_closed(&mesh.triangles, edges);
-    let closed = if has_sides { BVH_CLOSED } else { 0 };
     BvhHeader {
-        flags: closed | if options.is_f32 { BVH_F32 } else { 0 },
+        flags,
         grid_exponent: grid.exponent,
         grid_origin: grid.origin,
         nodes: 0,

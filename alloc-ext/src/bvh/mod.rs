@@ -14,12 +14,13 @@ mod exact;
 mod fans;
 mod moments;
 mod nodes;
+mod sides;
 mod source;
 mod store;
 
 pub use batch::closest_points;
 pub(crate) use build::build_watched;
-pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, build};
+pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, WhyF32, build};
 pub use encode::sections_of;
 pub(crate) use exact::exact_blob_watched;
 pub use exact::{blob_for, exact_blob};

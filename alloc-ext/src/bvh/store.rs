@@ -18,6 +18,20 @@ pub(super) struct OnGrid {
     pub(super) positions: Vec<DVec3>,
     /// Largest distance of a vertex from its place in the input, local frame, rounded up.
     pub(super) surface_error: f64,
+    /// The part of it that storing added.
+    moved: f64,
+}
+
+impl OnGrid {
+    /// Whether vertices moved farther than a 32,768th of the longest side.
+    pub(super) fn is_coarse(&self) -> bool {
+        let fold = |f: fn(DVec3, DVec3) -> DVec3| self.positions.iter().copied().reduce(f);
+        let side = match (fold(DVec3::min), fold(DVec3::max)) {
+            (Some(low), Some(high)) => (high - low).max_element() * exp2(self.exponent),
+            _ => 0.0,
+        };
+        self.moved > side * MOST_MOVED
+    }
 }
 
 /// Finest exponent for which every coordinate on the grid is an integer below 2^24. Their sums are
@@ -35,13 +49,7 @@ const MOST_MOVED: f64 = 1.0 / 32_768.0;
 /// of its longest side. Then [f32 vertices](super::TreeOptions::with_f32) keep them in their place.
 #[must_use]
 pub fn is_too_far_for_grid(mesh: &Mesh) -> bool {
-    let grid = store(Input { moved: -mesh.rounding, ..mesh.as_input() }, false);
-    let fold = |f: fn(DVec3, DVec3) -> DVec3| grid.positions.iter().copied().reduce(f);
-    let side = match (fold(DVec3::min), fold(DVec3::max)) {
-        (Some(low), Some(high)) => (high - low).max_element() * exp2(grid.exponent),
-        _ => 0.0,
-    };
-    grid.surface_error > side * MOST_MOVED
+    store(mesh.as_input(), false).is_coarse()
 }
 
 /// Moves a mesh to the finest power-of-two grid of 16 bits that holds it. With `single`, only its
@@ -84,5 +92,6 @@ pub(super) fn store(input: Input<'_>, single: bool) -> OnGrid {
         positions,
         // Room for its rounding to f32 in a query (`core/docs/rounding.md` §9).
         surface_error: (error + before) * (1.0 + 1e-6),
+        moved: error * (1.0 + 1e-6),
     }
 }

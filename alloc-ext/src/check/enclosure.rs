@@ -17,12 +17,14 @@
 
 mod distance;
 mod meeting;
+mod solid;
 mod surface;
 mod winding;
 
 use super::manifold::Manifold;
 pub(crate) use distance::point_is_far;
 use meeting::{apart, area_free, sharing_apart};
+pub(crate) use solid::check_solid;
 pub(crate) use surface::Corners;
 pub use surface::Surface;
 pub use winding::Winding;

@@ -39,6 +39,7 @@ pub(crate) fn prove_tree(bytes: &[u8], input: Input<'_>) -> Result<TreeProof, St
     let given = Given::new(input, tree.scale_exponent);
     let corners = surface::triangles(&tree, &given, &mut proof)?;
     surface::closed(&tree, input.mesh)?;
+    surface::sides(&tree, &corners)?;
     measures(&tree, &corners, &mut proof)?;
     Ok(proof)
 }

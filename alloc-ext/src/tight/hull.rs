@@ -3,15 +3,14 @@
 use super::deadline::Deadline;
 use super::moves::slack;
 use super::options::{Goal, Options};
-use super::proof::{Obstacle, Solid, crosses_itself};
+use super::proof::Obstacle;
 use super::report::{Outcome, Progress, Report};
 use super::search::{CandidateHull, HullSearch};
 use crate::bvh::MAX_TRIANGLES;
 use crate::error::BuildError;
 use crate::mesh::Mesh;
 use crate::progress::Answer;
-use crate::surface::Bounds;
-use crate::surface::{Stored, VertexBits, require_valid, store};
+use crate::surface::{Bounds, Solid, Stored, VertexBits, crosses_itself, require_valid, store};
 use glam::{DVec3, Vec3};
 use meshsweep_core::internal::num::exp2;
 use std::borrow::Cow;

@@ -133,5 +133,7 @@ fn a_blob_with_moments_unites_parts_that_overlap() {
         let text = ok(["signed", arg(&blob), "2,0,0"]);
         text.lines().nth(1).unwrap().split(',').nth(3).unwrap().to_owned()
     };
-    assert_eq!([side("closest"), side("closest,winding")], ["outside", "inside"]);
+    // The decimals are rounded to f32, where the two parts cross: the nearest triangle proves no
+    // side.
+    assert_eq!([side("closest"), side("closest,winding")], ["undecided", "inside"]);
 }

@@ -367,7 +367,8 @@ int32_t msw_coherent_closest_point(const msw_model *model, msw_coherent *coheren
 /* The signed distance of a closed mesh: negative where the nearest surface has its back to the
  * point. Of the budget only `steps` matters.
  *
- * The side is never wrong. It is undecided if the mesh is not closed and consistently wound, on the
+ * The side is never wrong. It is undecided if the mesh is not closed and consistently wound, if the
+ * stored vertices moved so that walls may have changed places (`meshsweep build` says so), on the
  * surface, next to walls thinner than the surface error, and next to slivers without a normal.
  * Components that overlap are not united: the nearest surface decides.
  * Cost: one to three times that of msw_closest_point, up to four times more next to edges. */

@@ -241,6 +241,18 @@ const _: () = assert!(
 /// The first word of a coherent query's memory in use.
 const COHERENT_TAG: usize = 0x6d73_7704;
 
+/// Writes a new query. A function of its own: a copy of the query lies on its stack, which then is
+/// not below a question.
+///
+/// # Safety
+/// The pointer leads to room for a query. What lies there needs no drop.
+#[cold]
+#[inline(never)]
+unsafe fn begin(kept: *mut KeptQuery) {
+    // SAFETY: the caller's.
+    unsafe { kept.write(KeptQuery { tag: COHERENT_TAG, query: CoherentQuery::new() }) };
+}
+
 impl Out<CoherentStorage> {
     /// The query that the storage keeps. It is a new one if the memory is all zeros.
     pub fn kept(&mut self) -> Result<&mut CoherentQuery<'static, COHERENT_ENTRIES>, Error> {
@@ -250,8 +262,8 @@ impl Out<CoherentStorage> {
         let kept = unsafe { &raw mut (*self.0).kept }.cast::<KeptQuery>();
         // SAFETY: as above.
         if unsafe { (&raw const (*kept).tag).read() } != COHERENT_TAG {
-            // SAFETY: the storage has room. What lies there needs no drop.
-            unsafe { kept.write(KeptQuery { tag: COHERENT_TAG, query: CoherentQuery::new() }) };
+            // SAFETY: the storage has room.
+            unsafe { begin(kept) };
         }
         // SAFETY: the tag is only written with a query.
         Ok(unsafe { &mut (*kept).query })

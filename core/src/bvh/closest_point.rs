@@ -358,7 +358,8 @@ impl LeafVisitor for Closest<'_> {
 /// The interval of the model's box, and some point of the surface. Far enough away, all points are
 /// the closest up to a rounding of f32.
 ///
-/// It is computed in input units, scaled by a power of two so that no square leaves f32's range.
+/// It is computed in input units, scaled by a power of two so that no coordinate's square leaves
+/// f32's range. Proof: `core/docs/rounding.md` §8, Far away.
 #[cold]
 #[inline(never)]
 fn from_afar(
@@ -376,14 +377,15 @@ fn from_afar(
         _ => (1.0, 1.0),
     };
     let scaled = |x: f32| query.units.outward(x, up);
-    let (mut near_sq, mut far_sq) = (0.0, 0.0);
+    let (mut nearest, mut farthest) = ([0f32; 3], [0f32; 3]);
     let bounds = low.to_array().into_iter().zip(high.to_array());
-    for (x, (low, high)) in point.into_iter().zip(bounds) {
+    let ways = nearest.iter_mut().zip(&mut farthest);
+    for ((near, far), (x, (low, high))) in ways.zip(point.into_iter().zip(bounds)) {
         let (below, above) = (scaled(low) - x * up, x * up - scaled(high));
-        near_sq += square(greater(0.0, greater(below, above)));
-        far_sq += square(greater(below.abs(), above.abs()));
+        *near = greater(0.0, greater(below, above));
+        *far = greater(below.abs(), above.abs());
     }
-    let (near, far) = (sqrt_approx(near_sq), sqrt_approx(far_sq));
+    let (near, far) = (length(nearest), length(farthest));
     let margin =
         |distance: f32| distance * (2.0 * FAN_RELATIVE * U32) + scaled(query.fixed_error());
     let mut links = tree.links(0).ok_or(QueryError::Unchecked)?;
@@ -405,6 +407,19 @@ fn from_afar(
         work: Work::default(),
         ended: Ended::Exact,
     })
+}
+
+/// The length of a way, whose components are not negative. Squares of short ones would leave f32's
+/// range.
+#[inline(never)]
+fn length(way: [f32; 3]) -> f32 {
+    let [x, y, z] = way;
+    let up = if greater(greater(x, y), z) < 1.0 / POWER_40 { POWER_70 } else { 1.0 };
+    let mut sum = 0.0;
+    for x in way {
+        sum += square(x * up);
+    }
+    sqrt_approx(sum) / up
 }
 
 fn square(x: f32) -> f32 {

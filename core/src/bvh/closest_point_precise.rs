@@ -18,8 +18,9 @@ impl Bvh<'_> {
     /// if the tree was built with `--vertex-bits 32`.
     ///
     /// Triangles that rounding in f32 cannot tell from the closest one are measured in f64. What is
-    /// left of the width is the surface error, a rounding of f32 at each end, and on a sliver 1e-15
-    /// of its length times its aspect. With vertices on a grid the surface error hides the gain.
+    /// left of the width is the surface error, a rounding of f32 at each end, some 1e-14 of the
+    /// triangle's size and of its distance from the point, and on a sliver this times its aspect.
+    /// With vertices on a grid the surface error hides the gain.
     ///
     /// `scratch`, far points and units as for [`closest_point`](Bvh::closest_point). Of the budget
     /// only `steps` matters. If they or the scratch run out, the answer is that of f32. Of triangles
@@ -60,11 +61,12 @@ impl Bvh<'_> {
         let lengths = StoredLengths::of(tree);
         let rounding = query.rounding;
         let farthest = query.units.inward(near.distance.upper);
+        let stored = farthest - query.units.surface_error + farthest * (4.0 * U32);
         let candidates = Candidates {
             query: &query,
             place: DVec3::from_array(point.map(|x| lengths.inward(x))),
             // Proof: `core/docs/rounding.md` §8, In f64.
-            band: farthest * (1.0 + 64.0 * U32) + 4.0 * rounding,
+            band: stored * (1.0 + 64.0 * U32) + 4.0 * rounding,
             best: None,
             lower: f64::INFINITY,
             measured: 0,

@@ -27,7 +27,8 @@ impl Neighbor {
         Neighbor { words }
     }
 
-    /// The distance to the triangle of the input mesh, input units.
+    /// The distance to the part of the input's surface that bears this number, input units: to the
+    /// triangle, but where repair flipped an edge to remove a triangle without area beside it.
     pub fn distance(&self) -> Interval {
         let [lower, upper, ..] = self.words.map(f32::from_bits);
         Interval { lower, upper }

@@ -13,7 +13,13 @@
 //! *Why the stored surface's sign is the input's.* Move every vertex on a straight line from its
 //! input place to its stored place. Every point of every triangle moves by at most `surface_error`.
 //! So the surface never touches a point farther from the stored surface, and the point's winding
-//! number cannot change. At a smaller distance the side is undecided.
+//! number cannot change. At a smaller distance the side is undecided. The winding number *behind*
+//! the nearest triangle may change, though: where a wall or a gap is thinner than the error, its two
+//! faces may change places. If vertices moved, the builder therefore proves that the stored surface
+//! does not meet itself, and that it winds 0 or 1 times around every point. Then a triangle shows
+//! its front to a point exactly if the point's winding number is 0. If there is no such proof, the
+//! tree says so ([`Bvh::has_sides`]), and every side is undecided. Vertices that did not move need
+//! no proof: the stored surface is the input's.
 //!
 //! *How it is found.* Let q be the closest point, and w₀ the winding number at the query p. No
 //! surface is nearer than q. So the winding number is w₀ in a half-space of directions about q. Let
@@ -86,6 +92,8 @@ impl Bvh<'_> {
     ///
     /// The side is never wrong. It is undecided:
     /// - if the mesh is not closed and consistently wound ([`is_closed`](Bvh::is_closed));
+    /// - if the stored vertices moved so that walls may have changed places
+    ///   ([`has_sides`](Bvh::has_sides));
     /// - if the distance is not clear of the surface error and rounding;
     /// - next to walls and gaps thinner than these;
     /// - next to slivers so flat that they have no certain normal;
@@ -129,8 +137,9 @@ impl Bvh<'_> {
             Some(survey) => survey.closest(&search, point)?,
             None => tree.closest_point(point, Budget::EXACT.with_steps(steps), search.stack)?,
         };
-        let clear =
-            closed && closest.distance.lower > 0.0 && survey.as_ref().is_none_or(Survey::has_sides);
+        let clear = tree.has_sides()
+            && closest.distance.lower > 0.0
+            && survey.as_ref().is_none_or(Survey::has_sides);
         let mut side = match &survey {
             Some(survey) if clear => search.side(survey)?,
             _ => None,
@@ -159,6 +168,7 @@ impl Bvh<'_> {
         let side = side.unwrap_or(Side::Undecided(match search.truncated {
             _ if !closed => Undecided::OpenMesh,
             Some(why) => why.undecided(),
+            None if !tree.has_sides() => Undecided::Resolution,
             None if closest.distance.lower > 0.0 => Undecided::Feature,
             None => Undecided::OnSurface,
         }));

@@ -4,8 +4,8 @@ use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use crate::bvh::format::{FanLeaf, lanes_of};
 use crate::geom::fan::{Nearness, PointFan, lone_triangle, lower_bound, refined};
-use crate::num::sqrt_approx;
 use crate::num::tolerance::{CERTIFIED_PART, EVERYTHING_SQ, LEAST_LIMIT};
+use crate::num::{greater, sqrt_approx};
 use glam::Vec3;
 
 /// The distance of a triangle: as computed, or refined if its lower bound falls far short of it.
@@ -102,6 +102,8 @@ fn supporting_plane_bound(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> f32 {
 
 /// Squared bound above which nothing is within `distance` (input units) of the input mesh.
 pub(crate) fn limit_within(query: &PointQuery, distance: f32) -> f32 {
+    // Lower ends below the least normal number are 0, which is within any distance.
+    let distance = greater(distance, f32::MIN_POSITIVE);
     // `PointQuery::limit` adds more than the roundings here.
     limit_of(query, query.units.inward(distance) + query.units.surface_error)
 }

@@ -61,3 +61,19 @@ macro_rules! ask {
         }
     )*};
 }
+
+/// The same of a box tree that is opened already, as `part.rs` has it.
+#[allow(unused_macros, reason = "most images open what they ask")]
+macro_rules! ask_opened {
+    ($($name:ident: |$tree:ident, $input:ident, $scratch:ident, $fold:ident| $question:expr;)*) => {$(
+        #[unsafe(no_mangle)]
+        extern "C" fn $name(
+            $tree: &meshsweep_suite::ask::tree::Bvh<'_>,
+            $input: &bare::Input<'_>,
+            $scratch: &mut meshsweep_suite::ask::tree::Scratch<'_>,
+            $fold: &mut meshsweep_suite::fold::Fold,
+        ) {
+            $question;
+        }
+    )*};
+}

@@ -75,6 +75,9 @@ pub fn pack(target: &str, folder: &Path) -> Result<usize, String> {
     }
     inputs.sort_by(|a, b| (a.len(), a).cmp(&(b.len(), b)));
     inputs.dedup();
+    if inputs.is_empty() {
+        return Err(format!("{}: no inputs", folder.display()));
+    }
     let line = |input: &Vec<u8>| {
         input.iter().map(|byte| format!("{byte:02x}")).chain(["\n".to_owned()]).collect::<String>()
     };

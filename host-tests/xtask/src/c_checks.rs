@@ -88,9 +88,12 @@ fn build_and_run(library: &std::path::Path, programs: &[Program]) -> Result<(), 
     Ok(())
 }
 
+/// The board and the library of the C images.
+pub const IMAGES: (&str, Profile) = (BOARDS[0].cpu, Profile::Release);
+
 fn on_board(tools: &Tools, c: &CTools, programs: &[Program]) -> Result<(), String> {
-    let board = &BOARDS[0];
-    let library = c_library::build(&tools.cross, c, board.target, Profile::Release)?;
+    let (board, (_, profile)) = (&BOARDS[0], IMAGES);
+    let library = c_library::build(&tools.cross, c, board.target, profile)?;
     let start = folder().join("cortex-m4");
     for Program { sources, lines } in programs {
         let image = library.with_file_name("image.elf");

@@ -106,6 +106,45 @@ pub fn functions() -> Result<Vec<String>, String> {
     if names.len() < 10 { Err(format!("{names:?} are too few functions")) } else { Ok(names) }
 }
 
+/// rustc's archive of a target.
+fn archive(cross: &Cross, target: &str, profile: Profile) -> Result<PathBuf, String> {
+    let mut cargo = images::cargo(cross, "build", &[target], profile);
+    process::capture(cargo.args(["--package", "meshsweep-c-library"]))?;
+    Ok(images::image(cross, target, profile, "libmeshsweep_c_library.a"))
+}
+
+/// The folder for what is made of it.
+fn made(target: &str, profile: Profile) -> Result<PathBuf, String> {
+    let folder = workspace::target().join("c").join(target).join(profile.name());
+    std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    Ok(folder)
+}
+
+/// Links all functions of a target's library, with the frames of its functions and with the
+/// relocations, from which the stack is bounded: the path of the image.
+///
+/// # Errors
+/// The compiler's or the linker's.
+pub fn linked(
+    cross: &Cross,
+    tools: &CTools,
+    target: &str,
+    profile: Profile,
+) -> Result<PathBuf, String> {
+    let archive = archive(cross, target, profile)?;
+    let image = made(target, profile)?.join("bounded");
+    let mut ld = tools.linker(target);
+    // Relaxation moves code, and the relocations may then name other places.
+    ld.args(["--emit-relocs", "--no-relax", "--entry=0", "-Ttext=0x10000"]);
+    // No function reaches the panic handler: `build` proves it.
+    ld.arg(format!("--defsym={PANIC}=0"));
+    for function in functions()? {
+        ld.args(["-u", &function]);
+    }
+    process::capture(ld.arg(&archive).arg("-o").arg(&image))?;
+    Ok(image)
+}
+
 /// Builds the library of a target: its path.
 ///
 /// # Errors
@@ -116,11 +155,8 @@ pub fn build(
     target: &str,
     profile: Profile,
 ) -> Result<PathBuf, String> {
-    let mut cargo = images::cargo(cross, "build", &[target], profile);
-    process::capture(cargo.args(["--package", "meshsweep-c-library"]))?;
-    let made = images::image(cross, target, profile, "libmeshsweep_c_library.a");
-    let folder = workspace::target().join("c").join(target).join(profile.name());
-    std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let made = archive(cross, target, profile)?;
+    let folder = self::made(target, profile)?;
     let (object, library) = (folder.join("meshsweep.o"), folder.join("libmeshsweep.a"));
 
     // `can_panic` leaves the name there, or its absence from the object proves nothing.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::blobs::{Blob, Blocks};
 use crate::boards::{BOARDS, Board, Flash};
+use crate::c_library::{self, CTools};
 use crate::cost::{self, Added, Measured, Row};
 use crate::cross::Cross;
 use crate::images::{self, Profile};
@@ -13,7 +14,7 @@ use crate::qemu::Qemu;
 use crate::reading::Reading;
 use crate::stack::{self, Stacks};
 use crate::steps::Steps;
-use crate::{blobs, elf, proof, tables};
+use crate::{blobs, c_checks, elf, proof, tables};
 
 /// What the firmware's part needs beside cargo.
 #[derive(Clone, Debug)]
@@ -137,6 +138,12 @@ impl Scope {
         self == Self::All || profile == Profile::Release || !board.has_floats
     }
 
+    /// Whether the C library's stack is bounded: in `cargo xtask test` that of the library that is
+    /// built for its images.
+    fn is_bound_in_c(self, board: &Board, profile: Profile) -> bool {
+        self == Self::All || c_checks::IMAGES == (board.cpu, profile)
+    }
+
     /// Questions whose code is measured, each by an image of its own.
     fn questions(self) -> Vec<&'static str> {
         match self {
@@ -231,6 +238,20 @@ pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> V
             Ok(())
         });
     }
+    steps.run("bounds of the stack in C", || {
+        let c = CTools::find()?;
+        for Row { board, stacks, .. } in &mut rows {
+            for profile in Profile::ALL {
+                if scope.is_bound_in_c(board, profile) {
+                    let linked = c_library::linked(cross, &c, board.target, profile)?;
+                    let bound = stacks.bound_c(&linked, profile);
+                    bound
+                        .map_err(|reason| format!("{}, {}: {reason}", board.cpu, profile.name()))?;
+                }
+            }
+        }
+        Ok(())
+    });
     for row in &mut rows {
         let name = format!("{}: sizes", row.board.cpu);
         row.added = steps.run(&name, || sizes(cross, &row.board, scope)).unwrap_or_default();
@@ -327,9 +348,11 @@ pub fn reading(
 pub const DEBUGGED: [&str; 2] = ["Cortex-M4F", "Cortex-M0"];
 
 /// Questions whose code is measured, each by an image of its own, and their names in tables.
-pub const QUESTIONS: [(&str, &str); 13] = [
+pub const QUESTIONS: [(&str, &str); 15] = [
     ("tree_open", "open a box tree"),
     ("tree_alone", "closest point"),
+    ("tree_alone_two", "closest point, first hit"),
+    ("tree_alone_four", "closest point, first hit, within, signed distance"),
     ("tree_closest", "open, closest point"),
     ("tree_segment", "open, first hit"),
     ("tree_coherent", "open, coherent query"),

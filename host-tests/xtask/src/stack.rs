@@ -6,11 +6,14 @@
 //! instance with the meter, is added. The sum is no more than the function's bound in the same
 //! image. The bounds of the documents are the larger ones of that image and of the proof's, which
 //! has all questions and no panic.
+//!
+//! The functions of `meshsweep.h` have bounds of their own, from the linked library.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::boards::Board;
+use crate::c_library;
 use crate::call_graph::CallGraph;
 use crate::cost::Row;
 use crate::cross::Cross;
@@ -144,6 +147,33 @@ pub const QUESTIONS: [Question; 35] = {
     ]
 };
 
+/// Functions of `meshsweep.h`, and what a blob has to have for them.
+pub const C_FUNCTIONS: [(&str, &str); 20] = [
+    ("msw_open", "tree"),
+    ("msw_open_trusted", "tree"),
+    ("msw_closest_point", "closest"),
+    ("msw_closest_point_from", "closest"),
+    ("msw_coherent_closest_point", "closest"),
+    ("msw_within", "closest"),
+    ("msw_nearest", "closest"),
+    ("msw_signed_distance", "closest"),
+    ("msw_winding_number", "winding"),
+    ("msw_first_hit", "segment"),
+    ("msw_overlap", "segment"),
+    ("msw_models_within", "segment"),
+    ("msw_first_contact", "segment"),
+    ("msw_open_tight", "tight"),
+    ("msw_tight_within", "tight"),
+    ("msw_tight_model", "tight"),
+    ("msw_open_hull", "hull"),
+    ("msw_refine", "hull"),
+    ("msw_refined_faces", "hull"),
+    ("msw_checksum", "tree"),
+];
+
+/// A function of the header that is not in the list takes less.
+const LEAST_IN_C: u32 = 64;
+
 impl Question {
     fn path(&self) -> String {
         format!("meshsweep_suite::ask::{}", self.function)
@@ -160,19 +190,59 @@ pub struct Stack {
 }
 
 /// What all questions take on a board, by profile.
-#[derive(Clone, Debug)]
-pub struct Stacks([[Stack; QUESTIONS.len()]; Profile::ALL.len() + Profile::DEBUG.len()]);
+#[derive(Clone, Debug, Default)]
+pub struct Stacks([OfProfile; Profile::ALL.len() + Profile::DEBUG.len()]);
 
-impl Default for Stacks {
+#[derive(Clone, Debug)]
+struct OfProfile {
+    questions: [Stack; QUESTIONS.len()],
+    c_functions: [Option<u32>; C_FUNCTIONS.len()],
+}
+
+impl Default for OfProfile {
     fn default() -> Self {
-        Self([[Stack::default(); QUESTIONS.len()]; Profile::ALL.len() + Profile::DEBUG.len()])
+        Self {
+            questions: [Stack::default(); QUESTIONS.len()],
+            c_functions: [None; C_FUNCTIONS.len()],
+        }
     }
 }
 
 impl Stacks {
     /// What each question takes with a profile.
     pub fn of(&self, profile: Profile) -> [Stack; QUESTIONS.len()] {
-        self.0[profile as usize]
+        self.0[profile as usize].questions
+    }
+
+    /// The bound of each of [`C_FUNCTIONS`] with a profile.
+    pub fn of_c(&self, profile: Profile) -> [Option<u32>; C_FUNCTIONS.len()] {
+        self.0[profile as usize].c_functions
+    }
+
+    /// Reads the bounds of the functions of `meshsweep.h` from a linked library.
+    ///
+    /// # Errors
+    /// A function has none, or is missing in [`C_FUNCTIONS`].
+    pub fn bound_c(&mut self, linked: &Path, profile: Profile) -> Result<(), String> {
+        let graph = CallGraph::of(linked)?;
+        if graph.takes_addresses {
+            return Err("the address of a function is taken, so it may be called by it".to_owned());
+        }
+        for name in c_library::functions()? {
+            let bound = graph.bound(&name).map_err(|reason| format!("{name}: {reason}"))?;
+            match C_FUNCTIONS.iter().position(|(known, _)| *known == name) {
+                Some(index) => self.0[profile as usize].c_functions[index] = Some(bound.bytes),
+                None if bound.bytes < LEAST_IN_C => {}
+                None => {
+                    return Err(format!(
+                        "{name}: {} bytes of stack\n{}",
+                        bound.bytes,
+                        bound.text()
+                    ));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Reads the bounds from the image of the proof.
@@ -185,7 +255,7 @@ impl Stacks {
             return Err("the address of a function is taken, so it may be called by it".to_owned());
         }
         let mut refused = Vec::new();
-        for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize]) {
+        for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize].questions) {
             match graph.bound(&question.path()) {
                 Ok(bound) => stack.bound = stack.bound.max(Some(bound.bytes)),
                 Err(reason) => refused.push(format!("{}: {reason}", question.name)),
@@ -205,7 +275,7 @@ impl Stacks {
         profile: Profile,
     ) -> Result<(), String> {
         let graph = CallGraph::of(&images::image(cross, board.target, profile, DEBUG_IMAGE))?;
-        for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize]) {
+        for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize].questions) {
             let bound = graph.bound(&question.path()).ok();
             stack.bound = bound.as_ref().map(|bound| bound.bytes);
             if profile == Profile::Overridden && question.name == CLOSEST {
@@ -237,7 +307,7 @@ impl Stacks {
         reading: &Reading,
     ) -> Result<(), String> {
         let graph = CallGraph::of(image)?;
-        for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize]) {
+        for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize].questions) {
             if !image.ends_with(question.image) {
                 continue;
             }
@@ -286,6 +356,30 @@ fn columns(rows: &[Row]) -> impl Iterator<Item = (&Row, Profile)> {
     rows.iter().flat_map(|row| [Profile::Small, Profile::Release].map(|profile| (row, profile)))
 }
 
+/// Where the bounds of a line of the builder's table are.
+#[derive(Clone, Copy)]
+enum Bounds {
+    OfQuestion(usize),
+    OfC(usize),
+}
+
+impl Bounds {
+    fn of(self, row: &Row, profile: Profile) -> Option<u32> {
+        match self {
+            Self::OfQuestion(index) => row.stacks.of(profile)[index].bound,
+            Self::OfC(index) => row.stacks.of_c(profile)[index],
+        }
+    }
+}
+
+/// Lines of the builder's table: a name, what a blob has to have, and the bounds.
+fn listed() -> impl Iterator<Item = (&'static str, &'static str, Bounds)> {
+    let questions = QUESTIONS.iter().enumerate();
+    let questions = questions.map(|(i, of)| (of.name, of.needs, Bounds::OfQuestion(i)));
+    let functions = C_FUNCTIONS.iter().enumerate();
+    questions.chain(functions.map(|(i, &(name, needs))| (name, needs, Bounds::OfC(i))))
+}
+
 /// Writes the builder's table, if all bounds are known.
 ///
 /// # Errors
@@ -296,11 +390,11 @@ pub fn write(rows: &[Row]) -> Result<(), String> {
         let level = if profile == Profile::Small { "s" } else { "3" };
         text.push_str(&format!(",{} {level}", row.board.cpu));
     }
-    for (index, question) in QUESTIONS.iter().enumerate() {
-        text.push_str(&format!("\n{},{}", question.name, question.needs));
+    for (name, needs, bounds) in listed() {
+        text.push_str(&format!("\n{name},{needs}"));
         for (row, profile) in columns(rows) {
-            let Some(bound) = row.stacks.of(profile)[index].bound else {
-                say!("   stack.csv: {} is not known of all boards", question.name);
+            let Some(bound) = bounds.of(row, profile) else {
+                say!("   stack.csv: {name} is not known of all boards");
                 return Ok(());
             };
             text.push_str(&format!(",{}", with_room(bound)));
@@ -318,20 +412,19 @@ pub fn check(rows: &[Row]) -> Result<(), String> {
     let text = fs::read_to_string(file());
     let text = text.map_err(|error| format!("{}: {error}", file().display()))?;
     let mut lines = text.lines().skip(1);
-    for (index, question) in QUESTIONS.iter().enumerate() {
+    for (name, needs, bounds) in listed() {
         let mut cells = lines.next().unwrap_or_default().split(',');
         let named = [cells.next(), cells.next()];
-        if named != [Some(question.name), Some(question.needs)] {
-            return Err(format!("stack.csv: {named:?}, not {}", question.name));
+        if named != [Some(name), Some(needs)] {
+            return Err(format!("stack.csv: {named:?}, not {name}"));
         }
         for (row, profile) in columns(rows) {
             let written = cells.next().and_then(|cell| cell.parse::<u32>().ok()).unwrap_or(0);
-            let Some(bound) = row.stacks.of(profile)[index].bound else { continue };
+            let Some(bound) = bounds.of(row, profile) else { continue };
             let most = with_room(bound) + 64 + bound / 8;
             if !(bound..=most).contains(&written) {
                 return Err(format!(
-                    "stack.csv: {}, {}, {}: {written}, and the bound is {bound}",
-                    question.name,
+                    "stack.csv: {name}, {}, {}: {written}, and the bound is {bound}",
                     row.board.cpu,
                     profile.name()
                 ));

@@ -177,6 +177,7 @@ fn table(name: &str, facts: &Facts<'_>) -> Result<Option<Vec<Vec<Cell>>>, String
             lines.extend(on_boards(facts.rows, 0, &kinds, CODE[0])?);
         }
         "stack" => lines = by_board(facts.rows, &SHIPPED, stacks),
+        "stack_c" => lines = by_board(facts.rows, &SHIPPED, c_stacks),
         "stack_debug" => {
             let rows = facts.rows.iter().filter(|row| firmware::DEBUGGED.contains(&row.board.cpu));
             lines = by_board(rows, &DEBUG, stacks);
@@ -229,6 +230,14 @@ fn stacks(row: &Row, profile: Profile) -> Vec<(&'static str, Cell)> {
         (question.name, if is_debug { debug_cell(of) } else { stack_cell(of) })
     };
     stack::QUESTIONS.iter().zip(row.stacks.of(profile)).map(cell).collect()
+}
+
+/// The stack's bound of each function of the C interface.
+fn c_stacks(row: &Row, profile: Profile) -> Vec<(&'static str, Cell)> {
+    let cell = |(&(name, _), bound): (&(&'static str, &str), Option<u32>)| {
+        (name, bound.map_or_else(|| near(UNKNOWN), |bound| about(&[bound.into()])))
+    };
+    stack::C_FUNCTIONS.iter().zip(row.stacks.of_c(profile)).map(cell).collect()
 }
 
 /// The code of each question.

@@ -4,7 +4,7 @@ use meshsweep_core::{Budget, Bvh, QueryError, ScratchEntry, Side, SignedDistance
 
 /// Whether sides are defined: by the nearest triangle of a closed mesh, or by winding numbers.
 pub fn has_sides(tree: &Bvh<'_>) -> bool {
-    tree.is_closed() || tree.serves_winding()
+    tree.has_sides() || tree.serves_winding()
 }
 
 /// Signed distance. If the blob has moments, the side is that of the winding number.

@@ -90,6 +90,7 @@ pub(super) struct TreeBlob {
     pub(super) scale_exponent: i32,
     pub(super) input_triangles: u32,
     pub(super) closed: bool,
+    pub(super) sides_lost: bool,
     pub(super) grid_exponent: i32,
     /// Box of all vertices, grid units.
     pub(super) bounds: [[f64; 3]; 2],
@@ -215,6 +216,7 @@ impl TreeBlob {
             scale_exponent: at(28)?.cast_signed(),
             input_triangles: at(84)?,
             closed: head[1] & 1 != 0,
+            sides_lost: head[1] & 4 != 0,
             grid_exponent: word(head, 4).unwrap_or(0).cast_signed(),
             bounds: [corner(48), corner(54)],
             stack_entries: count(36),

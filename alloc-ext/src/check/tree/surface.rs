@@ -3,6 +3,7 @@
 
 use super::parse::TreeBlob;
 use super::proof::TreeProof;
+use crate::check::enclosure::{Surface, check_solid};
 use crate::check::input::{Given, is_closed};
 use crate::mesh::Mesh;
 
@@ -56,4 +57,32 @@ pub(super) fn closed(tree: &TreeBlob, mesh: &Mesh) -> Result<(), String> {
     } else {
         Err(format!("closed: {closed}, the header says {}", tree.closed))
     }
+}
+
+/// If vertices moved and the header promises sides, the stored surface bounds a solid. `corners` are
+/// the mesh's vertices at the corners of the stored triangles.
+pub(super) fn sides(tree: &TreeBlob, corners: &[[u32; 3]]) -> Result<(), String> {
+    if !tree.closed || tree.sides_lost || tree.surface_error == 0.0 {
+        return Ok(());
+    }
+    let mut surface = Surface::default();
+    for ((_, at), ids) in tree.triangles().zip(corners) {
+        // The others are wires.
+        if ids[0] == ids[1] || ids[1] == ids[2] || ids[2] == ids[0] {
+            continue;
+        }
+        for (&id, p) in ids.iter().zip(at) {
+            if surface.positions.len() <= id as usize {
+                surface.positions.resize(id as usize + 1, [f64::NAN; 3]);
+            }
+            let place = &mut surface.positions[id as usize];
+            if place[0].is_nan() {
+                *place = p;
+            } else if *place != p {
+                return Err(format!("vertex {id} is stored at {place:?} and at {p:?}"));
+            }
+        }
+        surface.triangles.push(*ids);
+    }
+    check_solid(&surface).map_err(|why| format!("sides are promised, but {why}"))
 }

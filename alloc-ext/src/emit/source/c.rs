@@ -1,5 +1,6 @@
 //! A C header and a C file.
 
+use super::stack::{self, Caller};
 use super::{Facts, SourceNames, in_comment};
 use meshsweep_core::Blob;
 use std::fmt::Write;
@@ -16,15 +17,18 @@ pub fn c_header(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
         "/* The blob `{}` of `{}`.\n *\n \
          * Written by `meshsweep build --emit c`, for version {} of the library. Compile {}.c\n \
          * with your program. Give {lower}_bytes to an open function of meshsweep.h.\n *\n \
-         * Bytes of the processor's stack that a question takes in libmeshsweep_small.a /\n \
-         * libmeshsweep.a, without the frame of its msw_ function:\n{} */\n\
+         * Bytes of the processor's stack that a function takes in libmeshsweep_small.a /\n \
+         * libmeshsweep.a. Functions that are not listed take less than 64.\n{} */\n\
          #ifndef {upper}_MSW_H\n#define {upper}_MSW_H\n\n#include <stdint.h>\n\n\
          #ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n",
         in_comment(names.blob),
         in_comment(names.mesh),
         env!("CARGO_PKG_VERSION"),
         in_comment(names.file_stem()),
-        facts.stack.iter().map(|line| format!(" *   {line}\n")).collect::<String>(),
+        stack::lines(blob, Caller::C)
+            .iter()
+            .map(|line| format!(" *   {line}\n"))
+            .collect::<String>(),
     );
     let mut define = |name: &str, value: String, about: &str| {
         let _ = writeln!(out, "#define {upper}_{name} {value} /* {about} */");

@@ -73,8 +73,6 @@ struct Facts {
     surface_error: Option<f32>,
     /// Contains the mesh, or the tightest hull.
     bounds: Option<[[f32; 3]; 2]>,
-    /// The processor's stack of each question that is served, as a table.
-    stack: Vec<String>,
 }
 
 impl Facts {
@@ -104,7 +102,6 @@ impl Facts {
             is_closed: tree.map(|tree| tree.is_closed()),
             surface_error: tree.map(|tree| tree.surface_error()),
             bounds: tree.or(finest.map(|hull| *hull.bvh())).map(|tree| around(&tree)),
-            stack: stack::lines(blob),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! A Rust module.
 
+use super::stack::{self, Caller};
 use super::{Facts, SourceNames, in_comment};
 use meshsweep_core::Blob;
 use std::fmt::Write;
@@ -9,14 +10,14 @@ use std::fmt::Write;
 #[must_use]
 pub fn rust_module(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
     let facts = Facts::of(blob);
-    let mut out = head(&facts, names);
+    let mut out = head(&facts, names, &stack::lines(blob, Caller::Rust));
     for part in [Some(bytes(&facts, names)), tree(&facts), hulls(&facts), more(&facts)] {
         out.extend(part);
     }
     out
 }
 
-fn head(facts: &Facts, names: SourceNames<'_>) -> String {
+fn head(facts: &Facts, names: SourceNames<'_>, stack: &[String]) -> String {
     let (stem, file) = (module(&names.identifier()), names.file_stem());
     let path = if file == stem {
         String::new()
@@ -48,7 +49,7 @@ fn head(facts: &Facts, names: SourceNames<'_>) -> String {
         "//\n// Bytes of the processor's stack that a question takes, at opt-level \"s\" / 3. \
          Debug builds\n// take several times as much: core/docs/guide.md tells how to avoid it.\n",
     );
-    for line in &facts.stack {
+    for line in stack {
         let _ = writeln!(out, "//   {line}");
     }
     let _ = writeln!(

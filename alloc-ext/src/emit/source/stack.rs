@@ -11,8 +11,24 @@ const BOUNDS: &str = include_str!("stack.csv");
 const NAME: usize = 28;
 const BOARD: usize = 15;
 
+/// Whose functions ask.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Caller {
+    /// The methods of the structures.
+    Rust,
+    /// The functions of `meshsweep.h`.
+    C,
+}
+
+impl Caller {
+    /// Whether a row of the table is about its functions.
+    fn calls(self, name: &str) -> bool {
+        name.starts_with("msw_") == (self == Self::C)
+    }
+}
+
 /// The bounds of the questions that a blob serves: a heading, then a line a question.
-pub(super) fn lines(blob: &Blob<'_>) -> Vec<String> {
+pub(super) fn lines(blob: &Blob<'_>, caller: Caller) -> Vec<String> {
     let served = served(blob);
     let mut rows = BOUNDS.lines().map(|row| row.split(','));
     let boards: Vec<&str> = rows.next().into_iter().flatten().skip(2).step_by(2).collect();
@@ -23,7 +39,7 @@ pub(super) fn lines(blob: &Blob<'_>) -> Vec<String> {
     })];
     for mut row in rows {
         let (Some(name), Some(needs)) = (row.next(), row.next()) else { continue };
-        if served.contains(&needs) {
+        if served.contains(&needs) && caller.calls(name) {
             let mut line = format!("{name:<NAME$}");
             while let (Some(small), Some(fast)) = (row.next(), row.next()) {
                 let _ = write!(line, "{:>BOARD$}", format!("{small} / {fast}"));

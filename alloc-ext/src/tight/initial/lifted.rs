@@ -8,8 +8,8 @@ use super::levels::{ClosedSurface, LEVELS};
 use crate::collapse::{Conditions, MAX_STAR};
 use crate::lp::{HalfSpace, Order, minimise_bounded};
 use crate::mesh::Mesh;
+use crate::surface::side;
 use crate::tight::moves::{Rounding, Shell, StarFace};
-use crate::tight::proof::side;
 use crate::tight::report::{Progress, Start};
 use glam::DVec3;
 

@@ -23,10 +23,9 @@
 //! of every edge is exact in single precision.
 
 use super::triangle_voxels::{Block, visit_voxels};
-use crate::surface::Bounds;
-use crate::surface::split_exponent;
+use crate::surface::{Bounds, Triangle, split_exponent};
 use crate::tight::deadline::Deadline;
-use crate::tight::proof::{Obstacle, Triangle};
+use crate::tight::proof::Obstacle;
 use glam::DVec3;
 use meshsweep_core::internal::num::exp2;
 use rustc_hash::FxHashMap;

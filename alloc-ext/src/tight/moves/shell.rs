@@ -2,8 +2,8 @@
 
 use super::star::StarFace;
 use crate::collapse::Connectivity;
-use crate::surface::{Bounds, SignedVolume, compact};
-use crate::tight::proof::{Face, Triangle, outermost};
+use crate::surface::{Bounds, Face, SignedVolume, Triangle, compact};
+use crate::tight::proof::outermost;
 use glam::DVec3;
 
 /// A closed manifold surface whose positions are `f32` numbers.

@@ -6,8 +6,7 @@
 
 use super::editor::HullEditor;
 use super::memo::{Answer, Key};
-use crate::surface::Bounds;
-use crate::tight::proof::are_apart;
+use crate::surface::{Bounds, are_apart};
 use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;

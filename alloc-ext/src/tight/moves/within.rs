@@ -11,7 +11,8 @@ use super::placement::PlacementObjective;
 use super::shell::Shell;
 use super::star::StarFace;
 use crate::hausdorff::{Farthest, Nearest, farthest, is_within};
-use crate::tight::proof::{DistanceField, Obstacle, Triangle};
+use crate::surface::Triangle;
+use crate::tight::proof::{DistanceField, Obstacle};
 use glam::DVec3;
 use meshsweep_core::internal::geom::point_triangle;
 

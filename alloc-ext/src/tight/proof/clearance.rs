@@ -13,8 +13,7 @@
 //! product with the distance by one more: less than the part that [`Clearance`] adds to the
 //! distance.
 
-use super::predicates::Triangle;
-use crate::surface::Bounds;
+use crate::surface::{Bounds, Triangle};
 use glam::DVec3;
 use meshsweep_core::internal::geom::point_triangle;
 

@@ -1,8 +1,7 @@
 //! Whether a closed surface is an outer hull of the mesh, tested as a whole and exactly.
 
 use super::obstacle::Obstacle;
-use super::predicates::{Face, are_apart, is_degenerate};
-use crate::surface::{Bounds, Enclosure, Enclosures, StaticTree, components};
+use crate::surface::{Enclosure, Enclosures, Face, components, is_degenerate, is_embedded};
 use glam::DVec3;
 
 /// Whether the faces of a closed manifold surface satisfy the whole invariant: the surface is
@@ -15,20 +14,6 @@ pub(crate) fn is_outer_hull(faces: &[Face], obstacle: &Obstacle) -> bool {
     !faces.iter().any(|face| is_degenerate(&face.at) || obstacle.meets(&face.at))
         && is_embedded(faces)
         && holds_witnesses()
-}
-
-/// Whether faces with area share no points but common corners and common edges. Exact.
-///
-/// Cost: one query of a static tree for each face.
-pub(crate) fn is_embedded(faces: &[Face]) -> bool {
-    let boxes: Vec<Bounds> = faces.iter().map(|face| Bounds::of(&face.at)).collect();
-    let tree = StaticTree::new(&boxes);
-    let is_apart_from_later = |i: usize| {
-        tree.visit_meeting(&boxes[i], |j| {
-            j <= i || !boxes[j].meets(&boxes[i]) || are_apart(&faces[i], &faces[j])
-        })
-    };
-    (0..faces.len()).all(is_apart_from_later)
 }
 
 /// The triangles of the connected components of a closed embedded surface that lie inside no other

@@ -2,10 +2,11 @@
 //! witness of each connected component.
 
 use super::clearance::Clearance;
-use super::predicates::{Triangle, is_cut_off, meet};
 use super::tetrahedron::Tetrahedron;
 use crate::mesh::Mesh;
-use crate::surface::{Bounds, Frontier, Plane, StaticTree, least_connected, spatial_order};
+use crate::surface::{
+    Bounds, Frontier, Plane, StaticTree, Triangle, is_cut_off, least_connected, meet, spatial_order,
+};
 use glam::DVec3;
 use meshsweep_core::internal::geom::point_triangle;
 

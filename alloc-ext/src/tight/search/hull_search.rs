@@ -2,12 +2,12 @@
 
 use crate::error::BuildError;
 use crate::mesh::Mesh;
-use crate::surface::Stored;
+use crate::surface::{Solid, Stored};
 use crate::tight::deadline::Deadline;
 use crate::tight::initial::InitialInput;
 use crate::tight::moves::Rounding;
 use crate::tight::options::Options;
-use crate::tight::proof::{Obstacle, Solid};
+use crate::tight::proof::Obstacle;
 use crate::tight::report::Progress;
 
 /// The inputs and the state of a search.

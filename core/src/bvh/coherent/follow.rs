@@ -9,8 +9,8 @@ use crate::bvh::leaf_distance::nearest_and_edges;
 use crate::bvh::node::{CHILD_MASK, NO_CHILD, least_key};
 use crate::bvh::point_query::{EVERY_KEY, PointQuery};
 use crate::geom::fan::{Nearness, PointFan, WIDTH, point_leaf};
-use crate::num::tolerance::{FAN_DISTANCE, LEAST_FAN_ROUNDING, ROOT_AND_PRODUCTS, SHORTFALL, U32};
-use crate::num::{greater, lesser, sqrt_approx};
+use crate::num::tolerance::{ROOT_AND_PRODUCTS, SHORTFALL};
+use crate::num::{lesser, sqrt_approx};
 use crate::query::Work;
 use glam::Vec3;
 
@@ -108,8 +108,7 @@ impl<'a, 't> Follow<'a, 't> {
         steps: u32,
     ) -> Self {
         let plane_error = query.plane_error;
-        let of_star = tree.header().star_radius * (SHORTFALL + FAN_DISTANCE * U32);
-        let shortfall = greater(of_star, LEAST_FAN_ROUNDING);
+        let shortfall = tree.header().star_radius * SHORTFALL + query.rounding;
         Follow {
             tree,
             query,

@@ -1,6 +1,6 @@
 //! The box tree's own header: counts, grid, error bound.
 
-use super::layout::{BVH_BYTES, BVH_CLOSED, BVH_F32, field};
+use super::layout::{BVH_BYTES, BVH_CLOSED, BVH_F32, BVH_SIDES_LOST, field};
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError, ok};
 use glam::Vec3;
@@ -11,7 +11,7 @@ use glam::Vec3;
 /// coordinate on the grid is a u16 plus `grid_origin`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BvhHeader {
-    /// [`BVH_CLOSED`] and [`BVH_F32`].
+    /// [`BVH_CLOSED`], [`BVH_F32`] and [`BVH_SIDES_LOST`].
     pub flags: u8,
     /// Local coordinate = grid coordinate × 2^this.
     pub grid_exponent: i32,
@@ -39,6 +39,11 @@ pub struct BvhHeader {
 }
 
 impl BvhHeader {
+    /// Whether the nearest triangle of the stored surface shows the side of the input.
+    pub const fn has_sides(&self) -> bool {
+        self.flags & (BVH_CLOSED | BVH_SIDES_LOST) == BVH_CLOSED
+    }
+
     /// Whether the sign of a distance is defined.
     pub const fn is_closed(&self) -> bool {
         self.flags & BVH_CLOSED != 0
@@ -75,7 +80,7 @@ impl BvhHeader {
         let reserved = head.is_zero(field::RESERVED, 1)
             && head.is_zero(field::RESERVED_BESIDE_FLAGS, 2)
             && head.is_zero(field::RESERVED_AT_END, 4);
-        if !reserved || flags & !(BVH_CLOSED | BVH_F32) != 0 {
+        if !reserved || flags & !(BVH_CLOSED | BVH_F32 | BVH_SIDES_LOST) != 0 {
             return Err(OpenError::Reserved);
         }
         Ok(BvhHeader {

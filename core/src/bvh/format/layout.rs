@@ -41,6 +41,9 @@ pub const MOMENTS_BYTES: usize = 60;
 /// Tree flag: every edge belongs to two triangles that run through it in opposite directions, so
 /// that the sign of a distance is defined.
 pub const BVH_CLOSED: u8 = 1;
+/// Tree flag: the stored surface may show a point another side than the input's. Its vertices moved,
+/// and the builder could not prove that this exchanged no two walls.
+pub const BVH_SIDES_LOST: u8 = 4;
 /// Tree flag: leaf vertices are f32 in grid units instead of u16 on the grid.
 pub const BVH_F32: u8 = 2;
 

@@ -238,6 +238,14 @@ impl Bvh<'_> {
         self.header.is_closed()
     }
 
+    /// Whether [`signed_distance`](Bvh::signed_distance) can decide sides. False for an open mesh,
+    /// and for a closed one if the vertices moved and two walls may have changed places by that.
+    /// `--vertex-bits 32`, or [winding numbers](Bvh::signed_by_winding), decide the sides of such a
+    /// mesh.
+    pub const fn has_sides(&self) -> bool {
+        self.header.has_sides()
+    }
+
     /// Triangles of the input file.
     pub const fn input_triangles(&self) -> u32 {
         self.input_triangles

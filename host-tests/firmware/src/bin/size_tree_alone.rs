@@ -2,15 +2,14 @@
 #![no_std]
 #![no_main]
 
+#[macro_use]
 #[path = "../bare.rs"]
 mod bare;
 
-use bare::Input;
-use meshsweep_suite::ask::Asked;
-use meshsweep_suite::ask::tree::{self, Bvh, Scratch};
-use meshsweep_suite::fold::Fold;
+use meshsweep_suite::ask::{Asked, tree};
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_closest(tree: &Bvh<'_>, input: &Input<'_>, s: &mut Scratch<'_>, fold: &mut Fold) {
-    tree::closest(tree, input.a, s, &mut Asked::new((), fold));
+ask_opened! {
+    ask_closest: |tree, input, scratch, fold| {
+        tree::closest(tree, input.a, scratch, &mut Asked::new((), fold))
+    };
 }

@@ -380,3 +380,26 @@ fn plate(n: u32) -> Triangles {
     let triangles = (0..n).flat_map(|j| (0..n).flat_map(move |i| cell(i, j))).collect();
     (positions, triangles)
 }
+
+/// No leaf is visited: the model's box answers. Its gaps are far shorter than its coordinates.
+#[test]
+fn without_a_step_the_box_of_a_flat_or_distant_mesh_bounds_the_truth() {
+    let mut rng = Rng::new(17);
+    for power in [-120, -60, -40, 0, 42, 60] {
+        let unit = 2f32.powi(power);
+        for i in 0..60 {
+            let by = unit * 2f32.powi(-(i % 30) * 4);
+            let mut point = || rng.point_in([-by; 3], [by; 3]);
+            let mut corners = vec![point(), point(), point()];
+            let height = if i % 2 == 0 { unit } else { 0.0 };
+            corners.iter_mut().for_each(|corner| corner[2] = height);
+            let p = point();
+            let p = [p[0], p[1], height + [0.0, 0.5 * by, 0.5 * unit][i as usize % 3]];
+            for single in [false, true] {
+                let scene = Scene::tree("flat", (corners.clone(), vec![[0, 1, 2]]), single);
+                let answer = ask(&scene.bvh(), p, &Budget::EXACT.with_steps(0), STACK);
+                contains(&scene, p, &answer, scene.truth(p));
+            }
+        }
+    }
+}

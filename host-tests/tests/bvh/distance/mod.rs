@@ -6,4 +6,5 @@ mod nearest;
 mod precise;
 pub mod scenes;
 mod side;
+mod thin_walls;
 mod within;

@@ -1,7 +1,7 @@
 //! The closest point in f64.
 
 use super::scenes::{STACK, all, stack, surface_error};
-use meshsweep_core::{Budget, ClosestPoint, Ended, Verdict};
+use meshsweep_core::{Budget, Bvh, ClosestPoint, Ended, Verdict};
 use meshsweep_host_tests::generate::{Rng, needle_comb, scaled, uv_sphere};
 use meshsweep_host_tests::oracle::distance_to_triangle;
 use meshsweep_host_tests::scene::Scene;
@@ -112,5 +112,20 @@ fn centres_of_spheres_and_needles_are_measured() {
                 assert!(answer.work.exact > 0, "{answer:?}");
             }
         }
+    }
+}
+
+#[test]
+fn an_error_of_the_place_does_not_add_triangles_that_are_measured() {
+    let scene = Scene::tree("sphere", uv_sphere(48, 24), true);
+    let tree = scene.bvh();
+    let moved = tree.with_error(0.1).expect("an error");
+    let mut rng = Rng::new(36);
+    for p in scene.points(POINTS, &mut rng) {
+        let of = |tree: &Bvh<'_>| {
+            let answer = tree.closest_point_precise(p, Budget::EXACT, &mut stack(STACK));
+            answer.expect("a point").work.exact
+        };
+        assert!(of(&moved) <= of(&tree) * 21 / 20 + 2, "{p:?}: {} and {}", of(&tree), of(&moved));
     }
 }

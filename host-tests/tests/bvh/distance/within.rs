@@ -149,3 +149,29 @@ proptest! {
         check(&scene, p, d, truth, ask(&scene, p, d, &Budget::EXACT, STACK));
     }
 }
+
+/// A lower end below the least normal number is reported as 0, and 0 is within every distance.
+#[test]
+fn next_to_the_surface_of_a_tiny_mesh_a_distance_of_zero_is_never_cleared_by_underflow() {
+    let mut rng = Rng::new(35);
+    let mut undecided = 0;
+    for _ in 0..200 {
+        let corners: Vec<[f32; 3]> =
+            (0..9).map(|_| rng.point_in([0.0; 3], [2f32.powi(-122); 3])).collect();
+        let mesh = (corners.clone(), vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]]);
+        let scene = Scene::tree("tiny", mesh, false);
+        let tree = scene.bvh();
+        for corner in corners {
+            let by = 2f32.powi(-127 - rng.below(4) as i32);
+            let p = corner.map(|x| x + by);
+            let answer = tree.within(p, 0.0, Budget::EXACT, &mut stack(STACK)).expect("a point");
+            let near = tree.closest_point(p, Budget::EXACT, &mut stack(STACK)).expect("a point");
+            let truth = scene.truth(p);
+            check(&scene, p, 0.0, truth, answer);
+            // Both questions look at the same triangles on every target.
+            assert_eq!(near.distance.lower > 0.0, answer.verdict == Verdict::No, "{p:?}");
+            undecided += usize::from(near.distance.lower == 0.0);
+        }
+    }
+    assert!(undecided > 100, "{undecided}");
+}

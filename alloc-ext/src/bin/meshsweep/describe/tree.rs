@@ -4,7 +4,9 @@ use super::shape::Shape;
 use meshsweep::counted::Counted;
 use meshsweep::number::AtMost;
 use meshsweep_core::internal::num::exp2;
-use meshsweep_core::internal::num::tolerance::{CERTIFIED_PART, FAN_DISTANCE, FAN_RELATIVE, U32};
+use meshsweep_core::internal::num::tolerance::{
+    CERTIFIED_PART, FAN_DISTANCE, FAN_RELATIVE, LEAST_FAN_ROUNDING, U32,
+};
 use meshsweep_core::{Bvh, ScratchEntry};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -21,7 +23,9 @@ fn half_widths(tree: &Bvh<'_>, diagonal: f64) -> [f64; 2] {
     let unit = exp2(h.grid_exponent + tree.scale_exponent());
     let u = f64::from(U32);
     let near = f64::from(tree.surface_error())
-        + f64::from(FAN_DISTANCE) * u * f64::from(h.star_radius) * unit;
+        + (f64::from(FAN_DISTANCE) * u * f64::from(h.star_radius))
+            .max(f64::from(LEAST_FAN_ROUNDING))
+            * unit;
     // Triangles that are no slivers are certified to that fraction of the squared distance. So the
     // distance is certified to half of it: a quarter at either end.
     let relative = f64::from(FAN_RELATIVE) * u + (1.0 - f64::from(CERTIFIED_PART)) / 4.0;
@@ -65,6 +69,10 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
         )?;
     }
     let closed = match (tree.is_closed(), tree.serves_winding()) {
+        (true, false) if !tree.has_sides() => {
+            "closed, but its vertices moved: every side is undecided; --vertex-bits 32 may keep \
+             sides, --for winding decides them"
+        }
         (true, false) => "closed: signed distance is that of the nearest surface",
         (true, true) => {
             "closed: sides are those of the winding number; parts that overlap are united"
@@ -112,6 +120,7 @@ pub(super) fn as_json(tree: &Bvh<'_>, diagonal: f64) -> Value {
     let [near, far] = half_widths(tree, diagonal);
     json!({
         "is_closed": tree.is_closed(),
+        "has_sides": tree.has_sides(),
         "vertex_format": format_name(tree),
         "surface_error": tree.surface_error(),
         "half_width_near": near,

@@ -1,9 +1,9 @@
 //! The volume that a mesh bounds, and the void of its hull.
 
-use super::enclosure::is_embedded;
-use super::predicates::{Face, is_degenerate};
-use crate::mesh::{Mesh, NoVolume, require_closed_manifold};
-use crate::surface::{Enclosures, SignedVolume, components};
+use super::components::components;
+use super::embedding::crosses_itself;
+use super::enclosures::Enclosures;
+use crate::mesh::{Mesh, NoVolume, SignedVolume, require_closed_manifold};
 use glam::DVec3;
 
 /// A mesh that bounds a volume.
@@ -88,15 +88,6 @@ fn winds_more_than_once(mesh: &Mesh, components: Vec<Triangles>, faces_out: &[bo
     let positions: Vec<DVec3> =
         mesh.positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
     !crosses_itself(&positions, &mesh.triangles)
-}
-
-/// Whether triangles with area share points besides common corners and edges: the surface crosses
-/// or touches itself. Exact.
-pub(crate) fn crosses_itself(positions: &[DVec3], triangles: &[[u32; 3]]) -> bool {
-    let face = |ids: &[u32; 3]| Face { ids: *ids, at: ids.map(|v| positions[v as usize]) };
-    let faces: Vec<Face> =
-        triangles.iter().map(face).filter(|face| !is_degenerate(&face.at)).collect();
-    !is_embedded(&faces)
 }
 
 #[cfg(test)]
