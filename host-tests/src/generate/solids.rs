@@ -147,3 +147,32 @@ pub fn cube(n: usize) -> Triangles {
     }
     builder.finish()
 }
+
+/// A square plate of side 1 on a plane with these slopes along x and y. Each face is a grid of 4 by 4
+/// squares, whose diagonals run against those of the other face.
+#[must_use]
+pub fn plate(slope: [f32; 2], thickness: f32) -> Triangles {
+    let mut positions = Vec::new();
+    for layer in [0.0, thickness] {
+        for i in 0..25 {
+            let [x, y] = [i % 5, i / 5].map(|k| k as f32 / 4.0);
+            positions.push([x, y, slope[0] * x + slope[1] * y + layer]);
+        }
+    }
+    let mut triangles = Vec::new();
+    for i in 0..16u32 {
+        let a = i % 4 + 5 * (i / 4);
+        let [b, c, d] = [a + 1, a + 6, a + 5];
+        triangles.extend([[a, c, b], [a, d, c]]);
+        let [a, b, c, d] = [a, b, c, d].map(|v| v + 25);
+        triangles.extend([[a, b, d], [b, c, d]]);
+    }
+    let rim = (0..4).map(|i| i).chain((0..4).map(|i| 4 + 5 * i));
+    let rim: Vec<u32> =
+        rim.chain((0..4).map(|i| 24 - i)).chain((0..4).map(|i| 20 - 5 * i)).collect();
+    for (i, &from) in rim.iter().enumerate() {
+        let to = rim[(i + 1) % rim.len()];
+        triangles.extend([[from, to, to + 25], [from, to + 25, from + 25]]);
+    }
+    (positions, triangles)
+}
