@@ -120,24 +120,17 @@ fn made(target: &str, profile: Profile) -> Result<PathBuf, String> {
     Ok(folder)
 }
 
-/// Links all functions of a target's library, with the frames of its functions and with the
-/// relocations, from which the stack is bounded: the path of the image.
+/// Links all functions of a board's library, with the frames of its functions and with the
+/// relocations, from which the stack is bounded: the path of the image. By LLVM's linker: GNU's
+/// would keep every function that has a frame.
 ///
 /// # Errors
-/// The compiler's or the linker's.
-pub fn linked(
-    cross: &Cross,
-    tools: &CTools,
-    target: &str,
-    profile: Profile,
-) -> Result<PathBuf, String> {
+/// The compiler's or the linker's; a question that can panic.
+pub fn linked(cross: &Cross, target: &str, profile: Profile) -> Result<PathBuf, String> {
     let archive = archive(cross, target, profile)?;
     let image = made(target, profile)?.join("bounded");
-    let mut ld = tools.linker(target);
-    // Relaxation moves code, and the relocations may then name other places.
-    ld.args(["--emit-relocs", "--no-relax", "--entry=0", "-Ttext=0x10000"]);
-    // No function reaches the panic handler: `build` proves it.
-    ld.arg(format!("--defsym={PANIC}=0"));
+    let mut ld = cross.linker()?;
+    ld.args(["--gc-sections", "--emit-relocs", "--entry=0", "--image-base=0x10000"]);
     for function in functions()? {
         ld.args(["-u", &function]);
     }

@@ -130,6 +130,25 @@ impl Cross {
         command
     }
 
+    /// LLVM's linker for images without an operating system.
+    pub fn linker(&self) -> Result<Command, String> {
+        match self {
+            Self::Installed => {
+                let programs = sysroot()?.join("lib/rustlib");
+                let found = std::fs::read_dir(&programs).into_iter().flatten().flatten();
+                let mut found = found.map(|target| target.path().join("bin/rust-lld"));
+                let linker = found.find(|path| path.is_file()).ok_or("no rust-lld")?;
+                let mut command = Command::new(linker);
+                command.args(["-flavor", "gnu"]);
+                Ok(command)
+            }
+            Self::Debian { rust, linker } => {
+                let name = linker.file_name().and_then(|name| name.to_str());
+                Ok(rust.command(name.ok_or("the linker has no name")?))
+            }
+        }
+    }
+
     /// Whether the toolchain has its lints for the boards: Debian's compiler comes without.
     pub const fn has_clippy(&self) -> bool {
         matches!(self, Self::Installed)

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use crate::blobs::{Blob, Blocks};
 use crate::boards::{BOARDS, Board, Flash};
-use crate::c_library::{self, CTools};
 use crate::cost::{self, Added, Measured, Row};
 use crate::cross::Cross;
 use crate::images::{self, Profile};
@@ -14,7 +13,7 @@ use crate::qemu::Qemu;
 use crate::reading::Reading;
 use crate::stack::{self, Stacks};
 use crate::steps::Steps;
-use crate::{blobs, c_checks, elf, proof, tables};
+use crate::{blobs, c_checks, c_library, elf, proof, tables};
 
 /// What the firmware's part needs beside cargo.
 #[derive(Clone, Debug)]
@@ -239,11 +238,10 @@ pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> V
         });
     }
     steps.run("bounds of the stack in C", || {
-        let c = CTools::find()?;
         for Row { board, stacks, .. } in &mut rows {
             for profile in Profile::ALL {
                 if scope.is_bound_in_c(board, profile) {
-                    let linked = c_library::linked(cross, &c, board.target, profile)?;
+                    let linked = c_library::linked(cross, board.target, profile)?;
                     let bound = stacks.bound_c(&linked, profile);
                     bound
                         .map_err(|reason| format!("{}, {}: {reason}", board.cpu, profile.name()))?;
