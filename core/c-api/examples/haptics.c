@@ -9,9 +9,9 @@
 #include "groove.h"
 #include "meshsweep.h"
 
-/* An open part has no inside: no force would push the finger out. */
-#if !GROOVE_IS_CLOSED
-#error "the part is not closed"
+/* Without sides no force would push the finger out. */
+#if !GROOVE_HAS_SIDES
+#error "the part has no sides"
 #endif
 
 #define STEP 0.015625f   /* length of a step, mm */

@@ -45,7 +45,11 @@ pub fn c_header(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
     let entries = format!("{}u", facts.scratch);
     define("SCRATCH_ENTRIES", entries, "no question about a point or a segment needs more");
     if let Some(closed) = facts.is_closed {
-        define("IS_CLOSED", u8::from(closed).to_string(), "whether distances have signs");
+        define("IS_CLOSED", u8::from(closed).to_string(), "whether the mesh is closed");
+    }
+    if let Some(has_sides) = facts.has_sides {
+        let value = u8::from(has_sides).to_string();
+        define("HAS_SIDES", value, "whether msw_signed_distance decides sides");
     }
     if let Some(error) = facts.surface_error {
         define("SURFACE_ERROR", float(error), "most distance of the mesh from the stored surface");

@@ -70,6 +70,7 @@ struct Facts {
     /// A structure that a `static` cannot hold.
     has_more: bool,
     is_closed: Option<bool>,
+    has_sides: Option<bool>,
     surface_error: Option<f32>,
     /// Contains the mesh, or the tightest hull.
     bounds: Option<[[f32; 3]; 2]>,
@@ -100,6 +101,7 @@ impl Facts {
             hulls: tight.map_or(0, |hulls| hulls.count()),
             has_more: hull.is_some() || triboxes.is_some() || curve.is_some(),
             is_closed: tree.map(|tree| tree.is_closed()),
+            has_sides: tree.map(|tree| tree.has_sides()),
             surface_error: tree.map(|tree| tree.surface_error()),
             bounds: tree.or(finest.map(|hull| *hull.bvh())).map(|tree| around(&tree)),
         }

@@ -37,6 +37,7 @@ fn head(facts: &Facts, names: SourceNames<'_>, stack: &[String]) -> String {
     );
     let facts_of_tree = [
         facts.is_closed.map(|closed| (if closed { "closed" } else { "not closed" }).to_owned()),
+        (facts.has_sides != facts.is_closed).then(|| "no sides by the nearest triangle".to_owned()),
         facts.bounds.map(|[low, high]| format!("a box that contains it: {low:?} to {high:?}")),
         facts.surface_error.map(|error| {
             format!("no point of the mesh is farther than {error:?} from the stored surface")
