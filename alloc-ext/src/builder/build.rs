@@ -179,7 +179,7 @@ impl Work<'_, '_> {
             .with_cull(wanted.serves(For::Cull))
             .with_winding(wanted.serves(For::Winding))
             .with_f32(wanted.is_f32())
-            .with_leaving_grid(wanted.vertex_bits == VertexBits::Auto);
+            .with_f32_allowed(wanted.vertex_bits == VertexBits::Auto);
         let callback = Callback::new(|part| self.progress.show(Stage::BoxTree, part));
         bvh::build_watched(loaded.input(), &options, callback.watch()).map(Some)
     }

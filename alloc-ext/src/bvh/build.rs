@@ -38,11 +38,11 @@ pub struct TreeOptions {
     pub winding: bool,
     /// Whether to store vertices in f32 instead of 16 bits on a grid.
     pub is_f32: bool,
-    /// Whether to store them in f32 where a grid would do harm: see [`WhyF32`].
-    pub leaves_grid: bool,
+    /// Whether to store vertices in f32 if the grid is too coarse or loses sides: see [`WhyF32`].
+    pub allows_f32: bool,
 }
 
-/// Why vertices are stored in f32 although nobody asked for it.
+/// Why vertices are stored in f32 although [`TreeOptions::is_f32`] is not set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum WhyF32 {
@@ -62,7 +62,7 @@ impl Default for TreeOptions {
             cull: false,
             winding: false,
             is_f32: false,
-            leaves_grid: false,
+            allows_f32: false,
         }
     }
 }
@@ -98,10 +98,15 @@ impl TreeOptions {
         Self { is_f32, ..self }
     }
 
-    /// Sets whether vertices [leave a grid](Self::leaves_grid) that would do harm.
+    /// Whether the tree has boxes for distances.
+    const fn stores_frames(&self) -> bool {
+        self.closest || !self.segments
+    }
+
+    /// Sets whether [f32 is allowed](Self::allows_f32).
     #[must_use]
-    pub const fn with_leaving_grid(self, leaves_grid: bool) -> Self {
-        Self { leaves_grid, ..self }
+    pub const fn with_f32_allowed(self, allows_f32: bool) -> Self {
+        Self { allows_f32, ..self }
     }
 }
 
@@ -178,7 +183,7 @@ pub(super) fn build_in(
     let triangles = mesh.triangles.len() + mesh.wires.len();
     let started = Instant::now();
     let edges = EdgeTable::new(mesh.positions.len(), &mesh.triangles);
-    let Places { grid, flags, why_f32 } = places(input, &edges, options, is_quick);
+    let Vertices { grid, flags, why_f32 } = store_vertices(input, &edges, options, is_quick);
     let is_f32 = flags & BVH_F32 != 0;
     let effort = if is_quick { Effort::QUICK } else { Effort::FULL };
     let part = watch.part(0.0, PACKED);
@@ -192,7 +197,7 @@ pub(super) fn build_in(
     let framed = watch.part(PACKED, FRAMED);
     framed.step(0, 1)?;
     let mut sections = vec![(SectionKind::TreeLinks, encode::links(&topology, &leaves))];
-    if options.closest || !options.segments {
+    if options.stores_frames() {
         let frames = match is_quick {
             true => unturned_frames(&topology, &views, framed)?,
             false => shared_frames(&topology, &views, framed)?,
@@ -283,15 +288,20 @@ fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
 }
 
 /// Vertices as they are stored, and the tree's flags.
-struct Places {
+struct Vertices {
     grid: OnGrid,
     flags: u8,
     why_f32: Option<WhyF32>,
 }
 
-/// Stores the vertices in the format that is asked for, or in f32 where the grid would do harm.
-/// Sides of a quick build are not tested: they only choose.
-fn places(input: Input<'_>, edges: &EdgeTable, options: &TreeOptions, is_quick: bool) -> Places {
+/// Stores the vertices in the format that is asked for, or in f32 if the grid is too coarse or loses
+/// sides. A quick build does not test sides: its tree stores f32, and only steers a search.
+fn store_vertices(
+    input: Input<'_>,
+    edges: &EdgeTable,
+    options: &TreeOptions,
+    is_quick: bool,
+) -> Vertices {
     let mesh = input.mesh;
     let is_closed = !mesh.has_merged_walls && is_closed(&mesh.triangles, edges);
     let flags = |grid: &OnGrid, is_f32: bool| {
@@ -301,19 +311,19 @@ fn places(input: Input<'_>, edges: &EdgeTable, options: &TreeOptions, is_quick: 
             .fold(0, |flags, (is_set, flag)| if is_set { flags | flag } else { flags })
     };
     let grid = store(input, options.is_f32);
-    let kept = flags(&grid, options.is_f32);
-    let why_f32 = if options.is_f32 || !options.leaves_grid {
+    let on_grid = flags(&grid, options.is_f32);
+    let why_f32 = if options.is_f32 || !options.allows_f32 {
         None
     } else if grid.is_coarse() {
         Some(WhyF32::TooFar)
     } else {
-        (options.closest && kept & BVH_SIDES_LOST != 0).then_some(WhyF32::Sides)
+        (options.stores_frames() && on_grid & BVH_SIDES_LOST != 0).then_some(WhyF32::Sides)
     };
     if why_f32.is_none() {
-        return Places { grid, flags: kept, why_f32 };
+        return Vertices { grid, flags: on_grid, why_f32 };
     }
     let grid = store(input, true);
-    Places { flags: flags(&grid, true), grid, why_f32 }
+    Vertices { flags: flags(&grid, true), grid, why_f32 }
 }
 
 fn header(

@@ -371,23 +371,24 @@ fn from_afar(
     let corners = [query.units.point(low), query.units.point(high)];
     let sizes = corners.iter().flatten().chain(&point).map(|x| x.abs());
     let size = sizes.fold(0.0, greater);
-    let (up, down) = match size {
+    let (scale, unscale) = match size {
         size if size > POWER_40 => (1.0 / POWER_70, POWER_70),
         size if size < 1.0 / POWER_40 => (POWER_70, 1.0 / POWER_70),
         _ => (1.0, 1.0),
     };
-    let scaled = |x: f32| query.units.outward(x, up);
+    let scaled = |x: f32| query.units.outward(x, scale);
     let (mut nearest, mut farthest) = ([0f32; 3], [0f32; 3]);
     let bounds = low.to_array().into_iter().zip(high.to_array());
     let ways = nearest.iter_mut().zip(&mut farthest);
     for ((near, far), (x, (low, high))) in ways.zip(point.into_iter().zip(bounds)) {
-        let (below, above) = (scaled(low) - x * up, x * up - scaled(high));
+        let (below, above) = (scaled(low) - x * scale, x * scale - scaled(high));
         *near = greater(0.0, greater(below, above));
         *far = greater(below.abs(), above.abs());
     }
     let (near, far) = (length(nearest), length(farthest));
     let margin =
         |distance: f32| distance * (2.0 * FAN_RELATIVE * U32) + scaled(query.fixed_error());
+    // Any point of the surface serves: the first leaf. A damaged tree must not loop.
     let mut links = tree.links(0).ok_or(QueryError::Unchecked)?;
     for _ in 0..tree.most_steps() {
         if links.child(0).is_leaf() {
@@ -399,8 +400,8 @@ fn from_afar(
     let leaf = tree.leaf_at(child.at, child.shape).ok_or(QueryError::Unchecked)?;
     Ok(ClosestPoint {
         distance: Interval::new(
-            at_least((near - margin(near)) * down),
-            at_most((far + margin(far)) * down),
+            at_least((near - margin(near)) * unscale),
+            at_most((far + margin(far)) * unscale),
         ),
         point: query.units.point(leaf.centre(0)),
         triangle: tree.source(links.triangle(0)),
@@ -409,17 +410,16 @@ fn from_afar(
     })
 }
 
-/// The length of a way, whose components are not negative. Squares of short ones would leave f32's
-/// range.
+/// Length of a vector of gaps, each at least 0. A short one is scaled, so that no square underflows.
 #[inline(never)]
-fn length(way: [f32; 3]) -> f32 {
-    let [x, y, z] = way;
-    let up = if greater(greater(x, y), z) < 1.0 / POWER_40 { POWER_70 } else { 1.0 };
+fn length(gaps: [f32; 3]) -> f32 {
+    let [x, y, z] = gaps;
+    let scale = if greater(greater(x, y), z) < 1.0 / POWER_40 { POWER_70 } else { 1.0 };
     let mut sum = 0.0;
-    for x in way {
-        sum += square(x * up);
+    for gap in gaps {
+        sum += square(gap * scale);
     }
-    sqrt_approx(sum) / up
+    sqrt_approx(sum) / scale
 }
 
 fn square(x: f32) -> f32 {

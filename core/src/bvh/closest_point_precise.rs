@@ -14,8 +14,8 @@ use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEnt
 use glam::{DVec3, Vec3};
 
 impl Bvh<'_> {
-    /// [`closest_point`](Bvh::closest_point) with an interval of about one f32 rounding at each end,
-    /// if the tree was built with `--vertex-bits 32`.
+    /// [`closest_point`](Bvh::closest_point) with an interval about one f32 rounding wider at each end
+    /// than the surface error. That is 0 in a tree of f32 coordinates with `--vertex-bits 32`.
     ///
     /// Triangles that rounding in f32 cannot tell from the closest one are measured in f64. What is
     /// left of the width is the surface error, a rounding of f32 at each end, some 1e-14 of the
@@ -23,9 +23,9 @@ impl Bvh<'_> {
     /// With vertices on a grid the surface error hides the gain.
     ///
     /// `scratch`, far points and units as for [`closest_point`](Bvh::closest_point). Of the budget
-    /// only `steps` matters. If they or the scratch run out, the answer is that of f32. Of triangles
-    /// with the same upper end in f64 the answer is the least in blob order. [`exact`](crate::Work::exact) of the work counts
-    /// triangles measured in f64.
+    /// only `steps` matters. If they or the scratch run out, the answer is that of f32. If several
+    /// triangles have the least upper end in f64, the answer is the first in the blob.
+    /// [`exact`](crate::Work::exact) of the work counts triangles measured in f64.
     ///
     /// Cost: the closest point's, most of it again, and a kernel in f64 for each triangle that may
     /// be the closest. At the centre of a sphere that is every triangle.
@@ -106,7 +106,7 @@ struct Measured {
 
 impl Measured {
     /// The kernel's interval. On a sliver, and next to the surface, it may be wider than f32 can
-    /// tell. Then the search for a convex solid narrows it.
+    /// tell. Then [`convex_gap`] narrows it.
     #[inline(never)]
     fn new(place: DVec3, corners: [Vec3; 3]) -> Measured {
         let [a, b, c] = corners.map(|corner| corner.as_dvec3());

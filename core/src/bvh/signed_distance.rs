@@ -5,8 +5,8 @@
 //! rises by one where a triangle is crossed from its front to its back. `Inside` says that the
 //! surface next to the point has its back to it, `Outside` its front. For a mesh that bounds a
 //! solid (winding number 1 in it, 0 elsewhere) these are the usual inside and outside. For an
-//! inverted mesh the sides are exchanged: the solid is the rest of space. Components that *overlap*
-//! are not united. A point may lie in one component while the nearest surface belongs to another
+//! inverted mesh the sides are exchanged: the solid is the rest of space. If no vertex moved,
+//! components that *overlap* are not united. A point may lie in one component while the nearest surface belongs to another
 //! and has its front to the point. Then the answer is `Outside`. A cavity's winding decides its
 //! side, as for any surface.
 //!
@@ -92,8 +92,8 @@ impl Bvh<'_> {
     ///
     /// The side is never wrong. It is undecided:
     /// - if the mesh is not closed and consistently wound ([`is_closed`](Bvh::is_closed));
-    /// - if the stored vertices moved so that walls may have changed places
-    ///   ([`has_sides`](Bvh::has_sides));
+    /// - if vertices moved, and the stored surface touches or crosses itself, or walls may have
+    ///   changed places ([`has_sides`](Bvh::has_sides));
     /// - if the distance is not clear of the surface error and rounding;
     /// - next to walls and gaps thinner than these;
     /// - next to slivers so flat that they have no certain normal;

@@ -62,7 +62,7 @@ macro_rules! ask {
     )*};
 }
 
-/// The same of a box tree that is opened already, as `part.rs` has it.
+/// Functions that ask one question each of a box tree that is already open, as `part.rs` has it.
 #[allow(unused_macros, reason = "most images open what they ask")]
 macro_rules! ask_opened {
     ($($name:ident: |$tree:ident, $input:ident, $scratch:ident, $fold:ident| $question:expr;)*) => {$(

@@ -114,21 +114,21 @@ fn archive(cross: &Cross, target: &str, profile: Profile) -> Result<PathBuf, Str
 }
 
 /// The folder for what is made of it.
-fn made(target: &str, profile: Profile) -> Result<PathBuf, String> {
+fn folder_of(target: &str, profile: Profile) -> Result<PathBuf, String> {
     let folder = workspace::target().join("c").join(target).join(profile.name());
     std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     Ok(folder)
 }
 
-/// Links all functions of a board's library, with the frames of its functions and with the
-/// relocations, from which the stack is bounded: the path of the image. By LLVM's linker: GNU's
-/// would keep every function that has a frame.
+/// Links all functions of a board's library into an image from which their stacks are bounded. It
+/// keeps the sizes of frames and the relocations. Returns its path.
 ///
 /// # Errors
 /// The compiler's or the linker's; a question that can panic.
-pub fn linked(cross: &Cross, target: &str, profile: Profile) -> Result<PathBuf, String> {
+pub fn linked_for_stack(cross: &Cross, target: &str, profile: Profile) -> Result<PathBuf, String> {
     let archive = archive(cross, target, profile)?;
-    let image = made(target, profile)?.join("bounded");
+    let image = folder_of(target, profile)?.join("bounded");
+    // LLVM's linker: GNU's would keep every function that has a frame.
     let mut ld = cross.linker()?;
     ld.args(["--gc-sections", "--emit-relocs", "--entry=0", "--image-base=0x10000"]);
     for function in functions()? {
@@ -149,7 +149,7 @@ pub fn build(
     profile: Profile,
 ) -> Result<PathBuf, String> {
     let made = archive(cross, target, profile)?;
-    let folder = self::made(target, profile)?;
+    let folder = folder_of(target, profile)?;
     let (object, library) = (folder.join("meshsweep.o"), folder.join("libmeshsweep.a"));
 
     // `can_panic` leaves the name there, or its absence from the object proves nothing.

@@ -241,7 +241,7 @@ pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> V
         for Row { board, stacks, .. } in &mut rows {
             for profile in Profile::ALL {
                 if scope.is_bound_in_c(board, profile) {
-                    let linked = c_library::linked(cross, board.target, profile)?;
+                    let linked = c_library::linked_for_stack(cross, board.target, profile)?;
                     let bound = stacks.bound_c(&linked, profile);
                     bound
                         .map_err(|reason| format!("{}, {}: {reason}", board.cpu, profile.name()))?;

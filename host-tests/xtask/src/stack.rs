@@ -1,9 +1,8 @@
 //! The processor's stack that each question takes on the boards: measured by painting, and bounded
 //! by the image's own call graph.
 //!
-//! A question is a function of the suite that asks the core and folds the answer. What the suite's
-//! images paint is below the call of the core in it. So the frame of the function itself, of the
-//! instance with the meter, is added. The sum is no more than the function's bound in the same
+//! A question is a function of the suite. It calls the core and folds the answer. Painting measures
+//! the stack below this call. The function's own frame, of the instance with the meter, is added. The sum is no more than the function's bound in the same
 //! image. The bounds of the documents are the larger ones of that image and of the proof's, which
 //! has all questions and no panic.
 //!
@@ -24,7 +23,7 @@ use crate::workspace;
 /// The question that is asked most.
 const CLOSEST: &str = "closest point";
 
-/// Bytes of stack that it may take in a debug build with the override of `core/docs/guide.md`.
+/// Most bytes of stack of a closest point in a debug build with the override of the guide.
 const MOST_IN_DEBUG: u32 = 2560;
 
 /// The image that is built for debug builds: it asks a box tree four questions.
@@ -171,8 +170,8 @@ pub const C_FUNCTIONS: [(&str, &str); 20] = [
     ("msw_checksum", "tree"),
 ];
 
-/// A function of the header that is not in the list takes less.
-const LEAST_IN_C: u32 = 64;
+/// A function of the header that is not in the list takes less. `part.h` says so.
+const MOST_UNLISTED: u32 = 64;
 
 impl Question {
     fn path(&self) -> String {
@@ -208,6 +207,10 @@ impl Default for OfProfile {
     }
 }
 
+/// Why an image has no bounds.
+const ADDRESS_TAKEN: &str =
+    "the address of a function is taken: a pointer may call it, which the graph does not show";
+
 impl Stacks {
     /// What each question takes with a profile.
     pub fn of(&self, profile: Profile) -> [Stack; QUESTIONS.len()] {
@@ -226,13 +229,13 @@ impl Stacks {
     pub fn bound_c(&mut self, linked: &Path, profile: Profile) -> Result<(), String> {
         let graph = CallGraph::of(linked)?;
         if graph.takes_addresses {
-            return Err("the address of a function is taken, so it may be called by it".to_owned());
+            return Err(ADDRESS_TAKEN.to_owned());
         }
         for name in c_library::functions()? {
             let bound = graph.bound(&name).map_err(|reason| format!("{name}: {reason}"))?;
             match C_FUNCTIONS.iter().position(|(known, _)| *known == name) {
                 Some(index) => self.0[profile as usize].c_functions[index] = Some(bound.bytes),
-                None if bound.bytes < LEAST_IN_C => {}
+                None if bound.bytes < MOST_UNLISTED => {}
                 None => {
                     return Err(format!(
                         "{name}: {} bytes of stack\n{}",
@@ -252,7 +255,7 @@ impl Stacks {
     pub fn bound(&mut self, cross: &Cross, board: &Board, profile: Profile) -> Result<(), String> {
         let graph = CallGraph::of(&images::image(cross, board.target, profile, "proof"))?;
         if graph.takes_addresses {
-            return Err("the address of a function is taken, so it may be called by it".to_owned());
+            return Err(ADDRESS_TAKEN.to_owned());
         }
         let mut refused = Vec::new();
         for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize].questions) {
@@ -267,7 +270,7 @@ impl Stacks {
     /// Reads the bounds of a debug build, of the questions that its image asks.
     ///
     /// # Errors
-    /// With the override a closest point takes more than the guide says.
+    /// With the override a closest point takes more than [`MOST_IN_DEBUG`], or has no bound.
     pub fn bound_debug(
         &mut self,
         cross: &Cross,

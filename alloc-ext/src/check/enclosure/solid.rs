@@ -6,7 +6,7 @@ use super::{area_free, near, sharing_apart};
 use crate::check::manifold::Manifold;
 use std::collections::HashMap;
 
-/// Faces of a strip, about. Pairs of faces are looked for in strips of y, so that large surfaces do
+/// Mean number of faces of a strip of y. Pairs of faces are looked for in strips of y, so that large surfaces do
 /// not take the square of their faces.
 const STRIP: usize = 2000;
 
@@ -74,7 +74,7 @@ fn embedded(surface: &Surface) -> Result<(), String> {
     Ok(())
 }
 
-/// The connected components.
+/// The connected components, each as loose triangles that share no vertex.
 fn components(surface: &Surface) -> Vec<Surface> {
     let mut parent: Vec<usize> = (0..surface.positions.len()).collect();
     fn root(parent: &mut [usize], mut vertex: usize) -> usize {
@@ -107,7 +107,7 @@ fn components(surface: &Surface) -> Vec<Surface> {
 
 /// Whether a closed surface faces outwards, by its volume in `f64`.
 ///
-/// Each product of a determinant carries at most eight roundings, and the sum one for each face.
+/// Each product carries five roundings, and the sum six for each face.
 fn faces_out(surface: &Surface) -> Result<bool, String> {
     let corners = |t: &[u32; 3]| surface.corners(*t);
     let origin = surface.positions[0];

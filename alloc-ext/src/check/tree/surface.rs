@@ -67,7 +67,7 @@ pub(super) fn sides(tree: &TreeBlob, corners: &[[u32; 3]]) -> Result<(), String>
     }
     let mut surface = Surface::default();
     for ((_, at), ids) in tree.triangles().zip(corners) {
-        // The others are wires.
+        // A wire repeats a vertex, and bounds nothing.
         if ids[0] == ids[1] || ids[1] == ids[2] || ids[2] == ids[0] {
             continue;
         }

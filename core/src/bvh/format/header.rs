@@ -44,7 +44,7 @@ impl BvhHeader {
         self.flags & (BVH_CLOSED | BVH_SIDES_LOST) == BVH_CLOSED
     }
 
-    /// Whether the sign of a distance is defined.
+    /// Whether the mesh is closed.
     pub const fn is_closed(&self) -> bool {
         self.flags & BVH_CLOSED != 0
     }

@@ -38,8 +38,7 @@ pub const SOURCE_PADDING: usize = 8;
 pub const CONE_BYTES: usize = 4;
 /// Bytes of a node's moments.
 pub const MOMENTS_BYTES: usize = 60;
-/// Tree flag: every edge belongs to two triangles that run through it in opposite directions, so
-/// that the sign of a distance is defined.
+/// Tree flag: triangles run through every edge as often in one direction as in the other.
 pub const BVH_CLOSED: u8 = 1;
 /// Tree flag: the stored surface may show a point another side than the input's. Its vertices moved,
 /// and the builder could not prove that this exchanged no two walls.

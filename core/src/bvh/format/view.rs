@@ -232,16 +232,15 @@ impl Bvh<'_> {
         Ok(self)
     }
 
-    /// Whether every edge belongs to two triangles that run through it in opposite directions, so
-    /// that the sign of a distance is defined.
+    /// Whether triangles run through every edge as often in one direction as in the other.
     pub const fn is_closed(&self) -> bool {
         self.header.is_closed()
     }
 
     /// Whether [`signed_distance`](Bvh::signed_distance) can decide sides. False for an open mesh,
-    /// and for a closed one if the vertices moved and two walls may have changed places by that.
-    /// `--vertex-bits 32`, or [winding numbers](Bvh::signed_by_winding), decide the sides of such a
-    /// mesh.
+    /// and for a closed one if vertices moved and two walls may have changed places by that.
+    /// [Winding numbers](Bvh::signed_by_winding) decide the sides of such a mesh; `--vertex-bits 32`
+    /// mostly does.
     pub const fn has_sides(&self) -> bool {
         self.header.has_sides()
     }

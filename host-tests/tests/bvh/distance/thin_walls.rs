@@ -8,8 +8,8 @@ use meshsweep_core::{Budget, Bvh, Side};
 use meshsweep_host_tests::generate::{Rng, Triangles, cube, inverted, joined, plate, scaled};
 use meshsweep_host_tests::scene::Scene;
 
-/// Walls that f32 can tell apart from some hundredths away.
-const WIDE: f32 = 5e-5;
+/// Thicker plates keep their sides in f32, some hundredths away.
+const DECIDABLE_THICKNESS: f32 = 5e-5;
 
 /// Asks for sides at points clear of the surface that are all on one side. Returns how many are
 /// decided.
@@ -25,6 +25,10 @@ fn ask(scene: &Scene, tree: &Bvh<'_>, points: &[[f32; 3]], side: Side) -> usize 
     decided
 }
 
+fn assert_most(decided: usize, of: usize) {
+    assert!(decided > of * 9 / 10, "{decided} of {of}");
+}
+
 /// Points beside a plate, some hundredths away.
 fn beside(slope: [f32; 2], rng: &mut Rng) -> Vec<[f32; 3]> {
     let mut point = || {
@@ -35,9 +39,9 @@ fn beside(slope: [f32; 2], rng: &mut Rng) -> Vec<[f32; 3]> {
     (0..200).map(|_| point()).collect()
 }
 
-fn leaving(mesh: &Triangles) -> (Vec<u8>, Option<WhyF32>) {
+fn built_in_f32_if_needed(mesh: &Triangles) -> (Vec<u8>, Option<WhyF32>) {
     let mesh = Mesh::new(mesh.0.clone(), mesh.1.clone());
-    let options = TreeOptions::default().with_leaving_grid(true);
+    let options = TreeOptions::default().with_f32_allowed(true);
     let (sections, report) = build(mesh.as_input(), &options).expect("builds");
     (sections.to_bytes(), report.why_f32)
 }
@@ -45,7 +49,7 @@ fn leaving(mesh: &Triangles) -> (Vec<u8>, Option<WhyF32>) {
 #[test]
 fn beside_plates_thinner_than_the_grid_no_side_is_wrong() {
     let mut rng = Rng::new(71);
-    let mut left = 0;
+    let mut stored_in_f32 = 0;
     for i in 0..48 {
         let slope = match i {
             0 => [0.011_321_485, -0.099_946_38],
@@ -58,20 +62,20 @@ fn beside_plates_thinner_than_the_grid_no_side_is_wrong() {
             let scene = Scene::tree("plate", mesh.clone(), single);
             let decided = ask(&scene, &scene.bvh(), &points, Side::Outside);
             assert!(decided == 0 || scene.bvh().has_sides());
-            if thickness > WIDE {
-                assert!(decided > points.len() * 9 / 10, "{decided} of {}", points.len());
+            if thickness > DECIDABLE_THICKNESS {
+                assert_most(decided, points.len());
             }
         }
-        let (bytes, why) = leaving(&mesh);
-        left += usize::from(why == Some(WhyF32::Sides));
+        let (bytes, why) = built_in_f32_if_needed(&mesh);
+        stored_in_f32 += usize::from(why == Some(WhyF32::Sides));
         let scene = Scene::tree("plate", mesh, true);
         let tree = Bvh::open(&bytes).expect("opens");
         let decided = ask(&scene, &tree, &points, Side::Outside);
-        if thickness > WIDE {
-            assert!(decided > points.len() * 9 / 10, "{decided} of {}", points.len());
+        if thickness > DECIDABLE_THICKNESS {
+            assert_most(decided, points.len());
         }
     }
-    assert!((12..48).contains(&left), "{left} plates left the grid");
+    assert!((12..48).contains(&stored_in_f32), "{stored_in_f32} plates are stored in f32");
 }
 
 #[test]
@@ -85,11 +89,11 @@ fn beside_cavities_thinner_than_the_grid_no_point_is_said_to_be_outside() {
         let points = beside(slope, &mut rng);
         let scene = Scene::tree("cavity", mesh.clone(), false);
         ask(&scene, &scene.bvh(), &points, Side::Inside);
-        let (bytes, why) = leaving(&mesh);
+        let (bytes, why) = built_in_f32_if_needed(&mesh);
         assert_eq!(why, Some(WhyF32::Sides));
         let decided = ask(&scene, &Bvh::open(&bytes).expect("opens"), &points, Side::Inside);
-        if thickness > WIDE {
-            assert!(decided > points.len() * 9 / 10, "{decided} of {}", points.len());
+        if thickness > DECIDABLE_THICKNESS {
+            assert_most(decided, points.len());
         }
     }
 }
@@ -111,7 +115,7 @@ fn beside_tetrahedra_that_are_nearly_flat_no_side_is_wrong() {
         let mesh = (corners, vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]);
         let scene = Scene::tree("tetrahedron", mesh, false);
         let points: Vec<[f32; 3]> = (0..60).map(|_| rng.point_in([-1.0; 3], [2.0; 3])).collect();
-        // What is farther than the height is outside.
+        // Farther than twice the height: certainly outside.
         let far = |p: &[f32; 3]| scene.truth(*p).lower > f64::from(2.0 * height);
         let points: Vec<[f32; 3]> = points.into_iter().filter(far).collect();
         let decided = ask(&scene, &scene.bvh(), &points, Side::Outside);
