@@ -143,7 +143,7 @@ fn off_grid(why: WhyF32) -> String {
     let why = match why {
         WhyF32::TooFar => "the mesh is too far from its origin for the box tree's grid",
         WhyF32::Sides => {
-            "on the box tree's grid the surface would touch or cross itself, and sides could be wrong"
+            "on the box tree's grid the surface is not proved to bound a solid, and sides could be wrong"
         }
     };
     format!("{why}: its coordinates are stored as f32")
@@ -151,15 +151,11 @@ fn off_grid(why: WhyF32) -> String {
 
 /// Says why every side is undecided.
 fn lost(is_f32: bool) -> String {
-    let (place, remedy) = match is_f32 {
-        true => ("in f32", "--for closest,winding decides them"),
-        false => {
-            ("on the grid", "--vertex-bits 32 may keep them, --for closest,winding decides them")
-        }
-    };
+    let place = if is_f32 { "in f32" } else { "on the grid" };
     format!(
-        "sides by the nearest triangle are undecided: the surface touches or crosses itself {place}, \
-         where walls may have changed places; {remedy}"
+        "sides by the nearest triangle are undecided: vertices moved, and the surface {place} is not \
+         proved to bound a solid: it touches itself, is inside out, or winds twice; `winding` among \
+         the questions of --for decides them"
     )
 }
 
@@ -168,7 +164,8 @@ fn overlaps(components: usize) -> Option<String> {
     (components > 0).then(|| {
         format!(
             "connected components whose boxes overlap: {components}; they are not united: where \
-             they overlap, a side is that of the nearest surface"
+             they overlap, a side is that of the nearest surface, so a point inside one, next to \
+             the front of another, is outside; `winding` among the questions of --for unites them"
         )
     })
 }

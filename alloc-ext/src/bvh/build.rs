@@ -50,6 +50,7 @@ pub enum WhyF32 {
     /// its longest side.
     TooFar,
     /// On a grid walls may change places, so that a tree for closest points would decide no sides.
+    /// In f32 they do not. A tree with winding numbers needs no such sides.
     Sides,
 }
 
@@ -317,13 +318,19 @@ fn store_vertices(
     } else if grid.is_coarse() {
         Some(WhyF32::TooFar)
     } else {
-        (options.stores_frames() && on_grid & BVH_SIDES_LOST != 0).then_some(WhyF32::Sides)
+        let wants_sides = options.stores_frames() && !options.winding;
+        (wants_sides && on_grid & BVH_SIDES_LOST != 0).then_some(WhyF32::Sides)
     };
     if why_f32.is_none() {
         return Vertices { grid, flags: on_grid, why_f32 };
     }
-    let grid = store(input, true);
-    Vertices { flags: flags(&grid, true), grid, why_f32 }
+    let exact = store(input, true);
+    let in_f32 = flags(&exact, true);
+    if why_f32 == Some(WhyF32::Sides) && in_f32 & BVH_SIDES_LOST != 0 {
+        // Nothing is gained.
+        return Vertices { grid, flags: on_grid, why_f32: None };
+    }
+    Vertices { grid: exact, flags: in_f32, why_f32 }
 }
 
 fn header(

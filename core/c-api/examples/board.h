@@ -33,4 +33,7 @@ uint32_t clock_count(void);
 /* Its unit, after a space. */
 extern const char clock_unit[];
 
+/* How many of them a period of 1 ms has. An instruction counts as a cycle. */
+extern const uint32_t clock_in_period;
+
 #endif

@@ -29,6 +29,7 @@ void sleep_during(uint32_t period)
 }
 
 const char clock_unit[] = " microseconds";
+const uint32_t clock_in_period = 1000;
 
 uint32_t clock_count(void)
 {

@@ -86,7 +86,7 @@ impl Bvh<'_> {
     /// the point.
     ///
     /// For a mesh that bounds a solid this is the usual signed distance. For an inverted mesh the
-    /// sides are exchanged. A cavity's winding decides its side. Components that overlap are not
+    /// sides are exchanged, if no vertex moved. A cavity's winding decides its side. Components that overlap are not
     /// united: the nearest surface decides. If several surfaces are equally near up to rounding and
     /// the surface error, one of them decides.
     ///

@@ -34,10 +34,15 @@ pub fn run(args: &SignedArgs) -> Result<(), Failure> {
     )?;
     if !has_sides(&tree) {
         // A closed standard error does not withhold the answers.
+        let why = if tree.is_closed() {
+            "vertices moved when the blob was built, and walls may have changed places"
+        } else {
+            "the mesh is not closed"
+        };
         let _ = writeln!(
             io::stderr(),
-            "{}: was built from a mesh that is not closed, so every side is undecided; distances \
-             hold; build it --for winding",
+            "{}: {why}, so every side is undecided; distances hold; build it with `winding` among \
+             the questions of --for",
             file.display()
         );
     }

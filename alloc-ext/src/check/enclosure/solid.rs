@@ -3,11 +3,13 @@
 use super::surface::{Corners, Surface};
 use super::winding::Winding;
 use super::{area_free, near, sharing_apart};
+use crate::check::dyadic::Dyadic;
 use crate::check::manifold::Manifold;
+use crate::check::vector::{cross, dot, minus};
 use std::collections::HashMap;
 
-/// Mean number of faces of a strip of y. Pairs of faces are looked for in strips of y, so that large surfaces do
-/// not take the square of their faces.
+/// Mean number of faces of a strip of y or z. Pairs of faces are looked for in strips, so that large
+/// surfaces do not take the square of their faces.
 const STRIP: usize = 2000;
 
 /// Proves that the surface is a closed manifold whose faces share no points but common corners and
@@ -43,8 +45,14 @@ fn embedded(surface: &Surface) -> Result<(), String> {
     if let Some(face) = faces.iter().position(area_free) {
         return Err(format!("face {face} has no area"));
     }
+    let extent = |axis: usize| {
+        let xs = || faces.iter().flatten().map(|p| p[axis]);
+        xs().fold(f64::NEG_INFINITY, f64::max) - xs().fold(f64::INFINITY, f64::min)
+    };
+    // Within a strip pairs are found along x.
+    let axis = if extent(1) > extent(2) { 1 } else { 2 };
     let ends = |face: &Corners| {
-        let ys = face.map(|p| p[1]);
+        let ys = face.map(|p| p[axis]);
         (
             ys.into_iter().fold(f64::INFINITY, f64::min),
             ys.into_iter().fold(f64::NEG_INFINITY, f64::max),
@@ -105,7 +113,8 @@ fn components(surface: &Surface) -> Vec<Surface> {
     components
 }
 
-/// Whether a closed surface faces outwards, by its volume in `f64`.
+/// Whether a closed surface faces outwards, by its volume: in `f64`, and exactly if that does not
+/// tell.
 ///
 /// Each product carries five roundings, and the sum six for each face.
 fn faces_out(surface: &Surface) -> Result<bool, String> {
@@ -129,8 +138,16 @@ fn faces_out(surface: &Surface) -> Result<bool, String> {
     }
     let rounding = (6.0 * surface.triangles.len() as f64 + 16.0) * f64::EPSILON * size;
     if volume.abs() > rounding {
-        Ok(volume > 0.0)
-    } else {
-        Err(format!("a component at {origin:?} has no certain volume"))
+        return Ok(volume > 0.0);
+    }
+    let exact = |p: [f64; 3]| p.map(Dyadic::from);
+    let (origin, mut volume) = (exact(origin), Dyadic::from(0.0));
+    for face in surface.triangles.iter().map(corners) {
+        let [a, b, c] = face.map(|p| minus(&exact(p), &origin));
+        volume = &volume + &dot(&a, &cross(&b, &c));
+    }
+    match volume.sign() {
+        0 => Err("a component has no volume".to_owned()),
+        sign => Ok(sign > 0),
     }
 }

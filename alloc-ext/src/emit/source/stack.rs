@@ -55,6 +55,7 @@ fn served(blob: &Blob<'_>) -> Vec<&'static str> {
     let tree = blob.bvh().ok();
     let of_tree = |serves: fn(&meshsweep_core::Bvh<'_>) -> bool| tree.as_ref().is_some_and(serves);
     let all = [
+        ("any", true),
         ("tree", tree.is_some()),
         ("closest", of_tree(|tree| tree.serves_distances())),
         ("segment", of_tree(|tree| tree.serves_segments())),
@@ -66,4 +67,24 @@ fn served(blob: &Blob<'_>) -> Vec<&'static str> {
         ("curve", blob.curve().is_ok()),
     ];
     all.into_iter().filter_map(|(name, is_served)| is_served.then_some(name)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_caller_has_a_bound_of_opening_and_of_a_closest_point() {
+        let rows = |caller: Caller| {
+            let names = BOUNDS.lines().skip(1).filter_map(|row| row.split(',').next());
+            names.filter(move |name| caller.calls(name)).collect::<Vec<_>>()
+        };
+        for (caller, wanted) in [
+            (Caller::Rust, ["open a box tree", "closest point"]),
+            (Caller::C, ["msw_open", "msw_closest_point"]),
+        ] {
+            let rows = rows(caller);
+            assert!(wanted.iter().all(|name| rows.contains(name)), "{caller:?}: {rows:?}");
+        }
+    }
 }

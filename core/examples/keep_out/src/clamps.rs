@@ -11,9 +11,10 @@
 // Bytes of the processor's stack that a question takes, at opt-level "s" / 3. Debug builds
 // take several times as much: core/docs/guide.md tells how to avoid it.
 //                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
-//   open a box tree                 2560 / 2240    2688 / 2368    2560 / 2240    2496 / 2240
+//   open a box tree                 2560 / 2304    2688 / 2368    2560 / 2304    2496 / 2304
 //   closest point                   1280 / 1216    2112 / 2048    1280 / 1216    1920 / 1728
 //   closest point from a hint       1280 / 1152    2048 / 2048    1280 / 1152    1920 / 1728
+//   closest point in f64            7424 / 6976    7232 / 6720    7424 / 6976    7040 / 6464
 //   coherent query                  1728 / 1664    2624 / 2624    1728 / 1664    2368 / 2240
 //   closest points                  2944 / 2880    3840 / 3840    2944 / 2944    3584 / 3456
 //   within                          1792 / 1664    2624 / 2560    1792 / 1664    2432 / 2240
@@ -25,8 +26,8 @@
 //   all hits                        1472 / 1216    1792 / 1600    1472 / 1216    1600 / 1536
 //   overlap                         6592 / 6144    6464 / 5952    6592 / 6144    6016 / 5696
 //   distance of two models        10112 / 10432   9984 / 10048  10112 / 10432    9216 / 9472
-//   coherent pair                 12032 / 12544  11968 / 12288  12032 / 12544  11264 / 11712
-//   scene                         10816 / 11904  10688 / 11648  10816 / 11904   9984 / 11072
+//   coherent pair                 12032 / 12480  11968 / 12288  12032 / 12544  11264 / 11712
+//   scene                         10816 / 11968  10688 / 11712  10816 / 11968   9984 / 11136
 //   distance of a solid           12032 / 10368  11840 / 10240  12032 / 10432   11456 / 9664
 //   first contact                 10688 / 10112   10624 / 9792  10688 / 10112   10240 / 9344
 //

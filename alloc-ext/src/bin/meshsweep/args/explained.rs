@@ -75,13 +75,15 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     different units are not told apart, in clearance and overlap too.\n\n\
     Values of --vertex-bits:\n  \
     auto   hull: the fewest bits that store the mesh exactly; box tree: 16, or 32 for a mesh so \
-    far from its origin that 16 would move vertices by more than a 32,768th of its longest side\n  \
+    far from its origin that 16 would move vertices by more than a 32,768th of its longest side, \
+    or of which 16 would lose the sides of points\n  \
     16     vertices move to a grid of 16 bits an axis; with tight only those of the hulls, \
     not the mesh's\n  \
     24     hull: a grid of 24 bits an axis; box tree: 32\n  \
     32     single precision; box tree: 8 bytes a triangle more, and no hit is undecided because \
     of the grid\n\
-    Every interval includes the quantisation error, which build prints. With 32 nothing moves. \
+    Every interval includes the quantisation error, which build prints. 32 rounds to single \
+    precision. \
     Intervals still include the rounding of single precision: up to four millionths of the \
     distance and of the longest triangle. build prints that too.\n\n\
     Limits choose structure and dials for distances of points, from what trade measures. With \
