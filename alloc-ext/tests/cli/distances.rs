@@ -163,7 +163,7 @@ fn an_undefined_side_has_a_reason_and_an_interval_all_the_same() {
         assert_eq!(number(&answer[5]), -number(&answer[6]));
         let note = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(
-            note.contains("open_box.msw: was built from a mesh that is not closed"),
+            note.contains("open_box.msw: the mesh is not closed, so every side is undecided"),
             reason == "open mesh"
         );
     }

@@ -167,7 +167,7 @@ pub fn plate(slope: [f32; 2], thickness: f32) -> Triangles {
         let [a, b, c, d] = [a, b, c, d].map(|v| v + 25);
         triangles.extend([[a, b, d], [b, c, d]]);
     }
-    let rim = (0..4).map(|i| i).chain((0..4).map(|i| 4 + 5 * i));
+    let rim = (0..4).chain((0..4).map(|i| 4 + 5 * i));
     let rim: Vec<u32> =
         rim.chain((0..4).map(|i| 24 - i)).chain((0..4).map(|i| 20 - 5 * i)).collect();
     for (i, &from) in rim.iter().enumerate() {
