@@ -1,9 +1,9 @@
 //! The bodies of the fuzz targets, as plain functions: tests call them too.
 //!
 //! Input bytes are edits of a valid blob, whose CRCs are then computed again, followed by the
-//! queries' floats. Those of `mesh` are a mesh file, those of `build` edits
-//! of a mesh. A blob that opens must be safe to ask anything: no panic, and no more work than a
-//! fixed multiple of its records.
+//! queries' floats. Those of `mesh` are a mesh file, those of `build` edits of a mesh. A blob that
+//! opens must be safe to ask anything: no panic, and no more work than a fixed multiple of its
+//! records.
 
 mod build;
 mod corpus;

@@ -270,7 +270,7 @@ impl Stacks {
     /// Reads the bounds of a debug build, of the questions that its image asks.
     ///
     /// # Errors
-    /// With the override a closest point takes more than [`MOST_IN_DEBUG`], or has no bound.
+    /// With the override a closest point takes more than 2,560 bytes, or has no bound.
     pub fn bound_debug(
         &mut self,
         cross: &Cross,
