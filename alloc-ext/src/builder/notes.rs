@@ -143,7 +143,8 @@ fn off_grid(why: WhyF32) -> String {
     let why = match why {
         WhyF32::TooFar => "the mesh is too far from its origin for the box tree's grid",
         WhyF32::Sides => {
-            "on the box tree's grid the surface is not proved to bound a solid, and sides could be wrong"
+            "on the box tree's grid the surface is not proved to bound a solid, and sides could be \
+             wrong"
         }
     };
     format!("{why}: its coordinates are stored as f32")
@@ -153,9 +154,9 @@ fn off_grid(why: WhyF32) -> String {
 fn lost(is_f32: bool) -> String {
     let place = if is_f32 { "in f32" } else { "on the grid" };
     format!(
-        "sides by the nearest triangle are undecided: vertices moved, and the surface {place} is not \
-         proved to bound a solid: it touches itself, is inside out, or winds twice; `winding` among \
-         the questions of --for decides them"
+        "sides by the nearest triangle are undecided: vertices moved, and the surface {place} is \
+         not proved to bound a solid: it touches itself, is inside out, or winds twice; `winding` \
+         among the questions of --for decides them"
     )
 }
 

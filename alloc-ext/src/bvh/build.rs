@@ -295,8 +295,8 @@ struct Vertices {
     why_f32: Option<WhyF32>,
 }
 
-/// Stores the vertices in the format that is asked for, or in f32 if the grid is too coarse or loses
-/// sides. A quick build does not test sides: its tree stores f32, and only steers a search.
+/// Stores the vertices in the format that is asked for, or in f32 if the grid is too coarse or
+/// loses sides. A quick build does not test sides: its tree stores f32, and only steers a search.
 fn store_vertices(
     input: Input<'_>,
     edges: &EdgeTable,

@@ -14,8 +14,8 @@ use super::store::OnGrid;
 use crate::mesh::Mesh;
 use crate::surface::{Solid, faces, is_degenerate, is_embedded};
 
-/// Whether the stored surface certainly shows every point farther than the surface error the input's
-/// side, for a closed mesh that bounds a solid.
+/// Whether the stored surface certainly shows every point farther than the surface error the
+/// input's side, for a closed mesh that bounds a solid.
 ///
 /// Cost: nothing if no vertex moved. Else one query of a static tree for each triangle, and a test
 /// for each pair of connected components.

@@ -14,8 +14,8 @@ impl SignedVolume {
     /// to the first corner, so that nothing cancels far from the origin.
     ///
     /// Each of the six products of a determinant carries three differences, two products and three
-    /// additions. The sum over triangles is compensated (Neumaier 1974): it carries 2u of itself, and
-    /// n·u² for n triangles, which is less than one u. All is relative to the sum of absolute
+    /// additions. The sum over triangles is compensated (Neumaier 1974): it carries 2u of itself,
+    /// and n·u² for n triangles, which is less than one u. All is relative to the sum of absolute
     /// products. 11 u of that sum bound the error, and 16 ε cover the bound's own rounding too.
     /// Coordinates that are f32 do not over- or underflow.
     pub(crate) fn of(triangles: impl IntoIterator<Item = [DVec3; 3]>) -> Self {

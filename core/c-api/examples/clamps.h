@@ -4,8 +4,8 @@
  * with your program. Give clamps_bytes to an open function of meshsweep.h.
  *
  * Bytes of the processor's stack that a function takes in libmeshsweep_small.a /
- * libmeshsweep.a. Of the functions for this blob, those that are not listed take less than
- * 64.
+ * libmeshsweep.a. Of the functions for this blob, those that are not listed take less
+ * than 64.
  *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
  *   msw_open                        2752 / 2496    2880 / 2560    2752 / 2496    2688 / 2496
  *   msw_open_trusted                1216 / 1024    1280 / 1024    1216 / 1024     1152 / 960

@@ -4,8 +4,8 @@
  * with your program. Give link_bytes to an open function of meshsweep.h.
  *
  * Bytes of the processor's stack that a function takes in libmeshsweep_small.a /
- * libmeshsweep.a. Of the functions for this blob, those that are not listed take less than
- * 64.
+ * libmeshsweep.a. Of the functions for this blob, those that are not listed take less
+ * than 64.
  *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
  *   msw_open_tight                  3456 / 3136    3584 / 3264    3456 / 3136    3328 / 3136
  *   msw_tight_within                3264 / 3392    4160 / 4224    3264 / 3328    3840 / 3840

@@ -410,7 +410,8 @@ fn from_afar(
     })
 }
 
-/// Length of a vector of gaps, each at least 0. A short one is scaled, so that no square underflows.
+/// Length of a vector of gaps, each at least 0. A short one is scaled, so that no square
+/// underflows.
 #[inline(never)]
 fn length(gaps: [f32; 3]) -> f32 {
     let [x, y, z] = gaps;

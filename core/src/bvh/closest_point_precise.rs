@@ -14,8 +14,8 @@ use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEnt
 use glam::{DVec3, Vec3};
 
 impl Bvh<'_> {
-    /// [`closest_point`](Bvh::closest_point) with an interval about one f32 rounding wider at each end
-    /// than the surface error. That is 0 in a tree of f32 coordinates with `--vertex-bits 32`.
+    /// [`closest_point`](Bvh::closest_point) with an interval about one f32 rounding wider at each
+    /// end than the surface error. That is 0 in a tree of f32 coordinates with `--vertex-bits 32`.
     ///
     /// Triangles that rounding in f32 cannot tell from the closest one are measured in f64. What is
     /// left of the width is the surface error, a rounding of f32 at each end, some 1e-14 of the

@@ -6,20 +6,20 @@
 //! surface next to the point has its back to it, `Outside` its front. For a mesh that bounds a
 //! solid (winding number 1 in it, 0 elsewhere) these are the usual inside and outside. For an
 //! inverted mesh the sides are exchanged: the solid is the rest of space. If no vertex moved,
-//! components that *overlap* are not united. A point may lie in one component while the nearest surface belongs to another
-//! and has its front to the point. Then the answer is `Outside`. A cavity's winding decides its
-//! side, as for any surface.
+//! components that *overlap* are not united. A point may lie in one component while the nearest
+//! surface belongs to another and has its front to the point. Then the answer is `Outside`. A
+//! cavity's winding decides its side, as for any surface.
 //!
 //! *Why the stored surface's sign is the input's.* Move every vertex on a straight line from its
 //! input place to its stored place. Every point of every triangle moves by at most `surface_error`.
 //! So the surface never touches a point farther from the stored surface, and the point's winding
 //! number cannot change. At a smaller distance the side is undecided. The winding number *behind*
-//! the nearest triangle may change, though: where a wall or a gap is thinner than the error, its two
-//! faces may change places. If vertices moved, the builder therefore proves that the stored surface
-//! does not meet itself, and that it winds 0 or 1 times around every point. Then a triangle shows
-//! its front to a point exactly if the point's winding number is 0. If there is no such proof, the
-//! tree says so ([`Bvh::has_sides`]), and every side is undecided. Vertices that did not move need
-//! no proof: the stored surface is the input's.
+//! the nearest triangle may change, though: where a wall or a gap is thinner than the error, its
+//! two faces may change places. If vertices moved, the builder therefore proves that the stored
+//! surface does not meet itself, and that it winds 0 or 1 times around every point. Then a triangle
+//! shows its front to a point exactly if the point's winding number is 0. If there is no such
+//! proof, the tree says so ([`Bvh::has_sides`]), and every side is undecided. Vertices that did not
+//! move need no proof: the stored surface is the input's.
 //!
 //! *How it is found.* Let q be the closest point, and w₀ the winding number at the query p. No
 //! surface is nearer than q. So the winding number is w₀ in a half-space of directions about q. Let
@@ -86,9 +86,9 @@ impl Bvh<'_> {
     /// the point.
     ///
     /// For a mesh that bounds a solid this is the usual signed distance. For an inverted mesh the
-    /// sides are exchanged, if no vertex moved. A cavity's winding decides its side. Components that overlap are not
-    /// united: the nearest surface decides. If several surfaces are equally near up to rounding and
-    /// the surface error, one of them decides.
+    /// sides are exchanged, if no vertex moved. A cavity's winding decides its side. Components
+    /// that overlap are not united: the nearest surface decides. If several surfaces are equally
+    /// near up to rounding and the surface error, one of them decides.
     ///
     /// The side is never wrong. It is undecided:
     /// - if the mesh is not closed and consistently wound ([`is_closed`](Bvh::is_closed));

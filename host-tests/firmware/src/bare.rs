@@ -65,7 +65,8 @@ macro_rules! ask {
 /// Functions that ask one question each of a box tree that is already open, as `part.rs` has it.
 #[allow(unused_macros, reason = "most images open what they ask")]
 macro_rules! ask_opened {
-    ($($name:ident: |$tree:ident, $input:ident, $scratch:ident, $fold:ident| $question:expr;)*) => {$(
+    ($($name:ident:
+        |$tree:ident, $input:ident, $scratch:ident, $fold:ident| $question:expr;)*) => {$(
         #[unsafe(no_mangle)]
         extern "C" fn $name(
             $tree: &meshsweep_suite::ask::tree::Bvh<'_>,

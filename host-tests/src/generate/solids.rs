@@ -148,8 +148,8 @@ pub fn cube(n: usize) -> Triangles {
     builder.finish()
 }
 
-/// A square plate of side 1 on a plane with these slopes along x and y. Each face is a grid of 4 by 4
-/// squares, whose diagonals run against those of the other face.
+/// A square plate of side 1 on a plane with these slopes along x and y. Each face is a grid of 4 by
+/// 4 squares, whose diagonals run against those of the other face.
 #[must_use]
 pub fn plate(slope: [f32; 2], thickness: f32) -> Triangles {
     let mut positions = Vec::new();

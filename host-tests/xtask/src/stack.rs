@@ -2,9 +2,9 @@
 //! by the image's own call graph.
 //!
 //! A question is a function of the suite. It calls the core and folds the answer. Painting measures
-//! the stack below this call. The function's own frame, of the instance with the meter, is added. The sum is no more than the function's bound in the same
-//! image. The bounds of the documents are the larger ones of that image and of the proof's, which
-//! has all questions and no panic.
+//! the stack below this call. The function's own frame, of the instance with the meter, is added.
+//! The sum is no more than the function's bound in the same image. The bounds of the documents are
+//! the larger ones of that image and of the proof's, which has all questions and no panic.
 //!
 //! The functions of `meshsweep.h` have bounds of their own, from the linked library.
 

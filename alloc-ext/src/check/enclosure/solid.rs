@@ -8,8 +8,8 @@ use crate::check::manifold::Manifold;
 use crate::check::vector::{cross, dot, minus};
 use std::collections::HashMap;
 
-/// Mean number of faces of a strip of y or z. Pairs of faces are looked for in strips, so that large
-/// surfaces do not take the square of their faces.
+/// Mean number of faces of a strip of y or z. Pairs of faces are looked for in strips, so that
+/// large surfaces do not take the square of their faces.
 const STRIP: usize = 2000;
 
 /// Proves that the surface is a closed manifold whose faces share no points but common corners and

@@ -59,8 +59,8 @@ pub(super) fn closed(tree: &TreeBlob, mesh: &Mesh) -> Result<(), String> {
     }
 }
 
-/// If vertices moved and the header promises sides, the stored surface bounds a solid. `corners` are
-/// the mesh's vertices at the corners of the stored triangles.
+/// If vertices moved and the header promises sides, the stored surface bounds a solid. `corners`
+/// are the mesh's vertices at the corners of the stored triangles.
 pub(super) fn sides(tree: &TreeBlob, corners: &[[u32; 3]]) -> Result<(), String> {
     if !tree.closed || tree.sides_lost || tree.surface_error == 0.0 {
         return Ok(());

@@ -18,8 +18,8 @@ pub fn c_header(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
          * Written by `meshsweep build --emit c`, for version {} of the library. Compile {}.c\n \
          * with your program. Give {lower}_bytes to an open function of meshsweep.h.\n *\n \
          * Bytes of the processor's stack that a function takes in libmeshsweep_small.a /\n \
-         * libmeshsweep.a. Of the functions for this blob, those that are not listed take less than\n \
-         * 64.\n{} */\n\
+         * libmeshsweep.a. Of the functions for this blob, those that are not listed take less\n \
+         * than 64.\n{} */\n\
          #ifndef {upper}_MSW_H\n#define {upper}_MSW_H\n\n#include <stdint.h>\n\n\
          #ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n",
         in_comment(names.blob),

@@ -40,8 +40,8 @@ pub const CONE_BYTES: usize = 4;
 pub const MOMENTS_BYTES: usize = 60;
 /// Tree flag: triangles run through every edge as often in one direction as in the other.
 pub const BVH_CLOSED: u8 = 1;
-/// Tree flag: the stored surface may show a point another side than the input's. Its vertices moved,
-/// and the builder could not prove that this exchanged no two walls.
+/// Tree flag: the stored surface may show a point another side than the input's. Its vertices
+/// moved, and the builder could not prove that this exchanged no two walls.
 pub const BVH_SIDES_LOST: u8 = 4;
 /// Tree flag: leaf vertices are f32 in grid units instead of u16 on the grid.
 pub const BVH_F32: u8 = 2;

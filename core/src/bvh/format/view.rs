@@ -176,8 +176,8 @@ impl Bvh<'_> {
     }
 
     /// Scratch entries for questions under `budget`: with a limit of steps twice
-    /// [`scratch_entries`](Self::scratch_entries), by which intervals are mostly narrower. Without a
-    /// limit as many as those.
+    /// [`scratch_entries`](Self::scratch_entries), by which intervals are mostly narrower. Without
+    /// a limit as many as those.
     #[inline]
     pub const fn scratch_entries_for(&self, budget: Budget) -> usize {
         let enough = self.scratch_entries();
@@ -239,8 +239,8 @@ impl Bvh<'_> {
 
     /// Whether [`signed_distance`](Bvh::signed_distance) can decide sides. False for an open mesh,
     /// and for a closed one if vertices moved and two walls may have changed places by that.
-    /// [Winding numbers](Bvh::signed_by_winding) decide the sides of such a mesh; `--vertex-bits 32`
-    /// mostly does.
+    /// [Winding numbers](Bvh::signed_by_winding) decide the sides of such a mesh; `--vertex-bits
+    /// 32` mostly does.
     pub const fn has_sides(&self) -> bool {
         self.header.has_sides()
     }

@@ -70,13 +70,13 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
     }
     let closed = match (tree.is_closed(), tree.serves_winding()) {
         (true, false) if !tree.has_sides() => {
-            "closed, but walls may have changed places: every side is undecided; `winding` among the \
-             questions of --for decides them"
+            "closed, but walls may have changed places: every side is undecided; `winding` among \
+             the questions of --for decides them"
         }
         (true, false) => "closed: signed distance is that of the nearest surface",
         (true, true) => {
-            "closed: sides are those of the winding number (signed_by_winding); parts that overlap are \
-             united"
+            "closed: sides are those of the winding number (signed_by_winding); parts that \
+             overlap are united"
         }
         (false, true) => "open: sides are those of the winding number",
         _ => "open: every side is undecided; `winding` among the questions of --for decides them",
