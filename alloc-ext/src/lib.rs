@@ -17,6 +17,7 @@
 //! | --- | --- |
 //! | [`lp`] | the linear program in three variables |
 //! | [`mesh`] | mesh files, defects of a mesh, repair, report |
+//! | `geom` | exact predicates on triangles, and the static tree that finds them |
 //! | [`surface`] | the triangle surface that all builders share |
 //! | [`collapse`] | edge collapses: the loop, the star, where the vertex goes |
 //! | [`load`] | a mesh file in one unit, on a hull's grid, repaired |
@@ -30,7 +31,7 @@
 //! | [`check`] | proofs of a blob again, from its bytes and the mesh; it uses `mesh` only |
 //! | [`trade`] | errors and costs of a mesh's structures and settings, measured |
 //!
-//! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `progress` ←
+//! A room uses those to its left in this line, and no other: `geom` ← `{emit, lp, mesh}` ← `progress` ←
 //! `surface` ← `{collapse, bvh, load}` ← `hausdorff` ← `{hull, tight, tribox, curve}` ←
 //! `{cut, trade, builder}` ← the program. `trade` also uses the distance of `check`, and `worst`
 //! uses no room. A test keeps that (`host-tests/tests/house`).
@@ -44,6 +45,7 @@ pub mod curve;
 pub mod cut;
 pub mod emit;
 mod error;
+mod geom;
 pub mod hausdorff;
 pub mod hull;
 pub mod load;

@@ -22,12 +22,12 @@ mod duplicate;
 mod ears;
 mod edges;
 mod error;
+mod filed;
 mod gltf;
 mod hash;
 mod input;
 mod key_frame;
 mod manifold;
-mod nesting;
 mod no_volume;
 mod obj;
 mod off;
@@ -56,10 +56,10 @@ use std::path::{Path, PathBuf};
 
 pub(crate) use edges::{EdgeTable, UnionFind, ends};
 pub use error::{EdgePlace, MeshError};
+pub use filed::Filed;
 pub use input::Input;
 pub use key_frame::{KeyFrame, key_frame, require_deformable};
 pub use manifold::require_closed_manifold;
-pub(crate) use nesting::Enclosure;
 pub use no_volume::NoVolume;
 pub use polygons::{FacePlace, NamedFaces, Polygons};
 pub use read::{read, read_bytes};
@@ -104,6 +104,11 @@ pub struct Mesh {
     /// may be the walls of a shell that rounding has closed. Then the input's winding numbers are
     /// lost, so no structure decides a side of this mesh.
     pub has_merged_walls: bool,
+    /// Per triangle whether repair wound it against the file. Empty if it wound none so.
+    pub turned: Vec<bool>,
+    /// The file's triangles, if they are not those of `triangles` in the same winding, or if
+    /// vertices were welded that the file has at different places. `None` for a mesh in memory.
+    pub filed: Option<Box<Filed>>,
 }
 
 impl Mesh {
@@ -138,7 +143,7 @@ impl Mesh {
         let used = self.triangles.iter().flatten().fold(0, |most, &v| most.max(v as usize + 1));
         let positions = self.positions[..used].to_vec();
         let vertex_source = self.vertex_source.iter().copied().take(used).collect();
-        Self { positions, vertex_source, wires: Vec::new(), ..self.clone() }
+        Self { positions, vertex_source, wires: Vec::new(), filed: None, ..self.clone() }
     }
 
     /// Corners of triangle `triangle`, or `None` if it or one of its vertices does not exist.

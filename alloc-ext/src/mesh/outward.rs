@@ -7,9 +7,9 @@
 //! volume may be zero within rounding is left unchanged. Components that are open, one-sided or on
 //! a non-manifold edge have no inside and do not count.
 
-use super::nesting::Enclosure;
 use super::volume::SignedVolume;
 use super::winding::Components;
+use crate::geom::Enclosure;
 use glam::Vec3;
 
 /// A closed two-sided component.

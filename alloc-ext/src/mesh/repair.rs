@@ -3,6 +3,7 @@
 use super::caps::remove_caps;
 use super::duplicate::{drop_duplicates, retain};
 use super::edges::EdgeTable;
+use super::filed::Filed;
 use super::outward::closed_components;
 use super::read::check;
 use super::report::RepairReport;
@@ -39,23 +40,27 @@ use super::{Mesh, MeshError, RawMesh};
 pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
     check(&raw)?;
     let (mut positions, rounding) = round(&raw)?;
-    let RawMesh { mut triangles, polygons, left_out, .. } = raw;
+    let mut triangles = raw.triangles.clone();
     let mut report = RepairReport {
         vertices_read: positions.len(),
         triangles_read: triangles.len(),
-        polygons,
-        left_out,
+        polygons: raw.polygons.clone(),
+        left_out: raw.left_out,
         rounding,
         ..RepairReport::default()
     };
     let mut source: Vec<u32> = (0..triangles.len() as u32).collect();
 
     let first_at = weld(&positions, &mut report.welded);
+    let mut is_filed = merges_places(&raw, &first_at);
+    let rounded = positions.clone();
     triangles.iter_mut().flatten().for_each(|v| *v = first_at[*v as usize]);
     let mut taken_out = take_out_repeated_corners(&positions, &mut triangles, &mut source);
     drop_duplicates(&positions, &mut triangles, &mut source, &mut report);
     remove_caps(&positions, &mut triangles, &mut source, &mut taken_out, &mut report);
     let mut wires = uncovered(&positions, &triangles, &taken_out, &mut report);
+
+    is_filed |= triangles.len() < raw.triangles.len() || report.flipped_caps.count > 0;
 
     let edges = EdgeTable::new(positions.len(), &triangles);
     // Splitting moves no corner to another edge: half-edges keep their twins, and twins their
@@ -69,8 +74,12 @@ pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
         positions.push(at);
         vertex_source.push(original);
     }
-    wind(&positions, &mut triangles, &source, &components, &mut report);
-    turn_outwards(&positions, &mut triangles, &source, &components, &mut report);
+    let mut turned = wind(&positions, &mut triangles, &source, &components, &mut report);
+    turn_outwards(&positions, &mut triangles, &mut turned, &source, &components, &mut report);
+    if !turned.contains(&true) {
+        turned = Vec::new();
+    }
+    is_filed |= !turned.is_empty();
     let kept = drop_unreferenced(&positions, &mut triangles, &mut wires, &first_at, &mut report);
     let positions: Vec<[f32; 3]> = kept.iter().map(|&v| positions[v as usize]).collect();
     let vertex_source = kept.iter().map(|&v| vertex_source[v as usize]).collect();
@@ -79,9 +88,24 @@ pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
     report.vertices_kept = positions.len();
     report.triangles_kept = triangles.len();
     let has_merged_walls = report.opposite_duplicate.count > 0;
-    let mesh =
-        Mesh { positions, triangles, source, vertex_source, wires, rounding, has_merged_walls };
+    let filed = is_filed.then(|| Box::new(Filed::new(&raw, &rounded)));
+    let mesh = Mesh {
+        positions,
+        triangles,
+        source,
+        vertex_source,
+        wires,
+        rounding,
+        has_merged_walls,
+        turned,
+        filed,
+    };
     Ok((mesh, report))
+}
+
+/// Whether vertices were welded that the file has at different places.
+fn merges_places(raw: &RawMesh, first_at: &[u32]) -> bool {
+    (raw.positions.iter().zip(first_at)).any(|(at, &first)| *at != raw.positions[first as usize])
 }
 
 fn take_out_repeated_corners(
@@ -106,13 +130,14 @@ fn take_out_repeated_corners(
     taken_out
 }
 
+/// Winds components consistently. Returns which triangles are wound against the file.
 fn wind(
     positions: &[[f32; 3]],
     triangles: &mut [[u32; 3]],
     source: &[u32],
     components: &Components,
     report: &mut RepairReport,
-) {
+) -> Vec<bool> {
     for (t, triangle) in triangles.iter_mut().enumerate() {
         if components.rewind[t] {
             report.rewound.triangle(source[t], positions[triangle[0] as usize]);
@@ -125,11 +150,13 @@ fn wind(
             .non_orientable
             .triangle(source[t], positions[triangles[t][half_edge as usize % 3] as usize]);
     }
+    components.rewind.clone()
 }
 
 fn turn_outwards(
     positions: &[[f32; 3]],
     triangles: &mut [[u32; 3]],
+    turned: &mut [bool],
     source: &[u32],
     components: &Components,
     report: &mut RepairReport,
@@ -151,9 +178,10 @@ fn turn_outwards(
             report.cavities.triangle(number, at);
         }
     }
-    for (triangle, &part) in triangles.iter_mut().zip(&components.part) {
+    for ((triangle, turned), &part) in triangles.iter_mut().zip(turned).zip(&components.part) {
         if turn[part as usize] {
             triangle.swap(1, 2);
+            *turned = !*turned;
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Connected components of triangles, by the vertices that they share.
 
-use super::bounds::Bounds;
-use super::tree::StaticTree;
+use crate::geom::{Bounds, StaticTree};
 use crate::mesh::{Mesh, UnionFind};
 use glam::Vec3;
 

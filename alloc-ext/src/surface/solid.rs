@@ -1,8 +1,7 @@
 //! The volume that a mesh bounds, and the void of its hull.
 
 use super::components::components;
-use super::embedding::crosses_itself;
-use super::enclosures::Enclosures;
+use crate::geom::{Enclosures, crosses_itself};
 use crate::mesh::{Mesh, NoVolume, SignedVolume, require_closed_manifold};
 use glam::DVec3;
 

@@ -46,17 +46,18 @@ const BENEATH: &[&str] = &[
 /// `builder` are above: they know all structures. `load` makes a clean mesh of a file for them.
 /// `check` proves the others' work and shares nothing with them but meshes. `trade` measures
 /// distances by it.
-const BUILDER: [(&str, &[&str]); 22] = [
+const BUILDER: [(&str, &[&str]); 23] = [
     ("counted", &[]),
     ("number", &[]),
     ("emit", &[]),
     ("random", &[]),
     ("lp", &["random"]),
-    ("mesh", &["counted"]),
+    ("geom", &[]),
+    ("mesh", &["counted", "geom"]),
     ("check", &["mesh"]),
     ("error", &["counted", "mesh", "number"]),
     ("progress", &["error"]),
-    ("surface", &["counted", "error", "lp", "mesh"]),
+    ("surface", &["counted", "error", "geom", "lp", "mesh"]),
     ("load", &["error", "mesh", "surface"]),
     ("collapse", &["counted", "lp", "mesh", "progress", "surface"]),
     ("bvh", &["counted", "emit", "error", "lp", "mesh", "progress", "surface"]),

@@ -44,7 +44,7 @@ impl Enclosure {
     /// True if `inner`'s box lies in this one's and its extreme vertices lie inside. This is exact
     /// for surfaces that do not intersect, where one vertex would do. Surfaces that intersect may
     /// give either answer.
-    pub(super) fn contains(&self, inner: &Self) -> bool {
+    pub(crate) fn contains(&self, inner: &Self) -> bool {
         let box_inside =
             (0..3).all(|k| self.low[k] <= inner.low[k] && inner.high[k] <= self.high[k]);
         box_inside && inner.extremes.iter().all(|&p| self.encloses(p))

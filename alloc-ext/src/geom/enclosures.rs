@@ -1,8 +1,8 @@
 //! Closed surfaces that are asked which of them hold a point.
 
 use super::bounds::Bounds;
+use super::enclosure::Enclosure;
 use super::tree::StaticTree;
-use crate::mesh::Enclosure;
 use glam::{DVec3, Vec3};
 
 /// Any number of closed surfaces, and a tree of their boxes.

@@ -1,0 +1,18 @@
+//! Exact predicates on triangles, and a static tree that finds them.
+
+mod bounds;
+mod embedding;
+mod enclosure;
+mod enclosures;
+mod lane_corners;
+mod order;
+mod predicates;
+mod tree;
+
+pub(crate) use bounds::{Bounds, Plane};
+pub(crate) use embedding::{crosses_itself, faces, is_embedded};
+pub(crate) use enclosure::Enclosure;
+pub(crate) use enclosures::Enclosures;
+pub(crate) use order::spatial_order;
+pub(crate) use predicates::{Face, Triangle, are_apart, is_cut_off, is_degenerate, meet, side};
+pub(crate) use tree::{Frontier, StaticTree};
