@@ -5,6 +5,7 @@
 //! | --- | --- |
 //! | `verify` | which structures a blob has, and what came of each proof |
 //! | `tree`, `hull`, `tight`, `triboxes`, `curve` | the claims of one structure each |
+//! | `repair` | that a mesh is that of its file |
 //! | `enclosure` | that a hull encloses a mesh |
 //! | `input` | that stored corners are those of the mesh |
 //! | `near` | that all points of a triangle are near a surface |
@@ -25,6 +26,7 @@ mod input;
 mod manifold;
 mod near;
 mod planar;
+mod repair;
 mod tight;
 mod tree;
 mod triboxes;
@@ -34,6 +36,7 @@ mod verify;
 
 pub(crate) use distance::distance;
 pub use finding::{Finding, Outcome};
+pub use repair::verify_repair;
 pub use verify::{Against, verify};
 
 #[doc(hidden)]
@@ -46,5 +49,7 @@ pub use exact::side;
 pub use hull::{Blob, CheckReport, check_blob};
 #[doc(hidden)]
 pub use manifold::{Manifold, canonical};
+#[doc(hidden)]
+pub use repair::{RepairProof, prove_repair};
 #[doc(hidden)]
 pub use tree::{TreeProof, check_tree};

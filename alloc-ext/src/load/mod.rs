@@ -9,7 +9,7 @@ mod content;
 use crate::error::BuildError;
 use crate::mesh::{
     FORMATS, Input, KeyFrame, Mesh, MeshError, RawMesh, RepairReport, Unit, key_frame, read_bytes,
-    repair, require_closed_manifold, require_deformable,
+    repair_moved, require_closed_manifold, require_deformable,
 };
 use crate::surface::{VertexBits, snap};
 use content::Content;
@@ -151,23 +151,24 @@ impl Source {
     /// # Errors
     /// [`BuildError::Mesh`].
     pub fn repaired(self) -> Result<Loaded, BuildError> {
-        self.moved_by(0.0)
+        self.loaded(0.0, None)
     }
 
     /// Moves vertices to the hull's grid, and repairs any triangle soup.
     ///
     /// # Errors
     /// [`BuildError::Mesh`].
-    pub fn on_grid(mut self, bits: VertexBits) -> Result<Loaded, BuildError> {
-        let raw = &mut self.raw;
-        let mut moved = snap(&mut raw.positions, bits);
+    pub fn on_grid(self, bits: VertexBits) -> Result<Loaded, BuildError> {
+        let raw = &self.raw;
+        let mut places = raw.positions.clone();
+        let mut moved = snap(&mut places, bits);
         if moved > 0.0 && raw.decimal {
             // Reading rounded the decimals to f64, by half a unit in the last place per axis.
             // Repair cannot see that any more.
-            let largest = raw.positions.iter().flatten().fold(0f64, |m, x| m.max(x.abs()));
+            let largest = places.iter().flatten().fold(0f64, |m, x| m.max(x.abs()));
             moved += 2.0 * f64::EPSILON * largest;
         }
-        self.moved_by(moved)
+        self.loaded(moved, Some(&places))
     }
 
     /// Repairs a solid that deforms, and applies its repairs to its key frames.
@@ -193,10 +194,16 @@ impl Source {
         Ok((Loaded { time: started.elapsed(), ..loaded }, keys))
     }
 
-    fn moved_by(self, moved: f64) -> Result<Loaded, BuildError> {
+    /// The mesh as it was read.
+    #[must_use]
+    pub fn raw(&self) -> &RawMesh {
+        &self.raw
+    }
+
+    fn loaded(self, moved: f64, places: Option<&[[f64; 3]]>) -> Result<Loaded, BuildError> {
         let Self { raw, told, started } = self;
         let (file, input_triangles, unit) = (raw.file.clone(), raw.triangles.len(), raw.unit);
-        let (mesh, report) = repair(raw).map_err(|error| refused(&file, error))?;
+        let (mesh, report) = repair_moved(&raw, places).map_err(|error| refused(&file, error))?;
         let time = started.elapsed();
         Ok(Loaded { mesh, report, moved, input_triangles, unit, told, file, time })
     }

@@ -70,7 +70,7 @@ pub fn key_frame(first: &RawMesh, mesh: &Mesh, frame: &RawMesh) -> Result<KeyFra
     if let Some((triangle, (found, wanted))) = both.enumerate().find(|(_, (a, b))| a != b) {
         return Err(MeshError::FrameTriangle { file: file(), triangle, found, wanted });
     }
-    let (positions, rounding) = round(frame)?;
+    let (positions, rounding) = round(frame, &frame.positions)?;
     let first_at = welded(first)?;
     for &vertex in first.triangles.iter().flatten() {
         let kept = first_at[vertex as usize];
@@ -84,7 +84,7 @@ pub fn key_frame(first: &RawMesh, mesh: &Mesh, frame: &RawMesh) -> Result<KeyFra
 
 /// For each vertex the first at its place.
 fn welded(raw: &RawMesh) -> Result<Vec<u32>, MeshError> {
-    let (positions, _) = round(raw)?;
+    let (positions, _) = round(raw, &raw.positions)?;
     Ok(weld(&positions, &mut Finding::default()))
 }
 

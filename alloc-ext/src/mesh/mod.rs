@@ -64,6 +64,7 @@ pub use no_volume::NoVolume;
 pub use polygons::{FacePlace, NamedFaces, Polygons};
 pub use read::{read, read_bytes};
 pub use repair::repair;
+pub(crate) use repair::repair_moved;
 pub use report::{Finding, Place, RepairReport};
 pub use unit::Unit;
 pub(crate) use volume::SignedVolume;

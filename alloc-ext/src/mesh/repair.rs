@@ -38,8 +38,16 @@ use super::{Mesh, MeshError, RawMesh};
 /// A coordinate that is not finite or beyond `f32`, a mesh wholly below `f32`'s normal range, an
 /// index out of range, or no triangles.
 pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
-    check(&raw)?;
-    let (mut positions, rounding) = round(&raw)?;
+    repair_moved(&raw, None)
+}
+
+/// The same of a mesh whose vertices were moved to other places, as to a grid.
+pub(crate) fn repair_moved(
+    raw: &RawMesh,
+    places: Option<&[[f64; 3]]>,
+) -> Result<(Mesh, RepairReport), MeshError> {
+    check(raw)?;
+    let (mut positions, rounding) = round(raw, places.unwrap_or(&raw.positions))?;
     let mut triangles = raw.triangles.clone();
     let mut report = RepairReport {
         vertices_read: positions.len(),
@@ -52,7 +60,7 @@ pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
     let mut source: Vec<u32> = (0..triangles.len() as u32).collect();
 
     let first_at = weld(&positions, &mut report.welded);
-    let mut is_filed = merges_places(&raw, &first_at);
+    let mut is_filed = merges_places(raw, &first_at);
     let rounded = positions.clone();
     triangles.iter_mut().flatten().for_each(|v| *v = first_at[*v as usize]);
     let mut taken_out = take_out_repeated_corners(&positions, &mut triangles, &mut source);
@@ -88,7 +96,7 @@ pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
     report.vertices_kept = positions.len();
     report.triangles_kept = triangles.len();
     let has_merged_walls = report.opposite_duplicate.count > 0;
-    let filed = is_filed.then(|| Box::new(Filed::new(&raw, &rounded)));
+    let filed = is_filed.then(|| Box::new(Filed::new(raw, &rounded)));
     let mesh = Mesh {
         positions,
         triangles,

@@ -2,18 +2,18 @@
 
 use super::{MeshError, RawMesh};
 
-/// Rounds every position to the nearest `f32` and turns −0.0 into 0.0, so that equal positions have
+/// Rounds every place of a mesh's vertices to the nearest `f32` and turns −0.0 into 0.0, so that equal positions have
 /// equal bits. Returns the positions and [`Mesh::rounding`](super::Mesh::rounding).
 ///
 /// # Errors
 /// A coordinate beyond the largest `f32`; a mesh none of whose coordinates reaches the smallest
 /// normal `f32`, because its shape would be lost to underflow. (All coordinates zero is a mesh
 /// without area, refused later as such.)
-pub(super) fn round(raw: &RawMesh) -> Result<(Vec<[f32; 3]>, f64), MeshError> {
+pub(super) fn round(raw: &RawMesh, places: &[[f64; 3]]) -> Result<(Vec<[f32; 3]>, f64), MeshError> {
     let mut largest = 0.0f64;
     let mut moved = 0.0f64;
-    let mut positions = Vec::with_capacity(raw.positions.len());
-    for (vertex, at) in raw.positions.iter().enumerate() {
+    let mut positions = Vec::with_capacity(places.len());
+    for (vertex, at) in places.iter().enumerate() {
         // Adding 0.0 turns −0.0 into 0.0 and changes nothing else.
         let rounded = at.map(|x| x as f32 + 0.0);
         if !rounded.iter().all(|x| x.is_finite()) {

@@ -6,10 +6,10 @@ use crate::failure::Failure;
 use crate::mesh_file;
 use crate::output::Output;
 use meshsweep::BuildError;
-use meshsweep::check::{Against, Finding, Outcome, verify};
+use meshsweep::check::{Against, Finding, Outcome, verify, verify_repair};
 use meshsweep::counted::Counted;
 use meshsweep::curve::read_csv;
-use meshsweep::load::{Loaded, is_named_as_mesh};
+use meshsweep::load::{Loaded, Source, is_named_as_mesh};
 use meshsweep::mesh::KeyFrame;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::Blob;
@@ -93,13 +93,16 @@ fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Fai
     }
     if blob.deformable_hull().is_ok() {
         let (loaded, keys) = mesh_file::load_deformable(&args.mesh, &args.frames, args.unit)?;
-        return Ok(of_mesh(args, bytes, blob, &loaded, &keys));
+        let source = mesh_file::source(&args.mesh, args.unit)?;
+        return Ok(of_mesh(args, bytes, blob, (&source, &loaded), &keys));
     }
     if !args.frames.is_empty() {
         let what = "several meshes are key frames, and the blob has none; name one mesh".to_owned();
         return Err(Failure::Usage { what });
     }
-    let found = of_mesh(args, bytes, blob, &mesh_file::load(&args.mesh, args.unit)?, &[]);
+    let source = mesh_file::source(&args.mesh, args.unit)?;
+    let loaded = source.clone().repaired().map_err(|error| Failure::build(&args.mesh, error))?;
+    let found = of_mesh(args, bytes, blob, (&source, &loaded), &[]);
     // A hull on a grid may have moved the mesh before its repair, as --vertex-bits says.
     let bits = match blob.hull().map(|_| blob.header().vertex_format) {
         Ok(VertexFormat::Grid16) => VertexBits::Grid16,
@@ -109,18 +112,20 @@ fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Fai
     if found.findings.iter().all(|finding| finding.outcome == Outcome::Proved) {
         return Ok(found);
     }
-    let snapped = mesh_file::load_snapped(&args.mesh, bits, args.unit)?;
-    Ok(of_mesh(args, bytes, blob, &snapped, &[]))
+    let snapped =
+        source.clone().on_grid(bits).map_err(|error| Failure::build(&args.mesh, error))?;
+    Ok(of_mesh(args, bytes, blob, (&source, &snapped), &[]))
 }
 
 fn of_mesh(
     args: &VerifyArgs,
     bytes: &[u8],
     blob: &Blob<'_>,
-    loaded: &Loaded,
+    (source, loaded): (&Source, &Loaded),
     keys: &[KeyFrame],
 ) -> Proofs {
-    let findings = verify(bytes, Against::Mesh(loaded.input(), keys));
+    let mut findings = vec![verify_repair(source.raw(), loaded.input())];
+    findings.extend(verify(bytes, Against::Mesh(loaded.input(), keys)));
     let (stored, given) = (describe::input_triangles(blob) as usize, loaded.input_triangles);
     let hint = if stored > 0 && stored != given {
         format!(
