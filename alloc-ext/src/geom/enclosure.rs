@@ -1,8 +1,9 @@
 //! Whether a point, or a closed component, lies inside a closed component, by exact predicates.
 
-use std::cell::OnceCell;
-
+use super::predicates::lies_on;
+use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
+use std::cell::OnceCell;
 
 /// A closed surface that is asked which points it holds.
 pub(crate) struct Enclosure {
@@ -47,56 +48,76 @@ impl Enclosure {
     pub(crate) fn contains(&self, inner: &Self) -> bool {
         let box_inside =
             (0..3).all(|k| self.low[k] <= inner.low[k] && inner.high[k] <= self.high[k]);
-        box_inside && inner.extremes.iter().all(|&p| self.encloses(p))
+        box_inside && inner.extremes.iter().all(|&p| self.encloses(p.map(f64::from)))
     }
 
     /// Whether a point that is not on the surface lies inside. Exact; overlaps count by parity.
-    pub(crate) fn holds(&self, p: [f32; 3]) -> bool {
-        (0..3).all(|k| self.low[k] <= p[k] && p[k] <= self.high[k]) && self.encloses(p)
+    pub(crate) fn holds(&self, p: [f64; 3]) -> bool {
+        self.box_holds(p) && self.encloses(p)
+    }
+
+    /// Whether a point lies on the surface. Exact.
+    ///
+    /// Cost: the triangles of a strip.
+    pub(crate) fn touches(&self, p: [f64; 3]) -> bool {
+        let at = DVec3::from(p);
+        let is_on = |&number: &u32| lies_on(at, &self.triangles[number as usize].map(wide));
+        self.box_holds(p) && self.strips()[self.strip(p[1])].iter().any(is_on)
+    }
+
+    fn box_holds(&self, p: [f64; 3]) -> bool {
+        (0..3).all(|k| f64::from(self.low[k]) <= p[k] && p[k] <= f64::from(self.high[k]))
     }
 
     /// Parity of the crossings of the ray from `p` along +z. The ray is moved by an
     /// infinitesimal step along +x (and one infinitely smaller along +y), so it meets no edge
     /// and no vertex: each edge is judged by one exact predicate that both of its triangles
     /// share. A point on the surface counts as not below it.
-    fn encloses(&self, p: [f32; 3]) -> bool {
-        let strips = self.strips.get_or_init(|| {
-            let mut strips = vec![Vec::new(); STRIPS];
-            for (number, [a, b, c]) in self.triangles.iter().enumerate() {
-                let (low, high) = (a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]));
-                strips[self.strip(low)..=self.strip(high)]
-                    .iter_mut()
-                    .for_each(|s| s.push(number as u32));
-            }
-            strips
-        });
+    fn encloses(&self, p: [f64; 3]) -> bool {
         let crosses = |number: &&u32| {
             // Comparisons alone rule out most triangles.
-            let [a, b, c] = self.triangles[**number as usize];
+            let [a, b, c] = self.triangles[**number as usize].map(|p| p.map(f64::from));
             (a[2] > p[2] || b[2] > p[2] || c[2] > p[2])
                 && (a[0] > p[0] || b[0] > p[0] || c[0] > p[0])
                 && is_below(p, &[a, b, c])
         };
-        strips[self.strip(p[1])].iter().filter(crosses).count() % 2 == 1
+        self.strips()[self.strip(p[1])].iter().filter(crosses).count() % 2 == 1
+    }
+
+    fn strips(&self) -> &[Vec<u32>] {
+        self.strips.get_or_init(|| {
+            let mut strips = vec![Vec::new(); STRIPS];
+            for (number, [a, b, c]) in self.triangles.iter().enumerate() {
+                let (low, high) = (a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]));
+                strips[self.strip(low.into())..=self.strip(high.into())]
+                    .iter_mut()
+                    .for_each(|s| s.push(number as u32));
+            }
+            strips
+        })
     }
 
     /// The strip of a y coordinate. Each step is monotonic after rounding too, so a triangle is in
     /// the strip of every y that it reaches.
-    fn strip(&self, y: f32) -> usize {
+    fn strip(&self, y: f64) -> usize {
         let (low, high) = (f64::from(self.low[1]), f64::from(self.high[1]));
-        let along = (f64::from(y) - low) / (high - low).max(f64::MIN_POSITIVE);
+        let along = (y - low) / (high - low).max(f64::MIN_POSITIVE);
         ((along * STRIPS as f64) as usize).min(STRIPS - 1)
     }
 }
 
-fn is_below(p: [f32; 3], triangle: &[[f32; 3]; 3]) -> bool {
+fn wide(p: [f32; 3]) -> DVec3 {
+    DVec3::from(p.map(f64::from))
+}
+
+fn is_below(p: [f64; 3], triangle: &[[f64; 3]; 3]) -> bool {
     let [a, b, c] = *triangle;
     let hits = [(a, b), (b, c), (c, a)].iter().filter(|(u, v)| crosses_right_of(p, *u, *v)).count();
     if hits % 2 == 0 {
         return false;
     }
-    let flat = |v: [f32; 3]| Coord { x: v[0], y: v[1] };
-    let solid = |v: [f32; 3]| Coord3D { x: v[0], y: v[1], z: v[2] };
+    let flat = |v: [f64; 3]| Coord { x: v[0], y: v[1] };
+    let solid = |v: [f64; 3]| Coord3D { x: v[0], y: v[1], z: v[2] };
     // `orient3d` is positive if p lies below a plane whose corners turn counter-clockwise as seen
     // from above.
     let above = orient3d(solid(a), solid(b), solid(c), solid(p));
@@ -106,12 +127,12 @@ fn is_below(p: [f32; 3], triangle: &[[f32; 3]; 3]) -> bool {
 
 /// In the xy plane: does edge uv cross the line through p parallel to x, to the right of p moved
 /// infinitesimally right?
-fn crosses_right_of(p: [f32; 3], u: [f32; 3], v: [f32; 3]) -> bool {
+fn crosses_right_of(p: [f64; 3], u: [f64; 3], v: [f64; 3]) -> bool {
     let (below, above) = match (u[1] > p[1], v[1] > p[1]) {
         (false, true) => (u, v),
         (true, false) => (v, u),
         _ => return false,
     };
-    let flat = |v: [f32; 3]| Coord { x: v[0], y: v[1] };
+    let flat = |v: [f64; 3]| Coord { x: v[0], y: v[1] };
     orient2d(flat(below), flat(above), flat(p)) > 0.0
 }

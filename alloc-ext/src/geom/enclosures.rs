@@ -23,13 +23,20 @@ impl Enclosures {
     }
 
     /// A corner of a surface.
-    pub fn corner(&self, surface: usize) -> [f32; 3] {
-        self.all[surface].triangles[0][0]
+    pub fn corner(&self, surface: usize) -> [f64; 3] {
+        self.all[surface].triangles[0][0].map(f64::from)
+    }
+
+    /// Whether a point lies on a surface, `but` one. Exact.
+    pub fn touches(&self, p: [f64; 3], but: Option<usize>) -> bool {
+        let at = DVec3::from(p);
+        let is_off = |i: usize| Some(i) == but || !self.all[i].touches(p);
+        !self.tree.visit_meeting(&Bounds { low: at, high: at }, is_off)
     }
 
     /// The surfaces that hold a point, `but` one, ascending. Exact for points on none of them.
-    pub fn around(&self, p: [f32; 3], but: Option<usize>) -> Vec<usize> {
-        let at = DVec3::from(p.map(f64::from));
+    pub fn around(&self, p: [f64; 3], but: Option<usize>) -> Vec<usize> {
+        let at = DVec3::from(p);
         let mut found = Vec::new();
         self.tree.visit_meeting(&Bounds { low: at, high: at }, |i| {
             if Some(i) != but && self.all[i].holds(p) {

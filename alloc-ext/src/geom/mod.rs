@@ -1,18 +1,22 @@
 //! Exact predicates on triangles, and a static tree that finds them.
 
 mod bounds;
+mod contact;
 mod embedding;
 mod enclosure;
 mod enclosures;
+mod inner;
 mod lane_corners;
 mod order;
 mod predicates;
 mod tree;
 
 pub(crate) use bounds::{Bounds, Plane};
-pub(crate) use embedding::{crosses_itself, faces, is_embedded};
+pub(crate) use contact::Contact;
+pub(crate) use embedding::{contacts, crosses_itself, crossing_pairs, faces, is_embedded};
 pub(crate) use enclosure::Enclosure;
 pub(crate) use enclosures::Enclosures;
+pub(crate) use inner::inner_points;
 pub(crate) use order::spatial_order;
 pub(crate) use predicates::{Face, Triangle, are_apart, is_cut_off, is_degenerate, meet, side};
 pub(crate) use tree::{Frontier, StaticTree};

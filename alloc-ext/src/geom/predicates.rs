@@ -4,6 +4,7 @@
 //! tolerance. Triangles are closed: touching counts as meeting. Coordinates are `f32` numbers held
 //! in `f64`. Products of three have no bit below 2^-447, so that nothing underflows.
 
+use super::bounds::Bounds;
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
@@ -41,12 +42,12 @@ fn exact_side(a: &DVec3, b: &DVec3, c: &DVec3, p: DVec3) -> f64 {
 
 /// A coordinate plane in which the triangle keeps some area, as the pair of coordinates that is
 /// kept; `None` if the triangle has no area.
-fn projection(t: &Triangle) -> Option<[usize; 2]> {
+pub(super) fn projection(t: &Triangle) -> Option<[usize; 2]> {
     [[0, 1], [1, 2], [2, 0]].into_iter().find(|&axes| turn(axes, t[0], t[1], t[2]) != 0.0)
 }
 
 /// Sign of the turn a → b → c after projection.
-fn turn([i, j]: [usize; 2], a: DVec3, b: DVec3, c: DVec3) -> f64 {
+pub(super) fn turn([i, j]: [usize; 2], a: DVec3, b: DVec3, c: DVec3) -> f64 {
     let flat = |p: DVec3| Coord { x: p[i], y: p[j] };
     orient2d(flat(a), flat(b), flat(c))
 }
@@ -54,6 +55,26 @@ fn turn([i, j]: [usize; 2], a: DVec3, b: DVec3, c: DVec3) -> f64 {
 /// Whether the triangle has no area.
 pub(crate) fn is_degenerate(t: &Triangle) -> bool {
     projection(t).is_none()
+}
+
+/// Whether a point lies on the closed triangle, which may have no area.
+pub(crate) fn lies_on(p: DVec3, t: &Triangle) -> bool {
+    if side(t, p) != 0.0 {
+        return false;
+    }
+    let bounds = Bounds::of(t);
+    if !bounds.meets(&Bounds { low: p, high: p }) {
+        return false;
+    }
+    let turns = |axes| [0, 1, 2].map(|i| turn(axes, t[i], t[(i + 1) % 3], p));
+    match projection(t) {
+        Some(axes) => {
+            let turns = turns(axes);
+            !(turns.iter().any(|&s| s > 0.0) && turns.iter().any(|&s| s < 0.0))
+        }
+        // A segment fills its box along its line.
+        None => [[0, 1], [1, 2], [2, 0]].into_iter().all(|axes| turns(axes) == [0.0; 3]),
+    }
 }
 
 fn same_strict_side([a, b, c]: [f64; 3]) -> bool {

@@ -34,7 +34,8 @@ fn triangle_parts(mesh: &Mesh) -> Vec<Mesh> {
     // For each component the closed components that hold its first corner.
     let around = |i: usize| -> Vec<usize> {
         let but = closed.binary_search(&i).ok();
-        let found = corners(i).next().map(|[witness, ..]| enclosures.around(witness, but));
+        let found =
+            corners(i).next().map(|[witness, ..]| enclosures.around(witness.map(f64::from), but));
         found.into_iter().flatten().map(|j| closed[j]).collect()
     };
     let around: Vec<Vec<usize>> = (0..all.len()).map(around).collect();

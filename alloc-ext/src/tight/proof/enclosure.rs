@@ -9,7 +9,7 @@ use glam::DVec3;
 pub(crate) fn is_outer_hull(faces: &[Face], obstacle: &Obstacle) -> bool {
     let holds_witnesses = || {
         let hull = Enclosure::new(faces.iter().map(|face| face.at.map(to_f32)).collect());
-        obstacle.witnesses().iter().all(|p| hull.holds(to_f32(*p)))
+        obstacle.witnesses().iter().all(|p| hull.holds(p.to_array()))
     };
     !faces.iter().any(|face| is_degenerate(&face.at) || obstacle.meets(&face.at))
         && is_embedded(faces)
