@@ -33,6 +33,11 @@ impl Bounds {
         self.low.cmple(other.high).all() && other.low.cmple(self.high).all()
     }
 
+    /// Whether this box holds another one.
+    pub fn contains(&self, other: &Self) -> bool {
+        self.low.cmple(other.low).all() && other.high.cmple(self.high).all()
+    }
+
     /// The axis along which it is longest; the first of equals.
     pub fn longest_axis(&self) -> usize {
         let extent = (self.high - self.low).to_array();

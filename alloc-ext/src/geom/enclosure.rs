@@ -1,4 +1,4 @@
-//! Whether a point, or a closed component, lies inside a closed component, by exact predicates.
+//! Whether a point lies inside a closed component, by exact predicates.
 
 use super::predicates::lies_on;
 use glam::DVec3;
@@ -11,8 +11,6 @@ pub(crate) struct Enclosure {
     pub triangles: Vec<[[f32; 3]; 3]>,
     pub low: [f32; 3],
     pub high: [f32; 3],
-    /// A vertex at each of the six extremes.
-    extremes: Vec<[f32; 3]>,
     /// Triangle numbers by the strips of y that they reach into; made by the first query.
     strips: OnceCell<Vec<Vec<u32>>>,
 }
@@ -23,32 +21,12 @@ const STRIPS: usize = 64;
 impl Enclosure {
     /// `triangles` must not be empty.
     pub(crate) fn new(triangles: Vec<[[f32; 3]; 3]>) -> Self {
-        let mut low = [f32::INFINITY; 3];
-        let mut high = [f32::NEG_INFINITY; 3];
-        let mut extremes = vec![[0.0; 3]; 6];
-        for p in triangles.iter().flatten() {
-            for axis in 0..3 {
-                if p[axis] < low[axis] {
-                    low[axis] = p[axis];
-                    extremes[axis] = *p;
-                }
-                if p[axis] > high[axis] {
-                    high[axis] = p[axis];
-                    extremes[3 + axis] = *p;
-                }
-            }
-        }
-        extremes.dedup();
-        Self { triangles, low, high, extremes, strips: OnceCell::new() }
-    }
-
-    /// True if `inner`'s box lies in this one's and its extreme vertices lie inside. This is exact
-    /// for surfaces that do not intersect, where one vertex would do. Surfaces that intersect may
-    /// give either answer.
-    pub(crate) fn contains(&self, inner: &Self) -> bool {
-        let box_inside =
-            (0..3).all(|k| self.low[k] <= inner.low[k] && inner.high[k] <= self.high[k]);
-        box_inside && inner.extremes.iter().all(|&p| self.encloses(p.map(f64::from)))
+        let fold = |f: fn(f32, f32) -> f32, from: f32| {
+            let with = |at: [f32; 3], p: &[f32; 3]| [0, 1, 2].map(|k| f(at[k], p[k]));
+            triangles.iter().flatten().fold([from; 3], with)
+        };
+        let (low, high) = (fold(f32::min, f32::INFINITY), fold(f32::max, f32::NEG_INFINITY));
+        Self { triangles, low, high, strips: OnceCell::new() }
     }
 
     /// Whether a point that is not on the surface lies inside. Exact; overlaps count by parity.

@@ -2,7 +2,7 @@
 
 use super::boundary::boundary;
 use super::edges::{EdgeTable, NON_MANIFOLD, ends};
-use super::outward::closed_components;
+use super::outward::{ClosedComponent, Standing, closed_components};
 use super::report::PLACES_KEPT;
 use super::vertex_fans::fans;
 use super::winding::propagate;
@@ -74,7 +74,10 @@ pub fn require_closed_manifold(mesh: &Mesh) -> Result<(), MeshError> {
             bound: part.volume.bound,
         });
     }
-    let inverted = || solids.iter().filter(|part| part.inside_out && !part.nested);
+    let is_inverted = |part: &&ClosedComponent| {
+        matches!(part.standing, Standing::InsideOut | Standing::Doubt { may_be_cavity: false })
+    };
+    let inverted = || solids.iter().filter(is_inverted);
     match inverted().count() {
         0 => Ok(()),
         component_count => Err(MeshError::InsideOut {

@@ -1,16 +1,22 @@
 //! Closed components: their volumes, their nesting, and whether they are inside out.
 //!
-//! A component that lies inside no other must face outwards. It is inside out if its signed volume
-//! is negative. Then it is turned together with all components inside it, for those were drawn
+//! A component that lies in no other must face outwards. It is *inside out* if its signed volume is
+//! negative. Then it is turned together with all components inside it, for those were drawn
 //! relative to it. A component inside another is never judged on its own: facing inwards it is a
-//! cavity, facing outwards it is a solid within a solid, and both are valid. A component whose
-//! volume may be zero within rounding is left unchanged. Components that are open, one-sided or on
-//! a non-manifold edge have no inside and do not count.
+//! cavity, facing outwards it is a solid within a solid, and both are valid.
+//!
+//! *What is proved before one is turned.* Its faces meet in points at most, but for common corners
+//! and edges. It crosses no other component and none touches it from without. No closed component
+//! has an inner point of it inside, and its box lies in the box of no open component, which might
+//! be a skin with holes. If something of this is not proved, the component is in *doubt* and keeps
+//! the winding of the file. So does one whose volume may be zero within rounding.
+//!
+//! Components that are open, one-sided or on a non-manifold edge have no inside.
 
 use super::volume::SignedVolume;
 use super::winding::Components;
-use crate::geom::Enclosure;
-use glam::Vec3;
+use crate::geom::{Bounds, Contact, Enclosures, contacts, faces, inner_points};
+use glam::{DVec3, Vec3};
 
 /// A closed two-sided component.
 pub(super) struct ClosedComponent {
@@ -19,68 +25,182 @@ pub(super) struct ClosedComponent {
     /// Its first triangle.
     pub first: u32,
     pub volume: SignedVolume,
-    /// It is inside out, or lies in an outermost component that is.
-    pub inside_out: bool,
-    /// It lies in another closed component.
-    pub nested: bool,
+    pub standing: Standing,
+}
+
+/// How a closed component lies to the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Standing {
+    /// It faces outwards, and nothing inside out has it inside; or no component faces inwards.
+    AsFiled,
+    /// It is inside out, and lies in no other.
+    InsideOut,
+    /// It lies in one that is inside out, to be turned with it.
+    InInsideOut,
+    /// It lies in another that faces outwards, and faces inwards.
+    Cavity,
+    /// It faces inwards, and may be a cavity or inside out.
+    Doubt {
+        /// Whether its box and an inner point lie in another closed component.
+        may_be_cavity: bool,
+    },
+}
+
+impl Standing {
+    /// Whether repair turns the component.
+    pub(super) fn is_turned(self) -> bool {
+        matches!(self, Self::InsideOut | Self::InInsideOut)
+    }
 }
 
 /// All closed two-sided components of `triangles`, which must be wound consistently.
+///
+/// Cost: linear, if no component faces inwards. Else a search for the contacts of all faces.
 pub(super) fn closed_components(
     positions: &[[f32; 3]],
     triangles: &[[u32; 3]],
     parts: &Components,
 ) -> Vec<ClosedComponent> {
-    let mut firsts = vec![u32::MAX; parts.kinds.len()];
-    let wanted = |part: u32| {
-        let kind = &parts.kinds[part as usize];
-        kind.closed && kind.conflict.is_none()
+    let count = parts.kinds.len();
+    let is_closed = |part: usize| parts.kinds[part].closed && parts.kinds[part].conflict.is_none();
+    let mut members: Vec<Vec<u32>> = vec![Vec::new(); count];
+    for (t, &part) in parts.part.iter().enumerate() {
+        members[part as usize].push(t as u32);
+    }
+    let corners = |&t: &u32| triangles[t as usize].map(|v| positions[v as usize]);
+    let wide = |triangle: [[f32; 3]; 3]| triangle.map(|p| Vec3::from(p).as_dvec3());
+    let closed: Vec<u32> = (0..count as u32).filter(|&part| is_closed(part as usize)).collect();
+    let of = |&number: &u32| {
+        let of = &members[number as usize];
+        let volume = SignedVolume::of(of.iter().map(|t| wide(corners(t))));
+        ClosedComponent { number, first: of[0], volume, standing: Standing::AsFiled }
     };
-    let mut gathered: Vec<Vec<[[f32; 3]; 3]>> = (0..parts.kinds.len())
-        .map(|part| {
-            Vec::with_capacity(if wanted(part as u32) {
-                parts.kinds[part].triangle_count
-            } else {
-                0
+    let mut components: Vec<ClosedComponent> = closed.iter().map(of).collect();
+    if components.iter().any(|of| of.volume.is_negative()) {
+        let faces_in: Vec<bool> = components.iter().map(|of| of.volume.is_negative()).collect();
+        let surroundings =
+            Surroundings::new(positions, triangles, parts, (&closed, &faces_in), &members);
+        let standings: Vec<Standing> =
+            (0..closed.len()).map(|i| surroundings.standing(i, &faces_in)).collect();
+        components.iter_mut().zip(standings).for_each(|(of, standing)| of.standing = standing);
+    }
+    components
+}
+
+/// What each closed component meets, and which others have it inside.
+struct Surroundings {
+    /// For each closed component, by its place among them.
+    of: Vec<Surrounding>,
+}
+
+struct Surrounding {
+    /// It crosses itself or another component, or its nesting is not proved.
+    is_doubtful: bool,
+    /// Closed components that have it inside.
+    containers: Vec<usize>,
+    /// Components that touch it in points: closed ones, by their places among the closed ones.
+    touching: Vec<Option<usize>>,
+    /// It faces inwards, and its box lies in that of an open component.
+    may_be_in_open: bool,
+}
+
+impl Surroundings {
+    fn new(
+        positions: &[[f32; 3]],
+        triangles: &[[u32; 3]],
+        parts: &Components,
+        (closed, faces_in): (&[u32], &[bool]),
+        members: &[Vec<u32>],
+    ) -> Self {
+        let wide: Vec<DVec3> = positions.iter().map(|&p| Vec3::from(p).as_dvec3()).collect();
+        let mut crossing = vec![false; parts.kinds.len()];
+        let mut crosses_itself = vec![false; parts.kinds.len()];
+        let mut touching: Vec<[u32; 2]> = Vec::new();
+        for (pair, contact) in contacts(&faces(&wide, triangles), usize::MAX) {
+            let [a, b] = pair.map(|t| parts.part[t as usize]);
+            if contact != Contact::Point {
+                crossing[a as usize] = true;
+                crossing[b as usize] = true;
+                crosses_itself[a as usize] |= a == b;
+            } else if a != b {
+                touching.extend([[a, b], [b, a]]);
+            }
+        }
+        touching.sort_unstable();
+        touching.dedup();
+        let bounds: Vec<Bounds> = members
+            .iter()
+            .map(|of| {
+                let corners = of.iter().flat_map(|&t| triangles[t as usize]);
+                corners.map(|v| wide[v as usize]).fold(Bounds::EMPTY, Bounds::with)
             })
-        })
-        .collect();
-    for (t, (triangle, &part)) in triangles.iter().zip(&parts.part).enumerate() {
-        if wanted(part) {
-            let first = &mut firsts[part as usize];
-            *first = (*first).min(t as u32);
-            gathered[part as usize].push(triangle.map(|v| positions[v as usize]));
+            .collect();
+        let place_of = |part: u32| closed.binary_search(&part).ok();
+        let open: Vec<usize> =
+            (0..members.len()).filter(|&part| place_of(part as u32).is_none()).collect();
+        let corners_of = |part: u32| {
+            let corners = |&t: &u32| triangles[t as usize].map(|v| positions[v as usize]);
+            members[part as usize].iter().map(corners)
+        };
+        let enclosures = Enclosures::new(closed.iter().map(|&part| corners_of(part).collect()));
+        let holds = |part: usize, other: usize| bounds[part].contains(&bounds[other]);
+        let self_crossing: Vec<usize> =
+            closed.iter().map(|&of| of as usize).filter(|&of| crosses_itself[of]).collect();
+        let of = |(i, &part): (usize, &u32)| {
+            let number = part as usize;
+            let inner = inner_points(corners_of(part)).find(|&p| !enclosures.touches(p, Some(i)));
+            let containers = inner.map(|p| enclosures.around(p, Some(i))).unwrap_or_default();
+            // A surface that crosses itself may have a point inside of which the parity is even.
+            let is_unclear =
+                self_crossing.iter().any(|&other| other != number && holds(other, number));
+            Surrounding {
+                is_doubtful: crossing[number] || inner.is_none() || is_unclear,
+                containers,
+                touching: with(&touching, part).map(place_of).collect(),
+                may_be_in_open: faces_in[i] && open.iter().any(|&other| holds(other, number)),
+            }
+        };
+        Self { of: closed.iter().enumerate().map(of).collect() }
+    }
+
+    /// Whether a component is proved to lie in no other, and nothing touches it from without.
+    fn is_alone(&self, i: usize) -> bool {
+        let Surrounding { is_doubtful, containers, touching, may_be_in_open } = &self.of[i];
+        let is_within = |other: &Option<usize>| {
+            other.is_some_and(|other| {
+                !self.of[other].is_doubtful && self.of[other].containers.contains(&i)
+            })
+        };
+        !is_doubtful && !may_be_in_open && containers.is_empty() && touching.iter().all(is_within)
+    }
+
+    fn standing(&self, i: usize, faces_in: &[bool]) -> Standing {
+        let faces_in = |i: usize| faces_in[i];
+        let Surrounding { is_doubtful, containers, .. } = &self.of[i];
+        let doubt = match faces_in(i) {
+            true => Standing::Doubt { may_be_cavity: !containers.is_empty() },
+            false => Standing::AsFiled,
+        };
+        if *is_doubtful {
+            return doubt;
+        }
+        if containers.is_empty() {
+            return match (faces_in(i), self.is_alone(i)) {
+                (true, true) => Standing::InsideOut,
+                _ => doubt,
+            };
+        }
+        let mut outermost = containers.iter().filter(|&&of| self.of[of].containers.is_empty());
+        match (outermost.next(), outermost.next()) {
+            (Some(&of), None) if faces_in(of) && self.is_alone(of) => Standing::InInsideOut,
+            (Some(&of), None) if faces_in(i) && !faces_in(of) => Standing::Cavity,
+            _ => doubt,
         }
     }
-    let solids: Vec<(u32, Enclosure)> = gathered
-        .into_iter()
-        .enumerate()
-        .filter(|(_, t)| !t.is_empty())
-        .map(|(number, t)| (number as u32, Enclosure::new(t)))
-        .collect();
-    let wide = |triangle: &[[f32; 3]; 3]| triangle.map(|p| Vec3::from(p).as_dvec3());
-    let volumes: Vec<SignedVolume> =
-        solids.iter().map(|(_, part)| SignedVolume::of(part.triangles.iter().map(wide))).collect();
-    let containers: Vec<Vec<usize>> = solids
-        .iter()
-        .enumerate()
-        .map(|(i, (_, inner))| {
-            (0..solids.len()).filter(|&j| j != i && solids[j].1.contains(inner)).collect()
-        })
-        .collect();
-    solids
-        .iter()
-        .enumerate()
-        .map(|(i, &(number, _))| {
-            let outermost =
-                containers[i].iter().copied().find(|&j| containers[j].is_empty()).unwrap_or(i);
-            ClosedComponent {
-                number,
-                first: firsts[number as usize],
-                volume: volumes[i],
-                inside_out: containers[outermost].is_empty() && volumes[outermost].is_negative(),
-                nested: !containers[i].is_empty(),
-            }
-        })
-        .collect()
+}
+
+/// The seconds of the pairs, which are sorted, with a first.
+fn with(pairs: &[[u32; 2]], first: u32) -> impl Iterator<Item = u32> {
+    let from = pairs.partition_point(|pair| pair[0] < first);
+    pairs[from..].iter().take_while(move |pair| pair[0] == first).map(|pair| pair[1])
 }

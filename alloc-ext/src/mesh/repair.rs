@@ -4,7 +4,7 @@ use super::caps::remove_caps;
 use super::duplicate::{drop_duplicates, retain};
 use super::edges::EdgeTable;
 use super::filed::Filed;
-use super::outward::closed_components;
+use super::outward::{ClosedComponent, Standing, closed_components};
 use super::read::check;
 use super::report::RepairReport;
 use super::round::round;
@@ -24,15 +24,16 @@ use super::{Mesh, MeshError, RawMesh};
 /// - keep [`Wire`]s: segments and points of removed triangles that no edge covers;
 /// - split vertices in which several fans meet;
 /// - wind each component consistently, as most of its triangles are;
-/// - turn closed outermost components that are inside out, with all components inside them;
+/// - turn closed outermost components that are proved to be inside out, with all components inside
+///   them ([`Mesh::turned`] remembers which triangles);
 /// - drop unreferenced vertices.
 ///
 /// Any triangle soup is accepted. Holes, non-manifold edges and one-sided components stay, for
 /// [`require_closed_manifold`](super::require_closed_manifold) to refuse. A second repair changes
 /// nothing but, perhaps, the order of the copies of split vertices.
 ///
-/// Cost: linear in the triangles, but for the search for nested components: at worst components ×
-/// triangles, in practice a small fraction.
+/// Cost: linear in the triangles. If a closed component faces inwards, a search for the contacts of
+/// all faces too, n log n.
 ///
 /// # Errors
 /// A coordinate that is not finite or beyond `f32`, a mesh wholly below `f32`'s normal range, an
@@ -161,6 +162,7 @@ fn wind(
     components.rewind.clone()
 }
 
+/// Turns components that are inside out, and flips what `turned` says of their triangles.
 fn turn_outwards(
     positions: &[[f32; 3]],
     triangles: &mut [[u32; 3]],
@@ -170,21 +172,22 @@ fn turn_outwards(
     report: &mut RepairReport,
 ) {
     let mut turn = vec![false; components.kinds.len()];
-    for component in closed_components(positions, triangles, components) {
-        turn[component.number as usize] = component.inside_out;
-        let (number, at) = (
-            source[component.first as usize],
-            positions[triangles[component.first as usize][0] as usize],
-        );
-        if !component.nested && component.inside_out {
-            report.turned_components.triangle(number, at);
-        }
-        // Its winding after turning.
-        let faces_inwards =
-            component.volume.is_negative() != component.inside_out && !component.volume.is_zero();
-        if component.nested && faces_inwards {
-            report.cavities.triangle(number, at);
-        }
+    for ClosedComponent { number, first, volume, standing } in
+        closed_components(positions, triangles, components)
+    {
+        turn[number as usize] = standing.is_turned();
+        let finding = match standing {
+            Standing::InsideOut => &mut report.turned_components,
+            Standing::Cavity => &mut report.cavities,
+            // A cavity of the whole, once that is turned.
+            Standing::InInsideOut if !volume.is_negative() && !volume.is_zero() => {
+                &mut report.cavities
+            }
+            Standing::Doubt { .. } => &mut report.doubtful,
+            Standing::AsFiled | Standing::InInsideOut => continue,
+        };
+        let first = first as usize;
+        finding.triangle(source[first], positions[triangles[first][0] as usize]);
     }
     for ((triangle, turned), &part) in triangles.iter_mut().zip(turned).zip(&components.part) {
         if turn[part as usize] {

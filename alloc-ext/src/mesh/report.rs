@@ -96,6 +96,9 @@ pub struct RepairReport {
     pub turned_components: Finding,
     /// Closed components that lie inside another and face inwards: cavities, left as they are.
     pub cavities: Finding,
+    /// Closed components that face inwards, and may be cavities or inside out: they cross or touch
+    /// others or themselves, or lie in the box of an open one. They keep the file's winding.
+    pub doubtful: Finding,
     /// One-sided components; left as they are, refused for a hull. The place is a triangle at which
     /// the winding fails.
     pub non_orientable: Finding,
@@ -107,7 +110,7 @@ pub struct RepairReport {
 impl RepairReport {
     /// All findings, each with a key for JSON, and a noun and a predicate for text.
     #[must_use]
-    pub fn findings(&self) -> [(&'static str, [&'static str; 2], &Finding); 13] {
+    pub fn findings(&self) -> [(&'static str, [&'static str; 2], &Finding); 14] {
         [
             ("welded", ["vertex", "welded to an equal one"], &self.welded),
             (
@@ -129,6 +132,16 @@ impl RepairReport {
             ("rewound", ["triangle", "rewound to agree with the component around"], &self.rewound),
             ("turned_components", ["inside-out component", "turned"], &self.turned_components),
             ("cavities", ["cavity", "found and kept"], &self.cavities),
+            (
+                "doubtful",
+                [
+                    "component",
+                    "facing inwards kept so: it crosses or touches others or itself, or lies in \
+                     the box of an open one, so that it may be a cavity or inside out; winding \
+                     numbers decide its sides (--for closest,winding)",
+                ],
+                &self.doubtful,
+            ),
             ("non_orientable", ["one-sided component", "found"], &self.non_orientable),
         ]
     }
@@ -142,7 +155,8 @@ impl RepairReport {
         nothing_left_out
             && self.polygons.unsound.count == 0
             && self.findings().iter().all(|(key, _, finding)| {
-                finding.count == 0 || matches!(*key, "welded" | "unreferenced" | "cavities")
+                finding.count == 0
+                    || matches!(*key, "welded" | "unreferenced" | "cavities" | "doubtful")
             })
     }
 

@@ -1,6 +1,7 @@
 //! Mesh files: reading and repair.
 
 mod formats;
+mod orientation;
 mod polygons;
 mod read;
 mod repair;
