@@ -3,7 +3,7 @@
 use super::input::Input;
 use crate::generate::{Triangles, cube, groove_block, icosphere, torus};
 use meshsweep::builder::For;
-use meshsweep::check::{Against, Outcome, verify};
+use meshsweep::check::{Against, Outcome, verify, verify_repair};
 use meshsweep::load::Source;
 use meshsweep::mesh::RawMesh;
 use meshsweep::surface::VertexBits;
@@ -44,7 +44,9 @@ pub fn build(data: &[u8]) {
             return;
         }
     };
-    let loaded = Source::of(mesh, None).and_then(Source::repaired).expect("it was just built");
+    let loaded = Source::of(mesh.clone(), None).and_then(Source::repaired).expect("just built");
+    let of_repair = verify_repair(&mesh, loaded.input());
+    assert_eq!(of_repair.outcome, Outcome::Proved, "{of_repair:?}");
     for finding in verify(built.bytes(), Against::Mesh(loaded.input(), &[])) {
         assert_eq!(finding.outcome, Outcome::Proved, "{finding:?}");
     }
