@@ -7,17 +7,17 @@ use super::moments::moments;
 use super::nodes::fit::{axis_aligned_boxes, shared_frames, unturned_frames};
 use super::nodes::order::topology;
 use super::store::{OnGrid, store};
+use super::stored_triangles::StoredTriangles;
 use super::{sides, source};
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::{Input, Mesh, Wire};
 use crate::progress::Watch;
-use crate::surface::{EdgeTable, ends, require_valid};
 use glam::DVec3;
 use meshsweep_core::SectionKind;
 use meshsweep_core::internal::bvh::format::BvhHeader;
 use meshsweep_core::internal::bvh::format::layout::{
-    BVH_CLOSED, BVH_F32, BVH_SIDES_LOST, LINK_BYTES,
+    BVH_CLOSED, BVH_F32, BVH_SIDES_LOST, BVH_TURNED, LINK_BYTES,
 };
 use meshsweep_core::internal::geom::fan::WIDTH;
 use meshsweep_core::internal::num::up_to_f32;
@@ -179,16 +179,16 @@ pub(super) fn build_in(
     is_quick: bool,
     watch: Watch<'_>,
 ) -> Result<(Sections, TreeReport), BuildError> {
-    let mesh = input.mesh;
-    require_valid(mesh, MAX_TRIANGLES)?;
-    let triangles = mesh.triangles.len() + mesh.wires.len();
     let started = Instant::now();
-    let edges = EdgeTable::new(mesh.positions.len(), &mesh.triangles);
-    let Vertices { grid, flags, why_f32 } = store_vertices(input, &edges, options, is_quick);
+    let stored = StoredTriangles::of(input.mesh, options)?;
+    let (mesh, edges) = (&*stored.mesh, &stored.edges);
+    let input = Input { mesh, ..input };
+    let triangles = mesh.triangles.len() + mesh.wires.len();
+    let Vertices { grid, mut flags, why_f32 } = store_vertices(input, &stored, options, is_quick);
     let is_f32 = flags & BVH_F32 != 0;
     let effort = if is_quick { Effort::QUICK } else { Effort::FULL };
     let part = watch.part(0.0, PACKED);
-    let mut leaves = fans::pack(&mesh.triangles, &edges, &grid.positions, effort, part)?;
+    let mut leaves = fans::pack(&mesh.triangles, edges, &grid.positions, effort, part)?;
     leaves.extend((mesh.triangles.len() as u32..).zip(&mesh.wires).map(wire_leaf));
     let points: Vec<Vec<DVec3>> = leaves.par_iter().map(|leaf| points(leaf, &grid)).collect();
     let views: Vec<&[DVec3]> = points.iter().map(Vec::as_slice).collect();
@@ -211,19 +211,22 @@ pub(super) fn build_in(
     }
     sections.push((SectionKind::TreeFans, encode::fans(&topology, &leaves, &grid, is_f32)));
     let sources: Vec<u32> = mesh.all_sources().collect();
-    let numbers: Vec<u32> = topology
-        .leaf_order
-        .iter()
-        .flat_map(|&item| leaves[item as usize].triangles())
-        .map(|t| sources[t as usize])
-        .collect();
+    let in_order =
+        || topology.leaf_order.iter().flat_map(|&leaf| leaves[leaf as usize].triangles());
+    let numbers: Vec<u32> = in_order().map(|t| sources[t as usize]).collect();
     sections.push((SectionKind::TreeSource, source::pack(&numbers)));
     if options.cull {
         sections.push((SectionKind::TreeCones, cones(&topology, &leaves, &grid.positions)));
     }
     if options.winding {
-        let bytes = moments(mesh, &edges, &topology, &leaves, &grid, watch.part(BOXED, 1.0))?;
+        let bytes = moments(mesh, edges, &topology, &leaves, &grid, watch.part(BOXED, 1.0))?;
         sections.push((SectionKind::TreeMoments, bytes));
+    }
+    let has_sides = flags & (BVH_CLOSED | BVH_SIDES_LOST) == BVH_CLOSED;
+    if has_sides && options.stores_frames() && stored.turned.contains(&true) {
+        flags |= BVH_TURNED;
+        let is_turned = |t: u32| stored.turned.get(t as usize).is_some_and(|&is| is);
+        sections.push((SectionKind::TreeTurned, encode::bits(in_order().map(is_turned))));
     }
     let header = header(mesh, &grid, &leaves, flags, topology.waiting_entries);
     let header = BvhHeader { nodes: topology.nodes.len() as u32, ..header };
@@ -297,16 +300,16 @@ struct Vertices {
 
 /// Stores the vertices in the format that is asked for, or in f32 if the grid is too coarse or
 /// loses sides. A quick build does not test sides: its tree stores f32, and only steers a search.
+/// Sides are those of the triangles as repair wound them, which have the stored vertices.
 fn store_vertices(
     input: Input<'_>,
-    edges: &EdgeTable,
+    &StoredTriangles { is_closed, sided, .. }: &StoredTriangles<'_>,
     options: &TreeOptions,
     is_quick: bool,
 ) -> Vertices {
-    let mesh = input.mesh;
-    let is_closed = !mesh.has_merged_walls && is_closed(&mesh.triangles, edges);
     let flags = |grid: &OnGrid, is_f32: bool| {
-        let is_lost = is_closed && !is_quick && !sides::are_kept(mesh, grid);
+        let are_kept = || sided.is_some_and(|mesh| is_quick || sides::are_kept(mesh, grid));
+        let is_lost = is_closed && !are_kept();
         [(is_closed, BVH_CLOSED), (is_f32, BVH_F32), (is_lost, BVH_SIDES_LOST)]
             .into_iter()
             .fold(0, |flags, (is_set, flag)| if is_set { flags | flag } else { flags })
@@ -381,19 +384,6 @@ fn header(
         low: short(low),
         high: short(high),
     }
-}
-
-/// Whether triangles run through every edge as often in one direction as in the other. Then the
-/// surface bounds a volume. Wires bound none.
-fn is_closed(triangles: &[[u32; 3]], edges: &EdgeTable) -> bool {
-    if triangles.is_empty() {
-        return false;
-    }
-    let is_up = |&&(_, half_edge): &&(u32, u32)| {
-        let [from, to] = ends(triangles, half_edge);
-        from < to
-    };
-    edges.edges().all(|edge| 2 * edge.iter().filter(is_up).count() == edge.len())
 }
 
 #[cfg(test)]

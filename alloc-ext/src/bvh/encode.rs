@@ -82,6 +82,20 @@ pub(super) fn links(topology: &Topology, leaves: &[FanLeaf]) -> Vec<u8> {
     out
 }
 
+/// A bit for each item, least bit of a byte first.
+pub(super) fn bits(items: impl Iterator<Item = bool>) -> Vec<u8> {
+    let mut out = Vec::new();
+    for (at, is_set) in items.enumerate() {
+        if at % 8 == 0 {
+            out.push(0);
+        }
+        if let Some(last) = out.last_mut() {
+            *last |= u8::from(is_set) << (at % 8);
+        }
+    }
+    out
+}
+
 /// Vertices of all leaves, in leaf order.
 pub(super) fn fans(
     topology: &Topology,

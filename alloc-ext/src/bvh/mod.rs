@@ -1,7 +1,7 @@
 //! The box tree: triangle fans, an 8-wide tree over them, quantised boxes, and their bytes.
 //!
 //! ```text
-//! mesh ─ store (grid) ─ fans (leaves) ─ nodes (topology, boxes) ─ encode ─ sections
+//! mesh ─ stored_triangles ─ store (grid) ─ fans (leaves) ─ nodes (topology, boxes) ─ encode ─ sections
 //! ```
 //!
 //! Any triangle soup will do. The mesh need not be closed or manifold.
@@ -17,6 +17,7 @@ mod nodes;
 mod sides;
 mod source;
 mod store;
+mod stored_triangles;
 
 pub use batch::closest_points;
 pub(crate) use build::build_watched;

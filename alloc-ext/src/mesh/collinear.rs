@@ -4,7 +4,7 @@ use robust::{Coord, orient2d};
 
 /// True if the three points lie on one line (or coincide), decided exactly: a triangle has zero
 /// area if and only if its projections along all three axes have.
-pub(super) fn collinear(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> bool {
+pub(crate) fn collinear(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> bool {
     [(0, 1), (1, 2), (2, 0)].iter().all(|&(i, j)| {
         let p = |v: [f32; 3]| Coord { x: v[i], y: v[j] };
         orient2d(p(a), p(b), p(c)) == 0.0

@@ -54,6 +54,7 @@ mod write_ply;
 use glam::{DVec3, Vec3};
 use std::path::{Path, PathBuf};
 
+pub(crate) use collinear::collinear;
 pub(crate) use edges::{EdgeTable, UnionFind, ends};
 pub use error::{EdgePlace, MeshError};
 pub use filed::Filed;

@@ -26,7 +26,7 @@ impl Wire {
     }
 
     /// The points of a triangle without area.
-    pub(super) fn of(positions: &[[f32; 3]], triangle: [u32; 3], source: u32) -> Self {
+    pub(crate) fn of(positions: &[[f32; 3]], triangle: [u32; 3], source: u32) -> Self {
         let [a, b, c] = triangle;
         let ends = if a == b || b == c {
             [a, c]

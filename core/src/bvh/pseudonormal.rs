@@ -21,7 +21,7 @@ use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use super::side_search::Search;
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
-use crate::bvh::format::FanLeaf;
+use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::tolerance::{
     EXACT_INTEGERS, SIGN_COSINE, SIGN_TRIPLE_PRODUCT, TRUSTED_DIRECTION_SQ, U32,
 };
@@ -38,6 +38,17 @@ pub(crate) enum ViewedSide {
     Unclear = 2,
     /// It has no area, certainly.
     Flat = 3,
+}
+
+impl ViewedSide {
+    /// The side that is seen of the same triangle wound the other way.
+    pub(crate) fn turned(self) -> ViewedSide {
+        match self {
+            ViewedSide::Front => ViewedSide::Back,
+            ViewedSide::Back => ViewedSide::Front,
+            none => none,
+        }
+    }
 }
 
 #[inline(always)]
@@ -238,20 +249,28 @@ impl Sum {
     }
 }
 
-/// Visits all triangles of a feature.
-struct Star<F> {
+/// Visits all triangles of a feature, each with a factor of its normal: −1 if sides are those of
+/// the triangle turned.
+struct Star<'t, F> {
+    tree: &'t Bvh<'t>,
     limit: u32,
     each: F,
 }
 
-impl<F: FnMut(&FanLeaf<'_>, usize)> LeafVisitor for Star<F> {
+impl<F: FnMut(&FanLeaf<'_>, usize, f32)> LeafVisitor for Star<'_, F> {
     fn limit(&self) -> u32 {
         self.limit
     }
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
+        let turned = self.tree.turned;
+        let first = match turned.is_empty() {
+            true => 0,
+            false => self.tree.links(visit.node)?.triangle(visit.child),
+        };
         for lane in 0..visit.leaf.shape().triangles() {
-            (self.each)(&visit.leaf, lane);
+            let is_turned = turned.contains(first.wrapping_add(lane as u32));
+            (self.each)(&visit.leaf, lane, if is_turned { -1.0 } else { 1.0 });
         }
         Some(true)
     }
@@ -276,7 +295,7 @@ fn about_vertex(
     }
     let u = s * (1.0 / far);
     let mut sum = Sum::default();
-    let each = |leaf: &FanLeaf<'_>, lane: usize| {
+    let each = |leaf: &FanLeaf<'_>, lane: usize, turn: f32| {
         let (e, g) = match leaf.corners(lane) {
             [a, b, c] if a == vertex => (b - a, c - a),
             [a, b, c] if b == vertex => (c - b, a - b),
@@ -309,9 +328,9 @@ fn about_vertex(
                 f32::INFINITY
             }
         };
-        sum.add(normal, size, angle, eta);
+        sum.add(normal * turn, size, angle, eta);
     };
-    if !search.descend(candidates.query, &mut Star { limit, each })? {
+    if !search.descend(candidates.query, &mut Star { tree: search.tree, limit, each })? {
         return Ok(None);
     }
     Ok(sum.side(s, VERTEX_FEATURE_ERROR, 0.0))
@@ -337,7 +356,7 @@ fn about_edge(
     }
     let u = across * (1.0 / far);
     let mut sum = Sum::default();
-    let each = |leaf: &FanLeaf<'_>, lane: usize| {
+    let each = |leaf: &FanLeaf<'_>, lane: usize, turn: f32| {
         let corners = leaf.corners(lane);
         if !corners.contains(&a) || !corners.contains(&b) {
             return;
@@ -357,9 +376,9 @@ fn about_edge(
         }
         let noise = SIGN_COSINE * U32 * (norm_1(leg) / height + norm_1(s) / far);
         let reached = inward.dot(u) / height + noise;
-        sum.add(normal, size, 1.0, if reached > 0.0 { reached } else { 0.0 });
+        sum.add(normal * turn, size, 1.0, if reached > 0.0 { reached } else { 0.0 });
     };
-    if !search.descend(candidates.query, &mut Star { limit, each })? {
+    if !search.descend(candidates.query, &mut Star { tree: search.tree, limit, each })? {
         return Ok(None);
     }
     Ok(sum.side(across, EDGE_FEATURE_ERROR, norm_1(s)))

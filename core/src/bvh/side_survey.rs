@@ -7,7 +7,7 @@ use super::pseudonormal::{Candidates, ViewedSide, viewed_side};
 use super::side_search::Search;
 use super::triangle_bounds::{limit_of, lower_of_box, witness};
 use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
-use crate::bvh::format::{Bvh, FanLeaf};
+use crate::bvh::format::{Bvh, FanLeaf, TurnedTriangles};
 use crate::num::tolerance::{EMPTY_BALL, EVERYTHING_SQ};
 use crate::num::{lesser, sqrt_approx};
 use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry};
@@ -17,12 +17,15 @@ use glam::Vec3;
 /// distance is left.
 const WAY_TO_NEARER: f32 = 0.9375;
 
-impl Search<'_, '_> {
+impl<'t> Search<'_, 't> {
     /// A survey that knows all triangles with an area that may be the closest of these.
     pub(super) fn survey_with_area<'p>(
         &mut self,
         query: &'p PointQuery,
-    ) -> Result<Survey<'p>, QueryError> {
+    ) -> Result<Survey<'p>, QueryError>
+    where
+        't: 'p,
+    {
         let survey = self.survey(query, Bounding::Any)?;
         let is_known = survey.with_area.distance_sq <= survey.best.distance_sq;
         if is_known || survey.best.is_none() || self.truncated.is_some() {
@@ -36,10 +39,14 @@ impl Search<'_, '_> {
         &mut self,
         query: &'p PointQuery,
         bounding: Bounding,
-    ) -> Result<Survey<'p>, QueryError> {
+    ) -> Result<Survey<'p>, QueryError>
+    where
+        't: 'p,
+    {
         let tree = self.tree;
         let collector = Survey {
             query,
+            turned: tree.turned,
             margin: query.rounding,
             bounding,
             bound_sq: f32::INFINITY,
@@ -99,6 +106,7 @@ enum Bounding {
 /// The triangles near a point.
 pub(super) struct Survey<'p> {
     pub(super) query: &'p PointQuery,
+    turned: TurnedTriangles<'p>,
     pub(super) margin: f32,
     bounding: Bounding,
     /// The least squared distance of a bounding triangle.
@@ -215,6 +223,7 @@ impl TriangleCollector for Survey<'_> {
         }
         self.best.improve(here);
         let facing = viewed_side(leaf, here.lane as usize, seen);
+        let facing = if self.turned.contains(here.number) { facing.turned() } else { facing };
         if facing != ViewedSide::Flat {
             self.with_area.improve(here);
         }

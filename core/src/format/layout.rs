@@ -80,11 +80,13 @@ pub enum SectionKind {
     KeyFrames = 23,
     /// For each node of the box tree the moments of its triangles: for winding numbers.
     TreeMoments = 24,
+    /// For each triangle of the box tree whether its other side tells inside from outside.
+    TreeTurned = 25,
 }
 
 impl SectionKind {
     /// All kinds, in the order in which a writer emits them.
-    pub const ALL: [SectionKind; 23] = [
+    pub const ALL: [SectionKind; 24] = [
         SectionKind::Levels,
         SectionKind::Vertices,
         SectionKind::BaseTriangles,
@@ -103,6 +105,7 @@ impl SectionKind {
         SectionKind::TreeSource,
         SectionKind::TreeCones,
         SectionKind::TreeMoments,
+        SectionKind::TreeTurned,
         SectionKind::Triboxes,
         SectionKind::TightHulls,
         SectionKind::Curves,
@@ -130,7 +133,7 @@ impl SectionKind {
     /// Whether the section belongs to the box tree.
     pub fn is_bvh(self) -> bool {
         let first = !self.is_hull() && (self as u32) < SectionKind::Triboxes as u32;
-        first || self == SectionKind::TreeMoments
+        first || matches!(self, SectionKind::TreeMoments | SectionKind::TreeTurned)
     }
 
     /// Whether the section is for a hull hierarchy that deforms.
@@ -141,6 +144,7 @@ impl SectionKind {
     /// The first minor version with this kind.
     pub fn minor(self) -> u16 {
         match self {
+            SectionKind::TreeTurned => 3,
             SectionKind::TreeMoments => 2,
             _ => u16::from(self.is_deform()),
         }
@@ -187,6 +191,7 @@ impl SectionKind {
             SectionKind::VertexNumbers => "vertex numbers",
             SectionKind::KeyFrames => "key frames",
             SectionKind::TreeMoments => "tree moments",
+            SectionKind::TreeTurned => "tree turned triangles",
         }
     }
 }

@@ -7,6 +7,7 @@ use super::layout::{
 };
 use super::leaf::{FanLeaf, LeafShape};
 use super::moments::NodeMoments;
+use super::turned::TurnedTriangles;
 use super::units::Units;
 use super::view::Bvh;
 use crate::format::layout::SectionKind;
@@ -143,6 +144,7 @@ impl<'a> Bvh<'a> {
             source: Bytes(table.bytes(SectionKind::TreeSource)),
             cones: ok!(table.records(SectionKind::TreeCones)),
             moments: ok!(table.records(SectionKind::TreeMoments)),
+            turned: TurnedTriangles(table.bytes(SectionKind::TreeTurned)),
         })
     }
 
@@ -204,6 +206,14 @@ impl<'a> Bvh<'a> {
         }
         if !self.moments.is_empty() && self.moments.len() != nodes {
             return missing(SectionKind::TreeMoments);
+        }
+        let TurnedTriangles(turned) = self.turned;
+        let may_turn = h.has_sides() && !self.frames.is_empty();
+        if turned.len() != h.turned_bytes() || !(turned.is_empty() || may_turn) {
+            return missing(SectionKind::TreeTurned);
+        }
+        if !self.turned.ends_with_zeros(h.triangles) {
+            return Err(OpenError::Record { section: SectionKind::TreeTurned, index: h.triangles });
         }
         let padding = FAN_PADDING / 6 * h.vertex_bytes();
         let used = h.vertices as usize * h.vertex_bytes();

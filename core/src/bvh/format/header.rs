@@ -1,6 +1,6 @@
 //! The box tree's own header: counts, grid, error bound.
 
-use super::layout::{BVH_BYTES, BVH_CLOSED, BVH_F32, BVH_SIDES_LOST, field};
+use super::layout::{BVH_BYTES, BVH_CLOSED, BVH_F32, BVH_SIDES_LOST, BVH_TURNED, field};
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError, ok};
 use glam::Vec3;
@@ -11,7 +11,7 @@ use glam::Vec3;
 /// coordinate on the grid is a u16 plus `grid_origin`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BvhHeader {
-    /// [`BVH_CLOSED`], [`BVH_F32`] and [`BVH_SIDES_LOST`].
+    /// [`BVH_CLOSED`], [`BVH_F32`], [`BVH_SIDES_LOST`] and [`BVH_TURNED`].
     pub flags: u8,
     /// Local coordinate = grid coordinate × 2^this.
     pub grid_exponent: i32,
@@ -49,6 +49,11 @@ impl BvhHeader {
         self.flags & BVH_CLOSED != 0
     }
 
+    /// Bytes of the section of turned triangles: a bit for each triangle, or none.
+    pub(super) const fn turned_bytes(&self) -> usize {
+        if self.flags & BVH_TURNED != 0 { self.triangles.div_ceil(8) as usize } else { 0 }
+    }
+
     /// Whether leaf vertices are f32.
     pub const fn is_f32(&self) -> bool {
         self.flags & BVH_F32 != 0
@@ -80,7 +85,7 @@ impl BvhHeader {
         let reserved = head.is_zero(field::RESERVED, 1)
             && head.is_zero(field::RESERVED_BESIDE_FLAGS, 2)
             && head.is_zero(field::RESERVED_AT_END, 4);
-        if !reserved || flags & !(BVH_CLOSED | BVH_F32 | BVH_SIDES_LOST) != 0 {
+        if !reserved || flags & !(BVH_CLOSED | BVH_F32 | BVH_SIDES_LOST | BVH_TURNED) != 0 {
             return Err(OpenError::Reserved);
         }
         Ok(BvhHeader {

@@ -10,6 +10,7 @@
 //! | `leaf_lanes` | a leaf's fans a register at a time, on vector targets |
 //! | `cone` | the bytes of a leaf's normal cone |
 //! | `moments` | the bytes of a node's moments |
+//! | `turned` | the bits of triangles whose other side tells inside from outside |
 //! | `check` | the check of `Bvh::open` |
 
 mod check;
@@ -20,6 +21,7 @@ mod leaf;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod leaf_lanes;
 mod moments;
+mod turned;
 mod units;
 mod view;
 
@@ -28,5 +30,6 @@ pub use leaf::{CORNERS, FanLeaf, GridRing, LeafShape, RING, lanes_of, slots};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub(crate) use leaf_lanes::LanePoint;
 pub use moments::NodeMoments;
+pub(crate) use turned::TurnedTriangles;
 pub(crate) use units::{Units, at_least, at_most};
 pub use view::{Bvh, BvhChild, Links};
