@@ -219,18 +219,22 @@ fn of_winding(Loaded { mesh, report, .. }: &Loaded) -> Vec<String> {
     texts
 }
 
-/// Whether the volume between the triangles and the middle of all vertices is clearly negative.
+/// Whether the volume between the file's triangles and the middle of all vertices is clearly
+/// negative.
 fn faces_inwards(mesh: &Mesh) -> bool {
+    let triangles: Vec<[[f32; 3]; 3]> = match &mesh.filed {
+        Some(filed) => (0..filed.triangles.len()).map(|t| filed.corners(t)).collect(),
+        None => (0..mesh.triangles.len()).filter_map(|t| mesh.corners(t)).collect(),
+    };
     let count = mesh.positions.len().max(1) as f64;
     let middle =
         [0, 1, 2].map(|k| mesh.positions.iter().map(|p| f64::from(p[k])).sum::<f64>() / count);
-    let triple = |triangle: usize| {
-        let Some(corners) = mesh.corners(triangle) else { return 0.0 };
+    let triple = |corners: &[[f32; 3]; 3]| {
         let [a, b, c] = corners.map(|p| [0, 1, 2].map(|k| f64::from(p[k]) - middle[k]));
         a[0] * (b[1] * c[2] - b[2] * c[1])
             + a[1] * (b[2] * c[0] - b[0] * c[2])
             + a[2] * (b[0] * c[1] - b[1] * c[0])
     };
-    let terms = || (0..mesh.triangles.len()).map(triple);
+    let terms = || triangles.iter().map(triple);
     terms().sum::<f64>() < -0.01 * terms().map(f64::abs).sum::<f64>()
 }

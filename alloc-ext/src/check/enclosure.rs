@@ -23,7 +23,8 @@ mod winding;
 
 use super::manifold::Manifold;
 pub(crate) use distance::point_is_far;
-use meeting::{apart, area_free, sharing_apart};
+pub(crate) use meeting::area_free;
+use meeting::{apart, sharing_apart};
 pub(crate) use solid::check_solid;
 pub(crate) use surface::Corners;
 pub use surface::Surface;

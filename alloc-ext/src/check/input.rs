@@ -35,9 +35,13 @@ pub(crate) type ByIntegers = usize;
 impl<'a> Given<'a> {
     /// `scale_exponent` is that of the blob's header.
     pub(crate) fn new(input: Input<'a>, scale_exponent: i32) -> Self {
+        Self::of(input.mesh, [input.mesh.rounding, input.moved], scale_exponent)
+    }
+
+    /// A mesh whose vertices were moved by no more than the sum of `moved`, input units.
+    pub(crate) fn of(mesh: &'a Mesh, moved: [f64; 2], scale_exponent: i32) -> Self {
         let scale = 2f64.powi(-scale_exponent);
-        let moved = vec![input.mesh.rounding * scale, input.moved * scale];
-        Self { mesh: input.mesh, scale, moved }
+        Self { mesh, scale, moved: moved.map(|moved| moved * scale).to_vec() }
     }
 
     /// Place of a vertex, local frame: exact.

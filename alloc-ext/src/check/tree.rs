@@ -7,6 +7,7 @@
 //! stored numbers; and no frame makes a distance longer. Moments are those of the triangles below,
 //! and normals lie in their cones.
 
+mod chosen;
 mod cones;
 mod contain;
 mod moments;
@@ -17,6 +18,7 @@ mod surface;
 use super::enclosure::Surface;
 use super::input::{Given, Stored};
 use crate::mesh::{Input, Mesh};
+use chosen::Chosen;
 use parse::TreeBlob;
 pub use proof::TreeProof;
 use std::collections::HashMap;
@@ -36,9 +38,14 @@ pub fn check_tree(bytes: &[u8], mesh: &Mesh) -> Result<TreeProof, String> {
 pub(crate) fn prove_tree(bytes: &[u8], input: Input<'_>) -> Result<TreeProof, String> {
     let tree = TreeBlob::parse(bytes)?;
     let mut proof = boxes(&tree)?;
-    let given = Given::new(input, tree.scale_exponent);
-    let corners = surface::triangles(&tree, &given, &mut proof)?;
-    surface::closed(&tree, input.mesh)?;
+    let chosen = Chosen::of(&tree, input.mesh);
+    // What moved the mesh's vertices moved the file's.
+    let rounding = input.mesh.rounding;
+    let moved = [rounding, input.moved];
+    let given = |mesh| Given::of(mesh, moved, tree.scale_exponent);
+    let corners = surface::triangles(&tree, &given(&chosen.mesh), tree.triangles(), &mut proof)?;
+    surface::closed(&tree, &chosen)?;
+    surface::turned(&tree, &chosen, given)?;
     surface::sides(&tree, &corners)?;
     measures(&tree, &corners, &mut proof)?;
     Ok(proof)

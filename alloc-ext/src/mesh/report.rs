@@ -129,8 +129,16 @@ impl RepairReport {
             ),
             ("unreferenced", ["unreferenced vertex", "dropped"], &self.unreferenced),
             ("split_vertices", ["copy", "made of non-manifold vertices"], &self.split_vertices),
-            ("rewound", ["triangle", "rewound to agree with the component around"], &self.rewound),
-            ("turned_components", ["inside-out component", "turned"], &self.turned_components),
+            (
+                "rewound",
+                ["triangle", "rewound for sides only, to agree with the component around"],
+                &self.rewound,
+            ),
+            (
+                "turned_components",
+                ["inside-out component", "turned for sides only"],
+                &self.turned_components,
+            ),
             ("cavities", ["cavity", "found and kept"], &self.cavities),
             (
                 "doubtful",

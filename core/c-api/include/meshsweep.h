@@ -103,7 +103,8 @@ enum {
     MSW_ENDED_RESOLUTION = 5  /* stored precision or rounding leaves it undecided */
 };
 
-/* Which sides of triangles a segment hits. */
+/* Which sides of triangles a segment hits. From its front a triangle's corners run counter-clockwise,
+ * in the order of the input file. */
 enum { MSW_FACING_BOTH = 0, MSW_FACING_FRONT = 1, MSW_FACING_BACK = 2 };
 
 /* Where a hull is refined. */
@@ -229,7 +230,7 @@ typedef struct {
 } msw_signed;
 
 typedef struct {
-    msw_interval number; /* the winding number of the mesh as the builder repaired it */
+    msw_interval number; /* the winding number of the input file's triangles */
     int32_t side;        /* MSW_SIDE_...: inside above 1/2, outside below */
     int32_t reason;      /* MSW_REASON_... */
     int32_t ended;       /* MSW_ENDED_... */
@@ -381,9 +382,9 @@ int32_t msw_signed_distance(const msw_model *model, const float point[3],
 /* How often the surface encloses `point`: its generalised winding number. The mesh need not be
  * closed: the side is that of the surface as a whole. Build --for closest,winding.
  *
- * The number is nearly 1 inside and nearly 0 outside, and between them in a hole. Components that
- * overlap are united, if they are wound alike. An open mesh that is inside out is outside
- * everywhere. The search ends as soon as the side is decided and the interval is no wider than
+ * The number is nearly 1 inside and nearly 0 outside, and between them in a hole. It is that of all
+ * triangles of the input file, as wound there. Components that overlap or share walls are united, if
+ * they are wound alike. Every point is outside of a mesh that is inside out. The search ends as soon as the side is decided and the interval is no wider than
  * budget->absolute, a pure number here; budget->relative is ignored. The side is undecided within
  * some ten surface errors of the surface, and where the number is 1/2.
  * MSW_ERROR_NOT_SERVED: the blob was built without --for winding.
@@ -405,7 +406,8 @@ int32_t msw_within(const msw_model *model, const float point[3], float distance,
                    msw_within_answer *answer);
 
 /* The first common point of the segment from `a` to `b` and the surface. `facing` is one of
- * MSW_FACING_...: back faces, or front faces, may be left out. Of the budget only `steps` matters.
+ * MSW_FACING_...: back faces, or front faces, may be left out, by the input file's winding. Of the
+ * budget only `steps` matters.
  *
  * MSW_NO: no point of the segment lies on the mesh. MSW_YES: it meets the mesh, and t contains the
  * parameter of the first common point. A segment in a triangle's plane, of no length, or through a

@@ -25,6 +25,9 @@ impl Bvh<'_> {
     /// Vertices that rounding to f32, or snapping to a grid, made equal count as one vertex of the
     /// input. So a crack that is narrower than this rounding counts as closed.
     ///
+    /// `facing` is by the winding of the input file. Of triangles on the same three vertices in
+    /// opposite order each is met from its own front.
+    ///
     /// A segment in a triangle's plane hits where it enters the triangle. So does a segment of no
     /// length, and a segment that meets a triangle without area. None of these hits is proved.
     ///

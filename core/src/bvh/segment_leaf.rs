@@ -20,8 +20,8 @@ use crate::bvh::format::FanLeaf;
 use crate::geom::fan::{Crossing, FanRay, LANES_BELOW, Shadow, WIDTH, ray_leaf, ray_leaf8};
 use crate::num::SOFT_FLOAT;
 
-/// Which sides of triangles a segment meets. The front is where corners run counter-clockwise, in
-/// the input's winding.
+/// Which sides of triangles a segment meets. The front is where corners run counter-clockwise in
+/// the input file. What the builder turns to tell inside from outside is not turned here.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]

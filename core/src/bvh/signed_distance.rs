@@ -5,7 +5,9 @@
 //! rises by one where a triangle is crossed from its front to its back. `Inside` says that the
 //! surface next to the point has its back to it, `Outside` its front. For a mesh that bounds a
 //! solid (winding number 1 in it, 0 elsewhere) these are the usual inside and outside. For an
-//! inverted mesh the sides are exchanged: the solid is the rest of space. If no vertex moved,
+//! inverted mesh the sides are exchanged: the solid is the rest of space. The winding is that of the
+//! mesh as the builder wound it: triangles that the file winds otherwise are marked in the tree, and
+//! show the side that they turn away. If no vertex moved,
 //! components that *overlap* are not united. A point may lie in one component while the nearest
 //! surface belongs to another and has its front to the point. Then the answer is `Outside`. A
 //! cavity's winding decides its side, as for any surface.

@@ -2,16 +2,16 @@
 
 use super::input::Input;
 use crate::corrupt::Asker;
-use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
+use crate::generate::{Triangles, cube, icosphere, inverted, rough_sphere, torus};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit;
 use meshsweep::hull::{self, BuildOptions};
-use meshsweep::mesh::Mesh;
+use meshsweep::mesh::{Mesh, RawMesh, repair};
 use meshsweep_core::{Blob, Budget, Bvh, CoherentQuery};
 use std::sync::OnceLock;
 
 /// Small valid blobs with a box tree: on the grid and exact, with either kind of boxes alone,
-/// closed and open, one that holds a split hierarchy too.
+/// closed and open, one that holds a split hierarchy too, one with turned triangles.
 ///
 /// # Panics
 /// If one of them cannot be built.
@@ -30,12 +30,19 @@ pub fn tree_seeds() -> &'static [Vec<u8>] {
             blob(&open, &all),
             blob(&(vec![[0.25, -1.0, 0.5]], vec![[0, 0, 0]]), &all),
             with_hull(&icosphere(1), &all),
+            as_filed(&inverted(&icosphere(1)), &all.with_winding(false)),
         ]
     })
 }
 
 fn blob((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
+    build(mesh.as_input(), options).expect("builds").0.to_bytes()
+}
+
+/// Of the mesh as repair makes it: turned triangles are stored as the file winds them.
+fn as_filed((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
+    let (mesh, _) = repair(RawMesh::from_f32(positions, triangles)).expect("a sound mesh");
     build(mesh.as_input(), options).expect("builds").0.to_bytes()
 }
 

@@ -1,7 +1,7 @@
 //! Files that a reader must refuse or mend, each with the outcome that it must have.
 
 use super::writers::{ascii_ply, ascii_stl, binary_ply, binary_stl, obj, ply_header};
-use super::{Triangles, cube, inverted, joined, scaled, torus};
+use super::{Triangles, block, cube, inverted, joined, scaled, torus};
 
 /// What must become of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -133,6 +133,12 @@ fn no_solid() -> Vec<Evil> {
             "two cubes glued with the wall between left in",
         ),
         file(
+            "glued_blocks.obj",
+            obj(&glued_blocks()),
+            "NonManifoldEdges",
+            "three blocks in a row, each wall between two is in the file twice",
+        ),
+        file(
             "klein_bottle.obj",
             obj(&twisted_torus()),
             "NonOrientable",
@@ -152,6 +158,7 @@ fn no_solid() -> Vec<Evil> {
             "two tetrahedra share an edge",
         ),
         file("open_box.stl", binary_stl(&open), "Open", "a cube without its lid"),
+        file("sheet.obj", SHEET.into(), "Open", "a square of two triangles that face down"),
         file("stuck_cap.obj", STUCK_CAP.into(), "Open", "a zero-area triangle on a hole's rim"),
         file(
             "t_junction.obj",
@@ -178,6 +185,8 @@ fn mendable() -> Vec<Evil> {
             binary_ply(&mixed),
             "a third of the triangles wound the wrong way",
         ),
+        file("plugged_shell.obj", obj(&plugged_shell()), "a hollow box and the plug that fills it"),
+        file("room.obj", obj(&room()), "nothing: a room whose walls face inwards"),
         file("negative_zero.obj", NEGATIVE_ZERO.into(), "0.0 and -0.0 for the same vertex"),
         file(
             "solid_binary.stl",
@@ -206,6 +215,29 @@ const CAP: &str = "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 0\nf 1 3 2\nf 1 2 5
 /// As above, but the face across the cap's long edge is missing.
 const STUCK_CAP: &str =
     "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 0\nf 1 2 5\nf 1 5 4\nf 5 2 4\nf 2 3 4\nf 1 4 3\n";
+
+/// Two triangles that face down.
+const SHEET: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 3 2\nf 1 4 3\n";
+
+/// A room from 0 to 10: a box whose walls face inwards.
+#[must_use]
+pub fn room() -> Triangles {
+    inverted(&block([0.0; 3], [10.0; 3]))
+}
+
+/// Three closed blocks in a row along x, from 0 to 10, 11 and 21. Each has walls of its own.
+#[must_use]
+pub fn glued_blocks() -> Triangles {
+    let along = |from: f32, to: f32| block([from, 0.0, 0.0], [to, 10.0, 10.0]);
+    joined(&joined(&along(0.0, 10.0), &along(10.0, 11.0)), &along(11.0, 21.0))
+}
+
+/// A box from −10 to 10 with a cavity from −8 to 8, and the solid that fills the cavity.
+#[must_use]
+pub fn plugged_shell() -> Triangles {
+    let plug = block([-8.0; 3], [8.0; 3]);
+    joined(&joined(&block([-10.0; 3], [10.0; 3]), &inverted(&plug)), &plug)
+}
 
 fn solid_header() -> Vec<u8> {
     let mut bytes = binary_stl(&cube(1));

@@ -122,6 +122,27 @@ fn icosphere_f64(level: u32) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     (positions, triangles)
 }
 
+/// The box between two corners: two triangles a side, eight vertices, x fastest.
+#[must_use]
+pub fn block(low: [f32; 3], high: [f32; 3]) -> Triangles {
+    let corner = |i: usize| [0, 1, 2].map(|k| if i >> k & 1 == 0 { low[k] } else { high[k] });
+    let triangles = [
+        [0, 2, 1],
+        [1, 2, 3],
+        [4, 5, 6],
+        [5, 7, 6],
+        [0, 1, 4],
+        [1, 5, 4],
+        [2, 6, 3],
+        [3, 6, 7],
+        [0, 4, 2],
+        [2, 4, 6],
+        [1, 3, 5],
+        [3, 7, 5],
+    ];
+    ((0..8).map(corner).collect(), triangles.to_vec())
+}
+
 /// The cube from −1 to 1, each face a grid of `n` × `n` squares, exactly flat: 12·n² triangles. `n`
 /// ≥ 1.
 #[must_use]

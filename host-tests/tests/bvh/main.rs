@@ -1,5 +1,6 @@
 //! The box tree: its bytes, its kernels and its questions.
 
+mod as_filed;
 mod batch;
 mod bytes;
 mod check;

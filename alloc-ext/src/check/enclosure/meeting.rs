@@ -18,7 +18,7 @@ fn shadow(t: &Corners) -> Option<[usize; 2]> {
 }
 
 /// Whether a triangle's corners are on a line.
-pub(super) fn area_free(t: &Corners) -> bool {
+pub(crate) fn area_free(t: &Corners) -> bool {
     shadow(t).is_none()
 }
 

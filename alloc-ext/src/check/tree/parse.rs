@@ -107,6 +107,8 @@ pub(super) struct TreeBlob {
     pub(super) slabs: Vec<Slabs>,
     /// Empty or one for each node.
     pub(super) moments: Vec<Moments>,
+    /// For each triangle whether sides are those of the triangle turned.
+    pub(super) turned: Vec<bool>,
     /// Empty or one for each leaf: an axis, and the sine of its angle in units of 1/254; 255 is
     /// unknown.
     pub(super) cones: Vec<([i8; 3], u8)>,
@@ -204,6 +206,8 @@ impl TreeBlob {
         let slabs = records(section(bytes, 15, "boxes")?, 72, nodes, "boxes")?;
         let moments = records(section(bytes, 24, "moments")?, 60, nodes, "moments")?;
         let cones = records(section(bytes, 18, "normal cones")?, 4, leaf_count, "normal cones")?;
+        let bits = section(bytes, 25, "turned triangles")?;
+        let turned = turned(bits, head[1] & 8 != 0, triangles)?;
         let local = |offset: usize| -> Result<[f64; 3], String> {
             let [x, y, z] = [0, 4, 8].map(|k| at(offset + k).map(f32::from_bits).map(f64::from));
             Ok([x?, y?, z?])
@@ -266,6 +270,7 @@ impl TreeBlob {
                 .map(|record| ([0, 1, 2].map(|k| record[k].cast_signed()), record[3]))
                 .collect(),
             surface_box,
+            turned,
             source: source(section(bytes, 17, "source numbers")?, triangles)?,
         };
         tree.finite()
@@ -344,6 +349,19 @@ impl Fans<'_> {
             first_triangle: triangle as usize,
         })
     }
+}
+
+/// A bit for each triangle, least bit of a byte first, and zeros to the end of the last byte; or
+/// nothing, if the header says so.
+fn turned(bits: &[u8], is_there: bool, triangles: usize) -> Result<Vec<bool>, String> {
+    if bits.len() != if is_there { triangles.div_ceil(8) } else { 0 } {
+        return Err("turned triangles: not a bit for each".into());
+    }
+    let bit = |k: usize| bits.get(k / 8).is_some_and(|byte| byte >> (k % 8) & 1 != 0);
+    if (triangles..8 * bits.len()).any(bit) {
+        return Err("turned triangles: more than there are".into());
+    }
+    Ok((0..triangles).map(bit).collect())
 }
 
 /// Blocks of 64 numbers: for each a least one, and 27 bits of place and 5 bits of width of the

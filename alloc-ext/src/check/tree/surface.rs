@@ -1,10 +1,11 @@
 //! Whether the leaves hold the input's triangles, and as near to where they were as the header
 //! says.
 
+use super::chosen::Chosen;
 use super::parse::TreeBlob;
 use super::proof::TreeProof;
 use crate::check::enclosure::{Surface, check_solid};
-use crate::check::input::{Given, is_closed};
+use crate::check::input::{Given, Stored};
 use crate::mesh::Mesh;
 
 /// Every triangle of the mesh, and every wire as one, is stored exactly once, with its number, its
@@ -13,6 +14,7 @@ use crate::mesh::Mesh;
 pub(super) fn triangles(
     tree: &TreeBlob,
     given: &Given<'_>,
+    stored: impl Iterator<Item = Stored>,
     proof: &mut TreeProof,
 ) -> Result<Vec<[u32; 3]>, String> {
     let count = given.mesh.all_triangles().count();
@@ -23,7 +25,7 @@ pub(super) fn triangles(
         return Err(format!("triangle {number} of an input of {}", tree.input_triangles));
     }
     let wanted = given.mesh.all_triangles().zip(given.mesh.all_sources());
-    let (found, exact) = given.find(wanted, tree.triangles(), tree.surface_error, false)?;
+    let (found, exact) = given.find(wanted, stored, tree.surface_error, false)?;
     proof.triangles += found.len();
     proof.exact_corners += exact;
     Ok(found)
@@ -48,14 +50,37 @@ pub(super) fn reach(tree: &TreeBlob) -> Result<(), String> {
     Ok(())
 }
 
-/// The header's flag says whether the mesh is closed, and has sides: walls that repair merged leave
-/// it none.
-pub(super) fn closed(tree: &TreeBlob, mesh: &Mesh) -> Result<(), String> {
-    let closed = is_closed(mesh) && !mesh.has_merged_walls;
-    if closed == tree.closed {
-        Ok(())
-    } else {
-        Err(format!("closed: {closed}, the header says {}", tree.closed))
+/// The header's flag says whether the triangles are closed, and it promises sides only of triangles
+/// that may have them.
+pub(super) fn closed(tree: &TreeBlob, chosen: &Chosen<'_>) -> Result<(), String> {
+    if chosen.closed != tree.closed {
+        return Err(format!("closed: {}, the header says {}", chosen.closed, tree.closed));
+    }
+    if tree.closed && !tree.sides_lost && !chosen.has_sides {
+        return Err("sides are promised of triangles that repair changed".to_owned());
+    }
+    Ok(())
+}
+
+/// If sides are promised, the tree's triangles as its bits turn them are those of the mesh in the
+/// winding that tells sides.
+pub(super) fn turned<'a>(
+    tree: &TreeBlob,
+    chosen: &Chosen<'a>,
+    given: impl Fn(&'a Mesh) -> Given<'a>,
+) -> Result<(), String> {
+    let promised = tree.closed && !tree.sides_lost && !tree.frames.is_empty();
+    match chosen.turned {
+        Some(mesh) if promised => {
+            let stored = tree.triangles().zip(&tree.turned);
+            let stored = stored
+                .map(|((number, [a, b, c]), &is)| (number, if is { [a, c, b] } else { [a, b, c] }));
+            triangles(tree, &given(mesh), stored, &mut TreeProof::default()).map(drop)
+        }
+        _ if tree.turned.contains(&true) => {
+            Err("triangles are turned for sides that the mesh has not".to_owned())
+        }
+        _ => Ok(()),
     }
 }
 
@@ -66,7 +91,7 @@ pub(super) fn sides(tree: &TreeBlob, corners: &[[u32; 3]]) -> Result<(), String>
         return Ok(());
     }
     let mut surface = Surface::default();
-    for ((_, at), ids) in tree.triangles().zip(corners) {
+    for (((_, at), ids), &is_turned) in tree.triangles().zip(corners).zip(&tree.turned) {
         // A wire repeats a vertex, and bounds nothing.
         if ids[0] == ids[1] || ids[1] == ids[2] || ids[2] == ids[0] {
             continue;
@@ -82,7 +107,8 @@ pub(super) fn sides(tree: &TreeBlob, corners: &[[u32; 3]]) -> Result<(), String>
                 return Err(format!("vertex {id} is stored at {place:?} and at {p:?}"));
             }
         }
-        surface.triangles.push(*ids);
+        let [a, b, c] = *ids;
+        surface.triangles.push(if is_turned { [a, c, b] } else { *ids });
     }
     check_solid(&surface).map_err(|why| format!("sides are promised, but {why}"))
 }

@@ -234,13 +234,16 @@ impl Bvh<'_> {
         Ok(self)
     }
 
-    /// Whether triangles run through every edge as often in one direction as in the other.
+    /// Whether triangles run through every edge as often in one direction as in the other. In a tree
+    /// with winding numbers they are all triangles of the input file, as wound there; else those of
+    /// the mesh as the builder wound it to tell sides.
     pub const fn is_closed(&self) -> bool {
         self.header.is_closed()
     }
 
     /// Whether [`signed_distance`](Bvh::signed_distance) can decide sides. False for an open mesh,
-    /// and for a closed one if vertices moved and two walls may have changed places by that.
+    /// and for a closed one if vertices moved and two walls may have changed places by that, or if
+    /// it has winding numbers and the builder had to turn or drop triangles to make it closed.
     /// [Winding numbers](Bvh::signed_by_winding) decide the sides of such a mesh; `--vertex-bits
     /// 32` mostly does.
     pub const fn has_sides(&self) -> bool {

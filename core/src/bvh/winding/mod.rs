@@ -33,7 +33,7 @@ use search::{Search, side_of};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct WindingNumber {
-    /// The winding number of the mesh as repaired.
+    /// The winding number of the input file's triangles.
     pub number: Interval,
     /// `Inside` if the number is certainly above ½, `Outside` if it is certainly below.
     pub side: Side,
@@ -53,11 +53,11 @@ impl Bvh<'_> {
     /// [`signed_distance`](Bvh::signed_distance) asks the nearest triangle of a closed mesh. In a
     /// hole the sides meet where the number is ½. Parts that overlap are united.
     ///
-    /// The number is that of the mesh as the builder repaired it: triangles that occur twice, in
-    /// either direction, count once, and neighbours wind alike. It is positive where the surface
-    /// has its back to the point. The builder turns closed parts that are inside out. In an open
-    /// part that is inside out the number is about −1, so every point is outside. Parts that
-    /// overlap and are wound against each other cancel.
+    /// The number is that of all triangles of the input file, as they are wound there. It is
+    /// positive where the surface has its back to the point. A triangle that occurs twice counts
+    /// twice, and one that occurs in both directions cancels: so solids that share walls are one
+    /// solid. In a part that is inside out the number is −1 or about that, so every point is
+    /// outside. Parts that overlap and are wound against each other cancel.
     ///
     /// The search ends as soon as the side is decided and the interval is no wider than
     /// `budget.absolute`, a pure number here; 0, as in [`Budget::EXACT`], asks for the side alone.

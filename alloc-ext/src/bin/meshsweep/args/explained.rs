@@ -188,10 +188,10 @@ pub fn winding() -> String {
          parts overlap it is 2. lower and upper contain it. The column 'side' says inside, which \
          proves a number above 1/2; outside, which proves one below; or undecided, and then \
          'reason' says why: rounding, also of the vertices to the grid; out of steps, out of \
-         scratch memory. The number is that of the mesh as build repaired it: triangles that \
-         occur twice count once. Triangles that share vertices are wound alike, and closed parts \
-         that are inside out are turned. An open part that is inside out makes every point \
-         outside: build warns of it.\n\n\
+         scratch memory. The number is that of all triangles of the mesh file, as they are wound \
+         there: one that occurs twice counts twice, and one that occurs in both directions \
+         cancels, so parts that share walls are one part. A part that is inside out makes every \
+         point outside: build warns of it.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep build scan.ply -o scan.msw --for winding\n  \
@@ -219,6 +219,8 @@ pub fn segment() -> String {
          undecided. The segment is then proved clear before t, and px, py, pz is its point at t. \
          With --all an undecided hit is a place where the stored triangle is met and the mesh's \
          may be. t runs from 0 to 1 along the segment, rounded to f32; {TRIANGLES}.\n\n\
+         --facing is by the winding of the mesh file. What build turns is turned for sides \
+         only.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep segment part.msw 20,10,90,20,10,-90\n  \
@@ -315,7 +317,8 @@ pub const CULL: &str = "A leaf of up to eight triangles is kept or culled as a w
     that contains its normals. So some of the listed triangles face away. All others certainly \
     do, as they are stored: with vertices on a grid a triangle that is seen edge-on may differ \
     from the mesh file's. The front of a triangle is the side from which its corners run \
-    counter-clockwise. Any mesh will do, open or not.\n\n\
+    counter-clockwise, as the mesh file lists them: what build turns is turned for sides only. Any \
+    mesh will do, open or not.\n\n\
     Examples:\n  \
     meshsweep build part.stl -o part.msw --for closest,cull\n  \
     meshsweep cull part.msw 100,-50,30\n  \

@@ -1,0 +1,108 @@
+//! Winding numbers are those of all triangles of the file.
+
+use super::{File, side, views, winding};
+use meshsweep::bvh::TreeOptions;
+use meshsweep_core::{Bvh, Interval, Side, Undecided};
+use meshsweep_host_tests::generate::evil::{glued_blocks, plugged_shell, room};
+use meshsweep_host_tests::generate::{Triangles, block, joined};
+
+fn trees(file: &Triangles) -> [Vec<u8>; 2] {
+    File::of(file).trees(TreeOptions::default().with_winding(true))
+}
+
+fn assert_number(tree: &Bvh<'_>, point: [f32; 3], wanted: f32) {
+    let (Interval { lower, upper }, side) = winding(tree, point);
+    assert!(
+        lower <= wanted && wanted <= upper && upper - lower < 0.1,
+        "{point:?}: {lower} {upper}"
+    );
+    assert_eq!(side, if wanted > 0.5 { Side::Inside } else { Side::Outside }, "{point:?}");
+}
+
+#[test]
+fn glued_solids_are_one_solid_in_any_order() {
+    let along = |from: f32, to: f32| block([from, 0.0, 0.0], [to, 10.0, 10.0]);
+    let parts = [along(0.0, 10.0), along(11.0, 21.0), along(10.0, 11.0)];
+    for order in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+        let [a, b, c] = order.map(|k: usize| &parts[k]);
+        let blobs = trees(&joined(&joined(a, b), c));
+        for tree in views(&blobs) {
+            for x in [1.0, 5.0, 9.9, 10.5, 11.1, 16.0, 20.0] {
+                assert_number(&tree, [x, 5.0, 5.0], 1.0);
+            }
+            for p in [[-0.1, 5.0, 5.0], [21.1, 5.0, 5.0], [10.5, 10.1, 5.0]] {
+                assert_number(&tree, p, 0.0);
+            }
+            assert!(tree.is_closed(), "every part is closed");
+        }
+    }
+    for tree in views(&trees(&glued_blocks())) {
+        assert_number(&tree, [11.1, 5.0, 5.0], 1.0);
+    }
+}
+
+#[test]
+fn a_plug_fills_the_cavity_whose_walls_it_shares() {
+    for tree in views(&trees(&plugged_shell())) {
+        for p in [[0.0; 3], [7.9, 0.0, 0.0], [9.0, 0.0, 0.0]] {
+            assert_number(&tree, p, 1.0);
+        }
+        assert_number(&tree, [10.5, 0.0, 0.0], 0.0);
+    }
+}
+
+#[test]
+fn every_voxel_of_a_solid_is_inside_and_the_places_beside_it_are_outside() {
+    for count in [5u16, 8] {
+        let cells = |from: i32, to: i32| {
+            let all = move |x| (from..to).flat_map(move |y| (from..to).map(move |z| [x, y, z]));
+            (from..to).flat_map(all).map(|p| p.map(|x| x as f32))
+        };
+        let count = i32::from(count);
+        let voxels = cells(0, count).map(|p| block(p, p.map(|x| x + 1.0)));
+        let solid = voxels.reduce(|a, b| joined(&a, &b)).expect("voxels");
+        for tree in views(&trees(&solid)) {
+            for cell in cells(-1, count + 1) {
+                let is_within = cell.iter().all(|x| (0.0..count as f32).contains(x));
+                let number = if is_within { 1.0 } else { 0.0 };
+                assert_number(&tree, cell.map(|x| x + 0.5), number);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_room_whose_walls_face_inwards_winds_once_backwards() {
+    for tree in views(&trees(&room())) {
+        assert_number(&tree, [5.0, 5.5, 5.2], -1.0);
+        assert_number(&tree, [15.0, 5.0, 5.0], 0.0);
+        // Sides by the nearest triangle would be those of another winding.
+        assert_eq!(side(&tree, [5.0, 5.5, 5.2]), Side::Undecided(Undecided::Resolution));
+    }
+}
+
+#[test]
+fn a_t_junction_that_a_triangle_without_area_closes_is_closed_and_costs_no_width() {
+    // On the grid the middle of the edge is not on the edge.
+    let file = |cap: &[[u32; 3]]| File {
+        positions: vec![
+            [0.1, 0.2, 0.3],
+            [2.1, 0.4, 0.7],
+            [0.3, 1.3, 0.2],
+            [0.2, 0.1, 1.4],
+            [1.1, 0.3, 0.5],
+        ]
+        .into_iter()
+        .map(|p: [f32; 3]| p.map(|x| f64::from((x * 1024.0).round() / 1024.0)))
+        .collect(),
+        triangles: [&[[0, 2, 1], [0, 4, 3], [4, 1, 3], [1, 2, 3], [0, 3, 2]], cap].concat(),
+    };
+    let (closed, open) = (file(&[[0, 1, 4]]), file(&[]));
+    let options = TreeOptions::default().with_winding(true);
+    let (blobs, gaps) = (closed.trees(options), open.trees(options));
+    for (tree, gap) in views(&blobs).iter().zip(&views(&gaps)) {
+        assert!(tree.is_closed() && !gap.is_closed());
+        assert_number(tree, [0.5, 0.4, 0.5], 1.0);
+        assert_number(tree, [5.0, 4.0, 3.0], 0.0);
+    }
+}
