@@ -200,7 +200,7 @@ impl Work<'_, '_> {
             return Ok(None);
         }
         self.begin(TIGHT, Stage::Tight(tight::Stage::Certifying))?;
-        let options = wanted.of_tight(loaded.widened(wanted.margin));
+        let options = wanted.of_tight();
         let made = tight::chain(loaded.input(), &options, |stage| {
             let goes_on = self.progress.show(Stage::Tight(stage), of_tight(stage));
             if goes_on { Continue(()) } else { Break(()) }

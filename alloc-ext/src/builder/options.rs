@@ -156,14 +156,13 @@ impl Options {
         }
     }
 
-    /// `margin` is that of the repaired mesh.
-    pub fn of_tight(&self, margin: f64) -> ChainOptions {
+    pub fn of_tight(&self) -> ChainOptions {
         let void = self.void_percent.map(|percent| Goal::Void(percent / 100.0));
         let faces: Vec<usize> = self.tight.iter().map(|&faces| faces as usize).collect();
         let [closest, segment] = self.tight_for.unwrap_or([true; 2]);
         void.or(self.slack.map(Goal::Slack))
             .map_or_else(|| ChainOptions::of_faces(&faces), ChainOptions::of_goal)
-            .with_margin(margin)
+            .with_margin(self.margin.unwrap_or(0.0))
             .with_effort(self.effort.unwrap_or(1.0))
             .with_vertex_bits(self.vertex_bits)
             .with_boxes(closest, segment)

@@ -4,7 +4,7 @@ mod curve;
 mod unmet;
 
 use crate::mesh::{MeshError, NoVolume};
-use crate::number::Typed;
+use crate::number::{AtMost, Typed};
 use meshsweep_core::{OpenError, TriboxError};
 use std::fmt;
 use std::io;
@@ -107,6 +107,11 @@ pub enum BuildError {
     NotPositive {
         /// The volume, input units.
         volume: f64,
+    },
+    /// A hull of a mesh whose vertices moved is not proved to enclose the input.
+    NotEnclosed {
+        /// How far the input's surface may be from the mesh, input units.
+        error: f64,
     },
     /// A tight hull was asked for, and the mesh has no triangle and no wire.
     Empty,
@@ -235,6 +240,13 @@ impl fmt::Display for BuildError {
             Self::NotPositive { volume } => write!(
                 f,
                 "the enclosed volume is {volume}: the mesh passes through itself and is inside out there; unite its parts first"
+            ),
+            Self::NotEnclosed { error } => write!(
+                f,
+                "vertices moved by up to {} when they were rounded, and no progressive hull is \
+                 proved to keep that distance from the mesh: leave out --progressive, a tight hull \
+                 encloses any mesh; or move the mesh to its origin",
+                AtMost(*error)
             ),
             Self::Empty => f.write_str("the mesh has no triangles; give one that has"),
             Self::NoVolume(why) => write!(

@@ -12,6 +12,7 @@ use crate::error::BuildError;
 use crate::mesh::{Input, KeyFrame, Mesh};
 use crate::progress::{Answer, Callback};
 use crate::surface::{Closed, SignedVolume, Stored, VertexBits, close, require_valid, store};
+use crate::tight::outset;
 use glam::{DVec3, Vec3};
 use meshsweep_core::Hull;
 use meshsweep_core::internal::geom::Aabb;
@@ -292,21 +293,55 @@ fn store_solid(mesh: &Mesh, bits: VertexBits) -> Stored {
     stored
 }
 
+/// Parts of the faces asked for at which a hull is tried, if vertices of the mesh moved. With fewer
+/// faces it may pass over a place that it comes too near with more.
+const TRIED: [f64; 3] = [1.0, 0.75, 0.5];
+
 /// A hull alone: its triangles in input units, its void as a part of the mesh's volume, and why
-/// collapses ended early. It encloses the mesh without its wires.
+/// collapses ended early. It encloses the mesh without its wires, of a `&Mesh` or an [`Input`].
+///
+/// If vertices moved, it encloses the input before they did: it is moved outward, see [`outset`].
 ///
 /// # Errors
-/// [`BuildError::NotPositive`], [`BuildError::Cancelled`].
-pub fn hull_of<A: Answer>(
-    mesh: &Mesh,
+/// [`BuildError::NotPositive`], [`BuildError::Cancelled`], [`BuildError::NotEnclosed`].
+pub fn hull_of<'m, A: Answer>(
+    input: impl Into<Input<'m>>,
     faces: usize,
     options: &BuildOptions,
     mut on_progress: impl FnMut(Progress) -> A,
 ) -> Result<(Mesh, f64, Option<Stuck>), BuildError> {
+    let input: Input<'m> = input.into();
+    let (mesh, error) = (input.mesh, input.error_up());
     let stored = store_solid(mesh, options.vertex_bits);
     let volume = positive_volume(&stored, mesh)?;
     let on_progress: &mut OnProgress<'_> = &mut |progress| on_progress(progress).goes_on();
-    let (history, stuck, _) = collapse(&stored, mesh, options, faces, on_progress)?;
+    if error <= 0.0 {
+        let (hull, added, stuck) = level(&stored, mesh, options, faces, on_progress)?;
+        return Ok((hull, added / volume, stuck));
+    }
+    let solid = mesh.without_wires();
+    for part in TRIED {
+        let fewer = (faces as f64 * part) as usize;
+        let (hull, _, stuck) = level(&stored, mesh, options, fewer, on_progress)?;
+        if let Some(hull) = outset(&hull, &solid, error) {
+            let scale = meshsweep_core::internal::num::exp2(-stored.scale_exponent);
+            let local = hull.corners_f64().map(|corners| corners.map(|p| p * scale));
+            let void = SignedVolume::of(local).value / volume - 1.0;
+            return Ok((hull, void, stuck));
+        }
+    }
+    Err(BuildError::NotEnclosed { error })
+}
+
+/// A hull on the mesh as stored, and the volume that it adds, local frame.
+fn level(
+    stored: &Stored,
+    mesh: &Mesh,
+    options: &BuildOptions,
+    faces: usize,
+    on_progress: &mut OnProgress<'_>,
+) -> Result<(Mesh, f64, Option<Stuck>), BuildError> {
+    let (history, stuck, _) = collapse(stored, mesh, options, faces, on_progress)?;
     let order = VertexOrder::new(&history);
     let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     let positions = order.label[..order.base as usize]
@@ -314,8 +349,8 @@ pub fn hull_of<A: Answer>(
         .map(|&l| (history.positions[l as usize] * scale).as_vec3().to_array())
         .collect();
     let triangles = history.base.iter().map(|t| t.map(|l| order.index[l as usize])).collect();
-    let void = history.added_volume.iter().sum::<f64>() / volume;
-    Ok((Mesh::new(positions, triangles), void, stuck))
+    let added = history.added_volume.iter().sum::<f64>();
+    Ok((Mesh::new(positions, triangles), added, stuck))
 }
 
 /// Volume of the mesh in the local frame: the unit of void.

@@ -75,13 +75,6 @@ impl Loaded {
         })
     }
 
-    /// A margin that the file's vertices keep too, before they were rounded and moved.
-    #[must_use]
-    pub fn widened(&self, margin: Option<f64>) -> f64 {
-        let moved = (self.moved + self.mesh.rounding) * (1.0 + 4.0 * f64::EPSILON);
-        margin.filter(|&margin| margin > 0.0).map_or(0.0, |margin| margin + moved)
-    }
-
     /// Refuses a mesh that is not closed and manifold.
     ///
     /// # Errors

@@ -20,12 +20,25 @@ impl Input<'_> {
         self.mesh.rounding + self.moved
     }
 
+    /// As [`error`](Self::error), rounded up: every point of the input's surface is within it of
+    /// the mesh, in real arithmetic.
+    pub(crate) fn error_up(&self) -> f64 {
+        if self.error() > 0.0 { self.error().next_up() } else { 0.0 }
+    }
+
     /// Triangles of the input file, above the number of every triangle and wire.
     pub(crate) fn triangle_count(&self) -> u32 {
         let wires = self.mesh.wires.iter().map(|wire| wire.source);
         let numbered = self.mesh.source.iter().copied().chain(wires).max();
         let above = numbered.map_or(0, |number| number as usize + 1);
         self.input_triangles.max(above).max(self.mesh.all_triangles().count()) as u32
+    }
+}
+
+impl<'a> From<&'a Mesh> for Input<'a> {
+    /// See [`Mesh::as_input`].
+    fn from(mesh: &'a Mesh) -> Self {
+        mesh.as_input()
     }
 }
 

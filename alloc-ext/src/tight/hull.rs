@@ -8,7 +8,7 @@ use super::report::{Outcome, Progress, Report};
 use super::search::{CandidateHull, HullSearch};
 use crate::bvh::MAX_TRIANGLES;
 use crate::error::BuildError;
-use crate::mesh::Mesh;
+use crate::mesh::{Input, Mesh};
 use crate::progress::Answer;
 use crate::surface::{Bounds, Solid, Stored, VertexBits, crosses_itself, require_valid, store};
 use glam::{DVec3, Vec3};
@@ -26,26 +26,28 @@ pub struct Hull {
     pub report: Report,
 }
 
-/// A tight hull of any triangles and [wires](crate::mesh::Wire). The [module](crate::tight) lists
-/// the proved properties. Wires bound no volume.
+/// A tight hull of any triangles and [wires](crate::mesh::Wire), of a `&Mesh` or an [`Input`]. The
+/// [module](crate::tight) lists the proved properties. Wires bound no volume.
 ///
-/// If vertices were moved to a grid before (see [`snap`](crate::surface::snap)), the hull encloses
-/// their places in `mesh`.
+/// The hull encloses the input before its vertices were rounded to `f32` and moved to a grid: it
+/// keeps a distance of [`Mesh::rounding`] and [`Input::moved`] from the mesh.
 ///
 /// # Errors
 /// [`BuildError`].
-pub fn wrap<A: Answer>(
-    mesh: &Mesh,
+pub fn wrap<'m, A: Answer>(
+    input: impl Into<Input<'m>>,
     options: &Options,
     mut on_progress: impl FnMut(Progress) -> A,
 ) -> Result<Hull, BuildError> {
     let started = Instant::now();
+    let input: Input<'m> = input.into();
+    let mesh = input.mesh;
     require_valid(mesh, MAX_TRIANGLES)?;
     let triangles: Vec<[u32; 3]> = mesh.all_triangles().collect();
     if triangles.is_empty() {
         return Err(BuildError::Empty);
     }
-    options.goal.check(options.margin)?;
+    let options = &options.of_mesh(input.error_up())?;
     let positions: Vec<DVec3> = mesh.positions.iter().map(|&p| Vec3::from(p).as_dvec3()).collect();
     let obstacle = Obstacle::new(&positions, &triangles).with_margin(options.margin);
     // The surface that the search starts from has no wires, unless the mesh has only wires.

@@ -10,6 +10,7 @@
 //! | folder or file | what lies there |
 //! | --- | --- |
 //! | `hull.rs` | [`wrap()`]: options checked, hull built, hull measured |
+//! | `outset.rs` | a hull of another kind, moved outward to hold all points near the mesh |
 //! | `options.rs` | the goal and the options of a hull |
 //! | `report.rs` | measures of a hull and of the work for it; progress |
 //! | `deadline.rs` | when a search has to end |
@@ -49,6 +50,7 @@ mod hull;
 mod initial;
 mod moves;
 mod options;
+mod outset;
 mod proof;
 mod report;
 mod search;
@@ -60,6 +62,7 @@ pub use crate::error::{Tightness, Unmet};
 pub use components::split_components;
 pub use hull::{Hull, wrap};
 pub use options::{Goal, Options};
+pub use outset::outset;
 pub use report::{Outcome, Progress, Report, Stage as HullStage, Start, margin_note, no_void_note};
 pub use store::{
     ChainOptions, Distances, HullReport, MAX_HULLS, Stage, chain, cut, distances, hull_mesh,

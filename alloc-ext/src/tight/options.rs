@@ -16,7 +16,7 @@ pub enum Goal {
     /// is an error.
     Void(f64),
     /// The fewest faces found of which no point is farther than this from the mesh, in its unit;
-    /// more than the margin.
+    /// more than the margin and what vertices moved.
     Slack(f64),
 }
 
@@ -45,8 +45,9 @@ impl Goal {
 pub struct Options {
     /// The goal.
     pub goal: Goal,
-    /// Distance from the mesh that the hull keeps, in the mesh's unit; finite and at least 0. Every
-    /// point within the margin of the mesh is inside the hull.
+    /// Distance from the input's surface that the hull keeps, in the mesh's unit; finite and at
+    /// least 0. Every point within the margin is inside the hull. The hull keeps as much more from
+    /// the mesh as its vertices moved.
     pub margin: f64,
     /// How long to polish, as a factor of the time behind the numbers in `core/DESIGN.md`. The
     /// result depends on the effort, and not on the machine.
@@ -77,6 +78,21 @@ impl Options {
     #[must_use]
     pub const fn with_margin(self, margin: f64) -> Self {
         Self { margin, ..self }
+    }
+
+    /// The options of a hull of a mesh of which every point of the input is within `error`: the
+    /// hull keeps that distance too, so that it holds the input as it was before vertices moved.
+    ///
+    /// # Errors
+    /// As [`Goal::check`].
+    pub(super) fn of_mesh(&self, error: f64) -> Result<Self, BuildError> {
+        self.goal.check(self.margin)?;
+        if error <= 0.0 {
+            return Ok(*self);
+        }
+        let margin = (self.margin + error).next_up();
+        self.goal.check(margin)?;
+        Ok(Self { margin, ..*self })
     }
 
     /// Sets the [effort](Self::effort).

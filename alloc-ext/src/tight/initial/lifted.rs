@@ -63,7 +63,7 @@ pub(super) const LIFTS: [f64; 5] = [3.0, 6.0, 12.0, 48.0, 192.0];
 /// Moves every vertex strictly outside of all planes of its star, by the margin and a few steps of
 /// the grid. The surface then lies strictly outside of its former place. A vertex that has no such
 /// place is collapsed into a neighbour if both together have one, and stays otherwise.
-fn lift(shell: &mut Shell, rounding: &Rounding, margin: f64) {
+pub(crate) fn lift(shell: &mut Shell, rounding: &Rounding, margin: f64) {
     let mut star = Vec::new();
     let mut left = Vec::new();
     // Planes that were already lifted by the margin would lift their neighbours by it again. A few

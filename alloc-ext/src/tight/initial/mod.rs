@@ -25,4 +25,4 @@ mod voxel_closure;
 pub(crate) use closure_hull::{STAIR_CONDITIONS, closure_hull};
 pub(crate) use grown_box::grown_box;
 pub(crate) use initial_hull::{InitialHull, InitialInput};
-pub(crate) use lifted::lifted_levels;
+pub(crate) use lifted::{lift, lifted_levels};

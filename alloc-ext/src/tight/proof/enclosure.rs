@@ -7,13 +7,21 @@ use glam::DVec3;
 /// Whether the faces of a closed manifold surface satisfy the whole invariant: the surface is
 /// embedded, does not meet the mesh, and encloses every connected component of the mesh. Exact.
 pub(crate) fn is_outer_hull(faces: &[Face], obstacle: &Obstacle) -> bool {
-    let holds_witnesses = || {
-        let hull = Enclosure::new(faces.iter().map(|face| face.at.map(to_f32)).collect());
-        obstacle.witnesses().iter().all(|p| hull.holds(p.to_array()))
-    };
     !faces.iter().any(|face| is_degenerate(&face.at) || obstacle.meets(&face.at))
         && is_embedded(faces)
-        && holds_witnesses()
+        && holds_witnesses(faces, obstacle)
+}
+
+/// Whether a closed surface, which may cross itself, does not meet the mesh and encloses every
+/// connected component of it. Exact; where the surface overlaps itself, an even number of times is
+/// outside.
+pub(crate) fn holds(faces: &[Face], obstacle: &Obstacle) -> bool {
+    !faces.iter().any(|face| obstacle.meets(&face.at)) && holds_witnesses(faces, obstacle)
+}
+
+fn holds_witnesses(faces: &[Face], obstacle: &Obstacle) -> bool {
+    let hull = Enclosure::new(faces.iter().map(|face| face.at.map(to_f32)).collect());
+    obstacle.witnesses().iter().all(|p| hull.holds(p.to_array()))
 }
 
 /// The triangles of the connected components of a closed embedded surface that lie inside no other

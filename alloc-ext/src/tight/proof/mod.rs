@@ -17,6 +17,6 @@ mod tetrahedron;
 
 pub(crate) use clearance::{Clearance, Nearest};
 pub(crate) use distance_field::DistanceField;
-pub(crate) use enclosure::{is_outer_hull, outermost};
+pub(crate) use enclosure::{holds, is_outer_hull, outermost};
 pub(crate) use obstacle::Obstacle;
 pub(crate) use tetrahedron::Tetrahedron;

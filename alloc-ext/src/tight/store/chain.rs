@@ -27,7 +27,7 @@ pub struct ChainOptions {
     pub faces: Vec<usize>,
     /// The goal of the one hull to make, instead of numbers of faces.
     pub goal: Option<Goal>,
-    /// Distance that every hull keeps from the mesh; see [`Options::margin`]. Answers about the
+    /// Distance that every hull keeps from the input's surface; see [`Options::margin`]. Answers about the
     /// mesh do not depend on the margin.
     pub margin: f64,
     /// How long to polish; see [`Options::effort`].
@@ -164,8 +164,8 @@ pub struct HullReport {
 /// Makes tight hulls of a mesh. A hull with as many faces as a finer hull is left out, and no
 /// report names its goal.
 ///
-/// The hulls enclose the vertices of `input.mesh`. The blob's answers hold for the input file: they
-/// include the distance that vertices were moved.
+/// The hulls enclose the surface of the input file, see [`wrap()`]. The blob's answers hold for it
+/// too: they include the distance that vertices were moved.
 ///
 /// Cost: that of [`wrap()`] for each hull; some hundred distance queries for each triangle of the
 /// hulls, and one for each triangle of the mesh.
@@ -186,7 +186,7 @@ pub fn chain<A: Answer>(
     for (index, &goal) in goals.iter().rev().enumerate() {
         let started = Instant::now();
         let mut show = |progress| on_progress(Stage::Wrapping { hull: index, of, progress });
-        let hull = wrap(mesh, &options.of_hull(goal), &mut show)?;
+        let hull = wrap(input, &options.of_hull(goal), &mut show)?;
         if made
             .last()
             .is_some_and(|(finer, _)| finer.mesh.triangles.len() <= hull.mesh.triangles.len())

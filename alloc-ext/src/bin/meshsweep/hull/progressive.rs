@@ -26,7 +26,7 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
     let from = solid.mesh.triangles.len();
     let bar = Bar::new(from.saturating_sub(options.base_faces), "collapsing", "faces");
     let started = Instant::now();
-    let (hull, void, stuck) = hull_of(&solid.mesh, options.base_faces, &options, |progress| {
+    let (hull, void, stuck) = hull_of(solid.input(), options.base_faces, &options, |progress| {
         bar.show(from.saturating_sub(progress.faces))
     })
     .map_err(|error| Failure::build(&args.input, error))?;

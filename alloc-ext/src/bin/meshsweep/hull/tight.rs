@@ -8,7 +8,7 @@ use crate::output::Output;
 use crate::progress::StageBars;
 use meshsweep::builder::FACES;
 use meshsweep::counted::Counted;
-use meshsweep::mesh::{Mesh, write_ply};
+use meshsweep::mesh::{Input, Mesh, write_ply};
 use meshsweep::number::{AtLeast, AtMost, Percent};
 use meshsweep::tight::{
     Goal, Hull, Options, Outcome, Report, Tightness, margin_note, no_void_note, split_components,
@@ -27,7 +27,7 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
     let limit = args.seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX));
     let loaded = load_snapped(&args.input, args.vertex_bits.format(), args.unit)?;
     let options = Options::new(goal)
-        .with_margin(loaded.widened(args.margin))
+        .with_margin(args.margin.unwrap_or(0.0))
         .with_effort(args.effort.unwrap_or(1.0))
         .with_time_limit(limit)
         .with_vertex_bits(args.vertex_bits.format());
@@ -37,7 +37,8 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
     let mut hulls = Vec::new();
     for mesh in &meshes {
         let mut bars = StageBars::default();
-        let hull = wrap(mesh, &options, |progress| bars.show(progress));
+        let part = Input { mesh, ..loaded.input() };
+        let hull = wrap(part, &options, |progress| bars.show(progress));
         hulls.push(hull.map_err(|error| Failure::build(&args.input, error))?);
     }
     let asked = Tightness { slack: args.slack, void: args.void, by_faces: "--faces" };
@@ -71,8 +72,7 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
     })
 }
 
-/// Describes a hull. `margin` is the typed one; the hull's own is wider by the rounding of the
-/// mesh. `of` names what the hull encloses.
+/// Describes a hull. `of` names what the hull encloses.
 fn describe(
     out: &mut dyn Write,
     report: &Report,
