@@ -4,12 +4,12 @@ use super::options::{For, Options};
 use crate::bvh::{TreeReport, WhyF32};
 use crate::counted::Counted;
 use crate::curve::CurveReport;
-use crate::hull::{BuildReport, Kind, wires_note};
+use crate::hull::{BuildReport, Kind, sticks_out_note, wires_note};
 use crate::load::Loaded;
 use crate::mesh::Mesh;
 use crate::number::{About, AtMost};
 use crate::surface::{VertexBits, components_whose_boxes_meet};
-use crate::tight::{Goal, HullReport, margin_note, no_void_note};
+use crate::tight::{Goal, HullReport, margin_note, no_void_note, rounded_note};
 use meshsweep_core::Blob;
 use meshsweep_core::internal::format::layout::VertexFormat;
 use std::fmt;
@@ -89,6 +89,9 @@ pub(super) fn of_blob(
     if let Some(report) = hull_report {
         hull.push(format!("base hull: {}", Counted(report.base_faces, "face")));
         hull.extend(report.stuck.map(|stuck| stuck.why(options.base_faces())));
+        if matches!(report.kind, Kind::Hulls { .. }) {
+            hull.extend(sticks_out_note(loaded.error()));
+        }
         hull.extend(other_format(options.vertex_bits, blob.header().vertex_format));
     }
     if let Ok(bvh) = blob.bvh() {
@@ -101,6 +104,7 @@ pub(super) fn of_blob(
     }
     if let Some(first) = reports.first() {
         tight.extend(left_out(options, reports));
+        tight.extend(rounded_note(loaded.error()));
         tight.extend(margin_note(options.margin, "mesh"));
         tight.extend(no_void_note(&first.void));
         reports.iter().for_each(|report| tight.extend(of_tight(report)));

@@ -7,6 +7,7 @@
 //! | `tree`, `hull`, `tight`, `triboxes`, `curve` | the claims of one structure each |
 //! | `repair` | that a mesh is that of its file |
 //! | `enclosure` | that a hull encloses a mesh |
+//! | `file` | that hulls and triboxes hold the file's triangles, before they were rounded |
 //! | `input` | that stored corners are those of the mesh |
 //! | `near` | that all points of a triangle are near a surface |
 //! | `planar` | convex polygons cut in exact arithmetic |
@@ -20,6 +21,7 @@ mod distance;
 pub mod dyadic;
 mod enclosure;
 mod exact;
+mod file;
 mod finding;
 mod hull;
 mod input;
@@ -35,6 +37,7 @@ pub mod vector;
 mod verify;
 
 pub(crate) use distance::distance;
+pub use file::verify_file;
 pub use finding::{Finding, Outcome};
 pub use repair::verify_repair;
 pub use verify::{Against, verify};

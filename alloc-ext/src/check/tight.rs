@@ -2,11 +2,12 @@
 //! distances from the mesh are those that it states.
 
 use super::bytes::{Cursor, section};
-use super::enclosure::{Surface, check_enclosure};
+use super::enclosure::{Surface, check_enclosure, check_margin};
+use super::file::FileSurface;
 use super::finding::Finding;
 use super::near::{Near, Verdict};
 use super::tree::{prove_faces, welded};
-use crate::mesh::{Input, Mesh};
+use crate::mesh::{Input, Mesh, RawMesh};
 use glam::DVec3;
 
 const TIGHT: &str = "tight hulls";
@@ -165,6 +166,28 @@ pub(crate) fn verify(bytes: &[u8], input: Input<'_>, out: &mut Vec<Finding>) {
         let which = undecided.join(", ");
         Finding::not_proved(TIGHT, format!("slack and depth of hull {which}"))
     });
+}
+
+/// Proves that every hull encloses the file's triangles.
+pub(super) fn verify_file(bytes: &[u8], raw: &RawMesh) -> Finding {
+    let prove = || -> Result<[usize; 3], String> {
+        let (hulls, mut pairs) = (hulls(bytes)?, 0);
+        for (index, hull) in hulls.iter().enumerate() {
+            let file = FileSurface::new(raw, hull.scale_exponent);
+            let proof = check_margin(&file.surface, &hull.surface, file.error);
+            pairs += proof.map_err(|error| format!("hull {index}: {error}, in the file"))?.pairs;
+        }
+        Ok([hulls.len(), raw.triangles.len(), pairs])
+    };
+    let words = "every hull encloses every triangle of the file, as it is written";
+    match prove() {
+        Ok([hulls, triangles, pairs]) => Finding::proved(
+            TIGHT,
+            words,
+            &[("hull", hulls), ("triangle", triangles), ("disjoint pair", pairs)],
+        ),
+        Err(error) => Finding::failed(TIGHT, error),
+    }
 }
 
 /// A mesh, its wires too, in a local frame.

@@ -14,11 +14,12 @@ mod parse;
 mod plane;
 
 use super::enclosure::{Surface, Winding};
+use super::file::FileSurface;
 use super::finding::Finding;
 use super::input::{Given, is_closed};
 use super::near::{Near, Verdict};
 use super::planar::Polygon;
-use crate::mesh::Input;
+use crate::mesh::{Input, RawMesh};
 use boundary::{Exposed, exposed};
 use glam::DVec3;
 use parse::{NORMALS, Slabs, Triboxes};
@@ -132,6 +133,34 @@ fn is_close(parts: &[Exposed], mesh: &Near, unit: f64, limit: f64) -> Result<boo
 pub(crate) fn verify(bytes: &[u8], input: Input<'_>, out: &mut Vec<Finding>) {
     if let Err(error) = findings(bytes, input, out) {
         out.push(Finding::failed(TRIBOXES, error));
+    }
+}
+
+/// Proves that every level holds the file's triangles.
+pub(super) fn verify_file(bytes: &[u8], raw: &RawMesh) -> Finding {
+    let prove = || -> Result<[usize; 4], String> {
+        let triboxes = Triboxes::parse(bytes)?;
+        triboxes.tree()?;
+        let file = FileSurface::new(raw, triboxes.scale_exponent + triboxes.grid_exponent);
+        let Surface { positions, triangles } = &file.surface;
+        let corners: Vec<_> = triangles.iter().map(|t| t.map(|v| positions[v as usize])).collect();
+        let union = triboxes.union(triboxes.levels.last().map_or(0, |last| last.0));
+        let cut = holds(&union, &corners, 0.., file.error)
+            .map_err(|error| format!("{error}, in the file"))?;
+        Ok([triboxes.levels.len(), union.len(), corners.len(), cut])
+    };
+    match prove() {
+        Ok([levels, triboxes, triangles, cut]) => Finding::proved(
+            TRIBOXES,
+            "every level holds every triangle of the file, as it is written",
+            &[
+                ("level", levels),
+                ("tribox", triboxes),
+                ("triangle", triangles),
+                ("cut triangle", cut),
+            ],
+        ),
+        Err(error) => Finding::failed(TRIBOXES, error),
     }
 }
 

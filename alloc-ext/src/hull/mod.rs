@@ -13,6 +13,7 @@ mod encode;
 mod forest;
 mod groups;
 mod levels;
+mod stored;
 mod swept;
 mod tables;
 mod wires;
@@ -21,5 +22,6 @@ pub use build::{
     BuildOptions, BuildReport, Built, Kind, build, build_deform, build_for_sweep, hull_of,
 };
 pub use cut::cut;
+pub use stored::{enclosing_input, mesh_of, sticks_out_note};
 pub use tables::{SplitRecord, Tables};
 pub use wires::{wires_note, wires_off_surface};

@@ -57,6 +57,12 @@ impl Loaded {
         Input { mesh, moved: *moved, input_triangles: *input_triangles }
     }
 
+    /// How far a point of the file's surface may be from the mesh, in its unit.
+    #[must_use]
+    pub fn error(&self) -> f64 {
+        self.input().error_up()
+    }
+
     /// Whether the unit of the mesh comes from its file, and not from the caller.
     #[must_use]
     pub fn is_in_own_unit(&self) -> bool {
@@ -139,6 +145,12 @@ impl Source {
         scaled.map(|raw| Self { raw, told, started }).map_err(|error| refused(&file, error))
     }
 
+    /// The mesh as read, in the unit that is wanted.
+    #[must_use]
+    pub fn raw(&self) -> &RawMesh {
+        &self.raw
+    }
+
     /// Repairs any triangle soup.
     ///
     /// # Errors
@@ -185,12 +197,6 @@ impl Source {
         });
         let keys = keys.collect::<Result<_, _>>()?;
         Ok((Loaded { time: started.elapsed(), ..loaded }, keys))
-    }
-
-    /// The mesh as it was read.
-    #[must_use]
-    pub fn raw(&self) -> &RawMesh {
-        &self.raw
     }
 
     fn loaded(self, moved: f64, places: Option<&[[f64; 3]]>) -> Result<Loaded, BuildError> {

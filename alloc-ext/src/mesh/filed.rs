@@ -33,4 +33,9 @@ impl Filed {
         let corners = |t: &[u32; 3]| t.map(|v| number[v as usize]);
         Self { positions, triangles: raw.triangles.iter().map(corners).collect() }
     }
+
+    /// Corners of a triangle. Its number must be one of the file's.
+    pub(crate) fn corners(&self, triangle: usize) -> [[f32; 3]; 3] {
+        self.triangles[triangle].map(|v| self.positions[v as usize])
+    }
 }

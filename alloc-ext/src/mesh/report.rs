@@ -177,6 +177,13 @@ impl RepairReport {
         unsound.into_iter().chain(self.left_out.small_faces.said("face", small))
     }
 
+    /// Says how far vertices moved when they were rounded to `f32`, if any did.
+    #[must_use]
+    pub fn rounding_note(&self) -> Option<String> {
+        let moved = self.rounding;
+        (moved > 0.0).then(|| format!("rounding to f32 moved vertices by up to {moved:e}"))
+    }
+
     /// Adds to a [`MeshError::Open`] the zero-area triangle whose removal is the likely cause: one
     /// of the first dropped whose corner lies on one of the edges that the error lists. Any
     /// other error is returned as it is.
@@ -233,8 +240,8 @@ impl fmt::Display for RepairReport {
             let bytes = Counted(bytes_after_end, "byte");
             write!(f, "\n  {bytes} after the announced end of the file left out")?;
         }
-        if self.rounding > 0.0 {
-            write!(f, "\n  rounding to f32 moved vertices by up to {:e}", self.rounding)?;
+        if let Some(note) = self.rounding_note() {
+            write!(f, "\n  {note}")?;
         }
         for (key, [noun, what], finding) in self.findings() {
             if finding.count > 0 {

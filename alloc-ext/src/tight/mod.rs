@@ -63,7 +63,9 @@ pub use components::split_components;
 pub use hull::{Hull, wrap};
 pub use options::{Goal, Options};
 pub use outset::outset;
-pub use report::{Outcome, Progress, Report, Stage as HullStage, Start, margin_note, no_void_note};
+pub use report::{
+    Outcome, Progress, Report, Stage as HullStage, Start, margin_note, no_void_note, rounded_note,
+};
 pub use store::{
     ChainOptions, Distances, HullReport, MAX_HULLS, Stage, chain, cut, distances, hull_mesh,
 };

@@ -3,7 +3,7 @@
 use crate::counted::Counted;
 use crate::hausdorff::Farthest;
 use crate::mesh::NoVolume;
-use crate::number::{About, Typed};
+use crate::number::{About, AtMost, Typed};
 use std::time::Duration;
 
 /// The initial hull that a hull was made from.
@@ -130,6 +130,18 @@ impl Report {
 pub fn margin_note(margin: Option<f64>, of: &str) -> Option<String> {
     let margin = margin.filter(|&margin| margin > 0.0)?;
     Some(format!("all points within {} of the {of} are inside", Typed(margin)))
+}
+
+/// Says of what a hull holds, and of what its distances are, if vertices moved by up to `error`.
+#[must_use]
+pub fn rounded_note(error: f64) -> Option<String> {
+    (error > 0.0).then(|| {
+        format!(
+            "the hull encloses the input as it was before its vertices moved; distances and void \
+             are those of the mesh with moved vertices, up to {} from there",
+            AtMost(error)
+        )
+    })
 }
 
 /// Says why there is no void, if there is none.

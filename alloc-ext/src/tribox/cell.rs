@@ -37,6 +37,8 @@ pub(super) struct Whole<'a> {
     pub is_solid: bool,
     /// Distance by which planes are moved outward, see [`polygons`](super::polygons).
     pub margin: f64,
+    /// [`Mesh::rounding`].
+    pub rounding: f64,
     tree: &'a Bvh<'a>,
     stack: RefCell<Vec<ScratchEntry>>,
 }
@@ -62,6 +64,7 @@ impl<'a> Whole<'a> {
             triangles: mesh.triangles.iter().map(|t| t.map(at)).collect(),
             is_solid: tree.header().is_closed(),
             margin: margin(size),
+            rounding: mesh.rounding,
             tree,
             stack: RefCell::new(vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize]),
         }

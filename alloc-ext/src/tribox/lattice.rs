@@ -2,7 +2,7 @@
 
 use crate::mesh::Mesh;
 use crate::surface::scale_exponent;
-use meshsweep_core::internal::num::exp2;
+use meshsweep_core::internal::num::{down_to_f32, exp2, up_to_f32};
 use meshsweep_core::internal::tribox::{DIRECTIONS, SLABS};
 use meshsweep_core::{Tribox, TriboxError};
 
@@ -11,6 +11,21 @@ const MAX_ORIGIN: f64 = (1u32 << 18) as f64;
 
 /// Finest grid: its units are numbers of f32, and so are their halves and quarters.
 const FINEST: i32 = -147;
+
+/// A tribox that holds all points within `distance` of this one.
+pub(super) fn grown(tribox: &Tribox, distance: f64) -> Tribox {
+    if tribox.is_empty() || distance <= 0.0 {
+        return *tribox;
+    }
+    let by = |slab: usize| {
+        let length = if slab < 3 { 1.0 } else { std::f64::consts::SQRT_2 };
+        // Far more than the rounding of the product and the root.
+        distance * length * (1.0 + 1e-9)
+    };
+    let low = |slab: usize| down_to_f32((f64::from(tribox.low[slab]) - by(slab)).next_down());
+    let high = |slab: usize| up_to_f32((f64::from(tribox.high[slab]) + by(slab)).next_up());
+    Tribox { low: std::array::from_fn(low), high: std::array::from_fn(high) }
+}
 
 /// A power-of-two grid of integers of 16 bits around an origin.
 ///

@@ -4,7 +4,7 @@ use super::cell::{Cell, Trust, Whole};
 use super::choose::{Choice, Choosing, Measure, Planes};
 use super::excess::excess;
 use super::extent::Extent;
-use super::lattice::Lattice;
+use super::lattice::{Lattice, grown};
 use super::polygons::HalfSpace;
 use crate::bvh::MAX_TRIANGLES;
 use crate::error::BuildError;
@@ -45,7 +45,8 @@ pub struct SplitOptions {
     /// Distance by which planes of [proxies](Node::proxy) may move outward so that small faces
     /// vanish, input units.
     pub simplify: f32,
-    /// Grid of the proxies; `None`: each has a [grid](Tribox::on_grid) of its own.
+    /// Grid of the proxies, with what vertices moved; `None`: each has a [grid](Tribox::on_grid)
+    /// of its own, and vertices moved by [`Mesh::rounding`].
     pub lattice: Option<Lattice>,
 }
 
@@ -84,9 +85,10 @@ pub struct Node {
     /// above, in real arithmetic. Inside of the parent's, and on its side of the split's
     /// plane.
     pub tribox: Tribox,
-    /// The tribox that is drawn: the same [simplified](Tribox::snapped) as asked for, and on a
-    /// [grid](Tribox::on_grid) or the [lattice](SplitOptions::lattice), so that every
-    /// vertex is an f32.
+    /// The tribox that is drawn: the same [simplified](Tribox::snapped) as asked for, larger by
+    /// what vertices moved when they were rounded, and on a [grid](Tribox::on_grid) or the
+    /// [lattice](SplitOptions::lattice), so that every vertex is an f32. The proxies of a level hold
+    /// the input as it was before its vertices moved.
     pub proxy: Tribox,
     /// Formula (10) of the paper for the proxy: how far it reaches beyond the convex hull of the
     /// part, input units, see [`Level::error`](super::Level::error).
@@ -260,10 +262,10 @@ impl Growing<'_> {
     fn put(&mut self, cell: Cell, depth: u32) -> u32 {
         let node = self.nodes.len() as u32;
         let simple = cell.tribox.snapped(self.options.simplify);
-        let proxy = self
-            .options
-            .lattice
-            .map_or_else(|| simple.on_grid(), |lattice| lattice.around(&simple));
+        let proxy = match self.options.lattice {
+            Some(lattice) => lattice.around(&simple),
+            None => grown(&simple, self.whole.rounding).on_grid(),
+        };
         let error = excess(&proxy, &cell);
         self.nodes.push(Node { tribox: cell.tribox, proxy, error, split: None });
         if depth < DEPTH && self.options.leaves > 1 {

@@ -3,6 +3,7 @@
 use crate::args::HausdorffArgs;
 use crate::failure::Failure;
 use crate::mesh_file;
+use crate::mesh_report::write_rounding;
 use crate::output::Output;
 use crate::progress::Bar;
 use meshsweep::hausdorff::{
@@ -31,6 +32,7 @@ pub fn run(args: &HausdorffArgs) -> Result<(), Failure> {
         }
     }
     let unit = first.unit.or(second.unit);
+    let rounding = [first.report.rounding, second.report.rounding];
     for (file, of) in [(&args.first, first.unit), (&args.second, second.unit)] {
         if let (None, Some(unit)) = (of, unit) {
             let _ = writeln!(io::stderr(), "{} names no unit; taken as {unit}", file.display());
@@ -64,11 +66,14 @@ pub fn run(args: &HausdorffArgs) -> Result<(), Failure> {
         if args.json {
             serde_json::to_writer_pretty(
                 &mut *out,
-                &as_json(&found, unit, profile.as_ref(), args.at_most),
+                &as_json(&found, unit, rounding, profile.as_ref(), args.at_most),
             )?;
             return writeln!(out);
         }
         write(args, &found, seconds, out)?;
+        for (file, loaded) in [(&args.first, &first), (&args.second, &second)] {
+            write_rounding(out, file, &loaded.report)?;
+        }
         unit.map_or(Ok(()), |unit| writeln!(out, "  unit: {unit}"))?;
         profile.as_ref().map_or(Ok(()), |profile| write_profile(profile, out))
     })?;
@@ -159,6 +164,7 @@ fn ended(found: &Hausdorff) -> &'static str {
 fn as_json(
     found: &Hausdorff,
     unit: Option<Unit>,
+    rounding: [f64; 2],
     profile: Option<&Profile>,
     at_most: Option<f64>,
 ) -> Value {
@@ -170,6 +176,7 @@ fn as_json(
         "lower": lower,
         "upper": upper,
         "unit": unit.map(Unit::symbol),
+        "rounding": rounding,
         "a": point(a),
         "b": point(b),
         "a_triangle": triangle(a),

@@ -4,7 +4,7 @@ mod progressive;
 mod stored;
 mod tight;
 
-pub use stored::mesh_of;
+pub use stored::enclosing;
 
 use crate::args::HullArgs;
 use crate::failure::Failure;

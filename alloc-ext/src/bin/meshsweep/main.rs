@@ -11,7 +11,7 @@
 //! | `ask` | one question about many queries, on several threads, answered as CSV |
 //! | `output` | files that are complete or not there, and pipes that close early |
 //! | `describe` | tables and JSON of sections, levels and memory |
-//! | `hull_report` | what `hull` says of the mesh |
+//! | `mesh_report` | what commands say of a mesh that they read |
 //! | `progress` | progress bars |
 //! | `curve` | what commands do with curves |
 //! | all others | one command each |
@@ -39,9 +39,9 @@ mod failure;
 mod field;
 mod hausdorff;
 mod hull;
-mod hull_report;
 mod info;
 mod mesh_file;
+mod mesh_report;
 mod nearest;
 mod output;
 mod overlap;

@@ -9,14 +9,14 @@ use meshsweep_core::internal::format::layout::MAGIC;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Reads any triangle soup.
-pub fn source(file: &Path, unit: Option<Unit>) -> Result<Source, Failure> {
+/// Reads any triangle soup, without repairs. All loading is in the wanted unit, if one is.
+pub fn read(file: &Path, unit: Option<Unit>) -> Result<Source, Failure> {
     Source::of_file(file, unit).map_err(|error| Failure::build(file, error))
 }
 
-/// Reads and repairs any triangle soup. All loading is in the wanted unit, if one is.
+/// Reads and repairs any triangle soup.
 pub fn load(file: &Path, unit: Option<Unit>) -> Result<Loaded, Failure> {
-    let loaded = Source::of_file(file, unit).and_then(Source::repaired);
+    let loaded = read(file, unit)?.repaired();
     loaded.map_err(|error| Failure::build(file, error))
 }
 

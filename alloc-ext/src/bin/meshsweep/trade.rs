@@ -26,7 +26,7 @@ pub fn run(args: &TradeArgs) -> Result<(), Failure> {
     }
     Output::stdout().finish(|out| {
         if args.json {
-            return table::write_json(out, &measured);
+            return table::write_json(out, &loaded, &measured);
         }
         table::write(out, args, &loaded, &measured)?;
         let page = args.report.as_ref();

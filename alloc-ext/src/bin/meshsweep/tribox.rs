@@ -4,6 +4,7 @@
 use crate::args::TriboxArgs;
 use crate::failure::Failure;
 use crate::mesh_file;
+use crate::mesh_report::write_rounding;
 use crate::output::{Output, refuse_other_extension, refuse_same_file};
 use meshsweep::counted::Counted;
 use meshsweep::load::Loaded;
@@ -110,7 +111,9 @@ impl Report<'_> {
             Some(volume) => writeln!(out, "closed, volume {}", About(volume))?,
             None => writeln!(out, "not closed: triboxes hold its surface, not an inside")?,
         }
-        if !loaded.report.is_clean() {
+        if loaded.report.is_clean() {
+            write_rounding(out, &args.mesh, &loaded.report)?;
+        } else {
             writeln!(out, "  {}", loaded.report)?;
         }
         loaded.unit_note().map_or(Ok(()), |note| writeln!(out, "  {note}"))?;
@@ -167,6 +170,7 @@ impl Report<'_> {
         json!({
             "triangles": self.faces_of_mesh(),
             "unit": self.loaded.unit.map(Unit::symbol),
+            "rounding": self.loaded.report.rounding,
             "is_closed": self.hierarchy.is_solid,
             "volume": self.solid,
             "measure": self.measure(),

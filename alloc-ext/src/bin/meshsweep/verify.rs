@@ -4,13 +4,14 @@ use crate::args::VerifyArgs;
 use crate::describe;
 use crate::failure::Failure;
 use crate::mesh_file;
+use crate::mesh_report::write_rounding;
 use crate::output::Output;
 use meshsweep::BuildError;
-use meshsweep::check::{Against, Finding, Outcome, verify, verify_repair};
+use meshsweep::check::{Against, Finding, Outcome, verify, verify_file, verify_repair};
 use meshsweep::counted::Counted;
 use meshsweep::curve::read_csv;
-use meshsweep::load::{Loaded, Source, is_named_as_mesh};
-use meshsweep::mesh::KeyFrame;
+use meshsweep::load::{Loaded, is_named_as_mesh};
+use meshsweep::mesh::{KeyFrame, RawMesh, RepairReport};
 use meshsweep::surface::VertexBits;
 use meshsweep_core::Blob;
 use meshsweep_core::internal::format::layout::VertexFormat;
@@ -21,13 +22,16 @@ pub fn run(args: &VerifyArgs) -> Result<(), Failure> {
     let bytes = std::fs::read(&args.blob)
         .map_err(|error| Failure::Read { file: args.blob.clone(), error })?;
     let blob = Blob::open(&bytes).map_err(|error| Failure::open(&args.blob, error))?;
-    let Proofs { findings, hint } = prove(args, &bytes, &blob)?;
+    let Proofs { findings, hint, report } = prove(args, &bytes, &blob)?;
     Output::stdout().finish(|out| match args.json {
         true => {
-            serde_json::to_writer_pretty(&mut *out, &as_json(&findings))?;
+            serde_json::to_writer_pretty(&mut *out, &as_json(&findings, report.as_ref()))?;
             writeln!(out)
         }
-        false => findings.iter().try_for_each(|finding| write(out, finding)),
+        false => {
+            findings.iter().try_for_each(|finding| write(out, finding))?;
+            report.map_or(Ok(()), |report| write_rounding(out, &args.mesh, &report))
+        }
     })?;
     match unproved(&findings) {
         None => Ok(()),
@@ -43,6 +47,8 @@ pub fn run(args: &VerifyArgs) -> Result<(), Failure> {
 struct Proofs {
     findings: Vec<Finding>,
     hint: String,
+    /// Of the mesh, if the blob is of one.
+    report: Option<RepairReport>,
 }
 
 /// How many claims are not proved, and of which structures, if any are not.
@@ -81,7 +87,7 @@ fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Fai
         })?;
         let points: Vec<_> = polylines.into_iter().map(|polyline| polyline.points).collect();
         let findings = verify(bytes, Against::Curves(&points));
-        return Ok(Proofs { findings, hint: String::new() });
+        return Ok(Proofs { findings, hint: String::new(), report: None });
     }
     if is_csv {
         let (blob, file) = (args.blob.display(), args.mesh.display());
@@ -91,18 +97,18 @@ fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Fai
         );
         return Err(Failure::Usage { what });
     }
+    let file = mesh_file::read(&args.mesh, args.unit)?;
+    let raw = file.raw();
     if blob.deformable_hull().is_ok() {
         let (loaded, keys) = mesh_file::load_deformable(&args.mesh, &args.frames, args.unit)?;
-        let source = mesh_file::source(&args.mesh, args.unit)?;
-        return Ok(of_mesh(args, bytes, blob, (&source, &loaded), &keys));
+        return Ok(of_mesh(args, bytes, blob, raw, &loaded, &keys));
     }
     if !args.frames.is_empty() {
         let what = "several meshes are key frames, and the blob has none; name one mesh".to_owned();
         return Err(Failure::Usage { what });
     }
-    let source = mesh_file::source(&args.mesh, args.unit)?;
-    let loaded = source.clone().repaired().map_err(|error| Failure::build(&args.mesh, error))?;
-    let found = of_mesh(args, bytes, blob, (&source, &loaded), &[]);
+    let loaded = file.clone().repaired().map_err(|error| Failure::build(&args.mesh, error))?;
+    let found = of_mesh(args, bytes, blob, raw, &loaded, &[]);
     // A hull on a grid may have moved the mesh before its repair, as --vertex-bits says.
     let bits = match blob.hull().map(|_| blob.header().vertex_format) {
         Ok(VertexFormat::Grid16) => VertexBits::Grid16,
@@ -112,20 +118,21 @@ fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Fai
     if found.findings.iter().all(|finding| finding.outcome == Outcome::Proved) {
         return Ok(found);
     }
-    let snapped =
-        source.clone().on_grid(bits).map_err(|error| Failure::build(&args.mesh, error))?;
-    Ok(of_mesh(args, bytes, blob, (&source, &snapped), &[]))
+    let snapped = file.clone().on_grid(bits).map_err(|error| Failure::build(&args.mesh, error))?;
+    Ok(of_mesh(args, bytes, blob, raw, &snapped, &[]))
 }
 
 fn of_mesh(
     args: &VerifyArgs,
     bytes: &[u8],
     blob: &Blob<'_>,
-    (source, loaded): (&Source, &Loaded),
+    raw: &RawMesh,
+    loaded: &Loaded,
     keys: &[KeyFrame],
 ) -> Proofs {
-    let mut findings = vec![verify_repair(source.raw(), loaded.input())];
+    let mut findings = vec![verify_repair(raw, loaded.input())];
     findings.extend(verify(bytes, Against::Mesh(loaded.input(), keys)));
+    findings.extend(verify_file(bytes, raw));
     let (stored, given) = (describe::input_triangles(blob) as usize, loaded.input_triangles);
     let hint = if stored > 0 && stored != given {
         format!(
@@ -138,7 +145,7 @@ fn of_mesh(
     } else {
         String::new()
     };
-    Proofs { findings, hint }
+    Proofs { findings, hint, report: Some(loaded.report.clone()) }
 }
 
 fn name(outcome: Outcome) -> &'static str {
@@ -160,7 +167,7 @@ fn write(out: &mut dyn Write, finding: &Finding) -> io::Result<()> {
     if counts.is_empty() { Ok(()) } else { writeln!(out, "  {}", counts.join(", ")) }
 }
 
-fn as_json(findings: &[Finding]) -> Value {
+fn as_json(findings: &[Finding], report: Option<&RepairReport>) -> Value {
     let one = |finding: &Finding| {
         let counts: Map<String, Value> =
             finding.counts.iter().map(|&(noun, count)| (noun.to_owned(), json!(count))).collect();
@@ -172,5 +179,7 @@ fn as_json(findings: &[Finding]) -> Value {
         })
     };
     let is_proved = findings.iter().all(|finding| finding.outcome == Outcome::Proved);
-    json!({ "proved": is_proved, "findings": findings.iter().map(one).collect::<Vec<_>>() })
+    let findings: Vec<Value> = findings.iter().map(one).collect();
+    let rounding = report.map(|report| report.rounding);
+    json!({ "proved": is_proved, "rounding": rounding, "findings": findings })
 }

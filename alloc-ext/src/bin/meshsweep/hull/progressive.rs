@@ -2,8 +2,8 @@
 
 use crate::args::HullArgs;
 use crate::failure::Failure;
-use crate::hull_report::write_repairs;
 use crate::mesh_file;
+use crate::mesh_report::write_repairs;
 use crate::output::Output;
 use crate::progress::Bar;
 use meshsweep::builder::FACES;

@@ -6,10 +6,11 @@ use crate::output::Output;
 use crate::{blob_file, describe, served};
 use meshsweep::BuildError;
 use meshsweep::counted::Counted;
+use meshsweep::hull::{enclosing_input, mesh_of, sticks_out_note};
 use meshsweep::mesh::{Mesh, write_ply};
 use meshsweep::number::{AtMost, Percent};
 use meshsweep::tight::hull_mesh;
-use meshsweep_core::{Hull, HullFace, VertIdx};
+use meshsweep_core::Hull;
 
 /// Writes the finest tight hull of at most so many faces.
 pub fn write_tight(args: &HullArgs, faces: u32) -> Result<(), Failure> {
@@ -22,7 +23,8 @@ pub fn write_tight(args: &HullArgs, faces: u32) -> Result<(), Failure> {
         if let Some(void) = describe::tight::void(record) {
             write!(out, "{} % void space, ", Percent(f64::from(void) * 100.0))?;
         }
-        writeln!(out, "at most {} from the mesh", AtMost(record.slack))
+        let off = hull.bvh().surface_error();
+        writeln!(out, "at most {} from the mesh", AtMost(f64::from(record.slack) + f64::from(off)))
     })
 }
 
@@ -36,7 +38,7 @@ pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
         error: BuildError::NoLevel { wanted: index, levels },
     };
     let level = hierarchy.level(index).ok_or_else(no_level)?;
-    let hull = mesh_of(&hierarchy, hierarchy.faces(&level));
+    let (hull, note) = enclosing(&hierarchy, mesh_of(&hierarchy, hierarchy.faces(&level)));
     Output::file(&args.output)?.finish(|out| write_ply(&hull, out))?;
     Output::stdout().finish(|out| {
         writeln!(
@@ -46,23 +48,15 @@ pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
             Counted(hull.triangles.len(), "face"),
             Percent(f64::from(level.void_ratio) * 100.0),
             levels - 1
-        )
+        )?;
+        note.map_or(Ok(()), |note| writeln!(out, "  {note}"))
     })
 }
 
-/// Faces of a hull as a mesh in the mesh's unit. The scale is a power of two, so its vertices are
-/// exactly the stored ones.
-pub fn mesh_of(hull: &Hull<'_>, faces: impl Iterator<Item = HullFace>) -> Mesh {
-    let mut number = vec![None; hull.header().vertices as usize];
-    let mut positions = Vec::new();
-    let mut triangles = Vec::new();
-    for face in faces {
-        triangles.push(face.corners.map(|vertex: VertIdx| {
-            *number[vertex.usize()].get_or_insert_with(|| {
-                positions.push(hull.vertex(vertex).unwrap_or_default());
-                positions.len() as u32 - 1
-            })
-        }));
+/// A hull that encloses the input; or the stored one, and how far the input sticks out.
+pub fn enclosing(hierarchy: &Hull<'_>, hull: Mesh) -> (Mesh, Option<String>) {
+    match enclosing_input(hierarchy, hull) {
+        Ok(hull) => (hull, None),
+        Err(hull) => (hull, sticks_out_note(f64::from(hierarchy.surface_error()))),
     }
-    Mesh::new(positions, triangles)
 }

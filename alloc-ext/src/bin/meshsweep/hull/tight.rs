@@ -2,8 +2,8 @@
 
 use crate::args::HullArgs;
 use crate::failure::Failure;
-use crate::hull_report::write_repairs;
 use crate::mesh_file::load_snapped;
+use crate::mesh_report::write_repairs;
 use crate::output::Output;
 use crate::progress::StageBars;
 use meshsweep::builder::FACES;
@@ -11,8 +11,8 @@ use meshsweep::counted::Counted;
 use meshsweep::mesh::{Input, Mesh, write_ply};
 use meshsweep::number::{AtLeast, AtMost, Percent};
 use meshsweep::tight::{
-    Goal, Hull, Options, Outcome, Report, Tightness, margin_note, no_void_note, split_components,
-    wrap,
+    Goal, Hull, Options, Outcome, Report, Tightness, margin_note, no_void_note, rounded_note,
+    split_components, wrap,
 };
 use std::io::{self, Write};
 use std::time::Duration;
@@ -68,7 +68,8 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
                 }
                 Ok(())
             }
-        }
+        }?;
+        rounded_note(loaded.error()).map_or(Ok(()), |note| writeln!(out, "  {note}"))
     })
 }
 

@@ -45,7 +45,7 @@ pub fn write(
         "program": env!("CARGO_PKG_VERSION"),
         "unit": loaded.unit.map(Unit::symbol),
         "triangles": loaded.mesh.triangles.len(),
-        "trade": table::as_json(measured),
+        "trade": table::as_json(loaded, measured),
         "path": path::as_json(loaded, measured, &asked).map_err(failed)?,
         "scene": scene::as_json(loaded, measured, &asked).map_err(failed)?,
     });

@@ -2,6 +2,7 @@
 
 use super::measured::Measured;
 use crate::args::TradeArgs;
+use crate::mesh_report::write_rounding;
 use meshsweep::counted::Counted;
 use meshsweep::load::Loaded;
 use meshsweep::number::AtMost;
@@ -39,6 +40,7 @@ pub fn write(
         AtMost(*diagonal),
         Counted(*points, "point"),
     )?;
+    write_rounding(out, &args.mesh, &loaded.report)?;
     loaded.unit_note().map_or(Ok(()), |note| writeln!(out, "  {note}"))?;
     let best = pareto(&trade.rows);
     let of = |rows: &mut dyn Iterator<Item = &Row>| {
@@ -157,13 +159,13 @@ fn write_notes(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
     )
 }
 
-pub fn write_json(out: &mut dyn Write, measured: &Measured) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, &as_json(measured))?;
+pub fn write_json(out: &mut dyn Write, loaded: &Loaded, measured: &Measured) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, &as_json(loaded, measured))?;
     writeln!(out)
 }
 
 /// All rows, and the points that they were measured at.
-pub fn as_json(measured: &Measured) -> Value {
+pub fn as_json(loaded: &Loaded, measured: &Measured) -> Value {
     let Measured { trade, diagonal, points, kind } = measured;
     let best = pareto(&trade.rows);
     let rows: Vec<Value> =
@@ -175,6 +177,7 @@ pub fn as_json(measured: &Measured) -> Value {
         "points": points,
         "kind": kind,
         "diagonal": diagonal,
+        "rounding": loaded.report.rounding,
         "pareto": best,
         "needles": trade.needles,
         "rows": rows,

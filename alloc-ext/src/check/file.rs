@@ -1,0 +1,63 @@
+//! Proof that tight hulls and triboxes hold the triangles of the file, from the file's own numbers:
+//! before any vertex was rounded to `f32` or merged, and before any triangle was dropped.
+//!
+//! Coordinates are those that the reader gives, in `f64`. What lies between them and the file (the
+//! text's decimals, transforms, another unit) is a margin, which the proofs add.
+
+use super::enclosure::Surface;
+use super::finding::Finding;
+use super::{bytes, tight, triboxes};
+use crate::mesh::RawMesh;
+
+/// The triangles of a file, in a local frame.
+pub(super) struct FileSurface {
+    pub(super) surface: Surface,
+    /// Upper bound of the distance of any vertex from its place in the file, local frame.
+    pub(super) error: f64,
+}
+
+impl FileSurface {
+    /// In the frame whose unit is 2^`scale_exponent`.
+    pub(super) fn new(raw: &RawMesh, scale_exponent: i32) -> Self {
+        let scale = 2f64.powi(-scale_exponent);
+        let positions = raw.positions.iter().map(|p| p.map(|x| x * scale)).collect();
+        let surface = Surface { positions, triangles: raw.triangles.clone() };
+        Self { surface, error: error(raw) * scale }
+    }
+}
+
+/// How far a vertex may be from its place in the file.
+///
+/// A decimal is off by half a unit in the last place on each axis. A decimal whose nearest `f64` is
+/// an `f32` counts as that number, so a file of them alone has no error.
+fn error(raw: &RawMesh) -> f64 {
+    let coordinates = || raw.positions.iter().flatten().copied();
+    let is_f32 = coordinates().all(|x| f64::from(x as f32) == x);
+    if !raw.decimal || is_f32 {
+        return raw.error;
+    }
+    let largest = coordinates().fold(0f64, |most, x| most.max(x.abs()));
+    // √3 halves of 2^-52 are less than one. Below the normal numbers the unit is absolute.
+    (raw.error + f64::EPSILON * largest + 2.0 * f64::from_bits(1)).next_up()
+}
+
+/// Proves that a blob's tight hulls and triboxes hold every triangle of the file, as it is written.
+/// A hull hierarchy makes no claim of the file: its levels enclose the surface as stored, and its
+/// surface error says how far that is from the file's.
+///
+/// The bytes must open, by [`Blob::open`](meshsweep_core::Blob::open).
+///
+/// # Panics
+/// It may, if the bytes do not open.
+#[must_use]
+pub fn verify_file(bytes: &[u8], raw: &RawMesh) -> Vec<Finding> {
+    let kinds: Vec<u32> = bytes::entries(bytes).iter().map(|entry| entry.kind).collect();
+    let mut out = Vec::new();
+    if kinds.contains(&19) {
+        out.push(triboxes::verify_file(bytes, raw));
+    }
+    if kinds.contains(&20) {
+        out.push(tight::verify_file(bytes, raw));
+    }
+    out
+}
