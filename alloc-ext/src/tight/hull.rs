@@ -1,7 +1,7 @@
 //! From any triangles to their tight hull: options are checked, the hull is searched and measured.
 
 use super::deadline::Deadline;
-use super::moves::slack;
+use super::moves::{Rounding, slack};
 use super::options::{Goal, Options};
 use super::proof::Obstacle;
 use super::report::{Outcome, Progress, Report};
@@ -16,6 +16,10 @@ use meshsweep_core::internal::num::exp2;
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
+
+/// Half-steps of the hull's grid up to which a margin needs no search. Rounding to `f32` moves a
+/// vertex by √3 of them at most, and edits keep four.
+const FEW_STEPS: f64 = 2.0;
 
 /// A tight hull and its measures.
 #[derive(Clone, Debug)]
@@ -47,9 +51,10 @@ pub fn wrap<'m, A: Answer>(
     if triangles.is_empty() {
         return Err(BuildError::Empty);
     }
+    let is_of_rounding = options.margin <= 0.0;
     let options = &options.of_mesh(input.error_up())?;
     let positions: Vec<DVec3> = mesh.positions.iter().map(|&p| Vec3::from(p).as_dvec3()).collect();
-    let obstacle = Obstacle::new(&positions, &triangles).with_margin(options.margin);
+    let obstacle = Obstacle::new(&positions, &triangles);
     // The surface that the search starts from has no wires, unless the mesh has only wires.
     let surface = if mesh.wires.is_empty() {
         Cow::Borrowed(mesh)
@@ -78,6 +83,14 @@ pub fn wrap<'m, A: Answer>(
         stored.clone()
     } else {
         hull_frame(&positions, options.margin, bits)?
+    };
+    let Bounds { low, high } = obstacle.bounds();
+    let size = low.abs().max(high.abs()).max_element();
+    let steps = Rounding::new(hull_frame.grid, hull_frame.scale_exponent).half_step(size);
+    let obstacle = if is_of_rounding && options.margin <= FEW_STEPS * steps {
+        obstacle.with_narrow_margin(options.margin)
+    } else {
+        obstacle.with_margin(options.margin)
     };
     // If the mesh is not on the grid, the grid is for the hull alone. The search starts from the
     // mesh as it is.

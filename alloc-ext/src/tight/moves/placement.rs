@@ -114,7 +114,7 @@ impl Placer {
             let trial = Trial { obstacle, near, frame: &frame, x, clearance };
             let clear = self.cut(star, &trial, false)
                 && self.cut(star, &trial, true)
-                && (margin <= 0.0 || self.push_apart(star, &trial));
+                && (!obstacle.has_wide_margin() || self.push_apart(star, &trial));
             if clear {
                 return Some(x);
             }
@@ -162,7 +162,7 @@ impl Placer {
             let found = match face.ring {
                 // A face that rises cuts nothing off, but it may turn towards mesh that it has to
                 // keep the margin from.
-                Some(ring) if trial.obstacle.margin() > 0.0 => {
+                Some(ring) if trial.obstacle.has_wide_margin() => {
                     let face_margin = FaceMargin::new(trial, face, ring);
                     if edges {
                         face_margin.plane_over_triangles()

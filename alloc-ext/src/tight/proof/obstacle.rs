@@ -21,6 +21,8 @@ pub(crate) struct Obstacle {
     witness_tree: StaticTree,
     /// Distance within which no face may come; 0 for none.
     margin: f64,
+    /// Whether the margin is more than the steps that placements keep anyway.
+    is_wide: bool,
 }
 
 /// Sine between two edges of a face up to which the face counts as a needle. Rounding turns the
@@ -55,6 +57,7 @@ impl Obstacle {
             witness_tree: tree_of_points(&witnesses),
             witnesses,
             margin: 0.0,
+            is_wide: false,
         }
     }
 
@@ -67,12 +70,25 @@ impl Obstacle {
 
     /// The same with a margin: a distance within which no face may come.
     pub fn with_margin(self, margin: f64) -> Self {
-        Self { margin, ..self }
+        Self { margin, is_wide: margin > 0.0, ..self }
+    }
+
+    /// The same with a margin that is no more than a few steps of the hull's grid. Every edit is
+    /// proved to keep it. Placements do not search for what is near: they keep some steps more from
+    /// what they cut off, and faces that turn towards the mesh elsewhere are rarely that near.
+    pub fn with_narrow_margin(self, margin: f64) -> Self {
+        Self { margin, is_wide: false, ..self }
     }
 
     /// See [`with_margin`](Self::with_margin).
     pub fn margin(&self) -> f64 {
         self.margin
+    }
+
+    /// Whether placements search for the mesh near a face; see
+    /// [`with_narrow_margin`](Self::with_narrow_margin).
+    pub fn has_wide_margin(&self) -> bool {
+        self.is_wide
     }
 
     /// The bounding box of all triangles.
