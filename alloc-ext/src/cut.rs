@@ -1,6 +1,6 @@
 //! A coarser blob out of a finer one: each structure cuts its own sections.
 
-use crate::emit::assemble;
+use crate::emit::{Sections, assemble, copied};
 use crate::error::BuildError;
 use crate::{bvh, hull, tight, tribox};
 use meshsweep_core::{Blob, Hull};
@@ -9,7 +9,8 @@ use meshsweep_core::{Blob, Hull};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Keep {
-    /// The finest level of the hull hierarchy. A box tree cannot be cut: it is left out.
+    /// The finest level of the hull hierarchy. A box tree and key frames cannot be cut: they are
+    /// left out.
     pub level: Option<u32>,
     /// Of the triboxes the finest level of at most so many.
     pub triboxes: Option<u32>,
@@ -43,9 +44,13 @@ impl Keep {
 /// [`BuildError`] if there is nothing of the kind to cut.
 pub fn cut_blob(blob: &Blob<'_>, keep: &Keep) -> Result<Vec<u8>, BuildError> {
     let hierarchy = match (keep.level, blob.hull()) {
-        (Some(level), Ok(hull)) => Some(cut(&hull, level)?),
+        (Some(level), Ok(hull)) => Some(cut(&hull, level)?.sections()),
         (Some(wanted), Err(_)) => return Err(BuildError::NoLevel { wanted, levels: 0 }),
-        (None, Ok(hull)) => Some(hull::Tables::from_hull(&hull).ok_or(BuildError::Unchecked)?),
+        // Key frames are about all vertices, so they stay beside a whole hierarchy only.
+        (None, Ok(hull)) => {
+            let bodies = copied(blob, |kind| kind.is_hull() || kind.is_deform());
+            Some(Sections { header: *hull.header(), bodies })
+        }
         (None, Err(_)) => None,
     };
     let tree = if keep.level.is_none() { bvh::sections_of(blob) } else { None };
@@ -57,7 +62,7 @@ pub fn cut_blob(blob: &Blob<'_>, keep: &Keep) -> Result<Vec<u8>, BuildError> {
     }
     let triboxes = tribox::cut(blob, keep.triboxes.unwrap_or(u32::MAX));
     let tight = tight::cut(blob, keep.tight.unwrap_or(u32::MAX));
-    let structures = [hierarchy.map(|tables| tables.sections()), tree, triboxes, tight];
+    let structures = [hierarchy, tree, triboxes, tight];
     Ok(assemble(structures.iter().flatten()))
 }
 

@@ -110,7 +110,8 @@ pub use hull::{
 pub use query::{
     AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Motion, Overlap, Overlaps,
     PairContact, PairDistance, PairWithin, Penetration, PosedPoint, QueryError, Relation, Scratch,
-    ScratchEntry, Side, Solid, SolidDistance, SolidWithin, TrianglePair, Undecided, Verdict, Work,
+    ScratchEntry, Side, Solid, SolidDistance, SolidWithin, TriangleHit, TrianglePair, Undecided,
+    Verdict, Work,
 };
 pub use tight::{TightHull, TightHulls, TightRecord};
 pub use tribox::{

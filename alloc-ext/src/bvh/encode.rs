@@ -4,7 +4,7 @@ use super::fans::{FanLeaf, MAX_LEAF_TRIANGLES};
 use super::nodes::boxes::NodeBoxes;
 use super::nodes::order::Topology;
 use super::store::OnGrid;
-use crate::emit::Sections;
+use crate::emit::{Sections, copied};
 use arrayvec::ArrayVec;
 use glam::{DVec3, Vec3};
 use meshsweep_core::Blob;
@@ -37,12 +37,8 @@ pub(super) fn sections(
 #[must_use]
 pub fn sections_of(blob: &Blob<'_>) -> Option<Sections> {
     let tree = blob.bvh().ok()?;
-    let of_tree = blob.sections().filter(|section| section.kind.is_bvh());
-    let bodies = of_tree.filter_map(|section| {
-        let bytes = blob.bytes().get(section.offset as usize..)?.get(..section.bytes as usize)?;
-        Some((section.kind, bytes.to_vec()))
-    });
-    Some(sections(tree.scale_exponent(), tree.input_triangles(), tree.header(), bodies.collect()))
+    let bodies = copied(blob, SectionKind::is_bvh);
+    Some(sections(tree.scale_exponent(), tree.input_triangles(), tree.header(), bodies))
 }
 
 /// Shape of a leaf.

@@ -2,12 +2,12 @@
 
 pub mod source;
 
-use meshsweep_core::SectionKind;
 use meshsweep_core::internal::format::layout::{
     HEADER_BYTES, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES, VertexFormat, field,
 };
 use meshsweep_core::internal::format::{Header, section_crc};
 use meshsweep_core::internal::geom::Aabb;
+use meshsweep_core::{Blob, SectionKind};
 
 /// The sections of one structure, and the header of a blob that holds this structure alone.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +59,17 @@ impl Sections {
     pub fn to_bytes(&self) -> Vec<u8> {
         assemble([self])
     }
+}
+
+/// The sections of a blob whose kinds are wanted, copied unchanged.
+#[must_use]
+pub fn copied(blob: &Blob<'_>, is_wanted: fn(SectionKind) -> bool) -> Vec<(SectionKind, Vec<u8>)> {
+    let wanted = blob.sections().filter(|section| is_wanted(section.kind));
+    let bodies = wanted.filter_map(|section| {
+        let bytes = blob.bytes().get(section.offset as usize..)?.get(..section.bytes as usize)?;
+        Some((section.kind, bytes.to_vec()))
+    });
+    bodies.collect()
 }
 
 /// A blob of structures of the same mesh, in the order in which the format names their sections.

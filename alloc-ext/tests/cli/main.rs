@@ -1,5 +1,6 @@
 //! The command line, as users call it: one file for each kind of question.
 
+mod all_hits;
 mod arguments;
 mod build;
 mod builder;

@@ -4,8 +4,10 @@ use super::descent::descend;
 use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor};
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::Bvh;
-use crate::geom::fan::Crossing;
-use crate::query::{AllHits, Budget, Ended, Hit, Hits, QueryError, ScratchEntry, Work};
+use crate::geom::fan::{Crossing, WIDTH};
+use crate::query::{
+    AllHits, Budget, Ended, Hit, Hits, QueryError, ScratchEntry, TriangleHit, Work,
+};
 
 impl Bvh<'_> {
     /// All common points of the closed segment `a b` (input units) and the stored surface, by
@@ -15,18 +17,20 @@ impl Bvh<'_> {
     /// for each triangle there. [`AllHits::dropped`] counts the hits that do not fit; the slice
     /// keeps the first ones. With [`Ended::Exact`] these are exactly the input's triangles that the
     /// segment meets, for certain. With [`Ended::Resolution`] rounding or the surface error leaves
-    /// some of them undecided.
+    /// some triangles undecided. Each hit tells whether it is certain
+    /// ([`TriangleHit::is_certain`]). An undecided triangle may be missing, if the segment passes
+    /// beside the stored one: then [`AllHits::is_complete`] is false.
     ///
     /// `a`, `b`, `facing`, `budget`, `scratch` and degenerate cases as for
     /// [`first_hit`](Bvh::first_hit). Cost: all leaves that the segment enters.
     ///
     /// ```
-    /// use meshsweep_core::{Budget, Bvh, Facing, Hit, Scratch};
+    /// use meshsweep_core::{Budget, Bvh, Facing, Scratch, TriangleHit};
     /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
     /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<64>::new());
-    /// let (a, b, mut hits) = ([0.0, 0.0, -400.0], [0.0, 0.0, 400.0], [Hit::EMPTY; 8]);
+    /// let (a, b, mut hits) = ([0.0, 0.0, -400.0], [0.0, 0.0, 400.0], [TriangleHit::EMPTY; 8]);
     /// let found = part.all_hits(a, b, Facing::Both, &mut hits, Budget::EXACT, &mut scratch)?;
-    /// assert!(hits[..found.stored].is_sorted_by(|x, y| x.t <= y.t));
+    /// assert!(hits[..found.stored].is_sorted_by(|x, y| x.hit.t <= y.hit.t));
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     ///
@@ -38,31 +42,44 @@ impl Bvh<'_> {
         a: [f32; 3],
         b: [f32; 3],
         facing: Facing,
-        hits: &mut [Hit],
+        hits: &mut [TriangleHit],
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<AllHits, QueryError> {
         let mut work = Work::default();
         let hits = Hits::new(hits);
         let Some(query) = SegmentQuery::prepare(self, [a, b], &budget, scratch)? else {
-            return Ok(hits.answer(work, Ended::Exact));
+            return Ok(hits.answer(work, Ended::Exact, false));
         };
-        let collector = AllCrossings { tree: self, query: &query, hits, undecided: false };
+        let collector = AllCrossings {
+            tree: self,
+            query: &query,
+            hits,
+            undecided: false,
+            lacks: false,
+            places: [0.0; WIDTH],
+        };
         let mut visitor = SegmentVisitor { query: &query, facing, collector };
         let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
         let ended = match descent.ended() {
             Ended::Exact if visitor.collector.undecided => Ended::Resolution,
             ended => ended,
         };
-        Ok(visitor.collector.hits.answer(work, ended))
+        let AllCrossings { hits, lacks, .. } = visitor.collector;
+        Ok(hits.answer(work, ended, lacks))
     }
 }
 
 struct AllCrossings<'a> {
     tree: &'a Bvh<'a>,
     query: &'a SegmentQuery,
-    hits: Hits<'a>,
+    hits: Hits<'a, TriangleHit>,
     undecided: bool,
+    /// An undecided triangle is not among the hits: the segment passes beside the stored one.
+    lacks: bool,
+    /// Parameters of the stored triangles of the leaf that is being tested, by lane. Infinite if
+    /// the triangle is not met.
+    places: [f32; WIDTH],
 }
 
 impl CrossingCollector for AllCrossings<'_> {
@@ -72,18 +89,41 @@ impl CrossingCollector for AllCrossings<'_> {
 
     fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) -> Option<()> {
         self.undecided |= !crossing.certain;
+        if let Some(place) = self.places.get_mut(lane as usize) {
+            *place = if crossing.stored { crossing.t } else { f32::INFINITY };
+        }
         if crossing.stored {
-            let number = self.tree.links(node)?.triangle(child).wrapping_add(lane);
-            self.hits.insert(self.query.hit(crossing.t, self.tree.source(number)));
+            let hit = self.hit(crossing.t, node, child, lane)?;
+            self.hits.insert(TriangleHit { hit, is_certain: crossing.certain });
+        } else {
+            self.lacks = true;
         }
         Some(())
     }
 
     fn certain(&mut self, _: f32) {}
 
+    /// One hit for the group is certain: the one that [`Bvh::first_hit`] would name.
+    fn covered(&mut self, lanes: u32, _: f32, node: u32, child: u32) -> Option<()> {
+        let met = (0u32..).zip(self.places).filter(|&(lane, _)| lanes >> lane & 1 != 0);
+        let (lane, t) = met.fold((0, f32::INFINITY), |x, y| if y.1 < x.1 { y } else { x });
+        if t < f32::INFINITY {
+            let hit = self.hit(t, node, child, lane)?;
+            self.hits.prove(&hit);
+        }
+        Some(())
+    }
+
     fn is_answered(&self) -> bool {
         false
     }
 
-    const COVERS: bool = false;
+    const TELLS_EACH: bool = true;
+}
+
+impl AllCrossings<'_> {
+    fn hit(&self, t: f32, node: u32, child: u32, lane: u32) -> Option<Hit> {
+        let number = self.tree.links(node)?.triangle(child).wrapping_add(lane);
+        Some(self.query.hit(t, self.tree.source(number)))
+    }
 }

@@ -89,9 +89,15 @@ impl CrossingCollector for AnyCrossing {
     }
 
     #[inline(always)]
+    fn covered(&mut self, _: u32, upper: f32, _: u32, _: u32) -> Option<()> {
+        self.certain(upper);
+        Some(())
+    }
+
+    #[inline(always)]
     fn is_answered(&self) -> bool {
         self.certain
     }
 
-    const COVERS: bool = true;
+    const TELLS_EACH: bool = false;
 }

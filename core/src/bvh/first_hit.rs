@@ -151,9 +151,15 @@ impl CrossingCollector for FirstCrossing<'_> {
     }
 
     #[inline(always)]
+    fn covered(&mut self, _: u32, upper: f32, _: u32, _: u32) -> Option<()> {
+        self.certain(upper);
+        Some(())
+    }
+
+    #[inline(always)]
     fn is_answered(&self) -> bool {
         false
     }
 
-    const COVERS: bool = true;
+    const TELLS_EACH: bool = false;
 }

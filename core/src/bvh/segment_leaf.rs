@@ -53,11 +53,14 @@ pub(crate) trait CrossingCollector {
     fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) -> Option<()>;
     /// The input's surface is met, not later than this.
     fn certain(&mut self, upper: f32);
+    /// The input's surface is met, not later than `upper`, by one of a leaf's undecided triangles,
+    /// a bit of `lanes` for each. Next to an inner edge of a fan each is undecided, yet the segment
+    /// certainly meets one of them.
+    fn covered(&mut self, lanes: u32, upper: f32, node: u32, child: u32) -> Option<()>;
     /// Whether the question is answered.
     fn is_answered(&self) -> bool;
-    /// Whether [`certain`](Self::certain) is also called for a group of triangles. Next to an inner
-    /// edge of a fan each triangle is undecided, yet the segment certainly meets one of them.
-    const COVERS: bool;
+    /// Whether an undecided triangle matters next to a certain one in the same leaf.
+    const TELLS_EACH: bool;
 }
 
 /// The visitor of all segment questions.
@@ -202,7 +205,7 @@ impl<C: CrossingCollector> SegmentVisitor<'_, C> {
                 }
             }
         }
-        if is_certain || !C::COVERS {
+        if is_certain && !C::TELLS_EACH {
             return Some(());
         }
         for fan in 0..2 {
@@ -215,7 +218,8 @@ impl<C: CrossingCollector> SegmentVisitor<'_, C> {
                 let is_covered =
                     turns.is_some_and(|turns| turns != 0 && turns as f32 * wanted(fan == 1) >= 0.0);
                 if is_covered {
-                    self.collector.certain(upper[fan]);
+                    let (lanes, upper) = (undecided[fan], upper[fan]);
+                    self.collector.covered(lanes, upper, visit.node, visit.child)?;
                 }
             }
         }

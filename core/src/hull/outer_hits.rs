@@ -182,7 +182,7 @@ struct OuterSearch<'a> {
     refined: &'a mut Refined,
     /// Splits of crossed faces, with the parameter at which the segment may enter the face.
     candidates: &'a mut [ScratchEntry],
-    hits: Hits<'a>,
+    hits: Hits<'a, Hit>,
     out: OuterHits,
     waiting: usize,
     /// One candidate that needs none of the caller's memory.

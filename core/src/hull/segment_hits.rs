@@ -10,7 +10,7 @@ use crate::hull::format::{Hull, Instance};
 use crate::num::{down_to_f32, up_to_f32};
 use crate::query::{
     AllHits, Budget, Ended, FirstHit, Frame, Hit, Hits, Interval, QueryError, ScratchEntry,
-    SweepQueue, Taken, Work,
+    SweepQueue, Taken, TriangleHit, Work,
 };
 use glam::DVec3;
 
@@ -72,15 +72,18 @@ impl Hull<'_> {
     ///
     /// Each triangle that the segment meets gives one hit. So a segment through an edge or a vertex
     /// gives one for each triangle there. [`AllHits::dropped`] counts the hits that do not fit; the
-    /// slice keeps the first ones. Arguments and cost as for [`first_hit`](Hull::first_hit).
+    /// slice keeps the first ones. Each hit tells whether it is certain
+    /// ([`TriangleHit::is_certain`]). No triangle is missing unless the search ended early
+    /// ([`AllHits::is_complete`]): what may be met is a hit. Arguments and cost as for
+    /// [`first_hit`](Hull::first_hit).
     ///
     /// ```
-    /// use meshsweep_core::{Budget, Hit, Hull, Scratch};
+    /// use meshsweep_core::{Budget, Hull, Scratch, TriangleHit};
     /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/bracket.msw"));
     /// let (part, mut scratch) = (Hull::open(bytes)?, Scratch::<256>::new());
-    /// let (a, b, mut hits) = ([-400.0, 1.0, 1.0], [400.0, 1.0, 1.0], [Hit::EMPTY; 8]);
+    /// let (a, b, mut hits) = ([-400.0, 1.0, 1.0], [400.0, 1.0, 1.0], [TriangleHit::EMPTY; 8]);
     /// let found = part.all_hits(a, b, &mut hits, Budget::EXACT, &mut scratch)?;
-    /// assert!(hits[..found.stored].is_sorted_by(|x, y| x.t <= y.t));
+    /// assert!(hits[..found.stored].is_sorted_by(|x, y| x.hit.t <= y.hit.t));
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     ///
@@ -91,14 +94,14 @@ impl Hull<'_> {
         &self,
         a: [f32; 3],
         b: [f32; 3],
-        hits: &mut [Hit],
+        hits: &mut [TriangleHit],
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<AllHits, QueryError> {
         let mut all = All { model: self, hits: Hits::new(hits), has_touches: false };
         let traced = trace(self, [a, b], &budget, scratch, &mut all)?;
         let ended = if all.has_touches { traced.ended.uncertain() } else { traced.ended };
-        Ok(all.hits.answer(traced.work, ended))
+        Ok(all.hits.answer(traced.work, ended, false))
     }
 }
 
@@ -140,7 +143,7 @@ impl Collect for First {
 
 struct All<'a> {
     model: &'a Hull<'a>,
-    hits: Hits<'a>,
+    hits: Hits<'a, TriangleHit>,
     /// Some hits are not proved.
     has_touches: bool,
 }
@@ -149,8 +152,9 @@ impl Collect for All<'_> {
     fn add(&mut self, met: Met) {
         let triangle = self.model.number(met.instance);
         let hit = Hit { t: met.meet.t as f32, point: met.point, triangle };
-        self.has_touches |= !met.meet.is_certain;
-        self.hits.insert(hit);
+        let is_certain = met.meet.is_certain;
+        self.has_touches |= !is_certain;
+        self.hits.insert(TriangleHit { hit, is_certain });
     }
 
     fn limit(&self) -> f32 {

@@ -56,6 +56,26 @@ impl FirstHit {
     }
 }
 
+/// A triangle that a segment meets, or may meet: one of all hits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct TriangleHit {
+    /// Where the stored triangle is met.
+    pub hit: Hit,
+    /// Whether it is proved that the segment meets the input's triangle. Where it passes an inner
+    /// edge of a fan of the box tree, this is proved of the triangles beside the edge together: the
+    /// first of their hits is certain, and the segment meets this triangle or one beside it. So the
+    /// segment meets at least as many triangles as hits are certain.
+    ///
+    /// No hit is certain on a cut blob.
+    pub is_certain: bool,
+}
+
+impl TriangleHit {
+    /// Any value, for filling arrays.
+    pub const EMPTY: TriangleHit = TriangleHit { hit: Hit::EMPTY, is_certain: false };
+}
+
 /// How a search for all hits went. The hits are in the caller's slice, by rising `t`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -65,27 +85,51 @@ pub struct AllHits {
     pub stored: usize,
     /// Hits that did not fit. The slice keeps the first ones.
     pub dropped: u32,
+    /// Whether it is proved that the segment meets no other triangle: none that is neither in the
+    /// slice nor counted as dropped. Always false if the search ended early.
+    pub is_complete: bool,
     /// The work of the search.
     pub work: Work,
-    /// Why the search ended. Unless [`Ended::Exact`], more hits may exist.
+    /// Why the search ended. [`Ended::Exact`]: every hit is certain, and there are no others.
     pub ended: Ended,
 }
 
+/// What the caller's slice of hits holds.
+pub(crate) trait Listed: Copy {
+    fn hit(&self) -> &Hit;
+}
+
+impl Listed for Hit {
+    fn hit(&self) -> &Hit {
+        self
+    }
+}
+
+impl Listed for TriangleHit {
+    fn hit(&self) -> &Hit {
+        &self.hit
+    }
+}
+
 /// The caller's slice of hits, kept by rising `t`, then triangle.
-pub(crate) struct Hits<'a> {
-    slots: &'a mut [Hit],
+pub(crate) struct Hits<'a, H> {
+    slots: &'a mut [H],
     pub(crate) stored: usize,
     pub(crate) dropped: u32,
 }
 
-impl<'a> Hits<'a> {
-    pub(crate) fn new(slots: &'a mut [Hit]) -> Self {
+impl<'a, H: Listed> Hits<'a, H> {
+    pub(crate) fn new(slots: &'a mut [H]) -> Self {
         Hits { slots, stored: 0, dropped: 0 }
     }
 
     /// Adds a hit. If the slice is full, the hit with the greatest `t` is dropped.
-    pub(crate) fn insert(&mut self, hit: Hit) {
-        let after = |x: &Hit| x.t > hit.t || (x.t == hit.t && x.triangle > hit.triangle);
+    pub(crate) fn insert(&mut self, listed: H) {
+        let hit = listed.hit();
+        let after = |x: &H| {
+            let x = x.hit();
+            x.t > hit.t || (x.t == hit.t && x.triangle > hit.triangle)
+        };
         let at = self.slots.iter().take(self.stored).position(after).unwrap_or(self.stored);
         if self.stored < self.slots.len() {
             self.stored += 1;
@@ -97,12 +141,25 @@ impl<'a> Hits<'a> {
         {
             tail.rotate_right(1);
             if let Some(slot) = tail.first_mut() {
-                *slot = hit;
+                *slot = listed;
             }
         }
     }
+}
 
-    pub(crate) fn answer(&self, work: Work, ended: Ended) -> AllHits {
-        AllHits { stored: self.stored, dropped: self.dropped, work, ended }
+impl Hits<'_, TriangleHit> {
+    /// Makes a hit certain that was inserted, unless it was dropped.
+    pub(crate) fn prove(&mut self, hit: &Hit) {
+        let mut listed = self.slots.iter_mut().take(self.stored);
+        if let Some(found) = listed.find(|listed| !listed.is_certain && listed.hit == *hit) {
+            found.is_certain = true;
+        }
+    }
+
+    /// The answer of a search. `lacks`: a triangle may be met that was not inserted.
+    pub(crate) fn answer(&self, work: Work, ended: Ended, lacks: bool) -> AllHits {
+        let ended_early = matches!(ended, Ended::Steps | Ended::Scratch);
+        let is_complete = !(lacks || ended_early);
+        AllHits { stored: self.stored, dropped: self.dropped, is_complete, work, ended }
     }
 }

@@ -6,7 +6,7 @@
 //! | `scratch` | [`Scratch`], [`ScratchEntry`]: the caller's memory |
 //! | `answer` | [`Interval`], [`ClosestPoint`], [`Ended`]: why a search ended |
 //! | `verdict` | [`Verdict`], [`Side`], [`Undecided`]: why there is no verdict |
-//! | `hits` | [`Hit`], [`FirstHit`], [`AllHits`], and the caller's slice of hits |
+//! | `hits` | [`Hit`], [`FirstHit`], [`TriangleHit`], [`AllHits`], and the caller's slice of hits |
 //! | `pose_inverse` | the inverse of a pose's matrix |
 //! | `posed_point` | [`PosedPoint`]: a point in the frame of a moved model |
 //! | `overlap` | [`Overlap`], [`Overlaps`], [`TrianglePair`], and what collects pairs |
@@ -43,7 +43,7 @@ pub use budget::Budget;
 pub use error::QueryError;
 pub(crate) use frame::Frame;
 pub(crate) use hits::Hits;
-pub use hits::{AllHits, FirstHit, Hit};
+pub use hits::{AllHits, FirstHit, Hit, TriangleHit};
 pub use motion::Motion;
 pub(crate) use overlap::{AllPairs, FirstPair, PairVisitor};
 pub use overlap::{Overlap, Overlaps, TrianglePair};

@@ -11,24 +11,20 @@ mod questions;
 
 use std::path::PathBuf;
 
-use meshsweep_xtask::boards::{BOARDS, Board};
 use meshsweep_xtask::cross::Cross;
-use meshsweep_xtask::images::{self, Profile};
+use meshsweep_xtask::images::Profile;
 use meshsweep_xtask::process;
 use meshsweep_xtask::qemu::Qemu;
+use meshsweep_xtask::rival::{BOARD, cargo, folder};
 use meshsweep_xtask::say;
 use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::table::{Cell, Table, fixed};
-use meshsweep_xtask::workspace;
 
 use answers::{Answers, agree, of_host};
 use questions::Course;
 
 /// Engines by the names of their images.
 const ENGINES: [&str; 2] = ["parry", "tree"];
-
-/// The only one with a floating-point unit whose emulated board also has RAM enough for a heap.
-const BOARD: Board = BOARDS[0];
 
 /// What to run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -141,6 +137,7 @@ fn table(engine: &str, course: &Course, answers: &Answers) -> Table {
 fn race(cross: &Cross, engine: &str, course: &Course) -> Result<PathBuf, String> {
     let name = format!("race_{engine}");
     let mut command = cargo(cross, "build");
+    command.args(["--profile", Profile::Release.name()]);
     process::capture(command.args(["--bin", &name]).env("MESHSWEEP_RIVAL", &course.folder))?;
     Ok(folder(cross).join(BOARD.target).join(Profile::Release.name()).join(name))
 }
@@ -149,23 +146,6 @@ fn lint(cross: &Cross, course: &Course) -> Result<(), String> {
     let mut command = cargo(cross, "clippy");
     command.env("MESHSWEEP_RIVAL", &course.folder);
     process::capture(command.args(["--lib", "--bins", "--", "-D", "warnings"])).map(drop)
-}
-
-/// `cargo SUBCOMMAND` for these images.
-fn cargo(cross: &Cross, subcommand: &str) -> std::process::Command {
-    let mut command = images::cargo(cross, subcommand, &[BOARD.target], Profile::Release);
-    command.current_dir(workspace::root().join("host-tests/lab/rival-firmware"));
-    command.env("CARGO_TARGET_DIR", folder(cross));
-    if matches!(cross, Cross::Debian { .. }) {
-        // The later list counts: unlike our own images these allocate.
-        command.arg("-Zbuild-std=core,alloc");
-    }
-    command
-}
-
-/// Apart from the firmware's: both build the same crates with other features.
-fn folder(cross: &Cross) -> PathBuf {
-    workspace::target().join(format!("rival-{}", cross.folder()))
 }
 
 #[cfg(test)]

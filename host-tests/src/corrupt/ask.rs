@@ -6,8 +6,8 @@
 
 use meshsweep_core::{
     Budget, Bvh, ClosestPoint, CoherentPair, CoherentQuery, Eye, Facing, Hint, Hit, Motion,
-    Neighbor, Placed, Pose, QueryError, Scene, ScratchEntry, Side, Solid, TrianglePair, Verdict,
-    Work,
+    Neighbor, Placed, Pose, QueryError, Scene, ScratchEntry, Side, Solid, TriangleHit,
+    TrianglePair, Verdict, Work,
 };
 
 /// Descents of a signed distance: two surveys and two about a feature from each of eleven places.
@@ -18,7 +18,7 @@ const SIDE_DESCENTS: u32 = 44;
 pub struct Asker {
     stack: Vec<ScratchEntry>,
     near: Vec<Neighbor>,
-    hits: Vec<Hit>,
+    hits: Vec<TriangleHit>,
     hint: Hint,
 }
 
@@ -29,7 +29,7 @@ impl Asker {
         Self {
             stack: vec![ScratchEntry::EMPTY; entries],
             near: vec![Neighbor::EMPTY; places],
-            hits: vec![Hit::EMPTY; places],
+            hits: vec![TriangleHit::EMPTY; places],
             hint: Hint::NONE,
         }
     }
@@ -108,8 +108,8 @@ impl Asker {
             {
                 ends(answer.work, once);
                 let hits = &hits[..answer.stored];
-                hits.iter().for_each(|hit| met(tree, hit));
-                assert!(hits.is_sorted_by(|x, y| x.t <= y.t), "{hits:?}");
+                hits.iter().for_each(|listed| met(tree, &listed.hit));
+                assert!(hits.is_sorted_by(|x, y| x.hit.t <= y.hit.t), "{hits:?}");
             }
         }
     }

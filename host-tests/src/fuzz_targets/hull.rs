@@ -7,7 +7,7 @@ use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{
     Blob, Budget, Change, ClosestPoint, Ended, Focus, Hit, Hull, QueryError, RefinedHull,
-    ScratchEntry, Search, TrianglePair, Verdict,
+    ScratchEntry, Search, TriangleHit, TrianglePair, Verdict,
 };
 use std::sync::OnceLock;
 
@@ -123,7 +123,7 @@ pub fn segment(data: &[u8]) {
     let mut queue = queue(&mut input);
     let (a, b) = (input.point(), input.point());
     let stop = Budget::EXACT.with_steps(input.u32());
-    let mut hits = vec![Hit::EMPTY; usize::from(input.byte() % 8)];
+    let mut hits = vec![TriangleHit::EMPTY; usize::from(input.byte() % 8)];
     for stop in [Budget::EXACT, stop] {
         if let Ok(answer) = model.first_hit(a, b, stop, &mut queue) {
             assert!(answer.t.lower >= 0.0 && answer.t.lower <= answer.t.upper, "{answer:?}");
@@ -132,7 +132,8 @@ pub fn segment(data: &[u8]) {
     }
     if let Ok(answer) = model.all_hits(a, b, &mut hits, Budget::EXACT, &mut queue) {
         assert!(
-            answer.stored <= hits.len() && hits[..answer.stored].is_sorted_by(|x, y| x.t <= y.t)
+            answer.stored <= hits.len()
+                && hits[..answer.stored].is_sorted_by(|x, y| x.hit.t <= y.hit.t)
         );
         assert!(answer.work.total() <= bound(&model), "{:?}", answer.work);
     }

@@ -3,8 +3,9 @@
 use super::input::Input;
 use super::tree::tree_seeds;
 use meshsweep_core::{
-    Budget, Bvh, ClosestPoint, CoherentPair, CoherentQuery, Eye, Facing, Hint, Hit, Motion,
-    Neighbor, Placed, Pose, QueryError, Scene, ScratchEntry, Solid, TightHulls, TrianglePair, Work,
+    Budget, Bvh, ClosestPoint, CoherentPair, CoherentQuery, Eye, Facing, Hint, Motion, Neighbor,
+    Placed, Pose, QueryError, Scene, ScratchEntry, Solid, TightHulls, TriangleHit, TrianglePair,
+    Work,
 };
 
 /// Opens an edited blob without a check of its records, and asks everything about points, segments,
@@ -84,7 +85,7 @@ fn ask_segments(
 ) {
     let bound = bounds(tree);
     let budget = Budget::EXACT;
-    let mut hits = [Hit::EMPTY; 4];
+    let mut hits = [TriangleHit::EMPTY; 4];
     for facing in [Facing::Both, Facing::Front] {
         ends(tree.first_hit(a, b, facing, budget, stack).map(|found| found.work), bound);
         ends(tree.any_hit(a, b, facing, budget, stack).map(|found| found.work), bound);

@@ -4,8 +4,8 @@
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep_core::{
-    Budget, BuildFor, Bvh, ClosestPoint, CoherentQuery, Facing, Hint, Hit, Neighbor, Pose,
-    QueryError, ScratchEntry, TrianglePair,
+    Budget, BuildFor, Bvh, ClosestPoint, CoherentQuery, Facing, Hint, Neighbor, Pose, QueryError,
+    ScratchEntry, TriangleHit, TrianglePair,
 };
 use meshsweep_host_tests::generate::cube;
 
@@ -48,7 +48,8 @@ fn about_segments(
     scratch: &mut [ScratchEntry],
 ) -> [(&'static str, Result<(), QueryError>); 5] {
     let (a, b, both) = ([0.0, 0.0, 9.0], [0.0, 0.0, -9.0], Facing::Both);
-    let (mut hits, mut pairs, pose) = ([Hit::EMPTY; 4], [TrianglePair::EMPTY; 4], Pose::IDENTITY);
+    let (mut hits, mut pairs, pose) =
+        ([TriangleHit::EMPTY; 4], [TrianglePair::EMPTY; 4], Pose::IDENTITY);
     [
         ("first_hit", tree.first_hit(a, b, both, budget, scratch).map(drop)),
         ("any_hit", tree.any_hit(a, b, both, budget, scratch).map(drop)),

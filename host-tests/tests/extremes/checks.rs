@@ -2,8 +2,8 @@
 
 use crate::scene::Scene;
 use meshsweep_core::{
-    Budget, ClosestPoint, CoherentQuery, Ended, Facing, Hint, Hit, Interval, Neighbor, QueryError,
-    Verdict,
+    Budget, ClosestPoint, CoherentQuery, Ended, Facing, Hint, Interval, Neighbor, QueryError,
+    TriangleHit, Verdict,
 };
 use meshsweep_host_tests::oracle::exact::{Corners, distance_compared, first_meeting};
 use std::cmp::Ordering::{Greater, Less};
@@ -170,7 +170,7 @@ pub fn bits_are_kept_on_a_path(scene: &Scene, ends: [[f32; 3]; 2]) {
 pub fn hits_are_true(scene: &Scene, segments: &[[[f32; 3]; 2]], seen: &mut [usize; 3]) {
     let [clear, certain, open] = seen;
     let (tree, mut stack) = (scene.tree(), scene.stack());
-    let mut hits = vec![Hit::EMPTY; 4 * scene.corners.len() + 64];
+    let mut hits = vec![TriangleHit::EMPTY; 4 * scene.corners.len() + 64];
     for &[a, b] in segments {
         let [from, to] = [a, b].map(|p| p.map(f64::from));
         let truth: Vec<_> =

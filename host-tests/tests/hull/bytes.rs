@@ -2,7 +2,9 @@
 
 use super::scenes::options;
 use meshsweep::cut::cut;
-use meshsweep_core::{Blob, Budget, Ended, Hit, Hull, OpenError, ScratchEntry, SectionKind};
+use meshsweep_core::{
+    Blob, Budget, Ended, Hull, OpenError, ScratchEntry, SectionKind, TriangleHit,
+};
 use meshsweep_host_tests::corrupt::{entries, entry, put_u32, seal, swap_entries, word};
 use meshsweep_host_tests::generate::{Rng, cube, icosphere, rough_sphere};
 use meshsweep_host_tests::oracle::{contacts, distance_to_mesh};
@@ -30,7 +32,7 @@ fn ask_everything(model: &Hull<'_>) {
     let h = model.header();
     let most = 4 * (h.rings + 2 * h.splits + 2 * h.base_triangles) + 64;
     let mut queue = [ScratchEntry::EMPTY; 24];
-    let mut hits = [Hit::EMPTY; 4];
+    let mut hits = [TriangleHit::EMPTY; 4];
     for p in [[0.1, 0.2, 0.3], [5.0, -3.0, 1.0]] {
         let answer =
             model.closest_point(p, Budget::EXACT, &mut queue).expect("an opened model answers");

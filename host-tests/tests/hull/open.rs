@@ -8,8 +8,8 @@ use meshsweep::cut::cut;
 use meshsweep::hull::{Kind, build_for_sweep};
 use meshsweep::mesh::{Mesh, read_bytes, repair};
 use meshsweep_core::{
-    Budget, Change, ClosestPoint, Ended, Focus, Hit, Hull, Interval, OpenError, QueryError,
-    RefinedHull, ScratchEntry, Search, VertIdx,
+    Budget, Change, ClosestPoint, Ended, Focus, Hull, Interval, OpenError, QueryError, RefinedHull,
+    ScratchEntry, Search, TriangleHit, VertIdx,
 };
 use meshsweep_host_tests::corrupt::{entry, put_u32, seal, word};
 use meshsweep_host_tests::generate::corpus::soups;
@@ -206,7 +206,7 @@ fn segments_hit_the_surface_and_are_clear_through_holes() {
     let mut counts = [0; 2];
     for scene in scenes().iter().filter(|scene| !scene.has_wires) {
         let model = scene.model();
-        let (rng, mut hits) = (&mut Rng::new(43), vec![Hit::EMPTY; 512]);
+        let (rng, mut hits) = (&mut Rng::new(43), vec![TriangleHit::EMPTY; 512]);
         let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
         for i in 0..120 {
             let (a, b) = match i % 4 {
@@ -225,7 +225,8 @@ fn segments_hit_the_surface_and_are_clear_through_holes() {
             // Touches are not proved.
             let is_whole = matches!(found.ended, Ended::Exact | Ended::Resolution);
             assert!(is_whole && found.dropped == 0, "{}: {found:?}", scene.name);
-            let named = hits[..found.stored].iter().map(|hit| hit.triangle.expect("whole"));
+            let named =
+                hits[..found.stored].iter().map(|listed| listed.hit.triangle.expect("whole"));
             let named: Vec<u32> = named.collect();
             // Of triangles on the same corners the first one stays.
             let sorted = |t: u32| {

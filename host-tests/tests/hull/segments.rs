@@ -3,7 +3,7 @@
 
 use super::scenes::{all, exact, options};
 use meshsweep_core::{
-    Budget, Ended, FirstHit, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search,
+    Budget, Ended, FirstHit, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search, TriangleHit,
 };
 use meshsweep_host_tests::generate::corpus::IDENTITY;
 use meshsweep_host_tests::generate::{
@@ -182,7 +182,7 @@ fn all_hits_are_exactly_the_triangles_that_meet_the_segment() {
         let mut rng = Rng::new(23);
         for segment in segments(scene, 200, &mut rng) {
             let contacts = truth(scene, segment);
-            let mut hits = vec![Hit::EMPTY; scene.triangles.len()];
+            let mut hits = vec![TriangleHit::EMPTY; scene.triangles.len()];
             let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
             let found = model
                 .all_hits(segment.0, segment.1, &mut hits, Budget::EXACT, &mut queue)
@@ -190,9 +190,14 @@ fn all_hits_are_exactly_the_triangles_that_meet_the_segment() {
             let hits = &hits[..found.stored];
             // Touches are not proved.
             let is_whole = matches!(found.ended, Ended::Exact | Ended::Resolution);
-            assert!(is_whole && found.dropped == 0, "{}: {found:?}", scene.name);
-            assert!(hits.is_sorted_by(|x, y| x.t <= y.t), "{}: {hits:?}", scene.name);
-            let named: Vec<u32> = hits.iter().map(|h| h.triangle.expect("a whole blob")).collect();
+            assert!(
+                is_whole && found.dropped == 0 && found.is_complete,
+                "{}: {found:?}",
+                scene.name
+            );
+            assert!(hits.is_sorted_by(|x, y| x.hit.t <= y.hit.t), "{}: {hits:?}", scene.name);
+            let named: Vec<u32> =
+                hits.iter().map(|h| h.hit.triangle.expect("a whole blob")).collect();
             for contact in &contacts {
                 assert!(
                     named.contains(&contact.triangle),
@@ -200,7 +205,9 @@ fn all_hits_are_exactly_the_triangles_that_meet_the_segment() {
                     scene.name
                 );
             }
-            for (hit, &triangle) in hits.iter().zip(&named) {
+            for (TriangleHit { hit, is_certain }, &triangle) in hits.iter().zip(&named) {
+                let is_met = contacts.iter().any(|contact| contact.triangle == triangle);
+                assert!(is_met || !is_certain, "{}: {segment:?}: {hit:?}", scene.name);
                 let gap = gap_to_triangle(segment.0, segment.1, scene.corners(triangle));
                 assert!(
                     gap <= touch(scene, segment),
@@ -251,12 +258,12 @@ fn hits_that_do_not_fit_are_counted_and_the_first_are_kept() {
     let mut rng = Rng::new(24);
     let mut queue = vec![ScratchEntry::EMPTY; 512];
     for segment in segments(&scene, 300, &mut rng) {
-        let mut whole = [Hit::EMPTY; 600];
+        let mut whole = [TriangleHit::EMPTY; 600];
         let all = model
             .all_hits(segment.0, segment.1, &mut whole, Budget::EXACT, &mut queue)
             .expect("in the domain");
         for room in 0..4 {
-            let mut few = [Hit::EMPTY; 4];
+            let mut few = [TriangleHit::EMPTY; 4];
             let found = model
                 .all_hits(segment.0, segment.1, &mut few[..room], Budget::EXACT, &mut queue)
                 .expect("in the domain");
@@ -279,10 +286,11 @@ fn paper_000_figure_5_segment_below_the_hull_is_found() {
     let first = ask(&model, segment, &Budget::EXACT, 512);
     let hit = first.hit.expect("the overhang");
     assert!((hit.point[2] - 12.0).abs() < 1e-5 && !first.is_clear(), "{first:?}");
+    let mut listed = [TriangleHit::EMPTY; 16];
     let mut hits = [Hit::EMPTY; 16];
     let mut queue = [ScratchEntry::EMPTY; 512];
     let found = model
-        .all_hits(segment.0, segment.1, &mut hits, Budget::EXACT, &mut queue)
+        .all_hits(segment.0, segment.1, &mut listed, Budget::EXACT, &mut queue)
         .expect("in the domain");
     assert_eq!(found.stored, truth.len());
     let mut refined = RefinedHull::<256>::new();
@@ -339,7 +347,7 @@ fn ends_up_to_2_to_the_40_sizes_away_are_answered_and_farther_ones_refused() {
         assert!(ask(&model, past, &Budget::EXACT, 64).is_clear());
     }
     let mut queue = [ScratchEntry::EMPTY; 64];
-    let mut hits = [Hit::EMPTY; 4];
+    let mut hits = [TriangleHit::EMPTY; 4];
     for p in [[far(42), 0.0, 0.0], [0.0, -far(43), 0.0], [0.0, 0.0, f32::MAX]] {
         for (a, b) in [(p, [0.0; 3]), ([0.0; 3], p)] {
             assert_eq!(

@@ -3,7 +3,7 @@
 
 use super::scenes::options;
 use meshsweep::cut::cut;
-use meshsweep_core::{Budget, Ended, Hit, Hull, RefinedHull, ScratchEntry, Search};
+use meshsweep_core::{Budget, Ended, Hit, Hull, RefinedHull, ScratchEntry, Search, TriangleHit};
 use meshsweep_host_tests::generate::{Rng, groove_block, rough_sphere, torus};
 use meshsweep_host_tests::oracle::{Contact, contacts, winding_number};
 use meshsweep_host_tests::scene::Scene;
@@ -56,7 +56,7 @@ fn a_segment_may_start_outside_between_hull_and_surface_or_inside_on_cut_blobs_t
                 let model = Hull::open(bytes).expect("opens");
                 let mut scratch = vec![ScratchEntry::EMPTY; model.scratch_entries()];
                 let answer = model.first_hit(a, b, Budget::EXACT, &mut scratch).expect("answers");
-                let mut hits = [Hit::EMPTY; 64];
+                let mut hits = [TriangleHit::EMPTY; 64];
                 let all =
                     model.all_hits(a, b, &mut hits, Budget::EXACT, &mut scratch).expect("answers");
                 let say = format!("{}: {a:?} {b:?}: {answer:?}", scene.name);
@@ -69,7 +69,8 @@ fn a_segment_may_start_outside_between_hull_and_surface_or_inside_on_cut_blobs_t
                     let ended = if answer.is_clear() { Ended::Exact } else { Ended::Resolution };
                     assert_eq!((answer.ended, all.ended), (ended, ended), "{say}");
                     // Each true hit has a place on the hull at or before it.
-                    let known = hits[..all.stored].first().map_or(f32::INFINITY, |hit| hit.t);
+                    let known =
+                        hits[..all.stored].first().map_or(f32::INFINITY, |listed| listed.hit.t);
                     assert!(f64::from(known) <= first(&truth) + 1e-5, "{say}");
                 } else {
                     assert_eq!(answer.hit.is_some(), !truth.is_empty(), "{say}");

@@ -7,6 +7,7 @@
 //! processors (the committed answers on i686, AArch64, with vectors) ─ toolbox
 //! report ─── chromium (the page of `meshsweep trade --report`) ─ toolbox
 //! examples (core/examples) ─ images, qemu
+//! rival (the laboratory's images) ─ cross
 //! c_checks (C programs) ┐
 //! dist (archives) ──────┴ c_library (one object that defines msw_*) ─ toolbox, cross
 //! count ──── valgrind (callgrind) on host ─┐
@@ -47,6 +48,7 @@ pub mod proof;
 pub mod qemu;
 pub mod reading;
 pub mod report;
+pub mod rival;
 pub mod stack;
 pub mod steps;
 pub mod table;

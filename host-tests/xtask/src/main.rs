@@ -10,8 +10,8 @@ use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::tables::Facts;
 use meshsweep_xtask::valgrind::Valgrind;
 use meshsweep_xtask::{
-    c_checks, checks, count, dist, examples, firmware, fit, fuzz, host, processors, report, say,
-    tables,
+    c_checks, checks, count, dist, examples, firmware, fit, fuzz, host, processors, report, rival,
+    say, tables,
 };
 
 const USAGE: &str = "\
@@ -66,6 +66,7 @@ fn main() -> ExitCode {
                     if let Some(tools) = &tools {
                         examples::run(&mut steps, tools);
                         c_checks::run(&mut steps, tools);
+                        steps.run("the laboratory's images build", || rival::builds(tools));
                     }
                     let mut rows = Vec::new();
                     if let (Some(tools), Some(images)) = (&tools, images) {

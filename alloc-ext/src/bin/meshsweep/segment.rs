@@ -1,7 +1,8 @@
 //! `meshsweep segment`: segments in, first hits or all hits out.
 //!
 //! `undecided` means of a first hit: the segment is proved clear before `t`, and no more is
-//! certain. Of all hits it means: the stored surface is hit there, and the mesh's may be.
+//! certain. Of one of all hits it means: the stored triangle is hit there, and the mesh's may be.
+//! Without a triangle, after all hits, it means: other triangles may be hit.
 
 use crate::args::{self, SegmentArgs, files};
 use crate::ask::{self, Answer, Question, write_end, write_numbers};
@@ -11,7 +12,7 @@ use crate::queries::Queries;
 use crate::served::Engine;
 use crate::{blob_file, served};
 use meshsweep_core::internal::num::{exp2, tolerance};
-use meshsweep_core::{BuildFor, Ended, Hit, Work};
+use meshsweep_core::{BuildFor, Ended, Hit, TriangleHit, Work};
 use std::io::{self, Write};
 
 /// Hits that fit the buffer at first.
@@ -89,7 +90,7 @@ fn ask_first(
 }
 
 /// Asks for all hits of each segment. Writes a row for each hit; one row if there is none; one more
-/// if hits may be missing.
+/// if triangles may be missing.
 fn ask_all(
     args: &SegmentArgs,
     engine: Engine<'_>,
@@ -99,12 +100,12 @@ fn ask_all(
     question.ask(
         || {
             let mut scratch = args.search.scratch(engine.scratch_entries());
-            let mut buffer = vec![Hit::EMPTY; HITS];
+            let mut buffer = vec![TriangleHit::EMPTY; HITS];
             move |segment| {
                 let [a, b] = ends(segment);
                 let (all, found) = ask::all(
                     &mut buffer,
-                    Hit::EMPTY,
+                    TriangleHit::EMPTY,
                     |hits| match &engine {
                         Engine::Tree(tree) => {
                             tree.all_hits(a, b, facing, hits, budget, &mut scratch)
@@ -113,26 +114,26 @@ fn ask_all(
                     },
                     |all| (all.stored, all.dropped),
                 )?;
-                Ok(Answer { found, ended: all.ended, work: all.work })
+                Ok(Answer { found: (all.is_complete, found), ended: all.ended, work: all.work })
             }
         },
-        |out, query, segment, &Answer { found: ref hits, ended, work }| {
-            for &hit in hits {
+        |out, query, segment, &Answer { found: (is_complete, ref hits), work, .. }| {
+            for &TriangleHit { hit, is_certain } in hits {
                 write!(out, "{query},")?;
-                if ended == Ended::Resolution {
+                if is_certain {
+                    write_hit(out, "yes", hit, work)?;
+                } else {
                     // The surface may be from here on: `t` was rounded to nearest.
                     let from = hit.t.next_down().max(0.0);
                     write_undecided(out, segment, from, hit.triangle, work)?;
-                } else {
-                    write_hit(out, "yes", hit, work)?;
                 }
             }
-            if hits.is_empty() && ended == Ended::Exact {
-                write!(out, "{query},")?;
-                write_clear(out, work)
-            } else if hits.is_empty() || matches!(ended, Ended::Steps | Ended::Scratch) {
+            if !is_complete {
                 write!(out, "{query},")?;
                 write_undecided(out, segment, 0.0, None, work)
+            } else if hits.is_empty() {
+                write!(out, "{query},")?;
+                write_clear(out, work)
             } else {
                 Ok(())
             }

@@ -67,7 +67,7 @@ pub fn run<E: Engine>(questions: &Questions, heap: Heap, build: impl FnOnce() ->
     let begun = board::now();
     let mut engine = build();
     let ticks = board::elapsed(begun, board::now());
-    let deep = stack::depth();
+    let deep = depth();
     let (used, most) = heap();
     println!("build {ticks} {deep} {used} {most} {}", engine.memory());
     for (name, points) in questions.points {
@@ -99,6 +99,12 @@ pub fn run<E: Engine>(questions: &Questions, heap: Heap, build: impl FnOnce() ->
     asked.print(name);
     println!("done");
     process::exit(0)
+}
+
+/// Bytes of the stack below the caller that were used since [`stack::paint`].
+#[inline(always)]
+fn depth() -> usize {
+    board::stack_pointer().saturating_sub(stack::lowest())
 }
 
 fn reading() -> u32 {
@@ -146,7 +152,7 @@ impl Asked {
 
     fn print(self, name: &str) {
         // Before printing, whose own frames must not count.
-        let deep = stack::depth();
+        let deep = depth();
         let most = (self.heap)().1 - self.used;
         let Self { queries, ticks, max, found, sum, .. } = self;
         println!(

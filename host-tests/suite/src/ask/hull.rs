@@ -1,7 +1,9 @@
 //! Questions to the split hierarchy.
 
 pub use meshsweep_core::Focus;
-use meshsweep_core::{Blob, Budget, Change, Hit, Hull, RefinedHull, ScratchEntry, Search};
+use meshsweep_core::{
+    Blob, Budget, Change, Hit, Hull, RefinedHull, ScratchEntry, Search, TriangleHit,
+};
 
 use super::{Refused, Subject, timed};
 use crate::fold::Fold;
@@ -26,6 +28,7 @@ const SPLITS: usize = 256;
 pub struct Scratch<'t> {
     queue: [ScratchEntry; QUEUE],
     hits: [Hit; 16],
+    met: [TriangleHit; 16],
     refined: RefinedHull<'t, SPLITS>,
     changes: [Change; 64],
 }
@@ -37,6 +40,7 @@ impl Scratch<'_> {
         Self {
             queue: [ScratchEntry::EMPTY; QUEUE],
             hits: [Hit::EMPTY; 16],
+            met: [TriangleHit::EMPTY; 16],
             refined: RefinedHull::new(),
             changes: [Change::EMPTY; 64],
         }
@@ -196,10 +200,10 @@ pub fn all_hits(
     fold: &mut Fold,
 ) {
     match timed(clock, || {
-        model.hull.all_hits(a, b, &mut scratch.hits, Budget::EXACT, &mut scratch.queue)
+        model.hull.all_hits(a, b, &mut scratch.met, Budget::EXACT, &mut scratch.queue)
     }) {
         Ok(answer) => {
-            super::hits(fold, scratch.hits.get(..answer.stored).unwrap_or_default());
+            super::listed(fold, scratch.met.get(..answer.stored).unwrap_or_default());
             fold.word(answer.dropped);
             super::how(fold, answer.work, answer.ended);
         }

@@ -17,7 +17,9 @@ pub mod tribox;
 pub mod triboxes;
 
 use meshsweep_core::OpenError;
-use meshsweep_core::{ClosestPoint, Ended, FirstHit, Hit, QueryError, Undecided, Verdict, Work};
+use meshsweep_core::{
+    ClosestPoint, Ended, FirstHit, Hit, QueryError, TriangleHit, Undecided, Verdict, Work,
+};
 
 use crate::fold::Fold;
 use crate::place::{Bounds, Placer};
@@ -155,11 +157,18 @@ fn segment_hit(fold: &mut Fold, answer: &FirstHit) {
 }
 
 fn hits(fold: &mut Fold, hits: &[Hit]) {
-    for hit in hits {
-        fold.f32(hit.t);
-        fold.point(hit.point);
-        number(fold, hit.triangle);
-    }
+    hits.iter().for_each(|hit| place(fold, hit));
+}
+
+/// Places only: whether a hit is certain follows from the same numbers.
+fn listed(fold: &mut Fold, hits: &[TriangleHit]) {
+    hits.iter().for_each(|listed| place(fold, &listed.hit));
+}
+
+fn place(fold: &mut Fold, hit: &Hit) {
+    fold.f32(hit.t);
+    fold.point(hit.point);
+    number(fold, hit.triangle);
 }
 
 fn number(fold: &mut Fold, number: Option<u32>) {

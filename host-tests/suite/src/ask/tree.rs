@@ -5,7 +5,7 @@ mod meeting;
 mod sight;
 
 pub use meshsweep_core::Bvh;
-use meshsweep_core::Hit;
+use meshsweep_core::TriangleHit;
 use meshsweep_core::{Blob, CoherentQuery, Hint, Neighbor, ScratchEntry, TrianglePair};
 
 use super::{Asked, Refused, Subject};
@@ -26,7 +26,7 @@ const STACK: usize = 64;
 #[derive(Debug)]
 pub struct Scratch<'t> {
     stack: [ScratchEntry; STACK],
-    hits: [Hit; 8],
+    hits: [TriangleHit; 8],
     near: [Neighbor; 8],
     hint: Hint,
     coherent: CoherentQuery<'t>,
@@ -41,7 +41,7 @@ impl Scratch<'_> {
     pub const fn new() -> Self {
         Self {
             stack: [ScratchEntry::EMPTY; STACK],
-            hits: [Hit::EMPTY; 8],
+            hits: [TriangleHit::EMPTY; 8],
             near: [Neighbor::EMPTY; 8],
             hint: Hint::NONE,
             coherent: CoherentQuery::new(),

@@ -1,7 +1,7 @@
 //! All hits where they are many.
 
 use super::truth::{Asker, truth};
-use meshsweep_core::{Budget, Facing, Hit, ScratchEntry};
+use meshsweep_core::{Budget, Facing, ScratchEntry, TriangleHit};
 use meshsweep_host_tests::generate::{Triangles, icosphere, joined, scaled};
 use meshsweep_host_tests::scene::Scene;
 
@@ -15,14 +15,14 @@ fn every_shell_is_met_twice_and_truncation_says_how_many_are_left() {
     let (a, b) = ([-50.0, -3.1, 1.7], [50.0, 2.3, -0.9]);
     let met = truth(&scene, a, b);
     let mut stack = vec![ScratchEntry::EMPTY; 4096];
-    let mut hits = vec![Hit { t: 0.0, point: [0.0; 3], triangle: None }; 100];
+    let mut hits = vec![TriangleHit::EMPTY; 100];
     for tree in scene.trees() {
         let all = tree
             .all_hits(a, b, Facing::Both, &mut hits, Budget::EXACT, &mut stack)
             .expect("answers");
         assert_eq!((all.stored, all.dropped), (met.len(), 0));
-        for (hit, met) in hits.iter().zip(&met) {
-            assert_eq!(hit.triangle, Some(met.triangle));
+        for (TriangleHit { hit, is_certain }, met) in hits.iter().zip(&met) {
+            assert!(*is_certain && hit.triangle == Some(met.triangle), "{hit:?} {met:?}");
             assert!((f64::from(hit.t) - met.t_lower).abs() < 1e-5, "{hit:?} {met:?}");
         }
         let few = tree

@@ -4,5 +4,6 @@ mod aimed;
 mod all_hits;
 pub mod scenes;
 mod settled;
+mod soups;
 mod truth;
 mod watertight;

@@ -1,6 +1,8 @@
 //! What is so, by exact predicates, and what the tree says of it.
 
-use meshsweep_core::{Budget, Bvh, Ended, Facing, FirstHit, Hit, ScratchEntry, Undecided, Verdict};
+use meshsweep_core::{
+    Budget, Bvh, Ended, Facing, FirstHit, ScratchEntry, TriangleHit, Undecided, Verdict,
+};
 use meshsweep_host_tests::oracle::contacts;
 use meshsweep_host_tests::scene::Scene;
 use robust::{Coord, Coord3D, orient2d, orient3d};
@@ -106,13 +108,13 @@ pub struct Tally {
 
 pub struct Asker {
     stack: Vec<ScratchEntry>,
-    hits: Vec<Hit>,
-    few: Vec<Hit>,
+    hits: Vec<TriangleHit>,
+    few: Vec<TriangleHit>,
 }
 
 impl Asker {
     pub fn new() -> Self {
-        let none = Hit { t: 0.0, point: [0.0; 3], triangle: None };
+        let none = TriangleHit::EMPTY;
         Asker { stack: vec![ScratchEntry::EMPTY; 4096], hits: vec![none; 1024], few: vec![none; 3] }
     }
 
@@ -129,7 +131,7 @@ impl Asker {
                     format!("{}, f32 {single}, {facing:?}, {a:?} {b:?}, met {wanted:?}", scene.name)
                 };
                 let hit = self.prove_first(tree, [a, b], facing, &wanted, &at);
-                self.prove_all(tree, [a, b], facing, &wanted, &at);
+                self.prove_all((scene, tree), [a, b], facing, &wanted, &at);
                 if facing == Facing::Both {
                     tally.hits += usize::from(!hit.is_clear() && hit.ended == Ended::Exact);
                     tally.clear += usize::from(hit.is_clear());
@@ -187,7 +189,7 @@ impl Asker {
 
     fn prove_all(
         &mut self,
-        tree: &Bvh<'_>,
+        (scene, tree): (&Scene, &Bvh<'_>),
         [a, b]: [Point; 2],
         facing: Facing,
         wanted: &[Met],
@@ -198,15 +200,29 @@ impl Asker {
             .expect("answers");
         assert_eq!(all.dropped, 0, "{}", at());
         let hits = &self.hits[..all.stored];
-        assert!(hits.is_sorted_by_key(|hit| (hit.t, hit.triangle)), "{}: {hits:?}", at());
+        assert!(hits.is_sorted_by_key(|x| (x.hit.t, x.hit.triangle)), "{}: {hits:?}", at());
+        let number = |listed: &TriangleHit| listed.hit.triangle.expect("numbered");
+        let mut found: Vec<u32> = hits.iter().map(number).collect();
+        found.sort_unstable();
+        let mut expected: Vec<u32> = wanted.iter().map(|met| met.triangle).collect();
+        expected.sort_unstable();
         if all.ended == Ended::Exact {
-            let mut found: Vec<u32> =
-                hits.iter().map(|hit| hit.triangle.expect("numbered")).collect();
-            found.sort_unstable();
-            let mut expected: Vec<u32> = wanted.iter().map(|met| met.triangle).collect();
-            expected.sort_unstable();
             assert_eq!(found, expected, "{}", at());
         }
+        let lacks = expected.iter().any(|triangle| found.binary_search(triangle).is_err());
+        assert!(!(lacks && all.is_complete), "{}: {hits:?}", at());
+        let is_expected = |triangle: u32| expected.binary_search(&triangle).is_ok();
+        let certain: Vec<u32> = hits.iter().filter(|hit| hit.is_certain).map(number).collect();
+        assert!(certain.len() <= expected.len(), "{}: {hits:?}", at());
+        for &triangle in certain.iter().filter(|&&triangle| !is_expected(triangle)) {
+            // Proved is then that a triangle beside it in the fan is met.
+            let of = scene.corners(triangle);
+            let is_beside = |&other: &u32| scene.corners(other).iter().any(|v| of.contains(v));
+            let mut others = expected.iter().filter(|other| !certain.contains(other));
+            assert!(others.any(is_beside), "{triangle}, {}: {hits:?}", at());
+        }
+        let is_proved = all.is_complete && certain.len() == hits.len();
+        assert!(is_proved || all.ended != Ended::Exact, "{}: {hits:?}", at());
         for room in 0..=3 {
             let few = tree
                 .all_hits(a, b, facing, &mut self.few[..room], Budget::EXACT, &mut self.stack)
@@ -214,7 +230,7 @@ impl Asker {
             assert_eq!(few.stored + few.dropped as usize, all.stored, "{}", at());
             assert_eq!(few.stored, room.min(all.stored), "{}", at());
             assert_eq!(self.few[..few.stored], hits[..few.stored], "{}", at());
-            assert_eq!(few.ended, all.ended, "{}", at());
+            assert_eq!((few.ended, few.is_complete), (all.ended, all.is_complete), "{}", at());
         }
         let short = tree
             .all_hits(a, b, facing, &mut self.hits, Budget::EXACT, &mut self.stack[..1])

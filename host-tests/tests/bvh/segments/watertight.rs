@@ -1,6 +1,6 @@
 //! A segment out of a solid leaves it: through a face, an edge or a vertex.
 
-use meshsweep_core::{Budget, Facing, Hit, ScratchEntry};
+use meshsweep_core::{Budget, Facing, ScratchEntry, TriangleHit};
 use meshsweep_host_tests::generate::corpus::add;
 use meshsweep_host_tests::generate::{Rng, cube, icosphere, rough_sphere, scaled, uv_sphere};
 use meshsweep_host_tests::scene::Scene;
@@ -33,7 +33,7 @@ fn targets(scene: &Scene) -> Vec<Point> {
 #[test]
 fn no_segment_out_of_a_solid_slips_through() {
     let mut stack = vec![ScratchEntry::EMPTY; 1024];
-    let mut hits = vec![Hit { t: 0.0, point: [0.0; 3], triangle: None }; 64];
+    let mut hits = vec![TriangleHit::EMPTY; 64];
     for scene in stars() {
         let rng = &mut Rng::new(9);
         let size = scene.size();

@@ -175,7 +175,8 @@ pub struct SegmentArgs {
     /// Query segments: ax,ay,az,bx,by,bz each, or files of them
     #[arg(required = true, value_parser = given::queries::<6>())]
     pub segments: Vec<Given<6>>,
-    /// All hits, one on a line; the query's number, from 0, is the first column
+    /// All hits, one on a line, and a line without a triangle if some may be missing; the query's
+    /// number, from 0, is the first column
     #[arg(long)]
     pub all: bool,
     /// Only hits of fronts or of backs, on the box tree; seen from its front a triangle's corners

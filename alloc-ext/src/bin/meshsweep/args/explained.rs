@@ -217,8 +217,13 @@ pub fn segment() -> String {
         "The column 'hit' says yes, with the first hit; no, which is proved; or undecided, if the \
          query ended early, the blob is cut, or rounding and the blob's surface error leave it \
          undecided. The segment is then proved clear before t, and px, py, pz is its point at t. \
-         With --all an undecided hit is a place where the stored triangle is met and the mesh's \
-         may be. t runs from 0 to 1 along the segment, rounded to f32; {TRIANGLES}.\n\n\
+         With --all each hit says for itself whether it is proved. An undecided hit is a place \
+         where the stored triangle is met and the mesh's may be. Triangles may be missing: those \
+         that the segment touches within rounding and the surface error, and all others if the \
+         query ended early. Then the query's last row says undecided and names no triangle. Where \
+         a segment runs through an edge, one triangle there may be proved to be hit, and not which \
+         one: the first of them says yes, the others undecided. t runs from 0 to 1 along the segment, rounded to \
+         f32; {TRIANGLES}.\n\n\
          --facing is by the winding of the mesh file. What build turns is turned for sides \
          only.\n\n\
          {QUERIES}\n\n\

@@ -54,7 +54,7 @@ pub fn all_hits(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_
     let [a, b] = ab;
     let call = || tree.all_hits(a, b, Facing::Both, hits, Budget::EXACT, stack);
     if let Some(answer) = to.answer(call, |_, _| ()) {
-        ask::hits(to.fold, hits.get(..answer.stored).unwrap_or_default());
+        ask::listed(to.fold, hits.get(..answer.stored).unwrap_or_default());
         to.fold.word(answer.dropped);
         ask::how(to.fold, answer.work, answer.ended);
     }
