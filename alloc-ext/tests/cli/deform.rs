@@ -155,3 +155,26 @@ fn options_that_do_not_go_together_are_refused() {
     assert!(usage(&[]).contains("add --for deform"));
     assert!(usage(&["--for", "deform", "--vertex-bits", "16"]).contains("leave out --vertex-bits"));
 }
+
+#[test]
+fn key_frames_stay_where_triboxes_or_tight_hulls_are_cut() {
+    let directory = scratch("deform_cut");
+    let [rest, bent] = frames(&directory);
+    let output = directory.join("bend.msw");
+    let serves = "deform,triboxes,tight";
+    ok(["build", arg(&rest), arg(&bent), "-o", arg(&output), "--for", serves]);
+    let ask = |blob: &Path| ok(["closest", arg(blob), "3,1,2", "-1,0,0", "--frame", "0.25"]);
+    let cut = directory.join("cut.msw");
+    for (option, number) in [("--triboxes", "4"), ("--tight", "200")] {
+        let said = ok(["cut", arg(&output), option, number, "-o", arg(&cut)]);
+        assert!(!said.contains("left out"), "{said}");
+        assert!(fs::metadata(&cut).unwrap().len() < fs::metadata(&output).unwrap().len());
+        assert_eq!(info(&cut)["deformation"], info(&output)["deformation"], "{option}");
+        assert_eq!(ask(&cut), ask(&output), "{option}");
+    }
+    let said = ok(["cut", arg(&output), "--level", "1", "-o", arg(&cut)]);
+    assert!(
+        said.contains("key frames and moving vertices cannot be cut and are left out"),
+        "{said}"
+    );
+}

@@ -14,6 +14,7 @@ mod errors;
 mod formats;
 mod hausdorff;
 mod hull;
+mod info;
 mod overlap;
 mod queries;
 mod refine;

@@ -176,6 +176,8 @@ pub fn write_header(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
 /// All that `info --json` prints.
 pub fn as_json(blob: &Blob<'_>) -> Value {
     let h = blob.header();
+    let (count, noun) = pieces(blob);
+    let per_piece = format!("bytes_per_{noun}");
     let sections: Vec<Value> = blob
         .sections()
         .map(|s| {
@@ -185,7 +187,7 @@ pub fn as_json(blob: &Blob<'_>) -> Value {
                 "hierarchy": hierarchy_key(s.kind),
                 "offset": s.offset,
                 "bytes": s.bytes,
-                "bytes_per_triangle": f64::from(s.bytes) / f64::from(triangles(blob)),
+                per_piece.as_str(): f64::from(s.bytes) / f64::from(count),
                 "crc": format!("{:08x}", s.crc),
             })
         })

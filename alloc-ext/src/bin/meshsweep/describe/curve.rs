@@ -12,7 +12,7 @@ fn closed(curve: &Curve<'_>) -> usize {
     (0..curve.polyline_count()).filter(is_closed).count()
 }
 
-fn entries_bytes(curve: &Curve<'_>) -> usize {
+fn scratch_bytes(curve: &Curve<'_>) -> usize {
     curve.scratch_entries() * size_of::<ScratchEntry>()
 }
 
@@ -33,7 +33,7 @@ pub(super) fn write(out: &mut dyn Write, curve: &Curve<'_>) -> io::Result<()> {
         out,
         "  scratch: {}, {} bytes: no query needs more",
         Counted(curve.scratch_entries(), "scratch entry"),
-        entries_bytes(curve)
+        scratch_bytes(curve)
     )?;
     writeln!(out, "  curve error: {}", AtMost(curve.surface_error()))
 }
@@ -46,6 +46,7 @@ pub(super) fn as_json(curve: &Curve<'_>) -> Value {
         "is_planar": curve.is_planar(),
         "box": curve.bounds(),
         "scratch_entries": curve.scratch_entries(),
+        "scratch_bytes": scratch_bytes(curve),
         "surface_error": curve.surface_error(),
     })
 }

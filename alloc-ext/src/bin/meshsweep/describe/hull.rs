@@ -163,7 +163,7 @@ pub(super) fn as_json(hull: &Hull<'_>, hull_box: [[f64; 3]; 2]) -> Value {
         "surface_triangles": h.surface_triangles,
         "hull_box": hull_box,
         "capacities": {
-            "scratch": hull.scratch_entries(),
+            "scratch_entries": hull.scratch_entries(),
             "scratch_bytes": scratch_bytes(hull),
             "dependency_depth": hull.header().dependency_depth,
         },

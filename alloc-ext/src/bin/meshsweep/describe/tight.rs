@@ -65,8 +65,8 @@ pub(super) fn as_json(hulls: &TightHulls<'_>) -> Value {
             "vertex_format": format_name(hull.bvh()),
             "serves_distances": hull.bvh().serves_distances(),
             "serves_segments": hull.bvh().serves_segments(),
-            "stack_entries": hull.bvh().header().stack_entries,
-            "stack_bytes": scratch_bytes(hull.bvh()),
+            "scratch_entries": hull.bvh().header().stack_entries,
+            "scratch_bytes": scratch_bytes(hull.bvh()),
         })
     };
     json!({ "hulls": all(hulls).map(hull).collect::<Vec<_>>() })

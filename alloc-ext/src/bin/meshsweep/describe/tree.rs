@@ -139,7 +139,7 @@ pub(super) fn as_json(tree: &Bvh<'_>, diagonal: f64) -> Value {
         "children_per_node": shape.children_per_node,
         "depth": shape.depth,
         "bounds": bounds(tree),
-        "stack_entries": h.stack_entries,
-        "stack_bytes": scratch_bytes(tree),
+        "scratch_entries": h.stack_entries,
+        "scratch_bytes": scratch_bytes(tree),
     })
 }

@@ -210,7 +210,7 @@ fn of_row(row: &Row, is_best: bool) -> Value {
         "found_upper": row.found_upper.map(spread),
         "instructions": boards.collect::<Vec<_>>(),
         "flash": row.flash,
-        "scratch": row.scratch,
+        "scratch_bytes": row.scratch,
         "host_ns": row.nanoseconds,
         "work": work,
     })

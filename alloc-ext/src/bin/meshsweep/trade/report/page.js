@@ -47,7 +47,7 @@ function textOf(row) {
     : "no upper end, so no interval";
   const found = `found ${short(foundOf(row, "worst"))}, median ${short(foundOf(row, "median"))}`;
   return `<b>${row.structure}: ${row.dials}</b><br>${error}<br>${found}<br>instructions: ` +
-    `M4F ${board(0)}, M0 ${board(1)}<br>blob ${row.flash} bytes, scratch ${row.scratch} bytes`;
+    `M4F ${board(0)}, M0 ${board(1)}<br>blob ${row.flash} bytes, scratch ${row.scratch_bytes} bytes`;
 }
 
 const axis = (title, type, dtick) => ({
