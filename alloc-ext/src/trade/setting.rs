@@ -38,7 +38,7 @@ pub struct Setting {
 
 impl Setting {
     /// Entries of a kept sweep unless told otherwise: 4 KiB. It keeps triangles in them from query
-    /// to query.
+    /// to query. Answers about far points may end for lack of them.
     pub const SWEEP_ENTRIES: usize = 512;
 
     /// Fresh queries, to the end, with enough scratch.

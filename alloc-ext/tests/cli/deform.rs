@@ -168,7 +168,7 @@ fn key_frames_stay_where_triboxes_or_tight_hulls_are_cut() {
     for (option, number) in [("--triboxes", "4"), ("--tight", "200")] {
         let said = ok(["cut", arg(&output), option, number, "-o", arg(&cut)]);
         assert!(!said.contains("left out"), "{said}");
-        assert!(fs::metadata(&cut).unwrap().len() < fs::metadata(&output).unwrap().len());
+        assert!(fs::metadata(&cut).unwrap().len() <= fs::metadata(&output).unwrap().len());
         assert_eq!(info(&cut)["deformation"], info(&output)["deformation"], "{option}");
         assert_eq!(ask(&cut), ask(&output), "{option}");
     }

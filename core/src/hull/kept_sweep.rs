@@ -111,8 +111,11 @@ impl<'a> Hull<'a> {
     /// A sweep about `point` (input units) that keeps its state in `scratch` from one question to
     /// the next.
     ///
-    /// `scratch`: 512 entries are enough for scanned parts. [`Hull::scratch_entries`] are too few
-    /// to keep a queue. With fewer an answer still holds, and says if memory ended the search.
+    /// `scratch`: with [`Hull::sweep_entries`] no answer ends for lack of memory. That many are in
+    /// use only where all of the surface is nearly equally far, as at the centre of a sphere. Of
+    /// 20,088 triangles of a scanned part 1,024 waited near the part, and 2,048 at a hundred
+    /// diagonals. With too few entries an answer still holds, ends with [`Ended::Scratch`], and
+    /// takes longer than a fresh one. [`Hull::scratch_entries`] are too few to keep a queue.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Ended, Hull, Scratch};

@@ -4,7 +4,7 @@
 use super::scenes::{all, options};
 use meshsweep::cut::cut;
 use meshsweep_core::{Budget, ClosestPoint, Ended, Hull, QueryError, ScratchEntry};
-use meshsweep_host_tests::generate::{Rng, rough_sphere};
+use meshsweep_host_tests::generate::{Rng, icosphere, rough_sphere};
 use meshsweep_host_tests::oracle::{distance_to_mesh, distance_to_triangle};
 use meshsweep_host_tests::scene::Scene;
 
@@ -219,4 +219,63 @@ fn bad_questions_are_typed_errors_and_leave_the_sweep_whole() {
     sweep.move_to([3.0, 0.0, 0.0]).expect("finite");
     let answer = sweep.closest_point(Budget::EXACT).expect("answers");
     assert_eq!(answer.triangle, fresh(&model, [3.0, 0.0, 0.0]).triangle);
+}
+
+/// Points on a circle about the model, so many diagonals from its middle.
+fn orbit(model: &Hull<'_>, diagonals: f64, step: f64, count: usize) -> Vec<[f32; 3]> {
+    let [low, high] = model.bounds().map(|corner| corner.map(f64::from));
+    let size = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum::<f64>().sqrt();
+    let place = |i: usize| {
+        let (sine, cosine) = (i as f64 * step / diagonals).sin_cos();
+        let way = [cosine, 0.8 * sine, 0.6 * sine];
+        std::array::from_fn(|k| (0.5 * (low[k] + high[k]) + size * diagonals * way[k]) as f32)
+    };
+    let is_finite = |p: &[f32; 3]| p.iter().all(|x| x.is_finite());
+    (0..count).map(place).filter(is_finite).collect()
+}
+
+/// How many answers along a path lack memory.
+fn short_answers(model: &Hull<'_>, path: &[[f32; 3]], entries: usize) -> usize {
+    let mut scratch = vec![ScratchEntry::EMPTY; entries];
+    let mut sweep = model.sweep([0.0; 3], &mut scratch).expect("finite");
+    let short = path.iter().filter(|&&p| {
+        sweep.move_to(p).expect("finite");
+        let near = sweep.closest_point(Budget::EXACT).expect("answers");
+        near.ended == Ended::Scratch
+    });
+    short.count()
+}
+
+#[test]
+fn no_answer_lacks_memory_with_the_entries_that_the_blob_names() {
+    for scene in all() {
+        let model = scene.model();
+        let level = model.header().levels / 2;
+        let bytes = cut(&model, level).ok().map(|tables| tables.to_bytes());
+        let coarse = bytes.as_ref().map(|bytes| Hull::open(bytes).expect("opens"));
+        for model in [Some(model), coarse].into_iter().flatten() {
+            for diagonals in [0.001, 0.3, 1.0, 3.0, 10.0, 1000.0] {
+                for step in [1e-4, 0.03] {
+                    let path = orbit(&model, diagonals, step, 40);
+                    let short = short_answers(&model, &path, model.sweep_entries());
+                    assert_eq!(short, 0, "{}: {diagonals} diagonals away", scene.name);
+                }
+            }
+            let mut scratch = vec![ScratchEntry::EMPTY; model.sweep_entries()];
+            let far = orbit(&model, 1.0, 0.1, 1)[0];
+            let mut sweep = model.sweep(far, &mut scratch).expect("finite");
+            while let Some(found) = sweep.next_triangle(Budget::EXACT).expect("answers") {
+                assert_ne!(found.ended, Ended::Scratch, "{}: {found:?}", scene.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_middle_of_a_sphere_needs_most_of_the_entries_that_the_blob_names() {
+    let scene = Scene::hull("sphere", icosphere(4), &options(40));
+    let model = scene.model();
+    let middle = [[0.0; 3]];
+    assert_eq!(short_answers(&model, &middle, model.sweep_entries()), 0);
+    assert_eq!(short_answers(&model, &middle, model.sweep_entries() / 2), 1);
 }

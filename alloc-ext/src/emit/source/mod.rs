@@ -64,6 +64,8 @@ struct Facts {
     triangles: u32,
     /// No question about one point, segment or solid needs more scratch entries.
     scratch: usize,
+    /// No place of the point of a kept sweep needs more scratch entries.
+    sweep: Option<usize>,
     has_tree: bool,
     /// Tight hulls.
     hulls: u32,
@@ -97,6 +99,7 @@ impl Facts {
             checksum: blob.header_crc(),
             triangles: blob.header().input_triangles,
             scratch: scratch.into_iter().flatten().max().unwrap_or(1),
+            sweep: hull.map(|hull| hull.sweep_entries()),
             has_tree: tree.is_some(),
             hulls: tight.map_or(0, |hulls| hulls.count()),
             has_more: hull.is_some() || triboxes.is_some() || curve.is_some(),

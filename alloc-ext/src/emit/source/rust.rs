@@ -11,7 +11,8 @@ use std::fmt::Write;
 pub fn rust_module(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
     let facts = Facts::of(blob);
     let mut out = head(&facts, names, &stack::lines(blob, Caller::Rust));
-    for part in [Some(bytes(&facts, names)), tree(&facts), hulls(&facts), more(&facts)] {
+    let first = Some(bytes(&facts, names));
+    for part in [first, tree(&facts), hulls(&facts), sweep(&facts), more(&facts)] {
         out.extend(part);
     }
     out
@@ -143,6 +144,16 @@ fn hulls(facts: &Facts) -> Option<String> {
                  Some(hull) => hull,\n    \
                  None => panic!(\"the blob has no tight hulls\"),\n}};\n",
             facts.hulls
+        )
+    })
+}
+
+fn sweep(facts: &Facts) -> Option<String> {
+    facts.sweep.map(|entries| {
+        format!(
+            "\n/// No place of the point of a kept sweep, `Hull::sweep`, needs more scratch entries.\n\
+             #[allow(dead_code)]\n\
+             pub const SWEEP_ENTRIES: usize = {entries};\n"
         )
     })
 }

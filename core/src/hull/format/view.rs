@@ -194,9 +194,20 @@ pub(super) fn single(&[a, b, c, d, e, f, g, h, i, j, k, l]: &[u8; 12]) -> Vec3 {
 impl Hull<'_> {
     /// With this many scratch entries [`closest_point`](Self::closest_point),
     /// [`first_hit`](Self::first_hit) and [`all_hits`](Self::all_hits) never end for lack of
-    /// memory. Overlaps need [`overlap_entries`](Self::overlap_entries).
+    /// memory. Overlaps need [`overlap_entries`](Self::overlap_entries), and a sweep that is kept
+    /// needs [`sweep_entries`](Self::sweep_entries).
     pub fn scratch_entries(&self) -> usize {
         self.header.queue_capacity as usize
+    }
+
+    /// With this many scratch entries a [`Sweep`](crate::Sweep) never ends for lack of memory,
+    /// wherever its point is: one for each triangle of the surface, or of the finest hull of a cut
+    /// blob.
+    pub fn sweep_entries(&self) -> usize {
+        // Triangles that wait stand for different parts of the surface. So no more wait than there
+        // are triangles that nothing refines.
+        let finest = || self.levels().last().map_or(0, |level| level.faces);
+        if self.is_cut() { finest() as usize } else { self.triangle_count() as usize }
     }
 
     /// Splits of the hierarchy. A [`RefinedHull`](crate::RefinedHull) of as many can be refined to

@@ -1,14 +1,21 @@
-//! A kept sweep about a point that moves: how often the safe motion serves, and what is refined.
+//! A kept sweep about a point that moves: how often the safe motion serves, what is refined, and
+//! how many entries of scratch it takes.
 
-use glam::Vec3;
-use meshsweep_core::{Budget, Hull, ScratchEntry};
+use glam::{DVec3, Vec3};
+use meshsweep_core::{Budget, Ended, Hull, QueryError, ScratchEntry};
 use meshsweep_host_tests::workload::{Points, Subject, points};
 use meshsweep_xtask::table::{Table, fixed, row};
 
 /// Steps of one path.
 const STEPS: usize = 2_000;
-/// Entries of the kept sweep's queue.
+/// Entries of the kept sweep's queue, in the table about work.
 const ENTRIES: usize = 512;
+/// Distances of orbits from the middle of the box, in diagonals.
+const ORBITS: [f64; 6] = [0.6, 1.0, 2.0, 5.0, 10.0, 100.0];
+/// Steps of an orbit, in diagonals.
+const ORBIT_STEPS: [f64; 3] = [1e-4, 1e-2, 1e-1];
+/// Points of an orbit.
+const ORBIT_POINTS: usize = 500;
 
 /// By workload and step: the share of constant-time answers, and triangles replaced.
 pub fn table(subject: &Subject, model: &Hull<'_>) -> Result<Table, String> {
@@ -45,6 +52,51 @@ pub fn table(subject: &Subject, model: &Hull<'_>) -> Result<Table, String> {
     }
     table.note(format!("a queue of {ENTRIES} entries; the answers are those of fresh queries"));
     Ok(table)
+}
+
+/// By orbit and step: the answers that lack memory with so many entries.
+pub fn memory(model: &Hull<'_>) -> Result<Table, String> {
+    let entries = [ENTRIES, 2 * ENTRIES, 4 * ENTRIES, model.sweep_entries()];
+    let named = entries.map(|entries| format!("{entries} entries, % lack memory"));
+    let [a, b, c, all] = &named;
+    let columns = ["diagonals away", "step / diagonal", a, b, c, all];
+    let mut table = Table::new("kept_sweep_memory", "Memory of a kept sweep", &columns);
+    for away in ORBITS {
+        for step in ORBIT_STEPS {
+            let lacking = |entries: usize| {
+                let short = short_answers(model, away, step, entries);
+                short.map(|short| fixed(100.0 * short as f64 / ORBIT_POINTS as f64, 1))
+            };
+            let [a, b, c, all] = entries.map(lacking);
+            let failed = |error: QueryError| error.to_string();
+            let [a, b, c, all] =
+                [a.map_err(failed)?, b.map_err(failed)?, c.map_err(failed)?, all.map_err(failed)?];
+            table.push(row![format!("{away}"), format!("{step:e}"), a, b, c, all]);
+        }
+    }
+    table.note("the last column has as many as the blob names, `Hull::sweep_entries`");
+    Ok(table)
+}
+
+/// How many answers on an orbit lack memory.
+fn short_answers(
+    model: &Hull<'_>,
+    away: f64,
+    step: f64,
+    entries: usize,
+) -> Result<usize, QueryError> {
+    let [low, high] = model.bounds().map(|corner| Vec3::from(corner).as_dvec3());
+    let (middle, diagonal) = (0.5 * (low + high), (high - low).length());
+    let mut scratch = vec![ScratchEntry::EMPTY; entries];
+    let mut sweep = model.sweep(middle.as_vec3().to_array(), &mut scratch)?;
+    let mut short = 0;
+    for i in 0..ORBIT_POINTS {
+        let (sine, cosine) = (i as f64 * step / away).sin_cos();
+        let way = DVec3::new(cosine, 0.8 * sine, 0.6 * sine);
+        sweep.move_to((middle + diagonal * away * way).as_vec3().to_array())?;
+        short += usize::from(sweep.closest_point(Budget::EXACT)?.ended == Ended::Scratch);
+    }
+    Ok(short)
 }
 
 /// Straight ways between points, in equal steps.

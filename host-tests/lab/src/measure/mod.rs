@@ -161,6 +161,7 @@ pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
     tables.push(segments::engines(&subject, &model)?);
     tables.extend(closest::tables(&subject, &model)?);
     tables.push(kept::table(&subject, &model)?);
+    tables.push(kept::memory(&model)?);
     tables.push(cuts::table(&subject, &model)?);
     tables.push(storage::proofs(&built.bytes)?);
     tables.extend(tree::tables(&subject)?);

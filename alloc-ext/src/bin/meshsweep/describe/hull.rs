@@ -36,9 +36,14 @@ fn distances(header: &Header, level: &Level) -> LevelDistances {
     }
 }
 
+/// Bytes of so many scratch entries.
+const fn entries_bytes(entries: usize) -> usize {
+    entries * size_of::<ScratchEntry>()
+}
+
 /// Bytes of scratch that no query overflows.
 fn scratch_bytes(hull: &Hull<'_>) -> usize {
-    hull.scratch_entries() * size_of::<ScratchEntry>()
+    entries_bytes(hull.scratch_entries())
 }
 
 /// How coordinates are stored.
@@ -72,6 +77,12 @@ fn write_memory(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
         "  scratch: {}, {} bytes of RAM: no query can overflow it",
         Counted(hull.scratch_entries(), "entry"),
         scratch_bytes(hull)
+    )?;
+    writeln!(
+        out,
+        "  kept sweep: {}, {} bytes of RAM: no place of its point can overflow it",
+        Counted(hull.sweep_entries(), "entry"),
+        entries_bytes(hull.sweep_entries())
     )?;
     writeln!(
         out,
@@ -166,6 +177,10 @@ pub(super) fn as_json(hull: &Hull<'_>, hull_box: [[f64; 3]; 2]) -> Value {
             "scratch_entries": hull.scratch_entries(),
             "scratch_bytes": scratch_bytes(hull),
             "dependency_depth": hull.header().dependency_depth,
+            "kept_sweep": {
+                "scratch_entries": hull.sweep_entries(),
+                "scratch_bytes": entries_bytes(hull.sweep_entries()),
+            },
         },
         "levels": levels,
     })
