@@ -74,9 +74,10 @@
 //!
 //! # The same bits everywhere
 //! The same blob and query give the same bits on a workstation and on a Cortex-M0. The code uses
-//! only `+ − × ÷ √` and comparisons, in one written order, never fused. The square root is
-//! `libm`'s, which is correctly rounded on every target. The box tree computes square roots by
-//! products and sums of its own.
+//! `+ − × ÷ √` and comparisons, in one written order, never fused. The square root is `libm`'s,
+//! which is correctly rounded on every target, or `sqrt_approx`, products and sums of our own.
+//! Screws, winding numbers and signs at vertices also take a sine or an arctangent from `libm`,
+//! where the code of both is the same for every target.
 
 #![no_std]
 #![forbid(unsafe_code)]

@@ -87,7 +87,7 @@ pub(super) fn ask(
                 }
             }
         }
-        Structure::Sweep(_) | Structure::Refined(_) => {
+        Structure::Sweep(_) | Structure::CutLevel(_) => {
             let hull = blob.hull()?;
             let enough = match setting.how {
                 How::Coherent => Setting::SWEEP_ENTRIES,

@@ -143,11 +143,10 @@ pub fn measure(
     let (done, of) = (AtomicUsize::new(0), structures.len() + settings.len());
     let step = || progress(Progress { done: done.fetch_add(1, Ordering::Relaxed) + 1, of });
     let distances = distances(input.mesh, points);
-    let is_refined = |structure: &Structure| matches!(structure, Structure::Refined(_));
-    let (refined, others): (Vec<Structure>, Vec<Structure>) =
-        structures.into_iter().partition(is_refined);
+    let is_cut = |structure: &Structure| matches!(structure, Structure::CutLevel(_));
+    let (cut, others): (Vec<Structure>, Vec<Structure>) = structures.into_iter().partition(is_cut);
     let mut groups: Vec<Vec<Structure>> = others.into_iter().map(|other| vec![other]).collect();
-    groups.push(refined);
+    groups.push(cut);
     let build = |group: &Vec<Structure>| {
         let all = build_all(group, input);
         group.iter().for_each(|_| step());

@@ -74,8 +74,8 @@ impl Setting {
             (Structure::Tree(_), How::Precise) => Search::Precise,
             (Structure::Tree(TreeBits::Sixteen), How::Fresh) => Search::Tree,
             (Structure::Tree(TreeBits::ThirtyTwo), How::Fresh) => Search::TreeF32,
-            (Structure::Sweep(_) | Structure::Refined(_), How::Coherent) => Search::KeptSweep,
-            (Structure::Sweep(_) | Structure::Refined(_), _) => Search::Sweep,
+            (Structure::Sweep(_) | Structure::CutLevel(_), How::Coherent) => Search::KeptSweep,
+            (Structure::Sweep(_) | Structure::CutLevel(_), _) => Search::Sweep,
             (Structure::Tight(_), _) => Search::Tight,
             (Structure::Triboxes(_), _) => Search::Triboxes,
         }
@@ -145,7 +145,7 @@ pub fn standard(diagonal: f64, triangles: usize, points: Option<Points>) -> Vec<
     let faces = FACES.into_iter().filter(|&faces| faces as usize <= triangles.max(50));
     all.extend(faces.map(|faces| Setting::new(Structure::Tight(faces))));
     all.extend([8, 64].map(|count| Setting::new(Structure::Triboxes(count))));
-    all.extend([0.05, 0.01].map(|part| Setting::new(Structure::Refined(near(part)))));
+    all.extend([0.05, 0.01].map(|part| Setting::new(Structure::CutLevel(near(part)))));
     let bits = [HullBits::Sixteen, HullBits::TwentyFour, HullBits::ThirtyTwo];
     all.extend(bits.map(|bits| Setting::new(Structure::Sweep(bits))));
     let sweep = Setting::new(Structure::Sweep(HullBits::ThirtyTwo));

@@ -56,8 +56,8 @@ pub enum Structure {
     /// A hull hierarchy for sweeps.
     Sweep(HullBits),
     /// The hull hierarchy of a closed mesh, cut after its coarsest level of which no point is
-    /// farther than this from the mesh, input units: an outer hull, refined to an error.
-    Refined(f32),
+    /// farther than this from the mesh, input units.
+    CutLevel(f32),
     /// A tight hull of at most so many faces, not polished.
     Tight(u32),
     /// At most so many triboxes.
@@ -70,7 +70,7 @@ impl fmt::Display for Structure {
             Self::Tree(TreeBits::Sixteen) => write!(f, "box tree, 16 bits"),
             Self::Tree(TreeBits::ThirtyTwo) => write!(f, "box tree, 32 bits"),
             Self::Sweep(bits) => write!(f, "sweep, {} bits", bits.number()),
-            Self::Refined(error) => write!(f, "refined hull, error {error}"),
+            Self::CutLevel(error) => write!(f, "cut level, error {error}"),
             Self::Tight(faces) => write!(f, "tight hull, {faces} faces"),
             Self::Triboxes(count) => write!(f, "triboxes, {count}"),
         }
@@ -85,7 +85,7 @@ impl Structure {
             Self::Tree(TreeBits::Sixteen) => "--for closest --vertex-bits 16".to_owned(),
             Self::Tree(TreeBits::ThirtyTwo) => "--for closest --vertex-bits 32".to_owned(),
             Self::Sweep(bits) => format!("--for sweep --vertex-bits {}", bits.number()),
-            Self::Refined(_) => "--for hull, then cut --level".to_owned(),
+            Self::CutLevel(_) => "--for hull, then cut --level".to_owned(),
             Self::Tight(faces) => {
                 format!("--for tight --tight {faces} --tight-for closest --effort 0")
             }
@@ -107,7 +107,7 @@ impl Structure {
                 bvh::build(input, &options).map_err(said)?.0.to_bytes()
             }
             Self::Sweep(bits) => swept(input, bits)?,
-            Self::Refined(error) => refined(&hierarchy(input)?, error)?,
+            Self::CutLevel(error) => cut_level(&hierarchy(input)?, error)?,
             Self::Tight(faces) => {
                 let options = ChainOptions::of_faces(&[faces as usize])
                     .with_boxes(true, false)
@@ -145,16 +145,16 @@ fn swept(input: Input<'_>, bits: HullBits) -> Result<Vec<u8>, String> {
     of(Input { mesh: &mesh, moved: input.error() + moved, input_triangles: input.input_triangles })
 }
 
-/// The blobs of structures. Refined hulls are cut out of one hierarchy.
+/// The blobs of structures. Cut levels come out of one hierarchy.
 pub(super) fn build_all(
     structures: &[Structure],
     input: Input<'_>,
 ) -> Vec<Result<Vec<u8>, String>> {
     let mut whole = None;
     let mut build = |structure: &Structure| {
-        let Structure::Refined(error) = *structure else { return structure.build(input) };
+        let Structure::CutLevel(error) = *structure else { return structure.build(input) };
         let whole = whole.get_or_insert_with(|| hierarchy(input));
-        whole.as_ref().map_err(String::clone).and_then(|bytes| refined(bytes, error))
+        whole.as_ref().map_err(String::clone).and_then(|bytes| cut_level(bytes, error))
     };
     structures.iter().map(&mut build).collect()
 }
@@ -166,7 +166,7 @@ fn hierarchy(input: Input<'_>) -> Result<Vec<u8>, String> {
     built.map(|built| built.bytes).map_err(|error| error.to_string())
 }
 
-fn refined(hierarchy: &[u8], error: f32) -> Result<Vec<u8>, String> {
+fn cut_level(hierarchy: &[u8], error: f32) -> Result<Vec<u8>, String> {
     let whole = Hull::open(hierarchy).map_err(|error| error.to_string())?;
     let unit = whole.scale();
     let is_fine =

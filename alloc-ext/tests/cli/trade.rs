@@ -99,7 +99,7 @@ fn a_structure_that_an_open_mesh_does_not_allow_is_listed_with_its_reason() {
     fs::write(&mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 2 4 3\n").unwrap();
     let text = ok(["trade", arg(&mesh), "--points", "5"]);
     let reasons = text.split("not built\n").nth(1).expect("some are not built");
-    assert!(reasons.contains("refined hull") && reasons.contains("edge"), "{reasons}");
+    assert!(reasons.contains("cut level") && reasons.contains("edge"), "{reasons}");
     assert!(text.lines().any(|line| line.trim_start().starts_with("sweep, 16 bits")), "{text}");
 }
 

@@ -56,6 +56,5 @@ pub extern "C" fn msw_version() -> u32 {
 /// See `meshsweep.h`.
 #[unsafe(no_mangle)]
 pub extern "C" fn msw_format_version() -> u32 {
-    let minor = SectionKind::ALL.iter().map(|kind| kind.minor()).max().unwrap_or(0);
-    u32::from(VERSION_MAJOR) << 16 | u32::from(minor)
+    u32::from(VERSION_MAJOR) << 16 | u32::from(SectionKind::newest_minor())
 }

@@ -141,6 +141,11 @@ impl SectionKind {
         matches!(self, SectionKind::VertexNumbers | SectionKind::KeyFrames)
     }
 
+    /// The newest minor version: the one that has all kinds.
+    pub fn newest_minor() -> u16 {
+        Self::ALL.iter().map(|kind| kind.minor()).max().unwrap_or(VERSION_MINOR)
+    }
+
     /// The first minor version with this kind.
     pub fn minor(self) -> u16 {
         match self {

@@ -21,6 +21,7 @@ const USAGE: &str = "\
 cargo xtask measure [--tree | --triboxes | --deform | --overlap | --motion
                     | --winding | --tight [--firmware] | --bounds [--count] | --paper TABLE]
                     [--plot FILE.svg] [--picture FILE.svg] [MESH...]
+cargo xtask measure --margins TRIALS
           work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/)
           --tree      only the box tree's
           --triboxes  the stored ones
@@ -31,10 +32,15 @@ cargo xtask measure [--tree | --triboxes | --deform | --overlap | --motion
           --tight     tight hulls, each proved, drawn with --picture, on a Cortex-M4F with --firmware
           --bounds    how tight boxes, triboxes, hulls... are, with --count what they cost
           --paper     a table of the papers; alone: the list of tables
+          --margins   how much of each margin for rounding is used, in so many trials, of no mesh
           --plot      loss against cost
-cargo xtask race [--quick] [MESH...]
+cargo xtask race [--pairs] [--quick] [MESH...]
                                     this library, parry3d and obvhs on the same queries
                                     (AVX2: RUSTFLAGS=\"-C target-cpu=x86-64-v3\" cargo xtask race)
+          --pairs     the distance of two models, and whether they are near each other
+          --quick     fewer queries
+cargo xtask race --hausdorff MESH MESH
+                                    the Hausdorff distance of two meshes
 cargo xtask rival [MESH] [--faces COUNT,COUNT...] [--seed NUMBER]
                                     parry3d on a Cortex-M4F (default: a rough sphere at 2500,10000)";
 
@@ -69,4 +75,23 @@ fn main() -> ExitCode {
 fn usage() -> ExitCode {
     eprintln!("{USAGE}");
     ExitCode::from(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::USAGE;
+
+    #[test]
+    fn the_usage_names_every_flag_that_is_parsed() {
+        let sources =
+            [include_str!("measuring.rs"), include_str!("racing.rs"), include_str!("rival.rs")];
+        for source in sources {
+            // What stands before the tests, which parse flags that are refused.
+            let source = source.split("#[cfg(test)]").next().unwrap_or_default();
+            let flags = source.split('"').filter(|word| word.len() > 2 && word.starts_with("--"));
+            for flag in flags.filter(|flag| !flag.contains(' ')) {
+                assert!(USAGE.contains(flag), "{flag} is not in the usage");
+            }
+        }
+    }
 }

@@ -11,7 +11,7 @@ mod triboxes;
 use crate::served;
 use meshsweep::counted::Counted;
 use meshsweep::number::{AtLeast, AtMost};
-use meshsweep_core::internal::format::layout::{FLAG_CUT, VERSION_MAJOR, VERSION_MINOR};
+use meshsweep_core::internal::format::layout::{FLAG_CUT, VERSION_MAJOR};
 use meshsweep_core::internal::num::exp2;
 use meshsweep_core::{Blob, SectionKind};
 use serde_json::{Value, json};
@@ -193,7 +193,7 @@ pub fn as_json(blob: &Blob<'_>) -> Value {
         })
         .collect();
     json!({
-        "version": { "major": VERSION_MAJOR, "minor_known": VERSION_MINOR },
+        "version": { "major": VERSION_MAJOR, "minor_known": SectionKind::newest_minor() },
         "bytes": h.total_bytes,
         "header_bytes": h.header_bytes,
         "scale_exponent": h.scale_exponent,

@@ -27,7 +27,7 @@ pub fn table(subject: &Subject, model: &Hull<'_>) -> Result<Table, String> {
             let [mut constant, mut opened, mut fresh] = [0.0; 3];
             let (mut kept, mut other) =
                 ([ScratchEntry::EMPTY; ENTRIES], [ScratchEntry::EMPTY; ENTRIES]);
-            let failed = |error: meshsweep_core::QueryError| error.to_string();
+            let failed = |error: QueryError| error.to_string();
             let mut sweep = model.sweep(path[0], &mut kept).map_err(failed)?;
             for &point in &path {
                 sweep.move_to(point).map_err(failed)?;
@@ -56,25 +56,19 @@ pub fn table(subject: &Subject, model: &Hull<'_>) -> Result<Table, String> {
 
 /// By orbit and step: the answers that lack memory with so many entries.
 pub fn memory(model: &Hull<'_>) -> Result<Table, String> {
-    let entries = [ENTRIES, 2 * ENTRIES, 4 * ENTRIES, model.sweep_entries()];
-    let named = entries.map(|entries| format!("{entries} entries, % lack memory"));
-    let [a, b, c, all] = &named;
-    let columns = ["diagonals away", "step / diagonal", a, b, c, all];
+    let columns = ["diagonals away", "step / diagonal", "entries", "answers that lack memory, %"];
     let mut table = Table::new("kept_sweep_memory", "Memory of a kept sweep", &columns);
     for away in ORBITS {
         for step in ORBIT_STEPS {
-            let lacking = |entries: usize| {
+            for entries in [ENTRIES, 2 * ENTRIES, 4 * ENTRIES, model.sweep_entries()] {
                 let short = short_answers(model, away, step, entries);
-                short.map(|short| fixed(100.0 * short as f64 / ORBIT_POINTS as f64, 1))
-            };
-            let [a, b, c, all] = entries.map(lacking);
-            let failed = |error: QueryError| error.to_string();
-            let [a, b, c, all] =
-                [a.map_err(failed)?, b.map_err(failed)?, c.map_err(failed)?, all.map_err(failed)?];
-            table.push(row![format!("{away}"), format!("{step:e}"), a, b, c, all]);
+                let short = short.map_err(|error| error.to_string())?;
+                let share = 100.0 * short as f64 / ORBIT_POINTS as f64;
+                table.push(row![format!("{away}"), format!("{step:e}"), entries, fixed(share, 1)]);
+            }
         }
     }
-    table.note("the last column has as many as the blob names, `Hull::sweep_entries`");
+    table.note("the last number of entries of each orbit is the blob's, `Hull::sweep_entries`");
     Ok(table)
 }
 

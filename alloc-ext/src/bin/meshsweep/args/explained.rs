@@ -442,7 +442,7 @@ pub const TRADE: &str = "The guaranteed error is the width of an interval, which
     --error and --rate choose among the same settings.\n\n--report writes one HTML file, which a \
     browser shows without a network. It has the numbers of --json: error against instructions and \
     bytes; the intervals of a few settings along a path, and the true distance; the mesh with a \
-    tight hull, triboxes and a refined hull, to turn and to cut, coloured by the hull's distance \
+    tight hull, triboxes and a cut level, to turn and to cut, coloured by the hull's distance \
     from the mesh or by the width of intervals, with the worst queries marked.\n\nExamples:\n  \
     meshsweep trade part.stl\n  \
     meshsweep trade part.stl --report part.html\n  \

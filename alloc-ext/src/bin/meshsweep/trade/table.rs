@@ -154,7 +154,7 @@ fn write_notes(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
     said.iter().try_for_each(|line| writeln!(out, "{line}"))?;
     writeln!(
         out,
-        "of unknown error, as none of their kind was counted: refined hulls, sweeps of 16 and 24 \
+        "of unknown error, as none of their kind was counted: cut levels, sweeps of 16 and 24 \
          bits, 8\ntriboxes, tight hulls of other than 200 faces, scratch 8"
     )
 }

@@ -6,10 +6,10 @@ const data = JSON.parse(byId("data").textContent);
 const unit = data.unit ? ` (${data.unit})` : "";
 const length = (x) => (data.unit ? `${short(x)} ${data.unit}` : short(x));
 const COLOURS = {
-  "box tree": "#0072b2", sweep: "#d55e00", "tight hull": "#009e73", "refined hull": "#cc79a7",
+  "box tree": "#0072b2", sweep: "#d55e00", "tight hull": "#009e73", "cut level": "#cc79a7",
   triboxes: "#b8860b",
 };
-const BODY_COLOURS = { mesh: "#9a9a9a", tight: "#009e73", triboxes: "#e69f00", refined: "#cc79a7" };
+const BODY_COLOURS = { mesh: "#9a9a9a", tight: "#009e73", triboxes: "#e69f00", level: "#cc79a7" };
 const HEAT = [[0, "#f3efe0"], [0.5, "#f4a04a"], [1, "#a50f15"]];
 const CONFIG = { displaylogo: false, responsive: true,
   modeBarButtons: [["toImage", "zoom2d", "pan2d", "resetScale2d"]] };

@@ -14,7 +14,7 @@ const POINTS: usize = 500;
 const FACES: u32 = 200;
 
 /// A few settings of the table that differ most: an exact one, a tolerance, a step budget, a tight
-/// hull, a refined hull.
+/// hull, a cut level.
 pub fn asked(measured: &Measured) -> Vec<Setting> {
     let all = || measured.trade.rows.iter().map(|row| row.setting);
     let of_tree = |relative: f32, steps: u32| {
@@ -27,8 +27,8 @@ pub fn asked(measured: &Measured) -> Vec<Setting> {
     };
     let tight = all()
         .rfind(|setting| matches!(setting.structure, Structure::Tight(faces) if faces <= FACES));
-    let refined = all().rfind(|setting| matches!(setting.structure, Structure::Refined(_)));
-    let each = [of_tree(0.0, u32::MAX), of_tree(0.1, u32::MAX), of_tree(0.0, 8), tight, refined];
+    let level = all().rfind(|setting| matches!(setting.structure, Structure::CutLevel(_)));
+    let each = [of_tree(0.0, u32::MAX), of_tree(0.1, u32::MAX), of_tree(0.0, 8), tight, level];
     each.into_iter().flatten().collect()
 }
 

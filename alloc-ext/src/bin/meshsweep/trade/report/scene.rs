@@ -37,9 +37,9 @@ pub fn as_json(
     let name = Counted(loaded.mesh.triangles.len(), "triangle");
     let mut bodies = vec![body("mesh", &format!("the mesh, {name}"), &mesh, &colours)];
     for (structure, bytes) in &measured.trade.blobs {
-        // Of the tight and refined hulls, those whose intervals are shown.
+        // Of the tight hulls and cut levels, those whose intervals are shown.
         let is_shown = asked.iter().any(|setting| setting.structure == *structure);
-        let is_hull = matches!(structure, Structure::Tight(_) | Structure::Refined(_));
+        let is_hull = matches!(structure, Structure::Tight(_) | Structure::CutLevel(_));
         let is_tribox = matches!(structure, Structure::Triboxes(64));
         if let Some((key, name, surface)) =
             (is_shown && is_hull || is_tribox).then(|| surface(*structure, bytes)).flatten()
@@ -76,11 +76,11 @@ fn surface(structure: Structure, bytes: &[u8]) -> Option<(&'static str, String, 
             let faces = Counted(mesh.triangles.len(), "face");
             Some(("tight", format!("the tight hull, {faces}"), mesh))
         }
-        Structure::Refined(error) => {
+        Structure::CutLevel(error) => {
             let hull = blob.hull().ok()?;
             let mesh = mesh_of(&hull, hull.faces(&hull.levels().last()?));
             let faces = Counted(mesh.triangles.len(), "face");
-            Some(("refined", format!("the hull refined to an error of {error}, {faces}"), mesh))
+            Some(("level", format!("the level cut at an error of {error}, {faces}"), mesh))
         }
         Structure::Triboxes(_) => {
             let triboxes = blob.triboxes().ok()?;
