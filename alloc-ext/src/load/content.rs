@@ -27,6 +27,8 @@ impl Content {
             ("GLB", "glb")
         } else if bytes.starts_with(b"PK\x03\x04") {
             ("3MF", "3mf")
+        } else if holds(b"<COLLADA") {
+            ("COLLADA", "dae")
         } else if begins(b"OFF") || begins(b"COFF") || begins(b"NOFF") {
             ("OFF", "off")
         } else if bytes.len() > 84 && stl_bytes == Some(bytes.len() as u64) {
@@ -56,6 +58,7 @@ mod tests {
         assert_eq!(kind(b"OFF\n8 6 12\n"), Some("OFF"));
         assert_eq!(kind(b"OFFICE\n"), None);
         assert_eq!(kind(b"glTF\x02\0\0\0"), Some("GLB"));
+        assert_eq!(kind(b"<?xml version=\"1.0\"?>\n<COLLADA version=\"1.4.1\">"), Some("COLLADA"));
         assert_eq!(kind(b"plywood"), None);
         assert_eq!(kind(b""), None);
         let mut stl = [0; 134];

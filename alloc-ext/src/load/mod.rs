@@ -75,7 +75,7 @@ impl Loaded {
         let unit = self.unit?;
         Some(match self.told {
             Told::File => format!("unit: {unit} (as the file tells)"),
-            Told::Format => format!("unit: {unit} (3MF's default)"),
+            Told::Format => format!("unit: {unit} (the format's default)"),
             Told::Option => format!("unit: {unit} (by --unit)"),
             Told::Scaled(from) => format!("unit: {unit} (by --unit), scaled from {from}"),
         })

@@ -42,10 +42,11 @@ pub(super) fn split(corners: &[[f64; 3]]) -> Split {
     if outline.is_made_of((1..corners.len() - 1).map(|k| [0, k, k + 1])) {
         return Split::Fan;
     }
-    match Clipping::new(&outline).run() {
-        Some(ears) if outline.is_made_of(ears.iter().copied()) => Split::Ears(ears),
-        _ => Split::Unsound,
-    }
+    let is_right = |ears: &Vec<[usize; 3]>| outline.is_made_of(ears.iter().copied());
+    let plain = Clipping::new(&outline).run().filter(is_right);
+    // An antenna outside of the polygon makes an ear of the corner at its foot.
+    let ears = plain.or_else(|| Clipping::new(&outline).without_antennas().run().filter(is_right));
+    ears.map_or(Split::Unsound, Split::Ears)
 }
 
 /// A polygon seen along an axis, counter-clockwise.
@@ -139,6 +140,8 @@ struct Clipping<'a> {
     /// Whether the corner is an ear, where that is known.
     is_ear: Vec<Option<bool>>,
     tests_left: usize,
+    /// A corner that is not cut off.
+    first: usize,
     ears: Vec<[usize; 3]>,
 }
 
@@ -151,8 +154,37 @@ impl<'a> Clipping<'a> {
             previous: (0..count).map(|k| (k + count - 1) % count).collect(),
             is_ear: vec![None; count],
             tests_left: TESTS_PER_CORNER * count,
+            first: 0,
             ears: Vec::with_capacity(count - 2),
         }
+    }
+
+    /// Cuts off corners at which the outline turns back on itself: triangles without area.
+    fn without_antennas(mut self) -> Self {
+        let (mut corner, mut passed) = (0, 0);
+        while passed < self.outline.0.len() && !self.is_done() {
+            if self.turns_back(corner) {
+                let before = self.previous[corner];
+                self.cut(corner);
+                // What is left of the antenna ends there.
+                (corner, passed) = (before, 0);
+            } else {
+                corner = self.next[corner];
+                passed += 1;
+            }
+        }
+        self.first = corner;
+        self
+    }
+
+    /// Whether the side after a corner lies on that before it, or is none.
+    fn turns_back(&self, corner: usize) -> bool {
+        let around = self.around(corner);
+        let [a, b, c] = around.map(|k| self.outline.0[k]);
+        // Exact signs: differences of the axes are of opposite signs, or zero.
+        let is_back =
+            |from: f64, at: f64, to: f64| (from <= at && to <= at) || (from >= at && to >= at);
+        self.outline.turn(around) == 0.0 && is_back(a.x, b.x, c.x) && is_back(a.y, b.y, c.y)
     }
 
     /// As many triangles as the outline has corners, less two; none if an ear is not found.
@@ -160,11 +192,14 @@ impl<'a> Clipping<'a> {
         let count = self.outline.0.len();
         for corner in 0..count {
             // A corner that is given twice is no corner.
+            if self.next[self.previous[corner]] != corner {
+                continue;
+            }
             if self.outline.0[corner] == self.outline.0[self.next[corner]] && !self.is_done() {
                 self.cut(corner);
             }
         }
-        let mut corner = self.next[self.previous[0]];
+        let mut corner = self.next[self.previous[self.first]];
         // An answer about an ear may have changed since it was found.
         let mut is_stale = false;
         let mut passed = 0;

@@ -55,8 +55,8 @@ pub enum MeshError {
     },
     /// The file holds nothing, or blanks only.
     Empty { file: PathBuf },
-    /// The file holds no face.
-    NoTriangles { file: PathBuf },
+    /// The file holds no face; what it holds in place of them.
+    NoTriangles { file: PathBuf, instead: Option<String> },
     /// More vertices or triangles than 32-bit numbers can name.
     TooMany { file: PathBuf, what: &'static str, count: usize },
     /// A coordinate is beyond the largest `f32`.
@@ -175,10 +175,18 @@ impl fmt::Display for MeshError {
             Self::Empty { file } => {
                 write!(f, "{}: the file is empty; copy or export it again", file.display())
             }
-            Self::NoTriangles { file } => {
+            Self::NoTriangles { file, instead: None } => {
                 write!(
                     f,
                     "{}: holds no triangles; export the surface, not points or curves",
+                    file.display()
+                )
+            }
+            Self::NoTriangles { file, instead: Some(instead) } => {
+                write!(
+                    f,
+                    "{}: holds no triangles that are read ({instead}); export the surface as \
+                        triangles",
                     file.display()
                 )
             }

@@ -4,7 +4,7 @@
 //! file ─ read ─ RawMesh ─ repair ─ Mesh + RepairReport ─ require_closed_manifold ─ ready for hulls
 //! ```
 //!
-//! [`read`] takes PLY, OBJ, STL, OFF, glTF and 3MF. [`repair`] mends what can be mended without
+//! [`read`] takes PLY, OBJ, STL, OFF, glTF, 3MF and COLLADA. [`repair`] mends what can be mended without
 //! moving the surface and reports each mend with its place; it accepts any triangle soup.
 //! [`require_closed_manifold`] is the further demand of an outer hull. It is kept apart, because a
 //! distance index is content with a soup.
@@ -16,6 +16,7 @@
 
 mod boundary;
 mod caps;
+mod collada;
 mod collinear;
 mod copies;
 mod duplicate;
@@ -27,6 +28,7 @@ mod gltf;
 mod hash;
 mod input;
 mod key_frame;
+mod left_out;
 mod manifold;
 mod no_volume;
 mod obj;
@@ -60,6 +62,7 @@ pub use error::{EdgePlace, MeshError};
 pub use filed::Filed;
 pub use input::Input;
 pub use key_frame::{KeyFrame, key_frame, require_deformable};
+pub use left_out::{LeftOut, Remark};
 pub use manifold::require_closed_manifold;
 pub use no_volume::NoVolume;
 pub use polygons::{FacePlace, NamedFaces, Polygons};
@@ -73,7 +76,7 @@ pub use wire::Wire;
 pub use write_ply::{write_coloured_ply, write_ply};
 
 /// Extensions of the files that [`read`] reads.
-pub const FORMATS: [&str; 7] = ["stl", "ply", "obj", "off", "glb", "gltf", "3mf"];
+pub const FORMATS: [&str; 8] = ["stl", "ply", "obj", "off", "glb", "gltf", "3mf", "dae"];
 
 /// A triangle mesh as the rest of the builder takes it.
 ///
@@ -200,21 +203,8 @@ pub struct RawMesh {
     pub unit: Option<Unit>,
     /// True if the file names no unit, and `unit` is its format's default.
     pub unit_by_default: bool,
-    /// Parts of the file that are no triangles.
+    /// Parts of the file that are no triangles, or doubtful.
     pub left_out: LeftOut,
-}
-
-/// Parts of a file that a reader leaves out.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct LeftOut {
-    /// Triangles of strips with a repeated corner: they join strips and have no surface.
-    pub stitches: usize,
-    /// Primitives of points or lines, one for each copy that a scene makes.
-    pub lines_and_points: usize,
-    /// Bytes after the last element that the file announces.
-    pub bytes_after_end: usize,
-    /// Faces of one or two corners, or of none.
-    pub small_faces: NamedFaces,
 }
 
 impl RawMesh {

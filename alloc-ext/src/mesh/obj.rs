@@ -1,28 +1,25 @@
-//! Wavefront OBJ: the `v` and `f` statements. `l` and `p` are counted, all others skipped.
+//! Wavefront OBJ: the vertices and the polygons. Other geometry is counted and named.
 
 use std::path::Path;
 
 use super::polygons::{FacePlace, Faces, Split};
-use super::text::{lines, point};
+use super::text::{decoded, lines, point, quoted, without_comment};
 use super::{LeftOut, MeshError, RawMesh};
 
-/// Reads `v x y z …` and `f v[/vt[/vn]] …`, indices from 1 or relative (negative), `\` at a line's
-/// end continuing it, but not a comment: that may end with the path of a directory. Faces of one or
-/// two vertices have no surface and are counted, as points and lines are (`p`, `l`).
+/// Reads `v x y z …` and `f v[/vt[/vn]] …`, or `fo` as it was called once, indices from 1 or
+/// relative (negative), `\` at a line's end continuing it, but not a comment: that may end with the
+/// path of a directory. Faces of one or two vertices have no surface and are counted, as points and
+/// lines are (`p`, `l`), free-form curves and surfaces, and calls of other files.
+///
+/// A statement that OBJ does not have is counted. It is refused if numbers follow, for it may be a
+/// misspelt vertex, without which all others have wrong numbers.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
-    let mut positions = Vec::new();
-    let mut faces = Faces::default();
-    let mut lines_and_points = 0;
-    // From 1, as everything in such a file.
-    let mut face = 1;
-    let mut corners: Vec<u32> = Vec::new();
-    // OBJ lets a face name a vertex that comes later in the file, so ranges are checked against the
-    // final count.
-    let mut highest: Option<(u32, usize, usize)> = None;
+    let text = decoded(bytes);
+    let mut obj = Obj::new(file);
     let mut joined = String::new();
-    let mut lines = lines(bytes).peekable();
+    let mut lines = lines(&text).peekable();
     while let Some((number, text)) = lines.next() {
-        let text = text.split('#').next().unwrap_or("").trim_end();
+        let text = without_comment(text).trim_end();
         let part = text.strip_suffix('\\');
         if let Some(part) = part
             && lines.peek().is_some()
@@ -32,78 +29,190 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             continue;
         }
         let text = part.unwrap_or(text);
-        let whole;
-        let statement = if joined.is_empty() {
-            text
+        obj.line = number;
+        if joined.is_empty() {
+            obj.statement(text)?;
         } else {
-            whole = std::mem::take(&mut joined) + text;
-            &whole
-        };
-        let mut words = statement.split_ascii_whitespace();
-        match words.next() {
-            Some("v") => positions.push(point(file, number, positions.len() + 1, &mut words)?),
-            Some("f") => {
-                corners.clear();
-                for word in words {
-                    let vertex = index(file, number, face, word, positions.len())?;
-                    if highest.is_none_or(|(most, ..)| vertex > most) {
-                        highest = Some((vertex, number, face));
-                    }
-                    corners.push(vertex);
-                }
-                faces.add(&corners, FacePlace { face, line: Some(number) });
-                face += 1;
-            }
-            Some("l" | "p") => lines_and_points += 1,
-            _ => {}
+            joined.push_str(text);
+            obj.statement(&joined)?;
+            joined.clear();
         }
     }
-    match highest {
-        Some((vertex, line, face)) if vertex as usize >= positions.len() => {
-            Err(MeshError::IndexOutOfRange {
-                file: file.to_owned(),
-                line: Some(line),
-                face,
-                index: i64::from(vertex) + 1,
-                vertex_count: positions.len(),
-            })
-        }
-        _ => {
-            let small_faces = faces.small;
-            let Split { triangles, polygons, fans } = faces.finish(&positions);
-            let left_out = LeftOut { lines_and_points, small_faces, ..LeftOut::default() };
-            let raw = RawMesh::from_f64(positions, triangles);
-            Ok(RawMesh { file: file.to_owned(), polygons, fans, decimal: true, left_out, ..raw })
+    obj.finish()
+}
+
+/// What a statement means.
+enum Kind {
+    Vertex,
+    Face,
+    LineOrPoint,
+    /// Geometry that is left out: what it is.
+    Other(&'static str),
+    /// No geometry, or the rest of a free-form curve or surface.
+    Skipped,
+    Unknown,
+}
+
+impl Kind {
+    fn of(keyword: &str) -> Self {
+        let lower;
+        let keyword = if keyword.bytes().any(|b| b.is_ascii_uppercase()) {
+            lower = keyword.to_ascii_lowercase();
+            &lower
+        } else {
+            keyword
+        };
+        match keyword {
+            "v" => Self::Vertex,
+            "f" | "fo" => Self::Face,
+            "l" | "p" => Self::LineOrPoint,
+            "surf" => Self::Other("surf (a free-form surface) left out"),
+            "curv" => Self::Other("curv (a free-form curve) left out"),
+            "curv2" => Self::Other("curv2 (a free-form curve) left out"),
+            // Of the format's first version.
+            "bsp" => Self::Other("bsp (a free-form surface) left out"),
+            "bzp" => Self::Other("bzp (a free-form surface) left out"),
+            "cdc" => Self::Other("cdc (a free-form curve) left out"),
+            "cdp" => Self::Other("cdp (a free-form surface) left out"),
+            "call" => Self::Other("call (another file) left out"),
+            "csh" => Self::Other("csh (a command) left out"),
+            "vt" | "vn" | "vp" | "vc" | "cstype" | "deg" | "bmat" | "step" | "parm" | "trim"
+            | "hole" | "scrv" | "sp" | "end" | "con" | "res" | "g" | "s" | "mg" | "o" | "bevel"
+            | "c_interp" | "d_interp" | "lod" | "usemtl" | "mtllib" | "usemap" | "maplib"
+            | "shadow_obj" | "trace_obj" | "ctech" | "stech" => Self::Skipped,
+            _ => Self::Unknown,
         }
     }
 }
 
-/// The vertex (from 0) that a word of an `f` statement names, `vertex_count` vertices having been
-/// read so far.
-fn index(
-    file: &Path,
+/// The mesh as far as it is read.
+struct Obj<'a> {
+    file: &'a Path,
+    /// The line of the statement's end.
     line: usize,
+    positions: Vec<[f64; 3]>,
+    faces: Faces,
+    /// The number of the next face, from 1, as everything in such a file.
     face: usize,
-    word: &str,
-    vertex_count: usize,
-) -> Result<u32, MeshError> {
-    let number = word.split('/').next().unwrap_or("");
-    let index: i64 = number.parse().map_err(|_| MeshError::Malformed {
-        file: file.to_owned(),
-        line: Some(line),
-        place: format!("face {face}"),
-        reason: format!("{word:?} does not name a vertex"),
-    })?;
-    let from_zero = match index {
-        0 => None,
-        1.. => Some(index - 1),
-        _ => i64::try_from(vertex_count).ok().map(|count| count + index),
-    };
-    from_zero.and_then(|v| u32::try_from(v).ok()).ok_or(MeshError::IndexOutOfRange {
-        file: file.to_owned(),
-        line: Some(line),
-        face,
-        index,
-        vertex_count,
-    })
+    corners: Vec<u32>,
+    /// The largest vertex that a face names, its line and the face. OBJ lets a face name a vertex
+    /// that comes later in the file, so ranges are checked against the final count.
+    highest: Option<(u32, usize, usize)>,
+    left_out: LeftOut,
+}
+
+impl<'a> Obj<'a> {
+    fn new(file: &'a Path) -> Self {
+        Self {
+            file,
+            line: 0,
+            positions: Vec::new(),
+            faces: Faces::default(),
+            face: 1,
+            corners: Vec::new(),
+            highest: None,
+            left_out: LeftOut::default(),
+        }
+    }
+
+    fn statement(&mut self, text: &str) -> Result<(), MeshError> {
+        let mut words = text.split_ascii_whitespace();
+        let Some(keyword) = words.next() else { return Ok(()) };
+        let line = self.line;
+        match Kind::of(keyword) {
+            Kind::Vertex => {
+                let vertex = self.positions.len() + 1;
+                self.positions.push(point(self.file, line, vertex, &mut words)?);
+            }
+            Kind::Face => {
+                self.corners.clear();
+                for word in words {
+                    let vertex = self.index(word)?;
+                    if self.highest.is_none_or(|(most, ..)| vertex > most) {
+                        self.highest = Some((vertex, line, self.face));
+                    }
+                    self.corners.push(vertex);
+                }
+                self.faces.add(&self.corners, FacePlace { face: self.face, line: Some(line) });
+                self.face += 1;
+            }
+            Kind::LineOrPoint => self.left_out.lines_and_points += 1,
+            Kind::Other(what) => {
+                self.left_out.remark("statement", what, || format!("line {line}"));
+            }
+            Kind::Skipped => {}
+            Kind::Unknown if may_be_misspelt(keyword, words) => {
+                return Err(MeshError::Malformed {
+                    file: self.file.to_owned(),
+                    line: Some(line),
+                    place: format!("statement {}", quoted(keyword)),
+                    reason: "OBJ has none of this name; correct or remove it".into(),
+                });
+            }
+            Kind::Unknown => {
+                let first = || format!("line {line}, {}", quoted(keyword));
+                self.left_out.remark("statement", "of unknown name left out", first);
+            }
+        }
+        Ok(())
+    }
+
+    /// The vertex (from 0) that a word of a face names.
+    fn index(&self, word: &str) -> Result<u32, MeshError> {
+        let vertex_count = self.positions.len();
+        let number = word.split('/').next().unwrap_or("");
+        let index: i64 = number.parse().map_err(|_| MeshError::Malformed {
+            file: self.file.to_owned(),
+            line: Some(self.line),
+            place: format!("face {}", self.face),
+            reason: format!("{} does not name a vertex", quoted(word)),
+        })?;
+        let from_zero = match index {
+            0 => None,
+            1.. => Some(index - 1),
+            _ => i64::try_from(vertex_count).ok().map(|count| count + index),
+        };
+        from_zero.and_then(|v| u32::try_from(v).ok()).ok_or_else(|| MeshError::IndexOutOfRange {
+            file: self.file.to_owned(),
+            line: Some(self.line),
+            face: self.face,
+            index,
+            vertex_count,
+        })
+    }
+
+    fn finish(self) -> Result<RawMesh, MeshError> {
+        let Self { positions, faces, mut left_out, highest, .. } = self;
+        let file = self.file.to_owned();
+        match highest {
+            Some((vertex, line, face)) if vertex as usize >= positions.len() => {
+                Err(MeshError::IndexOutOfRange {
+                    file,
+                    line: Some(line),
+                    face,
+                    index: i64::from(vertex) + 1,
+                    vertex_count: positions.len(),
+                })
+            }
+            _ => {
+                left_out.small_faces = faces.small;
+                let Split { triangles, polygons, fans } = faces.finish(&positions);
+                let raw = RawMesh::from_f64(positions, triangles);
+                Ok(RawMesh { file, polygons, fans, decimal: true, left_out, ..raw })
+            }
+        }
+    }
+}
+
+/// Whether a statement of unknown name may be a vertex or a face: numbers follow, perhaps without a
+/// blank.
+fn may_be_misspelt<'a>(keyword: &str, mut words: impl Iterator<Item = &'a str>) -> bool {
+    let is_glued = keyword.starts_with(|c: char| "vVfF+-.0123456789".contains(c))
+        && keyword.contains(|c: char| c.is_ascii_digit());
+    let mut count = 0;
+    let is_number = |part: &str| part.is_empty() || part.parse::<f64>().is_ok();
+    words.all(|word| {
+        count += 1;
+        word.split('/').all(is_number)
+    }) && (is_glued || count >= 2)
 }

@@ -50,6 +50,42 @@ impl Placement {
         Self { rows, bounds, roundings: 8.0, is_identity: rows == IDENTITY }
     }
 
+    /// A rotation about an axis through the origin; none if the axis has no length. Quarter turns
+    /// about the frame's axes are exact.
+    pub(super) fn of_rotation(axis: [f64; 3], degrees: f64) -> Option<Self> {
+        // Exact.
+        let degrees = degrees % 360.0;
+        if degrees == 0.0 {
+            return Some(Self::IDENTITY);
+        }
+        let length = axis.iter().fold(0f64, |length, &x| length.hypot(x));
+        if length == 0.0 || !length.is_finite() {
+            return None;
+        }
+        let [x, y, z] = axis.map(|x| x / length);
+        let quarters = [90.0, 180.0, 270.0].map(|turn| degrees == turn || degrees == turn - 360.0);
+        let angle = degrees.to_radians();
+        let (sin, cos) = match quarters {
+            [true, ..] => (1.0, 0.0),
+            [_, true, _] => (0.0, -1.0),
+            [.., true] => (-1.0, 0.0),
+            _ => angle.sin_cos(),
+        };
+        let rest = 1.0 - cos;
+        let rows = [
+            [cos + rest * x * x, rest * x * y - sin * z, rest * x * z + sin * y, 0.0],
+            [rest * y * x + sin * z, cos + rest * y * y, rest * y * z - sin * x, 0.0],
+            [rest * z * x - sin * y, rest * z * y + sin * x, cos + rest * z * z, 0.0],
+        ];
+        let is_exact = quarters.contains(&true) && axis.iter().filter(|&&x| x != 0.0).count() == 1;
+        // The terms of an entry are at most 2, and the angle's rounding turns as much as the angle.
+        let bound = if is_exact { 1.0 } else { 2.0 + angle.abs() };
+        let bounds = [[bound, bound, bound, 0.0]; 3];
+        // Five of a component of the axis, twice; those of the sine and of the sums.
+        let roundings = if is_exact { 0.0 } else { 24.0 };
+        Some(Self { rows, bounds, roundings, is_identity: false })
+    }
+
     /// `self` after `inner`.
     pub(super) fn after(&self, inner: &Self) -> Self {
         if self.is_identity {
@@ -119,6 +155,21 @@ mod tests {
         assert!(mirror.mirrors() && !turned.mirrors() && !mirror.after(&mirror).mirrors());
         assert_eq!(mirror.after(&turned).put([1.0, 0.0, 7.0]).0[0], -at[0]);
         assert_eq!(Placement::IDENTITY.put([0.1, 0.2, 0.3]), ([0.1, 0.2, 0.3], 0.0));
+    }
+
+    #[test]
+    fn rotations_about_axes_are_rodrigues_and_quarter_turns_are_exact() {
+        let turned = |axis, degrees, at| Placement::of_rotation(axis, degrees).unwrap().put(at).0;
+        assert_eq!(turned([1.0, 0.0, 0.0], 90.0, [1.0, 2.0, 3.0]), [1.0, -3.0, 2.0]);
+        assert_eq!(turned([0.0, 0.0, 2.0], -450.0, [1.0, 2.0, 3.0]), [2.0, -1.0, 3.0]);
+        assert_eq!(turned([0.0, -1.0, 0.0], 180.0, [1.0, 2.0, 3.0]), [-1.0, 2.0, -3.0]);
+        // A third of a turn about the diagonal permutes the axes.
+        let third = Placement::of_rotation([5.0, 5.0, 5.0], 120.0).unwrap();
+        let (at, error) = third.put([1.0, 2.0, 3.0]);
+        let off = at.iter().zip([3.0, 1.0, 2.0]).map(|(a, b)| (a - b).abs()).sum::<f64>();
+        assert!(off <= error && error < 1e-12, "{at:?} {error:e}");
+        assert!(Placement::of_rotation([0.0; 3], 1.0).is_none());
+        assert_eq!(Placement::of_rotation([0.0; 3], 360.0), Some(Placement::IDENTITY));
     }
 
     #[test]

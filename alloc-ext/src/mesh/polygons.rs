@@ -41,6 +41,11 @@ impl NamedFaces {
         self.count += 1;
         self.first.get_or_insert(place);
     }
+
+    pub(super) fn add_all(&mut self, others: Self) {
+        self.count += others.count;
+        self.first = self.first.or(others.first);
+    }
 }
 
 impl fmt::Display for FacePlace {
@@ -59,6 +64,13 @@ impl NamedFaces {
 }
 
 impl Polygons {
+    /// Counts those of another part of the file.
+    pub(super) fn add(&mut self, others: &Self) {
+        self.split += others.split;
+        self.by_ears += others.by_ears;
+        self.unsound.add_all(others.unsound);
+    }
+
     /// Counts a polygon of four or more corners. Its triangles, if they are not its fan.
     pub(super) fn ears(
         &mut self,

@@ -2,16 +2,22 @@
 
 use std::path::Path;
 
-use super::{FORMATS, MeshError, RawMesh, gltf, obj, off, ply, stl, threemf};
+use super::{FORMATS, MeshError, RawMesh, collada, gltf, obj, off, ply, stl, threemf};
 
 /// Reads a mesh file, whose extension gives its format:
 /// - `.ply`: ASCII, or binary of either byte order; faces and triangle strips.
-/// - `.obj`.
+/// - `.obj`: polygons. Free-form curves and surfaces are left out and counted.
 /// - `.stl`: ASCII or binary, told apart by content.
 /// - `.off`: text, with normals, colours and texture coordinates or without.
 /// - `.glb`, `.gltf`: the triangles of all nodes of all scenes, in metres. Buffers are read from
 ///   `data:` or from files beside it. Skins, morphs, Draco and meshopt are refused.
-/// - `.3mf`: the objects of the build, in the unit that the file tells.
+/// - `.3mf`: the objects of the build, in the unit that the file tells. Supports, items that are
+///   not to be printed, negative parts and modifiers are left out and counted.
+/// - `.dae`: COLLADA 1.4 and 1.5, the triangles and polygons of all nodes of the scene, in the unit
+///   that the file tells. Axes stay as they are written: `up_axis` turns nothing. Controllers are
+///   refused.
+///
+/// Text is UTF-8 or UTF-16, with a byte order mark or without. Lines end with CR, LF or both.
 ///
 /// A polygon of n corners becomes n − 2 triangles: the fan about its first corner, or ears if that
 /// corner does not see all of it. Nodes, items and components put copies in
@@ -36,23 +42,19 @@ pub fn read(path: &Path) -> Result<RawMesh, MeshError> {
 ///
 /// # Errors
 /// As [`read`], except that nothing is opened but the files that a `.gltf` names beside `path`.
-pub fn read_bytes(path: &Path, mut bytes: Vec<u8>) -> Result<RawMesh, MeshError> {
+pub fn read_bytes(path: &Path, bytes: Vec<u8>) -> Result<RawMesh, MeshError> {
     let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-    // Some editors begin a text with it. It would hide the first word.
-    let is_text = matches!(extension.as_deref(), Some("ply" | "obj" | "off" | "gltf"));
-    if is_text && bytes.starts_with(b"\xEF\xBB\xBF") {
-        bytes.drain(..3);
-    }
     let mesh = match extension.as_deref() {
         Some(kind) if FORMATS.contains(&kind) && bytes.trim_ascii().is_empty() => {
             return Err(MeshError::Empty { file: path.to_owned() });
         }
         Some("ply") => ply::read(path, &bytes)?,
         Some("obj") => obj::read(path, &bytes)?,
-        Some("stl") => stl::read(path, bytes)?,
+        Some("stl") => stl::read(path, &bytes)?,
         Some("off") => off::read(path, &bytes)?,
         Some("gltf" | "glb") => gltf::read(path, &bytes)?,
         Some("3mf") => threemf::read(path, &bytes)?,
+        Some("dae") => collada::read(path, &bytes)?,
         _ => return Err(MeshError::UnknownExtension { file: path.to_owned() }),
     };
     check(&mesh)?;
@@ -70,7 +72,7 @@ pub(super) fn check(mesh: &RawMesh) -> Result<(), MeshError> {
         }
     }
     if mesh.triangles.is_empty() {
-        return Err(MeshError::NoTriangles { file: file() });
+        return Err(MeshError::NoTriangles { file: file(), instead: mesh.left_out.instead() });
     }
     if let Some(vertex) = mesh.positions.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
         return Err(MeshError::NotFinite {

@@ -168,13 +168,15 @@ impl RepairReport {
             })
     }
 
-    /// Sentences about faces of the file that are no polygons: those that cross themselves, and
-    /// those of fewer than three corners. Each names the first.
-    pub fn doubtful_faces(&self) -> impl Iterator<Item = String> {
+    /// Sentences about faces of the file that are no polygons, those that cross themselves and those
+    /// of fewer than three corners, and about [other parts](LeftOut::remarks) that were left out or
+    /// are doubtful. Each names the first.
+    pub fn doubts(&self) -> impl Iterator<Item = String> {
         let fan = "too warped or crossing itself, split about its first corner";
         let small = "of fewer than three corners left out";
         let unsound = self.polygons.unsound.said("polygon", fan);
-        unsound.into_iter().chain(self.left_out.small_faces.said("face", small))
+        let remarks = self.left_out.remarks.iter().map(ToString::to_string);
+        unsound.into_iter().chain(self.left_out.small_faces.said("face", small)).chain(remarks)
     }
 
     /// Says how far vertices moved when they were rounded to `f32`, if any did.
@@ -221,10 +223,10 @@ impl fmt::Display for RepairReport {
         if by_ears > 0 {
             write!(f, "\n  {} split by ears", Counted(by_ears, "concave polygon"))?;
         }
-        for said in self.doubtful_faces() {
+        for said in self.doubts() {
             write!(f, "\n  {said}")?;
         }
-        let LeftOut { stitches, lines_and_points, bytes_after_end, .. } = self.left_out;
+        let &LeftOut { stitches, lines_and_points, bytes_after_end, .. } = &self.left_out;
         if stitches > 0 {
             let stitches = Counted(stitches, "triangle");
             write!(f, "\n  {stitches} with a repeated corner left out of strips that they join")?;

@@ -1,17 +1,135 @@
-//! Decimal text, as OBJ and ASCII STL share it.
+//! Decimal text, as all formats of text share it.
 //!
-//! Both are read here and not by a crate: `tobj` renumbers vertices and names neither line nor face
-//! in its errors, `stl_io` reads only the first solid of an ASCII file, silently, and rounds to
-//! `f32` without saying by how much.
+//! OBJ, OFF and STL are read here and not by a crate: `tobj` renumbers vertices and names neither
+//! line nor face in its errors, `stl_io` reads only the first solid of an ASCII file, silently, and
+//! rounds to `f32` without saying by how much.
 
+use std::borrow::Cow;
 use std::path::Path;
+
+use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE};
 
 use super::MeshError;
 
-/// The lines of a text file, numbered from 1, without bytes that are not UTF-8 (they occur in names
-/// and comments only).
-pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, std::borrow::Cow<'_, str>)> {
-    bytes.split(|&b| b == b'\n').enumerate().map(|(i, line)| (i + 1, String::from_utf8_lossy(line)))
+/// The text of a file in UTF-8 or UTF-16, without byte order mark, and without the NULs and the
+/// mark of the end (^Z) that some writers append. Other bytes occur in names and comments only.
+pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+    // The marks of byte order go first.
+    let (text, ..) = bare_utf_16(bytes).unwrap_or(UTF_8).decode(bytes);
+    let is_padding = |c: char| matches!(c, '\0' | '\x1A') || c.is_ascii_whitespace();
+    match text {
+        Cow::Borrowed(text) => Cow::Borrowed(text.trim_end_matches(is_padding)),
+        Cow::Owned(mut text) => {
+            text.truncate(text.trim_end_matches(is_padding).len());
+            Cow::Owned(text)
+        }
+    }
+}
+
+/// UTF-16 without a mark: every second byte of the first words is zero.
+fn bare_utf_16(bytes: &[u8]) -> Option<&'static Encoding> {
+    match bytes {
+        [1..=255, 0, 1..=255, 0, 1..=255, 0, ..] => Some(UTF_16LE),
+        [0, 1..=255, 0, 1..=255, 0, 1..=255, ..] => Some(UTF_16BE),
+        _ => None,
+    }
+}
+
+/// The lines of a text, numbered from 1. A line ends with CR, LF or both.
+pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let ended =
+        text.split('\n').flat_map(|line| line.strip_suffix('\r').unwrap_or(line).split('\r'));
+    ended.enumerate().map(|(i, line)| (i + 1, line))
+}
+
+/// A line without its comment, which begins with `#`. That of `1.#IND`, which the runtime of
+/// Windows writes, begins none.
+pub(super) fn without_comment(line: &str) -> &str {
+    let begins = |&(at, _): &(usize, &str)| !line[..at].ends_with('.');
+    line.match_indices('#').find(begins).map_or(line, |(at, _)| &line[..at])
+}
+
+/// Words across lines.
+pub(super) struct Words<'a, L> {
+    lines: L,
+    /// The number of the line that has the word read last.
+    pub(super) line: usize,
+    rest: &'a str,
+}
+
+impl<'a, L: Iterator<Item = (usize, &'a str)>> Words<'a, L> {
+    pub(super) fn new(lines: L) -> Self {
+        Self { lines, line: 0, rest: "" }
+    }
+
+    /// The rest of the line.
+    pub(super) fn rest(&self) -> &'a str {
+        self.rest
+    }
+
+    /// The next word of the line.
+    pub(super) fn peek(&self) -> Option<&'a str> {
+        self.rest.split_ascii_whitespace().next()
+    }
+
+    /// Goes to the end of the line, or to `rest` of it.
+    pub(super) fn skip_to(&mut self, rest: &'a str) {
+        self.rest = rest;
+    }
+}
+
+impl<'a, L: Iterator<Item = (usize, &'a str)>> Iterator for Words<'a, L> {
+    type Item = &'a str;
+
+    fn next(&mut self) -> Option<&'a str> {
+        loop {
+            let rest = self.rest.trim_ascii_start();
+            if !rest.is_empty() {
+                let end = rest.bytes().position(|b| b.is_ascii_whitespace()).unwrap_or(rest.len());
+                let (word, rest) = rest.split_at(end);
+                self.rest = rest;
+                return Some(word);
+            }
+            let (line, text) = self.lines.next()?;
+            self.line = line;
+            self.rest = text;
+        }
+    }
+}
+
+/// A word for a message: quoted, and cut if it is long.
+pub(super) fn quoted(word: &str) -> String {
+    const MOST: usize = 32;
+    match word.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{:?} …", &word[..end]),
+        None => format!("{word:?}"),
+    }
+}
+
+/// A number that is not finite, as the C libraries write it: `-1.#IND`, `nan(ind)`.
+pub(super) fn not_finite(word: &str) -> Option<f64> {
+    let word = word.to_ascii_lowercase();
+    let bare = word.trim_start_matches(['-', '+']);
+    if bare.starts_with("nan")
+        || ["#ind", "#qnan", "#snan", "#nan"].iter().any(|of| bare.contains(of))
+    {
+        return Some(f64::NAN);
+    }
+    let infinite = if word.starts_with('-') { f64::NEG_INFINITY } else { f64::INFINITY };
+    (bare.starts_with("inf") || bare.contains("#inf")).then_some(infinite)
+}
+
+/// A word as a number, or why it is none.
+pub(super) fn number(word: &str) -> Result<f64, String> {
+    word.parse().or_else(|_| not_finite(word).ok_or_else(|| why_no_number(word)))
+}
+
+pub(super) fn why_no_number(word: &str) -> String {
+    let quoted = quoted(word);
+    if word.contains(',') && word.replacen(',', ".", 1).parse::<f64>().is_ok() {
+        return format!("{quoted} has a comma; numbers are written with a point");
+    }
+    format!("{quoted} is not a number")
 }
 
 /// The next three words as the coordinates of vertex `vertex`.
@@ -23,21 +141,66 @@ pub(super) fn point<'a>(
 ) -> Result<[f64; 3], MeshError> {
     let mut at = [0.0f64; 3];
     for x in &mut at {
-        let word = words.next().unwrap_or("");
-        *x = word.parse().map_err(|_| MeshError::Malformed {
+        let word = words.next().ok_or_else(|| "fewer than three coordinates".to_owned());
+        *x = word.and_then(number).map_err(|reason| MeshError::Malformed {
             file: file.to_owned(),
             line: Some(line),
             place: format!("vertex {vertex}"),
-            reason: if word.is_empty() {
-                "fewer than three coordinates".into()
-            } else {
-                format!("{word:?} is not a number")
-            },
+            reason,
         })?;
     }
+    finite(file, line, vertex, at)
+}
+
+/// The coordinates of vertex `vertex`, if they are finite.
+pub(super) fn finite(
+    file: &Path,
+    line: usize,
+    vertex: usize,
+    at: [f64; 3],
+) -> Result<[f64; 3], MeshError> {
     if at.iter().all(|x| x.is_finite()) {
-        Ok(at)
-    } else {
-        Err(MeshError::NotFinite { file: file.to_owned(), line: Some(line), vertex, at })
+        return Ok(at);
+    }
+    Err(MeshError::NotFinite { file: file.to_owned(), line: Some(line), vertex, at })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_end_with_cr_lf_or_both_and_are_counted() {
+        let found: Vec<_> = lines("a\r\nb\rc\n\nd").collect();
+        assert_eq!(found, [(1, "a"), (2, "b"), (3, "c"), (4, ""), (5, "d")]);
+    }
+
+    #[test]
+    fn texts_of_all_marks_and_paddings_are_the_same() {
+        let utf_16 = |with: fn(u16) -> [u8; 2], mark: &str| -> Vec<u8> {
+            format!("{mark}v 1 2\n").encode_utf16().flat_map(with).collect()
+        };
+        for bytes in [
+            b"v 1 2\n\0\0\x1A".to_vec(),
+            b"\xEF\xBB\xBFv 1 2\r\n".to_vec(),
+            utf_16(u16::to_le_bytes, "\u{FEFF}"),
+            utf_16(u16::to_be_bytes, "\u{FEFF}"),
+            utf_16(u16::to_le_bytes, ""),
+            utf_16(u16::to_be_bytes, ""),
+        ] {
+            assert_eq!(decoded(&bytes), "v 1 2", "{bytes:?}");
+        }
+    }
+
+    #[test]
+    fn words_that_are_no_numbers_say_why() {
+        let why = |word: &str| number(word).unwrap_err();
+        assert!(why("1,5").contains("has a comma"), "{}", why("1,5"));
+        assert_eq!(why("l0"), "\"l0\" is not a number");
+        assert!(why(&"\u{0}".repeat(1000)).len() < 300);
+        for word in ["-1.#IND", "1.#QNAN", "nan", "NaN", "-nan(ind)", "1.#INF", "-inf", "Infinity"]
+        {
+            assert!(number(word).is_ok_and(|x| !x.is_finite()), "{word}");
+        }
     }
 }

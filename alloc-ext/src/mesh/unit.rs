@@ -37,6 +37,11 @@ impl Unit {
         }
     }
 
+    /// The nearest number.
+    pub(super) fn metres(self) -> f64 {
+        self.micrometres() / 1e6
+    }
+
     /// Exact.
     fn micrometres(self) -> f64 {
         match self {

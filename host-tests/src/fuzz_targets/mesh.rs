@@ -1,7 +1,7 @@
 //! The target for mesh files.
 
 use crate::generate::evil::evil;
-use crate::generate::scenes::{glb, threemf};
+use crate::generate::scenes::{dae, glb, threemf};
 use crate::generate::writers::{ascii_ply, ascii_stl, binary_ply, binary_stl, obj, off, strip_ply};
 use meshsweep::mesh::{FORMATS, Unit, read_bytes, repair};
 use std::path::{Path, PathBuf};
@@ -30,6 +30,7 @@ pub fn mesh_files() -> Vec<Vec<u8>> {
         ("a.off", off(&sound)),
         ("a.glb", glb(&sound)),
         ("a.3mf", threemf(&sound)),
+        ("a.dae", dae(&sound)),
     ];
     let evil = evil().into_iter().map(|file| (file.name, file.bytes));
     let of_kind = |(name, bytes): (&str, Vec<u8>)| {

@@ -69,3 +69,40 @@ pub fn threemf((positions, triangles): &Triangles) -> Vec<u8> {
     archive.finish().expect("memory");
     bytes
 }
+
+/// COLLADA: a node that turns and one that mirrors the mesh. The corners of half of the triangles are
+/// in a list with normals, those of the others are polygons.
+#[must_use]
+pub fn dae((positions, triangles): &Triangles) -> Vec<u8> {
+    let numbers: Vec<String> =
+        positions.iter().flatten().map(|&x| f64::from(x).to_string()).collect();
+    let (count, points) = (numbers.len(), positions.len());
+    let (listed, others) = triangles.split_at(triangles.len() / 2);
+    let corners = |triangle: &[u32; 3]| triangle.map(|v| v.to_string()).join(" ");
+    let with_normals: String =
+        listed.iter().flatten().map(|corner| format!("{corner} 0 ")).collect();
+    let polygons: String = others.iter().map(|t| format!("<p>{}</p>", corners(t))).collect();
+    let text = format!(
+        r##"<?xml version="1.0" encoding="utf-8"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="inch" meter="0.0254"/><up_axis>Z_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh><source id="p">
+<float_array id="a" count="{count}">{}</float_array><technique_common>
+<accessor source="#a" count="{points}" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="{}"><input semantic="VERTEX" source="#v" offset="0"/>
+<input semantic="NORMAL" source="#n" offset="1"/><p>{with_normals}</p></triangles>
+<polygons count="{}"><input semantic="VERTEX" source="#v" offset="0"/>{polygons}</polygons>
+</mesh></geometry></library_geometries>
+<library_nodes><node id="m"><scale>-1 1 2</scale><instance_geometry url="#g"/></node></library_nodes>
+<library_visual_scenes><visual_scene id="s"><node><translate>1 2 3</translate>
+<rotate>0 0 1 30</rotate><instance_geometry url="#g"/><instance_node url="#m"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>
+"##,
+        numbers.join(" "),
+        listed.len(),
+        others.len()
+    );
+    text.into_bytes()
+}

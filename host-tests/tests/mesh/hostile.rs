@@ -4,7 +4,7 @@ use std::path::Path;
 
 use meshsweep::mesh::{read_bytes, repair, require_closed_manifold};
 use meshsweep_host_tests::generate::evil::evil;
-use meshsweep_host_tests::generate::scenes::{glb, threemf};
+use meshsweep_host_tests::generate::scenes::{dae, glb, threemf};
 use meshsweep_host_tests::generate::writers::{
     ascii_ply, ascii_stl, binary_ply, binary_stl, obj, off, strip_ply,
 };
@@ -24,6 +24,7 @@ fn samples() -> Vec<(String, Vec<u8>)> {
         ("a.off".into(), off(&mesh)),
         ("a.glb".into(), glb(&mesh)),
         ("a.3mf".into(), threemf(&mesh)),
+        ("a.dae".into(), dae(&mesh)),
     ]);
     all
 }
@@ -68,7 +69,7 @@ fn files_with_random_bytes_changed_are_digested() {
 #[test]
 fn files_under_a_wrong_extension_are_digested() {
     for (_, bytes) in samples() {
-        for name in ["a.ply", "a.obj", "a.stl", "a.off", "a.glb", "a.gltf", "a.3mf"] {
+        for name in ["a.ply", "a.obj", "a.stl", "a.off", "a.glb", "a.gltf", "a.3mf", "a.dae"] {
             digest(name, bytes.clone());
         }
     }

@@ -26,7 +26,7 @@ pub fn run(args: &HausdorffArgs) -> Result<(), Failure> {
     let [first, second] = [load(&args.first)?, load(&args.second)?];
     mesh_file::refuse_units([(&args.first, first.unit), (&args.second, second.unit)])?;
     for (file, loaded) in [(&args.first, &first), (&args.second, &second)] {
-        for said in loaded.report.doubtful_faces() {
+        for said in loaded.report.doubts() {
             // A closed standard error does not withhold the answers.
             let _ = writeln!(io::stderr(), "{}: {said}", file.display());
         }

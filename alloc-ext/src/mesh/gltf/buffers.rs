@@ -33,24 +33,41 @@ pub(super) fn split<'a>(
         let what = format!("binary glTF {version}");
         return Err(MeshError::Unsupported { file: file.to_owned(), what });
     }
-    // The length of the file, which the chunks tell again.
-    let mut rest = rest.get(4..).ok_or_else(|| malformed("it ends early"))?;
+    let Some((length, mut rest)) = word(rest) else {
+        return Err(malformed("it ends early"));
+    };
     let mut chunk = |kind: &[u8; 4]| -> Result<Option<&'a [u8]>, MeshError> {
-        let Some((length, after)) = word(rest) else { return Ok(None) };
-        let Some(content) = after.strip_prefix(kind) else { return Ok(None) };
-        let Some((content, after)) = content.split_at_checked(length) else {
+        // Some old programs did not fill chunks to a multiple of four bytes, or the next one begins
+        // behind the filling that they did not count.
+        let filling = (0..4).find(|&skipped| {
+            let head = rest.get(skipped..).and_then(word);
+            head.is_some_and(|(_, after)| after.starts_with(kind))
+        });
+        let Some((size, after)) = filling.and_then(|skipped| word(&rest[skipped..])) else {
+            return Ok(None);
+        };
+        let Some((content, after)) = after[kind.len()..].split_at_checked(size) else {
             return Err(MeshError::Truncated {
                 file: file.to_owned(),
                 what: "byte".into(),
-                wanted: length as u64,
-                found: content.len() as u64,
+                wanted: size as u64,
+                found: (after.len() - kind.len()) as u64,
             });
         };
         rest = after;
         Ok(Some(content))
     };
     let json = chunk(b"JSON")?.ok_or_else(|| malformed("no chunk of JSON"))?;
-    Ok((json, Some(chunk(b"BIN\0")?.unwrap_or_default())))
+    let binary = chunk(b"BIN\0")?;
+    if binary.is_none() && bytes.len() < length {
+        return Err(MeshError::Truncated {
+            file: file.to_owned(),
+            what: "byte".into(),
+            wanted: length as u64,
+            found: bytes.len() as u64,
+        });
+    }
+    Ok((json, Some(binary.unwrap_or_default())))
 }
 
 fn word(bytes: &[u8]) -> Option<(usize, &[u8])> {
@@ -66,6 +83,9 @@ pub(super) struct Buffers<'a> {
     /// share.
     read: FxHashMap<(Option<usize>, &'a str), Rc<Vec<u8>>>,
 }
+
+/// Most elements of a sparse accessor that begins with zeros: no bytes of the file bound them.
+const MOST_ZEROS: usize = 1 << 24;
 
 /// Types of components.
 const I8: u64 = 5120;
@@ -93,9 +113,8 @@ impl<'a> Buffers<'a> {
             return Err(self.source.unsupported(format!("{place}, of normalized positions,")));
         }
         let step = size(kind);
-        let positions = self.elements(accessor, 3 * step, &place, |element| {
-            [0, 1, 2].map(|axis| number_at(&element[axis * step..], kind))
-        })?;
+        let read = |element: &[u8]| [0, 1, 2].map(|axis| number_at(&element[axis * step..], kind));
+        let positions = self.values(accessor, 3 * step, &place, read)?;
         let bad = positions.iter().position(|at: &[f64; 3]| !at.iter().all(|x| x.is_finite()));
         bad.map_or(Ok(()), |vertex| {
             let reason = format!("vertex {vertex} is at {:?}", positions[vertex]);
@@ -113,7 +132,7 @@ impl<'a> Buffers<'a> {
         let place = format!("accessor {number}");
         let kind = self.kind(accessor, "SCALAR", &[U8, U16, U32], &place)?;
         // Exact: all are whole and below 2³².
-        self.elements(accessor, size(kind), &place, |element| number_at(element, kind) as u32)
+        self.values(accessor, size(kind), &place, |element| number_at(element, kind) as u32)
     }
 
     /// The type of the components, if it is wanted.
@@ -124,20 +143,69 @@ impl<'a> Buffers<'a> {
         kinds: &[u64],
         place: &str,
     ) -> Result<u64, MeshError> {
-        if accessor.get("sparse").is_some() {
-            return Err(self.source.unsupported(format!("{place}, which is sparse,")));
-        }
-        let kind = accessor["componentType"].as_u64().filter(|kind| kinds.contains(kind));
-        match kind {
+        match Self::kind_of(accessor, kinds) {
             Some(kind) if accessor["type"].as_str() == Some(shape) => Ok(kind),
             _ => Err(self.source.malformed(place, format!("its type is none of {shape}"))),
         }
     }
 
-    /// The elements of an accessor, of so many bytes each.
+    fn kind_of(of: &Value, kinds: &[u64]) -> Option<u64> {
+        of["componentType"].as_u64().filter(|kind| kinds.contains(kind))
+    }
+
+    /// The elements of an accessor, of so many bytes each, with those that a sparse one replaces.
+    fn values<T: Clone + Default>(
+        &mut self,
+        accessor: &'a Value,
+        bytes: usize,
+        place: &str,
+        read: impl Fn(&[u8]) -> T,
+    ) -> Result<Vec<T>, MeshError> {
+        let source = self.source;
+        let Some(sparse) = accessor.get("sparse") else {
+            let count = source.count(accessor, "count", place)?;
+            return self.elements(accessor, count, bytes, place, read);
+        };
+        let count = source.count(accessor, "count", place)?;
+        let mut values = if accessor.get("bufferView").is_some() {
+            self.elements(accessor, count, bytes, place, &read)?
+        } else if count <= MOST_ZEROS {
+            vec![T::default(); count]
+        } else {
+            let reason =
+                format!("it has {count} elements of a sparse accessor; {MOST_ZEROS} are read");
+            return Err(source.malformed(place, reason));
+        };
+        let replaced = source.count(sparse, "count", place)?;
+        let [numbers, others] = [&sparse["indices"], &sparse["values"]];
+        let place = format!("{place}, sparse");
+        let kind = Self::kind_of(numbers, &[U8, U16, U32]);
+        let kind =
+            kind.ok_or_else(|| source.malformed(&place, "its indices are of no whole type"))?;
+        let numbers = self.elements(numbers, replaced, size(kind), &place, |element| {
+            number_at(element, kind) as usize
+        })?;
+        let others = self.elements(others, replaced, bytes, &place, read)?;
+        let mut last = None;
+        for (number, value) in numbers.into_iter().zip(others) {
+            if last.is_some_and(|last| last >= number) {
+                return Err(source.malformed(&place, "its indices do not increase"));
+            }
+            last = Some(number);
+            let Some(at) = values.get_mut(number) else {
+                let reason = format!("its indices name element {number} of {count}");
+                return Err(source.malformed(&place, reason));
+            };
+            *at = value;
+        }
+        Ok(values)
+    }
+
+    /// So many elements of a view, of so many bytes each.
     fn elements<T>(
         &mut self,
         accessor: &'a Value,
+        count: usize,
         bytes: usize,
         place: &str,
         read: impl Fn(&[u8]) -> T,
@@ -150,7 +218,6 @@ impl<'a> Buffers<'a> {
         let (number, buffer) = buffer.ok_or_else(|| source.malformed(place, "no buffer"))?;
         let data = self.buffer(number, buffer)?;
         let data = data.bytes();
-        let count = source.count(accessor, "count", place)?;
         let step = match source.count(view, "byteStride", place)? {
             0 => bytes,
             stride if stride >= bytes => stride,

@@ -19,9 +19,13 @@ use super::{MeshError, RawMesh, Unit};
 
 /// Reads the triangles of all nodes of all scenes, or of all nodes if there is no scene, each where
 /// its ancestors put it. Points and lines are left out. Skins, morphs and compressed meshes are
-/// refused by name.
+/// refused by name. A quaternion that is not of length 1 within rounding is named.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let (json, binary) = buffers::split(file, bytes)?;
+    // A chunk is filled with blanks. Older programs wrote zeros, and some texts begin with a mark.
+    let json = json.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(json);
+    let filled = json.iter().rposition(|&b| b != 0).map_or(0, |last| last + 1);
+    let json = &json[..filled];
     let root: Value = serde_json::from_slice(json).map_err(|error| MeshError::Malformed {
         file: file.to_owned(),
         line: binary.is_none().then(|| error.line()),
@@ -86,7 +90,13 @@ impl Scene<'_> {
                 return Err(source.malformed(&place, "it has two parents, or is its own ancestor"));
             }
             source.refuse_extension(node, &["EXT_mesh_gpu_instancing"])?;
-            let placement = parent.after(&source.placement(node, &place)?);
+            let (own, length) = source.placement(node, &place)?;
+            if let Some(length) = length {
+                let what = "of a length other than 1, used as written";
+                let first = || format!("{place}, {length:.6}");
+                self.copies.raw.left_out.remark("quaternion", what, first);
+            }
+            let placement = parent.after(&own);
             if let Some((mesh, value)) = source.named(node, "mesh", "meshes", &place)? {
                 let has_weights = |of: &Value| {
                     list(of, "weights").iter().any(|weight| weight.as_f64() != Some(0.0))

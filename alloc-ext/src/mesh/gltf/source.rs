@@ -19,6 +19,11 @@ const HARMLESS: [&str; 6] = [
 /// How far the last row of an affine matrix may be off, where a program multiplied matrices.
 const NOISE: f64 = 1e-6;
 
+/// How far a quaternion's length may be off 1: as far as two decimals put it.
+const LENGTH_OFF: f64 = 0.005;
+/// How far single precision puts it.
+const LENGTH_NOISE: f64 = 1e-6;
+
 /// The file's JSON.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
@@ -108,31 +113,36 @@ impl<'a> Source<'a> {
         Ok(Some(numbers))
     }
 
-    /// Where a node is in its parent.
-    pub(super) fn placement(&self, node: &Value, place: &str) -> Result<Placement, MeshError> {
+    /// Where a node is in its parent, and the length of its quaternion if that is not 1.
+    pub(super) fn placement(
+        &self,
+        node: &Value,
+        place: &str,
+    ) -> Result<(Placement, Option<f64>), MeshError> {
         if let Some(m) = self.numbers::<16>(node, "matrix", place)? {
             let last = [m[3], m[7], m[11], m[15] - 1.0];
             if last.iter().any(|x| x.abs() > NOISE) {
                 return Err(self.malformed(place, "the last row of its matrix is not 0 0 0 1"));
             }
             // In columns.
-            return Ok(Placement::of_rows(
-                [0, 1, 2].map(|i| [m[i], m[i + 4], m[i + 8], m[i + 12]]),
-            ));
+            let rows = [0, 1, 2].map(|i| [m[i], m[i + 4], m[i + 8], m[i + 12]]);
+            return Ok((Placement::of_rows(rows), None));
         }
         let translation = self.numbers(node, "translation", place)?;
         let rotation: Option<[f64; 4]> = self.numbers(node, "rotation", place)?;
-        let square = rotation.map_or(1.0, |q| q.iter().map(|x| x * x).sum());
-        // Three decimals are enough.
-        if (square - 1.0).abs() > 0.01 {
-            return Err(self.malformed(place, "its rotation is no unit quaternion"));
+        let length = rotation.map_or(1.0, |q| q.iter().map(|x| x * x).sum::<f64>().sqrt());
+        if (length - 1.0).abs() > LENGTH_OFF {
+            let reason = format!("its rotation is no unit quaternion, its length is {length:.6}");
+            return Err(self.malformed(place, reason));
         }
+        let is_rounded = (length - 1.0).abs() > LENGTH_NOISE;
         let scale = self.numbers(node, "scale", place)?;
-        Ok(Placement::of_parts(
+        let placement = Placement::of_parts(
             translation.unwrap_or_default(),
             rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]),
             scale.unwrap_or([1.0; 3]),
-        ))
+        );
+        Ok((placement, is_rounded.then_some(length)))
     }
 }
 

@@ -22,6 +22,8 @@ pub(super) struct Object {
     pub(super) positions: Vec<[f64; 3]>,
     pub(super) triangles: Vec<[u32; 3]>,
     pub(super) components: Vec<Part>,
+    /// What it is, if it is no solid and no surface, as `support`.
+    pub(super) other: Option<String>,
     has_mesh: bool,
 }
 
@@ -38,6 +40,8 @@ pub(super) struct Part {
     pub(super) path: Option<String>,
     pub(super) object: u32,
     pub(super) placement: Placement,
+    /// Of an item: whether it is to be printed.
+    pub(super) is_printed: bool,
 }
 
 pub(super) struct Model {
@@ -73,7 +77,7 @@ impl From<String> for Refused {
 pub(super) fn read(package: &Package<'_>, path: &str) -> Result<Model, MeshError> {
     let (unit, objects, items) = (Unit::Mm, FxHashMap::default(), Vec::new());
     let model = Model { unit, names_unit: false, objects, items };
-    let mut reading = Reading { package, model, object: None, is_complete: false };
+    let mut reading = Reading { package, model, object: None, role: None, is_complete: false };
     let mut reader = package.part(path)?;
     let mut bytes = Vec::new();
     loop {
@@ -101,6 +105,8 @@ struct Reading<'a> {
     model: Model,
     /// The object that is open, and its number.
     object: Option<(u32, Object)>,
+    /// What the object that is open is, if the text that follows says so.
+    role: Option<&'static str>,
     /// Its last tag was there.
     is_complete: bool,
 }
@@ -119,7 +125,16 @@ impl Reading<'_> {
         match event {
             Event::Start(tag) => self.element(is_core, tag, false),
             Event::Empty(tag) => self.element(is_core, tag, true),
+            Event::Text(text) => {
+                if let (Some(role), Some((_, object))) = (self.role.take(), &mut self.object)
+                    && text.trim_ascii().eq_ignore_ascii_case("true")
+                {
+                    object.other = Some(role.to_owned());
+                }
+                Ok(())
+            }
             Event::End(tag) if is_core => {
+                self.role = None;
                 match tag.local_name().as_ref() {
                     "object" => self.model.objects.extend(self.object.take()),
                     "model" => self.is_complete = true,
@@ -156,13 +171,16 @@ impl Reading<'_> {
                 if self.model.objects.contains_key(&id) {
                     return Err(format!("object {id} is there twice").into());
                 }
-                self.object = Some((id, Object::default()));
+                let kind = attribute(tag, "type")?;
+                let other = kind.filter(|kind| !matches!(kind.as_str(), "model" | "surface" | ""));
+                self.object = Some((id, Object { other, ..Object::default() }));
                 if is_empty {
                     self.model.objects.extend(self.object.take());
                 }
             }
             ("object", Some(_)) => return Err("an object is in another".to_owned().into()),
             ("mesh", Some((_, object))) => object.has_mesh = true,
+            ("metadata", Some(_)) => self.role = role(tag)?,
             ("vertex", Some((_, object))) => object.positions.push(vertex(tag)?),
             ("triangle", Some((_, object))) => {
                 object.triangles.push(triangle(tag, object.positions.len())?);
@@ -173,6 +191,13 @@ impl Reading<'_> {
         }
         Ok(())
     }
+}
+
+/// What Cura's metadata of an object say that it is, if they are true.
+fn role(tag: &BytesStart) -> Result<Option<&'static str>, String> {
+    let name = attribute(tag, "name")?.unwrap_or_default();
+    let roles = ["support_mesh", "anti_overhang_mesh", "cutting_mesh", "infill_mesh"];
+    Ok(roles.into_iter().find(|role| name.rsplit(':').next() == Some(role)))
 }
 
 fn wanted(tag: &BytesStart, name: &str) -> Result<String, String> {
@@ -221,7 +246,10 @@ fn part(tag: &BytesStart) -> Result<Part, String> {
         }
     };
     let path = prefixed(tag, "path")?.map(|path| relative(&path));
-    Ok(Part { path, object: number(tag, "objectid")?, placement })
+    // Of slicers, which give it no namespace.
+    let printable = attribute(tag, "printable")?.or(prefixed(tag, "printable")?);
+    let is_printed = !printable.is_some_and(|it| matches!(it.trim(), "0" | "false"));
+    Ok(Part { path, object: number(tag, "objectid")?, placement, is_printed })
 }
 
 fn unit(tag: &BytesStart) -> Result<Unit, String> {

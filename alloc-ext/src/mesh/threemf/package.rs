@@ -76,6 +76,19 @@ impl<'a> Package<'a> {
         Ok(NsReader::from_reader(BufReader::new(content)))
     }
 
+    /// The paths of files in which slicers say what the parts of objects are.
+    pub(super) fn settings(&self) -> Vec<String> {
+        let is_it = |path: &&String| {
+            let name = path.strip_prefix("metadata/");
+            name.is_some_and(|name| {
+                name.ends_with("model.config") || name == "model_settings.config"
+            })
+        };
+        let mut paths: Vec<String> = self.entries.keys().filter(is_it).cloned().collect();
+        paths.sort_unstable();
+        paths
+    }
+
     /// Counts an object, a component or an item: in memory each is many times its text.
     pub(super) fn count(&self) -> Result<(), String> {
         let left = self.parts_left.get().checked_sub(1);

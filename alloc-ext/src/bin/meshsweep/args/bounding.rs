@@ -84,8 +84,8 @@ pub struct HullArgs {
         conflicts_with = "level"
     )]
     pub tight: Option<u32>,
-    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, and 3MF are scaled to
-    /// it; of other files it is the unit of their numbers
+    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, 3MF and COLLADA
+    /// are scaled to it; of other files it is the unit of their numbers
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     pub unit: Option<Unit>,
     /// Bits of a coordinate of a mesh's hull: 16 and 24 move the mesh to a grid; 32 is single
@@ -116,8 +116,8 @@ pub struct TriboxArgs {
     /// PLY file to write: the triboxes of the finest level
     #[arg(short, long, value_name = "PLY")]
     pub output: Option<PathBuf>,
-    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, and 3MF are scaled to
-    /// it; of other files it is the unit of their numbers
+    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, 3MF and COLLADA
+    /// are scaled to it; of other files it is the unit of their numbers
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     pub unit: Option<Unit>,
     /// Levels, of 1, 2, 4, ... triboxes

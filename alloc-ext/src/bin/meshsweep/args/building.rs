@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct BuildArgs {
-    /// Mesh file: .stl, .ply, .obj, .off, .glb, .gltf or .3mf; or points of curves: .csv
+    /// Mesh file: .stl, .ply, .obj, .off, .glb, .gltf, .3mf or .dae; or points of curves: .csv
     pub mesh: PathBuf,
     /// With --for deform: the same mesh at further key frames, with the same triangles
     pub frames: Vec<PathBuf>,
@@ -30,8 +30,8 @@ pub struct BuildArgs {
         value_name = "QUESTIONS"
     )]
     serves: Option<Vec<For>>,
-    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, and 3MF are scaled to
-    /// it; of other files it is the unit of their numbers
+    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, 3MF and COLLADA
+    /// are scaled to it; of other files it is the unit of their numbers
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     pub unit: Option<Unit>,
     /// Bits of a stored coordinate (see below)

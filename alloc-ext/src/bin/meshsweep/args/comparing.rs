@@ -11,8 +11,8 @@ pub struct HausdorffArgs {
     pub first: PathBuf,
     /// Mesh file to compare it with
     pub second: PathBuf,
-    /// Unit of the meshes: um, mm, cm, m, in or ft. glTF, which is in metres, and 3MF are scaled to
-    /// it; of other files it is the unit of their numbers
+    /// Unit of the meshes: um, mm, cm, m, in or ft. glTF, which is in metres, 3MF and COLLADA
+    /// are scaled to it; of other files it is the unit of their numbers
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     pub unit: Option<Unit>,
     /// Only how far the first mesh is from the second

@@ -67,12 +67,24 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     its normal, is split about its first corner. The report counts these, and faces of fewer than \
     three corners, which are left out, and names the first with its line.\n\n\
     OFF is read as text, PLY with faces or triangle strips. Of glTF (.glb, .gltf) the triangles of \
-    all nodes of all scenes are read, of 3MF the objects of the build, each where it is placed. \
+    all nodes of all scenes are read, sparse accessors too, of 3MF the objects of the build, of \
+    COLLADA (.dae) all nodes of the scene, each where it is placed. \
     Their transforms are rounded in double precision; every interval includes that. glTF is in \
-    metres, 3MF in the unit that it tells. Without --unit nothing is scaled. The report tells the \
-    unit, and triangles that only join strips, points and lines, which are left out. Skins, \
-    morphs, Draco and meshopt are refused by name. The unit is not stored in the blob: blobs of \
-    different units are not told apart, in clearance and overlap too.\n\n\
+    metres, 3MF and COLLADA in the unit that they tell. Without --unit nothing is scaled, except \
+    COLLADA in a unit that is none of --unit, which is scaled to metres. Axes stay as they are \
+    written: up_axis turns nothing, as in RViz and Gazebo. The unit is not stored in the blob: \
+    blobs of different units are not told apart, in clearance and overlap too.\n\n\
+    Left out, counted and named in the report: triangles that only join strips; points and lines; \
+    of OBJ free-form curves and surfaces (curv, curv2, surf and older ones), call, csh and \
+    statements of unknown name; of STL attributes; of 3MF supports, items that are not to be \
+    printed, negative parts and modifiers; of COLLADA what the scene does not show. Quaternions of \
+    glTF that are not of length 1 are named.\n\n\
+    Refused by name: skins, morphs, controllers, Draco, meshopt, normalized positions and instances \
+    of glTF; beam lattices and required extensions of 3MF; lookat, skew, convex_mesh, brep and \
+    polygons with holes of COLLADA; binary OFF; elements of PLY other than face and tristrips that \
+    list vertices; a statement of OBJ of unknown name before numbers; facets of STL with several \
+    loops; ASCII STL without endsolid, and binary STL whose size does not fit its count and \
+    attributes.\n\n\
     Values of --vertex-bits:\n  \
     auto   hull: the fewest bits that store the mesh exactly; box tree: 16, or 32 for a mesh so \
     far from its origin that 16 would move vertices by more than a 32,768th of its longest side, \

@@ -17,8 +17,8 @@ pub struct TradeArgs {
     /// Number of points, unless they are from a file
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = whole::<1, 1_000_000>)]
     pub points: u32,
-    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, and 3MF are scaled to
-    /// it; of other files it is the unit of their numbers
+    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, 3MF and COLLADA
+    /// are scaled to it; of other files it is the unit of their numbers
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     pub unit: Option<Unit>,
     /// Write a page with pictures too: one HTML file, which needs no network
