@@ -225,8 +225,11 @@ pub(super) fn build_in(
     let has_sides = flags & (BVH_CLOSED | BVH_SIDES_LOST) == BVH_CLOSED;
     if has_sides && options.stores_frames() && stored.turned.contains(&true) {
         flags |= BVH_TURNED;
-        let is_turned = |t: u32| stored.turned.get(t as usize).is_some_and(|&is| is);
-        sections.push((SectionKind::TreeTurned, encode::bits(in_order().map(is_turned))));
+        // Without a section all are turned.
+        if stored.turned.contains(&false) {
+            let is_turned = |t: u32| stored.turned.get(t as usize).is_some_and(|&is| is);
+            sections.push((SectionKind::TreeTurned, encode::bits(in_order().map(is_turned))));
+        }
     }
     let header = header(mesh, &grid, &leaves, flags, topology.waiting_entries);
     let header = BvhHeader { nodes: topology.nodes.len() as u32, ..header };

@@ -5,9 +5,10 @@
 //! | repair | the tree | stores |
 //! | --- | --- | --- |
 //! | changed no triangle | any | the mesh |
+//! | only turned some; the mesh is closed | any | the mesh, wound as in the file |
 //! | changed some | has winding numbers | all triangles of the file, each copy |
-//! | changed some | has none; the mesh is closed, without merged walls | the mesh, wound as in the file |
-//! | changed some | has none; another mesh | the file's triangles that differ, and wires |
+//! | changed some; the mesh is closed, without merged walls | has none | the mesh, wound as in the file |
+//! | changed some | has none | the file's triangles that differ, and wires |
 //!
 //! *Triangles without area in a tree with winding numbers* stay triangles if their vertices differ.
 //! A grid may give them an area, and their edges close the surface of their neighbours. So sums and
@@ -43,14 +44,14 @@ impl<'a> StoredTriangles<'a> {
     pub(super) fn of(mesh: &'a Mesh, options: &TreeOptions) -> Result<Self, BuildError> {
         require_valid(mesh, MAX_TRIANGLES)?;
         let Some(filed) = &mesh.filed else { return Ok(Self::of_repaired(mesh)) };
+        let repaired = Self::of_repaired(mesh);
+        if repaired.is_closed && (!options.winding || has_all(mesh, filed)) {
+            return Ok(repaired.as_filed());
+        }
         let all = of_file(filed, mesh.rounding);
         require_valid(&all, MAX_TRIANGLES)?;
         if options.winding {
             return Ok(Self::without_sides(with_repeats_as_wires(all)));
-        }
-        let repaired = Self::of_repaired(mesh);
-        if repaired.is_closed {
-            return Ok(repaired.as_filed());
         }
         let keeps_opposite = options.segments || options.cull;
         let stored = Self::without_sides(distinct(&all, mesh, keeps_opposite));
@@ -107,6 +108,17 @@ fn is_closed(triangles: &[[u32; 3]], edges: &EdgeTable) -> bool {
         from < to
     };
     edges.edges().all(|edge| 2 * edge.iter().filter(is_up).count() == edge.len())
+}
+
+/// Whether a mesh has all triangles of its file, turned ones too, and no vertex stands for two
+/// places of the file.
+fn has_all(mesh: &Mesh, filed: &Filed) -> bool {
+    let is_in_order = (0..).zip(&mesh.source).all(|(t, &number)| t == number);
+    let mut places = FxHashSet::default();
+    mesh.source.len() == filed.triangles.len()
+        && is_in_order
+        && mesh.wires.is_empty()
+        && filed.positions.iter().all(|at| places.insert(at.map(f32::to_bits)))
 }
 
 /// All triangles of a file, as a mesh.

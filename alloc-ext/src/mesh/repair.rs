@@ -54,7 +54,7 @@ pub(crate) fn repair_moved(
         vertices_read: positions.len(),
         triangles_read: triangles.len(),
         polygons: raw.polygons.clone(),
-        left_out: raw.left_out,
+        left_out: raw.left_out.clone(),
         rounding,
         ..RepairReport::default()
     };

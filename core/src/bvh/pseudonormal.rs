@@ -264,9 +264,9 @@ impl<F: FnMut(&FanLeaf<'_>, usize, f32)> LeafVisitor for Star<'_, F> {
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let turned = self.tree.turned;
-        let first = match turned.is_empty() {
-            true => 0,
-            false => self.tree.links(visit.node)?.triangle(visit.child),
+        let first = match turned.are_some() {
+            true => self.tree.links(visit.node)?.triangle(visit.child),
+            false => 0,
         };
         for lane in 0..visit.leaf.shape().triangles() {
             let is_turned = turned.contains(first.wrapping_add(lane as u32));

@@ -7,17 +7,18 @@ pub fn has_sides(tree: &Bvh<'_>) -> bool {
     tree.has_sides() || tree.serves_winding()
 }
 
-/// Signed distance. If the blob has moments, the side is that of the winding number.
+/// Signed distance. The side is that of the nearest triangle, where it may tell, else that of the
+/// winding number.
 pub fn signed_distance(
     tree: &Bvh<'_>,
     point: [f32; 3],
     budget: Budget,
     scratch: &mut [ScratchEntry],
 ) -> Result<SignedDistance, QueryError> {
-    if tree.serves_winding() {
-        tree.signed_by_winding(point, budget, scratch)
-    } else {
+    if tree.has_sides() || !tree.serves_winding() {
         tree.signed_distance(point, budget, scratch)
+    } else {
+        tree.signed_by_winding(point, budget, scratch)
     }
 }
 

@@ -25,7 +25,7 @@ impl<'a> Chosen<'a> {
         let closed = is_closed(mesh) && !mesh.has_merged_walls;
         let as_it_is = Self { mesh: Cow::Borrowed(mesh), closed, turned: None, has_sides: closed };
         let Some(filed) = &mesh.filed else { return as_it_is };
-        if !tree.moments.is_empty() {
+        if !tree.moments.is_empty() && !(closed && is_turned_only(mesh, filed)) {
             let mesh = all(filed);
             return Self { closed: is_closed(&mesh), ..Self::without_sides(mesh) };
         }
@@ -44,6 +44,15 @@ impl<'a> Chosen<'a> {
     fn without_sides(mesh: Mesh) -> Self {
         Self { mesh: Cow::Owned(mesh), closed: false, turned: None, has_sides: false }
     }
+}
+
+/// Whether repair did no more than turn triangles.
+fn is_turned_only(mesh: &Mesh, filed: &Filed) -> bool {
+    let of_file: HashSet<[u32; 3]> =
+        filed.positions.iter().map(|at| at.map(f32::to_bits)).collect();
+    let has_each = (0..filed.triangles.len()).all(|t| mesh.source.get(t) == Some(&(t as u32)));
+    let has_no_other = mesh.all_triangles().count() == filed.triangles.len();
+    has_each && has_no_other && of_file.len() == filed.positions.len()
 }
 
 /// All triangles of the file. Those with a repeated vertex are the segment of its other two.

@@ -351,10 +351,13 @@ impl Fans<'_> {
     }
 }
 
-/// A bit for each triangle, least bit of a byte first, and zeros to the end of the last byte; or
-/// nothing, if the header says so.
-fn turned(bits: &[u8], is_there: bool, triangles: usize) -> Result<Vec<bool>, String> {
-    if bits.len() != if is_there { triangles.div_ceil(8) } else { 0 } {
+/// A bit for each triangle, least bit of a byte first, and zeros to the end of the last byte. If the
+/// header's flag is set and there are none, all triangles are turned.
+fn turned(bits: &[u8], is_flagged: bool, triangles: usize) -> Result<Vec<bool>, String> {
+    if bits.is_empty() {
+        return Ok(vec![is_flagged; triangles]);
+    }
+    if !is_flagged || bits.len() != triangles.div_ceil(8) {
         return Err("turned triangles: not a bit for each".into());
     }
     let bit = |k: usize| bits.get(k / 8).is_some_and(|byte| byte >> (k % 8) & 1 != 0);

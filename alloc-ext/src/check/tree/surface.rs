@@ -62,6 +62,11 @@ pub(super) fn closed(tree: &TreeBlob, chosen: &Chosen<'_>) -> Result<(), String>
     Ok(())
 }
 
+/// Without frames no question about sides is served.
+fn promises_sides(tree: &TreeBlob) -> bool {
+    tree.closed && !tree.sides_lost && !tree.frames.is_empty()
+}
+
 /// If sides are promised, the tree's triangles as its bits turn them are those of the mesh in the
 /// winding that tells sides.
 pub(super) fn turned<'a>(
@@ -69,9 +74,8 @@ pub(super) fn turned<'a>(
     chosen: &Chosen<'a>,
     given: impl Fn(&'a Mesh) -> Given<'a>,
 ) -> Result<(), String> {
-    let promised = tree.closed && !tree.sides_lost && !tree.frames.is_empty();
     match chosen.turned {
-        Some(mesh) if promised => {
+        Some(mesh) if promises_sides(tree) => {
             let stored = tree.triangles().zip(&tree.turned);
             let stored = stored
                 .map(|((number, [a, b, c]), &is)| (number, if is { [a, c, b] } else { [a, b, c] }));
@@ -87,7 +91,7 @@ pub(super) fn turned<'a>(
 /// If vertices moved and the header promises sides, the stored surface bounds a solid. `corners`
 /// are the mesh's vertices at the corners of the stored triangles.
 pub(super) fn sides(tree: &TreeBlob, corners: &[[u32; 3]]) -> Result<(), String> {
-    if !tree.closed || tree.sides_lost || tree.surface_error == 0.0 {
+    if !promises_sides(tree) || tree.surface_error == 0.0 {
         return Ok(());
     }
     let mut surface = Surface::default();

@@ -144,7 +144,7 @@ impl<'a> Bvh<'a> {
             source: Bytes(table.bytes(SectionKind::TreeSource)),
             cones: ok!(table.records(SectionKind::TreeCones)),
             moments: ok!(table.records(SectionKind::TreeMoments)),
-            turned: TurnedTriangles(table.bytes(SectionKind::TreeTurned)),
+            turned: TurnedTriangles::new(header.is_turned(), table.bytes(SectionKind::TreeTurned)),
         })
     }
 
@@ -207,9 +207,8 @@ impl<'a> Bvh<'a> {
         if !self.moments.is_empty() && self.moments.len() != nodes {
             return missing(SectionKind::TreeMoments);
         }
-        let TurnedTriangles(turned) = self.turned;
         let may_turn = h.has_sides() && !self.frames.is_empty();
-        if turned.len() != h.turned_bytes() || !(turned.is_empty() || may_turn) {
+        if !self.turned.are_valid(h.is_turned(), h.triangles) || h.is_turned() && !may_turn {
             return missing(SectionKind::TreeTurned);
         }
         if !self.turned.ends_with_zeros(h.triangles) {

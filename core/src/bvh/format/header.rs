@@ -49,9 +49,9 @@ impl BvhHeader {
         self.flags & BVH_CLOSED != 0
     }
 
-    /// Bytes of the section of turned triangles: a bit for each triangle, or none.
-    pub(super) const fn turned_bytes(&self) -> usize {
-        if self.flags & BVH_TURNED != 0 { self.triangles.div_ceil(8) as usize } else { 0 }
+    /// Whether sides are those of triangles that are turned.
+    pub(super) const fn is_turned(&self) -> bool {
+        self.flags & BVH_TURNED != 0
     }
 
     /// Whether leaf vertices are f32.

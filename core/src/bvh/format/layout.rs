@@ -43,7 +43,8 @@ pub const BVH_CLOSED: u8 = 1;
 /// Tree flag: the stored surface may show a point another side than the input's. Its vertices
 /// moved, and the builder could not prove that this exchanged no two walls.
 pub const BVH_SIDES_LOST: u8 = 4;
-/// Tree flag: there is a section of turned triangles. A reader that does not know it must refuse
+/// Tree flag: sides are those of triangles turned: of those that a section names, or of all if there
+/// is no such section. A reader that does not know it must refuse
 /// the tree, or the sides of those triangles would be wrong.
 pub const BVH_TURNED: u8 = 8;
 /// Tree flag: leaf vertices are f32 in grid units instead of u16 on the grid.

@@ -110,9 +110,22 @@ impl Search<'_> {
         Ok((number, Ended::Resolution))
     }
 
+    /// The side that a number proves. In a solid that faces inwards as a whole the number is −1.
+    pub(super) fn side_of(&self, number: Interval) -> Option<Side> {
+        let number = match self.tree.turned.are_all() {
+            true => Interval::new(-number.upper, -number.lower),
+            false => number,
+        };
+        match number {
+            Interval { lower, .. } if lower > 0.5 => Some(Side::Inside),
+            Interval { upper, .. } if upper < 0.5 => Some(Side::Outside),
+            _ => None,
+        }
+    }
+
     /// Why the search ends with this number: it is good enough, or `otherwise`.
     fn ended(&self, number: Interval, otherwise: Ended) -> Ended {
-        let is_decided = side_of(number).is_some();
+        let is_decided = self.side_of(number).is_some();
         let is_narrow = number.upper - number.lower <= self.absolute;
         match (is_decided, self.absolute > 0.0) {
             (true, false) => Ended::Exact,
@@ -238,14 +251,5 @@ impl Pass {
         } else {
             self.is_unknown = true;
         }
-    }
-}
-
-/// The side that a number proves.
-pub(super) fn side_of(number: Interval) -> Option<Side> {
-    match number {
-        Interval { lower, .. } if lower > 0.5 => Some(Side::Inside),
-        Interval { upper, .. } if upper < 0.5 => Some(Side::Outside),
-        _ => None,
     }
 }

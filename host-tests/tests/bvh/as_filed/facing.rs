@@ -2,7 +2,7 @@
 
 use super::{File, first, stack, views};
 use meshsweep::bvh::TreeOptions;
-use meshsweep_core::{Budget, Eye, Facing, Hit};
+use meshsweep_core::{Budget, Eye, Facing, TriangleHit};
 use meshsweep_host_tests::generate::evil::room;
 use meshsweep_host_tests::generate::{icosphere, inverted, scaled};
 
@@ -67,7 +67,7 @@ fn triangles_wound_against_each_other_keep_their_own_fronts() {
     let blobs = two_windings().trees(TreeOptions::default());
     let through = |x: f32, y: f32| [[x, y, 1.0], [x, y, -1.0]];
     for tree in views(&blobs) {
-        let number = |beam, facing| first(&tree, beam, facing).map(|hit: Hit| hit.triangle);
+        let number = |beam, facing| first(&tree, beam, facing).map(|hit| hit.triangle);
         let (up, down) = (through(0.75, 0.25), through(0.25, 0.75));
         assert_eq!(number(up, Facing::Front), Some(Some(0)));
         assert_eq!(number(up, Facing::Back), None);
@@ -90,7 +90,7 @@ fn of_a_sheet_that_is_in_the_file_from_both_sides_each_side_is_met_under_its_own
                     let hit = first(&tree, beam, facing).expect("a side");
                     assert_eq!((hit.t, hit.triangle), (0.5, Some(wanted)));
                 }
-                let mut hits = [Hit::EMPTY; 4];
+                let mut hits = [TriangleHit::EMPTY; 4];
                 let [a, b] = beam;
                 let (facing, budget) = (Facing::Both, Budget::EXACT);
                 let all = tree.all_hits(a, b, facing, &mut hits, budget, &mut stack(&tree));

@@ -3,7 +3,7 @@
 
 use super::{File, exact_winding, first, minus, side, stack, views, winding};
 use meshsweep::bvh::TreeOptions;
-use meshsweep_core::{Budget, Facing, Hit, Side};
+use meshsweep_core::{Budget, Facing, Side, TriangleHit};
 use meshsweep_host_tests::generate::{Rng, Triangles, cube, icosphere, rough_sphere, torus};
 use meshsweep_host_tests::oracle::distance_to_triangle;
 use proptest::prelude::*;
@@ -101,11 +101,11 @@ fn first_copy(file: &File, triangle: u32) -> u32 {
 
 /// All triangles that a segment meets, as a tree lists them.
 fn all_hits(tree: &meshsweep_core::Bvh<'_>, [a, b]: [[f32; 3]; 2], facing: Facing) -> Vec<u32> {
-    let mut hits = vec![Hit::EMPTY; 256];
+    let mut hits = vec![TriangleHit::EMPTY; 256];
     let found = tree.all_hits(a, b, facing, &mut hits, Budget::EXACT, &mut stack(tree));
     let stored = found.expect("answers").stored;
     hits.truncate(stored);
-    hits.iter().filter_map(|hit| hit.triangle).collect()
+    hits.iter().filter_map(|of| of.hit.triangle).collect()
 }
 
 proptest! {

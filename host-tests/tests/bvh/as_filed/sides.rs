@@ -1,23 +1,44 @@
 //! Turning tells sides, and nothing else.
 
-use super::{File, side, views};
+use super::{File, side, views, winding};
 use meshsweep::bvh::TreeOptions;
-use meshsweep_core::{Bvh, OpenError, SectionKind, Side};
+use meshsweep_core::{Bvh, OpenError, SectionKind, Side, Undecided};
 use meshsweep_host_tests::corrupt::{assert_damage_is_safe, edited, entries, entry};
 use meshsweep_host_tests::generate::evil::room;
-use meshsweep_host_tests::generate::{Rng, icosphere, inverted, joined, scaled, torus};
+use meshsweep_host_tests::generate::{Rng, Triangles, icosphere, inverted, joined, scaled, torus};
 
 const TURNED: u32 = SectionKind::TreeTurned as u32;
 
-fn has_turned(bytes: &[u8]) -> bool {
+/// Whether a bit for each triangle says which are turned.
+fn has_bits(bytes: &[u8]) -> bool {
     entries(bytes).iter().any(|entry| entry.kind == TURNED)
+}
+
+fn far_tetrahedron() -> Triangles {
+    let corners = [[9.0, 0.0, 0.0], [10.0, 0.0, 0.0], [9.0, 1.0, 0.0], [9.0, 0.0, 1.0]];
+    (corners.to_vec(), vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+}
+
+/// Two solids, the second inside out.
+fn one_of_two_inverted() -> Triangles {
+    let far = |(positions, triangles): Triangles| {
+        let positions = positions.into_iter().map(|[x, y, z]| [x + 4.0, y, z]).collect();
+        (positions, triangles)
+    };
+    joined(&icosphere(0), &far(inverted(&icosphere(0))))
 }
 
 #[test]
 fn a_room_whose_walls_face_inwards_is_a_solid_to_signed_distances() {
-    let blobs = File::of(&room()).trees(TreeOptions::default());
-    assert!(blobs.iter().all(|bytes| has_turned(bytes)));
-    for tree in views(&blobs) {
+    for winding in [false, true] {
+        let blobs = File::of(&room()).trees(TreeOptions::default().with_winding(winding));
+        assert!(!blobs.iter().any(|bytes| has_bits(bytes)), "all are turned: one flag");
+        assert_room_is_solid(&blobs);
+    }
+}
+
+fn assert_room_is_solid(blobs: &[Vec<u8>; 2]) {
+    for tree in views(blobs) {
         assert!(tree.is_closed() && tree.has_sides());
         assert_eq!(side(&tree, [5.0, 5.5, 5.2]), Side::Inside);
         assert_eq!(side(&tree, [15.0, 5.5, 5.2]), Side::Outside);
@@ -33,16 +54,16 @@ fn sides_do_not_depend_on_which_triangles_the_file_winds_wrongly() {
     let mut rng = Rng::new(11);
     for shape in [torus(2.0, 0.75, 16, 10), hollow] {
         let plain = File::of(&shape).trees(TreeOptions::default());
-        assert!(!plain.iter().any(|bytes| has_turned(bytes)));
+        assert!(!plain.iter().any(|bytes| has_bits(bytes)));
         let mut flipped = shape.clone();
         for triangle in &mut flipped.1 {
             if rng.below(4) == 0 {
                 triangle.swap(1, 2);
             }
         }
-        for file in [inverted(&shape), flipped] {
+        for (file, is_mixed) in [(inverted(&shape), false), (flipped, true)] {
             let blobs = File::of(&file).trees(TreeOptions::default());
-            assert!(blobs.iter().all(|bytes| has_turned(bytes)));
+            assert!(blobs.iter().all(|bytes| has_bits(bytes) == is_mixed));
             let mut decided = 0;
             for (tree, plain) in views(&blobs).iter().zip(&views(&plain)) {
                 for _ in 0..500 {
@@ -59,17 +80,33 @@ fn sides_do_not_depend_on_which_triangles_the_file_winds_wrongly() {
 
 #[test]
 fn a_tree_that_needs_no_sides_by_the_nearest_triangle_has_no_bits() {
-    let file = File::of(&room());
+    let file = File::of(&one_of_two_inverted());
     let plain = TreeOptions::default();
-    for options in [plain.with_closest(false), plain.with_winding(true)] {
-        assert!(!file.trees(options).iter().any(|bytes| has_turned(bytes)));
+    assert!(file.trees(plain).iter().all(|bytes| has_bits(bytes)));
+    assert!(!file.trees(plain.with_closest(false)).iter().any(|bytes| has_bits(bytes)));
+}
+
+#[test]
+fn numbers_tell_no_side_where_some_parts_are_inside_out_and_the_nearest_triangle_does() {
+    let blobs = File::of(&one_of_two_inverted()).trees(TreeOptions::default().with_winding(true));
+    for tree in views(&blobs) {
+        for (point, number, wanted) in [
+            ([0.1, 0.0, 0.0], 1.0, Side::Inside),
+            ([4.1, 0.0, 0.0], -1.0, Side::Inside),
+            ([2.0, 0.0, 0.0], 0.0, Side::Outside),
+        ] {
+            let (interval, by_number) = winding(&tree, point);
+            assert!(interval.lower <= number && number <= interval.upper, "{interval:?}");
+            assert_eq!(by_number, Side::Undecided(Undecided::Resolution));
+            assert_eq!(side(&tree, point), wanted);
+        }
     }
 }
 
 #[test]
 fn turned_triangles_are_there_if_the_header_says_so_and_end_with_zeros() {
-    let bytes = File::of(&inverted(&icosphere(0))).tree(&TreeOptions::default());
-    assert_eq!(entry(&bytes, TURNED).bytes, 3, "a bit for each of 20 triangles");
+    let bytes = File::of(&one_of_two_inverted()).tree(&TreeOptions::default());
+    assert_eq!(entry(&bytes, TURNED).bytes, 5, "a bit for each of 40 triangles");
     let open = |bytes: &[u8]| Bvh::open(bytes).map(drop);
     let flags =
         |flags: u8| edited(bytes.clone(), SectionKind::Bvh, |header| header[1] = flags, open);
@@ -79,18 +116,21 @@ fn turned_triangles_are_there_if_the_header_says_so_and_end_with_zeros() {
     assert_eq!(flags(8), missing, "bits of a mesh that is not closed");
     assert_eq!(flags(13), missing, "bits of a tree without sides");
     assert_eq!(flags(17), Err(OpenError::Reserved));
-    let last = edited(bytes.clone(), SectionKind::TreeTurned, |bits| bits[2] |= 16, open);
-    let beyond = OpenError::Record { section: SectionKind::TreeTurned, index: 20 };
+    let (mut odd, triangles) = (one_of_two_inverted(), 44);
+    odd = joined(&odd, &far_tetrahedron());
+    let bytes = File::of(&odd).tree(&TreeOptions::default());
+    let last = edited(bytes, SectionKind::TreeTurned, |bits| bits[5] |= 16, open);
+    let beyond = OpenError::Record { section: SectionKind::TreeTurned, index: triangles };
     assert_eq!(last, Err(beyond));
 }
 
 #[test]
 fn damaged_bits_are_safe() {
-    let bytes = File::of(&inverted(&icosphere(0))).tree(&TreeOptions::default());
+    let bytes = File::of(&one_of_two_inverted()).tree(&TreeOptions::default());
     let ask = |bytes: &[u8]| {
         Bvh::open(bytes).map(|tree| {
             side(&tree, [0.1, 0.2, 0.3]);
         })
     };
-    assert_damage_is_safe(&[bytes], SectionKind::TreeTurned, 3, (500, 3), ask);
+    assert_damage_is_safe(&[bytes], SectionKind::TreeTurned, 5, (500, 3), ask);
 }
