@@ -7,7 +7,7 @@ use super::moments::moments;
 use super::nodes::fit::{axis_aligned_boxes, shared_frames, unturned_frames};
 use super::nodes::order::topology;
 use super::store::{OnGrid, store};
-use super::stored_triangles::StoredTriangles;
+use super::stored_triangles::{Copies, StoredTriangles};
 use super::{sides, source};
 use crate::emit::Sections;
 use crate::error::BuildError;
@@ -104,6 +104,16 @@ impl TreeOptions {
         self.closest || !self.segments
     }
 
+    const fn copies(&self) -> Copies {
+        if self.winding {
+            Copies::All
+        } else if self.segments || self.cull {
+            Copies::EachWinding
+        } else {
+            Copies::First
+        }
+    }
+
     /// Sets whether [f32 is allowed](Self::allows_f32).
     #[must_use]
     pub const fn with_f32_allowed(self, allows_f32: bool) -> Self {
@@ -180,7 +190,7 @@ pub(super) fn build_in(
     watch: Watch<'_>,
 ) -> Result<(Sections, TreeReport), BuildError> {
     let started = Instant::now();
-    let stored = StoredTriangles::of(input.mesh, options)?;
+    let stored = StoredTriangles::of(input.mesh, options.copies(), MAX_TRIANGLES)?;
     let (mesh, edges) = (&*stored.mesh, &stored.edges);
     let input = Input { mesh, ..input };
     let triangles = mesh.triangles.len() + mesh.wires.len();

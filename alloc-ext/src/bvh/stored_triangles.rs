@@ -14,12 +14,22 @@
 //! A grid may give them an area, and their edges close the surface of their neighbours. So sums and
 //! boundaries of nodes are those of the file's surface with its vertices moved.
 
-use super::build::{MAX_TRIANGLES, TreeOptions};
 use crate::error::BuildError;
 use crate::mesh::{Filed, Mesh, Wire, collinear};
 use crate::surface::{EdgeTable, compact_in_order, ends, require_valid};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::borrow::Cow;
+
+/// Which copies of the file's triangles a tree stores, where repair changed some.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Copies {
+    /// All: each counts for winding numbers.
+    All,
+    /// One in each winding, for facings.
+    EachWinding,
+    /// One.
+    First,
+}
 
 /// The triangles that a tree stores.
 pub(super) struct StoredTriangles<'a> {
@@ -37,24 +47,23 @@ pub(super) struct StoredTriangles<'a> {
 }
 
 impl<'a> StoredTriangles<'a> {
-    /// The triangles of a mesh for a tree with these options.
+    /// The triangles of a mesh for a tree, `most` of them and of wires at most.
     ///
     /// # Errors
     /// [`BuildError`] of a mesh that [`repair`](crate::mesh::repair) did not make.
-    pub(super) fn of(mesh: &'a Mesh, options: &TreeOptions) -> Result<Self, BuildError> {
-        require_valid(mesh, MAX_TRIANGLES)?;
+    pub(super) fn of(mesh: &'a Mesh, copies: Copies, most: usize) -> Result<Self, BuildError> {
+        require_valid(mesh, most)?;
         let Some(filed) = &mesh.filed else { return Ok(Self::of_repaired(mesh)) };
         let repaired = Self::of_repaired(mesh);
-        if repaired.is_closed && (!options.winding || has_all(mesh, filed)) {
+        if repaired.is_closed && (copies != Copies::All || has_all(mesh, filed)) {
             return Ok(repaired.as_filed());
         }
         let all = of_file(filed, mesh.rounding);
-        require_valid(&all, MAX_TRIANGLES)?;
-        if options.winding {
+        require_valid(&all, most)?;
+        if copies == Copies::All {
             return Ok(Self::without_sides(with_repeats_as_wires(all)));
         }
-        let keeps_opposite = options.segments || options.cull;
-        let stored = Self::without_sides(distinct(&all, mesh, keeps_opposite));
+        let stored = Self::without_sides(distinct(&all, mesh, copies == Copies::EachWinding));
         Ok(Self { is_closed: false, ..stored })
     }
 
@@ -143,8 +152,8 @@ fn with_repeats_as_wires(mesh: Mesh) -> Mesh {
 }
 
 /// Of a file's triangles those with an area, without copies of the same winding, and the wires of
-/// the repaired mesh. A copy of the opposite winding is another triangle if `keeps_opposite`.
-fn distinct(filed: &Mesh, repaired: &Mesh, keeps_opposite: bool) -> Mesh {
+/// the repaired mesh. A copy of the opposite winding is another triangle if `in_each_winding`.
+fn distinct(filed: &Mesh, repaired: &Mesh, in_each_winding: bool) -> Mesh {
     let mut places = Places::default();
     let mut triangles = Vec::new();
     let mut seen = FxHashSet::default();
@@ -155,7 +164,7 @@ fn distinct(filed: &Mesh, repaired: &Mesh, keeps_opposite: bool) -> Mesh {
         }
         let triangle = [a, b, c].map(|at| places.number(at));
         let mut key = triangle;
-        if keeps_opposite {
+        if in_each_winding {
             let least = (0..3).min_by_key(|&k| key[k]).unwrap_or(0);
             key.rotate_left(least);
         } else {

@@ -86,7 +86,7 @@ fn a_room_whose_walls_face_inwards_winds_once_backwards() {
 }
 
 #[test]
-fn a_t_junction_that_a_triangle_without_area_closes_is_closed_and_costs_no_width() {
+fn a_t_junction_that_a_triangle_without_area_closes_is_closed() {
     // On the grid the middle of the edge is not on the edge.
     let file = |cap: &[[u32; 3]]| File {
         positions: vec![
