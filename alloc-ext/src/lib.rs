@@ -31,9 +31,9 @@
 //! | [`check`] | proofs of a blob again, from its bytes and the mesh; it uses `mesh` only |
 //! | [`trade`] | errors and costs of a mesh's structures and settings, measured |
 //!
-//! A room uses those to its left in this line, and no other: `geom` ← `{emit, lp, mesh}` ← `progress` ←
-//! `surface` ← `{collapse, bvh, load}` ← `hausdorff` ← `{hull, tight, tribox, curve}` ←
-//! `{cut, trade, builder}` ← the program. `trade` also uses the distance of `check`, and `worst`
+//! A room uses those to its left in this line, and no other: `geom` ← `{emit, lp, mesh}` ←
+//! `progress` ← `surface` ← `{collapse, bvh, load}` ← `hausdorff` ← `{tight, tribox, curve}` ←
+//! `hull` ← `{cut, trade, builder}` ← the program. `trade` also uses the distance of `check`, and `worst`
 //! uses no room. A test keeps that (`host-tests/tests/house`).
 
 pub mod builder;

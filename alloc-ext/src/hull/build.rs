@@ -71,7 +71,7 @@ pub struct BuildReport {
 /// The kind of a hierarchy's levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
-    /// Outer hulls of a closed mesh.
+    /// Outer hulls of a closed mesh, as it is stored.
     Hulls {
         /// Volume of the mesh, input units.
         volume: f64,

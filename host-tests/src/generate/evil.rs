@@ -181,6 +181,11 @@ fn mendable() -> Vec<Evil> {
         file("inverted_cavity.stl", binary_stl(&inverted(&cavity)), "a hollow cube inside out"),
         file("inverted_cube.stl", binary_stl(&inverted(&cube(2))), "all triangles face inwards"),
         file(
+            "map_sphere.obj",
+            MAP_SPHERE.to_vec(),
+            "map coordinates in doubles: f32 moves its vertices by up to 0.25",
+        ),
+        file(
             "mixed_winding.ply",
             binary_ply(&mixed),
             "a third of the triangles wound the wrong way",
@@ -195,6 +200,9 @@ fn mendable() -> Vec<Evil> {
         ),
     ]
 }
+
+/// As it was reported.
+const MAP_SPHERE: &[u8] = include_bytes!("../../../fixtures/evil/map_sphere.obj");
 
 const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";

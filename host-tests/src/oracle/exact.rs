@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 /// Corners in the input's own numbers.
 pub type Corners = [[f64; 3]; 3];
 
-type Vector = [BigInt; 3];
+pub(super) type Vector = [BigInt; 3];
 
 /// A fraction with a positive denominator.
 #[derive(Clone, Debug)]
@@ -48,7 +48,7 @@ impl Fraction {
 }
 
 /// `x = mantissa · 2^exponent`.
-fn parts(x: f64) -> (BigInt, i32) {
+pub(super) fn parts(x: f64) -> (BigInt, i32) {
     assert!(x.is_finite(), "{x}");
     let (field, fraction) = ((x.to_bits() >> 52 & 0x7FF) as i32, x.to_bits() & ((1 << 52) - 1));
     let (mantissa, exponent) =
@@ -70,15 +70,15 @@ fn integers(p: [f64; 3], unit: i32) -> Vector {
     })
 }
 
-fn minus([a, b, c]: &Vector, [x, y, z]: &Vector) -> Vector {
+pub(super) fn minus([a, b, c]: &Vector, [x, y, z]: &Vector) -> Vector {
     [a - x, b - y, c - z]
 }
 
-fn dot([a, b, c]: &Vector, [x, y, z]: &Vector) -> BigInt {
+pub(super) fn dot([a, b, c]: &Vector, [x, y, z]: &Vector) -> BigInt {
     a * x + b * y + c * z
 }
 
-fn cross([a, b, c]: &Vector, [x, y, z]: &Vector) -> Vector {
+pub(super) fn cross([a, b, c]: &Vector, [x, y, z]: &Vector) -> Vector {
     [b * z - c * y, c * x - a * z, a * y - b * x]
 }
 
@@ -142,25 +142,28 @@ pub fn distance_compared(p: [f64; 3], corners: &Corners, x: f64) -> Ordering {
 pub fn first_meeting(a: [f64; 3], b: [f64; 3], corners: &Corners) -> Option<Fraction> {
     let unit = unit_of(&[*corners, [a, b, a]].concat());
     let triangle = corners.map(|p| integers(p, unit));
-    let (a, b) = (integers(a, unit), integers(b, unit));
-    let normal = normal(&triangle);
+    first_exactly([&integers(a, unit), &integers(b, unit)], &triangle)
+}
+
+fn first_exactly([a, b]: [&Vector; 2], triangle: &[Vector; 3]) -> Option<Fraction> {
+    let normal = normal(triangle);
     let height = |p: &Vector| dot(&normal, &minus(p, &triangle[0]));
-    let (from, to) = (height(&a), height(&b));
+    let (from, to) = (height(a), height(b));
     let one = BigInt::from(1);
     if from.is_zero() && to.is_zero() {
-        if !is_zero(&normal) && is_over(&triangle, &normal, &a, &one) {
+        if !is_zero(&normal) && is_over(triangle, &normal, a, &one) {
             return Some(Fraction::whole(BigInt::zero()));
         }
-        let meetings = sides(&triangle).map(|side| first_on_side([&a, &b], side));
+        let meetings = sides(triangle).map(|side| first_on_side([a, b], side));
         return meetings.into_iter().flatten().reduce(Fraction::least);
     }
     if (&from * &to).is_positive() {
         return None;
     }
     let t = Fraction::new(from.clone(), from - to);
-    let way = minus(&b, &a);
+    let way = minus(b, a);
     let place: Vector = std::array::from_fn(|k| &a[k] * &t.under + &way[k] * &t.over);
-    is_over(&triangle, &normal, &place, &t.under).then_some(t)
+    is_over(triangle, &normal, &place, &t.under).then_some(t)
 }
 
 fn first_on_side([a, b]: [&Vector; 2], [u, v]: [&Vector; 2]) -> Option<Fraction> {
@@ -193,6 +196,14 @@ fn first_on_side([a, b]: [&Vector; 2], [u, v]: [&Vector; 2]) -> Option<Fraction>
 pub fn meet(first: &Corners, second: &Corners) -> bool {
     let edges_meet = |of: &Corners, with: &Corners| {
         (0..3).any(|k| first_meeting(of[k], of[(k + 1) % 3], with).is_some())
+    };
+    edges_meet(first, second) || edges_meet(second, first)
+}
+
+/// As [`meet`], of corners in integers of one unit.
+pub(super) fn meet_exactly(first: &[Vector; 3], second: &[Vector; 3]) -> bool {
+    let edges_meet = |of: &[Vector; 3], with: &[Vector; 3]| {
+        sides(of).into_iter().any(|side| first_exactly(side, with).is_some())
     };
     edges_meet(first, second) || edges_meet(second, first)
 }

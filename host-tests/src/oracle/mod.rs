@@ -10,6 +10,7 @@ mod polyline;
 pub mod polytope;
 mod segment;
 mod winding;
+mod written;
 
 pub use between::{distance_of_meshes, distance_of_moved_triangles};
 pub use distance::{
@@ -19,3 +20,4 @@ pub use double::{Double, Vector};
 pub use polyline::distance_to_segments;
 pub use segment::{Contact, contacts, gap_to_triangle, meets};
 pub use winding::winding_number;
+pub use written::Around;

@@ -3,3 +3,4 @@
 mod hulls;
 mod margins;
 mod stored;
+mod written;

@@ -51,7 +51,9 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     tight makes tight hulls of --tight faces, as the command hull does, of any mesh. Each \
     encloses the mesh and stores the distance of its faces from it. Each takes some seconds. \
     --slack or --void makes one hull, with the fewest faces found that are as tight; if no hull \
-    is, nothing is written. With --margin hulls keep a distance from the mesh. Their answers are \
+    is, nothing is written. Hulls and triboxes hold the mesh as the file has it, before its \
+    vertices are rounded; levels of a hull hierarchy enclose the mesh as stored, and hull --level \
+    and refine move them off it. With --margin hulls keep a distance from the mesh. Their answers are \
     still about the mesh, with wider intervals. --tight-for closest leaves out the boxes for \
     segments and for overlap, about 2 bytes a face, which only the library asks.\n\n\
     deform takes a closed manifold mesh and its key frames, files with the same triangles in the \
@@ -344,6 +346,11 @@ pub const CULL: &str = "A leaf of up to eight triangles is kept or culled as a w
 pub const HULL: &str = "The hull of a mesh is closed, does not cross itself, and has every \
     triangle of the mesh strictly inside. Exact arithmetic on the written vertices proves it. The \
     mesh may be open, or loose triangles; cavities are filled.\n\n\
+    The mesh is that of the file: decimals and doubles count as they are written, but for a \
+    decimal whose nearest double is a single, which counts as that single. Vertices are rounded to \
+    single precision first, and the output tells by how much. Hulls of both kinds then keep that \
+    distance from the rounded mesh too. So does a mesh that --vertex-bits moves to a grid. Void \
+    and distances are those of the rounded mesh.\n\n\
     --faces gives the least volume found. A thin spike may stand out far, which --slack forbids. \
     --void and --slack search for few faces. That may take several times as long, and minutes \
     where the mesh is open, its parts touch, or a margin is asked for. If no hull is as tight, \
@@ -351,13 +358,14 @@ pub const HULL: &str = "The hull of a mesh is closed, does not cross itself, and
     asked for if the time was too short to remove them. With --parts each connected component has \
     a hull, each with the faces and the seconds that are asked for. Hulls of neighbours may \
     cross.\n\n\
-    With --margin all points within that distance of the mesh are inside, proved too, even of the \
-    mesh before its vertices were rounded. --void then counts the volume of the margin as well. \
+    With --margin all points within that distance of the mesh are inside, proved too. --void then counts the volume of the margin as well. \
     --slack is measured from the mesh with rounded vertices and must be more: twice the margin, \
     say, for corners stand off farther than walls.\n\n\
     --progressive gives the progressive hull, like the levels of a hull hierarchy. It is looser, \
     uses the mesh's own vertices where it can, and needs a closed manifold mesh. It may touch the \
-    mesh and itself. --effort lowers the volume, not the distance.\n\n\
+    mesh and itself. If vertices were rounded, it is moved off the mesh; if no such hull is proved \
+    to enclose the file's mesh, nothing is written. With --level a hull is moved in the same way, \
+    or the output tells by how much the file's mesh may stick out of it. --effort lowers the volume, not the distance.\n\n\
     Examples:\n  \
     meshsweep hull part.stl --faces 200 -o hull.ply\n  \
     meshsweep hull part.stl --slack 2.5 -o hull.ply\n  \
@@ -367,7 +375,9 @@ pub const HULL: &str = "The hull of a mesh is closed, does not cross itself, and
     meshsweep hull hulls.msw --tight 200 -o hull.ply";
 
 pub const REFINE: &str = "Of a blob built --for hull the mesh that is written is closed \
-    and encloses the part. Of one built --for sweep it lies near the part, is open where the part \
+    and encloses the part. If vertices of the mesh file were rounded or moved to a grid, the hull \
+    is moved off the stored mesh to enclose the file's; if that is not proved, the output tells by \
+    how much the file's may stick out. Of one built --for sweep it lies near the part, is open where the part \
     is, and encloses nothing. A face that meets the focus is no farther than --error from the \
     part of the mesh that it stands for. If memory is too short for that, the output prints the \
     largest error of the splits that were left out. Without a focus the whole hull is refined. \
@@ -408,7 +418,7 @@ pub const CUT: &str = "meshsweep info lists the levels. --level leaves the box t
 pub const TRIBOX: &str = "A tribox is the intersection of nine slabs, along the axes and the \
     diagonals of the coordinate planes: a box with chamfered edges. Each level holds the mesh, \
     and the inside of a closed mesh. Triboxes of a level do not overlap, unless --simplify moves \
-    their planes.\n\n\
+    their planes, or vertices were rounded. They then hold the mesh as the file has it.\n\n\
     'faces' counts the faces of all triboxes. 'compression' is the mesh's triangles divided by \
     them. 'void %' is the volume beside the solid. 'hull error' is how far a tribox reaches \
     beyond the convex hull of the triangles in it. 'largest distance' is from the union's \
@@ -425,10 +435,12 @@ pub const VERIFY: &str = "The proofs share no code with the builder and with que
     box tree        each triangle of the mesh is stored once within the error; boxes, normal cones \
     and moments hold all that is below them\n  \
     hull hierarchy  each level encloses the finer ones, radii cover, the finest surface is the \
-    mesh\n  \
+    mesh within the error\n  \
     key frames      each vertex is where the frame's mesh has it, radii may be interpolated\n  \
-    tight hulls     each encloses the mesh, and is as near as stated\n  \
-    triboxes        each level holds the mesh, and the inside of a solid\n  \
+    tight hulls     each encloses the mesh, and the file's triangles as they are written, and is \
+    as near as stated\n  \
+    triboxes        each level holds the mesh, the file's triangles as they are written, and the \
+    inside of a solid\n  \
     curve           each point is stored within the error and is in all its capsules\n\n\
     Integers decide planes, boxes, places and meetings. Radii and distances of surfaces are \
     compared in f64. A line says what was proved, what failed and where, or what there is no proof \

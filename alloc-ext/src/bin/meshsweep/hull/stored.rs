@@ -10,6 +10,7 @@ use meshsweep::hull::{enclosing_input, mesh_of, sticks_out_note};
 use meshsweep::mesh::{Mesh, write_ply};
 use meshsweep::number::{AtMost, Percent};
 use meshsweep::tight::hull_mesh;
+use meshsweep::tribox::volume;
 use meshsweep_core::Hull;
 
 /// Writes the finest tight hull of at most so many faces.
@@ -38,7 +39,13 @@ pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
         error: BuildError::NoLevel { wanted: index, levels },
     };
     let level = hierarchy.level(index).ok_or_else(no_level)?;
-    let (hull, note) = enclosing(&hierarchy, mesh_of(&hierarchy, hierarchy.faces(&level)));
+    let stored = mesh_of(&hierarchy, hierarchy.faces(&level));
+    let (hull, note) = enclosing(&hierarchy, stored.clone());
+    let void = f64::from(level.void_ratio);
+    let void = match hull == stored {
+        true => void,
+        false => (1.0 + void) * volume(&hull) / volume(&stored) - 1.0,
+    };
     Output::file(&args.output)?.finish(|out| write_ply(&hull, out))?;
     Output::stdout().finish(|out| {
         writeln!(
@@ -46,7 +53,7 @@ pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
             "{}: {}, {} % void space, level {index} of 0 to {}",
             args.output.display(),
             Counted(hull.triangles.len(), "face"),
-            Percent(f64::from(level.void_ratio) * 100.0),
+            Percent(void * 100.0),
             levels - 1
         )?;
         note.map_or(Ok(()), |note| writeln!(out, "  {note}"))
