@@ -18,6 +18,7 @@ mod info;
 mod overlap;
 mod queries;
 mod refine;
+mod rounding;
 mod support;
 mod tight;
 mod trade;

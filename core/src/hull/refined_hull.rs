@@ -17,8 +17,8 @@ use core::marker::PhantomData;
 ///
 /// [`update`](Self::update) refines and coarsens it around a [`Focus`](crate::Focus).
 /// [`Hull::outer_hits`] refines it along a segment. Every state is a closed mesh that encloses the
-/// surface, under the conditions that [`Hull::outer_hits`] names. Where the hierarchy does not
-/// [enclose](Hull::encloses) the surface, every state is a mesh near it, open where the surface is.
+/// stored surface, under the conditions that [`Hull::outer_hits`] names. Where the hierarchy does
+/// not [enclose](Hull::encloses) it, every state is a mesh near it, open where the surface is.
 /// A hull of *f* faces needs (*f* − base faces) / 2 splits. RAM: 16 bytes a split and 24 more,
 /// whatever the size of the hierarchy.
 ///

@@ -65,7 +65,11 @@ impl<'a> HullSearch<'a, '_> {
 
     /// Why there is no initial hull.
     pub(super) fn no_room(&self) -> BuildError {
-        if self.obstacle.margin() > 0.0 { BuildError::MarginTooLarge } else { BuildError::NoRoom }
+        if self.obstacle.has_wide_margin() {
+            BuildError::MarginTooLarge
+        } else {
+            BuildError::NoRoom
+        }
     }
 
     pub(super) fn is_late(&self) -> bool {

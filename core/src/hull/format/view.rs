@@ -237,8 +237,10 @@ impl Hull<'_> {
         self.header.flags & FLAG_CUT != 0
     }
 
-    /// Whether every level encloses the surface. The levels of a blob that was built with
-    /// `--for sweep` lie near the surface, on both sides of it. Its distances and hits are as true.
+    /// Whether every level encloses the surface as it is stored. The input may stick out by
+    /// [`surface_error`](Self::surface_error), where that is not 0. The levels of a blob that was
+    /// built with `--for sweep` lie near the surface, on both sides of it. Its distances and hits
+    /// are as true.
     #[inline(always)]
     pub fn encloses(&self) -> bool {
         self.header.flags & FLAG_SWEEP_ONLY == 0
