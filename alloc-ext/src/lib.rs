@@ -33,8 +33,8 @@
 //!
 //! A room uses those to its left in this line, and no other: `geom` ← `{emit, lp, mesh}` ←
 //! `progress` ← `surface` ← `{collapse, bvh, load}` ← `hausdorff` ← `{tight, tribox, curve}` ←
-//! `hull` ← `{cut, trade, builder}` ← the program. `trade` also uses the distance of `check`, and `worst`
-//! uses no room. A test keeps that (`host-tests/tests/house`).
+//! `hull` ← `{cut, trade, builder}` ← the program. `trade` also uses the distance of `check`, and
+//! `worst` uses no room. A test keeps that (`host-tests/tests/house`).
 
 pub mod builder;
 pub mod bvh;

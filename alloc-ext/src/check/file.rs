@@ -1,12 +1,10 @@
-//! Proof that tight hulls and triboxes hold the triangles of the file, from the file's own numbers:
-//! before any vertex was rounded to `f32` or merged, and before any triangle was dropped.
+//! The triangles of a file by its own numbers: before any vertex was rounded to `f32` or merged, and
+//! before any triangle was dropped.
 //!
 //! Coordinates are those that the reader gives, in `f64`. What lies between them and the file (the
 //! text's decimals, transforms, another unit) is a margin, which the proofs add.
 
 use super::enclosure::Surface;
-use super::finding::Finding;
-use super::{bytes, tight, triboxes};
 use crate::mesh::RawMesh;
 
 /// The triangles of a file, in a local frame.
@@ -39,25 +37,4 @@ fn error(raw: &RawMesh) -> f64 {
     let largest = coordinates().fold(0f64, |most, x| most.max(x.abs()));
     // √3 halves of 2^-52 are less than one. Below the normal numbers the unit is absolute.
     (raw.error + f64::EPSILON * largest + 2.0 * f64::from_bits(1)).next_up()
-}
-
-/// Proves that a blob's tight hulls and triboxes hold every triangle of the file, as it is written.
-/// A hull hierarchy makes no claim of the file: its levels enclose the surface as stored, and its
-/// surface error says how far that is from the file's.
-///
-/// The bytes must open, by [`Blob::open`](meshsweep_core::Blob::open).
-///
-/// # Panics
-/// It may, if the bytes do not open.
-#[must_use]
-pub fn verify_file(bytes: &[u8], raw: &RawMesh) -> Vec<Finding> {
-    let kinds: Vec<u32> = bytes::entries(bytes).iter().map(|entry| entry.kind).collect();
-    let mut out = Vec::new();
-    if kinds.contains(&19) {
-        out.push(triboxes::verify_file(bytes, raw));
-    }
-    if kinds.contains(&20) {
-        out.push(tight::verify_file(bytes, raw));
-    }
-    out
 }

@@ -7,7 +7,7 @@
 //! | `tree`, `hull`, `tight`, `triboxes`, `curve` | the claims of one structure each |
 //! | `repair` | that a mesh is that of its file |
 //! | `enclosure` | that a hull encloses a mesh |
-//! | `file` | that hulls and triboxes hold the file's triangles, before they were rounded |
+//! | `file` | the file's triangles, before they were rounded, for proofs that hulls hold them |
 //! | `input` | that stored corners are those of the mesh |
 //! | `near` | that all points of a triangle are near a surface |
 //! | `planar` | convex polygons cut in exact arithmetic |
@@ -37,10 +37,9 @@ pub mod vector;
 mod verify;
 
 pub(crate) use distance::distance;
-pub use file::verify_file;
 pub use finding::{Finding, Outcome};
 pub use repair::verify_repair;
-pub use verify::{Against, verify};
+pub use verify::{Against, verify, verify_file};
 
 #[doc(hidden)]
 pub use bytes::{Entry, crc32, entries, word};

@@ -4,7 +4,7 @@ use super::bytes::{check_header, entries, section};
 use super::finding::Finding;
 use super::tree::prove_tree;
 use super::{curve, hull, tight, triboxes};
-use crate::mesh::{Input, KeyFrame};
+use crate::mesh::{Input, KeyFrame, RawMesh};
 
 const BYTES: &str = "blob";
 const TREE: &str = "box tree";
@@ -73,6 +73,27 @@ pub fn verify(bytes: &[u8], against: Against<'_>) -> Vec<Finding> {
     }
     if out.is_empty() {
         out.push(Finding::not_proved(BYTES, "it has no structure".to_owned()));
+    }
+    out
+}
+
+/// Proves that a blob's tight hulls and triboxes hold every triangle of the file, as it is written.
+/// A hull hierarchy makes no claim of the file: its levels enclose the surface as stored, and its
+/// surface error says how far that is from the file's.
+///
+/// The bytes must open, by [`Blob::open`](meshsweep_core::Blob::open).
+///
+/// # Panics
+/// It may, if the bytes do not open.
+#[must_use]
+pub fn verify_file(bytes: &[u8], raw: &RawMesh) -> Vec<Finding> {
+    let kinds: Vec<u32> = entries(bytes).iter().map(|entry| entry.kind).collect();
+    let mut out = Vec::new();
+    if kinds.contains(&19) {
+        out.push(triboxes::verify_file(bytes, raw));
+    }
+    if kinds.contains(&20) {
+        out.push(tight::verify_file(bytes, raw));
     }
     out
 }
