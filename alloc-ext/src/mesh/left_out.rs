@@ -5,7 +5,7 @@ use std::fmt;
 use super::polygons::NamedFaces;
 use crate::counted::Counted;
 
-/// Parts of a file that a reader leaves out or doubts.
+/// Parts of a file that a reader leaves out, doubts, or takes for what they were once.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LeftOut {
     /// Triangles of strips with a repeated corner: they join strips and have no surface.
@@ -63,9 +63,12 @@ impl LeftOut {
     pub(super) fn instead(&self) -> Option<String> {
         let lines = Counted(self.lines_and_points, "primitive");
         let lines = (self.lines_and_points > 0).then(|| format!("{lines} of points or lines"));
+        let stitches = Counted(self.stitches, "triangle");
+        let stitches =
+            (self.stitches > 0).then(|| format!("{stitches} of strips with a repeated corner"));
         let small = "of fewer than three corners";
         let others = self.remarks.first().map(Remark::to_string);
-        others.or(lines).or_else(|| self.small_faces.said("face", small))
+        others.or(lines).or_else(|| self.small_faces.said("face", small)).or(stitches)
     }
 }
 

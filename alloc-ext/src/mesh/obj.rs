@@ -45,6 +45,8 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
 enum Kind {
     Vertex,
     Face,
+    /// The name of a face in the format's first version.
+    OldFace,
     LineOrPoint,
     /// Geometry that is left out: what it is.
     Other(&'static str),
@@ -64,7 +66,8 @@ impl Kind {
         };
         match keyword {
             "v" => Self::Vertex,
-            "f" | "fo" => Self::Face,
+            "f" => Self::Face,
+            "fo" => Self::OldFace,
             "l" | "p" => Self::LineOrPoint,
             "surf" => Self::Other("surf (a free-form surface) left out"),
             "curv" => Self::Other("curv (a free-form curve) left out"),
@@ -93,7 +96,7 @@ struct Obj<'a> {
     positions: Vec<[f64; 3]>,
     faces: Faces,
     /// The number of the next face, from 1, as everything in such a file.
-    face: usize,
+    next_face: usize,
     corners: Vec<u32>,
     /// The largest vertex that a face names, its line and the face. OBJ lets a face name a vertex
     /// that comes later in the file, so ranges are checked against the final count.
@@ -108,7 +111,7 @@ impl<'a> Obj<'a> {
             line: 0,
             positions: Vec::new(),
             faces: Faces::default(),
-            face: 1,
+            next_face: 1,
             corners: Vec::new(),
             highest: None,
             left_out: LeftOut::default(),
@@ -124,17 +127,10 @@ impl<'a> Obj<'a> {
                 let vertex = self.positions.len() + 1;
                 self.positions.push(point(self.file, line, vertex, &mut words)?);
             }
-            Kind::Face => {
-                self.corners.clear();
-                for word in words {
-                    let vertex = self.index(word)?;
-                    if self.highest.is_none_or(|(most, ..)| vertex > most) {
-                        self.highest = Some((vertex, line, self.face));
-                    }
-                    self.corners.push(vertex);
-                }
-                self.faces.add(&self.corners, FacePlace { face: self.face, line: Some(line) });
-                self.face += 1;
+            Kind::Face => self.face(words)?,
+            Kind::OldFace => {
+                self.left_out.remark("statement", "fo read as f", || format!("line {line}"));
+                self.face(words)?;
             }
             Kind::LineOrPoint => self.left_out.lines_and_points += 1,
             Kind::Other(what) => {
@@ -157,6 +153,21 @@ impl<'a> Obj<'a> {
         Ok(())
     }
 
+    fn face<'b>(&mut self, words: impl Iterator<Item = &'b str>) -> Result<(), MeshError> {
+        let line = self.line;
+        self.corners.clear();
+        for word in words {
+            let vertex = self.index(word)?;
+            if self.highest.is_none_or(|(most, ..)| vertex > most) {
+                self.highest = Some((vertex, line, self.next_face));
+            }
+            self.corners.push(vertex);
+        }
+        self.faces.add(&self.corners, FacePlace { face: self.next_face, line: Some(line) });
+        self.next_face += 1;
+        Ok(())
+    }
+
     /// The vertex (from 0) that a word of a face names.
     fn index(&self, word: &str) -> Result<u32, MeshError> {
         let vertex_count = self.positions.len();
@@ -164,7 +175,7 @@ impl<'a> Obj<'a> {
         let index: i64 = number.parse().map_err(|_| MeshError::Malformed {
             file: self.file.to_owned(),
             line: Some(self.line),
-            place: format!("face {}", self.face),
+            place: format!("face {}", self.next_face),
             reason: format!("{} does not name a vertex", quoted(word)),
         })?;
         let from_zero = match index {
@@ -175,7 +186,7 @@ impl<'a> Obj<'a> {
         from_zero.and_then(|v| u32::try_from(v).ok()).ok_or_else(|| MeshError::IndexOutOfRange {
             file: self.file.to_owned(),
             line: Some(self.line),
-            face: self.face,
+            face: self.next_face,
             index,
             vertex_count,
         })

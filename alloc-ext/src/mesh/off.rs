@@ -8,7 +8,7 @@
 use std::path::Path;
 
 use super::polygons::{FacePlace, Faces, Split};
-use super::text::{Words, decoded, lines, point, quoted, without_comment};
+use super::text::{Words, decoded, lines, point, quoted, whole, without_comment};
 use super::{LeftOut, MeshError, RawMesh};
 
 /// Reads `OFF` and its variants with normals, colours and texture coordinates (`COFF`, `NOFF`,
@@ -16,22 +16,26 @@ use super::{LeftOut, MeshError, RawMesh};
 /// surface and are counted.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let text = decoded(bytes);
-    let by_lines = open(file, &text)?.read(Layout { vertices: true, faces: true });
-    if by_lines.as_ref().is_ok_and(|raw| raw.left_out.bytes_after_end == 0) {
+    let by_lines = open(file, &text)?.read(Breaks::Strict, Breaks::Strict);
+    let fits = |raw: &RawMesh| raw.left_out.bytes_after_end == 0;
+    if by_lines.as_ref().is_ok_and(fits) {
         return by_lines;
     }
-    let others = [(false, true), (true, false), (false, false)];
-    let fits = others.into_iter().find_map(|(vertices, faces)| {
-        let raw = open(file, &text).ok()?.read(Layout { vertices, faces }).ok()?;
-        (raw.left_out.bytes_after_end == 0).then_some(raw)
-    });
-    fits.map_or(by_lines, Ok)
+    let all = [Breaks::Strict, Breaks::Loose, Breaks::None];
+    let others = all.iter().flat_map(|&vertices| all.map(|faces| (vertices, faces))).skip(1);
+    let read = |(vertices, faces)| open(file, &text).ok()?.read(vertices, faces).ok().filter(fits);
+    others.into_iter().find_map(read).map_or(by_lines, Ok)
 }
 
-/// Whether all that follows a vertex or a face on its last line belongs to it.
-struct Layout {
-    vertices: bool,
-    faces: bool,
+/// What line breaks mean.
+#[derive(Clone, Copy, PartialEq)]
+enum Breaks {
+    /// One vertex or one face has a line, whatever follows on it.
+    Strict,
+    /// It may have several lines, and what follows on the last of them.
+    Loose,
+    /// Nothing.
+    None,
 }
 
 /// A file whose header is read.
@@ -85,8 +89,8 @@ fn open<'a>(
 }
 
 impl<'a, L: Iterator<Item = (usize, &'a str)>> Reading<'a, L> {
-    fn read(mut self, layout: Layout) -> Result<RawMesh, MeshError> {
-        if layout.vertices {
+    fn read(mut self, of_vertices: Breaks, of_faces: Breaks) -> Result<RawMesh, MeshError> {
+        if of_vertices != Breaks::None {
             self.words.skip_to("");
         }
         let mut positions: Vec<[f64; 3]> = Vec::new();
@@ -97,12 +101,13 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Reading<'a, L> {
                 return Err(self.ends_early("vertex", self.vertices, vertex));
             };
             let line = self.words.line;
-            let mut rest = std::iter::once(first).chain(&mut self.words);
+            let words = std::iter::from_fn(|| next(&mut self.words, of_vertices));
+            let mut rest = std::iter::once(first).chain(words);
             positions.push(point(self.file, line, vertex, &mut rest)?);
-            if layout.vertices {
-                self.words.skip_to("");
-            } else {
+            if of_vertices == Breaks::None {
                 self.words.by_ref().take(self.others).for_each(drop);
+            } else {
+                self.words.skip_to("");
             }
         }
         let mut surface = Faces::default();
@@ -118,14 +123,14 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Reading<'a, L> {
                 place: format!("face {face}"),
                 reason,
             };
-            let size: usize = size
-                .parse()
-                .map_err(|_| malformed(format!("{} is no number of corners", quoted(size))))?;
+            let size = whole(size)
+                .and_then(|size| usize::try_from(size).ok())
+                .ok_or_else(|| malformed(format!("{} is no number of corners", quoted(size))))?;
             corners.clear();
-            for word in self.words.by_ref().take(size) {
-                let index: i64 = word
-                    .parse()
-                    .map_err(|_| malformed(format!("{} does not name a vertex", quoted(word))))?;
+            let words = std::iter::from_fn(|| next(&mut self.words, of_faces));
+            for word in words.take(size) {
+                let index = whole(word)
+                    .ok_or_else(|| malformed(format!("{} does not name a vertex", quoted(word))))?;
                 let vertex = u32::try_from(index).ok().filter(|&v| (v as usize) < positions.len());
                 corners.push(vertex.ok_or_else(|| MeshError::IndexOutOfRange {
                     file: self.file.to_owned(),
@@ -138,7 +143,7 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Reading<'a, L> {
             if corners.len() < size {
                 return Err(malformed(format!("{} of {size} corners are there", corners.len())));
             }
-            if layout.faces {
+            if of_faces != Breaks::None {
                 self.words.skip_to("");
             }
             surface.add(&corners, FacePlace { face, line: Some(line) });
@@ -161,6 +166,14 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Reading<'a, L> {
             found: found as u64,
         }
     }
+}
+
+/// The next word of a vertex or a face.
+fn next<'a>(
+    words: &mut Words<'a, impl Iterator<Item = (usize, &'a str)>>,
+    breaks: Breaks,
+) -> Option<&'a str> {
+    if breaks == Breaks::Strict { words.next_on_line() } else { words.next() }
 }
 
 /// The first word of a file.

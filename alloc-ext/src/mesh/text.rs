@@ -72,6 +72,11 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Words<'a, L> {
         self.rest.split_ascii_whitespace().next()
     }
 
+    /// The next word, if the line has another.
+    pub(super) fn next_on_line(&mut self) -> Option<&'a str> {
+        self.peek().and_then(|_| self.next())
+    }
+
     /// Goes to the end of the line, or to `rest` of it.
     pub(super) fn skip_to(&mut self, rest: &'a str) {
         self.rest = rest;
@@ -122,6 +127,13 @@ pub(super) fn not_finite(word: &str) -> Option<f64> {
 /// A word as a number, or why it is none.
 pub(super) fn number(word: &str) -> Result<f64, String> {
     word.parse().or_else(|_| not_finite(word).ok_or_else(|| why_no_number(word)))
+}
+
+/// A whole number. Some programs write all numbers alike, as `3.000e+00`.
+pub(super) fn whole(word: &str) -> Option<i64> {
+    const MOST: f64 = (1u64 << 53) as f64;
+    let real = || word.parse().ok().filter(|x: &f64| x.fract() == 0.0 && x.abs() <= MOST);
+    word.parse().ok().or_else(|| real().map(|x| x as i64))
 }
 
 pub(super) fn why_no_number(word: &str) -> String {
@@ -198,6 +210,8 @@ mod tests {
         assert!(why("1,5").contains("has a comma"), "{}", why("1,5"));
         assert_eq!(why("l0"), "\"l0\" is not a number");
         assert!(why(&"\u{0}".repeat(1000)).len() < 300);
+        let wholes = ["3", "3.000e+00", "-1.0", "3.5", "x", "1e300", "nan"].map(whole);
+        assert_eq!(wholes, [Some(3), Some(3), Some(-1), None, None, None, None]);
         for word in ["-1.#IND", "1.#QNAN", "nan", "NaN", "-nan(ind)", "1.#INF", "-inf", "Infinity"]
         {
             assert!(number(word).is_ok_and(|x| !x.is_finite()), "{word}");

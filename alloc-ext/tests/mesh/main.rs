@@ -1,5 +1,6 @@
 //! Mesh files: reading and repair.
 
+mod collada;
 mod formats;
 mod orientation;
 mod polygons;

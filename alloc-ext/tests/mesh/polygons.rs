@@ -198,6 +198,42 @@ fn no_triangle_of_a_star_polygon_in_any_plane_is_turned_over_and_none_is_missing
 }
 
 #[test]
+fn antennas_of_a_polygon_keep_to_its_outline() {
+    let sequence = &mut Sequence(7);
+    for _ in 0..300 {
+        let plain = star(sequence);
+        let mut outline = plain.clone();
+        for _ in 0..=sequence.below(3) {
+            let foot = sequence.below(outline.len() as i64) as usize;
+            let far = |sequence: &mut Sequence| {
+                I64Vec2::new(sequence.below(4001) - 2000, sequence.below(4001) - 2000)
+            };
+            let (tip, bend) = (far(sequence), far(sequence));
+            let at = outline[foot];
+            let antenna = match sequence.below(3) {
+                0 => vec![tip, at],
+                1 => vec![bend, tip, bend, at],
+                // Along the next side, and back over it.
+                _ => {
+                    let side = outline[(foot + 1) % outline.len()] - at;
+                    vec![at + side * 2]
+                }
+            };
+            outline.splice(foot + 1..foot + 1, antenna);
+        }
+        let positions: Vec<[i64; 3]> = outline.iter().map(|p| [p.x, p.y, 0]).collect();
+        let raw = &in_all_formats(&positions, &[(0..outline.len()).collect()])[0];
+        assert_eq!(raw.polygons.unsound.count, 0, "{outline:?}");
+        let at = |v: u32| outline[v as usize];
+        let areas: Vec<i64> = raw.triangles.iter().map(|t| twice_area(t.map(at))).collect();
+        let edges = plain.iter().zip(plain.iter().cycle().skip(1));
+        let whole: i64 = edges.map(|(p, q)| p.perp_dot(*q)).sum();
+        assert!(areas.iter().all(|&area| area >= 0), "{outline:?}: {areas:?}");
+        assert_eq!((areas.len(), areas.iter().sum::<i64>()), (outline.len() - 2, whole));
+    }
+}
+
+#[test]
 fn a_bridge_to_a_hole_and_corners_on_straight_sides_are_split_by_ears() {
     // A square with a square hole, and a comb with corners on its straight back.
     let holed: &[[i64; 2]] =

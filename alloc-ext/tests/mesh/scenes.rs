@@ -198,7 +198,11 @@ fn gltf_refusals_name_node_mesh_or_accessor() {
         (r#"{"mesh":0}"#, r#"{"mesh":7}"#, "node 0: it names 7 of 1 meshes"),
         (r#"{"mesh":0}"#, r#"{"children":[0]}"#, "node 0: it has two parents"),
         (r#"{"mesh":0}"#, r#"{"scale":[1,2]}"#, "node 0: scale has not 3 numbers"),
-        (r#"{"mesh":0}"#, r#"{"rotation":[1,1,0,0]}"#, "node 0: its rotation is no unit quat"),
+        (
+            r#"{"mesh":0}"#,
+            r#"{"rotation":[1,1,0,0]}"#,
+            "node 0: its rotation is no unit quaternion, its length is 1.414214",
+        ),
         (
             r#"{"mesh":0}"#,
             r#"{"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,2]}"#,
@@ -219,6 +223,123 @@ fn gltf_refusals_name_node_mesh_or_accessor() {
     let whole = glb(&json, &binary);
     let error = parse("a.glb", &whole[..whole.len() - 1]).unwrap_err();
     assert!(matches!(error, MeshError::Truncated { .. }), "{error}");
+}
+
+#[test]
+fn quaternions_near_length_one_are_used_and_named_unless_they_are_rounded_only() {
+    for (rotation, remarks) in
+        [("0,0,0.70710677,0.70710677", 0), ("0,0,0.707,0.707", 1), ("0,0,0.71,0.71", 1)]
+    {
+        let nodes = format!(r#","nodes":[{{"mesh":0,"rotation":[{rotation}]}}]"#);
+        let (json, binary) = gltf_of(&TRIANGLE, &[0, 1, 2], 4, &nodes);
+        let raw = parse("a.glb", glb(&json, &binary)).unwrap();
+        assert_eq!(raw.left_out.remarks.len(), remarks, "{rotation}");
+        if let [remark] = &raw.left_out.remarks[..] {
+            let said = remark.to_string();
+            let wanted = "1 quaternion of a length other than 1, used as written: node 0, ";
+            assert!(said.starts_with(wanted), "{said}");
+        }
+    }
+}
+
+/// A triangle whose accessors are sparse: corner 2 and index 0 are replaced.
+fn sparse(more: &str) -> Result<RawMesh, MeshError> {
+    let mut buffer: Vec<u8> = TRIANGLE.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    buffer.extend([9, 1, 2, 0]);
+    buffer.extend([0.0f32, 5.0, 0.0].iter().flat_map(|x| x.to_le_bytes()));
+    buffer.extend([2, 0, 0, 0]);
+    let json = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":56}],
+        "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":4},
+        {"buffer":0,"byteOffset":40,"byteLength":12},{"buffer":0,"byteOffset":52,"byteLength":4}],
+        "accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3,"sparse":{"count":1,
+        "indices":{"bufferView":3,"componentType":5121},"values":{"bufferView":2}}},
+        {"bufferView":1,"componentType":5121,"type":"SCALAR","count":3,"sparse":{"count":1,
+        "indices":{"bufferView":3,"byteOffset":1,"componentType":5121},
+        "values":{"bufferView":3,"byteOffset":1}}}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+        "nodes":[{"mesh":0}]}"#;
+    let (from, to) = more.split_once('|').unwrap_or(("{\"asset\"", "{\"asset\""));
+    assert!(json.contains(from), "{from}");
+    parse("a.glb", glb(&json.replacen(from, to, 1), &buffer))
+}
+
+#[test]
+fn sparse_accessors_are_read_and_their_defects_named() {
+    let raw = sparse("").unwrap();
+    let wanted = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 5.0, 0.0]];
+    assert_eq!(corners(&raw), [wanted]);
+    // Without a view the others are zeros.
+    let raw = sparse(r#""bufferView":0,"componentType"|"componentType""#).unwrap();
+    assert_eq!(corners(&raw), [[[0.0; 3], [0.0; 3], [0.0, 5.0, 0.0]]]);
+    for (change, wanted) in [
+        (r#""count":1,|"count":2,"#, "accessor 0, sparse: 2 elements reach beyond its buffer"),
+        (
+            r#""count":3,"sparse"|"count":2,"sparse""#,
+            "accessor 0, sparse: its indices name element 2 of 2",
+        ),
+        (
+            r#""componentType":5121},"values":{"bufferView":2|"componentType":5126},"values":{"bufferView":2"#,
+            "accessor 0, sparse: its indices are of no whole type",
+        ),
+        (
+            r#""bufferView":0,"componentType":5126,"type":"VEC3","count":3|"componentType":5126,"type":"VEC3","count":99999999999"#,
+            "accessor 0: it has 99999999999 elements of a sparse accessor; 16777216 are read",
+        ),
+    ] {
+        let error = sparse(change).unwrap_err().to_string();
+        assert!(error.contains(wanted), "{error}");
+    }
+}
+
+#[test]
+fn chunks_of_glb_may_be_filled_with_zeros_or_not_at_all() {
+    let (json, binary) = gltf_of(&TRIANGLE, &[0, 1, 2], 4, "");
+    let whole = parse("a.glb", glb(&json, &binary)).unwrap();
+    for (counted, filled) in [("\0", ""), ("\0\0\0", ""), ("", "\0\0"), ("", "   "), ("", "")] {
+        let json = format!("{json}{counted}");
+        let chunk = |kind: &[u8; 4], content: &[u8]| {
+            [&(content.len() as u32).to_le_bytes(), &kind[..], content].concat()
+        };
+        let chunks =
+            [&chunk(b"JSON", json.as_bytes())[..], filled.as_bytes(), &chunk(b"BIN\0", &binary)];
+        let chunks = chunks.concat();
+        let length = 12 + chunks.len() as u32;
+        let file = [&b"glTF"[..], &2u32.to_le_bytes(), &length.to_le_bytes(), &chunks].concat();
+        let raw =
+            parse("a.glb", file.clone()).unwrap_or_else(|e| panic!("{e}: {counted:?} {filled:?}"));
+        assert_eq!(raw.triangles, whole.triangles);
+        let cut = file[..file.len() - binary.len() - 8].to_vec();
+        assert!(matches!(parse("a.glb", cut), Err(MeshError::Truncated { .. })));
+    }
+}
+
+#[test]
+fn threemf_parts_that_cura_names_as_no_solid_are_left_out() {
+    for (value, count) in [("True", 1), ("False", 2)] {
+        let metadata = format!(
+            r#"<metadatagroup><metadata name="cura:infill_mesh">{value}</metadata></metadatagroup>"#
+        );
+        let model =
+            model_of(&TRIANGLE, &[[0, 1, 2]], r#"<item objectid="1"/><item objectid="2"/>"#);
+        let begin = model.find("<object").unwrap();
+        let end = model.find("</resources>").unwrap();
+        let object = model[begin..end].replacen("<mesh>", &format!("{metadata}<mesh>"), 1);
+        let other = object.replacen("id=\"1\"", "id=\"2\"", 1).replace(&metadata, "");
+        let model = format!("{}{object}{other}{}", &model[..begin], &model[end..]);
+        let raw = parse("a.3mf", threemf(&model)).unwrap();
+        assert_eq!(
+            (raw.triangles.len(), raw.left_out.remarks.len()),
+            (count, 2 - count),
+            "{value}"
+        );
+    }
+}
+
+#[test]
+fn threemf_of_parts_that_are_left_out_only_says_so() {
+    let model = model_of(&TRIANGLE, &[[0, 1, 2]], r#"<item objectid="1" printable="0"/>"#);
+    let error = parse("a.3mf", threemf(&model)).unwrap_err().to_string();
+    assert!(error.contains("(1 item not to be printed left out: item 0 of the build"), "{error}");
 }
 
 #[test]

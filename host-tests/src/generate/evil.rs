@@ -1,5 +1,7 @@
 //! Files that a reader must refuse or mend, each with the outcome that it must have.
 
+mod readers;
+
 use super::writers::{ascii_ply, ascii_stl, binary_ply, binary_stl, obj, ply_header};
 use super::{Triangles, block, cube, inverted, joined, scaled, torus};
 
@@ -33,6 +35,7 @@ pub fn evil() -> Vec<Evil> {
     let mut all = unreadable();
     all.extend(no_solid());
     all.extend(mendable());
+    all.extend(readers::files());
     all.sort_by_key(|e| e.name);
     all
 }

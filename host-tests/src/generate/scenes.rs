@@ -38,28 +38,50 @@ pub fn glb((positions, triangles): &Triangles) -> Vec<u8> {
 /// # Panics
 /// Never: writing to memory does not fail.
 #[must_use]
-pub fn threemf((positions, triangles): &Triangles) -> Vec<u8> {
+pub fn threemf(mesh: &Triangles) -> Vec<u8> {
+    let model = threemf_model(
+        &[(1, "", mesh)],
+        r#"<object id="2"><components><component objectid="1"/></components></object>"#,
+        r#"<item objectid="2" transform="0 1 0 -1 0 0 0 0 1 2 3 4"/>"#,
+    );
+    threemf_archive(&model, &[])
+}
+
+/// A model of 3MF in inches: objects of meshes, each with its number and further attributes, other
+/// objects and items as XML.
+#[must_use]
+pub fn threemf_model(meshes: &[(u32, &str, &Triangles)], objects: &str, items: &str) -> String {
     let mut model = String::from(
         r#"<model unit="inch" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
-        <resources><object id="1"><mesh><vertices>"#,
+        <resources>"#,
     );
-    for [x, y, z] in positions.iter().map(|p| p.map(f64::from)) {
-        let _ = write!(model, r#"<vertex x="{x}" y="{y}" z="{z}"/>"#);
+    for (id, attributes, (positions, triangles)) in meshes {
+        let _ = write!(model, r#"<object id="{id}" {attributes}><mesh><vertices>"#);
+        for [x, y, z] in positions.iter().map(|p| p.map(f64::from)) {
+            let _ = write!(model, r#"<vertex x="{x}" y="{y}" z="{z}"/>"#);
+        }
+        model.push_str("</vertices><triangles>");
+        for [a, b, c] in triangles {
+            let _ = write!(model, r#"<triangle v1="{a}" v2="{b}" v3="{c}"/>"#);
+        }
+        model.push_str("</triangles></mesh></object>");
     }
-    model.push_str("</vertices><triangles>");
-    for [a, b, c] in triangles {
-        let _ = write!(model, r#"<triangle v1="{a}" v2="{b}" v3="{c}"/>"#);
-    }
-    model.push_str(
-        r#"</triangles></mesh></object><object id="2"><components><component objectid="1"/>
-        </components></object></resources><build>
-        <item objectid="2" transform="0 1 0 -1 0 0 0 0 1 2 3 4"/></build></model>"#,
-    );
+    let _ = write!(model, "{objects}</resources><build>{items}</build></model>");
+    model
+}
+
+/// An archive of a model and further files.
+///
+/// # Panics
+/// Never: writing to memory does not fail.
+#[must_use]
+pub fn threemf_archive(model: &str, files: &[(&str, &str)]) -> Vec<u8> {
     let relationships = r#"<Relationships><Relationship Target="/3D/3dmodel.model"
         Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>"#;
     let mut bytes = Vec::new();
     let mut archive = rawzip::ZipArchiveWriter::new(&mut bytes);
-    for (name, text) in [("_rels/.rels", relationships), ("3D/3dmodel.model", &model)] {
+    let first = [("_rels/.rels", relationships), ("3D/3dmodel.model", model)];
+    for (name, text) in first.iter().chain(files) {
         let (mut entry, config) = archive.new_file(name).start().expect("a name");
         let mut writer = config.wrap(&mut entry);
         writer.write_all(text.as_bytes()).expect("memory");

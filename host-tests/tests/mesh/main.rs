@@ -5,3 +5,4 @@ mod fixtures;
 mod generators;
 mod hausdorff;
 mod hostile;
+mod readers;

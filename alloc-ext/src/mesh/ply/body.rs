@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::super::MeshError;
-use super::super::text::{Words, not_finite, quoted, why_no_number};
+use super::super::text::{Words, not_finite, quoted, whole, why_no_number};
 use super::header::{Element, Encoding, Scalar};
 
 /// What a property is read for.
@@ -27,8 +27,10 @@ pub(super) struct Values {
 pub(super) struct Body<'a, L> {
     pub(super) file: &'a Path,
     pub(super) encoding: Encoding,
-    /// In text each element begins a line, as the format wants it. Else values are read on.
+    /// In text each element has a line, as the format wants it. Else line breaks mean nothing.
     pub(super) by_lines: bool,
+    /// A word of the element was read.
+    pub(super) is_begun: bool,
     pub(super) words: Words<'a, L>,
     /// The text does not end with a line's end.
     pub(super) may_be_cut: bool,
@@ -59,6 +61,7 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Body<'a, L> {
         values: &mut Values,
     ) -> Result<(), MeshError> {
         values.corners.clear();
+        self.is_begun = false;
         for (property, &role) in element.properties.iter().zip(roles) {
             let done = match property.length {
                 None => self.one(property.scalar, role, values),
@@ -101,6 +104,10 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Body<'a, L> {
     }
 
     fn word(&mut self) -> Result<&'a str, Defect> {
+        if std::mem::replace(&mut self.is_begun, true) && self.by_lines {
+            let few = || Defect::Value("the line has fewer values than the header says".into());
+            return self.words.next_on_line().ok_or_else(few);
+        }
         self.words.next().ok_or(Defect::End)
     }
 
@@ -144,7 +151,7 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Body<'a, L> {
             return self.binary(scalar).map(|number| number.as_i64());
         }
         let word = self.word()?;
-        word.parse().map_err(|_| Defect::Value(format!("{} is no whole number", quoted(word))))
+        whole(word).ok_or_else(|| Defect::Value(format!("{} is no whole number", quoted(word))))
     }
 
     fn binary(&mut self, scalar: Scalar) -> Result<Number, Defect> {

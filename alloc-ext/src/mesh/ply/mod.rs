@@ -38,7 +38,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     if by_lines.as_ref().is_ok_and(fits) {
         return by_lines;
     }
-    // Several elements may be on a line.
+    // Some programs break lines elsewhere.
     read_body(file, &header, text, false).ok().filter(fits).map_or(by_lines, Ok)
 }
 
@@ -53,6 +53,7 @@ fn read_body(
         file,
         encoding: header.encoding,
         by_lines,
+        is_begun: false,
         words: Words::new(numbered),
         may_be_cut: !text.ends_with(['\n', '\r']),
         rest: header.body,

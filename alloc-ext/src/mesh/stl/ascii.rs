@@ -106,6 +106,8 @@ struct Facets<'a> {
     /// Number of the next facet, and of the next vertex.
     number: usize,
     vertex: usize,
+    /// Number of the solid's first facet.
+    first: usize,
     /// A solid or a facet was there.
     is_stl: bool,
     is_in_solid: bool,
@@ -132,6 +134,7 @@ impl<'a> Facets<'a> {
             line: 1,
             number: 0,
             vertex: 0,
+            first: 0,
             is_stl: false,
             is_in_solid: false,
             facet: None,
@@ -155,10 +158,12 @@ impl<'a> Facets<'a> {
         if self.facet.is_some() {
             return Err(self.malformed("a solid starts inside a facet"));
         }
-        if std::mem::replace(&mut self.is_in_solid, true) {
+        // A line before the solid may begin with the word too.
+        if std::mem::replace(&mut self.is_in_solid, true) && self.number > self.first {
             return Err(self.malformed("a solid starts, and the one before has no endsolid"));
         }
         self.is_stl = true;
+        self.first = self.number;
         Ok(())
     }
 

@@ -97,7 +97,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             return Err(malformed("the triangles".into(), reason));
         }
     };
-    if places.is_empty() && after > 0 {
+    if places.is_empty() && room > 0 {
         let reason = format!("it is 0, and {after} bytes follow, as of {room} triangles");
         return Err(malformed("the count".into(), reason));
     }
