@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 /// What a blob is built from.
 pub(super) enum Input<'a> {
     File(&'a Path),
-    Mesh(RawMesh),
+    Mesh(Box<RawMesh>),
     Curves(&'a [Polyline]),
 }
 
@@ -30,7 +30,7 @@ pub(super) enum Input<'a> {
 #[derive(Debug)]
 pub(super) enum Frame {
     File(PathBuf),
-    Mesh(RawMesh),
+    Mesh(Box<RawMesh>),
 }
 
 // Weights of the parts of a build: about their times for a large mesh.
@@ -70,7 +70,7 @@ pub(super) fn build(
         Input::File(file) if options.is_curve(subject) => work.curve_of(file),
         Input::Curves(polylines) => work.curves(Path::new("(memory)"), polylines),
         Input::File(file) => work.mesh(|unit| Source::of_file(file, unit), frames),
-        Input::Mesh(mesh) => work.mesh(|unit| Source::of(mesh, unit), frames),
+        Input::Mesh(mesh) => work.mesh(|unit| Source::of(*mesh, unit), frames),
     }?;
     if work.progress.show(Stage::Done, 1.0) { Ok(built) } else { Err(BuildError::Cancelled) }
 }
@@ -221,7 +221,7 @@ fn load(
     if options.serves(For::Deform) {
         let frames = frames.into_iter().map(|frame| match frame {
             Frame::File(file) => Source::of_file(&file, options.unit),
-            Frame::Mesh(mesh) => Source::of(mesh, options.unit),
+            Frame::Mesh(mesh) => Source::of(*mesh, options.unit),
         });
         let (loaded, keys) = source.deformable(frames)?;
         return Ok((loaded, Some(keys)));

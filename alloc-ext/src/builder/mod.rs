@@ -154,7 +154,7 @@ impl<'a> Builder<'a> {
     /// Adds a key frame for [`For::Deform`]: a mesh with the same triangles, which the first one
     /// deforms to.
     pub fn frame(mut self, mesh: RawMesh) -> Self {
-        self.frames.push(Frame::Mesh(mesh));
+        self.frames.push(Frame::Mesh(Box::new(mesh)));
         self
     }
 
@@ -218,7 +218,7 @@ impl<'a> Builder<'a> {
     /// # Errors
     /// Those of [`build_file`](Self::build_file), but for reading.
     pub fn build(self, mesh: RawMesh) -> Result<Built, BuildError> {
-        self.build_of(Input::Mesh(mesh))
+        self.build_of(Input::Mesh(Box::new(mesh)))
     }
 
     /// Builds the blob of curves in memory.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::polygons::{FacePlace, Faces, Split};
-use super::text::{decoded, lines, point, quoted, without_comment};
+use super::text::{decoded, lines, lowercase, point, quoted, without_comment};
 use super::{LeftOut, MeshError, RawMesh};
 
 /// Reads `v x y z …` and `f v[/vt[/vn]] …`, or `fo` as it was called once, indices from 1 or
@@ -57,14 +57,7 @@ enum Kind {
 
 impl Kind {
     fn of(keyword: &str) -> Self {
-        let lower;
-        let keyword = if keyword.bytes().any(|b| b.is_ascii_uppercase()) {
-            lower = keyword.to_ascii_lowercase();
-            &lower
-        } else {
-            keyword
-        };
-        match keyword {
+        match &*lowercase(keyword) {
             "v" => Self::Vertex,
             "f" => Self::Face,
             "fo" => Self::OldFace,

@@ -111,6 +111,15 @@ pub(super) fn quoted(word: &str) -> String {
     }
 }
 
+/// A keyword, of which programs may write capitals.
+pub(super) fn lowercase(word: &str) -> Cow<'_, str> {
+    if word.bytes().any(|b| b.is_ascii_uppercase()) {
+        Cow::Owned(word.to_ascii_lowercase())
+    } else {
+        Cow::Borrowed(word)
+    }
+}
+
 /// A number that is not finite, as the C libraries write it: `-1.#IND`, `nan(ind)`.
 pub(super) fn not_finite(word: &str) -> Option<f64> {
     let word = word.to_ascii_lowercase();

@@ -204,7 +204,7 @@ fn antennas_of_a_polygon_keep_to_its_outline() {
         let plain = star(sequence);
         let mut outline = plain.clone();
         for _ in 0..=sequence.below(3) {
-            let foot = sequence.below(outline.len() as i64) as usize;
+            let foot = sequence.below(outline.len().cast_signed() as i64) as usize;
             let far = |sequence: &mut Sequence| {
                 I64Vec2::new(sequence.below(4001) - 2000, sequence.below(4001) - 2000)
             };

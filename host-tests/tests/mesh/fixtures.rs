@@ -81,8 +81,8 @@ const SAID: [(&str, &str); 31] = [
     ("quaternion.gltf", "node 0: its rotation is no unit quaternion, its length is 1.414214"),
     ("y_up.dae", "1 up_axis that turns nothing, coordinates stay as written: Y_UP"),
     ("skin.dae", "the skin in line 13, controller \"c\", is not read"),
-    ("holes.dae", "a polygon with holes in line 12, ph of geometry \"g\", is not read"),
-    ("lookat.dae", "the transform lookat in line 14, lookat of node \"m\", is not read"),
+    ("holes.dae", "a polygon with holes in line 11, ph of geometry \"g\", is not read"),
+    ("lookat.dae", "the transform lookat in line 13, lookat of node \"m\", is not read"),
 ];
 
 #[test]

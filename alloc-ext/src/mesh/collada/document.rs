@@ -126,11 +126,11 @@ impl<'a> Document<'a> {
 
     fn append(&mut self, open: &[usize], text: Cow<'a, str>) {
         let Some(&element) = open.last() else { return };
+        let of = &mut self.nodes[element].text;
         // Nearly all of it stands between tags.
-        if text.trim_ascii().is_empty() {
+        if of.is_empty() && text.trim_ascii().is_empty() {
             return;
         }
-        let of = &mut self.nodes[element].text;
         if of.is_empty() {
             *of = text;
         } else {

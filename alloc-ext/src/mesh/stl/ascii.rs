@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::super::polygons::{FacePlace, Polygons};
-use super::super::text::{Words, lines, number, point, quoted};
+use super::super::text::{Words, lines, lowercase, number, point, quoted};
 use super::super::{MeshError, RawMesh};
 use super::binary::HEADER_BYTES;
 use super::raw;
@@ -25,15 +25,15 @@ pub(super) fn read(file: &Path, size: usize, text: &str) -> Result<RawMesh, Mesh
         numbers = 0;
         let line = words.line;
         facets.line = line;
-        let mut keyword = word.to_ascii_lowercase();
-        if matches!(keyword.as_str(), "end" | "outer") {
-            let next = words.peek().unwrap_or_default().to_ascii_lowercase();
-            if matches!(next.as_str(), "loop" | "facet" | "solid") {
-                keyword += &next;
+        let mut keyword = lowercase(word);
+        if matches!(&*keyword, "end" | "outer") {
+            let next = lowercase(words.peek().unwrap_or_default());
+            if matches!(&*next, "loop" | "facet" | "solid") {
+                keyword.to_mut().push_str(&next);
                 words.next();
             }
         }
-        match keyword.as_str() {
+        match &*keyword {
             "solid" => {
                 facets.begin_solid()?;
                 words.skip_to(after_name(words.rest()));
@@ -61,6 +61,8 @@ pub(super) fn read(file: &Path, size: usize, text: &str) -> Result<RawMesh, Mesh
             {
                 words.skip_to("");
             }
+            // A cut file may end in a word.
+            _ if words.next().is_none() => break,
             _ => return Err(facets.malformed(&format!("{} is no word of STL", quoted(word)))),
         }
     }
