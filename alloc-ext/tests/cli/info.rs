@@ -35,3 +35,18 @@ fn sections_of_curves_tell_their_bytes_a_segment() {
     assert_eq!(section["bytes_per_segment"].as_f64(), Some(each));
     assert_eq!(section.get("bytes_per_triangle"), None);
 }
+
+#[test]
+fn info_and_emitted_source_tell_the_same_entries_of_a_kept_sweep() {
+    let directory = scratch("info_sweep");
+    let output = directory.join("part.msw");
+    let mesh = fixture("bracket.stl");
+    ok(["build", arg(&mesh), "-o", arg(&output), "--for", "sweep", "--emit", "rust"]);
+    let kept = &info(&output)["hull"]["capacities"]["kept_sweep"];
+    assert_eq!(kept["scratch_entries"], 1948);
+    assert_eq!(kept["scratch_bytes"], 8 * 1948);
+    let source = std::fs::read_to_string(directory.join("part.rs")).unwrap();
+    assert!(source.contains("pub const SWEEP_ENTRIES: usize = 1948;"), "{source}");
+    let said = ok(["info", arg(&output)]);
+    assert!(said.contains("  kept sweep: 1948 entries, 15584 bytes of RAM"), "{said}");
+}
