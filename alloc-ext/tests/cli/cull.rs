@@ -53,6 +53,26 @@ fn every_triangle_that_faces_the_viewpoint_is_listed_and_many_others_are_not() {
 }
 
 #[test]
+fn within_a_room_whose_walls_face_inwards_every_wall_is_listed_and_met_from_its_front() {
+    let directory = scratch("cull_room");
+    for bits in ["16", "32"] {
+        let options = ["--for", "closest,segment,cull", "--vertex-bits", bits];
+        let path = blob(&directory, "evil/room.obj", &options);
+        assert_eq!(listed(&path, &["5,5.5,5.2"]).len(), 12);
+        let met = |facing| {
+            let beam = "5,5.5,5.2,15,5.5,5.2";
+            let text = ok(["segment", arg(&path), beam, "--facing", facing]);
+            let rows = parse_csv(&text, "hit,t,px,py,pz,triangle,work");
+            [0, 1, 5].map(|column| rows[0][column].clone())
+        };
+        assert_eq!(met("front"), ["yes", "0.5", "11"]);
+        assert_eq!(met("back"), ["no", "", ""]);
+        let side = ok(["signed", arg(&path), "5,5.5,5.2"]);
+        assert!(side.contains(",inside,"), "{side}");
+    }
+}
+
+#[test]
 fn parallel_sight_is_that_of_an_eye_far_away() {
     let directory = scratch("cull_along");
     let mesh = triangles(&fixture("torus.ply"));

@@ -24,6 +24,7 @@ const CURVES: u32 = 21;
 const NUMBERS: u32 = 22;
 const FRAMES: u32 = 23;
 const MOMENTS: u32 = 24;
+const TURNED: u32 = 25;
 
 /// The surface error in the header.
 const ERROR: usize = 88;
@@ -125,6 +126,21 @@ fn box_trees_are_proved_and_changed_ones_are_not() {
     let path = blob(&directory, "torus.ply", &[]);
     let case = Case::new(&directory, path, &[fixture("torus.ply")]);
     case.fails("box tree: the triangle stored as", |b| scale(b, start(b, TREE) + 40, 0.25));
+}
+
+#[test]
+fn triangles_are_proved_in_the_winding_of_the_file_and_turned_ones_to_be_those_of_sides() {
+    let directory = scratch("verify_turned");
+    for bits in ["16", "32"] {
+        let path = blob(&directory, "evil/room.obj", &["--vertex-bits", bits]);
+        let case = Case::new(&directory, path, &[fixture("evil/room.obj")]);
+        case.fails("box tree: the triangle stored as", |b| b[start(b, TURNED)] ^= 2);
+        for name in ["evil/glued_blocks.obj", "evil/plugged_shell.obj", "evil/room.obj"] {
+            let options = ["--for", "closest,segment,winding", "--vertex-bits", bits];
+            let path = blob(&directory, name, &options);
+            Case::new(&directory, path, &[fixture(name)]);
+        }
+    }
 }
 
 #[test]

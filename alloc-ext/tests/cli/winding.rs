@@ -1,7 +1,8 @@
 //! `meshsweep winding`, and `signed` and `field --signed` of meshes that are not closed.
 
 use crate::support::{
-    arg, fixture, number, ok, parse_csv, random_queries, run, scratch, triangles, wide, write_csv,
+    arg, blob, fixture, number, ok, parse_csv, random_queries, run, scratch, triangles, wide,
+    write_csv,
 };
 use std::fmt::Write;
 use std::fs;
@@ -29,6 +30,24 @@ fn sieve(directory: &std::path::Path) -> [PathBuf; 2] {
 /// How far inside of the torus a point is.
 fn depth([x, y, z]: [f64; 3]) -> f64 {
     0.75 - (x.hypot(y) - 2.0).hypot(z)
+}
+
+#[test]
+fn solids_that_share_walls_are_one_solid_and_have_a_depth() {
+    let directory = scratch("winding_glued");
+    for bits in ["16", "32"] {
+        let options = ["--for", "closest,segment,winding", "--vertex-bits", bits];
+        let path = blob(&directory, "evil/glued_blocks.obj", &options);
+        let text = ok(["winding", arg(&path), "11.1,5,5", "10.5,5,5", "21.1,5,5", "--abs", "0.01"]);
+        let rows = parse_csv(&text, "x,y,z,side,reason,lower,upper,work");
+        let sides: Vec<&str> = rows.iter().map(|row| row[3].as_str()).collect();
+        assert_eq!(sides, ["inside", "inside", "outside"]);
+        assert!(rows[..2].iter().all(|row| number(&row[5]) <= 1.0 && 1.0 <= number(&row[6])));
+        let files = [arg(&path), arg(&path)];
+        let text =
+            ok([&["clearance"], &files[..], &["--depth", "--pose", "20.5,0,0,1,0,0,0"]].concat());
+        assert!(text.contains("overlap"), "{text}");
+    }
 }
 
 #[test]
@@ -73,7 +92,7 @@ fn a_signed_field_of_a_mesh_with_holes_is_negative_inside() {
 #[test]
 fn a_blob_without_moments_names_the_value_that_writes_them() {
     let directory = scratch("winding_refused");
-    let blob = crate::support::blob(&directory, "evil/open_box.stl", &[]);
+    let blob = blob(&directory, "evil/open_box.stl", &[]);
     let refused = run(["winding", arg(&blob), "1,2,3"]);
     assert_eq!(refused.status.code(), Some(1));
     let said = String::from_utf8_lossy(&refused.stderr).into_owned();
