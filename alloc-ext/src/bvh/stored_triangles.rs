@@ -56,7 +56,7 @@ impl<'a> StoredTriangles<'a> {
         let Some(filed) = &mesh.filed else { return Ok(Self::of_repaired(mesh)) };
         let repaired = Self::of_repaired(mesh);
         if repaired.is_closed && (copies != Copies::All || has_all(mesh, filed)) {
-            return Ok(repaired.as_filed());
+            return Ok(repaired.wound_as_filed());
         }
         let all = of_file(filed, mesh.rounding);
         require_valid(&all, most)?;
@@ -76,7 +76,7 @@ impl<'a> StoredTriangles<'a> {
     }
 
     /// The same triangles, each wound as in the file.
-    fn as_filed(self) -> Self {
+    fn wound_as_filed(self) -> Self {
         let Some(mesh) = self.sided else { return self };
         if !mesh.turned.contains(&true) {
             return self;

@@ -221,7 +221,6 @@ pub fn choose<'a>(
 
 /// Structures of the same kind of two blobs.
 #[derive(Clone, Copy)]
-#[expect(clippy::large_enum_variant, reason = "a command makes one")]
 pub enum Both<'a> {
     Trees([Bvh<'a>; 2]),
     Hulls([Hull<'a>; 2]),
