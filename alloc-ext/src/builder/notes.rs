@@ -1,14 +1,14 @@
 //! The report of a build, in sentences.
 
 use super::options::{For, Options};
-use crate::bvh::{TreeReport, WhyF32};
+use crate::bvh::{SideDefect, SidesReport, TreeReport, WhyF32};
 use crate::counted::Counted;
 use crate::curve::CurveReport;
 use crate::hull::{BuildReport, Kind, sticks_out_note, wires_note};
 use crate::load::Loaded;
 use crate::mesh::Mesh;
 use crate::number::{About, AtMost};
-use crate::surface::{VertexBits, components_whose_boxes_meet};
+use crate::surface::VertexBits;
 use crate::tight::{Goal, HullReport, margin_note, no_void_note, rounded_note};
 use meshsweep_core::Blob;
 use meshsweep_core::internal::format::layout::VertexFormat;
@@ -96,10 +96,8 @@ pub(super) fn of_blob(
     }
     if let Ok(bvh) = blob.bvh() {
         tree.extend(tree_report.and_then(|report| report.why_f32).map(off_grid));
-        if bvh.has_sides() && bvh.serves_distances() {
-            sides.extend(overlaps(components_whose_boxes_meet(&loaded.mesh)));
-        } else if bvh.is_closed() && bvh.serves_distances() && !bvh.serves_winding() {
-            sides.push(lost(bvh.header().is_f32()));
+        if bvh.serves_distances() && !bvh.serves_winding() {
+            sides.extend(tree_report.and_then(|report| report.sides).map(sideless));
         }
     }
     if let Some(first) = reports.first() {
@@ -146,33 +144,31 @@ fn other_format(wanted: VertexBits, got: VertexFormat) -> Option<String> {
 fn off_grid(why: WhyF32) -> String {
     let why = match why {
         WhyF32::TooFar => "the mesh is too far from its origin for the box tree's grid",
-        WhyF32::Sides => {
-            "on the box tree's grid the surface is not proved to bound a solid, and sides could be \
-             wrong"
-        }
+        WhyF32::Sides => "on the box tree's grid faces change places, and sides could be wrong",
     };
     format!("{why}: its coordinates are stored as f32")
 }
 
-/// Says why every side is undecided.
-fn lost(is_f32: bool) -> String {
-    let place = if is_f32 { "in f32" } else { "on the grid" };
-    format!(
-        "sides by the nearest triangle are undecided: vertices moved, and the surface {place} is \
-         not proved to bound a solid: it touches itself, is inside out, or winds twice; `winding` \
-         among the questions of --for decides them"
-    )
-}
-
-/// Says of how many connected components the inside may be answered as outside.
-fn overlaps(components: usize) -> Option<String> {
-    (components > 0).then(|| {
-        format!(
-            "connected components whose boxes overlap: {components}; they are not united: where \
-             they overlap, a side is that of the nearest surface, so a point inside one, next to \
-             the front of another, is outside; `winding` among the questions of --for unites them"
-        )
-    })
+/// Says where the nearest triangle tells no side, and why.
+fn sideless(report: SidesReport) -> String {
+    let SidesReport { defect, at, in_f32, sideless, are_lost, .. } = report;
+    let surface = if in_f32 { "the surface" } else { "on the box tree's grid the surface" };
+    let defect = match defect {
+        SideDefect::Crossing([a, b]) => {
+            format!("crosses, overlaps or touches itself, as triangles {a} and {b} do at {at:?}")
+        }
+        SideDefect::Winding(triangle) => {
+            format!("is inside out or inside itself, as at triangle {triangle}, {at:?}")
+        }
+    };
+    let places = match are_lost {
+        true => "sides by the nearest triangle are undecided".to_owned(),
+        false => format!(
+            "sides are undecided where the nearest triangle is one of {}",
+            Counted(sideless, "triangle")
+        ),
+    };
+    format!("{places}: {surface} {defect}; --for closest,winding decides them by winding numbers")
 }
 
 /// Names the tight hulls that the blob lacks.

@@ -6,9 +6,11 @@ use super::fans::{self, Effort, Fan, FanLeaf};
 use super::moments::moments;
 use super::nodes::fit::{axis_aligned_boxes, shared_frames, unturned_frames};
 use super::nodes::order::topology;
+use super::sides::{Sided, Sides, SidesReport};
+use super::source;
 use super::store::{OnGrid, store};
 use super::stored_triangles::{Copies, StoredTriangles};
-use super::{sides, source};
+use super::unfold::unfold;
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::{Input, Mesh, Wire};
@@ -17,7 +19,7 @@ use glam::DVec3;
 use meshsweep_core::SectionKind;
 use meshsweep_core::internal::bvh::format::BvhHeader;
 use meshsweep_core::internal::bvh::format::layout::{
-    BVH_CLOSED, BVH_F32, BVH_SIDES_LOST, BVH_TURNED, LINK_BYTES,
+    BVH_CLOSED, BVH_F32, BVH_SIDELESS, BVH_SIDES_LOST, BVH_TURNED, LINK_BYTES,
 };
 use meshsweep_core::internal::geom::fan::WIDTH;
 use meshsweep_core::internal::num::up_to_f32;
@@ -49,8 +51,9 @@ pub enum WhyF32 {
     /// The mesh is too far from its origin: a grid would move vertices farther than a 32,768th of
     /// its longest side.
     TooFar,
-    /// On a grid walls may change places, so that a tree for closest points would decide no sides.
-    /// In f32 they do not. A tree with winding numbers needs no such sides.
+    /// On the grid faces change places, so that a tree for closest points would decide no sides, and
+    /// no places next to theirs were found where they do not. In f32 they do not. A tree with
+    /// winding numbers needs no such sides.
     Sides,
 }
 
@@ -139,6 +142,8 @@ pub struct TreeReport {
     pub header: BvhHeader,
     /// Why vertices are f32 although [`TreeOptions::is_f32`] was not set.
     pub why_f32: Option<WhyF32>,
+    /// Where the nearest triangle of a closed mesh tells no side, and why; else `None`.
+    pub sides: Option<SidesReport>,
     /// Time of the whole build.
     pub time: Duration,
 }
@@ -194,7 +199,8 @@ pub(super) fn build_in(
     let (mesh, edges) = (&*stored.mesh, &stored.edges);
     let input = Input { mesh, ..input };
     let triangles = mesh.triangles.len() + mesh.wires.len();
-    let Vertices { grid, mut flags, why_f32 } = store_vertices(input, &stored, options, is_quick);
+    let Vertices { grid, mut flags, why_f32, sides } =
+        store_vertices(input, &stored, options, is_quick);
     let is_f32 = flags & BVH_F32 != 0;
     let effort = if is_quick { Effort::QUICK } else { Effort::FULL };
     let part = watch.part(0.0, PACKED);
@@ -241,6 +247,11 @@ pub(super) fn build_in(
             sections.push((SectionKind::TreeTurned, encode::bits(in_order().map(is_turned))));
         }
     }
+    if has_sides && options.stores_frames() && sides.sideless.contains(&true) {
+        flags |= BVH_SIDELESS;
+        let is_sideless = |t: u32| sides.sideless.get(t as usize).is_some_and(|&is| is);
+        sections.push((SectionKind::TreeSideless, encode::bits(in_order().map(is_sideless))));
+    }
     let header = header(mesh, &grid, &leaves, flags, topology.waiting_entries);
     let header = BvhHeader { nodes: topology.nodes.len() as u32, ..header };
     sections.insert(0, (SectionKind::Bvh, header.write().to_vec()));
@@ -254,6 +265,7 @@ pub(super) fn build_in(
         depth: topology.depth,
         header,
         why_f32,
+        sides: sides.report(),
         time: started.elapsed(),
     };
     let sections = encode::sections(grid.scale_exponent, input.triangle_count(), &header, sections);
@@ -309,44 +321,62 @@ struct Vertices {
     grid: OnGrid,
     flags: u8,
     why_f32: Option<WhyF32>,
+    sides: Sides,
 }
 
-/// Stores the vertices in the format that is asked for, or in f32 if the grid is too coarse or
-/// loses sides. A quick build does not test sides: its tree stores f32, and only steers a search.
-/// Sides are those of the triangles as repair wound them, which have the stored vertices.
+/// Stores the vertices in the format that is asked for, or in f32 if the grid is too coarse. On a
+/// grid where faces cross some vertices move to other points of it; if that does not help and f32
+/// does, f32 it is. A quick build does not test sides: its tree stores f32, and only steers a
+/// search. Sides are those of the triangles as repair wound them, which have the stored vertices.
 fn store_vertices(
     input: Input<'_>,
-    &StoredTriangles { is_closed, sided, .. }: &StoredTriangles<'_>,
+    stored: &StoredTriangles<'_>,
     options: &TreeOptions,
     is_quick: bool,
 ) -> Vertices {
-    let flags = |grid: &OnGrid, is_f32: bool| {
-        let are_kept = || sided.is_some_and(|mesh| is_quick || sides::are_kept(mesh, grid));
-        let is_lost = is_closed && !are_kept();
-        [(is_closed, BVH_CLOSED), (is_f32, BVH_F32), (is_lost, BVH_SIDES_LOST)]
-            .into_iter()
-            .fold(0, |flags, (is_set, flag)| if is_set { flags | flag } else { flags })
+    let sided = stored.sided.map(|mesh| Sided::new(mesh, stored));
+    let sides = |grid: &OnGrid| match &sided {
+        Some(sided) if !is_quick => sided.sides(grid),
+        Some(_) => Sides::ALL,
+        None => Sides::NONE,
+    };
+    let vertices = |grid: OnGrid, why_f32: Option<WhyF32>, sides: Sides| {
+        let of = [
+            (stored.is_closed, BVH_CLOSED),
+            (grid.is_f32, BVH_F32),
+            (stored.is_closed && sides.are_lost, BVH_SIDES_LOST),
+        ];
+        let flags = of.into_iter().fold(0, |flags, (is, flag)| flags | if is { flag } else { 0 });
+        Vertices { grid, flags, why_f32, sides }
     };
     let grid = store(input, options.is_f32);
-    let on_grid = flags(&grid, options.is_f32);
-    let why_f32 = if options.is_f32 || !options.allows_f32 {
-        None
-    } else if grid.is_coarse() {
-        Some(WhyF32::TooFar)
-    } else {
-        let wants_sides = options.stores_frames() && !options.winding;
-        (wants_sides && on_grid & BVH_SIDES_LOST != 0).then_some(WhyF32::Sides)
+    if !options.is_f32 && options.allows_f32 && grid.is_coarse() {
+        let exact = store(input, true);
+        let sides = sides(&exact);
+        return vertices(exact, Some(WhyF32::TooFar), sides);
+    }
+    let on_grid = sides(&grid);
+    let Some(sided) = &sided else { return vertices(grid, None, on_grid) };
+    let wants_sides = options.stores_frames() && !options.winding;
+    if on_grid.defect.is_none() || options.is_f32 || !wants_sides {
+        return vertices(grid, None, on_grid);
+    }
+    let unfolded = unfold(input, sided, &grid, &on_grid);
+    let unfolded = match unfolded {
+        Some((grid, sides)) if sides.defect.is_none() => return vertices(grid, None, sides),
+        unfolded => unfolded,
     };
-    if why_f32.is_none() {
-        return Vertices { grid, flags: on_grid, why_f32 };
-    }
     let exact = store(input, true);
-    let in_f32 = flags(&exact, true);
-    if why_f32 == Some(WhyF32::Sides) && in_f32 & BVH_SIDES_LOST != 0 {
-        // Nothing is gained.
-        return Vertices { grid, flags: on_grid, why_f32: None };
+    let in_f32 = sides(&exact);
+    if in_f32.defect.is_none() && options.allows_f32 {
+        return vertices(exact, Some(WhyF32::Sides), in_f32);
     }
-    Vertices { grid: exact, flags: in_f32, why_f32 }
+    // The file's surface has the defect itself, or f32 is not wanted.
+    let defect = in_f32.defect.or(on_grid.defect);
+    match unfolded {
+        Some((grid, unfolded)) => vertices(grid, None, Sides { defect, ..unfolded }),
+        None => vertices(grid, None, Sides { defect, ..on_grid }),
+    }
 }
 
 fn header(

@@ -18,6 +18,7 @@ mod sides;
 mod source;
 mod store;
 mod stored_triangles;
+mod unfold;
 
 pub use batch::closest_points;
 pub(crate) use build::build_watched;
@@ -25,4 +26,5 @@ pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, WhyF32, build};
 pub use encode::sections_of;
 pub(crate) use exact::exact_blob_watched;
 pub use exact::{blob_for, exact_blob};
+pub use sides::{SideDefect, SidesReport};
 pub use store::is_too_far_for_grid;

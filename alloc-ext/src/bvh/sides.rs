@@ -1,35 +1,125 @@
-//! Whether the stored surface shows a point the same side as the input's.
+//! Which stored triangles tell sides.
 //!
-//! A vertex moves by at most the surface error. A point farther from the surface keeps its winding
-//! number. But where a wall is thinner than the error, its faces may change places. Then the
-//! nearest stored face has its back to a point outside.
+//! A side is told by the nearest stored triangle: whether it has its front to the point. That is
+//! the input's side if two things hold.
+//! - In front of the triangle the stored surface has [winding number 0](crate::surface::Fronts).
+//!   Behind it the number is 1. The nearest triangle has the point just in front or just behind.
+//! - The point is farther from the stored surface than the surface error. While vertices move from
+//!   their places in the input to the stored ones, no triangle reaches the point, and it keeps its
+//!   winding number.
 //!
-//! *What is proved.* The stored surface is a closed manifold, its faces share no points but common
-//! corners and edges, and it winds 0 or 1 times around every point that is not on it. So a face has
-//! its front to a point exactly if the point's winding number is 0. The proof looks at the stored
-//! surface alone. It holds for every input within the error whose winding numbers are 0 and 1. A
-//! surface that is inside out is not proved: a thin solid may be stored so.
+//! The proof looks at the stored surface alone, moved or not. Where a component crosses itself, or
+//! components cross, triangles have winding number 1 in front: a point next to them would be called
+//! outside, and is inside. Such triangles are *sideless*. So are those of a component that is
+//! inside out, and of a solid in a solid.
 
 use super::store::OnGrid;
+use super::stored_triangles::StoredTriangles;
 use crate::mesh::Mesh;
-use crate::surface::{Solid, faces, is_degenerate, is_embedded};
+use crate::surface::{Defect, EdgeTable, Fronts, faces};
+use std::borrow::Cow;
 
-/// Whether the stored surface certainly shows every point farther than the surface error the
-/// input's side, for a closed mesh that bounds a solid.
-///
-/// Cost: nothing if no vertex moved. Else one query of a static tree for each triangle, and a test
-/// for each pair of connected components.
-pub(super) fn are_kept(mesh: &Mesh, grid: &OnGrid) -> bool {
-    grid.surface_error == 0.0 || bounds_a_solid(mesh, grid)
+/// Which triangles of a closed mesh tell no side, and why.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SidesReport {
+    /// The first defect.
+    pub defect: SideDefect,
+    /// A corner of the triangle, or of the first.
+    pub at: [f32; 3],
+    /// Whether the surface has it with vertices in `f32`; else only on the grid.
+    pub in_f32: bool,
+    /// Triangles that tell no side.
+    pub sideless: usize,
+    /// Whether no triangle tells one.
+    pub are_lost: bool,
 }
 
-fn bounds_a_solid(mesh: &Mesh, grid: &OnGrid) -> bool {
-    let faces = faces(&grid.positions, &mesh.triangles);
-    if faces.iter().any(|face| is_degenerate(&face.at)) || !is_embedded(&faces) {
-        return false;
+/// Defect of a closed surface by which triangles tell no side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SideDefect {
+    /// Two triangles, by their numbers in the input, cross or overlap, or touch in a segment
+    /// within one of them.
+    Crossing([u32; 2]),
+    /// In front of this triangle, by its number in the input, the winding number is not 0, or was
+    /// not found: the surface is inside out there, or inside another part of itself.
+    Winding(u32),
+}
+
+/// A defect and its place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placed {
+    defect: SideDefect,
+    at: [f32; 3],
+    in_f32: bool,
+}
+
+/// The triangles of a stored surface that tell sides.
+#[derive(Clone, Debug)]
+pub(super) struct Sides {
+    /// Whether none tells one.
+    pub(super) are_lost: bool,
+    /// Per triangle whether it tells none; empty if all tell sides.
+    pub(super) sideless: Vec<bool>,
+    /// Why.
+    pub(super) defect: Option<Placed>,
+}
+
+impl Sides {
+    /// All triangles tell sides.
+    pub(super) const ALL: Self = Self { are_lost: false, sideless: Vec::new(), defect: None };
+    /// None does: the mesh is not closed, or has no winding for sides.
+    pub(super) const NONE: Self = Self { are_lost: true, sideless: Vec::new(), defect: None };
+
+    pub(super) fn count_sideless(&self) -> usize {
+        self.sideless.iter().filter(|&&is| is).count()
     }
-    // Grid coordinates are f32 numbers. `Solid::of` refuses a component whose volume may be 0. Its
-    // test of nesting holds for embedded surfaces only.
-    let positions = grid.positions.iter().map(|p| p.as_vec3().to_array()).collect();
-    Solid::of(&Mesh::new(positions, mesh.triangles.clone())).is_ok()
+
+    pub(super) fn report(&self) -> Option<SidesReport> {
+        self.defect.map(|Placed { defect, at, in_f32 }| SidesReport {
+            defect,
+            at,
+            in_f32,
+            sideless: self.count_sideless(),
+            are_lost: self.are_lost,
+        })
+    }
+}
+
+/// A closed mesh in the winding that tells sides, and its edges.
+pub(super) struct Sided<'a> {
+    pub(super) mesh: &'a Mesh,
+    edges: Cow<'a, EdgeTable>,
+}
+
+impl<'a> Sided<'a> {
+    pub(super) fn new(mesh: &'a Mesh, stored: &'a StoredTriangles<'_>) -> Self {
+        // Half-edges of turned triangles have other numbers.
+        let edges = match stored.turned.contains(&true) {
+            true => Cow::Owned(EdgeTable::new(mesh.positions.len(), &mesh.triangles)),
+            false => Cow::Borrowed(&stored.edges),
+        };
+        Self { mesh, edges }
+    }
+
+    /// Which triangles tell sides with vertices where a grid has them.
+    ///
+    /// Cost: that of [`Fronts::of`].
+    pub(super) fn sides(&self, grid: &OnGrid) -> Sides {
+        let mesh = self.mesh;
+        let faces = faces(&grid.positions, &mesh.triangles);
+        let Fronts { others: sideless, defect } = Fronts::of(&faces, &mesh.triangles, &self.edges);
+        let defect = defect.map(|defect| {
+            let number = |face: u32| mesh.source[face as usize];
+            let (face, defect) = match defect {
+                Defect::Crossing([a, b]) => (a, SideDefect::Crossing([number(a), number(b)])),
+                Defect::Winding(face) => (face, SideDefect::Winding(number(face))),
+            };
+            let at = mesh.positions[mesh.triangles[face as usize][0] as usize];
+            Placed { defect, at, in_f32: grid.is_f32 }
+        });
+        let are_lost = !sideless.is_empty() && sideless.iter().all(|&is| is);
+        Sides { are_lost, sideless, defect }
+    }
 }

@@ -16,6 +16,8 @@ pub(super) struct OnGrid {
     pub(super) origin: [i32; 3],
     /// Vertices as stored, grid units.
     pub(super) positions: Vec<DVec3>,
+    /// Whether they are f32, and not integers of 16 bits from the origin.
+    pub(super) is_f32: bool,
     /// Largest distance of a vertex from its place in the input, local frame, rounded up.
     pub(super) surface_error: f64,
     /// The part of it that storing added.
@@ -32,6 +34,39 @@ impl OnGrid {
         };
         self.moved > side * MOST_MOVED
     }
+
+    /// The vertices' places before storing, grid units.
+    pub(super) fn places(&self, mesh: &Mesh) -> Vec<DVec3> {
+        let step = exp2(self.exponent);
+        local(mesh, self.scale_exponent).map(|p| p / step).collect()
+    }
+
+    /// The same grid with other vertices.
+    pub(super) fn with_positions(&self, input: Input<'_>, positions: Vec<DVec3>) -> Self {
+        let step = exp2(self.exponent);
+        let error = (self.places(input.mesh).into_iter().zip(&positions))
+            .fold(0f64, |error, (place, &stored)| error.max(distance(stored, place, step)));
+        let (surface_error, moved) = errors(error, input, self.scale_exponent);
+        Self { positions, surface_error, moved, ..self.clone() }
+    }
+}
+
+/// The vertices in the local frame.
+fn local(mesh: &Mesh, scale_exponent: i32) -> impl Iterator<Item = DVec3> {
+    let wide = |&[x, y, z]: &[f32; 3]| DVec3::new(f64::from(x), f64::from(y), f64::from(z));
+    mesh.positions.iter().map(wide).map(move |p| p * exp2(-scale_exponent))
+}
+
+/// Distance of two points in grid units, local frame, rounded up.
+fn distance(stored: DVec3, place: DVec3, step: f64) -> f64 {
+    (stored - place).length() * step * (1.0 + 1e-15)
+}
+
+/// The surface error, and the part of it that storing added.
+fn errors(added: f64, input: Input<'_>, scale_exponent: i32) -> (f64, f64) {
+    let before = input.error() * exp2(-scale_exponent);
+    // Room for its rounding to f32 in a query (`core/docs/rounding.md` §9).
+    ((added + before) * (1.0 + 1e-6), added * (1.0 + 1e-6))
 }
 
 /// Finest exponent for which every coordinate on the grid is an integer below 2^24. Their sums are
@@ -57,11 +92,7 @@ pub fn is_too_far_for_grid(mesh: &Mesh) -> bool {
 pub(super) fn store(input: Input<'_>, single: bool) -> OnGrid {
     let mesh = input.mesh;
     let scale = scale_exponent(mesh);
-    let local: Vec<DVec3> = mesh
-        .positions
-        .iter()
-        .map(|&[x, y, z]| DVec3::new(f64::from(x), f64::from(y), f64::from(z)) * exp2(-scale))
-        .collect();
+    let local: Vec<DVec3> = local(mesh, scale).collect();
     let (low, high) = local
         .iter()
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
@@ -80,18 +111,18 @@ pub(super) fn store(input: Input<'_>, single: bool) -> OnGrid {
         .map(|&p| {
             let units = p / step;
             let stored = if single { units.as_vec3().as_dvec3() } else { units.round() };
-            error = error.max((stored - units).length() * step * (1.0 + 1e-15));
+            error = error.max(distance(stored, units, step));
             stored
         })
         .collect();
-    let before = input.error() * exp2(-scale);
+    let (surface_error, moved) = errors(error, input, scale);
     OnGrid {
         scale_exponent: scale,
         exponent,
         origin,
         positions,
-        // Room for its rounding to f32 in a query (`core/docs/rounding.md` §9).
-        surface_error: (error + before) * (1.0 + 1e-6),
-        moved: error * (1.0 + 1e-6),
+        is_f32: single,
+        surface_error,
+        moved,
     }
 }

@@ -2,6 +2,7 @@
 
 use super::bounds::Bounds;
 use super::contact::Contact;
+use super::face_tree::FaceTree;
 use super::predicates::{Face, are_apart, is_degenerate};
 use super::tree::StaticTree;
 use glam::DVec3;
@@ -21,52 +22,10 @@ pub(crate) fn is_embedded(faces: &[Face]) -> bool {
     (0..faces.len()).into_par_iter().all(is_apart_from_later)
 }
 
-/// Pairs of faces that are not apart, and how they meet, ascending. Faces without area are passed
-/// over. Exact. The search ends soon after `most` pairs: then there may be more.
-///
-/// Cost: one query of a static tree for each face, on all threads. The pairs are the same on any
-/// number of threads.
+/// Pairs of faces that are not [apart](Contact::Apart), and how they meet, ascending. Faces without
+/// area are passed over. Exact. After `most` crossings the search soon ends: then there may be more.
 pub(crate) fn contacts(faces: &[Face], most: usize) -> Vec<([u32; 2], Contact)> {
-    let boxes: Vec<Bounds> = faces.iter().map(|face| Bounds::of(&face.at)).collect();
-    let tree = StaticTree::new(&boxes);
-    let has_area: Vec<bool> = faces.par_iter().map(|face| !is_degenerate(&face.at)).collect();
-    let with_later = |i: usize| {
-        let mut found = Vec::new();
-        if has_area[i] {
-            tree.visit_meeting(&boxes[i], |j| {
-                if j > i && has_area[j] && boxes[j].meets(&boxes[i]) {
-                    let contact = Contact::of(&faces[i], &faces[j]);
-                    if contact != Contact::Apart {
-                        found.push(([i as u32, j as u32], contact));
-                    }
-                }
-                found.len() < most
-            });
-            found.sort_unstable_by_key(|(pair, _)| *pair);
-        }
-        found
-    };
-    let mut found = Vec::new();
-    let mut from = 0;
-    while from < faces.len() && found.len() < most {
-        let to = (from + BLOCK).min(faces.len());
-        found.par_extend((from..to).into_par_iter().flat_map_iter(with_later));
-        from = to;
-    }
-    found
-}
-
-/// Faces that are searched before pairs are counted.
-const BLOCK: usize = 1 << 12;
-
-/// Pairs of faces that share more than common corners and edges, ascending; faces without a common
-/// corner may touch in one point. Faces without area are passed over. Exact.
-///
-/// Cost: as [`contacts`], and the pairs.
-pub(crate) fn crossing_pairs(faces: &[Face]) -> Vec<[u32; 2]> {
-    let is_crossing =
-        |(pair, contact)| matches!(contact, Contact::Edges(_) | Contact::Crossing).then_some(pair);
-    contacts(faces, usize::MAX).into_iter().filter_map(is_crossing).collect()
+    FaceTree::new(faces).contacts(most)
 }
 
 /// The faces of triangles.

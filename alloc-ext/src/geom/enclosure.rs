@@ -1,8 +1,8 @@
 //! Whether a point lies inside a closed component, by exact predicates.
 
 use super::predicates::lies_on;
+use super::ray::ray_crossing;
 use glam::DVec3;
-use robust::{Coord, Coord3D, orient2d, orient3d};
 use std::cell::OnceCell;
 
 /// A closed surface that is asked which points it holds.
@@ -47,17 +47,10 @@ impl Enclosure {
         (0..3).all(|k| f64::from(self.low[k]) <= p[k] && p[k] <= f64::from(self.high[k]))
     }
 
-    /// Parity of the crossings of the ray from `p` along +z. The ray is moved by an
-    /// infinitesimal step along +x (and one infinitely smaller along +y), so it meets no edge
-    /// and no vertex: each edge is judged by one exact predicate that both of its triangles
-    /// share. A point on the surface counts as not below it.
+    /// Parity of the crossings of the ray from `p` along +z.
     fn encloses(&self, p: [f64; 3]) -> bool {
         let crosses = |number: &&u32| {
-            // Comparisons alone rule out most triangles.
-            let [a, b, c] = self.triangles[**number as usize].map(|p| p.map(f64::from));
-            (a[2] > p[2] || b[2] > p[2] || c[2] > p[2])
-                && (a[0] > p[0] || b[0] > p[0] || c[0] > p[0])
-                && is_below(p, &[a, b, c])
+            ray_crossing(p, &self.triangles[**number as usize].map(|p| p.map(f64::from))) != 0
         };
         self.strips()[self.strip(p[1])].iter().filter(crosses).count() % 2 == 1
     }
@@ -86,31 +79,4 @@ impl Enclosure {
 
 fn wide(p: [f32; 3]) -> DVec3 {
     DVec3::from(p.map(f64::from))
-}
-
-fn is_below(p: [f64; 3], triangle: &[[f64; 3]; 3]) -> bool {
-    let [a, b, c] = *triangle;
-    let hits = [(a, b), (b, c), (c, a)].iter().filter(|(u, v)| crosses_right_of(p, *u, *v)).count();
-    if hits % 2 == 0 {
-        return false;
-    }
-    let flat = |v: [f64; 3]| Coord { x: v[0], y: v[1] };
-    let solid = |v: [f64; 3]| Coord3D { x: v[0], y: v[1], z: v[2] };
-    // `orient3d` is positive if p lies below a plane whose corners turn counter-clockwise as seen
-    // from above.
-    let above = orient3d(solid(a), solid(b), solid(c), solid(p));
-    let turn = orient2d(flat(a), flat(b), flat(c));
-    (above > 0.0 && turn > 0.0) || (above < 0.0 && turn < 0.0)
-}
-
-/// In the xy plane: does edge uv cross the line through p parallel to x, to the right of p moved
-/// infinitesimally right?
-fn crosses_right_of(p: [f64; 3], u: [f64; 3], v: [f64; 3]) -> bool {
-    let (below, above) = match (u[1] > p[1], v[1] > p[1]) {
-        (false, true) => (u, v),
-        (true, false) => (v, u),
-        _ => return false,
-    };
-    let flat = |v: [f64; 3]| Coord { x: v[0], y: v[1] };
-    orient2d(flat(below), flat(above), flat(p)) > 0.0
 }

@@ -9,6 +9,7 @@ pub(super) const NON_MANIFOLD: u32 = u32::MAX - 1;
 
 /// All half-edges, grouped by undirected edge. Built by a counting sort over the lower vertex and a
 /// short sort for each vertex, which is several times faster than sorting all of them.
+#[derive(Clone)]
 pub(crate) struct EdgeTable {
     starts: Vec<u32>,
     uses: Vec<(u32, u32)>,

@@ -1,8 +1,6 @@
 //! Connected components of triangles, by the vertices that they share.
 
-use crate::geom::{Bounds, StaticTree};
-use crate::mesh::{Mesh, UnionFind};
-use glam::Vec3;
+use crate::mesh::UnionFind;
 
 /// For each vertex the least vertex of its connected component. A vertex without triangles is alone
 /// in its component.
@@ -34,25 +32,6 @@ pub(crate) fn components(vertex_count: usize, triangles: &[[u32; 3]]) -> Vec<Vec
     components
 }
 
-/// How many connected components of a mesh have a box that meets the box of another one. Only these
-/// components can overlap.
-///
-/// Cost: n log n.
-#[must_use]
-pub fn components_whose_boxes_meet(mesh: &Mesh) -> usize {
-    let corners = |t: &u32| mesh.corners(*t as usize).into_iter().flatten();
-    let of = |component: &Vec<u32>| {
-        let points = component.iter().flat_map(corners).map(|p| Vec3::from(p).as_dvec3());
-        points.fold(Bounds::EMPTY, Bounds::with)
-    };
-    let boxes: Vec<Bounds> =
-        components(mesh.positions.len(), &mesh.triangles).iter().map(of).collect();
-    let tree = StaticTree::new(&boxes);
-    let is_alone =
-        |(i, own): &(usize, &Bounds)| tree.visit_meeting(own, |j| j == *i || !own.meets(&boxes[j]));
-    boxes.iter().enumerate().filter(|one| !is_alone(one)).count()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -68,17 +47,5 @@ mod tests {
     #[test]
     fn components_stand_in_the_order_of_their_first_triangles() {
         assert_eq!(components(10, &TRIANGLES), [[0, 3], [1, 2]]);
-    }
-
-    #[test]
-    fn components_whose_boxes_meet_are_counted() {
-        let triangle_at = |x: f32| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 1.0]];
-        for (places, count) in [(&[0.0, 2.0][..], 0), (&[0.0, 1.0, 5.0], 2), (&[0.5, 0.0, 1.2], 3)]
-        {
-            let positions: Vec<_> = places.iter().flat_map(|&x| triangle_at(x)).collect();
-            let triangles = (0..places.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]);
-            let mesh = Mesh::new(positions, triangles.collect());
-            assert_eq!(components_whose_boxes_meet(&mesh), count, "{places:?}");
-        }
     }
 }

@@ -4,19 +4,21 @@
 mod closing;
 mod compact;
 mod components;
+mod fronts;
 mod precision;
 mod solid;
+
 mod valid;
 
 pub(crate) use crate::geom::{
-    Bounds, Enclosure, Enclosures, Face, Frontier, Plane, StaticTree, Triangle, are_apart,
+    Bounds, Contact, Enclosure, Enclosures, Face, Frontier, Plane, StaticTree, Triangle, are_apart,
     crosses_itself, faces, is_cut_off, is_degenerate, is_embedded, meet, side, spatial_order,
 };
 pub(crate) use crate::mesh::{EdgeTable, SignedVolume, ends};
 pub use closing::{Closed, close};
 pub(crate) use compact::{compact, compact_in_order};
-pub use components::components_whose_boxes_meet;
 pub(crate) use components::{components, least_connected};
+pub(crate) use fronts::{Defect, Fronts};
 pub use precision::{Grid, Stored, VertexBits, snap, store};
 pub(crate) use precision::{fitting_grid, scale_exponent, split_exponent};
 pub(crate) use solid::Solid;

@@ -49,6 +49,11 @@ impl ViewedSide {
             none => none,
         }
     }
+
+    /// The side that is seen of a triangle that tells none.
+    pub(crate) fn unclear(self) -> ViewedSide {
+        if self == ViewedSide::Flat { self } else { ViewedSide::Unclear }
+    }
 }
 
 #[inline(always)]
@@ -250,7 +255,7 @@ impl Sum {
 }
 
 /// Visits all triangles of a feature, each with a factor of its normal: −1 if sides are those of
-/// the triangle turned.
+/// the triangle turned, 0 if it tells no side.
 struct Star<'t, F> {
     tree: &'t Bvh<'t>,
     limit: u32,
@@ -263,14 +268,15 @@ impl<F: FnMut(&FanLeaf<'_>, usize, f32)> LeafVisitor for Star<'_, F> {
     }
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let turned = self.tree.turned;
-        let first = match turned.are_some() {
+        let Bvh { turned, sideless, .. } = *self.tree;
+        let first = match turned.are_some() || sideless.are_some() {
             true => self.tree.links(visit.node)?.triangle(visit.child),
             false => 0,
         };
         for lane in 0..visit.leaf.shape().triangles() {
-            let is_turned = turned.contains(first.wrapping_add(lane as u32));
-            (self.each)(&visit.leaf, lane, if is_turned { -1.0 } else { 1.0 });
+            let number = first.wrapping_add(lane as u32);
+            let turn = if turned.contains(number) { -1.0 } else { 1.0 };
+            (self.each)(&visit.leaf, lane, if sideless.contains(number) { 0.0 } else { turn });
         }
         Some(true)
     }
@@ -306,7 +312,7 @@ fn about_vertex(
         if normal == Vec3::ZERO && is_flat(leaf, lane, norm_1(size)) {
             return;
         }
-        if !is_sound(normal, size) {
+        if !is_sound(normal, size) || turn == 0.0 {
             sum.broken = true;
             return;
         }
@@ -370,7 +376,7 @@ fn about_edge(
         let leg = third - a;
         let inward = leg - edge * (leg.dot(edge) / length_sq);
         let height = sqrt_approx(inward.dot(inward));
-        if !is_sound(normal, size) || height == 0.0 {
+        if !is_sound(normal, size) || height == 0.0 || turn == 0.0 {
             sum.broken = true;
             return;
         }

@@ -7,7 +7,7 @@ use super::pseudonormal::{Candidates, ViewedSide, viewed_side};
 use super::side_search::Search;
 use super::triangle_bounds::{limit_of, lower_of_box, witness};
 use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
-use crate::bvh::format::{Bvh, FanLeaf, TurnedTriangles};
+use crate::bvh::format::{Bvh, FanLeaf, TriangleBits};
 use crate::num::tolerance::{EMPTY_BALL, EVERYTHING_SQ};
 use crate::num::{lesser, sqrt_approx};
 use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry};
@@ -47,6 +47,7 @@ impl<'t> Search<'_, 't> {
         let collector = Survey {
             query,
             turned: tree.turned,
+            sideless: tree.sideless,
             margin: query.rounding,
             bounding,
             bound_sq: f32::INFINITY,
@@ -106,7 +107,8 @@ enum Bounding {
 /// The triangles near a point.
 pub(super) struct Survey<'p> {
     pub(super) query: &'p PointQuery,
-    turned: TurnedTriangles<'p>,
+    turned: TriangleBits<'p>,
+    sideless: TriangleBits<'p>,
     pub(super) margin: f32,
     bounding: Bounding,
     /// The least squared distance of a bounding triangle.
@@ -224,6 +226,7 @@ impl TriangleCollector for Survey<'_> {
         self.best.improve(here);
         let facing = viewed_side(leaf, here.lane as usize, seen);
         let facing = if self.turned.contains(here.number) { facing.turned() } else { facing };
+        let facing = if self.sideless.contains(here.number) { facing.unclear() } else { facing };
         if facing != ViewedSide::Flat {
             self.with_area.improve(here);
         }

@@ -82,11 +82,13 @@ pub enum SectionKind {
     TreeMoments = 24,
     /// For each triangle of the box tree whether its other side tells inside from outside.
     TreeTurned = 25,
+    /// For each triangle of the box tree whether it tells no side.
+    TreeSideless = 26,
 }
 
 impl SectionKind {
     /// All kinds, in the order in which a writer emits them.
-    pub const ALL: [SectionKind; 24] = [
+    pub const ALL: [SectionKind; 25] = [
         SectionKind::Levels,
         SectionKind::Vertices,
         SectionKind::BaseTriangles,
@@ -106,6 +108,7 @@ impl SectionKind {
         SectionKind::TreeCones,
         SectionKind::TreeMoments,
         SectionKind::TreeTurned,
+        SectionKind::TreeSideless,
         SectionKind::Triboxes,
         SectionKind::TightHulls,
         SectionKind::Curves,
@@ -133,7 +136,11 @@ impl SectionKind {
     /// Whether the section belongs to the box tree.
     pub fn is_bvh(self) -> bool {
         let first = !self.is_hull() && (self as u32) < SectionKind::Triboxes as u32;
-        first || matches!(self, SectionKind::TreeMoments | SectionKind::TreeTurned)
+        first
+            || matches!(
+                self,
+                SectionKind::TreeMoments | SectionKind::TreeTurned | SectionKind::TreeSideless
+            )
     }
 
     /// Whether the section is for a hull hierarchy that deforms.
@@ -149,7 +156,7 @@ impl SectionKind {
     /// The first minor version with this kind.
     pub fn minor(self) -> u16 {
         match self {
-            SectionKind::TreeTurned => 3,
+            SectionKind::TreeTurned | SectionKind::TreeSideless => 3,
             SectionKind::TreeMoments => 2,
             _ => u16::from(self.is_deform()),
         }
@@ -197,6 +204,7 @@ impl SectionKind {
             SectionKind::KeyFrames => "key frames",
             SectionKind::TreeMoments => "tree moments",
             SectionKind::TreeTurned => "tree turned triangles",
+            SectionKind::TreeSideless => "tree sideless triangles",
         }
     }
 }

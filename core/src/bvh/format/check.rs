@@ -2,12 +2,12 @@
 
 use super::header::BvhHeader;
 use super::layout::{
-    BVH_BYTES, FAN_PADDING, FRAME_BYTES, MOST_EXPONENT, SOURCE_BLOCK, SOURCE_ENTRY_BYTES,
-    SOURCE_PADDING, boxes, lengthens_nothing,
+    BVH_BYTES, BVH_SIDELESS, BVH_TURNED, FAN_PADDING, FRAME_BYTES, MOST_EXPONENT, SOURCE_BLOCK,
+    SOURCE_ENTRY_BYTES, SOURCE_PADDING, boxes, lengthens_nothing,
 };
 use super::leaf::{FanLeaf, LeafShape};
 use super::moments::NodeMoments;
-use super::turned::TurnedTriangles;
+use super::triangle_bits::TriangleBits;
 use super::units::Units;
 use super::view::Bvh;
 use crate::format::layout::SectionKind;
@@ -144,7 +144,14 @@ impl<'a> Bvh<'a> {
             source: Bytes(table.bytes(SectionKind::TreeSource)),
             cones: ok!(table.records(SectionKind::TreeCones)),
             moments: ok!(table.records(SectionKind::TreeMoments)),
-            turned: TurnedTriangles::new(header.is_turned(), table.bytes(SectionKind::TreeTurned)),
+            turned: TriangleBits::new(
+                header.has_flag(BVH_TURNED),
+                table.bytes(SectionKind::TreeTurned),
+            ),
+            sideless: TriangleBits::new(
+                header.has_flag(BVH_SIDELESS),
+                table.bytes(SectionKind::TreeSideless),
+            ),
         })
     }
 
@@ -207,17 +214,38 @@ impl<'a> Bvh<'a> {
         if !self.moments.is_empty() && self.moments.len() != nodes {
             return missing(SectionKind::TreeMoments);
         }
-        let may_turn = h.has_sides() && !self.frames.is_empty();
-        if !self.turned.are_valid(h.is_turned(), h.triangles) || h.is_turned() && !may_turn {
-            return missing(SectionKind::TreeTurned);
-        }
-        if !self.turned.ends_with_zeros(h.triangles) {
-            return Err(OpenError::Record { section: SectionKind::TreeTurned, index: h.triangles });
-        }
+        ok!(self.check_bits(self.turned, BVH_TURNED, SectionKind::TreeTurned));
+        ok!(self.check_bits(self.sideless, BVH_SIDELESS, SectionKind::TreeSideless));
         let padding = FAN_PADDING / 6 * h.vertex_bytes();
         let used = h.vertices as usize * h.vertex_bytes();
         if self.fans.len() != used + padding || !Bytes(self.fans).is_zero(used, padding) {
             return missing(SectionKind::TreeFans);
+        }
+        Ok(())
+    }
+
+    /// A section of bits is there only if the header says so, which takes sides and boxes for
+    /// distances. All triangles may be turned without a section. If all were sideless, there would
+    /// be no sides.
+    const fn check_bits(
+        &self,
+        bits: TriangleBits<'_>,
+        flag: u8,
+        section: SectionKind,
+    ) -> Result<(), OpenError> {
+        let h = &self.header;
+        let is_flagged = h.has_flag(flag);
+        let may_be = is_flagged && h.has_sides() && !self.frames.is_empty();
+        let is_whole = bits.are_all() && flag != BVH_SIDELESS;
+        let is_sound = match is_flagged {
+            true => may_be && bits.fit(h.triangles) && (bits.are_some() || is_whole),
+            false => !bits.are_some(),
+        };
+        if !is_sound {
+            return Err(OpenError::MissingSection { section });
+        }
+        if !bits.ends_with_zeros(h.triangles) {
+            return Err(OpenError::Record { section, index: h.triangles });
         }
         Ok(())
     }

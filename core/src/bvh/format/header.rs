@@ -1,6 +1,8 @@
 //! The box tree's own header: counts, grid, error bound.
 
-use super::layout::{BVH_BYTES, BVH_CLOSED, BVH_F32, BVH_SIDES_LOST, BVH_TURNED, field};
+use super::layout::{
+    BVH_BYTES, BVH_CLOSED, BVH_F32, BVH_SIDELESS, BVH_SIDES_LOST, BVH_TURNED, field,
+};
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError, ok};
 use glam::Vec3;
@@ -11,7 +13,7 @@ use glam::Vec3;
 /// coordinate on the grid is a u16 plus `grid_origin`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BvhHeader {
-    /// [`BVH_CLOSED`], [`BVH_F32`], [`BVH_SIDES_LOST`] and [`BVH_TURNED`].
+    /// [`BVH_CLOSED`], [`BVH_F32`], [`BVH_SIDES_LOST`], [`BVH_TURNED`] and [`BVH_SIDELESS`].
     pub flags: u8,
     /// Local coordinate = grid coordinate × 2^this.
     pub grid_exponent: i32,
@@ -49,9 +51,9 @@ impl BvhHeader {
         self.flags & BVH_CLOSED != 0
     }
 
-    /// Whether sides are those of triangles that are turned.
-    pub(super) const fn is_turned(&self) -> bool {
-        self.flags & BVH_TURNED != 0
+    /// Whether a flag is set.
+    pub(super) const fn has_flag(&self, flag: u8) -> bool {
+        self.flags & flag != 0
     }
 
     /// Whether leaf vertices are f32.
@@ -85,7 +87,8 @@ impl BvhHeader {
         let reserved = head.is_zero(field::RESERVED, 1)
             && head.is_zero(field::RESERVED_BESIDE_FLAGS, 2)
             && head.is_zero(field::RESERVED_AT_END, 4);
-        if !reserved || flags & !(BVH_CLOSED | BVH_F32 | BVH_SIDES_LOST | BVH_TURNED) != 0 {
+        let known = BVH_CLOSED | BVH_F32 | BVH_SIDES_LOST | BVH_TURNED | BVH_SIDELESS;
+        if !reserved || flags & !known != 0 {
             return Err(OpenError::Reserved);
         }
         Ok(BvhHeader {

@@ -10,7 +10,7 @@
 //! | `leaf_lanes` | a leaf's fans a register at a time, on vector targets |
 //! | `cone` | the bytes of a leaf's normal cone |
 //! | `moments` | the bytes of a node's moments |
-//! | `turned` | the bits of triangles whose other side tells inside from outside |
+//! | `triangle_bits` | a bit for each triangle: whether it is turned for sides, or tells none |
 //! | `check` | the check of `Bvh::open` |
 
 mod check;
@@ -21,7 +21,7 @@ mod leaf;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod leaf_lanes;
 mod moments;
-mod turned;
+mod triangle_bits;
 mod units;
 mod view;
 
@@ -30,6 +30,6 @@ pub use leaf::{CORNERS, FanLeaf, GridRing, LeafShape, RING, lanes_of, slots};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub(crate) use leaf_lanes::LanePoint;
 pub use moments::NodeMoments;
-pub(crate) use turned::TurnedTriangles;
+pub(crate) use triangle_bits::TriangleBits;
 pub(crate) use units::{Units, at_least, at_most};
 pub use view::{Bvh, BvhChild, Links};

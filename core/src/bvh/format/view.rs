@@ -11,7 +11,7 @@ use super::layout::{
 };
 use super::leaf::{FanLeaf, LeafShape};
 use super::moments::NodeMoments;
-use super::turned::TurnedTriangles;
+use super::triangle_bits::TriangleBits;
 use super::units::Units;
 use crate::format::Bytes;
 use crate::geom::fan::WIDTH;
@@ -37,7 +37,10 @@ pub struct Bvh<'a> {
     pub(crate) source: Bytes<'a>,
     pub(crate) cones: &'a [[u8; CONE_BYTES]],
     pub(crate) moments: &'a [[u8; MOMENTS_BYTES]],
-    pub(crate) turned: TurnedTriangles<'a>,
+    /// Triangles whose other side tells inside from outside.
+    pub(crate) turned: TriangleBits<'a>,
+    /// Triangles that tell no side.
+    pub(crate) sideless: TriangleBits<'a>,
     /// The blob's [`checksum`](crate::Blob::checksum), which names its contents.
     pub(crate) checksum: u32,
 }
