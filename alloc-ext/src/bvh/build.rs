@@ -340,11 +340,13 @@ fn store_vertices(
         Some(_) => Sides::ALL,
         None => Sides::NONE,
     };
+    // Without boxes for distances there are no bits that would name some triangles.
+    let has_no_bits = |sides: &Sides| sides.defect.is_some() && !options.stores_frames();
     let vertices = |grid: OnGrid, why_f32: Option<WhyF32>, sides: Sides| {
         let of = [
             (stored.is_closed, BVH_CLOSED),
             (grid.is_f32, BVH_F32),
-            (stored.is_closed && sides.are_lost, BVH_SIDES_LOST),
+            (stored.is_closed && (sides.are_lost || has_no_bits(&sides)), BVH_SIDES_LOST),
         ];
         let flags = of.into_iter().fold(0, |flags, (is, flag)| flags | if is { flag } else { 0 });
         Vertices { grid, flags, why_f32, sides }

@@ -1,42 +1,51 @@
 //! Other points of the grid for vertices whose faces cross where rounding put them.
 //!
 //! A wall or a gap thinner than a step may be rounded so that its faces change places, and a sliver
-//! so that it folds over its neighbour. A step or two to the side they do not. The search moves one
-//! vertex at a time, to the grid point nearest to its place where fewer faces around it cross
-//! others. It ends when none cross, or when a round over all vertices concerned moves none. Then
-//! the surface is [proved as a whole](super::sides).
+//! so that it folds over its neighbour. A step or two to the side they do not. The search begins
+//! with all pairs of faces that cross, and has two means:
+//! - *Push.* Where the input has a pair on two sides of the plane of one of them, their vertices are
+//!   rounded from places pushed apart along its normal, farther from round to round. So both sheets
+//!   of a wall move as a whole.
+//! - *Try.* One vertex at a time moves to the grid point nearest to its place where fewer faces
+//!   around it cross others.
+//!
+//! It ends when no faces cross, or when nothing helps. Then the sides are [proved
+//! again](super::sides), and the points are taken if more triangles tell sides.
 
 use super::sides::{Sided, Sides};
 use super::store::OnGrid;
-use crate::geom::{Bounds, Contact, Face, FaceTree, StaticTree, faces, is_degenerate};
-use crate::mesh::Input;
+use crate::geom::{Bounds, Contact, Face, FaceTree, StaticTree, faces, is_degenerate, side};
+use crate::mesh::{Input, Mesh};
 use glam::{DVec3, IVec3};
+use rustc_hash::FxHashMap;
 
 /// Steps of the grid along an axis from where rounding put a vertex, at most.
 const REACH: i32 = 2;
 
-/// Times that all vertices concerned are visited, at most.
-const ROUNDS: usize = 16;
+/// Distances by which both faces of a pair are pushed, in steps, round by round.
+const PUSHES: [f64; 4] = [0.5, 0.75, 1.0, 1.25];
 
-/// Pairs of crossing faces from which on the grid is not tried: it is too coarse for the surface.
-const MOST_CROSSINGS: usize = 4096;
+/// Rounds in which all vertices concerned try other points, at most.
+const TRIES: usize = 8;
+
+/// Pairs of crossing faces from which on nothing is tried: the grid is too coarse for the surface,
+/// or the surface crosses itself.
+const MOST_CROSSINGS: usize = 1 << 14;
 
 /// The grid with some vertices on other points of it, where fewer triangles tell no side, and the
 /// sides there. `None` if none were found.
 ///
-/// Cost: a vertex concerned tries at most 124 points, each by queries of a static tree for the
-/// faces around it.
+/// Cost: a search for crossing faces, and some queries of a static tree for each face that crosses
+/// another; a vertex of theirs tries at most 124 points.
 pub(super) fn unfold(
     input: Input<'_>,
     sided: &Sided<'_>,
     grid: &OnGrid,
     sides: &Sides,
 ) -> Option<(OnGrid, Sides)> {
-    let mesh = sided.mesh;
-    let mut search = Search::new(&grid.positions, &mesh.triangles, grid);
-    let places = grid.places(mesh);
-    let crossing = FaceTree::new(&search.faces).contacts(MOST_CROSSINGS);
-    let mut pairs: Vec<[u32; 2]> = crossing
+    let mut search = Search::new(grid, sided.mesh);
+    let contacts = FaceTree::new(&search.faces).contacts(MOST_CROSSINGS);
+    let mut pairs: Vec<[u32; 2]> = contacts
         .into_iter()
         .filter(|(_, contact)| *contact == Contact::Crossing)
         .map(|(pair, _)| pair)
@@ -44,26 +53,13 @@ pub(super) fn unfold(
     if pairs.len() >= MOST_CROSSINGS {
         return None;
     }
-    for _ in 0..ROUNDS {
-        if pairs.is_empty() {
-            break;
-        }
-        let mut vertices: Vec<u32> =
-            pairs.iter().flatten().flat_map(|&face| mesh.triangles[face as usize]).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let mut concerned: Vec<u32> = pairs.into_iter().flatten().collect();
-        let mut moves = false;
-        for v in vertices {
-            if search.improve(v, places[v as usize]) {
-                concerned.extend(search.star(v));
-                moves = true;
-            }
-        }
-        concerned.sort_unstable();
-        concerned.dedup();
-        pairs = search.crossings_of(&concerned);
-        if !moves {
+    for distance in PUSHES {
+        pairs = search.push(pairs, distance);
+    }
+    for _ in 0..TRIES {
+        let before = pairs.len();
+        pairs = search.try_points(pairs);
+        if pairs.len() >= before {
             break;
         }
     }
@@ -76,10 +72,14 @@ pub(super) fn unfold(
 }
 
 struct Search<'a> {
-    triangles: &'a [[u32; 3]],
     faces: Vec<Face>,
     positions: Vec<DVec3>,
+    /// Where rounding put the vertices.
     rounded: &'a [DVec3],
+    /// Their places before.
+    places: Vec<DVec3>,
+    /// Directions in which pairs push the vertices.
+    pushes: FxHashMap<u32, DVec3>,
     low: DVec3,
     /// The faces at each vertex, from `starts`.
     starts: Vec<u32>,
@@ -89,7 +89,8 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn new(rounded: &'a [DVec3], triangles: &'a [[u32; 3]], grid: &OnGrid) -> Self {
+    fn new(grid: &'a OnGrid, mesh: &Mesh) -> Self {
+        let (rounded, triangles) = (&grid.positions, &mesh.triangles);
         let faces = faces(rounded, triangles);
         let reach = f64::from(REACH);
         let boxes: Vec<Bounds> =
@@ -108,14 +109,85 @@ impl<'a> Search<'a> {
             }
         }
         Self {
-            triangles,
-            positions: rounded.to_vec(),
+            positions: rounded.clone(),
             rounded,
+            places: grid.places(mesh),
+            pushes: FxHashMap::default(),
             low: DVec3::from(grid.origin.map(f64::from)),
             tree: StaticTree::new(&boxes),
             faces,
             starts,
             around,
+        }
+    }
+
+    /// Pushes the faces of pairs apart, and rounds their vertices again. Returns the pairs that
+    /// cross then.
+    fn push(&mut self, pairs: Vec<[u32; 2]>, distance: f64) -> Vec<[u32; 2]> {
+        for [f, g] in &pairs {
+            let (f, g) = (self.faces[*f as usize].ids, self.faces[*g as usize].ids);
+            if f.iter().any(|v| g.contains(v)) {
+                continue;
+            }
+            let Some(apart) = self.apart(f, g).or_else(|| self.apart(g, f).map(|d| -d)) else {
+                continue;
+            };
+            f.iter().for_each(|&v| *self.pushes.entry(v).or_default() -= apart);
+            g.iter().for_each(|&v| *self.pushes.entry(v).or_default() += apart);
+        }
+        let mut vertices: Vec<u32> = corners_of(&self.faces, &pairs);
+        vertices.retain(|v| self.pushes.contains_key(v));
+        let mut concerned: Vec<u32> = pairs.into_iter().flatten().collect();
+        for v in vertices {
+            let push = self.pushes[&v].normalize_or_zero() * distance;
+            let rounded = self.rounded[v as usize];
+            let steps = ((self.places[v as usize] + push).round() - rounded)
+                .clamp(DVec3::splat(-f64::from(REACH)), DVec3::splat(f64::from(REACH)));
+            if self.is_on_grid(rounded + steps) {
+                self.place(v, rounded + steps);
+                concerned.extend(self.star(v));
+            }
+        }
+        self.crossings_of(concerned)
+    }
+
+    /// The unit normal of the face `f` in the input that points to its side on which the corners of
+    /// `g` lie; `None` if they lie on both.
+    fn apart(&self, f: [u32; 3], g: [u32; 3]) -> Option<DVec3> {
+        let [f, g] = [f, g].map(|of| of.map(|v| self.places[v as usize]));
+        let normal = (f[1] - f[0]).cross(f[2] - f[0]).normalize_or_zero();
+        let heights = g.map(|p| side(&f, p));
+        if heights.iter().all(|&height| height >= 0.0) {
+            Some(normal)
+        } else if heights.iter().all(|&height| height <= 0.0) {
+            Some(-normal)
+        } else {
+            None
+        }
+    }
+
+    /// Lets the vertices of pairs try other points. Returns the pairs that cross then.
+    fn try_points(&mut self, pairs: Vec<[u32; 2]>) -> Vec<[u32; 2]> {
+        let vertices = corners_of(&self.faces, &pairs);
+        let mut concerned: Vec<u32> = pairs.into_iter().flatten().collect();
+        for v in vertices {
+            if self.improve(v) {
+                concerned.extend(self.star(v));
+            }
+        }
+        self.crossings_of(concerned)
+    }
+
+    fn is_on_grid(&self, p: DVec3) -> bool {
+        let stored = p - self.low;
+        stored.min_element() >= 0.0 && stored.max_element() <= f64::from(u16::MAX)
+    }
+
+    fn place(&mut self, v: u32, at: DVec3) {
+        self.positions[v as usize] = at;
+        for i in self.starts[v as usize]..self.starts[v as usize + 1] {
+            let face = &mut self.faces[self.around[i as usize] as usize];
+            face.at = face.ids.map(|v| self.positions[v as usize]);
         }
     }
 
@@ -135,7 +207,7 @@ impl<'a> Search<'a> {
         let mut count = 0;
         for &f in self.star(v) {
             let face = moved(f);
-            self.visit_crossing(f, &face, |g| {
+            self.visit_near(f, &face, |g| {
                 let other = moved(g);
                 // Pairs of two faces at the vertex are counted once.
                 let is_first = !other.ids.contains(&v) || f < g;
@@ -150,33 +222,27 @@ impl<'a> Search<'a> {
     }
 
     /// Calls `visit` with the faces but `f` that may meet `face`, until it returns false.
-    fn visit_crossing(&self, f: u32, face: &Face, mut visit: impl FnMut(u32) -> bool) {
+    fn visit_near(&self, f: u32, face: &Face, mut visit: impl FnMut(u32) -> bool) {
         self.tree.visit_meeting(&Bounds::of(&face.at), |g| g as u32 == f || visit(g as u32));
     }
 
     /// Moves a vertex to the grid point nearest to its place of those where fewest faces around it
     /// cross others, if these are fewer than where it is. Whether it moved.
-    fn improve(&mut self, v: u32, place: DVec3) -> bool {
-        let mut best = self.positions[v as usize];
-        let mut fewest = self.crossings_at(v, best, usize::MAX);
+    fn improve(&mut self, v: u32) -> bool {
+        let before = self.positions[v as usize];
+        let (mut best, mut fewest) = (before, self.crossings_at(v, before, usize::MAX));
         if fewest == 0 {
             return false;
         }
-        let before = best;
-        let rounded = self.rounded[v as usize];
+        let (rounded, place) = (self.rounded[v as usize], self.places[v as usize]);
         let steps = -REACH..=REACH;
         let mut points: Vec<DVec3> = steps
             .clone()
             .flat_map(|x| steps.clone().map(move |y| (x, y)))
             .flat_map(|(x, y)| steps.clone().map(move |z| rounded + IVec3::new(x, y, z).as_dvec3()))
-            .filter(|p| {
-                let stored = *p - self.low;
-                stored.min_element() >= 0.0 && stored.max_element() <= f64::from(u16::MAX)
-            })
+            .filter(|&p| self.is_on_grid(p))
             .collect();
-        points.sort_by(|a, b| {
-            (*a - place).length_squared().total_cmp(&(*b - place).length_squared())
-        });
+        points.sort_by(|a, b| a.distance_squared(place).total_cmp(&b.distance_squared(place)));
         for at in points {
             let count = self.crossings_at(v, at, fewest);
             if count < fewest {
@@ -186,20 +252,18 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        self.positions[v as usize] = best;
-        for i in self.starts[v as usize]..self.starts[v as usize + 1] {
-            let face = &mut self.faces[self.around[i as usize] as usize];
-            face.at = face.ids.map(|v| self.positions[v as usize]);
-        }
+        self.place(v, best);
         best != before
     }
 
     /// The crossing pairs that have one of some faces.
-    fn crossings_of(&self, some: &[u32]) -> Vec<[u32; 2]> {
+    fn crossings_of(&self, mut some: Vec<u32>) -> Vec<[u32; 2]> {
+        some.sort_unstable();
+        some.dedup();
         let mut pairs = Vec::new();
-        for &f in some {
+        for f in some {
             let face = &self.faces[f as usize];
-            self.visit_crossing(f, face, |g| {
+            self.visit_near(f, face, |g| {
                 if crosses(face, &self.faces[g as usize]) {
                     pairs.push([f.min(g), f.max(g)]);
                 }
@@ -210,6 +274,15 @@ impl<'a> Search<'a> {
         pairs.dedup();
         pairs
     }
+}
+
+/// The corners of all faces of pairs, ascending.
+fn corners_of(faces: &[Face], pairs: &[[u32; 2]]) -> Vec<u32> {
+    let mut corners: Vec<u32> =
+        pairs.iter().flatten().flat_map(|&face| faces[face as usize].ids).collect();
+    corners.sort_unstable();
+    corners.dedup();
+    corners
 }
 
 fn crosses(f: &Face, g: &Face) -> bool {

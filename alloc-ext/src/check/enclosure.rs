@@ -15,17 +15,18 @@
 //! So every point within the margin of the mesh is inside: the way to it from the mesh is no longer
 //! than the margin and does not meet the hull.
 
+mod contact;
 mod distance;
+mod fronts;
 mod meeting;
-mod solid;
 mod surface;
 mod winding;
 
 use super::manifold::Manifold;
 pub(crate) use distance::point_is_far;
+pub(crate) use fronts::check_fronts;
 pub(crate) use meeting::area_free;
 use meeting::{apart, sharing_apart};
-pub(crate) use solid::check_solid;
 pub(crate) use surface::Corners;
 pub use surface::Surface;
 pub use winding::Winding;

@@ -22,7 +22,7 @@ pub enum Against<'a> {
 /// Kinds of the sections of each structure, by the format.
 const KINDS: [(&str, &[u32]); 5] = [
     ("hull hierarchy", &[1, 2, 3, 4, 5, 6, 7, 9, 10, 11, 22, 23]),
-    (TREE, &[12, 13, 14, 15, 16, 17, 18, 24, 25]),
+    (TREE, &[12, 13, 14, 15, 16, 17, 18, 24, 25, 26]),
     ("triboxes", &[19]),
     ("tight hulls", &[20]),
     ("curve", &[21]),

@@ -11,7 +11,7 @@ mod solid;
 mod valid;
 
 pub(crate) use crate::geom::{
-    Bounds, Contact, Enclosure, Enclosures, Face, Frontier, Plane, StaticTree, Triangle, are_apart,
+    Bounds, Enclosure, Enclosures, Face, Frontier, Plane, StaticTree, Triangle, are_apart,
     crosses_itself, faces, is_cut_off, is_degenerate, is_embedded, meet, side, spatial_order,
 };
 pub(crate) use crate::mesh::{EdgeTable, SignedVolume, ends};

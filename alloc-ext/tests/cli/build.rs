@@ -361,16 +361,17 @@ fn tetrahedra(places: &[f32]) -> String {
 }
 
 #[test]
-fn components_that_may_overlap_are_counted_where_signs_are_promised() {
-    let directory = scratch("overlapping_components");
-    let note = "connected components whose boxes overlap: 2; they are not united";
+fn triangles_that_cross_are_named_where_sides_are_promised() {
+    let directory = scratch("crossing_components");
+    let note =
+        "triangles: the surface crosses, overlaps or touches itself, as triangles 0 and 8 do";
     let apart = report(&directory, "apart.obj", &tetrahedra(&[0.0, 3.0]));
-    assert!(!apart.contains("boxes overlap"), "{apart}");
+    assert!(!apart.contains("undecided"), "{apart}");
     let text = report(&directory, "overlap.obj", &tetrahedra(&[0.0, 9.0, 1.0]));
-    assert!(text.contains(note), "{text}");
-    // Inside one component, beside the front of another one: as the report says.
-    let answers = ok(["signed", arg(&directory.join("out.msw")), "0.95,0.1,0.1"]);
-    assert!(answers.contains(",outside,"), "{answers}");
+    assert!(text.contains(note) && text.contains("--for closest,winding decides"), "{text}");
+    // Inside one component, beside the front of another one; and next to the one that crosses none.
+    let answers = ok(["signed", arg(&directory.join("out.msw")), "0.95,0.1,0.1", "9.2,0.1,0.1"]);
+    assert!(answers.contains(",undecided,rounding,") && answers.contains(",inside,"), "{answers}");
     let mesh = directory.join("overlap.obj");
     let out = directory.join("segments.msw");
     assert!(!ok(["build", arg(&mesh), "-o", arg(&out), "--for", "segment"]).contains(note));

@@ -368,11 +368,10 @@ int32_t msw_coherent_closest_point(const msw_model *model, msw_coherent *coheren
 /* The signed distance of a closed mesh: negative where the nearest surface has its back to the
  * point. Of the budget only `steps` matters.
  *
- * The side is never wrong. It is undecided if the mesh is not closed and consistently wound, if the
- * stored vertices moved so that walls may have changed places (`meshsweep build` says so), on the
- * surface, next to walls thinner than the surface error and the rounding (some 1e-5 of the model's
- * size), and next to slivers without a normal.
- * Components that overlap are not united: the nearest surface decides.
+ * The side is never wrong. It is undecided if the mesh is not closed and consistently wound, where
+ * the nearest triangle crosses another or lies inside another part of the surface (`meshsweep build`
+ * says so), on the surface, next to walls thinner than the surface error and the rounding (some 1e-5
+ * of the model's size), and next to slivers without a normal.
  * Cost: one to three times that of msw_closest_point, up to four times more next to edges. */
 int32_t msw_signed_distance(const msw_model *model, const float point[3],
                             const msw_budget *budget,

@@ -2,26 +2,25 @@
 //!
 //! *What the sign means.* In a closed mesh, triangles run through every edge as often in one
 //! direction as in the other. It has a winding number at every point off the surface. The number
-//! rises by one where a triangle is crossed from its front to its back. `Inside` says that the
-//! surface next to the point has its back to it, `Outside` its front. For a mesh that bounds a
-//! solid (winding number 1 in it, 0 elsewhere) these are the usual inside and outside. For an
-//! inverted mesh the sides are exchanged: the solid is the rest of space. The winding is that of the
-//! mesh as the builder wound it: triangles that the file winds otherwise are marked in the tree, and
-//! show the side that they turn away. If no vertex moved,
-//! components that *overlap* are not united. A point may lie in one component while the nearest
-//! surface belongs to another and has its front to the point. Then the answer is `Outside`. A
-//! cavity's winding decides its side, as for any surface.
+//! rises by one where a triangle is crossed from its front to its back. `Outside` says that the
+//! number is 0, `Inside` that it is 1. A cavity's winding decides its side, as for any surface. The
+//! winding is that of the mesh as the builder wound it: triangles that the file winds otherwise are
+//! marked in the tree, and show the side that they turn away.
 //!
-//! *Why the stored surface's sign is the input's.* Move every vertex on a straight line from its
+//! *What a triangle tells.* The search finds whether the number just behind the nearest surface is
+//! greater than at the point. That tells `Outside` from `Inside` if the number is 0 in front of the
+//! nearest triangle, and so 1 behind it. The builder proves this of each triangle of the stored
+//! surface. It does not hold of triangles that cross others, of those that lie inside another part
+//! of the surface, and of a component that is inside out. Such triangles are marked *sideless*.
+//! Where one may be the nearest, the side is undecided. If all are sideless, the tree says so
+//! ([`Bvh::has_sides`]), and every side is undecided.
+//!
+//! *Why the stored surface's side is the input's.* Move every vertex on a straight line from its
 //! input place to its stored place. Every point of every triangle moves by at most `surface_error`.
 //! So the surface never touches a point farther from the stored surface, and the point's winding
-//! number cannot change. At a smaller distance the side is undecided. The winding number *behind*
-//! the nearest triangle may change, though: where a wall or a gap is thinner than the error, its
-//! two faces may change places. If vertices moved, the builder therefore proves that the stored
-//! surface does not meet itself, and that it winds 0 or 1 times around every point. Then a triangle
-//! shows its front to a point exactly if the point's winding number is 0. If there is no such
-//! proof, the tree says so ([`Bvh::has_sides`]), and every side is undecided. Vertices that did not
-//! move need no proof: the stored surface is the input's.
+//! number cannot change. At a smaller distance the side is undecided. What is proved of the stored
+//! surface alone so holds for the input: also where a wall or a gap is thinner than the error, and
+//! its two faces changed places.
 //!
 //! *How it is found.* Let q be the closest point, and w₀ the winding number at the query p. No
 //! surface is nearer than q. So the winding number is w₀ in a half-space of directions about q. Let
@@ -84,18 +83,18 @@ impl SignedDistance {
 }
 
 impl Bvh<'_> {
-    /// Signed distance of `point` (input units), negative where the nearest surface has its back to
-    /// the point.
+    /// Signed distance of `point` (input units), negative inside: where the nearest surface has its
+    /// back to the point.
     ///
-    /// For a mesh that bounds a solid this is the usual signed distance. For an inverted mesh the
-    /// sides are exchanged, if no vertex moved. A cavity's winding decides its side. Components
-    /// that overlap are not united: the nearest surface decides. If several surfaces are equally
-    /// near up to rounding and the surface error, one of them decides.
+    /// For a mesh that bounds a solid this is the usual signed distance. A cavity's winding decides
+    /// its side. If several surfaces are equally near up to rounding and the surface error, one of
+    /// them decides.
     ///
     /// The side is never wrong. It is undecided:
     /// - if the mesh is not closed and consistently wound ([`is_closed`](Bvh::is_closed));
-    /// - if vertices moved, and the stored surface touches or crosses itself, or walls may have
-    ///   changed places ([`has_sides`](Bvh::has_sides));
+    /// - where the nearest triangle may be one that crosses another, lies inside another part of the
+    ///   surface, or belongs to a part that is inside out; if there are no other triangles, everywhere
+    ///   ([`has_sides`](Bvh::has_sides));
     /// - if the distance is not clear of the surface error and rounding;
     /// - next to walls and gaps thinner than these;
     /// - next to slivers so flat that they have no certain normal;

@@ -23,7 +23,7 @@ pub mod writers;
 pub use bracket::bracket;
 pub use extrude::{clamps, groove_block, link, needle_comb};
 pub use rng::Rng;
-pub use solids::{block, cube, icosphere, plate, rough_sphere, torus, uv_sphere};
+pub use solids::{block, coil, cube, icosphere, plate, rough_sphere, torus, uv_sphere};
 pub use transform::{EXTREME_SCALES, inverted, joined, scaled, transformed, two_parts};
 
 /// Positions and triangles.

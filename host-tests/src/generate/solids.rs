@@ -169,6 +169,31 @@ pub fn cube(n: usize) -> Triangles {
     builder.finish()
 }
 
+/// A beam with a section of 4 by 4 that goes around the z axis at a distance of 10 and rises: from
+/// 360 degrees on it crosses itself, if it rises by less than 4 a turn.
+#[must_use]
+pub fn coil(degrees: f64, steps: usize, rise: f64) -> Triangles {
+    let mut positions = Vec::new();
+    for step in 0..=steps {
+        let part = step as f64 / steps as f64;
+        let angle = (degrees * part).to_radians();
+        let (cos, sin, up) = (libm::cos(angle), libm::sin(angle), rise * part);
+        for [r, z] in [[8.0, 0.0], [12.0, 0.0], [12.0, 4.0], [8.0, 4.0f64]] {
+            positions.push([(r * cos) as f32, (r * sin) as f32, (z + up) as f32]);
+        }
+    }
+    let mut triangles = vec![[0, 1, 2], [0, 2, 3]];
+    for step in 0..steps as u32 {
+        for side in 0..4 {
+            let [a, b] = [side, (side + 1) % 4].map(|k| 4 * step + k);
+            triangles.extend([[a, a + 4, b], [b, a + 4, b + 4]]);
+        }
+    }
+    let [a, b, c, d] = [0, 1, 2, 3].map(|k| 4 * steps as u32 + k);
+    triangles.extend([[a, c, b], [a, d, c]]);
+    (positions, triangles)
+}
+
 /// A square plate of side 1 on a plane with these slopes along x and y. Each face is a grid of 4 by
 /// 4 squares, whose diagonals run against those of the other face.
 #[must_use]

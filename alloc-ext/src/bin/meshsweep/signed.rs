@@ -5,7 +5,7 @@ use crate::ask::{Answer, Question, write_end, write_numbers};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
-use crate::side::{has_sides, name, reason, signed_distance};
+use crate::side::{has_sideless, has_sides, name, reason, signed_distance};
 use crate::{blob_file, served};
 use meshsweep_core::{BuildFor, Interval, SignedDistance};
 use std::io::{self, Write};
@@ -32,17 +32,16 @@ pub fn run(args: &SignedArgs) -> Result<(), Failure> {
             write_end(out, closest.triangle, work)
         },
     )?;
-    if !has_sides(&tree) {
+    if !has_sides(&tree) || (has_sideless(&tree) && !tree.serves_winding()) {
         // A closed standard error does not withhold the answers.
-        let why = if tree.is_closed() {
-            "vertices moved when the blob was built, and walls may have changed places"
-        } else {
-            "the mesh is not closed"
+        let why = match (tree.is_closed(), tree.has_sides()) {
+            (false, _) => "the mesh is not closed, so every side is undecided",
+            (_, false) => "no triangle tells a side, so every side is undecided",
+            _ => "some triangles tell no side: where the nearest is one of them, it is undecided",
         };
         let _ = writeln!(
             io::stderr(),
-            "{}: {why}, so every side is undecided; distances hold; build it with `winding` among \
-             the questions of --for",
+            "{}: {why}; distances hold; --for closest,winding decides sides",
             file.display()
         );
     }

@@ -13,7 +13,7 @@ pub(super) fn turn([i, j]: [usize; 2], a: [f64; 3], b: [f64; 3], c: [f64; 3]) ->
     side([flat(a, 0.0), flat(b, 0.0), flat(c, 0.0)], flat(a, 1.0)).0
 }
 
-fn shadow(t: &Corners) -> Option<[usize; 2]> {
+pub(super) fn shadow(t: &Corners) -> Option<[usize; 2]> {
     [[0, 1], [0, 2], [1, 2]].into_iter().find(|&axes| turn(axes, t[0], t[1], t[2]) != 0)
 }
 
@@ -23,7 +23,7 @@ pub(crate) fn area_free(t: &Corners) -> bool {
 }
 
 /// Whether the segment misses the triangle; a triangle without area counts as missed.
-fn misses(p: [f64; 3], q: [f64; 3], t: &Corners) -> bool {
+pub(super) fn misses(p: [f64; 3], q: [f64; 3], t: &Corners) -> bool {
     match (of_plane(t, p), of_plane(t, q)) {
         (0, 0) => {
             let Some(axes) = shadow(t) else { return true };

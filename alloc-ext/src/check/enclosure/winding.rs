@@ -1,6 +1,6 @@
 //! How often a closed surface winds around a point: signed crossings of a ray, in exact arithmetic.
 
-use super::meeting::turn;
+use super::meeting::{misses, turn};
 use super::surface::{Corners, Surface};
 use crate::check::exact::side;
 
@@ -38,6 +38,26 @@ impl Winding {
     /// Rounding keeps the order, so a face is in the strip of every y that it reaches.
     fn strip(&self, y: f64) -> usize {
         ((((y - self.low) / (self.high - self.low)) * STRIPS as f64) as usize).min(STRIPS - 1)
+    }
+
+    /// The faces with area that a segment meets, ascending.
+    pub(super) fn met_by(&self, [p, q]: [[f64; 3]; 2]) -> Vec<usize> {
+        let (low, high) = (p[1].min(q[1]), p[1].max(q[1]));
+        let beside = |face: &Corners| {
+            (0..3).any(|k| {
+                face.iter().all(|c| c[k] < p[k].min(q[k]))
+                    || face.iter().all(|c| c[k] > p[k].max(q[k]))
+            })
+        };
+        let mut met: Vec<usize> = self.strips[self.strip(low)..=self.strip(high)]
+            .iter()
+            .flatten()
+            .map(|&number| number as usize)
+            .filter(|&number| !beside(&self.faces[number]) && !misses(p, q, &self.faces[number]))
+            .collect();
+        met.sort_unstable();
+        met.dedup();
+        met
     }
 
     /// Crossings of the ray along +x from `p`, which is thought to be moved by an infinitesimal

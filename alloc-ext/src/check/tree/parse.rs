@@ -109,6 +109,8 @@ pub(super) struct TreeBlob {
     pub(super) moments: Vec<Moments>,
     /// For each triangle whether sides are those of the triangle turned.
     pub(super) turned: Vec<bool>,
+    /// For each triangle whether it tells no side.
+    pub(super) sideless: Vec<bool>,
     /// Empty or one for each leaf: an axis, and the sine of its angle in units of 1/254; 255 is
     /// unknown.
     pub(super) cones: Vec<([i8; 3], u8)>,
@@ -206,8 +208,15 @@ impl TreeBlob {
         let slabs = records(section(bytes, 15, "boxes")?, 72, nodes, "boxes")?;
         let moments = records(section(bytes, 24, "moments")?, 60, nodes, "moments")?;
         let cones = records(section(bytes, 18, "normal cones")?, 4, leaf_count, "normal cones")?;
-        let bits = section(bytes, 25, "turned triangles")?;
-        let turned = turned(bits, head[1] & 8 != 0, triangles)?;
+        let bits = |kind: u32, flag: u8, may_be_all: bool, what: &str| {
+            let (all, is_flagged) = (section(bytes, kind, what)?, head[1] & flag != 0);
+            match all.is_empty() && may_be_all {
+                true => Ok(vec![is_flagged; triangles]),
+                false => bits(all, is_flagged, triangles).map_err(|why| format!("{what}: {why}")),
+            }
+        };
+        let turned = bits(25, 8, true, "turned triangles")?;
+        let sideless = bits(26, 16, false, "sideless triangles")?;
         let local = |offset: usize| -> Result<[f64; 3], String> {
             let [x, y, z] = [0, 4, 8].map(|k| at(offset + k).map(f32::from_bits).map(f64::from));
             Ok([x?, y?, z?])
@@ -271,6 +280,7 @@ impl TreeBlob {
                 .collect(),
             surface_box,
             turned,
+            sideless,
             source: source(section(bytes, 17, "source numbers")?, triangles)?,
         };
         tree.finite()
@@ -351,18 +361,15 @@ impl Fans<'_> {
     }
 }
 
-/// A bit for each triangle, least bit of a byte first, and zeros to the end of the last byte. If the
-/// header's flag is set and there are none, all triangles are turned.
-fn turned(bits: &[u8], is_flagged: bool, triangles: usize) -> Result<Vec<bool>, String> {
-    if bits.is_empty() {
-        return Ok(vec![is_flagged; triangles]);
-    }
-    if !is_flagged || bits.len() != triangles.div_ceil(8) {
-        return Err("turned triangles: not a bit for each".into());
+/// A bit for each triangle, least bit of a byte first, and zeros to the end of the last byte; or
+/// nothing, if the header says so.
+fn bits(bits: &[u8], is_there: bool, triangles: usize) -> Result<Vec<bool>, String> {
+    if bits.len() != if is_there { triangles.div_ceil(8) } else { 0 } {
+        return Err("not a bit for each".into());
     }
     let bit = |k: usize| bits.get(k / 8).is_some_and(|byte| byte >> (k % 8) & 1 != 0);
     if (triangles..8 * bits.len()).any(bit) {
-        return Err("turned triangles: more than there are".into());
+        return Err("more than there are".into());
     }
     Ok((0..triangles).map(bit).collect())
 }

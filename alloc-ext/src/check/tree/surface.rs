@@ -4,7 +4,7 @@
 use super::chosen::Chosen;
 use super::parse::TreeBlob;
 use super::proof::TreeProof;
-use crate::check::enclosure::{Surface, check_solid};
+use crate::check::enclosure::{Surface, check_fronts};
 use crate::check::input::{Given, Stored};
 use crate::mesh::Mesh;
 
@@ -88,14 +88,16 @@ pub(super) fn turned<'a>(
     }
 }
 
-/// If vertices moved and the header promises sides, the stored surface bounds a solid. `corners`
-/// are the mesh's vertices at the corners of the stored triangles.
+/// If the header promises sides, the stored surface winds 0 times around all places in front of the
+/// triangles that tell sides. `corners` are the mesh's vertices at the corners of the stored
+/// triangles.
 pub(super) fn sides(tree: &TreeBlob, corners: &[[u32; 3]]) -> Result<(), String> {
-    if !promises_sides(tree) || tree.surface_error == 0.0 {
+    if !promises_sides(tree) {
         return Ok(());
     }
-    let mut surface = Surface::default();
-    for (((_, at), ids), &is_turned) in tree.triangles().zip(corners).zip(&tree.turned) {
+    let (mut surface, mut sideless) = (Surface::default(), Vec::new());
+    let bits = tree.turned.iter().zip(&tree.sideless);
+    for (((_, at), ids), (&is_turned, &is_sideless)) in tree.triangles().zip(corners).zip(bits) {
         // A wire repeats a vertex, and bounds nothing.
         if ids[0] == ids[1] || ids[1] == ids[2] || ids[2] == ids[0] {
             continue;
@@ -113,6 +115,7 @@ pub(super) fn sides(tree: &TreeBlob, corners: &[[u32; 3]]) -> Result<(), String>
         }
         let [a, b, c] = *ids;
         surface.triangles.push(if is_turned { [a, c, b] } else { *ids });
+        sideless.push(is_sideless);
     }
-    check_solid(&surface).map_err(|why| format!("sides are promised, but {why}"))
+    check_fronts(&surface, &sideless).map_err(|why| format!("sides are promised, but {why}"))
 }

@@ -245,10 +245,10 @@ impl Bvh<'_> {
     }
 
     /// Whether [`signed_distance`](Bvh::signed_distance) can decide sides. False for an open mesh,
-    /// and for a closed one if vertices moved and two walls may have changed places by that, or if
-    /// it has winding numbers and the builder had to turn or drop triangles to make it closed.
-    /// [Winding numbers](Bvh::signed_by_winding) decide the sides of such a mesh; `--vertex-bits
-    /// 32` mostly does.
+    /// and for a closed one each triangle of which crosses another, lies inside another part or
+    /// faces inwards. False as well if it has winding numbers and the builder had to turn or drop
+    /// triangles to make it closed. [Winding numbers](Bvh::signed_by_winding) decide the sides of
+    /// such a mesh.
     pub const fn has_sides(&self) -> bool {
         self.header.has_sides()
     }
@@ -290,6 +290,11 @@ impl<'a> Bvh<'a> {
     /// Input coordinate = local coordinate × 2^this.
     pub fn scale_exponent(&self) -> i32 {
         self.scale_exponent
+    }
+
+    /// Whether a triangle of the tree tells no side.
+    pub fn is_sideless(&self, triangle: u32) -> bool {
+        self.sideless.contains(triangle)
     }
 
     /// The grid units.

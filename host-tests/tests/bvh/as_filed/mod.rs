@@ -1,6 +1,7 @@
 //! Answers are about the oriented triangles of the file, whatever repair made of them to tell
 //! inside from outside.
 
+mod crossing;
 mod facing;
 mod random;
 mod sides;

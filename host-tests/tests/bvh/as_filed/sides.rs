@@ -115,7 +115,7 @@ fn turned_triangles_are_there_if_the_header_says_so_and_end_with_zeros() {
     assert_eq!(flags(1), missing, "bits that no flag announces");
     assert_eq!(flags(8), missing, "bits of a mesh that is not closed");
     assert_eq!(flags(13), missing, "bits of a tree without sides");
-    assert_eq!(flags(17), Err(OpenError::Reserved));
+    assert_eq!(flags(33), Err(OpenError::Reserved));
     let (mut odd, triangles) = (one_of_two_inverted(), 44);
     odd = joined(&odd, &far_tetrahedron());
     let bytes = File::of(&odd).tree(&TreeOptions::default());

@@ -179,14 +179,14 @@ pub fn signed() -> String {
     format!(
         "The column 'side' says outside or inside, both proved; or undecided, and then 'reason' \
          says why: open mesh, the mesh bounds no solid; at the surface, the interval of the \
-         distance begins at 0; rounding, single precision leaves the side undecided; out of \
+         distance begins at 0; rounding, single precision or the nearest triangle leaves the side undecided; out of \
          steps, out of scratch memory, the query ended early. lower and upper are the bounds of \
          the signed distance, negative inside. If the side is undecided, they are -upper and \
          upper of the distance; {TRIANGLES}.\n\n\
-         The side is that of the nearest surface. Parts that overlap are not united: a point in \
-         one part is outside if the front of another part is nearer. With \
-         --for winding they are: then the side is that of the winding number, of any mesh, open or \
-         not, and a point takes longer.\n\n\
+         The side is that of the nearest triangle. Where the nearest triangle crosses another one \
+         or lies inside another part of the mesh, it tells no side, and the side is undecided. With \
+         --for closest,winding the side is that of the winding number, of any mesh, open or not, \
+         and a point takes longer.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep signed part.msw 10,4.5,7\n  \

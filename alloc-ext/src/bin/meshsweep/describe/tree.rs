@@ -68,10 +68,14 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
              diagonal of the mesh away"
         )?;
     }
+    let sideless = sideless(tree);
     let closed = match (tree.is_closed(), tree.serves_winding()) {
         (true, false) if !tree.has_sides() => {
-            "closed, but walls may have changed places: every side is undecided; `winding` among \
-             the questions of --for decides them"
+            "closed, but no triangle tells a side: every side is undecided; --for closest,winding \
+             decides them"
+        }
+        (true, false) if sideless > 0 => {
+            "closed: signed distance is that of the nearest surface; some triangles tell no side"
         }
         (true, false) => "closed: signed distance is that of the nearest surface",
         (true, true) => {
@@ -79,7 +83,7 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
              overlap are united"
         }
         (false, true) => "open: sides are those of the winding number",
-        _ => "open: every side is undecided; `winding` among the questions of --for decides them",
+        _ => "open: every side is undecided; --for closest,winding decides them",
     };
     writeln!(out, "  {closed}")?;
     writeln!(
@@ -90,6 +94,9 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
         shape.triangles_per_fan(),
         Counted(shape.single_triangle_fans(), "fan")
     )?;
+    if sideless > 0 {
+        writeln!(out, "  {} that tell no side", Counted(sideless, "triangle"))?;
+    }
     if shape.flat > 0 {
         writeln!(out, "  {} without area as stored", Counted(shape.flat, "triangle"))?;
     }
@@ -115,6 +122,11 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
     )
 }
 
+/// Triangles that tell no side, of a tree whose others do.
+fn sideless(tree: &Bvh<'_>) -> usize {
+    (0..tree.triangle_count()).filter(|&triangle| tree.is_sideless(triangle)).count()
+}
+
 pub(super) fn as_json(tree: &Bvh<'_>, diagonal: f64) -> Value {
     let h = tree.header();
     let shape = Shape::of(tree);
@@ -122,6 +134,7 @@ pub(super) fn as_json(tree: &Bvh<'_>, diagonal: f64) -> Value {
     json!({
         "is_closed": tree.is_closed(),
         "has_sides": tree.has_sides(),
+        "sideless_triangles": sideless(tree),
         "vertex_format": format_name(tree),
         "surface_error": tree.surface_error(),
         "half_width_near": near,

@@ -1,0 +1,158 @@
+//! Proof that faces of a surface tell sides: it winds 0 times around every point just in front of
+//! them.
+
+use super::contact::{Touch, touch};
+use super::surface::{Corners, Surface};
+use super::winding::Winding;
+use super::{area_free, near, sharing_apart};
+use std::collections::BTreeMap;
+
+/// Mean number of faces of a strip of y or z. Pairs of faces are looked for in strips, so that
+/// large surfaces do not take the square of their faces.
+const STRIP: usize = 2000;
+
+/// Proves it of the faces that are not `sideless`:
+/// 1. through every edge as many faces run in one direction as in the other;
+/// 2. they share with all faces no more than common corners and edges, single points, and parts of
+///    edges of both;
+/// 3. of faces that are connected across edges which no third face touches, one has a point in
+///    front around which the surface winds 0 times.
+///
+/// By the second, the interior of such a face less some points meets no other face, and no face
+/// comes between the places in front of two faces at an edge of the third. So the third holds for
+/// every place in front. Faces without area bound nothing.
+///
+/// # Errors
+/// What does not hold, in words.
+pub(crate) fn check_fronts(surface: &Surface, sideless: &[bool]) -> Result<(), String> {
+    let mut uses: BTreeMap<[u32; 2], [Vec<usize>; 2]> = BTreeMap::new();
+    for (number, &[a, b, c]) in surface.triangles.iter().enumerate() {
+        for (k, [u, v]) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
+            let edge = uses.entry([u.min(v), u.max(v)]).or_default();
+            edge[usize::from(u > v)].push(3 * number + k);
+        }
+    }
+    if let Some((edge, _)) = uses.iter().find(|(_, [up, down])| up.len() != down.len()) {
+        return Err(format!("the surface is not closed at the edge {edge:?}"));
+    }
+    let faces: Vec<Corners> = surface.triangles.iter().map(|&t| surface.corners(t)).collect();
+    let has_area: Vec<bool> = faces.iter().map(|face| !area_free(face)).collect();
+    let told: Vec<bool> = has_area.iter().zip(sideless).map(|(&area, &not)| area && !not).collect();
+    let touched = touched_edges(surface, &faces, &has_area, &told)?;
+    let mut patches: Vec<usize> = (0..faces.len()).collect();
+    for [up, down] in uses.values() {
+        if let (&[g], &[h]) = (&up[..], &down[..])
+            && [g, h].iter().all(|&half_edge| !touched[half_edge] && told[half_edge / 3])
+        {
+            let (g, h) = (root(&mut patches, g / 3), root(&mut patches, h / 3));
+            patches[g.max(h)] = g.min(h);
+        }
+    }
+    let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for face in (0..faces.len()).filter(|&face| told[face]) {
+        members.entry(root(&mut patches, face)).or_default().push(face);
+    }
+    let winding = Winding::new(surface);
+    for patch in members.values() {
+        let Some(point) =
+            patch.iter().take(SAMPLES).find_map(|&face| in_front(&winding, &faces, face))
+        else {
+            return Err(format!("no point in front of face {} is clear of others", patch[0]));
+        };
+        let around = winding.around(point)?;
+        if around != 0 {
+            return Err(format!("the surface winds {around} times around {point:?}, in front"));
+        }
+    }
+    Ok(())
+}
+
+/// Faces of which one has a point in front that is clear of others, at most.
+const SAMPLES: usize = 100;
+
+fn root(parents: &mut [usize], mut face: usize) -> usize {
+    while parents[face] != face {
+        parents[face] = parents[parents[face]];
+        face = parents[face];
+    }
+    face
+}
+
+/// A point in front of a face, and the segment from there through the face to its back meets no
+/// other.
+fn in_front(winding: &Winding, faces: &[Corners], face: usize) -> Option<[f64; 3]> {
+    let [a, b, c] = faces[face];
+    let middle = [0, 1, 2].map(|k| (a[k] + b[k] + c[k]) / 3.0);
+    let (u, v) = ([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k]));
+    let normal = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| u[i] * v[j] - u[j] * v[i]);
+    let largest = normal.iter().fold(0f64, |most, x| most.max(x.abs()));
+    let size = middle.iter().chain(&u).fold(0f64, |most, x| most.max(x.abs()));
+    if largest == 0.0 {
+        return None;
+    }
+    [1e-9, 1e-13].into_iter().find_map(|part| {
+        let ends = [1.0, -1.0]
+            .map(|to| [0, 1, 2].map(|k| middle[k] + to * part * size * (normal[k] / largest)));
+        (winding.met_by(ends) == [face] && crate::check::exact::side(faces[face], ends[0]).0 > 0)
+            .then_some(ends[0])
+    })
+}
+
+/// For each edge, by face and corner, whether a face that shares no corner with it, or one, touches
+/// it along a part.
+fn touched_edges(
+    surface: &Surface,
+    faces: &[Corners],
+    has_area: &[bool],
+    told: &[bool],
+) -> Result<Vec<bool>, String> {
+    let extent = |axis: usize| {
+        let xs = || faces.iter().flatten().map(|p| p[axis]);
+        xs().fold(f64::NEG_INFINITY, f64::max) - xs().fold(f64::INFINITY, f64::min)
+    };
+    // Within a strip pairs are found along x.
+    let axis = if extent(1) > extent(2) { 1 } else { 2 };
+    let ends = |face: &Corners| {
+        let ys = face.map(|p| p[axis]);
+        (
+            ys.into_iter().fold(f64::INFINITY, f64::min),
+            ys.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        )
+    };
+    let (low, high) = faces
+        .iter()
+        .map(ends)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (l, h)| (low.min(l), high.max(h)));
+    let count = (faces.len() / STRIP).max(1);
+    // Rounding keeps the order, so two faces with a common y are in a common strip.
+    let strip = |y: f64| (((y - low) / (high - low) * count as f64) as usize).min(count - 1);
+    let mut strips = vec![Vec::new(); count];
+    for (number, face) in faces.iter().enumerate().filter(|(number, _)| has_area[*number]) {
+        let (from, to) = ends(face);
+        strips[strip(from)..=strip(to)].iter_mut().for_each(|strip| strip.push(number));
+    }
+    let mut touched = vec![false; 3 * faces.len()];
+    for numbers in strips {
+        let here: Vec<Corners> = numbers.iter().map(|&number| faces[number]).collect();
+        for (i, j) in near(&here, &here, 0.0).into_iter().filter(|(i, j)| i < j) {
+            let [a, b] = [numbers[i], numbers[j]];
+            if !told[a] && !told[b] {
+                continue;
+            }
+            let (s, t) = (&faces[a], &faces[b]);
+            if sharing_apart(s, surface.triangles[a], t, surface.triangles[b]) {
+                continue;
+            }
+            match touch(s, t) {
+                Some(Touch::Point) => {}
+                Some(Touch::Edges(of)) => {
+                    for (face, edges) in [a, b].into_iter().zip(of) {
+                        (0..3).for_each(|k| touched[3 * face + k] |= edges[k]);
+                    }
+                }
+                None => return Err(format!("faces {a} and {b} cross, as at {:?}", s[0])),
+            }
+        }
+    }
+    Ok(touched)
+}
