@@ -29,15 +29,13 @@ pub fn mesh_of(hull: &Hull<'_>, faces: impl Iterator<Item = HullFace>) -> Mesh {
 /// [encloses](Hull::encloses) nothing. It may have fewer faces.
 ///
 /// The stored hulls enclose the surface as stored. The input may stick out of that by
-/// [`Hull::surface_error`].
-///
-/// # Errors
-/// The hull as it is, if no move is proved to suffice, or if the surface error is more than
-/// rounding explains: it then tells how far triangles without area are from the others.
-pub fn enclosing_input(hierarchy: &Hull<'_>, hull: Mesh) -> Result<Mesh, Mesh> {
+/// [`Hull::surface_error`]. `None` if no move is proved to suffice, or if the surface error is more
+/// than rounding explains: it then tells how far triangles without area are from the others.
+#[must_use]
+pub fn enclosing_input(hierarchy: &Hull<'_>, hull: &Mesh) -> Option<Mesh> {
     let error = f64::from(hierarchy.surface_error());
     if error <= 0.0 || !hierarchy.encloses() {
-        return Ok(hull);
+        return Some(hull.clone());
     }
     let header = hierarchy.header();
     // Local coordinates are below 1. Half the diagonal of a cell, and of a cube of half units in
@@ -48,13 +46,13 @@ pub fn enclosing_input(hierarchy: &Hull<'_>, hull: Mesh) -> Result<Mesh, Mesh> {
     };
     let rounding = 0.87 * step + exp2(-24);
     if f64::from(header.surface_error) > rounding {
-        return Err(hull);
+        return None;
     }
     // A level of a cut blob encloses the surface that is gone. What keeps the distance from the
     // level keeps it from that surface.
     let finest = hierarchy.levels().last().filter(|_| !hierarchy.is_cut());
     let finest = finest.map(|level| mesh_of(hierarchy, hierarchy.faces(&level)));
-    outset(&hull, finest.as_ref().unwrap_or(&hull), error).ok_or(hull)
+    outset(hull, finest.as_ref().unwrap_or(hull), error)
 }
 
 /// Says that the input may stick out of stored hulls by up to `error`, if that is not 0.

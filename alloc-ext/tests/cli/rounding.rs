@@ -40,7 +40,7 @@ fn every_command_that_reads_a_mesh_says_what_rounding_moved() {
         let said = ok(command);
         assert!(said.contains("rounding to f32 moved vertices by up to "), "{command:?}: {said}");
     }
-    for command in [&of[4][..], &of[6], &of[7]] {
+    for command in [of[4], of[6], of[7]] {
         assert!(is_moved(&rounding(&ok([command, &["--json"]].concat()))), "{command:?}");
     }
     let both = rounding(&ok([of[5], &["--json"]].concat()));

@@ -30,7 +30,8 @@ impl Number {
         let (whole, part) = digits.split_once('.').unwrap_or((digits, ""));
         let exponent: i32 = exponent.parse().expect("an exponent");
         let mantissa = format!("{whole}{part}").parse().expect("digits");
-        Self { mantissa, two: 0, ten: exponent - part.len() as i32 }
+        let places = i32::try_from(part.len()).expect("a number");
+        Self { mantissa, two: 0, ten: exponent - places }
     }
 
     /// As a multiple of `2^two · 10^ten`, which are not above its own.

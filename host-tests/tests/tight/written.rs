@@ -129,13 +129,13 @@ fn stored_hulls_enclose_a_mesh_in_map_coordinates_and_are_proved_of_the_file() {
     let hierarchy = blob.hull().expect("has hulls");
     for level in hierarchy.levels() {
         let hull = mesh_of(&hierarchy, hierarchy.faces(&level));
-        let hull = enclosing_input(&hierarchy, hull).expect("can be moved");
+        let hull = enclosing_input(&hierarchy, &hull).expect("can be moved");
         assert_eq!(encloses(&text, &hull), Ok(()), "{level:?}");
     }
     let mut refined = Box::new(RefinedHull::<2000>::new());
     let focus = Focus::Ball { centre: [500_130.0, 5_200_470.0, 412.0], radius: 5.0 };
     refined.update(&hierarchy, &focus, 0.0, &mut []).expect("refines");
-    let hull = enclosing_input(&hierarchy, mesh_of(&hierarchy, refined.faces(&hierarchy)));
+    let hull = enclosing_input(&hierarchy, &mesh_of(&hierarchy, refined.faces(&hierarchy)));
     assert_eq!(encloses(&text, &hull.expect("can be moved")), Ok(()));
     let tight = blob.tight_hulls().expect("has tight hulls").get(0).expect("one");
     assert_eq!(encloses(&text, &meshsweep::tight::hull_mesh(&tight)), Ok(()));

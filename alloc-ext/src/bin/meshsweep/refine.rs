@@ -28,7 +28,7 @@ pub fn run(args: &RefineArgs) -> Result<(), Failure> {
     let Refinement { error_left, .. } = refined
         .update(&hull, &args.focus(), args.error.unwrap_or(0.0), &mut [])
         .map_err(|error| Failure::Search { file: args.blob.clone(), error })?;
-    let (mesh, note) = enclosing(&hull, mesh_of(&hull, refined.faces(&hull)));
+    let (mesh, note) = enclosing(&hull, &mesh_of(&hull, refined.faces(&hull)));
     Output::file(&args.output)?.finish(|out| write_ply(&mesh, out))?;
     Output::stdout().finish(|out| {
         writeln!(

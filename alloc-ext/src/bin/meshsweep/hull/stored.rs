@@ -40,7 +40,7 @@ pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
     };
     let level = hierarchy.level(index).ok_or_else(no_level)?;
     let stored = mesh_of(&hierarchy, hierarchy.faces(&level));
-    let (hull, note) = enclosing(&hierarchy, stored.clone());
+    let (hull, note) = enclosing(&hierarchy, &stored);
     let void = f64::from(level.void_ratio);
     let void = match hull == stored {
         true => void,
@@ -61,9 +61,9 @@ pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
 }
 
 /// A hull that encloses the input; or the stored one, and how far the input sticks out.
-pub fn enclosing(hierarchy: &Hull<'_>, hull: Mesh) -> (Mesh, Option<String>) {
-    match enclosing_input(hierarchy, hull) {
-        Ok(hull) => (hull, None),
-        Err(hull) => (hull, sticks_out_note(f64::from(hierarchy.surface_error()))),
+pub fn enclosing(hierarchy: &Hull<'_>, stored: &Mesh) -> (Mesh, Option<String>) {
+    match enclosing_input(hierarchy, stored) {
+        Some(hull) => (hull, None),
+        None => (stored.clone(), sticks_out_note(f64::from(hierarchy.surface_error()))),
     }
 }
