@@ -59,6 +59,23 @@ impl LeftOut {
         self.remarks.extend_from_slice(&others.remarks);
     }
 
+    /// A sentence for each kind of part.
+    pub(super) fn sentences(&self) -> impl Iterator<Item = String> {
+        let Self { stitches, lines_and_points, bytes_after_end, .. } = *self;
+        let counted = |count: usize, noun, what: &str| {
+            (count > 0).then(|| format!("{} {what}", Counted(count, noun)))
+        };
+        let joins = "with a repeated corner left out of strips that they join";
+        let counted = [
+            counted(stitches, "triangle", joins),
+            counted(lines_and_points, "primitive", "of points or lines left out"),
+            counted(bytes_after_end, "byte", "after the announced end of the file left out"),
+        ];
+        let small = self.small_faces.said("face", "of fewer than three corners left out");
+        let remarks = self.remarks.iter().map(Remark::to_string);
+        small.into_iter().chain(remarks).chain(counted.into_iter().flatten())
+    }
+
     /// What a file without triangles holds in their place.
     pub(super) fn instead(&self) -> Option<String> {
         let lines = Counted(self.lines_and_points, "primitive");

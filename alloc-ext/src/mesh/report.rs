@@ -168,15 +168,13 @@ impl RepairReport {
             })
     }
 
-    /// Sentences about faces of the file that are no polygons, those that cross themselves and those
-    /// of fewer than three corners, and about [other parts](LeftOut::remarks) that were left out or
-    /// are doubtful. Each names the first.
+    /// Sentences about what is doubtful or was left out of the file: faces that are no polygons,
+    /// because they cross themselves, and [other parts](LeftOut). Each names the first if it has a
+    /// place.
     pub fn doubts(&self) -> impl Iterator<Item = String> {
         let fan = "too warped or crossing itself, split about its first corner";
-        let small = "of fewer than three corners left out";
         let unsound = self.polygons.unsound.said("polygon", fan);
-        let remarks = self.left_out.remarks.iter().map(ToString::to_string);
-        unsound.into_iter().chain(self.left_out.small_faces.said("face", small)).chain(remarks)
+        unsound.into_iter().chain(self.left_out.sentences())
     }
 
     /// Says how far vertices moved when they were rounded to `f32`, if any did.
@@ -225,22 +223,6 @@ impl fmt::Display for RepairReport {
         }
         for said in self.doubts() {
             write!(f, "\n  {said}")?;
-        }
-        let &LeftOut { stitches, lines_and_points, bytes_after_end, .. } = &self.left_out;
-        if stitches > 0 {
-            let stitches = Counted(stitches, "triangle");
-            write!(f, "\n  {stitches} with a repeated corner left out of strips that they join")?;
-        }
-        if lines_and_points > 0 {
-            write!(
-                f,
-                "\n  {} of points or lines left out",
-                Counted(lines_and_points, "primitive")
-            )?;
-        }
-        if bytes_after_end > 0 {
-            let bytes = Counted(bytes_after_end, "byte");
-            write!(f, "\n  {bytes} after the announced end of the file left out")?;
         }
         if let Some(note) = self.rounding_note() {
             write!(f, "\n  {note}")?;

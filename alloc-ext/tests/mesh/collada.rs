@@ -239,6 +239,8 @@ fn refusals_name_line_element_and_defect() {
     }
     let error = parse(&file("", &polygons, NODE)).unwrap_err().to_string();
     assert!(error.contains("a polygon with holes in line 10"), "{error}");
+    let error = parse(&whole.replace('\n', "\r").replace(">0 1 2<", ">0 1 5<")).unwrap_err();
+    assert!(error.to_string().starts_with("a.dae, line 10: "), "{error}");
     let polylist =
         format!(r#"<polylist count="1">{INPUT}<vcount>4</vcount><p>0 1 2</p></polylist>"#);
     let error = parse(&file("", &polylist, NODE)).unwrap_err().to_string();

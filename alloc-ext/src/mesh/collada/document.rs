@@ -88,8 +88,7 @@ impl<'a> Document<'a> {
                 return Ok(document);
             }
             let at = usize::try_from(reader.buffer_position()).unwrap_or(text.len());
-            let read = text.as_bytes().get(counted..at).unwrap_or_default();
-            line += read.iter().filter(|&&b| b == b'\n').count();
+            line += line_ends(text.as_bytes(), counted, at);
             counted = at;
         }
     }
@@ -242,6 +241,16 @@ impl<'a> Document<'a> {
         }
         place
     }
+}
+
+/// How many lines end in a part of the text: with CR, LF or both.
+fn line_ends(text: &[u8], from: usize, to: usize) -> usize {
+    let is_end = |&at: &usize| match text.get(at) {
+        Some(b'\n') => true,
+        Some(b'\r') => text.get(at + 1) != Some(&b'\n'),
+        _ => false,
+    };
+    (from..to).filter(is_end).count()
 }
 
 /// The text of a reference, as `&lt;`.

@@ -41,7 +41,9 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             copies.raw.left_out.remark("up_axis", what, || name.to_owned());
         }
     }
-    let mut scene = Scene { document: &document, copies, known: FxHashMap::default(), faces: 0 };
+    let most_depth = document.nodes.iter().filter(|node| node.name == "node").count();
+    let known = FxHashMap::default();
+    let mut scene = Scene { document: &document, copies, known, faces: 0, most_depth };
     scene.place_all(&scale)?;
     let unit_by_default = length.is_none();
     let raw = scene.copies.raw;
@@ -90,6 +92,8 @@ struct Scene<'a> {
     known: FxHashMap<usize, Rc<Geometry>>,
     /// Faces that were read.
     faces: usize,
+    /// Number of nodes: the depth of none is larger, unless it contains itself.
+    most_depth: usize,
 }
 
 impl Scene<'_> {
@@ -134,7 +138,7 @@ impl Scene<'_> {
         let mut open = vec![(root, parent.clone(), 0)];
         while let Some((node, parent, depth)) = open.pop() {
             self.copies.count()?;
-            if depth > document.nodes.len() {
+            if depth > self.most_depth {
                 return Err(document.malformed(node, "it contains itself"));
             }
             let placement = parent.after(&transform::placement(document, node)?);

@@ -6,7 +6,7 @@ use super::super::polygons::{FacePlace, Polygons};
 use super::super::text::{Words, lines, lowercase, number, point, quoted};
 use super::super::{MeshError, RawMesh};
 use super::binary::HEADER_BYTES;
-use super::raw;
+use super::soup::raw;
 
 /// Reads the facets of all solids. A facet of more than three vertices is split. Between solids any
 /// line is a comment, and a line that begins with `;`, `//` or `#` is one everywhere.

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use super::super::polygons::Polygons;
 use super::super::{LeftOut, MeshError, RawMesh};
-use super::raw;
+use super::soup::raw;
 
 /// Bytes before the first triangle.
 pub(super) const HEADER_BYTES: usize = 84;

@@ -2,10 +2,10 @@
 
 mod ascii;
 mod binary;
+mod soup;
 
 use std::path::Path;
 
-use super::polygons::Polygons;
 use super::{MeshError, RawMesh, text};
 
 /// Bytes of text in which an ASCII file names its first facet.
@@ -38,12 +38,4 @@ fn is_text(bytes: &[u8]) -> bool {
     let head = bytes[..bytes.len().min(FACET_WITHIN)].to_ascii_lowercase();
     let holds = |word: &[u8]| head.windows(word.len()).any(|at| at == word);
     holds(b"facet") && holds(b"vertex")
-}
-
-/// Three positions for each triangle.
-fn raw(file: &Path, positions: Vec<[f64; 3]>, polygons: Polygons, decimal: bool) -> RawMesh {
-    let triangles =
-        (0..positions.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
-    let raw = RawMesh::from_f64(positions, triangles);
-    RawMesh { file: file.to_owned(), polygons, decimal, ..raw }
 }

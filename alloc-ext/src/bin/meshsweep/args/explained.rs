@@ -81,8 +81,8 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     statements of unknown name; of STL attributes; of 3MF supports, items that are not to be \
     printed, negative parts and modifiers; of COLLADA what the scene does not show. Quaternions of \
     glTF that are not of length 1 are named.\n\n\
-    Refused by name: skins, morphs, controllers, Draco, meshopt, normalized positions and instances \
-    of glTF; beam lattices and required extensions of 3MF; lookat, skew, convex_mesh, brep and \
+    Refused by name: skins, morphs, controllers; Draco, meshopt, normalized positions and \
+    instances of glTF; beam lattices and required extensions of 3MF; lookat, skew, convex_mesh, brep and \
     polygons with holes of COLLADA; binary OFF; elements of PLY other than face and tristrips that \
     list vertices; a statement of OBJ of unknown name before numbers; facets of STL with several \
     loops; ASCII STL without endsolid, and binary STL whose size does not fit its count and \
