@@ -3,7 +3,7 @@
 use crate::emit::{Sections, assemble, copied};
 use crate::error::BuildError;
 use crate::{bvh, hull, tight, tribox};
-use meshsweep_core::{Blob, Hull};
+use meshsweep_core::{Blob, Hull, SectionKind};
 
 /// Parts of a blob to keep. A structure without a number stays as it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,17 +43,19 @@ impl Keep {
 /// # Errors
 /// [`BuildError`] if there is nothing of the kind to cut.
 pub fn cut_blob(blob: &Blob<'_>, keep: &Keep) -> Result<Vec<u8>, BuildError> {
+    let header = *blob.header();
+    let whole = |of| {
+        let bodies = copied(blob, of);
+        (!bodies.is_empty()).then_some(Sections { header, bodies })
+    };
     let hierarchy = match (keep.level, blob.hull()) {
         (Some(level), Ok(hull)) => Some(cut(&hull, level)?.sections()),
         (Some(wanted), Err(_)) => return Err(BuildError::NoLevel { wanted, levels: 0 }),
-        // Key frames are about all vertices, so they stay beside a whole hierarchy only.
-        (None, Ok(hull)) => {
-            let bodies = copied(blob, |kind| kind.is_hull() || kind.is_deform());
-            Some(Sections { header: *hull.header(), bodies })
-        }
-        (None, Err(_)) => None,
+        (None, _) => whole(SectionKind::is_hull),
     };
     let tree = if keep.level.is_none() { bvh::sections_of(blob) } else { None };
+    // Key frames are about all vertices, so they stay beside a whole hierarchy only.
+    let frames = if keep.level.is_none() { whole(SectionKind::is_deform) } else { None };
     if keep.triboxes.is_some() && blob.triboxes().is_err() {
         return Err(BuildError::NoTriboxes);
     }
@@ -62,7 +64,7 @@ pub fn cut_blob(blob: &Blob<'_>, keep: &Keep) -> Result<Vec<u8>, BuildError> {
     }
     let triboxes = tribox::cut(blob, keep.triboxes.unwrap_or(u32::MAX));
     let tight = tight::cut(blob, keep.tight.unwrap_or(u32::MAX));
-    let structures = [hierarchy, tree, triboxes, tight];
+    let structures = [hierarchy, frames, tree, triboxes, tight];
     Ok(assemble(structures.iter().flatten()))
 }
 
