@@ -151,7 +151,7 @@ fn hulls(facts: &Facts) -> Option<String> {
 fn sweep(facts: &Facts) -> Option<String> {
     facts.sweep.map(|entries| {
         format!(
-            "\n/// No place of the point of a kept sweep, `Hull::sweep`, needs more scratch entries.\n\
+            "\n/// No place of the point of a kept sweep needs more scratch entries.\n\
              #[allow(dead_code)]\n\
              pub const SWEEP_ENTRIES: usize = {entries};\n"
         )

@@ -236,8 +236,8 @@ pub fn segment() -> String {
          that the segment touches within rounding and the surface error, and all others if the \
          query ended early. Then the query's last row says undecided and names no triangle. Where \
          a segment runs through an edge, one triangle there may be proved to be hit, and not which \
-         one: the first of them says yes, the others undecided. t runs from 0 to 1 along the segment, rounded to \
-         f32; {TRIANGLES}.\n\n\
+         one: the first of them says yes, the others undecided. t runs from 0 to 1 along the \
+         segment, rounded to f32; {TRIANGLES}.\n\n\
          --facing is by the winding of the mesh file. What build turns is turned for sides \
          only.\n\n\
          {QUERIES}\n\n\
