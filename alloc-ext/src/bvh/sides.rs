@@ -15,8 +15,9 @@
 
 use super::store::OnGrid;
 use super::stored_triangles::StoredTriangles;
+use crate::geom::faces;
 use crate::mesh::Mesh;
-use crate::surface::{Defect, EdgeTable, Fronts, faces};
+use crate::surface::{Defect, EdgeTable, Fronts};
 use std::borrow::Cow;
 
 /// Which triangles of a closed mesh tell no side, and why.

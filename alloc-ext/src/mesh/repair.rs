@@ -53,7 +53,7 @@ pub(crate) fn repair_moved(
     let mut report = RepairReport {
         vertices_read: positions.len(),
         triangles_read: triangles.len(),
-        polygons: raw.polygons.clone(),
+        polygons: raw.polygons,
         left_out: raw.left_out.clone(),
         rounding,
         ..RepairReport::default()

@@ -83,7 +83,7 @@ pub struct RepairReport {
     /// Further copies of a triangle, same three vertices, same winding. The first stays.
     pub duplicate: Finding,
     /// Further copies of a triangle, opposite winding. The first stays, so that no surface is
-    /// lost.
+    /// lost. Box trees for segments, culling or winding numbers store the others too.
     pub opposite_duplicate: Finding,
     /// Vertices that no triangle uses, before or after the above.
     pub unreferenced: Finding,
@@ -124,7 +124,7 @@ impl RepairReport {
             ("duplicate", ["duplicate triangle", "dropped"], &self.duplicate),
             (
                 "opposite_duplicate",
-                ["oppositely wound duplicate", "dropped"],
+                ["oppositely wound duplicate", "kept for facings and winding numbers only"],
                 &self.opposite_duplicate,
             ),
             ("unreferenced", ["unreferenced vertex", "dropped"], &self.unreferenced),

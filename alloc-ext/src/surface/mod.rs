@@ -7,13 +7,8 @@ mod components;
 mod fronts;
 mod precision;
 mod solid;
-
 mod valid;
 
-pub(crate) use crate::geom::{
-    Bounds, Enclosure, Enclosures, Face, Frontier, Plane, StaticTree, Triangle, are_apart,
-    crosses_itself, faces, is_cut_off, is_degenerate, is_embedded, meet, side, spatial_order,
-};
 pub(crate) use crate::mesh::{EdgeTable, SignedVolume, ends};
 pub use closing::{Closed, close};
 pub(crate) use compact::{compact, compact_in_order};

@@ -2,8 +2,9 @@
 
 use crate::bvh::MAX_TRIANGLES;
 use crate::error::BuildError;
+use crate::geom::Enclosures;
 use crate::mesh::{Mesh, Wire, require_closed_manifold};
-use crate::surface::{Enclosures, components, require_valid};
+use crate::surface::{components, require_valid};
 use rustc_hash::FxHashMap;
 
 /// Splits a mesh into its connected components, by shared vertices. Everything inside a closed

@@ -32,6 +32,7 @@ const BENEATH: &[&str] = &[
     "error",
     "progress",
     "random",
+    "geom",
     "lp",
     "mesh",
     "surface",
@@ -59,8 +60,8 @@ const BUILDER: [(&str, &[&str]); 23] = [
     ("progress", &["error"]),
     ("surface", &["counted", "error", "geom", "lp", "mesh"]),
     ("load", &["error", "mesh", "surface"]),
-    ("collapse", &["counted", "lp", "mesh", "progress", "surface"]),
-    ("bvh", &["counted", "emit", "error", "lp", "mesh", "progress", "surface"]),
+    ("collapse", &["counted", "geom", "lp", "mesh", "progress", "surface"]),
+    ("bvh", &["counted", "emit", "error", "geom", "lp", "mesh", "progress", "surface"]),
     ("hausdorff", &["bvh", "error", "mesh"]),
     ("tight", BENEATH),
     (

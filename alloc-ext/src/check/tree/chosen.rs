@@ -25,7 +25,9 @@ impl<'a> Chosen<'a> {
         let closed = is_closed(mesh) && !mesh.has_merged_walls;
         let as_it_is = Self { mesh: Cow::Borrowed(mesh), closed, turned: None, has_sides: closed };
         let Some(filed) = &mesh.filed else { return as_it_is };
-        if !tree.moments.is_empty() && !(closed && is_turned_only(mesh, filed)) {
+        let has_moments = !tree.moments.is_empty();
+        let takes_all = has_moments && !(closed && is_turned_only(mesh, filed));
+        if takes_all {
             let mesh = all(filed);
             return Self { closed: is_closed(&mesh), ..Self::without_sides(mesh) };
         }

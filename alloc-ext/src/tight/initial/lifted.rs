@@ -6,9 +6,9 @@
 use super::initial_hull::{InitialHull, InitialInput};
 use super::levels::{ClosedSurface, LEVELS};
 use crate::collapse::{Conditions, MAX_STAR};
+use crate::geom::side;
 use crate::lp::{HalfSpace, Order, minimise_bounded};
 use crate::mesh::Mesh;
-use crate::surface::side;
 use crate::tight::moves::{Rounding, Shell, StarFace};
 use crate::tight::report::{Progress, Start};
 use glam::DVec3;

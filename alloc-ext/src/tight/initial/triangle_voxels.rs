@@ -6,7 +6,7 @@
 //! cross products of the edges of both. Any direction proves separation, so that only the rounding
 //! of the projections has to be allowed for.
 
-use crate::surface::{Bounds, Triangle};
+use crate::geom::{Bounds, Triangle};
 use glam::DVec3;
 
 /// Voxels along each axis: the first and the last.

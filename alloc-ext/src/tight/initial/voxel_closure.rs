@@ -23,7 +23,8 @@
 //! of every edge is exact in single precision.
 
 use super::triangle_voxels::{Block, visit_voxels};
-use crate::surface::{Bounds, Triangle, split_exponent};
+use crate::geom::{Bounds, Triangle};
+use crate::surface::split_exponent;
 use crate::tight::deadline::Deadline;
 use crate::tight::proof::Obstacle;
 use glam::DVec3;

@@ -19,7 +19,7 @@ use super::placement::{PlacementObjective, Placer};
 use super::rounding::Rounding;
 use super::shell::Shell;
 use super::star::{StarFace, added_volume, corners};
-use crate::surface::{Bounds, Face, Triangle, are_apart, is_degenerate};
+use crate::geom::{Bounds, Face, Triangle, are_apart, is_degenerate};
 use crate::tight::deadline::Deadline;
 use crate::tight::proof::{DistanceField, Obstacle};
 use glam::DVec3;

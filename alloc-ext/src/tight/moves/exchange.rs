@@ -7,7 +7,7 @@ use super::memo::{Key, Question};
 use super::placement::PlacementObjective;
 use super::star::StarFace;
 use super::tolerance::{CLEARANCES, LEAST_GAIN};
-use crate::surface::Face;
+use crate::geom::Face;
 use glam::DVec3;
 
 /// As for a collapse: new faces may stand steeply on the old ones.

@@ -5,7 +5,7 @@ use super::memo::{Key, Question};
 use super::side_by_side::Edit;
 use super::star::StarFace;
 use super::tolerance::LEAST_GAIN;
-use crate::surface::{Face, Triangle, side};
+use crate::geom::{Face, Triangle, side};
 
 /// Part of the worse compactness of the two old faces that new faces keep, if the shape conditions
 /// ask for more.

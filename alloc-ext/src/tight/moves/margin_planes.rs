@@ -16,8 +16,8 @@
 
 use super::mesh_planes::Trial;
 use super::star::StarFace;
+use crate::geom::{Bounds, Plane, Triangle};
 use crate::lp::HalfSpace;
-use crate::surface::{Bounds, Plane, Triangle};
 use crate::tight::proof::{Clearance, Nearest, Tetrahedron};
 use glam::DVec3;
 use meshsweep_core::internal::geom::point_triangle;

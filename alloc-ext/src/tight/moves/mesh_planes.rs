@@ -2,8 +2,8 @@
 
 use super::star::{Frame, StarFace};
 use super::tolerance::ROUNDING;
+use crate::geom::{Frontier, Plane};
 use crate::lp::HalfSpace;
-use crate::surface::{Frontier, Plane};
 use crate::tight::proof::{Obstacle, Tetrahedron};
 use glam::DVec3;
 use std::cell::Cell;

@@ -17,8 +17,8 @@ use super::margin_planes::FaceMargin;
 use super::mesh_planes::Trial;
 use super::star::{Frame, StarFace, added_volume, corners, radius};
 use super::tolerance::ROUNDING;
+use crate::geom::{Bounds, Frontier};
 use crate::lp::{HalfSpace, Order, minimise_bounded};
-use crate::surface::{Bounds, Frontier};
 use crate::tight::proof::Obstacle;
 use glam::DVec3;
 

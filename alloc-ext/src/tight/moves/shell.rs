@@ -2,7 +2,8 @@
 
 use super::star::StarFace;
 use crate::collapse::Connectivity;
-use crate::surface::{Bounds, Face, SignedVolume, Triangle, compact};
+use crate::geom::{Bounds, Face, Triangle};
+use crate::surface::{SignedVolume, compact};
 use crate::tight::proof::outermost;
 use glam::DVec3;
 

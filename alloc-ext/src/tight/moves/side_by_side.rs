@@ -6,7 +6,7 @@
 
 use super::editor::HullEditor;
 use super::memo::{Answer, Key};
-use crate::surface::{Bounds, are_apart};
+use crate::geom::{Bounds, are_apart};
 use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;

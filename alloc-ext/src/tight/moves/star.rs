@@ -1,6 +1,6 @@
 //! The star of a vertex or an edge before an edit: the faces that the edit replaces.
 
-use crate::surface::Triangle;
+use crate::geom::Triangle;
 use glam::DVec3;
 
 /// A face of a star before the edit.

@@ -13,7 +13,7 @@
 //! product with the distance by one more: less than the part that [`Clearance`] adds to the
 //! distance.
 
-use crate::surface::{Bounds, Triangle};
+use crate::geom::{Bounds, Triangle};
 use glam::DVec3;
 use meshsweep_core::internal::geom::point_triangle;
 

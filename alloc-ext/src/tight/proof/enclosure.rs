@@ -1,7 +1,8 @@
 //! Whether a closed surface is an outer hull of the mesh, tested as a whole and exactly.
 
 use super::obstacle::Obstacle;
-use crate::surface::{Enclosure, Enclosures, Face, components, is_degenerate, is_embedded};
+use crate::geom::{Enclosure, Enclosures, Face, is_degenerate, is_embedded};
+use crate::surface::components;
 use glam::DVec3;
 
 /// Whether the faces of a closed manifold surface satisfy the whole invariant: the surface is

@@ -3,10 +3,9 @@
 
 use super::clearance::Clearance;
 use super::tetrahedron::Tetrahedron;
+use crate::geom::{Bounds, Frontier, Plane, StaticTree, Triangle, is_cut_off, meet, spatial_order};
 use crate::mesh::Mesh;
-use crate::surface::{
-    Bounds, Frontier, Plane, StaticTree, Triangle, is_cut_off, least_connected, meet, spatial_order,
-};
+use crate::surface::least_connected;
 use glam::DVec3;
 use meshsweep_core::internal::geom::point_triangle;
 

@@ -1,7 +1,7 @@
 //! The tetrahedron that an edit cuts off the hull, in floating point. Placements find their planes
 //! in it. Nothing is proved here.
 
-use crate::surface::{Bounds, Plane, Triangle};
+use crate::geom::{Bounds, Plane, Triangle};
 use arrayvec::ArrayVec;
 use glam::DVec3;
 
