@@ -369,12 +369,16 @@ fn store_vertices(
         unfolded => unfolded,
     };
     let exact = store(input, true);
-    let in_f32 = sides(&exact);
-    if in_f32.defect.is_none() && options.allows_f32 {
-        return vertices(exact, Some(WhyF32::Sides), in_f32);
+    let mut defect = sided.still_crossing(&on_grid.crossings, &exact);
+    if defect.is_none() {
+        let in_f32 = sides(&exact);
+        if in_f32.defect.is_none() && options.allows_f32 {
+            return vertices(exact, Some(WhyF32::Sides), in_f32);
+        }
+        defect = in_f32.defect;
     }
-    // The file's surface has the defect itself, or f32 is not wanted.
-    let defect = in_f32.defect.or(on_grid.defect);
+    // The surface has the defect in f32 too, or f32 is not wanted.
+    let defect = defect.or(on_grid.defect);
     match unfolded {
         Some((grid, unfolded)) => vertices(grid, None, Sides { defect, ..unfolded }),
         None => vertices(grid, None, Sides { defect, ..on_grid }),

@@ -15,7 +15,7 @@
 
 use super::store::OnGrid;
 use super::stored_triangles::StoredTriangles;
-use crate::geom::faces;
+use crate::geom::{Face, crosses, faces};
 use crate::mesh::Mesh;
 use crate::surface::{Defect, EdgeTable, Fronts};
 use std::borrow::Cow;
@@ -65,13 +65,18 @@ pub(super) struct Sides {
     pub(super) sideless: Vec<bool>,
     /// Why.
     pub(super) defect: Option<Placed>,
+    /// Pairs of triangles that cross: all, if they are fewer than
+    /// [`most_crossings`](crate::surface::most_crossings).
+    pub(super) crossings: Vec<[u32; 2]>,
 }
 
 impl Sides {
     /// All triangles tell sides.
-    pub(super) const ALL: Self = Self { are_lost: false, sideless: Vec::new(), defect: None };
+    pub(super) const ALL: Self =
+        Self { are_lost: false, sideless: Vec::new(), defect: None, crossings: Vec::new() };
     /// None does: the mesh is not closed, or has no winding for sides.
-    pub(super) const NONE: Self = Self { are_lost: true, sideless: Vec::new(), defect: None };
+    pub(super) const NONE: Self =
+        Self { are_lost: true, sideless: Vec::new(), defect: None, crossings: Vec::new() };
 
     pub(super) fn count_sideless(&self) -> usize {
         self.sideless.iter().filter(|&&is| is).count()
@@ -110,17 +115,32 @@ impl<'a> Sided<'a> {
     pub(super) fn sides(&self, grid: &OnGrid) -> Sides {
         let mesh = self.mesh;
         let faces = faces(&grid.positions, &mesh.triangles);
-        let Fronts { others: sideless, defect } = Fronts::of(&faces, &mesh.triangles, &self.edges);
-        let defect = defect.map(|defect| {
-            let number = |face: u32| mesh.source[face as usize];
-            let (face, defect) = match defect {
-                Defect::Crossing([a, b]) => (a, SideDefect::Crossing([number(a), number(b)])),
-                Defect::Winding(face) => (face, SideDefect::Winding(number(face))),
-            };
-            let at = mesh.positions[mesh.triangles[face as usize][0] as usize];
-            Placed { defect, at, in_f32: grid.is_f32 }
-        });
+        let Fronts { others: sideless, defect, crossings } =
+            Fronts::of(&faces, &mesh.triangles, &self.edges);
+        let defect = defect.map(|defect| self.placed(defect, grid.is_f32));
         let are_lost = !sideless.is_empty() && sideless.iter().all(|&is| is);
-        Sides { are_lost, sideless, defect }
+        Sides { are_lost, sideless, defect, crossings }
+    }
+
+    /// A pair of those that cross which does so with vertices where `exact` has them.
+    pub(super) fn still_crossing(&self, crossings: &[[u32; 2]], exact: &OnGrid) -> Option<Placed> {
+        let face = |face: u32| {
+            let ids = self.mesh.triangles[face as usize];
+            Face { ids, at: ids.map(|v| exact.positions[v as usize]) }
+        };
+        let crosses = |[a, b]: &&[u32; 2]| crosses(&face(*a), &face(*b));
+        let pair = crossings.iter().find(crosses)?;
+        Some(self.placed(Defect::Crossing(*pair), exact.is_f32))
+    }
+
+    fn placed(&self, defect: Defect, in_f32: bool) -> Placed {
+        let mesh = self.mesh;
+        let number = |face: u32| mesh.source[face as usize];
+        let (face, defect) = match defect {
+            Defect::Crossing([a, b]) => (a, SideDefect::Crossing([number(a), number(b)])),
+            Defect::Winding(face) => (face, SideDefect::Winding(number(face))),
+        };
+        let at = mesh.positions[mesh.triangles[face as usize][0] as usize];
+        Placed { defect, at, in_f32 }
     }
 }

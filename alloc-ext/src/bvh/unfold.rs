@@ -10,12 +10,13 @@
 //!   around it cross others.
 //!
 //! It ends when no faces cross, or when nothing helps. Then the sides are [proved
-//! again](super::sides), and the points are taken if more triangles tell sides.
+//! again](super::sides), and the points are taken if clearly more triangles tell sides.
 
 use super::sides::{Sided, Sides};
 use super::store::OnGrid;
-use crate::geom::{Bounds, Contact, Face, FaceTree, StaticTree, faces, is_degenerate, side};
+use crate::geom::{Bounds, Face, StaticTree, crosses, faces, side};
 use crate::mesh::{Input, Mesh};
+use crate::surface::most_crossings;
 use glam::{DVec3, IVec3};
 use rustc_hash::FxHashMap;
 
@@ -28,14 +29,18 @@ const PUSHES: [f64; 4] = [0.5, 0.75, 1.0, 1.25];
 /// Rounds in which all vertices concerned try other points, at most.
 const TRIES: usize = 8;
 
-/// Pairs of crossing faces from which on nothing is tried: the grid is too coarse for the surface,
-/// or the surface crosses itself.
-const MOST_CROSSINGS: usize = 1 << 14;
+/// Pairs of faces that are tested against each other while points are tried, at most: about a tenth
+/// of a second.
+const MOST_TESTS: usize = 1_000_000;
 
-/// The grid with some vertices on other points of it, where fewer triangles tell no side, and the
-/// sides there. `None` if none were found.
+/// Pairs that cross in the input too, from which on nothing is tried if they are most: the surface
+/// crosses itself, by more than rounding.
+const MOST_FILED: usize = 256;
+
+/// The grid with some vertices on other points of it, where at most half as many triangles tell no
+/// side, and the sides there. `None` if none were found.
 ///
-/// Cost: a search for crossing faces, and some queries of a static tree for each face that crosses
+/// Cost: a static tree of the faces, and some queries of it for each face that crosses
 /// another; a vertex of theirs tries at most 124 points.
 pub(super) fn unfold(
     input: Input<'_>,
@@ -43,14 +48,14 @@ pub(super) fn unfold(
     grid: &OnGrid,
     sides: &Sides,
 ) -> Option<(OnGrid, Sides)> {
+    let mut pairs = sides.crossings.clone();
+    if pairs.len() >= most_crossings(sided.mesh.triangles.len()) {
+        // The grid is too coarse for the surface, or the surface crosses itself.
+        return None;
+    }
     let mut search = Search::new(grid, sided.mesh);
-    let contacts = FaceTree::new(&search.faces).contacts(MOST_CROSSINGS);
-    let mut pairs: Vec<[u32; 2]> = contacts
-        .into_iter()
-        .filter(|(_, contact)| *contact == Contact::Crossing)
-        .map(|(pair, _)| pair)
-        .collect();
-    if pairs.len() >= MOST_CROSSINGS {
+    let filed = pairs.iter().filter(|pair| search.crosses_in_input(pair)).count();
+    if filed > MOST_FILED && 2 * filed > pairs.len() {
         return None;
     }
     for distance in PUSHES {
@@ -59,16 +64,16 @@ pub(super) fn unfold(
     for _ in 0..TRIES {
         let before = pairs.len();
         pairs = search.try_points(pairs);
-        if pairs.len() >= before {
+        if pairs.len() >= before || search.tests >= MOST_TESTS {
             break;
         }
     }
-    if search.positions == grid.positions {
+    if pairs.len() >= sides.crossings.len() {
         return None;
     }
     let unfolded = grid.with_positions(input, search.positions);
     let after = sided.sides(&unfolded);
-    (after.count_sideless() < sides.count_sideless()).then_some((unfolded, after))
+    (2 * after.count_sideless() <= sides.count_sideless()).then_some((unfolded, after))
 }
 
 struct Search<'a> {
@@ -86,6 +91,8 @@ struct Search<'a> {
     around: Vec<u32>,
     /// Of boxes that hold their faces wherever vertices move.
     tree: StaticTree,
+    /// Pairs of faces that were tested while points were tried.
+    tests: usize,
 }
 
 impl<'a> Search<'a> {
@@ -118,7 +125,16 @@ impl<'a> Search<'a> {
             faces,
             starts,
             around,
+            tests: 0,
         }
+    }
+
+    fn crosses_in_input(&self, pair: &[u32; 2]) -> bool {
+        let [f, g] = pair.map(|face| {
+            let ids = self.faces[face as usize].ids;
+            Face { ids, at: ids.map(|v| self.places[v as usize]) }
+        });
+        crosses(&f, &g)
     }
 
     /// Pushes the faces of pairs apart, and rounds their vertices again. Returns the pairs that
@@ -171,6 +187,9 @@ impl<'a> Search<'a> {
         let vertices = corners_of(&self.faces, &pairs);
         let mut concerned: Vec<u32> = pairs.into_iter().flatten().collect();
         for v in vertices {
+            if self.tests >= MOST_TESTS {
+                break;
+            }
             if self.improve(v) {
                 concerned.extend(self.star(v));
             }
@@ -198,7 +217,8 @@ impl<'a> Search<'a> {
 
     /// Crossings of the faces at a vertex, if it were at a point; at least `most` if there are so
     /// many.
-    fn crossings_at(&self, v: u32, at: DVec3, most: usize) -> usize {
+    fn crossings_at(&mut self, v: u32, at: DVec3, most: usize) -> usize {
+        let mut tests = 0;
         let moved = |face: u32| {
             let mut face = self.faces[face as usize];
             (0..3).filter(|&k| face.ids[k] == v).for_each(|k| face.at[k] = at);
@@ -211,6 +231,7 @@ impl<'a> Search<'a> {
                 let other = moved(g);
                 // Pairs of two faces at the vertex are counted once.
                 let is_first = !other.ids.contains(&v) || f < g;
+                tests += 1;
                 count += usize::from(is_first && crosses(&face, &other));
                 count < most
             });
@@ -218,6 +239,7 @@ impl<'a> Search<'a> {
                 break;
             }
         }
+        self.tests += tests;
         count
     }
 
@@ -283,11 +305,4 @@ fn corners_of(faces: &[Face], pairs: &[[u32; 2]]) -> Vec<u32> {
     corners.sort_unstable();
     corners.dedup();
     corners
-}
-
-fn crosses(f: &Face, g: &Face) -> bool {
-    Bounds::of(&f.at).meets(&Bounds::of(&g.at))
-        && !is_degenerate(&f.at)
-        && !is_degenerate(&g.at)
-        && Contact::of(f, g) == Contact::Crossing
 }

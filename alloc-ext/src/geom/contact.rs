@@ -3,7 +3,8 @@
 //! The intersection of two triangles is convex. If two faces share no corner, it is nothing, a
 //! point, a segment or an area. If they share one, it is that corner alone or more than a point.
 
-use super::predicates::{Face, Triangle, are_apart, projection, side, turn};
+use super::bounds::Bounds;
+use super::predicates::{Face, Triangle, are_apart, is_degenerate, projection, side, turn};
 
 /// How two faces with area meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,6 +32,14 @@ impl Contact {
             _ => Self::Crossing,
         }
     }
+}
+
+/// Whether two faces, with area or not, [cross](Contact::Crossing). Faces without area cross none.
+pub(crate) fn crosses(s: &Face, t: &Face) -> bool {
+    Bounds::of(&s.at).meets(&Bounds::of(&t.at))
+        && !is_degenerate(&s.at)
+        && !is_degenerate(&t.at)
+        && Contact::of(s, t) == Contact::Crossing
 }
 
 /// Sides of a triangle's corners about another's plane.

@@ -14,7 +14,7 @@ mod ray;
 mod tree;
 
 pub(crate) use bounds::{Bounds, Plane};
-pub(crate) use contact::Contact;
+pub(crate) use contact::{Contact, crosses};
 pub(crate) use embedding::{contacts, crosses_itself, faces, is_embedded};
 pub(crate) use enclosure::Enclosure;
 pub(crate) use enclosures::Enclosures;

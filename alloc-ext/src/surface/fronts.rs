@@ -25,6 +25,13 @@ pub(crate) struct Fronts {
     pub others: Vec<bool>,
     /// The first defect that was found, if any.
     pub defect: Option<Defect>,
+    /// Pairs of faces that cross, ascending: all, if they are fewer than [`most_crossings`].
+    pub crossings: Vec<[u32; 2]>,
+}
+
+/// Crossings of a surface of so many faces that are looked at one by one, less than this.
+pub(crate) const fn most_crossings(faces: usize) -> usize {
+    4 * faces + 1024
 }
 
 /// Why a face has another winding number than 0 in front, or may have.
@@ -40,28 +47,36 @@ impl Fronts {
     /// Of a closed surface: every edge has as many triangles in one direction as in the other.
     /// Exact.
     ///
-    /// Cost: one query of a static tree for each face; some for each patch. Twice that if faces
-    /// cross.
+    /// Cost: one query of a static tree for each face; some for each patch. Twice that if very many
+    /// faces cross.
     pub fn of(faces: &[Face], triangles: &[[u32; 3]], edges: &EdgeTable) -> Self {
         let tree = FaceTree::new(faces);
-        let contacts = tree.contacts(1);
-        let crossing = contacts.iter().find(|(_, contact)| *contact == Contact::Crossing);
-        let mut defect = crossing.map(|(pair, _)| Defect::Crossing(*pair));
+        let most = most_crossings(faces.len());
         let mut others = vec![false; faces.len()];
         let mut touched_edges = vec![0u8; faces.len()];
-        if defect.is_some() {
+        let mut crossings = Vec::new();
+        for ([a, b], contact) in tree.contacts(most) {
+            match contact {
+                Contact::Apart | Contact::Point => {}
+                Contact::Edges([of_a, of_b]) => {
+                    touched_edges[a as usize] |= of_a;
+                    touched_edges[b as usize] |= of_b;
+                }
+                Contact::Crossing => {
+                    crossings.push([a, b]);
+                    others[a as usize] = true;
+                    others[b as usize] = true;
+                }
+            }
+        }
+        if crossings.len() >= most {
+            // There are more, perhaps as many as the square of the faces.
             for (face, meeting) in tree.meetings().into_iter().enumerate() {
                 others[face] = meeting.crosses;
                 touched_edges[face] = meeting.touched_edges;
             }
-        } else {
-            for ([a, b], contact) in contacts {
-                if let Contact::Edges([of_a, of_b]) = contact {
-                    touched_edges[a as usize] |= of_a;
-                    touched_edges[b as usize] |= of_b;
-                }
-            }
         }
+        let mut defect = crossings.first().map(|&pair| Defect::Crossing(pair));
         let counts = |face: u32| tree.has_area(face) && !others[face as usize];
         let patches = patches(triangles, edges, &touched_edges, counts);
         let is_wrong = |patch: &&Vec<u32>| {
@@ -71,7 +86,7 @@ impl Fronts {
         let wrong: Vec<&Vec<u32>> = patches.par_iter().filter(is_wrong).collect();
         defect = defect.or(wrong.first().map(|patch| Defect::Winding(patch[0])));
         wrong.into_iter().flatten().for_each(|&face| others[face as usize] = true);
-        Self { others: if defect.is_some() { others } else { Vec::new() }, defect }
+        Self { others: if defect.is_some() { others } else { Vec::new() }, defect, crossings }
     }
 }
 

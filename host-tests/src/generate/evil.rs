@@ -3,7 +3,7 @@
 mod readers;
 
 use super::writers::{ascii_ply, ascii_stl, binary_ply, binary_stl, obj, ply_header};
-use super::{Triangles, block, cube, inverted, joined, scaled, torus};
+use super::{Triangles, block, coil, cube, inverted, joined, scaled, torus};
 
 /// What must become of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -181,6 +181,7 @@ fn mendable() -> Vec<Evil> {
         file("bow_tie.obj", BOW_TIE.into(), "two tetrahedra share a vertex"),
         file("cap.obj", CAP.into(), "a zero-area triangle fills a T-junction"),
         file("cavity.stl", ascii_stl(&cavity), "nothing: a hollow cube"),
+        file("coil.obj", obj(&coil(400.0, 80, 2.0)), "its end goes through its beginning"),
         file("inverted_cavity.stl", binary_stl(&inverted(&cavity)), "a hollow cube inside out"),
         file("inverted_cube.stl", binary_stl(&inverted(&cube(2))), "all triangles face inwards"),
         file(
