@@ -1,8 +1,6 @@
 //! Whether and where a surface meets itself, by exact predicates.
 
 use super::bounds::Bounds;
-use super::contact::Contact;
-use super::face_tree::FaceTree;
 use super::predicates::{Face, are_apart, is_degenerate};
 use super::tree::StaticTree;
 use glam::DVec3;
@@ -20,12 +18,6 @@ pub(crate) fn is_embedded(faces: &[Face]) -> bool {
         })
     };
     (0..faces.len()).into_par_iter().all(is_apart_from_later)
-}
-
-/// Pairs of faces that are not [apart](Contact::Apart), and how they meet, ascending. Faces without
-/// area are passed over. Exact. After `most` crossings the search soon ends: then there may be more.
-pub(crate) fn contacts(faces: &[Face], most: usize) -> Vec<([u32; 2], Contact)> {
-    FaceTree::new(faces).contacts(most)
 }
 
 /// The faces of triangles.

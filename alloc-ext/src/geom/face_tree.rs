@@ -78,6 +78,29 @@ impl<'a> FaceTree<'a> {
         found
     }
 
+    /// Calls `found` with every pair of faces that is `wanted` and not [apart](Contact::Apart), on
+    /// all threads and in any order. Exact.
+    ///
+    /// Cost: one query of the tree for each face, and a test for each wanted pair whose boxes meet.
+    pub fn visit_contacts(
+        &self,
+        wanted: impl Fn([usize; 2]) -> bool + Sync,
+        found: impl Fn([usize; 2], Contact) + Sync,
+    ) {
+        (0..self.faces.len()).into_par_iter().filter(|&i| self.has_area[i]).for_each(|i| {
+            self.tree.visit_meeting(&self.boxes[i], |j| {
+                let may_meet = j > i && self.has_area[j] && self.boxes[j].meets(&self.boxes[i]);
+                if may_meet && wanted([i, j]) {
+                    let contact = Contact::of(&self.faces[i], &self.faces[j]);
+                    if contact != Contact::Apart {
+                        found([i, j], contact);
+                    }
+                }
+                true
+            });
+        });
+    }
+
     /// How each face meets the others.
     ///
     /// Cost: one query of the tree for each face, on all threads; a face that crosses one other is

@@ -15,7 +15,7 @@ mod tree;
 
 pub(crate) use bounds::{Bounds, Plane};
 pub(crate) use contact::{Contact, crosses};
-pub(crate) use embedding::{contacts, crosses_itself, faces, is_embedded};
+pub(crate) use embedding::{crosses_itself, faces, is_embedded};
 pub(crate) use enclosure::Enclosure;
 pub(crate) use enclosures::Enclosures;
 pub(crate) use face_tree::FaceTree;

@@ -15,8 +15,11 @@
 
 use super::volume::SignedVolume;
 use super::winding::Components;
-use crate::geom::{Bounds, Contact, Enclosures, contacts, faces, inner_points};
+use crate::geom::{Bounds, Contact, Enclosures, FaceTree, faces, inner_points};
 use glam::{DVec3, Vec3};
+use std::sync::Mutex;
+use std::sync::atomic::AtomicBool;
+use std::sync::atomic::Ordering::Relaxed;
 
 /// A closed two-sided component.
 pub(super) struct ClosedComponent {
@@ -113,19 +116,34 @@ impl Surroundings {
         members: &[Vec<u32>],
     ) -> Self {
         let wide: Vec<DVec3> = positions.iter().map(|&p| Vec3::from(p).as_dvec3()).collect();
-        let mut crossing = vec![false; parts.kinds.len()];
-        let mut crosses_itself = vec![false; parts.kinds.len()];
-        let mut touching: Vec<[u32; 2]> = Vec::new();
-        for (pair, contact) in contacts(&faces(&wide, triangles), usize::MAX) {
-            let [a, b] = pair.map(|t| parts.part[t as usize]);
+        let flags = || (0..parts.kinds.len()).map(|_| AtomicBool::new(false)).collect::<Vec<_>>();
+        let (crossing, crosses_itself) = (flags(), flags());
+        let touching: Mutex<Vec<[u32; 2]>> = Mutex::default();
+        let parts_of = |pair: [usize; 2]| pair.map(|t| parts.part[t]);
+        let is_set = |flags: &[AtomicBool], part: u32| flags[part as usize].load(Relaxed);
+        // A pair whose parts are known to cross tells nothing new. So surfaces that overlap with all
+        // their faces take little time. Which pairs are left out changes no flag.
+        let tells_more = |pair: [usize; 2]| {
+            let [a, b] = parts_of(pair);
+            !(is_set(&crossing, a)
+                && is_set(&crossing, b)
+                && (a != b || is_set(&crosses_itself, a)))
+        };
+        FaceTree::new(&faces(&wide, triangles)).visit_contacts(tells_more, |pair, contact| {
+            let [a, b] = parts_of(pair);
             if contact != Contact::Point {
-                crossing[a as usize] = true;
-                crossing[b as usize] = true;
-                crosses_itself[a as usize] |= a == b;
-            } else if a != b {
+                crossing[a as usize].store(true, Relaxed);
+                crossing[b as usize].store(true, Relaxed);
+                crosses_itself[a as usize].fetch_or(a == b, Relaxed);
+            } else if a != b
+                && let Ok(mut touching) = touching.lock()
+            {
                 touching.extend([[a, b], [b, a]]);
             }
-        }
+        });
+        let [crossing, crosses_itself] = [crossing, crosses_itself]
+            .map(|flags| flags.into_iter().map(AtomicBool::into_inner).collect::<Vec<bool>>());
+        let mut touching = touching.into_inner().unwrap_or_default();
         touching.sort_unstable();
         touching.dedup();
         let bounds: Vec<Bounds> = members

@@ -77,9 +77,7 @@ fn sides(extreme: &Extreme) {
             assert!(is_as_wound, "{}: {found:?}", at());
             let signed = tree.signed_by_winding(p, Budget::EXACT, &mut stack).expect("a point");
             let nearest = tree.signed_distance(p, Budget::EXACT, &mut stack);
-            // Of parts that overlap the nearest surface's side counts.
-            let overlap = ["surfaces_that_cross", "a_solid_in_a_solid"].contains(&extreme.name);
-            let nearest = nearest.ok().filter(|_| !overlap && extreme.is_solid).map(|a| a.side);
+            let nearest = nearest.ok().filter(|_| extreme.is_solid).map(|a| a.side);
             let by_number = Some(signed.side).filter(|_| extreme.is_solid);
             for side in [by_number, nearest].into_iter().flatten() {
                 match side {

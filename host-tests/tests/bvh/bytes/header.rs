@@ -65,7 +65,7 @@ fn boxes_of_either_kind_may_be_missing_but_not_of_both() {
 
 #[test]
 fn reserved_bits_of_the_header_must_be_zero() {
-    for (at, value) in [(0, 1), (0, 16 << 8), (0, 1 << 16), (60, 1)] {
+    for (at, value) in [(0, 1), (0, 32 << 8), (0, 1 << 16), (60, 1)] {
         assert_eq!(header_word(at, value), Err(OpenError::Reserved), "{value:#x} at {at}");
     }
 }
