@@ -160,6 +160,10 @@ fn sideless(report: SidesReport) -> String {
         SideDefect::Winding(triangle) => {
             format!("is inside out or inside itself, as at triangle {triangle}, {at:?}")
         }
+        SideDefect::Mixed(triangle) => format!(
+            "has a component that the file winds both ways, with others in or around it, as at \
+             triangle {triangle}, {at:?}"
+        ),
     };
     let places = match are_lost {
         true => "sides by the nearest triangle are undecided".to_owned(),
@@ -211,8 +215,8 @@ fn of_winding(Loaded { mesh, report, .. }: &Loaded) -> Vec<String> {
     }
     if faces_inwards(mesh) {
         texts.push(
-            "the mesh faces inwards: its winding numbers are negative inside, so every point is \
-             outside; reverse its triangles"
+            "the mesh faces inwards: its winding numbers are negative inside, and tell no side \
+             there unless it is closed and faces inwards as a whole; reverse its triangles"
                 .to_owned(),
         );
     }

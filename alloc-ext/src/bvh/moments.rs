@@ -10,6 +10,7 @@ use crate::surface::{EdgeTable, ends};
 use glam::{DMat3, DVec3};
 use meshsweep_core::internal::bvh::format::NodeMoments;
 use meshsweep_core::internal::num::{exp2, up_to_f32};
+use std::collections::BinaryHeap;
 
 /// The section's bytes, in the order of nodes.
 pub(super) fn moments(
@@ -91,7 +92,7 @@ impl<'a> Tree<'a> {
     ) -> Vec<f64> {
         let mut boundaries = vec![0.0; self.parent.len()];
         // Nodes that use the edge, each with its uses in one direction less those in the other.
-        let mut uses: Vec<(u32, i32)> = Vec::new();
+        let mut uses: BinaryHeap<(u32, i32)> = BinaryHeap::new();
         for edge in edges.edges() {
             let mut length = 0.0;
             uses.clear();
@@ -101,9 +102,11 @@ impl<'a> Tree<'a> {
                 (self.node_of[half_edge as usize / 3], if from < to { 1 } else { -1 })
             }));
             // Parents come before children, so the greatest number is complete.
-            while let Some(node) = uses.iter().map(|&(node, _)| node).max() {
-                let net: i32 = uses.iter().filter(|use_| use_.0 == node).map(|use_| use_.1).sum();
-                uses.retain(|use_| use_.0 != node);
+            while let Some((node, mut net)) = uses.pop() {
+                while let Some(&(_, more)) = uses.peek().filter(|of| of.0 == node) {
+                    net += more;
+                    uses.pop();
+                }
                 boundaries[node as usize] += f64::from(net.abs()) * (length + 2.0 * moved);
                 if node > 0 && (net != 0 || !uses.is_empty()) {
                     uses.push((self.parent[node as usize], net));

@@ -12,12 +12,17 @@
 //! components cross, triangles have winding number 1 in front: a point next to them would be called
 //! outside, and is inside. Such triangles are *sideless*. So are those of a component that is
 //! inside out, and of a solid in a solid.
+//!
+//! A component that the file winds partly one way and partly the other bounds a solid if it is
+//! alone. But whether it is a cavity or a solid in another is not told by the majority of its
+//! triangles. So it is sideless, and each component whose box meets its box.
 
 use super::store::OnGrid;
 use super::stored_triangles::StoredTriangles;
-use crate::geom::{Face, crosses, faces};
+use crate::geom::{Bounds, Face, StaticTree, crosses, faces};
 use crate::mesh::Mesh;
-use crate::surface::{Defect, EdgeTable, Fronts};
+use crate::surface::{Defect, EdgeTable, Fronts, components};
+use glam::DVec3;
 use std::borrow::Cow;
 
 /// Which triangles of a closed mesh tell no side, and why.
@@ -46,6 +51,9 @@ pub enum SideDefect {
     /// In front of this triangle, by its number in the input, the winding number is not 0, or was
     /// not found: the surface is inside out there, or inside another part of itself.
     Winding(u32),
+    /// The component of this triangle, by its number in the input, is wound both ways, and its box
+    /// meets that of another.
+    Mixed(u32),
 }
 
 /// A defect and its place.
@@ -93,6 +101,15 @@ impl Sides {
     }
 }
 
+/// How the file winds the triangles of a mesh.
+struct FiledWinding {
+    /// Per triangle 1 as in the mesh, −1 the other way, 0 in a component of both.
+    times: Vec<i32>,
+    /// Triangles of components that the file winds both ways and that are not alone, and of those
+    /// whose boxes meet theirs.
+    mixed: Vec<u32>,
+}
+
 /// A closed mesh in the winding that tells sides, and its edges.
 pub(super) struct Sided<'a> {
     pub(super) mesh: &'a Mesh,
@@ -115,9 +132,20 @@ impl<'a> Sided<'a> {
     pub(super) fn sides(&self, grid: &OnGrid) -> Sides {
         let mesh = self.mesh;
         let faces = faces(&grid.positions, &mesh.triangles);
-        let Fronts { others: sideless, defect, crossings } =
-            Fronts::of(&faces, &mesh.triangles, &self.edges);
-        let defect = defect.map(|defect| self.placed(defect, grid.is_f32));
+        let filed = self.filed(&grid.positions);
+        let times = filed.as_ref().map(|filed| filed.times.as_slice());
+        let Fronts { others: mut sideless, defect, crossings } =
+            Fronts::of(&faces, &mesh.triangles, &self.edges, times);
+        let mixed = filed.map_or_else(Vec::new, |filed| filed.mixed);
+        let defect = match (defect, mixed.first()) {
+            (Some(defect), _) => Some(self.placed(defect, grid.is_f32)),
+            // The file's winding is no matter of places.
+            (None, mixed) => mixed.map(|&face| self.at(face, SideDefect::Mixed, true)),
+        };
+        if !mixed.is_empty() {
+            sideless.resize(faces.len(), false);
+            mixed.into_iter().for_each(|t| sideless[t as usize] = true);
+        }
         let are_lost = !sideless.is_empty() && sideless.iter().all(|&is| is);
         Sides { are_lost, sideless, defect, crossings }
     }
@@ -133,14 +161,53 @@ impl<'a> Sided<'a> {
         Some(self.placed(Defect::Crossing(*pair), exact.is_f32))
     }
 
-    fn placed(&self, defect: Defect, in_f32: bool) -> Placed {
-        let mesh = self.mesh;
-        let number = |face: u32| mesh.source[face as usize];
-        let (face, defect) = match defect {
-            Defect::Crossing([a, b]) => (a, SideDefect::Crossing([number(a), number(b)])),
-            Defect::Winding(face) => (face, SideDefect::Winding(number(face))),
+    /// How the file winds components, if it winds some otherwise than the mesh and others not.
+    fn filed(&self, positions: &[DVec3]) -> Option<FiledWinding> {
+        let Mesh { triangles, turned, .. } = self.mesh;
+        if !turned.contains(&false) || !turned.contains(&true) {
+            return None;
+        }
+        let components = components(positions.len(), triangles);
+        let of = |component: &Vec<u32>| {
+            let corners = component.iter().flat_map(|&t| triangles[t as usize]);
+            corners.map(|v| positions[v as usize]).fold(Bounds::EMPTY, Bounds::with)
         };
+        let boxes: Vec<Bounds> = components.iter().map(of).collect();
+        let tree = StaticTree::new(&boxes);
+        let is_turned = |t: &u32| turned[*t as usize];
+        let mut filed = FiledWinding { times: vec![0; triangles.len()], mixed: Vec::new() };
+        for (i, component) in components.iter().enumerate() {
+            if component.iter().all(is_turned) || !component.iter().any(is_turned) {
+                let times = if is_turned(&component[0]) { -1 } else { 1 };
+                component.iter().for_each(|&t| filed.times[t as usize] = times);
+                continue;
+            }
+            let mut beside = Vec::new();
+            tree.visit_meeting(&boxes[i], |j| {
+                beside.extend((j != i && boxes[j].meets(&boxes[i])).then_some(j));
+                true
+            });
+            if !beside.is_empty() {
+                filed.mixed.extend(component);
+                beside.into_iter().for_each(|j| filed.mixed.extend(&components[j]));
+            }
+        }
+        Some(filed)
+    }
+
+    fn placed(&self, defect: Defect, in_f32: bool) -> Placed {
+        let number = |face: u32| self.mesh.source[face as usize];
+        match defect {
+            Defect::Crossing([a, b]) => {
+                self.at(a, |a| SideDefect::Crossing([a, number(b)]), in_f32)
+            }
+            Defect::Winding(face) => self.at(face, SideDefect::Winding, in_f32),
+        }
+    }
+
+    fn at(&self, face: u32, defect: impl FnOnce(u32) -> SideDefect, in_f32: bool) -> Placed {
+        let mesh = self.mesh;
         let at = mesh.positions[mesh.triangles[face as usize][0] as usize];
-        Placed { defect, at, in_f32 }
+        Placed { defect: defect(mesh.source[face as usize]), at, in_f32 }
     }
 }

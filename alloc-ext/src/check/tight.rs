@@ -6,7 +6,7 @@ use super::enclosure::{Surface, check_enclosure, check_margin};
 use super::file::FileSurface;
 use super::finding::Finding;
 use super::near::{Near, Verdict};
-use super::tree::{prove_faces, welded};
+use super::tree::prove_faces;
 use crate::mesh::{Input, Mesh, RawMesh};
 use glam::DVec3;
 
@@ -55,7 +55,7 @@ fn hulls(bytes: &[u8]) -> Result<Vec<Hull>, String> {
             f64::from(f32::from_bits(bits)) * local
         };
         hulls.push(Hull {
-            surface: welded(triangles.into_iter().map(|(_, corners)| corners)),
+            surface: Surface::welded(triangles.into_iter().map(|(_, corners)| corners)),
             scale_exponent: tree.scale_exponent,
             slacks: at(start + length, 2 * faces)?.chunks_exact(2).map(radius).collect(),
             slack: f64::from(slack) * local,
@@ -179,7 +179,7 @@ pub(super) fn verify_file(bytes: &[u8], raw: &RawMesh) -> Finding {
         }
         Ok([hulls.len(), raw.triangles.len(), pairs])
     };
-    let words = "every hull encloses every triangle of the file, as it is written";
+    let words = "every hull encloses every triangle of the file, before rounding";
     match prove() {
         Ok([hulls, triangles, pairs]) => Finding::proved(
             TIGHT,

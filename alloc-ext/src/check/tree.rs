@@ -21,7 +21,6 @@ use crate::mesh::{Input, Mesh};
 use chosen::Chosen;
 use parse::TreeBlob;
 pub use proof::TreeProof;
-use std::collections::HashMap;
 
 /// Proves that a blob's box tree is one of `mesh`, which no vertex was moved in before but by
 /// [`Mesh::rounding`].
@@ -66,26 +65,9 @@ pub(crate) struct Faces {
 pub(crate) fn prove_faces(bytes: &[u8]) -> Result<Faces, String> {
     let tree = TreeBlob::parse(bytes)?;
     let triangles: Vec<Stored> = tree.triangles().collect();
-    let corners = welded(triangles.iter().map(|(_, corners)| *corners)).triangles;
+    let corners = Surface::welded(triangles.iter().map(|(_, corners)| *corners)).triangles;
     measures(&tree, &corners, &mut boxes(&tree)?)?;
     Ok(Faces { triangles, scale_exponent: tree.scale_exponent, surface_error: tree.surface_error })
-}
-
-/// Corners at the same place are one vertex.
-pub(crate) fn welded(triangles: impl Iterator<Item = [[f64; 3]; 3]>) -> Surface {
-    let mut number: HashMap<[u64; 3], u32> = HashMap::new();
-    let mut surface = Surface::default();
-    for corners in triangles {
-        let corners = corners.map(|p| {
-            // Both zeros are one place.
-            *number.entry(p.map(|x| (x + 0.0).to_bits())).or_insert_with(|| {
-                surface.positions.push(p);
-                surface.positions.len() as u32 - 1
-            })
-        });
-        surface.triangles.push(corners);
-    }
-    surface
 }
 
 /// Every box holds what is below it.

@@ -152,7 +152,7 @@ pub(super) fn verify_file(bytes: &[u8], raw: &RawMesh) -> Finding {
     match prove() {
         Ok([levels, triboxes, triangles, cut]) => Finding::proved(
             TRIBOXES,
-            "every level holds every triangle of the file, as it is written",
+            "every level holds every triangle of the file, before rounding",
             &[
                 ("level", levels),
                 ("tribox", triboxes),

@@ -77,7 +77,7 @@ pub fn verify(bytes: &[u8], against: Against<'_>) -> Vec<Finding> {
     out
 }
 
-/// Proves that a blob's tight hulls and triboxes hold every triangle of the file, as it is written.
+/// Proves that a blob's tight hulls and triboxes hold every triangle of the file, before rounding.
 /// A hull hierarchy makes no claim of the file: its levels enclose the surface as stored, and its
 /// surface error says how far that is from the file's.
 ///

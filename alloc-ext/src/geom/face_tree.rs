@@ -126,12 +126,14 @@ impl<'a> FaceTree<'a> {
         meeting
     }
 
-    /// The winding number of a point of a closed surface that lies on no face. Exact.
-    pub fn winding(&self, p: DVec3) -> i32 {
+    /// The winding number of a point of a closed surface that lies on no face, each face `times`.
+    /// Exact.
+    pub fn winding(&self, p: DVec3, times: impl Fn(usize) -> i32) -> i32 {
         let ray = Bounds { low: p, high: DVec3::new(p.x, p.y, f64::INFINITY) };
         let mut winding = 0;
         self.tree.visit_meeting(&ray, |i| {
-            winding += ray_crossing(p.to_array(), &self.faces[i].at.map(|p| p.to_array()));
+            winding +=
+                times(i) * ray_crossing(p.to_array(), &self.faces[i].at.map(|p| p.to_array()));
             true
         });
         winding

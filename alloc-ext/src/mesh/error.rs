@@ -270,7 +270,7 @@ impl fmt::Display for MeshError {
             Self::InsideOut { component_count, places } => {
                 write!(
                     f,
-                    "inside out: {}; run repair{}",
+                    "inside out: {}; reverse their triangles{}",
                     Counted(*component_count, "outermost component"),
                     Points(places)
                 )

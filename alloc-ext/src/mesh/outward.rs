@@ -8,7 +8,8 @@
 //! *What is proved before one is turned.* Its faces meet in points at most, but for common corners
 //! and edges. It crosses no other component and none touches it from without. No closed component
 //! has an inner point of it inside, and its box lies in the box of no open component, which might
-//! be a skin with holes. If something of this is not proved, the component is in *doubt* and keeps
+//! be a skin with holes. And all that may lie inside it is proved to, for a component is turned with
+//! the whole of its inside or not at all. If something of this is not proved, the component is in *doubt* and keeps
 //! the winding of the file. So does one whose volume may be zero within rounding.
 //!
 //! Components that are open, one-sided or on a non-manifold edge have no inside.
@@ -105,6 +106,8 @@ struct Surrounding {
     touching: Vec<Option<usize>>,
     /// It faces inwards, and its box lies in that of an open component.
     may_be_in_open: bool,
+    /// It faces inwards, and a doubtful component may lie in it: their boxes meet.
+    may_hold_doubt: bool,
 }
 
 impl Surroundings {
@@ -164,32 +167,50 @@ impl Surroundings {
         let holds = |part: usize, other: usize| bounds[part].contains(&bounds[other]);
         let self_crossing: Vec<usize> =
             closed.iter().map(|&of| of as usize).filter(|&of| crosses_itself[of]).collect();
-        let of = |(i, &part): (usize, &u32)| {
-            let number = part as usize;
-            let inner = inner_points(corners_of(part)).find(|&p| !enclosures.touches(p, Some(i)));
-            let containers = inner.map(|p| enclosures.around(p, Some(i))).unwrap_or_default();
-            // A surface that crosses itself may have a point inside of which the parity is even.
-            let is_unclear =
-                self_crossing.iter().any(|&other| other != number && holds(other, number));
-            Surrounding {
-                is_doubtful: crossing[number] || inner.is_none() || is_unclear,
-                containers,
-                touching: with(&touching, part).map(place_of).collect(),
-                may_be_in_open: faces_in[i] && open.iter().any(|&other| holds(other, number)),
-            }
-        };
-        Self { of: closed.iter().enumerate().map(of).collect() }
+        let mut of: Vec<Surrounding> = closed
+            .iter()
+            .enumerate()
+            .map(|(i, &part)| {
+                let number = part as usize;
+                let inner =
+                    inner_points(corners_of(part)).find(|&p| !enclosures.touches(p, Some(i)));
+                let containers = inner.map(|p| enclosures.around(p, Some(i))).unwrap_or_default();
+                // A surface that crosses itself may have a point inside of which the parity is even.
+                let is_unclear =
+                    self_crossing.iter().any(|&other| other != number && holds(other, number));
+                Surrounding {
+                    is_doubtful: crossing[number] || inner.is_none() || is_unclear,
+                    containers,
+                    touching: with(&touching, part).map(place_of).collect(),
+                    may_be_in_open: faces_in[i] && open.iter().any(|&other| holds(other, number)),
+                    may_hold_doubt: false,
+                }
+            })
+            .collect();
+        let doubtful: Vec<u32> = (closed.iter().zip(&of))
+            .filter(|(_, of)| of.is_doubtful)
+            .map(|(&part, _)| part)
+            .collect();
+        for ((&part, of), _) in closed.iter().zip(&mut of).zip(faces_in).filter(|(_, is)| **is) {
+            let meets = |other: &u32| {
+                *other != part && bounds[*other as usize].meets(&bounds[part as usize])
+            };
+            of.may_hold_doubt = doubtful.iter().any(meets);
+        }
+        Self { of }
     }
 
     /// Whether a component is proved to lie in no other, and nothing touches it from without.
     fn is_alone(&self, i: usize) -> bool {
-        let Surrounding { is_doubtful, containers, touching, may_be_in_open } = &self.of[i];
+        let Surrounding { is_doubtful, containers, touching, may_be_in_open, may_hold_doubt } =
+            &self.of[i];
         let is_within = |other: &Option<usize>| {
             other.is_some_and(|other| {
                 !self.of[other].is_doubtful && self.of[other].containers.contains(&i)
             })
         };
-        !is_doubtful && !may_be_in_open && containers.is_empty() && touching.iter().all(is_within)
+        let is_clear = !is_doubtful && !may_be_in_open && !may_hold_doubt;
+        is_clear && containers.is_empty() && touching.iter().all(is_within)
     }
 
     fn standing(&self, i: usize, faces_in: &[bool]) -> Standing {

@@ -121,7 +121,7 @@ impl RepairReport {
             ("flipped_caps", ["flat cap", "removed by an edge flip"], &self.flipped_caps),
             ("zero_area", ["zero-area triangle", "dropped, covered by others"], &self.zero_area),
             ("wires", ["triangle", "without area kept as a segment or a point"], &self.wires),
-            ("duplicate", ["duplicate triangle", "dropped"], &self.duplicate),
+            ("duplicate", ["duplicate triangle", "kept for winding numbers only"], &self.duplicate),
             (
                 "opposite_duplicate",
                 ["oppositely wound duplicate", "kept for facings and winding numbers only"],
@@ -146,7 +146,8 @@ impl RepairReport {
                     "component",
                     "facing inwards kept so: it crosses or touches others or itself, or lies in \
                      the box of an open one, so that it may be a cavity or inside out; winding \
-                     numbers decide its sides (--for closest,winding)",
+                     numbers decide the sides of a cavity (--for closest,winding); reverse the \
+                     triangles of a part that is inside out",
                 ],
                 &self.doubtful,
             ),

@@ -49,7 +49,15 @@ impl Fronts {
     ///
     /// Cost: one query of a static tree for each face; some for each patch. Twice that if very many
     /// faces cross.
-    pub fn of(faces: &[Face], triangles: &[[u32; 3]], edges: &EdgeTable) -> Self {
+    ///
+    /// `filed` tells how the file winds faces: 1 as they are here, −1 the other way, 0 if it does not
+    /// matter; nothing if all are 1. In front of a face the file's winding number must be 0 too.
+    pub fn of(
+        faces: &[Face],
+        triangles: &[[u32; 3]],
+        edges: &EdgeTable,
+        filed: Option<&[i32]>,
+    ) -> Self {
         let tree = FaceTree::new(faces);
         let most = most_crossings(faces.len());
         let mut others = vec![false; faces.len()];
@@ -80,8 +88,9 @@ impl Fronts {
         let counts = |face: u32| tree.has_area(face) && !others[face as usize];
         let patches = patches(triangles, edges, &touched_edges, counts);
         let is_wrong = |patch: &&Vec<u32>| {
-            let sample = patch.iter().take(SAMPLES).find_map(|&face| tree.in_front(face));
-            sample.is_none_or(|p| tree.winding(p) != 0)
+            let sample = patch.iter().find_map(|&face| tree.in_front(face));
+            let in_file = |p| filed.map_or(0, |filed| tree.winding(p, |face| filed[face]));
+            sample.is_none_or(|p| tree.winding(p, |_| 1) != 0 || in_file(p) != 0)
         };
         let wrong: Vec<&Vec<u32>> = patches.par_iter().filter(is_wrong).collect();
         defect = defect.or(wrong.first().map(|patch| Defect::Winding(patch[0])));
@@ -89,9 +98,6 @@ impl Fronts {
         Self { others: if defect.is_some() { others } else { Vec::new() }, defect, crossings }
     }
 }
-
-/// Faces of a patch of which one has room for a sample, at most.
-const SAMPLES: usize = 64;
 
 /// The faces of each patch, ascending, of those that count.
 fn patches(

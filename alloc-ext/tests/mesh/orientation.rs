@@ -98,6 +98,16 @@ fn a_whole_that_is_inside_out_is_turned_with_a_touching_cavity() {
 }
 
 #[test]
+fn a_part_is_turned_with_all_of_its_inside_or_not_at_all() {
+    let (big, small) = (inward(cube([0.0; 3], 20.0)), inward(cube([0.0; 3], 5.0)));
+    // Two nested parts that face inwards: the inner one is a solid in a solid, once turned.
+    assert_eq!(counts(&[big.clone(), small.clone()]), [1, 0, 0]);
+    // A third one that touches the inner one: what the inner one is, is in doubt.
+    let third = cube([6.0; 3], 1.0);
+    assert_eq!(counts(&[big, small, third]), [0, 0, 2]);
+}
+
+#[test]
 fn a_closed_surface_in_an_open_skin_is_never_turned() {
     let (positions, mut triangles) = cube([0.0; 3], 10.0);
     for missing in 0..12 {

@@ -101,12 +101,12 @@ pub fn replace_bytes(
 ///
 /// # Panics
 /// If the blob has no such section.
-pub fn edited(
+pub fn edited<E>(
     mut blob: Vec<u8>,
     kind: SectionKind,
     edit: impl FnOnce(&mut [u8]),
-    open: impl FnOnce(&[u8]) -> Result<(), OpenError>,
-) -> Result<(), OpenError> {
+    open: impl FnOnce(&[u8]) -> Result<(), E>,
+) -> Result<(), E> {
     let at = entry(&blob, kind as u32);
     edit(&mut blob[at.offset as usize..][..at.bytes as usize]);
     seal(&mut blob);

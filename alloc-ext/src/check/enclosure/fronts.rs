@@ -16,7 +16,9 @@ const STRIP: usize = 2000;
 /// 2. they share with all faces no more than common corners and edges, single points, and parts of
 ///    edges of both;
 /// 3. of faces that are connected across edges which no third face touches, one has a point in
-///    front around which the surface winds 0 times.
+///    front around which the surface winds 0 times; and so does the file's, whose winding is that
+///    of the faces that are not `turned` and the opposite one of the others;
+/// 4. a component that is turned in part is alone: its box meets no other's.
 ///
 /// By the second, the interior of such a face less some points meets no other face, and no face
 /// comes between the places in front of two faces at an edge of the third. So the third holds for
@@ -24,7 +26,11 @@ const STRIP: usize = 2000;
 ///
 /// # Errors
 /// What does not hold, in words.
-pub(crate) fn check_fronts(surface: &Surface, sideless: &[bool]) -> Result<(), String> {
+pub(crate) fn check_fronts(
+    surface: &Surface,
+    turned: &[bool],
+    sideless: &[bool],
+) -> Result<(), String> {
     let mut uses: BTreeMap<[u32; 2], [Vec<usize>; 2]> = BTreeMap::new();
     for (number, &[a, b, c]) in surface.triangles.iter().enumerate() {
         for (k, [u, v]) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
@@ -52,23 +58,95 @@ pub(crate) fn check_fronts(surface: &Surface, sideless: &[bool]) -> Result<(), S
     for face in (0..faces.len()).filter(|&face| told[face]) {
         members.entry(root(&mut patches, face)).or_default().push(face);
     }
-    let winding = Winding::new(surface);
+    let (winding, filed) = (Winding::new(surface), as_filed(surface, turned, &told)?);
     for patch in members.values() {
-        let Some(point) =
-            patch.iter().take(SAMPLES).find_map(|&face| in_front(&winding, &faces, face))
-        else {
+        let Some(point) = patch.iter().find_map(|&face| in_front(&winding, &faces, face)) else {
             return Err(format!("no point in front of face {} is clear of others", patch[0]));
         };
         let around = winding.around(point)?;
         if around != 0 {
             return Err(format!("the surface winds {around} times around {point:?}, in front"));
         }
+        let around = filed.around(point)?;
+        if around != 0 {
+            return Err(format!("the file winds {around} times around {point:?}, in front"));
+        }
     }
     Ok(())
 }
 
-/// Faces of which one has a point in front that is clear of others, at most.
-const SAMPLES: usize = 100;
+/// The surface as the file winds it, without the components that are turned in part: these have no
+/// winding number, and must be alone.
+fn as_filed(surface: &Surface, turned: &[bool], told: &[bool]) -> Result<Winding, String> {
+    let mut parents: Vec<usize> = (0..surface.positions.len()).collect();
+    for &[a, b, c] in &surface.triangles {
+        for v in [b, c] {
+            let (a, v) = (root(&mut parents, a as usize), root(&mut parents, v as usize));
+            parents[v.max(a)] = v.min(a);
+        }
+    }
+    let component: Vec<usize> =
+        surface.triangles.iter().map(|t| root(&mut parents, t[0] as usize)).collect();
+    let mut of: BTreeMap<usize, Component> = BTreeMap::new();
+    for (face, at) in component.iter().enumerate() {
+        of.entry(*at).or_default().add(surface.corners(surface.triangles[face]), turned[face]);
+        of.entry(*at).or_default().is_told |= told[face];
+    }
+    for (at, mixed) in of.iter().filter(|(_, of)| of.is_mixed()) {
+        let beside = |(other, of): (&usize, &Component)| other != at && of.meets(mixed);
+        let other =
+            of.iter().find(|&(other, of)| beside((other, of)) && (of.is_told || mixed.is_told));
+        if let Some((_, other)) = other {
+            return Err(format!(
+                "the component with a corner at {:?} is turned in part, and is not alone: another \
+                 has a corner at {:?}",
+                mixed.low, other.low
+            ));
+        }
+    }
+    let mut filed = Surface { positions: surface.positions.clone(), triangles: Vec::new() };
+    for (face, &[a, b, c]) in surface.triangles.iter().enumerate() {
+        if !of[&component[face]].is_mixed() {
+            filed.triangles.push(if turned[face] { [a, c, b] } else { [a, b, c] });
+        }
+    }
+    Ok(Winding::new(&filed))
+}
+
+/// What is known of a component: its box, and its faces.
+struct Component {
+    low: [f64; 3],
+    high: [f64; 3],
+    has_turned: bool,
+    has_others: bool,
+    is_told: bool,
+}
+
+impl Default for Component {
+    fn default() -> Self {
+        let (low, high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        Self { low, high, has_turned: false, has_others: false, is_told: false }
+    }
+}
+
+impl Component {
+    fn add(&mut self, corners: Corners, is_turned: bool) {
+        for p in corners {
+            self.low = [0, 1, 2].map(|k| self.low[k].min(p[k]));
+            self.high = [0, 1, 2].map(|k| self.high[k].max(p[k]));
+        }
+        self.has_turned |= is_turned;
+        self.has_others |= !is_turned;
+    }
+
+    fn is_mixed(&self) -> bool {
+        self.has_turned && self.has_others
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        (0..3).all(|k| self.low[k] <= other.high[k] && other.low[k] <= self.high[k])
+    }
+}
 
 fn root(parents: &mut [usize], mut face: usize) -> usize {
     while parents[face] != face {

@@ -95,7 +95,32 @@ pub(super) fn sides(tree: &TreeBlob, corners: &[[u32; 3]]) -> Result<(), String>
     if !promises_sides(tree) {
         return Ok(());
     }
-    let (mut surface, mut sideless) = (Surface::default(), Vec::new());
+    // Where the error is larger than triangles, a vertex may be taken for its neighbour. Then
+    // corners at one place are one vertex.
+    let result = fronts(tree, corners);
+    match result {
+        Err(Fronts::Places(_)) => {
+            let welded = Surface::welded(tree.triangles().map(|(_, at)| at)).triangles;
+            fronts(tree, &welded)
+        }
+        result => result,
+    }
+    .map_err(|why| match why {
+        Fronts::Places(why) | Fronts::Sides(why) => format!("sides are promised, but {why}"),
+    })
+}
+
+/// Why fronts are not proved.
+enum Fronts {
+    /// A vertex is at two places.
+    Places(String),
+    /// The surface is another.
+    Sides(String),
+}
+
+/// The fronts of the stored triangles, whose corners have these numbers.
+fn fronts(tree: &TreeBlob, corners: &[[u32; 3]]) -> Result<(), Fronts> {
+    let (mut surface, mut turned, mut sideless) = (Surface::default(), Vec::new(), Vec::new());
     let bits = tree.turned.iter().zip(&tree.sideless);
     for (((_, at), ids), (&is_turned, &is_sideless)) in tree.triangles().zip(corners).zip(bits) {
         // A wire repeats a vertex, and bounds nothing.
@@ -110,12 +135,14 @@ pub(super) fn sides(tree: &TreeBlob, corners: &[[u32; 3]]) -> Result<(), String>
             if place[0].is_nan() {
                 *place = p;
             } else if *place != p {
-                return Err(format!("vertex {id} is stored at {place:?} and at {p:?}"));
+                let why = format!("vertex {id} is stored at {place:?} and at {p:?}");
+                return Err(Fronts::Places(why));
             }
         }
         let [a, b, c] = *ids;
         surface.triangles.push(if is_turned { [a, c, b] } else { *ids });
+        turned.push(is_turned);
         sideless.push(is_sideless);
     }
-    check_fronts(&surface, &sideless).map_err(|why| format!("sides are promised, but {why}"))
+    check_fronts(&surface, &turned, &sideless).map_err(Fronts::Sides)
 }

@@ -25,8 +25,8 @@ mod search;
 use super::point_query::PointQuery;
 use super::signed_distance::SignedDistance;
 use crate::bvh::format::Bvh;
-use crate::query::{Budget, Ended, Interval, QueryError, ScratchEntry, Side, Work};
-use search::Search;
+use crate::query::{Budget, Ended, Interval, QueryError, ScratchEntry, Side, Undecided, Work};
+use search::{Search, side_of};
 
 /// The winding number about a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,9 +35,9 @@ use search::Search;
 pub struct WindingNumber {
     /// The winding number of the input file's triangles.
     pub number: Interval,
-    /// `Inside` if the number is certainly above ½, `Outside` if it is certainly below. In a closed
-    /// mesh that is proved to face inwards as a whole: certainly below −½, and above. Undecided
-    /// where sides are those of some triangles turned: ask [`Bvh::signed_distance`] there.
+    /// `Inside` if the number is certainly above ½, `Outside` if it is certainly between −½ and ½.
+    /// Undecided below −½: about the point the surface is inside out. A closed mesh that is proved
+    /// to face inwards as a whole is `Inside` there, and undecided above ½.
     pub side: Side,
     /// The work of the search.
     pub work: Work,
@@ -58,7 +58,8 @@ impl Bvh<'_> {
     /// The number is that of all triangles of the input file, as they are wound there. It is
     /// positive where the surface has its back to the point. A triangle that occurs twice counts
     /// twice, and one that occurs in both directions cancels: so solids that share walls are one
-    /// solid. In a part that is inside out the number is −1 or about that. Parts that overlap and are wound against each other cancel.
+    /// solid. In a part that is inside out the number is −1 or about that, which proves no side.
+    /// Parts that overlap and are wound against each other cancel.
     ///
     /// The search ends as soon as the side is decided and the interval is no wider than
     /// `budget.absolute`, a pure number here; 0, as in [`Budget::EXACT`], asks for the side alone.
@@ -110,12 +111,13 @@ impl Bvh<'_> {
         };
         let (number, ended) =
             if query.far { search.number_from_afar() } else { search.number_in_passes(scratch)? };
-        // Where some triangles are turned for sides, numbers tell none.
-        let (side, ended) = match search.side_of(number) {
-            Some(_) if self.turned.are_some() => (None, Ended::Resolution),
-            side => (side, ended),
+        let (side, ended) = match (side_of(search.of_solid(number)), ended) {
+            (Some(side), _) => (side, ended),
+            (None, Ended::Exact | Ended::Tolerance) => {
+                (Side::Undecided(Undecided::Resolution), Ended::Resolution)
+            }
+            (None, _) => (Side::Undecided(ended.undecided()), ended),
         };
-        let side = side.unwrap_or(Side::Undecided(ended.undecided()));
         Ok(WindingNumber { number, side, work: search.work, ended })
     }
 

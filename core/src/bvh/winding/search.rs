@@ -110,22 +110,19 @@ impl Search<'_> {
         Ok((number, Ended::Resolution))
     }
 
-    /// The side that a number proves. In a solid that faces inwards as a whole the number is −1.
-    pub(super) fn side_of(&self, number: Interval) -> Option<Side> {
-        let number = match self.tree.turned.are_all() {
+    /// The number of the solid that the mesh bounds: in one that faces inwards as a whole the file's
+    /// number is −1.
+    pub(super) fn of_solid(&self, number: Interval) -> Interval {
+        match self.tree.turned.are_all() {
             true => Interval::new(-number.upper, -number.lower),
             false => number,
-        };
-        match number {
-            Interval { lower, .. } if lower > 0.5 => Some(Side::Inside),
-            Interval { upper, .. } if upper < 0.5 => Some(Side::Outside),
-            _ => None,
         }
     }
 
     /// Why the search ends with this number: it is good enough, or `otherwise`.
     fn ended(&self, number: Interval, otherwise: Ended) -> Ended {
-        let is_decided = self.side_of(number).is_some();
+        let number = self.of_solid(number);
+        let is_decided = side_of(number).is_some() || number.upper < -0.5;
         let is_narrow = number.upper - number.lower <= self.absolute;
         match (is_decided, self.absolute > 0.0) {
             (true, false) => Ended::Exact,
@@ -251,5 +248,15 @@ impl Pass {
         } else {
             self.is_unknown = true;
         }
+    }
+}
+
+/// The side that a number proves. A number of −½ or less proves none: the surface is inside out
+/// about the point, and may bound a solid all the same.
+pub(super) fn side_of(number: Interval) -> Option<Side> {
+    match number {
+        Interval { lower, .. } if lower > 0.5 => Some(Side::Inside),
+        Interval { lower, upper } if lower > -0.5 && upper < 0.5 => Some(Side::Outside),
+        _ => None,
     }
 }

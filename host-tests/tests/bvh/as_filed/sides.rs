@@ -1,11 +1,15 @@
 //! Turning tells sides, and nothing else.
 
 use super::{File, side, views, winding};
-use meshsweep::bvh::TreeOptions;
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::check::{check_tree, prove_repair};
+use meshsweep::mesh::{Filed, RawMesh, repair};
 use meshsweep_core::{Bvh, OpenError, SectionKind, Side, Undecided};
 use meshsweep_host_tests::corrupt::{assert_damage_is_safe, edited, entries, entry};
 use meshsweep_host_tests::generate::evil::room;
-use meshsweep_host_tests::generate::{Rng, Triangles, icosphere, inverted, joined, scaled, torus};
+use meshsweep_host_tests::generate::{
+    Rng, Triangles, block, icosphere, inverted, joined, scaled, torus,
+};
 
 const TURNED: u32 = SectionKind::TreeTurned as u32;
 
@@ -52,7 +56,8 @@ fn assert_room_is_solid(blobs: &[Vec<u8>; 2]) {
 fn sides_do_not_depend_on_which_triangles_the_file_winds_wrongly() {
     let hollow = joined(&icosphere(2), &scaled(&inverted(&icosphere(2)), 0.5));
     let mut rng = Rng::new(11);
-    for shape in [torus(2.0, 0.75, 16, 10), hollow] {
+    // A hollow solid of which some triangles are flipped may be a solid in a solid.
+    for (shape, flips) in [(torus(2.0, 0.75, 16, 10), true), (hollow, false)] {
         let plain = File::of(&shape).trees(TreeOptions::default());
         assert!(!plain.iter().any(|bytes| has_bits(bytes)));
         let mut flipped = shape.clone();
@@ -62,6 +67,9 @@ fn sides_do_not_depend_on_which_triangles_the_file_winds_wrongly() {
             }
         }
         for (file, is_mixed) in [(inverted(&shape), false), (flipped, true)] {
+            if is_mixed && !flips {
+                continue;
+            }
             let blobs = File::of(&file).trees(TreeOptions::default());
             assert!(blobs.iter().all(|bytes| has_bits(bytes) == is_mixed));
             let mut decided = 0;
@@ -79,6 +87,76 @@ fn sides_do_not_depend_on_which_triangles_the_file_winds_wrongly() {
 }
 
 #[test]
+fn the_majority_of_its_triangles_makes_no_part_a_cavity() {
+    let outer = block([-10.0; 3], [10.0; 3]);
+    for flipped in [1, 5, 7] {
+        let mut inner = block([-4.0; 3], [4.0; 3]);
+        inner.1.iter_mut().take(flipped).for_each(|t| t.swap(1, 2));
+        let blobs = File::of(&joined(&outer, &inner)).trees(TreeOptions::default());
+        for tree in views(&blobs) {
+            for p in [[0.0; 3], [7.0, 0.0, 0.0], [4.5, 0.1, 0.2]] {
+                assert!(matches!(side(&tree, p), Side::Undecided(_)), "{flipped} {p:?}");
+            }
+        }
+        // Apart from others each bounds a solid.
+        let apart = |(positions, triangles): &Triangles| {
+            let positions = positions.iter().map(|&[x, y, z]| [x + 50.0, y, z]).collect();
+            (positions, triangles.clone())
+        };
+        let blobs = File::of(&joined(&outer, &apart(&inner))).trees(TreeOptions::default());
+        for tree in views(&blobs) {
+            assert_eq!(side(&tree, [50.0, 0.0, 0.0]), Side::Inside);
+            assert_eq!(side(&tree, [45.0, 0.0, 0.0]), Side::Outside);
+            assert_eq!(side(&tree, [0.0; 3]), Side::Inside);
+        }
+    }
+}
+
+#[test]
+fn a_part_with_doubts_in_it_is_not_turned_and_no_side_there_is_wrong() {
+    let (big, small) = (block([-20.0; 3], [20.0; 3]), block([-5.0; 3], [5.0; 3]));
+    // It touches the small one with a corner, stands on its face, crosses it.
+    let thirds = [
+        block([5.0; 3], [7.0; 3]),
+        block([5.0, -2.0, -2.0], [7.0, 2.0, 2.0]),
+        block([4.0; 3], [7.0; 3]),
+    ];
+    for third in thirds.iter().flat_map(|third| [third.clone(), inverted(third)]) {
+        let file = joined(&joined(&inverted(&big), &inverted(&small)), &third);
+        for winding in [false, true] {
+            let blobs = File::of(&file).trees(TreeOptions::default().with_winding(winding));
+            for tree in views(&blobs) {
+                assert_ne!(side(&tree, [-3.0, 0.0, 0.1]), Side::Outside);
+                assert_ne!(side(&tree, [-12.0, 0.0, 0.1]), Side::Outside);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_solid_in_a_solid_that_repair_turned_is_no_proved_cavity() {
+    let (positions, triangles) = joined(&block([-10.0; 3], [10.0; 3]), &block([-4.0; 3], [4.0; 3]));
+    let raw = RawMesh::from_f32(&positions, &triangles);
+    let (mut mesh, _) = repair(raw.clone()).expect("a mesh");
+    // A wrong repair that is true to itself.
+    mesh.filed = Some(Box::new(Filed { positions, triangles }));
+    mesh.turned = (0..24).map(|t| t >= 12).collect();
+    mesh.triangles[12..].iter_mut().for_each(|t| t.swap(1, 2));
+    assert!(prove_repair(&raw, mesh.as_input()).is_ok(), "it does not know what is right");
+    let bytes = build(mesh.as_input(), &TreeOptions::default()).expect("builds").0.to_bytes();
+    let tree = Bvh::open(&bytes).expect("opens");
+    assert!(matches!(side(&tree, [0.0; 3]), Side::Undecided(_)), "the builder looks at the file");
+    let all_told = edited(
+        bytes,
+        SectionKind::TreeSideless,
+        |bits| bits.fill(0),
+        |bytes| check_tree(bytes, &mesh).map(drop),
+    );
+    let refused = all_told.expect_err("the file winds twice there");
+    assert!(refused.contains("the file winds 2 times"), "{refused}");
+}
+
+#[test]
 fn a_tree_that_needs_no_sides_by_the_nearest_triangle_has_no_bits() {
     let file = File::of(&one_of_two_inverted());
     let plain = TreeOptions::default();
@@ -87,18 +165,18 @@ fn a_tree_that_needs_no_sides_by_the_nearest_triangle_has_no_bits() {
 }
 
 #[test]
-fn numbers_tell_no_side_where_some_parts_are_inside_out_and_the_nearest_triangle_does() {
+fn numbers_tell_no_side_in_a_part_that_is_inside_out_and_the_nearest_triangle_does() {
     let blobs = File::of(&one_of_two_inverted()).trees(TreeOptions::default().with_winding(true));
     for tree in views(&blobs) {
-        for (point, number, wanted) in [
-            ([0.1, 0.0, 0.0], 1.0, Side::Inside),
-            ([4.1, 0.0, 0.0], -1.0, Side::Inside),
-            ([2.0, 0.0, 0.0], 0.0, Side::Outside),
+        let undecided = Side::Undecided(Undecided::Resolution);
+        for (point, number, told, wanted) in [
+            ([0.1, 0.0, 0.0], 1.0, Side::Inside, Side::Inside),
+            ([4.1, 0.0, 0.0], -1.0, undecided, Side::Inside),
+            ([2.0, 0.0, 0.0], 0.0, Side::Outside, Side::Outside),
         ] {
             let (interval, by_number) = winding(&tree, point);
             assert!(interval.lower <= number && number <= interval.upper, "{interval:?}");
-            assert_eq!(by_number, Side::Undecided(Undecided::Resolution));
-            assert_eq!(side(&tree, point), wanted);
+            assert_eq!((by_number, side(&tree, point)), (told, wanted));
         }
     }
 }

@@ -4,7 +4,7 @@ use super::{File, side, views, winding};
 use meshsweep::bvh::TreeOptions;
 use meshsweep_core::{Bvh, Interval, Side};
 use meshsweep_host_tests::generate::evil::{glued_blocks, plugged_shell, room};
-use meshsweep_host_tests::generate::{Triangles, block, joined};
+use meshsweep_host_tests::generate::{Triangles, block, inverted, joined};
 
 fn trees(file: &Triangles) -> [Vec<u8>; 2] {
     File::of(file).trees(TreeOptions::default().with_winding(true))
@@ -81,6 +81,26 @@ fn a_room_whose_walls_face_inwards_winds_once_backwards() {
             let (Interval { lower, upper }, by_number) = winding(&tree, point);
             assert!(lower <= number && number <= upper && upper - lower < 0.1);
             assert_eq!((by_number, side(&tree, point)), (wanted, wanted));
+        }
+    }
+}
+
+#[test]
+fn nothing_in_a_part_that_is_inside_out_is_called_outside() {
+    let inverted_block = || inverted(&block([-2.0; 3], [2.0; 3]));
+    // A copy of a triangle; a part that touches another from without; an edge of four triangles.
+    let mut doubled = inverted_block();
+    doubled.1.push(doubled.1[0]);
+    let touching = joined(&block([-20.0, -9.0, -9.0], [-2.0, 9.0, 9.0]), &inverted_block());
+    let along_edge = joined(&inverted_block(), &inverted(&block([2.0; 3], [4.0; 3])));
+    let along_edge = joined(&along_edge, &inverted(&block([2.0, 2.0, -2.0], [4.0, 4.0, 2.0])));
+    for file in [doubled, touching, along_edge] {
+        for tree in views(&trees(&file)) {
+            let (Interval { lower, .. }, by_number) = winding(&tree, [0.5, 0.25, 0.125]);
+            assert!(lower < -0.5);
+            assert!(by_number == Side::Inside || matches!(by_number, Side::Undecided(_)));
+            assert_ne!(side(&tree, [0.5, 0.25, 0.125]), Side::Outside);
+            assert_eq!(winding(&tree, [30.0, 0.0, 0.0]).1, Side::Outside);
         }
     }
 }

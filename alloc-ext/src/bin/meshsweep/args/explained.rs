@@ -200,12 +200,13 @@ pub fn winding() -> String {
          whole sphere: 1 inside of a closed mesh, 0 outside. Holes, flaps and parts that overlap \
          make it another number: in a hole it falls from nearly 1 to nearly 0, and where two \
          parts overlap it is 2. lower and upper contain it. The column 'side' says inside, which \
-         proves a number above 1/2; outside, which proves one below; or undecided, and then \
-         'reason' says why: rounding, also of the vertices to the grid; out of steps, out of \
-         scratch memory. The number is that of all triangles of the mesh file, as they are wound \
+         proves a number above 1/2; outside, which proves one between -1/2 and 1/2; or undecided, \
+         and then 'reason' says why: rounding, also of the vertices to the grid; out of steps, out \
+         of scratch memory. The number is that of all triangles of the mesh file, as they are wound \
          there: one that occurs twice counts twice, and one that occurs in both directions \
-         cancels, so parts that share walls are one part. A part that is inside out makes every \
-         point outside: build warns of it.\n\n\
+         cancels, so parts that share walls are one part. In a part that is inside out the number \
+         is nearly -1, and the side is undecided; in a closed mesh that is proved to face inwards \
+         as a whole it is inside.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep build scan.ply -o scan.msw --for winding\n  \
@@ -238,6 +239,10 @@ pub fn segment() -> String {
          a segment runs through an edge, one triangle there may be proved to be hit, and not which \
          one: the first of them says yes, the others undecided. t runs from 0 to 1 along the \
          segment, rounded to f32; {TRIANGLES}.\n\n\
+         yes proves that the mesh is hit. t, the point and the triangle are those of the stored \
+         surface. Within the surface error another triangle of the mesh may come first: --all \
+         lists it, perhaps as undecided. Of copies of a triangle with the same winding only the \
+         first is stored, unless the blob serves winding numbers.\n\n\
          --facing is by the winding of the mesh file. What build turns is turned for sides \
          only.\n\n\
          {QUERIES}\n\n\
@@ -437,9 +442,9 @@ pub const VERIFY: &str = "The proofs share no code with the builder and with que
     hull hierarchy  each level encloses the finer ones, radii cover, the finest surface is the \
     mesh within the error\n  \
     key frames      each vertex is where the frame's mesh has it, radii may be interpolated\n  \
-    tight hulls     each encloses the mesh, and the file's triangles as they are written, and is \
-    as near as stated\n  \
-    triboxes        each level holds the mesh, the file's triangles as they are written, and the \
+    tight hulls     each encloses the mesh, and the file's triangles before rounding, and is as \
+    near as stated\n  \
+    triboxes        each level holds the mesh, the file's triangles before rounding, and the \
     inside of a solid\n  \
     curve           each point is stored within the error and is in all its capsules\n\n\
     Integers decide planes, boxes, places and meetings. Radii and distances of surfaces are \

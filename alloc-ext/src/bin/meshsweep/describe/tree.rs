@@ -79,8 +79,8 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
         }
         (true, false) => "closed: signed distance is that of the nearest surface",
         (true, true) => {
-            "closed: sides are those of the winding number (signed_by_winding); parts that \
-             overlap are united"
+            "closed: sides are those of the nearest triangle where it tells one, else of the \
+             winding number; parts that overlap are united"
         }
         (false, true) => "open: sides are those of the winding number",
         _ => "open: every side is undecided; --for closest,winding decides them",
