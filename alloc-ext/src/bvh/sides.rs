@@ -13,9 +13,10 @@
 //! outside, and is inside. Such triangles are *sideless*. So are those of a component that is
 //! inside out, and of a solid in a solid.
 //!
-//! A component that the file winds partly one way and partly the other bounds a solid if it is
-//! alone. But whether it is a cavity or a solid in another is not told by the majority of its
-//! triangles. So it is sideless, and each component whose box meets its box.
+//! Repair winds a component as most of its triangles are. If its box meets no other component's
+//! box, it bounds a solid in either winding. If its box meets another's, or more than two of its
+//! triangles share an edge, the majority would decide whether a part of it is a cavity. Then this
+//! component and those whose boxes meet its box are sideless.
 
 use super::store::OnGrid;
 use super::stored_triangles::StoredTriangles;
@@ -33,7 +34,7 @@ pub struct SidesReport {
     pub defect: SideDefect,
     /// A corner of the triangle, or of the first.
     pub at: [f32; 3],
-    /// Whether the surface has it with vertices in `f32`; else only on the grid.
+    /// Whether the surface with vertices in `f32` has the defect. False also if `f32` was not tested.
     pub in_f32: bool,
     /// Triangles that tell no side.
     pub sideless: usize,
@@ -175,6 +176,10 @@ impl<'a> Sided<'a> {
         let boxes: Vec<Bounds> = components.iter().map(of).collect();
         let tree = StaticTree::new(&boxes);
         let is_turned = |t: &u32| turned[*t as usize];
+        let mut is_crowded = vec![false; triangles.len()];
+        for (_, half_edge) in self.edges.edges().filter(|edge| edge.len() > 2).flatten() {
+            is_crowded[*half_edge as usize / 3] = true;
+        }
         let mut filed = FiledWinding { times: vec![0; triangles.len()], mixed: Vec::new() };
         for (i, component) in components.iter().enumerate() {
             if component.iter().all(is_turned) || !component.iter().any(is_turned) {
@@ -187,7 +192,7 @@ impl<'a> Sided<'a> {
                 beside.extend((j != i && boxes[j].meets(&boxes[i])).then_some(j));
                 true
             });
-            if !beside.is_empty() {
+            if !beside.is_empty() || component.iter().any(|&t| is_crowded[t as usize]) {
                 filed.mixed.extend(component);
                 beside.into_iter().for_each(|j| filed.mixed.extend(&components[j]));
             }

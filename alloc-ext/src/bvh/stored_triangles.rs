@@ -2,13 +2,15 @@
 //! numbers are questions about the file. Where repair turned triangles, a bit for each says so, and
 //! sides are those of the turned ones.
 //!
-//! | repair | the tree | stores |
+//! | repair | moments | the tree stores |
 //! | --- | --- | --- |
-//! | changed no triangle | any | the mesh |
-//! | only turned some; the mesh is closed | any | the mesh, wound as in the file |
-//! | changed some | has winding numbers | all triangles of the file, each copy |
-//! | changed some; the mesh is closed, without merged walls | has none | the mesh, wound as in the file |
-//! | changed some | has none | the file's triangles that differ, and wires |
+//! | changed nothing | any | the mesh |
+//! | only turned triangles, mesh closed | any | the mesh in the file's winding |
+//! | anything else, mesh closed | no | the mesh in the file's winding |
+//! | anything else | yes | all triangles of the file, copies too |
+//! | anything else, mesh not closed | no | distinct triangles of the file, and wires |
+//!
+//! A mesh with merged walls does not count as closed.
 //!
 //! *Triangles without area in a tree with winding numbers* stay triangles if their vertices differ.
 //! A grid may give them an area, and their edges close the surface of their neighbours. So sums and

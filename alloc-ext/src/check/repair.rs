@@ -41,9 +41,8 @@ pub fn verify_repair(raw: &RawMesh, input: Input<'_>) -> Finding {
         Err(error) => Finding::failed("mesh", error),
         Ok(proof) => Finding::proved(
             "mesh",
-            "every triangle of the file is in the mesh by its number, within the rounding; copies \
-             and triangles without area aside, whose points others have; each knows whether it is \
-             wound as in the file",
+            "every triangle of the file is in the mesh by its number, within the rounding, or is a \
+             copy, or has no area and lies on others; the mesh says which triangles it turned",
             &[
                 ("triangle", proof.kept),
                 ("turned triangle", proof.turned),

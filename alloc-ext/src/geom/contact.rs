@@ -47,7 +47,7 @@ fn sides(of: &Triangle, about: &Triangle) -> [f64; 3] {
     of.map(|p| side(about, p))
 }
 
-/// The only corner on the plane, if the two others lie on one side of it.
+/// Whether one corner lies on the plane, and both others on one side of it.
 fn touches_by_corner(sides: [f64; 3]) -> bool {
     let count = |is: fn(&f64) -> bool| sides.iter().filter(|s| is(s)).count();
     count(|&s| s == 0.0) == 1 && count(|&s| s > 0.0) != 1

@@ -150,7 +150,7 @@ impl<'a> FaceTree<'a> {
             let (p, q) = (middle + normal * (size * fraction), middle - normal * (size * fraction));
             let passes = side(at, p) > 0.0 && side(at, q) < 0.0;
             let bounds = Bounds::of(&[p, q]);
-            let meets_as_it_should = |i: usize| {
+            let is_clear_of = |i: usize| {
                 let meets = || {
                     let other = &self.faces[i].at;
                     segment_meets([p, q], [side(other, p), side(other, q)], other)
@@ -158,8 +158,7 @@ impl<'a> FaceTree<'a> {
                 i == face as usize || !self.has_area[i] || !self.boxes[i].meets(&bounds) || !meets()
             };
             let is_through = || segment_meets([p, q], [side(at, p), side(at, q)], at);
-            (passes && is_through() && self.tree.visit_meeting(&bounds, meets_as_it_should))
-                .then_some(p)
+            (passes && is_through() && self.tree.visit_meeting(&bounds, is_clear_of)).then_some(p)
         })
     }
 }

@@ -5,12 +5,15 @@
 //! relative to it. A component inside another is never judged on its own: facing inwards it is a
 //! cavity, facing outwards it is a solid within a solid, and both are valid.
 //!
-//! *What is proved before one is turned.* Its faces meet in points at most, but for common corners
-//! and edges. It crosses no other component and none touches it from without. No closed component
-//! has an inner point of it inside, and its box lies in the box of no open component, which might
-//! be a skin with holes. And all that may lie inside it is proved to, for a component is turned with
-//! the whole of its inside or not at all. If something of this is not proved, the component is in *doubt* and keeps
-//! the winding of the file. So does one whose volume may be zero within rounding.
+//! *What is proved before a component is turned.*
+//! - It shares only points with itself and others, but for common corners and edges.
+//! - No other component touches it from outside.
+//! - A point within one of its faces or edges lies in no closed component.
+//! - Its box lies in the box of no open component, which might be a skin with holes.
+//! - No component of unproved nesting has a box that meets its box: a component is turned with the
+//!   whole of its inside or not at all.
+//!
+//! If one of these is not proved, the component is in *doubt* and is not turned. So is one whose volume may be zero within rounding.
 //!
 //! Components that are open, one-sided or on a non-manifold edge have no inside.
 
@@ -35,8 +38,8 @@ pub(super) struct ClosedComponent {
 /// How a closed component lies to the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Standing {
-    /// It faces outwards, and nothing inside out has it inside; or no component faces inwards.
-    AsFiled,
+    /// It faces outwards, and is not proved to lie in one that is inside out. It is not turned.
+    Kept,
     /// It is inside out, and lies in no other.
     InsideOut,
     /// It lies in one that is inside out, to be turned with it.
@@ -77,7 +80,7 @@ pub(super) fn closed_components(
     let of = |&number: &u32| {
         let of = &members[number as usize];
         let volume = SignedVolume::of(of.iter().map(|t| wide(corners(t))));
-        ClosedComponent { number, first: of[0], volume, standing: Standing::AsFiled }
+        ClosedComponent { number, first: of[0], volume, standing: Standing::Kept }
     };
     let mut components: Vec<ClosedComponent> = closed.iter().map(of).collect();
     if components.iter().any(|of| of.volume.is_negative()) {
@@ -201,7 +204,7 @@ impl Surroundings {
     }
 
     /// Whether a component is proved to lie in no other, and nothing touches it from without.
-    fn is_alone(&self, i: usize) -> bool {
+    fn is_proved_outermost(&self, i: usize) -> bool {
         let Surrounding { is_doubtful, containers, touching, may_be_in_open, may_hold_doubt } =
             &self.of[i];
         let is_within = |other: &Option<usize>| {
@@ -218,20 +221,22 @@ impl Surroundings {
         let Surrounding { is_doubtful, containers, .. } = &self.of[i];
         let doubt = match faces_in(i) {
             true => Standing::Doubt { may_be_cavity: !containers.is_empty() },
-            false => Standing::AsFiled,
+            false => Standing::Kept,
         };
         if *is_doubtful {
             return doubt;
         }
         if containers.is_empty() {
-            return match (faces_in(i), self.is_alone(i)) {
+            return match (faces_in(i), self.is_proved_outermost(i)) {
                 (true, true) => Standing::InsideOut,
                 _ => doubt,
             };
         }
         let mut outermost = containers.iter().filter(|&&of| self.of[of].containers.is_empty());
         match (outermost.next(), outermost.next()) {
-            (Some(&of), None) if faces_in(of) && self.is_alone(of) => Standing::InInsideOut,
+            (Some(&of), None) if faces_in(of) && self.is_proved_outermost(of) => {
+                Standing::InInsideOut
+            }
             (Some(&of), None) if faces_in(i) && !faces_in(of) => Standing::Cavity,
             _ => doubt,
         }

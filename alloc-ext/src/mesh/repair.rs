@@ -61,7 +61,7 @@ pub(crate) fn repair_moved(
     let mut source: Vec<u32> = (0..triangles.len() as u32).collect();
 
     let first_at = weld(&positions, &mut report.welded);
-    let mut is_filed = merges_places(raw, &first_at);
+    let mut differs_from_file = merges_places(raw, &first_at);
     let rounded = positions.clone();
     triangles.iter_mut().flatten().for_each(|v| *v = first_at[*v as usize]);
     let mut taken_out = take_out_repeated_corners(&positions, &mut triangles, &mut source);
@@ -69,7 +69,7 @@ pub(crate) fn repair_moved(
     remove_caps(&positions, &mut triangles, &mut source, &mut taken_out, &mut report);
     let mut wires = uncovered(&positions, &triangles, &taken_out, &mut report);
 
-    is_filed |= triangles.len() < raw.triangles.len() || report.flipped_caps.count > 0;
+    differs_from_file |= triangles.len() < raw.triangles.len() || report.flipped_caps.count > 0;
 
     let edges = EdgeTable::new(positions.len(), &triangles);
     // Splitting moves no corner to another edge: half-edges keep their twins, and twins their
@@ -88,7 +88,7 @@ pub(crate) fn repair_moved(
     if !turned.contains(&true) {
         turned = Vec::new();
     }
-    is_filed |= !turned.is_empty();
+    differs_from_file |= !turned.is_empty();
     let kept = drop_unreferenced(&positions, &mut triangles, &mut wires, &first_at, &mut report);
     let positions: Vec<[f32; 3]> = kept.iter().map(|&v| positions[v as usize]).collect();
     let vertex_source = kept.iter().map(|&v| vertex_source[v as usize]).collect();
@@ -97,7 +97,7 @@ pub(crate) fn repair_moved(
     report.vertices_kept = positions.len();
     report.triangles_kept = triangles.len();
     let has_merged_walls = report.opposite_duplicate.count > 0;
-    let filed = is_filed.then(|| Box::new(Filed::new(raw, &rounded)));
+    let filed = differs_from_file.then(|| Box::new(Filed::new(raw, &rounded)));
     let mesh = Mesh {
         positions,
         triangles,
@@ -179,12 +179,12 @@ fn turn_outwards(
         let finding = match standing {
             Standing::InsideOut => &mut report.turned_components,
             Standing::Cavity => &mut report.cavities,
-            // A cavity of the whole, once that is turned.
+            // It faces outwards in a component that is inside out. Turned with it, it is a cavity.
             Standing::InInsideOut if !volume.is_negative() && !volume.is_zero() => {
                 &mut report.cavities
             }
             Standing::Doubt { .. } => &mut report.doubtful,
-            Standing::AsFiled | Standing::InInsideOut => continue,
+            Standing::Kept | Standing::InInsideOut => continue,
         };
         let first = first as usize;
         finding.triangle(source[first], positions[triangles[first][0] as usize]);

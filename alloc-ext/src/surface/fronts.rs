@@ -50,8 +50,9 @@ impl Fronts {
     /// Cost: one query of a static tree for each face; some for each patch. Twice that if very many
     /// faces cross.
     ///
-    /// `filed` tells how the file winds faces: 1 as they are here, −1 the other way, 0 if it does not
-    /// matter; nothing if all are 1. In front of a face the file's winding number must be 0 too.
+    /// `filed` has for each face 1 if the file winds it as here, −1 if the other way, 0 if its
+    /// component is wound both ways. `None` if all are 1 or all are −1: then both numbers are 0
+    /// together. A face tells a side only if the file's winding number in front of it is 0 too.
     pub fn of(
         faces: &[Face],
         triangles: &[[u32; 3]],

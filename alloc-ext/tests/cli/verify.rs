@@ -134,6 +134,10 @@ fn triangles_are_proved_in_the_winding_of_the_file_and_turned_ones_to_be_those_o
     for bits in ["16", "32"] {
         let path = blob(&directory, "evil/room.obj", &["--vertex-bits", bits]);
         let case = Case::new(&directory, path, &[fixture("evil/room.obj")]);
+        // All are turned: one flag says so.
+        case.fails("box tree: the triangle stored as", |b| b[start(b, TREE) + 1] ^= 8);
+        let path = blob(&directory, "evil/mixed_winding.ply", &["--vertex-bits", bits]);
+        let case = Case::new(&directory, path, &[fixture("evil/mixed_winding.ply")]);
         case.fails("box tree: the triangle stored as", |b| b[start(b, TURNED)] ^= 2);
         for name in ["evil/glued_blocks.obj", "evil/plugged_shell.obj", "evil/room.obj"] {
             let options = ["--for", "closest,segment,winding", "--vertex-bits", bits];

@@ -126,8 +126,8 @@ enum {
 /* ---- Memory of the caller ---- */
 
 #if UINTPTR_MAX > 0xFFFFFFFFu
-#define MSW_MODEL_WORDS 32
-#define MSW_TIGHT_WORDS 40
+#define MSW_MODEL_WORDS 36
+#define MSW_TIGHT_WORDS 44
 #define MSW_HULL_WORDS 48
 #define MSW_COHERENT_WORDS 256
 #else

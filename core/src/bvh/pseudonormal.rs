@@ -268,8 +268,8 @@ impl<F: FnMut(&FanLeaf<'_>, usize, f32)> LeafVisitor for Star<'_, F> {
     }
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let Bvh { turned, sideless, .. } = *self.tree;
-        let first = match turned.are_some() || sideless.are_some() {
+        let (turned, sideless) = (self.tree.turned(), self.tree.sideless());
+        let first = match turned.are_stored() || sideless.are_stored() {
             true => self.tree.links(visit.node)?.triangle(visit.child),
             false => 0,
         };

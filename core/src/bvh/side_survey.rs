@@ -46,8 +46,8 @@ impl<'t> Search<'_, 't> {
         let tree = self.tree;
         let collector = Survey {
             query,
-            turned: tree.turned,
-            sideless: tree.sideless,
+            turned: tree.turned(),
+            sideless: tree.sideless(),
             margin: query.rounding,
             bounding,
             bound_sq: f32::INFINITY,

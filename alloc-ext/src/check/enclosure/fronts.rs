@@ -15,14 +15,15 @@ const STRIP: usize = 2000;
 /// 1. through every edge as many faces run in one direction as in the other;
 /// 2. they share with all faces no more than common corners and edges, single points, and parts of
 ///    edges of both;
-/// 3. of faces that are connected across edges which no third face touches, one has a point in
-///    front around which the surface winds 0 times; and so does the file's, whose winding is that
-///    of the faces that are not `turned` and the opposite one of the others;
-/// 4. a component that is turned in part is alone: its box meets no other's.
+/// 3. patches are faces connected across edges that no third face touches: in front of one face of
+///    each patch is a point with winding number 0 of the surface, and of the file's surface, which
+///    has `turned` faces reversed;
+/// 4. a component that is turned in part has no edge of more than two faces, and its box meets no
+///    other component's box, unless both are sideless.
 ///
-/// By the second, the interior of such a face less some points meets no other face, and no face
-/// comes between the places in front of two faces at an edge of the third. So the third holds for
-/// every place in front. Faces without area bound nothing.
+/// By 2, nothing but single points touches the interior of a face, and nothing separates the fronts
+/// of two faces of a patch. So 3 holds in front of the whole patch. Faces without area bound
+/// nothing.
 ///
 /// # Errors
 /// What does not hold, in words.
@@ -58,7 +59,11 @@ pub(crate) fn check_fronts(
     for face in (0..faces.len()).filter(|&face| told[face]) {
         members.entry(root(&mut patches, face)).or_default().push(face);
     }
-    let (winding, filed) = (Winding::new(surface), as_filed(surface, turned, &told)?);
+    let mut crowded = vec![false; faces.len()];
+    for [up, down] in uses.values().filter(|[up, down]| up.len() + down.len() > 2) {
+        up.iter().chain(down).for_each(|half_edge| crowded[half_edge / 3] = true);
+    }
+    let (winding, filed) = (Winding::new(surface), as_filed(surface, turned, &told, &crowded)?);
     for patch in members.values() {
         let Some(point) = patch.iter().find_map(|&face| in_front(&winding, &faces, face)) else {
             return Err(format!("no point in front of face {} is clear of others", patch[0]));
@@ -77,7 +82,12 @@ pub(crate) fn check_fronts(
 
 /// The surface as the file winds it, without the components that are turned in part: these have no
 /// winding number, and must be alone.
-fn as_filed(surface: &Surface, turned: &[bool], told: &[bool]) -> Result<Winding, String> {
+fn as_filed(
+    surface: &Surface,
+    turned: &[bool],
+    told: &[bool],
+    crowded: &[bool],
+) -> Result<Winding, String> {
     let mut parents: Vec<usize> = (0..surface.positions.len()).collect();
     for &[a, b, c] in &surface.triangles {
         for v in [b, c] {
@@ -90,9 +100,18 @@ fn as_filed(surface: &Surface, turned: &[bool], told: &[bool]) -> Result<Winding
     let mut of: BTreeMap<usize, Component> = BTreeMap::new();
     for (face, at) in component.iter().enumerate() {
         of.entry(*at).or_default().add(surface.corners(surface.triangles[face]), turned[face]);
-        of.entry(*at).or_default().is_told |= told[face];
+        let of = of.entry(*at).or_default();
+        of.is_told |= told[face];
+        of.is_crowded |= crowded[face];
     }
     for (at, mixed) in of.iter().filter(|(_, of)| of.is_mixed()) {
+        if mixed.is_crowded && mixed.is_told {
+            return Err(format!(
+                "the component with a corner at {:?} is turned in part, and more than two of its \
+                 faces share an edge",
+                mixed.low
+            ));
+        }
         let beside = |(other, of): (&usize, &Component)| other != at && of.meets(mixed);
         let other =
             of.iter().find(|&(other, of)| beside((other, of)) && (of.is_told || mixed.is_told));
@@ -120,12 +139,14 @@ struct Component {
     has_turned: bool,
     has_others: bool,
     is_told: bool,
+    /// More than two of its faces share an edge.
+    is_crowded: bool,
 }
 
 impl Default for Component {
     fn default() -> Self {
         let (low, high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        Self { low, high, has_turned: false, has_others: false, is_told: false }
+        Self { low, high, has_turned: false, has_others: false, is_told: false, is_crowded: false }
     }
 }
 
@@ -156,6 +177,10 @@ fn root(parents: &mut [usize], mut face: usize) -> usize {
     face
 }
 
+/// Half lengths that are tried, as parts of the largest coordinate. Too long: the segment meets other
+/// faces, and no proof is found. Too short: rounding puts its end on the face.
+const SAMPLE_PARTS: [f64; 2] = [1e-9, 1e-13];
+
 /// A point in front of a face, and the segment from there through the face to its back meets no
 /// other.
 fn in_front(winding: &Winding, faces: &[Corners], face: usize) -> Option<[f64; 3]> {
@@ -168,7 +193,7 @@ fn in_front(winding: &Winding, faces: &[Corners], face: usize) -> Option<[f64; 3
     if largest == 0.0 {
         return None;
     }
-    [1e-9, 1e-13].into_iter().find_map(|part| {
+    SAMPLE_PARTS.into_iter().find_map(|part| {
         let ends = [1.0, -1.0]
             .map(|to| [0, 1, 2].map(|k| middle[k] + to * part * size * (normal[k] / largest)));
         (winding.met_by(ends) == [face] && crate::check::exact::side(faces[face], ends[0]).0 > 0)

@@ -4,7 +4,7 @@ use super::cover::is_between;
 use super::place::{Place, place};
 use std::collections::HashMap;
 
-/// Whether triangles are a tiling of one, each wound as it is.
+/// Whether `parts` tile the triangle `whole`, each wound as `whole` is.
 ///
 /// The boundary of their sum is that of the whole: inner edges cancel, and every edge that is left
 /// lies on an edge of the whole and runs along it. A sum in a plane whose boundary lies on that of

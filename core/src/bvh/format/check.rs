@@ -144,14 +144,8 @@ impl<'a> Bvh<'a> {
             source: Bytes(table.bytes(SectionKind::TreeSource)),
             cones: ok!(table.records(SectionKind::TreeCones)),
             moments: ok!(table.records(SectionKind::TreeMoments)),
-            turned: TriangleBits::new(
-                header.has_flag(BVH_TURNED),
-                table.bytes(SectionKind::TreeTurned),
-            ),
-            sideless: TriangleBits::new(
-                header.has_flag(BVH_SIDELESS),
-                table.bytes(SectionKind::TreeSideless),
-            ),
+            turned: table.bytes(SectionKind::TreeTurned),
+            sideless: table.bytes(SectionKind::TreeSideless),
         })
     }
 
@@ -214,8 +208,8 @@ impl<'a> Bvh<'a> {
         if !self.moments.is_empty() && self.moments.len() != nodes {
             return missing(SectionKind::TreeMoments);
         }
-        ok!(self.check_bits(self.turned, BVH_TURNED, SectionKind::TreeTurned));
-        ok!(self.check_bits(self.sideless, BVH_SIDELESS, SectionKind::TreeSideless));
+        ok!(self.check_bits(self.turned(), BVH_TURNED, SectionKind::TreeTurned));
+        ok!(self.check_bits(self.sideless(), BVH_SIDELESS, SectionKind::TreeSideless));
         let padding = FAN_PADDING / 6 * h.vertex_bytes();
         let used = h.vertices as usize * h.vertex_bytes();
         if self.fans.len() != used + padding || !Bytes(self.fans).is_zero(used, padding) {
@@ -238,8 +232,8 @@ impl<'a> Bvh<'a> {
         let may_be = is_flagged && h.has_sides() && !self.frames.is_empty();
         let is_whole = bits.are_all() && flag != BVH_SIDELESS;
         let is_sound = match is_flagged {
-            true => may_be && bits.fit(h.triangles) && (bits.are_some() || is_whole),
-            false => !bits.are_some(),
+            true => may_be && bits.fit(h.triangles) && (bits.are_stored() || is_whole),
+            false => !bits.are_stored(),
         };
         if !is_sound {
             return Err(OpenError::MissingSection { section });

@@ -40,7 +40,7 @@ impl<'a> TriangleBits<'a> {
     }
 
     /// Whether bits are stored.
-    pub(crate) const fn are_some(self) -> bool {
+    pub(crate) const fn are_stored(self) -> bool {
         !self.bytes.is_empty()
     }
 

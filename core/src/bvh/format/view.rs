@@ -6,8 +6,8 @@
 
 use super::header::BvhHeader;
 use super::layout::{
-    BOXES_BYTES, CONE_BYTES, FRAME_BYTES, LINK_BYTES, MOMENTS_BYTES, SOURCE_BLOCK,
-    SOURCE_ENTRY_BYTES,
+    BOXES_BYTES, BVH_SIDELESS, BVH_TURNED, CONE_BYTES, FRAME_BYTES, LINK_BYTES, MOMENTS_BYTES,
+    SOURCE_BLOCK, SOURCE_ENTRY_BYTES,
 };
 use super::leaf::{FanLeaf, LeafShape};
 use super::moments::NodeMoments;
@@ -38,9 +38,9 @@ pub struct Bvh<'a> {
     pub(crate) cones: &'a [[u8; CONE_BYTES]],
     pub(crate) moments: &'a [[u8; MOMENTS_BYTES]],
     /// Triangles whose other side tells inside from outside.
-    pub(crate) turned: TriangleBits<'a>,
+    pub(super) turned: &'a [u8],
     /// Triangles that tell no side.
-    pub(crate) sideless: TriangleBits<'a>,
+    pub(super) sideless: &'a [u8],
     /// The blob's [`checksum`](crate::Blob::checksum), which names its contents.
     pub(crate) checksum: u32,
 }
@@ -282,6 +282,18 @@ impl Bvh<'_> {
 /// The records, for the builder and the checker.
 #[doc(hidden)]
 impl<'a> Bvh<'a> {
+    /// The triangles that are turned for sides.
+    #[inline(always)]
+    pub(crate) const fn turned(&self) -> TriangleBits<'a> {
+        TriangleBits::new(self.header.has_flag(BVH_TURNED), self.turned)
+    }
+
+    /// The triangles that tell no side.
+    #[inline(always)]
+    pub(crate) const fn sideless(&self) -> TriangleBits<'a> {
+        TriangleBits::new(self.header.has_flag(BVH_SIDELESS), self.sideless)
+    }
+
     /// The tree's header.
     pub fn header(&self) -> &BvhHeader {
         &self.header
@@ -294,7 +306,7 @@ impl<'a> Bvh<'a> {
 
     /// Whether a triangle of the tree tells no side.
     pub fn is_sideless(&self, triangle: u32) -> bool {
-        self.sideless.contains(triangle)
+        self.sideless().contains(triangle)
     }
 
     /// The grid units.

@@ -113,7 +113,7 @@ impl Search<'_> {
     /// The number of the solid that the mesh bounds: in one that faces inwards as a whole the file's
     /// number is −1.
     pub(super) fn of_solid(&self, number: Interval) -> Interval {
-        match self.tree.turned.are_all() {
+        match self.tree.turned().are_all() {
             true => Interval::new(-number.upper, -number.lower),
             false => number,
         }
@@ -122,9 +122,9 @@ impl Search<'_> {
     /// Why the search ends with this number: it is good enough, or `otherwise`.
     fn ended(&self, number: Interval, otherwise: Ended) -> Ended {
         let number = self.of_solid(number);
-        let is_decided = side_of(number).is_some() || number.upper < -0.5;
+        let is_settled = side_of(number).is_some() || number.upper < -0.5;
         let is_narrow = number.upper - number.lower <= self.absolute;
-        match (is_decided, self.absolute > 0.0) {
+        match (is_settled, self.absolute > 0.0) {
             (true, false) => Ended::Exact,
             (true, true) if is_narrow => Ended::Tolerance,
             _ => otherwise,

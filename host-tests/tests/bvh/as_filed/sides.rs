@@ -113,6 +113,22 @@ fn the_majority_of_its_triangles_makes_no_part_a_cavity() {
 }
 
 #[test]
+fn the_majority_makes_no_cavity_of_a_part_that_shares_an_edge_with_the_skin() {
+    let (mut positions, mut triangles) = block([0.0; 3], [10.0; 3]);
+    let vertex =
+        |positions: &[[f32; 3]], at| positions.iter().position(|&p| p == at).unwrap() as u32;
+    let [a, b] = [[0.0; 3], [0.0, 0.0, 10.0]].map(|at| vertex(&positions, at));
+    positions.extend([[4.0, 2.0, 5.0], [2.0, 4.0, 5.0]]);
+    let [c, d] = [8, 9];
+    // Outwards, but for three.
+    triangles.extend([[a, b, c], [a, b, d], [a, c, d], [b, c, d]]);
+    let blobs = File::of(&(positions, triangles)).trees(TreeOptions::default());
+    for tree in views(&blobs) {
+        assert_ne!(side(&tree, [1.5, 1.5, 5.0]), Side::Outside);
+    }
+}
+
+#[test]
 fn a_part_with_doubts_in_it_is_not_turned_and_no_side_there_is_wrong() {
     let (big, small) = (block([-20.0; 3], [20.0; 3]), block([-5.0; 3], [5.0; 3]));
     // It touches the small one with a corner, stands on its face, crosses it.
