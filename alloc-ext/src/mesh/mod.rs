@@ -28,6 +28,7 @@ mod gltf;
 mod hash;
 mod input;
 mod key_frame;
+mod layout;
 mod left_out;
 mod manifold;
 mod no_volume;

@@ -1,12 +1,13 @@
 //! OFF in text.
 //!
 //! Vertices and faces may have more numbers than those of their place: normals, colours, texture
-//! coordinates. Programs write one vertex or one face on a line, and then all that follows on the
-//! line belongs to it. But the format allows any line breaks, and then only numbers that the
-//! keyword announces belong to it. A file is read in the first of these ways that fits all of it.
+//! coordinates. Where an element has a line, all that follows on it belongs to it. Where line breaks
+//! mean nothing, only numbers that the keyword announces do. A file is read in the first layout that
+//! fits all of it, but one of lines by lines only.
 
 use std::path::Path;
 
+use super::layout::{Announced, Breaks, LINES, Layout, Surplus, next_word};
 use super::polygons::{FacePlace, Faces, Split};
 use super::text::{Words, decoded, lines, point, quoted, whole, without_comment};
 use super::{LeftOut, MeshError, RawMesh};
@@ -16,26 +17,15 @@ use super::{LeftOut, MeshError, RawMesh};
 /// surface and are counted.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let text = decoded(bytes);
-    let by_lines = open(file, &text)?.read(Breaks::Strict, Breaks::Strict);
-    let fits = |raw: &RawMesh| raw.left_out.bytes_after_end == 0;
-    if by_lines.as_ref().is_ok_and(fits) {
+    let by_lines = open(file, &text)?.read(LINES);
+    if by_lines.as_ref().is_ok() {
         return by_lines;
     }
-    let all = [Breaks::Strict, Breaks::Loose, Breaks::None];
-    let others = all.iter().flat_map(|&vertices| all.map(|faces| (vertices, faces))).skip(1);
-    let read = |(vertices, faces)| open(file, &text).ok()?.read(vertices, faces).ok().filter(fits);
-    others.into_iter().find_map(read).map_or(by_lines, Ok)
-}
-
-/// What line breaks mean.
-#[derive(Clone, Copy, PartialEq)]
-enum Breaks {
-    /// One vertex or one face has a line, whatever follows on it.
-    Strict,
-    /// It may have several lines, and what follows on the last of them.
-    Loose,
-    /// Nothing.
-    None,
+    let layouts = open(file, &text)?.layouts();
+    let fits =
+        |raw: &RawMesh| raw.left_out.bytes_after_end == 0 && raw.left_out.small_faces.count == 0;
+    let read = |layout| open(file, &text).ok()?.read(layout).ok().filter(fits);
+    layouts.into_iter().find_map(read).map_or(by_lines, Ok)
 }
 
 /// A file whose header is read.
@@ -54,11 +44,8 @@ fn open<'a>(
     text: &'a str,
 ) -> Result<Reading<'a, impl Iterator<Item = (usize, &'a str)>>, MeshError> {
     let mut words = Words::new(lines(text).map(|(line, text)| (line, without_comment(text))));
-    let malformed = |line: usize, reason: &str| MeshError::Malformed {
-        file: file.to_owned(),
-        line: Some(line.max(1)),
-        place: "the header".into(),
-        reason: reason.into(),
+    let malformed = |line: usize, reason: &str| {
+        malformed(file, line.max(1), "the header".into(), reason.into())
     };
     let unsupported = |what: String| MeshError::Unsupported { file: file.to_owned(), what };
     let word = words.next().unwrap_or_default();
@@ -89,8 +76,42 @@ fn open<'a>(
 }
 
 impl<'a, L: Iterator<Item = (usize, &'a str)>> Reading<'a, L> {
-    fn read(mut self, of_vertices: Breaks, of_faces: Breaks) -> Result<RawMesh, MeshError> {
-        if of_vertices != Breaks::None {
+    /// The layouts besides one of lines that the file may have.
+    fn layouts(self) -> Vec<Layout> {
+        let announced = Announced {
+            before_vertices: 0,
+            vertices: self.vertices,
+            width: 3 + self.others,
+            elements: self.vertices.saturating_add(self.faces),
+        };
+        announced.layouts(self.words.widths())
+    }
+
+    fn read(mut self, layout: Layout) -> Result<RawMesh, MeshError> {
+        let mut surplus = Surplus::default();
+        let mut left_out = LeftOut::default();
+        let done = self.vertices(layout.vertices, &mut surplus, &mut left_out);
+        let done = done.and_then(|at| Ok((self.faces(&at, layout.others, &mut surplus)?, at)));
+        let (surface, positions) = done.map_err(|error| match layout.vertices {
+            Breaks::Lines => surplus.explain(self.file, error),
+            _ => error,
+        })?;
+        let left = self.words.bytes_left();
+        left_out.bytes_after_end = left.map_err(|line| surplus.numbers_follow(self.file, line))?;
+        surplus.check(self.file)?;
+        left_out.small_faces = surface.small;
+        let Split { triangles, polygons, fans } = surface.finish(&positions);
+        let (file, raw) = (self.file.to_owned(), RawMesh::from_f64(positions, triangles));
+        Ok(RawMesh { file, polygons, fans, decimal: true, left_out, ..raw })
+    }
+
+    fn vertices(
+        &mut self,
+        breaks: Breaks,
+        surplus: &mut Surplus,
+        left_out: &mut LeftOut,
+    ) -> Result<Vec<[f64; 3]>, MeshError> {
+        if breaks != Breaks::None {
             self.words.skip_to("");
         }
         let mut positions: Vec<[f64; 3]> = Vec::new();
@@ -101,15 +122,30 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Reading<'a, L> {
                 return Err(self.ends_early("vertex", self.vertices, vertex));
             };
             let line = self.words.line;
-            let words = std::iter::from_fn(|| next(&mut self.words, of_vertices));
+            let words = std::iter::from_fn(|| next_word(&mut self.words, breaks));
             let mut rest = std::iter::once(first).chain(words);
             positions.push(point(self.file, line, vertex, &mut rest)?);
-            if of_vertices == Breaks::None {
-                self.words.by_ref().take(self.others).for_each(drop);
-            } else {
-                self.words.skip_to("");
+            match breaks {
+                Breaks::None => self.words.by_ref().take(self.others).for_each(drop),
+                _ => {
+                    let left = self.end_line(breaks, line, || format!("vertex {vertex}"))?;
+                    surplus.vertex(vertex, line, left);
+                    if left > self.others {
+                        let what = "with more values than the keyword says, which are left out";
+                        left_out.remark("line", what, || format!("line {line}"));
+                    }
+                }
             }
         }
+        Ok(positions)
+    }
+
+    fn faces(
+        &mut self,
+        positions: &[[f64; 3]],
+        breaks: Breaks,
+        surplus: &mut Surplus,
+    ) -> Result<Faces, MeshError> {
         let mut surface = Faces::default();
         let mut corners: Vec<u32> = Vec::new();
         for face in 0..self.faces {
@@ -117,23 +153,19 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Reading<'a, L> {
                 return Err(self.ends_early("face", self.faces, face));
             };
             let line = self.words.line;
-            let malformed = |reason: String| MeshError::Malformed {
-                file: self.file.to_owned(),
-                line: Some(line),
-                place: format!("face {face}"),
-                reason,
-            };
+            let file = self.file;
+            let malformed = |reason| malformed(file, line, format!("face {face}"), reason);
             let size = whole(size)
                 .and_then(|size| usize::try_from(size).ok())
                 .ok_or_else(|| malformed(format!("{} is no number of corners", quoted(size))))?;
             corners.clear();
-            let words = std::iter::from_fn(|| next(&mut self.words, of_faces));
+            let words = std::iter::from_fn(|| next_word(&mut self.words, breaks));
             for word in words.take(size) {
                 let index = whole(word)
                     .ok_or_else(|| malformed(format!("{} does not name a vertex", quoted(word))))?;
                 let vertex = u32::try_from(index).ok().filter(|&v| (v as usize) < positions.len());
                 corners.push(vertex.ok_or_else(|| MeshError::IndexOutOfRange {
-                    file: self.file.to_owned(),
+                    file: file.to_owned(),
                     line: Some(line),
                     face,
                     index,
@@ -143,19 +175,31 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Reading<'a, L> {
             if corners.len() < size {
                 return Err(malformed(format!("{} of {size} corners are there", corners.len())));
             }
-            if of_faces != Breaks::None {
-                self.words.skip_to("");
+            let place = FacePlace { face, line: Some(line) };
+            if breaks != Breaks::None {
+                let left = self.end_line(breaks, line, || format!("face {face}"))?;
+                surplus.face(place, size, left);
             }
-            surface.add(&corners, FacePlace { face, line: Some(line) });
+            surface.add(&corners, place);
         }
-        // Each word with the blank before it.
-        let bytes_after_end =
-            self.words.map(|word| word.len() + 1).sum::<usize>().saturating_sub(1);
-        let left_out =
-            LeftOut { small_faces: surface.small, bytes_after_end, ..LeftOut::default() };
-        let Split { triangles, polygons, fans } = surface.finish(&positions);
-        let (file, raw) = (self.file.to_owned(), RawMesh::from_f64(positions, triangles));
-        Ok(RawMesh { file, polygons, fans, decimal: true, left_out, ..raw })
+        Ok(surface)
+    }
+
+    /// Goes to the end of the line of an element that began in line `begin`. Returns how many words
+    /// follow there.
+    fn end_line(
+        &mut self,
+        breaks: Breaks,
+        begin: usize,
+        place: impl FnOnce() -> String,
+    ) -> Result<usize, MeshError> {
+        let left = self.words.left_on_line();
+        if breaks == Breaks::Spans && self.words.line != begin && left > 0 {
+            let reason = "it ends within a line".into();
+            return Err(malformed(self.file, begin, place(), reason));
+        }
+        self.words.skip_to("");
+        Ok(left)
     }
 
     fn ends_early(&self, what: &str, wanted: usize, found: usize) -> MeshError {
@@ -168,12 +212,8 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Reading<'a, L> {
     }
 }
 
-/// The next word of a vertex or a face.
-fn next<'a>(
-    words: &mut Words<'a, impl Iterator<Item = (usize, &'a str)>>,
-    breaks: Breaks,
-) -> Option<&'a str> {
-    if breaks == Breaks::Strict { words.next_on_line() } else { words.next() }
+fn malformed(file: &Path, line: usize, place: String, reason: String) -> MeshError {
+    MeshError::Malformed { file: file.to_owned(), line: Some(line), place, reason }
 }
 
 /// The first word of a file.

@@ -77,6 +77,27 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Words<'a, L> {
         self.peek().and_then(|_| self.next())
     }
 
+    /// How many words the line still has.
+    pub(super) fn left_on_line(&self) -> usize {
+        self.rest.split_ascii_whitespace().count()
+    }
+
+    /// How many words the rest of the line has, and each line that follows, if it has any.
+    pub(super) fn widths(self) -> impl Iterator<Item = usize> {
+        let lines = std::iter::once(self.rest).chain(self.lines.map(|(_, text)| text));
+        lines.map(|text| text.split_ascii_whitespace().count()).filter(|&words| words > 0)
+    }
+
+    /// The bytes of all words that are left, each with the blank before it, if they are no numbers.
+    /// Else the line of the first.
+    pub(super) fn bytes_left(mut self) -> Result<usize, usize> {
+        let Some(first) = self.next() else { return Ok(0) };
+        if number(first).is_ok() {
+            return Err(self.line);
+        }
+        Ok(first.len() + self.map(|word| word.len() + 1).sum::<usize>())
+    }
+
     /// Goes to the end of the line, or to `rest` of it.
     pub(super) fn skip_to(&mut self, rest: &'a str) {
         self.rest = rest;
@@ -135,7 +156,20 @@ pub(super) fn not_finite(word: &str) -> Option<f64> {
 
 /// A word as a number, or why it is none.
 pub(super) fn number(word: &str) -> Result<f64, String> {
-    word.parse().or_else(|_| not_finite(word).ok_or_else(|| why_no_number(word)))
+    match word.parse::<f64>() {
+        Ok(x) if x.is_infinite() && has_digit(word) => Err(too_large(word)),
+        Ok(x) => Ok(x),
+        Err(_) => not_finite(word).ok_or_else(|| why_no_number(word)),
+    }
+}
+
+/// Whether a word is not the name of a number.
+pub(super) fn has_digit(word: &str) -> bool {
+    word.bytes().any(|b| b.is_ascii_digit())
+}
+
+pub(super) fn too_large(word: &str) -> String {
+    format!("{} is too large a number", quoted(word))
 }
 
 /// A whole number. Some programs write all numbers alike, as `3.000e+00`.
@@ -218,6 +252,7 @@ mod tests {
         let why = |word: &str| number(word).unwrap_err();
         assert!(why("1,5").contains("has a comma"), "{}", why("1,5"));
         assert_eq!(why("l0"), "\"l0\" is not a number");
+        assert_eq!(why("-1e400"), "\"-1e400\" is too large a number");
         assert!(why(&"\u{0}".repeat(1000)).len() < 300);
         let wholes = ["3", "3.000e+00", "-1.0", "3.5", "x", "1e300", "nan"].map(whole);
         assert_eq!(wholes, [Some(3), Some(3), Some(-1), None, None, None, None]);

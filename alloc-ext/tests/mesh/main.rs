@@ -2,6 +2,7 @@
 
 mod collada;
 mod formats;
+mod lost_words;
 mod orientation;
 mod polygons;
 mod read;

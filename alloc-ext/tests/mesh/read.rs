@@ -85,7 +85,7 @@ fn no_line_of_an_obj_hides_another() {
 
 #[test]
 fn bytes_after_the_announced_end_are_counted() {
-    let text = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n\n";
+    let text = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\nthe end\n\n";
     let mut stl = [vec![0; 80], 1u32.to_le_bytes().to_vec(), vec![0; 50]].concat();
     stl[96..100].copy_from_slice(&1f32.to_le_bytes());
     stl.extend([7; 9]);

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use super::super::MeshError;
-use super::super::text::{Words, not_finite, quoted, whole, why_no_number};
+use super::super::layout::{Breaks, next_word};
+use super::super::text::{Words, has_digit, not_finite, quoted, too_large, whole, why_no_number};
 use super::header::{Element, Encoding, Scalar};
 
 /// What a property is read for.
@@ -27,8 +28,8 @@ pub(super) struct Values {
 pub(super) struct Body<'a, L> {
     pub(super) file: &'a Path,
     pub(super) encoding: Encoding,
-    /// In text each element has a line, as the format wants it. Else line breaks mean nothing.
-    pub(super) by_lines: bool,
+    /// What line breaks in text mean. The format wants an element on each line.
+    pub(super) breaks: Breaks,
     /// A word of the element was read.
     pub(super) is_begun: bool,
     pub(super) words: Words<'a, L>,
@@ -38,6 +39,8 @@ pub(super) struct Body<'a, L> {
     pub(super) rest: &'a [u8],
     /// Lines of more values than the element has, and the first of them.
     pub(super) long_lines: (usize, usize),
+    /// Words that follow the element read last on its line.
+    pub(super) surplus: usize,
 }
 
 /// Why a value is not there.
@@ -69,7 +72,10 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Body<'a, L> {
             };
             done.map_err(|defect| self.refuse(element, number, defect))?;
         }
-        if self.by_lines && self.words.peek().is_some() {
+        if self.breaks != Breaks::None {
+            self.surplus = self.words.left_on_line();
+        }
+        if self.surplus > 0 {
             let (count, first) = self.long_lines;
             self.long_lines = (count + 1, if count == 0 { self.words.line } else { first });
             self.words.skip_to("");
@@ -104,11 +110,13 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Body<'a, L> {
     }
 
     fn word(&mut self) -> Result<&'a str, Defect> {
-        if std::mem::replace(&mut self.is_begun, true) && self.by_lines {
-            let few = || Defect::Value("the line has fewer values than the header says".into());
-            return self.words.next_on_line().ok_or_else(few);
+        if !std::mem::replace(&mut self.is_begun, true) {
+            return self.words.next().ok_or(Defect::End);
         }
-        self.words.next().ok_or(Defect::End)
+        next_word(&mut self.words, self.breaks).ok_or_else(|| match self.breaks {
+            Breaks::Lines => Defect::Value("the line has fewer values than the header says".into()),
+            _ => Defect::End,
+        })
     }
 
     fn skip_word(&mut self, scalar: Scalar) -> Result<(), Defect> {
@@ -143,7 +151,11 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Body<'a, L> {
             Scalar::F32 => word.parse::<f32>().ok().map(f64::from),
             _ => word.parse::<f64>().ok(),
         };
-        parsed.or_else(|| not_finite(word)).ok_or_else(|| Defect::Value(why_no_number(word)))
+        match parsed {
+            Some(x) if x.is_infinite() && has_digit(word) => Err(Defect::Value(too_large(word))),
+            Some(x) => Ok(x),
+            None => not_finite(word).ok_or_else(|| Defect::Value(why_no_number(word))),
+        }
     }
 
     fn whole(&mut self, scalar: Scalar) -> Result<i64, Defect> {
@@ -164,18 +176,20 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Body<'a, L> {
         Ok(Number::of(scalar, bytes))
     }
 
+    /// Whether a text ends with the word read last, which may be a part of one in a cut file.
+    fn ends_in_a_word(&mut self) -> bool {
+        self.encoding == Encoding::Text && self.may_be_cut && self.words.next().is_none()
+    }
+
     fn refuse(&mut self, element: &Element, number: usize, defect: Defect) -> MeshError {
         let line = self.line();
         match defect {
-            // The last word of a cut text may be a part of one.
-            Defect::Value(reason) if !(self.may_be_cut && self.words.next().is_none()) => {
-                MeshError::Malformed {
-                    file: self.file.to_owned(),
-                    line,
-                    place: format!("{} {number}", element.name),
-                    reason,
-                }
-            }
+            Defect::Value(reason) if !self.ends_in_a_word() => MeshError::Malformed {
+                file: self.file.to_owned(),
+                line,
+                place: format!("{} {number}", element.name),
+                reason,
+            },
             _ => MeshError::Truncated {
                 file: self.file.to_owned(),
                 what: element.name.clone(),

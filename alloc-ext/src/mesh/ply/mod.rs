@@ -11,6 +11,7 @@ use std::path::Path;
 
 use self::body::{Body, Role, Values};
 use self::header::{Element, Encoding, Header, Scalar};
+use super::layout::{Announced, Breaks, LINES, Layout, Surplus};
 use super::polygons::{FacePlace, Faces, Split};
 use super::strip::strip;
 use super::text::{Words, decoded, lines};
@@ -29,35 +30,70 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     };
     let header = header::read(file, &bytes)?;
     if header.encoding != Encoding::Text {
-        return read_body(file, &header, "", false);
+        return read_body(file, &header, "", LINES);
     }
     let text = String::from_utf8_lossy(header.body);
     let text = text.trim_end_matches(['\0', '\x1A']);
-    let by_lines = read_body(file, &header, text, true);
+    let by_lines = read_body(file, &header, text, LINES);
     let fits = |raw: &RawMesh| raw.left_out.remarks.is_empty() && raw.left_out.bytes_after_end == 0;
     if by_lines.as_ref().is_ok_and(fits) {
         return by_lines;
     }
     // Some programs break lines elsewhere.
-    read_body(file, &header, text, false).ok().filter(fits).map_or(by_lines, Ok)
+    let fits = |raw: &RawMesh| fits(raw) && raw.left_out.small_faces.count == 0;
+    let read = |layout| read_body(file, &header, text, layout).ok().filter(fits);
+    layouts(&header, text).into_iter().find_map(read).map_or(by_lines, Ok)
+}
+
+/// The layouts besides one of lines that a text may have.
+fn layouts(header: &Header<'_>, text: &str) -> Vec<Layout> {
+    let elements = || header.elements.iter().filter(|element| !element.properties.is_empty());
+    let count = |sum: usize, element: &Element| sum.saturating_add(element.count);
+    let vertices = elements().find(|element| element.name == "vertex");
+    let announced = Announced {
+        before_vertices: elements().take_while(|element| element.name != "vertex").fold(0, count),
+        vertices: vertices.map_or(0, |element| element.count),
+        width: vertices.map_or(0, |element| element.properties.len()),
+        elements: elements().fold(0, count),
+    };
+    announced.layouts(Words::new(lines(text)).widths())
 }
 
 fn read_body(
     file: &Path,
     header: &Header<'_>,
     text: &str,
-    by_lines: bool,
+    layout: Layout,
+) -> Result<RawMesh, MeshError> {
+    let mut surplus = Surplus::default();
+    let read = read_elements(file, header, text, layout, &mut surplus);
+    let is_by_lines = header.encoding == Encoding::Text && layout.vertices == Breaks::Lines;
+    let read = read.map_err(|error| match error {
+        error if is_by_lines => surplus.explain(file, error),
+        error => error,
+    })?;
+    surplus.check(file)?;
+    Ok(read)
+}
+
+fn read_elements(
+    file: &Path,
+    header: &Header<'_>,
+    text: &str,
+    layout: Layout,
+    surplus: &mut Surplus,
 ) -> Result<RawMesh, MeshError> {
     let numbered = lines(text).map(|(line, text)| (line + header.lines, text));
     let mut source = Body {
         file,
         encoding: header.encoding,
-        by_lines,
+        breaks: layout.vertices,
         is_begun: false,
         words: Words::new(numbered),
         may_be_cut: !text.ends_with(['\n', '\r']),
         rest: header.body,
         long_lines: (0, 0),
+        surplus: 0,
     };
     let mut positions = Vec::new();
     let mut surface = Faces::default();
@@ -74,6 +110,8 @@ fn read_body(
         }
         check_room(file, header, element, source.rest.len())?;
         let roles = roles(file, element)?;
+        let is_vertex = element.name == "vertex";
+        source.breaks = if is_vertex { layout.vertices } else { layout.others };
         match element.name.as_str() {
             "vertex" => {
                 positions.reserve(element.count);
@@ -85,6 +123,7 @@ fn read_body(
                         return Err(MeshError::NotFinite { file, line, vertex, at });
                     }
                     positions.push(at);
+                    surplus.vertex(vertex, source.words.line, source.surplus);
                 }
             }
             "face" | "tristrips" => {
@@ -118,7 +157,9 @@ fn read_body(
                     if is_strips {
                         left_out.stitches += strip(&corners, &mut surface.triangles);
                     } else {
-                        surface.add(&corners, FacePlace { face, line: source.line() });
+                        let place = FacePlace { face, line: source.line() };
+                        surface.add(&corners, place);
+                        surplus.face(place, corners.len(), source.surplus);
                     }
                 }
             }
@@ -147,7 +188,10 @@ fn read_body(
     });
     let decimal = header.encoding == Encoding::Text && has_doubles;
     left_out.bytes_after_end = match header.encoding {
-        Encoding::Text => source.words.map(|word| word.len() + 1).sum::<usize>().saturating_sub(1),
+        Encoding::Text => {
+            let left = source.words.bytes_left();
+            left.map_err(|line| surplus.numbers_follow(file, line))?
+        }
         _ => source.rest.len(),
     };
     left_out.small_faces = surface.small;
