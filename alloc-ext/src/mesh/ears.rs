@@ -18,13 +18,15 @@ pub(super) enum Split {
     Fan,
     /// These triangles are the polygon; corners count from 0.
     Ears(Vec<[usize; 3]>),
-    /// The polygon crosses itself, perhaps because it is warped, or has too many corners to tell.
+    /// The polygon crosses itself, perhaps because it is warped.
     Unsound,
+    /// It is not convex, and has too many corners.
+    TooLarge,
 }
 
 /// Most corners of a polygon that is not convex. The search takes time with the square of them:
 /// about a second for this number.
-const MOST_CORNERS: usize = 10_000;
+pub(super) const MOST_CORNERS: usize = 10_000;
 
 /// Most corners that are tested as ears, for each corner of the polygon. A polygon that does not
 /// touch itself needs three. The others are for bridges to holes.
@@ -37,7 +39,7 @@ pub(super) fn split(corners: &[[f64; 3]]) -> Split {
         return Split::Fan;
     }
     if corners.len() > MOST_CORNERS {
-        return Split::Unsound;
+        return Split::TooLarge;
     }
     if outline.is_made_of((1..corners.len() - 1).map(|k| [0, k, k + 1])) {
         return Split::Fan;

@@ -53,6 +53,7 @@ mod weld;
 mod winding;
 mod wire;
 mod write_ply;
+mod xml;
 
 use glam::{DVec3, Vec3};
 use std::path::{Path, PathBuf};

@@ -22,11 +22,18 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         let text = without_comment(text).trim_end();
         let part = text.strip_suffix('\\');
         if let Some(part) = part
-            && lines.peek().is_some()
+            && let Some((_, next)) = lines.peek()
         {
-            joined.push_str(part);
-            joined.push(' ');
-            continue;
+            let begun = if joined.is_empty() { part } else { &joined };
+            // The name of a statement may end with the path of a directory, too.
+            if is_geometry(next) && !may_hold_numbers(begun) {
+                let what = "with a \\ at the end not continued, for geometry follows";
+                obj.left_out.remark("line", what, || format!("line {number}"));
+            } else {
+                joined.push_str(part);
+                joined.push(' ');
+                continue;
+            }
         }
         let text = part.unwrap_or(text);
         obj.line = number;
@@ -39,6 +46,29 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         }
     }
     obj.finish()
+}
+
+const OF_A_MATERIAL: &str = "of a material left out";
+
+/// Whether a line is a vertex, a face or another statement of numbers.
+fn is_geometry(line: &str) -> bool {
+    let mut words = line.split_ascii_whitespace();
+    let is_known = words.next().is_some_and(|keyword| {
+        matches!(&*lowercase(keyword), "v" | "vt" | "vn" | "vp" | "f" | "fo" | "l" | "p")
+    });
+    is_known
+        && words
+            .next()
+            .is_some_and(|word| word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)))
+}
+
+/// Whether a statement is one that a line may end within.
+fn may_hold_numbers(statement: &str) -> bool {
+    let keyword = statement.split_ascii_whitespace().next().unwrap_or_default();
+    !matches!(
+        &*lowercase(keyword),
+        "usemtl" | "mtllib" | "usemap" | "maplib" | "g" | "o" | "s" | "newmtl"
+    )
 }
 
 /// What a statement means.
@@ -72,6 +102,12 @@ impl Kind {
             "cdp" => Self::Other("cdp (a free-form surface) left out"),
             "call" => Self::Other("call (another file) left out"),
             "csh" => Self::Other("csh (a command) left out"),
+            "vw" => Self::Other("vw (a weight) left out"),
+            // Some programs write the library of materials into the file.
+            "newmtl" | "ka" | "kd" | "ks" | "ke" | "tf" | "ns" | "ni" | "d" | "tr" | "illum"
+            | "sharpness" | "bump" | "disp" | "decal" | "refl" | "pr" | "pm" | "ps" | "pc"
+            | "pcr" | "aniso" | "anisor" | "norm" => Self::Other(OF_A_MATERIAL),
+            keyword if keyword.starts_with("map_") => Self::Other(OF_A_MATERIAL),
             "vt" | "vn" | "vp" | "vc" | "cstype" | "deg" | "bmat" | "step" | "parm" | "trim"
             | "hole" | "scrv" | "sp" | "end" | "con" | "res" | "g" | "s" | "mg" | "o" | "bevel"
             | "c_interp" | "d_interp" | "lod" | "usemtl" | "mtllib" | "usemap" | "maplib"

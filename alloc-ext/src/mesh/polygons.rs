@@ -13,9 +13,10 @@ pub struct Polygons {
     /// Those that were split by ears: their first corner does not see all of them.
     pub by_ears: usize,
     /// Those that no triangles are proved to be, so that they were split into the fan about their
-    /// first corner: they cross themselves, seen along the axis nearest to their normal, or have
-    /// more than 10,000 corners and are not convex.
+    /// first corner: they cross themselves, seen along the axis nearest to their normal.
     pub unsound: NamedFaces,
+    /// Those that were split so because they are not convex, and have more than 10,000 corners.
+    pub too_large: NamedFaces,
 }
 
 /// A number of faces, and the first of them.
@@ -64,11 +65,23 @@ impl NamedFaces {
 }
 
 impl Polygons {
+    /// A sentence for each kind of doubt.
+    pub(super) fn doubts(&self) -> impl Iterator<Item = String> {
+        let unsound = "too warped or crossing itself, split about its first corner";
+        let too_large = format!(
+            "not convex and of more than {} corners, split about its first corner",
+            ears::MOST_CORNERS
+        );
+        let unsound = self.unsound.said("polygon", unsound);
+        unsound.into_iter().chain(self.too_large.said("polygon", &too_large))
+    }
+
     /// Counts those of another part of the file.
     pub(super) fn add(&mut self, others: &Self) {
         self.split += others.split;
         self.by_ears += others.by_ears;
         self.unsound.add_all(others.unsound);
+        self.too_large.add_all(others.too_large);
     }
 
     /// Counts a polygon of four or more corners. Its triangles, if they are not its fan.
@@ -86,6 +99,10 @@ impl Polygons {
             }
             ears::Split::Unsound => {
                 self.unsound.add(place);
+                None
+            }
+            ears::Split::TooLarge => {
+                self.too_large.add(place);
                 None
             }
         }

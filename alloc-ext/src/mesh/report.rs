@@ -162,20 +162,17 @@ impl RepairReport {
     pub fn is_clean(&self) -> bool {
         let nothing_left_out = self.left_out == LeftOut::default();
         nothing_left_out
-            && self.polygons.unsound.count == 0
+            && self.polygons.doubts().next().is_none()
             && self.findings().iter().all(|(key, _, finding)| {
                 finding.count == 0
                     || matches!(*key, "welded" | "unreferenced" | "cavities" | "doubtful")
             })
     }
 
-    /// Sentences about what is doubtful or was left out of the file: faces that are no polygons,
-    /// because they cross themselves, and [other parts](LeftOut). Each names the first if it has a
-    /// place.
+    /// Sentences about what is doubtful or was left out of the file: faces that may be no polygons,
+    /// and [other parts](LeftOut). Each names the first if it has a place.
     pub fn doubts(&self) -> impl Iterator<Item = String> {
-        let fan = "too warped or crossing itself, split about its first corner";
-        let unsound = self.polygons.unsound.said("polygon", fan);
-        unsound.into_iter().chain(self.left_out.sentences())
+        self.polygons.doubts().chain(self.left_out.sentences())
     }
 
     /// Says how far vertices moved when they were rounded to `f32`, if any did.

@@ -26,6 +26,11 @@ pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
+/// Whether a text is UTF-16, with a mark or without.
+pub(super) fn is_utf_16(bytes: &[u8]) -> bool {
+    matches!(bytes, [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..]) || bare_utf_16(bytes).is_some()
+}
+
 /// UTF-16 without a mark: every second byte of the first words is zero.
 fn bare_utf_16(bytes: &[u8]) -> Option<&'static Encoding> {
     match bytes {

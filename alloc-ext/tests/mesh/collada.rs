@@ -228,7 +228,7 @@ fn refusals_name_line_element_and_defect() {
         ),
         ("<node>", "<node id=\"n\"><instance_node url=\"#n\"/>", "node \"n\": it contains itself"),
         ("<mesh>", "<convex_mesh/><mesh>", "the convex_mesh in line 4"),
-        ("</COLLADA>", "", "the XML: the text ends early"),
+        ("</COLLADA>", "", "the XML: the file ends within an element"),
         ("id=\"p\"", "id=\"a\"", "there is no source of id \"p\""),
     ] {
         let changed = whole.replace(from, to);
@@ -275,4 +275,27 @@ fn a_concave_polygon_of_a_copy_keeps_its_fan_s_corners() {
     assert!(
         raw.fans.iter().all(|(_, fan)| fan.iter().all(|&v| (v as usize) < raw.positions.len()))
     );
+}
+
+#[test]
+fn a_lookat_of_a_camera_places_nothing_and_refuses_nothing() {
+    let camera = r##"<node id="c"><lookat>0 0 9 0 0 0 0 1 0</lookat><node><instance_camera url="#x"/>
+        </node></node>"##;
+    let raw = parse(&file("", &triangle(), &format!("{camera}{NODE}"))).unwrap();
+    assert_eq!(raw.triangles, [[0, 1, 2]]);
+    let over =
+        camera.replace(r##"<instance_camera url="#x"/>"##, r##"<instance_geometry url="#g"/>"##);
+    let error = parse(&file("", &triangle(), &over)).unwrap_err().to_string();
+    assert!(error.contains("the transform lookat in line"), "{error}");
+}
+
+#[test]
+fn points_without_params_are_x_y_z_if_they_have_three_numbers() {
+    let whole = file("", &triangle(), NODE);
+    let begin = whole.find("<param").unwrap();
+    let end = whole.find("</accessor>").unwrap();
+    let bare = format!("{}{}", &whole[..begin], &whole[end..]);
+    assert_eq!(corners(&parse(&bare).unwrap()), corners(&parse(&whole).unwrap()));
+    let error = parse(&bare.replacen(r#"stride="3""#, r#"stride="2""#, 1)).unwrap_err().to_string();
+    assert!(error.contains("its params are not X, Y and Z"), "{error}");
 }

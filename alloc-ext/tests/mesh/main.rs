@@ -2,6 +2,7 @@
 
 mod collada;
 mod formats;
+mod left_out;
 mod lost_words;
 mod orientation;
 mod polygons;

@@ -69,6 +69,12 @@ pub fn threemf(model: &str) -> Vec<u8> {
 
 /// An archive of models, the first being that of the package.
 fn archive(models: &[(&str, &str)]) -> Vec<u8> {
+    let models: Vec<_> = models.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
+    archive_of_bytes(&models)
+}
+
+/// As [`archive`], for models in any encoding.
+pub fn archive_of_bytes(models: &[(&str, &[u8])]) -> Vec<u8> {
     let relationships = format!(
         r#"<Relationships><Relationship Id="r" Target="/{}"
         Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>"#,
@@ -76,13 +82,13 @@ fn archive(models: &[(&str, &str)]) -> Vec<u8> {
     );
     let mut bytes = Vec::new();
     let mut archive = rawzip::ZipArchiveWriter::new(&mut bytes);
-    for (name, text) in [("_rels/.rels", relationships.as_str())].iter().chain(models) {
+    for (name, text) in [("_rels/.rels", relationships.as_bytes())].iter().chain(models) {
         let entry = archive.new_file(name);
         let (mut entry, config) =
             entry.compression_method(rawzip::CompressionMethod::DEFLATE).start().unwrap();
         let level = flate2::Compression::default();
         let mut writer = config.wrap(flate2::write::DeflateEncoder::new(&mut entry, level));
-        writer.write_all(text.as_bytes()).unwrap();
+        writer.write_all(text).unwrap();
         let (encoder, descriptor) = writer.finish().unwrap();
         encoder.finish().unwrap();
         entry.finish(descriptor).unwrap();
@@ -174,7 +180,9 @@ fn gltf_buffers_may_be_in_the_text_or_beside_it_but_nowhere_else() {
     let file = directory.join("part.gltf");
     std::fs::write(&file, with("my%20part.bin")).unwrap();
     assert_eq!(read(&file).unwrap().positions, wanted.positions);
-    for uri in ["/etc/passwd", "../part.bin", "http://a/b", "%2e%2e/part.bin", ""] {
+    std::fs::write(&file, with("./my%20part.bin")).unwrap();
+    assert_eq!(read(&file).unwrap().positions, wanted.positions);
+    for uri in [".", "/etc/passwd", "../part.bin", "http://a/b", "%2e%2e/part.bin", ""] {
         let error = parse("a.gltf", with(uri)).unwrap_err().to_string();
         assert!(error.contains("buffer 0: ") && error.contains("is no file beside it"), "{error}");
     }
@@ -409,7 +417,7 @@ fn threemf_refusals_name_part_object_and_defect() {
             "the extension urn:beams of 3D/3dmodel.model is not read",
         ),
         ("<triangles>", r#"<b:beamlattice xmlns:b="urn:b"/><triangles>"#, "the beam lattice of 3D"),
-        ("</model>", "", "3D/3dmodel.model: the text ends early"),
+        ("</model>", "", "3D/3dmodel.model: the file ends within an element"),
         (r#"<item objectid="1"/>"#, "", "3D/3dmodel.model: the build lists no item"),
     ] {
         let changed = model.replacen(from, to, 1);

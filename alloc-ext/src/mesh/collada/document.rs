@@ -10,6 +10,7 @@ use std::path::Path;
 
 use super::super::MeshError;
 use super::super::text::{decoded, number, quoted};
+use super::super::xml::{ENDS_EARLY, why};
 
 /// The file as text, in the encoding that its byte order mark or its first line tells.
 pub(super) fn text_of<'a>(file: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, MeshError> {
@@ -58,7 +59,7 @@ impl<'a> Document<'a> {
         let (mut line, mut counted) = (1, 0);
         loop {
             let event = reader.read_event();
-            let done = event.map_err(|error| error.to_string()).and_then(|event| {
+            let done = event.map_err(|error| why(&error)).and_then(|event| {
                 match &event {
                     Event::Start(tag) | Event::Empty(tag) => {
                         let element = document.add(tag, open.last().copied(), line)?;
@@ -73,7 +74,8 @@ impl<'a> Document<'a> {
                     Event::CData(text) => document.append(&open, text.clone().into_inner()),
                     Event::GeneralRef(of) => document.append(&open, resolved(of)?.into()),
                     Event::Eof if open.is_empty() && !document.nodes.is_empty() => return Ok(true),
-                    Event::Eof => return Err("the text ends early".to_owned()),
+                    Event::Eof if document.nodes.is_empty() => return Err("it is no XML".into()),
+                    Event::Eof => return Err(ENDS_EARLY.to_owned()),
                     _ => {}
                 }
                 Ok(false)

@@ -258,8 +258,8 @@ impl Reading<'_, '_> {
             let reason = format!("it announces {count} numbers, and {} are there", numbers.len());
             return Err(document.malformed(array, reason));
         }
-        let axes = self.axes(accessor)?;
         let step = document.count(accessor, "stride")?.unwrap_or(1);
+        let axes = self.axes(accessor, step)?;
         let begin = document.count(accessor, "offset")?.unwrap_or(0);
         let count = document.count(accessor, "count")?;
         let count = count.ok_or_else(|| document.malformed(accessor, "it has no count"))?;
@@ -284,14 +284,15 @@ impl Reading<'_, '_> {
     }
 
     /// Which numbers of a point are X, Y and Z.
-    fn axes(&self, accessor: usize) -> Result<[usize; 3], MeshError> {
+    fn axes(&self, accessor: usize, step: usize) -> Result<[usize; 3], MeshError> {
         let document = self.document;
         let names: Vec<&str> = document
             .all(accessor, "param")
             .map(|param| document.attribute(param, "name").unwrap_or_default())
             .collect();
-        // Some programs leave the names out.
-        if names.len() == 3 && names.iter().all(|name| name.is_empty()) {
+        // Some programs leave the names out, or all of it.
+        let count = if names.is_empty() { step } else { names.len() };
+        if count == 3 && names.iter().all(|name| name.is_empty()) {
             return Ok([0, 1, 2]);
         }
         let axis = |axis: &str| names.iter().position(|name| name.eq_ignore_ascii_case(axis));

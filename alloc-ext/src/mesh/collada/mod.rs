@@ -6,7 +6,7 @@ mod document;
 mod geometry;
 mod transform;
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::path::Path;
 use std::rc::Rc;
 
@@ -43,7 +43,9 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     }
     let most_depth = document.nodes.iter().filter(|node| node.name == "node").count();
     let known = FxHashMap::default();
-    let mut scene = Scene { document: &document, copies, known, faces: 0, most_depth };
+    let without_geometry = FxHashSet::default();
+    let mut scene =
+        Scene { document: &document, copies, known, faces: 0, most_depth, without_geometry };
     scene.place_all(&scale)?;
     let unit_by_default = length.is_none();
     let raw = scene.copies.raw;
@@ -94,6 +96,8 @@ struct Scene<'a> {
     faces: usize,
     /// Number of nodes: the depth of none is larger, unless it contains itself.
     most_depth: usize,
+    /// Nodes that are known to place nothing.
+    without_geometry: FxHashSet<usize>,
 }
 
 impl Scene<'_> {
@@ -141,6 +145,10 @@ impl Scene<'_> {
             if depth > self.most_depth {
                 return Err(document.malformed(node, "it contains itself"));
             }
+            // That of a camera places nothing.
+            if transform::is_unread(document, node) && !self.holds_geometry(node) {
+                continue;
+            }
             let placement = parent.after(&transform::placement(document, node)?);
             let mut below = Vec::new();
             for &child in &document.nodes[node].children {
@@ -159,6 +167,32 @@ impl Scene<'_> {
             open.extend(below.into_iter().rev().map(|of| (of, placement.clone(), depth + 1)));
         }
         Ok(())
+    }
+
+    /// Whether a node or one below it places a geometry or a controller.
+    fn holds_geometry(&mut self, root: usize) -> bool {
+        let document = self.document;
+        let mut open = vec![root];
+        let mut seen: FxHashSet<usize> = FxHashSet::default();
+        while let Some(node) = open.pop() {
+            if self.without_geometry.contains(&node) || !seen.insert(node) {
+                continue;
+            }
+            for &child in &document.nodes[node].children {
+                match document.nodes[child].name.as_str() {
+                    "instance_geometry" | "instance_controller" => return true,
+                    // One that names nothing is refused elsewhere.
+                    "instance_node" => match document.named(child, "url", &["node"]) {
+                        Ok(node) => open.push(node),
+                        Err(_) => return true,
+                    },
+                    "node" => open.push(child),
+                    _ => {}
+                }
+            }
+        }
+        self.without_geometry.extend(seen);
+        false
     }
 
     fn refuse_controller(&self, instance: usize) -> MeshError {

@@ -7,6 +7,11 @@ use super::document::Document;
 /// How far the last row of an affine matrix may be off, where a program multiplied matrices.
 const NOISE: f64 = 1e-6;
 
+/// Whether a node has a transform that is not read.
+pub(super) fn is_unread(document: &Document<'_>, node: usize) -> bool {
+    ["lookat", "skew"].iter().any(|name| document.child(node, name).is_some())
+}
+
 /// The transforms of a node, the first outermost.
 pub(super) fn placement(document: &Document<'_>, node: usize) -> Result<Placement, MeshError> {
     let mut all = Placement::IDENTITY;

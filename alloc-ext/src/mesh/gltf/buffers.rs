@@ -7,16 +7,22 @@ use serde_json::Value;
 use std::path::{Component, Path};
 use std::rc::Rc;
 
-use super::super::MeshError;
+use super::super::{LeftOut, MeshError};
 use super::source::Source;
 
 const MAGIC: &[u8] = b"glTF";
 
+/// The parts of a file.
+pub(super) struct Chunks<'a> {
+    pub(super) json: &'a [u8],
+    /// Of a binary file; nothing if it has none.
+    pub(super) binary: Option<&'a [u8]>,
+    /// Bytes after the end, and a length in the header that is not the file's.
+    pub(super) left_out: LeftOut,
+}
+
 /// The JSON of a file, and the binary chunk if the file is binary and has one.
-pub(super) fn split<'a>(
-    file: &Path,
-    bytes: &'a [u8],
-) -> Result<(&'a [u8], Option<&'a [u8]>), MeshError> {
+pub(super) fn split<'a>(file: &Path, bytes: &'a [u8]) -> Result<Chunks<'a>, MeshError> {
     let malformed = |reason: &str| MeshError::Malformed {
         file: file.to_owned(),
         line: None,
@@ -24,7 +30,7 @@ pub(super) fn split<'a>(
         reason: reason.into(),
     };
     let Some(after_magic) = bytes.strip_prefix(MAGIC) else {
-        return Ok((bytes, None));
+        return Ok(Chunks { json: bytes, binary: None, left_out: LeftOut::default() });
     };
     let Some((version, rest)) = word(after_magic) else {
         return Err(malformed("it ends early"));
@@ -67,7 +73,15 @@ pub(super) fn split<'a>(
             found: bytes.len() as u64,
         });
     }
-    Ok((json, Some(binary.unwrap_or_default())))
+    let mut left_out = LeftOut::default();
+    let end = bytes.len() - rest.len();
+    if length < end || length > bytes.len() {
+        let first = || format!("{length}, and the file has {} bytes", bytes.len());
+        left_out.remark("length", "in the header that is not the file's", first);
+    }
+    // Chunks of other kinds may follow.
+    left_out.bytes_after_end = bytes.len().saturating_sub(length.max(end));
+    Ok(Chunks { json, binary: Some(binary.unwrap_or_default()), left_out })
 }
 
 fn word(bytes: &[u8]) -> Option<(usize, &[u8])> {
@@ -162,11 +176,14 @@ impl<'a> Buffers<'a> {
         read: impl Fn(&[u8]) -> T,
     ) -> Result<Vec<T>, MeshError> {
         let source = self.source;
+        let wanted = |of: &Value, place: &str| match of.get("count") {
+            Some(_) => source.count(of, "count", place),
+            None => Err(source.malformed(place, "it has no count")),
+        };
+        let count = wanted(accessor, place)?;
         let Some(sparse) = accessor.get("sparse") else {
-            let count = source.count(accessor, "count", place)?;
             return self.elements(accessor, count, bytes, place, read);
         };
-        let count = source.count(accessor, "count", place)?;
         let mut values = if accessor.get("bufferView").is_some() {
             self.elements(accessor, count, bytes, place, &read)?
         } else if count <= MOST_ZEROS {
@@ -176,9 +193,9 @@ impl<'a> Buffers<'a> {
                 format!("it has {count} elements of a sparse accessor; {MOST_ZEROS} are read");
             return Err(source.malformed(place, reason));
         };
-        let replaced = source.count(sparse, "count", place)?;
         let [numbers, others] = [&sparse["indices"], &sparse["values"]];
         let place = format!("{place}, sparse");
+        let replaced = wanted(sparse, &place)?;
         let kind = Self::kind_of(numbers, &[U8, U16, U32]);
         let kind =
             kind.ok_or_else(|| source.malformed(&place, "its indices are of no whole type"))?;
@@ -291,7 +308,10 @@ fn neighbour(source: Source<'_>, uri: &str, place: &str) -> Result<Vec<u8>, Mesh
     let name = name.as_deref().map(Path::new).filter(|name| {
         !uri.is_empty()
             && !uri.contains(':')
-            && name.components().all(|part| matches!(part, Component::Normal(_)))
+            && name.file_name().is_some()
+            && name
+                .components()
+                .all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
     });
     let name =
         name.ok_or_else(|| source.malformed(place, format!("{uri:?} is no file beside it")))?;

@@ -18,10 +18,11 @@ use super::strip::strip;
 use super::{MeshError, RawMesh, Unit};
 
 /// Reads the triangles of all nodes of all scenes, or of all nodes if there is no scene, each where
-/// its ancestors put it. Points and lines are left out. Skins, morphs and compressed meshes are
+/// its ancestors put it; of all meshes if there is no node either. Nodes and meshes that no scene
+/// reaches are counted. Points and lines are left out. Skins, morphs and compressed meshes are
 /// refused by name. A quaternion that is not of length 1 within rounding is named.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
-    let (json, binary) = buffers::split(file, bytes)?;
+    let buffers::Chunks { json, binary, left_out } = buffers::split(file, bytes)?;
     // A chunk is filled with blanks. Older programs wrote zeros, and some texts begin with a mark.
     let json = json.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(json);
     let filled = json.iter().rposition(|&b| b != 0).map_or(0, |last| last + 1);
@@ -30,7 +31,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         file: file.to_owned(),
         line: binary.is_none().then(|| error.line()),
         place: "the JSON".into(),
-        reason: error.to_string(),
+        reason: why_no_json(json, &error),
     })?;
     let source = Source { file, root: &root };
     source.check_version()?;
@@ -40,10 +41,25 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         buffers: Buffers::new(source, binary),
         is_placed: vec![false; source.list("nodes").len()],
     };
+    scene.copies.raw.left_out = left_out;
     for node in scene.roots()? {
         scene.place(node)?;
     }
+    scene.finish()?;
     Ok(RawMesh { unit: Some(Unit::M), ..scene.copies.raw })
+}
+
+/// Why a text is no JSON; the line is named elsewhere.
+fn why_no_json(json: &[u8], error: &serde_json::Error) -> String {
+    if !json.trim_ascii_start().starts_with(b"{") {
+        return "it is no object of JSON".into();
+    }
+    if error.is_eof() {
+        return "it ends early".into();
+    }
+    let said = error.to_string();
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    format!("{}, column {}", said.strip_suffix(&place).unwrap_or(&said), error.column())
 }
 
 /// The nodes that are placed so far.
@@ -77,6 +93,36 @@ impl Scene<'_> {
             }
         }
         Ok(roots)
+    }
+
+    /// Places meshes without nodes, and names nodes and meshes that are not placed.
+    fn finish(&mut self) -> Result<(), MeshError> {
+        let source = self.source;
+        let has_scenes = !source.list("scenes").is_empty();
+        let mut is_named = vec![false; source.list("meshes").len()];
+        for (number, node) in source.list("nodes").iter().enumerate() {
+            let place = format!("node {number}");
+            if !has_scenes && !self.is_placed[number] {
+                return Err(source.malformed(&place, "it is its own ancestor, or below one"));
+            }
+            let Some((mesh, _)) = source.named(node, "mesh", "meshes", &place)? else { continue };
+            is_named[mesh] = true;
+            if !self.is_placed[number] {
+                let first = || format!("{place}, mesh {mesh}");
+                let what = "with a mesh that no scene reaches left out";
+                self.copies.raw.left_out.remark("node", what, first);
+            }
+        }
+        let has_nodes = has_scenes || !self.is_placed.is_empty();
+        for (number, mesh) in source.list("meshes").iter().enumerate() {
+            if !has_nodes {
+                self.add_mesh(number, mesh, &Placement::IDENTITY)?;
+            } else if !is_named[number] {
+                let what = "that no node places left out";
+                self.copies.raw.left_out.remark("mesh", what, || format!("mesh {number}"));
+            }
+        }
+        Ok(())
     }
 
     /// Places a root and all below it.

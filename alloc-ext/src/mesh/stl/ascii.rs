@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::super::polygons::{FacePlace, Polygons};
-use super::super::text::{Words, lines, lowercase, number, point, quoted};
+use super::super::text::{Words, lines, lowercase, number, point, quoted, why_no_number};
 use super::super::{MeshError, RawMesh};
 use super::binary::HEADER_BYTES;
 use super::soup::raw;
@@ -18,13 +18,19 @@ pub(super) fn read(file: &Path, size: usize, text: &str) -> Result<RawMesh, Mesh
     // Numbers that may follow, of a normal or a colour.
     let mut numbers = 0;
     while let Some(word) = words.next() {
-        if numbers > 0 && number(word).is_ok() {
-            numbers -= 1;
-            continue;
-        }
-        numbers = 0;
         let line = words.line;
         facets.line = line;
+        if numbers > 0 {
+            // Of any size: they mean nothing here.
+            if word.parse::<f64>().is_ok() || number(word).is_ok() {
+                numbers -= 1;
+                continue;
+            }
+            if word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
+                return Err(facets.malformed(&why_no_number(word)));
+            }
+        }
+        numbers = 0;
         let mut keyword = lowercase(word);
         if matches!(&*keyword, "end" | "outer") {
             let next = lowercase(words.peek().unwrap_or_default());

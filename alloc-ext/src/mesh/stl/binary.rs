@@ -21,6 +21,9 @@ const ATTRIBUTES: usize = 48;
 /// How far the length of a normal may be off 1.
 const NORMAL_OFF: f32 = 0.02;
 
+/// Most bytes that a program or a copy adds at a file's end.
+const MOST_PADDING: usize = 4;
+
 pub(super) fn is_of_announced_size(bytes: &[u8]) -> bool {
     count(bytes).is_some_and(|count| bytes.len() as u64 == size(count))
 }
@@ -86,6 +89,8 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             bare
         } else if after > 0 && after < wanted && announced.iter().all(|&bytes| bytes == 0) {
             // As above, and too few bytes for attributes of each.
+            refuse_more_triangles(body, wanted)
+                .map_err(|reason| malformed("the count".into(), reason))?;
             left_out.bytes_after_end = after;
             bare
         } else {
@@ -160,11 +165,13 @@ fn refuse_more_triangles(body: &[u8], wanted: usize) -> Result<(), String> {
         return Err(format!("another binary STL file follows after triangle {wanted}"));
     }
     let more = after.len() / TRIANGLE_BYTES;
-    if wanted > 0
-        && more > 0
-        && after.len() == more * TRIANGLE_BYTES
-        && after.iter().any(|&b| b != 0)
-    {
+    let others: Vec<usize> = (0..more).map(|triangle| triangle * TRIANGLE_BYTES).collect();
+    let are_triangles = match after.len() % TRIANGLE_BYTES {
+        0 => true,
+        1..=MOST_PADDING => is_sound(after, &others),
+        _ => false,
+    };
+    if wanted > 0 && more > 0 && are_triangles && after.iter().any(|&b| b != 0) {
         return Err(format!("it is {wanted}, and the file has {} triangles", wanted + more));
     }
     Ok(())

@@ -7,7 +7,7 @@ mod model;
 mod package;
 mod settings;
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::path::Path;
 
 use self::model::{Model, Part};
@@ -20,7 +20,7 @@ use super::{MeshError, RawMesh};
 
 /// Reads the objects that the build lists, each where its item and its components put it. Parts
 /// that name other files of the archive are followed. Supports, items that are not to be printed,
-/// negative parts and modifiers are left out and counted.
+/// negative parts, modifiers and objects that no item builds are left out and counted.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let package = Package::open(file, bytes)?;
     let root = package.root()?;
@@ -106,8 +106,30 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             }
         }
     }
+    for (path, object) in not_built(&models, &root) {
+        let what = "that no item builds left out";
+        copies.raw.left_out.remark("object", what, || format!("{path}, object {object}"));
+    }
     let unit_by_default = !models[&root].names_unit;
     Ok(RawMesh { unit: Some(unit), unit_by_default, decimal: true, ..copies.raw })
+}
+
+/// The objects that no item of the build reaches, printed or not.
+fn not_built<'a>(models: &'a FxHashMap<String, Model>, root: &'a str) -> Vec<(&'a str, u32)> {
+    let mut reached: FxHashSet<(&str, u32)> = FxHashSet::default();
+    let mut open: Vec<(&str, &Part)> = models[root].items.iter().map(|item| (root, item)).collect();
+    while let Some((path, part)) = open.pop() {
+        let path = part.path.as_deref().unwrap_or(path);
+        if reached.insert((path, part.object))
+            && let Some(object) = models.get(path).and_then(|model| model.objects.get(&part.object))
+        {
+            open.extend(object.components.iter().map(|component| (path, component)));
+        }
+    }
+    let all = models.iter().flat_map(|(path, model)| model.objects.keys().map(|id| (&**path, *id)));
+    let mut others: Vec<_> = all.filter(|object| !reached.contains(object)).collect();
+    others.sort_unstable();
+    others
 }
 
 /// What a remark says of a part that is neither solid nor surface.

@@ -5,6 +5,7 @@ use quick_xml::name::{Namespace, ResolveResult};
 use rustc_hash::FxHashMap;
 
 use super::super::placement::Placement;
+use super::super::xml::{ENDS_EARLY, why};
 use super::super::{MeshError, Unit};
 use super::package::{Package, attribute, prefixed, relative};
 
@@ -85,9 +86,9 @@ pub(super) fn read(package: &Package<'_>, path: &str) -> Result<Model, MeshError
         let event = reader.read_resolved_event_into(&mut bytes);
         let done = match event {
             Ok((_, Event::Eof)) if reading.is_complete => return Ok(reading.model),
-            Ok((_, Event::Eof)) => Err("the text ends early".to_owned().into()),
+            Ok((_, Event::Eof)) => Err(ENDS_EARLY.to_owned().into()),
             Ok((space, event)) => reading.event(space == ResolveResult::Bound(CORE), &event),
-            Err(error) => Err(error.to_string().into()),
+            Err(error) => Err(why(&error).into()),
         };
         done.map_err(|refused| match (refused, reading.place(path)) {
             (Refused::Malformed(reason), place) => package.malformed(&place, reason),

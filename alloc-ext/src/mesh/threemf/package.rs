@@ -13,6 +13,8 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 use super::super::MeshError;
+use super::super::text::{decoded, is_utf_16};
+use super::super::xml::why;
 
 /// Bytes that parts may have for each byte of the file. Text of triangles has a fraction of it.
 const MOST_EXPANSION: u64 = 128;
@@ -38,7 +40,12 @@ pub(super) struct Package<'a> {
 impl<'a> Package<'a> {
     pub(super) fn open(file: &'a Path, bytes: &'a [u8]) -> Result<Self, MeshError> {
         let refuse = |error: rawzip::Error| malformed(file, "the archive", error);
-        let archive = ZipArchive::from_slice(bytes).map_err(refuse)?;
+        let archive = ZipArchive::from_slice(bytes).map_err(|error| {
+            if bytes.starts_with(b"PK") {
+                return refuse(error);
+            }
+            malformed(file, "the archive", "it is no ZIP archive")
+        })?;
         let mut found = FxHashMap::default();
         let mut entries = archive.entries();
         while let Some(entry) = entries.next_entry().map_err(refuse)? {
@@ -59,7 +66,7 @@ impl<'a> Package<'a> {
     }
 
     /// The XML of a part.
-    pub(super) fn part(&self, path: &str) -> Result<NsReader<impl BufRead>, MeshError> {
+    pub(super) fn part(&self, path: &str) -> Result<NsReader<Box<dyn BufRead + '_>>, MeshError> {
         let refuse = |error: rawzip::Error| self.malformed(path, error);
         let found = self.entries.get(&key(path));
         let &(at, method) = found.ok_or_else(|| self.malformed(path, "not in the archive"))?;
@@ -73,7 +80,15 @@ impl<'a> Package<'a> {
             }
         };
         let content = Limited { content: entry.verifying_reader(content), left: &self.left };
-        Ok(NsReader::from_reader(BufReader::new(content)))
+        let mut content = BufReader::new(content);
+        let refuse = |error: io::Error| self.malformed(path, error);
+        if !is_utf_16(content.fill_buf().map_err(refuse)?) {
+            return Ok(NsReader::from_reader(Box::new(content) as Box<dyn BufRead + '_>));
+        }
+        let mut bytes = Vec::new();
+        content.read_to_end(&mut bytes).map_err(refuse)?;
+        let text = io::Cursor::new(decoded(&bytes).into_owned());
+        Ok(NsReader::from_reader(Box::new(text)))
     }
 
     /// The paths of files in which slicers say what the parts of objects are.
@@ -104,7 +119,7 @@ impl<'a> Package<'a> {
         loop {
             bytes.clear();
             let event = reader.read_event_into(&mut bytes);
-            match event.map_err(|error| self.malformed(place, error))? {
+            match event.map_err(|error| self.malformed(place, why(&error)))? {
                 Event::Start(tag) | Event::Empty(tag)
                     if tag.local_name().as_ref() == "Relationship" =>
                 {

@@ -9,6 +9,7 @@ use rustc_hash::FxHashMap;
 use std::ops::RangeInclusive;
 
 use super::super::MeshError;
+use super::super::xml::why;
 use super::package::{Package, attribute};
 
 #[derive(Default)]
@@ -29,7 +30,7 @@ impl Settings {
             loop {
                 bytes.clear();
                 let event = reader.read_event_into(&mut bytes);
-                let done = match event.map_err(|error| package.malformed(&path, error))? {
+                let done = match event.map_err(|error| package.malformed(&path, why(&error)))? {
                     Event::Start(tag) | Event::Empty(tag) => {
                         settings.element(&tag, &mut object, &mut volume)
                     }
