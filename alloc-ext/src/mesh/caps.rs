@@ -6,7 +6,8 @@
 //! facing the long one, a slit.
 
 use rayon::prelude::*;
-use std::collections::VecDeque;
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
 
 use super::collinear::{collinear, middle};
 use super::duplicate::retain;
@@ -34,22 +35,21 @@ pub(super) fn remove_caps(
         return;
     }
     let mut stars = Stars::new(positions.len(), triangles);
-    let cap_count = caps.len();
-    let mut waiting = VecDeque::from(caps);
     // A flip between two caps shortens their common edge, so such flips end by themselves; the
     // limit is for certainty.
-    let mut cap_flips_left = 8 * cap_count;
-    let mut postponed = 0;
-    while postponed < waiting.len() {
-        let Some(cap) = waiting.pop_front() else { break };
+    let mut cap_flips_left = 8 * caps.len();
+    let mut waiting = Waiting::new(caps);
+    while let Some(cap) = waiting.next() {
         if !flat(triangles[cap as usize]) {
-            postponed = 0;
             continue;
         }
-        let Some(flip) = Flip::find(positions, triangles, &stars, cap) else {
-            waiting.push_back(cap);
-            postponed += 1;
-            continue;
+        let flip = match Flip::find(positions, triangles, &stars, cap) {
+            Found::Flip(flip) => flip,
+            Found::EdgeExists(edge) => {
+                waiting.until_gone(edge, cap);
+                continue;
+            }
+            Found::NoNeighbour => continue,
         };
         let neighbour_flat = flat(triangles[flip.neighbour as usize]);
         if neighbour_flat {
@@ -57,19 +57,19 @@ pub(super) fn remove_caps(
             let own = Flip::longest_edge(positions, triangles[flip.neighbour as usize]);
             let common = [flip.from, flip.to];
             if cap_flips_left == 0 || !own.iter().all(|v| common.contains(v)) {
-                waiting.push_back(cap);
-                postponed += 1;
                 continue;
             }
             cap_flips_left -= 1;
-            waiting.push_back(flip.neighbour);
-            waiting.push_back(cap);
         } else {
             report.flipped_caps.triangle(source[cap as usize], positions[flip.middle as usize]);
             source[cap as usize] = source[flip.neighbour as usize];
         }
         flip.apply(triangles, &mut stars, cap);
-        postponed = 0;
+        waiting.wake_behind([flip.from, flip.to]);
+        for [a, b] in flip.sides() {
+            let around = stars.on_edge(triangles, a, b);
+            waiting.wake(around.filter(|&t| flat(triangles[t as usize])));
+        }
     }
     take_out_flat(positions, triangles, source, taken_out, report, flat);
 }
@@ -103,6 +103,43 @@ fn take_out_flat(
     retain(source, &keep);
 }
 
+/// Caps that may be flipped now, in turn by their numbers. One that cannot be flipped waits until a
+/// flip changes a triangle on its longest edge, or removes the edge that is in its way.
+struct Waiting {
+    now: BTreeSet<u32>,
+    /// The number after that of the cap tried last.
+    next: u32,
+    /// By an edge that is in the way of caps, its smaller vertex first.
+    behind: FxHashMap<[u32; 2], Vec<u32>>,
+}
+
+impl Waiting {
+    fn new(caps: Vec<u32>) -> Self {
+        Self { now: caps.into_iter().collect(), next: 0, behind: FxHashMap::default() }
+    }
+
+    fn next(&mut self) -> Option<u32> {
+        let cap = *self.now.range(self.next..).next().or_else(|| self.now.first())?;
+        self.now.remove(&cap);
+        self.next = cap + 1;
+        Some(cap)
+    }
+
+    fn until_gone(&mut self, mut edge: [u32; 2], cap: u32) {
+        edge.sort_unstable();
+        self.behind.entry(edge).or_default().push(cap);
+    }
+
+    fn wake_behind(&mut self, mut gone: [u32; 2]) {
+        gone.sort_unstable();
+        self.now.extend(self.behind.remove(&gone).unwrap_or_default());
+    }
+
+    fn wake(&mut self, caps: impl Iterator<Item = u32>) {
+        self.now.extend(caps);
+    }
+}
+
 /// Triangles around each vertex, kept up to date under flips.
 struct Stars(Vec<Vec<u32>>);
 
@@ -115,14 +152,35 @@ impl Stars {
         Self(stars)
     }
 
+    /// Of the caps of one fan the last is flipped first, so the search begins at the end.
+    fn remove(&mut self, vertex: u32, triangle: u32) {
+        let star = &mut self.0[vertex as usize];
+        if let Some(at) = star.iter().rposition(|&t| t == triangle) {
+            star.remove(at);
+        }
+    }
+
     fn on_edge<'a>(
         &'a self,
         triangles: &'a [[u32; 3]],
         a: u32,
         b: u32,
     ) -> impl Iterator<Item = u32> + 'a {
-        self.0[a as usize].iter().copied().filter(move |&t| triangles[t as usize].contains(&b))
+        // Many triangles may meet in one of the vertices.
+        let [around_a, around_b] = [a, b].map(|v| &self.0[v as usize]);
+        let (around, other) =
+            if around_a.len() <= around_b.len() { (around_a, b) } else { (around_b, a) };
+        around.iter().copied().filter(move |&t| triangles[t as usize].contains(&other))
     }
+}
+
+/// What hinders a flip, if anything does.
+enum Found {
+    Flip(Flip),
+    /// The new edge, which exists already.
+    EdgeExists([u32; 2]),
+    /// The long edge is not shared by exactly two triangles, or both have the same corners.
+    NoNeighbour,
 }
 
 /// The neighbour (from, to, apex), in its own winding, and the cap's middle vertex on the edge
@@ -141,36 +199,41 @@ impl Flip {
         [triangle[(m + 1) % 3], triangle[(m + 2) % 3]]
     }
 
-    /// `None` if the long edge is not shared by exactly two triangles, or the new edge exists
-    /// already.
-    fn find(
-        positions: &[[f32; 3]],
-        triangles: &[[u32; 3]],
-        stars: &Stars,
-        cap: u32,
-    ) -> Option<Self> {
+    fn find(positions: &[[f32; 3]], triangles: &[[u32; 3]], stars: &Stars, cap: u32) -> Found {
         let triangle = triangles[cap as usize];
-        let [a, c] = Self::longest_edge(positions, triangle);
-        let middle = triangle.into_iter().find(|&v| v != a && v != c)?;
+        let edge @ [a, c] = Self::longest_edge(positions, triangle);
+        let is_apex = |v: &u32| !edge.contains(v);
         let mut others = stars.on_edge(triangles, a, c).filter(|&t| t != cap);
-        let neighbour = others.next()?;
-        if others.next().is_some() {
-            return None;
-        }
+        let (Some(neighbour), None) = (others.next(), others.next()) else {
+            return Found::NoNeighbour;
+        };
         let corners = triangles[neighbour as usize];
-        let k = corners.iter().position(|&v| v != a && v != c)?;
+        let middle = triangle.into_iter().find(is_apex);
+        let (Some(middle), Some(k)) = (middle, corners.iter().position(is_apex)) else {
+            return Found::NoNeighbour;
+        };
         let apex = corners[k];
-        if apex == middle || stars.on_edge(triangles, middle, apex).next().is_some() {
-            return None;
+        if apex == middle {
+            return Found::NoNeighbour;
         }
-        Some(Self { neighbour, from: corners[(k + 1) % 3], to: corners[(k + 2) % 3], apex, middle })
+        if stars.on_edge(triangles, middle, apex).next().is_some() {
+            return Found::EdgeExists([middle, apex]);
+        }
+        let (from, to) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
+        Found::Flip(Self { neighbour, from, to, apex, middle })
+    }
+
+    /// The outer edges of the two triangles.
+    fn sides(&self) -> [[u32; 2]; 4] {
+        let Self { from, to, apex, middle, .. } = *self;
+        [[from, middle], [middle, to], [to, apex], [apex, from]]
     }
 
     fn apply(&self, triangles: &mut [[u32; 3]], stars: &mut Stars, cap: u32) {
         triangles[cap as usize] = [self.from, self.middle, self.apex];
         triangles[self.neighbour as usize] = [self.middle, self.to, self.apex];
-        stars.0[self.to as usize].retain(|&t| t != cap);
-        stars.0[self.from as usize].retain(|&t| t != self.neighbour);
+        stars.remove(self.to, cap);
+        stars.remove(self.from, self.neighbour);
         stars.0[self.middle as usize].push(self.neighbour);
         stars.0[self.apex as usize].push(cap);
     }

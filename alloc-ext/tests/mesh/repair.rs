@@ -359,3 +359,15 @@ fn flat_closed_part_is_refused_for_want_of_volume() {
     let (mesh, _) = mend(&positions, &SIDES);
     assert!(matches!(require_closed_manifold(&mesh), Err(MeshError::ZeroVolume { .. })));
 }
+
+#[test]
+fn caps_of_one_fan_are_flipped_without_trying_all_of_them_for_each() {
+    // With a trial of all for each flip, this takes minutes.
+    let count = 100_000u32;
+    let mut positions: Vec<[f32; 3]> = (0..count).map(|k| [k as f32, 0.0, 0.0]).collect();
+    positions.extend([[count as f32, 5.0, 0.0], [0.0, 5.0, 0.0]]);
+    let fan: Vec<[u32; 3]> = (1..=count).map(|k| [0, k, k + 1]).collect();
+    let (mesh, report) = repair(RawMesh::from_f32(&positions, &fan)).unwrap();
+    assert_eq!(report.flipped_caps.count, count as usize - 2);
+    assert_eq!((mesh.triangles.len(), mesh.wires.len()), (fan.len(), 0));
+}
