@@ -80,7 +80,7 @@ pub(super) fn next_word<'a>(
 pub(super) struct Surplus {
     /// Words that follow the first vertex on its line.
     of_first_vertex: Option<usize>,
-    /// The first vertex that more follow.
+    /// The first vertex that others follow.
     vertex: Option<Suspect>,
     /// The first face of fewer than three corners, and of those that words follow.
     small_face: Option<Suspect>,
@@ -98,7 +98,7 @@ struct Suspect {
 
 impl Surplus {
     pub(super) fn vertex(&mut self, number: usize, line: usize, surplus: usize) {
-        if surplus > *self.of_first_vertex.get_or_insert(surplus) {
+        if surplus != *self.of_first_vertex.get_or_insert(surplus) {
             self.vertex.get_or_insert(Suspect { number, line, surplus });
         }
     }
@@ -116,9 +116,18 @@ impl Surplus {
         }
     }
 
-    /// Refuses a face of fewer than three corners with numbers as no other face has them: one of
-    /// its numbers was lost, or it is a vertex.
+    /// Refuses a vertex that other numbers follow than the first: one is there twice, or the line is
+    /// a face. Refuses a face of fewer than three corners with numbers as no other face has them: one
+    /// of its own was lost, or the line is a vertex.
     pub(super) fn check(&self, file: &Path) -> Result<(), MeshError> {
+        if let Some(Suspect { number, line, surplus }) = self.vertex {
+            let first = self.of_first_vertex.unwrap_or(0);
+            let reason = format!(
+                "{surplus} numbers follow its place, and {first} that of vertex 0: one is there \
+                 twice, a line is lost, or the header announces too many vertices"
+            );
+            return Err(malformed(file, Some(line), format!("vertex {number}"), reason));
+        }
         let is_odd = |face: &&Suspect| !self.of_faces.contains(&face.surplus);
         self.small_faces.iter().find(is_odd).map_or(Ok(()), |face| {
             let reason = format!(
@@ -131,18 +140,7 @@ impl Surplus {
 
     /// The error of a file of lines, or that of an element before which explains it.
     pub(super) fn explain(&self, file: &Path, error: MeshError) -> MeshError {
-        if let Err(before) = self.check(file) {
-            return before;
-        }
-        if !matches!(error, MeshError::Truncated { .. }) {
-            return error;
-        }
-        let Some(Suspect { number, line, surplus }) = self.vertex else { return error };
-        let reason = format!(
-            "{surplus} more numbers than a vertex has, and the file ends early: the header may \
-             announce too many vertices, or a line is lost"
-        );
-        malformed(file, Some(line), format!("vertex {number}"), reason)
+        self.check(file).err().unwrap_or(error)
     }
 
     /// Refuses numbers, the first of them in `line`, that follow the last announced element.

@@ -9,7 +9,8 @@ use super::{LeftOut, MeshError, RawMesh};
 /// Reads `v x y z …` and `f v[/vt[/vn]] …`, or `fo` as it was called once, indices from 1 or
 /// relative (negative), `\` at a line's end continuing it, but not a comment: that may end with the
 /// path of a directory. Faces of one or two vertices have no surface and are counted, as points and
-/// lines are (`p`, `l`), free-form curves and surfaces, and calls of other files.
+/// lines are (`p`, `l`), free-form curves and surfaces, materials, and calls of other files. A name
+/// before a line of geometry is not continued.
 ///
 /// A statement that OBJ does not have is counted. It is refused if numbers follow, for it may be a
 /// misspelt vertex, without which all others have wrong numbers.
