@@ -10,6 +10,7 @@ use std::path::Path;
 use super::MeshError;
 use super::polygons::FacePlace;
 use super::text::Words;
+use crate::counted::Counted;
 
 /// What line breaks mean.
 #[derive(Clone, Copy, PartialEq)]
@@ -116,23 +117,24 @@ impl Surplus {
         }
     }
 
-    /// Refuses a vertex that other numbers follow than the first: one is there twice, or the line is
-    /// a face. Refuses a face of fewer than three corners with numbers as no other face has them: one
-    /// of its own was lost, or the line is a vertex.
+    /// Refuses a vertex that is followed by more or fewer numbers than the first: one is there twice,
+    /// or the line is a face. Refuses a face of fewer than three corners with numbers as no other
+    /// face has them: one of its own was lost, or the line is a vertex.
     pub(super) fn check(&self, file: &Path) -> Result<(), MeshError> {
         if let Some(Suspect { number, line, surplus }) = self.vertex {
             let first = self.of_first_vertex.unwrap_or(0);
             let reason = format!(
-                "{surplus} numbers follow its place, and {first} that of vertex 0: one is there \
-                 twice, a line is lost, or the header announces too many vertices"
+                "{} after its place, and {first} after that of vertex 0: one is there twice, a line \
+                 is lost, or the header announces too many vertices",
+                Counted(surplus, "number")
             );
             return Err(malformed(file, Some(line), format!("vertex {number}"), reason));
         }
         let is_odd = |face: &&Suspect| !self.of_faces.contains(&face.surplus);
         self.small_faces.iter().find(is_odd).map_or(Ok(()), |face| {
             let reason = format!(
-                "fewer than three corners, and {} more numbers, as no other face has them",
-                face.surplus
+                "fewer than three corners, and {} after them, as no other face has",
+                Counted(face.surplus, "number")
             );
             Err(malformed(file, Some(face.line), format!("face {}", face.number), reason))
         })

@@ -1,9 +1,9 @@
 //! OFF in text.
 //!
 //! Vertices and faces may have more numbers than those of their place: normals, colours, texture
-//! coordinates. Where an element has a line, all that follows on it belongs to it. Where line breaks
-//! mean nothing, only numbers that the keyword announces do. A file is read in the first layout that
-//! fits all of it, but one of lines by lines only.
+//! coordinates. Where an element has a line, all that follows on it belongs to it. Where line
+//! breaks mean nothing, only numbers that the keyword announces do. A file is read in the first
+//! layout that fits all of it, but one of lines by lines only.
 
 use std::path::Path;
 

@@ -10,8 +10,8 @@ use super::{FORMATS, MeshError, RawMesh, collada, gltf, obj, off, ply, stl, thre
 /// - `.stl`: ASCII or binary, told apart by content.
 /// - `.off`: text, with normals, colours and texture coordinates or without.
 /// - `.glb`, `.gltf`: the triangles of all nodes of all scenes, in metres. Without scenes, those of
-///   all nodes or meshes. Nodes that no scene reaches are left out and counted. Buffers are read from
-///   `data:` or from files beside it. Skins, morphs, Draco and meshopt are refused.
+///   all nodes or meshes. Nodes that no scene reaches are left out and counted. Buffers are read
+///   from `data:` or from files beside it. Skins, morphs, Draco and meshopt are refused.
 /// - `.3mf`: the objects of the build, in the unit that the file tells. Supports, items that are
 ///   not to be printed, objects that no item builds, negative parts and modifiers are left out and
 ///   counted.
@@ -19,8 +19,8 @@ use super::{FORMATS, MeshError, RawMesh, collada, gltf, obj, off, ply, stl, thre
 ///   that the file tells. Axes stay as they are written: `up_axis` turns nothing. Controllers are
 ///   refused.
 ///
-/// Text is UTF-8 or UTF-16, with a byte order mark or without. Lines end with CR, LF or both. OFF and
-/// PLY of one element on each line are read so only: a lost number or a wrong count is refused.
+/// Text is UTF-8 or UTF-16, with a byte order mark or without. Lines end with CR, LF or both. OFF
+/// and PLY of one element on each line are read so only: a lost number or a wrong count is refused.
 ///
 /// A polygon of n corners becomes n − 2 triangles: the fan about its first corner, or ears if that
 /// corner does not see all of it. Nodes, items and components put copies in

@@ -279,8 +279,8 @@ fn a_concave_polygon_of_a_copy_keeps_its_fan_s_corners() {
 
 #[test]
 fn a_lookat_of_a_camera_places_nothing_and_refuses_nothing() {
-    let camera = r##"<node id="c"><lookat>0 0 9 0 0 0 0 1 0</lookat><node><instance_camera url="#x"/>
-        </node></node>"##;
+    let camera = r##"<node id="c"><lookat>0 0 9 0 0 0 0 1 0</lookat>
+        <node><instance_camera url="#x"/></node></node>"##;
     let raw = parse(&file("", &triangle(), &format!("{camera}{NODE}"))).unwrap();
     assert_eq!(raw.triangles, [[0, 1, 2]]);
     let over =

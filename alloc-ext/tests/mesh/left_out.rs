@@ -87,8 +87,8 @@ fn cut_gltf_and_other_texts_say_so_with_the_line_once() {
 #[test]
 fn threemf_objects_that_no_item_builds_are_named() {
     let model = model_of(&TRIANGLE, &[[0, 1, 2]], r#"<item objectid="1"/>"#);
-    let other = r#"</object><object id="7"><components><component objectid="1"/></components></object>
-        </resources>"#;
+    let other = r#"</object><object id="7"><components><component objectid="1"/></components>
+        </object></resources>"#;
     let model = model.replacen("</object></resources>", other, 1);
     let raw = parse("a.3mf", threemf(&model)).unwrap();
     let wanted = "1 object that no item builds left out: 3D/3dmodel.model, object 7";

@@ -103,9 +103,19 @@ fn lost_words_are_named_where_they_are() {
     for (counts, from, to, wanted) in [
         ([8, 6], "4 2 3 7 6", "4 2 3 7", "line 15: face 4: 3 of 4 corners are there"),
         ([8, 6], "2 0 0", "2 0", "line 4: vertex 1: fewer than three coordinates"),
-        ([8, 6], "4 0 3 2 1", "0 3 2 1", "line 11: face 0: fewer than three corners, and 3 more"),
-        ([10, 6], "", "", "line 11: vertex 8: 2 numbers follow its place, and 0 that of vertex 0"),
-        ([8, 6], "1 3", "1 1 3", "line 9: vertex 6: 1 numbers follow its place, and 0 that of"),
+        (
+            [8, 6],
+            "4 0 3 2 1",
+            "0 3 2 1",
+            "line 11: face 0: fewer than three corners, and 3 numbers after",
+        ),
+        (
+            [10, 6],
+            "",
+            "",
+            "line 11: vertex 8: 2 numbers after its place, and 0 after that of vertex 0",
+        ),
+        ([8, 6], "1 3", "1 1 3", "line 9: vertex 6: 1 number after its place, and 0 after"),
         ([8, 5], "", "", "line 16: the header: numbers follow its last element"),
         ([7, 6], "", "", "line 10: face 0: fewer than three corners"),
     ] {
