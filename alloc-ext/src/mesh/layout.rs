@@ -117,15 +117,15 @@ impl Surplus {
         }
     }
 
-    /// Refuses a vertex that is followed by more or fewer numbers than the first: one is there twice,
-    /// or the line is a face. Refuses a face of fewer than three corners with numbers as no other
-    /// face has them: one of its own was lost, or the line is a vertex.
+    /// Refuses a vertex that is followed by more or fewer numbers than the first: one is there
+    /// twice, or the line is a face. Refuses a face of fewer than three corners with numbers as no
+    /// other face has them: one of its own was lost, or the line is a vertex.
     pub(super) fn check(&self, file: &Path) -> Result<(), MeshError> {
         if let Some(Suspect { number, line, surplus }) = self.vertex {
             let first = self.of_first_vertex.unwrap_or(0);
             let reason = format!(
-                "{} after its place, and {first} after that of vertex 0: one is there twice, a line \
-                 is lost, or the header announces too many vertices",
+                "{} after its place, and {first} after that of vertex 0: one is there twice, a \
+                 line is lost, or the header announces too many vertices",
                 Counted(surplus, "number")
             );
             return Err(malformed(file, Some(line), format!("vertex {number}"), reason));
