@@ -131,8 +131,8 @@ enum {
 #define MSW_HULL_WORDS 48
 #define MSW_COHERENT_WORDS 256
 #else
-#define MSW_MODEL_WORDS 48
-#define MSW_TIGHT_WORDS 56
+#define MSW_MODEL_WORDS 52
+#define MSW_TIGHT_WORDS 60
 #define MSW_HULL_WORDS 64
 #define MSW_COHERENT_WORDS 480
 #endif

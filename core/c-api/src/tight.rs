@@ -9,7 +9,7 @@ use crate::question::BudgetC;
 use crate::tree::{Model, ask};
 
 /// Words of `msw_tight`.
-pub const TIGHT_WORDS: usize = if cfg!(target_pointer_width = "64") { 44 } else { 56 };
+pub const TIGHT_WORDS: usize = if cfg!(target_pointer_width = "64") { 44 } else { 60 };
 
 /// `msw_tight`.
 pub type Tight = Storage<TightHull<'static>, TIGHT_WORDS>;

@@ -10,7 +10,7 @@ use crate::memory::{CoherentStorage, In, Out, Storage, View};
 use crate::question::{BudgetC, HintC, PoseC, facing};
 
 /// Words of `msw_model`.
-pub const MODEL_WORDS: usize = if cfg!(target_pointer_width = "64") { 36 } else { 48 };
+pub const MODEL_WORDS: usize = if cfg!(target_pointer_width = "64") { 36 } else { 52 };
 
 /// `msw_model`.
 pub type Model = Storage<Bvh<'static>, MODEL_WORDS>;

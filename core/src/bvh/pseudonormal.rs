@@ -41,18 +41,19 @@ pub(crate) enum ViewedSide {
 }
 
 impl ViewedSide {
-    /// The side that is seen of the same triangle wound the other way.
-    pub(crate) fn turned(self) -> ViewedSide {
+    /// The side that a triangle tells a point which sees this side of it: the other one if it is
+    /// turned, none if it is sideless.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn told_by(self, tree: &Bvh<'_>, triangle: u32) -> ViewedSide {
+        let is_turned = tree.turned().contains(triangle);
         match self {
-            ViewedSide::Front => ViewedSide::Back,
-            ViewedSide::Back => ViewedSide::Front,
-            none => none,
+            ViewedSide::Flat => ViewedSide::Flat,
+            _ if tree.sideless().contains(triangle) => ViewedSide::Unclear,
+            ViewedSide::Front if is_turned => ViewedSide::Back,
+            ViewedSide::Back if is_turned => ViewedSide::Front,
+            side => side,
         }
-    }
-
-    /// The side that is seen of a triangle that tells none.
-    pub(crate) fn unclear(self) -> ViewedSide {
-        if self == ViewedSide::Flat { self } else { ViewedSide::Unclear }
     }
 }
 
@@ -254,6 +255,17 @@ impl Sum {
     }
 }
 
+/// The factor of a triangle's normal in a sum for sides.
+#[cold]
+#[inline(never)]
+fn factor(tree: &Bvh<'_>, triangle: u32) -> f32 {
+    match (tree.sideless().contains(triangle), tree.turned().contains(triangle)) {
+        (true, _) => 0.0,
+        (false, true) => -1.0,
+        (false, false) => 1.0,
+    }
+}
+
 /// Visits all triangles of a feature, each with a factor of its normal: −1 if sides are those of
 /// the triangle turned, 0 if it tells no side.
 struct Star<'t, F> {
@@ -268,15 +280,16 @@ impl<F: FnMut(&FanLeaf<'_>, usize, f32)> LeafVisitor for Star<'_, F> {
     }
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let (turned, sideless) = (self.tree.turned(), self.tree.sideless());
-        let first = match turned.are_stored() || sideless.are_stored() {
-            true => self.tree.links(visit.node)?.triangle(visit.child),
-            false => 0,
+        let marked = match self.tree.if_marked() {
+            Some(tree) => Some((tree, tree.links(visit.node)?.triangle(visit.child))),
+            None => None,
         };
         for lane in 0..visit.leaf.shape().triangles() {
-            let number = first.wrapping_add(lane as u32);
-            let turn = if turned.contains(number) { -1.0 } else { 1.0 };
-            (self.each)(&visit.leaf, lane, if sideless.contains(number) { 0.0 } else { turn });
+            let factor = match marked {
+                Some((tree, first)) => factor(tree, first.wrapping_add(lane as u32)),
+                None => 1.0,
+            };
+            (self.each)(&visit.leaf, lane, factor);
         }
         Some(true)
     }

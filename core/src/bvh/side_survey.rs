@@ -7,7 +7,7 @@ use super::pseudonormal::{Candidates, ViewedSide, viewed_side};
 use super::side_search::Search;
 use super::triangle_bounds::{limit_of, lower_of_box, witness};
 use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
-use crate::bvh::format::{Bvh, FanLeaf, TriangleBits};
+use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::tolerance::{EMPTY_BALL, EVERYTHING_SQ};
 use crate::num::{lesser, sqrt_approx};
 use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry};
@@ -17,13 +17,14 @@ use glam::Vec3;
 /// distance is left.
 const WAY_TO_NEARER: f32 = 0.9375;
 
-impl<'t> Search<'_, 't> {
+impl<'a, 't> Search<'a, 't> {
     /// A survey that knows all triangles with an area that may be the closest of these.
     pub(super) fn survey_with_area<'p>(
         &mut self,
         query: &'p PointQuery,
     ) -> Result<Survey<'p>, QueryError>
     where
+        'a: 'p,
         't: 'p,
     {
         let survey = self.survey(query, Bounding::Any)?;
@@ -41,13 +42,13 @@ impl<'t> Search<'_, 't> {
         bounding: Bounding,
     ) -> Result<Survey<'p>, QueryError>
     where
+        'a: 'p,
         't: 'p,
     {
         let tree = self.tree;
         let collector = Survey {
             query,
-            turned: tree.turned(),
-            sideless: tree.sideless(),
+            marked: tree.if_marked(),
             margin: query.rounding,
             bounding,
             bound_sq: f32::INFINITY,
@@ -107,8 +108,8 @@ enum Bounding {
 /// The triangles near a point.
 pub(super) struct Survey<'p> {
     pub(super) query: &'p PointQuery,
-    turned: TriangleBits<'p>,
-    sideless: TriangleBits<'p>,
+    /// The tree, if some of its triangles are turned or sideless.
+    marked: Option<&'p Bvh<'p>>,
     pub(super) margin: f32,
     bounding: Bounding,
     /// The least squared distance of a bounding triangle.
@@ -225,8 +226,10 @@ impl TriangleCollector for Survey<'_> {
         }
         self.best.improve(here);
         let facing = viewed_side(leaf, here.lane as usize, seen);
-        let facing = if self.turned.contains(here.number) { facing.turned() } else { facing };
-        let facing = if self.sideless.contains(here.number) { facing.unclear() } else { facing };
+        let facing = match self.marked {
+            Some(tree) => facing.told_by(tree, here.number),
+            None => facing,
+        };
         if facing != ViewedSide::Flat {
             self.with_area.improve(here);
         }

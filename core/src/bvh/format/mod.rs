@@ -30,6 +30,5 @@ pub use leaf::{CORNERS, FanLeaf, GridRing, LeafShape, RING, lanes_of, slots};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub(crate) use leaf_lanes::LanePoint;
 pub use moments::NodeMoments;
-pub(crate) use triangle_bits::TriangleBits;
 pub(crate) use units::{Units, at_least, at_most};
 pub use view::{Bvh, BvhChild, Links};

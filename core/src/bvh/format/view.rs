@@ -282,6 +282,12 @@ impl Bvh<'_> {
 /// The records, for the builder and the checker.
 #[doc(hidden)]
 impl<'a> Bvh<'a> {
+    /// The tree, if some of its triangles are turned for sides or tell none.
+    #[inline(always)]
+    pub(crate) const fn if_marked(&self) -> Option<&Self> {
+        if self.header.has_flag(BVH_TURNED | BVH_SIDELESS) { Some(self) } else { None }
+    }
+
     /// The triangles that are turned for sides.
     #[inline(always)]
     pub(crate) const fn turned(&self) -> TriangleBits<'a> {
