@@ -1,8 +1,8 @@
 //! Winding numbers are those of all triangles of the file.
 
-use super::{File, side, views, winding};
+use super::{File, exact_winding, side, views, winding};
 use meshsweep::bvh::TreeOptions;
-use meshsweep_core::{Bvh, Interval, Side};
+use meshsweep_core::{Budget, Bvh, Interval, ScratchEntry, Side};
 use meshsweep_host_tests::generate::evil::{glued_blocks, plugged_shell, room};
 use meshsweep_host_tests::generate::{Triangles, block, inverted, joined};
 
@@ -81,6 +81,25 @@ fn a_room_whose_walls_face_inwards_winds_once_backwards() {
             let (Interval { lower, upper }, by_number) = winding(&tree, point);
             assert!(lower <= number && number <= upper && upper - lower < 0.1);
             assert_eq!((by_number, side(&tree, point)), (wanted, wanted));
+        }
+    }
+}
+
+#[test]
+fn a_cavity_in_a_skin_with_a_hole_is_outside_whichever_triangle_is_missing() {
+    let cavity = inverted(&block([-8.0; 3], [8.0; 3]));
+    for missing in 0..12 {
+        let mut skin = block([-10.0; 3], [10.0; 3]);
+        skin.1.remove(missing);
+        let file = joined(&skin, &cavity);
+        for tree in views(&trees(&file)) {
+            for point in [[0.0; 3], [7.9, 0.0, 0.0], [-3.0, 2.0, 1.0], [30.0, 1.0, 2.0]] {
+                let truth = exact_winding(&File::of(&file), point.map(f64::from)) as f32;
+                assert_number(&tree, point, truth);
+                let stack = &mut vec![ScratchEntry::EMPTY; tree.scratch_entries()];
+                let signed = tree.signed_by_winding(point, Budget::EXACT, stack).expect("answers");
+                assert!(signed.side == Side::Outside && signed.distance.lower > 0.0);
+            }
         }
     }
 }
