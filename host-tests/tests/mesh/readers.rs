@@ -116,7 +116,7 @@ fn stl((positions, triangles): &Triangles, layout: u8) -> Vec<String> {
 fn obj((positions, triangles): &Triangles, layout: u8) -> Vec<String> {
     let mut lines = vec!["# a part".to_owned(), "o part".to_owned(), "vn 0 0 1".to_owned()];
     lines.extend(positions.iter().map(|&p| format!("v {}", point(p))));
-    let count = positions.len() as i64;
+    let count = i64::try_from(positions.len()).expect("few");
     for triangle in triangles {
         let corners = triangle.map(|v| match layout % 4 {
             0 => format!("{}", v + 1),
