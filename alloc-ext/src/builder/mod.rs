@@ -190,8 +190,8 @@ impl<'a> Builder<'a> {
         self.options.is_curve(Subject::File(file))
     }
 
-    /// Refuses options that do not go together or are out of [range](ranges), before a file is read.
-    /// [`build_file`](Self::build_file) does it first.
+    /// Refuses options that do not go together or are out of [range](ranges), before a file is
+    /// read. [`build_file`](Self::build_file) does it first.
     ///
     /// # Errors
     /// [`BuildError::Option`], [`BuildError::OutOfRange`], [`BuildError::TooManyHulls`],

@@ -51,8 +51,8 @@ pub enum WhyF32 {
     /// The mesh is too far from its origin: a grid would move vertices farther than a 32,768th of
     /// its longest side.
     TooFar,
-    /// On the grid faces change places, so that a tree for closest points would decide no sides, and
-    /// no places next to theirs were found where they do not. In f32 they do not. A tree with
+    /// On the grid faces change places, so that a tree for closest points would decide no sides,
+    /// and no places next to theirs were found where they do not. In f32 they do not. A tree with
     /// winding numbers needs no such sides.
     Sides,
 }

@@ -34,7 +34,8 @@ pub struct SidesReport {
     pub defect: SideDefect,
     /// A corner of the triangle, or of the first.
     pub at: [f32; 3],
-    /// Whether the surface with vertices in `f32` has the defect. False also if `f32` was not tested.
+    /// Whether the surface with vertices in `f32` has the defect. False also if `f32` was not
+    /// tested.
     pub in_f32: bool,
     /// Triangles that tell no side.
     pub sideless: usize,

@@ -138,8 +138,8 @@ fn of_file(filed: &Filed, rounding: f64) -> Mesh {
     Mesh { rounding, ..mesh }
 }
 
-/// A valid mesh whose triangles with a repeated vertex are wires. They have no solid angle, wherever
-/// their vertices are.
+/// A valid mesh whose triangles with a repeated vertex are wires. They have no solid angle,
+/// wherever their vertices are.
 fn with_repeats_as_wires(mesh: Mesh) -> Mesh {
     let repeats = |&[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
     let (mut stored, mut wires) = (Vec::new(), Vec::new());

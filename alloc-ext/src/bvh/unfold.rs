@@ -3,9 +3,9 @@
 //! A wall or a gap thinner than a step may be rounded so that its faces change places, and a sliver
 //! so that it folds over its neighbour. A step or two to the side they do not. The search begins
 //! with all pairs of faces that cross, and has two means:
-//! - *Push.* Where the input has a pair on two sides of the plane of one of them, their vertices are
-//!   rounded from places pushed apart along its normal, farther from round to round. So both sheets
-//!   of a wall move as a whole.
+//! - *Push.* Where the input has a pair on two sides of the plane of one of them, their vertices
+//!   are rounded from places pushed apart along its normal, farther from round to round. So both
+//!   sheets of a wall move as a whole.
 //! - *Try.* One vertex at a time moves to the grid point nearest to its place where fewer faces
 //!   around it cross others.
 //!

@@ -1,5 +1,5 @@
-//! The triangles of a file by its own numbers: before any vertex was rounded to `f32` or merged, and
-//! before any triangle was dropped.
+//! The triangles of a file by its own numbers: before any vertex was rounded to `f32` or merged,
+//! and before any triangle was dropped.
 //!
 //! Coordinates are those that the reader gives, in `f64`. What lies between them and the file (the
 //! text's decimals, transforms, another unit) is a margin, which the proofs add.

@@ -4,8 +4,8 @@
 //! file ─ read ─ RawMesh ─ repair ─ Mesh + RepairReport ─ require_closed_manifold ─ ready for hulls
 //! ```
 //!
-//! [`read`] takes PLY, OBJ, STL, OFF, glTF, 3MF and COLLADA. [`repair`] mends what can be mended without
-//! moving the surface and reports each mend with its place; it accepts any triangle soup.
+//! [`read`] takes PLY, OBJ, STL, OFF, glTF, 3MF and COLLADA. [`repair`] mends what can be mended
+//! without moving the surface and reports each mend with its place; it accepts any triangle soup.
 //! [`require_closed_manifold`] is the further demand of an outer hull. It is kept apart, because a
 //! distance index is content with a soup.
 //!

@@ -13,7 +13,8 @@
 //! - No component of unproved nesting has a box that meets its box: a component is turned with the
 //!   whole of its inside or not at all.
 //!
-//! If one of these is not proved, the component is in *doubt* and is not turned. So is one whose volume may be zero within rounding.
+//! If one of these is not proved, the component is in *doubt* and is not turned. So is one whose
+//! volume may be zero within rounding.
 //!
 //! Components that are open, one-sided or on a non-manifold edge have no inside.
 
@@ -127,8 +128,8 @@ impl Surroundings {
         let touching: Mutex<Vec<[u32; 2]>> = Mutex::default();
         let parts_of = |pair: [usize; 2]| pair.map(|t| parts.part[t]);
         let is_set = |flags: &[AtomicBool], part: u32| flags[part as usize].load(Relaxed);
-        // A pair whose parts are known to cross tells nothing new. So surfaces that overlap with all
-        // their faces take little time. Which pairs are left out changes no flag.
+        // A pair whose parts are known to cross tells nothing new. So surfaces that overlap with
+        // all their faces take little time. Which pairs are left out changes no flag.
         let tells_more = |pair: [usize; 2]| {
             let [a, b] = parts_of(pair);
             !(is_set(&crossing, a)
@@ -178,7 +179,8 @@ impl Surroundings {
                 let inner =
                     inner_points(corners_of(part)).find(|&p| !enclosures.touches(p, Some(i)));
                 let containers = inner.map(|p| enclosures.around(p, Some(i))).unwrap_or_default();
-                // A surface that crosses itself may have a point inside of which the parity is even.
+                // A surface that crosses itself may have a point inside of which the parity is
+                // even.
                 let is_unclear =
                     self_crossing.iter().any(|&other| other != number && holds(other, number));
                 Surrounding {

@@ -2,8 +2,9 @@
 
 use super::{MeshError, RawMesh};
 
-/// Rounds every place of a mesh's vertices to the nearest `f32` and turns −0.0 into 0.0, so that equal positions have
-/// equal bits. Returns the positions and [`Mesh::rounding`](super::Mesh::rounding).
+/// Rounds every place of a mesh's vertices to the nearest `f32` and turns −0.0 into 0.0, so that
+/// equal positions have equal bits. Returns the positions and
+/// [`Mesh::rounding`](super::Mesh::rounding).
 ///
 /// # Errors
 /// A coordinate beyond the largest `f32`; a mesh none of whose coordinates reaches the smallest

@@ -87,8 +87,8 @@ pub struct Node {
     pub tribox: Tribox,
     /// The tribox that is drawn: the same [simplified](Tribox::snapped) as asked for, larger by
     /// what vertices moved when they were rounded, and on a [grid](Tribox::on_grid) or the
-    /// [lattice](SplitOptions::lattice), so that every vertex is an f32. The proxies of a level hold
-    /// the input as it was before its vertices moved.
+    /// [lattice](SplitOptions::lattice), so that every vertex is an f32. The proxies of a level
+    /// hold the input as it was before its vertices moved.
     pub proxy: Tribox,
     /// Formula (10) of the paper for the proxy: how far it reaches beyond the convex hull of the
     /// part, input units, see [`Level::error`](super::Level::error).

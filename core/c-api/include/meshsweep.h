@@ -369,9 +369,9 @@ int32_t msw_coherent_closest_point(const msw_model *model, msw_coherent *coheren
  * point. Of the budget only `steps` matters.
  *
  * The side is never wrong. It is undecided if the mesh is not closed and consistently wound, where
- * the nearest triangle crosses another or lies inside another part of the surface (`meshsweep build`
- * says so), on the surface, next to walls thinner than the surface error and the rounding (some 1e-5
- * of the model's size), and next to slivers without a normal.
+ * the nearest triangle crosses another or lies inside another part of the surface (`meshsweep
+ * build` says so), on the surface, next to walls thinner than the surface error and the rounding
+ * (some 1e-5 of the model's size), and next to slivers without a normal.
  * Cost: one to three times that of msw_closest_point, up to four times more next to edges. */
 int32_t msw_signed_distance(const msw_model *model, const float point[3],
                             const msw_budget *budget,
@@ -382,8 +382,8 @@ int32_t msw_signed_distance(const msw_model *model, const float point[3],
  * closed: the side is that of the surface as a whole. Build --for closest,winding.
  *
  * The number is nearly 1 inside and nearly 0 outside, and between them in a hole. It is that of all
- * triangles of the input file, as wound there. Components that overlap or share walls are united, if
- * they are wound alike. In a part that is inside out the number is nearly -1. The search ends as
+ * triangles of the input file, as wound there. Components that overlap or share walls are united,
+ * if they are wound alike. In a component that is inside out the number is nearly -1. The search ends as
  * soon as the side is decided and the interval is no wider than budget->absolute, a pure number
  * here; budget->relative is ignored. The side is undecided within some ten surface errors of the
  * surface, where the number is 1/2, and below -1/2. Only in a closed mesh that is proved to face

@@ -41,10 +41,10 @@ impl Bvh<'_> {
     /// of leaves whose normal cone proves that they show their back (Galin & Akkouche 2005, 6.4).
     ///
     /// A triangle faces a viewpoint if its corners, in the order of the input file, run
-    /// counter-clockwise seen from there. Edge-on and degenerate triangles do not. No triangle that is left out faces the eye, as it is
-    /// stored. If a grid moved its vertices, the input's triangle may face the eye where it is seen
-    /// nearly edge-on. A triangle in the slice may show its back: one cone holds the normals of all
-    /// triangles of a leaf, up to eight.
+    /// counter-clockwise seen from there. Edge-on and degenerate triangles do not. No triangle that
+    /// is left out faces the eye, as it is stored. If a grid moved its vertices, the input's
+    /// triangle may face the eye where it is seen nearly edge-on. A triangle in the slice may show
+    /// its back: one cone holds the normals of all triangles of a leaf, up to eight.
     ///
     /// Cost: linear in the leaves, some fifteen operations for each fan. No scratch, no budget.
     ///

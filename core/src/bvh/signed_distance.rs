@@ -92,9 +92,9 @@ impl Bvh<'_> {
     ///
     /// The side is never wrong. It is undecided:
     /// - if the mesh is not closed and consistently wound ([`is_closed`](Bvh::is_closed));
-    /// - where the nearest triangle may be one that crosses another, lies inside another part of the
-    ///   surface, or belongs to a part that is inside out; if there are no other triangles, everywhere
-    ///   ([`has_sides`](Bvh::has_sides));
+    /// - where the nearest triangle may be one that crosses another, lies inside another part of
+    ///   the surface, or belongs to a part that is inside out; if there are no other triangles,
+    ///   everywhere ([`has_sides`](Bvh::has_sides));
     /// - if the distance is not clear of the surface error and rounding;
     /// - next to walls and gaps thinner than these;
     /// - next to slivers so flat that they have no certain normal;

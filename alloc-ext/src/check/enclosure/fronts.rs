@@ -177,8 +177,8 @@ fn root(parents: &mut [usize], mut face: usize) -> usize {
     face
 }
 
-/// Half lengths that are tried, as parts of the largest coordinate. Too long: the segment meets other
-/// faces, and no proof is found. Too short: rounding puts its end on the face.
+/// Half lengths that are tried, as parts of the largest coordinate. Too long: the segment meets
+/// other faces, and no proof is found. Too short: rounding puts its end on the face.
 const SAMPLE_PARTS: [f64; 2] = [1e-9, 1e-13];
 
 /// A point in front of a face, and the segment from there through the face to its back meets no

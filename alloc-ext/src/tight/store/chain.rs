@@ -27,8 +27,8 @@ pub struct ChainOptions {
     pub faces: Vec<usize>,
     /// The goal of the one hull to make, instead of numbers of faces.
     pub goal: Option<Goal>,
-    /// Distance that every hull keeps from the input's surface; see [`Options::margin`]. Answers about the
-    /// mesh do not depend on the margin.
+    /// Distance that every hull keeps from the input's surface; see [`Options::margin`]. Answers
+    /// about the mesh do not depend on the margin.
     pub margin: f64,
     /// How long to polish; see [`Options::effort`].
     pub effort: f64,

@@ -63,8 +63,8 @@ const fn is_origin(x: i32) -> bool {
 
 impl<'a> Bvh<'a> {
     /// Opens the box tree of a blob where it lies and checks all of it: CRCs, every link, every
-    /// coordinate. Any bytes are safe to open. Other sections are not looked at, so the linker drops
-    /// their checks.
+    /// coordinate. Any bytes are safe to open. Other sections are not looked at, so the linker
+    /// drops their checks.
     ///
     /// Cost: linear in the tree, no allocation; once per start. Alignment of `bytes` does not
     /// matter.

@@ -40,15 +40,15 @@ pub const CONE_BYTES: usize = 4;
 pub const MOMENTS_BYTES: usize = 60;
 /// Tree flag: triangles run through every edge as often in one direction as in the other.
 pub const BVH_CLOSED: u8 = 1;
-/// Tree flag: no triangle tells a side. The builder did not prove of the stored surface that a front
-/// looks at places of winding number 0 only.
+/// Tree flag: no triangle tells a side. The builder did not prove of the stored surface that a
+/// front looks at places of winding number 0 only.
 pub const BVH_SIDES_LOST: u8 = 4;
-/// Tree flag: sides are those of triangles turned: of those that a section names, or of all if there
-/// is no such section. A reader that does not know it must refuse
-/// the tree, or the sides of those triangles would be wrong.
+/// Tree flag: sides are those of triangles turned: of those that a section names, or of all if
+/// there is no such section. A reader that does not know it must refuse the tree, or the sides of
+/// those triangles would be wrong.
 pub const BVH_TURNED: u8 = 8;
-/// Tree flag: there is a section of triangles that tell no side. A reader that does not know it must
-/// refuse the tree, or sides by those triangles could be wrong.
+/// Tree flag: there is a section of triangles that tell no side. A reader that does not know it
+/// must refuse the tree, or sides by those triangles could be wrong.
 pub const BVH_SIDELESS: u8 = 16;
 /// Tree flag: leaf vertices are f32 in grid units instead of u16 on the grid.
 pub const BVH_F32: u8 = 2;

@@ -237,17 +237,16 @@ impl Bvh<'_> {
         Ok(self)
     }
 
-    /// Whether triangles run through every edge as often in one direction as in the other. In a tree
-    /// with winding numbers they are all triangles of the input file, as wound there; else those of
-    /// the mesh as the builder wound it to tell sides.
+    /// Whether triangles run through every edge as often in one direction as in the other, turned
+    /// ones against their winding.
     pub const fn is_closed(&self) -> bool {
         self.header.is_closed()
     }
 
     /// Whether [`signed_distance`](Bvh::signed_distance) can decide sides. False for an open mesh,
     /// and for a closed one each triangle of which crosses another, lies inside another part or
-    /// faces inwards. False as well if it has winding numbers and the builder had to turn or drop
-    /// triangles to make it closed. [Winding numbers](Bvh::signed_by_winding) decide the sides of
+    /// faces inwards. False as well if the tree has winding numbers and repair did more than turn
+    /// triangles. [Winding numbers](Bvh::signed_by_winding) decide the sides of
     /// such a mesh.
     pub const fn has_sides(&self) -> bool {
         self.header.has_sides()

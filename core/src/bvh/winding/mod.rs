@@ -58,9 +58,9 @@ impl Bvh<'_> {
     /// The number is that of all triangles of the input file, as they are wound there. It is
     /// positive where the surface has its back to the point. A triangle that occurs twice counts
     /// twice, and one that occurs in both directions cancels: so solids that share walls are one
-    /// solid. In a component that is inside out the number is about −1, and no side is proved. If the
-    /// builder proved that the whole mesh is inside out, a number below −½ is `Inside`. Components
-    /// that overlap and are wound against each other cancel.
+    /// solid. In a component that is inside out the number is about −1, and no side is proved. If
+    /// the builder proved that the whole mesh is inside out, a number below −½ is `Inside`.
+    /// Components that overlap and are wound against each other cancel.
     ///
     /// The search ends as soon as the side is decided and the interval is no wider than
     /// `budget.absolute`, a pure number here; 0, as in [`Budget::EXACT`], asks for the side alone.

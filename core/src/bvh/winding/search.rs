@@ -110,8 +110,8 @@ impl Search<'_> {
         Ok((number, Ended::Resolution))
     }
 
-    /// The number of the solid that the mesh bounds: in one that faces inwards as a whole the file's
-    /// number is −1.
+    /// The number of the solid that the mesh bounds: in one that faces inwards as a whole the
+    /// file's number is −1.
     pub(super) fn of_solid(&self, number: Interval) -> Interval {
         match self.tree.turned().are_all() {
             true => Interval::new(-number.upper, -number.lower),
