@@ -7,17 +7,17 @@
  * libmeshsweep.a. Of the functions for this blob, those that are not listed take less
  * than 64.
  *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
- *   msw_open                        2752 / 2496    2880 / 2560    2752 / 2496    2688 / 2496
- *   msw_open_trusted                1216 / 1024    1280 / 1024    1216 / 1024     1152 / 960
+ *   msw_open                        2816 / 2560    2944 / 2624    2816 / 2560    2752 / 2560
+ *   msw_open_trusted                1280 / 1088    1280 / 1088    1280 / 1088     1152 / 960
  *   msw_closest_point               1216 / 1216    2112 / 2048    1216 / 1216    1856 / 1728
  *   msw_closest_point_from          1280 / 1216    2112 / 2112    1280 / 1216    1920 / 1792
  *   msw_coherent_closest_point      2112 / 2112    2688 / 2624    2112 / 2112    2432 / 2304
  *   msw_within                      1792 / 1664    2688 / 2624    1792 / 1664    2432 / 2240
  *   msw_nearest                     1792 / 1792    2624 / 2688    1792 / 1792    2368 / 2304
- *   msw_signed_distance             3072 / 3264    4032 / 4096    3072 / 3264    3712 / 3712
+ *   msw_signed_distance             3136 / 3328    4032 / 4160    3136 / 3328    3712 / 3776
  *   msw_first_hit                   1600 / 1216    1920 / 1728    1600 / 1216    1664 / 1536
  *   msw_overlap                     7360 / 6464    7104 / 6464    7360 / 6464    6656 / 6080
- *   msw_models_within             10880 / 12224  10752 / 11904  10880 / 12224   9920 / 11200
+ *   msw_models_within             10944 / 12352  10816 / 11968  10944 / 12352   9984 / 11264
  *   msw_first_contact              10240 / 9792   10240 / 9472   10240 / 9792    9856 / 9088
  *   msw_checksum                     1088 / 896     1088 / 960     1088 / 896      960 / 832
  */
