@@ -26,9 +26,9 @@ const TRIANGLES: &str = "triangle is the index of the triangle in the mesh file,
     a polygon counts as the triangles that it is split into";
 
 pub const BUILD: &str = "Values of --for, and what they cost:\n  \
-    closest   closest, within, nearest, field; for a closed mesh also signed: 13 to 14 bytes a \
+    closest   closest, within, nearest, field; for a closed mesh also signed: 12 to 13 bytes a \
     triangle\n  \
-    segment   segment, overlap, clear, clearance: 12 bytes a triangle; with closest 15\n  \
+    segment   segment, overlap, clear, clearance: 12 bytes a triangle; with closest 13 to 15\n  \
     cull      cull: half a byte a triangle more\n  \
     winding   winding, and signed of any mesh, open or not: 1 to 2 bytes a triangle more\n  \
     hull      hull --level, refine, cut, and closest, segment and overlap with --engine hull: \
@@ -183,10 +183,11 @@ pub fn signed() -> String {
          steps, out of scratch memory, the query ended early. lower and upper are the bounds of \
          the signed distance, negative inside. If the side is undecided, they are -upper and \
          upper of the distance; {TRIANGLES}.\n\n\
-         The side is that of the nearest triangle. Where the nearest triangle crosses another one \
-         or lies inside another part of the mesh, it tells no side, and the side is undecided. With \
-         --for closest,winding the side is that of the winding number, of any mesh, open or not, \
-         and a point takes longer.\n\n\
+         The side is that of the nearest triangle of a closed mesh. Where the nearest triangle \
+         crosses another one or lies inside another part of the mesh, it tells no side, and the \
+         side is undecided. With --for closest,winding it is that of the winding number there, and \
+         everywhere in an open mesh; such a point takes longer. Name segment too to keep the \
+         questions about segments.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep signed part.msw 10,4.5,7\n  \
@@ -201,8 +202,8 @@ pub fn winding() -> String {
          make it another number: in a hole it falls from nearly 1 to nearly 0, and where two \
          parts overlap it is 2. lower and upper contain it. The column 'side' says inside, which \
          proves a number above 1/2; outside, which proves one between -1/2 and 1/2; or undecided, \
-         and then 'reason' says why: rounding, also of the vertices to the grid; out of steps, out \
-         of scratch memory. The number is that of all triangles of the mesh file, as they are wound \
+         and then 'reason' says why: rounding, also of the vertices to the grid, or a number below \
+         -1/2; out of steps, out of scratch memory. The number is that of all triangles of the mesh file, as they are wound \
          there: one that occurs twice counts twice, and one that occurs in both directions \
          cancels, so parts that share walls are one part. In a part that is inside out the number \
          is nearly -1, and the side is undecided; in a closed mesh that is proved to face inwards \
