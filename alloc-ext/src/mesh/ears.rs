@@ -168,7 +168,7 @@ impl<'a> Clipping<'a> {
             if self.turns_back(corner) {
                 let before = self.previous[corner];
                 self.cut(corner);
-                // What is left of the antenna ends there.
+                // The rest of the antenna ends there.
                 (corner, passed) = (before, 0);
             } else {
                 corner = self.next[corner];

@@ -35,7 +35,7 @@ pub(super) struct Body<'a, L> {
     pub(super) words: Words<'a, L>,
     /// The text does not end with a line's end.
     pub(super) may_be_cut: bool,
-    /// What is left of a binary file.
+    /// The unread bytes of a binary file.
     pub(super) rest: &'a [u8],
     /// Lines of more values than the element has, and the first of them.
     pub(super) long_lines: (usize, usize),
