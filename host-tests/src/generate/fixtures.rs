@@ -56,6 +56,16 @@ pub fn files() -> Vec<(String, Vec<u8>)> {
          | `bend.msw` | the hull hierarchy of `torus(2.0, 0.75, 16, 8)` and a key frame, bent |\n\
          | `answers.txt` | a hash of the answers to each kind of query: other bits are noticed |\n\
          | `part.svg` | the picture of `README.md`, by `cargo xtask picture` |\n\
+         \n## kept/\n\n\
+         Box trees of an earlier packer. No command makes them any more. They pin the kernels when the\n\
+         builder packs leaves in another way: about these blobs, answers must keep their bits.\n\n\
+         | file | holds |\n| --- | --- |\n\
+         | `bracket_tree.msw` | the box tree of `bracket.stl` |\n\
+         | `groove.msw` | the box tree of `groove.obj`, with all sections |\n\
+         | `single_tree.msw` | the box tree of `torus(2.0, 0.75, 16, 10)`, vertices as f32 |\n\
+         | `soup_tree.msw` | the box tree of a torus with holes, beside needles and triangles without area, with normal cones |\n\
+         | `torus_tree.msw` | the box tree of `torus(2.0, 0.75, 20, 12)` |\n\
+         | `answers.txt` | for each kind of query a hash of the answers, and one of the answers with their work counters |\n\
          \n## evil/\n\n\
          Files that must be refused, by the named variant of `MeshError`, or mended. \"No solid\": `repair`\n\
          takes the file, and `require_closed_manifold` refuses it.\n\n\

@@ -7,6 +7,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fold {
     state: u64,
+    takes_work: bool,
 }
 
 impl Fold {
@@ -16,7 +17,13 @@ impl Fold {
     /// The hash of nothing.
     #[must_use]
     pub const fn new() -> Self {
-        Self { state: Self::OFFSET }
+        Self { state: Self::OFFSET, takes_work: true }
+    }
+
+    /// The hash of nothing, which passes over work counters unless it `takes_work`.
+    #[must_use]
+    pub const fn with_work(takes_work: bool) -> Self {
+        Self { takes_work, ..Self::new() }
     }
 
     /// Folds one byte.
@@ -28,6 +35,13 @@ impl Fold {
     pub fn word(&mut self, word: u32) {
         for byte in word.to_le_bytes() {
             self.byte(byte);
+        }
+    }
+
+    /// Folds a work counter, if they are taken.
+    pub fn work(&mut self, count: u32) {
+        if self.takes_work {
+            self.word(count);
         }
     }
 
@@ -82,6 +96,18 @@ mod tests {
         assert_eq!(Fold::of_bytes(b""), 0xcbf2_9ce4_8422_2325);
         assert_eq!(Fold::of_bytes(b"a"), 0xaf63_dc4c_8601_ec8c);
         assert_eq!(Fold::of_bytes(b"foobar"), 0x8594_4171_f739_67e8);
+    }
+
+    #[test]
+    fn work_counts_where_it_is_taken() {
+        let of = |takes_work: bool, count: u32| {
+            let mut fold = Fold::with_work(takes_work);
+            fold.word(7);
+            fold.work(count);
+            fold.finish()
+        };
+        assert_ne!(of(true, 1), of(true, 2));
+        assert_eq!(of(false, 1), of(false, 2));
     }
 
     #[test]

@@ -176,9 +176,10 @@ fn number(fold: &mut Fold, number: Option<u32>) {
 }
 
 fn how(fold: &mut Fold, work: Work, ended: Ended) {
-    for word in [work.nodes, work.triangles, work.exact, work.splits, ended as u32] {
-        fold.word(word);
+    for count in [work.nodes, work.triangles, work.exact, work.splits] {
+        fold.work(count);
     }
+    fold.word(ended as u32);
 }
 
 /// The work of a search with a verdict, and why there is none, by the number of the reason.
