@@ -12,9 +12,15 @@
 //! Keys never fall from parent to child. So the leaves that can change an answer are the same in
 //! every order of visits.
 
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod boards;
+
+pub(crate) use super::node::OpenedNode;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use super::node::Pushed;
+use super::node::{CHILD_MASK, NO_CHILD};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use super::node::places_of_wanted;
-use super::node::{CHILD_MASK, NO_CHILD, WIDE, least_key};
+use super::node::{WIDE, least_key, places_of_wanted};
 use crate::bvh::format::{Bvh, BvhChild, FanLeaf};
 use crate::geom::fan::WIDTH;
 use crate::num::lesser;
@@ -34,17 +40,21 @@ pub(crate) trait NodeQuery {
     /// child in the low bits. Children beyond the limit may have any greater key. `None` says that
     /// the tree is unchecked.
     fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode, keys: &mut [u32; WIDTH]) -> Option<()>;
-}
 
-/// A node whose children get keys.
-pub(crate) struct OpenedNode {
-    pub(crate) node: u32,
-    /// Children.
-    pub(crate) count: u32,
-    /// Lower bound of everything below the node, in the unit of keys.
-    pub(crate) bound: u32,
-    /// The visitor's limit, in the unit of keys.
-    pub(crate) limit: u32,
+    /// Writes the children with keys up to the limit, except the nearest, to `slots`. A query that
+    /// knows them without the keys of the others does so itself.
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[inline(always)]
+    fn push(
+        &self,
+        tree: &Bvh<'_>,
+        opened: &OpenedNode,
+        slots: &mut [ScratchEntry; WIDTH],
+    ) -> Option<Pushed> {
+        let mut keys = [NO_CHILD; WIDTH];
+        self.keys(tree, opened, &mut keys)?;
+        Some(opened.push_by_keys(&keys, slots))
+    }
 }
 
 /// A leaf that a descent has reached.
@@ -102,6 +112,7 @@ struct Stack<'a> {
     dropped: u32,
 }
 
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 impl Stack<'_> {
     /// Pushes the children of `node` within the limit, except the nearest. The nearest one's key.
     #[inline(always)]
@@ -135,7 +146,9 @@ impl Stack<'_> {
             }
         }
     }
+}
 
+impl Stack<'_> {
     /// Least key of everything that is left, or that did not fit.
     #[cold]
     fn least(&self) -> u32 {
@@ -160,27 +173,6 @@ fn put_wanted(
         slots[place] = ScratchEntry::of_words([key, node]);
     }
     wanted
-}
-
-/// Writes the children with keys up to `limit`, except `nearest`, and tells how many they are.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-#[inline(always)]
-fn put_wanted(
-    slots: &mut [ScratchEntry; WIDTH],
-    node: u32,
-    keys: &[u32; WIDTH],
-    [nearest, limit]: [u32; 2],
-) -> usize {
-    let mut free = slots.iter_mut();
-    for &key in keys {
-        if key <= limit
-            && key != nearest
-            && let Some(slot) = free.next()
-        {
-            *slot = ScratchEntry::of_words([key, node]);
-        }
-    }
-    WIDTH - free.len()
 }
 
 /// How many nodes a descent opens at most.
@@ -277,6 +269,11 @@ struct Walk<'a> {
 /// A node or leaf, with its entry.
 type Place = (ScratchEntry, BvhChild);
 
+#[inline(always)]
+fn child_of(tree: &Bvh<'_>, entry: ScratchEntry) -> Option<BvhChild> {
+    tree.child(entry.node(), entry.small_word() & CHILD_MASK)
+}
+
 impl<'s> Walk<'s> {
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
@@ -358,11 +355,16 @@ impl<'s> Walk<'s> {
     ) -> Option<Option<Place>> {
         let links = tree.links(node)?;
         let opened = OpenedNode { node, count: links.count, bound, limit };
-        let mut keys = [NO_CHILD; WIDTH];
-        query.keys(tree, &opened, &mut keys)?;
+        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        let nearest = {
+            let mut keys = [NO_CHILD; WIDTH];
+            query.keys(tree, &opened, &mut keys)?;
+            self.stack.push_children(node, &keys, links.count, limit)
+        };
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        let nearest = self.stack.push_children(query, tree, &opened)?;
         work.splits += 1;
         work.nodes += links.count;
-        let nearest = self.stack.push_children(node, &keys, links.count, limit);
         if nearest > limit {
             return Some(None);
         }
@@ -377,6 +379,13 @@ impl<'s> Walk<'s> {
     /// Takes an entry with a key up to `most` from the stack. `Some(None)`: there is none.
     #[inline(always)]
     fn pop(&mut self, tree: &Bvh<'_>, most: u32, work: &Work) -> Option<Option<Place>> {
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        if !self.least_first {
+            return Some(match self.stack.pop_up_to(most)? {
+                Some(entry) => Some((entry, child_of(tree, entry)?)),
+                None => None,
+            });
+        }
         let mut entry;
         loop {
             let Some(top) = self.stack.used.checked_sub(1) else { return Some(None) };
@@ -391,7 +400,7 @@ impl<'s> Walk<'s> {
                 self.stack.used = 0;
             }
         }
-        Some(Some((entry, tree.child(entry.node(), entry.small_word() & CHILD_MASK)?)))
+        Some(Some((entry, child_of(tree, entry)?)))
     }
 
     /// How a descent without entries up to `most` ended.

@@ -2,6 +2,8 @@
 
 use super::descent::{NodeQuery, OpenedNode};
 use super::node::{CHILD_MASK, KeyPoint, NO_CHILD, box_distances};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use super::node::{Pushed, push_boxes};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use crate::bvh::format::LanePoint;
 use crate::bvh::format::{Bvh, Units};
@@ -208,5 +210,16 @@ impl NodeQuery for PointQuery {
     #[inline(always)]
     fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode, keys: &mut [u32; WIDTH]) -> Option<()> {
         self.keys_of(tree, opened, keys)
+    }
+
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[inline(always)]
+    fn push(
+        &self,
+        tree: &Bvh<'_>,
+        opened: &OpenedNode,
+        slots: &mut [ScratchEntry; WIDTH],
+    ) -> Option<Pushed> {
+        Some(push_boxes(tree.frame(opened.node)?, &self.key_point, opened, slots))
     }
 }

@@ -5,8 +5,12 @@
 //! keys.
 
 use super::frame::KeyPoint;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use super::opened_node::{OpenedNode, Pushed};
 use crate::bvh::format::layout::FRAME_BYTES;
 use crate::geom::fan::WIDTH;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::query::ScratchEntry;
 
 /// Keys of a node's children: half the squared distances from the point, in squares of key units.
 /// No key is below the parent's, and the low three bits hold the number of the child. Keys from
@@ -25,4 +29,16 @@ pub fn box_distances(
     super::box_lanes::keys(record, p, count, parent, keys);
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
     super::two_in_word::keys(record, p, count, parent, keys);
+}
+
+/// Pushes the wanted children of a node.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[inline(always)]
+pub(crate) fn push_boxes(
+    record: &[u8; FRAME_BYTES],
+    p: &KeyPoint,
+    opened: &OpenedNode,
+    slots: &mut [ScratchEntry; WIDTH],
+) -> Pushed {
+    super::two_in_word::push(record, p, opened, slots)
 }

@@ -20,6 +20,7 @@
 //!
 //! | file | owns |
 //! | --- | --- |
+//! | `opened_node` | [`OpenedNode`], whose children are tested; the wanted ones of them |
 //! | `keys` | a child's bound with its number in the low bits; the target's vector flag, least key, places on the stack |
 //! | `frame` | [`KeyPoint`], a point that is prepared for frames; units and rounding constants of the point test |
 //! | `grid_line` | [`GridLine`], a segment's line in integers, for targets without an FPU |
@@ -38,15 +39,21 @@ mod box_lanes;
 mod frame;
 mod grid_line;
 mod keys;
+mod opened_node;
 #[cfg(test)]
 mod tests;
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 mod two_in_word;
 
 pub use box_distances::box_distances;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+pub(crate) use box_distances::push_boxes;
 pub use box_entries::{SlabRay, box_entries};
 pub use frame::KeyPoint;
 pub use grid_line::GridLine;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use keys::places_of_wanted;
 pub use keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory, least_key};
+pub(crate) use opened_node::OpenedNode;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+pub(crate) use opened_node::Pushed;

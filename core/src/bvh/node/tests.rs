@@ -2,11 +2,14 @@
 
 use super::box_entries::SlabRay;
 use super::frame::KeyPoint;
-use super::keys::NO_CHILD;
+use super::keys::{CHILD_MASK, NO_CHILD};
+use super::opened_node::OpenedNode;
 use super::{box_entries, box_lanes, two_in_word};
 use crate::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES, ROW_BITS, boxes};
 use crate::geom::fan::WIDTH;
+use crate::query::ScratchEntry;
 use glam::Vec3;
+use heapless::Vec;
 
 /// SplitMix64.
 struct Noise(u64);
@@ -99,6 +102,44 @@ fn distances_have_the_same_bits() {
             }
         }
     }
+}
+
+#[test]
+fn exactly_the_children_within_the_limit_are_pushed_in_order() {
+    let mut noise = Noise(4);
+    let (mut wanted, mut unwanted) = (0, 0);
+    for _ in 0..100_000 {
+        let count = 1 + noise.below(8) as u32;
+        let record = random_frame(&mut noise, count as usize);
+        let size = 2f32.powi(noise.below(24) as i32);
+        let p = Vec3::from_array(noise.vector(size)) + Vec3::splat(30_000.0);
+        let point = KeyPoint::new(p, (p.abs().max_element() + 65_536.0).max(65_535.0));
+        let mut keys = [0; WIDTH];
+        box_lanes::keys(&record, &point, count, 0, &mut keys);
+        let middle = keys[noise.below(u64::from(count)) as usize];
+        for bound in [0, middle & !CHILD_MASK] {
+            box_lanes::keys(&record, &point, count, bound, &mut keys);
+            for limit in [bound, middle, middle + 64, NO_CHILD - 1] {
+                let limit = limit | CHILD_MASK;
+                let opened = OpenedNode { node: 5, count, bound, limit };
+                let mut slots = [ScratchEntry::EMPTY; WIDTH];
+                let pushed = two_in_word::push(&record, &point, &opened, &mut slots);
+                let mut within: Vec<u32, WIDTH> =
+                    keys.into_iter().filter(|&key| key <= limit).collect();
+                unwanted += count as usize - within.len();
+                wanted += within.len();
+                let nearest = within.iter().copied().min();
+                within.retain(|&key| Some(key) != nearest);
+                assert_eq!(pushed.nearest, nearest.unwrap_or(NO_CHILD), "{point:?}, {record:?}");
+                let entries = &slots[..pushed.count];
+                assert!(entries.iter().all(|entry| entry.node() == 5));
+                let entries: Vec<u32, WIDTH> =
+                    entries.iter().map(|entry| entry.small_word()).collect();
+                assert_eq!(entries, within, "{point:?}, {count} of {record:?}");
+            }
+        }
+    }
+    assert!(wanted > 100_000 && unwanted > 100_000, "{wanted} {unwanted}");
 }
 
 /// The distance of a point from a child's box along one axis, in key units, as the proof has it.

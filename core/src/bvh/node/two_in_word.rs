@@ -1,34 +1,38 @@
 //! A point against eight boxes on processors without vector registers: two children in a 32-bit
 //! word, one in each half.
 //!
-//! A plane's place has fifteen bits. The sixteenth is set before a subtraction, and stays set where
-//! the difference is not negative: no half borrows from the other.
+//! A plane's place is its byte times the step, less the point: one multiply-add for two children.
+//! Places have fifteen bits. Where a side is not certain, the sixteenth is set before the
+//! subtraction, and stays set where the difference is not negative: no half borrows from the other.
 
 use super::axis_place::AxisPlace;
-use super::frame::{KeyPoint, MAX_DISTANCE};
-use super::keys::{CHILD_MASK, NO_CHILD};
+use super::frame::{KeyPoint, MAX_DISTANCE, PRODUCT_BITS, ROUND_UP};
+use super::keys::CHILD_MASK;
+use super::opened_node::{OpenedNode, Pushed, Pusher};
 use crate::bvh::format::layout::{FRAME_BYTES, boxes};
 use crate::geom::fan::WIDTH;
+use crate::num::greater;
+use crate::query::ScratchEntry;
 
 /// The highest bit of both halves.
 const HIGH: u32 = 0x8000_8000;
 
-/// A word with a number in both halves. A negative number borrows from the upper half, and the sum
-/// with a greater number pays it back.
-#[inline(always)]
-fn splat_halves(x: i32) -> u32 {
-    x.wrapping_mul(0x0001_0001).cast_unsigned()
-}
+/// Bytes 0 and 2 of a word, each in a half.
+const BYTES: u32 = 0x00FF_00FF;
+
+/// Words of four planes in a frame.
+const PLANE_WORDS: usize = boxes::FRAME_ROWS / 4;
+
+/// Two words of the first axis's low planes, two of its high ones, and so on.
+type PlaneWords = [[u8; 4]; PLANE_WORDS];
 
 /// The planes of one axis, less the point.
 #[derive(Clone, Copy)]
 struct AxisPlanes {
-    shift: u32,
-    /// The bits of a place in both halves.
-    places: u32,
-    /// Added to places: [`HIGH`] minus the point's place, for the low and the high planes. If the
-    /// point lies before or behind all children, only that side is used and no borrow bit is
-    /// needed.
+    /// Key units in a step, up to 128.
+    step: u32,
+    /// Added to places, for the low and the high planes: minus the point's place, and [`HIGH`] if
+    /// both sides count. The first serves if only one side does.
     less_point: [u32; 2],
     side: Side,
 }
@@ -43,37 +47,32 @@ enum Side {
 }
 
 impl AxisPlanes {
-    const NONE: AxisPlanes =
-        AxisPlanes { shift: 0, places: 0, less_point: [0; 2], side: Side::Within };
+    const NONE: AxisPlanes = AxisPlanes { step: 0, less_point: [0; 2], side: Side::Within };
 
-    /// A call, because three copies would not fit the registers.
-    #[inline(never)]
-    fn set(&mut self, row: &[[u8; 2]; 3], offset: &[i32; 3], exponent: u8, unit_exponent: u32) {
-        let AxisPlace { from, shift } = AxisPlace::of(row, *offset, exponent, unit_exponent);
-        let less_point = from.map(|from| {
+    /// `from` as [`AxisPlace::from`] has it, but that it may be below its least where it is
+    /// positive on one side.
+    #[inline(always)]
+    fn new([first, last]: [i32; 2], step: u32, least: i32) -> AxisPlanes {
+        if first > 0 && last > 0 {
             // No plane is beyond the greatest distance, so a greater number would say no more.
-            HIGH.wrapping_sub(splat_halves(if from < MAX_DISTANCE { from } else { MAX_DISTANCE }))
-        });
-        let places = splat_halves(0xFF00 >> shift);
-        let [first, last] = from;
-        let (side, less_point) = if first <= 0 {
-            (Side::Before, [0u32.wrapping_sub(splat_halves(first)), 0])
-        } else if last <= 0 {
-            (Side::Behind, [0, 0u32.wrapping_sub(splat_halves(last))])
-        } else {
-            (Side::Within, less_point)
-        };
-        *self = AxisPlanes { shift, places, less_point, side };
+            let less_point = [first, last].map(|from| {
+                let less = greater(1, (1 << 15) - from).cast_unsigned();
+                less | less << 16
+            });
+            return AxisPlanes { step, less_point, side: Side::Within };
+        }
+        let (from, side) = if first <= 0 { (first, Side::Before) } else { (last, Side::Behind) };
+        let less_point = greater(from, least).wrapping_neg().cast_unsigned();
+        AxisPlanes { step, less_point: [less_point | less_point << 16, 0], side }
     }
 
-    /// The planes less the point. `bytes` are the upper ones of each half.
+    /// The planes less the point. `bytes` has one in each half.
     #[inline(always)]
     fn differences(&self, bytes: u32, less_point: u32) -> u32 {
-        (bytes >> (self.shift & 15) & self.places).wrapping_add(less_point)
+        (bytes & BYTES).wrapping_mul(self.step).wrapping_add(less_point)
     }
 
-    /// The differences that are not negative; the others are 0. `bytes` are the upper ones of each
-    /// half.
+    /// The differences that are not negative; the others are 0.
     #[inline(always)]
     fn above_zero(&self, bytes: u32, less_point: u32) -> u32 {
         let difference = self.differences(bytes, less_point);
@@ -82,48 +81,128 @@ impl AxisPlanes {
     }
 }
 
-/// Adds the squares of both halves.
-#[inline(always)]
-fn add_squares(sums: &mut [u32; 2], halves: u32) {
-    let (low, high) = (halves & 0xFFFF, halves >> 16);
-    sums[0] = sums[0].wrapping_add(low.wrapping_mul(low));
-    sums[1] = sums[1].wrapping_add(high.wrapping_mul(high));
+/// Squared distances of four children from the point, in squares of key units. `words` begins with
+/// their low planes of the first axis. A call, for in the caller the loop would not fit the
+/// registers.
+#[inline(never)]
+fn squares_of_four(
+    words: &[[u8; 4]; PLANE_WORDS - 1],
+    axes: &[AxisPlanes; 3],
+    squares: &mut [u32; 4],
+) {
+    let [mut a, mut b, mut c, mut d] = [0u32; 4];
+    for (k, axis) in axes.iter().enumerate() {
+        let word = |at: usize| u32::from_le_bytes(words[4 * k + at]);
+        let [below, beyond] = axis.less_point;
+        let (even, odd);
+        if axis.side == Side::Within {
+            let (low, high) = (word(0), word(2));
+            // Of a box whose planes are in order at most one of both is above 0.
+            even = axis.above_zero(low, below) | axis.above_zero(high, beyond);
+            odd = axis.above_zero(low >> 8, below) | axis.above_zero(high >> 8, beyond);
+        } else {
+            let word = if axis.side == Side::Before { word(0) } else { word(2) };
+            even = axis.differences(word, below);
+            odd = axis.differences(word >> 8, below);
+        }
+        a = plus_square(a, i32::from(even as i16));
+        b = plus_square(b, i32::from(odd as i16));
+        c = plus_square(c, even.cast_signed() >> 16);
+        d = plus_square(d, odd.cast_signed() >> 16);
+    }
+    *squares = [a, b, c, d];
 }
 
-/// Keys of four children. `planes` begins at their first planes of the first axis. Not inlined:
-/// the loop over the axes, unrolled, would not fit the registers.
+#[inline(always)]
+fn plus_square(sum: u32, x: i32) -> u32 {
+    sum.wrapping_add(x.wrapping_mul(x).cast_unsigned())
+}
+
+/// The axes of a frame none of whose steps is finer than a key unit. Then a plane's place is a
+/// whole number of key units.
+#[inline(always)]
+fn coarse_axes(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> Option<[AxisPlanes; 3]> {
+    let unit = p.unit_exponent();
+    let exponents = [0, 1, 2].map(|k| u32::from(record[boxes::FRAME_EXPONENTS + k]));
+    if exponents[0] < unit || exponents[1] < unit || exponents[2] < unit {
+        return None;
+    }
+    let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
+    let (rows, _) = entries.as_chunks::<3>();
+    let [x, y, z] = p.relative_to_origin(record);
+    // As `AxisPlace::of` has it, with the step taken out of the sum that is rounded.
+    let axis = |k: usize| {
+        let [a, b, c] = rows[k];
+        let term = |pair: [u8; 2], x: i32| i32::from(i16::from_le_bytes(pair)).wrapping_mul(x);
+        let at = term(a, x).wrapping_add(term(b, y)).wrapping_add(term(c, z));
+        let half = 128 << (exponents[k].wrapping_sub(unit) & 7);
+        let step = half >> 7;
+        // ⌊(ROUND_UP − at) / 2^PRODUCT_BITS⌋ is minus the other quotient.
+        let down = at.wrapping_sub(ROUND_UP - ((1 << PRODUCT_BITS) - 1));
+        let up = down.wrapping_add(2 * ROUND_UP - ((1 << PRODUCT_BITS) - 1));
+        let first = (up >> PRODUCT_BITS).wrapping_add(half);
+        let last = (half - step).wrapping_sub(down >> PRODUCT_BITS);
+        AxisPlanes::new([first, last], step.cast_unsigned(), 2 * half - step - MAX_DISTANCE)
+    };
+    Some([axis(0), axis(1), axis(2)])
+}
+
+/// The axes of any frame, and its planes in steps that are no finer than a key unit.
+#[cold]
 #[inline(never)]
-fn keys_of_four(planes: &[u8], axes: &[AxisPlanes], parent: u32, child: u32, keys: &mut [u32; 4]) {
-    let (mut even, mut odd) = ([0u32; 2], [0u32; 2]);
-    let mut rest = planes;
-    for axis in axes {
-        let Some((row, next)) = rest.split_first_chunk::<{ 2 * WIDTH }>() else { break };
-        let (words, _) = row.as_chunks::<4>();
-        let (first, last) = (u32::from_le_bytes(words[0]), u32::from_le_bytes(words[2]));
-        let [below, beyond] = axis.less_point;
-        // `first << 8` brings bytes 0 and 2 to the upper bytes of the halves.
-        let [of_even, of_odd] = match axis.side {
-            Side::Before => [axis.differences(first << 8, below), axis.differences(first, below)],
-            Side::Behind => [axis.differences(last << 8, beyond), axis.differences(last, beyond)],
-            // Of a box whose planes are in order at most one of both is above 0.
-            Side::Within => [
-                axis.above_zero(first << 8, below) | axis.above_zero(last << 8, beyond),
-                axis.above_zero(first, below) | axis.above_zero(last, beyond),
-            ],
-        };
-        add_squares(&mut even, of_even);
-        add_squares(&mut odd, of_odd);
-        rest = next;
+fn fine_axes(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> ([AxisPlanes; 3], PlaneWords) {
+    let (mut axes, mut words) = ([AxisPlanes::NONE; 3], [[0; 4]; PLANE_WORDS]);
+    let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
+    let (rows, _) = entries.as_chunks::<3>();
+    let (planes, _) = record.as_chunks::<{ 2 * WIDTH }>();
+    let (cut, _) = words.as_flattened_mut().as_chunks_mut::<{ 2 * WIDTH }>();
+    let offset = p.relative_to_origin(record);
+    let each = rows.iter().zip(&record[boxes::FRAME_EXPONENTS..]).zip(planes);
+    for ((axis, cut), ((row, exponent), planes)) in axes.iter_mut().zip(cut).zip(each) {
+        let AxisPlace { from, shift } = AxisPlace::of(row, offset, *exponent, p.unit_exponent());
+        // A byte stands for the high one of sixteen bits. What is not cut from it is its step.
+        let step = 1 << 8u32.saturating_sub(shift);
+        *axis = AxisPlanes::new(from, step, (0xFF00 >> shift) - MAX_DISTANCE);
+        for (cut, plane) in cut.iter_mut().zip(planes) {
+            *cut = plane >> (shift.saturating_sub(8) & 7);
+        }
     }
-    let sums = [even[0], odd[0], even[1], odd[1]];
-    for ((slot, sum), child) in keys.iter_mut().zip(sums).zip(child..) {
-        let half = sum >> 1;
-        *slot = (if half > parent { half } else { parent }) & !CHILD_MASK | child;
+    (axes, words)
+}
+
+/// Squared distances of the children from the point, in squares of key units.
+#[inline(always)]
+fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH] {
+    let mut squares = [u32::MAX; WIDTH];
+    let fine;
+    let (axes, words): (_, &[[u8; 4]]) = match coarse_axes(record, p) {
+        Some(axes) => (axes, record.as_chunks::<4>().0),
+        None => {
+            fine = fine_axes(record, p);
+            (fine.0, &fine.1)
+        }
+    };
+    let (fours, _) = squares.as_chunks_mut::<4>();
+    if let [first, second] = fours
+        && let Some(words) = words.first_chunk::<PLANE_WORDS>()
+        && let Some(of_first) = words.first_chunk()
+        && let Some(of_second) = words.last_chunk()
+    {
+        squares_of_four(of_first, &axes, first);
+        squares_of_four(of_second, &axes, second);
     }
+    // Planes of absent children have no meaning.
+    let mut absent = count as usize;
+    while absent < WIDTH {
+        // The mask keeps the loop from becoming a call of `memset`.
+        squares[absent & (WIDTH - 1)] = u32::MAX;
+        absent += 1;
+    }
+    squares
 }
 
 /// Keys of a node's children, as [`box_distances`](super::box_distances()) has them.
-#[inline(always)]
+#[inline(never)]
 pub(super) fn keys(
     record: &[u8; FRAME_BYTES],
     p: &KeyPoint,
@@ -131,22 +210,34 @@ pub(super) fn keys(
     parent: u32,
     keys: &mut [u32; WIDTH],
 ) {
-    let mut axes = [AxisPlanes::NONE; 3];
-    let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
-    let (rows, _) = entries.as_chunks::<3>();
-    let offset = p.relative_to_origin(record);
-    for ((axis, row), exponent) in axes.iter_mut().zip(rows).zip(&record[boxes::FRAME_EXPONENTS..])
-    {
-        axis.set(row, &offset, *exponent, p.unit_exponent());
+    let squares = squares(record, p, count);
+    for (child, (key, square)) in (0..).zip(keys.iter_mut().zip(squares)) {
+        *key = key_of(square, parent, child);
     }
-    let (fours, _) = keys.as_chunks_mut::<4>();
-    for (half, four) in fours.iter_mut().enumerate() {
-        let planes = record.get(4 * half..).unwrap_or_default();
-        // Rows of children 4–7 start four bytes later, so the last slice reads four matrix bytes.
-        // They are not used.
-        keys_of_four(planes, &axes, parent, 4 * half as u32, four);
+}
+
+/// A child's key: at least that of its parent.
+#[inline(always)]
+fn key_of(square: u32, parent: u32, child: u32) -> u32 {
+    let half = square >> 1;
+    (if half > parent { half } else { parent }) & !CHILD_MASK | child
+}
+
+/// Pushes the wanted children of a node, without keys of the others.
+#[inline(never)]
+pub(super) fn push(
+    record: &[u8; FRAME_BYTES],
+    p: &KeyPoint,
+    opened: &OpenedNode,
+    slots: &mut [ScratchEntry; WIDTH],
+) -> Pushed {
+    let &OpenedNode { node, count, bound, limit } = opened;
+    let mut pusher = Pusher::new(node, slots);
+    for (child, square) in (0..).zip(squares(record, p, count)) {
+        // The limit's low bits are ones, so the key need not be made first.
+        if square >> 1 <= limit {
+            pusher.push(key_of(square, bound, child));
+        }
     }
-    for unused in keys.iter_mut().skip(count as usize) {
-        *unused = NO_CHILD;
-    }
+    pusher.finish()
 }

@@ -1,0 +1,63 @@
+//! The stack on targets without vectors: children are pushed one by one, and entries beyond the
+//! limit are passed over in one loop.
+
+use super::{NodeQuery, Stack};
+use crate::bvh::format::Bvh;
+use crate::bvh::node::{OpenedNode, Pushed};
+use crate::geom::fan::WIDTH;
+use crate::num::lesser;
+use crate::query::ScratchEntry;
+
+impl Stack<'_> {
+    /// Pushes the children of a node within the limit, except the nearest. The nearest one's key.
+    #[inline(always)]
+    pub(super) fn push_children(
+        &mut self,
+        query: &impl NodeQuery,
+        tree: &Bvh<'_>,
+        opened: &OpenedNode,
+    ) -> Option<u32> {
+        let free = self.entries.get_mut(self.used..);
+        let Some(slots) = free.and_then(|free| free.first_chunk_mut::<WIDTH>()) else {
+            return self.push_few(query, tree, opened);
+        };
+        let Pushed { nearest, count } = query.push(tree, opened, slots)?;
+        self.used += count;
+        Some(nearest)
+    }
+
+    /// The same, where not all children may fit.
+    #[cold]
+    #[inline(never)]
+    fn push_few(
+        &mut self,
+        query: &impl NodeQuery,
+        tree: &Bvh<'_>,
+        opened: &OpenedNode,
+    ) -> Option<u32> {
+        let mut slots = [ScratchEntry::EMPTY; WIDTH];
+        let Pushed { nearest, count } = query.push(tree, opened, &mut slots)?;
+        for entry in slots.iter().take(count) {
+            match self.entries.get_mut(self.used) {
+                Some(slot) => {
+                    *slot = *entry;
+                    self.used += 1;
+                }
+                None => self.dropped = lesser(self.dropped, entry.small_word()),
+            }
+        }
+        Some(nearest)
+    }
+
+    /// Takes the top entry of those with a key up to `most`. `Some(None)`: there is none.
+    #[inline(always)]
+    pub(super) fn pop_up_to(&mut self, most: u32) -> Option<Option<ScratchEntry>> {
+        let waiting = self.entries.get(..self.used)?;
+        let top = waiting.iter().rposition(|entry| entry.small_word() <= most);
+        self.used = top.unwrap_or(0);
+        match top {
+            Some(top) => Some(Some(waiting.get(top).copied()?)),
+            None => Some(None),
+        }
+    }
+}
