@@ -2,13 +2,14 @@
 
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
 use super::leaf_distance::{Lanes, LeafLimit, nearest_triangle, nearest_within};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use super::leaf_plane::LeafPlane;
 use super::point_query::{EVERY_KEY, PointQuery};
 use super::triangle_bounds::{nearness, seen_from, sliver};
 use crate::bvh::format::{Bvh, FanLeaf, at_least, at_most, lanes_of};
 use crate::geom::fan::{lower_bound, refined};
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
-use crate::num::{SOFT_FLOAT, greater, sqrt_approx};
+use crate::num::{greater, sqrt_approx};
 use crate::query::Interval;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 
@@ -155,6 +156,9 @@ struct Closest<'a> {
     /// Least squared lower bound of the refined triangles.
     refined_lower_sq: f32,
     tolerant: bool,
+    /// The limit's plane is not that of the best triangle. It is made when a leaf needs it.
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    has_old_plane: bool,
 }
 
 impl<'a> Closest<'a> {
@@ -182,6 +186,8 @@ impl<'a> Closest<'a> {
             refine_below: f32::NEG_INFINITY,
             refined_lower_sq: f32::INFINITY,
             tolerant: budget.relative > 0.0 || budget.absolute > 0.0,
+            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            has_old_plane: false,
         }
     }
 
@@ -225,8 +231,9 @@ impl<'a> Closest<'a> {
         if beyond < self.beyond.distance_sq {
             self.beyond.distance_sq = beyond;
         }
-        if SOFT_FLOAT && let Some(point) = &self.query.whole {
-            self.beyond.plane = LeafPlane::new(point, lanes.direction(), self.beyond.distance_sq);
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        {
+            self.has_old_plane = true;
         }
         let limit =
             if self.tolerant { self.tolerant_limit(distance_sq) } else { self.beyond.distance_sq };
@@ -344,6 +351,12 @@ impl LeafVisitor for Closest<'_> {
 
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        if self.has_old_plane {
+            self.has_old_plane = false;
+            let (way, limit) = (self.best.lanes.way(), self.beyond.distance_sq);
+            self.beyond.plane = LeafPlane::across(self.query, way, self.best.distance_sq, limit);
+        }
         let near = nearest_within(&visit.leaf, self.query, &self.beyond, None)?;
         if near.distance_sq <= self.best.distance_sq {
             self.improve(near.distance_sq, &near.lanes, visit);

@@ -7,6 +7,8 @@ use super::leaf_plane::LeafPlane;
 use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use crate::bvh::format::FanLeaf;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::num::SOFT_FLOAT;
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use narrow::{Lanes, nearest_and_edges, nearest_within};
@@ -16,6 +18,10 @@ pub(crate) use wide::{Lanes, LeafEdges, leaf_edges, nearest_and_edges, nearest_w
 /// The nearest triangle of a leaf, without a limit.
 #[inline(always)]
 pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option<LeafNearest> {
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    if !SOFT_FLOAT && !leaf.is_f32() {
+        return narrow::nearest_of_all(leaf, query.p);
+    }
     nearest_within(leaf, query, &LeafLimit::NONE, None)
 }
 
@@ -238,6 +244,7 @@ mod narrow {
     use super::{
         FanLeaf, LeafLimit, LeafNearest, LeafSeen, LeafSquares, PointQuery, nearest_triangle,
     };
+    use crate::bvh::leaf_plane::Way;
     use crate::bvh::point_query::limit_of;
     use crate::bvh::triangle_bounds::{nearness, seen_from};
     use crate::geom::fan::{
@@ -254,17 +261,15 @@ mod narrow {
         lane: usize,
         v: f32,
         w: f32,
-        /// About the way from the closest point to the query, of twelve bits; zeros if it is not
-        /// known. Without floating point only.
-        direction: Whole,
+        way: Way,
     }
 
     impl Lanes {
-        pub(crate) const NONE: Lanes = Lanes { lane: 0, v: 0.0, w: 0.0, direction: [0; 3] };
+        pub(crate) const NONE: Lanes = Lanes { lane: 0, v: 0.0, w: 0.0, way: Way::NONE };
 
         /// One triangle alone.
         pub(crate) fn one(lane: usize, near: &Nearness) -> Lanes {
-            Lanes { lane, v: near.v, w: near.w, direction: [0; 3] }
+            Lanes { lane, v: near.v, w: near.w, way: Way::NONE }
         }
 
         #[inline(always)]
@@ -272,10 +277,17 @@ mod narrow {
             (self.lane, self.v, self.w)
         }
 
-        /// The normal of a [`LeafPlane`](super::LeafPlane) in front of the nearest triangle.
+        /// The normal of a [`LeafPlane`](super::LeafPlane) in front of the nearest triangle, without
+        /// floating point.
         #[inline(always)]
         pub(crate) fn direction(&self) -> Whole {
-            self.direction
+            self.way.whole()
+        }
+
+        /// The way from the closest point to the query.
+        #[inline(always)]
+        pub(crate) fn way(&self) -> Way {
+            self.way
         }
     }
 
@@ -290,12 +302,7 @@ mod narrow {
         if let Some(known) = &mut known {
             known.clear();
         }
-        let mut nearest = LeafNearest {
-            distance_sq: f32::INFINITY,
-            lower_bound_sq: f32::INFINITY,
-            lanes: Lanes::NONE,
-            low: 0,
-        };
+        let mut nearest = LeafNearest::NONE;
         if leaf.is_f32() {
             f32_nearest(leaf, p, limit.low_sq, &mut nearest);
         } else if SOFT_FLOAT && let Some(point) = &query.whole {
@@ -312,6 +319,14 @@ mod narrow {
     }
 
     impl LeafNearest {
+        /// All triangles left out.
+        const NONE: LeafNearest = LeafNearest {
+            distance_sq: f32::INFINITY,
+            lower_bound_sq: f32::INFINITY,
+            lanes: Lanes::NONE,
+            low: 0,
+        };
+
         #[inline(always)]
         fn take(&mut self, lane: usize, near: &Nearness, low_sq: f32) {
             let (here, best) = (near.distance_sq, self.distance_sq);
@@ -339,7 +354,7 @@ mod narrow {
         mut known: Option<&mut LeafSquares>,
         nearest: &mut LeafNearest,
     ) -> Option<()> {
-        let ring = leaf.grid_ring()?;
+        let ring = leaf.full_ring()?;
         let turn = leaf.shape().turn();
         let wanted = limit.plane.in_front(&ring, leaf.shape());
         if wanted == 0 {
@@ -370,7 +385,7 @@ mod narrow {
                 known.keep(lane, [near.distance_sq, near.lower_bound_sq]);
             }
             if nearest.lanes.lane == lane {
-                nearest.lanes.direction = bounds.direction;
+                nearest.lanes.way = Way::of_whole(bounds.direction);
             }
             Some(WholeLimit::of(*within))
         };
@@ -418,7 +433,30 @@ mod narrow {
         Some(Nearness { distance_sq, lower_bound_sq: distance_sq, v, w })
     }
 
-    /// Reads every stored number once. Integers are subtracted before they become f32.
+    /// A fan of a leaf on the grid, seen from the query. Integers are subtracted before they become
+    /// f32.
+    struct GridFan {
+        centre: Whole,
+        fan: PointFan,
+    }
+
+    impl GridFan {
+        #[inline(always)]
+        fn new(leaf: &FanLeaf<'_>, p: Vec3, centre: Whole) -> Self {
+            let [ox, oy, oz] = leaf.origin;
+            let [x, y, z] = centre;
+            let place = [x.wrapping_add(ox), y.wrapping_add(oy), z.wrapping_add(oz)];
+            GridFan { centre, fan: PointFan::new(p - spoke(place, [0; 3])) }
+        }
+
+        #[inline(always)]
+        fn spoke(&self, vertex: Whole) -> SpokeTerms {
+            self.fan.spoke(spoke(vertex, self.centre))
+        }
+    }
+
+    /// The triangles that are not behind the limit's plane. A spoke serves the triangles on both
+    /// sides.
     #[inline(always)]
     fn grid_nearest(
         leaf: &FanLeaf<'_>,
@@ -426,47 +464,74 @@ mod narrow {
         limit: &LeafLimit,
         nearest: &mut LeafNearest,
     ) -> Option<()> {
-        let ring = leaf.grid_ring()?;
-        let turn = leaf.shape().turn();
-        let mut within = limit.distance_sq;
-        let fan_about = |centre: Whole| {
-            let [ox, oy, oz] = ring.origin;
-            let [x, y, z] = centre;
-            let centre = [x.wrapping_add(ox), y.wrapping_add(oy), z.wrapping_add(oz)];
-            PointFan::new(p - spoke(centre, [0; 3]))
+        let ring = leaf.full_ring()?;
+        let shape = leaf.shape();
+        let turn = shape.turn();
+        let mut left = if limit.plane.parts() {
+            limit.plane.in_front(&ring, shape)
+        } else {
+            !(u32::MAX << (shape.triangles() & 31))
         };
-        let mut centre = ring.centres[0];
-        let mut fan = fan_about(centre);
-        let mut before = [0i32; 3];
-        let mut a: Option<SpokeTerms> = None;
-        for (i, ((x, y), z)) in ring.x.iter().zip(ring.y).zip(ring.z).enumerate() {
-            let here = vertex(x, y, z);
-            if let Some(mut first) = a {
-                if i == turn + 1 {
-                    centre = ring.centres[1];
-                    fan = fan_about(centre);
-                    first = fan.spoke(spoke(before, centre));
-                }
-                let second = fan.spoke(spoke(here, centre));
-                if !fan.is_beyond(&first, &second, within) {
-                    let near = fan.triangle(&first, &second);
-                    if near.distance_sq < nearest.distance_sq {
-                        within = lesser(within, limit_of(near.distance_sq, limit.allowance));
-                    }
-                    nearest.take(i - 1, &near, limit.low_sq);
-                }
-                a = Some(second);
-            } else {
-                a = Some(fan.spoke(spoke(here, centre)));
+        if left == 0 {
+            return Some(());
+        }
+        let mut within = limit.distance_sq;
+        let [centre, second_centre] = ring.centres;
+        let mut fan = GridFan::new(leaf, p, centre);
+        let mut is_second = false;
+        // A spoke, and the ring vertex that it ends at.
+        let mut first = fan.fan.spoke(Vec3::ZERO);
+        let mut at = usize::MAX;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            left &= left - 1;
+            if lane >= turn && !is_second {
+                is_second = true;
+                fan = GridFan::new(leaf, p, second_centre);
+                at = usize::MAX;
             }
-            before = here;
+            if at != lane {
+                first = fan.spoke(ring.vertex(lane)?);
+            }
+            let second = fan.spoke(ring.vertex(lane + 1)?);
+            if !fan.fan.is_beyond(&first, &second, within) {
+                let (near, residual) = fan.fan.triangle_and_residual(&first, &second);
+                if near.distance_sq < nearest.distance_sq {
+                    within = lesser(within, limit_of(near.distance_sq, limit.allowance));
+                }
+                nearest.take(lane, &near, limit.low_sq);
+                if nearest.lanes.lane == lane {
+                    nearest.lanes.way = Way::of_residual(residual);
+                }
+            }
+            first = second;
+            at = lane + 1;
         }
         Some(())
     }
 
-    #[inline(always)]
-    fn vertex(x: &[u8; 2], y: &[u8; 2], z: &[u8; 2]) -> Whole {
-        [x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair)))
+    /// All triangles of a leaf on the grid, without a limit and its tests.
+    #[inline(never)]
+    pub(super) fn nearest_of_all(leaf: &FanLeaf<'_>, p: Vec3) -> Option<LeafNearest> {
+        let mut nearest = LeafNearest::NONE;
+        let ring = leaf.full_ring()?;
+        let shape = leaf.shape();
+        let turn = shape.turn();
+        let [centre, second_centre] = ring.centres;
+        let mut fan = GridFan::new(leaf, p, centre);
+        let mut before = ring.vertex(0)?;
+        let mut first = fan.spoke(before);
+        for lane in 0..shape.triangles() {
+            if lane == turn {
+                fan = GridFan::new(leaf, p, second_centre);
+                first = fan.spoke(before);
+            }
+            before = ring.vertex(lane + 1)?;
+            let second = fan.spoke(before);
+            nearest.take(lane, &fan.fan.triangle(&first, &second), 0.0);
+            first = second;
+        }
+        Some(nearest)
     }
 
     #[inline(always)]

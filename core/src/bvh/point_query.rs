@@ -33,6 +33,9 @@ pub(crate) const EVERY_KEY: u32 = NO_CHILD - 1;
 pub(crate) struct PointQuery {
     /// Grid units.
     pub(crate) p: Vec3,
+    /// The point less the grid's origin, rounded.
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    pub(crate) from_origin: Vec3,
     /// The point for the wide kernel of leaves.
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     pub(crate) lanes: LanePoint,
@@ -101,6 +104,8 @@ impl PointQuery {
         };
         Ok(PointQuery {
             p,
+            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            from_origin,
             #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
             lanes: LanePoint::new(p, header.grid_origin),
             units,

@@ -185,6 +185,10 @@ pub const CERTIFIED_PART: f32 = 1.0 - 1.0 / 262_144.0;
 /// every second look. With f32 vertices it is 0.
 pub const CERTIFIED_SHORTFALL: f32 = 1.0;
 
+/// Part of a point's 1-norm by which its product with a direction of twelve bits is off at most,
+/// 2^-8: 16u·2^12. Proved: 7u (§8).
+pub const PLANE_ALONG: f32 = 1.0 / 256.0;
+
 /// Distance, 1-norm, beyond which the model's box gives the answer: 2^38, a million times the
 /// model's size. There the interval of the box is narrower than four units of f32.
 pub const BVH_FAR: f32 = (1u64 << 38) as f32;

@@ -17,27 +17,30 @@ impl Stack<'_> {
         tree: &Bvh<'_>,
         opened: &OpenedNode,
     ) -> Option<u32> {
+        let mut spare;
         let free = self.entries.get_mut(self.used..);
-        let Some(slots) = free.and_then(|free| free.first_chunk_mut::<WIDTH>()) else {
-            return self.push_few(query, tree, opened);
+        let (slots, all_fit) = match free.and_then(|free| free.first_chunk_mut::<WIDTH>()) {
+            Some(slots) => (slots, true),
+            None => {
+                spare = [ScratchEntry::EMPTY; WIDTH];
+                (&mut spare, false)
+            }
         };
         let Pushed { nearest, count } = query.push(tree, opened, slots)?;
-        self.used += count;
+        if all_fit {
+            self.used += count;
+        } else {
+            let wanted = *slots;
+            self.push_few(wanted.iter().take(count));
+        }
         Some(nearest)
     }
 
-    /// The same, where not all children may fit.
+    /// Pushes entries as far as they fit.
     #[cold]
     #[inline(never)]
-    fn push_few(
-        &mut self,
-        query: &impl NodeQuery,
-        tree: &Bvh<'_>,
-        opened: &OpenedNode,
-    ) -> Option<u32> {
-        let mut slots = [ScratchEntry::EMPTY; WIDTH];
-        let Pushed { nearest, count } = query.push(tree, opened, &mut slots)?;
-        for entry in slots.iter().take(count) {
+    fn push_few<'e>(&mut self, wanted: impl Iterator<Item = &'e ScratchEntry>) {
+        for entry in wanted {
             match self.entries.get_mut(self.used) {
                 Some(slot) => {
                     *slot = *entry;
@@ -46,7 +49,6 @@ impl Stack<'_> {
                 None => self.dropped = lesser(self.dropped, entry.small_word()),
             }
         }
-        Some(nearest)
     }
 
     /// Takes the top entry of those with a key up to `most`. `Some(None)`: there is none.

@@ -115,6 +115,54 @@ impl GridRing<'_> {
     }
 }
 
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+/// Ring vertices of the largest leaf.
+const RING_VERTICES: usize = WIDTH + 1;
+
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+/// Stored integers of a leaf on the grid with the greatest number of ring vertices. They do not
+/// include the grid's origin.
+#[derive(Clone, Copy, Debug)]
+pub struct FullRing<'a> {
+    /// First and second centre, alike if there is one fan.
+    pub centres: [[i32; 3]; 2],
+    /// Coordinates of the ring, axis by axis.
+    rows: [&'a [[u8; 2]; RING_VERTICES]; 3],
+}
+
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+impl FullRing<'_> {
+    /// Ring vertex `i`, at most 8.
+    #[inline(always)]
+    pub fn vertex(&self, i: usize) -> Option<[i32; 3]> {
+        let [x, y, z] = self.rows;
+        Some(grid_point([x.get(i)?, y.get(i)?, z.get(i)?]))
+    }
+
+    /// Corners of triangle `lane`, below 8; `turn` is the first of the second fan.
+    #[inline(always)]
+    pub fn corners(&self, lane: usize, turn: usize) -> Option<[[i32; 3]; 3]> {
+        let [first, second] = self.centres;
+        let centre = if lane < turn { first } else { second };
+        Some([centre, self.vertex(lane)?, self.vertex(lane + 1)?])
+    }
+
+    /// A bit of each ring vertex, the first one's lowest. Not a loop, which takes three times as
+    /// many instructions.
+    #[inline(always)]
+    pub fn bits(&self, bit: impl Fn([i32; 3]) -> u32) -> u32 {
+        let [x, y, z] = self.rows;
+        let at = |i: usize| bit(grid_point([&x[i], &y[i], &z[i]])) << i;
+        at(0) | at(1) | at(2) | at(3) | at(4) | at(5) | at(6) | at(7) | at(8)
+    }
+}
+
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[inline(always)]
+fn grid_point(pairs: [&[u8; 2]; 3]) -> [i32; 3] {
+    pairs.map(|pair| i32::from(u16::from_le_bytes(*pair)))
+}
+
 /// Vertices of the largest leaf: two centres and nine ring vertices.
 pub const CORNERS: usize = 11;
 
@@ -292,6 +340,21 @@ impl<'a> FanLeaf<'a> {
             x,
             y,
             z,
+        })
+    }
+
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    /// The stored integers of a leaf on the grid, as many ring vertices as the largest leaf has.
+    /// Those past the last triangle have no meaning.
+    #[inline(always)]
+    pub fn full_ring(&self) -> Option<FullRing<'a>> {
+        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
+        let first = 6 * self.shape.centres();
+        let step = 2 * (self.shape.triangles() + 1);
+        let row = |at: usize| window.get(at..)?.as_chunks::<2>().0.first_chunk();
+        Some(FullRing {
+            centres: [three(window, 0), three(window, first - 6)],
+            rows: [row(first)?, row(first + step)?, row(first + 2 * step)?],
         })
     }
 

@@ -26,6 +26,8 @@ mod units;
 mod view;
 
 pub use header::BvhHeader;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+pub use leaf::FullRing;
 pub use leaf::{CORNERS, FanLeaf, GridRing, LeafShape, RING, lanes_of, slots};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub(crate) use leaf_lanes::LanePoint;

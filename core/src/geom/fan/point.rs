@@ -73,11 +73,17 @@ impl PointFan {
     /// segment or point, and the lower bound is lower where that point may not be the closest.
     #[inline(always)]
     pub fn triangle(&self, a: &SpokeTerms, b: &SpokeTerms) -> Nearness {
+        self.triangle_and_residual(a, b).0
+    }
+
+    /// The same, and the residual: the way from the closest point to the query.
+    #[inline(always)]
+    pub fn triangle_and_residual(&self, a: &SpokeTerms, b: &SpokeTerms) -> (Nearness, Vec3) {
         let s = self.s;
         let (d1, d2) = (a.along, b.along);
         if d1 <= 0.0 && d2 <= 0.0 {
             let distance_sq = self.centre_sq;
-            return Nearness { distance_sq, lower_bound_sq: distance_sq, v: 0.0, w: 0.0 };
+            return (Nearness { distance_sq, lower_bound_sq: distance_sq, v: 0.0, w: 0.0 }, s);
         }
         let (aa, cc) = (a.length_sq, b.length_sq);
         let bb = dot(a.edge, b.edge);
@@ -118,7 +124,7 @@ impl PointFan {
         let (ra, rb) = (dot(r, a.edge), dot(r, b.edge));
         let support = greater(greater(0.0, ra), rb);
         let slack = support - (v * ra + w * rb);
-        Nearness { distance_sq, lower_bound_sq: distance_sq - (slack + slack), v, w }
+        (Nearness { distance_sq, lower_bound_sq: distance_sq - (slack + slack), v, w }, r)
     }
 }
 
