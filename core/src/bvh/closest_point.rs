@@ -1,7 +1,7 @@
 //! The closest point, with an interval of the distance.
 
-use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
-use super::leaf_distance::{Lanes, LeafLimit, nearest_triangle, nearest_within};
+use super::descent::{Descent, LeafVisit, LeafVisitor, descend_inlined};
+use super::leaf_distance::{Lanes, LeafLimit, nearest_triangle, nearest_within_inlined};
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use super::leaf_plane::LeafPlane;
 use super::point_query::{EVERY_KEY, PointQuery};
@@ -114,7 +114,7 @@ fn search(
     budget: &Budget,
     scratch: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
-    let query = PointQuery::prepare(tree, point, budget, scratch)?;
+    let query = PointQuery::prepare_inlined(tree, point, budget, scratch)?;
     if query.far {
         return from_afar(tree, point, &query);
     }
@@ -125,7 +125,7 @@ fn search(
     {
         visitor.bound_by(&leaf).ok_or(QueryError::Unchecked)?;
     }
-    let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+    let descent = descend_inlined(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
     visitor.answer(descent, work, hint)
 }
 
@@ -357,7 +357,7 @@ impl LeafVisitor for Closest<'_> {
             let (way, limit) = (self.best.lanes.way(), self.beyond.distance_sq);
             self.beyond.plane = LeafPlane::across(self.query, way, self.best.distance_sq, limit);
         }
-        let near = nearest_within(&visit.leaf, self.query, &self.beyond, None)?;
+        let near = nearest_within_inlined(&visit.leaf, self.query, &self.beyond, None)?;
         if near.distance_sq <= self.best.distance_sq {
             self.improve(near.distance_sq, &near.lanes, visit);
         }

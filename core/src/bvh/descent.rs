@@ -241,17 +241,47 @@ pub(crate) fn descend(
     visitor: &mut impl LeafVisitor,
     work: &mut Work,
 ) -> Result<Descent, QueryError> {
+    walk::<_, _, false>(tree, query, steps, scratch, visitor, work)
+}
+
+/// [`descend`] without a call for each leaf: on boards faster, and more code.
+#[inline(always)]
+pub(crate) fn descend_inlined(
+    tree: &Bvh<'_>,
+    query: &impl NodeQuery,
+    steps: u32,
+    scratch: &mut [ScratchEntry],
+    visitor: &mut impl LeafVisitor,
+    work: &mut Work,
+) -> Result<Descent, QueryError> {
+    walk::<_, _, true>(tree, query, steps, scratch, visitor, work)
+}
+
+#[inline(always)]
+fn walk<Q: NodeQuery, V: LeafVisitor, const INLINED: bool>(
+    tree: &Bvh<'_>,
+    query: &Q,
+    steps: u32,
+    scratch: &mut [ScratchEntry],
+    visitor: &mut V,
+    work: &mut Work,
+) -> Result<Descent, QueryError> {
     let mut walk = Walk::new(tree, steps, scratch, work);
     let mut visit = LeafVisit { leaf: FanLeaf::NONE, key: 0, node: 0, child: 0 };
-    while walk
-        .next_leaf(tree, query, visitor.limit(), work, &mut visit)
-        .ok_or(QueryError::Unchecked)?
-    {
+    loop {
+        let limit = visitor.limit();
+        let found = if INLINED {
+            walk.next_leaf_inlined(tree, query, limit, work, &mut visit)
+        } else {
+            walk.next_leaf(tree, query, limit, work, &mut visit)
+        };
+        if !found.ok_or(QueryError::Unchecked)? {
+            return Ok(walk.ended);
+        }
         if !visitor.leaf(&visit).ok_or(QueryError::Unchecked)? {
             return Ok(Descent::Answered);
         }
     }
-    Ok(walk.ended)
 }
 
 /// A descent between two leaves.
@@ -275,8 +305,7 @@ fn child_of(tree: &Bvh<'_>, entry: ScratchEntry) -> Option<BvhChild> {
 }
 
 impl<'s> Walk<'s> {
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[inline(always)]
     fn new(tree: &Bvh<'_>, steps: u32, scratch: &'s mut [ScratchEntry], work: &Work) -> Self {
         let all = work.splits.saturating_add(tree.most_steps());
         Walk {
@@ -298,10 +327,22 @@ impl<'s> Walk<'s> {
     /// On boards it is a call, and all questions about a point share it.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
-    fn next_leaf<'t>(
+    fn next_leaf<'t, Q: NodeQuery>(
         &mut self,
         tree: &Bvh<'t>,
-        query: &impl NodeQuery,
+        query: &Q,
+        most: u32,
+        work: &mut Work,
+        visit: &mut LeafVisit<'t>,
+    ) -> Option<bool> {
+        self.next_leaf_inlined(tree, query, most, work, visit)
+    }
+
+    #[inline(always)]
+    fn next_leaf_inlined<'t, Q: NodeQuery>(
+        &mut self,
+        tree: &Bvh<'t>,
+        query: &Q,
         most: u32,
         work: &mut Work,
         visit: &mut LeafVisit<'t>,

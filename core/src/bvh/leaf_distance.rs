@@ -11,7 +11,9 @@ use crate::bvh::format::FanLeaf;
 use crate::num::SOFT_FLOAT;
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-pub(crate) use narrow::{Lanes, nearest_and_edges, nearest_within};
+pub(crate) use narrow::{Lanes, nearest_and_edges, nearest_within, nearest_within_inlined};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub(crate) use wide::nearest_within as nearest_within_inlined;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub(crate) use wide::{Lanes, LeafEdges, leaf_edges, nearest_and_edges, nearest_within};
 
@@ -291,8 +293,19 @@ mod narrow {
         }
     }
 
+    /// A call, which questions share.
     #[inline(never)]
     pub(crate) fn nearest_within(
+        leaf: &FanLeaf<'_>,
+        query: &PointQuery,
+        limit: &LeafLimit,
+        known: Option<&mut LeafSquares>,
+    ) -> Option<LeafNearest> {
+        nearest_within_inlined(leaf, query, limit, known)
+    }
+
+    #[inline(always)]
+    pub(crate) fn nearest_within_inlined(
         leaf: &FanLeaf<'_>,
         query: &PointQuery,
         limit: &LeafLimit,

@@ -7,12 +7,15 @@
 
 use super::axis_place::AxisPlace;
 use super::frame::{KeyPoint, MAX_DISTANCE, PRODUCT_BITS, ROUND_UP};
-use super::keys::CHILD_MASK;
+use super::keys::{CHILD_MASK, NO_CHILD};
 use super::opened_node::{OpenedNode, Pushed, Pusher};
 use crate::bvh::format::layout::{FRAME_BYTES, boxes};
 use crate::geom::fan::WIDTH;
 use crate::num::greater;
 use crate::query::ScratchEntry;
+
+/// Squared distance of an absent child: its key is above every limit.
+const ABSENT: u32 = NO_CHILD << 1;
 
 /// The highest bit of both halves.
 const HIGH: u32 = 0x8000_8000;
@@ -39,6 +42,7 @@ struct AxisPlanes {
 
 /// On which side of all children a point is along an axis.
 #[derive(Clone, Copy, PartialEq)]
+#[repr(u32)]
 enum Side {
     Before,
     Behind,
@@ -56,7 +60,7 @@ impl AxisPlanes {
         if first > 0 && last > 0 {
             // No plane is beyond the greatest distance, so a greater number would say no more.
             let less_point = [first, last].map(|from| {
-                let less = greater(1, (1 << 15) - from).cast_unsigned();
+                let less = ((1 << 15) - from.clamp(0, MAX_DISTANCE)).cast_unsigned();
                 less | less << 16
             });
             return AxisPlanes { step, less_point, side: Side::Within };
@@ -173,7 +177,7 @@ fn fine_axes(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> ([AxisPlanes; 3], Plan
 /// Squared distances of the children from the point, in squares of key units.
 #[inline(always)]
 fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH] {
-    let mut squares = [u32::MAX; WIDTH];
+    let mut squares = [ABSENT; WIDTH];
     let fine;
     let (axes, words): (_, &[[u8; 4]]) = match coarse_axes(record, p) {
         Some(axes) => (axes, record.as_chunks::<4>().0),
@@ -194,8 +198,8 @@ fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH]
     // Planes of absent children have no meaning.
     let mut absent = count as usize;
     while absent < WIDTH {
-        // The mask keeps the loop from becoming a call of `memset`.
-        squares[absent & (WIDTH - 1)] = u32::MAX;
+        // Of equal bytes the loop would become a call of `memset`.
+        squares[absent & (WIDTH - 1)] = ABSENT;
         absent += 1;
     }
     squares
