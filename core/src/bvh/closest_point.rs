@@ -213,18 +213,12 @@ impl<'a> Closest<'a> {
     }
 
     #[inline(always)]
-    fn improve(&mut self, distance_sq: f32, lanes: &Lanes, visit: &LeafVisit<'_>) {
+    fn improve(&mut self, distance_sq: f32, lanes: &Lanes, [node, child]: [u32; 2]) {
         let has_best = self.best.node != u32::MAX;
-        if distance_sq == self.best.distance_sq && has_best && self.comes_later(visit) {
+        if distance_sq == self.best.distance_sq && has_best && self.comes_later([node, child]) {
             return;
         }
-        self.best = Best {
-            distance_sq,
-            node: visit.node,
-            child: visit.child,
-            first: u32::MAX,
-            lanes: *lanes,
-        };
+        self.best = Best { distance_sq, node, child, first: u32::MAX, lanes: *lanes };
         self.refine_below = self.query.refine_below(distance_sq);
         self.beyond.low_sq = self.refine_below;
         let beyond = self.query.limit(distance_sq);
@@ -240,18 +234,18 @@ impl<'a> Closest<'a> {
         self.limit = self.query.key_limit(limit);
     }
 
-    /// Whether the leaf's triangles have greater numbers than the best one's.
+    /// Whether the triangles of a leaf, a child of a node, have greater numbers than the best one's.
     #[cold]
-    fn comes_later(&mut self, visit: &LeafVisit<'_>) -> bool {
+    fn comes_later(&mut self, leaf: [u32; 2]) -> bool {
         let Best { node, child, first, .. } = self.best;
-        if visit.node == node {
-            return visit.child > child;
+        if leaf[0] == node {
+            return leaf[1] > child;
         }
-        let first_of = |node, child| Some(self.tree.links(node)?.triangle(child));
+        let first_of = |[node, child]: [u32; 2]| Some(self.tree.links(node)?.triangle(child));
         if first == u32::MAX {
-            self.best.first = first_of(node, child).unwrap_or(first);
+            self.best.first = first_of([node, child]).unwrap_or(first);
         }
-        first_of(visit.node, visit.child) > Some(self.best.first)
+        first_of(leaf) > Some(self.best.first)
     }
 
     /// Refines triangles whose lower bound falls short of the best distance by more than rounding:
@@ -262,11 +256,12 @@ impl<'a> Closest<'a> {
     /// the distance nor its lower bound. So the result does not depend on the order.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, visit: &LeafVisit<'_>, low: u32) {
+    fn refine(&mut self, [node, child]: [u32; 2], key: u32, low: u32) -> Option<()> {
         let query = self.query;
-        let box_sq = square(query.distance_of_key(visit.key));
+        let leaf = self.tree.leaf(node, child)?;
+        let box_sq = square(query.distance_of_key(key));
         for lane in lanes_of(low) {
-            let seen = seen_from(&visit.leaf, lane, query.p);
+            let seen = seen_from(&leaf, lane, query.p);
             let near = nearness(&seen);
             if near.lower_bound_sq >= self.refine_below {
                 continue;
@@ -274,11 +269,11 @@ impl<'a> Closest<'a> {
             let again = refined(&seen, &near);
             let better = sliver(query, near, &again);
             let (best_sq, lanes) = (self.best.distance_sq, &self.best.lanes);
-            let here = visit.node == self.best.node && visit.child == self.best.child;
+            let here = node == self.best.node && child == self.best.child;
             let first = !here || lane < lanes.at(best_sq).0;
             let nearer = better.distance_sq < best_sq || (better.distance_sq == best_sq && first);
             if better.distance_sq < near.distance_sq && nearer {
-                self.improve(better.distance_sq, &Lanes::one(lane, &better), visit);
+                self.improve(better.distance_sq, &Lanes::one(lane, &better), [node, child]);
             }
             let lower_sq = square(lower_bound(&seen, &again));
             let lower_sq = greater(box_sq, lower_sq);
@@ -288,6 +283,7 @@ impl<'a> Closest<'a> {
                 self.refined_lower_sq = lower_sq;
             }
         }
+        Some(())
     }
 
     #[inline(always)]
@@ -359,10 +355,11 @@ impl LeafVisitor for Closest<'_> {
         }
         let near = nearest_within_inlined(&visit.leaf, self.query, &self.beyond, None)?;
         if near.distance_sq <= self.best.distance_sq {
-            self.improve(near.distance_sq, &near.lanes, visit);
+            self.improve(near.distance_sq, &near.lanes, [visit.node, visit.child]);
         }
         if near.lower_bound_sq < self.refine_below {
-            self.refine(visit, near.low);
+            // Without the visit, which stays in registers.
+            self.refine([visit.node, visit.child], visit.key, near.low)?;
         }
         Some(true)
     }

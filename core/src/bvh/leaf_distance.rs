@@ -315,15 +315,13 @@ mod narrow {
         if let Some(known) = &mut known {
             known.clear();
         }
-        let mut nearest = LeafNearest::NONE;
         if leaf.is_f32() {
-            f32_nearest(leaf, p, limit.low_sq, &mut nearest);
+            Some(f32_nearest(leaf, p, limit.low_sq))
         } else if SOFT_FLOAT && let Some(point) = &query.whole {
-            whole_nearest(leaf, p, point, limit, known, &mut nearest)?;
+            whole_nearest(leaf, p, point, limit, known)
         } else {
-            grid_nearest(leaf, p, limit, &mut nearest)?;
+            grid_nearest(leaf, p, limit)
         }
-        Some(nearest)
     }
 
     #[inline(always)]
@@ -365,19 +363,24 @@ mod narrow {
         point: &WholePoint,
         limit: &LeafLimit,
         mut known: Option<&mut LeafSquares>,
-        nearest: &mut LeafNearest,
-    ) -> Option<()> {
+    ) -> Option<LeafNearest> {
+        let mut nearest = LeafNearest::NONE;
         let ring = leaf.full_ring()?;
-        let turn = leaf.shape().turn();
-        let wanted = limit.plane.in_front(&ring, leaf.shape());
+        let shape = leaf.shape();
+        let wanted = limit.plane.in_front(&ring, shape);
         if wanted == 0 {
-            return Some(());
+            return Some(nearest);
         }
+        let centres = ring.centres(shape);
+        let corners = |lane: usize| {
+            let centre = centres[usize::from(lane >= shape.turn())];
+            Some([centre, ring.vertex(lane)?, ring.vertex(lane + 1)?])
+        };
         let mut bounds = [WholeBounds::NONE; WIDTH];
         let (mut likeliest, mut least) = (0, u32::MAX);
         for (lane, slot) in bounds.iter_mut().enumerate() {
             if wanted >> lane & 1 != 0 {
-                *slot = whole_bounds(point, &ring.corners(lane, turn)?);
+                *slot = whole_bounds(point, &corners(lane)?);
                 if slot.estimate < least {
                     (likeliest, least) = (lane, slot.estimate);
                 }
@@ -385,7 +388,7 @@ mod narrow {
         }
         let mut within = limit.distance_sq;
         let mut look = |lane: usize, bounds: &WholeBounds, within: &mut f32| {
-            let corners = ring.corners(lane, turn)?;
+            let corners = corners(lane)?;
             let near = match corner_nearness(leaf, p, point, &corners, lane, bounds.corner) {
                 Some(near) => near,
                 None => nearness(&seen_from(leaf, lane, p)),
@@ -413,7 +416,7 @@ mod narrow {
                 whole_limit = look(lane, bounds, &mut within)?;
             }
         }
-        Some(())
+        Some(nearest)
     }
 
     /// What the f32 kernel finds where a corner is certainly the closest point: the same bits.
@@ -471,66 +474,62 @@ mod narrow {
     /// The triangles that are not behind the limit's plane. A spoke serves the triangles on both
     /// sides.
     #[inline(always)]
-    fn grid_nearest(
-        leaf: &FanLeaf<'_>,
-        p: Vec3,
-        limit: &LeafLimit,
-        nearest: &mut LeafNearest,
-    ) -> Option<()> {
-        let ring = leaf.full_ring()?;
+    fn grid_nearest(leaf: &FanLeaf<'_>, p: Vec3, limit: &LeafLimit) -> Option<LeafNearest> {
+        let mut nearest = LeafNearest::NONE;
         let shape = leaf.shape();
-        let turn = shape.turn();
-        let mut left = if limit.plane.parts() {
+        let ring = leaf.full_ring()?;
+        let left = if limit.plane.parts() {
             limit.plane.in_front(&ring, shape)
         } else {
             !(u32::MAX << (shape.triangles() & 31))
         };
         if left == 0 {
-            return Some(());
+            return Some(nearest);
         }
         let mut within = limit.distance_sq;
-        let [centre, second_centre] = ring.centres;
-        let mut fan = GridFan::new(leaf, p, centre);
-        let mut is_second = false;
-        // A spoke, and the ring vertex that it ends at.
-        let mut first = fan.fan.spoke(Vec3::ZERO);
-        let mut at = usize::MAX;
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
-            if lane >= turn && !is_second {
-                is_second = true;
-                fan = GridFan::new(leaf, p, second_centre);
-                at = usize::MAX;
+        let first_fan = !(u32::MAX << (shape.turn() & 31));
+        for (centre, lanes) in ring.centres(shape).into_iter().zip([first_fan, !first_fan]) {
+            let mut lanes = left & lanes;
+            if lanes == 0 {
+                continue;
             }
-            if at != lane {
-                first = fan.spoke(ring.vertex(lane)?);
-            }
-            let second = fan.spoke(ring.vertex(lane + 1)?);
-            if !fan.fan.is_beyond(&first, &second, within) {
-                let (near, residual) = fan.fan.triangle_and_residual(&first, &second);
-                if near.distance_sq < nearest.distance_sq {
-                    within = lesser(within, limit_of(near.distance_sq, limit.allowance));
+            let fan = GridFan::new(leaf, p, centre);
+            // A spoke, and the ring vertex that it ends at.
+            let mut first = fan.fan.spoke(Vec3::ZERO);
+            let mut at = usize::MAX;
+            while lanes != 0 {
+                // No ring has more.
+                let lane = lanes.trailing_zeros() as usize & (WIDTH - 1);
+                lanes &= lanes - 1;
+                if at != lane {
+                    first = fan.spoke(ring.vertex(lane)?);
                 }
-                nearest.take(lane, &near, limit.low_sq);
-                if nearest.lanes.lane == lane {
-                    nearest.lanes.way = Way::of_residual(residual);
+                let second = fan.spoke(ring.vertex(lane + 1)?);
+                if !fan.fan.is_beyond(&first, &second, within) {
+                    let (near, residual) = fan.fan.triangle_and_residual(&first, &second);
+                    if near.distance_sq < nearest.distance_sq {
+                        within = lesser(within, limit_of(near.distance_sq, limit.allowance));
+                    }
+                    nearest.take(lane, &near, limit.low_sq);
+                    if nearest.lanes.lane == lane {
+                        nearest.lanes.way = Way::of_residual(residual);
+                    }
                 }
+                first = second;
+                at = lane + 1;
             }
-            first = second;
-            at = lane + 1;
         }
-        Some(())
+        Some(nearest)
     }
 
     /// All triangles of a leaf on the grid, without a limit and its tests.
     #[inline(never)]
     pub(super) fn nearest_of_all(leaf: &FanLeaf<'_>, p: Vec3) -> Option<LeafNearest> {
         let mut nearest = LeafNearest::NONE;
-        let ring = leaf.full_ring()?;
         let shape = leaf.shape();
+        let ring = leaf.full_ring()?;
         let turn = shape.turn();
-        let [centre, second_centre] = ring.centres;
+        let [centre, second_centre] = ring.centres(shape);
         let mut fan = GridFan::new(leaf, p, centre);
         let mut before = ring.vertex(0)?;
         let mut first = fan.spoke(before);
@@ -553,7 +552,8 @@ mod narrow {
     }
 
     #[inline(never)]
-    fn f32_nearest(leaf: &FanLeaf<'_>, p: Vec3, low_sq: f32, nearest: &mut LeafNearest) {
+    fn f32_nearest(leaf: &FanLeaf<'_>, p: Vec3, low_sq: f32) -> LeafNearest {
+        let mut nearest = LeafNearest::NONE;
         let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
         let centres = [leaf.centre(0), leaf.centre(leaf.shape().centres() - 1)];
         let mut from = leaf.ring(0);
@@ -564,5 +564,6 @@ mod narrow {
             nearest.take(lane, &near, low_sq);
             from = to;
         }
+        nearest
     }
 }

@@ -120,7 +120,8 @@ impl LeafPlane {
         a | b | c != 0
     }
 
-    /// Triangles of a leaf that are not behind the plane: bits, the first triangle's lowest.
+    /// Triangles of a leaf that are not behind the plane: bits, the first triangle's lowest. A call,
+    /// for the caller's numbers would leave no registers for the rows.
     #[inline(never)]
     pub(crate) fn in_front(&self, ring: &FullRing<'_>, shape: LeafShape) -> u32 {
         let [a, b, c] = self.normal;
@@ -133,7 +134,7 @@ impl LeafPlane {
         };
         let behind = ring.bits(is_behind);
         let first_fan = !(u32::MAX << (shape.turn() & 31));
-        let [one, other] = ring.centres.map(|centre| is_behind(centre).wrapping_sub(1));
+        let [one, other] = ring.centres(shape).map(|centre| is_behind(centre).wrapping_sub(1));
         let in_front = !(behind & behind >> 1) | one & first_fan | other & !first_fan;
         in_front & !(u32::MAX << (shape.triangles() & 31))
     }

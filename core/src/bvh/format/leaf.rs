@@ -124,27 +124,24 @@ const RING_VERTICES: usize = WIDTH + 1;
 /// include the grid's origin.
 #[derive(Clone, Copy, Debug)]
 pub struct FullRing<'a> {
-    /// First and second centre, alike if there is one fan.
-    pub centres: [[i32; 3]; 2],
-    /// Coordinates of the ring, axis by axis.
+    window: &'a [u8; GRID_WINDOW],
+    /// Coordinates of the ring, axis by axis. Those past the last triangle have no meaning.
     rows: [&'a [[u8; 2]; RING_VERTICES]; 3],
 }
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 impl FullRing<'_> {
+    /// First and second centre, alike if there is one fan.
+    #[inline(always)]
+    pub fn centres(&self, shape: LeafShape) -> [[i32; 3]; 2] {
+        [three(self.window, 0), three(self.window, 6 * (shape.centres() - 1))]
+    }
+
     /// Ring vertex `i`, at most 8.
     #[inline(always)]
     pub fn vertex(&self, i: usize) -> Option<[i32; 3]> {
         let [x, y, z] = self.rows;
         Some(grid_point([x.get(i)?, y.get(i)?, z.get(i)?]))
-    }
-
-    /// Corners of triangle `lane`, below 8; `turn` is the first of the second fan.
-    #[inline(always)]
-    pub fn corners(&self, lane: usize, turn: usize) -> Option<[[i32; 3]; 3]> {
-        let [first, second] = self.centres;
-        let centre = if lane < turn { first } else { second };
-        Some([centre, self.vertex(lane)?, self.vertex(lane + 1)?])
     }
 
     /// A bit of each ring vertex, the first one's lowest. Not a loop, which takes three times as
@@ -344,18 +341,17 @@ impl<'a> FanLeaf<'a> {
     }
 
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-    /// The stored integers of a leaf on the grid, as many ring vertices as the largest leaf has.
-    /// Those past the last triangle have no meaning.
+    /// The stored integers of a leaf on the grid, as many as the largest leaf has.
     #[inline(always)]
     pub fn full_ring(&self) -> Option<FullRing<'a>> {
         let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
         let first = 6 * self.shape.centres();
         let step = 2 * (self.shape.triangles() + 1);
-        let row = |at: usize| window.get(at..)?.as_chunks::<2>().0.first_chunk();
-        Some(FullRing {
-            centres: [three(window, 0), three(window, first - 6)],
-            rows: [row(first)?, row(first + step)?, row(first + 2 * step)?],
-        })
+        // The last row of the largest leaf ends with the window.
+        let row = |at: usize| {
+            window.get(at.min(GRID_WINDOW - 2 * RING_VERTICES)..)?.as_chunks::<2>().0.first_chunk()
+        };
+        Some(FullRing { window, rows: [row(first)?, row(first + step)?, row(first + 2 * step)?] })
     }
 
     /// The stored integers of a leaf on the grid, in the order of `axes`.
