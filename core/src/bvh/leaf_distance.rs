@@ -487,39 +487,46 @@ mod narrow {
             return Some(nearest);
         }
         let mut within = limit.distance_sq;
-        let first_fan = !(u32::MAX << (shape.turn() & 31));
-        for (centre, lanes) in ring.centres(shape).into_iter().zip([first_fan, !first_fan]) {
-            let mut lanes = left & lanes;
-            if lanes == 0 {
-                continue;
-            }
-            let fan = GridFan::new(leaf, p, centre);
-            // A spoke, and the ring vertex that it ends at.
-            let mut first = fan.fan.spoke(Vec3::ZERO);
-            let mut at = usize::MAX;
-            while lanes != 0 {
-                // No ring has more.
-                let lane = lanes.trailing_zeros() as usize & (WIDTH - 1);
-                lanes &= lanes - 1;
-                if at != lane {
-                    first = fan.spoke(ring.vertex(lane)?);
-                }
-                let second = fan.spoke(ring.vertex(lane + 1)?);
-                if !fan.fan.is_beyond(&first, &second, within) {
-                    let (near, residual) = fan.fan.triangle_and_residual(&first, &second);
-                    if near.distance_sq < nearest.distance_sq {
-                        within = lesser(within, limit_of(near.distance_sq, limit.allowance));
+        let [mut centre, second_centre] = ring.centres(shape);
+        let of_first_fan = !(u32::MAX << (shape.turn() & 31));
+        let (mut lanes, mut of_next_fan) = (left & of_first_fan, left & !of_first_fan);
+        loop {
+            if lanes != 0 {
+                let fan = GridFan::new(leaf, p, centre);
+                let mut lane = lowest(lanes);
+                let mut first = fan.spoke(ring.vertex(lane)?);
+                loop {
+                    let second = fan.spoke(ring.vertex(lane + 1)?);
+                    if !fan.fan.is_beyond(&first, &second, within) {
+                        let (near, residual) = fan.fan.triangle_and_residual(&first, &second);
+                        if near.distance_sq < nearest.distance_sq {
+                            within = lesser(within, limit_of(near.distance_sq, limit.allowance));
+                        }
+                        nearest.take(lane, &near, limit.low_sq);
+                        if nearest.lanes.lane == lane {
+                            nearest.lanes.way = Way::of_residual(residual);
+                        }
                     }
-                    nearest.take(lane, &near, limit.low_sq);
-                    if nearest.lanes.lane == lane {
-                        nearest.lanes.way = Way::of_residual(residual);
+                    lanes &= lanes - 1;
+                    if lanes == 0 {
+                        break;
                     }
+                    let next = lowest(lanes);
+                    first = if next == lane + 1 { second } else { fan.spoke(ring.vertex(next)?) };
+                    lane = next;
                 }
-                first = second;
-                at = lane + 1;
             }
+            if of_next_fan == 0 {
+                return Some(nearest);
+            }
+            (centre, lanes, of_next_fan) = (second_centre, of_next_fan, 0);
         }
-        Some(nearest)
+    }
+
+    /// The first of a leaf's triangles whose bits are ones.
+    #[inline(always)]
+    fn lowest(lanes: u32) -> usize {
+        lanes.trailing_zeros() as usize & (WIDTH - 1)
     }
 
     /// All triangles of a leaf on the grid, without a limit and its tests.
