@@ -12,8 +12,10 @@ impl KeyPoint {
         let (origin, _) = record[boxes::FRAME_ORIGIN..].as_chunks::<2>();
         let mut away = self.at;
         for (x, &origin) in away.iter_mut().zip(origin) {
-            let origin = u32::from(u16::from_le_bytes(origin)) << FRACTION_BITS;
-            *x = x.wrapping_sub((origin >> (self.unit_exponent & 31)).cast_signed());
+            // The unit is at least that of the bits below it.
+            let places = self.unit_exponent.wrapping_sub(FRACTION_BITS) & 31;
+            let origin = u32::from(u16::from_le_bytes(origin)) >> places;
+            *x = x.wrapping_sub(origin.cast_signed());
         }
         away
     }

@@ -11,7 +11,7 @@ use super::keys::{CHILD_MASK, NO_CHILD};
 use super::opened_node::{OpenedNode, Pushed, Pusher};
 use crate::bvh::format::layout::{FRAME_BYTES, boxes};
 use crate::geom::fan::WIDTH;
-use crate::num::greater;
+use crate::num::{greater, lesser};
 use crate::query::ScratchEntry;
 
 /// Squared distance of an absent child: its key is above every limit.
@@ -28,6 +28,12 @@ const PLANE_WORDS: usize = boxes::FRAME_ROWS / 4;
 
 /// Two words of the first axis's low planes, two of its high ones, and so on.
 type PlaneWords = [[u8; 4]; PLANE_WORDS];
+
+/// A word with a number of sixteen bits in both halves.
+#[inline(always)]
+fn splat_halves(x: i32) -> u32 {
+    x.cast_unsigned() | x.cast_unsigned() << 16
+}
 
 /// The planes of one axis, less the point.
 #[derive(Clone, Copy)]
@@ -53,21 +59,24 @@ enum Side {
 impl AxisPlanes {
     const NONE: AxisPlanes = AxisPlanes { step: 0, less_point: [0; 2], side: Side::Within };
 
-    /// `from` as [`AxisPlace::from`] has it, but that it may be below its least where it is
-    /// positive on one side.
+    /// `from` as [`AxisPlace::from`] has it. Where one is negative, it need not be cut to `least`.
     #[inline(always)]
     fn new([first, last]: [i32; 2], step: u32, least: i32) -> AxisPlanes {
-        if first > 0 && last > 0 {
+        let both = |[first, last]: [i32; 2]| {
+            let less_point = [first, last].map(|from| splat_halves((1 << 15) - from));
+            AxisPlanes { step, less_point, side: Side::Within }
+        };
+        if (first | last) >> 15 == 0 {
+            both([first, last])
+        } else if first > 0 && last > 0 {
             // No plane is beyond the greatest distance, so a greater number would say no more.
-            let less_point = [first, last].map(|from| {
-                let less = ((1 << 15) - from.clamp(0, MAX_DISTANCE)).cast_unsigned();
-                less | less << 16
-            });
-            return AxisPlanes { step, less_point, side: Side::Within };
+            both([lesser(first, MAX_DISTANCE), lesser(last, MAX_DISTANCE)])
+        } else {
+            let (from, side) =
+                if first <= 0 { (first, Side::Before) } else { (last, Side::Behind) };
+            let less_point = splat_halves(greater(from, least).wrapping_neg());
+            AxisPlanes { step, less_point: [less_point, 0], side }
         }
-        let (from, side) = if first <= 0 { (first, Side::Before) } else { (last, Side::Behind) };
-        let less_point = greater(from, least).wrapping_neg().cast_unsigned();
-        AxisPlanes { step, less_point: [less_point | less_point << 16, 0], side }
     }
 
     /// The planes less the point. `bytes` has one in each half.
@@ -122,40 +131,47 @@ fn plus_square(sum: u32, x: i32) -> u32 {
     sum.wrapping_add(x.wrapping_mul(x).cast_unsigned())
 }
 
-/// The axes of a frame none of whose steps is finer than a key unit. Then a plane's place is a
+/// By how much the exponents of a frame's steps are above a key unit's, each in a byte. `None`: one
+/// is below.
+#[inline(always)]
+fn coarse_steps(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> Option<u32> {
+    const HIGH: u32 = 0x80_8080;
+    let exponents = record[boxes::FRAME_EXPONENTS..].first_chunk()?;
+    // An exponent is below 10, and a unit's below 27.
+    let unit = p.unit_exponent() | p.unit_exponent() << 8 | p.unit_exponent() << 16;
+    let beyond = (u32::from_le_bytes(*exponents) | HIGH).wrapping_sub(unit);
+    if beyond & HIGH == HIGH { Some(beyond ^ HIGH) } else { None }
+}
+
+/// Sets the axes of a frame whose steps are not finer than a key unit. Then a plane's place is a
 /// whole number of key units.
 #[inline(always)]
-fn coarse_axes(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> Option<[AxisPlanes; 3]> {
-    let unit = p.unit_exponent();
-    let exponents = [0, 1, 2].map(|k| u32::from(record[boxes::FRAME_EXPONENTS + k]));
-    if exponents[0] < unit || exponents[1] < unit || exponents[2] < unit {
-        return None;
-    }
+fn set_coarse(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPoint, steps: u32) {
     let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
     let (rows, _) = entries.as_chunks::<3>();
     let [x, y, z] = p.relative_to_origin(record);
-    // As `AxisPlace::of` has it, with the step taken out of the sum that is rounded.
-    let axis = |k: usize| {
+    for k in 0..3 {
+        // As `AxisPlace::of` has it, with the step taken out of the sum that is rounded.
         let [a, b, c] = rows[k];
         let term = |pair: [u8; 2], x: i32| i32::from(i16::from_le_bytes(pair)).wrapping_mul(x);
         let at = term(a, x).wrapping_add(term(b, y)).wrapping_add(term(c, z));
-        let half = 128 << (exponents[k].wrapping_sub(unit) & 7);
+        let half = 128 << (steps >> (8 * k) & 7);
         let step = half >> 7;
         // ⌊(ROUND_UP − at) / 2^PRODUCT_BITS⌋ is minus the other quotient.
         let down = at.wrapping_sub(ROUND_UP - ((1 << PRODUCT_BITS) - 1));
         let up = down.wrapping_add(2 * ROUND_UP - ((1 << PRODUCT_BITS) - 1));
         let first = (up >> PRODUCT_BITS).wrapping_add(half);
         let last = (half - step).wrapping_sub(down >> PRODUCT_BITS);
-        AxisPlanes::new([first, last], step.cast_unsigned(), 2 * half - step - MAX_DISTANCE)
-    };
-    Some([axis(0), axis(1), axis(2)])
+        let least = 2 * half - step - MAX_DISTANCE;
+        axes[k] = AxisPlanes::new([first, last], step.cast_unsigned(), least);
+    }
 }
 
-/// The axes of any frame, and its planes in steps that are no finer than a key unit.
+/// Sets the axes of any frame. Its planes, in steps that are no finer than a key unit.
 #[cold]
 #[inline(never)]
-fn fine_axes(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> ([AxisPlanes; 3], PlaneWords) {
-    let (mut axes, mut words) = ([AxisPlanes::NONE; 3], [[0; 4]; PLANE_WORDS]);
+fn fine_planes(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPoint) -> PlaneWords {
+    let mut words = [[0; 4]; PLANE_WORDS];
     let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
     let (rows, _) = entries.as_chunks::<3>();
     let (planes, _) = record.as_chunks::<{ 2 * WIDTH }>();
@@ -171,20 +187,22 @@ fn fine_axes(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> ([AxisPlanes; 3], Plan
             *cut = plane >> (shift.saturating_sub(8) & 7);
         }
     }
-    (axes, words)
+    words
 }
 
 /// Squared distances of the children from the point, in squares of key units.
 #[inline(always)]
 fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH] {
     let mut squares = [ABSENT; WIDTH];
-    let fine;
-    let (axes, words): (_, &[[u8; 4]]) = match coarse_axes(record, p) {
-        Some(axes) => (axes, record.as_chunks::<4>().0),
-        None => {
-            fine = fine_axes(record, p);
-            (fine.0, &fine.1)
-        }
+    let (mut axes, fine);
+    let words: &[[u8; 4]] = if let Some(steps) = coarse_steps(record, p) {
+        axes = [AxisPlanes::NONE; 3];
+        set_coarse(&mut axes, record, p, steps);
+        record.as_chunks::<4>().0
+    } else {
+        axes = [AxisPlanes::NONE; 3];
+        fine = fine_planes(&mut axes, record, p);
+        &fine
     };
     let (fours, _) = squares.as_chunks_mut::<4>();
     if let [first, second] = fours
