@@ -3,6 +3,7 @@
 use super::descent::descend;
 use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor};
 use super::segment_query::SegmentQuery;
+use super::segment_start::SegmentStart;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::{Crossing, WIDTH};
 use crate::query::{
@@ -48,9 +49,10 @@ impl Bvh<'_> {
     ) -> Result<AllHits, QueryError> {
         let mut work = Work::default();
         let hits = Hits::new(hits);
-        let Some(query) = SegmentQuery::prepare(self, [a, b], &budget, scratch)? else {
+        let Some(start) = SegmentStart::find(self, [a, b], &budget, scratch)? else {
             return Ok(hits.answer(work, Ended::Exact, false));
         };
+        let query = SegmentQuery::new(self, &start);
         let collector = AllCrossings {
             tree: self,
             query: &query,

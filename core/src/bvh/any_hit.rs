@@ -3,6 +3,7 @@
 use super::descent::{Descent, descend};
 use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor};
 use super::segment_query::SegmentQuery;
+use super::segment_start::SegmentStart;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
 use crate::query::{Budget, QueryError, ScratchEntry, Undecided, Verdict, Work};
@@ -49,9 +50,10 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<AnyHit, QueryError> {
         let mut work = Work::default();
-        let Some(query) = SegmentQuery::prepare(self, [a, b], &budget, scratch)? else {
+        let Some(start) = SegmentStart::find(self, [a, b], &budget, scratch)? else {
             return Ok(AnyHit { verdict: Verdict::No, work });
         };
+        let query = SegmentQuery::new(self, &start);
         let collector = AnyCrossing { end: query.ray.end(), undecided: false, certain: false };
         let mut visitor = SegmentVisitor { query: &query, facing, collector };
         let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;

@@ -3,6 +3,7 @@
 use super::descent::{Descent, descend};
 use super::segment_leaf::{CrossingCollector, Facing, HitPlace, SegmentVisitor};
 use super::segment_query::SegmentQuery;
+use super::segment_start::SegmentStart;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
 use crate::num::lesser;
@@ -61,9 +62,10 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<FirstHit, QueryError> {
-        let Some(query) = SegmentQuery::prepare(self, [a, b], &budget, scratch)? else {
+        let Some(start) = SegmentStart::find(self, [a, b], &budget, scratch)? else {
             return Ok(FirstHit::CLEAR);
         };
+        let query = SegmentQuery::new(self, &start);
         let mut work = Work::default();
         let collector = FirstCrossing {
             limit: query.ray.end(),

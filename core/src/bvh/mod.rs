@@ -7,6 +7,8 @@
 //! | `format/` | the bytes: header, nodes, leaves, the check of [`Bvh::open`] |
 //! | `node/` | the box tests: eight boxes at a time |
 //! | `point_query`, `segment_query` | a point or a segment in grid units, ready for the descent |
+//! | `segment_start` | where a segment's line begins |
+//! | `model_box/` | a segment against the model's box |
 //! | `descent` | the descent of one tree, for a point or a segment |
 //! | `leaf_distance`, `triangle_bounds` | a point and the triangles of a leaf |
 //! | `leaf_plane` | without floating point: a plane behind which no triangle counts |
@@ -61,6 +63,7 @@ mod input_box;
 mod leaf_distance;
 mod leaf_plane;
 mod leaf_squares;
+mod model_box;
 mod nearest;
 mod neighbors;
 pub mod node;
@@ -71,6 +74,7 @@ mod pseudonormal;
 mod scene;
 mod segment_leaf;
 mod segment_query;
+mod segment_start;
 mod side_search;
 mod side_survey;
 mod signed_distance;

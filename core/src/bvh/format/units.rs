@@ -35,6 +35,13 @@ impl Units {
         x * self.inward[0] * self.inward[1]
     }
 
+    /// The exponent of [`inward`](Self::inward)'s power of two.
+    #[inline(always)]
+    pub(crate) fn inward_exponent(&self) -> i32 {
+        let [half, rest] = self.inward.map(|power| (power.to_bits() >> 23).cast_signed() - 127);
+        half + rest
+    }
+
     /// A coordinate in input units, kept finite.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]

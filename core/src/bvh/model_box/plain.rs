@@ -1,0 +1,56 @@
+//! A glance at a segment and the model's box, in f32 with early exits.
+//!
+//! A product, sum or difference only grows with the margin. So without a margin what is not beyond
+//! is not beyond in [`misses`](SegmentAndBox::misses) either, and with a greater margin what is
+//! beyond is beyond there.
+
+use super::{Glance, SegmentAndBox};
+use crate::num::tolerance::{BVH_FAR, LEAST_DENOMINATOR, U32};
+use glam::Vec3;
+
+#[inline(always)]
+pub(super) fn glance(both: &SegmentAndBox, surface_error: f32) -> Glance {
+    let &SegmentAndBox { a, b, low, high } = both;
+    let (d, m, extent) = (b - a, (a - low) + (b - high), high - low);
+    let (d_abs, m_abs) = (d.abs(), m.abs());
+    let reach = extent + d_abs;
+    // Not less than the ways of both ends to their farthest corners.
+    let size = (m_abs.x + reach.x) + (m_abs.y + reach.y) + (m_abs.z + reach.z);
+    // Coordinates that are not finite end here too.
+    if size.is_nan() || size > 0.5 * BVH_FAR {
+        return Glance::Unsure;
+    }
+    let half = || {
+        // One 32nd more than the margin of `misses` pays for the rounding of `size`.
+        let margin = 2.0 * surface_error + size * (33.0 * U32) + LEAST_DENOMINATOR;
+        extent + Vec3::splat(margin)
+    };
+    if m_abs.x > reach.x || m_abs.y > reach.y || m_abs.z > reach.z {
+        let far = half() + d_abs;
+        let is_clear = m_abs.x > far.x || m_abs.y > far.y || m_abs.z > far.z;
+        return if is_clear { Glance::Clear } else { Glance::Unsure };
+    }
+    let reach_across = |[d, e]: [f32; 2], [h, k]: [f32; 2]| h * e + k * d;
+    let across = |[m, n]: [f32; 2], [d, e]: [f32; 2]| (m * e - n * d).abs();
+    let xy = across([m.x, m.y], [d.x, d.y]);
+    if xy > reach_across([d_abs.x, d_abs.y], [extent.x, extent.y]) {
+        let half = half();
+        return clear_if(xy, reach_across([d_abs.x, d_abs.y], [half.x, half.y]));
+    }
+    let yz = across([m.y, m.z], [d.y, d.z]);
+    if yz > reach_across([d_abs.y, d_abs.z], [extent.y, extent.z]) {
+        let half = half();
+        return clear_if(yz, reach_across([d_abs.y, d_abs.z], [half.y, half.z]));
+    }
+    let zx = across([m.z, m.x], [d.z, d.x]);
+    if zx > reach_across([d_abs.z, d_abs.x], [extent.z, extent.x]) {
+        let half = half();
+        return clear_if(zx, reach_across([d_abs.z, d_abs.x], [half.z, half.x]));
+    }
+    Glance::Meets
+}
+
+#[inline(always)]
+fn clear_if(across: f32, reach: f32) -> Glance {
+    if across > reach + LEAST_DENOMINATOR { Glance::Clear } else { Glance::Unsure }
+}
