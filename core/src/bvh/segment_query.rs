@@ -4,6 +4,8 @@
 use super::descent::{NodeQuery, OpenedNode};
 use super::model_box::norm_1;
 use super::node::box_entries;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use super::node::{Pushed, push_entries};
 use super::segment_start::SegmentStart;
 use crate::bvh::format::{Bvh, Units};
 use crate::bvh::node::{GridLine, SlabRay};
@@ -11,6 +13,8 @@ use crate::geom::fan::FanRay;
 use crate::geom::fan::WIDTH;
 use crate::num::SOFT_FLOAT;
 use crate::num::tolerance::{BOX_ENTRY, STILL, U32};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::query::ScratchEntry;
 use crate::query::{Hit, QueryError};
 use glam::Vec3;
 
@@ -55,7 +59,7 @@ impl SegmentQuery {
             } else {
                 GridLine::NONE
             },
-            slab_ray: SlabRay::new(from, inverse, margin),
+            slab_ray: SlabRay::new(from, inverse, margin, far.to_array()),
             units,
             origin,
             direction,
@@ -107,5 +111,16 @@ impl NodeQuery for SegmentQuery {
         let [bound, limit] = [bound, limit].map(f32::from_bits);
         *keys = box_entries(tree.boxes(node)?, &self.slab_ray, count, bound, limit);
         Some(())
+    }
+
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[inline(always)]
+    fn push(
+        &self,
+        tree: &Bvh<'_>,
+        opened: &OpenedNode,
+        slots: &mut [ScratchEntry; WIDTH],
+    ) -> Option<Pushed> {
+        push_entries(tree.boxes(opened.node)?, &self.slab_ray, opened, slots)
     }
 }

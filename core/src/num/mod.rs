@@ -5,11 +5,13 @@ mod radius;
 mod round;
 mod sqrt;
 pub mod tolerance;
+mod truncated;
 
 pub use order::{greater, lesser};
 pub use radius::{Radius8, Radius16};
 pub use round::{down_to_f32, exp2, sum_down, sum_up, two_sum, up_to_f32};
 pub use sqrt::{sqrt_approx, sqrt_up};
+pub use truncated::truncated;
 
 /// Whether the target is not known to have instructions for f32. Then integers decide first.
 pub const SOFT_FLOAT: bool = !cfg!(any(

@@ -6,7 +6,7 @@
 
 use super::Glance;
 use crate::bvh::format::Bvh;
-use crate::num::greater;
+use crate::num::{greater, truncated};
 
 /// Lengths must be below this, grid units.
 const MOST: u32 = 1 << 18;
@@ -15,27 +15,6 @@ const MOST: u32 = 1 << 18;
 const ALONG: i32 = 18;
 /// What truncation takes from one factor of a product.
 const FACTOR: u32 = 5;
-
-/// Whole grid units towards 0 of `x · 2^exponent`, below 2^30.
-#[inline(always)]
-fn whole(x: f32, exponent: i32) -> Option<i32> {
-    let bits = x.to_bits();
-    let biased = (bits >> 23 & 0xFF).cast_signed();
-    if biased == 0 || biased == 0xFF {
-        return if bits << 1 == 0 { Some(0) } else { None };
-    }
-    // The number is a mantissa of 24 bits shifted by this.
-    let shift = biased.wrapping_add(exponent).wrapping_sub(150);
-    let mantissa = bits & 0x7F_FFFF | 0x80_0000;
-    let size = match shift {
-        ..=-24 => 0,
-        -23..=-1 => mantissa >> shift.unsigned_abs(),
-        0..=6 => mantissa << shift.unsigned_abs(),
-        _ => return None,
-    };
-    let sign = bits.cast_signed() >> 31;
-    Some((size.cast_signed() ^ sign).wrapping_sub(sign))
-}
 
 /// The segment between `ends`, input units.
 #[inline(never)]
@@ -50,11 +29,11 @@ fn try_glance(tree: &Bvh<'_>, [a, b]: [[f32; 3]; 2]) -> Option<Glance> {
     let (low, high) = tree.grid_bounds();
     let (low, high) = (low.to_array(), high.to_array());
     let mut lengths = Lengths { m: [0; 3], d: [0; 3], extent: [0; 3] };
-    let surface = whole(units.surface_error, 1)?;
+    let surface = truncated(units.surface_error, 1)?;
     let mut bits = surface.cast_unsigned();
     for axis in 0..3 {
-        let (a, b) = (whole(a[axis], exponent)?, whole(b[axis], exponent)?);
-        let (low, high) = (whole(low[axis], 0)?, whole(high[axis], 0)?);
+        let (a, b) = (truncated(a[axis], exponent)?, truncated(b[axis], exponent)?);
+        let (low, high) = (truncated(low[axis], 0)?, truncated(high[axis], 0)?);
         // Below 2^31 each, for the numbers are below 2^30.
         let (from_low, from_high, d, extent) = (a - low, b - high, b - a, high - low);
         bits |= from_low.unsigned_abs() | from_high.unsigned_abs();
@@ -88,8 +67,7 @@ impl Lengths {
             return Glance::Clear;
         }
         // Products of numbers below 2^15 need 30 bits, sums of two of them 31.
-        let shift = (2 * bits).leading_zeros();
-        let shift = if shift < 17 { 17 - shift } else { 0 };
+        let shift = 17u32.saturating_sub((2 * bits).leading_zeros());
         let margin = ((surface + ALONG) >> shift).unsigned_abs() + 1;
         let short = |x: i32| x >> shift;
         let mut meets = most < -ALONG;

@@ -5,10 +5,21 @@
 //! segment meets one row of planes before the other. Which row that is depends on the direction
 //! alone, so it is chosen once for each segment.
 
-use super::keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory};
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+use super::entries_in_whole::Fraction;
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+use super::keys::CHILD_MASK;
+use super::keys::NO_CHILD;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use super::opened_node::{OpenedNode, Pushed, Pusher};
 use crate::bvh::format::layout::{BOXES_BYTES, boxes};
-use crate::geom::fan::{LANES_BELOW, WIDTH};
+use crate::geom::fan::WIDTH;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::num::SOFT_FLOAT;
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 use crate::num::{greater, lesser};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::query::ScratchEntry;
 
 /// A segment's line, prepared for the slab test: its distance from the planes of a box, axis by
 /// axis, as parameters of the segment. Grid units. See `core/docs/rounding.md` §9.
@@ -21,14 +32,18 @@ pub struct SlabRay {
     /// For each axis the row of the planes that the segment meets first. The other row is next to
     /// it.
     near: [usize; 3],
+    /// For boards.
+    #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+    pub(super) fraction: Fraction,
 }
 
 impl SlabRay {
     /// The line through `origin` with `inverse`, by axis the reciprocals of its direction; boxes
-    /// are enlarged by `margin` on each side. The products of all numbers with the model's size
-    /// must stay finite.
+    /// are enlarged by `margin` on each side. `far`: by axis the way to the farthest corner of the
+    /// model. The products of all numbers with the model's size must stay finite.
     #[inline(always)]
-    pub fn new(origin: [f32; 3], inverse: [f32; 3], margin: [f32; 3]) -> Self {
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), allow(unused_variables))]
+    pub fn new(origin: [f32; 3], inverse: [f32; 3], margin: [f32; 3], far: [f32; 3]) -> Self {
         let [ix, iy, iz] = inverse;
         let [mx, my, mz] = margin;
         let row = |x: f32, axis: usize| 2 * axis + (x.to_bits() >> 31) as usize;
@@ -37,6 +52,8 @@ impl SlabRay {
             inverse,
             grow: [mx * ix.abs(), my * iy.abs(), mz * iz.abs()],
             near: [row(ix, 0), row(iy, 1), row(iz, 2)],
+            #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+            fraction: Fraction::new(inverse, far),
         }
     }
 
@@ -61,25 +78,46 @@ pub fn box_entries(
     limit: f32,
 ) -> [u32; WIDTH] {
     let Some(planes) = SlabPlanes::of(record, ray) else { return [NO_CHILD; WIDTH] };
-    if WIDE {
-        wide(&planes, count, parent_bound, limit)
-    } else {
-        narrow(&planes, count, parent_bound, limit)
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    return super::entry_lanes::keys(&planes, count, parent_bound, limit);
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    planes.keys(count, [parent_bound, limit].map(f32::to_bits))
+}
+
+/// Pushes the children of a node whose boxes the segment enters.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[inline(always)]
+pub(crate) fn push_entries(
+    record: &[u8; BOXES_BYTES],
+    ray: &SlabRay,
+    opened: &OpenedNode,
+    slots: &mut [ScratchEntry; WIDTH],
+) -> Option<Pushed> {
+    let planes = SlabPlanes::of(record, ray)?;
+    if SOFT_FLOAT {
+        return Some(super::entries_in_whole::push(&planes, ray, opened, slots));
     }
+    let mut pusher = Pusher::new(opened.node, slots);
+    for child in 0..lesser(opened.count as usize, WIDTH) {
+        if let Some(key) = planes.entry(child, [opened.bound, opened.limit]) {
+            pusher.push(key);
+        }
+    }
+    Some(pusher.finish())
 }
 
 /// Planes of the boxes along one axis, in the order in which the segment meets them.
-struct Axis<'a> {
-    near: &'a [u8; WIDTH],
-    far: &'a [u8; WIDTH],
+pub(super) struct Axis<'a> {
+    pub(super) near: &'a [u8; WIDTH],
+    pub(super) far: &'a [u8; WIDTH],
     /// Parameters of byte 0, and of a step.
-    enter: f32,
-    leave: f32,
-    step: f32,
+    pub(super) enter: f32,
+    pub(super) leave: f32,
+    pub(super) step: f32,
 }
 
 /// The planes of a node's boxes along the three axes.
-pub(crate) struct SlabPlanes<'a>([Axis<'a>; 3]);
+pub(crate) struct SlabPlanes<'a>(pub(super) [Axis<'a>; 3]);
 
 impl<'a> SlabPlanes<'a> {
     #[inline(always)]
@@ -95,67 +133,50 @@ impl<'a> SlabPlanes<'a> {
         };
         Some(SlabPlanes([along(0, ox, ux), along(1, oy, uy), along(2, oz, uz)]))
     }
-}
 
-#[inline(always)]
-pub(crate) fn wide(
-    SlabPlanes([x, y, z]): &SlabPlanes<'_>,
-    count: u32,
-    parent_bound: f32,
-    limit: f32,
-) -> [u32; WIDTH] {
-    let mut keys = [NO_CHILD; WIDTH];
-    let Some(present) = LANES_BELOW.get(count as usize) else { return keys };
-    let none = f32::from_bits(NO_CHILD);
-    let at = |v: u8, step: f32, start: f32| f32::from(v) * step + start;
-    for i in 0..WIDTH {
-        let enter_x = at(x.near[i], x.step, x.enter);
-        let enter_y = at(y.near[i], y.step, y.enter);
-        let enter_z = at(z.near[i], z.step, z.enter);
-        let leave_x = at(x.far[i], x.step, x.leave);
-        let leave_y = at(y.far[i], y.step, y.leave);
-        let leave_z = at(z.far[i], z.step, z.leave);
-        let enter = greater(greater(parent_bound, enter_z), greater(enter_y, enter_x));
-        let leave = lesser(lesser(limit, leave_z), lesser(leave_y, leave_x));
-        let key = if enter <= leave { enter } else { none };
-        // The box of an absent child may be any: its key is overwritten.
-        let bits = key.to_bits() & !CHILD_MASK & present[i] | NO_CHILD & !present[i];
-        keys[i] = bits | i as u32;
-    }
-    in_memory(keys)
-}
-
-/// Stops at the first axis on which the box is missed. From axis to axis the entry only grows and
-/// the exit only falls, so the keys are those of `wide`. Parameters are compared by their bits: a
-/// negative one is below `parent_bound` as an entry, and the box is missed with it as an exit. The
-/// bits of −0 would compare as negative. No sum is −0, because `grow` is positive.
-#[inline(always)]
-pub(crate) fn narrow(
-    SlabPlanes(axes): &SlabPlanes<'_>,
-    count: u32,
-    parent_bound: f32,
-    limit: f32,
-) -> [u32; WIDTH] {
-    let mut keys = [NO_CHILD; WIDTH];
-    let [parent_bound, limit] = [parent_bound, limit].map(|t| t.to_bits().cast_signed());
-    for (child, key) in keys.iter_mut().enumerate().take(count as usize) {
-        let (mut enter, mut leave) = (parent_bound, limit);
-        let overlaps = axes.iter().all(|axis| {
+    /// Key of one child, if the segment enters its box between two parameters, given by their bits.
+    ///
+    /// It stops at the first axis on which the box is missed. From axis to axis the entry only
+    /// grows and the exit only falls, so the keys are those of eight lanes. Parameters are compared
+    /// by their bits: a negative one is below the bound as an entry, and the box is missed with it
+    /// as an exit. The bits of −0 would compare as negative. No sum is −0, because `grow` is
+    /// positive.
+    #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+    #[inline(always)]
+    pub(crate) fn entry(&self, child: usize, [bound, limit]: [u32; 2]) -> Option<u32> {
+        let (mut enter, mut leave) = (bound.cast_signed(), limit.cast_signed());
+        for axis in &self.0 {
             // `child` is below 8, but LLVM does not see it on all targets.
-            let (Some(&near), Some(&far)) = (axis.near.get(child), axis.far.get(child)) else {
-                return false;
-            };
-            let at = |v: u8, start: f32| (f32::from(v) * axis.step + start).to_bits().cast_signed();
-            enter = greater(enter, at(near, axis.enter));
+            let (near, far) = (axis.near[child % WIDTH], axis.far[child % WIDTH]);
+            enter = greater(enter, axis.at(near, axis.enter));
             if enter > leave {
-                return false;
+                return None;
             }
-            leave = lesser(leave, at(far, axis.leave));
-            enter <= leave
-        });
-        if overlaps {
-            *key = enter.cast_unsigned() & !CHILD_MASK | child as u32;
+            leave = lesser(leave, axis.at(far, axis.leave));
+            if enter > leave {
+                return None;
+            }
         }
+        Some(enter.cast_unsigned() & !CHILD_MASK | child as u32)
     }
-    keys
+
+    /// Keys of the first `count` children, one after the other.
+    #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+    #[inline(always)]
+    pub(crate) fn keys(&self, count: u32, range: [u32; 2]) -> [u32; WIDTH] {
+        let mut keys = [NO_CHILD; WIDTH];
+        for (child, key) in keys.iter_mut().enumerate().take(count as usize) {
+            *key = self.entry(child, range).unwrap_or(NO_CHILD);
+        }
+        keys
+    }
+}
+
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+impl Axis<'_> {
+    /// The bits of the parameter of a plane.
+    #[inline(always)]
+    pub(super) fn at(&self, plane: u8, start: f32) -> i32 {
+        (f32::from(plane) * self.step + start).to_bits().cast_signed()
+    }
 }

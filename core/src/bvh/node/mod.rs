@@ -28,7 +28,9 @@
 //! | `box_lanes` | a point against eight boxes, in vector registers, frame included |
 //! | `axis_place` | `AxisPlace`, a point along one axis of a frame, on targets without vector registers |
 //! | `two_in_word` | a point against eight boxes, on targets without vector registers |
-//! | `box_entries` | [`SlabRay`], a segment prepared for the test; a segment against eight boxes |
+//! | `box_entries` | [`SlabRay`], a segment prepared for the test; a segment against one box |
+//! | `entry_lanes` | a segment against eight boxes, in vector registers |
+//! | `entries_in_whole` | a segment against eight boxes, on targets without an FPU |
 
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 mod axis_place;
@@ -36,6 +38,10 @@ mod box_distances;
 mod box_entries;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod box_lanes;
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+mod entries_in_whole;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod entry_lanes;
 mod frame;
 mod grid_line;
 mod keys;
@@ -48,6 +54,8 @@ mod two_in_word;
 pub use box_distances::box_distances;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use box_distances::push_boxes;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+pub(crate) use box_entries::push_entries;
 pub use box_entries::{SlabRay, box_entries};
 pub use frame::KeyPoint;
 pub use grid_line::GridLine;

@@ -1,10 +1,10 @@
 //! Both forms of a node's test give the same children the same keys.
 
-use super::box_entries::SlabRay;
+use super::box_entries::{SlabPlanes, SlabRay};
 use super::frame::KeyPoint;
 use super::keys::{CHILD_MASK, NO_CHILD};
 use super::opened_node::OpenedNode;
-use super::{box_entries, box_lanes, two_in_word};
+use super::{box_lanes, entries_in_whole, entry_lanes, two_in_word};
 use crate::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES, ROW_BITS, boxes};
 use crate::geom::fan::WIDTH;
 use crate::query::ScratchEntry;
@@ -212,15 +212,20 @@ fn entries_have_the_same_bits() {
         put(&mut record, boxes::ORIGIN, &origin);
         put(&mut record, boxes::STEPS, &steps);
         let size = 2f32.powi(noise.below(16) as i32);
-        let (from, direction) = (noise.vector(size), noise.vector(2.0 * size));
+        let (from, mut direction) = (noise.vector(size), noise.vector(2.0 * size));
+        // Some are steep along an axis.
+        if noise.below(4) == 0 {
+            direction[noise.below(3) as usize] *= [0.0, 1e-5, 1e-3][noise.below(3) as usize];
+        }
         let still = crate::num::tolerance::STILL;
         let inverse = direction.map(|d| 1.0 / if d.abs() > still { d } else { still.copysign(d) });
         let margin = [[1e-6; 3], [1.0; 3], [1e3; 3]][noise.below(3) as usize];
-        let ray = SlabRay::new(from, inverse, margin);
+        let ray = SlabRay::new(from, inverse, margin, from.map(|x| x.abs() + 600.0));
         for (bound, limit) in [(0.0, 1.0), (0.25, 1.0), (0.0, 0.5), (0.5, 0.25), (1.0, 1.0)] {
-            let sides = box_entries::SlabPlanes::of(&record, &ray).expect("long enough");
-            let wide = box_entries::wide(&sides, count as u32, bound, limit);
-            let narrow = box_entries::narrow(&sides, count as u32, bound, limit);
+            let planes = SlabPlanes::of(&record, &ray).expect("long enough");
+            let wide = entry_lanes::keys(&planes, count as u32, bound, limit);
+            let [bound, limit] = [bound, limit].map(f32::to_bits);
+            let narrow = planes.keys(count as u32, [bound, limit]);
             for (lane, (wide, narrow)) in wide.into_iter().zip(narrow).enumerate() {
                 if narrow < NO_CHILD {
                     entered += 1;
@@ -232,6 +237,14 @@ fn entries_have_the_same_bits() {
                     assert!(wide >= NO_CHILD, "{wide}: {ray:?}, {record:?}");
                 }
             }
+            let opened = OpenedNode { node: 3, count: count as u32, bound, limit };
+            let mut slots = [ScratchEntry::EMPTY; WIDTH];
+            let pushed = entries_in_whole::push(&planes, &ray, &opened, &mut slots);
+            let nearest = narrow.into_iter().min().unwrap_or(NO_CHILD);
+            assert_eq!(pushed.nearest, nearest, "{ray:?}, {count} of {record:?}");
+            let others = narrow.into_iter().filter(|&key| key < NO_CHILD && key != nearest);
+            let entries = slots[..pushed.count].iter().map(|entry| entry.small_word());
+            assert!(others.eq(entries), "{ray:?}, {count} of {record:?}");
         }
     }
     assert!(entered > 100_000 && missed > 100_000, "{entered} {missed}");
