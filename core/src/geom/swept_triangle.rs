@@ -39,6 +39,12 @@ impl SweptPoint {
         SweptPoint { point, margin: POINT_BOUND * U32 * norms + UNDERFLOW }
     }
 
+    /// An upper bound of the 1-norms of the ways from any corner to the point and to another corner,
+    /// together.
+    pub fn norms(&self) -> f32 {
+        self.margin / (POINT_BOUND * U32)
+    }
+
     /// A lower bound of the distance from the point to the triangle swept by `radius`, never
     /// negative. `None` if the distance certainly exceeds `limit`, which needs no square root.
     #[inline(always)]

@@ -5,11 +5,12 @@
 //! rounding of f32.
 
 use super::geometry::Geometry;
+use super::shared_corner::SharedCorner;
 use super::sweep::{Candidate, Fate, Front, Visit};
 use crate::geom::{LANES, Lanes, SweptPoint, point_triangle};
 use crate::hull::format::{Hull, Instance};
 use crate::num::tolerance::{F32_BOUNDS, HULL_FAR, REPORTED, U64};
-use crate::num::{down_to_f32, up_to_f32};
+use crate::num::{SOFT_DOUBLE, down_to_f32, up_to_f32};
 use crate::query::{
     Budget, ClosestPoint, Ended, Frame, Interval, QueryError, ScratchEntry, SweepQueue, Taken,
     Work, before,
@@ -79,6 +80,9 @@ pub(super) fn closest_point<'a, G: Geometry<'a>>(
     } else {
         let tolerance = (relative > 0.0 || absolute > 0.0)
             .then(|| [f64::from(relative), frame.length(absolute)]);
+        if SOFT_DOUBLE && tolerance.is_none() {
+            nearest.share_corners(frame.surface_error());
+        }
         let mut sweep = Fresh { front: Front::new(hull, scratch, steps), nearest };
         ended = sweep.run(tolerance).ok_or(QueryError::Unchecked)?;
         work = sweep.nearest.work(sweep.front.work);
@@ -116,6 +120,7 @@ pub(super) struct Nearest {
     lower: f64,
     best: Option<Best>,
     exact: u32,
+    shared: Option<SharedCorner>,
     /// The nearest triangle of those that were just found. It waits outside the queue.
     next: Option<ScratchEntry>,
 }
@@ -138,8 +143,15 @@ impl Nearest {
             lower: f64::INFINITY,
             best: None,
             exact: 0,
+            shared: None,
             next: None,
         })
+    }
+
+    /// From now on triangles at a corner that is known are not evaluated again. What is reported
+    /// without a tolerance keeps its bits, the bounds in f64 do not.
+    fn share_corners(&mut self, surface_error: f64) {
+        self.shared = SharedCorner::new(self.p, self.swept.norms(), surface_error);
     }
 
     /// Bounds of up to four triangles, infinite above the limit.
@@ -176,6 +188,33 @@ impl Nearest {
         }
     }
 
+    /// Evaluates a triangle that is not refined, unless its closest point is known.
+    fn take(&mut self, candidate: &Candidate) {
+        if SOFT_DOUBLE
+            && candidate.fate == Fate::Surface
+            && candidate.radius == 0.0
+            && let Some(shared) = &self.shared
+            && let Some((distance_sq, point)) = shared.find(candidate.corners)
+        {
+            self.exact += 1;
+            self.offer(distance_sq, candidate.instance, || point.as_dvec3());
+        } else {
+            self.evaluate(candidate);
+        }
+    }
+
+    /// A triangle may be the nearest so far.
+    #[inline(always)]
+    fn offer(&mut self, distance_sq: f64, instance: Instance, point: impl Fn() -> DVec3) {
+        let nearer = self.best.is_none_or(|best| {
+            distance_sq < best.distance_sq
+                || (distance_sq == best.distance_sq && instance < best.instance)
+        });
+        if nearer {
+            self.best = Some(Best { distance_sq, instance, point: point() });
+        }
+    }
+
     /// Evaluates a triangle that is not refined, and returns a lower bound of its distance.
     pub(super) fn evaluate(&mut self, candidate: &Candidate) -> f64 {
         self.exact += 1;
@@ -193,14 +232,13 @@ impl Nearest {
             self.upper = upper;
             self.set_limit(upper);
         }
-        let instance = candidate.instance;
-        let nearer = self.best.is_none_or(|best| {
-            d.distance_sq < best.distance_sq
-                || (d.distance_sq == best.distance_sq && instance < best.instance)
-        });
-        if nearer {
-            let point = a + (b - a) * d.u + (c - a) * d.v;
-            self.best = Some(Best { distance_sq: d.distance_sq, instance, point });
+        self.offer(d.distance_sq, candidate.instance, || a + (b - a) * d.u + (c - a) * d.v);
+        if SOFT_DOUBLE
+            && candidate.fate == Fate::Surface
+            && candidate.radius == 0.0
+            && let Some(shared) = &mut self.shared
+        {
+            shared.learn(candidate.corners, &d);
         }
         lower
     }
@@ -324,7 +362,7 @@ impl Visit for Nearest {
             }
             bounds[lane % LANES] = f32::INFINITY;
             if let Some(candidate) = found.get(lane) {
-                self.evaluate(candidate);
+                self.take(candidate);
             }
         }
     }

@@ -11,6 +11,7 @@
 //! | `geometry` | where a sweep's triangles lie: at rest, at a key frame, or moved |
 //! | `sweep` | the front of the sweeping process |
 //! | `closest_point` | closest point by a sweep |
+//! | `shared_corner` | a corner that is the closest point of many triangles, on boards |
 //! | `kept_sweep` | a sweep that is interrupted, moved, or gives triangle after triangle |
 //! | `frame_hull` | the hull between two key frames |
 //! | `moved_hull` | the hull under any motion of the mesh's vertices |
@@ -31,6 +32,7 @@ mod overlap;
 mod refine;
 mod refined_hull;
 mod segment_hits;
+mod shared_corner;
 mod split_set;
 mod sweep;
 

@@ -20,3 +20,7 @@ pub const SOFT_FLOAT: bool = !cfg!(any(
     target_abi = "eabihf",
     target_feature = "f"
 ));
+
+/// Whether the target is not known to have instructions for f64. Then f32 decides first.
+pub const SOFT_DOUBLE: bool =
+    !cfg!(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "d"));

@@ -67,6 +67,22 @@ pub const TRIPLE_PRODUCT: f64 = 16.0;
 /// [`U64`] times the 1-norms (§5).
 pub const COPLANAR_TOUCH: f64 = 64.0;
 
+/// Rounding of an inner product of differences in f32, in units of the product of their 1-norms.
+/// Proved: 5.1 [`U32`] (§4).
+pub const CORNER_SIDE: f32 = 16.0 * U32;
+
+/// Rounding of the products that decide in f64 where the closest point of a triangle is, in units
+/// of the square of the 1-norms of the query's ways: 2^-46. Proved: 2^-49.9 (§4).
+pub const CORNER_DOUBT: f32 = 1.0 / (1u64 << 46) as f32;
+
+/// Squared sine of the angle at a corner below which f32 does not tell the area of a triangle,
+/// 2^-40 (§4).
+pub const CORNER_AREA: f32 = 1.0 / (1u64 << 40) as f32;
+
+/// How far the bounds of triangles at one corner lie apart, in units of f64 of the distance, times
+/// the distance and over the 1-norms of the query's ways. Proved: 102 (§4).
+pub const CORNER_WIDTH: f32 = 128.0;
+
 /// Bounds are compared as squares, with less than eight roundings. This factor keeps the comparison
 /// on the safe side (§2). [`POINT_BOUND`] has room for it.
 pub const SQUARED_SLACK: f32 = 1.0 - 8.0 * U32;
