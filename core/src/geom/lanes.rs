@@ -23,6 +23,9 @@ pub struct Lanes {
 }
 
 impl Lanes {
+    /// Whether four lanes are worth all branches. Else a triangle alone takes less.
+    pub const PAY: bool = VECTOR;
+
     /// No triangles.
     pub const EMPTY: Lanes = Lanes { t: [[0.0; LANES]; 9] };
 

@@ -162,6 +162,15 @@ impl Nearest {
             self.distant_bounds(found, &mut bounds);
             return bounds;
         }
+        if !Lanes::PAY {
+            for (bound, candidate) in bounds.iter_mut().zip(found) {
+                let Candidate { corners, radius, .. } = candidate;
+                if let Some(lower) = self.swept.lower(*corners, *radius, self.limit_f32) {
+                    *bound = lower;
+                }
+            }
+            return bounds;
+        }
         let mut lanes = Lanes::EMPTY;
         for (lane, candidate) in found.iter().enumerate() {
             self.swept.load(&mut lanes, lane, candidate.corners);
@@ -333,7 +342,8 @@ impl Nearest {
 }
 
 impl Visit for Nearest {
-    #[inline(always)]
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
         let mut bounds = self.bounds(found);
         for (bound, candidate) in bounds.iter_mut().zip(found) {

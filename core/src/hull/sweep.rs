@@ -71,6 +71,7 @@ impl Triangle {
 }
 
 /// Up to [`LANES`] triangles on their way to a visitor.
+#[derive(Debug)]
 struct Batch {
     found: [Candidate; LANES],
     len: usize,
@@ -98,6 +99,11 @@ impl Batch {
 }
 
 /// Children of a triangle.
+struct Children {
+    triangles: [Triangle; CHILDREN],
+    count: usize,
+}
+
 const CHILDREN: usize = 3;
 
 /// Triangles and groups of all levels. No search on sound tables replaces more.
@@ -115,6 +121,7 @@ pub(crate) struct Front<'m, G> {
     pub(crate) work: Work,
     /// Triangles that may be replaced.
     steps: u32,
+    batch: Batch,
 }
 
 impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
@@ -126,6 +133,7 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
             model: *model,
             queue: SweepQueue::new(scratch, model.tables().scratch_entries()),
             work: Work::NONE,
+            batch: Batch::EMPTY,
         }
     }
 
@@ -133,7 +141,6 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
     pub(crate) fn begin(&mut self, visitor: &mut impl Visit) -> Option<()> {
         let groups = self.model.tables().base_groups();
         self.queue.begin_children(groups);
-        let mut batch = Batch::EMPTY;
         for index in 0..groups {
             let (corners, radius) = self.model.group(index)?;
             if self.is_partless(radius) {
@@ -142,15 +149,21 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
             self.work.nodes += 1;
             let instance = self.model.tables().instance(Named::Group(index));
             let candidate = Candidate { corners, radius, instance, fate: Fate::Splits };
-            batch.push(candidate, visitor, &mut self.queue);
+            self.batch.push(candidate, visitor, &mut self.queue);
         }
-        batch.flush(visitor, &mut self.queue);
+        self.batch.flush(visitor, &mut self.queue);
         Some(())
     }
 
     /// A front whose queue never goes depth first, and that may replace no triangle yet.
     pub(crate) fn best_first(model: &G, scratch: &'m mut [ScratchEntry]) -> Self {
-        Front { queue: SweepQueue::best_first(scratch), work: Work::NONE, model: *model, steps: 0 }
+        Front {
+            queue: SweepQueue::best_first(scratch),
+            work: Work::NONE,
+            model: *model,
+            steps: 0,
+            batch: Batch::EMPTY,
+        }
     }
 
     /// From now on, `steps` triangles may be replaced.
@@ -199,29 +212,25 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
         }
         let [a, b, c] = self.model.tables().corners(instance)?;
         let ends = [self.end(a)?, self.end(b)?, self.end(c)?];
-        let triangle = Triangle { instance, ends, radius: 0 };
-        let (mut children, mut count) =
-            self.children(&triangle, self.model.tables().stored_split(triangle.split())?)?;
-        // An only child has the same part of the surface. Its bound is hardly better, so it is
-        // replaced at once.
-        while count == 1
-            && let Some(split) = self.model.tables().stored_split(children[0].split())
-            && !self.is_spent()
-        {
+        let mut triangle = Triangle { instance, ends, radius: 0 };
+        let mut split = self.model.tables().stored_split(triangle.split())?;
+        let mut children = Children { triangles: [triangle; CHILDREN], count: 0 };
+        loop {
+            self.replace(&triangle, split, &mut children)?;
+            // An only child has the same part of the surface. Its bound is hardly better, so it is
+            // replaced at once.
+            [triangle, ..] = children.triangles;
+            match self.model.tables().stored_split(triangle.split()) {
+                Some(next) if children.count == 1 && !self.is_spent() => split = next,
+                _ => break,
+            }
             self.work.splits += 1;
-            (children, count) = self.children(&children[0], split)?;
         }
-        self.queue.begin_children(count as u32);
-        let mut found = [Candidate::EMPTY; CHILDREN];
-        for (child, slot) in children.iter().zip(&mut found).take(count) {
-            *slot = self.candidate(child)?;
+        self.queue.begin_children(children.count as u32);
+        for child in children.triangles.iter().take(children.count) {
+            self.show(child, visitor)?;
         }
-        if !self.model.tables().encloses()
-            && found.iter().any(|child| self.is_partless(child.radius))
-        {
-            count = self.leave_out(&mut found, count);
-        }
-        visitor.visit(found.get(..count)?, &mut self.queue);
+        self.batch.flush(visitor, &mut self.queue);
         Some(())
     }
 
@@ -229,41 +238,30 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
         let first = index.checked_mul(BASE_GROUP)?;
         let end = self.model.tables().header().base_triangles.min(first.checked_add(BASE_GROUP)?);
         self.queue.begin_children(end.saturating_sub(first));
-        let mut batch = Batch::EMPTY;
         for radius in first..end {
             let [a, b, c] = self.model.tables().base_triangle(radius)?;
             let ends = [self.end(a)?, self.end(b)?, self.end(c)?];
             let instance = self.model.tables().instance(Named::Base(radius));
-            let candidate = self.candidate(&Triangle { instance, ends, radius })?;
-            if self.is_partless(candidate.radius) {
-                continue;
-            }
-            batch.push(candidate, visitor, &mut self.queue);
+            self.show(&Triangle { instance, ends, radius }, visitor)?;
         }
-        batch.flush(visitor, &mut self.queue);
+        self.batch.flush(visitor, &mut self.queue);
+        Some(())
+    }
+
+    /// Puts a triangle into the batch, unless it stands for no part of the surface.
+    #[inline(always)]
+    fn show(&mut self, triangle: &Triangle, visitor: &mut impl Visit) -> Option<()> {
+        let candidate = self.candidate(triangle)?;
+        if !self.is_partless(candidate.radius) {
+            self.batch.push(candidate, visitor, &mut self.queue);
+        }
         Some(())
     }
 
     /// Whether a radius says that its triangle stands for no part of the surface.
     #[inline(always)]
     fn is_partless(&self, radius: f32) -> bool {
-        !self.model.tables().encloses() && radius == f32::INFINITY
-    }
-
-    /// Moves the triangles that stand for a part of the surface to the front, and counts them.
-    #[cold]
-    fn leave_out(&self, found: &mut [Candidate; CHILDREN], count: usize) -> usize {
-        let mut kept = 0;
-        for at in 0..count {
-            let Some(&candidate) = found.get(at) else { break };
-            if !self.is_partless(candidate.radius)
-                && let Some(slot) = found.get_mut(kept)
-            {
-                *slot = candidate;
-                kept += 1;
-            }
-        }
-        kept
+        radius == f32::INFINITY && !self.model.tables().encloses()
     }
 
     #[inline(always)]
@@ -273,11 +271,7 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
 
     /// The triangles that a split makes out of a triangle.
     #[inline(always)]
-    fn children(
-        &self,
-        triangle: &Triangle,
-        index: SplitIdx,
-    ) -> Option<([Triangle; CHILDREN], usize)> {
+    fn replace(&self, triangle: &Triangle, index: SplitIdx, children: &mut Children) -> Option<()> {
         let split = self.model.tables().split(index)?;
         // The corner that is split is the only one with this split.
         let [a, b, c] = triangle.ends;
@@ -296,24 +290,25 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
             ends,
             radius: split.first_triangle.wrapping_add(slot as u32),
         };
+        let Children { triangles, count } = children;
+        *count = 1;
         let apex = if edge < split.right { split.origin } else { split.destination() };
-        let mut children = [child(edge, [self.end(apex)?, from, to]); CHILDREN];
-        let mut count = 1;
+        triangles[0] = child(edge, [self.end(apex)?, from, to]);
         if edge != split.right_parent && edge != split.left_parent {
-            return Some((children, count));
+            return Some(());
         }
         let (origin, destination) = (self.end(split.origin)?, self.end(split.destination())?);
         if edge == split.right_parent {
             let wing = if edge == split.right { from } else { to };
-            children[1] = child(ring_len, [origin, wing, destination]);
-            count = 2;
+            triangles[1] = child(ring_len, [origin, wing, destination]);
+            *count = 2;
         }
         if edge == split.left_parent {
             let wing = if edge == 0 { from } else { to };
-            children[count % CHILDREN] = child(ring_len + 1, [origin, destination, wing]);
-            count += 1;
+            triangles[*count % CHILDREN] = child(ring_len + 1, [origin, destination, wing]);
+            *count += 1;
         }
-        Some((children, count))
+        Some(())
     }
 
     #[inline(always)]

@@ -118,7 +118,8 @@ impl<'a> Hull<'a> {
     pub(super) fn base_finals(&self, count: u32) -> Option<u32> {
         let mut finals = 0;
         for index in 0..count {
-            let is_final = self.removed_by(self.base_triangle(index)?).is_none();
+            let [a, b, c] = self.base_triangle(index)?;
+            let is_final = self.is_final(a)? && self.is_final(b)? && self.is_final(c)?;
             finals += u32::from(is_final && self.has_part(index));
         }
         Some(finals)
@@ -126,12 +127,29 @@ impl<'a> Hull<'a> {
 
     /// Triangles of the surface among the first of a split's.
     pub(super) fn finals(&self, split: &Split<'a>, slots: usize) -> Option<u32> {
+        let are_final = [self.is_final(split.origin)?, self.is_final(split.destination())?];
+        if are_final == [false; 2] {
+            return Some(0);
+        }
         let mut finals = 0;
         for slot in 0..slots {
-            let is_final = self.removed_by(split.fine(slot)?).is_none();
+            let is_final = if slot < split.ring_len() {
+                are_final[usize::from(slot >= split.right)]
+                    && self.is_final(split.ring(slot)?)?
+                    && self.is_final(split.ring(slot + 1)?)?
+            } else {
+                let wing = if slot == split.ring_len() { split.right } else { 0 };
+                are_final == [true; 2] && self.is_final(split.ring(wing)?)?
+            };
             let radius = split.first_triangle.checked_add(u32::try_from(slot).ok()?)?;
             finals += u32::from(is_final && self.has_part(radius));
         }
         Some(finals)
+    }
+
+    /// Whether no split replaces a vertex.
+    #[inline(always)]
+    fn is_final(&self, vertex: VertIdx) -> Option<bool> {
+        Some(self.stored_split(self.stored_split_of(vertex)?).is_none())
     }
 }
