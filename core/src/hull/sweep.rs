@@ -80,10 +80,16 @@ struct Batch {
 impl Batch {
     const EMPTY: Batch = Batch { found: [Candidate::EMPTY; LANES], len: 0 };
 
+    /// Less than [`LANES`] triangles wait.
     #[inline(always)]
-    fn push(&mut self, candidate: Candidate, visitor: &mut impl Visit, queue: &mut SweepQueue<'_>) {
+    fn put(&mut self, candidate: Candidate) {
         self.found[self.len % LANES] = candidate;
         self.len += 1;
+    }
+
+    #[inline(always)]
+    fn push(&mut self, candidate: Candidate, visitor: &mut impl Visit, queue: &mut SweepQueue<'_>) {
+        self.put(candidate);
         if self.len == LANES {
             self.flush(visitor, queue);
         }
@@ -217,18 +223,22 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
         let mut children = Children { triangles: [triangle; CHILDREN], count: 0 };
         loop {
             self.replace(&triangle, split, &mut children)?;
+            if children.count != 1 || self.is_spent() {
+                break;
+            }
             // An only child has the same part of the surface. Its bound is hardly better, so it is
             // replaced at once.
             [triangle, ..] = children.triangles;
-            match self.model.tables().stored_split(triangle.split()) {
-                Some(next) if children.count == 1 && !self.is_spent() => split = next,
-                _ => break,
-            }
+            let Some(next) = self.model.tables().stored_split(triangle.split()) else { break };
+            split = next;
             self.work.splits += 1;
         }
         self.queue.begin_children(children.count as u32);
         for child in children.triangles.iter().take(children.count) {
-            self.show(child, visitor)?;
+            let candidate = self.candidate(child)?;
+            if !self.is_partless(candidate.radius) {
+                self.batch.put(candidate);
+            }
         }
         self.batch.flush(visitor, &mut self.queue);
         Some(())
@@ -242,19 +252,12 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
             let [a, b, c] = self.model.tables().base_triangle(radius)?;
             let ends = [self.end(a)?, self.end(b)?, self.end(c)?];
             let instance = self.model.tables().instance(Named::Base(radius));
-            self.show(&Triangle { instance, ends, radius }, visitor)?;
+            let candidate = self.candidate(&Triangle { instance, ends, radius })?;
+            if !self.is_partless(candidate.radius) {
+                self.batch.push(candidate, visitor, &mut self.queue);
+            }
         }
         self.batch.flush(visitor, &mut self.queue);
-        Some(())
-    }
-
-    /// Puts a triangle into the batch, unless it stands for no part of the surface.
-    #[inline(always)]
-    fn show(&mut self, triangle: &Triangle, visitor: &mut impl Visit) -> Option<()> {
-        let candidate = self.candidate(triangle)?;
-        if !self.is_partless(candidate.radius) {
-            self.batch.push(candidate, visitor, &mut self.queue);
-        }
         Some(())
     }
 
