@@ -316,7 +316,9 @@ mod narrow {
             known.clear();
         }
         if leaf.is_f32() {
-            Some(f32_nearest(leaf, p, limit.low_sq))
+            // Of a copy, so that the leaf itself stays in registers.
+            let leaf = *leaf;
+            Some(f32_nearest(&leaf, p, limit.low_sq))
         } else if SOFT_FLOAT && let Some(point) = &query.whole {
             whole_nearest(leaf, p, point, limit, known)
         } else {
