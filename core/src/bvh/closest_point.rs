@@ -7,9 +7,9 @@ use super::leaf_plane::LeafPlane;
 use super::point_query::{EVERY_KEY, PointQuery};
 use super::triangle_bounds::{nearness, seen_from, sliver};
 use crate::bvh::format::{Bvh, FanLeaf, at_least, at_most, lanes_of};
-use crate::geom::fan::{lower_bound, refined};
+use crate::geom::fan::{lower_bound_up_to, refined};
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
-use crate::num::{greater, sqrt_approx};
+use crate::num::{greater, lesser, sqrt_approx};
 use crate::query::Interval;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 
@@ -275,12 +275,16 @@ impl<'a> Closest<'a> {
             if better.distance_sq < near.distance_sq && nearer {
                 self.improve(better.distance_sq, &Lanes::one(lane, &better), [node, child]);
             }
-            let lower_sq = square(lower_bound(&seen, &again));
-            let lower_sq = greater(box_sq, lower_sq);
-            // The plane's bound may be the greater one.
-            let lower_sq = greater(near.lower_bound_sq, lower_sq);
-            if lower_sq < self.refined_lower_sq {
-                self.refined_lower_sq = lower_sq;
+            // From here on a greater bound changes no answer: `refine_below` only falls.
+            let enough_sq = lesser(self.refine_below, self.refined_lower_sq);
+            // The kernel's bound may be greater than all others.
+            let known_sq = greater(near.lower_bound_sq, box_sq);
+            if known_sq < enough_sq {
+                let lower_sq = square(lower_bound_up_to(&seen, &again, enough_sq));
+                let lower_sq = greater(known_sq, lower_sq);
+                if lower_sq < enough_sq {
+                    self.refined_lower_sq = lower_sq;
+                }
             }
         }
         Some(())

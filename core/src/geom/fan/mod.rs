@@ -18,7 +18,10 @@ pub use cone::NormalCone;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use lanes::{LANES, Lanes, PIECES, lanes_below, least};
 pub use lanes::{LANES_BELOW, WIDTH};
-pub use point::{Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, point_leaf, refined};
+pub use point::{
+    Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, lower_bound_up_to, point_leaf,
+    refined,
+};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use point8::{Edges, LaneNearness, point_lanes};
 pub use ray::{Crossing, FanRay, Shadow, ray_leaf};

@@ -232,22 +232,43 @@ pub fn point_leaf(
 /// to each edge. `s` is the point less the centre, `e` and `g` are the spokes.
 ///
 /// It holds for any triangle up to the rounding that `FAN_DISTANCE` covers. `near` is what
-/// [`refined`] finds. Cost: five roots.
+/// [`refined`] finds. Cost: six roots.
 #[inline]
 pub fn lower_bound(seen: &[Vec3; 3], near: &Nearness) -> f32 {
+    lower_bound_up_to(seen, near, f32::INFINITY)
+}
+
+/// [`lower_bound`], or less of it: a bound whose square is at least `enough_sq`. The residual's
+/// plane comes first, which mostly is enough: one root.
+#[inline]
+pub fn lower_bound_up_to(seen: &[Vec3; 3], near: &Nearness, enough_sq: f32) -> f32 {
     let &[s, e, g] = seen;
     let r = residual(s, e, g, near.v, near.w);
-    let normal = normal(e, g);
-    let side = if dot(normal, s) < 0.0 { -normal } else { normal };
-    // Along `s` too: a triangle that `is_beyond` leaves out must be as far here.
-    let mut directions = [s, r, e, g, g - e, side];
-    let [_, _, edges @ .., _] = &mut directions;
-    for edge in edges {
-        let length_sq = dot(*edge, *edge);
-        let share = if length_sq > LEAST_DENOMINATOR { dot(r, *edge) / length_sq } else { 0.0 };
-        *edge = r - *edge * share;
+    let beside = |edge: Vec3| {
+        let length_sq = dot(edge, edge);
+        let share = if length_sq > LEAST_DENOMINATOR { dot(r, edge) / length_sq } else { 0.0 };
+        r - edge * share
+    };
+    let mut best = 0.0;
+    for plane in 0..6 {
+        let direction = match plane {
+            0 => r,
+            1 => {
+                let normal = normal(e, g);
+                if dot(normal, s) < 0.0 { -normal } else { normal }
+            }
+            // Along `s` too: a triangle that `is_beyond` leaves out must be as far here.
+            2 => s,
+            3 => beside(e),
+            4 => beside(g),
+            _ => beside(g - e),
+        };
+        best = greater(best, supported(direction, seen));
+        if best * best >= enough_sq {
+            break;
+        }
     }
-    directions.iter().fold(0.0, |best, direction| greater(best, supported(*direction, seen)))
+    best
 }
 
 /// Distance of the supporting plane across `direction`; 0 if `direction` has no length.
