@@ -535,24 +535,24 @@ mod narrow {
     #[inline(never)]
     pub(super) fn nearest_of_all(leaf: &FanLeaf<'_>, p: Vec3) -> Option<LeafNearest> {
         let mut nearest = LeafNearest::NONE;
-        let shape = leaf.shape();
-        let ring = leaf.full_ring()?;
-        let turn = shape.turn();
-        let [centre, second_centre] = ring.centres(shape);
-        let mut fan = GridFan::new(leaf, p, centre);
-        let mut before = ring.vertex(0)?;
-        let mut first = fan.spoke(before);
-        for lane in 0..shape.triangles() {
-            if lane == turn {
-                fan = GridFan::new(leaf, p, second_centre);
-                first = fan.spoke(before);
+        let (shape, ring) = (leaf.shape(), leaf.full_ring()?);
+        let count = shape.triangles();
+        let [mut centre, second_centre] = ring.centres(shape);
+        let (mut lane, mut end) = (0, lesser(shape.turn(), count));
+        loop {
+            let fan = GridFan::new(leaf, p, centre);
+            let mut first = fan.spoke(ring.vertex(lane)?);
+            while lane < end {
+                let second = fan.spoke(ring.vertex(lane + 1)?);
+                nearest.take(lane, &fan.fan.triangle(&first, &second), 0.0);
+                first = second;
+                lane += 1;
             }
-            before = ring.vertex(lane + 1)?;
-            let second = fan.spoke(before);
-            nearest.take(lane, &fan.fan.triangle(&first, &second), 0.0);
-            first = second;
+            if end == count {
+                return Some(nearest);
+            }
+            (centre, end) = (second_centre, count);
         }
-        Some(nearest)
     }
 
     #[inline(always)]

@@ -105,7 +105,7 @@ impl PointQuery {
         let size = farthest.x + farthest.y + farthest.z;
         let near = size <= BVH_FAR;
         // Of a point that is not finite the size is neither.
-        if !near && !(x.is_finite() && y.is_finite() && z.is_finite()) {
+        if !(near || x.is_finite() && y.is_finite() && z.is_finite()) {
             return Err(QueryError::NotFinite);
         }
         let fan = greater(FAN_DISTANCE * U32 * header.star_radius, LEAST_FAN_ROUNDING);

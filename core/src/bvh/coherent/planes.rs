@@ -126,11 +126,12 @@ fn separate_wide(edges: &LeafEdges, triangles: usize, (lane, v, w): At) -> Optio
 fn separate_narrow(leaf: &FanLeaf<'_>, p: Vec3, (lane, v, w): At) -> Option<(Vec3, f32)> {
     let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
     let which = usize::from(lane >= turn);
+    let spoke = leaf.spokes_from(which);
     let from = p - leaf.centre(which);
-    let n = normal(from - leaf.spoke(lane, which) * v - leaf.spoke(lane + 1, which) * w)?;
+    let n = normal(from - spoke(lane) * v - spoke(lane + 1) * w)?;
     let other = p - leaf.centre(leaf.shape().centres() - 1 - which.min(leaf.shape().centres() - 1));
     let along = dot(n, from);
-    let nearest = (0..=count).fold(0.0, |least, i| lesser(least, -dot(n, leaf.spoke(i, which))));
+    let nearest = (0..=count).fold(0.0, |least, i| lesser(least, -dot(n, spoke(i))));
     Some((n, lesser(along + nearest, dot(n, other))))
 }
 

@@ -33,9 +33,10 @@ pub(crate) fn has_no_sliver(leaf: &FanLeaf<'_>) -> Option<bool> {
 pub(crate) fn has_no_sliver(leaf: &FanLeaf<'_>) -> Option<bool> {
     let square = |v: glam::Vec3| v.x * v.x + v.y * v.y + v.z * v.z;
     let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
+    let spokes = [leaf.spokes_from(0), leaf.spokes_from(leaf.shape().centres() - 1)];
     Some((0..count.min(crate::geom::fan::WIDTH)).all(|lane| {
-        let which = usize::from(lane >= turn);
-        let (e, g) = (leaf.spoke(lane, which), leaf.spoke(lane + 1, which));
+        let spoke = &spokes[usize::from(lane >= turn)];
+        let (e, g) = (spoke(lane), spoke(lane + 1));
         let normal = e.cross(g);
         SLIVER_SINE_SQ * (square(e) * square(g)) - square(normal) <= 0.0 && square(normal) > 0.0
     }))

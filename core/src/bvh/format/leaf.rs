@@ -321,6 +321,24 @@ impl<'a> FanLeaf<'a> {
         Vec3::new(x.wrapping_sub(cx) as f32, y.wrapping_sub(cy) as f32, z.wrapping_sub(cz) as f32)
     }
 
+    /// [`spoke`](Self::spoke) from centre `which` for many ring vertices.
+    #[inline(always)]
+    pub fn spokes_from(&self, which: usize) -> impl Fn(usize) -> Vec3 {
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        let grid = if self.is_f32 { None } else { self.full_ring() };
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        let centre = grid.map_or([0; 3], |ring| ring.centres(self.shape)[which & 1]);
+        move |i| {
+            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            if let Some([x, y, z]) = grid.and_then(|ring| ring.vertex(i)) {
+                let [cx, cy, cz] = centre;
+                let less = |x: i32, cx: i32| x.wrapping_sub(cx) as f32;
+                return Vec3::new(less(x, cx), less(y, cy), less(z, cz));
+            }
+            self.spoke(i, which)
+        }
+    }
+
     /// The stored integers of a leaf on the grid.
     #[inline(always)]
     pub fn grid_ring(&self) -> Option<GridRing<'a>> {
