@@ -105,8 +105,8 @@ impl Bvh<'_> {
     }
 }
 
-/// Inlined twice: without a hint, and with one.
-#[inline(always)]
+/// On vector targets inlined twice: without a hint, and with one. Boards that ask both share it.
+#[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
 fn search(
     tree: &Bvh<'_>,
     point: [f32; 3],
@@ -114,18 +114,23 @@ fn search(
     budget: &Budget,
     scratch: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
-    let query = PointQuery::prepare_inlined(tree, point, budget, scratch)?;
+    // In place: a copy would take a board as long as the preparation.
+    let prepared = PointQuery::prepare(tree, point, budget, scratch);
+    let query = match &prepared {
+        Ok(query) => query,
+        Err(refused) => return Err(*refused),
+    };
     if query.far {
-        return from_afar(tree, point, &query);
+        return from_afar(tree, point, query);
     }
     let mut work = Work::default();
-    let mut visitor = Closest::new(tree, point, &query, budget);
+    let mut visitor = Closest::new(tree, point, query, budget);
     if *hint != Hint::NONE
         && let Some(leaf) = tree.leaf(hint.0 >> 3, hint.0 & 7)
     {
         visitor.bound_by(&leaf).ok_or(QueryError::Unchecked)?;
     }
-    let descent = descend_inlined(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+    let descent = descend_inlined(tree, query, budget.steps, scratch, &mut visitor, &mut work)?;
     visitor.answer(descent, work, hint)
 }
 

@@ -72,30 +72,14 @@ impl PointQuery {
         budget: &Budget,
         scratch: &[ScratchEntry],
     ) -> Result<PointQuery, QueryError> {
-        PointQuery::prepare_inlined(tree, point, budget, scratch)
-    }
-
-    /// [`prepare`](PointQuery::prepare) without a call: on boards faster, and more code.
-    #[inline(always)]
-    pub(crate) fn prepare_inlined(
-        tree: &Bvh<'_>,
-        point: [f32; 3],
-        budget: &Budget,
-        scratch: &[ScratchEntry],
-    ) -> Result<PointQuery, QueryError> {
         PointQuery::check_served(tree)?;
         budget.check_with(scratch)?;
-        PointQuery::new_inlined(tree, point)
+        PointQuery::new(tree, point)
     }
 
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn new(tree: &Bvh<'_>, point: [f32; 3]) -> Result<PointQuery, QueryError> {
-        PointQuery::new_inlined(tree, point)
-    }
-
-    #[inline(always)]
-    fn new_inlined(tree: &Bvh<'_>, point: [f32; 3]) -> Result<PointQuery, QueryError> {
         let [x, y, z] = point;
         let units = tree.units();
         let p = Vec3::new(units.inward(x), units.inward(y), units.inward(z));

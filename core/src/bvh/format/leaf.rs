@@ -144,13 +144,16 @@ impl FullRing<'_> {
         Some(grid_point([x.get(i)?, y.get(i)?, z.get(i)?]))
     }
 
-    /// A bit of each ring vertex, the first one's lowest. Not a loop, which takes three times as
-    /// many instructions.
+    /// A bit of each ring vertex, the first one's lowest. The compiler unrolls the loop where speed
+    /// counts, for its length is known: three times as fast as one over the vertices there are.
     #[inline(always)]
     pub fn bits(&self, bit: impl Fn([i32; 3]) -> u32) -> u32 {
         let [x, y, z] = self.rows;
-        let at = |i: usize| bit(grid_point([&x[i], &y[i], &z[i]])) << i;
-        at(0) | at(1) | at(2) | at(3) | at(4) | at(5) | at(6) | at(7) | at(8)
+        let mut bits = 0;
+        for i in 0..RING_VERTICES {
+            bits |= bit(grid_point([&x[i], &y[i], &z[i]])) << i;
+        }
+        bits
     }
 }
 
@@ -322,21 +325,31 @@ impl<'a> FanLeaf<'a> {
     }
 
     /// [`spoke`](Self::spoke) from centre `which` for many ring vertices.
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     #[inline(always)]
     pub fn spokes_from(&self, which: usize) -> impl Fn(usize) -> Vec3 {
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-        let grid = if self.is_f32 { None } else { self.full_ring() };
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-        let centre = grid.map_or([0; 3], |ring| ring.centres(self.shape)[which & 1]);
-        move |i| {
-            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-            if let Some([x, y, z]) = grid.and_then(|ring| ring.vertex(i)) {
-                let [cx, cy, cz] = centre;
+        move |i| self.spoke(i, which)
+    }
+
+    /// [`spoke`](Self::spoke) from centre `which` for many ring vertices.
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[inline(always)]
+    pub fn spokes_from(&self, which: usize) -> impl Fn(usize) -> Vec3 {
+        let ring = if self.is_f32 { None } else { self.full_ring() };
+        let [cx, cy, cz] = ring.map_or([0; 3], |ring| ring.centres(self.shape)[which & 1]);
+        move |i| match ring.and_then(|ring| ring.vertex(i)) {
+            Some([x, y, z]) => {
                 let less = |x: i32, cx: i32| x.wrapping_sub(cx) as f32;
-                return Vec3::new(less(x, cx), less(y, cy), less(z, cz));
+                Vec3::new(less(x, cx), less(y, cy), less(z, cz))
             }
-            self.spoke(i, which)
+            None => self.f32_spoke(i, which),
         }
+    }
+
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[inline(never)]
+    fn f32_spoke(&self, i: usize, which: usize) -> Vec3 {
+        self.ring(i) - self.centre(which)
     }
 
     /// The stored integers of a leaf on the grid.

@@ -244,24 +244,28 @@ pub fn lower_bound(seen: &[Vec3; 3], near: &Nearness) -> f32 {
 pub fn lower_bound_up_to(seen: &[Vec3; 3], near: &Nearness, enough_sq: f32) -> f32 {
     let &[s, e, g] = seen;
     let r = residual(s, e, g, near.v, near.w);
-    let beside = |edge: Vec3| {
-        let length_sq = dot(edge, edge);
-        let share = if length_sq > LEAST_DENOMINATOR { dot(r, edge) / length_sq } else { 0.0 };
-        r - edge * share
-    };
     let mut best = 0.0;
     for plane in 0..6 {
+        let edge = match plane {
+            0 => Vec3::ZERO,
+            3 => e,
+            4 => g,
+            _ => g - e,
+        };
         let direction = match plane {
-            0 => r,
             1 => {
                 let normal = normal(e, g);
                 if dot(normal, s) < 0.0 { -normal } else { normal }
             }
             // Along `s` too: a triangle that `is_beyond` leaves out must be as far here.
             2 => s,
-            3 => beside(e),
-            4 => beside(g),
-            _ => beside(g - e),
+            // The residual, or less its part along an edge.
+            _ => {
+                let length_sq = dot(edge, edge);
+                let share =
+                    if length_sq > LEAST_DENOMINATOR { dot(r, edge) / length_sq } else { 0.0 };
+                r - edge * share
+            }
         };
         best = greater(best, supported(direction, seen));
         if best * best >= enough_sq {
