@@ -14,10 +14,14 @@
 //! | covered | the shadows of undecided triangles of one fan together contain the origin: proved |
 
 use super::descent::{LeafVisit, LeafVisitor};
-use super::node::WIDE;
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::FanLeaf;
-use crate::geom::fan::{Crossing, FanRay, LANES_BELOW, Shadow, WIDTH, ray_leaf, ray_leaf8};
+use crate::geom::fan::{Crossing, WIDTH};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::geom::fan::{FanRay, Shadow, ray_leaf};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use crate::geom::fan::{LANES_BELOW, ray_leaf8};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use crate::num::SOFT_FLOAT;
 
 /// Which sides of triangles a segment meets. The front is where corners run counter-clockwise in
@@ -88,20 +92,26 @@ impl<C: CrossingCollector> LeafVisitor for SegmentVisitor<'_, C> {
 }
 
 /// Triangles of a leaf that the line may meet.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 #[inline(always)]
 fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
     let shape = leaf.shape();
-    if WIDE {
-        let (first, used) = (LANES_BELOW.get(shape.turn())?, LANES_BELOW.get(shape.triangles())?);
-        return Some(ray_leaf8(&query.ray, &leaf.ring8(query.ray.axes())?, first, used));
-    }
-    if leaf.is_f32() {
-        return Some(flagged_f32(leaf, &query.ray));
-    }
+    let (first, used) = (LANES_BELOW.get(shape.turn())?, LANES_BELOW.get(shape.triangles())?);
+    Some(ray_leaf8(&query.ray, &leaf.ring8(query.ray.axes())?, first, used))
+}
+
+/// Triangles of a leaf that the line may meet.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[inline(always)]
+fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
     let ray = &query.ray;
+    if leaf.is_f32() {
+        return Some(flagged_f32(leaf, ray));
+    }
     let ring = leaf.ring_in_order(ray.axes())?;
+    let turn = leaf.shape().turn();
     if SOFT_FLOAT {
-        let near = query.line.near(&ring, shape.turn());
+        let near = query.line.near(&ring, turn);
         return Some(if near == 0 { 0 } else { flagged_near(leaf, ray, near) });
     }
     let [ox, oy, oz] = ring.origin;
@@ -113,10 +123,11 @@ fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
     let short = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
     let vertices = vertices.map(|((x, y), z)| [short(x), short(y), short(z)]);
     let centres = [shadow(ring.centres[0]), shadow(ring.centres[1])];
-    Some(ray_leaf(ray, shape.turn(), centres, vertices.map(shadow)))
+    Some(ray_leaf(ray, turn, centres, vertices.map(shadow)))
 }
 
 /// The flagged ones of a few triangles.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 #[inline(never)]
 fn flagged_near(leaf: &FanLeaf<'_>, ray: &FanRay, near: u32) -> u32 {
     let (mut left, mut flagged) = (near, 0);
@@ -131,11 +142,13 @@ fn flagged_near(leaf: &FanLeaf<'_>, ray: &FanRay, near: u32) -> u32 {
 }
 
 /// Whether one triangle of a fan is flagged.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 #[inline(never)]
 fn flagged_alone(ray: &FanRay, centre: Shadow, ends: [Shadow; 2]) -> u32 {
     ray_leaf(ray, WIDTH, [centre; 2], ends.into_iter())
 }
 
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 #[inline(never)]
 fn flagged_f32(leaf: &FanLeaf<'_>, ray: &FanRay) -> u32 {
     let shape = leaf.shape();

@@ -8,9 +8,12 @@ use super::node::box_entries;
 use super::node::{Pushed, push_entries};
 use super::segment_start::SegmentStart;
 use crate::bvh::format::{Bvh, Units};
-use crate::bvh::node::{GridLine, SlabRay};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::bvh::node::GridLine;
+use crate::bvh::node::SlabRay;
 use crate::geom::fan::FanRay;
 use crate::geom::fan::WIDTH;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use crate::num::SOFT_FLOAT;
 use crate::num::tolerance::{BOX_ENTRY, STILL, U32};
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
@@ -23,7 +26,8 @@ use glam::Vec3;
 pub(crate) struct SegmentQuery {
     pub(crate) ray: FanRay,
     pub(crate) slab_ray: SlabRay,
-    /// For targets without floating point.
+    /// For targets without an FPU.
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
     pub(crate) line: GridLine,
     units: Units,
     /// The line's origin and direction, grid units.
@@ -54,6 +58,7 @@ impl SegmentQuery {
             .turning(units.has_place_error);
         SegmentQuery {
             ray,
+            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
             line: if SOFT_FLOAT {
                 GridLine::new(&ray, tree.header.grid_origin)
             } else {

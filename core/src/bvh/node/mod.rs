@@ -43,6 +43,7 @@ mod entries_in_whole;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod entry_lanes;
 mod frame;
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 mod grid_line;
 mod keys;
 mod opened_node;
@@ -58,6 +59,7 @@ pub(crate) use box_distances::push_boxes;
 pub(crate) use box_entries::push_entries;
 pub use box_entries::{SlabRay, box_entries};
 pub use frame::KeyPoint;
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 pub use grid_line::GridLine;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use keys::places_of_wanted;

@@ -24,7 +24,7 @@ pub use point::{
 };
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use point8::{Edges, LaneNearness, point_lanes};
-pub use ray::{Crossing, FanRay, Shadow, ray_leaf};
+pub use ray::{Crossing, FanRay, Shadow, ShadowPlane, ray_leaf};
 pub use ray8::{Ring8, ray_leaf8};
 pub use whole::{
     Whole, WholeBounds, WholeLimit, WholePoint, is_certain_corner, less, whole_bounds,

@@ -367,6 +367,25 @@ fn cross(a: Shadow, b: Shadow) -> f32 {
     a.x * b.y - a.y * b.x
 }
 
+/// A plane that a segment's line is a point of: the origin.
+pub trait ShadowPlane {
+    /// A vertex in the plane.
+    type Shadow: Copy;
+
+    /// An edge by two signs: the first is negative if the line is clear of the edge to the one
+    /// side, the second if it is to the other.
+    fn clear_sides(&self, from: Self::Shadow, to: Self::Shadow) -> [i32; 2];
+}
+
+impl ShadowPlane for FanRay {
+    type Shadow = Shadow;
+
+    #[inline(always)]
+    fn clear_sides(&self, from: Shadow, to: Shadow) -> [i32; 2] {
+        self.side(from, to).signs()
+    }
+}
+
 /// Triangles of a leaf that the segment's line may meet, a bit for each. The others are proved
 /// clear of the line.
 ///
@@ -374,26 +393,26 @@ fn cross(a: Shadow, b: Shadow) -> f32 {
 /// ring's end or later: nowhere). A spoke serves the triangles on both sides, and the outer edge is
 /// computed only if the spokes leave the triangle open.
 #[inline(always)]
-pub fn ray_leaf(
-    ray: &FanRay,
+pub fn ray_leaf<P: ShadowPlane>(
+    plane: &P,
     turn: usize,
-    centres: [Shadow; 2],
-    mut ring: impl Iterator<Item = Shadow>,
+    centres: [P::Shadow; 2],
+    mut ring: impl Iterator<Item = P::Shadow>,
 ) -> u32 {
     let [mut centre, second] = centres;
     let Some(mut from) = ring.next() else { return 0 };
-    let mut a = ray.side(centre, from).signs();
+    let mut a = plane.clear_sides(centre, from);
     let mut lanes = 0;
     for (i, to) in ring.take(WIDTH).enumerate() {
         if i == turn {
             centre = second;
-            a = ray.side(centre, from).signs();
+            a = plane.clear_sides(centre, from);
         }
-        let b = ray.side(centre, to).signs();
+        let b = plane.clear_sides(centre, to);
         // The last side runs from the ring to the centre: the spoke's, with the opposite sign.
         let (one, other) = (a[0] | b[1], a[1] | b[0]);
         if one & other >= 0 {
-            let rim = ray.side(from, to).signs();
+            let rim = plane.clear_sides(from, to);
             if (one | rim[0]) & (other | rim[1]) >= 0 {
                 lanes |= 1 << i;
             }
