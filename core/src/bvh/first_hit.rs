@@ -1,6 +1,6 @@
 //! The first common point of a segment and the surface.
 
-use super::descent::{Descent, descend};
+use super::descent::{Descent, descend_inlined};
 use super::segment_leaf::{CrossingCollector, Facing, HitPlace, SegmentVisitor};
 use super::segment_query::SegmentQuery;
 use super::segment_start::SegmentStart;
@@ -75,7 +75,8 @@ impl Bvh<'_> {
             tree: self,
         };
         let mut visitor = SegmentVisitor { query: &query, facing, collector };
-        let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        let descent =
+            descend_inlined(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
         visitor.collector.answer(&query, descent, work)
     }
 }

@@ -83,7 +83,7 @@ impl GridLine {
     #[inline(never)]
     pub fn near(&self, ring: &GridRing<'_>, turn: usize) -> u32 {
         if self.margin == 0 {
-            return u32::MAX >> (33 - lesser(ring.x.len(), WIDTH + 1));
+            return !(u32::MAX << lesser(ring.x.len().saturating_sub(1), WIDTH));
         }
         let centres = [self.shadow(ring.centres[0]), self.shadow(ring.centres[1])];
         let short = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
@@ -103,5 +103,81 @@ impl ShadowPlane for GridLine {
         // At least the 1-norm: `x ^ x >> 31` is |x| or |x| − 1.
         let margin = self.margin * ((x ^ x >> 31) + (y ^ y >> 31) + 2);
         [margin - area, margin + area]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bvh::node::tests::Noise;
+    use glam::Vec3;
+
+    /// Coordinates of nine ring vertices and two centres, in stored numbers.
+    fn random_leaf(noise: &mut Noise) -> [[u16; 3]; WIDTH + 3] {
+        let size = 1 << (4 + noise.below(12));
+        let corner = [(); 3].map(|()| noise.below((1 << 16) - size));
+        core::array::from_fn(|_| {
+            core::array::from_fn(|axis| (corner[axis] + noise.below(size)) as u16)
+        })
+    }
+
+    #[test]
+    fn no_triangle_that_is_passed_over_would_be_kept() {
+        let mut noise = Noise(5);
+        let (mut passed, mut near) = (0, 0);
+        for _ in 0..100_000 {
+            let origin = [-70_000, 5, 1 << 20];
+            let vertices = random_leaf(&mut noise);
+            let place = |vertex: [u16; 3]| {
+                Vec3::from_array(core::array::from_fn(|k| {
+                    (origin[k] + i32::from(vertex[k])) as f32
+                }))
+            };
+            // From near one vertex to near another, and on.
+            let target = |noise: &mut Noise| {
+                let vertex = place(vertices[noise.below(11) as usize]);
+                let away = [0.5, 30.0, 3000.0][noise.below(3) as usize];
+                vertex + Vec3::from_array(noise.vector(away))
+            };
+            let (a, b) = (target(&mut noise), target(&mut noise));
+            let way = (b - a) * [1.0, 3.0, 20.0][noise.below(3) as usize];
+            if way.abs().max_element() < 1.0 {
+                continue;
+            }
+            let from = b - way;
+            let inverse = way.to_array().map(|d| 1.0 / if d == 0.0 { 1e-20 } else { d });
+            let surface = [0.0, 0.9, 50.0][noise.below(3) as usize];
+            let size = vertices.iter().fold(0f32, |size, &vertex| {
+                let way = (place(vertex) - from).abs();
+                size.max(way.x + way.y + way.z)
+            });
+            let ray =
+                FanRay::new(from.to_array(), way.to_array(), inverse, 1.0, surface, size + 2e5);
+            let line = GridLine::new(&ray, origin);
+            let ordered = vertices.map(|vertex| ray.in_order(vertex));
+            let row = |axis: usize| {
+                core::array::from_fn::<_, 9, _>(|i| ordered[i + 2][axis].to_le_bytes())
+            };
+            let (x, y, z) = (row(0), row(1), row(2));
+            let centre = |which: usize| ordered[which].map(i32::from);
+            let centres = [centre(0), centre(1)];
+            let ring = GridRing { origin, centres, x: &x, y: &y, z: &z };
+            let turn = noise.below(9) as usize;
+            let kept = line.near(&ring, turn);
+            let shadow = |i: usize| ray.shadow(place(vertices[i]));
+            for lane in 0..WIDTH {
+                if kept >> lane & 1 != 0 {
+                    near += 1;
+                    continue;
+                }
+                passed += 1;
+                let (centre, ends) =
+                    (shadow(usize::from(lane >= turn)), [shadow(lane + 2), shadow(lane + 3)]);
+                let flagged = ray_leaf(&ray, WIDTH, [centre; 2], ends.into_iter()) != 0;
+                let crossing = ray.crossing([centre, ends[0], ends[1]], 0.0);
+                assert!(!(flagged && crossing.is_some()), "{ray:?}, {vertices:?}, {lane}");
+            }
+        }
+        assert!(passed > 100_000 && near > 10_000, "{passed} {near}");
     }
 }

@@ -12,7 +12,7 @@ use glam::Vec3;
 use heapless::Vec;
 
 /// SplitMix64.
-struct Noise(u64);
+pub(super) struct Noise(pub(super) u64);
 
 impl Noise {
     fn bits(&mut self) -> u64 {
@@ -22,7 +22,7 @@ impl Noise {
         z ^ z >> 31
     }
 
-    fn below(&mut self, count: u64) -> u64 {
+    pub(super) fn below(&mut self, count: u64) -> u64 {
         self.bits() % count
     }
 
@@ -34,7 +34,7 @@ impl Noise {
         }
     }
 
-    fn vector(&mut self, size: f32) -> [f32; 3] {
+    pub(super) fn vector(&mut self, size: f32) -> [f32; 3] {
         [(); 3].map(|()| size * self.unit())
     }
 
