@@ -16,11 +16,11 @@
 use super::descent::{LeafVisit, LeafVisitor};
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::FanLeaf;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use crate::geom::fan::ray_leaf8;
 use crate::geom::fan::{Crossing, WIDTH};
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use crate::geom::fan::{FanRay, Shadow, ray_leaf};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use crate::geom::fan::{LANES_BELOW, ray_leaf8};
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use crate::num::SOFT_FLOAT;
 
@@ -95,9 +95,11 @@ impl<C: CrossingCollector> LeafVisitor for SegmentVisitor<'_, C> {
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 #[inline(always)]
 fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
-    let shape = leaf.shape();
-    let (first, used) = (LANES_BELOW.get(shape.turn())?, LANES_BELOW.get(shape.triangles())?);
-    Some(ray_leaf8(&query.ray, &leaf.ring8(query.ray.axes())?, first, used))
+    let (ray, shape) = (&query.ray, leaf.shape());
+    if leaf.is_f32() {
+        return ray_leaf8(ray, &leaf.f32_ring8(ray.axes())?, shape.turn(), shape.triangles());
+    }
+    leaf.grid_flagged(ray)
 }
 
 /// Triangles of a leaf that the line may meet.

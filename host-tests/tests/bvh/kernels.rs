@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 use meshsweep_core::internal::geom::fan::{
-    Edges, FanRay, LANES, LANES_BELOW, Lanes, Nearness, PIECES, PointFan, Ring8, WIDTH,
-    lanes_below, point_lanes, point_leaf, ray_leaf, ray_leaf8,
+    Edges, FanRay, LANES, Lanes, Nearness, PIECES, PointFan, Ring8, WIDTH, lanes_below,
+    point_lanes, point_leaf, ray_leaf, ray_leaf8,
 };
 use meshsweep_core::internal::num::tolerance::STILL;
 use meshsweep_host_tests::generate::Rng;
@@ -197,8 +197,7 @@ fn segments_get_the_same_triangles_from_eight_lanes() {
                     ring.centres[which][k] = patch.centres[which][axis];
                 }
             }
-            let wide =
-                ray_leaf8(&ray, &ring, &LANES_BELOW[patch.turn], &LANES_BELOW[patch.count()]);
+            let wide = ray_leaf8(&ray, &ring, patch.turn, patch.count()).expect("as many as lanes");
             assert_eq!(lanes, wide, "{from:?} {target:?}: {:?} {:?}", patch.centres, patch.ring);
             // What is settled as met was flagged.
             for lane in 0..patch.count() {

@@ -2,7 +2,9 @@
 //!
 //! A leaf of an opened tree lies within the fans' section. No read can panic all the same.
 
-use crate::geom::fan::{Ring8, WIDTH};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use crate::geom::fan::Ring8;
+use crate::geom::fan::WIDTH;
 use glam::Vec3;
 
 /// Shape of a leaf in one byte: number of vertices, first triangle of the second fan, whether the
@@ -180,7 +182,7 @@ pub const RING: usize = 2;
 pub(super) const GRID_WINDOW: usize = 66;
 
 #[inline(always)]
-fn short(bytes: &[u8], at: usize) -> i32 {
+pub(super) fn short(bytes: &[u8], at: usize) -> i32 {
     match bytes.get(at..).and_then(|b| b.first_chunk::<2>()) {
         Some(&pair) => i32::from(u16::from_le_bytes(pair)),
         None => 0,
@@ -193,19 +195,6 @@ fn f32_at(bytes: &[u8], at: usize) -> f32 {
         Some(&word) => f32::from_le_bytes(word),
         None => 0.0,
     }
-}
-
-/// Eight u16 at a byte offset, as f32. No ring begins beyond byte 48 of a window.
-#[inline(always)]
-fn eight(window: &[u8; GRID_WINDOW], at: usize) -> [f32; WIDTH] {
-    let at = at.min(GRID_WINDOW - 16);
-    let mut out = [0f32; WIDTH];
-    if let Some(chunk) = window.get(at..at + 16).and_then(|b| b.first_chunk::<16>()) {
-        for i in 0..WIDTH {
-            out[i] = f32::from(u16::from_le_bytes([chunk[2 * i], chunk[2 * i + 1]]));
-        }
-    }
-    out
 }
 
 /// Three u16 at a byte offset.
@@ -463,39 +452,11 @@ impl<'a> FanLeaf<'a> {
         self.is_f32
     }
 
-    /// Ring and centres in the order of `axes`, grid units, exactly, for the wide segment kernel.
-    #[inline(always)]
-    pub fn ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
-        if self.is_f32 { self.f32_ring8(axes) } else { self.grid_ring8(axes) }
-    }
-
-    #[inline(always)]
-    fn grid_ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
-        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
-        let second = 6 * (self.shape.centres() - 1);
-        let step = 2 * (self.shape.triangles() + 1);
-        let axis = |axis: usize| {
-            let at = 6 + second + step * axis;
-            let origin = self.origin.get(axis).copied().unwrap_or(0) as f32;
-            let mut lanes = (eight(window, at), eight(window, at + 2));
-            for i in 0..WIDTH {
-                lanes.0[i] += origin;
-                lanes.1[i] += origin;
-            }
-            let centre = |at: usize| short(window, at + 2 * axis) as f32 + origin;
-            (lanes.0, lanes.1, centre(0), centre(second))
-        };
-        let [u, v, w] = axes;
-        let ((hx, nx, cx, dx), (hy, ny, cy, dy), (hz, nz, cz, dz)) = (axis(u), axis(v), axis(w));
-        Some(Ring8 {
-            here: [hx, hy, hz],
-            next: [nx, ny, nz],
-            centres: [[cx, cy, cz], [dx, dy, dz]],
-        })
-    }
-
+    /// Ring and centres of a leaf with f32 vertices in the order of `axes`, for the wide segment
+    /// kernel.
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     #[inline(never)]
-    fn f32_ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
+    pub fn f32_ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
         let second = 12 * (self.shape.centres() - 1);
         let step = 4 * (self.shape.triangles() + 1);
         let mut ring =

@@ -1,7 +1,9 @@
 //! Leaves read a register at a time, for the point kernel of vector targets.
 
-use super::leaf::{FanLeaf, GRID_WINDOW};
-use crate::geom::fan::{Edges, LANES, Lanes, PIECES, WIDTH, lanes_below};
+use super::leaf::{FanLeaf, GRID_WINDOW, short};
+use crate::geom::fan::{
+    CentreShadows, Edges, FanRay, LANES, Lanes, PIECES, RingLanes, WIDTH, lanes_below, ray_lanes,
+};
 use glam::Vec3;
 
 /// A point for the leaves of one tree, prepared once for each query. Grid units.
@@ -145,5 +147,39 @@ impl<'a> FanLeaf<'a> {
         };
         let ((ex, gx, sx), (ey, gy, sy), (ez, gz, sz)) = (axis(0)?, axis(1)?, axis(2)?);
         Some(Edges { e: [ex, ey, ez], g: [gx, gy, gz], s: [sx, sy, sz] })
+    }
+}
+
+impl FanLeaf<'_> {
+    /// Triangles of a leaf on the grid that the segment's line may meet.
+    #[inline(always)]
+    pub fn grid_flagged(&self, ray: &FanRay) -> Option<u32> {
+        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
+        let first = lanes_below(self.shape.turn())?;
+        let second = 6 * (self.shape.centres() - 1);
+        let step = 2 * (self.shape.triangles() + 1).min(WIDTH + 1);
+        let axes = ray.axes();
+        let origin = axes.map(
+            #[inline(always)]
+            |axis| self.origin[axis % 3] as f32,
+        );
+        let centre = |at: usize| {
+            let number = |k: usize| short(window, at + 2 * axes[k]) as f32 + origin[k];
+            [number(0), number(1), number(2)]
+        };
+        let centres = CentreShadows::new(ray, [centre(0), centre(second)]);
+        let mut flagged = 0;
+        for piece in 0..PIECES {
+            let row = |k: usize, next: usize| {
+                let at = 6 + second + step * axes[k] + 2 * next;
+                numbers(window, at, piece) + Lanes::splat(origin[k])
+            };
+            let ring = RingLanes {
+                here: [row(0, 0), row(1, 0), row(2, 0)],
+                next: [row(0, 1), row(1, 1), row(2, 1)],
+            };
+            flagged |= ray_lanes(ray, &ring, &centres, first[piece]) << (LANES * piece);
+        }
+        Some(flagged & !(u32::MAX << self.shape.triangles()))
     }
 }

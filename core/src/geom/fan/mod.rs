@@ -11,6 +11,7 @@ mod point;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod point8;
 mod ray;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod ray8;
 mod whole;
 
@@ -25,7 +26,8 @@ pub use point::{
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use point8::{Edges, LaneNearness, point_lanes};
 pub use ray::{Crossing, FanRay, Shadow, ShadowPlane, ray_leaf};
-pub use ray8::{Ring8, ray_leaf8};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub use ray8::{CentreShadows, Ring8, RingLanes, ray_lanes, ray_leaf8};
 pub use whole::{
     Whole, WholeBounds, WholeLimit, WholePoint, is_certain_corner, less, whole_bounds,
 };
