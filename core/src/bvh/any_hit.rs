@@ -1,6 +1,6 @@
 //! Whether a segment meets the surface.
 
-use super::descent::{Descent, descend_inlined};
+use super::descent::{Descent, descend};
 use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor};
 use super::segment_query::SegmentQuery;
 use super::segment_start::SegmentStart;
@@ -56,8 +56,7 @@ impl Bvh<'_> {
         let query = SegmentQuery::new(self, &start);
         let collector = AnyCrossing { end: query.ray.end(), undecided: false, certain: false };
         let mut visitor = SegmentVisitor { query: &query, facing, collector };
-        let descent =
-            descend_inlined(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
         let verdict = match descent {
             _ if visitor.collector.certain => Verdict::Yes,
             Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),

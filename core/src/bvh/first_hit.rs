@@ -1,12 +1,12 @@
 //! The first common point of a segment and the surface.
 
-use super::descent::{Descent, descend_inlined};
+use super::descent::{Descent, descend, descend_inlined};
 use super::segment_leaf::{CrossingCollector, Facing, HitPlace, SegmentVisitor};
 use super::segment_query::SegmentQuery;
 use super::segment_start::SegmentStart;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
-use crate::num::lesser;
+use crate::num::{SOFT_FLOAT, lesser};
 use crate::query::{Budget, Ended, FirstHit, Interval, QueryError, ScratchEntry, Work};
 
 impl Bvh<'_> {
@@ -75,8 +75,13 @@ impl Bvh<'_> {
             tree: self,
         };
         let mut visitor = SegmentVisitor { query: &query, facing, collector };
-        let descent =
-            descend_inlined(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        let (steps, visits, counts) = (budget.steps, &mut visitor, &mut work);
+        // Without an FPU floats take most of the time: there a call for each leaf costs little.
+        let descent = if SOFT_FLOAT {
+            descend(self, &query, steps, scratch, visits, counts)?
+        } else {
+            descend_inlined(self, &query, steps, scratch, visits, counts)?
+        };
         visitor.collector.answer(&query, descent, work)
     }
 }

@@ -169,7 +169,7 @@ impl FanLeaf<'_> {
         };
         let centres = CentreShadows::new(ray, [centre(0), centre(second)]);
         let mut flagged = 0;
-        for piece in 0..PIECES {
+        for (piece, first) in first.into_iter().enumerate() {
             let row = |k: usize, next: usize| {
                 let at = 6 + second + step * axes[k] + 2 * next;
                 numbers(window, at, piece) + Lanes::splat(origin[k])
@@ -178,7 +178,7 @@ impl FanLeaf<'_> {
                 here: [row(0, 0), row(1, 0), row(2, 0)],
                 next: [row(0, 1), row(1, 1), row(2, 1)],
             };
-            flagged |= ray_lanes(ray, &ring, &centres, first[piece]) << (LANES * piece);
+            flagged |= ray_lanes(ray, &ring, &centres, first) << (LANES * piece);
         }
         Some(flagged & !(u32::MAX << self.shape.triangles()))
     }

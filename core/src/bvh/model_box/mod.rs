@@ -9,15 +9,20 @@
 //! | --- | --- |
 //! | `plain` | a glance in f32, for boards with an FPU |
 //! | `whole` | a glance in integers, for boards without |
+//! | `wide` | the test in registers, for hosts |
 
 mod plain;
 #[cfg(test)]
 mod tests;
 mod whole;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod wide;
 
 use crate::bvh::format::Bvh;
 use crate::bvh::node::WIDE;
-use crate::num::tolerance::{BVH_FAR, LEAST_DENOMINATOR, U32};
+use crate::num::tolerance::BVH_FAR;
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+use crate::num::tolerance::{LEAST_DENOMINATOR, U32};
 use crate::num::{SOFT_FLOAT, greater};
 use crate::query::QueryError;
 use glam::Vec3;
@@ -93,24 +98,33 @@ impl SegmentAndBox {
         if !((size_a <= BVH_FAR) & (size_b <= BVH_FAR)) {
             return Err(QueryError::OutOfDomain);
         }
+        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        return Ok(wide::misses(self, surface_error, size_a + size_b));
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
         Ok(self.misses(surface_error, size_a + size_b))
     }
 
     /// By axis, the way from a place to the farthest corner of the box.
     #[inline(always)]
     pub(super) fn farthest(&self, p: Vec3) -> Vec3 {
-        let (l, h) = ((p - self.low).abs(), (p - self.high).abs());
-        if SOFT_FLOAT {
-            // By bits, for a comparison of floats is a call.
-            let greater = |l: f32, h: f32| f32::from_bits(greater(h.to_bits(), l.to_bits()));
-            return Vec3::new(greater(l.x, h.x), greater(l.y, h.y), greater(l.z, h.z));
+        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        return wide::farthest(p, self.low, self.high);
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        {
+            let (l, h) = ((p - self.low).abs(), (p - self.high).abs());
+            if SOFT_FLOAT {
+                // By bits, for a comparison of floats is a call.
+                let greater = |l: f32, h: f32| f32::from_bits(greater(h.to_bits(), l.to_bits()));
+                return Vec3::new(greater(l.x, h.x), greater(l.y, h.y), greater(l.z, h.z));
+            }
+            Vec3::new(greater(h.x, l.x), greater(h.y, l.y), greater(h.z, l.z))
         }
-        Vec3::new(greater(h.x, l.x), greater(h.y, l.y), greater(h.z, l.z))
     }
 
     /// Whether the segment is proved clear of the box, by their six separating axes, all lengths
     /// doubled (Ericson, *Real-Time Collision Detection*, 2005, 5.3.3). `size`: the distance of
     /// both ends' farthest corners. The margin is in `core/docs/rounding.md` §9.
+    #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
     #[inline(always)]
     fn misses(&self, surface_error: f32, size: f32) -> bool {
         let &SegmentAndBox { a, b, low, high } = self;
@@ -123,7 +137,7 @@ impl SegmentAndBox {
         let apart = |m: f32, half: f32, d: f32| beyond(m.abs(), half + d);
         let along =
             apart(m.x, half.x, d_abs.x) | apart(m.y, half.y, d_abs.y) | apart(m.z, half.z, d_abs.z);
-        if !WIDE && along & SIGN != 0 {
+        if along & SIGN != 0 {
             return true;
         }
         let apart_across = |[m, n]: [f32; 2], [d, e]: [f32; 2], [h, k]: [f32; 2]| {

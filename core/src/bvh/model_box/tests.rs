@@ -1,6 +1,6 @@
 //! A glance never contradicts [`SegmentAndBox::is_clear`].
 
-use super::{Glance, SegmentAndBox, plain, whole};
+use super::{Glance, SegmentAndBox, norm_1, plain, whole};
 use crate::bvh::format::Bvh;
 use crate::query::QueryError;
 
@@ -42,6 +42,10 @@ fn a_glance_that_is_sure_decides_as_the_whole_test() {
             let ends = [place(&mut state, low, high), place(&mut state, low, high)];
             let both = SegmentAndBox::new(&tree, ends);
             let expected: Result<bool, QueryError> = both.is_clear(ends, surface_error);
+            if let Ok(is_clear) = expected {
+                let size = norm_1(both.farthest(both.a)) + norm_1(both.farthest(both.b));
+                assert_eq!(both.misses(surface_error, size), is_clear, "{ends:?}");
+            }
             let glances = [plain::glance(&both, surface_error), whole::glance(&tree, ends)];
             for (glance, counts) in glances.into_iter().zip(&mut counts) {
                 match glance {

@@ -3,7 +3,7 @@
 //! It flags the triangles that the line may meet, with the arithmetic and the bits of the scalar
 //! kernel; a test checks it. Few are flagged, so the decision about them is scalar.
 
-use super::lanes::{LANES, Lanes, PIECES, WIDTH, lanes_below};
+use super::lanes::{LANES, Lanes, WIDTH, lanes_below};
 use super::ray::FanRay;
 use crate::num::tolerance::PRODUCT_UNDERFLOW;
 
@@ -82,13 +82,13 @@ pub fn ray_leaf8(ray: &FanRay, ring: &Ring8, turn: usize, count: usize) -> Optio
     let first = lanes_below(turn)?;
     let centres = CentreShadows::new(ray, ring.centres);
     let mut lanes = 0;
-    for piece in 0..PIECES {
+    for (piece, first) in first.into_iter().enumerate() {
         let row = |row: &[f32; WIDTH]| {
             Some(Lanes::new(*row.get(LANES * piece..)?.first_chunk::<LANES>()?))
         };
         let rows = |[x, y, z]: &[[f32; WIDTH]; 3]| Some([row(x)?, row(y)?, row(z)?]);
         let ring = RingLanes { here: rows(&ring.here)?, next: rows(&ring.next)? };
-        lanes |= ray_lanes(ray, &ring, &centres, first[piece]) << (LANES * piece);
+        lanes |= ray_lanes(ray, &ring, &centres, first) << (LANES * piece);
     }
     Some(lanes & !(u32::MAX << count))
 }
