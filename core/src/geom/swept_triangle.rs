@@ -8,10 +8,11 @@
 use super::boxes::{Aabb, Clipped};
 use super::lanes::Lanes;
 use super::support::Support;
-use crate::num::greater;
 use crate::num::tolerance::{
-    POINT_BOUND, SEGMENT_BOUND, SQUARED_SLACK, TRUSTED_DIRECTION_SQ, U32, U64, UNDERFLOW,
+    NEAR_SQUARES, POINT_BOUND, SEGMENT_BOUND, SQUARED_SLACK, TRUSTED_DIRECTION_SQ, U32, U64,
+    UNDERFLOW,
 };
+use crate::num::{greater, lesser};
 use glam::Vec3;
 
 /// A lower bound of the distance from the origin to the triangle `a b c`, exact up to a
@@ -127,23 +128,42 @@ impl SweptSegment {
         let [a, b, c] = corners.map(|corner| corner - self.start);
         let [sa, sb, sc] = [a, b, c].map(|e| e.dot(self.direction) * self.inverse_sq);
         let slack = max_distance * self.length * self.inverse_sq;
-        let first = sa.min(sb).min(sc) - slack;
-        let last = sa.max(sb).max(sc) + slack;
+        let first = lesser(lesser(sa, sb), sc) - slack;
+        let last = greater(greater(sa, sb), sc) + slack;
         if first > 1.0 || last < 0.0 {
             return None;
         }
         // Seen along the segment, the distance of its line and the triangle is the distance of a
         // point and a triangle.
-        let across = direction_bound(
+        let across = Support::new(
             a - self.direction * sa,
             b - self.direction * sb,
             c - self.direction * sc,
         );
-        if across > max_distance {
+        if is_beyond(across, max_distance) {
             return None;
         }
-        Some(self.t_start + first.max(0.0) * self.t_scale - 16.0 * U32)
+        Some(self.t_start + greater(first, 0.0) * self.t_scale - 16.0 * U32)
     }
+}
+
+/// Whether the [`direction_bound`] of a triangle is above a limit, which is not negative. The root,
+/// which boards compute by many instructions, is taken only where the squares are too near.
+#[inline(always)]
+fn is_beyond(Support { along, length_sq }: Support, limit: f32) -> bool {
+    if along <= 0.0 || length_sq < TRUSTED_DIRECTION_SQ {
+        return false;
+    }
+    let (reached, allowed) = (along * along, limit * limit * length_sq);
+    if allowed > TRUSTED_DIRECTION_SQ {
+        if reached > allowed * NEAR_SQUARES {
+            return true;
+        }
+        if reached * NEAR_SQUARES < allowed {
+            return false;
+        }
+    }
+    along / libm::sqrtf(length_sq) > limit
 }
 
 #[cfg(test)]
@@ -170,6 +190,33 @@ mod tests {
                 "{lower} {distance}"
             );
         }
+    }
+
+    #[test]
+    fn squares_decide_as_the_root_does() {
+        let (mut state, mut counts) = (5u64, [0; 2]);
+        let random = |state: &mut u64| {
+            *state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (*state >> 40) as f32 / (1u32 << 24) as f32
+        };
+        for round in 0..400_000 {
+            // Lengths from below the trusted one to far above it.
+            let length = libm::exp2f(random(&mut state) * 90.0 - 65.0);
+            let limit = [1e-12, 1e-6, 1e-3, 1.0][round % 4] * random(&mut state);
+            let near = 1.0 + [0.0, 1e-7, 1e-6, 1e-5, 1.0][round % 5] * (random(&mut state) - 0.5);
+            let along = limit * length * near - [0.0, 1e-30][round % 2];
+            let support = Support { along, length_sq: length * length };
+            let bound = if support.length_sq < TRUSTED_DIRECTION_SQ {
+                0.0
+            } else {
+                along / libm::sqrtf(support.length_sq)
+            };
+            assert_eq!(is_beyond(support, limit), bound > limit, "{support:?} {limit:e}");
+            counts[usize::from(bound > limit)] += 1;
+        }
+        assert!(counts.iter().all(|&count| count > 50_000), "{counts:?}");
     }
 
     #[test]

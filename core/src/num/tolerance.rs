@@ -87,6 +87,10 @@ pub const CORNER_WIDTH: f32 = 128.0;
 /// on the safe side (§2). [`POINT_BOUND`] has room for it.
 pub const SQUARED_SLACK: f32 = 1.0 - 8.0 * U32;
 
+/// Squares that differ by more than this factor, 1 + 2^-20, tell the order of what a root and a
+/// quotient would give: all together carry less than eight roundings. No decision depends on it.
+pub const NEAR_SQUARES: f32 = 1.0 + 16.0 * U32;
+
 /// Squared length below which a direction in f32 is not trusted: 2^-100. Products of two longer
 /// components stay above the subnormal range. Below it a lower bound falls back to zero, which is
 /// always true (§2).
