@@ -7,7 +7,7 @@
 //! that it found, the lower end the gap along a direction that it tried. So a simplex that rounding
 //! misjudges costs width and no truth. Derivation: `core/docs/rounding.md` §19.
 
-use super::point_triangle::closest;
+use super::point_triangle::{Closest, closest};
 use super::triangle_pair::{Point, cross, dot, minus, norm_1};
 use crate::num::tolerance::{CONVEX_DEPTH, CONVEX_GAP, GAP_DIRECTION_SQ, GAP_SETTLED, U64};
 use crate::num::{greater, lesser};
@@ -132,7 +132,7 @@ fn segment(corners: [&Difference; 2]) -> Simplex {
 #[inline(never)]
 fn triangle(corners: [&Difference; 3]) -> Simplex {
     let [a, b, c] = corners.map(|corner| DVec3::from_array(corner.vector));
-    let (v, w, _) = closest(-a, b - a, c - a);
+    let Closest { u: v, v: w, .. } = closest(-a, b - a, c - a);
     Simplex::weighted(corners, [greater(0.0, 1.0 - v - w), v, w])
 }
 

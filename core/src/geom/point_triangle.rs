@@ -4,6 +4,7 @@
 //! length of the residual `ap − u·ab − v·ac`. The lower end is a supporting plane, which holds for
 //! any region that rounding chooses. Derivation: `core/docs/rounding.md` §4.
 
+use crate::num::greater;
 use crate::num::tolerance::{POINT_INTERVAL, U64};
 use glam::DVec3;
 
@@ -33,68 +34,87 @@ pub fn point_triangle(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> PointTriangle {
     let ap = p - a;
     let ab = b - a;
     let ac = c - a;
-    let (u, v, direction) = closest(ap, ab, ac);
-    let residual = ap - ab * u - ac * v;
+    let Closest { u, v, residual, direction } = closest(ap, ab, ac);
     let distance_sq = residual.dot(residual);
     let length = libm::sqrt(distance_sq);
     let norms = norm_1(ap) + norm_1(ab) + norm_1(ac);
     let margin = POINT_INTERVAL * U64 * norms;
 
-    // Along any direction, no point of the triangle is nearer than the nearest corner.
+    // Along any direction, no point of the triangle is nearer than the nearest corner. Without
+    // another one the residual is the direction, and its length is known.
     let g = direction.unwrap_or(residual);
     let along = g.dot(ap);
-    let support = 0f64.max(g.dot(ab)).max(g.dot(ac));
-    let gg = g.dot(g);
-    let lower = if gg > 0.0 { (along - support) / libm::sqrt(gg) - margin } else { 0.0 };
+    let support = greater(greater(0.0, g.dot(ab)), g.dot(ac));
+    let size = direction.map_or(length, |g| libm::sqrt(g.dot(g)));
+    let lower = if size > 0.0 { (along - support) / size - margin } else { 0.0 };
     PointTriangle { lower: lower.max(0.0), upper: length + margin, distance_sq, u, v }
 }
 
-/// Barycentric coordinates of the closest point. The direction is there where it bounds the
-/// distance better than the residual.
+/// The closest point, as [`closest`] finds it.
+pub(super) struct Closest {
+    pub(super) u: f64,
+    pub(super) v: f64,
+    /// `ap − u·ab − v·ac`.
+    residual: DVec3,
+    /// Bounds the distance better than the residual.
+    direction: Option<DVec3>,
+}
+
+/// The closest point by its barycentric coordinates. Terms of the residual whose factor is 0 or 1
+/// are left out: boards take hundreds of instructions for each.
 #[inline]
-pub(super) fn closest(ap: DVec3, ab: DVec3, ac: DVec3) -> (f64, f64, Option<DVec3>) {
+pub(super) fn closest(ap: DVec3, ab: DVec3, ac: DVec3) -> Closest {
+    let at = |u: f64, v: f64, residual: DVec3, direction: Option<DVec3>| Closest {
+        u,
+        v,
+        residual,
+        direction,
+    };
     let d1 = ab.dot(ap);
     let d2 = ac.dot(ap);
     if d1 <= 0.0 && d2 <= 0.0 {
-        return (0.0, 0.0, Some(ap));
+        return at(0.0, 0.0, ap, None);
     }
     let aa = ab.dot(ab);
     let bb = ab.dot(ac);
-    let cc = ac.dot(ac);
     let d3 = d1 - aa;
     let d4 = d2 - bb;
     if d3 >= 0.0 && d4 <= d3 {
-        return (1.0, 0.0, Some(ap - ab));
+        return at(1.0, 0.0, ap - ab, None);
     }
     let vc = d1 * d4 - d3 * d2;
     if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 && aa > 0.0 {
         let u = d1 / aa;
-        return (u, 0.0, Some(orthogonal(ap - ab * u, ab, aa)));
+        let residual = ap - ab * u;
+        return at(u, 0.0, residual, Some(orthogonal(residual, ab, aa)));
     }
+    let cc = ac.dot(ac);
     let d5 = d1 - bb;
     let d6 = d2 - cc;
     if d6 >= 0.0 && d5 <= d6 {
-        return (0.0, 1.0, Some(ap - ac));
+        return at(0.0, 1.0, ap - ac, None);
     }
     let vb = d5 * d2 - d1 * d6;
     if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 && cc > 0.0 {
         let v = d2 / cc;
-        return (0.0, v, Some(orthogonal(ap - ac * v, ac, cc)));
+        let residual = ap - ac * v;
+        return at(0.0, v, residual, Some(orthogonal(residual, ac, cc)));
     }
     let va = d3 * d6 - d5 * d4;
     let e4 = d4 - d3;
     let e5 = d5 - d6;
     if va <= 0.0 && e4 >= 0.0 && e5 >= 0.0 && e4 + e5 > 0.0 {
         let v = e4 / (e4 + e5);
+        let u = 1.0 - v;
         let bc = ac - ab;
-        let residual = ap - ab * (1.0 - v) - ac * v;
-        return (1.0 - v, v, Some(orthogonal(residual, bc, bc.dot(bc))));
+        let residual = ap - ab * u - ac * v;
+        return at(u, v, residual, Some(orthogonal(residual, bc, bc.dot(bc))));
     }
     let sum = va + vb + vc;
     if sum <= 0.0 {
         // Only a triangle that rounding has flattened gets here. Corner `a` is a true, if poor,
         // upper bound.
-        return (0.0, 0.0, None);
+        return at(0.0, 0.0, ap, None);
     }
     let inverse = 1.0 / sum;
     let (u, v) = (vb * inverse, vc * inverse);
@@ -103,7 +123,7 @@ pub(super) fn closest(ap: DVec3, ab: DVec3, ac: DVec3) -> (f64, f64, Option<DVec
     // Near the surface the residual is only rounding. The normal is not.
     let normal = ab.cross(ac);
     let facing = if normal.dot(ap) < 0.0 { -normal } else { normal };
-    (u, v, Some(facing))
+    at(u, v, ap - ab * u - ac * v, Some(facing))
 }
 
 /// `r` without its component along `edge`. One correction is enough (Kahan, Parlett).

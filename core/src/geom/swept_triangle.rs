@@ -135,11 +135,8 @@ impl SweptSegment {
         }
         // Seen along the segment, the distance of its line and the triangle is the distance of a
         // point and a triangle.
-        let across = Support::new(
-            a - self.direction * sa,
-            b - self.direction * sb,
-            c - self.direction * sc,
-        );
+        let across =
+            Support::new(a - self.direction * sa, b - self.direction * sb, c - self.direction * sc);
         if is_beyond(across, max_distance) {
             return None;
         }

@@ -15,7 +15,7 @@ use crate::query::{
     Budget, ClosestPoint, Ended, Frame, Interval, QueryError, ScratchEntry, SweepQueue, Taken,
     Work, before,
 };
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 impl Hull<'_> {
     /// Closest point of the surface to `point` (input units), with an interval that contains the
@@ -98,7 +98,18 @@ struct Best {
     distance_sq: f64,
     /// Of the surface or, of a cut blob, of a hull.
     instance: Instance,
-    point: DVec3,
+    /// Its corners, and the barycentric coordinates of the closest point. That point is computed
+    /// for the answer alone.
+    corners: [Vec3; 3],
+    weights: [f64; 2],
+}
+
+impl Best {
+    fn point(&self) -> DVec3 {
+        let [a, b, c] = self.corners.map(|v| v.as_dvec3());
+        let [u, v] = self.weights;
+        a + (b - a) * u + (c - a) * v
+    }
 }
 
 /// A query point, the nearest triangle so far, and bounds of the distance.
@@ -206,7 +217,8 @@ impl Nearest {
             && let Some((distance_sq, point)) = shared.find(candidate.corners)
         {
             self.exact += 1;
-            self.offer(distance_sq, candidate.instance, || point.as_dvec3());
+            let instance = candidate.instance;
+            self.offer(Best { distance_sq, instance, corners: [point; 3], weights: [0.0; 2] });
         } else {
             self.evaluate(candidate);
         }
@@ -214,13 +226,13 @@ impl Nearest {
 
     /// A triangle may be the nearest so far.
     #[inline(always)]
-    fn offer(&mut self, distance_sq: f64, instance: Instance, point: impl Fn() -> DVec3) {
+    fn offer(&mut self, other: Best) {
         let nearer = self.best.is_none_or(|best| {
-            distance_sq < best.distance_sq
-                || (distance_sq == best.distance_sq && instance < best.instance)
+            other.distance_sq < best.distance_sq
+                || (other.distance_sq == best.distance_sq && other.instance < best.instance)
         });
         if nearer {
-            self.best = Some(Best { distance_sq, instance, point: point() });
+            self.best = Some(other);
         }
     }
 
@@ -241,7 +253,8 @@ impl Nearest {
             self.upper = upper;
             self.set_limit(upper);
         }
-        self.offer(d.distance_sq, candidate.instance, || a + (b - a) * d.u + (c - a) * d.v);
+        let &Candidate { corners, instance, .. } = candidate;
+        self.offer(Best { distance_sq: d.distance_sq, instance, corners, weights: [d.u, d.v] });
         if SOFT_DOUBLE
             && candidate.fate == Fate::Surface
             && candidate.radius == 0.0
@@ -306,8 +319,8 @@ impl Nearest {
         (self.lower, self.upper) = geometry.surface_box().distance_range(self.p);
         let instance = model.last_part()?;
         let ([corner, ..], _) = geometry.triangle(model.corners(instance)?, 0, true)?;
-        let point = corner.as_dvec3();
-        self.best = Some(Best { distance_sq: 0.0, instance, point });
+        self.best =
+            Some(Best { distance_sq: 0.0, instance, corners: [corner; 3], weights: [0.0; 2] });
         Some(())
     }
 
@@ -330,7 +343,7 @@ impl Nearest {
     ) -> ClosestPoint {
         let triangle = self.best.and_then(|best| model.number(best.instance));
         let upper = self.upper;
-        let point = self.best.map_or(DVec3::ZERO, |best| best.point);
+        let point = self.best.map_or(DVec3::ZERO, |best| best.point());
         ClosestPoint {
             distance: Interval::new(frame.lower(self.lower.min(upper)), frame.upper(upper)),
             point: frame.point(point),

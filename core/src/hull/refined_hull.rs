@@ -267,7 +267,7 @@ const PATH: usize = 32;
 /// split has not been performed.
 #[inline]
 pub(crate) fn split_of_face(hull: &Hull<'_>, corners: [VertIdx; 3]) -> Option<SplitIdx> {
-    corners.into_iter().filter_map(|corner| hull.split_of(corner)).min()
+    hull.removed_by(corners)
 }
 
 #[cfg(test)]

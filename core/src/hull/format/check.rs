@@ -307,7 +307,7 @@ impl Hull<'_> {
             }
         }
         let wrong = OpenError::Counts { what: "source numbers are not those of the surface" };
-        let mut before = self.base_finals(self.header.base_triangles).ok_or(wrong)?;
+        let mut before = self.base_finals(0..self.header.base_triangles).ok_or(wrong)?;
         for index in 0..self.header.splits {
             if index % START_GROUP == 0 && self.source_start(index / START_GROUP) != Some(before) {
                 let index = index / START_GROUP;

@@ -4,6 +4,8 @@
 //! are stored in the order of instances, with a start for each eighth split. So the place of one
 //! is found by counting in at most eight splits.
 
+use core::ops::Range;
+
 use super::index::{SplitIdx, TriIdx, VertIdx};
 use super::layout::{BASE_GROUP, SLOTS, START_GROUP};
 use super::view::{Hull, Split};
@@ -83,7 +85,7 @@ impl<'a> Hull<'a> {
     /// The place of a triangle among those of the surface.
     pub fn surface_index(&self, instance: Instance) -> Option<TriIdx> {
         let (from, split, slot) = match self.named(instance) {
-            Named::Base(index) => return self.base_finals(index).map(TriIdx),
+            Named::Base(index) => return self.base_index(index).map(TriIdx),
             Named::Group(_) => return None,
             Named::Fine(split, slot) => (split.0 - split.0 % START_GROUP, split, slot as usize),
         };
@@ -93,6 +95,15 @@ impl<'a> Hull<'a> {
             before = before.checked_add(self.finals(&earlier, earlier.fine_len())?)?;
         }
         Some(TriIdx(before.checked_add(self.finals(&self.split(split)?, slot)?)?))
+    }
+
+    /// Triangles of the surface before a base triangle, counted from the nearer end.
+    fn base_index(&self, index: u32) -> Option<u32> {
+        let end = self.header.base_triangles;
+        match self.source_start(0) {
+            Some(all) if index > end / 2 => all.checked_sub(self.base_finals(index..end)?),
+            _ => self.base_finals(0..index),
+        }
     }
 
     /// Number in the input file of a triangle of the surface; `None` of any other.
@@ -114,10 +125,10 @@ impl<'a> Hull<'a> {
         Some(self.instance(Named::Fine(last, (0..count).find(has_part)?)))
     }
 
-    /// Triangles of the surface among the first base triangles.
-    pub(super) fn base_finals(&self, count: u32) -> Option<u32> {
+    /// Triangles of the surface among base triangles.
+    pub(super) fn base_finals(&self, triangles: Range<u32>) -> Option<u32> {
         let mut finals = 0;
-        for index in 0..count {
+        for index in triangles {
             let [a, b, c] = self.base_triangle(index)?;
             let is_final = self.is_final(a)? && self.is_final(b)? && self.is_final(c)?;
             finals += u32::from(is_final && self.has_part(index));
