@@ -1,8 +1,9 @@
-//! Corners of triangles, eight triangles at a time, for the static tree: a triangle that lies
-//! oblique in its box often misses a plane that its box reaches.
+//! Leaves of the static tree over triangles: corners of eight triangles, to pass over them at once.
+//! A triangle that lies oblique in its box often misses a plane that its box reaches.
 
 use super::order::WIDTH;
 use glam::Vec3;
+use wide::f32x8;
 
 /// A plane in the tree's frame.
 #[derive(Clone, Copy, Debug)]
@@ -13,16 +14,25 @@ pub(super) struct Cut {
     pub offset: f32,
 }
 
-/// Corners of the triangles of a node, in the tree's frame.
-#[derive(Clone, Debug, Default)]
+/// Corners of the triangles of a node that has nothing else, in the tree's frame.
+#[derive(Clone, Debug)]
 pub(super) struct LaneCorners {
     /// By corner and axis.
     at: [[[f32; WIDTH]; 3]; 3],
     /// Lanes that hold a triangle, one bit each.
-    pub lanes: u32,
+    lanes: u32,
+    /// The node with the boxes of the triangles.
+    pub node: u32,
+    /// The entries of that node, for searches that need no boxes.
+    pub entry: [u32; WIDTH],
 }
 
 impl LaneCorners {
+    /// Of a node without triangles yet.
+    pub fn new(node: u32, entry: [u32; WIDTH]) -> Self {
+        Self { at: Default::default(), lanes: 0, node, entry }
+    }
+
     /// Puts a triangle into a lane.
     pub fn set(&mut self, lane: usize, triangle: [Vec3; 3]) {
         self.lanes |= 1 << lane;
@@ -33,27 +43,29 @@ impl LaneCorners {
         }
     }
 
-    /// The lanes whose triangles reach all planes, one bit each.
+    /// The lanes whose triangles reach all planes and a box, by its middle and half extent; one bit
+    /// each.
     #[inline]
-    pub fn reached(&self, cuts: &[Cut]) -> u32 {
-        let mut out = [f32::NEG_INFINITY; WIDTH];
-        for &Cut { normal: [x, y, z], offset, .. } in cuts {
-            let mut most = [f32::NEG_INFINITY; WIDTH];
-            for at in &self.at {
-                for (k, most) in most.iter_mut().enumerate() {
-                    let reach = x * at[0][k] + y * at[1][k] + z * at[2][k];
-                    *most = if *most > reach { *most } else { reach };
-                }
-            }
-            for (out, most) in out.iter_mut().zip(most) {
-                let below = offset - most;
-                *out = if *out > below { *out } else { below };
+    pub fn reached(&self, cuts: &[Cut], middle: [f32; 3], half: [f32; 3]) -> u32 {
+        let at = self.at.map(|corner| corner.map(f32x8::from));
+        let mut lanes = self.lanes;
+        for &Cut { normal, offset, .. } in cuts {
+            let [x, y, z] = normal.map(f32x8::splat);
+            let [a, b, c] = at.map(|p| x * p[0] + y * p[1] + z * p[2]);
+            let most = a.fast_max(b).fast_max(c);
+            lanes &= most.simd_ge(f32x8::splat(offset)).to_bitmask();
+            if lanes == 0 {
+                return 0;
             }
         }
-        let mut reached = 0;
-        for (k, out) in out.iter().enumerate() {
-            reached |= u32::from(*out <= 0.0) << k;
+        let [a, b, c] = at;
+        for axis in 0..3 {
+            let low = a[axis].fast_min(b[axis]).fast_min(c[axis]);
+            let high = a[axis].fast_max(b[axis]).fast_max(c[axis]);
+            let reaches_low = high.simd_ge(f32x8::splat(middle[axis] - half[axis]));
+            let reaches_high = low.simd_le(f32x8::splat(middle[axis] + half[axis]));
+            lanes &= (reaches_low & reaches_high).to_bitmask();
         }
-        reached & self.lanes
+        lanes
     }
 }

@@ -9,6 +9,7 @@ use super::lane_corners::{Cut, LaneCorners};
 use super::order::{WIDTH, ranges};
 use arrayvec::ArrayVec;
 use glam::DVec3;
+use wide::f32x8;
 
 /// Distance in the tree's frame by which a box may lie below a plane, or off another box, and still
 /// count as reaching it.
@@ -18,8 +19,12 @@ use glam::DVec3;
 /// than 40 · 2^-25 = 1.2e-6.
 const SLACK: f64 = 2e-6;
 
-/// An item among the entries of a node; without it, the number of a node.
+/// An item among the entries of a node.
 const ITEM: u32 = 1 << 31;
+
+/// A leaf with corners among the entries of a node. Without this and [`ITEM`], an entry is the
+/// number of a node.
+const LEAF: u32 = 1 << 30;
 
 /// Eight boxes by middle and half extent, and the entries in them.
 #[derive(Clone, Debug)]
@@ -27,21 +32,16 @@ struct Node {
     middle: [[f32; WIDTH]; 3],
     half: [[f32; WIDTH]; 3],
     entry: [u32; WIDTH],
-    /// Where the corners of its items are; [`NONE`] without corners.
-    corners: u32,
 }
 
-/// No corners are known.
-const NONE: u32 = u32::MAX;
-
 const EMPTY: Node =
-    Node { middle: [[0.0; WIDTH]; 3], half: [[-1e30; WIDTH]; 3], entry: [0; WIDTH], corners: NONE };
+    Node { middle: [[0.0; WIDTH]; 3], half: [[-1e30; WIDTH]; 3], entry: [0; WIDTH] };
 
 /// A static tree of boxes. Items keep the numbers of their boxes.
 #[derive(Clone, Debug)]
 pub(crate) struct StaticTree {
     nodes: Vec<Node>,
-    corners: Vec<LaneCorners>,
+    leaves: Vec<LaneCorners>,
     origin: DVec3,
     /// Units of the tree's frame in one of the mesh.
     scale: f64,
@@ -79,7 +79,7 @@ impl StaticTree {
         let extent = (all.high - all.low).max_element();
         let unit = if extent > 0.0 && extent.is_finite() { 0.5 * extent } else { 1.0 };
         let origin = if boxes.is_empty() { DVec3::ZERO } else { (all.low + all.high) * 0.5 };
-        let mut tree = Self { nodes: vec![EMPTY], corners: Vec::new(), origin, scale: 1.0 / unit };
+        let mut tree = Self { nodes: vec![EMPTY], leaves: Vec::new(), origin, scale: 1.0 / unit };
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
         let mut open = vec![(0usize, 0usize, boxes.len())];
         while let Some((node, from, to)) = open.pop() {
@@ -111,17 +111,24 @@ impl StaticTree {
         let boxes: Vec<Bounds> = triangles.iter().map(|t| Bounds::of(t)).collect();
         let mut tree = Self::new(&boxes);
         let (origin, scale) = (tree.origin, tree.scale);
-        for node in &mut tree.nodes {
-            let mut corners = LaneCorners::default();
-            for (lane, &entry) in node.entry.iter().enumerate() {
-                if entry & ITEM != 0 {
-                    let triangle = triangles[(entry ^ ITEM) as usize];
-                    corners.set(lane, triangle.map(|p| ((p - origin) * scale).as_vec3()));
-                }
+        // What stands for each node among the entries.
+        let mut names: Vec<u32> = (0..tree.nodes.len() as u32).collect();
+        for (name, node) in names.iter_mut().zip(&tree.nodes).skip(1) {
+            let is_item = |lane: usize| node.entry[lane] & ITEM != 0;
+            if !(0..WIDTH).all(|lane| is_item(lane) || node.half[0][lane] < 0.0) {
+                continue;
             }
-            if corners.lanes != 0 {
-                node.corners = tree.corners.len() as u32;
-                tree.corners.push(corners);
+            let mut leaf = LaneCorners::new(*name, node.entry);
+            for lane in (0..WIDTH).filter(|&lane| is_item(lane)) {
+                let triangle = triangles[(node.entry[lane] ^ ITEM) as usize];
+                leaf.set(lane, triangle.map(|p| ((p - origin) * scale).as_vec3()));
+            }
+            *name = LEAF | tree.leaves.len() as u32;
+            tree.leaves.push(leaf);
+        }
+        for entry in tree.nodes.iter_mut().flat_map(|node| &mut node.entry) {
+            if *entry & ITEM == 0 {
+                *entry = names[*entry as usize];
             }
         }
         tree
@@ -168,22 +175,22 @@ impl StaticTree {
         }
     }
 
-    /// The lanes of a node that a probe reaches, one bit each.
+    /// The node of an entry that is no item.
+    fn node(&self, entry: u32) -> &Node {
+        let node = if entry & LEAF == 0 { entry } else { self.leaves[(entry ^ LEAF) as usize].node };
+        &self.nodes[node as usize]
+    }
+
+    /// The lanes of a node or leaf that a probe reaches, one bit each, and its entries.
     #[inline]
-    fn reached(&self, probe: &Probe, node: &Node) -> u32 {
-        if node.corners == NONE || probe.cuts.is_empty() {
-            return probe.hits(node, &probe.cuts);
+    fn reached(&self, probe: &Probe, entry: u32) -> (u32, &[u32; WIDTH]) {
+        if entry & LEAF == 0 {
+            let node = &self.nodes[entry as usize];
+            (probe.hits(node, &probe.cuts), &node.entry)
+        } else {
+            let leaf = &self.leaves[(entry ^ LEAF) as usize];
+            (leaf.reached(&probe.cuts, probe.middle, probe.half), &leaf.entry)
         }
-        let near = probe.hits(node, &[]);
-        if near == 0 {
-            return 0;
-        }
-        let corners = &self.corners[node.corners as usize];
-        let mut hits = near & corners.reached(&probe.cuts);
-        if near & !corners.lanes != 0 {
-            hits |= probe.hits(node, &probe.cuts) & !corners.lanes;
-        }
-        hits
     }
 
     /// Some nodes that hold every item whose box meets `bounds`. Many searches in these bounds may
@@ -195,7 +202,7 @@ impl StaticTree {
         open.push(0);
         let mut next = 0;
         while let Some(&index) = open.get(next) {
-            let node = &self.nodes[index as usize];
+            let node = self.node(index);
             let hits = probe.hits(node, &probe.cuts);
             let mut inner: ArrayVec<u32, WIDTH> = ArrayVec::new();
             let mut has_items = false;
@@ -213,14 +220,14 @@ impl StaticTree {
     }
 
     /// Calls `item` with the items below nodes whose boxes pass, until it returns false; whether it
-    /// never did. `lanes` gives the lanes of a node that pass, one bit each. `state` belongs to
-    /// both.
+    /// never did. `lanes` gives the lanes of a node or leaf that pass, one bit each, and its entries.
+    /// `state` belongs to both.
     #[inline]
-    fn visit<S>(
-        &self,
+    fn visit<'t, S>(
+        &'t self,
         near: &[u32],
         state: &mut S,
-        lanes: impl Fn(&S, &Node) -> u32,
+        lanes: impl Fn(&S, u32) -> (u32, &'t [u32; WIDTH]),
         mut item: impl FnMut(&mut S, usize) -> bool,
     ) -> bool {
         let mut stack = [0u32; DEPTH];
@@ -229,10 +236,9 @@ impl StaticTree {
             let mut height = 1;
             while height > 0 {
                 height -= 1;
-                let node = &self.nodes[stack[height] as usize];
-                let mut lanes = lanes(state, node);
+                let (mut lanes, entries) = lanes(state, stack[height]);
                 while lanes != 0 {
-                    let entry = node.entry[lanes.trailing_zeros() as usize];
+                    let entry = entries[lanes.trailing_zeros() as usize];
                     lanes &= lanes - 1;
                     if entry & ITEM == 0 {
                         stack[height] = entry;
@@ -260,7 +266,7 @@ impl StaticTree {
         mut visit: impl FnMut(usize) -> bool,
     ) -> bool {
         let mut probe = self.probe(bounds, planes);
-        let lanes = |probe: &Probe, node: &Node| self.reached(probe, node);
+        let lanes = |probe: &Probe, entry| self.reached(probe, entry);
         self.visit(&[0], &mut probe, lanes, |_, item| visit(item))
     }
 
@@ -274,11 +280,13 @@ impl StaticTree {
         keep: impl Fn(&Bounds) -> bool,
         mut visit: impl FnMut(usize) -> bool,
     ) -> bool {
-        let lanes = |_: &(), node: &Node| {
-            (0..WIDTH).fold(0, |lanes, lane| {
+        let lanes = |_: &(), entry: u32| {
+            let node = self.node(entry);
+            let lanes = (0..WIDTH).fold(0, |lanes, lane| {
                 let passes = node.half[0][lane] >= 0.0 && keep(&self.in_mesh_frame(node, lane));
                 lanes | u32::from(passes) << lane
-            })
+            });
+            (lanes, &node.entry)
         };
         self.visit(&near.0, &mut (), lanes, |(), item| visit(item))
     }
@@ -292,7 +300,7 @@ impl StaticTree {
         mut probe: Probe,
         mut visit: impl FnMut(usize) -> Option<Plane>,
     ) {
-        let lanes = |probe: &Probe, node: &Node| self.reached(probe, node);
+        let lanes = |probe: &Probe, entry| self.reached(probe, entry);
         self.visit(&near.0, &mut probe, lanes, |probe, item| {
             if let Some(plane) = visit(item) {
                 self.raise(probe, &plane);
@@ -332,7 +340,7 @@ impl StaticTree {
                 }
                 continue;
             }
-            let node = &self.nodes[entry as usize];
+            let node = self.node(entry);
             let mut near: ArrayVec<(u32, f64), WIDTH> = ArrayVec::new();
             let bounds = node.distances_sq(local);
             for lane in (0..WIDTH).filter(|&lane| node.half[0][lane] >= 0.0) {
@@ -371,34 +379,26 @@ impl Probe {
     /// The lanes whose boxes meet the probe's box and reach planes, one bit each.
     #[inline]
     fn hits(&self, node: &Node, cuts: &[Cut]) -> u32 {
-        let mut out = [f32::NEG_INFINITY; WIDTH];
-        for (k, out) in out.iter_mut().enumerate() {
-            let off = |axis: usize| {
-                (node.middle[axis][k] - self.middle[axis]).abs()
-                    - node.half[axis][k]
-                    - self.half[axis]
-            };
-            let (x, y, z) = (off(0), off(1), off(2));
-            let xy = if x > y { x } else { y };
-            *out = if xy > z { xy } else { z };
-        }
+        let middle = node.middle.map(f32x8::from);
+        let half = node.half.map(f32x8::from);
+        let [x, y, z] = [0, 1, 2].map(|axis| {
+            (middle[axis] - f32x8::splat(self.middle[axis])).abs()
+                - half[axis]
+                - f32x8::splat(self.half[axis])
+        });
+        let mut out = x.fast_max(y).fast_max(z);
         for cut in cuts {
-            for (k, out) in out.iter_mut().enumerate() {
-                let reach = cut.normal[0] * node.middle[0][k]
-                    + cut.normal[1] * node.middle[1][k]
-                    + cut.normal[2] * node.middle[2][k]
-                    + cut.along[0] * node.half[0][k]
-                    + cut.along[1] * node.half[1][k]
-                    + cut.along[2] * node.half[2][k];
-                let below = cut.offset - reach;
-                *out = if *out > below { *out } else { below };
-            }
+            let [x, y, z] = cut.normal.map(f32x8::splat);
+            let [along_x, along_y, along_z] = cut.along.map(f32x8::splat);
+            let reach = x * middle[0]
+                + y * middle[1]
+                + z * middle[2]
+                + along_x * half[0]
+                + along_y * half[1]
+                + along_z * half[2];
+            out = out.fast_max(f32x8::splat(cut.offset) - reach);
         }
-        let mut hits = 0;
-        for (k, out) in out.iter().enumerate() {
-            hits |= u32::from(*out <= 0.0) << k;
-        }
-        hits
+        out.simd_le(f32x8::ZERO).to_bitmask()
     }
 }
 
