@@ -50,10 +50,13 @@ pub(crate) struct StaticTree {
 /// A box and planes that an item's box has to reach.
 #[derive(Clone, Debug)]
 pub(crate) struct Probe {
-    cuts: ArrayVec<Cut, 4>,
+    cuts: ArrayVec<Cut, MOST_CUTS>,
     middle: [f32; 3],
     half: [f32; 3],
 }
+
+/// Most planes of a probe: those of the two sides of a triangle and of the walls on its edges.
+const MOST_CUTS: usize = 5;
 
 /// Nodes that have everything in some bounds below them.
 #[derive(Clone, Debug, Default)]
@@ -153,7 +156,7 @@ impl StaticTree {
         }
     }
 
-    /// A probe of a box and at most four planes, whose normals are unit vectors.
+    /// A probe of a box and at most [`MOST_CUTS`] planes, whose normals are unit vectors.
     pub fn probe(&self, bounds: &Bounds, planes: &[Plane]) -> Probe {
         let (middle, half) = self.local(bounds);
         let half = half.map(|h| h + SLACK as f32);

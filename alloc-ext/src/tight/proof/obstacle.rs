@@ -125,13 +125,20 @@ impl Obstacle {
 
     fn touches(&self, face: &Triangle) -> bool {
         let [a, b, c] = *face;
-        let (ab, ac) = (b - a, c - a);
-        let normal = ab.cross(ac);
+        let normal = (b - a).cross(c - a);
         let length = normal.length();
         let unit = normal / length;
-        // Both sides of the face's plane, if its normal is known well enough.
-        let planes = [unit, -unit].map(|normal| Plane { normal, offset: normal.dot(a) });
-        let is_needle = length <= NEEDLE * ab.length() * ac.length();
+        // Both sides of the face's plane, and the walls on its edges, if its normal is known well
+        // enough. A wall has all corners on or in front of it, wherever rounding turns it to.
+        let walls = [[a, b], [b, c], [c, a]].map(|[from, to]| {
+            let normal = unit.cross(to - from).normalize_or_zero();
+            let offset = face.iter().fold(f64::INFINITY, |least, &p| least.min(normal.dot(p)));
+            Plane { normal, offset }
+        });
+        let [front, back] = [unit, -unit].map(|normal| Plane { normal, offset: normal.dot(a) });
+        let [ab, bc, ca] = walls;
+        let planes = [front, back, ab, bc, ca];
+        let is_needle = length <= NEEDLE * (b - a).length() * (c - a).length();
         let planes = if is_needle { &[] } else { &planes[..] };
         let visit = |i: usize| !meet(face, &self.triangles[i]);
         !self.triangle_tree.visit_reached(&Bounds::of(face), planes, visit)
