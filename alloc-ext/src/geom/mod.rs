@@ -2,6 +2,7 @@
 
 mod bounds;
 mod contact;
+mod disks;
 mod embedding;
 mod enclosure;
 mod enclosures;

@@ -5,6 +5,7 @@
 //! every number in it is at most 1, and the bounds of rounding are numbers: see [`SLACK`].
 
 use super::bounds::{Bounds, Plane};
+use super::disks::Disks;
 use super::lane_corners::{Cut, LaneCorners};
 use super::order::{WIDTH, ranges};
 use arrayvec::ArrayVec;
@@ -32,16 +33,25 @@ struct Node {
     middle: [[f32; WIDTH]; 3],
     half: [[f32; WIDTH]; 3],
     entry: [u32; WIDTH],
+    /// Where the disks of its nodes are; [`NONE`] without disks.
+    disks: u32,
 }
 
+/// No disks are known.
+const NONE: u32 = u32::MAX;
+
 const EMPTY: Node =
-    Node { middle: [[0.0; WIDTH]; 3], half: [[-1e30; WIDTH]; 3], entry: [0; WIDTH] };
+    Node { middle: [[0.0; WIDTH]; 3], half: [[-1e30; WIDTH]; 3], entry: [0; WIDTH], disks: NONE };
+
+/// Most items with a disk. Larger parts of a surface are curved.
+const MOST_IN_A_DISK: usize = 4096;
 
 /// A static tree of boxes. Items keep the numbers of their boxes.
 #[derive(Clone, Debug)]
 pub(crate) struct StaticTree {
     nodes: Vec<Node>,
     leaves: Vec<LaneCorners>,
+    disks: Vec<Disks>,
     origin: DVec3,
     /// Units of the tree's frame in one of the mesh.
     scale: f64,
@@ -82,7 +92,13 @@ impl StaticTree {
         let extent = (all.high - all.low).max_element();
         let unit = if extent > 0.0 && extent.is_finite() { 0.5 * extent } else { 1.0 };
         let origin = if boxes.is_empty() { DVec3::ZERO } else { (all.low + all.high) * 0.5 };
-        let mut tree = Self { nodes: vec![EMPTY], leaves: Vec::new(), origin, scale: 1.0 / unit };
+        let mut tree = Self {
+            nodes: vec![EMPTY],
+            leaves: Vec::new(),
+            disks: Vec::new(),
+            origin,
+            scale: 1.0 / unit,
+        };
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
         let mut open = vec![(0usize, 0usize, boxes.len())];
         while let Some((node, from, to)) = open.pop() {
@@ -137,6 +153,57 @@ impl StaticTree {
         tree
     }
 
+    /// With disks about its nodes. `normal` is that of an item, and `corners` gives points that hold
+    /// an item between them. Cost: n log n.
+    pub fn with_disks(
+        mut self,
+        normal: impl Fn(usize) -> DVec3,
+        corners: impl Fn(usize, &mut Vec<DVec3>),
+    ) -> Self {
+        let (mut open, mut items, mut points) = (Vec::new(), Vec::new(), Vec::new());
+        for index in 0..self.nodes.len() {
+            let mut disks = None;
+            for lane in 0..WIDTH {
+                let node = &self.nodes[index];
+                let entry = node.entry[lane];
+                if entry & ITEM != 0 || node.half[0][lane] < 0.0 {
+                    continue;
+                }
+                let middle = DVec3::from(node.middle.map(|axis| f64::from(axis[lane])));
+                self.items_below(entry, &mut open, &mut items);
+                if items.len() > MOST_IN_A_DISK {
+                    continue;
+                }
+                points.clear();
+                items.iter().for_each(|&item| corners(item, &mut points));
+                points.iter_mut().for_each(|p| *p = (*p - self.origin) * self.scale);
+                let normal = items.iter().map(|&item| normal(item)).sum();
+                disks.get_or_insert_with(Disks::default).set(lane, middle, normal, &points);
+            }
+            if let Some(disks) = disks {
+                self.nodes[index].disks = self.disks.len() as u32;
+                self.disks.push(disks);
+            }
+        }
+        self
+    }
+
+    /// The items below an entry that is no item, but no more than those of a disk and a node's.
+    fn items_below(&self, entry: u32, open: &mut Vec<u32>, items: &mut Vec<usize>) {
+        open.clear();
+        items.clear();
+        open.push(entry);
+        while let Some(entry) = open.pop().filter(|_| items.len() <= MOST_IN_A_DISK) {
+            let node = self.node(entry);
+            for lane in (0..WIDTH).filter(|&lane| node.half[0][lane] >= 0.0) {
+                match node.entry[lane] {
+                    item if item & ITEM != 0 => items.push((item ^ ITEM) as usize),
+                    below => open.push(below),
+                }
+            }
+        }
+    }
+
     /// Middle and half extent in the tree's frame.
     fn local(&self, bounds: &Bounds) -> ([f32; 3], [f32; 3]) {
         // Beyond 4 it is beyond everything.
@@ -180,7 +247,8 @@ impl StaticTree {
 
     /// The node of an entry that is no item.
     fn node(&self, entry: u32) -> &Node {
-        let node = if entry & LEAF == 0 { entry } else { self.leaves[(entry ^ LEAF) as usize].node };
+        let node =
+            if entry & LEAF == 0 { entry } else { self.leaves[(entry ^ LEAF) as usize].node };
         &self.nodes[node as usize]
     }
 
@@ -189,7 +257,7 @@ impl StaticTree {
     fn reached(&self, probe: &Probe, entry: u32) -> (u32, &[u32; WIDTH]) {
         if entry & LEAF == 0 {
             let node = &self.nodes[entry as usize];
-            (probe.hits(node, &probe.cuts), &node.entry)
+            (probe.hits(node, &probe.cuts, self.disks.get(node.disks as usize)), &node.entry)
         } else {
             let leaf = &self.leaves[(entry ^ LEAF) as usize];
             (leaf.reached(&probe.cuts, probe.middle, probe.half), &leaf.entry)
@@ -206,7 +274,7 @@ impl StaticTree {
         let mut next = 0;
         while let Some(&index) = open.get(next) {
             let node = self.node(index);
-            let hits = probe.hits(node, &probe.cuts);
+            let hits = probe.hits(node, &[], None);
             let mut inner: ArrayVec<u32, WIDTH> = ArrayVec::new();
             let mut has_items = false;
             for lane in (0..WIDTH).filter(|lane| hits >> lane & 1 != 0) {
@@ -381,7 +449,7 @@ impl Node {
 impl Probe {
     /// The lanes whose boxes meet the probe's box and reach planes, one bit each.
     #[inline]
-    fn hits(&self, node: &Node, cuts: &[Cut]) -> u32 {
+    fn hits(&self, node: &Node, cuts: &[Cut], disks: Option<&Disks>) -> u32 {
         let middle = node.middle.map(f32x8::from);
         let half = node.half.map(f32x8::from);
         let [x, y, z] = [0, 1, 2].map(|axis| {
@@ -390,15 +458,15 @@ impl Probe {
                 - f32x8::splat(self.half[axis])
         });
         let mut out = x.fast_max(y).fast_max(z);
-        for cut in cuts {
+        for (number, cut) in cuts.iter().enumerate() {
             let [x, y, z] = cut.normal.map(f32x8::splat);
             let [along_x, along_y, along_z] = cut.along.map(f32x8::splat);
-            let reach = x * middle[0]
-                + y * middle[1]
-                + z * middle[2]
-                + along_x * half[0]
-                + along_y * half[1]
-                + along_z * half[2];
+            let at_middle = x * middle[0] + y * middle[1] + z * middle[2];
+            let mut reach = at_middle + along_x * half[0] + along_y * half[1] + along_z * half[2];
+            // The first plane is the one next to the surface.
+            if let Some(disks) = disks.filter(|_| number == 0) {
+                reach = reach.fast_min(disks.reach(cut, at_middle));
+            }
             out = out.fast_max(f32x8::splat(cut.offset) - reach);
         }
         out.simd_le(f32x8::ZERO).to_bitmask()

@@ -29,6 +29,11 @@ pub(crate) struct Obstacle {
 /// the tree adds to its boxes.
 const NEEDLE: f64 = 1e-6;
 
+/// Normal of a triangle, as long as twice its area.
+fn normal([a, b, c]: &Triangle) -> DVec3 {
+    (b - a).cross(c - a)
+}
+
 fn tree_of_points(points: &[DVec3]) -> StaticTree {
     StaticTree::new(&points.iter().map(|&p| Bounds { low: p, high: p }).collect::<Vec<_>>())
 }
@@ -43,9 +48,20 @@ impl Obstacle {
                 .iter()
                 .map(|&i| triangles[i as usize].map(|v| positions[v as usize]))
                 .collect();
-            (StaticTree::of_triangles(&sorted), sorted)
+            let tree = StaticTree::of_triangles(&sorted)
+                .with_disks(|i| normal(&sorted[i]), |i, points| points.extend(sorted[i]));
+            (tree, sorted)
         };
-        let of_points = || (tree_of_points(positions), witnesses(positions, triangles));
+        let of_points = || {
+            let mut normals = vec![DVec3::ZERO; positions.len()];
+            for t in triangles {
+                let normal = normal(&t.map(|v| positions[v as usize]));
+                t.iter().for_each(|&v| normals[v as usize] += normal);
+            }
+            let tree = tree_of_points(positions)
+                .with_disks(|i| normals[i], |i, points| points.push(positions[i]));
+            (tree, witnesses(positions, triangles))
+        };
         let ((triangle_tree, sorted), (point_tree, witnesses)) =
             rayon::join(of_triangles, of_points);
         Self {
@@ -125,7 +141,7 @@ impl Obstacle {
 
     fn touches(&self, face: &Triangle) -> bool {
         let [a, b, c] = *face;
-        let normal = (b - a).cross(c - a);
+        let normal = normal(face);
         let length = normal.length();
         let unit = normal / length;
         // Both sides of the face's plane, and the walls on its edges, if its normal is known well
