@@ -8,14 +8,13 @@ use crate::bvh::format::{FullRing, LeafShape};
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use crate::bvh::point_query::PointQuery;
 use crate::geom::fan::{Whole, WholePoint};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::num::SOFT_FLOAT;
 use crate::num::sqrt_approx;
 use crate::num::tolerance::U32;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-use crate::num::{
-    SOFT_FLOAT,
-    tolerance::{EVERYTHING_SQ, LEAST_DENOMINATOR, PLANE_ALONG},
-};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+use crate::num::tolerance::{EVERYTHING_SQ, LEAST_DENOMINATOR, PLANE_ALONG};
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 use glam::Vec3;
 
 /// The way from the closest point of a triangle to the query, for a plane across it. Without
@@ -53,7 +52,7 @@ impl Way {
 /// A plane across the way to the best triangle. Coordinates are grid units from the grid's origin.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(
-    any(target_arch = "x86_64", target_arch = "aarch64"),
+    all(not(test), any(target_arch = "x86_64", target_arch = "aarch64")),
     expect(dead_code, reason = "vector targets look at all lanes of a leaf")
 )]
 pub(crate) struct LeafPlane {
@@ -76,26 +75,15 @@ impl LeafPlane {
     }
 }
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 impl LeafPlane {
-    /// The plane across the way to a triangle at the squared distance `distance_sq`. What is behind
-    /// it is farther from the query than the root of `limit`.
-    #[inline(always)]
-    pub(crate) fn across(query: &PointQuery, way: Way, distance_sq: f32, limit: f32) -> LeafPlane {
-        if !SOFT_FLOAT {
-            return LeafPlane::across_residual(query.from_origin, way, distance_sq, limit);
-        }
-        match &query.whole {
-            Some(point) => LeafPlane::new(point, way.whole(), limit),
-            None => LeafPlane::NONE,
-        }
-    }
-
+    /// The plane across `residual`, whose square is `distance_sq`. What is behind it is farther from
+    /// `at` than the root of `limit`.
+    ///
     /// Without a root: |n|·L ≤ (|n|²/2^k + L²·2^k)/2 for any k. Proof: `core/docs/rounding.md` §8,
     /// "Left out".
     #[inline(always)]
-    fn across_residual(at: Vec3, way: Way, distance_sq: f32, limit: f32) -> LeafPlane {
-        let residual = way.residual();
+    fn across_residual(at: Vec3, residual: Vec3, distance_sq: f32, limit: f32) -> LeafPlane {
         let is_known = residual != Vec3::ZERO && distance_sq > LEAST_DENOMINATOR;
         if !(is_known && limit < EVERYTHING_SQ) {
             return LeafPlane::NONE;
@@ -111,6 +99,23 @@ impl LeafPlane {
         let margin = (at.x.abs() + at.y.abs() + at.z.abs()) * PLANE_ALONG;
         let behind = (along - far - margin) as i32;
         LeafPlane { normal: [a, b, c], behind: behind.clamp(-1 << 30, 1 << 30) - 1 }
+    }
+}
+
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+impl LeafPlane {
+    /// The plane across the way to a triangle at the squared distance `distance_sq`. What is behind
+    /// it is farther from the query than the root of `limit`.
+    #[inline(always)]
+    pub(crate) fn across(query: &PointQuery, way: Way, distance_sq: f32, limit: f32) -> LeafPlane {
+        if !SOFT_FLOAT {
+            let residual = way.residual();
+            return LeafPlane::across_residual(query.from_origin, residual, distance_sq, limit);
+        }
+        match &query.whole {
+            Some(point) => LeafPlane::new(point, way.whole(), limit),
+            None => LeafPlane::NONE,
+        }
     }
 
     /// Whether a vertex may be behind it.
@@ -137,5 +142,59 @@ impl LeafPlane {
         let [one, other] = ring.centres(shape).map(|centre| is_behind(centre).wrapping_sub(1));
         let in_front = !(behind & behind >> 1) | one & first_fan | other & !first_fan;
         in_front & !(u32::MAX << (shape.triangles() & 31))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Noise(u64);
+
+    impl Noise {
+        fn unit(&mut self) -> f64 {
+            self.0 = self
+                .0
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 11) as f64 / (1u64 << 53) as f64
+        }
+
+        fn vector(&mut self, size: f64) -> [f64; 3] {
+            [(); 3].map(|()| size * (2.0 * self.unit() - 1.0))
+        }
+    }
+
+    #[test]
+    fn what_is_behind_a_plane_is_farther_than_the_limit_and_little_is_lost() {
+        let mut noise = Noise(5);
+        let mut loosest = 0f64;
+        for round in 0..300_000 {
+            let origin = noise.vector(1e6).map(f64::trunc);
+            let away = libm::exp2(f64::from(round % 30));
+            let p = noise.vector(away).map(|x| x + 30_000.0);
+            let p = [0, 1, 2].map(|k| (p[k] + origin[k]) as f32);
+            let from_origin = Vec3::from_array(p) - Vec3::from_array(origin.map(|x| x as f32));
+            let size = libm::exp2(40.0 * noise.unit() - 10.0);
+            let residual = noise.vector(size).map(|x| x as f32);
+            let residual = Vec3::from_array(residual);
+            let distance_sq = residual.length_squared();
+            let limit = distance_sq * (1.0 + noise.unit() as f32);
+            let plane = LeafPlane::across_residual(from_origin, residual, distance_sq, limit);
+            let normal = plane.normal.map(f64::from);
+            let along: f64 = (0..3).map(|k| normal[k] * (f64::from(p[k]) - origin[k])).sum();
+            let length = libm::sqrt(normal.iter().map(|x| x * x).sum());
+            let least = -f64::from(1 << 30);
+            let behind = f64::from(plane.behind);
+            // The plane's distance from the point, in products of the normal.
+            let (far, wanted) = (along - behind, length * libm::sqrt(f64::from(limit)));
+            assert!(length == 0.0 || behind <= least || far >= wanted, "{p:?} {residual:?}");
+            if length > 0.0 && behind > least && round % 30 < 17 {
+                loosest = loosest.max(far / wanted.max(length * away));
+            }
+            // Nor does a product of a stored vertex leave 32 bits.
+            assert!(plane.normal.iter().all(|x| x.abs() <= 1 << 12), "{residual:?}");
+        }
+        assert!(loosest < 1.5, "{loosest}");
     }
 }
