@@ -7,6 +7,7 @@
 //! simulator does not run it.
 
 pub mod answers;
+pub mod callgrind;
 mod deform;
 mod hull;
 pub mod placed;

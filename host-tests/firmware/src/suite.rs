@@ -6,7 +6,7 @@
 //! calibration INSTRUCTIONS TICKS
 //! opening BYTES
 //! scratch BYTES
-//! block KIND INDEX HASH
+//! block KIND INDEX HASH TICKS
 //! ticks KIND QUERIES MIN SUM MAX
 //! stack KIND BYTES
 //! done

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use crate::boards::Flash;
 use crate::host;
@@ -77,13 +78,25 @@ impl Blob {
         self == MOVING || self.is_reported(Flash::Large)
     }
 
+    /// All blobs, each once.
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        let standard = [Flash::Small, Flash::Large].into_iter().flat_map(Self::standard);
+        let mut all: Vec<Self> = Vec::new();
+        for blob in standard.chain(Self::VARIANTS) {
+            if !all.contains(&blob) {
+                all.push(blob);
+            }
+        }
+        all
+    }
+
     /// The blob of a name.
     ///
     /// # Errors
     /// There is none.
     pub fn named(name: &str) -> Result<Self, String> {
-        let standard = [Flash::Small, Flash::Large].into_iter().flat_map(Self::standard);
-        let mut all = standard.chain(Self::VARIANTS);
+        let mut all = Self::all().into_iter();
         all.find(|blob| blob.name == name).ok_or_else(|| format!("no blob `{name}`"))
     }
 
@@ -126,12 +139,14 @@ impl Blob {
     }
 }
 
-/// Writes all blobs, each beside the answers of this machine.
+/// Writes all blobs, each beside the answers of this machine, if this process has not written them.
 ///
 /// # Errors
 /// The builder's.
 pub fn write() -> Result<(), String> {
-    host::run(&["blobs", &folder().to_string_lossy()]).map(drop)
+    static WRITTEN: OnceLock<Result<(), String>> = OnceLock::new();
+    let write = || host::run(&["blobs", &folder().to_string_lossy()]).map(drop);
+    WRITTEN.get_or_init(write).clone()
 }
 
 /// How many blocks of queries an image asks of each kind.

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use crate::blobs::Blob;
 use crate::boards::Board;
 use crate::elf::Size;
 use crate::images::Profile;
@@ -22,8 +23,8 @@ pub struct Added {
 /// What one blob's image told.
 #[derive(Clone, Debug)]
 pub struct Measured {
-    /// The blob's name.
-    pub blob: &'static str,
+    /// The blob.
+    pub blob: Blob,
     /// How the image is optimised.
     pub profile: Profile,
     /// Answers and costs.
@@ -71,9 +72,11 @@ pub fn text(rows: &[Row]) -> String {
         "cpu", "blob", "profile", "query", "count", "min", "mean", "max", "stack", "scratch"
     );
     for row in rows {
-        for Measured { blob, profile, reading } in &row.readings {
+        let reported = |measured: &&Measured| measured.blob.is_reported(row.board.flash);
+        for Measured { blob, profile, reading } in row.readings.iter().filter(reported) {
             for Cost { kind, queries, min, mean, max, stack } in &reading.costs {
                 let (cpu, profile, scratch) = (row.board.cpu, profile.name(), reading.scratch);
+                let blob = blob.name;
                 let _ = writeln!(
                     table,
                     "{cpu:<12}{blob:<14}{profile:<9}{kind:<14}{queries:>7}{min:>10.0}{mean:>10.0}{max:>10.0}{stack:>8}{scratch:>9}",

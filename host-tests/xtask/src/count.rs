@@ -167,7 +167,7 @@ pub fn for_test(steps: &mut Steps) -> Option<Counts<'static>> {
 /// Counts questions, on all cores. `None`, with a line that says so, where nothing can be counted.
 fn counted<'a>(steps: &mut Steps, questions: &[&'a str]) -> Option<Counts<'a>> {
     let valgrind = Valgrind::find()?;
-    let program = steps.run("the program that is counted", host::counted)?;
+    let program = steps.run("the program that is counted", host::counted)?.join("counted");
     let mut questions = questions.to_vec();
     questions.sort_unstable();
     questions.dedup();

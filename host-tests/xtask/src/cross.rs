@@ -72,7 +72,7 @@ impl Cross {
         match targets().into_iter().find(|target| !has_std(&sysroot, target)) {
             Some(target) => Err(format!("rustup added no std for {target}")),
             None => {
-                say!("   std of {}", process::capture(Command::new("rustc").arg("-V"))?.trim());
+                say!("   std of {}", own_version()?);
                 Ok(Self::Installed)
             }
         }
@@ -84,8 +84,23 @@ impl Cross {
         if !sources.is_file() {
             return Err(format!("Debian's compiler came without {}", sources.display()));
         }
-        say!("   std built by {}", process::capture(rust.command("rustc").arg("-V"))?.trim());
-        Ok(Self::Debian { linker: linker(&rust)?, rust })
+        let cross = Self::Debian { linker: linker(&rust)?, rust };
+        say!("   std built by {}", cross.version()?);
+        Ok(cross)
+    }
+
+    /// What the compiler of the images calls itself.
+    ///
+    /// # Errors
+    /// It cannot be asked.
+    pub fn version(&self) -> Result<String, String> {
+        match self {
+            Self::Installed => own_version(),
+            Self::Debian { rust, .. } => {
+                let version = process::capture(rust.command("rustc").arg("-V"))?;
+                Ok(version.trim().to_owned())
+            }
+        }
     }
 
     /// Makes sure of std for a target that is no board's. Debian's compiler builds it.
@@ -166,6 +181,14 @@ impl Cross {
 
 fn targets() -> Vec<&'static str> {
     BOARDS.iter().map(|board| board.target).collect()
+}
+
+/// What the compiler in use calls itself.
+///
+/// # Errors
+/// It cannot be asked.
+pub fn own_version() -> Result<String, String> {
+    Ok(process::capture(Command::new("rustc").arg("-V"))?.trim().to_owned())
 }
 
 fn sysroot() -> Result<PathBuf, String> {

@@ -30,6 +30,12 @@ pub fn setup(steps: &mut Steps) -> Option<Tools> {
 }
 
 impl Tools {
+    /// The compiler of the images.
+    #[must_use]
+    pub const fn cross(&self) -> &Cross {
+        &self.cross
+    }
+
     /// Builds an image for a board; its path.
     ///
     /// # Errors
@@ -103,19 +109,23 @@ pub enum Scope {
     /// The proof that nothing panics is linked for size on those boards only, which need it most.
     /// One of the two boards with much the same instructions is asked less.
     Compared,
+    /// What has a cost: `cargo xtask count --all`. As many queries as are [`Self::Compared`], of all
+    /// boards and with both optimisations.
+    Counted,
 }
 
 impl Scope {
-    fn blocks(self, board: &Board, blob: Blob) -> Blocks {
+    /// How many blocks of queries a board is asked about a blob.
+    #[must_use]
+    pub fn blocks(self, board: &Board, blob: Blob) -> Blocks {
         match self {
-            // Its questions take millions of instructions.
-            Self::Compared if blob == blobs::APART => Blocks::QUARTER,
             Self::All if blob == blobs::APART && !board.has_floats => Blocks::QUARTER,
-            Self::Compared if !board.has_floats => {
-                let is_standard = Blob::standard(board.flash).contains(&blob);
-                if is_standard { Blocks::TABLED } else { Blocks::QUARTER }
-            }
-            _ => Blocks::ALL,
+            Self::All => Blocks::ALL,
+            // Its questions take millions of instructions.
+            _ if blob == blobs::APART => Blocks::QUARTER,
+            _ if board.has_floats => Blocks::ALL,
+            _ if Blob::standard(board.flash).contains(&blob) => Blocks::TABLED,
+            _ => Blocks::QUARTER,
         }
     }
 
@@ -127,7 +137,7 @@ impl Scope {
         let is_first = profile == blob.profile(board.flash);
         let all = is_first || board.flash == Flash::Large && blob.is_painted();
         match self {
-            Self::All => all,
+            Self::All | Self::Counted => all,
             Self::Compared => is_first && (has_table || board.cpu != "Cortex-M33"),
         }
     }
@@ -137,17 +147,26 @@ impl Scope {
         self == Self::All || profile == Profile::Release || !board.has_floats
     }
 
+    /// Whether the proof image is linked with a panic too. That the link fails is the linker's
+    /// doing, and all boards have the same one.
+    fn is_sabotaged(self, board: &Board) -> bool {
+        self == Self::All || board.cpu == BOARDS[0].cpu
+    }
+
     /// Whether the C library's stack is bounded: in `cargo xtask test` that of the library that is
     /// built for its images.
     fn is_bound_in_c(self, board: &Board, profile: Profile) -> bool {
         self == Self::All || c_checks::IMAGES == (board.cpu, profile)
     }
 
-    /// Questions whose code is measured, each by an image of its own.
-    fn questions(self) -> Vec<&'static str> {
+    /// Questions whose code is measured on a board, each by an image of its own: in `cargo xtask
+    /// test` all of them on one board only.
+    fn questions(self, board: &Board, profile: Profile) -> &'static [&'static str] {
         match self {
-            Self::All => QUESTIONS.iter().map(|(image, _)| *image).collect(),
-            Self::Compared => tables::CODE.to_vec(),
+            Self::All | Self::Counted => &IMAGES,
+            Self::Compared if board.cpu == BOARDS[0].cpu => &IMAGES,
+            Self::Compared if profile == Profile::Release => &tables::CODE,
+            Self::Compared => &[],
         }
     }
 
@@ -159,14 +178,6 @@ impl Scope {
             _ => &[],
         }
     }
-
-    /// How their images are optimised.
-    const fn profiles(self) -> &'static [Profile] {
-        match self {
-            Self::All => &Profile::ALL,
-            Self::Compared => &[Profile::Release],
-        }
-    }
 }
 
 /// Runs all of it, and prints the table.
@@ -175,17 +186,36 @@ pub fn run(steps: &mut Steps, tools: &Tools) -> Vec<Row> {
     asked.map(|asked| ask(steps, tools, &asked, Scope::All)).unwrap_or_default()
 }
 
+/// Runs what has costs: the images of the suite, and those whose size is measured.
+pub fn count(steps: &mut Steps, tools: &Tools) -> Vec<Row> {
+    let asked = steps.run("images of the suite", || suites(&tools.cross, Scope::Counted));
+    build_for_sizes(steps, &tools.cross, Scope::Counted);
+    let mut rows =
+        asked.map(|asked| answers(steps, tools, &asked, Scope::Counted)).unwrap_or_default();
+    measure_sizes(steps, &tools.cross, &mut rows, Scope::Counted);
+    rows
+}
+
 /// Builds all images, which takes nothing of the library on this machine. Lints and proofs are
 /// among it.
 pub fn build(steps: &mut Steps, tools: &Tools, scope: Scope) -> Option<Vec<Asked>> {
     let asked = steps.run("images of the suite", || suites(&tools.cross, scope));
-    proofs_and_sizes(steps, &tools.cross, scope);
+    proofs(steps, &tools.cross, scope);
+    build_for_sizes(steps, &tools.cross, scope);
     asked
 }
 
-/// Runs the images of the suite, and prints the table.
+/// Runs the images of the suite, bounds the stacks, and prints the table.
 pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> Vec<Row> {
-    let cross = &tools.cross;
+    let mut rows = answers(steps, tools, asked, scope);
+    stacks(steps, &tools.cross, &mut rows, scope);
+    measure_sizes(steps, &tools.cross, &mut rows, scope);
+    say!("{}", cost::text(&rows));
+    rows
+}
+
+/// Runs the images of the suite.
+fn answers(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> Vec<Row> {
     let written = steps.run("the host's answers", || {
         blobs::write()?;
         let in_flash = |Asked { board, blob, .. }: &Asked| {
@@ -218,13 +248,16 @@ pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> V
             row.stacks.paint(*profile, image, &reading)?;
             Ok(reading)
         });
-        if let Some(reading) = steps.ended(&name, seconds, reading)
-            && blob.is_reported(board.flash)
-        {
-            row.readings.push(Measured { blob: blob.name, profile: *profile, reading });
+        if let Some(reading) = steps.ended(&name, seconds, reading) {
+            row.readings.push(Measured { blob: *blob, profile: *profile, reading });
         }
     }
-    for Row { board, stacks, .. } in &mut rows {
+    rows
+}
+
+/// Bounds the stacks of what was linked.
+fn stacks(steps: &mut Steps, cross: &Cross, rows: &mut [Row], scope: Scope) {
+    for Row { board, stacks, .. } in rows.iter_mut() {
         steps.run(&format!("{}: bounds of the stack", board.cpu), || {
             for profile in Profile::ALL {
                 if scope.is_proved(board, profile) {
@@ -238,7 +271,7 @@ pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> V
         });
     }
     steps.run("bounds of the stack in C", || {
-        for Row { board, stacks, .. } in &mut rows {
+        for Row { board, stacks, .. } in rows.iter_mut() {
             for profile in Profile::ALL {
                 if scope.is_bound_in_c(board, profile) {
                     let linked = c_library::linked_for_stack(cross, board.target, profile)?;
@@ -250,18 +283,22 @@ pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> V
         }
         Ok(())
     });
-    for row in &mut rows {
+}
+
+/// Measures the code of questions.
+fn measure_sizes(steps: &mut Steps, cross: &Cross, rows: &mut [Row], scope: Scope) {
+    for row in rows {
         let name = format!("{}: sizes", row.board.cpu);
         row.added = steps.run(&name, || sizes(cross, &row.board, scope)).unwrap_or_default();
     }
-    say!("{}", cost::text(&rows));
-    rows
 }
 
-/// Lints, proofs, and the images whose size is measured.
-fn proofs_and_sizes(steps: &mut Steps, cross: &Cross, scope: Scope) {
-    let targets = BOARDS.map(|board| board.target);
+/// Lints and proofs.
+fn proofs(steps: &mut Steps, cross: &Cross, scope: Scope) {
     if cross.has_clippy() {
+        // The sources do not tell the Cortex-M33 from the Cortex-M4F.
+        let boards = BOARDS.iter().filter(|board| board.cpu != "Cortex-M33");
+        let targets: Vec<&str> = boards.map(|board| board.target).collect();
         steps.run("lints of the images", || images::lint(cross, &targets));
     }
     for profile in Profile::ALL {
@@ -270,7 +307,7 @@ fn proofs_and_sizes(steps: &mut Steps, cross: &Cross, scope: Scope) {
         let targets: Vec<&str> = boards.map(|board| board.target).collect();
         steps.run(&name, || proof::holds(cross, &targets, profile));
     }
-    for board in BOARDS {
+    for board in BOARDS.iter().filter(|board| scope.is_sabotaged(board)) {
         let name = format!("{}: a panic is noticed", board.cpu);
         steps.run(&name, || proof::notices_a_panic(cross, board.target, Profile::Release));
     }
@@ -283,11 +320,29 @@ fn proofs_and_sizes(steps: &mut Steps, cross: &Cross, scope: Scope) {
             });
         }
     }
-    for &profile in scope.profiles() {
-        let names = size_images(&scope.questions());
-        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+}
+
+/// Builds the images whose size is measured: one command for the boards that take the same images.
+fn build_for_sizes(steps: &mut Steps, cross: &Cross, scope: Scope) {
+    for profile in Profile::ALL {
         let name = format!("images for sizes, {}", profile.name());
-        steps.run(&name, || images::sizes(cross, &targets, profile, &names));
+        steps.run(&name, || {
+            let mut built: Vec<(&[&str], Vec<&str>)> = Vec::new();
+            for board in &BOARDS {
+                let questions = scope.questions(board, profile);
+                match built.iter_mut().find(|(others, _)| *others == questions) {
+                    Some((_, targets)) => targets.push(board.target),
+                    None => built.push((questions, vec![board.target])),
+                }
+            }
+            for (questions, targets) in built.iter().filter(|(questions, _)| !questions.is_empty())
+            {
+                let names = size_images(questions);
+                let names: Vec<&str> = names.iter().map(String::as_str).collect();
+                images::sizes(cross, targets, profile, &names)?;
+            }
+            Ok(())
+        });
     }
 }
 
@@ -364,6 +419,17 @@ pub const QUESTIONS: [(&str, &str); 15] = [
     ("outer", "open a hull hierarchy, outer hits"),
 ];
 
+/// Their images.
+const IMAGES: [&str; QUESTIONS.len()] = {
+    let mut images = [""; QUESTIONS.len()];
+    let mut index = 0;
+    while index < images.len() {
+        images[index] = QUESTIONS[index].0;
+        index += 1;
+    }
+    images
+};
+
 /// The image that asks nothing, then one for each question.
 fn size_images(questions: &[&str]) -> Vec<String> {
     ["empty"].iter().chain(questions).map(|question| format!("size_{question}")).collect()
@@ -371,10 +437,13 @@ fn size_images(questions: &[&str]) -> Vec<String> {
 
 fn sizes(cross: &Cross, board: &Board, scope: Scope) -> Result<Vec<Added>, String> {
     let mut added = Vec::new();
-    let questions = scope.questions();
-    for &profile in scope.profiles() {
+    for profile in Profile::ALL {
+        let questions = scope.questions(board, profile);
+        if questions.is_empty() {
+            continue;
+        }
         let size = |name: &String| elf::size(&images::image(cross, board.target, profile, name));
-        let sizes = size_images(&questions).iter().map(size).collect::<Result<Vec<_>, _>>()?;
+        let sizes = size_images(questions).iter().map(size).collect::<Result<Vec<_>, _>>()?;
         if let [empty, others @ ..] = sizes.as_slice() {
             added.extend(questions.iter().zip(others).map(|(question, size)| {
                 let size = size.beyond(*empty);

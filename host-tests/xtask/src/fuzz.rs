@@ -38,6 +38,20 @@ pub fn run(steps: &mut Steps, minutes: u32, targets: &[&str]) {
     }
 }
 
+/// Checks that the program compiles, by the compiler of the tests and with the committed versions.
+///
+/// # Errors
+/// The compiler's.
+pub fn compiles() -> Result<(), String> {
+    let mut command = cargo(&["check", "--quiet", "--locked"]);
+    command.current_dir(crate_folder());
+    command.env("CARGO_TARGET_DIR", workspace::target().join("fuzz-check"));
+    command.env("CARGO_PROFILE_DEV_DEBUG", "false");
+    // Nothing is linked, so the fuzzer's own C++ need not be compiled.
+    command.env("CUSTOM_LIBFUZZER_PATH", folder().join("libfuzzer.a"));
+    process::capture(&mut command).map(drop)
+}
+
 /// The program of all targets, with coverage and address sanitizer.
 fn build() -> Result<PathBuf, String> {
     let nightly = || {
@@ -62,7 +76,7 @@ fn build() -> Result<PathBuf, String> {
     process::run(
         nightly()
             .args(["run", "nightly", "cargo", "fuzz", "build", "any"])
-            .current_dir(workspace::root().join("host-tests/fuzz"))
+            .current_dir(crate_folder())
             .env("PATH", path)
             .env("CARGO_TARGET_DIR", &folder),
     )?;
@@ -70,6 +84,10 @@ fn build() -> Result<PathBuf, String> {
     let built = fs::read_dir(&folder).into_iter().flatten().flatten();
     let mut programs = built.map(|entry| entry.path().join("release/any"));
     programs.find(|program| program.is_file()).ok_or("cargo fuzz built no program".to_owned())
+}
+
+fn crate_folder() -> PathBuf {
+    workspace::root().join("host-tests/fuzz")
 }
 
 fn folder() -> PathBuf {

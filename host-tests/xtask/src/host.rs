@@ -13,10 +13,9 @@ pub fn run(arguments: &[&str]) -> Result<String, String> {
     process::capture(std::process::Command::new(program.join("host")).args(arguments))
 }
 
-/// Builds the one that asks, as users build the core; its path.
+/// Builds those that ask, as users build the core; their folder.
 pub fn counted() -> Result<PathBuf, String> {
     build("release", "release", &["--package", "meshsweep-counted"])
-        .map(|folder| folder.join("counted"))
 }
 
 /// The folder of what was built.

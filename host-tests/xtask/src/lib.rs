@@ -10,8 +10,8 @@
 //! rival (the laboratory's images) ─ cross
 //! c_checks (C programs) ┐
 //! dist (archives) ──────┴ c_library (one object that defines msw_*) ─ toolbox, cross
-//! count ──── valgrind (callgrind) on host ─┐
-//!                                          ├─ tables (those of the documents)
+//! count, count_suite ── valgrind, on host ─┐
+//!                                          ├─ tables (those of the documents), guard (costs.txt)
 //! firmware ─┬ images ─ cross ───────┬─ toolbox (Debian packages, unpacked aside)
 //!           ├ qemu ─────────────────┘
 //!           ├ reading (what an image printed) ─ compared with the host's own run
@@ -32,6 +32,7 @@ pub mod checks;
 pub mod chromium;
 pub mod cost;
 pub mod count;
+pub mod count_suite;
 pub mod cross;
 pub mod dist;
 pub mod elf;
@@ -39,6 +40,7 @@ pub mod examples;
 pub mod firmware;
 pub mod fit;
 pub mod fuzz;
+pub mod guard;
 pub mod host;
 pub mod images;
 pub mod instructions;

@@ -5,13 +5,16 @@ use std::panic::resume_unwind;
 use std::process::ExitCode;
 use std::thread;
 
-use meshsweep_xtask::firmware::Scope;
+use meshsweep_xtask::cost::Row;
+use meshsweep_xtask::count_suite::Counted;
+use meshsweep_xtask::firmware::{Scope, Tools};
+use meshsweep_xtask::guard::Costs;
 use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::tables::Facts;
 use meshsweep_xtask::valgrind::Valgrind;
 use meshsweep_xtask::{
-    c_checks, checks, count, dist, examples, firmware, fit, fuzz, host, processors, report, rival,
-    say, tables,
+    c_checks, checks, count, count_suite, dist, examples, firmware, fit, fuzz, host, processors,
+    report, rival, say, tables,
 };
 
 const USAGE: &str = "\
@@ -28,6 +31,8 @@ cargo xtask fixtures                writes fixtures/ anew
 cargo xtask picture                 writes fixtures/part.svg anew, the picture of README.md
 cargo xtask tables                  writes the documents' tables of bytes and instructions anew
 cargo xtask count [QUESTION...]     instructions a query, by callgrind; are eight lanes vectors?
+cargo xtask count --all [--write]   all instructions and bytes, of all boards and this machine, beside
+                                    host-tests/costs.txt; writes the file anew, as `tables` does
 cargo xtask count --board QUESTION...
                                     the same on a Cortex-M4F, of `bvh`, `sweep`, `refine` BLOB ...
 cargo xtask fit [MESH...]           fits the costs by which `meshsweep trade` predicts instructions
@@ -54,7 +59,7 @@ fn main() -> ExitCode {
             let tools = firmware::setup(&mut steps);
             // Beside the rest, in folders of their own: long links and long tests leave a processor
             // without work.
-            let (rows, counts, others) = thread::scope(|scope| {
+            let (rows, counts, here, others) = thread::scope(|scope| {
                 let beside = scope.spawn(|| {
                     let mut steps = Steps::new();
                     let build = |tools| firmware::build(&mut steps, tools, Scope::Compared);
@@ -68,22 +73,26 @@ fn main() -> ExitCode {
                         c_checks::run(&mut steps, tools);
                         steps.run("the laboratory's images build", || rival::builds(tools));
                     }
+                    steps.run("the fuzzer compiles", fuzz::compiles);
                     let mut rows = Vec::new();
                     if let (Some(tools), Some(images)) = (&tools, images) {
                         rows = firmware::ask(&mut steps, tools, &images, Scope::Compared);
                     }
+                    let here = count_suite::run(&mut steps);
                     checks::lints(&mut steps);
-                    (rows, counts, steps)
+                    (rows, counts, here, steps)
                 });
                 checks::run(&mut steps);
                 beside.join().unwrap_or_else(|panic| resume_unwind(panic))
             });
             steps.append(others);
             tables::check(&mut steps, &Facts { counts: counts.as_ref(), rows: &rows });
+            guarded(&mut steps, tools.as_ref(), &rows, Scope::Compared, &here, Costs::check);
         }
         ["firmware"] => {
             if let Some(tools) = firmware::setup(&mut steps) {
-                firmware::run(&mut steps, &tools);
+                let rows = firmware::run(&mut steps, &tools);
+                guarded(&mut steps, Some(&tools), &rows, Scope::All, &[], Costs::check);
             }
         }
         ["examples"] => {
@@ -109,10 +118,28 @@ fn main() -> ExitCode {
         ["tables"] => {
             let tools = firmware::setup(&mut steps);
             let counts = count::for_test(&mut steps);
-            let run = |tools| firmware::run(&mut steps, &tools);
-            let rows = tools.map(run).unwrap_or_default();
+            let run = |tools| firmware::run(&mut steps, tools);
+            let rows = tools.as_ref().map(run).unwrap_or_default();
+            let here = count_suite::run(&mut steps);
             let facts = Facts { counts: counts.as_ref(), rows: &rows };
             steps.run("tables of the documents", || tables::write(&facts));
+            guarded(&mut steps, tools.as_ref(), &rows, Scope::All, &here, |costs, steps| {
+                steps.run("costs.txt", || costs.write());
+            });
+        }
+        ["count", "--all", then @ ..] if matches!(then, [] | ["--write"]) => {
+            let tools = firmware::setup(&mut steps);
+            let count = |tools| firmware::count(&mut steps, tools);
+            let rows = tools.as_ref().map(count).unwrap_or_default();
+            let here = count_suite::run(&mut steps);
+            guarded(&mut steps, tools.as_ref(), &rows, Scope::Counted, &here, |costs, steps| {
+                say!("{}", costs.text());
+                if then.is_empty() {
+                    costs.check(steps);
+                } else {
+                    steps.run("costs.txt", || costs.write());
+                }
+            });
         }
         ["count", "--board", questions @ ..] if !questions.is_empty() => {
             if let Some(tools) = firmware::setup(&mut steps) {
@@ -126,13 +153,27 @@ fn main() -> ExitCode {
             }
         }
         ["report", meshes @ ..] => report::run(&mut steps, meshes),
-        ["count", questions @ ..] if !questions.contains(&"--board") => {
+        ["count", questions @ ..] if !questions.iter().any(|word| word.starts_with("--")) => {
             count::run(&mut steps, questions)
         }
         ["measure" | "race" | "rival", ..] => return checks::lab(&words),
         _ => return usage(),
     }
     steps.finish()
+}
+
+/// Does something with the numbers that may not rise.
+fn guarded(
+    steps: &mut Steps,
+    tools: Option<&Tools>,
+    rows: &[Row],
+    scope: Scope,
+    here: &[Counted],
+    then: impl FnOnce(&Costs, &mut Steps),
+) {
+    if let Some(costs) = steps.run("the numbers", || Costs::of(tools, rows, scope, here)) {
+        then(&costs, steps);
+    }
 }
 
 fn usage() -> ExitCode {

@@ -1,17 +1,19 @@
 //! Child processes whose failure is a message.
 
+use std::cell::Cell;
+use std::fs;
 use std::io::Read;
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 /// Runs with the terminal's output.
 pub fn run(command: &mut Command) -> Result<(), String> {
     let line = line(command);
-    let status = command
-        .stdin(Stdio::null())
-        .status()
-        .map_err(|error| format!("cannot start `{line}`: {error}"))?;
+    let failed = |error: std::io::Error| format!("cannot start `{line}`: {error}");
+    let mut child = command.stdin(Stdio::null()).spawn().map_err(failed)?;
+    account_until(&mut child, None);
+    let status = child.wait().map_err(failed)?;
     if status.success() { Ok(()) } else { Err(format!("`{line}`: {status}")) }
 }
 
@@ -31,7 +33,16 @@ pub fn capture(command: &mut Command) -> Result<String, String> {
 /// Runs in silence. Any exit code will do.
 pub fn output(command: &mut Command) -> Result<Output, String> {
     let line = line(command);
-    command.stdin(Stdio::null()).output().map_err(|error| format!("cannot start `{line}`: {error}"))
+    let failed = |error: std::io::Error| format!("cannot start `{line}`: {error}");
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().map_err(failed)?;
+    // Read aside, so that a full pipe cannot block the child.
+    let [out, err] = [child.stdout.take().map(bytes_aside), child.stderr.take().map(bytes_aside)];
+    account_until(&mut child, None);
+    let status = child.wait().map_err(failed)?;
+    let [stdout, stderr] =
+        [out, err].map(|reader| reader.and_then(|thread| thread.join().ok()).unwrap_or_default());
+    Ok(Output { status, stdout, stderr })
 }
 
 /// Runs in silence and gives up after `limit`: for an emulator whose image hangs, or a download on
@@ -48,17 +59,11 @@ pub fn capture_within(command: &mut Command, limit: Duration) -> Result<String, 
     let out = child.stdout.take().map(read_aside);
     let err = child.stderr.take().map(read_aside);
     let deadline = Instant::now() + limit;
-    let status = loop {
-        match child.try_wait() {
-            Ok(Some(status)) => break Some(status),
-            Ok(None) if Instant::now() < deadline => std::thread::sleep(Duration::from_millis(10)),
-            _ => {
-                let _ = child.kill();
-                let _ = child.wait();
-                break None;
-            }
-        }
-    };
+    let in_time = account_until(&mut child, Some(deadline));
+    if !in_time {
+        let _ = child.kill();
+    }
+    let status = child.wait().ok().filter(|_| in_time);
     let [out, err] =
         [out, err].map(|reader| reader.and_then(|thread| thread.join().ok()).unwrap_or_default());
     match status {
@@ -81,6 +86,7 @@ pub fn parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) ->
     let next = AtomicUsize::new(0);
     let run = || {
         let mut done = Vec::new();
+        PROCESSOR.set(0.0);
         while let Some((index, item)) = {
             let index = next.fetch_add(1, Ordering::Relaxed);
             items.get(index).map(|item| (index, item))
@@ -89,11 +95,16 @@ pub fn parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) ->
             let result = work(item);
             done.push((index, (result, begun.elapsed().as_secs_f64())));
         }
-        done
+        (done, PROCESSOR.get())
     };
     let mut all = std::thread::scope(|scope| {
         let workers: Vec<_> = (0..threads).map(|_| scope.spawn(run)).collect();
-        workers.into_iter().flat_map(|worker| worker.join().unwrap_or_default()).collect::<Vec<_>>()
+        let mut all = Vec::new();
+        for (done, seconds) in workers.into_iter().flat_map(|worker| worker.join()) {
+            all.extend(done);
+            PROCESSOR.set(PROCESSOR.get() + seconds);
+        }
+        all
     });
     all.sort_by_key(|(index, _)| *index);
     all.into_iter().map(|(_, result)| result).collect()
@@ -106,13 +117,73 @@ pub fn on_path(program: &str) -> bool {
     })
 }
 
-fn read_aside(mut stream: impl Read + Send + 'static) -> std::thread::JoinHandle<String> {
-    std::thread::spawn(move || {
-        let mut bytes = Vec::new();
-        // What was read before an error is still worth showing.
-        let _ = stream.read_to_end(&mut bytes);
-        String::from_utf8_lossy(&bytes).into_owned()
-    })
+fn read_aside(stream: impl Read + Send + 'static) -> std::thread::JoinHandle<String> {
+    std::thread::spawn(move || String::from_utf8_lossy(&read(stream)).into_owned())
+}
+
+fn bytes_aside(stream: impl Read + Send + 'static) -> std::thread::JoinHandle<Vec<u8>> {
+    std::thread::spawn(move || read(stream))
+}
+
+fn read(mut stream: impl Read) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    // What was read before an error is still worth showing.
+    let _ = stream.read_to_end(&mut bytes);
+    bytes
+}
+
+thread_local! {
+    /// Processor seconds of the children that this thread has waited for.
+    static PROCESSOR: Cell<f64> = const { Cell::new(0.0) };
+}
+
+/// Processor seconds of all children that this thread has waited for, and of theirs. 0 where the
+/// system does not tell.
+pub fn processor_seconds() -> f64 {
+    PROCESSOR.get()
+}
+
+/// Waits until a child has ended, and adds its processor seconds to this thread's before the system
+/// forgets them. Steps run beside each other, so what the system adds up for the whole process tells
+/// nothing of one of them. Whether the child ended before the deadline.
+fn account_until(child: &mut Child, deadline: Option<Instant>) -> bool {
+    loop {
+        let has_ended = match State::of(child.id()) {
+            Some(State::Runs) => false,
+            Some(State::Ended(seconds)) => {
+                PROCESSOR.set(PROCESSOR.get() + seconds);
+                true
+            }
+            // The system tells nothing of processes.
+            None => !matches!(child.try_wait(), Ok(None)),
+        };
+        if has_ended || deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+            return has_ended;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// What the system tells of a child that was not waited for.
+enum State {
+    Runs,
+    /// With its processor seconds, and those of its own children.
+    Ended(f64),
+}
+
+impl State {
+    fn of(process: u32) -> Option<Self> {
+        /// The system's unit of such times.
+        const TICKS_A_SECOND: f64 = 100.0;
+        let text = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+        // Behind the name, which may hold anything: the state, and ten fields later four times.
+        let fields: Vec<&str> = text.rsplit_once(')')?.1.split_whitespace().collect();
+        if *fields.first()? != "Z" {
+            return Some(Self::Runs);
+        }
+        let ticks = fields.get(11..15)?.iter().filter_map(|field| field.parse::<f64>().ok());
+        Some(Self::Ended(ticks.sum::<f64>() / TICKS_A_SECOND))
+    }
 }
 
 fn line(command: &Command) -> String {

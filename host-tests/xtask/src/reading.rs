@@ -3,7 +3,7 @@
 use crate::boards::Board;
 
 /// Hash of one block.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Block {
     /// The question's name.
     pub kind: String,
@@ -11,12 +11,19 @@ pub struct Block {
     pub index: u32,
     /// Of all answers' bits.
     pub hash: String,
+    /// Instructions of all queries of its kind up to its end; 0 if the reading is the host's.
+    pub instructions: f64,
 }
 
 impl Block {
     /// Whether both are the same block of one kind.
     fn is_at(&self, other: &Self) -> bool {
         self.kind == other.kind && self.index == other.index
+    }
+
+    /// Whether they are of the same answers.
+    fn is(&self, other: &Self) -> bool {
+        self.is_at(other) && self.hash == other.hash
     }
 }
 
@@ -75,11 +82,16 @@ impl Reading {
                     let board = board.ok_or("the host has no counter")?;
                     check_rate(number(instructions)?, number(ticks)?, board)?;
                 }
-                ["block", kind, index, hash] => reading.blocks.push(Block {
-                    kind: (*kind).to_owned(),
-                    index: number(index)?,
-                    hash: (*hash).to_owned(),
-                }),
+                ["block", kind, index, hash, ticks @ ..] => {
+                    let rate = board.map_or(0.0, |board| board.instructions_per_tick);
+                    let ticks: f64 = ticks.first().map_or(Ok(0.0), |ticks| number(ticks))?;
+                    reading.blocks.push(Block {
+                        kind: (*kind).to_owned(),
+                        index: number(index)?,
+                        hash: (*hash).to_owned(),
+                        instructions: ticks * rate,
+                    });
+                }
                 ["ticks", kind, queries, min, sum, max] => {
                     let rate = board.map_or(0.0, |board| board.instructions_per_tick);
                     let instructions = |ticks: &str| Ok::<_, String>(number::<f64>(ticks)? * rate);
@@ -124,6 +136,16 @@ impl Reading {
         number(self.blob.split(' ').next().unwrap_or_default())
     }
 
+    /// Queries of the first `blocks` blocks of a kind, or of all if they are fewer, and the
+    /// instructions of their mean.
+    #[must_use]
+    pub fn mean_of_first(&self, cost: &Cost, blocks: u32) -> Option<(u32, f64)> {
+        let all = || self.blocks.iter().filter(|block| block.kind == cost.kind);
+        let last = all().take_while(|block| block.index < blocks).last()?;
+        let queries = cost.queries / u32::try_from(all().count()).ok()? * (last.index + 1);
+        Some((queries, last.instructions / f64::from(queries)))
+    }
+
     /// Compares the bits of all answers with those of a run that asked as many blocks of each kind
     /// or more.
     ///
@@ -143,7 +165,7 @@ impl Reading {
         if self.blocks.len() != asked.len() {
             return Err(format!("{} blocks, not {}", self.blocks.len(), asked.len()));
         }
-        let pairs = self.blocks.iter().zip(asked).filter(|(here, there)| here != there);
+        let pairs = self.blocks.iter().zip(asked).filter(|(here, there)| !here.is(there));
         let differences: Vec<_> = pairs
             .map(|(here, there)| {
                 format!("{} {}: {}, on the host {}", here.kind, here.index, here.hash, there.hash)
@@ -181,7 +203,7 @@ mod tests {
     use crate::boards::BOARDS;
 
     const PRINTED: &str = "blob 3 0000000000000001\ncalibration 2000000 50000\nopening 80\n\
-        scratch 256\nblock arith 0 000000000000000a\nticks arith 2 1 4 3\nstack arith 64\ndone\n";
+        scratch 256\nblock arith 0 000000000000000a 4\nticks arith 2 1 4 3\nstack arith 64\ndone\n";
 
     #[test]
     fn a_reading_holds_what_was_printed() {
@@ -189,6 +211,18 @@ mod tests {
         assert_eq!(reading.blocks.len(), 1);
         let cost = &reading.costs[0];
         assert_eq!((cost.min, cost.mean, cost.max, cost.stack), (40.0, 80.0, 120.0, 64));
+    }
+
+    #[test]
+    fn the_mean_of_fewer_blocks_is_that_of_a_run_that_asks_no_more() {
+        let whole = PRINTED
+            .replace(" 4\nticks arith 2 1 4 3", " 4\nblock arith 1 0b 10\nticks arith 4 1 10 3");
+        let [few, many] = [PRINTED, &whole]
+            .map(|printed| Reading::parse(printed, Some(&BOARDS[0])).expect("readable"));
+        let first = |reading: &Reading| reading.mean_of_first(&reading.costs[0], 1);
+        assert_eq!(first(&few), Some((2, 80.0)));
+        assert_eq!(first(&many), first(&few));
+        assert_eq!(many.mean_of_first(&many.costs[0], 16), Some((4, 100.0)));
     }
 
     #[test]

@@ -3,6 +3,8 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
+use crate::process;
+
 /// Steps from which on the summary lists the times.
 const MANY: usize = 8;
 
@@ -11,7 +13,16 @@ const MANY: usize = 8;
 pub struct Steps {
     passed: usize,
     failed: Vec<String>,
-    times: Vec<(String, f64)>,
+    times: Vec<Time>,
+}
+
+/// What a step took.
+#[derive(Debug)]
+struct Time {
+    name: String,
+    seconds: f64,
+    /// Of the step's processes, on all cores.
+    processor: f64,
 }
 
 impl Steps {
@@ -25,14 +36,25 @@ impl Steps {
     /// result are the caller's to skip.
     pub fn run<T>(&mut self, name: &str, step: impl FnOnce() -> Result<T, String>) -> Option<T> {
         say!("── {name}");
-        let begun = Instant::now();
+        let (begun, before) = (Instant::now(), process::processor_seconds());
         let result = step();
-        self.ended(name, begun.elapsed().as_secs_f64(), result)
+        let processor = process::processor_seconds() - before;
+        self.tell(name, begun.elapsed().as_secs_f64(), processor, result)
     }
 
-    /// A step that ran beside others.
+    /// A step that ran beside others, on one core.
     pub fn ended<T>(&mut self, name: &str, seconds: f64, result: Result<T, String>) -> Option<T> {
-        self.times.push((name.to_owned(), seconds));
+        self.tell(name, seconds, seconds, result)
+    }
+
+    fn tell<T>(
+        &mut self,
+        name: &str,
+        seconds: f64,
+        processor: f64,
+        result: Result<T, String>,
+    ) -> Option<T> {
+        self.times.push(Time { name: name.to_owned(), seconds, processor });
         match result {
             Ok(value) => {
                 say!("   {name}: ok ({seconds:.1} s)");
@@ -57,10 +79,14 @@ impl Steps {
     /// Prints the summary; the exit code tells whether every step passed.
     pub fn finish(self) -> ExitCode {
         if self.times.len() >= MANY {
-            say!("\nseconds  step");
-            for (name, seconds) in self.times.iter().filter(|(_, seconds)| *seconds >= 1.0) {
-                say!("{seconds:>7.1}  {name}");
+            say!("\nseconds  of processors  step");
+            for Time { name, seconds, processor } in &self.times {
+                if *seconds >= 1.0 {
+                    say!("{seconds:>7.1}  {processor:>13.1}  {name}");
+                }
             }
+            let all: f64 = self.times.iter().map(|time| time.processor).sum();
+            say!("{all:>22.1}  all");
         }
         for name in &self.failed {
             say!("failed: {name}");

@@ -40,6 +40,18 @@ pub const QUESTIONS: [&str; 6] = [
 /// Questions whose code a table needs measured.
 pub const CODE: [&str; 2] = ["closest", "tree_alone"];
 
+/// Kinds of queries to box trees that a table has of each board.
+const OF_TREES: [&str; 5] = ["closest_far", "closest_near", "first_hit", "within", "signed"];
+
+/// The same of hull hierarchies.
+const OF_HULLS: [&str; 4] = ["closest_far", "closest_near", "first_hit", "outer_hits"];
+
+/// Whether a table has the instructions of such queries on the boards: the suite asks more of them.
+#[must_use]
+pub fn has(kind: &str) -> bool {
+    OF_TREES.iter().chain(&OF_HULLS).any(|tabled| *tabled == kind)
+}
+
 /// Part by which a count may differ from the written one.
 const TOLERANCE: f64 = 0.04;
 
@@ -152,7 +164,6 @@ fn table(name: &str, facts: &Facts<'_>) -> Result<Option<Vec<Vec<Cell>>>, String
             }
         }
         "firmware_bvh" => {
-            let kinds = ["closest_far", "closest_near", "first_hit", "within", "signed"];
             lines.push(columns(&[
                 "box tree",
                 "closest, far",
@@ -162,10 +173,9 @@ fn table(name: &str, facts: &Facts<'_>) -> Result<Option<Vec<Vec<Cell>>>, String
                 "signed",
                 "code of closest point, bytes",
             ]));
-            lines.extend(on_boards(facts.rows, 1, &kinds, CODE[1])?);
+            lines.extend(on_boards(facts.rows, 1, &OF_TREES, CODE[1])?);
         }
         "firmware_hull" => {
-            let kinds = ["closest_far", "closest_near", "first_hit", "outer_hits"];
             lines.push(columns(&[
                 "hull hierarchy",
                 "closest, far",
@@ -174,7 +184,7 @@ fn table(name: &str, facts: &Facts<'_>) -> Result<Option<Vec<Vec<Cell>>>, String
                 "outer hits",
                 "code of closest point and opening, bytes",
             ]));
-            lines.extend(on_boards(facts.rows, 0, &kinds, CODE[0])?);
+            lines.extend(on_boards(facts.rows, 0, &OF_HULLS, CODE[0])?);
         }
         "stack" => lines = by_board(facts.rows, &SHIPPED, stacks),
         "stack_c" => lines = by_board(facts.rows, &SHIPPED, c_stacks),
@@ -261,7 +271,7 @@ fn on_boards(
 ) -> Result<Vec<Vec<Cell>>, String> {
     let line = |row: &Row| {
         let blob = Blob::standard(row.board.flash)[standard].name;
-        let measured = row.readings.iter().find(|measured| measured.blob == blob);
+        let measured = row.readings.iter().find(|measured| measured.blob.name == blob);
         let measured = measured.ok_or_else(|| format!("{}: no {blob}", row.board.cpu))?;
         let mut line = vec![words(row.board.cpu)];
         for kind in kinds {

@@ -3,6 +3,7 @@
 use std::env;
 use std::ffi::OsStr;
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 use crate::process;
@@ -63,17 +64,29 @@ impl Valgrind {
         arguments: &[&OsStr],
     ) -> Result<(String, Vec<f64>), String> {
         let own = env::current_exe().map_err(|error| error.to_string())?;
-        let folder = workspace::target().join(name);
+        let options = [format!("--toggle-collect={counted}"), format!("--dump-after={written}")];
+        self.dumps(&workspace::target().join(name), &options, &own, arguments)
+    }
+
+    /// Runs a program in callgrind, which writes its counters several times. What the program
+    /// printed, and the instructions of each time. The folder is emptied for the profiles.
+    pub fn dumps(
+        &self,
+        folder: &Path,
+        options: &[String],
+        program: &Path,
+        arguments: &[&OsStr],
+    ) -> Result<(String, Vec<f64>), String> {
         let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
         if folder.exists() {
-            fs::remove_dir_all(&folder).map_err(failed)?;
+            fs::remove_dir_all(folder).map_err(failed)?;
         }
-        fs::create_dir_all(&folder).map_err(failed)?;
+        fs::create_dir_all(folder).map_err(failed)?;
         let profile = folder.join("profile");
         let mut command = self.command();
         command.arg("--tool=callgrind").arg(format!("--callgrind-out-file={}", profile.display()));
-        command.arg(format!("--toggle-collect={counted}")).arg(format!("--dump-after={written}"));
-        let printed = process::capture(command.arg(own).args(arguments))?;
+        command.args(options).arg(program).args(arguments);
+        let printed = process::capture(&mut command)?;
         let profiles = (1..).map_while(|index: usize| {
             fs::read_to_string(profile.with_extension(index.to_string())).ok()
         });
