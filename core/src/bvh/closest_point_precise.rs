@@ -5,6 +5,7 @@ use super::descent::descend;
 use super::point_query::PointQuery;
 use super::stored_lengths::StoredLengths;
 use super::triangle_bounds::limit_of;
+use super::triangle_place::TrianglePlace;
 use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::{convex_gap, point_triangle};
@@ -78,14 +79,14 @@ impl Bvh<'_> {
         let Candidates { best, lower, measured, .. } = visitor.collector;
         work.exact = measured;
         match best {
-            Some((best, number)) if descent.ended() == Ended::Exact => {
+            Some((best, place)) if descent.ended() == Ended::Exact => {
                 let Interval { lower, upper } = lengths.interval(lower, best.upper);
                 let (lower, upper) =
                     (greater(near.distance.lower, lower), lesser(near.distance.upper, upper));
                 Ok(ClosestPoint {
                     distance: Interval { lower, upper },
                     point: query.units.point(best.point.as_vec3()),
-                    triangle: tree.source(number),
+                    triangle: place.source(tree),
                     work,
                     ended: Ended::Exact,
                 })
@@ -133,8 +134,8 @@ struct Candidates<'a> {
     place: DVec3,
     /// Triangles with a greater lower bound in f32 are farther than the closest, grid units.
     band: f32,
-    /// The one with the least upper end, and its number in the blob.
-    best: Option<(Measured, u32)>,
+    /// The one with the least upper end, and its place.
+    best: Option<(Measured, TrianglePlace)>,
     /// The least lower bound, grid units.
     lower: f64,
     measured: u32,
@@ -146,18 +147,18 @@ impl TriangleCollector for Candidates<'_> {
         if lower > self.band {
             return;
         }
-        let near = Measured::new(self.place, leaf.corners(triangle.lane as usize));
+        let near = Measured::new(self.place, leaf.corners(triangle.place.lane()));
         self.measured = self.measured.saturating_add(1);
         // On slivers the bound of f32 may be the better one.
         let relative = 1.0 - f64::from(FAN_RELATIVE * U32);
         let in_f32 = f64::from(lower) * relative - f64::from(self.query.rounding);
         self.lower = lesser(self.lower, greater(near.lower, in_f32));
-        let number = triangle.number;
+        let place = triangle.place;
         let is_nearer = self.best.is_none_or(|(best, first)| {
-            near.upper < best.upper || near.upper == best.upper && number < first
+            near.upper < best.upper || near.upper == best.upper && place < first
         });
         if is_nearer {
-            self.best = Some((near, number));
+            self.best = Some((near, place));
         }
     }
 }

@@ -13,6 +13,7 @@
 //! | `leaf_distance`, `triangle_bounds` | a point and the triangles of a leaf |
 //! | `leaf_plane` | without floating point: a plane behind which no triangle counts |
 //! | `leaf_squares` | without floating point: distances of triangles that are looked at again |
+//! | `triangle_place` | where a triangle lies, in one word |
 //! | `triangle_visitor` | the visitor of point questions that look at triangles one by one |
 //! | `segment_leaf` | a segment and the triangles of a leaf; the visitor of segment questions |
 //! | `closest_point`, `closest_points` | one closest point, many of them |
@@ -81,6 +82,7 @@ mod signed_distance;
 mod solid;
 mod stored_lengths;
 mod triangle_bounds;
+mod triangle_place;
 mod triangle_visitor;
 mod winding;
 mod within;

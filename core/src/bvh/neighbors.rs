@@ -3,6 +3,7 @@
 
 use super::point_query::PointQuery;
 use super::triangle_bounds::witness;
+use super::triangle_place::TrianglePlace;
 use super::triangle_visitor::LeafTriangle;
 use crate::bvh::format::Bvh;
 use crate::num::sqrt_approx;
@@ -61,31 +62,28 @@ impl core::fmt::Debug for Neighbor {
 impl LeafTriangle {
     /// The triangle in a slot of the caller.
     fn stored(self) -> Neighbor {
-        let LeafTriangle { distance_sq, lower_bound_sq, number, node, child, lane } = self;
-        Neighbor {
-            words: [distance_sq.to_bits(), lower_bound_sq.to_bits(), node, child, lane, number],
-        }
+        let LeafTriangle { distance_sq, lower_bound_sq, place } = self;
+        Neighbor { words: [distance_sq.to_bits(), lower_bound_sq.to_bits(), place.word(), 0, 0, 0] }
     }
 
     fn of(slot: &Neighbor) -> LeafTriangle {
-        let [distance_sq, lower_bound_sq, node, child, lane, number] = slot.words;
+        let [distance_sq, lower_bound_sq, place, ..] = slot.words;
         let [distance_sq, lower_bound_sq] = [distance_sq, lower_bound_sq].map(f32::from_bits);
-        LeafTriangle { distance_sq, lower_bound_sq, number, node, child, lane }
+        LeafTriangle { distance_sq, lower_bound_sq, place: TrianglePlace::of_word(place) }
     }
 
     fn answer(&self, tree: &Bvh<'_>, query: &PointQuery) -> Option<Neighbor> {
-        let leaf = self.leaf(tree)?;
+        let leaf = self.place.leaf(tree)?;
         let lower = query.lower(self.lower(&leaf, query));
         let upper = query.upper(sqrt_approx(self.distance_sq));
-        let point = query.units.point(witness(query, &leaf, self.lane as usize));
-        Some(Neighbor::of(Interval { lower, upper }, point, tree.source(self.number)?))
+        let point = query.units.point(witness(query, &leaf, self.place.lane()));
+        Some(Neighbor::of(Interval { lower, upper }, point, self.place.source(tree)?))
     }
 }
 
 /// Whether triangle `a` comes after `b`: farther, or as far with a greater number.
 fn after(a: &Neighbor, b: &Neighbor) -> bool {
-    let (a, b) = (LeafTriangle::of(a), LeafTriangle::of(b));
-    a.distance_sq > b.distance_sq || (a.distance_sq == b.distance_sq && a.number > b.number)
+    LeafTriangle::of(b).is_before(&LeafTriangle::of(a))
 }
 
 /// The caller's slice and how much of it is used.

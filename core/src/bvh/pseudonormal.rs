@@ -21,6 +21,7 @@ use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use super::side_search::Search;
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
+use super::triangle_place::TrianglePlace;
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::tolerance::{
     EXACT_INTEGERS, SIGN_COSINE, SIGN_TRIPLE_PRODUCT, TRUSTED_DIRECTION_SQ, U32,
@@ -45,7 +46,9 @@ impl ViewedSide {
     /// turned, none if it is sideless.
     #[cold]
     #[inline(never)]
-    pub(crate) fn told_by(self, tree: &Bvh<'_>, triangle: u32) -> ViewedSide {
+    pub(crate) fn told_by(self, tree: &Bvh<'_>, place: TrianglePlace) -> ViewedSide {
+        // In a tree that is not checked no number may be right.
+        let triangle = place.number(tree).unwrap_or(u32::MAX);
         let is_turned = tree.turned().contains(triangle);
         match self {
             ViewedSide::Flat => ViewedSide::Flat,

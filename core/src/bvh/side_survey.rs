@@ -1,11 +1,17 @@
 //! The triangles near a point of which the side is asked: those that may be the closest, and for
 //! each side that they show to the point the nearest one.
+//!
+//! A descent bounds the distance, leaf by leaf, as that of a closest point does. Leaves with
+//! triangles that may be the closest wait. When the descent is done, few of them are left, and only
+//! of their triangles it is asked how they face the point.
 
 use super::descent::{Descent, LeafVisit, descend};
+use super::leaf_distance::LeafNearest;
 use super::point_query::PointQuery;
 use super::pseudonormal::{Candidates, ViewedSide, viewed_side};
 use super::side_search::Search;
 use super::triangle_bounds::{limit_of, lower_of_box, witness};
+use super::triangle_place::TrianglePlace;
 use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::tolerance::{EMPTY_BALL, EVERYTHING_SQ};
@@ -17,16 +23,15 @@ use glam::Vec3;
 /// distance is left.
 const WAY_TO_NEARER: f32 = 0.9375;
 
+/// Leaves that may wait. More are looked at when they are reached.
+const WAITING: usize = 16;
+
 impl<'a, 't> Search<'a, 't> {
     /// A survey that knows all triangles with an area that may be the closest of these.
     pub(super) fn survey_with_area<'p>(
         &mut self,
         query: &'p PointQuery,
-    ) -> Result<Survey<'p>, QueryError>
-    where
-        'a: 'p,
-        't: 'p,
-    {
+    ) -> Result<Survey<'p>, QueryError> {
         let survey = self.survey(query, Bounding::Any)?;
         let is_known = survey.with_area.distance_sq <= survey.best.distance_sq;
         if is_known || survey.best.is_none() || self.truncated.is_some() {
@@ -40,57 +45,52 @@ impl<'a, 't> Search<'a, 't> {
         &mut self,
         query: &'p PointQuery,
         bounding: Bounding,
-    ) -> Result<Survey<'p>, QueryError>
-    where
-        'a: 'p,
-        't: 'p,
-    {
+    ) -> Result<Survey<'p>, QueryError> {
         let tree = self.tree;
-        let collector = Survey {
+        let collector = Collector {
             query,
             marked: tree.if_marked(),
-            margin: query.rounding,
             bounding,
             bound_sq: f32::INFINITY,
             band: f32::INFINITY,
-            best: LeafTriangle::NONE,
-            with_area: LeafTriangle::NONE,
-            by_side: [LeafTriangle::NONE; 3],
+            by_side: [LeafTriangle::NONE; 4],
             least: [f32::INFINITY; 4],
-            missed: None,
+            waiting: heapless::Vec::new(),
+            waits: false,
         };
         let mut visitor = TriangleVisitor::new(tree, query, EVERYTHING_SQ, collector);
         let descent = descend(tree, query, self.steps, self.stack, &mut visitor, &mut self.work)?;
-        let mut survey = visitor.collector;
+        visitor.collector.waits = false;
+        while let Some(WaitingLeaf { place, low, lower_bound_sq }) = visitor.collector.waiting.pop()
+        {
+            visitor.visit_again(place, low, lower_bound_sq).ok_or(QueryError::Unchecked)?;
+        }
+        let Collector { by_side, least, .. } = visitor.collector;
+        let mut missed = None;
         if let Descent::Truncated { least, ended } = descent {
-            survey.missed = Some(least);
+            missed = Some(least);
             self.truncated = Some(ended);
         }
-        Ok(survey)
+        let [front, back, unclear, flat] = by_side;
+        let mut with_area = front;
+        with_area.improve(back);
+        with_area.improve(unclear);
+        let mut best = with_area;
+        best.improve(flat);
+        let by_side = [front, back, unclear];
+        Ok(Survey { query, margin: query.rounding, best, with_area, by_side, least, missed })
     }
 }
 
 impl LeafTriangle {
-    const NONE: LeafTriangle = LeafTriangle {
-        distance_sq: f32::INFINITY,
-        lower_bound_sq: f32::INFINITY,
-        number: u32::MAX,
-        node: u32::MAX,
-        child: 0,
-        lane: 0,
-    };
-
     pub(super) fn is_none(&self) -> bool {
-        self.node == u32::MAX
+        self.place == TrianglePlace::NONE
     }
 
     /// Takes the nearer triangle; of two equally near ones the lesser number.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[inline(always)]
     fn improve(&mut self, other: LeafTriangle) {
-        if other.distance_sq < self.distance_sq
-            || (other.distance_sq == self.distance_sq && other.number < self.number)
-        {
+        if other.is_before(self) {
             *self = other;
         }
     }
@@ -108,14 +108,7 @@ enum Bounding {
 /// The triangles near a point.
 pub(super) struct Survey<'p> {
     pub(super) query: &'p PointQuery,
-    /// The tree, if some of its triangles are turned or sideless.
-    marked: Option<&'p Bvh<'p>>,
     pub(super) margin: f32,
-    bounding: Bounding,
-    /// The least squared distance of a bounding triangle.
-    bound_sq: f32,
-    /// The [`Candidates::band`] of `bound_sq`: farther triangles are no candidates.
-    band: f32,
     /// The closest triangle.
     pub(super) best: LeafTriangle,
     /// The closest triangle with an area.
@@ -130,16 +123,6 @@ pub(super) struct Survey<'p> {
 }
 
 impl Survey<'_> {
-    /// Takes the distance of a triangle that bounds the survey.
-    #[inline(always)]
-    fn bound(&mut self, distance_sq: f32, limit: &mut f32) {
-        if distance_sq < self.bound_sq {
-            self.bound_sq = distance_sq;
-            self.band = Candidates::new(self.query, self.margin, distance_sq).band;
-            *limit = lesser(*limit, limit_of(self.query, self.band));
-        }
-    }
-
     /// Whether a triangle with an area may be the closest one.
     pub(super) fn has_sides(&self) -> bool {
         if self.with_area.distance_sq <= self.best.distance_sq {
@@ -161,8 +144,8 @@ impl Survey<'_> {
     /// ball about this point that is proved empty.
     pub(super) fn nearer(&self, tree: &Bvh<'_>, to: LeafTriangle) -> Option<PointQuery> {
         let query = self.query;
-        let leaf = to.leaf(tree)?;
-        let place = query.p + (witness(query, &leaf, to.lane as usize) - query.p) * WAY_TO_NEARER;
+        let leaf = to.place.leaf(tree)?;
+        let place = query.p + (witness(query, &leaf, to.place.lane()) - query.p) * WAY_TO_NEARER;
         let nearer = PointQuery::new(tree, query.units.point(place)).ok()?;
         let way = nearer.p - query.p;
         let empty = query.units.inward(self.lower());
@@ -189,25 +172,91 @@ impl Survey<'_> {
             let missed = lower_of_box(query, missed);
             lower = lesser(lower, missed);
         }
-        let leaf = best.leaf(tree).ok_or(QueryError::Unchecked)?;
+        let leaf = best.place.leaf(tree).ok_or(QueryError::Unchecked)?;
         Ok(ClosestPoint {
             distance: Interval::new(lower, query.upper(distance)),
-            point: query.units.point(witness(query, &leaf, best.lane as usize)),
-            triangle: tree.source(best.number),
+            point: query.units.point(witness(query, &leaf, best.place.lane())),
+            triangle: best.place.source(tree),
             work: search.work,
             ended,
         })
     }
 }
 
-impl TriangleCollector for Survey<'_> {
-    /// A distance that is not refined yet bounds as well.
+/// A leaf with triangles that may be the closest.
+struct WaitingLeaf {
+    /// That of its first triangle.
+    place: TrianglePlace,
+    /// [`LeafNearest::low`].
+    low: u32,
+    /// [`LeafNearest::lower_bound_sq`].
+    lower_bound_sq: f32,
+}
+
+/// What a descent collects for a [`Survey`].
+struct Collector<'p> {
+    query: &'p PointQuery,
+    /// The tree, if some of its triangles are turned or sideless.
+    marked: Option<&'p Bvh<'p>>,
+    bounding: Bounding,
+    /// The least squared distance of a bounding triangle.
+    bound_sq: f32,
+    /// The [`Candidates::band`] of `bound_sq`: farther triangles are no candidates.
+    band: f32,
+    /// For each [`ViewedSide`] the closest triangle.
+    by_side: [LeafTriangle; 4],
+    /// For each [`ViewedSide`] the least lower bound of its triangles, grid units.
+    least: [f32; 4],
+    /// Leaves whose triangles are looked at when the descent is done.
+    waiting: heapless::Vec<WaitingLeaf, WAITING>,
+    /// Whether the leaf in hand waits.
+    waits: bool,
+}
+
+impl Collector<'_> {
+    /// Takes the distance of a triangle that bounds the survey.
     #[inline(always)]
-    fn nearest(&mut self, _: &LeafVisit<'_>, distance_sq: f32, limit: &mut f32) -> Option<Next> {
-        if self.bounding == Bounding::Any {
-            self.bound(distance_sq, limit);
+    fn bound(&mut self, distance_sq: f32, limit: &mut f32) {
+        if distance_sq < self.bound_sq {
+            self.bound_sq = distance_sq;
+            self.band = Candidates::new(self.query, self.query.rounding, distance_sq).band;
+            *limit = lesser(*limit, limit_of(self.query, self.band));
         }
-        Some(Next::Triangles)
+    }
+
+    /// Lets a leaf wait. Returns whether there is room.
+    #[inline(always)]
+    fn wait(&mut self, visit: &LeafVisit<'_>, near: &LeafNearest, limit: f32) -> bool {
+        if self.waiting.is_full() {
+            self.waiting.retain(|leaf| leaf.lower_bound_sq <= limit);
+        }
+        let place = TrianglePlace::new(visit.node, visit.child, 0);
+        let &LeafNearest { low, lower_bound_sq, .. } = near;
+        self.waiting.push(WaitingLeaf { place, low, lower_bound_sq }).is_ok()
+    }
+}
+
+impl TriangleCollector for Collector<'_> {
+    /// A distance that is not refined yet bounds as well. Slivers are refined at once, so that they
+    /// bound too.
+    ///
+    /// A leaf whose nearest triangle is beyond the limit does not wait: on some targets its lower
+    /// bounds are left out.
+    #[inline(always)]
+    fn nearest(
+        &mut self,
+        visit: &LeafVisit<'_>,
+        near: &LeafNearest,
+        limit: &mut f32,
+    ) -> Option<Next> {
+        self.waits = false;
+        if self.bounding == Bounding::WithArea {
+            return Some(Next::Triangles);
+        }
+        self.bound(near.distance_sq, limit);
+        self.waits = near.distance_sq <= *limit && self.wait(visit, near, *limit);
+        let is_sliver = near.lower_bound_sq < self.query.refine_below(self.bound_sq);
+        Some(if self.waits && !is_sliver { Next::Leaf } else { Next::Triangles })
     }
 
     #[inline(always)]
@@ -220,19 +269,19 @@ impl TriangleCollector for Survey<'_> {
 
     #[inline(always)]
     fn take(&mut self, here: LeafTriangle, leaf: &FanLeaf<'_>, seen: &[Vec3; 3], limit: &mut f32) {
+        if self.waits {
+            self.bound(here.distance_sq, limit);
+            return;
+        }
         let lower = here.lower(leaf, self.query);
         if lower > self.band {
             return;
         }
-        self.best.improve(here);
-        let facing = viewed_side(leaf, here.lane as usize, seen);
+        let facing = viewed_side(leaf, here.place.lane(), seen);
         let facing = match self.marked {
-            Some(tree) => facing.told_by(tree, here.number),
+            Some(tree) => facing.told_by(tree, here.place),
             None => facing,
         };
-        if facing != ViewedSide::Flat {
-            self.with_area.improve(here);
-        }
         if facing != ViewedSide::Flat || self.bounding == Bounding::Any {
             self.bound(here.distance_sq, limit);
         }

@@ -262,8 +262,8 @@ impl Search<'_, '_> {
             (true, false, false) => Ok(Some(Side::Outside)),
             (false, true, false) => Ok(Some(Side::Inside)),
             _ => {
-                let leaf = with_area.leaf(self.tree).ok_or(QueryError::Unchecked)?;
-                side_of_shared_feature(self, &candidates, leaf.corners(with_area.lane as usize))
+                let leaf = with_area.place.leaf(self.tree).ok_or(QueryError::Unchecked)?;
+                side_of_shared_feature(self, &candidates, leaf.corners(with_area.place.lane()))
             }
         }
     }

@@ -7,6 +7,7 @@ use super::leaf_plane::LeafPlane;
 use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use super::triangle_bounds::{each_triangle, lower_of};
+use super::triangle_place::TrianglePlace;
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::SOFT_FLOAT;
 use glam::Vec3;
@@ -16,25 +17,28 @@ use glam::Vec3;
 pub(crate) struct LeafTriangle {
     pub(crate) distance_sq: f32,
     pub(crate) lower_bound_sq: f32,
-    /// In the blob.
-    pub(crate) number: u32,
-    pub(crate) node: u32,
-    /// Number of the leaf among the children of `node`.
-    pub(crate) child: u32,
-    /// Number of the triangle in the leaf.
-    pub(crate) lane: u32,
+    pub(crate) place: TrianglePlace,
 }
 
 impl LeafTriangle {
-    /// The leaf that holds the triangle.
-    pub(crate) fn leaf<'t>(&self, tree: &Bvh<'t>) -> Option<FanLeaf<'t>> {
-        tree.leaf(self.node, self.child)
+    /// No triangle: farther than all others.
+    pub(crate) const NONE: LeafTriangle = LeafTriangle {
+        distance_sq: f32::INFINITY,
+        lower_bound_sq: f32::INFINITY,
+        place: TrianglePlace::NONE,
+    };
+
+    /// Whether it comes before another one: nearer, or as near with a lesser number.
+    #[inline(always)]
+    pub(crate) fn is_before(&self, other: &LeafTriangle) -> bool {
+        self.distance_sq < other.distance_sq
+            || self.distance_sq == other.distance_sq && self.place < other.place
     }
 
     /// Lower bound of the triangle's distance, grid units. `leaf` is the triangle's.
     #[inline]
     pub(crate) fn lower(&self, leaf: &FanLeaf<'_>, query: &PointQuery) -> f32 {
-        lower_of(leaf, self.lane as usize, query.p, self.distance_sq, self.lower_bound_sq)
+        lower_of(leaf, self.place.lane(), query.p, self.distance_sq, self.lower_bound_sq)
     }
 }
 
@@ -60,10 +64,10 @@ pub(crate) trait TriangleCollector {
         limit: &mut f32,
     );
 
-    /// Looks at the nearest triangle of a leaf, before [`take`](Self::take). May lower the limit.
-    /// `None` says that the tree is unchecked.
+    /// Looks at a leaf as a whole, before [`take`](Self::take). May lower the limit. `None` says
+    /// that the tree is unchecked.
     #[inline(always)]
-    fn nearest(&mut self, _: &LeafVisit<'_>, _distance_sq: f32, _limit: &mut f32) -> Option<Next> {
+    fn nearest(&mut self, _: &LeafVisit<'_>, _: &LeafNearest, _limit: &mut f32) -> Option<Next> {
         Some(Next::Triangles)
     }
 
@@ -122,7 +126,7 @@ impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
         self.beyond.allowance = self.collector.allowance();
         let near = nearest_within(&visit.leaf, self.query, &self.beyond, Some(&mut self.known))?;
         let before = self.limit;
-        let next = self.collector.nearest(visit, near.distance_sq, &mut self.limit)?;
+        let next = self.collector.nearest(visit, &near, &mut self.limit)?;
         if self.limit < before {
             self.lower_limits();
             self.part_from(&near);
@@ -145,20 +149,35 @@ impl<C: TriangleCollector> TriangleVisitor<'_, C> {
         }
     }
 
+    /// Hands triangles of a leaf to the collector that the descent has reached before: those whose
+    /// bits in `low` are ones, if their least squared lower bound is not beyond the limit.
+    pub(crate) fn visit_again(
+        &mut self,
+        first: TrianglePlace,
+        low: u32,
+        lower_bound_sq: f32,
+    ) -> Option<()> {
+        if lower_bound_sq > self.limit {
+            return Some(());
+        }
+        let (node, child) = (first.node(), first.child());
+        let visit = LeafVisit { leaf: first.leaf(self.tree)?, key: 0, node, child };
+        self.known = LeafSquares::NONE;
+        self.each(&visit, low).map(drop)
+    }
+
     /// Hands the triangles of a leaf to the collector. Returns whether to go on.
     #[inline(never)]
     fn each(&mut self, visit: &LeafVisit<'_>, low: u32) -> Option<bool> {
-        let TriangleVisitor { tree, query, limit, known, collector, .. } = self;
+        let TriangleVisitor { query, limit, known, collector, .. } = self;
         let before = *limit;
         let LeafVisit { leaf, node, child, .. } = visit;
-        let first = tree.links(*node)?.triangle(*child);
         each_triangle(query, leaf, (low, known), |lane, seen, [distance_sq, lower_bound_sq]| {
             if lower_bound_sq > *limit {
                 return;
             }
-            let (node, child, lane) = (*node, *child, lane as u32);
-            let number = first.wrapping_add(lane);
-            let here = LeafTriangle { distance_sq, lower_bound_sq, number, node, child, lane };
+            let place = TrianglePlace::new(*node, *child, lane);
+            let here = LeafTriangle { distance_sq, lower_bound_sq, place };
             collector.take(here, leaf, seen, limit);
         });
         if self.limit < before {

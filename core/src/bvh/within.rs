@@ -4,8 +4,10 @@
 //! enough, and it opens no node that is certainly too far.
 
 use super::descent::{Descent, LeafVisit, descend};
+use super::leaf_distance::LeafNearest;
 use super::point_query::PointQuery;
 use super::triangle_bounds::{limit_within, nearness, seen_from};
+use super::triangle_place::TrianglePlace;
 use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::sqrt_approx;
@@ -79,12 +81,12 @@ impl Bvh<'_> {
         }
         let mut work = Work::default();
         let limit = limit_within(&query, distance);
-        let collector = Threshold { tree, query: &query, distance, near: None, undecided: false };
+        let collector = Threshold { query: &query, distance, near: None, undecided: false };
         let mut visitor = TriangleVisitor::new(tree, &query, limit, collector);
         let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
         let Threshold { near, undecided, .. } = visitor.collector;
-        if let Some(number) = near {
-            let triangle = Some(tree.source(number).ok_or(QueryError::Unchecked)?);
+        if let Some(place) = near {
+            let triangle = Some(place.source(tree).ok_or(QueryError::Unchecked)?);
             return Ok(Within { verdict: Verdict::Yes, triangle, work });
         }
         let verdict = match descent {
@@ -114,12 +116,11 @@ fn from_afar(
 }
 
 struct Threshold<'a> {
-    tree: &'a Bvh<'a>,
     query: &'a PointQuery,
     /// Input units.
     distance: f32,
-    /// A triangle that is certainly within, by its number in the blob.
-    near: Option<u32>,
+    /// A triangle that is certainly within.
+    near: Option<TrianglePlace>,
     /// A triangle may be within.
     undecided: bool,
 }
@@ -129,11 +130,11 @@ impl TriangleCollector for Threshold<'_> {
     fn nearest(
         &mut self,
         visit: &LeafVisit<'_>,
-        distance_sq: f32,
+        near: &LeafNearest,
         limit: &mut f32,
     ) -> Option<Next> {
-        if distance_sq <= *limit && self.is_within(distance_sq) {
-            self.near = Some(self.number(visit, distance_sq)?);
+        if near.distance_sq <= *limit && self.is_within(near.distance_sq) {
+            self.near = Some(self.first_at(visit, near.distance_sq)?);
             return Some(Next::Nothing);
         }
         Some(if self.undecided { Next::Leaf } else { Next::Triangles })
@@ -144,7 +145,7 @@ impl TriangleCollector for Threshold<'_> {
     #[inline(always)]
     fn take(&mut self, triangle: LeafTriangle, leaf: &FanLeaf<'_>, _: &[Vec3; 3], _: &mut f32) {
         if self.near.is_none() && self.is_within(triangle.distance_sq) {
-            self.near = Some(triangle.number);
+            self.near = Some(triangle.place);
         }
         if !self.undecided {
             self.undecided = self.query.lower(triangle.lower(leaf, self.query)) <= self.distance;
@@ -164,15 +165,14 @@ impl Threshold<'_> {
         self.query.upper(sqrt_approx(distance_sq)) <= self.distance
     }
 
-    /// Number in the blob of the first triangle at `distance_sq`.
+    /// The first triangle at `distance_sq`.
     #[cold]
     #[inline(never)]
-    fn number(&self, visit: &LeafVisit<'_>, distance_sq: f32) -> Option<u32> {
-        let first = self.tree.links(visit.node)?.triangle(visit.child);
+    fn first_at(&self, visit: &LeafVisit<'_>, distance_sq: f32) -> Option<TrianglePlace> {
         let here = |lane: &usize| {
             nearness(&seen_from(&visit.leaf, *lane, self.query.p)).distance_sq == distance_sq
         };
         let lane = (0..visit.leaf.shape().triangles()).find(here)?;
-        Some(first.wrapping_add(lane as u32))
+        Some(TrianglePlace::new(visit.node, visit.child, lane))
     }
 }
