@@ -113,7 +113,13 @@ struct CollectWithin<'a> {
 
 impl TriangleCollector for CollectWithin<'_> {
     #[inline(always)]
-    fn take(&mut self, triangle: LeafTriangle, leaf: &FanLeaf<'_>, _: &[Vec3; 3], _: &mut f32) {
+    fn take(
+        &mut self,
+        triangle: LeafTriangle,
+        leaf: &FanLeaf<'_>,
+        _: Option<&[Vec3; 3]>,
+        _: &mut f32,
+    ) {
         let is_within = self.query.upper(sqrt_approx(triangle.distance_sq)) <= self.distance
             || self.query.lower(triangle.lower(leaf, self.query)) <= self.distance;
         if is_within && self.heap.offer(triangle).is_some() {

@@ -142,7 +142,13 @@ struct Candidates<'a> {
 }
 
 impl TriangleCollector for Candidates<'_> {
-    fn take(&mut self, triangle: LeafTriangle, leaf: &FanLeaf<'_>, _: &[Vec3; 3], _: &mut f32) {
+    fn take(
+        &mut self,
+        triangle: LeafTriangle,
+        leaf: &FanLeaf<'_>,
+        _: Option<&[Vec3; 3]>,
+        _: &mut f32,
+    ) {
         let lower = triangle.lower(leaf, self.query);
         if lower > self.band {
             return;

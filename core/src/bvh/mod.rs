@@ -20,7 +20,7 @@
 //! | `closest_point_precise` | the closest point, its candidates measured in f64 |
 //! | `within`, `all_within`, `nearest` | distance verdicts, and the nearest triangles |
 //! | `neighbors` | the heap of nearest triangles in the caller's slice |
-//! | `signed_distance`, `side_survey`, `side_search`, `pseudonormal` | on which side of a closed mesh a point lies |
+//! | `signed_distance`, `side_survey`, `side_search`, `viewed_side`, `pseudonormal` | on which side of a closed mesh a point lies |
 //! | `winding/` | the winding number about a point, of a mesh that need not be closed |
 //! | `first_hit`, `any_hit`, `all_hits` | segments |
 //! | `front_facing` | triangles that may face an eye |
@@ -84,6 +84,7 @@ mod stored_lengths;
 mod triangle_bounds;
 mod triangle_place;
 mod triangle_visitor;
+mod viewed_side;
 mod winding;
 mod within;
 

@@ -111,7 +111,13 @@ struct CollectNearest<'a> {
 
 impl TriangleCollector for CollectNearest<'_> {
     #[inline(always)]
-    fn take(&mut self, triangle: LeafTriangle, _: &FanLeaf<'_>, _: &[Vec3; 3], limit: &mut f32) {
+    fn take(
+        &mut self,
+        triangle: LeafTriangle,
+        _: &FanLeaf<'_>,
+        _: Option<&[Vec3; 3]>,
+        limit: &mut f32,
+    ) {
         if let Some(out) = self.heap.offer(triangle) {
             let lower = out.place.leaf(self.tree).map_or(0.0, |leaf| out.lower(&leaf, self.query));
             if lower < self.rest {

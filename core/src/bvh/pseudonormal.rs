@@ -21,94 +21,12 @@ use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use super::side_search::Search;
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
-use super::triangle_place::TrianglePlace;
+use super::viewed_side::{ViewedSide, cross, is_flat, norm_1, viewed_side};
 use crate::bvh::format::{Bvh, FanLeaf};
-use crate::num::tolerance::{
-    EXACT_INTEGERS, SIGN_COSINE, SIGN_TRIPLE_PRODUCT, TRUSTED_DIRECTION_SQ, U32,
-};
+use crate::num::tolerance::{SIGN_COSINE, TRUSTED_DIRECTION_SQ, U32};
 use crate::num::{greater, sqrt_approx};
 use crate::query::{QueryError, Side};
 use glam::Vec3;
-
-/// Which side of a triangle is seen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ViewedSide {
-    Front = 0,
-    Back = 1,
-    /// Rounding leaves the side undecided.
-    Unclear = 2,
-    /// It has no area, certainly.
-    Flat = 3,
-}
-
-impl ViewedSide {
-    /// The side that a triangle tells a point which sees this side of it: the other one if it is
-    /// turned, none if it is sideless.
-    #[cold]
-    #[inline(never)]
-    pub(crate) fn told_by(self, tree: &Bvh<'_>, place: TrianglePlace) -> ViewedSide {
-        // In a tree that is not checked no number may be right.
-        let triangle = place.number(tree).unwrap_or(u32::MAX);
-        let is_turned = tree.turned().contains(triangle);
-        match self {
-            ViewedSide::Flat => ViewedSide::Flat,
-            _ if tree.sideless().contains(triangle) => ViewedSide::Unclear,
-            ViewedSide::Front if is_turned => ViewedSide::Back,
-            ViewedSide::Back if is_turned => ViewedSide::Front,
-            side => side,
-        }
-    }
-}
-
-#[inline(always)]
-fn norm_1(v: Vec3) -> f32 {
-    let v = v.abs();
-    v.x + v.y + v.z
-}
-
-/// Normal of two spokes, and for each component the sum of the absolute values of its products.
-#[inline(always)]
-fn cross(e: Vec3, g: Vec3) -> (Vec3, Vec3) {
-    let (a, b) = (e.abs(), g.abs());
-    (e.cross(g), Vec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x))
-}
-
-/// How triangle `lane` faces the point from which it is `seen`, by
-/// [`seen_from`](super::triangle_bounds::seen_from).
-#[inline]
-pub(crate) fn viewed_side(leaf: &FanLeaf<'_>, lane: usize, seen: &[Vec3; 3]) -> ViewedSide {
-    let second = lane >= leaf.shape().turn();
-    let &[s, e, g] = seen;
-    let (normal, size) = cross(e, g);
-    if normal == Vec3::ZERO && is_flat(leaf, lane, norm_1(size)) {
-        return ViewedSide::Flat;
-    }
-    let volume = normal.dot(s);
-    // Underflow adds some hundred times less than the last term.
-    let rounding =
-        SIGN_TRIPLE_PRODUCT * U32 * size.dot(s.abs()) + f32::MIN_POSITIVE * (1.0 + norm_1(s));
-    let volume = if second && leaf.shape().second_reversed() { -volume } else { volume };
-    if volume > rounding {
-        ViewedSide::Front
-    } else if volume < -rounding {
-        ViewedSide::Back
-    } else {
-        ViewedSide::Unclear
-    }
-}
-
-/// Whether a triangle with a computed normal of zero has no area: a repeated corner, or integers so
-/// small that the normal is exact.
-#[cold]
-fn is_flat(leaf: &FanLeaf<'_>, lane: usize, size: f32) -> bool {
-    let [a, b, c] = leaf.corners(lane);
-    let is_whole = |x: f32| x as i32 as f32 == x && x.abs() < EXACT_INTEGERS;
-    let integral = |v: Vec3| v.to_array().into_iter().all(is_whole);
-    a == b
-        || b == c
-        || c == a
-        || (size < EXACT_INTEGERS && integral(a) && integral(b) && integral(c))
-}
 
 /// The triangles that may be the closest one.
 pub(crate) struct Candidates<'p> {
@@ -121,14 +39,16 @@ pub(crate) struct Candidates<'p> {
     feature_limit: f32,
 }
 
+/// [`Candidates::band`] if the nearest triangle is at this squared distance.
+#[inline]
+pub(crate) fn band_of(query: &PointQuery, distance_sq: f32) -> f32 {
+    sqrt_approx(distance_sq) * (1.0 + 128.0 * U32) + 8.0 * query.rounding
+}
+
 impl<'p> Candidates<'p> {
-    /// `margin` is the rounding that does not grow with the distance.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
-    pub(crate) fn new(query: &'p PointQuery, margin: f32, distance_sq: f32) -> Self {
-        let distance = sqrt_approx(distance_sq);
-        let band = distance * (1.0 + 128.0 * U32) + 8.0 * margin;
-        let feature_limit = distance * (1.0 + 64.0 * U32) + 4.0 * margin;
+    pub(crate) fn new(query: &'p PointQuery, distance_sq: f32) -> Self {
+        let (distance, band) = (sqrt_approx(distance_sq), band_of(query, distance_sq));
+        let feature_limit = distance * (1.0 + 64.0 * U32) + 4.0 * query.rounding;
         Candidates { query, band, feature_limit }
     }
 }
@@ -181,12 +101,13 @@ impl LeafVisitor for Shared<'_> {
         each_triangle(
             query,
             leaf,
+            &limit,
             (low, &self.known),
             |lane, seen, [distance_sq, lower_bound_sq]| {
                 if lower_bound_sq > self.limit
                     || lower_of(leaf, lane, query.p, distance_sq, lower_bound_sq)
                         > self.candidates.band
-                    || viewed_side(leaf, lane, seen) == ViewedSide::Flat
+                    || viewed_side(query, leaf, lane, seen) == ViewedSide::Flat
                 {
                     return;
                 }

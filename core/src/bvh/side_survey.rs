@@ -6,15 +6,17 @@
 //! of their triangles it is asked how they face the point.
 
 use super::descent::{Descent, LeafVisit, descend};
-use super::leaf_distance::LeafNearest;
+use super::leaf_distance::{Lanes, LeafNearest};
+use super::leaf_squares::{LatestSquares, LeafSquares};
 use super::point_query::PointQuery;
-use super::pseudonormal::{Candidates, ViewedSide, viewed_side};
+use super::pseudonormal::band_of;
 use super::side_search::Search;
 use super::triangle_bounds::{limit_of, lower_of_box, witness};
 use super::triangle_place::TrianglePlace;
 use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
+use super::viewed_side::{ViewedSide, viewed_side};
 use crate::bvh::format::{Bvh, FanLeaf};
-use crate::num::tolerance::{EMPTY_BALL, EVERYTHING_SQ};
+use crate::num::tolerance::{EMPTY_BALL, EVERYTHING_SQ, U32};
 use crate::num::{lesser, sqrt_approx};
 use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry};
 use glam::Vec3;
@@ -52,20 +54,32 @@ impl<'a, 't> Search<'a, 't> {
             marked: tree.if_marked(),
             bounding,
             bound_sq: f32::INFINITY,
+            nearest: (TrianglePlace::NONE, Lanes::NONE),
             band: f32::INFINITY,
+            sure_sq: f32::INFINITY,
+            least_sq: [f32::INFINITY; 4],
             by_side: [LeafTriangle::NONE; 4],
             least: [f32::INFINITY; 4],
             waiting: heapless::Vec::new(),
+            squares: LatestSquares::NONE,
             waits: false,
         };
         let mut visitor = TriangleVisitor::new(tree, query, EVERYTHING_SQ, collector);
         let descent = descend(tree, query, self.steps, self.stack, &mut visitor, &mut self.work)?;
         visitor.collector.waits = false;
-        while let Some(WaitingLeaf { place, low, lower_bound_sq }) = visitor.collector.waiting.pop()
-        {
-            visitor.visit_again(place, low, lower_bound_sq).ok_or(QueryError::Unchecked)?;
+        while let Some(leaf) = visitor.collector.waiting.pop() {
+            if !visitor.is_beyond(leaf.lower_bound_sq) {
+                let WaitingLeaf { place, low, squares, .. } = leaf;
+                let known = visitor.collector.squares.of(squares, low);
+                visitor.visit_again(place, low, known).ok_or(QueryError::Unchecked)?;
+            }
         }
-        let Collector { by_side, least, .. } = visitor.collector;
+        let Collector { by_side, least_sq, mut least, bound_sq, band, .. } = visitor.collector;
+        for (least, least_sq) in least.iter_mut().zip(least_sq) {
+            if least_sq < f32::INFINITY {
+                *least = lesser(*least, sqrt_approx(least_sq));
+            }
+        }
         let mut missed = None;
         if let Descent::Truncated { least, ended } = descent {
             missed = Some(least);
@@ -78,7 +92,13 @@ impl<'a, 't> Search<'a, 't> {
         let mut best = with_area;
         best.improve(flat);
         let by_side = [front, back, unclear];
-        Ok(Survey { query, margin: query.rounding, best, with_area, by_side, least, missed })
+        // A refined distance, or another triangle's, is not that of the kept point.
+        let (place, lanes) = visitor.collector.nearest;
+        let (lane, v, w) = lanes.at(bound_sq);
+        let is_best = best.distance_sq == bound_sq && best.place == place.with_lane(lane);
+        let weights = if is_best { Some((v, w)) } else { None };
+        let bound = (bound_sq, band);
+        Ok(Survey { query, bound, best, weights, with_area, by_side, least, missed })
     }
 }
 
@@ -108,9 +128,12 @@ enum Bounding {
 /// The triangles near a point.
 pub(super) struct Survey<'p> {
     pub(super) query: &'p PointQuery,
-    pub(super) margin: f32,
+    /// The least squared distance of a bounding triangle, and the band of candidates for it.
+    bound: (f32, f32),
     /// The closest triangle.
     pub(super) best: LeafTriangle,
+    /// The closest point on it by its weights (see [`FanLeaf::point`]), if they are known.
+    weights: Option<(f32, f32)>,
     /// The closest triangle with an area.
     pub(super) with_area: LeafTriangle,
     /// The closest triangle with its front to the point, with its back, with an unclear side. The
@@ -123,20 +146,25 @@ pub(super) struct Survey<'p> {
 }
 
 impl Survey<'_> {
+    /// The [`band_of`] a squared distance.
+    pub(super) fn band_of(&self, distance_sq: f32) -> f32 {
+        let (bound_sq, band) = self.bound;
+        if distance_sq == bound_sq { band } else { band_of(self.query, distance_sq) }
+    }
+
     /// Whether a triangle with an area may be the closest one.
     pub(super) fn has_sides(&self) -> bool {
         if self.with_area.distance_sq <= self.best.distance_sq {
             return true;
         }
-        let band = Candidates::new(self.query, self.margin, self.best.distance_sq).band;
+        let band = self.band_of(self.best.distance_sq);
         let [front, back, unclear, _] = self.least;
         front <= band || back <= band || unclear <= band
     }
 
     /// Lower bound of the distance to the input mesh, input units, without the nodes that were not
-    /// opened.
-    pub(super) fn lower(&self) -> f32 {
-        let distance = sqrt_approx(self.best.distance_sq);
+    /// opened. `distance` is that of the closest triangle, grid units.
+    fn lower(&self, distance: f32) -> f32 {
         self.query.lower(self.least.iter().copied().fold(distance, lesser))
     }
 
@@ -148,7 +176,7 @@ impl Survey<'_> {
         let place = query.p + (witness(query, &leaf, to.place.lane()) - query.p) * WAY_TO_NEARER;
         let nearer = PointQuery::new(tree, query.units.point(place)).ok()?;
         let way = nearer.p - query.p;
-        let empty = query.units.inward(self.lower());
+        let empty = query.units.inward(self.lower(sqrt_approx(self.best.distance_sq)));
         (way.dot(way) < empty * empty * (1.0 - EMPTY_BALL)).then_some(nearer)
     }
 
@@ -167,7 +195,7 @@ impl Survey<'_> {
             return Ok(ClosestPoint { ended, ..closest });
         }
         let distance = sqrt_approx(best.distance_sq);
-        let mut lower = self.lower();
+        let mut lower = self.lower(distance);
         if let Some(missed) = self.missed {
             let missed = lower_of_box(query, missed);
             lower = lesser(lower, missed);
@@ -175,7 +203,10 @@ impl Survey<'_> {
         let leaf = best.place.leaf(tree).ok_or(QueryError::Unchecked)?;
         Ok(ClosestPoint {
             distance: Interval::new(lower, query.upper(distance)),
-            point: query.units.point(witness(query, &leaf, best.place.lane())),
+            point: query.units.point(match self.weights {
+                Some((v, w)) => leaf.point(best.place.lane(), v, w),
+                None => witness(query, &leaf, best.place.lane()),
+            }),
             triangle: best.place.source(tree),
             work: search.work,
             ended,
@@ -191,6 +222,8 @@ struct WaitingLeaf {
     low: u32,
     /// [`LeafNearest::lower_bound_sq`].
     lower_bound_sq: f32,
+    /// See [`LatestSquares::keep`].
+    squares: usize,
 }
 
 /// What a descent collects for a [`Survey`].
@@ -201,14 +234,23 @@ struct Collector<'p> {
     bounding: Bounding,
     /// The least squared distance of a bounding triangle.
     bound_sq: f32,
-    /// The [`Candidates::band`] of `bound_sq`: farther triangles are no candidates.
+    /// The leaf that `bound_sq` is from, and lanes that find the triangle there.
+    nearest: (TrianglePlace, Lanes),
+    /// The [`band_of`] `bound_sq`: farther triangles are no candidates.
     band: f32,
+    /// A squared lower bound up to this is that of a candidate, without a root.
+    sure_sq: f32,
     /// For each [`ViewedSide`] the closest triangle.
     by_side: [LeafTriangle; 4],
-    /// For each [`ViewedSide`] the least lower bound of its triangles, grid units.
+    /// For each [`ViewedSide`] the least squared lower bound of its triangles that need no further
+    /// bound.
+    least_sq: [f32; 4],
+    /// For each [`ViewedSide`] the least lower bound of its other triangles, grid units.
     least: [f32; 4],
     /// Leaves whose triangles are looked at when the descent is done.
     waiting: heapless::Vec<WaitingLeaf, WAITING>,
+    /// Squares of their triangles.
+    squares: LatestSquares,
     /// Whether the leaf in hand waits.
     waits: bool,
 }
@@ -219,20 +261,29 @@ impl Collector<'_> {
     fn bound(&mut self, distance_sq: f32, limit: &mut f32) {
         if distance_sq < self.bound_sq {
             self.bound_sq = distance_sq;
-            self.band = Candidates::new(self.query, self.query.rounding, distance_sq).band;
+            self.nearest.0 = TrianglePlace::NONE;
+            self.band = band_of(self.query, distance_sq);
+            self.sure_sq = self.band * self.band * (1.0 - 8.0 * U32);
             *limit = lesser(*limit, limit_of(self.query, self.band));
         }
     }
 
     /// Lets a leaf wait. Returns whether there is room.
     #[inline(always)]
-    fn wait(&mut self, visit: &LeafVisit<'_>, near: &LeafNearest, limit: f32) -> bool {
+    fn wait(
+        &mut self,
+        visit: &LeafVisit<'_>,
+        near: &LeafNearest,
+        known: &LeafSquares,
+        limit: f32,
+    ) -> bool {
         if self.waiting.is_full() {
             self.waiting.retain(|leaf| leaf.lower_bound_sq <= limit);
         }
         let place = TrianglePlace::new(visit.node, visit.child, 0);
-        let &LeafNearest { low, lower_bound_sq, .. } = near;
-        self.waiting.push(WaitingLeaf { place, low, lower_bound_sq }).is_ok()
+        let &LeafNearest { mut low, lower_bound_sq, .. } = near;
+        let squares = self.squares.keep(known, &mut low, limit);
+        self.waiting.push(WaitingLeaf { place, low, lower_bound_sq, squares }).is_ok()
     }
 }
 
@@ -246,15 +297,18 @@ impl TriangleCollector for Collector<'_> {
     fn nearest(
         &mut self,
         visit: &LeafVisit<'_>,
-        near: &LeafNearest,
+        (near, known): (&LeafNearest, &LeafSquares),
         limit: &mut f32,
     ) -> Option<Next> {
         self.waits = false;
         if self.bounding == Bounding::WithArea {
             return Some(Next::Triangles);
         }
-        self.bound(near.distance_sq, limit);
-        self.waits = near.distance_sq <= *limit && self.wait(visit, near, *limit);
+        if near.distance_sq < self.bound_sq {
+            self.bound(near.distance_sq, limit);
+            self.nearest = (TrianglePlace::new(visit.node, visit.child, 0), near.lanes);
+        }
+        self.waits = near.distance_sq <= *limit && self.wait(visit, near, known, *limit);
         let is_sliver = near.lower_bound_sq < self.query.refine_below(self.bound_sq);
         Some(if self.waits && !is_sliver { Next::Leaf } else { Next::Triangles })
     }
@@ -268,16 +322,27 @@ impl TriangleCollector for Collector<'_> {
     }
 
     #[inline(always)]
-    fn take(&mut self, here: LeafTriangle, leaf: &FanLeaf<'_>, seen: &[Vec3; 3], limit: &mut f32) {
+    fn take(
+        &mut self,
+        here: LeafTriangle,
+        leaf: &FanLeaf<'_>,
+        seen: Option<&[Vec3; 3]>,
+        limit: &mut f32,
+    ) {
         if self.waits {
             self.bound(here.distance_sq, limit);
             return;
         }
-        let lower = here.lower(leaf, self.query);
-        if lower > self.band {
-            return;
+        // Roots rise with their squares: the least square has the least root.
+        let is_certified = here.is_certified();
+        let mut lower = f32::INFINITY;
+        if !is_certified || here.lower_bound_sq > self.sure_sq {
+            lower = here.lower(leaf, self.query);
+            if lower > self.band {
+                return;
+            }
         }
-        let facing = viewed_side(leaf, here.place.lane(), seen);
+        let facing = viewed_side(self.query, leaf, here.place.lane(), seen);
         let facing = match self.marked {
             Some(tree) => facing.told_by(tree, here.place),
             None => facing,
@@ -288,7 +353,13 @@ impl TriangleCollector for Collector<'_> {
         if let Some(by_side) = self.by_side.get_mut(facing as usize) {
             by_side.improve(here);
         }
-        if let Some(least) = self.least.get_mut(facing as usize)
+        if is_certified {
+            if let Some(least_sq) = self.least_sq.get_mut(facing as usize)
+                && here.lower_bound_sq < *least_sq
+            {
+                *least_sq = here.lower_bound_sq;
+            }
+        } else if let Some(least) = self.least.get_mut(facing as usize)
             && lower < *least
         {
             *least = lower;

@@ -215,7 +215,7 @@ impl Search<'_, '_> {
     /// Where components overlap, equally near surfaces may show different sides. So the ways to the
     /// closest triangles of either facing must agree.
     fn side_from_nearer(&mut self, survey: &Survey<'_>) -> Result<Option<Side>, QueryError> {
-        let band = Candidates::new(survey.query, survey.margin, survey.with_area.distance_sq).band;
+        let band = survey.band_of(survey.with_area.distance_sq);
         let mut agreed = None;
         for (place, lower) in survey.by_side.iter().zip(&survey.least) {
             if place.is_none() || *lower > band {
@@ -252,17 +252,18 @@ impl Search<'_, '_> {
 
     /// The side of the surveyed point, if it is proved. The point is clear of the surface.
     fn side(&mut self, survey: &Survey<'_>) -> Result<Option<Side>, QueryError> {
-        let Survey { query, margin, with_area, least, .. } = *survey;
+        let Survey { query, with_area, least, .. } = *survey;
         if self.truncated.is_some() || with_area.is_none() {
             return Ok(None);
         }
-        let candidates = Candidates::new(query, margin, with_area.distance_sq);
-        let [front, back, unclear, _] = least.map(|lower| lower <= candidates.band);
-        match (front, back, unclear) {
+        let band = survey.band_of(with_area.distance_sq);
+        let [front, back, unclear, _] = least;
+        match (front <= band, back <= band, unclear <= band) {
             (true, false, false) => Ok(Some(Side::Outside)),
             (false, true, false) => Ok(Some(Side::Inside)),
             _ => {
                 let leaf = with_area.place.leaf(self.tree).ok_or(QueryError::Unchecked)?;
+                let candidates = Candidates::new(query, with_area.distance_sq);
                 side_of_shared_feature(self, &candidates, leaf.corners(with_area.place.lane()))
             }
         }

@@ -1,11 +1,12 @@
 //! Bounds of single triangles of a leaf, for questions that look at triangles one by one.
 
+use super::leaf_distance::LeafLimit;
 use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use crate::bvh::format::{FanLeaf, lanes_of};
-use crate::geom::fan::{Nearness, PointFan, lone_triangle, lower_bound, refined};
+use crate::geom::fan::{Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, refined};
 use crate::num::tolerance::{CERTIFIED_PART, EVERYTHING_SQ, LEAST_LIMIT};
-use crate::num::{greater, sqrt_approx};
+use crate::num::{SOFT_FLOAT, greater, sqrt_approx};
 use glam::Vec3;
 
 /// The distance of a triangle: as computed, or refined if its lower bound falls far short of it.
@@ -41,27 +42,88 @@ pub(crate) fn nearness(seen: &[Vec3; 3]) -> Nearness {
 }
 
 /// Calls `each` for the triangles of a leaf whose bits in `low` are ones, in order: lane, the
-/// triangle [seen](seen_from) from the query, its squared distance and lower bound.
+/// triangle [seen](seen_from) from the query, its squared distance and lower bound. Triangles
+/// beyond the limit may be left out.
+///
+/// `seen` is there where it costs nothing.
 #[inline]
 pub(crate) fn each_triangle(
     query: &PointQuery,
     leaf: &FanLeaf<'_>,
+    limit: &LeafLimit,
     (low, known): (u32, &LeafSquares),
-    mut each: impl FnMut(usize, &[Vec3; 3], [f32; 2]),
+    mut each: impl FnMut(usize, Option<&[Vec3; 3]>, [f32; 2]),
 ) {
-    for lane in lanes_of(low & !(u32::MAX << (leaf.shape().triangles() & 31))) {
-        let seen = seen_from(leaf, lane, query.p);
-        let squares = match known.of(lane) {
-            Some([distance_sq, low_sq]) if low_sq >= query.refine_below(distance_sq) => {
-                [distance_sq, low_sq]
+    let lanes = lanes_of(low & !(u32::MAX << (leaf.shape().triangles() & 31)));
+    if SOFT_FLOAT {
+        for lane in lanes {
+            match known.of(lane) {
+                Some([_, lower_bound_sq]) if lower_bound_sq > limit.low_sq => {}
+                Some(squares) if !is_sliver(query, squares) => each(lane, None, squares),
+                _ => {
+                    let seen = seen_from(leaf, lane, query.p);
+                    each(lane, Some(&seen), refined_squares(query, seen));
+                }
             }
-            _ => {
-                let near = refined_nearness(query, &seen);
-                [near.distance_sq, near.lower_bound_sq]
-            }
-        };
-        each(lane, &seen, squares);
+        }
+        return;
     }
+    let turn = leaf.shape().turn();
+    let ring = if leaf.is_f32() { None } else { leaf.grid_ring() };
+    let edge = |vertex: usize, which: usize| match &ring {
+        Some(ring) => ring.spoke(vertex, which),
+        None => leaf.spoke(vertex, which),
+    };
+    // What two neighbours share is computed once.
+    let (mut which, mut next) = (usize::MAX, usize::MAX);
+    let mut fan = PointFan::new(Vec3::ZERO);
+    let mut second = fan.spoke(Vec3::ZERO);
+    for lane in lanes {
+        if which != usize::from(lane >= turn) {
+            which = usize::from(lane >= turn);
+            fan = PointFan::new(query.p - leaf.centre(which));
+            next = usize::MAX;
+        }
+        let first = if next == lane { second } else { fan.spoke(edge(lane, which)) };
+        next = lane + 1;
+        second = fan.spoke(edge(next, which));
+        let seen = [fan.s, first.edge, second.edge];
+        let mut squares = match fan.at_centre(&first, &second) {
+            Some(distance_sq) => [distance_sq; 2],
+            None => of_triangle(fan, first, second),
+        };
+        if squares[1] > limit.low_sq {
+            continue;
+        }
+        if is_sliver(query, squares) {
+            squares = refined_squares(query, seen);
+        }
+        each(lane, Some(&seen), squares);
+    }
+}
+
+#[inline(always)]
+fn is_sliver(query: &PointQuery, [distance_sq, lower_bound_sq]: [f32; 2]) -> bool {
+    !is_tight(distance_sq, lower_bound_sq) && lower_bound_sq < query.refine_below(distance_sq)
+}
+
+/// Whether it is plain, without floating point, that a bound falls short of a distance by nothing.
+#[inline(always)]
+fn is_tight(distance_sq: f32, lower_bound_sq: f32) -> bool {
+    SOFT_FLOAT && distance_sq.to_bits() == lower_bound_sq.to_bits()
+}
+
+/// By value, so that a loop keeps its own in registers.
+#[inline(always)]
+fn of_triangle(fan: PointFan, first: SpokeTerms, second: SpokeTerms) -> [f32; 2] {
+    let near = lone_triangle(&fan, &first, &second);
+    [near.distance_sq, near.lower_bound_sq]
+}
+
+#[inline(never)]
+fn refined_squares(query: &PointQuery, seen: [Vec3; 3]) -> [f32; 2] {
+    let near = refined_nearness(query, &seen);
+    [near.distance_sq, near.lower_bound_sq]
 }
 
 /// The closest point of one triangle, grid units.
@@ -76,6 +138,12 @@ fn refined_nearness(query: &PointQuery, seen: &[Vec3; 3]) -> Nearness {
     refine_sliver(query, seen, nearness(seen))
 }
 
+/// Whether the root of a squared lower bound is a triangle's lower bound. Else planes bound it.
+#[inline(always)]
+pub(crate) fn is_certified(distance_sq: f32, lower_bound_sq: f32) -> bool {
+    is_tight(distance_sq, lower_bound_sq) || lower_bound_sq >= distance_sq * CERTIFIED_PART
+}
+
 /// Lower bound of a triangle's distance, grid units. [`PointQuery::lower`] then subtracts the
 /// rounding.
 #[inline]
@@ -86,7 +154,7 @@ pub(crate) fn lower_of(
     distance_sq: f32,
     lower_bound_sq: f32,
 ) -> f32 {
-    if lower_bound_sq >= distance_sq * CERTIFIED_PART {
+    if is_certified(distance_sq, lower_bound_sq) {
         sqrt_approx(lower_bound_sq)
     } else {
         supporting_plane_bound(leaf, lane, p)

@@ -30,6 +30,12 @@ impl TrianglePlace {
         self.0
     }
 
+    /// Another triangle of the same leaf.
+    #[inline(always)]
+    pub(crate) fn with_lane(self, lane: usize) -> Self {
+        TrianglePlace(self.0 & !7 | (lane as u32 & 7))
+    }
+
     /// Number of the triangle in its leaf.
     #[inline(always)]
     pub(crate) fn lane(self) -> usize {

@@ -6,7 +6,7 @@ use super::leaf_distance::{LeafLimit, LeafNearest, nearest_within};
 use super::leaf_plane::LeafPlane;
 use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
-use super::triangle_bounds::{each_triangle, lower_of};
+use super::triangle_bounds::{each_triangle, is_certified, lower_of};
 use super::triangle_place::TrianglePlace;
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::SOFT_FLOAT;
@@ -35,6 +35,12 @@ impl LeafTriangle {
             || self.distance_sq == other.distance_sq && self.place < other.place
     }
 
+    /// Whether the lower bound of the distance needs no further bound.
+    #[inline(always)]
+    pub(crate) fn is_certified(&self) -> bool {
+        is_certified(self.distance_sq, self.lower_bound_sq)
+    }
+
     /// Lower bound of the triangle's distance, grid units. `leaf` is the triangle's.
     #[inline]
     pub(crate) fn lower(&self, leaf: &FanLeaf<'_>, query: &PointQuery) -> f32 {
@@ -60,14 +66,19 @@ pub(crate) trait TriangleCollector {
         &mut self,
         triangle: LeafTriangle,
         leaf: &FanLeaf<'_>,
-        seen: &[Vec3; 3],
+        seen: Option<&[Vec3; 3]>,
         limit: &mut f32,
     );
 
     /// Looks at a leaf as a whole, before [`take`](Self::take). May lower the limit. `None` says
     /// that the tree is unchecked.
     #[inline(always)]
-    fn nearest(&mut self, _: &LeafVisit<'_>, _: &LeafNearest, _limit: &mut f32) -> Option<Next> {
+    fn nearest(
+        &mut self,
+        _: &LeafVisit<'_>,
+        (_, _): (&LeafNearest, &LeafSquares),
+        _limit: &mut f32,
+    ) -> Option<Next> {
         Some(Next::Triangles)
     }
 
@@ -99,6 +110,12 @@ pub(crate) struct TriangleVisitor<'a, C> {
 }
 
 impl<'a, C> TriangleVisitor<'a, C> {
+    /// Whether a squared lower bound is beyond the limit.
+    #[inline(always)]
+    pub(crate) fn is_beyond(&self, lower_bound_sq: f32) -> bool {
+        lower_bound_sq > self.limit
+    }
+
     /// A visitor that begins with this squared limit.
     pub(crate) fn new(tree: &'a Bvh<'a>, query: &'a PointQuery, limit: f32, collector: C) -> Self {
         let beyond = LeafLimit::all_low(query, limit);
@@ -126,7 +143,7 @@ impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
         self.beyond.allowance = self.collector.allowance();
         let near = nearest_within(&visit.leaf, self.query, &self.beyond, Some(&mut self.known))?;
         let before = self.limit;
-        let next = self.collector.nearest(visit, &near, &mut self.limit)?;
+        let next = self.collector.nearest(visit, (&near, &self.known), &mut self.limit)?;
         if self.limit < before {
             self.lower_limits();
             self.part_from(&near);
@@ -150,36 +167,47 @@ impl<C: TriangleCollector> TriangleVisitor<'_, C> {
     }
 
     /// Hands triangles of a leaf to the collector that the descent has reached before: those whose
-    /// bits in `low` are ones, if their least squared lower bound is not beyond the limit.
+    /// bits in `low` are ones. `known`: their squares, if they were kept.
+    #[inline(always)]
     pub(crate) fn visit_again(
         &mut self,
         first: TrianglePlace,
         low: u32,
-        lower_bound_sq: f32,
+        known: Option<LeafSquares>,
     ) -> Option<()> {
-        if lower_bound_sq > self.limit {
-            return Some(());
-        }
         let (node, child) = (first.node(), first.child());
         let visit = LeafVisit { leaf: first.leaf(self.tree)?, key: 0, node, child };
-        self.known = LeafSquares::NONE;
+        if let Some(known) = known {
+            self.known = known;
+        } else if SOFT_FLOAT {
+            // Integers leave out most triangles once more.
+            let known = Some(&mut self.known);
+            let near = nearest_within(&visit.leaf, self.query, &self.beyond, known)?;
+            return self.each(&visit, near.low).map(drop);
+        }
         self.each(&visit, low).map(drop)
     }
 
     /// Hands the triangles of a leaf to the collector. Returns whether to go on.
     #[inline(never)]
     fn each(&mut self, visit: &LeafVisit<'_>, low: u32) -> Option<bool> {
-        let TriangleVisitor { query, limit, known, collector, .. } = self;
+        let TriangleVisitor { query, limit, known, collector, beyond, .. } = self;
         let before = *limit;
         let LeafVisit { leaf, node, child, .. } = visit;
-        each_triangle(query, leaf, (low, known), |lane, seen, [distance_sq, lower_bound_sq]| {
-            if lower_bound_sq > *limit {
-                return;
-            }
-            let place = TrianglePlace::new(*node, *child, lane);
-            let here = LeafTriangle { distance_sq, lower_bound_sq, place };
-            collector.take(here, leaf, seen, limit);
-        });
+        each_triangle(
+            query,
+            leaf,
+            beyond,
+            (low, known),
+            |lane, seen, [distance_sq, lower_bound_sq]| {
+                if lower_bound_sq > *limit {
+                    return;
+                }
+                let place = TrianglePlace::new(*node, *child, lane);
+                let here = LeafTriangle { distance_sq, lower_bound_sq, place };
+                collector.take(here, leaf, seen, limit);
+            },
+        );
         if self.limit < before {
             self.lower_limits();
         }

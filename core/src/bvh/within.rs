@@ -5,6 +5,7 @@
 
 use super::descent::{Descent, LeafVisit, descend};
 use super::leaf_distance::LeafNearest;
+use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use super::triangle_bounds::{limit_within, nearness, seen_from};
 use super::triangle_place::TrianglePlace;
@@ -130,7 +131,7 @@ impl TriangleCollector for Threshold<'_> {
     fn nearest(
         &mut self,
         visit: &LeafVisit<'_>,
-        near: &LeafNearest,
+        (near, _): (&LeafNearest, &LeafSquares),
         limit: &mut f32,
     ) -> Option<Next> {
         if near.distance_sq <= *limit && self.is_within(near.distance_sq) {
@@ -143,7 +144,13 @@ impl TriangleCollector for Threshold<'_> {
     /// A triangle that is not certainly beyond the distance leaves the verdict undecided. A refined
     /// sliver may be certainly within.
     #[inline(always)]
-    fn take(&mut self, triangle: LeafTriangle, leaf: &FanLeaf<'_>, _: &[Vec3; 3], _: &mut f32) {
+    fn take(
+        &mut self,
+        triangle: LeafTriangle,
+        leaf: &FanLeaf<'_>,
+        _: Option<&[Vec3; 3]>,
+        _: &mut f32,
+    ) {
         if self.near.is_none() && self.is_within(triangle.distance_sq) {
             self.near = Some(triangle.place);
         }

@@ -81,4 +81,21 @@ mod tests {
         assert_eq!(sqrt_approx(0.0), 0.0);
         assert_eq!(sqrt_approx(f32::INFINITY), f32::INFINITY);
     }
+
+    /// Two binades stand for all: a power of four scales the root exactly.
+    #[test]
+    fn roots_never_fall_where_squares_rise() {
+        let mut last = 0.0;
+        for bits in 1f32.to_bits()..=4f32.to_bits() {
+            let root = sqrt_approx(f32::from_bits(bits));
+            assert!(root >= last, "{:e}", f32::from_bits(bits));
+            last = root;
+        }
+        let mut bits = 1u32;
+        while bits < f32::INFINITY.to_bits() {
+            let [x, next] = [bits, bits + 1].map(f32::from_bits);
+            assert!(sqrt_approx(x) <= sqrt_approx(next), "{x:e}");
+            bits += 9_973;
+        }
+    }
 }

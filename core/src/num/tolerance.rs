@@ -253,6 +253,15 @@ pub const STILL: f32 = LEAST_DENOMINATOR / (1u32 << 20) as f32;
 /// its products. Proved: 8 for factors that carry one rounding each, second order apart (§8).
 pub const SIGN_TRIPLE_PRODUCT: f32 = 16.0;
 
+/// A triple product whose square exceeds this part of the factors' squared lengths exceeds
+/// [`SIGN_TRIPLE_PRODUCT`] roundings too: twice its square, and 2^-8 for the roundings of both sides
+/// (§8).
+pub const PLAIN_SIDE_SQ: f32 =
+    2.0 * SIGN_TRIPLE_PRODUCT * SIGN_TRIPLE_PRODUCT * U32 * U32 * (1.0 + 1.0 / 256.0);
+
+/// No underflow matters to the square of a triple product above this, on the grid: 2^-40.
+pub const PLAIN_SIDE_FLOOR: f32 = 1.0 / (1u64 << 40) as f32;
+
 /// Integers of which every product and sum below this value is exact in f32.
 pub const EXACT_INTEGERS: f32 = (1u32 << 24) as f32;
 

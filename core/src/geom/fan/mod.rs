@@ -29,5 +29,5 @@ pub use ray::{Crossing, FanRay, Shadow, ShadowPlane, ray_leaf};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use ray8::{CentreShadows, Ring8, RingLanes, ray_lanes, ray_leaf8};
 pub use whole::{
-    Whole, WholeBounds, WholeLimit, WholePoint, is_certain_corner, less, whole_bounds,
+    Whole, WholeBounds, WholeLimit, WholePoint, is_certain_corner, is_in_front, less, whole_bounds,
 };

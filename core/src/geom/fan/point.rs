@@ -38,7 +38,7 @@ pub struct SpokeTerms {
 #[derive(Clone, Copy, Debug)]
 pub struct PointFan {
     /// From the centre to the point.
-    s: Vec3,
+    pub(crate) s: Vec3,
     /// `s · s`.
     centre_sq: f32,
 }
@@ -67,6 +67,13 @@ impl PointFan {
     pub fn is_beyond(&self, a: &SpokeTerms, b: &SpokeTerms, limit: f32) -> bool {
         let least = self.centre_sq - greater(greater(0.0, a.along), b.along);
         least > 0.0 && least * least > limit * self.centre_sq
+    }
+
+    /// The squared distance if the centre is the closest point of the triangle between two spokes,
+    /// as [`Self::triangle`] computes it.
+    #[inline(always)]
+    pub fn at_centre(&self, a: &SpokeTerms, b: &SpokeTerms) -> Option<f32> {
+        if a.along <= 0.0 && b.along <= 0.0 { Some(self.centre_sq) } else { None }
     }
 
     /// The triangle between two spokes. On degenerate triangles it finds a point of the remaining

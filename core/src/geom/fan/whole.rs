@@ -206,6 +206,32 @@ pub fn is_certain_corner(p: &WholePoint, vertex: Whole, to_others: [Whole; 2]) -
     to_others.into_iter().all(|edge| along(edge) < -i64::from(room))
 }
 
+/// Whether the point is in front of a triangle: its corners run counter-clockwise seen from there.
+/// `None` where the f32 kernel may not decide the same, because of its own roundings.
+#[inline(never)]
+pub fn is_in_front(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> Option<bool> {
+    let ([x, y, z], [i, j, k]) = (less(p.at, *a), p.eighths);
+    let way = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
+    let (e, g) = (less(*b, *a), less(*c, *a));
+    let product = |x: i32, y: i32| i64::from(x) * i64::from(y);
+    let ([ex, ey, ez], [gx, gy, gz]) = (e, g);
+    let normal = [
+        product(ey, gz) - product(ez, gy),
+        product(ez, gx) - product(ex, gz),
+        product(ex, gy) - product(ey, gx),
+    ];
+    let (mut volume, mut size) = (0, 0);
+    for (n, x) in normal.into_iter().zip(way) {
+        volume += n * i64::from(x);
+        size += n.abs();
+    }
+    let norm_1 = |[x, y, z]: Whole| x.abs() + y.abs() + z.abs();
+    let products = product(norm_1(e), norm_1(g));
+    let rounding = ((products >> 10) + 1) * i64::from((largest(way) >> 9) + 1);
+    let room = 2 * size + rounding;
+    if volume.abs() > room { Some(volume > 0) } else { None }
+}
+
 /// Weights of the second and third corner at a point near the closest one, of twelve bits;
 /// their sum is at most one. Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
 #[inline(always)]
@@ -401,5 +427,36 @@ mod tests {
             }
         }
         assert!(right * 100 > all * 99, "{right} of {all}");
+    }
+
+    /// The test in f32 is that of `bvh/viewed_side.rs`.
+    #[test]
+    fn a_side_by_integers_is_the_one_that_f32_is_sure_of_and_few_are_missed() {
+        const U32: f32 = 1.0 / (1u32 << 24) as f32;
+        let mut noise = Noise(23);
+        let (mut told, mut all) = (0, 0);
+        for round in 0..400_000 {
+            let size = 1 << (round % 17);
+            let corners = triangle(&mut noise, size);
+            let away = 1 << noise.below(17);
+            let near = corners[noise.below(3) as usize];
+            let off = noise.whole(away).map(|x| x as f32 + noise.below(1000) as f32 / 1000.0);
+            let origin = -noise.below(100_000) as f32;
+            let p = [0, 1, 2].map(|k| near[k] as f32 + off[k] + origin);
+            let Some(point) = WholePoint::new(p.map(|x| x - origin)) else { continue };
+            let [a, b, c] = corners.map(|v| Vec3::from_array(v.map(|x| x as f32)));
+            let (s, e, g) = (Vec3::from_array(p) - (a + origin), b - a, c - a);
+            let volume = e.cross(g).dot(s);
+            let (x, y) = (e.abs(), g.abs());
+            let size =
+                Vec3::new(x.y * y.z + x.z * y.y, x.z * y.x + x.x * y.z, x.x * y.y + x.y * y.x);
+            let is_sure = volume.abs() > 16.0 * U32 * size.dot(s.abs()) * 1.01;
+            let front = is_in_front(&point, &corners);
+            if let Some(front) = front {
+                assert!(is_sure && front == (volume > 0.0), "{p:?} {corners:?}");
+            }
+            (told, all) = (told + u32::from(front.is_some()), all + u32::from(is_sure));
+        }
+        assert!(10 * told > 9 * all, "{told} of {all}");
     }
 }
