@@ -7,7 +7,7 @@ use super::descent::{Descent, LeafVisit, descend};
 use super::leaf_distance::LeafNearest;
 use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
-use super::triangle_bounds::{limit_within, nearness, seen_from};
+use super::triangle_bounds::limit_within;
 use super::triangle_place::TrianglePlace;
 use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
 use crate::bvh::format::{Bvh, FanLeaf};
@@ -135,7 +135,8 @@ impl TriangleCollector for Threshold<'_> {
         limit: &mut f32,
     ) -> Option<Next> {
         if near.distance_sq <= *limit && self.is_within(near.distance_sq) {
-            self.near = Some(self.first_at(visit, near.distance_sq)?);
+            let (lane, ..) = near.lane();
+            self.near = Some(TrianglePlace::new(visit.node, visit.child, lane));
             return Some(Next::Nothing);
         }
         Some(if self.undecided { Next::Leaf } else { Next::Triangles })
@@ -170,16 +171,5 @@ impl Threshold<'_> {
     #[inline(always)]
     fn is_within(&self, distance_sq: f32) -> bool {
         self.query.upper(sqrt_approx(distance_sq)) <= self.distance
-    }
-
-    /// The first triangle at `distance_sq`.
-    #[cold]
-    #[inline(never)]
-    fn first_at(&self, visit: &LeafVisit<'_>, distance_sq: f32) -> Option<TrianglePlace> {
-        let here = |lane: &usize| {
-            nearness(&seen_from(&visit.leaf, *lane, self.query.p)).distance_sq == distance_sq
-        };
-        let lane = (0..visit.leaf.shape().triangles()).find(here)?;
-        Some(TrianglePlace::new(visit.node, visit.child, lane))
     }
 }

@@ -1,15 +1,16 @@
 //! The grid units of a tree, and conversion between them and input units.
 
 use super::header::BvhHeader;
+use crate::num::SOFT_FLOAT;
 use glam::Vec3;
 
 /// Conversion between input units and grid units, by powers of two.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Units {
-    /// Grid units of an input unit: a power of two, in two factors within f32's range.
-    inward: [f32; 2],
+    /// Grid units of an input unit.
+    inward: Power,
     /// The inverse of `inward`.
-    outward: [f32; 2],
+    outward: Power,
     /// Surface error, grid units.
     pub(crate) surface_error: f32,
     /// A part of the surface error is one of the query's place.
@@ -22,8 +23,8 @@ impl Units {
         let half = exponent / 2;
         let rest = exponent.wrapping_sub(half);
         Units {
-            inward: [power(half.wrapping_neg()), power(rest.wrapping_neg())],
-            outward: [power(half), power(rest)],
+            inward: Power::new(half.wrapping_neg(), rest.wrapping_neg()),
+            outward: Power::new(half, rest),
             surface_error: header.surface_error * power(header.grid_exponent.wrapping_neg()),
             has_place_error: false,
         }
@@ -32,7 +33,7 @@ impl Units {
     /// A length or coordinate in grid units: exact unless it leaves f32's range.
     #[inline(always)]
     pub(crate) fn inward(&self, x: f32) -> f32 {
-        x * self.inward[0] * self.inward[1]
+        self.inward.times(x)
     }
 
     /// The exponent of [`inward`](Self::inward)'s power of two.
@@ -46,26 +47,63 @@ impl Units {
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn point(&self, p: Vec3) -> [f32; 3] {
-        let outward = |x: f32| self.outward(x, 1.0).clamp(-f32::MAX, f32::MAX);
+        let outward = |x: f32| self.outward.times(x).clamp(-f32::MAX, f32::MAX);
         [outward(p.x), outward(p.y), outward(p.z)]
     }
 
     /// A lower bound in input units: at least 0, and below f32's normal range 0.
     #[inline(always)]
     pub(crate) fn lower(&self, x: f32) -> f32 {
-        at_least(x * self.outward[0] * self.outward[1])
+        at_least(self.outward.times(x))
     }
 
     /// An upper bound in input units; infinite where f32 ends.
     #[inline(always)]
     pub(crate) fn upper(&self, x: f32) -> f32 {
-        if x == 0.0 { 0.0 } else { at_most(x * self.outward[0] * self.outward[1]) }
+        if x == 0.0 { 0.0 } else { at_most(self.outward.times(x)) }
     }
 
     /// A length or coordinate in input units times a power of two.
     #[inline(always)]
     pub(crate) fn outward(&self, x: f32, power: f32) -> f32 {
-        x * self.outward[0] * power * self.outward[1]
+        x * self.outward.factors[0] * power * self.outward.factors[1]
+    }
+}
+
+/// A power of two, in two factors within f32's range.
+#[derive(Clone, Copy, Debug)]
+struct Power {
+    factors: [f32; 2],
+    /// The product's exponent.
+    exponent: i32,
+}
+
+impl Power {
+    const fn new(one: i32, other: i32) -> Power {
+        let factors = [power(one), power(other)];
+        let exponents = [factors[0].to_bits() >> 23, factors[1].to_bits() >> 23];
+        let exponent = (exponents[0] + exponents[1]).cast_signed() - 2 * 127;
+        Power { factors, exponent }
+    }
+
+    #[inline(always)]
+    fn times(&self, x: f32) -> f32 {
+        if SOFT_FLOAT { self.times_in_bits(x) } else { x * self.factors[0] * self.factors[1] }
+    }
+
+    /// The same by the exponent, if number and product are in f32's normal range.
+    #[inline(never)]
+    fn times_in_bits(&self, x: f32) -> f32 {
+        let bits = x.to_bits().cast_signed();
+        let exponent = bits >> 23 & 0xFF;
+        let is_normal = |exponent: i32| exponent > 0 && exponent < 0xFF;
+        if x == 0.0 {
+            x
+        } else if is_normal(exponent) && is_normal(exponent + self.exponent) {
+            f32::from_bits(bits.wrapping_add(self.exponent << 23).cast_unsigned())
+        } else {
+            x * self.factors[0] * self.factors[1]
+        }
     }
 }
 
@@ -89,4 +127,26 @@ const fn power(exponent: i32) -> f32 {
         exponent => exponent,
     };
     f32::from_bits((127 + exponent).cast_unsigned() << 23)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Power;
+
+    #[test]
+    fn a_product_by_the_exponent_has_the_bits_of_the_product_by_factors() {
+        for (one, other) in
+            [(0, 0), (3, 4), (-9, -8), (70, 71), (-100, -99), (-126, -126), (127, 127)]
+        {
+            let power = Power::new(one, other);
+            let mut bits = 0u32;
+            while bits < f32::INFINITY.to_bits() {
+                for x in [f32::from_bits(bits), -f32::from_bits(bits)] {
+                    let product = x * power.factors[0] * power.factors[1];
+                    assert_eq!(power.times_in_bits(x).to_bits(), product.to_bits(), "{x:e}");
+                }
+                bits += 9_973;
+            }
+        }
+    }
 }
