@@ -80,15 +80,19 @@ impl Bvh<'_> {
             let rest_lower = if stored == all { f32::INFINITY } else { of_box.lower };
             return Ok(KNearest { stored, rest_lower, work, ended: Ended::Exact });
         }
-        let collector =
-            CollectNearest { tree, query: &query, heap: Heap::new(out), rest: f32::INFINITY };
+        let heap = Heap::new(out);
+        let (rest, rest_sq) = (f32::INFINITY, f32::INFINITY);
+        let collector = CollectNearest { tree, query: &query, heap, rest, rest_sq };
         let mut visitor = TriangleVisitor::new(tree, &query, EVERYTHING_SQ, collector);
         let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
-        let CollectNearest { heap, rest, .. } = visitor.collector;
+        let CollectNearest { heap, mut rest, rest_sq, .. } = visitor.collector;
         let mut rest_lower = f32::INFINITY;
         if heap.stored() < all {
             // All triangles that were not visited are farther than the last one stored.
             let last = heap.farthest_sq().map_or(f32::INFINITY, sqrt_approx);
+            if rest_sq < f32::INFINITY {
+                rest = lesser(rest, sqrt_approx(rest_sq));
+            }
             let rest = lesser(rest, last);
             rest_lower = query.lower(rest);
         }
@@ -105,7 +109,10 @@ struct CollectNearest<'a> {
     tree: &'a Bvh<'a>,
     query: &'a PointQuery,
     heap: Heap<'a>,
-    /// Lower bound of every visited triangle that is not stored, grid units.
+    /// Least squared lower bound of the visited triangles that are not stored and need no further
+    /// bound.
+    rest_sq: f32,
+    /// Least lower bound of the other visited triangles that are not stored, grid units.
     rest: f32,
 }
 
@@ -118,10 +125,17 @@ impl TriangleCollector for CollectNearest<'_> {
         _: Option<&[Vec3; 3]>,
         limit: &mut f32,
     ) {
+        // Roots rise with their squares: the least square has the least root.
         if let Some(out) = self.heap.offer(triangle) {
-            let lower = out.place.leaf(self.tree).map_or(0.0, |leaf| out.lower(&leaf, self.query));
-            if lower < self.rest {
-                self.rest = lower;
+            if out.is_certified() {
+                self.rest_sq = lesser(self.rest_sq, out.lower_bound_sq);
+            } else {
+                let lower = out.place.leaf(self.tree);
+                let lower = lower.map_or(0.0, |leaf| out.lower(&leaf, self.query));
+                self.rest = lesser(self.rest, lower);
+            }
+            if out.place == triangle.place {
+                return;
             }
         }
         if let Some(farthest_sq) = self.heap.farthest_sq() {

@@ -103,15 +103,19 @@ impl<'a> Heap<'a> {
 
     /// The squared distance of the farthest stored triangle, once the slice is full.
     pub(crate) fn farthest_sq(&self) -> Option<f32> {
-        if self.stored < self.slots.len() {
-            None
-        } else {
-            self.slots.first().map(|top| LeafTriangle::of(top).distance_sq)
-        }
+        self.farthest().map(|top| top.distance_sq)
+    }
+
+    #[inline(always)]
+    fn farthest(&self) -> Option<LeafTriangle> {
+        if self.stored < self.slots.len() { None } else { self.slots.first().map(LeafTriangle::of) }
     }
 
     /// Stores a triangle. Returns the triangle that has no room, if any.
     pub(crate) fn offer(&mut self, triangle: LeafTriangle) -> Option<LeafTriangle> {
+        if self.farthest().is_some_and(|top| !triangle.is_before(&top)) {
+            return Some(triangle);
+        }
         let held = triangle.stored();
         if self.stored < self.slots.len() {
             let at = self.stored;
@@ -122,15 +126,11 @@ impl<'a> Heap<'a> {
             self.rise(at);
             return None;
         }
-        match self.slots.first_mut() {
-            Some(top) if after(top, &held) => {
-                let out = LeafTriangle::of(top);
-                *top = held;
-                self.sink(self.stored);
-                Some(out)
-            }
-            _ => Some(triangle),
-        }
+        let Some(top) = self.slots.first_mut() else { return Some(triangle) };
+        let out = LeafTriangle::of(top);
+        *top = held;
+        self.sink(self.stored);
+        Some(out)
     }
 
     /// Exchanges two slots if the one at `lower` comes after the one at `upper`.
