@@ -33,6 +33,10 @@ pub(crate) struct LeafLimit {
     /// A triangle that is farther than the root of this does not count.
     pub(crate) distance_sq: f32,
     /// Nor does a triangle behind this plane.
+    #[cfg_attr(
+        any(target_arch = "x86_64", target_arch = "aarch64"),
+        expect(dead_code, reason = "vector targets look at all lanes of a leaf")
+    )]
     pub(crate) plane: LeafPlane,
     /// [`PointQuery::allowance`], by which a triangle of a leaf limits the others; infinite if all
     /// count.
@@ -96,7 +100,7 @@ mod wide {
     use crate::bvh::format::LanePoint;
     use crate::geom::fan::Lanes as Register;
     use crate::geom::fan::{
-        Edges, LANES, LaneNearness, Nearness, PIECES, WIDTH, Whole, lanes_below, least, point_lanes,
+        Edges, LANES, LaneNearness, Nearness, PIECES, WIDTH, lanes_below, least, point_lanes,
     };
     use wide::bytemuck::cast;
 
@@ -142,12 +146,6 @@ mod wide {
             let lane = same.trailing_zeros() as usize % WIDTH;
             let (v, w): ([f32; WIDTH], [f32; WIDTH]) = (cast(self.v), cast(self.w));
             (lane, v[lane], w[lane])
-        }
-
-        /// No plane: all lanes of a leaf are looked at.
-        #[inline(always)]
-        pub(crate) fn direction(&self) -> Whole {
-            [0; 3]
         }
     }
 
@@ -277,13 +275,6 @@ mod narrow {
         #[inline(always)]
         pub(crate) fn at(&self, _: f32) -> (usize, f32, f32) {
             (self.lane, self.v, self.w)
-        }
-
-        /// The normal of a [`LeafPlane`](super::LeafPlane) in front of the nearest triangle, without
-        /// floating point.
-        #[inline(always)]
-        pub(crate) fn direction(&self) -> Whole {
-            self.way.whole()
         }
 
         /// The way from the closest point to the query.

@@ -7,13 +7,13 @@
 use crate::bvh::format::{FullRing, LeafShape};
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use crate::bvh::point_query::PointQuery;
-use crate::geom::fan::{Whole, WholePoint};
+use crate::geom::fan::Whole;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-use crate::num::SOFT_FLOAT;
-use crate::num::sqrt_approx;
-use crate::num::tolerance::U32;
+use crate::geom::fan::WholePoint;
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
-use crate::num::tolerance::{EVERYTHING_SQ, LEAST_DENOMINATOR, PLANE_ALONG};
+use crate::num::tolerance::{EVERYTHING_SQ, LEAST_DENOMINATOR, PLANE_ALONG, U32};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::num::{SOFT_FLOAT, sqrt_approx};
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 use glam::Vec3;
 
@@ -64,10 +64,13 @@ pub(crate) struct LeafPlane {
 impl LeafPlane {
     /// No vertex is behind it.
     pub(crate) const NONE: LeafPlane = LeafPlane { normal: [0; 3], behind: -1 };
+}
 
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+impl LeafPlane {
     /// The plane across `normal`, which has twelve bits. What is behind it is farther from `p` than
     /// the root of `limit`.
-    pub(crate) fn new(p: &WholePoint, normal: Whole, limit: f32) -> LeafPlane {
+    fn new(p: &WholePoint, normal: Whole, limit: f32) -> LeafPlane {
         let length_sq = normal.into_iter().fold(0, |sum, x| sum + x * x) as f32;
         let far = sqrt_approx(length_sq * limit) * (1.0 + 8.0 * U32);
         let behind = p.along(normal).saturating_sub(far as i32).saturating_sub(1);

@@ -3,6 +3,7 @@
 
 use super::descent::{LeafVisit, LeafVisitor};
 use super::leaf_distance::{LeafLimit, LeafNearest, nearest_within};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use super::leaf_plane::LeafPlane;
 use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
@@ -146,7 +147,12 @@ impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
         let next = self.collector.nearest(visit, (&near, &self.known), &mut self.limit)?;
         if self.limit < before {
             self.lower_limits();
-            self.part_from(&near);
+            // A plane in front of the nearest triangle.
+            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            {
+                let (way, limit) = (near.lanes.way(), self.beyond.distance_sq);
+                self.beyond.plane = LeafPlane::across(self.query, way, near.distance_sq, limit);
+            }
         }
         match next {
             Next::Triangles if near.lower_bound_sq <= self.limit => self.each(visit, near.low),
@@ -157,15 +163,6 @@ impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
 }
 
 impl<C: TriangleCollector> TriangleVisitor<'_, C> {
-    /// Without floating point: a plane in front of the nearest triangle.
-    #[inline(always)]
-    fn part_from(&mut self, near: &LeafNearest) {
-        if SOFT_FLOAT && let Some(point) = &self.query.whole {
-            let normal = near.lanes.direction();
-            self.beyond.plane = LeafPlane::new(point, normal, self.beyond.distance_sq);
-        }
-    }
-
     /// Hands triangles of a leaf to the collector that the descent has reached before: those whose
     /// bits in `low` are ones. `known`: their squares, if they were kept.
     #[inline(always)]

@@ -39,8 +39,7 @@ impl Units {
     /// The exponent of [`inward`](Self::inward)'s power of two.
     #[inline(always)]
     pub(crate) fn inward_exponent(&self) -> i32 {
-        let [half, rest] = self.inward.map(|power| (power.to_bits() >> 23).cast_signed() - 127);
-        half + rest
+        self.inward.exponent
     }
 
     /// A coordinate in input units, kept finite.
