@@ -2,7 +2,7 @@
 
 use super::cones::cones;
 use super::encode;
-use super::fans::{self, Effort, Fan, FanLeaf};
+use super::fans::{self, Cells, Effort, Fan, FanLeaf};
 use super::moments::moments;
 use super::nodes::fit::{axis_aligned_boxes, shared_frames, unturned_frames};
 use super::nodes::order::topology;
@@ -204,7 +204,8 @@ pub(super) fn build_in(
     let is_f32 = flags & BVH_F32 != 0;
     let effort = if is_quick { Effort::QUICK } else { Effort::FULL };
     let part = watch.part(0.0, PACKED);
-    let mut leaves = fans::pack(&mesh.triangles, edges, &grid.positions, effort, part)?;
+    let cells = Cells::for_mesh(mesh.triangles.len());
+    let mut leaves = fans::pack(&mesh.triangles, &grid.positions, cells, effort, part)?;
     leaves.extend((mesh.triangles.len() as u32..).zip(&mesh.wires).map(wire_leaf));
     let points: Vec<Vec<DVec3>> = leaves.par_iter().map(|leaf| points(leaf, &grid)).collect();
     let views: Vec<&[DVec3]> = points.iter().map(Vec::as_slice).collect();

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::adjacency::Adjacency;
 use super::remaining::Remaining;
 use super::score::{Spreads, contact, cut_off};
-use super::window::{Footprint, Run, Window};
+use super::window::{Run, Window};
 use super::{Effort, FanLeaf, MAX_LEAF_TRIANGLES};
 
 /// Places for masks seen, a power of two well above the number of candidates (76 on average, a few
@@ -210,11 +210,6 @@ impl<'a> LeafSearch<'a> {
             first: fan(best.first, false),
             second: best.second.map(|(run, reversed)| fan(run, reversed)),
         }
-    }
-
-    /// The window of the last leaf.
-    pub(super) fn footprint(&self) -> Footprint {
-        self.window.footprint()
     }
 
     fn best(&mut self) -> Candidate {

@@ -10,8 +10,6 @@ use std::collections::VecDeque;
 #[derive(Default)]
 pub(super) struct Front {
     queues: [VecDeque<u32>; 4],
-    /// Entries that ever left each queue.
-    popped: [usize; 4],
 }
 
 impl Front {
@@ -36,12 +34,11 @@ impl Front {
 
     pub(super) fn pop(&mut self, remaining: &Remaining) -> Option<u32> {
         let degree = self.lowest(remaining)?;
-        self.popped[degree] += 1;
         self.queues[degree].pop_front()
     }
 
     /// The number of neighbours of the next triangle. Drops stale entries before it.
-    pub(super) fn lowest(&mut self, remaining: &Remaining) -> Option<usize> {
+    fn lowest(&mut self, remaining: &Remaining) -> Option<usize> {
         (0..4).find(|&degree| {
             let queue = &mut self.queues[degree];
             while let Some(&triangle) = queue.front() {
@@ -49,19 +46,8 @@ impl Front {
                     return true;
                 }
                 queue.pop_front();
-                self.popped[degree] += 1;
             }
             false
         })
-    }
-
-    /// Entries of one queue from the oldest on, stale ones among them.
-    pub(super) fn queue(&self, degree: usize) -> &VecDeque<u32> {
-        &self.queues[degree]
-    }
-
-    /// Entries that ever left the queue of a degree.
-    pub(super) fn popped(&self, degree: usize) -> usize {
-        self.popped[degree]
     }
 }

@@ -1,19 +1,19 @@
 //! Packs a triangle soup into leaves of one or two fans.
 //!
 //! ```text
-//! pack ─ seed (front) ─ window ─ candidates (best_leaf, score) ─ leaf ─ remaining ─ next seed
+//! cells ─ pack ─ seed (front) ─ window ─ candidates (best_leaf, score) ─ leaf ─ remaining ─ next seed
 //! ```
 //!
 //! | file | owns |
 //! | --- | --- |
+//! | `cells` | which triangles may share a leaf |
 //! | `adjacency` | the neighbour across each half-edge |
 //! | `remaining` | triangles that are in no leaf yet, and their degrees |
 //! | `front` | the queues of seeds |
 //! | `window` | the 32 remaining triangles about a seed, as bit masks |
 //! | `score` | the score of a candidate leaf |
 //! | `best_leaf` | the candidates of a window, and the best one |
-//! | `speculation` | leaves searched early, on all threads |
-//! | `pack` | the greedy loop |
+//! | `pack` | the greedy loop of a cell, and all cells on all threads |
 //!
 //! After Galin & Akkouche, *Fast Processing of Triangle Meshes using Triangle Fans* (2005), section
 //! 5. Any soup will do: open, non-manifold, inconsistently wound, with repeated corners. Every
@@ -21,17 +21,18 @@
 
 mod adjacency;
 mod best_leaf;
+mod cells;
 mod front;
 mod pack;
 mod remaining;
 mod score;
-mod speculation;
 mod window;
 
 #[cfg(test)]
 mod tests;
 
 use arrayvec::ArrayVec;
+pub(super) use cells::Cells;
 pub(super) use pack::pack;
 
 /// Most triangles in a fan, and in a [`FanLeaf`]: the box tree tests a leaf in 8 lanes.

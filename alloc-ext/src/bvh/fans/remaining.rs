@@ -6,7 +6,7 @@ use super::adjacency::{Adjacency, NONE};
 const TAKEN: u8 = 1 << 7;
 
 /// For each triangle its number of remaining neighbours, up to 3, and whether it is taken.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Debug)]
 pub(super) struct Remaining(Vec<u8>);
 
 impl Remaining {
@@ -31,14 +31,6 @@ impl Remaining {
         self.0[triangle as usize] |= TAKEN;
         for neighbour in neighbours(adjacency, triangle) {
             self.0[neighbour as usize] -= 1;
-        }
-    }
-
-    /// Undoes [`take`](Self::take).
-    pub(super) fn give_back(&mut self, adjacency: &Adjacency, triangle: u32) {
-        self.0[triangle as usize] &= !TAKEN;
-        for neighbour in neighbours(adjacency, triangle) {
-            self.0[neighbour as usize] += 1;
         }
     }
 }

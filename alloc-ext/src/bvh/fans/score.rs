@@ -23,9 +23,17 @@ const DANGLING: i32 = 6;
 /// Penalty for each lane that stays empty because the number of triangles cut off is no multiple
 /// of [`MAX_LEAF_TRIANGLES`].
 const EMPTY_LANE: i32 = 4;
-/// Penalty for the box's half area per triangle, in units of a full leaf's mean squared edge.
-/// Without it boxes are 8 to 10 % larger and leaves no fewer.
-const SPREAD: f64 = 16.0;
+/// Penalty for the box, in units of the area of its triangles. From half to twice as much, visits
+/// change by 2 %.
+///
+/// The unit is an area, and no squared edge: that of a needle is huge, so its leaf would take in
+/// triangles that lie far apart.
+const SPREAD: f64 = 8.0;
+/// Beside its half area a box counts its summed extents, times the root of the triangles' summed
+/// squared edges, times this: a thin box is met as well.
+const EXTENT: f64 = 0.05;
+/// Triangles count as this part of their squared edges at least: some have no area.
+const LEAST_AREA: f64 = 1.0 / 1024.0;
 
 /// The triangles of a mask, by their index in the window.
 fn each(mut mask: u32) -> impl Iterator<Item = usize> {
@@ -95,12 +103,13 @@ pub(super) struct Spreads {
     known: u32,
 }
 
-/// A triangle's box, and the sum of its squared edges.
+/// A triangle's box and sizes.
 #[derive(Clone, Copy, Default)]
 struct Extent {
     lower: DVec3,
     upper: DVec3,
     squared_edges: f64,
+    area: f64,
 }
 
 impl Spreads {
@@ -127,20 +136,23 @@ impl Spreads {
                 squared_edges: a.distance_squared(b)
                     + b.distance_squared(c)
                     + c.distance_squared(a),
+                area: (b - a).cross(c - a).length() * 0.5,
             };
         }
         self.known |= leaf;
         let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let mut squared_edges = 0.0;
+        let (mut squared_edges, mut area) = (0.0, 0.0);
         for extent in each(leaf).map(|i| &self.extents[i]) {
             lower = least(lower, extent.lower);
             upper = greatest(upper, extent.upper);
             squared_edges += extent.squared_edges;
+            area += extent.area;
         }
         let size = upper - lower;
         let half_area = size.x * size.y + size.y * size.z + size.z * size.x;
-        let unit = squared_edges / (3 * MAX_LEAF_TRIANGLES) as f64;
-        if unit > 0.0 { -SPREAD * half_area / (unit * f64::from(leaf.count_ones())) } else { 0.0 }
+        let extents = (size.x + size.y + size.z) * squared_edges.sqrt();
+        let unit = area.max(squared_edges * LEAST_AREA);
+        if unit > 0.0 { -SPREAD * (half_area + EXTENT * extents) / unit } else { 0.0 }
     }
 }
 

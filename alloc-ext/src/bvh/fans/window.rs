@@ -176,11 +176,6 @@ impl Window {
         self.degree_masks
     }
 
-    /// Triangles and shared edges, to check later that the window is unchanged.
-    pub(super) fn footprint(&self) -> Footprint {
-        Footprint { triangles: self.triangles.clone(), shared: self.shared }
-    }
-
     /// Triangles with a remaining neighbour beyond the window, as a mask.
     pub(super) fn border(&self) -> u32 {
         self.border
@@ -246,23 +241,6 @@ impl Window {
             triangles: corners.iter().map(|&c| self.triangles[c as usize / 3]).collect(),
             reversed,
         }
-    }
-}
-
-/// Triangles and shared edges of a window.
-pub(super) struct Footprint {
-    triangles: ArrayVec<u32, WINDOW>,
-    shared: [u32; 3],
-}
-
-impl Footprint {
-    /// Whether the window about the same seed would still be the same. The seed and the shared
-    /// edges determine its triangles.
-    pub(super) fn is_current(&self, adjacency: &Adjacency, remaining: &Remaining) -> bool {
-        self.triangles.iter().enumerate().all(|(i, &triangle)| {
-            let across = remaining_across(adjacency, remaining, triangle);
-            (0..3).all(|k| (across[k] != NONE) == (self.shared[k] & 1 << i != 0))
-        })
     }
 }
 

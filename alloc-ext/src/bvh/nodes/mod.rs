@@ -25,5 +25,5 @@ pub(super) mod fit;
 pub(super) mod frame;
 pub(super) mod order;
 mod rotation;
-mod sah;
+pub(super) mod sah;
 mod subtree;

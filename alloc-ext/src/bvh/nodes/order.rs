@@ -9,7 +9,7 @@ use glam::DVec3;
 // `NODE_WEIGHT` 0 to 0.4.
 
 /// Weight of a box's summed extents beside its half surface, relative to the diagonal of all items.
-const EXTENT_WEIGHT: f32 = 0.02;
+pub const EXTENT_WEIGHT: f32 = 0.02;
 
 /// Cost of a wide node beside the chance of its visit, relative to the mean over the binary tree:
 /// the larger, the fewer and fuller the nodes.

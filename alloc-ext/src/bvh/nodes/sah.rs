@@ -118,9 +118,7 @@ pub(super) fn binary_tree(bounds: &[(DVec3, DVec3)], extent_weight: f32) -> Vec<
         return Vec::new();
     }
     let mut items = Items::new(bounds, extent_weight);
-    let mut orders = [0, 1, 2].map(|_| Vec::new());
-    orders.par_iter_mut().enumerate().for_each(|(axis, order)| *order = items.order(axis));
-    let [x, y, z] = &mut orders;
+    let [x, y, z] = &mut items.orders();
     let root_weight = items.weigh(x);
     items.scale = if root_weight > 0.0 { 1.0 / root_weight } else { 1.0 };
     let mut nodes = Vec::with_capacity(bounds.len() * 2 - 1);
@@ -137,6 +135,29 @@ pub(super) fn binary_tree(bounds: &[(DVec3, DVec3)], extent_weight: f32) -> Vec<
     };
     items.grow(run, 0, &mut nodes);
     nodes
+}
+
+/// The runs of at most `most` items at which the descent of [`binary_tree`] first arrives, from
+/// first to last. None is empty.
+pub(in crate::bvh) fn runs(
+    bounds: &[(DVec3, DVec3)],
+    extent_weight: f32,
+    most: usize,
+) -> Vec<Vec<u32>> {
+    if bounds.is_empty() {
+        return Vec::new();
+    }
+    let items = Items::new(bounds, extent_weight);
+    let [x, y, z] = &mut items.orders();
+    let run = Run {
+        orders: [x, y, z],
+        partition_scratch: &mut vec![0; bounds.len()],
+        suffix_cost: &mut vec![0.0; bounds.len()],
+        depth: 0,
+    };
+    let mut runs = Vec::new();
+    items.gather(run, most.max(1), &mut runs);
+    runs
 }
 
 impl Items {
@@ -161,6 +182,13 @@ impl Items {
             goes_left: bounds.iter().map(|_| AtomicBool::new(false)).collect(),
             bounds,
         }
+    }
+
+    /// The items by the centre on each axis.
+    fn orders(&self) -> [Vec<u32>; 3] {
+        let mut orders = [0, 1, 2].map(|_| Vec::new());
+        orders.par_iter_mut().enumerate().for_each(|(axis, order)| *order = self.order(axis));
+        orders
     }
 
     /// The items by the centre on an axis, equal ones by number.
@@ -223,6 +251,24 @@ impl Items {
             nodes[root] = moved.next().expect("a subtree has a root");
             nodes.extend(moved);
         }
+    }
+
+    /// Adds the runs of at most `most` items that a run is divided into.
+    fn gather(&self, run: Run<'_>, most: usize, runs: &mut Vec<Vec<u32>>) {
+        let count = run.orders[0].len();
+        if count <= most {
+            runs.push(run.orders[0].to_vec());
+            return;
+        }
+        let [first, second] = self.divide(run);
+        if count < MIN_PARALLEL_ITEMS {
+            self.gather(first, most, runs);
+            self.gather(second, most, runs);
+            return;
+        }
+        let mut others = Vec::new();
+        rayon::join(|| self.gather(first, most, runs), || self.gather(second, most, &mut others));
+        runs.append(&mut others);
     }
 
     /// Splits a run in two; the orders of both parts stay sorted.
