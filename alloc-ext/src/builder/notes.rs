@@ -96,6 +96,7 @@ pub(super) fn of_blob(
     }
     if let Ok(bvh) = blob.bvh() {
         tree.extend(tree_report.and_then(|report| report.why_f32).map(off_grid));
+        tree.extend(tree_report.map(|report| report.packing.to_string()));
         if bvh.serves_distances() && !bvh.serves_winding() {
             sides.extend(tree_report.and_then(|report| report.sides).map(sideless));
         }

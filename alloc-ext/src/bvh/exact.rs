@@ -1,6 +1,6 @@
 //! The box tree of a mesh for the builders' own distances.
 
-use super::build::{TreeOptions, build_in};
+use super::build::{Purpose, TreeOptions, build_in};
 use crate::error::BuildError;
 use crate::mesh::{Mesh, Wire};
 use crate::progress::Watch;
@@ -16,7 +16,7 @@ pub fn exact_blob(mesh: &Mesh) -> Result<Vec<u8>, BuildError> {
 
 /// [`exact_blob`] under a watch.
 pub(crate) fn exact_blob_watched(mesh: &Mesh, watch: Watch<'_>) -> Result<Vec<u8>, BuildError> {
-    blob(mesh, false, watch)
+    blob(mesh, Purpose::Asked, watch)
 }
 
 /// [`exact_blob`] for about so many questions. Where they are few, a quick build saves more time
@@ -25,10 +25,12 @@ pub(crate) fn exact_blob_watched(mesh: &Mesh, watch: Watch<'_>) -> Result<Vec<u8
 /// # Errors
 /// As [`build`](super::build).
 pub fn blob_for(mesh: &Mesh, questions: usize) -> Result<Vec<u8>, BuildError> {
-    blob(mesh, questions < 4 * mesh.triangles.len(), Watch::NONE)
+    let are_few = questions < 4 * mesh.triangles.len();
+    let purpose = if are_few { Purpose::AskedLittle } else { Purpose::Asked };
+    blob(mesh, purpose, Watch::NONE)
 }
 
-fn blob(mesh: &Mesh, is_quick: bool, watch: Watch<'_>) -> Result<Vec<u8>, BuildError> {
+fn blob(mesh: &Mesh, purpose: Purpose, watch: Watch<'_>) -> Result<Vec<u8>, BuildError> {
     let count = mesh.triangles.len() as u32;
     let renumber = |(wire, number): (&Wire, u32)| Wire { source: number, ..*wire };
     let mesh = Mesh {
@@ -36,5 +38,5 @@ fn blob(mesh: &Mesh, is_quick: bool, watch: Watch<'_>) -> Result<Vec<u8>, BuildE
         ..Mesh::new(mesh.positions.clone(), mesh.triangles.clone())
     };
     let options = TreeOptions::default().with_segments(false).with_f32(true);
-    Ok(build_in(mesh.as_input(), &options, is_quick, watch)?.0.to_bytes())
+    Ok(build_in(mesh.as_input(), &options, purpose, watch)?.0.to_bytes())
 }

@@ -1,7 +1,7 @@
 //! The box tree: triangle fans, an 8-wide tree over them, quantised boxes, and their bytes.
 //!
 //! ```text
-//! mesh ─ stored_triangles ─ store (grid) ─ fans (leaves) ─ nodes (topology, boxes) ─ encode ─ sections
+//! mesh ─ stored_triangles ─ store (grid) ─ packing ─ fans (leaves) ─ nodes (topology, boxes) ─ encode ─ sections
 //! ```
 //!
 //! Any triangle soup will do. The mesh need not be closed or manifold.
@@ -14,6 +14,7 @@ mod exact;
 mod fans;
 mod moments;
 mod nodes;
+mod packing;
 mod sides;
 mod source;
 mod store;
@@ -26,5 +27,6 @@ pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, WhyF32, build};
 pub use encode::sections_of;
 pub(crate) use exact::exact_blob_watched;
 pub use exact::{blob_for, exact_blob};
+pub use packing::PackingReport;
 pub use sides::{SideDefect, SidesReport};
 pub use store::is_too_far_for_grid;

@@ -1,19 +1,23 @@
 //! Packs a triangle soup into leaves of one or two fans.
 //!
 //! ```text
-//! cells ─ pack ─ seed (front) ─ window ─ candidates (best_leaf, score) ─ leaf ─ remaining ─ next seed
+//! cells ─┬─ greedy: seed (front) ─ window ─ candidates (best_leaf, score) ─ leaf ─ remaining ─ next
+//!        └─ halves, where they cost less (pack, price)
 //! ```
 //!
 //! | file | owns |
 //! | --- | --- |
+//! | `pack` | cells on all threads, and their division |
 //! | `cells` | which triangles may share a leaf |
+//! | `soup` | the triangles of a cell, with numbers of their own |
+//! | `price` | what leaves cost: instructions of a query, and bytes |
+//! | `greedy` | the leaves of a cell |
 //! | `adjacency` | the neighbour across each half-edge |
 //! | `remaining` | triangles that are in no leaf yet, and their degrees |
 //! | `front` | the queues of seeds |
 //! | `window` | the 32 remaining triangles about a seed, as bit masks |
 //! | `score` | the score of a candidate leaf |
 //! | `best_leaf` | the candidates of a window, and the best one |
-//! | `pack` | the greedy loop of a cell, and all cells on all threads |
 //!
 //! After Galin & Akkouche, *Fast Processing of Triangle Meshes using Triangle Fans* (2005), section
 //! 5. Any soup will do: open, non-manifold, inconsistently wound, with repeated corners. Every
@@ -23,17 +27,20 @@ mod adjacency;
 mod best_leaf;
 mod cells;
 mod front;
+mod greedy;
 mod pack;
+mod price;
 mod remaining;
 mod score;
+mod soup;
 mod window;
 
 #[cfg(test)]
 mod tests;
 
 use arrayvec::ArrayVec;
-pub(super) use cells::Cells;
-pub(super) use pack::pack;
+pub(super) use pack::{Packed, Packing, pack};
+pub(super) use price::{Cost, LeafBytes};
 
 /// Most triangles in a fan, and in a [`FanLeaf`]: the box tree tests a leaf in 8 lanes.
 pub(super) const MAX_LEAF_TRIANGLES: usize = 8;

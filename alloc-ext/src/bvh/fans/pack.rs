@@ -1,33 +1,50 @@
-//! Greedy packing of a soup into leaves.
+//! The leaves of a mesh, cell by cell, on all threads.
 
-use super::adjacency::Adjacency;
-use super::best_leaf::LeafSearch;
-use super::cells::Cells;
-use super::front::Front;
-use super::remaining::Remaining;
-use super::{Effort, FanLeaf, MAX_LEAF_TRIANGLES};
+use super::cells::cells;
+use super::greedy::greedy;
+use super::price::{Cost, Costs, LeafBytes};
+use super::soup::Soup;
+use super::{Effort, FanLeaf};
 use crate::error::BuildError;
 use crate::progress::Watch;
-use crate::surface::EdgeTable;
 use glam::DVec3;
+
+/// How large cells are.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::bvh) enum Packing {
+    /// At most so many triangles.
+    Cells(usize),
+    /// As large as costs least, where bytes count this much: with 1 the product of a query's
+    /// instructions and the bytes is least.
+    Cheapest { largest: usize, weight_of_bytes: f64, bytes: LeafBytes },
+}
+
+/// Packed leaves, and what they cost.
+pub(in crate::bvh) struct Packed {
+    pub leaves: Vec<FanLeaf>,
+    /// Cells that leaves were packed in.
+    pub cells: usize,
+    /// The largest cells and those that were chosen, if there was a choice.
+    pub choice: Option<[Cost; 2]>,
+}
+
+/// Halvings of a cell at most, so that the time has a bound.
+const MOST_HALVINGS: u32 = 12;
+
+/// Halves whose price is so many times that of their cell are not halved again. Up to 1.1, a fifth
+/// more time, nothing changes; with 1.02 small meshes are a tenth dearer.
+const HOPELESS: f64 = 1.05;
 
 /// Packs a soup into leaves of the box tree. Every triangle is in exactly one leaf, and all of a
 /// leaf are in one cell.
-///
-/// The paper's rule, with the leaf in place of the fan, in each cell by itself: the front starts at
-/// the cell's edges and moves inwards. The next seed is the remaining triangle with the fewest
-/// remaining neighbours; of equals, the oldest entry of the queue. In a window of 32 triangles about
-/// the seed, every run that contains the seed is scored, alone and with each longest second run
-/// that joins it. A low effort looks at fewer. The score counts the leaf's triangles, its edges to
-/// remaining triangles, the triangles that it cuts off, and its box. The best candidate becomes the
-/// next leaf.
 ///
 /// Triangles from different edge-connected components never share a leaf. Of three triangles on an
 /// edge, two are neighbours.
 ///
 /// The same input gives the same leaves, on any number of threads: each packs cells of its own.
 ///
-/// Cost: O(n log n) for the cells, then about 10 µs a leaf, for any valences.
+/// Cost: O(n log n) for the cells, then about 10 µs a leaf, for any valences; the cheapest cells
+/// take up to twelve times as much, five times as a rule.
 ///
 /// # Errors
 /// [`BuildError::Cancelled`].
@@ -37,66 +54,89 @@ use glam::DVec3;
 pub(in crate::bvh) fn pack(
     triangles: &[[u32; 3]],
     positions: &[DVec3],
-    cells: Cells,
+    packing: Packing,
     effort: Effort,
     watch: Watch<'_>,
-) -> Result<Vec<FanLeaf>, BuildError> {
-    let cells = cells.of(triangles, positions);
-    let packed = watch.map(cells.len(), |cell| {
-        let soup = Soup::of(&cells[cell], triangles, positions);
-        let leaves = pack_soup(&soup.triangles, &soup.positions, effort);
-        leaves.into_iter().map(|leaf| soup.numbered(leaf)).collect::<Vec<_>>()
-    })?;
-    Ok(packed.into_iter().flatten().collect())
-}
-
-/// Some triangles of a mesh with numbers of their own.
-struct Soup<'a> {
-    /// Their numbers in the mesh.
-    numbers: &'a [u32],
-    /// The numbers of their vertices in the mesh, in ascending order.
-    vertices: Vec<u32>,
-    triangles: Vec<[u32; 3]>,
-    positions: Vec<DVec3>,
-}
-
-impl<'a> Soup<'a> {
-    fn of(numbers: &'a [u32], triangles: &[[u32; 3]], positions: &[DVec3]) -> Self {
-        let in_mesh: Vec<[u32; 3]> = numbers.iter().map(|&t| triangles[t as usize]).collect();
-        let mut vertices = in_mesh.as_flattened().to_vec();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let number = |v: u32| vertices.partition_point(|&other| other < v) as u32;
-        let triangles = in_mesh.iter().map(|triangle| triangle.map(number)).collect();
-        let positions = vertices.iter().map(|&v| positions[v as usize]).collect();
-        Self { numbers, vertices, triangles, positions }
-    }
-
-    /// A leaf with the numbers of the mesh.
-    fn numbered(&self, mut leaf: FanLeaf) -> FanLeaf {
-        for fan in std::iter::once(&mut leaf.first).chain(&mut leaf.second) {
-            fan.centre = self.vertices[fan.centre as usize];
-            fan.ring.iter_mut().for_each(|v| *v = self.vertices[*v as usize]);
-            fan.triangles.iter_mut().for_each(|t| *t = self.numbers[*t as usize]);
+) -> Result<Packed, BuildError> {
+    let (most, choice) = match packing {
+        Packing::Cells(most) => (most, None),
+        Packing::Cheapest { largest, weight_of_bytes, bytes } => {
+            (largest, Some((weight_of_bytes, Costs::new(positions, bytes))))
         }
-        leaf
-    }
+    };
+    let cells = cells(triangles, positions, most);
+    let soup = |cell: &Vec<u32>| Soup::of(cell.clone(), triangles, positions);
+    let Some((weight_of_bytes, costs)) = choice else {
+        let leaves = watch.map(cells.len(), |at| {
+            let soup = soup(&cells[at]);
+            greedy(&soup, effort).into_iter().map(|leaf| soup.in_mesh(leaf)).collect::<Vec<_>>()
+        })?;
+        let leaves = leaves.into_iter().flatten().collect();
+        return Ok(Packed { leaves, cells: cells.len(), choice: None });
+    };
+    let whole = watch.part(0.0, 0.2).map(cells.len(), |at| {
+        let soup = soup(&cells[at]);
+        Division::whole(soup, &costs, effort)
+    })?;
+    let cost = whole.iter().map(|division| division.cost).sum::<Cost>().of_query();
+    // Near this cost a part of the instructions is worth the same part of the bytes.
+    let per_byte = weight_of_bytes * cost.instructions / cost.bytes;
+    let divided = watch
+        .part(0.2, 1.0)
+        .map(whole.len(), |at| whole[at].divided(&costs, effort, per_byte, MOST_HALVINGS))?;
+    let chosen = divided.iter().map(|found| found.cost).sum::<Cost>().of_query();
+    Ok(Packed {
+        cells: divided.iter().map(|found| found.cells).sum(),
+        leaves: divided.into_iter().flat_map(|found| found.leaves).collect(),
+        choice: Some([cost, chosen]),
+    })
 }
 
-/// The leaves of one cell.
-fn pack_soup(triangles: &[[u32; 3]], positions: &[DVec3], effort: Effort) -> Vec<FanLeaf> {
-    let adjacency = Adjacency::new(triangles, &EdgeTable::new(positions.len(), triangles));
-    let mut remaining = Remaining::new(&adjacency);
-    let mut search = LeafSearch::new(&adjacency, positions, effort);
-    let mut front = Front::default();
-    for triangle in 0..triangles.len() as u32 {
-        front.push(triangle, remaining.degree(triangle));
+/// A cell with its leaves.
+struct Division {
+    soup: Soup,
+    leaves: Vec<FanLeaf>,
+    cost: Cost,
+}
+
+/// The leaves of a cell, with the numbers of the mesh.
+struct Found {
+    leaves: Vec<FanLeaf>,
+    cells: usize,
+    cost: Cost,
+}
+
+impl Division {
+    fn whole(soup: Soup, costs: &Costs, effort: Effort) -> Self {
+        let leaves = greedy(&soup, effort);
+        let cost = leaves.iter().map(|leaf| costs.of(&soup, leaf)).sum();
+        Self { soup, leaves, cost }
     }
-    let mut leaves = Vec::with_capacity(triangles.len() / MAX_LEAF_TRIANGLES + 1);
-    while let Some(seed) = front.pop(&remaining) {
-        let leaf = search.best_leaf(&remaining, seed);
-        front.take(&leaf, &adjacency, &mut remaining);
-        leaves.push(leaf);
+
+    /// The cell as it is, or its halves divided in the same way: whichever costs less.
+    fn divided(&self, costs: &Costs, effort: Effort, per_byte: f64, halvings: u32) -> Found {
+        let whole = || {
+            let leaves = self.leaves.iter().map(|leaf| self.soup.in_mesh(leaf.clone())).collect();
+            Found { leaves, cells: 1, cost: self.cost }
+        };
+        if halvings == 0 || self.soup.triangles.len() < 2 {
+            return whole();
+        }
+        let halves: Vec<Self> =
+            self.soup.halves().into_iter().map(|half| Self::whole(half, costs, effort)).collect();
+        let price = self.cost.price(per_byte);
+        let of_halves: f64 = halves.iter().map(|half| half.cost.price(per_byte)).sum();
+        if of_halves > HOPELESS * price {
+            return whole();
+        }
+        let halves = halves.iter().map(|half| half.divided(costs, effort, per_byte, halvings - 1));
+        let joined = halves.reduce(|mut all, half| {
+            all.leaves.extend(half.leaves);
+            Found { cells: all.cells + half.cells, cost: all.cost + half.cost, ..all }
+        });
+        match joined {
+            Some(found) if found.cost.price(per_byte) < price => found,
+            _ => whole(),
+        }
     }
-    leaves
 }

@@ -1,9 +1,19 @@
 //! Soups of every kind, packed.
 
-use super::{Cells, Effort, Fan, FanLeaf, MAX_LEAF_TRIANGLES, pack};
+use super::cells::cells;
+use super::{Effort, Fan, FanLeaf, LeafBytes, MAX_LEAF_TRIANGLES, Packed, Packing, pack};
 use crate::progress::Watch;
 use crate::random::SplitMix;
 use glam::DVec3;
+
+/// One cell.
+const WHOLE: Packing = Packing::Cells(usize::MAX);
+
+/// Cells of the least cost, for a blob of closest points on a grid.
+fn cheapest(largest: usize, weight_of_bytes: f64) -> Packing {
+    let bytes = LeafBytes { node: 96, coordinate: 2 };
+    Packing::Cheapest { largest, weight_of_bytes, bytes }
+}
 
 struct Soup {
     triangles: Vec<[u32; 3]>,
@@ -60,16 +70,18 @@ impl Soup {
     /// Leaves of one cell, checked; the same twice. Those of a quick packing and of small cells are
     /// checked too.
     fn pack(&self) -> Vec<FanLeaf> {
-        self.pack_with(Cells::Whole, Effort::QUICK);
-        self.pack_with(Cells::OfAtMost(20), Effort::FULL);
-        self.pack_with(Cells::Whole, Effort::FULL)
+        self.pack_with(WHOLE, Effort::QUICK);
+        self.pack_with(Packing::Cells(20), Effort::FULL);
+        self.pack_with(cheapest(100, 1.0), Effort::FULL);
+        self.pack_with(WHOLE, Effort::FULL).leaves
     }
 
-    fn pack_with(&self, cells: Cells, effort: Effort) -> Vec<FanLeaf> {
-        let pack = || pack(&self.triangles, &self.positions, cells, effort, Watch::NONE);
-        let leaves = pack().unwrap();
+    fn pack_with(&self, packing: Packing, effort: Effort) -> Packed {
+        let pack = || pack(&self.triangles, &self.positions, packing, effort, Watch::NONE).unwrap();
+        let packed = pack();
+        let leaves = &packed.leaves;
         let mut found = vec![0; self.triangles.len()];
-        for leaf in &leaves {
+        for leaf in leaves {
             demand_form(leaf);
             for fan in leaf.fans() {
                 for (i, &t) in fan.triangles.iter().enumerate() {
@@ -83,8 +95,8 @@ impl Soup {
             }
         }
         assert!(found.iter().all(|&count| count == 1), "every triangle is in one fan");
-        assert_eq!(Ok(&leaves), pack().as_ref());
-        leaves
+        assert_eq!(*leaves, pack().leaves);
+        packed
     }
 
     /// Triangles a leaf.
@@ -307,7 +319,7 @@ fn needles_of_a_face_share_no_leaf_with_the_wall_of_a_bore() {
             let [a, b, c] = soup.triangles[t as usize].map(|v| soup.positions[v as usize].z);
             a.min(b).min(c) < 0.0
         };
-        for leaf in soup.pack_with(Cells::OfAtMost(16), Effort::FULL) {
+        for leaf in soup.pack_with(cheapest(256, 1.0), Effort::FULL).leaves {
             let walls = leaf.triangles().filter(|&t| is_wall(t)).count();
             assert!([0, leaf.triangle_count()].contains(&walls), "{around}: {leaf:?}");
         }
@@ -315,10 +327,27 @@ fn needles_of_a_face_share_no_leaf_with_the_wall_of_a_bore() {
 }
 
 #[test]
+fn the_chosen_cells_cost_no_more_than_the_largest_and_heavier_bytes_save_bytes() {
+    let mut random = SplitMix::new(3);
+    let soups = [plate_with_bore(64), Soup::torus(30, 20), Soup::sheet(30, &mut random)];
+    for soup in soups {
+        let [light, heavy] = [0.25, 16.0].map(|weight| {
+            let packed = soup.pack_with(cheapest(256, weight), Effort::FULL);
+            let [largest, chosen] = packed.choice.unwrap();
+            let ratios = [chosen.instructions / largest.instructions, chosen.bytes / largest.bytes];
+            assert!(ratios[0] + weight * ratios[1] <= 1.0 + weight, "{weight}: {ratios:?}");
+            assert!(packed.cells >= soup.triangles.len().div_ceil(256));
+            chosen
+        });
+        assert!(light.instructions <= heavy.instructions && heavy.bytes <= light.bytes);
+    }
+}
+
+#[test]
 fn no_leaf_reaches_out_of_its_cell() {
     let soup = Soup::torus(40, 30);
     for most in [1, 2, 7, 64, 500] {
-        let cells = Cells::OfAtMost(most).of(&soup.triangles, &soup.positions);
+        let cells = cells(&soup.triangles, &soup.positions, most);
         let mut cell_of = vec![usize::MAX; soup.triangles.len()];
         for (number, cell) in cells.iter().enumerate() {
             assert!((1..=most).contains(&cell.len()) && cell.is_sorted());
@@ -327,7 +356,7 @@ fn no_leaf_reaches_out_of_its_cell() {
             }
         }
         assert!(!cell_of.contains(&usize::MAX));
-        for leaf in soup.pack_with(Cells::OfAtMost(most), Effort::FULL) {
+        for leaf in soup.pack_with(Packing::Cells(most), Effort::FULL).leaves {
             let mut cells = leaf.triangles().map(|t| cell_of[t as usize]);
             let first = cells.next();
             assert!(cells.all(|cell| Some(cell) == first));
@@ -342,7 +371,7 @@ fn leaves_are_the_same_on_any_number_of_threads() {
     soup.triangles.retain(|_| below(&mut random, 200) != 0);
     let packed = [1, 2, 3].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| soup.pack_with(Cells::OfAtMost(128), Effort::FULL))
+        pool.install(|| soup.pack_with(cheapest(256, 1.0), Effort::FULL).leaves)
     });
     assert!(packed[0] == packed[1] && packed[0] == packed[2]);
 }

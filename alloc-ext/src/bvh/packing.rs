@@ -1,0 +1,84 @@
+//! How large the cells are that leaves are packed in, and the report of the choice.
+
+use super::build::TreeOptions;
+use super::fans::{Cost, LeafBytes, Packed, Packing};
+use crate::counted::Counted;
+use meshsweep_core::internal::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES, LINK_BYTES};
+use std::fmt;
+
+/// Most triangles of a mesh whose cells are chosen by their cost. The choice takes four times as
+/// long as packing.
+const MOST_CHOSEN: usize = 1 << 18;
+
+/// Triangles of a cell at most, where no cost chooses.
+const CELL: usize = 128;
+
+/// Triangles of the largest cells, and the weight of bytes, for a tree of few instructions.
+const FAST: (usize, f64) = (256, 1.0);
+/// The same for a tree of few bytes, and for winding numbers: they count the triangles of all nodes
+/// that they open, so they gain from full leaves and few nodes.
+const SMALL: (usize, f64) = (2048, 4.0);
+
+/// The packing of a tree that is stored.
+pub(super) fn of_stored(options: &TreeOptions, triangles: usize, is_f32: bool) -> Packing {
+    if triangles > MOST_CHOSEN {
+        return quick();
+    }
+    let (largest, weight_of_bytes) =
+        if options.fewer_bytes || options.winding { SMALL } else { FAST };
+    let sections = [
+        (true, LINK_BYTES),
+        (options.stores_frames(), FRAME_BYTES),
+        (options.segments, BOXES_BYTES),
+    ];
+    let node = sections.iter().filter(|(is, _)| *is).map(|(_, bytes)| bytes).sum();
+    let bytes = LeafBytes { node, coordinate: if is_f32 { 4 } else { 2 } };
+    Packing::Cheapest { largest, weight_of_bytes, bytes }
+}
+
+/// The packing of a tree that only a builder asks.
+pub(super) const fn quick() -> Packing {
+    Packing::Cells(CELL)
+}
+
+/// The cells that leaves were packed in, and why.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PackingReport {
+    /// Cells.
+    pub cells: usize,
+    /// Instructions of a query with the chosen cells, divided by those with the largest, by the
+    /// model; `None` if the mesh was too large for a choice.
+    pub instructions: Option<f64>,
+    /// The same of the bytes of nodes and vertices.
+    pub bytes: Option<f64>,
+}
+
+impl PackingReport {
+    pub(super) fn of(packed: &Packed) -> Self {
+        let ratio = |of: fn(&Cost) -> f64| {
+            packed.choice.as_ref().map(|[largest, chosen]| of(chosen) / of(largest))
+        };
+        Self {
+            cells: packed.cells,
+            instructions: ratio(|cost| cost.instructions),
+            bytes: ratio(|cost| cost.bytes),
+        }
+    }
+}
+
+impl fmt::Display for PackingReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "leaves packed in {}", Counted(self.cells, "cell"))?;
+        match (self.instructions, self.bytes) {
+            (Some(instructions), Some(bytes)) => write!(
+                f,
+                " of the least cost: {:+.1} % instructions, {:+.1} % bytes against the largest \
+                 cells, by the model",
+                100.0 * (instructions - 1.0),
+                100.0 * (bytes - 1.0)
+            ),
+            _ => write!(f, " of at most {CELL} triangles: the mesh is too large for a choice"),
+        }
+    }
+}
