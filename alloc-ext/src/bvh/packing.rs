@@ -8,7 +8,7 @@ use std::fmt;
 
 /// Most triangles of a mesh whose cells are chosen by their cost. The choice takes four times as
 /// long as packing.
-const MOST_CHOSEN: usize = 1 << 18;
+const MOST_CHOSEN: usize = 1 << 19;
 
 /// Triangles of a cell at most, where no cost chooses.
 const CELL: usize = 128;
