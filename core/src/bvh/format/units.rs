@@ -39,7 +39,7 @@ impl Units {
     /// The exponent of [`inward`](Self::inward)'s power of two.
     #[inline(always)]
     pub(crate) fn inward_exponent(&self) -> i32 {
-        self.inward.exponent
+        self.inward.exponent()
     }
 
     /// A coordinate in input units, kept finite.
@@ -73,16 +73,17 @@ impl Units {
 #[derive(Clone, Copy, Debug)]
 struct Power {
     factors: [f32; 2],
-    /// The product's exponent.
-    exponent: i32,
 }
 
 impl Power {
     const fn new(one: i32, other: i32) -> Power {
-        let factors = [power(one), power(other)];
-        let exponents = [factors[0].to_bits() >> 23, factors[1].to_bits() >> 23];
-        let exponent = (exponents[0] + exponents[1]).cast_signed() - 2 * 127;
-        Power { factors, exponent }
+        Power { factors: [power(one), power(other)] }
+    }
+
+    #[inline(always)]
+    fn exponent(&self) -> i32 {
+        let [one, other] = self.factors;
+        ((one.to_bits() >> 23) + (other.to_bits() >> 23)).cast_signed() - 2 * 127
     }
 
     #[inline(always)]
@@ -96,10 +97,11 @@ impl Power {
         let bits = x.to_bits().cast_signed();
         let exponent = bits >> 23 & 0xFF;
         let is_normal = |exponent: i32| exponent > 0 && exponent < 0xFF;
+        let by = self.exponent();
         if x == 0.0 {
             x
-        } else if is_normal(exponent) && is_normal(exponent + self.exponent) {
-            f32::from_bits(bits.wrapping_add(self.exponent << 23).cast_unsigned())
+        } else if is_normal(exponent) && is_normal(exponent + by) {
+            f32::from_bits(bits.wrapping_add(by << 23).cast_unsigned())
         } else {
             x * self.factors[0] * self.factors[1]
         }
