@@ -83,10 +83,9 @@ pub(super) fn closest_point<'a, G: Geometry<'a>>(
         if SOFT_DOUBLE && tolerance.is_none() {
             nearest.share_corners(frame.surface_error());
         }
-        let mut sweep = Fresh { front: Front::new(hull, scratch, steps), nearest };
-        ended = sweep.run(tolerance).ok_or(QueryError::Unchecked)?;
-        work = sweep.nearest.work(sweep.front.work);
-        nearest = sweep.nearest;
+        let mut front = Front::new(hull, scratch, steps);
+        ended = search(&mut front, &mut nearest, tolerance).ok_or(QueryError::Unchecked)?;
+        work = nearest.work(front.work);
     }
     nearest.settle_unreached(hull).ok_or(QueryError::Unchecked)?;
     Ok(nearest.answer(hull.tables(), &frame, work, ended))
@@ -391,57 +390,54 @@ impl Visit for Nearest {
     }
 }
 
-/// State of one query.
-struct Fresh<'m, G> {
-    front: Front<'m, G>,
-    nearest: Nearest,
-}
-
-impl<'a, G: Geometry<'a>> Fresh<'_, G> {
-    fn run(&mut self, tolerance: Option<[f64; 2]>) -> Option<Ended> {
-        let Fresh { front, nearest } = self;
-        let error = front.model.surface_error();
-        // Least key of the triangles that the tolerance spared.
-        let mut spared = f64::INFINITY;
-        front.begin(nearest)?;
-        while let Some(Taken { entry, least }) =
-            front.queue.take(nearest.next.take(), nearest.best.is_none())
-        {
-            let key = f64::from(entry.key());
-            let instance = Instance(entry.node());
-            let beaten = entry.key() > nearest.limit_f32;
-            let tolerated =
-                tolerance.is_some_and(|within| nearest.is_within(within, key.min(spared), error));
-            if beaten || tolerated {
-                if !beaten {
-                    spared = spared.min(key);
-                }
-                if least {
-                    // All entries that wait are farther.
-                    break;
-                }
-                continue;
+/// Refines until no triangle that waits may be nearer than the best one, or until the tolerance is
+/// met.
+fn search<'a, G: Geometry<'a>>(
+    front: &mut Front<'_, G>,
+    nearest: &mut Nearest,
+    tolerance: Option<[f64; 2]>,
+) -> Option<Ended> {
+    let error = front.model.surface_error();
+    // Least key of the triangles that the tolerance spared.
+    let mut spared = f64::INFINITY;
+    front.begin(nearest)?;
+    while let Some(Taken { entry, least }) =
+        front.queue.take(nearest.next.take(), nearest.best.is_none())
+    {
+        let key = f64::from(entry.key());
+        let instance = Instance(entry.node());
+        let beaten = entry.key() > nearest.limit_f32;
+        let tolerated =
+            tolerance.is_some_and(|within| nearest.is_within(within, key.min(spared), error));
+        if beaten || tolerated {
+            if !beaten {
+                spared = spared.min(key);
             }
-            if front.is_spent() {
-                let waiting = f64::from(front.queue.lower());
-                nearest.lower = nearest.lower.min(spared).min(key).min(waiting);
-                return Some(Ended::Steps);
+            if least {
+                // All entries that wait are farther.
+                break;
             }
-            front.open(instance, nearest)?;
+            continue;
         }
-        let dropped = f64::from(front.queue.dropped());
-        nearest.lower = nearest.lower.min(spared).min(dropped);
-        // Beyond a cut, a triangle that was evaluated later may have widened the interval again.
-        let is_met = spared < nearest.upper
-            && tolerance.is_some_and(|within| nearest.is_within(within, spared, error));
-        Some(if dropped < nearest.upper {
-            Ended::Scratch
-        } else if is_met {
-            Ended::Tolerance
-        } else if front.model.tables().is_cut() {
-            Ended::Resolution
-        } else {
-            Ended::Exact
-        })
+        if front.is_spent() {
+            let waiting = f64::from(front.queue.lower());
+            nearest.lower = nearest.lower.min(spared).min(key).min(waiting);
+            return Some(Ended::Steps);
+        }
+        front.open(instance, nearest)?;
     }
+    let dropped = f64::from(front.queue.dropped());
+    nearest.lower = nearest.lower.min(spared).min(dropped);
+    // Beyond a cut, a triangle that was evaluated later may have widened the interval again.
+    let is_met = spared < nearest.upper
+        && tolerance.is_some_and(|within| nearest.is_within(within, spared, error));
+    Some(if dropped < nearest.upper {
+        Ended::Scratch
+    } else if is_met {
+        Ended::Tolerance
+    } else if front.model.tables().is_cut() {
+        Ended::Resolution
+    } else {
+        Ended::Exact
+    })
 }
