@@ -186,28 +186,29 @@ pub fn run(steps: &mut Steps, tools: &Tools) -> Vec<Row> {
     asked.map(|asked| ask(steps, tools, &asked, Scope::All)).unwrap_or_default()
 }
 
-/// Runs what has costs: the images of the suite, and those whose size is measured.
-pub fn count(steps: &mut Steps, tools: &Tools) -> Vec<Row> {
-    let asked = steps.run("images of the suite", || suites(&tools.cross, Scope::Counted));
-    build_for_sizes(steps, &tools.cross, Scope::Counted);
+/// Runs what has costs on some boards: the images of the suite, and those whose size is measured.
+pub fn count(steps: &mut Steps, tools: &Tools, boards: &[Board]) -> Vec<Row> {
+    let (cross, scope) = (&tools.cross, Scope::Counted);
+    let asked = steps.run("images of the suite", || suites(cross, boards, scope));
+    build_for_sizes(steps, cross, boards, scope);
     let mut rows =
-        asked.map(|asked| answers(steps, tools, &asked, Scope::Counted)).unwrap_or_default();
-    measure_sizes(steps, &tools.cross, &mut rows, Scope::Counted);
+        asked.map(|asked| answers(steps, tools, boards, &asked, scope)).unwrap_or_default();
+    measure_sizes(steps, cross, &mut rows, scope);
     rows
 }
 
 /// Builds all images, which takes nothing of the library on this machine. Lints and proofs are
 /// among it.
 pub fn build(steps: &mut Steps, tools: &Tools, scope: Scope) -> Option<Vec<Asked>> {
-    let asked = steps.run("images of the suite", || suites(&tools.cross, scope));
+    let asked = steps.run("images of the suite", || suites(&tools.cross, &BOARDS, scope));
     proofs(steps, &tools.cross, scope);
-    build_for_sizes(steps, &tools.cross, scope);
+    build_for_sizes(steps, &tools.cross, &BOARDS, scope);
     asked
 }
 
 /// Runs the images of the suite, bounds the stacks, and prints the table.
 pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> Vec<Row> {
-    let mut rows = answers(steps, tools, asked, scope);
+    let mut rows = answers(steps, tools, &BOARDS, asked, scope);
     stacks(steps, &tools.cross, &mut rows, scope);
     measure_sizes(steps, &tools.cross, &mut rows, scope);
     say!("{}", cost::text(&rows));
@@ -215,7 +216,13 @@ pub fn ask(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> V
 }
 
 /// Runs the images of the suite.
-fn answers(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> Vec<Row> {
+fn answers(
+    steps: &mut Steps,
+    tools: &Tools,
+    boards: &[Board],
+    asked: &[Asked],
+    scope: Scope,
+) -> Vec<Row> {
     let written = steps.run("the host's answers", || {
         blobs::write()?;
         let in_flash = |Asked { board, blob, .. }: &Asked| {
@@ -230,7 +237,7 @@ fn answers(steps: &mut Steps, tools: &Tools, asked: &[Asked], scope: Scope) -> V
         process::parallel(&runs, |(Asked { board, blob, image, .. }, (flash, least))| {
             tools.asked_in_flash(board, image, flash, &blob.expected()?, *least)
         });
-    let mut rows: Vec<Row> = BOARDS
+    let mut rows: Vec<Row> = boards
         .iter()
         .map(|board| Row {
             board: *board,
@@ -323,12 +330,12 @@ fn proofs(steps: &mut Steps, cross: &Cross, scope: Scope) {
 }
 
 /// Builds the images whose size is measured: one command for the boards that take the same images.
-fn build_for_sizes(steps: &mut Steps, cross: &Cross, scope: Scope) {
+fn build_for_sizes(steps: &mut Steps, cross: &Cross, boards: &[Board], scope: Scope) {
     for profile in Profile::ALL {
         let name = format!("images for sizes, {}", profile.name());
         steps.run(&name, || {
             let mut built: Vec<(&[&str], Vec<&str>)> = Vec::new();
-            for board in &BOARDS {
+            for board in boards {
                 let questions = scope.questions(board, profile);
                 match built.iter_mut().find(|(others, _)| *others == questions) {
                     Some((_, targets)) => targets.push(board.target),
@@ -348,10 +355,10 @@ fn build_for_sizes(steps: &mut Steps, cross: &Cross, scope: Scope) {
 
 /// Builds all images of the suite: one command for each profile and the boards that take the same
 /// images. What each is asked about.
-fn suites(cross: &Cross, scope: Scope) -> Result<Vec<Asked>, String> {
+fn suites(cross: &Cross, boards: &[Board], scope: Scope) -> Result<Vec<Asked>, String> {
     let mut asked = Vec::new();
     let mut built: Vec<(Profile, Vec<&str>, Vec<&str>)> = Vec::new();
-    for board in BOARDS {
+    for &board in boards {
         let mut names = Profile::ALL.map(|profile| (profile, Vec::new()));
         let blobs = Blob::standard(board.flash).into_iter().chain(Blob::VARIANTS);
         let asks = |blob| Profile::ALL.map(|profile| (blob, profile));

@@ -5,6 +5,7 @@ use std::panic::resume_unwind;
 use std::process::ExitCode;
 use std::thread;
 
+use meshsweep_xtask::boards::{BOARDS, Board};
 use meshsweep_xtask::cost::Row;
 use meshsweep_xtask::count_suite::Counted;
 use meshsweep_xtask::firmware::{Scope, Tools};
@@ -31,8 +32,9 @@ cargo xtask fixtures                writes fixtures/ anew
 cargo xtask picture                 writes fixtures/part.svg anew, the picture of README.md
 cargo xtask tables                  writes the documents' tables of bytes and instructions anew
 cargo xtask count [QUESTION...]     instructions a query, by callgrind; are eight lanes vectors?
-cargo xtask count --all [--write]   all instructions and bytes, of all boards and this machine, beside
-                                    host-tests/costs.txt; writes the file anew, as `tables` does
+cargo xtask count --all [--write] [PROCESSOR...]
+                                    all instructions and bytes, of the boards and of this machine
+                                    (x86-64), beside host-tests/costs.txt; or writes the file anew
 cargo xtask count --board QUESTION...
                                     the same on a Cortex-M4F, of `bvh`, `sweep`, `refine` BLOB ...
 cargo xtask fit [MESH...]           fits the costs by which `meshsweep trade` predicts instructions
@@ -127,17 +129,31 @@ fn main() -> ExitCode {
                 steps.run("costs.txt", || costs.write());
             });
         }
-        ["count", "--all", then @ ..] if matches!(then, [] | ["--write"]) => {
+        ["count", "--all", words @ ..] => {
+            let (does_write, processors) = match words {
+                ["--write", processors @ ..] => (true, processors),
+                processors => (false, processors),
+            };
+            let is_asked = |cpu: &str| processors.is_empty() || processors.contains(&cpu);
+            let boards: Vec<Board> =
+                BOARDS.into_iter().filter(|board| is_asked(board.cpu)).collect();
+            let known = |cpu: &&&str| {
+                **cpu == count_suite::CPU || boards.iter().any(|board| board.cpu == **cpu)
+            };
+            if processors.iter().filter(known).count() < processors.len() {
+                return usage();
+            }
             let tools = firmware::setup(&mut steps);
-            let count = |tools| firmware::count(&mut steps, tools);
+            let count = |tools| firmware::count(&mut steps, tools, &boards);
             let rows = tools.as_ref().map(count).unwrap_or_default();
-            let here = count_suite::run(&mut steps);
+            let is_here = is_asked(count_suite::CPU);
+            let here = if is_here { count_suite::run(&mut steps) } else { Vec::new() };
             guarded(&mut steps, tools.as_ref(), &rows, Scope::Counted, &here, |costs, steps| {
                 say!("{}", costs.text());
-                if then.is_empty() {
-                    costs.check(steps);
-                } else {
+                if does_write {
                     steps.run("costs.txt", || costs.write());
+                } else {
+                    costs.check(steps);
                 }
             });
         }

@@ -86,10 +86,12 @@ impl Costs {
         let mut whole = Vec::new();
         if !rows.is_empty() {
             blobs(rows, &mut entries)?;
+        }
+        if rows.len() == BOARDS.len() {
             whole.push(ANY);
         }
-        if scope != Scope::Compared && !rows.is_empty() {
-            whole.extend(BOARDS.map(|board| board.cpu));
+        if scope != Scope::Compared {
+            whole.extend(rows.iter().map(|row| row.board.cpu));
         }
         if !here.is_empty() {
             whole.push(count_suite::CPU);
@@ -130,7 +132,10 @@ impl Costs {
     pub fn write(&self) -> Result<(), String> {
         let Self { compiler, entries, whole } = self;
         let mut entries = entries.clone();
-        let kept = |entry: &Entry| !whole.contains(&entry.key.cpu.as_str());
+        let kept = |entry: &Entry| {
+            let is_measured = self.entries.iter().any(|measured| measured.key == entry.key);
+            !is_measured && !whole.contains(&entry.key.cpu.as_str())
+        };
         if let Ok(text) = read() {
             entries.extend(Table::parse(&text)?.entries.into_iter().filter(kept));
         }
