@@ -96,8 +96,8 @@ mod tribox;
 pub use blob::Blob;
 pub use bvh::{
     AllWithin, AnyHit, Bvh, CoherentClosest, CoherentPair, CoherentQuery, Eye, Facing, FrontFacing,
-    Hint, KNearest, Neighbor, Placed, Scene, SceneDistance, SceneWithin, SignedDistance,
-    WindingNumber, Within,
+    Hint, KNearest, Neighbor, Placed, PointQuestions, Scene, SceneDistance, SceneWithin,
+    SignedDistance, WindingNumber, Within,
 };
 pub use curve::{Curve, CurveClosest, CurveSegment, CurveWithin};
 pub use format::layout::{BuildFor, SectionKind};

@@ -1,5 +1,6 @@
 //! Batches of queries on all cores.
 
+use super::FastBvh;
 use meshsweep_core::{Budget, Bvh, ClosestPoint, Hint, QueryError, ScratchEntry};
 use rayon::prelude::*;
 
@@ -23,6 +24,7 @@ pub fn closest_points(
     points: &[[f32; 3]],
     budget: &Budget,
 ) -> Result<Vec<ClosestPoint>, QueryError> {
+    let tree = FastBvh::new(*tree);
     let mut answers = vec![ClosestPoint::EMPTY; points.len()];
     let pieces = points.par_chunks(PIECE).zip(answers.par_chunks_mut(PIECE)).enumerate();
     let first_error = pieces.find_map_first(|(number, (points, answers))| {

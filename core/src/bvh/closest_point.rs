@@ -1,12 +1,20 @@
 //! The closest point, with an interval of the distance.
 
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::block_walk::{BlockWalk, walk};
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend_inlined};
-use super::leaf_distance::{Lanes, LeafLimit, nearest_triangle, nearest_within_inlined};
+use super::leaf_distance::{
+    Lanes, LeafLimit, LeafNearest, nearest_triangle, nearest_within_inlined,
+};
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use super::leaf_plane::LeafPlane;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::node::{OpenedNode, TakenLeast, take_least};
 use super::point_query::{EVERY_KEY, PointQuery};
 use super::triangle_bounds::{nearness, seen_from, sliver};
 use crate::bvh::format::{Bvh, FanLeaf, at_least, at_most, lanes_of};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use crate::geom::fan::WIDTH;
 use crate::geom::fan::{lower_bound_up_to, refined};
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
 use crate::num::{greater, lesser, sqrt_approx};
@@ -77,6 +85,18 @@ impl Bvh<'_> {
         search(self, point, &mut Hint::NONE.clone(), &budget, scratch)
     }
 
+    /// [`closest_point_from`](Bvh::closest_point_from) with the same `work` on every target.
+    #[inline(always)]
+    pub(crate) fn closest_point_in_order(
+        &self,
+        point: [f32; 3],
+        hint: &mut Hint,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<ClosestPoint, QueryError> {
+        search_by_entries(self, point, hint, &budget, scratch)
+    }
+
     /// [`closest_point`](Bvh::closest_point) that looks at the leaf of `hint` first and leaves its
     /// own there. An exact answer has the same bits with every hint.
     ///
@@ -114,6 +134,127 @@ fn search(
     budget: &Budget,
     scratch: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    if let Some(answer) = search_by_blocks(
+        tree,
+        point,
+        hint,
+        budget,
+        scratch,
+        Kernels::new(
+            #[inline(always)]
+            |query: &PointQuery, opened: &OpenedNode| query.keys_in_register(tree, opened),
+            #[inline(always)]
+            |keys: &[u32; WIDTH], limit: u32| take_least(keys, limit),
+            #[inline(always)]
+            |leaf: &FanLeaf<'_>, query: &PointQuery, limit: &LeafLimit| {
+                nearest_within_inlined(leaf, query, limit, None)
+            },
+            #[inline(always)]
+            |leaf: &FanLeaf<'_>, query: &PointQuery, limit: &LeafLimit| {
+                nearest_within_inlined(leaf, query, limit, None)
+            },
+        ),
+    ) {
+        return answer;
+    }
+    search_by_entries(tree, point, hint, budget, scratch)
+}
+
+/// What a search takes from the vector unit. All kernels give the same bits.
+///
+/// They are closures, because a closure is compiled for the instructions of the function that makes
+/// it. A method of a trait is not.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub(super) struct Kernels<K, T, N, H> {
+    keys_of: K,
+    take_least: T,
+    nearest: N,
+    nearest_of_hint: H,
+}
+
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+impl<K, T, N: NearestOfLeaf, H: NearestOfLeaf> Kernels<K, T, N, H>
+where
+    K: Fn(&PointQuery, &OpenedNode) -> Option<[u32; WIDTH]>,
+    T: Fn(&[u32; WIDTH], u32) -> TakenLeast,
+{
+    /// Keys of a node's children, the least key of a block, the nearest triangle of a leaf, and of
+    /// the hint's leaf. As arguments of a function they may carry `inline(always)`.
+    #[inline(always)]
+    pub(super) fn new(keys_of: K, take_least: T, nearest: N, nearest_of_hint: H) -> Self {
+        Kernels { keys_of, take_least, nearest, nearest_of_hint }
+    }
+}
+
+/// The answer, if neither a tolerance nor steps nor memory may end the search: in the nearest-first
+/// order of [`block_walk`](super::block_walk). Otherwise the order decides the answer, and it is
+/// that of all targets.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[inline(always)]
+pub(super) fn search_by_blocks(
+    tree: &Bvh<'_>,
+    point: [f32; 3],
+    hint: &mut Hint,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+    kernels: Kernels<
+        impl Fn(&PointQuery, &OpenedNode) -> Option<[u32; WIDTH]>,
+        impl Fn(&[u32; WIDTH], u32) -> TakenLeast,
+        impl NearestOfLeaf,
+        impl NearestOfLeaf,
+    >,
+) -> Option<Result<ClosestPoint, QueryError>> {
+    let is_exact = budget.relative == 0.0 && budget.absolute == 0.0;
+    if !is_exact || budget.steps < tree.most_steps() || scratch.len() < tree.scratch_entries() {
+        return None;
+    }
+    let query = match PointQuery::prepare(tree, point, budget, scratch) {
+        Ok(query) => query,
+        Err(error) => return Some(Err(error)),
+    };
+    if query.far {
+        return Some(from_afar(tree, point, &query));
+    }
+    let mut work = Work::default();
+    let Kernels { keys_of, take_least, nearest, nearest_of_hint } = kernels;
+    let mut visitor = Closest::new(tree, point, &query, budget, nearest);
+    if *hint != Hint::NONE
+        && let Some(leaf) = tree.leaf(hint.0 >> 3, hint.0 & 7)
+    {
+        match nearest_of_hint(&leaf, &query, &LeafLimit::NONE) {
+            Some(near) => visitor.bound_by(&near),
+            None => return Some(Err(QueryError::Unchecked)),
+        }
+    }
+    let ended = walk(
+        tree,
+        scratch,
+        &mut visitor,
+        &mut work,
+        #[inline(always)]
+        |opened| keys_of(&query, opened),
+        take_least,
+    );
+    match ended {
+        None => Some(Err(QueryError::Unchecked)),
+        Some(BlockWalk::Unfinished) => None,
+        Some(BlockWalk::Done | BlockWalk::Answered) => {
+            Some(visitor.answer(Descent::Done, work, hint))
+        }
+    }
+}
+
+/// The answer on targets without vector registers, and where steps or memory may end the search.
+#[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), cold, inline(never))]
+#[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(always))]
+fn search_by_entries(
+    tree: &Bvh<'_>,
+    point: [f32; 3],
+    hint: &mut Hint,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<ClosestPoint, QueryError> {
     // In place: a copy would take a board as long as the preparation.
     let prepared = PointQuery::prepare(tree, point, budget, scratch);
     let query = match &prepared {
@@ -124,11 +265,18 @@ fn search(
         return from_afar(tree, point, query);
     }
     let mut work = Work::default();
-    let mut visitor = Closest::new(tree, point, query, budget);
+    let nearest = inlined(
+        #[inline(always)]
+        |leaf: &FanLeaf<'_>, query: &PointQuery, limit: &LeafLimit| {
+            nearest_within_inlined(leaf, query, limit, None)
+        },
+    );
+    let mut visitor = Closest::new(tree, point, query, budget, nearest);
     if *hint != Hint::NONE
         && let Some(leaf) = tree.leaf(hint.0 >> 3, hint.0 & 7)
     {
-        visitor.bound_by(&leaf).ok_or(QueryError::Unchecked)?;
+        let near = nearest_triangle(&leaf, query).ok_or(QueryError::Unchecked)?;
+        visitor.bound_by(&near);
     }
     let descent = descend_inlined(tree, query, budget.steps, scratch, &mut visitor, &mut work)?;
     visitor.answer(descent, work, hint)
@@ -145,7 +293,22 @@ struct Best {
     lanes: Lanes,
 }
 
-struct Closest<'a> {
+/// The nearest triangle of a leaf. Triangles that are proved to be beyond the limit may be left out.
+pub(super) trait NearestOfLeaf:
+    Fn(&FanLeaf<'_>, &PointQuery, &LeafLimit) -> Option<LeafNearest>
+{
+}
+
+impl<F: Fn(&FanLeaf<'_>, &PointQuery, &LeafLimit) -> Option<LeafNearest>> NearestOfLeaf for F {}
+
+/// A place for the attribute of a closure.
+#[inline(always)]
+fn inlined<N: NearestOfLeaf>(nearest: N) -> N {
+    nearest
+}
+
+struct Closest<'a, N> {
+    nearest: N,
     tree: &'a Bvh<'a>,
     /// The query's point, input units.
     point: [f32; 3],
@@ -166,10 +329,17 @@ struct Closest<'a> {
     has_old_plane: bool,
 }
 
-impl<'a> Closest<'a> {
+impl<'a, N: NearestOfLeaf> Closest<'a, N> {
     #[inline(always)]
-    fn new(tree: &'a Bvh<'a>, point: [f32; 3], query: &'a PointQuery, budget: &'a Budget) -> Self {
+    fn new(
+        tree: &'a Bvh<'a>,
+        point: [f32; 3],
+        query: &'a PointQuery,
+        budget: &'a Budget,
+        nearest: N,
+    ) -> Self {
         Closest {
+            nearest,
             tree,
             point,
             query,
@@ -198,14 +368,12 @@ impl<'a> Closest<'a> {
 
     /// Lowers the limit by a leaf that the descent reaches again.
     #[inline(always)]
-    fn bound_by(&mut self, leaf: &FanLeaf<'_>) -> Option<()> {
-        let near = nearest_triangle(leaf, self.query)?;
+    fn bound_by(&mut self, near: &LeafNearest) {
         self.beyond.distance_sq = self.query.limit(near.distance_sq);
         self.limit = self.query.key_limit(self.beyond.distance_sq);
         // Leaves beyond the limit never change the result. Kernels may skip them.
         self.best.distance_sq = near.distance_sq;
         self.refine_below = self.query.refine_below(near.distance_sq);
-        Some(())
     }
 
     /// With a tolerance, only triangles that are nearer by the tolerance are wanted.
@@ -348,7 +516,7 @@ impl<'a> Closest<'a> {
     }
 }
 
-impl LeafVisitor for Closest<'_> {
+impl<N: NearestOfLeaf> LeafVisitor for Closest<'_, N> {
     #[inline(always)]
     fn limit(&self) -> u32 {
         self.limit
@@ -362,7 +530,7 @@ impl LeafVisitor for Closest<'_> {
             let (way, limit) = (self.best.lanes.way(), self.beyond.distance_sq);
             self.beyond.plane = LeafPlane::across(self.query, way, self.best.distance_sq, limit);
         }
-        let near = nearest_within_inlined(&visit.leaf, self.query, &self.beyond, None)?;
+        let near = (self.nearest)(&visit.leaf, self.query, &self.beyond)?;
         if near.distance_sq <= self.best.distance_sq {
             self.improve(near.distance_sq, &near.lanes, [visit.node, visit.child]);
         }

@@ -51,49 +51,74 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<(), QueryError> {
-        if points.len() != answers.len() {
-            let [points, answers] = [points.len() as u32, answers.len() as u32];
-            return Err(QueryError::AnswerCount { points, answers });
+        closest_points_by(
+            self,
+            points,
+            hint,
+            answers,
+            budget,
+            scratch,
+            |point, scratch| self.closest_point(point, budget, scratch),
+            |point, hint, scratch| self.closest_point_from(point, hint, Budget::EXACT, scratch),
+        )
+    }
+}
+
+/// [`Bvh::closest_points`] by any way to ask for one: `alone`, or `from` a hint without a budget.
+#[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "a question and two ways to ask it")]
+pub(super) fn closest_points_by(
+    tree: &Bvh<'_>,
+    points: &[[f32; 3]],
+    hint: &mut Hint,
+    answers: &mut [ClosestPoint],
+    budget: Budget,
+    scratch: &mut [ScratchEntry],
+    alone: impl Fn([f32; 3], &mut [ScratchEntry]) -> Result<ClosestPoint, QueryError>,
+    from: impl Fn([f32; 3], &mut Hint, &mut [ScratchEntry]) -> Result<ClosestPoint, QueryError>,
+) -> Result<(), QueryError> {
+    if points.len() != answers.len() {
+        let [points, answers] = [points.len() as u32, answers.len() as u32];
+        return Err(QueryError::AnswerCount { points, answers });
+    }
+    PointQuery::check_served(tree)?;
+    budget.check_with(scratch)?;
+    if let Some(index) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+        return Err(QueryError::PointNotFinite { index: index as u32 });
+    }
+    let entries = tree.scratch_entries();
+    let split = scratch.len().min(entries);
+    let (stack, order) = scratch.split_at_mut_checked(split).unwrap_or_default();
+    if budget != Budget::EXACT || stack.len() < entries {
+        for (point, answer) in points.iter().zip(answers) {
+            *answer = alone(*point, stack)?;
         }
-        PointQuery::check_served(self)?;
-        budget.check_with(scratch)?;
-        if let Some(index) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
-            return Err(QueryError::PointNotFinite { index: index as u32 });
+        return Ok(());
+    }
+    let mut ask = |point: [f32; 3]| from(point, hint, stack);
+    let run = (order.len() / 2).min(u32::MAX as usize);
+    if run == 0 {
+        for (point, answer) in points.iter().zip(answers) {
+            *answer = ask(*point)?;
         }
-        let entries = self.scratch_entries();
-        let split = scratch.len().min(entries);
-        let (stack, order) = scratch.split_at_mut_checked(split).unwrap_or_default();
-        if budget != Budget::EXACT || stack.len() < entries {
-            for (point, answer) in points.iter().zip(answers) {
-                *answer = self.closest_point(*point, budget, stack)?;
-            }
-            return Ok(());
-        }
-        let mut ask = |point: [f32; 3]| self.closest_point_from(point, hint, Budget::EXACT, stack);
-        let run = (order.len() / 2).min(u32::MAX as usize);
-        if run == 0 {
-            for (point, answer) in points.iter().zip(answers) {
+        return Ok(());
+    }
+    let (mut points, mut answers) = (points, answers);
+    // Not `chunks`, which divides by a length that only we know is not 0.
+    while !points.is_empty() {
+        let here = run.min(points.len());
+        let split = (points.split_at_checked(here), answers.split_at_mut_checked(here));
+        let (Some((now, later)), Some((slots, rest))) = split else { break };
+        let Some((codes, spare)) = order.split_at_mut_checked(run) else { break };
+        for entry in in_morton_order(now, codes, spare) {
+            let index = entry.node() as usize;
+            if let (Some(point), Some(answer)) = (now.get(index), slots.get_mut(index)) {
                 *answer = ask(*point)?;
             }
-            return Ok(());
         }
-        let (mut points, mut answers) = (points, answers);
-        // Not `chunks`, which divides by a length that only we know is not 0.
-        while !points.is_empty() {
-            let here = run.min(points.len());
-            let split = (points.split_at_checked(here), answers.split_at_mut_checked(here));
-            let (Some((now, later)), Some((slots, rest))) = split else { break };
-            let Some((codes, spare)) = order.split_at_mut_checked(run) else { break };
-            for entry in in_morton_order(now, codes, spare) {
-                let index = entry.node() as usize;
-                if let (Some(point), Some(answer)) = (now.get(index), slots.get_mut(index)) {
-                    *answer = ask(*point)?;
-                }
-            }
-            (points, answers) = (later, rest);
-        }
-        Ok(())
+        (points, answers) = (later, rest);
     }
+    Ok(())
 }
 
 /// Cells along an axis of the box of all points, as a power of two. Finer cells cost a pass of

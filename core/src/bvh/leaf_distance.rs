@@ -10,6 +10,8 @@ use crate::bvh::format::FanLeaf;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use crate::num::SOFT_FLOAT;
 
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx2::nearest_avx2;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use narrow::{Lanes, nearest_and_edges, nearest_within, nearest_within_inlined};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
@@ -111,9 +113,9 @@ mod wide {
     /// predictor can guess it.
     #[derive(Clone, Copy)]
     pub(crate) struct Lanes {
-        distance_sq: [Register; PIECES],
-        v: [Register; PIECES],
-        w: [Register; PIECES],
+        pub(super) distance_sq: [Register; PIECES],
+        pub(super) v: [Register; PIECES],
+        pub(super) w: [Register; PIECES],
     }
 
     impl Lanes {
@@ -236,6 +238,44 @@ mod wide {
     #[inline(never)]
     fn f32_nearest(leaf: &FanLeaf<'_>, point: &LanePoint) -> Option<[LaneNearness; PIECES]> {
         nearness(leaf, &f32_edges(leaf, point)?)
+    }
+}
+
+/// `wide` in registers of 256 bits, whatever the crate is compiled for.
+#[cfg(target_arch = "x86_64")]
+mod avx2 {
+    use super::wide::{Lanes, nearest_within};
+    use super::{FanLeaf, LeafLimit, LeafNearest, PointQuery};
+    use crate::geom::fan::LaneNearness;
+    use crate::geom::fan::point_avx2::{least, point_lanes, up_to};
+    use wide::bytemuck::cast;
+
+    /// See `nearest_within`. A call, with the whole kernel in it: inlined into the search, it takes
+    /// as many registers as there are, and the search waits for its own on the stack.
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[inline(never)]
+    pub(crate) fn nearest_avx2(
+        leaf: &FanLeaf<'_>,
+        query: &PointQuery,
+        limit: &LeafLimit,
+    ) -> Option<LeafNearest> {
+        if leaf.is_f32() {
+            return nearest_within(leaf, query, limit, None);
+        }
+        let (edges, used) = leaf.edges_avx2(&query.lanes)?;
+        let &LeafLimit { distance_sq: limit, low_sq, .. } = limit;
+        let limit = if limit < f32::INFINITY { Some(limit) } else { None };
+        let near = match point_lanes(&edges, used, limit) {
+            Some(near) => near,
+            None => LaneNearness::none_avx2(),
+        };
+        let LaneNearness { distance_sq, lower_bound_sq, v, w } = near;
+        Some(LeafNearest {
+            distance_sq: least(distance_sq),
+            lower_bound_sq: least(lower_bound_sq),
+            lanes: Lanes { distance_sq: cast(distance_sq), v: cast(v), w: cast(w) },
+            low: up_to(lower_bound_sq, low_sq),
+        })
     }
 }
 

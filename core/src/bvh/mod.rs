@@ -10,6 +10,8 @@
 //! | `segment_start` | where a segment's line begins |
 //! | `model_box/` | a segment against the model's box |
 //! | `descent` | the descent of one tree, for a point or a segment |
+//! | `block_walk`, `prefetch` | the same on targets with vector registers |
+//! | `point_questions`, `avx2` | closest points, compiled for the instructions of one processor |
 //! | `leaf_distance`, `triangle_bounds` | a point and the triangles of a leaf |
 //! | `leaf_plane` | without floating point: a plane behind which no triangle counts |
 //! | `leaf_squares` | without floating point: distances of triangles that are looked at again |
@@ -52,6 +54,10 @@
 mod all_hits;
 mod all_within;
 mod any_hit;
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod block_walk;
 mod closest_point;
 mod closest_point_precise;
 mod closest_points;
@@ -71,6 +77,9 @@ pub mod node;
 mod overlap;
 mod penetration;
 mod point_query;
+mod point_questions;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod prefetch;
 mod pseudonormal;
 mod scene;
 mod segment_leaf;
@@ -97,6 +106,7 @@ pub use front_facing::{Eye, FrontFacing};
 pub use nearest::KNearest;
 pub use neighbors::Neighbor;
 pub use overlap::CoherentPair;
+pub use point_questions::PointQuestions;
 pub use scene::{Placed, Scene, SceneDistance, SceneWithin};
 pub use segment_leaf::Facing;
 pub use signed_distance::SignedDistance;

@@ -1,6 +1,8 @@
 //! A query point in the tree's grid units, and the rounding of its answers.
 
 use super::descent::{NodeQuery, OpenedNode};
+#[cfg(target_arch = "x86_64")]
+use super::node::box_distances_avx2;
 use super::node::{CHILD_MASK, KeyPoint, NO_CHILD, box_distances};
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use super::node::{Pushed, push_boxes};
@@ -164,6 +166,28 @@ impl PointQuery {
         let &OpenedNode { node, count, bound, .. } = opened;
         box_distances(tree.frame(node)?, &self.key_point, count, bound, keys);
         Some(())
+    }
+
+    /// The same, as the kernel leaves them.
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[inline(always)]
+    pub(crate) fn keys_in_register(
+        &self,
+        tree: &Bvh<'_>,
+        opened: &OpenedNode,
+    ) -> Option<[u32; WIDTH]> {
+        let mut keys = [NO_CHILD; WIDTH];
+        self.keys_of(tree, opened, &mut keys)?;
+        Some(keys)
+    }
+
+    /// The same, in registers of 256 bits.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    #[inline]
+    pub(crate) fn keys_avx2(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {
+        let &OpenedNode { node, count, bound, .. } = opened;
+        Some(box_distances_avx2(tree.frame(node)?, &self.key_point, count, bound))
     }
 
     /// A triangle with a smaller squared lower bound is refined as a sliver, if `distance_sq` is

@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use meshsweep_core::{Budget, Bvh, Facing, QueryError, ScratchEntry, Work};
+use meshsweep_core::{Budget, Bvh, Facing, PointQuestions, QueryError, ScratchEntry, Work};
 
 use crate::Counted;
 
@@ -31,6 +31,13 @@ pub fn ask(counted: &Counted<'_>, question: &str, queries: usize) -> Result<Stri
                 add(answer.map_err(failed)?.work);
             }
         }
+        "closest_avx2" => {
+            let questions = avx2()?;
+            for point in counted.points(queries) {
+                let answer = questions.closest_point(&tree, point, Budget::EXACT, &mut stack);
+                add(black_box(answer).map_err(failed)?.work);
+            }
+        }
         "within" => {
             for &[x, y, z, distance] in counted.rows(queries) {
                 let point = [x, y, z];
@@ -49,4 +56,19 @@ pub fn ask(counted: &Counted<'_>, question: &str, queries: usize) -> Result<Stri
     }
     let a_leaf = f64::from(header.triangles) / f64::from(header.leaves);
     Ok(format!("{} {} {a_leaf}", sum.splits, sum.triangles))
+}
+
+/// Closest points for AVX2.
+#[cfg(target_arch = "x86_64")]
+fn avx2() -> Result<PointQuestions, String> {
+    if !(is_x86_feature_detected!("avx2") && is_x86_feature_detected!("bmi2")) {
+        return Err("this processor has no AVX2".to_owned());
+    }
+    // SAFETY: every processor with AVX2 and BMI2 has the other features of the function.
+    Ok(unsafe { PointQuestions::avx2() })
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn avx2() -> Result<PointQuestions, String> {
+    Ok(PointQuestions::COMPILED)
 }

@@ -89,6 +89,10 @@ fn tree(fixtures: &Path, fixture: &str, kind: &str) -> Result<Vec<u8>, String> {
     let input = Input { input_triangles: subject.triangles_read, ..subject.mesh.as_input() };
     let (tables, _) = build(input, &TreeOptions::default()).map_err(|error| error.to_string())?;
     let blob = tables.to_bytes();
+    if let Some(kind) = kind.strip_prefix("avx2_") {
+        let (asked, numbers) = queries(&subject, kind);
+        return Ok(bytes(&format!("tree {asked}_avx2"), &blob, numbers));
+    }
     if kind != "clear" {
         let (asked, numbers) = queries(&subject, kind);
         return Ok(bytes(&format!("tree {asked}"), &blob, numbers));

@@ -8,6 +8,7 @@ mod coherent;
 mod cull;
 mod distance;
 mod examples;
+mod fast;
 mod kernels;
 mod overlap;
 mod pair_distance;

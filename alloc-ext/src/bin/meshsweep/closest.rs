@@ -7,6 +7,7 @@ use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::served::Engine;
 use crate::{blob_file, curve, served};
+use meshsweep::bvh::FastBvh;
 use meshsweep_core::{BuildFor, ClosestPoint, Hint, Interval, QueryError};
 use std::io::{self, Write};
 
@@ -56,7 +57,7 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     let engine = served::choose(file, &blob, BuildFor::Closest, tree_chosen)?;
     let points = Queries::read(points)?;
     let tree = match engine {
-        Engine::Tree(tree) => tree,
+        Engine::Tree(tree) => FastBvh::new(tree),
         Engine::Hull(hull) => {
             let asker = || {
                 let mut scratch = search.scratch(engine.scratch_entries());

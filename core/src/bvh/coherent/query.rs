@@ -285,7 +285,7 @@ impl Memory {
             self.state = FrontState::EMPTY;
             (self.last.is_first_entry, self.last.least_other_key) = (false, 0.0);
         }
-        let mut closest = tree.closest_point_from(point, &mut self.hint, *budget, scratch)?;
+        let mut closest = tree.closest_point_in_order(point, &mut self.hint, *budget, scratch)?;
         self.policy.count_plain_query(&closest.work);
         self.last.plain_upper =
             query.units.inward(closest.distance.upper) + query.units.surface_error;

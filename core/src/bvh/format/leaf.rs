@@ -62,6 +62,40 @@ impl LeafShape {
     }
 }
 
+/// What the vector kernels read of a shape, prepared.
+#[cfg(target_arch = "x86_64")]
+#[derive(Clone, Copy)]
+pub(super) struct ShapeOffsets {
+    /// Bytes of a leaf on the grid at which the three rings begin.
+    pub(super) rings: [u8; 3],
+    /// First triangle of the second fan; 8 if there is none.
+    pub(super) turn: u8,
+    /// Triangles, 1 to 8; 0 of what is no shape of a leaf.
+    pub(super) triangles: u8,
+}
+
+/// For each shape.
+#[cfg(target_arch = "x86_64")]
+pub(super) const SHAPE_OFFSETS: [ShapeOffsets; 256] = {
+    let mut table = [ShapeOffsets { rings: [0; 3], turn: 0, triangles: 0 }; 256];
+    let mut shape = 0;
+    while shape < 256 {
+        let (vertices, turn) = (shape as u8 & 15, shape as u8 >> 4 & 7);
+        let centres = if turn == 0 { 1 } else { 2 };
+        if vertices > centres + 1 && vertices <= centres + 1 + WIDTH as u8 {
+            let triangles = vertices - 1 - centres;
+            let (ring, step) = (6 * centres, 2 * (triangles + 1));
+            table[shape] = ShapeOffsets {
+                rings: [ring, ring + step, ring + 2 * step],
+                turn: if turn == 0 { WIDTH as u8 } else { turn },
+                triangles,
+            };
+        }
+        shape += 1;
+    }
+    table
+};
+
 /// Numbers of the triangles whose bits are ones.
 #[inline(always)]
 pub fn lanes_of(bits: u32) -> impl Iterator<Item = usize> {

@@ -9,11 +9,11 @@ use glam::Vec3;
 /// A point for the leaves of one tree, prepared once for each query. Grid units.
 #[derive(Clone, Copy, Debug)]
 pub struct LanePoint {
-    p: Vec3,
+    pub(super) p: Vec3,
     /// The point's coordinates, each in all lanes.
     lanes: [Lanes; 3],
     /// The grid's origin in all lanes.
-    origin: [Lanes; 3],
+    pub(super) origin: [Lanes; 3],
 }
 
 impl LanePoint {

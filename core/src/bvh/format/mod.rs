@@ -8,6 +8,7 @@
 //! | `units` | grid units and input units |
 //! | `leaf` | [`FanLeaf`]: one or two fans where they lie |
 //! | `leaf_lanes` | a leaf's fans a register at a time, on vector targets |
+//! | `leaf_avx2` | the same in registers of 256 bits |
 //! | `cone` | the bytes of a leaf's normal cone |
 //! | `moments` | the bytes of a node's moments |
 //! | `triangle_bits` | a bit for each triangle: whether it is turned for sides, or tells none |
@@ -18,6 +19,8 @@ mod cone;
 mod header;
 pub mod layout;
 mod leaf;
+#[cfg(target_arch = "x86_64")]
+mod leaf_avx2;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod leaf_lanes;
 mod moments;

@@ -149,6 +149,13 @@ impl Links {
         BvhChild { at: if index < self.inner { node } else { vertex }, shape: self.shape(index) }
     }
 
+    /// Child number `index`, which is known to be a leaf.
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[inline(always)]
+    pub(crate) fn leaf_child(&self, index: u32) -> BvhChild {
+        BvhChild { at: self.vertex(index), shape: self.shape(index) }
+    }
+
     /// First triangle of the leaf that is child `index`.
     pub fn triangle(&self, index: u32) -> u32 {
         // Vertices less two for each leaf and less one for each second fan.

@@ -6,7 +6,7 @@
 //! is empty. Its planes are all at byte 0, and the point lies between them.
 
 use super::frame::{FRACTION_BITS, KeyPoint, MAX_DISTANCE, MAX_SHIFT, PRODUCT_BITS, ROUND_UP};
-use super::keys::{CHILD_MASK, NO_CHILD};
+use super::keys::{CHILD_MASK, OTHER_BITS};
 use crate::bvh::format::layout::{FRAME_BYTES, boxes};
 use crate::geom::fan::WIDTH;
 use wide::bytemuck::cast;
@@ -52,22 +52,6 @@ pub fn keys(
     let far = half.max(i32x8::splat(parent.cast_signed()));
     *keys = cast((far & i32x8::splat(!CHILD_MASK.cast_signed())) | cast::<_, i32x8>(other_bits));
 }
-
-/// The bits that each key has besides its bound, by child count: the child's number, and from the
-/// count on [`NO_CHILD`].
-const OTHER_BITS: [[u32; WIDTH]; WIDTH + 1] = {
-    let mut table = [[0; WIDTH]; WIDTH + 1];
-    let mut count = 0;
-    while count <= WIDTH {
-        let mut child = 0;
-        while child < WIDTH {
-            table[count][child] = child as u32 | if child < count { 0 } else { NO_CHILD };
-            child += 1;
-        }
-        count += 1;
-    }
-    table
-};
 
 /// A key unit in units of the products of matrix and coordinates.
 const KEY_UNIT: f32 = (1 << PRODUCT_BITS) as f32;

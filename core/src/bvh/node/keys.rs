@@ -29,14 +29,53 @@ pub fn in_memory<T>(numbers: T) -> T {
 }
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pub use vector::{least_key, places_of_wanted};
+pub(super) use vector::OTHER_BITS;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub use vector::{TakenLeast, least_key, places_of_wanted, take_least};
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod vector {
-    use super::WIDTH;
-    use crate::num::lesser;
+    use super::{NO_CHILD, WIDTH};
     use wide::bytemuck::cast;
     use wide::{i8x16, i16x8, i32x4, i32x8};
+
+    /// The bits that each key has besides its bound, by child count: the child's number, and from the
+    /// count on [`NO_CHILD`].
+    pub(crate) const OTHER_BITS: [[u32; WIDTH]; WIDTH + 1] = {
+        let mut table = [[0; WIDTH]; WIDTH + 1];
+        let mut count = 0;
+        while count <= WIDTH {
+            let mut child = 0;
+            while child < WIDTH {
+                table[count][child] = child as u32 | if child < count { 0 } else { NO_CHILD };
+                child += 1;
+            }
+            count += 1;
+        }
+        table
+    };
+
+    /// The least key of a block, and the block without it.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct TakenLeast {
+        /// The least key. Its low bits hold the number of the nearest child.
+        pub least: u32,
+        /// The other keys, in their places, and [`NO_CHILD`] in the place of the least.
+        pub rest: [u32; WIDTH],
+        /// Whether another key is up to the limit.
+        pub has_more: bool,
+    }
+
+    /// Takes the least key of a block.
+    #[inline(always)]
+    pub fn take_least(keys: &[u32; WIDTH], limit: u32) -> TakenLeast {
+        let least = least_key(keys);
+        let keys: i32x8 = cast(*keys);
+        let is_least = keys.simd_eq(i32x8::splat(least.cast_signed()));
+        let rest = is_least.select(i32x8::splat(NO_CHILD.cast_signed()), keys);
+        let has_more = !rest.simd_gt(i32x8::splat(limit.cast_signed())).all();
+        TakenLeast { least, rest: cast(rest), has_more }
+    }
 
     /// The least key. Its low bits hold the number of the nearest child.
     #[inline(always)]
@@ -44,8 +83,11 @@ mod vector {
         let [low, high]: [i32x4; 2] = cast(*keys);
         let four = low.min(high);
         let [low, high]: [u64; 2] = cast(four);
-        let [a, b, ..] = four.min(cast([high, low])).to_array();
-        lesser(a, b).cast_unsigned()
+        let two = four.min(cast([high, low]));
+        // In the register to the last: numbers taken out one by one would come later.
+        let [a, b, c, d] = two.to_array();
+        let [least, ..] = two.min(i32x4::new([b, a, d, c])).to_array();
+        least.cast_unsigned()
     }
 
     /// For each child, in a byte, how many wanted children come before it; and how many there are

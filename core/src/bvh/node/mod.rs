@@ -26,6 +26,7 @@
 //! | `grid_line` | [`GridLine`], a segment's line in integers, for targets without an FPU |
 //! | `box_distances` | a point against eight boxes: the choice between `box_lanes` and `two_in_word` |
 //! | `box_lanes` | a point against eight boxes, in vector registers, frame included |
+//! | `box_avx2` | the same, and the least key, in registers of 256 bits |
 //! | `axis_place` | `AxisPlace`, a point along one axis of a frame, on targets without vector registers |
 //! | `two_in_word` | a point against eight boxes, on targets without vector registers |
 //! | `box_entries` | [`SlabRay`], a segment prepared for the test; a segment against one box |
@@ -34,6 +35,8 @@
 
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 mod axis_place;
+#[cfg(target_arch = "x86_64")]
+mod box_avx2;
 mod box_distances;
 mod box_entries;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
@@ -52,6 +55,8 @@ mod tests;
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 mod two_in_word;
 
+#[cfg(target_arch = "x86_64")]
+pub(crate) use box_avx2::{keys as box_distances_avx2, take_least as take_least_avx2};
 pub use box_distances::box_distances;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use box_distances::push_boxes;
@@ -61,9 +66,9 @@ pub use box_entries::{SlabRay, box_entries};
 pub use frame::KeyPoint;
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 pub use grid_line::GridLine;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pub use keys::places_of_wanted;
 pub use keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory, least_key};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub use keys::{TakenLeast, places_of_wanted, take_least};
 pub(crate) use opened_node::OpenedNode;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use opened_node::Pushed;

@@ -2,7 +2,7 @@
 
 use super::box_entries::{SlabPlanes, SlabRay};
 use super::frame::KeyPoint;
-use super::keys::{CHILD_MASK, NO_CHILD};
+use super::keys::{CHILD_MASK, NO_CHILD, TakenLeast, least_key, take_least};
 use super::opened_node::OpenedNode;
 use super::{box_lanes, entries_in_whole, entry_lanes, two_in_word};
 use crate::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES, ROW_BITS, boxes};
@@ -140,6 +140,26 @@ fn exactly_the_children_within_the_limit_are_pushed_in_order() {
         }
     }
     assert!(wanted > 100_000 && unwanted > 100_000, "{wanted} {unwanted}");
+}
+
+#[test]
+fn the_least_key_is_taken_whatever_stands_where_there_is_no_child() {
+    let mut noise = Noise(4);
+    for _ in 0..100_000 {
+        let mut keys = [(); WIDTH].map(|()| noise.bits() as u32 >> 1 >> noise.below(31));
+        let count = noise.below(9) as usize;
+        for (child, key) in keys.iter_mut().enumerate() {
+            // Bits of NaN among them: the kernels leave any bound in a lane without a child.
+            *key = *key & !7 | child as u32 | if child < count { 0 } else { NO_CHILD };
+        }
+        let limit = noise.bits() as u32 >> 1 >> noise.below(31);
+        let least = keys.into_iter().min().expect("eight");
+        let rest = keys.map(|key| if key == least { NO_CHILD } else { key });
+        let has_more = rest.iter().any(|&key| key <= limit);
+        assert_eq!(least_key(&keys), least, "{keys:x?}");
+        let taken = take_least(&keys, limit);
+        assert_eq!(taken, TakenLeast { least, rest, has_more }, "{keys:x?}, {limit:x}");
+    }
 }
 
 /// The distance of a point from a child's box along one axis, in key units, as the proof has it.

@@ -10,6 +10,10 @@ mod lanes;
 mod point;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod point8;
+#[cfg(target_arch = "x86_64")]
+pub(crate) mod point_avx2;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod point_wide;
 mod ray;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod ray8;
@@ -24,7 +28,9 @@ pub use point::{
     refined,
 };
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pub use point8::{Edges, LaneNearness, point_lanes};
+pub use point_wide::point_lanes;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub use point8::{Edges, LaneNearness};
 pub use ray::{Crossing, FanRay, Shadow, ShadowPlane, ray_leaf};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use ray8::{CentreShadows, Ring8, RingLanes, ray_lanes, ray_leaf8};

@@ -5,7 +5,7 @@
 
 use std::hint::black_box;
 
-use meshsweep::bvh::{TreeOptions, build as build_tree};
+use meshsweep::bvh::{FastBvh, TreeOptions, build as build_tree};
 use meshsweep_core::{
     Budget, Bvh, ClosestPoint, CoherentQuery, Facing, Hint, ScratchEntry, Verdict,
 };
@@ -27,7 +27,7 @@ enum Way {
 
 struct Tree<'a> {
     bytes: usize,
-    tree: Bvh<'a>,
+    tree: FastBvh<'a>,
     stack: Vec<ScratchEntry>,
     /// Answers of a batch.
     found: Vec<ClosestPoint>,
@@ -50,7 +50,7 @@ fn open<'a>(
     let options = TreeOptions::default().with_f32(is_f32);
     let (tables, _) = build_tree(input, &options).map_err(|error| error.to_string())?;
     *blob = tables.to_bytes();
-    let tree = Bvh::open(blob).map_err(|error| error.to_string())?;
+    let tree = FastBvh::new(Bvh::open(blob).map_err(|error| error.to_string())?);
     let stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
     Ok(Box::new(Tree { bytes: blob.len(), tree, stack, found: Vec::new(), way, workloads }))
 }

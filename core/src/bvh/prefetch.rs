@@ -1,0 +1,46 @@
+//! Asks the cache for what a descent is about to read.
+
+use crate::bvh::format::{Bvh, Links};
+
+/// Bytes of a line of the cache.
+#[cfg(target_arch = "x86_64")]
+const LINE: usize = 64;
+
+/// Bytes of leaves from which on a tree is asked for ahead. A smaller one stays in the second-level
+/// cache.
+#[cfg(target_arch = "x86_64")]
+const LARGE: usize = 1 << 18;
+
+/// Asks for the records of a node's children: boxes and links of nodes, vertices of leaves. They
+/// are neighbours. If there is one kind of children only, others of the tree are asked for as well:
+/// a branch would cost more.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub(crate) fn prefetch_children(tree: &Bvh<'_>, links: &Links) {
+    if tree.fans.len() < LARGE {
+        return;
+    }
+    let node = links.first_node as usize;
+    let boxes = tree.frames.get(node..).unwrap_or_default().as_flattened();
+    let leaves = tree.fans.get(links.first_vertex as usize * 6..).unwrap_or_default();
+    prefetch::<8>(boxes);
+    prefetch::<7>(leaves);
+    prefetch::<2>(tree.links.get(node..).unwrap_or_default().as_flattened());
+}
+
+/// No stable function of the target does it.
+#[cfg(target_arch = "aarch64")]
+#[inline(always)]
+pub(crate) fn prefetch_children(_: &Bvh<'_>, _: &Links) {}
+
+/// Asks for the first lines. Near the end of a section it asks for none.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn prefetch<const LINES: usize>(bytes: &[u8]) {
+    let (lines, _) = bytes.as_chunks::<LINE>();
+    if let Some(lines) = lines.first_chunk::<LINES>() {
+        for line in lines {
+            safe_arch::prefetch_t0(line);
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Closest points that are compiled for one kind of processor have the bits of all others, and an
+//! exact answer does not depend on the order of the search.
+
+use meshsweep::bvh::{FastBvh, TreeOptions, build};
+use meshsweep::mesh::Mesh;
+use meshsweep_core::{Budget, Bvh, ClosestPoint, Ended, Hint, ScratchEntry};
+use meshsweep_host_tests::generate::{Rng, Triangles, rough_sphere, scaled, torus};
+
+/// Round and rough, tiny and huge, flat needles, with vertices on the grid and in f32.
+fn blobs() -> Vec<(Vec<u8>, f32)> {
+    let needles = |count: u32| -> Triangles {
+        let mut rng = Rng::new(3);
+        let mut positions = Vec::new();
+        for _ in 0..count {
+            let from = rng.point_in([-1.0; 3], [1.0; 3]);
+            let to = rng.point_in([-1.0; 3], [1.0; 3]);
+            positions.extend([from, to, to.map(|x| x + 1.0e-3)]);
+        }
+        (positions, (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect())
+    };
+    let meshes = [
+        (torus(2.0, 0.75, 60, 40), 4.0),
+        (rough_sphere(3, 0.3, 2), 2.0),
+        (scaled(&rough_sphere(2, 0.3, 5), 1.0e30), 2.0e30),
+        (scaled(&torus(2.0, 0.75, 20, 12), 1.0e-30), 4.0e-30),
+        (needles(300), 1.5),
+        (needles(1), 1.5),
+    ];
+    let options = [false, true].map(|is_f32| TreeOptions::default().with_f32(is_f32));
+    let build = |(positions, triangles): &Triangles, options| {
+        let mesh = Mesh::new(positions.clone(), triangles.clone());
+        build(mesh.as_input(), options).expect("builds").0.to_bytes()
+    };
+    meshes
+        .iter()
+        .flat_map(|(mesh, size)| options.iter().map(move |options| (build(mesh, options), *size)))
+        .collect()
+}
+
+/// Around and on the model, at places where many triangles are as near, far away.
+fn points(tree: &Bvh<'_>, size: f32) -> Vec<[f32; 3]> {
+    let mut rng = Rng::new(9);
+    let mut points: Vec<_> =
+        (0..400).map(|_| rng.point_in([-1.5 * size; 3], [1.5 * size; 3])).collect();
+    let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
+    let closest = |p: &[f32; 3]| tree.closest_point(*p, Budget::EXACT, &mut stack).unwrap().point;
+    let on_surface: Vec<_> = points.iter().take(200).map(closest).collect();
+    points.extend(on_surface);
+    points.extend([[0.0; 3], [1.0e5 * size, 0.0, 0.0], [1.0e7 * size, -size, 0.0]]);
+    points.extend([[f32::MAX, f32::MIN, 0.0], [f32::MIN_POSITIVE; 3]]);
+    points
+}
+
+fn bits(answer: &ClosestPoint) -> ([u32; 5], Option<u32>, Ended) {
+    let [x, y, z] = answer.point;
+    let numbers = [answer.distance.lower, answer.distance.upper, x, y, z];
+    (numbers.map(f32::to_bits), answer.triangle, answer.ended)
+}
+
+#[test]
+fn a_processors_own_instructions_give_the_same_bits() {
+    for (blob, size) in blobs() {
+        let tree = Bvh::open(&blob).unwrap();
+        let fast = FastBvh::new(tree);
+        let enough = tree.scratch_entries();
+        let budgets =
+            [Budget::EXACT, Budget::EXACT.with_relative(0.1), Budget::EXACT.with_steps(3)];
+        let [mut hint, mut fast_hint] = [Hint::NONE; 2];
+        for (budget, entries) in
+            budgets.into_iter().flat_map(|budget| [enough, 2 * enough, 3].map(|n| (budget, n)))
+        {
+            let mut stack = vec![ScratchEntry::EMPTY; entries];
+            for p in points(&tree, size) {
+                let plain = tree.closest_point(p, budget, &mut stack).unwrap();
+                let own = fast.closest_point(p, budget, &mut stack).unwrap();
+                assert_eq!(bits(&plain), bits(&own), "{p:?}, {budget:?}, {entries}");
+                let plain = tree.closest_point_from(p, &mut hint, budget, &mut stack).unwrap();
+                let own = fast.closest_point_from(p, &mut fast_hint, budget, &mut stack).unwrap();
+                assert_eq!(bits(&plain), bits(&own), "{p:?}, {budget:?}, {entries}, from a hint");
+                assert_eq!(hint, fast_hint, "{p:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_processors_own_instructions_do_the_same_work() {
+    for (blob, size) in blobs() {
+        let tree = Bvh::open(&blob).unwrap();
+        let fast = FastBvh::new(tree);
+        let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
+        for p in points(&tree, size) {
+            let plain = tree.closest_point(p, Budget::EXACT, &mut stack).unwrap();
+            let own = fast.closest_point(p, Budget::EXACT, &mut stack).unwrap();
+            assert_eq!(plain.work, own.work, "{p:?}");
+        }
+    }
+}
+
+/// With one entry less than the tree names, hosts search in the order of boards.
+#[test]
+fn an_exact_answer_does_not_depend_on_the_order_of_the_search() {
+    for (blob, size) in blobs() {
+        let tree = Bvh::open(&blob).unwrap();
+        let enough = tree.scratch_entries();
+        let [mut stack, mut short] =
+            [enough, enough - 1].map(|entries| vec![ScratchEntry::EMPTY; entries]);
+        for p in points(&tree, size) {
+            let in_blocks = tree.closest_point(p, Budget::EXACT, &mut stack).unwrap();
+            let in_entries = tree.closest_point(p, Budget::EXACT, &mut short).unwrap();
+            assert_eq!(bits(&in_blocks), bits(&in_entries), "{p:?}");
+        }
+    }
+}
