@@ -146,10 +146,10 @@ impl Grid {
     }
 
     /// For each corner whether it belongs to a voxel that a triangle meets.
-    fn corners_met(&self, triangles: &[Triangle]) -> Vec<bool> {
+    fn corners_met(&self, triangles: impl Iterator<Item = Triangle>) -> Vec<bool> {
         let mut met = vec![false; self.all().len()];
         for triangle in triangles {
-            let bounds = Bounds::of(triangle);
+            let bounds = Bounds::of(&triangle);
             // One voxel more on either side, because the quotient is rounded. `visit_voxels`
             // decides.
             let [low, high] = [(bounds.low, -1), (bounds.high, 1)]
@@ -157,7 +157,7 @@ impl Grid {
             let at = |axis: usize, x: i64| (x - self.first[axis]).clamp(0, self.corners[axis] - 2);
             let around = [0, 1, 2].map(|axis| [at(axis, low[axis]), at(axis, high[axis])]);
             visit_voxels(
-                triangle,
+                &triangle,
                 around,
                 |block| self.grown(block),
                 |cube| {

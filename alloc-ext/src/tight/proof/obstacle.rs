@@ -6,15 +6,17 @@ use super::tetrahedron::Tetrahedron;
 use crate::geom::{Bounds, Frontier, Plane, StaticTree, Triangle, is_cut_off, meet, spatial_order};
 use crate::mesh::Mesh;
 use crate::surface::least_connected;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use meshsweep_core::internal::geom::point_triangle;
 
 /// Any set of triangles, in its own unit, with search trees.
 #[derive(Clone, Debug)]
 pub(crate) struct Obstacle {
-    triangles: Vec<Triangle>,
+    /// In single precision, which holds them exactly.
+    triangles: Vec<[Vec3; 3]>,
     triangle_tree: StaticTree,
-    points: Vec<DVec3>,
+    /// In single precision too.
+    points: Vec<Vec3>,
     point_tree: StaticTree,
     witnesses: Vec<DVec3>,
     witness_tree: StaticTree,
@@ -50,7 +52,7 @@ impl Obstacle {
                 .collect();
             let tree = StaticTree::of_triangles(&sorted)
                 .with_disks(|i| normal(&sorted[i]), |i, points| points.extend(sorted[i]));
-            (tree, sorted)
+            (tree, sorted.iter().map(|t| t.map(|p| p.as_vec3())).collect())
         };
         let of_points = || {
             let mut normals = vec![DVec3::ZERO; positions.len()];
@@ -68,7 +70,7 @@ impl Obstacle {
             triangle_tree,
             triangles: sorted,
             point_tree,
-            points: positions.to_vec(),
+            points: positions.iter().map(|p| p.as_vec3()).collect(),
             witness_tree: tree_of_points(&witnesses),
             witnesses,
             margin: 0.0,
@@ -108,12 +110,20 @@ impl Obstacle {
 
     /// The bounding box of all triangles.
     pub fn bounds(&self) -> Bounds {
-        self.triangles.iter().flatten().fold(Bounds::EMPTY, |b, &p| b.with(p))
+        self.triangles().flatten().fold(Bounds::EMPTY, Bounds::with)
     }
 
     /// All triangles.
-    pub fn triangles(&self) -> &[Triangle] {
-        &self.triangles
+    pub fn triangles(&self) -> impl Iterator<Item = Triangle> + '_ {
+        (0..self.triangles.len()).map(|i| self.triangle(i))
+    }
+
+    fn triangle(&self, i: usize) -> Triangle {
+        self.triangles[i].map(|p| p.as_dvec3())
+    }
+
+    fn point(&self, i: usize) -> DVec3 {
+        self.points[i].as_dvec3()
     }
 
     /// One vertex of each connected component.
@@ -135,7 +145,7 @@ impl Obstacle {
         self.triangle_tree.visit_kept(
             &Frontier::whole(),
             |of| !clearance.separates_box(face, &bounds, normal, of),
-            |i| clearance.separates(face, normal, &self.triangles[i]),
+            |i| clearance.separates(face, normal, &self.triangle(i)),
         )
     }
 
@@ -156,7 +166,7 @@ impl Obstacle {
         let planes = [front, back, ab, bc, ca];
         let is_needle = length <= NEEDLE * (b - a).length() * (c - a).length();
         let planes = if is_needle { &[] } else { &planes[..] };
-        let visit = |i: usize| !meet(face, &self.triangles[i]);
+        let visit = |i: usize| !meet(face, &self.triangle(i));
         !self.triangle_tree.visit_reached(&Bounds::of(face), planes, visit)
     }
 
@@ -186,7 +196,7 @@ impl Obstacle {
         raise: impl Fn(DVec3) -> Option<Plane>,
     ) -> Option<Plane> {
         highest(&self.point_tree, near, tetrahedron, |i, highest| {
-            let p = self.points[i];
+            let p = self.point(i);
             let stands_out = highest.is_none_or(|plane| plane.holds(p)) && tetrahedron.holds(p);
             if stands_out { raise(p) } else { None }
         })
@@ -202,12 +212,12 @@ impl Obstacle {
         raise: impl Fn(DVec3) -> Option<Plane>,
     ) -> Option<Plane> {
         highest(&self.triangle_tree, near, tetrahedron, |i, highest| {
-            let triangle = &self.triangles[i];
+            let triangle = self.triangle(i);
             if highest.is_some_and(|plane| triangle.iter().all(|&p| !plane.holds(p))) {
                 return None;
             }
             let mut raised = None;
-            tetrahedron.clip(triangle, |p| raised = raise(p).or(raised));
+            tetrahedron.clip(&triangle, |p| raised = raise(p).or(raised));
             raised
         })
     }
@@ -221,7 +231,7 @@ impl Obstacle {
         visit: impl Fn(DVec3),
     ) {
         self.point_tree.visit_kept(near, keep, |i| {
-            visit(self.points[i]);
+            visit(self.point(i));
             true
         });
     }
@@ -235,7 +245,7 @@ impl Obstacle {
         visit: impl Fn(&Triangle),
     ) {
         self.triangle_tree.visit_kept(near, keep, |i| {
-            visit(&self.triangles[i]);
+            visit(&self.triangle(i));
             true
         });
     }
@@ -244,17 +254,18 @@ impl Obstacle {
     pub fn nearest(&self, p: DVec3) -> Option<(Triangle, [f64; 2])> {
         let mut lower = f64::INFINITY;
         let distance_sq = |i: usize| {
-            let [a, b, c] = self.triangles[i];
+            let [a, b, c] = self.triangle(i);
             let bounds = point_triangle(p, a, b, c);
             lower = lower.min(bounds.lower);
             bounds.upper * bounds.upper
         };
         let (found, _) = self.triangle_tree.nearest(p, distance_sq)?;
-        let [a, b, c] = self.triangles[found];
+        let triangle = self.triangle(found);
+        let [a, b, c] = triangle;
         let upper = point_triangle(p, a, b, c).upper;
         // Triangles that the tree passed over are no nearer, but for the rounding of a box's
         // distance.
-        Some((self.triangles[found], [lower.min(upper * (1.0 - 1e-12)), upper]))
+        Some((triangle, [lower.min(upper * (1.0 - 1e-12)), upper]))
     }
 }
 
