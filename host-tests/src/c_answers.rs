@@ -86,11 +86,11 @@ impl Kind {
         *place = [0, 1, 2].map(|axis| place[axis] + step[axis] / 1024.0);
     }
 
+    /// Without its work: processors with vector registers may visit nodes in another order.
     fn closest(&mut self, near: &ClosestPoint) {
         self.interval(near.distance);
         self.floats(&near.point);
         self.words(&[near.triangle.unwrap_or(u32::MAX), ended(near.ended)]);
-        self.work(near.work);
     }
 
     fn first_hit(&mut self, found: &FirstHit) {

@@ -51,9 +51,7 @@ pub fn write(folder: &Path) -> Result<(), String> {
         put(&format!("../core/{file}"), &bytes)?;
     }
     let answers = answers::of_fixtures(folder)?;
-    put("answers.txt", answers.as_bytes())?;
-    // The answers about them, not the blobs: no builder makes those any more.
-    put("kept/answers.txt", answers::of_kept(&folder.join("kept"))?.as_bytes())
+    put("answers.txt", answers.as_bytes())
 }
 
 /// The blob of `bracket.stl` with the builder's defaults.

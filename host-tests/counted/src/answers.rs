@@ -10,18 +10,18 @@ use meshsweep_suite::ask::{
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
-/// Hashes of the answers of a blob: its name, its bytes, and what is asked.
-type Answers = fn(&str, &[u8], Plan) -> Result<String, Refused>;
+/// Hashes of the answers of a blob: its name and its bytes.
+type Answers = fn(&str, &[u8]) -> Result<String, Refused>;
 
 /// The committed blobs of today's builder, by the structure that is asked.
 const FIXTURES: [(&str, Answers); 7] = [
     ("bracket.msw", hull_answers),
     ("groove.msw", tree_answers),
-    ("torus.msw", |name, blob, plan| answers::<triboxes::Triboxes<'_>>(name, blob, plan)),
-    ("hulls.msw", |name, blob, plan| answers::<tight::Hulls<'_>>(name, blob, plan)),
-    ("fence.msw", |name, blob, plan| answers::<curve::Curve<'_>>(name, blob, plan)),
+    ("torus.msw", |name, blob| answers::<triboxes::Triboxes<'_>>(name, blob)),
+    ("hulls.msw", |name, blob| answers::<tight::Hulls<'_>>(name, blob)),
+    ("fence.msw", |name, blob| answers::<curve::Curve<'_>>(name, blob)),
     ("sieve.msw", hull_answers),
-    ("bend.msw", |name, blob, plan| answers::<deform::DeformableHull<'_>>(name, blob, plan)),
+    ("bend.msw", |name, blob| answers::<deform::DeformableHull<'_>>(name, blob)),
 ];
 
 /// Box trees that no builder makes any more: when the packer changes, the kernels still have to
@@ -37,29 +37,21 @@ const KEPT: [&str; 5] =
 pub fn of_fixtures(folder: &Path) -> Result<String, String> {
     let mut lines = String::new();
     for (name, answers) in FIXTURES {
-        let answers = answers(name, &read(folder, name)?, Plan::STANDARD);
+        let answers = answers(name, &read(folder, name)?);
         lines += &answers.map_err(|refused| format!("{name} is refused: {refused:?}"))?;
     }
     Ok(lines)
 }
 
-/// A line for each kept blob and kind of query: the blob's name, the kind, a hash of the answers
-/// without their work counters, and a hash of both. The folder is the one of the kept blobs.
+/// The same lines for the kept blobs. The folder is theirs.
 ///
 /// # Errors
 /// A file that cannot be read, or the core's refusal of a blob.
 pub fn of_kept(folder: &Path) -> Result<String, String> {
     let mut lines = String::new();
     for name in KEPT {
-        let blob = read(folder, name)?;
-        let hashes = |takes_work: bool| {
-            let answers = tree_answers(name, &blob, Plan { takes_work, ..Plan::STANDARD });
-            answers.map_err(|refused| format!("{name} is refused: {refused:?}"))
-        };
-        for (answers, both) in hashes(false)?.lines().zip(hashes(true)?.lines()) {
-            let both = both.rsplit(' ').next().unwrap_or_default();
-            lines += &format!("{answers} {both}\n");
-        }
+        let answers = tree_answers(name, &read(folder, name)?);
+        lines += &answers.map_err(|refused| format!("{name} is refused: {refused:?}"))?;
     }
     Ok(lines)
 }
@@ -69,23 +61,22 @@ fn read(folder: &Path, name: &str) -> Result<Vec<u8>, String> {
     fs::read(&file).map_err(|error| format!("{}: {error}", file.display()))
 }
 
-fn hull_answers(name: &str, blob: &[u8], plan: Plan) -> Result<String, Refused> {
-    let alone = answers::<hull::Model<'_>>(name, blob, plan)?;
-    Ok(alone + &answers::<hull_moving::Moving<'_>>(name, blob, plan)?)
+fn hull_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
+    let alone = answers::<hull::Model<'_>>(name, blob)?;
+    Ok(alone + &answers::<hull_moving::Moving<'_>>(name, blob)?)
 }
 
-fn tree_answers(name: &str, blob: &[u8], plan: Plan) -> Result<String, Refused> {
-    let points = answers::<tree::Bvh<'_>>(name, blob, plan)?;
-    Ok(points + &answers::<apart::Apart<'_>>(name, blob, plan)?)
+fn tree_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
+    let points = answers::<tree::Bvh<'_>>(name, blob)?;
+    Ok(points + &answers::<apart::Apart<'_>>(name, blob)?)
 }
 
 fn answers<'t, S: Subject<'t, Scratch: Default>>(
     name: &str,
     blob: &'t [u8],
-    plan: Plan,
 ) -> Result<String, Refused> {
     let mut lines = Lines { name: name.to_owned(), fold: Fold::new(), text: String::new() };
-    run::<S>(blob, plan, &mut S::Scratch::default(), &mut lines)?;
+    run::<S>(blob, Plan::STANDARD, &mut S::Scratch::default(), &mut lines)?;
     Ok(lines.text)
 }
 

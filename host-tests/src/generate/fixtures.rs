@@ -65,7 +65,7 @@ pub fn files() -> Vec<(String, Vec<u8>)> {
          | `single_tree.msw` | the box tree of `torus(2.0, 0.75, 16, 10)`, vertices as f32 |\n\
          | `soup_tree.msw` | the box tree of a torus with holes, beside needles and triangles without area, with normal cones |\n\
          | `torus_tree.msw` | the box tree of `torus(2.0, 0.75, 20, 12)` |\n\
-         | `answers.txt` | for each kind of query a hash of the answers, and one of the answers with their work counters |\n\
+         | `answers.txt` | a hash of the answers to each kind of query |\n\
          \n## evil/\n\n\
          Files that must be refused, by the named variant of `MeshError`, or mended. \"No solid\": `repair`\n\
          takes the file, and `require_closed_manifold` refuses it.\n\n\

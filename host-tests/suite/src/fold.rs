@@ -5,10 +5,7 @@
 /// Not a cryptographic hash, and it need not be: a wrong bit changes it, and the multiplication
 /// carries that change into every later state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Fold {
-    state: u64,
-    takes_work: bool,
-}
+pub struct Fold(u64);
 
 impl Fold {
     const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
@@ -17,31 +14,18 @@ impl Fold {
     /// The hash of nothing.
     #[must_use]
     pub const fn new() -> Self {
-        Self { state: Self::OFFSET, takes_work: true }
-    }
-
-    /// The hash of nothing, which passes over work counters unless it `takes_work`.
-    #[must_use]
-    pub const fn with_work(takes_work: bool) -> Self {
-        Self { takes_work, ..Self::new() }
+        Self(Self::OFFSET)
     }
 
     /// Folds one byte.
     pub fn byte(&mut self, byte: u8) {
-        self.state = (self.state ^ u64::from(byte)).wrapping_mul(Self::PRIME);
+        self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(Self::PRIME);
     }
 
     /// Folds the four bytes of a word.
     pub fn word(&mut self, word: u32) {
         for byte in word.to_le_bytes() {
             self.byte(byte);
-        }
-    }
-
-    /// Folds a work counter, if they are taken.
-    pub fn work(&mut self, count: u32) {
-        if self.takes_work {
-            self.word(count);
         }
     }
 
@@ -67,7 +51,7 @@ impl Fold {
     /// The hash of all that was folded.
     #[must_use]
     pub const fn finish(self) -> u64 {
-        self.state
+        self.0
     }
 
     /// The hash of a byte slice.
@@ -96,18 +80,6 @@ mod tests {
         assert_eq!(Fold::of_bytes(b""), 0xcbf2_9ce4_8422_2325);
         assert_eq!(Fold::of_bytes(b"a"), 0xaf63_dc4c_8601_ec8c);
         assert_eq!(Fold::of_bytes(b"foobar"), 0x8594_4171_f739_67e8);
-    }
-
-    #[test]
-    fn work_counts_where_it_is_taken() {
-        let of = |takes_work: bool, count: u32| {
-            let mut fold = Fold::with_work(takes_work);
-            fold.word(7);
-            fold.work(count);
-            fold.finish()
-        };
-        assert_ne!(of(true, 1), of(true, 2));
-        assert_eq!(of(false, 1), of(false, 2));
     }
 
     #[test]

@@ -252,14 +252,11 @@ pub struct Plan {
     pub blocks: u32,
     /// Queries of a block.
     pub queries: u32,
-    /// Whether the hashes cover the work counters of the answers too.
-    pub takes_work: bool,
 }
 
 impl Plan {
     /// What the host runs. An image runs as many of these blocks as its host asks for.
-    pub const STANDARD: Self =
-        Self { tabled_blocks: 16, blocks: 16, queries: 32, takes_work: true };
+    pub const STANDARD: Self = Self { tabled_blocks: 16, blocks: 16, queries: 32 };
 }
 
 /// Told when the core is called: what lies between the two is the core's alone, without placing the
@@ -327,7 +324,7 @@ pub fn run<'t, S: Subject<'t>>(
             _ => (plan.blocks, plan.queries),
         };
         for index in 0..blocks {
-            let mut fold = Fold::with_work(plan.takes_work);
+            let mut fold = Fold::new();
             for _ in 0..queries {
                 if kind == Kind::Arith {
                     recorder.query_begins();
@@ -365,7 +362,7 @@ mod tests {
     fn a_refused_blob_runs_nothing() {
         const BYTES: &[u8] = b"not a blob at all, but long enough to be read";
         let mut count = Count(0);
-        let plan = Plan { tabled_blocks: 3, blocks: 3, queries: 5, takes_work: true };
+        let plan = Plan { tabled_blocks: 3, blocks: 3, queries: 5 };
         let (mut hull, mut tree) = (hull::Scratch::new(), tree::Scratch::new());
         assert_eq!(run::<hull::Model<'_>>(BYTES, plan, &mut hull, &mut count), Err(Refused(3)));
         assert_eq!(run::<tree::Bvh<'_>>(BYTES, plan, &mut tree, &mut count), Err(Refused(3)));

@@ -111,7 +111,7 @@ pub fn coherent(
             || pair.distance(tree, tree, pose, budget, scratch),
             |fold, answer| {
                 nearest(fold, answer.distance, answer.points, answer.triangles);
-                super::how(fold, answer.work, answer.ended);
+                super::how(fold, answer.ended);
             },
         );
         half = found.map_or(half, |found| 0.5 * found.distance.lower);
@@ -121,7 +121,7 @@ pub fn coherent(
     }
     to.answer(
         || pair.within(tree, tree, pose, half, budget, scratch),
-        |fold, answer| super::verdict(fold, answer.work, answer.verdict),
+        |fold, answer| super::verdict(fold, answer.verdict),
     );
 }
 
@@ -143,7 +143,7 @@ pub fn penetration(
             if let Some(apart) = answer.apart {
                 fold.point(apart.translation);
             }
-            super::how(fold, answer.work, answer.ended);
+            super::how(fold, answer.ended);
         },
     );
 }
@@ -164,12 +164,12 @@ pub fn scene(
         || scene.nearest_pair(|_, _| true, budget, scratch),
         |fold, answer| {
             nearest(fold, answer.distance, answer.points, answer.triangles);
-            super::how(fold, answer.work, answer.ended);
+            super::how(fold, answer.ended);
         },
     );
     to.answer(
         || scene.within(distance, |_, _| true, budget, scratch),
-        |fold, answer| super::verdict(fold, answer.work, answer.verdict),
+        |fold, answer| super::verdict(fold, answer.verdict),
     );
 }
 
@@ -194,7 +194,7 @@ pub fn winding(
         |fold, answer| {
             fold.f32(answer.number.lower);
             fold.f32(answer.number.upper);
-            super::how(fold, answer.work, answer.ended);
+            super::how(fold, answer.ended);
         },
     );
 }
@@ -216,14 +216,14 @@ pub fn distance(
         || tree.distance(tree, pose, budget, scratch),
         |fold, answer| {
             nearest(fold, answer.distance, answer.points, answer.triangles);
-            super::how(fold, answer.work, answer.ended);
+            super::how(fold, answer.ended);
         },
     );
     if let Some(found) = found {
         let half = 0.5 * found.distance.lower;
         to.answer(
             || tree.within_of(tree, pose, half, budget, scratch),
-            |fold, answer| super::verdict(fold, answer.work, answer.verdict),
+            |fold, answer| super::verdict(fold, answer.verdict),
         );
         let mut end = pose;
         end.translation = found.points[0];
@@ -238,7 +238,7 @@ pub fn distance(
             |fold, answer| {
                 fold.f32(answer.clear_until);
                 answer.triangles.into_iter().for_each(|number| fold.word(number));
-                super::how(fold, answer.work, answer.ended);
+                super::how(fold, answer.ended);
             },
         );
     }
@@ -263,7 +263,7 @@ pub fn solid(
             fold.f32(answer.distance.upper);
             answer.points.into_iter().for_each(|point| fold.point(point));
             fold.word(answer.triangle);
-            super::how(fold, answer.work, answer.ended);
+            super::how(fold, answer.ended);
         },
     );
     if let Some(found) = found {
@@ -273,7 +273,7 @@ pub fn solid(
                 let capsule = Solid::new(&ends, radius)?;
                 tree.solid_within(&capsule, half, Budget::EXACT, scratch)
             },
-            |fold, answer| super::verdict(fold, answer.work, answer.verdict),
+            |fold, answer| super::verdict(fold, answer.verdict),
         );
     }
 }
@@ -298,6 +298,6 @@ pub fn contact(
             fold.point(hit.point);
             super::number(fold, hit.triangle);
         }
-        super::how(fold, answer.work, answer.ended);
+        super::how(fold, answer.ended);
     });
 }

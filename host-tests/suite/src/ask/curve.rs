@@ -107,7 +107,7 @@ fn closest_point(fold: &mut Fold, answer: &CurveClosest) {
     segment(fold, Some(answer.segment));
     fold.f32(answer.t);
     fold.f32(answer.safe_motion);
-    how(fold, answer.work, answer.ended);
+    how(fold, answer.ended);
 }
 
 fn segment(fold: &mut Fold, segment: Option<CurveSegment>) {
@@ -158,7 +158,7 @@ pub fn is_within(
         || curve.within(p, distance, Budget::EXACT, scratch),
         |fold, answer| {
             segment(fold, answer.segment);
-            verdict(fold, answer.work, answer.verdict);
+            verdict(fold, answer.verdict);
         },
     );
 }

@@ -205,7 +205,7 @@ pub fn all_hits(
         Ok(answer) => {
             super::listed(fold, scratch.met.get(..answer.stored).unwrap_or_default());
             fold.word(answer.dropped);
-            super::how(fold, answer.work, answer.ended);
+            super::how(fold, answer.ended);
         }
         Err(error) => super::refusal(fold, error),
     }
@@ -232,7 +232,7 @@ pub fn outer_hits<'t>(
                     super::hits(fold, found.get(..answer.stored).unwrap_or_default());
                     fold.word(answer.dropped);
                     fold.word(u32::from(answer.starts_inside));
-                    super::how(fold, answer.work, answer.ended);
+                    super::how(fold, answer.ended);
                 }
                 Err(error) => super::refusal(fold, error),
             }

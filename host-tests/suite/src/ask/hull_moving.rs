@@ -87,14 +87,14 @@ pub fn overlap(
             Ok(answer) => {
                 let triangles = answer.triangles.unwrap_or([u32::MAX; 2]);
                 triangles.into_iter().for_each(|number| fold.word(number));
-                super::verdict(fold, answer.work, answer.verdict);
+                super::verdict(fold, answer.verdict);
             }
             Err(error) => super::refusal(fold, error),
         }
         match model.hull.meets_triangle(triangle, Budget::EXACT, queue) {
             Ok(answer) => {
                 super::number(fold, answer.triangle);
-                super::verdict(fold, answer.work, answer.verdict);
+                super::verdict(fold, answer.verdict);
             }
             Err(error) => super::refusal(fold, error),
         }

@@ -2,8 +2,9 @@
 //! that names the core's API.
 //!
 //! Each question is a call, so that the stack that is measured is its own. It folds *all* the bits
-//! of its answer, its work counters and its refusal among them. Nothing here formats or
-//! indexes: the proof image links these functions, and they may not bring a panic of their own.
+//! of its answer or its refusal, but for the work counters: processors with vector registers may
+//! visit nodes in another order. Nothing here formats or indexes: the proof image links these
+//! functions, and they may not bring a panic of their own.
 
 pub mod apart;
 pub mod curve;
@@ -18,7 +19,7 @@ pub mod triboxes;
 
 use meshsweep_core::OpenError;
 use meshsweep_core::{
-    ClosestPoint, Ended, FirstHit, Hit, QueryError, TriangleHit, Undecided, Verdict, Work,
+    ClosestPoint, Ended, FirstHit, Hit, QueryError, TriangleHit, Undecided, Verdict,
 };
 
 use crate::fold::Fold;
@@ -146,14 +147,14 @@ fn closest_point(fold: &mut Fold, answer: &ClosestPoint) {
     fold.f32(answer.distance.upper);
     fold.point(answer.point);
     number(fold, answer.triangle);
-    how(fold, answer.work, answer.ended);
+    how(fold, answer.ended);
 }
 
 fn segment_hit(fold: &mut Fold, answer: &FirstHit) {
     fold.f32(answer.t.lower);
     fold.f32(answer.t.upper);
     hits(fold, answer.hit.as_slice());
-    how(fold, answer.work, answer.ended);
+    how(fold, answer.ended);
 }
 
 fn hits(fold: &mut Fold, hits: &[Hit]) {
@@ -175,22 +176,19 @@ fn number(fold: &mut Fold, number: Option<u32>) {
     fold.word(number.unwrap_or(u32::MAX));
 }
 
-fn how(fold: &mut Fold, work: Work, ended: Ended) {
-    for count in [work.nodes, work.triangles, work.exact, work.splits] {
-        fold.work(count);
-    }
+fn how(fold: &mut Fold, ended: Ended) {
     fold.word(ended as u32);
 }
 
-/// The work of a search with a verdict, and why there is none, by the number of the reason.
-fn verdict(fold: &mut Fold, work: Work, verdict: Verdict) {
+/// Why there is no verdict, by the number of the reason.
+fn verdict(fold: &mut Fold, verdict: Verdict) {
     let ended = match verdict {
         Verdict::Yes | Verdict::No => Ended::Exact,
         Verdict::Undecided(Undecided::Steps) => Ended::Steps,
         Verdict::Undecided(Undecided::Scratch) => Ended::Scratch,
         _ => Ended::Resolution,
     };
-    how(fold, work, ended);
+    how(fold, ended);
 }
 
 fn refusal(fold: &mut Fold, error: QueryError) {

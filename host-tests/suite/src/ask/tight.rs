@@ -175,7 +175,7 @@ pub fn is_within(
                 Verdict::No => 2,
                 _ => 3,
             });
-            verdict(fold, answer.work, answer.verdict);
+            verdict(fold, answer.verdict);
         },
     );
 }

@@ -134,7 +134,7 @@ pub fn reject(all: &Triboxes<'_>, pose: Pose, s: &mut Scratch, to: &mut Asked<'_
         || all.separation(all, pose, Budget::EXACT, &mut s.stack),
         |fold, answer| {
             pairs(fold, answer.may_meet.as_slice());
-            how(fold, answer.work, answer.ended);
+            how(fold, answer.ended);
         },
     );
 }
@@ -152,14 +152,14 @@ pub fn candidates(
     if let Some(answer) = to.answer(call, |_, _| ()) {
         pairs(to.fold, found.get(..answer.stored).unwrap_or_default());
         to.fold.word(answer.dropped);
-        how(to.fold, answer.work, answer.ended);
+        how(to.fold, answer.ended);
     }
 }
 
 pub(super) fn bound(fold: &mut Fold, answer: &Bound) {
     fold.f32(answer.lower);
     number(fold, answer.node);
-    how(fold, answer.work, answer.ended);
+    how(fold, answer.ended);
 }
 
 /// A lower bound of a distance.

@@ -90,7 +90,7 @@ pub fn is_within(
             };
             fold.word(kind);
             fold.word(triangle);
-            ask::verdict(fold, answer.work, answer.verdict);
+            ask::verdict(fold, answer.verdict);
         },
     );
 }
@@ -102,7 +102,7 @@ pub fn nearest(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_,
     if let Some(answer) = to.answer(|| tree.nearest(p, near, Budget::EXACT, stack), |_, _| ()) {
         found(to.fold, near.get(..answer.stored).unwrap_or_default());
         to.fold.f32(answer.rest_lower);
-        ask::how(to.fold, answer.work, answer.ended);
+        ask::how(to.fold, answer.ended);
     }
 }
 
@@ -121,7 +121,7 @@ pub fn all_within(
         found(to.fold, near.get(..answer.stored).unwrap_or_default());
         to.fold.word(answer.certain as u32);
         to.fold.word(answer.dropped);
-        ask::how(to.fold, answer.work, answer.ended);
+        ask::how(to.fold, answer.ended);
     }
 }
 

@@ -26,7 +26,7 @@ pub fn overlap(tree: &Bvh<'_>, pose: Pose, s: &mut Scratch<'_>, to: &mut Asked<'
             });
             let triangles = answer.triangles.unwrap_or([u32::MAX; 2]);
             triangles.into_iter().for_each(|number| fold.word(number));
-            ask::verdict(fold, answer.work, answer.verdict);
+            ask::verdict(fold, answer.verdict);
         },
     );
 }
@@ -51,6 +51,6 @@ pub fn all_overlaps(
             to.fold.word(u32::from(pair.is_certain));
         }
         to.fold.word(answer.dropped);
-        ask::how(to.fold, answer.work, answer.ended);
+        ask::how(to.fold, answer.ended);
     }
 }

@@ -56,7 +56,7 @@ pub fn all_hits(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_
     if let Some(answer) = to.answer(call, |_, _| ()) {
         ask::listed(to.fold, hits.get(..answer.stored).unwrap_or_default());
         to.fold.word(answer.dropped);
-        ask::how(to.fold, answer.work, answer.ended);
+        ask::how(to.fold, answer.ended);
     }
 }
 
