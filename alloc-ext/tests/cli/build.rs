@@ -52,7 +52,7 @@ fn emitted_sources_depend_on_the_blob_and_on_names_of_files_alone() {
     let ([rust, header, source], bytes) = &texts[0];
     assert!(rust.contains("`#[path = \"3 part.rs\"] mod _3_part;`"), "{rust}");
     assert!(rust.contains("include_bytes!(\"3 part.msw\")"), "{rust}");
-    assert!(header.contains("#define _3_PART_SCRATCH_ENTRIES 25u"), "{header}");
+    assert!(header.contains("#define _3_PART_SCRATCH_ENTRIES 31u"), "{header}");
     let listed = source.split_once("= {").unwrap().1.split(',').map(|byte| byte.trim().parse());
     let listed: Vec<u8> = listed.map_while(Result::ok).collect();
     assert!(&listed == bytes);

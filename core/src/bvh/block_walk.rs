@@ -102,8 +102,8 @@ pub(crate) fn walk(
                 break;
             }
             let BvhChild { at, shape } = links.leaf_child(child);
-            triangles += shape.triangles() as u32;
             let leaf = tree.leaf_at(at, shape)?;
+            triangles += shape.triangles() as u32;
             if !visitor.leaf(&LeafVisit { leaf, key: bound, node, child })? {
                 break 'all BlockWalk::Answered;
             }

@@ -4,50 +4,19 @@
 //! are missed, and of the others the axis that decides. Only that axis' parameter is computed in
 //! f32, so that every key has the bits of the wide form. Margins: `core/docs/rounding.md` §9.
 
-use super::box_entries::{SlabPlanes, SlabRay};
 use super::keys::CHILD_MASK;
 use super::opened_node::{OpenedNode, Pushed, Pusher};
+use super::slab_ray::{Fraction, SlabPlanes, SlabRay};
 use crate::geom::fan::WIDTH;
 use crate::num::{greater, lesser, truncated};
 use crate::query::ScratchEntry;
 
-/// Most fraction bits of a parameter: the whole segment is 2^24.
-const MOST_BITS: i32 = 24;
-/// An axis with fewer fraction bits is steep.
-const FEWEST_BITS: i32 = 14;
 /// Whole parameters of byte 0 are below this, and 255 steps are.
 const MOST: u32 = 1 << 28;
 /// Two whole parameters that differ by more have the order of those in f32.
 const SURE: i32 = 1024;
 /// Before all parameters; after all, with the opposite sign.
 const BEFORE: i32 = -(1 << 30);
-
-/// The unit of whole parameters, for one segment.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Fraction {
-    bits: i32,
-    /// Axes along which the segment is so short that parameters do not fit: a bit for each. They
-    /// decide in f32 only.
-    steep: u32,
-}
-
-impl Fraction {
-    #[inline(always)]
-    pub(super) fn new(inverse: [f32; 3], far: [f32; 3]) -> Self {
-        let mut fraction = Fraction { bits: MOST_BITS, steep: 0 };
-        for axis in 0..3 {
-            // A plane of a node is not farther than four times `far`.
-            let exponent = |x: f32| (x.to_bits() >> 23 & 0xFF).cast_signed() - 126;
-            let bits = 26 - (exponent(inverse[axis]) + exponent(far[axis]));
-            if bits < FEWEST_BITS {
-                fraction.steep |= 1 << axis;
-            } else {
-                fraction.bits = lesser(fraction.bits, bits);
-            }
-        }
-        fraction
-    }
-}
 
 /// Whole parameters of byte 0, and of a step.
 #[derive(Clone, Copy)]

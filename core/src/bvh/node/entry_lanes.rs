@@ -1,7 +1,7 @@
 //! A segment against eight boxes, in vector registers.
 
-use super::box_entries::{Axis, SlabPlanes};
 use super::keys::{CHILD_MASK, NO_CHILD};
+use super::slab_ray::{Axis, SlabPlanes};
 use crate::geom::fan::WIDTH;
 use wide::bytemuck::cast;
 use wide::{f32x8, i32x8, u8x16};

@@ -29,7 +29,8 @@
 //! | `box_avx2` | the same, and the least key, in registers of 256 bits |
 //! | `axis_place` | `AxisPlace`, a point along one axis of a frame, on targets without vector registers |
 //! | `two_in_word` | a point against eight boxes, on targets without vector registers |
-//! | `box_entries` | [`SlabRay`], a segment prepared for the test; a segment against one box |
+//! | `slab_ray` | [`SlabRay`], a segment prepared for the test; a segment against one box |
+//! | `box_entries` | a segment against eight boxes: the choice between the next two |
 //! | `entry_lanes` | a segment against eight boxes, in vector registers |
 //! | `entries_in_whole` | a segment against eight boxes, on targets without an FPU |
 
@@ -50,6 +51,7 @@ mod frame;
 mod grid_line;
 mod keys;
 mod opened_node;
+mod slab_ray;
 #[cfg(test)]
 mod tests;
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
@@ -60,9 +62,9 @@ pub(crate) use box_avx2::{keys as box_distances_avx2, take_least as take_least_a
 pub use box_distances::box_distances;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use box_distances::push_boxes;
+pub use box_entries::box_entries;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use box_entries::push_entries;
-pub use box_entries::{SlabRay, box_entries};
 pub use frame::KeyPoint;
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 pub use grid_line::GridLine;
@@ -72,3 +74,4 @@ pub use keys::{TakenLeast, places_of_wanted, take_least};
 pub(crate) use opened_node::OpenedNode;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use opened_node::Pushed;
+pub use slab_ray::SlabRay;

@@ -1,9 +1,9 @@
 //! Both forms of a node's test give the same children the same keys.
 
-use super::box_entries::{SlabPlanes, SlabRay};
 use super::frame::KeyPoint;
 use super::keys::{CHILD_MASK, NO_CHILD, TakenLeast, least_key, take_least};
 use super::opened_node::OpenedNode;
+use super::slab_ray::{SlabPlanes, SlabRay};
 use super::{box_lanes, entries_in_whole, entry_lanes, two_in_word};
 use crate::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES, ROW_BITS, boxes};
 use crate::geom::fan::WIDTH;
