@@ -7,6 +7,7 @@
 //! | file | owns |
 //! | --- | --- |
 //! | `sah` | the binary tree, by surface area heuristic |
+//! | `blocks` | the top of a large tree, by bins |
 //! | `collapse` | its collapse into nodes of up to eight children |
 //! | `order` | `Topology`: the order of nodes and leaves |
 //! | `fit` | frames and boxes of all nodes, bottom-up |
@@ -17,6 +18,7 @@
 //! | `extent` | extents in a frame |
 //! | `boxes` | their rounding to 8 bits |
 
+pub(super) mod blocks;
 pub(super) mod boxes;
 pub(super) mod collapse;
 mod extent;

@@ -22,14 +22,14 @@ const NO_CHILD: u32 = u32::MAX;
 /// boxes are what closest-point searches open. The volume term is left out: axis-aligned volume
 /// says nothing of a slanted leaf, whose node will get an oriented frame.
 #[derive(Clone, Copy)]
-struct BoxMeasure {
+pub(super) struct BoxMeasure {
     /// Weight of the summed extents, grid units.
-    extent_weight: f32,
+    pub extent_weight: f32,
 }
 
 impl BoxMeasure {
     #[inline(always)]
-    fn of(self, bounds: &Bounds) -> f32 {
+    pub(super) fn of(self, bounds: &Bounds) -> f32 {
         let [x, y, z] = [0, 1, 2].map(|k| bounds.high[k] - bounds.low[k]);
         x * y + y * z + z * x + self.extent_weight * (x + y + z)
     }
@@ -38,16 +38,21 @@ impl BoxMeasure {
 /// Axis-aligned box of an item or a run of items, grid units. f32 is enough: it only steers the
 /// topology.
 #[derive(Clone, Copy)]
-struct Bounds {
-    low: [f32; 3],
-    high: [f32; 3],
+pub(in crate::bvh) struct Bounds {
+    pub low: [f32; 3],
+    pub high: [f32; 3],
 }
 
 impl Bounds {
-    const EMPTY: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
+    /// Those of a box, rounded.
+    pub(in crate::bvh) fn of((low, high): (DVec3, DVec3)) -> Self {
+        Self { low: low.as_vec3().to_array(), high: high.as_vec3().to_array() }
+    }
+
+    pub(super) const EMPTY: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
     #[inline(always)]
-    fn include(&mut self, other: &Self) {
+    pub(super) fn include(&mut self, other: &Self) {
         for k in 0..3 {
             // Plain comparisons compile to one instruction each; `f32::min` also orders NaN, which
             // cannot occur here.
@@ -117,7 +122,8 @@ pub(super) fn binary_tree(bounds: &[(DVec3, DVec3)], extent_weight: f32) -> Vec<
     if bounds.is_empty() {
         return Vec::new();
     }
-    let mut items = Items::new(bounds, extent_weight);
+    let rounded = bounds.iter().map(|&of| Bounds::of(of)).collect();
+    let mut items = Items::new(rounded, extent_weight);
     let [x, y, z] = &mut items.orders();
     let root_weight = items.weigh(x);
     items.scale = if root_weight > 0.0 { 1.0 / root_weight } else { 1.0 };
@@ -139,20 +145,17 @@ pub(super) fn binary_tree(bounds: &[(DVec3, DVec3)], extent_weight: f32) -> Vec<
 
 /// The runs of at most `most` items at which the descent of [`binary_tree`] first arrives, from
 /// first to last. None is empty.
-pub(in crate::bvh) fn runs(
-    bounds: &[(DVec3, DVec3)],
-    extent_weight: f32,
-    most: usize,
-) -> Vec<Vec<u32>> {
+pub(in crate::bvh) fn runs(bounds: Vec<Bounds>, extent_weight: f32, most: usize) -> Vec<Vec<u32>> {
     if bounds.is_empty() {
         return Vec::new();
     }
     let items = Items::new(bounds, extent_weight);
+    let count = items.bounds.len();
     let [x, y, z] = &mut items.orders();
     let run = Run {
         orders: [x, y, z],
-        partition_scratch: &mut vec![0; bounds.len()],
-        suffix_cost: &mut vec![0.0; bounds.len()],
+        partition_scratch: &mut vec![0; count],
+        suffix_cost: &mut vec![0.0; count],
         depth: 0,
     };
     let mut runs = Vec::new();
@@ -161,14 +164,7 @@ pub(in crate::bvh) fn runs(
 }
 
 impl Items {
-    fn new(input: &[(DVec3, DVec3)], extent_weight: f32) -> Self {
-        let bounds: Vec<Bounds> = input
-            .iter()
-            .map(|(low, high)| Bounds {
-                low: low.as_vec3().to_array(),
-                high: high.as_vec3().to_array(),
-            })
-            .collect();
+    fn new(bounds: Vec<Bounds>, extent_weight: f32) -> Self {
         let mut all = Bounds::EMPTY;
         bounds.iter().for_each(|b| all.include(b));
         let diagonal = (0..3)
