@@ -385,7 +385,8 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         if wanted > 0.0 { wanted * wanted } else { 0.0 }
     }
 
-    #[inline(always)]
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
     fn improve(&mut self, distance_sq: f32, lanes: &Lanes, [node, child]: [u32; 2]) {
         let has_best = self.best.node != u32::MAX;
         if distance_sq == self.best.distance_sq && has_best && self.comes_later([node, child]) {
@@ -555,9 +556,12 @@ fn from_afar(
     query: &PointQuery,
 ) -> Result<ClosestPoint, QueryError> {
     let (low, high) = tree.grid_bounds();
-    let corners = [query.units.point(low), query.units.point(high)];
-    let sizes = corners.iter().flatten().chain(&point).map(|x| x.abs());
-    let size = sizes.fold(0.0, greater);
+    let mut size = 0.0;
+    for place in [query.units.point(low), query.units.point(high), point] {
+        for x in place {
+            size = greater(size, x.abs());
+        }
+    }
     let (scale, unscale) = match size {
         size if size > POWER_40 => (1.0 / POWER_70, POWER_70),
         size if size < 1.0 / POWER_40 => (POWER_70, 1.0 / POWER_70),
@@ -573,18 +577,19 @@ fn from_afar(
         *far = greater(below.abs(), above.abs());
     }
     let (near, far) = (length(nearest), length(farthest));
-    let margin =
-        |distance: f32| distance * (2.0 * FAN_RELATIVE * U32) + scaled(query.fixed_error());
+    let fixed_error = scaled(query.fixed_error());
+    let margin = |distance: f32| distance * (2.0 * FAN_RELATIVE * U32) + fixed_error;
     // Any point of the surface serves: the first leaf. A damaged tree must not loop.
+    let mut node = 0;
     let mut links = tree.links(0).ok_or(QueryError::Unchecked)?;
     for _ in 0..tree.most_steps() {
         if links.child(0).is_leaf() {
             break;
         }
-        links = tree.links(links.child(0).at).ok_or(QueryError::Unchecked)?;
+        node = links.child(0).at;
+        links = tree.links(node).ok_or(QueryError::Unchecked)?;
     }
-    let child = links.child(0);
-    let leaf = tree.leaf_at(child.at, child.shape).ok_or(QueryError::Unchecked)?;
+    let leaf = tree.leaf(node, 0).ok_or(QueryError::Unchecked)?;
     Ok(ClosestPoint {
         distance: Interval::new(
             at_least((near - margin(near)) * unscale),

@@ -244,7 +244,8 @@ pub(crate) fn descend(
     walk::<_, _, false>(tree, query, steps, scratch, visitor, work)
 }
 
-/// [`descend`] without a call for each leaf: on boards faster, and more code.
+/// [`descend`] without a call for each leaf: on boards faster, and more code. Where code is to be
+/// small, the same.
 #[inline(always)]
 pub(crate) fn descend_inlined(
     tree: &Bvh<'_>,
@@ -254,7 +255,7 @@ pub(crate) fn descend_inlined(
     visitor: &mut impl LeafVisitor,
     work: &mut Work,
 ) -> Result<Descent, QueryError> {
-    walk::<_, _, true>(tree, query, steps, scratch, visitor, work)
+    walk::<_, _, { cfg!(not(meshsweep_small)) }>(tree, query, steps, scratch, visitor, work)
 }
 
 #[inline(always)]
@@ -305,7 +306,8 @@ fn child_of(tree: &Bvh<'_>, entry: ScratchEntry) -> Option<BvhChild> {
 }
 
 impl<'s> Walk<'s> {
-    #[inline(always)]
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
     fn new(tree: &Bvh<'_>, steps: u32, scratch: &'s mut [ScratchEntry], work: &Work) -> Self {
         let all = work.splits.saturating_add(tree.most_steps());
         Walk {
@@ -418,7 +420,8 @@ impl<'s> Walk<'s> {
     }
 
     /// Takes an entry with a key up to `most` from the stack. `Some(None)`: there is none.
-    #[inline(always)]
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
     fn pop(&mut self, tree: &Bvh<'_>, most: u32, work: &Work) -> Option<Option<Place>> {
         #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
         if !self.least_first {

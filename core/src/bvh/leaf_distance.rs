@@ -332,11 +332,26 @@ mod narrow {
         limit: &LeafLimit,
         known: Option<&mut LeafSquares>,
     ) -> Option<LeafNearest> {
-        nearest_within_inlined(leaf, query, limit, known)
+        nearest_of_format(leaf, query, limit, known)
+    }
+
+    /// The same without a call, unless code is to be small.
+    #[inline(always)]
+    pub(crate) fn nearest_within_inlined(
+        leaf: &FanLeaf<'_>,
+        query: &PointQuery,
+        limit: &LeafLimit,
+        known: Option<&mut LeafSquares>,
+    ) -> Option<LeafNearest> {
+        if cfg!(meshsweep_small) {
+            nearest_within(leaf, query, limit, known)
+        } else {
+            nearest_of_format(leaf, query, limit, known)
+        }
     }
 
     #[inline(always)]
-    pub(crate) fn nearest_within_inlined(
+    fn nearest_of_format(
         leaf: &FanLeaf<'_>,
         query: &PointQuery,
         limit: &LeafLimit,

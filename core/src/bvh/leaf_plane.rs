@@ -35,7 +35,9 @@ impl Way {
 
     #[inline(always)]
     pub(crate) fn of_residual(residual: Vec3) -> Way {
-        Way(residual.to_array().map(|x| x.to_bits().cast_signed()))
+        // Here and below not by `map`: the compiler does not inline that at `opt-level = "s"`.
+        let bits = |x: f32| x.to_bits().cast_signed();
+        Way([bits(residual.x), bits(residual.y), bits(residual.z)])
     }
 
     #[inline(always)]
@@ -45,7 +47,9 @@ impl Way {
 
     #[inline(always)]
     fn residual(self) -> Vec3 {
-        Vec3::from_array(self.0.map(|x| f32::from_bits(x.cast_unsigned())))
+        let [x, y, z] = self.0;
+        let float = |x: i32| f32::from_bits(x.cast_unsigned());
+        Vec3::new(float(x), float(y), float(z))
     }
 }
 
@@ -85,7 +89,8 @@ impl LeafPlane {
     ///
     /// Without a root: |n|·L ≤ (|n|²/2^k + L²·2^k)/2 for any k. Proof: `core/docs/rounding.md` §8,
     /// "Left out".
-    #[inline(always)]
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
     fn across_residual(at: Vec3, residual: Vec3, distance_sq: f32, limit: f32) -> LeafPlane {
         let is_known = residual != Vec3::ZERO && distance_sq > LEAST_DENOMINATOR;
         if !(is_known && limit < EVERYTHING_SQ) {
@@ -95,7 +100,8 @@ impl LeafPlane {
         let half = ((distance_sq.to_bits() >> 23).cast_signed() - 127 + 2) >> 1;
         let power = |k: i32| f32::from_bits((127 + k).cast_unsigned() << 23);
         let (scale, unscale) = (power(12 - half), power(half - 12));
-        let [a, b, c] = [residual.x, residual.y, residual.z].map(|x| (x * scale) as i32);
+        let whole = |x: f32| (x * scale) as i32;
+        let (a, b, c) = (whole(residual.x), whole(residual.y), whole(residual.z));
         let length_sq = (a * a + b * b + c * c) as f32;
         let far = 0.5 * (length_sq * unscale + limit * scale) * (1.0 + 8.0 * U32);
         let along = a as f32 * at.x + b as f32 * at.y + c as f32 * at.z;
@@ -142,7 +148,8 @@ impl LeafPlane {
         };
         let behind = ring.bits(is_behind);
         let first_fan = !(u32::MAX << (shape.turn() & 31));
-        let [one, other] = ring.centres(shape).map(|centre| is_behind(centre).wrapping_sub(1));
+        let [one, other] = ring.centres(shape);
+        let (one, other) = (is_behind(one).wrapping_sub(1), is_behind(other).wrapping_sub(1));
         let in_front = !(behind & behind >> 1) | one & first_fan | other & !first_fan;
         in_front & !(u32::MAX << (shape.triangles() & 31))
     }

@@ -9,6 +9,7 @@ use super::node::{Pushed, push_boxes};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use crate::bvh::format::LanePoint;
 use crate::bvh::format::{Bvh, Units};
+use crate::format::layout::BuildFor;
 use crate::geom::fan::{WIDTH, WholePoint};
 use crate::num::tolerance::{
     BVH_FAR, CERTIFIED_PART, CERTIFIED_SHORTFALL, FAN_DISTANCE, FAN_RELATIVE, LEAST_FAN_ROUNDING,
@@ -96,7 +97,8 @@ impl PointQuery {
         }
         let fan = greater(FAN_DISTANCE * U32 * header.star_radius, LEAST_FAN_ROUNDING);
         let shortfall_sq = if header.is_f32() { 0.0 } else { CERTIFIED_SHORTFALL };
-        let [ox, oy, oz] = header.grid_origin.map(|x| x as f32);
+        let [ox, oy, oz] = header.grid_origin;
+        let (ox, oy, oz) = (ox as f32, oy as f32, oz as f32);
         let most = greater(greater(farthest.x, farthest.y), farthest.z);
         let from_origin = p - Vec3::new(ox, oy, oz);
         let key_point = KeyPoint::new(from_origin, most);
@@ -234,7 +236,9 @@ pub(crate) fn limit_of(distance_sq: f32, allowance: f32) -> f32 {
 impl NodeQuery for PointQuery {
     #[inline(always)]
     fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError> {
-        if tree.serves_distances() { Ok(()) } else { Err(QueryError::NO_DISTANCES) }
+        // Made here: a constant would be copied by `memcpy`, for which alone firmware links it.
+        let refused = || QueryError::NotServed { build_for: BuildFor::Closest };
+        if tree.serves_distances() { Ok(()) } else { Err(refused()) }
     }
 
     #[inline(always)]

@@ -16,11 +16,12 @@
 use super::descent::{LeafVisit, LeafVisitor};
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::FanLeaf;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::geom::fan::ray_leaf;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use crate::geom::fan::ray_leaf8;
 use crate::geom::fan::{Crossing, WIDTH};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-use crate::geom::fan::{FanRay, Shadow, ray_leaf};
+use crate::geom::fan::{FanRay, Shadow};
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use crate::num::SOFT_FLOAT;
 
@@ -137,10 +138,17 @@ fn flagged_near(leaf: &FanLeaf<'_>, ray: &FanRay, near: u32) -> u32 {
         let lane = left.trailing_zeros() as usize;
         left &= left - 1;
         let centre = ray.shadow(leaf.centre(usize::from(lane >= leaf.shape().turn())));
-        let ends = [lane, lane + 1].map(|i| ray.shadow(leaf.ring(i)));
+        let ends = [lane, lane + 1].map(|i| ring_shadow(leaf, ray, i));
         flagged |= flagged_alone(ray, centre, ends) << lane;
     }
     flagged
+}
+
+/// The shadow of ring vertex `i`.
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
+fn ring_shadow(leaf: &FanLeaf<'_>, ray: &FanRay, i: usize) -> Shadow {
+    ray.shadow(leaf.ring(i))
 }
 
 /// Whether one triangle of a fan is flagged.
@@ -156,9 +164,9 @@ fn flagged_f32(leaf: &FanLeaf<'_>, ray: &FanRay) -> u32 {
     let shape = leaf.shape();
     let shadow = |centre: usize| ray.shadow(leaf.centre(centre));
     let centres = [shadow(0), shadow(shape.centres() - 1)];
-    let (mut flagged, mut from) = (0, ray.shadow(leaf.ring(0)));
+    let (mut flagged, mut from) = (0, ring_shadow(leaf, ray, 0));
     for lane in 0..shape.triangles() {
-        let to = ray.shadow(leaf.ring(lane + 1));
+        let to = ring_shadow(leaf, ray, lane + 1);
         let centre = centres[usize::from(lane >= shape.turn())];
         flagged |= flagged_alone(ray, centre, [from, to]) << lane;
         from = to;
@@ -190,7 +198,7 @@ impl<C: CrossingCollector> SegmentVisitor<'_, C> {
             left &= left - 1;
             let second = lane as usize >= shape.turn();
             let fan = usize::from(second);
-            let ring = |i: usize| ray.shadow(leaf.ring(i));
+            let ring = |i: usize| ring_shadow(leaf, ray, i);
             let corners =
                 [ray.shadow(leaf.centre(fan)), ring(lane as usize), ring(lane as usize + 1)];
             let found = ray.crossing(corners, wanted(second));
@@ -229,7 +237,7 @@ impl<C: CrossingCollector> SegmentVisitor<'_, C> {
                 let to = if to < shape.triangles() { to } else { shape.triangles() };
                 let centre = ray.shadow(leaf.centre(fan));
                 let turns =
-                    ray.cover(centre, |i| ray.shadow(leaf.ring(i)), undecided[fan], from, to);
+                    ray.cover(centre, |i| ring_shadow(leaf, ray, i), undecided[fan], from, to);
                 let is_covered =
                     turns.is_some_and(|turns| turns != 0 && turns as f32 * wanted(fan == 1) >= 0.0);
                 if is_covered {

@@ -113,7 +113,7 @@ impl NodeQuery for SegmentQuery {
     #[inline(always)]
     fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode, keys: &mut [u32; WIDTH]) -> Option<()> {
         let &OpenedNode { node, count, bound, limit } = opened;
-        let [bound, limit] = [bound, limit].map(f32::from_bits);
+        let (bound, limit) = (f32::from_bits(bound), f32::from_bits(limit));
         *keys = box_entries(tree.boxes(node)?, &self.slab_ray, count, bound, limit);
         Some(())
     }

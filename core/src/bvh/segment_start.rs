@@ -83,6 +83,7 @@ fn approach(both: &SegmentAndBox, surface_error: f32, size: f32) -> Option<Segme
 
 /// `a + t·(b − a)`, computed with twice f32's precision and rounded once (Dekker 1971; Knuth, TAOCP
 /// 4.2.2).
+#[cfg_attr(meshsweep_small, inline(never))]
 fn interpolate(a: f32, b: f32, t: f32) -> f32 {
     let (d, d_rest) = two_sum(b, -a);
     let (p, p_rest) = two_product(t, d);

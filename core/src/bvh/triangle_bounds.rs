@@ -55,7 +55,9 @@ pub(crate) fn each_triangle(
     mut each: impl FnMut(usize, Option<&[Vec3; 3]>, [f32; 2]),
 ) {
     let lanes = lanes_of(low & !(u32::MAX << (leaf.shape().triangles() & 31)));
-    if SOFT_FLOAT || cfg!(any(target_arch = "x86_64", target_arch = "aarch64")) {
+    // What follows is a copy of the kernel's loop for each question.
+    let is_plain = SOFT_FLOAT || cfg!(meshsweep_small);
+    if is_plain || cfg!(any(target_arch = "x86_64", target_arch = "aarch64")) {
         for lane in lanes {
             match known.of(lane) {
                 Some([_, lower_bound_sq]) if lower_bound_sq > limit.low_sq => {}

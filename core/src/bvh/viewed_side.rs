@@ -112,7 +112,8 @@ pub(super) fn norm_1(v: Vec3) -> f32 {
 }
 
 /// Normal of two spokes, and for each component the sum of the absolute values of its products.
-#[inline(always)]
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
 pub(super) fn cross(e: Vec3, g: Vec3) -> (Vec3, Vec3) {
     let (a, b) = (e.abs(), g.abs());
     (e.cross(g), Vec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x))

@@ -156,7 +156,7 @@ impl GridRing<'_> {
     #[inline(always)]
     pub fn vertex(&self, i: usize) -> Option<[i32; 3]> {
         let (x, y, z) = (self.x.get(i)?, self.y.get(i)?, self.z.get(i)?);
-        Some([x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair))))
+        Some([short_of(*x), short_of(*y), short_of(*z)])
     }
 }
 
@@ -204,8 +204,8 @@ impl FullRing<'_> {
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 #[inline(always)]
-fn grid_point(pairs: [&[u8; 2]; 3]) -> [i32; 3] {
-    pairs.map(|pair| i32::from(u16::from_le_bytes(*pair)))
+fn grid_point([x, y, z]: [&[u8; 2]; 3]) -> [i32; 3] {
+    [short_of(*x), short_of(*y), short_of(*z)]
 }
 
 /// Vertices of the largest leaf: two centres and nine ring vertices.
@@ -225,9 +225,14 @@ pub const RING: usize = 2;
 pub(super) const GRID_WINDOW: usize = 66;
 
 #[inline(always)]
+fn short_of(pair: [u8; 2]) -> i32 {
+    i32::from(u16::from_le_bytes(pair))
+}
+
+#[inline(always)]
 pub(super) fn short(bytes: &[u8], at: usize) -> i32 {
     match bytes.get(at..).and_then(|b| b.first_chunk::<2>()) {
-        Some(&pair) => i32::from(u16::from_le_bytes(pair)),
+        Some(&pair) => short_of(pair),
         None => 0,
     }
 }
@@ -244,9 +249,7 @@ fn f32_at(bytes: &[u8], at: usize) -> f32 {
 #[inline(always)]
 fn three(window: &[u8; GRID_WINDOW], at: usize) -> [i32; 3] {
     match window.get(at..).and_then(|b| b.first_chunk::<6>()) {
-        Some(&[a, b, c, d, e, f]) => {
-            [[a, b], [c, d], [e, f]].map(|pair| i32::from(u16::from_le_bytes(pair)))
-        }
+        Some(&[a, b, c, d, e, f]) => [short_of([a, b]), short_of([c, d]), short_of([e, f])],
         None => [0; 3],
     }
 }

@@ -27,7 +27,7 @@ pub fn box_entries(
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     return super::entry_lanes::keys(&planes, count, parent_bound, limit);
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-    planes.keys(count, [parent_bound, limit].map(f32::to_bits))
+    planes.keys(count, [parent_bound.to_bits(), limit.to_bits()])
 }
 
 /// Pushes the children of a node whose boxes the segment enters.

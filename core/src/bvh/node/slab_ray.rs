@@ -112,7 +112,10 @@ impl<'a> SlabPlanes<'a> {
         // Eight rows, so that `& 7` needs no bounds check. Rows 6 and 7 are never chosen.
         let rows = record.as_chunks::<WIDTH>().0.first_chunk::<8>()?;
         let words = record.as_chunks::<4>().0.get(boxes::ORIGIN / 4..)?.first_chunk::<6>()?;
-        let [ox, oy, oz, ux, uy, uz] = words.map(f32::from_le_bytes);
+        // Not by `map`: the compiler does not inline that at `opt-level = "s"`.
+        let float = |axis: usize| f32::from_le_bytes(words[axis]);
+        let [ox, oy, oz] = [float(0), float(1), float(2)];
+        let [ux, uy, uz] = [float(3), float(4), float(5)];
         let along = |axis: usize, origin: f32, unit: f32| {
             let (enter, leave, step) = ray.axis(axis, origin, unit);
             let row = ray.near[axis];

@@ -167,11 +167,15 @@ fn set_coarse(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPoi
     }
 }
 
-/// Sets the axes of any frame. Its planes, in steps that are no finer than a key unit.
+/// Sets the axes of any frame, and its planes in steps that are no finer than a key unit.
 #[cold]
 #[inline(never)]
-fn fine_planes(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPoint) -> PlaneWords {
-    let mut words = [[0; 4]; PLANE_WORDS];
+fn set_fine(
+    axes: &mut [AxisPlanes; 3],
+    words: &mut PlaneWords,
+    record: &[u8; FRAME_BYTES],
+    p: &KeyPoint,
+) {
     let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
     let (rows, _) = entries.as_chunks::<3>();
     let (planes, _) = record.as_chunks::<{ 2 * WIDTH }>();
@@ -187,21 +191,21 @@ fn fine_planes(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPo
             *cut = plane >> (shift.saturating_sub(8) & 7);
         }
     }
-    words
 }
 
 /// Squared distances of the children from the point, in squares of key units.
 #[inline(always)]
 fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH] {
     let mut squares = [ABSENT; WIDTH];
-    let (mut axes, fine);
+    let (mut axes, mut fine);
     let words: &[[u8; 4]] = if let Some(steps) = coarse_steps(record, p) {
         axes = [AxisPlanes::NONE; 3];
         set_coarse(&mut axes, record, p, steps);
         record.as_chunks::<4>().0
     } else {
         axes = [AxisPlanes::NONE; 3];
-        fine = fine_planes(&mut axes, record, p);
+        fine = [[0; 4]; PLANE_WORDS];
+        set_fine(&mut axes, &mut fine, record, p);
         &fine
     };
     let (fours, _) = squares.as_chunks_mut::<4>();

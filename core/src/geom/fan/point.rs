@@ -87,57 +87,81 @@ impl PointFan {
     #[inline(always)]
     pub fn triangle_and_residual(&self, a: &SpokeTerms, b: &SpokeTerms) -> (Nearness, Vec3) {
         let s = self.s;
-        let (d1, d2) = (a.along, b.along);
-        if d1 <= 0.0 && d2 <= 0.0 {
-            let distance_sq = self.centre_sq;
-            return (Nearness { distance_sq, lower_bound_sq: distance_sq, v: 0.0, w: 0.0 }, s);
-        }
-        let (aa, cc) = (a.length_sq, b.length_sq);
-        let bb = dot(a.edge, b.edge);
-        let (d3, d4, d5, d6) = (d1 - aa, d2 - bb, d1 - bb, d2 - cc);
-        let (nv, nw, den);
-        if d3 >= 0.0 && d4 <= d3 {
-            (nv, nw, den) = (1.0, 0.0, 1.0);
-        } else if d6 >= 0.0 && d5 <= d6 {
-            (nv, nw, den) = (0.0, 1.0, 1.0);
-        } else {
-            let vc = d1 * d4 - d3 * d2;
-            let vb = d5 * d2 - d1 * d6;
-            let least;
-            if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-                (nv, nw, least) = (d1, 0.0, aa);
-            } else if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-                (nv, nw, least) = (0.0, d2, cc);
-            } else {
-                let va = d3 * d6 - d5 * d4;
-                let (e, g) = (d4 - d3, d5 - d6);
-                if va <= 0.0 && e >= 0.0 && g >= 0.0 {
-                    (nv, nw, least) = (g, e, e + g);
-                } else {
-                    // A coordinate that rounding made negative counts as 0: the point must lie on
-                    // the triangle.
-                    let (pa, pb, pc) = (greater(0.0, va), greater(0.0, vb), greater(0.0, vc));
-                    (nv, nw, least) = (pb, pc, pa + pb + pc);
-                }
-            }
-            // A part of a triangle that f32 cannot tell from a point. The dividend is smaller
-            // still.
-            den = greater(LEAST_DENOMINATOR, least);
-        }
-        let inverse = 1.0 / den;
-        let (v, w) = (nv * inverse, nw * inverse);
-        let r = residual(s, a.edge, b.edge, v, w);
-        let distance_sq = dot(r, r);
-        let (ra, rb) = (dot(r, a.edge), dot(r, b.edge));
-        let support = greater(greater(0.0, ra), rb);
-        let slack = support - (v * ra + w * rb);
-        (Nearness { distance_sq, lower_bound_sq: distance_sq - (slack + slack), v, w }, r)
+        triangle_of_numbers(
+            (s.x, s.y),
+            (s.z, self.centre_sq),
+            (a.edge.x, a.edge.y),
+            (a.edge.z, a.along),
+            (b.edge.x, b.edge.y),
+            (b.edge.z, b.along),
+            (a.length_sq, b.length_sq),
+        )
     }
 }
 
+/// [`PointFan::triangle_and_residual`]. Where code is to be small all share it: numbers in pairs are
+/// passed in registers, records are not.
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
+fn triangle_of_numbers(
+    (sx, sy): (f32, f32),
+    (sz, centre_sq): (f32, f32),
+    (ex, ey): (f32, f32),
+    (ez, d1): (f32, f32),
+    (gx, gy): (f32, f32),
+    (gz, d2): (f32, f32),
+    (aa, cc): (f32, f32),
+) -> (Nearness, Vec3) {
+    let (s, first, second) = (Vec3::new(sx, sy, sz), Vec3::new(ex, ey, ez), Vec3::new(gx, gy, gz));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        let distance_sq = centre_sq;
+        return (Nearness { distance_sq, lower_bound_sq: distance_sq, v: 0.0, w: 0.0 }, s);
+    }
+    let bb = dot(first, second);
+    let (d3, d4, d5, d6) = (d1 - aa, d2 - bb, d1 - bb, d2 - cc);
+    let (nv, nw, den);
+    if d3 >= 0.0 && d4 <= d3 {
+        (nv, nw, den) = (1.0, 0.0, 1.0);
+    } else if d6 >= 0.0 && d5 <= d6 {
+        (nv, nw, den) = (0.0, 1.0, 1.0);
+    } else {
+        let vc = d1 * d4 - d3 * d2;
+        let vb = d5 * d2 - d1 * d6;
+        let least;
+        if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+            (nv, nw, least) = (d1, 0.0, aa);
+        } else if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+            (nv, nw, least) = (0.0, d2, cc);
+        } else {
+            let va = d3 * d6 - d5 * d4;
+            let (e, g) = (d4 - d3, d5 - d6);
+            if va <= 0.0 && e >= 0.0 && g >= 0.0 {
+                (nv, nw, least) = (g, e, e + g);
+            } else {
+                // A coordinate that rounding made negative counts as 0: the point must lie on
+                // the triangle.
+                let (pa, pb, pc) = (greater(0.0, va), greater(0.0, vb), greater(0.0, vc));
+                (nv, nw, least) = (pb, pc, pa + pb + pc);
+            }
+        }
+        // A part of a triangle that f32 cannot tell from a point. The dividend is smaller
+        // still.
+        den = greater(LEAST_DENOMINATOR, least);
+    }
+    let inverse = 1.0 / den;
+    let (v, w) = (nv * inverse, nw * inverse);
+    let r = residual(s, first, second, v, w);
+    let distance_sq = dot(r, r);
+    let (ra, rb) = (dot(r, first), dot(r, second));
+    let support = greater(greater(0.0, ra), rb);
+    let slack = support - (v * ra + w * rb);
+    (Nearness { distance_sq, lower_bound_sq: distance_sq - (slack + slack), v, w }, r)
+}
+
 /// [`PointFan::triangle`] as a call, for questions with few triangles: no second copy of the
-/// kernel.
-#[inline(never)]
+/// kernel. Where code is to be small the kernel is a call already.
+#[cfg_attr(meshsweep_small, inline(always))]
+#[cfg_attr(not(meshsweep_small), inline(never))]
 pub fn lone_triangle(fan: &PointFan, a: &SpokeTerms, b: &SpokeTerms) -> Nearness {
     fan.triangle(a, b)
 }
@@ -161,11 +185,6 @@ pub fn refined(&[s, e, g]: &[Vec3; 3], near: &Nearness) -> Nearness {
             *in_plane = (v, w);
         }
     }
-    let share = |from: Vec3, edge: Vec3| {
-        let along = greater(0.0, dot(from, edge));
-        let share = along / greater(LEAST_DENOMINATOR, dot(edge, edge));
-        if share < 1.0 { share } else { 1.0 }
-    };
     on_first.0 = share(s, e);
     *on_second = (0.0, share(s, g));
     let w = share(s - e, g - e);
@@ -179,6 +198,15 @@ pub fn refined(&[s, e, g]: &[Vec3; 3], near: &Nearness) -> Nearness {
         }
     }
     best
+}
+
+/// The place along an edge that is nearest to a point, which is `from` its begin.
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
+fn share(from: Vec3, edge: Vec3) -> f32 {
+    let along = greater(0.0, dot(from, edge));
+    let share = along / greater(LEAST_DENOMINATOR, dot(edge, edge));
+    if share < 1.0 { share } else { 1.0 }
 }
 
 #[inline(always)]
@@ -199,12 +227,19 @@ fn normal(e: Vec3, g: Vec3) -> Vec3 {
     if !e.to_array().into_iter().chain(g.to_array()).all(is_whole) {
         return cross(e, g);
     }
-    let product = |a: f32, b: f32| i64::from(a as i32) * i64::from(b as i32);
     Vec3::new(
-        (product(e.y, g.z) - product(e.z, g.y)) as f32,
-        (product(e.z, g.x) - product(e.x, g.z)) as f32,
-        (product(e.x, g.y) - product(e.y, g.x)) as f32,
+        whole_difference((e.y, g.z), (e.z, g.y)),
+        whole_difference((e.z, g.x), (e.x, g.z)),
+        whole_difference((e.x, g.y), (e.y, g.x)),
     )
+}
+
+/// The difference of two products of whole numbers, rounded once.
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
+fn whole_difference((a, b): (f32, f32), (c, d): (f32, f32)) -> f32 {
+    let product = |a: f32, b: f32| i64::from(a as i32) * i64::from(b as i32);
+    (product(a, b) - product(c, d)) as f32
 }
 
 /// All triangles of a leaf, in order. `s` gives the point less the first or the second centre,

@@ -82,7 +82,8 @@ impl Side {
     /// different numbers the difference is never 0.
     #[inline(always)]
     fn signs(self) -> [i32; 2] {
-        [self.doubt - self.area, self.doubt + self.area].map(|x| x.to_bits().cast_signed())
+        let bits = |x: f32| x.to_bits().cast_signed();
+        [bits(self.doubt - self.area), bits(self.doubt + self.area)]
     }
 }
 
@@ -105,7 +106,8 @@ impl FanRay {
         surface: f32,
         size: f32,
     ) -> Self {
-        let [x, y, z] = direction.map(f32::abs);
+        let [x, y, z] = direction;
+        let (x, y, z) = (x.abs(), y.abs(), z.abs());
         let first = if x >= y { 0 } else { 1 };
         let more = if x >= y { x } else { y };
         let axis = if more >= z { first } else { 2usize };
@@ -163,7 +165,8 @@ impl FanRay {
     /// Three values, one for each axis, in the order of [`axes`](Self::axes).
     #[inline(always)]
     pub fn in_order<T: Copy>(&self, values: [T; 3]) -> [T; 3] {
-        self.axes.map(|axis| pick(values, axis))
+        let [u, v, w] = self.axes;
+        [pick(values, u), pick(values, v), pick(values, w)]
     }
 
     /// The shadow of a vertex.
