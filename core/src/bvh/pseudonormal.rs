@@ -220,6 +220,7 @@ impl<F: FnMut(&FanLeaf<'_>, usize, f32)> LeafVisitor for Star<'_, F> {
 }
 
 /// Whether a normal is finite, and so large that underflow and cancellation leave it a direction.
+#[cfg_attr(meshsweep_small, inline(never))]
 fn is_sound(normal: Vec3, size: Vec3) -> bool {
     norm_1(size) > TRUSTED_DIRECTION_SQ && normal.abs().max_element() > 64.0 * U32 * norm_1(size)
 }

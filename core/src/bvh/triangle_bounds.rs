@@ -11,7 +11,8 @@ use glam::Vec3;
 
 /// The distance of a triangle: as computed, or refined if its lower bound falls far short of it.
 /// The result depends on the triangle and the query alone, so that all questions agree.
-#[inline(always)]
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
 pub(crate) fn refine_sliver(query: &PointQuery, seen: &[Vec3; 3], near: Nearness) -> Nearness {
     if near.lower_bound_sq >= query.refine_below(near.distance_sq) {
         return near;
@@ -148,7 +149,8 @@ pub(crate) fn is_certified(distance_sq: f32, lower_bound_sq: f32) -> bool {
 
 /// Lower bound of a triangle's distance, grid units. [`PointQuery::lower`] then subtracts the
 /// rounding.
-#[inline]
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline)]
 pub(crate) fn lower_of(
     leaf: &FanLeaf<'_>,
     lane: usize,

@@ -52,7 +52,8 @@ impl ViewedSide {
 }
 
 /// How triangle `lane` faces the query's point, from which it is `seen` so by [`seen_from`].
-#[inline(always)]
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
 pub(crate) fn viewed_side(
     query: &PointQuery,
     leaf: &FanLeaf<'_>,
