@@ -94,7 +94,12 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
-        search_by_entries(self, point, hint, &budget, scratch)
+        if cfg!(any(target_arch = "x86_64", target_arch = "aarch64")) {
+            search_by_entries(self, point, hint, &budget, scratch)
+        } else {
+            // The same, in the copy that other questions share.
+            search(self, point, hint, &budget, scratch)
+        }
     }
 
     /// [`closest_point`](Bvh::closest_point) that looks at the leaf of `hint` first and leaves its
