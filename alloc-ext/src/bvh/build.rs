@@ -43,8 +43,6 @@ pub struct TreeOptions {
     pub is_f32: bool,
     /// Whether to store vertices in f32 if the grid is too coarse or loses sides: see [`WhyF32`].
     pub allows_f32: bool,
-    /// Whether to save bytes where that costs instructions: 5 % more of these save 5 %, as a rule.
-    pub fewer_bytes: bool,
 }
 
 /// Why vertices are stored in f32 although [`TreeOptions::is_f32`] is not set.
@@ -70,7 +68,6 @@ impl Default for TreeOptions {
             winding: false,
             is_f32: false,
             allows_f32: false,
-            fewer_bytes: false,
         }
     }
 }
@@ -125,12 +122,6 @@ impl TreeOptions {
     #[must_use]
     pub const fn with_f32_allowed(self, allows_f32: bool) -> Self {
         Self { allows_f32, ..self }
-    }
-
-    /// Sets whether [fewer bytes](Self::fewer_bytes) are preferred.
-    #[must_use]
-    pub const fn with_fewer_bytes(self, fewer_bytes: bool) -> Self {
-        Self { fewer_bytes, ..self }
     }
 }
 

@@ -6,26 +6,25 @@ use crate::counted::Counted;
 use meshsweep_core::internal::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES, LINK_BYTES};
 use std::fmt;
 
-/// Most triangles of a mesh whose cells are chosen by their cost. The choice takes four times as
-/// long as packing.
+/// Most triangles of a mesh whose cells are chosen by their cost. The choice takes about five times
+/// as long as packing.
 const MOST_CHOSEN: usize = 1 << 19;
 
 /// Triangles of a cell at most, where no cost chooses.
 const CELL: usize = 128;
 
-/// Triangles of the largest cells, and the weight of bytes, for a tree of few instructions.
+/// Triangles of the largest cells, and the weight of bytes.
 const FAST: (usize, f64) = (256, 1.0);
-/// The same for a tree of few bytes, and for winding numbers: they count the triangles of all nodes
-/// that they open, so they gain from full leaves and few nodes.
-const SMALL: (usize, f64) = (2048, 4.0);
+/// The same for winding numbers: they count the triangles of all nodes that they open, so they gain
+/// from full leaves and few nodes.
+const FULL: (usize, f64) = (2048, 4.0);
 
 /// The packing of a tree that is stored.
 pub(super) fn of_stored(options: &TreeOptions, triangles: usize, is_f32: bool) -> Packing {
     if triangles > MOST_CHOSEN {
         return quick();
     }
-    let (largest, weight_of_bytes) =
-        if options.fewer_bytes || options.winding { SMALL } else { FAST };
+    let (largest, weight_of_bytes) = if options.winding { FULL } else { FAST };
     let sections = [
         (true, LINK_BYTES),
         (options.stores_frames(), FRAME_BYTES),

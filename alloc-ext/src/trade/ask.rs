@@ -66,12 +66,14 @@ pub(super) fn ask(
             let of = Of { budget, shape: Shape::of_tree(&tree), scratch };
             match setting.how {
                 How::Fresh => twice(points, &of, |p| {
-                    tree.closest_point(p, budget, &mut stack).map(of_closest)
+                    let mut none = Hint::NONE;
+                    tree.closest_point_in_order(p, &mut none, budget, &mut stack).map(of_closest)
                 }),
                 How::Hinted => {
                     let mut hint = Hint::NONE;
                     twice(points, &of, |p| {
-                        tree.closest_point_from(p, &mut hint, budget, &mut stack).map(of_closest)
+                        let near = tree.closest_point_in_order(p, &mut hint, budget, &mut stack);
+                        near.map(of_closest)
                     })
                 }
                 How::Precise => twice(points, &of, |p| {

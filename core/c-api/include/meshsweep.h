@@ -201,7 +201,8 @@ typedef struct {
     float upper;
 } msw_interval;
 
-/* The work of a question. The numbers are the same on every target: choose budgets on the host. */
+/* The work of a question. The numbers are the same on every target, but for an exact closest
+ * point: processors with vector registers visit nodes in another order. */
 typedef struct {
     uint32_t nodes;     /* boxes tested */
     uint32_t triangles; /* triangles tested in float */

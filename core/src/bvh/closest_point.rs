@@ -85,9 +85,11 @@ impl Bvh<'_> {
         search(self, point, &mut Hint::NONE.clone(), &budget, scratch)
     }
 
-    /// [`closest_point_from`](Bvh::closest_point_from) with the same `work` on every target.
+    /// [`closest_point_from`](Bvh::closest_point_from) with the same `work` on every target. The
+    /// builder predicts the instructions of boards from it.
+    #[doc(hidden)]
     #[inline(always)]
-    pub(crate) fn closest_point_in_order(
+    pub fn closest_point_in_order(
         &self,
         point: [f32; 3],
         hint: &mut Hint,

@@ -1,5 +1,5 @@
 //! The descent of one tree from its root, for a point, a segment or a solid. Coherent queries,
-//! overlap and culling do not use it.
+//! overlap and culling do not use it, nor do exact closest points on vector targets (`block_walk`).
 //!
 //! The nearest child is followed at once. The other children within the limit go on a stack in the
 //! caller's memory, unsorted. Sorted children, or a heap, visit fewer nodes and take longer: they
@@ -20,7 +20,7 @@ pub(crate) use super::node::OpenedNode;
 use super::node::Pushed;
 use super::node::{CHILD_MASK, NO_CHILD};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use super::node::{WIDE, least_key, places_of_wanted};
+use super::node::{least_key, places_of_wanted};
 use crate::bvh::format::{Bvh, BvhChild, FanLeaf};
 use crate::geom::fan::WIDTH;
 use crate::num::lesser;
@@ -118,7 +118,7 @@ impl Stack<'_> {
     #[inline(always)]
     fn push_children(&mut self, node: u32, keys: &[u32; WIDTH], count: u32, limit: u32) -> u32 {
         let nearest = least_key(keys);
-        if WIDE && nearest > limit {
+        if nearest > limit {
             return nearest;
         }
         let free = self.entries.get_mut(self.used..);

@@ -9,8 +9,8 @@
 //! | `point_query`, `segment_query` | a point or a segment in grid units, ready for the descent |
 //! | `segment_start` | where a segment's line begins |
 //! | `model_box/` | a segment against the model's box |
-//! | `descent` | the descent of one tree, for a point or a segment |
-//! | `block_walk`, `prefetch` | the same on targets with vector registers |
+//! | `descent` | the descent of one tree, for a point, a segment or a solid |
+//! | `block_walk`, `prefetch` | that of an exact closest point, on targets with vector registers |
 //! | `point_questions`, `avx2` | closest points, compiled for the instructions of one processor |
 //! | `leaf_distance`, `triangle_bounds` | a point and the triangles of a leaf |
 //! | `leaf_plane` | without floating point: a plane behind which no triangle counts |

@@ -1,7 +1,8 @@
 //! Counters of the work of a query.
 
-/// The work of a query. The numbers are the same on every target, so a budget can be chosen on the
-/// host.
+/// The work of a query. The numbers are the same on every target, but for an exact closest point of
+/// a box tree: processors with vector registers visit its nodes in another order. `meshsweep trade`
+/// and `meshsweep worst` count in the order of boards.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]

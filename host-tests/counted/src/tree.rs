@@ -61,10 +61,15 @@ pub fn ask(counted: &Counted<'_>, question: &str, queries: usize) -> Result<Stri
 /// Closest points for AVX2.
 #[cfg(target_arch = "x86_64")]
 fn avx2() -> Result<PointQuestions, String> {
-    if !(is_x86_feature_detected!("avx2") && is_x86_feature_detected!("bmi2")) {
+    let has_all = is_x86_feature_detected!("avx2")
+        && is_x86_feature_detected!("bmi1")
+        && is_x86_feature_detected!("bmi2")
+        && is_x86_feature_detected!("lzcnt")
+        && is_x86_feature_detected!("popcnt");
+    if !has_all {
         return Err("this processor has no AVX2".to_owned());
     }
-    // SAFETY: every processor with AVX2 and BMI2 has the other features of the function.
+    // SAFETY: the processor has all features of the function's list.
     Ok(unsafe { PointQuestions::avx2() })
 }
 

@@ -11,7 +11,8 @@ use meshsweep::number::{About, Short};
 use meshsweep::trade::{self, Board, Shape};
 use meshsweep::worst::{Climb, Domain, Summit, climb};
 use meshsweep_core::{
-    Blob, Budget, Bvh, Curve, Facing, Hull, Interval, QueryError, ScratchEntry, TightHull, Work,
+    Blob, Budget, Bvh, Curve, Facing, Hint, Hull, Interval, QueryError, ScratchEntry, TightHull,
+    Work,
 };
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -171,7 +172,9 @@ impl Structure<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<(Interval, [f32; 3], Work), QueryError> {
         let near = match self {
-            Structure::Tree(tree) => tree.closest_point(point, budget, scratch)?,
+            Structure::Tree(tree) => {
+                tree.closest_point_in_order(point, &mut Hint::NONE.clone(), budget, scratch)?
+            }
             Structure::Hull(hull) => hull.closest_point(point, budget, scratch)?,
             Structure::Tight(hull) => hull.closest_point(point, budget, scratch)?,
             Structure::Curve(curve) => {

@@ -71,12 +71,19 @@ impl Lengths {
         let margin = ((surface + ALONG) >> shift).unsigned_abs() + 1;
         let short = |x: i32| x >> shift;
         let mut meets = most < -ALONG;
-        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-            let [m, n] = [short(self.m[i]), short(self.m[j])];
-            let [d, e] = [short(self.d[i]), short(self.d[j])];
-            let [h, k] = [short(self.extent[i]), short(self.extent[j])].map(i32::unsigned_abs);
+        let ([mx, my, mz], [dx, dy, dz], [hx, hy, hz]) = (self.m, self.d, self.extent);
+        // By value: at `opt-level = "s"` the compiler would keep a check of each index.
+        for planes in [
+            [[mx, my], [dx, dy], [hx, hy]],
+            [[my, mz], [dy, dz], [hy, hz]],
+            [[mz, mx], [dz, dx], [hz, hx]],
+        ] {
+            let [[m, n], [d, e], [h, k]] = planes;
+            let (m, n, d, e) = (short(m), short(n), short(d), short(e));
+            let (h, k) = (short(h).unsigned_abs(), short(k).unsigned_abs());
             let across = (m * e - n * d).unsigned_abs();
-            let [m, n, d, e] = [m, n, d, e].map(i32::unsigned_abs);
+            let (m, n, d, e) =
+                (m.unsigned_abs(), n.unsigned_abs(), d.unsigned_abs(), e.unsigned_abs());
             let error = FACTOR * (m + n + h + k + 2 * (margin + d + e) + 4 * FACTOR);
             let reach = h * e + k * d;
             if across > reach + margin * (d + e) + error {

@@ -37,6 +37,7 @@ impl Fraction {
         for axis in 0..3 {
             // A plane of a node is not farther than four times `far`.
             let exponent = |x: f32| (x.to_bits() >> 23 & 0xFF).cast_signed() - 126;
+            // That is 2 bits. A whole parameter must stay below 2^28: 26 are left.
             let bits = 26 - (exponent(inverse[axis]) + exponent(far[axis]));
             if bits < FEWEST_BITS {
                 fraction.steep |= 1 << axis;

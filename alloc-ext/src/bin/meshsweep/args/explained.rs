@@ -462,7 +462,7 @@ pub const TRADE: &str = "The guaranteed error is the width of an interval, which
     interval may be wider. The found error is the distance in f64, from all triangles, less the \
     lower end, which a caller uses that must keep clear; and the upper end less that \
     distance.\n\nInstructions of a Cortex-M4F and a Cortex-M0 are predicted from the nodes, \
-    triangles and splits of each query, which are the same on every target. The costs were fitted \
+    triangles and splits of each query, in the order in which boards search. The costs were fitted \
     to counts in an emulator; the errors of the prediction are printed below. Flash is the blob \
     without the library's code.\n\nThe first table has the settings that no other one beats in the \
     largest guaranteed error, the mean instructions of a Cortex-M4F and the bytes of flash \
