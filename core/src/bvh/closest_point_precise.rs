@@ -1,6 +1,7 @@
 //! The closest point in f64. Rounding in f32 leaves few triangles, mostly one or two, that may be
 //! the closest. A second descent measures these again.
 
+use super::closest_point::Hint;
 use super::descent::descend;
 use super::point_query::PointQuery;
 use super::stored_lengths::StoredLengths;
@@ -55,7 +56,8 @@ impl Bvh<'_> {
         let tree = self;
         let query = PointQuery::prepare(tree, point, &budget, scratch)?;
         let of_f32 = Budget::EXACT.with_steps(budget.steps);
-        let near = tree.closest_point(point, of_f32, scratch)?;
+        // In one order: the steps that are left decide whether the second descent ends.
+        let near = tree.closest_point_in_order(point, &mut Hint::NONE.clone(), of_f32, scratch)?;
         if near.ended != Ended::Exact || query.far {
             return Ok(near);
         }

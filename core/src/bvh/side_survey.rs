@@ -218,6 +218,8 @@ impl Survey<'_> {
 struct WaitingLeaf {
     /// That of its first triangle.
     place: TrianglePlace,
+    /// [`LeafVisit::key`].
+    key: u32,
     /// [`LeafNearest::low`].
     low: u32,
     /// [`LeafNearest::lower_bound_sq`].
@@ -278,12 +280,15 @@ impl Collector<'_> {
         limit: f32,
     ) -> bool {
         if self.waiting.is_full() {
-            self.waiting.retain(|leaf| leaf.lower_bound_sq <= limit);
+            // By keys, which are the same on every target.
+            let limit = self.query.key_limit(limit);
+            self.waiting.retain(|leaf| leaf.key <= limit);
         }
         let place = TrianglePlace::new(visit.node, visit.child, 0);
         let &LeafNearest { mut low, lower_bound_sq, .. } = near;
         let squares = self.squares.keep(known, &mut low, limit);
-        self.waiting.push(WaitingLeaf { place, low, lower_bound_sq, squares }).is_ok()
+        let key = visit.key;
+        self.waiting.push(WaitingLeaf { place, key, low, lower_bound_sq, squares }).is_ok()
     }
 }
 

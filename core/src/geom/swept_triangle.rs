@@ -151,7 +151,7 @@ fn is_beyond(Support { along, length_sq }: Support, limit: f32) -> bool {
     if along <= 0.0 || length_sq < TRUSTED_DIRECTION_SQ {
         return false;
     }
-    let (reached, allowed) = (along * along, limit * limit * length_sq);
+    let (reached, allowed) = (along * along, limit * (limit * length_sq));
     if allowed > TRUSTED_DIRECTION_SQ {
         if reached > allowed * NEAR_SQUARES {
             return true;

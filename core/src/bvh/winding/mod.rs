@@ -22,9 +22,11 @@ mod flux;
 mod moment_flux;
 mod search;
 
+use super::closest_point::Hint;
 use super::point_query::PointQuery;
 use super::signed_distance::SignedDistance;
 use crate::bvh::format::Bvh;
+
 use crate::query::{Budget, Ended, Interval, QueryError, ScratchEntry, Side, Undecided, Work};
 use search::{Search, side_of};
 
@@ -151,7 +153,9 @@ impl Bvh<'_> {
         }
         budget.check()?;
         let budget = Budget::EXACT.with_steps(budget.steps);
-        let mut closest = self.closest_point(point, budget, scratch)?;
+        // In one order: the steps that are left decide how far the winding number is known.
+        let mut hint = Hint::NONE;
+        let mut closest = self.closest_point_in_order(point, &mut hint, budget, scratch)?;
         let left = budget.steps.saturating_sub(closest.work.splits);
         let winding = self.winding_number(point, budget.with_steps(left), scratch)?;
         closest.work = closest.work.and(winding.work);
