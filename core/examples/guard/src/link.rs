@@ -10,8 +10,8 @@
 // take several times as much: core/docs/guide.md tells how to avoid it.
 //                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
 //   open tight hulls                3328 / 3072    3200 / 3136    3328 / 3072    3200 / 3008
-//   closest point of tight hulls    3392 / 3520    4224 / 4288    3392 / 3520    3968 / 3904
-//   within of tight hulls           3328 / 3392    4160 / 4288    3328 / 3392    3904 / 3904
+//   closest point of tight hulls    3328 / 3392    4416 / 4288    3328 / 3392    3968 / 3904
+//   within of tight hulls           3264 / 3264    4352 / 4288    3264 / 3264    3968 / 3968
 //
 // Distances are in the mesh's unit. Intervals hold of the mesh, not only of the stored surface.
 
