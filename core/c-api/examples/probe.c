@@ -71,7 +71,7 @@ int main(void)
     int32_t error = msw_open(&part, groove_bytes, GROOVE_BYTES);
     /* Few steps prove less, so the tip stops earlier. It is never too near. */
     if (error == MSW_OK) {
-        error = descend(3);
+        error = descend(2);
     }
     if (error == MSW_OK) {
         error = descend(16);

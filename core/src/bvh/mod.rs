@@ -12,7 +12,7 @@
 //! | `descent` | the descent of one tree, for a point, a segment or a solid |
 //! | `block_walk`, `prefetch` | that of an exact closest point, on targets with vector registers |
 //! | `point_questions`, `avx2` | closest points, compiled for the instructions of one processor |
-//! | `leaf_distance`, `triangle_bounds` | a point and the triangles of a leaf |
+//! | `leaf_distance`, `leaf_limit`, `triangle_bounds` | a point and the triangles of a leaf |
 //! | `leaf_plane` | without floating point: a plane behind which no triangle counts |
 //! | `leaf_squares` | without floating point: distances of triangles that are looked at again |
 //! | `triangle_place` | where a triangle lies, in one word |
@@ -68,6 +68,7 @@ pub mod format;
 mod front_facing;
 mod input_box;
 mod leaf_distance;
+mod leaf_limit;
 mod leaf_plane;
 mod leaf_squares;
 mod model_box;

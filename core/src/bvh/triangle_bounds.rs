@@ -1,6 +1,6 @@
 //! Bounds of single triangles of a leaf, for questions that look at triangles one by one.
 
-use super::leaf_distance::LeafLimit;
+use super::leaf_limit::LeafLimit;
 use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use crate::bvh::format::{FanLeaf, lanes_of};

@@ -1,0 +1,39 @@
+//! What limits the triangles of a leaf that a question looks at.
+
+use super::leaf_plane::LeafPlane;
+use super::point_query::PointQuery;
+
+/// What a triangle has to be near to count.
+#[derive(Clone, Copy)]
+pub(crate) struct LeafLimit {
+    /// A triangle that is farther than the root of this does not count.
+    pub(crate) distance_sq: f32,
+    /// Nor does a triangle behind this plane.
+    #[cfg_attr(
+        any(target_arch = "x86_64", target_arch = "aarch64"),
+        expect(dead_code, reason = "vector targets look at all lanes of a leaf")
+    )]
+    pub(crate) plane: LeafPlane,
+    /// [`PointQuery::allowance`], by which a triangle of a leaf limits the others; infinite if all
+    /// count.
+    pub(crate) allowance: f32,
+    /// Triangles whose squared lower bound is not above this are told, by [`low`](super::leaf_distance::LeafNearest::low). At
+    /// most [`EVERYTHING_SQ`](crate::num::tolerance::EVERYTHING_SQ): unused lanes have more.
+    pub(crate) low_sq: f32,
+}
+
+impl LeafLimit {
+    /// All triangles count.
+    pub(crate) const NONE: LeafLimit = LeafLimit {
+        distance_sq: f32::INFINITY,
+        plane: LeafPlane::NONE,
+        allowance: f32::INFINITY,
+        low_sq: 0.0,
+    };
+
+    /// Triangles whose squared lower bound is not above `low_sq` are told. Others may be left out.
+    #[inline(always)]
+    pub(crate) fn all_low(query: &PointQuery, low_sq: f32) -> LeafLimit {
+        LeafLimit { distance_sq: query.limit(low_sq), low_sq, ..LeafLimit::NONE }
+    }
+}
