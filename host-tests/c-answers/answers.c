@@ -131,7 +131,8 @@ static void points(const msw_model *model)
         msw_signed answer;
         fold_word((uint32_t)msw_signed_distance(model, point, budget_of(round), scratch,
                                                 scratch_of(round), &answer));
-        fold(&answer, sizeof answer);
+        fold(&answer, offsetof(msw_signed, closest));
+        fold_closest(&answer.closest);
     }
     end("signed_distance");
 

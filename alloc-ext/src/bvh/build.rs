@@ -19,8 +19,9 @@ use crate::progress::Watch;
 use glam::DVec3;
 use meshsweep_core::SectionKind;
 use meshsweep_core::internal::bvh::format::BvhHeader;
+use meshsweep_core::internal::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES, LINK_BYTES};
 use meshsweep_core::internal::bvh::format::layout::{
-    BVH_CLOSED, BVH_F32, BVH_SIDELESS, BVH_SIDES_LOST, BVH_TURNED, LINK_BYTES,
+    BVH_CLOSED, BVH_F32, BVH_SIDELESS, BVH_SIDES_LOST, BVH_TURNED,
 };
 use meshsweep_core::internal::geom::fan::WIDTH;
 use meshsweep_core::internal::num::up_to_f32;
@@ -106,6 +107,13 @@ impl TreeOptions {
     /// Whether the tree has boxes for distances.
     pub(super) const fn stores_frames(&self) -> bool {
         self.closest || !self.segments
+    }
+
+    /// Bytes of a node in the sections that hold links and boxes.
+    fn node_bytes(&self) -> usize {
+        let sections =
+            [(true, LINK_BYTES), (self.stores_frames(), FRAME_BYTES), (self.segments, BOXES_BYTES)];
+        sections.iter().filter(|(is, _)| *is).map(|(_, bytes)| bytes).sum()
     }
 
     const fn copies(&self) -> Copies {
@@ -221,7 +229,9 @@ pub(super) fn build_in(
     let effort = if is_quick { Effort::QUICK } else { Effort::FULL };
     let part = watch.part(0.0, PACKED);
     let packing = match purpose {
-        Purpose::Stored => packing::of_stored(options, mesh.triangles.len(), is_f32),
+        Purpose::Stored => {
+            packing::of_stored(options.node_bytes(), options.winding, mesh.triangles.len(), is_f32)
+        }
         _ => packing::quick(),
     };
     let packed = fans::pack(&mesh.triangles, &grid.positions, packing, effort, part)?;

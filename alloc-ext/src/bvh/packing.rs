@@ -1,9 +1,7 @@
 //! How large the cells are that leaves are packed in, and the report of the choice.
 
-use super::build::TreeOptions;
 use super::fans::{Cost, LeafBytes, Packed, Packing};
 use crate::counted::Counted;
-use meshsweep_core::internal::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES, LINK_BYTES};
 use std::fmt;
 
 /// Most triangles of a mesh whose cells are chosen by their cost. The choice takes about five times
@@ -19,18 +17,12 @@ const FAST: (usize, f64) = (256, 1.0);
 /// from full leaves and few nodes.
 const FULL: (usize, f64) = (2048, 4.0);
 
-/// The packing of a tree that is stored.
-pub(super) fn of_stored(options: &TreeOptions, triangles: usize, is_f32: bool) -> Packing {
+/// The packing of a tree that is stored, with so many bytes a node.
+pub(super) fn of_stored(node: usize, has_winding: bool, triangles: usize, is_f32: bool) -> Packing {
     if triangles > MOST_CHOSEN {
         return quick();
     }
-    let (largest, weight_of_bytes) = if options.winding { FULL } else { FAST };
-    let sections = [
-        (true, LINK_BYTES),
-        (options.stores_frames(), FRAME_BYTES),
-        (options.segments, BOXES_BYTES),
-    ];
-    let node = sections.iter().filter(|(is, _)| *is).map(|(_, bytes)| bytes).sum();
+    let (largest, weight_of_bytes) = if has_winding { FULL } else { FAST };
     let bytes = LeafBytes { node, coordinate: if is_f32 { 4 } else { 2 } };
     Packing::Cheapest { largest, weight_of_bytes, bytes }
 }

@@ -95,9 +95,9 @@ static int32_t run(void)
     print_line("answers with the bits of a fresh query: ", same, "");
     print_line("largest force: ", (uint32_t)largest, " mN");
     print_line("boxes tested: ", boxes, "");
-    print_line("  by fresh queries: ", fresh_boxes, "");
     print_line("triangles tested: ", triangles, "");
-    print_line("  by fresh queries: ", fresh_triangles, "");
+    print_line("cost: fresh queries tested ", fresh_boxes, " boxes");
+    print_line("cost: and ", fresh_triangles, " triangles");
     print_line("cost: a question took ", cost / questions, clock_unit);
     print_line("cost: a fresh one took ", fresh_cost / questions, clock_unit);
     return MSW_OK;

@@ -66,9 +66,9 @@ fn run() -> Result<(), QueryError> {
     println!("answers with the bits of a fresh query: {same}");
     println!("largest force: {} mN", largest as i32);
     println!("boxes tested: {}", work[0]);
-    println!("  by fresh queries: {}", fresh_work[0]);
     println!("triangles tested: {}", work[1]);
-    println!("  by fresh queries: {}", fresh_work[1]);
+    println!("cost: fresh queries tested {} boxes", fresh_work[0]);
+    println!("cost: and {} triangles", fresh_work[1]);
     println!("cost: a question took {} instructions", cost / questions);
     println!("cost: a fresh one took {} instructions", fresh_cost / questions);
     Ok(())
