@@ -121,7 +121,7 @@ impl LaneFrame {
             _mm256_shuffle_epi32::<0b01_01_01_01>(plane_factor),
         );
         let [x, y, z] = [sixteen::<0>(record), sixteen::<16>(record), sixteen::<32>(record)];
-        // What is not negative, of planes of 8 bits less the point.
+        // Planes of 8 bits less the point, or 0 where that is negative.
         let above = |bytes: __m128i, factor: __m256i, from: __m256i| {
             let high_bytes = _mm256_slli_epi16::<8>(_mm256_cvtepu8_epi16(bytes));
             let place = _mm256_mulhi_epu16(high_bytes, factor);

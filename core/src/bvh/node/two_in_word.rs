@@ -184,7 +184,8 @@ fn set_fine(
     let each = rows.iter().zip(&record[boxes::FRAME_EXPONENTS..]).zip(planes);
     for ((axis, cut), ((row, exponent), planes)) in axes.iter_mut().zip(cut).zip(each) {
         let AxisPlace { from, shift } = AxisPlace::of(row, offset, *exponent, p.unit_exponent());
-        // A byte stands for the high one of sixteen bits. What is not cut from it is its step.
+        // A byte stands for the high one of sixteen bits. `shift` cuts off the low ones, and the
+        // step is the unit of the byte after that.
         let step = 1 << 8u32.saturating_sub(shift);
         *axis = AxisPlanes::new(from, step, (0xFF00 >> shift) - MAX_DISTANCE);
         for (cut, plane) in cut.iter_mut().zip(planes) {
