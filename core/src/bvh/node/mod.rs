@@ -20,10 +20,10 @@
 //!
 //! | file | owns |
 //! | --- | --- |
-//! | `opened_node` | [`OpenedNode`], whose children are tested; the wanted ones of them |
+//! | `opened_node` | `OpenedNode`, whose children are tested; the wanted ones of them |
 //! | `keys` | a child's bound with its number in the low bits; the target's vector flag, least key, places on the stack |
 //! | `frame` | [`KeyPoint`], a point that is prepared for frames; units and rounding constants of the point test |
-//! | `grid_line` | [`GridLine`], a segment's line in integers, for targets without an FPU |
+//! | `grid_line` | `GridLine`, a segment's line in integers, for targets without an FPU |
 //! | `box_distances` | a point against eight boxes: the choice between `box_lanes` and `two_in_word` |
 //! | `box_lanes` | a point against eight boxes, in vector registers, frame included |
 //! | `box_avx2` | the same, and the least key, in registers of 256 bits |
