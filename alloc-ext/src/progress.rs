@@ -3,6 +3,7 @@
 use crate::error::BuildError;
 use rayon::prelude::*;
 use std::cell::{Cell, RefCell};
+use std::fmt;
 use std::ops::ControlFlow;
 
 /// What a callback of progress returns: nothing, or whether to go on.
@@ -23,25 +24,67 @@ impl Answer for ControlFlow<()> {
     }
 }
 
-/// A callback that gets the part of the work that is done, from 0 to 1, and tells whether to go on.
-/// Once it asks to end, it is not called again.
-pub(crate) struct Callback<F> {
+/// What a build is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Stage {
+    /// Reading and repairing the mesh.
+    Loading,
+    /// Edges collapse, for the hull hierarchy or the beginning of a tight hull.
+    Collapsing {
+        /// Faces that are gone.
+        done: usize,
+        /// Faces to go.
+        of: usize,
+    },
+    /// Distances of a hull hierarchy or a tight hull are certified.
+    Certifying,
+    /// The box tree.
+    BoxTree,
+    /// Triboxes.
+    Triboxes,
+    /// A tight hull's edges collapse against the mesh.
+    Shrinking {
+        /// Faces that are gone.
+        done: usize,
+        /// Faces to go.
+        of: usize,
+    },
+    /// A tight hull is polished.
+    Polishing {
+        /// Steps done.
+        done: usize,
+        /// Steps in all.
+        of: usize,
+    },
+    /// Curves.
+    Curve,
+    /// The blob is complete and was opened.
+    Done,
+}
+
+/// A callback that gets what is done and the part of the work that is done, from 0 to 1, and tells
+/// whether to go on. The part never falls. Once it asks to end, it is not called again.
+pub struct Callback<F> {
     show: RefCell<F>,
+    told: Cell<f64>,
     is_cancelled: Cell<bool>,
 }
 
 /// A callback without its type.
 trait Call {
     /// Whether to go on.
-    fn call(&self, at: f64) -> bool;
+    fn call(&self, stage: Stage, at: f64) -> bool;
 
     fn is_cancelled(&self) -> bool;
 }
 
-impl<F: FnMut(f64) -> bool> Call for Callback<F> {
-    fn call(&self, at: f64) -> bool {
+impl<A: Answer, F: FnMut(Stage, f64) -> A> Call for Callback<F> {
+    fn call(&self, stage: Stage, at: f64) -> bool {
         if !self.is_cancelled.get() {
-            self.is_cancelled.set(!(self.show.borrow_mut())(at));
+            self.told.set(self.told.get().max(at));
+            let answer = (self.show.borrow_mut())(stage, self.told.get());
+            self.is_cancelled.set(!answer.goes_on());
         }
         !self.is_cancelled.get()
     }
@@ -51,23 +94,32 @@ impl<F: FnMut(f64) -> bool> Call for Callback<F> {
     }
 }
 
-impl<F: FnMut(f64) -> bool> Callback<F> {
-    pub fn new(show: F) -> Self {
-        Self { show: RefCell::new(show), is_cancelled: Cell::new(false) }
+impl<A: Answer, F: FnMut(Stage, f64) -> A> Callback<F> {
+    /// Calls `show` on the thread that builds.
+    pub const fn new(show: F) -> Self {
+        Self { show: RefCell::new(show), told: Cell::new(0.0), is_cancelled: Cell::new(false) }
     }
 
     /// A watch over all of the work.
     pub fn watch(&self) -> Watch<'_> {
-        Watch { callback: Some(self), from: 0.0, to: 1.0 }
+        Watch { callback: Some(self), ..Watch::NONE }
     }
 }
 
 /// The caller's view of a part of the work. It stays on the thread that began the build.
 #[derive(Clone, Copy)]
-pub(crate) struct Watch<'a> {
+pub struct Watch<'a> {
     callback: Option<&'a dyn Call>,
+    stage: Stage,
     from: f64,
     to: f64,
+}
+
+impl fmt::Debug for Watch<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { stage, from, to, .. } = self;
+        write!(f, "Watch({stage:?}, {from} to {to})")
+    }
 }
 
 /// Items that are done in parallel between two calls.
@@ -78,25 +130,31 @@ const QUERIES: u32 = 256;
 
 impl Watch<'_> {
     /// Nobody watches.
-    pub const NONE: Watch<'static> = Watch { callback: None, from: 0.0, to: 1.0 };
+    pub const NONE: Watch<'static> =
+        Watch { callback: None, stage: Stage::Loading, from: 0.0, to: 1.0 };
 
     /// The view of the part of the work between two fractions of this one.
-    pub fn part(self, from: f64, to: f64) -> Self {
+    pub(crate) fn part(self, from: f64, to: f64) -> Self {
         let at = |fraction: f64| self.from + (self.to - self.from) * fraction;
-        Self { callback: self.callback, from: at(from), to: at(to) }
+        Self { from: at(from), to: at(to), ..self }
+    }
+
+    /// The same part, in which this is done.
+    pub(crate) fn during(self, stage: Stage) -> Self {
+        Self { stage, ..self }
     }
 
     /// Tells how much of this part is done; whether to go on.
-    pub fn goes_on(self, fraction: f64) -> bool {
+    pub(crate) fn goes_on(self, fraction: f64) -> bool {
         let at = self.from + (self.to - self.from) * fraction.clamp(0.0, 1.0);
-        self.callback.is_none_or(|callback| callback.call(at))
+        self.callback.is_none_or(|callback| callback.call(self.stage, at))
     }
 
     /// As [`goes_on`](Self::goes_on), for `done` of `all` steps.
     ///
     /// # Errors
     /// [`BuildError::Cancelled`].
-    pub fn step(self, done: usize, all: usize) -> Result<(), BuildError> {
+    pub(crate) fn step(self, done: usize, all: usize) -> Result<(), BuildError> {
         if self.goes_on(done as f64 / all.max(1) as f64) {
             Ok(())
         } else {
@@ -108,7 +166,7 @@ impl Watch<'_> {
     ///
     /// # Errors
     /// [`BuildError::Cancelled`].
-    pub fn check(self) -> Result<(), BuildError> {
+    pub(crate) fn check(self) -> Result<(), BuildError> {
         let is_cancelled = self.callback.is_some_and(|callback| callback.is_cancelled());
         if is_cancelled { Err(BuildError::Cancelled) } else { Ok(()) }
     }
@@ -117,7 +175,7 @@ impl Watch<'_> {
     ///
     /// # Errors
     /// [`BuildError::Cancelled`].
-    pub fn map<T: Send>(
+    pub(crate) fn map<T: Send>(
         self,
         count: usize,
         of: impl Fn(usize) -> T + Sync + Send,
@@ -136,7 +194,7 @@ impl Watch<'_> {
 
     /// A query that has no answer any more after the caller asked to end. `all` is about the number
     /// of queries.
-    pub fn asks<Q, T>(
+    pub(crate) fn asks<Q, T>(
         self,
         all: usize,
         mut query: impl FnMut(Q) -> Option<T>,

@@ -8,6 +8,7 @@ use meshsweep::bvh::{TreeOptions, build as build_tree};
 use meshsweep::cut::cut;
 use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{Blob as Opened, Hull, ScratchEntry};
 use meshsweep_suite::ask::{
@@ -167,8 +168,8 @@ fn whole(
 ) -> Result<Vec<u8>, String> {
     let mesh = Mesh::new(positions, triangles);
     let options = BuildOptions { base_faces, vertex_bits, ..BuildOptions::default() };
-    let built = build(mesh.as_input(), &options, |_| {}).map_err(|error| error.to_string())?;
-    Ok(built.bytes)
+    let built = build(mesh.as_input(), &options, Watch::NONE).map_err(|error| error.to_string())?;
+    Ok(built.0.to_bytes())
 }
 
 /// Writes each blob to `NAME.msw` and this machine's answers to `NAME.txt`, as an image prints

@@ -5,12 +5,13 @@ use std::fs;
 use std::path::Path;
 
 use meshsweep::bvh::{TreeOptions, build};
-use meshsweep::curve;
+use meshsweep::curve::{self, CurveOptions};
 use meshsweep::emit::source::{SourceNames, c_header, c_source, rust_module};
-use meshsweep::hull::{BuildOptions, build_deform, build_for_sweep};
+use meshsweep::hull::{self, BuildOptions, Levels};
 use meshsweep::mesh::{KeyFrame, Mesh};
-use meshsweep::tight::{ChainOptions, chain};
-use meshsweep::tribox::store;
+use meshsweep::progress::Watch;
+use meshsweep::tight::{self, ChainOptions};
+use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::Blob;
 use meshsweep_counted::answers;
 
@@ -60,7 +61,7 @@ pub fn write(folder: &Path) -> Result<(), String> {
 /// The file is missing.
 pub fn bracket_model(folder: &Path) -> Result<Vec<u8>, String> {
     let subject = workload::Subject::load(&folder.join("bracket.stl"))?;
-    Ok(subject.build_with(&BuildOptions::default())?.bytes)
+    subject.build_with(&BuildOptions::default())
 }
 
 /// The hierarchy for sweeps of a small torus with a hole in place of every fifth triangle.
@@ -73,8 +74,8 @@ pub fn torus_sieve() -> Vec<u8> {
     let mut number = 0u32..;
     triangles.retain(|_| number.next().is_some_and(|n| n % 5 != 3));
     let mesh = Mesh::new(positions, triangles);
-    let options = BuildOptions { base_faces: 50, ..BuildOptions::default() };
-    build_for_sweep(mesh.as_input(), &options, |_| ()).expect("an area").bytes
+    let options = BuildOptions { levels: Levels::Sweep, base_faces: 50, ..BuildOptions::default() };
+    hull::build(mesh.as_input(), &options, Watch::NONE).expect("an area").0.to_bytes()
 }
 
 /// What `meshsweep build --emit rust,c` writes of the models of guide and examples, and of each the
@@ -126,7 +127,7 @@ pub fn link_hull() -> Vec<u8> {
     let (positions, triangles) = link();
     let mesh = Mesh::new(positions, triangles);
     let options = ChainOptions::of_faces(&[40]);
-    let (tables, _) = chain(mesh.as_input(), &options, |_| {}).expect("room around it");
+    let (tables, _) = tight::build(mesh.as_input(), &options, Watch::NONE).expect("room around it");
     tables.to_bytes()
 }
 
@@ -148,7 +149,8 @@ pub fn groove_tree() -> Vec<u8> {
 pub fn torus_triboxes() -> Vec<u8> {
     let (positions, triangles) = torus(2.0, 0.75, 48, 24);
     let mesh = Mesh::new(positions, triangles);
-    let (tables, _) = store(mesh.as_input(), 64).expect("in the domain");
+    let (tables, _) = tribox::build(mesh.as_input(), &TriboxOptions { count: 64 }, Watch::NONE)
+        .expect("in the domain");
     tables.to_bytes()
 }
 
@@ -162,7 +164,7 @@ pub fn bracket_hulls() -> Vec<u8> {
     let mesh = Mesh::new(positions, triangles);
     // Little polish: a test makes them again.
     let options = ChainOptions::of_faces(&[64, 160]).with_effort(0.1);
-    let (tables, _) = chain(mesh.as_input(), &options, |_| {}).expect("room around it");
+    let (tables, _) = tight::build(mesh.as_input(), &options, Watch::NONE).expect("room around it");
     tables.to_bytes()
 }
 
@@ -177,8 +179,9 @@ pub fn bending_torus() -> Vec<u8> {
     let bent = |&[x, y, z]: &[f32; 3]| [x, 0.5 * y, z + 0.25 * x * x];
     let frame = KeyFrame { positions: positions.iter().map(bent).collect(), rounding: 0.0 };
     let mesh = Mesh::new(positions, triangles);
-    let options = BuildOptions { base_faces: 48, ..BuildOptions::default() };
-    build_deform(mesh.as_input(), &[frame], &options, |_| ()).expect("a solid").bytes
+    let levels = Levels::Deform(&[frame]);
+    let options = BuildOptions { levels, base_faces: 48, ..BuildOptions::default() };
+    hull::build(mesh.as_input(), &options, Watch::NONE).expect("a solid").0.to_bytes()
 }
 
 /// The fence of the fixtures, on a grid.
@@ -187,7 +190,8 @@ pub fn bending_torus() -> Vec<u8> {
 /// Never: its coordinates are finite.
 #[must_use]
 pub fn fence_curves() -> Vec<u8> {
-    curve::store(&fence(), false).expect("finite").0.to_bytes()
+    let options = CurveOptions::default();
+    curve::build(&fence(), &options, Watch::NONE).expect("finite").0.to_bytes()
 }
 
 /// A tool path of 2,000 segments, on a grid.
@@ -196,5 +200,6 @@ pub fn fence_curves() -> Vec<u8> {
 /// Never: its coordinates are finite.
 #[must_use]
 pub fn tool_path_curve() -> Vec<u8> {
-    curve::store(&[tool_path(2000)], false).expect("finite").0.to_bytes()
+    let options = CurveOptions::default();
+    curve::build(&[tool_path(2000)], &options, Watch::NONE).expect("finite").0.to_bytes()
 }

@@ -12,8 +12,9 @@ use std::path::Path;
 
 use glam::{DMat3, DVec3};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep::tight::hull_mesh;
-use meshsweep::tribox::store;
+use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::{TightHulls, Triboxes};
 
 use crate::workload::Subject;
@@ -62,8 +63,9 @@ pub fn part(fixtures: &Path) -> Result<String, String> {
     let bytes = fs::read(fixtures.join("hulls.msw")).map_err(|error| error.to_string())?;
     let hulls = TightHulls::open(&bytes).map_err(|error| error.to_string())?;
     let hull = hull_mesh(&hulls.get(0).ok_or("no hull in hulls.msw")?);
-    let tables = store(subject.mesh.as_input(), TRIBOXES).map_err(|error| error.to_string())?.0;
-    let bytes = tables.to_bytes();
+    let options = TriboxOptions { count: TRIBOXES };
+    let built = tribox::build(subject.mesh.as_input(), &options, Watch::NONE);
+    let bytes = built.map_err(|error| error.to_string())?.0.to_bytes();
     let triboxes = Triboxes::open(&bytes).map_err(|error| error.to_string())?;
     let mut walls = Vec::new();
     for (_, tribox) in triboxes.leaves() {

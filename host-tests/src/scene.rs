@@ -1,8 +1,9 @@
 //! Meshes as they were given, with their blobs, and places to put queries.
 
 use meshsweep::bvh::{TreeOptions, build as build_tree};
-use meshsweep::hull::{BuildOptions, build as build_hull, build_for_sweep};
+use meshsweep::hull::{BuildOptions, Levels, build as build_hull};
 use meshsweep::mesh::{Mesh, RawMesh, repair, require_closed_manifold};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Bvh, Hull};
 
 use crate::generate::corpus::add;
@@ -40,12 +41,13 @@ impl Scene {
     /// # Panics
     /// The mesh is not closed.
     #[must_use]
-    pub fn hull(name: impl Into<String>, mesh: Triangles, options: &BuildOptions) -> Self {
+    pub fn hull(name: impl Into<String>, mesh: Triangles, options: &BuildOptions<'_>) -> Self {
         let mut scene = Self::new(name, mesh);
         let raw = RawMesh::from_f32(&scene.positions, &scene.triangles);
         let (repaired, _) = repair(raw).expect("a sound mesh");
         require_closed_manifold(&repaired).expect("a closed mesh");
-        scene.bytes = build_hull(repaired.as_input(), options, |_| ()).expect("builds").bytes;
+        let built = build_hull(repaired.as_input(), options, Watch::NONE);
+        scene.bytes = built.expect("builds").0.to_bytes();
         scene
     }
 
@@ -54,13 +56,14 @@ impl Scene {
     /// # Panics
     /// The mesh has no area.
     #[must_use]
-    pub fn sweep(name: impl Into<String>, mesh: Triangles, options: &BuildOptions) -> Self {
+    pub fn sweep(name: impl Into<String>, mesh: Triangles, options: &BuildOptions<'_>) -> Self {
         let mut scene = Self::new(name, mesh);
         let raw = RawMesh::from_f32(&scene.positions, &scene.triangles);
         let (repaired, _) = repair(raw).expect("a sound mesh");
         scene.has_wires = !repaired.wires.is_empty();
-        let built = build_for_sweep(repaired.as_input(), options, |_| ());
-        scene.bytes = built.expect("builds").bytes;
+        let options = options.with_levels(Levels::Sweep);
+        let built = build_hull(repaired.as_input(), &options, Watch::NONE);
+        scene.bytes = built.expect("builds").0.to_bytes();
         scene
     }
 

@@ -3,20 +3,17 @@
 use super::built::Built;
 use super::notes::{Note, of_blob, of_curve, of_mesh};
 use super::options::{self, For, Options, Subject};
-use super::stage::{OnProgress, Progress, Stage, of_tight};
 use crate::bvh::{self, TreeOptions, TreeReport};
-use crate::collapse;
-use crate::curve::{self, Polyline, read_csv};
+use crate::curve::{self, CurveOptions, Polyline, read_csv};
 use crate::emit::{self, Sections};
-use crate::error::{BuildError, CurveError};
-use crate::hull;
+use crate::error::BuildError;
+use crate::hull::{self, BuildReport, Levels};
 use crate::load::{Loaded, Source, bytes_of};
 use crate::mesh::{KeyFrame, RawMesh, Unit};
-use crate::progress::Callback;
+use crate::progress::{Stage, Watch};
 use crate::surface::VertexBits;
 use crate::tight::{self, HullReport, Tightness};
-use crate::tribox::{self, TriboxReport};
-use std::ops::ControlFlow::{Break, Continue};
+use crate::tribox::{self, TriboxOptions, TriboxReport};
 use std::path::{Path, PathBuf};
 
 /// What a blob is built from.
@@ -41,15 +38,12 @@ const TRIBOXES: f64 = 10.0;
 /// Of all tight hulls together.
 const TIGHT: f64 = 40.0;
 
-/// The part of a hull hierarchy's build in which edges collapse.
-const COLLAPSING: f64 = 0.7;
-
 /// Builds a blob.
 pub(super) fn build(
     input: Input<'_>,
     options: &Options,
     frames: Vec<Frame>,
-    on_progress: Option<&mut OnProgress<'_>>,
+    watch: Watch<'_>,
 ) -> Result<Built, BuildError> {
     let subject = match input {
         Input::File(file) => Subject::File(file),
@@ -64,41 +58,54 @@ pub(super) fn build(
         (options.serves(For::Triboxes), TRIBOXES),
         (options.serves(For::Tight), TIGHT),
     ];
-    let weight = weights.iter().filter(|(is_wanted, _)| *is_wanted).map(|(_, of)| of).sum();
-    let mut work = Work { options, progress: Progress::new(on_progress, weight) };
+    let whole = weights.iter().filter(|(is_wanted, _)| *is_wanted).map(|(_, of)| of).sum();
+    let mut work = Work { options, watch, done: 0.0, whole };
     let built = match input {
         Input::File(file) if options.is_curve(subject) => work.curve_of(file),
-        Input::Curves(polylines) => work.curves(Path::new("(memory)"), polylines),
+        Input::Curves(polylines) => work.curves(polylines),
         Input::File(file) => work.mesh(|unit| Source::of_file(file, unit), frames),
         Input::Mesh(mesh) => work.mesh(|unit| Source::of(*mesh, unit), frames),
     }?;
-    if work.progress.show(Stage::Done, 1.0) { Ok(built) } else { Err(BuildError::Cancelled) }
+    watch.during(Stage::Done).step(1, 1)?;
+    Ok(built)
 }
 
 /// The options of a build, and its progress.
-struct Work<'w, 'a> {
+struct Work<'w> {
     options: &'w Options,
-    progress: Progress<'w, 'a>,
+    watch: Watch<'w>,
+    /// Weight of the parts that are done, or are being done.
+    done: f64,
+    /// Weight of all parts.
+    whole: f64,
 }
 
 /// Sections with their report, if they are wanted.
 type Made<R> = Option<(Sections, R)>;
 
-impl Work<'_, '_> {
-    fn curve_of(&mut self, file: &Path) -> Result<Built, BuildError> {
-        let refused = |error: CurveError| BuildError::Curve { file: file.to_owned(), error };
-        let polylines = read_csv(&bytes_of(file)?, self.options.is_closed).map_err(refused)?;
-        self.curves(file, &polylines)
+impl<'w> Work<'w> {
+    /// Begins the next part.
+    fn begin(&mut self, weight: f64, stage: Stage) -> Result<Watch<'w>, BuildError> {
+        let from = self.done;
+        self.done += weight;
+        let part = self.watch.part(from / self.whole, self.done / self.whole).during(stage);
+        part.step(0, 1)?;
+        Ok(part)
     }
 
-    fn curves(&mut self, file: &Path, polylines: &[Polyline]) -> Result<Built, BuildError> {
-        self.progress.begin(LOADING);
-        let callback = Callback::new(|part| self.progress.show(Stage::Curve, part));
-        callback.watch().step(0, 1)?;
-        let made = curve::store_watched(polylines, self.options.is_f32(), callback.watch());
-        callback.watch().check()?;
-        let (sections, report) =
-            made.map_err(|error| BuildError::Curve { file: file.to_owned(), error })?;
+    fn curve_of(&mut self, file: &Path) -> Result<Built, BuildError> {
+        let of_file = |error| BuildError::Curve { file: file.to_owned(), error };
+        let polylines = read_csv(&bytes_of(file)?, self.options.is_closed).map_err(of_file)?;
+        self.curves(&polylines).map_err(|error| match error {
+            BuildError::Curve { error, .. } => of_file(error),
+            other => other,
+        })
+    }
+
+    fn curves(&mut self, polylines: &[Polyline]) -> Result<Built, BuildError> {
+        let options = CurveOptions { is_f32: self.options.is_f32() };
+        let watch = self.begin(LOADING, Stage::Curve)?;
+        let (sections, report) = curve::build(polylines, &options, watch)?;
         let mut built = Built::of(sections.to_bytes())?;
         built.notes.extend(of_curve(&report));
         built.curve = Some(report);
@@ -113,21 +120,18 @@ impl Work<'_, '_> {
         let options = self.options;
         self.begin(LOADING, Stage::Loading)?;
         let (loaded, frames) = load(options, read(options.unit)?, frames)?;
-        let hull = options.wants_hierarchy().then(|| self.hull(&loaded, frames.as_deref()));
-        let hull = hull.transpose()?;
+        let hull = self.hull(&loaded, frames.as_deref())?;
         let tree = self.tree(&loaded)?;
         let triboxes = self.triboxes(&loaded)?;
         let tight = self.tight(&loaded)?;
-        let hierarchy = hull.as_ref().map(|hull| hull.tables.sections());
         let structures = [
-            hierarchy.as_ref(),
-            hull.as_ref().and_then(|hull| hull.deform.as_ref()),
+            hull.as_ref().map(|(tables, _)| tables),
             tree.as_ref().map(|(tables, _)| tables),
             triboxes.as_ref().map(|(tables, _)| tables),
             tight.as_ref().map(|(tables, _)| tables),
         ];
         let mut built = Built::of(emit::assemble(structures.into_iter().flatten()))?;
-        built.hull = hull.map(|hull| hull.report);
+        built.hull = hull.map(|(_, report)| report);
         built.tree = tree.map(|(_, report)| report);
         built.triboxes = triboxes.map(|(_, report)| report);
         built.tight = tight.map(|(_, reports)| reports).unwrap_or_default();
@@ -139,32 +143,23 @@ impl Work<'_, '_> {
         Ok(built)
     }
 
-    /// Begins the next part.
-    fn begin(&mut self, weight: f64, stage: Stage) -> Result<(), BuildError> {
-        self.progress.begin(weight);
-        if self.progress.show(stage, 0.0) { Ok(()) } else { Err(BuildError::Cancelled) }
-    }
-
     fn hull(
         &mut self,
         loaded: &Loaded,
         frames: Option<&[KeyFrame]>,
-    ) -> Result<hull::Built, BuildError> {
-        let options = self.options.of_hull();
-        let faces = loaded.mesh.triangles.len();
-        let of = faces.saturating_sub(options.base_faces);
-        self.begin(HULL, Stage::Hull { done: 0, of })?;
-        let show = |progress: collapse::Progress| {
-            let done = faces.saturating_sub(progress.faces);
-            let part = COLLAPSING * done as f64 / of.max(1) as f64;
-            let goes_on = self.progress.show(Stage::Hull { done, of }, part.min(COLLAPSING));
-            if goes_on { Continue(()) } else { Break(()) }
-        };
-        match frames {
-            Some(frames) => hull::build_deform(loaded.input(), frames, &options, show),
-            None if self.options.wants_solid() => hull::build(loaded.input(), &options, show),
-            None => hull::build_for_sweep(loaded.input(), &options, show),
+    ) -> Result<Made<BuildReport>, BuildError> {
+        if !self.options.wants_hierarchy() {
+            return Ok(None);
         }
+        let levels = match frames {
+            Some(frames) => Levels::Deform(frames),
+            None if self.options.wants_solid() => Levels::Hulls,
+            None => Levels::Sweep,
+        };
+        let options = self.options.of_hull().with_levels(levels);
+        let of = loaded.mesh.triangles.len().saturating_sub(options.base_faces);
+        let watch = self.begin(HULL, Stage::Collapsing { done: 0, of })?;
+        hull::build(loaded.input(), &options, watch).map(Some)
     }
 
     fn tree(&mut self, loaded: &Loaded) -> Result<Made<TreeReport>, BuildError> {
@@ -172,7 +167,6 @@ impl Work<'_, '_> {
         if !wanted.wants_tree() {
             return Ok(None);
         }
-        self.begin(TREE, Stage::BoxTree)?;
         let options = TreeOptions::default()
             .with_closest(wanted.serves(For::Closest))
             .with_segments(wanted.serves(For::Segment))
@@ -180,18 +174,17 @@ impl Work<'_, '_> {
             .with_winding(wanted.serves(For::Winding))
             .with_f32(wanted.is_f32())
             .with_f32_allowed(wanted.vertex_bits == VertexBits::Auto);
-        let callback = Callback::new(|part| self.progress.show(Stage::BoxTree, part));
-        bvh::build_watched(loaded.input(), &options, callback.watch()).map(Some)
+        let watch = self.begin(TREE, Stage::BoxTree)?;
+        bvh::build_watched(loaded.input(), &options, watch).map(Some)
     }
 
     fn triboxes(&mut self, loaded: &Loaded) -> Result<Made<TriboxReport>, BuildError> {
         if !self.options.serves(For::Triboxes) {
             return Ok(None);
         }
-        self.begin(TRIBOXES, Stage::Triboxes)?;
         let count = self.options.triboxes.unwrap_or(options::TRIBOXES);
-        let callback = Callback::new(|part| self.progress.show(Stage::Triboxes, part));
-        tribox::store_watched(loaded.input(), count, callback.watch()).map(Some)
+        let watch = self.begin(TRIBOXES, Stage::Triboxes)?;
+        tribox::build(loaded.input(), &TriboxOptions { count }, watch).map(Some)
     }
 
     fn tight(&mut self, loaded: &Loaded) -> Result<Made<Vec<HullReport>>, BuildError> {
@@ -199,12 +192,8 @@ impl Work<'_, '_> {
         if !wanted.serves(For::Tight) {
             return Ok(None);
         }
-        self.begin(TIGHT, Stage::Tight(tight::Stage::Certifying))?;
-        let options = wanted.of_tight();
-        let made = tight::chain(loaded.input(), &options, |stage| {
-            let goes_on = self.progress.show(Stage::Tight(stage), of_tight(stage));
-            if goes_on { Continue(()) } else { Break(()) }
-        })?;
+        let watch = self.begin(TIGHT, Stage::Shrinking { done: 0, of: 0 })?;
+        let made = tight::build(loaded.input(), &wanted.of_tight(), watch)?;
         let Options { slack, void_percent: void, .. } = *wanted;
         let asked = Tightness { slack, void, by_faces: "--tight" };
         asked.require(made.1.iter().map(|report| &report.wrapped))?;

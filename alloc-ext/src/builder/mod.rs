@@ -9,13 +9,12 @@ mod built;
 mod notes;
 mod options;
 pub mod ranges;
-mod stage;
 
 use crate::collapse::CollapseOptions;
 use crate::curve::Polyline;
 use crate::error::BuildError;
 use crate::mesh::{RawMesh, Unit};
-use crate::progress::Answer;
+use crate::progress::{Answer, Callback, Watch};
 use crate::surface::VertexBits;
 use build::{Frame, Input};
 use options::{Options, Subject};
@@ -23,10 +22,10 @@ use std::fmt;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
+pub use crate::progress::Stage;
 pub use built::Built;
 pub use notes::{Note, Topic};
 pub use options::{FACES, For, TRIBOXES};
-pub use stage::Stage;
 
 /// Builds a blob in memory, with the program's options and defaults.
 ///
@@ -56,7 +55,7 @@ pub use stage::Stage;
 pub struct Builder<'a> {
     options: Options,
     frames: Vec<Frame>,
-    on_progress: Option<Box<stage::OnProgress<'a>>>,
+    on_progress: Option<Callback<Box<OnProgress<'a>>>>,
 }
 
 impl fmt::Debug for Builder<'_> {
@@ -65,6 +64,9 @@ impl fmt::Debug for Builder<'_> {
         f.debug_struct("Builder").field("options", options).field("frames", frames).finish()
     }
 }
+
+/// A callback of progress.
+type OnProgress<'a> = dyn FnMut(Stage, f64) -> ControlFlow<()> + 'a;
 
 /// One setter for an option.
 macro_rules! setters {
@@ -175,11 +177,11 @@ impl<'a> Builder<'a> {
         mut self,
         mut on_progress: impl FnMut(Stage, f64) -> A + 'a,
     ) -> Self {
-        self.on_progress =
-            Some(Box::new(move |stage, part| match on_progress(stage, part).goes_on() {
-                true => ControlFlow::Continue(()),
-                false => ControlFlow::Break(()),
-            }));
+        let show = move |stage, part| match on_progress(stage, part).goes_on() {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
+        };
+        self.on_progress = Some(Callback::new(Box::new(show)));
         self
     }
 
@@ -229,7 +231,8 @@ impl<'a> Builder<'a> {
         self.build_of(Input::Curves(polylines))
     }
 
-    fn build_of(mut self, input: Input<'_>) -> Result<Built, BuildError> {
-        build::build(input, &self.options, self.frames, self.on_progress.as_deref_mut())
+    fn build_of(self, input: Input<'_>) -> Result<Built, BuildError> {
+        let watch = self.on_progress.as_ref().map_or(Watch::NONE, Callback::watch);
+        build::build(input, &self.options, self.frames, watch)
     }
 }

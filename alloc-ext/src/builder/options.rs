@@ -147,7 +147,7 @@ impl Options {
         matches!(self.vertex_bits, VertexBits::Grid24 | VertexBits::F32)
     }
 
-    pub fn of_hull(&self) -> BuildOptions {
+    pub fn of_hull(&self) -> BuildOptions<'static> {
         BuildOptions {
             base_faces: self.base_faces() as usize,
             conditions: self.collapse.conditions(),

@@ -12,22 +12,9 @@ use super::placement::{Placement, Refusal};
 use super::star::{Connectivity, MAX_STAR};
 use super::surface::Surface;
 use super::{Conditions, Priority};
-use crate::progress::Answer;
 use crate::surface::Grid;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-
-/// Progress of the loop.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Progress {
-    /// Faces left.
-    pub faces: usize,
-    /// Collapses done.
-    pub collapses: usize,
-    /// Linear programs solved.
-    pub programs: u64,
-}
 
 /// Why the loop ended before its target: the edges that are left, by the reason of their refusal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -140,9 +127,14 @@ impl Engine {
         Engine { edges, schedule, is_scheduled: false }
     }
 
-    /// Progress so far.
-    pub fn progress(&self) -> Progress {
-        self.edges.progress()
+    /// Faces left.
+    pub fn face_count(&self) -> usize {
+        self.edges.surface.mesh.alive_count()
+    }
+
+    /// Linear programs solved.
+    pub fn programs(&self) -> u64 {
+        self.edges.surface.programs
     }
 
     /// Volume that all collapses have added, local frame.
@@ -161,36 +153,31 @@ impl Engine {
     }
 
     /// Collapses until at most `target` faces are left; `Some` if no legal collapse is left before.
-    /// The first run evaluates every edge. A callback that asks to end is not called again.
-    pub fn run<A: Answer>(
-        &mut self,
-        target: usize,
-        mut on_progress: impl FnMut(Progress) -> A,
-    ) -> Option<Stuck> {
+    /// The first run evaluates every edge. `goes_on` gets the number of faces left.
+    pub fn run(&mut self, target: usize, mut goes_on: impl FnMut(usize) -> bool) -> Option<Stuck> {
         if !self.is_scheduled {
             for (number, ends) in self.edges.surface.mesh.edges().into_iter().enumerate() {
-                if number % STEPS == STEPS - 1 && !on_progress(self.progress()).goes_on() {
+                if number % STEPS == STEPS - 1 && !goes_on(self.face_count()) {
                     return None;
                 }
                 self.edges.evaluate(ends, &mut self.schedule);
             }
             self.is_scheduled = true;
         }
-        let mut goes_on = true;
+        let mut is_ended = false;
         let show = |edges: &Edges| {
-            if edges.history.collapses.len().is_multiple_of(STEPS) {
-                goes_on = on_progress(edges.progress()).goes_on();
-            }
-            goes_on
+            is_ended = edges.history.collapses.len().is_multiple_of(STEPS)
+                && !goes_on(edges.surface.mesh.alive_count());
+            !is_ended
         };
         let is_reached = greedy::run(&mut self.edges, &mut self.schedule, target, show);
-        if !goes_on {
+        if is_ended {
             return None;
         }
         if !is_reached {
             return Some(self.edges.why_stuck());
         }
-        on_progress(self.progress());
+        goes_on(self.face_count());
         None
     }
 
@@ -294,14 +281,6 @@ impl Collapsing for Edges {
 }
 
 impl Edges {
-    fn progress(&self) -> Progress {
-        Progress {
-            faces: self.surface.mesh.alive_count(),
-            collapses: self.history.collapses.len(),
-            programs: self.surface.programs,
-        }
-    }
-
     fn faces(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
         let label = |v: u32| self.labels[v as usize];
         self.surface.mesh.alive().map(move |t| self.surface.mesh.corners[t as usize].map(label))

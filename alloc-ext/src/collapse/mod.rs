@@ -15,7 +15,7 @@ mod star;
 mod surface;
 mod thin;
 
-pub use engine::{Engine, Progress, Stuck};
+pub use engine::{Engine, Stuck};
 pub(crate) use greedy::{Candidate, Collapsing, Schedule, run};
 pub use history::{Collapse, History, VertexOrder};
 pub use options::CollapseOptions;

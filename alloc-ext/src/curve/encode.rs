@@ -3,7 +3,7 @@
 use super::build::nodes;
 use super::read::Polyline;
 use crate::emit::Sections;
-use crate::error::CurveError;
+use crate::error::{BuildError, CurveError};
 use crate::geom::Bounds;
 use crate::progress::Watch;
 use crate::surface::{Grid, fitting_grid, split_exponent};
@@ -18,6 +18,13 @@ use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::num::{exp2, up_to_f32};
 use std::time::{Duration, Instant};
 
+/// How points are stored.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CurveOptions {
+    /// Whether as f32, instead of on a grid of 16 bits.
+    pub is_f32: bool,
+}
+
 /// What was stored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -30,33 +37,29 @@ pub struct CurveReport {
     pub time: Duration,
 }
 
-/// Stores polylines, as f32 or on a grid of 16 bits. Segments keep the numbers of the input. If all
+/// Stores polylines. Segments keep the numbers of the input. If all
 /// points have z = 0, z is not stored.
 ///
 /// Cost: points times the depth of the hierarchy, about 2·log₂ of the points.
 ///
 /// # Errors
-/// [`CurveError`] if a polyline has fewer than two points, a coordinate is not finite in f32, or
+/// [`BuildError::Curve`] if a polyline has fewer than two points, a coordinate is not finite in f32, or
 /// the points are too many or all tiny.
-pub fn store(polylines: &[Polyline], is_f32: bool) -> Result<(Sections, CurveReport), CurveError> {
-    store_watched(polylines, is_f32, Watch::NONE)
-}
-
-/// [`store`] under a watch. If it asks to end, the sections mean nothing.
-pub(crate) fn store_watched(
+pub fn build(
     polylines: &[Polyline],
-    is_f32: bool,
+    options: &CurveOptions,
     watch: Watch<'_>,
-) -> Result<(Sections, CurveReport), CurveError> {
+) -> Result<(Sections, CurveReport), BuildError> {
+    watch.step(0, 1)?;
     let started = Instant::now();
     let (points, table) = joined(polylines)?;
     let largest = points.iter().fold(0f64, |most, point| most.max(point.abs().max_element()));
     if largest > 0.0 && largest < f64::from(f32::MIN_POSITIVE) {
-        return Err(CurveError::TooSmall { largest });
+        return Err(CurveError::TooSmall { largest }.into());
     }
     let (_, scale_exponent) = split_exponent(largest);
     let local: Vec<DVec3> = points.iter().map(|&point| point * exp2(-scale_exponent)).collect();
-    let grid = (!is_f32).then(|| fitting_grid(&local, VertexFormat::Grid16)).flatten();
+    let grid = (!options.is_f32).then(|| fitting_grid(&local, VertexFormat::Grid16)).flatten();
     let grid = grid.unwrap_or(Grid::F32);
     let stored: Vec<DVec3> = local.iter().map(|&p| grid.round(p).unwrap_or(p)).collect();
     let moved = local.iter().zip(&stored).fold(0f64, |most, (a, &b)| most.max((b - a).length()));
@@ -64,6 +67,7 @@ pub(crate) fn store_watched(
     let surface_error = moved * (1.0 + 1e-15) + f64::EPSILON;
     let is_planar = stored.iter().all(|point| point.z == 0.0);
     let (nodes, depth) = nodes(&stored, watch);
+    watch.check()?;
     let is_f32 = grid.format == VertexFormat::F32;
     let header = CurvesHeader {
         flags: if is_planar { CURVES_PLANAR } else { 0 } | if is_f32 { CURVES_F32 } else { 0 },

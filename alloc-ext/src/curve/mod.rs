@@ -10,6 +10,5 @@ mod build;
 mod encode;
 mod read;
 
-pub(crate) use encode::store_watched;
-pub use encode::{CurveReport, store};
+pub use encode::{CurveOptions, CurveReport, build};
 pub use read::{Polyline, read_csv};

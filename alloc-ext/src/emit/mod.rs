@@ -88,8 +88,9 @@ pub fn assemble<'a>(structures: impl IntoIterator<Item = &'a Sections>) -> Vec<u
         debug_assert_eq!(of.header.scale_exponent, header.scale_exponent, "of another mesh");
         header.input_triangles = header.input_triangles.max(of.header.input_triangles);
     }
-    let bodies: Vec<&(SectionKind, Vec<u8>)> =
+    let mut bodies: Vec<&(SectionKind, Vec<u8>)> =
         structures.iter().flat_map(|of| &of.bodies).filter(|(_, body)| !body.is_empty()).collect();
+    bodies.sort_by_key(|(kind, _)| place(*kind));
     join(header, &bodies)
 }
 

@@ -302,6 +302,13 @@ impl fmt::Display for BuildError {
 
 impl std::error::Error for BuildError {}
 
+impl From<CurveError> for BuildError {
+    /// Of a curve in memory.
+    fn from(error: CurveError) -> Self {
+        Self::Curve { file: PathBuf::from("(memory)"), error }
+    }
+}
+
 impl From<TriboxError> for BuildError {
     fn from(error: TriboxError) -> Self {
         Self::Triboxes(error)

@@ -6,25 +6,55 @@ use super::groups::{base_groups, sort_base};
 use super::levels::{certify, levels};
 use super::tables::{SplitRecord, Tables};
 use super::wires::wires_off_surface;
-use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, VertexOrder};
-use crate::emit::{self, Sections};
+use crate::collapse::{Conditions, Engine, History, Priority, Stuck, VertexOrder};
+use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::{Input, KeyFrame, Mesh};
-use crate::progress::{Answer, Callback};
+use crate::progress::{Stage, Watch};
 use crate::surface::{Closed, SignedVolume, Stored, VertexBits, close, require_valid, store};
 use crate::tight::outset;
 use glam::{DVec3, Vec3};
-use meshsweep_core::Hull;
+use meshsweep_core::SectionKind;
 use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::hull::format::layout::{MAX_RING, START_GROUP};
 use meshsweep_core::internal::num::{Radius8, Radius16, sum_up, up_to_f32};
-use meshsweep_core::{DeformableHull, SectionKind};
-use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
+
+/// The levels of a hierarchy.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Levels<'a> {
+    /// Outer hulls of a closed manifold mesh (see
+    /// [`require_closed_manifold`](crate::mesh::require_closed_manifold)).
+    ///
+    /// Components may overlap. Where a mesh passes through itself inside out, it winds around
+    /// points negatively, and its hulls do not enclose it there. Distances and
+    /// [`first_hit`](meshsweep_core::Hull::first_hit) hold all the same.
+    ///
+    /// How far [wires](crate::mesh::Wire) are from the triangles with an area is part of the
+    /// surface error: the hulls need not enclose them.
+    #[default]
+    Hulls,
+    /// Meshes near the surface of any mesh: open, crossing itself, inside out, with edges of many
+    /// triangles. They serve distances and segments and enclose nothing. See
+    /// [`Hull::encloses`](meshsweep_core::Hull::encloses).
+    ///
+    /// Vertices are copied where the mesh is no manifold, and holes are closed by triangles that
+    /// stand for no part of the surface (see [`close`]). The [priority](BuildOptions::priority)
+    /// does not count.
+    Sweep,
+    /// Outer hulls of a mesh that deforms: by any motion of its vertices, and between these frames.
+    /// The mesh itself is frame 0; without more frames there are no key frames.
+    ///
+    /// The mesh must pass [`require_deformable`](crate::mesh::require_deformable), and frames come
+    /// from [`key_frame`](crate::mesh::key_frame).
+    Deform(&'a [KeyFrame]),
+}
 
 /// Options of a build.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BuildOptions {
+pub struct BuildOptions<'a> {
+    /// What the levels are to be.
+    pub levels: Levels<'a>,
     /// Faces of the base hull; the build stops earlier if no legal collapse is left.
     pub base_faces: usize,
     /// Order of collapses.
@@ -35,14 +65,24 @@ pub struct BuildOptions {
     pub vertex_bits: VertexBits,
 }
 
-impl Default for BuildOptions {
+impl Default for BuildOptions<'_> {
     fn default() -> Self {
         BuildOptions {
+            levels: Levels::Hulls,
             base_faces: 200,
             priority: Priority::Program,
             conditions: Conditions::default(),
             vertex_bits: VertexBits::Auto,
         }
+    }
+}
+
+impl BuildOptions<'_> {
+    /// Sets the [levels](Self::levels).
+    #[must_use]
+    pub const fn with_levels<'b>(&self, levels: Levels<'b>) -> BuildOptions<'b> {
+        let Self { base_faces, priority, conditions, vertex_bits, .. } = *self;
+        BuildOptions { levels, base_faces, priority, conditions, vertex_bits }
     }
 }
 
@@ -85,72 +125,40 @@ pub enum Kind {
     },
 }
 
-/// A blob, its tables, and the report of its build.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct Built {
-    /// Tables of the hull hierarchy.
-    pub tables: Tables,
-    /// The sections that let the hull deform, by [`build_deform`].
-    pub deform: Option<Sections>,
-    /// The blob.
-    pub bytes: Vec<u8>,
-    /// Report of the build.
-    pub report: BuildReport,
-}
-
-/// A callback, and whether to go on.
-type OnProgress<'a> = dyn FnMut(Progress) -> bool + 'a;
-
 /// Most triangles of a mesh: instances and ring entries must fit the format's counts.
 const MAX_TRIANGLES: usize = 20_000_000;
 
-/// Builds the hull hierarchy of a closed manifold mesh (see
-/// [`require_closed_manifold`](crate::mesh::require_closed_manifold)).
-///
-/// Components may overlap. Where a mesh passes through itself inside out, it winds around points
-/// negatively, and its hulls do not enclose it there. Distances and
-/// [`first_hit`](meshsweep_core::Hull::first_hit) hold all the same.
-///
-/// How far [wires](crate::mesh::Wire) are from the triangles with an area is part of the surface
-/// error: the hulls need not enclose them.
+/// The part of a build in which edges collapse.
+const COLLAPSING: f64 = 0.7;
+
+/// Builds a hull hierarchy.
 ///
 /// # Errors
-/// [`BuildError`].
-pub fn build<A: Answer>(
+/// [`BuildError`]; of a mesh that deforms also [`BuildError::NotExact`] and
+/// [`BuildError::FrameTooFar`].
+pub fn build(
     input: Input<'_>,
-    options: &BuildOptions,
-    mut on_progress: impl FnMut(Progress) -> A,
-) -> Result<Built, BuildError> {
-    build_with(input, None, options, &mut |progress| on_progress(progress).goes_on())
+    options: &BuildOptions<'_>,
+    watch: Watch<'_>,
+) -> Result<(Sections, BuildReport), BuildError> {
+    let collapsing = watch.part(0.0, COLLAPSING);
+    let collapsed = match options.levels {
+        Levels::Sweep => near(input.mesh, options, collapsing),
+        Levels::Hulls | Levels::Deform(_) => outer(input, options, collapsing),
+    }?;
+    let certifying = watch.part(COLLAPSING, 1.0).during(Stage::Certifying);
+    finish(input, options.levels, collapsed, certifying)
 }
 
-/// Builds the hull hierarchy of a mesh that deforms: by any motion of its vertices, and between
-/// `frames`. The mesh itself is frame 0; without more frames there are no key frames.
-///
-/// The mesh must pass [`require_deformable`](crate::mesh::require_deformable), and frames come from
-/// [`key_frame`](crate::mesh::key_frame).
-///
-/// # Errors
-/// [`BuildError`]: those of [`build`]; [`BuildError::NotExact`], [`BuildError::FrameTooFar`].
-pub fn build_deform<A: Answer>(
+/// The collapses of a solid.
+fn outer(
     input: Input<'_>,
-    frames: &[KeyFrame],
-    options: &BuildOptions,
-    mut on_progress: impl FnMut(Progress) -> A,
-) -> Result<Built, BuildError> {
-    build_with(input, Some(frames), options, &mut |progress| on_progress(progress).goes_on())
-}
-
-fn build_with(
-    input: Input<'_>,
-    frames: Option<&[KeyFrame]>,
-    options: &BuildOptions,
-    on_progress: &mut OnProgress<'_>,
-) -> Result<Built, BuildError> {
+    options: &BuildOptions<'_>,
+    watch: Watch<'_>,
+) -> Result<Collapsed, BuildError> {
     let mesh = input.mesh;
     let is_exact = matches!(options.vertex_bits, VertexBits::Auto | VertexBits::F32);
-    if frames.is_some() && (!is_exact || input.moved > 0.0) {
+    if matches!(options.levels, Levels::Deform(_)) && (!is_exact || input.moved > 0.0) {
         return Err(BuildError::NotExact);
     }
     if mesh.triangles.len() > MAX_TRIANGLES {
@@ -160,28 +168,17 @@ fn build_with(
     let volume = positive_volume(&stored, mesh)?;
     let wires = wires_off_surface(mesh)?;
     let started = Instant::now();
-    let (history, stuck, programs) =
-        collapse(&stored, mesh, options, options.base_faces, on_progress)?;
-    let collapsed = Collapsed { stored, history, stuck, programs, time: started.elapsed() };
-    finish(input, frames, collapsed, Kind::Hulls { volume }, wires, on_progress)
+    let (history, stuck, programs) = collapse(&stored, mesh, options, options.base_faces, watch)?;
+    let (time, kind) = (started.elapsed(), Kind::Hulls { volume });
+    Ok(Collapsed { stored, history, stuck, programs, time, kind, wires })
 }
 
-/// Builds a hierarchy for distances and segments of any mesh: open, crossing itself, inside out,
-/// with edges of many triangles. Its levels lie near the surface and enclose nothing. See
-/// [`Hull::encloses`].
-///
-/// Vertices are copied where the mesh is no manifold, and holes are closed by triangles that stand
-/// for no part of the surface (see [`close`]). `options.priority` does not count.
-///
-/// # Errors
-/// [`BuildError`].
-pub fn build_for_sweep<A: Answer>(
-    input: Input<'_>,
-    options: &BuildOptions,
-    mut on_progress: impl FnMut(Progress) -> A,
-) -> Result<Built, BuildError> {
-    let on_progress: &mut OnProgress<'_> = &mut |progress| on_progress(progress).goes_on();
-    let mesh = input.mesh;
+/// The collapses of any mesh.
+fn near(
+    mesh: &Mesh,
+    options: &BuildOptions<'_>,
+    watch: Watch<'_>,
+) -> Result<Collapsed, BuildError> {
     require_valid(mesh, MAX_TRIANGLES)?;
     if mesh.triangles.is_empty() {
         return Err(BuildError::Empty);
@@ -199,9 +196,9 @@ pub fn build_for_sweep<A: Answer>(
     let positions: Vec<DVec3> = places.iter().map(at).collect();
     let (conditions, grid) = (options.conditions, stored.grid);
     let engine = Engine::near(&positions, &triangles, count - fillers, conditions, grid);
-    let (history, stuck, programs) = run(engine, options.base_faces, on_progress)?;
-    let collapsed = Collapsed { stored, history, stuck, programs, time: started.elapsed() };
-    finish(input, None, collapsed, Kind::SweepOnly { holes, copies }, wires, on_progress)
+    let (history, stuck, programs) = run(engine, options.base_faces, watch)?;
+    let (time, kind) = (started.elapsed(), Kind::SweepOnly { holes, copies });
+    Ok(Collapsed { stored, history, stuck, programs, time, kind, wires })
 }
 
 /// A mesh and its collapses.
@@ -211,23 +208,24 @@ struct Collapsed {
     stuck: Option<Stuck>,
     programs: u64,
     time: Duration,
-}
-
-/// From the collapses to the blob.
-fn finish(
-    input: Input<'_>,
-    frames: Option<&[KeyFrame]>,
-    collapsed: Collapsed,
+    /// Volume in the local frame.
     kind: Kind,
     wires: f64,
-    on_progress: &mut OnProgress<'_>,
-) -> Result<Built, BuildError> {
-    let Collapsed { stored, history, stuck, programs, time: collapse_time } = collapsed;
-    // Counts stand still from here on.
-    let faces = history.base.len();
-    let end = Progress { faces, collapses: history.collapses.len(), programs };
-    let callback = Callback::new(|_| on_progress(end));
-    let watch = callback.watch();
+}
+
+/// From the collapses to the sections.
+fn finish(
+    input: Input<'_>,
+    wanted: Levels<'_>,
+    collapsed: Collapsed,
+    watch: Watch<'_>,
+) -> Result<(Sections, BuildReport), BuildError> {
+    let Collapsed { stored, history, stuck, programs, time: collapse_time, kind, wires } =
+        collapsed;
+    let frames = match wanted {
+        Levels::Deform(frames) => Some(frames),
+        Levels::Hulls | Levels::Sweep => None,
+    };
     let started = Instant::now();
     let order = VertexOrder::new(&history);
     let mesh = input.mesh;
@@ -235,7 +233,7 @@ fn finish(
     let cover = |instance: u32, below: &[u32], corners| {
         tracks.cover(&history.positions, instance, below, corners);
     };
-    let forest = grow(&history, cover, watch)?;
+    let forest = grow(&history, cover, watch.part(0.0, 0.5))?;
     let sweep_time = started.elapsed();
     let started = Instant::now();
     let mut tables = assemble(&stored, input, &history, &order, &forest);
@@ -245,25 +243,18 @@ fn finish(
     };
     tables.encloses = volume.is_some();
     tables.levels = levels(&history, volume);
-    certify(&mut tables, &history, watch)?;
+    certify(&mut tables, &history, watch.part(0.5, 1.0))?;
     // Levels were measured against triangles with an area. The wires' distance joins only now.
     if wires > 0.0 {
         let off = wires * meshsweep_core::internal::num::exp2(-stored.scale_exponent);
         tables.surface_error = sum_up(tables.surface_error, up_to_f32(off));
     }
-    let hull = tables.sections();
-    let deform = frames.map(|_| {
+    let mut sections = tables.sections();
+    if frames.is_some() {
         let numbers = vertex_numbers(&tables, &order, mesh);
-        let keys = tracks.section(&history, &order);
-        let kinds = [SectionKind::VertexNumbers, SectionKind::KeyFrames];
-        Sections { header: hull.header, bodies: kinds.into_iter().zip([numbers, keys]).collect() }
-    });
-    let bytes = emit::assemble([&hull].into_iter().chain(&deform));
-    match deform {
-        Some(_) => DeformableHull::open(&bytes).map(drop),
-        None => Hull::open(&bytes).map(drop),
+        sections.bodies.push((SectionKind::VertexNumbers, numbers));
+        sections.bodies.push((SectionKind::KeyFrames, tracks.section(&history, &order)));
     }
-    .map_err(BuildError::Reopen)?;
     let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     let kind = match kind {
         Kind::Hulls { volume } => Kind::Hulls { volume: volume * scale * scale * scale },
@@ -279,7 +270,7 @@ fn finish(
         kind,
         wires,
     };
-    Ok(Built { tables, deform, bytes, report })
+    Ok((sections, report))
 }
 
 /// Vertices past those of the triangles are the wires'. They count only for the frame, which all
@@ -304,25 +295,24 @@ const TRIED: [f64; 3] = [1.0, 0.75, 0.5];
 ///
 /// # Errors
 /// [`BuildError::NotPositive`], [`BuildError::Cancelled`], [`BuildError::NotEnclosed`].
-pub fn hull_of<'m, A: Answer>(
+pub fn hull_of<'m>(
     input: impl Into<Input<'m>>,
     faces: usize,
-    options: &BuildOptions,
-    mut on_progress: impl FnMut(Progress) -> A,
+    options: &BuildOptions<'_>,
+    watch: Watch<'_>,
 ) -> Result<(Mesh, f64, Option<Stuck>), BuildError> {
     let input: Input<'m> = input.into();
     let (mesh, error) = (input.mesh, input.error_up());
     let stored = store_solid(mesh, options.vertex_bits);
     let volume = positive_volume(&stored, mesh)?;
-    let on_progress: &mut OnProgress<'_> = &mut |progress| on_progress(progress).goes_on();
     if error <= 0.0 {
-        let (hull, added, stuck) = level(&stored, mesh, options, faces, on_progress)?;
+        let (hull, added, stuck) = level(&stored, mesh, options, faces, watch)?;
         return Ok((hull, added / volume, stuck));
     }
     let solid = mesh.without_wires();
     for part in TRIED {
         let fewer = (faces as f64 * part) as usize;
-        let (hull, _, stuck) = level(&stored, mesh, options, fewer, on_progress)?;
+        let (hull, _, stuck) = level(&stored, mesh, options, fewer, watch)?;
         if let Some(hull) = outset(&hull, &solid, error) {
             let scale = meshsweep_core::internal::num::exp2(-stored.scale_exponent);
             let local = hull.corners_f64().map(|corners| corners.map(|p| p * scale));
@@ -337,11 +327,11 @@ pub fn hull_of<'m, A: Answer>(
 fn level(
     stored: &Stored,
     mesh: &Mesh,
-    options: &BuildOptions,
+    options: &BuildOptions<'_>,
     faces: usize,
-    on_progress: &mut OnProgress<'_>,
+    watch: Watch<'_>,
 ) -> Result<(Mesh, f64, Option<Stuck>), BuildError> {
-    let (history, stuck, _) = collapse(stored, mesh, options, faces, on_progress)?;
+    let (history, stuck, _) = collapse(stored, mesh, options, faces, watch)?;
     let order = VertexOrder::new(&history);
     let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     let positions = order.label[..order.base as usize]
@@ -368,31 +358,28 @@ fn positive_volume(stored: &Stored, mesh: &Mesh) -> Result<f64, BuildError> {
 fn collapse(
     stored: &Stored,
     mesh: &Mesh,
-    options: &BuildOptions,
+    options: &BuildOptions<'_>,
     faces: usize,
-    on_progress: &mut OnProgress<'_>,
+    watch: Watch<'_>,
 ) -> Result<(History, Option<Stuck>, u64), BuildError> {
     let Stored { positions, grid, .. } = stored;
     let (conditions, priority) = (options.conditions, options.priority);
-    run(Engine::new(positions, &mesh.triangles, conditions, priority, *grid), faces, on_progress)
+    run(Engine::new(positions, &mesh.triangles, conditions, priority, *grid), faces, watch)
 }
 
 fn run(
     mut engine: Engine,
     faces: usize,
-    on_progress: &mut OnProgress<'_>,
+    watch: Watch<'_>,
 ) -> Result<(History, Option<Stuck>, u64), BuildError> {
-    let mut answer = ControlFlow::Continue(());
-    let stuck = engine.run(faces, |progress| {
-        if !on_progress(progress) {
-            answer = ControlFlow::Break(());
-        }
-        answer
+    let from = engine.face_count();
+    let of = from.saturating_sub(faces);
+    let stuck = engine.run(faces, |left| {
+        let done = from - left;
+        watch.during(Stage::Collapsing { done, of }).goes_on(done as f64 / of.max(1) as f64)
     });
-    if answer.is_break() {
-        return Err(BuildError::Cancelled);
-    }
-    let programs = engine.progress().programs;
+    watch.check()?;
+    let programs = engine.programs();
     let mut history = engine.finish();
     sort_base(&mut history);
     Ok((history, stuck, programs))

@@ -18,9 +18,7 @@ mod swept;
 mod tables;
 mod wires;
 
-pub use build::{
-    BuildOptions, BuildReport, Built, Kind, build, build_deform, build_for_sweep, hull_of,
-};
+pub use build::{BuildOptions, BuildReport, Kind, Levels, build, hull_of};
 pub use cut::cut;
 pub use stored::{enclosing_input, mesh_of, sticks_out_note};
 pub use tables::{SplitRecord, Tables};

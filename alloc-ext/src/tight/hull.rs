@@ -4,13 +4,13 @@ use super::deadline::Deadline;
 use super::moves::{Rounding, slack};
 use super::options::{Goal, Options};
 use super::proof::Obstacle;
-use super::report::{Outcome, Progress, Report};
+use super::report::{Outcome, Report};
 use super::search::{CandidateHull, HullSearch};
 use crate::bvh::MAX_TRIANGLES;
 use crate::error::BuildError;
 use crate::geom::{Bounds, crosses_itself};
 use crate::mesh::{Input, Mesh};
-use crate::progress::Answer;
+use crate::progress::{Stage, Watch};
 use crate::surface::{Solid, Stored, VertexBits, require_valid, store};
 use glam::{DVec3, Vec3};
 use meshsweep_core::internal::num::exp2;
@@ -39,10 +39,10 @@ pub struct Hull {
 ///
 /// # Errors
 /// [`BuildError`].
-pub fn wrap<'m, A: Answer>(
+pub fn wrap<'m>(
     input: impl Into<Input<'m>>,
     options: &Options,
-    mut on_progress: impl FnMut(Progress) -> A,
+    watch: Watch<'_>,
 ) -> Result<Hull, BuildError> {
     let started = Instant::now();
     let input: Input<'m> = input.into();
@@ -98,8 +98,9 @@ pub fn wrap<'m, A: Answer>(
     let is_moved = stored.surface_error > mesh.rounding * exp2(-stored.scale_exponent);
     let stored = if is_moved { store(mesh, VertexBits::F32) } else { stored };
     let is_cancelled = AtomicBool::new(false);
-    let mut show = |progress| {
-        if !is_cancelled.load(Ordering::Relaxed) && !on_progress(progress).goes_on() {
+    // Searches on other threads end by this flag: the watch stays on the caller's.
+    let mut show = |stage| {
+        if !watch.during(stage).goes_on(part_done(stage)) {
             is_cancelled.store(true, Ordering::Relaxed);
         }
     };
@@ -119,9 +120,7 @@ pub fn wrap<'m, A: Answer>(
         on_progress: &mut show,
     };
     let found = search.run();
-    if is_cancelled.load(Ordering::Relaxed) {
-        return Err(BuildError::Cancelled);
-    }
+    watch.check()?;
     let CandidateHull { mut editor, start, filled, mut stop } = found?;
     editor.drop_enclosed();
     if search.is_hurried && stop == Outcome::Reached {
@@ -151,6 +150,17 @@ pub fn wrap<'m, A: Answer>(
         time: started.elapsed(),
     };
     Ok(Hull { mesh, report })
+}
+
+/// The part of the work on a hull that is done.
+fn part_done(stage: Stage) -> f64 {
+    let ([from, to], done, of) = match stage {
+        Stage::Collapsing { done, of } => ([0.0, 0.2], done, of),
+        Stage::Shrinking { done, of } => ([0.2, 0.5], done, of),
+        Stage::Polishing { done, of } => ([0.5, 0.9], done, of),
+        _ => return 0.9,
+    };
+    from + (to - from) * (done as f64 / of.max(1) as f64).min(1.0)
 }
 
 fn to_f32(positions: &[DVec3]) -> Vec<[f32; 3]> {
@@ -203,7 +213,7 @@ mod tests {
             let hull = |threads: usize| {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
                 let options = Options::new(goal).with_effort(0.05);
-                let hull = pool.install(|| wrap(&mesh, &options, |_| {})).unwrap();
+                let hull = pool.install(|| wrap(&mesh, &options, Watch::NONE)).unwrap();
                 let Report { stars, programs, .. } = hull.report;
                 (hull.mesh.positions, hull.mesh.triangles, stars, programs)
             };

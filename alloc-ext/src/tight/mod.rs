@@ -12,7 +12,7 @@
 //! | `hull.rs` | [`wrap()`]: options checked, hull built, hull measured |
 //! | `outset.rs` | a hull of another kind, moved outward to hold all points near the mesh |
 //! | `options.rs` | the goal and the options of a hull |
-//! | `report.rs` | measures of a hull and of the work for it; progress |
+//! | `report.rs` | measures of a hull and of the work for it |
 //! | `deadline.rs` | when a search has to end |
 //! | `unmet.rs` | whether a hull is as tight as asked for |
 //! | `shared_map.rs` | maps that searches on several threads share |
@@ -63,9 +63,5 @@ pub use components::split_components;
 pub use hull::{Hull, wrap};
 pub use options::{Goal, Options};
 pub use outset::outset;
-pub use report::{
-    Outcome, Progress, Report, Stage as HullStage, Start, margin_note, no_void_note, rounded_note,
-};
-pub use store::{
-    ChainOptions, Distances, HullReport, MAX_HULLS, Stage, chain, cut, distances, hull_mesh,
-};
+pub use report::{Outcome, Report, Start, margin_note, no_void_note, rounded_note};
+pub use store::{ChainOptions, Distances, HullReport, MAX_HULLS, build, cut, distances, hull_mesh};

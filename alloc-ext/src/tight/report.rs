@@ -1,4 +1,4 @@
-//! Measures of a tight hull and of the work for it, and the progress of that work.
+//! Measures of a tight hull and of the work for it.
 
 use crate::counted::Counted;
 use crate::hausdorff::Farthest;
@@ -68,28 +68,6 @@ pub struct Report {
     pub programs: u64,
     /// Elapsed time.
     pub time: Duration,
-}
-
-/// The state of the work on a hull.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
-    /// The stage.
-    pub stage: Stage,
-    /// Steps done.
-    pub done: usize,
-    /// Steps in all.
-    pub of: usize,
-}
-
-/// The stages, in order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
-    /// Progressive hull; counts triangles that are gone.
-    Collapsing,
-    /// Collapses against the mesh; counts faces that are gone.
-    Wrapping,
-    /// Polishing; counts stars.
-    Polishing,
 }
 
 impl Report {

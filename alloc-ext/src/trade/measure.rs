@@ -114,17 +114,8 @@ impl Trade {
     }
 }
 
-/// How far a measurement is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
-    /// Structures built, and settings asked.
-    pub done: usize,
-    /// Of so many.
-    pub of: usize,
-}
-
 /// Measures settings of a mesh at some points. Structures are built on all cores. `progress` is
-/// called from any of them.
+/// called from any of them, with the number of structures built and settings asked, and of how many.
 ///
 /// # Errors
 /// A point that is not finite.
@@ -132,7 +123,7 @@ pub fn measure(
     input: Input<'_>,
     points: &[[f32; 3]],
     settings: &[Setting],
-    progress: impl Fn(Progress) + Sync,
+    progress: impl Fn(usize, usize) + Sync,
 ) -> Result<Trade, QueryError> {
     let mut structures: Vec<Structure> = Vec::new();
     for setting in settings {
@@ -141,7 +132,7 @@ pub fn measure(
         }
     }
     let (done, of) = (AtomicUsize::new(0), structures.len() + settings.len());
-    let step = || progress(Progress { done: done.fetch_add(1, Ordering::Relaxed) + 1, of });
+    let step = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, of);
     let distances = distances(input.mesh, points);
     let is_cut = |structure: &Structure| matches!(structure, Structure::CutLevel(_));
     let (cut, others): (Vec<Structure>, Vec<Structure>) = structures.into_iter().partition(is_cut);

@@ -33,9 +33,7 @@ mod truth;
 pub use ask::intervals;
 pub use cost::{Board, Cost, FEATURES, Features, Search, Shape};
 pub use fitted::cost;
-pub use measure::{
-    Instructions, Missing, Progress, Row, Spread, Trade, distances, measure, pareto,
-};
+pub use measure::{Instructions, Missing, Row, Spread, Trade, distances, measure, pareto};
 pub use points::{Points, points};
 pub use setting::{How, Setting, TreeBits, standard};
 pub use structure::{HullBits, Structure};

@@ -2,11 +2,12 @@
 
 use crate::bvh::{self, TreeOptions};
 use crate::emit::assemble;
-use crate::hull::{self, BuildOptions};
+use crate::hull::{self, BuildOptions, Levels};
 use crate::mesh::{Input, RawMesh, repair, require_closed_manifold};
+use crate::progress::Watch;
 use crate::surface::{VertexBits, snap};
 use crate::tight::{self, ChainOptions};
-use crate::tribox;
+use crate::tribox::{self, TriboxOptions};
 use meshsweep_core::{Blob, Hull};
 use std::fmt;
 
@@ -112,7 +113,8 @@ impl Structure {
                 let options = ChainOptions::of_faces(&[faces as usize])
                     .with_boxes(true, false)
                     .with_effort(0.0);
-                let (sections, reports) = tight::chain(input, &options, |_| {}).map_err(said)?;
+                let (sections, reports) =
+                    tight::build(input, &options, Watch::NONE).map_err(said)?;
                 if let Some(report) = reports.first()
                     && report.wrapped.faces > faces as usize
                 {
@@ -120,7 +122,10 @@ impl Structure {
                 }
                 sections.to_bytes()
             }
-            Self::Triboxes(count) => tribox::store(input, count).map_err(said)?.0.to_bytes(),
+            Self::Triboxes(count) => {
+                let options = TriboxOptions { count };
+                tribox::build(input, &options, Watch::NONE).map_err(said)?.0.to_bytes()
+            }
         };
         Blob::open(&bytes).map_err(|error| error.to_string())?;
         Ok(bytes)
@@ -129,10 +134,14 @@ impl Structure {
 
 /// A hull hierarchy for sweeps. Vertices move to the grid before repair, as in the program.
 fn swept(input: Input<'_>, bits: HullBits) -> Result<Vec<u8>, String> {
-    let options = BuildOptions { vertex_bits: bits.format(), ..BuildOptions::default() };
+    let options = BuildOptions {
+        levels: Levels::Sweep,
+        vertex_bits: bits.format(),
+        ..BuildOptions::default()
+    };
     let of = |input: Input<'_>| {
-        let built = hull::build_for_sweep(input, &options, |_| {});
-        built.map(|built| built.bytes).map_err(|error| error.to_string())
+        let built = hull::build(input, &options, Watch::NONE);
+        built.map(|(sections, _)| sections.to_bytes()).map_err(|error| error.to_string())
     };
     if bits == HullBits::ThirtyTwo {
         return of(input);
@@ -162,8 +171,8 @@ pub(super) fn build_all(
 /// The hull hierarchy of a closed mesh.
 fn hierarchy(input: Input<'_>) -> Result<Vec<u8>, String> {
     require_closed_manifold(input.mesh).map_err(|error| error.to_string())?;
-    let built = hull::build(input, &BuildOptions::default(), |_| {});
-    built.map(|built| built.bytes).map_err(|error| error.to_string())
+    let built = hull::build(input, &BuildOptions::default(), Watch::NONE);
+    built.map(|(sections, _)| sections.to_bytes()).map_err(|error| error.to_string())
 }
 
 fn cut_level(hierarchy: &[u8], error: f32) -> Result<Vec<u8>, String> {

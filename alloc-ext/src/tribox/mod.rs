@@ -57,6 +57,5 @@ pub use extent::Extent;
 pub use lattice::Lattice;
 pub use level::{Level, level, proxies};
 pub use split::{Hierarchy, Node, Split, SplitOptions};
-pub(crate) use store::store_watched;
-pub use store::{TriboxReport, cut, store, volume};
+pub use store::{TriboxOptions, TriboxReport, build, cut, volume};
 pub use surface::surface;

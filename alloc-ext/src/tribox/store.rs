@@ -23,6 +23,13 @@ use meshsweep_core::internal::tribox::format::layout::{
 use meshsweep_core::{Blob, Bvh};
 use std::time::{Duration, Instant};
 
+/// How many triboxes to make.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TriboxOptions {
+    /// Most triboxes of the finest level.
+    pub count: u32,
+}
+
 /// Levels and time of a hierarchy.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -33,7 +40,7 @@ pub struct TriboxReport {
     pub time: Duration,
 }
 
-/// Splits a mesh into at most `count` triboxes, and measures unions of 1, 2, 4, … of them.
+/// Splits a mesh into triboxes, and measures unions of 1, 2, 4, … of them.
 ///
 /// The triboxes hold the input. Any triangle soup will do; see [`Hierarchy::new`] for what they
 /// hold, and for the cost. The section of a mesh without triangles is empty, and its blob does not
@@ -42,16 +49,12 @@ pub struct TriboxReport {
 /// # Errors
 /// [`BuildError::Triboxes`] if a coordinate is not finite or beyond
 /// [`Tribox::DOMAIN`](meshsweep_core::Tribox::DOMAIN); those of [`bvh::build`](crate::bvh::build).
-pub fn store(input: Input<'_>, count: u32) -> Result<(Sections, TriboxReport), BuildError> {
-    store_watched(input, count, Watch::NONE)
-}
-
-/// [`store`] under a watch.
-pub(crate) fn store_watched(
+pub fn build(
     input: Input<'_>,
-    count: u32,
+    options: &TriboxOptions,
     watch: Watch<'_>,
 ) -> Result<(Sections, TriboxReport), BuildError> {
+    let TriboxOptions { count } = *options;
     let started = Instant::now();
     let mesh = input.mesh;
     let lattice = Lattice::of(mesh, input.error())?;

@@ -60,7 +60,7 @@ fn recorded(mesh: &Path) -> Vec<(usize, Vec<Program>)> {
     );
     let mut levels = Vec::new();
     let mut target = subject.mesh.triangles.len();
-    while target >= 100 && engine.run(target, |_| ()).is_none() {
+    while target >= 100 && engine.run(target, |_| true).is_none() {
         let positions = engine.positions();
         let triangles: Vec<[u32; 3]> = engine.faces().collect();
         let mut mesh = Connectivity::new(positions.len(), &triangles);

@@ -1,10 +1,11 @@
 //! Tight hulls on a Cortex-M4F: bytes, memory, and instructions of a conservative "closer than d?",
 //! by the number of faces.
 
+use meshsweep::progress::Watch;
 use meshsweep_core::{Blob, TightHulls};
 use std::path::Path;
 
-use meshsweep::tight::{ChainOptions, chain, cut};
+use meshsweep::tight::{self, ChainOptions, cut};
 use meshsweep_host_tests::blobs::expected;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_lab::measure::tight::FACES;
@@ -18,8 +19,8 @@ use meshsweep_xtask::workspace;
 pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
     let subject = Subject::load(mesh)?;
     let options = ChainOptions::of_faces(&FACES).with_boxes(true, false);
-    let (tables, _) =
-        chain(subject.mesh.as_input(), &options, |_| {}).map_err(|error| error.to_string())?;
+    let (tables, _) = tight::build(subject.mesh.as_input(), &options, Watch::NONE)
+        .map_err(|error| error.to_string())?;
     let all = tables.to_bytes();
     let blob = Blob::open(&all).map_err(|error| error.to_string())?;
     let [board, ..] = BOARDS;

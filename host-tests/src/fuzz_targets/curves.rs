@@ -2,7 +2,8 @@
 
 use super::input::Input;
 use crate::generate::curves::{circle, fence, open, walk};
-use meshsweep::curve::{Polyline, store};
+use meshsweep::curve::{CurveOptions, Polyline, build};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Blob, Budget, Curve, Ended, QueryError, ScratchEntry, Verdict};
 use std::sync::OnceLock;
 
@@ -13,8 +14,10 @@ use std::sync::OnceLock;
 pub fn curve_seeds() -> &'static [Vec<u8>] {
     static SEEDS: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
     SEEDS.get_or_init(|| {
-        let blob =
-            |polylines: &[Polyline], is_f32| store(polylines, is_f32).expect("finite").0.to_bytes();
+        let blob = |polylines: &[Polyline], is_f32| {
+            let built = build(polylines, &CurveOptions { is_f32 }, Watch::NONE);
+            built.expect("finite").0.to_bytes()
+        };
         vec![
             blob(&[open(vec![[0.0; 3], [1.0, 2.0, 3.0]])], true),
             blob(&[walk(300, 3)], false),

@@ -2,8 +2,9 @@
 
 use super::input::Input;
 use crate::generate::{Triangles, cube, icosphere, torus};
-use meshsweep::hull::{BuildOptions, build_deform};
+use meshsweep::hull::{BuildOptions, Levels, build};
 use meshsweep::mesh::{KeyFrame, Mesh};
+use meshsweep::progress::Watch;
 use meshsweep_core::{
     Blob, Budget, ClosestPoint, DeformableHull, MovedVertex, QueryError, ScratchEntry,
 };
@@ -28,8 +29,9 @@ fn blob((positions, triangles): &Triangles, frames: usize) -> Vec<u8> {
     };
     let frames: Vec<KeyFrame> = (0..frames).map(bent).collect();
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    let options = BuildOptions { base_faces: 8, ..BuildOptions::default() };
-    build_deform(mesh.as_input(), &frames, &options, |_| ()).expect("generated meshes build").bytes
+    let options =
+        BuildOptions { levels: Levels::Deform(&frames), base_faces: 8, ..BuildOptions::default() };
+    build(mesh.as_input(), &options, Watch::NONE).expect("generated meshes build").0.to_bytes()
 }
 
 /// Opens raw bytes, then edits of a blob; asks for the closest point at a frame, and after two

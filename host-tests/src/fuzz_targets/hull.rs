@@ -4,6 +4,7 @@ use super::input::Input;
 use crate::generate::{Triangles, cube, groove_block, icosphere, torus};
 use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{
     Blob, Budget, Change, ClosestPoint, Ended, Focus, Hit, Hull, QueryError, RefinedHull,
@@ -35,7 +36,7 @@ pub fn seeds() -> &'static [Vec<u8>] {
 fn blob((positions, triangles): &Triangles, vertex_bits: VertexBits, base_faces: usize) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let options = BuildOptions { base_faces, vertex_bits, ..BuildOptions::default() };
-    build(mesh.as_input(), &options, |_| ()).expect("generated meshes build").bytes
+    build(mesh.as_input(), &options, Watch::NONE).expect("generated meshes build").0.to_bytes()
 }
 
 /// Opens raw bytes, then edits of a blob; looks at everything that the opened model gives out.

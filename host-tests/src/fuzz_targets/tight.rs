@@ -5,8 +5,9 @@ use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit::assemble;
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep::surface::VertexBits;
-use meshsweep::tight::{ChainOptions, chain};
+use meshsweep::tight::{self, ChainOptions};
 use meshsweep_core::{Blob, Budget, Ended, QueryError, ScratchEntry, TightHull, TightHulls};
 use std::sync::OnceLock;
 
@@ -36,7 +37,7 @@ fn blob(
     beside_a_tree: bool,
 ) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    let (tables, _) = chain(mesh.as_input(), options, |_| {}).expect("room around it");
+    let (tables, _) = tight::build(mesh.as_input(), options, Watch::NONE).expect("room around it");
     let tree =
         beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).expect("builds").0);
     assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())

@@ -7,6 +7,7 @@ use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit;
 use meshsweep::hull::{self, BuildOptions};
 use meshsweep::mesh::{Mesh, RawMesh, repair};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Blob, Budget, Bvh, CoherentQuery};
 use std::sync::OnceLock;
 
@@ -49,8 +50,11 @@ fn as_filed((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8
 fn with_hull((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let coarse = BuildOptions { base_faces: 8, ..BuildOptions::default() };
-    let built = hull::build(mesh.as_input(), &coarse, |_| ()).expect("a sphere has hulls");
-    emit::assemble([&built.tables.sections(), &build(mesh.as_input(), options).expect("builds").0])
+    let built = hull::build(mesh.as_input(), &coarse, Watch::NONE);
+    emit::assemble([
+        &built.expect("a sphere has hulls").0,
+        &build(mesh.as_input(), options).expect("builds").0,
+    ])
 }
 
 /// Opens raw bytes, then edits of a blob; looks at everything that the opened tree gives out.

@@ -5,7 +5,8 @@ use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit::assemble;
 use meshsweep::mesh::Mesh;
-use meshsweep::tribox::store;
+use meshsweep::progress::Watch;
+use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::{Blob, Budget, Ended, NodePair, Pose, QueryError, ScratchEntry, Triboxes};
 use std::sync::OnceLock;
 
@@ -29,7 +30,8 @@ pub fn triboxes_seeds() -> &'static [Vec<u8>] {
 
 fn blob((positions, triangles): &Triangles, count: u32, beside_a_tree: bool) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    let (tables, _) = store(mesh.as_input(), count).expect("in the domain");
+    let (tables, _) = tribox::build(mesh.as_input(), &TriboxOptions { count }, Watch::NONE)
+        .expect("in the domain");
     let tree =
         beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).expect("builds").0);
     assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use meshsweep::collapse::Priority;
-use meshsweep::hull::{BuildOptions, Built, build};
+use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::{Mesh, RepairReport, load_closed, read, repair};
+use meshsweep::progress::Watch;
 
 /// A mesh with its name and size.
 #[derive(Clone, Debug)]
@@ -56,7 +57,7 @@ impl Subject {
     ///
     /// # Errors
     /// The builder's refusal.
-    pub fn build(&self, base_faces: usize, priority: Priority) -> Result<Built, String> {
+    pub fn build(&self, base_faces: usize, priority: Priority) -> Result<Vec<u8>, String> {
         self.build_with(&BuildOptions { base_faces, priority, ..BuildOptions::default() })
     }
 
@@ -64,13 +65,11 @@ impl Subject {
     ///
     /// # Errors
     /// The builder's refusal.
-    pub fn build_with(&self, options: &BuildOptions) -> Result<Built, String> {
-        build(
-            meshsweep::mesh::Input { input_triangles: self.triangles_read, ..self.mesh.as_input() },
-            options,
-            |_| {},
-        )
-        .map_err(|error| error.to_string())
+    pub fn build_with(&self, options: &BuildOptions<'_>) -> Result<Vec<u8>, String> {
+        let mesh = self.mesh.as_input();
+        let input = meshsweep::mesh::Input { input_triangles: self.triangles_read, ..mesh };
+        let built = build(input, options, Watch::NONE).map_err(|error| error.to_string())?;
+        Ok(built.0.to_bytes())
     }
 
     /// Diagonal of the mesh's box, input units.

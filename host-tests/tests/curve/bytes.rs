@@ -1,6 +1,8 @@
 //! Every fault of the bytes is a typed error. Bytes that open are safe to query.
 
-use meshsweep::curve::{CurveError, Polyline, store};
+use meshsweep::BuildError;
+use meshsweep::curve::{CurveError, CurveOptions, Polyline, build};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Blob, Curve, OpenError, SectionKind};
 use meshsweep_host_tests::corrupt::{
     assert_only_the_whole_opens, entry, flip_bits, put_u32, replace_bytes, seal,
@@ -11,7 +13,10 @@ use meshsweep_host_tests::generate::curves::{circle, open as line, walk};
 
 /// A walk of nine segments and a closed ring of seven: eighteen points in f32.
 fn small() -> Vec<u8> {
-    store(&[walk(9, 1), circle(7)], true).expect("finite").0.to_bytes()
+    build(&[walk(9, 1), circle(7)], &CurveOptions { is_f32: true }, Watch::NONE)
+        .expect("finite")
+        .0
+        .to_bytes()
 }
 
 fn open(bytes: &[u8]) -> Result<(), OpenError> {
@@ -126,7 +131,14 @@ fn polylines_points_and_nodes_that_do_not_fit_are_named() {
 
 #[test]
 fn curves_that_cannot_be_stored_are_refused() {
-    let refused = |polylines: &[Polyline]| store(polylines, true).map(|_| ()).unwrap_err();
+    let refused = |polylines: &[Polyline]| {
+        let BuildError::Curve { error, .. } =
+            build(polylines, &CurveOptions { is_f32: true }, Watch::NONE).unwrap_err()
+        else {
+            panic!("another error");
+        };
+        error
+    };
     assert_eq!(refused(&[]), CurveError::NoPoints);
     let bad = CurveError::Polyline { polyline: 1 };
     for points in [vec![], vec![[0.0; 3]], vec![[0.0; 3], [0.0, f64::NAN, 0.0]], vec![[1e39; 3]; 2]]

@@ -2,7 +2,8 @@
 //! less than the answer says.
 
 use super::scenes::{Scene, scenes, scratch};
-use meshsweep::curve::Polyline;
+use meshsweep::curve::{CurveOptions, Polyline, build};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Blob, Budget, CurveClosest, CurveSegment, Ended, QueryError};
 use meshsweep_host_tests::generate::Rng;
 use meshsweep_host_tests::generate::curves::{circle, open, spiral, tool_path, walk, zig_zag};
@@ -203,7 +204,10 @@ fn work_grows_far_slower_than_the_segments() {
 
 #[test]
 fn a_blob_of_a_curve_serves_curves_only() {
-    let bytes = meshsweep::curve::store(&[circle(5)], true).expect("a curve").0.to_bytes();
+    let bytes = build(&[circle(5)], &CurveOptions { is_f32: true }, Watch::NONE)
+        .expect("a curve")
+        .0
+        .to_bytes();
     let blob = Blob::open(&bytes).expect("opens");
     let curve = blob.curve().expect("is there");
     assert!(curve.is_planar() && curve.is_closed(0) == Some(true) && curve.is_closed(1).is_none());

@@ -1,6 +1,7 @@
 //! Curves, their blobs and their oracle.
 
-use meshsweep::curve::{Polyline, store};
+use meshsweep::curve::{CurveOptions, Polyline, build};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Curve, CurveSegment, ScratchEntry};
 use meshsweep_host_tests::generate::Rng;
 use meshsweep_host_tests::generate::curves::{
@@ -17,7 +18,8 @@ pub struct Scene {
 
 impl Scene {
     pub fn new(name: &'static str, polylines: &[Polyline], is_f32: bool) -> Self {
-        let bytes = store(polylines, is_f32).expect("a curve").0.to_bytes();
+        let bytes =
+            build(polylines, &CurveOptions { is_f32 }, Watch::NONE).expect("a curve").0.to_bytes();
         let mut segments = Vec::new();
         for (polyline, Polyline { points, is_closed }) in (0..).zip(polylines) {
             let mut points = points.clone();

@@ -3,9 +3,10 @@
 use crate::checks::holds;
 use crate::scene::{Kind, Scene, wide};
 use crate::tree::segments;
-use meshsweep::curve::{Polyline, store};
+use meshsweep::curve::{CurveOptions, Polyline, build};
 use meshsweep::mesh::Input;
-use meshsweep::tribox;
+use meshsweep::progress::Watch;
+use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::{Budget, Curve, Interval, QueryError, ScratchEntry, Triboxes, Verdict};
 use meshsweep_host_tests::generate::extremes::{Extreme, extreme_points};
 use meshsweep_host_tests::oracle::exact::{Corners, distance_compared, first_meeting};
@@ -15,7 +16,7 @@ fn triboxes(extreme: &Extreme) {
     let scene = Scene::new(extreme.name, &wide(extreme.mesh.clone()), Kind::F32);
     let input =
         Input { mesh: &scene.mesh, moved: scene.moved, input_triangles: scene.corners.len() };
-    let bytes = match tribox::store(input, 8) {
+    let bytes = match tribox::build(input, &TriboxOptions { count: 8 }, Watch::NONE) {
         Ok((tables, _)) => tables.to_bytes(),
         Err(error) => {
             let is_huge = ["the_largest_numbers"].contains(&extreme.name);
@@ -65,7 +66,8 @@ fn curves(extreme: &Extreme) {
         scene.corners.iter().flat_map(|&[a, b, c]| [[a, b, b], [b, c, c]]).collect();
     let all: Vec<&Corners> = sides.iter().collect();
     for is_f32 in [false, true] {
-        let bytes = store(&polylines, is_f32).expect("curves").0.to_bytes();
+        let bytes =
+            build(&polylines, &CurveOptions { is_f32 }, Watch::NONE).expect("curves").0.to_bytes();
         let curve = Curve::open(&bytes).expect("opens");
         let mut scratch = vec![ScratchEntry::EMPTY; curve.scratch_entries()];
         for p in extreme_points(&extreme.mesh) {

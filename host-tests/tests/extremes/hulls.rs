@@ -3,8 +3,9 @@
 use crate::checks::holds;
 use crate::scene::{Kind, Scene, wide};
 use meshsweep::BuildError;
-use meshsweep::hull::{BuildOptions, build, build_deform, build_for_sweep};
+use meshsweep::hull::{BuildOptions, Levels, build};
 use meshsweep::mesh::Input;
+use meshsweep::progress::Watch;
 use meshsweep::tight::{self, ChainOptions};
 use meshsweep_core::{
     Budget, ClosestPoint, DeformableHull, Ended, FirstHit, Hull, MovedVertex, QueryError,
@@ -15,7 +16,7 @@ use meshsweep_host_tests::oracle::exact::{Corners, distance_compared, first_meet
 use std::cmp::Ordering::{Greater, Less};
 
 /// As few faces at the base as there may be, so that there are splits.
-fn options() -> BuildOptions {
+fn options() -> BuildOptions<'static> {
     BuildOptions { base_faces: 4, ..BuildOptions::default() }
 }
 
@@ -80,8 +81,8 @@ fn kinds(extreme: &Extreme) -> [Scene; 2] {
 
 fn hull_hierarchy(extreme: &Extreme) {
     for scene in kinds(extreme) {
-        match build(input(&scene), &options(), |_| ()) {
-            Ok(built) => ask(&scene, &Hull::open(&built.bytes).expect("opens"), extreme),
+        match build(input(&scene), &options(), Watch::NONE) {
+            Ok(built) => ask(&scene, &Hull::open(&built.0.to_bytes()).expect("opens"), extreme),
             // The vertices of a grid may make the mesh flat.
             Err(error) => {
                 let may = !extreme.is_solid || scene.moved > 0.0;
@@ -93,8 +94,9 @@ fn hull_hierarchy(extreme: &Extreme) {
 
 fn sweep(extreme: &Extreme) {
     for scene in kinds(extreme) {
-        match build_for_sweep(input(&scene), &options(), |_| ()) {
-            Ok(built) => ask(&scene, &Hull::open(&built.bytes).expect("opens"), extreme),
+        let sweep = options().with_levels(Levels::Sweep);
+        match build(input(&scene), &sweep, Watch::NONE) {
+            Ok(built) => ask(&scene, &Hull::open(&built.0.to_bytes()).expect("opens"), extreme),
             Err(error) => {
                 let has_area = !scene.mesh.triangles.is_empty();
                 assert!(!has_area && error == BuildError::Empty, "{}: {error}", scene.name);
@@ -118,11 +120,12 @@ fn posed(p: [f32; 3], pose: usize) -> [f32; 3] {
 
 fn deform(extreme: &Extreme) {
     let scene = Scene::new(extreme.name, &wide(extreme.mesh.clone()), Kind::F32);
-    let built = match build_deform(input(&scene), &[], &options(), |_| ()) {
-        Ok(built) => built,
+    let deform = options().with_levels(Levels::Deform(&[]));
+    let built = match build(input(&scene), &deform, Watch::NONE) {
+        Ok((sections, _)) => sections.to_bytes(),
         Err(error) => return assert!(!extreme.is_solid, "{}: {error}", scene.name),
     };
-    let hull = DeformableHull::open(&built.bytes).expect("opens");
+    let hull = DeformableHull::open(&built).expect("opens");
     let (mut memory, mut scratch) =
         (vec![MovedVertex::EMPTY; hull.vertex_records()], stack(hull.rest().scratch_entries()));
     let mut moved = hull.moved(&mut memory).expect("enough records");
@@ -152,7 +155,7 @@ fn deform(extreme: &Extreme) {
 fn tight_hulls(extreme: &Extreme) {
     let scene = Scene::new(extreme.name, &wide(extreme.mesh.clone()), Kind::Grid);
     let options = ChainOptions::of_faces(&[20]).with_effort(0.001);
-    let bytes = match tight::chain(input(&scene), &options, |_| {}) {
+    let bytes = match tight::build(input(&scene), &options, Watch::NONE) {
         Ok((tables, _)) => tables.to_bytes(),
         Err(error) => {
             // Nothing fits around what ends at the end of f32 or is as small as its steps.

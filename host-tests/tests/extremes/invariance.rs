@@ -4,11 +4,12 @@ use crate::checks::{holds, intervals_are_narrow, wrong_intervals};
 use crate::named::extreme;
 use crate::scene::{Kind, Raw, Scene, wide};
 use meshsweep::bvh::TreeOptions;
-use meshsweep::curve::{Polyline, store};
-use meshsweep::hull::{BuildOptions, build_deform, build_for_sweep};
+use meshsweep::curve::{self, CurveOptions, Polyline};
+use meshsweep::hull::{self, BuildOptions, Levels};
 use meshsweep::mesh::Input;
+use meshsweep::progress::Watch;
 use meshsweep::tight::{self, ChainOptions};
-use meshsweep::tribox;
+use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::{
     Budget, Bvh, Curve, DeformableHull, Facing, Hull, MovedVertex, ScratchEntry, TightHulls,
     Triboxes,
@@ -98,8 +99,9 @@ fn scaling_by_a_power_of_two_scales_every_bit_of_a_sweep_and_of_a_hull_that_move
     scales(|raw, points, by| {
         let scene = Scene::new("", raw, Kind::F32);
         let options = BuildOptions { base_faces: 4, ..BuildOptions::default() };
-        let built = build_for_sweep(input(&scene), &options, |_| ()).expect("builds");
-        let model = Hull::open(&built.bytes).expect("opens");
+        let sweep = options.with_levels(Levels::Sweep);
+        let built = hull::build(input(&scene), &sweep, Watch::NONE).expect("builds").0.to_bytes();
+        let model = Hull::open(&built).expect("opens");
         let mut memory = stack(model.scratch_entries());
         let mut answers = Vec::new();
         for (i, &p) in points.iter().enumerate() {
@@ -110,8 +112,10 @@ fn scaling_by_a_power_of_two_scales_every_bit_of_a_sweep_and_of_a_hull_that_move
             rest.extend([hit.t.lower, hit.t.upper, number(hit.hit.and_then(|hit| hit.triangle))]);
             answers.push((lengths, rest));
         }
-        if let Ok(built) = build_deform(input(&scene), &[], &options, |_| ()) {
-            let hull = DeformableHull::open(&built.bytes).expect("opens");
+        let deform = options.with_levels(Levels::Deform(&[]));
+        if let Ok((sections, _)) = hull::build(input(&scene), &deform, Watch::NONE) {
+            let built = sections.to_bytes();
+            let hull = DeformableHull::open(&built).expect("opens");
             let mut records = vec![MovedVertex::EMPTY; hull.vertex_records()];
             let mut moved = hull.moved(&mut records).expect("enough");
             let place = |v: u32| {
@@ -135,11 +139,17 @@ fn scaling_by_a_power_of_two_scales_every_bit_of_a_sweep_and_of_a_hull_that_move
 fn scaling_by_a_power_of_two_scales_every_bit_of_triboxes_and_curves() {
     scales(|raw, points, _| {
         let scene = Scene::new("", raw, Kind::F32);
-        let bytes = tribox::store(input(&scene), 8).expect("in the domain").0.to_bytes();
+        let bytes = {
+            let options = TriboxOptions { count: 8 };
+            let built = tribox::build(input(&scene), &options, Watch::NONE);
+            built.expect("in the domain").0.to_bytes()
+        };
         let triboxes = Triboxes::open(&bytes).expect("opens");
         let sides = scene.corners.iter();
         let sides = sides.map(|t| Polyline { points: t.to_vec(), is_closed: true });
-        let bytes = store(&sides.collect::<Vec<_>>(), false).expect("curves").0.to_bytes();
+        let options = CurveOptions::default();
+        let curves = curve::build(&sides.collect::<Vec<_>>(), &options, Watch::NONE);
+        let bytes = curves.expect("curves").0.to_bytes();
         let curve = Curve::open(&bytes).expect("opens");
         let mut memory = stack(triboxes.scratch_entries() + curve.scratch_entries());
         let ask = |&p: &[f32; 3]| {
@@ -168,7 +178,8 @@ fn scaling_by_a_power_of_two_scales_every_bit_of_tight_hulls() {
     let ask = |by: f32| -> Vec<Answer> {
         let scene = Scene::new("", &wide(scaled(&mesh, by)), Kind::Grid);
         let options = ChainOptions::of_faces(&[20]).with_effort(0.001);
-        let bytes = tight::chain(input(&scene), &options, |_| {}).expect("builds").0.to_bytes();
+        let bytes =
+            tight::build(input(&scene), &options, Watch::NONE).expect("builds").0.to_bytes();
         let hulls = TightHulls::open(&bytes).expect("opens");
         let hull = hulls.get(0).expect("a hull");
         let mut memory = stack(hull.bvh().header().stack_entries as usize);
@@ -199,9 +210,10 @@ fn a_turned_mesh_has_the_distances_of_the_mesh() {
         for turn in TURNS {
             let turned = transformed(&mesh, turn, [0.0; 3]);
             let scene = Scene::new(name, &wide(turned), Kind::Grid);
-            let built =
-                build_for_sweep(input(&scene), &BuildOptions::default(), |_| ()).expect("builds");
-            let model = Hull::open(&built.bytes).expect("opens");
+            let options = BuildOptions { levels: Levels::Sweep, ..BuildOptions::default() };
+            let built = hull::build(input(&scene), &options, Watch::NONE).expect("builds");
+            let built = built.0.to_bytes();
+            let model = Hull::open(&built).expect("opens");
             let (tree, mut memory) = (scene.tree(), stack(model.scratch_entries() + 64));
             for p in extreme_points(&mesh) {
                 let (asked, _) = transformed(&(vec![p], Vec::new()), turn, [0.0; 3]);

@@ -5,6 +5,7 @@ use meshsweep::BuildError;
 use meshsweep::cut::cut;
 use meshsweep::hull::build;
 use meshsweep::mesh::{RawMesh, repair};
+use meshsweep::progress::Watch;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{Budget, Ended, Hull, RefinedHull, ScratchEntry, Search};
 use meshsweep_host_tests::generate::{Rng, cube, rough_sphere, transformed, uv_sphere};
@@ -55,8 +56,9 @@ fn a_hull_of_a_moved_surface_is_never_called_clear_by_its_box() {
     let (mesh, _) = repair(RawMesh::from_f32(&positions, &triangles)).expect("sound");
     let low = mesh.positions.iter().map(|p| p[0]).fold(f32::INFINITY, f32::min);
     let chosen = meshsweep::hull::BuildOptions { vertex_bits: VertexBits::Grid16, ..options(12) };
-    let built = build(mesh.as_input(), &chosen, |_| ()).expect("builds");
-    let model = Hull::open(&built.bytes).expect("opens");
+    let built = build(mesh.as_input(), &chosen, Watch::NONE).expect("builds");
+    let built = built.0.to_bytes();
+    let model = Hull::open(&built).expect("opens");
     assert!(model.header().surface_error > 0.0);
     let mut refined = RefinedHull::<256>::new();
     for x in [low, low.next_up(), low.next_down()] {
@@ -88,13 +90,13 @@ fn a_mesh_that_is_mostly_inside_out_is_refused_by_name() {
         triangles.extend([[i, j, 4 + j], [i, 4 + j, 4 + i]]);
     }
     let (mesh, _) = repair(RawMesh::from_f32(&positions, &triangles)).expect("sound");
-    match build(mesh.as_input(), &options(8), |_| ()) {
+    match build(mesh.as_input(), &options(8), Watch::NONE) {
         Err(error @ BuildError::NotPositive { .. }) => {
             assert!(error.to_string().contains("inside out"))
         }
-        Ok(built) => assert!(
-            matches!(built.report.kind, meshsweep::hull::Kind::Hulls { volume } if volume > 0.0)
-        ),
+        Ok(built) => {
+            assert!(matches!(built.1.kind, meshsweep::hull::Kind::Hulls { volume } if volume > 0.0))
+        }
         Err(other) => panic!("{other}"),
     }
 }

@@ -5,8 +5,9 @@ use super::scenes::options;
 use meshsweep::BuildError;
 use meshsweep::check::check_blob;
 use meshsweep::cut::cut;
-use meshsweep::hull::{Kind, build_for_sweep};
+use meshsweep::hull::{Kind, Levels, build};
 use meshsweep::mesh::{Mesh, read_bytes, repair};
+use meshsweep::progress::Watch;
 use meshsweep_core::{
     Budget, Change, ClosestPoint, Ended, Focus, Hull, Interval, OpenError, QueryError, RefinedHull,
     ScratchEntry, Search, TriangleHit, VertIdx,
@@ -277,8 +278,9 @@ fn questions_that_need_hulls_are_refused_and_refined_meshes_keep_their_holes() {
 #[test]
 fn any_mesh_with_an_area_builds_and_the_report_counts_its_holes() {
     let mesh = |(positions, triangles): Triangles| Mesh::new(positions, triangles);
-    let built = |mesh: &Mesh| build_for_sweep(mesh.as_input(), &options(24), |_| ());
-    let kind = |shape| built(&mesh(shape)).expect("builds").report.kind;
+    let sweep = |faces| options(faces).with_levels(Levels::Sweep);
+    let built = |mesh: &Mesh| build(mesh.as_input(), &sweep(24), Watch::NONE);
+    let kind = |shape| built(&mesh(shape)).expect("builds").1.kind;
     let tube = kept(&cube(4), |p| p[2].abs() < 0.99);
     assert_eq!(kind(tube), Kind::SweepOnly { holes: 2, copies: 0 });
     assert_eq!(kind(icosphere(1)), Kind::SweepOnly { holes: 0, copies: 0 });
@@ -301,9 +303,9 @@ fn every_evil_file_that_can_be_read_builds_or_has_no_area() {
         }
         let raw = read_bytes(Path::new(name), file.bytes).expect("readable");
         let (mesh, _) = repair(raw).expect("mended");
-        match build_for_sweep(mesh.as_input(), &options(8), |_| ()) {
-            Ok(of) => {
-                check_blob(&of.bytes).unwrap_or_else(|e| panic!("{name}: {e}"));
+        match build(mesh.as_input(), &options(8).with_levels(Levels::Sweep), Watch::NONE) {
+            Ok((sections, _)) => {
+                check_blob(&sections.to_bytes()).unwrap_or_else(|e| panic!("{name}: {e}"));
                 built += 1;
             }
             Err(error) => assert_eq!((error, mesh.triangles.len()), (BuildError::Empty, 0)),

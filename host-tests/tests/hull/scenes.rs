@@ -10,7 +10,7 @@ use meshsweep_host_tests::generate::{
 use meshsweep_host_tests::scene::Scene;
 use std::sync::LazyLock;
 
-pub fn options(base_faces: usize) -> BuildOptions {
+pub fn options(base_faces: usize) -> BuildOptions<'static> {
     BuildOptions { base_faces, ..BuildOptions::default() }
 }
 

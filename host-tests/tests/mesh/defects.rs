@@ -2,13 +2,14 @@
 //! refused by name and place. No triangle is lost in silence.
 
 use meshsweep::bvh::{self, TreeOptions};
-use meshsweep::hull::{self, BuildOptions};
+use meshsweep::hull::{self, BuildOptions, Levels};
 use meshsweep::mesh::{
     Input, Mesh, RawMesh, RepairReport, repair, require_closed_manifold, require_deformable,
 };
+use meshsweep::progress::Watch;
 use meshsweep::surface::{VertexBits, snap};
 use meshsweep::tight::{self, ChainOptions};
-use meshsweep::tribox;
+use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::{
     Budget, Bvh, DeformableHull, Facing, Hull, ScratchEntry, TightHulls, Triboxes,
 };
@@ -101,12 +102,9 @@ fn build(wanted: &str, raw: &Raw, every: usize) -> Result<(Mesh, RepairReport), 
     };
     match wanted {
         "hull" | "sweep" => {
-            let built = if wanted == "hull" {
-                hull::build(input, &options, |_| ())
-            } else {
-                hull::build_for_sweep(input, &options, |_| ())
-            };
-            let bytes = built.map_err(refused)?.bytes;
+            let levels = if wanted == "hull" { Levels::Hulls } else { Levels::Sweep };
+            let built = hull::build(input, &options.with_levels(levels), Watch::NONE);
+            let bytes = built.map_err(refused)?.0.to_bytes();
             let model = Hull::open(&bytes).expect("opens");
             let mut memory = stack(model.scratch_entries());
             for p in points {
@@ -115,7 +113,9 @@ fn build(wanted: &str, raw: &Raw, every: usize) -> Result<(Mesh, RepairReport), 
             }
         }
         "deform" => {
-            let bytes = hull::build_deform(input, &[], &options, |_| ()).map_err(refused)?.bytes;
+            let options = options.with_levels(Levels::Deform(&[]));
+            let built = hull::build(input, &options, Watch::NONE);
+            let bytes = built.map_err(refused)?.0.to_bytes();
             let hull = DeformableHull::open(&bytes).expect("opens");
             let at = hull.at_frame(0.0).expect("the mesh itself");
             let mut memory = stack(hull.rest().scratch_entries());
@@ -126,7 +126,8 @@ fn build(wanted: &str, raw: &Raw, every: usize) -> Result<(Mesh, RepairReport), 
         }
         "triboxes" => {
             let most = if every > 1 { 1 } else { 4 };
-            let built = tribox::store(input, most).map_err(|e| named(&e, variant(&e)))?;
+            let built = tribox::build(input, &TriboxOptions { count: most }, Watch::NONE)
+                .map_err(|e| named(&e, variant(&e)))?;
             let bytes = built.0.to_bytes();
             let triboxes = Triboxes::open(&bytes).expect("opens");
             let mut memory = stack(triboxes.scratch_entries());
@@ -137,7 +138,7 @@ fn build(wanted: &str, raw: &Raw, every: usize) -> Result<(Mesh, RepairReport), 
         }
         "tight" => {
             let options = ChainOptions::of_faces(&[20]).with_effort(0.001);
-            let (tables, _) = tight::chain(input, &options, |_| {}).map_err(refused)?;
+            let (tables, _) = tight::build(input, &options, Watch::NONE).map_err(refused)?;
             let bytes = tables.to_bytes();
             let hull = TightHulls::open(&bytes).expect("opens").get(0).expect("a hull");
             let mut memory = stack(hull.bvh().header().stack_entries as usize);

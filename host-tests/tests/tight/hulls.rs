@@ -9,6 +9,7 @@ use meshsweep::BuildError;
 use meshsweep::check::{Surface, check_enclosure, check_margin};
 use meshsweep::hull::{BuildOptions, hull_of};
 use meshsweep::mesh::{Mesh, NoVolume, RawMesh, Wire, read_bytes, repair};
+use meshsweep::progress::Watch;
 use meshsweep::tight::{Goal, Hull, Options, Outcome, Start, split_components, wrap};
 use meshsweep_host_tests::generate::evil::evil;
 use meshsweep_host_tests::generate::{
@@ -30,7 +31,7 @@ fn options(faces: usize) -> Options {
 const FEW: usize = 20;
 
 fn proved(name: &str, mesh: &Mesh, options: &Options) -> Hull {
-    let hull = wrap(mesh, options, |_| {}).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let hull = wrap(mesh, options, Watch::NONE).unwrap_or_else(|e| panic!("{name}: {e}"));
     prove(name, mesh, &hull);
     hull
 }
@@ -145,7 +146,7 @@ fn hulls_are_no_looser_than_progressive_hulls_of_as_many_faces() {
                 continue;
             }
             let (nested, void, _) =
-                hull_of(&mesh, faces, &BuildOptions::default(), |_| {}).expect("a solid");
+                hull_of(&mesh, faces, &BuildOptions::default(), Watch::NONE).expect("a solid");
             if nested.triangles.len() > faces {
                 continue;
             }
@@ -223,7 +224,7 @@ fn wires_are_enclosed_with_the_mesh() {
     let all = Surface::new(&mesh.positions, &triangles);
     for margin in [0.0, 0.1] {
         let options = options(100).with_margin(margin);
-        let hull = wrap(&mesh, &options, |_| {}).unwrap();
+        let hull = wrap(&mesh, &options, Watch::NONE).unwrap();
         check_margin(&all, &Surface::new(&hull.mesh.positions, &hull.mesh.triangles), margin)
             .unwrap();
         assert!(hull.report.void.is_ok(), "the mesh is still a solid");
@@ -257,7 +258,7 @@ fn evil_meshes_have_a_hull_or_a_reason() {
         if known.iter().any(|m| m.positions == mesh.positions && m.triangles == mesh.triangles) {
             continue;
         }
-        match wrap(&mesh, &options(100).with_effort(0.0), |_| {}) {
+        match wrap(&mesh, &options(100).with_effort(0.0), Watch::NONE) {
             Ok(hull) => prove(case.name, &mesh, &hull),
             Err(error) => assert_eq!(error, BuildError::NoRoom, "{}", case.name),
         }
@@ -268,8 +269,8 @@ fn evil_meshes_have_a_hull_or_a_reason() {
 #[test]
 fn the_same_mesh_gives_the_same_hull() {
     let mesh = mesh_of(&rough_sphere(3, 0.3, 11));
-    let once = wrap(&mesh, &options(80), |_| {}).unwrap();
-    let again = wrap(&mesh, &options(80), |_| {}).unwrap();
+    let once = wrap(&mesh, &options(80), Watch::NONE).unwrap();
+    let again = wrap(&mesh, &options(80), Watch::NONE).unwrap();
     assert_eq!(once.mesh, again.mesh);
     assert_eq!(once.report.stars, again.report.stars);
 }
@@ -311,13 +312,13 @@ fn a_void_or_a_slack_that_is_asked_for_is_kept_with_few_faces() {
     }
     let (positions, triangles) = torus(1.0, 0.3, 20, 10);
     let open = mesh_of(&(positions, triangles[..50].to_vec()));
-    let refused = wrap(&open, &Options::new(Goal::Void(0.1)).with_effort(0.02), |_| {});
+    let refused = wrap(&open, &Options::new(Goal::Void(0.1)).with_effort(0.02), Watch::NONE);
     assert!(matches!(refused.unwrap_err(), BuildError::NoVolume(NoVolume::Open { .. })));
 }
 
 #[test]
 fn a_mesh_without_triangles_has_no_tight_hull() {
-    let refused = wrap(&Mesh::default(), &Options::default(), |_| {}).unwrap_err();
+    let refused = wrap(&Mesh::default(), &Options::default(), Watch::NONE).unwrap_err();
     assert_eq!(refused, BuildError::Empty);
 }
 
@@ -460,6 +461,6 @@ fn no_slack_is_said_to_be_kept_before_it_is_proved() {
             assert!(time > 1 || report.stop == Outcome::OutOfTime, "{time} {report:?}");
         }
     }
-    let refused = wrap(&mesh_of(&cube(1)), &Options::new(Goal::Slack(f64::NAN)), |_| {});
+    let refused = wrap(&mesh_of(&cube(1)), &Options::new(Goal::Slack(f64::NAN)), Watch::NONE);
     assert!(matches!(refused.unwrap_err(), BuildError::SlackWithinMargin { .. }));
 }

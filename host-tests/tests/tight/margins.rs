@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use meshsweep::BuildError;
 use meshsweep::check::{Surface, check_enclosure, check_margin};
 use meshsweep::mesh::{Mesh, RawMesh, repair};
+use meshsweep::progress::Watch;
 use meshsweep::tight::{Goal, Hull, Options, Outcome, Start, wrap};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, cube, groove_block, icosphere, needle_comb, scaled, torus,
@@ -24,7 +25,7 @@ fn surface(m: &Mesh) -> Surface {
 }
 
 fn proved(name: &str, mesh: &Mesh, options: &Options) -> Hull {
-    let hull = wrap(mesh, options, |_| {}).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let hull = wrap(mesh, options, Watch::NONE).unwrap_or_else(|e| panic!("{name}: {e}"));
     let proof = check_margin(&surface(mesh), &surface(&hull.mesh), options.margin)
         .unwrap_or_else(|e| panic!("{name}: {e}"));
     assert_eq!(proof.inside, mesh.positions.len(), "{name}");
@@ -141,7 +142,7 @@ fn a_slack_is_kept_with_a_margin() {
 #[test]
 fn margins_that_cannot_be_had_are_errors() {
     let mesh = mesh_of(&cube(1));
-    let error = |mesh: &Mesh, options: &Options| wrap(mesh, options, |_| {}).unwrap_err();
+    let error = |mesh: &Mesh, options: &Options| wrap(mesh, options, Watch::NONE).unwrap_err();
     for margin in [-1.0, -f64::MIN_POSITIVE, f64::NAN, f64::INFINITY] {
         let refused = error(&mesh, &options(100, margin));
         assert!(matches!(refused, BuildError::BadMargin { .. }), "{refused:?}");

@@ -7,6 +7,7 @@ use meshsweep::check::{Outcome, verify_file};
 use meshsweep::hull::{BuildOptions, enclosing_input, hull_of, mesh_of};
 use meshsweep::load::{Loaded, Source};
 use meshsweep::mesh::{Mesh, RawMesh, read_bytes};
+use meshsweep::progress::Watch;
 use meshsweep::tight::{Goal, Options, wrap};
 use meshsweep::tribox::{Hierarchy, SplitOptions, box_tree, proxies, surface};
 use meshsweep_core::{Bvh, Focus, RefinedHull};
@@ -47,12 +48,14 @@ fn encloses(text: &str, hull: &Mesh) -> Result<(), String> {
 fn tight(text: &str, goal: Goal) -> Mesh {
     let loaded = loaded(text);
     let options = Options::new(goal).with_effort(0.02);
-    wrap(loaded.input(), &options, |_| {}).expect("there is a hull").mesh
+    wrap(loaded.input(), &options, Watch::NONE).expect("there is a hull").mesh
 }
 
 fn progressive(text: &str, faces: usize) -> Mesh {
     let loaded = loaded(text);
-    hull_of(loaded.input(), faces, &BuildOptions::default(), |_| {}).expect("there is a hull").0
+    hull_of(loaded.input(), faces, &BuildOptions::default(), Watch::NONE)
+        .expect("there is a hull")
+        .0
 }
 
 fn triboxes(text: &str, leaves: usize) -> Mesh {
@@ -209,7 +212,7 @@ fn hulls_of_random_meshes_in_random_decimals_enclose_them() {
             assert!(loaded(&text).error() > 0.0, "{what}");
             assert_eq!(encloses(&text, &tight(&text, Goal::Faces(80))), Ok(()), "{what}");
             let loaded = loaded(&text);
-            match hull_of(loaded.input(), 100, &BuildOptions::default(), |_| {}) {
+            match hull_of(loaded.input(), 100, &BuildOptions::default(), Watch::NONE) {
                 Ok((hull, ..)) => assert_eq!(encloses(&text, &hull), Ok(()), "{what}"),
                 Err(BuildError::NotEnclosed { .. }) => {}
                 Err(error) => panic!("{what}: {error}"),
@@ -251,7 +254,7 @@ fn a_progressive_hull_that_is_not_proved_to_enclose_the_file_is_refused() {
         triangles.iter().copied().chain(triangles.iter().map(|t| t.map(|v| v + count))).collect();
     let text = obj(positions.iter().map(place(0.0)).chain(positions.iter().map(place(1.0))), &both);
     let loaded = loaded(&text);
-    let found = hull_of(loaded.input(), 100, &BuildOptions::default(), |_| {});
+    let found = hull_of(loaded.input(), 100, &BuildOptions::default(), Watch::NONE);
     assert!(matches!(found, Err(BuildError::NotEnclosed { error }) if error > 0.0), "{found:?}");
     assert_eq!(encloses(&text, &tight(&text, Goal::Faces(100))), Ok(()));
 }
@@ -266,9 +269,10 @@ fn a_mesh_of_f32_numbers_has_the_same_hulls_however_it_is_written() {
         obj(positions.iter().map(shortest), &triangles),
     ];
     let in_memory = Mesh::new(positions, triangles);
-    let wrapped = wrap(&in_memory, &Options::new(Goal::Faces(60)).with_effort(0.02), |_| {});
+    let wrapped = wrap(&in_memory, &Options::new(Goal::Faces(60)).with_effort(0.02), Watch::NONE);
     let wrapped = wrapped.expect("a hull").mesh;
-    let collapsed = hull_of(&in_memory, 60, &BuildOptions::default(), |_| {}).expect("a hull").0;
+    let collapsed =
+        hull_of(&in_memory, 60, &BuildOptions::default(), Watch::NONE).expect("a hull").0;
     for text in texts {
         assert_eq!(loaded(&text).error(), 0.0);
         assert_eq!(tight(&text, Goal::Faces(60)).positions, wrapped.positions);

@@ -26,7 +26,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         return trade::build(args);
     }
     let mut bars = StageBars::default();
-    let built = builder.on_progress(|stage, _| bars.show_build(stage)).build_file(&args.mesh);
+    let built = builder.on_progress(|stage, _| bars.show(stage)).build_file(&args.mesh);
     let built = built.map_err(failed)?;
     drop(bars);
     for note in built.report_on(Topic::Winding) {

@@ -2,7 +2,6 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 use meshsweep::builder::Stage;
-use meshsweep::tight::{self, HullStage, Progress};
 use std::io::IsTerminal;
 
 /// A bar that is cleared when it is dropped.
@@ -43,7 +42,7 @@ impl Drop for Bar {
     }
 }
 
-/// A bar for each stage of making hulls.
+/// A bar for each stage of a build.
 #[derive(Default)]
 pub struct StageBars {
     stage: Option<(&'static str, usize)>,
@@ -51,20 +50,12 @@ pub struct StageBars {
 }
 
 impl StageBars {
-    pub fn show(&mut self, progress: Progress) {
-        let (doing, things) = match progress.stage {
-            HullStage::Collapsing => ("collapsing", "faces"),
-            HullStage::Wrapping => ("wrapping", "faces"),
-            HullStage::Polishing => ("polishing", "steps"),
-        };
-        self.step(doing, things, progress.done, progress.of);
-    }
-
-    /// Of a build, stages without a count have no bar.
-    pub fn show_build(&mut self, stage: Stage) {
+    /// Stages without a count have no bar.
+    pub fn show(&mut self, stage: Stage) {
         match stage {
-            Stage::Hull { done, of } => self.step("collapsing", "faces", done, of),
-            Stage::Tight(tight::Stage::Wrapping { progress, .. }) => self.show(progress),
+            Stage::Collapsing { done, of } => self.step("collapsing", "faces", done, of),
+            Stage::Shrinking { done, of } => self.step("wrapping", "faces", done, of),
+            Stage::Polishing { done, of } => self.step("polishing", "steps", done, of),
             _ => *self = Self::default(),
         }
     }

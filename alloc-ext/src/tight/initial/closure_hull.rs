@@ -4,8 +4,9 @@ use super::initial_hull::{InitialHull, InitialInput};
 use super::levels::{ClosedSurface, Faces, LEVELS};
 use super::voxel_closure::voxel_closure;
 use crate::collapse::Conditions;
+use crate::progress::Stage;
 use crate::tight::moves::Shell;
-use crate::tight::report::{Progress, Start};
+use crate::tight::report::Start;
 use glam::DVec3;
 use meshsweep_core::internal::num::exp2;
 
@@ -27,7 +28,7 @@ pub(crate) fn closure_hull(
     voxels: usize,
     target: usize,
     conditions: Conditions,
-    on_progress: &mut dyn FnMut(Progress),
+    on_progress: &mut dyn FnMut(Stage),
 ) -> Option<InitialHull> {
     let InitialInput { stored, obstacle, rounding, deadline } = input;
     let mut closure = voxel_closure(obstacle, voxels, *deadline)?;

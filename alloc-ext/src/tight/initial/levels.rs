@@ -5,11 +5,10 @@
 
 use super::initial_hull::InitialInput;
 use crate::collapse::{Conditions, Engine, Priority, thin};
+use crate::progress::Stage;
 use crate::surface::compact;
-use crate::tight::report::{Progress, Stage};
 use glam::DVec3;
 use meshsweep_core::internal::num::exp2;
-use std::ops::ControlFlow::{Break, Continue};
 
 /// Positions and triangles.
 pub(super) type Faces = (Vec<DVec3>, Vec<[u32; 3]>);
@@ -71,14 +70,13 @@ impl ClosedSurface<'_> {
         &InitialInput { stored, deadline, .. }: &InitialInput<'_>,
         target: usize,
         thins: bool,
-        on_progress: &mut dyn FnMut(Progress),
+        on_progress: &mut dyn FnMut(Stage),
     ) -> Option<Levels> {
         let is_late = || deadline.has_passed();
         let Self { positions, triangles, conditions } = *self;
         let from = triangles.len();
         let mut show = |faces: usize| {
-            on_progress(Progress {
-                stage: Stage::Collapsing,
+            on_progress(Stage::Collapsing {
                 done: from.saturating_sub(faces),
                 of: from.saturating_sub(target),
             });
@@ -111,11 +109,11 @@ impl ClosedSurface<'_> {
         let mut levels = Levels::default();
         for (level, faces) in counts {
             // A surface that is stuck at more faces is a level as well.
-            while engine.progress().faces > faces && !is_late() {
-                let next = engine.progress().faces.saturating_sub(FACES_PER_LOOK).max(faces);
-                let stuck = engine.run(next, |progress| {
-                    show(progress.faces);
-                    if is_late() { Break(()) } else { Continue(()) }
+            while engine.face_count() > faces && !is_late() {
+                let next = engine.face_count().saturating_sub(FACES_PER_LOOK).max(faces);
+                let stuck = engine.run(next, |faces| {
+                    show(faces);
+                    !is_late()
                 });
                 if stuck.is_some() {
                     break;

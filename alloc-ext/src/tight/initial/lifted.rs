@@ -9,8 +9,9 @@ use crate::collapse::{Conditions, MAX_STAR};
 use crate::geom::side;
 use crate::lp::{HalfSpace, Order, minimise_bounded};
 use crate::mesh::Mesh;
+use crate::progress::Stage;
 use crate::tight::moves::{Rounding, Shell, StarFace};
-use crate::tight::report::{Progress, Start};
+use crate::tight::report::Start;
 use glam::DVec3;
 
 /// Initial hulls that come from levels of the progressive hull.
@@ -28,7 +29,7 @@ pub(crate) fn lifted_levels(
     input: &InitialInput<'_>,
     mesh: &Mesh,
     target: usize,
-    on_progress: &mut dyn FnMut(Progress),
+    on_progress: &mut dyn FnMut(Stage),
 ) -> LiftedLevels {
     let InitialInput { stored, obstacle, rounding, .. } = input;
     let surface = ClosedSurface {

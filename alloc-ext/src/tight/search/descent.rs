@@ -2,9 +2,10 @@
 
 use super::hull_search::HullSearch;
 use super::polish::Polish;
+use crate::progress::Stage;
 use crate::tight::initial::InitialHull;
 use crate::tight::moves::{HullEditor, Shape};
-use crate::tight::report::{Outcome, Progress, Stage};
+use crate::tight::report::Outcome;
 
 /// Conditions of collapses as long as enough edges pass them: later edits find places for vertices.
 const SHAPE: Shape =
@@ -47,8 +48,7 @@ impl<'a> HullSearch<'a, '_> {
             let next = ((editor.shell.face_count() as f64 * STAGE) as usize).max(faces);
             let on_progress = &mut *self.on_progress;
             let mut show = |left: usize| {
-                on_progress(Progress {
-                    stage: Stage::Wrapping,
+                on_progress(Stage::Shrinking {
                     done: from.saturating_sub(left),
                     of: from.saturating_sub(faces),
                 });
@@ -77,7 +77,7 @@ impl<'a> HullSearch<'a, '_> {
         let floor = self.floor();
         let on_progress = &mut *self.on_progress;
         Polish::new(editor, self.options.effort).run(editor, floor, |done, of| {
-            on_progress(Progress { stage: Stage::Polishing, done: done as usize, of: of as usize });
+            on_progress(Stage::Polishing { done: done as usize, of: of as usize });
         });
         editor.drop_enclosed();
         if editor.is_late() { Outcome::OutOfTime } else { Outcome::Reached }

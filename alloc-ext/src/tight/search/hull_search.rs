@@ -2,13 +2,13 @@
 
 use crate::error::BuildError;
 use crate::mesh::Mesh;
+use crate::progress::Stage;
 use crate::surface::{Solid, Stored};
 use crate::tight::deadline::Deadline;
 use crate::tight::initial::InitialInput;
 use crate::tight::moves::Rounding;
 use crate::tight::options::Options;
 use crate::tight::proof::Obstacle;
-use crate::tight::report::Progress;
 
 /// The inputs and the state of a search.
 pub(crate) struct HullSearch<'a, 'p> {
@@ -24,7 +24,7 @@ pub(crate) struct HullSearch<'a, 'p> {
     pub deadline: Deadline<'a>,
     /// Whether the best initial hull was given up for lack of time.
     pub is_hurried: bool,
-    pub on_progress: &'p mut dyn FnMut(Progress),
+    pub on_progress: &'p mut dyn FnMut(Stage),
 }
 
 impl<'a> HullSearch<'a, '_> {

@@ -7,11 +7,11 @@ use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::Input;
 use crate::mesh::NoVolume;
-use crate::progress::{Answer, Callback};
+use crate::progress::{Stage, Watch};
 use crate::surface::VertexBits;
 use crate::tight::hull::{Hull, wrap};
 use crate::tight::options::{Goal, Options};
-use crate::tight::report::{Progress, Report};
+use crate::tight::report::Report;
 use meshsweep_core::internal::format::layout::MAX_LEVELS;
 use meshsweep_core::internal::num::Radius16;
 use std::time::{Duration, Instant};
@@ -127,22 +127,6 @@ impl ChainOptions {
     }
 }
 
-/// The state of the work on a chain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
-    /// A hull is being made.
-    Wrapping {
-        /// Number of the hull, from 0, in the order in which hulls are made.
-        hull: usize,
-        /// Hulls to be made.
-        of: usize,
-        /// The state of the work on it.
-        progress: Progress,
-    },
-    /// Distances between a hull and the mesh are being certified.
-    Certifying,
-}
-
 /// Measures of a hull of the chain.
 #[derive(Clone, Debug)]
 pub struct HullReport {
@@ -172,31 +156,31 @@ pub struct HullReport {
 ///
 /// # Errors
 /// [`BuildError`].
-pub fn chain<A: Answer>(
+pub fn build(
     input: Input<'_>,
     options: &ChainOptions,
-    mut on_progress: impl FnMut(Stage) -> A,
+    watch: Watch<'_>,
 ) -> Result<(Sections, Vec<HullReport>), BuildError> {
     let Input { mesh, moved, .. } = input;
     let goals = options.goals();
-    let of = goals.len();
+    let part = |index: usize| index as f64 / goals.len() as f64;
     // Fine to coarse: of equal hulls the one that was asked for with more faces is kept.
     let mut made: Vec<(Hull, HullReport)> = Vec::new();
     let mut overlaps = false;
     for (index, &goal) in goals.iter().rev().enumerate() {
         let started = Instant::now();
-        let mut show = |progress| on_progress(Stage::Wrapping { hull: index, of, progress });
-        let hull = wrap(input, &options.of_hull(goal), &mut show)?;
+        let watch = watch.part(part(index), part(index + 1));
+        let hull = wrap(input, &options.of_hull(goal), watch)?;
         if made
             .last()
             .is_some_and(|(finer, _)| finer.mesh.triangles.len() <= hull.mesh.triangles.len())
         {
             continue;
         }
-        let callback = Callback::new(|_| on_progress(Stage::Certifying).goes_on());
-        callback.watch().step(0, 1)?;
-        let mut distances = distances_watched(&hull.mesh, mesh, callback.watch());
-        callback.watch().check()?;
+        let certifying = watch.during(Stage::Certifying).part(0.9, 1.0);
+        certifying.step(0, 1)?;
+        let mut distances = distances_watched(&hull.mesh, mesh, certifying);
+        certifying.check()?;
         if let Goal::Slack(_) = goal {
             // The search proved a smaller distance, face by face, than branch and bound finds.
             let most = hull.report.slack.upper;

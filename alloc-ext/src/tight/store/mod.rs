@@ -18,6 +18,6 @@ mod chain;
 mod distances;
 mod section;
 
-pub use chain::{ChainOptions, HullReport, MAX_HULLS, Stage, chain};
+pub use chain::{ChainOptions, HullReport, MAX_HULLS, build};
 pub use distances::{Distances, distances};
 pub use section::{cut, hull_mesh};

@@ -1,7 +1,8 @@
 //! Hulls that deform: what an update of a free motion costs, and what the motion costs a query.
 
-use meshsweep::hull::{BuildOptions, build_deform};
+use meshsweep::hull::{BuildOptions, Levels, build};
 use meshsweep::mesh::{KeyFrame, Mesh};
+use meshsweep::progress::Watch;
 use meshsweep_core::{
     Budget, ClosestPoint, DeformableHull, MovedVertex, QueryError, ScratchEntry, SectionKind, Work,
 };
@@ -28,10 +29,11 @@ const TWISTS: [f64; 8] = [0.0, 1.0, 5.0, 15.0, 45.0, 90.0, 180.0, 360.0];
 pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     let rest = &subject.mesh.positions;
     let frame = |twist| KeyFrame { positions: twisted(rest, twist), rounding: 0.0 };
-    let options = BuildOptions { base_faces: BASE_FACES, ..BuildOptions::default() };
-    let built = build_deform(subject.mesh.as_input(), &[frame(180.0)], &options, |_| ())
-        .map_err(|error| error.to_string())?;
-    let hull = DeformableHull::open(&built.bytes).map_err(|error| error.to_string())?;
+    let levels = Levels::Deform(&[frame(180.0)]);
+    let options = BuildOptions { levels, base_faces: BASE_FACES, ..BuildOptions::default() };
+    let built = build(subject.mesh.as_input(), &options, Watch::NONE);
+    let built = built.map_err(|error| error.to_string())?.0.to_bytes();
+    let hull = DeformableHull::open(&built).map_err(|error| error.to_string())?;
     let mut memory = vec![MovedVertex::EMPTY; hull.vertex_records()];
     let refused = |error: QueryError| error.to_string();
     let mut moved = hull.moved(&mut memory).map_err(refused)?;
@@ -112,7 +114,7 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     frames.push(cells);
 
     let triangles = subject.mesh.triangles.len();
-    let blob = meshsweep_core::Blob::open(&built.bytes).map_err(|error| error.to_string())?;
+    let blob = meshsweep_core::Blob::open(&built).map_err(|error| error.to_string())?;
     let bytes = |kind| {
         let of_kind = blob.sections().filter(|section| section.kind == kind);
         of_kind.map(|section| f64::from(section.bytes)).sum::<f64>() / triangles as f64

@@ -152,10 +152,10 @@ pub fn measure_tight(file: &Path) -> Result<(Vec<Table>, tight::picture::Gallery
 pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load(file)?;
     let built = subject.build(BASE_FACES, Priority::Program)?;
-    let model = open(&built.bytes)?;
+    let model = open(&built)?;
     let mut tables = vec![subject_table(&subject)];
     tables.extend([
-        storage::sections(&Blob::open(&built.bytes).map_err(|error| error.to_string())?),
+        storage::sections(&Blob::open(&built).map_err(|error| error.to_string())?),
         storage::limits(&model),
     ]);
     tables.push(segments::engines(&subject, &model)?);
@@ -163,7 +163,7 @@ pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
     tables.push(kept::table(&subject, &model)?);
     tables.push(kept::memory(&model)?);
     tables.push(cuts::table(&subject, &model)?);
-    tables.push(storage::proofs(&built.bytes)?);
+    tables.push(storage::proofs(&built)?);
     tables.extend(tree::tables(&subject)?);
     Ok(tables)
 }

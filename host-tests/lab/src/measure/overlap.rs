@@ -178,7 +178,7 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     }
     // A mesh that is not closed has no hull hierarchy.
     if let Ok(built) = &hull {
-        engines.push(("hull hierarchy", Engine::Hull(open(&built.bytes)?)));
+        engines.push(("hull hierarchy", Engine::Hull(open(built)?)));
     }
     for (name, engine) in &engines {
         let verdicts = ours(engine, &cases)?;

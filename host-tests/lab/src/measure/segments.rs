@@ -131,7 +131,7 @@ pub fn work(subject: &Subject) -> Result<[Table; 2], String> {
                 continue;
             }
             let built = subject.build(base_faces, priority)?;
-            let model = open(&built.bytes)?;
+            let model = open(&built)?;
             let reference = cover(&model, &segments, model.scratch_entries())?;
             let [outer, first] =
                 [Search::Outer, Search::First].map(|search| hull(&model, &segments, search));

@@ -8,6 +8,7 @@ pub mod picture;
 use meshsweep::check::{Surface, check_enclosure};
 use meshsweep::hull::{BuildOptions, hull_of};
 use meshsweep::mesh::{Mesh, require_closed_manifold};
+use meshsweep::progress::Watch;
 use meshsweep::tight::{Goal, Hull, Options, Outcome, Start, wrap};
 use meshsweep::tribox::volume;
 use meshsweep_host_tests::workload::Subject;
@@ -75,14 +76,15 @@ fn hulls(
         let begun = Stopwatch::start();
         let options = Options::new(Goal::Faces(faces));
         let Hull { mesh, report } =
-            wrap(&subject.mesh, &options, |_| {}).map_err(|error| error.to_string())?;
+            wrap(&subject.mesh, &options, Watch::NONE).map_err(|error| error.to_string())?;
         let seconds = begun.seconds();
         let surface = |m: &Mesh| Surface::new(&m.positions, &m.triangles);
         check_enclosure(&surface(&subject.mesh), &surface(&mesh))
             .map_err(|error| format!("the hull of {faces} faces is not proved: {error}"))?;
         let nested = STRATEGIES.map(|(priority, _)| {
             let options = BuildOptions { priority, ..BuildOptions::default() };
-            let built = volume.and_then(|_| hull_of(&subject.mesh, faces, &options, |_| {}).ok());
+            let built =
+                volume.and_then(|_| hull_of(&subject.mesh, faces, &options, Watch::NONE).ok());
             built.map_or(Cell::Empty, |(hull, void, _)| {
                 if hull.triangles.len() <= faces { fixed(100.0 * void, 2) } else { Cell::Empty }
             })

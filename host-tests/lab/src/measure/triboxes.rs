@@ -1,7 +1,8 @@
 //! Tribox hierarchies as stored: what they cost, and how often they prove a mesh apart from its
 //! moved copy.
 
-use meshsweep::tribox::store;
+use meshsweep::progress::Watch;
+use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::Pose as CorePose;
 use meshsweep_core::ScratchEntry;
 use meshsweep_core::internal::tribox::FACES;
@@ -24,8 +25,8 @@ const TRIBOXES: u32 = 64;
 /// A coordinate is out of the domain.
 pub fn blob(subject: &Subject, count: u32) -> Result<Vec<u8>, String> {
     let mesh = &subject.mesh;
-    let (tables, _) = store(mesh.as_input(), count).map_err(|error| error.to_string())?;
-    Ok(tables.to_bytes())
+    let built = tribox::build(mesh.as_input(), &TriboxOptions { count }, Watch::NONE);
+    Ok(built.map_err(|error| error.to_string())?.0.to_bytes())
 }
 
 /// Faces of a tribox that its clean-up leaves.

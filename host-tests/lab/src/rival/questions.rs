@@ -8,6 +8,7 @@ use glam::Vec3;
 use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::hull::{BuildOptions, hull_of};
 use meshsweep::mesh::{Mesh, write_ply};
+use meshsweep::progress::Watch;
 use meshsweep_host_tests::generate::{Rng, rough_sphere};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::{Points, points, segments};
@@ -49,7 +50,7 @@ impl Course {
     /// Reduces a mesh to its outer hull of `faces` triangles, or to as few as it can have, and
     /// writes the files. Another `seed` is another path; the other questions stay.
     pub fn lay(mesh: &Subject, faces: usize, seed: u64) -> Result<Self, String> {
-        let hull = hull_of(&mesh.mesh, faces, &BuildOptions::default(), |_| {});
+        let hull = hull_of(&mesh.mesh, faces, &BuildOptions::default(), Watch::NONE);
         let (reduced, _, _) = hull.map_err(|error| error.to_string())?;
         let subject = Subject::of(mesh.name.clone(), reduced);
         let folder = workspace::target().join("rival").join(format!("{}-{faces}", mesh.name));

@@ -4,8 +4,9 @@
 use crate::scene::{Kind, Raw, Scene, inputs, joined, pierced_cube, repaired};
 use meshsweep::hull::{self, BuildOptions};
 use meshsweep::mesh::{Input, Mesh, MeshError, require_closed_manifold};
+use meshsweep::progress::Watch;
 use meshsweep::tight::{self, ChainOptions, hull_mesh};
-use meshsweep::tribox;
+use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::{Budget, Hull, ScratchEntry, TightHulls, Triboxes, Verdict};
 use meshsweep_host_tests::oracle::exact::{distance_compared, first_meeting};
 use meshsweep_host_tests::oracle::winding_number;
@@ -29,8 +30,9 @@ fn samples(mesh: &Mesh) -> Vec<[f64; 3]> {
 fn hulls_of(mesh: &Mesh, moved: f64, faces: usize) -> Vec<u8> {
     let options = ChainOptions::of_faces(&[faces]).with_effort(0.01);
     let count = mesh.all_triangles().count();
-    let (tables, _) = tight::chain(Input { mesh, moved, input_triangles: count }, &options, |_| {})
-        .expect("there is room");
+    let (tables, _) =
+        tight::build(Input { mesh, moved, input_triangles: count }, &options, Watch::NONE)
+            .expect("there is room");
     tables.to_bytes()
 }
 
@@ -91,9 +93,9 @@ fn every_level_of_triboxes_holds_wires_and_points() {
     for (name, raw) in inputs() {
         for kind in KINDS {
             let (mesh, moved, _) = repaired(&raw, kind);
-            let (tables, _) =
-                tribox::store(Input { mesh: &mesh, moved, input_triangles: raw.1.len() }, 8)
-                    .expect("in the domain");
+            let input = Input { mesh: &mesh, moved, input_triangles: raw.1.len() };
+            let (tables, _) = tribox::build(input, &TriboxOptions { count: 8 }, Watch::NONE)
+                .expect("in the domain");
             let bytes = tables.to_bytes();
             let triboxes = Triboxes::open(&bytes).unwrap_or_else(|error| panic!("{name}: {error}"));
             let size =
@@ -125,12 +127,13 @@ fn a_hull_hierarchy_carries_wires_in_its_surface_error() {
         let built = hull::build(
             Input { moved: scene.moved, input_triangles: count, ..scene.mesh.as_input() },
             &options,
-            |_| {},
-        )
-        .expect("a cube");
-        let model = Hull::open(&built.bytes).expect("opens");
+            Watch::NONE,
+        );
+        let (sections, report) = built.expect("a cube");
+        let bytes = sections.to_bytes();
+        let model = Hull::open(&bytes).expect("opens");
         // The wire ends 2 in front of the cube.
-        assert!(built.report.wires >= 2.0 && built.report.wires < 2.2, "{}", built.report.wires);
+        assert!(report.wires >= 2.0 && report.wires < 2.2, "{}", report.wires);
         let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
         for p in scene.points(200, 32) {
             let truth = scene.nearest(p);

@@ -3,7 +3,8 @@
 use super::{mesh, of, options};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit::assemble;
-use meshsweep::tight::chain;
+use meshsweep::progress::Watch;
+use meshsweep::tight;
 use meshsweep_core::{Blob, Bvh, OpenError, SectionKind, TightHulls};
 use meshsweep_host_tests::corrupt::{
     self, assert_damage_is_safe, assert_only_the_whole_opens, entry, put_u32, seal, word,
@@ -110,7 +111,7 @@ fn tables_that_contradict_themselves_are_named() {
 #[test]
 fn hulls_stand_beside_any_other_part_and_older_readers_pass_them_over() {
     let mesh = mesh(&icosphere(1));
-    let (tight, _) = chain(mesh.as_input(), &options(&[64]), |_| {}).expect("room");
+    let (tight, _) = tight::build(mesh.as_input(), &options(&[64]), Watch::NONE).expect("room");
     let (tree, _) = build(mesh.as_input(), &TreeOptions::default()).expect("builds");
     let both = assemble([&tight, &tree]);
     let blob = Blob::open(&both).expect("opens");

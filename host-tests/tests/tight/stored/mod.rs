@@ -6,7 +6,8 @@ mod bytes;
 mod chains;
 
 use meshsweep::mesh::Mesh;
-use meshsweep::tight::{ChainOptions, HullReport, chain};
+use meshsweep::progress::Watch;
+use meshsweep::tight::{self, ChainOptions, HullReport};
 use meshsweep_host_tests::generate::Triangles;
 
 fn mesh((positions, triangles): &Triangles) -> Mesh {
@@ -22,7 +23,7 @@ fn options(faces: &[usize]) -> ChainOptions {
 /// most.
 fn of(mesh: &Mesh, moved: f64, options: &ChainOptions) -> (Vec<u8>, Vec<HullReport>) {
     let (tables, reports) =
-        chain(meshsweep::mesh::Input { moved, ..mesh.as_input() }, options, |_| {})
+        tight::build(meshsweep::mesh::Input { moved, ..mesh.as_input() }, options, Watch::NONE)
             .expect("there is room around it");
     (tables.to_bytes(), reports)
 }

@@ -4,7 +4,8 @@ use super::{mesh, of};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit::assemble;
 use meshsweep::hull::{self, BuildOptions};
-use meshsweep::tribox::{cut, store};
+use meshsweep::progress::Watch;
+use meshsweep::tribox::{self, TriboxOptions, cut};
 use meshsweep_core::{Blob, Bvh, OpenError, SectionKind, Triboxes};
 use meshsweep_host_tests::corrupt::{
     self, assert_damage_is_safe, assert_only_the_whole_opens, entry, put_u32, seal, word,
@@ -168,10 +169,11 @@ fn planes_that_do_not_touch_or_leave_the_parent_name_the_node() {
 #[test]
 fn blobs_hold_triboxes_beside_anything_or_alone() {
     let torus = mesh(&groove_block());
-    let (triboxes, _) = store(torus.as_input(), 8).expect("in the domain");
+    let (triboxes, _) = tribox::build(torus.as_input(), &TriboxOptions { count: 8 }, Watch::NONE)
+        .expect("in the domain");
     let (tree, _) = build(torus.as_input(), &TreeOptions::default()).expect("builds");
     let options = BuildOptions { base_faces: 40, ..BuildOptions::default() };
-    let hull = hull::build(torus.as_input(), &options, |_| ()).expect("a hull").tables.sections();
+    let hull = hull::build(torus.as_input(), &options, Watch::NONE).expect("a hull").0;
     for parts in 1..8 {
         let has = |bit: i32| parts >> bit & 1 == 1;
         let bytes = assemble(

@@ -2,7 +2,8 @@
 
 use super::{blob, mesh};
 use meshsweep::mesh::Mesh;
-use meshsweep::tribox::store;
+use meshsweep::progress::Watch;
+use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::{Blob, Triboxes};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, joined, rough_sphere, scaled, torus, transformed,
@@ -128,8 +129,9 @@ fn triboxes_hold_the_input_that_may_be_off() {
     let mut mesh = mesh(&torus(2.0, 0.75, 16, 8));
     for (rounding, moved) in [(0.0, 0.01), (0.02, 0.0), (0.005, 0.005), (1e-9, 0.0)] {
         mesh.rounding = rounding;
+        let input = meshsweep::mesh::Input { moved, ..mesh.as_input() };
         let (tables, _) =
-            store(meshsweep::mesh::Input { moved, ..mesh.as_input() }, 16).expect("in the domain");
+            tribox::build(input, &TriboxOptions { count: 16 }, Watch::NONE).expect("in the domain");
         let bytes = tables.to_bytes();
         let blob = Blob::open(&bytes).expect("opens");
         let by = rounding + moved;

@@ -6,7 +6,8 @@ mod contain;
 mod nearest;
 
 use meshsweep::mesh::Mesh;
-use meshsweep::tribox::store;
+use meshsweep::progress::Watch;
+use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_host_tests::generate::Triangles;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -29,7 +30,8 @@ fn blob(mesh: &Mesh, count: u32) -> Vec<u8> {
         })
     };
     let build = || {
-        let (tables, _) = store(mesh.as_input(), count).expect("in the domain");
+        let (tables, _) = tribox::build(mesh.as_input(), &TriboxOptions { count }, Watch::NONE)
+            .expect("in the domain");
         tables.to_bytes()
     };
     built.get_or_init(build).clone()

@@ -5,12 +5,13 @@ use crate::failure::Failure;
 use crate::mesh_file;
 use crate::mesh_report::write_repairs;
 use crate::output::Output;
-use crate::progress::Bar;
+use crate::progress::StageBars;
 use meshsweep::builder::FACES;
 use meshsweep::counted::Counted;
 use meshsweep::hull::{BuildOptions, hull_of, wires_note, wires_off_surface};
 use meshsweep::mesh::write_ply;
 use meshsweep::number::Percent;
+use meshsweep::progress::Callback;
 use std::time::Instant;
 
 pub fn run(args: &HullArgs) -> Result<(), Failure> {
@@ -23,15 +24,14 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
         ..BuildOptions::default()
     };
     let solid = mesh_file::load_solid(&args.input, options.vertex_bits, args.unit)?;
-    let from = solid.mesh.triangles.len();
-    let bar = Bar::new(from.saturating_sub(options.base_faces), "collapsing", "faces");
+    let mut bars = StageBars::default();
+    let progress = Callback::new(|stage, _| bars.show(stage));
     let started = Instant::now();
-    let (hull, void, stuck) = hull_of(solid.input(), options.base_faces, &options, |progress| {
-        bar.show(from.saturating_sub(progress.faces))
-    })
-    .map_err(|error| Failure::build(&args.input, error))?;
+    let (hull, void, stuck) =
+        hull_of(solid.input(), options.base_faces, &options, progress.watch())
+            .map_err(|error| Failure::build(&args.input, error))?;
     let time = started.elapsed();
-    drop(bar);
+    drop(bars);
     Output::file(&args.output)?.finish(|out| write_ply(&hull, out))?;
     let wires =
         wires_off_surface(&solid.mesh).map_err(|error| Failure::build(&args.input, error))?;

@@ -10,6 +10,7 @@ use meshsweep::builder::FACES;
 use meshsweep::counted::Counted;
 use meshsweep::mesh::{Input, Mesh, write_ply};
 use meshsweep::number::{AtLeast, AtMost, Percent};
+use meshsweep::progress::Callback;
 use meshsweep::tight::{
     Goal, Hull, Options, Outcome, Report, Tightness, margin_note, no_void_note, rounded_note,
     split_components, wrap,
@@ -38,7 +39,8 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
     for mesh in &meshes {
         let mut bars = StageBars::default();
         let part = Input { mesh, ..loaded.input() };
-        let hull = wrap(part, &options, |progress| bars.show(progress));
+        let progress = Callback::new(|stage, _| bars.show(stage));
+        let hull = wrap(part, &options, progress.watch());
         hulls.push(hull.map_err(|error| Failure::build(&args.input, error))?);
     }
     let asked = Tightness { slack: args.slack, void: args.void, by_faces: "--faces" };

@@ -42,10 +42,9 @@ pub fn measured(file: &Path, loaded: &Loaded, at: &At, count: usize) -> Result<M
     let settings = trade::standard(diagonal, mesh.triangles.len(), kind);
     // Its length is known at the first step.
     let bar = Mutex::new(None);
-    let progress = |progress: trade::Progress| {
+    let progress = |done, of| {
         if let Ok(mut bar) = bar.lock() {
-            bar.get_or_insert_with(|| Bar::new(progress.of, "measuring", "steps"))
-                .show(progress.done);
+            bar.get_or_insert_with(|| Bar::new(of, "measuring", "steps")).show(done);
         }
     };
     let trade = trade::measure(loaded.input(), &points, &settings, progress)

@@ -74,7 +74,7 @@ pub fn table(subject: &Subject) -> Result<Table, String> {
         return Err("trees of different polytopes find other hits".to_owned());
     }
     let built = subject.build(BASE_FACES.min(subject.mesh.triangles.len()), Priority::Span)?;
-    let run = hull(&open(&built.bytes)?, &segments, Search::Outer)?;
+    let run = hull(&open(&built)?, &segments, Search::Outer)?;
     let counts = [run.mean(0), Cell::Empty, run.mean(1), run.mean(3)];
     let seconds = run.nanoseconds * 1e-9 * COUNT as f64;
     let theirs = paper.map(|model| model.hull);

@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use meshsweep::bvh::exact_blob;
 use meshsweep::hausdorff::{farthest, nearest_in};
 use meshsweep::hull::{BuildOptions, hull_of};
+use meshsweep::progress::Watch;
 use meshsweep_core::Bvh;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
@@ -27,7 +28,7 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     let failed = |error: meshsweep::BuildError| error.to_string();
     let faces = (KEPT * subject.mesh.triangles.len() as f64) as usize;
     let options = BuildOptions::default();
-    let (simple, ..) = hull_of(&subject.mesh, faces, &options, |_| {}).map_err(failed)?;
+    let (simple, ..) = hull_of(&subject.mesh, faces, &options, Watch::NONE).map_err(failed)?;
     let at = |v: u32| Vec3::from_array(simple.positions[v as usize]).as_dvec3();
     let corners = || simple.triangles.iter().map(|triangle| triangle.map(at));
     let bytes = exact_blob(&subject.mesh).map_err(failed)?;
