@@ -1,7 +1,7 @@
 //! The stages of a build, in order.
 
 use super::built::Built;
-use super::notes::{Note, of_blob, of_curve, of_mesh};
+use super::notes::{of_blob, of_curve};
 use super::options::{self, For, Options, Subject};
 use crate::bvh::{self, TreeOptions, TreeReport};
 use crate::curve::{self, CurveOptions, Polyline, read_csv};
@@ -106,10 +106,9 @@ impl<'w> Work<'w> {
         let options = CurveOptions { is_f32: self.options.is_f32() };
         let watch = self.begin(LOADING, Stage::Curve)?;
         let (sections, report) = curve::build(polylines, &options, watch)?;
-        let mut built = Built::of(sections.to_bytes())?;
-        built.notes.extend(of_curve(&report));
+        let mut built = Built::of(sections.to_bytes());
         built.curve = Some(report);
-        Ok(built)
+        built.opened(|_, _| of_curve(&report).into_iter().collect())
     }
 
     fn mesh(
@@ -130,15 +129,13 @@ impl<'w> Work<'w> {
             triboxes.as_ref().map(|(tables, _)| tables),
             tight.as_ref().map(|(tables, _)| tables),
         ];
-        let mut built = Built::of(emit::assemble(structures.into_iter().flatten()))?;
+        let bytes = emit::assemble(structures.into_iter().flatten());
+        let mut built = Built::of(bytes);
         built.hull = hull.map(|(_, report)| report);
         built.tree = tree.map(|(_, report)| report);
         built.triboxes = triboxes.map(|(_, report)| report);
         built.tight = tight.map(|(_, reports)| reports).unwrap_or_default();
-        let mut notes: Vec<Note> = of_mesh(&loaded, built.hull.as_ref());
-        let (hull, tree) = (built.hull.as_ref(), built.tree.as_ref());
-        notes.extend(of_blob(options, &loaded, &built.blob(), hull, tree, &built.tight));
-        built.notes = notes;
+        let mut built = built.opened(|built, blob| of_blob(options, &loaded, blob, built))?;
         built.loaded = Some(loaded);
         Ok(built)
     }

@@ -1,6 +1,5 @@
 //! A blob in memory, with the report of its build.
 
-use super::notes::{Note, Topic};
 use crate::bvh::TreeReport;
 use crate::curve::CurveReport;
 use crate::error::BuildError;
@@ -9,13 +8,48 @@ use crate::load::Loaded;
 use crate::tight::HullReport;
 use crate::tribox::TriboxReport;
 use meshsweep_core::Blob;
+use std::fmt;
+
+/// A sentence of the report. `Display` prints it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Note {
+    /// What it is about.
+    pub topic: Topic,
+    /// The sentence.
+    pub text: String,
+}
+
+/// What a note is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Topic {
+    /// The mesh or the curves: what was read, repaired and moved.
+    Input,
+    /// The hull hierarchy.
+    Hull,
+    /// The box tree.
+    BoxTree,
+    /// Where the side of a point is doubtful.
+    Sides,
+    /// Tight hulls.
+    Tight,
+    /// Why winding numbers are doubtful.
+    Winding,
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
 
 /// A blob in memory, with the report of its build.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Built {
     bytes: Vec<u8>,
-    pub(super) notes: Vec<Note>,
+    notes: Vec<Note>,
     /// The repaired mesh and its repairs; of curves: `None`.
     pub loaded: Option<Loaded>,
     /// Report of the hull hierarchy.
@@ -31,10 +65,9 @@ pub struct Built {
 }
 
 impl Built {
-    /// The blob, if it opens. One that does not open must not be handed out.
-    pub(super) fn of(bytes: Vec<u8>) -> Result<Self, BuildError> {
-        Blob::open(&bytes).map_err(BuildError::Reopen)?;
-        Ok(Self {
+    /// To be [opened](Self::opened), with no report yet.
+    pub(super) fn of(bytes: Vec<u8>) -> Self {
+        Self {
             bytes,
             notes: Vec::new(),
             loaded: None,
@@ -43,7 +76,17 @@ impl Built {
             triboxes: None,
             tight: Vec::new(),
             curve: None,
-        })
+        }
+    }
+
+    /// The blob, if it opens, with the notes on it. One that does not open must not be handed out.
+    pub(super) fn opened(
+        self,
+        notes: impl FnOnce(&Self, &Blob<'_>) -> Vec<Note>,
+    ) -> Result<Self, BuildError> {
+        let blob = Blob::open(&self.bytes).map_err(BuildError::Reopen)?;
+        let notes = notes(&self, &blob);
+        Ok(Self { notes, ..self })
     }
 
     /// The blob's bytes, as `meshsweep build` writes them.

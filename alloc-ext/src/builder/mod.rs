@@ -23,8 +23,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 pub use crate::progress::Stage;
-pub use built::Built;
-pub use notes::{Note, Topic};
+pub use built::{Built, Note, Topic};
 pub use options::{FACES, For, TRIBOXES};
 
 /// Builds a blob in memory, with the program's options and defaults.

@@ -1,7 +1,8 @@
 //! The report of a build, in sentences.
 
+use super::built::{Built, Note, Topic};
 use super::options::{For, Options};
-use crate::bvh::{SideDefect, SidesReport, TreeReport, WhyF32};
+use crate::bvh::{SideDefect, SidesReport, WhyF32};
 use crate::counted::Counted;
 use crate::curve::CurveReport;
 use crate::hull::{BuildReport, Kind, sticks_out_note, wires_note};
@@ -12,41 +13,6 @@ use crate::surface::VertexBits;
 use crate::tight::{Goal, HullReport, margin_note, no_void_note, rounded_note};
 use meshsweep_core::Blob;
 use meshsweep_core::internal::format::layout::VertexFormat;
-use std::fmt;
-
-/// A sentence of the report. `Display` prints it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Note {
-    /// What it is about.
-    pub topic: Topic,
-    /// The sentence.
-    pub text: String,
-}
-
-/// What a note is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Topic {
-    /// The mesh or the curves: what was read, repaired and moved.
-    Input,
-    /// The hull hierarchy.
-    Hull,
-    /// The box tree.
-    BoxTree,
-    /// Where the side of a point is doubtful.
-    Sides,
-    /// Tight hulls.
-    Tight,
-    /// Why winding numbers are doubtful.
-    Winding,
-}
-
-impl fmt::Display for Note {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.text)
-    }
-}
 
 /// Notes of one topic.
 fn notes(topic: Topic, texts: impl IntoIterator<Item = String>) -> impl Iterator<Item = Note> {
@@ -61,7 +27,7 @@ pub(super) fn of_curve(report: &CurveReport) -> Option<Note> {
 }
 
 /// What was read, repaired and moved.
-pub(super) fn of_mesh(loaded: &Loaded, hull: Option<&BuildReport>) -> Vec<Note> {
+fn of_mesh(loaded: &Loaded, hull: Option<&BuildReport>) -> Vec<String> {
     let mut texts: Vec<String> =
         loaded.report.to_string().lines().map(|line| line.trim_start().to_owned()).collect();
     texts.extend(loaded.unit_note());
@@ -73,20 +39,19 @@ pub(super) fn of_mesh(loaded: &Loaded, hull: Option<&BuildReport>) -> Vec<Note> 
         let moved = AtMost(loaded.moved);
         texts.push(format!("vertices moved to the hull's grid by up to {moved}"));
     }
-    notes(Topic::Input, texts).collect()
+    texts
 }
 
-/// What the structures lack, and what is doubtful about them.
+/// What was read, repaired and moved; what the structures lack, and what is doubtful about them.
 pub(super) fn of_blob(
     options: &Options,
     loaded: &Loaded,
     blob: &Blob<'_>,
-    hull_report: Option<&BuildReport>,
-    tree_report: Option<&TreeReport>,
-    reports: &[HullReport],
+    built: &Built,
 ) -> Vec<Note> {
     let (mut hull, mut tree, mut sides, mut tight) = (vec![], vec![], vec![], vec![]);
-    if let Some(report) = hull_report {
+    let (tree_report, reports) = (built.tree.as_ref(), &built.tight);
+    if let Some(report) = &built.hull {
         hull.push(format!("base hull: {}", Counted(report.base_faces, "face")));
         hull.extend(report.stuck.map(|stuck| stuck.why(options.base_faces())));
         if matches!(report.kind, Kind::Hulls { .. }) {
@@ -109,7 +74,8 @@ pub(super) fn of_blob(
         reports.iter().for_each(|report| tight.extend(of_tight(report)));
     }
     let winding = if options.serves(For::Winding) { of_winding(loaded) } else { vec![] };
-    notes(Topic::Hull, hull)
+    notes(Topic::Input, of_mesh(loaded, built.hull.as_ref()))
+        .chain(notes(Topic::Hull, hull))
         .chain(notes(Topic::BoxTree, tree))
         .chain(notes(Topic::Sides, sides))
         .chain(notes(Topic::Tight, tight))

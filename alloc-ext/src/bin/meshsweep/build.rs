@@ -8,6 +8,7 @@ use crate::{describe, source, trade};
 use meshsweep::Built;
 use meshsweep::builder::Topic;
 use meshsweep::counted::Counted;
+use meshsweep_core::Blob;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -33,8 +34,9 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         // A closed standard error is no failure.
         let _ = writeln!(io::stderr(), "{}: {note}", args.mesh.display());
     }
-    source::write(args, &built.blob())?;
-    Output::stdout().finish(|out| write_report(out, args, &built))
+    let blob = built.blob();
+    source::write(args, &blob)?;
+    Output::stdout().finish(|out| write_report(out, args, &built, &blob))
 }
 
 /// Why limits do not go together with other options, if they do not.
@@ -52,7 +54,12 @@ fn refuse_options(args: &BuildArgs) -> Option<String> {
 }
 
 /// The report of the command.
-fn write_report(out: &mut dyn Write, args: &BuildArgs, built: &Built) -> io::Result<()> {
+fn write_report(
+    out: &mut dyn Write,
+    args: &BuildArgs,
+    built: &Built,
+    blob: &Blob<'_>,
+) -> io::Result<()> {
     let indented = |out: &mut dyn Write, topic| {
         built.report_on(topic).try_for_each(|note| writeln!(out, "  {note}"))
     };
@@ -61,7 +68,7 @@ fn write_report(out: &mut dyn Write, args: &BuildArgs, built: &Built) -> io::Res
     writeln!(out, "{}", args.output.display())?;
     source::report(args, out)?;
     indented(out, Topic::Hull)?;
-    describe::write_blob(out, &built.blob())?;
+    describe::write_blob(out, blob)?;
     indented(out, Topic::BoxTree)?;
     built.report_on(Topic::Sides).try_for_each(|note| writeln!(out, "{note}"))?;
     indented(out, Topic::Tight)?;
