@@ -24,7 +24,7 @@
 //! | `hausdorff` | certified distances between two meshes |
 //! | [`bvh`], [`hull`], [`tight`], [`tribox`], [`curve`] | one structure each, as in core |
 //! | [`emit`] | sections to bytes; it knows no builder |
-//! | [`builder`] | from options and a mesh to a blob in memory: what the program does |
+//! | [`builder`] | from options or a recipe, and a mesh, to a blob in memory: what the program does |
 //! | [`progress`] | how much of a build is done, and whether to go on |
 //! | [`cut`] | a coarser blob out of a finer one |
 //! | [`worst`] | a search for the query that costs most |
@@ -33,7 +33,7 @@
 //!
 //! A room uses those to its left in this line, and no other: `geom` ← `{emit, lp, mesh}` ←
 //! `progress` ← `surface` ← `{collapse, bvh, load}` ← `hausdorff` ← `{tight, tribox, curve}` ←
-//! `hull` ← `{cut, trade, builder}` ← the program. `trade` also uses the distance of `check`, and
+//! `hull` ← `{cut, builder}` ← `trade` ← the program. `trade` also uses the distance of `check`, and
 //! `worst` uses no room. A test keeps that (`host-tests/tests/house`).
 
 pub mod builder;

@@ -38,6 +38,19 @@ const TRIBOXES: f64 = 10.0;
 /// Of all tight hulls together.
 const TIGHT: f64 = 40.0;
 
+/// Builds the blob of a mesh that is at hand as read and repaired, without its repairs.
+pub(super) fn build_repaired(
+    source: &Source,
+    repaired: &Loaded,
+    options: &Options,
+) -> Result<Built, BuildError> {
+    options.check(Subject::Mesh, false)?;
+    // Vertices move to a hull's grid before the repair.
+    let own = options.wants_hierarchy().then(|| load(options, source, Vec::new())).transpose()?;
+    let loaded = own.as_ref().map_or(repaired, |(loaded, _)| loaded);
+    Work { options, watch: Watch::NONE, done: 0.0, whole: 1.0 }.structures(loaded, None)
+}
+
 /// Builds a blob.
 pub(super) fn build(
     input: Input<'_>,
@@ -118,11 +131,21 @@ impl<'w> Work<'w> {
     ) -> Result<Built, BuildError> {
         let options = self.options;
         self.begin(LOADING, Stage::Loading)?;
-        let (loaded, frames) = load(options, read(options.unit)?, frames)?;
-        let hull = self.hull(&loaded, frames.as_deref())?;
-        let tree = self.tree(&loaded)?;
-        let triboxes = self.triboxes(&loaded)?;
-        let tight = self.tight(&loaded)?;
+        let (loaded, frames) = load(options, &read(options.unit)?, frames)?;
+        let mut built = self.structures(&loaded, frames.as_deref())?;
+        built.loaded = Some(loaded);
+        Ok(built)
+    }
+
+    fn structures(
+        &mut self,
+        loaded: &Loaded,
+        frames: Option<&[KeyFrame]>,
+    ) -> Result<Built, BuildError> {
+        let hull = self.hull(loaded, frames)?;
+        let tree = self.tree(loaded)?;
+        let triboxes = self.triboxes(loaded)?;
+        let tight = self.tight(loaded)?;
         let structures = [
             hull.as_ref().map(|(tables, _)| tables),
             tree.as_ref().map(|(tables, _)| tables),
@@ -135,9 +158,7 @@ impl<'w> Work<'w> {
         built.tree = tree.map(|(_, report)| report);
         built.triboxes = triboxes.map(|(_, report)| report);
         built.tight = tight.map(|(_, reports)| reports).unwrap_or_default();
-        let mut built = built.opened(|built, blob| of_blob(options, &loaded, blob, built))?;
-        built.loaded = Some(loaded);
-        Ok(built)
+        built.opened(|built, blob| of_blob(self.options, loaded, blob, built))
     }
 
     fn hull(
@@ -201,7 +222,7 @@ impl<'w> Work<'w> {
 /// Repairs a mesh as its structures need it.
 fn load(
     options: &Options,
-    source: Source,
+    source: &Source,
     frames: Vec<Frame>,
 ) -> Result<(Loaded, Option<Vec<KeyFrame>>), BuildError> {
     if options.serves(For::Deform) {

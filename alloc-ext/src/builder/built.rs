@@ -89,6 +89,12 @@ impl Built {
         Ok(Self { notes, ..self })
     }
 
+    /// Other bytes of the same build, if they open.
+    pub(crate) fn with_bytes(&self, bytes: Vec<u8>) -> Result<Self, BuildError> {
+        let notes = self.notes.clone();
+        Self { bytes, ..self.clone() }.opened(|_, _| notes)
+    }
+
     /// The blob's bytes, as `meshsweep build` writes them.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {

@@ -9,10 +9,12 @@ mod built;
 mod notes;
 mod options;
 pub mod ranges;
+mod recipe;
 
 use crate::collapse::CollapseOptions;
 use crate::curve::Polyline;
 use crate::error::BuildError;
+use crate::load::{Loaded, Source};
 use crate::mesh::{RawMesh, Unit};
 use crate::progress::{Answer, Callback, Watch};
 use crate::surface::VertexBits;
@@ -25,6 +27,7 @@ use std::path::{Path, PathBuf};
 pub use crate::progress::Stage;
 pub use built::{Built, Note, Topic};
 pub use options::{FACES, For, TRIBOXES};
+pub use recipe::Recipe;
 
 /// Builds a blob in memory, with the program's options and defaults.
 ///
@@ -67,6 +70,13 @@ impl fmt::Debug for Builder<'_> {
 /// A callback of progress.
 type OnProgress<'a> = dyn FnMut(Stage, f64) -> ControlFlow<()> + 'a;
 
+impl fmt::Display for Builder<'_> {
+    /// The options with which the program builds the same, but for key frames.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.options.fmt(f)
+    }
+}
+
 /// One setter for an option.
 macro_rules! setters {
     ($($(#[$doc:meta])* $name:ident: $value:ty => $field:ident,)*) => {
@@ -108,6 +118,11 @@ impl<'a> Builder<'a> {
     /// Distances and segments of a mesh, the program's default.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// With the options of a recipe; of a cut level, those of the hierarchy to cut.
+    pub fn of(recipe: Recipe) -> Self {
+        Self { options: recipe.options(), ..Self::default() }
     }
 
     /// Adds a question that the blob must serve. Only the sections that it needs are written.
@@ -228,6 +243,15 @@ impl<'a> Builder<'a> {
     /// [`BuildError::Curve`] names the point; those of [`check`](Self::check).
     pub fn build_curves(self, polylines: &[Polyline]) -> Result<Built, BuildError> {
         self.build_of(Input::Curves(polylines))
+    }
+
+    /// Builds the blob of a mesh that is at hand as read and repaired. The report has no mesh.
+    pub(crate) fn build_repaired(
+        self,
+        source: &Source,
+        repaired: &Loaded,
+    ) -> Result<Built, BuildError> {
+        build::build_repaired(source, repaired, &self.options)
     }
 
     fn build_of(self, input: Input<'_>) -> Result<Built, BuildError> {

@@ -109,6 +109,42 @@ pub(super) struct Options {
     pub is_closed: bool,
 }
 
+impl fmt::Display for Options {
+    /// As the program's options, but for those with their defaults.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fn list<T: ToString>(of: &[T]) -> Option<String> {
+            let words: Vec<String> = of.iter().map(T::to_string).collect();
+            (!words.is_empty()).then(|| words.join(","))
+        }
+        let count = |of: Option<u32>| of.map(|n| n.to_string());
+        let number = |of: Option<f64>| of.map(|x| x.to_string());
+        let tight_for = self.tight_for.map_or(vec![], |[closest, segment]| {
+            let all = [(closest, For::Closest), (segment, For::Segment)];
+            all.into_iter().filter_map(|(is_asked, of)| is_asked.then_some(of)).collect()
+        });
+        let bits = self.vertex_bits;
+        let all = [
+            ("--for", list(&self.serves)),
+            ("--unit", self.unit.map(|unit| unit.symbol().to_owned())),
+            ("--vertex-bits", (bits != VertexBits::Auto).then(|| bits.to_string())),
+            ("--base", count(self.base)),
+            ("--max-valence", count(self.collapse.max_valence)),
+            ("--compactness", number(self.collapse.compactness)),
+            ("--max-normal-deviation", number(self.collapse.max_normal_deviation)),
+            ("--triboxes", count(self.triboxes)),
+            ("--tight", list(&self.tight)),
+            ("--slack", number(self.slack)),
+            ("--void", number(self.void_percent)),
+            ("--margin", number(self.margin)),
+            ("--tight-for", list(&tight_for)),
+            ("--effort", number(self.effort)),
+        ];
+        let given = all.into_iter().filter_map(|(name, value)| Some(format!("{name} {}", value?)));
+        let closed = self.is_closed.then(|| "--closed".to_owned());
+        f.write_str(&given.chain(closed).collect::<Vec<_>>().join(" "))
+    }
+}
+
 impl Options {
     pub fn serves(&self, question: For) -> bool {
         match self.serves.as_slice() {

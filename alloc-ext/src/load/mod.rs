@@ -155,7 +155,7 @@ impl Source {
     ///
     /// # Errors
     /// [`BuildError::Mesh`].
-    pub fn repaired(self) -> Result<Loaded, BuildError> {
+    pub fn repaired(&self) -> Result<Loaded, BuildError> {
         self.loaded(0.0, None)
     }
 
@@ -163,7 +163,7 @@ impl Source {
     ///
     /// # Errors
     /// [`BuildError::Mesh`].
-    pub fn on_grid(self, bits: VertexBits) -> Result<Loaded, BuildError> {
+    pub fn on_grid(&self, bits: VertexBits) -> Result<Loaded, BuildError> {
         let raw = &self.raw;
         let mut places = raw.positions.clone();
         let mut moved = snap(&mut places, bits);
@@ -181,11 +181,11 @@ impl Source {
     /// # Errors
     /// [`BuildError::NotSolid`], [`BuildError::Mesh`]; the first error of `frames`.
     pub fn deformable(
-        self,
+        &self,
         frames: impl Iterator<Item = Result<Self, BuildError>>,
     ) -> Result<(Loaded, Vec<KeyFrame>), BuildError> {
         let started = self.started;
-        let loaded = self.clone().repaired()?;
+        let loaded = self.repaired()?;
         loaded.require_solid()?;
         let (raw, file) = (&self.raw, &self.raw.file);
         require_deformable(raw, &loaded.mesh).map_err(|error| refused(file, error))?;
@@ -199,10 +199,10 @@ impl Source {
         Ok((Loaded { time: started.elapsed(), ..loaded }, keys))
     }
 
-    fn loaded(self, moved: f64, places: Option<&[[f64; 3]]>) -> Result<Loaded, BuildError> {
-        let Self { raw, told, started } = self;
+    fn loaded(&self, moved: f64, places: Option<&[[f64; 3]]>) -> Result<Loaded, BuildError> {
+        let &Self { ref raw, told, started } = self;
         let (file, input_triangles, unit) = (raw.file.clone(), raw.triangles.len(), raw.unit);
-        let (mesh, report) = repair_moved(&raw, places).map_err(|error| refused(&file, error))?;
+        let (mesh, report) = repair_moved(raw, places).map_err(|error| refused(&file, error))?;
         let time = started.elapsed();
         Ok(Loaded { mesh, report, moved, input_triangles, unit, told, file, time })
     }

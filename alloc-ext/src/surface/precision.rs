@@ -8,6 +8,7 @@ use crate::mesh::Mesh;
 use glam::DVec3;
 use meshsweep_core::internal::format::layout::VertexFormat;
 use meshsweep_core::internal::num::exp2;
+use std::fmt;
 
 /// Choice of the coordinate format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -23,6 +24,17 @@ pub enum VertexBits {
     Grid24,
     /// f32.
     F32,
+}
+
+impl fmt::Display for VertexBits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Auto => "auto",
+            Self::Grid16 => "16",
+            Self::Grid24 => "24",
+            Self::F32 => "32",
+        })
+    }
 }
 
 /// A mesh in the stored frame and precision.

@@ -2,7 +2,7 @@
 
 use super::cost::{Features, Shape};
 use super::setting::{How, Setting};
-use super::structure::Structure;
+use crate::builder::Recipe;
 use meshsweep_core::{
     Blob, Budget, ClosestPoint, CoherentQuery, Hint, QueryError, ScratchEntry, Work,
 };
@@ -58,8 +58,8 @@ pub(super) fn ask(
 ) -> Result<Asked, QueryError> {
     let blob = Blob::open(bytes).map_err(|_| QueryError::Unchecked)?;
     let budget = setting.budget;
-    match setting.structure {
-        Structure::Tree(_) => {
+    match setting.recipe {
+        Recipe::Tree(_) => {
             let tree = blob.bvh()?;
             let mut stack = entries(setting, tree.scratch_entries_for(budget));
             let scratch = size_of_val(stack.as_slice());
@@ -89,7 +89,7 @@ pub(super) fn ask(
                 }
             }
         }
-        Structure::Sweep(_) | Structure::CutLevel(_) => {
+        Recipe::Sweep(_) | Recipe::CutLevel(_) => {
             let hull = blob.hull()?;
             let enough = match setting.how {
                 How::Coherent => Setting::SWEEP_ENTRIES,
@@ -110,14 +110,14 @@ pub(super) fn ask(
                 sweep.closest_point(budget).map(of_closest)
             })
         }
-        Structure::Tight(_) => {
+        Recipe::Tight(_) => {
             let hull = blob.tight_hulls()?.finest().ok_or(QueryError::Unchecked)?;
             let mut stack = entries(setting, hull.scratch_entries());
             let scratch = size_of_val(stack.as_slice());
             let of = Of { budget, shape: Shape::of_tight(&hull), scratch };
             twice(points, &of, |p| hull.closest_point(p, budget, &mut stack).map(of_closest))
         }
-        Structure::Triboxes(_) => {
+        Recipe::Triboxes(_) => {
             let triboxes = blob.triboxes()?;
             let mut stack = entries(setting, triboxes.scratch_entries());
             let scratch = size_of_val(stack.as_slice());

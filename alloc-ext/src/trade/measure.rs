@@ -1,12 +1,14 @@
 //! Rows: each setting with its errors and costs, and which of them nothing else beats.
 
 use super::ask::{Asked, ask};
+use super::blobs::{NotBuilt, build_group};
 use super::cost::Board;
 use super::fitted::cost;
 use super::setting::Setting;
-use super::structure::{Structure, build_all};
 use super::truth::Truth;
-use crate::mesh::{Input, Mesh};
+use crate::builder::{Built, Recipe};
+use crate::load::{Loaded, Source};
+use crate::mesh::Mesh;
 use glam::DVec3;
 use meshsweep_core::QueryError;
 use rayon::prelude::*;
@@ -84,78 +86,79 @@ impl Row {
 /// A setting that was not measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Missing {
-    /// Its structure.
-    pub structure: Structure,
+    /// Its recipe.
+    pub recipe: Recipe,
     /// Why.
-    pub reason: String,
+    pub reason: NotBuilt,
 }
 
 /// What came of a measurement.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Trade {
     /// In the order of the settings.
     pub rows: Vec<Row>,
-    /// Structures that the mesh does not allow.
+    /// Recipes that the mesh does not allow.
     pub missing: Vec<Missing>,
     /// The part of the triangles that are needles: fifty times as long as high, or more. Their
     /// bounds are refined, which no counter tells, so more instructions are needed than predicted.
     pub needles: f64,
-    /// The blobs of the structures.
-    pub blobs: Vec<(Structure, Vec<u8>)>,
+    /// The blobs of the recipes.
+    pub blobs: Vec<(Recipe, Built)>,
 }
 
 impl Trade {
-    /// The blob of a structure, if it was built.
+    /// The blob of a recipe, if it was built.
     #[must_use]
-    pub fn blob(&self, structure: Structure) -> Option<&[u8]> {
-        let found = self.blobs.iter().find(|(of, _)| *of == structure);
-        found.map(|(_, bytes)| bytes.as_slice())
+    pub fn blob(&self, recipe: Recipe) -> Option<&[u8]> {
+        let found = self.blobs.iter().find(|(of, _)| *of == recipe);
+        found.map(|(_, built)| built.bytes())
     }
 }
 
-/// Measures settings of a mesh at some points. Structures are built on all cores. `progress` is
+/// Measures settings of a mesh, as read and as repaired, at some points. Structures are built on all cores. `progress` is
 /// called from any of them, with the number of structures built and settings asked, and of how many.
 ///
 /// # Errors
 /// A point that is not finite.
 pub fn measure(
-    input: Input<'_>,
+    source: &Source,
+    repaired: &Loaded,
     points: &[[f32; 3]],
     settings: &[Setting],
     progress: impl Fn(usize, usize) + Sync,
 ) -> Result<Trade, QueryError> {
-    let mut structures: Vec<Structure> = Vec::new();
+    let mut recipes: Vec<Recipe> = Vec::new();
     for setting in settings {
-        if !structures.contains(&setting.structure) {
-            structures.push(setting.structure);
+        if !recipes.contains(&setting.recipe) {
+            recipes.push(setting.recipe);
         }
     }
-    let (done, of) = (AtomicUsize::new(0), structures.len() + settings.len());
+    let (done, of) = (AtomicUsize::new(0), recipes.len() + settings.len());
     let step = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, of);
-    let distances = distances(input.mesh, points);
-    let is_cut = |structure: &Structure| matches!(structure, Structure::CutLevel(_));
-    let (cut, others): (Vec<Structure>, Vec<Structure>) = structures.into_iter().partition(is_cut);
-    let mut groups: Vec<Vec<Structure>> = others.into_iter().map(|other| vec![other]).collect();
+    let distances = distances(&repaired.mesh, points);
+    let is_cut = |recipe: &Recipe| matches!(recipe, Recipe::CutLevel(_));
+    let (cut, others): (Vec<Recipe>, Vec<Recipe>) = recipes.into_iter().partition(is_cut);
+    let mut groups: Vec<Vec<Recipe>> = others.into_iter().map(|other| vec![other]).collect();
     groups.push(cut);
-    let build = |group: &Vec<Structure>| {
-        let all = build_all(group, input);
+    let build = |group: &Vec<Recipe>| {
+        let all = build_group(group, source, repaired);
         group.iter().for_each(|_| step());
         group.iter().copied().zip(all).collect::<Vec<_>>()
     };
     // The last ones take longest.
     let built = groups.par_iter().rev().with_max_len(1).flat_map_iter(build);
-    let built: Vec<(Structure, Result<Vec<u8>, String>)> = built.collect();
-    let needles = needles(input.mesh);
+    let built: Vec<(Recipe, Result<Built, NotBuilt>)> = built.collect();
+    let needles = needles(&repaired.mesh);
     let mut trade = Trade { rows: Vec::new(), missing: Vec::new(), needles, blobs: Vec::new() };
-    for (structure, result) in built.into_iter().rev() {
+    for (recipe, result) in built.into_iter().rev() {
         match result {
-            Ok(bytes) => trade.blobs.push((structure, bytes)),
-            Err(reason) => trade.missing.push(Missing { structure, reason }),
+            Ok(built) => trade.blobs.push((recipe, built)),
+            Err(reason) => trade.missing.push(Missing { recipe, reason }),
         }
     }
     for setting in settings {
-        if let Some(bytes) = trade.blob(setting.structure) {
+        if let Some(bytes) = trade.blob(setting.recipe) {
             let asked = ask(setting, bytes, points)?;
             let row = row(*setting, bytes.len(), &asked, &distances);
             trade.rows.extend(row);

@@ -1,15 +1,15 @@
 //! The trade of a mesh, measured: what each setting of each structure promises, finds and costs.
 //!
 //! ```text
-//! settings ─ structures ─ blobs ─ ask ─┬─ intervals ─ truth ─ errors ─┬─ rows ─ pareto
+//! settings ─ recipes ─ blobs ─ ask ─┬─ intervals ─ truth ─ errors ─┬─ rows ─ pareto
 //! queries ─────────────────────────────┴─ work ─ costs ─ instructions ─┘
 //! ```
 //!
 //! | file | owns |
 //! | --- | --- |
 //! | `points` | points far from a mesh, near it, and along a path |
-//! | `setting` | a structure and its dials, and the list that [`measure()`] is given by default |
-//! | `structure` | the blob of a structure, or why there is none |
+//! | `setting` | a recipe and how it is asked, and the list that [`measure()`] is given by default |
+//! | `blobs` | the blob of a recipe, or why there is none |
 //! | `ask` | the answers of a setting, their work, and the time of this machine |
 //! | `truth` | the distance from every triangle in f64; it shares no code with queries |
 //! | `cost` | instructions of a board from the work of a query |
@@ -21,19 +21,19 @@
 //! fitted to counts in an emulator. Its errors are told by [`Cost`].
 
 mod ask;
+mod blobs;
 mod cost;
 mod costs;
 mod fitted;
 mod measure;
 mod points;
 mod setting;
-mod structure;
 mod truth;
 
 pub use ask::intervals;
+pub use blobs::{NotBuilt, build};
 pub use cost::{Board, Cost, FEATURES, Features, Search, Shape};
 pub use fitted::cost;
 pub use measure::{Instructions, Missing, Row, Spread, Trade, distances, measure, pareto};
 pub use points::{Points, points};
-pub use setting::{How, Setting, TreeBits, standard};
-pub use structure::{HullBits, Structure};
+pub use setting::{How, Setting, standard};

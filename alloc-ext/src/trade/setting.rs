@@ -1,12 +1,11 @@
-//! A structure and its dials, and the list that is measured by default.
+//! A recipe and how it is asked, and the list that is measured by default.
 
 use super::cost::Search;
 use super::points::Points;
-use super::structure::{HullBits, Structure};
+use crate::builder::Recipe;
+use crate::surface::VertexBits;
 use meshsweep_core::Budget;
 use std::fmt;
-
-pub use super::structure::TreeBits;
 
 /// What a query keeps of the one before, and how it measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,12 +20,12 @@ pub enum How {
     Precise,
 }
 
-/// A structure and its dials.
+/// A recipe, and how it is asked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Setting {
-    /// The structure.
-    pub structure: Structure,
+    /// What is built.
+    pub recipe: Recipe,
     /// When a query may stop.
     pub budget: Budget,
     /// What a query keeps of the one before.
@@ -43,8 +42,8 @@ impl Setting {
 
     /// Fresh queries, to the end, with enough scratch.
     #[must_use]
-    pub const fn new(structure: Structure) -> Self {
-        Self { structure, budget: Budget::EXACT, how: How::Fresh, entries: None }
+    pub const fn new(recipe: Recipe) -> Self {
+        Self { recipe, budget: Budget::EXACT, how: How::Fresh, entries: None }
     }
 
     /// Sets the [budget](Self::budget).
@@ -68,16 +67,16 @@ impl Setting {
     /// The search whose costs it has.
     #[must_use]
     pub const fn search(&self) -> Search {
-        match (self.structure, self.how) {
-            (Structure::Tree(_), How::Coherent) => Search::Coherent,
-            (Structure::Tree(_), How::Hinted) => Search::Hinted,
-            (Structure::Tree(_), How::Precise) => Search::Precise,
-            (Structure::Tree(TreeBits::Sixteen), How::Fresh) => Search::Tree,
-            (Structure::Tree(TreeBits::ThirtyTwo), How::Fresh) => Search::TreeF32,
-            (Structure::Sweep(_) | Structure::CutLevel(_), How::Coherent) => Search::KeptSweep,
-            (Structure::Sweep(_) | Structure::CutLevel(_), _) => Search::Sweep,
-            (Structure::Tight(_), _) => Search::Tight,
-            (Structure::Triboxes(_), _) => Search::Triboxes,
+        match (self.recipe, self.how) {
+            (Recipe::Tree(_), How::Coherent) => Search::Coherent,
+            (Recipe::Tree(_), How::Hinted) => Search::Hinted,
+            (Recipe::Tree(_), How::Precise) => Search::Precise,
+            (Recipe::Tree(VertexBits::Auto | VertexBits::Grid16), How::Fresh) => Search::Tree,
+            (Recipe::Tree(_), How::Fresh) => Search::TreeF32,
+            (Recipe::Sweep(_) | Recipe::CutLevel(_), How::Coherent) => Search::KeptSweep,
+            (Recipe::Sweep(_) | Recipe::CutLevel(_), _) => Search::Sweep,
+            (Recipe::Tight(_), _) => Search::Tight,
+            (Recipe::Triboxes(_), _) => Search::Triboxes,
         }
     }
 
@@ -113,7 +112,7 @@ impl Setting {
 
 impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.structure, self.dials())
+        write!(f, "{}: {}", self.recipe.name(), self.dials())
     }
 }
 
@@ -127,8 +126,8 @@ const FACES: [u32; 7] = [20, 50, 100, 200, 500, 1000, 2000];
 pub fn standard(diagonal: f64, triangles: usize, points: Option<Points>) -> Vec<Setting> {
     let exact = Budget::EXACT;
     let near = |part: f64| one_digit(part * diagonal);
-    let tree = Setting::new(Structure::Tree(TreeBits::Sixteen));
-    let fine = Setting::new(Structure::Tree(TreeBits::ThirtyTwo));
+    let tree = Setting::new(Recipe::Tree(VertexBits::Grid16));
+    let fine = Setting::new(Recipe::Tree(VertexBits::F32));
     let mut all = vec![tree];
     all.extend([0.001, 0.01, 0.1].map(|part| tree.with_budget(exact.with_relative(part))));
     all.extend([0.001, 0.01].map(|part| tree.with_budget(exact.with_absolute(near(part)))));
@@ -143,12 +142,12 @@ pub fn standard(diagonal: f64, triangles: usize, points: Option<Points>) -> Vec<
     all.push(fine.with_budget(exact.with_steps(16)));
     all.push(fine.with_how(How::Precise));
     let faces = FACES.into_iter().filter(|&faces| faces as usize <= triangles.max(50));
-    all.extend(faces.map(|faces| Setting::new(Structure::Tight(faces))));
-    all.extend([8, 64].map(|count| Setting::new(Structure::Triboxes(count))));
-    all.extend([0.05, 0.01].map(|part| Setting::new(Structure::CutLevel(near(part)))));
-    let bits = [HullBits::Sixteen, HullBits::TwentyFour, HullBits::ThirtyTwo];
-    all.extend(bits.map(|bits| Setting::new(Structure::Sweep(bits))));
-    let sweep = Setting::new(Structure::Sweep(HullBits::ThirtyTwo));
+    all.extend(faces.map(|faces| Setting::new(Recipe::Tight(faces))));
+    all.extend([8, 64].map(|count| Setting::new(Recipe::Triboxes(count))));
+    all.extend([0.05, 0.01].map(|part| Setting::new(Recipe::CutLevel(near(part)))));
+    let bits = [VertexBits::Grid16, VertexBits::Grid24, VertexBits::F32];
+    all.extend(bits.map(|bits| Setting::new(Recipe::Sweep(bits))));
+    let sweep = Setting::new(Recipe::Sweep(VertexBits::F32));
     all.push(sweep.with_budget(exact.with_relative(0.01)));
     all.push(sweep.with_budget(exact.with_steps(64)));
     if moves {

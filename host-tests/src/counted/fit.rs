@@ -3,8 +3,11 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use meshsweep::mesh::{Input, Mesh, RawMesh, repair};
-use meshsweep::trade::{HullBits, Search, Shape, Structure, TreeBits};
+use meshsweep::builder::{Built, Recipe};
+use meshsweep::load::Source;
+use meshsweep::mesh::{RawMesh, repair};
+use meshsweep::surface::VertexBits;
+use meshsweep::trade::{self, Search, Shape};
 use meshsweep_core::{Blob, Budget, QueryError, Work};
 use meshsweep_counted::placed::{answers, expected};
 use meshsweep_suite::ask::placed::{Answer, Question};
@@ -84,16 +87,17 @@ fn subjects(fixtures: &Path, others: &[&str]) -> Result<Vec<(&'static str, Subje
 }
 
 fn built(subject: &Subject, search: Search) -> Option<Vec<u8>> {
-    let structure = match search {
-        Search::Tree | Search::Hinted | Search::Coherent => Structure::Tree(TreeBits::Sixteen),
-        Search::TreeF32 | Search::Precise => Structure::Tree(TreeBits::ThirtyTwo),
-        Search::Sweep | Search::KeptSweep => Structure::Sweep(HullBits::ThirtyTwo),
-        Search::Tight => Structure::Tight(200),
-        Search::Triboxes => Structure::Triboxes(64),
+    let recipe = match search {
+        Search::Tree | Search::Hinted | Search::Coherent => Recipe::Tree(VertexBits::Grid16),
+        Search::TreeF32 | Search::Precise => Recipe::Tree(VertexBits::F32),
+        Search::Sweep | Search::KeptSweep => Recipe::Sweep(VertexBits::F32),
+        Search::Tight => Recipe::Tight(200),
+        Search::Triboxes => Recipe::Triboxes(64),
     };
-    let mesh: &Mesh = &subject.mesh;
-    let input = Input { input_triangles: subject.triangles_read, ..mesh.as_input() };
-    structure.build(input).ok()
+    let triangles: Vec<[u32; 3]> = subject.mesh.all_triangles().collect();
+    let source = Source::of(RawMesh::from_f32(&subject.mesh.positions, &triangles), None).ok()?;
+    let built = trade::build(recipe, &source, &source.repaired().ok()?);
+    built.ok().map(Built::into_bytes)
 }
 
 fn questions(search: Search, diagonal: f64) -> Vec<(Points, Budget)> {

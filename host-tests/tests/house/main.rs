@@ -86,10 +86,7 @@ const BUILDER: [(&str, &[&str]); 23] = [
         "cut",
         &["counted", "emit", "error", "lp", "mesh", "surface", "bvh", "hull", "tight", "tribox"],
     ),
-    (
-        "trade",
-        &["check", "emit", "error", "random", "mesh", "surface", "bvh", "hull", "tight", "tribox"],
-    ),
+    ("trade", &["check", "error", "random", "mesh", "surface", "load", "hull", "builder"]),
     (
         "builder",
         &[

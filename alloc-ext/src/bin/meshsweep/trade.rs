@@ -9,7 +9,6 @@ pub use choose::build;
 
 use crate::args::TradeArgs;
 use crate::failure::Failure;
-use crate::mesh_file;
 use crate::output::{Output, refuse_other_extension, refuse_same_file};
 use measured::measured;
 
@@ -19,8 +18,7 @@ pub fn run(args: &TradeArgs) -> Result<(), Failure> {
         refuse_same_file(Some(page), &[&args.mesh])?;
         Output::probe(page)?;
     }
-    let loaded = mesh_file::load(&args.mesh, args.unit)?;
-    let measured = measured(&args.mesh, &loaded, &args.at, args.points as usize)?;
+    let (loaded, measured) = measured(&args.mesh, args.unit, &args.at, args.points as usize)?;
     if let Some(page) = &args.report {
         report::write(page, &args.mesh, &loaded, &measured)?;
     }

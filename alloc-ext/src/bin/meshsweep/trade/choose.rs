@@ -4,11 +4,11 @@ use super::measured::{Measured, measured};
 use super::table::MANY_NEEDLES;
 use crate::args::{At, BuildArgs, Cpu, LimitArgs};
 use crate::failure::Failure;
-use crate::mesh_file;
 use crate::output::Output;
 use crate::{describe, source};
+use meshsweep::builder::Recipe;
 use meshsweep::number::{About, AtMost};
-use meshsweep::trade::{Board, How, Instructions, Points, Row, Structure};
+use meshsweep::trade::{Board, How, Instructions, Points, Row};
 use meshsweep_core::{Blob, Budget};
 use std::io::{self, Write};
 
@@ -22,9 +22,8 @@ const CYCLES: f64 = 2.0;
 /// Builds the blob of the setting that meets the limits.
 pub fn build(args: &BuildArgs) -> Result<(), Failure> {
     let limits = &args.limits;
-    let loaded = mesh_file::load(&args.mesh, args.unit)?;
     let at = limits.at.clone().unwrap_or(At::Made(Points::Near));
-    let measured = measured(&args.mesh, &loaded, &at, POINTS)?;
+    let (loaded, measured) = measured(&args.mesh, args.unit, &at, POINTS)?;
     if limits.rate.is_some() && measured.trade.needles >= MANY_NEEDLES {
         let what = format!(
             "{:.0} % of the triangles are needles, whose instructions are not predicted; leave \
@@ -39,9 +38,8 @@ pub fn build(args: &BuildArgs) -> Result<(), Failure> {
         let what = refusal(limits, &rows);
         return Err(Failure::Limits { file: args.mesh.clone(), what });
     };
-    let built = chosen.setting.structure.build(loaded.input());
-    let bytes = built.map_err(|what| Failure::Limits { file: args.mesh.clone(), what })?;
-    let blob = Blob::open(&bytes).map_err(|error| Failure::open(&args.output, error))?;
+    let bytes = measured.trade.blob(chosen.setting.recipe).unwrap_or_default();
+    let blob = Blob::open(bytes).map_err(|error| Failure::open(&args.output, error))?;
     source::write(args, &blob)?;
     Output::stdout().finish(|out| {
         writeln!(out, "{}", args.mesh.display())?;
@@ -155,11 +153,11 @@ fn write_choice(
     writeln!(out, "chosen: {}", chosen.setting)?;
     writeln!(out, "  why: {why}, at {} points {}", measured.points, measured.kind)?;
     write_costs(out, limits, chosen)?;
-    writeln!(out, "  built: {}", chosen.setting.structure.options())?;
-    let by = match (chosen.setting.how, chosen.setting.structure) {
+    writeln!(out, "  built: {}", chosen.setting.recipe)?;
+    let by = match (chosen.setting.how, chosen.setting.recipe) {
         (How::Fresh, _) => "",
         (How::Hinted, _) => ", from the hint of the last query",
-        (How::Coherent, Structure::Tree(_)) => ", by a CoherentQuery::<128>",
+        (How::Coherent, Recipe::Tree(_)) => ", by a CoherentQuery::<128>",
         (How::Coherent, _) => ", by a kept Sweep",
         (How::Precise, _) => ", by closest_point_precise",
     };

@@ -2,10 +2,11 @@
 
 use crate::args::{At, Given};
 use crate::failure::Failure;
+use crate::mesh_file;
 use crate::progress::Bar;
 use crate::queries::Queries;
 use meshsweep::load::Loaded;
-use meshsweep::mesh::Mesh;
+use meshsweep::mesh::{Mesh, Unit};
 use meshsweep::trade::{self, Points, Trade};
 use std::path::Path;
 use std::sync::Mutex;
@@ -22,7 +23,14 @@ pub struct Measured {
 }
 
 /// Measures the standard settings.
-pub fn measured(file: &Path, loaded: &Loaded, at: &At, count: usize) -> Result<Measured, Failure> {
+pub fn measured(
+    file: &Path,
+    unit: Option<Unit>,
+    at: &At,
+    count: usize,
+) -> Result<(Loaded, Measured), Failure> {
+    let source = mesh_file::read(file, unit)?;
+    let loaded = source.repaired().map_err(|error| Failure::build(file, error))?;
     let mesh = &loaded.mesh;
     let (points, kind, words) = match at {
         At::Made(kind) => (trade::points(mesh, *kind, count), Some(*kind), said(*kind).to_owned()),
@@ -47,10 +55,10 @@ pub fn measured(file: &Path, loaded: &Loaded, at: &At, count: usize) -> Result<M
             bar.get_or_insert_with(|| Bar::new(of, "measuring", "steps")).show(done);
         }
     };
-    let trade = trade::measure(loaded.input(), &points, &settings, progress)
+    let trade = trade::measure(&source, &loaded, &points, &settings, progress)
         .map_err(|error| Failure::Search { file: file.to_owned(), error })?;
     drop(bar);
-    Ok(Measured { trade, diagonal, points: points.len(), kind: words })
+    Ok((loaded, Measured { trade, diagonal, points: points.len(), kind: words }))
 }
 
 fn said(points: Points) -> &'static str {

@@ -44,7 +44,7 @@ pub fn write(
     loaded.unit_note().map_or(Ok(()), |note| writeln!(out, "  {note}"))?;
     let best = pareto(&trade.rows);
     let of = |rows: &mut dyn Iterator<Item = &Row>| {
-        rows.map(|row| row.setting.structure.to_string().len()).max().unwrap_or(0)
+        rows.map(|row| row.setting.recipe.name().len()).max().unwrap_or(0)
     };
     let width = of(&mut trade.rows.iter());
     writeln!(
@@ -59,8 +59,9 @@ pub fn write(
         writeln!(out, "\nnot built")?;
     }
     for missing in &trade.missing {
-        let reason: Vec<&str> = missing.reason.lines().map(str::trim).collect();
-        writeln!(out, "  {}: {}", missing.structure, reason.join("; "))?;
+        let reason = missing.reason.to_string();
+        let reason: Vec<&str> = reason.lines().map(str::trim).collect();
+        writeln!(out, "  {}: {}", missing.recipe.name(), reason.join("; "))?;
     }
     write_notes(out, &trade.rows)?;
     if trade.needles < MANY_NEEDLES {
@@ -89,7 +90,7 @@ fn write_rows<'r>(
     }
     writeln!(out)?;
     for row in rows {
-        let text = row.setting.structure.to_string();
+        let text = row.setting.recipe.name();
         write!(out, "  {text:<width$}  {:<18}", row.setting.dials())?;
         for (cell, (_, width)) in cells(row).iter().zip(COLUMNS) {
             write!(out, " {cell:>width$}")?;
@@ -171,7 +172,7 @@ pub fn as_json(loaded: &Loaded, measured: &Measured) -> Value {
     let rows: Vec<Value> =
         trade.rows.iter().enumerate().map(|(i, row)| of_row(row, best.contains(&i))).collect();
     let missing = trade.missing.iter().map(
-        |missing| json!({ "structure": missing.structure.to_string(), "reason": missing.reason }),
+        |missing| json!({ "structure": missing.recipe.name(), "reason": missing.reason.to_string() }),
     );
     json!({
         "points": points,
@@ -201,8 +202,8 @@ fn of_row(row: &Row, is_best: bool) -> Value {
     let [nodes, triangles, exact, splits] = row.work;
     let work = json!({ "nodes": nodes, "triangles": triangles, "exact": exact, "splits": splits });
     json!({
-        "structure": row.setting.structure.to_string(),
-        "build": row.setting.structure.options(),
+        "structure": row.setting.recipe.name(),
+        "build": row.setting.recipe.to_string(),
         "dials": row.setting.dials(),
         "pareto": is_best,
         "guaranteed": row.guaranteed.map(spread),

@@ -2,8 +2,10 @@
 
 use super::super::measured::Measured;
 use glam::Vec3;
+use meshsweep::builder::Recipe;
 use meshsweep::load::Loaded;
-use meshsweep::trade::{self, How, Points, Setting, Structure, TreeBits};
+use meshsweep::surface::VertexBits;
+use meshsweep::trade::{self, How, Points, Setting};
 use meshsweep_core::{Budget, QueryError};
 use serde_json::{Value, json};
 
@@ -20,14 +22,14 @@ pub fn asked(measured: &Measured) -> Vec<Setting> {
     let of_tree = |relative: f32, steps: u32| {
         all().find(|setting| {
             let Budget { relative: has, absolute, steps: within, .. } = setting.budget;
-            setting.structure == Structure::Tree(TreeBits::Sixteen)
+            setting.recipe == Recipe::Tree(VertexBits::Grid16)
                 && (setting.how, setting.entries) == (How::Fresh, None)
                 && (has, absolute, within) == (relative, 0.0, steps)
         })
     };
-    let tight = all()
-        .rfind(|setting| matches!(setting.structure, Structure::Tight(faces) if faces <= FACES));
-    let level = all().rfind(|setting| matches!(setting.structure, Structure::CutLevel(_)));
+    let tight =
+        all().rfind(|setting| matches!(setting.recipe, Recipe::Tight(faces) if faces <= FACES));
+    let level = all().rfind(|setting| matches!(setting.recipe, Recipe::CutLevel(_)));
     let each = [of_tree(0.0, u32::MAX), of_tree(0.1, u32::MAX), of_tree(0.0, 8), tight, level];
     each.into_iter().flatten().collect()
 }
@@ -70,6 +72,6 @@ pub fn intervals(
     setting: &Setting,
     points: &[[f32; 3]],
 ) -> Result<Vec<[f32; 2]>, QueryError> {
-    let bytes = measured.trade.blob(setting.structure).unwrap_or_default();
+    let bytes = measured.trade.blob(setting.recipe).unwrap_or_default();
     trade::intervals(setting, bytes, points)
 }

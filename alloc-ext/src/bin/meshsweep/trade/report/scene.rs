@@ -5,17 +5,19 @@ use super::drawn::Drawn;
 use super::path::intervals;
 use super::{floats, indices};
 use crate::worst;
+use meshsweep::builder::{Built, Recipe};
 use meshsweep::counted::Counted;
 use meshsweep::hull::mesh_of;
 use meshsweep::load::Loaded;
 use meshsweep::mesh::Mesh;
+use meshsweep::surface::VertexBits;
 use meshsweep::tight::hull_mesh;
-use meshsweep::trade::{Setting, Structure, TreeBits};
+use meshsweep::trade::Setting;
 use meshsweep_core::{Blob, Budget, QueryError, ScratchEntry, Triboxes};
 use serde_json::{Value, json};
 
 /// The setting whose upper ends measure how far hulls are from the mesh.
-const RULER: Setting = Setting::new(Structure::Tree(TreeBits::Sixteen));
+const RULER: Setting = Setting::new(Recipe::Tree(VertexBits::Grid16));
 
 /// Bodies and worst queries.
 pub fn as_json(
@@ -36,13 +38,13 @@ pub fn as_json(
     }
     let name = Counted(loaded.mesh.triangles.len(), "triangle");
     let mut bodies = vec![body("mesh", &format!("the mesh, {name}"), &mesh, &colours)];
-    for (structure, bytes) in &measured.trade.blobs {
+    for (recipe, built) in &measured.trade.blobs {
         // Of the tight hulls and cut levels, those whose intervals are shown.
-        let is_shown = asked.iter().any(|setting| setting.structure == *structure);
-        let is_hull = matches!(structure, Structure::Tight(_) | Structure::CutLevel(_));
-        let is_tribox = matches!(structure, Structure::Triboxes(64));
+        let is_shown = asked.iter().any(|setting| setting.recipe == *recipe);
+        let is_hull = matches!(recipe, Recipe::Tight(_) | Recipe::CutLevel(_));
+        let is_tribox = matches!(recipe, Recipe::Triboxes(64));
         if let Some((key, name, surface)) =
-            (is_shown && is_hull || is_tribox).then(|| surface(*structure, bytes)).flatten()
+            (is_shown && is_hull || is_tribox).then(|| surface(*recipe, built)).flatten()
         {
             let drawn = Drawn::of(&surface, measured.diagonal);
             let distances = intervals(measured, &RULER, &drawn.middles())?;
@@ -67,22 +69,22 @@ fn body(key: &str, name: &str, drawn: &Drawn, colours: &[Value]) -> Value {
     })
 }
 
-/// A structure's key, name and surface.
-fn surface(structure: Structure, bytes: &[u8]) -> Option<(&'static str, String, Mesh)> {
-    let blob = Blob::open(bytes).ok()?;
-    match structure {
-        Structure::Tight(_) => {
+/// The key, name and surface of what was built.
+fn surface(recipe: Recipe, built: &Built) -> Option<(&'static str, String, Mesh)> {
+    let blob = built.blob();
+    match recipe {
+        Recipe::Tight(_) => {
             let mesh = hull_mesh(&blob.tight_hulls().ok()?.finest()?);
             let faces = Counted(mesh.triangles.len(), "face");
             Some(("tight", format!("the tight hull, {faces}"), mesh))
         }
-        Structure::CutLevel(error) => {
+        Recipe::CutLevel(error) => {
             let hull = blob.hull().ok()?;
             let mesh = mesh_of(&hull, hull.faces(&hull.levels().last()?));
             let faces = Counted(mesh.triangles.len(), "face");
             Some(("level", format!("the level cut at an error of {error}, {faces}"), mesh))
         }
-        Structure::Triboxes(_) => {
+        Recipe::Triboxes(_) => {
             let triboxes = blob.triboxes().ok()?;
             let name = format!("{} triboxes", triboxes.leaf_count());
             Some(("triboxes", name, walls(triboxes)))
@@ -115,7 +117,7 @@ fn walls(triboxes: Triboxes<'_>) -> Mesh {
 /// tight hull. Each with the closest point of the mesh.
 fn worst(measured: &Measured) -> Result<Vec<Value>, QueryError> {
     let trade = &measured.trade;
-    let Some(bytes) = trade.blob(RULER.structure) else { return Ok(Vec::new()) };
+    let Some(bytes) = trade.blob(RULER.recipe) else { return Ok(Vec::new()) };
     let tree = Blob::open(bytes).map_err(|_| QueryError::Unchecked)?.bvh()?;
     let of_tree = || worst::Structure::Tree(tree);
     let after = Budget::EXACT.with_steps(8);
@@ -123,8 +125,8 @@ fn worst(measured: &Measured) -> Result<Vec<Value>, QueryError> {
         ("dearest", "the dearest exact query", of_tree(), worst::Goal::Work, Budget::EXACT),
         ("widest", "the widest interval after 8 steps", of_tree(), worst::Goal::Width, after),
     ];
-    let tight = trade.blobs.iter().rfind(|(of, _)| matches!(of, Structure::Tight(n) if *n <= 200));
-    let tight = tight.and_then(|(_, bytes)| Blob::open(bytes).ok()?.tight_hulls().ok()?.finest());
+    let tight = trade.blobs.iter().rfind(|(of, _)| matches!(of, Recipe::Tight(n) if *n <= 200));
+    let tight = tight.and_then(|(_, built)| built.blob().tight_hulls().ok()?.finest());
     if let Some(hull) = tight {
         let by_hull = worst::Structure::Tight(hull);
         let name = "the widest interval of the tight hull";
