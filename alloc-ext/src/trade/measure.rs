@@ -50,6 +50,14 @@ pub struct Instructions {
     pub stack: u32,
 }
 
+impl Instructions {
+    /// Of the dearest query, with what the fit missed at most.
+    #[must_use]
+    pub fn most(&self) -> f64 {
+        self.worst * self.dearest
+    }
+}
+
 /// A setting, its errors and its costs. Lengths are in the mesh's unit.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -75,6 +83,12 @@ pub struct Row {
 }
 
 impl Row {
+    /// The widest of the intervals; infinite if the structure gives a lower bound only.
+    #[must_use]
+    pub fn error(&self) -> f64 {
+        self.guaranteed.map_or(f64::INFINITY, |spread| spread.worst)
+    }
+
     /// What settings are compared by: the largest guaranteed error, the mean instructions of a
     /// Cortex-M4F, and the bytes of flash. `None` without an interval or a cost.
     fn measures(&self) -> Option<[f64; 3]> {

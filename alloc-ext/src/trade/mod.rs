@@ -15,6 +15,7 @@
 //! | `cost` | instructions of a board from the work of a query |
 //! | `costs`, `fitted` | the fitted numbers, written by `cargo xtask fit`; looked up |
 //! | `measure` | the rows, and which of them nothing else beats |
+//! | `limits` | which row meets the limits of a device |
 //!
 //! A guaranteed error is the width of an interval that holds. It is the largest among the measured
 //! queries, not a bound for all queries. Instructions are predicted by a linear model that was
@@ -25,6 +26,7 @@ mod blobs;
 mod cost;
 mod costs;
 mod fitted;
+mod limits;
 mod measure;
 mod points;
 mod setting;
@@ -34,6 +36,7 @@ pub use ask::intervals;
 pub use blobs::{NotBuilt, build};
 pub use cost::{Board, Cost, FEATURES, Features, Search, Shape};
 pub use fitted::cost;
+pub use limits::{CYCLES, Choice, Cpu, Limits, MANY_NEEDLES, Need, Unmet};
 pub use measure::{Instructions, Missing, Row, Spread, Trade, distances, measure, pareto};
-pub use points::{Points, points};
+pub use points::{Points, diagonal, points};
 pub use setting::{How, Setting, standard};

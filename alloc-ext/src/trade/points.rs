@@ -70,6 +70,16 @@ pub fn points(mesh: &Mesh, kind: Points, count: usize) -> Vec<[f32; 3]> {
     }
 }
 
+/// The diagonal of the mesh's box.
+#[must_use]
+pub fn diagonal(mesh: &Mesh) -> f64 {
+    let side = |k: usize| {
+        let all = || mesh.positions.iter().map(|p| f64::from(p[k]));
+        all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
+    };
+    (0..3).map(|k| side(k).powi(2)).sum::<f64>().sqrt()
+}
+
 /// Triangles with running sums of their areas, and the box of all.
 struct Surface {
     triangles: Vec<[DVec3; 3]>,

@@ -1,7 +1,7 @@
 //! The library's `Builder` gives what the program writes and says, and ends when it is told to.
 
 use crate::support::{arg, coarse_torus, fixture, run, scratch};
-use meshsweep::builder::{For, Stage, Topic, ranges};
+use meshsweep::builder::{For, Recipe, Stage, Topic, ranges};
 use meshsweep::collapse::CollapseOptions;
 use meshsweep::curve::read_csv;
 use meshsweep::mesh::{self, MeshError, RawMesh, Unit};
@@ -78,6 +78,23 @@ fn each_question_gets_the_bytes_that_the_program_writes() {
 }
 
 #[test]
+fn a_recipe_says_the_options_that_build_it() {
+    let directory = scratch("builder_recipes");
+    let torus = coarse_torus(&directory);
+    for recipe in [
+        Recipe::Tree(VertexBits::Grid16),
+        Recipe::Tree(VertexBits::F32),
+        Recipe::Sweep(VertexBits::Grid24),
+        Recipe::Tight(60),
+        Recipe::Triboxes(8),
+    ] {
+        let typed = recipe.to_string();
+        let typed: Vec<&str> = typed.split_whitespace().collect();
+        demand_same(&directory, &torus, Builder::of(recipe), &typed);
+    }
+}
+
+#[test]
 fn each_option_means_what_it_means_to_the_program() {
     let directory = scratch("builder_options");
     let bracket = fixture("bracket.stl");
@@ -93,8 +110,9 @@ fn each_option_means_what_it_means_to_the_program() {
         .base_faces(300)
         .collapse(collapse)
         .triboxes(5);
-    let typed = "--for hull,triboxes,segment --vertex-bits 16 --unit mm --base 300 --max-valence 9 \
+    let typed = "--for hull,triboxes,segment --unit mm --vertex-bits 16 --base 300 --max-valence 9 \
                  --compactness 0.5 --max-normal-deviation 45 --triboxes 5";
+    assert_eq!(several.to_string(), typed);
     demand_same(&directory, &bracket, several, &typed.split_whitespace().collect::<Vec<_>>());
     let torus = coarse_torus(&directory);
     let tight = || Builder::new().serve(For::Tight).effort(0.0);

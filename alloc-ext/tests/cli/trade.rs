@@ -115,6 +115,14 @@ fn limits_choose_a_setting_that_meets_them_or_name_the_nearest() {
     for wanted in ["chosen: ", "why: ", "ask with: Budget::EXACT", "second: "] {
         assert!(text.contains(wanted), "{wanted}: {text}");
     }
+    // The blob, and the notes on it, are those of the options that the report names.
+    let chosen = fs::read(&blob).unwrap();
+    let typed = text.lines().find_map(|line| line.strip_prefix("  built: ")).expect("it says so");
+    let again = ok([&build[..], &typed.split(' ').collect::<Vec<_>>()].concat());
+    assert!(fs::read(&blob).unwrap() == chosen, "{typed}: other bytes");
+    for note in again.lines().filter(|line| !line.starts_with("seconds")) {
+        assert!(text.lines().any(|line| line == note), "{note:?} is missing in {text}");
+    }
     fs::remove_file(&blob).unwrap();
     let small = run([&build[..], &["--flash", "500", "--error", "1e-9"]].concat());
     let said = refused(&small, 1, "cube.obj");

@@ -20,7 +20,7 @@ pub use bounding::{HullArgs, TriboxArgs};
 pub use building::{BuildArgs, CutArgs, InfoArgs, Language, VerifyArgs};
 pub use comparing::HausdorffArgs;
 pub use given::{Given, files, names};
-pub use measuring::{At, Cpu, LimitArgs, TradeArgs};
+pub use measuring::{At, TradeArgs};
 pub use refining::RefineArgs;
 pub use values::Margin;
 

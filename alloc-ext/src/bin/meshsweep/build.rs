@@ -4,7 +4,8 @@ use crate::args::BuildArgs;
 use crate::failure::Failure;
 use crate::output::{Output, refuse_same_file};
 use crate::progress::StageBars;
-use crate::{describe, source, trade};
+use crate::trade::choose::{self, Chosen};
+use crate::{describe, source};
 use meshsweep::Built;
 use meshsweep::builder::Topic;
 use meshsweep::counted::Counted;
@@ -23,20 +24,21 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     refuse_same_file(Some(&args.output), &inputs)?;
     Output::probe(&args.output)?;
     source::probe(args, &inputs)?;
-    if args.limits.given().is_some() {
-        return trade::build(args);
-    }
-    let mut bars = StageBars::default();
-    let built = builder.on_progress(|stage, _| bars.show(stage)).build_file(&args.mesh);
-    let built = built.map_err(failed)?;
-    drop(bars);
+    let (built, chosen) = if args.limits.given().is_some() {
+        let (built, chosen) = choose::choose(args)?;
+        (built, Some(chosen))
+    } else {
+        let mut bars = StageBars::default();
+        let built = builder.on_progress(|stage, _| bars.show(stage)).build_file(&args.mesh);
+        (built.map_err(failed)?, None)
+    };
     for note in built.report_on(Topic::Winding) {
         // A closed standard error is no failure.
         let _ = writeln!(io::stderr(), "{}: {note}", args.mesh.display());
     }
     let blob = built.blob();
     source::write(args, &blob)?;
-    Output::stdout().finish(|out| write_report(out, args, &built, &blob))
+    Output::stdout().finish(|out| write_report(out, args, &built, &blob, chosen.as_ref()))
 }
 
 /// Why limits do not go together with other options, if they do not.
@@ -59,12 +61,14 @@ fn write_report(
     args: &BuildArgs,
     built: &Built,
     blob: &Blob<'_>,
+    chosen: Option<&Chosen>,
 ) -> io::Result<()> {
     let indented = |out: &mut dyn Write, topic| {
         built.report_on(topic).try_for_each(|note| writeln!(out, "  {note}"))
     };
     writeln!(out, "{}", args.mesh.display())?;
     indented(out, Topic::Input)?;
+    chosen.map_or(Ok(()), |chosen| choose::write(out, chosen))?;
     writeln!(out, "{}", args.output.display())?;
     source::report(args, out)?;
     indented(out, Topic::Hull)?;
@@ -72,7 +76,7 @@ fn write_report(
     indented(out, Topic::BoxTree)?;
     built.report_on(Topic::Sides).try_for_each(|note| writeln!(out, "{note}"))?;
     indented(out, Topic::Tight)?;
-    write_seconds(out, built)
+    chosen.map_or_else(|| write_seconds(out, built), |_| Ok(()))
 }
 
 fn write_seconds(out: &mut dyn Write, built: &Built) -> io::Result<()> {

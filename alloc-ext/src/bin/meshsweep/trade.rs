@@ -1,11 +1,9 @@
 //! `meshsweep trade`: what each setting of a mesh promises, finds and costs.
 
-mod choose;
+pub mod choose;
 mod measured;
 mod report;
 mod table;
-
-pub use choose::build;
 
 use crate::args::TradeArgs;
 use crate::failure::Failure;

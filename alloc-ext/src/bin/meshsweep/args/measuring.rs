@@ -3,7 +3,7 @@
 use super::values::{distance, unit, whole};
 use clap::Args;
 use meshsweep::mesh::Unit;
-use meshsweep::trade::{Board, Points};
+use meshsweep::trade::{Board, Cpu, Limits, Points};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -59,6 +59,12 @@ pub struct LimitArgs {
 }
 
 impl LimitArgs {
+    /// As the library takes them.
+    pub fn limits(&self) -> Limits {
+        let Self { flash, ram, error, rate, cpu, .. } = *self;
+        Limits { flash, ram, error, rate, cpu }
+    }
+
     /// The first limit that is given.
     pub fn given(&self) -> Option<&'static str> {
         [
@@ -77,13 +83,6 @@ impl LimitArgs {
 pub enum At {
     Made(Points),
     File(PathBuf),
-}
-
-/// A processor and its clock, in hertz.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cpu {
-    pub board: Board,
-    pub hertz: f64,
 }
 
 fn at(text: &str) -> Result<At, String> {

@@ -6,7 +6,7 @@ use crate::mesh_file;
 use crate::progress::Bar;
 use crate::queries::Queries;
 use meshsweep::load::Loaded;
-use meshsweep::mesh::{Mesh, Unit};
+use meshsweep::mesh::Unit;
 use meshsweep::trade::{self, Points, Trade};
 use std::path::Path;
 use std::sync::Mutex;
@@ -46,7 +46,7 @@ pub fn measured(
         let what = format!("{}: there are no points to ask at", file.display());
         return Err(Failure::Usage { what });
     }
-    let diagonal = diagonal(mesh);
+    let diagonal = trade::diagonal(mesh);
     let settings = trade::standard(diagonal, mesh.triangles.len(), kind);
     // Its length is known at the first step.
     let bar = Mutex::new(None);
@@ -67,12 +67,4 @@ fn said(points: Points) -> &'static str {
         Points::Near => "near the surface",
         Points::Path => "along a path near the surface",
     }
-}
-
-fn diagonal(mesh: &Mesh) -> f64 {
-    let side = |k: usize| {
-        let all = || mesh.positions.iter().map(|p| f64::from(p[k]));
-        all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
-    };
-    (0..3).map(|k| side(k).powi(2)).sum::<f64>().sqrt()
 }

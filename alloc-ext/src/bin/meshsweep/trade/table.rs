@@ -6,7 +6,7 @@ use crate::mesh_report::write_rounding;
 use meshsweep::counted::Counted;
 use meshsweep::load::Loaded;
 use meshsweep::number::AtMost;
-use meshsweep::trade::{Board, Row, Spread, pareto};
+use meshsweep::trade::{Board, MANY_NEEDLES, Row, Spread, pareto};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -75,9 +75,6 @@ pub fn write(
         100.0 * trade.needles
     )
 }
-
-/// Part of the triangles that are needles from which on the report warns of them.
-pub(super) const MANY_NEEDLES: f64 = 0.1;
 
 fn write_rows<'r>(
     out: &mut dyn Write,
