@@ -27,14 +27,15 @@
 //! | [`builder`] | from options or a recipe, and a mesh, to a blob in memory: what the program does |
 //! | [`progress`] | how much of a build is done, and whether to go on |
 //! | [`cut`] | a coarser blob out of a finer one |
+//! | [`distances`] | a structure of a blob that answers distances, whichever it is |
 //! | [`worst`] | a search for the query that costs most |
 //! | [`check`] | proofs of a blob again, from its bytes and the mesh; it uses `mesh` only |
 //! | [`trade`] | errors and costs of a mesh's structures and settings, measured |
 //!
 //! A room uses those to its left in this line, and no other: `geom` ← `{emit, lp, mesh}` ←
 //! `progress` ← `surface` ← `{collapse, bvh, load}` ← `hausdorff` ← `{tight, tribox, curve}` ←
-//! `hull` ← `{cut, builder}` ← `trade` ← the program. `trade` also uses the distance of `check`, and
-//! `worst` uses no room. A test keeps that (`host-tests/tests/house`).
+//! `hull` ← `{cut, builder}` ← `trade` ← `worst` ← the program. `trade` also uses the distance of
+//! `check`, and `distances` uses no room. A test keeps that (`host-tests/tests/house`).
 
 pub mod builder;
 pub mod bvh;
@@ -43,6 +44,7 @@ pub mod collapse;
 pub mod counted;
 pub mod curve;
 pub mod cut;
+pub mod distances;
 pub mod emit;
 mod error;
 mod geom;

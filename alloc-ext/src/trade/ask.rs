@@ -3,6 +3,7 @@
 use super::cost::{Features, Shape};
 use super::setting::{How, Setting};
 use crate::builder::Recipe;
+use crate::distances::Distances;
 use meshsweep_core::{
     Blob, Budget, ClosestPoint, CoherentQuery, Hint, QueryError, ScratchEntry, Work,
 };
@@ -65,10 +66,7 @@ pub(super) fn ask(
             let scratch = size_of_val(stack.as_slice());
             let of = Of { budget, shape: Shape::of_tree(&tree), scratch };
             match setting.how {
-                How::Fresh => twice(points, &of, |p| {
-                    let mut none = Hint::NONE;
-                    tree.closest_point_in_order(p, &mut none, budget, &mut stack).map(of_closest)
-                }),
+                How::Fresh => plain(Distances::Tree(tree), points, &of, &mut stack),
                 How::Hinted => {
                     let mut hint = Hint::NONE;
                     twice(points, &of, |p| {
@@ -99,9 +97,7 @@ pub(super) fn ask(
             let scratch = size_of_val(queue.as_slice());
             let of = Of { budget, shape: Shape::of_hull(&hull), scratch };
             if setting.how == How::Fresh {
-                return twice(points, &of, |p| {
-                    hull.closest_point(p, budget, &mut queue).map(of_closest)
-                });
+                return plain(Distances::Hull(hull), points, &of, &mut queue);
             }
             let begin = points.first().copied().unwrap_or_default();
             let mut sweep = hull.sweep(begin, &mut queue)?;
@@ -115,7 +111,7 @@ pub(super) fn ask(
             let mut stack = entries(setting, hull.scratch_entries());
             let scratch = size_of_val(stack.as_slice());
             let of = Of { budget, shape: Shape::of_tight(&hull), scratch };
-            twice(points, &of, |p| hull.closest_point(p, budget, &mut stack).map(of_closest))
+            plain(Distances::Tight(hull), points, &of, &mut stack)
         }
         Recipe::Triboxes(_) => {
             let triboxes = blob.triboxes()?;
@@ -136,6 +132,18 @@ fn entries(setting: &Setting, enough: usize) -> Vec<ScratchEntry> {
 
 fn of_closest(near: ClosestPoint) -> (f32, f32, Work) {
     (near.distance.lower, near.distance.upper, near.work)
+}
+
+fn plain(
+    structure: Distances<'_>,
+    points: &[[f32; 3]],
+    of: &Of,
+    scratch: &mut [ScratchEntry],
+) -> Result<Asked, QueryError> {
+    twice(points, of, |p| {
+        let near = structure.closest_point(p, of.budget, scratch)?;
+        Ok((near.distance.lower, near.distance.upper, near.work))
+    })
 }
 
 /// Parts that all queries of a setting share.

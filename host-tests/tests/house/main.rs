@@ -47,7 +47,7 @@ const BENEATH: &[&str] = &[
 /// `builder` are above: they know all structures. `load` makes a clean mesh of a file for them.
 /// `check` proves the others' work and shares nothing with them but meshes. `trade` measures
 /// distances by it.
-const BUILDER: [(&str, &[&str]); 23] = [
+const BUILDER: [(&str, &[&str]); 24] = [
     ("counted", &[]),
     ("number", &[]),
     ("emit", &[]),
@@ -57,6 +57,7 @@ const BUILDER: [(&str, &[&str]); 23] = [
     ("mesh", &["counted", "geom"]),
     ("check", &["mesh"]),
     ("error", &["counted", "mesh", "number"]),
+    ("distances", &[]),
     ("progress", &["error"]),
     ("surface", &["counted", "error", "geom", "lp", "mesh"]),
     ("load", &["error", "mesh", "surface"]),
@@ -86,7 +87,6 @@ const BUILDER: [(&str, &[&str]); 23] = [
         "cut",
         &["counted", "emit", "error", "lp", "mesh", "surface", "bvh", "hull", "tight", "tribox"],
     ),
-    ("trade", &["check", "error", "random", "mesh", "surface", "load", "hull", "builder"]),
     (
         "builder",
         &[
@@ -94,7 +94,22 @@ const BUILDER: [(&str, &[&str]); 23] = [
             "collapse", "bvh", "hull", "tight", "tribox", "curve",
         ],
     ),
-    ("worst", &["random"]),
+    (
+        "trade",
+        &[
+            "check",
+            "distances",
+            "number",
+            "error",
+            "random",
+            "mesh",
+            "surface",
+            "load",
+            "hull",
+            "builder",
+        ],
+    ),
+    ("worst", &["distances", "random", "trade"]),
 ];
 
 fn none(found: &[String]) {

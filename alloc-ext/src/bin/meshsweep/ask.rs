@@ -9,6 +9,7 @@ use crate::failure::Failure;
 use crate::output::Output;
 use crate::queries::Queries;
 use meshsweep::counted::Counted;
+use meshsweep::distances::Element;
 use meshsweep::number::Short;
 use meshsweep_core::{
     Budget, Ended, Interval, Neighbor, QueryError, ScratchEntry, Undecided, Verdict, Work,
@@ -189,6 +190,19 @@ pub fn write_numbers(out: &mut dyn Write, numbers: &[f32]) -> io::Result<()> {
 pub fn write_end(out: &mut dyn Write, triangle: Option<u32>, work: Work) -> io::Result<()> {
     triangle.map_or(Ok(()), |triangle| write!(out, "{triangle}"))?;
     writeln!(out, ",{}", work.total())
+}
+
+/// The columns of what an answer is on: triangle; or polyline and segment of a curve.
+pub fn write_element(
+    out: &mut dyn Write,
+    is_curve: bool,
+    element: Option<Element>,
+) -> io::Result<()> {
+    match element {
+        Some(Element::Triangle(triangle)) => write!(out, "{triangle},"),
+        Some(Element::Segment(at)) => write!(out, "{},{},", at.polyline, at.segment),
+        None => write!(out, "{}", if is_curve { ",," } else { "," }),
+    }
 }
 
 /// The last three columns of a pair: a triangle of each mesh, and the work.

@@ -1,14 +1,15 @@
 //! `meshsweep closest`: points in, intervals and closest points out.
 
 use crate::args::{ClosestArgs, Engine as EngineName, PointArgs, files};
-use crate::ask::{Answer, Question, write_end, write_numbers};
+use crate::ask::{Answer, Question, write_element, write_numbers};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::served::Engine;
-use crate::{blob_file, curve, served};
+use crate::{blob_file, served};
 use meshsweep::bvh::FastBvh;
-use meshsweep_core::{BuildFor, ClosestPoint, Hint, Interval, QueryError};
+use meshsweep::distances::{Closest, Distances};
+use meshsweep_core::{Blob, BuildFor, ClosestPoint, Hint, Interval, QueryError};
 use std::io::{self, Write};
 
 /// Points that the box tree sorts and answers at once: enough for neighbours to be near, and for
@@ -20,61 +21,39 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     refuse_same_file(search.output.as_deref(), &files(&[file], points))?;
     let blob = blob_file::open(file)?;
     let budget = search.budget().with_relative(args.rel).with_absolute(args.abs);
-    if let Ok(curve) = blob.curve()
-        && args.engine.is_none()
-        && args.tight.is_none()
-        && args.frame.is_none()
-        && !args.precise
-    {
-        return curve::closest(curve, args, Queries::read(points)?, budget);
-    }
     let header = "x,y,z,lower,upper,px,py,pz,triangle,work";
-    let question = |points| Question::new(header, points, search);
     if let Some(frame) = args.frame {
         let (hull, entries) = served::require_frame(file, &blob, frame)?;
         let asker = || {
             let mut scratch = search.scratch(entries);
-            move |point| Ok(answer(hull.closest_point(point, budget, &mut scratch)?))
+            move |point| Ok(answer(hull.closest_point(point, budget, &mut scratch)?.into()))
         };
-        return question(Queries::read(points)?).ask(asker, write);
+        return Question::new(header, Queries::read(points)?, search).ask(asker, write);
     }
-    let tree_chosen = match args.precise {
-        true => Some(true),
-        false => args.engine.map(|engine| engine == EngineName::Tree),
+    let structure = structure(args, &blob)?;
+    let header = match structure {
+        Distances::Curve(_) => "x,y,z,lower,upper,px,py,pz,polyline,segment,safe_motion,work",
+        _ => header,
     };
-    let hull = match tree_chosen {
-        Some(_) => None,
-        None => served::tight_hull(file, &blob, args.tight)?,
-    };
-    if let Some(hull) = hull {
+    let is_by_hull = matches!(structure, Distances::Tight(_));
+    let question = Question { is_by_hull, ..Question::new(header, Queries::read(points)?, search) };
+    let Distances::Tree(tree) = structure else {
         let asker = || {
-            let mut scratch = search.scratch(hull.scratch_entries());
-            move |point| Ok(answer(hull.closest_point(point, budget, &mut scratch)?))
+            let mut scratch = search.scratch(served::entries(&structure));
+            move |point| Ok(answer(structure.closest_point(point, budget, &mut scratch)?))
         };
-        let question = question(Queries::read(points)?);
-        return Question { is_by_hull: true, ..question }.ask(asker, write);
-    }
-    let engine = served::choose(file, &blob, BuildFor::Closest, tree_chosen)?;
-    let points = Queries::read(points)?;
-    let tree = match engine {
-        Engine::Tree(tree) => FastBvh::new(tree),
-        Engine::Hull(hull) => {
-            let asker = || {
-                let mut scratch = search.scratch(engine.scratch_entries());
-                move |point| Ok(answer(hull.closest_point(point, budget, &mut scratch)?))
-            };
-            return question(points).ask(asker, write);
-        }
+        return question.ask(asker, write);
     };
+    let tree = FastBvh::new(tree);
     if args.precise {
         let asker = || {
             let mut scratch = search.scratch(tree.scratch_entries());
-            move |point| Ok(answer(tree.closest_point_precise(point, budget, &mut scratch)?))
+            move |point| Ok(answer(tree.closest_point_precise(point, budget, &mut scratch)?.into()))
         };
-        return question(points).ask(asker, write);
+        return question.ask(asker, write);
     }
     // Two entries more for each point sort a batch.
-    let entries = tree.scratch_entries() + 2 * BATCH.min(points.rows.len());
+    let entries = tree.scratch_entries() + 2 * BATCH.min(question.queries.rows.len());
     let worker = || {
         let mut scratch = search.scratch(entries);
         let mut found = Vec::new();
@@ -88,14 +67,36 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
                     error => (0, error),
                 },
             )?;
-            answers.extend(found.iter().copied().map(answer));
+            answers.extend(found.iter().map(|&found| answer(found.into())));
             Ok(())
         }
     };
-    question(points).ask_many(BATCH, worker, write)
+    question.ask_many(BATCH, worker, write)
 }
 
-fn answer(found: ClosestPoint) -> Answer<ClosestPoint> {
+/// The structure that the options choose; or else the box tree, the hull hierarchy, the finest tight
+/// hull.
+fn structure<'a>(args: &ClosestArgs, blob: &Blob<'a>) -> Result<Distances<'a>, Failure> {
+    let file = &args.input.blob;
+    let tree_chosen = match args.precise {
+        true => Some(true),
+        false => args.engine.map(|engine| engine == EngineName::Tree),
+    };
+    if tree_chosen.is_none() {
+        if let (Ok(curve), None) = (blob.curve(), args.tight) {
+            return Ok(Distances::Curve(curve));
+        }
+        if let Some(hull) = served::tight_hull(file, blob, args.tight)? {
+            return Ok(Distances::Tight(hull));
+        }
+    }
+    Ok(match served::choose(file, blob, BuildFor::Closest, tree_chosen)? {
+        Engine::Tree(tree) => Distances::Tree(tree),
+        Engine::Hull(hull) => Distances::Hull(hull),
+    })
+}
+
+fn answer(found: Closest) -> Answer<Closest> {
     Answer { found, ended: found.ended, work: found.work }
 }
 
@@ -103,11 +104,13 @@ fn write(
     out: &mut dyn Write,
     _: usize,
     point: &[f32; 3],
-    &Answer { found, work, .. }: &Answer<ClosestPoint>,
+    &Answer { found, work, .. }: &Answer<Closest>,
 ) -> io::Result<()> {
     let Interval { lower, upper } = found.distance;
     let [x, y, z] = found.point;
     write_numbers(out, point)?;
     write_numbers(out, &[lower, upper, x, y, z])?;
-    write_end(out, found.triangle, work)
+    write_element(out, found.safe_motion.is_some(), found.element)?;
+    write_numbers(out, found.safe_motion.as_slice())?;
+    writeln!(out, "{}", work.total())
 }

@@ -9,9 +9,10 @@ use crate::ask::threads;
 use crate::failure::Failure;
 use crate::output::{Output, refuse_same_file};
 use crate::progress::Bar;
-use crate::{blob_file, describe, served, side};
+use crate::{blob_file, describe, served};
 use lattice::Lattice;
 use meshsweep::counted::Counted;
+use meshsweep::distances::has_sides;
 use meshsweep_core::{BuildFor, QueryError};
 use sampler::{NoSign, Sampler};
 use std::io::{self, Write};
@@ -36,7 +37,7 @@ pub fn run(args: &FieldArgs) -> Result<(), Failure> {
     refuse_same_file(Some(&args.output), &[&args.blob])?;
     let blob = blob_file::open(&args.blob)?;
     let tree = served::require_tree(&args.blob, &blob, BuildFor::Closest)?;
-    if args.signed && !side::has_sides(&tree) {
+    if args.signed && !has_sides(&tree) {
         let instead = "build it --for winding, or leave out --signed";
         return Err(Failure::NotClosed { file: args.blob.clone(), instead });
     }

@@ -31,7 +31,6 @@ mod clear;
 mod clearance;
 mod closest;
 mod cull;
-mod curve;
 mod cut;
 mod demo;
 mod describe;

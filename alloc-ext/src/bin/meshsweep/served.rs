@@ -1,7 +1,7 @@
 //! Which questions a blob answers, and by which of its structures.
 
 use crate::failure::Failure;
-use crate::side;
+use meshsweep::distances::{Distances, has_sides};
 use meshsweep_core::{
     Blob, Budget, BuildFor, Bvh, FrameHull, Hull, Overlap, Overlaps, Pose, QueryError,
     ScratchEntry, TightHull, TrianglePair,
@@ -18,7 +18,7 @@ const QUESTIONS: [(&str, Serves); 17] = [
     ("within", |blob| has_distances(blob) || blob.curve().is_ok()),
     ("nearest", knows_triangles),
     ("field", knows_triangles),
-    ("signed", |blob| tree(blob, BuildFor::Closest).is_some_and(|tree| side::has_sides(&tree))),
+    ("signed", |blob| tree(blob, BuildFor::Closest).is_some_and(|tree| has_sides(&tree))),
     ("winding", |blob| tree(blob, BuildFor::Winding).is_some()),
     ("segment", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
     ("overlap", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
@@ -198,9 +198,22 @@ impl Engine<'_> {
     }
 }
 
-/// Least number of scratch entries of a hull hierarchy unless `--queue` says otherwise: enough to
-/// search best first, and small beside a cache.
+/// More scratch entries of a hull hierarchy than it needs: enough to search best first, and small
+/// beside a cache.
 const COMFORTABLE_SCRATCH: usize = 4096;
+
+/// More scratch entries of a curve than it needs: with these, searches go best first.
+const BEST_FIRST: usize = 256;
+
+/// Scratch entries to ask a structure about points with, unless `--queue` says otherwise.
+pub fn entries(structure: &Distances<'_>) -> usize {
+    structure.scratch_entries()
+        + match structure {
+            Distances::Tree(_) | Distances::Tight(_) => 0,
+            Distances::Hull(_) => COMFORTABLE_SCRATCH,
+            Distances::Curve(_) => BEST_FIRST,
+        }
+}
 
 /// The engine that `--engine` chooses; or else the box tree, if the blob has one.
 pub fn choose<'a>(

@@ -5,8 +5,9 @@ use crate::ask::{Answer, Question, write_end, write_numbers};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
-use crate::side::{has_sideless, has_sides, name, reason, signed_distance};
+use crate::side::{has_sideless, name, reason};
 use crate::{blob_file, served};
+use meshsweep::distances::{has_sides, signed_distance};
 use meshsweep_core::{BuildFor, Interval, SignedDistance};
 use std::io::{self, Write};
 

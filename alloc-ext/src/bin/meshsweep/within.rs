@@ -1,12 +1,15 @@
 //! `meshsweep within`: whether points are within a distance of the surface, or of which triangles.
 
 use crate::args::{PointArgs, WithinArgs, files};
-use crate::ask::{self, Answer, Question, verdict_name, write_end, write_neighbor, write_numbers};
+use crate::ask::{
+    self, Answer, Question, verdict_name, write_element, write_end, write_neighbor, write_numbers,
+};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
-use crate::{blob_file, curve, served};
-use meshsweep_core::{BuildFor, Bvh, Ended, Neighbor, TightHull};
+use crate::{blob_file, served};
+use meshsweep::distances::Distances;
+use meshsweep_core::{BuildFor, Bvh, Ended, Neighbor};
 
 /// Room for triangles at first.
 const TRIANGLES: usize = 64;
@@ -15,45 +18,45 @@ pub fn run(args: &WithinArgs) -> Result<(), Failure> {
     let WithinArgs { input: PointArgs { blob: file, points }, search, .. } = args;
     refuse_same_file(search.output.as_deref(), &files(&[file], points))?;
     let blob = blob_file::open(file)?;
-    if let Ok(curve) = blob.curve()
-        && !args.all
-        && args.tight.is_none()
-    {
-        return curve::within(curve, args, Queries::read(points)?);
+    let tree = || served::require_tree(file, &blob, BuildFor::Closest);
+    if args.all {
+        let tree = tree()?;
+        return ask_all(args, tree, Queries::read(points)?);
     }
-    let hull = if args.all { None } else { served::tight_hull(file, &blob, args.tight)? };
-    let tree = match &hull {
-        Some(hull) => *hull.bvh(),
-        None => served::require_tree(file, &blob, BuildFor::Closest)?,
+    let structure = match (blob.curve(), args.tight) {
+        (Ok(curve), None) => Distances::Curve(curve),
+        _ => match served::tight_hull(file, &blob, args.tight)? {
+            Some(hull) => Distances::Tight(hull),
+            None => Distances::Tree(tree()?),
+        },
     };
-    let points = Queries::read(points)?;
-    if args.all { ask_all(args, tree, points) } else { ask_any(args, tree, hull, points) }
+    ask_any(args, structure, Queries::read(points)?)
 }
 
-/// Asks whether the surface is within the distance. `hull` is the hull that `tree` is of, if the
-/// mesh's own tree is not asked.
+/// Asks whether the surface, or the curve, is within the distance.
 fn ask_any(
     WithinArgs { distance, search, .. }: &WithinArgs,
-    tree: Bvh<'_>,
-    hull: Option<TightHull<'_>>,
+    structure: Distances<'_>,
     points: Queries<3>,
 ) -> Result<(), Failure> {
-    let question = Question::new("x,y,z,within,triangle,work", points, search);
-    Question { is_by_hull: hull.is_some(), ..question }.ask(
+    let is_curve = matches!(structure, Distances::Curve(_));
+    let header =
+        if is_curve { "x,y,z,within,polyline,segment,work" } else { "x,y,z,within,triangle,work" };
+    let is_by_hull = matches!(structure, Distances::Tight(_));
+    Question { is_by_hull, ..Question::new(header, points, search) }.ask(
         || {
-            let mut scratch = search.scratch(tree.scratch_entries());
+            let mut scratch = search.scratch(served::entries(&structure));
             move |point| {
-                let found = match &hull {
-                    Some(hull) => hull.within(point, *distance, search.budget(), &mut scratch)?,
-                    None => tree.within(point, *distance, search.budget(), &mut scratch)?,
-                };
+                let found =
+                    structure.any_within(point, *distance, search.budget(), &mut scratch)?;
                 Ok(Answer { found, ended: ask::ended(found.verdict), work: found.work })
             }
         },
         |out, _, point, Answer { found, work, .. }| {
             write_numbers(out, point)?;
             write!(out, "{},", verdict_name(found.verdict))?;
-            write_end(out, found.triangle, *work)
+            write_element(out, is_curve, found.element)?;
+            writeln!(out, "{}", work.total())
         },
     )
 }

@@ -4,6 +4,7 @@ use super::lattice::Lattice;
 use crate::ask::threads;
 use crate::progress::Bar;
 use crate::side;
+use meshsweep::distances::signed_distance;
 use meshsweep_core::{Budget, Bvh, Hint, Interval, QueryError, ScratchEntry, Side};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -135,7 +136,7 @@ impl Sampler<'_> {
         hint: &mut Hint,
     ) -> Result<(Interval, Option<&'static str>), QueryError> {
         if self.signed {
-            let answer = side::signed_distance(self.tree, point, Budget::EXACT, scratch)?;
+            let answer = signed_distance(self.tree, point, Budget::EXACT, scratch)?;
             let is_undecided = matches!(answer.side, Side::Undecided(_));
             return Ok((answer.distance, is_undecided.then(|| side::reason(answer.side))));
         }

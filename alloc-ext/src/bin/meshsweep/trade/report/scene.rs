@@ -4,15 +4,16 @@ use super::super::measured::Measured;
 use super::drawn::Drawn;
 use super::path::intervals;
 use super::{floats, indices};
-use crate::worst;
 use meshsweep::builder::{Built, Recipe};
 use meshsweep::counted::Counted;
+use meshsweep::distances::Distances;
 use meshsweep::hull::mesh_of;
 use meshsweep::load::Loaded;
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
 use meshsweep::tight::hull_mesh;
 use meshsweep::trade::Setting;
+use meshsweep::worst::{Climb, Goal, Question, Subject};
 use meshsweep_core::{Blob, Budget, QueryError, ScratchEntry, Triboxes};
 use serde_json::{Value, json};
 
@@ -119,23 +120,25 @@ fn worst(measured: &Measured) -> Result<Vec<Value>, QueryError> {
     let trade = &measured.trade;
     let Some(bytes) = trade.blob(RULER.recipe) else { return Ok(Vec::new()) };
     let tree = Blob::open(bytes).map_err(|_| QueryError::Unchecked)?.bvh()?;
-    let of_tree = || worst::Structure::Tree(tree);
+    let of_tree = Distances::Tree(tree);
     let after = Budget::EXACT.with_steps(8);
     let mut searched = vec![
-        ("dearest", "the dearest exact query", of_tree(), worst::Goal::Work, Budget::EXACT),
-        ("widest", "the widest interval after 8 steps", of_tree(), worst::Goal::Width, after),
+        ("dearest", "the dearest exact query", of_tree, Goal::Work, Budget::EXACT),
+        ("widest", "the widest interval after 8 steps", of_tree, Goal::Width, after),
     ];
     let tight = trade.blobs.iter().rfind(|(of, _)| matches!(of, Recipe::Tight(n) if *n <= 200));
     let tight = tight.and_then(|(_, built)| built.blob().tight_hulls().ok()?.finest());
     if let Some(hull) = tight {
-        let by_hull = worst::Structure::Tight(hull);
+        let by_hull = Distances::Tight(hull);
         let name = "the widest interval of the tight hull";
-        searched.push(("tight", name, by_hull, worst::Goal::Width, Budget::EXACT));
+        searched.push(("tight", name, by_hull, Goal::Width, Budget::EXACT));
     }
     let mut scratch = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
     let mut found = Vec::new();
     for (key, name, structure, goal, budget) in searched {
-        let Some(row) = structure.worst(goal, budget) else { continue };
+        let subject = Subject { question: Question::Closest, structure };
+        let starts = Climb::default().starts;
+        let Some(row) = subject.worst_of(goal, budget, starts) else { continue };
         let Ok(query) = <[f32; 3]>::try_from(row.query.as_slice()) else { continue };
         let near = tree.closest_point(query, Budget::EXACT, &mut scratch)?;
         found.push(json!({
@@ -145,7 +148,7 @@ fn worst(measured: &Measured) -> Result<Vec<Value>, QueryError> {
             "point": near.point,
             "width": row.found.width,
             "instructions": row.found.instructions.map(|[on_m4f, _]| on_m4f),
-            "times": row.times(row.value()),
+            "times": row.times(),
         }));
     }
     Ok(found)
