@@ -12,6 +12,7 @@ use super::leaf_plane::LeafPlane;
 use super::node::{OpenedNode, TakenLeast, take_least};
 use super::point_query::{EVERY_KEY, PointQuery};
 use super::triangle_bounds::{nearness, seen_from, sliver};
+use super::triangle_place::TrianglePlace;
 use crate::bvh::format::{Bvh, FanLeaf, at_least, at_most, lanes_of};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use crate::geom::fan::WIDTH;
@@ -388,7 +389,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
     fn tolerant_limit(&self, distance_sq: f32) -> f32 {
         let distance = sqrt_approx(distance_sq);
         let absolute = self.query.units.inward(self.budget.absolute);
-        let wanted = (distance / (1.0 + self.budget.relative)).min(distance - absolute);
+        let wanted = lesser(distance / (1.0 + self.budget.relative), distance - absolute);
         if wanted > 0.0 { wanted * wanted } else { 0.0 }
     }
 
@@ -422,7 +423,8 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         if leaf[0] == node {
             return leaf[1] > child;
         }
-        let first_of = |[node, child]: [u32; 2]| Some(self.tree.links(node)?.triangle(child));
+        let first_of =
+            |[node, child]: [u32; 2]| TrianglePlace::new(node, child, 0).number(self.tree);
         if first == u32::MAX {
             self.best.first = first_of([node, child]).unwrap_or(first);
         }
@@ -439,10 +441,12 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
     #[inline(never)]
     fn refine(&mut self, [node, child]: [u32; 2], key: u32, low: u32) -> Option<()> {
         let query = self.query;
-        let leaf = self.tree.leaf(node, child)?;
+        // Here and below the leaf is not moved: at `opt-level = "s"` that is a copy by bytes.
+        let leaf = self.tree.leaf(node, child);
+        let leaf = leaf.as_ref()?;
         let box_sq = square(query.distance_of_key(key));
         for lane in lanes_of(low) {
-            let seen = seen_from(&leaf, lane, query.p);
+            let seen = seen_from(leaf, lane, query.p);
             let near = nearness(&seen);
             if near.lower_bound_sq >= self.refine_below {
                 continue;
@@ -492,13 +496,13 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         let mut ended = Ended::Exact;
         if let Descent::Truncated { least, ended: why } = descent {
             ended = why;
-            least_sq = least_sq.min(square(self.query.distance_of_key(least)));
+            least_sq = lesser(least_sq, square(self.query.distance_of_key(least)));
         }
         if node == u32::MAX {
             let mut answer = from_afar(self.tree, self.point, self.query)?;
             let Interval { lower, upper } = answer.distance;
             let least = self.query.lower(sqrt_approx(least_sq));
-            answer.distance.lower = lower.max(least).min(upper);
+            answer.distance.lower = lesser(greater(lower, least), upper);
             return Ok(ClosestPoint { work, ended, ..answer });
         }
         *hint = Hint(node << 3 | child);
@@ -506,14 +510,14 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         let mut least = sqrt_approx(least_sq);
         if self.tolerant {
             let absolute = self.query.units.inward(self.budget.absolute);
-            let wanted =
-                (distance / (1.0 + self.budget.relative)).min(distance - absolute).max(0.0);
-            least = least.min(wanted * (1.0 - 4.0 * U32));
+            let wanted = lesser(distance / (1.0 + self.budget.relative), distance - absolute);
+            least = lesser(least, greater(wanted, 0.0) * (1.0 - 4.0 * U32));
             ended = if ended == Ended::Exact { Ended::Tolerance } else { ended };
         }
         let (lane, v, w) = lanes.at(distance_sq);
         let first = self.tree.links(node).ok_or(QueryError::Unchecked)?.triangle(child);
-        let leaf = self.tree.leaf(node, child).ok_or(QueryError::Unchecked)?;
+        let leaf = self.tree.leaf(node, child);
+        let leaf = leaf.as_ref().ok_or(QueryError::Unchecked)?;
         Ok(ClosestPoint {
             distance: Interval::new(self.query.lower(least), self.query.upper(distance)),
             point: self.query.units.point(leaf.point(lane, v, w)),
@@ -563,11 +567,12 @@ fn from_afar(
     query: &PointQuery,
 ) -> Result<ClosestPoint, QueryError> {
     let (low, high) = tree.grid_bounds();
+    let (lowest, highest) = (query.units.point(low), query.units.point(high));
     let mut size = 0.0;
-    for place in [query.units.point(low), query.units.point(high), point] {
-        for x in place {
-            size = greater(size, x.abs());
-        }
+    // Here and below by number: at `opt-level = "s"` iterators over arrays are kept in memory.
+    for axis in 0..3 {
+        let ends = greater(lowest[axis].abs(), highest[axis].abs());
+        size = greater(size, greater(ends, point[axis].abs()));
     }
     let (scale, unscale) = match size {
         size if size > POWER_40 => (1.0 / POWER_70, POWER_70),
@@ -576,12 +581,12 @@ fn from_afar(
     };
     let scaled = |x: f32| query.units.outward(x, scale);
     let (mut nearest, mut farthest) = ([0f32; 3], [0f32; 3]);
-    let bounds = low.to_array().into_iter().zip(high.to_array());
-    let ways = nearest.iter_mut().zip(&mut farthest);
-    for ((near, far), (x, (low, high))) in ways.zip(point.into_iter().zip(bounds)) {
-        let (below, above) = (scaled(low) - x * scale, x * scale - scaled(high));
-        *near = greater(0.0, greater(below, above));
-        *far = greater(below.abs(), above.abs());
+    let (low, high) = (low.to_array(), high.to_array());
+    for axis in 0..3 {
+        let x = point[axis] * scale;
+        let (below, above) = (scaled(low[axis]) - x, x - scaled(high[axis]));
+        nearest[axis] = greater(0.0, greater(below, above));
+        farthest[axis] = greater(below.abs(), above.abs());
     }
     let (near, far) = (length(nearest), length(farthest));
     let fixed_error = scaled(query.fixed_error());
@@ -596,7 +601,8 @@ fn from_afar(
         node = links.child(0).at;
         links = tree.links(node).ok_or(QueryError::Unchecked)?;
     }
-    let leaf = tree.leaf(node, 0).ok_or(QueryError::Unchecked)?;
+    let leaf = tree.leaf(node, 0);
+    let leaf = leaf.as_ref().ok_or(QueryError::Unchecked)?;
     Ok(ClosestPoint {
         distance: Interval::new(
             at_least((near - margin(near)) * unscale),

@@ -423,28 +423,32 @@ impl<'s> Walk<'s> {
     #[cfg_attr(meshsweep_small, inline(never))]
     #[cfg_attr(not(meshsweep_small), inline(always))]
     fn pop(&mut self, tree: &Bvh<'_>, most: u32, work: &Work) -> Option<Option<Place>> {
+        let entry = match self.pop_entry(most, work)? {
+            Some(entry) => entry,
+            None => return Some(None),
+        };
+        Some(Some((entry, child_of(tree, entry)?)))
+    }
+
+    #[inline(always)]
+    fn pop_entry(&mut self, most: u32, work: &Work) -> Option<Option<ScratchEntry>> {
         #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
         if !self.least_first {
-            return Some(match self.stack.pop_up_to(most)? {
-                Some(entry) => Some((entry, child_of(tree, entry)?)),
-                None => None,
-            });
+            return self.stack.pop_up_to(most);
         }
-        let mut entry;
         loop {
             let Some(top) = self.stack.used.checked_sub(1) else { return Some(None) };
             self.stack.used = top;
-            entry = self.stack.entries.get(top).copied()?;
+            let mut entry = self.stack.entries.get(top).copied()?;
             let is_least =
                 self.least_first && self.limit.take_least(&mut self.stack, work, &mut entry);
             if entry.small_word() <= most {
-                break;
+                return Some(Some(entry));
             }
             if is_least {
                 self.stack.used = 0;
             }
         }
-        Some(Some((entry, child_of(tree, entry)?)))
     }
 
     /// How a descent without entries up to `most` ended.

@@ -4,6 +4,7 @@ use super::descent::{Descent, descend, descend_inlined};
 use super::segment_leaf::{CrossingCollector, Facing, HitPlace, SegmentVisitor};
 use super::segment_query::SegmentQuery;
 use super::segment_start::SegmentStart;
+use super::triangle_place::TrianglePlace;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
 use crate::num::{SOFT_FLOAT, lesser};
@@ -97,9 +98,10 @@ struct FirstCrossing<'a> {
 }
 
 impl FirstCrossing<'_> {
-    #[cold]
+    #[inline(always)]
     fn number(&self, place: &HitPlace) -> Option<u32> {
-        Some(self.tree.links(place.node)?.triangle(place.child).wrapping_add(place.lane))
+        let &HitPlace { node, child, lane, .. } = place;
+        TrianglePlace::new(node, child, lane as usize).number(self.tree)
     }
 
     #[inline(always)]

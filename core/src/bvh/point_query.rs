@@ -85,7 +85,7 @@ impl PointQuery {
     pub(crate) fn new(tree: &Bvh<'_>, point: [f32; 3]) -> Result<PointQuery, QueryError> {
         let [x, y, z] = point;
         let units = tree.units();
-        let p = Vec3::new(units.inward(x), units.inward(y), units.inward(z));
+        let p = units.inward_point(point);
         let header = tree.header();
         let (low, high) = tree.grid_bounds();
         let farthest = (p - low).abs().max((p - high).abs());

@@ -67,16 +67,22 @@ pub(crate) fn side_of_shared_feature(
     if !search.descend(candidates.query, &mut shared)? {
         return Ok(None);
     }
-    let ([a, b, c], p) = (corners, candidates.query.p);
-    match shared.kept {
-        [true, false, false] => about_vertex(search, candidates, key_limit, a, p),
-        [false, true, false] => about_vertex(search, candidates, key_limit, b, p),
-        [false, false, true] => about_vertex(search, candidates, key_limit, c, p),
-        [true, true, false] => about_edge(search, candidates, key_limit, [a, b], p),
-        [false, true, true] => about_edge(search, candidates, key_limit, [b, c], p),
-        [true, false, true] => about_edge(search, candidates, key_limit, [c, a], p),
-        _ => Ok(None),
+    let [a, b, c] = corners;
+    let about = match shared.kept {
+        [true, false, false] => about_vertex(candidates, a),
+        [false, true, false] => about_vertex(candidates, b),
+        [false, false, true] => about_vertex(candidates, c),
+        [true, true, false] => about_edge(candidates, [a, b]),
+        [false, true, true] => about_edge(candidates, [b, c]),
+        [true, false, true] => about_edge(candidates, [c, a]),
+        _ => None,
+    };
+    let Some(About { feature, to_query, feature_error, inexact }) = about else { return Ok(None) };
+    let mut star = Star { tree: search.tree, limit: key_limit, feature, sum: Sum::default() };
+    if !search.descend(candidates.query, &mut star)? {
+        return Ok(None);
     }
+    Ok(star.sum.side(to_query, feature_error, inexact))
 }
 
 /// Finds the corners that all candidates share.
@@ -190,15 +196,33 @@ fn factor(tree: &Bvh<'_>, triangle: u32) -> f32 {
     }
 }
 
-/// Visits all triangles of a feature, each with a factor of its normal: −1 if sides are those of
-/// the triangle turned, 0 if it tells no side.
-struct Star<'t, F> {
-    tree: &'t Bvh<'t>,
-    limit: u32,
-    each: F,
+/// A vertex or an edge, and what the terms of its sum take from the query.
+enum Feature {
+    Vertex {
+        at: Vec3,
+        /// The direction to the query.
+        u: Vec3,
+    },
+    Edge {
+        ends: [Vec3; 2],
+        edge: Vec3,
+        length_sq: f32,
+        /// The direction from the edge to the query.
+        u: Vec3,
+        /// Rounding of `u`.
+        noise: f32,
+    },
 }
 
-impl<F: FnMut(&FanLeaf<'_>, usize, f32)> LeafVisitor for Star<'_, F> {
+/// Sums over all triangles of a feature.
+struct Star<'t> {
+    tree: &'t Bvh<'t>,
+    limit: u32,
+    feature: Feature,
+    sum: Sum,
+}
+
+impl LeafVisitor for Star<'_> {
     fn limit(&self) -> u32 {
         self.limit
     }
@@ -213,9 +237,74 @@ impl<F: FnMut(&FanLeaf<'_>, usize, f32)> LeafVisitor for Star<'_, F> {
                 Some((tree, first)) => factor(tree, first.wrapping_add(lane as u32)),
                 None => 1.0,
             };
-            (self.each)(&visit.leaf, lane, factor);
+            self.take(&visit.leaf, lane, factor);
         }
         Some(true)
+    }
+}
+
+impl Star<'_> {
+    /// Adds a triangle, if it is one of the feature's. The factor of its normal is −1 if sides are
+    /// those of the triangle turned, 0 if it tells no side.
+    #[inline(always)]
+    fn take(&mut self, leaf: &FanLeaf<'_>, lane: usize, factor: f32) {
+        let corners = leaf.corners(lane);
+        // About a vertex from the vertex on.
+        let [x, y, z] = match (&self.feature, corners) {
+            (Feature::Vertex { at, .. }, [a, _, _]) if a == *at => corners,
+            (Feature::Vertex { at, .. }, [a, b, c]) if b == *at => [b, c, a],
+            (Feature::Vertex { at, .. }, [a, b, c]) if c == *at => [c, a, b],
+            (Feature::Edge { ends: [a, b], .. }, _)
+                if corners.contains(a) && corners.contains(b) =>
+            {
+                corners
+            }
+            _ => return,
+        };
+        let (e, g) = (y - x, z - x);
+        let (normal, size) = cross(e, g);
+        if normal == Vec3::ZERO && is_flat(leaf, lane, norm_1(size)) {
+            return;
+        }
+        let mut is_known = is_sound(normal, size) && factor != 0.0;
+        let (weight, eta);
+        match &self.feature {
+            Feature::Vertex { u, .. } => {
+                let largest = normal.abs().max_element();
+                let scaled = normal * (1.0 / largest);
+                weight = libm::atan2f(largest * sqrt_approx(scaled.dot(scaled)), e.dot(g));
+                let unit = |v: Vec3| v * (1.0 / sqrt_approx(v.dot(v)));
+                let (e, g) = (unit(e), unit(g));
+                let reached = e.dot(*u).max(g.dot(*u)) + SIGN_COSINE * U32;
+                // Directions between the two are (λe + μg) / |λe + μg|. The divisor is at least
+                // (λ + μ)·cos(α/2).
+                let half = 0.5 * (1.0 + e.dot(g)) - SIGN_COSINE * U32;
+                eta = if reached <= 0.0 {
+                    0.0
+                } else if half > 0.0 {
+                    reached / sqrt_approx(half)
+                } else {
+                    f32::INFINITY
+                };
+            }
+            Feature::Edge { ends: [a, b], edge, length_sq, u, noise } => {
+                let third = corners.into_iter().find(|c| c != a && c != b);
+                let Some(third) = third else { return };
+                let leg = third - *a;
+                let inward = leg - *edge * (leg.dot(*edge) / *length_sq);
+                let height = sqrt_approx(inward.dot(inward));
+                is_known &= height != 0.0;
+                let noise = SIGN_COSINE * U32 * (norm_1(leg) / height + *noise);
+                let reached = inward.dot(*u) / height + noise;
+                weight = 1.0;
+                eta = if reached > 0.0 { reached } else { 0.0 };
+            }
+        }
+        if is_known {
+            self.sum.add(normal * factor, size, weight, eta);
+        } else {
+            self.sum.broken = true;
+        }
     }
 }
 
@@ -225,69 +314,26 @@ fn is_sound(normal: Vec3, size: Vec3) -> bool {
     norm_1(size) > TRUSTED_DIRECTION_SQ && normal.abs().max_element() > 64.0 * U32 * norm_1(size)
 }
 
-fn about_vertex(
-    search: &mut Search<'_, '_>,
-    candidates: &Candidates<'_>,
-    limit: u32,
-    vertex: Vec3,
-    p: Vec3,
-) -> Result<Option<Side>, QueryError> {
-    let s = p - vertex;
-    let far = sqrt_approx(s.dot(s));
-    if !(far > 0.0 && far <= candidates.feature_limit) {
-        return Ok(None);
-    }
-    let u = s * (1.0 / far);
-    let mut sum = Sum::default();
-    let each = |leaf: &FanLeaf<'_>, lane: usize, turn: f32| {
-        let (e, g) = match leaf.corners(lane) {
-            [a, b, c] if a == vertex => (b - a, c - a),
-            [a, b, c] if b == vertex => (c - b, a - b),
-            [a, b, c] if c == vertex => (a - c, b - c),
-            _ => return,
-        };
-        let (normal, size) = cross(e, g);
-        if normal == Vec3::ZERO && is_flat(leaf, lane, norm_1(size)) {
-            return;
-        }
-        if !is_sound(normal, size) || turn == 0.0 {
-            sum.broken = true;
-            return;
-        }
-        let largest = normal.abs().max_element();
-        let scaled = normal * (1.0 / largest);
-        let angle = libm::atan2f(largest * sqrt_approx(scaled.dot(scaled)), e.dot(g));
-        let unit = |v: Vec3| v * (1.0 / sqrt_approx(v.dot(v)));
-        let (e, g) = (unit(e), unit(g));
-        let reached = e.dot(u).max(g.dot(u));
-        // Directions between the two are (λe + μg) / |λe + μg|. The divisor is at least
-        // (λ + μ)·cos(α/2).
-        let eta = if reached <= -SIGN_COSINE * U32 {
-            0.0
-        } else {
-            let half = 0.5 * (1.0 + e.dot(g)) - SIGN_COSINE * U32;
-            if half > 0.0 {
-                (reached + SIGN_COSINE * U32) / sqrt_approx(half)
-            } else {
-                f32::INFINITY
-            }
-        };
-        sum.add(normal * turn, size, angle, eta);
-    };
-    if !search.descend(candidates.query, &mut Star { tree: search.tree, limit, each })? {
-        return Ok(None);
-    }
-    Ok(sum.side(s, VERTEX_FEATURE_ERROR, 0.0))
+/// A feature, and what [`Sum::side`] takes of it.
+struct About {
+    feature: Feature,
+    to_query: Vec3,
+    feature_error: f32,
+    inexact: f32,
 }
 
-fn about_edge(
-    search: &mut Search<'_, '_>,
-    candidates: &Candidates<'_>,
-    limit: u32,
-    [a, b]: [Vec3; 2],
-    p: Vec3,
-) -> Result<Option<Side>, QueryError> {
-    let (edge, s) = (b - a, p - a);
+fn about_vertex(candidates: &Candidates<'_>, vertex: Vec3) -> Option<About> {
+    let s = candidates.query.p - vertex;
+    let far = sqrt_approx(s.dot(s));
+    if !(far > 0.0 && far <= candidates.feature_limit) {
+        return None;
+    }
+    let feature = Feature::Vertex { at: vertex, u: s * (1.0 / far) };
+    Some(About { feature, to_query: s, feature_error: VERTEX_FEATURE_ERROR, inexact: 0.0 })
+}
+
+fn about_edge(candidates: &Candidates<'_>, [a, b]: [Vec3; 2]) -> Option<About> {
+    let (edge, s) = (b - a, candidates.query.p - a);
     let (along, length_sq) = (s.dot(edge), edge.dot(edge));
     let rounding = SIGN_COSINE * U32 * norm_1(s) * norm_1(edge);
     let across = s - edge * (along / length_sq);
@@ -296,34 +342,9 @@ fn about_edge(
     if !(along > rounding && length_sq - along > rounding && far > 0.0)
         || far + SIGN_COSINE * U32 * norm_1(s) > candidates.feature_limit
     {
-        return Ok(None);
+        return None;
     }
-    let u = across * (1.0 / far);
-    let mut sum = Sum::default();
-    let each = |leaf: &FanLeaf<'_>, lane: usize, turn: f32| {
-        let corners = leaf.corners(lane);
-        if !corners.contains(&a) || !corners.contains(&b) {
-            return;
-        }
-        let [x, y, z] = corners;
-        let (normal, size) = cross(y - x, z - x);
-        if normal == Vec3::ZERO && is_flat(leaf, lane, norm_1(size)) {
-            return;
-        }
-        let Some(third) = corners.into_iter().find(|&c| c != a && c != b) else { return };
-        let leg = third - a;
-        let inward = leg - edge * (leg.dot(edge) / length_sq);
-        let height = sqrt_approx(inward.dot(inward));
-        if !is_sound(normal, size) || height == 0.0 || turn == 0.0 {
-            sum.broken = true;
-            return;
-        }
-        let noise = SIGN_COSINE * U32 * (norm_1(leg) / height + norm_1(s) / far);
-        let reached = inward.dot(u) / height + noise;
-        sum.add(normal * turn, size, 1.0, if reached > 0.0 { reached } else { 0.0 });
-    };
-    if !search.descend(candidates.query, &mut Star { tree: search.tree, limit, each })? {
-        return Ok(None);
-    }
-    Ok(sum.side(across, EDGE_FEATURE_ERROR, norm_1(s)))
+    let (u, noise) = (across * (1.0 / far), norm_1(s) / far);
+    let feature = Feature::Edge { ends: [a, b], edge, length_sq, u, noise };
+    Some(About { feature, to_query: across, feature_error: EDGE_FEATURE_ERROR, inexact: norm_1(s) })
 }

@@ -29,26 +29,20 @@ const WAY_TO_NEARER: f32 = 0.9375;
 const WAITING: usize = 16;
 
 impl<'a, 't> Search<'a, 't> {
-    /// A survey that knows all triangles with an area that may be the closest of these.
-    pub(super) fn survey_with_area<'p>(
-        &mut self,
-        query: &'p PointQuery,
-    ) -> Result<Survey<'p>, QueryError> {
-        let survey = self.survey(query, Bounding::Any)?;
+    /// Fills an empty survey: it knows all triangles with an area that may be the closest of these.
+    pub(super) fn survey_with_area(&mut self, survey: &mut Survey<'_>) -> Result<(), QueryError> {
+        self.survey(survey, Bounding::Any)?;
         let is_known = survey.with_area.distance_sq <= survey.best.distance_sq;
         if is_known || survey.best.is_none() || self.truncated.is_some() {
-            return Ok(survey);
+            return Ok(());
         }
-        let again = self.survey(query, Bounding::WithArea)?;
-        Ok(if self.truncated.is_some() { survey } else { again })
+        self.survey(survey, Bounding::WithArea)
     }
 
-    fn survey<'p>(
-        &mut self,
-        query: &'p PointQuery,
-        bounding: Bounding,
-    ) -> Result<Survey<'p>, QueryError> {
-        let tree = self.tree;
+    /// Fills a survey, unless bounded by triangles with an area the descent is truncated.
+    fn survey(&mut self, into: &mut Survey<'_>, bounding: Bounding) -> Result<(), QueryError> {
+        let (tree, query) = (self.tree, into.query);
+        let mut waiting = heapless::Vec::new();
         let collector = Collector {
             query,
             marked: tree.if_marked(),
@@ -60,7 +54,7 @@ impl<'a, 't> Search<'a, 't> {
             least_sq: [f32::INFINITY; 4],
             by_side: [LeafTriangle::NONE; 4],
             least: [f32::INFINITY; 4],
-            waiting: heapless::Vec::new(),
+            waiting: &mut waiting,
             squares: LatestSquares::NONE,
             waits: false,
         };
@@ -84,6 +78,9 @@ impl<'a, 't> Search<'a, 't> {
         if let Descent::Truncated { least, ended } = descent {
             missed = Some(least);
             self.truncated = Some(ended);
+            if bounding == Bounding::WithArea {
+                return Ok(());
+            }
         }
         let [front, back, unclear, flat] = by_side;
         let mut with_area = front;
@@ -97,8 +94,11 @@ impl<'a, 't> Search<'a, 't> {
         let (lane, v, w) = lanes.at(bound_sq);
         let is_best = best.distance_sq == bound_sq && best.place == place.with_lane(lane);
         let weights = if is_best { Some((v, w)) } else { None };
-        let bound = (bound_sq, band);
-        Ok(Survey { query, bound, best, weights, with_area, by_side, least, missed })
+        // One by one: a whole survey would be made elsewhere, and copied.
+        (into.best, into.with_area, into.by_side) = (best, with_area, by_side);
+        (into.bound, into.weights) = ((bound_sq, band), weights);
+        (into.least, into.missed) = (least, missed);
+        Ok(())
     }
 }
 
@@ -145,6 +145,22 @@ pub(super) struct Survey<'p> {
     missed: Option<u32>,
 }
 
+impl<'p> Survey<'p> {
+    /// An empty one.
+    pub(super) fn of(query: &'p PointQuery) -> Self {
+        Survey {
+            query,
+            bound: (f32::INFINITY, f32::INFINITY),
+            best: LeafTriangle::NONE,
+            weights: None,
+            with_area: LeafTriangle::NONE,
+            by_side: [LeafTriangle::NONE; 3],
+            least: [f32::INFINITY; 4],
+            missed: None,
+        }
+    }
+}
+
 impl Survey<'_> {
     /// The [`band_of`] a squared distance.
     pub(super) fn band_of(&self, distance_sq: f32) -> f32 {
@@ -168,16 +184,17 @@ impl Survey<'_> {
         self.query.lower(self.least.iter().copied().fold(distance, lesser))
     }
 
-    /// A point on the way to a triangle, a sixteenth of the distance from the triangle, within the
-    /// ball about this point that is proved empty.
-    pub(super) fn nearer(&self, tree: &Bvh<'_>, to: LeafTriangle) -> Option<PointQuery> {
+    /// A place on the way to a triangle, a sixteenth of the distance from the triangle, within the
+    /// ball about this point that is proved empty. Input units.
+    pub(super) fn nearer(&self, tree: &Bvh<'_>, to: LeafTriangle) -> Option<[f32; 3]> {
         let query = self.query;
-        let leaf = to.place.leaf(tree)?;
-        let place = query.p + (witness(query, &leaf, to.place.lane()) - query.p) * WAY_TO_NEARER;
-        let nearer = PointQuery::new(tree, query.units.point(place)).ok()?;
-        let way = nearer.p - query.p;
+        let leaf = to.place.leaf(tree);
+        let leaf = leaf.as_ref()?;
+        let place = query.p + (witness(query, leaf, to.place.lane()) - query.p) * WAY_TO_NEARER;
+        let place = query.units.point(place);
+        let way = query.units.inward_point(place) - query.p;
         let empty = query.units.inward(self.lower(sqrt_approx(self.best.distance_sq)));
-        (way.dot(way) < empty * empty * (1.0 - EMPTY_BALL)).then_some(nearer)
+        (way.dot(way) < empty * empty * (1.0 - EMPTY_BALL)).then_some(place)
     }
 
     pub(super) fn closest(
@@ -185,11 +202,12 @@ impl Survey<'_> {
         search: &Search<'_, '_>,
         point: [f32; 3],
     ) -> Result<ClosestPoint, QueryError> {
-        let Survey { query, best, .. } = *self;
+        let &Survey { query, best, .. } = self;
         let tree = search.tree;
         let ended = search.truncated.unwrap_or(Ended::Exact);
         if best.is_none() {
-            // No step was allowed, or the scratch memory was full: the box of the model.
+            // The point is far away, no step was allowed, or the scratch memory was full: the box
+            // of the model.
             let none = Budget::EXACT.with_steps(0);
             let closest = tree.closest_point(point, none, &mut [ScratchEntry::EMPTY])?;
             return Ok(ClosestPoint { ended, ..closest });
@@ -200,12 +218,13 @@ impl Survey<'_> {
             let missed = lower_of_box(query, missed);
             lower = lesser(lower, missed);
         }
-        let leaf = best.place.leaf(tree).ok_or(QueryError::Unchecked)?;
+        let leaf = best.place.leaf(tree);
+        let leaf = leaf.as_ref().ok_or(QueryError::Unchecked)?;
         Ok(ClosestPoint {
             distance: Interval::new(lower, query.upper(distance)),
             point: query.units.point(match self.weights {
                 Some((v, w)) => leaf.point(best.place.lane(), v, w),
-                None => witness(query, &leaf, best.place.lane()),
+                None => witness(query, leaf, best.place.lane()),
             }),
             triangle: best.place.source(tree),
             work: search.work,
@@ -229,7 +248,7 @@ struct WaitingLeaf {
 }
 
 /// What a descent collects for a [`Survey`].
-struct Collector<'p> {
+struct Collector<'p, 'w> {
     query: &'p PointQuery,
     /// The tree, if some of its triangles are turned or sideless.
     marked: Option<&'p Bvh<'p>>,
@@ -250,14 +269,14 @@ struct Collector<'p> {
     /// For each [`ViewedSide`] the least lower bound of its other triangles, grid units.
     least: [f32; 4],
     /// Leaves whose triangles are looked at when the descent is done.
-    waiting: heapless::Vec<WaitingLeaf, WAITING>,
+    waiting: &'w mut heapless::Vec<WaitingLeaf, WAITING>,
     /// Squares of their triangles.
     squares: LatestSquares,
     /// Whether the leaf in hand waits.
     waits: bool,
 }
 
-impl Collector<'_> {
+impl Collector<'_, '_> {
     /// Takes the distance of a triangle that bounds the survey.
     #[inline(always)]
     fn bound(&mut self, distance_sq: f32, limit: &mut f32) {
@@ -292,7 +311,7 @@ impl Collector<'_> {
     }
 }
 
-impl TriangleCollector for Collector<'_> {
+impl TriangleCollector for Collector<'_, '_> {
     /// A distance that is not refined yet bounds as well. Slivers are refined at once, so that they
     /// bound too.
     ///

@@ -46,7 +46,6 @@ use super::point_query::PointQuery;
 use super::pseudonormal::{Candidates, side_of_shared_feature};
 use super::side_search::Search;
 use super::side_survey::Survey;
-use super::triangle_visitor::LeafTriangle;
 use crate::bvh::format::Bvh;
 use crate::num::greater;
 use crate::query::{
@@ -129,36 +128,29 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<SignedDistance, QueryError> {
         let tree = self;
-        let query = PointQuery::prepare(tree, point, &budget, scratch)?;
+        // Here and below in place: queries, surveys and answers are large.
+        let prepared = PointQuery::prepare(tree, point, &budget, scratch);
+        let query = prepared.as_ref().map_err(|&refused| refused)?;
         let closed = tree.is_closed();
         let (steps, stack) = (budget.steps, scratch);
         let mut search = Search { tree, steps, stack, work: Work::default(), truncated: None };
-        let survey = if query.far { None } else { Some(search.survey_with_area(&query)?) };
-        let mut closest = match &survey {
-            Some(survey) => survey.closest(&search, point)?,
-            None => tree.closest_point(point, Budget::EXACT.with_steps(steps), search.stack)?,
-        };
-        let clear = tree.has_sides()
-            && closest.distance.lower > 0.0
-            && survey.as_ref().is_none_or(Survey::has_sides);
-        let mut side = match &survey {
-            Some(survey) if clear => search.side(survey)?,
-            _ => None,
-        };
-        if side.is_none()
-            && clear
-            && search.truncated.is_none()
-            && let Some(nearby) = outside_of_box(tree, &query)
-        {
-            let survey = search.survey_with_area(&nearby)?;
-            side = search.side(&survey)?;
+        // Of a point that is far away it stays empty: the model's box answers.
+        let mut survey = Survey::of(query);
+        if !query.far {
+            search.survey_with_area(&mut survey)?;
         }
-        if side.is_none()
-            && clear
-            && search.truncated.is_none()
-            && let Some(survey) = &survey
-        {
-            side = search.side_from_nearer(survey)?;
+        let mut found = survey.closest(&search, point);
+        let closest = found.as_mut().map_err(|refused| *refused)?;
+        let clear = tree.has_sides() && closest.distance.lower > 0.0 && survey.has_sides();
+        let mut side = None;
+        if clear {
+            side = search.side(&survey)?;
+            if side.is_none() && search.truncated.is_none() {
+                side = search.side_of_places(outside_of_box(tree, query), 1)?;
+            }
+            if side.is_none() && search.truncated.is_none() {
+                side = search.side_from_nearer(&survey)?;
+            }
         }
         closest.work = search.work;
         if let Some(why) = search.truncated {
@@ -173,38 +165,50 @@ impl Bvh<'_> {
             None if closest.distance.lower > 0.0 => Undecided::Feature,
             None => Undecided::OnSurface,
         }));
-        Ok(SignedDistance::new(closest, side))
+        Ok(SignedDistance::new(*closest, side))
     }
 }
 
 /// Searches from nearer places, at most.
 const NEARER: usize = 3;
 
-/// A point outside the model's box, a quarter of the model's size from it. `None` if the query is
-/// not outside.
-fn outside_of_box(tree: &Bvh<'_>, query: &PointQuery) -> Option<PointQuery> {
+/// A place outside the model's box, a quarter of the model's size from it, input units. `None` if
+/// the query is not outside.
+fn outside_of_box(tree: &Bvh<'_>, query: &PointQuery) -> Option<[f32; 3]> {
     let (low, high) = tree.grid_bounds();
     let size = (high - low).max_element();
     let gap = if size > 0.0 { 0.25 * size } else { 1.0 };
-    let out = |p: Vec3| (p - high).max(low - p).to_array();
-    let most = out(query.p).into_iter().fold(0f32, greater);
-    let mut near = [0f32; 3];
-    let mut moved = false;
-    let axes = query.p.to_array().into_iter().zip(low.to_array().into_iter().zip(high.to_array()));
-    for (slot, (x, (low, high))) in near.iter_mut().zip(axes) {
-        let farthest = !moved && (x - high == most || low - x == most) && most > 0.0;
-        moved |= farthest;
-        *slot = match (farthest, x > high, x < low) {
-            (true, true, _) => high + gap,
-            (true, ..) => low - gap,
-            (_, true, _) => high,
-            (_, _, true) => low,
-            _ => x,
-        };
+    let most = beyond(tree, query.p);
+    if most <= 0.0 {
+        return None;
     }
-    let near = PointQuery::new(tree, query.units.point(Vec3::from_array(near))).ok()?;
-    let still_outside = out(near.p).into_iter().any(|x| x > 0.0);
-    (moved && still_outside && !near.far).then_some(near)
+    let (low, high) = (low.to_array(), high.to_array());
+    let mut near = query.p.to_array();
+    let mut moved = false;
+    for axis in 0..3 {
+        let (x, low, high) = (near[axis], low[axis], high[axis]);
+        let farthest = !moved && greater(x - high, low - x) == most;
+        moved |= farthest;
+        if x > high {
+            near[axis] = if farthest { high + gap } else { high };
+        } else if farthest || x < low {
+            near[axis] = if farthest { low - gap } else { low };
+        }
+    }
+    let near = query.units.point(Vec3::from_array(near));
+    let is_outside = moved && beyond(tree, query.units.inward_point(near)) > 0.0;
+    is_outside.then_some(near)
+}
+
+/// How far a place is outside of the model's box, grid units: along the axis on which that is the
+/// most. At most 0 within.
+fn beyond(tree: &Bvh<'_>, p: Vec3) -> f32 {
+    let (low, high) = tree.grid_bounds();
+    let [below, above] = [low - p, p - high];
+    greater(
+        greater(greater(below.x, above.x), greater(below.y, above.y)),
+        greater(below.z, above.z),
+    )
 }
 
 impl Search<'_, '_> {
@@ -221,7 +225,7 @@ impl Search<'_, '_> {
             if place.is_none() || *lower > band {
                 continue;
             }
-            let side = self.side_on_the_way(survey, *place)?;
+            let side = self.side_of_places(survey.nearer(self.tree, *place), NEARER)?;
             if side.is_none() || agreed.is_some() && agreed != side {
                 return Ok(None);
             }
@@ -230,29 +234,35 @@ impl Search<'_, '_> {
         Ok(agreed)
     }
 
-    /// The first decided side of the points on the way to a triangle, and from there to the closest
-    /// triangle.
-    fn side_on_the_way(
+    /// The first decided side of at most `count` places: of this one, and of those on the ways from
+    /// there to the closest triangle.
+    #[inline(never)]
+    fn side_of_places(
         &mut self,
-        survey: &Survey<'_>,
-        place: LeafTriangle,
+        mut place: Option<[f32; 3]>,
+        count: usize,
     ) -> Result<Option<Side>, QueryError> {
-        let mut nearer = survey.nearer(self.tree, place);
-        for _ in 0..NEARER {
-            let Some(query) = nearer else { break };
-            let survey = self.survey_with_area(&query)?;
+        for _ in 0..count {
+            let Some(point) = place else { break };
+            let prepared = PointQuery::new(self.tree, point);
+            let query = match &prepared {
+                Ok(query) if !query.far => query,
+                _ => break,
+            };
+            let mut survey = Survey::of(query);
+            self.survey_with_area(&mut survey)?;
             let side = self.side(&survey)?;
             if side.is_some() || self.truncated.is_some() {
                 return Ok(side);
             }
-            nearer = survey.nearer(self.tree, survey.best);
+            place = survey.nearer(self.tree, survey.best);
         }
         Ok(None)
     }
 
     /// The side of the surveyed point, if it is proved. The point is clear of the surface.
     fn side(&mut self, survey: &Survey<'_>) -> Result<Option<Side>, QueryError> {
-        let Survey { query, with_area, least, .. } = *survey;
+        let &Survey { query, with_area, least, .. } = survey;
         if self.truncated.is_some() || with_area.is_none() {
             return Ok(None);
         }
@@ -262,7 +272,8 @@ impl Search<'_, '_> {
             (true, false, false) => Ok(Some(Side::Outside)),
             (false, true, false) => Ok(Some(Side::Inside)),
             _ => {
-                let leaf = with_area.place.leaf(self.tree).ok_or(QueryError::Unchecked)?;
+                let leaf = with_area.place.leaf(self.tree);
+                let leaf = leaf.as_ref().ok_or(QueryError::Unchecked)?;
                 let candidates = Candidates::new(query, with_area.distance_sq);
                 side_of_shared_feature(self, &candidates, leaf.corners(with_area.place.lane()))
             }

@@ -8,7 +8,7 @@ use super::point_query::PointQuery;
 use super::triangle_bounds::seen_from;
 use super::triangle_place::TrianglePlace;
 use crate::bvh::format::{Bvh, FanLeaf};
-use crate::geom::fan::is_in_front;
+use crate::geom::fan::{is_in_front, is_whole};
 use crate::num::SOFT_FLOAT;
 use crate::num::tolerance::{
     EXACT_INTEGERS, PLAIN_SIDE_FLOOR, PLAIN_SIDE_SQ, SIGN_TRIPLE_PRODUCT, U32,
@@ -125,10 +125,9 @@ pub(super) fn cross(e: Vec3, g: Vec3) -> (Vec3, Vec3) {
 #[cold]
 pub(super) fn is_flat(leaf: &FanLeaf<'_>, lane: usize, size: f32) -> bool {
     let [a, b, c] = leaf.corners(lane);
-    let is_whole = |x: f32| x as i32 as f32 == x && x.abs() < EXACT_INTEGERS;
-    let integral = |v: Vec3| v.to_array().into_iter().all(is_whole);
+    let is_exact = |v: Vec3| is_whole(v, EXACT_INTEGERS);
     a == b
         || b == c
         || c == a
-        || (size < EXACT_INTEGERS && integral(a) && integral(b) && integral(c))
+        || (size < EXACT_INTEGERS && is_exact(a) && is_exact(b) && is_exact(c))
 }

@@ -76,15 +76,17 @@ impl Bvh<'_> {
         let tree = self;
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check()?;
-        let query = PointQuery::prepare(tree, point, &budget, scratch)?;
+        // In place: a copy would take a board as long as the preparation.
+        let prepared = PointQuery::prepare(tree, point, &budget, scratch);
+        let query = prepared.as_ref().map_err(|&refused| refused)?;
         if query.far {
             return from_afar(tree, point, distance, scratch);
         }
         let mut work = Work::default();
-        let limit = limit_within(&query, distance);
-        let collector = Threshold { query: &query, distance, near: None, undecided: false };
-        let mut visitor = TriangleVisitor::new(tree, &query, limit, collector);
-        let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        let limit = limit_within(query, distance);
+        let collector = Threshold { query, distance, near: None, undecided: false };
+        let mut visitor = TriangleVisitor::new(tree, query, limit, collector);
+        let descent = descend(tree, query, budget.steps, scratch, &mut visitor, &mut work)?;
         let Threshold { near, undecided, .. } = visitor.collector;
         if let Some(place) = near {
             let triangle = Some(place.source(tree).ok_or(QueryError::Unchecked)?);

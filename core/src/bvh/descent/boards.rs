@@ -17,21 +17,16 @@ impl Stack<'_> {
         tree: &Bvh<'_>,
         opened: &OpenedNode,
     ) -> Option<u32> {
-        let mut spare;
+        let mut spare = None;
         let free = self.entries.get_mut(self.used..);
-        let (slots, all_fit) = match free.and_then(|free| free.first_chunk_mut::<WIDTH>()) {
-            Some(slots) => (slots, true),
-            None => {
-                spare = [ScratchEntry::EMPTY; WIDTH];
-                (&mut spare, false)
-            }
+        let slots = match free.and_then(|free| free.first_chunk_mut::<WIDTH>()) {
+            Some(slots) => slots,
+            None => spare.insert([ScratchEntry::EMPTY; WIDTH]),
         };
         let Pushed { nearest, count } = query.push(tree, opened, slots)?;
-        if all_fit {
-            self.used += count;
-        } else {
-            let wanted = *slots;
-            self.push_few(wanted.iter().take(count));
+        match &spare {
+            None => self.used += count,
+            Some(wanted) => self.push_few(wanted, count),
         }
         Some(nearest)
     }
@@ -39,8 +34,8 @@ impl Stack<'_> {
     /// Pushes entries as far as they fit.
     #[cold]
     #[inline(never)]
-    fn push_few<'e>(&mut self, wanted: impl Iterator<Item = &'e ScratchEntry>) {
-        for entry in wanted {
+    fn push_few(&mut self, wanted: &[ScratchEntry; WIDTH], count: usize) {
+        for entry in wanted.iter().take(count) {
             match self.entries.get_mut(self.used) {
                 Some(slot) => {
                     *slot = *entry;

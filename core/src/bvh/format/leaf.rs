@@ -473,6 +473,21 @@ impl<'a> FanLeaf<'a> {
     /// By axis the stored integers of centre `which`, and of ring vertices `lane` and `lane + 1`.
     #[inline(always)]
     fn stored_triangle(&self, lane: usize, which: usize) -> Option<[(i32, [i32; 2]); 3]> {
+        // Less code, because one length is compared.
+        #[cfg(meshsweep_small)]
+        {
+            let ring = self.full_ring()?;
+            let ([ax, ay, az], [bx, by, bz]) = (ring.vertex(lane)?, ring.vertex(lane + 1)?);
+            let [cx, cy, cz] = ring.centres(self.shape)[which & 1];
+            return Some([(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])]);
+        }
+        #[cfg(not(meshsweep_small))]
+        self.stored_triangle_by_axis(lane, which)
+    }
+
+    #[cfg(not(meshsweep_small))]
+    #[inline(always)]
+    fn stored_triangle_by_axis(&self, lane: usize, which: usize) -> Option<[(i32, [i32; 2]); 3]> {
         let &[a, b, c, d, e, f] = self.bytes.get(6 * which..)?.first_chunk::<6>()?;
         let step = 2 * (self.shape.triangles() + 1);
         let first = 6 * self.shape.centres() + 2 * lane;

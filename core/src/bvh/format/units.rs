@@ -1,7 +1,7 @@
 //! The grid units of a tree, and conversion between them and input units.
 
 use super::header::BvhHeader;
-use crate::num::SOFT_FLOAT;
+use crate::num::{SOFT_FLOAT, lesser};
 use glam::Vec3;
 
 /// Conversion between input units and grid units, by powers of two.
@@ -34,6 +34,12 @@ impl Units {
     #[inline(always)]
     pub(crate) fn inward(&self, x: f32) -> f32 {
         self.inward.times(x)
+    }
+
+    /// A place in grid units.
+    #[inline(always)]
+    pub(crate) fn inward_point(&self, [x, y, z]: [f32; 3]) -> Vec3 {
+        Vec3::new(self.inward(x), self.inward(y), self.inward(z))
     }
 
     /// The exponent of [`inward`](Self::inward)'s power of two.
@@ -111,7 +117,7 @@ impl Power {
 /// A lower bound in f32's normal range, or 0.
 #[inline(always)]
 pub(crate) fn at_least(x: f32) -> f32 {
-    if x >= f32::MIN_POSITIVE { x.min(f32::MAX) } else { 0.0 }
+    if x >= f32::MIN_POSITIVE { lesser(x, f32::MAX) } else { 0.0 }
 }
 
 /// An upper bound in f32's normal range, or infinite.

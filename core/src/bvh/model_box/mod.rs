@@ -51,10 +51,8 @@ impl SegmentAndBox {
     #[inline(always)]
     fn new(tree: &Bvh<'_>, [a, b]: [[f32; 3]; 2]) -> Self {
         let units = tree.units();
-        let inward =
-            |[x, y, z]: [f32; 3]| Vec3::new(units.inward(x), units.inward(y), units.inward(z));
         let (low, high) = tree.grid_bounds();
-        SegmentAndBox { a: inward(a), b: inward(b), low, high }
+        SegmentAndBox { a: units.inward_point(a), b: units.inward_point(b), low, high }
     }
 
     /// The segment between `ends` (input units), unless it is proved clear of the model's box.

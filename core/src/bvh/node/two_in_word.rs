@@ -181,9 +181,12 @@ fn set_fine(
     let (planes, _) = record.as_chunks::<{ 2 * WIDTH }>();
     let (cut, _) = words.as_flattened_mut().as_chunks_mut::<{ 2 * WIDTH }>();
     let offset = p.relative_to_origin(record);
-    let each = rows.iter().zip(&record[boxes::FRAME_EXPONENTS..]).zip(planes);
-    for ((axis, cut), ((row, exponent), planes)) in axes.iter_mut().zip(cut).zip(each) {
-        let AxisPlace { from, shift } = AxisPlace::of(row, offset, *exponent, p.unit_exponent());
+    // By number: at `opt-level = "s"` so many iterators would be kept in memory.
+    for k in 0..3 {
+        let exponent = record[boxes::FRAME_EXPONENTS + k];
+        let (axis, cut, planes) = (&mut axes[k], &mut cut[k], &planes[k]);
+        let AxisPlace { from, shift } =
+            AxisPlace::of(&rows[k], offset, exponent, p.unit_exponent());
         // A byte stands for the high one of sixteen bits. `shift` cuts off the low ones, and the
         // step is the unit of the byte after that.
         let step = 1 << 8u32.saturating_sub(shift);

@@ -23,6 +23,7 @@ pub use cone::NormalCone;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use lanes::{LANES, Lanes, PIECES, lanes_below, least};
 pub use lanes::{LANES_BELOW, WIDTH};
+pub(crate) use point::is_whole;
 pub use point::{
     Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, lower_bound_up_to, point_leaf,
     refined,

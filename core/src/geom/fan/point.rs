@@ -223,8 +223,8 @@ fn cross(a: Vec3, b: Vec3) -> Vec3 {
 /// terms of a needle nearly cancel.
 fn normal(e: Vec3, g: Vec3) -> Vec3 {
     // Spokes on a grid are below 2^17. Above 2^30 a sum of two products might not fit.
-    let is_whole = |x: f32| x as i32 as f32 == x && x.abs() < (1 << 30) as f32;
-    if !e.to_array().into_iter().chain(g.to_array()).all(is_whole) {
+    let most = (1 << 30) as f32;
+    if !(is_whole(e, most) && is_whole(g, most)) {
         return cross(e, g);
     }
     Vec3::new(
@@ -232,6 +232,13 @@ fn normal(e: Vec3, g: Vec3) -> Vec3 {
         whole_difference((e.z, g.x), (e.x, g.z)),
         whole_difference((e.x, g.y), (e.y, g.x)),
     )
+}
+
+/// Whether all coordinates are whole numbers below `most`.
+#[cfg_attr(meshsweep_small, inline(never))]
+pub(crate) fn is_whole(v: Vec3, most: f32) -> bool {
+    let is_whole = |x: f32| x as i32 as f32 == x && x.abs() < most;
+    is_whole(v.x) && is_whole(v.y) && is_whole(v.z)
 }
 
 /// The difference of two products of whole numbers, rounded once.

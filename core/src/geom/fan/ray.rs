@@ -343,7 +343,10 @@ impl FanRay {
 #[cold]
 fn in_plane([a, b, c]: [Shadow; 3]) -> Option<(f32, f32)> {
     let mut range: Option<(f32, f32)> = None;
-    for (p, q) in [(a, b), (b, c), (c, a)] {
+    let mut corners = [a, b, c];
+    for _ in 0..3 {
+        let [p, q, r] = corners;
+        corners = [q, r, p];
         let between = |u: f32, v: f32| (u <= 0.0 && v >= 0.0) || (u >= 0.0 && v <= 0.0);
         if !(between(p.x, q.x) && between(p.y, q.y)) {
             continue;
