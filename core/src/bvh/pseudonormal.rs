@@ -25,7 +25,7 @@ use super::viewed_side::{ViewedSide, cross, is_flat, norm_1, viewed_side};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::tolerance::{SIGN_COSINE, TRUSTED_DIRECTION_SQ, U32};
 use crate::num::{greater, sqrt_approx};
-use crate::query::{QueryError, Side};
+use crate::query::Side;
 use glam::Vec3;
 
 /// The triangles that may be the closest one.
@@ -59,13 +59,13 @@ pub(crate) fn side_of_shared_feature(
     search: &mut Search<'_, '_>,
     candidates: &Candidates<'_>,
     corners: [Vec3; 3],
-) -> Result<Option<Side>, QueryError> {
+) -> Option<Option<Side>> {
     let limit = limit_of(candidates.query, candidates.band);
     let key_limit = candidates.query.key_limit(limit);
     let mut shared =
         Shared { candidates, limit, key_limit, known: LeafSquares::NONE, corners, kept: [true; 3] };
     if !search.descend(candidates.query, &mut shared)? {
-        return Ok(None);
+        return Some(None);
     }
     let [a, b, c] = corners;
     let about = match shared.kept {
@@ -77,12 +77,14 @@ pub(crate) fn side_of_shared_feature(
         [true, false, true] => about_edge(candidates, [c, a]),
         _ => None,
     };
-    let Some(About { feature, to_query, feature_error, inexact }) = about else { return Ok(None) };
+    let Some(About { feature, to_query, feature_error, inexact }) = about else {
+        return Some(None);
+    };
     let mut star = Star { tree: search.tree, limit: key_limit, feature, sum: Sum::default() };
     if !search.descend(candidates.query, &mut star)? {
-        return Ok(None);
+        return Some(None);
     }
-    Ok(star.sum.side(to_query, feature_error, inexact))
+    Some(star.sum.side(to_query, feature_error, inexact))
 }
 
 /// Finds the corners that all candidates share.

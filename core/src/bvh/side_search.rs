@@ -4,9 +4,10 @@
 use super::descent::{Descent, LeafVisitor, descend};
 use super::point_query::PointQuery;
 use crate::bvh::format::Bvh;
-use crate::query::{Ended, QueryError, ScratchEntry, Work};
+use crate::query::{Ended, ScratchEntry, Work};
 
-/// The state that the descents of one question share.
+/// The state that the descents of one question share. `None` of a function that searches says that
+/// the tree is unchecked: an error would be copied at each call.
 pub(crate) struct Search<'a, 't> {
     pub(crate) tree: &'a Bvh<'t>,
     pub(crate) steps: u32,
@@ -22,11 +23,12 @@ impl Search<'_, '_> {
         &mut self,
         query: &PointQuery,
         visitor: &mut impl LeafVisitor,
-    ) -> Result<bool, QueryError> {
-        let descent = descend(self.tree, query, self.steps, self.stack, visitor, &mut self.work)?;
+    ) -> Option<bool> {
+        let descent = descend(self.tree, query, self.steps, self.stack, visitor, &mut self.work);
+        let descent = descent.ok()?;
         if let Descent::Truncated { ended, .. } = descent {
             self.truncated = Some(ended);
         }
-        Ok(descent == Descent::Done)
+        Some(descent == Descent::Done)
     }
 }

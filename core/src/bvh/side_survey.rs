@@ -18,7 +18,7 @@ use super::viewed_side::{ViewedSide, viewed_side};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::tolerance::{EMPTY_BALL, EVERYTHING_SQ, U32};
 use crate::num::{lesser, sqrt_approx};
-use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry};
+use crate::query::{Budget, ClosestPoint, Ended, Interval, ScratchEntry};
 use glam::Vec3;
 
 /// The way from a point to the nearer place where its side is searched again: a sixteenth of the
@@ -30,19 +30,25 @@ const WAITING: usize = 16;
 
 impl<'a, 't> Search<'a, 't> {
     /// Fills an empty survey: it knows all triangles with an area that may be the closest of these.
-    pub(super) fn survey_with_area(&mut self, survey: &mut Survey<'_>) -> Result<(), QueryError> {
+    pub(super) fn survey_with_area(&mut self, survey: &mut Survey<'_>) -> Option<()> {
         self.survey(survey, Bounding::Any)?;
         let is_known = survey.with_area.distance_sq <= survey.best.distance_sq;
         if is_known || survey.best.is_none() || self.truncated.is_some() {
-            return Ok(());
+            return Some(());
         }
         self.survey(survey, Bounding::WithArea)
     }
 
     /// Fills a survey, unless bounded by triangles with an area the descent is truncated.
-    fn survey(&mut self, into: &mut Survey<'_>, bounding: Bounding) -> Result<(), QueryError> {
+    fn survey(&mut self, into: &mut Survey<'_>, bounding: Bounding) -> Option<()> {
         let (tree, query) = (self.tree, into.query);
+        // In a place of their own, for the collector is moved into its visitor.
         let mut waiting = heapless::Vec::new();
+        let mut nearby = Nearby {
+            by_side: [LeafTriangle::NONE; 4],
+            least_sq: [f32::INFINITY; 4],
+            least: [f32::INFINITY; 4],
+        };
         let collector = Collector {
             query,
             marked: tree.if_marked(),
@@ -51,24 +57,25 @@ impl<'a, 't> Search<'a, 't> {
             nearest: (TrianglePlace::NONE, Lanes::NONE),
             band: f32::INFINITY,
             sure_sq: f32::INFINITY,
-            least_sq: [f32::INFINITY; 4],
-            by_side: [LeafTriangle::NONE; 4],
-            least: [f32::INFINITY; 4],
+            nearby: &mut nearby,
             waiting: &mut waiting,
             squares: LatestSquares::NONE,
             waits: false,
         };
         let mut visitor = TriangleVisitor::new(tree, query, EVERYTHING_SQ, collector);
-        let descent = descend(tree, query, self.steps, self.stack, &mut visitor, &mut self.work)?;
+        let descent = descend(tree, query, self.steps, self.stack, &mut visitor, &mut self.work);
+        let descent = descent.ok()?;
         visitor.collector.waits = false;
         while let Some(leaf) = visitor.collector.waiting.pop() {
             if !visitor.is_beyond(leaf.lower_bound_sq) {
                 let WaitingLeaf { place, low, squares, .. } = leaf;
                 let known = visitor.collector.squares.of(squares, low);
-                visitor.visit_again(place, low, known).ok_or(QueryError::Unchecked)?;
+                visitor.visit_again(place, low, known)?;
             }
         }
-        let Collector { by_side, least_sq, mut least, bound_sq, band, .. } = visitor.collector;
+        let (bound_sq, band) = (visitor.collector.bound_sq, visitor.collector.band);
+        let (place, lanes) = visitor.collector.nearest;
+        let Nearby { by_side, least_sq, mut least } = nearby;
         for (least, least_sq) in least.iter_mut().zip(least_sq) {
             if least_sq < f32::INFINITY {
                 *least = lesser(*least, sqrt_approx(least_sq));
@@ -79,7 +86,7 @@ impl<'a, 't> Search<'a, 't> {
             missed = Some(least);
             self.truncated = Some(ended);
             if bounding == Bounding::WithArea {
-                return Ok(());
+                return Some(());
             }
         }
         let [front, back, unclear, flat] = by_side;
@@ -90,7 +97,6 @@ impl<'a, 't> Search<'a, 't> {
         best.improve(flat);
         let by_side = [front, back, unclear];
         // A refined distance, or another triangle's, is not that of the kept point.
-        let (place, lanes) = visitor.collector.nearest;
         let (lane, v, w) = lanes.at(bound_sq);
         let is_best = best.distance_sq == bound_sq && best.place == place.with_lane(lane);
         let weights = if is_best { Some((v, w)) } else { None };
@@ -98,7 +104,7 @@ impl<'a, 't> Search<'a, 't> {
         (into.best, into.with_area, into.by_side) = (best, with_area, by_side);
         (into.bound, into.weights) = ((bound_sq, band), weights);
         (into.least, into.missed) = (least, missed);
-        Ok(())
+        Some(())
     }
 }
 
@@ -197,11 +203,7 @@ impl Survey<'_> {
         (way.dot(way) < empty * empty * (1.0 - EMPTY_BALL)).then_some(place)
     }
 
-    pub(super) fn closest(
-        &self,
-        search: &Search<'_, '_>,
-        point: [f32; 3],
-    ) -> Result<ClosestPoint, QueryError> {
+    pub(super) fn closest(&self, search: &Search<'_, '_>, point: [f32; 3]) -> Option<ClosestPoint> {
         let &Survey { query, best, .. } = self;
         let tree = search.tree;
         let ended = search.truncated.unwrap_or(Ended::Exact);
@@ -209,8 +211,8 @@ impl Survey<'_> {
             // The point is far away, no step was allowed, or the scratch memory was full: the box
             // of the model.
             let none = Budget::EXACT.with_steps(0);
-            let closest = tree.closest_point(point, none, &mut [ScratchEntry::EMPTY])?;
-            return Ok(ClosestPoint { ended, ..closest });
+            let closest = tree.closest_point(point, none, &mut [ScratchEntry::EMPTY]);
+            return closest.ok().map(|closest| ClosestPoint { ended, ..closest });
         }
         let distance = sqrt_approx(best.distance_sq);
         let mut lower = self.lower(distance);
@@ -219,8 +221,8 @@ impl Survey<'_> {
             lower = lesser(lower, missed);
         }
         let leaf = best.place.leaf(tree);
-        let leaf = leaf.as_ref().ok_or(QueryError::Unchecked)?;
-        Ok(ClosestPoint {
+        let leaf = leaf.as_ref()?;
+        Some(ClosestPoint {
             distance: Interval::new(lower, query.upper(distance)),
             point: query.units.point(match self.weights {
                 Some((v, w)) => leaf.point(best.place.lane(), v, w),
@@ -247,6 +249,17 @@ struct WaitingLeaf {
     squares: usize,
 }
 
+/// What is told of triangles that may be the closest.
+struct Nearby {
+    /// For each [`ViewedSide`] the closest triangle.
+    by_side: [LeafTriangle; 4],
+    /// For each [`ViewedSide`] the least squared lower bound of its triangles that need no further
+    /// bound.
+    least_sq: [f32; 4],
+    /// For each [`ViewedSide`] the least lower bound of its other triangles, grid units.
+    least: [f32; 4],
+}
+
 /// What a descent collects for a [`Survey`].
 struct Collector<'p, 'w> {
     query: &'p PointQuery,
@@ -261,13 +274,8 @@ struct Collector<'p, 'w> {
     band: f32,
     /// A squared lower bound up to this is that of a candidate, without a root.
     sure_sq: f32,
-    /// For each [`ViewedSide`] the closest triangle.
-    by_side: [LeafTriangle; 4],
-    /// For each [`ViewedSide`] the least squared lower bound of its triangles that need no further
-    /// bound.
-    least_sq: [f32; 4],
-    /// For each [`ViewedSide`] the least lower bound of its other triangles, grid units.
-    least: [f32; 4],
+    /// Triangles that may be the closest.
+    nearby: &'w mut Nearby,
     /// Leaves whose triangles are looked at when the descent is done.
     waiting: &'w mut heapless::Vec<WaitingLeaf, WAITING>,
     /// Squares of their triangles.
@@ -374,16 +382,17 @@ impl TriangleCollector for Collector<'_, '_> {
         if facing != ViewedSide::Flat || self.bounding == Bounding::Any {
             self.bound(here.distance_sq, limit);
         }
-        if let Some(by_side) = self.by_side.get_mut(facing as usize) {
+        let Nearby { by_side, least_sq, least } = &mut *self.nearby;
+        if let Some(by_side) = by_side.get_mut(facing as usize) {
             by_side.improve(here);
         }
         if is_certified {
-            if let Some(least_sq) = self.least_sq.get_mut(facing as usize)
+            if let Some(least_sq) = least_sq.get_mut(facing as usize)
                 && here.lower_bound_sq < *least_sq
             {
                 *least_sq = here.lower_bound_sq;
             }
-        } else if let Some(least) = self.least.get_mut(facing as usize)
+        } else if let Some(least) = least.get_mut(facing as usize)
             && lower < *least
         {
             *least = lower;

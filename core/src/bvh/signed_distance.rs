@@ -137,20 +137,13 @@ impl Bvh<'_> {
         // Of a point that is far away it stays empty: the model's box answers.
         let mut survey = Survey::of(query);
         if !query.far {
-            search.survey_with_area(&mut survey)?;
+            search.survey_with_area(&mut survey).ok_or(QueryError::Unchecked)?;
         }
         let mut found = survey.closest(&search, point);
-        let closest = found.as_mut().map_err(|refused| *refused)?;
-        let clear = tree.has_sides() && closest.distance.lower > 0.0 && survey.has_sides();
+        let closest = found.as_mut().ok_or(QueryError::Unchecked)?;
         let mut side = None;
-        if clear {
-            side = search.side(&survey)?;
-            if side.is_none() && search.truncated.is_none() {
-                side = search.side_of_places(outside_of_box(tree, query), 1)?;
-            }
-            if side.is_none() && search.truncated.is_none() {
-                side = search.side_from_nearer(&survey)?;
-            }
+        if tree.has_sides() && closest.distance.lower > 0.0 && survey.has_sides() {
+            side = search.clear_side(&survey).ok_or(QueryError::Unchecked)?;
         }
         closest.work = search.work;
         if let Some(why) = search.truncated {
@@ -212,13 +205,25 @@ fn beyond(tree: &Bvh<'_>, p: Vec3) -> f32 {
 }
 
 impl Search<'_, '_> {
+    /// The side of a surveyed point that is clear of the surface.
+    fn clear_side(&mut self, survey: &Survey<'_>) -> Option<Option<Side>> {
+        let mut side = self.side(survey)?;
+        if side.is_none() && self.truncated.is_none() {
+            side = self.side_of_places(outside_of_box(self.tree, survey.query), 1)?;
+        }
+        if side.is_none() && self.truncated.is_none() {
+            side = self.side_from_nearer(survey)?;
+        }
+        Some(side)
+    }
+
     /// The side of points on the way to the surface, if it is proved.
     ///
     /// The ball about the surveyed point that touches the surface is empty, so the winding number
     /// is the same in all of it. Nearer to the surface, the distances of two features differ more.
     /// Where components overlap, equally near surfaces may show different sides. So the ways to the
     /// closest triangles of either facing must agree.
-    fn side_from_nearer(&mut self, survey: &Survey<'_>) -> Result<Option<Side>, QueryError> {
+    fn side_from_nearer(&mut self, survey: &Survey<'_>) -> Option<Option<Side>> {
         let band = survey.band_of(survey.with_area.distance_sq);
         let mut agreed = None;
         for (place, lower) in survey.by_side.iter().zip(&survey.least) {
@@ -227,11 +232,11 @@ impl Search<'_, '_> {
             }
             let side = self.side_of_places(survey.nearer(self.tree, *place), NEARER)?;
             if side.is_none() || agreed.is_some() && agreed != side {
-                return Ok(None);
+                return Some(None);
             }
             agreed = side;
         }
-        Ok(agreed)
+        Some(agreed)
     }
 
     /// The first decided side of at most `count` places: of this one, and of those on the ways from
@@ -241,7 +246,7 @@ impl Search<'_, '_> {
         &mut self,
         mut place: Option<[f32; 3]>,
         count: usize,
-    ) -> Result<Option<Side>, QueryError> {
+    ) -> Option<Option<Side>> {
         for _ in 0..count {
             let Some(point) = place else { break };
             let prepared = PointQuery::new(self.tree, point);
@@ -253,27 +258,27 @@ impl Search<'_, '_> {
             self.survey_with_area(&mut survey)?;
             let side = self.side(&survey)?;
             if side.is_some() || self.truncated.is_some() {
-                return Ok(side);
+                return Some(side);
             }
             place = survey.nearer(self.tree, survey.best);
         }
-        Ok(None)
+        Some(None)
     }
 
     /// The side of the surveyed point, if it is proved. The point is clear of the surface.
-    fn side(&mut self, survey: &Survey<'_>) -> Result<Option<Side>, QueryError> {
+    fn side(&mut self, survey: &Survey<'_>) -> Option<Option<Side>> {
         let &Survey { query, with_area, least, .. } = survey;
         if self.truncated.is_some() || with_area.is_none() {
-            return Ok(None);
+            return Some(None);
         }
         let band = survey.band_of(with_area.distance_sq);
         let [front, back, unclear, _] = least;
         match (front <= band, back <= band, unclear <= band) {
-            (true, false, false) => Ok(Some(Side::Outside)),
-            (false, true, false) => Ok(Some(Side::Inside)),
+            (true, false, false) => Some(Some(Side::Outside)),
+            (false, true, false) => Some(Some(Side::Inside)),
             _ => {
                 let leaf = with_area.place.leaf(self.tree);
-                let leaf = leaf.as_ref().ok_or(QueryError::Unchecked)?;
+                let leaf = leaf.as_ref()?;
                 let candidates = Candidates::new(query, with_area.distance_sq);
                 side_of_shared_feature(self, &candidates, leaf.corners(with_area.place.lane()))
             }

@@ -92,7 +92,7 @@ impl SegmentAndBox {
         if greater(largest(a), largest(b)) >= f32::INFINITY.to_bits() {
             return Err(QueryError::NotFinite);
         }
-        let [size_a, size_b] = [self.a, self.b].map(|end| norm_1(self.farthest(end)));
+        let (size_a, size_b) = (norm_1(self.farthest(self.a)), norm_1(self.farthest(self.b)));
         if !((size_a <= BVH_FAR) & (size_b <= BVH_FAR)) {
             return Err(QueryError::OutOfDomain);
         }
@@ -141,10 +141,14 @@ impl SegmentAndBox {
         let apart_across = |[m, n]: [f32; 2], [d, e]: [f32; 2], [h, k]: [f32; 2]| {
             beyond((m * e - n * d).abs(), (h * e.abs() + k * d.abs()) + LEAST_DENOMINATOR)
         };
-        let across = apart_across([m.x, m.y], [d.x, d.y], [half.x, half.y])
-            | apart_across([m.y, m.z], [d.y, d.z], [half.y, half.z])
-            | apart_across([m.z, m.x], [d.z, d.x], [half.z, half.x]);
-        (along | across) & SIGN != 0
+        let (mut across, mut axes) = (0, [m, d, half]);
+        for _ in 0..3 {
+            let [m, d, half] = axes;
+            across |= apart_across([m.x, m.y], [d.x, d.y], [half.x, half.y]);
+            let turned = |v: Vec3| Vec3::new(v.y, v.z, v.x);
+            axes = [turned(m), turned(d), turned(half)];
+        }
+        across & SIGN != 0
     }
 }
 
