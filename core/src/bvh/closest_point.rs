@@ -387,10 +387,15 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
     /// With a tolerance, only triangles that are nearer by the tolerance are wanted.
     #[cold]
     fn tolerant_limit(&self, distance_sq: f32) -> f32 {
-        let distance = sqrt_approx(distance_sq);
+        square(self.wanted(sqrt_approx(distance_sq)))
+    }
+
+    /// The least distance that is not nearer than this one by more than the tolerance.
+    #[cold]
+    #[inline(never)]
+    fn wanted(&self, distance: f32) -> f32 {
         let absolute = self.query.units.inward(self.budget.absolute);
-        let wanted = lesser(distance / (1.0 + self.budget.relative), distance - absolute);
-        if wanted > 0.0 { wanted * wanted } else { 0.0 }
+        greater(0.0, lesser(distance / (1.0 + self.budget.relative), distance - absolute))
     }
 
     #[cfg_attr(meshsweep_small, inline(never))]
@@ -509,9 +514,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         let distance = sqrt_approx(distance_sq);
         let mut least = sqrt_approx(least_sq);
         if self.tolerant {
-            let absolute = self.query.units.inward(self.budget.absolute);
-            let wanted = lesser(distance / (1.0 + self.budget.relative), distance - absolute);
-            least = lesser(least, greater(wanted, 0.0) * (1.0 - 4.0 * U32));
+            least = lesser(least, self.wanted(distance) * (1.0 - 4.0 * U32));
             ended = if ended == Ended::Exact { Ended::Tolerance } else { ended };
         }
         let (lane, v, w) = lanes.at(distance_sq);

@@ -356,8 +356,7 @@ impl<'s> Walk<'s> {
             let mut place = None;
             if opens {
                 if work.splits >= self.limit.steps {
-                    let least = bound.min(self.stack.least());
-                    self.ended = Descent::Truncated { least, ended: Ended::Steps };
+                    self.out_of_steps(bound);
                     return Some(false);
                 }
                 place = self.open(tree, query, [node, bound, most], work)?;
@@ -449,6 +448,14 @@ impl<'s> Walk<'s> {
                 self.stack.used = 0;
             }
         }
+    }
+
+    /// Ends a descent before it opens a node with this bound.
+    #[cold]
+    #[inline(never)]
+    fn out_of_steps(&mut self, bound: u32) {
+        let least = lesser(bound, self.stack.least());
+        self.ended = Descent::Truncated { least, ended: Ended::Steps };
     }
 
     /// How a descent without entries up to `most` ended.

@@ -575,10 +575,11 @@ mod narrow {
     fn f32_nearest(leaf: &FanLeaf<'_>, p: Vec3, low_sq: f32) -> LeafNearest {
         let mut nearest = LeafNearest::NONE;
         let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
-        let centres = [leaf.centre(0), leaf.centre(leaf.shape().centres() - 1)];
-        let mut from = leaf.ring(0);
+        let (mut centre, mut from) = (leaf.centre(0), leaf.ring(0));
         for lane in 0..count {
-            let centre = centres[usize::from(lane >= turn)];
+            if lane == turn {
+                centre = leaf.centre(1);
+            }
             let to = leaf.ring(lane + 1);
             let near = nearness(&[p - centre, from - centre, to - centre]);
             nearest.take(lane, &near, low_sq);

@@ -1,7 +1,6 @@
 //! What limits the triangles of a leaf that a question looks at.
 
 use super::leaf_plane::LeafPlane;
-use super::point_query::PointQuery;
 
 /// What a triangle has to be near to count.
 #[derive(Clone, Copy)]
@@ -14,7 +13,7 @@ pub(crate) struct LeafLimit {
         expect(dead_code, reason = "vector targets look at all lanes of a leaf")
     )]
     pub(crate) plane: LeafPlane,
-    /// [`PointQuery::allowance`], by which a triangle of a leaf limits the others; infinite if all
+    /// [`PointQuery::allowance`](super::point_query::PointQuery::allowance), by which a triangle of a leaf limits the others; infinite if all
     /// count.
     pub(crate) allowance: f32,
     /// Triangles whose squared lower bound is not above this are told, by [`low`](super::leaf_distance::LeafNearest::low). At
@@ -30,10 +29,4 @@ impl LeafLimit {
         allowance: f32::INFINITY,
         low_sq: 0.0,
     };
-
-    /// Triangles whose squared lower bound is not above `low_sq` are told. Others may be left out.
-    #[inline(always)]
-    pub(crate) fn all_low(query: &PointQuery, low_sq: f32) -> LeafLimit {
-        LeafLimit { distance_sq: query.limit(low_sq), low_sq, ..LeafLimit::NONE }
-    }
 }

@@ -21,6 +21,7 @@ use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use super::side_search::Search;
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
+use super::triangle_visitor::follow;
 use super::viewed_side::{ViewedSide, cross, is_flat, norm_1, viewed_side};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::tolerance::{SIGN_COSINE, TRUSTED_DIRECTION_SQ, U32};
@@ -61,9 +62,10 @@ pub(crate) fn side_of_shared_feature(
     corners: [Vec3; 3],
 ) -> Option<Option<Side>> {
     let limit = limit_of(candidates.query, candidates.band);
-    let key_limit = candidates.query.key_limit(limit);
-    let mut shared =
-        Shared { candidates, limit, key_limit, known: LeafSquares::NONE, corners, kept: [true; 3] };
+    let (mut key_limit, mut beyond) = (0, LeafLimit::NONE);
+    follow(candidates.query, limit, &mut key_limit, &mut beyond);
+    let known = LeafSquares::NONE;
+    let mut shared = Shared { candidates, key_limit, beyond, known, corners, kept: [true; 3] };
     if !search.descend(candidates.query, &mut shared)? {
         return Some(None);
     }
@@ -90,8 +92,8 @@ pub(crate) fn side_of_shared_feature(
 /// Finds the corners that all candidates share.
 struct Shared<'a> {
     candidates: &'a Candidates<'a>,
-    limit: f32,
     key_limit: u32,
+    beyond: LeafLimit,
     known: LeafSquares,
     corners: [Vec3; 3],
     kept: [bool; 3],
@@ -104,15 +106,14 @@ impl LeafVisitor for Shared<'_> {
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let (leaf, query) = (&visit.leaf, self.candidates.query);
-        let limit = LeafLimit::all_low(query, self.limit);
-        let low = nearest_within(leaf, query, &limit, Some(&mut self.known))?.low;
+        let low = nearest_within(leaf, query, &self.beyond, Some(&mut self.known))?.low;
         each_triangle(
             query,
             leaf,
-            &limit,
+            &self.beyond,
             (low, &self.known),
             |lane, seen, [distance_sq, lower_bound_sq]| {
-                if lower_bound_sq > self.limit
+                if lower_bound_sq > self.beyond.low_sq
                     || lower_of(leaf, lane, query.p, distance_sq, lower_bound_sq)
                         > self.candidates.band
                     || viewed_side(query, leaf, lane, seen) == ViewedSide::Flat

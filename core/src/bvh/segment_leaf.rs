@@ -111,6 +111,9 @@ fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
     if leaf.is_f32() {
         return Some(flagged_f32(leaf, ray));
     }
+    if cfg!(meshsweep_small) && !SOFT_FLOAT {
+        return flagged_in_rows(leaf, ray);
+    }
     let ring = leaf.ring_in_order(ray.axes())?;
     let turn = leaf.shape().turn();
     if SOFT_FLOAT {
@@ -127,6 +130,25 @@ fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
     let vertices = vertices.map(|((x, y), z)| [short(x), short(y), short(z)]);
     let centres = [shadow(ring.centres[0]), shadow(ring.centres[1])];
     Some(ray_leaf(ray, turn, centres, vertices.map(shadow)))
+}
+
+/// The same of a leaf on the grid where code is to be small.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[inline(always)]
+fn flagged_in_rows(leaf: &FanLeaf<'_>, ray: &FanRay) -> Option<u32> {
+    let (ring, shape) = (leaf.full_ring()?, leaf.shape());
+    let [ox, oy, oz] = ray.in_order(leaf.origin);
+    let shadow = |[x, y, z]: [i32; 3]| {
+        let sum = |x: i32, origin: i32| x.wrapping_add(origin) as f32;
+        ray.shadow_in_order([sum(x, ox), sum(y, oy), sum(z, oz)])
+    };
+    let [x, y, z] = ray.in_order(ring.rows);
+    let short = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
+    let vertices = x.iter().zip(y).zip(z).take(shape.triangles() + 1);
+    let vertices = vertices.map(|((x, y), z)| shadow([short(x), short(y), short(z)]));
+    let [first, second] = ring.centres(shape);
+    let centres = [shadow(ray.in_order(first)), shadow(ray.in_order(second))];
+    Some(ray_leaf(ray, shape.turn(), centres, vertices))
 }
 
 /// The flagged ones of a few triangles.

@@ -171,21 +171,21 @@ fn outside_of_box(tree: &Bvh<'_>, query: &PointQuery) -> Option<[f32; 3]> {
     let (low, high) = tree.grid_bounds();
     let size = (high - low).max_element();
     let gap = if size > 0.0 { 0.25 * size } else { 1.0 };
+    let (p, low, high) = (query.p.to_array(), low.to_array(), high.to_array());
     let most = beyond(tree, query.p);
     if most <= 0.0 {
         return None;
     }
-    let (low, high) = (low.to_array(), high.to_array());
-    let mut near = query.p.to_array();
+    let mut near = p;
     let mut moved = false;
     for axis in 0..3 {
-        let (x, low, high) = (near[axis], low[axis], high[axis]);
-        let farthest = !moved && greater(x - high, low - x) == most;
-        moved |= farthest;
-        if x > high {
-            near[axis] = if farthest { high + gap } else { high };
-        } else if farthest || x < low {
-            near[axis] = if farthest { low - gap } else { low };
+        let (x, low, high) = (p[axis], low[axis], high[axis]);
+        let (end, gap) = if x > high { (high, gap) } else { (low, -gap) };
+        if !moved && greater(x - high, low - x) == most {
+            moved = true;
+            near[axis] = end + gap;
+        } else if x > high || x < low {
+            near[axis] = end;
         }
     }
     let near = query.units.point(Vec3::from_array(near));
@@ -195,13 +195,12 @@ fn outside_of_box(tree: &Bvh<'_>, query: &PointQuery) -> Option<[f32; 3]> {
 
 /// How far a place is outside of the model's box, grid units: along the axis on which that is the
 /// most. At most 0 within.
+#[cfg_attr(meshsweep_small, inline(never))]
 fn beyond(tree: &Bvh<'_>, p: Vec3) -> f32 {
     let (low, high) = tree.grid_bounds();
-    let [below, above] = [low - p, p - high];
-    greater(
-        greater(greater(below.x, above.x), greater(below.y, above.y)),
-        greater(below.z, above.z),
-    )
+    let (below, above) = (low - p, p - high);
+    let along_x = greater(below.x, above.x);
+    greater(greater(along_x, greater(below.y, above.y)), greater(below.z, above.z))
 }
 
 impl Search<'_, '_> {

@@ -28,7 +28,8 @@ pub(crate) fn sliver(query: &PointQuery, near: Nearness, better: &Nearness) -> N
 }
 
 /// Triangle `lane` from `p`: the way from its centre, and its spokes.
-#[inline(always)]
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
 pub(crate) fn seen_from(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> [Vec3; 3] {
     let [centre, e, g] = leaf.spokes(lane);
     [p - centre, e, g]
@@ -65,7 +66,9 @@ pub(crate) fn each_triangle(
                 Some(squares) if !is_sliver(query, squares) => each(lane, None, squares),
                 _ => {
                     let seen = seen_from(leaf, lane, query.p);
-                    each(lane, Some(&seen), refined_squares(query, seen));
+                    let Nearness { distance_sq, lower_bound_sq, .. } =
+                        refined_nearness(query, &seen);
+                    each(lane, Some(&seen), [distance_sq, lower_bound_sq]);
                 }
             }
         }

@@ -119,18 +119,27 @@ impl<'a, C> TriangleVisitor<'a, C> {
 
     /// A visitor that begins with this squared limit.
     pub(crate) fn new(tree: &'a Bvh<'a>, query: &'a PointQuery, limit: f32, collector: C) -> Self {
-        let beyond = LeafLimit::all_low(query, limit);
-        let (key_limit, known) = (query.key_limit(limit), LeafSquares::NONE);
+        let (mut key_limit, mut beyond) = (0, LeafLimit::NONE);
+        follow(query, limit, &mut key_limit, &mut beyond);
+        let known = LeafSquares::NONE;
         TriangleVisitor { tree, query, limit, key_limit, beyond, known, collector }
     }
 
     /// Makes the other limits follow `limit`.
-    #[inline(never)]
+    #[cfg_attr(meshsweep_small, inline(always))]
+    #[cfg_attr(not(meshsweep_small), inline(never))]
     fn lower_limits(&mut self) {
-        self.key_limit = self.query.key_limit(self.limit);
-        let LeafLimit { distance_sq, low_sq, .. } = LeafLimit::all_low(self.query, self.limit);
-        (self.beyond.distance_sq, self.beyond.low_sq) = (distance_sq, low_sq);
+        follow(self.query, self.limit, &mut self.key_limit, &mut self.beyond);
     }
+}
+
+/// Makes the limits of nodes and of leaves follow a squared limit. Where code is to be small all
+/// visitors share it.
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
+pub(super) fn follow(query: &PointQuery, limit: f32, key_limit: &mut u32, beyond: &mut LeafLimit) {
+    *key_limit = query.key_limit(limit);
+    (beyond.distance_sq, beyond.low_sq) = (query.limit(limit), limit);
 }
 
 impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {

@@ -171,7 +171,7 @@ const RING_VERTICES: usize = WIDTH + 1;
 pub struct FullRing<'a> {
     window: &'a [u8; GRID_WINDOW],
     /// Coordinates of the ring, axis by axis. Those past the last triangle have no meaning.
-    rows: [&'a [[u8; 2]; RING_VERTICES]; 3],
+    pub(crate) rows: [&'a [[u8; 2]; RING_VERTICES]; 3],
 }
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
