@@ -518,13 +518,12 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             ended = if ended == Ended::Exact { Ended::Tolerance } else { ended };
         }
         let (lane, v, w) = lanes.at(distance_sq);
-        let first = self.tree.links(node).ok_or(QueryError::Unchecked)?.triangle(child);
         let leaf = self.tree.leaf(node, child);
         let leaf = leaf.as_ref().ok_or(QueryError::Unchecked)?;
         Ok(ClosestPoint {
             distance: Interval::new(self.query.lower(least), self.query.upper(distance)),
             point: self.query.units.point(leaf.point(lane, v, w)),
-            triangle: self.tree.source(first.wrapping_add(lane as u32)),
+            triangle: TrianglePlace::new(node, child, lane).source(self.tree),
             work,
             ended,
         })
@@ -612,7 +611,7 @@ fn from_afar(
             at_most((far + margin(far)) * unscale),
         ),
         point: query.units.point(leaf.centre(0)),
-        triangle: tree.source(links.triangle(0)),
+        triangle: TrianglePlace::new(node, 0, 0).source(tree),
         work: Work::default(),
         ended: Ended::Exact,
     })

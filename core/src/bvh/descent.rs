@@ -192,6 +192,7 @@ impl Limit {
     /// The free entries hold a whole search. The search below the taken entry needs no more. While
     /// it runs, fewer are free, so no second exchange happens before that search ends. Or the steps
     /// that are left cannot fill the free entries: each step adds fewer than [`WIDTH`].
+    #[cfg_attr(meshsweep_small, inline(never))]
     fn has_room(&self, stack: &Stack<'_>, work: &Work) -> bool {
         let free = stack.entries.len().saturating_sub(stack.used);
         let left = self.steps.saturating_sub(work.splits) as usize;

@@ -151,7 +151,8 @@ impl PointQuery {
     }
 
     /// Lower bound of the distance of a box with this key, grid units.
-    #[inline(always)]
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
     pub(crate) fn distance_of_key(&self, key: u32) -> f32 {
         let square = (key & !CHILD_MASK) as f32 / self.keys_in_square;
         sqrt_approx(square) * (1.0 - 4.0 * U32)

@@ -22,7 +22,7 @@ use super::point_query::PointQuery;
 use super::side_search::Search;
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
 use super::triangle_visitor::follow;
-use super::viewed_side::{ViewedSide, cross, is_flat, norm_1, viewed_side};
+use super::viewed_side::{ViewedSide, cross, is_flat, is_same, norm_1, viewed_side};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::tolerance::{SIGN_COSINE, TRUSTED_DIRECTION_SQ, U32};
 use crate::num::{greater, sqrt_approx};
@@ -41,7 +41,8 @@ pub(crate) struct Candidates<'p> {
 }
 
 /// [`Candidates::band`] if the nearest triangle is at this squared distance.
-#[inline]
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline)]
 pub(crate) fn band_of(query: &PointQuery, distance_sq: f32) -> f32 {
     sqrt_approx(distance_sq) * (1.0 + 128.0 * U32) + 8.0 * query.rounding
 }
@@ -252,17 +253,22 @@ impl Star<'_> {
     #[inline(always)]
     fn take(&mut self, leaf: &FanLeaf<'_>, lane: usize, factor: f32) {
         let corners = leaf.corners(lane);
+        let [a, b, c] = corners;
+        let has = |place: &Vec3| [&a, &b, &c].into_iter().position(|c| is_same(c, place));
         // About a vertex from the vertex on.
-        let [x, y, z] = match (&self.feature, corners) {
-            (Feature::Vertex { at, .. }, [a, _, _]) if a == *at => corners,
-            (Feature::Vertex { at, .. }, [a, b, c]) if b == *at => [b, c, a],
-            (Feature::Vertex { at, .. }, [a, b, c]) if c == *at => [c, a, b],
-            (Feature::Edge { ends: [a, b], .. }, _)
-                if corners.contains(a) && corners.contains(b) =>
-            {
+        let [x, y, z] = match &self.feature {
+            Feature::Vertex { at, .. } => match has(at) {
+                Some(0) => corners,
+                Some(1) => [b, c, a],
+                Some(_) => [c, a, b],
+                None => return,
+            },
+            Feature::Edge { ends: [one, other], .. } => {
+                if has(one).is_none() || has(other).is_none() {
+                    return;
+                }
                 corners
             }
-            _ => return,
         };
         let (e, g) = (y - x, z - x);
         let (normal, size) = cross(e, g);
@@ -291,9 +297,9 @@ impl Star<'_> {
                 };
             }
             Feature::Edge { ends: [a, b], edge, length_sq, u, noise } => {
-                let third = corners.into_iter().find(|c| c != a && c != b);
+                let third = corners.iter().find(|c| !is_same(c, a) && !is_same(c, b));
                 let Some(third) = third else { return };
-                let leg = third - *a;
+                let leg = *third - *a;
                 let inward = leg - *edge * (leg.dot(*edge) / *length_sq);
                 let height = sqrt_approx(inward.dot(inward));
                 is_known &= height != 0.0;

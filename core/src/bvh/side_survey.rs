@@ -114,7 +114,8 @@ impl LeafTriangle {
     }
 
     /// Takes the nearer triangle; of two equally near ones the lesser number.
-    #[inline(always)]
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
     fn improve(&mut self, other: LeafTriangle) {
         if other.is_before(self) {
             *self = other;
@@ -153,6 +154,7 @@ pub(super) struct Survey<'p> {
 
 impl<'p> Survey<'p> {
     /// An empty one.
+    #[cfg_attr(meshsweep_small, inline(never))]
     pub(super) fn of(query: &'p PointQuery) -> Self {
         Survey {
             query,

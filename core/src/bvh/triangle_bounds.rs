@@ -184,6 +184,7 @@ pub(crate) fn limit_within(query: &PointQuery, distance: f32) -> f32 {
 }
 
 /// Squared bound above which nothing is within `distance` (grid units) of the stored surface.
+#[cfg_attr(meshsweep_small, inline(never))]
 pub(crate) fn limit_of(query: &PointQuery, distance: f32) -> f32 {
     let distance = if distance > LEAST_LIMIT { distance } else { LEAST_LIMIT };
     let limit = query.limit(distance * distance);

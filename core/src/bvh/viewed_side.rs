@@ -120,14 +120,21 @@ pub(super) fn cross(e: Vec3, g: Vec3) -> (Vec3, Vec3) {
     (e.cross(g), Vec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x))
 }
 
+/// Whether two places are the same.
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
+pub(super) fn is_same(a: &Vec3, b: &Vec3) -> bool {
+    a == b
+}
+
 /// Whether a triangle with a computed normal of zero has no area: a repeated corner, or integers so
 /// small that the normal is exact.
 #[cold]
 pub(super) fn is_flat(leaf: &FanLeaf<'_>, lane: usize, size: f32) -> bool {
     let [a, b, c] = leaf.corners(lane);
     let is_exact = |v: Vec3| is_whole(v, EXACT_INTEGERS);
-    a == b
-        || b == c
-        || c == a
+    is_same(&a, &b)
+        || is_same(&b, &c)
+        || is_same(&c, &a)
         || (size < EXACT_INTEGERS && is_exact(a) && is_exact(b) && is_exact(c))
 }

@@ -101,9 +101,12 @@ pub(super) const SHAPE_OFFSETS: [ShapeOffsets; 256] = {
 pub fn lanes_of(bits: u32) -> impl Iterator<Item = usize> {
     let mut left = bits & 0xFF;
     core::iter::from_fn(move || {
-        let lane = (left != 0).then(|| left.trailing_zeros() as usize);
-        left &= left.wrapping_sub(1);
-        lane
+        if left == 0 {
+            return None;
+        }
+        let lane = left.trailing_zeros() as usize;
+        left &= left - 1;
+        Some(lane)
     })
 }
 
@@ -444,7 +447,8 @@ impl<'a> FanLeaf<'a> {
     }
 
     /// The point `centre + v·e + w·g` of triangle `lane`, grid units.
-    #[inline(always)]
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
     pub fn point(&self, lane: usize, v: f32, w: f32) -> Vec3 {
         let [centre, e, g] = self.spokes(lane);
         centre + e * v + g * w
