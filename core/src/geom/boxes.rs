@@ -1,6 +1,6 @@
 //! Axis-aligned box, and a segment clipped to it.
 
-use crate::num::tolerance::U64;
+use crate::num::tolerance::{BOX_MISSED, U32, U64, UNDERFLOW};
 use glam::{DVec3, Vec3};
 
 /// Axis-aligned box, `min ≤ max` on every axis.
@@ -45,6 +45,30 @@ impl Aabb {
         let gap = (lo - p).max(p - hi).max(DVec3::ZERO);
         let far = (p - lo).abs().max((hi - p).abs());
         (libm::sqrt(gap.dot(gap)) * (1.0 - 8.0 * U64), libm::sqrt(far.dot(far)) * (1.0 + 8.0 * U64))
+    }
+
+    /// Whether a segment certainly misses the box, in f32. Then [`clip`](Self::clip) finds so, too,
+    /// of a segment whose ends are these. Coordinates are at most 2^12. Derivation:
+    /// `core/docs/rounding.md` §3.
+    pub fn is_missed(&self, start: Vec3, end: Vec3) -> bool {
+        let sizes = (self.min.abs() + self.max.abs()) + (start.abs() + end.abs());
+        let margin = BOX_MISSED * U32 * (sizes.x + sizes.y + sizes.z);
+        let (centre, half) = ((self.min + self.max) * 0.5, (self.max - self.min) * 0.5 + margin);
+        let (from, to, d) = (start - centre, end - centre, end - start);
+        let is_beside = |from: f32, to: f32, half: f32| {
+            (from > half && to > half) || (from < -half && to < -half)
+        };
+        // Seen along an axis: the line of the segment is apart from the box.
+        let is_apart =
+            |[from_x, from_y]: [f32; 2], [x, y]: [f32; 2], [half_x, half_y]: [f32; 2]| {
+                (x * from_y - y * from_x).abs() > half_x * y.abs() + half_y * x.abs() + UNDERFLOW
+            };
+        is_beside(from.x, to.x, half.x)
+            || is_beside(from.y, to.y, half.y)
+            || is_beside(from.z, to.z, half.z)
+            || is_apart([from.x, from.y], [d.x, d.y], [half.x, half.y])
+            || is_apart([from.y, from.z], [d.y, d.z], [half.y, half.z])
+            || is_apart([from.z, from.x], [d.z, d.x], [half.z, half.x])
     }
 
     /// The part of the segment `a b` that may meet the box, by slabs, rounded outward; `None` if it
@@ -100,6 +124,38 @@ mod tests {
     fn clip_keeps_a_segment_that_grazes_a_face() {
         assert!(UNIT.clip(DVec3::new(-1.0, 1.0, 0.5), DVec3::new(3.0, 1.0, 0.5)).is_some());
         assert!(UNIT.clip(DVec3::new(0.5, 0.5, 0.5), DVec3::new(0.5, 0.5, 0.5)).is_some());
+    }
+
+    #[test]
+    fn what_is_missed_in_f32_is_missed_by_clipping_and_little_else_is() {
+        let mut state = 11u64;
+        let mut random = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f32 / (1u32 << 23) as f32 - 1.0
+        };
+        let (mut missed, mut clipped) = (0, 0);
+        for round in 0..300_000 {
+            let size = [2.0, 1.0, 40.0, 3000.0][round % 4];
+            let length = [1.0, 1e-3, 1e-7, 1e-20][round / 4 % 4];
+            let mut vector = || Vec3::new(random(), random(), random());
+            let start = vector() * size;
+            // Toward the box, along its edges, or anywhere.
+            let end = match round / 16 % 3 {
+                0 => vector() * 2.0,
+                1 => start + vector() * size * length,
+                _ => Vec3::new(start.x, vector().y * 2.0, 1.0),
+            };
+            let corner = vector() * 0.5;
+            let bounds = Aabb { min: corner, max: corner + vector().abs() * 0.5 };
+            let is_clipped = bounds.clip(start.as_dvec3(), end.as_dvec3()).is_none();
+            let is_missed = bounds.is_missed(start, end);
+            assert!(!is_missed || is_clipped, "{bounds:?} {start} {end}");
+            missed += u32::from(is_missed);
+            clipped += u32::from(is_clipped);
+        }
+        assert!(missed > clipped / 100 * 99, "{missed} {clipped}");
     }
 
     #[test]

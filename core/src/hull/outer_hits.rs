@@ -120,7 +120,6 @@ fn outer_hits(
         return Err(QueryError::NoHulls);
     }
     let frame = Frame::of(model.header());
-    let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);
     let bounds = model.hull_box();
     let mut out = OuterHits {
         t: FirstHit::CLEAR.t,
@@ -130,13 +129,18 @@ fn outer_hits(
         work: Work { nodes: 1, ..Work::NONE },
         ended: Ended::Exact,
     };
+    let is_exact = model.header().surface_error == 0.0 && !model.is_cut();
+    if is_exact && frame.is_missed([a, b], &bounds) {
+        return Ok(out);
+    }
+    let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);
     let start_f32 = start.as_vec3();
     if start_f32.cmpge(bounds.min).all() && start_f32.cmple(bounds.max).all() {
         out.starts_inside = true;
         out.t.lower = 0.0;
         return Ok(out);
     }
-    if model.header().surface_error > 0.0 || model.is_cut() {
+    if !is_exact {
         // The hull encloses the stored surface, and the input's may stick out.
         out.t.lower = 0.0;
         out.ended = Ended::Resolution;

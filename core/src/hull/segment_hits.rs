@@ -181,17 +181,19 @@ fn trace(
         return Err(QueryError::NO_HULL);
     }
     let frame = Frame::of(model.header());
-    let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);
     let surface_error = model.header().surface_error;
     let mut bounds = Aabb::of(model.header().surface_box);
     if surface_error > 0.0 {
         bounds.min = (bounds.min - surface_error).map(f32::next_down);
         bounds.max = (bounds.max + surface_error).map(f32::next_up);
     }
-    let Some(clipped) = bounds.clip(start, end) else {
-        let work = Work { nodes: 1, ..Work::NONE };
-        return Ok(Traced { work, ended: Ended::Exact, unopened: f32::INFINITY });
-    };
+    let work = Work { nodes: 1, ..Work::NONE };
+    let missed = Traced { work, ended: Ended::Exact, unopened: f32::INFINITY };
+    if frame.is_missed([a, b], &bounds) {
+        return Ok(missed);
+    }
+    let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);
+    let Some(clipped) = bounds.clip(start, end) else { return Ok(missed) };
     let mut hull = model.hull_box();
     hull.min = hull.min.min(bounds.min);
     hull.max = hull.max.max(bounds.max);

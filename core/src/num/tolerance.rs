@@ -53,6 +53,10 @@ pub const POINT_BOUND: f32 = 16.0;
 /// sum of norms holds two of them. Proved: 31 (§3).
 pub const SEGMENT_BOUND: f32 = 48.0;
 
+/// Rounding of the f32 test whether a segment misses a box, in units of [`U32`] times the 1-norms of
+/// all corners and ends. Proved: 10.1 (§3). A larger value leaves more segments to f64.
+pub const BOX_MISSED: f32 = 16.0;
+
 /// Rounding of the f64 point–triangle interval, in units of [`U64`] times the 1-norms of `ap`,
 /// `ab`, `ac`. Proved: 8.6 (§4). A larger value widens the reported interval, which at 16 is below
 /// one unit of f32.

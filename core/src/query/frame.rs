@@ -3,7 +3,8 @@
 
 use super::error::QueryError;
 use crate::format::Header;
-use crate::num::tolerance::{HULL_FAR, U64};
+use crate::geom::Aabb;
+use crate::num::tolerance::{F32_BOUNDS, HULL_FAR, U64};
 use crate::num::{down_to_f32, exp2, up_to_f32};
 use glam::{DVec3, Vec3};
 
@@ -42,6 +43,16 @@ impl Frame {
     pub(crate) fn local_end(&self, point: [f32; 3]) -> Result<DVec3, QueryError> {
         let local = self.local(point)?;
         if local.abs().max_element() > HULL_FAR { Err(QueryError::OutOfDomain) } else { Ok(local) }
+    }
+
+    /// Whether a segment certainly misses a box of the local frame. Most do, and on boards f32 tells
+    /// so at a tenth of the cost. `false` of ends that are far away, or not finite.
+    pub(crate) fn is_missed(&self, ends: [[f32; 3]; 2], bounds: &Aabb) -> bool {
+        let inverse = self.inverse as f32;
+        let [start, end] = ends.map(|point| Vec3::from_array(point) * inverse);
+        let is_near =
+            |local: Vec3| local.to_array().into_iter().all(|x| x.abs() <= F32_BOUNDS as f32);
+        inverse.is_normal() && is_near(start) && is_near(end) && bounds.is_missed(start, end)
     }
 
     /// A point in input units, rounded to nearest, kept finite.
