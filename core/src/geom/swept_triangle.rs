@@ -20,7 +20,7 @@ use glam::Vec3;
 /// trust.
 #[inline(always)]
 pub fn direction_bound(a: Vec3, b: Vec3, c: Vec3) -> f32 {
-    let Support { along, length_sq } = Support::new(a, b, c);
+    let Support { along, length_sq, .. } = Support::new(a, b, c);
     if length_sq < TRUSTED_DIRECTION_SQ { 0.0 } else { along / libm::sqrtf(length_sq) }
 }
 
@@ -47,9 +47,10 @@ impl SweptPoint {
     }
 
     /// A lower bound of the distance from the point to the triangle swept by `radius`, never
-    /// negative. `None` if the distance certainly exceeds `limit`, which needs no square root.
+    /// negative; and an upper bound of that to the triangle, infinite where f32 cannot tell. `None`
+    /// if the former distance certainly exceeds `limit`, which needs no square root.
     #[inline(always)]
-    pub fn lower(&self, [a, b, c]: [Vec3; 3], radius: f32, limit: f32) -> Option<f32> {
+    pub fn range(&self, [a, b, c]: [Vec3; 3], radius: f32, limit: f32) -> Option<[f32; 2]> {
         self.bound(Support::new(a - self.point, b - self.point, c - self.point), radius, limit)
     }
 
@@ -59,19 +60,21 @@ impl SweptPoint {
         lanes.set(lane, corners.map(|corner| corner - self.point));
     }
 
-    /// [`lower`](Self::lower) from the triangle's supporting plane.
+    /// [`range`](Self::range) from the triangle's supporting plane.
     #[inline(always)]
-    pub fn bound(&self, support: Support, radius: f32, limit: f32) -> Option<f32> {
-        let Support { along, length_sq } = support;
+    pub fn bound(&self, support: Support, radius: f32, limit: f32) -> Option<[f32; 2]> {
+        let Support { along, length_sq, is_reached } = support;
         if length_sq < TRUSTED_DIRECTION_SQ {
-            return Some(0.0);
+            return Some([0.0, f32::INFINITY]);
         }
         let inside = radius + self.margin;
         let beyond = limit + inside;
         if along > 0.0 && along * along * SQUARED_SLACK > beyond * beyond * length_sq {
             return None;
         }
-        Some(greater(0.0, along / libm::sqrtf(length_sq) - inside))
+        let length = libm::sqrtf(length_sq);
+        let upper = if is_reached { length + self.margin } else { f32::INFINITY };
+        Some([greater(0.0, along / length - inside), upper])
     }
 }
 
@@ -147,7 +150,7 @@ impl SweptSegment {
 /// Whether the [`direction_bound`] of a triangle is above a limit, which is not negative. The root,
 /// which boards compute by many instructions, is taken only where the squares are too near.
 #[inline(always)]
-fn is_beyond(Support { along, length_sq }: Support, limit: f32) -> bool {
+fn is_beyond(Support { along, length_sq, .. }: Support, limit: f32) -> bool {
     if along <= 0.0 || length_sq < TRUSTED_DIRECTION_SQ {
         return false;
     }
@@ -178,10 +181,11 @@ mod tests {
             (Vec3::new(0.5, -2.0, 0.0), 2.0),
         ] {
             let swept = SweptPoint::new(point, &bounds);
-            let lower =
-                swept.lower(corners, 0.25, f32::INFINITY).expect("nothing exceeds infinity");
-            assert!(swept.lower(corners, 0.25, distance - 0.2).is_some());
-            assert!(swept.lower(corners, 0.25, distance - 0.3).is_none());
+            let [lower, upper] =
+                swept.range(corners, 0.25, f32::INFINITY).expect("nothing exceeds infinity");
+            assert!(swept.range(corners, 0.25, distance - 0.2).is_some());
+            assert!(swept.range(corners, 0.25, distance - 0.3).is_none());
+            assert!(distance <= upper && upper < distance + 1e-4, "{upper} {distance}");
             assert!(
                 lower <= distance - 0.25 && lower > distance - 0.25 - 1e-4,
                 "{lower} {distance}"
@@ -204,7 +208,7 @@ mod tests {
             let limit = [1e-12, 1e-6, 1e-3, 1.0][round % 4] * random(&mut state);
             let near = 1.0 + [0.0, 1e-7, 1e-6, 1e-5, 1.0][round % 5] * (random(&mut state) - 0.5);
             let along = limit * length * near - [0.0, 1e-30][round % 2];
-            let support = Support { along, length_sq: length * length };
+            let support = Support { along, length_sq: length * length, is_reached: false };
             let bound = if support.length_sq < TRUSTED_DIRECTION_SQ {
                 0.0
             } else {

@@ -6,11 +6,11 @@
 
 use super::geometry::Geometry;
 use super::shared_corner::SharedCorner;
-use super::sweep::{Candidate, Fate, Front, Visit};
+use super::sweep::{Candidate, Fate, Front, Visit, triangles};
 use crate::geom::{LANES, Lanes, SweptPoint, point_triangle};
 use crate::hull::format::{Hull, Instance};
 use crate::num::tolerance::{F32_BOUNDS, HULL_FAR, REPORTED, U64};
-use crate::num::{SOFT_DOUBLE, down_to_f32, up_to_f32};
+use crate::num::{SOFT_DOUBLE, down_to_f32, lesser, up_to_f32};
 use crate::query::{
     Budget, ClosestPoint, Ended, Frame, Interval, QueryError, ScratchEntry, SweepQueue, Taken,
     Work, before,
@@ -80,8 +80,11 @@ pub(super) fn closest_point<'a, G: Geometry<'a>>(
     } else {
         let tolerance = (relative > 0.0 || absolute > 0.0)
             .then(|| [f64::from(relative), frame.length(absolute)]);
-        if SOFT_DOUBLE && tolerance.is_none() {
-            nearest.share_corners(frame.surface_error());
+        if tolerance.is_none() {
+            nearest.defers = steps >= triangles(hull.tables());
+            if SOFT_DOUBLE {
+                nearest.share_corners(frame.surface_error());
+            }
         }
         let mut front = Front::new(hull, scratch, steps);
         ended = search(&mut front, &mut nearest, tolerance).ok_or(QueryError::Unchecked)?;
@@ -131,6 +134,10 @@ pub(super) struct Nearest {
     best: Option<Best>,
     exact: u32,
     shared: Option<SharedCorner>,
+    /// Triangles of the surface wait until f32 cannot tell whether they are the nearest.
+    defers: bool,
+    /// The one that waits, and its lower bound in f32. The limit is not above its upper bound.
+    waiting: Option<(Candidate, f32)>,
     /// The nearest triangle of those that were just found. It waits outside the queue.
     next: Option<ScratchEntry>,
 }
@@ -154,6 +161,8 @@ impl Nearest {
             best: None,
             exact: 0,
             shared: None,
+            defers: false,
+            waiting: None,
             next: None,
         })
     }
@@ -164,10 +173,11 @@ impl Nearest {
         self.shared = SharedCorner::new(self.p, self.swept.norms(), surface_error);
     }
 
-    /// Bounds of up to four triangles, infinite above the limit.
+    /// Lower bounds of up to four triangles, infinite above the limit; and upper bounds of the
+    /// distances to the triangles themselves.
     #[inline(always)]
-    pub(super) fn bounds(&self, found: &[Candidate]) -> [f32; LANES] {
-        let mut bounds = [f32::INFINITY; LANES];
+    pub(super) fn bounds(&self, found: &[Candidate]) -> [[f32; 2]; LANES] {
+        let mut bounds = [[f32::INFINITY; 2]; LANES];
         if self.distant {
             self.distant_bounds(found, &mut bounds);
             return bounds;
@@ -175,8 +185,8 @@ impl Nearest {
         if !Lanes::PAY {
             for (bound, candidate) in bounds.iter_mut().zip(found) {
                 let Candidate { corners, radius, .. } = candidate;
-                if let Some(lower) = self.swept.lower(*corners, *radius, self.limit_f32) {
-                    *bound = lower;
+                if let Some(range) = self.swept.range(*corners, *radius, self.limit_f32) {
+                    *bound = range;
                 }
             }
             return bounds;
@@ -187,8 +197,8 @@ impl Nearest {
         }
         let supports = lanes.supports(found.len());
         for ((bound, support), candidate) in bounds.iter_mut().zip(supports).zip(found) {
-            if let Some(lower) = self.swept.bound(support, candidate.radius, self.limit_f32) {
-                *bound = lower;
+            if let Some(range) = self.swept.bound(support, candidate.radius, self.limit_f32) {
+                *bound = range;
             }
         }
         bounds
@@ -196,8 +206,8 @@ impl Nearest {
 
     /// Bounds in f64, for a query so far away that f32 gives all parts of the model the same one.
     #[cold]
-    fn distant_bounds(&self, found: &[Candidate], bounds: &mut [f32; LANES]) {
-        for (bound, candidate) in bounds.iter_mut().zip(found) {
+    fn distant_bounds(&self, found: &[Candidate], bounds: &mut [[f32; 2]; LANES]) {
+        for ([bound, _], candidate) in bounds.iter_mut().zip(found) {
             let [a, b, c] = candidate.corners.map(|v| v.as_dvec3());
             let radius = f64::from(candidate.radius) * (1.0 + U64);
             let lower = point_triangle(self.p, a, b, c).lower - radius;
@@ -207,8 +217,39 @@ impl Nearest {
         }
     }
 
+    /// Takes a triangle that is not refined. One of the surface waits, until a second one may be
+    /// the nearest as well.
+    fn take(&mut self, candidate: &Candidate, [lower, upper]: [f32; 2]) {
+        let waits = self.defers && candidate.fate == Fate::Surface && upper < f32::INFINITY;
+        if !waits {
+            self.settle(candidate);
+            return;
+        }
+        self.limit_f32 = lesser(self.limit_f32, upper);
+        self.settle_waiting();
+        if lower <= self.limit_f32 && !self.is_known(candidate) {
+            self.waiting = Some((*candidate, lower));
+        }
+    }
+
+    /// Evaluates the triangle that waits, if it may be the nearest.
+    fn settle_waiting(&mut self) {
+        if let Some((candidate, lower)) = self.waiting.take()
+            && lower <= self.limit_f32
+        {
+            self.settle(&candidate);
+        }
+    }
+
     /// Evaluates a triangle that is not refined, unless its closest point is known.
-    fn take(&mut self, candidate: &Candidate) {
+    fn settle(&mut self, candidate: &Candidate) {
+        if !self.is_known(candidate) {
+            self.evaluate(candidate);
+        }
+    }
+
+    /// Whether the closest point of a triangle is known. Then the triangle needs no evaluation.
+    fn is_known(&mut self, candidate: &Candidate) -> bool {
         if SOFT_DOUBLE
             && candidate.fate == Fate::Surface
             && candidate.radius == 0.0
@@ -218,9 +259,9 @@ impl Nearest {
             self.exact += 1;
             let instance = candidate.instance;
             self.offer(Best { distance_sq, instance, corners: [point; 3], weights: [0.0; 2] });
-        } else {
-            self.evaluate(candidate);
+            return true;
         }
+        false
     }
 
     /// A triangle may be the nearest so far.
@@ -249,8 +290,11 @@ impl Nearest {
             Fate::Cut | Fate::Splits => d.upper + self.hull_to_surface,
         };
         if upper < self.upper {
+            // A triangle that waits may have set a lower limit.
+            let known = self.limit_f32;
             self.upper = upper;
             self.set_limit(upper);
+            self.limit_f32 = lesser(self.limit_f32, known);
         }
         let &Candidate { corners, instance, .. } = candidate;
         self.offer(Best { distance_sq: d.distance_sq, instance, corners, weights: [d.u, d.v] });
@@ -358,7 +402,7 @@ impl Visit for Nearest {
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
         let mut bounds = self.bounds(found);
-        for (bound, candidate) in bounds.iter_mut().zip(found) {
+        for ([bound, _], candidate) in bounds.iter_mut().zip(found) {
             if candidate.fate != Fate::Splits || *bound == f32::INFINITY {
                 continue;
             }
@@ -373,7 +417,7 @@ impl Visit for Nearest {
         // Nearest first: each evaluation may spare others, and on a Cortex-M f64 runs in software.
         for _ in 0..found.len() {
             let mut nearest = (f32::INFINITY, 0);
-            for (lane, bound) in bounds.iter().enumerate() {
+            for (lane, [bound, _]) in bounds.iter().enumerate() {
                 if *bound < nearest.0 {
                     nearest = (*bound, lane);
                 }
@@ -382,9 +426,10 @@ impl Visit for Nearest {
             if bound > self.limit_f32 || bound == f32::INFINITY {
                 break;
             }
-            bounds[lane % LANES] = f32::INFINITY;
+            let range = bounds[lane % LANES];
+            bounds[lane % LANES] = [f32::INFINITY; 2];
             if let Some(candidate) = found.get(lane) {
-                self.take(candidate);
+                self.take(candidate, range);
             }
         }
     }
@@ -402,7 +447,7 @@ fn search<'a, G: Geometry<'a>>(
     let mut spared = f64::INFINITY;
     front.begin(nearest)?;
     while let Some(Taken { entry, least }) =
-        front.queue.take(nearest.next.take(), nearest.best.is_none())
+        front.queue.take(nearest.next.take(), nearest.best.is_none() && nearest.waiting.is_none())
     {
         let key = f64::from(entry.key());
         let instance = Instance(entry.node());
@@ -420,12 +465,14 @@ fn search<'a, G: Geometry<'a>>(
             continue;
         }
         if front.is_spent() {
+            nearest.settle_waiting();
             let waiting = f64::from(front.queue.lower());
             nearest.lower = nearest.lower.min(spared).min(key).min(waiting);
             return Some(Ended::Steps);
         }
         front.open(instance, nearest)?;
     }
+    nearest.settle_waiting();
     let dropped = f64::from(front.queue.dropped());
     nearest.lower = nearest.lower.min(spared).min(dropped);
     // Beyond a cut, a triangle that was evaluated later may have widened the interval again.

@@ -49,12 +49,16 @@ pub const POSE_DEFECT: f64 = 0.25;
 /// guarantee. A larger one opens a few more nodes.
 pub const POINT_BOUND: f32 = 16.0;
 
+/// Largest sum of a point's barycentric coordinates in f32 with which it is called one of the
+/// triangle. Its share of [`POINT_BOUND`] is proved (§2).
+pub const WITHIN: f32 = 1.0 + 8.0 * U32;
+
 /// Rounding of the f32 lower bound of a segment–triangle distance, in the same units; the query's
 /// sum of norms holds two of them. Proved: 31 (§3).
 pub const SEGMENT_BOUND: f32 = 48.0;
 
 /// Rounding of the f32 test whether a segment misses a box, in units of [`U32`] times the 1-norms of
-/// all corners and ends. Proved: 10.1 (§3). A larger value leaves more segments to f64.
+/// all corners and ends. Proved: 10 (§3). A larger value leaves more segments to f64.
 pub const BOX_MISSED: f32 = 16.0;
 
 /// Rounding of the f64 point–triangle interval, in units of [`U64`] times the 1-norms of `ap`,
