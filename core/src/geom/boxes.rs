@@ -80,10 +80,10 @@ impl Aabb {
         let doubt = 16.0 * U64 * magnitude;
         let (mut t_start, mut t_end) = (0f64, 1f64);
         for axis in 0..3 {
-            let (from, step, lo, hi) = match axis {
-                0 => (a.x, d.x, self.min.x, self.max.x),
-                1 => (a.y, d.y, self.min.y, self.max.y),
-                _ => (a.z, d.z, self.min.z, self.max.z),
+            let (from, to, step, lo, hi) = match axis {
+                0 => (a.x, b.x, d.x, self.min.x, self.max.x),
+                1 => (a.y, b.y, d.y, self.min.y, self.max.y),
+                _ => (a.z, b.z, d.z, self.min.z, self.max.z),
             };
             let (lo, hi) = (f64::from(lo) - doubt, f64::from(hi) + doubt);
             if step == 0.0 {
@@ -92,10 +92,16 @@ impl Aabb {
                 }
                 continue;
             }
-            let (t0, t1) = ((lo - from) / step, (hi - from) / step);
-            let (near, far) = if t0 <= t1 { (t0, t1) } else { (t1, t0) };
-            t_start = t_start.max(near - 8.0 * U64 * near.abs());
-            t_end = t_end.min(far + 8.0 * U64 * far.abs());
+            let rises = step > 0.0;
+            // An end between the planes cuts nothing off. Boards spare two quotients in f64.
+            if if rises { from < lo } else { from > hi } {
+                let near = (if rises { lo } else { hi } - from) / step;
+                t_start = t_start.max(near - 8.0 * U64 * near.abs());
+            }
+            if if rises { to > hi } else { to < lo } {
+                let far = (if rises { hi } else { lo } - from) / step;
+                t_end = t_end.min(far + 8.0 * U64 * far.abs());
+            }
         }
         if t_start > t_end {
             return None;
