@@ -49,8 +49,8 @@ impl Lanes {
         let mut out = [Support::default(); LANES];
         for (lane, slot) in out.iter_mut().enumerate().take(count) {
             let [ax, ay, az, bx, by, bz, cx, cy, cz] = self.t.map(|row| row[lane % LANES]);
-            *slot =
-                Support::new(Vec3::new(ax, ay, az), Vec3::new(bx, by, bz), Vec3::new(cx, cy, cz));
+            let corners = [[ax, ay, az], [bx, by, bz], [cx, cy, cz]];
+            *slot = Support::new(corners.map(|corner| Vec3::from_array(corner).into()));
         }
         out
     }
@@ -141,13 +141,13 @@ mod tests {
                 rows.set(lane, *triangle);
             }
             let lanes = in_lanes(&rows.t);
-            for ([a, b, c], lane) in triangles.iter().zip(lanes) {
-                let scalar = Support::new(*a, *b, *c);
+            for (triangle, lane) in triangles.iter().zip(lanes) {
+                let scalar = Support::new(triangle.map(Into::into));
                 // `+ 0.0` makes the two zeros one: they compare equal everywhere.
                 let bits = |s: Support| {
                     ((s.along + 0.0).to_bits(), (s.length_sq + 0.0).to_bits(), s.is_reached)
                 };
-                assert_eq!(bits(scalar), bits(lane), "{a} {b} {c}");
+                assert_eq!(bits(scalar), bits(lane), "{triangle:?}");
             }
         }
     }

@@ -7,6 +7,7 @@ mod lanes;
 mod point_segment;
 mod point_triangle;
 mod pose;
+mod real_vector;
 mod segment_triangle;
 mod solid_angle;
 mod support;

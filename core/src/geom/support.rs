@@ -1,8 +1,8 @@
 //! The plane that supports a triangle and faces the origin.
 
-use crate::num::greater;
+use super::real_vector::RealVector;
 use crate::num::tolerance::WITHIN;
-use glam::Vec3;
+use crate::num::{Real, greater};
 
 /// The plane that supports a triangle and faces the origin.
 #[derive(Clone, Copy, Debug, Default)]
@@ -16,19 +16,19 @@ pub struct Support {
     pub is_reached: bool,
 }
 
+const ZERO: Real = Real(0.0);
+
 impl Support {
     /// Of the triangle `a b c`.
     #[inline(always)]
-    pub fn new(a: Vec3, b: Vec3, c: Vec3) -> Self {
+    pub fn new([a, b, c]: [RealVector; 3]) -> Self {
         let ap = -a;
         let ab = b - a;
         let ac = c - a;
         let (r, is_reached) = residual(ap, ab, ac);
-        Support {
-            along: r.dot(ap) - greater(greater(0.0, r.dot(ab)), r.dot(ac)),
-            length_sq: r.dot(r),
-            is_reached,
-        }
+        let Real(along) = r.dot(ap) - greater(greater(ZERO, r.dot(ab)), r.dot(ac));
+        let Real(length_sq) = r.dot(r);
+        Support { along, length_sq, is_reached }
     }
 }
 
@@ -36,45 +36,48 @@ impl Support {
 /// one of the triangle. Any finite result is safe as a direction, so no branch needs a proof.
 /// `lanes` evaluates the same formulas.
 #[inline(always)]
-fn residual(ap: Vec3, ab: Vec3, ac: Vec3) -> (Vec3, bool) {
+fn residual(ap: RealVector, ab: RealVector, ac: RealVector) -> (RealVector, bool) {
+    let inverse = |x: Real| Real(1.0 / x.0);
     let d1 = ab.dot(ap);
     let d2 = ac.dot(ap);
-    if d1 <= 0.0 && d2 <= 0.0 {
+    if d1 <= ZERO && d2 <= ZERO {
         return (ap, true);
     }
     let aa = ab.dot(ab);
     let bb = ab.dot(ac);
     let d3 = d1 - aa;
     let d4 = d2 - bb;
-    if d3 >= 0.0 && d4 <= d3 {
+    if d3 >= ZERO && d4 <= d3 {
         return (ap - ab, true);
     }
     let vc = d1 * d4 - d3 * d2;
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 && aa > 0.0 {
-        return (ap - ab * (d1 * (1.0 / aa)), true);
+    if vc <= ZERO && d1 >= ZERO && d3 <= ZERO && aa > ZERO {
+        return (ap - ab * (d1 * inverse(aa)), true);
     }
     let cc = ac.dot(ac);
     let d5 = d1 - bb;
     let d6 = d2 - cc;
-    if d6 >= 0.0 && d5 <= d6 {
+    if d6 >= ZERO && d5 <= d6 {
         return (ap - ac, true);
     }
     let vb = d5 * d2 - d1 * d6;
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 && cc > 0.0 {
-        return (ap - ac * (d2 * (1.0 / cc)), true);
+    if vb <= ZERO && d2 >= ZERO && d6 <= ZERO && cc > ZERO {
+        return (ap - ac * (d2 * inverse(cc)), true);
     }
     let va = d3 * d6 - d5 * d4;
     let e4 = d4 - d3;
     let e5 = d5 - d6;
-    if va <= 0.0 && e4 >= 0.0 && e5 >= 0.0 && e4 + e5 > 0.0 {
-        let v = e4 * (1.0 / (e4 + e5));
-        return (ap - ab * (1.0 - v) - ac * v, true);
+    if va <= ZERO && e4 >= ZERO && e5 >= ZERO && e4 + e5 > ZERO {
+        let v = e4 * inverse(e4 + e5);
+        return (ap - ab * (Real(1.0) - v) - ac * v, true);
     }
     let sum = va + vb + vc;
-    if sum <= 0.0 {
+    if sum <= ZERO {
         return (ap, true);
     }
-    let inverse = 1.0 / sum;
+    let inverse = inverse(sum);
     let (u, v) = (vb * inverse, vc * inverse);
-    (ap - ab * u - ac * v, u >= 0.0 && v >= 0.0 && u + v <= WITHIN)
+    // NaN is not reached.
+    let is_reached = u.0 >= 0.0 && v.0 >= 0.0 && (u + v).0 <= WITHIN;
+    (ap - ab * u - ac * v, is_reached)
 }

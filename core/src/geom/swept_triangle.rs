@@ -7,12 +7,13 @@
 
 use super::boxes::{Aabb, Clipped};
 use super::lanes::Lanes;
+use super::real_vector::RealVector;
 use super::support::Support;
 use crate::num::tolerance::{
     NEAR_SQUARES, POINT_BOUND, SEGMENT_BOUND, SQUARED_SLACK, TRUSTED_DIRECTION_SQ, U32, U64,
     UNDERFLOW,
 };
-use crate::num::{greater, lesser};
+use crate::num::{Real, greater, lesser};
 use glam::Vec3;
 
 /// A lower bound of the distance from the origin to the triangle `a b c`, exact up to a
@@ -20,7 +21,7 @@ use glam::Vec3;
 /// trust.
 #[inline(always)]
 pub fn direction_bound(a: Vec3, b: Vec3, c: Vec3) -> f32 {
-    let Support { along, length_sq, .. } = Support::new(a, b, c);
+    let Support { along, length_sq, .. } = Support::new([a, b, c].map(RealVector::from));
     if length_sq < TRUSTED_DIRECTION_SQ { 0.0 } else { along / libm::sqrtf(length_sq) }
 }
 
@@ -50,8 +51,10 @@ impl SweptPoint {
     /// negative; and an upper bound of that to the triangle, infinite where f32 cannot tell. `None`
     /// if the former distance certainly exceeds `limit`, which needs no square root.
     #[inline(always)]
-    pub fn range(&self, [a, b, c]: [Vec3; 3], radius: f32, limit: f32) -> Option<[f32; 2]> {
-        self.bound(Support::new(a - self.point, b - self.point, c - self.point), radius, limit)
+    pub fn range(&self, corners: [Vec3; 3], radius: f32, limit: f32) -> Option<[f32; 2]> {
+        let point = RealVector::from(self.point);
+        let support = Support::new(corners.map(|corner| RealVector::from(corner) - point));
+        self.bound(support, radius, limit)
     }
 
     /// Puts a triangle, seen from the point, into a lane.
@@ -64,17 +67,19 @@ impl SweptPoint {
     #[inline(always)]
     pub fn bound(&self, support: Support, radius: f32, limit: f32) -> Option<[f32; 2]> {
         let Support { along, length_sq, is_reached } = support;
-        if length_sq < TRUSTED_DIRECTION_SQ {
+        if Real(length_sq) < Real(TRUSTED_DIRECTION_SQ) {
             return Some([0.0, f32::INFINITY]);
         }
-        let inside = radius + self.margin;
-        let beyond = limit + inside;
-        if along > 0.0 && along * along * SQUARED_SLACK > beyond * beyond * length_sq {
+        let inside = Real(radius) + Real(self.margin);
+        let beyond = Real(limit) + inside;
+        let squared = Real(along) * Real(along) * Real(SQUARED_SLACK);
+        if along > 0.0 && squared > beyond * beyond * Real(length_sq) {
             return None;
         }
         let length = libm::sqrtf(length_sq);
         let upper = if is_reached { length + self.margin } else { f32::INFINITY };
-        Some([greater(0.0, along / length - inside), upper])
+        let Real(lower) = Real(along / length) - inside;
+        Some([greater(0.0, lower), upper])
     }
 }
 
@@ -127,23 +132,27 @@ impl SweptSegment {
     /// unclipped segment below `t`. `None` only if it certainly does not.
     #[inline(always)]
     pub fn enter(&self, corners: [Vec3; 3], radius: f32) -> Option<f32> {
-        let max_distance = radius + self.margin;
-        let [a, b, c] = corners.map(|corner| corner - self.start);
-        let [sa, sb, sc] = [a, b, c].map(|e| e.dot(self.direction) * self.inverse_sq);
-        let slack = max_distance * self.length * self.inverse_sq;
+        let [start, direction] = [self.start, self.direction].map(RealVector::from);
+        let inverse_sq = Real(self.inverse_sq);
+        let max_distance = Real(radius) + Real(self.margin);
+        let seen = corners.map(|corner| RealVector::from(corner) - start);
+        let along = seen.map(|e| e.dot(direction) * inverse_sq);
+        let [sa, sb, sc] = along;
+        let slack = max_distance * Real(self.length) * inverse_sq;
         let first = lesser(lesser(sa, sb), sc) - slack;
         let last = greater(greater(sa, sb), sc) + slack;
-        if first > 1.0 || last < 0.0 {
+        if first > Real(1.0) || last < Real(0.0) {
             return None;
         }
         // Seen along the segment, the distance of its line and the triangle is the distance of a
         // point and a triangle.
-        let across =
-            Support::new(a - self.direction * sa, b - self.direction * sb, c - self.direction * sc);
-        if is_beyond(across, max_distance) {
+        let [a, b, c] = seen;
+        let across = Support::new([a - direction * sa, b - direction * sb, c - direction * sc]);
+        if is_beyond(across, max_distance.0) {
             return None;
         }
-        Some(self.t_start + greater(first, 0.0) * self.t_scale - 16.0 * U32)
+        let enters = greater(first, Real(0.0)) * Real(self.t_scale);
+        Some((Real(self.t_start) + enters - Real(16.0 * U32)).0)
     }
 }
 
@@ -154,12 +163,13 @@ fn is_beyond(Support { along, length_sq, .. }: Support, limit: f32) -> bool {
     if along <= 0.0 || length_sq < TRUSTED_DIRECTION_SQ {
         return false;
     }
-    let (reached, allowed) = (along * along, limit * (limit * length_sq));
-    if allowed > TRUSTED_DIRECTION_SQ {
-        if reached > allowed * NEAR_SQUARES {
+    let reached = Real(along) * Real(along);
+    let allowed = Real(limit) * (Real(limit) * Real(length_sq));
+    if allowed > Real(TRUSTED_DIRECTION_SQ) {
+        if reached > allowed * Real(NEAR_SQUARES) {
             return true;
         }
-        if reached * NEAR_SQUARES < allowed {
+        if reached * Real(NEAR_SQUARES) < allowed {
             return false;
         }
     }

@@ -2,6 +2,7 @@
 
 mod order;
 mod radius;
+mod real;
 mod round;
 mod sqrt;
 pub mod tolerance;
@@ -9,6 +10,7 @@ mod truncated;
 
 pub use order::{greater, lesser};
 pub use radius::{Radius8, Radius16};
+pub use real::Real;
 pub use round::{down_to_f32, exp2, sum_down, sum_up, two_sum, up_to_f32};
 pub use sqrt::{sqrt_approx, sqrt_up};
 pub use truncated::truncated;

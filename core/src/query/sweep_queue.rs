@@ -9,11 +9,13 @@
 //! early.
 
 use super::scratch::ScratchEntry;
+use crate::num::Real;
 
 /// Total order by key, then node, so that the order of visits does not depend on the heap's
 /// history.
 pub(crate) fn before(a: &ScratchEntry, b: &ScratchEntry) -> bool {
-    a.key() < b.key() || (a.key() == b.key() && a.node() < b.node())
+    let [x, y] = [a, b].map(|entry| Real(entry.key()));
+    x < y || (x == y && a.node() < b.node())
 }
 
 /// An entry that left the queue.
