@@ -22,6 +22,7 @@ pub use lanes::{LANES, Lanes};
 pub use point_segment::{CapsulePoint, PointSegment, point_segment};
 pub use point_triangle::{PointTriangle, point_triangle};
 pub use pose::Pose;
+pub(crate) use real_vector::RealVector;
 pub use segment_triangle::{SegmentTriangle, comes_within, segment_triangle};
 pub use solid_angle::{SeenCorner, SolidAngles};
 pub use support::Support;

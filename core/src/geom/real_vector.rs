@@ -2,7 +2,7 @@
 //! [`Real`]. Elsewhere it is that of the processor.
 
 use crate::num::Real;
-use core::ops::{Mul, Neg, Sub};
+use core::ops::{Add, Mul, Neg, Sub};
 use glam::Vec3;
 
 /// A vector, with the operations of [`Vec3`] in the same order.
@@ -19,12 +19,47 @@ impl RealVector {
     pub fn dot(self, other: RealVector) -> Real {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
+
+    /// The cross product.
+    #[inline(always)]
+    pub fn cross(self, other: RealVector) -> RealVector {
+        let ([a, b, c], [x, y, z]) = (self.to_array(), other.to_array());
+        RealVector { x: b * z - y * c, y: c * x - z * a, z: a * y - x * b }
+    }
+
+    /// Sum of absolute coordinates: an upper bound of the length.
+    #[inline(always)]
+    pub fn norm_1(self) -> Real {
+        let [x, y, z] = self.to_array().map(|x| Real(x.0.abs()));
+        x + y + z
+    }
+
+    #[inline(always)]
+    fn to_array(self) -> [Real; 3] {
+        [self.x, self.y, self.z]
+    }
 }
 
 impl From<Vec3> for RealVector {
     #[inline(always)]
     fn from(vector: Vec3) -> RealVector {
         RealVector { x: Real(vector.x), y: Real(vector.y), z: Real(vector.z) }
+    }
+}
+
+impl From<RealVector> for Vec3 {
+    #[inline(always)]
+    fn from(RealVector { x, y, z }: RealVector) -> Vec3 {
+        Vec3::new(x.0, y.0, z.0)
+    }
+}
+
+impl Add for RealVector {
+    type Output = RealVector;
+
+    #[inline(always)]
+    fn add(self, other: RealVector) -> RealVector {
+        RealVector { x: self.x + other.x, y: self.y + other.y, z: self.z + other.z }
     }
 }
 

@@ -25,24 +25,25 @@ impl Support {
         let ap = -a;
         let ab = b - a;
         let ac = c - a;
-        let (r, is_reached) = residual(ap, ab, ac);
+        let (d1, d2) = (ab.dot(ap), ac.dot(ap));
+        if d1 <= ZERO && d2 <= ZERO {
+            // The direction is the way from a corner. Its products are known.
+            let Real(length_sq) = ap.dot(ap);
+            return Support { along: length_sq, length_sq, is_reached: true };
+        }
+        let (r, is_reached) = residual([ap, ab, ac], [d1, d2]);
         let Real(along) = r.dot(ap) - greater(greater(ZERO, r.dot(ab)), r.dot(ac));
         let Real(length_sq) = r.dot(r);
         Support { along, length_sq, is_reached }
     }
 }
 
-/// Vector from the (approximately) closest point to the query, and whether that point certainly is
-/// one of the triangle. Any finite result is safe as a direction, so no branch needs a proof.
+/// Vector from the (approximately) closest point, not `a`, to the query, and whether that point
+/// certainly is one of the triangle. Any finite result is safe as a direction, so no branch needs a proof.
 /// `lanes` evaluates the same formulas.
 #[inline(always)]
-fn residual(ap: RealVector, ab: RealVector, ac: RealVector) -> (RealVector, bool) {
+fn residual([ap, ab, ac]: [RealVector; 3], [d1, d2]: [Real; 2]) -> (RealVector, bool) {
     let inverse = |x: Real| Real(1.0 / x.0);
-    let d1 = ab.dot(ap);
-    let d2 = ac.dot(ap);
-    if d1 <= ZERO && d2 <= ZERO {
-        return (ap, true);
-    }
     let aa = ab.dot(ab);
     let bb = ab.dot(ac);
     let d3 = d1 - aa;

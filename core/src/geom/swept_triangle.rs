@@ -77,7 +77,7 @@ impl SweptPoint {
             return None;
         }
         let length = libm::sqrtf(length_sq);
-        let upper = if is_reached { length + self.margin } else { f32::INFINITY };
+        let upper = if is_reached { (Real(length) + Real(self.margin)).0 } else { f32::INFINITY };
         let Real(lower) = Real(along / length) - inside;
         Some([greater(0.0, lower), upper])
     }

@@ -9,8 +9,9 @@
 use super::closest_point;
 use super::format::{DeformableHull, Hull, Key, VertIdx};
 use super::geometry::Geometry;
-use crate::geom::Aabb;
+use crate::geom::{Aabb, RealVector};
 use crate::num::tolerance::{KEY_RADIUS, KEY_VERTEX, U32, VERTEX_UNDERFLOW};
+use crate::num::{Real, greater};
 use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry};
 use glam::Vec3;
 
@@ -115,7 +116,8 @@ impl FrameHull<'_> {
         if self.between == 0.0 {
             return Some(from);
         }
-        Some(from + (at(after)? - from) * self.between)
+        let [from, to] = [from, at(after)?].map(RealVector::from);
+        Some((from + (to - from) * Real(self.between)).into())
     }
 
     #[inline(always)]
@@ -130,12 +132,14 @@ impl FrameHull<'_> {
             return Some(from);
         }
         let to = at(after)?;
-        let larger = from.max(to);
+        let larger = greater(from, to);
         // A difference of infinite radii is not a number.
         if larger == f32::INFINITY {
             return Some(larger);
         }
-        Some(from + (to - from) * self.between + KEY_RADIUS * U32 * larger)
+        let [start, end] = [from, to].map(Real);
+        let between = start + (end - start) * Real(self.between);
+        Some((between + Real(KEY_RADIUS * U32) * Real(larger)).0)
     }
 }
 

@@ -15,9 +15,9 @@
 use super::closest_point;
 use super::format::{DeformableHull, Hull, SplitIdx, VertIdx};
 use super::geometry::Geometry;
-use crate::geom::Aabb;
+use crate::geom::{Aabb, RealVector};
 use crate::num::tolerance::{DEFORM_DOMAIN, DISPLACEMENT, LENGTH_UP, U32, VERTEX_UNDERFLOW};
-use crate::num::{Radius16, exp2, sqrt_up};
+use crate::num::{Radius16, Real, exp2, greater, lesser, sqrt_up};
 use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry};
 use glam::Vec3;
 
@@ -116,6 +116,7 @@ impl MovedHull<'_, '_> {
         let model = self.model;
         let hull = model.rest();
         let inverse = exp2(-hull.header().scale_exponent);
+        let short = inverse as f32;
         let mut rank = 0;
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for (index, record) in (0..).zip(self.vertices.iter_mut()) {
@@ -124,14 +125,19 @@ impl MovedHull<'_, '_> {
             }
             let vertex = model.number(rank).ok_or(QueryError::Unchecked)?;
             rank += 1;
-            // Exact, but for underflow.
-            let position = place(vertex).map(|x| (f64::from(x) * inverse) as f32);
+            // Exact, but for underflow. In f64 it has the same bits.
+            let position = place(vertex).map(|x| {
+                if short.is_normal() {
+                    (Real(x) * Real(short)).0
+                } else {
+                    (f64::from(x) * inverse) as f32
+                }
+            });
             if !position.iter().all(|x| x.abs() < DEFORM_DOMAIN) {
                 return Err(QueryError::VertexOutOfDomain { vertex });
             }
             *record = MovedVertex { position, spread: 0, reach: 0 };
-            low = low.min(record.position());
-            high = high.max(record.position());
+            (low, high) = grown([low, high], record.position());
         }
         self.surface_error = VERTEX_UNDERFLOW;
         self.vertex_box = Aabb { min: low, max: high };
@@ -163,27 +169,25 @@ impl MovedHull<'_, '_> {
             let parts = [hull.brought_by(split, 0), hull.brought_by(split, 1)];
             let [o, d] = [*self.record(parts[0])?, *self.record(parts[1])?];
             let [rest, rest_o, rest_d] = hull.positions([whole, parts[0], parts[1]])?;
-            let [at_o, at_d] = [o.position(), d.position()];
+            let [at_o, at_d] = [o.position(), d.position()].map(RealVector::from);
+            let [rest, rest_o, rest_d] = [rest, rest_o, rest_d].map(RealVector::from);
             let (by_o, by_d) = (at_o - rest_o, at_d - rest_d);
             let between = by_d - by_o;
             let position = rest + by_o + between * fraction(between, d.spread() - o.spread());
-            low = low.min(position);
-            high = high.max(position);
+            (low, high) = grown([low, high], position.into());
             let (way_o, way_d) = (at_o - position, at_d - position);
             let (off_o, off_d) = (way_o - (rest_o - rest), way_d - (rest_d - rest));
-            let squares = [way_o, way_d, off_o, off_d].map(|way| way.dot(way));
-            let [way_o, way_d, off_o, off_d] = sqrt_up(squares);
-            let reach = greater_of(o.reach() + way_o, d.reach() + way_d);
-            let spread = greater_of(
-                o.spread() + off_o + rounding(way_o),
-                d.spread() + off_d + rounding(way_d),
+            let squares = [way_o, way_d, off_o, off_d].map(|way| way.dot(way).0);
+            let [way_o, way_d, off_o, off_d] = sqrt_up(squares).map(Real);
+            let reach = greater(Real(o.reach()) + way_o, Real(d.reach()) + way_d);
+            let spread = greater(
+                Real(o.spread()) + off_o + rounding(way_o),
+                Real(d.spread()) + off_d + rounding(way_d),
             );
+            let [spread, reach] =
+                [spread, reach].map(|x| Radius16::round_up_f32((x * Real(LENGTH_UP)).0).0);
             let record = self.vertices.get_mut(whole.usize())?;
-            *record = MovedVertex {
-                position: position.to_array(),
-                spread: Radius16::round_up_f32(spread * LENGTH_UP).0,
-                reach: Radius16::round_up_f32(reach * LENGTH_UP).0,
-            };
+            *record = MovedVertex { position: Vec3::from(position).to_array(), spread, reach };
         }
         self.vertex_box = Aabb { min: low, max: high };
         self.has_pose = true;
@@ -230,24 +234,29 @@ impl MovedHull<'_, '_> {
 /// The fraction of the way between two displacements at which the spread is least: the centre of
 /// the smallest ball around two balls. Any fraction is sound.
 #[inline(always)]
-fn fraction(between: Vec3, spreads: f32) -> f32 {
+fn fraction(between: RealVector, spreads: f32) -> Real {
     // Both are of the surface, as most are.
     if spreads == 0.0 {
-        return 0.5;
+        return Real(0.5);
     }
-    let [length] = sqrt_up([between.dot(between)]);
-    (0.5 + 0.5 * spreads / length).clamp(0.0, 1.0)
-}
-
-#[inline(always)]
-fn greater_of(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
+    let [length] = sqrt_up([between.dot(between).0]);
+    Real((0.5 + 0.5 * spreads / length).clamp(0.0, 1.0))
 }
 
 /// Rounding of a difference of displacements, from the moved distance of the two vertices.
 #[inline(always)]
-fn rounding(way: f32) -> f32 {
-    DISPLACEMENT * U32 * way
+fn rounding(way: Real) -> Real {
+    Real(DISPLACEMENT * U32) * way
+}
+
+/// A box that holds a further point.
+#[inline(always)]
+fn grown([low, high]: [Vec3; 2], point: Vec3) -> (Vec3, Vec3) {
+    let each = |pick: fn(Real, Real) -> Real, a: Vec3| {
+        let of = |a: f32, b: f32| pick(Real(a), Real(b)).0;
+        Vec3::new(of(a.x, point.x), of(a.y, point.y), of(a.z, point.z))
+    };
+    (each(lesser, low), each(greater, high))
 }
 
 /// A moved hull as a question sees it.
@@ -283,22 +292,22 @@ impl<'a> Geometry<'a> for Pose<'a, '_> {
         if is_surface {
             return Some((at, 0.0));
         }
-        let [r, s, t] = records.map(|record| record.reach());
-        let reach = greater_of(r, greater_of(s, t));
-        let [r, s, t] = records.map(|record| record.spread());
-        let spread = self.hull.radius(number)? + greater_of(r, greater_of(s, t));
+        let [r, s, t] = records.map(|record| Real(record.reach()));
+        let reach = greater(r, greater(s, t));
+        let [r, s, t] = records.map(|record| Real(record.spread()));
+        let spread = Real(self.hull.radius(number)?) + greater(r, greater(s, t));
         if spread >= reach {
-            return Some((at, reach));
+            return Some((at, reach.0));
         }
-        let [a, b, c] = at;
-        let [rest_a, rest_b, rest_c] = self.hull.positions(corners)?;
+        let [a, b, c] = at.map(RealVector::from);
+        let [rest_a, rest_b, rest_c] = self.hull.positions(corners)?.map(RealVector::from);
         let (ab, bc, ca) = (b - a, c - b, a - c);
         let greatest =
-            |[ab, bc, ca]: [Vec3; 3]| greater_of(ab.dot(ab), greater_of(bc.dot(bc), ca.dot(ca)));
+            |[ab, bc, ca]: [RealVector; 3]| greater(ab.dot(ab), greater(bc.dot(bc), ca.dot(ca))).0;
         let off = [ab - (rest_b - rest_a), bc - (rest_c - rest_b), ca - (rest_a - rest_c)];
-        let [off, way] = sqrt_up([greatest(off), greatest([ab, bc, ca])]);
-        let grown = (spread + off + rounding(way)) * LENGTH_UP;
-        Some((at, if grown < reach { grown } else { reach }))
+        let [off, way] = sqrt_up([greatest(off), greatest([ab, bc, ca])]).map(Real);
+        let grown = (spread + off + rounding(way)) * Real(LENGTH_UP);
+        Some((at, lesser(reach, grown).0))
     }
 
     /// The swept triangle of a group is not known after a motion: its bound is 0.

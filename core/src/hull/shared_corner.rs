@@ -6,7 +6,8 @@
 //! the same bits, and only its number is looked at. Proof: `core/docs/rounding.md` §4, *Shared
 //! corners*.
 
-use crate::geom::PointTriangle;
+use crate::geom::{PointTriangle, RealVector};
+use crate::num::Real;
 use crate::num::tolerance::{CORNER_AREA, CORNER_DOUBT, CORNER_SIDE, CORNER_WIDTH};
 use glam::{DVec3, Vec3};
 
@@ -79,11 +80,13 @@ impl SharedCorner {
             1 => (b, a, c),
             _ => (c, a, b),
         };
-        let (way, one, other) = (self.point - corner, one - corner, other - corner);
-        let (way_size, one_size, other_size) = (norm_1(way), norm_1(one), norm_1(other));
-        let doubt = CORNER_DOUBT * self.norms * self.norms;
-        let is_behind =
-            |edge: Vec3, size: f32| way.dot(edge) < -(CORNER_SIDE * way_size * size + doubt);
+        let [point, corner, one, other] = [self.point, corner, one, other].map(RealVector::from);
+        let (way, one, other) = (point - corner, one - corner, other - corner);
+        let (way_size, one_size, other_size) = (way.norm_1(), one.norm_1(), other.norm_1());
+        let doubt = Real(CORNER_DOUBT) * Real(self.norms) * Real(self.norms);
+        let is_behind = |edge: RealVector, size: Real| {
+            way.dot(edge) < -(Real(CORNER_SIDE) * way_size * size + doubt)
+        };
         if !(is_behind(one, one_size) && is_behind(other, other_size)) {
             return false;
         }
@@ -92,7 +95,7 @@ impl SharedCorner {
         if place == 2 {
             let normal = one.cross(other);
             let (product, sum) = (one_size * other_size, one_size + other_size);
-            if normal.dot(normal) <= CORNER_AREA * product * product + doubt * sum * sum {
+            if normal.dot(normal) <= Real(CORNER_AREA) * product * product + doubt * sum * sum {
                 return false;
             }
         }
@@ -129,11 +132,6 @@ const FARTHEST: f32 = 32.0;
 #[inline(always)]
 fn is_multiple(x: f32, limit: f32) -> bool {
     x.to_bits().wrapping_sub(LEAST.to_bits()) < limit.to_bits() - LEAST.to_bits()
-}
-
-#[inline(always)]
-fn norm_1(x: Vec3) -> f32 {
-    x.x.abs() + x.y.abs() + x.z.abs()
 }
 
 #[cfg(test)]

@@ -236,6 +236,10 @@ pub fn sum(a: f32, b: f32) -> f32 {
 #[cold]
 #[inline(never)]
 fn rare_sum(x: u32, y: u32) -> f32 {
+    if x << 1 == 0 {
+        // Both are zero. Machined parts have many.
+        return f32::from_bits(x & y);
+    }
     let is_zero = exponent(y) == 0 && mantissa(y) == SIGN;
     if is_zero && is_normal(exponent(x)) {
         f32::from_bits(x)

@@ -4,6 +4,7 @@
 //! SSE instruction between AVX ones, which stalls (measured: a tenth of a microsecond a query). For
 //! a bound, two units of rounding do not matter.
 
+use super::Real;
 use super::tolerance::{ROOT_UP, SQUARE_FLOOR};
 
 /// Square root of `x ≥ 0`, off by less than 2 units of f32 relative; 0 for 0, infinity for
@@ -40,17 +41,17 @@ pub fn sqrt_approx(x: f32) -> f32 {
 /// Two steps of the same iteration: they end below the reciprocal root, by less than 6e-6 of it.
 #[inline(always)]
 pub fn sqrt_up<const N: usize>(x: [f32; N]) -> [f32; N] {
-    let x = x.map(|x| x + SQUARE_FLOOR);
-    let mut y = x.map(|x| f32::from_bits(0x5F37_59DF_u32.wrapping_sub(x.to_bits() >> 1)));
+    let x = x.map(|x| Real(x) + Real(SQUARE_FLOOR));
+    let mut y = x.map(|x| Real(f32::from_bits(0x5F37_59DF_u32.wrapping_sub(x.0.to_bits() >> 1))));
     for _ in 0..2 {
         for (y, x) in y.iter_mut().zip(&x) {
-            *y = *y * (1.5 - 0.5 * x * *y * *y);
+            *y = *y * (Real(1.5) - Real(0.5) * *x * *y * *y);
         }
     }
     for (y, x) in y.iter_mut().zip(&x) {
-        *y = x * *y * ROOT_UP;
+        *y = *x * *y * Real(ROOT_UP);
     }
-    y
+    y.map(|root| root.0)
 }
 
 #[cfg(test)]
