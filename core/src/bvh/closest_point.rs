@@ -296,8 +296,6 @@ struct Best {
     distance_sq: f32,
     node: u32,
     child: u32,
-    /// The leaf's first triangle, once it was asked for; else `u32::MAX`.
-    first: u32,
     lanes: Lanes,
 }
 
@@ -359,13 +357,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
                 low_sq: EVERYTHING_SQ,
                 ..LeafLimit::NONE
             },
-            best: Best {
-                distance_sq: f32::MAX,
-                node: u32::MAX,
-                child: 0,
-                first: u32::MAX,
-                lanes: Lanes::NONE,
-            },
+            best: Best { distance_sq: f32::MAX, node: u32::MAX, child: 0, lanes: Lanes::NONE },
             refine_below: f32::NEG_INFINITY,
             refined_lower_sq: f32::INFINITY,
             tolerant: budget.relative > 0.0 || budget.absolute > 0.0,
@@ -401,11 +393,13 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
     #[cfg_attr(meshsweep_small, inline(never))]
     #[cfg_attr(not(meshsweep_small), inline(always))]
     fn improve(&mut self, distance_sq: f32, lanes: &Lanes, [node, child]: [u32; 2]) {
-        let has_best = self.best.node != u32::MAX;
-        if distance_sq == self.best.distance_sq && has_best && self.comes_later([node, child]) {
+        // Of equal distances the first in blob order counts, which is the order of places: see
+        // `TrianglePlace`. Before the first triangle `node` is above all.
+        let comes_later = (node, child) > (self.best.node, self.best.child);
+        if distance_sq == self.best.distance_sq && comes_later {
             return;
         }
-        self.best = Best { distance_sq, node, child, first: u32::MAX, lanes: *lanes };
+        self.best = Best { distance_sq, node, child, lanes: *lanes };
         self.refine_below = self.query.refine_below(distance_sq);
         self.beyond.low_sq = self.refine_below;
         let beyond = self.query.limit(distance_sq);
@@ -419,21 +413,6 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         let limit =
             if self.tolerant { self.tolerant_limit(distance_sq) } else { self.beyond.distance_sq };
         self.limit = self.query.key_limit(limit);
-    }
-
-    /// Whether the triangles of a leaf, a child of a node, have greater numbers than the best one's.
-    #[cold]
-    fn comes_later(&mut self, leaf: [u32; 2]) -> bool {
-        let Best { node, child, first, .. } = self.best;
-        if leaf[0] == node {
-            return leaf[1] > child;
-        }
-        let first_of =
-            |[node, child]: [u32; 2]| TrianglePlace::new(node, child, 0).number(self.tree);
-        if first == u32::MAX {
-            self.best.first = first_of([node, child]).unwrap_or(first);
-        }
-        first_of(leaf) > Some(self.best.first)
     }
 
     /// Refines triangles whose lower bound falls short of the best distance by more than rounding:

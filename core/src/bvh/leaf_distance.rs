@@ -358,6 +358,12 @@ mod narrow {
                 self.distance_sq = near.distance_sq;
                 self.lanes = Lanes::one(lane, near);
             }
+            self.bound(lane, near, low_sq);
+        }
+
+        /// Takes the lower bound of a triangle.
+        #[inline(always)]
+        fn bound(&mut self, lane: usize, near: &Nearness, low_sq: f32) {
             if near.lower_bound_sq < self.lower_bound_sq {
                 self.lower_bound_sq = near.lower_bound_sq;
             }
@@ -506,18 +512,21 @@ mod narrow {
         loop {
             if lanes != 0 {
                 let fan = GridFan::new(leaf, p, centre);
+                let mut reach = fan.fan.reach(within);
                 let mut lane = lowest(lanes);
                 let mut first = fan.spoke(ring.vertex(lane)?);
                 loop {
                     let second = fan.spoke(ring.vertex(lane + 1)?);
-                    if !fan.fan.is_beyond(&first, &second, within) {
+                    if first.along >= reach || second.along >= reach {
                         let (near, residual) = fan.fan.triangle_and_residual(&first, &second);
+                        nearest.bound(lane, &near, limit.low_sq);
+                        // Lanes rise, so the first one of a distance is taken.
                         if near.distance_sq < nearest.distance_sq {
+                            nearest.distance_sq = near.distance_sq;
+                            let Nearness { v, w, .. } = near;
+                            nearest.lanes = Lanes { lane, v, w, way: Way::of_residual(residual) };
                             within = lesser(within, limit_of(near.distance_sq, limit.allowance));
-                        }
-                        nearest.take(lane, &near, limit.low_sq);
-                        if nearest.lanes.lane == lane {
-                            nearest.lanes.way = Way::of_residual(residual);
+                            reach = fan.fan.reach(within);
                         }
                     }
                     lanes &= lanes - 1;

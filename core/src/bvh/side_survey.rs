@@ -58,6 +58,8 @@ impl<'a, 't> Search<'a, 't> {
             band: f32::INFINITY,
             sure_sq: f32::INFINITY,
             nearby: &mut nearby,
+            latest: LeafTriangle::NONE,
+            latest_facing: ViewedSide::Flat,
             waiting: &mut waiting,
             squares: LatestSquares::NONE,
             waits: false,
@@ -111,6 +113,14 @@ impl<'a, 't> Search<'a, 't> {
 impl LeafTriangle {
     pub(super) fn is_none(&self) -> bool {
         self.place == TrianglePlace::NONE
+    }
+
+    /// Whether squares are the same, and the number is greater.
+    #[inline(always)]
+    fn ties_with(&self, other: &LeafTriangle) -> bool {
+        self.distance_sq == other.distance_sq
+            && self.lower_bound_sq == other.lower_bound_sq
+            && self.place < other.place
     }
 
     /// Takes the nearer triangle; of two equally near ones the lesser number.
@@ -278,6 +288,9 @@ struct Collector<'p, 'w> {
     sure_sq: f32,
     /// Triangles that may be the closest.
     nearby: &'w mut Nearby,
+    /// The latest triangle that was taken since the bound fell, if it is certified.
+    latest: LeafTriangle,
+    latest_facing: ViewedSide,
     /// Leaves whose triangles are looked at when the descent is done.
     waiting: &'w mut heapless::Vec<WaitingLeaf, WAITING>,
     /// Squares of their triangles.
@@ -292,6 +305,7 @@ impl Collector<'_, '_> {
     fn bound(&mut self, distance_sq: f32, limit: &mut f32) {
         if distance_sq < self.bound_sq {
             self.bound_sq = distance_sq;
+            self.latest = LeafTriangle::NONE;
             self.nearest.0 = TrianglePlace::NONE;
             self.band = band_of(self.query, distance_sq);
             self.sure_sq = self.band * self.band * (1.0 - 8.0 * U32);
@@ -367,13 +381,17 @@ impl TriangleCollector for Collector<'_, '_> {
             self.bound(here.distance_sq, limit);
             return;
         }
+        // Neighbours often tie at a corner. All but the sides is then as of the one before.
+        let is_tie = self.latest.ties_with(&here);
         // Roots rise with their squares: the least square has the least root.
-        let is_certified = here.is_certified();
-        let mut lower = f32::INFINITY;
-        if !is_certified || here.lower_bound_sq > self.sure_sq {
-            lower = here.lower(leaf, self.query);
-            if lower > self.band {
-                return;
+        let (mut is_certified, mut lower) = (true, f32::INFINITY);
+        if !is_tie {
+            is_certified = here.is_certified();
+            if !is_certified || here.lower_bound_sq > self.sure_sq {
+                lower = here.lower(leaf, self.query);
+                if lower > self.band {
+                    return;
+                }
             }
         }
         let facing = viewed_side(self.query, leaf, here.place.lane(), seen);
@@ -381,6 +399,9 @@ impl TriangleCollector for Collector<'_, '_> {
             Some(tree) => facing.told_by(tree, here.place),
             None => facing,
         };
+        if is_tie && facing == self.latest_facing {
+            return;
+        }
         if facing != ViewedSide::Flat || self.bounding == Bounding::Any {
             self.bound(here.distance_sq, limit);
         }
@@ -389,6 +410,7 @@ impl TriangleCollector for Collector<'_, '_> {
             by_side.improve(here);
         }
         if is_certified {
+            (self.latest, self.latest_facing) = (here, facing);
             if let Some(least_sq) = least_sq.get_mut(facing as usize)
                 && here.lower_bound_sq < *least_sq
             {

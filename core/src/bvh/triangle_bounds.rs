@@ -4,7 +4,9 @@ use super::leaf_limit::LeafLimit;
 use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use crate::bvh::format::{FanLeaf, lanes_of};
-use crate::geom::fan::{Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, refined};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::geom::fan::SpokeTerms;
+use crate::geom::fan::{Nearness, PointFan, lone_triangle, lower_bound, refined};
 use crate::num::tolerance::{CERTIFIED_PART, EVERYTHING_SQ, LEAST_LIMIT};
 use crate::num::{SOFT_FLOAT, greater, sqrt_approx};
 use glam::Vec3;
@@ -56,11 +58,11 @@ pub(crate) fn each_triangle(
     (low, known): (u32, &LeafSquares),
     mut each: impl FnMut(usize, Option<&[Vec3; 3]>, [f32; 2]),
 ) {
-    let lanes = lanes_of(low & !(u32::MAX << (leaf.shape().triangles() & 31)));
+    let low = low & !(u32::MAX << (leaf.shape().triangles() & 31));
     // What follows is a copy of the kernel's loop for each question.
     let is_plain = SOFT_FLOAT || cfg!(meshsweep_small);
     if is_plain || cfg!(any(target_arch = "x86_64", target_arch = "aarch64")) {
-        for lane in lanes {
+        for lane in lanes_of(low) {
             match known.of(lane) {
                 Some([_, lower_bound_sq]) if lower_bound_sq > limit.low_sq => {}
                 Some(squares) if !is_sliver(query, squares) => each(lane, None, squares),
@@ -74,37 +76,46 @@ pub(crate) fn each_triangle(
         }
         return;
     }
-    let turn = leaf.shape().turn();
-    let ring = if leaf.is_f32() { None } else { leaf.grid_ring() };
-    let edge = |vertex: usize, which: usize| match &ring {
-        Some(ring) => ring.spoke(vertex, which),
-        None => leaf.spoke(vertex, which),
-    };
-    // What two neighbours share is computed once.
-    let (mut which, mut next) = (usize::MAX, usize::MAX);
-    let mut fan = PointFan::new(Vec3::ZERO);
-    let mut second = fan.spoke(Vec3::ZERO);
-    for lane in lanes {
-        if which != usize::from(lane >= turn) {
-            which = usize::from(lane >= turn);
-            fan = PointFan::new(query.p - leaf.centre(which));
-            next = usize::MAX;
-        }
-        let first = if next == lane { second } else { fan.spoke(edge(lane, which)) };
-        next = lane + 1;
-        second = fan.spoke(edge(next, which));
-        let seen = [fan.s, first.edge, second.edge];
-        let mut squares = match fan.at_centre(&first, &second) {
-            Some(distance_sq) => [distance_sq; 2],
-            None => of_triangle(fan, first, second),
-        };
-        if squares[1] > limit.low_sq {
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    each_by_fans(query, leaf, limit, low, each);
+}
+
+/// [`each_triangle`] where what two neighbours share is computed once.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[inline(always)]
+fn each_by_fans(
+    query: &PointQuery,
+    leaf: &FanLeaf<'_>,
+    limit: &LeafLimit,
+    low: u32,
+    mut each: impl FnMut(usize, Option<&[Vec3; 3]>, [f32; 2]),
+) {
+    let of_first_fan = !(u32::MAX << (leaf.shape().turn() & 31));
+    for (which, lanes) in [low & of_first_fan, low & !of_first_fan].into_iter().enumerate() {
+        if lanes == 0 {
             continue;
         }
-        if is_sliver(query, squares) {
-            squares = refined_squares(query, seen);
+        let (centre, spoke) = leaf.fan(which);
+        let fan = PointFan::new(query.p - centre);
+        let mut next = usize::MAX;
+        let mut second = fan.spoke(Vec3::ZERO);
+        for lane in lanes_of(lanes) {
+            let first = if next == lane { second } else { fan.spoke(spoke(lane)) };
+            next = lane + 1;
+            second = fan.spoke(spoke(next));
+            let seen = [fan.s, first.edge, second.edge];
+            let mut squares = match fan.at_centre(&first, &second) {
+                Some(distance_sq) => [distance_sq; 2],
+                None => of_triangle(fan, first, second),
+            };
+            if squares[1] > limit.low_sq {
+                continue;
+            }
+            if is_sliver(query, squares) {
+                squares = refined_squares(query, seen);
+            }
+            each(lane, Some(&seen), squares);
         }
-        each(lane, Some(&seen), squares);
     }
 }
 
@@ -120,6 +131,7 @@ fn is_tight(distance_sq: f32, lower_bound_sq: f32) -> bool {
 }
 
 /// By value, so that a loop keeps its own in registers.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 #[inline(always)]
 fn of_triangle(fan: PointFan, first: SpokeTerms, second: SpokeTerms) -> [f32; 2] {
     let near = lone_triangle(&fan, &first, &second);

@@ -373,15 +373,31 @@ impl<'a> FanLeaf<'a> {
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
     #[inline(always)]
     pub fn spokes_from(&self, which: usize) -> impl Fn(usize) -> Vec3 {
+        self.fan(which).1
+    }
+
+    /// Centre `which`, and [`spoke`](Self::spoke) from it for many ring vertices.
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[inline(always)]
+    pub fn fan(&self, which: usize) -> (Vec3, impl Fn(usize) -> Vec3) {
         let ring = if self.is_f32 { None } else { self.full_ring() };
         let [cx, cy, cz] = ring.map_or([0; 3], |ring| ring.centres(self.shape)[which & 1]);
-        move |i| match ring.and_then(|ring| ring.vertex(i)) {
+        let centre = match ring {
+            Some(_) => {
+                let [ox, oy, oz] = self.origin;
+                let sum = |x: i32, ox: i32| x.wrapping_add(ox) as f32;
+                Vec3::new(sum(cx, ox), sum(cy, oy), sum(cz, oz))
+            }
+            None => self.centre(which),
+        };
+        let spoke = move |i| match ring.and_then(|ring| ring.vertex(i)) {
             Some([x, y, z]) => {
                 let less = |x: i32, cx: i32| x.wrapping_sub(cx) as f32;
                 Vec3::new(less(x, cx), less(y, cy), less(z, cz))
             }
             None => self.f32_spoke(i, which),
-        }
+        };
+        (centre, spoke)
     }
 
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]

@@ -167,7 +167,7 @@ fn set_coarse(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPoi
     }
 }
 
-/// Sets the axes of any frame, and its planes in steps that are no finer than a key unit.
+/// Sets the axes of any frame, and cuts its planes to steps that are no finer than a key unit.
 #[cold]
 #[inline(never)]
 fn set_fine(
@@ -178,21 +178,22 @@ fn set_fine(
 ) {
     let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
     let (rows, _) = entries.as_chunks::<3>();
-    let (planes, _) = record.as_chunks::<{ 2 * WIDTH }>();
-    let (cut, _) = words.as_flattened_mut().as_chunks_mut::<{ 2 * WIDTH }>();
+    let (planes, _) = words.as_chunks_mut::<{ 2 * WIDTH / 4 }>();
     let offset = p.relative_to_origin(record);
     // By number: at `opt-level = "s"` so many iterators would be kept in memory.
     for k in 0..3 {
         let exponent = record[boxes::FRAME_EXPONENTS + k];
-        let (axis, cut, planes) = (&mut axes[k], &mut cut[k], &planes[k]);
+        let (axis, planes) = (&mut axes[k], &mut planes[k]);
         let AxisPlace { from, shift } =
             AxisPlace::of(&rows[k], offset, exponent, p.unit_exponent());
         // A byte stands for the high one of sixteen bits. `shift` cuts off the low ones, and the
         // step is the unit of the byte after that.
         let step = 1 << 8u32.saturating_sub(shift);
         *axis = AxisPlanes::new(from, step, (0xFF00 >> shift) - MAX_DISTANCE);
-        for (cut, plane) in cut.iter_mut().zip(planes) {
-            *cut = plane >> (shift.saturating_sub(8) & 7);
+        let cut = shift.saturating_sub(8) & 7;
+        let bytes = 0x0101_0101 * (0xFF >> cut);
+        for plane in planes {
+            *plane = (u32::from_le_bytes(*plane) >> cut & bytes).to_le_bytes();
         }
     }
 }
@@ -202,19 +203,19 @@ fn set_fine(
 fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH] {
     let mut squares = [ABSENT; WIDTH];
     let (mut axes, mut fine);
-    let words: &[[u8; 4]] = if let Some(steps) = coarse_steps(record, p) {
+    let (words, _) = record.as_chunks::<4>();
+    let Some(mut words) = words.first_chunk::<PLANE_WORDS>() else { return squares };
+    if let Some(steps) = coarse_steps(record, p) {
         axes = [AxisPlanes::NONE; 3];
         set_coarse(&mut axes, record, p, steps);
-        record.as_chunks::<4>().0
     } else {
         axes = [AxisPlanes::NONE; 3];
-        fine = [[0; 4]; PLANE_WORDS];
+        fine = *words;
         set_fine(&mut axes, &mut fine, record, p);
-        &fine
-    };
+        words = &fine;
+    }
     let (fours, _) = squares.as_chunks_mut::<4>();
     if let [first, second] = fours
-        && let Some(words) = words.first_chunk::<PLANE_WORDS>()
         && let Some(of_first) = words.first_chunk()
         && let Some(of_second) = words.last_chunk()
     {

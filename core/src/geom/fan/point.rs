@@ -29,7 +29,7 @@ pub struct SpokeTerms {
     /// From the centre to the ring vertex.
     pub edge: Vec3,
     /// `s · edge`.
-    along: f32,
+    pub(crate) along: f32,
     /// `edge · edge`.
     length_sq: f32,
 }
@@ -61,12 +61,16 @@ impl PointFan {
         SpokeTerms { edge, along: dot(edge, self.s), length_sq: dot(edge, edge) }
     }
 
-    /// Whether the triangle between two spokes lies beyond a squared limit, by the supporting plane
-    /// across the way to its centre. Three products. The limit must allow for rounding already.
+    /// How far a spoke of a triangle reaches at most, in [`along`](SpokeTerms::along), if the
+    /// triangle lies beyond a squared limit by the supporting plane across the way to its centre.
+    /// Minus infinity if the centre itself does not. The limit must allow for rounding already.
+    ///
+    /// No root: (|s|² − s·e)/|s| ≥ (|s|² + L²)/(2|s|) ≥ L. Proof: `core/docs/rounding.md` §8, "Left
+    /// out".
     #[inline(always)]
-    pub fn is_beyond(&self, a: &SpokeTerms, b: &SpokeTerms, limit: f32) -> bool {
-        let least = self.centre_sq - greater(greater(0.0, a.along), b.along);
-        least > 0.0 && least * least > limit * self.centre_sq
+    pub fn reach(&self, limit: f32) -> f32 {
+        let reach = 0.5 * (self.centre_sq - limit);
+        if reach > 0.0 { reach } else { f32::NEG_INFINITY }
     }
 
     /// The squared distance if the centre is the closest point of the triangle between two spokes,
@@ -119,12 +123,14 @@ fn triangle_of_numbers(
     }
     let bb = dot(first, second);
     let (d3, d4, d5, d6) = (d1 - aa, d2 - bb, d1 - bb, d2 - cc);
-    let (nv, nw, den);
+    let (v, w, r);
     if d3 >= 0.0 && d4 <= d3 {
-        (nv, nw, den) = (1.0, 0.0, 1.0);
+        // Without the products by 1 and 0: the same numbers, up to the sign of a zero.
+        (v, w, r) = (1.0, 0.0, less(s, first));
     } else if d6 >= 0.0 && d5 <= d6 {
-        (nv, nw, den) = (0.0, 1.0, 1.0);
+        (v, w, r) = (0.0, 1.0, less(s, second));
     } else {
+        let (nv, nw);
         let vc = d1 * d4 - d3 * d2;
         let vb = d5 * d2 - d1 * d6;
         let least;
@@ -146,11 +152,10 @@ fn triangle_of_numbers(
         }
         // A part of a triangle that f32 cannot tell from a point. The dividend is smaller
         // still.
-        den = greater(LEAST_DENOMINATOR, least);
+        let inverse = 1.0 / greater(LEAST_DENOMINATOR, least);
+        (v, w) = (nv * inverse, nw * inverse);
+        r = residual(s, first, second, v, w);
     }
-    let inverse = 1.0 / den;
-    let (v, w) = (nv * inverse, nw * inverse);
-    let r = residual(s, first, second, v, w);
     let distance_sq = dot(r, r);
     let (ra, rb) = (dot(r, first), dot(r, second));
     let support = greater(greater(0.0, ra), rb);
@@ -207,6 +212,11 @@ fn share(from: Vec3, edge: Vec3) -> f32 {
     let along = greater(0.0, dot(from, edge));
     let share = along / greater(LEAST_DENOMINATOR, dot(edge, edge));
     if share < 1.0 { share } else { 1.0 }
+}
+
+#[inline(always)]
+fn less(a: Vec3, b: Vec3) -> Vec3 {
+    Vec3::new(a.x - b.x, a.y - b.y, a.z - b.z)
 }
 
 #[inline(always)]
@@ -306,7 +316,7 @@ pub fn lower_bound_up_to(seen: &[Vec3; 3], near: &Nearness, enough_sq: f32) -> f
                 let normal = normal(e, g);
                 if dot(normal, s) < 0.0 { -normal } else { normal }
             }
-            // Along `s` too: a triangle that `is_beyond` leaves out must be as far here.
+            // Along `s` too: a triangle that `reach` leaves out must be as far here.
             2 => s,
             // The residual, or less its part along an edge.
             _ => {

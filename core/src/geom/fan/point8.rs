@@ -60,8 +60,8 @@ const UNUSED: Lanes = Lanes::splat(UNUSED_SQ);
 macro_rules! define_point_lanes {
     ($(#[$attribute:meta])* $lanes:ty, $seen:vis) => {
         /// The triangles of lanes whose bits in `used` are ones. Other lanes give 2^127. `None` if
-        /// all triangles lie beyond the squared limit, by the supporting planes of
-        /// [`PointFan::is_beyond`](super::PointFan::is_beyond).
+        /// all triangles lie beyond the squared limit, by the supporting planes across the ways to
+        /// their centres.
         $(#[$attribute])*
         $seen fn point_lanes(
             edges: &Edges<$lanes>,
