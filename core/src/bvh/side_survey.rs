@@ -118,9 +118,10 @@ impl LeafTriangle {
     /// Whether squares are the same, and the number is greater.
     #[inline(always)]
     fn ties_with(&self, other: &LeafTriangle) -> bool {
-        self.distance_sq == other.distance_sq
-            && self.lower_bound_sq == other.lower_bound_sq
-            && self.place < other.place
+        let differ = |a: f32, b: f32| a.to_bits() ^ b.to_bits();
+        let bits = differ(self.distance_sq, other.distance_sq)
+            | differ(self.lower_bound_sq, other.lower_bound_sq);
+        bits == 0 && self.place < other.place
     }
 
     /// Takes the nearer triangle; of two equally near ones the lesser number.

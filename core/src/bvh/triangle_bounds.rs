@@ -59,25 +59,23 @@ pub(crate) fn each_triangle(
     mut each: impl FnMut(usize, Option<&[Vec3; 3]>, [f32; 2]),
 ) {
     let low = low & !(u32::MAX << (leaf.shape().triangles() & 31));
-    // What follows is a copy of the kernel's loop for each question.
-    let is_plain = SOFT_FLOAT || cfg!(meshsweep_small);
-    if is_plain || cfg!(any(target_arch = "x86_64", target_arch = "aarch64")) {
-        for lane in lanes_of(low) {
-            match known.of(lane) {
-                Some([_, lower_bound_sq]) if lower_bound_sq > limit.low_sq => {}
-                Some(squares) if !is_sliver(query, squares) => each(lane, None, squares),
-                _ => {
-                    let seen = seen_from(leaf, lane, query.p);
-                    let Nearness { distance_sq, lower_bound_sq, .. } =
-                        refined_nearness(query, &seen);
-                    each(lane, Some(&seen), [distance_sq, lower_bound_sq]);
-                }
-            }
-        }
+    // A copy of the kernel's loop for each question.
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    if !SOFT_FLOAT && !cfg!(meshsweep_small) {
+        each_by_fans(query, leaf, limit, low, each);
         return;
     }
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-    each_by_fans(query, leaf, limit, low, each);
+    for lane in lanes_of(low) {
+        match known.of(lane) {
+            Some([_, lower_bound_sq]) if lower_bound_sq > limit.low_sq => {}
+            Some(squares) if !is_sliver(query, squares) => each(lane, None, squares),
+            _ => {
+                let seen = seen_from(leaf, lane, query.p);
+                let near = refined_nearness(query, &seen);
+                each(lane, Some(&seen), [near.distance_sq, near.lower_bound_sq]);
+            }
+        }
+    }
 }
 
 /// [`each_triangle`] where what two neighbours share is computed once.
@@ -119,6 +117,38 @@ fn each_by_fans(
     }
 }
 
+/// Calls `each` for the triangles of a leaf whose bits in `low` are ones, in order: lane, the
+/// triangle [seen](seen_from) from `p`, and its [`nearness`].
+#[inline(always)]
+pub(crate) fn each_seen(
+    leaf: &FanLeaf<'_>,
+    p: Vec3,
+    low: u32,
+    mut each: impl FnMut(usize, &[Vec3; 3], Nearness),
+) {
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    if !SOFT_FLOAT && !cfg!(meshsweep_small) {
+        let of_first_fan = !(u32::MAX << (leaf.shape().turn() & 31));
+        for (which, lanes) in [low & of_first_fan, low & !of_first_fan].into_iter().enumerate() {
+            if lanes == 0 {
+                continue;
+            }
+            let (centre, spoke) = leaf.fan(which);
+            let fan = PointFan::new(p - centre);
+            for lane in lanes_of(lanes) {
+                let (first, second) = (fan.spoke(spoke(lane)), fan.spoke(spoke(lane + 1)));
+                let near = lone_triangle(&fan, &first, &second);
+                each(lane, &[fan.s, first.edge, second.edge], near);
+            }
+        }
+        return;
+    }
+    for lane in lanes_of(low) {
+        let seen = seen_from(leaf, lane, p);
+        each(lane, &seen, nearness(&seen));
+    }
+}
+
 #[inline(always)]
 fn is_sliver(query: &PointQuery, [distance_sq, lower_bound_sq]: [f32; 2]) -> bool {
     !is_tight(distance_sq, lower_bound_sq) && lower_bound_sq < query.refine_below(distance_sq)
@@ -138,6 +168,7 @@ fn of_triangle(fan: PointFan, first: SpokeTerms, second: SpokeTerms) -> [f32; 2]
     [near.distance_sq, near.lower_bound_sq]
 }
 
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 #[inline(never)]
 fn refined_squares(query: &PointQuery, seen: [Vec3; 3]) -> [f32; 2] {
     let near = refined_nearness(query, &seen);
