@@ -96,7 +96,7 @@ mod tribox;
 pub use blob::Blob;
 pub use bvh::{
     AllWithin, AnyHit, Bvh, CoherentClosest, CoherentPair, CoherentQuery, Eye, Facing, FrontFacing,
-    Hint, KNearest, Neighbor, Placed, PointQuestions, Scene, SceneDistance, SceneWithin,
+    Hint, KNearest, Neighbor, Placed, ProcessorQuestions, Scene, SceneDistance, SceneWithin,
     SignedDistance, WindingNumber, Within,
 };
 pub use curve::{Curve, CurveClosest, CurveSegment, CurveWithin};

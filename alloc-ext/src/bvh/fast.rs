@@ -1,11 +1,14 @@
-//! Closest points at the pace of this processor.
+//! Questions at the pace of this processor.
 
 use core::ops::Deref;
-use meshsweep_core::{Budget, Bvh, ClosestPoint, Hint, PointQuestions, QueryError, ScratchEntry};
+use meshsweep_core::{
+    AnyHit, Budget, Bvh, ClosestPoint, Facing, FirstHit, Hint, ProcessorQuestions, QueryError,
+    ScratchEntry,
+};
 
-/// A box tree whose closest points use the vector instructions of this processor, whatever the
-/// program was compiled for. The bits of the answers are those of [`Bvh`]. All other questions are
-/// those of [`Bvh`] too.
+/// A box tree whose closest points and segments use the vector instructions of this processor,
+/// whatever the program was compiled for. The bits of the answers are those of [`Bvh`]. All other
+/// questions are those of [`Bvh`] too.
 ///
 /// A program for x86-64 without `-C target-cpu` is compiled for processors without AVX2. Here the
 /// processor is asked, and a closest point takes two thirds of the time. A budget of steps, a
@@ -24,14 +27,14 @@ use meshsweep_core::{Budget, Bvh, ClosestPoint, Hint, PointQuestions, QueryError
 #[derive(Clone, Copy, Debug)]
 pub struct FastBvh<'a> {
     tree: Bvh<'a>,
-    questions: PointQuestions,
+    questions: ProcessorQuestions,
 }
 
 impl<'a> FastBvh<'a> {
     /// The tree, for this processor.
     #[must_use]
     pub fn new(tree: Bvh<'a>) -> FastBvh<'a> {
-        FastBvh { tree, questions: point_questions() }
+        FastBvh { tree, questions: questions() }
     }
 
     /// [`Bvh::closest_point`].
@@ -45,7 +48,7 @@ impl<'a> FastBvh<'a> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
-        self.questions.closest_point(&self.tree, point, budget, scratch)
+        self.closest_point_from(point, &mut Hint::NONE.clone(), budget, scratch)
     }
 
     /// [`Bvh::closest_point_from`]. On hosts this is also the fastest way along a path.
@@ -60,7 +63,7 @@ impl<'a> FastBvh<'a> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
-        self.questions.closest_point_from(&self.tree, point, hint, budget, scratch)
+        (self.questions.closest_point_from)(&self.tree, point, hint, budget, scratch)
     }
 
     /// [`Bvh::closest_points`]. [`closest_points`](super::closest_points()) asks on all cores.
@@ -77,6 +80,38 @@ impl<'a> FastBvh<'a> {
     ) -> Result<(), QueryError> {
         self.questions.closest_points(&self.tree, points, hint, answers, budget, scratch)
     }
+
+    /// [`Bvh::first_hit`].
+    ///
+    /// # Errors
+    /// Those of [`Bvh::first_hit`].
+    #[inline]
+    pub fn first_hit(
+        &self,
+        a: [f32; 3],
+        b: [f32; 3],
+        facing: Facing,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<FirstHit, QueryError> {
+        (self.questions.first_hit)(&self.tree, a, b, facing, budget, scratch)
+    }
+
+    /// [`Bvh::any_hit`].
+    ///
+    /// # Errors
+    /// Those of [`Bvh::first_hit`].
+    #[inline]
+    pub fn any_hit(
+        &self,
+        a: [f32; 3],
+        b: [f32; 3],
+        facing: Facing,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<AnyHit, QueryError> {
+        (self.questions.any_hit)(&self.tree, a, b, facing, budget, scratch)
+    }
 }
 
 impl<'a> Deref for FastBvh<'a> {
@@ -87,19 +122,12 @@ impl<'a> Deref for FastBvh<'a> {
     }
 }
 
-/// The questions for this processor. It is asked once; the standard library keeps its answer.
-fn point_questions() -> PointQuestions {
+/// The questions for this processor.
+fn questions() -> ProcessorQuestions {
     #[cfg(target_arch = "x86_64")]
-    {
-        let has_all = is_x86_feature_detected!("avx2")
-            && is_x86_feature_detected!("bmi1")
-            && is_x86_feature_detected!("bmi2")
-            && is_x86_feature_detected!("lzcnt")
-            && is_x86_feature_detected!("popcnt");
-        if has_all {
-            // SAFETY: the processor has all features of the function's list.
-            return unsafe { PointQuestions::avx2() };
-        }
+    if meshsweep_core::has_avx2!() {
+        // SAFETY: the processor has all features of the function's list.
+        return unsafe { ProcessorQuestions::avx2() };
     }
-    PointQuestions::COMPILED
+    ProcessorQuestions::COMPILED
 }

@@ -1,7 +1,7 @@
 //! All common points of a segment and the stored surface.
 
 use super::descent::descend;
-use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor};
+use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor, compiled_flagged};
 use super::segment_query::SegmentQuery;
 use super::segment_start::SegmentStart;
 use crate::bvh::format::Bvh;
@@ -61,7 +61,8 @@ impl Bvh<'_> {
             lacks: false,
             places: [0.0; WIDTH],
         };
-        let mut visitor = SegmentVisitor { query: &query, facing, collector };
+        let flagged = compiled_flagged();
+        let mut visitor = SegmentVisitor { query: &query, facing, flagged, collector };
         let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
         let ended = match descent.ended() {
             Ended::Exact if visitor.collector.undecided => Ended::Resolution,
@@ -85,8 +86,8 @@ struct AllCrossings<'a> {
 }
 
 impl CrossingCollector for AllCrossings<'_> {
-    fn limit(&self) -> f32 {
-        self.query.ray.end()
+    fn limit(&self) -> u32 {
+        self.query.ray.end().to_bits()
     }
 
     fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) -> Option<()> {

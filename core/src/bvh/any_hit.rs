@@ -1,11 +1,19 @@
 //! Whether a segment meets the surface.
 
 use super::descent::{Descent, descend};
-use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::node::{OpenedNode, TakenLeast, take_least};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::segment_blocks::{SegmentKernels, is_unlimited};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::segment_leaf::FlaggedOfLeaf;
+use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor, compiled_flagged};
 use super::segment_query::SegmentQuery;
 use super::segment_start::SegmentStart;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use crate::geom::fan::WIDTH;
 use crate::query::{Budget, QueryError, ScratchEntry, Undecided, Verdict, Work};
 
 /// Whether a segment meets the surface.
@@ -49,33 +57,105 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<AnyHit, QueryError> {
-        let mut work = Work::default();
-        let Some(start) = SegmentStart::find(self, [a, b], &budget, scratch)? else {
-            return Ok(AnyHit { verdict: Verdict::No, work });
-        };
-        let query = SegmentQuery::new(self, &start);
-        let collector = AnyCrossing { end: query.ray.end(), undecided: false, certain: false };
-        let mut visitor = SegmentVisitor { query: &query, facing, collector };
-        let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
-        let verdict = match descent {
-            _ if visitor.collector.certain => Verdict::Yes,
-            Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),
-            _ if visitor.collector.undecided => Verdict::Undecided(Undecided::Resolution),
-            _ => Verdict::No,
-        };
-        Ok(AnyHit { verdict, work })
+        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        if let Some(found) = any_hit_by_blocks(
+            self,
+            [a, b],
+            facing,
+            &budget,
+            scratch,
+            SegmentKernels::new(
+                #[inline(always)]
+                |query: &SegmentQuery, opened: &OpenedNode| query.keys_in_register(self, opened),
+                #[inline(always)]
+                |keys: &[u32; WIDTH], limit: u32| take_least(keys, limit),
+                compiled_flagged(),
+            ),
+        ) {
+            return found;
+        }
+        by_entries(self, [a, b], facing, &budget, scratch)
     }
 }
 
+/// The answer on targets without vector registers, and where steps or memory may end the search.
+#[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), cold, inline(never))]
+#[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(always))]
+fn by_entries(
+    tree: &Bvh<'_>,
+    ends: [[f32; 3]; 2],
+    facing: Facing,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<AnyHit, QueryError> {
+    let mut work = Work::default();
+    let Some(start) = SegmentStart::find(tree, ends, budget, scratch)? else {
+        return Ok(AnyHit { verdict: Verdict::No, work });
+    };
+    let query = SegmentQuery::new(tree, &start);
+    let collector = AnyCrossing::new(&query);
+    let flagged = compiled_flagged();
+    let mut visitor = SegmentVisitor { query: &query, facing, flagged, collector };
+    let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+    Ok(visitor.collector.answer(descent, work))
+}
+
+/// The answer, if neither steps nor memory may end the search.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[inline(always)]
+pub(super) fn any_hit_by_blocks(
+    tree: &Bvh<'_>,
+    ends: [[f32; 3]; 2],
+    facing: Facing,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+    kernels: SegmentKernels<
+        impl Fn(&SegmentQuery, &OpenedNode) -> Option<[u32; WIDTH]>,
+        impl Fn(&[u32; WIDTH], u32) -> TakenLeast,
+        impl FlaggedOfLeaf,
+    >,
+) -> Option<Result<AnyHit, QueryError>> {
+    if !is_unlimited(tree, budget, scratch) {
+        return None;
+    }
+    let start = match SegmentStart::find(tree, ends, budget, scratch) {
+        Ok(Some(start)) => start,
+        Ok(None) => return Some(Ok(AnyHit { verdict: Verdict::No, work: Work::default() })),
+        Err(error) => return Some(Err(error)),
+    };
+    let query = SegmentQuery::new(tree, &start);
+    let found = kernels.search(tree, &query, facing, AnyCrossing::new(&query), scratch)?;
+    Some(found.map(|(found, work)| found.answer(Descent::Done, work)))
+}
+
 struct AnyCrossing {
-    end: f32,
+    /// Bits of the greatest parameter.
+    end: u32,
     undecided: bool,
     certain: bool,
 }
 
+impl AnyCrossing {
+    #[inline(always)]
+    fn new(query: &SegmentQuery) -> Self {
+        AnyCrossing { end: query.ray.end().to_bits(), undecided: false, certain: false }
+    }
+
+    #[inline(always)]
+    fn answer(&self, descent: Descent, work: Work) -> AnyHit {
+        let verdict = match descent {
+            _ if self.certain => Verdict::Yes,
+            Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),
+            _ if self.undecided => Verdict::Undecided(Undecided::Resolution),
+            _ => Verdict::No,
+        };
+        AnyHit { verdict, work }
+    }
+}
+
 impl CrossingCollector for AnyCrossing {
     #[inline(always)]
-    fn limit(&self) -> f32 {
+    fn limit(&self) -> u32 {
         self.end
     }
 

@@ -54,10 +54,12 @@ fn read(block: &[ScratchEntry; BLOCK]) -> [u32; WIDTH] {
 
 /// Visits every leaf within the visitor's limit, nearest child first. `keys_of` gives the keys of a
 /// node's children (see [`NodeQuery::keys`](super::descent::NodeQuery::keys)), and `take_least` is
-/// that of `node/keys.rs` for the target's registers. `None` says that the tree is unchecked.
+/// that of `node/keys.rs` for the target's registers. `boxes` are read by `keys_of`. `None` says
+/// that the tree is unchecked.
 #[inline(always)]
-pub(crate) fn walk(
+pub(crate) fn walk<const N: usize>(
     tree: &Bvh<'_>,
+    boxes: &[[u8; N]],
     scratch: &mut [ScratchEntry],
     visitor: &mut impl LeafVisitor,
     work: &mut Work,
@@ -69,10 +71,13 @@ pub(crate) fn walk(
     let (mut splits, mut nodes, mut triangles) = (0u32, 0u32, 0u32);
     let mut used = 0usize;
     let (mut node, mut bound) = (0u32, 0u32);
+    // Read where it may have changed, and only there. Before the keys it would be a load, which the
+    // compiler makes as wide as a register: wider than what was stored there.
+    let mut limit = visitor.limit();
     let ended = 'all: loop {
         let mut links = tree.links(node)?;
-        prefetch_children(tree, &links);
-        let opened = OpenedNode { node, count: links.count, bound, limit: visitor.limit() };
+        prefetch_children(tree, boxes, &links);
+        let opened = OpenedNode { node, count: links.count, bound, limit };
         let mut keys = keys_of(&opened)?;
         if splits == most_steps {
             break BlockWalk::Unfinished;
@@ -80,7 +85,6 @@ pub(crate) fn walk(
         splits += 1;
         nodes += links.count;
         loop {
-            let limit = visitor.limit();
             let TakenLeast { least, rest, has_more } = take_least(&keys, limit);
             if least > limit {
                 let Some(top) = used.checked_sub(1) else { break 'all BlockWalk::Done };
@@ -108,6 +112,7 @@ pub(crate) fn walk(
             if !visitor.leaf(&LeafVisit { leaf, key: bound, node, child })? {
                 break 'all BlockWalk::Answered;
             }
+            limit = visitor.limit();
             keys = rest;
         }
     };

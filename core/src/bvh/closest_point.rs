@@ -1,23 +1,24 @@
 //! The closest point, with an interval of the distance.
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use super::block_walk::{BlockWalk, walk};
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend_inlined};
+use super::far_point::from_afar;
 use super::leaf_distance::{
     Lanes, LeafLimit, LeafNearest, nearest_triangle, nearest_within_inlined,
 };
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use super::leaf_plane::LeafPlane;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use super::node::{OpenedNode, TakenLeast, take_least};
+use super::node::{OpenedNode, take_least};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::point_blocks::{Kernels, search_by_blocks};
 use super::point_query::{EVERY_KEY, PointQuery};
 use super::triangle_bounds::{each_seen, sliver};
 use super::triangle_place::TrianglePlace;
-use crate::bvh::format::{Bvh, FanLeaf, at_least, at_most};
+use crate::bvh::format::{Bvh, FanLeaf};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use crate::geom::fan::WIDTH;
 use crate::geom::fan::{lower_bound_up_to, refined};
-use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
+use crate::num::tolerance::{EVERYTHING_SQ, U32};
 use crate::num::{greater, lesser, sqrt_approx};
 use crate::query::Interval;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
@@ -31,6 +32,16 @@ pub struct Hint(u32);
 impl Hint {
     /// No hint.
     pub const NONE: Hint = Hint(u32::MAX);
+
+    #[inline(always)]
+    pub(super) fn node(self) -> u32 {
+        self.0 >> 3
+    }
+
+    #[inline(always)]
+    pub(super) fn child(self) -> u32 {
+        self.0 & 7
+    }
 }
 
 /// For the C interface, where zeros are no hint.
@@ -169,90 +180,6 @@ fn search(
     search_by_entries(tree, point, hint, budget, scratch)
 }
 
-/// What a search takes from the vector unit. All kernels give the same bits.
-///
-/// They are closures, because a closure is compiled for the instructions of the function that makes
-/// it. A method of a trait is not.
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pub(super) struct Kernels<K, T, N, H> {
-    keys_of: K,
-    take_least: T,
-    nearest: N,
-    nearest_of_hint: H,
-}
-
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-impl<K, T, N: NearestOfLeaf, H: NearestOfLeaf> Kernels<K, T, N, H>
-where
-    K: Fn(&PointQuery, &OpenedNode) -> Option<[u32; WIDTH]>,
-    T: Fn(&[u32; WIDTH], u32) -> TakenLeast,
-{
-    /// Keys of a node's children, the least key of a block, the nearest triangle of a leaf, and of
-    /// the hint's leaf. As arguments of a function they may carry `inline(always)`.
-    #[inline(always)]
-    pub(super) fn new(keys_of: K, take_least: T, nearest: N, nearest_of_hint: H) -> Self {
-        Kernels { keys_of, take_least, nearest, nearest_of_hint }
-    }
-}
-
-/// The answer, if neither a tolerance nor steps nor memory may end the search: in the nearest-first
-/// order of [`block_walk`](super::block_walk). Otherwise the order decides the answer, and it is
-/// that of all targets.
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-#[inline(always)]
-pub(super) fn search_by_blocks(
-    tree: &Bvh<'_>,
-    point: [f32; 3],
-    hint: &mut Hint,
-    budget: &Budget,
-    scratch: &mut [ScratchEntry],
-    kernels: Kernels<
-        impl Fn(&PointQuery, &OpenedNode) -> Option<[u32; WIDTH]>,
-        impl Fn(&[u32; WIDTH], u32) -> TakenLeast,
-        impl NearestOfLeaf,
-        impl NearestOfLeaf,
-    >,
-) -> Option<Result<ClosestPoint, QueryError>> {
-    let is_exact = budget.relative == 0.0 && budget.absolute == 0.0;
-    if !is_exact || budget.steps < tree.most_steps() || scratch.len() < tree.scratch_entries() {
-        return None;
-    }
-    let query = match PointQuery::prepare(tree, point, budget, scratch) {
-        Ok(query) => query,
-        Err(error) => return Some(Err(error)),
-    };
-    if query.far {
-        return Some(from_afar(tree, point, &query));
-    }
-    let mut work = Work::default();
-    let Kernels { keys_of, take_least, nearest, nearest_of_hint } = kernels;
-    let mut visitor = Closest::new(tree, point, &query, budget, nearest);
-    if *hint != Hint::NONE
-        && let Some(leaf) = tree.leaf(hint.0 >> 3, hint.0 & 7)
-    {
-        match nearest_of_hint(&leaf, &query, &LeafLimit::NONE) {
-            Some(near) => visitor.bound_by(&near),
-            None => return Some(Err(QueryError::Unchecked)),
-        }
-    }
-    let ended = walk(
-        tree,
-        scratch,
-        &mut visitor,
-        &mut work,
-        #[inline(always)]
-        |opened| keys_of(&query, opened),
-        take_least,
-    );
-    match ended {
-        None => Some(Err(QueryError::Unchecked)),
-        Some(BlockWalk::Unfinished) => None,
-        Some(BlockWalk::Done | BlockWalk::Answered) => {
-            Some(visitor.answer(Descent::Done, work, hint))
-        }
-    }
-}
-
 /// The answer on targets without vector registers, and where steps or memory may end the search.
 #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), cold, inline(never))]
 #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(always))]
@@ -281,7 +208,7 @@ fn search_by_entries(
     );
     let mut visitor = Closest::new(tree, point, query, budget, nearest);
     if *hint != Hint::NONE
-        && let Some(leaf) = tree.leaf(hint.0 >> 3, hint.0 & 7)
+        && let Some(leaf) = tree.leaf(hint.node(), hint.child())
     {
         let near = nearest_triangle(&leaf, query).ok_or(QueryError::Unchecked)?;
         visitor.bound_by(&near);
@@ -313,7 +240,7 @@ fn inlined<N: NearestOfLeaf>(nearest: N) -> N {
     nearest
 }
 
-struct Closest<'a, N> {
+pub(super) struct Closest<'a, N> {
     nearest: N,
     tree: &'a Bvh<'a>,
     /// The query's point, input units.
@@ -337,7 +264,7 @@ struct Closest<'a, N> {
 
 impl<'a, N: NearestOfLeaf> Closest<'a, N> {
     #[inline(always)]
-    fn new(
+    pub(super) fn new(
         tree: &'a Bvh<'a>,
         point: [f32; 3],
         query: &'a PointQuery,
@@ -368,7 +295,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
 
     /// Lowers the limit by a leaf that the descent reaches again.
     #[inline(always)]
-    fn bound_by(&mut self, near: &LeafNearest) {
+    pub(super) fn bound_by(&mut self, near: &LeafNearest) {
         self.beyond.distance_sq = self.query.limit(near.distance_sq);
         self.limit = self.query.key_limit(self.beyond.distance_sq);
         // Leaves beyond the limit never change the result. Kernels may skip them.
@@ -458,7 +385,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
     }
 
     #[inline(always)]
-    fn answer(
+    pub(super) fn answer(
         &self,
         descent: Descent,
         work: Work,
@@ -533,83 +460,6 @@ impl<N: NearestOfLeaf> LeafVisitor for Closest<'_, N> {
     }
 }
 
-/// The interval of the model's box, and some point of the surface. Far enough away, all points are
-/// the closest up to a rounding of f32.
-///
-/// It is computed in input units, scaled by a power of two so that no coordinate's square leaves
-/// f32's range. Proof: `core/docs/rounding.md` §8, Far away.
-#[cold]
-#[inline(never)]
-fn from_afar(
-    tree: &Bvh<'_>,
-    point: [f32; 3],
-    query: &PointQuery,
-) -> Result<ClosestPoint, QueryError> {
-    let (low, high) = tree.grid_bounds();
-    let (lowest, highest) = (query.units.point(low), query.units.point(high));
-    let mut size = 0.0;
-    // Here and below by number: at `opt-level = "s"` iterators over arrays are kept in memory.
-    for axis in 0..3 {
-        let ends = greater(lowest[axis].abs(), highest[axis].abs());
-        size = greater(size, greater(ends, point[axis].abs()));
-    }
-    let (scale, unscale) = match size {
-        size if size > POWER_40 => (1.0 / POWER_70, POWER_70),
-        size if size < 1.0 / POWER_40 => (POWER_70, 1.0 / POWER_70),
-        _ => (1.0, 1.0),
-    };
-    let scaled = |x: f32| query.units.outward(x, scale);
-    let (mut nearest, mut farthest) = ([0f32; 3], [0f32; 3]);
-    let (low, high) = (low.to_array(), high.to_array());
-    for axis in 0..3 {
-        let x = point[axis] * scale;
-        let (below, above) = (scaled(low[axis]) - x, x - scaled(high[axis]));
-        nearest[axis] = greater(0.0, greater(below, above));
-        farthest[axis] = greater(below.abs(), above.abs());
-    }
-    let (near, far) = (length(nearest), length(farthest));
-    let fixed_error = scaled(query.fixed_error());
-    let margin = |distance: f32| distance * (2.0 * FAN_RELATIVE * U32) + fixed_error;
-    // Any point of the surface serves: the first leaf. A damaged tree must not loop.
-    let mut node = 0;
-    let mut links = tree.links(0).ok_or(QueryError::Unchecked)?;
-    for _ in 0..tree.most_steps() {
-        if links.child(0).is_leaf() {
-            break;
-        }
-        node = links.child(0).at;
-        links = tree.links(node).ok_or(QueryError::Unchecked)?;
-    }
-    let leaf = tree.leaf(node, 0);
-    let leaf = leaf.as_ref().ok_or(QueryError::Unchecked)?;
-    Ok(ClosestPoint {
-        distance: Interval::new(
-            at_least((near - margin(near)) * unscale),
-            at_most((far + margin(far)) * unscale),
-        ),
-        point: query.units.point(leaf.centre(0)),
-        triangle: TrianglePlace::new(node, 0, 0).source(tree),
-        work: Work::default(),
-        ended: Ended::Exact,
-    })
-}
-
-/// Length of a vector of gaps, each at least 0. A short one is scaled, so that no square
-/// underflows.
-#[inline(never)]
-fn length(gaps: [f32; 3]) -> f32 {
-    let [x, y, z] = gaps;
-    let scale = if greater(greater(x, y), z) < 1.0 / POWER_40 { POWER_70 } else { 1.0 };
-    let mut sum = 0.0;
-    for gap in gaps {
-        sum += square(gap * scale);
-    }
-    sqrt_approx(sum) / scale
-}
-
 fn square(x: f32) -> f32 {
     x * x
 }
-
-const POWER_40: f32 = (1u64 << 40) as f32;
-const POWER_70: f32 = (1u128 << 70) as f32;

@@ -1,12 +1,20 @@
 //! The first common point of a segment and the surface.
 
 use super::descent::{Descent, descend, descend_inlined};
-use super::segment_leaf::{CrossingCollector, Facing, HitPlace, SegmentVisitor};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::node::{OpenedNode, TakenLeast, take_least};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::segment_blocks::{SegmentKernels, is_unlimited};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::segment_leaf::FlaggedOfLeaf;
+use super::segment_leaf::{CrossingCollector, Facing, HitPlace, SegmentVisitor, compiled_flagged};
 use super::segment_query::SegmentQuery;
 use super::segment_start::SegmentStart;
 use super::triangle_place::TrianglePlace;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use crate::geom::fan::WIDTH;
 use crate::num::{SOFT_FLOAT, lesser};
 use crate::query::{Budget, Ended, FirstHit, Interval, QueryError, ScratchEntry, Work};
 
@@ -63,41 +71,110 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<FirstHit, QueryError> {
-        let Some(start) = SegmentStart::find(self, [a, b], &budget, scratch)? else {
-            return Ok(FirstHit::CLEAR);
-        };
-        let query = SegmentQuery::new(self, &start);
-        let mut work = Work::default();
-        let collector = FirstCrossing {
-            limit: query.ray.end(),
-            lower: f32::INFINITY,
-            best: HitPlace { t: f32::INFINITY, node: 0, child: 0, lane: 0 },
-            certain: false,
-            tree: self,
-        };
-        let mut visitor = SegmentVisitor { query: &query, facing, collector };
-        let (steps, visits, counts) = (budget.steps, &mut visitor, &mut work);
-        // Without an FPU floats take most of the time: there a call for each leaf costs little.
-        let descent = if SOFT_FLOAT {
-            descend(self, &query, steps, scratch, visits, counts)?
-        } else {
-            descend_inlined(self, &query, steps, scratch, visits, counts)?
-        };
-        visitor.collector.answer(&query, descent, work)
+        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        if let Some(found) = first_hit_by_blocks(
+            self,
+            [a, b],
+            facing,
+            &budget,
+            scratch,
+            SegmentKernels::new(
+                #[inline(always)]
+                |query: &SegmentQuery, opened: &OpenedNode| query.keys_in_register(self, opened),
+                #[inline(always)]
+                |keys: &[u32; WIDTH], limit: u32| take_least(keys, limit),
+                compiled_flagged(),
+            ),
+        ) {
+            return found;
+        }
+        by_entries(self, [a, b], facing, &budget, scratch)
     }
+}
+
+/// The answer on targets without vector registers, and where steps or memory may end the search.
+#[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), cold, inline(never))]
+#[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(always))]
+fn by_entries(
+    tree: &Bvh<'_>,
+    ends: [[f32; 3]; 2],
+    facing: Facing,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<FirstHit, QueryError> {
+    let Some(start) = SegmentStart::find(tree, ends, budget, scratch)? else {
+        return Ok(FirstHit::CLEAR);
+    };
+    let query = SegmentQuery::new(tree, &start);
+    let mut work = Work::default();
+    let collector = FirstCrossing::new(tree, &query);
+    let flagged = compiled_flagged();
+    let mut visitor = SegmentVisitor { query: &query, facing, flagged, collector };
+    let (steps, visits, counts) = (budget.steps, &mut visitor, &mut work);
+    // Without an FPU floats take most of the time: there a call for each leaf costs little.
+    let descent = if SOFT_FLOAT {
+        descend(tree, &query, steps, scratch, visits, counts)?
+    } else {
+        descend_inlined(tree, &query, steps, scratch, visits, counts)?
+    };
+    visitor.collector.answer(&query, descent, work)
+}
+
+/// The answer, if neither steps nor memory may end the search. With one of these limits the order of
+/// visits decides the answer, and it is that of all targets.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[inline(always)]
+pub(super) fn first_hit_by_blocks(
+    tree: &Bvh<'_>,
+    ends: [[f32; 3]; 2],
+    facing: Facing,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+    kernels: SegmentKernels<
+        impl Fn(&SegmentQuery, &OpenedNode) -> Option<[u32; WIDTH]>,
+        impl Fn(&[u32; WIDTH], u32) -> TakenLeast,
+        impl FlaggedOfLeaf,
+    >,
+) -> Option<Result<FirstHit, QueryError>> {
+    if !is_unlimited(tree, budget, scratch) {
+        return None;
+    }
+    let start = match SegmentStart::find(tree, ends, budget, scratch) {
+        Ok(Some(start)) => start,
+        Ok(None) => return Some(Ok(FirstHit::CLEAR)),
+        Err(error) => return Some(Err(error)),
+    };
+    let query = SegmentQuery::new(tree, &start);
+    let found = kernels.search(tree, &query, facing, FirstCrossing::new(tree, &query), scratch)?;
+    Some(match found {
+        Ok((found, work)) => found.answer(&query, Descent::Done, work),
+        Err(error) => Err(error),
+    })
 }
 
 struct FirstCrossing<'a> {
     tree: &'a Bvh<'a>,
-    /// If `certain`, the input's surface is met not after this parameter. Else the segment's end.
-    limit: f32,
+    /// Bits of a parameter. If `certain`, the input's surface is met not after it. Else the segment's
+    /// end.
+    limit: u32,
     /// The input's surface is not met before this parameter.
     lower: f32,
     best: HitPlace,
     certain: bool,
 }
 
-impl FirstCrossing<'_> {
+impl<'a> FirstCrossing<'a> {
+    #[inline(always)]
+    fn new(tree: &'a Bvh<'a>, query: &SegmentQuery) -> Self {
+        FirstCrossing {
+            limit: query.ray.end().to_bits(),
+            lower: f32::INFINITY,
+            best: HitPlace { t: f32::INFINITY, node: 0, child: 0, lane: 0 },
+            certain: false,
+            tree,
+        }
+    }
+
     #[inline(always)]
     fn number(&self, place: &HitPlace) -> Option<u32> {
         let &HitPlace { node, child, lane, .. } = place;
@@ -124,7 +201,7 @@ impl FirstCrossing<'_> {
             hit = Some(query.hit(self.best.t, self.tree.source(number)));
         }
         let upper = match (self.certain, hit) {
-            (true, _) => query.upper(self.limit),
+            (true, _) => query.upper(f32::from_bits(self.limit)),
             (false, Some(_)) => 1.0,
             (false, None) => f32::INFINITY,
         };
@@ -134,7 +211,7 @@ impl FirstCrossing<'_> {
 
 impl CrossingCollector for FirstCrossing<'_> {
     #[inline(always)]
-    fn limit(&self) -> f32 {
+    fn limit(&self) -> u32 {
         self.limit
     }
 
@@ -155,8 +232,8 @@ impl CrossingCollector for FirstCrossing<'_> {
     #[inline(always)]
     fn certain(&mut self, upper: f32) {
         self.certain = true;
-        if upper < self.limit {
-            self.limit = upper;
+        if upper < f32::from_bits(self.limit) {
+            self.limit = upper.to_bits();
         }
     }
 

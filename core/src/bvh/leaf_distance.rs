@@ -212,7 +212,7 @@ mod avx2 {
     use super::wide::{Lanes, nearest_within};
     use super::{FanLeaf, LeafLimit, LeafNearest, PointQuery};
     use crate::geom::fan::LaneNearness;
-    use crate::geom::fan::point_avx2::{least, point_lanes, up_to};
+    use crate::geom::fan::lanes_avx2::{least, point_lanes, up_to};
     use wide::bytemuck::cast;
 
     /// See `nearest_within`. A call, with the whole kernel in it: inlined into the search, it takes

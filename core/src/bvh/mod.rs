@@ -10,8 +10,8 @@
 //! | `segment_start` | where a segment's line begins |
 //! | `model_box/` | a segment against the model's box |
 //! | `descent` | the descent of one tree, for a point, a segment or a solid |
-//! | `block_walk`, `prefetch` | that of an exact closest point, on targets with vector registers |
-//! | `point_questions`, `avx2` | closest points, compiled for the instructions of one processor |
+//! | `block_walk`, `point_blocks`, `segment_blocks`, `prefetch` | that of exact answers, on targets with vector registers |
+//! | `processor_questions`, `avx2` | questions compiled for the instructions of one processor |
 //! | `leaf_distance`, `leaf_limit`, `triangle_bounds` | a point and the triangles of a leaf |
 //! | `leaf_plane` | without floating point: a plane behind which no triangle counts |
 //! | `leaf_squares` | without floating point: distances of triangles that are looked at again |
@@ -19,6 +19,7 @@
 //! | `triangle_visitor` | the visitor of point questions that look at triangles one by one |
 //! | `segment_leaf` | a segment and the triangles of a leaf; the visitor of segment questions |
 //! | `closest_point`, `closest_points` | one closest point, many of them |
+//! | `far_point` | a point so far away that the model's box answers |
 //! | `closest_point_precise` | the closest point, its candidates measured in f64 |
 //! | `within`, `all_within`, `nearest` | distance verdicts, and the nearest triangles |
 //! | `neighbors` | the heap of nearest triangles in the caller's slice |
@@ -63,6 +64,7 @@ mod closest_point_precise;
 mod closest_points;
 mod coherent;
 mod descent;
+mod far_point;
 mod first_hit;
 pub mod format;
 mod front_facing;
@@ -77,12 +79,16 @@ mod neighbors;
 pub mod node;
 mod overlap;
 mod penetration;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod point_blocks;
 mod point_query;
-mod point_questions;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod prefetch;
+mod processor_questions;
 mod pseudonormal;
 mod scene;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod segment_blocks;
 mod segment_leaf;
 mod segment_query;
 mod segment_start;
@@ -107,7 +113,7 @@ pub use front_facing::{Eye, FrontFacing};
 pub use nearest::KNearest;
 pub use neighbors::Neighbor;
 pub use overlap::CoherentPair;
-pub use point_questions::PointQuestions;
+pub use processor_questions::ProcessorQuestions;
 pub use scene::{Placed, Scene, SceneDistance, SceneWithin};
 pub use segment_leaf::Facing;
 pub use signed_distance::SignedDistance;

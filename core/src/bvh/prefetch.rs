@@ -13,15 +13,15 @@ const LARGE: usize = 1 << 18;
 
 /// Asks for the records of a node's children: boxes and links of nodes, vertices of leaves. They
 /// are neighbours. If there is one kind of children only, others of the tree are asked for as well:
-/// a branch would cost more.
+/// a branch would cost more. `boxes` are those of the question, of all nodes.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub(crate) fn prefetch_children(tree: &Bvh<'_>, links: &Links) {
+pub(crate) fn prefetch_children<const N: usize>(tree: &Bvh<'_>, boxes: &[[u8; N]], links: &Links) {
     if tree.fans.len() < LARGE {
         return;
     }
     let node = links.first_node as usize;
-    let boxes = tree.frames.get(node..).unwrap_or_default().as_flattened();
+    let boxes = boxes.get(node..).unwrap_or_default().as_flattened();
     let leaves = tree.fans.get(links.first_vertex as usize * 6..).unwrap_or_default();
     prefetch::<8>(boxes);
     prefetch::<7>(leaves);
@@ -31,7 +31,7 @@ pub(crate) fn prefetch_children(tree: &Bvh<'_>, links: &Links) {
 /// No stable function of the target does it.
 #[cfg(target_arch = "aarch64")]
 #[inline(always)]
-pub(crate) fn prefetch_children(_: &Bvh<'_>, _: &Links) {}
+pub(crate) fn prefetch_children<const N: usize>(_: &Bvh<'_>, _: &[[u8; N]], _: &Links) {}
 
 /// Asks for the first lines. Near the end of a section it asks for none.
 #[cfg(target_arch = "x86_64")]

@@ -51,8 +51,8 @@ pub(crate) struct HitPlace {
 
 /// Takes the triangles that a segment may meet, in any order.
 pub(crate) trait CrossingCollector {
-    /// A triangle that is met later than this cannot change the answer.
-    fn limit(&self) -> f32;
+    /// A triangle that is met later than the parameter with these bits cannot change the answer.
+    fn limit(&self) -> u32;
     /// A triangle of the wanted facing that the segment crosses. `None` says that the tree is
     /// unchecked.
     fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) -> Option<()>;
@@ -68,22 +68,43 @@ pub(crate) trait CrossingCollector {
     const TELLS_EACH: bool;
 }
 
+/// Triangles of a leaf that the line may meet, a bit for each.
+pub(crate) trait FlaggedOfLeaf: Fn(&FanLeaf<'_>, &SegmentQuery) -> Option<u32> {}
+
+impl<F: Fn(&FanLeaf<'_>, &SegmentQuery) -> Option<u32>> FlaggedOfLeaf for F {}
+
+/// [`flagged`] for the instructions that the crate is compiled for.
+#[inline(always)]
+pub(crate) fn compiled_flagged() -> impl FlaggedOfLeaf {
+    inlined(
+        #[inline(always)]
+        |leaf: &FanLeaf<'_>, query: &SegmentQuery| flagged(leaf, query),
+    )
+}
+
+/// A place for the attribute of a closure.
+#[inline(always)]
+fn inlined<F: FlaggedOfLeaf>(flagged: F) -> F {
+    flagged
+}
+
 /// The visitor of all segment questions.
-pub(crate) struct SegmentVisitor<'a, C> {
+pub(crate) struct SegmentVisitor<'a, C, F> {
     pub(crate) query: &'a SegmentQuery,
     pub(crate) facing: Facing,
+    pub(crate) flagged: F,
     pub(crate) collector: C,
 }
 
-impl<C: CrossingCollector> LeafVisitor for SegmentVisitor<'_, C> {
+impl<C: CrossingCollector, F: FlaggedOfLeaf> LeafVisitor for SegmentVisitor<'_, C, F> {
     #[inline(always)]
     fn limit(&self) -> u32 {
-        self.collector.limit().to_bits()
+        self.collector.limit()
     }
 
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let lanes = flagged(&visit.leaf, self.query)?;
+        let lanes = (self.flagged)(&visit.leaf, self.query)?;
         if lanes == 0 {
             return Some(true);
         }
@@ -96,11 +117,29 @@ impl<C: CrossingCollector> LeafVisitor for SegmentVisitor<'_, C> {
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 #[inline(always)]
 fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
-    let (ray, shape) = (&query.ray, leaf.shape());
     if leaf.is_f32() {
-        return ray_leaf8(ray, &leaf.f32_ring8(ray.axes())?, shape.turn(), shape.triangles());
+        return flagged_f32(leaf, query);
     }
-    leaf.grid_flagged(ray)
+    leaf.grid_flagged(&query.ray)
+}
+
+/// The same in registers of 256 bits, whatever the crate is compiled for.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+#[inline]
+pub(crate) fn flagged_avx2(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
+    if leaf.is_f32() {
+        return flagged_f32(leaf, query);
+    }
+    leaf.flagged_avx2(&query.ray)
+}
+
+/// Not inlined, so that the two ways to read a leaf share no stack memory.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[inline(never)]
+fn flagged_f32(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
+    let (ray, shape) = (&query.ray, leaf.shape());
+    ray_leaf8(ray, &leaf.f32_ring8(ray.axes())?, shape.turn(), shape.triangles())
 }
 
 /// Triangles of a leaf that the line may meet.
@@ -196,7 +235,7 @@ fn flagged_f32(leaf: &FanLeaf<'_>, ray: &FanRay) -> u32 {
     flagged
 }
 
-impl<C: CrossingCollector> SegmentVisitor<'_, C> {
+impl<C: CrossingCollector, F> SegmentVisitor<'_, C, F> {
     /// Tests the flagged triangles of a leaf.
     #[inline(never)]
     fn test_one_by_one(&mut self, visit: &LeafVisit<'_>, flagged: u32) -> Option<()> {

@@ -4,6 +4,8 @@
 use super::descent::{NodeQuery, OpenedNode};
 use super::model_box::norm_1;
 use super::node::box_entries;
+#[cfg(target_arch = "x86_64")]
+use super::node::box_entries_avx2;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use super::node::{Pushed, push_entries};
 use super::segment_start::SegmentStart;
@@ -110,6 +112,31 @@ fn inverse(d: f32) -> f32 {
     1.0 / if d.abs() > STILL { d } else { STILL.copysign(d) }
 }
 
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+impl SegmentQuery {
+    /// Keys of a node's children.
+    #[inline(always)]
+    pub(crate) fn keys_in_register(
+        &self,
+        tree: &Bvh<'_>,
+        opened: &OpenedNode,
+    ) -> Option<[u32; WIDTH]> {
+        let &OpenedNode { node, count, bound, limit } = opened;
+        let (bound, limit) = (f32::from_bits(bound), f32::from_bits(limit));
+        Some(box_entries(tree.boxes(node)?, &self.slab_ray, count, bound, limit))
+    }
+
+    /// The same in registers of 256 bits, whatever the crate is compiled for.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    #[inline]
+    pub(crate) fn keys_avx2(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {
+        let &OpenedNode { node, count, bound, limit } = opened;
+        let (bound, limit) = (f32::from_bits(bound), f32::from_bits(limit));
+        box_entries_avx2(tree.boxes(node)?, &self.slab_ray, count, bound, limit)
+    }
+}
+
 impl NodeQuery for SegmentQuery {
     #[inline(always)]
     fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError> {
@@ -118,9 +145,7 @@ impl NodeQuery for SegmentQuery {
 
     #[inline(always)]
     fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode, keys: &mut [u32; WIDTH]) -> Option<()> {
-        let &OpenedNode { node, count, bound, limit } = opened;
-        let (bound, limit) = (f32::from_bits(bound), f32::from_bits(limit));
-        *keys = box_entries(tree.boxes(node)?, &self.slab_ray, count, bound, limit);
+        *keys = self.keys_in_register(tree, opened)?;
         Some(())
     }
 

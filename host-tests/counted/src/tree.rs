@@ -2,7 +2,9 @@
 
 use std::hint::black_box;
 
-use meshsweep_core::{Budget, Bvh, Facing, PointQuestions, QueryError, ScratchEntry, Work};
+use meshsweep_core::{
+    Budget, Bvh, Facing, Hint, ProcessorQuestions, QueryError, ScratchEntry, Work,
+};
 
 use crate::Counted;
 
@@ -34,7 +36,17 @@ pub fn ask(counted: &Counted<'_>, question: &str, queries: usize) -> Result<Stri
         "closest_avx2" => {
             let questions = avx2()?;
             for point in counted.points(queries) {
-                let answer = questions.closest_point(&tree, point, Budget::EXACT, &mut stack);
+                let mut hint = Hint::NONE;
+                let ask = questions.closest_point_from;
+                let answer = ask(&tree, point, &mut hint, Budget::EXACT, &mut stack);
+                add(black_box(answer).map_err(failed)?.work);
+            }
+        }
+        "first_hit_avx2" => {
+            let questions = avx2()?;
+            for [a, b] in counted.segments(queries) {
+                let (facing, ask) = (Facing::Both, questions.first_hit);
+                let answer = ask(&tree, a, b, facing, Budget::EXACT, &mut stack);
                 add(black_box(answer).map_err(failed)?.work);
             }
         }
@@ -58,22 +70,17 @@ pub fn ask(counted: &Counted<'_>, question: &str, queries: usize) -> Result<Stri
     Ok(format!("{} {} {a_leaf}", sum.splits, sum.triangles))
 }
 
-/// Closest points for AVX2.
+/// Questions for AVX2.
 #[cfg(target_arch = "x86_64")]
-fn avx2() -> Result<PointQuestions, String> {
-    let has_all = is_x86_feature_detected!("avx2")
-        && is_x86_feature_detected!("bmi1")
-        && is_x86_feature_detected!("bmi2")
-        && is_x86_feature_detected!("lzcnt")
-        && is_x86_feature_detected!("popcnt");
-    if !has_all {
+fn avx2() -> Result<ProcessorQuestions, String> {
+    if !meshsweep_core::has_avx2!() {
         return Err("this processor has no AVX2".to_owned());
     }
     // SAFETY: the processor has all features of the function's list.
-    Ok(unsafe { PointQuestions::avx2() })
+    Ok(unsafe { ProcessorQuestions::avx2() })
 }
 
 #[cfg(not(target_arch = "x86_64"))]
-fn avx2() -> Result<PointQuestions, String> {
-    Ok(PointQuestions::COMPILED)
+fn avx2() -> Result<ProcessorQuestions, String> {
+    Ok(ProcessorQuestions::COMPILED)
 }

@@ -1,9 +1,12 @@
-//! Closest points that are compiled for one kind of processor have the bits of all others, and an
-//! exact answer does not depend on the order of the search.
+//! Questions that are compiled for one kind of processor have the bits of all others, and an exact
+//! answer does not depend on the order of the search.
 
 use meshsweep::bvh::{FastBvh, TreeOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep_core::{Budget, Bvh, ClosestPoint, Ended, Hint, ScratchEntry};
+use meshsweep_core::{
+    AnyHit, Budget, Bvh, ClosestPoint, Ended, Facing, FirstHit, Hint, Hit, QueryError,
+    ScratchEntry, Verdict,
+};
 use meshsweep_host_tests::generate::{Rng, Triangles, rough_sphere, scaled, torus};
 
 /// Round and rough, tiny and huge, flat needles, with vertices on the grid and in f32.
@@ -94,6 +97,68 @@ fn a_processors_own_instructions_do_the_same_work() {
             let own = fast.closest_point(p, Budget::EXACT, &mut stack).unwrap();
             assert_eq!(plain.work, own.work, "{p:?}");
         }
+    }
+}
+
+/// Across the model and past it, from and to its surface, within it, along axes, of no length, out
+/// of range.
+fn segments(tree: &Bvh<'_>, size: f32) -> Vec<[[f32; 3]; 2]> {
+    let places = points(tree, size);
+    let mut rng = Rng::new(11);
+    let mut segments: Vec<_> =
+        (0..1500).map(|_| [0; 2].map(|_| places[rng.below(places.len())])).collect();
+    for axis in 0..3 {
+        for &from in &places[..100] {
+            let mut to = from.map(|x| 0.5 * x);
+            segments.push([from, to]);
+            to = from;
+            to[axis] = -from[axis];
+            segments.push([from, to]);
+        }
+    }
+    segments.extend(places[400..600].iter().map(|&place| [place; 2]));
+    segments
+}
+
+fn hit_bits(
+    answer: Result<FirstHit, QueryError>,
+) -> Result<([u32; 6], Option<u32>, Ended), QueryError> {
+    answer.map(|answer| {
+        let Hit { t, point: [x, y, z], triangle } = answer.hit.unwrap_or(Hit::EMPTY);
+        let numbers = [answer.t.lower, answer.t.upper, t, x, y, z];
+        (numbers.map(f32::to_bits), triangle, answer.ended)
+    })
+}
+
+#[test]
+fn segments_with_a_processors_own_instructions_have_the_same_bits() {
+    for (blob, size) in blobs() {
+        let tree = Bvh::open(&blob).unwrap();
+        let fast = FastBvh::new(tree);
+        let enough = tree.scratch_entries();
+        let (mut hits, mut meetings) = (0, 0);
+        for (budget, entries) in [
+            (Budget::EXACT, enough),
+            (Budget::EXACT, 2 * enough),
+            (Budget::EXACT, 3),
+            (Budget::EXACT.with_steps(3), enough),
+        ] {
+            let mut stack = vec![ScratchEntry::EMPTY; entries];
+            for [a, b] in segments(&tree, size) {
+                for facing in [Facing::Both, Facing::Front, Facing::Back] {
+                    let plain = hit_bits(tree.first_hit(a, b, facing, budget, &mut stack));
+                    let own = hit_bits(fast.first_hit(a, b, facing, budget, &mut stack));
+                    assert_eq!(plain, own, "{a:?} {b:?}, {facing:?}, {budget:?}, {entries}");
+                    hits += u32::from(plain.is_ok_and(|(_, triangle, _)| triangle.is_some()));
+                    let verdict = |found: Result<AnyHit, _>| found.map(|found| found.verdict);
+                    let plain = verdict(tree.any_hit(a, b, facing, budget, &mut stack));
+                    let own = verdict(fast.any_hit(a, b, facing, budget, &mut stack));
+                    assert_eq!(plain, own, "{a:?} {b:?}, {facing:?}, {budget:?}, {entries}");
+                    meetings += u32::from(plain == Ok(Verdict::Yes));
+                }
+            }
+        }
+        assert!(hits > 10 && (meetings > 10 || tree.triangle_count() == 1), "{hits} {meetings}");
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::leaf::{FanLeaf, GRID_WINDOW, SHAPE_OFFSETS, ShapeOffsets};
 use super::leaf_lanes::LanePoint;
-use crate::geom::fan::{Edges, LANES_BELOW, WIDTH};
+use crate::geom::fan::lanes_avx2::{ray_lanes, shadow_lanes};
+use crate::geom::fan::{Edges, FanRay, LANES_BELOW, RingLanes, WIDTH};
 use core::arch::x86_64::{
     __m128i, __m256, __m256i, _mm256_add_epi32, _mm256_add_ps, _mm256_cvtepi32_ps,
     _mm256_cvtepu16_epi32, _mm256_permutevar8x32_ps, _mm256_set1_epi32, _mm256_set1_ps,
@@ -53,6 +54,29 @@ impl FanLeaf<'_> {
             edges.s[axis] = _mm256_sub_ps(_mm256_set1_ps(p[axis]), centre);
         }
         Some((edges, cast(used)))
+    }
+
+    /// Triangles of a leaf on the grid that the segment's line may meet.
+    #[target_feature(enable = "avx2")]
+    #[inline]
+    pub(crate) fn flagged_avx2(&self, ray: &FanRay) -> Option<u32> {
+        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
+        let ShapeOffsets { rings, turn, triangles } = SHAPE_OFFSETS[usize::from(self.shape.0)];
+        let which: __m256i = cast(*CENTRES.get(usize::from(turn))?);
+        let centres = eight(window, 0);
+        let mut centre = [centres; 3];
+        let mut ring = RingLanes { here: centre, next: centre };
+        for (k, axis) in ray.axes().into_iter().enumerate() {
+            let origin = _mm256_set1_ps(self.origin[axis % 3] as f32);
+            let place = _mm256_add_epi32(which, _mm256_set1_epi32(axis as i32));
+            // A limit that changes no offset: it spares the check of each read.
+            let at = usize::from(rings[axis % 3]).min(GRID_WINDOW - 18);
+            centre[k] = _mm256_add_ps(_mm256_permutevar8x32_ps(centres, place), origin);
+            ring.here[k] = _mm256_add_ps(eight(window, at), origin);
+            ring.next[k] = _mm256_add_ps(eight(window, at + 2), origin);
+        }
+        let flagged = ray_lanes(ray, &ring, shadow_lanes(ray, centre));
+        Some(flagged & !(u32::MAX << triangles))
     }
 }
 

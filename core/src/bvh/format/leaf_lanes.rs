@@ -178,7 +178,7 @@ impl FanLeaf<'_> {
                 here: [row(0, 0), row(1, 0), row(2, 0)],
                 next: [row(0, 1), row(1, 1), row(2, 1)],
             };
-            flagged |= ray_lanes(ray, &ring, &centres, first) << (LANES * piece);
+            flagged |= ray_lanes(ray, &ring, centres.of_lanes(first)) << (LANES * piece);
         }
         Some(flagged & !(u32::MAX << self.shape.triangles()))
     }

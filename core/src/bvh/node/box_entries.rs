@@ -4,7 +4,9 @@
 use super::keys::NO_CHILD;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use super::opened_node::{OpenedNode, Pushed, Pusher};
-use super::slab_ray::{SlabPlanes, SlabRay};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use super::slab_planes::SlabPlanes;
+use super::slab_ray::SlabRay;
 use crate::bvh::format::layout::BOXES_BYTES;
 use crate::geom::fan::WIDTH;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
@@ -23,11 +25,12 @@ pub fn box_entries(
     parent_bound: f32,
     limit: f32,
 ) -> [u32; WIDTH] {
-    let Some(planes) = SlabPlanes::of(record, ray) else { return [NO_CHILD; WIDTH] };
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-    return super::entry_lanes::keys(&planes, count, parent_bound, limit);
+    let keys = super::entry_lanes::keys(record, ray, count, parent_bound, limit);
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-    planes.keys(count, [parent_bound.to_bits(), limit.to_bits()])
+    let keys = SlabPlanes::of(record, ray)
+        .map(|planes| planes.keys(count, [parent_bound.to_bits(), limit.to_bits()]));
+    keys.unwrap_or([NO_CHILD; WIDTH])
 }
 
 /// Pushes the children of a node whose boxes the segment enters.

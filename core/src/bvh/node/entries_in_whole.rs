@@ -6,7 +6,8 @@
 
 use super::keys::CHILD_MASK;
 use super::opened_node::{OpenedNode, Pushed, Pusher};
-use super::slab_ray::{Fraction, SlabPlanes, SlabRay};
+use super::slab_planes::SlabPlanes;
+use super::slab_ray::{Fraction, SlabRay};
 use crate::geom::fan::WIDTH;
 use crate::num::{greater, lesser, truncated};
 use crate::query::ScratchEntry;

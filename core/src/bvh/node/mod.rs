@@ -29,9 +29,11 @@
 //! | `box_avx2` | the same, and the least key, in registers of 256 bits |
 //! | `axis_place` | `AxisPlace`, a point along one axis of a frame, on targets without vector registers |
 //! | `two_in_word` | a point against eight boxes, on targets without vector registers |
-//! | `slab_ray` | [`SlabRay`], a segment prepared for the test; a segment against one box |
+//! | `slab_ray` | [`SlabRay`], a segment prepared for the test |
+//! | `slab_planes` | a segment against one box, on targets without vector registers |
 //! | `box_entries` | a segment against eight boxes: the choice between the next two |
 //! | `entry_lanes` | a segment against eight boxes, in vector registers |
+//! | `entry_avx2` | the same in registers of 256 bits |
 //! | `entries_in_whole` | a segment against eight boxes, on targets without an FPU |
 
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
@@ -44,6 +46,8 @@ mod box_entries;
 mod box_lanes;
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 mod entries_in_whole;
+#[cfg(target_arch = "x86_64")]
+mod entry_avx2;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod entry_lanes;
 mod frame;
@@ -51,6 +55,8 @@ mod frame;
 mod grid_line;
 mod keys;
 mod opened_node;
+#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+mod slab_planes;
 mod slab_ray;
 #[cfg(test)]
 mod tests;
@@ -65,6 +71,8 @@ pub(crate) use box_distances::push_boxes;
 pub use box_entries::box_entries;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use box_entries::push_entries;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use entry_avx2::keys as box_entries_avx2;
 pub use frame::KeyPoint;
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 pub use grid_line::GridLine;

@@ -3,7 +3,8 @@
 use super::frame::KeyPoint;
 use super::keys::{CHILD_MASK, NO_CHILD, TakenLeast, least_key, take_least};
 use super::opened_node::OpenedNode;
-use super::slab_ray::{SlabPlanes, SlabRay};
+use super::slab_planes::SlabPlanes;
+use super::slab_ray::SlabRay;
 use super::{box_lanes, entries_in_whole, entry_lanes, two_in_word};
 use crate::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES, ROW_BITS, boxes};
 use crate::geom::fan::WIDTH;
@@ -243,7 +244,8 @@ fn entries_have_the_same_bits() {
         let ray = SlabRay::new(from, inverse, margin, from.map(|x| x.abs() + 600.0));
         for (bound, limit) in [(0.0, 1.0), (0.25, 1.0), (0.0, 0.5), (0.5, 0.25), (1.0, 1.0)] {
             let planes = SlabPlanes::of(&record, &ray).expect("long enough");
-            let wide = entry_lanes::keys(&planes, count as u32, bound, limit);
+            let wide =
+                entry_lanes::keys(&record, &ray, count as u32, bound, limit).expect("eight rows");
             let [bound, limit] = [bound, limit].map(f32::to_bits);
             let narrow = planes.keys(count as u32, [bound, limit]);
             for (lane, (wide, narrow)) in wide.into_iter().zip(narrow).enumerate() {

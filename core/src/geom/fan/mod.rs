@@ -7,13 +7,13 @@
 
 mod cone;
 mod lanes;
+#[cfg(target_arch = "x86_64")]
+pub(crate) mod lanes_avx2;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod lanes_wide;
 mod point;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod point8;
-#[cfg(target_arch = "x86_64")]
-pub(crate) mod point_avx2;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-mod point_wide;
 mod ray;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod ray8;
@@ -23,18 +23,18 @@ pub use cone::NormalCone;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use lanes::{LANES, Lanes, PIECES, lanes_below, least};
 pub use lanes::{LANES_BELOW, WIDTH};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub use lanes_wide::{point_lanes, ray_lanes};
 pub(crate) use point::is_whole;
 pub use point::{
     Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, lower_bound_up_to, point_leaf,
     refined,
 };
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pub use point_wide::point_lanes;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use point8::{Edges, LaneNearness};
 pub use ray::{Crossing, FanRay, Shadow, ShadowPlane, ray_leaf};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pub use ray8::{CentreShadows, Ring8, RingLanes, ray_lanes, ray_leaf8};
+pub use ray8::{CentreShadows, Ring8, RingLanes, ShadowLanes, ray_leaf8};
 pub use whole::{
     Whole, WholeBounds, WholeLimit, WholePoint, is_certain_corner, is_in_front, less, whole_bounds,
 };

@@ -108,9 +108,8 @@ impl FanRay {
     ) -> Self {
         let [x, y, z] = direction;
         let (x, y, z) = (x.abs(), y.abs(), z.abs());
-        let first = if x >= y { 0 } else { 1 };
-        let more = if x >= y { x } else { y };
-        let axis = if more >= z { first } else { 2usize };
+        let first = usize::from(x < y);
+        let axis = if greater(x, y) >= z { first } else { 2usize };
         let (u, v) = ([1, 2, 0, 0][axis & 3], [2, 0, 1, 0][axis & 3]);
         let along = pick(inverse, axis);
         FanRay {

@@ -4,8 +4,8 @@
 //! kernel; a test checks it. Few are flagged, so the decision about them is scalar.
 
 use super::lanes::{LANES, Lanes, WIDTH, lanes_below};
+use super::lanes_wide::ray_lanes;
 use super::ray::FanRay;
-use crate::num::tolerance::PRODUCT_UNDERFLOW;
 
 /// Corners of the triangles of a leaf, grid units, in the order of [`FanRay::axes`]:
 /// `[axis][lane]`.
@@ -19,21 +19,21 @@ pub struct Ring8 {
     pub centres: [[f32; 3]; 2],
 }
 
-/// The ring of the triangles in a register's lanes.
+/// The ring of the triangles in a register's lanes, in the order of [`FanRay::axes`].
 #[derive(Clone, Copy, Debug)]
-pub struct RingLanes {
+pub struct RingLanes<L = Lanes> {
     /// Ring vertex `i` of triangle `i`.
-    pub here: [Lanes; 3],
+    pub here: [L; 3],
     /// Ring vertex `i + 1`.
-    pub next: [Lanes; 3],
+    pub next: [L; 3],
 }
 
-/// A vertex in the shadow plane.
-type Shadow = [Lanes; 2];
+/// Vertices in the shadow plane.
+pub type ShadowLanes<L = Lanes> = [L; 2];
 
 /// Both centres of a leaf in the shadow plane, in all lanes.
 #[derive(Clone, Copy, Debug)]
-pub struct CentreShadows([Shadow; 2]);
+pub struct CentreShadows([ShadowLanes; 2]);
 
 impl CentreShadows {
     /// `centres` in the order of [`FanRay::axes`].
@@ -46,34 +46,62 @@ impl CentreShadows {
         };
         CentreShadows([shadow(centres[0]), shadow(centres[1])])
     }
+
+    /// Each triangle's own. `first` has ones in the lanes of the first fan.
+    #[inline(always)]
+    pub fn of_lanes(&self, first: Lanes) -> ShadowLanes {
+        let CentreShadows([c, d]) = self;
+        [first.select(c[0], d[0]), first.select(c[1], d[1])]
+    }
 }
 
-/// Triangles that the segment's line may meet, as [`ray_leaf`](super::ray_leaf) says: a bit for
-/// each lane. `first` has ones in the lanes of the first fan.
-#[inline(always)]
-pub fn ray_lanes(ray: &FanRay, ring: &RingLanes, centres: &CentreShadows, first: Lanes) -> u32 {
-    let [ox, oy, oz] = ray.origin().map(Lanes::splat);
-    let [sx, sy] = ray.shear().map(Lanes::splat);
-    let doubt = Lanes::splat(ray.doubt());
-    let underflow = Lanes::splat(PRODUCT_UNDERFLOW);
-    let shadow = |[x, y, z]: [Lanes; 3]| -> Shadow {
-        let z = z - oz;
-        [(x - ox) - sx * z, (y - oy) - sy * z]
+/// Defines `ray_lanes` and `shadow_lanes` for registers `$lanes`, as
+/// [`define_point_lanes`](super::point8::define_point_lanes) does.
+macro_rules! define_ray_lanes {
+    ($(#[$attribute:meta])* $lanes:ty, $seen:vis) => {
+        /// Vertices in the shadow plane, from their coordinates in the order of [`FanRay::axes`].
+        $(#[$attribute])*
+        $seen fn shadow_lanes(ray: &FanRay, [x, y, z]: [$lanes; 3]) -> ShadowLanes<$lanes> {
+            let ([ox, oy, oz], [sx, sy]) = (ray.origin(), ray.shear());
+            let z = sub(z, splat(oz));
+            [
+                sub(sub(x, splat(ox)), mul(splat(sx), z)),
+                sub(sub(y, splat(oy)), mul(splat(sy), z)),
+            ]
+        }
+
+        /// Triangles that the segment's line may meet, as [`ray_leaf`](super::ray_leaf) says: a bit
+        /// for each lane. `centre` is each triangle's own.
+        $(#[$attribute])*
+        $seen fn ray_lanes(
+            ray: &FanRay,
+            ring: &RingLanes<$lanes>,
+            centre: ShadowLanes<$lanes>,
+        ) -> u32 {
+            let (here, next) = (shadow_lanes(ray, ring.here), shadow_lanes(ray, ring.next));
+            let (a, a_doubt) = side(ray, centre, here);
+            let (b, b_doubt) = side(ray, centre, next);
+            let (rim, rim_doubt) = side(ray, here, next);
+            let positive =
+                and(and(ge(a, neg(a_doubt)), le(b, b_doubt)), ge(rim, neg(rim_doubt)));
+            let negative =
+                and(and(le(a, a_doubt), ge(b, neg(b_doubt))), le(rim, rim_doubt));
+            bits(or(positive, negative))
+        }
+
+        $(#[$attribute])*
+        fn side(
+            ray: &FanRay,
+            from: ShadowLanes<$lanes>,
+            to: ShadowLanes<$lanes>,
+        ) -> ($lanes, $lanes) {
+            let [ex, ey] = [sub(to[0], from[0]), sub(to[1], from[1])];
+            let doubt = mul(splat(ray.doubt()), add(abs(ex), abs(ey)));
+            (sub(mul(from[0], ey), mul(from[1], ex)), add(doubt, splat(PRODUCT_UNDERFLOW)))
+        }
     };
-    let side = |from: Shadow, to: Shadow| {
-        let [ex, ey] = [to[0] - from[0], to[1] - from[1]];
-        (from[0] * ey - from[1] * ex, doubt * (ex.abs() + ey.abs()) + underflow)
-    };
-    let CentreShadows([c, d]) = centres;
-    let centre = [first.select(c[0], d[0]), first.select(c[1], d[1])];
-    let (here, next) = (shadow(ring.here), shadow(ring.next));
-    let (a, a_doubt) = side(centre, here);
-    let (b, b_doubt) = side(centre, next);
-    let (rim, rim_doubt) = side(here, next);
-    let positive = a.simd_ge(-a_doubt) & b.simd_le(b_doubt) & rim.simd_ge(-rim_doubt);
-    let negative = a.simd_le(a_doubt) & b.simd_ge(-b_doubt) & rim.simd_le(rim_doubt);
-    (positive | negative).to_bitmask()
 }
+pub(super) use define_ray_lanes;
 
 /// The same for a leaf of `count` triangles, the second fan of which begins with triangle `turn`.
 /// The other lanes may be any numbers.
@@ -88,7 +116,7 @@ pub fn ray_leaf8(ray: &FanRay, ring: &Ring8, turn: usize, count: usize) -> Optio
         };
         let rows = |[x, y, z]: &[[f32; WIDTH]; 3]| Some([row(x)?, row(y)?, row(z)?]);
         let ring = RingLanes { here: rows(&ring.here)?, next: rows(&ring.next)? };
-        lanes |= ray_lanes(ray, &ring, &centres, first) << (LANES * piece);
+        lanes |= ray_lanes(ray, &ring, centres.of_lanes(first)) << (LANES * piece);
     }
     Some(lanes & !(u32::MAX << count))
 }

@@ -1,10 +1,18 @@
-//! The kernel of point and leaf in the registers that the crate is compiled for.
+//! The kernels of leaves in the registers that the crate is compiled for.
 
 use super::lanes::Lanes;
 use super::point8::{Edges, LaneNearness, UNUSED_SQ, define_point_lanes};
-use crate::num::tolerance::LEAST_DENOMINATOR;
+use super::ray::FanRay;
+use super::ray8::{RingLanes, ShadowLanes, define_ray_lanes};
+use crate::num::tolerance::{LEAST_DENOMINATOR, PRODUCT_UNDERFLOW};
 
 define_point_lanes!(
+    #[inline(always)]
+    Lanes,
+    pub
+);
+
+define_ray_lanes!(
     #[inline(always)]
     Lanes,
     pub
@@ -33,6 +41,16 @@ fn mul(a: Lanes, b: Lanes) -> Lanes {
 #[inline(always)]
 fn div(a: Lanes, b: Lanes) -> Lanes {
     a / b
+}
+
+#[inline(always)]
+fn neg(a: Lanes) -> Lanes {
+    -a
+}
+
+#[inline(always)]
+fn abs(a: Lanes) -> Lanes {
+    a.abs()
 }
 
 #[inline(always)]
@@ -74,4 +92,10 @@ fn select(mask: Lanes, if_ones: Lanes, if_zeros: Lanes) -> Lanes {
 #[inline(always)]
 fn any(mask: Lanes) -> bool {
     mask.any()
+}
+
+/// A bit for each lane.
+#[inline(always)]
+fn bits(mask: Lanes) -> u32 {
+    mask.to_bitmask()
 }
