@@ -112,7 +112,6 @@ fn inverse(d: f32) -> f32 {
     1.0 / if d.abs() > STILL { d } else { STILL.copysign(d) }
 }
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 impl SegmentQuery {
     /// Keys of a node's children.
     #[inline(always)]
