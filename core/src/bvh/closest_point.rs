@@ -12,9 +12,9 @@ use super::node::{OpenedNode, take_least};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use super::point_blocks::{Kernels, search_by_blocks};
 use super::point_query::{EVERY_KEY, PointQuery};
-use super::triangle_bounds::{each_seen, sliver};
+use super::triangle_bounds::{nearness, seen_from, sliver};
 use super::triangle_place::TrianglePlace;
-use crate::bvh::format::{Bvh, FanLeaf};
+use crate::bvh::format::{Bvh, FanLeaf, lanes_of};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use crate::geom::fan::WIDTH;
 use crate::geom::fan::{lower_bound_up_to, refined};
@@ -356,11 +356,13 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         let leaf = self.tree.leaf(node, child);
         let leaf = leaf.as_ref()?;
         let box_sq = square(query.distance_of_key(key));
-        each_seen(leaf, query.p, low, |lane, seen, near| {
+        for lane in lanes_of(low) {
+            let seen = seen_from(leaf, lane, query.p);
+            let near = nearness(&seen);
             if near.lower_bound_sq >= self.refine_below {
-                return;
+                continue;
             }
-            let again = refined(seen, &near);
+            let again = refined(&seen, &near);
             let better = sliver(query, near, &again);
             let (best_sq, lanes) = (self.best.distance_sq, &self.best.lanes);
             let here = node == self.best.node && child == self.best.child;
@@ -374,13 +376,13 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             // The kernel's bound may be greater than all others.
             let known_sq = greater(near.lower_bound_sq, box_sq);
             if known_sq < enough_sq {
-                let lower_sq = square(lower_bound_up_to(seen, &again, enough_sq));
+                let lower_sq = square(lower_bound_up_to(&seen, &again, enough_sq));
                 let lower_sq = greater(known_sq, lower_sq);
                 if lower_sq < enough_sq {
                     self.refined_lower_sq = lower_sq;
                 }
             }
-        });
+        }
         Some(())
     }
 

@@ -89,63 +89,35 @@ fn each_by_fans(
     mut each: impl FnMut(usize, Option<&[Vec3; 3]>, [f32; 2]),
 ) {
     let of_first_fan = !(u32::MAX << (leaf.shape().turn() & 31));
-    for (which, lanes) in [low & of_first_fan, low & !of_first_fan].into_iter().enumerate() {
-        if lanes == 0 {
-            continue;
-        }
-        let (centre, spoke) = leaf.fan(which);
-        let fan = PointFan::new(query.p - centre);
-        let mut next = usize::MAX;
-        let mut second = fan.spoke(Vec3::ZERO);
-        for lane in lanes_of(lanes) {
-            let first = if next == lane { second } else { fan.spoke(spoke(lane)) };
-            next = lane + 1;
-            second = fan.spoke(spoke(next));
-            let seen = [fan.s, first.edge, second.edge];
-            let mut squares = match fan.at_centre(&first, &second) {
-                Some(distance_sq) => [distance_sq; 2],
-                None => of_triangle(fan, first, second),
-            };
-            if squares[1] > limit.low_sq {
-                continue;
-            }
-            if is_sliver(query, squares) {
-                squares = refined_squares(query, seen);
-            }
-            each(lane, Some(&seen), squares);
-        }
-    }
-}
-
-/// Calls `each` for the triangles of a leaf whose bits in `low` are ones, in order: lane, the
-/// triangle [seen](seen_from) from `p`, and its [`nearness`].
-#[inline(always)]
-pub(crate) fn each_seen(
-    leaf: &FanLeaf<'_>,
-    p: Vec3,
-    low: u32,
-    mut each: impl FnMut(usize, &[Vec3; 3], Nearness),
-) {
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-    if !SOFT_FLOAT && !cfg!(meshsweep_small) {
-        let of_first_fan = !(u32::MAX << (leaf.shape().turn() & 31));
-        for (which, lanes) in [low & of_first_fan, low & !of_first_fan].into_iter().enumerate() {
-            if lanes == 0 {
-                continue;
-            }
+    let (mut which, mut lanes, mut of_next_fan) = (0, low & of_first_fan, low & !of_first_fan);
+    loop {
+        if lanes != 0 {
             let (centre, spoke) = leaf.fan(which);
-            let fan = PointFan::new(p - centre);
+            let fan = PointFan::new(query.p - centre);
+            let mut next = usize::MAX;
+            let mut second = fan.spoke(Vec3::ZERO);
             for lane in lanes_of(lanes) {
-                let (first, second) = (fan.spoke(spoke(lane)), fan.spoke(spoke(lane + 1)));
-                let near = lone_triangle(&fan, &first, &second);
-                each(lane, &[fan.s, first.edge, second.edge], near);
+                let first = if next == lane { second } else { fan.spoke(spoke(lane)) };
+                next = lane + 1;
+                second = fan.spoke(spoke(next));
+                let seen = [fan.s, first.edge, second.edge];
+                let mut squares = match fan.at_centre(&first, &second) {
+                    Some(distance_sq) => [distance_sq; 2],
+                    None => of_triangle(fan, first, second),
+                };
+                if squares[1] > limit.low_sq {
+                    continue;
+                }
+                if is_sliver(query, squares) {
+                    squares = refined_squares(query, seen);
+                }
+                each(lane, Some(&seen), squares);
             }
         }
-        return;
-    }
-    for lane in lanes_of(low) {
-        let seen = seen_from(leaf, lane, p);
-        each(lane, &seen, nearness(&seen));
+        if of_next_fan == 0 {
+            return;
+        }
+        (which, lanes, of_next_fan) = (1, of_next_fan, 0);
     }
 }
 
