@@ -2,7 +2,6 @@
 
 use super::cost::Board;
 use super::measure::{Instructions, Row, Trade};
-use super::setting::Setting;
 use crate::builder::Built;
 use crate::number::AtMost;
 use std::cmp::Ordering;
@@ -82,39 +81,11 @@ pub enum Unmet {
     NoIntervals,
     /// The setting that comes nearest to the limits, and where it exceeds them.
     Beyond {
-        /// The setting.
-        nearest: Setting,
-        /// What it needs.
-        needs: Vec<Need>,
+        /// The setting as measured.
+        nearest: Box<Row>,
+        /// The limits.
+        limits: Limits,
     },
-}
-
-/// A value that exceeds its limit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Need {
-    /// Bytes of the blob, and how many there are.
-    Flash([f64; 2]),
-    /// Bytes of RAM, and how many there are.
-    Ram([f64; 2]),
-    /// The width of the widest interval.
-    Error(f64),
-    /// Queries a second that the processor answers.
-    Rate(f64),
-    /// Cycles of the dearest query, of a processor that does not answer one a second.
-    Cycles(f64),
-}
-
-impl fmt::Display for Need {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::Flash([needs, has]) => write!(f, "--flash {needs:.0} instead of {has:.0}"),
-            Self::Ram([needs, has]) => write!(f, "--ram {needs:.0} instead of {has:.0}"),
-            Self::Error(error) => write!(f, "--error {}", AtMost(error)),
-            Self::Rate(rate) => write!(f, "--rate {rate}Hz"),
-            Self::Cycles(cycles) => write!(f, "{cycles:.0} cycles"),
-        }
-    }
 }
 
 impl fmt::Display for Unmet {
@@ -127,13 +98,10 @@ impl fmt::Display for Unmet {
                 100.0 * part
             ),
             Self::NoIntervals => f.write_str("no structure gives intervals"),
-            Self::Beyond { nearest, needs } => {
-                let needs: Vec<String> = needs.iter().map(Need::to_string).collect();
-                write!(
-                    f,
-                    "no setting meets these limits; the nearest is {nearest}, which needs {}",
-                    needs.join(" and ")
-                )
+            Self::Beyond { nearest, limits } => {
+                let setting = nearest.setting;
+                write!(f, "no setting meets these limits; the nearest is {setting}, which needs ")?;
+                f.write_str(&limits.needs(nearest).join(" and "))
             }
         }
     }
@@ -215,23 +183,27 @@ impl Limits {
         pairs.map(|(a, b)| a.total_cmp(&b)).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
     }
 
-    /// Which setting comes nearest, and what it needs.
+    /// Which setting comes nearest.
     fn unmet(&self, rows: &[Row]) -> Unmet {
         let nearest = rows.iter().min_by(|a, b| self.excess(a).total_cmp(&self.excess(b)));
         let Some(nearest) = nearest else { return Unmet::NoIntervals };
-        let beyond =
-            |(value, limit): (f64, Option<f64>)| Some([value, limit.filter(|&l| value > l)?]);
-        let [flash, ram, error, cycles] = self.limited(nearest).map(beyond);
-        let slowed = |[cycles, _]: [f64; 2]| match self.cpu {
-            Some(cpu) if cpu.hertz >= cycles => Need::Rate((cpu.hertz / cycles).floor()),
-            _ => Need::Cycles(cycles),
-        };
-        let needs = [
-            flash.map(Need::Flash),
-            ram.map(Need::Ram),
-            error.map(|[error, _]| Need::Error(error)),
-            cycles.map(slowed),
-        ];
-        Unmet::Beyond { nearest: nearest.setting, needs: needs.into_iter().flatten().collect() }
+        Unmet::Beyond { nearest: Box::new(nearest.clone()), limits: *self }
+    }
+
+    /// What a setting needs beyond the limits, as options.
+    fn needs(&self, row: &Row) -> Vec<String> {
+        let options = ["--flash", "--ram", "--error", "--rate"].into_iter().zip(self.limited(row));
+        let beyond = options.filter_map(|(option, (value, limit))| {
+            let limit = limit.filter(|&limit| value > limit)?;
+            Some(match (option, self.cpu) {
+                ("--rate", Some(cpu)) if cpu.hertz >= value => {
+                    format!("--rate {}Hz", (cpu.hertz / value).floor())
+                }
+                ("--rate", _) => format!("{value:.0} cycles"),
+                ("--error", _) => format!("--error {}", AtMost(value)),
+                _ => format!("{option} {value:.0} instead of {limit:.0}"),
+            })
+        });
+        beyond.collect()
     }
 }
