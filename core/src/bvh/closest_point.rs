@@ -1,5 +1,8 @@
 //! The closest point, with an interval of the distance.
 
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod waiting;
+
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend_inlined};
 use super::far_point::from_afar;
 use super::leaf_distance::{
@@ -15,13 +18,19 @@ use super::point_query::{EVERY_KEY, PointQuery};
 use super::triangle_bounds::{nearness, seen_from, sliver};
 use super::triangle_place::TrianglePlace;
 use crate::bvh::format::{Bvh, FanLeaf, lanes_of};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use crate::geom::fan::WIDTH;
 use crate::geom::fan::{lower_bound_up_to, refined};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::num::SOFT_FLOAT;
 use crate::num::tolerance::{EVERYTHING_SQ, U32};
-use crate::num::{greater, lesser, sqrt_approx};
+use crate::num::{Real, greater, lesser, sqrt_approx};
 use crate::query::Interval;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
+
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::geom::fan::WholeBounds;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use waiting::Waiting;
 
 /// The leaf of an answer, to visit first for a query nearby. Any value is safe. A bad one costs a
 /// leaf.
@@ -207,13 +216,22 @@ fn search_by_entries(
         },
     );
     let mut visitor = Closest::new(tree, point, query, budget, nearest);
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    if SOFT_FLOAT {
+        let may_end_early =
+            budget.steps < tree.most_steps() || scratch.len() < tree.scratch_entries();
+        visitor.waits = !(visitor.tolerant || may_end_early);
+    }
     if *hint != Hint::NONE
         && let Some(leaf) = tree.leaf(hint.node(), hint.child())
     {
-        let near = nearest_triangle(&leaf, query).ok_or(QueryError::Unchecked)?;
-        visitor.bound_by(&near);
+        visitor.bound_by_leaf(&leaf).ok_or(QueryError::Unchecked)?;
     }
     let descent = descend_inlined(tree, query, budget.steps, scratch, &mut visitor, &mut work)?;
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    if SOFT_FLOAT {
+        visitor.look_at_waiting().ok_or(QueryError::Unchecked)?;
+    }
     visitor.answer(descent, work, hint)
 }
 
@@ -260,6 +278,12 @@ pub(super) struct Closest<'a, N> {
     /// The limit's plane is not that of the best triangle. It is made when a leaf needs it.
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
     has_old_plane: bool,
+    /// Whether triangles wait for the f32 kernel: without floating point, if nothing may end the
+    /// search early. Its limits then are others than on other targets.
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    waits: bool,
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    waiting: Waiting,
 }
 
 impl<'a, N: NearestOfLeaf> Closest<'a, N> {
@@ -290,10 +314,28 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             tolerant: budget.relative > 0.0 || budget.absolute > 0.0,
             #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
             has_old_plane: false,
+            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            waits: false,
+            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            waiting: Waiting::NONE,
         }
     }
 
     /// Lowers the limit by a leaf that the descent reaches again.
+    #[inline(always)]
+    fn bound_by_leaf(&mut self, leaf: &FanLeaf<'_>) -> Option<()> {
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        if SOFT_FLOAT
+            && self.waits
+            && !leaf.is_f32()
+            && let Some(point) = &self.query.whole
+        {
+            return self.bound(leaf, point, &mut [WholeBounds::NONE; WIDTH]).map(drop);
+        }
+        self.bound_by(&nearest_triangle(leaf, self.query)?);
+        Some(())
+    }
+
     #[inline(always)]
     pub(super) fn bound_by(&mut self, near: &LeafNearest) {
         self.beyond.distance_sq = self.query.limit(near.distance_sq);
@@ -323,14 +365,14 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         // Of equal distances the first in blob order counts, which is the order of places: see
         // `TrianglePlace`. Before the first triangle `node` is above all.
         let comes_later = (node, child) > (self.best.node, self.best.child);
-        if distance_sq == self.best.distance_sq && comes_later {
+        if comes_later && Real(distance_sq) == Real(self.best.distance_sq) {
             return;
         }
         self.best = Best { distance_sq, node, child, lanes: *lanes };
         self.refine_below = self.query.refine_below(distance_sq);
         self.beyond.low_sq = self.refine_below;
         let beyond = self.query.limit(distance_sq);
-        if beyond < self.beyond.distance_sq {
+        if Real(beyond) < Real(self.beyond.distance_sq) {
             self.beyond.distance_sq = beyond;
         }
         #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
@@ -444,6 +486,15 @@ impl<N: NearestOfLeaf> LeafVisitor for Closest<'_, N> {
 
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        if SOFT_FLOAT
+            && self.waits
+            && !visit.leaf.is_f32()
+            && let Some(point) = &self.query.whole
+        {
+            self.wait(visit, point)?;
+            return Some(true);
+        }
         #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
         if self.has_old_plane {
             self.has_old_plane = false;

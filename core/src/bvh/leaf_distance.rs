@@ -251,13 +251,10 @@ mod narrow {
     };
     use crate::bvh::leaf_plane::Way;
     use crate::bvh::point_query::limit_of;
-    use crate::bvh::triangle_bounds::{nearness, seen_from};
-    use crate::geom::fan::{
-        Nearness, PointFan, SpokeTerms, WIDTH, Whole, WholeBounds, WholeLimit, WholePoint,
-        is_certain_corner, less, whole_bounds,
-    };
-    use crate::num::SOFT_FLOAT;
-    use crate::num::lesser;
+    use crate::bvh::triangle_bounds::nearness;
+    use crate::bvh::whole_leaf::whole_nearest;
+    use crate::geom::fan::{Nearness, PointFan, SpokeTerms, WIDTH, Whole};
+    use crate::num::{Real, SOFT_FLOAT, lesser};
     use glam::Vec3;
 
     /// The nearest triangle of a leaf.
@@ -275,6 +272,14 @@ mod narrow {
         /// One triangle alone.
         pub(crate) fn one(lane: usize, near: &Nearness) -> Lanes {
             Lanes { lane, v: near.v, w: near.w, way: Way::NONE }
+        }
+
+        /// Tells the way to a triangle, if it is this one.
+        #[inline(always)]
+        pub(crate) fn tell(&mut self, lane: usize, way: Way) {
+            if self.lane == lane {
+                self.way = way;
+            }
         }
 
         #[inline(always)]
@@ -344,7 +349,7 @@ mod narrow {
 
     impl LeafNearest {
         /// All triangles left out.
-        const NONE: LeafNearest = LeafNearest {
+        pub(crate) const NONE: LeafNearest = LeafNearest {
             distance_sq: f32::INFINITY,
             lower_bound_sq: f32::INFINITY,
             lanes: Lanes::NONE,
@@ -352,8 +357,8 @@ mod narrow {
         };
 
         #[inline(always)]
-        fn take(&mut self, lane: usize, near: &Nearness, low_sq: f32) {
-            let (here, best) = (near.distance_sq, self.distance_sq);
+        pub(crate) fn take(&mut self, lane: usize, near: &Nearness, low_sq: f32) {
+            let (here, best) = (Real(near.distance_sq), Real(self.distance_sq));
             if here < best || here == best && lane < self.lanes.lane {
                 self.distance_sq = near.distance_sq;
                 self.lanes = Lanes::one(lane, near);
@@ -364,108 +369,13 @@ mod narrow {
         /// Takes the lower bound of a triangle.
         #[inline(always)]
         fn bound(&mut self, lane: usize, near: &Nearness, low_sq: f32) {
-            if near.lower_bound_sq < self.lower_bound_sq {
+            if Real(near.lower_bound_sq) < Real(self.lower_bound_sq) {
                 self.lower_bound_sq = near.lower_bound_sq;
             }
-            if near.lower_bound_sq <= low_sq {
+            if Real(near.lower_bound_sq) <= Real(low_sq) {
                 self.low |= 1 << (lane & 31);
             }
         }
-    }
-
-    /// In integers, but for the triangles that may be the nearest: the likeliest first, then those
-    /// that are not certainly farther.
-    #[inline(never)]
-    fn whole_nearest(
-        leaf: &FanLeaf<'_>,
-        p: Vec3,
-        point: &WholePoint,
-        limit: &LeafLimit,
-        mut known: Option<&mut LeafSquares>,
-    ) -> Option<LeafNearest> {
-        let mut nearest = LeafNearest::NONE;
-        let ring = leaf.full_ring()?;
-        let shape = leaf.shape();
-        let wanted = limit.plane.in_front(&ring, shape);
-        if wanted == 0 {
-            return Some(nearest);
-        }
-        let centres = ring.centres(shape);
-        let corners = |lane: usize| {
-            let centre = centres[usize::from(lane >= shape.turn())];
-            Some([centre, ring.vertex(lane)?, ring.vertex(lane + 1)?])
-        };
-        let mut bounds = [WholeBounds::NONE; WIDTH];
-        let (mut likeliest, mut least) = (0, u32::MAX);
-        for (lane, slot) in bounds.iter_mut().enumerate() {
-            if wanted >> lane & 1 != 0 {
-                *slot = whole_bounds(point, &corners(lane)?);
-                if slot.estimate < least {
-                    (likeliest, least) = (lane, slot.estimate);
-                }
-            }
-        }
-        let mut within = limit.distance_sq;
-        let mut look = |lane: usize, bounds: &WholeBounds, within: &mut f32| {
-            let corners = corners(lane)?;
-            let near = match corner_nearness(leaf, p, point, &corners, lane, bounds.corner) {
-                Some(near) => near,
-                None => nearness(&seen_from(leaf, lane, p)),
-            };
-            if near.distance_sq < nearest.distance_sq {
-                *within = lesser(*within, limit_of(near.distance_sq, limit.allowance));
-            }
-            nearest.take(lane, &near, limit.low_sq);
-            if let Some(known) = &mut known {
-                known.keep(lane, [near.distance_sq, near.lower_bound_sq]);
-            }
-            if nearest.lanes.lane == lane {
-                nearest.lanes.way = Way::of_whole(bounds.direction);
-            }
-            Some(WholeLimit::of(*within))
-        };
-        let mut whole_limit = WholeLimit::of(within);
-        let first = bounds.get(likeliest)?;
-        if !first.is_beyond(whole_limit) {
-            whole_limit = look(likeliest, first, &mut within)?;
-        }
-        for (lane, bounds) in bounds.iter().enumerate() {
-            let is_wanted = wanted >> lane & 1 != 0 && lane != likeliest;
-            if is_wanted && !bounds.is_beyond(whole_limit) {
-                whole_limit = look(lane, bounds, &mut within)?;
-            }
-        }
-        Some(nearest)
-    }
-
-    /// What the f32 kernel finds where a corner is certainly the closest point: the same bits.
-    #[inline(never)]
-    fn corner_nearness(
-        leaf: &FanLeaf<'_>,
-        p: Vec3,
-        point: &WholePoint,
-        &[centre, a, b]: &[Whole; 3],
-        lane: usize,
-        corner: usize,
-    ) -> Option<Nearness> {
-        let (vertex, others) = match corner {
-            0 => (centre, [a, b]),
-            1 => (a, [b, centre]),
-            2 => (b, [centre, a]),
-            _ => return None,
-        };
-        if !is_certain_corner(point, vertex, others.map(|other| less(other, vertex))) {
-            return None;
-        }
-        let mut way = p - leaf.centre(usize::from(lane >= leaf.shape().turn()));
-        let (mut v, mut w) = (0.0, 0.0);
-        if corner > 0 {
-            let [x, y, z] = less(vertex, centre);
-            way -= Vec3::new(x as f32, y as f32, z as f32);
-            (v, w) = if corner == 1 { (1.0, 0.0) } else { (0.0, 1.0) };
-        }
-        let distance_sq = way.x * way.x + way.y * way.y + way.z * way.z;
-        Some(Nearness { distance_sq, lower_bound_sq: distance_sq, v, w })
     }
 
     /// A fan of a leaf on the grid, seen from the query. Integers are subtracted before they become

@@ -9,11 +9,11 @@ use crate::bvh::format::{FullRing, LeafShape};
 use crate::bvh::point_query::PointQuery;
 use crate::geom::fan::Whole;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-use crate::geom::fan::WholePoint;
+use crate::geom::fan::{WholeLimit, WholePoint};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::num::SOFT_FLOAT;
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 use crate::num::tolerance::{EVERYTHING_SQ, LEAST_DENOMINATOR, PLANE_ALONG, U32};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-use crate::num::{SOFT_FLOAT, sqrt_approx};
 #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 use glam::Vec3;
 
@@ -74,11 +74,9 @@ impl LeafPlane {
 impl LeafPlane {
     /// The plane across `normal`, which has twelve bits. What is behind it is farther from `p` than
     /// the root of `limit`.
-    fn new(p: &WholePoint, normal: Whole, limit: f32) -> LeafPlane {
-        let length_sq = normal.into_iter().fold(0, |sum, x| sum + x * x) as f32;
-        let far = sqrt_approx(length_sq * limit) * (1.0 + 8.0 * U32);
-        let behind = p.along(normal).saturating_sub(far as i32).saturating_sub(1);
-        LeafPlane { normal, behind }
+    pub(crate) fn new(p: &WholePoint, normal: Whole, limit: WholeLimit) -> LeafPlane {
+        let far = limit.root_of_product(normal.into_iter().fold(0, |sum, x| sum + x * x));
+        LeafPlane { normal, behind: p.along(normal).saturating_sub(far).saturating_sub(1) }
     }
 }
 
@@ -122,7 +120,7 @@ impl LeafPlane {
             return LeafPlane::across_residual(query.from_origin, residual, distance_sq, limit);
         }
         match &query.whole {
-            Some(point) => LeafPlane::new(point, way.whole(), limit),
+            Some(point) => LeafPlane::new(point, way.whole(), WholeLimit::of(limit)),
             None => LeafPlane::NONE,
         }
     }

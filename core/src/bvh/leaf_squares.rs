@@ -3,7 +3,7 @@
 
 use crate::bvh::format::lanes_of;
 use crate::geom::fan::WIDTH;
-use crate::num::SOFT_FLOAT;
+use crate::num::{Real, SOFT_FLOAT};
 
 /// Triangles of one leaf.
 const KEPT: usize = if SOFT_FLOAT { WIDTH } else { 0 };
@@ -48,7 +48,9 @@ impl LatestSquares {
         if SOFT_FLOAT {
             for lane in lanes_of(*lanes) {
                 match of.of(lane) {
-                    Some([_, lower_bound_sq]) if lower_bound_sq > low_sq => *lanes &= !(1 << lane),
+                    Some([_, lower_bound_sq]) if Real(lower_bound_sq) > Real(low_sq) => {
+                        *lanes &= !(1 << lane)
+                    }
                     squares => {
                         if let Some(slot) = self.squares.get_mut(self.count % LATEST) {
                             *slot = squares.unwrap_or([0.0, f32::NEG_INFINITY]);

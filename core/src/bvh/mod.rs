@@ -14,6 +14,7 @@
 //! | `processor_questions`, `avx2` | questions compiled for the instructions of one processor |
 //! | `leaf_distance`, `leaf_limit`, `triangle_bounds` | a point and the triangles of a leaf |
 //! | `leaf_plane` | without floating point: a plane behind which no triangle counts |
+//! | `whole_leaf` | without floating point: a leaf in integers, f32 only for what may be the nearest |
 //! | `leaf_squares` | without floating point: distances of triangles that are looked at again |
 //! | `triangle_place` | where a triangle lies, in one word |
 //! | `triangle_visitor` | the visitor of point questions that look at triangles one by one |
@@ -101,6 +102,8 @@ mod triangle_bounds;
 mod triangle_place;
 mod triangle_visitor;
 mod viewed_side;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod whole_leaf;
 mod winding;
 mod within;
 

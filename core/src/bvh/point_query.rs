@@ -15,7 +15,7 @@ use crate::num::tolerance::{
     BVH_FAR, CERTIFIED_PART, CERTIFIED_SHORTFALL, FAN_DISTANCE, FAN_RELATIVE, LEAST_FAN_ROUNDING,
     PLANE_DISTANCE, U32,
 };
-use crate::num::{SOFT_FLOAT, greater, sqrt_approx};
+use crate::num::{Real, SOFT_FLOAT, difference, float, greater, sqrt_approx};
 use crate::query::{Budget, QueryError, ScratchEntry};
 use glam::Vec3;
 
@@ -88,19 +88,21 @@ impl PointQuery {
         let p = units.inward_point(point);
         let header = tree.header();
         let (low, high) = tree.grid_bounds();
-        let farthest = (p - low).abs().max((p - high).abs());
-        let size = farthest.x + farthest.y + farthest.z;
+        let farthest = farthest(p, low, high);
+        let size = (Real(farthest.x) + Real(farthest.y) + Real(farthest.z)).0;
+        // As numbers, for the size may be NaN.
         let near = size <= BVH_FAR;
         // Of a point that is not finite the size is neither.
         if !(near || x.is_finite() && y.is_finite() && z.is_finite()) {
             return Err(QueryError::NotFinite);
         }
-        let fan = greater(FAN_DISTANCE * U32 * header.star_radius, LEAST_FAN_ROUNDING);
+        let fan = (Real(FAN_DISTANCE * U32) * Real(header.star_radius)).0;
+        let fan = greater(fan, LEAST_FAN_ROUNDING);
         let shortfall_sq = if header.is_f32() { 0.0 } else { CERTIFIED_SHORTFALL };
         let [ox, oy, oz] = header.grid_origin;
-        let (ox, oy, oz) = (ox as f32, oy as f32, oz as f32);
-        let most = greater(greater(farthest.x, farthest.y), farthest.z);
-        let from_origin = p - Vec3::new(ox, oy, oz);
+        let (ox, oy, oz) = (float(ox), float(oy), float(oz));
+        let most = greater(greater(Real(farthest.x), Real(farthest.y)), Real(farthest.z)).0;
+        let from_origin = difference(p, Vec3::new(ox, oy, oz));
         let key_point = KeyPoint::new(from_origin, most);
         let whole = if SOFT_FLOAT && !header.is_f32() {
             WholePoint::new(from_origin.to_array())
@@ -116,12 +118,12 @@ impl PointQuery {
             units,
             shortfall_sq,
             rounding: fan,
-            allowance: ALLOWANCE * fan * fan,
+            allowance: (Real(ALLOWANCE) * Real(fan) * Real(fan)).0,
             whole,
             key_point,
             // Keys are halves of squares.
             keys_in_square: f32::from_bits((126 - 2 * key_point.unit_exponent()) << 23),
-            plane_error: PLANE_DISTANCE * U32 * size + fan,
+            plane_error: (Real(PLANE_DISTANCE * U32) * Real(size) + Real(fan)).0,
             far: !near,
         })
     }
@@ -146,7 +148,11 @@ impl PointQuery {
     /// A child with a greater key is farther than the root of `limit`.
     #[inline(always)]
     pub(crate) fn key_limit(&self, limit: f32) -> u32 {
-        let key = (limit * self.keys_in_square) as i32;
+        let key = if SOFT_FLOAT {
+            whole_product(limit, self.keys_in_square)
+        } else {
+            (limit * self.keys_in_square) as i32
+        };
         (if key < EVERY_KEY.cast_signed() { key.cast_unsigned() } else { EVERY_KEY }) | CHILD_MASK
     }
 
@@ -197,7 +203,7 @@ impl PointQuery {
     /// the best squared distance.
     #[inline(always)]
     pub(crate) fn refine_below(&self, distance_sq: f32) -> f32 {
-        distance_sq * CERTIFIED_PART - self.shortfall_sq
+        (Real(distance_sq) * Real(CERTIFIED_PART) - Real(self.shortfall_sq)).0
     }
 
     /// Upper bound of the distance to the input surface, input units, from a computed distance to
@@ -205,33 +211,52 @@ impl PointQuery {
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn upper(&self, distance: f32) -> f32 {
-        self.units.upper(
-            distance
-                + (distance * (FAN_RELATIVE * U32) + (self.rounding + self.units.surface_error)),
-        )
+        let error = Real(distance) * Real(FAN_RELATIVE * U32) + Real(self.fixed_error());
+        self.units.upper((Real(distance) + error).0)
     }
 
     /// The error of a distance that does not grow with the distance: rounding and surface error,
     /// grid units.
     pub(crate) fn fixed_error(&self) -> f32 {
-        self.rounding + self.units.surface_error
+        (Real(self.rounding) + Real(self.units.surface_error)).0
     }
 
     /// Lower bound of the distance to the input surface, input units, from a computed one.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn lower(&self, distance: f32) -> f32 {
-        self.units.lower(
-            distance
-                - (distance * (FAN_RELATIVE * U32) + (self.rounding + self.units.surface_error)),
-        )
+        let error = Real(distance) * Real(FAN_RELATIVE * U32) + Real(self.fixed_error());
+        self.units.lower((Real(distance) - error).0)
+    }
+}
+
+/// By axis the largest way from a point to a corner of a box.
+#[inline(always)]
+fn farthest(p: Vec3, low: Vec3, high: Vec3) -> Vec3 {
+    if !SOFT_FLOAT {
+        return (p - low).abs().max((p - high).abs());
+    }
+    let (low, high) = (difference(p, low).abs(), difference(p, high).abs());
+    let most = |a: f32, b: f32| greater(Real(a), Real(b)).0;
+    Vec3::new(most(low.x, high.x), most(low.y, high.y), most(low.z, high.z))
+}
+
+/// `(x * power) as i32` of a number that is not negative and a power of two, without a product.
+#[inline(never)]
+fn whole_product(x: f32, power: f32) -> i32 {
+    let (bits, by) = (x.to_bits(), power.to_bits() >> 23);
+    match (bits >> 23).wrapping_add(by) {
+        // Less than one.
+        ..254 => 0,
+        exponent @ 254..285 => ((bits << 8 | 1 << 31) >> (285 - exponent)).cast_signed(),
+        _ => i32::MAX,
     }
 }
 
 /// [`PointQuery::limit`] for an allowance.
 #[inline(always)]
 pub(crate) fn limit_of(distance_sq: f32, allowance: f32) -> f32 {
-    distance_sq * GROWTH + allowance
+    (Real(distance_sq) * Real(GROWTH) + Real(allowance)).0
 }
 
 impl NodeQuery for PointQuery {

@@ -25,7 +25,7 @@ use super::triangle_visitor::follow;
 use super::viewed_side::{ViewedSide, cross, is_flat, is_same, norm_1, viewed_side};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::tolerance::{SIGN_COSINE, TRUSTED_DIRECTION_SQ, U32};
-use crate::num::{greater, sqrt_approx};
+use crate::num::{Real, greater, sqrt_approx};
 use crate::query::Side;
 use glam::Vec3;
 
@@ -44,7 +44,8 @@ pub(crate) struct Candidates<'p> {
 #[cfg_attr(meshsweep_small, inline(never))]
 #[cfg_attr(not(meshsweep_small), inline)]
 pub(crate) fn band_of(query: &PointQuery, distance_sq: f32) -> f32 {
-    sqrt_approx(distance_sq) * (1.0 + 128.0 * U32) + 8.0 * query.rounding
+    let distance = Real(sqrt_approx(distance_sq));
+    (distance * Real(1.0 + 128.0 * U32) + Real(8.0) * Real(query.rounding)).0
 }
 
 impl<'p> Candidates<'p> {

@@ -17,7 +17,7 @@ use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVis
 use super::viewed_side::{ViewedSide, viewed_side};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::tolerance::{EMPTY_BALL, EVERYTHING_SQ, U32};
-use crate::num::{lesser, sqrt_approx};
+use crate::num::{Real, lesser, sqrt_approx};
 use crate::query::{Budget, ClosestPoint, Ended, Interval, ScratchEntry};
 use glam::Vec3;
 
@@ -79,8 +79,8 @@ impl<'a, 't> Search<'a, 't> {
         let (place, lanes) = visitor.collector.nearest;
         let Nearby { by_side, least_sq, mut least } = nearby;
         for (least, least_sq) in least.iter_mut().zip(least_sq) {
-            if least_sq < f32::INFINITY {
-                *least = lesser(*least, sqrt_approx(least_sq));
+            if Real(least_sq) < Real(f32::INFINITY) {
+                *least = lesser(Real(*least), Real(sqrt_approx(least_sq))).0;
             }
         }
         let mut missed = None;
@@ -200,7 +200,8 @@ impl Survey<'_> {
     /// Lower bound of the distance to the input mesh, input units, without the nodes that were not
     /// opened. `distance` is that of the closest triangle, grid units.
     fn lower(&self, distance: f32) -> f32 {
-        self.query.lower(self.least.iter().copied().fold(distance, lesser))
+        let least = self.least.iter().fold(Real(distance), |least, &of| lesser(least, Real(of)));
+        self.query.lower(least.0)
     }
 
     /// A place on the way to a triangle, a sixteenth of the distance from the triangle, within the
@@ -304,13 +305,14 @@ impl Collector<'_, '_> {
     /// Takes the distance of a triangle that bounds the survey.
     #[inline(always)]
     fn bound(&mut self, distance_sq: f32, limit: &mut f32) {
-        if distance_sq < self.bound_sq {
+        if Real(distance_sq) < Real(self.bound_sq) {
             self.bound_sq = distance_sq;
             self.latest = LeafTriangle::NONE;
             self.nearest.0 = TrianglePlace::NONE;
             self.band = band_of(self.query, distance_sq);
-            self.sure_sq = self.band * self.band * (1.0 - 8.0 * U32);
-            *limit = lesser(*limit, limit_of(self.query, self.band));
+            let band = Real(self.band);
+            self.sure_sq = (band * band * Real(1.0 - 8.0 * U32)).0;
+            *limit = lesser(Real(*limit), Real(limit_of(self.query, self.band))).0;
         }
     }
 
@@ -353,12 +355,14 @@ impl TriangleCollector for Collector<'_, '_> {
         if self.bounding == Bounding::WithArea {
             return Some(Next::Triangles);
         }
-        if near.distance_sq < self.bound_sq {
+        if Real(near.distance_sq) < Real(self.bound_sq) {
             self.bound(near.distance_sq, limit);
             self.nearest = (TrianglePlace::new(visit.node, visit.child, 0), near.lanes);
         }
-        self.waits = near.distance_sq <= *limit && self.wait(visit, near, known, *limit);
-        let is_sliver = near.lower_bound_sq < self.query.refine_below(self.bound_sq);
+        self.waits =
+            Real(near.distance_sq) <= Real(*limit) && self.wait(visit, near, known, *limit);
+        let refine_below = self.query.refine_below(self.bound_sq);
+        let is_sliver = Real(near.lower_bound_sq) < Real(refine_below);
         Some(if self.waits && !is_sliver { Next::Leaf } else { Next::Triangles })
     }
 
@@ -388,9 +392,9 @@ impl TriangleCollector for Collector<'_, '_> {
         let (mut is_certified, mut lower) = (true, f32::INFINITY);
         if !is_tie {
             is_certified = here.is_certified();
-            if !is_certified || here.lower_bound_sq > self.sure_sq {
+            if !is_certified || Real(here.lower_bound_sq) > Real(self.sure_sq) {
                 lower = here.lower(leaf, self.query);
-                if lower > self.band {
+                if Real(lower) > Real(self.band) {
                     return;
                 }
             }
@@ -413,12 +417,12 @@ impl TriangleCollector for Collector<'_, '_> {
         if is_certified {
             (self.latest, self.latest_facing) = (here, facing);
             if let Some(least_sq) = least_sq.get_mut(facing as usize)
-                && here.lower_bound_sq < *least_sq
+                && Real(here.lower_bound_sq) < Real(*least_sq)
             {
                 *least_sq = here.lower_bound_sq;
             }
         } else if let Some(least) = least.get_mut(facing as usize)
-            && lower < *least
+            && Real(lower) < Real(*least)
         {
             *least = lower;
         }

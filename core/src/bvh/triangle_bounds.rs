@@ -8,7 +8,7 @@ use crate::bvh::format::{FanLeaf, lanes_of};
 use crate::geom::fan::SpokeTerms;
 use crate::geom::fan::{Nearness, PointFan, lone_triangle, lower_bound, refined};
 use crate::num::tolerance::{CERTIFIED_PART, EVERYTHING_SQ, LEAST_LIMIT};
-use crate::num::{SOFT_FLOAT, greater, sqrt_approx};
+use crate::num::{Real, SOFT_FLOAT, difference, greater, lesser, sqrt_approx};
 use glam::Vec3;
 
 /// The distance of a triangle: as computed, or refined if its lower bound falls far short of it.
@@ -16,7 +16,7 @@ use glam::Vec3;
 #[cfg_attr(meshsweep_small, inline(never))]
 #[cfg_attr(not(meshsweep_small), inline(always))]
 pub(crate) fn refine_sliver(query: &PointQuery, seen: &[Vec3; 3], near: Nearness) -> Nearness {
-    if near.lower_bound_sq >= query.refine_below(near.distance_sq) {
+    if Real(near.lower_bound_sq) >= Real(query.refine_below(near.distance_sq)) {
         return near;
     }
     sliver(query, near, &refined(seen, &near))
@@ -25,7 +25,8 @@ pub(crate) fn refine_sliver(query: &PointQuery, seen: &[Vec3; 3], near: Nearness
 /// [`refine_sliver`] for a triangle that is [`refined`] already.
 #[inline(always)]
 pub(crate) fn sliver(query: &PointQuery, near: Nearness, better: &Nearness) -> Nearness {
-    let falls_short = |of: &Nearness| near.lower_bound_sq < query.refine_below(of.distance_sq);
+    let falls_short =
+        |of: &Nearness| Real(near.lower_bound_sq) < Real(query.refine_below(of.distance_sq));
     if falls_short(&near) && falls_short(better) { *better } else { near }
 }
 
@@ -34,7 +35,7 @@ pub(crate) fn sliver(query: &PointQuery, near: Nearness, better: &Nearness) -> N
 #[cfg_attr(not(meshsweep_small), inline(always))]
 pub(crate) fn seen_from(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> [Vec3; 3] {
     let [centre, e, g] = leaf.spokes(lane);
-    [p - centre, e, g]
+    [difference(p, centre), e, g]
 }
 
 /// The distance of a triangle that is [seen](seen_from), as computed.
@@ -67,7 +68,7 @@ pub(crate) fn each_triangle(
     }
     for lane in lanes_of(low) {
         match known.of(lane) {
-            Some([_, lower_bound_sq]) if lower_bound_sq > limit.low_sq => {}
+            Some([_, lower_bound_sq]) if Real(lower_bound_sq) > Real(limit.low_sq) => {}
             Some(squares) if !is_sliver(query, squares) => each(lane, None, squares),
             _ => {
                 let seen = seen_from(leaf, lane, query.p);
@@ -123,7 +124,8 @@ fn each_by_fans(
 
 #[inline(always)]
 fn is_sliver(query: &PointQuery, [distance_sq, lower_bound_sq]: [f32; 2]) -> bool {
-    !is_tight(distance_sq, lower_bound_sq) && lower_bound_sq < query.refine_below(distance_sq)
+    !is_tight(distance_sq, lower_bound_sq)
+        && Real(lower_bound_sq) < Real(query.refine_below(distance_sq))
 }
 
 /// Whether it is plain, without floating point, that a bound falls short of a distance by nothing.
@@ -162,7 +164,8 @@ fn refined_nearness(query: &PointQuery, seen: &[Vec3; 3]) -> Nearness {
 /// Whether the root of a squared lower bound is a triangle's lower bound. Else planes bound it.
 #[inline(always)]
 pub(crate) fn is_certified(distance_sq: f32, lower_bound_sq: f32) -> bool {
-    is_tight(distance_sq, lower_bound_sq) || lower_bound_sq >= distance_sq * CERTIFIED_PART
+    is_tight(distance_sq, lower_bound_sq)
+        || Real(lower_bound_sq) >= Real(distance_sq) * Real(CERTIFIED_PART)
 }
 
 /// Lower bound of a triangle's distance, grid units. [`PointQuery::lower`] then subtracts the
@@ -193,17 +196,18 @@ fn supporting_plane_bound(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> f32 {
 /// Squared bound above which nothing is within `distance` (input units) of the input mesh.
 pub(crate) fn limit_within(query: &PointQuery, distance: f32) -> f32 {
     // Lower ends below the least normal number are 0, which is within any distance.
-    let distance = greater(distance, f32::MIN_POSITIVE);
+    let distance = greater(Real(distance), Real(f32::MIN_POSITIVE)).0;
     // `PointQuery::limit` adds more than the roundings here.
-    limit_of(query, query.units.inward(distance) + query.units.surface_error)
+    let limit = Real(query.units.inward(distance)) + Real(query.units.surface_error);
+    limit_of(query, limit.0)
 }
 
 /// Squared bound above which nothing is within `distance` (grid units) of the stored surface.
 #[cfg_attr(meshsweep_small, inline(never))]
 pub(crate) fn limit_of(query: &PointQuery, distance: f32) -> f32 {
-    let distance = if distance > LEAST_LIMIT { distance } else { LEAST_LIMIT };
-    let limit = query.limit(distance * distance);
-    if limit < EVERYTHING_SQ { limit } else { EVERYTHING_SQ }
+    let distance = greater(Real(LEAST_LIMIT), Real(distance));
+    let limit = Real(query.limit((distance * distance).0));
+    lesser(Real(EVERYTHING_SQ), limit).0
 }
 
 /// Lower bound of the distance to the input mesh for a box's key, input units.

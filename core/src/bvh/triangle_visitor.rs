@@ -10,7 +10,7 @@ use super::point_query::PointQuery;
 use super::triangle_bounds::{each_triangle, is_certified, lower_of};
 use super::triangle_place::TrianglePlace;
 use crate::bvh::format::{Bvh, FanLeaf};
-use crate::num::SOFT_FLOAT;
+use crate::num::{Real, SOFT_FLOAT};
 use glam::Vec3;
 
 /// A triangle that a descent has reached.
@@ -32,8 +32,8 @@ impl LeafTriangle {
     /// Whether it comes before another one: nearer, or as near with a lesser number.
     #[inline(always)]
     pub(crate) fn is_before(&self, other: &LeafTriangle) -> bool {
-        self.distance_sq < other.distance_sq
-            || self.distance_sq == other.distance_sq && self.place < other.place
+        let (here, there) = (Real(self.distance_sq), Real(other.distance_sq));
+        here < there || here == there && self.place < other.place
     }
 
     /// Whether the lower bound of the distance needs no further bound.
@@ -114,7 +114,7 @@ impl<'a, C> TriangleVisitor<'a, C> {
     /// Whether a squared lower bound is beyond the limit.
     #[inline(always)]
     pub(crate) fn is_beyond(&self, lower_bound_sq: f32) -> bool {
-        lower_bound_sq > self.limit
+        Real(lower_bound_sq) > Real(self.limit)
     }
 
     /// A visitor that begins with this squared limit.
@@ -154,7 +154,7 @@ impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
         let near = nearest_within(&visit.leaf, self.query, &self.beyond, Some(&mut self.known))?;
         let before = self.limit;
         let next = self.collector.nearest(visit, (&near, &self.known), &mut self.limit)?;
-        if self.limit < before {
+        if Real(self.limit) < Real(before) {
             self.lower_limits();
             // A plane in front of the nearest triangle.
             #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
@@ -164,7 +164,9 @@ impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
             }
         }
         match next {
-            Next::Triangles if near.lower_bound_sq <= self.limit => self.each(visit, near.low),
+            Next::Triangles if Real(near.lower_bound_sq) <= Real(self.limit) => {
+                self.each(visit, near.low)
+            }
             Next::Triangles | Next::Leaf => Some(true),
             Next::Nothing => Some(false),
         }
@@ -206,7 +208,7 @@ impl<C: TriangleCollector> TriangleVisitor<'_, C> {
             beyond,
             (low, known),
             |lane, seen, [distance_sq, lower_bound_sq]| {
-                if lower_bound_sq > *limit {
+                if Real(lower_bound_sq) > Real(*limit) {
                     return;
                 }
                 let place = TrianglePlace::new(*node, *child, lane);
@@ -214,7 +216,7 @@ impl<C: TriangleCollector> TriangleVisitor<'_, C> {
                 collector.take(here, leaf, seen, limit);
             },
         );
-        if self.limit < before {
+        if Real(self.limit) < Real(before) {
             self.lower_limits();
         }
         Some(!self.collector.is_answered())

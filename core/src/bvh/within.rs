@@ -11,7 +11,7 @@ use super::triangle_bounds::limit_within;
 use super::triangle_place::TrianglePlace;
 use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
 use crate::bvh::format::{Bvh, FanLeaf};
-use crate::num::sqrt_approx;
+use crate::num::{Real, sqrt_approx};
 use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Undecided, Verdict, Work};
 use glam::Vec3;
 
@@ -136,7 +136,7 @@ impl TriangleCollector for Threshold<'_> {
         (near, _): (&LeafNearest, &LeafSquares),
         limit: &mut f32,
     ) -> Option<Next> {
-        if near.distance_sq <= *limit && self.is_within(near.distance_sq) {
+        if Real(near.distance_sq) <= Real(*limit) && self.is_within(near.distance_sq) {
             let (lane, ..) = near.lane();
             self.near = Some(TrianglePlace::new(visit.node, visit.child, lane));
             return Some(Next::Nothing);

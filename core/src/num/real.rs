@@ -7,12 +7,88 @@
 use super::SOFT_FLOAT;
 use core::cmp::Ordering;
 use core::ops::{Add, Mul, Neg, Sub};
+use glam::Vec3;
 
 /// An f32. No operand is NaN: without instructions for f32 it would compare as a number.
 #[derive(Clone, Copy, Debug)]
 pub struct Real(pub f32);
 
 const SIGN: u32 = 1 << 31;
+
+/// `a · b`.
+#[inline(always)]
+pub fn dot(a: Vec3, b: Vec3) -> f32 {
+    let ([ax, ay, az], [bx, by, bz]) = (reals(a), reals(b));
+    (ax * bx + ay * by + az * bz).0
+}
+
+/// `a − b`.
+#[inline(always)]
+pub fn difference(a: Vec3, b: Vec3) -> Vec3 {
+    let ([ax, ay, az], [bx, by, bz]) = (reals(a), reals(b));
+    Vec3::new((ax - bx).0, (ay - by).0, (az - bz).0)
+}
+
+/// The coordinates.
+#[inline(always)]
+pub fn reals(v: Vec3) -> [Real; 3] {
+    [Real(v.x), Real(v.y), Real(v.z)]
+}
+
+/// `x as f32`, for a number below 2^24 in magnitude.
+#[inline(always)]
+pub fn float(x: i32) -> f32 {
+    if SOFT_FLOAT { small_float(x) } else { x as f32 }
+}
+
+#[inline(never)]
+fn small_float(x: i32) -> f32 {
+    let size = x.unsigned_abs();
+    let count = bit_length(size);
+    if count == 0 || count > 24 {
+        return x as f32;
+    }
+    packed(x.cast_unsigned() & SIGN, 126 + count, size << (24 - count))
+}
+
+/// `x · 2^exponent`, rounded down, if that is below 2^30 in magnitude; else no number of meaning.
+#[inline(never)]
+pub fn floored(x: f32, exponent: i32) -> i32 {
+    let bits = x.to_bits();
+    let size = (mantissa(bits) >> 8).cast_signed();
+    let number = if bits & SIGN == 0 { size } else { -size };
+    match (self::exponent(bits).cast_signed()).wrapping_add(exponent).wrapping_sub(150) {
+        up @ 0.. => number.wrapping_shl(up.cast_unsigned()),
+        down => number >> down.wrapping_neg().min(31),
+    }
+}
+
+/// The number of bits of a number. The smallest processors have no instruction for it, and the
+/// compiler's function for them takes twice as long.
+#[inline(always)]
+pub fn bit_length(x: u32) -> u32 {
+    if cfg!(all(target_arch = "arm", not(target_abi = "eabihf"))) {
+        bit_length_by_table(x)
+    } else {
+        32 - x.leading_zeros()
+    }
+}
+
+#[inline(never)]
+fn bit_length_by_table(x: u32) -> u32 {
+    const OF_FOUR: [u8; 16] = [0, 1, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4];
+    let (mut x, mut count) = (x, 0);
+    if x >> 16 != 0 {
+        (x, count) = (x >> 16, 16);
+    }
+    if x >> 8 != 0 {
+        (x, count) = (x >> 8, count + 8);
+    }
+    if x >> 4 != 0 {
+        (x, count) = (x >> 4, count + 4);
+    }
+    count + u32::from(OF_FOUR[x as usize & 15])
+}
 
 impl Real {
     /// Zero.
@@ -102,19 +178,25 @@ impl PartialOrd for Real {
 }
 
 #[inline(always)]
-fn exponent(bits: u32) -> u32 {
+fn is_zero(bits: u32) -> bool {
+    // Else the compiler makes a comparison of f32 of it, which is a call.
+    core::hint::black_box(bits << 1) == 0
+}
+
+#[inline(always)]
+pub(super) fn exponent(bits: u32) -> u32 {
     bits << 1 >> 24
 }
 
 /// The mantissa in the upper 24 bits.
 #[inline(always)]
-fn mantissa(bits: u32) -> u32 {
+pub(super) fn mantissa(bits: u32) -> u32 {
     bits << 8 | SIGN
 }
 
 /// The number of a mantissa with 24 bits, or of 2^24. Its highest bit adds one to the exponent.
 #[inline(always)]
-fn packed(sign: u32, exponent: u32, whole: u32) -> f32 {
+pub(super) fn packed(sign: u32, exponent: u32, whole: u32) -> f32 {
     f32::from_bits((exponent.wrapping_sub(1) << 23).wrapping_add(whole) | sign)
 }
 
@@ -135,20 +217,30 @@ fn is_normal(exponent: u32) -> bool {
 pub fn product(a: f32, b: f32) -> f32 {
     let (x, y) = (a.to_bits(), b.to_bits());
     let (of_x, of_y) = (exponent(x), exponent(y));
-    let exponent = of_x.wrapping_add(of_y).wrapping_sub(127);
-    if of_x == 0 || of_y == 0 || !is_normal(exponent) || of_x == 255 || of_y == 255 {
+    // From 2^-63 to 2^64. No product of two of these leaves the range of normal numbers.
+    let is_usual = |exponent: u32| exponent.wrapping_sub(64) < 127;
+    if !is_usual(of_x) || !is_usual(of_y) {
         return rare_product(a, b);
     }
-    let upper = upper_product(mantissa(x), mantissa(y));
-    let (sign, lower) = ((x ^ y) & SIGN, upper << 24);
-    if upper >= SIGN {
-        // The library knows what is cut.
-        if lower == SIGN { a * b } else { packed(sign, exponent + 1, half_up(upper >> 7)) }
-    } else if lower << 1 == SIGN {
-        a * b
+    let (whole, carry) = rounded_product(mantissa(x), mantissa(y));
+    packed((x ^ y) & SIGN, of_x + of_y - 127 + carry, whole)
+}
+
+/// The product of two mantissas in the upper 24 bits, rounded: a mantissa of 24 bits, or 2^24, and
+/// what is added to the exponent.
+#[inline(always)]
+pub(super) fn rounded_product(x: u32, y: u32) -> (u32, u32) {
+    let upper = upper_product(x, y);
+    let (mut whole, carry, lower) = if upper >= SIGN {
+        (half_up(upper >> 7), 1, upper << 24)
     } else {
-        packed(sign, exponent, half_up(upper >> 6))
+        (half_up(upper >> 6), 0, upper << 25)
+    };
+    // Half of the last bit, if all that is cut is 0: to even.
+    if lower == SIGN && (x >> 8).wrapping_mul(y >> 8) << 16 == 0 {
+        whole &= !1;
     }
+    (whole, carry)
 }
 
 /// The upper word of the product of two words whose lower bytes are 0, rounded down.
@@ -166,15 +258,13 @@ fn upper_product(x: u32, y: u32) -> u32 {
 #[cfg(not(target_arch = "arm"))]
 #[inline(always)]
 fn upper_product(x: u32, y: u32) -> u32 {
-    (u64::from(x) * u64::from(y) >> 32) as u32
+    ((u64::from(x) * u64::from(y)) >> 32) as u32
 }
 
 #[cold]
 #[inline(never)]
 fn rare_product(a: f32, b: f32) -> f32 {
     let (x, y) = (a.to_bits(), b.to_bits());
-    // In two parts, of which the compiler makes no comparison of f32.
-    let is_zero = |bits: u32| exponent(bits) == 0 && mantissa(bits) == SIGN;
     if is_zero(x) && exponent(y) < 255 || is_zero(y) && exponent(x) < 255 {
         f32::from_bits((x ^ y) & SIGN)
     } else {
@@ -236,12 +326,11 @@ pub fn sum(a: f32, b: f32) -> f32 {
 #[cold]
 #[inline(never)]
 fn rare_sum(x: u32, y: u32) -> f32 {
-    if x << 1 == 0 {
+    if is_zero(x) {
         // Both are zero. Machined parts have many.
         return f32::from_bits(x & y);
     }
-    let is_zero = exponent(y) == 0 && mantissa(y) == SIGN;
-    if is_zero && is_normal(exponent(x)) {
+    if is_zero(y) && is_normal(exponent(x)) {
         f32::from_bits(x)
     } else {
         f32::from_bits(x) + f32::from_bits(y)

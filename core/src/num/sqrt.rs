@@ -4,8 +4,9 @@
 //! SSE instruction between AVX ones, which stalls (measured: a tenth of a microsecond a query). For
 //! a bound, two units of rounding do not matter.
 
-use super::Real;
+use super::real::{exponent, mantissa, packed, rounded_product};
 use super::tolerance::{ROOT_UP, SQUARE_FLOOR};
+use super::{Real, SOFT_FLOAT};
 
 /// Square root of `x ≥ 0`, off by less than 2 units of f32 relative; 0 for 0, infinity for
 /// infinity.
@@ -19,20 +20,70 @@ pub fn sqrt_approx(x: f32) -> f32 {
     const SMALL: f32 = 1.0 / (1u64 << 60) as f32;
     const UP: f32 = (1u128 << 64) as f32;
     const DOWN: f32 = 1.0 / (1u64 << 32) as f32;
-    if x <= 0.0 {
+    if Real(x) <= Real::ZERO {
         return 0.0;
     }
-    if x > f32::MAX {
+    if Real(x) > Real(f32::MAX) {
         return x;
     }
-    let (x, down) = if x < SMALL { (x * UP, DOWN) } else { (x, 1.0) };
-    let half = 0.5 * x;
-    let mut y = f32::from_bits(0x5F37_59DF_u32.wrapping_sub(x.to_bits() >> 1));
-    y = y * (1.5 - half * y * y);
-    y = y * (1.5 - half * y * y);
-    y = y * (1.5 - half * y * y);
+    let (x, down) = if Real(x) < Real(SMALL) { (x * UP, DOWN) } else { (x, 1.0) };
+    let y = if SOFT_FLOAT { reciprocal_in_integers(x) } else { reciprocal(x) };
+    let (x, y) = (Real(x), Real(y));
     let root = x * y;
-    (root + (x - root * root) * (0.5 * y)) * down
+    let root = root + (x - root * root) * (Real(0.5) * y);
+    if SOFT_FLOAT && down == 1.0 { root.0 } else { root.0 * down }
+}
+
+/// The guess of the reciprocal root, by bits.
+#[inline(always)]
+fn guess(x: f32) -> u32 {
+    0x5F37_59DF_u32.wrapping_sub(x.to_bits() >> 1)
+}
+
+#[inline(always)]
+fn reciprocal(x: f32) -> f32 {
+    let half = 0.5 * x;
+    let mut y = f32::from_bits(guess(x));
+    y = y * (1.5 - half * y * y);
+    y = y * (1.5 - half * y * y);
+    y = y * (1.5 - half * y * y);
+    y
+}
+
+/// [`reciprocal`] of a normal number, the same bits. Half of it times y times y is near one half.
+#[inline(never)]
+fn reciprocal_in_integers(x: f32) -> f32 {
+    let half = mantissa(x.to_bits());
+    // Twice the exponent of y, and that of half of x, are no more than these apart.
+    let of_half = exponent(x.to_bits()).wrapping_sub(1).wrapping_sub(2 * 127);
+    let y = guess(x);
+    let (mut y, mut of_y) = (mantissa(y), exponent(y));
+    for _ in 0..3 {
+        let (first, carry) = normal(rounded_product(half, y));
+        let (second, carry_2) = normal(rounded_product(first, y));
+        // 2^-24 of a half, if the number is 1/2 or more; else half of that.
+        let of_number = of_half.wrapping_add(2 * of_y).wrapping_add(carry + carry_2);
+        let quarter = second >> 8 << (of_number.wrapping_sub(125) & 1);
+        let rest = (3 << 24) - quarter;
+        // In units of 2^-25. The last bit of a number from 1 on is 2^-23, below 2^-24.
+        let cut = if rest >= 1 << 25 { 2 } else { 1 };
+        let tie = rest & ((1 << cut) - 1) == 1 << (cut - 1);
+        let mut whole = (rest + (1 << (cut - 1))) >> cut;
+        if tie {
+            whole &= !1;
+        }
+        let (whole, of_rest) = normal((whole, cut - 1));
+        let (product, carry) = normal(rounded_product(y, whole));
+        y = product;
+        of_y = of_y.wrapping_add(of_rest + carry).wrapping_sub(1);
+    }
+    packed(0, of_y, y >> 8)
+}
+
+/// A mantissa of 24 bits, or 2^24, to the upper 24 bits, and the exponent with it.
+#[inline(always)]
+fn normal((whole, exponent): (u32, u32)) -> (u32, u32) {
+    if whole >> 24 == 0 { (whole << 8, exponent) } else { (1 << 31, exponent + 1) }
 }
 
 /// Upper bounds of the square roots of 0 ≤ `x` ≤ 2^60, at most 2^-15 of them and 2^-49 too large.
@@ -56,7 +107,7 @@ pub fn sqrt_up<const N: usize>(x: [f32; N]) -> [f32; N] {
 
 #[cfg(test)]
 mod tests {
-    use super::{sqrt_approx, sqrt_up};
+    use super::{reciprocal, reciprocal_in_integers, sqrt_approx, sqrt_up};
 
     #[test]
     fn upper_bounds_of_roots_are_not_below_them_and_close() {
@@ -66,6 +117,20 @@ mod tests {
             let (exact, up) = (libm::sqrt(f64::from(x)), f64::from(sqrt_up([x])[0]));
             assert!(exact <= up && up <= exact * (1.0 + 3.1e-5) + 1.8e-15, "{x:e}: {up:e}");
             bits += 9_973;
+        }
+    }
+
+    #[test]
+    fn a_reciprocal_in_integers_has_the_bits_of_the_one_in_f32() {
+        for bits in 1f32.to_bits()..4f32.to_bits() {
+            let x = f32::from_bits(bits);
+            assert_eq!(reciprocal_in_integers(x).to_bits(), reciprocal(x).to_bits(), "{x:e}");
+        }
+        let mut bits = (1.0 / (1u64 << 60) as f32).to_bits();
+        while bits < f32::INFINITY.to_bits() {
+            let x = f32::from_bits(bits);
+            assert_eq!(reciprocal_in_integers(x).to_bits(), reciprocal(x).to_bits(), "{x:e}");
+            bits += 997;
         }
     }
 

@@ -5,6 +5,7 @@
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use crate::geom::fan::Ring8;
 use crate::geom::fan::WIDTH;
+use crate::num::{Real, float, reals};
 use glam::Vec3;
 
 /// Shape of a leaf in one byte: number of vertices, first triangle of the second fan, whether the
@@ -290,7 +291,8 @@ impl<'a> FanLeaf<'a> {
         }
         let [x, y, z] = self.stored(at, step);
         let [ox, oy, oz] = self.origin;
-        Vec3::new(x.wrapping_add(ox) as f32, y.wrapping_add(oy) as f32, z.wrapping_add(oz) as f32)
+        let sum = |x: i32, o: i32| float(x.wrapping_add(o));
+        Vec3::new(sum(x, ox), sum(y, oy), sum(z, oz))
     }
 
     /// All vertices without the grid's origin, as stored, exactly: both centres, alike if there is
@@ -467,7 +469,10 @@ impl<'a> FanLeaf<'a> {
     #[cfg_attr(not(meshsweep_small), inline(always))]
     pub fn point(&self, lane: usize, v: f32, w: f32) -> Vec3 {
         let [centre, e, g] = self.spokes(lane);
-        centre + e * v + g * w
+        let ([cx, cy, cz], [ex, ey, ez], [gx, gy, gz]) = (reals(centre), reals(e), reals(g));
+        let (v, w) = (Real(v), Real(w));
+        let (x, y, z) = (cx + ex * v + gx * w, cy + ey * v + gy * w, cz + ez * v + gz * w);
+        Vec3::new(x.0, y.0, z.0)
     }
 
     /// Centre and both spokes of triangle `lane`. A call, for questions with few triangles: reading
@@ -478,8 +483,8 @@ impl<'a> FanLeaf<'a> {
         if let (false, Some(stored)) = (self.is_f32, self.stored_triangle(lane, which)) {
             let [(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])] = stored;
             let [ox, oy, oz] = self.origin;
-            let sum = |x: i32, o: i32| x.wrapping_add(o) as f32;
-            let less = |x: i32, c: i32| x.wrapping_sub(c) as f32;
+            let sum = |x: i32, o: i32| float(x.wrapping_add(o));
+            let less = |x: i32, c: i32| float(x.wrapping_sub(c));
             return [
                 Vec3::new(sum(cx, ox), sum(cy, oy), sum(cz, oz)),
                 Vec3::new(less(ax, cx), less(ay, cy), less(az, cz)),

@@ -104,10 +104,10 @@ impl Power {
         let exponent = bits >> 23 & 0xFF;
         let is_normal = |exponent: i32| exponent > 0 && exponent < 0xFF;
         let by = self.exponent();
-        if x == 0.0 {
-            x
-        } else if is_normal(exponent) && is_normal(exponent + by) {
+        if is_normal(exponent) && is_normal(exponent + by) {
             f32::from_bits(bits.wrapping_add(by << 23).cast_unsigned())
+        } else if x == 0.0 {
+            x
         } else {
             x * self.factors[0] * self.factors[1]
         }

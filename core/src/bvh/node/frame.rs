@@ -11,6 +11,7 @@
 //! overflow branch.
 
 use crate::bvh::format::layout::ROW_BITS;
+use crate::num::{SOFT_FLOAT, floored};
 use glam::Vec3;
 
 /// Least exponent of a key unit. With it the boxes of a whole model span 15 bits.
@@ -50,9 +51,16 @@ impl KeyPoint {
         let exponent = (farthest.to_bits() >> 23).saturating_sub(127 + 13);
         let unit_exponent = exponent.clamp(MIN_UNIT_EXPONENT, MAX_UNIT_EXPONENT);
         let scale = f32::from_bits((127 + FRACTION_BITS - unit_exponent) << 23);
-        // A positive number, so that the conversion rounds down.
-        let whole =
-            |x: f32| ((x * scale + POSITIVE_OFFSET as f32) as i32).wrapping_sub(POSITIVE_OFFSET);
+        let whole = |x: f32| {
+            if SOFT_FLOAT {
+                // What the sum below rounds to a whole number: half a unit of its last place.
+                let fine =
+                    floored(x, 8 + FRACTION_BITS.cast_signed() - unit_exponent.cast_signed());
+                return fine.wrapping_add(if fine < 0 { 1 } else { 2 }) >> 8;
+            }
+            // A positive number, so that the conversion rounds down.
+            ((x * scale + POSITIVE_OFFSET as f32) as i32).wrapping_sub(POSITIVE_OFFSET)
+        };
         KeyPoint { at: [whole(p.x), whole(p.y), whole(p.z)], unit_exponent }
     }
 

@@ -18,6 +18,7 @@ mod ray;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod ray8;
 mod whole;
+mod whole_limit;
 
 pub use cone::NormalCone;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
@@ -36,5 +37,7 @@ pub use ray::{Crossing, FanRay, Shadow, ShadowPlane, ray_leaf};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use ray8::{CentreShadows, Ring8, RingLanes, ShadowLanes, ray_leaf8};
 pub use whole::{
-    Whole, WholeBounds, WholeLimit, WholePoint, is_certain_corner, is_in_front, less, whole_bounds,
+    NO_CORNER, Whole, WholeBounds, WholePoint, is_certain_corner, is_in_front, less, vertex_bounds,
+    whole_bounds,
 };
+pub use whole_limit::{WholeLimit, WholeLower};

@@ -7,7 +7,7 @@
 
 use super::lanes::WIDTH;
 use crate::num::tolerance::LEAST_DENOMINATOR;
-use crate::num::{greater, sqrt_approx};
+use crate::num::{Real, difference, dot, greater, reals, sqrt_approx};
 use glam::Vec3;
 
 /// The distance of a point and a triangle, as computed (`core/docs/rounding.md` §8).
@@ -41,11 +41,6 @@ pub struct PointFan {
     pub(crate) s: Vec3,
     /// `s · s`.
     centre_sq: f32,
-}
-
-#[inline(always)]
-fn dot(a: Vec3, b: Vec3) -> f32 {
-    a.x * b.x + a.y * b.y + a.z * b.z
 }
 
 impl PointFan {
@@ -117,50 +112,53 @@ fn triangle_of_numbers(
     (aa, cc): (f32, f32),
 ) -> (Nearness, Vec3) {
     let (s, first, second) = (Vec3::new(sx, sy, sz), Vec3::new(ex, ey, ez), Vec3::new(gx, gy, gz));
-    if d1 <= 0.0 && d2 <= 0.0 {
+    let (d1, d2, aa, cc) = (Real(d1), Real(d2), Real(aa), Real(cc));
+    let zero = Real::ZERO;
+    if d1 <= zero && d2 <= zero {
         let distance_sq = centre_sq;
         return (Nearness { distance_sq, lower_bound_sq: distance_sq, v: 0.0, w: 0.0 }, s);
     }
-    let bb = dot(first, second);
+    let bb = Real(dot(first, second));
     let (d3, d4, d5, d6) = (d1 - aa, d2 - bb, d1 - bb, d2 - cc);
     let (v, w, r);
-    if d3 >= 0.0 && d4 <= d3 {
+    if d3 >= zero && d4 <= d3 {
         // Without the products by 1 and 0: the same numbers, up to the sign of a zero.
-        (v, w, r) = (1.0, 0.0, less(s, first));
-    } else if d6 >= 0.0 && d5 <= d6 {
-        (v, w, r) = (0.0, 1.0, less(s, second));
+        (v, w, r) = (Real(1.0), zero, difference(s, first));
+    } else if d6 >= zero && d5 <= d6 {
+        (v, w, r) = (zero, Real(1.0), difference(s, second));
     } else {
         let (nv, nw);
         let vc = d1 * d4 - d3 * d2;
         let vb = d5 * d2 - d1 * d6;
         let least;
-        if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-            (nv, nw, least) = (d1, 0.0, aa);
-        } else if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-            (nv, nw, least) = (0.0, d2, cc);
+        if vc <= zero && d1 >= zero && d3 <= zero {
+            (nv, nw, least) = (d1, zero, aa);
+        } else if vb <= zero && d2 >= zero && d6 <= zero {
+            (nv, nw, least) = (zero, d2, cc);
         } else {
             let va = d3 * d6 - d5 * d4;
             let (e, g) = (d4 - d3, d5 - d6);
-            if va <= 0.0 && e >= 0.0 && g >= 0.0 {
+            if va <= zero && e >= zero && g >= zero {
                 (nv, nw, least) = (g, e, e + g);
             } else {
                 // A coordinate that rounding made negative counts as 0: the point must lie on
                 // the triangle.
-                let (pa, pb, pc) = (greater(0.0, va), greater(0.0, vb), greater(0.0, vc));
+                let (pa, pb, pc) = (greater(zero, va), greater(zero, vb), greater(zero, vc));
                 (nv, nw, least) = (pb, pc, pa + pb + pc);
             }
         }
         // A part of a triangle that f32 cannot tell from a point. The dividend is smaller
         // still.
-        let inverse = 1.0 / greater(LEAST_DENOMINATOR, least);
+        let inverse = Real(1.0 / greater(Real(LEAST_DENOMINATOR), least).0);
         (v, w) = (nv * inverse, nw * inverse);
-        r = residual(s, first, second, v, w);
+        r = residual(s, first, second, v.0, w.0);
     }
     let distance_sq = dot(r, r);
-    let (ra, rb) = (dot(r, first), dot(r, second));
-    let support = greater(greater(0.0, ra), rb);
+    let (ra, rb) = (Real(dot(r, first)), Real(dot(r, second)));
+    let support = greater(greater(zero, ra), rb);
     let slack = support - (v * ra + w * rb);
-    (Nearness { distance_sq, lower_bound_sq: distance_sq - (slack + slack), v, w }, r)
+    let lower_bound_sq = (Real(distance_sq) - (slack + slack)).0;
+    (Nearness { distance_sq, lower_bound_sq, v: v.0, w: w.0 }, r)
 }
 
 /// [`PointFan::triangle`] as a call, for questions with few triangles: no second copy of the
@@ -192,7 +190,7 @@ pub fn refined(&[s, e, g]: &[Vec3; 3], near: &Nearness) -> Nearness {
     }
     on_first.0 = share(s, e);
     *on_second = (0.0, share(s, g));
-    let w = share(s - e, g - e);
+    let w = share(difference(s, e), difference(g, e));
     *on_rim = (1.0 - w, w);
     let mut best = *near;
     for (v, w) in places {
@@ -215,18 +213,18 @@ fn share(from: Vec3, edge: Vec3) -> f32 {
 }
 
 #[inline(always)]
-fn less(a: Vec3, b: Vec3) -> Vec3 {
-    Vec3::new(a.x - b.x, a.y - b.y, a.z - b.z)
-}
-
-#[inline(always)]
 fn residual(s: Vec3, e: Vec3, g: Vec3, v: f32, w: f32) -> Vec3 {
-    Vec3::new(s.x - v * e.x - w * g.x, s.y - v * e.y - w * g.y, s.z - v * e.z - w * g.z)
+    let (v, w) = (Real(v), Real(w));
+    let ([sx, sy, sz], [ex, ey, ez], [gx, gy, gz]) = (reals(s), reals(e), reals(g));
+    let (x, y, z) = (sx - v * ex - w * gx, sy - v * ey - w * gy, sz - v * ez - w * gz);
+    Vec3::new(x.0, y.0, z.0)
 }
 
 #[inline(always)]
 fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    Vec3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
+    let ([ax, ay, az], [bx, by, bz]) = (reals(a), reals(b));
+    let (x, y, z) = (ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx);
+    Vec3::new(x.0, y.0, z.0)
 }
 
 /// A triangle's normal. If both spokes have whole coordinates it is exact but for one rounding: the

@@ -7,8 +7,11 @@
 //! weak lower bound, and the f32 kernel then decides. Proof: `core/docs/rounding.md` §8, "Whole
 //! numbers".
 
+use super::whole_limit::WholeLower;
+use crate::num::{bit_length as bits, floored};
+
 /// No corner of a triangle.
-const NO_CORNER: usize = 3;
+pub const NO_CORNER: usize = 3;
 
 /// A vector of whole numbers.
 pub type Whole = [i32; 3];
@@ -37,26 +40,30 @@ impl WholePoint {
     /// `None` if the point is too far from the grid's origin.
     #[inline(always)]
     pub fn new(p: [f32; 3]) -> Option<WholePoint> {
-        const ABOVE: i32 = 1 << WHOLE_BITS;
         let mut point = WholePoint { at: [0; 3], eighths: [0; 3] };
         for ((x, at), eighths) in p.into_iter().zip(&mut point.at).zip(&mut point.eighths) {
-            let up = x + ABOVE as f32;
-            if !(up >= 0.0 && up < 2.0 * ABOVE as f32) {
+            if x.to_bits() << 1 >> 24 >= 127 + WHOLE_BITS {
                 return None;
             }
-            // Positive, so the conversion rounds down.
-            let fine = (up * (1u32 << FRACTION_BITS) as f32) as i32;
-            *at = (fine >> FRACTION_BITS) - ABOVE;
+            let fine = floored(x, FRACTION_BITS.cast_signed());
+            *at = fine >> FRACTION_BITS;
             *eighths = fine & ((1 << FRACTION_BITS) - 1);
         }
         Some(point)
     }
 
+    /// About the squared distance of a vertex, for comparison.
+    #[inline(always)]
+    pub fn about(&self, vertex: Whole) -> u32 {
+        let way = less(self.at, vertex).map(|x| x >> 4);
+        dot(way, way).cast_unsigned()
+    }
+
     /// A product of the point and a direction of twelve bits: not above the true one.
     ///
     /// The eighths are rounded down. So the true point may lie an eighth farther along any axis,
-    /// which counts where the direction is negative. The difference and the sum before were rounded
-    /// too, by 2^-8 and 2^-7 at most.
+    /// which counts where the direction is negative. The difference before was rounded too, by 2^-8
+    /// at most. There is room for twice 2^-7 more.
     #[inline(always)]
     pub fn along(&self, direction: Whole) -> i32 {
         let (mut against, mut all) = (0, 0);
@@ -67,32 +74,6 @@ impl WholePoint {
         let eighths = dot(direction, self.eighths).wrapping_sub(against) >> FRACTION_BITS;
         dot(direction, self.at).wrapping_add(eighths).wrapping_sub(((3 * all) >> 8) + 1)
     }
-}
-
-/// A squared limit, square grid units: `mantissa · 2^exponent`.
-#[derive(Clone, Copy, Debug)]
-pub struct WholeLimit {
-    /// 15 bits, or 2^15.
-    mantissa: u32,
-    exponent: i32,
-}
-
-impl WholeLimit {
-    /// `square` or a little more, for a positive number. Nothing is beyond an infinite one.
-    #[inline(always)]
-    pub fn of(square: f32) -> WholeLimit {
-        let bits = square.to_bits();
-        // The upper 15 bits of 24, rounded up.
-        WholeLimit {
-            mantissa: ((bits & 0x007F_FFFF | 0x0080_0000) >> 9) + 1,
-            exponent: (bits >> 23).cast_signed() - 127 - 14,
-        }
-    }
-}
-
-#[inline(always)]
-fn bits(x: u32) -> u32 {
-    32 - x.leading_zeros()
 }
 
 #[inline(always)]
@@ -114,43 +95,28 @@ pub fn less([a, b, c]: Whole, [x, y, z]: Whole) -> Whole {
 /// What integers tell of a point and a triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct WholeBounds {
-    /// Grows with the distance of the estimated point.
-    pub estimate: u32,
+    /// The bits of a squared distance, square grid units: the triangle is not farther. That is so
+    /// of the estimated point.
+    pub upper: u32,
     /// From the estimated point to the query, of twelve bits.
     pub direction: Whole,
     /// The corner that the estimated point is: 0, 1 or 2; else 3.
     pub corner: usize,
-    /// Along the direction the query is at least this far from the triangle, in products of
-    /// direction and grid units.
-    along: i32,
+    /// The number of the triangle in its leaf, or that of another one with the same bounds.
+    pub first: usize,
+    /// By the plane across the direction.
+    pub lower: WholeLower,
 }
 
 impl WholeBounds {
     /// Of a triangle that nothing is known of, and that is looked at last.
-    pub const NONE: WholeBounds =
-        WholeBounds { estimate: u32::MAX, direction: [0; 3], corner: NO_CORNER, along: 0 };
-
-    /// Whether the triangle is certainly farther than the root of `limit`.
-    #[inline(always)]
-    pub fn is_beyond(&self, limit: WholeLimit) -> bool {
-        if self.along <= 0 {
-            return false;
-        }
-        // along² > direction² · limit, the left side cut to 30 bits, the right side rounded up.
-        let along = self.along.cast_unsigned();
-        let down = bits(along).saturating_sub(15);
-        let left = (along >> down) * (along >> down);
-        let direction_sq = dot(self.direction, self.direction).cast_unsigned();
-        let cut = bits(direction_sq).saturating_sub(15);
-        let right = ((direction_sq >> cut) + 1) * limit.mantissa;
-        let exponent = limit.exponent + cut.cast_signed() - 2 * down.cast_signed();
-        let by = exponent.unsigned_abs();
-        if exponent >= 0 {
-            by < 31 && left >> by > right
-        } else {
-            by >= 31 || left > (right >> by) + 1
-        }
-    }
+    pub const NONE: WholeBounds = WholeBounds {
+        upper: u32::MAX,
+        direction: [0; 3],
+        corner: NO_CORNER,
+        first: 0,
+        lower: WholeLower::NONE,
+    };
 }
 
 /// Bounds of the distance of a triangle. Its corners are on the grid, from the grid's origin.
@@ -165,16 +131,9 @@ pub fn whole_bounds(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> WholeBounds {
             .wrapping_add(p.eighths[axis])
             .wrapping_sub(inside >> (WEIGHT_BITS - FRACTION_BITS));
     }
-    let size = bits(largest(way));
-    let direction = way.map(|x| x >> size.saturating_sub(DIRECTION_BITS));
-    // Squares of 14 bits: their sum is below 2^30.
-    let cut = size.saturating_sub(14);
-    let square = way.map(|x| x >> cut);
-    let square = dot(square, square).cast_unsigned();
-    let up = square.leading_zeros();
-    // An exponent and a mantissa, as in a floating-point number.
-    let estimate = (2 * cut + 32 - up) << 24 | (square << (up & 31)) >> 8;
-    let corner = match (v, w) {
+    let mut bounds = upper_bound(way);
+    let direction = bounds.direction;
+    bounds.corner = match (v, w) {
         (0, 0) => 0,
         (ONE, 0) => 1,
         (0, ONE) => 2,
@@ -182,7 +141,31 @@ pub fn whole_bounds(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> WholeBounds {
     };
     let farthest = dot(direction, *a).max(dot(direction, *b)).max(dot(direction, *c));
     let along = p.along(direction).wrapping_sub(farthest);
-    WholeBounds { estimate, direction, corner, along }
+    let direction_sq = dot(direction, direction).cast_unsigned();
+    bounds.lower = WholeLower::new(along, direction_sq);
+    bounds
+}
+
+/// Upper bound and direction of a point, which is the corner of a triangle.
+pub fn vertex_bounds(p: &WholePoint, vertex: Whole) -> WholeBounds {
+    let ([x, y, z], [i, j, k]) = (less(p.at, vertex), p.eighths);
+    upper_bound([(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k])
+}
+
+/// Upper bound and direction of a way from a point of a triangle, in eighths.
+#[inline(always)]
+fn upper_bound(way: Whole) -> WholeBounds {
+    let size = bits(largest(way));
+    let direction = way.map(|x| x >> size.saturating_sub(DIRECTION_BITS));
+    // Along an axis the way is less than two eighths longer. Squares of 14 bits, rounded up: their
+    // sum is below 2^30.
+    let cut = size.saturating_sub(14);
+    let square = way.map(|x| (x.abs() + 1 + (1 << cut)) >> cut);
+    let square = dot(square, square).cast_unsigned();
+    let up = 32 - bits(square);
+    let exponent = (127 + 30 - 2 * FRACTION_BITS + 2 * cut).wrapping_sub(up);
+    let upper = (exponent << 23) + ((square << (up & 31)) >> 8) + 1;
+    WholeBounds { upper, direction, ..WholeBounds::NONE }
 }
 
 /// Whether the f32 kernel certainly takes the corner `vertex` for the closest point. The vectors
@@ -294,6 +277,7 @@ fn weights(s: Whole, e: Whole, g: Whole) -> (i32, i32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::fan::WholeLimit;
     use crate::geom::fan::{Nearness, PointFan};
     use glam::Vec3;
 
@@ -351,12 +335,13 @@ mod tests {
             let p = p.map(|x| f64::from(x) - f64::from(origin));
             let square = exact(p, &corners);
             let bounds = whole_bounds(&point, &corners);
+            assert!(square <= f64::from(f32::from_bits(bounds.upper)), "{p:?} {corners:?}");
             for share in [0.5, 0.9, 0.99, 0.999, 1.0, 1.000_01, 1.1] {
                 let limit = (square * share) as f32;
                 if limit < f32::MIN_POSITIVE {
                     continue;
                 }
-                let is_beyond = bounds.is_beyond(WholeLimit::of(limit));
+                let is_beyond = bounds.lower.is_beyond(WholeLimit::of(limit));
                 assert!(!is_beyond || square > f64::from(limit), "{share}: {p:?} {corners:?}");
                 if share == 0.9 && square > 100.0 {
                     all += 1;
@@ -411,7 +396,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_of_two_triangles_has_the_lesser_estimate() {
+    fn the_nearest_of_two_triangles_has_the_lesser_upper_bound() {
         let mut noise = Noise(12);
         let (mut right, mut all) = (0, 0);
         for _ in 0..100_000 {
@@ -419,8 +404,8 @@ mod tests {
             let [one, two] = [(); 2].map(|()| triangle(&mut noise, size));
             let p = [(); 3].map(|()| noise.below(0x1_0000) as f32);
             let point = WholePoint::new(p).expect("in range");
-            let [near, far] = [one, two]
-                .map(|t| (exact(p.map(f64::from), &t), whole_bounds(&point, &t).estimate));
+            let [near, far] =
+                [one, two].map(|t| (exact(p.map(f64::from), &t), whole_bounds(&point, &t).upper));
             if near.0 > 1.02 * far.0 || far.0 > 1.02 * near.0 {
                 all += 1;
                 right += i32::from((near.0 < far.0) == (near.1 < far.1));

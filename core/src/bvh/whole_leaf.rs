@@ -1,0 +1,182 @@
+//! The triangles of a leaf in integers, for processors without floating point: bounds of all, and
+//! the f32 kernel only for those that may be the nearest.
+
+use super::leaf_distance::{LeafLimit, LeafNearest};
+use super::leaf_plane::{LeafPlane, Way};
+use super::leaf_squares::LeafSquares;
+use super::point_query::limit_of;
+use super::triangle_bounds::{nearness, seen_from};
+use crate::bvh::format::{FanLeaf, FullRing, LeafShape, lanes_of};
+use crate::geom::fan::{
+    NO_CORNER, Nearness, WIDTH, Whole, WholeBounds, WholeLimit, WholePoint, is_certain_corner,
+    less, whole_bounds,
+};
+use crate::num::{Real, difference, dot, float, lesser};
+use glam::Vec3;
+
+/// In integers, but for the triangles that may be the nearest: the likeliest first, then those
+/// that are not certainly farther.
+#[inline(never)]
+pub(super) fn whole_nearest(
+    leaf: &FanLeaf<'_>,
+    p: Vec3,
+    point: &WholePoint,
+    limit: &LeafLimit,
+    mut known: Option<&mut LeafSquares>,
+) -> Option<LeafNearest> {
+    let mut nearest = LeafNearest::NONE;
+    let mut bounds = [WholeBounds::NONE; WIDTH];
+    let wanted = leaf_bounds(leaf, point, &limit.plane, &mut bounds)?;
+    if wanted == 0 {
+        return Some(nearest);
+    }
+    let (mut likeliest, mut least) = (0, u32::MAX);
+    for (lane, bounds) in bounds.iter().enumerate() {
+        if bounds.upper < least {
+            (likeliest, least) = (lane, bounds.upper);
+        }
+    }
+    let mut within = limit.distance_sq;
+    let mut squares = [0f32; WIDTH];
+    let mut look = |lane: usize, bounds: &WholeBounds, within: &mut f32| {
+        let near = if bounds.first == lane {
+            nearness_by_corner(leaf, p, point, lane, bounds.corner)?
+        } else {
+            at_corner(*squares.get(bounds.first)?, bounds.corner)
+        };
+        *squares.get_mut(lane)? = near.distance_sq;
+        if Real(near.distance_sq) < Real(nearest.distance_sq) {
+            let limit = Real(limit_of(near.distance_sq, limit.allowance));
+            *within = lesser(Real(*within), limit).0;
+        }
+        nearest.take(lane, &near, limit.low_sq);
+        if let Some(known) = &mut known {
+            known.keep(lane, [near.distance_sq, near.lower_bound_sq]);
+        }
+        nearest.lanes.tell(lane, Way::of_whole(bounds.direction));
+        Some(WholeLimit::of(*within))
+    };
+    let mut whole_limit = WholeLimit::of(within);
+    let first = bounds.get(likeliest)?;
+    if !first.lower.is_beyond(whole_limit) {
+        whole_limit = look(likeliest, first, &mut within)?;
+    }
+    for (lane, bounds) in bounds.iter().enumerate() {
+        let is_wanted = wanted >> lane & 1 != 0 && lane != likeliest;
+        if is_wanted && !bounds.lower.is_beyond(whole_limit) {
+            whole_limit = look(lane, bounds, &mut within)?;
+        }
+    }
+    Some(nearest)
+}
+
+/// Bounds of the triangles of a leaf that are not behind a plane.
+///
+/// Some have the bounds of a [`first`](WholeBounds::first) triangle before, of which the f32
+/// kernel certainly finds the same square: they share the fan's centre and a corner, and the
+/// corner is the closest point of both.
+#[inline(never)]
+pub(crate) fn leaf_bounds(
+    leaf: &FanLeaf<'_>,
+    point: &WholePoint,
+    plane: &LeafPlane,
+    bounds: &mut [WholeBounds; WIDTH],
+) -> Option<u32> {
+    let (ring, shape) = (leaf.full_ring()?, leaf.shape());
+    let wanted = plane.in_front(&ring, shape);
+    let mut least = u32::MAX;
+    // A certain corner: its fan, its number in the ring if it is there, and its triangle.
+    let (mut of_fan, mut in_ring, mut first) = (2, None, WholeBounds::NONE);
+    for lane in lanes_of(wanted) {
+        let corners = corners_of(&ring, shape, lane)?;
+        let slot = bounds.get_mut(lane)?;
+        let fan = usize::from(lane >= shape.turn());
+        if fan == of_fan {
+            let corner = match in_ring {
+                None => 0,
+                Some(vertex) if vertex == lane => 1,
+                Some(vertex) if vertex == lane + 1 => 2,
+                Some(_) => NO_CORNER,
+            };
+            if is_certain(point, &corners, corner) {
+                *slot = WholeBounds { corner, ..first };
+                continue;
+            }
+        }
+        *slot = whole_bounds(point, &corners);
+        slot.first = lane;
+        if slot.upper <= least {
+            least = slot.upper;
+            if is_certain(point, &corners, slot.corner) {
+                of_fan = fan;
+                in_ring = (lane + slot.corner).checked_sub(1).filter(|_| slot.corner > 0);
+                first = *slot;
+            }
+        }
+    }
+    Some(wanted)
+}
+
+/// Whether the f32 kernel certainly takes a corner for the closest point.
+#[inline(always)]
+fn is_certain(point: &WholePoint, &[a, b, c]: &[Whole; 3], corner: usize) -> bool {
+    let (vertex, [one, other]) = match corner {
+        0 => (a, [b, c]),
+        1 => (b, [c, a]),
+        2 => (c, [a, b]),
+        _ => return false,
+    };
+    is_certain_corner(point, vertex, [less(one, vertex), less(other, vertex)])
+}
+
+/// Centre and ring vertices of a triangle.
+#[inline(always)]
+fn corners_of(ring: &FullRing<'_>, shape: LeafShape, lane: usize) -> Option<[Whole; 3]> {
+    let centre = ring.centres(shape)[usize::from(lane >= shape.turn())];
+    Some([centre, ring.vertex(lane)?, ring.vertex(lane + 1)?])
+}
+
+/// What the f32 kernel finds of a triangle. `corner`: see [`WholeBounds::corner`].
+#[inline(never)]
+pub(crate) fn nearness_by_corner(
+    leaf: &FanLeaf<'_>,
+    p: Vec3,
+    point: &WholePoint,
+    lane: usize,
+    corner: usize,
+) -> Option<Nearness> {
+    let corners = corners_of(&leaf.full_ring()?, leaf.shape(), lane)?;
+    Some(match corner_nearness(leaf, p, point, &corners, lane, corner) {
+        Some(near) => near,
+        None => nearness(&seen_from(leaf, lane, p)),
+    })
+}
+
+/// What the f32 kernel finds where a corner is certainly the closest point: the same bits.
+#[inline(never)]
+fn corner_nearness(
+    leaf: &FanLeaf<'_>,
+    p: Vec3,
+    point: &WholePoint,
+    corners: &[Whole; 3],
+    lane: usize,
+    corner: usize,
+) -> Option<Nearness> {
+    if !is_certain(point, corners, corner) {
+        return None;
+    }
+    let mut way = difference(p, leaf.centre(usize::from(lane >= leaf.shape().turn())));
+    if corner > 0 {
+        let [x, y, z] = less(*corners.get(corner)?, corners[0]);
+        way = difference(way, Vec3::new(float(x), float(y), float(z)));
+    }
+    let distance_sq = dot(way, way);
+    Some(at_corner(distance_sq, corner))
+}
+
+/// What the f32 kernel finds at this squared distance from a corner.
+#[inline(always)]
+fn at_corner(distance_sq: f32, corner: usize) -> Nearness {
+    let share = |of: usize| if corner == of { 1.0 } else { 0.0 };
+    Nearness { distance_sq, lower_bound_sq: distance_sq, v: share(1), w: share(2) }
+}
