@@ -3,8 +3,8 @@
 //!
 //! Costs are evaluated lazily. After a collapse only the edges of the new vertex are evaluated at
 //! once. Other edges around it keep their old cost until they reach the top of the queue. With few
-//! faces left every choice shows, and evaluation is eager, as in the paper. `core/DESIGN.md` has
-//! the measurements.
+//! faces left every choice shows, and evaluation is eager, as in the paper. `DESIGN.md` has the
+//! measurements ("The order of collapses").
 
 use super::greedy::{self, Candidate, Collapsing, Schedule};
 use super::history::{Collapse, History};

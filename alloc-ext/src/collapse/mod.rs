@@ -46,8 +46,8 @@ pub struct Conditions {
     /// Largest deviation of a face's normal, as its cosine. Paper: cos π/4.
     pub min_normal_cosine: f64,
     /// Weight of the second term of the program, in the star's frame. It decides where a flat star
-    /// puts the vertex, and it rounds off sharp ones. `core/DESIGN.md` has the measurement
-    /// behind the default.
+    /// puts the vertex, and it rounds off sharp ones. `DESIGN.md` has the measurement behind
+    /// the default.
     pub second_term: f64,
     /// The order in which the program takes the planes of a star. The paper's is
     /// [`Order::Shuffled`]; the default is faster.

@@ -49,7 +49,7 @@ pub struct Options {
     /// least 0. Every point within the margin is inside the hull. The hull keeps as much more from
     /// the mesh as its vertices moved.
     pub margin: f64,
-    /// How long to polish, as a factor of the time behind the numbers in `core/DESIGN.md`. The
+    /// How long to polish, as a factor of the time behind the numbers in `DESIGN.md`. The
     /// result depends on the effort, and not on the machine.
     pub effort: f64,
     /// About when to stop; `None`: never. The result then depends on the machine: at worst it is

@@ -176,7 +176,7 @@ fn work(scene: &Scene, far: bool, entries: usize) -> [f64; 2] {
     sum.map(|x| x / asked().count() as f64)
 }
 
-/// Prints the table of `core/DESIGN.md` with `--nocapture`.
+/// Prints the table "Curves" of `core/docs/measured.md` with `--nocapture`.
 #[test]
 fn work_grows_far_slower_than_the_segments() {
     for name in ["tool path", "spiral", "zig-zag", "walk"] {

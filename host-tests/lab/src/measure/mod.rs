@@ -1,5 +1,5 @@
-//! What the library costs and yields, measured on a mesh: the numbers of the README and of
-//! `DESIGN.md`.
+//! What the library costs and yields, measured on a mesh: the numbers of the README, of
+//! `core/DESIGN.md` and of `alloc-ext/DESIGN.md`.
 //!
 //! ```text
 //! subject (mesh, builds) ─┬─ paper    (the papers' tables) ─┐
