@@ -16,12 +16,12 @@
 use super::descent::{LeafVisit, LeafVisitor};
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::FanLeaf;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-use crate::geom::fan::ray_leaf;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use crate::geom::fan::ray_leaf8;
 use crate::geom::fan::{Crossing, WIDTH};
 use crate::geom::fan::{FanRay, Shadow};
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use crate::geom::fan::{may_meet, ray_leaf};
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use crate::num::SOFT_FLOAT;
 
@@ -216,7 +216,7 @@ fn ring_shadow(leaf: &FanLeaf<'_>, ray: &FanRay, i: usize) -> Shadow {
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 #[inline(never)]
 fn flagged_alone(ray: &FanRay, centre: Shadow, ends: [Shadow; 2]) -> u32 {
-    ray_leaf(ray, WIDTH, [centre; 2], ends.into_iter())
+    u32::from(may_meet(ray, centre, ends))
 }
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]

@@ -45,8 +45,7 @@ impl<'a> TriangleBits<'a> {
     }
 
     /// Whether the bit of a triangle of the tree is set.
-    #[cfg_attr(meshsweep_small, inline(never))]
-    #[cfg_attr(not(meshsweep_small), inline(always))]
+    #[inline(always)]
     pub(crate) fn contains(self, triangle: u32) -> bool {
         let byte = self.bytes.get(triangle as usize / 8);
         self.all || byte.is_some_and(|byte| byte >> (triangle % 8) & 1 != 0)

@@ -20,37 +20,32 @@ pub(super) fn glance(both: &SegmentAndBox, surface_error: f32) -> Glance {
     if size.is_nan() || size > 0.5 * BVH_FAR {
         return Glance::Unsure;
     }
-    let half = || {
-        // One 32nd more than the margin of `misses` pays for the rounding of `size`.
-        let margin = 2.0 * surface_error + size * (33.0 * U32) + LEAST_DENOMINATOR;
-        extent + Vec3::splat(margin)
-    };
+    // One 32nd more than the margin of `misses` pays for the rounding of `size`.
+    let margin = || 2.0 * surface_error + size * (33.0 * U32) + LEAST_DENOMINATOR;
     if m_abs.x > reach.x || m_abs.y > reach.y || m_abs.z > reach.z {
-        let far = half() + d_abs;
+        let far = (extent + Vec3::splat(margin())) + d_abs;
         let is_clear = m_abs.x > far.x || m_abs.y > far.y || m_abs.z > far.z;
         return if is_clear { Glance::Clear } else { Glance::Unsure };
     }
     let reach_across = |[d, e]: [f32; 2], [h, k]: [f32; 2]| h * e + k * d;
     let across = |[m, n]: [f32; 2], [d, e]: [f32; 2]| (m * e - n * d).abs();
-    let xy = across([m.x, m.y], [d.x, d.y]);
-    if xy > reach_across([d_abs.x, d_abs.y], [extent.x, extent.y]) {
-        let half = half();
-        return clear_if(xy, reach_across([d_abs.x, d_abs.y], [half.x, half.y]));
-    }
-    let yz = across([m.y, m.z], [d.y, d.z]);
-    if yz > reach_across([d_abs.y, d_abs.z], [extent.y, extent.z]) {
-        let half = half();
-        return clear_if(yz, reach_across([d_abs.y, d_abs.z], [half.y, half.z]));
-    }
-    let zx = across([m.z, m.x], [d.z, d.x]);
-    if zx > reach_across([d_abs.z, d_abs.x], [extent.z, extent.x]) {
-        let half = half();
-        return clear_if(zx, reach_across([d_abs.z, d_abs.x], [half.z, half.x]));
-    }
-    Glance::Meets
-}
-
-#[inline(always)]
-fn clear_if(across: f32, reach: f32) -> Glance {
-    if across > reach + LEAST_DENOMINATOR { Glance::Clear } else { Glance::Unsure }
+    let (dx, dy, dz) = (d_abs.x, d_abs.y, d_abs.z);
+    let Vec3 { x, y, z } = extent;
+    let (xy, yz, zx) = (
+        across([m.x, m.y], [d.x, d.y]),
+        across([m.y, m.z], [d.y, d.z]),
+        across([m.z, m.x], [d.z, d.x]),
+    );
+    let (beyond, along, [h, k]) = if xy > reach_across([dx, dy], [x, y]) {
+        (xy, [dx, dy], [x, y])
+    } else if yz > reach_across([dy, dz], [y, z]) {
+        (yz, [dy, dz], [y, z])
+    } else if zx > reach_across([dz, dx], [z, x]) {
+        (zx, [dz, dx], [z, x])
+    } else {
+        return Glance::Meets;
+    };
+    let margin = margin();
+    let reach = reach_across(along, [h + margin, k + margin]);
+    if beyond > reach + LEAST_DENOMINATOR { Glance::Clear } else { Glance::Unsure }
 }

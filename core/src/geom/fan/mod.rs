@@ -33,7 +33,7 @@ pub use point::{
 };
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use point8::{Edges, LaneNearness};
-pub use ray::{Crossing, FanRay, Shadow, ShadowPlane, ray_leaf};
+pub use ray::{Crossing, FanRay, Shadow, ShadowPlane, may_meet, ray_leaf};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use ray8::{CentreShadows, Ring8, RingLanes, ShadowLanes, ray_leaf8};
 pub use whole::{

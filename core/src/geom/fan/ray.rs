@@ -391,6 +391,19 @@ impl ShadowPlane for FanRay {
     }
 }
 
+/// Whether the segment's line may meet one triangle, as [`ray_leaf`] has it.
+#[inline(always)]
+pub fn may_meet<P: ShadowPlane>(plane: &P, centre: P::Shadow, ends: [P::Shadow; 2]) -> bool {
+    let [from, to] = ends;
+    let (a, b) = (plane.clear_sides(centre, from), plane.clear_sides(centre, to));
+    let (one, other) = (a[0] | b[1], a[1] | b[0]);
+    if one & other < 0 {
+        return false;
+    }
+    let rim = plane.clear_sides(from, to);
+    (one | rim[0]) & (other | rim[1]) >= 0
+}
+
 /// Triangles of a leaf that the segment's line may meet, a bit for each. The others are proved
 /// clear of the line.
 ///
