@@ -73,11 +73,15 @@ impl<'a> Bvh<'a> {
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without a tree.
     #[inline(never)]
     pub fn open(bytes: &'a [u8]) -> Result<Bvh<'a>, OpenError> {
-        let table = SectionTable::open(bytes)?;
+        // In place: both are large.
+        let opened = SectionTable::open(bytes);
+        let table = opened.as_ref().map_err(|&refused| refused)?;
         table.check_crcs(SectionKind::is_bvh)?;
-        let tree = Bvh::place(&table)?;
-        tree.check()?;
-        Ok(tree)
+        let placed = Bvh::place(table);
+        if let Ok(tree) = &placed {
+            tree.check()?;
+        }
+        placed
     }
 
     /// Opens the box tree of an image that was verified before, and checks header, section table
