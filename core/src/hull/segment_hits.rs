@@ -113,11 +113,10 @@ struct Met {
     point: [f32; 3],
 }
 
-/// A question's visitor for hits, and its limit along the segment.
+/// A question's visitor for hits.
 trait Collect {
-    fn add(&mut self, met: Met);
-    /// Hits beyond this parameter are not wanted.
-    fn limit(&self) -> f32;
+    /// Takes a hit. Hits beyond the returned parameter are not wanted any more.
+    fn add(&mut self, met: Met) -> f32;
 }
 
 struct First {
@@ -126,7 +125,7 @@ struct First {
 }
 
 impl Collect for First {
-    fn add(&mut self, met: Met) {
+    fn add(&mut self, met: Met) -> f32 {
         self.least_lower = self.least_lower.min(met.meet.t_lower);
         let earlier = self.best.is_none_or(|best| {
             met.meet.t < best.meet.t || (met.meet.t == best.meet.t && met.instance < best.instance)
@@ -134,9 +133,6 @@ impl Collect for First {
         if earlier {
             self.best = Some(met);
         }
-    }
-
-    fn limit(&self) -> f32 {
         self.best.map_or(f32::INFINITY, |best| up_to_f32(best.meet.t_upper))
     }
 }
@@ -149,15 +145,12 @@ struct All<'a> {
 }
 
 impl Collect for All<'_> {
-    fn add(&mut self, met: Met) {
+    fn add(&mut self, met: Met) -> f32 {
         let triangle = self.model.number(met.instance);
         let hit = Hit { t: met.meet.t as f32, point: met.point, triangle };
         let is_certain = met.meet.is_certain;
         self.has_touches |= !is_certain;
         self.hits.insert(TriangleHit { hit, is_certain });
-    }
-
-    fn limit(&self) -> f32 {
         f32::INFINITY
     }
 }
@@ -169,12 +162,13 @@ struct Traced {
     unopened: f32,
 }
 
+#[inline(never)]
 fn trace(
     model: &Hull<'_>,
     [a, b]: [[f32; 3]; 2],
     budget: &Budget,
     scratch: &mut [ScratchEntry],
-    collect: &mut impl Collect,
+    collect: &mut dyn Collect,
 ) -> Result<Traced, QueryError> {
     budget.check_with(scratch)?;
     if !model.has_hull() {
@@ -207,6 +201,7 @@ fn trace(
         doubtful: false,
         exact: 0,
         collect,
+        limit: f32::INFINITY,
     };
     let mut front = Front::new(model, scratch, budget.steps);
     let (ended, unopened) = run(&mut front, &mut along).ok_or(QueryError::Unchecked)?;
@@ -215,14 +210,11 @@ fn trace(
 }
 
 /// Why the search ended, and the least parameter of a hit in triangles that it did not refine.
-fn run<C: Collect>(
-    front: &mut Front<'_, Hull<'_>>,
-    along: &mut Along<'_, C>,
-) -> Option<(Ended, f32)> {
+fn run(front: &mut Front<'_, Hull<'_>>, along: &mut Along<'_>) -> Option<(Ended, f32)> {
     front.begin(along)?;
     while let Some(Taken { entry, .. }) = front.queue.pop() {
         let instance = Instance(entry.node());
-        if entry.key() > along.collect.limit() {
+        if entry.key() > along.limit {
             continue;
         }
         if front.is_spent() {
@@ -231,14 +223,14 @@ fn run<C: Collect>(
         front.open(instance, along)?;
     }
     let unopened = front.queue.dropped();
-    if unopened <= along.collect.limit() && unopened.is_finite() {
+    if unopened <= along.limit && unopened.is_finite() {
         return Some((Ended::Scratch, unopened));
     }
     Some((if along.doubtful { Ended::Resolution } else { Ended::Exact }, f32::INFINITY))
 }
 
 /// A segment, and the collector of its hits.
-struct Along<'c, C: Collect> {
+struct Along<'c> {
     frame: Frame,
     start: DVec3,
     end: DVec3,
@@ -248,16 +240,20 @@ struct Along<'c, C: Collect> {
     /// A reported hit is one that the stored surface cannot decide.
     doubtful: bool,
     exact: u32,
-    collect: &'c mut C,
+    /// Not generic: boards would link the search once for each question.
+    collect: &'c mut dyn Collect,
+    /// Hits beyond this parameter are not wanted.
+    limit: f32,
 }
 
-impl<C: Collect> Visit for Along<'_, C> {
-    #[inline(always)]
+impl Visit for Along<'_> {
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
         for candidate in found {
             let reach = candidate.radius + self.surface_error;
             let Some(key) = self.segment.enter(candidate.corners, reach) else { continue };
-            if key > self.collect.limit() {
+            if key > self.limit {
                 continue;
             }
             match candidate.fate {
@@ -269,7 +265,7 @@ impl<C: Collect> Visit for Along<'_, C> {
     }
 }
 
-impl<C: Collect> Along<'_, C> {
+impl Along<'_> {
     /// Evaluates a triangle of the surface.
     fn meet(&mut self, candidate: &Candidate, key: f32) {
         self.exact += 1;
@@ -305,6 +301,6 @@ impl<C: Collect> Along<'_, C> {
 
     fn add(&mut self, meet: SegmentTriangle, instance: Instance) {
         let point = self.frame.point(self.start + (self.end - self.start) * meet.t);
-        self.collect.add(Met { meet, instance, point });
+        self.limit = self.collect.add(Met { meet, instance, point });
     }
 }

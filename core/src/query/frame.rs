@@ -47,6 +47,7 @@ impl Frame {
 
     /// Whether a segment certainly misses a box of the local frame. Most do, and on boards f32 tells
     /// so at a tenth of the cost. `false` of ends that are far away, or not finite.
+    #[inline(never)]
     pub(crate) fn is_missed(&self, ends: [[f32; 3]; 2], bounds: &Aabb) -> bool {
         let inverse = self.inverse as f32;
         let [start, end] = ends.map(|point| Vec3::from_array(point) * inverse);

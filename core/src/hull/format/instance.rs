@@ -138,7 +138,13 @@ impl<'a> Hull<'a> {
 
     /// Triangles of the surface among the first of a split's.
     pub(super) fn finals(&self, split: &Split<'a>, slots: usize) -> Option<u32> {
-        let are_final = [self.is_final(split.origin)?, self.is_final(split.destination())?];
+        /// A call: five copies are a third of a kilobyte on boards.
+        #[inline(never)]
+        fn is_final(hull: &Hull<'_>, vertex: VertIdx) -> Option<bool> {
+            hull.is_final(vertex)
+        }
+
+        let are_final = [is_final(self, split.origin)?, is_final(self, split.destination())?];
         if are_final == [false; 2] {
             return Some(0);
         }
@@ -146,11 +152,11 @@ impl<'a> Hull<'a> {
         for slot in 0..slots {
             let is_final = if slot < split.ring_len() {
                 are_final[usize::from(slot >= split.right)]
-                    && self.is_final(split.ring(slot)?)?
-                    && self.is_final(split.ring(slot + 1)?)?
+                    && is_final(self, split.ring(slot)?)?
+                    && is_final(self, split.ring(slot + 1)?)?
             } else {
                 let wing = if slot == split.ring_len() { split.right } else { 0 };
-                are_final == [true; 2] && self.is_final(split.ring(wing)?)?
+                are_final == [true; 2] && is_final(self, split.ring(wing)?)?
             };
             let radius = split.first_triangle.checked_add(u32::try_from(slot).ok()?)?;
             finals += u32::from(is_final && self.has_part(radius));
