@@ -15,6 +15,8 @@ use super::node::{OpenedNode, take_least};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use super::point_blocks::{Kernels, search_by_blocks};
 use super::point_query::{EVERY_KEY, PointQuery};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::prefetch::prefetch_source;
 use super::triangle_bounds::{nearness, seen_from, sliver};
 use super::triangle_place::TrianglePlace;
 use crate::bvh::format::{Bvh, FanLeaf, lanes_of};
@@ -382,6 +384,8 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         let limit =
             if self.tolerant { self.tolerant_limit(distance_sq) } else { self.beyond.distance_sq };
         self.limit = self.query.key_limit(limit);
+        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        prefetch_source(self.tree, node, child);
     }
 
     /// Refines triangles whose lower bound falls short of the best distance by more than rounding:

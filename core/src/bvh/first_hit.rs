@@ -4,6 +4,8 @@ use super::descent::{Descent, descend, descend_inlined};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use super::node::{OpenedNode, TakenLeast, take_least};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::prefetch::prefetch_source;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use super::segment_blocks::{SegmentKernels, is_unlimited};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use super::segment_leaf::FlaggedOfLeaf;
@@ -224,6 +226,8 @@ impl CrossingCollector for FirstCrossing<'_> {
             let place = HitPlace { t: crossing.t, node, child, lane };
             if crossing.t < self.best.t || self.number(&place) < self.number(&self.best) {
                 self.best = place;
+                #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+                prefetch_source(self.tree, node, child);
             }
         }
         Some(())

@@ -11,6 +11,7 @@ use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::served::Engine;
 use crate::{blob_file, served};
+use meshsweep::bvh::FastBvh;
 use meshsweep_core::internal::num::{exp2, tolerance};
 use meshsweep_core::{BuildFor, Ended, Hit, TriangleHit, Work};
 use std::io::{self, Write};
@@ -75,7 +76,9 @@ fn ask_first(
             move |segment| {
                 let [a, b] = ends(segment);
                 let found = match &engine {
-                    Engine::Tree(tree) => tree.first_hit(a, b, facing, budget, &mut scratch)?,
+                    Engine::Tree(tree) => {
+                        FastBvh::new(*tree).first_hit(a, b, facing, budget, &mut scratch)?
+                    }
                     Engine::Hull(hull) => hull.first_hit(a, b, budget, &mut scratch)?,
                 };
                 Ok(Answer { found, ended: found.ended, work: found.work })

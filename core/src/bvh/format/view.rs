@@ -285,6 +285,16 @@ impl Bvh<'_> {
     }
 }
 
+/// Where a triangle's number in the input file lies.
+struct SourcePlace {
+    /// Byte of its first bit.
+    at: usize,
+    /// That bit in the byte.
+    bit: usize,
+    /// Bits.
+    width: usize,
+}
+
 /// The records, for the builder and the checker.
 #[doc(hidden)]
 impl<'a> Bvh<'a> {
@@ -411,13 +421,26 @@ impl<'a> Bvh<'a> {
         if triangle >= self.header.triangles {
             return None;
         }
+        let SourcePlace { at, bit, width } = self.source_place(triangle)?;
+        let least = self.source.u32(triangle as usize / SOURCE_BLOCK * SOURCE_ENTRY_BYTES)?;
+        let chunk = u64::from_le_bytes(self.source.array::<8>(at)?);
+        let value = (chunk >> bit) & !(u64::MAX << width);
+        least.checked_add(value as u32)
+    }
+
+    #[inline(always)]
+    fn source_place(&self, triangle: u32) -> Option<SourcePlace> {
         let (block, place) = (triangle as usize / SOURCE_BLOCK, triangle as usize % SOURCE_BLOCK);
-        let least = self.source.u32(block * SOURCE_ENTRY_BYTES)?;
         let word = self.source.u32(block * SOURCE_ENTRY_BYTES + 4)?;
         let (start, width) = ((word >> 5) as usize, (word & 31) as usize);
         let bit = place * width;
-        let chunk = u64::from_le_bytes(self.source.array::<8>(start.checked_add(bit / 8)?)?);
-        let value = (chunk >> (bit % 8)) & !(u64::MAX << width);
-        least.checked_add(value as u32)
+        Some(SourcePlace { at: start.checked_add(bit / 8)?, bit: bit % 8, width })
+    }
+
+    /// The bytes from a triangle's number in the input file on.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    pub(crate) fn source_bytes(&self, triangle: u32) -> Option<&'a [u8]> {
+        self.source.0.get(self.source_place(triangle)?.at..)
     }
 }

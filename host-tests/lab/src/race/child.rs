@@ -3,8 +3,10 @@
 //! The source is compiled when the race begins, and says which bytes go to and fro. The child
 //! measures its own time; reading and writing is no part of it.
 
+use std::env;
 use std::fs;
 use std::io::{BufReader, BufWriter, Read, Write};
+use std::path::Path;
 use std::process::{self as system, ChildStdin, ChildStdout, Command, Stdio};
 
 use meshsweep::mesh::Mesh;
@@ -18,12 +20,22 @@ const SHARED: &str = include_str!("child.h");
 pub struct Source {
     /// Debian's packages.
     pub wanted: Wanted,
+    /// Sources that the user has.
+    pub checkout: Option<Checkout>,
     /// The program. It includes `child.h`.
     pub text: &'static str,
     /// Folders of headers below `usr/include`.
     pub headers: &'static [&'static str],
     /// More of the compiler's options: libraries, and the processor if the library allows.
     pub options: &'static [&'static str],
+}
+
+/// Sources that no package has.
+pub struct Checkout {
+    /// The environment variable that names their folder.
+    pub variable: &'static str,
+    /// Folders of headers in it.
+    pub headers: &'static [&'static str],
 }
 
 /// A compiled program.
@@ -40,6 +52,12 @@ impl Program {
         if !process::on_path("c++") {
             return Err("no `c++` to compile it".to_owned());
         }
+        let mut checkout = Vec::new();
+        if let Some(Checkout { variable, headers }) = &source.checkout {
+            let folder = env::var_os(variable)
+                .ok_or_else(|| format!("{variable} does not name a folder with its sources"))?;
+            checkout.extend(headers.iter().map(|headers| Path::new(&folder).join(headers)));
+        }
         let toolbox = Toolbox::open(&source.wanted)?;
         for (name, text) in [("race.cpp", source.text), ("child.h", SHARED)] {
             let file = toolbox.path(name);
@@ -50,6 +68,9 @@ impl Program {
         compiler.args(["-std=c++17", "-O3", "-DNDEBUG"]);
         for folder in [""].iter().chain(source.headers) {
             compiler.arg("-isystem").arg(toolbox.path("usr/include").join(folder));
+        }
+        for folder in checkout {
+            compiler.arg("-isystem").arg(folder);
         }
         compiler.arg(toolbox.path("race.cpp")).arg("-o").arg(toolbox.path("race"));
         for folder in toolbox.libraries() {

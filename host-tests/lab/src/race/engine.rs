@@ -5,7 +5,7 @@ use std::hint::black_box;
 use meshsweep_host_tests::workload::Subject;
 
 use super::workload::{HitKind, Workload};
-use super::{cwbvh, embree, parry, tree};
+use super::{cwbvh, embree, fcpw, parry, tree};
 
 /// An index over one mesh that answers lists of queries. A list is one call, so that the call's
 /// cost is no part of a query's, a coherent query may carry over what it knows, and a batch may be
@@ -80,7 +80,7 @@ pub struct Entrant {
 pub const REFERENCE: &str = "parry3d";
 
 /// All engines, in the order of the tables.
-pub const ENTRANTS: [Entrant; 7] = [
+pub const ENTRANTS: [Entrant; 9] = [
     Entrant {
         name: REFERENCE,
         remark: "TriMesh: project_local_point, cast_local_ray, intersects_local_ray",
@@ -100,10 +100,22 @@ pub const ENTRANTS: [Entrant; 7] = [
         build: embree::build,
     },
     Entrant {
+        name: "fcpw",
+        remark: "C++, SIMD of 8 lanes: findClosestPoint; bytes unknown",
+        missing: fcpw::missing,
+        build: fcpw::build,
+    },
+    Entrant {
         name: "tree",
-        remark: "closest_point, first_hit, any_hit on the box tree, 16-bit grid",
+        remark: "closest_point, first_hit, any_hit on the box tree, 16-bit grid, AVX2 if there",
         missing: || None,
         build: tree::build,
+    },
+    Entrant {
+        name: "tree compiled",
+        remark: "the same without FastBvh: by the instructions that the program is compiled for",
+        missing: || None,
+        build: tree::build_compiled,
     },
     Entrant {
         name: "coherent",

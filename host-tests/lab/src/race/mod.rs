@@ -3,8 +3,8 @@
 //! ```text
 //! workload (which questions) ─┐
 //! engine (what each one is) ──┼─ timing (interleaved rounds) ─ agreement (with f64, with parry3d) ─ report (tables)
-//!   parry, cwbvh, embree, tree: one file each
-//! child (engines in C++) ─ embree, pairs, hausdorff
+//!   parry, cwbvh, embree, fcpw, tree: one file each
+//! child (programs in C++) ─ child_engine (embree, fcpw), pairs, hausdorff
 //! pairs     (distance and overlap of two models)
 //! hausdorff (Hausdorff distance of two meshes)
 //! ```
@@ -16,9 +16,11 @@
 
 mod agreement;
 mod child;
+mod child_engine;
 mod cwbvh;
 mod embree;
 mod engine;
+mod fcpw;
 pub mod hausdorff;
 pub mod pairs;
 mod parry;

@@ -19,6 +19,8 @@ use super::workload::{HitKind, Workload};
 enum Way {
     /// Each on its own.
     Alone,
+    /// The same with the instructions that the program is compiled for.
+    Compiled,
     /// Each from where the one before ended.
     Coherent,
     /// All at once, in Morton order where they come in none.
@@ -61,6 +63,18 @@ fn open<'a>(
 /// None but a fault of the builder.
 pub fn build<'a>(subject: &Subject, blob: &'a mut Vec<u8>) -> Result<Box<dyn Engine + 'a>, String> {
     open(subject, false, blob, Way::Alone, &Workload::ALL)
+}
+
+/// One query after the other, without the instructions of this processor.
+///
+/// # Errors
+/// None but a fault of the builder.
+pub fn build_compiled<'a>(
+    subject: &Subject,
+    blob: &'a mut Vec<u8>,
+) -> Result<Box<dyn Engine + 'a>, String> {
+    let workloads = &[Workload::Far, Workload::Near, Workload::Segments, Workload::AnyHit];
+    open(subject, false, blob, Way::Compiled, workloads)
 }
 
 /// With vertices as they were, in f32.
@@ -114,6 +128,10 @@ impl Engine for Tree<'_> {
                 let found = black_box(tree.closest_point(point, Budget::EXACT, stack));
                 found.map(|found| Answer::Point(found.point)).map_err(|error| error.to_string())
             }),
+            Way::Compiled => try_each(points, answers, |point| {
+                let found = black_box((**tree).closest_point(point, Budget::EXACT, stack));
+                found.map(|found| Answer::Point(found.point)).map_err(|error| error.to_string())
+            }),
             Way::Coherent => {
                 let mut query = CoherentQuery::<128>::new();
                 try_each(points, answers, |point| {
@@ -142,15 +160,24 @@ impl Engine for Tree<'_> {
         kind: HitKind,
         answers: &mut Vec<Answer>,
     ) -> Result<(), String> {
-        let Self { tree, stack, .. } = self;
+        let Self { tree, stack, way, .. } = self;
+        let (is_compiled, facing, budget) = (*way == Way::Compiled, Facing::Both, Budget::EXACT);
         match kind {
             HitKind::First => try_each(segments, answers, |[a, b]| {
-                let found = black_box(tree.first_hit(a, b, Facing::Both, Budget::EXACT, stack));
+                let found = black_box(if is_compiled {
+                    (**tree).first_hit(a, b, facing, budget, stack)
+                } else {
+                    tree.first_hit(a, b, facing, budget, stack)
+                });
                 let found = found.map_err(|error| error.to_string())?;
                 Ok(found.hit.map_or(Answer::Miss, |hit| Answer::Hit(hit.t)))
             }),
             HitKind::Any => try_each(segments, answers, |[a, b]| {
-                let found = black_box(tree.any_hit(a, b, Facing::Both, Budget::EXACT, stack));
+                let found = black_box(if is_compiled {
+                    (**tree).any_hit(a, b, facing, budget, stack)
+                } else {
+                    tree.any_hit(a, b, facing, budget, stack)
+                });
                 Ok(match found.map_err(|error| error.to_string())?.verdict {
                     Verdict::Yes => Answer::Meets,
                     Verdict::No => Answer::Miss,

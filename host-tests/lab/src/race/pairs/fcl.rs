@@ -17,6 +17,7 @@ const SOURCE: Source = Source {
         alternatives: &[&["libfcl-dev"]],
         ignore_installed: &["libfcl", "libccd", "liboctomap", "libeigen3"],
     },
+    checkout: None,
     text: include_str!("fcl.cpp"),
     headers: &["eigen3"],
     options: &["-lfcl", "-lccd", "-loctomap", "-loctomath"],
