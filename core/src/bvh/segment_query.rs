@@ -48,6 +48,7 @@ impl SegmentQuery {
         let &SegmentStart { origin, direction, far, start, off } = from;
         let units = tree.units();
         let surface = units.surface_error + off;
+        let inverse = |d: f32| 1.0 / if d.abs() > STILL { d } else { STILL.copysign(d) };
         let inverse = [inverse(direction.x), inverse(direction.y), inverse(direction.z)];
         // One grid unit is added to the distance: the origin of a node that is flat, or thinner
         // than a grid unit, is an integer.
@@ -103,13 +104,6 @@ impl SegmentQuery {
         let whole = if whole < 1.0 { whole } else { 1.0 };
         Hit { t: if self.still { 0.0 } else { whole }, point, triangle }
     }
-}
-
-/// The reciprocal of a component of the direction.
-#[cfg_attr(meshsweep_small, inline(never))]
-#[cfg_attr(not(meshsweep_small), inline(always))]
-fn inverse(d: f32) -> f32 {
-    1.0 / if d.abs() > STILL { d } else { STILL.copysign(d) }
 }
 
 impl SegmentQuery {
