@@ -7,7 +7,6 @@
 
 use super::support::Support;
 use crate::num::greater;
-use crate::num::tolerance::WITHIN;
 use glam::Vec3;
 
 /// Triangles bounded at a time.
@@ -59,7 +58,6 @@ impl Lanes {
 #[inline(always)]
 fn in_lanes(t: &[[f32; LANES]; 9]) -> [Support; LANES] {
     let (mut along, mut length_sq) = ([0f32; LANES], [0f32; LANES]);
-    let mut is_reached = [false; LANES];
     for i in 0..LANES {
         let (apx, apy, apz) = (-t[0][i], -t[1][i], -t[2][i]);
         let (abx, aby, abz) = (t[3][i] - t[0][i], t[4][i] - t[1][i], t[5][i] - t[2][i]);
@@ -105,12 +103,10 @@ fn in_lanes(t: &[[f32; LANES]; 9]) -> [Support; LANES] {
         let far = greater(far, rac);
         along[i] = (rx * apx + ry * apy + rz * apz) - far;
         length_sq[i] = rx * rx + ry * ry + rz * rz;
-        is_reached[i] = (u >= 0.0) & (v >= 0.0) & (u + v <= WITHIN);
     }
     let mut out = [Support::default(); LANES];
     for i in 0..LANES {
-        let (along, length_sq, is_reached) = (along[i], length_sq[i], is_reached[i]);
-        out[i] = Support { along, length_sq, is_reached };
+        out[i] = Support { along: along[i], length_sq: length_sq[i] };
     }
     out
 }
@@ -144,9 +140,7 @@ mod tests {
             for (triangle, lane) in triangles.iter().zip(lanes) {
                 let scalar = Support::new(triangle.map(Into::into));
                 // `+ 0.0` makes the two zeros one: they compare equal everywhere.
-                let bits = |s: Support| {
-                    ((s.along + 0.0).to_bits(), (s.length_sq + 0.0).to_bits(), s.is_reached)
-                };
+                let bits = |s: Support| ((s.along + 0.0).to_bits(), (s.length_sq + 0.0).to_bits());
                 assert_eq!(bits(scalar), bits(lane), "{triangle:?}");
             }
         }

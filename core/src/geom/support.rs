@@ -11,9 +11,6 @@ pub struct Support {
     pub along: f32,
     /// Squared length of its normal.
     pub length_sq: f32,
-    /// The normal certainly runs from a point of the triangle to the origin. So its length is not
-    /// below the distance.
-    pub is_reached: bool,
 }
 
 const ZERO: Real = Real(0.0);
@@ -29,13 +26,23 @@ impl Support {
         if d1 <= ZERO && d2 <= ZERO {
             // The direction is the way from a corner. Its products are known.
             let Real(length_sq) = ap.dot(ap);
-            return Support { along: length_sq, length_sq, is_reached: true };
+            return Support { along: length_sq, length_sq };
         }
-        let (r, is_reached) = residual([ap, ab, ac], [d1, d2]);
+        let (r, _) = residual([ap, ab, ac], [d1, d2]);
         let Real(along) = r.dot(ap) - greater(greater(ZERO, r.dot(ab)), r.dot(ac));
         let Real(length_sq) = r.dot(r);
-        Support { along, length_sq, is_reached }
+        Support { along, length_sq }
     }
+}
+
+/// The square of an upper bound of the distance from the origin to the triangle `a b c`, up to
+/// rounding. Infinite where f32 does not tell.
+pub fn distance_sq([a, b, c]: [RealVector; 3]) -> f32 {
+    let (ap, ab, ac) = (-a, b - a, c - a);
+    let (d1, d2) = (ab.dot(ap), ac.dot(ap));
+    let is_at_a = d1 <= ZERO && d2 <= ZERO;
+    let (r, is_reached) = if is_at_a { (ap, true) } else { residual([ap, ab, ac], [d1, d2]) };
+    if is_reached { r.dot(r).0 } else { f32::INFINITY }
 }
 
 /// Vector from the (approximately) closest point, not `a`, to the query, and whether that point

@@ -8,7 +8,7 @@
 use super::boxes::{Aabb, Clipped};
 use super::lanes::Lanes;
 use super::real_vector::RealVector;
-use super::support::Support;
+use super::support::{Support, distance_sq};
 use crate::num::tolerance::{
     NEAR_SQUARES, POINT_BOUND, SEGMENT_BOUND, SQUARED_SLACK, TRUSTED_DIRECTION_SQ, U32, U64,
     UNDERFLOW,
@@ -21,7 +21,7 @@ use glam::Vec3;
 /// trust.
 #[inline(always)]
 pub fn direction_bound(a: Vec3, b: Vec3, c: Vec3) -> f32 {
-    let Support { along, length_sq, .. } = Support::new([a, b, c].map(RealVector::from));
+    let Support { along, length_sq } = Support::new([a, b, c].map(RealVector::from));
     if length_sq < TRUSTED_DIRECTION_SQ { 0.0 } else { along / libm::sqrtf(length_sq) }
 }
 
@@ -48,13 +48,24 @@ impl SweptPoint {
     }
 
     /// A lower bound of the distance from the point to the triangle swept by `radius`, never
-    /// negative; and an upper bound of that to the triangle, infinite where f32 cannot tell. `None`
-    /// if the former distance certainly exceeds `limit`, which needs no square root.
+    /// negative. `None` if the distance certainly exceeds `limit`, which needs no square root.
     #[inline(always)]
-    pub fn range(&self, corners: [Vec3; 3], radius: f32, limit: f32) -> Option<[f32; 2]> {
+    pub fn lower(&self, corners: [Vec3; 3], radius: f32, limit: f32) -> Option<f32> {
+        self.bound(Support::new(self.seen(corners)), radius, limit)
+    }
+
+    /// An upper bound of the distance from the point to the triangle, infinite where f32 does not
+    /// tell.
+    #[inline(never)]
+    pub fn upper(&self, corners: [Vec3; 3]) -> f32 {
+        let length = libm::sqrtf(distance_sq(self.seen(corners)));
+        (Real(length) + Real(self.margin)).0
+    }
+
+    #[inline(always)]
+    fn seen(&self, corners: [Vec3; 3]) -> [RealVector; 3] {
         let point = RealVector::from(self.point);
-        let support = Support::new(corners.map(|corner| RealVector::from(corner) - point));
-        self.bound(support, radius, limit)
+        corners.map(|corner| RealVector::from(corner) - point)
     }
 
     /// Puts a triangle, seen from the point, into a lane.
@@ -63,12 +74,12 @@ impl SweptPoint {
         lanes.set(lane, corners.map(|corner| corner - self.point));
     }
 
-    /// [`range`](Self::range) from the triangle's supporting plane.
+    /// [`lower`](Self::lower) from the triangle's supporting plane.
     #[inline(always)]
-    pub fn bound(&self, support: Support, radius: f32, limit: f32) -> Option<[f32; 2]> {
-        let Support { along, length_sq, is_reached } = support;
+    pub fn bound(&self, support: Support, radius: f32, limit: f32) -> Option<f32> {
+        let Support { along, length_sq } = support;
         if Real(length_sq) < Real(TRUSTED_DIRECTION_SQ) {
-            return Some([0.0, f32::INFINITY]);
+            return Some(0.0);
         }
         let inside = Real(radius) + Real(self.margin);
         let beyond = Real(limit) + inside;
@@ -77,9 +88,8 @@ impl SweptPoint {
             return None;
         }
         let length = libm::sqrtf(length_sq);
-        let upper = if is_reached { (Real(length) + Real(self.margin)).0 } else { f32::INFINITY };
         let Real(lower) = Real(along / length) - inside;
-        Some([greater(0.0, lower), upper])
+        Some(greater(0.0, lower))
     }
 }
 
@@ -159,7 +169,7 @@ impl SweptSegment {
 /// Whether the [`direction_bound`] of a triangle is above a limit, which is not negative. The root,
 /// which boards compute by many instructions, is taken only where the squares are too near.
 #[inline(always)]
-fn is_beyond(Support { along, length_sq, .. }: Support, limit: f32) -> bool {
+fn is_beyond(Support { along, length_sq }: Support, limit: f32) -> bool {
     if along <= 0.0 || length_sq < TRUSTED_DIRECTION_SQ {
         return false;
     }
@@ -191,10 +201,12 @@ mod tests {
             (Vec3::new(0.5, -2.0, 0.0), 2.0),
         ] {
             let swept = SweptPoint::new(point, &bounds);
-            let [lower, upper] =
-                swept.range(corners, 0.25, f32::INFINITY).expect("nothing exceeds infinity");
-            assert!(swept.range(corners, 0.25, distance - 0.2).is_some());
-            assert!(swept.range(corners, 0.25, distance - 0.3).is_none());
+            let (lower, upper) = (
+                swept.lower(corners, 0.25, f32::INFINITY).expect("nothing exceeds infinity"),
+                swept.upper(corners),
+            );
+            assert!(swept.lower(corners, 0.25, distance - 0.2).is_some());
+            assert!(swept.lower(corners, 0.25, distance - 0.3).is_none());
             assert!(distance <= upper && upper < distance + 1e-4, "{upper} {distance}");
             assert!(
                 lower <= distance - 0.25 && lower > distance - 0.25 - 1e-4,
@@ -218,7 +230,7 @@ mod tests {
             let limit = [1e-12, 1e-6, 1e-3, 1.0][round % 4] * random(&mut state);
             let near = 1.0 + [0.0, 1e-7, 1e-6, 1e-5, 1.0][round % 5] * (random(&mut state) - 0.5);
             let along = limit * length * near - [0.0, 1e-30][round % 2];
-            let support = Support { along, length_sq: length * length, is_reached: false };
+            let support = Support { along, length_sq: length * length };
             let bound = if support.length_sq < TRUSTED_DIRECTION_SQ {
                 0.0
             } else {

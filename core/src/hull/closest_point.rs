@@ -81,7 +81,7 @@ pub(super) fn closest_point<'a, G: Geometry<'a>>(
         let tolerance = (relative > 0.0 || absolute > 0.0)
             .then(|| [f64::from(relative), frame.length(absolute)]);
         if tolerance.is_none() {
-            nearest.defers = steps >= triangles(hull.tables());
+            nearest.defers = steps >= triangles(hull.tables()) && !nearest.distant;
             if SOFT_DOUBLE {
                 nearest.share_corners(frame.surface_error());
             }
@@ -173,11 +173,10 @@ impl Nearest {
         self.shared = SharedCorner::new(self.p, self.swept.norms(), surface_error);
     }
 
-    /// Lower bounds of up to four triangles, infinite above the limit; and upper bounds of the
-    /// distances to the triangles themselves.
+    /// Bounds of up to four triangles, infinite above the limit.
     #[inline(always)]
-    pub(super) fn bounds(&self, found: &[Candidate]) -> [[f32; 2]; LANES] {
-        let mut bounds = [[f32::INFINITY; 2]; LANES];
+    pub(super) fn bounds(&self, found: &[Candidate]) -> [f32; LANES] {
+        let mut bounds = [f32::INFINITY; LANES];
         if self.distant {
             self.distant_bounds(found, &mut bounds);
             return bounds;
@@ -185,8 +184,8 @@ impl Nearest {
         if !Lanes::PAY {
             for (bound, candidate) in bounds.iter_mut().zip(found) {
                 let Candidate { corners, radius, .. } = candidate;
-                if let Some(range) = self.swept.range(*corners, *radius, self.limit_f32) {
-                    *bound = range;
+                if let Some(lower) = self.swept.lower(*corners, *radius, self.limit_f32) {
+                    *bound = lower;
                 }
             }
             return bounds;
@@ -197,8 +196,8 @@ impl Nearest {
         }
         let supports = lanes.supports(found.len());
         for ((bound, support), candidate) in bounds.iter_mut().zip(supports).zip(found) {
-            if let Some(range) = self.swept.bound(support, candidate.radius, self.limit_f32) {
-                *bound = range;
+            if let Some(lower) = self.swept.bound(support, candidate.radius, self.limit_f32) {
+                *bound = lower;
             }
         }
         bounds
@@ -206,8 +205,8 @@ impl Nearest {
 
     /// Bounds in f64, for a query so far away that f32 gives all parts of the model the same one.
     #[cold]
-    fn distant_bounds(&self, found: &[Candidate], bounds: &mut [[f32; 2]; LANES]) {
-        for ([bound, _], candidate) in bounds.iter_mut().zip(found) {
+    fn distant_bounds(&self, found: &[Candidate], bounds: &mut [f32; LANES]) {
+        for (bound, candidate) in bounds.iter_mut().zip(found) {
             let [a, b, c] = candidate.corners.map(|v| v.as_dvec3());
             let radius = f64::from(candidate.radius) * (1.0 + U64);
             let lower = point_triangle(self.p, a, b, c).lower - radius;
@@ -217,18 +216,20 @@ impl Nearest {
         }
     }
 
-    /// Takes a triangle that is not refined. One of the surface waits, until a second one may be
-    /// the nearest as well.
-    fn take(&mut self, candidate: &Candidate, [lower, upper]: [f32; 2]) {
-        let waits = self.defers && candidate.fate == Fate::Surface && upper < f32::INFINITY;
-        if !waits {
-            self.settle(candidate);
-            return;
+    /// Takes a triangle that is not refined, with its lower bound. Before any triangle was
+    /// evaluated, one of the surface waits, until a second one may be the nearest as well.
+    fn take(&mut self, candidate: &Candidate, lower: f32) {
+        if self.defers && self.best.is_none() && candidate.fate == Fate::Surface {
+            let upper = self.swept.upper(candidate.corners);
+            self.limit_f32 = lesser(self.limit_f32, upper);
+            self.settle_waiting();
+            if self.best.is_none() && upper < f32::INFINITY {
+                self.waiting = Some((*candidate, lower));
+                return;
+            }
         }
-        self.limit_f32 = lesser(self.limit_f32, upper);
-        self.settle_waiting();
-        if lower <= self.limit_f32 && !self.is_known(candidate) {
-            self.waiting = Some((*candidate, lower));
+        if lower <= self.limit_f32 {
+            self.settle(candidate);
         }
     }
 
@@ -402,7 +403,7 @@ impl Visit for Nearest {
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
         let mut bounds = self.bounds(found);
-        for ([bound, _], candidate) in bounds.iter_mut().zip(found) {
+        for (bound, candidate) in bounds.iter_mut().zip(found) {
             if candidate.fate != Fate::Splits || *bound == f32::INFINITY {
                 continue;
             }
@@ -417,7 +418,7 @@ impl Visit for Nearest {
         // Nearest first: each evaluation may spare others, and on a Cortex-M f64 runs in software.
         for _ in 0..found.len() {
             let mut nearest = (f32::INFINITY, 0);
-            for (lane, [bound, _]) in bounds.iter().enumerate() {
+            for (lane, bound) in bounds.iter().enumerate() {
                 if *bound < nearest.0 {
                     nearest = (*bound, lane);
                 }
@@ -426,10 +427,9 @@ impl Visit for Nearest {
             if bound > self.limit_f32 || bound == f32::INFINITY {
                 break;
             }
-            let range = bounds[lane % LANES];
-            bounds[lane % LANES] = [f32::INFINITY; 2];
+            bounds[lane % LANES] = f32::INFINITY;
             if let Some(candidate) = found.get(lane) {
-                self.take(candidate, range);
+                self.take(candidate, bound);
             }
         }
     }

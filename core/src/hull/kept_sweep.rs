@@ -79,7 +79,7 @@ struct Keep {
 
 impl Visit for Keep {
     fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
-        for ([bound, _], candidate) in self.nearest.bounds(found).into_iter().zip(found) {
+        for (bound, candidate) in self.nearest.bounds(found).into_iter().zip(found) {
             if bound == f32::INFINITY {
                 self.pruned = self.pruned.min(stored(self.nearest.limit(), self.moved));
                 continue;
@@ -455,7 +455,7 @@ impl Sweep<'_, '_> {
 impl Keep {
     /// A lower bound of a triangle's distance, at most the limit.
     fn least(&self, candidate: &Candidate) -> f64 {
-        let [[bound, _], ..] = self.nearest.bounds(core::slice::from_ref(candidate));
+        let [bound, ..] = self.nearest.bounds(core::slice::from_ref(candidate));
         f64::from(bound).min(self.nearest.limit())
     }
 

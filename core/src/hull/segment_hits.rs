@@ -49,7 +49,11 @@ impl Hull<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<FirstHit, QueryError> {
         let mut first = First { best: None, least_lower: f64::INFINITY };
-        let traced = trace(self, [a, b], &budget, scratch, &mut first)?;
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        let collect: &mut dyn Collect = &mut first;
+        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        let collect = &mut first;
+        let traced = trace(self, [a, b], &budget, scratch, collect)?;
         let open = f64::from(traced.unopened);
         let hit = first.best.map(|best| Hit {
             t: best.meet.t as f32,
@@ -99,7 +103,11 @@ impl Hull<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<AllHits, QueryError> {
         let mut all = All { model: self, hits: Hits::new(hits), has_touches: false };
-        let traced = trace(self, [a, b], &budget, scratch, &mut all)?;
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        let collect: &mut dyn Collect = &mut all;
+        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        let collect = &mut all;
+        let traced = trace(self, [a, b], &budget, scratch, collect)?;
         let ended = if all.has_touches { traced.ended.uncertain() } else { traced.ended };
         Ok(all.hits.answer(traced.work, ended, false))
     }
@@ -162,13 +170,14 @@ struct Traced {
     unopened: f32,
 }
 
-#[inline(never)]
-fn trace(
+/// Boards link one search for all questions.
+#[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+fn trace<C: Collect + ?Sized>(
     model: &Hull<'_>,
     [a, b]: [[f32; 3]; 2],
     budget: &Budget,
     scratch: &mut [ScratchEntry],
-    collect: &mut dyn Collect,
+    collect: &mut C,
 ) -> Result<Traced, QueryError> {
     budget.check_with(scratch)?;
     if !model.has_hull() {
@@ -210,7 +219,10 @@ fn trace(
 }
 
 /// Why the search ended, and the least parameter of a hit in triangles that it did not refine.
-fn run(front: &mut Front<'_, Hull<'_>>, along: &mut Along<'_>) -> Option<(Ended, f32)> {
+fn run<C: Collect + ?Sized>(
+    front: &mut Front<'_, Hull<'_>>,
+    along: &mut Along<'_, C>,
+) -> Option<(Ended, f32)> {
     front.begin(along)?;
     while let Some(Taken { entry, .. }) = front.queue.pop() {
         let instance = Instance(entry.node());
@@ -230,7 +242,7 @@ fn run(front: &mut Front<'_, Hull<'_>>, along: &mut Along<'_>) -> Option<(Ended,
 }
 
 /// A segment, and the collector of its hits.
-struct Along<'c> {
+struct Along<'c, C: Collect + ?Sized> {
     frame: Frame,
     start: DVec3,
     end: DVec3,
@@ -240,13 +252,12 @@ struct Along<'c> {
     /// A reported hit is one that the stored surface cannot decide.
     doubtful: bool,
     exact: u32,
-    /// Not generic: boards would link the search once for each question.
-    collect: &'c mut dyn Collect,
+    collect: &'c mut C,
     /// Hits beyond this parameter are not wanted.
     limit: f32,
 }
 
-impl Visit for Along<'_> {
+impl<C: Collect + ?Sized> Visit for Along<'_, C> {
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
@@ -265,7 +276,7 @@ impl Visit for Along<'_> {
     }
 }
 
-impl Along<'_> {
+impl<C: Collect + ?Sized> Along<'_, C> {
     /// Evaluates a triangle of the surface.
     fn meet(&mut self, candidate: &Candidate, key: f32) {
         self.exact += 1;
