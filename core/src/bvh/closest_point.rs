@@ -277,6 +277,9 @@ pub(super) struct Closest<'a, N> {
     /// Least squared lower bound of the refined triangles.
     refined_lower_sq: f32,
     tolerant: bool,
+    /// No hint. Behind a neighbour the cache has the triangle's number in the file.
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    is_alone: bool,
     /// The limit's plane is not that of the best triangle. It is made when a leaf needs it.
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
     has_old_plane: bool,
@@ -314,6 +317,8 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             refine_below: f32::NEG_INFINITY,
             refined_lower_sq: f32::INFINITY,
             tolerant: budget.relative > 0.0 || budget.absolute > 0.0,
+            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+            is_alone: true,
             #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
             has_old_plane: false,
             #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
@@ -345,6 +350,10 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         // Leaves beyond the limit never change the result. Kernels may skip them.
         self.best.distance_sq = near.distance_sq;
         self.refine_below = self.query.refine_below(near.distance_sq);
+        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        {
+            self.is_alone = false;
+        }
     }
 
     /// With a tolerance, only triangles that are nearer by the tolerance are wanted.
@@ -385,7 +394,9 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             if self.tolerant { self.tolerant_limit(distance_sq) } else { self.beyond.distance_sq };
         self.limit = self.query.key_limit(limit);
         #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-        prefetch_source(self.tree, node, child);
+        if self.is_alone {
+            prefetch_source(self.tree, node, child);
+        }
     }
 
     /// Refines triangles whose lower bound falls short of the best distance by more than rounding:
