@@ -178,12 +178,13 @@ fn set_fine(
 ) {
     let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
     let (rows, _) = entries.as_chunks::<3>();
-    let (planes, _) = words.as_chunks_mut::<{ 2 * WIDTH / 4 }>();
+    let (planes, _) = record.as_chunks::<4>().0.as_chunks::<{ 2 * WIDTH / 4 }>();
+    let (cut_planes, _) = words.as_chunks_mut::<{ 2 * WIDTH / 4 }>();
     let offset = p.relative_to_origin(record);
     // By number: at `opt-level = "s"` so many iterators would be kept in memory.
     for k in 0..3 {
         let exponent = record[boxes::FRAME_EXPONENTS + k];
-        let (axis, planes) = (&mut axes[k], &mut planes[k]);
+        let (axis, to, planes) = (&mut axes[k], &mut cut_planes[k], &planes[k]);
         let AxisPlace { from, shift } =
             AxisPlace::of(&rows[k], offset, exponent, p.unit_exponent());
         // A byte stands for the high one of sixteen bits. `shift` cuts off the low ones, and the
@@ -192,8 +193,8 @@ fn set_fine(
         *axis = AxisPlanes::new(from, step, (0xFF00 >> shift) - MAX_DISTANCE);
         let cut = shift.saturating_sub(8) & 7;
         let bytes = 0x0101_0101 * (0xFF >> cut);
-        for plane in planes {
-            *plane = (u32::from_le_bytes(*plane) >> cut & bytes).to_le_bytes();
+        for (to, plane) in to.iter_mut().zip(planes) {
+            *to = (u32::from_le_bytes(*plane) >> cut & bytes).to_le_bytes();
         }
     }
 }
@@ -210,7 +211,8 @@ fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH]
         set_coarse(&mut axes, record, p, steps);
     } else {
         axes = [AxisPlanes::NONE; 3];
-        fine = *words;
+        // Not a copy: that would be a call of `memcpy`, for which alone firmware would link it.
+        fine = [[0; 4]; PLANE_WORDS];
         set_fine(&mut axes, &mut fine, record, p);
         words = &fine;
     }
