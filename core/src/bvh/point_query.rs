@@ -96,7 +96,7 @@ impl PointQuery {
         if !(near || x.is_finite() && y.is_finite() && z.is_finite()) {
             return Err(QueryError::NotFinite);
         }
-        let fan = (Real(FAN_DISTANCE * U32) * Real(header.star_radius)).0;
+        let fan = Real(header.star_radius).times_power(FAN_DISTANCE * U32).0;
         let fan = greater(fan, LEAST_FAN_ROUNDING);
         let shortfall_sq = if header.is_f32() { 0.0 } else { CERTIFIED_SHORTFALL };
         let [ox, oy, oz] = header.grid_origin;
@@ -118,12 +118,12 @@ impl PointQuery {
             units,
             shortfall_sq,
             rounding: fan,
-            allowance: (Real(ALLOWANCE) * Real(fan) * Real(fan)).0,
+            allowance: (Real(fan).times_power(ALLOWANCE) * Real(fan)).0,
             whole,
             key_point,
             // Keys are halves of squares.
             keys_in_square: f32::from_bits((126 - 2 * key_point.unit_exponent()) << 23),
-            plane_error: (Real(PLANE_DISTANCE * U32) * Real(size) + Real(fan)).0,
+            plane_error: (Real(size).times_power(PLANE_DISTANCE * U32) + Real(fan)).0,
             far: !near,
         })
     }
@@ -142,7 +142,7 @@ impl PointQuery {
     /// (D·(1 + 500u) + 9f)² ≤ D²·[`GROWTH`] + [`SIDE`]·[`ALLOWANCE`]·f².
     #[inline(always)]
     pub(crate) fn side_allowance(&self) -> f32 {
-        SIDE * self.allowance
+        Real(self.allowance).times_power(SIDE).0
     }
 
     /// A child with a greater key is farther than the root of `limit`.
@@ -211,7 +211,7 @@ impl PointQuery {
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn upper(&self, distance: f32) -> f32 {
-        let error = Real(distance) * Real(FAN_RELATIVE * U32) + Real(self.fixed_error());
+        let error = Real(distance).times_power(FAN_RELATIVE * U32) + Real(self.fixed_error());
         self.units.upper((Real(distance) + error).0)
     }
 
@@ -225,7 +225,7 @@ impl PointQuery {
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn lower(&self, distance: f32) -> f32 {
-        let error = Real(distance) * Real(FAN_RELATIVE * U32) + Real(self.fixed_error());
+        let error = Real(distance).times_power(FAN_RELATIVE * U32) + Real(self.fixed_error());
         self.units.lower((Real(distance) - error).0)
     }
 }

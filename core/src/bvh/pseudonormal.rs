@@ -45,7 +45,7 @@ pub(crate) struct Candidates<'p> {
 #[cfg_attr(not(meshsweep_small), inline)]
 pub(crate) fn band_of(query: &PointQuery, distance_sq: f32) -> f32 {
     let distance = Real(sqrt_approx(distance_sq));
-    (distance * Real(1.0 + 128.0 * U32) + Real(8.0) * Real(query.rounding)).0
+    (distance * Real(1.0 + 128.0 * U32) + Real(query.rounding).times_power(8.0)).0
 }
 
 impl<'p> Candidates<'p> {

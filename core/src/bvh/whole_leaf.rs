@@ -8,8 +8,8 @@ use super::point_query::limit_of;
 use super::triangle_bounds::{nearness, seen_from};
 use crate::bvh::format::{FanLeaf, FullRing, LeafShape, lanes_of};
 use crate::geom::fan::{
-    NO_CORNER, Nearness, WIDTH, Whole, WholeBounds, WholeLimit, WholePoint, is_certain_corner,
-    less, whole_bounds,
+    Corner, Nearness, WIDTH, Whole, WholeBounds, WholeLimit, WholeLower, WholePoint,
+    is_certain_corner, less, sharp_lower, whole_bounds,
 };
 use crate::num::{Real, difference, dot, float, lesser};
 use glam::Vec3;
@@ -39,10 +39,10 @@ pub(super) fn whole_nearest(
     let mut within = limit.distance_sq;
     let mut squares = [0f32; WIDTH];
     let mut look = |lane: usize, bounds: &WholeBounds, within: &mut f32| {
-        let near = if bounds.first == lane {
+        let near = if usize::from(bounds.first) == lane {
             nearness_by_corner(leaf, p, point, lane, bounds.corner)?
         } else {
-            at_corner(*squares.get(bounds.first)?, bounds.corner)
+            at_corner(*squares.get(usize::from(bounds.first))?, bounds.corner)
         };
         *squares.get_mut(lane)? = near.distance_sq;
         if Real(near.distance_sq) < Real(nearest.distance_sq) {
@@ -85,32 +85,39 @@ pub(crate) fn leaf_bounds(
     let (ring, shape) = (leaf.full_ring()?, leaf.shape());
     let wanted = plane.in_front(&ring, shape);
     let mut least = u32::MAX;
-    // A certain corner: its fan, its number in the ring if it is there, and its triangle.
-    let (mut of_fan, mut in_ring, mut first) = (2, None, WholeBounds::NONE);
+    // The nearest corner so far: its fan, its number in the ring if it is there, and its triangle.
+    let (mut of_fan, mut in_ring, mut first) = (2, None, 0);
     for lane in lanes_of(wanted) {
         let corners = corners_of(&ring, shape, lane)?;
-        let slot = bounds.get_mut(lane)?;
         let fan = usize::from(lane >= shape.turn());
         if fan == of_fan {
-            let corner = match in_ring {
+            let number = match in_ring {
                 None => 0,
                 Some(vertex) if vertex == lane => 1,
                 Some(vertex) if vertex == lane + 1 => 2,
-                Some(_) => NO_CORNER,
+                Some(_) => Corner::NONE.number,
             };
-            if is_certain(point, &corners, corner) {
-                *slot = WholeBounds { corner, ..first };
-                continue;
+            let known = bounds.get_mut(first)?;
+            if is_certain(point, &corners, Corner::new(number)) {
+                let corner = known.corner;
+                if is_certain(point, &corners_of(&ring, shape, first)?, corner) {
+                    known.corner = Corner::certain(corner.number);
+                    let same = WholeBounds { corner: Corner::certain(number), ..*known };
+                    *bounds.get_mut(lane)? = same;
+                    continue;
+                }
+                of_fan = 2;
             }
         }
+        let slot = bounds.get_mut(lane)?;
         *slot = whole_bounds(point, &corners);
-        slot.first = lane;
+        slot.first = (lane & 7) as u8;
         if slot.upper <= least {
             least = slot.upper;
-            if is_certain(point, &corners, slot.corner) {
-                of_fan = fan;
-                in_ring = (lane + slot.corner).checked_sub(1).filter(|_| slot.corner > 0);
-                first = *slot;
+            let Corner { number, .. } = slot.corner;
+            if number != Corner::NONE.number {
+                (of_fan, first) = (fan, lane);
+                in_ring = if number > 0 { Some(lane + usize::from(number) - 1) } else { None };
             }
         }
     }
@@ -119,8 +126,9 @@ pub(crate) fn leaf_bounds(
 
 /// Whether the f32 kernel certainly takes a corner for the closest point.
 #[inline(always)]
-fn is_certain(point: &WholePoint, &[a, b, c]: &[Whole; 3], corner: usize) -> bool {
-    let (vertex, [one, other]) = match corner {
+fn is_certain(point: &WholePoint, &[a, b, c]: &[Whole; 3], corner: Corner) -> bool {
+    let (vertex, [one, other]) = match corner.number {
+        _ if corner.is_certain => return true,
         0 => (a, [b, c]),
         1 => (b, [c, a]),
         2 => (c, [a, b]),
@@ -136,6 +144,15 @@ fn corners_of(ring: &FullRing<'_>, shape: LeafShape, lane: usize) -> Option<[Who
     Some([centre, ring.vertex(lane)?, ring.vertex(lane + 1)?])
 }
 
+/// [`sharp_lower`] of a triangle.
+pub(super) fn sharp_lower_of(
+    leaf: &FanLeaf<'_>,
+    point: &WholePoint,
+    lane: usize,
+) -> Option<WholeLower> {
+    Some(sharp_lower(point, &corners_of(&leaf.full_ring()?, leaf.shape(), lane)?))
+}
+
 /// What the f32 kernel finds of a triangle. `corner`: see [`WholeBounds::corner`].
 #[inline(never)]
 pub(crate) fn nearness_by_corner(
@@ -143,7 +160,7 @@ pub(crate) fn nearness_by_corner(
     p: Vec3,
     point: &WholePoint,
     lane: usize,
-    corner: usize,
+    corner: Corner,
 ) -> Option<Nearness> {
     let corners = corners_of(&leaf.full_ring()?, leaf.shape(), lane)?;
     Some(match corner_nearness(leaf, p, point, &corners, lane, corner) {
@@ -160,14 +177,14 @@ fn corner_nearness(
     point: &WholePoint,
     corners: &[Whole; 3],
     lane: usize,
-    corner: usize,
+    corner: Corner,
 ) -> Option<Nearness> {
     if !is_certain(point, corners, corner) {
         return None;
     }
     let mut way = difference(p, leaf.centre(usize::from(lane >= leaf.shape().turn())));
-    if corner > 0 {
-        let [x, y, z] = less(*corners.get(corner)?, corners[0]);
+    if corner.number > 0 {
+        let [x, y, z] = less(*corners.get(usize::from(corner.number))?, corners[0]);
         way = difference(way, Vec3::new(float(x), float(y), float(z)));
     }
     let distance_sq = dot(way, way);
@@ -176,7 +193,7 @@ fn corner_nearness(
 
 /// What the f32 kernel finds at this squared distance from a corner.
 #[inline(always)]
-fn at_corner(distance_sq: f32, corner: usize) -> Nearness {
-    let share = |of: usize| if corner == of { 1.0 } else { 0.0 };
+fn at_corner(distance_sq: f32, corner: Corner) -> Nearness {
+    let share = |of: u8| if corner.number == of { 1.0 } else { 0.0 };
     Nearness { distance_sq, lower_bound_sq: distance_sq, v: share(1), w: share(2) }
 }

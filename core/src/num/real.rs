@@ -94,6 +94,17 @@ impl Real {
     /// Zero.
     pub const ZERO: Real = Real(0.0);
 
+    /// The product with a power of two between 2^-40 and 2^40.
+    #[inline(always)]
+    pub fn times_power(self, power: f32) -> Real {
+        let bits = self.0.to_bits();
+        if SOFT_FLOAT && is_usual(exponent(bits)) {
+            let by = power.to_bits().wrapping_sub(1f32.to_bits());
+            return Real(f32::from_bits(bits.wrapping_add(by)));
+        }
+        self * Real(power)
+    }
+
     /// The order of these integers is that of the numbers.
     #[inline(always)]
     fn order(self) -> i32 {
@@ -212,13 +223,18 @@ fn is_normal(exponent: u32) -> bool {
     exponent.wrapping_sub(1) < 253
 }
 
+/// Whether a number is from 2^-63 to 2^64. No product of two of these leaves the range of normal
+/// numbers.
+#[inline(always)]
+fn is_usual(exponent: u32) -> bool {
+    exponent.wrapping_sub(64) < 127
+}
+
 /// `a * b`.
 #[inline(never)]
 pub fn product(a: f32, b: f32) -> f32 {
     let (x, y) = (a.to_bits(), b.to_bits());
     let (of_x, of_y) = (exponent(x), exponent(y));
-    // From 2^-63 to 2^64. No product of two of these leaves the range of normal numbers.
-    let is_usual = |exponent: u32| exponent.wrapping_sub(64) < 127;
     if !is_usual(of_x) || !is_usual(of_y) {
         return rare_product(a, b);
     }

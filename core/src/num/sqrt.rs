@@ -30,7 +30,7 @@ pub fn sqrt_approx(x: f32) -> f32 {
     let y = if SOFT_FLOAT { reciprocal_in_integers(x) } else { reciprocal(x) };
     let (x, y) = (Real(x), Real(y));
     let root = x * y;
-    let root = root + (x - root * root) * (Real(0.5) * y);
+    let root = root + (x - root * root) * y.times_power(0.5);
     if SOFT_FLOAT && down == 1.0 { root.0 } else { root.0 * down }
 }
 

@@ -12,9 +12,9 @@ use crate::bvh::format::{FanLeaf, FullRing, LeafShape};
 use crate::bvh::leaf_distance::LeafNearest;
 use crate::bvh::leaf_plane::{LeafPlane, Way};
 use crate::bvh::node::CHILD_MASK;
-use crate::bvh::whole_leaf::{leaf_bounds, nearness_by_corner};
+use crate::bvh::whole_leaf::{leaf_bounds, nearness_by_corner, sharp_lower_of};
 use crate::geom::fan::{
-    Nearness, WIDTH, WholeBounds, WholeLimit, WholeLower, WholePoint, vertex_bounds,
+    Corner, Nearness, WIDTH, WholeBounds, WholeLimit, WholeLower, WholePoint, vertex_bounds,
 };
 use crate::num::{Real, SOFT_FLOAT};
 
@@ -52,8 +52,8 @@ impl WaitingTriangle {
         (self.place >> 3) as usize & (WIDTH - 1)
     }
 
-    fn corner(&self) -> usize {
-        (self.place >> 6) as usize
+    fn corner(&self) -> Corner {
+        Corner { number: (self.place >> 6 & 3) as u8, is_certain: self.place >> 8 != 0 }
     }
 }
 
@@ -105,7 +105,7 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
         let wanted = self.bound(&visit.leaf, point, &mut bounds)?;
         for (lane, bounds) in bounds.iter().enumerate() {
             // The first of several with the same square is the answer.
-            let is_first = wanted >> lane & 1 != 0 && bounds.first == lane;
+            let is_first = wanted >> lane & 1 != 0 && usize::from(bounds.first) == lane;
             if !is_first || bounds.lower.is_beyond(self.waiting.limit) {
                 continue;
             }
@@ -113,7 +113,9 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
                 self.look_at_waiting()?;
             }
             if let Some(slot) = self.waiting.triangles.get_mut(self.waiting.count) {
-                let place = visit.child | (lane as u32) << 3 | (bounds.corner as u32) << 6;
+                let Corner { number, is_certain } = bounds.corner;
+                let corner = u32::from(number) | u32::from(is_certain) << 2;
+                let place = visit.child | (lane as u32) << 3 | corner << 6;
                 let (node, key, upper) = (visit.node, visit.key, bounds.upper);
                 *slot = WaitingTriangle { node, place, key, upper, lower: bounds.lower };
                 self.waiting.count += 1;
@@ -170,9 +172,21 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
         nearness_by_corner(&leaf, self.query.p, point, here.lane(), here.corner())
     }
 
+    /// Whether a sharper bound tells that a triangle is beyond the limit. Two that wait most often
+    /// share the nearest edge, and no bound parts them.
+    #[inline(never)]
+    fn is_sharply_beyond(&self, here: &WaitingTriangle, point: &WholePoint) -> Option<bool> {
+        if self.waiting.count <= 2 || here.corner().number != Corner::NONE.number {
+            return Some(false);
+        }
+        let [node, child] = here.leaf();
+        let lower = sharp_lower_of(&self.tree.leaf(node, child)?, point, here.lane())?;
+        Some(lower.is_beyond(self.waiting.limit))
+    }
+
     /// The squared limit by a squared upper bound.
     fn limit_by(&self, upper: u32) -> f32 {
-        let slack = Real(SLACK) * Real(self.query.allowance);
+        let slack = Real(self.query.allowance).times_power(SLACK);
         (Real(f32::from_bits(upper + GROWTH_BITS)) + slack).0
     }
 
@@ -200,13 +214,15 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
                 && here.leaf() == last.leaf()
             {
                 end -= 1;
-                if !here.lower.is_beyond(self.waiting.limit) {
-                    let near = match likeliest {
-                        (at, Some(near)) if at == end => near,
-                        _ => self.nearness_of(here, point)?,
-                    };
-                    nearest.take(here.lane(), &near, self.beyond.low_sq);
+                if here.lower.is_beyond(self.waiting.limit) {
+                    continue;
                 }
+                let near = match likeliest {
+                    (at, Some(near)) if at == end => near,
+                    _ if self.is_sharply_beyond(here, point)? => continue,
+                    _ => self.nearness_of(here, point)?,
+                };
+                nearest.take(here.lane(), &near, self.beyond.low_sq);
             }
             let Best { distance_sq, lanes, .. } = &self.best;
             // A part of the leaf may have been looked at before.

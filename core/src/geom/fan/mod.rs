@@ -19,6 +19,7 @@ mod ray;
 mod ray8;
 mod whole;
 mod whole_limit;
+mod whole_sharp;
 
 pub use cone::NormalCone;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
@@ -37,7 +38,8 @@ pub use ray::{Crossing, FanRay, Shadow, ShadowPlane, may_meet, ray_leaf};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub use ray8::{CentreShadows, Ring8, RingLanes, ShadowLanes, ray_leaf8};
 pub use whole::{
-    NO_CORNER, Whole, WholeBounds, WholePoint, is_certain_corner, is_in_front, less, vertex_bounds,
+    Corner, Whole, WholeBounds, WholePoint, is_certain_corner, is_in_front, less, vertex_bounds,
     whole_bounds,
 };
 pub use whole_limit::{WholeLimit, WholeLower};
+pub use whole_sharp::sharp_lower;

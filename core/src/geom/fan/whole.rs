@@ -10,20 +10,45 @@
 use super::whole_limit::WholeLower;
 use crate::num::{bit_length as bits, floored};
 
-/// No corner of a triangle.
-pub const NO_CORNER: usize = 3;
+/// The corner of a triangle that a point near the closest one is.
+#[derive(Clone, Copy, Debug)]
+pub struct Corner {
+    /// 0, 1 or 2; 3 if it is none.
+    pub number: u8,
+    /// Whether [`is_certain_corner`] is known to hold.
+    pub is_certain: bool,
+}
+
+impl Corner {
+    /// No corner.
+    pub const NONE: Corner = Corner::new(3);
+
+    /// A corner that may be certain.
+    #[inline(always)]
+    pub const fn new(number: u8) -> Corner {
+        Corner { number, is_certain: false }
+    }
+
+    /// A corner that is.
+    #[inline(always)]
+    pub const fn certain(number: u8) -> Corner {
+        Corner { number, is_certain: true }
+    }
+}
 
 /// A vector of whole numbers.
 pub type Whole = [i32; 3];
 
 /// Bits of a coordinate below a grid unit.
 const FRACTION_BITS: u32 = 3;
+/// Bits of the finest coordinate below a grid unit.
+pub(super) const FINE_BITS: u32 = 9;
 /// Coordinates of a [`WholePoint`] are below 2^this grid units in magnitude.
 pub const WHOLE_BITS: u32 = 17;
 /// Bits of a barycentric weight.
 const WEIGHT_BITS: u32 = 12;
 /// The weight of a whole.
-const ONE: i32 = 1 << WEIGHT_BITS;
+pub(super) const ONE: i32 = 1 << WEIGHT_BITS;
 /// Bits of the components of a direction.
 const DIRECTION_BITS: u32 = 12;
 
@@ -34,20 +59,24 @@ pub struct WholePoint {
     pub at: Whole,
     /// Eighths above `at`, 0 to 7, rounded down.
     pub eighths: Whole,
+    /// In units of 2^-[`FINE_BITS`], rounded down.
+    pub(super) fine: Whole,
 }
 
 impl WholePoint {
     /// `None` if the point is too far from the grid's origin.
     #[inline(always)]
     pub fn new(p: [f32; 3]) -> Option<WholePoint> {
-        let mut point = WholePoint { at: [0; 3], eighths: [0; 3] };
-        for ((x, at), eighths) in p.into_iter().zip(&mut point.at).zip(&mut point.eighths) {
+        let mut point = WholePoint { at: [0; 3], eighths: [0; 3], fine: [0; 3] };
+        let places = point.at.iter_mut().zip(&mut point.eighths).zip(&mut point.fine);
+        for (x, ((at, eighths), place)) in p.into_iter().zip(places) {
             if x.to_bits() << 1 >> 24 >= 127 + WHOLE_BITS {
                 return None;
             }
-            let fine = floored(x, FRACTION_BITS.cast_signed());
-            *at = fine >> FRACTION_BITS;
-            *eighths = fine & ((1 << FRACTION_BITS) - 1);
+            let fine = floored(x, FINE_BITS.cast_signed());
+            *place = fine;
+            *at = fine >> FINE_BITS;
+            *eighths = fine >> (FINE_BITS - FRACTION_BITS) & ((1 << FRACTION_BITS) - 1);
         }
         Some(point)
     }
@@ -100,10 +129,10 @@ pub struct WholeBounds {
     pub upper: u32,
     /// From the estimated point to the query, of twelve bits.
     pub direction: Whole,
-    /// The corner that the estimated point is: 0, 1 or 2; else 3.
-    pub corner: usize,
+    /// The corner that the estimated point is.
+    pub corner: Corner,
     /// The number of the triangle in its leaf, or that of another one with the same bounds.
-    pub first: usize,
+    pub first: u8,
     /// By the plane across the direction.
     pub lower: WholeLower,
 }
@@ -113,7 +142,7 @@ impl WholeBounds {
     pub const NONE: WholeBounds = WholeBounds {
         upper: u32::MAX,
         direction: [0; 3],
-        corner: NO_CORNER,
+        corner: Corner::NONE,
         first: 0,
         lower: WholeLower::NONE,
     };
@@ -134,10 +163,10 @@ pub fn whole_bounds(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> WholeBounds {
     let mut bounds = upper_bound(way);
     let direction = bounds.direction;
     bounds.corner = match (v, w) {
-        (0, 0) => 0,
-        (ONE, 0) => 1,
-        (0, ONE) => 2,
-        _ => NO_CORNER,
+        (0, 0) => Corner::new(0),
+        (ONE, 0) => Corner::new(1),
+        (0, ONE) => Corner::new(2),
+        _ => Corner::NONE,
     };
     let farthest = dot(direction, *a).max(dot(direction, *b)).max(dot(direction, *c));
     let along = p.along(direction).wrapping_sub(farthest);
@@ -218,7 +247,7 @@ pub fn is_in_front(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> Option<bool> {
 /// Weights of the second and third corner at a point near the closest one, of twelve bits;
 /// their sum is at most one. Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
 #[inline(always)]
-fn weights(s: Whole, e: Whole, g: Whole) -> (i32, i32) {
+pub(super) fn weights(s: Whole, e: Whole, g: Whole) -> (i32, i32) {
     // Products of 14 bits and 15 bits have a sum below 2^31.
     let size = bits(largest(e).max(largest(g)));
     let down = size.saturating_sub(14);
@@ -277,8 +306,8 @@ fn weights(s: Whole, e: Whole, g: Whole) -> (i32, i32) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::fan::WholeLimit;
     use crate::geom::fan::{Nearness, PointFan};
+    use crate::geom::fan::{WholeLimit, sharp_lower};
     use glam::Vec3;
 
     /// Squared distance in f64, by the kernel of the hull hierarchy.
@@ -321,7 +350,7 @@ mod tests {
     #[test]
     fn a_triangle_beyond_a_limit_is_beyond_it_and_few_are_missed() {
         let mut noise = Noise(11);
-        let (mut proved, mut all) = (0, 0);
+        let (mut proved, mut all, mut counts) = (0, 0, [0; 3]);
         for round in 0..400_000 {
             let size = 1 << (round % 17);
             let corners = triangle(&mut noise, size);
@@ -334,7 +363,7 @@ mod tests {
             let Some(point) = WholePoint::new(p.map(|x| x - origin)) else { continue };
             let p = p.map(|x| f64::from(x) - f64::from(origin));
             let square = exact(p, &corners);
-            let bounds = whole_bounds(&point, &corners);
+            let (bounds, sharp) = (whole_bounds(&point, &corners), sharp_lower(&point, &corners));
             assert!(square <= f64::from(f32::from_bits(bounds.upper)), "{p:?} {corners:?}");
             for share in [0.5, 0.9, 0.99, 0.999, 1.0, 1.000_01, 1.1] {
                 let limit = (square * share) as f32;
@@ -343,6 +372,14 @@ mod tests {
                 }
                 let is_beyond = bounds.lower.is_beyond(WholeLimit::of(limit));
                 assert!(!is_beyond || square > f64::from(limit), "{share}: {p:?} {corners:?}");
+                let is_sharp = sharp.is_beyond(WholeLimit::of(limit));
+                assert!(!is_sharp || square > f64::from(limit), "{share}: {p:?} {corners:?}");
+                let is_inner = bounds.corner.number == Corner::NONE.number;
+                if share == 0.999 && square > 1e4 && is_inner {
+                    counts[0] += 1;
+                    counts[1] += i32::from(is_beyond);
+                    counts[2] += i32::from(is_sharp);
+                }
                 if share == 0.9 && square > 100.0 {
                     all += 1;
                     proved += i32::from(is_beyond);
@@ -350,6 +387,9 @@ mod tests {
             }
         }
         assert!(proved * 10 > all * 9, "{proved} of {all}");
+        // With a limit that is a thousandth less than the square, and no nearest corner.
+        let [all, plain, sharp] = counts;
+        assert!(sharp * 20 > all * 17 && 2 * plain < sharp, "{plain} and {sharp} of {all}");
     }
 
     #[test]
