@@ -2,7 +2,7 @@
 
 use super::real_vector::RealVector;
 use crate::num::tolerance::WITHIN;
-use crate::num::{Real, greater};
+use crate::num::{Real, SOFT_DOUBLE, greater};
 
 /// The plane that supports a triangle and faces the origin.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,12 +23,13 @@ impl Support {
         let ab = b - a;
         let ac = c - a;
         let (d1, d2) = (ab.dot(ap), ac.dot(ap));
-        if d1 <= ZERO && d2 <= ZERO {
+        if SOFT_DOUBLE && d1 <= ZERO && d2 <= ZERO {
             // The direction is the way from a corner. Its products are known.
             let Real(length_sq) = ap.dot(ap);
             return Support { along: length_sq, length_sq };
         }
-        let (r, _) = residual([ap, ab, ac], [d1, d2]);
+        let (r, _) =
+            if d1 <= ZERO && d2 <= ZERO { (ap, true) } else { residual([ap, ab, ac], [d1, d2]) };
         let Real(along) = r.dot(ap) - greater(greater(ZERO, r.dot(ab)), r.dot(ac));
         let Real(length_sq) = r.dot(r);
         Support { along, length_sq }

@@ -134,7 +134,8 @@ pub(super) struct Nearest {
     best: Option<Best>,
     exact: u32,
     shared: Option<SharedCorner>,
-    /// Triangles of the surface wait until f32 cannot tell whether they are the nearest.
+    /// No triangle was evaluated yet, and one of the surface waits until f32 cannot tell whether it
+    /// is the nearest.
     defers: bool,
     /// The one that waits, and its lower bound in f32. The limit is not above its upper bound.
     waiting: Option<(Candidate, f32)>,
@@ -219,11 +220,11 @@ impl Nearest {
     /// Takes a triangle that is not refined, with its lower bound. Before any triangle was
     /// evaluated, one of the surface waits, until a second one may be the nearest as well.
     fn take(&mut self, candidate: &Candidate, lower: f32) {
-        if self.defers && self.best.is_none() && candidate.fate == Fate::Surface {
+        if self.defers && candidate.fate == Fate::Surface {
             let upper = self.swept.upper(candidate.corners);
             self.limit_f32 = lesser(self.limit_f32, upper);
             self.settle_waiting();
-            if self.best.is_none() && upper < f32::INFINITY {
+            if self.defers && upper < f32::INFINITY {
                 self.waiting = Some((*candidate, lower));
                 return;
             }
@@ -280,6 +281,7 @@ impl Nearest {
     /// Evaluates a triangle that is not refined, and returns a lower bound of its distance.
     pub(super) fn evaluate(&mut self, candidate: &Candidate) -> f64 {
         self.exact += 1;
+        self.defers = false;
         let [a, b, c] = candidate.corners.map(|v| v.as_dvec3());
         let d = point_triangle(self.p, a, b, c);
         // The triangle swept by its radius contains a part of the surface.
@@ -291,11 +293,8 @@ impl Nearest {
             Fate::Cut | Fate::Splits => d.upper + self.hull_to_surface,
         };
         if upper < self.upper {
-            // A triangle that waits may have set a lower limit.
-            let known = self.limit_f32;
             self.upper = upper;
             self.set_limit(upper);
-            self.limit_f32 = lesser(self.limit_f32, known);
         }
         let &Candidate { corners, instance, .. } = candidate;
         self.offer(Best { distance_sq: d.distance_sq, instance, corners, weights: [d.u, d.v] });
@@ -447,7 +446,7 @@ fn search<'a, G: Geometry<'a>>(
     let mut spared = f64::INFINITY;
     front.begin(nearest)?;
     while let Some(Taken { entry, least }) =
-        front.queue.take(nearest.next.take(), nearest.best.is_none() && nearest.waiting.is_none())
+        front.queue.take(nearest.next.take(), nearest.limit_f32 == f32::INFINITY)
     {
         let key = f64::from(entry.key());
         let instance = Instance(entry.node());

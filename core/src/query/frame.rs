@@ -5,7 +5,7 @@ use super::error::QueryError;
 use crate::format::Header;
 use crate::geom::Aabb;
 use crate::num::tolerance::{F32_BOUNDS, HULL_FAR, U64};
-use crate::num::{SOFT_DOUBLE, down_to_f32, exp2, up_to_f32};
+use crate::num::{down_to_f32, exp2, up_to_f32};
 use glam::{DVec3, Vec3};
 
 /// Conversion of one model's frame.
@@ -46,8 +46,7 @@ impl Frame {
     }
 
     /// Whether f32 tells that a segment misses a box of the local frame. Most do, and on boards f64
-    /// is ten times as dear. `false` of ends that are far away, or not finite, and where f64 has
-    /// instructions.
+    /// is ten times as dear. `false` of ends that are far away, or not finite.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn is_missed(&self, ends: [[f32; 3]; 2], bounds: &Aabb) -> bool {
@@ -55,11 +54,7 @@ impl Frame {
         let [start, end] = ends.map(|point| Vec3::from_array(point) * inverse);
         let is_near =
             |local: Vec3| local.to_array().into_iter().all(|x| x.abs() <= F32_BOUNDS as f32);
-        SOFT_DOUBLE
-            && inverse.is_normal()
-            && is_near(start)
-            && is_near(end)
-            && bounds.is_missed(start, end)
+        inverse.is_normal() && is_near(start) && is_near(end) && bounds.is_missed(start, end)
     }
 
     /// A point in input units, rounded to nearest, kept finite.
