@@ -221,9 +221,7 @@ impl Nearest {
     /// evaluated, one of the surface waits, until a second one may be the nearest as well.
     fn take(&mut self, candidate: &Candidate, lower: f32) {
         if self.defers && candidate.fate == Fate::Surface {
-            // Nothing farther by its lower bound hides the one that waits.
-            let is_behind = self.waiting.as_ref().is_some_and(|(_, nearest)| *nearest <= lower);
-            let upper = if is_behind { f32::INFINITY } else { self.swept.upper(candidate.corners) };
+            let upper = self.swept.upper(candidate.corners);
             self.limit_f32 = lesser(self.limit_f32, upper);
             self.settle_waiting();
             if self.defers && upper < f32::INFINITY {

@@ -125,8 +125,6 @@ struct Met {
 trait Collect {
     /// Takes a hit. Hits beyond the returned parameter are not wanted any more.
     fn add(&mut self, met: Met) -> f32;
-    /// That parameter.
-    fn limit(&self) -> f32;
 }
 
 struct First {
@@ -143,10 +141,6 @@ impl Collect for First {
         if earlier {
             self.best = Some(met);
         }
-        self.limit()
-    }
-
-    fn limit(&self) -> f32 {
         self.best.map_or(f32::INFINITY, |best| up_to_f32(best.meet.t_upper))
     }
 }
@@ -165,10 +159,6 @@ impl Collect for All<'_> {
         let is_certain = met.meet.is_certain;
         self.has_touches |= !is_certain;
         self.hits.insert(TriangleHit { hit, is_certain });
-        self.limit()
-    }
-
-    fn limit(&self) -> f32 {
         f32::INFINITY
     }
 }
@@ -236,7 +226,7 @@ fn run<C: Collect + ?Sized>(
     front.begin(along)?;
     while let Some(Taken { entry, .. }) = front.queue.pop() {
         let instance = Instance(entry.node());
-        if entry.key() > along.limit() {
+        if entry.key() > along.limit {
             continue;
         }
         if front.is_spent() {
@@ -245,7 +235,7 @@ fn run<C: Collect + ?Sized>(
         front.open(instance, along)?;
     }
     let unopened = front.queue.dropped();
-    if unopened <= along.limit() && unopened.is_finite() {
+    if unopened <= along.limit && unopened.is_finite() {
         return Some((Ended::Scratch, unopened));
     }
     Some((if along.doubtful { Ended::Resolution } else { Ended::Exact }, f32::INFINITY))
@@ -274,7 +264,7 @@ impl<C: Collect + ?Sized> Visit for Along<'_, C> {
         for candidate in found {
             let reach = candidate.radius + self.surface_error;
             let Some(key) = self.segment.enter(candidate.corners, reach) else { continue };
-            if key > self.limit() {
+            if key > self.limit {
                 continue;
             }
             match candidate.fate {
@@ -287,16 +277,6 @@ impl<C: Collect + ?Sized> Visit for Along<'_, C> {
 }
 
 impl<C: Collect + ?Sized> Along<'_, C> {
-    /// Where the collector is known, nothing is read for one without a limit.
-    #[inline(always)]
-    fn limit(&self) -> f32 {
-        if cfg!(any(target_arch = "x86_64", target_arch = "aarch64")) {
-            self.collect.limit()
-        } else {
-            self.limit
-        }
-    }
-
     /// Evaluates a triangle of the surface.
     fn meet(&mut self, candidate: &Candidate, key: f32) {
         self.exact += 1;
