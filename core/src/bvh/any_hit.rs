@@ -1,18 +1,18 @@
 //! Whether a segment meets the surface.
 
 use super::descent::{Descent, descend};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use super::node::{OpenedNode, TakenLeast, take_least};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(target_arch = "x86_64")]
+use super::node::{OpenedNode, TakenLeast};
+#[cfg(target_arch = "x86_64")]
 use super::segment_blocks::{SegmentKernels, is_unlimited};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(target_arch = "x86_64")]
 use super::segment_leaf::FlaggedOfLeaf;
 use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor, compiled_flagged};
 use super::segment_query::SegmentQuery;
 use super::segment_start::SegmentStart;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(target_arch = "x86_64")]
 use crate::geom::fan::WIDTH;
 use crate::query::{Budget, QueryError, ScratchEntry, Undecided, Verdict, Work};
 
@@ -57,51 +57,22 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<AnyHit, QueryError> {
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-        if let Some(found) = any_hit_by_blocks(
-            self,
-            [a, b],
-            facing,
-            &budget,
-            scratch,
-            SegmentKernels::new(
-                #[inline(always)]
-                |query: &SegmentQuery, opened: &OpenedNode| query.keys_in_register(self, opened),
-                #[inline(always)]
-                |keys: &[u32; WIDTH], limit: u32| take_least(keys, limit),
-                compiled_flagged(),
-            ),
-        ) {
-            return found;
-        }
-        by_entries(self, [a, b], facing, &budget, scratch)
+        let mut work = Work::default();
+        let Some(start) = SegmentStart::find(self, [a, b], &budget, scratch)? else {
+            return Ok(AnyHit { verdict: Verdict::No, work });
+        };
+        let query = SegmentQuery::new(self, &start);
+        let collector = AnyCrossing::new(&query);
+        let flagged = compiled_flagged();
+        let mut visitor = SegmentVisitor { query: &query, facing, flagged, collector };
+        let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        Ok(visitor.collector.answer(descent, work))
     }
 }
 
-/// The answer on targets without vector registers, and where steps or memory may end the search.
-#[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), cold, inline(never))]
-#[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(always))]
-fn by_entries(
-    tree: &Bvh<'_>,
-    ends: [[f32; 3]; 2],
-    facing: Facing,
-    budget: &Budget,
-    scratch: &mut [ScratchEntry],
-) -> Result<AnyHit, QueryError> {
-    let mut work = Work::default();
-    let Some(start) = SegmentStart::find(tree, ends, budget, scratch)? else {
-        return Ok(AnyHit { verdict: Verdict::No, work });
-    };
-    let query = SegmentQuery::new(tree, &start);
-    let collector = AnyCrossing::new(&query);
-    let flagged = compiled_flagged();
-    let mut visitor = SegmentVisitor { query: &query, facing, flagged, collector };
-    let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
-    Ok(visitor.collector.answer(descent, work))
-}
-
-/// The answer, if neither steps nor memory may end the search.
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+/// The answer, if neither steps nor memory may end the search. Without registers of 256 bits the
+/// order of entries takes fewer instructions.
+#[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub(super) fn any_hit_by_blocks(
     tree: &Bvh<'_>,

@@ -117,10 +117,11 @@ impl<C: CrossingCollector, F: FlaggedOfLeaf> LeafVisitor for SegmentVisitor<'_, 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 #[inline(always)]
 fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
+    let (ray, shape) = (&query.ray, leaf.shape());
     if leaf.is_f32() {
-        return flagged_f32(leaf, query);
+        return ray_leaf8(ray, &leaf.f32_ring8(ray.axes())?, shape.turn(), shape.triangles());
     }
-    leaf.grid_flagged(&query.ray)
+    leaf.grid_flagged(ray)
 }
 
 /// The same in registers of 256 bits, whatever the crate is compiled for.
@@ -129,17 +130,17 @@ fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
 #[inline]
 pub(crate) fn flagged_avx2(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
     if leaf.is_f32() {
-        return flagged_f32(leaf, query);
+        return f32_flagged(leaf, query);
     }
     leaf.flagged_avx2(&query.ray)
 }
 
-/// Not inlined, so that the two ways to read a leaf share no stack memory.
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+/// By the registers that the crate is compiled for, in a call: what they need would be mixed with
+/// registers of 256 bits.
+#[cfg(target_arch = "x86_64")]
 #[inline(never)]
-fn flagged_f32(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
-    let (ray, shape) = (&query.ray, leaf.shape());
-    ray_leaf8(ray, &leaf.f32_ring8(ray.axes())?, shape.turn(), shape.triangles())
+fn f32_flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
+    flagged(leaf, query)
 }
 
 /// Triangles of a leaf that the line may meet.
