@@ -147,15 +147,6 @@ impl GridRing<'_> {
         Some([centre, self.vertex(lane)?, self.vertex(lane + 1)?])
     }
 
-    /// Ring vertex `i` less centre `which`, exactly.
-    #[inline(always)]
-    pub fn spoke(&self, i: usize, which: usize) -> Vec3 {
-        let [first, second] = self.centres;
-        let [cx, cy, cz] = if which == 0 { first } else { second };
-        let [x, y, z] = self.vertex(i).unwrap_or_default();
-        Vec3::new(x.wrapping_sub(cx) as f32, y.wrapping_sub(cy) as f32, z.wrapping_sub(cz) as f32)
-    }
-
     /// Ring vertex `i`.
     #[inline(always)]
     pub fn vertex(&self, i: usize) -> Option<[i32; 3]> {
