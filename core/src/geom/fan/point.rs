@@ -60,11 +60,13 @@ impl PointFan {
     /// triangle lies beyond a squared limit by the supporting plane across the way to its centre.
     /// Minus infinity if the centre itself does not. The limit must allow for rounding already.
     ///
-    /// No root: (|s|² − s·e)/|s| ≥ (|s|² + L²)/(2|s|) ≥ L. Proof: `core/docs/rounding.md` §8, "Left
-    /// out".
+    /// No root: |s|·L ≤ (|s|²/k + L²·k)/2 for any k. k is 1, or 4 next to the surface. Proof:
+    /// `core/docs/rounding.md` §8, "Left out".
     #[inline(always)]
     pub fn reach(&self, limit: f32) -> f32 {
-        let reach = 0.5 * (self.centre_sq - limit);
+        let (far, near) =
+            (0.5 * (self.centre_sq - limit), 0.875 * self.centre_sq - (limit + limit));
+        let reach = greater(far, near);
         if reach > 0.0 { reach } else { f32::NEG_INFINITY }
     }
 
