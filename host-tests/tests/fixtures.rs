@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use meshsweep::curve::{read_csv, store};
+use meshsweep::curve::{CurveOptions, build, read_csv};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Blob, Budget, Bvh, Curve, DeformableHull, Hull, TightHulls, Triboxes};
 use meshsweep_counted::answers::{of_fixtures, of_kept};
 use meshsweep_host_tests::golden::{
@@ -101,7 +102,8 @@ fn committed_fence_is_what_the_builder_makes_of_its_file() {
         "fixtures/fence.msw is out of date: run `cargo xtask fixtures`"
     );
     let polylines = read_csv(&read("fence.csv"), true).expect("CSV");
-    assert!(bytes == store(&polylines, false).expect("finite").0.to_bytes());
+    let built = build(&polylines, &CurveOptions::default(), Watch::NONE).expect("finite");
+    assert!(bytes == built.0.to_bytes());
     let curve = Curve::open(&bytes).expect("opens");
     assert_eq!((curve.segment_count(), curve.is_closed(1)), (72, Some(true)));
 }

@@ -44,7 +44,8 @@ pub fn build(data: &[u8]) {
             return;
         }
     };
-    let loaded = Source::of(mesh.clone(), None).and_then(Source::repaired).expect("just built");
+    let loaded =
+        Source::of(mesh.clone(), None).and_then(|source| source.repaired()).expect("just built");
     let of_repair = verify_repair(&mesh, loaded.input());
     assert_eq!(of_repair.outcome, Outcome::Proved, "{of_repair:?}");
     for finding in verify(built.bytes(), Against::Mesh(loaded.input(), &[])) {

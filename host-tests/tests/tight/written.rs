@@ -27,7 +27,7 @@ fn raw(text: &str) -> RawMesh {
 }
 
 fn loaded(text: &str) -> Loaded {
-    Source::of(raw(text), None).and_then(Source::repaired).expect("it loads")
+    Source::of(raw(text), None).and_then(|source| source.repaired()).expect("it loads")
 }
 
 fn obj(points: impl Iterator<Item = [String; 3]>, triangles: &[[u32; 3]]) -> String {
