@@ -59,26 +59,36 @@ pub struct WholePoint {
     pub at: Whole,
     /// Eighths above `at`, 0 to 7, rounded down.
     pub eighths: Whole,
-    /// In units of 2^-[`FINE_BITS`], rounded down.
-    pub(super) fine: Whole,
+    /// Units of 2^-[`FINE_BITS`] above those, rounded down. Bytes: targets with an FPU copy them too.
+    rest: [u8; 3],
 }
 
 impl WholePoint {
     /// `None` if the point is too far from the grid's origin.
     #[inline(always)]
     pub fn new(p: [f32; 3]) -> Option<WholePoint> {
-        let mut point = WholePoint { at: [0; 3], eighths: [0; 3], fine: [0; 3] };
-        let places = point.at.iter_mut().zip(&mut point.eighths).zip(&mut point.fine);
-        for (x, ((at, eighths), place)) in p.into_iter().zip(places) {
+        let mut point = WholePoint { at: [0; 3], eighths: [0; 3], rest: [0; 3] };
+        let places = point.at.iter_mut().zip(&mut point.eighths).zip(&mut point.rest);
+        for (x, ((at, eighths), rest)) in p.into_iter().zip(places) {
             if x.to_bits() << 1 >> 24 >= 127 + WHOLE_BITS {
                 return None;
             }
             let fine = floored(x, FINE_BITS.cast_signed());
-            *place = fine;
+            *rest = (fine & ((1 << (FINE_BITS - FRACTION_BITS)) - 1)) as u8;
             *at = fine >> FINE_BITS;
             *eighths = fine >> (FINE_BITS - FRACTION_BITS) & ((1 << FRACTION_BITS) - 1);
         }
         Some(point)
+    }
+
+    /// In units of 2^-[`FINE_BITS`], rounded down.
+    pub(super) fn fine(&self) -> Whole {
+        let mut fine = self.at;
+        for ((x, eighths), rest) in fine.iter_mut().zip(self.eighths).zip(self.rest) {
+            *x = ((*x << FRACTION_BITS) + eighths) << (FINE_BITS - FRACTION_BITS);
+            *x += i32::from(rest);
+        }
+        fine
     }
 
     /// About the squared distance of a vertex, for comparison.

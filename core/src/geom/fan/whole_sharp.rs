@@ -27,7 +27,7 @@ pub fn sharp_lower(p: &WholePoint, &[a, b, c]: &[Whole; 3]) -> WholeLower {
     let (s, e, g) = (less(p.at, a), less(b, a), less(c, a));
     let (v, w) = weights(s, e, g);
     // From the first corner, in units of 2^-FINE_BITS.
-    let way = wide(less(p.fine, a.map(|x| x << FINE_BITS)));
+    let way = wide(less(p.fine(), a.map(|x| x << FINE_BITS)));
     let (rim, e, g) = (wide(less(c, b)), wide(e), wide(g));
     let away = if w == 0 {
         across(way, e)
