@@ -68,7 +68,7 @@ impl FanLeaf<'_> {
         let mut ring = RingLanes { here: centre, next: centre };
         for (k, axis) in ray.axes().into_iter().enumerate() {
             let origin = _mm256_set1_ps(self.origin[axis % 3] as f32);
-            let place = _mm256_add_epi32(which, _mm256_set1_epi32(axis as i32));
+            let place = _mm256_add_epi32(which, _mm256_set1_epi32((axis as u32).cast_signed()));
             // A limit that changes no offset: it spares the check of each read.
             let at = usize::from(rings[axis % 3]).min(GRID_WINDOW - 18);
             centre[k] = _mm256_add_ps(_mm256_permutevar8x32_ps(centres, place), origin);
