@@ -96,7 +96,7 @@ pub(super) fn ask(
             let mut queue = entries(setting, enough);
             let scratch = size_of_val(queue.as_slice());
             let of = Of { budget, shape: Shape::of_hull(&hull), scratch };
-            if setting.how == How::Fresh {
+            if setting.how != How::Coherent {
                 return plain(Distances::Hull(hull), points, &of, &mut queue);
             }
             let begin = points.first().copied().unwrap_or_default();

@@ -8,9 +8,10 @@
 //! The list of features has no fused multiply-add, so the bits stay.
 
 use super::any_hit::{AnyHit, any_hit_by_blocks};
-use super::closest_point::Hint;
 use super::first_hit::first_hit_by_blocks;
-use super::leaf_distance::{LeafLimit, nearest_avx2};
+use super::hint::Hint;
+use super::leaf_distance::nearest_avx2;
+use super::leaf_limit::LeafLimit;
 use super::node::{OpenedNode, take_least_avx2};
 use super::point_blocks::{Kernels, search_by_blocks};
 use super::point_query::PointQuery;

@@ -1,5 +1,5 @@
-//! The descent of an exact closest point on vector targets: the nearest child comes first, at every
-//! level. Every other question goes by `descent`, on every target.
+//! The descent of a question that nothing ends early, on vector targets: the nearest child comes
+//! first, at every level. `point_blocks` and `segment_blocks` use it. Other questions go by `descent`.
 //!
 //! The stack is one of blocks in the caller's memory. A block holds a node and the keys of its
 //! children, as the kernel leaves them in a register. A child that was visited has

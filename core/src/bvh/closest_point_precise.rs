@@ -1,8 +1,8 @@
 //! The closest point in f64. Rounding in f32 leaves few triangles, mostly one or two, that may be
 //! the closest. A second descent measures these again.
 
-use super::closest_point::Hint;
 use super::descent::descend;
+use super::hint::Hint;
 use super::point_query::PointQuery;
 use super::stored_lengths::StoredLengths;
 use super::triangle_bounds::limit_of;

@@ -3,8 +3,8 @@
 //! Neighbours in Morton order need the same nodes and leaves, and the cache holds them. The leaf of
 //! the last answer bounds the next distance before the descent begins.
 
-use super::closest_point::Hint;
 use super::descent::NodeQuery;
+use super::hint::Hint;
 use super::point_query::PointQuery;
 use crate::bvh::format::Bvh;
 use crate::num::{greater, lesser};

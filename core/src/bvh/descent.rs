@@ -1,5 +1,6 @@
 //! The descent of one tree from its root, for a point, a segment or a solid. Coherent queries,
-//! overlap and culling do not use it, nor do exact closest points on vector targets (`block_walk`).
+//! overlap and culling do not use it, nor do exact closest points, first hits and any hit on vector
+//! targets (`block_walk`).
 //!
 //! The nearest child is followed at once. The other children within the limit go on a stack in the
 //! caller's memory, unsorted. Sorted children, or a heap, visit fewer nodes and take longer: they

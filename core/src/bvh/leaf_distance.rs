@@ -3,7 +3,8 @@
 //! Targets with vectors look at eight triangles at once (`wide`), others at one after the other
 //! (`narrow`). Both give the same bits.
 
-pub(crate) use super::leaf_limit::LeafLimit;
+use super::leaf_limit::LeafLimit;
+use super::leaf_nearest::LeafNearest;
 use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use crate::bvh::format::FanLeaf;
@@ -13,11 +14,11 @@ use crate::num::SOFT_FLOAT;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::nearest_avx2;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-pub(crate) use narrow::{Lanes, nearest_and_edges, nearest_within, nearest_within_inlined};
+pub(crate) use narrow::{nearest_and_edges, nearest_within, nearest_within_inlined};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub(crate) use wide::nearest_within as nearest_within_inlined;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pub(crate) use wide::{Lanes, LeafEdges, leaf_edges, nearest_and_edges, nearest_within};
+pub(crate) use wide::{LeafEdges, leaf_edges, nearest_and_edges, nearest_within};
 
 /// The nearest triangle of a leaf, without a limit.
 #[inline(always)]
@@ -37,84 +38,16 @@ pub(crate) type LeafEdges = core::convert::Infallible;
 /// from the query point.
 pub(crate) type LeafSeen = (LeafNearest, Option<LeafEdges>);
 
-/// The nearest triangle of a leaf. Triangles that are proved to be beyond the squared limit may be
-/// left out.
-#[derive(Clone, Copy)]
-pub(crate) struct LeafNearest {
-    /// Its squared distance.
-    pub(crate) distance_sq: f32,
-    /// Least squared lower bound of the triangles that were not left out.
-    pub(crate) lower_bound_sq: f32,
-    /// From this [`lane`](Self::lane) finds the triangle.
-    pub(crate) lanes: Lanes,
-    /// Bits, one for each triangle. Zero: the triangle was left out, or its squared lower bound is
-    /// above [`LeafLimit::low_sq`].
-    pub(crate) low: u32,
-}
-
-impl LeafNearest {
-    /// The least lane at this distance, and the closest point on its triangle (see
-    /// [`FanLeaf::point`]).
-    #[inline(always)]
-    pub(crate) fn lane(&self) -> (usize, f32, f32) {
-        self.lanes.at(self.distance_sq)
-    }
-}
-
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod wide {
     use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, LeafSquares, PointQuery};
     use crate::bvh::format::LanePoint;
+    use crate::bvh::leaf_nearest::Lanes;
     use crate::geom::fan::Lanes as Register;
-    use crate::geom::fan::{
-        Edges, LANES, LaneNearness, Nearness, PIECES, WIDTH, lanes_below, least, point_lanes,
-    };
-    use wide::bytemuck::cast;
+    use crate::geom::fan::{Edges, LANES, LaneNearness, PIECES, lanes_below, least, point_lanes};
 
     /// Edges of a leaf's triangles, seen from the query point.
     pub(crate) type LeafEdges = [Edges; PIECES];
-
-    /// All lanes of a leaf. The nearest lane is searched once, for the final answer: no branch
-    /// predictor can guess it.
-    #[derive(Clone, Copy)]
-    pub(crate) struct Lanes {
-        pub(super) distance_sq: [Register; PIECES],
-        pub(super) v: [Register; PIECES],
-        pub(super) w: [Register; PIECES],
-    }
-
-    impl Lanes {
-        pub(crate) const NONE: Lanes = Lanes {
-            distance_sq: [LaneNearness::NONE.distance_sq; PIECES],
-            v: [Register::ZERO; PIECES],
-            w: [Register::ZERO; PIECES],
-        };
-
-        /// One triangle alone.
-        pub(crate) fn one(lane: usize, near: &Nearness) -> Lanes {
-            let mut distance_sq = [f32::INFINITY; WIDTH];
-            if let Some(slot) = distance_sq.get_mut(lane) {
-                *slot = near.distance_sq;
-            }
-            Lanes {
-                distance_sq: cast(distance_sq),
-                v: [Register::splat(near.v); PIECES],
-                w: [Register::splat(near.w); PIECES],
-            }
-        }
-
-        #[inline(always)]
-        pub(crate) fn at(&self, distance_sq: f32) -> (usize, f32, f32) {
-            let mut same = 1u32 << (WIDTH - 1);
-            for (piece, distances) in self.distance_sq.iter().enumerate() {
-                same |=
-                    distances.simd_eq(Register::splat(distance_sq)).to_bitmask() << (piece * LANES);
-            }
-            let lane = same.trailing_zeros() as usize % WIDTH;
-            let (v, w): ([f32; WIDTH], [f32; WIDTH]) = (cast(self.v), cast(self.w));
-            (lane, v[lane], w[lane])
-        }
-    }
 
     #[inline(always)]
     pub(crate) fn nearest_within(
@@ -209,8 +142,9 @@ mod wide {
 /// `wide` in registers of 256 bits, whatever the crate is compiled for.
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
-    use super::wide::{Lanes, nearest_within};
+    use super::wide::nearest_within;
     use super::{FanLeaf, LeafLimit, LeafNearest, PointQuery};
+    use crate::bvh::leaf_nearest::Lanes;
     use crate::geom::fan::LaneNearness;
     use crate::geom::fan::lanes_avx2::{least, point_lanes, up_to};
     use wide::bytemuck::cast;
@@ -249,50 +183,14 @@ mod narrow {
     use super::{
         FanLeaf, LeafLimit, LeafNearest, LeafSeen, LeafSquares, PointQuery, nearest_triangle,
     };
+    use crate::bvh::leaf_nearest::Lanes;
     use crate::bvh::leaf_plane::Way;
     use crate::bvh::point_query::limit_of;
     use crate::bvh::triangle_bounds::nearness;
     use crate::bvh::whole_leaf::whole_nearest;
-    use crate::geom::fan::{Nearness, PointFan, SpokeTerms, WIDTH, Whole};
-    use crate::num::{Real, SOFT_FLOAT, lesser};
+    use crate::geom::fan::{PointFan, SpokeTerms, WIDTH, Whole};
+    use crate::num::{SOFT_FLOAT, lesser};
     use glam::Vec3;
-
-    /// The nearest triangle of a leaf.
-    #[derive(Clone, Copy)]
-    pub(crate) struct Lanes {
-        lane: usize,
-        v: f32,
-        w: f32,
-        way: Way,
-    }
-
-    impl Lanes {
-        pub(crate) const NONE: Lanes = Lanes { lane: 0, v: 0.0, w: 0.0, way: Way::NONE };
-
-        /// One triangle alone.
-        pub(crate) fn one(lane: usize, near: &Nearness) -> Lanes {
-            Lanes { lane, v: near.v, w: near.w, way: Way::NONE }
-        }
-
-        /// Tells the way to a triangle, if it is this one.
-        #[inline(always)]
-        pub(crate) fn tell(&mut self, lane: usize, way: Way) {
-            if self.lane == lane {
-                self.way = way;
-            }
-        }
-
-        #[inline(always)]
-        pub(crate) fn at(&self, _: f32) -> (usize, f32, f32) {
-            (self.lane, self.v, self.w)
-        }
-
-        /// The way from the closest point to the query.
-        #[inline(always)]
-        pub(crate) fn way(&self) -> Way {
-            self.way
-        }
-    }
 
     /// A call, which questions share.
     #[inline(never)]
@@ -345,37 +243,6 @@ mod narrow {
     #[inline(always)]
     pub(crate) fn nearest_and_edges(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option<LeafSeen> {
         Some((nearest_triangle(leaf, query)?, None))
-    }
-
-    impl LeafNearest {
-        /// All triangles left out.
-        pub(crate) const NONE: LeafNearest = LeafNearest {
-            distance_sq: f32::INFINITY,
-            lower_bound_sq: f32::INFINITY,
-            lanes: Lanes::NONE,
-            low: 0,
-        };
-
-        #[inline(always)]
-        pub(crate) fn take(&mut self, lane: usize, near: &Nearness, low_sq: f32) {
-            let (here, best) = (Real(near.distance_sq), Real(self.distance_sq));
-            if here < best || here == best && lane < self.lanes.lane {
-                self.distance_sq = near.distance_sq;
-                self.lanes = Lanes::one(lane, near);
-            }
-            self.bound(lane, near, low_sq);
-        }
-
-        /// Takes the lower bound of a triangle.
-        #[inline(always)]
-        fn bound(&mut self, lane: usize, near: &Nearness, low_sq: f32) {
-            if Real(near.lower_bound_sq) < Real(self.lower_bound_sq) {
-                self.lower_bound_sq = near.lower_bound_sq;
-            }
-            if Real(near.lower_bound_sq) <= Real(low_sq) {
-                self.low |= 1 << (lane & 31);
-            }
-        }
     }
 
     /// A fan of a leaf on the grid, seen from the query. Integers are subtracted before they become
@@ -433,8 +300,8 @@ mod narrow {
                         // Lanes rise, so the first one of a distance is taken.
                         if near.distance_sq < nearest.distance_sq {
                             nearest.distance_sq = near.distance_sq;
-                            let Nearness { v, w, .. } = near;
-                            nearest.lanes = Lanes { lane, v, w, way: Way::of_residual(residual) };
+                            nearest.lanes = Lanes::one(lane, &near);
+                            nearest.lanes.tell(lane, Way::of_residual(residual));
                             within = lesser(within, limit_of(near.distance_sq, limit.allowance));
                             reach = fan.fan.reach(within);
                         }

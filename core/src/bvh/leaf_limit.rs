@@ -16,7 +16,7 @@ pub(crate) struct LeafLimit {
     /// [`PointQuery::allowance`](super::point_query::PointQuery::allowance), by which a triangle of a leaf limits the others; infinite if all
     /// count.
     pub(crate) allowance: f32,
-    /// Triangles whose squared lower bound is not above this are told, by [`low`](super::leaf_distance::LeafNearest::low). At
+    /// Triangles whose squared lower bound is not above this are told, by [`low`](super::leaf_nearest::LeafNearest::low). At
     /// most [`EVERYTHING_SQ`](crate::num::tolerance::EVERYTHING_SQ): unused lanes have more.
     pub(crate) low_sq: f32,
 }

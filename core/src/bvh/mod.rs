@@ -20,6 +20,8 @@
 //! | `triangle_visitor` | the visitor of point questions that look at triangles one by one |
 //! | `segment_leaf` | a segment and the triangles of a leaf; the visitor of segment questions |
 //! | `closest_point`, `closest_points` | one closest point, many of them |
+//! | `nearest_search`, `hint` | the search of a closest point, in any order of leaves; the leaf that one query leaves to the next |
+//! | `waiting`, `waiting_search` | the same search where f32 has no instructions: triangles wait for the kernel |
 //! | `far_point` | a point so far away that the model's box answers |
 //! | `closest_point_precise` | the closest point, its candidates measured in f64 |
 //! | `within`, `all_within`, `nearest` | distance verdicts, and the nearest triangles |
@@ -69,13 +71,16 @@ mod far_point;
 mod first_hit;
 pub mod format;
 mod front_facing;
+mod hint;
 mod input_box;
 mod leaf_distance;
 mod leaf_limit;
+mod leaf_nearest;
 mod leaf_plane;
 mod leaf_squares;
 mod model_box;
 mod nearest;
+mod nearest_search;
 mod neighbors;
 pub mod node;
 mod overlap;
@@ -103,16 +108,20 @@ mod triangle_place;
 mod triangle_visitor;
 mod viewed_side;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod waiting;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod waiting_search;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod whole_leaf;
 mod winding;
 mod within;
 
 pub use all_within::AllWithin;
 pub use any_hit::AnyHit;
-pub use closest_point::Hint;
 pub use coherent::{CoherentClosest, CoherentQuery};
 pub use format::Bvh;
 pub use front_facing::{Eye, FrontFacing};
+pub use hint::Hint;
 pub use nearest::KNearest;
 pub use neighbors::Neighbor;
 pub use overlap::CoherentPair;

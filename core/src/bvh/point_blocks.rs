@@ -1,10 +1,11 @@
 //! The search of an exact closest point on vector targets, nearest child first at every level.
 
 use super::block_walk::{BlockWalk, walk};
-use super::closest_point::{Closest, Hint, NearestOfLeaf};
 use super::descent::Descent;
 use super::far_point::from_afar;
-use super::leaf_distance::LeafLimit;
+use super::hint::Hint;
+use super::leaf_limit::LeafLimit;
+use super::nearest_search::{Closest, NearestOfLeaf};
 use super::node::{OpenedNode, TakenLeast};
 use super::point_query::PointQuery;
 use crate::bvh::format::Bvh;

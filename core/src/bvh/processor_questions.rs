@@ -1,8 +1,8 @@
 //! Questions compiled for the instructions of one kind of processor.
 
 use super::any_hit::AnyHit;
-use super::closest_point::Hint;
 use super::closest_points::closest_points_by;
+use super::hint::Hint;
 use super::segment_leaf::Facing;
 use crate::bvh::format::Bvh;
 use crate::query::{Budget, ClosestPoint, FirstHit, QueryError, ScratchEntry};
@@ -13,7 +13,6 @@ use crate::query::{Budget, ClosestPoint, FirstHit, QueryError, ScratchEntry};
 /// The crate `meshsweep` has a front that asks the processor and chooses
 /// (`meshsweep::bvh::FastBvh`).
 #[derive(Clone, Copy, Debug)]
-#[non_exhaustive]
 pub struct ProcessorQuestions {
     /// [`Bvh::closest_point_from`]; with [`Hint::NONE`] it is [`Bvh::closest_point`].
     pub closest_point_from: ClosestPointFrom,

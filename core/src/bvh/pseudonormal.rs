@@ -16,7 +16,8 @@
 //! So the product with u has the right sign if it exceeds this error and rounding.
 
 use super::descent::{LeafVisit, LeafVisitor};
-use super::leaf_distance::{LeafLimit, nearest_within};
+use super::leaf_distance::nearest_within;
+use super::leaf_limit::LeafLimit;
 use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use super::side_search::Search;

@@ -1,4 +1,5 @@
-//! The descent of a segment on vector targets, nearest child first at every level.
+//! The first hit of a segment on vector targets, and any hit with AVX2: nearest child first at every
+//! level.
 
 use super::block_walk::{BlockWalk, walk};
 use super::descent::OpenedNode;

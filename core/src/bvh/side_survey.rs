@@ -6,7 +6,7 @@
 //! of their triangles it is asked how they face the point.
 
 use super::descent::{Descent, LeafVisit, descend};
-use super::leaf_distance::{Lanes, LeafNearest};
+use super::leaf_nearest::{Lanes, LeafNearest};
 use super::leaf_squares::{LatestSquares, LeafSquares};
 use super::point_query::PointQuery;
 use super::pseudonormal::band_of;

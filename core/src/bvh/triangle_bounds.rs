@@ -161,7 +161,8 @@ fn refined_nearness(query: &PointQuery, seen: &[Vec3; 3]) -> Nearness {
     refine_sliver(query, seen, nearness(seen))
 }
 
-/// Whether the root of a squared lower bound is a triangle's lower bound. Else planes bound it.
+/// Whether the lower bound is so near the distance that its root serves. Else planes bound the
+/// triangle anew.
 #[inline(always)]
 pub(crate) fn is_certified(distance_sq: f32, lower_bound_sq: f32) -> bool {
     is_tight(distance_sq, lower_bound_sq)

@@ -2,7 +2,9 @@
 //! counts.
 
 use super::descent::{LeafVisit, LeafVisitor};
-use super::leaf_distance::{LeafLimit, LeafNearest, nearest_within};
+use super::leaf_distance::nearest_within;
+use super::leaf_limit::LeafLimit;
+use super::leaf_nearest::LeafNearest;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use super::leaf_plane::LeafPlane;
 use super::leaf_squares::LeafSquares;

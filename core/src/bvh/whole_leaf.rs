@@ -1,7 +1,8 @@
 //! The triangles of a leaf in integers, for processors without floating point: bounds of all, and
 //! the f32 kernel only for those that may be the nearest.
 
-use super::leaf_distance::{LeafLimit, LeafNearest};
+use super::leaf_limit::LeafLimit;
+use super::leaf_nearest::LeafNearest;
 use super::leaf_plane::{LeafPlane, Way};
 use super::leaf_squares::LeafSquares;
 use super::point_query::limit_of;

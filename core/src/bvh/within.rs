@@ -4,7 +4,7 @@
 //! enough, and it opens no node that is certainly too far.
 
 use super::descent::{Descent, LeafVisit, descend};
-use super::leaf_distance::LeafNearest;
+use super::leaf_nearest::LeafNearest;
 use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use super::triangle_bounds::limit_within;

@@ -6,8 +6,8 @@
 use super::follow::{Follow, Nearest, NoAnswer};
 use super::front::{BoundKind, Child, FrontState, TraversalFront};
 use super::planes::Planes;
-use crate::bvh::closest_point::Hint;
 use crate::bvh::format::Bvh;
+use crate::bvh::hint::Hint;
 use crate::bvh::point_query::PointQuery;
 use crate::num::sqrt_approx;
 use crate::num::tolerance::{LEAST_DENOMINATOR, LONG_PATH, ROOT_AND_PRODUCTS};

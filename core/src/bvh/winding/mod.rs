@@ -22,7 +22,7 @@ mod flux;
 mod moment_flux;
 mod search;
 
-use super::closest_point::Hint;
+use super::hint::Hint;
 use super::point_query::PointQuery;
 use super::signed_distance::SignedDistance;
 use crate::bvh::format::Bvh;

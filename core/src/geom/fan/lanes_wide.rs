@@ -1,9 +1,9 @@
 //! The kernels of leaves in the registers that the crate is compiled for.
 
-use super::lanes::Lanes;
+use super::lanes::{LANES, Lanes, WIDTH, lanes_below};
 use super::point8::{Edges, LaneNearness, UNUSED_SQ, define_point_lanes};
 use super::ray::FanRay;
-use super::ray8::{RingLanes, ShadowLanes, define_ray_lanes};
+use super::ray8::{CentreShadows, Ring8, RingLanes, ShadowLanes, define_ray_lanes};
 use crate::num::tolerance::{LEAST_DENOMINATOR, PRODUCT_UNDERFLOW};
 
 define_point_lanes!(
@@ -17,6 +17,24 @@ define_ray_lanes!(
     Lanes,
     pub
 );
+
+/// The triangles of a leaf that the line may meet, a bit each, as [`ray_leaf`](super::ray_leaf)
+/// finds them. The second fan begins with triangle `turn`. The other lanes may be any numbers.
+#[inline(always)]
+pub fn ray_leaf8(ray: &FanRay, ring: &Ring8, turn: usize, count: usize) -> Option<u32> {
+    let first = lanes_below(turn)?;
+    let centres = CentreShadows::new(ray, ring.centres);
+    let mut lanes = 0;
+    for (piece, first) in first.into_iter().enumerate() {
+        let row = |row: &[f32; WIDTH]| {
+            Some(Lanes::new(*row.get(LANES * piece..)?.first_chunk::<LANES>()?))
+        };
+        let rows = |[x, y, z]: &[[f32; WIDTH]; 3]| Some([row(x)?, row(y)?, row(z)?]);
+        let ring = RingLanes { here: rows(&ring.here)?, next: rows(&ring.next)? };
+        lanes |= ray_lanes(ray, &ring, centres.of_lanes(first)) << (LANES * piece);
+    }
+    Some(lanes & !(u32::MAX << count))
+}
 
 #[inline(always)]
 fn splat(x: f32) -> Lanes {

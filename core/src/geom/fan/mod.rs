@@ -26,7 +26,7 @@ pub use cone::NormalCone;
 pub use lanes::{LANES, Lanes, PIECES, lanes_below, least};
 pub use lanes::{LANES_BELOW, WIDTH};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pub use lanes_wide::{point_lanes, ray_lanes};
+pub use lanes_wide::{point_lanes, ray_lanes, ray_leaf8};
 pub(crate) use point::is_whole;
 pub use point::{
     Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, lower_bound_up_to, point_leaf,
@@ -36,7 +36,7 @@ pub use point::{
 pub use point8::{Edges, LaneNearness};
 pub use ray::{Crossing, FanRay, Shadow, ShadowPlane, may_meet, ray_leaf};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pub use ray8::{CentreShadows, Ring8, RingLanes, ShadowLanes, ray_leaf8};
+pub use ray8::{CentreShadows, Ring8, RingLanes, ShadowLanes};
 pub use whole::{
     Corner, Whole, WholeBounds, WholePoint, is_certain_corner, is_in_front, less, vertex_bounds,
     whole_bounds,

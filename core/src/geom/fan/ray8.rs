@@ -3,8 +3,7 @@
 //! It flags the triangles that the line may meet, with the arithmetic and the bits of the scalar
 //! kernel; a test checks it. Few are flagged, so the decision about them is scalar.
 
-use super::lanes::{LANES, Lanes, WIDTH, lanes_below};
-use super::lanes_wide::ray_lanes;
+use super::lanes::{Lanes, WIDTH};
 use super::ray::FanRay;
 
 /// Corners of the triangles of a leaf, grid units, in the order of [`FanRay::axes`]:
@@ -102,21 +101,3 @@ macro_rules! define_ray_lanes {
     };
 }
 pub(super) use define_ray_lanes;
-
-/// The same for a leaf of `count` triangles, the second fan of which begins with triangle `turn`.
-/// The other lanes may be any numbers.
-#[inline(always)]
-pub fn ray_leaf8(ray: &FanRay, ring: &Ring8, turn: usize, count: usize) -> Option<u32> {
-    let first = lanes_below(turn)?;
-    let centres = CentreShadows::new(ray, ring.centres);
-    let mut lanes = 0;
-    for (piece, first) in first.into_iter().enumerate() {
-        let row = |row: &[f32; WIDTH]| {
-            Some(Lanes::new(*row.get(LANES * piece..)?.first_chunk::<LANES>()?))
-        };
-        let rows = |[x, y, z]: &[[f32; WIDTH]; 3]| Some([row(x)?, row(y)?, row(z)?]);
-        let ring = RingLanes { here: rows(&ring.here)?, next: rows(&ring.next)? };
-        lanes |= ray_lanes(ray, &ring, centres.of_lanes(first)) << (LANES * piece);
-    }
-    Some(lanes & !(u32::MAX << count))
-}

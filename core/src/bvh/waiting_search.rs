@@ -6,20 +6,17 @@
 //! query in the end, most often one, and not at each triangle that was the nearest for a while.
 //! Proof: `core/docs/rounding.md` §8, "Whole numbers".
 
-use super::{Best, Closest, NearestOfLeaf};
 use crate::bvh::descent::LeafVisit;
 use crate::bvh::format::{FanLeaf, FullRing, LeafShape};
-use crate::bvh::leaf_distance::LeafNearest;
+use crate::bvh::leaf_nearest::LeafNearest;
 use crate::bvh::leaf_plane::{LeafPlane, Way};
-use crate::bvh::node::CHILD_MASK;
+use crate::bvh::nearest_search::{Best, Closest, NearestOfLeaf};
+use crate::bvh::waiting::{Waiting, WaitingTriangle};
 use crate::bvh::whole_leaf::{leaf_bounds, nearness_by_corner, sharp_lower_of};
 use crate::geom::fan::{
-    Corner, Nearness, WIDTH, WholeBounds, WholeLimit, WholeLower, WholePoint, vertex_bounds,
+    Corner, Nearness, WIDTH, WholeBounds, WholeLimit, WholePoint, vertex_bounds,
 };
-use crate::num::{Real, SOFT_FLOAT};
-
-/// Triangles that may wait. More are looked at when they are reached.
-const ROOM: usize = if SOFT_FLOAT { 8 } else { 0 };
+use crate::num::Real;
 
 /// Added to the bits of a squared upper bound: at least 2^-12 of it.
 const GROWTH_BITS: u32 = 1 << 12;
@@ -27,75 +24,6 @@ const GROWTH_BITS: u32 = 1 << 12;
 /// Factor of [`PointQuery::allowance`](crate::bvh::point_query::PointQuery::allowance) in a limit
 /// by an upper bound. Proved: 2 (`core/docs/rounding.md` §8).
 const SLACK: f32 = 8.0;
-
-#[derive(Clone, Copy)]
-struct WaitingTriangle {
-    node: u32,
-    /// The leaf's number among the children of `node`, then the triangle's, then its nearest corner.
-    place: u32,
-    /// [`LeafVisit::key`].
-    key: u32,
-    /// [`WholeBounds::upper`].
-    upper: u32,
-    lower: WholeLower,
-}
-
-impl WaitingTriangle {
-    const NONE: WaitingTriangle =
-        WaitingTriangle { node: 0, place: 0, key: 0, upper: 0, lower: WholeLower::NONE };
-
-    fn leaf(&self) -> [u32; 2] {
-        [self.node, self.place & CHILD_MASK]
-    }
-
-    fn lane(&self) -> usize {
-        (self.place >> 3) as usize & (WIDTH - 1)
-    }
-
-    fn corner(&self) -> Corner {
-        Corner { number: (self.place >> 6 & 3) as u8, is_certain: self.place >> 8 != 0 }
-    }
-}
-
-/// Triangles that may be the nearest.
-pub(super) struct Waiting {
-    triangles: [WaitingTriangle; ROOM],
-    count: usize,
-    /// Least [`WholeBounds::upper`].
-    upper: u32,
-    /// The way to the point that `upper` is of.
-    way: Way,
-    /// The search's limit.
-    limit: WholeLimit,
-}
-
-impl Waiting {
-    pub(super) const NONE: Waiting = Waiting {
-        triangles: [WaitingTriangle::NONE; ROOM],
-        count: 0,
-        upper: u32::MAX,
-        way: Way::NONE,
-        limit: WholeLimit::NONE,
-    };
-
-    /// Drops those that are beyond the limit. Returns whether there is room for another one.
-    fn makes_room(&mut self) -> bool {
-        if self.count == ROOM {
-            let mut left = 0;
-            for at in 0..ROOM {
-                let triangle = self.triangles[at];
-                if !triangle.lower.is_beyond(self.limit)
-                    && let Some(slot) = self.triangles.get_mut(left)
-                {
-                    *slot = triangle;
-                    left += 1;
-                }
-            }
-            self.count = left;
-        }
-        self.count < ROOM
-    }
-}
 
 impl<N: NearestOfLeaf> Closest<'_, N> {
     /// Takes the triangles of a leaf that may be the nearest.
