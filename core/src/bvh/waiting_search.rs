@@ -4,7 +4,7 @@
 //! Integers bound the distance of a triangle from both sides (`geom/fan/whole.rs`). The least upper
 //! bound limits the descent. So the kernel looks only at the triangles that no plane parts from the
 //! query in the end, most often one, and not at each triangle that was the nearest for a while.
-//! Proof: `core/docs/rounding.md` §8, "Whole numbers".
+//! Proof: `core/docs/rounding.md` §8, "Limits by upper bounds".
 
 use crate::bvh::descent::LeafVisit;
 use crate::bvh::format::{FanLeaf, FullRing, LeafShape};

@@ -61,7 +61,7 @@ impl PointFan {
     /// Minus infinity if the centre itself does not. The limit must allow for rounding already.
     ///
     /// No root: |s|·L ≤ (|s|²/k + L²·k)/2 for any k. k is 1, or 4 next to the surface. Proof:
-    /// `core/docs/rounding.md` §8, "Left out".
+    /// `core/docs/rounding.md` §8, "Reach of a fan".
     #[inline(always)]
     pub fn reach(&self, limit: f32) -> f32 {
         let (far, near) =
