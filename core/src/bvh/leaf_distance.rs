@@ -289,12 +289,12 @@ mod narrow {
         loop {
             if lanes != 0 {
                 let fan = GridFan::new(leaf, p, centre);
-                let mut reach = fan.fan.reach(within);
+                let mut culled_below = fan.fan.culled_below(within);
                 let mut lane = lowest(lanes);
                 let mut first = fan.spoke(ring.vertex(lane)?);
                 loop {
                     let second = fan.spoke(ring.vertex(lane + 1)?);
-                    if first.along >= reach || second.along >= reach {
+                    if first.along >= culled_below || second.along >= culled_below {
                         let (near, residual) = fan.fan.triangle_and_residual(&first, &second);
                         nearest.bound(lane, &near, limit.low_sq);
                         // Lanes rise, so the first one of a distance is taken.
@@ -303,7 +303,7 @@ mod narrow {
                             nearest.lanes = Lanes::one(lane, &near);
                             nearest.lanes.tell(lane, Way::of_residual(residual));
                             within = lesser(within, limit_of(near.distance_sq, limit.allowance));
-                            reach = fan.fan.reach(within);
+                            culled_below = fan.fan.culled_below(within);
                         }
                     }
                     lanes &= lanes - 1;

@@ -147,9 +147,9 @@ fn points_get_the_same_bits_from_eight_lanes() {
                             let away = p - patch.centres[which];
                             let fan = PointFan::new(away);
                             let [a, b] = [number, number + 1].map(|i| fan.spoke(spoke(i, which)));
-                            // Boards compare with a reach, which has no product of squares.
+                            // Boards compare with `culled_below`, which has no product of squares.
                             let [of_a, of_b] = [a, b].map(|spoke| spoke.edge.dot(away));
-                            if of_a.max(of_b) < fan.reach(limit) {
+                            if of_a.max(of_b) < fan.culled_below(limit) {
                                 let size = a.edge.length() + b.edge.length() + away.length();
                                 let distance = scalar[number].distance_sq.sqrt();
                                 assert!(distance > limit.sqrt() - 1e-5 * size, "from {p:?}");
@@ -164,7 +164,7 @@ fn points_get_the_same_bits_from_eight_lanes() {
             }
         }
     }
-    assert!(left_out > 10_000, "a reach leaves out {left_out} triangles");
+    assert!(left_out > 10_000, "spokes leave out {left_out} triangles");
 }
 
 /// A ray through two points, as the queries make it.

@@ -56,18 +56,18 @@ impl PointFan {
         SpokeTerms { edge, along: dot(edge, self.s), length_sq: dot(edge, edge) }
     }
 
-    /// How far a spoke of a triangle reaches at most, in [`along`](SpokeTerms::along), if the
-    /// triangle lies beyond a squared limit by the supporting plane across the way to its centre.
-    /// Minus infinity if the centre itself does not. The limit must allow for rounding already.
+    /// A triangle lies beyond a squared limit if [`along`](SpokeTerms::along) of both its spokes is
+    /// below this, by the supporting plane across the way to its centre. Minus infinity if the
+    /// centre itself does not. The limit must allow for rounding already.
     ///
     /// No root: |s|·L ≤ (|s|²/k + L²·k)/2 for any k. k is 1, or 4 next to the surface. Proof:
-    /// `core/docs/rounding.md` §8, "Reach of a fan".
+    /// `core/docs/rounding.md` §8, "What a fan leaves out".
     #[inline(always)]
-    pub fn reach(&self, limit: f32) -> f32 {
+    pub fn culled_below(&self, limit: f32) -> f32 {
         let (far, near) =
             (0.5 * (self.centre_sq - limit), 0.875 * self.centre_sq - (limit + limit));
-        let reach = greater(far, near);
-        if reach > 0.0 { reach } else { f32::NEG_INFINITY }
+        let along = greater(far, near);
+        if along > 0.0 { along } else { f32::NEG_INFINITY }
     }
 
     /// The squared distance if the centre is the closest point of the triangle between two spokes,
