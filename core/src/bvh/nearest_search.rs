@@ -113,7 +113,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
             waits: false,
             #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-            waiting: Waiting::NONE,
+            waiting: Waiting::none(),
         }
     }
 

@@ -5,7 +5,7 @@ use crate::bvh::node::CHILD_MASK;
 use crate::geom::fan::{Corner, WIDTH, WholeLimit, WholeLower};
 use crate::num::SOFT_FLOAT;
 
-/// Triangles that may wait. More are looked at when they are reached.
+/// Triangles that may wait. If there are more, all of them are looked at, and the next ones wait.
 const ROOM: usize = if SOFT_FLOAT { 8 } else { 0 };
 
 #[derive(Clone, Copy)]
@@ -50,24 +50,31 @@ pub(super) struct Waiting {
 }
 
 impl Waiting {
-    pub(super) const NONE: Waiting = Waiting {
-        triangles: [WaitingTriangle::NONE; ROOM],
-        count: 0,
-        upper: u32::MAX,
-        way: Way::NONE,
-        limit: WholeLimit::NONE,
-    };
+    /// None. Only the zeros are a constant: the whole would be copied by `memcpy`.
+    #[inline(always)]
+    pub(super) fn none() -> Waiting {
+        Waiting {
+            triangles: const { [WaitingTriangle::NONE; ROOM] },
+            count: 0,
+            upper: u32::MAX,
+            way: Way::NONE,
+            limit: WholeLimit::NONE,
+        }
+    }
 
     /// Drops those that are beyond the limit. Returns whether there is room for another one.
     pub(super) fn makes_room(&mut self) -> bool {
         if self.count == ROOM {
             let mut left = 0;
             for at in 0..ROOM {
-                let triangle = self.triangles[at];
-                if !triangle.lower.is_beyond(self.limit)
+                // Field by field: else it would be a call of `memmove`, for which alone firmware
+                // links it.
+                let WaitingTriangle { node, place, key, upper, lower } = self.triangles[at];
+                if !lower.is_beyond(self.limit)
                     && let Some(slot) = self.triangles.get_mut(left)
                 {
-                    *slot = triangle;
+                    (slot.node, slot.place, slot.key) = (node, place, key);
+                    (slot.upper, slot.lower) = (upper, lower);
                     left += 1;
                 }
             }

@@ -8,9 +8,9 @@
 
 use crate::bvh::descent::LeafVisit;
 use crate::bvh::format::{FanLeaf, FullRing, LeafShape};
-use crate::bvh::leaf_nearest::LeafNearest;
+use crate::bvh::leaf_nearest::Lanes;
 use crate::bvh::leaf_plane::{LeafPlane, Way};
-use crate::bvh::nearest_search::{Best, Closest, NearestOfLeaf};
+use crate::bvh::nearest_search::{Closest, NearestOfLeaf};
 use crate::bvh::waiting::{Waiting, WaitingTriangle};
 use crate::bvh::whole_leaf::{leaf_bounds, nearness_by_corner, sharp_lower_of};
 use crate::geom::fan::{
@@ -101,10 +101,11 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
     }
 
     /// Whether a sharper bound tells that a triangle is beyond the limit. Two that wait most often
-    /// share the nearest edge, and no bound parts them.
+    /// share the nearest edge, and no bound parts them. Small code does without it.
     #[inline(never)]
     fn is_sharply_beyond(&self, here: &WaitingTriangle, point: &WholePoint) -> Option<bool> {
-        if self.waiting.count <= 2 || here.corner().number != Corner::NONE.number {
+        let is_inner = here.corner().number == Corner::NONE.number;
+        if cfg!(meshsweep_small) || self.waiting.count <= 2 || !is_inner {
             return Some(false);
         }
         let [node, child] = here.leaf();
@@ -118,52 +119,38 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
         (Real(f32::from_bits(upper + GROWTH_BITS)) + slack).0
     }
 
-    /// Looks at the triangles that wait: at the likeliest, then leaf by leaf, the latest first.
+    /// Looks at the triangles that wait: at the likeliest, then at the others, the latest first.
     #[inline(never)]
     pub(super) fn look_at_waiting(&mut self) -> Option<()> {
         let Some(point) = &self.query.whole else { return Some(()) };
-        let mut end = self.waiting.count;
-        let mut likeliest = (end, None);
-        if end > 1 {
-            let waiting = self.waiting.triangles.iter().take(end).enumerate();
-            let (at, here) = waiting.min_by_key(|(_, here)| here.upper)?;
+        let count = self.waiting.count;
+        let waiting = self.waiting.triangles.iter().take(count).enumerate();
+        let Some((likeliest, _)) = waiting.min_by_key(|(_, here)| here.upper) else {
+            return Some(());
+        };
+        for turn in 0..=count {
+            let at = if turn == 0 { likeliest } else { count - turn };
+            let here = self.waiting.triangles.get(at)?;
+            let is_again = turn > 0 && at == likeliest;
+            if is_again || here.lower.is_beyond(self.waiting.limit) {
+                continue;
+            }
+            if turn > 0 && self.is_sharply_beyond(here, point)? {
+                continue;
+            }
+            let (leaf, lane, key) = (here.leaf(), here.lane(), here.key);
             let near = self.nearness_of(here, point)?;
-            let limit = self.query.limit(near.distance_sq);
-            if Real(limit) < Real(self.beyond.distance_sq) {
-                self.beyond.distance_sq = limit;
-                self.waiting.limit = WholeLimit::of(limit);
-            }
-            likeliest = (at, Some(near));
-        }
-        while let Some(last) = self.waiting.triangles.get(end.wrapping_sub(1)).copied() {
-            let [node, child] = last.leaf();
-            let mut nearest = LeafNearest::NONE;
-            while let Some(here) = self.waiting.triangles.get(end.wrapping_sub(1))
-                && here.leaf() == last.leaf()
-            {
-                end -= 1;
-                if here.lower.is_beyond(self.waiting.limit) {
-                    continue;
-                }
-                let near = match likeliest {
-                    (at, Some(near)) if at == end => near,
-                    _ if self.is_sharply_beyond(here, point)? => continue,
-                    _ => self.nearness_of(here, point)?,
-                };
-                nearest.take(here.lane(), &near, self.beyond.low_sq);
-            }
-            let Best { distance_sq, lanes, .. } = &self.best;
-            // A part of the leaf may have been looked at before.
-            let (here, best) = (Real(nearest.distance_sq), Real(*distance_sq));
-            let is_later = here == best
-                && [self.best.node, self.best.child] == [node, child]
-                && lanes.at(*distance_sq).0 < nearest.lanes.at(*distance_sq).0;
-            if here <= best && !is_later {
-                self.improve(nearest.distance_sq, &nearest.lanes, [node, child]);
+            let (square, best) = (Real(near.distance_sq), Real(self.best.distance_sq));
+            // The least triangle of a leaf is the answer. `improve` looks at leaves.
+            let is_later = square == best
+                && [self.best.node, self.best.child] == leaf
+                && self.best.lanes.at(best.0).0 < lane;
+            if square <= best && !is_later {
+                self.improve(near.distance_sq, &Lanes::one(lane, &near), leaf);
                 self.waiting.limit = WholeLimit::of(self.beyond.distance_sq);
             }
-            if Real(nearest.lower_bound_sq) < Real(self.refine_below) {
-                self.refine([node, child], last.key, nearest.low)?;
+            if Real(near.lower_bound_sq) < Real(self.refine_below) {
+                self.refine(leaf, key, 1 << (lane & 31))?;
             }
         }
         self.waiting.count = 0;

@@ -7,7 +7,7 @@ use super::leaf_plane::{LeafPlane, Way};
 use super::leaf_squares::LeafSquares;
 use super::point_query::limit_of;
 use super::triangle_bounds::{nearness, seen_from};
-use crate::bvh::format::{FanLeaf, FullRing, LeafShape, lanes_of};
+use crate::bvh::format::{FanLeaf, lanes_of};
 use crate::geom::fan::{
     Corner, Nearness, WIDTH, Whole, WholeBounds, WholeLimit, WholeLower, WholePoint,
     is_certain_corner, less, sharp_lower, whole_bounds,
@@ -38,37 +38,39 @@ pub(super) fn whole_nearest(
         }
     }
     let mut within = limit.distance_sq;
-    let mut squares = [0f32; WIDTH];
-    let mut look = |lane: usize, bounds: &WholeBounds, within: &mut f32| {
-        let near = if usize::from(bounds.first) == lane {
-            nearness_by_corner(leaf, p, point, lane, bounds.corner)?
-        } else {
-            at_corner(*squares.get(usize::from(bounds.first))?, bounds.corner)
-        };
-        *squares.get_mut(lane)? = near.distance_sq;
-        if Real(near.distance_sq) < Real(nearest.distance_sq) {
-            let limit = Real(limit_of(near.distance_sq, limit.allowance));
-            *within = lesser(Real(*within), limit).0;
-        }
-        nearest.take(lane, &near, limit.low_sq);
-        if let Some(known) = &mut known {
-            known.keep(lane, [near.distance_sq, near.lower_bound_sq]);
-        }
-        nearest.lanes.tell(lane, Way::of_whole(bounds.direction));
-        Some(WholeLimit::of(*within))
-    };
     let mut whole_limit = WholeLimit::of(within);
-    let first = bounds.get(likeliest)?;
-    if !first.lower.is_beyond(whole_limit) {
-        whole_limit = look(likeliest, first, &mut within)?;
-    }
-    for (lane, bounds) in bounds.iter().enumerate() {
-        let is_wanted = wanted >> lane & 1 != 0 && lane != likeliest;
-        if is_wanted && !bounds.lower.is_beyond(whole_limit) {
-            whole_limit = look(lane, bounds, &mut within)?;
+    let mut squares = [0f32; WIDTH];
+    // The others: bits, the lowest that of `next`.
+    let (mut lane, mut next, mut left) = (likeliest, 0, wanted & !(1 << (likeliest & 31)));
+    loop {
+        let bounds = bounds.get(lane)?;
+        if !bounds.lower.is_beyond(whole_limit) {
+            let near = if usize::from(bounds.first) == lane {
+                nearness_by_corner(leaf, p, point, lane, bounds.corner)?
+            } else {
+                at_corner(*squares.get(usize::from(bounds.first))?, bounds.corner)
+            };
+            *squares.get_mut(lane)? = near.distance_sq;
+            if Real(near.distance_sq) < Real(nearest.distance_sq) {
+                let limit = Real(limit_of(near.distance_sq, limit.allowance));
+                within = lesser(Real(within), limit).0;
+                whole_limit = WholeLimit::of(within);
+            }
+            nearest.take(lane, &near, limit.low_sq);
+            if let Some(known) = &mut known {
+                known.keep(lane, [near.distance_sq, near.lower_bound_sq]);
+            }
+            nearest.lanes.tell(lane, Way::of_whole(bounds.direction));
         }
+        if left == 0 {
+            return Some(nearest);
+        }
+        while left & 1 == 0 {
+            (left, next) = (left >> 1, next + 1);
+        }
+        lane = next;
+        (left, next) = (left >> 1, next + 1);
     }
-    Some(nearest)
 }
 
 /// Bounds of the triangles of a leaf that are not behind a plane.
@@ -89,7 +91,7 @@ pub(crate) fn leaf_bounds(
     // The nearest corner so far: its fan, its number in the ring if it is there, and its triangle.
     let (mut of_fan, mut in_ring, mut first) = (2, None, 0);
     for lane in lanes_of(wanted) {
-        let corners = corners_of(&ring, shape, lane)?;
+        let corners = ring.corners(shape, lane)?;
         let fan = usize::from(lane >= shape.turn());
         if fan == of_fan {
             let number = match in_ring {
@@ -101,10 +103,13 @@ pub(crate) fn leaf_bounds(
             let known = bounds.get_mut(first)?;
             if is_certain(point, &corners, Corner::new(number)) {
                 let corner = known.corner;
-                if is_certain(point, &corners_of(&ring, shape, first)?, corner) {
+                if is_certain(point, &ring.corners(shape, first)?, corner) {
                     known.corner = Corner::certain(corner.number);
-                    let same = WholeBounds { corner: Corner::certain(number), ..*known };
-                    *bounds.get_mut(lane)? = same;
+                    // Field by field: else it would be a call of `memmove`.
+                    let WholeBounds { upper, direction: [x, y, z], first, lower, .. } = *known;
+                    let slot = bounds.get_mut(lane)?;
+                    (slot.upper, slot.first, slot.lower) = (upper, first, lower);
+                    (slot.direction, slot.corner) = ([x, y, z], Corner::certain(number));
                     continue;
                 }
                 of_fan = 2;
@@ -126,7 +131,8 @@ pub(crate) fn leaf_bounds(
 }
 
 /// Whether the f32 kernel certainly takes a corner for the closest point.
-#[inline(always)]
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
 fn is_certain(point: &WholePoint, &[a, b, c]: &[Whole; 3], corner: Corner) -> bool {
     let (vertex, [one, other]) = match corner.number {
         _ if corner.is_certain => return true,
@@ -138,20 +144,13 @@ fn is_certain(point: &WholePoint, &[a, b, c]: &[Whole; 3], corner: Corner) -> bo
     is_certain_corner(point, vertex, [less(one, vertex), less(other, vertex)])
 }
 
-/// Centre and ring vertices of a triangle.
-#[inline(always)]
-fn corners_of(ring: &FullRing<'_>, shape: LeafShape, lane: usize) -> Option<[Whole; 3]> {
-    let centre = ring.centres(shape)[usize::from(lane >= shape.turn())];
-    Some([centre, ring.vertex(lane)?, ring.vertex(lane + 1)?])
-}
-
 /// [`sharp_lower`] of a triangle.
 pub(super) fn sharp_lower_of(
     leaf: &FanLeaf<'_>,
     point: &WholePoint,
     lane: usize,
 ) -> Option<WholeLower> {
-    Some(sharp_lower(point, &corners_of(&leaf.full_ring()?, leaf.shape(), lane)?))
+    Some(sharp_lower(point, &leaf.full_ring()?.corners(leaf.shape(), lane)?))
 }
 
 /// What the f32 kernel finds of a triangle. `corner`: see [`WholeBounds::corner`].
@@ -163,7 +162,7 @@ pub(crate) fn nearness_by_corner(
     lane: usize,
     corner: Corner,
 ) -> Option<Nearness> {
-    let corners = corners_of(&leaf.full_ring()?, leaf.shape(), lane)?;
+    let corners = leaf.full_ring()?.corners(leaf.shape(), lane)?;
     Some(match corner_nearness(leaf, p, point, &corners, lane, corner) {
         Some(near) => near,
         None => nearness(&seen_from(leaf, lane, p)),

@@ -59,8 +59,8 @@ fn reciprocal_in_integers(x: f32) -> f32 {
     let y = guess(x);
     let (mut y, mut of_y) = (mantissa(y), exponent(y));
     for _ in 0..3 {
-        let (first, carry) = normal(rounded_product(half, y));
-        let (second, carry_2) = normal(rounded_product(first, y));
+        let (first, carry) = normal_product(half, y);
+        let (second, carry_2) = normal_product(first, y);
         // 2^-24 of a half, if the number is 1/2 or more; else half of that.
         let of_number = of_half.wrapping_add(2 * of_y).wrapping_add(carry + carry_2);
         let quarter = second >> 8 << (of_number.wrapping_sub(125) & 1);
@@ -73,11 +73,17 @@ fn reciprocal_in_integers(x: f32) -> f32 {
             whole &= !1;
         }
         let (whole, of_rest) = normal((whole, cut - 1));
-        let (product, carry) = normal(rounded_product(y, whole));
+        let (product, carry) = normal_product(y, whole);
         y = product;
         of_y = of_y.wrapping_add(of_rest + carry).wrapping_sub(1);
     }
     packed(0, of_y, y >> 8)
+}
+
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
+fn normal_product(x: u32, y: u32) -> (u32, u32) {
+    normal(rounded_product(x, y))
 }
 
 /// A mantissa of 24 bits, or 2^24, to the upper 24 bits, and the exponent with it.

@@ -5,6 +5,8 @@
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use crate::geom::fan::Ring8;
 use crate::geom::fan::WIDTH;
+#[cfg(meshsweep_small)]
+use crate::num::SOFT_FLOAT;
 use crate::num::{Real, float, reals};
 use glam::Vec3;
 
@@ -182,6 +184,14 @@ impl FullRing<'_> {
     pub fn vertex(&self, i: usize) -> Option<[i32; 3]> {
         let [x, y, z] = self.rows;
         Some(grid_point([x.get(i)?, y.get(i)?, z.get(i)?]))
+    }
+
+    /// Centre and ring vertices of a triangle.
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
+    pub fn corners(&self, shape: LeafShape, lane: usize) -> Option<[[i32; 3]; 3]> {
+        let centre = self.centres(shape)[usize::from(lane >= shape.turn())];
+        Some([centre, self.vertex(lane)?, self.vertex(lane + 1)?])
     }
 
     /// A bit of each ring vertex, the first one's lowest. The compiler unrolls the loop where speed
@@ -493,6 +503,10 @@ impl<'a> FanLeaf<'a> {
         #[cfg(meshsweep_small)]
         {
             let ring = self.full_ring()?;
+            if SOFT_FLOAT {
+                let [[cx, cy, cz], [ax, ay, az], [bx, by, bz]] = ring.corners(self.shape, lane)?;
+                return Some([(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])]);
+            }
             let ([ax, ay, az], [bx, by, bz]) = (ring.vertex(lane)?, ring.vertex(lane + 1)?);
             let [cx, cy, cz] = ring.centres(self.shape)[which & 1];
             return Some([(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])]);

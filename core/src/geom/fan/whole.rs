@@ -192,7 +192,8 @@ pub fn vertex_bounds(p: &WholePoint, vertex: Whole) -> WholeBounds {
 }
 
 /// Upper bound and direction of a way from a point of a triangle, in eighths.
-#[inline(always)]
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
 fn upper_bound(way: Whole) -> WholeBounds {
     let size = bits(largest(way));
     let direction = way.map(|x| x >> size.saturating_sub(DIRECTION_BITS));

@@ -83,7 +83,8 @@ impl WholeLower {
     pub const NONE: WholeLower = WholeLower { along: 0, direction_sq: 0 };
 
     /// Whether the triangle is certainly farther than the root of `limit`.
-    #[inline(always)]
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
     pub fn is_beyond(&self, limit: WholeLimit) -> bool {
         if self.along <= 0 {
             return false;
