@@ -6,7 +6,7 @@ use meshsweep_core::{
 };
 
 /// A structure that answers distances from points.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub enum Distances<'a> {
     /// A box tree with boxes for distances.
     Tree(Bvh<'a>),

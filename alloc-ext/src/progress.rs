@@ -1,4 +1,4 @@
-//! Progress of a build, and the wish of its caller to end it.
+//! Progress of a build, and the request of its caller to end it.
 
 use crate::error::BuildError;
 use rayon::prelude::*;
@@ -63,8 +63,8 @@ pub enum Stage {
     Done,
 }
 
-/// A callback that gets what is done and the part of the work that is done, from 0 to 1, and tells
-/// whether to go on. The part never falls. Once it asks to end, it is not called again.
+/// A callback for one build. It gets what is done and the part of the work that is done, from 0 to
+/// 1, and tells whether to go on. The part never falls. Once it asks to end, it is not called again.
 pub struct Callback<F> {
     show: RefCell<F>,
     told: Cell<f64>,

@@ -50,7 +50,8 @@ impl fmt::Display for Note {
 pub struct Built {
     bytes: Vec<u8>,
     notes: Vec<Note>,
-    /// The repaired mesh and its repairs; of curves: `None`.
+    /// The repaired mesh and its repairs. `None` of curves, and of a mesh that the caller repaired
+    /// ([`trade`](crate::trade)).
     pub loaded: Option<Loaded>,
     /// Report of the hull hierarchy.
     pub hull: Option<BuildReport>,

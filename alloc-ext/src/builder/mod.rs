@@ -120,7 +120,8 @@ impl<'a> Builder<'a> {
         Self::default()
     }
 
-    /// With the options of a recipe; of a cut level, those of the hierarchy to cut.
+    /// With the options of a recipe; of a cut level, those of the hierarchy to cut, which is then
+    /// built whole: [`trade::build`](crate::trade::build) cuts it.
     pub fn of(recipe: Recipe) -> Self {
         Self { options: recipe.options(), ..Self::default() }
     }

@@ -15,7 +15,7 @@ use super::unfold::unfold;
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::{Input, Mesh, Wire};
-use crate::progress::Watch;
+use crate::progress::{Stage, Watch};
 use glam::DVec3;
 use meshsweep_core::SectionKind;
 use meshsweep_core::internal::bvh::format::BvhHeader;
@@ -195,7 +195,7 @@ pub(crate) fn build_watched(
     options: &TreeOptions,
     watch: Watch<'_>,
 ) -> Result<(Sections, TreeReport), BuildError> {
-    build_in(input, options, Purpose::Stored, watch)
+    build_in(input, options, Purpose::Stored, watch.during(Stage::BoxTree))
 }
 
 /// What a tree is built for.

@@ -5,7 +5,7 @@ use super::read::Polyline;
 use crate::emit::Sections;
 use crate::error::{BuildError, CurveError};
 use crate::geom::Bounds;
-use crate::progress::Watch;
+use crate::progress::{Stage, Watch};
 use crate::surface::{Grid, fitting_grid, split_exponent};
 use glam::DVec3;
 use meshsweep_core::SectionKind;
@@ -37,19 +37,20 @@ pub struct CurveReport {
     pub time: Duration,
 }
 
-/// Stores polylines. Segments keep the numbers of the input. If all
-/// points have z = 0, z is not stored.
+/// Stores polylines. Segments keep the numbers of the input. If all points have z = 0, z is not
+/// stored.
 ///
 /// Cost: points times the depth of the hierarchy, about 2·log₂ of the points.
 ///
 /// # Errors
-/// [`BuildError::Curve`] if a polyline has fewer than two points, a coordinate is not finite in f32, or
-/// the points are too many or all tiny.
+/// [`BuildError::Curve`] if a polyline has fewer than two points, a coordinate is not finite in f32,
+/// or the points are too many or all tiny.
 pub fn build(
     polylines: &[Polyline],
     options: &CurveOptions,
     watch: Watch<'_>,
 ) -> Result<(Sections, CurveReport), BuildError> {
+    let watch = watch.during(Stage::Curve);
     watch.step(0, 1)?;
     let started = Instant::now();
     let (points, table) = joined(polylines)?;

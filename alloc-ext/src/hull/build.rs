@@ -290,6 +290,8 @@ const TRIED: [f64; 3] = [1.0, 0.75, 0.5];
 
 /// A hull alone: its triangles in input units, its void as a part of the mesh's volume, and why
 /// collapses ended early. It encloses the mesh without its wires, of a `&Mesh` or an [`Input`].
+/// [`levels`](BuildOptions::levels) and [`base_faces`](BuildOptions::base_faces) play no part: the
+/// number of faces is `faces`.
 ///
 /// If vertices moved, it encloses the input before they did: it is moved outward, see [`outset`].
 ///

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// A time, or the wish of the caller to end before.
+/// A time, or the caller's request to end before.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Deadline<'a> {
     pub at: Option<Instant>,

@@ -1,9 +1,9 @@
 //! Instructions of a board from the work of a query.
 //!
-//! The work of a query is the same on every target, in the order of boards. So the instructions of a board are a sum over
-//! the counters of [`Work`], each times a cost that was fitted to counts in an emulator. A cost is
-//! at least 0. `cargo xtask fit` fits them again, and prints the error on meshes that the fit has
-//! not seen.
+//! The work of a query is the same on every target with floating point, in the order of boards. So
+//! the instructions of a board are a sum over the counters of [`Work`], each times a cost that was
+//! fitted to counts in an emulator. A cost is at least 0. `cargo xtask fit` fits them again, and
+//! prints the error on meshes that the fit has not seen.
 
 use meshsweep_core::{Budget, Bvh, Hull, TightHull, Triboxes, Work};
 

@@ -37,7 +37,7 @@ pub struct Cpu {
 /// let settings = trade::standard(trade::diagonal(&part.mesh), triangles, Some(near));
 /// let trade = trade::measure(&source, &part, &points, &settings, |_, _| {})?;
 /// let limits = Limits { flash: Some(16 << 10), ..Limits::default() };
-/// let choice = limits.choose(trade)?;
+/// let choice = limits.choose(&trade)?;
 /// println!("{}", choice.first.setting);
 /// std::fs::write("part.msw", choice.built.bytes())?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -50,9 +50,9 @@ pub struct Limits {
     pub ram: Option<usize>,
     /// Largest guaranteed error: the width of an interval, in the mesh's unit.
     pub error: Option<f64>,
-    /// Queries a second. Counts only with a processor.
+    /// Queries a second. It limits nothing without a [processor](Self::cpu).
     pub rate: Option<f64>,
-    /// The processor; a Cortex-M4F unless told otherwise.
+    /// The processor. `None`: instructions are those of a Cortex-M4F, and there is no rate.
     pub cpu: Option<Cpu>,
 }
 
@@ -77,6 +77,8 @@ pub enum Unmet {
         /// Part of the triangles.
         part: f64,
     },
+    /// No setting was measured: there were no points, or no structure was built.
+    NothingMeasured,
     /// No structure gives intervals.
     NoIntervals,
     /// The setting that comes nearest to the limits, and where it exceeds them.
@@ -97,6 +99,9 @@ impl fmt::Display for Unmet {
                  leave --rate out, and count them",
                 100.0 * part
             ),
+            Self::NothingMeasured => {
+                f.write_str("nothing was measured: there are no points, or no structure was built")
+            }
             Self::NoIntervals => f.write_str("no structure gives intervals"),
             Self::Beyond { nearest, limits } => {
                 let setting = nearest.setting;
@@ -108,6 +113,11 @@ impl fmt::Display for Unmet {
 }
 
 impl std::error::Error for Unmet {}
+
+/// The limit, if the value is not within it. Nothing is within a limit that is no number.
+fn exceeded(value: f64, limit: Option<f64>) -> Option<f64> {
+    limit.filter(|limit| value.partial_cmp(limit).is_none_or(Ordering::is_gt))
+}
 
 impl Limits {
     /// The board whose instructions count.
@@ -134,22 +144,29 @@ impl Limits {
     ///
     /// # Errors
     /// [`Unmet`].
-    pub fn choose(&self, mut trade: Trade) -> Result<Choice, Unmet> {
-        if self.rate.is_some() && trade.needles >= MANY_NEEDLES {
+    pub fn choose(&self, trade: &Trade) -> Result<Choice, Unmet> {
+        if trade.rows.is_empty() {
+            return Err(Unmet::NothingMeasured);
+        }
+        if self.cycles().is_some() && trade.needles >= MANY_NEEDLES {
             return Err(Unmet::Needles { part: trade.needles });
         }
-        trade.rows.retain(|row| row.guaranteed.is_some());
-        let is_met = |row: &&Row| self.excess(row) <= 1.0;
-        let mut meeting: Vec<&Row> = trade.rows.iter().filter(is_met).collect();
+        let rows = || trade.rows.iter().filter(|row| row.guaranteed.is_some());
+        let mut meeting: Vec<&Row> = rows().filter(|row| self.is_met(row)).collect();
         meeting.sort_by(|a, b| self.compare(a, b));
-        let built = meeting.first().and_then(|row| {
-            trade.blobs.iter().position(|(recipe, _)| *recipe == row.setting.recipe)
-        });
-        let (Some(&first), Some(built)) = (meeting.first(), built) else {
-            return Err(self.unmet(&trade.rows));
+        let built = meeting
+            .first()
+            .and_then(|row| trade.blobs.iter().find(|(recipe, _)| *recipe == row.setting.recipe));
+        let (Some(&first), Some((_, built))) = (meeting.first(), built) else {
+            return Err(self.unmet(rows()));
         };
-        let (first, second) = (first.clone(), meeting.get(1).map(|&row| row.clone()));
-        Ok(Choice { first, second, built: trade.blobs.swap_remove(built).1 })
+        let second = meeting.get(1).map(|&row| row.clone());
+        Ok(Choice { first: first.clone(), second, built: built.clone() })
+    }
+
+    /// Cycles that a query may take at the rate.
+    fn cycles(&self) -> Option<f64> {
+        self.rate.zip(self.cpu).map(|(rate, cpu)| cpu.hertz / rate)
     }
 
     /// Values that are limited, each with its limit: flash, RAM, error, cycles of a query.
@@ -160,14 +177,21 @@ impl Limits {
             (row.flash as f64, self.flash.map(|bytes| bytes as f64)),
             (self.ram(row), self.ram.map(|bytes| bytes as f64)),
             (row.error(), self.error),
-            (cycles, self.rate.zip(self.cpu).map(|(rate, cpu)| cpu.hertz / rate)),
+            (cycles, self.cycles()),
         ]
     }
 
-    /// How many times its limit the value is that exceeds it most; at most 1 if all limits are met.
+    /// Whether all values are within their limits.
+    fn is_met(&self, row: &Row) -> bool {
+        self.limited(row).iter().all(|&(value, limit)| exceeded(value, limit).is_none())
+    }
+
+    /// How many times its limit the value is that exceeds it most.
     fn excess(&self, row: &Row) -> f64 {
-        let all = self.limited(row);
-        all.iter().filter_map(|(value, limit)| Some(value / (*limit)?)).fold(0.0, f64::max)
+        let ratio = |limit, value| if limit > 0.0 { value / limit } else { f64::INFINITY };
+        let all = self.limited(row).into_iter();
+        all.filter_map(|(value, limit)| Some(ratio(exceeded(value, limit)?, value)))
+            .fold(0.0, f64::max)
     }
 
     /// The order in which settings are preferred.
@@ -184,8 +208,8 @@ impl Limits {
     }
 
     /// Which setting comes nearest.
-    fn unmet(&self, rows: &[Row]) -> Unmet {
-        let nearest = rows.iter().min_by(|a, b| self.excess(a).total_cmp(&self.excess(b)));
+    fn unmet<'r>(&self, rows: impl Iterator<Item = &'r Row>) -> Unmet {
+        let nearest = rows.min_by(|a, b| self.excess(a).total_cmp(&self.excess(b)));
         let Some(nearest) = nearest else { return Unmet::NoIntervals };
         Unmet::Beyond { nearest: Box::new(nearest.clone()), limits: *self }
     }
@@ -194,7 +218,7 @@ impl Limits {
     fn needs(&self, row: &Row) -> Vec<String> {
         let options = ["--flash", "--ram", "--error", "--rate"].into_iter().zip(self.limited(row));
         let beyond = options.filter_map(|(option, (value, limit))| {
-            let limit = limit.filter(|&limit| value > limit)?;
+            let limit = exceeded(value, limit)?;
             Some(match (option, self.cpu) {
                 ("--rate", Some(cpu)) if cpu.hertz >= value => {
                     format!("--rate {}Hz", (cpu.hertz / value).floor())
@@ -205,5 +229,79 @@ impl Limits {
             })
         });
         beyond.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Points, Setting, measure, points};
+    use super::*;
+    use crate::builder::Recipe;
+    use crate::load::Source;
+    use crate::surface::VertexBits;
+    use std::path::Path;
+
+    /// A part at so many points: a box tree of two precisions, and one that stops early.
+    fn measured(count: usize) -> Trade {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/bracket.stl");
+        let source = Source::of_file(&file, None).expect("it is read");
+        let part = source.repaired().expect("it is a mesh");
+        let points = points(&part.mesh, Points::Near, count);
+        let [coarse, fine] =
+            [VertexBits::Grid16, VertexBits::F32].map(|bits| Setting::new(Recipe::Tree(bits)));
+        let settings = [coarse, coarse.with_budget(coarse.budget.with_steps(4)), fine];
+        measure(&source, &part, &points, &settings, |_, _| {}).expect("points are finite")
+    }
+
+    const CPU: Cpu = Cpu { board: Board::CortexM4F, hertz: 1e9 };
+
+    #[test]
+    fn the_choice_meets_all_limits_and_no_other_that_does_is_better() {
+        let trade = measured(20);
+        for row in &trade.rows {
+            let (flash, error) = (Some(row.flash), Some(row.error()));
+            let wanted = Limits { flash, error, ..Limits::default() };
+            let choice = wanted.choose(&trade).expect("the row meets its own values");
+            assert!(choice.first.flash <= row.flash && choice.first.error() <= row.error());
+            assert_eq!(choice.built.bytes().len(), choice.first.flash);
+            let mean = |row: &Row| row.boards[0].expect("it is fitted").mean;
+            assert!(mean(&choice.first) <= mean(row));
+        }
+    }
+
+    #[test]
+    fn a_limit_that_nothing_can_meet_is_met_by_nothing() {
+        let mut trade = measured(20);
+        trade.needles = 0.0;
+        for wrong in [-1.0, f64::NAN, f64::NEG_INFINITY] {
+            let error = Limits { error: Some(wrong), ..Limits::default() };
+            let rate = Limits { rate: Some(wrong), cpu: Some(CPU), ..Limits::default() };
+            for limits in [error, rate] {
+                let unmet = limits.choose(&trade).expect_err("it cannot be met");
+                assert!(matches!(unmet, Unmet::Beyond { .. }), "{limits:?}: {unmet:?}");
+            }
+        }
+        let none = Limits { flash: Some(0), ram: Some(0), ..Limits::default() };
+        let unmet = none.choose(&trade).expect_err("no blob is empty").to_string();
+        assert!(unmet.contains("--flash") && unmet.contains("--ram"), "{unmet}");
+    }
+
+    #[test]
+    fn needles_are_refused_for_a_rate_of_a_processor_only() {
+        let mut trade = measured(20);
+        trade.needles = MANY_NEEDLES;
+        let rate = Limits { rate: Some(1.0), ..Limits::default() };
+        assert!(rate.choose(&trade).is_ok());
+        let both = Limits { cpu: Some(CPU), ..rate };
+        let needles = Unmet::Needles { part: MANY_NEEDLES };
+        assert_eq!(both.choose(&trade).err(), Some(needles));
+        trade.needles = 0.0;
+        assert!(both.choose(&trade).is_ok());
+    }
+
+    #[test]
+    fn without_points_nothing_is_measured() {
+        let unmet = Limits::default().choose(&measured(0)).err();
+        assert_eq!(unmet, Some(Unmet::NothingMeasured));
     }
 }

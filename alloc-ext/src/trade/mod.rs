@@ -1,8 +1,8 @@
 //! The trade of a mesh, measured: what each setting of each structure promises, finds and costs.
 //!
 //! ```text
-//! settings ─ recipes ─ blobs ─ ask ─┬─ intervals ─ truth ─ errors ─┬─ rows ─ pareto
-//! queries ─────────────────────────────┴─ work ─ costs ─ instructions ─┘
+//! settings ─ recipes ─ blobs ─ ask ─┬─ intervals ─ truth ─ errors ──┬─ rows ─ pareto
+//! points ───────────────────────────┴─ work ─ costs ─ instructions ─┘
 //! ```
 //!
 //! | file | owns |

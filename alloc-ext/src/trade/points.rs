@@ -36,7 +36,7 @@ const NEAR: f64 = 0.01;
 /// Step of a path, as a part of the diagonal.
 const STEP: f64 = 0.001;
 
-/// `count` points of a kind, the same in every run. None if the mesh has no triangle with an area.
+/// `count` points of a kind, the same in every run. Empty if the mesh has no triangle with an area.
 #[must_use]
 pub fn points(mesh: &Mesh, kind: Points, count: usize) -> Vec<[f32; 3]> {
     let surface = Surface::of(mesh);

@@ -52,7 +52,8 @@ impl Setting {
         Self { budget, ..self }
     }
 
-    /// Sets [what a query takes over from the one before](Self::how).
+    /// Sets [what a query takes over from the one before](Self::how). Sweeps know [`How::Fresh`] and
+    /// [`How::Coherent`]; any other is asked as `Fresh`. Tight hulls and triboxes know `Fresh` alone.
     #[must_use]
     pub const fn with_how(self, how: How) -> Self {
         Self { how, ..self }

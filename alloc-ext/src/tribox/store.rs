@@ -7,7 +7,7 @@ use crate::bvh::exact_blob_watched;
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::{Input, Mesh};
-use crate::progress::Watch;
+use crate::progress::{Stage, Watch};
 use crate::surface::SignedVolume;
 use glam::Vec3;
 use meshsweep_core::SectionKind;
@@ -54,6 +54,7 @@ pub fn build(
     options: &TriboxOptions,
     watch: Watch<'_>,
 ) -> Result<(Sections, TriboxReport), BuildError> {
+    let watch = watch.during(Stage::Triboxes);
     let TriboxOptions { count } = *options;
     let started = Instant::now();
     let mesh = input.mesh;

@@ -40,7 +40,7 @@ impl Question {
 }
 
 /// A question, and the structure that answers it.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Subject<'a> {
     /// The question.
     pub question: Question,

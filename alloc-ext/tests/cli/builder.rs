@@ -3,9 +3,14 @@
 use crate::support::{arg, coarse_torus, fixture, run, scratch};
 use meshsweep::builder::{For, Recipe, Stage, Topic, ranges};
 use meshsweep::collapse::CollapseOptions;
-use meshsweep::curve::read_csv;
+use meshsweep::curve::{self, CurveOptions, read_csv};
+use meshsweep::hull::{self, BuildOptions};
+use meshsweep::load::Source;
 use meshsweep::mesh::{self, MeshError, RawMesh, Unit};
+use meshsweep::progress::{Callback, Watch};
 use meshsweep::surface::VertexBits;
+use meshsweep::tight::{self, ChainOptions};
+use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep::{BuildError, Builder, Built};
 use std::fs;
 use std::ops::ControlFlow::{Break, Continue};
@@ -336,5 +341,54 @@ fn a_cancelled_build_calls_back_no_more_and_says_so() {
             assert_eq!(cancelled, Err(BuildError::Cancelled), "{question}: {last} of {calls}");
             assert_eq!(seen, last + 1, "{question}: {last} of {calls}");
         }
+    }
+}
+
+/// The name of a stage, without its count.
+fn name_of(stage: Stage) -> String {
+    format!("{stage:?}").split(' ').next().unwrap_or_default().to_owned()
+}
+
+/// The stages that a build told, in order, each once in a row.
+fn stages<T>(build: impl FnOnce(Watch<'_>) -> Result<T, BuildError>) -> Vec<String> {
+    let mut told: Vec<String> = Vec::new();
+    let progress = Callback::new(|stage, _| told.push(name_of(stage)));
+    build(progress.watch()).map(drop).expect("it builds");
+    drop(progress);
+    told.dedup();
+    told
+}
+
+#[test]
+fn each_structure_that_is_built_alone_tells_its_own_stages() {
+    let source = Source::of_file(&fixture("bracket.stl"), None).expect("it is read");
+    let part = source.repaired().expect("it is a mesh");
+    let (input, of_hull) = (part.input(), BuildOptions::default());
+    let of_tight = ChainOptions::of_faces(&[60]).with_effort(0.05);
+    let of_triboxes = TriboxOptions { count: 8 };
+    let curves = read_csv(b"0,0,0\n1,0,0\n1,1,0\n", false).expect("they are curves");
+    let of_curves = CurveOptions::default();
+    let told = stages(|watch| hull::build(input, &of_hull, watch));
+    assert_eq!(told, ["Collapsing", "Certifying"]);
+    let told = stages(|watch| tight::build(input, &of_tight, watch));
+    assert_eq!(told, ["Collapsing", "Shrinking", "Polishing", "Certifying"]);
+    let told = stages(|watch| tribox::build(input, &of_triboxes, watch));
+    assert_eq!(told, ["Triboxes"]);
+    let told = stages(|watch| curve::build(&curves, &of_curves, watch));
+    assert_eq!(told, ["Curve"]);
+}
+
+#[test]
+fn a_builder_tells_the_stages_of_what_it_serves() {
+    for (question, wanted) in [
+        (For::Closest, &["Loading", "BoxTree", "Done"][..]),
+        (For::Sweep, &["Loading", "Collapsing", "Certifying", "Done"]),
+        (For::Triboxes, &["Loading", "Triboxes", "Done"]),
+        (For::Curve, &["Curve", "Done"]),
+    ] {
+        let mut names: Vec<String> =
+            told(question).into_iter().map(|(stage, _)| name_of(stage)).collect();
+        names.dedup();
+        assert_eq!(names, wanted, "{question}");
     }
 }

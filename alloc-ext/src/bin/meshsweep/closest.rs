@@ -74,8 +74,8 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     question.ask_many(BATCH, worker, write)
 }
 
-/// The structure that the options choose; or else the box tree, the hull hierarchy, the finest tight
-/// hull.
+/// The structure that the options choose; or else the box tree, the hull hierarchy, the finest
+/// tight hull.
 fn structure<'a>(args: &ClosestArgs, blob: &Blob<'a>) -> Result<Distances<'a>, Failure> {
     let file = &args.input.blob;
     let tree_chosen = match args.precise {

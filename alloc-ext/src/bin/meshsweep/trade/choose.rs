@@ -29,7 +29,7 @@ pub fn choose(args: &BuildArgs) -> Result<(Built, Chosen), Failure> {
     let points = (measured.points, measured.kind);
     let failed =
         |unmet: Unmet| Failure::Limits { file: args.mesh.clone(), what: unmet.to_string() };
-    let Choice { first, second, built, .. } = limits.choose(measured.trade).map_err(failed)?;
+    let Choice { first, second, built, .. } = limits.choose(&measured.trade).map_err(failed)?;
     Ok((built, Chosen { limits, first, second, points }))
 }
 

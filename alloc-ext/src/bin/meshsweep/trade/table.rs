@@ -168,9 +168,9 @@ pub fn as_json(loaded: &Loaded, measured: &Measured) -> Value {
     let best = pareto(&trade.rows);
     let rows: Vec<Value> =
         trade.rows.iter().enumerate().map(|(i, row)| of_row(row, best.contains(&i))).collect();
-    let missing = trade.missing.iter().map(
-        |missing| json!({ "structure": missing.recipe.name(), "reason": missing.reason.to_string() }),
-    );
+    let missing = trade.missing.iter().map(|missing| {
+        json!({ "structure": missing.recipe.name(), "reason": missing.reason.to_string() })
+    });
     json!({
         "points": points,
         "kind": kind,
