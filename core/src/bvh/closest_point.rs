@@ -6,15 +6,15 @@ use super::hint::Hint;
 use super::leaf_distance::nearest_within_inlined;
 use super::leaf_limit::LeafLimit;
 use super::nearest_search::{Closest, inlined};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 use super::node::{OpenedNode, take_least};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 use super::point_blocks::{Kernels, search_by_blocks};
 use super::point_query::PointQuery;
 use crate::bvh::format::{Bvh, FanLeaf};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 use crate::geom::fan::WIDTH;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::num::SOFT_FLOAT;
 use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Work};
 
@@ -68,7 +68,7 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
-        if cfg!(any(target_arch = "x86_64", target_arch = "aarch64")) {
+        if cfg!(meshsweep_wide) {
             search_by_entries(self, point, hint, &budget, scratch)
         } else {
             // The same, in the copy that other questions share.
@@ -105,7 +105,7 @@ impl Bvh<'_> {
 }
 
 /// On vector targets inlined twice: without a hint, and with one. Boards that ask both share it.
-#[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+#[cfg_attr(meshsweep_wide, inline(always))]
 fn search(
     tree: &Bvh<'_>,
     point: [f32; 3],
@@ -113,7 +113,7 @@ fn search(
     budget: &Budget,
     scratch: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[cfg(meshsweep_wide)]
     if let Some(answer) = search_by_blocks(
         tree,
         point,
@@ -141,8 +141,8 @@ fn search(
 }
 
 /// The answer on targets without vector registers, and where steps or memory may end the search.
-#[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), cold, inline(never))]
-#[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(always))]
+#[cfg_attr(meshsweep_wide, cold, inline(never))]
+#[cfg_attr(not(meshsweep_wide), inline(always))]
 fn search_by_entries(
     tree: &Bvh<'_>,
     point: [f32; 3],
@@ -167,7 +167,7 @@ fn search_by_entries(
         },
     );
     let mut visitor = Closest::new(tree, point, query, budget, nearest);
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     if SOFT_FLOAT {
         let may_end_early =
             budget.steps < tree.most_steps() || scratch.len() < tree.scratch_entries();
@@ -179,7 +179,7 @@ fn search_by_entries(
         visitor.bound_by_leaf(&leaf).ok_or(QueryError::Unchecked)?;
     }
     let descent = descend_inlined(tree, query, budget.steps, scratch, &mut visitor, &mut work)?;
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     if SOFT_FLOAT {
         visitor.look_at_waiting().ok_or(QueryError::Unchecked)?;
     }

@@ -13,14 +13,14 @@
 //! Keys never fall from parent to child. So the leaves that can change an answer are the same in
 //! every order of visits.
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 mod boards;
 
 pub(crate) use super::node::OpenedNode;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use super::node::Pushed;
 use super::node::{CHILD_MASK, NO_CHILD};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 use super::node::{least_key, places_of_wanted};
 use crate::bvh::format::{Bvh, BvhChild, FanLeaf};
 use crate::geom::fan::WIDTH;
@@ -44,7 +44,7 @@ pub(crate) trait NodeQuery {
 
     /// Writes the children with keys up to the limit, except the nearest, to `slots`. A query that
     /// knows them without the keys of the others does so itself.
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     #[inline(always)]
     fn push(
         &self,
@@ -113,7 +113,7 @@ struct Stack<'a> {
     dropped: u32,
 }
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 impl Stack<'_> {
     /// Pushes the children of `node` within the limit, except the nearest. The nearest one's key.
     #[inline(always)]
@@ -159,7 +159,7 @@ impl Stack<'_> {
 }
 
 /// Writes the children with keys up to `limit`, except `nearest`, and tells how many they are.
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 #[inline(always)]
 fn put_wanted(
     slots: &mut [ScratchEntry; WIDTH],
@@ -329,8 +329,8 @@ impl<'s> Walk<'s> {
     /// whether there is one. `None` says that the tree is unchecked: the loop carries no other error.
     ///
     /// On boards it is a call, and all questions about a point share it.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     fn next_leaf<'t, Q: NodeQuery>(
         &mut self,
         tree: &Bvh<'t>,
@@ -399,13 +399,13 @@ impl<'s> Walk<'s> {
     ) -> Option<Option<Place>> {
         let links = tree.links(node)?;
         let opened = OpenedNode { node, count: links.count, bound, limit };
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        #[cfg(meshsweep_wide)]
         let nearest = {
             let mut keys = [NO_CHILD; WIDTH];
             query.keys(tree, &opened, &mut keys)?;
             self.stack.push_children(node, &keys, links.count, limit)
         };
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        #[cfg(not(meshsweep_wide))]
         let nearest = self.stack.push_children(query, tree, &opened)?;
         work.splits += 1;
         work.nodes += links.count;
@@ -433,7 +433,7 @@ impl<'s> Walk<'s> {
 
     #[inline(always)]
     fn pop_entry(&mut self, most: u32, work: &Work) -> Option<Option<ScratchEntry>> {
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        #[cfg(not(meshsweep_wide))]
         if !self.least_first {
             return self.stack.pop_up_to(most);
         }

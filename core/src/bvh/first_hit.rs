@@ -1,13 +1,13 @@
 //! The first common point of a segment and the surface.
 
 use super::descent::{Descent, descend, descend_inlined};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 use super::node::{OpenedNode, TakenLeast, take_least};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 use super::prefetch::prefetch_source;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 use super::segment_blocks::{SegmentKernels, is_unlimited};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 use super::segment_leaf::FlaggedOfLeaf;
 use super::segment_leaf::{CrossingCollector, Facing, HitPlace, SegmentVisitor, compiled_flagged};
 use super::segment_query::SegmentQuery;
@@ -15,7 +15,7 @@ use super::segment_start::SegmentStart;
 use super::triangle_place::TrianglePlace;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 use crate::geom::fan::WIDTH;
 use crate::num::{SOFT_FLOAT, lesser};
 use crate::query::{Budget, Ended, FirstHit, Interval, QueryError, ScratchEntry, Work};
@@ -73,7 +73,7 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<FirstHit, QueryError> {
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        #[cfg(meshsweep_wide)]
         if let Some(found) = first_hit_by_blocks(
             self,
             [a, b],
@@ -95,8 +95,8 @@ impl Bvh<'_> {
 }
 
 /// The answer on targets without vector registers, and where steps or memory may end the search.
-#[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), cold, inline(never))]
-#[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(always))]
+#[cfg_attr(meshsweep_wide, cold, inline(never))]
+#[cfg_attr(not(meshsweep_wide), inline(always))]
 fn by_entries(
     tree: &Bvh<'_>,
     ends: [[f32; 3]; 2],
@@ -124,7 +124,7 @@ fn by_entries(
 
 /// The answer, if neither steps nor memory may end the search. With one of these limits the order of
 /// visits decides the answer, and it is that of all targets.
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 #[inline(always)]
 pub(super) fn first_hit_by_blocks(
     tree: &Bvh<'_>,
@@ -226,7 +226,7 @@ impl CrossingCollector for FirstCrossing<'_> {
             let place = HitPlace { t: crossing.t, node, child, lane };
             if crossing.t < self.best.t || self.number(&place) < self.number(&self.best) {
                 self.best = place;
-                #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+                #[cfg(meshsweep_wide)]
                 prefetch_source(self.tree, node, child);
             }
         }

@@ -8,22 +8,22 @@ use super::leaf_nearest::LeafNearest;
 use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use crate::bvh::format::FanLeaf;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::num::SOFT_FLOAT;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::nearest_avx2;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 pub(crate) use narrow::{nearest_and_edges, nearest_within, nearest_within_inlined};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 pub(crate) use wide::nearest_within as nearest_within_inlined;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 pub(crate) use wide::{LeafEdges, leaf_edges, nearest_and_edges, nearest_within};
 
 /// The nearest triangle of a leaf, without a limit.
 #[inline(always)]
 pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option<LeafNearest> {
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     if !SOFT_FLOAT && !leaf.is_f32() {
         return narrow::nearest_of_all(leaf, query.p);
     }
@@ -31,14 +31,14 @@ pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, query: &PointQuery) -> Option
 }
 
 /// Edges are not kept.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 pub(crate) type LeafEdges = core::convert::Infallible;
 
 /// The nearest triangle of a leaf. On vector targets also the edges of the leaf's triangles, seen
 /// from the query point.
 pub(crate) type LeafSeen = (LeafNearest, Option<LeafEdges>);
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod wide {
     use super::{FanLeaf, LeafLimit, LeafNearest, LeafSeen, LeafSquares, PointQuery};
     use crate::bvh::format::LanePoint;
@@ -178,7 +178,7 @@ mod avx2 {
     }
 }
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 mod narrow {
     use super::{
         FanLeaf, LeafLimit, LeafNearest, LeafSeen, LeafSquares, PointQuery, nearest_triangle,

@@ -9,7 +9,7 @@ pub(crate) struct LeafLimit {
     pub(crate) distance_sq: f32,
     /// Nor does a triangle behind this plane.
     #[cfg_attr(
-        any(target_arch = "x86_64", target_arch = "aarch64"),
+        meshsweep_wide,
         expect(dead_code, reason = "vector targets look at all lanes of a leaf")
     )]
     pub(crate) plane: LeafPlane,

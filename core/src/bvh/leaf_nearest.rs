@@ -3,9 +3,9 @@
 //! Vector targets keep all lanes of a leaf, and search the nearest one for the answer. Others keep
 //! the nearest triangle.
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 pub(crate) use narrow::Lanes;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 pub(crate) use wide::Lanes;
 
 /// The nearest triangle of a leaf. Triangles that are proved to be beyond the squared limit may be
@@ -32,7 +32,7 @@ impl LeafNearest {
     }
 }
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod wide {
     use crate::geom::fan::Lanes as Register;
     use crate::geom::fan::{LANES, LaneNearness, Nearness, PIECES, WIDTH};
@@ -81,7 +81,7 @@ mod wide {
     }
 }
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 mod narrow {
     use super::LeafNearest;
     use crate::bvh::leaf_plane::Way;

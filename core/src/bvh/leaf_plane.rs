@@ -3,28 +3,28 @@
 //! The plane stands across the way from the point to the best triangle so far, a little farther
 //! than the best distance. A triangle whose vertices all lie behind it cannot change the answer.
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::bvh::format::{FullRing, LeafShape};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::bvh::point_query::PointQuery;
 use crate::geom::fan::Whole;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::geom::fan::{WholeLimit, WholePoint};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::num::SOFT_FLOAT;
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 use crate::num::tolerance::{EVERYTHING_SQ, LEAST_DENOMINATOR, PLANE_ALONG, U32};
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 use glam::Vec3;
 
 /// The way from the closest point of a triangle to the query, for a plane across it. Without
 /// floating point it is about that way in whole numbers of twelve bits, else the bits of the
 /// kernel's residual. Zeros if it is not known.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Way([i32; 3]);
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 impl Way {
     pub(crate) const NONE: Way = Way([0; 3]);
 
@@ -56,7 +56,7 @@ impl Way {
 /// A plane across the way to the best triangle. Coordinates are grid units from the grid's origin.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(
-    all(not(test), any(target_arch = "x86_64", target_arch = "aarch64")),
+    all(not(test), meshsweep_wide),
     expect(dead_code, reason = "vector targets look at all lanes of a leaf")
 )]
 pub(crate) struct LeafPlane {
@@ -70,7 +70,7 @@ impl LeafPlane {
     pub(crate) const NONE: LeafPlane = LeafPlane { normal: [0; 3], behind: -1 };
 }
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 impl LeafPlane {
     /// The plane across `normal`, which has twelve bits. What is behind it is farther from `p` than
     /// the root of `limit`.
@@ -80,7 +80,7 @@ impl LeafPlane {
     }
 }
 
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 impl LeafPlane {
     /// The plane across `residual`, whose square is `distance_sq`. What is behind it is farther from
     /// `at` than the root of `limit`.
@@ -109,7 +109,7 @@ impl LeafPlane {
     }
 }
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 impl LeafPlane {
     /// The plane across the way to a triangle at the squared distance `distance_sq`. What is behind
     /// it is farther from the query than the root of `limit`.

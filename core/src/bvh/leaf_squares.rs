@@ -78,7 +78,7 @@ impl LatestSquares {
     }
 }
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 impl LeafSquares {
     /// Forgets those of the leaf before.
     #[inline(always)]

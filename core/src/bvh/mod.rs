@@ -60,7 +60,7 @@ mod all_within;
 mod any_hit;
 #[cfg(target_arch = "x86_64")]
 mod avx2;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod block_walk;
 mod closest_point;
 mod closest_point_precise;
@@ -85,15 +85,15 @@ mod neighbors;
 pub mod node;
 mod overlap;
 mod penetration;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod point_blocks;
 mod point_query;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod prefetch;
 mod processor_questions;
 mod pseudonormal;
 mod scene;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod segment_blocks;
 mod segment_leaf;
 mod segment_query;
@@ -107,11 +107,11 @@ mod triangle_bounds;
 mod triangle_place;
 mod triangle_visitor;
 mod viewed_side;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 mod waiting;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 mod waiting_search;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 mod whole_leaf;
 mod winding;
 mod within;

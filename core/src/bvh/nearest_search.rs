@@ -7,20 +7,20 @@ use super::hint::Hint;
 use super::leaf_distance::nearest_triangle;
 use super::leaf_limit::LeafLimit;
 use super::leaf_nearest::{Lanes, LeafNearest};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use super::leaf_plane::LeafPlane;
 use super::point_query::{EVERY_KEY, PointQuery};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 use super::prefetch::prefetch_source;
 use super::triangle_bounds::{nearness, seen_from, sliver};
 use super::triangle_place::TrianglePlace;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use super::waiting::Waiting;
 use crate::bvh::format::{Bvh, FanLeaf, lanes_of};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::geom::fan::{WIDTH, WholeBounds};
 use crate::geom::fan::{lower_bound_up_to, refined};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::num::SOFT_FLOAT;
 use crate::num::tolerance::{EVERYTHING_SQ, U32};
 use crate::num::{Real, greater, lesser, sqrt_approx};
@@ -67,16 +67,16 @@ pub(super) struct Closest<'a, N> {
     pub(super) refined_lower_sq: f32,
     pub(super) tolerant: bool,
     /// No hint. Behind a neighbour the cache has the triangle's number in the file.
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[cfg(meshsweep_wide)]
     pub(super) is_alone: bool,
     /// The limit's plane is not that of the best triangle. It is made when a leaf needs it.
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     pub(super) has_old_plane: bool,
     /// Whether triangles wait for the f32 kernel: without floating point, if nothing may end the
     /// search early. Its limits then are others than on other targets.
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     pub(super) waits: bool,
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     pub(super) waiting: Waiting,
 }
 
@@ -106,13 +106,13 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             refine_below: f32::NEG_INFINITY,
             refined_lower_sq: f32::INFINITY,
             tolerant: budget.relative > 0.0 || budget.absolute > 0.0,
-            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+            #[cfg(meshsweep_wide)]
             is_alone: true,
-            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            #[cfg(not(meshsweep_wide))]
             has_old_plane: false,
-            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            #[cfg(not(meshsweep_wide))]
             waits: false,
-            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            #[cfg(not(meshsweep_wide))]
             waiting: Waiting::none(),
         }
     }
@@ -120,7 +120,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
     /// Lowers the limit by a leaf that the descent reaches again.
     #[inline(always)]
     pub(super) fn bound_by_leaf(&mut self, leaf: &FanLeaf<'_>) -> Option<()> {
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        #[cfg(not(meshsweep_wide))]
         if SOFT_FLOAT
             && self.waits
             && !leaf.is_f32()
@@ -139,7 +139,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         // Leaves beyond the limit never change the result. Kernels may skip them.
         self.best.distance_sq = near.distance_sq;
         self.refine_below = self.query.refine_below(near.distance_sq);
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        #[cfg(meshsweep_wide)]
         {
             self.is_alone = false;
         }
@@ -175,14 +175,14 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         if Real(beyond) < Real(self.beyond.distance_sq) {
             self.beyond.distance_sq = beyond;
         }
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        #[cfg(not(meshsweep_wide))]
         {
             self.has_old_plane = true;
         }
         let limit =
             if self.tolerant { self.tolerant_limit(distance_sq) } else { self.beyond.distance_sq };
         self.limit = self.query.key_limit(limit);
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        #[cfg(meshsweep_wide)]
         if self.is_alone {
             prefetch_source(self.tree, node, child);
         }
@@ -290,7 +290,7 @@ impl<N: NearestOfLeaf> LeafVisitor for Closest<'_, N> {
 
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        #[cfg(not(meshsweep_wide))]
         if SOFT_FLOAT
             && self.waits
             && !visit.leaf.is_f32()
@@ -299,7 +299,7 @@ impl<N: NearestOfLeaf> LeafVisitor for Closest<'_, N> {
             self.wait(visit, point)?;
             return Some(true);
         }
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        #[cfg(not(meshsweep_wide))]
         if self.has_old_plane {
             self.has_old_plane = false;
             let (way, limit) = (self.best.lanes.way(), self.beyond.distance_sq);

@@ -4,9 +4,9 @@ use super::descent::{NodeQuery, OpenedNode};
 #[cfg(target_arch = "x86_64")]
 use super::node::box_distances_avx2;
 use super::node::{CHILD_MASK, KeyPoint, NO_CHILD, box_distances};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use super::node::{Pushed, push_boxes};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 use crate::bvh::format::LanePoint;
 use crate::bvh::format::{Bvh, Units};
 use crate::format::layout::BuildFor;
@@ -37,10 +37,10 @@ pub(crate) struct PointQuery {
     /// Grid units.
     pub(crate) p: Vec3,
     /// The point less the grid's origin, rounded.
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     pub(crate) from_origin: Vec3,
     /// The point for the wide kernel of leaves.
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[cfg(meshsweep_wide)]
     pub(crate) lanes: LanePoint,
     pub(crate) units: Units,
     /// Rounding of a computed distance, grid units, in addition to [`FAN_RELATIVE`] roundings of
@@ -67,8 +67,8 @@ pub(crate) struct PointQuery {
 impl PointQuery {
     /// Prepares a question: refuses a tree without boxes for distances, the budget, the scratch
     /// memory or the point.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn prepare(
         tree: &Bvh<'_>,
         point: [f32; 3],
@@ -80,8 +80,8 @@ impl PointQuery {
         PointQuery::new(tree, point)
     }
 
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn new(tree: &Bvh<'_>, point: [f32; 3]) -> Result<PointQuery, QueryError> {
         let [x, y, z] = point;
         let units = tree.units();
@@ -111,9 +111,9 @@ impl PointQuery {
         };
         Ok(PointQuery {
             p,
-            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            #[cfg(not(meshsweep_wide))]
             from_origin,
-            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+            #[cfg(meshsweep_wide)]
             lanes: LanePoint::new(p, header.grid_origin),
             units,
             shortfall_sq,
@@ -178,7 +178,7 @@ impl PointQuery {
     }
 
     /// The same, as the kernel leaves them.
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[cfg(meshsweep_wide)]
     #[inline(always)]
     pub(crate) fn keys_in_register(
         &self,
@@ -208,8 +208,8 @@ impl PointQuery {
 
     /// Upper bound of the distance to the input surface, input units, from a computed distance to
     /// the stored surface.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn upper(&self, distance: f32) -> f32 {
         let error = Real(distance).times_power(FAN_RELATIVE * U32) + Real(self.fixed_error());
         self.units.upper((Real(distance) + error).0)
@@ -222,8 +222,8 @@ impl PointQuery {
     }
 
     /// Lower bound of the distance to the input surface, input units, from a computed one.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn lower(&self, distance: f32) -> f32 {
         let error = Real(distance).times_power(FAN_RELATIVE * U32) + Real(self.fixed_error());
         self.units.lower((Real(distance) - error).0)
@@ -272,7 +272,7 @@ impl NodeQuery for PointQuery {
         self.keys_of(tree, opened, keys)
     }
 
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     #[inline(always)]
     fn push(
         &self,

@@ -16,13 +16,13 @@
 use super::descent::{LeafVisit, LeafVisitor};
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::FanLeaf;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 use crate::geom::fan::ray_leaf8;
 use crate::geom::fan::{Crossing, WIDTH};
 use crate::geom::fan::{FanRay, Shadow};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::geom::fan::{may_meet, ray_leaf};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::num::SOFT_FLOAT;
 
 /// Which sides of triangles a segment meets. The front is where corners run counter-clockwise in
@@ -114,7 +114,7 @@ impl<C: CrossingCollector, F: FlaggedOfLeaf> LeafVisitor for SegmentVisitor<'_, 
 }
 
 /// Triangles of a leaf that the line may meet.
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 #[inline(always)]
 fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
     let (ray, shape) = (&query.ray, leaf.shape());
@@ -144,7 +144,7 @@ fn f32_flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
 }
 
 /// Triangles of a leaf that the line may meet.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[inline(always)]
 fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
     let ray = &query.ray;
@@ -173,7 +173,7 @@ fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
 }
 
 /// The same of a leaf on the grid where code is to be small.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[inline(always)]
 fn flagged_in_rows(leaf: &FanLeaf<'_>, ray: &FanRay) -> Option<u32> {
     let (ring, shape) = (leaf.full_ring()?, leaf.shape());
@@ -192,7 +192,7 @@ fn flagged_in_rows(leaf: &FanLeaf<'_>, ray: &FanRay) -> Option<u32> {
 }
 
 /// The flagged ones of a few triangles.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[inline(never)]
 fn flagged_near(leaf: &FanLeaf<'_>, ray: &FanRay, near: u32) -> u32 {
     let (mut left, mut flagged) = (near, 0);
@@ -214,13 +214,13 @@ fn ring_shadow(leaf: &FanLeaf<'_>, ray: &FanRay, i: usize) -> Shadow {
 }
 
 /// Whether one triangle of a fan is flagged.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[inline(never)]
 fn flagged_alone(ray: &FanRay, centre: Shadow, ends: [Shadow; 2]) -> u32 {
     u32::from(may_meet(ray, centre, ends))
 }
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[inline(never)]
 fn flagged_f32(leaf: &FanLeaf<'_>, ray: &FanRay) -> u32 {
     let shape = leaf.shape();

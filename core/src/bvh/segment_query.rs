@@ -6,19 +6,19 @@ use super::model_box::norm_1;
 use super::node::box_entries;
 #[cfg(target_arch = "x86_64")]
 use super::node::box_entries_avx2;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use super::node::{Pushed, push_entries};
 use super::segment_start::SegmentStart;
 use crate::bvh::format::{Bvh, Units};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::bvh::node::GridLine;
 use crate::bvh::node::SlabRay;
 use crate::geom::fan::FanRay;
 use crate::geom::fan::WIDTH;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::num::SOFT_FLOAT;
 use crate::num::tolerance::{BOX_ENTRY, STILL, U32};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::query::ScratchEntry;
 use crate::query::{Hit, QueryError};
 use glam::Vec3;
@@ -29,7 +29,7 @@ pub(crate) struct SegmentQuery {
     pub(crate) ray: FanRay,
     pub(crate) slab_ray: SlabRay,
     /// For targets without an FPU.
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     pub(crate) line: GridLine,
     units: Units,
     /// The line's origin and direction, grid units.
@@ -60,7 +60,7 @@ impl SegmentQuery {
             .turning(units.has_place_error);
         SegmentQuery {
             ray,
-            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            #[cfg(not(meshsweep_wide))]
             line: if SOFT_FLOAT {
                 GridLine::new(&ray, tree.header.grid_origin)
             } else {
@@ -142,7 +142,7 @@ impl NodeQuery for SegmentQuery {
         Some(())
     }
 
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     #[inline(always)]
     fn push(
         &self,

@@ -4,7 +4,7 @@ use super::leaf_limit::LeafLimit;
 use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
 use crate::bvh::format::{FanLeaf, lanes_of};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::geom::fan::SpokeTerms;
 use crate::geom::fan::{Nearness, PointFan, lone_triangle, lower_bound, refined};
 use crate::num::tolerance::{CERTIFIED_PART, EVERYTHING_SQ, LEAST_LIMIT};
@@ -39,7 +39,7 @@ pub(crate) fn seen_from(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> [Vec3; 3] {
 }
 
 /// The distance of a triangle that is [seen](seen_from), as computed.
-#[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+#[cfg_attr(meshsweep_wide, inline(always))]
 pub(crate) fn nearness(seen: &[Vec3; 3]) -> Nearness {
     let &[s, e, g] = seen;
     let fan = PointFan::new(s);
@@ -61,7 +61,7 @@ pub(crate) fn each_triangle(
 ) {
     let low = low & !(u32::MAX << (leaf.shape().triangles() & 31));
     // A copy of the kernel's loop for each question.
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     if !SOFT_FLOAT && !cfg!(meshsweep_small) {
         each_by_fans(query, leaf, limit, low, each);
         return;
@@ -80,7 +80,7 @@ pub(crate) fn each_triangle(
 }
 
 /// [`each_triangle`] where what two neighbours share is computed once.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[inline(always)]
 fn each_by_fans(
     query: &PointQuery,
@@ -135,14 +135,14 @@ fn is_tight(distance_sq: f32, lower_bound_sq: f32) -> bool {
 }
 
 /// By value, so that a loop keeps its own in registers.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[inline(always)]
 fn of_triangle(fan: PointFan, first: SpokeTerms, second: SpokeTerms) -> [f32; 2] {
     let near = lone_triangle(&fan, &first, &second);
     [near.distance_sq, near.lower_bound_sq]
 }
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[inline(never)]
 fn refined_squares(query: &PointQuery, seen: [Vec3; 3]) -> [f32; 2] {
     let near = refined_nearness(query, &seen);
@@ -156,7 +156,7 @@ pub(crate) fn witness(query: &PointQuery, leaf: &FanLeaf<'_>, lane: usize) -> Ve
 }
 
 /// [`nearness`], then [`refine_sliver`].
-#[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+#[cfg_attr(meshsweep_wide, inline(always))]
 fn refined_nearness(query: &PointQuery, seen: &[Vec3; 3]) -> Nearness {
     refine_sliver(query, seen, nearness(seen))
 }

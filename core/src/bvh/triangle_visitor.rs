@@ -5,7 +5,7 @@ use super::descent::{LeafVisit, LeafVisitor};
 use super::leaf_distance::nearest_within;
 use super::leaf_limit::LeafLimit;
 use super::leaf_nearest::LeafNearest;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use super::leaf_plane::LeafPlane;
 use super::leaf_squares::LeafSquares;
 use super::point_query::PointQuery;
@@ -159,7 +159,7 @@ impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
         if Real(self.limit) < Real(before) {
             self.lower_limits();
             // A plane in front of the nearest triangle.
-            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            #[cfg(not(meshsweep_wide))]
             {
                 let (way, limit) = (near.lanes.way(), self.beyond.distance_sq);
                 self.beyond.plane = LeafPlane::across(self.query, way, near.distance_sq, limit);

@@ -13,7 +13,7 @@ use glam::Vec3;
 pub const LANES: usize = 4;
 
 /// Whether four lanes are worth all branches.
-const VECTOR: bool = cfg!(any(target_arch = "x86_64", target_arch = "aarch64"));
+const VECTOR: bool = cfg!(meshsweep_wide);
 
 /// Up to [`LANES`] triangles, one array for each coordinate of each corner, so that a vectoriser
 /// loads whole arrays.

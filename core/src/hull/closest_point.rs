@@ -398,8 +398,8 @@ impl Nearest {
 }
 
 impl Visit for Nearest {
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
         let mut bounds = self.bounds(found);
         for (bound, candidate) in bounds.iter_mut().zip(found) {

@@ -49,9 +49,9 @@ impl Hull<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<FirstHit, QueryError> {
         let mut first = First { best: None, least_lower: f64::INFINITY };
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        #[cfg(not(meshsweep_wide))]
         let collect: &mut dyn Collect = &mut first;
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        #[cfg(meshsweep_wide)]
         let collect = &mut first;
         let traced = trace(self, [a, b], &budget, scratch, collect)?;
         let open = f64::from(traced.unopened);
@@ -103,9 +103,9 @@ impl Hull<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<AllHits, QueryError> {
         let mut all = All { model: self, hits: Hits::new(hits), has_touches: false };
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        #[cfg(not(meshsweep_wide))]
         let collect: &mut dyn Collect = &mut all;
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        #[cfg(meshsweep_wide)]
         let collect = &mut all;
         let traced = trace(self, [a, b], &budget, scratch, collect)?;
         let ended = if all.has_touches { traced.ended.uncertain() } else { traced.ended };
@@ -171,7 +171,7 @@ struct Traced {
 }
 
 /// Boards link one search for all questions.
-#[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+#[cfg_attr(not(meshsweep_wide), inline(never))]
 fn trace<C: Collect + ?Sized>(
     model: &Hull<'_>,
     [a, b]: [[f32; 3]; 2],
@@ -258,8 +258,8 @@ struct Along<'c, C: Collect + ?Sized> {
 }
 
 impl<C: Collect + ?Sized> Visit for Along<'_, C> {
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
         for candidate in found {
             let reach = candidate.radius + self.surface_error;

@@ -14,8 +14,8 @@ use super::{Real, SOFT_FLOAT};
 /// Newton's iteration for the reciprocal root from the well-known guess by bits (relative error
 /// below 0.035, then 0.002, 5e-6, rounding), and one correction of the root itself. On targets
 /// without vectors it is a call, to save code.
-#[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-#[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+#[cfg_attr(meshsweep_wide, inline(always))]
+#[cfg_attr(not(meshsweep_wide), inline(never))]
 pub fn sqrt_approx(x: f32) -> f32 {
     const SMALL: f32 = 1.0 / (1u64 << 60) as f32;
     const UP: f32 = (1u128 << 64) as f32;

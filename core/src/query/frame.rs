@@ -47,8 +47,8 @@ impl Frame {
 
     /// Whether f32 tells that a segment misses a box of the local frame. Most do, and on boards f64
     /// is ten times as dear. `false` of ends that are far away, or not finite.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn is_missed(&self, ends: [[f32; 3]; 2], bounds: &Aabb) -> bool {
         let inverse = self.inverse as f32;
         let [start, end] = ends.map(|point| Vec3::from_array(point) * inverse);

@@ -146,8 +146,8 @@ impl<'a, 't> Follow<'a, 't> {
 
     /// The nearest triangle. With `first` the search begins with the leaf of the first entry. It is
     /// [`Lost`](NoAnswer::Lost) if the cost exceeds `budget`.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn nearest(&mut self, first: bool, budget: u32) -> Result<Nearest, NoAnswer> {
         let mut next = 0;
         if first && let Some((_, child)) = self.front.get(0) {
@@ -190,8 +190,8 @@ impl<'a, 't> Follow<'a, 't> {
     }
 
     /// Updates entry `i` until its key is too great for it to hold the answer.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     fn visit(&mut self, i: usize, mut child: Child) -> Result<(), NoAnswer> {
         loop {
             match child.bound_kind() {
@@ -231,8 +231,8 @@ impl<'a, 't> Follow<'a, 't> {
     }
 
     /// Replaces an entry by the nearest child of its node and adds the others.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     fn open(&mut self, node: u32, entry: Option<usize>) -> Result<(), NoAnswer> {
         if self.work.splits >= self.steps {
             return Err(NoAnswer::Undecided);
@@ -281,8 +281,8 @@ impl<'a, 't> Follow<'a, 't> {
     }
 
     /// Looks at the triangles of a leaf.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     fn look(&mut self, i: usize, child: Child) -> Result<(), NoAnswer> {
         let found = self.tree.child(child.node(), child.index()).ok_or(NoAnswer::Unchecked)?;
         let leaf = self.tree.leaf_at(found.at, found.shape).ok_or(NoAnswer::Unchecked)?;

@@ -58,9 +58,9 @@ impl Planes {
         margin: f32,
     ) {
         let found = match leaf.edges {
-            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+            #[cfg(meshsweep_wide)]
             Some(edges) => separate_wide(edges, leaf.fans.shape().triangles(), near),
-            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            #[cfg(not(meshsweep_wide))]
             Some(never) => match *never {},
             None => separate_narrow(leaf.fans, leaf.p, near),
         };
@@ -99,7 +99,7 @@ fn normal(residual: Vec3) -> Option<Vec3> {
 }
 
 /// The direction from a leaf's point to `p`, and the distance along it between `p` and the leaf.
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 #[inline(always)]
 fn separate_wide(edges: &LeafEdges, triangles: usize, (lane, v, w): At) -> Option<(Vec3, f32)> {
     use crate::geom::fan::{LANES, Lanes, PIECES, lanes_below, least};

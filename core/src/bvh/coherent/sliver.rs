@@ -6,7 +6,7 @@ use crate::num::tolerance::SLIVER_SINE_SQ;
 
 /// Whether no triangle of a leaf is a sliver. Triangles without area are slivers. `None` says that
 /// the tree is unchecked.
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 pub(crate) fn has_no_sliver(leaf: &FanLeaf<'_>) -> Option<bool> {
     use crate::bvh::format::LanePoint;
     use crate::bvh::leaf_distance::leaf_edges;
@@ -29,7 +29,7 @@ pub(crate) fn has_no_sliver(leaf: &FanLeaf<'_>) -> Option<bool> {
 
 /// Whether no triangle of a leaf is a sliver. Triangles without area are slivers. `None` says that
 /// the tree is unchecked.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 pub(crate) fn has_no_sliver(leaf: &FanLeaf<'_>) -> Option<bool> {
     let square = |v: glam::Vec3| v.x * v.x + v.y * v.y + v.z * v.z;
     let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());

@@ -407,7 +407,7 @@ impl<'a> Bvh<'a> {
     }
 
     /// Whether a vertex lies in the model's box. A call, because it is asked at four places.
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     fn is_inside(&self, p: Vec3) -> bool {
         let (low, high) = self.grid_bounds;
         p.cmpge(low).all() & p.cmple(high).all()

@@ -2,7 +2,7 @@
 //!
 //! A leaf of an opened tree lies within the fans' section. No read can panic all the same.
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 use crate::geom::fan::Ring8;
 use crate::geom::fan::WIDTH;
 #[cfg(meshsweep_small)]
@@ -157,11 +157,11 @@ impl GridRing<'_> {
     }
 }
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 /// Ring vertices of the largest leaf.
 const RING_VERTICES: usize = WIDTH + 1;
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 /// Stored integers of a leaf on the grid with the greatest number of ring vertices. They do not
 /// include the grid's origin.
 #[derive(Clone, Copy, Debug)]
@@ -171,7 +171,7 @@ pub struct FullRing<'a> {
     pub(crate) rows: [&'a [[u8; 2]; RING_VERTICES]; 3],
 }
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 impl FullRing<'_> {
     /// First and second centre, alike if there is one fan.
     #[inline(always)]
@@ -207,7 +207,7 @@ impl FullRing<'_> {
     }
 }
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[inline(always)]
 fn grid_point([x, y, z]: [&[u8; 2]; 3]) -> [i32; 3] {
     [short_of(*x), short_of(*y), short_of(*z)]
@@ -279,7 +279,7 @@ impl<'a> FanLeaf<'a> {
 
     /// The vertex with coordinates at bytes `at`, `at + step` and `at + 2·step` of a leaf on the grid.
     /// An f32 leaf has twice the offsets. On boards a call: reading a vertex is much code.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
     fn vertex(&self, at: usize, step: usize) -> Vec3 {
         if self.is_f32 {
             // Every number is twice as long.
@@ -366,21 +366,21 @@ impl<'a> FanLeaf<'a> {
     }
 
     /// [`spoke`](Self::spoke) from centre `which` for many ring vertices.
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[cfg(meshsweep_wide)]
     #[inline(always)]
     pub fn spokes_from(&self, which: usize) -> impl Fn(usize) -> Vec3 {
         move |i| self.spoke(i, which)
     }
 
     /// [`spoke`](Self::spoke) from centre `which` for many ring vertices.
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     #[inline(always)]
     pub fn spokes_from(&self, which: usize) -> impl Fn(usize) -> Vec3 {
         self.fan(which).1
     }
 
     /// Centre `which`, and [`spoke`](Self::spoke) from it for many ring vertices.
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     #[inline(always)]
     pub fn fan(&self, which: usize) -> (Vec3, impl Fn(usize) -> Vec3) {
         let ring = if self.is_f32 { None } else { self.full_ring() };
@@ -403,7 +403,7 @@ impl<'a> FanLeaf<'a> {
         (centre, spoke)
     }
 
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     #[inline(never)]
     fn f32_spoke(&self, i: usize, which: usize) -> Vec3 {
         self.ring(i) - self.centre(which)
@@ -428,7 +428,7 @@ impl<'a> FanLeaf<'a> {
         })
     }
 
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     /// The stored integers of a leaf on the grid, as many as the largest leaf has.
     #[inline(always)]
     pub fn full_ring(&self) -> Option<FullRing<'a>> {
@@ -545,7 +545,7 @@ impl<'a> FanLeaf<'a> {
 
     /// Ring and centres of a leaf with f32 vertices in the order of `axes`, for the wide segment
     /// kernel.
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[cfg(meshsweep_wide)]
     #[inline(never)]
     pub fn f32_ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
         let second = 12 * (self.shape.centres() - 1);

@@ -21,7 +21,7 @@ pub mod layout;
 mod leaf;
 #[cfg(target_arch = "x86_64")]
 mod leaf_avx2;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod leaf_lanes;
 mod moments;
 mod triangle_bits;
@@ -29,10 +29,10 @@ mod units;
 mod view;
 
 pub use header::BvhHeader;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 pub use leaf::FullRing;
 pub use leaf::{CORNERS, FanLeaf, GridRing, LeafShape, RING, lanes_of, slots};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 pub(crate) use leaf_lanes::LanePoint;
 pub use moments::NodeMoments;
 pub(crate) use units::{Units, at_least, at_most};

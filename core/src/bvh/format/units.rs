@@ -49,8 +49,8 @@ impl Units {
     }
 
     /// A coordinate in input units, kept finite.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn point(&self, p: Vec3) -> [f32; 3] {
         let outward = |x: f32| self.outward.times(x).clamp(-f32::MAX, f32::MAX);
         [outward(p.x), outward(p.y), outward(p.z)]

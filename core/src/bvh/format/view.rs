@@ -150,7 +150,7 @@ impl Links {
     }
 
     /// Child number `index`, which is known to be a leaf.
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[cfg(meshsweep_wide)]
     #[inline(always)]
     pub(crate) fn leaf_child(&self, index: u32) -> BvhChild {
         BvhChild { at: self.vertex(index), shape: self.shape(index) }
@@ -392,7 +392,7 @@ impl<'a> Bvh<'a> {
     }
 
     /// Child number `index` of `node` if it is a leaf.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
     pub fn leaf(&self, node: u32, index: u32) -> Option<FanLeaf<'a>> {
         let child = self.child(node, index)?;
         // The shape of a node is refused.

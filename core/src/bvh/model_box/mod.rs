@@ -15,13 +15,13 @@ mod plain;
 #[cfg(test)]
 mod tests;
 mod whole;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod wide;
 
 use crate::bvh::format::Bvh;
 use crate::bvh::node::WIDE;
 use crate::num::tolerance::BVH_FAR;
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 use crate::num::tolerance::{LEAST_DENOMINATOR, U32};
 use crate::num::{SOFT_FLOAT, greater};
 use crate::query::QueryError;
@@ -82,8 +82,8 @@ impl SegmentAndBox {
     }
 
     /// [`misses`], after the checks of the `ends` (input units).
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
-    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), cold, inline(never))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), cold, inline(never))]
     fn is_clear(&self, [a, b]: [[f32; 3]; 2], surface_error: f32) -> Result<bool, QueryError> {
         // By bits, without a branch for each number.
         let magnitude = |x: f32| x.to_bits() & !SIGN;
@@ -96,18 +96,18 @@ impl SegmentAndBox {
         if !((size_a <= BVH_FAR) & (size_b <= BVH_FAR)) {
             return Err(QueryError::OutOfDomain);
         }
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        #[cfg(meshsweep_wide)]
         return Ok(wide::misses(self, surface_error, size_a + size_b));
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        #[cfg(not(meshsweep_wide))]
         Ok(self.misses(surface_error, size_a + size_b))
     }
 
     /// By axis, the way from a place to the farthest corner of the box.
     #[inline(always)]
     pub(super) fn farthest(&self, p: Vec3) -> Vec3 {
-        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+        #[cfg(meshsweep_wide)]
         return wide::farthest(p, self.low, self.high);
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        #[cfg(not(meshsweep_wide))]
         {
             let (l, h) = ((p - self.low).abs(), (p - self.high).abs());
             if SOFT_FLOAT {
@@ -122,7 +122,7 @@ impl SegmentAndBox {
     /// Whether the segment is proved clear of the box, by their six separating axes, all lengths
     /// doubled (Ericson, *Real-Time Collision Detection*, 2005, 5.3.3). `size`: the distance of
     /// both ends' farthest corners. The margin is in `core/docs/rounding.md` §9.
-    #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+    #[cfg(any(test, not(meshsweep_wide)))]
     #[inline(always)]
     fn misses(&self, surface_error: f32, size: f32) -> bool {
         let &SegmentAndBox { a, b, low, high } = self;

@@ -5,11 +5,11 @@
 //! keys.
 
 use super::frame::KeyPoint;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use super::opened_node::{OpenedNode, Pushed};
 use crate::bvh::format::layout::FRAME_BYTES;
 use crate::geom::fan::WIDTH;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::query::ScratchEntry;
 
 /// Keys of a node's children: half the squared distances from the point, in squares of key units.
@@ -25,14 +25,14 @@ pub fn box_distances(
     parent: u32,
     keys: &mut [u32; WIDTH],
 ) {
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[cfg(meshsweep_wide)]
     super::box_lanes::keys(record, p, count, parent, keys);
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     super::two_in_word::keys(record, p, count, parent, keys);
 }
 
 /// Pushes the wanted children of a node.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[inline(always)]
 pub(crate) fn push_boxes(
     record: &[u8; FRAME_BYTES],

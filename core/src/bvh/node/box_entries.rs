@@ -2,16 +2,16 @@
 //! `entries_in_whole` and one box after the other.
 
 use super::keys::NO_CHILD;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use super::opened_node::{OpenedNode, Pushed, Pusher};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use super::slab_planes::SlabPlanes;
 use super::slab_ray::SlabRay;
 use crate::bvh::format::layout::BOXES_BYTES;
 use crate::geom::fan::WIDTH;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::num::{SOFT_FLOAT, lesser};
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 use crate::query::ScratchEntry;
 
 /// Keys of a node's children: the parameters at which the segment enters their boxes. No key is
@@ -25,16 +25,16 @@ pub fn box_entries(
     parent_bound: f32,
     limit: f32,
 ) -> [u32; WIDTH] {
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[cfg(meshsweep_wide)]
     let keys = super::entry_lanes::keys(record, ray, count, parent_bound, limit);
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     let keys = SlabPlanes::of(record, ray)
         .map(|planes| planes.keys(count, [parent_bound.to_bits(), limit.to_bits()]));
     keys.unwrap_or([NO_CHILD; WIDTH])
 }
 
 /// Pushes the children of a node whose boxes the segment enters.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[inline(always)]
 pub(crate) fn push_entries(
     record: &[u8; BOXES_BYTES],

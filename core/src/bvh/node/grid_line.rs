@@ -44,7 +44,7 @@ type WholeShadow = [i32; 2];
 
 impl GridLine {
     /// Nothing is clear of it.
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    #[cfg(not(meshsweep_wide))]
     pub const NONE: GridLine = GridLine { at: [0; 2], slope: [0; 2], margin: 0 };
 
     /// The line of `ray`.

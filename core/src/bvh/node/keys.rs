@@ -12,10 +12,10 @@ pub const CHILD_MASK: u32 = WIDTH as u32 - 1;
 pub const NO_CHILD: u32 = 0x7F00_0000;
 
 /// Whether the target computes all eight children at once, in vector registers.
-pub const WIDE: bool = cfg!(any(target_arch = "x86_64", target_arch = "aarch64"));
+pub const WIDE: bool = cfg!(meshsweep_wide);
 
 /// The least key. Its low bits hold the number of the nearest child.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[inline(always)]
 pub fn least_key(keys: &[u32; WIDTH]) -> u32 {
     keys.iter().fold(NO_CHILD, |least, &key| least.min(key))
@@ -28,12 +28,12 @@ pub fn in_memory<T>(numbers: T) -> T {
     core::hint::black_box(numbers)
 }
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 pub(super) use vector::OTHER_BITS;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 pub use vector::{TakenLeast, least_key, places_of_wanted, take_least};
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod vector {
     use super::{NO_CHILD, WIDTH};
     use wide::bytemuck::cast;

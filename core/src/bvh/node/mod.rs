@@ -36,50 +36,50 @@
 //! | `entry_avx2` | the same in registers of 256 bits |
 //! | `entries_in_whole` | a segment against eight boxes, on targets without an FPU |
 
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 mod axis_place;
 #[cfg(target_arch = "x86_64")]
 mod box_avx2;
 mod box_distances;
 mod box_entries;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod box_lanes;
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 mod entries_in_whole;
 #[cfg(target_arch = "x86_64")]
 mod entry_avx2;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod entry_lanes;
 mod frame;
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 mod grid_line;
 mod keys;
 mod opened_node;
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 mod slab_planes;
 mod slab_ray;
 #[cfg(test)]
 mod tests;
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 mod two_in_word;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use box_avx2::{keys as box_distances_avx2, take_least as take_least_avx2};
 pub use box_distances::box_distances;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 pub(crate) use box_distances::push_boxes;
 pub use box_entries::box_entries;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 pub(crate) use box_entries::push_entries;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use entry_avx2::keys as box_entries_avx2;
 pub use frame::KeyPoint;
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 pub use grid_line::GridLine;
 pub use keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory, least_key};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 pub use keys::{TakenLeast, places_of_wanted, take_least};
 pub(crate) use opened_node::OpenedNode;
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 pub(crate) use opened_node::Pushed;
 pub use slab_ray::SlabRay;

@@ -1,10 +1,10 @@
 //! A node whose children are tested, and the children that are pushed.
 
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 use super::keys::NO_CHILD;
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 use crate::geom::fan::WIDTH;
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 use crate::query::ScratchEntry;
 
 /// A node whose children get keys.
@@ -20,7 +20,7 @@ pub(crate) struct OpenedNode {
 
 /// Wanted children of a node: those with keys up to the limit. They are written to eight slots as
 /// entries, in order, but for the nearest one, which is followed at once.
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pushed {
     /// Key of the nearest child; above the limit if none is wanted.
@@ -30,7 +30,7 @@ pub(crate) struct Pushed {
 }
 
 /// Writes wanted children one by one, in order.
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 pub(crate) struct Pusher<'a> {
     slots: &'a mut [ScratchEntry; WIDTH],
     node: u32,
@@ -41,7 +41,7 @@ pub(crate) struct Pusher<'a> {
     place: usize,
 }
 
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 impl<'a> Pusher<'a> {
     /// Nothing written.
     #[inline(always)]
@@ -72,7 +72,7 @@ impl<'a> Pusher<'a> {
     }
 }
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 impl OpenedNode {
     /// Pushes by the keys of all children.
     #[inline(always)]

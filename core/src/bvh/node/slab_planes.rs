@@ -18,14 +18,14 @@ impl SlabRay {
     }
 }
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[inline(always)]
 fn along(numbers: &ByAxis, axis: usize) -> f32 {
     numbers[axis]
 }
 
 /// For a test.
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 fn along(numbers: &ByAxis, axis: usize) -> f32 {
     numbers.to_array()[axis]
 }

@@ -5,17 +5,17 @@
 //! segment meets one row of planes before the other. Which row that is depends on the direction
 //! alone, so it is chosen once for each segment.
 
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 use crate::num::lesser;
 
 /// Most fraction bits of a parameter: the whole segment is 2^24.
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 const MOST_BITS: i32 = 24;
 /// An axis with fewer fraction bits is steep.
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 const FEWEST_BITS: i32 = 14;
 
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 /// The unit of whole parameters, for one segment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fraction {
@@ -25,7 +25,7 @@ pub(super) struct Fraction {
     pub(super) steep: u32,
 }
 
-#[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(test, not(meshsweep_wide)))]
 impl Fraction {
     #[inline(always)]
     pub(super) fn new(inverse: [f32; 3], far: [f32; 3]) -> Self {
@@ -48,20 +48,20 @@ impl Fraction {
 /// A number for each axis. In a register, which is stored and read as a whole: three numbers that
 /// were stored one by one would have to reach the cache before the register could be read. The
 /// fourth number is 0.
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 pub(super) type ByAxis = wide::f32x4;
 
 /// A number for each axis.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 pub(super) type ByAxis = [f32; 3];
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 #[inline(always)]
 fn by_axis([x, y, z]: [f32; 3]) -> ByAxis {
     ByAxis::new([x, y, z, 0.0])
 }
 
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(meshsweep_wide))]
 #[inline(always)]
 fn by_axis(numbers: [f32; 3]) -> ByAxis {
     numbers
@@ -79,7 +79,7 @@ pub struct SlabRay {
     /// it.
     pub(super) near: [usize; 3],
     /// For boards.
-    #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+    #[cfg(any(test, not(meshsweep_wide)))]
     pub(super) fraction: Fraction,
 }
 
@@ -88,7 +88,7 @@ impl SlabRay {
     /// are enlarged by `margin` on each side. `far`: by axis the way to the farthest corner of the
     /// model. The products of all numbers with the model's size must stay finite.
     #[inline(always)]
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), allow(unused_variables))]
+    #[cfg_attr(meshsweep_wide, allow(unused_variables))]
     pub fn new(origin: [f32; 3], inverse: [f32; 3], margin: [f32; 3], far: [f32; 3]) -> Self {
         let [ix, iy, iz] = inverse;
         let [mx, my, mz] = margin;
@@ -98,7 +98,7 @@ impl SlabRay {
             inverse: by_axis(inverse),
             grow: by_axis([mx * ix.abs(), my * iy.abs(), mz * iz.abs()]),
             near: [row(ix, 0), row(iy, 1), row(iz, 2)],
-            #[cfg(any(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+            #[cfg(any(test, not(meshsweep_wide)))]
             fraction: Fraction::new(inverse, far),
         }
     }

@@ -1,6 +1,6 @@
 //! Lanes of the wide kernels.
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 pub use vector::{LANES, Lanes, PIECES, lanes_below, least};
 
 /// Most triangles of a leaf, most children of a node, and lanes of the wide kernels.
@@ -22,7 +22,7 @@ pub const LANES_BELOW: [[u32; WIDTH]; WIDTH + 1] = {
     table
 };
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod vector {
     use super::{LANES_BELOW, WIDTH};
     use crate::num::lesser;

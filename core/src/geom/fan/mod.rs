@@ -9,33 +9,33 @@ mod cone;
 mod lanes;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod lanes_avx2;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod lanes_wide;
 mod point;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod point8;
 mod ray;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 mod ray8;
 mod whole;
 mod whole_limit;
 mod whole_sharp;
 
 pub use cone::NormalCone;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 pub use lanes::{LANES, Lanes, PIECES, lanes_below, least};
 pub use lanes::{LANES_BELOW, WIDTH};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 pub use lanes_wide::{point_lanes, ray_lanes, ray_leaf8};
 pub(crate) use point::is_whole;
 pub use point::{
     Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, lower_bound_up_to, point_leaf,
     refined,
 };
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 pub use point8::{Edges, LaneNearness};
 pub use ray::{Crossing, FanRay, Shadow, ShadowPlane, may_meet, ray_leaf};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(meshsweep_wide)]
 pub use ray8::{CentreShadows, Ring8, RingLanes, ShadowLanes};
 pub use whole::{
     Corner, Whole, WholeBounds, WholePoint, is_certain_corner, is_in_front, less, vertex_bounds,

@@ -169,7 +169,7 @@ impl FanRay {
     }
 
     /// The shadow of a vertex.
-    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(meshsweep_wide, inline(always))]
     pub fn shadow(&self, vertex: Vec3) -> Shadow {
         self.shadow_in_order(self.in_order(vertex.to_array()))
     }
