@@ -64,7 +64,8 @@ pub enum Stage {
 }
 
 /// A callback for one build. It gets what is done and the part of the work that is done, from 0 to
-/// 1, and tells whether to go on. The part never falls. Once it asks to end, it is not called again.
+/// 1, and tells whether to go on. The part never falls. Once it asks to end, it is not called
+/// again.
 pub struct Callback<F> {
     show: RefCell<F>,
     told: Cell<f64>,

@@ -43,8 +43,8 @@ pub struct CurveReport {
 /// Cost: points times the depth of the hierarchy, about 2·log₂ of the points.
 ///
 /// # Errors
-/// [`BuildError::Curve`] if a polyline has fewer than two points, a coordinate is not finite in f32,
-/// or the points are too many or all tiny.
+/// [`BuildError::Curve`] if a polyline has fewer than two points, a coordinate is not finite in
+/// f32, or the points are too many or all tiny.
 pub fn build(
     polylines: &[Polyline],
     options: &CurveOptions,

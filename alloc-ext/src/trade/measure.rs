@@ -131,9 +131,9 @@ impl Trade {
     }
 }
 
-/// Measures settings of a mesh, as read and as repaired, at some points. Structures are built on all
-/// cores. `progress` is called from any of them, with the number of structures built and settings
-/// asked, and of how many.
+/// Measures settings of a mesh, as read and as repaired, at some points. Structures are built on
+/// all cores. `progress` is called from any of them, with the number of structures built and
+/// settings asked, and of how many.
 ///
 /// # Errors
 /// A point that is not finite.

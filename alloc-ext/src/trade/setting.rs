@@ -52,8 +52,9 @@ impl Setting {
         Self { budget, ..self }
     }
 
-    /// Sets [what a query takes over from the one before](Self::how). Sweeps know [`How::Fresh`] and
-    /// [`How::Coherent`]; any other is asked as `Fresh`. Tight hulls and triboxes know `Fresh` alone.
+    /// Sets [what a query takes over from the one before](Self::how). Sweeps know [`How::Fresh`]
+    /// and [`How::Coherent`]; any other is asked as `Fresh`. Tight hulls and triboxes know `Fresh`
+    /// alone.
     #[must_use]
     pub const fn with_how(self, how: How) -> Self {
         Self { how, ..self }

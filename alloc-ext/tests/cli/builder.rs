@@ -349,13 +349,16 @@ fn name_of(stage: Stage) -> String {
     format!("{stage:?}").split(' ').next().unwrap_or_default().to_owned()
 }
 
-/// The stages that a build told, in order, each once in a row.
+/// The stages that a build told, each once, in order.
 fn stages<T>(build: impl FnOnce(Watch<'_>) -> Result<T, BuildError>) -> Vec<String> {
     let mut told: Vec<String> = Vec::new();
-    let progress = Callback::new(|stage, _| told.push(name_of(stage)));
+    let progress = Callback::new(|stage, _| {
+        let name = name_of(stage);
+        if !told.contains(&name) {
+            told.push(name);
+        }
+    });
     build(progress.watch()).map(drop).expect("it builds");
-    drop(progress);
-    told.dedup();
     told
 }
 
