@@ -57,8 +57,9 @@ impl Bvh<'_> {
         search(self, point, &mut Hint::NONE.clone(), &budget, scratch)
     }
 
-    /// [`closest_point_from`](Bvh::closest_point_from) with the same `work` on every target. The
-    /// builder predicts the instructions of boards from it.
+    /// [`closest_point_from`](Bvh::closest_point_from) with the same `work` on every target with
+    /// floating point, and with a limit of steps on every target. The builder predicts the
+    /// instructions of boards from it.
     #[doc(hidden)]
     #[inline(always)]
     pub fn closest_point_in_order(
@@ -160,28 +161,41 @@ fn search_by_entries(
         return from_afar(tree, point, query);
     }
     let mut work = Work::default();
-    let nearest = inlined(
-        #[inline(always)]
-        |leaf: &FanLeaf<'_>, query: &PointQuery, limit: &LeafLimit| {
-            nearest_within_inlined(leaf, query, limit, None)
-        },
-    );
-    let mut visitor = Closest::new(tree, point, query, budget, nearest);
+    // A limit of steps counts what this search opens, so it goes in the order of all targets.
     #[cfg(not(meshsweep_wide))]
-    if SOFT_FLOAT {
-        let may_end_early =
-            budget.steps < tree.most_steps() || scratch.len() < tree.scratch_entries();
-        visitor.waits = !(visitor.tolerant || may_end_early);
+    let mut waits = SOFT_FLOAT
+        && budget.steps == Budget::EXACT.steps
+        && scratch.len() >= tree.scratch_entries()
+        && budget.relative == 0.0
+        && budget.absolute == 0.0;
+    loop {
+        let nearest = inlined(
+            #[inline(always)]
+            |leaf: &FanLeaf<'_>, query: &PointQuery, limit: &LeafLimit| {
+                nearest_within_inlined(leaf, query, limit, None)
+            },
+        );
+        let mut visitor = Closest::new(tree, point, query, budget, nearest);
+        #[cfg(not(meshsweep_wide))]
+        if SOFT_FLOAT {
+            visitor.waits = waits;
+        }
+        if *hint != Hint::NONE
+            && let Some(leaf) = tree.leaf(hint.node(), hint.child())
+        {
+            visitor.bound_by_leaf(&leaf).ok_or(QueryError::Unchecked)?;
+        }
+        let descent = descend_inlined(tree, query, budget.steps, scratch, &mut visitor, &mut work)?;
+        #[cfg(meshsweep_wide)]
+        let is_known = true;
+        #[cfg(not(meshsweep_wide))]
+        let is_known = !waits || visitor.look_at_waiting().ok_or(QueryError::Unchecked)?;
+        if is_known {
+            return visitor.answer(descent, work, hint);
+        }
+        #[cfg(not(meshsweep_wide))]
+        {
+            waits = false;
+        }
     }
-    if *hint != Hint::NONE
-        && let Some(leaf) = tree.leaf(hint.node(), hint.child())
-    {
-        visitor.bound_by_leaf(&leaf).ok_or(QueryError::Unchecked)?;
-    }
-    let descent = descend_inlined(tree, query, budget.steps, scratch, &mut visitor, &mut work)?;
-    #[cfg(not(meshsweep_wide))]
-    if SOFT_FLOAT {
-        visitor.look_at_waiting().ok_or(QueryError::Unchecked)?;
-    }
-    visitor.answer(descent, work, hint)
 }

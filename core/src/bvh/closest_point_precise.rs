@@ -56,7 +56,7 @@ impl Bvh<'_> {
         let tree = self;
         let query = PointQuery::prepare(tree, point, &budget, scratch)?;
         let of_f32 = Budget::EXACT.with_steps(budget.steps);
-        // In one order: the steps that are left decide whether the second descent ends.
+        // In one order, if there is a limit of steps: those that are left may end the second descent.
         let near = tree.closest_point_in_order(point, &mut Hint::NONE.clone(), of_f32, scratch)?;
         if near.ended != Ended::Exact || query.far {
             return Ok(near);
