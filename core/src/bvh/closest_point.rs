@@ -23,8 +23,8 @@ impl Bvh<'_> {
     /// input mesh.
     ///
     /// `scratch`: [`scratch_entries`](Bvh::scratch_entries) make overflow impossible. With fewer
-    /// the interval still holds, and [`Ended::Scratch`] says so. Lengths and coordinates are in
-    /// input units, in the mesh's frame.
+    /// the interval still holds, and [`Ended::Scratch`](crate::Ended::Scratch) says so. Lengths and
+    /// coordinates are in input units, in the mesh's frame.
     ///
     /// Of equidistant triangles the answer is the least in blob order. A point on the surface has a
     /// lower bound of 0. Farther than a million model sizes the model's box gives the interval.

@@ -35,7 +35,7 @@ impl WholeLimit {
         let number = number.cast_unsigned();
         let cut = bits(number).saturating_sub(15);
         let exponent = self.exponent + cut.cast_signed();
-        // Below 2^31. An odd exponent leaves a two.
+        // At most 2^31. An odd exponent leaves a two.
         let product = (((number >> cut) + 1) * self.mantissa) << (exponent & 1);
         let root = root_up(product).cast_signed();
         match exponent >> 1 {
