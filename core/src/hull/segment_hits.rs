@@ -49,11 +49,7 @@ impl Hull<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<FirstHit, QueryError> {
         let mut first = First { best: None, least_lower: f64::INFINITY };
-        #[cfg(not(meshsweep_wide))]
-        let collect: &mut dyn Collect = &mut first;
-        #[cfg(meshsweep_wide)]
-        let collect = &mut first;
-        let traced = trace(self, [a, b], &budget, scratch, collect)?;
+        let traced = trace(self, [a, b], &budget, scratch, &mut first)?;
         let open = f64::from(traced.unopened);
         let hit = first.best.map(|best| Hit {
             t: best.meet.t as f32,
@@ -103,11 +99,7 @@ impl Hull<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<AllHits, QueryError> {
         let mut all = All { model: self, hits: Hits::new(hits), has_touches: false };
-        #[cfg(not(meshsweep_wide))]
-        let collect: &mut dyn Collect = &mut all;
-        #[cfg(meshsweep_wide)]
-        let collect = &mut all;
-        let traced = trace(self, [a, b], &budget, scratch, collect)?;
+        let traced = trace(self, [a, b], &budget, scratch, &mut all)?;
         let ended = if all.has_touches { traced.ended.uncertain() } else { traced.ended };
         Ok(all.hits.answer(traced.work, ended, false))
     }
@@ -170,9 +162,8 @@ struct Traced {
     unopened: f32,
 }
 
-/// Boards link one search for all questions.
 #[cfg_attr(not(meshsweep_wide), inline(never))]
-fn trace<C: Collect + ?Sized>(
+fn trace<C: Collect>(
     model: &Hull<'_>,
     [a, b]: [[f32; 3]; 2],
     budget: &Budget,
@@ -219,7 +210,7 @@ fn trace<C: Collect + ?Sized>(
 }
 
 /// Why the search ended, and the least parameter of a hit in triangles that it did not refine.
-fn run<C: Collect + ?Sized>(
+fn run<C: Collect>(
     front: &mut Front<'_, Hull<'_>>,
     along: &mut Along<'_, C>,
 ) -> Option<(Ended, f32)> {
@@ -242,7 +233,7 @@ fn run<C: Collect + ?Sized>(
 }
 
 /// A segment, and the collector of its hits.
-struct Along<'c, C: Collect + ?Sized> {
+struct Along<'c, C: Collect> {
     frame: Frame,
     start: DVec3,
     end: DVec3,
@@ -257,7 +248,7 @@ struct Along<'c, C: Collect + ?Sized> {
     limit: f32,
 }
 
-impl<C: Collect + ?Sized> Visit for Along<'_, C> {
+impl<C: Collect> Visit for Along<'_, C> {
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
     fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
@@ -276,7 +267,7 @@ impl<C: Collect + ?Sized> Visit for Along<'_, C> {
     }
 }
 
-impl<C: Collect + ?Sized> Along<'_, C> {
+impl<C: Collect> Along<'_, C> {
     /// Evaluates a triangle of the surface.
     fn meet(&mut self, candidate: &Candidate, key: f32) {
         self.exact += 1;
