@@ -38,6 +38,21 @@ pub enum Topic {
     Winding,
 }
 
+impl Topic {
+    /// Its name in JSON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Input => "input",
+            Self::Hull => "hull",
+            Self::BoxTree => "tree",
+            Self::Sides => "sides",
+            Self::Tight => "tight_hulls",
+            Self::Winding => "winding",
+        }
+    }
+}
+
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)

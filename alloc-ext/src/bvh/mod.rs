@@ -22,7 +22,7 @@ mod store;
 mod stored_triangles;
 mod unfold;
 
-pub use batch::closest_points;
+pub use batch::{BATCH, closest_points, closest_points_until_refused};
 pub(crate) use build::build_watched;
 pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, WhyF32, build};
 pub use encode::sections_of;

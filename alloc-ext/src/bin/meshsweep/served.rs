@@ -205,7 +205,7 @@ const COMFORTABLE_SCRATCH: usize = 4096;
 /// More scratch entries of a curve than it needs: with these, searches go best first.
 const BEST_FIRST: usize = 256;
 
-/// Scratch entries to ask a structure about points with, unless `--queue` says otherwise.
+/// Scratch entries to ask a structure about points with, unless `--scratch` says otherwise.
 pub fn entries(structure: &Distances<'_>) -> usize {
     structure.scratch_entries()
         + match structure {

@@ -16,6 +16,7 @@ use std::io::{self, Write};
 type Row<'a> = (Subject<'a>, Worst);
 
 pub fn run(args: &WorstArgs) -> Result<(), Failure> {
+    args.threads.start();
     let blob = blob_file::open(&args.blob)?;
     let budget = Budget::EXACT
         .with_relative(args.rel)

@@ -1,7 +1,6 @@
 //! Rows of a measurement as text and as JSON.
 
 use super::measured::Measured;
-use crate::args::TradeArgs;
 use crate::mesh_report::write_rounding;
 use meshsweep::counted::Counted;
 use meshsweep::load::Loaded;
@@ -9,6 +8,7 @@ use meshsweep::number::AtMost;
 use meshsweep::trade::{Board, MANY_NEEDLES, Row, Spread, pareto};
 use serde_json::{Value, json};
 use std::io::{self, Write};
+use std::path::Path;
 
 /// Headings of the columns after structure and dials, each with its width.
 const COLUMNS: [(&str, usize); 11] = [
@@ -27,7 +27,7 @@ const COLUMNS: [(&str, usize); 11] = [
 
 pub fn write(
     out: &mut dyn Write,
-    args: &TradeArgs,
+    mesh: &Path,
     loaded: &Loaded,
     measured: &Measured,
 ) -> io::Result<()> {
@@ -35,12 +35,12 @@ pub fn write(
     writeln!(
         out,
         "{}: {}, diagonal {}; {} {kind}",
-        args.mesh.display(),
+        mesh.display(),
         Counted(loaded.mesh.triangles.len(), "triangle"),
         AtMost(*diagonal),
         Counted(*points, "point"),
     )?;
-    write_rounding(out, &args.mesh, &loaded.report)?;
+    write_rounding(out, mesh, &loaded.report)?;
     loaded.unit_note().map_or(Ok(()), |note| writeln!(out, "  {note}"))?;
     let best = pareto(&trade.rows);
     let of = |rows: &mut dyn Iterator<Item = &Row>| {
@@ -166,8 +166,12 @@ pub fn write_json(out: &mut dyn Write, loaded: &Loaded, measured: &Measured) -> 
 pub fn as_json(loaded: &Loaded, measured: &Measured) -> Value {
     let Measured { trade, diagonal, points, kind } = measured;
     let best = pareto(&trade.rows);
-    let rows: Vec<Value> =
-        trade.rows.iter().enumerate().map(|(i, row)| of_row(row, best.contains(&i))).collect();
+    let of = |(i, row): (usize, &Row)| {
+        let mut fields = of_row(row);
+        fields["pareto"] = json!(best.contains(&i));
+        fields
+    };
+    let rows: Vec<Value> = trade.rows.iter().enumerate().map(of).collect();
     let missing = trade.missing.iter().map(|missing| {
         json!({ "structure": missing.recipe.name(), "reason": missing.reason.to_string() })
     });
@@ -183,7 +187,8 @@ pub fn as_json(loaded: &Loaded, measured: &Measured) -> Value {
     })
 }
 
-fn of_row(row: &Row, is_best: bool) -> Value {
+/// A row.
+pub fn of_row(row: &Row) -> Value {
     let spread = |spread: Spread| json!({ "worst": spread.worst, "median": spread.median });
     let boards = Board::ALL.iter().zip(row.boards).filter_map(|(board, found)| {
         let found = found?;
@@ -202,7 +207,6 @@ fn of_row(row: &Row, is_best: bool) -> Value {
         "structure": row.setting.recipe.name(),
         "build": row.setting.recipe.to_string(),
         "dials": row.setting.dials(),
-        "pareto": is_best,
         "guaranteed": row.guaranteed.map(spread),
         "found_lower": spread(row.found_lower),
         "found_upper": row.found_upper.map(spread),
