@@ -1,18 +1,18 @@
 //! Whether a segment meets the surface.
 
 use super::descent::{Descent, descend};
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 use super::node::{OpenedNode, TakenLeast};
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 use super::segment_blocks::{SegmentKernels, is_unlimited};
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 use super::segment_leaf::FlaggedOfLeaf;
 use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor, compiled_flagged};
 use super::segment_query::SegmentQuery;
 use super::segment_start::SegmentStart;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 use crate::geom::fan::WIDTH;
 use crate::query::{Budget, QueryError, ScratchEntry, Undecided, Verdict, Work};
 
@@ -72,7 +72,7 @@ impl Bvh<'_> {
 
 /// The answer, if neither steps nor memory may end the search. Without registers of 256 bits the
 /// order of entries takes fewer instructions.
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 #[inline(always)]
 pub(super) fn any_hit_by_blocks(
     tree: &Bvh<'_>,

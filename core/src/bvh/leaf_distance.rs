@@ -11,7 +11,7 @@ use crate::bvh::format::FanLeaf;
 #[cfg(not(meshsweep_wide))]
 use crate::num::SOFT_FLOAT;
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 pub(crate) use avx2::nearest_avx2;
 #[cfg(not(meshsweep_wide))]
 pub(crate) use narrow::{nearest_and_edges, nearest_within, nearest_within_inlined};
@@ -140,7 +140,7 @@ mod wide {
 }
 
 /// `wide` in registers of 256 bits, whatever the crate is compiled for.
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 mod avx2 {
     use super::wide::nearest_within;
     use super::{FanLeaf, LeafLimit, LeafNearest, PointQuery};

@@ -58,7 +58,7 @@
 mod all_hits;
 mod all_within;
 mod any_hit;
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 mod avx2;
 #[cfg(meshsweep_wide)]
 mod block_walk;

@@ -1,7 +1,7 @@
 //! A query point in the tree's grid units, and the rounding of its answers.
 
 use super::descent::{NodeQuery, OpenedNode};
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 use super::node::box_distances_avx2;
 use super::node::{CHILD_MASK, KeyPoint, NO_CHILD, box_distances};
 #[cfg(not(meshsweep_wide))]
@@ -191,7 +191,7 @@ impl PointQuery {
     }
 
     /// The same, in registers of 256 bits.
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(meshsweep_avx2)]
     #[target_feature(enable = "avx2")]
     #[inline]
     pub(crate) fn keys_avx2(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {

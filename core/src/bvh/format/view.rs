@@ -438,7 +438,7 @@ impl<'a> Bvh<'a> {
     }
 
     /// The bytes from a triangle's number in the input file on.
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(meshsweep_avx2)]
     #[inline(always)]
     pub(crate) fn source_bytes(&self, triangle: u32) -> Option<&'a [u8]> {
         self.source.0.get(self.source_place(triangle)?.at..)

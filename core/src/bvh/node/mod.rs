@@ -38,7 +38,7 @@
 
 #[cfg(any(test, not(meshsweep_wide)))]
 mod axis_place;
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 mod box_avx2;
 mod box_distances;
 mod box_entries;
@@ -46,7 +46,7 @@ mod box_entries;
 mod box_lanes;
 #[cfg(any(test, not(meshsweep_wide)))]
 mod entries_in_whole;
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 mod entry_avx2;
 #[cfg(meshsweep_wide)]
 mod entry_lanes;
@@ -63,7 +63,7 @@ mod tests;
 #[cfg(any(test, not(meshsweep_wide)))]
 mod two_in_word;
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 pub(crate) use box_avx2::{keys as box_distances_avx2, take_least as take_least_avx2};
 pub use box_distances::box_distances;
 #[cfg(not(meshsweep_wide))]
@@ -71,7 +71,7 @@ pub(crate) use box_distances::push_boxes;
 pub use box_entries::box_entries;
 #[cfg(not(meshsweep_wide))]
 pub(crate) use box_entries::push_entries;
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 pub(crate) use entry_avx2::keys as box_entries_avx2;
 pub use frame::KeyPoint;
 #[cfg(any(test, not(meshsweep_wide)))]
