@@ -99,9 +99,8 @@ impl SharedCorner {
                 return false;
             }
         }
-        corners.iter().all(|corner| {
-            corner.to_array().into_iter().all(|x| x.to_bits() == 0 || is_multiple(x.abs(), LARGEST))
-        })
+        let is_coarse = |x: f32| x.to_bits() == 0 || is_multiple(x.abs(), LARGEST);
+        corners.iter().all(|at| is_coarse(at.x) && is_coarse(at.y) && is_coarse(at.z))
     }
 
     /// Whether no number of f32 lies among the bounds that triangles have at a corner of about this
