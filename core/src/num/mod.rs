@@ -1,5 +1,6 @@
 //! Numbers: directed rounding, the stored radius, and every tolerance.
 
+mod each;
 mod order;
 mod radius;
 mod real;
@@ -8,6 +9,7 @@ mod sqrt;
 pub mod tolerance;
 mod truncated;
 
+pub use each::each;
 pub use order::{greater, lesser};
 pub use radius::{Radius8, Radius16};
 pub use real::{Real, bit_length, difference, dot, float, floored, reals};
