@@ -1,6 +1,6 @@
 //! [`Blob`]: checked once by `open`. Its views of structures then cost no check.
 
-use crate::bvh::format::Bvh;
+use crate::bvh::tree::format::Bvh;
 use crate::curve::format::Curve;
 use crate::format::layout::{SectionKind, field};
 use crate::format::{Bytes, Header, OpenError, Section, SectionTable, ok, section};

@@ -97,7 +97,7 @@ pub use blob::Blob;
 pub use bvh::{
     AllWithin, AnyHit, Bvh, CoherentClosest, CoherentPair, CoherentQuery, Eye, Facing, FrontFacing,
     Hint, KNearest, Neighbor, Placed, ProcessorQuestions, Scene, SceneDistance, SceneWithin,
-    SignedDistance, WindingNumber, Within,
+    WindingNumber, Within,
 };
 pub use curve::{Curve, CurveClosest, CurveSegment, CurveWithin};
 pub use format::layout::{BuildFor, SectionKind};
@@ -111,8 +111,8 @@ pub use hull::{
 pub use query::{
     AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Motion, Overlap, Overlaps,
     PairContact, PairDistance, PairWithin, Penetration, PosedPoint, QueryError, Relation, Scratch,
-    ScratchEntry, Side, Solid, SolidDistance, SolidWithin, TriangleHit, TrianglePair, Undecided,
-    Verdict, Work,
+    ScratchEntry, Side, SignedDistance, Solid, SolidDistance, SolidWithin, TriangleHit,
+    TrianglePair, Undecided, Verdict, Work,
 };
 pub use tight::{TightHull, TightHulls, TightRecord};
 pub use tribox::{

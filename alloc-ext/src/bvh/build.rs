@@ -18,9 +18,9 @@ use crate::mesh::{Input, Mesh, Wire};
 use crate::progress::{Stage, Watch};
 use glam::DVec3;
 use meshsweep_core::SectionKind;
-use meshsweep_core::internal::bvh::format::BvhHeader;
-use meshsweep_core::internal::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES, LINK_BYTES};
-use meshsweep_core::internal::bvh::format::layout::{
+use meshsweep_core::internal::bvh::tree::format::BvhHeader;
+use meshsweep_core::internal::bvh::tree::format::layout::{BOXES_BYTES, FRAME_BYTES, LINK_BYTES};
+use meshsweep_core::internal::bvh::tree::format::layout::{
     BVH_CLOSED, BVH_F32, BVH_SIDELESS, BVH_SIDES_LOST, BVH_TURNED,
 };
 use meshsweep_core::internal::geom::fan::WIDTH;

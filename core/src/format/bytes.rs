@@ -1,5 +1,7 @@
 //! Little-endian reads by byte offset. A read past the end gives `None`.
 
+use crate::num::each;
+
 /// The bytes that are read.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bytes<'a>(pub(crate) &'a [u8]);
@@ -129,10 +131,10 @@ impl<'a> Bytes<'a> {
                 let (x, rest) = bytes.split_first_chunk::<2>()?;
                 let (y, rest) = rest.split_first_chunk::<2>()?;
                 let z = rest.first_chunk::<2>()?;
-                Some([x, y, z].map(|pair| u32::from(u16::from_le_bytes(*pair))))
+                Some(each([x, y, z], |pair| u32::from(u16::from_le_bytes(*pair))))
             }
             3 => self.array::<9>(at).map(|[a, b, c, d, e, f, g, h, i]| {
-                [[a, b, c, 0], [d, e, f, 0], [g, h, i, 0]].map(u32::from_le_bytes)
+                each([[a, b, c, 0], [d, e, f, 0], [g, h, i, 0]], u32::from_le_bytes)
             }),
             _ => Some([
                 self.index(at, width)?,

@@ -6,7 +6,7 @@
 
 use super::triangle_pair::{Point, Real, cross, dot, minus};
 use crate::num::tolerance::{SQUARED_SLACK, U32};
-use crate::num::{greater, lesser};
+use crate::num::{each, greater, lesser};
 
 /// A triangle swept by a sphere.
 #[derive(Clone, Copy, Debug)]
@@ -71,7 +71,7 @@ impl<T: Real> SweptTriangle<T> {
     fn is_apart_along(&self, way: Point<T>, other: &SweptTriangle<T>, reach: T) -> bool {
         let [from, ..] = self.corners;
         let height = |corner: Point<T>| dot(way, minus(corner, from));
-        let ([p, q, r], [s, t, u]) = (self.corners.map(height), other.corners.map(height));
+        let ([p, q, r], [s, t, u]) = (each(self.corners, height), each(other.corners, height));
         let above = lesser(lesser(s, t), u) - greater(greater(p, q), r);
         let below = lesser(lesser(p, q), r) - greater(greater(s, t), u);
         let gap = greater(above, below);

@@ -9,6 +9,7 @@
 //! and a sign counts only where it would be the same for all vertices within `doubt`:
 //! `core/docs/rounding.md` §11.
 
+use crate::num::each;
 use crate::num::tolerance::{DETERMINANT, U32, U64};
 use core::ops::{Add, Mul, Sub};
 
@@ -107,7 +108,7 @@ struct Edge<T> {
 
 #[inline(always)]
 fn edges<T: Real>([a, b, c]: [Point<T>; 3]) -> [Edge<T>; 3] {
-    [(a, b), (b, c), (c, a)].map(|(from, to)| {
+    each([(a, b), (b, c), (c, a)], |(from, to)| {
         let way = minus(to, from);
         Edge { from, way, length: norm_1(way) }
     })
@@ -117,7 +118,7 @@ fn edges<T: Real>([a, b, c]: [Point<T>; 3]) -> [Edge<T>; 3] {
 #[inline(always)]
 fn sides<T: Real>([first, second, _]: &[Edge<T>; 3], points: [Point<T>; 3], shift: T) -> [i8; 3] {
     let normal = cross(first.way, second.way);
-    points.map(|p| {
+    each(points, |p| {
         // From the vertex that both edges share.
         let way = minus(p, second.from);
         sign(dot(normal, way), determinant_margin(first.length, second.length, norm_1(way), shift))

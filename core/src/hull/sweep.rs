@@ -11,6 +11,7 @@ use super::geometry::Geometry;
 use crate::geom::LANES;
 use crate::hull::format::layout::BASE_GROUP;
 use crate::hull::format::{Hull, Instance, Named, SplitIdx, VertIdx};
+use crate::num::each;
 use crate::query::{ScratchEntry, SweepQueue, Work};
 use glam::Vec3;
 
@@ -321,7 +322,7 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
         let counter =
             if fate == Fate::Surface { &mut self.work.triangles } else { &mut self.work.nodes };
         *counter += 1;
-        let corners = ends.map(|end| end.vertex);
+        let corners = each(ends, |end| end.vertex);
         let (corners, radius) = self.model.triangle(corners, radius, fate == Fate::Surface)?;
         Some(Candidate { corners, radius, instance, fate })
     }

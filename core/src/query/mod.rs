@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | `budget` | [`Budget`]: when a query may stop |
 //! | `scratch` | [`Scratch`], [`ScratchEntry`]: the caller's memory |
-//! | `answer` | [`Interval`], [`ClosestPoint`], [`Ended`]: why a search ended |
+//! | `answer` | [`Interval`], [`ClosestPoint`], [`SignedDistance`], [`Ended`]: why a search ended |
 //! | `verdict` | [`Verdict`], [`Side`], [`Undecided`]: why there is no verdict |
 //! | `hits` | [`Hit`], [`FirstHit`], [`TriangleHit`], [`AllHits`], and the caller's slice of hits |
 //! | `pose_inverse` | the inverse of a pose's matrix |
@@ -38,7 +38,7 @@ mod sweep_queue;
 mod verdict;
 mod work;
 
-pub use answer::{ClosestPoint, Ended, Interval};
+pub use answer::{ClosestPoint, Ended, Interval, SignedDistance};
 pub use budget::Budget;
 pub use error::QueryError;
 pub(crate) use frame::Frame;

@@ -13,13 +13,13 @@ use std::path::{Path, PathBuf};
 
 use crate::boards::{BOARDS, Board};
 use crate::count::LOADED;
-use crate::firmware::Tools;
 use crate::host;
 use crate::process;
 use crate::qemu::Machine;
 use crate::reading::Reading;
 use crate::steps::Steps;
 use crate::table::{Cell, Table, fixed};
+use crate::tools::Tools;
 use crate::workspace;
 
 /// Features of a query.

@@ -6,11 +6,11 @@
 //! Derivation: `core/docs/rounding.md` §19.
 
 use super::placed::{FIRST_AXIS, PlacedSolid};
-use crate::bvh::descent::{NodeQuery, OpenedNode};
-use crate::bvh::format::Bvh;
-use crate::bvh::node::{CHILD_MASK, NO_CHILD};
-use crate::bvh::overlap::AxisIntervals;
-use crate::bvh::stored_lengths::{root_of_bound, square_limit};
+use crate::bvh::tree::axis_intervals::AxisIntervals;
+use crate::bvh::tree::descent::{NodeQuery, OpenedNode};
+use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::node::{CHILD_MASK, NO_CHILD};
+use crate::bvh::tree::stored_lengths::{root_of_bound, square_limit};
 use crate::geom::fan::WIDTH;
 use crate::num::tolerance::{EVERYTHING_SQ, SOLID_AXES, U32};
 use crate::num::{greater, lesser, up_to_f32};

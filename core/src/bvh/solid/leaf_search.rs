@@ -5,9 +5,9 @@
 
 use super::box_keys::{bounds_sq, key_limit};
 use super::placed::PlacedSolid;
-use crate::bvh::descent::{LeafVisit, LeafVisitor};
-use crate::bvh::format::{CORNERS, FanLeaf, slots};
-use crate::bvh::stored_lengths::square_limit;
+use crate::bvh::tree::descent::{LeafVisit, LeafVisitor};
+use crate::bvh::tree::format::{CORNERS, FanLeaf, slots};
+use crate::bvh::tree::stored_lengths::square_limit;
 use crate::geom::fan::WIDTH;
 use crate::geom::{ConvexGap, convex_gap, dot, norm_1};
 use crate::num::tolerance::{CONVEX_GAP, U64};
@@ -88,6 +88,15 @@ impl LeafTriangles {
 pub(super) struct TriangleGap {
     pub(super) place: TriangleRef,
     pub(super) gap: ConvexGap,
+}
+
+impl PlacedSolid {
+    /// Whether it is proved that the solid meets the input's triangle: it is so deep in the stored
+    /// one, or so much nearer than the radius.
+    pub(super) fn meets(&self, found: &TriangleGap) -> bool {
+        let error = self.lengths.error;
+        found.gap.depth > error || found.gap.upper + error < self.radius
+    }
 }
 
 /// A question's visitor for triangles.

@@ -1,14 +1,14 @@
 //! A solid in the units of a tree, from the tree's origin.
 
-use crate::bvh::format::Bvh;
-use crate::bvh::overlap::extended;
-use crate::bvh::stored_lengths::StoredLengths;
+use crate::bvh::tree::extended::extended;
+use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::stored_lengths::StoredLengths;
 use crate::geom::{ConvexGap, Point, convex_gap, cross, dot, minus, norm_1};
 use crate::num::tolerance::{
     MOVING_CORNER, OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, U32, U64,
 };
 use crate::num::{down_to_f32, exp2, greater, lesser, up_to_f32};
-use crate::query::{DIRECTIONS, Extended, ModelFrame, QueryError, Solid};
+use crate::query::{DIRECTIONS, Extended, Interval, ModelFrame, QueryError, Solid};
 
 type Place = Point<f64>;
 
@@ -213,6 +213,14 @@ impl PlacedSolid {
     pub(super) fn to_input(&self, [x, y, z]: Place) -> [f32; 3] {
         let [a, b, c] = self.tree.origin;
         [x + a, y + b, z + c].map(|x| ((x * self.lengths.unit) as f32).clamp(-f32::MAX, f32::MAX))
+    }
+
+    /// The distance of the input, from bounds for the hull of the corners.
+    pub(super) fn distance(&self, lower: f64, upper: f64) -> Interval {
+        let lower = self.lengths.lower(lower - self.radius);
+        let rest = upper - self.radius;
+        let upper = if rest > -self.lengths.error { self.lengths.upper(rest) } else { 0.0 };
+        Interval::new(lower, upper)
     }
 }
 

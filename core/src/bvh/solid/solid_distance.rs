@@ -3,8 +3,8 @@
 use super::box_keys::{ByDistance, distance_of};
 use super::leaf_search::{GapVisitor, LeafSearch, TriangleGap, TriangleRef};
 use super::placed::PlacedSolid;
-use crate::bvh::descent::{Descent, descend};
-use crate::bvh::format::Bvh;
+use crate::bvh::tree::descent::{Descent, descend};
+use crate::bvh::tree::format::Bvh;
 use crate::num::tolerance::U32;
 use crate::num::{greater, lesser};
 use crate::query::{Budget, Ended, Interval, QueryError, ScratchEntry, Solid, SolidDistance, Work};
@@ -123,23 +123,6 @@ pub(super) fn number(tree: &Bvh<'_>, place: TriangleRef) -> Result<u32, QueryErr
         tree.source(first.wrapping_add(place.lane))
     };
     find().ok_or(QueryError::Unchecked)
-}
-
-impl PlacedSolid {
-    /// The distance of the input, from bounds for the hull of the corners.
-    pub(super) fn distance(&self, lower: f64, upper: f64) -> Interval {
-        let lower = self.lengths.lower(lower - self.radius);
-        let rest = upper - self.radius;
-        let upper = if rest > -self.lengths.error { self.lengths.upper(rest) } else { 0.0 };
-        Interval::new(lower, upper)
-    }
-
-    /// Whether it is proved that the solid meets the input's triangle: it is so deep in the stored
-    /// one, or so much nearer than the radius.
-    pub(super) fn meets(&self, found: &TriangleGap) -> bool {
-        let error = self.lengths.error;
-        found.gap.depth > error || found.gap.upper + error < self.radius
-    }
 }
 
 /// The visitor that wants the nearest triangle.

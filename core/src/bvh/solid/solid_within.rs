@@ -4,8 +4,8 @@ use super::box_keys::ByDistance;
 use super::leaf_search::{GapVisitor, LeafSearch, TriangleGap, TriangleRef};
 use super::placed::PlacedSolid;
 use super::solid_distance::number;
-use crate::bvh::descent::{Descent, descend};
-use crate::bvh::format::Bvh;
+use crate::bvh::tree::descent::{Descent, descend};
+use crate::bvh::tree::format::Bvh;
 use crate::num::tolerance::U64;
 use crate::query::{
     Budget, QueryError, ScratchEntry, Solid, SolidWithin, Undecided, Verdict, Work,

@@ -22,12 +22,13 @@ mod flux;
 mod moment_flux;
 mod search;
 
-use super::hint::Hint;
-use super::point_query::PointQuery;
-use super::signed_distance::SignedDistance;
-use crate::bvh::format::Bvh;
+use crate::bvh::point::hint::Hint;
+use crate::bvh::point::query::PointQuery;
+use crate::bvh::tree::format::Bvh;
 
-use crate::query::{Budget, Ended, Interval, QueryError, ScratchEntry, Side, Undecided, Work};
+use crate::query::{
+    Budget, Ended, Interval, QueryError, ScratchEntry, Side, SignedDistance, Undecided, Work,
+};
 use search::{Search, side_of};
 
 /// The winding number about a point.

@@ -1,6 +1,6 @@
 //! The flux of a node: its triangles' solid angles together, from their moments.
 
-use crate::bvh::format::NodeMoments;
+use crate::bvh::tree::format::NodeMoments;
 use crate::num::sqrt_approx;
 use crate::num::tolerance::{MOMENT_FLUX, SOLID_ANGLE_NEAREST, U32};
 use glam::Vec3;

@@ -2,7 +2,7 @@
 
 use super::flux::Flux;
 use super::moment_flux::SeenNode;
-use crate::bvh::format::{Bvh, Links};
+use crate::bvh::tree::format::{Bvh, Links};
 use crate::geom::{SeenCorner, SolidAngles};
 use crate::num::{greater, lesser};
 use crate::query::{Ended, Interval, QueryError, ScratchEntry, Side, Work};

@@ -7,7 +7,7 @@
 
 mod cone;
 mod lanes;
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 pub(crate) mod lanes_avx2;
 #[cfg(meshsweep_wide)]
 mod lanes_wide;

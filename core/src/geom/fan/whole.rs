@@ -465,7 +465,7 @@ mod tests {
         assert!(right * 100 > all * 99, "{right} of {all}");
     }
 
-    /// The test in f32 is that of `bvh/viewed_side.rs`.
+    /// The test in f32 is that of `bvh/point/side/viewed_side.rs`.
     #[test]
     fn a_side_by_integers_is_the_one_that_f32_is_sure_of_and_few_are_missed() {
         const U32: f32 = 1.0 / (1u32 << 24) as f32;

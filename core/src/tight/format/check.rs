@@ -2,7 +2,7 @@
 
 use super::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES, field};
 use super::view::{TightHulls, read};
-use crate::bvh::format::Bvh;
+use crate::bvh::tree::format::Bvh;
 use crate::format::layout::{MAX_LEVELS, SECTION_ALIGNMENT, SectionKind};
 use crate::format::{Bytes, OpenError, SectionTable, ok};
 use crate::num::Radius16;

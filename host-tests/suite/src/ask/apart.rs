@@ -8,9 +8,10 @@ use meshsweep_core::{
 };
 
 use super::{Asked, Refused, Subject, tree};
+use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::kind::Kind;
 use crate::place::{Bounds, Ends, Placer};
-use crate::{Clock, Kind};
 
 /// A box tree, asked about its moved copy and about capsules.
 #[derive(Clone, Debug)]
@@ -35,7 +36,7 @@ impl<'t> Subject<'t> for Apart<'t> {
     }
 
     fn suits(kind: Kind) -> bool {
-        asks(kind)
+        kind.is_apart()
     }
 
     fn ask(
@@ -76,20 +77,6 @@ impl<'t> Subject<'t> for Apart<'t> {
             _ => {}
         }
     }
-}
-
-/// Whether these questions are asked here, and not by the image of the other ones.
-pub(super) fn asks(kind: Kind) -> bool {
-    matches!(
-        kind,
-        Kind::PairDistance
-            | Kind::Solid
-            | Kind::Contact
-            | Kind::Winding
-            | Kind::Scene
-            | Kind::CoherentPair
-            | Kind::Penetration
-    )
 }
 
 /// How far the surface is from its copy, at a pose and after three steps from the first point to

@@ -6,9 +6,10 @@ use meshsweep_core::{
 };
 
 use super::{Refused, Subject, timed};
+use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::kind::Kind;
 use crate::place::{Bounds, Placer};
-use crate::{Clock, Kind};
 
 /// A blob, and its hull hierarchy.
 #[derive(Clone, Copy, Debug)]

@@ -11,7 +11,7 @@ use meshsweep_core::{
 };
 
 use super::{Refused, timed};
-use crate::Clock;
+use crate::clock::Clock;
 use crate::fold::Fold;
 
 /// The question at each place.

@@ -5,9 +5,10 @@ use meshsweep_core::{Bound, Budget, NodePair, Pose, ScratchEntry};
 
 use super::tree::pose;
 use super::{Asked, Refused, Subject, how, number};
+use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::kind::Kind;
 use crate::place::{Bounds, Ends, Placer, Point};
-use crate::{Clock, Kind};
 
 /// Entries of the stack of pairs: more than twice most splits above a node of the suite's blobs.
 const STACK: usize = 64;

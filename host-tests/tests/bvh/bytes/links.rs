@@ -3,7 +3,7 @@
 use super::{ask_everything, edited, open, record, sphere};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep_core::internal::bvh::format::BvhHeader;
+use meshsweep_core::internal::bvh::tree::format::BvhHeader;
 use meshsweep_core::{Bvh, OpenError, SectionKind};
 use meshsweep_host_tests::corrupt::{put_u32, word};
 

@@ -1,6 +1,7 @@
 //! Motions of a mesh past itself, and what is true of them.
 
 use glam::DVec3;
+use meshsweep::bvh::{TreeOptions, build};
 use meshsweep_core::{Budget, Bvh, Pose, ScratchEntry};
 use meshsweep_host_tests::oracle::Bounded;
 use meshsweep_host_tests::workload::Subject;
@@ -9,7 +10,6 @@ use meshsweep_host_tests::workload::pose::{Pose as Motion, poses, sphere};
 use parry3d::math::Pose as ParryPose;
 use rayon::prelude::*;
 
-use super::tree;
 use crate::measure::bounds::pose::parry;
 
 /// Random motions that are looked at for each that is wanted.
@@ -38,6 +38,16 @@ pub struct Group {
     pub cases: Vec<Case>,
     /// They meet, so only overlap is asked about.
     pub is_meeting: bool,
+}
+
+/// A blob of the mesh.
+pub fn tree(subject: &Subject, is_f32: bool) -> Vec<u8> {
+    let options = TreeOptions::default().with_closest(false).with_f32(is_f32);
+    let input = meshsweep::mesh::Input {
+        input_triangles: subject.triangles_read,
+        ..subject.mesh.as_input()
+    };
+    build(input, &options).expect("builds").0.to_bytes()
 }
 
 /// Up to `wanted` random motions that are apart, as many after most of the way to contact, and as

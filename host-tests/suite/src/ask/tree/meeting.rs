@@ -3,8 +3,8 @@
 use meshsweep_core::{Budget, Pose, Verdict};
 
 use super::{Bvh, Scratch};
-use crate::Clock;
 use crate::ask::{self, Asked};
+use crate::clock::Clock;
 use crate::place::Motion;
 
 /// A motion as the core takes it.
