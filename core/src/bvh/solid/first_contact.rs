@@ -50,7 +50,7 @@ impl Bvh<'_> {
     /// let spindle = [[-150.0, 0.0, 500.0], [-150.0, 0.0, 600.0]];
     /// let moved = [[150.0, 0.0, 500.0], [150.0, 0.0, 600.0]];
     /// let (from, to) = (Solid::new(&spindle, 4.0)?, Solid::new(&moved, 4.0)?);
-    /// assert!(part.first_contact(&from, &to, Budget::EXACT, &mut scratch)?.is_clear());
+    /// assert!(part.solid_first_contact(&from, &to, Budget::EXACT, &mut scratch)?.is_clear());
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     ///
@@ -61,7 +61,7 @@ impl Bvh<'_> {
     /// [`QueryError::Corners`] if `to` has not as many corners as `from`; else those of
     /// [`solid_distance`](Bvh::solid_distance).
     #[inline(never)]
-    pub fn first_contact(
+    pub fn solid_first_contact(
         &self,
         from: &Solid<'_>,
         to: &Solid<'_>,

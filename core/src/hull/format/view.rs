@@ -168,7 +168,7 @@ impl Split<'_> {
 /// frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Level {
+pub struct HullLevel {
     /// Triangles of the hull.
     pub faces: u32,
     /// Splits that make it from the base hull.
@@ -247,9 +247,9 @@ impl Hull<'_> {
     }
 
     /// A level, 0 being the base hull and the last the finest that the blob holds.
-    pub fn level(&self, index: u32) -> Option<Level> {
+    pub fn level(&self, index: u32) -> Option<HullLevel> {
         let at = (index as usize).checked_mul(LEVEL_BYTES)?;
-        Some(Level {
+        Some(HullLevel {
             faces: self.levels.u32(at + level::FACES)?,
             splits: self.levels.u32(at + level::SPLITS)?,
             hull_to_surface: self.levels.f32(at + level::HULL_TO_SURFACE)?,
@@ -259,7 +259,7 @@ impl Hull<'_> {
     }
 
     /// Levels, coarse to fine.
-    pub fn levels(&self) -> impl Iterator<Item = Level> + '_ {
+    pub fn levels(&self) -> impl Iterator<Item = HullLevel> + '_ {
         (0..self.header.levels).map_while(|index| self.level(index))
     }
 

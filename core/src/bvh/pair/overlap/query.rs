@@ -5,7 +5,7 @@ use crate::bvh::pair::models::{PairPlace, numbers};
 use crate::bvh::tree::format::Bvh;
 use crate::geom::Pose;
 use crate::query::{
-    AllPairs, Budget, FirstPair, Overlap, Overlaps, QueryError, ScratchEntry, TrianglePair,
+    AllOverlaps, AllPairs, Budget, FirstPair, Overlap, QueryError, ScratchEntry, TrianglePair,
 };
 
 impl Bvh<'_> {
@@ -73,7 +73,7 @@ impl Bvh<'_> {
     /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<{ Bvh::OVERLAP_ENTRIES }>::new());
     /// let pose = Pose { translation: [300.0, 0.0, 0.0], ..Pose::IDENTITY };
     /// let mut pairs = [TrianglePair::EMPTY; 8];
-    /// let found = part.overlaps(&part, pose, &mut pairs, Budget::EXACT, &mut scratch)?;
+    /// let found = part.all_overlaps(&part, pose, &mut pairs, Budget::EXACT, &mut scratch)?;
     /// assert_eq!((found.stored, found.dropped), (0, 0));
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
@@ -81,14 +81,14 @@ impl Bvh<'_> {
     /// # Errors
     /// Those of [`overlap`](Bvh::overlap).
     #[inline(never)]
-    pub fn overlaps(
+    pub fn all_overlaps(
         &self,
         other: &Bvh<'_>,
         pose: Pose,
         pairs: &mut [TrianglePair],
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<Overlaps, QueryError> {
+    ) -> Result<AllOverlaps, QueryError> {
         let mut all = AllPairs::new(pairs, |place: &PairPlace| numbers(self, other, place));
         let (truncated, work) = descend([self, other], &pose, &budget, scratch, &mut all)?;
         Ok(all.answer(truncated, work))

@@ -234,15 +234,15 @@ impl<'a, 't> Follow<'a, 't> {
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
     fn open(&mut self, node: u32, entry: Option<usize>) -> Result<(), NoAnswer> {
-        if self.work.splits >= self.steps {
+        if self.work.opened >= self.steps {
             return Err(NoAnswer::Undecided);
         }
         let links = self.tree.links(node).ok_or(NoAnswer::Unchecked)?;
         let opened = OpenedNode { node, count: links.count, bound: 0, limit: EVERY_KEY };
         let mut keys = [NO_CHILD; WIDTH];
         self.query.keys_of(self.tree, &opened, &mut keys).ok_or(NoAnswer::Unchecked)?;
-        self.work.splits += 1;
-        self.work.nodes += links.count;
+        self.work.opened += 1;
+        self.work.bounds += links.count;
         self.cost += cost::NODE;
         let nearest = least_key(&keys);
         let horizon = self.bound + self.ahead;
@@ -275,7 +275,7 @@ impl<'a, 't> Follow<'a, 't> {
         let opened = OpenedNode { node: child.node(), count, bound: 0, limit: EVERY_KEY };
         let mut keys = [NO_CHILD; WIDTH];
         self.query.keys_of(self.tree, &opened, &mut keys).ok_or(NoAnswer::Unchecked)?;
-        self.work.nodes += count;
+        self.work.bounds += count;
         let key = keys.get(child.index() as usize).copied().ok_or(NoAnswer::Unchecked)?;
         Ok(self.key_of_box(key))
     }

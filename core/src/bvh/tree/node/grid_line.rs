@@ -106,7 +106,7 @@ impl ShadowPlane for GridLine {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, meshsweep_wide))]
 mod tests {
     use super::*;
     use crate::bvh::tree::node::tests::Noise;

@@ -58,7 +58,7 @@ mod opened_node;
 #[cfg(any(test, not(meshsweep_wide)))]
 mod slab_planes;
 mod slab_ray;
-#[cfg(test)]
+#[cfg(all(test, meshsweep_wide))]
 mod tests;
 #[cfg(any(test, not(meshsweep_wide)))]
 mod two_in_word;
