@@ -8,7 +8,7 @@ use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
 use crate::bvh::tree::descent::descend;
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::bvh::tree::stored_lengths::StoredLengths;
-use crate::bvh::tree::triangle_place::TrianglePlace;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::{convex_gap, point_triangle};
 use crate::num::tolerance::{FAN_RELATIVE, U32};
 use crate::num::{greater, lesser};
@@ -137,7 +137,7 @@ struct Candidates<'a> {
     /// Triangles with a greater lower bound in f32 are farther than the closest, grid units.
     band: f32,
     /// The one with the least upper end, and its place.
-    best: Option<(Measured, TrianglePlace)>,
+    best: Option<(Measured, TriangleAt)>,
     /// The least lower bound, grid units.
     lower: f64,
     measured: u32,

@@ -2,7 +2,7 @@
 
 use super::query::PointQuery;
 use crate::bvh::tree::format::{Bvh, at_least, at_most};
-use crate::bvh::tree::triangle_place::TrianglePlace;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::tolerance::{FAN_RELATIVE, U32};
 use crate::num::{greater, sqrt_approx};
 use crate::query::{ClosestPoint, Ended, Interval, QueryError, Work};
@@ -62,7 +62,7 @@ pub(crate) fn from_afar(
             at_most((far + margin(far)) * unscale),
         ),
         point: query.units.point(leaf.centre(0)),
-        triangle: TrianglePlace::new(node, 0, 0).source(tree),
+        triangle: TriangleAt::new(node, 0, 0).source(tree),
         work: Work::default(),
         ended: Ended::Exact,
     })

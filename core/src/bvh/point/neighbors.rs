@@ -5,7 +5,7 @@ use super::leaf::bounds::witness;
 use super::query::PointQuery;
 use super::triangle_visitor::LeafTriangle;
 use crate::bvh::tree::format::Bvh;
-use crate::bvh::tree::triangle_place::TrianglePlace;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::sqrt_approx;
 use crate::query::{Interval, QueryError};
 
@@ -69,7 +69,7 @@ impl LeafTriangle {
     fn of(slot: &Neighbor) -> LeafTriangle {
         let [distance_sq, lower_bound_sq, place, ..] = slot.words;
         let [distance_sq, lower_bound_sq] = [distance_sq, lower_bound_sq].map(f32::from_bits);
-        LeafTriangle { distance_sq, lower_bound_sq, place: TrianglePlace::of_word(place) }
+        LeafTriangle { distance_sq, lower_bound_sq, place: TriangleAt::of_word(place) }
     }
 
     fn answer(&self, tree: &Bvh<'_>, query: &PointQuery) -> Option<Neighbor> {

@@ -10,7 +10,7 @@ use super::query::PointQuery;
 use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
 use crate::bvh::tree::descent::{Descent, LeafVisit, descend};
 use crate::bvh::tree::format::{Bvh, FanLeaf};
-use crate::bvh::tree::triangle_place::TrianglePlace;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::{Real, sqrt_approx};
 use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Undecided, Verdict, Work};
 use glam::Vec3;
@@ -123,7 +123,7 @@ struct Threshold<'a> {
     /// Input units.
     distance: f32,
     /// A triangle that is certainly within.
-    near: Option<TrianglePlace>,
+    near: Option<TriangleAt>,
     /// A triangle may be within.
     undecided: bool,
 }
@@ -138,7 +138,7 @@ impl TriangleCollector for Threshold<'_> {
     ) -> Option<Next> {
         if Real(near.distance_sq) <= Real(*limit) && self.is_within(near.distance_sq) {
             let (lane, ..) = near.lane();
-            self.near = Some(TrianglePlace::new(visit.node, visit.child, lane));
+            self.near = Some(visit.triangle(lane));
             return Some(Next::Nothing);
         }
         Some(if self.undecided { Next::Leaf } else { Next::Triangles })

@@ -9,6 +9,7 @@ use super::planes::Planes;
 use crate::bvh::point::hint::Hint;
 use crate::bvh::point::query::PointQuery;
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::sqrt_approx;
 use crate::num::tolerance::{LEAST_DENOMINATOR, LONG_PATH, ROOT_AND_PRODUCTS};
 use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry, Work};
@@ -382,6 +383,5 @@ impl Memory {
 
 /// The triangle's number in the input file.
 fn number(tree: &Bvh<'_>, nearest: &Nearest) -> Option<u32> {
-    let first = tree.links(nearest.child.node())?.triangle(nearest.child.index());
-    tree.source(first.wrapping_add(nearest.lane as u32))
+    TriangleAt::new(nearest.child.node(), nearest.child.index(), nearest.lane).source(tree)
 }

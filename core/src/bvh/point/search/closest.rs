@@ -16,7 +16,7 @@ use crate::bvh::tree::descent::{Descent, LeafVisit, LeafVisitor};
 use crate::bvh::tree::format::{Bvh, FanLeaf, lanes_of};
 #[cfg(meshsweep_wide)]
 use crate::bvh::tree::prefetch::prefetch_source;
-use crate::bvh::tree::triangle_place::TrianglePlace;
+use crate::bvh::tree::triangle_at::TriangleAt;
 #[cfg(not(meshsweep_wide))]
 use crate::geom::fan::{WIDTH, WholeBounds};
 use crate::geom::fan::{lower_bound_up_to, refined};
@@ -163,7 +163,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
     #[cfg_attr(not(meshsweep_small), inline(always))]
     pub(crate) fn improve(&mut self, distance_sq: f32, lanes: &Lanes, [node, child]: [u32; 2]) {
         // Of equal distances the first in blob order counts, which is the order of places: see
-        // `TrianglePlace`. Before the first triangle `node` is above all.
+        // `TriangleAt`. Before the first triangle `node` is above all.
         let comes_later = (node, child) > (self.best.node, self.best.child);
         if comes_later && Real(distance_sq) == Real(self.best.distance_sq) {
             return;
@@ -275,7 +275,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         Ok(ClosestPoint {
             distance: Interval::new(self.query.lower(least), self.query.upper(distance)),
             point: self.query.units.point(leaf.point(lane, v, w)),
-            triangle: TrianglePlace::new(node, child, lane).source(self.tree),
+            triangle: TriangleAt::new(node, child, lane).source(self.tree),
             work,
             ended,
         })
