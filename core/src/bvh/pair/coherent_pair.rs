@@ -225,8 +225,8 @@ impl Question<'_, '_> {
             Question::Distance(nearest) => nearest.best?,
             Question::Within(threshold) => threshold.near?,
         };
-        let [[a, i, _], [b, j, _]] = gap.place;
-        Some(ChildPairs { nodes: [a, b], wanted: 1 << ((i & 7) << 3 | j & 7) })
+        let [a, b] = gap.place;
+        Some(ChildPairs { nodes: [a.node(), b.node()], wanted: 1 << (a.child() << 3 | b.child()) })
     }
 }
 

@@ -4,6 +4,7 @@
 use super::gaps::leaf_gaps::TriangleGap;
 use super::stored_pair::{StoredPair, moved};
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::greater;
 use crate::num::tolerance::U64;
 
@@ -38,7 +39,7 @@ pub(crate) fn from_afar(pair: &StoredPair<'_>) -> Option<TriangleGap> {
 
 /// A vertex of the first triangle of some leaf.
 struct Vertex {
-    place: [u32; 3],
+    place: TriangleAt,
     /// The tree's units, from its origin.
     at: [f64; 3],
 }
@@ -50,7 +51,7 @@ fn some_vertex(tree: &Bvh<'_>) -> Option<Vertex> {
         if child.is_leaf() {
             let leaf = tree.leaf_at(child.at, child.shape)?;
             let at = leaf.stored_vertices().map(|[centre, ..]| f64::from(centre));
-            return Some(Vertex { place: [node, 0, 0], at });
+            return Some(Vertex { place: TriangleAt::new(node, 0, 0), at });
         }
         node = child.at;
     }

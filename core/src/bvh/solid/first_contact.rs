@@ -1,12 +1,12 @@
 //! Where a convex solid that moves first meets the surface.
 
 use super::box_keys::{ByTime, bound_of, key_limit};
-use super::leaf_search::{LeafTriangles, TriangleRef};
+use super::leaf_search::LeafTriangles;
 use super::placed::PlacedSolid;
-use super::solid_distance::number;
 use crate::bvh::segment::leaf::Facing;
 use crate::bvh::tree::descent::{Descent, LeafVisit, LeafVisitor, descend};
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::tolerance::{ADVANCE_KEPT, U64};
 use crate::num::{down_to_f32, greater, up_to_f32};
 use crate::query::{Budget, Ended, FirstHit, Hit, Interval, QueryError, ScratchEntry, Solid, Work};
@@ -99,7 +99,7 @@ impl Bvh<'_> {
         if met.is_none() && ended == Ended::Exact {
             ended = Ended::Resolution;
         }
-        let triangle = Some(number(self, stop.triangle)?);
+        let triangle = Some(stop.triangle.source(self).ok_or(QueryError::Unchecked)?);
         let hit =
             Hit { t: down_to_f32(until), point: placed.to_input(stop.advance.point), triangle };
         let upper = met.map_or(1.0, |t| up_to_f32(t).min(1.0));
@@ -110,7 +110,7 @@ impl Bvh<'_> {
 /// A triangle that may stop the solid.
 #[derive(Clone, Copy)]
 struct Stop {
-    triangle: TriangleRef,
+    triangle: TriangleAt,
     corners: [[f64; 3]; 3],
     advance: Advance,
 }

@@ -23,6 +23,7 @@ use super::node::Pushed;
 use super::node::{CHILD_MASK, NO_CHILD};
 #[cfg(meshsweep_wide)]
 use super::node::{least_key, places_of_wanted};
+use super::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::num::lesser;
 use crate::query::{Ended, QueryError, ScratchEntry, Work};
@@ -67,6 +68,14 @@ pub(crate) struct LeafVisit<'a> {
     pub(crate) node: u32,
     /// Number of the leaf among the children of `node`.
     pub(crate) child: u32,
+}
+
+impl LeafVisit<'_> {
+    /// The place of a triangle of the leaf.
+    #[inline(always)]
+    pub(crate) fn triangle(&self, lane: usize) -> TriangleAt {
+        TriangleAt::new(self.node, self.child, lane)
+    }
 }
 
 /// A question's visitor for leaves.

@@ -8,8 +8,8 @@ use super::pair_keys::{
     NO_PAIR, PAIRS, PairKeys, children_of, distance_of, key_limit, key_of, pair_bit,
 };
 use crate::bvh::pair::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
-use crate::bvh::pair::models::PairPlace;
 use crate::bvh::tree::format::FanLeaf;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::geom::{Contact, TriangleDistance, crossing, triangle_distance, triangles_meet};
 use crate::num::tolerance::{GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32};
@@ -19,7 +19,7 @@ use crate::query::{RelativePose, Work};
 /// The distance of two stored triangles, common units.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TriangleGap {
-    pub(crate) place: PairPlace,
+    pub(crate) place: [TriangleAt; 2],
     pub(crate) lower: f64,
     pub(crate) upper: f64,
     /// It is proved that the triangles of the input meet.
@@ -59,7 +59,7 @@ impl LeafGaps<'_> {
     pub(crate) fn visit<L: LeftOut>(
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
-        place: [[u32; 2]; 2],
+        [first_at, second_at]: [TriangleAt; 2],
         visitor: &mut impl GapVisitor,
         work: &mut Work,
     ) -> Option<LeafVisit> {
@@ -93,9 +93,8 @@ impl LeafGaps<'_> {
             keys.drop(key);
             let [i, j] = children_of(key);
             work.exact = work.exact.saturating_add(1);
-            let [[node, child], [other, other_child]] = place;
-            let lanes = [[node, child, i], [other, other_child, j]];
-            let gap = self.measured(&pair, lanes);
+            let place = [first_at.with_lane(i as usize), second_at.with_lane(j as usize)];
+            let gap = self.measured(&pair, place);
             self.turn_to(&gap);
             seen = Measured {
                 pairs: seen.pairs | pair_bit(key),
@@ -111,9 +110,8 @@ impl LeafGaps<'_> {
 
     /// The distance of one pair.
     #[inline(never)]
-    fn measured(&self, pair: &LeafPair<'_>, place: PairPlace) -> TriangleGap {
-        let [[_, _, i], [_, _, j]] = place;
-        let (i, j) = (i as usize, j as usize);
+    fn measured(&self, pair: &LeafPair<'_>, place: [TriangleAt; 2]) -> TriangleGap {
+        let [i, j] = place.map(TriangleAt::lane);
         let [a, b] = pair.in_f64(i, j);
         let TriangleDistance { mut lower, mut upper, mut points } = triangle_distance(a, b);
         let rounding = self.pose.vertex_error_exact;

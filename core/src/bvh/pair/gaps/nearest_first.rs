@@ -13,6 +13,7 @@ use crate::bvh::pair::models::Models;
 use crate::bvh::pair::stored_pair::StoredPair;
 use crate::bvh::tree::axis_intervals::{AxisIntervals, pairs};
 use crate::bvh::tree::stored_lengths::square_limit;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::lesser;
 use crate::num::tolerance::SQUARED_SLACK;
 use crate::query::{Ended, QueryError, ScratchEntry, Work};
@@ -165,7 +166,7 @@ impl<'s, 'a> Search<'s, 'a> {
                 let [first, second] = children;
                 let p = models.a.leaf_at(first.at, first.shape).ok_or(QueryError::Unchecked)?;
                 let q = models.b.leaf_at(second.at, second.shape).ok_or(QueryError::Unchecked)?;
-                let place = [[nodes[0], indices[0]], [nodes[1], indices[1]]];
+                let place = [0, 1].map(|which| TriangleAt::new(nodes[which], indices[which], 0));
                 let visit = leaves.visit::<L>([&p, &q], place, visitor, work);
                 let LeafVisit { goes_on, lower } = visit.ok_or(QueryError::Unchecked)?;
                 left.keep(ChildPairs { nodes, wanted: pair_bit(key) }, lower);

@@ -1,8 +1,9 @@
 //! Two box trees, one of them moved: whether their surfaces meet, and where.
 
 use super::descent::descend;
-use crate::bvh::pair::models::{PairPlace, numbers};
+use crate::bvh::pair::models::numbers;
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::Pose;
 use crate::query::{
     AllOverlaps, AllPairs, Budget, FirstPair, Overlap, QueryError, ScratchEntry, TrianglePair,
@@ -55,7 +56,7 @@ impl Bvh<'_> {
         let mut first = FirstPair::NONE;
         let (truncated, work) = descend([self, other], &pose, &budget, scratch, &mut first)?;
         let (verdict, place) = first.answer(truncated);
-        let numbers = |place| numbers(self, other, &place).ok_or(QueryError::Unchecked);
+        let numbers = |place| numbers(self, other, place).ok_or(QueryError::Unchecked);
         let triangles = place.map(numbers).transpose()?;
         Ok(Overlap { verdict, triangles, work })
     }
@@ -89,7 +90,7 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<AllOverlaps, QueryError> {
-        let mut all = AllPairs::new(pairs, |place: &PairPlace| numbers(self, other, place));
+        let mut all = AllPairs::new(pairs, |&place: &[TriangleAt; 2]| numbers(self, other, place));
         let (truncated, work) = descend([self, other], &pose, &budget, scratch, &mut all)?;
         Ok(all.answer(truncated, work))
     }

@@ -7,8 +7,9 @@ use super::follow::{Follow, Nearest, NoAnswer};
 use super::front::{BoundKind, Child, FrontState, TraversalFront};
 use super::planes::Planes;
 use crate::bvh::point::hint::Hint;
-use crate::bvh::point::query::PointQuery;
+use crate::bvh::point::query::{Asked, PointQuery};
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::sqrt_approx;
 use crate::num::tolerance::{LEAST_DENOMINATOR, LONG_PATH, ROOT_AND_PRODUCTS};
 use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry, Work};
@@ -259,11 +260,14 @@ impl Memory {
         budget: &Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<CoherentClosest, QueryError> {
-        let query = PointQuery::prepare(tree, point, budget, scratch)?;
-        if query.far || budget.relative > 0.0 || budget.absolute > 0.0 {
-            let closest = tree.closest_point(point, *budget, scratch)?;
-            return Ok(CoherentClosest { closest, safe_radius: 0.0 });
-        }
+        let prepared = PointQuery::prepare(tree, point, budget, scratch)?;
+        let query = match prepared.asked() {
+            Asked::Near(query) if budget.relative <= 0.0 && budget.absolute <= 0.0 => query,
+            Asked::Near(_) | Asked::Far(_) => {
+                let closest = tree.closest_point(point, *budget, scratch)?;
+                return Ok(CoherentClosest { closest, safe_radius: 0.0 });
+            }
+        };
         let of = tree.identity();
         if self.of != of {
             *self = Memory { of, ..Memory::EMPTY };
@@ -274,7 +278,7 @@ impl Memory {
             + LEAST_DENOMINATOR;
         self.last.p = query.p;
         if self.policy.uses_front(step) {
-            match self.follow(keys, children, tree, &query, (step, budget.steps), &mut spent) {
+            match self.follow(keys, children, tree, query, (step, budget.steps), &mut spent) {
                 Ok(answer) => return Ok(answer),
                 Err(NoAnswer::Unchecked) => return Err(QueryError::Unchecked),
                 Err(NoAnswer::Undecided) => {}
@@ -382,6 +386,5 @@ impl Memory {
 
 /// The triangle's number in the input file.
 fn number(tree: &Bvh<'_>, nearest: &Nearest) -> Option<u32> {
-    let first = tree.links(nearest.child.node())?.triangle(nearest.child.index());
-    tree.source(first.wrapping_add(nearest.lane as u32))
+    TriangleAt::new(nearest.child.node(), nearest.child.index(), nearest.lane).source(tree)
 }

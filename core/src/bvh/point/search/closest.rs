@@ -3,7 +3,6 @@
 
 #[cfg(not(meshsweep_wide))]
 use super::waiting::Waiting;
-use crate::bvh::point::far_point::from_afar;
 use crate::bvh::point::hint::Hint;
 use crate::bvh::point::leaf::bounds::{nearness, seen_from, sliver};
 use crate::bvh::point::leaf::distance::nearest_triangle;
@@ -11,12 +10,12 @@ use crate::bvh::point::leaf::limit::LeafLimit;
 use crate::bvh::point::leaf::nearest::{Lanes, LeafNearest};
 #[cfg(not(meshsweep_wide))]
 use crate::bvh::point::leaf::plane::LeafPlane;
-use crate::bvh::point::query::{EVERY_KEY, PointQuery};
+use crate::bvh::point::query::{EVERY_KEY, FarPoint, PointQuery};
 use crate::bvh::tree::descent::{Descent, LeafVisit, LeafVisitor};
 use crate::bvh::tree::format::{Bvh, FanLeaf, lanes_of};
 #[cfg(meshsweep_wide)]
 use crate::bvh::tree::prefetch::prefetch_source;
-use crate::bvh::tree::triangle_place::TrianglePlace;
+use crate::bvh::tree::triangle_at::TriangleAt;
 #[cfg(not(meshsweep_wide))]
 use crate::geom::fan::{WIDTH, WholeBounds};
 use crate::geom::fan::{lower_bound_up_to, refined};
@@ -163,7 +162,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
     #[cfg_attr(not(meshsweep_small), inline(always))]
     pub(crate) fn improve(&mut self, distance_sq: f32, lanes: &Lanes, [node, child]: [u32; 2]) {
         // Of equal distances the first in blob order counts, which is the order of places: see
-        // `TrianglePlace`. Before the first triangle `node` is above all.
+        // `TriangleAt`. Before the first triangle `node` is above all.
         let comes_later = (node, child) > (self.best.node, self.best.child);
         if comes_later && Real(distance_sq) == Real(self.best.distance_sq) {
             return;
@@ -256,7 +255,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             least_sq = lesser(least_sq, square(self.query.distance_of_key(least)));
         }
         if node == u32::MAX {
-            let mut answer = from_afar(self.tree, self.point, self.query)?;
+            let mut answer = FarPoint { query: self.query }.closest_point(self.tree, self.point)?;
             let Interval { lower, upper } = answer.distance;
             let least = self.query.lower(sqrt_approx(least_sq));
             answer.distance.lower = lesser(greater(lower, least), upper);
@@ -275,7 +274,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         Ok(ClosestPoint {
             distance: Interval::new(self.query.lower(least), self.query.upper(distance)),
             point: self.query.units.point(leaf.point(lane, v, w)),
-            triangle: TrianglePlace::new(node, child, lane).source(self.tree),
+            triangle: TriangleAt::new(node, child, lane).source(self.tree),
             work,
             ended,
         })
