@@ -4,7 +4,7 @@
 //! Every hull encloses the surface. So between a start outside and the first point of the surface
 //! the segment crosses the refined hull. A crossed face that cannot be refined any more is a face
 //! of the surface, and the first hit is found. Faces are tested in groups: those of a split lie
-//! within its `reach` of the vertex that it replaced, and sixteen base faces share a swept
+//! within its `star_radius` of the vertex that it replaced, and sixteen base faces share a swept
 //! triangle. Later hits may lie below an unbroken hull face. [`Hull::all_hits`] finds those.
 
 use super::refined_hull::{Refined, RefinedHull, erased, split_of_face};
@@ -280,7 +280,7 @@ impl Descent<'_> {
         for position in from..self.refined.splits.len() {
             let index = self.refined.splits.get(position)?;
             let split = self.model.split(index)?;
-            if !self.may_meet([split.vertex; 3], split.reach)? {
+            if !self.may_meet([split.vertex; 3], split.star_radius)? {
                 continue;
             }
             for slot in 0..split.fine_len() {

@@ -292,11 +292,11 @@ impl Update<'_, '_> {
     /// Performs the split of an existing vertex if it is needed. The inner `Some` ends the pass.
     #[inline(always)]
     fn meet(&mut self, vertex: VertIdx, split: SplitIdx, left: &mut Left) -> Option<Option<Pass>> {
-        let [reach, error] = self.hull.reach_and_error(split)?;
+        let [star_radius, error] = self.hull.star_radius_and_error(split)?;
         if !self.query.is_above(error) {
             return Some(None);
         }
-        let need = self.query.need(self.hull.position(vertex)?, reach, error);
+        let need = self.query.need(self.hull.position(vertex)?, star_radius, error);
         if need > self.state.floor {
             return Some(if self.perform(split)? { None } else { Some(Pass::Full(need)) });
         }
@@ -355,12 +355,12 @@ impl Update<'_, '_> {
     #[inline]
     fn need_at(&self, position: usize, factor: f32) -> Option<f32> {
         let split = self.state.splits.get(position)?;
-        let [reach, error] = self.hull.reach_and_error(split)?;
+        let [star_radius, error] = self.hull.star_radius_and_error(split)?;
         if !self.query.is_above(error * factor) {
             return Some(0.0);
         }
         let vertex = self.hull.position(self.hull.replaced_by(split)?)?;
-        Some(self.query.need(vertex, reach * factor, error * factor))
+        Some(self.query.need(vertex, star_radius * factor, error * factor))
     }
 
     fn note(&mut self, change: SplitChange) {

@@ -134,7 +134,7 @@ impl GridEye {
     fn is_behind(&self, cone: &NormalCone, leaf: &FanLeaf<'_>) -> bool {
         // A product with 1 keeps the bits.
         let (eye, scale) = match *self {
-            GridEye::Towards(way) => return cone.is_behind(way),
+            GridEye::Towards(direction) => return cone.is_behind(direction),
             GridEye::At(eye) => (eye, 1.0),
             GridEye::FarAt(eye) => (eye, DOWN),
         };

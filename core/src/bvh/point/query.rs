@@ -261,7 +261,7 @@ impl PointQuery {
     }
 }
 
-/// By axis the largest way from a point to a corner of a box.
+/// By axis the largest offset from a point to a corner of a box.
 #[inline(always)]
 fn farthest(p: Vec3, low: Vec3, high: Vec3) -> Vec3 {
     if !SOFT_FLOAT {

@@ -78,10 +78,10 @@ impl Bvh<'_> {
         }
         let mut placed = PlacedSolid::NONE;
         placed.place(self, from, Some(to))?;
-        let reach = (placed.radius + placed.lengths.error) + placed.rounding;
+        let kept_distance = (placed.radius + placed.lengths.error) + placed.rounding;
         let mut work = Work::default();
-        let query = ByTime::new(&placed, reach);
-        let mut earliest = Earliest { placed: &placed, reach, until: 1.0, stop: None, measured: 0 };
+        let query = ByTime::new(&placed, kept_distance);
+        let mut earliest = Earliest { placed: &placed, kept_distance, until: 1.0, stop: None, measured: 0 };
         let descent = descend(self, &query, budget.steps, scratch, &mut earliest, &mut work)?;
         work.exact = earliest.measured;
         let Earliest { until, stop, .. } = earliest;
@@ -118,7 +118,7 @@ struct Stop {
 /// How far a solid goes on before one triangle may stop it.
 #[derive(Clone, Copy)]
 struct Advance {
-    /// Before this time the solid is certainly farther than the reach.
+    /// Before this time the solid is certainly farther than `kept_distance`.
     t: f64,
     /// On the triangle, next to the solid at that time.
     point: [f64; 3],
@@ -140,7 +140,7 @@ impl PlacedSolid {
     fn advance_to(
         &self,
         corners: &[[f64; 3]; 3],
-        reach: f64,
+        kept_distance: f64,
         until: f64,
         measured: &mut u32,
     ) -> Option<Advance> {
@@ -150,7 +150,7 @@ impl PlacedSolid {
             *measured = measured.saturating_add(1);
             let gap = self.gap_at(t, corners);
             [_, point] = gap.points;
-            let is_apart = gap.lower > reach;
+            let is_apart = gap.lower > kept_distance;
             if !is_apart {
                 break;
             }
@@ -158,7 +158,7 @@ impl PlacedSolid {
             if speed <= 0.0 {
                 return None;
             }
-            let next = t + (gap.lower - reach) / speed * ADVANCE_KEPT;
+            let next = t + (gap.lower - kept_distance) / speed * ADVANCE_KEPT;
             if next > until {
                 return None;
             }
@@ -205,7 +205,7 @@ const LATER: f64 = 8.0;
 /// The visitor that wants the first triangle to stop the solid.
 struct Earliest<'a> {
     placed: &'a PlacedSolid,
-    reach: f64,
+    kept_distance: f64,
     /// The solid is looked at up to this time.
     until: f64,
     stop: Option<Stop>,
@@ -220,9 +220,9 @@ impl LeafVisitor for Earliest<'_> {
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let mut triangles = LeafTriangles::new(self.placed, visit);
-        while let Some((triangle, corners)) = triangles.next(self.reach) {
-            let Self { placed, reach, until, measured, .. } = self;
-            if let Some(advance) = placed.advance_to(&corners, *reach, *until, measured) {
+        while let Some((triangle, corners)) = triangles.next(self.kept_distance) {
+            let Self { placed, kept_distance, until, measured, .. } = self;
+            if let Some(advance) = placed.advance_to(&corners, *kept_distance, *until, measured) {
                 // Of equal times the first one found counts.
                 if advance.t < self.until || self.stop.is_none() {
                     self.until = advance.t;

@@ -57,11 +57,11 @@ impl Bvh<'_> {
         let mut placed = PlacedSolid::NONE;
         placed.place(self, solid, None)?;
         let lengths = &placed.lengths;
-        let reach = lengths.inward(distance) + placed.radius + lengths.error;
+        let kept_distance = lengths.inward(distance) + placed.radius + lengths.error;
         let threshold = Threshold {
             placed: &placed,
             distance,
-            limit: reach * (1.0 + 8.0 * U64),
+            limit: kept_distance * (1.0 + 8.0 * U64),
             near: None,
             undecided: None,
         };

@@ -75,8 +75,8 @@ impl Search<'_> {
         let header = self.tree.header();
         let bound = if self.error <= FAR_ERROR {
             // The input's triangles may be larger than the stored ones.
-            let reach = header.star_radius + 4.0 * self.error;
-            let bound = header.triangles as f32 * (reach * reach) * FAR_NUMBER;
+            let largest_star = header.star_radius + 4.0 * self.error;
+            let bound = header.triangles as f32 * (largest_star * largest_star) * FAR_NUMBER;
             lesser(bound + f32::MIN_POSITIVE, self.most)
         } else {
             self.most

@@ -94,8 +94,8 @@ impl WholePoint {
     /// About the squared distance of a vertex, for comparison.
     #[inline(always)]
     pub fn about(&self, vertex: Whole) -> u32 {
-        let way = less(self.at, vertex).map(|x| x >> 4);
-        dot(way, way).cast_unsigned()
+        let offset = less(self.at, vertex).map(|x| x >> 4);
+        dot(offset, offset).cast_unsigned()
     }
 
     /// A product of the point and a direction of twelve bits: not above the true one.
@@ -163,14 +163,14 @@ impl WholeBounds {
 pub fn whole_bounds(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> WholeBounds {
     let (s, e, g) = (less(p.at, *a), less(*b, *a), less(*c, *a));
     let (v, w) = weights(s, e, g);
-    let mut way = [0i32; 3];
+    let mut offset = [0i32; 3];
     for axis in 0..3 {
         let inside = v.wrapping_mul(e[axis]).wrapping_add(w.wrapping_mul(g[axis]));
-        way[axis] = (s[axis] << FRACTION_BITS)
+        offset[axis] = (s[axis] << FRACTION_BITS)
             .wrapping_add(p.eighths[axis])
             .wrapping_sub(inside >> (WEIGHT_BITS - FRACTION_BITS));
     }
-    let mut bounds = upper_bound(way);
+    let mut bounds = upper_bound(offset);
     let direction = bounds.direction;
     bounds.corner = match (v, w) {
         (0, 0) => Corner::new(0),
@@ -194,13 +194,13 @@ pub fn vertex_bounds(p: &WholePoint, vertex: Whole) -> WholeBounds {
 /// Upper bound and direction of a way from a point of a triangle, in eighths.
 #[cfg_attr(meshsweep_small, inline(never))]
 #[cfg_attr(not(meshsweep_small), inline(always))]
-fn upper_bound(way: Whole) -> WholeBounds {
-    let size = bits(largest(way));
-    let direction = way.map(|x| x >> size.saturating_sub(DIRECTION_BITS));
+fn upper_bound(offset: Whole) -> WholeBounds {
+    let size = bits(largest(offset));
+    let direction = offset.map(|x| x >> size.saturating_sub(DIRECTION_BITS));
     // Along an axis the way is less than two eighths longer. Squares of 14 bits, rounded up: their
     // sum is below 2^30.
     let cut = size.saturating_sub(14);
-    let square = way.map(|x| (x.abs() + 1 + (1 << cut)) >> cut);
+    let square = offset.map(|x| (x.abs() + 1 + (1 << cut)) >> cut);
     let square = dot(square, square).cast_unsigned();
     let up = 32 - bits(square);
     let exponent = (127 + 30 - 2 * FRACTION_BITS + 2 * cut).wrapping_sub(up);
@@ -218,13 +218,13 @@ fn upper_bound(way: Whole) -> WholeBounds {
 pub fn is_certain_corner(p: &WholePoint, vertex: Whole, to_others: [Whole; 2]) -> bool {
     let [x, y, z] = less(p.at, vertex);
     let [i, j, k] = p.eighths;
-    let way = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
+    let offset = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
     let size = |[x, y, z]: Whole| x.abs() + y.abs() + z.abs();
     let [one, other] = to_others;
     let edges = 2 * (size(one) + size(other));
-    let room = edges * (3 + (((size(way) >> FRACTION_BITS) + edges) >> 17));
+    let room = edges * (3 + (((size(offset) >> FRACTION_BITS) + edges) >> 17));
     let along = |edge: Whole| {
-        way.into_iter().zip(edge).fold(0, |sum, (x, y)| sum + i64::from(x) * i64::from(y))
+        offset.into_iter().zip(edge).fold(0, |sum, (x, y)| sum + i64::from(x) * i64::from(y))
     };
     to_others.into_iter().all(|edge| along(edge) < -i64::from(room))
 }
@@ -234,7 +234,7 @@ pub fn is_certain_corner(p: &WholePoint, vertex: Whole, to_others: [Whole; 2]) -
 #[inline(never)]
 pub fn is_in_front(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> Option<bool> {
     let ([x, y, z], [i, j, k]) = (less(p.at, *a), p.eighths);
-    let way = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
+    let offset = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
     let (e, g) = (less(*b, *a), less(*c, *a));
     let product = |x: i32, y: i32| i64::from(x) * i64::from(y);
     let ([ex, ey, ez], [gx, gy, gz]) = (e, g);
@@ -244,13 +244,13 @@ pub fn is_in_front(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> Option<bool> {
         product(ex, gy) - product(ey, gx),
     ];
     let (mut volume, mut size) = (0, 0);
-    for (n, x) in normal.into_iter().zip(way) {
+    for (n, x) in normal.into_iter().zip(offset) {
         volume += n * i64::from(x);
         size += n.abs();
     }
     let norm_1 = |[x, y, z]: Whole| x.abs() + y.abs() + z.abs();
     let products = product(norm_1(e), norm_1(g));
-    let rounding = ((products >> 10) + 1) * i64::from((largest(way) >> 9) + 1);
+    let rounding = ((products >> 10) + 1) * i64::from((largest(offset) >> 9) + 1);
     let room = 2 * size + rounding;
     if volume.abs() > room { Some(volume > 0) } else { None }
 }
@@ -436,8 +436,8 @@ mod tests {
                 let fan = PointFan::new(s);
                 let [e, g] = [edge(corners[1]), edge(corners[2])];
                 let near = fan.triangle(&fan.spoke(e), &fan.spoke(g));
-                let way = [s, s - e, s - g][which];
-                let distance_sq = way.x * way.x + way.y * way.y + way.z * way.z;
+                let offset = [s, s - e, s - g][which];
+                let distance_sq = offset.x * offset.x + offset.y * offset.y + offset.z * offset.z;
                 let (v, w) = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)][which];
                 let expected = Nearness { distance_sq, lower_bound_sq: distance_sq, v, w };
                 assert_eq!(near, expected, "{p:?} {corners:?}");

@@ -27,19 +27,19 @@ pub fn sharp_lower(p: &WholePoint, &[a, b, c]: &[Whole; 3]) -> WholeLower {
     let (s, e, g) = (less(p.at, a), less(b, a), less(c, a));
     let (v, w) = weights(s, e, g);
     // From the first corner, in units of 2^-FINE_BITS.
-    let way = wide(less(p.fine(), a.map(|x| x << FINE_BITS)));
+    let offset = wide(less(p.fine(), a.map(|x| x << FINE_BITS)));
     let (rim, e, g) = (wide(less(c, b)), wide(e), wide(g));
     let away = if w == 0 {
-        across(way, e)
+        across(offset, e)
     } else if v == 0 {
-        across(way, g)
+        across(offset, g)
     } else if v + w >= ONE - 1 {
         let [x, y, z] = e.map(|x| x << FINE_BITS);
-        across([way[0] - x, way[1] - y, way[2] - z], rim)
+        across([offset[0] - x, offset[1] - y, offset[2] - z], rim)
     } else {
         let ([ex, ey, ez], [gx, gy, gz]) = (e, g);
         let normal = [ey * gz - ez * gy, ez * gx - ex * gz, ex * gy - ey * gx];
-        if dot(normal, way) < 0 { normal.map(|x| -x) } else { normal }
+        if dot(normal, offset) < 0 { normal.map(|x| -x) } else { normal }
     };
     let [x, y, z] = away.map(i64::unsigned_abs);
     let size = 64 - (x | y | z).leading_zeros();
@@ -47,15 +47,15 @@ pub fn sharp_lower(p: &WholePoint, &[a, b, c]: &[Whole; 3]) -> WholeLower {
     // The point is rounded down by a unit at most, and its difference from the grid's origin by two.
     let room = 3 * direction.into_iter().fold(0, |sum, x| sum + x.abs());
     let corners = dot(direction, e).max(dot(direction, g)).max(0) << FINE_BITS;
-    let least = dot(direction, way) - room;
+    let least = dot(direction, offset) - room;
     // In units of 16: so a product has 32 bits.
     let along = ((least - corners) >> (FINE_BITS + 4)).clamp(0, i64::from(i32::MAX));
     WholeLower::new(along as i32, (dot(direction, direction) >> 8) as u32 + 1)
 }
 
 /// The part of a way that is orthogonal to an edge, times the edge's square.
-fn across(way: Wide, edge: Wide) -> Wide {
-    let (square, along) = (dot(edge, edge), dot(way, edge));
-    let [x, y, z] = way.map(|x| x * square);
+fn across(offset: Wide, edge: Wide) -> Wide {
+    let (square, along) = (dot(edge, edge), dot(offset, edge));
+    let [x, y, z] = offset.map(|x| x * square);
     [x - along * edge[0], y - along * edge[1], z - along * edge[2]]
 }

@@ -96,7 +96,7 @@ pub struct Split<'a> {
     /// ring's last.
     pub left_parent: usize,
     /// No point of the fine triangles is farther than this from `vertex`, local frame.
-    pub reach: f32,
+    pub star_radius: f32,
     /// The largest finite certified radius of the triangles that the split removes, local frame.
     pub error: f32,
     /// Number of the split's first triangle, for [`Hull::radius`].
@@ -358,7 +358,7 @@ impl<'a> Hull<'a> {
         let start = self.splits.index(at + wv, wr)?;
         let wings = self.splits.u8(at + wv + wr)?;
         let right = usize::from(wings & RIGHT_WING);
-        let reach = Radius8(self.splits.u8(at + wv + wr + 1)?).get();
+        let star_radius = Radius8(self.splits.u8(at + wv + wr + 1)?).get();
         let error = Radius8(self.splits.u8(at + wv + wr + 2)?).get();
         let end = if split.0.checked_add(1)? < self.header.splits {
             self.splits.index(at + bytes + wv, wr)?
@@ -373,7 +373,7 @@ impl<'a> Hull<'a> {
             right,
             right_parent: right.wrapping_sub(usize::from(wings & RIGHT_BEFORE != 0)),
             left_parent: if wings & LEFT_BEFORE != 0 { len.wrapping_sub(1) } else { 0 },
-            reach,
+            star_radius,
             error,
             first_triangle: self
                 .header
@@ -434,11 +434,11 @@ impl<'a> Hull<'a> {
 
     /// Star radius and error of a split, without the rest of its record.
     #[inline(always)]
-    pub(crate) fn reach_and_error(&self, split: SplitIdx) -> Option<[f32; 2]> {
+    pub(crate) fn star_radius_and_error(&self, split: SplitIdx) -> Option<[f32; 2]> {
         let bytes = self.widths.vertex + self.widths.ring + 3;
         let at = split.usize().wrapping_mul(bytes).wrapping_add(bytes - 2);
-        let [reach, error] = self.splits.array::<2>(at)?;
-        Some([Radius8(reach).get(), Radius8(error).get()])
+        let [star_radius, error] = self.splits.array::<2>(at)?;
+        Some([Radius8(star_radius).get(), Radius8(error).get()])
     }
 
     /// Certified radius of a triangle of any level, local frame: base triangles first, then those

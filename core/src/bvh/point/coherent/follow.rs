@@ -76,7 +76,7 @@ pub(crate) struct Follow<'a, 't> {
     pub(crate) front: TraversalFront<'a>,
     planes: &'a mut Planes,
     /// From the model's middle to the query. Planes are measured from the middle.
-    way: Vec3,
+    from_middle: Vec3,
     pub(crate) work: Work,
     /// Entries stay active while their key is at most this much above `bound`: a few steps.
     ahead: f32,
@@ -114,7 +114,7 @@ impl<'a, 't> Follow<'a, 't> {
             query,
             front,
             planes,
-            way: query.p - middle(tree),
+            from_middle: query.p - middle(tree),
             work: Work::default(),
             ahead,
             best: Nearest::NONE,
@@ -196,7 +196,7 @@ impl<'a, 't> Follow<'a, 't> {
         loop {
             match child.bound_kind() {
                 BoundKind::Triangles => {
-                    let key = self.front.key(self.planes.bound(child, self.way) - self.plane_error);
+                    let key = self.front.key(self.planes.bound(child, self.from_middle) - self.plane_error);
                     if key > self.bound {
                         self.front.set(i, key, child);
                         return Ok(());
@@ -311,7 +311,7 @@ impl<'a, 't> Follow<'a, 't> {
                 self.planes.put(
                     child,
                     &looked,
-                    self.way,
+                    self.from_middle,
                     near.lane(),
                     self.shortfall + self.plane_error,
                 );

@@ -182,12 +182,12 @@ fn corner_nearness(
     if !is_certain(point, corners, corner) {
         return None;
     }
-    let mut way = difference(p, leaf.centre(usize::from(lane >= leaf.shape().turn())));
+    let mut offset = difference(p, leaf.centre(usize::from(lane >= leaf.shape().turn())));
     if corner.number > 0 {
         let [x, y, z] = less(*corners.get(usize::from(corner.number))?, corners[0]);
-        way = difference(way, Vec3::new(float(x), float(y), float(z)));
+        offset = difference(offset, Vec3::new(float(x), float(y), float(z)));
     }
-    let distance_sq = dot(way, way);
+    let distance_sq = dot(offset, offset);
     Some(at_corner(distance_sq, corner))
 }
 

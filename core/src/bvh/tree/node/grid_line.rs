@@ -140,19 +140,19 @@ mod tests {
                 vertex + Vec3::from_array(noise.vector(away))
             };
             let (a, b) = (target(&mut noise), target(&mut noise));
-            let way = (b - a) * [1.0, 3.0, 20.0][noise.below(3) as usize];
-            if way.abs().max_element() < 1.0 {
+            let offset = (b - a) * [1.0, 3.0, 20.0][noise.below(3) as usize];
+            if offset.abs().max_element() < 1.0 {
                 continue;
             }
-            let from = b - way;
-            let inverse = way.to_array().map(|d| 1.0 / if d == 0.0 { 1e-20 } else { d });
+            let from = b - offset;
+            let inverse = offset.to_array().map(|d| 1.0 / if d == 0.0 { 1e-20 } else { d });
             let surface = [0.0, 0.9, 50.0][noise.below(3) as usize];
             let size = vertices.iter().fold(0f32, |size, &vertex| {
-                let way = (place(vertex) - from).abs();
-                size.max(way.x + way.y + way.z)
+                let offset = (place(vertex) - from).abs();
+                size.max(offset.x + offset.y + offset.z)
             });
             let ray =
-                FanRay::new(from.to_array(), way.to_array(), inverse, 1.0, surface, size + 2e5);
+                FanRay::new(from.to_array(), offset.to_array(), inverse, 1.0, surface, size + 2e5);
             let line = GridLine::new(&ray, origin);
             let ordered = vertices.map(|vertex| ray.in_order(vertex));
             let row = |axis: usize| {
