@@ -121,7 +121,10 @@ fn sides<T: Real>([first, second, _]: &[Edge<T>; 3], points: [Point<T>; 3], shif
     each(points, |p| {
         // From the vertex that both edges share.
         let offset = minus(p, second.from);
-        sign(dot(normal, offset), determinant_margin(first.length, second.length, norm_1(offset), shift))
+        sign(
+            dot(normal, offset),
+            determinant_margin(first.length, second.length, norm_1(offset), shift),
+        )
     })
 }
 
@@ -258,7 +261,9 @@ fn parted_in_a_plane<T: Real>(
     [(edges_a, a, b), (edges_b, b, a)].into_iter().any(|(edges, own, other)| {
         let [first, second, _] = edges;
         let normal = cross(first.offset, second.offset);
-        edges.iter().any(|edge| parted_along(cross(edge.offset, normal), edge.from, own, other, shift))
+        edges
+            .iter()
+            .any(|edge| parted_along(cross(edge.offset, normal), edge.from, own, other, shift))
     })
 }
 

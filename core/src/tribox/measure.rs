@@ -81,7 +81,8 @@ impl Tribox {
                 continue;
             }
             let (near, far) = if change > 0.0 { (low, high) } else { (high, low) };
-            let (near, far) = (outward(near, from, change, false), outward(far, from, change, true));
+            let (near, far) =
+                (outward(near, from, change, false), outward(far, from, change, true));
             enter = greater(enter, near);
             leave = lesser(leave, far);
         }

@@ -81,7 +81,8 @@ impl Bvh<'_> {
         let kept_distance = (placed.radius + placed.lengths.error) + placed.rounding;
         let mut work = Work::default();
         let query = ByTime::new(&placed, kept_distance);
-        let mut earliest = Earliest { placed: &placed, kept_distance, until: 1.0, stop: None, measured: 0 };
+        let mut earliest =
+            Earliest { placed: &placed, kept_distance, until: 1.0, stop: None, measured: 0 };
         let descent = descend(self, &query, budget.steps, scratch, &mut earliest, &mut work)?;
         work.exact = earliest.measured;
         let Earliest { until, stop, .. } = earliest;

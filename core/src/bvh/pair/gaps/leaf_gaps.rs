@@ -75,7 +75,8 @@ impl LeafGaps<'_> {
         let mut limit_sq = reach_sq(visitor);
         let mut seen = Measured { pairs: 0, lower: f64::INFINITY };
         let visit = |direction, goes_on, seen: &Measured| {
-            let lower = if L::KEEPS { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
+            let lower =
+                if L::KEEPS { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
             Some(LeafVisit { goes_on, lower })
         };
         if !may_be_near(self.direction, limit_sq, &pair) {
@@ -153,7 +154,12 @@ struct Measured {
 
 /// A lower bound of the distance of both leaves: of measured pairs their lower ends, of the others
 /// the larger of the gap of their boxes and the gap along the direction (§18). Common units.
-fn least_distance(pair: &LeafPair<'_>, direction: [f32; 3], margin: f32, seen: &Measured) -> Option<f64> {
+fn least_distance(
+    pair: &LeafPair<'_>,
+    direction: [f32; 3],
+    margin: f32,
+    seen: &Measured,
+) -> Option<f64> {
     let mut keys = keys(pair, f32::INFINITY)?;
     raise_keys_along(&mut keys, direction, pair);
     for (i, key) in keys.0.iter_mut().enumerate() {

@@ -196,7 +196,9 @@ impl<'a, 't> Follow<'a, 't> {
         loop {
             match child.bound_kind() {
                 BoundKind::Triangles => {
-                    let key = self.front.key(self.planes.bound(child, self.from_middle) - self.plane_error);
+                    let key = self
+                        .front
+                        .key(self.planes.bound(child, self.from_middle) - self.plane_error);
                     if key > self.bound {
                         self.front.set(i, key, child);
                         return Ok(());

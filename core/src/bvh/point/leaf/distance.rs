@@ -184,11 +184,11 @@ mod narrow {
         FanLeaf, LeafLimit, LeafNearest, LeafSeen, LeafSquares, PointQuery, nearest_triangle,
     };
     use crate::bvh::point::leaf::bounds::nearness;
+    use crate::bvh::point::leaf::integer::integer_nearest;
     use crate::bvh::point::leaf::nearest::Lanes;
-    use crate::bvh::point::leaf::plane::Way;
-    use crate::bvh::point::leaf::whole::whole_nearest;
+    use crate::bvh::point::leaf::plane::Residual;
     use crate::bvh::point::query::limit_of;
-    use crate::geom::fan::{PointFan, SpokeTerms, WIDTH, Whole};
+    use crate::geom::fan::{IntVector, PointFan, SpokeTerms, WIDTH};
     use crate::num::{SOFT_FLOAT, lesser};
     use glam::Vec3;
 
@@ -234,7 +234,7 @@ mod narrow {
             let leaf = *leaf;
             Some(f32_nearest(&leaf, p, limit.low_sq))
         } else if SOFT_FLOAT && let Some(point) = &query.whole {
-            whole_nearest(leaf, p, point, limit, known)
+            integer_nearest(leaf, p, point, limit, known)
         } else {
             grid_nearest(leaf, p, limit)
         }
@@ -248,13 +248,13 @@ mod narrow {
     /// A fan of a leaf on the grid, seen from the query. Integers are subtracted before they become
     /// f32.
     struct GridFan {
-        centre: Whole,
+        centre: IntVector,
         fan: PointFan,
     }
 
     impl GridFan {
         #[inline(always)]
-        fn new(leaf: &FanLeaf<'_>, p: Vec3, centre: Whole) -> Self {
+        fn new(leaf: &FanLeaf<'_>, p: Vec3, centre: IntVector) -> Self {
             let [ox, oy, oz] = leaf.origin;
             let [x, y, z] = centre;
             let place = [x.wrapping_add(ox), y.wrapping_add(oy), z.wrapping_add(oz)];
@@ -262,7 +262,7 @@ mod narrow {
         }
 
         #[inline(always)]
-        fn spoke(&self, vertex: Whole) -> SpokeTerms {
+        fn spoke(&self, vertex: IntVector) -> SpokeTerms {
             self.fan.spoke(spoke(vertex, self.centre))
         }
     }
@@ -301,7 +301,7 @@ mod narrow {
                         if near.distance_sq < nearest.distance_sq {
                             nearest.distance_sq = near.distance_sq;
                             nearest.lanes = Lanes::one(lane, &near);
-                            nearest.lanes.tell(lane, Way::of_residual(residual));
+                            nearest.lanes.tell(lane, Residual::of_float(residual));
                             within = lesser(within, limit_of(near.distance_sq, limit.allowance));
                             culled_below = fan.fan.culled_below(within);
                         }

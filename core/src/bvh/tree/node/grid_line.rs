@@ -40,7 +40,7 @@ pub struct GridLine {
 }
 
 /// In units of 8 grid units.
-type WholeShadow = [i32; 2];
+type IntShadow = [i32; 2];
 
 impl GridLine {
     /// Nothing is clear of it.
@@ -71,7 +71,7 @@ impl GridLine {
     }
 
     #[inline(always)]
-    fn shadow(&self, [u, v, w]: [i32; 3]) -> WholeShadow {
+    fn shadow(&self, [u, v, w]: [i32; 3]) -> IntShadow {
         let along = |x: i32, slope: i32, at: i32| {
             (x << SLOPE_BITS).wrapping_sub(slope.wrapping_mul(w)).wrapping_sub(at) >> SHADOW_SHIFT
         };
@@ -94,10 +94,10 @@ impl GridLine {
 }
 
 impl ShadowPlane for GridLine {
-    type Shadow = WholeShadow;
+    type Shadow = IntShadow;
 
     #[inline(always)]
-    fn clear_sides(&self, from: WholeShadow, to: WholeShadow) -> [i32; 2] {
+    fn clear_sides(&self, from: IntShadow, to: IntShadow) -> [i32; 2] {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
         let area = from[0] * to[1] - from[1] * to[0];
         // At least the 1-norm: `x ^ x >> 31` is |x| or |x| − 1.

@@ -1,19 +1,19 @@
 //! A sharper lower bound of a point and a triangle, in integers of 64 bits: for the few triangles
-//! that [`whole_bounds`](super::whole_bounds()) leaves.
+//! that [`integer_bounds`](super::integer_bounds()) leaves.
 //!
 //! Its plane is across the triangle's normal, or across the way that is orthogonal to the nearest
-//! edge. The direction of `whole_bounds` is off by the rounding of the estimated point, which a long
+//! edge. The direction of `integer_bounds` is off by the rounding of the estimated point, which a long
 //! needle multiplies. Proof: `core/docs/rounding.md` §8, "Whole numbers".
 
-use super::whole::{FINE_BITS, ONE, Whole, WholePoint, less, weights};
-use super::whole_limit::WholeLower;
+use super::integer::{FINE_BITS, IntPoint, IntVector, ONE, less, weights};
+use super::integer_limit::IntLower;
 
 type Wide = [i64; 3];
 
 /// Bits of the components of the direction.
 const DIRECTION_BITS: u32 = 15;
 
-fn wide([x, y, z]: Whole) -> Wide {
+fn wide([x, y, z]: IntVector) -> Wide {
     [i64::from(x), i64::from(y), i64::from(z)]
 }
 
@@ -23,7 +23,7 @@ fn dot([a, b, c]: Wide, [x, y, z]: Wide) -> i64 {
 
 /// A lower bound of the distance of a triangle. Its corners are on the grid, from the grid's origin.
 #[inline(never)]
-pub fn sharp_lower(p: &WholePoint, &[a, b, c]: &[Whole; 3]) -> WholeLower {
+pub fn sharp_lower(p: &IntPoint, &[a, b, c]: &[IntVector; 3]) -> IntLower {
     let (s, e, g) = (less(p.at, a), less(b, a), less(c, a));
     let (v, w) = weights(s, e, g);
     // From the first corner, in units of 2^-FINE_BITS.
@@ -50,7 +50,7 @@ pub fn sharp_lower(p: &WholePoint, &[a, b, c]: &[Whole; 3]) -> WholeLower {
     let least = dot(direction, offset) - room;
     // In units of 16: so a product has 32 bits.
     let along = ((least - corners) >> (FINE_BITS + 4)).clamp(0, i64::from(i32::MAX));
-    WholeLower::new(along as i32, (dot(direction, direction) >> 8) as u32 + 1)
+    IntLower::new(along as i32, (dot(direction, direction) >> 8) as u32 + 1)
 }
 
 /// The part of a way that is orthogonal to an edge, times the edge's square.
