@@ -2,7 +2,7 @@
 //! 1964), sorted in place at the end.
 
 use super::leaf::bounds::witness;
-use super::query::PointQuery;
+use super::query::{FarPoint, PointQuery};
 use super::triangle_visitor::LeafTriangle;
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::triangle_at::TriangleAt;
@@ -211,7 +211,7 @@ impl<'a> Heap<'a> {
 /// number. For points from which all triangles are alike.
 pub(crate) fn first_triangles(
     tree: &Bvh<'_>,
-    query: &PointQuery,
+    far: FarPoint<'_>,
     distance: Interval,
     out: &mut [Neighbor],
 ) -> Result<usize, QueryError> {
@@ -227,7 +227,7 @@ pub(crate) fn first_triangles(
                 let [corner, ..] = leaf.corners(lane);
                 let triangle =
                     tree.source(first.wrapping_add(lane as u32)).ok_or(QueryError::Unchecked)?;
-                *slot = Neighbor::of(distance, query.units.point(corner), triangle);
+                *slot = Neighbor::of(distance, far.query.units.point(corner), triangle);
                 stored += 1;
             }
         }

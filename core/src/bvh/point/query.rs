@@ -60,11 +60,33 @@ pub(crate) struct PointQuery {
     /// Square by which a lower bound may fall short: [`CERTIFIED_SHORTFALL`], or 0 for f32
     /// vertices.
     shortfall_sq: f32,
-    /// Farther than [`BVH_FAR`]: the model's box gives the answer.
-    pub(crate) far: bool,
 }
 
-impl PointQuery {
+/// A point that a question prepared, near or far.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PreparedPoint {
+    query: PointQuery,
+    /// Farther than [`BVH_FAR`].
+    is_far: bool,
+}
+
+/// What a question has to answer.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Asked<'q> {
+    /// A point that the tree can be searched for.
+    Near(&'q PointQuery),
+    /// A point so far away that the model's box answers.
+    Far(FarPoint<'q>),
+}
+
+/// A point farther than [`BVH_FAR`]. Far enough away, all points of the surface are the closest up
+/// to a rounding of f32. Nearer, it bounds the distance where no leaf was looked at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FarPoint<'q> {
+    pub(crate) query: &'q PointQuery,
+}
+
+impl PreparedPoint {
     /// Prepares a question: refuses a tree without boxes for distances, the budget, the scratch
     /// memory or the point.
     #[cfg_attr(meshsweep_wide, inline(always))]
@@ -74,15 +96,15 @@ impl PointQuery {
         point: [f32; 3],
         budget: &Budget,
         scratch: &[ScratchEntry],
-    ) -> Result<PointQuery, QueryError> {
+    ) -> Result<PreparedPoint, QueryError> {
         PointQuery::check_served(tree)?;
         budget.check_with(scratch)?;
-        PointQuery::new(tree, point)
+        PreparedPoint::new(tree, point)
     }
 
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
-    pub(crate) fn new(tree: &Bvh<'_>, point: [f32; 3]) -> Result<PointQuery, QueryError> {
+    pub(crate) fn new(tree: &Bvh<'_>, point: [f32; 3]) -> Result<PreparedPoint, QueryError> {
         let [x, y, z] = point;
         let units = tree.units();
         let p = units.inward_point(point);
@@ -109,7 +131,7 @@ impl PointQuery {
         } else {
             None
         };
-        Ok(PointQuery {
+        let query = PointQuery {
             p,
             #[cfg(not(meshsweep_wide))]
             from_origin,
@@ -124,10 +146,19 @@ impl PointQuery {
             // Keys are halves of squares.
             keys_in_square: f32::from_bits((126 - 2 * key_point.unit_exponent()) << 23),
             plane_error: (Real(size).times_power(PLANE_DISTANCE * U32) + Real(fan)).0,
-            far: !near,
-        })
+        };
+        Ok(PreparedPoint { query, is_far: !near })
     }
 
+    /// The point, as a case that each question answers.
+    #[inline(always)]
+    pub(crate) fn asked(&self) -> Asked<'_> {
+        let query = &self.query;
+        if self.is_far { Asked::Far(FarPoint { query }) } else { Asked::Near(query) }
+    }
+}
+
+impl PointQuery {
     /// No triangle that is computed as near as `distance_sq` has a true squared distance above
     /// this.
     ///

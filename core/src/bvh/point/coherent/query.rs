@@ -7,7 +7,7 @@ use super::follow::{Follow, Nearest, NoAnswer};
 use super::front::{BoundKind, Child, FrontState, TraversalFront};
 use super::planes::Planes;
 use crate::bvh::point::hint::Hint;
-use crate::bvh::point::query::PointQuery;
+use crate::bvh::point::query::{Asked, PointQuery, PreparedPoint};
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::sqrt_approx;
@@ -260,11 +260,14 @@ impl Memory {
         budget: &Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<CoherentClosest, QueryError> {
-        let query = PointQuery::prepare(tree, point, budget, scratch)?;
-        if query.far || budget.relative > 0.0 || budget.absolute > 0.0 {
-            let closest = tree.closest_point(point, *budget, scratch)?;
-            return Ok(CoherentClosest { closest, safe_radius: 0.0 });
-        }
+        let prepared = PreparedPoint::prepare(tree, point, budget, scratch)?;
+        let query = match prepared.asked() {
+            Asked::Near(query) if budget.relative <= 0.0 && budget.absolute <= 0.0 => query,
+            Asked::Near(_) | Asked::Far(_) => {
+                let closest = tree.closest_point(point, *budget, scratch)?;
+                return Ok(CoherentClosest { closest, safe_radius: 0.0 });
+            }
+        };
         let of = tree.identity();
         if self.of != of {
             *self = Memory { of, ..Memory::EMPTY };
@@ -275,7 +278,7 @@ impl Memory {
             + LEAST_DENOMINATOR;
         self.last.p = query.p;
         if self.policy.uses_front(step) {
-            match self.follow(keys, children, tree, &query, (step, budget.steps), &mut spent) {
+            match self.follow(keys, children, tree, query, (step, budget.steps), &mut spent) {
                 Ok(answer) => return Ok(answer),
                 Err(NoAnswer::Unchecked) => return Err(QueryError::Unchecked),
                 Err(NoAnswer::Undecided) => {}

@@ -3,7 +3,6 @@
 
 #[cfg(not(meshsweep_wide))]
 use super::waiting::Waiting;
-use crate::bvh::point::far_point::from_afar;
 use crate::bvh::point::hint::Hint;
 use crate::bvh::point::leaf::bounds::{nearness, seen_from, sliver};
 use crate::bvh::point::leaf::distance::nearest_triangle;
@@ -11,7 +10,7 @@ use crate::bvh::point::leaf::limit::LeafLimit;
 use crate::bvh::point::leaf::nearest::{Lanes, LeafNearest};
 #[cfg(not(meshsweep_wide))]
 use crate::bvh::point::leaf::plane::LeafPlane;
-use crate::bvh::point::query::{EVERY_KEY, PointQuery};
+use crate::bvh::point::query::{EVERY_KEY, FarPoint, PointQuery};
 use crate::bvh::tree::descent::{Descent, LeafVisit, LeafVisitor};
 use crate::bvh::tree::format::{Bvh, FanLeaf, lanes_of};
 #[cfg(meshsweep_wide)]
@@ -256,7 +255,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             least_sq = lesser(least_sq, square(self.query.distance_of_key(least)));
         }
         if node == u32::MAX {
-            let mut answer = from_afar(self.tree, self.point, self.query)?;
+            let mut answer = FarPoint { query: self.query }.closest_point(self.tree, self.point)?;
             let Interval { lower, upper } = answer.distance;
             let least = self.query.lower(sqrt_approx(least_sq));
             answer.distance.lower = lesser(greater(lower, least), upper);
