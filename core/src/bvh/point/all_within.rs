@@ -2,7 +2,7 @@
 
 use super::leaf::bounds::limit_within;
 use super::neighbors::{Heap, Neighbor, first_triangles};
-use super::query::{Asked, FarPoint, PointQuery};
+use super::query::{Asked, FarPoint, PointQuery, PreparedPoint};
 use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
 use crate::bvh::tree::descent::descend;
 use crate::bvh::tree::format::{Bvh, FanLeaf};
@@ -66,7 +66,7 @@ impl Bvh<'_> {
         let tree = self;
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check()?;
-        let prepared = PointQuery::prepare(tree, point, &budget, scratch)?;
+        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch)?;
         let query = match prepared.asked() {
             Asked::Near(query) => query,
             Asked::Far(far) => return from_afar(tree, point, far, distance, out),

@@ -151,7 +151,7 @@ fn search_by_entries(
     scratch: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
     // In place: a copy would take a board as long as the preparation.
-    let prepared = PointQuery::prepare(tree, point, budget, scratch);
+    let prepared = PreparedPoint::prepare(tree, point, budget, scratch);
     let query = match prepared.as_ref().map(PreparedPoint::asked) {
         Ok(Asked::Near(query)) => query,
         Ok(Asked::Far(far)) => return far.closest_point(tree, point),

@@ -3,7 +3,7 @@
 
 use super::hint::Hint;
 use super::leaf::bounds::limit_of;
-use super::query::{Asked, PointQuery};
+use super::query::{Asked, PointQuery, PreparedPoint};
 use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
 use crate::bvh::tree::descent::descend;
 use crate::bvh::tree::format::{Bvh, FanLeaf};
@@ -54,7 +54,7 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
         let tree = self;
-        let prepared = PointQuery::prepare(tree, point, &budget, scratch)?;
+        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch)?;
         let query = match prepared.asked() {
             Asked::Near(query) => query,
             Asked::Far(far) => return far.closest_point(tree, point),

@@ -1,6 +1,6 @@
 //! Triangles that may face the eye: leaves that certainly show their back are left out.
 
-use super::query::{Asked, PointQuery};
+use super::query::{Asked, PreparedPoint};
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::geom::fan::{NormalCone, WIDTH};
 use crate::num::greater;
@@ -111,7 +111,7 @@ impl GridEye {
     fn new(tree: &Bvh<'_>, eye: Eye) -> Result<GridEye, QueryError> {
         match eye {
             Eye::At(point) => {
-                let prepared = PointQuery::new(tree, point)?;
+                let prepared = PreparedPoint::new(tree, point)?;
                 Ok(match prepared.asked() {
                     Asked::Near(query) => GridEye::At(query.p),
                     Asked::Far(far) => GridEye::FarAt(far.query.p),
@@ -134,7 +134,7 @@ impl GridEye {
     fn is_behind(&self, cone: &NormalCone, leaf: &FanLeaf<'_>) -> bool {
         // A product with 1 keeps the bits.
         let (eye, scale) = match *self {
-            GridEye::Towards(direction) => return cone.is_behind(direction),
+            GridEye::Towards(way) => return cone.is_behind(way),
             GridEye::At(eye) => (eye, 1.0),
             GridEye::FarAt(eye) => (eye, DOWN),
         };

@@ -2,7 +2,7 @@
 
 use super::leaf::bounds::lower_of_box;
 use super::neighbors::{Heap, Neighbor, first_triangles};
-use super::query::{Asked, PointQuery};
+use super::query::{Asked, PointQuery, PreparedPoint};
 use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
 use crate::bvh::tree::descent::{Descent, descend};
 use crate::bvh::tree::format::{Bvh, FanLeaf};
@@ -68,7 +68,7 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<KNearest, QueryError> {
         let tree = self;
-        let prepared = PointQuery::prepare(tree, point, &budget, scratch)?;
+        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch)?;
         let mut work = Work::default();
         if out.is_empty() {
             return Ok(KNearest { stored: 0, rest_lower: 0.0, work, ended: Ended::Exact });

@@ -4,7 +4,7 @@ use crate::bvh::tree::descent::{NodeQuery, OpenedNode};
 #[cfg(meshsweep_wide)]
 use crate::bvh::tree::format::LanePoint;
 use crate::bvh::tree::format::{Bvh, Units};
-#[cfg(meshsweep_avx2)]
+#[cfg(target_arch = "x86_64")]
 use crate::bvh::tree::node::box_distances_avx2;
 use crate::bvh::tree::node::{CHILD_MASK, KeyPoint, NO_CHILD, box_distances};
 #[cfg(not(meshsweep_wide))]
@@ -87,15 +87,6 @@ pub(crate) struct FarPoint<'q> {
 }
 
 impl PreparedPoint {
-    /// The point, as a case that each question answers.
-    #[inline(always)]
-    pub(crate) fn asked(&self) -> Asked<'_> {
-        let query = &self.query;
-        if self.is_far { Asked::Far(FarPoint { query }) } else { Asked::Near(query) }
-    }
-}
-
-impl PointQuery {
     /// Prepares a question: refuses a tree without boxes for distances, the budget, the scratch
     /// memory or the point.
     #[cfg_attr(meshsweep_wide, inline(always))]
@@ -108,7 +99,7 @@ impl PointQuery {
     ) -> Result<PreparedPoint, QueryError> {
         PointQuery::check_served(tree)?;
         budget.check_with(scratch)?;
-        PointQuery::new(tree, point)
+        PreparedPoint::new(tree, point)
     }
 
     #[cfg_attr(meshsweep_wide, inline(always))]
@@ -159,6 +150,15 @@ impl PointQuery {
         Ok(PreparedPoint { query, is_far: !near })
     }
 
+    /// The point, as a case that each question answers.
+    #[inline(always)]
+    pub(crate) fn asked(&self) -> Asked<'_> {
+        let query = &self.query;
+        if self.is_far { Asked::Far(FarPoint { query }) } else { Asked::Near(query) }
+    }
+}
+
+impl PointQuery {
     /// No triangle that is computed as near as `distance_sq` has a true squared distance above
     /// this.
     ///
@@ -222,7 +222,7 @@ impl PointQuery {
     }
 
     /// The same, in registers of 256 bits.
-    #[cfg(meshsweep_avx2)]
+    #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
     #[inline]
     pub(crate) fn keys_avx2(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {
@@ -261,7 +261,7 @@ impl PointQuery {
     }
 }
 
-/// By axis the largest offset from a point to a corner of a box.
+/// By axis the largest way from a point to a corner of a box.
 #[inline(always)]
 fn farthest(p: Vec3, low: Vec3, high: Vec3) -> Vec3 {
     if !SOFT_FLOAT {

@@ -77,7 +77,7 @@ impl Bvh<'_> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check()?;
         // In place: a copy would take a board as long as the preparation.
-        let prepared = PointQuery::prepare(tree, point, &budget, scratch);
+        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch);
         let query = match prepared.as_ref().map(PreparedPoint::asked) {
             Ok(Asked::Near(query)) => query,
             Ok(Asked::Far(far)) => return from_afar(tree, point, far, distance),

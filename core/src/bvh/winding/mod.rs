@@ -23,7 +23,7 @@ mod moment_flux;
 mod search;
 
 use crate::bvh::point::hint::Hint;
-use crate::bvh::point::query::{Asked, FarPoint, PointQuery};
+use crate::bvh::point::query::{Asked, FarPoint, PreparedPoint};
 use crate::bvh::tree::format::Bvh;
 
 use crate::query::{
@@ -99,7 +99,7 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<WindingNumber, QueryError> {
         budget.check_with(scratch)?;
-        let prepared = PointQuery::new(self, point)?;
+        let prepared = PreparedPoint::new(self, point)?;
         if !self.serves_winding() {
             return Err(QueryError::NO_MOMENTS);
         }

@@ -7,7 +7,7 @@ use super::follow::{Follow, Nearest, NoAnswer};
 use super::front::{BoundKind, Child, FrontState, TraversalFront};
 use super::planes::Planes;
 use crate::bvh::point::hint::Hint;
-use crate::bvh::point::query::{Asked, PointQuery};
+use crate::bvh::point::query::{Asked, PointQuery, PreparedPoint};
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::sqrt_approx;
@@ -260,7 +260,7 @@ impl Memory {
         budget: &Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<CoherentClosest, QueryError> {
-        let prepared = PointQuery::prepare(tree, point, budget, scratch)?;
+        let prepared = PreparedPoint::prepare(tree, point, budget, scratch)?;
         let query = match prepared.asked() {
             Asked::Near(query) if budget.relative <= 0.0 && budget.absolute <= 0.0 => query,
             Asked::Near(_) | Asked::Far(_) => {

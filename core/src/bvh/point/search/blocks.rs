@@ -3,7 +3,7 @@
 use super::closest::{Closest, NearestOfLeaf};
 use crate::bvh::point::hint::Hint;
 use crate::bvh::point::leaf::limit::LeafLimit;
-use crate::bvh::point::query::{Asked, PointQuery};
+use crate::bvh::point::query::{Asked, PointQuery, PreparedPoint};
 use crate::bvh::tree::block_walk::{BlockWalk, walk};
 use crate::bvh::tree::descent::Descent;
 use crate::bvh::tree::format::Bvh;
@@ -56,7 +56,7 @@ pub(crate) fn search_by_blocks(
     if !is_exact || budget.steps < tree.most_steps() || scratch.len() < tree.scratch_entries() {
         return None;
     }
-    let prepared = match PointQuery::prepare(tree, point, budget, scratch) {
+    let prepared = match PreparedPoint::prepare(tree, point, budget, scratch) {
         Ok(prepared) => prepared,
         Err(error) => return Some(Err(error)),
     };

@@ -101,7 +101,7 @@ impl Bvh<'_> {
     ) -> Result<SignedDistance, QueryError> {
         let tree = self;
         // Here and below in place: queries, surveys and answers are large.
-        let prepared = PointQuery::prepare(tree, point, &budget, scratch);
+        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch);
         let asked = prepared.as_ref().map_err(|&refused| refused)?.asked();
         let closed = tree.is_closed();
         let (steps, stack) = (budget.steps, scratch);
@@ -221,7 +221,7 @@ impl Search<'_, '_> {
     ) -> Option<Option<Side>> {
         for _ in 0..count {
             let Some(point) = place else { break };
-            let prepared = PointQuery::new(self.tree, point);
+            let prepared = PreparedPoint::new(self.tree, point);
             let Ok(Asked::Near(query)) = prepared.as_ref().map(PreparedPoint::asked) else { break };
             let mut survey = Survey::of(query);
             self.survey_with_area(&mut survey)?;

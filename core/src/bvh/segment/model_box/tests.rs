@@ -1,6 +1,6 @@
 //! A glance never contradicts [`SegmentAndBox::is_clear`].
 
-use super::{Glance, SegmentAndBox, norm_1, plain, whole};
+use super::{Glance, SegmentAndBox, integer, norm_1, plain};
 use crate::bvh::tree::format::Bvh;
 use crate::query::QueryError;
 
