@@ -19,6 +19,8 @@ pub(crate) struct LeafLimit {
     /// Triangles whose squared lower bound is not above this are told, by [`low`](super::leaf_nearest::LeafNearest::low). At
     /// most [`EVERYTHING_SQ`](crate::num::tolerance::EVERYTHING_SQ): unused lanes have more.
     pub(crate) low_sq: f32,
+    /// A nearest triangle is wanted only if its squared distance is below this.
+    pub(crate) wanted_sq: f32,
 }
 
 impl LeafLimit {
@@ -28,5 +30,6 @@ impl LeafLimit {
         plane: LeafPlane::NONE,
         allowance: f32::INFINITY,
         low_sq: 0.0,
+        wanted_sq: f32::INFINITY,
     };
 }
