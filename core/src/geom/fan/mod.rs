@@ -35,8 +35,8 @@ pub use lanes::{LANES_BELOW, WIDTH};
 pub use lanes_wide::{point_lanes, ray_lanes, ray_leaf8};
 pub(crate) use point::is_whole;
 pub use point::{
-    Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, lower_bound_up_to, point_leaf,
-    refined,
+    ABOVE_ZERO, Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, lower_bound_up_to,
+    point_leaf, refined,
 };
 #[cfg(meshsweep_wide)]
 pub use point8::{Edges, LaneNearness};

@@ -170,6 +170,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         self.best = Best { distance_sq, node, child, lanes: *lanes };
         self.refine_below = self.query.refine_below(distance_sq);
         self.beyond.low_sq = self.refine_below;
+        self.beyond.wanted_sq = f32::from_bits(distance_sq.to_bits() + 1);
         let beyond = self.query.limit(distance_sq);
         if Real(beyond) < Real(self.beyond.distance_sq) {
             self.beyond.distance_sq = beyond;
