@@ -101,7 +101,7 @@ pub use bvh::{
 };
 pub use curve::{Curve, CurveClosest, CurveSegment, CurveWithin};
 pub use format::layout::{BuildFor, SectionKind};
-pub use format::{OpenError, Section};
+pub use format::{Contradiction, HeaderField, OpenError, Section};
 pub use geom::Pose;
 pub use hull::format::VertIdx;
 pub use hull::{

@@ -9,8 +9,8 @@ use meshsweep::hull::{Kind, Levels, build};
 use meshsweep::mesh::{Mesh, read_bytes, repair};
 use meshsweep::progress::Watch;
 use meshsweep_core::{
-    Budget, ClosestPoint, Ended, Focus, Hull, Interval, OpenError, OuterSearch, QueryError,
-    RefinedHull, ScratchEntry, SplitChange, TriangleHit, VertIdx,
+    Budget, ClosestPoint, Contradiction, Ended, Focus, Hull, Interval, OpenError, OuterSearch,
+    QueryError, RefinedHull, ScratchEntry, SplitChange, TriangleHit, VertIdx,
 };
 use meshsweep_host_tests::corrupt::{entry, put_u32, seal, word};
 use meshsweep_host_tests::generate::corpus::soups;
@@ -356,7 +356,7 @@ fn a_hierarchy_none_of_whose_triangles_stands_for_anything_is_refused() {
     let (from, count) = (radii.offset as usize, radii.bytes as usize);
     bytes[from..from + count].fill(255);
     seal(&mut bytes);
-    let what = "no triangle stands for a part of the surface";
+    let what = Contradiction::UncoveredSurface;
     assert_eq!(Hull::open(&bytes).err(), Some(OpenError::Counts { what }));
 }
 

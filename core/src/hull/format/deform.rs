@@ -3,6 +3,7 @@
 use super::index::VertIdx;
 use super::layout::{KEY_BYTES, KEYS_HEADER_BYTES, MAX_KEYS, NUMBERS_HEADER_BYTES, key};
 use super::view::Hull;
+use crate::format::Contradiction;
 use crate::format::layout::{SectionKind, index_bytes};
 use crate::format::{Bytes, OpenError, SectionTable};
 use crate::geom::Aabb;
@@ -84,9 +85,7 @@ impl<'a> DeformableHull<'a> {
 
     fn check(&self) -> Result<(), OpenError> {
         if self.hull.is_cut() || !self.hull.encloses() {
-            return Err(OpenError::Counts {
-                what: "a model that is cut or no hull does not deform",
-            });
+            return Err(OpenError::Counts { what: Contradiction::DeformsWithoutHull });
         }
         for rank in 0..surface_vertices(&self.hull) {
             if self.number(rank).is_none_or(|number| number >= self.input_vertices()) {

@@ -3,6 +3,7 @@
 use super::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES, field};
 use super::view::{TightHulls, read};
 use crate::bvh::tree::format::Bvh;
+use crate::format::Contradiction;
 use crate::format::layout::{MAX_LEVELS, SECTION_ALIGNMENT, SectionKind};
 use crate::format::{Bytes, OpenError, SectionTable, ok};
 use crate::num::Radius16;
@@ -52,7 +53,7 @@ impl<'a> TightHulls<'a> {
             return Err(OpenError::Reserved);
         }
         if count == 0 || count > MAX_LEVELS {
-            return Err(OpenError::Counts { what: "number of tight hulls" });
+            return Err(OpenError::Counts { what: Contradiction::TightHullCount });
         }
         let records = data.slice(TIGHT_BYTES, count as usize * TIGHT_HULL_BYTES);
         Ok(TightHulls { records: ok!(records, table.malformed(kind)).as_chunks().0, data })
@@ -91,7 +92,7 @@ impl<'a> TightHulls<'a> {
         if end == self.data.len() {
             Ok(())
         } else {
-            Err(OpenError::Counts { what: "bytes after the last tight hull" })
+            Err(OpenError::Counts { what: Contradiction::BytesAfterTightHulls })
         }
     }
 }
