@@ -4,7 +4,7 @@ use crate::bvh::tree::descent::{NodeQuery, OpenedNode};
 #[cfg(meshsweep_wide)]
 use crate::bvh::tree::format::LanePoint;
 use crate::bvh::tree::format::{Bvh, Units};
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 use crate::bvh::tree::node::box_distances_avx2;
 use crate::bvh::tree::node::{CHILD_MASK, KeyPoint, NO_CHILD, box_distances};
 #[cfg(not(meshsweep_wide))]
@@ -222,7 +222,7 @@ impl PointQuery {
     }
 
     /// The same, in registers of 256 bits.
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(meshsweep_avx2)]
     #[target_feature(enable = "avx2")]
     #[inline]
     pub(crate) fn keys_avx2(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {
