@@ -9,7 +9,7 @@
 //! | `hits` | [`Hit`], [`FirstHit`], [`TriangleHit`], [`AllHits`], and the caller's slice of hits |
 //! | `pose_inverse` | the inverse of a pose's matrix |
 //! | `posed_point` | [`PosedPoint`]: a point in the frame of a moved model |
-//! | `overlap` | [`Overlap`], [`Overlaps`], [`TrianglePair`], and what collects pairs |
+//! | `overlap` | [`Overlap`], [`AllOverlaps`], [`TrianglePair`], and what collects pairs |
 //! | `pair_distance` | [`PairDistance`], [`PairWithin`], [`PairContact`]: how far two surfaces are apart |
 //! | `penetration` | [`Penetration`], [`Relation`]: how deep two solids are in each other |
 //! | `motion` | [`Motion`]: how a model moves from pose to pose |
@@ -45,8 +45,8 @@ pub(crate) use frame::Frame;
 pub(crate) use hits::Hits;
 pub use hits::{AllHits, FirstHit, Hit, TriangleHit};
 pub use motion::Motion;
+pub use overlap::{AllOverlaps, Overlap, TrianglePair};
 pub(crate) use overlap::{AllPairs, FirstPair, PairVisitor};
-pub use overlap::{Overlap, Overlaps, TrianglePair};
 pub use pair_distance::{PairContact, PairDistance, PairWithin};
 pub use penetration::{Penetration, Relation};
 pub(crate) use pose_inverse::{PoseInverse, transposed};

@@ -198,7 +198,7 @@ fn answers_after_a_closest_point_do_not_depend_on_its_order() {
         let point = rng.point_in([-1.5; 3], [1.5; 3]);
         let mut splits = |entries: usize| {
             let stack = &mut stack[..entries];
-            tree.closest_point(point, Budget::EXACT, stack).unwrap().work.splits
+            tree.closest_point(point, Budget::EXACT, stack).unwrap().work.opened
         };
         if splits(entries) == splits(entries - 1) {
             continue;
@@ -207,7 +207,7 @@ fn answers_after_a_closest_point_do_not_depend_on_its_order() {
         for budget in (nodes..2 * nodes).map(|steps| Budget::EXACT.with_steps(steps)) {
             let mut of = |entries: usize| {
                 let stack = &mut stack[..entries];
-                let signed = tree.signed_by_winding(point, budget, stack).unwrap();
+                let signed = tree.signed_distance_by_winding(point, budget, stack).unwrap();
                 let precise = tree.closest_point_precise(point, budget, stack).unwrap();
                 (signed.side, signed.closest.ended, bits(&precise))
             };

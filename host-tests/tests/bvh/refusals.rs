@@ -56,7 +56,7 @@ fn about_segments(
         ("any_hit", tree.any_hit(a, b, both, budget, scratch).map(drop)),
         ("all_hits", tree.all_hits(a, b, both, &mut hits, budget, scratch).map(drop)),
         ("overlap", tree.overlap(tree, pose, budget, scratch).map(drop)),
-        ("overlaps", tree.overlaps(tree, pose, &mut pairs, budget, scratch).map(drop)),
+        ("overlaps", tree.all_overlaps(tree, pose, &mut pairs, budget, scratch).map(drop)),
     ]
 }
 

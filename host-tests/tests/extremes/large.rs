@@ -33,7 +33,7 @@ fn five_million_triangles_are_served_and_every_interval_contains_the_truth() {
         let near = tree.closest_point(p, Budget::EXACT, &mut stack).expect("a point");
         let (lower, upper) = (f64::from(near.distance.lower), f64::from(near.distance.upper));
         assert!(lower <= truth.upper && truth.lower <= upper, "{p:?} {near:?} {truth:?}");
-        work += near.work.nodes;
+        work += near.work.bounds;
         widest = widest.max(near.distance.upper - near.distance.lower);
     }
     println!("{} nodes a query, intervals up to {widest:e} wide", work / 24);

@@ -44,7 +44,7 @@ pub enum Failure {
     /// The blob serves none of the questions whose dearest query can be searched.
     NothingToSearch { file: PathBuf, served: String },
     /// The levels of the blob's hierarchy enclose nothing.
-    NoHulls { file: PathBuf },
+    NotEnclosing { file: PathBuf },
     /// All tight hulls of the blob have more faces.
     NoTightHull { file: PathBuf, faces: u32, least: u32 },
     /// The blob has no such key frame.
@@ -208,7 +208,7 @@ impl fmt::Display for Failure {
                 "{}: serves {served}; worst searches closest, within, signed, winding and segment",
                 file.display()
             ),
-            Failure::NoHulls { file } => write!(
+            Failure::NotEnclosing { file } => write!(
                 f,
                 "{}: was built --for sweep, and its levels are no hulls; build it --for hull from \
                  a closed mesh, or draw its levels with meshsweep refine",

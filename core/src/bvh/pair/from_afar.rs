@@ -4,6 +4,7 @@
 use super::gaps::leaf_gaps::TriangleGap;
 use super::stored_pair::{StoredPair, moved};
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::greater;
 use crate::num::tolerance::U64;
 
@@ -24,12 +25,12 @@ pub(crate) fn from_afar(pair: &StoredPair<'_>) -> Option<TriangleGap> {
     let ((middle_a, radius_a), (middle_b, radius_b)) = (ball(a), ball(b));
     let between = distance(near(middle_a), moved(&pair.pose, middle_b));
     // Roundings of f64 in lengths up to the sum of all of these.
-    let reach = radius_a * unit + radius_b * longest;
-    let rounding = 4.0 * pair.pose.vertex_error_exact + 16.0 * U64 * (between + reach);
+    let radii = radius_a * unit + radius_b * longest;
+    let rounding = 4.0 * pair.pose.vertex_error_exact + 16.0 * U64 * (between + radii);
     let [p, q] = points;
     Some(TriangleGap {
         place: [first.place, second.place],
-        lower: greater(0.0, between - reach - rounding),
+        lower: greater(0.0, between - radii - rounding),
         upper: distance(p, q) + rounding,
         meets: false,
         points,
@@ -38,7 +39,7 @@ pub(crate) fn from_afar(pair: &StoredPair<'_>) -> Option<TriangleGap> {
 
 /// A vertex of the first triangle of some leaf.
 struct Vertex {
-    place: [u32; 3],
+    place: TriangleAt,
     /// The tree's units, from its origin.
     at: [f64; 3],
 }
@@ -50,7 +51,7 @@ fn some_vertex(tree: &Bvh<'_>) -> Option<Vertex> {
         if child.is_leaf() {
             let leaf = tree.leaf_at(child.at, child.shape)?;
             let at = leaf.stored_vertices().map(|[centre, ..]| f64::from(centre));
-            return Some(Vertex { place: [node, 0, 0], at });
+            return Some(Vertex { place: TriangleAt::new(node, 0, 0), at });
         }
         node = child.at;
     }

@@ -2,18 +2,17 @@
 
 use crate::bvh::tree::format::layout::boxes;
 use crate::bvh::tree::format::{Bvh, BvhChild};
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::query::RelativePose;
 
-/// Places of two triangles: node, child and lane in each tree.
-pub(crate) type PairPlace = [[u32; 3]; 2];
-
-/// Their numbers in the input files.
-pub(crate) fn numbers(a: &Bvh<'_>, b: &Bvh<'_>, [first, second]: &PairPlace) -> Option<[u32; 2]> {
-    let number = |tree: &Bvh<'_>, &[node, child, lane]: &[u32; 3]| {
-        tree.source(tree.links(node)?.triangle(child).wrapping_add(lane))
-    };
-    Some([number(a, first)?, number(b, second)?])
+/// Numbers in the input files of a triangle of each tree.
+pub(crate) fn numbers(
+    a: &Bvh<'_>,
+    b: &Bvh<'_>,
+    [first, second]: [TriangleAt; 2],
+) -> Option<[u32; 2]> {
+    Some([first.source(a)?, second.source(b)?])
 }
 
 /// The size of a node up to a factor of two: the sum of its boxes' steps, grid units.

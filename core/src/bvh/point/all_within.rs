@@ -2,7 +2,7 @@
 
 use super::leaf::bounds::limit_within;
 use super::neighbors::{Heap, Neighbor, first_triangles};
-use super::query::PointQuery;
+use super::query::{Asked, FarPoint, PointQuery, PreparedPoint};
 use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
 use crate::bvh::tree::descent::descend;
 use crate::bvh::tree::format::{Bvh, FanLeaf};
@@ -66,19 +66,19 @@ impl Bvh<'_> {
         let tree = self;
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check()?;
-        let query = PointQuery::prepare(tree, point, &budget, scratch)?;
-        if query.far {
-            let closest = tree.closest_point(point, Budget::EXACT, scratch)?;
-            return from_afar(tree, &query, &closest, distance, out);
-        }
+        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch)?;
+        let query = match prepared.asked() {
+            Asked::Near(query) => query,
+            Asked::Far(far) => return from_afar(tree, point, far, distance, out),
+        };
         let mut work = Work::default();
-        let limit = limit_within(&query, distance);
+        let limit = limit_within(query, distance);
         let heap = Heap::new(&mut *out);
-        let collector = CollectWithin { query: &query, distance, heap, dropped: 0 };
-        let mut visitor = TriangleVisitor::new(tree, &query, limit, collector);
-        let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        let collector = CollectWithin { query, distance, heap, dropped: 0 };
+        let mut visitor = TriangleVisitor::new(tree, query, limit, collector);
+        let descent = descend(tree, query, budget.steps, scratch, &mut visitor, &mut work)?;
         let CollectWithin { heap, dropped, .. } = visitor.collector;
-        let stored = heap.finish(tree, &query)?;
+        let stored = heap.finish(tree, query)?;
         let is_certain = |near: &&Neighbor| near.distance().upper <= distance;
         let certain = out.iter().take(stored).take_while(is_certain).count();
         Ok(AllWithin { stored, certain, dropped, work, ended: descent.ended() })
@@ -88,16 +88,16 @@ impl Bvh<'_> {
 #[cold]
 fn from_afar(
     tree: &Bvh<'_>,
-    query: &PointQuery,
-    closest: &ClosestPoint,
+    point: [f32; 3],
+    far: FarPoint<'_>,
     distance: f32,
     out: &mut [Neighbor],
 ) -> Result<AllWithin, QueryError> {
-    let (of_box, work, ended) = (closest.distance, closest.work, Ended::Exact);
+    let ClosestPoint { distance: of_box, work, ended, .. } = far.closest_point(tree, point)?;
     if of_box.lower > distance {
         return Ok(AllWithin { stored: 0, certain: 0, dropped: 0, work, ended });
     }
-    let stored = first_triangles(tree, query, of_box, out)?;
+    let stored = first_triangles(tree, far, of_box, out)?;
     let certain = if of_box.upper <= distance { stored } else { 0 };
     let dropped = tree.header().triangles.saturating_sub(stored as u32);
     Ok(AllWithin { stored, certain, dropped, work, ended })

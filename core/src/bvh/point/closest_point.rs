@@ -1,10 +1,9 @@
 //! The closest point, with an interval of the distance.
 
-use super::far_point::from_afar;
 use super::hint::Hint;
 use super::leaf::distance::nearest_within_inlined;
 use super::leaf::limit::LeafLimit;
-use super::query::PointQuery;
+use super::query::{Asked, PointQuery, PreparedPoint};
 #[cfg(meshsweep_wide)]
 use super::search::blocks::{Kernels, search_by_blocks};
 use super::search::closest::{Closest, inlined};
@@ -152,14 +151,12 @@ fn search_by_entries(
     scratch: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
     // In place: a copy would take a board as long as the preparation.
-    let prepared = PointQuery::prepare(tree, point, budget, scratch);
-    let query = match &prepared {
-        Ok(query) => query,
+    let prepared = PreparedPoint::prepare(tree, point, budget, scratch);
+    let query = match prepared.as_ref().map(PreparedPoint::asked) {
+        Ok(Asked::Near(query)) => query,
+        Ok(Asked::Far(far)) => return far.closest_point(tree, point),
         Err(refused) => return Err(*refused),
     };
-    if query.far {
-        return from_afar(tree, point, query);
-    }
     let mut work = Work::default();
     // A limit of steps counts what this search opens, so it goes in the order of all targets.
     #[cfg(not(meshsweep_wide))]

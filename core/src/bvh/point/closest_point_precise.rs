@@ -3,12 +3,12 @@
 
 use super::hint::Hint;
 use super::leaf::bounds::limit_of;
-use super::query::PointQuery;
+use super::query::{Asked, PointQuery, PreparedPoint};
 use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
 use crate::bvh::tree::descent::descend;
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::bvh::tree::stored_lengths::StoredLengths;
-use crate::bvh::tree::triangle_place::TrianglePlace;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::{convex_gap, point_triangle};
 use crate::num::tolerance::{FAN_RELATIVE, U32};
 use crate::num::{greater, lesser};
@@ -54,11 +54,15 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
         let tree = self;
-        let query = PointQuery::prepare(tree, point, &budget, scratch)?;
+        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch)?;
+        let query = match prepared.asked() {
+            Asked::Near(query) => query,
+            Asked::Far(far) => return far.closest_point(tree, point),
+        };
         let of_f32 = Budget::EXACT.with_steps(budget.steps);
         // In one order, if there is a limit of steps: those that are left may end the second descent.
         let near = tree.closest_point_in_order(point, &mut Hint::NONE.clone(), of_f32, scratch)?;
-        if near.ended != Ended::Exact || query.far {
+        if near.ended != Ended::Exact {
             return Ok(near);
         }
         let lengths = StoredLengths::of(tree);
@@ -66,7 +70,7 @@ impl Bvh<'_> {
         let farthest = query.units.inward(near.distance.upper);
         let stored = farthest - query.units.surface_error + farthest * (4.0 * U32);
         let candidates = Candidates {
-            query: &query,
+            query,
             place: DVec3::from_array(point.map(|x| lengths.inward(x))),
             // Proof: `core/docs/rounding.md` §8, In f64.
             band: stored * (1.0 + 64.0 * U32) + 4.0 * rounding,
@@ -74,10 +78,10 @@ impl Bvh<'_> {
             lower: f64::INFINITY,
             measured: 0,
         };
-        let limit = limit_of(&query, candidates.band);
-        let mut visitor = TriangleVisitor::new(tree, &query, limit, candidates);
+        let limit = limit_of(query, candidates.band);
+        let mut visitor = TriangleVisitor::new(tree, query, limit, candidates);
         let mut work = near.work;
-        let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        let descent = descend(tree, query, budget.steps, scratch, &mut visitor, &mut work)?;
         let Candidates { best, lower, measured, .. } = visitor.collector;
         work.exact = measured;
         match best {
@@ -137,7 +141,7 @@ struct Candidates<'a> {
     /// Triangles with a greater lower bound in f32 are farther than the closest, grid units.
     band: f32,
     /// The one with the least upper end, and its place.
-    best: Option<(Measured, TrianglePlace)>,
+    best: Option<(Measured, TriangleAt)>,
     /// The least lower bound, grid units.
     lower: f64,
     measured: u32,

@@ -1,6 +1,6 @@
 //! Triangles that may face the eye: leaves that certainly show their back are left out.
 
-use super::query::PointQuery;
+use super::query::{Asked, PreparedPoint};
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::geom::fan::{NormalCone, WIDTH};
 use crate::num::greater;
@@ -111,8 +111,11 @@ impl GridEye {
     fn new(tree: &Bvh<'_>, eye: Eye) -> Result<GridEye, QueryError> {
         match eye {
             Eye::At(point) => {
-                let query = PointQuery::new(tree, point)?;
-                Ok(if query.far { GridEye::FarAt(query.p) } else { GridEye::At(query.p) })
+                let prepared = PreparedPoint::new(tree, point)?;
+                Ok(match prepared.asked() {
+                    Asked::Near(query) => GridEye::At(query.p),
+                    Asked::Far(far) => GridEye::FarAt(far.query.p),
+                })
             }
             Eye::Along(along) => {
                 let along = Vec3::from_array(along);

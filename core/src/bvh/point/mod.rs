@@ -12,8 +12,8 @@
 //!
 //! | file | what the questions share |
 //! | --- | --- |
-//! | `query` | a point in grid units, ready for the descent |
-//! | `far_point` | a point so far away that the model's box answers |
+//! | `query` | a point in grid units, ready for the descent, or far: `Asked` has a case for each |
+//! | `far_point` | the closest point of a point so far away that the model's box answers |
 //! | `leaf/` | a point and the triangles of a leaf |
 //! | `search/` | the search of a closest point |
 //! | `triangle_visitor` | the visitor of questions that look at triangles one by one |

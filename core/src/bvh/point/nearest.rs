@@ -2,7 +2,7 @@
 
 use super::leaf::bounds::lower_of_box;
 use super::neighbors::{Heap, Neighbor, first_triangles};
-use super::query::PointQuery;
+use super::query::{Asked, PointQuery, PreparedPoint};
 use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
 use crate::bvh::tree::descent::{Descent, descend};
 use crate::bvh::tree::format::{Bvh, FanLeaf};
@@ -68,23 +68,26 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<KNearest, QueryError> {
         let tree = self;
-        let query = PointQuery::prepare(tree, point, &budget, scratch)?;
+        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch)?;
         let mut work = Work::default();
         if out.is_empty() {
             return Ok(KNearest { stored: 0, rest_lower: 0.0, work, ended: Ended::Exact });
         }
         let all = tree.header().triangles as usize;
-        if query.far {
-            let of_box = tree.closest_point(point, Budget::EXACT, scratch)?.distance;
-            let stored = first_triangles(tree, &query, of_box, out)?;
-            let rest_lower = if stored == all { f32::INFINITY } else { of_box.lower };
-            return Ok(KNearest { stored, rest_lower, work, ended: Ended::Exact });
-        }
+        let query = match prepared.asked() {
+            Asked::Near(query) => query,
+            Asked::Far(far) => {
+                let of_box = far.closest_point(tree, point)?.distance;
+                let stored = first_triangles(tree, far, of_box, out)?;
+                let rest_lower = if stored == all { f32::INFINITY } else { of_box.lower };
+                return Ok(KNearest { stored, rest_lower, work, ended: Ended::Exact });
+            }
+        };
         let heap = Heap::new(out);
         let (rest, rest_sq) = (f32::INFINITY, f32::INFINITY);
-        let collector = CollectNearest { tree, query: &query, heap, rest, rest_sq };
-        let mut visitor = TriangleVisitor::new(tree, &query, EVERYTHING_SQ, collector);
-        let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        let collector = CollectNearest { tree, query, heap, rest, rest_sq };
+        let mut visitor = TriangleVisitor::new(tree, query, EVERYTHING_SQ, collector);
+        let descent = descend(tree, query, budget.steps, scratch, &mut visitor, &mut work)?;
         let CollectNearest { heap, mut rest, rest_sq, .. } = visitor.collector;
         let mut rest_lower = f32::INFINITY;
         if heap.stored() < all {
@@ -97,10 +100,10 @@ impl Bvh<'_> {
             rest_lower = query.lower(rest);
         }
         if let Descent::Truncated { least, .. } = descent {
-            let missed = lower_of_box(&query, least);
+            let missed = lower_of_box(query, least);
             rest_lower = lesser(rest_lower, missed);
         }
-        let stored = heap.finish(tree, &query)?;
+        let stored = heap.finish(tree, query)?;
         Ok(KNearest { stored, rest_lower, work, ended: descent.ended() })
     }
 }

@@ -2,10 +2,10 @@
 //! 1964), sorted in place at the end.
 
 use super::leaf::bounds::witness;
-use super::query::PointQuery;
+use super::query::{FarPoint, PointQuery};
 use super::triangle_visitor::LeafTriangle;
 use crate::bvh::tree::format::Bvh;
-use crate::bvh::tree::triangle_place::TrianglePlace;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::sqrt_approx;
 use crate::query::{Interval, QueryError};
 
@@ -69,7 +69,7 @@ impl LeafTriangle {
     fn of(slot: &Neighbor) -> LeafTriangle {
         let [distance_sq, lower_bound_sq, place, ..] = slot.words;
         let [distance_sq, lower_bound_sq] = [distance_sq, lower_bound_sq].map(f32::from_bits);
-        LeafTriangle { distance_sq, lower_bound_sq, place: TrianglePlace::of_word(place) }
+        LeafTriangle { distance_sq, lower_bound_sq, place: TriangleAt::of_word(place) }
     }
 
     fn answer(&self, tree: &Bvh<'_>, query: &PointQuery) -> Option<Neighbor> {
@@ -211,7 +211,7 @@ impl<'a> Heap<'a> {
 /// number. For points from which all triangles are alike.
 pub(crate) fn first_triangles(
     tree: &Bvh<'_>,
-    query: &PointQuery,
+    far: FarPoint<'_>,
     distance: Interval,
     out: &mut [Neighbor],
 ) -> Result<usize, QueryError> {
@@ -227,7 +227,7 @@ pub(crate) fn first_triangles(
                 let [corner, ..] = leaf.corners(lane);
                 let triangle =
                     tree.source(first.wrapping_add(lane as u32)).ok_or(QueryError::Unchecked)?;
-                *slot = Neighbor::of(distance, query.units.point(corner), triangle);
+                *slot = Neighbor::of(distance, far.query.units.point(corner), triangle);
                 stored += 1;
             }
         }

@@ -4,13 +4,13 @@ use crate::bvh::tree::descent::{NodeQuery, OpenedNode};
 #[cfg(meshsweep_wide)]
 use crate::bvh::tree::format::LanePoint;
 use crate::bvh::tree::format::{Bvh, Units};
-#[cfg(meshsweep_avx2)]
+#[cfg(target_arch = "x86_64")]
 use crate::bvh::tree::node::box_distances_avx2;
 use crate::bvh::tree::node::{CHILD_MASK, KeyPoint, NO_CHILD, box_distances};
 #[cfg(not(meshsweep_wide))]
 use crate::bvh::tree::node::{Pushed, push_boxes};
 use crate::format::layout::BuildFor;
-use crate::geom::fan::{WIDTH, WholePoint};
+use crate::geom::fan::{IntPoint, WIDTH};
 use crate::num::tolerance::{
     BVH_FAR, CERTIFIED_PART, CERTIFIED_SHORTFALL, FAN_DISTANCE, FAN_RELATIVE, LEAST_FAN_ROUNDING,
     PLANE_DISTANCE, U32,
@@ -50,7 +50,7 @@ pub(crate) struct PointQuery {
     pub(crate) allowance: f32,
     /// The point in integers, on targets without floating point, if the model is near and on a
     /// grid.
-    pub(crate) whole: Option<WholePoint>,
+    pub(crate) whole: Option<IntPoint>,
     /// The point, prepared for the boxes of nodes.
     key_point: KeyPoint,
     /// Keys in a square of the grid unit: a power of two.
@@ -60,11 +60,33 @@ pub(crate) struct PointQuery {
     /// Square by which a lower bound may fall short: [`CERTIFIED_SHORTFALL`], or 0 for f32
     /// vertices.
     shortfall_sq: f32,
-    /// Farther than [`BVH_FAR`]: the model's box gives the answer.
-    pub(crate) far: bool,
 }
 
-impl PointQuery {
+/// A point that a question prepared, near or far.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PreparedPoint {
+    query: PointQuery,
+    /// Farther than [`BVH_FAR`].
+    is_far: bool,
+}
+
+/// What a question has to answer.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Asked<'q> {
+    /// A point that the tree can be searched for.
+    Near(&'q PointQuery),
+    /// A point so far away that the model's box answers.
+    Far(FarPoint<'q>),
+}
+
+/// A point farther than [`BVH_FAR`]. Far enough away, all points of the surface are the closest up
+/// to a rounding of f32. Nearer, it bounds the distance where no leaf was looked at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FarPoint<'q> {
+    pub(crate) query: &'q PointQuery,
+}
+
+impl PreparedPoint {
     /// Prepares a question: refuses a tree without boxes for distances, the budget, the scratch
     /// memory or the point.
     #[cfg_attr(meshsweep_wide, inline(always))]
@@ -74,15 +96,15 @@ impl PointQuery {
         point: [f32; 3],
         budget: &Budget,
         scratch: &[ScratchEntry],
-    ) -> Result<PointQuery, QueryError> {
+    ) -> Result<PreparedPoint, QueryError> {
         PointQuery::check_served(tree)?;
         budget.check_with(scratch)?;
-        PointQuery::new(tree, point)
+        PreparedPoint::new(tree, point)
     }
 
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
-    pub(crate) fn new(tree: &Bvh<'_>, point: [f32; 3]) -> Result<PointQuery, QueryError> {
+    pub(crate) fn new(tree: &Bvh<'_>, point: [f32; 3]) -> Result<PreparedPoint, QueryError> {
         let [x, y, z] = point;
         let units = tree.units();
         let p = units.inward_point(point);
@@ -105,11 +127,11 @@ impl PointQuery {
         let from_origin = difference(p, Vec3::new(ox, oy, oz));
         let key_point = KeyPoint::new(from_origin, most);
         let whole = if SOFT_FLOAT && !header.is_f32() {
-            WholePoint::new(from_origin.to_array())
+            IntPoint::new(from_origin.to_array())
         } else {
             None
         };
-        Ok(PointQuery {
+        let query = PointQuery {
             p,
             #[cfg(not(meshsweep_wide))]
             from_origin,
@@ -124,10 +146,19 @@ impl PointQuery {
             // Keys are halves of squares.
             keys_in_square: f32::from_bits((126 - 2 * key_point.unit_exponent()) << 23),
             plane_error: (Real(size).times_power(PLANE_DISTANCE * U32) + Real(fan)).0,
-            far: !near,
-        })
+        };
+        Ok(PreparedPoint { query, is_far: !near })
     }
 
+    /// The point, as a case that each question answers.
+    #[inline(always)]
+    pub(crate) fn asked(&self) -> Asked<'_> {
+        let query = &self.query;
+        if self.is_far { Asked::Far(FarPoint { query }) } else { Asked::Near(query) }
+    }
+}
+
+impl PointQuery {
     /// No triangle that is computed as near as `distance_sq` has a true squared distance above
     /// this.
     ///
@@ -149,7 +180,7 @@ impl PointQuery {
     #[inline(always)]
     pub(crate) fn key_limit(&self, limit: f32) -> u32 {
         let key = if SOFT_FLOAT {
-            whole_product(limit, self.keys_in_square)
+            integer_product(limit, self.keys_in_square)
         } else {
             (limit * self.keys_in_square) as i32
         };
@@ -191,7 +222,7 @@ impl PointQuery {
     }
 
     /// The same, in registers of 256 bits.
-    #[cfg(meshsweep_avx2)]
+    #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
     #[inline]
     pub(crate) fn keys_avx2(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {
@@ -243,7 +274,7 @@ fn farthest(p: Vec3, low: Vec3, high: Vec3) -> Vec3 {
 
 /// `(x * power) as i32` of a number that is not negative and a power of two, without a product.
 #[inline(never)]
-fn whole_product(x: f32, power: f32) -> i32 {
+fn integer_product(x: f32, power: f32) -> i32 {
     let (bits, by) = (x.to_bits(), power.to_bits() >> 23);
     match (bits >> 23).wrapping_add(by) {
         // Less than one.

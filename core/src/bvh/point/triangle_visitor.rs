@@ -11,7 +11,7 @@ use super::leaf::squares::LeafSquares;
 use super::query::PointQuery;
 use crate::bvh::tree::descent::{LeafVisit, LeafVisitor};
 use crate::bvh::tree::format::{Bvh, FanLeaf};
-use crate::bvh::tree::triangle_place::TrianglePlace;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::{Real, SOFT_FLOAT};
 use glam::Vec3;
 
@@ -20,7 +20,7 @@ use glam::Vec3;
 pub(crate) struct LeafTriangle {
     pub(crate) distance_sq: f32,
     pub(crate) lower_bound_sq: f32,
-    pub(crate) place: TrianglePlace,
+    pub(crate) place: TriangleAt,
 }
 
 impl LeafTriangle {
@@ -28,7 +28,7 @@ impl LeafTriangle {
     pub(crate) const NONE: LeafTriangle = LeafTriangle {
         distance_sq: f32::INFINITY,
         lower_bound_sq: f32::INFINITY,
-        place: TrianglePlace::NONE,
+        place: TriangleAt::NONE,
     };
 
     /// Whether it comes before another one: nearer, or as near with a lesser number.
@@ -161,8 +161,9 @@ impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
             // A plane in front of the nearest triangle.
             #[cfg(not(meshsweep_wide))]
             {
-                let (way, limit) = (near.lanes.way(), self.beyond.distance_sq);
-                self.beyond.plane = LeafPlane::across(self.query, way, near.distance_sq, limit);
+                let (residual, limit) = (near.lanes.residual(), self.beyond.distance_sq);
+                self.beyond.plane =
+                    LeafPlane::across(self.query, residual, near.distance_sq, limit);
             }
         }
         match next {
@@ -181,7 +182,7 @@ impl<C: TriangleCollector> TriangleVisitor<'_, C> {
     #[inline(always)]
     pub(crate) fn visit_again(
         &mut self,
-        first: TrianglePlace,
+        first: TriangleAt,
         low: u32,
         known: Option<LeafSquares>,
     ) -> Option<()> {
@@ -203,7 +204,7 @@ impl<C: TriangleCollector> TriangleVisitor<'_, C> {
     fn each(&mut self, visit: &LeafVisit<'_>, low: u32) -> Option<bool> {
         let TriangleVisitor { query, limit, known, collector, beyond, .. } = self;
         let before = *limit;
-        let LeafVisit { leaf, node, child, .. } = visit;
+        let leaf = &visit.leaf;
         each_triangle(
             query,
             leaf,
@@ -213,7 +214,7 @@ impl<C: TriangleCollector> TriangleVisitor<'_, C> {
                 if Real(lower_bound_sq) > Real(*limit) {
                     return;
                 }
-                let place = TrianglePlace::new(*node, *child, lane);
+                let place = visit.triangle(lane);
                 let here = LeafTriangle { distance_sq, lower_bound_sq, place };
                 collector.take(here, leaf, seen, limit);
             },

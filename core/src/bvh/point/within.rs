@@ -6,11 +6,11 @@
 use super::leaf::bounds::limit_within;
 use super::leaf::nearest::LeafNearest;
 use super::leaf::squares::LeafSquares;
-use super::query::PointQuery;
+use super::query::{Asked, FarPoint, PointQuery, PreparedPoint};
 use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
 use crate::bvh::tree::descent::{Descent, LeafVisit, descend};
 use crate::bvh::tree::format::{Bvh, FanLeaf};
-use crate::bvh::tree::triangle_place::TrianglePlace;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::{Real, sqrt_approx};
 use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Undecided, Verdict, Work};
 use glam::Vec3;
@@ -77,11 +77,12 @@ impl Bvh<'_> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check()?;
         // In place: a copy would take a board as long as the preparation.
-        let prepared = PointQuery::prepare(tree, point, &budget, scratch);
-        let query = prepared.as_ref().map_err(|&refused| refused)?;
-        if query.far {
-            return from_afar(tree, point, distance, scratch);
-        }
+        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch);
+        let query = match prepared.as_ref().map(PreparedPoint::asked) {
+            Ok(Asked::Near(query)) => query,
+            Ok(Asked::Far(far)) => return from_afar(tree, point, far, distance),
+            Err(refused) => return Err(*refused),
+        };
         let mut work = Work::default();
         let limit = limit_within(query, distance);
         let collector = Threshold { query, distance, near: None, undecided: false };
@@ -105,11 +106,10 @@ impl Bvh<'_> {
 fn from_afar(
     tree: &Bvh<'_>,
     point: [f32; 3],
+    far: FarPoint<'_>,
     distance: f32,
-    scratch: &mut [ScratchEntry],
 ) -> Result<Within, QueryError> {
-    let ClosestPoint { distance: found, triangle, work, .. } =
-        tree.closest_point(point, Budget::EXACT, scratch)?;
+    let ClosestPoint { distance: found, triangle, work, .. } = far.closest_point(tree, point)?;
     let (verdict, triangle) = match triangle {
         Some(_) if found.upper <= distance => (Verdict::Yes, triangle),
         _ if found.lower > distance => (Verdict::No, None),
@@ -123,7 +123,7 @@ struct Threshold<'a> {
     /// Input units.
     distance: f32,
     /// A triangle that is certainly within.
-    near: Option<TrianglePlace>,
+    near: Option<TriangleAt>,
     /// A triangle may be within.
     undecided: bool,
 }
@@ -138,7 +138,7 @@ impl TriangleCollector for Threshold<'_> {
     ) -> Option<Next> {
         if Real(near.distance_sq) <= Real(*limit) && self.is_within(near.distance_sq) {
             let (lane, ..) = near.lane();
-            self.near = Some(TrianglePlace::new(visit.node, visit.child, lane));
+            self.near = Some(visit.triangle(lane));
             return Some(Next::Nothing);
         }
         Some(if self.undecided { Next::Leaf } else { Next::Triangles })

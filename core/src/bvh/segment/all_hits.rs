@@ -5,6 +5,7 @@ use super::query::SegmentQuery;
 use super::start::SegmentStart;
 use crate::bvh::tree::descent::descend;
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::{Crossing, WIDTH};
 use crate::query::{
     AllHits, Budget, Ended, Hit, Hits, QueryError, ScratchEntry, TriangleHit, Work,
@@ -90,13 +91,13 @@ impl CrossingCollector for AllCrossings<'_> {
         self.query.ray.end().to_bits()
     }
 
-    fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) -> Option<()> {
+    fn meet(&mut self, crossing: &Crossing, triangle: TriangleAt) -> Option<()> {
         self.undecided |= !crossing.certain;
-        if let Some(place) = self.places.get_mut(lane as usize) {
+        if let Some(place) = self.places.get_mut(triangle.lane()) {
             *place = if crossing.stored { crossing.t } else { f32::INFINITY };
         }
         if crossing.stored {
-            let hit = self.hit(crossing.t, node, child, lane)?;
+            let hit = self.hit(crossing.t, triangle)?;
             self.hits.insert(TriangleHit { hit, is_certain: crossing.certain });
         } else {
             self.lacks = true;
@@ -107,11 +108,11 @@ impl CrossingCollector for AllCrossings<'_> {
     fn certain(&mut self, _: f32) {}
 
     /// One hit for the group is certain: the one that [`Bvh::first_hit`] would name.
-    fn covered(&mut self, lanes: u32, _: f32, node: u32, child: u32) -> Option<()> {
-        let met = (0u32..).zip(self.places).filter(|&(lane, _)| lanes >> lane & 1 != 0);
+    fn covered(&mut self, lanes: u32, _: f32, first: TriangleAt) -> Option<()> {
+        let met = (0..).zip(self.places).filter(|&(lane, _)| lanes >> lane & 1 != 0);
         let (lane, t) = met.fold((0, f32::INFINITY), |x, y| if y.1 < x.1 { y } else { x });
         if t < f32::INFINITY {
-            let hit = self.hit(t, node, child, lane)?;
+            let hit = self.hit(t, first.with_lane(lane))?;
             self.hits.prove(&hit);
         }
         Some(())
@@ -125,8 +126,8 @@ impl CrossingCollector for AllCrossings<'_> {
 }
 
 impl AllCrossings<'_> {
-    fn hit(&self, t: f32, node: u32, child: u32, lane: u32) -> Option<Hit> {
-        let number = self.tree.links(node)?.triangle(child).wrapping_add(lane);
+    fn hit(&self, t: f32, triangle: TriangleAt) -> Option<Hit> {
+        let number = triangle.number(self.tree)?;
         Some(self.query.hit(t, self.tree.source(number)))
     }
 }

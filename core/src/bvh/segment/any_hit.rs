@@ -11,6 +11,7 @@ use crate::bvh::tree::descent::{Descent, descend};
 use crate::bvh::tree::format::Bvh;
 #[cfg(meshsweep_avx2)]
 use crate::bvh::tree::node::{OpenedNode, TakenLeast};
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::Crossing;
 #[cfg(meshsweep_avx2)]
 use crate::geom::fan::WIDTH;
@@ -131,7 +132,7 @@ impl CrossingCollector for AnyCrossing {
     }
 
     #[inline(always)]
-    fn meet(&mut self, _: &Crossing, _: u32, _: u32, _: u32) -> Option<()> {
+    fn meet(&mut self, _: &Crossing, _: TriangleAt) -> Option<()> {
         self.undecided = true;
         Some(())
     }
@@ -142,7 +143,7 @@ impl CrossingCollector for AnyCrossing {
     }
 
     #[inline(always)]
-    fn covered(&mut self, _: u32, upper: f32, _: u32, _: u32) -> Option<()> {
+    fn covered(&mut self, _: u32, upper: f32, _: TriangleAt) -> Option<()> {
         self.certain(upper);
         Some(())
     }

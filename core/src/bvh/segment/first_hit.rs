@@ -4,7 +4,7 @@
 use super::blocks::{SegmentKernels, is_unlimited};
 #[cfg(meshsweep_wide)]
 use super::leaf::FlaggedOfLeaf;
-use super::leaf::{CrossingCollector, Facing, HitPlace, SegmentVisitor, compiled_flagged};
+use super::leaf::{CrossingCollector, Facing, SegmentVisitor, compiled_flagged};
 use super::query::SegmentQuery;
 use super::start::SegmentStart;
 use crate::bvh::tree::descent::{Descent, descend, descend_inlined};
@@ -13,7 +13,7 @@ use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::node::{OpenedNode, TakenLeast, take_least};
 #[cfg(meshsweep_wide)]
 use crate::bvh::tree::prefetch::prefetch_source;
-use crate::bvh::tree::triangle_place::TrianglePlace;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::Crossing;
 #[cfg(meshsweep_wide)]
 use crate::geom::fan::WIDTH;
@@ -161,7 +161,8 @@ struct FirstCrossing<'a> {
     limit: u32,
     /// The input's surface is not met before this parameter.
     lower: f32,
-    best: HitPlace,
+    /// The first stored triangle that is met, and where.
+    best: (f32, TriangleAt),
     certain: bool,
 }
 
@@ -171,16 +172,10 @@ impl<'a> FirstCrossing<'a> {
         FirstCrossing {
             limit: query.ray.end().to_bits(),
             lower: f32::INFINITY,
-            best: HitPlace { t: f32::INFINITY, node: 0, child: 0, lane: 0 },
+            best: (f32::INFINITY, TriangleAt::NONE),
             certain: false,
             tree,
         }
-    }
-
-    #[inline(always)]
-    fn number(&self, place: &HitPlace) -> Option<u32> {
-        let &HitPlace { node, child, lane, .. } = place;
-        TrianglePlace::new(node, child, lane as usize).number(self.tree)
     }
 
     #[inline(always)]
@@ -198,9 +193,10 @@ impl<'a> FirstCrossing<'a> {
             ended = Ended::Resolution;
         }
         let mut hit = None;
-        if self.best.t < f32::INFINITY {
-            let number = self.number(&self.best).ok_or(QueryError::Unchecked)?;
-            hit = Some(query.hit(self.best.t, self.tree.source(number)));
+        let (t, triangle) = self.best;
+        if t < f32::INFINITY {
+            let number = triangle.number(self.tree).ok_or(QueryError::Unchecked)?;
+            hit = Some(query.hit(t, self.tree.source(number)));
         }
         let upper = match (self.certain, hit) {
             (true, _) => query.upper(f32::from_bits(self.limit)),
@@ -218,17 +214,16 @@ impl CrossingCollector for FirstCrossing<'_> {
     }
 
     #[inline(always)]
-    fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) -> Option<()> {
+    fn meet(&mut self, crossing: &Crossing, triangle: TriangleAt) -> Option<()> {
         if crossing.lower < self.lower {
             self.lower = crossing.lower;
         }
-        if crossing.stored && crossing.t <= self.best.t {
-            let place = HitPlace { t: crossing.t, node, child, lane };
-            if crossing.t < self.best.t || self.number(&place) < self.number(&self.best) {
-                self.best = place;
-                #[cfg(meshsweep_wide)]
-                prefetch_source(self.tree, node, child);
-            }
+        let (t, best) = self.best;
+        // Of equal parameters the first triangle in blob order counts, which is that of places.
+        if crossing.stored && (crossing.t < t || crossing.t == t && triangle < best) {
+            self.best = (crossing.t, triangle);
+            #[cfg(meshsweep_wide)]
+            prefetch_source(self.tree, triangle.node(), triangle.child());
         }
         Some(())
     }
@@ -242,7 +237,7 @@ impl CrossingCollector for FirstCrossing<'_> {
     }
 
     #[inline(always)]
-    fn covered(&mut self, _: u32, upper: f32, _: u32, _: u32) -> Option<()> {
+    fn covered(&mut self, _: u32, upper: f32, _: TriangleAt) -> Option<()> {
         self.certain(upper);
         Some(())
     }

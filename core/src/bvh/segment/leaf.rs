@@ -16,6 +16,7 @@
 use super::query::SegmentQuery;
 use crate::bvh::tree::descent::{LeafVisit, LeafVisitor};
 use crate::bvh::tree::format::FanLeaf;
+use crate::bvh::tree::triangle_at::TriangleAt;
 #[cfg(meshsweep_wide)]
 use crate::geom::fan::ray_leaf8;
 use crate::geom::fan::{Crossing, WIDTH};
@@ -40,28 +41,19 @@ pub enum Facing {
     Back,
 }
 
-/// A stored triangle that is met.
-#[derive(Clone, Copy)]
-pub(crate) struct HitPlace {
-    pub(crate) t: f32,
-    pub(crate) node: u32,
-    pub(crate) child: u32,
-    pub(crate) lane: u32,
-}
-
 /// Takes the triangles that a segment may meet, in any order.
 pub(crate) trait CrossingCollector {
     /// A triangle that is met later than the parameter with these bits cannot change the answer.
     fn limit(&self) -> u32;
     /// A triangle of the wanted facing that the segment crosses. `None` says that the tree is
     /// unchecked.
-    fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) -> Option<()>;
+    fn meet(&mut self, crossing: &Crossing, triangle: TriangleAt) -> Option<()>;
     /// The input's surface is met, not later than this.
     fn certain(&mut self, upper: f32);
     /// The input's surface is met, not later than `upper`, by one of a leaf's undecided triangles,
-    /// a bit of `lanes` for each. Next to an inner edge of a fan each is undecided, yet the segment
+    /// a bit of `lanes` for each; `first` is the leaf's first. Next to an inner edge of a fan each is undecided, yet the segment
     /// certainly meets one of them.
-    fn covered(&mut self, lanes: u32, upper: f32, node: u32, child: u32) -> Option<()>;
+    fn covered(&mut self, lanes: u32, upper: f32, first: TriangleAt) -> Option<()>;
     /// Whether the question is answered.
     fn is_answered(&self) -> bool;
     /// Whether an undecided triangle matters next to a certain one in the same leaf.
@@ -278,7 +270,7 @@ impl<C: CrossingCollector, F> SegmentVisitor<'_, C, F> {
             if crossing.upper < bound {
                 crossing.upper = bound;
             }
-            self.collector.meet(&crossing, visit.node, visit.child, lane)?;
+            self.collector.meet(&crossing, visit.triangle(lane as usize))?;
             if crossing.certain {
                 is_certain = true;
                 self.collector.certain(crossing.upper);
@@ -304,7 +296,7 @@ impl<C: CrossingCollector, F> SegmentVisitor<'_, C, F> {
                     turns.is_some_and(|turns| turns != 0 && turns as f32 * wanted(fan == 1) >= 0.0);
                 if is_covered {
                     let (lanes, upper) = (undecided[fan], upper[fan]);
-                    self.collector.covered(lanes, upper, visit.node, visit.child)?;
+                    self.collector.covered(lanes, upper, visit.triangle(0))?;
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! The distance of a convex solid and the surface.
 
 use super::box_keys::{ByDistance, distance_of};
-use super::leaf_search::{GapVisitor, LeafSearch, TriangleGap, TriangleRef};
+use super::leaf_search::{GapVisitor, LeafSearch, TriangleGap};
 use super::placed::PlacedSolid;
 use crate::bvh::tree::descent::{Descent, descend};
 use crate::bvh::tree::format::Bvh;
@@ -95,7 +95,7 @@ impl Bvh<'_> {
         Ok(SolidDistance {
             distance,
             points: best.gap.points.map(|point| placed.to_input(point)),
-            triangle: number(self, best.place)?,
+            triangle: best.place.source(self).ok_or(QueryError::Unchecked)?,
             work,
             ended,
         })
@@ -114,15 +114,6 @@ fn some_triangle(
     let mut work = Work::default();
     descend(tree, &ByDistance(placed), u32::MAX, scratch, &mut search, &mut work)?;
     search.visitor.0.ok_or(QueryError::Unchecked)
-}
-
-/// The number of a triangle in the input file.
-pub(super) fn number(tree: &Bvh<'_>, place: TriangleRef) -> Result<u32, QueryError> {
-    let find = || {
-        let first = tree.links(place.node)?.triangle(place.child);
-        tree.source(first.wrapping_add(place.lane))
-    };
-    find().ok_or(QueryError::Unchecked)
 }
 
 /// The visitor that wants the nearest triangle.

@@ -23,6 +23,7 @@ use super::node::Pushed;
 use super::node::{CHILD_MASK, NO_CHILD};
 #[cfg(meshsweep_wide)]
 use super::node::{least_key, places_of_wanted};
+use super::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::num::lesser;
 use crate::query::{Ended, QueryError, ScratchEntry, Work};
@@ -67,6 +68,14 @@ pub(crate) struct LeafVisit<'a> {
     pub(crate) node: u32,
     /// Number of the leaf among the children of `node`.
     pub(crate) child: u32,
+}
+
+impl LeafVisit<'_> {
+    /// The place of a triangle of the leaf.
+    #[inline(always)]
+    pub(crate) fn triangle(&self, lane: usize) -> TriangleAt {
+        TriangleAt::new(self.node, self.child, lane)
+    }
 }
 
 /// A question's visitor for leaves.
@@ -196,7 +205,7 @@ impl Limit {
     #[cfg_attr(meshsweep_small, inline(never))]
     fn has_room(&self, stack: &Stack<'_>, work: &Work) -> bool {
         let free = stack.entries.len().saturating_sub(stack.used);
-        let left = self.steps.saturating_sub(work.splits) as usize;
+        let left = self.steps.saturating_sub(work.opened) as usize;
         free >= self.entries || free >= left.saturating_mul(WIDTH)
     }
 
@@ -311,7 +320,7 @@ impl<'s> Walk<'s> {
     #[cfg_attr(meshsweep_small, inline(never))]
     #[cfg_attr(not(meshsweep_small), inline(always))]
     fn new(tree: &Bvh<'_>, steps: u32, scratch: &'s mut [ScratchEntry], work: &Work) -> Self {
-        let all = work.splits.saturating_add(tree.most_steps());
+        let all = work.opened.saturating_add(tree.most_steps());
         Walk {
             limit: Limit {
                 steps: lesser(steps, all),
@@ -357,7 +366,7 @@ impl<'s> Walk<'s> {
         loop {
             let mut place = None;
             if opens {
-                if work.splits >= self.limit.steps {
+                if work.opened >= self.limit.steps {
                     self.out_of_steps(bound);
                     return Some(false);
                 }
@@ -407,8 +416,8 @@ impl<'s> Walk<'s> {
         };
         #[cfg(not(meshsweep_wide))]
         let nearest = self.stack.push_children(query, tree, &opened)?;
-        work.splits += 1;
-        work.nodes += links.count;
+        work.opened += 1;
+        work.bounds += links.count;
         if nearest > limit {
             return Some(None);
         }

@@ -6,7 +6,7 @@
 //! | `node/` | the box tests: eight boxes at a time |
 //! | `descent` | the descent of one tree, for a point, a segment or a solid |
 //! | `block_walk`, `prefetch` | that of exact answers, on targets with vector registers |
-//! | `triangle_place` | where a triangle lies, in one word |
+//! | `triangle_at` | the place of a triangle, in one word |
 //! | `axis_intervals` | the boxes of a node as intervals along directions |
 //! | `extended` | a model's extent, for its pose in the frame of another |
 //! | `input_box` | a box that holds the input's vertices |
@@ -23,4 +23,4 @@ pub mod node;
 #[cfg(meshsweep_wide)]
 pub(super) mod prefetch;
 pub(super) mod stored_lengths;
-pub(super) mod triangle_place;
+pub(super) mod triangle_at;

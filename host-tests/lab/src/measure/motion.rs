@@ -152,7 +152,7 @@ pub fn table(subject: &Subject) -> Result<Table, String> {
             let ends = [from, to].map(|corners| Solid::new(corners, *radius));
             let [from, to] = ends;
             let (from, to) = (from.map_err(said)?, to.map_err(said)?);
-            tree.first_contact(&from, &to, Budget::EXACT, &mut stack).map_err(said)
+            tree.solid_first_contact(&from, &to, Budget::EXACT, &mut stack).map_err(said)
         })?;
         let tally = Tally::of(&motions, |index| answers[index].is_clear(), subject.diagonal());
         let open = answers.iter().filter(|answer| answer.ended == Ended::Resolution).count();
@@ -169,7 +169,7 @@ pub fn table(subject: &Subject) -> Result<Table, String> {
             tally.missed,
             open,
             fixed(time / 1e3, 2),
-            each(|answer| answer.work.splits),
+            each(|answer| answer.work.opened),
             each(|answer| answer.work.exact),
         ]);
         if tally.wrong > 0 {

@@ -116,7 +116,7 @@ impl Measured {
             self.wrong,
             count(|answer| matches!(answer.side, Side::Undecided(Undecided::Resolution))),
             scientific(widths[widths.len() / 2]),
-            mean(|answer| answer.work.nodes),
+            mean(|answer| answer.work.bounds),
             mean(|answer| answer.work.triangles),
             fixed(self.time / 1e3, 2),
             fixed(self.time_of_all / 1e3, 1),

@@ -263,7 +263,7 @@ fn short_stacks_and_few_steps_leave_the_side_open_or_right() {
             {
                 let answer = ask(scene, p, &Budget::EXACT.with_steps(steps), entries);
                 undefined += u32::from(!check(scene, p, 1, &answer));
-                assert!(answer.closest.work.splits <= steps);
+                assert!(answer.closest.work.opened <= steps);
             }
         }
     }

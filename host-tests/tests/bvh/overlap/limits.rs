@@ -32,7 +32,7 @@ fn short_stacks_and_few_steps_leave_answers_open_and_never_wrong() {
             let short = first
                 .overlap(&second, pose, Budget::EXACT.with_steps(steps), &mut stack)
                 .expect("answers");
-            assert!(short.work.splits <= steps);
+            assert!(short.work.opened <= steps);
             if short.verdict == Verdict::Undecided(Undecided::Steps) {
                 cut[1] += 1;
             } else {
@@ -56,8 +56,9 @@ fn pairs_that_do_not_fit_are_counted() {
     let mut stack = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
     for room in [0, 1, 7] {
         let mut pairs = vec![TrianglePair::EMPTY; room];
-        let found =
-            first.overlaps(&second, pose, &mut pairs, Budget::EXACT, &mut stack).expect("answers");
+        let found = first
+            .all_overlaps(&second, pose, &mut pairs, Budget::EXACT, &mut stack)
+            .expect("answers");
         assert_eq!((found.stored, found.dropped as usize), (room, all.len() - room));
         assert_eq!(found.ended, Ended::Scratch);
         assert_eq!(pairs, all[..room]);

@@ -74,7 +74,7 @@ impl Nearest {
         Ok(PairDistance {
             distance,
             points: gap.points.map(|point| pair.place(point)),
-            triangles: numbers(a, b, &gap.place).ok_or(QueryError::Unchecked)?,
+            triangles: numbers(a, b, gap.place).ok_or(QueryError::Unchecked)?,
             work,
             ended,
         })

@@ -46,7 +46,7 @@ impl<'a> Threshold<'a> {
             (None, None, None) => (Verdict::No, None),
         };
         let [a, b] = pair.trees;
-        let numbers = |gap: TriangleGap| numbers(a, b, &gap.place).ok_or(QueryError::Unchecked);
+        let numbers = |gap: TriangleGap| numbers(a, b, gap.place).ok_or(QueryError::Unchecked);
         Ok(PairWithin { verdict, triangles: gap.map(numbers).transpose()?, work })
     }
 }

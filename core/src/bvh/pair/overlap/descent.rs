@@ -6,10 +6,11 @@
 //! scratch entries, each with one node and 32 of the bits.
 
 use crate::bvh::pair::leaf_pair::LeafPair;
-use crate::bvh::pair::models::{Models, PairPlace};
+use crate::bvh::pair::models::Models;
 use crate::bvh::tree::axis_intervals::{AxisIntervals, Pairs, pairs};
 use crate::bvh::tree::extended::extended;
 use crate::bvh::tree::format::{Bvh, BvhChild};
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::{Contact, Pose};
 use crate::num::lesser;
 use crate::query::{Budget, Ended, PairVisitor, QueryError, RelativePose, ScratchEntry, Work};
@@ -21,7 +22,7 @@ pub(crate) fn descend(
     pose: &Pose,
     budget: &Budget,
     scratch: &mut [ScratchEntry],
-    visitor: &mut impl PairVisitor<PairPlace>,
+    visitor: &mut impl PairVisitor<[TriangleAt; 2]>,
 ) -> Result<(Option<Ended>, Work), QueryError> {
     let mut work = Work::default();
     if !(a.serves_segments() && b.serves_segments()) {
@@ -40,10 +41,10 @@ pub(crate) fn descend(
     // The children of each node that still count, as bits.
     let mut wanted = [u32::MAX; 2];
     loop {
-        if work.splits >= steps {
+        if work.opened >= steps {
             return Ok((Some(Ended::Steps), work));
         }
-        work.splits += 1;
+        work.opened += 1;
         let pairs = models.pairs(nodes, wanted, &mut work).ok_or(QueryError::Unchecked)?;
         let mut next = None;
         if pairs.bits != [0; 2] {
@@ -132,7 +133,7 @@ impl Models<'_> {
             Some((intervals, u32::MAX >> (32 - count.clamp(1, 8)) & wanted[which]))
         };
         let ((first, rows), (second, columns)) = (side(self.a, 0)?, side(self.b, 1)?);
-        work.nodes = work.nodes.saturating_add(rows.count_ones() * columns.count_ones());
+        work.bounds = work.bounds.saturating_add(rows.count_ones() * columns.count_ones());
         Some(pairs(&first, &second, rows, columns))
     }
 
@@ -143,7 +144,7 @@ impl Models<'_> {
         nodes: [u32; 2],
         indices: [u32; 2],
         [first, second]: [BvhChild; 2],
-        visitor: &mut impl PairVisitor<PairPlace>,
+        visitor: &mut impl PairVisitor<[TriangleAt; 2]>,
         work: &mut Work,
     ) -> Option<bool> {
         let p = self.a.leaf_at(first.at, first.shape)?;
@@ -155,7 +156,10 @@ impl Models<'_> {
                 bits &= bits - 1;
                 let contact = pair.meet(i, j as usize, work);
                 if contact != Contact::Apart {
-                    let place = [[nodes[0], indices[0], i as u32], [nodes[1], indices[1], j]];
+                    let place = [
+                        TriangleAt::new(nodes[0], indices[0], i),
+                        TriangleAt::new(nodes[1], indices[1], j as usize),
+                    ];
                     if !visitor.pair(place, contact)? {
                         return Some(false);
                     }

@@ -1,11 +1,12 @@
 //! Two box trees, one of them moved: whether their surfaces meet, and where.
 
 use super::descent::descend;
-use crate::bvh::pair::models::{PairPlace, numbers};
+use crate::bvh::pair::models::numbers;
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::Pose;
 use crate::query::{
-    AllPairs, Budget, FirstPair, Overlap, Overlaps, QueryError, ScratchEntry, TrianglePair,
+    AllOverlaps, AllPairs, Budget, FirstPair, Overlap, QueryError, ScratchEntry, TrianglePair,
 };
 
 impl Bvh<'_> {
@@ -55,7 +56,7 @@ impl Bvh<'_> {
         let mut first = FirstPair::NONE;
         let (truncated, work) = descend([self, other], &pose, &budget, scratch, &mut first)?;
         let (verdict, place) = first.answer(truncated);
-        let numbers = |place| numbers(self, other, &place).ok_or(QueryError::Unchecked);
+        let numbers = |place| numbers(self, other, place).ok_or(QueryError::Unchecked);
         let triangles = place.map(numbers).transpose()?;
         Ok(Overlap { verdict, triangles, work })
     }
@@ -73,7 +74,7 @@ impl Bvh<'_> {
     /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<{ Bvh::OVERLAP_ENTRIES }>::new());
     /// let pose = Pose { translation: [300.0, 0.0, 0.0], ..Pose::IDENTITY };
     /// let mut pairs = [TrianglePair::EMPTY; 8];
-    /// let found = part.overlaps(&part, pose, &mut pairs, Budget::EXACT, &mut scratch)?;
+    /// let found = part.all_overlaps(&part, pose, &mut pairs, Budget::EXACT, &mut scratch)?;
     /// assert_eq!((found.stored, found.dropped), (0, 0));
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
@@ -81,15 +82,15 @@ impl Bvh<'_> {
     /// # Errors
     /// Those of [`overlap`](Bvh::overlap).
     #[inline(never)]
-    pub fn overlaps(
+    pub fn all_overlaps(
         &self,
         other: &Bvh<'_>,
         pose: Pose,
         pairs: &mut [TrianglePair],
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<Overlaps, QueryError> {
-        let mut all = AllPairs::new(pairs, |place: &PairPlace| numbers(self, other, place));
+    ) -> Result<AllOverlaps, QueryError> {
+        let mut all = AllPairs::new(pairs, |&place: &[TriangleAt; 2]| numbers(self, other, place));
         let (truncated, work) = descend([self, other], &pose, &budget, scratch, &mut all)?;
         Ok(all.answer(truncated, work))
     }

@@ -7,8 +7,9 @@ use super::follow::{Follow, Nearest, NoAnswer};
 use super::front::{BoundKind, Child, FrontState, TraversalFront};
 use super::planes::Planes;
 use crate::bvh::point::hint::Hint;
-use crate::bvh::point::query::PointQuery;
+use crate::bvh::point::query::{Asked, PointQuery, PreparedPoint};
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::sqrt_approx;
 use crate::num::tolerance::{LEAST_DENOMINATOR, LONG_PATH, ROOT_AND_PRODUCTS};
 use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry, Work};
@@ -195,7 +196,7 @@ impl FrontPolicy {
     /// Counts a plain query: 4/3 for a node, 2/7 for a triangle.
     #[inline(always)]
     fn count_plain_query(&mut self, work: &Work) {
-        let cost = BASE_COST + work.splits + work.splits / 3 + work.triangles * 2 / 7;
+        let cost = BASE_COST + work.opened + work.opened / 3 + work.triangles * 2 / 7;
         let average = (3 * self.plain_cost + cost).div_ceil(4);
         self.plain_cost = if self.plain_cost == 0 { cost } else { average };
     }
@@ -259,11 +260,14 @@ impl Memory {
         budget: &Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<CoherentClosest, QueryError> {
-        let query = PointQuery::prepare(tree, point, budget, scratch)?;
-        if query.far || budget.relative > 0.0 || budget.absolute > 0.0 {
-            let closest = tree.closest_point(point, *budget, scratch)?;
-            return Ok(CoherentClosest { closest, safe_radius: 0.0 });
-        }
+        let prepared = PreparedPoint::prepare(tree, point, budget, scratch)?;
+        let query = match prepared.asked() {
+            Asked::Near(query) if budget.relative <= 0.0 && budget.absolute <= 0.0 => query,
+            Asked::Near(_) | Asked::Far(_) => {
+                let closest = tree.closest_point(point, *budget, scratch)?;
+                return Ok(CoherentClosest { closest, safe_radius: 0.0 });
+            }
+        };
         let of = tree.identity();
         if self.of != of {
             *self = Memory { of, ..Memory::EMPTY };
@@ -274,7 +278,7 @@ impl Memory {
             + LEAST_DENOMINATOR;
         self.last.p = query.p;
         if self.policy.uses_front(step) {
-            match self.follow(keys, children, tree, &query, (step, budget.steps), &mut spent) {
+            match self.follow(keys, children, tree, query, (step, budget.steps), &mut spent) {
                 Ok(answer) => return Ok(answer),
                 Err(NoAnswer::Unchecked) => return Err(QueryError::Unchecked),
                 Err(NoAnswer::Undecided) => {}
@@ -289,9 +293,9 @@ impl Memory {
         self.policy.count_plain_query(&closest.work);
         self.last.plain_upper =
             query.units.inward(closest.distance.upper) + query.units.surface_error;
-        closest.work.nodes = closest.work.nodes.saturating_add(spent.nodes);
+        closest.work.bounds = closest.work.bounds.saturating_add(spent.bounds);
         closest.work.triangles = closest.work.triangles.saturating_add(spent.triangles);
-        closest.work.splits = closest.work.splits.saturating_add(spent.splits);
+        closest.work.opened = closest.work.opened.saturating_add(spent.opened);
         Ok(CoherentClosest { closest, safe_radius: 0.0 })
     }
 
@@ -382,6 +386,5 @@ impl Memory {
 
 /// The triangle's number in the input file.
 fn number(tree: &Bvh<'_>, nearest: &Nearest) -> Option<u32> {
-    let first = tree.links(nearest.child.node())?.triangle(nearest.child.index());
-    tree.source(first.wrapping_add(nearest.lane as u32))
+    TriangleAt::new(nearest.child.node(), nearest.child.index(), nearest.lane).source(tree)
 }

@@ -1,10 +1,9 @@
 //! The search of an exact closest point on vector targets, nearest child first at every level.
 
 use super::closest::{Closest, NearestOfLeaf};
-use crate::bvh::point::far_point::from_afar;
 use crate::bvh::point::hint::Hint;
 use crate::bvh::point::leaf::limit::LeafLimit;
-use crate::bvh::point::query::PointQuery;
+use crate::bvh::point::query::{Asked, PointQuery, PreparedPoint};
 use crate::bvh::tree::block_walk::{BlockWalk, walk};
 use crate::bvh::tree::descent::Descent;
 use crate::bvh::tree::format::Bvh;
@@ -57,20 +56,21 @@ pub(crate) fn search_by_blocks(
     if !is_exact || budget.steps < tree.most_steps() || scratch.len() < tree.scratch_entries() {
         return None;
     }
-    let query = match PointQuery::prepare(tree, point, budget, scratch) {
-        Ok(query) => query,
+    let prepared = match PreparedPoint::prepare(tree, point, budget, scratch) {
+        Ok(prepared) => prepared,
         Err(error) => return Some(Err(error)),
     };
-    if query.far {
-        return Some(from_afar(tree, point, &query));
-    }
+    let query = match prepared.asked() {
+        Asked::Near(query) => query,
+        Asked::Far(far) => return Some(far.closest_point(tree, point)),
+    };
     let mut work = Work::default();
     let Kernels { keys_of, take_least, nearest, nearest_of_hint } = kernels;
-    let mut visitor = Closest::new(tree, point, &query, budget, nearest);
+    let mut visitor = Closest::new(tree, point, query, budget, nearest);
     if *hint != Hint::NONE
         && let Some(leaf) = tree.leaf(hint.node(), hint.child())
     {
-        match nearest_of_hint(&leaf, &query, &LeafLimit::NONE) {
+        match nearest_of_hint(&leaf, query, &LeafLimit::NONE) {
             Some(near) => visitor.bound_by(&near),
             None => return Some(Err(QueryError::Unchecked)),
         }
@@ -82,7 +82,7 @@ pub(crate) fn search_by_blocks(
         &mut visitor,
         &mut work,
         #[inline(always)]
-        |opened| keys_of(&query, opened),
+        |opened| keys_of(query, opened),
         take_least,
     );
     match ended {

@@ -3,7 +3,6 @@
 
 #[cfg(not(meshsweep_wide))]
 use super::waiting::Waiting;
-use crate::bvh::point::far_point::from_afar;
 use crate::bvh::point::hint::Hint;
 use crate::bvh::point::leaf::bounds::{nearness, seen_from, sliver};
 use crate::bvh::point::leaf::distance::nearest_triangle;
@@ -11,14 +10,14 @@ use crate::bvh::point::leaf::limit::LeafLimit;
 use crate::bvh::point::leaf::nearest::{Lanes, LeafNearest};
 #[cfg(not(meshsweep_wide))]
 use crate::bvh::point::leaf::plane::LeafPlane;
-use crate::bvh::point::query::{EVERY_KEY, PointQuery};
+use crate::bvh::point::query::{EVERY_KEY, FarPoint, PointQuery};
 use crate::bvh::tree::descent::{Descent, LeafVisit, LeafVisitor};
 use crate::bvh::tree::format::{Bvh, FanLeaf, lanes_of};
 #[cfg(meshsweep_wide)]
 use crate::bvh::tree::prefetch::prefetch_source;
-use crate::bvh::tree::triangle_place::TrianglePlace;
+use crate::bvh::tree::triangle_at::TriangleAt;
 #[cfg(not(meshsweep_wide))]
-use crate::geom::fan::{WIDTH, WholeBounds};
+use crate::geom::fan::{IntBounds, WIDTH};
 use crate::geom::fan::{lower_bound_up_to, refined};
 #[cfg(not(meshsweep_wide))]
 use crate::num::SOFT_FLOAT;
@@ -126,7 +125,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             && !leaf.is_f32()
             && let Some(point) = &self.query.whole
         {
-            return self.bound(leaf, point, &mut [WholeBounds::NONE; WIDTH]).map(drop);
+            return self.bound(leaf, point, &mut [IntBounds::NONE; WIDTH]).map(drop);
         }
         self.bound_by(&nearest_triangle(leaf, self.query)?);
         Some(())
@@ -163,7 +162,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
     #[cfg_attr(not(meshsweep_small), inline(always))]
     pub(crate) fn improve(&mut self, distance_sq: f32, lanes: &Lanes, [node, child]: [u32; 2]) {
         // Of equal distances the first in blob order counts, which is the order of places: see
-        // `TrianglePlace`. Before the first triangle `node` is above all.
+        // `TriangleAt`. Before the first triangle `node` is above all.
         let comes_later = (node, child) > (self.best.node, self.best.child);
         if comes_later && Real(distance_sq) == Real(self.best.distance_sq) {
             return;
@@ -171,6 +170,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         self.best = Best { distance_sq, node, child, lanes: *lanes };
         self.refine_below = self.query.refine_below(distance_sq);
         self.beyond.low_sq = self.refine_below;
+        self.beyond.wanted_sq = f32::from_bits(distance_sq.to_bits() + 1);
         let beyond = self.query.limit(distance_sq);
         if Real(beyond) < Real(self.beyond.distance_sq) {
             self.beyond.distance_sq = beyond;
@@ -256,7 +256,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             least_sq = lesser(least_sq, square(self.query.distance_of_key(least)));
         }
         if node == u32::MAX {
-            let mut answer = from_afar(self.tree, self.point, self.query)?;
+            let mut answer = FarPoint { query: self.query }.closest_point(self.tree, self.point)?;
             let Interval { lower, upper } = answer.distance;
             let least = self.query.lower(sqrt_approx(least_sq));
             answer.distance.lower = lesser(greater(lower, least), upper);
@@ -275,7 +275,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         Ok(ClosestPoint {
             distance: Interval::new(self.query.lower(least), self.query.upper(distance)),
             point: self.query.units.point(leaf.point(lane, v, w)),
-            triangle: TrianglePlace::new(node, child, lane).source(self.tree),
+            triangle: TriangleAt::new(node, child, lane).source(self.tree),
             work,
             ended,
         })
@@ -302,8 +302,9 @@ impl<N: NearestOfLeaf> LeafVisitor for Closest<'_, N> {
         #[cfg(not(meshsweep_wide))]
         if self.has_old_plane {
             self.has_old_plane = false;
-            let (way, limit) = (self.best.lanes.way(), self.beyond.distance_sq);
-            self.beyond.plane = LeafPlane::across(self.query, way, self.best.distance_sq, limit);
+            let (residual, limit) = (self.best.lanes.residual(), self.beyond.distance_sq);
+            self.beyond.plane =
+                LeafPlane::across(self.query, residual, self.best.distance_sq, limit);
         }
         let near = (self.nearest)(&visit.leaf, self.query, &self.beyond)?;
         if near.distance_sq <= self.best.distance_sq {

@@ -45,7 +45,7 @@
 use super::pseudonormal::{Candidates, side_of_shared_feature};
 use super::search::Search;
 use super::survey::Survey;
-use crate::bvh::point::query::PointQuery;
+use crate::bvh::point::query::{Asked, FarPoint, PointQuery, PreparedPoint};
 use crate::bvh::tree::format::Bvh;
 use crate::num::greater;
 use crate::query::{
@@ -101,14 +101,15 @@ impl Bvh<'_> {
     ) -> Result<SignedDistance, QueryError> {
         let tree = self;
         // Here and below in place: queries, surveys and answers are large.
-        let prepared = PointQuery::prepare(tree, point, &budget, scratch);
-        let query = prepared.as_ref().map_err(|&refused| refused)?;
+        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch);
+        let asked = prepared.as_ref().map_err(|&refused| refused)?.asked();
         let closed = tree.is_closed();
         let (steps, stack) = (budget.steps, scratch);
         let mut search = Search { tree, steps, stack, work: Work::default(), truncated: None };
-        // Of a point that is far away it stays empty: the model's box answers.
+        let (Asked::Near(query) | Asked::Far(FarPoint { query })) = asked;
         let mut survey = Survey::of(query);
-        if !query.far {
+        // Of a point that is far away it stays empty: the model's box answers.
+        if matches!(asked, Asked::Near(_)) {
             search.survey_with_area(&mut survey).ok_or(QueryError::Unchecked)?;
         }
         let mut found = survey.closest(&search, point);
@@ -220,11 +221,8 @@ impl Search<'_, '_> {
     ) -> Option<Option<Side>> {
         for _ in 0..count {
             let Some(point) = place else { break };
-            let prepared = PointQuery::new(self.tree, point);
-            let query = match &prepared {
-                Ok(query) if !query.far => query,
-                _ => break,
-            };
+            let prepared = PreparedPoint::new(self.tree, point);
+            let Ok(Asked::Near(query)) = prepared.as_ref().map(PreparedPoint::asked) else { break };
             let mut survey = Survey::of(query);
             self.survey_with_area(&mut survey)?;
             let side = self.side(&survey)?;

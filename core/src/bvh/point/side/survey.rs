@@ -15,13 +15,13 @@ use crate::bvh::point::query::PointQuery;
 use crate::bvh::point::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
 use crate::bvh::tree::descent::{Descent, LeafVisit, descend};
 use crate::bvh::tree::format::{Bvh, FanLeaf};
-use crate::bvh::tree::triangle_place::TrianglePlace;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::tolerance::{EMPTY_BALL, EVERYTHING_SQ, U32};
 use crate::num::{Real, lesser, sqrt_approx};
 use crate::query::{Budget, ClosestPoint, Ended, Interval, ScratchEntry};
 use glam::Vec3;
 
-/// The way from a point to the nearer place where its side is searched again: a sixteenth of the
+/// The offset from a point to the nearer place where its side is searched again: a sixteenth of the
 /// distance is left.
 const WAY_TO_NEARER: f32 = 0.9375;
 
@@ -54,7 +54,7 @@ impl<'a, 't> Search<'a, 't> {
             marked: tree.if_marked(),
             bounding,
             bound_sq: f32::INFINITY,
-            nearest: (TrianglePlace::NONE, Lanes::NONE),
+            nearest: (TriangleAt::NONE, Lanes::NONE),
             band: f32::INFINITY,
             sure_sq: f32::INFINITY,
             nearby: &mut nearby,
@@ -112,7 +112,7 @@ impl<'a, 't> Search<'a, 't> {
 
 impl LeafTriangle {
     pub(crate) fn is_none(&self) -> bool {
-        self.place == TrianglePlace::NONE
+        self.place == TriangleAt::NONE
     }
 
     /// Whether squares are the same, and the number is greater.
@@ -212,9 +212,9 @@ impl Survey<'_> {
         let leaf = leaf.as_ref()?;
         let place = query.p + (witness(query, leaf, to.place.lane()) - query.p) * WAY_TO_NEARER;
         let place = query.units.point(place);
-        let way = query.units.inward_point(place) - query.p;
+        let offset = query.units.inward_point(place) - query.p;
         let empty = query.units.inward(self.lower(sqrt_approx(self.best.distance_sq)));
-        (way.dot(way) < empty * empty * (1.0 - EMPTY_BALL)).then_some(place)
+        (offset.dot(offset) < empty * empty * (1.0 - EMPTY_BALL)).then_some(place)
     }
 
     pub(crate) fn closest(&self, search: &Search<'_, '_>, point: [f32; 3]) -> Option<ClosestPoint> {
@@ -252,7 +252,7 @@ impl Survey<'_> {
 /// A leaf with triangles that may be the closest.
 struct WaitingLeaf {
     /// That of its first triangle.
-    place: TrianglePlace,
+    place: TriangleAt,
     /// [`LeafVisit::key`].
     key: u32,
     /// [`LeafNearest::low`].
@@ -283,7 +283,7 @@ struct Collector<'p, 'w> {
     /// The least squared distance of a bounding triangle.
     bound_sq: f32,
     /// The leaf that `bound_sq` is from, and lanes that find the triangle there.
-    nearest: (TrianglePlace, Lanes),
+    nearest: (TriangleAt, Lanes),
     /// The [`band_of`] `bound_sq`: farther triangles are no candidates.
     band: f32,
     /// A squared lower bound up to this is that of a candidate, without a root.
@@ -308,7 +308,7 @@ impl Collector<'_, '_> {
         if Real(distance_sq) < Real(self.bound_sq) {
             self.bound_sq = distance_sq;
             self.latest = LeafTriangle::NONE;
-            self.nearest.0 = TrianglePlace::NONE;
+            self.nearest.0 = TriangleAt::NONE;
             self.band = band_of(self.query, distance_sq);
             let band = Real(self.band);
             self.sure_sq = (band * band * Real(1.0 - 8.0 * U32)).0;
@@ -330,7 +330,7 @@ impl Collector<'_, '_> {
             let limit = self.query.key_limit(limit);
             self.waiting.retain(|leaf| leaf.key <= limit);
         }
-        let place = TrianglePlace::new(visit.node, visit.child, 0);
+        let place = visit.triangle(0);
         let &LeafNearest { mut low, lower_bound_sq, .. } = near;
         let squares = self.squares.keep(known, &mut low, limit);
         let key = visit.key;
@@ -357,7 +357,7 @@ impl TriangleCollector for Collector<'_, '_> {
         }
         if Real(near.distance_sq) < Real(self.bound_sq) {
             self.bound(near.distance_sq, limit);
-            self.nearest = (TrianglePlace::new(visit.node, visit.child, 0), near.lanes);
+            self.nearest = (visit.triangle(0), near.lanes);
         }
         self.waits =
             Real(near.distance_sq) <= Real(*limit) && self.wait(visit, near, known, *limit);

@@ -7,7 +7,7 @@
 use crate::bvh::point::leaf::bounds::seen_from;
 use crate::bvh::point::query::PointQuery;
 use crate::bvh::tree::format::{Bvh, FanLeaf};
-use crate::bvh::tree::triangle_place::TrianglePlace;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::{is_in_front, is_whole};
 use crate::num::SOFT_FLOAT;
 use crate::num::tolerance::{
@@ -37,7 +37,7 @@ impl ViewedSide {
     /// turned, none if it is sideless.
     #[cold]
     #[inline(never)]
-    pub(crate) fn told_by(self, tree: &Bvh<'_>, place: TrianglePlace) -> ViewedSide {
+    pub(crate) fn told_by(self, tree: &Bvh<'_>, place: TriangleAt) -> ViewedSide {
         // In a tree that is not checked no number may be right.
         let triangle = place.number(tree).unwrap_or(u32::MAX);
         let is_turned = tree.turned().contains(triangle);

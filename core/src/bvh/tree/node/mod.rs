@@ -34,7 +34,7 @@
 //! | `box_entries` | a segment against eight boxes: the choice between the next two |
 //! | `entry_lanes` | a segment against eight boxes, in vector registers |
 //! | `entry_avx2` | the same in registers of 256 bits |
-//! | `entries_in_whole` | a segment against eight boxes, on targets without an FPU |
+//! | `integer_entries` | a segment against eight boxes, on targets without an FPU |
 
 #[cfg(any(test, not(meshsweep_wide)))]
 mod axis_place;
@@ -44,8 +44,6 @@ mod box_distances;
 mod box_entries;
 #[cfg(meshsweep_wide)]
 mod box_lanes;
-#[cfg(any(test, not(meshsweep_wide)))]
-mod entries_in_whole;
 #[cfg(meshsweep_avx2)]
 mod entry_avx2;
 #[cfg(meshsweep_wide)]
@@ -53,12 +51,14 @@ mod entry_lanes;
 mod frame;
 #[cfg(any(test, not(meshsweep_wide)))]
 mod grid_line;
+#[cfg(any(test, not(meshsweep_wide)))]
+mod integer_entries;
 mod keys;
 mod opened_node;
 #[cfg(any(test, not(meshsweep_wide)))]
 mod slab_planes;
 mod slab_ray;
-#[cfg(test)]
+#[cfg(all(test, meshsweep_wide))]
 mod tests;
 #[cfg(any(test, not(meshsweep_wide)))]
 mod two_in_word;

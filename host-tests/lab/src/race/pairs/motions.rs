@@ -66,7 +66,7 @@ pub fn groups(subject: &Subject, wanted: usize) -> Result<[Group; 3], String> {
             break;
         }
         let mut stack = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
-        let found = tree.distance(&tree, pose, Budget::EXACT, &mut stack);
+        let found = tree.distance_to(&tree, pose, Budget::EXACT, &mut stack);
         let found = found.map_err(|error| error.to_string())?;
         if found.distance.lower > 0.0 {
             if apart.len() < wanted {
@@ -86,7 +86,7 @@ pub fn groups(subject: &Subject, wanted: usize) -> Result<[Group; 3], String> {
     let measured = |motions: Vec<(Motion, Pose)>| -> Result<Vec<Case>, String> {
         let one = |(near, pose): (Motion, Pose)| {
             let mut stack = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
-            let found = tree.distance(&tree, pose, Budget::EXACT, &mut stack);
+            let found = tree.distance_to(&tree, pose, Budget::EXACT, &mut stack);
             let limit = f64::from(found.map_err(|error| error.to_string())?.distance.upper) * 1.001;
             // Beyond the limit the truth is infinite, and no answer holds it.
             Ok(case(near, pose, surface.distance_up_to(&pose, &near, limit)))

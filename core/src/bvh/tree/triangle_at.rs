@@ -6,22 +6,22 @@ use super::format::{Bvh, FanLeaf};
 /// number in the leaf. Places rise as the triangles' numbers in the blob do, because leaves stand
 /// in the order of their nodes ([`Bvh::open`] checks it).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct TrianglePlace(u32);
+pub(crate) struct TriangleAt(u32);
 
-impl TrianglePlace {
+impl TriangleAt {
     /// No triangle. Behind all others.
-    pub(crate) const NONE: TrianglePlace = TrianglePlace(u32::MAX);
+    pub(crate) const NONE: TriangleAt = TriangleAt(u32::MAX);
 
     /// A node's number has 24 bits.
     #[inline(always)]
     pub(crate) fn new(node: u32, child: u32, lane: usize) -> Self {
-        TrianglePlace(node << 6 | (child & 7) << 3 | (lane as u32 & 7))
+        TriangleAt(node << 6 | (child & 7) << 3 | (lane as u32 & 7))
     }
 
     /// The place in a word of [`Self::word`].
     #[inline(always)]
     pub(crate) fn of_word(word: u32) -> Self {
-        TrianglePlace(word)
+        TriangleAt(word)
     }
 
     /// The place as a word.
@@ -33,7 +33,7 @@ impl TrianglePlace {
     /// Another triangle of the same leaf.
     #[inline(always)]
     pub(crate) fn with_lane(self, lane: usize) -> Self {
-        TrianglePlace(self.0 & !7 | (lane as u32 & 7))
+        TriangleAt(self.0 & !7 | (lane as u32 & 7))
     }
 
     /// Number of the triangle in its leaf.
@@ -73,7 +73,7 @@ impl TrianglePlace {
 
 #[cfg(test)]
 mod tests {
-    use super::TrianglePlace;
+    use super::TriangleAt;
     use crate::bvh::tree::format::Bvh;
 
     #[test]
@@ -84,8 +84,8 @@ mod tests {
             let links = tree.links(node).unwrap();
             for child in links.inner..links.count {
                 for lane in 0..links.shape(child).triangles() {
-                    let place = TrianglePlace::new(node, child, lane);
-                    assert!(last.is_none_or(|last| last < place) && place < TrianglePlace::NONE);
+                    let place = TriangleAt::new(node, child, lane);
+                    assert!(last.is_none_or(|last| last < place) && place < TriangleAt::NONE);
                     assert_eq!(place.number(&tree), Some(number));
                     (last, number) = (Some(place), number + 1);
                 }
