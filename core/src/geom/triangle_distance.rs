@@ -209,7 +209,7 @@ fn plus([x, y, z]: Point<f64>, e: Point<f64>, v: f64, g: Point<f64>, w: f64) -> 
 
 /// A quotient within 0 and 1; 0 if it is not defined.
 #[inline(always)]
-fn part(x: f64, of: f64) -> f64 {
+fn fraction(x: f64, of: f64) -> f64 {
     if of > 0.0 { (x / of).clamp(0.0, 1.0) } else { 0.0 }
 }
 
@@ -224,15 +224,15 @@ fn between_edges(
     let (d, e, r) = (minus(to, from), minus(end, start), minus(from, start));
     let (dd, ee, de) = (dot(d, d), dot(e, e), dot(d, e));
     let (dr, er) = (dot(d, r), dot(e, r));
-    let mut s = part(de * er - dr * ee, dd * ee - de * de);
+    let mut s = fraction(de * er - dr * ee, dd * ee - de * de);
     let along = de * s + er;
-    let mut t = part(along, ee);
+    let mut t = fraction(along, ee);
     if along < 0.0 || ee <= 0.0 {
         t = 0.0;
-        s = part(-dr, dd);
+        s = fraction(-dr, dd);
     } else if along > ee {
         t = 1.0;
-        s = part(de - dr, dd);
+        s = fraction(de - dr, dd);
     }
     let at =
         |[x, y, z]: Point<f64>, [a, b, c]: Point<f64>, k: f64| [x + a * k, y + b * k, z + c * k];

@@ -76,7 +76,7 @@ impl Motion {
             [along, across, cross(axis, across)],
         );
         let mut twist = Twist { axis, angle, velocity, rest: ([[0.0; 3]; 3], [0.0; 3]) };
-        let (rows, shift) = twist.place(&from, 1.0);
+        let (rows, shift) = twist.pose_at(&from, 1.0);
         let less = |[a, b, c]: Point, [x, y, z]: Point| [a - x, b - y, c - z];
         let ([r0, r1, r2], [e0, e1, e2]) = (rows, end);
         twist.rest =
@@ -116,7 +116,7 @@ impl Motion {
 
 impl Twist {
     fn pose(&self, from: &Pose, t: f64) -> Pose {
-        let (rows, shift) = self.place(from, t);
+        let (rows, shift) = self.pose_at(from, t);
         let mut pose = *from;
         for (row, place) in pose.rotation.iter_mut().zip(rows) {
             row.iter_mut().zip(place).for_each(|(entry, x)| *entry = x as f32);
@@ -126,7 +126,7 @@ impl Twist {
     }
 
     /// Rows of the matrix at a time, and the shift.
-    fn place(&self, from: &Pose, t: f64) -> ([Point; 3], Point) {
+    fn pose_at(&self, from: &Pose, t: f64) -> ([Point; 3], Point) {
         let angle = self.angle * t;
         let half = libm::sin(0.5 * angle);
         let (sine, versine) = (libm::sin(angle), 2.0 * half * half);

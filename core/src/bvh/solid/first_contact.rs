@@ -77,7 +77,7 @@ impl Bvh<'_> {
             return self.first_hit(*start, *end, Facing::Both, budget, scratch);
         }
         let mut placed = PlacedSolid::NONE;
-        placed.place(self, from, Some(to))?;
+        placed.set(self, from, Some(to))?;
         let kept_distance = (placed.radius + placed.lengths.error) + placed.rounding;
         let mut work = Work::default();
         let query = ByTime::new(&placed, kept_distance);

@@ -68,7 +68,7 @@ impl PlacedSolid {
     /// Places a solid at rest, or one that moves from `solid` to `end`. In place, for a copy takes
     /// two kilobytes of the stack.
     #[inline(never)]
-    pub(super) fn place(
+    pub(super) fn set(
         &mut self,
         tree: &Bvh<'_>,
         solid: &Solid<'_>,

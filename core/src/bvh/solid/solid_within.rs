@@ -55,7 +55,7 @@ impl Bvh<'_> {
         budget.with_absolute(distance).check()?;
         budget.check_with(scratch)?;
         let mut placed = PlacedSolid::NONE;
-        placed.place(self, solid, None)?;
+        placed.set(self, solid, None)?;
         let lengths = &placed.lengths;
         let kept_distance = lengths.inward(distance) + placed.radius + lengths.error;
         let threshold = Threshold {

@@ -28,17 +28,17 @@ impl<'a> Curve<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<Curve<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(|kind| kind == SectionKind::Curves)?;
-        let curve = Curve::place(&table)?;
+        let curve = Curve::locate(&table)?;
         curve.check()?;
         Ok(curve)
     }
 
     /// The curves of bytes that were checked before.
     pub(crate) fn view(bytes: &'a [u8]) -> Result<Curve<'a>, OpenError> {
-        Curve::place(&SectionTable::view(bytes)?)
+        Curve::locate(&SectionTable::view(bytes)?)
     }
 
-    fn place(table: &SectionTable<'a>) -> Result<Curve<'a>, OpenError> {
+    fn locate(table: &SectionTable<'a>) -> Result<Curve<'a>, OpenError> {
         let blob = &table.header;
         let malformed = table.malformed(SectionKind::Curves);
         let data = table.bytes(SectionKind::Curves);

@@ -21,7 +21,7 @@ impl<'a> Hull<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<Hull<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(SectionKind::is_hull)?;
-        let hull = Hull::place(&table)?;
+        let hull = Hull::locate(&table)?;
         if !hull.has_hull() {
             return Err(OpenError::MissingSection { section: SectionKind::BaseTriangles });
         }
@@ -31,28 +31,28 @@ impl<'a> Hull<'a> {
 
     /// The hull hierarchy of bytes that were opened before.
     pub(crate) fn view(bytes: &'a [u8]) -> Result<Hull<'a>, OpenError> {
-        Hull::place(&SectionTable::view(bytes)?)
+        Hull::locate(&SectionTable::view(bytes)?)
     }
 
     /// The sections where they lie, of the right lengths. A blob without a hull hierarchy has none
     /// of them.
-    pub(crate) fn place(table: &SectionTable<'a>) -> Result<Hull<'a>, OpenError> {
+    pub(crate) fn locate(table: &SectionTable<'a>) -> Result<Hull<'a>, OpenError> {
         let header = table.header;
-        let part = |kind: SectionKind| Bytes(table.bytes(kind));
+        let section = |kind: SectionKind| Bytes(table.bytes(kind));
         let hull = Hull {
             header,
             checksum: table.checksum(),
             widths: Widths::of(&header),
             vertices: Vertices::new(header.vertex_format, table.bytes(SectionKind::Vertices)),
-            base: part(SectionKind::BaseTriangles),
-            groups: part(SectionKind::BaseGroups),
-            splits: part(SectionKind::Splits),
-            rings: part(SectionKind::Rings),
-            radii: part(SectionKind::Radii),
-            splits_with: part(SectionKind::SplitsWith),
-            source_starts: part(SectionKind::SourceStarts),
-            source: part(SectionKind::Source),
-            levels: part(SectionKind::Levels),
+            base: section(SectionKind::BaseTriangles),
+            groups: section(SectionKind::BaseGroups),
+            splits: section(SectionKind::Splits),
+            rings: section(SectionKind::Rings),
+            radii: section(SectionKind::Radii),
+            splits_with: section(SectionKind::SplitsWith),
+            source_starts: section(SectionKind::SourceStarts),
+            source: section(SectionKind::Source),
+            levels: section(SectionKind::Levels),
         };
         let wrong = SectionKind::ALL
             .into_iter()

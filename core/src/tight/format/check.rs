@@ -21,7 +21,7 @@ impl<'a> TightHulls<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<TightHulls<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(|kind| kind == SectionKind::TightHulls)?;
-        let hulls = TightHulls::place(&table)?;
+        let hulls = TightHulls::locate(&table)?;
         hulls.check()?;
         Ok(hulls)
     }
@@ -33,15 +33,15 @@ impl<'a> TightHulls<'a> {
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without tight hulls.
     pub const fn open_trusted(bytes: &'a [u8]) -> Result<TightHulls<'a>, OpenError> {
-        TightHulls::place(&ok!(SectionTable::open(bytes)))
+        TightHulls::locate(&ok!(SectionTable::open(bytes)))
     }
 
     /// The hulls of bytes that were checked before.
     pub(crate) const fn view(bytes: &'a [u8]) -> Result<TightHulls<'a>, OpenError> {
-        TightHulls::place(&ok!(SectionTable::view(bytes)))
+        TightHulls::locate(&ok!(SectionTable::view(bytes)))
     }
 
-    const fn place(table: &SectionTable<'a>) -> Result<TightHulls<'a>, OpenError> {
+    const fn locate(table: &SectionTable<'a>) -> Result<TightHulls<'a>, OpenError> {
         let kind = SectionKind::TightHulls;
         if !table.has(kind) {
             return Err(OpenError::MissingSection { section: kind });

@@ -91,17 +91,17 @@ impl<'a> Triboxes<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<Triboxes<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(|kind| kind == SectionKind::Triboxes)?;
-        let triboxes = Triboxes::place(&table)?;
+        let triboxes = Triboxes::locate(&table)?;
         triboxes.check()?;
         Ok(triboxes)
     }
 
     /// The triboxes of bytes that were checked before.
     pub(crate) fn view(bytes: &'a [u8]) -> Result<Triboxes<'a>, OpenError> {
-        Triboxes::place(&SectionTable::view(bytes)?)
+        Triboxes::locate(&SectionTable::view(bytes)?)
     }
 
-    fn place(table: &SectionTable<'a>) -> Result<Triboxes<'a>, OpenError> {
+    fn locate(table: &SectionTable<'a>) -> Result<Triboxes<'a>, OpenError> {
         let blob = &table.header;
         let malformed = table.malformed(SectionKind::Triboxes);
         let data = table.bytes(SectionKind::Triboxes);

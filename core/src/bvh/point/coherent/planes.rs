@@ -37,7 +37,7 @@ impl Planes {
     /// from the model's middle to the query.
     #[inline(always)]
     pub(crate) fn bound(&self, child: Child, from_middle: Vec3) -> f32 {
-        match self.0.get(place(child)) {
+        match self.0.get(slot_of(child)) {
             Some(plane) if plane.of == child.without_bound() => {
                 dot(plane.normal, from_middle) - plane.offset
             }
@@ -65,7 +65,7 @@ impl Planes {
             None => separate_narrow(leaf.fans, leaf.p, near),
         };
         if let Some((normal, distance)) = found
-            && let Some(plane) = self.0.get_mut(place(child))
+            && let Some(plane) = self.0.get_mut(slot_of(child))
         {
             *plane = Plane {
                 normal,
@@ -145,7 +145,7 @@ pub(crate) fn middle(tree: &Bvh<'_>) -> Vec3 {
 
 /// Leaves of a node get different places.
 #[inline(always)]
-fn place(child: Child) -> usize {
+fn slot_of(child: Child) -> usize {
     (child.without_bound() >> 8).wrapping_mul(5).wrapping_add(child.index()) as usize % PLANES
 }
 

@@ -77,7 +77,7 @@ impl<'a> Bvh<'a> {
         let opened = SectionTable::open(bytes);
         let table = opened.as_ref().map_err(|&refused| refused)?;
         table.check_crcs(SectionKind::is_bvh)?;
-        let placed = Bvh::place(table);
+        let placed = Bvh::locate(table);
         if let Ok(tree) = &placed {
             tree.check()?;
         }
@@ -114,20 +114,20 @@ impl<'a> Bvh<'a> {
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without a tree.
     pub const fn open_trusted(bytes: &'a [u8]) -> Result<Bvh<'a>, OpenError> {
-        let tree = ok!(Bvh::place(&ok!(SectionTable::open(bytes))));
+        let tree = ok!(Bvh::locate(&ok!(SectionTable::open(bytes))));
         ok!(tree.check_counts());
         Ok(tree)
     }
 
     /// The tree of bytes that were opened before, or lie in a blob that was opened without a check.
     pub(crate) const fn view(bytes: &'a [u8]) -> Result<Bvh<'a>, OpenError> {
-        let tree = ok!(Bvh::place(&ok!(SectionTable::view(bytes))));
+        let tree = ok!(Bvh::locate(&ok!(SectionTable::view(bytes))));
         ok!(tree.check_counts());
         Ok(tree)
     }
 
     #[inline(never)]
-    const fn place(table: &SectionTable<'a>) -> Result<Bvh<'a>, OpenError> {
+    const fn locate(table: &SectionTable<'a>) -> Result<Bvh<'a>, OpenError> {
         let head = table.bytes(SectionKind::Bvh);
         if head.len() != BVH_BYTES {
             return Err(table.malformed(SectionKind::Bvh));
