@@ -197,7 +197,7 @@ impl<'w> Work<'w> {
             .with_f32(wanted.is_f32())
             .with_f32_allowed(wanted.vertex_bits == VertexBits::Auto);
         let watch = self.begin(TREE, Stage::BoxTree)?;
-        bvh::build_watched(loaded.input(), &options, watch).map(Some)
+        bvh::build(loaded.input(), &options, watch).map(Some)
     }
 
     fn triboxes(&mut self, loaded: &Loaded) -> Result<Made<TriboxReport>, BuildError> {

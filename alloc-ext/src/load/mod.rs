@@ -221,7 +221,7 @@ impl Source {
 ///
 /// # Errors
 /// [`BuildError::Unreadable`].
-pub(crate) fn bytes_of(file: &Path) -> Result<Vec<u8>, BuildError> {
+pub fn bytes_of(file: &Path) -> Result<Vec<u8>, BuildError> {
     std::fs::read(file).map_err(|error| BuildError::Unreadable {
         file: file.to_owned(),
         kind: error.kind(),

@@ -32,8 +32,8 @@ fn blob((positions, triangles): &Triangles, count: u32, beside_a_tree: bool) -> 
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let (tables, _) = tribox::build(mesh.as_input(), &TriboxOptions { count }, Watch::NONE)
         .expect("in the domain");
-    let tree =
-        beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).expect("builds").0);
+    let tree = beside_a_tree
+        .then(|| build(mesh.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds").0);
     assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())
 }
 

@@ -3,6 +3,7 @@
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep_core::{
     Budget, Bvh, ClosestPoint, CoherentClosest, CoherentQuery, Ended, QueryError, ScratchEntry,
 };
@@ -15,7 +16,7 @@ use meshsweep_host_tests::oracle::rough_distance_sq;
 fn blob((positions, triangles): &Triangles, single: bool) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let options = TreeOptions::default().with_segments(false).with_f32(single);
-    build(mesh.as_input(), &options).expect("builds").0.to_bytes()
+    build(mesh.as_input(), &options, Watch::NONE).expect("builds").0.to_bytes()
 }
 
 fn stack(tree: &Bvh<'_>) -> Vec<ScratchEntry> {

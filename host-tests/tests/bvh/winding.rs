@@ -3,6 +3,7 @@
 use glam::Vec3;
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep_core::internal::geom::{SeenCorner, SolidAngles};
 use meshsweep_core::{
     Budget, BuildFor, Bvh, Ended, Interval, QueryError, ScratchEntry, Side, Undecided,
@@ -348,7 +349,7 @@ fn the_signed_distance_of_a_mesh_with_holes_has_the_side_of_the_number() {
     let (positions, triangles) = without(&icosphere(3), |number| number % 7 == 3);
     let mesh = Mesh::new(positions, triangles);
     let options = TreeOptions::default().with_winding(true);
-    let bytes = build(mesh.as_input(), &options).expect("builds").0.to_bytes();
+    let bytes = build(mesh.as_input(), &options, Watch::NONE).expect("builds").0.to_bytes();
     let tree = Bvh::open(&bytes).expect("opens");
     let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
     let mut rng = Rng::new(80);

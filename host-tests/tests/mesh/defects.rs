@@ -155,7 +155,7 @@ fn build(wanted: &str, raw: &Raw, every: usize) -> Result<(Mesh, RepairReport), 
                 "cull" => none.with_closest(true).with_cull(true),
                 _ => none.with_closest(true).with_winding(true),
             };
-            let bytes = bvh::build(input, &options).map_err(refused)?.0.to_bytes();
+            let bytes = bvh::build(input, &options, Watch::NONE).map_err(refused)?.0.to_bytes();
             let tree = Bvh::open(&bytes).expect("opens");
             let mut memory = stack(tree.scratch_entries());
             for p in points {

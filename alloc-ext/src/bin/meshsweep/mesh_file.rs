@@ -42,7 +42,7 @@ pub fn stdin_bytes(file: &Path) -> Result<Option<Vec<u8>>, Failure> {
     }
     let mut bytes = Vec::new();
     let read = std::io::stdin().read_to_end(&mut bytes);
-    read.map_err(|error| Failure::Read { file: file.to_owned(), error })?;
+    read.map_err(|error| Failure::read(file, &error))?;
     Ok(Some(bytes))
 }
 

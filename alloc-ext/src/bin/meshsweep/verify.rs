@@ -10,7 +10,7 @@ use meshsweep::BuildError;
 use meshsweep::check::{Against, Finding, Outcome, verify, verify_file, verify_repair};
 use meshsweep::counted::Counted;
 use meshsweep::curve::read_csv;
-use meshsweep::load::{Loaded, is_named_as_mesh};
+use meshsweep::load::{Loaded, bytes_of, is_named_as_mesh};
 use meshsweep::mesh::{KeyFrame, RawMesh, RepairReport};
 use meshsweep::surface::VertexBits;
 use meshsweep_core::Blob;
@@ -21,8 +21,7 @@ use std::io::{self, Write};
 pub fn run(args: &VerifyArgs) -> Result<(), Failure> {
     mesh_file::check_format(&[&args.mesh], &args.read)?;
     args.threads.start();
-    let bytes = std::fs::read(&args.blob)
-        .map_err(|error| Failure::Read { file: args.blob.clone(), error })?;
+    let bytes = bytes_of(&args.blob).map_err(|error| Failure::build(&args.blob, error))?;
     let blob = Blob::open(&bytes).map_err(|error| Failure::open(&args.blob, error))?;
     let Proofs { findings, hint, report } = prove(args, &bytes, &blob)?;
     Output::stdout().finish(|out| match args.json {
@@ -85,9 +84,7 @@ fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Fai
         }
         let text = match mesh_file::stdin_bytes(&args.mesh)? {
             Some(text) => text,
-            None => {
-                std::fs::read(file).map_err(|error| Failure::Read { file: file.clone(), error })?
-            }
+            None => bytes_of(file).map_err(|error| Failure::build(file, error))?,
         };
         let polylines = read_csv(&text, false).map_err(|error| {
             Failure::build(file, BuildError::Curve { file: file.clone(), error })

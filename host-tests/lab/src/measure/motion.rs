@@ -2,6 +2,7 @@
 //! places in 106 bits, beside parry3d's shape cast.
 
 use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, Ended, FirstHit, ScratchEntry, Solid};
 use meshsweep_host_tests::generate::Rng;
 use meshsweep_host_tests::generate::corpus::IDENTITY;
@@ -143,7 +144,8 @@ pub fn table(subject: &Subject) -> Result<Table, String> {
             input_triangles: subject.triangles_read,
             ..subject.mesh.as_input()
         };
-        let bytes = build(input, &options).map_err(|error| error.to_string())?.0.to_bytes();
+        let bytes =
+            build(input, &options, Watch::NONE).map_err(|error| error.to_string())?.0.to_bytes();
         let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;
         let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
         let (answers, time) = run(&motions, |Motion { from, to, radius, .. }| {

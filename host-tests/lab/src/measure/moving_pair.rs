@@ -2,6 +2,7 @@
 //! plain questions, and how wide the intervals of depths are.
 
 use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::progress::Watch;
 use meshsweep_core::{
     Budget, Bvh, CoherentPair, Interval, PairDistance, Penetration, Pose, Relation, ScratchEntry,
 };
@@ -34,7 +35,10 @@ fn tree(subject: &Subject) -> Vec<u8> {
         input_triangles: subject.triangles_read,
         ..subject.mesh.as_input()
     };
-    build(input, &TreeOptions::default().with_winding(true)).expect("builds").0.to_bytes()
+    build(input, &TreeOptions::default().with_winding(true), Watch::NONE)
+        .expect("builds")
+        .0
+        .to_bytes()
 }
 
 fn failed(error: impl ToString) -> String {

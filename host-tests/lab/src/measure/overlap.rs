@@ -3,6 +3,7 @@
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::collapse::Priority;
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, Hull, Pose, ScratchEntry, TrianglePair, Verdict, Work};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::contact::Surface;
@@ -166,6 +167,7 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
                 ..subject.mesh.as_input()
             },
             &options,
+            Watch::NONE,
         )
         .expect("builds")
         .0

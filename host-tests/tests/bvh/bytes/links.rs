@@ -3,6 +3,7 @@
 use super::{ask_everything, edited, open, record, sphere};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep_core::internal::bvh::tree::format::BvhHeader;
 use meshsweep_core::{Bvh, Contradiction, OpenError, SectionKind};
 use meshsweep_host_tests::corrupt::{put_u32, word};
@@ -93,7 +94,8 @@ fn tags_of_no_shape_name_the_node() {
 /// One triangle below a chain of so many nodes.
 fn chain(nodes: usize) -> Vec<u8> {
     let mesh = Mesh::new(vec![[0.0, 0.0, 0.0], [1.0, 0.5, 0.0], [0.0, 1.0, 0.25]], vec![[0, 1, 2]]);
-    let (mut tables, report) = build(mesh.as_input(), &TreeOptions::default()).expect("builds");
+    let (mut tables, report) =
+        build(mesh.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds");
     let header = BvhHeader { nodes: nodes as u32, ..report.header };
     for (kind, bytes) in &mut tables.bodies {
         let one = bytes.clone();

@@ -3,6 +3,7 @@
 use super::motions::{ask, ask_all, motions, truth};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::{Input, Mesh};
+use meshsweep::progress::Watch;
 use meshsweep_core::{
     Budget, BuildFor, Bvh, Ended, Pose, QueryError, ScratchEntry, TrianglePair, Undecided, Verdict,
 };
@@ -90,13 +91,14 @@ fn what_cannot_be_answered_is_refused() {
     assert_eq!(refused(&tiny.trees()[0], &tree, Pose::IDENTITY, None), QueryError::PoseOutOfDomain);
     let mesh = Mesh::new(cube(1).0, cube(1).1);
     let options = TreeOptions::default().with_segments(false);
-    let bytes = build(mesh.as_input(), &options).expect("builds").0.to_bytes();
+    let bytes = build(mesh.as_input(), &options, Watch::NONE).expect("builds").0.to_bytes();
     let closest_only = Bvh::open(&bytes).expect("opens");
     // A surface error beside which the model is nothing.
-    let bytes = build(Input { moved: 1e12, ..mesh.as_input() }, &TreeOptions::default())
-        .expect("builds")
-        .0
-        .to_bytes();
+    let bytes =
+        build(Input { moved: 1e12, ..mesh.as_input() }, &TreeOptions::default(), Watch::NONE)
+            .expect("builds")
+            .0
+            .to_bytes();
     let vague = Bvh::open(&bytes).expect("opens");
     let flat = Pose { rotation: [[0.0; 3]; 3], ..Pose::IDENTITY };
     for pose in [Pose::IDENTITY, flat] {

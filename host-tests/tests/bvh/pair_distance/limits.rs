@@ -3,6 +3,7 @@
 use super::held::{ask, contains, truth};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep_core::{
     Budget, BuildFor, Bvh, Ended, Pose, QueryError, ScratchEntry, Undecided, Verdict,
 };
@@ -101,7 +102,7 @@ fn what_cannot_be_answered_is_refused() {
     assert_eq!(refused(&tree, &tiny.trees()[0], Pose::IDENTITY, 8), QueryError::PoseOutOfDomain);
     let mesh = Mesh::new(cube(1).0, cube(1).1);
     let options = TreeOptions::default().with_segments(false);
-    let bytes = build(mesh.as_input(), &options).expect("builds").0.to_bytes();
+    let bytes = build(mesh.as_input(), &options, Watch::NONE).expect("builds").0.to_bytes();
     let closest_only = Bvh::open(&bytes).expect("opens");
     let refusal = refused(&tree, &closest_only, Pose::IDENTITY, 8);
     assert_eq!(refusal, QueryError::NotServed { build_for: BuildFor::Segment });

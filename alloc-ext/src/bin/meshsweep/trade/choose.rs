@@ -48,7 +48,7 @@ pub fn write(out: &mut dyn Write, chosen: &Chosen) -> io::Result<()> {
     writeln!(out, "chosen: {}", first.setting)?;
     writeln!(out, "  why: {why}, at {points} points {kind}")?;
     write_costs(out, limits, first)?;
-    writeln!(out, "  built: {}", first.setting.recipe)?;
+    writeln!(out, "  built: {}", first.build())?;
     let by = match (first.setting.how, first.setting.recipe) {
         (How::Fresh, _) => "",
         (How::Hinted, _) => ", from the hint of the last query",

@@ -5,7 +5,7 @@ use crate::mesh_report::write_rounding;
 use meshsweep::counted::Counted;
 use meshsweep::load::Loaded;
 use meshsweep::number::AtMost;
-use meshsweep::trade::{Board, MANY_NEEDLES, Row, Spread, pareto};
+use meshsweep::trade::{Board, COMB_OF_NEEDLES, MANY_NEEDLES, Row, Spread, pareto};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::path::Path;
@@ -67,11 +67,12 @@ pub fn write(
     if trade.needles < MANY_NEEDLES {
         return Ok(());
     }
+    let [m4f, m0] = COMB_OF_NEEDLES;
     writeln!(
         out,
         "{:.0} % of the triangles are needles, fifty times as long as high: they take more \
-         instructions than\npredicted, of a comb of needles 2.2 times as many on a Cortex-M4F and \
-         4.5 times on a Cortex-M0",
+         instructions than\npredicted, of a comb of needles {m4f} times as many on a Cortex-M4F and \
+         {m0} times on a Cortex-M0",
         100.0 * trade.needles
     )
 }
@@ -205,7 +206,7 @@ pub fn of_row(row: &Row) -> Value {
     let work = json!({ "nodes": nodes, "triangles": triangles, "exact": exact, "splits": splits });
     json!({
         "structure": row.setting.recipe.name(),
-        "build": row.setting.recipe.to_string(),
+        "build": row.build(),
         "dials": row.setting.dials(),
         "guaranteed": row.guaranteed.map(spread),
         "found_lower": spread(row.found_lower),

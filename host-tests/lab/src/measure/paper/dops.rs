@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::collapse::Priority;
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, Facing, OuterSearch, ScratchEntry};
 use meshsweep_host_tests::workload::{Subject, segments};
 use meshsweep_xtask::table::{Cell, Table, fixed};
@@ -112,7 +113,7 @@ type Row = (&'static str, usize, [Cell; 4], f64, Option<u32>);
 fn box_tree(subject: &Subject, segments: &[[[f32; 3]; 2]]) -> Result<Row, String> {
     let options = TreeOptions::default();
     let (sections, _) =
-        build(subject.mesh.as_input(), &options).map_err(|error| error.to_string())?;
+        build(subject.mesh.as_input(), &options, Watch::NONE).map_err(|error| error.to_string())?;
     let bytes = sections.to_bytes();
     let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;
     let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];

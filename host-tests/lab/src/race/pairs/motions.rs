@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, Pose, ScratchEntry};
 use meshsweep_host_tests::oracle::Bounded;
 use meshsweep_host_tests::workload::Subject;
@@ -47,7 +48,7 @@ pub fn tree(subject: &Subject, is_f32: bool) -> Vec<u8> {
         input_triangles: subject.triangles_read,
         ..subject.mesh.as_input()
     };
-    build(input, &options).expect("builds").0.to_bytes()
+    build(input, &options, Watch::NONE).expect("builds").0.to_bytes()
 }
 
 /// Up to `wanted` random motions that are apart, as many after most of the way to contact, and as
