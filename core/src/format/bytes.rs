@@ -122,6 +122,15 @@ impl<'a> Bytes<'a> {
         }
     }
 
+    /// The index at a place, where all have `width` bytes. One comparison says that it is there.
+    #[inline(always)]
+    pub(crate) fn nth(self, place: usize, width: usize) -> Option<u32> {
+        match width {
+            2 => self.0.as_chunks::<2>().0.get(place).map(|pair| u16::from_le_bytes(*pair).into()),
+            _ => self.index(place.wrapping_mul(width), width),
+        }
+    }
+
     /// Three indices of `width` bytes, side by side.
     #[inline(always)]
     pub(crate) fn index3(self, at: usize, width: usize) -> Option<[u32; 3]> {

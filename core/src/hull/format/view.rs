@@ -117,7 +117,7 @@ impl Split<'_> {
     #[inline(always)]
     pub fn ring(&self, i: usize) -> Option<VertIdx> {
         let i = if i == self.len { 0 } else { i };
-        self.ring.index(i.wrapping_mul(self.width), self.width).map(VertIdx)
+        self.ring.nth(i, self.width).map(VertIdx)
     }
 
     /// Where a vertex stands in the ring.
@@ -396,8 +396,7 @@ impl<'a> Hull<'a> {
     /// "Splits with" as it is stored. "None" is greater than any split.
     #[inline(always)]
     pub(crate) fn stored_split_of(&self, vertex: VertIdx) -> Option<u32> {
-        let width = self.widths.split;
-        self.splits_with.index(vertex.usize().wrapping_mul(width), width)
+        self.splits_with.nth(vertex.usize(), self.widths.split)
     }
 
     /// The split of a stored number.
