@@ -26,7 +26,8 @@ cargo xtask test QUESTION           what a change of a question can break, such 
 cargo xtask firmware                only the firmware: bits, panics, sizes, instructions
 cargo xtask examples                only core/examples, on a Cortex-M4F, and defmt
 cargo xtask c                       only the C interface: its programs here and in QEMU
-cargo xtask dist [TARGET...]        static libraries for C, an archive a target, in target/dist
+cargo xtask dist [TARGET...]        static libraries for C, an archive a target, in target/dist;
+                                    manual: shell completions and man pages of the program
 cargo xtask fuzz [MINUTES] [TARGET...]
                                     fuzzes each target for 30 minutes; keeps inputs for `cargo test`
 cargo xtask processors              the committed bits on i686, AArch64, and with all vectors here

@@ -39,7 +39,7 @@ pub const C_FUNCTIONS: [(&str, &str); 20] = [
     ("msw_first_hit", "segment"),
     ("msw_overlap", "segment"),
     ("msw_models_within", "segment"),
-    ("msw_first_contact", "segment"),
+    ("msw_solid_first_contact", "segment"),
     ("msw_open_tight", "tight"),
     ("msw_tight_within", "tight"),
     ("msw_tight_model", "tight"),

@@ -3,7 +3,7 @@
 //! than the flash of the smallest board.
 
 use meshsweep_core::{
-    Budget, Bvh, CoherentPair, FirstHit, Interval, Motion, Placed, Pose, QueryError, Relation,
+    Budget, Bvh, CoherentPair, FirstHit, Interval, Motion, PlacedModel, Pose, QueryError, Relation,
     Scene, Solid,
 };
 
@@ -129,7 +129,7 @@ pub fn scene(
     scratch: &mut Scratch,
     to: &mut Asked<'_, impl Clock>,
 ) {
-    let models = poses.map(|pose| Placed { tree: *tree, pose });
+    let models = poses.map(|pose| PlacedModel { tree: *tree, pose });
     let scene = Scene::new(&models);
     let budget = Budget::EXACT.with_steps(STEPS);
     to.answer(
@@ -185,7 +185,7 @@ pub fn distance(
 ) {
     let budget = Budget::EXACT.with_steps(STEPS);
     let found = to.answer(
-        || tree.distance(tree, pose, budget, scratch),
+        || tree.distance_to(tree, pose, budget, scratch),
         |fold, answer| {
             nearest(fold, answer.distance, answer.points, answer.triangles);
             super::how(fold, answer.ended);
@@ -261,7 +261,7 @@ pub fn contact(
 ) {
     let call = || -> Result<FirstHit, QueryError> {
         let (from, end) = (Solid::new(&from, radius)?, Solid::new(&end, radius)?);
-        tree.first_contact(&from, &end, Budget::EXACT, scratch)
+        tree.solid_first_contact(&from, &end, Budget::EXACT, scratch)
     };
     to.answer(call, |fold, answer| {
         fold.f32(answer.t.lower);

@@ -235,7 +235,7 @@ fn refusal(fold: &mut Fold, error: QueryError) {
         QueryError::NoScratch => 4,
         QueryError::NotServed { .. } => 5,
         QueryError::Unchecked => 6,
-        QueryError::NoHulls => 8,
+        QueryError::NotEnclosing => 8,
         _ => 7,
     };
     // A word that no answer begins with: it would be a NaN's bits.

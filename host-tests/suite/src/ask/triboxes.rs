@@ -1,7 +1,7 @@
 //! Questions to the tribox hierarchy of a blob.
 
 pub use meshsweep_core::Triboxes;
-use meshsweep_core::{Bound, Budget, NodePair, Pose, ScratchEntry};
+use meshsweep_core::{Budget, NodePair, Pose, ScratchEntry, TriboxBound};
 
 use super::tree::pose;
 use super::{Asked, Refused, Subject, how, number};
@@ -135,7 +135,7 @@ pub fn candidates(
     }
 }
 
-pub(super) fn bound(fold: &mut Fold, answer: &Bound) {
+pub(super) fn bound(fold: &mut Fold, answer: &TriboxBound) {
     fold.f32(answer.lower);
     number(fold, answer.node);
     how(fold, answer.ended);

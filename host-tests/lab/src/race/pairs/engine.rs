@@ -66,7 +66,8 @@ impl<'a> Engine<'a> {
                 for case in cases {
                     let (answer, work) = black_box(by_tree(question, tree, case, stack)?);
                     let [nodes, exact] = run.work.unwrap_or_default();
-                    run.work = Some([nodes + u64::from(work.nodes), exact + u64::from(work.exact)]);
+                    run.work =
+                        Some([nodes + u64::from(work.bounds), exact + u64::from(work.exact)]);
                     run.answers.push(answer);
                 }
                 run.seconds += watch.seconds();
@@ -96,7 +97,7 @@ fn by_tree(
         _ => Answer::Open,
     };
     let answer = match question {
-        Question::Distance => tree.distance(tree, pose, exact, stack).map(|found| {
+        Question::Distance => tree.distance_to(tree, pose, exact, stack).map(|found| {
             let bounds =
                 Answer::Bounds(f64::from(found.distance.lower), f64::from(found.distance.upper));
             (if found.ended == Ended::Exact { bounds } else { Answer::Open }, found.work)

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, Pose, ScratchEntry};
 use meshsweep_host_tests::oracle::Bounded;
 use meshsweep_host_tests::workload::Subject;
@@ -47,7 +48,7 @@ pub fn tree(subject: &Subject, is_f32: bool) -> Vec<u8> {
         input_triangles: subject.triangles_read,
         ..subject.mesh.as_input()
     };
-    build(input, &options).expect("builds").0.to_bytes()
+    build(input, &options, Watch::NONE).expect("builds").0.to_bytes()
 }
 
 /// Up to `wanted` random motions that are apart, as many after most of the way to contact, and as
@@ -65,7 +66,7 @@ pub fn groups(subject: &Subject, wanted: usize) -> Result<[Group; 3], String> {
             break;
         }
         let mut stack = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
-        let found = tree.distance(&tree, pose, Budget::EXACT, &mut stack);
+        let found = tree.distance_to(&tree, pose, Budget::EXACT, &mut stack);
         let found = found.map_err(|error| error.to_string())?;
         if found.distance.lower > 0.0 {
             if apart.len() < wanted {
@@ -85,7 +86,7 @@ pub fn groups(subject: &Subject, wanted: usize) -> Result<[Group; 3], String> {
     let measured = |motions: Vec<(Motion, Pose)>| -> Result<Vec<Case>, String> {
         let one = |(near, pose): (Motion, Pose)| {
             let mut stack = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
-            let found = tree.distance(&tree, pose, Budget::EXACT, &mut stack);
+            let found = tree.distance_to(&tree, pose, Budget::EXACT, &mut stack);
             let limit = f64::from(found.map_err(|error| error.to_string())?.distance.upper) * 1.001;
             // Beyond the limit the truth is infinite, and no answer holds it.
             Ok(case(near, pose, surface.distance_up_to(&pose, &near, limit)))

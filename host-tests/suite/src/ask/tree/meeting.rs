@@ -44,7 +44,7 @@ pub fn all_overlaps(
     to: &mut Asked<'_, impl Clock>,
 ) {
     let Scratch { pairs, meeting, .. } = scratch;
-    let call = || tree.overlaps(tree, pose, meeting, Budget::EXACT.with_steps(STEPS), pairs);
+    let call = || tree.all_overlaps(tree, pose, meeting, Budget::EXACT.with_steps(STEPS), pairs);
     if let Some(answer) = to.answer(call, |_, _| ()) {
         for pair in meeting.iter().take(answer.stored) {
             pair.triangles.into_iter().for_each(|number| to.fold.word(number));
