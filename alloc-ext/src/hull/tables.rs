@@ -115,7 +115,7 @@ impl Tables {
             let split = hull.split(SplitIdx(index))?;
             let right = u8::try_from(split.right).ok()?;
             let before = [split.right_parent != split.right, split.left_parent != 0];
-            let reach = Radius8::round_up(f64::from(split.reach));
+            let reach = Radius8::round_up(f64::from(split.star_radius));
             let error = Radius8::round_up(f64::from(split.error));
             splits.push(SplitRecord {
                 vertex: split.vertex.0,
