@@ -22,8 +22,8 @@ impl Bvh<'_> {
     /// inside the other. If the models move in small steps, [`CoherentPair`](crate::CoherentPair)
     /// asks for less work. For collision avoidance, treat an undecided answer as `Yes`.
     ///
-    /// Arguments and degenerate cases as for [`distance_to`](Bvh::distance_to). It ends at the first pair
-    /// of triangles that is certainly near enough. `scratch`:
+    /// Arguments and degenerate cases as for [`distance_to`](Bvh::distance_to). It ends at the
+    /// first pair of triangles that is certainly near enough. `scratch`:
     /// [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES) are always enough. A shorter one may leave the
     /// question undecided. Of the budget only `steps` matters.
     ///
@@ -40,8 +40,8 @@ impl Bvh<'_> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`distance_to`](Bvh::distance_to); [`QueryError::Tolerance`] also for a distance that is
-    /// negative, NaN or infinite.
+    /// Those of [`distance_to`](Bvh::distance_to); [`QueryError::Tolerance`] also for a distance
+    /// that is negative, NaN or infinite.
     #[inline(never)]
     pub fn within_of(
         &self,

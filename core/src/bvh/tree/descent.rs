@@ -335,7 +335,8 @@ impl<'s> Walk<'s> {
     }
 
     /// Goes on to the next leaf with a key up to `most`, and writes that leaf to `visit`. Returns
-    /// whether there is one. `None` says that the tree is unchecked: the loop carries no other error.
+    /// whether there is one. `None` says that the tree is unchecked: the loop carries no other
+    /// error.
     ///
     /// On boards it is a call, and all questions about a point share it.
     #[cfg_attr(meshsweep_wide, inline(always))]
