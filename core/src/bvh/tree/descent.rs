@@ -163,7 +163,7 @@ impl Stack<'_> {
     #[cold]
     fn least(&self) -> u32 {
         let left = self.entries.iter().take(self.used);
-        left.fold(self.dropped, |least, entry| least.min(entry.small_word()))
+        left.fold(self.dropped, |least, entry| least.min(entry.key_bits()))
     }
 }
 
@@ -232,8 +232,8 @@ impl Limit {
             return false;
         }
         let waiting = stack.entries.iter_mut().take(stack.used);
-        if let Some(least) = waiting.min_by_key(|waiting| waiting.small_word())
-            && least.small_word() < entry.small_word()
+        if let Some(least) = waiting.min_by_key(|waiting| waiting.key_bits())
+            && least.key_bits() < entry.key_bits()
         {
             swap(least, entry);
         }
@@ -313,7 +313,7 @@ type Place = (ScratchEntry, BvhChild);
 
 #[inline(always)]
 fn child_of(tree: &Bvh<'_>, entry: ScratchEntry) -> Option<BvhChild> {
-    tree.child(entry.node(), entry.small_word() & CHILD_MASK)
+    tree.child(entry.node(), entry.key_bits() & CHILD_MASK)
 }
 
 impl<'s> Walk<'s> {
@@ -383,12 +383,12 @@ impl<'s> Walk<'s> {
                     }
                 },
             };
-            bound = entry.small_word() & !CHILD_MASK;
+            bound = entry.key_bits() & !CHILD_MASK;
             if child.is_leaf() {
                 let leaf = tree.leaf_at(child.at, child.shape)?;
                 work.triangles += child.shape.triangles() as u32;
                 self.least_first = self.limit.is_short;
-                let child = entry.small_word() & CHILD_MASK;
+                let child = entry.key_bits() & CHILD_MASK;
                 *visit = LeafVisit { leaf, key: bound, node: entry.node(), child };
                 return Some(true);
             }
@@ -453,7 +453,7 @@ impl<'s> Walk<'s> {
             let mut entry = self.stack.entries.get(top).copied()?;
             let is_least =
                 self.least_first && self.limit.take_least(&mut self.stack, work, &mut entry);
-            if entry.small_word() <= most {
+            if entry.key_bits() <= most {
                 return Some(Some(entry));
             }
             if is_least {
