@@ -48,7 +48,7 @@ impl<'a> Blob<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<Blob<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(SectionKind::is_hull)?;
-        let hull = Hull::place(&table)?;
+        let hull = Hull::locate(&table)?;
         let has = |kind: SectionKind| table.has(kind);
         let kinds = || SectionKind::ALL.into_iter();
         // Any section of the box tree needs the others, so one is enough to check for all.

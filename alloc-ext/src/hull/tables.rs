@@ -7,7 +7,7 @@ use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::hull::format::layout::{BASE_GROUP, START_GROUP};
 use meshsweep_core::internal::hull::format::{SplitIdx, TriIdx};
 use meshsweep_core::internal::num::{Radius8, Radius16};
-use meshsweep_core::{Level, VertIdx};
+use meshsweep_core::{HullLevel, VertIdx};
 
 use crate::surface::Grid;
 
@@ -63,7 +63,7 @@ pub struct Tables {
     /// Box of the surface.
     pub surface_box: Aabb,
     /// Levels, coarse to fine.
-    pub levels: Vec<Level>,
+    pub levels: Vec<HullLevel>,
     /// Queue entries that a sweep may need.
     pub queue_capacity: u32,
     /// Whether finer levels were cut off.

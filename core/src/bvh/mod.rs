@@ -43,7 +43,7 @@ mod solid;
 pub mod tree;
 mod winding;
 
-pub use pair::{CoherentPair, Placed};
+pub use pair::{CoherentPair, PlacedModel};
 pub use point::{
     AllWithin, CoherentClosest, CoherentQuery, Eye, FrontFacing, Hint, KNearest, Neighbor,
 };

@@ -3,7 +3,7 @@
 //! Pairs are looked at one after the other: a scene needs no memory of its own. The boxes in the
 //! world leave few pairs for the trees.
 
-use crate::bvh::pair::placed::{Placed, Relative, WorldBox, check_pose};
+use crate::bvh::pair::placed::{PlacedModel, Relative, WorldBox, check_pose};
 use crate::num::{greater, lesser};
 use crate::query::{
     Budget, Decided, Ended, Interval, QueryError, ScratchEntry, Undecided, Verdict, Work,
@@ -12,7 +12,7 @@ use crate::query::{
 /// Models at their places in the world. A model may stand in it several times.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene<'s, 'a> {
-    models: &'s [Placed<'a>],
+    models: &'s [PlacedModel<'a>],
 }
 
 /// The nearest pair of models of a [`Scene`].
@@ -32,7 +32,7 @@ pub struct SceneDistance {
     /// The triangles of these points, by their numbers in the input files.
     pub triangles: [u32; 2],
     /// The work of all pairs, as in [`PairDistance::work`](crate::PairDistance::work). Pairs of
-    /// models whose boxes were compared count as `nodes`.
+    /// models whose boxes were compared count as `bounds`.
     pub work: Work,
     /// Why the search ended.
     pub ended: Ended,
@@ -40,7 +40,7 @@ pub struct SceneDistance {
 
 impl<'s, 'a> Scene<'s, 'a> {
     /// The scene of these models.
-    pub const fn new(models: &'s [Placed<'a>]) -> Self {
+    pub const fn new(models: &'s [PlacedModel<'a>]) -> Self {
         Scene { models }
     }
 
@@ -49,7 +49,7 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// Only pairs for which `asks_about` is true count, the lesser index first. It is called twice
     /// a pair. Leave out neighbours that always touch. Lengths are in the unit of the world, which
     /// all models share. The poses' numbers are taken as exact. Only surfaces count, and each pair
-    /// is as for [`Bvh::distance`](crate::Bvh::distance). Surfaces that meet have a distance from
+    /// is as for [`Bvh::distance_to`](crate::Bvh::distance_to). Surfaces that meet have a distance from
     /// 0, and an upper end of a few roundings, because the pose of one model in the frame of the
     /// other is rounded.
     ///
@@ -63,18 +63,18 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// boxes.
     ///
     /// ```
-    /// use meshsweep_core::{Budget, Bvh, Placed, Pose, Scene, Scratch};
+    /// use meshsweep_core::{Budget, Bvh, PlacedModel, Pose, Scene, Scratch};
     /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
     /// let (tree, mut scratch) = (Bvh::open(bytes)?, Scratch::<{ Bvh::DISTANCE_ENTRIES }>::new());
     /// let at = |x: f32| Pose { translation: [x, 0.0, 0.0], ..Pose::IDENTITY };
-    /// let models = [0.0, 300.0, 500.0].map(|x| Placed { tree, pose: at(x) });
+    /// let models = [0.0, 300.0, 500.0].map(|x| PlacedModel { tree, pose: at(x) });
     /// let near = Scene::new(&models).nearest_pair(|_, _| true, Budget::EXACT, &mut scratch)?;
     /// assert_eq!(near.models, Some([1, 2]));
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     ///
     /// # Errors
-    /// Those of [`Bvh::distance`](crate::Bvh::distance); [`QueryError::PoseOutOfDomain`] also if a
+    /// Those of [`Bvh::distance_to`](crate::Bvh::distance_to); [`QueryError::PoseOutOfDomain`] also if a
     /// pose, of any model, is far from a rotation; [`QueryError::OutOfDomain`] if two models are
     /// farther from each other than f32 reaches.
     #[inline(never)]
@@ -109,7 +109,7 @@ impl<'s, 'a> Scene<'s, 'a> {
         search.measure(begun, gap)?;
         for (pair, gap) in self.gaps(&asks_about) {
             let work = &mut search.found.work;
-            work.nodes = work.nodes.saturating_add(1);
+            work.bounds = work.bounds.saturating_add(1);
             if pair != begun && gap < search.found.distance.upper {
                 search.measure(pair, gap)?;
             }
@@ -149,14 +149,14 @@ impl<'s, 'a> Scene<'s, 'a> {
         let mut work = Work::default();
         let mut undecided: Option<(Undecided, [usize; 2])> = None;
         for (pair, gap) in self.gaps(&asks_about) {
-            work.nodes = work.nodes.saturating_add(1);
+            work.bounds = work.bounds.saturating_add(1);
             if gap > distance {
                 continue;
             }
             let (one, other) = two_of(self.models, pair)?;
             let relative = Relative::new(one, other)?;
             let mut ask = |distance: f32| {
-                let budget = budget.with_steps(budget.steps.saturating_sub(work.splits));
+                let budget = budget.with_steps(budget.steps.saturating_sub(work.opened));
                 let pose = relative.pose;
                 let found = one.tree.within_of(&other.tree, pose, distance, budget, scratch)?;
                 work = work.and(found.work);
@@ -210,15 +210,15 @@ impl<'s, 'a> Scene<'s, 'a> {
 }
 
 fn two_of<'s, 'a>(
-    models: &'s [Placed<'a>],
+    models: &'s [PlacedModel<'a>],
     [a, b]: [usize; 2],
-) -> Result<(&'s Placed<'a>, &'s Placed<'a>), QueryError> {
+) -> Result<(&'s PlacedModel<'a>, &'s PlacedModel<'a>), QueryError> {
     models.get(a).zip(models.get(b)).ok_or(QueryError::Unchecked)
 }
 
 /// The nearest pair so far.
 struct NearestPair<'r, 's, 'a> {
-    models: &'s [Placed<'a>],
+    models: &'s [PlacedModel<'a>],
     budget: Budget,
     scratch: &'r mut [ScratchEntry],
     /// Lower bound of all pairs so far.
@@ -248,7 +248,7 @@ impl NearestPair<'_, '_, '_> {
             }
         }
         let budget = self.budget.with_steps(self.steps_left());
-        let near = one.tree.distance(&other.tree, pose, budget, self.scratch)?;
+        let near = one.tree.distance_to(&other.tree, pose, budget, self.scratch)?;
         self.found.work = self.found.work.and(near.work);
         let Interval { lower, upper } = relative.in_world(near.distance);
         self.lower = lesser(self.lower, greater(lower, gap));
@@ -265,6 +265,6 @@ impl NearestPair<'_, '_, '_> {
     }
 
     fn steps_left(&self) -> u32 {
-        self.budget.steps.saturating_sub(self.found.work.splits)
+        self.budget.steps.saturating_sub(self.found.work.opened)
     }
 }

@@ -101,7 +101,7 @@ fn within(
                     found.may = Some(segment);
                 }
             }
-            Item::Node(_) if work.splits >= steps => return Some(found.proof(Some(Ended::Steps))),
+            Item::Node(_) if work.opened >= steps => return Some(found.proof(Some(Ended::Steps))),
             Item::Node(node) => {
                 let [near, far] = capsules.open(node, work)?;
                 queue.begin_children(2);

@@ -1,5 +1,7 @@
 //! Little-endian reads by byte offset. A read past the end gives `None`.
 
+use crate::num::each;
+
 /// The bytes that are read.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bytes<'a>(pub(crate) &'a [u8]);
@@ -120,6 +122,15 @@ impl<'a> Bytes<'a> {
         }
     }
 
+    /// The index at a place, where all have `width` bytes. One comparison says that it is there.
+    #[inline(always)]
+    pub(crate) fn nth(self, place: usize, width: usize) -> Option<u32> {
+        match width {
+            2 => self.0.as_chunks::<2>().0.get(place).map(|pair| u16::from_le_bytes(*pair).into()),
+            _ => self.index(place.wrapping_mul(width), width),
+        }
+    }
+
     /// Three indices of `width` bytes, side by side.
     #[inline(always)]
     pub(crate) fn index3(self, at: usize, width: usize) -> Option<[u32; 3]> {
@@ -129,10 +140,10 @@ impl<'a> Bytes<'a> {
                 let (x, rest) = bytes.split_first_chunk::<2>()?;
                 let (y, rest) = rest.split_first_chunk::<2>()?;
                 let z = rest.first_chunk::<2>()?;
-                Some([x, y, z].map(|pair| u32::from(u16::from_le_bytes(*pair))))
+                Some(each([x, y, z], |pair| u32::from(u16::from_le_bytes(*pair))))
             }
             3 => self.array::<9>(at).map(|[a, b, c, d, e, f, g, h, i]| {
-                [[a, b, c, 0], [d, e, f, 0], [g, h, i, 0]].map(u32::from_le_bytes)
+                each([[a, b, c, 0], [d, e, f, 0], [g, h, i, 0]], u32::from_le_bytes)
             }),
             _ => Some([
                 self.index(at, width)?,

@@ -14,6 +14,12 @@ pub struct RealVector {
 }
 
 impl RealVector {
+    /// The corners of a triangle. A `map` of the array stays a loop over memory at `"s"`.
+    #[inline(always)]
+    pub fn corners([a, b, c]: [Vec3; 3]) -> [RealVector; 3] {
+        [a.into(), b.into(), c.into()]
+    }
+
     /// The inner product.
     #[inline(always)]
     pub fn dot(self, other: RealVector) -> Real {
@@ -30,8 +36,8 @@ impl RealVector {
     /// Sum of absolute coordinates: an upper bound of the length.
     #[inline(always)]
     pub fn norm_1(self) -> Real {
-        let [x, y, z] = self.to_array().map(|x| Real(x.0.abs()));
-        x + y + z
+        let [x, y, z] = self.to_array();
+        Real(x.0.abs()) + Real(y.0.abs()) + Real(z.0.abs())
     }
 
     #[inline(always)]

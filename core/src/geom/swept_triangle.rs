@@ -21,7 +21,7 @@ use glam::Vec3;
 /// trust.
 #[inline(always)]
 pub fn direction_bound(a: Vec3, b: Vec3, c: Vec3) -> f32 {
-    let Support { along, length_sq } = Support::new([a, b, c].map(RealVector::from));
+    let Support { along, length_sq } = Support::new(RealVector::corners([a, b, c]));
     if length_sq < TRUSTED_DIRECTION_SQ { 0.0 } else { along / libm::sqrtf(length_sq) }
 }
 
@@ -64,8 +64,8 @@ impl SweptPoint {
 
     #[inline(always)]
     fn seen(&self, corners: [Vec3; 3]) -> [RealVector; 3] {
-        let point = RealVector::from(self.point);
-        corners.map(|corner| RealVector::from(corner) - point)
+        let (point, [a, b, c]) = (RealVector::from(self.point), RealVector::corners(corners));
+        [a - point, b - point, c - point]
     }
 
     /// Puts a triangle, seen from the point, into a lane.
@@ -142,12 +142,13 @@ impl SweptSegment {
     /// unclipped segment below `t`. `None` only if it certainly does not.
     #[inline(always)]
     pub fn enter(&self, corners: [Vec3; 3], radius: f32) -> Option<f32> {
-        let [start, direction] = [self.start, self.direction].map(RealVector::from);
+        let (start, direction) = (RealVector::from(self.start), RealVector::from(self.direction));
         let inverse_sq = Real(self.inverse_sq);
         let max_distance = Real(radius) + Real(self.margin);
-        let seen = corners.map(|corner| RealVector::from(corner) - start);
-        let along = seen.map(|e| e.dot(direction) * inverse_sq);
-        let [sa, sb, sc] = along;
+        let [a, b, c] = RealVector::corners(corners);
+        let (a, b, c) = (a - start, b - start, c - start);
+        let along = |seen: RealVector| seen.dot(direction) * inverse_sq;
+        let (sa, sb, sc) = (along(a), along(b), along(c));
         let slack = max_distance * Real(self.length) * inverse_sq;
         let first = lesser(lesser(sa, sb), sc) - slack;
         let last = greater(greater(sa, sb), sc) + slack;
@@ -156,7 +157,6 @@ impl SweptSegment {
         }
         // Seen along the segment, the distance of its line and the triangle is the distance of a
         // point and a triangle.
-        let [a, b, c] = seen;
         let across = Support::new([a - direction * sa, b - direction * sb, c - direction * sc]);
         if is_beyond(across, max_distance.0) {
             return None;

@@ -74,18 +74,18 @@ impl SharedCorner {
     /// too.
     #[inline]
     fn is_closest(&self, corners: [Vec3; 3], place: usize) -> bool {
-        let [a, b, c] = corners;
+        let [a, b, c] = RealVector::corners(corners);
         let (corner, one, other) = match place {
             0 => (a, b, c),
             1 => (b, a, c),
             _ => (c, a, b),
         };
-        let [point, corner, one, other] = [self.point, corner, one, other].map(RealVector::from);
-        let (way, one, other) = (point - corner, one - corner, other - corner);
-        let (way_size, one_size, other_size) = (way.norm_1(), one.norm_1(), other.norm_1());
+        let point = RealVector::from(self.point);
+        let (offset, one, other) = (point - corner, one - corner, other - corner);
+        let (offset_size, one_size, other_size) = (offset.norm_1(), one.norm_1(), other.norm_1());
         let doubt = Real(CORNER_DOUBT) * Real(self.norms) * Real(self.norms);
         let is_behind = |edge: RealVector, size: Real| {
-            way.dot(edge) < -(Real(CORNER_SIDE) * way_size * size + doubt)
+            offset.dot(edge) < -(Real(CORNER_SIDE) * offset_size * size + doubt)
         };
         if !(is_behind(one, one_size) && is_behind(other, other_size)) {
             return false;
@@ -99,9 +99,8 @@ impl SharedCorner {
                 return false;
             }
         }
-        corners.iter().all(|corner| {
-            corner.to_array().into_iter().all(|x| x.to_bits() == 0 || is_multiple(x.abs(), LARGEST))
-        })
+        let is_coarse = |x: f32| x.to_bits() == 0 || is_multiple(x.abs(), LARGEST);
+        corners.iter().all(|at| is_coarse(at.x) && is_coarse(at.y) && is_coarse(at.z))
     }
 
     /// Whether no number of f32 lies among the bounds that triangles have at a corner of about this

@@ -10,7 +10,7 @@
 //! | `hits` | [`Hit`], [`FirstHit`], [`TriangleHit`], [`AllHits`], and the caller's slice of hits |
 //! | `pose_inverse` | the inverse of a pose's matrix |
 //! | `posed_point` | [`PosedPoint`]: a point in the frame of a moved model |
-//! | `overlap` | [`Overlaps`], [`TrianglePair`], and what collects pairs |
+//! | `overlap` | [`AllOverlaps`], [`TrianglePair`], and what collects pairs |
 //! | `pair_distance` | [`PairDistance`], [`PairContact`]: how far two surfaces are apart |
 //! | `penetration` | [`Penetration`], [`Relation`]: how deep two solids are in each other |
 //! | `motion` | [`Motion`]: how a model moves from pose to pose |
@@ -49,8 +49,8 @@ pub(crate) use frame::Frame;
 pub(crate) use hits::Hits;
 pub use hits::{AllHits, FirstHit, Hit, TriangleHit};
 pub use motion::Motion;
+pub use overlap::{AllOverlaps, TrianglePair};
 pub(crate) use overlap::{AllPairs, PairVisitor};
-pub use overlap::{Overlaps, TrianglePair};
 pub use pair_distance::{PairContact, PairDistance};
 pub use penetration::{Penetration, Relation};
 pub(crate) use pose_inverse::{PoseInverse, transposed};

@@ -14,7 +14,7 @@ use crate::num::Real;
 /// Total order by key, then node, so that the order of visits does not depend on the heap's
 /// history.
 pub(crate) fn before(a: &ScratchEntry, b: &ScratchEntry) -> bool {
-    let [x, y] = [a, b].map(|entry| Real(entry.key()));
+    let (x, y) = (Real(a.key()), Real(b.key()));
     x < y || (x == y && a.node() < b.node())
 }
 

@@ -11,9 +11,9 @@ use meshsweep_lab::measure::{
     margins, measure, measure_bounds, measure_deform, measure_motion, measure_overlap,
     measure_tight, measure_tree, measure_triboxes, measure_winding,
 };
-use meshsweep_xtask::firmware;
 use meshsweep_xtask::say;
 use meshsweep_xtask::steps::Steps;
+use meshsweep_xtask::tools;
 use meshsweep_xtask::valgrind::Valgrind;
 use meshsweep_xtask::workspace;
 
@@ -124,7 +124,7 @@ pub fn run(steps: &mut Steps, options: Options) {
         return;
     }
     let valgrind = if is_counted && part == Some(Part::Bounds) { Valgrind::find() } else { None };
-    let tools = if is_counted && part == Some(Part::Tight) { firmware::setup(steps) } else { None };
+    let tools = if is_counted && part == Some(Part::Tight) { tools::setup(steps) } else { None };
     let (mut plotted, mut drawn) = (Vec::new(), Vec::new());
     for mesh in &or_fixtures(meshes) {
         let counts = valgrind.as_ref().and_then(|valgrind| {

@@ -7,8 +7,8 @@ use meshsweep::mesh::Mesh;
 use meshsweep::progress::Watch;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{
-    Blob, Budget, Change, ClosestPoint, Ended, Focus, Hit, Hull, QueryError, RefinedHull,
-    ScratchEntry, Search, TriangleHit, TrianglePair, Verdict,
+    Blob, Budget, ClosestPoint, Ended, Focus, Hit, Hull, OuterSearch, QueryError, RefinedHull,
+    ScratchEntry, SplitChange, TriangleHit, TrianglePair, Verdict,
 };
 use std::sync::OnceLock;
 
@@ -94,7 +94,7 @@ pub fn closest(data: &[u8]) {
             && let Ok(answer) = sweep.closest_point(stop)
         {
             sound(&answer);
-            assert!(answer.work.splits as usize <= 2 * most, "{:?}", answer.work);
+            assert!(answer.work.opened as usize <= 2 * most, "{:?}", answer.work);
         }
     }
     let mut given = 0;
@@ -157,16 +157,16 @@ pub fn overlap(data: &[u8]) {
         let (pose, corners) = (input.pose(), [input.point(), input.point(), input.point()]);
         match a.overlap(&b, pose, stop, &mut queue) {
             Ok(answer) => {
-                assert!(answer.work.splits <= stop.steps, "{answer:?}");
+                assert!(answer.work.opened <= stop.steps, "{answer:?}");
                 let named = answer.witness.is_some();
                 assert!(named || answer.verdict != Verdict::Yes, "{answer:?}");
                 answer.witness.into_iter().for_each(in_range);
             }
             Err(error) => assert_ne!(error, QueryError::Unchecked),
         }
-        match a.overlaps(&b, pose, &mut pairs, stop, &mut queue) {
+        match a.all_overlaps(&b, pose, &mut pairs, stop, &mut queue) {
             Ok(answer) => {
-                assert!(answer.work.splits <= stop.steps, "{answer:?}");
+                assert!(answer.work.opened <= stop.steps, "{answer:?}");
                 assert!(answer.dropped == 0 || answer.stored == pairs.len(), "{answer:?}");
                 pairs[..answer.stored].iter().for_each(|pair| in_range(pair.triangles));
             }
@@ -176,7 +176,7 @@ pub fn overlap(data: &[u8]) {
         for stop in [stop, Budget::EXACT] {
             match a.meets_triangle(corners, stop, &mut queue) {
                 Ok(answer) => {
-                    assert!(answer.work.splits <= stop.steps, "{answer:?}");
+                    assert!(answer.work.opened <= stop.steps, "{answer:?}");
                     assert!(answer.work.total() <= bound(&a), "{answer:?}");
                 }
                 Err(error) => assert_ne!(error, QueryError::Unchecked),
@@ -195,13 +195,13 @@ pub fn outer(data: &[u8]) {
     let mut scratch = vec![ScratchEntry::EMPTY; 4096];
     let mut hits = [Hit::EMPTY; 4];
     let (a, b) = (input.point(), input.point());
-    for search in [Search::First, Search::Outer] {
+    for search in [OuterSearch::First, OuterSearch::Outer] {
         let exact = Budget::EXACT;
         match model.outer_hits(a, b, search, &mut refined, &mut hits, exact, &mut scratch) {
             Ok(answer) => {
                 assert!(answer.t.lower >= 0.0 && answer.t.lower <= answer.t.upper, "{answer:?}");
                 assert!(answer.stored <= hits.len(), "{answer:?}");
-                assert!(answer.work.splits <= model.header().splits, "{:?}", answer.work);
+                assert!(answer.work.opened <= model.header().splits, "{:?}", answer.work);
             }
             Err(error) => assert_ne!(error, QueryError::Unchecked),
         }
@@ -215,7 +215,7 @@ pub fn refine(data: &[u8]) {
     let blob = input.blob(seeds());
     let Ok(model) = Hull::open(&blob) else { return };
     let mut refined = Box::new(RefinedHull::<48>::new());
-    let mut changes = [Change::EMPTY; 32];
+    let mut changes = [SplitChange::EMPTY; 32];
     for _ in 0..2 {
         let (a, b) = (input.point(), input.point());
         let (radius, error) = (input.float(), input.float());

@@ -38,8 +38,8 @@ fn blob(
 ) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let (tables, _) = tight::build(mesh.as_input(), options, Watch::NONE).expect("room around it");
-    let tree =
-        beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).expect("builds").0);
+    let tree = beside_a_tree
+        .then(|| build(mesh.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds").0);
     assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())
 }
 

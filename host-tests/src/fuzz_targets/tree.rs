@@ -38,13 +38,13 @@ pub fn tree_seeds() -> &'static [Vec<u8>] {
 
 fn blob((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    build(mesh.as_input(), options).expect("builds").0.to_bytes()
+    build(mesh.as_input(), options, Watch::NONE).expect("builds").0.to_bytes()
 }
 
 /// Of the mesh as repair makes it: turned triangles are stored as the file winds them.
 fn as_filed((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let (mesh, _) = repair(RawMesh::from_f32(positions, triangles)).expect("a sound mesh");
-    build(mesh.as_input(), options).expect("builds").0.to_bytes()
+    build(mesh.as_input(), options, Watch::NONE).expect("builds").0.to_bytes()
 }
 
 fn with_hull((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
@@ -53,7 +53,7 @@ fn with_hull((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u
     let built = hull::build(mesh.as_input(), &coarse, Watch::NONE);
     emit::assemble([
         &built.expect("a sphere has hulls").0,
-        &build(mesh.as_input(), options).expect("builds").0,
+        &build(mesh.as_input(), options, Watch::NONE).expect("builds").0,
     ])
 }
 

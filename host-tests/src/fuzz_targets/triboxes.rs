@@ -32,8 +32,8 @@ fn blob((positions, triangles): &Triangles, count: u32, beside_a_tree: bool) -> 
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let (tables, _) = tribox::build(mesh.as_input(), &TriboxOptions { count }, Watch::NONE)
         .expect("in the domain");
-    let tree =
-        beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).expect("builds").0);
+    let tree = beside_a_tree
+        .then(|| build(mesh.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds").0);
     assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())
 }
 
@@ -86,9 +86,9 @@ fn ask(a: &Triboxes<'_>, b: &Triboxes<'_>, pose: &Pose, entries: usize) {
     match (all, one) {
         (Ok(all), Ok(one)) => {
             assert_eq!(all.is_apart(), one.is_apart());
-            assert!(one.work.nodes <= all.work.nodes);
+            assert!(one.work.bounds <= all.work.bounds);
             assert!(
-                u64::from(all.work.nodes) <= u64::from(a.node_count()) * u64::from(b.node_count())
+                u64::from(all.work.bounds) <= u64::from(a.node_count()) * u64::from(b.node_count())
             );
             let fine = |pair: &NodePair| {
                 u32::from(pair.a) < a.node_count() && u32::from(pair.b) < b.node_count()
@@ -115,7 +115,7 @@ fn bounds(triboxes: &Triboxes<'_>, p: [f32; 3], q: [f32; 3], entries: usize) {
                     answer.lower >= 0.0
                         && answer.node.is_none_or(|node| node < triboxes.node_count())
                 );
-                assert!(answer.work.nodes <= triboxes.node_count());
+                assert!(answer.work.bounds <= triboxes.node_count());
                 assert!(answer.ended == Ended::Exact || entries < triboxes.scratch_entries());
             }
             Err(error) => assert_ne!(error, QueryError::Unchecked),

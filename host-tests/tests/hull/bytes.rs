@@ -3,7 +3,7 @@
 use super::scenes::options;
 use meshsweep::cut::cut;
 use meshsweep_core::{
-    Blob, Budget, Ended, Hull, OpenError, ScratchEntry, SectionKind, TriangleHit,
+    Blob, Budget, Contradiction, Ended, Hull, OpenError, ScratchEntry, SectionKind, TriangleHit,
 };
 use meshsweep_host_tests::corrupt::{entries, entry, put_u32, seal, swap_entries, word};
 use meshsweep_host_tests::generate::{Rng, cube, icosphere, rough_sphere};
@@ -210,11 +210,11 @@ fn contradictory_and_huge_counts_are_refused() {
     }
     assert!(matches!(
         edited(|b| put_u32(b, 140, 0)),
-        Err(OpenError::Counts { what: "queue capacity" })
+        Err(OpenError::Counts { what: Contradiction::HullScratch })
     ));
     assert!(matches!(
         edited(|b| put_u32(b, 28, 300)),
-        Err(OpenError::Counts { what: "scale out of range" })
+        Err(OpenError::Counts { what: Contradiction::HullScale })
     ));
     assert!(matches!(edited(|b| put_u32(b, 88, (-1f32).to_bits())), Err(OpenError::Counts { .. })));
     assert!(matches!(edited(|b| put_u32(b, 92, 9f32.to_bits())), Err(OpenError::Counts { .. })));

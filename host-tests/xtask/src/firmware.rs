@@ -1,6 +1,5 @@
 //! The firmware's part: same bits on every board, no panic, sizes and costs.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::blobs::{Blob, Blocks};
@@ -9,85 +8,11 @@ use crate::cost::{self, Added, Measured, Row};
 use crate::cross::Cross;
 use crate::images::{self, Profile};
 use crate::process;
-use crate::qemu::Qemu;
 use crate::reading::Reading;
 use crate::stack::{self, Stacks};
 use crate::steps::Steps;
-use crate::{blobs, c_checks, c_library, elf, proof, tables};
-
-/// What the firmware's part needs beside cargo.
-#[derive(Clone, Debug)]
-pub struct Tools {
-    pub(crate) cross: Cross,
-    pub(crate) qemu: Qemu,
-}
-
-/// Makes sure of the tools.
-pub fn setup(steps: &mut Steps) -> Option<Tools> {
-    let cross = steps.run("setup: std for the boards", Cross::find);
-    let qemu = steps.run("setup: QEMU", Qemu::find);
-    Some(Tools { cross: cross?, qemu: qemu? })
-}
-
-impl Tools {
-    /// The compiler of the images.
-    #[must_use]
-    pub const fn cross(&self) -> &Cross {
-        &self.cross
-    }
-
-    /// Builds an image for a board; its path.
-    ///
-    /// # Errors
-    /// The compiler's.
-    pub fn image(&self, board: &Board, name: &str) -> Result<PathBuf, String> {
-        images::running(&self.cross, &[board.target], Profile::Release, &[name])?;
-        Ok(images::image(&self.cross, board.target, Profile::Release, name))
-    }
-
-    /// Runs an image on a board, with a file in memory. Its answers are `expected`, bit by bit: at
-    /// least so many blocks of each kind.
-    ///
-    /// # Errors
-    /// Other bits, or an image that does not end.
-    pub fn asked(
-        &self,
-        board: &Board,
-        image: &Path,
-        loaded: (&Path, u32),
-        expected: &Reading,
-        least: u32,
-    ) -> Result<Reading, String> {
-        let printed = self.qemu.run(board.machine, image, Some(loaded))?;
-        let reading = Reading::parse(&printed, Some(board))?;
-        reading.compare(expected, least)?;
-        Ok(reading)
-    }
-
-    /// Runs an image of the suite on a board, with a blob at the end of its flash.
-    ///
-    /// # Errors
-    /// As above, or flash that is too small for both.
-    pub fn asked_in_flash(
-        &self,
-        board: &Board,
-        image: &Path,
-        flash: &Path,
-        expected: &Reading,
-        least: u32,
-    ) -> Result<Reading, String> {
-        let length = fs::metadata(flash)
-            .map_err(|error| format!("cannot read {}: {error}", flash.display()))?
-            .len();
-        let end = elf::address(image, "meshsweep_flash_end")?;
-        let (begin, used) = (end.saturating_sub(length), elf::end_in_flash(image, end)?);
-        if used > begin {
-            return Err(format!("image and blob need {} bytes more than the flash", used - begin));
-        }
-        let begin = u32::try_from(begin).map_err(|error| error.to_string())?;
-        self.asked(board, image, (flash, begin), expected, least)
-    }
-}
+use crate::tools::Tools;
+use crate::{blobs, c_library, elf, proof};
 
 /// An image of the suite, built for one board, and a blob that it is asked about.
 pub struct Asked {
@@ -156,7 +81,7 @@ impl Scope {
     /// Whether the C library's stack is bounded: in `cargo xtask test` that of the library that is
     /// built for its images.
     fn is_bound_in_c(self, board: &Board, profile: Profile) -> bool {
-        self == Self::All || c_checks::IMAGES == (board.cpu, profile)
+        self == Self::All || c_library::IMAGES == (board.cpu, profile)
     }
 
     /// Questions whose code is measured on a board, each by an image of its own: in `cargo xtask
@@ -165,7 +90,7 @@ impl Scope {
         match self {
             Self::All | Self::Counted => &IMAGES,
             Self::Compared if board.cpu == BOARDS[0].cpu => &IMAGES,
-            Self::Compared if profile == Profile::Release => &tables::CODE,
+            Self::Compared if profile == Profile::Release => &CODE,
             Self::Compared => &[],
         }
     }
@@ -425,6 +350,9 @@ pub const QUESTIONS: [(&str, &str); 15] = [
     ("segment", "open a hull hierarchy, first hit"),
     ("outer", "open a hull hierarchy, outer hits"),
 ];
+
+/// Questions whose code a table needs measured.
+pub const CODE: [&str; 2] = ["closest", "tree_alone"];
 
 /// Their images.
 const IMAGES: [&str; QUESTIONS.len()] = {

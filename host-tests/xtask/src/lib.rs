@@ -13,7 +13,7 @@
 //! count, count_suite ── valgrind, on host ─┐
 //!                                          ├─ tables (those of the documents), guard (costs.txt)
 //! firmware ─┬ images ─ cross ───────┬─ toolbox (Debian packages, unpacked aside)
-//!           ├ qemu ─────────────────┘
+//!           ├ tools ─ qemu ─────────┘
 //!           ├ reading (what an image printed) ─ compared with the host's own run
 //!           ├ proof   (no panic left)
 //!           ├ stack   (painted, and bounded by call_graph ─ instructions)
@@ -52,9 +52,11 @@ pub mod reading;
 pub mod report;
 pub mod rival;
 pub mod stack;
+pub mod stack_csv;
 pub mod steps;
 pub mod table;
 pub mod tables;
 pub mod toolbox;
+pub mod tools;
 pub mod valgrind;
 pub mod workspace;

@@ -36,10 +36,10 @@ impl Bvh<'_> {
         };
         let mut t = 0.0;
         for _ in 0..MOST_ADVANCES {
-            let steps = budget.steps.saturating_sub(contact.work.splits);
+            let steps = budget.steps.saturating_sub(contact.work.opened);
             let pose = motion.at_time(t);
             let budget = Budget::EXACT.with_steps(steps);
-            let found = self.distance(other, pose, budget, scratch)?;
+            let found = self.distance_to(other, pose, budget, scratch)?;
             contact.work = contact.work.and(found.work);
             (contact.points, contact.triangles) = (found.points, found.triangles);
             let gap = f64::from(found.distance.lower) - (f64::from(keep) + rounding);

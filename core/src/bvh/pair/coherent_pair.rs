@@ -112,10 +112,10 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         self.last.count
     }
 
-    /// [`Bvh::distance`] of `tree` and of `other`, moved by `pose`. The less the models moved since
+    /// [`Bvh::distance_to`] of `tree` and of `other`, moved by `pose`. The less the models moved since
     /// the last question, the less work it takes.
     ///
-    /// The interval contains the distance like that of [`Bvh::distance`]. Its bits may differ,
+    /// The interval contains the distance like that of [`Bvh::distance_to`]. Its bits may differ,
     /// because another of several pairs that are equally near may be found. They depend on all
     /// questions since [`reset`](Self::reset), and are the same on every target. Arguments, errors
     /// and degenerate cases as there.
@@ -142,7 +142,7 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
     /// Meshsweeper 5.1.
     ///
     /// # Errors
-    /// Those of [`Bvh::distance`]. If the arguments are refused, the state stays as it was.
+    /// Those of [`Bvh::distance_to`]. If the arguments are refused, the state stays as it was.
     #[inline(never)]
     pub fn distance(
         &mut self,
@@ -156,7 +156,7 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         let pair = StoredPair::new([tree, other], &pose)?;
         if !pair.is_in_range {
             self.reset();
-            return tree.distance(other, pose, budget, scratch);
+            return tree.distance_to(other, pose, budget, scratch);
         }
         let mut nearest = Nearest::new(&pair, &budget);
         let mut search = Search::new(&pair, budget.steps, scratch);

@@ -38,7 +38,7 @@ impl Bvh<'_> {
     /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
     /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<{ Bvh::DISTANCE_ENTRIES }>::new());
     /// let pose = Pose { translation: [300.0, 0.0, 0.0], ..Pose::IDENTITY };
-    /// let found = part.distance(&part, pose, Budget::EXACT, &mut scratch)?;
+    /// let found = part.distance_to(&part, pose, Budget::EXACT, &mut scratch)?;
     /// let [here, there] = found.points;
     /// let along = there[0] - here[0];
     /// assert!((found.distance.lower..=found.distance.upper).contains(&along));
@@ -53,7 +53,7 @@ impl Bvh<'_> {
     /// beyond 2 or one grid is 2^40 times as coarse as the other; [`QueryError::NotServed`] unless
     /// both trees have boxes for segments; [`QueryError::Tolerance`], [`QueryError::NoScratch`].
     #[inline(never)]
-    pub fn distance(
+    pub fn distance_to(
         &self,
         other: &Bvh<'_>,
         pose: Pose,

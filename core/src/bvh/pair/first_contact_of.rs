@@ -18,7 +18,7 @@ impl Bvh<'_> {
     /// of nodes) of the budget are those of all distances together. Tolerances are ignored. If
     /// steps or scratch memory run out, `clear_until` is earlier.
     ///
-    /// Cost: a [`distance`](Bvh::distance) for each advance: three to ten where the motion passes
+    /// Cost: a [`distance_to`](Bvh::distance_to) for each advance: three to ten where the motion passes
     /// at some distance, some dozens before contact, more where the surfaces glide along each
     /// other.
     ///
@@ -37,7 +37,7 @@ impl Bvh<'_> {
     /// Body Systems* (1996), by proved distances.
     ///
     /// # Errors
-    /// Those of [`distance`](Bvh::distance), also for a `keep` that is negative, NaN or infinite,
+    /// Those of [`distance_to`](Bvh::distance_to), also for a `keep` that is negative, NaN or infinite,
     /// and [`QueryError::NotFinite`] if a pose on the way leaves f32's range.
     #[inline(never)]
     pub fn first_contact_of(

@@ -25,12 +25,12 @@ pub(crate) fn from_afar(pair: &StoredPair<'_>) -> Option<TriangleGap> {
     let ((middle_a, radius_a), (middle_b, radius_b)) = (ball(a), ball(b));
     let between = distance(near(middle_a), moved(&pair.pose, middle_b));
     // Roundings of f64 in lengths up to the sum of all of these.
-    let reach = radius_a * unit + radius_b * longest;
-    let rounding = 4.0 * pair.pose.vertex_error_exact + 16.0 * U64 * (between + reach);
+    let radii = radius_a * unit + radius_b * longest;
+    let rounding = 4.0 * pair.pose.vertex_error_exact + 16.0 * U64 * (between + radii);
     let [p, q] = points;
     Some(TriangleGap {
         place: [first.place, second.place],
-        lower: greater(0.0, between - reach - rounding),
+        lower: greater(0.0, between - radii - rounding),
         upper: distance(p, q) + rounding,
         meets: false,
         points,

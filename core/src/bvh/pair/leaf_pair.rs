@@ -5,7 +5,7 @@ use crate::bvh::tree::format::{FanLeaf, RING, slots};
 use crate::bvh::tree::node::WIDE;
 use crate::geom::fan::{LANES_BELOW, WIDTH};
 use crate::geom::{Contact, determinant_margin, straddling_triangles_meet, triangles_meet};
-use crate::num::{greater, lesser};
+use crate::num::{each, greater, lesser};
 use crate::query::{RelativePose, Work};
 
 /// Slots for a leaf's vertices: two centres, the ring, and spare ones so that eight can be read at
@@ -41,7 +41,8 @@ impl Corners {
 
     #[inline(always)]
     fn corner(&self, slot: usize) -> [f32; 3] {
-        self.at.map(|axis| axis.get(slot).copied().unwrap_or(0.0))
+        let [x, y, z] = &self.at;
+        each([x, y, z], |axis| axis.get(slot).copied().unwrap_or(0.0))
     }
 
     #[inline(always)]
@@ -52,9 +53,10 @@ impl Corners {
     /// The box of all vertices.
     #[inline(always)]
     fn extent(&self) -> Extent {
-        let low = self.at.map(|axis| axis.into_iter().fold(f32::MAX, lesser));
-        let high = self.at.map(|axis| axis.into_iter().fold(f32::MIN, greater));
-        Extent { low, high }
+        let [x, y, z] = &self.at;
+        let low = |axis: &[f32; SLOTS]| axis.iter().copied().fold(f32::MAX, lesser);
+        let high = |axis: &[f32; SLOTS]| axis.iter().copied().fold(f32::MIN, greater);
+        Extent { low: each([x, y, z], low), high: each([x, y, z], high) }
     }
 
     /// Largest 1-norm.
@@ -160,7 +162,7 @@ impl VertexSides {
         let at = |bits: &[u32; SLOTS], slot: usize| {
             (bits.get(slot).copied().unwrap_or(0) >> (plane & 7) & 1) as i8
         };
-        slots.map(|slot| at(&self.above, slot) - at(&self.below, slot))
+        each(slots, |slot| at(&self.above, slot) - at(&self.below, slot))
     }
 }
 
@@ -335,8 +337,8 @@ impl<'a> LeafPair<'a> {
     #[inline(never)]
     pub(crate) fn meet(&self, i: usize, j: usize, work: &mut Work) -> Contact {
         work.triangles = work.triangles.saturating_add(1);
-        let a = self.a.slots(i).map(|slot| self.a.corner(slot));
-        let b = self.b.slots(j).map(|slot| self.b.corner(slot));
+        let a = each(self.a.slots(i), |slot| self.a.corner(slot));
+        let b = each(self.b.slots(j), |slot| self.b.corner(slot));
         let [to_second, to_first] = &self.sides;
         let (a_sides, b_sides) =
             (to_second.of(self.a.slots(i), j), to_first.of(self.b.slots(j), i));

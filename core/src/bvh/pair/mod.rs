@@ -33,4 +33,4 @@ pub(super) mod stored_pair;
 mod within_of;
 
 pub use coherent_pair::CoherentPair;
-pub use placed::Placed;
+pub use placed::PlacedModel;

@@ -9,7 +9,7 @@ use crate::query::{Interval, PoseInverse, QueryError, transposed};
 
 /// A model at its place in a [`Scene`](crate::Scene).
 #[derive(Clone, Copy, Debug)]
-pub struct Placed<'a> {
+pub struct PlacedModel<'a> {
     /// The model.
     pub tree: Bvh<'a>,
     /// Where it is: from its frame to the world.
@@ -25,7 +25,7 @@ pub(crate) struct WorldBox {
 }
 
 impl WorldBox {
-    pub(crate) fn new(placed: &Placed<'_>) -> WorldBox {
+    pub(crate) fn new(placed: &PlacedModel<'_>) -> WorldBox {
         let [low, high] = placed.tree.bounds();
         let error = placed.tree.surface_error();
         let mut found = WorldBox { middle: placed.pose.translation, half: [0.0; 3] };
@@ -69,7 +69,10 @@ pub(crate) struct Relative {
 
 impl Relative {
     /// The poses were [checked](check_pose).
-    pub(crate) fn new(first: &Placed<'_>, second: &Placed<'_>) -> Result<Relative, QueryError> {
+    pub(crate) fn new(
+        first: &PlacedModel<'_>,
+        second: &PlacedModel<'_>,
+    ) -> Result<Relative, QueryError> {
         let ((a_rows, a_shift), (b_rows, b_shift)) = (wide(&first.pose), wide(&second.pose));
         let inverse = PoseInverse::new(a_rows)?;
         let stretch = inverse.stretch;

@@ -44,7 +44,7 @@ impl<'a> StoredPair<'a> {
         let (first, second) = (extended(a), extended(b));
         let exact = |model: &Extended| Extended { error: 0.0, ..*model };
         let Placement { pose, is_in_range, .. } =
-            RelativePose::place(&exact(&first), &exact(&second), pose)?;
+            RelativePose::relate(&exact(&first), &exact(&second), pose)?;
         let [frame, _] = &pose.frames;
         let (error_a, error_b) = (first.error * f64::from(frame.unit), second.error * pose.longest);
         let up = 1.0 + 8.0 * U64;
@@ -68,17 +68,17 @@ impl<'a> StoredPair<'a> {
     }
 
     pub(crate) fn leaves(&self) -> LeafGaps<'_> {
-        LeafGaps { pose: &self.pose, surface_error: self.greater_error, way: [0.0; 3] }
+        LeafGaps { pose: &self.pose, surface_error: self.greater_error, direction: [0.0; 3] }
     }
 
     /// A place in the first model's frame, input units, from common units and the first model's
     /// origin.
-    pub(crate) fn place(&self, point: [f64; 3]) -> [f32; 3] {
-        self.place_exact(point).map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
+    pub(crate) fn to_input(&self, point: [f64; 3]) -> [f32; 3] {
+        self.to_input_exact(point).map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
     }
 
     /// The same, rounded to f64.
-    pub(crate) fn place_exact(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn to_input_exact(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let [frame, _] = &self.pose.frames;
         let (unit, size) = (f64::from(frame.unit), exp2(self.first.exponent));
         let [a, b, c] = self.first.origin;

@@ -22,8 +22,8 @@ impl Bvh<'_> {
     /// inside the other. If the models move in small steps, [`CoherentPair`](crate::CoherentPair)
     /// asks for less work. For collision avoidance, treat an undecided answer as `Yes`.
     ///
-    /// Arguments and degenerate cases as for [`distance`](Bvh::distance). It ends at the first pair
-    /// of triangles that is certainly near enough. The witness of a `Yes` is this pair, this tree's
+    /// Arguments and degenerate cases as for [`distance_to`](Bvh::distance_to). It ends at the first
+    /// pair of triangles that is certainly near enough. The witness of a `Yes` is this pair, this tree's
     /// triangle first; that of an undecided [`Resolution`](crate::Undecided::Resolution) is a pair
     /// that may be near enough. Numbers are those of the input files. `work` as in
     /// [`PairDistance::work`](crate::PairDistance::work). `scratch`:
@@ -43,7 +43,7 @@ impl Bvh<'_> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`distance`](Bvh::distance); [`QueryError::Tolerance`] also for a distance that is
+    /// Those of [`distance_to`](Bvh::distance_to); [`QueryError::Tolerance`] also for a distance that is
     /// negative, NaN or infinite.
     #[inline(never)]
     pub fn within_of(

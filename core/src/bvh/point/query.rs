@@ -4,13 +4,13 @@ use crate::bvh::tree::descent::{NodeQuery, OpenedNode};
 #[cfg(meshsweep_wide)]
 use crate::bvh::tree::format::LanePoint;
 use crate::bvh::tree::format::{Bvh, Units};
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 use crate::bvh::tree::node::box_distances_avx2;
 use crate::bvh::tree::node::{CHILD_MASK, KeyPoint, NO_CHILD, box_distances};
 #[cfg(not(meshsweep_wide))]
 use crate::bvh::tree::node::{Pushed, push_boxes};
 use crate::format::layout::BuildFor;
-use crate::geom::fan::{WIDTH, WholePoint};
+use crate::geom::fan::{IntPoint, WIDTH};
 use crate::num::tolerance::{
     BVH_FAR, CERTIFIED_PART, CERTIFIED_SHORTFALL, FAN_DISTANCE, FAN_RELATIVE, LEAST_FAN_ROUNDING,
     PLANE_DISTANCE, U32,
@@ -50,7 +50,7 @@ pub(crate) struct PointQuery {
     pub(crate) allowance: f32,
     /// The point in integers, on targets without floating point, if the model is near and on a
     /// grid.
-    pub(crate) whole: Option<WholePoint>,
+    pub(crate) whole: Option<IntPoint>,
     /// The point, prepared for the boxes of nodes.
     key_point: KeyPoint,
     /// Keys in a square of the grid unit: a power of two.
@@ -127,7 +127,7 @@ impl PreparedPoint {
         let from_origin = difference(p, Vec3::new(ox, oy, oz));
         let key_point = KeyPoint::new(from_origin, most);
         let whole = if SOFT_FLOAT && !header.is_f32() {
-            WholePoint::new(from_origin.to_array())
+            IntPoint::new(from_origin.to_array())
         } else {
             None
         };
@@ -180,7 +180,7 @@ impl PointQuery {
     #[inline(always)]
     pub(crate) fn key_limit(&self, limit: f32) -> u32 {
         let key = if SOFT_FLOAT {
-            whole_product(limit, self.keys_in_square)
+            integer_product(limit, self.keys_in_square)
         } else {
             (limit * self.keys_in_square) as i32
         };
@@ -222,7 +222,7 @@ impl PointQuery {
     }
 
     /// The same, in registers of 256 bits.
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(meshsweep_avx2)]
     #[target_feature(enable = "avx2")]
     #[inline]
     pub(crate) fn keys_avx2(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {
@@ -274,7 +274,7 @@ fn farthest(p: Vec3, low: Vec3, high: Vec3) -> Vec3 {
 
 /// `(x * power) as i32` of a number that is not negative and a power of two, without a product.
 #[inline(never)]
-fn whole_product(x: f32, power: f32) -> i32 {
+fn integer_product(x: f32, power: f32) -> i32 {
     let (bits, by) = (x.to_bits(), power.to_bits() >> 23);
     match (bits >> 23).wrapping_add(by) {
         // Less than one.

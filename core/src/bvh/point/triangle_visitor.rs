@@ -161,8 +161,9 @@ impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
             // A plane in front of the nearest triangle.
             #[cfg(not(meshsweep_wide))]
             {
-                let (way, limit) = (near.lanes.way(), self.beyond.distance_sq);
-                self.beyond.plane = LeafPlane::across(self.query, way, near.distance_sq, limit);
+                let (residual, limit) = (near.lanes.residual(), self.beyond.distance_sq);
+                self.beyond.plane =
+                    LeafPlane::across(self.query, residual, near.distance_sq, limit);
             }
         }
         match next {

@@ -1,6 +1,6 @@
 //! Questions compiled for the instructions of one kind of processor. `avx2` has those for AVX2.
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 mod avx2;
 
 use crate::bvh::point::closest_points::closest_points_by;
@@ -37,7 +37,7 @@ type OfSegment<A> =
 
 /// Whether this processor has all features of [`ProcessorQuestions::avx2`]. The caller's standard
 /// library asks it once and keeps the answer.
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 #[macro_export]
 macro_rules! has_avx2 {
     () => {
@@ -66,7 +66,7 @@ impl ProcessorQuestions {
     /// # Safety
     /// A function that is not compiled for these features needs `unsafe` to call it. The processor
     /// must have them: [`has_avx2!`](crate::has_avx2) asks it.
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(meshsweep_avx2)]
     #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn avx2() -> ProcessorQuestions {
         ProcessorQuestions {

@@ -1,19 +1,19 @@
 //! Whether a segment meets the surface.
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 use super::blocks::{SegmentKernels, is_unlimited};
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 use super::leaf::FlaggedOfLeaf;
 use super::leaf::{CrossingCollector, Facing, SegmentVisitor, compiled_flagged};
 use super::query::SegmentQuery;
 use super::start::SegmentStart;
 use crate::bvh::tree::descent::{Descent, descend};
 use crate::bvh::tree::format::Bvh;
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 use crate::bvh::tree::node::{OpenedNode, TakenLeast};
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::Crossing;
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 use crate::geom::fan::WIDTH;
 use crate::query::{Budget, Decided, QueryError, ScratchEntry, Verdict, Witness, Work};
 
@@ -64,7 +64,7 @@ impl Bvh<'_> {
 
 /// The answer, if neither steps nor memory may end the search. Without registers of 256 bits the
 /// order of entries takes fewer instructions.
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 #[inline(always)]
 pub(crate) fn any_hit_by_blocks(
     tree: &Bvh<'_>,

@@ -117,7 +117,7 @@ fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
 }
 
 /// The same in registers of 256 bits, whatever the crate is compiled for.
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 #[inline]
 pub(crate) fn flagged_avx2(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
@@ -129,7 +129,7 @@ pub(crate) fn flagged_avx2(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u
 
 /// By the registers that the crate is compiled for, in a call: what they need would be mixed with
 /// registers of 256 bits.
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 #[inline(never)]
 fn f32_flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
     flagged(leaf, query)

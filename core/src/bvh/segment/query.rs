@@ -9,7 +9,7 @@ use crate::bvh::tree::format::{Bvh, Units};
 use crate::bvh::tree::node::GridLine;
 use crate::bvh::tree::node::SlabRay;
 use crate::bvh::tree::node::box_entries;
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 use crate::bvh::tree::node::box_entries_avx2;
 #[cfg(not(meshsweep_wide))]
 use crate::bvh::tree::node::{Pushed, push_entries};
@@ -120,7 +120,7 @@ impl SegmentQuery {
     }
 
     /// The same in registers of 256 bits, whatever the crate is compiled for.
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(meshsweep_avx2)]
     #[target_feature(enable = "avx2")]
     #[inline]
     pub(crate) fn keys_avx2(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[u32; WIDTH]> {

@@ -57,7 +57,7 @@ impl Bvh<'_> {
     ) -> Result<SolidDistance, QueryError> {
         budget.check_with(scratch)?;
         let mut placed = PlacedSolid::NONE;
-        placed.place(self, solid, None)?;
+        placed.set(self, solid, None)?;
         let mut work = Work::default();
         let nearest = Nearest {
             placed: &placed,

@@ -56,13 +56,13 @@ impl Bvh<'_> {
         budget.with_absolute(distance).check()?;
         budget.check_with(scratch)?;
         let mut placed = PlacedSolid::NONE;
-        placed.place(self, solid, None)?;
+        placed.set(self, solid, None)?;
         let lengths = &placed.lengths;
-        let reach = lengths.inward(distance) + placed.radius + lengths.error;
+        let kept_distance = lengths.inward(distance) + placed.radius + lengths.error;
         let threshold = Threshold {
             placed: &placed,
             distance,
-            limit: reach * (1.0 + 8.0 * U64),
+            limit: kept_distance * (1.0 + 8.0 * U64),
             found: Witness::NONE,
         };
         let mut work = Work::default();

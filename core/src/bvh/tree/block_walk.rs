@@ -117,8 +117,8 @@ pub(crate) fn walk<const N: usize>(
             keys = rest;
         }
     };
-    work.splits += splits;
-    work.nodes += nodes;
+    work.opened += splits;
+    work.bounds += nodes;
     work.triangles += triangles;
     Some(ended)
 }

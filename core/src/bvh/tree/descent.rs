@@ -214,7 +214,7 @@ impl Limit {
     #[cfg_attr(meshsweep_small, inline(never))]
     fn has_room(&self, stack: &Stack<'_>, work: &Work) -> bool {
         let free = stack.entries.len().saturating_sub(stack.used);
-        let left = self.steps.saturating_sub(work.splits) as usize;
+        let left = self.steps.saturating_sub(work.opened) as usize;
         free >= self.entries || free >= left.saturating_mul(WIDTH)
     }
 
@@ -329,7 +329,7 @@ impl<'s> Walk<'s> {
     #[cfg_attr(meshsweep_small, inline(never))]
     #[cfg_attr(not(meshsweep_small), inline(always))]
     fn new(tree: &Bvh<'_>, steps: u32, scratch: &'s mut [ScratchEntry], work: &Work) -> Self {
-        let all = work.splits.saturating_add(tree.most_steps());
+        let all = work.opened.saturating_add(tree.most_steps());
         Walk {
             limit: Limit {
                 steps: lesser(steps, all),
@@ -375,7 +375,7 @@ impl<'s> Walk<'s> {
         loop {
             let mut place = None;
             if opens {
-                if work.splits >= self.limit.steps {
+                if work.opened >= self.limit.steps {
                     self.out_of_steps(bound);
                     return Some(false);
                 }
@@ -425,8 +425,8 @@ impl<'s> Walk<'s> {
         };
         #[cfg(not(meshsweep_wide))]
         let nearest = self.stack.push_children(query, tree, &opened)?;
-        work.splits += 1;
-        work.nodes += links.count;
+        work.opened += 1;
+        work.bounds += links.count;
         if nearest > limit {
             return Some(None);
         }

@@ -3,18 +3,18 @@
 use super::format::{Bvh, Links};
 
 /// Bytes of a line of the cache.
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 const LINE: usize = 64;
 
 /// Bytes of leaves from which on a tree is asked for ahead. A smaller one stays in the second-level
 /// cache.
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 const LARGE: usize = 1 << 18;
 
 /// Asks for the records of a node's children: boxes and links of nodes, vertices of leaves. They
 /// are neighbours. If there is one kind of children only, others of the tree are asked for as well:
 /// a branch would cost more. `boxes` are those of the question, of all nodes.
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 #[inline(always)]
 pub(crate) fn prefetch_children<const N: usize>(tree: &Bvh<'_>, boxes: &[[u8; N]], links: &Links) {
     if tree.fans.len() < LARGE {
@@ -35,7 +35,7 @@ pub(crate) fn prefetch_children<const N: usize>(tree: &Bvh<'_>, boxes: &[[u8; N]
 pub(crate) fn prefetch_children<const N: usize>(_: &Bvh<'_>, _: &[[u8; N]], _: &Links) {}
 
 /// Asks for the number in the input file of a leaf's first triangle: an answer may name it.
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 #[inline(always)]
 pub(crate) fn prefetch_source(tree: &Bvh<'_>, node: u32, child: u32) {
     if tree.fans.len() >= LARGE {
@@ -43,7 +43,7 @@ pub(crate) fn prefetch_source(tree: &Bvh<'_>, node: u32, child: u32) {
     }
 }
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 #[inline(never)]
 fn prefetch_source_of_large(tree: &Bvh<'_>, node: u32, child: u32) {
     let Some(links) = tree.links(node) else { return };
@@ -56,7 +56,7 @@ fn prefetch_source_of_large(tree: &Bvh<'_>, node: u32, child: u32) {
 pub(crate) fn prefetch_source(_: &Bvh<'_>, _: u32, _: u32) {}
 
 /// Asks for the first lines. Near the end of a section it asks for none.
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 #[inline(always)]
 fn prefetch<const LINES: usize>(bytes: &[u8]) {
     let (lines, _) = bytes.as_chunks::<LINE>();

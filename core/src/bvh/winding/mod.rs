@@ -147,7 +147,7 @@ impl Bvh<'_> {
     /// Those of [`closest_point`](Bvh::closest_point) and of
     /// [`winding_number`](Bvh::winding_number).
     #[inline(never)]
-    pub fn signed_by_winding(
+    pub fn signed_distance_by_winding(
         &self,
         point: [f32; 3],
         budget: Budget,
@@ -161,7 +161,7 @@ impl Bvh<'_> {
         // In one order: the steps that are left decide how far the winding number is known.
         let mut hint = Hint::NONE;
         let mut closest = self.closest_point_in_order(point, &mut hint, budget, scratch)?;
-        let left = budget.steps.saturating_sub(closest.work.splits);
+        let left = budget.steps.saturating_sub(closest.work.opened);
         let winding = self.winding_number(point, budget.with_steps(left), scratch)?;
         closest.work = closest.work.and(winding.work);
         if closest.ended == Ended::Exact {

@@ -30,9 +30,10 @@ pub struct SpokeTerms {
     pub edge: Vec3,
     /// `s · edge`.
     pub(crate) along: f32,
-    /// `edge · edge`.
-    length_sq: f32,
 }
+
+/// The least number above 0.
+pub const ABOVE_ZERO: f32 = f32::from_bits(1);
 
 /// A fan seen from a point.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +41,7 @@ pub struct PointFan {
     /// From the centre to the point.
     pub(crate) s: Vec3,
     /// `s · s`.
-    centre_sq: f32,
+    pub centre_sq: f32,
 }
 
 impl PointFan {
@@ -53,12 +54,13 @@ impl PointFan {
     /// Terms of the spoke `edge` (ring vertex less centre).
     #[inline(always)]
     pub fn spoke(&self, edge: Vec3) -> SpokeTerms {
-        SpokeTerms { edge, along: dot(edge, self.s), length_sq: dot(edge, edge) }
+        SpokeTerms { edge, along: dot(edge, self.s) }
     }
 
     /// A triangle lies beyond a squared limit if [`along`](SpokeTerms::along) of both its spokes is
-    /// below this, by the supporting plane across the way to its centre. Minus infinity if the
-    /// centre itself does not. The limit must allow for rounding already.
+    /// below this, by the supporting plane across the way to its centre. If the centre itself does
+    /// not, it is [`ABOVE_ZERO`]: below that the centre is the closest point. The limit must allow
+    /// for rounding already.
     ///
     /// No root: |s|·L ≤ (|s|²/k + L²·k)/2 for any k. k is 1, or 4 next to the surface. Proof:
     /// `core/docs/rounding.md` §8, "What a fan leaves out".
@@ -67,59 +69,67 @@ impl PointFan {
         let (far, near) =
             (0.5 * (self.centre_sq - limit), 0.875 * self.centre_sq - (limit + limit));
         let along = greater(far, near);
-        if along > 0.0 { along } else { f32::NEG_INFINITY }
+        if along > 0.0 { along } else { ABOVE_ZERO }
     }
 
     /// The squared distance if the centre is the closest point of the triangle between two spokes,
     /// as [`Self::triangle`] computes it.
     #[inline(always)]
     pub fn at_centre(&self, a: &SpokeTerms, b: &SpokeTerms) -> Option<f32> {
-        if a.along <= 0.0 && b.along <= 0.0 { Some(self.centre_sq) } else { None }
+        if self.is_at_centre(a, b) { Some(self.centre_sq) } else { None }
+    }
+
+    #[inline(always)]
+    fn is_at_centre(&self, a: &SpokeTerms, b: &SpokeTerms) -> bool {
+        Real(a.along) <= Real::ZERO && Real(b.along) <= Real::ZERO
+    }
+
+    /// A triangle whose closest point is the centre, as [`Self::triangle`] computes it.
+    #[inline(always)]
+    pub fn centre(&self) -> Nearness {
+        let distance_sq = self.centre_sq;
+        Nearness { distance_sq, lower_bound_sq: distance_sq, v: 0.0, w: 0.0 }
     }
 
     /// The triangle between two spokes. On degenerate triangles it finds a point of the remaining
     /// segment or point, and the lower bound is lower where that point may not be the closest.
     #[inline(always)]
     pub fn triangle(&self, a: &SpokeTerms, b: &SpokeTerms) -> Nearness {
-        self.triangle_and_residual(a, b).0
+        if self.is_at_centre(a, b) { self.centre() } else { self.off_centre(a, b).0 }
     }
 
-    /// The same, and the residual: the way from the closest point to the query.
+    /// The same of a triangle whose closest point is not the centre, and the residual: the way from
+    /// the closest point to the query.
     #[inline(always)]
-    pub fn triangle_and_residual(&self, a: &SpokeTerms, b: &SpokeTerms) -> (Nearness, Vec3) {
+    pub fn off_centre(&self, a: &SpokeTerms, b: &SpokeTerms) -> (Nearness, Vec3) {
         let s = self.s;
         triangle_of_numbers(
             (s.x, s.y),
-            (s.z, self.centre_sq),
+            s.z,
             (a.edge.x, a.edge.y),
             (a.edge.z, a.along),
             (b.edge.x, b.edge.y),
             (b.edge.z, b.along),
-            (a.length_sq, b.length_sq),
         )
     }
 }
 
-/// [`PointFan::triangle_and_residual`]. Where code is to be small all share it: numbers in pairs are
+/// [`PointFan::off_centre`]. Where code is to be small all share it: numbers in pairs are
 /// passed in registers, records are not.
 #[cfg_attr(meshsweep_small, inline(never))]
 #[cfg_attr(not(meshsweep_small), inline(always))]
 fn triangle_of_numbers(
     (sx, sy): (f32, f32),
-    (sz, centre_sq): (f32, f32),
+    sz: f32,
     (ex, ey): (f32, f32),
     (ez, d1): (f32, f32),
     (gx, gy): (f32, f32),
     (gz, d2): (f32, f32),
-    (aa, cc): (f32, f32),
 ) -> (Nearness, Vec3) {
     let (s, first, second) = (Vec3::new(sx, sy, sz), Vec3::new(ex, ey, ez), Vec3::new(gx, gy, gz));
-    let (d1, d2, aa, cc) = (Real(d1), Real(d2), Real(aa), Real(cc));
-    let zero = Real::ZERO;
-    if d1 <= zero && d2 <= zero {
-        let distance_sq = centre_sq;
-        return (Nearness { distance_sq, lower_bound_sq: distance_sq, v: 0.0, w: 0.0 }, s);
-    }
+    let (d1, d2, zero) = (Real(d1), Real(d2), Real::ZERO);
+    // Not kept with the spokes: a fan leaves out more spokes than two triangles share.
+    let (aa, cc) = (Real(dot(first, first)), Real(dot(second, second)));
     let bb = Real(dot(first, second));
     let (d3, d4, d5, d6) = (d1 - aa, d2 - bb, d1 - bb, d2 - cc);
     let (v, w, r);
@@ -238,9 +248,9 @@ fn normal(e: Vec3, g: Vec3) -> Vec3 {
         return cross(e, g);
     }
     Vec3::new(
-        whole_difference((e.y, g.z), (e.z, g.y)),
-        whole_difference((e.z, g.x), (e.x, g.z)),
-        whole_difference((e.x, g.y), (e.y, g.x)),
+        integer_difference((e.y, g.z), (e.z, g.y)),
+        integer_difference((e.z, g.x), (e.x, g.z)),
+        integer_difference((e.x, g.y), (e.y, g.x)),
     )
 }
 
@@ -254,7 +264,7 @@ pub(crate) fn is_whole(v: Vec3, most: f32) -> bool {
 /// The difference of two products of whole numbers, rounded once.
 #[cfg_attr(meshsweep_small, inline(never))]
 #[cfg_attr(not(meshsweep_small), inline(always))]
-fn whole_difference((a, b): (f32, f32), (c, d): (f32, f32)) -> f32 {
+fn integer_difference((a, b): (f32, f32), (c, d): (f32, f32)) -> f32 {
     let product = |a: f32, b: f32| i64::from(a as i32) * i64::from(b as i32);
     (product(a, b) - product(c, d)) as f32
 }

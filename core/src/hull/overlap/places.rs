@@ -3,7 +3,7 @@
 use crate::geom::{Contact, Real, SweptTriangle, triangles_meet};
 use crate::hull::sweep::Candidate;
 use crate::num::tolerance::F32_EXTENT;
-use crate::num::{greater, lesser, up_to_f32};
+use crate::num::{each, greater, lesser, up_to_f32};
 use crate::query::{Extended, RelativePose};
 use glam::Vec3;
 
@@ -81,7 +81,7 @@ impl<T: Real> Places<T> {
     pub(super) fn swept(&self, side: usize, triangle: &Candidate) -> SweptTriangle<T> {
         let [first, second] = self.units;
         let unit = if side == 0 { first } else { second };
-        let corners = triangle.corners.map(|corner| self.corner(side, corner));
+        let corners = each(triangle.corners, |corner| self.corner(side, corner));
         SweptTriangle::new(corners, T::from(triangle.radius) * unit)
     }
 

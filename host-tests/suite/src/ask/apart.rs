@@ -3,14 +3,15 @@
 //! than the flash of the smallest board.
 
 use meshsweep_core::{
-    Budget, Bvh, CoherentPair, FirstHit, Interval, Motion, Placed, Pose, QueryError, Relation,
+    Budget, Bvh, CoherentPair, FirstHit, Interval, Motion, PlacedModel, Pose, QueryError, Relation,
     Scene, Solid,
 };
 
 use super::{Asked, Refused, Subject, tree};
+use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::kind::Kind;
 use crate::place::{Bounds, Ends, Placer};
-use crate::{Clock, Kind};
 
 /// A box tree, asked about its moved copy and about capsules.
 #[derive(Clone, Debug)]
@@ -35,7 +36,7 @@ impl<'t> Subject<'t> for Apart<'t> {
     }
 
     fn suits(kind: Kind) -> bool {
-        asks(kind)
+        kind.is_apart()
     }
 
     fn ask(
@@ -76,20 +77,6 @@ impl<'t> Subject<'t> for Apart<'t> {
             _ => {}
         }
     }
-}
-
-/// Whether these questions are asked here, and not by the image of the other ones.
-pub(super) fn asks(kind: Kind) -> bool {
-    matches!(
-        kind,
-        Kind::PairDistance
-            | Kind::Solid
-            | Kind::Contact
-            | Kind::Winding
-            | Kind::Scene
-            | Kind::CoherentPair
-            | Kind::Penetration
-    )
 }
 
 /// How far the surface is from its copy, at a pose and after three steps from the first point to
@@ -157,7 +144,7 @@ pub fn scene(
     scratch: &mut Scratch,
     to: &mut Asked<'_, impl Clock>,
 ) {
-    let models = poses.map(|pose| Placed { tree: *tree, pose });
+    let models = poses.map(|pose| PlacedModel { tree: *tree, pose });
     let scene = Scene::new(&models);
     let budget = Budget::EXACT.with_steps(STEPS);
     to.answer(
@@ -213,7 +200,7 @@ pub fn distance(
 ) {
     let budget = Budget::EXACT.with_steps(STEPS);
     let found = to.answer(
-        || tree.distance(tree, pose, budget, scratch),
+        || tree.distance_to(tree, pose, budget, scratch),
         |fold, answer| {
             nearest(fold, answer.distance, answer.points, answer.triangles);
             super::how(fold, answer.ended);
@@ -289,7 +276,7 @@ pub fn contact(
 ) {
     let call = || -> Result<FirstHit, QueryError> {
         let (from, end) = (Solid::new(&from, radius)?, Solid::new(&end, radius)?);
-        tree.first_contact(&from, &end, Budget::EXACT, scratch)
+        tree.solid_first_contact(&from, &end, Budget::EXACT, scratch)
     };
     to.answer(call, |fold, answer| {
         fold.f32(answer.t.lower);

@@ -4,9 +4,10 @@ pub use meshsweep_core::Curve;
 use meshsweep_core::{Budget, CurveClosest, CurveSegment, ScratchEntry};
 
 use super::{Asked, Refused, Subject, how, verdict};
+use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::kind::Kind;
 use crate::place::{Bounds, Placer, Point};
-use crate::{Clock, Kind};
 
 /// Entries of the queue: enough for the suite's blobs, and some to go best first.
 const ENTRIES: usize = 64;

@@ -4,9 +4,10 @@ pub use meshsweep_core::DeformableHull;
 use meshsweep_core::{Budget, MovedVertex, ScratchEntry};
 
 use super::{Asked, Refused, Subject, closest_point};
+use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::kind::Kind;
 use crate::place::{Bounds, Placer, Point};
-use crate::{Clock, Kind};
 
 /// Entries of the queue: enough for the suite's blob.
 const ENTRIES: usize = 128;

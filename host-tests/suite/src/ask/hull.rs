@@ -2,13 +2,14 @@
 
 pub use meshsweep_core::Focus;
 use meshsweep_core::{
-    Blob, Budget, Change, Hit, Hull, RefinedHull, ScratchEntry, Search, TriangleHit,
+    Blob, Budget, Hit, Hull, OuterSearch, RefinedHull, ScratchEntry, SplitChange, TriangleHit,
 };
 
 use super::{Refused, Subject, timed};
+use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::kind::Kind;
 use crate::place::{Bounds, Placer};
-use crate::{Clock, Kind};
 
 /// A blob, and its hull hierarchy.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +31,7 @@ pub struct Scratch<'t> {
     hits: [Hit; 16],
     met: [TriangleHit; 16],
     refined: RefinedHull<'t, SPLITS>,
-    changes: [Change; 64],
+    changes: [SplitChange; 64],
 }
 
 impl Scratch<'_> {
@@ -42,7 +43,7 @@ impl Scratch<'_> {
             hits: [Hit::EMPTY; 16],
             met: [TriangleHit::EMPTY; 16],
             refined: RefinedHull::new(),
-            changes: [Change::EMPTY; 64],
+            changes: [SplitChange::EMPTY; 64],
         }
     }
 }
@@ -224,7 +225,7 @@ pub fn outer_hits<'t>(
     let Scratch { queue, hits: found, refined, .. } = scratch;
     timed(clock, || {
         refined.reset();
-        for search in [Search::First, Search::Outer] {
+        for search in [OuterSearch::First, OuterSearch::Outer] {
             match model.hull.outer_hits(a, b, search, refined, found, Budget::EXACT, queue) {
                 Ok(answer) => {
                     fold.f32(answer.t.lower);

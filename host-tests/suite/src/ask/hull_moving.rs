@@ -5,9 +5,10 @@ use meshsweep_core::{Budget, ClosestPoint, Pose};
 
 use super::hull::Model;
 use super::{Refused, Subject, timed};
+use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::kind::Kind;
 use crate::place::{Bounds, Placer};
-use crate::{Clock, Kind};
 
 /// A split hierarchy, asked about points that move and about its moved copy.
 #[derive(Clone, Copy, Debug)]

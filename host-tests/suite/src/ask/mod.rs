@@ -22,9 +22,10 @@ use meshsweep_core::{
     ClosestPoint, Ended, FirstHit, Hit, QueryError, TriangleHit, Undecided, Verdict,
 };
 
+use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::kind::Kind;
 use crate::place::{Bounds, Placer};
-use crate::{Clock, Kind};
 
 /// The structure of a blob that answers. It is a trait and not an enum, so that an image links only
 /// the structure that it asks.
@@ -200,7 +201,7 @@ fn refusal(fold: &mut Fold, error: QueryError) {
         QueryError::NoScratch => 4,
         QueryError::NotServed { .. } => 5,
         QueryError::Unchecked => 6,
-        QueryError::NoHulls => 8,
+        QueryError::NotEnclosing => 8,
         _ => 7,
     };
     // A word that no answer begins with: it would be a NaN's bits.

@@ -4,9 +4,10 @@ pub use meshsweep_core::TightHull;
 use meshsweep_core::{Budget, ScratchEntry, TightHulls, Verdict};
 
 use super::{Asked, Refused, Subject, closest_point, tree, verdict};
+use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::kind::Kind;
 use crate::place::{Bounds, Placer, Point};
-use crate::{Clock, Kind};
 
 /// Entries of the stack.
 const STACK: usize = 64;

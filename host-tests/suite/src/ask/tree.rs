@@ -9,9 +9,10 @@ use meshsweep_core::TriangleHit;
 use meshsweep_core::{Blob, CoherentQuery, Hint, Neighbor, ScratchEntry, TrianglePair};
 
 use super::{Asked, Refused, Subject};
+use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::kind::Kind;
 use crate::place::{Bounds, Placer};
-use crate::{Clock, Kind};
 
 pub use distance::{
     all_within, batch, closest, coherent, follow, is_within, nearest, precise, signed, stopped,
@@ -83,7 +84,7 @@ impl<'t> Subject<'t> for Bvh<'t> {
 
     fn suits(kind: Kind) -> bool {
         let is_of_others = kind.is_triboxes() || kind.is_deform();
-        let is_apart = super::apart::asks(kind);
+        let is_apart = kind.is_apart();
         let is_hull = matches!(kind, Kind::OuterHits | Kind::Refine | Kind::Sweep | Kind::Posed);
         !is_apart && !is_hull && !is_of_others
     }

@@ -5,9 +5,10 @@ use meshsweep_core::internal::tribox::FACES;
 use meshsweep_core::{Boundary, Pose, TriboxError};
 
 use super::timed;
+use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::kind::Kind;
 use crate::place::Placer;
-use crate::{Clock, Kind};
 
 /// Points of a tribox.
 pub type Points = [[f32; 3]; 8];

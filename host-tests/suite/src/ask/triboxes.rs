@@ -1,13 +1,14 @@
 //! Questions to the tribox hierarchy of a blob.
 
 pub use meshsweep_core::Triboxes;
-use meshsweep_core::{Bound, Budget, NodePair, Pose, ScratchEntry};
+use meshsweep_core::{Budget, NodePair, Pose, ScratchEntry, TriboxBound};
 
 use super::tree::pose;
 use super::{Asked, Refused, Subject, how, number};
+use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::kind::Kind;
 use crate::place::{Bounds, Ends, Placer, Point};
-use crate::{Clock, Kind};
 
 /// Entries of the stack of pairs: more than twice most splits above a node of the suite's blobs.
 const STACK: usize = 64;
@@ -156,7 +157,7 @@ pub fn candidates(
     }
 }
 
-pub(super) fn bound(fold: &mut Fold, answer: &Bound) {
+pub(super) fn bound(fold: &mut Fold, answer: &TriboxBound) {
     fold.f32(answer.lower);
     number(fold, answer.node);
     how(fold, answer.ended);

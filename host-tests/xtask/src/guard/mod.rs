@@ -20,11 +20,12 @@ use crate::boards::BOARDS;
 use crate::cost::{Added, Measured, Row};
 use crate::count_suite::{self, Counted};
 use crate::cross;
-use crate::firmware::{Scope, Tools};
+use crate::firmware::Scope;
 use crate::images::Profile;
 use crate::steps::Steps;
 use crate::table::{fixed, row};
 use crate::tables;
+use crate::tools::Tools;
 use crate::workspace;
 
 use compare::compare;

@@ -1,6 +1,6 @@
 //! The distances of the triangles of two leaves.
 //!
-//! Boxes bound all pairs in f32. The nearest pair is computed in f64. The way between its points
+//! Boxes bound all pairs in f32. The nearest pair is computed in f64. The offset between its points
 //! then bounds all other pairs: most often none is left.
 
 use super::left_out::LeftOut;
@@ -50,7 +50,7 @@ pub(crate) struct LeafGaps<'a> {
     pub(crate) surface_error: f64,
     /// Direction between the nearest points so far, its largest component 1; zero before the first
     /// pair. Pairs of triangles far apart along it are skipped.
-    pub(crate) way: [f32; 3],
+    pub(crate) direction: [f32; 3],
 }
 
 impl LeafGaps<'_> {
@@ -69,26 +69,27 @@ impl LeafGaps<'_> {
         let margin =
             (error + error) + GAP_ALONG * U32 * greater(pair.a.max_norm(), pair.b.max_norm()) * 2.0;
         let reach_sq = |visitor: &_| {
-            let reach = (up_to_f32(GapVisitor::limit(visitor)) + margin) * GAP_SLACK;
-            reach * reach * GAP_SLACK
+            let grown_limit = (up_to_f32(GapVisitor::limit(visitor)) + margin) * GAP_SLACK;
+            grown_limit * grown_limit * GAP_SLACK
         };
         let mut limit_sq = reach_sq(visitor);
         let mut seen = Measured { pairs: 0, lower: f64::INFINITY };
-        let visit = |way, goes_on, seen: &Measured| {
-            let lower = if L::KEEPS { least_distance(&pair, way, margin, seen)? } else { 0.0 };
+        let visit = |direction, goes_on, seen: &Measured| {
+            let lower =
+                if L::KEEPS { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
             Some(LeafVisit { goes_on, lower })
         };
-        if !may_be_near(self.way, limit_sq, &pair) {
-            return visit(self.way, true, &seen);
+        if !may_be_near(self.direction, limit_sq, &pair) {
+            return visit(self.direction, true, &seen);
         }
         let mut keys = keys(&pair, limit_sq)?;
-        skip_along(&mut keys, self.way, limit_sq, &pair);
+        skip_along(&mut keys, self.direction, limit_sq, &pair);
         work.triangles =
             work.triangles.saturating_add((pair.a.triangles * pair.b.triangles) as u32);
         loop {
             let key = keys.least();
             if key > key_limit(limit_sq) {
-                return visit(self.way, true, &seen);
+                return visit(self.direction, true, &seen);
             }
             keys.drop(key);
             let [i, j] = children_of(key);
@@ -101,10 +102,10 @@ impl LeafGaps<'_> {
                 lower: lesser(seen.lower, gap.lower),
             };
             if !visitor.take(&gap) {
-                return visit(self.way, false, &seen);
+                return visit(self.direction, false, &seen);
             }
             limit_sq = reach_sq(visitor);
-            skip_along(&mut keys, self.way, limit_sq, &pair);
+            skip_along(&mut keys, self.direction, limit_sq, &pair);
         }
     }
 
@@ -135,10 +136,10 @@ impl LeafGaps<'_> {
     /// Keeps the direction of a pair that is not in contact.
     fn turn_to(&mut self, gap: &TriangleGap) {
         let [[a, b, c], [x, y, z]] = gap.points;
-        let way = [x - a, y - b, z - c];
-        let longest = way.iter().fold(0.0, |longest, x| greater(longest, x.abs()));
+        let direction = [x - a, y - b, z - c];
+        let longest = direction.iter().fold(0.0, |longest, x| greater(longest, x.abs()));
         if longest > 0.0 {
-            self.way = way.map(|x| (x / longest) as f32);
+            self.direction = direction.map(|x| (x / longest) as f32);
         }
     }
 }
@@ -153,9 +154,14 @@ struct Measured {
 
 /// A lower bound of the distance of both leaves: of measured pairs their lower ends, of the others
 /// the larger of the gap of their boxes and the gap along the direction (§18). Common units.
-fn least_distance(pair: &LeafPair<'_>, way: [f32; 3], margin: f32, seen: &Measured) -> Option<f64> {
+fn least_distance(
+    pair: &LeafPair<'_>,
+    direction: [f32; 3],
+    margin: f32,
+    seen: &Measured,
+) -> Option<f64> {
     let mut keys = keys(pair, f32::INFINITY)?;
-    raise_keys_along(&mut keys, way, pair);
+    raise_keys_along(&mut keys, direction, pair);
     for (i, key) in keys.0.iter_mut().enumerate() {
         *key = if seen.pairs >> (i & (PAIRS - 1)) & 1 != 0 { NO_PAIR } else { *key };
     }
@@ -192,15 +198,15 @@ fn keys(pair: &LeafPair<'_>, limit_sq: f32) -> Option<PairKeys> {
     Some(keys)
 }
 
-/// Drops the pairs that are farther apart along `way` than the limit.
+/// Drops the pairs that are farther apart along `direction` than the limit.
 #[inline(always)]
-fn skip_along(keys: &mut PairKeys, way: [f32; 3], limit_sq: f32, pair: &LeafPair<'_>) {
-    let [x, y, z] = way;
+fn skip_along(keys: &mut PairKeys, direction: [f32; 3], limit_sq: f32, pair: &LeafPair<'_>) {
+    let [x, y, z] = direction;
     let way_sq = x * x + y * y + z * z;
     if way_sq < LEAST_GAP_SQ {
         return;
     }
-    let (first, second) = (heights(&pair.a, way), heights(&pair.b, way));
+    let (first, second) = (heights(&pair.a, direction), heights(&pair.b, direction));
     let limit = limit_sq * way_sq;
     for (i, row) in keys.0.as_chunks_mut::<WIDTH>().0.iter_mut().enumerate() {
         let Some(&top) = first.high.get(i) else { continue };
@@ -211,14 +217,14 @@ fn skip_along(keys: &mut PairKeys, way: [f32; 3], limit_sq: f32, pair: &LeafPair
     }
 }
 
-/// Raises the keys of the pairs that are farther apart along `way` than their boxes.
-fn raise_keys_along(keys: &mut PairKeys, way: [f32; 3], pair: &LeafPair<'_>) {
-    let [x, y, z] = way;
+/// Raises the keys of the pairs that are farther apart along `direction` than their boxes.
+fn raise_keys_along(keys: &mut PairKeys, direction: [f32; 3], pair: &LeafPair<'_>) {
+    let [x, y, z] = direction;
     let way_sq = x * x + y * y + z * z;
     if way_sq < LEAST_GAP_SQ {
         return;
     }
-    let (first, second) = (heights(&pair.a, way), heights(&pair.b, way));
+    let (first, second) = (heights(&pair.a, direction), heights(&pair.b, direction));
     let factor = SQUARED_SLACK / way_sq;
     for (i, row) in keys.0.as_chunks_mut::<WIDTH>().0.iter_mut().enumerate() {
         let Some(&top) = first.high.get(i) else { continue };
@@ -230,13 +236,13 @@ fn raise_keys_along(keys: &mut PairKeys, way: [f32; 3], pair: &LeafPair<'_>) {
     }
 }
 
-/// Whether the leaves as a whole are within the limit along `way`.
+/// Whether the leaves as a whole are within the limit along `direction`.
 #[inline(always)]
-fn may_be_near(way: [f32; 3], limit_sq: f32, pair: &LeafPair<'_>) -> bool {
-    let [x, y, z] = way;
+fn may_be_near(direction: [f32; 3], limit_sq: f32, pair: &LeafPair<'_>) -> bool {
+    let [x, y, z] = direction;
     let way_sq = x * x + y * y + z * z;
-    let top = vertex_heights(&pair.a, way).into_iter().fold(f32::MIN, greater);
-    let low = vertex_heights(&pair.b, way).into_iter().fold(f32::MAX, lesser);
+    let top = vertex_heights(&pair.a, direction).into_iter().fold(f32::MIN, greater);
+    let low = vertex_heights(&pair.b, direction).into_iter().fold(f32::MAX, lesser);
     let gap = greater(0.0, low - top);
     way_sq < LEAST_GAP_SQ || gap * gap * SQUARED_SLACK <= limit_sq * way_sq
 }
@@ -258,8 +264,8 @@ fn vertex_heights(corners: &Corners, [a, b, c]: [f32; 3]) -> [f32; SLOTS] {
 }
 
 #[inline(always)]
-fn heights(corners: &Corners, way: [f32; 3]) -> Heights {
-    let at = vertex_heights(corners, way);
+fn heights(corners: &Corners, direction: [f32; 3]) -> Heights {
+    let at = vertex_heights(corners, direction);
     let mut heights = Heights { low: [0.0; WIDTH], high: [0.0; WIDTH] };
     for (i, (low, high)) in heights.low.iter_mut().zip(&mut heights.high).enumerate() {
         let [p, q, r] = corners.slots(i).map(|slot| at.get(slot).copied().unwrap_or(0.0));

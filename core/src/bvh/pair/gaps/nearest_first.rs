@@ -108,7 +108,7 @@ impl<'s, 'a> Search<'s, 'a> {
         left: &mut L,
     ) -> Result<PairDescent, QueryError> {
         let Search { models, leaves, work, .. } = self;
-        let steps = lesser(self.steps, work.splits.saturating_add(models.most_pairs()));
+        let steps = lesser(self.steps, work.opened.saturating_add(models.most_pairs()));
         let (stack, _) = self.scratch.as_chunks_mut::<ENTRIES>();
         let factor = second_factor(models.pose);
         let limit_of = |visitor: &_| key_limit(square_limit(GapVisitor::limit(visitor)));
@@ -118,7 +118,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let key = (distance * distance * SQUARED_SLACK).to_bits();
         let mut now = PendingPairs { key, pairs: start };
         loop {
-            if work.splits >= steps {
+            if work.opened >= steps {
                 let waiting = stack.iter().take(used).map(|entries| PendingPairs::of(entries).key);
                 let key = waiting.fold(now.key.min(dropped), u32::min);
                 now.leave_to(left);
@@ -128,7 +128,7 @@ impl<'s, 'a> Search<'s, 'a> {
                     lower: distance_of(key),
                 }));
             }
-            work.splits += 1;
+            work.opened += 1;
             let (mut keys, deepest) =
                 keys(models, &now.pairs, factor, work).ok_or(QueryError::Unchecked)?;
             let nodes = now.pairs.nodes;
@@ -246,7 +246,7 @@ fn keys(
     let (rows, columns) = (below(count_a), below(count_b));
     let all = (0..8).fold(0, |bits, i| bits | u64::from(columns * (rows >> i & 1)) << (8 * i));
     let wanted = now.wanted & all;
-    work.nodes = work.nodes.saturating_add(wanted.count_ones());
+    work.bounds = work.bounds.saturating_add(wanted.count_ones());
     let keys = PairKeys::of(&first, &second, wanted, factor);
     if bound_of(keys.least()) > 0.0 || wanted & wanted.wrapping_sub(1) == 0 {
         return Some((keys, None));

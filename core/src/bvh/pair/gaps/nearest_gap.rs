@@ -73,7 +73,7 @@ impl Nearest {
         let [a, b] = pair.trees;
         Ok(PairDistance {
             distance,
-            points: gap.points.map(|point| pair.place(point)),
+            points: gap.points.map(|point| pair.to_input(point)),
             triangles: numbers(a, b, gap.place).ok_or(QueryError::Unchecked)?,
             work,
             ended,

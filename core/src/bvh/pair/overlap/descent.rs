@@ -41,10 +41,10 @@ pub(crate) fn descend(
     // The children of each node that still count, as bits.
     let mut wanted = [u32::MAX; 2];
     loop {
-        if work.splits >= steps {
+        if work.opened >= steps {
             return Ok((Some(Ended::Steps), work));
         }
-        work.splits += 1;
+        work.opened += 1;
         let pairs = models.pairs(nodes, wanted, &mut work).ok_or(QueryError::Unchecked)?;
         let mut next = None;
         if pairs.bits != [0; 2] {
@@ -133,7 +133,7 @@ impl Models<'_> {
             Some((intervals, u32::MAX >> (32 - count.clamp(1, 8)) & wanted[which]))
         };
         let ((first, rows), (second, columns)) = (side(self.a, 0)?, side(self.b, 1)?);
-        work.nodes = work.nodes.saturating_add(rows.count_ones() * columns.count_ones());
+        work.bounds = work.bounds.saturating_add(rows.count_ones() * columns.count_ones());
         Some(pairs(&first, &second, rows, columns))
     }
 

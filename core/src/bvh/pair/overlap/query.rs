@@ -6,7 +6,7 @@ use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::Pose;
 use crate::query::{
-    AllPairs, Budget, Decided, Overlaps, QueryError, ScratchEntry, TrianglePair, Witness,
+    AllOverlaps, AllPairs, Budget, Decided, QueryError, ScratchEntry, TrianglePair, Witness,
 };
 
 impl Bvh<'_> {
@@ -26,7 +26,7 @@ impl Bvh<'_> {
     /// It ends at the first pair that is proved to meet: the same pair on every target. The witness
     /// of a `Yes` is this pair, this tree's triangle first; that of an undecided
     /// [`Resolution`](crate::Undecided::Resolution) is a pair that may meet. Numbers are those of
-    /// the input files. `work` as in [`Overlaps::work`]. `scratch`:
+    /// the input files. `work` as in [`AllOverlaps::work`](crate::AllOverlaps::work). `scratch`:
     /// [`OVERLAP_ENTRIES`](Bvh::OVERLAP_ENTRIES) are always enough. A shorter one may leave the
     /// question undecided. Of the budget only `steps` matters: pairs of nodes.
     ///
@@ -77,7 +77,7 @@ impl Bvh<'_> {
     /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<{ Bvh::OVERLAP_ENTRIES }>::new());
     /// let pose = Pose { translation: [300.0, 0.0, 0.0], ..Pose::IDENTITY };
     /// let mut pairs = [TrianglePair::EMPTY; 8];
-    /// let found = part.overlaps(&part, pose, &mut pairs, Budget::EXACT, &mut scratch)?;
+    /// let found = part.all_overlaps(&part, pose, &mut pairs, Budget::EXACT, &mut scratch)?;
     /// assert_eq!((found.stored, found.dropped), (0, 0));
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
@@ -85,14 +85,14 @@ impl Bvh<'_> {
     /// # Errors
     /// Those of [`overlap`](Bvh::overlap).
     #[inline(never)]
-    pub fn overlaps(
+    pub fn all_overlaps(
         &self,
         other: &Bvh<'_>,
         pose: Pose,
         pairs: &mut [TrianglePair],
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<Overlaps, QueryError> {
+    ) -> Result<AllOverlaps, QueryError> {
         let mut all = AllPairs::new(pairs, |&place: &[TriangleAt; 2]| numbers(self, other, place));
         let (truncated, work) = descend([self, other], &pose, &budget, scratch, &mut all)?;
         Ok(all.answer(truncated, work))

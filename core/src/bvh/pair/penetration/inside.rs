@@ -4,7 +4,7 @@
 //! that are farther from the other surface than they are large. It needs no list of components.
 
 use super::pair_queries::PairQueries;
-use crate::bvh::pair::placed::{Placed, Relative};
+use crate::bvh::pair::placed::{PlacedModel, Relative};
 use crate::bvh::pair::stored_pair::StoredPair;
 use crate::bvh::tree::axis_intervals::AxisIntervals;
 use crate::bvh::tree::format::Bvh;
@@ -25,7 +25,8 @@ impl PairQueries<'_, '_> {
         if second == Side::Inside {
             return Ok(Relation::SecondInside);
         }
-        let placed = [Placed { tree: *b, pose: *pose }, Placed { tree: *a, pose: Pose::IDENTITY }];
+        let placed =
+            [PlacedModel { tree: *b, pose: *pose }, PlacedModel { tree: *a, pose: Pose::IDENTITY }];
         let [world, moved] = &placed;
         let relative = Relative::new(world, moved)?;
         let first =
@@ -135,7 +136,7 @@ impl PairQueries<'_, '_> {
         for lane in 0..leaf.shape().triangles().min(WIDTH) {
             let mut side = Side::Undecided(Undecided::Resolution);
             for corner in leaf.corners(lane) {
-                let at = surface.place(corner.to_array());
+                let at = surface.to_input(corner.to_array());
                 match self.side_of_ball(surface.other(), at, surface.error)? {
                     Some(Side::Undecided(why)) => side = Side::Undecided(why),
                     Some(decided) => {
@@ -203,8 +204,8 @@ impl<'a> MovedSurface<'a> {
         let ([lx, ly, lz, ..], [hx, hy, hz, ..]) = (intervals.low, intervals.high);
         for (i, [low, high]) in boxes.iter_mut().enumerate() {
             let at = |x: &[f32; WIDTH]| x.get(i).copied().map_or(0.0, f64::from);
-            *low = self.pair.place_exact([at(&lx), at(&ly), at(&lz)]);
-            *high = self.pair.place_exact([at(&hx), at(&hy), at(&hz)]);
+            *low = self.pair.to_input_exact([at(&lx), at(&ly), at(&lz)]);
+            *high = self.pair.to_input_exact([at(&hx), at(&hy), at(&hz)]);
         }
         Some((boxes, count))
     }
@@ -222,7 +223,7 @@ impl<'a> MovedSurface<'a> {
     }
 
     /// The place of a stored vertex in the frame of the other surface, input units.
-    fn place(&self, vertex: [f32; 3]) -> [f64; 3] {
-        self.pair.place_exact(self.pair.moved(vertex))
+    fn to_input(&self, vertex: [f32; 3]) -> [f64; 3] {
+        self.pair.to_input_exact(self.pair.moved(vertex))
     }
 }

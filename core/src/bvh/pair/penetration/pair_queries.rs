@@ -37,7 +37,7 @@ impl<'s, 'a> PairQueries<'s, 'a> {
     }
 
     fn remaining_budget(&self) -> Budget {
-        Budget::EXACT.with_steps(self.steps.saturating_sub(self.work.splits))
+        Budget::EXACT.with_steps(self.steps.saturating_sub(self.work.opened))
     }
 
     fn count(&mut self, work: Work, ended: Ended) {
@@ -49,7 +49,7 @@ impl<'s, 'a> PairQueries<'s, 'a> {
 
     /// Whether no steps are left.
     pub(super) fn is_spent(&mut self) -> bool {
-        let is_spent = self.work.splits >= self.steps;
+        let is_spent = self.work.opened >= self.steps;
         if is_spent && self.cut.is_none() {
             self.cut = Some(Ended::Steps);
         }
@@ -63,7 +63,7 @@ impl<'s, 'a> PairQueries<'s, 'a> {
 
     pub(super) fn distance(&mut self, pose: &Pose) -> Result<PairDistance, QueryError> {
         let ([a, b], budget) = (self.trees, self.remaining_budget());
-        let found = a.distance(b, *pose, budget, self.scratch)?;
+        let found = a.distance_to(b, *pose, budget, self.scratch)?;
         self.count(found.work, found.ended);
         Ok(found)
     }
@@ -94,7 +94,7 @@ impl<'s, 'a> PairQueries<'s, 'a> {
         point: [f32; 3],
     ) -> Result<SignedDistance, QueryError> {
         let budget = self.remaining_budget();
-        let found = tree.signed_by_winding(point, budget, self.scratch)?;
+        let found = tree.signed_distance_by_winding(point, budget, self.scratch)?;
         self.count(found.closest.work, found.closest.ended);
         Ok(found)
     }

@@ -70,16 +70,16 @@ pub(super) fn search(
             return Ok(best);
         }
     }
-    let mut way = greater(lower * FIRST_WAY, best.length * LEAST_WAY);
-    while way < best.length {
+    let mut travel = greater(lower * FIRST_WAY, best.length * LEAST_WAY);
+    while travel < best.length {
         for direction in directions.clone() {
-            best.try_in_place(queries, direction, way)?;
+            best.try_in_place(queries, direction, travel)?;
         }
         if best.meets_tolerance(lower, budget) {
             queries.met_tolerance = best.length > lower;
             return Ok(best);
         }
-        way *= LONGER;
+        travel *= LONGER;
     }
     // Across the surfaces at the contact.
     for _ in 0..3 {
@@ -122,9 +122,9 @@ impl Separating {
         &mut self,
         queries: &mut PairQueries<'_, '_>,
         direction: Vector,
-        way: f64,
+        travel: f64,
     ) -> Result<(), QueryError> {
-        let Some(start) = shifted(&queries.pose, direction, way) else { return Ok(()) };
+        let Some(start) = shifted(&queries.pose, direction, travel) else { return Ok(()) };
         let is_shorter = length_between(&start, &queries.pose) < self.length;
         if !is_shorter || direction == [0.0; 3] || queries.is_spent() {
             return Ok(());
@@ -210,16 +210,16 @@ fn beside(queries: &PairQueries<'_, '_>, direction: Vector) -> Option<Pose> {
 }
 
 /// The pose moved along a unit vector. `None` if f32 has no such translation.
-fn shifted(pose: &Pose, direction: Vector, way: f64) -> Option<Pose> {
-    Some(Pose { translation: moved(pose.translation, direction, way)?, ..*pose })
+fn shifted(pose: &Pose, direction: Vector, travel: f64) -> Option<Pose> {
+    Some(Pose { translation: moved(pose.translation, direction, travel)?, ..*pose })
 }
 
 /// How far the translations of two poses are from each other, rounded up.
 fn length_between(one: &Pose, other: &Pose) -> f64 {
     let mut squares = 0.0;
     for (x, y) in one.translation.iter().zip(&other.translation) {
-        let way = f64::from(*x) - f64::from(*y);
-        squares += way * way;
+        let travel = f64::from(*x) - f64::from(*y);
+        squares += travel * travel;
     }
     libm::sqrt(squares) * (1.0 + 8.0 * U64)
 }

@@ -76,7 +76,7 @@ pub(crate) struct Follow<'a, 't> {
     pub(crate) front: TraversalFront<'a>,
     planes: &'a mut Planes,
     /// From the model's middle to the query. Planes are measured from the middle.
-    way: Vec3,
+    from_middle: Vec3,
     pub(crate) work: Work,
     /// Entries stay active while their key is at most this much above `bound`: a few steps.
     ahead: f32,
@@ -114,7 +114,7 @@ impl<'a, 't> Follow<'a, 't> {
             query,
             front,
             planes,
-            way: query.p - middle(tree),
+            from_middle: query.p - middle(tree),
             work: Work::default(),
             ahead,
             best: Nearest::NONE,
@@ -196,7 +196,9 @@ impl<'a, 't> Follow<'a, 't> {
         loop {
             match child.bound_kind() {
                 BoundKind::Triangles => {
-                    let key = self.front.key(self.planes.bound(child, self.way) - self.plane_error);
+                    let key = self
+                        .front
+                        .key(self.planes.bound(child, self.from_middle) - self.plane_error);
                     if key > self.bound {
                         self.front.set(i, key, child);
                         return Ok(());
@@ -234,15 +236,15 @@ impl<'a, 't> Follow<'a, 't> {
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
     fn open(&mut self, node: u32, entry: Option<usize>) -> Result<(), NoAnswer> {
-        if self.work.splits >= self.steps {
+        if self.work.opened >= self.steps {
             return Err(NoAnswer::Undecided);
         }
         let links = self.tree.links(node).ok_or(NoAnswer::Unchecked)?;
         let opened = OpenedNode { node, count: links.count, bound: 0, limit: EVERY_KEY };
         let mut keys = [NO_CHILD; WIDTH];
         self.query.keys_of(self.tree, &opened, &mut keys).ok_or(NoAnswer::Unchecked)?;
-        self.work.splits += 1;
-        self.work.nodes += links.count;
+        self.work.opened += 1;
+        self.work.bounds += links.count;
         self.cost += cost::NODE;
         let nearest = least_key(&keys);
         let horizon = self.bound + self.ahead;
@@ -275,7 +277,7 @@ impl<'a, 't> Follow<'a, 't> {
         let opened = OpenedNode { node: child.node(), count, bound: 0, limit: EVERY_KEY };
         let mut keys = [NO_CHILD; WIDTH];
         self.query.keys_of(self.tree, &opened, &mut keys).ok_or(NoAnswer::Unchecked)?;
-        self.work.nodes += count;
+        self.work.bounds += count;
         let key = keys.get(child.index() as usize).copied().ok_or(NoAnswer::Unchecked)?;
         Ok(self.key_of_box(key))
     }
@@ -311,7 +313,7 @@ impl<'a, 't> Follow<'a, 't> {
                 self.planes.put(
                     child,
                     &looked,
-                    self.way,
+                    self.from_middle,
                     near.lane(),
                     self.shortfall + self.plane_error,
                 );

@@ -33,27 +33,27 @@ impl Planes {
     pub(crate) const EMPTY: Planes =
         Planes([Plane { normal: Vec3::ZERO, offset: 0.0, of: u32::MAX }; PLANES]);
 
-    /// Lower bound of the distance of a leaf, grid units. Negative without a plane. `way` leads
+    /// Lower bound of the distance of a leaf, grid units. Negative without a plane. `from_middle` leads
     /// from the model's middle to the query.
     #[inline(always)]
-    pub(crate) fn bound(&self, child: Child, way: Vec3) -> f32 {
-        match self.0.get(place(child)) {
+    pub(crate) fn bound(&self, child: Child, from_middle: Vec3) -> f32 {
+        match self.0.get(slot_of(child)) {
             Some(plane) if plane.of == child.without_bound() => {
-                dot(plane.normal, way) - plane.offset
+                dot(plane.normal, from_middle) - plane.offset
             }
             _ => -1.0,
         }
     }
 
     /// Puts a plane between a leaf without slivers and the query, across the way from the leaf's
-    /// closest point, on triangle `lane`. `way` as above. `margin` is the error of a
+    /// closest point, on triangle `lane`. `from_middle` as above. `margin` is the error of a
     /// triangle's bound, in addition to the part [`SHORTFALL`] of the bound.
     #[inline(always)]
     pub(crate) fn put(
         &mut self,
         child: Child,
         leaf: &VisitedLeaf<'_>,
-        way: Vec3,
+        from_middle: Vec3,
         near: At,
         margin: f32,
     ) {
@@ -65,11 +65,11 @@ impl Planes {
             None => separate_narrow(leaf.fans, leaf.p, near),
         };
         if let Some((normal, distance)) = found
-            && let Some(plane) = self.0.get_mut(place(child))
+            && let Some(plane) = self.0.get_mut(slot_of(child))
         {
             *plane = Plane {
                 normal,
-                offset: dot(normal, way) - distance + margin,
+                offset: dot(normal, from_middle) - distance + margin,
                 of: child.without_bound(),
             };
         }
@@ -145,7 +145,7 @@ pub(crate) fn middle(tree: &Bvh<'_>) -> Vec3 {
 
 /// Leaves of a node get different places.
 #[inline(always)]
-fn place(child: Child) -> usize {
+fn slot_of(child: Child) -> usize {
     (child.without_bound() >> 8).wrapping_mul(5).wrapping_add(child.index()) as usize % PLANES
 }
 

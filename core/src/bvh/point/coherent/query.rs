@@ -196,7 +196,7 @@ impl FrontPolicy {
     /// Counts a plain query: 4/3 for a node, 2/7 for a triangle.
     #[inline(always)]
     fn count_plain_query(&mut self, work: &Work) {
-        let cost = BASE_COST + work.splits + work.splits / 3 + work.triangles * 2 / 7;
+        let cost = BASE_COST + work.opened + work.opened / 3 + work.triangles * 2 / 7;
         let average = (3 * self.plain_cost + cost).div_ceil(4);
         self.plain_cost = if self.plain_cost == 0 { cost } else { average };
     }
@@ -293,9 +293,9 @@ impl Memory {
         self.policy.count_plain_query(&closest.work);
         self.last.plain_upper =
             query.units.inward(closest.distance.upper) + query.units.surface_error;
-        closest.work.nodes = closest.work.nodes.saturating_add(spent.nodes);
+        closest.work.bounds = closest.work.bounds.saturating_add(spent.bounds);
         closest.work.triangles = closest.work.triangles.saturating_add(spent.triangles);
-        closest.work.splits = closest.work.splits.saturating_add(spent.splits);
+        closest.work.opened = closest.work.opened.saturating_add(spent.opened);
         Ok(CoherentClosest { closest, safe_radius: 0.0 })
     }
 

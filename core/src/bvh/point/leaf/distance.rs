@@ -11,7 +11,7 @@ use crate::bvh::tree::format::FanLeaf;
 #[cfg(not(meshsweep_wide))]
 use crate::num::SOFT_FLOAT;
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 pub(crate) use avx2::nearest_avx2;
 #[cfg(not(meshsweep_wide))]
 pub(crate) use narrow::{nearest_and_edges, nearest_within, nearest_within_inlined};
@@ -140,7 +140,7 @@ mod wide {
 }
 
 /// `wide` in registers of 256 bits, whatever the crate is compiled for.
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 mod avx2 {
     use super::wide::nearest_within;
     use super::{FanLeaf, LeafLimit, LeafNearest, PointQuery};
@@ -184,11 +184,11 @@ mod narrow {
         FanLeaf, LeafLimit, LeafNearest, LeafSeen, LeafSquares, PointQuery, nearest_triangle,
     };
     use crate::bvh::point::leaf::bounds::nearness;
+    use crate::bvh::point::leaf::integer::integer_nearest;
     use crate::bvh::point::leaf::nearest::Lanes;
-    use crate::bvh::point::leaf::plane::Way;
-    use crate::bvh::point::leaf::whole::whole_nearest;
+    use crate::bvh::point::leaf::plane::Residual;
     use crate::bvh::point::query::limit_of;
-    use crate::geom::fan::{PointFan, SpokeTerms, WIDTH, Whole};
+    use crate::geom::fan::{ABOVE_ZERO, IntVector, PointFan, SpokeTerms, WIDTH};
     use crate::num::{SOFT_FLOAT, lesser};
     use glam::Vec3;
 
@@ -200,7 +200,7 @@ mod narrow {
         limit: &LeafLimit,
         known: Option<&mut LeafSquares>,
     ) -> Option<LeafNearest> {
-        nearest_of_format(leaf, query, limit, known)
+        nearest_of_format::<false>(leaf, query, limit, known)
     }
 
     /// The same without a call, unless code is to be small.
@@ -214,12 +214,12 @@ mod narrow {
         if cfg!(meshsweep_small) {
             nearest_within(leaf, query, limit, known)
         } else {
-            nearest_of_format(leaf, query, limit, known)
+            nearest_of_format::<true>(leaf, query, limit, known)
         }
     }
 
     #[inline(always)]
-    fn nearest_of_format(
+    fn nearest_of_format<const IS_CLOSEST: bool>(
         leaf: &FanLeaf<'_>,
         query: &PointQuery,
         limit: &LeafLimit,
@@ -234,9 +234,9 @@ mod narrow {
             let leaf = *leaf;
             Some(f32_nearest(&leaf, p, limit.low_sq))
         } else if SOFT_FLOAT && let Some(point) = &query.whole {
-            whole_nearest(leaf, p, point, limit, known)
+            integer_nearest(leaf, p, point, limit, known)
         } else {
-            grid_nearest(leaf, p, limit)
+            grid_nearest::<IS_CLOSEST>(leaf, query, limit)
         }
     }
 
@@ -248,13 +248,13 @@ mod narrow {
     /// A fan of a leaf on the grid, seen from the query. Integers are subtracted before they become
     /// f32.
     struct GridFan {
-        centre: Whole,
+        centre: IntVector,
         fan: PointFan,
     }
 
     impl GridFan {
         #[inline(always)]
-        fn new(leaf: &FanLeaf<'_>, p: Vec3, centre: Whole) -> Self {
+        fn new(leaf: &FanLeaf<'_>, p: Vec3, centre: IntVector) -> Self {
             let [ox, oy, oz] = leaf.origin;
             let [x, y, z] = centre;
             let place = [x.wrapping_add(ox), y.wrapping_add(oy), z.wrapping_add(oz)];
@@ -262,7 +262,7 @@ mod narrow {
         }
 
         #[inline(always)]
-        fn spoke(&self, vertex: Whole) -> SpokeTerms {
+        fn spoke(&self, vertex: IntVector) -> SpokeTerms {
             self.fan.spoke(spoke(vertex, self.centre))
         }
     }
@@ -270,8 +270,16 @@ mod narrow {
     /// The triangles that are not behind the limit's plane. A spoke serves the triangles on both
     /// sides.
     #[inline(always)]
-    fn grid_nearest(leaf: &FanLeaf<'_>, p: Vec3, limit: &LeafLimit) -> Option<LeafNearest> {
+    fn grid_nearest<const IS_CLOSEST: bool>(
+        leaf: &FanLeaf<'_>,
+        query: &PointQuery,
+        limit: &LeafLimit,
+    ) -> Option<LeafNearest> {
+        let p = query.p;
         let mut nearest = LeafNearest::NONE;
+        if IS_CLOSEST {
+            nearest.distance_sq = limit.wanted_sq;
+        }
         let shape = leaf.shape();
         let ring = leaf.full_ring()?;
         let left = if limit.plane.parts() {
@@ -282,7 +290,7 @@ mod narrow {
         if left == 0 {
             return Some(nearest);
         }
-        let mut within = limit.distance_sq;
+        let (mut within, mut low_sq) = (limit.distance_sq, limit.low_sq);
         let [mut centre, second_centre] = ring.centres(shape);
         let of_first_fan = !(u32::MAX << (shape.turn() & 31));
         let (mut lanes, mut of_next_fan) = (left & of_first_fan, left & !of_first_fan);
@@ -290,21 +298,37 @@ mod narrow {
             if lanes != 0 {
                 let fan = GridFan::new(leaf, p, centre);
                 let mut culled_below = fan.fan.culled_below(within);
+                // Triangles whose closest point is the centre, if it does not lie beyond the limit.
+                // All are at one distance, so the first one is taken at the end.
+                let mut at_centre = 0u32;
                 let mut lane = lowest(lanes);
                 let mut first = fan.spoke(ring.vertex(lane)?);
                 loop {
                     let second = fan.spoke(ring.vertex(lane + 1)?);
                     if first.along >= culled_below || second.along >= culled_below {
-                        let (near, residual) = fan.fan.triangle_and_residual(&first, &second);
-                        nearest.bound(lane, &near, limit.low_sq);
+                        let (near, residual) = fan.fan.off_centre(&first, &second);
+                        if !IS_CLOSEST {
+                            nearest.bound(lane, &near, low_sq);
+                        }
                         // Lanes rise, so the first one of a distance is taken.
                         if near.distance_sq < nearest.distance_sq {
                             nearest.distance_sq = near.distance_sq;
                             nearest.lanes = Lanes::one(lane, &near);
-                            nearest.lanes.tell(lane, Way::of_residual(residual));
+                            nearest.lanes.tell(lane, Residual::of_float(residual));
                             within = lesser(within, limit_of(near.distance_sq, limit.allowance));
                             culled_below = fan.fan.culled_below(within);
+                            if IS_CLOSEST {
+                                low_sq = lesser(low_sq, query.refine_below(near.distance_sq));
+                                if nearest.lower_bound_sq > low_sq {
+                                    nearest.low = 0;
+                                }
+                            }
                         }
+                        if IS_CLOSEST {
+                            nearest.bound(lane, &near, low_sq);
+                        }
+                    } else {
+                        at_centre |= 1 << lane;
                     }
                     lanes &= lanes - 1;
                     if lanes == 0 {
@@ -313,6 +337,22 @@ mod narrow {
                     let next = lowest(lanes);
                     first = if next == lane + 1 { second } else { fan.spoke(ring.vertex(next)?) };
                     lane = next;
+                }
+                if at_centre != 0 && culled_below == ABOVE_ZERO {
+                    let (lane, near) = (lowest(at_centre), fan.fan.centre());
+                    let distance_sq = near.distance_sq;
+                    nearest.lower_bound_sq = lesser(nearest.lower_bound_sq, distance_sq);
+                    if !IS_CLOSEST && distance_sq <= low_sq {
+                        nearest.low |= at_centre;
+                    }
+                    if distance_sq < nearest.distance_sq
+                        || distance_sq == nearest.distance_sq && lane < nearest.lane().0
+                    {
+                        nearest.distance_sq = distance_sq;
+                        nearest.lanes = Lanes::one(lane, &near);
+                        nearest.lanes.tell(lane, Residual::of_float(fan.fan.s));
+                        within = lesser(within, limit_of(distance_sq, limit.allowance));
+                    }
                 }
             }
             if of_next_fan == 0 {

@@ -20,6 +20,8 @@ pub(crate) struct LeafLimit {
     /// [`low`](super::nearest::LeafNearest::low). At most
     /// [`EVERYTHING_SQ`](crate::num::tolerance::EVERYTHING_SQ): unused lanes have more.
     pub(crate) low_sq: f32,
+    /// A nearest triangle is wanted only if its squared distance is below this.
+    pub(crate) wanted_sq: f32,
 }
 
 impl LeafLimit {
@@ -29,5 +31,6 @@ impl LeafLimit {
         plane: LeafPlane::NONE,
         allowance: f32::INFINITY,
         low_sq: 0.0,
+        wanted_sq: f32::INFINITY,
     };
 }

@@ -84,7 +84,7 @@ mod wide {
 #[cfg(not(meshsweep_wide))]
 mod narrow {
     use super::LeafNearest;
-    use crate::bvh::point::leaf::plane::Way;
+    use crate::bvh::point::leaf::plane::Residual;
     use crate::geom::fan::Nearness;
     use crate::num::Real;
 
@@ -94,22 +94,22 @@ mod narrow {
         lane: usize,
         v: f32,
         w: f32,
-        way: Way,
+        residual: Residual,
     }
 
     impl Lanes {
-        pub(crate) const NONE: Lanes = Lanes { lane: 0, v: 0.0, w: 0.0, way: Way::NONE };
+        pub(crate) const NONE: Lanes = Lanes { lane: 0, v: 0.0, w: 0.0, residual: Residual::NONE };
 
         /// One triangle alone.
         pub(crate) fn one(lane: usize, near: &Nearness) -> Lanes {
-            Lanes { lane, v: near.v, w: near.w, way: Way::NONE }
+            Lanes { lane, v: near.v, w: near.w, residual: Residual::NONE }
         }
 
         /// Tells the way to a triangle, if it is this one.
         #[inline(always)]
-        pub(crate) fn tell(&mut self, lane: usize, way: Way) {
+        pub(crate) fn tell(&mut self, lane: usize, residual: Residual) {
             if self.lane == lane {
-                self.way = way;
+                self.residual = residual;
             }
         }
 
@@ -120,8 +120,8 @@ mod narrow {
 
         /// The way from the closest point to the query.
         #[inline(always)]
-        pub(crate) fn way(&self) -> Way {
-            self.way
+        pub(crate) fn residual(&self) -> Residual {
+            self.residual
         }
     }
 

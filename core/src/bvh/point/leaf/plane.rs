@@ -7,9 +7,9 @@
 use crate::bvh::point::query::PointQuery;
 #[cfg(not(meshsweep_wide))]
 use crate::bvh::tree::format::{FullRing, LeafShape};
-use crate::geom::fan::Whole;
+use crate::geom::fan::IntVector;
 #[cfg(not(meshsweep_wide))]
-use crate::geom::fan::{WholeLimit, WholePoint};
+use crate::geom::fan::{IntLimit, IntPoint};
 #[cfg(not(meshsweep_wide))]
 use crate::num::SOFT_FLOAT;
 #[cfg(any(test, not(meshsweep_wide)))]
@@ -17,50 +17,50 @@ use crate::num::tolerance::{EVERYTHING_SQ, LEAST_DENOMINATOR, PLANE_ALONG, U32};
 #[cfg(any(test, not(meshsweep_wide)))]
 use glam::Vec3;
 
-/// The way from the closest point of a triangle to the query, for a plane across it. Without
-/// floating point it is about that way in whole numbers of twelve bits, else the bits of the
+/// The offset from the closest point of a triangle to the query, for a plane across it. Without
+/// floating point it is about that direction in whole numbers of twelve bits, else the bits of the
 /// kernel's residual. Zeros if it is not known.
 #[cfg(not(meshsweep_wide))]
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Way([i32; 3]);
+pub(crate) struct Residual([i32; 3]);
 
 #[cfg(not(meshsweep_wide))]
-impl Way {
-    pub(crate) const NONE: Way = Way([0; 3]);
+impl Residual {
+    pub(crate) const NONE: Residual = Residual([0; 3]);
 
     #[inline(always)]
-    pub(crate) fn of_whole(direction: Whole) -> Way {
-        Way(direction)
+    pub(crate) fn of_integers(direction: IntVector) -> Residual {
+        Residual(direction)
     }
 
     #[inline(always)]
-    pub(crate) fn of_residual(residual: Vec3) -> Way {
+    pub(crate) fn of_float(residual: Vec3) -> Residual {
         // Here and below not by `map`: the compiler does not inline that at `opt-level = "s"`.
         let bits = |x: f32| x.to_bits().cast_signed();
-        Way([bits(residual.x), bits(residual.y), bits(residual.z)])
+        Residual([bits(residual.x), bits(residual.y), bits(residual.z)])
     }
 
     #[inline(always)]
-    pub(crate) fn whole(self) -> Whole {
+    pub(crate) fn integers(self) -> IntVector {
         self.0
     }
 
     #[inline(always)]
-    fn residual(self) -> Vec3 {
+    fn float(self) -> Vec3 {
         let [x, y, z] = self.0;
         let float = |x: i32| f32::from_bits(x.cast_unsigned());
         Vec3::new(float(x), float(y), float(z))
     }
 }
 
-/// A plane across the way to the best triangle. Coordinates are grid units from the grid's origin.
+/// A plane across the residual of the best triangle. Coordinates are grid units from the grid's origin.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(
     all(not(test), meshsweep_wide),
     expect(dead_code, reason = "vector targets look at all lanes of a leaf")
 )]
 pub(crate) struct LeafPlane {
-    normal: Whole,
+    normal: IntVector,
     /// A vertex whose product with `normal` is at most this lies behind the plane.
     behind: i32,
 }
@@ -74,7 +74,7 @@ impl LeafPlane {
 impl LeafPlane {
     /// The plane across `normal`, which has twelve bits. What is behind it is farther from `p` than
     /// the root of `limit`.
-    pub(crate) fn new(p: &WholePoint, normal: Whole, limit: WholeLimit) -> LeafPlane {
+    pub(crate) fn new(p: &IntPoint, normal: IntVector, limit: IntLimit) -> LeafPlane {
         let far = limit.root_of_product(normal.into_iter().fold(0, |sum, x| sum + x * x));
         LeafPlane { normal, behind: p.along(normal).saturating_sub(far).saturating_sub(1) }
     }
@@ -114,13 +114,18 @@ impl LeafPlane {
     /// The plane across the way to a triangle at the squared distance `distance_sq`. What is behind
     /// it is farther from the query than the root of `limit`.
     #[inline(always)]
-    pub(crate) fn across(query: &PointQuery, way: Way, distance_sq: f32, limit: f32) -> LeafPlane {
+    pub(crate) fn across(
+        query: &PointQuery,
+        residual: Residual,
+        distance_sq: f32,
+        limit: f32,
+    ) -> LeafPlane {
         if !SOFT_FLOAT {
-            let residual = way.residual();
+            let residual = residual.float();
             return LeafPlane::across_residual(query.from_origin, residual, distance_sq, limit);
         }
         match &query.whole {
-            Some(point) => LeafPlane::new(point, way.whole(), WholeLimit::of(limit)),
+            Some(point) => LeafPlane::new(point, residual.integers(), IntLimit::of(limit)),
             None => LeafPlane::NONE,
         }
     }
@@ -139,7 +144,7 @@ impl LeafPlane {
         let [a, b, c] = self.normal;
         let less_behind = !self.behind;
         // A product at most `behind` makes the sum negative.
-        let is_behind = |[x, y, z]: Whole| {
+        let is_behind = |[x, y, z]: IntVector| {
             let sum = a.wrapping_mul(x).wrapping_add(less_behind);
             let sum = sum.wrapping_add(b.wrapping_mul(y)).wrapping_add(c.wrapping_mul(z));
             sum.cast_unsigned() >> 31

@@ -17,7 +17,7 @@ use crate::bvh::tree::format::{Bvh, FanLeaf, lanes_of};
 use crate::bvh::tree::prefetch::prefetch_source;
 use crate::bvh::tree::triangle_at::TriangleAt;
 #[cfg(not(meshsweep_wide))]
-use crate::geom::fan::{WIDTH, WholeBounds};
+use crate::geom::fan::{IntBounds, WIDTH};
 use crate::geom::fan::{lower_bound_up_to, refined};
 #[cfg(not(meshsweep_wide))]
 use crate::num::SOFT_FLOAT;
@@ -125,7 +125,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             && !leaf.is_f32()
             && let Some(point) = &self.query.whole
         {
-            return self.bound(leaf, point, &mut [WholeBounds::NONE; WIDTH]).map(drop);
+            return self.bound(leaf, point, &mut [IntBounds::NONE; WIDTH]).map(drop);
         }
         self.bound_by(&nearest_triangle(leaf, self.query)?);
         Some(())
@@ -170,6 +170,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         self.best = Best { distance_sq, node, child, lanes: *lanes };
         self.refine_below = self.query.refine_below(distance_sq);
         self.beyond.low_sq = self.refine_below;
+        self.beyond.wanted_sq = f32::from_bits(distance_sq.to_bits() + 1);
         let beyond = self.query.limit(distance_sq);
         if Real(beyond) < Real(self.beyond.distance_sq) {
             self.beyond.distance_sq = beyond;
@@ -301,8 +302,9 @@ impl<N: NearestOfLeaf> LeafVisitor for Closest<'_, N> {
         #[cfg(not(meshsweep_wide))]
         if self.has_old_plane {
             self.has_old_plane = false;
-            let (way, limit) = (self.best.lanes.way(), self.beyond.distance_sq);
-            self.beyond.plane = LeafPlane::across(self.query, way, self.best.distance_sq, limit);
+            let (residual, limit) = (self.best.lanes.residual(), self.beyond.distance_sq);
+            self.beyond.plane =
+                LeafPlane::across(self.query, residual, self.best.distance_sq, limit);
         }
         let near = (self.nearest)(&visit.leaf, self.query, &self.beyond)?;
         if near.distance_sq <= self.best.distance_sq {

@@ -1,8 +1,8 @@
 //! Triangles that wait for the f32 kernel: see `waiting_search`.
 
-use crate::bvh::point::leaf::plane::Way;
+use crate::bvh::point::leaf::plane::Residual;
 use crate::bvh::tree::node::CHILD_MASK;
-use crate::geom::fan::{Corner, WIDTH, WholeLimit, WholeLower};
+use crate::geom::fan::{Corner, IntLimit, IntLower, WIDTH};
 use crate::num::SOFT_FLOAT;
 
 /// Triangles that may wait. If there are more, all of them are looked at, and the next ones wait.
@@ -15,14 +15,14 @@ pub(crate) struct WaitingTriangle {
     pub(crate) place: u32,
     /// [`LeafVisit::key`].
     pub(crate) key: u32,
-    /// [`WholeBounds::upper`].
+    /// [`IntBounds::upper`].
     pub(crate) upper: u32,
-    pub(crate) lower: WholeLower,
+    pub(crate) lower: IntLower,
 }
 
 impl WaitingTriangle {
     const NONE: WaitingTriangle =
-        WaitingTriangle { node: 0, place: 0, key: 0, upper: 0, lower: WholeLower::NONE };
+        WaitingTriangle { node: 0, place: 0, key: 0, upper: 0, lower: IntLower::NONE };
 
     pub(crate) fn leaf(&self) -> [u32; 2] {
         [self.node, self.place & CHILD_MASK]
@@ -41,12 +41,12 @@ impl WaitingTriangle {
 pub(crate) struct Waiting {
     pub(crate) triangles: [WaitingTriangle; ROOM],
     pub(crate) count: usize,
-    /// Least [`WholeBounds::upper`].
+    /// Least [`IntBounds::upper`].
     pub(crate) upper: u32,
     /// The way to the point that `upper` is of.
-    pub(crate) way: Way,
+    pub(crate) residual: Residual,
     /// The search's limit.
-    pub(crate) limit: WholeLimit,
+    pub(crate) limit: IntLimit,
 }
 
 impl Waiting {
@@ -57,8 +57,8 @@ impl Waiting {
             triangles: const { [WaitingTriangle::NONE; ROOM] },
             count: 0,
             upper: u32::MAX,
-            way: Way::NONE,
-            limit: WholeLimit::NONE,
+            residual: Residual::NONE,
+            limit: IntLimit::NONE,
         }
     }
 

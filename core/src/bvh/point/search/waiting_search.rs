@@ -1,21 +1,19 @@
 //! A closest point on processors without floating point: triangles wait for the f32 kernel until
 //! integers know no more.
 //!
-//! Integers bound the distance of a triangle from both sides (`geom/fan/whole.rs`). The least upper
+//! Integers bound the distance of a triangle from both sides (`geom/fan/integer.rs`). The least upper
 //! bound limits the descent. So the kernel looks only at the triangles that no plane parts from the
 //! query in the end, most often one, and not at each triangle that was the nearest for a while.
 //! Proof: `core/docs/rounding.md` §8, "Limits by upper bounds".
 
 use super::closest::{Closest, NearestOfLeaf};
 use super::waiting::{Waiting, WaitingTriangle};
+use crate::bvh::point::leaf::integer::{leaf_bounds, nearness_by_corner, sharp_lower_of};
 use crate::bvh::point::leaf::nearest::Lanes;
-use crate::bvh::point::leaf::plane::{LeafPlane, Way};
-use crate::bvh::point::leaf::whole::{leaf_bounds, nearness_by_corner, sharp_lower_of};
+use crate::bvh::point::leaf::plane::{LeafPlane, Residual};
 use crate::bvh::tree::descent::LeafVisit;
 use crate::bvh::tree::format::{FanLeaf, FullRing, LeafShape};
-use crate::geom::fan::{
-    Corner, Nearness, WIDTH, WholeBounds, WholeLimit, WholePoint, vertex_bounds,
-};
+use crate::geom::fan::{Corner, IntBounds, IntLimit, IntPoint, Nearness, WIDTH, vertex_bounds};
 use crate::num::Real;
 
 /// Added to the bits of a squared upper bound: at least 2^-12 of it.
@@ -29,8 +27,8 @@ const SLACK: f32 = 8.0;
 impl<N: NearestOfLeaf> Closest<'_, N> {
     /// Takes the triangles of a leaf that may be the nearest.
     #[inline(never)]
-    pub(crate) fn wait(&mut self, visit: &LeafVisit<'_>, point: &WholePoint) -> Option<()> {
-        let mut bounds = [WholeBounds::NONE; WIDTH];
+    pub(crate) fn wait(&mut self, visit: &LeafVisit<'_>, point: &IntPoint) -> Option<()> {
+        let mut bounds = [IntBounds::NONE; WIDTH];
         let wanted = self.bound(&visit.leaf, point, &mut bounds)?;
         for (lane, bounds) in bounds.iter().enumerate() {
             // The first of several with the same square is the answer.
@@ -60,18 +58,18 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
     pub(crate) fn bound(
         &mut self,
         leaf: &FanLeaf<'_>,
-        point: &WholePoint,
-        bounds: &mut [WholeBounds; WIDTH],
+        point: &IntPoint,
+        bounds: &mut [IntBounds; WIDTH],
     ) -> Option<u32> {
         if self.has_old_plane {
             self.has_old_plane = false;
-            let Waiting { way, limit, .. } = self.waiting;
-            self.beyond.plane = LeafPlane::new(point, way.whole(), limit);
+            let Waiting { residual, limit, .. } = self.waiting;
+            self.beyond.plane = LeafPlane::new(point, residual.integers(), limit);
         } else if self.waiting.upper == u32::MAX {
             // The first leaf: a vertex gives the first plane.
             let (ring, shape) = (leaf.full_ring()?, leaf.shape());
             let near = nearest_vertex(point, &ring, shape)?;
-            let limit = WholeLimit::of(self.limit_by(near.upper));
+            let limit = IntLimit::of(self.limit_by(near.upper));
             self.beyond.plane = LeafPlane::new(point, near.direction, limit);
         }
         let wanted = leaf_bounds(leaf, point, &self.beyond.plane, bounds)?;
@@ -83,12 +81,12 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
             }
         }
         if let Some(direction) = nearest {
-            self.waiting.way = Way::of_whole(direction);
+            self.waiting.residual = Residual::of_integers(direction);
             let limit = self.limit_by(self.waiting.upper);
             if Real(limit) < Real(self.beyond.distance_sq) {
                 self.beyond.distance_sq = limit;
                 self.limit = self.query.key_limit(limit);
-                self.waiting.limit = WholeLimit::of(limit);
+                self.waiting.limit = IntLimit::of(limit);
             }
             self.has_old_plane = true;
         }
@@ -96,7 +94,7 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
     }
 
     #[inline(never)]
-    fn nearness_of(&self, here: &WaitingTriangle, point: &WholePoint) -> Option<Nearness> {
+    fn nearness_of(&self, here: &WaitingTriangle, point: &IntPoint) -> Option<Nearness> {
         let [node, child] = here.leaf();
         let leaf = self.tree.leaf(node, child)?;
         nearness_by_corner(&leaf, self.query.p, point, here.lane(), here.corner())
@@ -105,7 +103,7 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
     /// Whether a sharper bound tells that a triangle is beyond the limit. Two that wait most often
     /// share the nearest edge, and no bound parts them. Small code does without it.
     #[inline(never)]
-    fn is_sharply_beyond(&self, here: &WaitingTriangle, point: &WholePoint) -> Option<bool> {
+    fn is_sharply_beyond(&self, here: &WaitingTriangle, point: &IntPoint) -> Option<bool> {
         let is_inner = here.corner().number == Corner::NONE.number;
         if cfg!(meshsweep_small) || self.waiting.count <= 2 || !is_inner {
             return Some(false);
@@ -154,7 +152,7 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
                 && self.best.lanes.at(best.0).0 < lane;
             if square <= best && !is_later {
                 self.improve(near.distance_sq, &Lanes::one(lane, &near), leaf);
-                self.waiting.limit = WholeLimit::of(self.beyond.distance_sq);
+                self.waiting.limit = IntLimit::of(self.beyond.distance_sq);
             }
             if Real(near.lower_bound_sq) < Real(self.refine_below) {
                 self.refine(leaf, key, 1 << (lane & 31))?;
@@ -168,11 +166,7 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
 
 /// Bounds of the vertex of a leaf that is about the nearest.
 #[inline(never)]
-fn nearest_vertex(
-    point: &WholePoint,
-    ring: &FullRing<'_>,
-    shape: LeafShape,
-) -> Option<WholeBounds> {
+fn nearest_vertex(point: &IntPoint, ring: &FullRing<'_>, shape: LeafShape) -> Option<IntBounds> {
     let [one, other] = ring.centres(shape);
     let mut nearest = one;
     let mut least = point.about(one);

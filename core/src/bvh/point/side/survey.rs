@@ -21,7 +21,7 @@ use crate::num::{Real, lesser, sqrt_approx};
 use crate::query::{Budget, ClosestPoint, Ended, Interval, ScratchEntry};
 use glam::Vec3;
 
-/// The way from a point to the nearer place where its side is searched again: a sixteenth of the
+/// The offset from a point to the nearer place where its side is searched again: a sixteenth of the
 /// distance is left.
 const WAY_TO_NEARER: f32 = 0.9375;
 
@@ -212,9 +212,9 @@ impl Survey<'_> {
         let leaf = leaf.as_ref()?;
         let place = query.p + (witness(query, leaf, to.place.lane()) - query.p) * WAY_TO_NEARER;
         let place = query.units.point(place);
-        let way = query.units.inward_point(place) - query.p;
+        let offset = query.units.inward_point(place) - query.p;
         let empty = query.units.inward(self.lower(sqrt_approx(self.best.distance_sq)));
-        (way.dot(way) < empty * empty * (1.0 - EMPTY_BALL)).then_some(place)
+        (offset.dot(offset) < empty * empty * (1.0 - EMPTY_BALL)).then_some(place)
     }
 
     pub(crate) fn closest(&self, search: &Search<'_, '_>, point: [f32; 3]) -> Option<ClosestPoint> {

@@ -8,13 +8,13 @@
 //! | file | owns |
 //! | --- | --- |
 //! | `plain` | a glance in f32, for boards with an FPU |
-//! | `whole` | a glance in integers, for boards without |
+//! | `integer` | a glance in integers, for boards without |
 //! | `wide` | the test in registers, for hosts |
 
+mod integer;
 mod plain;
 #[cfg(test)]
 mod tests;
-mod whole;
 #[cfg(meshsweep_wide)]
 mod wide;
 
@@ -63,7 +63,7 @@ impl SegmentAndBox {
     ) -> Result<Option<SegmentAndBox>, QueryError> {
         let mut glance = Glance::Unsure;
         if SOFT_FLOAT {
-            glance = whole::glance(tree, ends);
+            glance = integer::glance(tree, ends);
             if glance == Glance::Clear {
                 return Ok(None);
             }

@@ -1,6 +1,6 @@
 //! A glance never contradicts [`SegmentAndBox::is_clear`].
 
-use super::{Glance, SegmentAndBox, norm_1, plain, whole};
+use super::{Glance, SegmentAndBox, integer, norm_1, plain};
 use crate::bvh::tree::format::Bvh;
 use crate::query::QueryError;
 
@@ -46,7 +46,7 @@ fn a_glance_that_is_sure_decides_as_the_whole_test() {
                 let size = norm_1(both.farthest(both.a)) + norm_1(both.farthest(both.b));
                 assert_eq!(both.misses(surface_error, size), is_clear, "{ends:?}");
             }
-            let glances = [plain::glance(&both, surface_error), whole::glance(&tree, ends)];
+            let glances = [plain::glance(&both, surface_error), integer::glance(&tree, ends)];
             for (glance, counts) in glances.into_iter().zip(&mut counts) {
                 match glance {
                     Glance::Clear => assert_eq!(expected, Ok(true), "{ends:?}"),

@@ -36,8 +36,9 @@ pub(super) fn misses(both: &SegmentAndBox, surface_error: f32, size: f32) -> boo
     let (half, d_abs) = ((high - low) + f32x4::splat(margin), d.abs());
     let along = m.abs().simd_gt(half + d_abs);
     let (d_next, m_next, half_next) = (next(d), next(m), next(half));
-    let reach = half * d_next.abs() + half_next * d_abs;
-    let across = (m * d_next - m_next * d).abs().simd_gt(reach + f32x4::splat(LEAST_DENOMINATOR));
+    let projection = half * d_next.abs() + half_next * d_abs;
+    let across =
+        (m * d_next - m_next * d).abs().simd_gt(projection + f32x4::splat(LEAST_DENOMINATOR));
     // The fourth lane compares 0 with more.
     (along | across).any()
 }

@@ -10,6 +10,7 @@ use super::moments::NodeMoments;
 use super::triangle_bits::TriangleBits;
 use super::units::Units;
 use super::view::Bvh;
+use crate::format::Contradiction;
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError, SectionTable, ok};
 use crate::geom::fan::WIDTH;
@@ -45,7 +46,7 @@ fn is_sound_frame(record: &[u8; FRAME_BYTES]) -> bool {
         && zero == 0
 }
 
-const fn wrong(what: &'static str) -> Result<(), OpenError> {
+const fn wrong(what: Contradiction) -> Result<(), OpenError> {
     Err(OpenError::Counts { what })
 }
 
@@ -77,7 +78,7 @@ impl<'a> Bvh<'a> {
         let opened = SectionTable::open(bytes);
         let table = opened.as_ref().map_err(|&refused| refused)?;
         table.check_crcs(SectionKind::is_bvh)?;
-        let placed = Bvh::place(table);
+        let placed = Bvh::locate(table);
         if let Ok(tree) = &placed {
             tree.check()?;
         }
@@ -114,20 +115,20 @@ impl<'a> Bvh<'a> {
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without a tree.
     pub const fn open_trusted(bytes: &'a [u8]) -> Result<Bvh<'a>, OpenError> {
-        let tree = ok!(Bvh::place(&ok!(SectionTable::open(bytes))));
+        let tree = ok!(Bvh::locate(&ok!(SectionTable::open(bytes))));
         ok!(tree.check_counts());
         Ok(tree)
     }
 
     /// The tree of bytes that were opened before, or lie in a blob that was opened without a check.
     pub(crate) const fn view(bytes: &'a [u8]) -> Result<Bvh<'a>, OpenError> {
-        let tree = ok!(Bvh::place(&ok!(SectionTable::view(bytes))));
+        let tree = ok!(Bvh::locate(&ok!(SectionTable::view(bytes))));
         ok!(tree.check_counts());
         Ok(tree)
     }
 
     #[inline(never)]
-    const fn place(table: &SectionTable<'a>) -> Result<Bvh<'a>, OpenError> {
+    const fn locate(table: &SectionTable<'a>) -> Result<Bvh<'a>, OpenError> {
         let head = table.bytes(SectionKind::Bvh);
         if head.len() != BVH_BYTES {
             return Err(table.malformed(SectionKind::Bvh));
@@ -165,11 +166,11 @@ impl<'a> Bvh<'a> {
     const fn check_counts(&self) -> Result<(), OpenError> {
         let h = &self.header;
         if h.nodes == 0 || h.leaves == 0 || h.triangles == 0 {
-            return wrong("an empty tree");
+            return wrong(Contradiction::EmptyTree);
         }
         let most = u32::MAX / 64;
         if h.nodes > 0xFF_FFFF || h.vertices > most || h.triangles > most {
-            return wrong("more tree records than a blob can address");
+            return wrong(Contradiction::TreeRecords);
         }
         let [x, y, z] = h.grid_origin;
         let in_range = is_within(self.scale_exponent, -180, 180)
@@ -178,24 +179,24 @@ impl<'a> Bvh<'a> {
             && is_origin(y)
             && is_origin(z);
         if !in_range {
-            return wrong("tree grid out of range");
+            return wrong(Contradiction::TreeGrid);
         }
         if !(h.surface_error >= 0.0
             && self.units.surface_error <= MOST_SURFACE_ERROR
             && h.star_radius >= 0.0
             && h.star_radius <= 1e7)
         {
-            return wrong("negative or infinite error bound of the tree");
+            return wrong(Contradiction::TreeError);
         }
         let ([lx, ly, lz], [hx, hy, hz]) = (h.low, h.high);
         if lx > hx || ly > hy || lz > hz {
-            return wrong("the tree's box is inverted");
+            return wrong(Contradiction::TreeBox);
         }
         let nodes = h.nodes as usize;
         if h.stack_entries < WIDTH as u32
             || h.stack_entries as usize > nodes.saturating_mul(WIDTH) + WIDTH
         {
-            return wrong("stack entries of the tree");
+            return wrong(Contradiction::TreeScratch);
         }
         if self.links.len() != nodes {
             return missing(SectionKind::TreeLinks);
@@ -286,7 +287,7 @@ impl<'a> Bvh<'a> {
             }
         }
         if (leaves, vertices, triangles) != (h.leaves, h.vertices, h.triangles) {
-            return Err(OpenError::Counts { what: "leaves of the tree" });
+            return Err(OpenError::Counts { what: Contradiction::TreeLeaves });
         }
         self.check_families()
     }
@@ -317,16 +318,16 @@ impl<'a> Bvh<'a> {
                 depth += 1;
                 *open
                     .get_mut(depth)
-                    .ok_or(OpenError::Counts { what: "a tree deeper than 64 nodes" })? =
+                    .ok_or(OpenError::Counts { what: Contradiction::TreeDepth })? =
                     Family { next: links.first_node, end: fresh, waiting };
             }
         }
         if fresh != self.header.nodes {
-            return Err(OpenError::Counts { what: "a tree node without a parent" });
+            return Err(OpenError::Counts { what: Contradiction::TreeOrphan });
         }
         // The descent stores all eight lanes, then keeps the wanted ones.
         if self.header.stack_entries < most + WIDTH as u32 {
-            return Err(OpenError::Counts { what: "stack entries of the tree" });
+            return Err(OpenError::Counts { what: Contradiction::TreeScratch });
         }
         Ok(())
     }

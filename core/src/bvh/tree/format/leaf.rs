@@ -66,7 +66,7 @@ impl LeafShape {
 }
 
 /// What the vector kernels read of a shape, prepared.
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 #[derive(Clone, Copy)]
 pub(super) struct ShapeOffsets {
     /// Bytes of a leaf on the grid at which the three rings begin.
@@ -78,7 +78,7 @@ pub(super) struct ShapeOffsets {
 }
 
 /// For each shape.
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 pub(super) const SHAPE_OFFSETS: [ShapeOffsets; 256] = {
     let mut table = [ShapeOffsets { rings: [0; 3], turn: 0, triangles: 0 }; 256];
     let mut shape = 0;

@@ -19,7 +19,7 @@ mod cone;
 mod header;
 pub mod layout;
 mod leaf;
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 mod leaf_avx2;
 #[cfg(meshsweep_wide)]
 mod leaf_lanes;

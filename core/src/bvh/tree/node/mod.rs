@@ -34,36 +34,36 @@
 //! | `box_entries` | a segment against eight boxes: the choice between the next two |
 //! | `entry_lanes` | a segment against eight boxes, in vector registers |
 //! | `entry_avx2` | the same in registers of 256 bits |
-//! | `entries_in_whole` | a segment against eight boxes, on targets without an FPU |
+//! | `integer_entries` | a segment against eight boxes, on targets without an FPU |
 
 #[cfg(any(test, not(meshsweep_wide)))]
 mod axis_place;
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 mod box_avx2;
 mod box_distances;
 mod box_entries;
 #[cfg(meshsweep_wide)]
 mod box_lanes;
-#[cfg(any(test, not(meshsweep_wide)))]
-mod entries_in_whole;
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 mod entry_avx2;
 #[cfg(meshsweep_wide)]
 mod entry_lanes;
 mod frame;
 #[cfg(any(test, not(meshsweep_wide)))]
 mod grid_line;
+#[cfg(any(test, not(meshsweep_wide)))]
+mod integer_entries;
 mod keys;
 mod opened_node;
 #[cfg(any(test, not(meshsweep_wide)))]
 mod slab_planes;
 mod slab_ray;
-#[cfg(test)]
+#[cfg(all(test, meshsweep_wide))]
 mod tests;
 #[cfg(any(test, not(meshsweep_wide)))]
 mod two_in_word;
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 pub(crate) use box_avx2::{keys as box_distances_avx2, take_least as take_least_avx2};
 pub use box_distances::box_distances;
 #[cfg(not(meshsweep_wide))]
@@ -71,7 +71,7 @@ pub(crate) use box_distances::push_boxes;
 pub use box_entries::box_entries;
 #[cfg(not(meshsweep_wide))]
 pub(crate) use box_entries::push_entries;
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 pub(crate) use entry_avx2::keys as box_entries_avx2;
 pub use frame::KeyPoint;
 #[cfg(any(test, not(meshsweep_wide)))]

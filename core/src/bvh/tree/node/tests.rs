@@ -5,7 +5,7 @@ use super::keys::{CHILD_MASK, NO_CHILD, TakenLeast, least_key, take_least};
 use super::opened_node::OpenedNode;
 use super::slab_planes::SlabPlanes;
 use super::slab_ray::SlabRay;
-use super::{box_lanes, entries_in_whole, entry_lanes, two_in_word};
+use super::{box_lanes, entry_lanes, integer_entries, two_in_word};
 use crate::bvh::tree::format::layout::{BOXES_BYTES, FRAME_BYTES, ROW_BITS, boxes};
 use crate::geom::fan::WIDTH;
 use crate::query::ScratchEntry;
@@ -261,7 +261,7 @@ fn entries_have_the_same_bits() {
             }
             let opened = OpenedNode { node: 3, count: count as u32, bound, limit };
             let mut slots = [ScratchEntry::EMPTY; WIDTH];
-            let pushed = entries_in_whole::push(&planes, &ray, &opened, &mut slots);
+            let pushed = integer_entries::push(&planes, &ray, &opened, &mut slots);
             let nearest = narrow.into_iter().min().unwrap_or(NO_CHILD);
             assert_eq!(pushed.nearest, nearest, "{ray:?}, {count} of {record:?}");
             let others = narrow.into_iter().filter(|&key| key < NO_CHILD && key != nearest);

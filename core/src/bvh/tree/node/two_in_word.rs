@@ -63,7 +63,7 @@ impl AxisPlanes {
     #[inline(always)]
     fn new([first, last]: [i32; 2], step: u32, least: i32) -> AxisPlanes {
         let both = |[first, last]: [i32; 2]| {
-            let less_point = [first, last].map(|from| splat_halves((1 << 15) - from));
+            let less_point = [splat_halves((1 << 15) - first), splat_halves((1 << 15) - last)];
             AxisPlanes { step, less_point, side: Side::Within }
         };
         if (first | last) >> 15 == 0 {

@@ -5,9 +5,10 @@ mod asking;
 mod bounding;
 mod building;
 mod comparing;
-mod explained;
 mod given;
+mod help;
 mod measuring;
+mod reading;
 mod refining;
 mod values;
 
@@ -21,8 +22,11 @@ pub use building::{BuildArgs, CutArgs, InfoArgs, Language, VerifyArgs};
 pub use comparing::HausdorffArgs;
 pub use given::{Given, files, names};
 pub use measuring::{At, TradeArgs};
+pub use reading::ReadArgs;
 pub use refining::RefineArgs;
 pub use values::Margin;
+
+use help::Help;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
@@ -30,7 +34,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 ///
 /// Without a command: a short demonstration on a mesh that is built in.
 #[derive(Debug, Parser)]
-#[command(name = "meshsweep", version, after_help = explained::EXIT_STATUS)]
+#[command(name = "meshsweep", version, after_help = help::EXIT_STATUS)]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Option<Command>,
@@ -45,87 +49,62 @@ impl Arguments {
     }
 }
 
-/// The command line. A negative number is a value, so that its own error names its range.
+/// The command line, with its help. A negative number is a value, so that its own error names its
+/// range.
 pub fn command() -> clap::Command {
-    Arguments::command().mut_subcommands(|command| command.allow_negative_numbers(true))
+    Arguments::command().mut_subcommands(|command| {
+        let Help { long, short, scratch } = Help::of(command.get_name());
+        let command = command.allow_negative_numbers(true).after_help(short).after_long_help(long);
+        match scratch {
+            Some(scratch) => command.mut_arg("scratch", |arg| arg.help(scratch)),
+            None => command,
+        }
+    })
 }
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Build a blob from a mesh (.stl, .glb, ...) or from curves (.csv)
-    #[command(after_help = explained::BUILD)]
     Build(BuildArgs),
     /// Print the contents of a blob: sections, memory, levels, error bounds
-    #[command(after_help = explained::INFO)]
     Info(InfoArgs),
     /// Closest point and distance interval of each query point, as CSV
-    #[command(
-        after_help = explained::closest(),
-        mut_arg("queue", |queue| queue.help(explained::QUEUE))
-    )]
     Closest(ClosestArgs),
     /// Whether each query point is within a distance of the surface, as CSV
-    #[command(after_help = explained::within())]
     Within(WithinArgs),
     /// The nearest triangles of each query point, as CSV
-    #[command(after_help = explained::nearest())]
     Nearest(NearestArgs),
     /// Side and signed distance of each query point, as CSV
-    #[command(after_help = explained::signed())]
     Signed(SignedArgs),
     /// How often the mesh encloses each query point, closed or not, as CSV
-    #[command(after_help = explained::winding())]
     Winding(WindingArgs),
     /// Distances on a regular grid around the mesh, as raw f32 or NumPy file
-    #[command(after_help = explained::FIELD)]
     Field(FieldArgs),
     /// First hit, or all hits, of each query segment, as CSV
-    #[command(
-        after_help = explained::segment(),
-        mut_arg("queue", |queue| queue.help(explained::QUEUE))
-    )]
     Segment(SegmentArgs),
     /// Whether two meshes meet, one of them moved, as CSV
-    #[command(
-        after_help = explained::overlap(),
-        mut_arg("queue", |queue| queue.help(explained::PAIRS))
-    )]
     Overlap(OverlapArgs),
     /// Distance interval and nearest points of two meshes, one of them moved, as CSV
-    #[command(
-        after_help = explained::clearance(),
-        mut_arg("queue", |queue| queue.help(explained::NODE_PAIRS))
-    )]
     Clearance(ClearanceArgs),
     /// Whether straight moves of a convex tool are clear of the mesh all the way, as CSV
-    #[command(after_help = explained::clear())]
     Clear(ClearArgs),
     /// Hausdorff distance of two meshes: how far the farthest point of each is from the other
-    #[command(after_help = explained::HAUSDORFF)]
     Hausdorff(HausdorffArgs),
     /// Triangles that may face a viewpoint, as CSV; all others certainly do not
-    #[command(after_help = explained::CULL)]
     Cull(CullArgs),
     /// Write an outer hull of a mesh, or a level of a blob, as binary PLY
-    #[command(after_help = explained::HULL)]
     Hull(HullArgs),
     /// Write a blob's hull, fine where it is needed and coarse elsewhere, as binary PLY
-    #[command(after_help = explained::REFINE)]
     Refine(RefineArgs),
     /// Cut a blob's hull hierarchy after a level: fewer bytes, wider intervals
-    #[command(after_help = explained::CUT)]
     Cut(CutArgs),
     /// Cover a mesh with unions of 1, 2, 4, ... triboxes, and write the finest as binary PLY
-    #[command(after_help = explained::TRIBOX)]
     Tribox(TriboxArgs),
     /// Prove the claims of a blob again, from its bytes and the mesh that it was built from
-    #[command(after_help = explained::VERIFY)]
     Verify(VerifyArgs),
     /// Measure error, instructions and bytes of each structure and setting of a mesh
-    #[command(after_help = explained::TRADE)]
     Trade(TradeArgs),
     /// Search the dearest query of each question, or the widest interval within a budget
-    #[command(after_help = explained::WORST)]
     Worst(WorstArgs),
 }
 

@@ -6,29 +6,29 @@ use crate::num::bit_length as bits;
 
 /// A squared limit, square grid units: `mantissa · 2^exponent`.
 #[derive(Clone, Copy, Debug)]
-pub struct WholeLimit {
+pub struct IntLimit {
     /// 15 bits, or 2^15.
     mantissa: u32,
     exponent: i32,
 }
 
-impl WholeLimit {
+impl IntLimit {
     /// Nothing is beyond it.
-    pub const NONE: WholeLimit = WholeLimit { mantissa: 1 << 15, exponent: 128 };
+    pub const NONE: IntLimit = IntLimit { mantissa: 1 << 15, exponent: 128 };
 
     /// `square` or a little more, for a positive number. Nothing is beyond an infinite one.
     #[inline(always)]
-    pub fn of(square: f32) -> WholeLimit {
+    pub fn of(square: f32) -> IntLimit {
         let bits = square.to_bits();
         // The upper 15 bits of 24, rounded up.
-        WholeLimit {
+        IntLimit {
             mantissa: ((bits & 0x007F_FFFF | 0x0080_0000) >> 9) + 1,
             exponent: (bits >> 23).cast_signed() - 127 - 14,
         }
     }
 }
 
-impl WholeLimit {
+impl IntLimit {
     /// The root of the limit times a number, rounded up; no more than `i32::MAX`. The number is not
     /// negative.
     pub fn root_of_product(&self, number: i32) -> i32 {
@@ -63,7 +63,7 @@ fn root_up(x: u32) -> u32 {
 
 /// A lower bound of the distance of a point and a triangle: by a plane across a direction.
 #[derive(Clone, Copy, Debug)]
-pub struct WholeLower {
+pub struct IntLower {
     /// Along the direction the query is at least this far from the triangle, in products of
     /// direction and grid units.
     along: i32,
@@ -71,21 +71,21 @@ pub struct WholeLower {
     direction_sq: u32,
 }
 
-impl WholeLower {
+impl IntLower {
     /// A plane that the query is `along` from, in products of a direction whose square is
     /// `direction_sq`.
     #[inline(always)]
-    pub(super) fn new(along: i32, direction_sq: u32) -> WholeLower {
-        WholeLower { along, direction_sq }
+    pub(super) fn new(along: i32, direction_sq: u32) -> IntLower {
+        IntLower { along, direction_sq }
     }
 
     /// Nothing is known.
-    pub const NONE: WholeLower = WholeLower { along: 0, direction_sq: 0 };
+    pub const NONE: IntLower = IntLower { along: 0, direction_sq: 0 };
 
     /// Whether the triangle is certainly farther than the root of `limit`.
     #[cfg_attr(meshsweep_small, inline(never))]
     #[cfg_attr(not(meshsweep_small), inline(always))]
-    pub fn is_beyond(&self, limit: WholeLimit) -> bool {
+    pub fn is_beyond(&self, limit: IntLimit) -> bool {
         if self.along <= 0 {
             return false;
         }
@@ -114,7 +114,7 @@ mod tests {
         let mut bits = 1e-6f32.to_bits();
         while bits < 1e12f32.to_bits() {
             let (limit, number) = (f32::from_bits(bits), (bits % 50_000_000).cast_signed());
-            let root = f64::from(WholeLimit::of(limit).root_of_product(number));
+            let root = f64::from(IntLimit::of(limit).root_of_product(number));
             let exact = libm::sqrt(f64::from(limit) * f64::from(number));
             assert!(root >= exact.min(f64::from(i32::MAX)), "{limit:e} {number}: {root}");
             assert!(root <= exact * 1.001 + 2.0 || exact > 1e9, "{limit:e} {number}: {root}");

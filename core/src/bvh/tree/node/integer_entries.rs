@@ -21,7 +21,7 @@ const BEFORE: i32 = -(1 << 30);
 
 /// Whole parameters of byte 0, and of a step.
 #[derive(Clone, Copy)]
-struct WholeAxis {
+struct IntAxis {
     enter: i32,
     leave: i32,
     step: i32,
@@ -45,13 +45,13 @@ pub(super) fn push(
     let (mut parameters, mut steps) = (0, 0);
     let mut of_axis = |number: usize| {
         if steep >> number & 1 != 0 {
-            return WholeAxis { enter: BEFORE, leave: -BEFORE, step: 0 };
+            return IntAxis { enter: BEFORE, leave: -BEFORE, step: 0 };
         }
         let axis = &planes.0[number];
         let [enter, leave, step] = [whole(axis.enter), whole(axis.leave), whole(axis.step)];
         parameters |= enter.unsigned_abs() | leave.unsigned_abs();
         steps |= step.unsigned_abs();
-        WholeAxis { enter, leave, step }
+        IntAxis { enter, leave, step }
     };
     let (x, y, z) = (of_axis(0), of_axis(1), of_axis(2));
     let fits = parameters < MOST && steps < MOST / 256;

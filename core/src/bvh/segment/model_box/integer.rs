@@ -60,8 +60,8 @@ impl Lengths {
     fn glance(&self, surface: i32, bits: u32) -> Glance {
         let mut most = i32::MIN;
         for axis in 0..3 {
-            let reach = self.extent[axis] + self.d[axis].abs();
-            most = greater(most, self.m[axis].abs() - reach);
+            let projection = self.extent[axis] + self.d[axis].abs();
+            most = greater(most, self.m[axis].abs() - projection);
         }
         if most > surface + ALONG {
             return Glance::Clear;
@@ -85,11 +85,11 @@ impl Lengths {
             let (m, n, d, e) =
                 (m.unsigned_abs(), n.unsigned_abs(), d.unsigned_abs(), e.unsigned_abs());
             let error = FACTOR * (m + n + h + k + 2 * (margin + d + e) + 4 * FACTOR);
-            let reach = h * e + k * d;
-            if across > reach + margin * (d + e) + error {
+            let projection = h * e + k * d;
+            if across > projection + margin * (d + e) + error {
                 return Glance::Clear;
             }
-            meets &= across + error <= reach;
+            meets &= across + error <= projection;
         }
         if meets { Glance::Meets } else { Glance::Unsure }
     }

@@ -4,13 +4,13 @@
 use super::bounds::{nearness, seen_from};
 use super::limit::LeafLimit;
 use super::nearest::LeafNearest;
-use super::plane::{LeafPlane, Way};
+use super::plane::{LeafPlane, Residual};
 use super::squares::LeafSquares;
 use crate::bvh::point::query::limit_of;
 use crate::bvh::tree::format::{FanLeaf, lanes_of};
 use crate::geom::fan::{
-    Corner, Nearness, WIDTH, Whole, WholeBounds, WholeLimit, WholeLower, WholePoint,
-    is_certain_corner, less, sharp_lower, whole_bounds,
+    Corner, IntBounds, IntLimit, IntLower, IntPoint, IntVector, Nearness, WIDTH, integer_bounds,
+    is_certain_corner, less, sharp_lower,
 };
 use crate::num::{Real, difference, dot, float, lesser};
 use glam::Vec3;
@@ -18,15 +18,15 @@ use glam::Vec3;
 /// In integers, but for the triangles that may be the nearest: the likeliest first, then those
 /// that are not certainly farther.
 #[inline(never)]
-pub(crate) fn whole_nearest(
+pub(crate) fn integer_nearest(
     leaf: &FanLeaf<'_>,
     p: Vec3,
-    point: &WholePoint,
+    point: &IntPoint,
     limit: &LeafLimit,
     mut known: Option<&mut LeafSquares>,
 ) -> Option<LeafNearest> {
     let mut nearest = LeafNearest::NONE;
-    let mut bounds = [WholeBounds::NONE; WIDTH];
+    let mut bounds = [IntBounds::NONE; WIDTH];
     let wanted = leaf_bounds(leaf, point, &limit.plane, &mut bounds)?;
     if wanted == 0 {
         return Some(nearest);
@@ -38,13 +38,13 @@ pub(crate) fn whole_nearest(
         }
     }
     let mut within = limit.distance_sq;
-    let mut whole_limit = WholeLimit::of(within);
+    let mut integer_limit = IntLimit::of(within);
     let mut squares = [0f32; WIDTH];
     // The others: bits, the lowest that of `next`.
     let (mut lane, mut next, mut left) = (likeliest, 0, wanted & !(1 << (likeliest & 31)));
     loop {
         let bounds = bounds.get(lane)?;
-        if !bounds.lower.is_beyond(whole_limit) {
+        if !bounds.lower.is_beyond(integer_limit) {
             let near = if usize::from(bounds.first) == lane {
                 nearness_by_corner(leaf, p, point, lane, bounds.corner)?
             } else {
@@ -54,13 +54,13 @@ pub(crate) fn whole_nearest(
             if Real(near.distance_sq) < Real(nearest.distance_sq) {
                 let limit = Real(limit_of(near.distance_sq, limit.allowance));
                 within = lesser(Real(within), limit).0;
-                whole_limit = WholeLimit::of(within);
+                integer_limit = IntLimit::of(within);
             }
             nearest.take(lane, &near, limit.low_sq);
             if let Some(known) = &mut known {
                 known.keep(lane, [near.distance_sq, near.lower_bound_sq]);
             }
-            nearest.lanes.tell(lane, Way::of_whole(bounds.direction));
+            nearest.lanes.tell(lane, Residual::of_integers(bounds.direction));
         }
         if left == 0 {
             return Some(nearest);
@@ -75,15 +75,15 @@ pub(crate) fn whole_nearest(
 
 /// Bounds of the triangles of a leaf that are not behind a plane.
 ///
-/// Some have the bounds of a [`first`](WholeBounds::first) triangle before, of which the f32
+/// Some have the bounds of a [`first`](IntBounds::first) triangle before, of which the f32
 /// kernel certainly finds the same square: they share the fan's centre and a corner, and the
 /// corner is the closest point of both.
 #[inline(never)]
 pub(crate) fn leaf_bounds(
     leaf: &FanLeaf<'_>,
-    point: &WholePoint,
+    point: &IntPoint,
     plane: &LeafPlane,
-    bounds: &mut [WholeBounds; WIDTH],
+    bounds: &mut [IntBounds; WIDTH],
 ) -> Option<u32> {
     let (ring, shape) = (leaf.full_ring()?, leaf.shape());
     let wanted = plane.in_front(&ring, shape);
@@ -106,7 +106,7 @@ pub(crate) fn leaf_bounds(
                 if is_certain(point, &ring.corners(shape, first)?, corner) {
                     known.corner = Corner::certain(corner.number);
                     // Field by field: else it would be a call of `memmove`.
-                    let WholeBounds { upper, direction: [x, y, z], first, lower, .. } = *known;
+                    let IntBounds { upper, direction: [x, y, z], first, lower, .. } = *known;
                     let slot = bounds.get_mut(lane)?;
                     (slot.upper, slot.first, slot.lower) = (upper, first, lower);
                     (slot.direction, slot.corner) = ([x, y, z], Corner::certain(number));
@@ -116,7 +116,7 @@ pub(crate) fn leaf_bounds(
             }
         }
         let slot = bounds.get_mut(lane)?;
-        *slot = whole_bounds(point, &corners);
+        *slot = integer_bounds(point, &corners);
         slot.first = (lane & 7) as u8;
         if slot.upper <= least {
             least = slot.upper;
@@ -133,7 +133,7 @@ pub(crate) fn leaf_bounds(
 /// Whether the f32 kernel certainly takes a corner for the closest point.
 #[cfg_attr(meshsweep_small, inline(never))]
 #[cfg_attr(not(meshsweep_small), inline(always))]
-fn is_certain(point: &WholePoint, &[a, b, c]: &[Whole; 3], corner: Corner) -> bool {
+fn is_certain(point: &IntPoint, &[a, b, c]: &[IntVector; 3], corner: Corner) -> bool {
     let (vertex, [one, other]) = match corner.number {
         _ if corner.is_certain => return true,
         0 => (a, [b, c]),
@@ -147,18 +147,18 @@ fn is_certain(point: &WholePoint, &[a, b, c]: &[Whole; 3], corner: Corner) -> bo
 /// [`sharp_lower`] of a triangle.
 pub(crate) fn sharp_lower_of(
     leaf: &FanLeaf<'_>,
-    point: &WholePoint,
+    point: &IntPoint,
     lane: usize,
-) -> Option<WholeLower> {
+) -> Option<IntLower> {
     Some(sharp_lower(point, &leaf.full_ring()?.corners(leaf.shape(), lane)?))
 }
 
-/// What the f32 kernel finds of a triangle. `corner`: see [`WholeBounds::corner`].
+/// What the f32 kernel finds of a triangle. `corner`: see [`IntBounds::corner`].
 #[inline(never)]
 pub(crate) fn nearness_by_corner(
     leaf: &FanLeaf<'_>,
     p: Vec3,
-    point: &WholePoint,
+    point: &IntPoint,
     lane: usize,
     corner: Corner,
 ) -> Option<Nearness> {
@@ -174,20 +174,20 @@ pub(crate) fn nearness_by_corner(
 fn corner_nearness(
     leaf: &FanLeaf<'_>,
     p: Vec3,
-    point: &WholePoint,
-    corners: &[Whole; 3],
+    point: &IntPoint,
+    corners: &[IntVector; 3],
     lane: usize,
     corner: Corner,
 ) -> Option<Nearness> {
     if !is_certain(point, corners, corner) {
         return None;
     }
-    let mut way = difference(p, leaf.centre(usize::from(lane >= leaf.shape().turn())));
+    let mut offset = difference(p, leaf.centre(usize::from(lane >= leaf.shape().turn())));
     if corner.number > 0 {
         let [x, y, z] = less(*corners.get(usize::from(corner.number))?, corners[0]);
-        way = difference(way, Vec3::new(float(x), float(y), float(z)));
+        offset = difference(offset, Vec3::new(float(x), float(y), float(z)));
     }
-    let distance_sq = dot(way, way);
+    let distance_sq = dot(offset, offset);
     Some(at_corner(distance_sq, corner))
 }
 

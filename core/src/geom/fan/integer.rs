@@ -7,7 +7,7 @@
 //! weak lower bound, and the f32 kernel then decides. Proof: `core/docs/rounding.md` §8, "Whole
 //! numbers".
 
-use super::whole_limit::WholeLower;
+use super::integer_limit::IntLower;
 use crate::num::{bit_length as bits, floored};
 
 /// The corner of a triangle that a point near the closest one is.
@@ -37,13 +37,13 @@ impl Corner {
 }
 
 /// A vector of whole numbers.
-pub type Whole = [i32; 3];
+pub type IntVector = [i32; 3];
 
 /// Bits of a coordinate below a grid unit.
 const FRACTION_BITS: u32 = 3;
 /// Bits of the finest coordinate below a grid unit.
 pub(super) const FINE_BITS: u32 = 9;
-/// Coordinates of a [`WholePoint`] are below 2^this grid units in magnitude.
+/// Coordinates of a [`IntPoint`] are below 2^this grid units in magnitude.
 pub const WHOLE_BITS: u32 = 17;
 /// Bits of a barycentric weight.
 const WEIGHT_BITS: u32 = 12;
@@ -54,20 +54,20 @@ const DIRECTION_BITS: u32 = 12;
 
 /// A query point: grid units from the grid's origin.
 #[derive(Clone, Copy, Debug)]
-pub struct WholePoint {
+pub struct IntPoint {
     /// Rounded down.
-    pub at: Whole,
+    pub at: IntVector,
     /// Eighths above `at`, 0 to 7, rounded down.
-    pub eighths: Whole,
+    pub eighths: IntVector,
     /// Units of 2^-[`FINE_BITS`] above those, rounded down. Bytes: targets with an FPU copy them too.
     rest: [u8; 3],
 }
 
-impl WholePoint {
+impl IntPoint {
     /// `None` if the point is too far from the grid's origin.
     #[inline(always)]
-    pub fn new(p: [f32; 3]) -> Option<WholePoint> {
-        let mut point = WholePoint { at: [0; 3], eighths: [0; 3], rest: [0; 3] };
+    pub fn new(p: [f32; 3]) -> Option<IntPoint> {
+        let mut point = IntPoint { at: [0; 3], eighths: [0; 3], rest: [0; 3] };
         let places = point.at.iter_mut().zip(&mut point.eighths).zip(&mut point.rest);
         for (x, ((at, eighths), rest)) in p.into_iter().zip(places) {
             if x.to_bits() << 1 >> 24 >= 127 + WHOLE_BITS {
@@ -82,7 +82,7 @@ impl WholePoint {
     }
 
     /// In units of 2^-[`FINE_BITS`], rounded down.
-    pub(super) fn fine(&self) -> Whole {
+    pub(super) fn fine(&self) -> IntVector {
         let mut fine = self.at;
         for ((x, eighths), rest) in fine.iter_mut().zip(self.eighths).zip(self.rest) {
             *x = ((*x << FRACTION_BITS) + eighths) << (FINE_BITS - FRACTION_BITS);
@@ -93,9 +93,9 @@ impl WholePoint {
 
     /// About the squared distance of a vertex, for comparison.
     #[inline(always)]
-    pub fn about(&self, vertex: Whole) -> u32 {
-        let way = less(self.at, vertex).map(|x| x >> 4);
-        dot(way, way).cast_unsigned()
+    pub fn about(&self, vertex: IntVector) -> u32 {
+        let offset = less(self.at, vertex).map(|x| x >> 4);
+        dot(offset, offset).cast_unsigned()
     }
 
     /// A product of the point and a direction of twelve bits: not above the true one.
@@ -104,7 +104,7 @@ impl WholePoint {
     /// which counts where the direction is negative. The difference before was rounded too, by 2^-8
     /// at most. There is room for twice 2^-7 more.
     #[inline(always)]
-    pub fn along(&self, direction: Whole) -> i32 {
+    pub fn along(&self, direction: IntVector) -> i32 {
         let (mut against, mut all) = (0, 0);
         for x in direction {
             against += if x < 0 { -x } else { 0 };
@@ -116,61 +116,61 @@ impl WholePoint {
 }
 
 #[inline(always)]
-fn largest([x, y, z]: Whole) -> u32 {
+fn largest([x, y, z]: IntVector) -> u32 {
     x.unsigned_abs().max(y.unsigned_abs()).max(z.unsigned_abs())
 }
 
 #[inline(always)]
-fn dot([a, b, c]: Whole, [x, y, z]: Whole) -> i32 {
+fn dot([a, b, c]: IntVector, [x, y, z]: IntVector) -> i32 {
     a.wrapping_mul(x).wrapping_add(b.wrapping_mul(y)).wrapping_add(c.wrapping_mul(z))
 }
 
 /// The difference. It wraps around.
 #[inline(always)]
-pub fn less([a, b, c]: Whole, [x, y, z]: Whole) -> Whole {
+pub fn less([a, b, c]: IntVector, [x, y, z]: IntVector) -> IntVector {
     [a.wrapping_sub(x), b.wrapping_sub(y), c.wrapping_sub(z)]
 }
 
 /// What integers tell of a point and a triangle.
 #[derive(Clone, Copy, Debug)]
-pub struct WholeBounds {
+pub struct IntBounds {
     /// The bits of a squared distance, square grid units: the triangle is not farther. That is so
     /// of the estimated point.
     pub upper: u32,
     /// From the estimated point to the query, of twelve bits.
-    pub direction: Whole,
+    pub direction: IntVector,
     /// The corner that the estimated point is.
     pub corner: Corner,
     /// The number of the triangle in its leaf, or that of another one with the same bounds.
     pub first: u8,
     /// By the plane across the direction.
-    pub lower: WholeLower,
+    pub lower: IntLower,
 }
 
-impl WholeBounds {
+impl IntBounds {
     /// Of a triangle that nothing is known of, and that is looked at last.
-    pub const NONE: WholeBounds = WholeBounds {
+    pub const NONE: IntBounds = IntBounds {
         upper: u32::MAX,
         direction: [0; 3],
         corner: Corner::NONE,
         first: 0,
-        lower: WholeLower::NONE,
+        lower: IntLower::NONE,
     };
 }
 
 /// Bounds of the distance of a triangle. Its corners are on the grid, from the grid's origin.
 #[inline(never)]
-pub fn whole_bounds(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> WholeBounds {
+pub fn integer_bounds(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> IntBounds {
     let (s, e, g) = (less(p.at, *a), less(*b, *a), less(*c, *a));
     let (v, w) = weights(s, e, g);
-    let mut way = [0i32; 3];
+    let mut offset = [0i32; 3];
     for axis in 0..3 {
         let inside = v.wrapping_mul(e[axis]).wrapping_add(w.wrapping_mul(g[axis]));
-        way[axis] = (s[axis] << FRACTION_BITS)
+        offset[axis] = (s[axis] << FRACTION_BITS)
             .wrapping_add(p.eighths[axis])
             .wrapping_sub(inside >> (WEIGHT_BITS - FRACTION_BITS));
     }
-    let mut bounds = upper_bound(way);
+    let mut bounds = upper_bound(offset);
     let direction = bounds.direction;
     bounds.corner = match (v, w) {
         (0, 0) => Corner::new(0),
@@ -181,12 +181,12 @@ pub fn whole_bounds(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> WholeBounds {
     let farthest = dot(direction, *a).max(dot(direction, *b)).max(dot(direction, *c));
     let along = p.along(direction).wrapping_sub(farthest);
     let direction_sq = dot(direction, direction).cast_unsigned();
-    bounds.lower = WholeLower::new(along, direction_sq);
+    bounds.lower = IntLower::new(along, direction_sq);
     bounds
 }
 
 /// Upper bound and direction of a point, which is the corner of a triangle.
-pub fn vertex_bounds(p: &WholePoint, vertex: Whole) -> WholeBounds {
+pub fn vertex_bounds(p: &IntPoint, vertex: IntVector) -> IntBounds {
     let ([x, y, z], [i, j, k]) = (less(p.at, vertex), p.eighths);
     upper_bound([(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k])
 }
@@ -194,18 +194,18 @@ pub fn vertex_bounds(p: &WholePoint, vertex: Whole) -> WholeBounds {
 /// Upper bound and direction of a way from a point of a triangle, in eighths.
 #[cfg_attr(meshsweep_small, inline(never))]
 #[cfg_attr(not(meshsweep_small), inline(always))]
-fn upper_bound(way: Whole) -> WholeBounds {
-    let size = bits(largest(way));
-    let direction = way.map(|x| x >> size.saturating_sub(DIRECTION_BITS));
+fn upper_bound(offset: IntVector) -> IntBounds {
+    let size = bits(largest(offset));
+    let direction = offset.map(|x| x >> size.saturating_sub(DIRECTION_BITS));
     // Along an axis the way is less than two eighths longer. Squares of 14 bits, rounded up: their
     // sum is below 2^30.
     let cut = size.saturating_sub(14);
-    let square = way.map(|x| (x.abs() + 1 + (1 << cut)) >> cut);
+    let square = offset.map(|x| (x.abs() + 1 + (1 << cut)) >> cut);
     let square = dot(square, square).cast_unsigned();
     let up = 32 - bits(square);
     let exponent = (127 + 30 - 2 * FRACTION_BITS + 2 * cut).wrapping_sub(up);
     let upper = (exponent << 23) + ((square << (up & 31)) >> 8) + 1;
-    WholeBounds { upper, direction, ..WholeBounds::NONE }
+    IntBounds { upper, direction, ..IntBounds::NONE }
 }
 
 /// Whether the f32 kernel certainly takes the corner `vertex` for the closest point. The vectors
@@ -215,16 +215,16 @@ fn upper_bound(way: Whole) -> WholeBounds {
 /// point here, and those of the kernel. Then no other region of the kernel applies, and its lower
 /// bound is the distance.
 #[inline(never)]
-pub fn is_certain_corner(p: &WholePoint, vertex: Whole, to_others: [Whole; 2]) -> bool {
+pub fn is_certain_corner(p: &IntPoint, vertex: IntVector, to_others: [IntVector; 2]) -> bool {
     let [x, y, z] = less(p.at, vertex);
     let [i, j, k] = p.eighths;
-    let way = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
-    let size = |[x, y, z]: Whole| x.abs() + y.abs() + z.abs();
+    let offset = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
+    let size = |[x, y, z]: IntVector| x.abs() + y.abs() + z.abs();
     let [one, other] = to_others;
     let edges = 2 * (size(one) + size(other));
-    let room = edges * (3 + (((size(way) >> FRACTION_BITS) + edges) >> 17));
-    let along = |edge: Whole| {
-        way.into_iter().zip(edge).fold(0, |sum, (x, y)| sum + i64::from(x) * i64::from(y))
+    let room = edges * (3 + (((size(offset) >> FRACTION_BITS) + edges) >> 17));
+    let along = |edge: IntVector| {
+        offset.into_iter().zip(edge).fold(0, |sum, (x, y)| sum + i64::from(x) * i64::from(y))
     };
     to_others.into_iter().all(|edge| along(edge) < -i64::from(room))
 }
@@ -232,9 +232,9 @@ pub fn is_certain_corner(p: &WholePoint, vertex: Whole, to_others: [Whole; 2]) -
 /// Whether the point is in front of a triangle: its corners run counter-clockwise seen from there.
 /// `None` where the f32 kernel may not decide the same, because of its own roundings.
 #[inline(never)]
-pub fn is_in_front(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> Option<bool> {
+pub fn is_in_front(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> Option<bool> {
     let ([x, y, z], [i, j, k]) = (less(p.at, *a), p.eighths);
-    let way = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
+    let offset = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
     let (e, g) = (less(*b, *a), less(*c, *a));
     let product = |x: i32, y: i32| i64::from(x) * i64::from(y);
     let ([ex, ey, ez], [gx, gy, gz]) = (e, g);
@@ -244,13 +244,13 @@ pub fn is_in_front(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> Option<bool> {
         product(ex, gy) - product(ey, gx),
     ];
     let (mut volume, mut size) = (0, 0);
-    for (n, x) in normal.into_iter().zip(way) {
+    for (n, x) in normal.into_iter().zip(offset) {
         volume += n * i64::from(x);
         size += n.abs();
     }
-    let norm_1 = |[x, y, z]: Whole| x.abs() + y.abs() + z.abs();
+    let norm_1 = |[x, y, z]: IntVector| x.abs() + y.abs() + z.abs();
     let products = product(norm_1(e), norm_1(g));
-    let rounding = ((products >> 10) + 1) * i64::from((largest(way) >> 9) + 1);
+    let rounding = ((products >> 10) + 1) * i64::from((largest(offset) >> 9) + 1);
     let room = 2 * size + rounding;
     if volume.abs() > room { Some(volume > 0) } else { None }
 }
@@ -258,7 +258,7 @@ pub fn is_in_front(p: &WholePoint, [a, b, c]: &[Whole; 3]) -> Option<bool> {
 /// Weights of the second and third corner at a point near the closest one, of twelve bits;
 /// their sum is at most one. Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
 #[inline(always)]
-pub(super) fn weights(s: Whole, e: Whole, g: Whole) -> (i32, i32) {
+pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
     // Products of 14 bits and 15 bits have a sum below 2^31.
     let size = bits(largest(e).max(largest(g)));
     let down = size.saturating_sub(14);
@@ -317,12 +317,12 @@ pub(super) fn weights(s: Whole, e: Whole, g: Whole) -> (i32, i32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::fan::{IntLimit, sharp_lower};
     use crate::geom::fan::{Nearness, PointFan};
-    use crate::geom::fan::{WholeLimit, sharp_lower};
     use glam::Vec3;
 
     /// Squared distance in f64, by the kernel of the hull hierarchy.
-    fn exact(p: [f64; 3], corners: &[Whole; 3]) -> f64 {
+    fn exact(p: [f64; 3], corners: &[IntVector; 3]) -> f64 {
         let at = |v: [f64; 3]| glam::DVec3::from_array(v);
         let [a, b, c] = corners.map(|v| at(v.map(f64::from)));
         crate::geom::point_triangle(at(p), a, b, c).distance_sq
@@ -339,16 +339,16 @@ mod tests {
             ((self.0 >> 33) % u64::from(most)) as i32
         }
 
-        fn whole(&mut self, size: u32) -> Whole {
+        fn whole(&mut self, size: u32) -> IntVector {
             [(); 3].map(|()| self.below(2 * size + 1) - size.cast_signed())
         }
     }
 
     /// A triangle of about `size` units on the grid; some are needles, some are points.
-    fn triangle(noise: &mut Noise, size: u32) -> [Whole; 3] {
-        let clamp = |v: Whole| v.map(|x| x.clamp(0, 0xFFFF));
+    fn triangle(noise: &mut Noise, size: u32) -> [IntVector; 3] {
+        let clamp = |v: IntVector| v.map(|x| x.clamp(0, 0xFFFF));
         let a = [(); 3].map(|()| noise.below(0x1_0000));
-        let add = |d: Whole| clamp([a[0] + d[0], a[1] + d[1], a[2] + d[2]]);
+        let add = |d: IntVector| clamp([a[0] + d[0], a[1] + d[1], a[2] + d[2]]);
         let e = noise.whole(size);
         let g = match noise.below(4) {
             0 => e.map(|x| x / 2 + noise.below(3) - 1),
@@ -371,19 +371,19 @@ mod tests {
             // The grid's origin, from which the query computes the point with one rounding.
             let origin = -noise.below(100_000) as f32;
             let p = [0, 1, 2].map(|k| near[k] as f32 + off[k] + origin);
-            let Some(point) = WholePoint::new(p.map(|x| x - origin)) else { continue };
+            let Some(point) = IntPoint::new(p.map(|x| x - origin)) else { continue };
             let p = p.map(|x| f64::from(x) - f64::from(origin));
             let square = exact(p, &corners);
-            let (bounds, sharp) = (whole_bounds(&point, &corners), sharp_lower(&point, &corners));
+            let (bounds, sharp) = (integer_bounds(&point, &corners), sharp_lower(&point, &corners));
             assert!(square <= f64::from(f32::from_bits(bounds.upper)), "{p:?} {corners:?}");
             for share in [0.5, 0.9, 0.99, 0.999, 1.0, 1.000_01, 1.1] {
                 let limit = (square * share) as f32;
                 if limit < f32::MIN_POSITIVE {
                     continue;
                 }
-                let is_beyond = bounds.lower.is_beyond(WholeLimit::of(limit));
+                let is_beyond = bounds.lower.is_beyond(IntLimit::of(limit));
                 assert!(!is_beyond || square > f64::from(limit), "{share}: {p:?} {corners:?}");
-                let is_sharp = sharp.is_beyond(WholeLimit::of(limit));
+                let is_sharp = sharp.is_beyond(IntLimit::of(limit));
                 assert!(!is_sharp || square > f64::from(limit), "{share}: {p:?} {corners:?}");
                 let is_inner = bounds.corner.number == Corner::NONE.number;
                 if share == 0.999 && square > 1e4 && is_inner {
@@ -418,9 +418,9 @@ mod tests {
             let origin = -noise.below(100_000) as f32;
             let part = noise.below(1000) as f32 / 1000.0;
             let p = [0, 1, 2].map(|k| (vertex[k] + off[k]) as f32 + part + origin);
-            let Some(point) = WholePoint::new(p.map(|x| x - origin)) else { continue };
+            let Some(point) = IntPoint::new(p.map(|x| x - origin)) else { continue };
             // Twice the room: within 20 units of a wall of the corner's region none is certain.
-            let far = |edge: &Whole| {
+            let far = |edge: &IntVector| {
                 let size = f64::from(edge.map(i32::abs).into_iter().sum::<i32>());
                 f64::from(dot(*edge, off.map(|x| x.clamp(-8000, 8000)))) < -20.0 * size
             };
@@ -430,14 +430,14 @@ mod tests {
                 certain += i32::from(is_certain);
             }
             if is_certain {
-                let at = |v: Whole| Vec3::from_array(v.map(|x| x as f32 + origin));
-                let edge = |v: Whole| Vec3::from_array(less(v, corners[0]).map(|x| x as f32));
+                let at = |v: IntVector| Vec3::from_array(v.map(|x| x as f32 + origin));
+                let edge = |v: IntVector| Vec3::from_array(less(v, corners[0]).map(|x| x as f32));
                 let s = Vec3::from_array(p) - at(corners[0]);
                 let fan = PointFan::new(s);
                 let [e, g] = [edge(corners[1]), edge(corners[2])];
                 let near = fan.triangle(&fan.spoke(e), &fan.spoke(g));
-                let way = [s, s - e, s - g][which];
-                let distance_sq = way.x * way.x + way.y * way.y + way.z * way.z;
+                let offset = [s, s - e, s - g][which];
+                let distance_sq = offset.x * offset.x + offset.y * offset.y + offset.z * offset.z;
                 let (v, w) = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)][which];
                 let expected = Nearness { distance_sq, lower_bound_sq: distance_sq, v, w };
                 assert_eq!(near, expected, "{p:?} {corners:?}");
@@ -454,9 +454,9 @@ mod tests {
             let size = 1 << noise.below(14);
             let [one, two] = [(); 2].map(|()| triangle(&mut noise, size));
             let p = [(); 3].map(|()| noise.below(0x1_0000) as f32);
-            let point = WholePoint::new(p).expect("in range");
+            let point = IntPoint::new(p).expect("in range");
             let [near, far] =
-                [one, two].map(|t| (exact(p.map(f64::from), &t), whole_bounds(&point, &t).upper));
+                [one, two].map(|t| (exact(p.map(f64::from), &t), integer_bounds(&point, &t).upper));
             if near.0 > 1.02 * far.0 || far.0 > 1.02 * near.0 {
                 all += 1;
                 right += i32::from((near.0 < far.0) == (near.1 < far.1));
@@ -479,7 +479,7 @@ mod tests {
             let off = noise.whole(away).map(|x| x as f32 + noise.below(1000) as f32 / 1000.0);
             let origin = -noise.below(100_000) as f32;
             let p = [0, 1, 2].map(|k| near[k] as f32 + off[k] + origin);
-            let Some(point) = WholePoint::new(p.map(|x| x - origin)) else { continue };
+            let Some(point) = IntPoint::new(p.map(|x| x - origin)) else { continue };
             let [a, b, c] = corners.map(|v| Vec3::from_array(v.map(|x| x as f32)));
             let (s, e, g) = (Vec3::from_array(p) - (a + origin), b - a, c - a);
             let volume = e.cross(g).dot(s);
