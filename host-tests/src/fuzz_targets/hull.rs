@@ -1,6 +1,7 @@
 //! Targets for the split hierarchy.
 
 use super::input::Input;
+use super::suite::ask_all;
 use crate::generate::{Triangles, cube, groove_block, icosphere, torus};
 use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
@@ -10,6 +11,7 @@ use meshsweep_core::{
     Blob, Budget, ClosestPoint, Ended, Focus, Hit, Hull, OuterSearch, QueryError, RefinedHull,
     ScratchEntry, SplitChange, TriangleHit, TrianglePair, Verdict,
 };
+use meshsweep_suite::ask::{hull, hull_moving};
 use std::sync::OnceLock;
 
 /// Small valid blobs of every vertex format, one of them cut.
@@ -44,10 +46,13 @@ pub fn open(data: &[u8]) {
     if let Ok(blob) = Blob::open(data) {
         look(&blob);
     }
-    let bytes = Input(data).blob(seeds());
+    let mut input = Input(data);
+    let bytes = input.blob(seeds());
     if let Ok(blob) = Blob::open(&bytes) {
         look(&blob);
     }
+    ask_all::<hull::Model<'_>>(&bytes, hull::Scratch::new(), &mut input);
+    ask_all::<hull_moving::Moving<'_>>(&bytes, hull_moving::Scratch::new(), &mut input);
 }
 
 /// Sections, levels, faces of every hull: all in range.

@@ -1,6 +1,7 @@
 //! The target for tribox hierarchies of blobs.
 
 use super::input::Input;
+use super::suite::ask_all;
 use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit::assemble;
@@ -8,6 +9,7 @@ use meshsweep::mesh::Mesh;
 use meshsweep::progress::Watch;
 use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::{Blob, Budget, Ended, NodePair, Pose, QueryError, ScratchEntry, Triboxes};
+use meshsweep_suite::ask::triboxes;
 use std::sync::OnceLock;
 
 /// Small valid blobs of triboxes: one and several, closed and open, one beside a box tree.
@@ -142,4 +144,5 @@ pub fn triboxes(data: &[u8]) {
     let pose = Pose { rotation: [(); 3].map(|()| input.point()), translation: input.point() };
     ask(&a, &b, &pose, entries);
     bounds(&a, input.point(), input.point(), entries);
+    ask_all::<Triboxes<'_>>(&first, triboxes::Scratch::new(), &mut input);
 }

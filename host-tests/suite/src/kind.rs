@@ -1,196 +1,134 @@
-//! Kinds of queries.
+//! Kinds of queries, one a row.
 
-/// What a block asks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+/// Rows of kinds in the order in which they are run: the variant, its seed, and its name in reports,
+/// which is one word. Seeds stay as they are, or `fixtures/answers.txt` changes. The documents'
+/// tables hold the instructions on the boards of those that are `tabled`.
+macro_rules! kinds {
+    ($($(#[$doc:meta])* $kind:ident = $seed:literal, $name:literal $(, $tabled:ident)?;)*) => {
+        /// What a block asks.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Kind {
+            $($(#[$doc])* $kind = $seed,)*
+        }
+
+        impl Kind {
+            /// All kinds in the order in which they are run.
+            pub const ALL: [Self; [$($seed),*].len()] = [$(Self::$kind),*];
+
+            /// The name in reports: one word.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$kind => $name,)*
+                }
+            }
+
+            /// Whether the documents' tables hold its instructions on the boards.
+            #[must_use]
+            pub const fn is_tabled(self) -> bool {
+                match self {
+                    $($(Self::$kind => kinds!(@ $tabled),)?)*
+                    _ => false,
+                }
+            }
+        }
+    };
+    (@ tabled) => { true };
+}
+
+kinds! {
     /// The target's own arithmetic.
-    Arith,
+    Arith = 0, "arith";
     /// What the blob says of itself.
-    Contents,
+    Contents = 1, "contents";
     /// Closest point from the doubled box.
-    ClosestFar,
+    ClosestFar = 2, "closest_far", tabled;
     /// Closest point from near the surface.
-    ClosestNear,
+    ClosestNear = 3, "closest_near", tabled;
     /// Closest point along a path of small steps.
-    ClosestPath,
+    ClosestPath = 4, "closest_path";
     /// First hit of a segment through the doubled box.
-    FirstHit,
+    FirstHit = 5, "first_hit", tabled;
     /// All hits of such a segment.
-    AllHits,
+    AllHits = 6, "all_hits";
     /// Such a segment on the refined hull.
-    OuterHits,
-    /// Closest point with tolerances and with too few steps.
-    Stopped,
-    /// Whether the surface is within a distance.
-    Within,
-    /// The closest triangles.
-    Nearest,
-    /// All triangles within a distance.
-    AllWithin,
-    /// Distance with a sign.
-    Signed,
-    /// First hit of a segment on fronts, and on backs.
-    Facing,
-    /// Whether a segment meets the surface.
-    AnyHit,
-    /// Closest point along a path of small steps and few jumps, by a coherent query.
-    CoherentQuery,
-    /// Closest points of eight points from the doubled box.
-    Batch,
-    /// Triangles that may face an eye.
-    Cull,
-    /// Whether the surface meets its moved copy.
-    Overlap,
-    /// All pairs of triangles that do.
-    AllOverlaps,
-    /// The tribox of eight points.
-    TriboxBounds,
-    /// The boundary of a tribox.
-    TriboxFaces,
-    /// Whether two triboxes overlap.
-    TriboxOverlap,
-    /// Whether two boxes do, for comparison.
-    BoxOverlap,
-    /// All else that triboxes answer.
-    TriboxRest,
-    /// Whether a tribox hierarchy is apart from a moved copy.
-    TriboxesApart,
-    /// Which of its leaves may meet those of the copy.
-    TriboxesCandidates,
-    /// A lower bound of the distance from the doubled box.
-    TriboxesDistance,
-    /// Where a segment first enters a leaf.
-    TriboxesClip,
+    OuterHits = 7, "outer_hits", tabled;
     /// The hull refined for a focus that moves.
-    Refine,
+    Refine = 29, "refine";
     /// A sweep that is moved, interrupted, and asked for more triangles.
-    Sweep,
+    Sweep = 30, "sweep";
     /// Closest point of the model under a pose.
-    Posed,
-    /// Closest point between two key frames.
-    Frame,
-    /// An update of a moved hull.
-    Update,
-    /// Closest point of a moved hull.
-    Moved,
+    Posed = 31, "posed";
+    /// Closest point with tolerances and with too few steps.
+    Stopped = 8, "stopped";
+    /// Whether the surface is within a distance.
+    Within = 9, "within", tabled;
+    /// The closest triangles.
+    Nearest = 10, "nearest";
+    /// All triangles within a distance.
+    AllWithin = 11, "all_within";
+    /// Distance with a sign.
+    Signed = 12, "signed", tabled;
+    /// First hit of a segment on fronts, and on backs.
+    Facing = 13, "facing";
+    /// Whether a segment meets the surface.
+    AnyHit = 14, "any_hit";
+    /// Closest point along a path of small steps and few jumps, by a coherent query.
+    CoherentQuery = 15, "coherent_query";
+    /// Closest points of eight points from the doubled box.
+    Batch = 16, "batch_of_8";
+    /// Triangles that may face an eye.
+    Cull = 17, "cull";
+    /// Whether the surface meets its moved copy.
+    Overlap = 18, "overlap";
+    /// All pairs of triangles that do.
+    AllOverlaps = 19, "all_overlaps";
     /// How far the surface is from its moved copy.
-    PairDistance,
+    PairDistance = 35, "pair_distance";
     /// How far a capsule is from the surface.
-    Solid,
+    Solid = 36, "solid";
     /// Where a capsule that moves first meets the surface.
-    Contact,
+    Contact = 37, "first_contact";
     /// How often the surface encloses a point.
-    Winding,
+    Winding = 38, "winding";
     /// Which two of three moved copies are nearest.
-    Scene,
+    Scene = 39, "scene";
     /// How far the surface is from its copy, which moves in small steps.
-    CoherentPair,
+    CoherentPair = 40, "coherent_pair";
     /// How deep the solid is in its moved copy.
-    Penetration,
+    Penetration = 41, "penetration";
+    /// The tribox of eight points.
+    TriboxBounds = 20, "tribox_bounds";
+    /// The boundary of a tribox.
+    TriboxFaces = 21, "tribox_faces";
+    /// Whether two triboxes overlap.
+    TriboxOverlap = 22, "tribox_overlap";
+    /// Whether two boxes do, for comparison.
+    BoxOverlap = 23, "box_overlap";
+    /// All else that triboxes answer.
+    TriboxRest = 24, "tribox_rest";
+    /// Whether a tribox hierarchy is apart from a moved copy.
+    TriboxesApart = 25, "triboxes_apart";
+    /// Which of its leaves may meet those of the copy.
+    TriboxesCandidates = 26, "triboxes_candidates";
+    /// A lower bound of the distance from the doubled box.
+    TriboxesDistance = 27, "triboxes_distance";
+    /// Where a segment first enters a leaf.
+    TriboxesClip = 28, "triboxes_clip";
+    /// Closest point between two key frames.
+    Frame = 32, "frame";
+    /// An update of a moved hull.
+    Update = 33, "update";
+    /// Closest point of a moved hull.
+    Moved = 34, "moved";
     /// Closest point in f64 from near the surface.
-    ClosestPrecise,
+    ClosestPrecise = 42, "closest_precise";
 }
 
 impl Kind {
-    /// All kinds in the order in which they are run.
-    pub const ALL: [Self; 43] = [
-        Self::Arith,
-        Self::Contents,
-        Self::ClosestFar,
-        Self::ClosestNear,
-        Self::ClosestPath,
-        Self::FirstHit,
-        Self::AllHits,
-        Self::OuterHits,
-        Self::Refine,
-        Self::Sweep,
-        Self::Posed,
-        Self::Stopped,
-        Self::Within,
-        Self::Nearest,
-        Self::AllWithin,
-        Self::Signed,
-        Self::Facing,
-        Self::AnyHit,
-        Self::CoherentQuery,
-        Self::Batch,
-        Self::Cull,
-        Self::Overlap,
-        Self::AllOverlaps,
-        Self::PairDistance,
-        Self::Solid,
-        Self::Contact,
-        Self::Winding,
-        Self::Scene,
-        Self::CoherentPair,
-        Self::Penetration,
-        Self::TriboxBounds,
-        Self::TriboxFaces,
-        Self::TriboxOverlap,
-        Self::BoxOverlap,
-        Self::TriboxRest,
-        Self::TriboxesApart,
-        Self::TriboxesCandidates,
-        Self::TriboxesDistance,
-        Self::TriboxesClip,
-        Self::Frame,
-        Self::Update,
-        Self::Moved,
-        Self::ClosestPrecise,
-    ];
-
-    /// The name in reports: one word.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Arith => "arith",
-            Self::Contents => "contents",
-            Self::ClosestFar => "closest_far",
-            Self::ClosestNear => "closest_near",
-            Self::ClosestPath => "closest_path",
-            Self::ClosestPrecise => "closest_precise",
-            Self::FirstHit => "first_hit",
-            Self::AllHits => "all_hits",
-            Self::OuterHits => "outer_hits",
-            Self::Stopped => "stopped",
-            Self::Within => "within",
-            Self::Nearest => "nearest",
-            Self::AllWithin => "all_within",
-            Self::Signed => "signed",
-            Self::Facing => "facing",
-            Self::AnyHit => "any_hit",
-            Self::CoherentQuery => "coherent_query",
-            Self::Batch => "batch_of_8",
-            Self::Cull => "cull",
-            Self::Overlap => "overlap",
-            Self::AllOverlaps => "all_overlaps",
-            Self::PairDistance => "pair_distance",
-            Self::Solid => "solid",
-            Self::Contact => "first_contact",
-            Self::Winding => "winding",
-            Self::Scene => "scene",
-            Self::CoherentPair => "coherent_pair",
-            Self::Penetration => "penetration",
-            Self::TriboxBounds => "tribox_bounds",
-            Self::TriboxFaces => "tribox_faces",
-            Self::TriboxOverlap => "tribox_overlap",
-            Self::BoxOverlap => "box_overlap",
-            Self::TriboxRest => "tribox_rest",
-            Self::TriboxesApart => "triboxes_apart",
-            Self::TriboxesCandidates => "triboxes_candidates",
-            Self::TriboxesDistance => "triboxes_distance",
-            Self::TriboxesClip => "triboxes_clip",
-            Self::Refine => "refine",
-            Self::Sweep => "sweep",
-            Self::Posed => "posed",
-            Self::Frame => "frame",
-            Self::Update => "update",
-            Self::Moved => "moved",
-        }
-    }
-
     /// Whether it is about triboxes: no blob is asked.
-    pub(crate) const fn is_tribox(self) -> bool {
+    #[must_use]
+    pub const fn is_tribox(self) -> bool {
         matches!(
             self,
             Self::TriboxBounds
@@ -201,54 +139,9 @@ impl Kind {
         )
     }
 
-    /// Whether it is about a blob's triboxes.
+    /// Of the stream of numbers that places its queries.
     #[must_use]
-    pub const fn is_triboxes(self) -> bool {
-        matches!(
-            self,
-            Self::TriboxesApart
-                | Self::TriboxesCandidates
-                | Self::TriboxesDistance
-                | Self::TriboxesClip
-        )
-    }
-
-    /// Whether it is about other bodies than points and segments, or about winding numbers.
-    #[must_use]
-    pub const fn is_apart(self) -> bool {
-        matches!(
-            self,
-            Self::PairDistance
-                | Self::Solid
-                | Self::Contact
-                | Self::Winding
-                | Self::Scene
-                | Self::CoherentPair
-                | Self::Penetration
-        )
-    }
-
-    /// Whether it is about a hull that deforms.
-    #[must_use]
-    pub const fn is_deform(self) -> bool {
-        matches!(self, Self::Frame | Self::Update | Self::Moved)
-    }
-
-    /// Whether the documents' tables hold its instructions on the boards.
-    #[must_use]
-    pub const fn is_tabled(self) -> bool {
-        matches!(
-            self,
-            Self::ClosestFar
-                | Self::ClosestNear
-                | Self::FirstHit
-                | Self::OuterHits
-                | Self::Within
-                | Self::Signed
-        )
-    }
-
-    pub(crate) const fn seed(self) -> u64 {
+    pub const fn seed(self) -> u64 {
         0x6d65_7368_7377_6570 ^ ((self as u64) << 56)
     }
 }

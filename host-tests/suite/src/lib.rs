@@ -17,6 +17,7 @@ pub mod clock;
 pub mod fold;
 pub mod kind;
 pub mod place;
+pub mod questions;
 pub mod rng;
 pub mod run;
 

@@ -38,6 +38,11 @@ pub trait Recorder: Clock {
     fn kind_ends(&mut self, _kind: Kind) {}
 }
 
+/// Whether the kind is asked of this subject: triboxes of points need no blob.
+fn suits<'t, S: Subject<'t>>(kind: Kind) -> bool {
+    S::suits(kind) || S::ASKS_TRIBOXES_OF_POINTS && kind.is_tribox()
+}
+
 /// Opens the blob and runs all kinds that suit it.
 ///
 /// # Errors
@@ -56,7 +61,7 @@ pub fn run<'t, S: Subject<'t>>(
     }
     recorder.begins(subject.memory());
     let bounds = subject.bounds();
-    for kind in Kind::ALL.into_iter().filter(|kind| S::suits(*kind)) {
+    for kind in Kind::ALL.into_iter().filter(|kind| suits::<S>(*kind)) {
         recorder.kind_begins(kind);
         let mut placer = Placer::new(kind.seed(), bounds);
         let (blocks, queries) = match kind {
@@ -70,7 +75,7 @@ pub fn run<'t, S: Subject<'t>>(
             for _ in 0..queries {
                 if kind == Kind::Arith {
                     recorder.query_begins();
-                    arith::chain(&mut placer.rng, &mut fold);
+                    arith::chain(placer.rng(), &mut fold);
                     recorder.query_ends();
                 } else if S::ASKS_TRIBOXES_OF_POINTS && kind.is_tribox() {
                     tribox::ask(kind, &mut placer, recorder, &mut fold);

@@ -8,6 +8,7 @@ use crate::cost::{self, Added, Measured, Row};
 use crate::cross::Cross;
 use crate::images::{self, Profile};
 use crate::process;
+use crate::questions::SIZES;
 use crate::reading::Reading;
 use crate::stack::{self, Stacks};
 use crate::steps::Steps;
@@ -57,13 +58,15 @@ impl Scope {
     /// Whether a board is asked about a blob, by an image with this optimisation. The Cortex-M33
     /// runs nearly the instructions of the Cortex-M4F: `cargo xtask test` asks it about the two
     /// structures that have tables. The other optimisation is asked for the stack that it takes.
-    fn asks(self, board: &Board, blob: Blob, profile: Profile) -> bool {
-        let has_table = matches!(blob.image, "suite_hull" | "suite_tree");
-        let is_first = profile == blob.profile(board.flash);
-        let all = is_first || board.flash == Flash::Large && blob.is_painted();
-        match self {
-            Self::All | Self::Counted => all,
-            Self::Compared => is_first && (has_table || board.cpu != "Cortex-M33"),
+    fn asks(self) -> impl Fn(&Board, Blob, Profile) -> bool {
+        move |board, blob, profile| {
+            let has_table = matches!(blob.image, "suite_hull" | "suite_tree");
+            let is_first = profile == blob.profile(board.flash);
+            let all = is_first || board.flash == Flash::Large && blob.is_painted();
+            match self {
+                Self::All | Self::Counted => all,
+                Self::Compared => is_first && (has_table || board.cpu != "Cortex-M33"),
+            }
         }
     }
 
@@ -114,7 +117,7 @@ pub fn run(steps: &mut Steps, tools: &Tools) -> Vec<Row> {
 /// Runs what has costs on some boards: the images of the suite, and those whose size is measured.
 pub fn count(steps: &mut Steps, tools: &Tools, boards: &[Board]) -> Vec<Row> {
     let (cross, scope) = (&tools.cross, Scope::Counted);
-    let asked = steps.run("images of the suite", || suites(cross, boards, scope));
+    let asked = steps.run("images of the suite", || suites(cross, boards, scope.asks()));
     build_for_sizes(steps, cross, boards, scope);
     let mut rows =
         asked.map(|asked| answers(steps, tools, boards, &asked, scope)).unwrap_or_default();
@@ -122,10 +125,26 @@ pub fn count(steps: &mut Steps, tools: &Tools, boards: &[Board]) -> Vec<Row> {
     rows
 }
 
+/// Builds the images of some blobs, each as it is optimised for the board, and runs them.
+pub fn some(
+    steps: &mut Steps,
+    tools: &Tools,
+    boards: &[Board],
+    is_asked: &dyn Fn(&Board, Blob) -> bool,
+) -> Vec<Row> {
+    let asked = steps.run("images of the suite", || {
+        suites(&tools.cross, boards, |board, blob, profile| {
+            profile == blob.profile(board.flash) && is_asked(board, blob)
+        })
+    });
+    let rows = asked.map(|asked| answers(steps, tools, boards, &asked, Scope::Compared));
+    rows.unwrap_or_default()
+}
+
 /// Builds all images, which takes nothing of the library on this machine. Lints and proofs are
 /// among it.
 pub fn build(steps: &mut Steps, tools: &Tools, scope: Scope) -> Option<Vec<Asked>> {
-    let asked = steps.run("images of the suite", || suites(&tools.cross, &BOARDS, scope));
+    let asked = steps.run("images of the suite", || suites(&tools.cross, &BOARDS, scope.asks()));
     proofs(steps, &tools.cross, scope);
     build_for_sizes(steps, &tools.cross, &BOARDS, scope);
     asked
@@ -280,7 +299,11 @@ fn build_for_sizes(steps: &mut Steps, cross: &Cross, boards: &[Board], scope: Sc
 
 /// Builds all images of the suite: one command for each profile and the boards that take the same
 /// images. What each is asked about.
-fn suites(cross: &Cross, boards: &[Board], scope: Scope) -> Result<Vec<Asked>, String> {
+fn suites(
+    cross: &Cross,
+    boards: &[Board],
+    is_asked: impl Fn(&Board, Blob, Profile) -> bool,
+) -> Result<Vec<Asked>, String> {
     let mut asked = Vec::new();
     let mut built: Vec<(Profile, Vec<&str>, Vec<&str>)> = Vec::new();
     for &board in boards {
@@ -288,7 +311,7 @@ fn suites(cross: &Cross, boards: &[Board], scope: Scope) -> Result<Vec<Asked>, S
         let blobs = Blob::standard(board.flash).into_iter().chain(Blob::VARIANTS);
         let asks = |blob| Profile::ALL.map(|profile| (blob, profile));
         for (blob, profile) in blobs.flat_map(asks) {
-            if !scope.asks(&board, blob, profile) {
+            if !is_asked(&board, blob, profile) {
                 continue;
             }
             let image = images::image(cross, board.target, profile, blob.image);
@@ -332,34 +355,15 @@ pub fn reading(
 /// Boards whose debug builds are looked at: with floating point, and without.
 pub const DEBUGGED: [&str; 2] = ["Cortex-M4F", "Cortex-M0"];
 
-/// Questions whose code is measured, each by an image of its own, and their names in tables.
-pub const QUESTIONS: [(&str, &str); 15] = [
-    ("tree_open", "open a box tree"),
-    ("tree_alone", "closest point"),
-    ("tree_alone_two", "closest point, first hit"),
-    ("tree_alone_four", "closest point, first hit, within, signed distance"),
-    ("tree_closest", "open, closest point"),
-    ("tree_segment", "open, first hit"),
-    ("tree_coherent", "open, coherent query"),
-    ("tree_four", "open, closest point, first hit, within, signed distance"),
-    ("tight", "open tight hulls, within"),
-    ("triboxes", "open triboxes, apart"),
-    ("curve", "open curves, closest point"),
-    ("open", "open a hull hierarchy"),
-    ("closest", "open a hull hierarchy, closest point"),
-    ("segment", "open a hull hierarchy, first hit"),
-    ("outer", "open a hull hierarchy, outer hits"),
-];
-
 /// Questions whose code a table needs measured.
 pub const CODE: [&str; 2] = ["closest", "tree_alone"];
 
 /// Their images.
-const IMAGES: [&str; QUESTIONS.len()] = {
-    let mut images = [""; QUESTIONS.len()];
+const IMAGES: [&str; SIZES.len()] = {
+    let mut images = [""; SIZES.len()];
     let mut index = 0;
     while index < images.len() {
-        images[index] = QUESTIONS[index].0;
+        images[index] = SIZES[index].0;
         index += 1;
     }
     images

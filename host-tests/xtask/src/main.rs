@@ -16,12 +16,13 @@ use meshsweep_xtask::tools::{Tools, setup};
 use meshsweep_xtask::valgrind::Valgrind;
 use meshsweep_xtask::{
     c_checks, checks, count, count_suite, dist, examples, firmware, fit, fuzz, host, processors,
-    report, rival, say, tables,
+    question, report, rival, say, tables,
 };
 
 const USAGE: &str = "\
 cargo xtask setup                   makes sure of the cross targets, of QEMU and of valgrind
 cargo xtask test                    setup, then everything that has to hold
+cargo xtask test QUESTION           what a change of a question can break, such as `closest_point`
 cargo xtask firmware                only the firmware: bits, panics, sizes, instructions
 cargo xtask examples                only core/examples, on a Cortex-M4F, and defmt
 cargo xtask c                       only the C interface: its programs here and in QEMU
@@ -92,6 +93,10 @@ fn main() -> ExitCode {
             steps.append(others);
             tables::check(&mut steps, &Facts { counts: counts.as_ref(), rows: &rows });
             guarded(&mut steps, tools.as_ref(), &rows, Scope::Compared, &here, Costs::check);
+        }
+        ["test", method] => {
+            let tools = setup(&mut steps);
+            question::run(&mut steps, tools.as_ref(), method);
         }
         ["firmware"] => {
             if let Some(tools) = setup(&mut steps) {

@@ -15,10 +15,8 @@ use crate::c_library;
 use crate::call_graph::CallGraph;
 use crate::cross::Cross;
 use crate::images::{self, Profile};
+use crate::questions::{CLOSEST, QUESTIONS, Question};
 use crate::reading::Reading;
-
-/// The question that is asked most.
-const CLOSEST: &str = "closest point";
 
 /// Most bytes of stack of a closest point in a debug build with the override of the guide. Without
 /// floating point eight triangles wait there.
@@ -26,123 +24,6 @@ const MOST_IN_DEBUG: u32 = 2816;
 
 /// The image that is built for debug builds: it asks a box tree four questions.
 pub const DEBUG_IMAGE: &str = "size_tree_four";
-
-/// A question, as the tables name it.
-#[derive(Clone, Copy, Debug)]
-pub struct Question {
-    /// Its name.
-    pub name: &'static str,
-    /// What a blob has to have, as the builder's table of stacks names it.
-    pub needs: &'static str,
-    /// The function of the suite.
-    function: &'static str,
-    /// The suite's kinds of queries that call the function; none of opening.
-    kinds: &'static [&'static str],
-    /// The image of the suite that asks it.
-    image: &'static str,
-}
-
-const fn question(
-    name: &'static str,
-    needs: &'static str,
-    function: &'static str,
-    kinds: &'static [&'static str],
-    image: &'static str,
-) -> Question {
-    Question { name, needs, function, kinds, image }
-}
-
-/// The questions of the tables.
-pub const QUESTIONS: [Question; 35] = {
-    const TREE: &str = "suite_tree";
-    const APART: &str = "suite_apart";
-    const HULL: &str = "suite_hull";
-    [
-        question("open a box tree", "tree", "tree::open", &[], TREE),
-        question(
-            CLOSEST,
-            "closest",
-            "tree::distance::closest",
-            &["closest_far", "closest_near"],
-            TREE,
-        ),
-        question(
-            "closest point from a hint",
-            "closest",
-            "tree::distance::follow",
-            &["closest_path"],
-            TREE,
-        ),
-        question(
-            "closest point in f64",
-            "closest",
-            "tree::distance::precise",
-            &["closest_precise"],
-            TREE,
-        ),
-        question(
-            "coherent query",
-            "closest",
-            "tree::distance::coherent",
-            &["coherent_query"],
-            TREE,
-        ),
-        question("closest points", "closest", "tree::distance::batch", &["batch_of_8"], TREE),
-        question("within", "closest", "tree::distance::is_within", &["within"], TREE),
-        question("nearest triangles", "closest", "tree::distance::nearest", &["nearest"], TREE),
-        question("all within", "closest", "tree::distance::all_within", &["all_within"], TREE),
-        question("signed distance", "closest", "tree::distance::signed", &["signed"], TREE),
-        question("winding number", "winding", "apart::winding", &["winding"], APART),
-        question("front facing", "cull", "tree::sight::cull", &["cull"], TREE),
-        question("first hit", "segment", "tree::sight::first_hit", &["first_hit"], TREE),
-        question("any hit", "segment", "tree::sight::any_hit", &["any_hit"], TREE),
-        question("all hits", "segment", "tree::sight::all_hits", &["all_hits"], TREE),
-        question("overlap", "segment", "tree::meeting::overlap", &["overlap"], TREE),
-        question("distance of two models", "segment", "apart::distance", &["pair_distance"], APART),
-        question("coherent pair", "segment", "apart::coherent", &["coherent_pair"], APART),
-        question("scene", "segment", "apart::scene", &["scene"], APART),
-        question("distance of a solid", "segment", "apart::solid", &["solid"], APART),
-        question("first contact", "segment", "apart::contact", &["first_contact"], APART),
-        question("penetration", "winding", "apart::penetration", &["penetration"], APART),
-        question("open tight hulls", "tight", "tight::open", &[], "suite_tight"),
-        question(
-            "closest point of tight hulls",
-            "tight",
-            "tight::closest",
-            &["closest_far", "closest_near"],
-            "suite_tight",
-        ),
-        question("within of tight hulls", "tight", "tight::is_within", &["within"], "suite_tight"),
-        question("open a hull hierarchy", "hull", "hull::open", &[], HULL),
-        question(
-            "closest point of a hull",
-            "hull",
-            "hull::closest",
-            &["closest_far", "closest_near", "closest_path"],
-            HULL,
-        ),
-        question("first hit of a hull", "hull", "hull::first_hit", &["first_hit"], HULL),
-        question("outer hits", "hull", "hull::outer_hits", &["outer_hits"], HULL),
-        question("refine", "hull", "hull::refine", &["refine"], HULL),
-        question("sweep", "hull", "hull_moving::sweep", &["sweep"], "suite_moving"),
-        question("open triboxes", "triboxes", "triboxes::open", &[], "suite_triboxes"),
-        question(
-            "triboxes apart",
-            "triboxes",
-            "triboxes::reject",
-            &["triboxes_apart"],
-            "suite_triboxes",
-        ),
-        question("open curves", "curve", "curve::open", &[], "suite_curve"),
-        question(
-            "closest point of curves",
-            "curve",
-            "curve::closest",
-            &["closest_far", "closest_near"],
-            "suite_curve",
-        ),
-    ]
-};
 
 /// Functions of `meshsweep.h`, and what a blob has to have for them.
 pub const C_FUNCTIONS: [(&str, &str); 20] = [
@@ -171,10 +52,20 @@ pub const C_FUNCTIONS: [(&str, &str); 20] = [
 /// A function of the header that is not in the list takes less. `part.h` says so.
 const MOST_UNLISTED: u32 = 64;
 
-impl Question {
-    fn path(&self) -> String {
-        format!("meshsweep_suite::ask::{}", self.function)
-    }
+/// The function's whole path.
+fn path(question: &Question) -> String {
+    format!("meshsweep_suite::ask::{}", question.function)
+}
+
+/// The image of the suite that asks it: that of the structure.
+fn image(question: &Question) -> String {
+    let structure = question.function.split("::").next().unwrap_or_default();
+    format!("suite_{}", structure.trim_start_matches("hull_"))
+}
+
+/// Whether a query of a kind, by its name, calls the function.
+fn is_asked_by(question: &Question, kind: &str) -> bool {
+    question.kinds.iter().any(|of| of.name() == kind)
 }
 
 /// What a question takes with one optimisation on one board.
@@ -257,7 +148,7 @@ impl Stacks {
         }
         let mut refused = Vec::new();
         for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize].questions) {
-            match graph.bound(&question.path()) {
+            match graph.bound(&path(question)) {
                 Ok(bound) => stack.bound = stack.bound.max(Some(bound.bytes)),
                 Err(reason) => refused.push(format!("{}: {reason}", question.name)),
             }
@@ -277,7 +168,7 @@ impl Stacks {
     ) -> Result<(), String> {
         let graph = CallGraph::of(&images::image(cross, board.target, profile, DEBUG_IMAGE))?;
         for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize].questions) {
-            let bound = graph.bound(&question.path()).ok();
+            let bound = graph.bound(&path(question)).ok();
             stack.bound = bound.as_ref().map(|bound| bound.bytes);
             if profile == Profile::Overridden && question.name == CLOSEST {
                 match bound {
@@ -309,12 +200,11 @@ impl Stacks {
     ) -> Result<(), String> {
         let graph = CallGraph::of(image)?;
         for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize].questions) {
-            if !image.ends_with(question.image) {
+            if !image.ends_with(self::image(question)) {
                 continue;
             }
-            let path = question.path();
-            let asked =
-                reading.costs.iter().filter(|cost| question.kinds.contains(&cost.kind.as_str()));
+            let path = path(question);
+            let asked = reading.costs.iter().filter(|cost| is_asked_by(question, &cost.kind));
             let Some(below) = asked
                 .map(|cost| cost.stack)
                 .max()

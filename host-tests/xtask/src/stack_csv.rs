@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use crate::cost::Row;
 use crate::images::Profile;
-use crate::stack::{C_FUNCTIONS, QUESTIONS};
+use crate::questions::QUESTIONS;
+use crate::stack::C_FUNCTIONS;
 use crate::workspace;
 
 /// The builder's table, from which `meshsweep build --emit` takes what it writes.

@@ -14,6 +14,7 @@ use crate::cost::Row;
 use crate::count::Counts;
 use crate::firmware;
 use crate::images::Profile;
+use crate::questions::{QUESTIONS, Question, SIZES};
 use crate::stack::{self, Stack};
 use crate::stack_csv;
 use crate::steps::Steps;
@@ -223,11 +224,11 @@ fn by_board<'a>(
 
 /// The stack of each question.
 fn stacks(row: &Row, profile: Profile) -> Vec<(&'static str, Cell)> {
-    let cell = |(question, of): (&stack::Question, Stack)| {
+    let cell = |(question, of): (&Question, Stack)| {
         let is_debug = Profile::DEBUG.contains(&profile);
         (question.name, if is_debug { debug_cell(of) } else { stack_cell(of) })
     };
-    stack::QUESTIONS.iter().zip(row.stacks.of(profile)).map(cell).collect()
+    QUESTIONS.iter().zip(row.stacks.of(profile)).map(cell).collect()
 }
 
 /// The stack's bound of each function of the C interface.
@@ -246,7 +247,7 @@ fn codes(row: &Row, profile: Profile) -> Vec<(&'static str, Cell)> {
         let code = added.map(|added| (added.size.text + added.size.rodata) as f64);
         (name, code.map_or_else(|| near(UNKNOWN), |code| about(&[code])))
     };
-    firmware::QUESTIONS.iter().map(cell).collect()
+    SIZES.iter().map(cell).collect()
 }
 
 /// A line for each board: mean instructions of questions to one of its standard blobs, and the code

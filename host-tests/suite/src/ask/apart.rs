@@ -11,7 +11,7 @@ use super::{Asked, Refused, Subject, tree};
 use crate::clock::Clock;
 use crate::fold::Fold;
 use crate::kind::Kind;
-use crate::place::{Bounds, Ends, Placer};
+use crate::place::{Bounds, Ends, Place};
 
 /// A box tree, asked about its moved copy and about capsules.
 #[derive(Clone, Debug)]
@@ -35,47 +35,32 @@ impl<'t> Subject<'t> for Apart<'t> {
         self.0.scratch_entries() <= Bvh::DISTANCE_ENTRIES
     }
 
-    fn suits(kind: Kind) -> bool {
-        kind.is_apart()
-    }
-
-    fn ask(
-        &self,
-        kind: Kind,
-        place: &mut Placer,
-        scratch: &mut Scratch,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) {
-        let to = &mut Asked::new(clock, fold);
-        match kind {
-            Kind::PairDistance => {
-                let (rotation, translation) = place.motion();
-                distance(self, Pose { rotation, translation }, scratch, to);
-            }
-            Kind::Solid => solid(self, place.segment(), place.distance(), scratch, to),
-            Kind::Contact => {
-                let (start, end) = (place.far(), place.far());
-                let motion = [[start, place.near(start)], [end, place.near(end)]];
-                contact(self, motion, place.distance(), scratch, to);
-            }
-            Kind::Winding => winding(self, place.far(), scratch, to),
-            Kind::Scene => {
-                let poses = [place.motion(), place.motion(), place.motion()];
-                scene(self, poses.map(tree::pose), place.distance(), scratch, to);
-            }
-            Kind::CoherentPair => {
-                let (rotation, translation) = place.motion();
-                let start = Pose { rotation, translation };
-                let [here, there] = [place.step(), place.step()];
-                coherent(self, start, [here, there], scratch, to);
-            }
-            Kind::Penetration => {
-                let (rotation, translation) = place.motion();
-                penetration(self, Pose { rotation, translation }, scratch, to);
-            }
-            _ => {}
-        }
+    asks! { Scratch, |self, place, scratch, to|
+        PairDistance => {
+            let (rotation, translation) = place.motion();
+            distance(self, Pose { rotation, translation }, scratch, to);
+        };
+        Solid => solid(self, place.segment(), place.distance(), scratch, to);
+        Contact => {
+            let (start, end) = (place.far(), place.far());
+            let motion = [[start, place.near(start)], [end, place.near(end)]];
+            contact(self, motion, place.distance(), scratch, to);
+        };
+        Winding => winding(self, place.far(), scratch, to);
+        Scene => {
+            let poses = [place.motion(), place.motion(), place.motion()];
+            scene(self, poses.map(tree::pose), place.distance(), scratch, to);
+        };
+        CoherentPair => {
+            let (rotation, translation) = place.motion();
+            let start = Pose { rotation, translation };
+            let [here, there] = [place.step(), place.step()];
+            coherent(self, start, [here, there], scratch, to);
+        };
+        Penetration => {
+            let (rotation, translation) = place.motion();
+            penetration(self, Pose { rotation, translation }, scratch, to);
+        };
     }
 }
 

@@ -9,7 +9,7 @@ use super::{Refused, Subject, timed};
 use crate::clock::Clock;
 use crate::fold::Fold;
 use crate::kind::Kind;
-use crate::place::{Bounds, Placer};
+use crate::place::{Bounds, Place};
 
 /// A blob, and its hull hierarchy.
 #[derive(Clone, Copy, Debug)]
@@ -69,52 +69,28 @@ impl<'t> Subject<'t> for Model<'t> {
         self.hull.scratch_entries() <= QUEUE
     }
 
-    fn suits(kind: Kind) -> bool {
-        matches!(
-            kind,
-            Kind::Arith
-                | Kind::Contents
-                | Kind::ClosestFar
-                | Kind::ClosestNear
-                | Kind::ClosestPath
-                | Kind::FirstHit
-                | Kind::AllHits
-                | Kind::OuterHits
-                | Kind::Refine
-        )
-    }
-
-    fn ask(
-        &self,
-        kind: Kind,
-        place: &mut Placer,
-        scratch: &mut Scratch<'t>,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) {
-        match kind {
-            Kind::Contents => contents(self, fold),
-            Kind::ClosestFar => {
-                closest(self, place.far(), scratch, clock, fold);
-            }
-            Kind::ClosestNear => {
-                // The base is an answer: a wrong one shows in this block already, so its
-                // consequences mislead nobody.
-                let base = closest(self, place.far(), scratch, &mut (), fold);
-                closest(self, place.near(base), scratch, clock, fold);
-            }
-            Kind::ClosestPath => {
-                closest(self, place.step(), scratch, clock, fold);
-            }
-            Kind::FirstHit => first_hit(self, place.segment(), scratch, clock, fold),
-            Kind::AllHits => all_hits(self, place.segment(), scratch, clock, fold),
-            Kind::OuterHits => outer_hits(self, place.segment(), scratch, clock, fold),
-            Kind::Refine => {
-                let (focus, error) = focus(self, place);
-                refine(self, &focus, error, scratch, clock, fold);
-            }
-            _ => {}
-        }
+    asks! { Scratch<'t>, |self, place, scratch, clock, fold|
+        Arith => ();
+        Contents => contents(self, fold);
+        ClosestFar => {
+            closest(self, place.far(), scratch, clock, fold);
+        };
+        ClosestNear => {
+            // The base is an answer: a wrong one shows in this block already, so its
+            // consequences mislead nobody.
+            let base = closest(self, place.far(), scratch, &mut (), fold);
+            closest(self, place.near(base), scratch, clock, fold);
+        };
+        ClosestPath => {
+            closest(self, place.step(), scratch, clock, fold);
+        };
+        FirstHit => first_hit(self, place.segment(), scratch, clock, fold);
+        AllHits => all_hits(self, place.segment(), scratch, clock, fold);
+        OuterHits => outer_hits(self, place.segment(), scratch, clock, fold);
+        Refine => {
+            let (focus, error) = focus(self, place);
+            refine(self, &focus, error, scratch, clock, fold);
+        };
     }
 }
 
@@ -242,17 +218,17 @@ pub fn outer_hits<'t>(
 }
 
 /// The focus of a path that seldom jumps, half of the time a ball; and the error.
-fn focus(model: &Model<'_>, place: &mut Placer) -> (Focus, f32) {
+fn focus(model: &Model<'_>, place: &mut impl Place) -> (Focus, f32) {
     let [least, greatest] = bounds(model);
     let size = greatest[0] - least[0];
     let here = place.step_or_jump();
-    let focus = match place.rng.next_u32() & 7 {
+    let focus = match place.word() & 7 {
         0 => Focus::Box { a: here, b: place.near(here) },
         1 => Focus::Segment { a: here, b: place.far(), radius: size / 64.0 },
         2 => Focus::Eye {
             position: here,
-            axis: core::array::from_fn(|_| place.rng.signed_unit()),
-            cosine: place.rng.signed_unit(),
+            axis: core::array::from_fn(|_| place.share()),
+            cosine: place.share(),
             error_per_distance: 0.03125,
         },
         3 => Focus::Everywhere,

@@ -100,6 +100,14 @@ impl Costs {
         Ok(Self { compiler, entries, whole })
     }
 
+    /// Those of some kinds of queries. What else was not measured is not missed.
+    #[must_use]
+    pub fn of_kinds(mut self, kinds: &[&str]) -> Self {
+        self.entries.retain(|entry| kinds.contains(&entry.key.question.as_str()));
+        self.whole.clear();
+        self
+    }
+
     /// Compares them with the committed table.
     pub fn check(&self, steps: &mut Steps) {
         steps.run("no number has risen", || {
