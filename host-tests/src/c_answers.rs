@@ -403,7 +403,8 @@ fn refusals() -> String {
     // NULL four times, misaligned, never opened, no scratch, too much of it, NaN.
     codes(&mut kind, &[-1, -1, -1, -1, -2, -3, -44, -4, -40]);
     kind.words(&zeros);
-    // An unknown facing, a pose of zeros, no corner, a radius below 0, no memory of a walk, no hint.
+    // An unknown facing, a pose of zeros, no corner, a radius below 0, no memory of a walk, no
+    // hint.
     codes(&mut kind, &[-5, -43, -4, -41, -1, -1]);
     // A blob that is cut short, the model that it left, a blob without a tree, other bytes.
     codes(&mut kind, &[-20, -3, -26, -22]);

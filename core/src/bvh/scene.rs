@@ -49,9 +49,9 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// Only pairs for which `asks_about` is true count, the lesser index first. It is called twice
     /// a pair. Leave out neighbours that always touch. Lengths are in the unit of the world, which
     /// all models share. The poses' numbers are taken as exact. Only surfaces count, and each pair
-    /// is as for [`Bvh::distance_to`](crate::Bvh::distance_to). Surfaces that meet have a distance from
-    /// 0, and an upper end of a few roundings, because the pose of one model in the frame of the
-    /// other is rounded.
+    /// is as for [`Bvh::distance_to`](crate::Bvh::distance_to). Surfaces that meet have a distance
+    /// from 0, and an upper end of a few roundings, because the pose of one model in the frame of
+    /// the other is rounded.
     ///
     /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. The
     /// steps (pairs of nodes) of the budget are those of all pairs together. Pairs for which no
@@ -74,9 +74,9 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Bvh::distance_to`](crate::Bvh::distance_to); [`QueryError::PoseOutOfDomain`] also if a
-    /// pose, of any model, is far from a rotation; [`QueryError::OutOfDomain`] if two models are
-    /// farther from each other than f32 reaches.
+    /// Those of [`Bvh::distance_to`](crate::Bvh::distance_to); [`QueryError::PoseOutOfDomain`] also
+    /// if a pose, of any model, is far from a rotation; [`QueryError::OutOfDomain`] if two models
+    /// are farther from each other than f32 reaches.
     #[inline(never)]
     pub fn nearest_pair(
         &self,

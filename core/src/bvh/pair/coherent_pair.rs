@@ -112,8 +112,8 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         self.last.count
     }
 
-    /// [`Bvh::distance_to`] of `tree` and of `other`, moved by `pose`. The less the models moved since
-    /// the last question, the less work it takes.
+    /// [`Bvh::distance_to`] of `tree` and of `other`, moved by `pose`. The less the models moved
+    /// since the last question, the less work it takes.
     ///
     /// The interval contains the distance like that of [`Bvh::distance_to`]. Its bits may differ,
     /// because another of several pairs that are equally near may be found. They depend on all

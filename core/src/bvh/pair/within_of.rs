@@ -43,8 +43,8 @@ impl Bvh<'_> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`distance_to`](Bvh::distance_to); [`QueryError::Tolerance`] also for a distance that is
-    /// negative, NaN or infinite.
+    /// Those of [`distance_to`](Bvh::distance_to); [`QueryError::Tolerance`] also for a distance
+    /// that is negative, NaN or infinite.
     #[inline(never)]
     pub fn within_of(
         &self,

@@ -1,10 +1,10 @@
 //! Questions compiled for AVX2, whatever the crate is compiled for.
 //!
 //! A search is the same code as for other targets, with kernels for registers of 256 bits. They are
-//! closures, made here: so they are compiled for the instructions of the functions of this file, and
-//! no `unsafe` is needed. Nothing between these functions and an instruction may be a call, because
-//! a function that was compiled for less is slow to cross: `cargo xtask count` has a limit for this
-//! path.
+//! closures, made here: so they are compiled for the instructions of the functions of this file,
+//! and no `unsafe` is needed. Nothing between these functions and an instruction may be a call,
+//! because a function that was compiled for less is slow to cross: `cargo xtask count` has a limit
+//! for this path.
 //!
 //! The list of features has no fused multiply-add, so the bits stay.
 
