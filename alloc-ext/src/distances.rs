@@ -167,7 +167,7 @@ pub fn has_sides(tree: &Bvh<'_>) -> bool {
 /// winding number, if the blob has moments.
 ///
 /// # Errors
-/// Those of [`Bvh::signed_distance`] and [`Bvh::signed_by_winding`].
+/// Those of [`Bvh::signed_distance`] and [`Bvh::signed_distance_by_winding`].
 pub fn signed_distance(
     tree: &Bvh<'_>,
     point: [f32; 3],
@@ -183,5 +183,5 @@ pub fn signed_distance(
             return Ok(found);
         }
     }
-    tree.signed_by_winding(point, budget, scratch)
+    tree.signed_distance_by_winding(point, budget, scratch)
 }

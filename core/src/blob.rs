@@ -1,6 +1,6 @@
 //! [`Blob`]: checked once by `open`. Its views of structures then cost no check.
 
-use crate::bvh::format::Bvh;
+use crate::bvh::tree::format::Bvh;
 use crate::curve::format::Curve;
 use crate::format::layout::{SectionKind, field};
 use crate::format::{Bytes, Header, OpenError, Section, SectionTable, ok, section};
@@ -48,7 +48,7 @@ impl<'a> Blob<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<Blob<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(SectionKind::is_hull)?;
-        let hull = Hull::place(&table)?;
+        let hull = Hull::locate(&table)?;
         let has = |kind: SectionKind| table.has(kind);
         let kinds = || SectionKind::ALL.into_iter();
         // Any section of the box tree needs the others, so one is enough to check for all.

@@ -26,15 +26,15 @@
 //! | is the mesh within a distance; the nearest triangles | [`Bvh::within`], [`Bvh::all_within`], [`Bvh::nearest`] |
 //! | any of these about a model that moves | [`Pose::to_model`] |
 //! | inside or outside of a closed mesh | [`Bvh::signed_distance`] |
-//! | inside or outside of a mesh with holes, flaps or parts that overlap | [`Bvh::winding_number`], [`Bvh::signed_by_winding`] |
+//! | inside or outside of a mesh with holes, flaps or parts that overlap | [`Bvh::winding_number`], [`Bvh::signed_distance_by_winding`] |
 //! | segments | [`Bvh::first_hit`], [`Bvh::any_hit`], [`Bvh::all_hits`] |
-//! | do two meshes meet | [`Bvh::overlap`], [`Bvh::overlaps`] |
-//! | how far are two meshes from each other; is one within a distance of the other | [`Bvh::distance`], [`Bvh::within_of`] |
+//! | do two meshes meet | [`Bvh::overlap`], [`Bvh::all_overlaps`] |
+//! | how far are two meshes from each other; is one within a distance of the other | [`Bvh::distance_to`], [`Bvh::within_of`] |
 //! | the same of models that move little from one question to the next | [`CoherentPair::distance`], [`CoherentPair::within`] |
 //! | is one solid inside another; how deep; which translation separates them | [`Bvh::penetration`] |
 //! | which two of a few dozen models are nearest; are any two within a distance | [`Scene::nearest_pair`], [`Scene::within`] |
 //! | how far is a sphere, a capsule or a box; is it within a distance | [`Bvh::solid_distance`], [`Bvh::solid_within`] |
-//! | is the move of a tool, or of another mesh, clear for its whole length | [`Bvh::first_contact`], [`Bvh::first_contact_of`] |
+//! | is the move of a tool, or of another mesh, clear for its whole length | [`Bvh::solid_first_contact`], [`Bvh::first_contact_of`] |
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
 //! | the same, bounded by a tight hull of few faces | [`TightHull::closest_point`], [`TightHull::within`] |
 //! | are two models apart; bounds without triangles | [`Triboxes::separation`], [`Triboxes::distance`], [`Triboxes::clip`] |
@@ -42,7 +42,7 @@
 //! | the faces of a nested hull | [`Hull::faces`] |
 //! | the hull that a scene needs: fine near a point, in a box, toward an eye | [`RefinedHull::update`] |
 //! | hits from outside on that hull | [`Hull::outer_hits`] |
-//! | does a triangle, or a moved mesh, meet the surface; each refined only where they meet | [`Hull::meets_triangle`], [`Hull::overlap`], [`Hull::overlaps`] |
+//! | does a triangle, or a moved mesh, meet the surface; each refined only where they meet | [`Hull::meets_triangle`], [`Hull::overlap`], [`Hull::all_overlaps`] |
 //! | closest point, hits, and the next triangles on the split tables | [`Hull::closest_point`], [`Hull::first_hit`], [`Hull::sweep`] |
 //! | closest point of a mesh that deforms | [`FrameHull::closest_point`], [`MovedHull::closest_point`] |
 //!
@@ -96,27 +96,28 @@ mod tribox;
 pub use blob::Blob;
 pub use bvh::{
     AllWithin, AnyHit, Bvh, CoherentClosest, CoherentPair, CoherentQuery, Eye, Facing, FrontFacing,
-    Hint, KNearest, Neighbor, Placed, ProcessorQuestions, Scene, SceneDistance, SceneWithin,
-    SignedDistance, WindingNumber, Within,
+    Hint, KNearest, Neighbor, PlacedModel, ProcessorQuestions, Scene, SceneDistance, SceneWithin,
+    WindingNumber, Within,
 };
 pub use curve::{Curve, CurveClosest, CurveSegment, CurveWithin};
 pub use format::layout::{BuildFor, SectionKind};
-pub use format::{OpenError, Section};
+pub use format::{Contradiction, HeaderField, OpenError, Section};
 pub use geom::Pose;
 pub use hull::format::VertIdx;
 pub use hull::{
-    Change, DeformableHull, Focus, FrameHull, Hull, HullFace, Level, MovedHull, MovedVertex,
-    OuterHits, RefinedHull, Refinement, Search, Sweep, TriangleOverlap,
+    DeformableHull, Focus, FrameHull, Hull, HullFace, HullLevel, MovedHull, MovedVertex, OuterHits,
+    OuterSearch, RefinedHull, Refinement, SplitChange, Sweep, TriangleOverlap,
 };
 pub use query::{
-    AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Motion, Overlap, Overlaps,
+    AllHits, AllOverlaps, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Motion, Overlap,
     PairContact, PairDistance, PairWithin, Penetration, PosedPoint, QueryError, Relation, Scratch,
-    ScratchEntry, Side, Solid, SolidDistance, SolidWithin, TriangleHit, TrianglePair, Undecided,
-    Verdict, Work,
+    ScratchEntry, Side, SignedDistance, Solid, SolidDistance, SolidWithin, TriangleHit,
+    TrianglePair, Undecided, Verdict, Work,
 };
 pub use tight::{TightHull, TightHulls, TightRecord};
 pub use tribox::{
-    Bound, Boundary, Candidates, NodePair, Separation, Tribox, TriboxError, TriboxLevel, Triboxes,
+    Boundary, NodePair, Separation, Tribox, TriboxBound, TriboxCandidates, TriboxError,
+    TriboxLevel, Triboxes,
 };
 
 /// The folders, for the builder, the checker and the tests. Not part of the public interface: it

@@ -282,7 +282,7 @@ static void segments(const msw_model *model)
             random_point(corners[corner]);
         }
         msw_hit answer;
-        fold_word((uint32_t)msw_first_contact(model, corners[0], corners[2], 2, 1.5f,
+        fold_word((uint32_t)msw_solid_first_contact(model, corners[0], corners[2], 2, 1.5f,
                                               budget_of(round), scratch, scratch_of(round),
                                               &answer));
         fold(&answer, sizeof answer);
@@ -408,8 +408,8 @@ static void refusals(const msw_model *model)
     fold(&answer, sizeof answer);
     fold_word((uint32_t)msw_first_hit(model, point, point, 3, NULL, scratch, count, &hit));
     fold_word((uint32_t)msw_overlap(model, model, &zeros, NULL, scratch, count, &overlap));
-    fold_word((uint32_t)msw_first_contact(model, NULL, NULL, 0, 1.0f, NULL, scratch, count, &hit));
-    fold_word((uint32_t)msw_first_contact(model, point, point, 1, -1.0f, NULL, scratch, count,
+    fold_word((uint32_t)msw_solid_first_contact(model, NULL, NULL, 0, 1.0f, NULL, scratch, count, &hit));
+    fold_word((uint32_t)msw_solid_first_contact(model, point, point, 1, -1.0f, NULL, scratch, count,
                                           &hit));
     fold_word((uint32_t)msw_coherent_closest_point(model, NULL, point, NULL, scratch, count,
                                                    &moving));

@@ -157,7 +157,7 @@ fn soup() -> Triangles {
 
 fn box_tree((positions, triangles): Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions, triangles);
-    let (tables, _) = build_tree(mesh.as_input(), options).expect("builds");
+    let (tables, _) = build_tree(mesh.as_input(), options, Watch::NONE).expect("builds");
     tables.to_bytes()
 }
 

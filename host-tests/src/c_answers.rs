@@ -6,8 +6,8 @@ use crate::corrupt::{entry, put_u32, seal, word};
 use meshsweep_core::internal::format::layout::VERSION_MAJOR;
 use meshsweep_core::{
     Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Ended, Facing, FirstHit, Focus, Hint, Hit,
-    Hull, Interval, Neighbor, Placed, Pose, QueryError, RefinedHull, Scene, Scratch, Side, Solid,
-    TightHulls, Undecided, Verdict, Work,
+    Hull, Interval, Neighbor, PlacedModel, Pose, QueryError, RefinedHull, Scene, Scratch, Side,
+    Solid, TightHulls, Undecided, Verdict, Work,
 };
 
 const ROUNDS: usize = 24;
@@ -59,7 +59,7 @@ impl Kind {
     }
 
     fn work(&mut self, work: Work) {
-        self.words(&[work.nodes, work.triangles, work.exact, work.splits]);
+        self.words(&[work.bounds, work.triangles, work.exact, work.opened]);
     }
 
     fn verdict(&mut self, verdict: Verdict) {
@@ -250,7 +250,7 @@ fn moved_solids(model: &Bvh<'_>) -> Result<String, QueryError> {
         let (from, to) = (Solid::new(&from, 1.5)?, Solid::new(&to, 1.5)?);
         let scratch = &mut scratch[..entries(round)];
         kind.words(&[0]);
-        kind.first_hit(&model.first_contact(&from, &to, budget, scratch)?);
+        kind.first_hit(&model.solid_first_contact(&from, &to, budget, scratch)?);
         Ok(())
     })
 }
@@ -318,7 +318,7 @@ fn two_models(model: &Bvh<'_>) -> Result<String, QueryError> {
         Ok(())
     })?;
     let within = rounds("models_within", |kind, round, budget, scratch| {
-        let models = [(); 3].map(|()| Placed { tree: *model, pose: kind.pose(round) });
+        let models = [(); 3].map(|()| PlacedModel { tree: *model, pose: kind.pose(round) });
         let is_asked = |a: usize, b: usize| round % 2 == 0 || [a, b] != [1, 2];
         let (scene, scratch) = (Scene::new(&models), &mut scratch[..entries(round)]);
         let found = scene.within(4.0, is_asked, budget, scratch)?;
@@ -349,7 +349,7 @@ fn tight_hull(hulls: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
     let text = kind.line("tight_within");
     let tree = *hulls.finest().ok_or("no hull")?.bvh();
     let tight = rounds("tight_models", |kind, round, budget, scratch| {
-        let models = [(); 2].map(|()| Placed { tree, pose: kind.pose(round) });
+        let models = [(); 2].map(|()| PlacedModel { tree, pose: kind.pose(round) });
         let scratch = &mut scratch[..entries(round)];
         let found = Scene::new(&models).within(4.0, |_, _| true, budget, scratch)?;
         if round == 0 {
@@ -403,7 +403,8 @@ fn refusals() -> String {
     // NULL four times, misaligned, never opened, no scratch, too much of it, NaN.
     codes(&mut kind, &[-1, -1, -1, -1, -2, -3, -44, -4, -40]);
     kind.words(&zeros);
-    // An unknown facing, a pose of zeros, no corner, a radius below 0, no memory of a walk, no hint.
+    // An unknown facing, a pose of zeros, no corner, a radius below 0, no memory of a walk, no
+    // hint.
     codes(&mut kind, &[-5, -43, -4, -41, -1, -1]);
     // A blob that is cut short, the model that it left, a blob without a tree, other bytes.
     codes(&mut kind, &[-20, -3, -26, -22]);

@@ -114,7 +114,7 @@ pub fn sources() -> Vec<(String, Vec<u8>)> {
 pub fn clamps_tree() -> Vec<u8> {
     let (positions, triangles) = clamps();
     let mesh = Mesh::new(positions, triangles);
-    let (tables, _) = build(mesh.as_input(), &TreeOptions::default()).expect("builds");
+    let (tables, _) = build(mesh.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds");
     tables.to_bytes()
 }
 
@@ -137,7 +137,7 @@ pub fn groove_tree() -> Vec<u8> {
     let (positions, triangles) = groove_block();
     let mesh = Mesh::new(positions, triangles);
     let options = TreeOptions::default().with_cull(true).with_winding(true);
-    let (tables, _) = build(mesh.as_input(), &options).expect("builds");
+    let (tables, _) = build(mesh.as_input(), &options, Watch::NONE).expect("builds");
     tables.to_bytes()
 }
 

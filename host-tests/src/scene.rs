@@ -283,7 +283,7 @@ fn tree_blob(
     options: &TreeOptions,
 ) -> Vec<u8> {
     let mesh = Mesh::new(positions.to_vec(), triangles.to_vec());
-    build_tree(meshsweep::mesh::Input { moved, ..mesh.as_input() }, options)
+    build_tree(meshsweep::mesh::Input { moved, ..mesh.as_input() }, options, Watch::NONE)
         .expect("builds")
         .0
         .to_bytes()

@@ -19,6 +19,8 @@ use std::path::{Path, PathBuf};
 /// What a blob is built from.
 pub(super) enum Input<'a> {
     File(&'a Path),
+    /// The content of a file of that name.
+    Bytes(&'a Path, Vec<u8>),
     Mesh(Box<RawMesh>),
     Curves(&'a [Polyline]),
 }
@@ -59,7 +61,7 @@ pub(super) fn build(
     watch: Watch<'_>,
 ) -> Result<Built, BuildError> {
     let subject = match input {
-        Input::File(file) => Subject::File(file),
+        Input::File(file) | Input::Bytes(file, _) => Subject::File(file),
         Input::Mesh(_) => Subject::Mesh,
         Input::Curves(_) => Subject::Curves,
     };
@@ -74,9 +76,11 @@ pub(super) fn build(
     let whole = weights.iter().filter(|(is_wanted, _)| *is_wanted).map(|(_, of)| of).sum();
     let mut work = Work { options, watch, done: 0.0, whole };
     let built = match input {
-        Input::File(file) if options.is_curve(subject) => work.curve_of(file),
+        Input::File(file) if options.is_curve(subject) => work.curve_of(file, &bytes_of(file)?),
+        Input::Bytes(file, bytes) if options.is_curve(subject) => work.curve_of(file, &bytes),
         Input::Curves(polylines) => work.curves(polylines),
         Input::File(file) => work.mesh(|unit| Source::of_file(file, unit), frames),
+        Input::Bytes(file, bytes) => work.mesh(|unit| Source::of_bytes(file, bytes, unit), frames),
         Input::Mesh(mesh) => work.mesh(|unit| Source::of(*mesh, unit), frames),
     }?;
     watch.during(Stage::Done).step(1, 1)?;
@@ -106,9 +110,9 @@ impl<'w> Work<'w> {
         Ok(part)
     }
 
-    fn curve_of(&mut self, file: &Path) -> Result<Built, BuildError> {
+    fn curve_of(&mut self, file: &Path, bytes: &[u8]) -> Result<Built, BuildError> {
         let of_file = |error| BuildError::Curve { file: file.to_owned(), error };
-        let polylines = read_csv(&bytes_of(file)?, self.options.is_closed).map_err(of_file)?;
+        let polylines = read_csv(bytes, self.options.is_closed).map_err(of_file)?;
         self.curves(&polylines).map_err(|error| match error {
             BuildError::Curve { error, .. } => of_file(error),
             other => other,
@@ -193,7 +197,7 @@ impl<'w> Work<'w> {
             .with_f32(wanted.is_f32())
             .with_f32_allowed(wanted.vertex_bits == VertexBits::Auto);
         let watch = self.begin(TREE, Stage::BoxTree)?;
-        bvh::build_watched(loaded.input(), &options, watch).map(Some)
+        bvh::build(loaded.input(), &options, watch).map(Some)
     }
 
     fn triboxes(&mut self, loaded: &Loaded) -> Result<Made<TriboxReport>, BuildError> {
@@ -213,7 +217,7 @@ impl<'w> Work<'w> {
         let watch = self.begin(TIGHT, Stage::Shrinking { done: 0, of: 0 })?;
         let made = tight::build(loaded.input(), &wanted.of_tight(), watch)?;
         let Options { slack, void_percent: void, .. } = *wanted;
-        let asked = Tightness { slack, void, by_faces: "--tight" };
+        let asked = Tightness { slack, void };
         asked.require(made.1.iter().map(|report| &report.wrapped))?;
         Ok(Some(made))
     }

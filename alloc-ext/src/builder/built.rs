@@ -7,7 +7,7 @@ use crate::hull::BuildReport;
 use crate::load::Loaded;
 use crate::tight::HullReport;
 use crate::tribox::TriboxReport;
-use meshsweep_core::Blob;
+use meshsweep_core::{Blob, Hull};
 use std::fmt;
 
 /// A sentence of the report. `Display` prints it.
@@ -36,6 +36,21 @@ pub enum Topic {
     Tight,
     /// Why winding numbers are doubtful.
     Winding,
+}
+
+impl Topic {
+    /// Its name in JSON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Input => "input",
+            Self::Hull => "hull",
+            Self::BoxTree => "tree",
+            Self::Sides => "sides",
+            Self::Tight => "tight_hulls",
+            Self::Winding => "winding",
+        }
+    }
 }
 
 impl fmt::Display for Note {
@@ -113,6 +128,14 @@ impl Built {
     #[expect(clippy::missing_panics_doc, reason = "the bytes were opened when they were built")]
     pub fn blob(&self) -> Blob<'_> {
         Blob::open(&self.bytes).expect("it opened before")
+    }
+
+    /// Of a cut hull hierarchy the finest level that is left.
+    #[must_use]
+    pub fn cut_level(&self) -> Option<u32> {
+        let blob = self.blob();
+        let hull = blob.hull().ok().filter(Hull::is_cut)?;
+        hull.header().levels.checked_sub(1)
     }
 
     /// Notes on repairs, on moved and left out parts, and on doubts.

@@ -229,6 +229,15 @@ impl<'a> Builder<'a> {
         self.build_of(Input::File(file.as_ref()))
     }
 
+    /// As [`build_file`](Self::build_file), for a file's content in memory. Its name tells the
+    /// format by its extension.
+    ///
+    /// # Errors
+    /// Those of [`build_file`](Self::build_file), but for reading.
+    pub fn build_bytes(self, name: impl AsRef<Path>, bytes: Vec<u8>) -> Result<Built, BuildError> {
+        self.build_of(Input::Bytes(name.as_ref(), bytes))
+    }
+
     /// Builds the blob of a mesh in memory. [`RawMesh::from_f32`] makes one of vertices and
     /// triangles, which are checked and repaired as those of a file.
     ///

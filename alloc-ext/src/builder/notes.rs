@@ -157,14 +157,11 @@ fn left_out(options: &Options, reports: &[HullReport]) -> Vec<String> {
 /// Why a tight hull has more faces than asked for, and how it began.
 fn of_tight(report: &HullReport) -> Vec<String> {
     let mut texts = Vec::new();
-    if let Goal::Faces(asked) = report.asked
-        && report.wrapped.faces > asked
-    {
-        texts.push(format!(
-            "tight hull of {}: stopped before {asked}, where no edge may collapse and leave it \
-             closed, clear of the mesh and of itself",
-            Counted(report.wrapped.faces, "face")
-        ));
+    let has_more = |asked| report.wrapped.faces > asked;
+    if matches!(report.asked, Goal::Faces(asked) if has_more(asked)) {
+        let hull = Counted(report.wrapped.faces, "face");
+        let why = report.wrapped.why_stopped(report.asked);
+        texts.extend(why.map(|why| format!("tight hull of {hull}: {why}")));
     }
     texts.extend(report.wrapped.notes());
     texts

@@ -5,7 +5,7 @@ use meshsweep_core::{Budget, Bvh, ClosestPoint, Hint, QueryError, ScratchEntry};
 use rayon::prelude::*;
 
 /// Queries that one thread takes at once. Their order takes 256 KiB, and neighbours in it are near.
-const PIECE: usize = 1 << 14;
+pub const BATCH: usize = 1 << 14;
 
 /// Closest points of all `points`, in their order, with the bits of [`Bvh::closest_point`], on the
 /// threads of rayon's current pool. `work` depends on the order of the points, because a query
@@ -24,22 +24,53 @@ pub fn closest_points(
     points: &[[f32; 3]],
     budget: &Budget,
 ) -> Result<Vec<ClosestPoint>, QueryError> {
+    let mut answers = vec![ClosestPoint::EMPTY; points.len()];
+    fill(&FastBvh::new(*tree), points, &mut answers, budget)
+        .map_or(Ok(answers), |(_, error)| Err(error))
+}
+
+/// As [`closest_points`], up to the first point that is refused: the answers before it, its index,
+/// and why.
+#[must_use]
+pub fn closest_points_until_refused(
+    tree: &Bvh<'_>,
+    points: &[[f32; 3]],
+    budget: &Budget,
+) -> (Vec<ClosestPoint>, Option<(usize, QueryError)>) {
     let tree = FastBvh::new(*tree);
     let mut answers = vec![ClosestPoint::EMPTY; points.len()];
-    let pieces = points.par_chunks(PIECE).zip(answers.par_chunks_mut(PIECE)).enumerate();
-    let first_error = pieces.find_map_first(|(number, (points, answers))| {
+    let refused = fill(&tree, points, &mut answers, budget);
+    if let Some((index, _)) = refused {
+        // A piece with a refused point has no answers.
+        answers.truncate(index);
+        let begin = index - index % BATCH;
+        let (points, answers) = (points.get(begin..index), answers.get_mut(begin..));
+        fill(&tree, points.unwrap_or_default(), answers.unwrap_or_default(), budget);
+    }
+    (answers, refused)
+}
+
+/// Answers all pieces. The first refused point, if one is.
+fn fill(
+    tree: &FastBvh<'_>,
+    points: &[[f32; 3]],
+    answers: &mut [ClosestPoint],
+    budget: &Budget,
+) -> Option<(usize, QueryError)> {
+    let pieces = points.par_chunks(BATCH).zip(answers.par_chunks_mut(BATCH)).enumerate();
+    pieces.find_map_first(|(number, (points, answers))| {
         let sorted = if is_coherent(points) { 0 } else { points.len() };
         let mut scratch = vec![ScratchEntry::EMPTY; tree.scratch_entries() + 2 * sorted];
         let asked =
             tree.closest_points(points, &mut Hint::NONE.clone(), answers, *budget, &mut scratch);
         asked.err().map(|error| match error {
             QueryError::PointNotFinite { index } => {
-                QueryError::PointNotFinite { index: (number * PIECE) as u32 + index }
+                let index = number * BATCH + index as usize;
+                (index, QueryError::PointNotFinite { index: index as u32 })
             }
-            other => other,
+            other => (number * BATCH, other),
         })
-    });
-    first_error.map_or(Ok(answers), Err)
+    })
 }
 
 /// Whether queries are near the ones before: on average within a sixteenth of the box of all, in

@@ -18,9 +18,9 @@ use crate::mesh::{Input, Mesh, Wire};
 use crate::progress::{Stage, Watch};
 use glam::DVec3;
 use meshsweep_core::SectionKind;
-use meshsweep_core::internal::bvh::format::BvhHeader;
-use meshsweep_core::internal::bvh::format::layout::{BOXES_BYTES, FRAME_BYTES, LINK_BYTES};
-use meshsweep_core::internal::bvh::format::layout::{
+use meshsweep_core::internal::bvh::tree::format::BvhHeader;
+use meshsweep_core::internal::bvh::tree::format::layout::{BOXES_BYTES, FRAME_BYTES, LINK_BYTES};
+use meshsweep_core::internal::bvh::tree::format::layout::{
     BVH_CLOSED, BVH_F32, BVH_SIDELESS, BVH_SIDES_LOST, BVH_TURNED,
 };
 use meshsweep_core::internal::geom::fan::WIDTH;
@@ -181,16 +181,8 @@ const BOXED: f64 = 0.95;
 /// # Errors
 /// [`BuildError::TooLarge`] on a mesh of more than [`MAX_TRIANGLES`];
 /// [`BuildError::NoSuchVertex`], [`BuildError::NotFinite`] and [`BuildError::SourceNumbers`] on one
-/// that [`repair`](crate::mesh::repair) did not make.
+/// that [`repair`](crate::mesh::repair) did not make; [`BuildError::Cancelled`].
 pub fn build(
-    input: Input<'_>,
-    options: &TreeOptions,
-) -> Result<(Sections, TreeReport), BuildError> {
-    build_watched(input, options, Watch::NONE)
-}
-
-/// [`build`] under a watch.
-pub(crate) fn build_watched(
     input: Input<'_>,
     options: &TreeOptions,
     watch: Watch<'_>,
@@ -484,7 +476,7 @@ mod tests {
     fn a_mesh_of_more_triangles_than_a_tree_numbers_is_refused() {
         let mesh = Mesh { triangles: vec![[0; 3]; MAX_TRIANGLES + 1], ..Mesh::default() };
         let input = Input { mesh: &mesh, moved: 0.0, input_triangles: 0 };
-        let refused = build(input, &TreeOptions::default()).map(|_| ());
+        let refused = build(input, &TreeOptions::default(), Watch::NONE).map(|_| ());
         let wanted = BuildError::TooLarge { triangles: (1 << 24) + 1, most: 1 << 24 };
         assert_eq!(refused, Err(wanted));
     }

@@ -9,8 +9,8 @@ use arrayvec::ArrayVec;
 use glam::{DVec3, Vec3};
 use meshsweep_core::Blob;
 use meshsweep_core::SectionKind;
-use meshsweep_core::internal::bvh::format::layout::{BOXES_BYTES, FAN_PADDING, FRAME_BYTES};
-use meshsweep_core::internal::bvh::format::{BvhHeader, LeafShape, Links};
+use meshsweep_core::internal::bvh::tree::format::layout::{BOXES_BYTES, FAN_PADDING, FRAME_BYTES};
+use meshsweep_core::internal::bvh::tree::format::{BvhHeader, LeafShape, Links};
 use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::num::{down_to_f32, exp2, up_to_f32};
 

@@ -8,7 +8,7 @@ use crate::mesh::Mesh;
 use crate::progress::Watch;
 use crate::surface::{EdgeTable, ends};
 use glam::{DMat3, DVec3};
-use meshsweep_core::internal::bvh::format::NodeMoments;
+use meshsweep_core::internal::bvh::tree::format::NodeMoments;
 use meshsweep_core::internal::num::{exp2, up_to_f32};
 use std::collections::BinaryHeap;
 

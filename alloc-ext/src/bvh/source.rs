@@ -2,7 +2,7 @@
 //! its least number and just enough bits for the differences. Files give neighbours similar
 //! numbers, so this takes half the bytes of plain numbers.
 
-use meshsweep_core::internal::bvh::format::layout::{
+use meshsweep_core::internal::bvh::tree::format::layout::{
     SOURCE_BLOCK, SOURCE_ENTRY_BYTES, SOURCE_PADDING,
 };
 

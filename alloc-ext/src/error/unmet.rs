@@ -10,8 +10,6 @@ pub struct Tightness {
     pub slack: Option<f64>,
     /// Largest void, in percent of the mesh's volume.
     pub void: Option<f64>,
-    /// The option that takes a number of faces instead.
-    pub by_faces: &'static str,
 }
 
 /// A hull that is looser than asked for.
@@ -34,24 +32,19 @@ impl fmt::Display for Unmet {
         let &Unmet { tightness, found, faces, is_out_of_time, component } = self;
         component.map_or(Ok(()), |index| write!(f, "part {index}: "))?;
         let (who, more) = if is_out_of_time {
-            ("the time was up before a hull", "give more --seconds, ")
+            ("the time was up before a hull", "give more time, ")
         } else {
             ("no hull that was tried", "")
         };
         let found = AtMost(found);
-        let option = if let Some(asked) = tightness.slack.map(Typed) {
+        let goal = if let Some(asked) = tightness.slack.map(Typed) {
             write!(f, "{who} came within {asked} of the mesh: the tightest is within {found}")?;
-            "--slack"
+            "slack"
         } else {
             let asked = Typed(tightness.void.unwrap_or(0.0));
             write!(f, "{who} left {asked} % void space or less: the tightest leaves {found} %")?;
-            "--void"
+            "void"
         };
-        write!(
-            f,
-            ", with {faces} faces; {more}ask for a larger {option}, or choose a number of faces \
-             with {}",
-            tightness.by_faces
-        )
+        write!(f, ", with {faces} faces; {more}ask for a larger {goal}, or for a number of faces")
     }
 }

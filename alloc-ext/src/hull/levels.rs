@@ -8,7 +8,7 @@ use crate::hausdorff::{farthest, nearest_in};
 use crate::mesh::Mesh;
 use crate::progress::Watch;
 use meshsweep_core::internal::num::up_to_f32;
-use meshsweep_core::{Bvh, Hull, Level, VertIdx};
+use meshsweep_core::{Bvh, Hull, HullLevel, VertIdx};
 
 /// Split counts of the levels: the base hull, then every doubling of the faces, then all.
 fn level_splits(history: &History) -> Vec<u32> {
@@ -25,7 +25,7 @@ fn level_splits(history: &History) -> Vec<u32> {
 }
 
 /// The level table with distances 0. `void_ratio` is relative to `volume`, or 0 without a volume.
-pub fn levels(history: &History, volume: Option<f64>) -> Vec<Level> {
+pub fn levels(history: &History, volume: Option<f64>) -> Vec<HullLevel> {
     let total = history.collapses.len();
     let mut added = vec![0.0; total + 1];
     for (i, volume) in history.added_volume.iter().enumerate() {
@@ -34,7 +34,7 @@ pub fn levels(history: &History, volume: Option<f64>) -> Vec<Level> {
     let void = |splits: u32| volume.map_or(0.0, |unit| added[total - splits as usize] / unit);
     level_splits(history)
         .into_iter()
-        .map(|splits| Level {
+        .map(|splits| HullLevel {
             faces: (history.base.len() + 2 * splits as usize) as u32,
             splits,
             hull_to_surface: 0.0,

@@ -7,7 +7,7 @@ use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::hull::format::layout::{BASE_GROUP, START_GROUP};
 use meshsweep_core::internal::hull::format::{SplitIdx, TriIdx};
 use meshsweep_core::internal::num::{Radius8, Radius16};
-use meshsweep_core::{Level, VertIdx};
+use meshsweep_core::{HullLevel, VertIdx};
 
 use crate::surface::Grid;
 
@@ -24,7 +24,7 @@ pub struct SplitRecord {
     /// triangle before the wing.
     pub before: [bool; 2],
     /// No point of the fine triangles is farther than this from `vertex`.
-    pub reach: Radius8,
+    pub star_radius: Radius8,
     /// The largest finite radius of the coarse triangles.
     pub error: Radius8,
 }
@@ -63,7 +63,7 @@ pub struct Tables {
     /// Box of the surface.
     pub surface_box: Aabb,
     /// Levels, coarse to fine.
-    pub levels: Vec<Level>,
+    pub levels: Vec<HullLevel>,
     /// Queue entries that a sweep may need.
     pub queue_capacity: u32,
     /// Whether finer levels were cut off.
@@ -115,14 +115,14 @@ impl Tables {
             let split = hull.split(SplitIdx(index))?;
             let right = u8::try_from(split.right).ok()?;
             let before = [split.right_parent != split.right, split.left_parent != 0];
-            let reach = Radius8::round_up(f64::from(split.reach));
+            let star_radius = Radius8::round_up(f64::from(split.star_radius));
             let error = Radius8::round_up(f64::from(split.error));
             splits.push(SplitRecord {
                 vertex: split.vertex.0,
                 ring_start: rings.len() as u32,
                 right,
                 before,
-                reach,
+                star_radius,
                 error,
             });
             for i in 0..split.ring_len() {

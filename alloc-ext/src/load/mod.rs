@@ -109,7 +109,16 @@ impl Source {
     /// content is not of the kind that its name says.
     pub fn of_file(file: &Path, unit: Option<Unit>) -> Result<Self, BuildError> {
         let started = Instant::now();
-        let bytes = bytes_of(file)?;
+        Ok(Self { started, ..Self::of_bytes(file, bytes_of(file)?, unit)? })
+    }
+
+    /// Takes the content of a file, whose name tells the format by its extension. Nothing is opened
+    /// but the files that glTF names beside it.
+    ///
+    /// # Errors
+    /// Those of [`of_file`](Self::of_file), but for reading.
+    pub fn of_bytes(file: &Path, bytes: Vec<u8>, unit: Option<Unit>) -> Result<Self, BuildError> {
+        let started = Instant::now();
         if bytes.starts_with(&MAGIC) {
             return Err(refused(file, MeshError::Blob { file: file.to_owned() }));
         }
@@ -212,7 +221,7 @@ impl Source {
 ///
 /// # Errors
 /// [`BuildError::Unreadable`].
-pub(crate) fn bytes_of(file: &Path) -> Result<Vec<u8>, BuildError> {
+pub fn bytes_of(file: &Path) -> Result<Vec<u8>, BuildError> {
     std::fs::read(file).map_err(|error| BuildError::Unreadable {
         file: file.to_owned(),
         kind: error.kind(),

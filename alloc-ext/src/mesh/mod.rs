@@ -71,7 +71,7 @@ pub use polygons::{FacePlace, NamedFaces, Polygons};
 pub use read::{read, read_bytes};
 pub use repair::repair;
 pub(crate) use repair::repair_moved;
-pub use report::{Finding, Place, RepairReport};
+pub use report::{Finding, Found, Place, RepairReport};
 pub use unit::Unit;
 pub(crate) use volume::SignedVolume;
 pub use wire::Wire;

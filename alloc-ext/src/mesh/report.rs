@@ -45,6 +45,21 @@ impl Finding {
     }
 }
 
+/// A kind of finding, and how to tell it.
+#[derive(Clone, Copy, Debug)]
+pub struct Found<'a> {
+    /// Its name in JSON.
+    pub key: &'static str,
+    /// What was found, as a noun for one.
+    pub noun: &'static str,
+    /// What was done with it.
+    pub what: &'static str,
+    /// Count and places.
+    pub finding: &'a Finding,
+    /// Whether the mesh is no longer the input, triangle for triangle.
+    pub is_change: bool,
+}
+
 /// Findings and changes of [`repair`](super::repair). `Display` prints a line for each kind.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RepairReport {
@@ -108,50 +123,64 @@ pub struct RepairReport {
 }
 
 impl RepairReport {
-    /// All findings, each with a key for JSON, and a noun and a predicate for text.
+    /// All findings.
     #[must_use]
-    pub fn findings(&self) -> [(&'static str, [&'static str; 2], &Finding); 14] {
+    pub fn findings(&self) -> [Found<'_>; 14] {
+        let change = |key, noun, what, finding| Found { key, noun, what, finding, is_change: true };
+        let note = |key, noun, what, finding| Found { key, noun, what, finding, is_change: false };
         [
-            ("welded", ["vertex", "welded to an equal one"], &self.welded),
-            (
+            note("welded", "vertex", "welded to an equal one", &self.welded),
+            change(
                 "repeated_corner",
-                ["triangle", "with a repeated corner dropped, covered by others"],
+                "triangle",
+                "with a repeated corner dropped, covered by others",
                 &self.repeated_corner,
             ),
-            ("flipped_caps", ["flat cap", "removed by an edge flip"], &self.flipped_caps),
-            ("zero_area", ["zero-area triangle", "dropped, covered by others"], &self.zero_area),
-            ("wires", ["triangle", "without area kept as a segment or a point"], &self.wires),
-            ("duplicate", ["duplicate triangle", "kept for winding numbers only"], &self.duplicate),
-            (
+            change("flipped_caps", "flat cap", "removed by an edge flip", &self.flipped_caps),
+            change(
+                "zero_area",
+                "zero-area triangle",
+                "dropped, covered by others",
+                &self.zero_area,
+            ),
+            change("wires", "triangle", "without area kept as a segment or a point", &self.wires),
+            change(
+                "duplicate",
+                "duplicate triangle",
+                "kept for winding numbers only",
+                &self.duplicate,
+            ),
+            change(
                 "opposite_duplicate",
-                ["oppositely wound duplicate", "kept for facings and winding numbers only"],
+                "oppositely wound duplicate",
+                "kept for facings and winding numbers only",
                 &self.opposite_duplicate,
             ),
-            ("unreferenced", ["unreferenced vertex", "dropped"], &self.unreferenced),
-            ("split_vertices", ["copy", "made of non-manifold vertices"], &self.split_vertices),
-            (
+            note("unreferenced", "unreferenced vertex", "dropped", &self.unreferenced),
+            change("split_vertices", "copy", "made of non-manifold vertices", &self.split_vertices),
+            change(
                 "rewound",
-                ["triangle", "rewound for sides only, to agree with the component around"],
+                "triangle",
+                "rewound for sides only, to agree with the component around",
                 &self.rewound,
             ),
-            (
+            change(
                 "turned_components",
-                ["inside-out component", "turned for sides only"],
+                "inside-out component",
+                "turned for sides only",
                 &self.turned_components,
             ),
-            ("cavities", ["cavity", "found and kept"], &self.cavities),
-            (
+            note("cavities", "cavity", "found and kept", &self.cavities),
+            note(
                 "doubtful",
-                [
-                    "component",
-                    "facing inwards kept so: it crosses or touches others or itself, or lies in \
-                     the box of an open one, so that it may be a cavity or inside out; winding \
-                     numbers decide the sides of a cavity (--for closest,winding); reverse the \
-                     triangles of a part that is inside out",
-                ],
+                "component",
+                "facing inwards kept so: it crosses or touches others or itself, or lies in the \
+                 box of an open one, so that it may be a cavity or inside out; winding numbers \
+                 decide the sides of a cavity (--for closest,winding); reverse the triangles of a \
+                 part that is inside out",
                 &self.doubtful,
             ),
-            ("non_orientable", ["one-sided component", "found"], &self.non_orientable),
+            change("non_orientable", "one-sided component", "found", &self.non_orientable),
         ]
     }
 
@@ -163,10 +192,7 @@ impl RepairReport {
         let nothing_left_out = self.left_out == LeftOut::default();
         nothing_left_out
             && self.polygons.doubts().next().is_none()
-            && self.findings().iter().all(|(key, _, finding)| {
-                finding.count == 0
-                    || matches!(*key, "welded" | "unreferenced" | "cavities" | "doubtful")
-            })
+            && self.findings().iter().all(|found| found.finding.count == 0 || !found.is_change)
     }
 
     /// Sentences about what is doubtful or was left out of the file: faces that may be no polygons,
@@ -212,7 +238,8 @@ impl fmt::Display for RepairReport {
         if split > 0 {
             write!(
                 f,
-                "\n  {} split: numbers of triangles count those that they were split into, in file order",
+                "\n  {} split: numbers of triangles count those that they were split into, in file \
+                 order",
                 Counted(split, "polygon")
             )?;
         }
@@ -225,11 +252,11 @@ impl fmt::Display for RepairReport {
         if let Some(note) = self.rounding_note() {
             write!(f, "\n  {note}")?;
         }
-        for (key, [noun, what], finding) in self.findings() {
+        for Found { noun, what, finding, .. } in self.findings() {
             if finding.count > 0 {
                 write!(f, "\n  {} {what}", Counted(finding.count, noun))?;
                 // Every vertex of an STL file is welded: there the places say nothing.
-                if key == "welded" {
+                if std::ptr::eq(finding, &self.welded) {
                     continue;
                 }
                 write!(f, ":")?;

@@ -1,5 +1,6 @@
 //! Measures of a tight hull and of the work for it.
 
+use super::Goal;
 use crate::counted::Counted;
 use crate::hausdorff::Farthest;
 use crate::mesh::NoVolume;
@@ -71,6 +72,32 @@ pub struct Report {
 }
 
 impl Report {
+    /// Says why the search did not come to `goal`, or to a smaller hull that meets it.
+    #[must_use]
+    pub fn why_stopped(&self, goal: Goal) -> Option<String> {
+        Some(match (self.stop, goal) {
+            (Outcome::Reached, _) => return None,
+            (Outcome::Stuck, Goal::Faces(faces)) => format!(
+                "stopped before {faces} faces: no edge may collapse and leave the hull closed, \
+                 clear of the mesh and of itself"
+            ),
+            (Outcome::Stuck, _) => "stopped where no edge may collapse any more".to_owned(),
+            // A hull that misses the goal is not written. So the last change met it.
+            (Outcome::TooLoose, _) => {
+                "fewer faces were not tried: this is as tight as it gets".to_owned()
+            }
+            (Outcome::OutOfTime, Goal::Faces(faces)) if self.faces > faces => {
+                format!("the time was up before {faces} faces: with more time the hull has fewer")
+            }
+            (Outcome::OutOfTime, Goal::Faces(_)) => {
+                "the time was up: with more time the hull is tighter".to_owned()
+            }
+            (Outcome::OutOfTime, _) => {
+                "the time was up: with more time the hull may have fewer faces".to_owned()
+            }
+        })
+    }
+
     /// Says whether the mesh's volume is sure, how the hull began if not as the progressive hull,
     /// and which cavities it fills.
     #[must_use]

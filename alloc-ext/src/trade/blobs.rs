@@ -73,8 +73,9 @@ fn cut_level(built: &Built, error: f32) -> Result<Built, NotBuilt> {
     let blob = built.blob();
     let whole = blob.hull().map_err(|_| NotBuilt::NoLevel)?;
     let unit = whole.scale();
-    let is_fine =
-        |level: &meshsweep_core::Level| f64::from(level.hull_to_surface) * unit <= f64::from(error);
+    let is_fine = |level: &meshsweep_core::HullLevel| {
+        f64::from(level.hull_to_surface) * unit <= f64::from(error)
+    };
     let index = whole.levels().position(|level| is_fine(&level));
     let last = whole.header().levels.saturating_sub(1);
     let index = index.map_or(last, |index| index as u32);

@@ -134,7 +134,7 @@ impl Shape {
     /// The features of a query.
     #[must_use]
     pub fn features(&self, point: [f32; 3], budget: &Budget, work: &Work) -> Features {
-        let counters = [work.nodes, work.triangles, work.exact, work.splits].map(f64::from);
+        let counters = [work.bounds, work.triangles, work.exact, work.opened].map(f64::from);
         let [nodes, triangles, exact, splits] = counters;
         let is_inside = (0..3).all(|k| self.low[k] <= point[k] && point[k] <= self.high[k]);
         let is_tolerant = budget.relative > 0.0 || budget.absolute > 0.0;

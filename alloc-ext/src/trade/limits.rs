@@ -14,6 +14,10 @@ pub const CYCLES: f64 = 2.0;
 /// Part of the triangles that are needles from which on predicted instructions are doubtful.
 pub const MANY_NEEDLES: f64 = 0.1;
 
+/// How many times the predicted instructions a comb of needles takes, on the boards of
+/// [`Board::ALL`]. `cargo xtask fit` prints the share that is not predicted.
+pub const COMB_OF_NEEDLES: [f64; 2] = [2.2, 4.5];
+
 /// A processor and its clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cpu {

@@ -75,6 +75,8 @@ pub struct Row {
     pub nanoseconds: f64,
     /// Predicted, in the order of [`Board::ALL`]; `None` if no cost was fitted.
     pub boards: [Option<Instructions>; 2],
+    /// Of a cut hierarchy the level that is left as the finest.
+    pub level: Option<u32>,
     /// Bytes of the blob.
     pub flash: usize,
     /// Bytes of scratch, and of memory that is kept between queries.
@@ -84,6 +86,13 @@ pub struct Row {
 }
 
 impl Row {
+    /// The options with which the program builds the blob; of a cut level also those of `cut`.
+    #[must_use]
+    pub fn build(&self) -> String {
+        let recipe = self.setting.recipe;
+        self.level.map_or_else(|| recipe.to_string(), |level| format!("{recipe} {level}"))
+    }
+
     /// The widest of the intervals; infinite if the structure gives a lower bound only.
     #[must_use]
     pub fn error(&self) -> f64 {
@@ -107,7 +116,7 @@ pub struct Missing {
     pub reason: NotBuilt,
 }
 
-/// What came of a measurement.
+/// The rows of a measurement, and the recipes that were not built.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Trade {
@@ -174,9 +183,9 @@ pub fn measure(
         }
     }
     for setting in settings {
-        if let Some(bytes) = trade.blob(setting.recipe) {
-            let asked = ask(setting, bytes, points)?;
-            let row = row(*setting, bytes.len(), &asked, &distances);
+        if let Some((_, built)) = trade.blobs.iter().find(|(of, _)| *of == setting.recipe) {
+            let asked = ask(setting, built.bytes(), points)?;
+            let row = row(*setting, built, &asked, &distances);
             trade.rows.extend(row);
         }
         step();
@@ -204,7 +213,7 @@ fn needles(mesh: &Mesh) -> f64 {
     count as f64 / mesh.triangles.len().max(1) as f64
 }
 
-fn row(setting: Setting, flash: usize, asked: &Asked, distances: &[f64]) -> Option<Row> {
+fn row(setting: Setting, built: &Built, asked: &Asked, distances: &[f64]) -> Option<Row> {
     let Asked { answers, nanoseconds, scratch } = asked;
     let lower = |i: usize| f64::from(answers[i].lower);
     let upper = |i: usize| f64::from(answers[i].upper);
@@ -232,7 +241,8 @@ fn row(setting: Setting, flash: usize, asked: &Asked, distances: &[f64]) -> Opti
         found_upper: each(&|i| (upper(i) - distances[i]).max(0.0)).filter(|_| is_bounded),
         nanoseconds: *nanoseconds,
         boards,
-        flash,
+        level: built.cut_level(),
+        flash: built.bytes().len(),
         scratch: *scratch,
         work: [2, 3, 4, 5].map(mean),
     })

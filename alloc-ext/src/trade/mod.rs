@@ -36,7 +36,7 @@ pub use ask::intervals;
 pub use blobs::{NotBuilt, build};
 pub use cost::{Board, Cost, FEATURES, Features, Search, Shape};
 pub use fitted::cost;
-pub use limits::{CYCLES, Choice, Cpu, Limits, MANY_NEEDLES, Unmet};
+pub use limits::{COMB_OF_NEEDLES, CYCLES, Choice, Cpu, Limits, MANY_NEEDLES, Unmet};
 pub use measure::{Instructions, Missing, Row, Spread, Trade, distances, measure, pareto};
 pub use points::{Points, diagonal, points};
 pub use setting::{How, Setting, standard};

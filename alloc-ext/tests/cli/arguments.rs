@@ -149,8 +149,13 @@ fn every_command_s_help_has_examples_that_run() {
                 if matches!(command, "verify" | "field" | "worst") { &boxed } else { &part };
             fs::copy(of_part, directory.join("part.msw")).unwrap();
             fs::copy(&part, directory.join("tool.msw")).unwrap();
-            let words: Vec<&str> = example.split_whitespace().collect();
-            let output = meshsweep().args(words).current_dir(&directory).output().unwrap();
+            let (words, input) = example.split_once(" < ").unwrap_or((example, ""));
+            let mut program = meshsweep();
+            program.args(words.split_whitespace()).current_dir(&directory);
+            if !input.is_empty() {
+                program.stdin(fs::File::open(directory.join(input)).unwrap());
+            }
+            let output = program.output().unwrap();
             assert!(
                 output.status.success(),
                 "{example}: {}",
@@ -190,7 +195,7 @@ fn help_names_every_option_with_a_sentence() {
         "build", "info", "closest", "within", "nearest", "signed", "field", "segment", "overlap",
         "cull", "hull", "refine", "cut", "verify", "trade",
     ] {
-        let help = ok(["help", command]);
+        let help = ok([command, "-h"]);
         // Options are indented by at most six blanks. A sentence that goes on in the next line is
         // indented by more, and prose by none; both may begin with an option's name.
         let is_option = |line: &&str| {
@@ -203,6 +208,14 @@ fn help_names_every_option_with_a_sentence() {
             "{command}: {help}"
         );
         // No line is wider than a terminal shows.
-        assert!(help.lines().all(|line| line.chars().count() <= 100), "{command}");
+        let long = ok([command, "--help"]);
+        let lines = help.lines().chain(long.lines());
+        assert!(lines.into_iter().all(|line| line.chars().count() <= 100), "{command}");
+        let examples = |text: &str| text.split_once("Examples:").unwrap().1.to_owned();
+        assert_eq!(examples(&help), examples(&long));
+        assert_eq!(long, ok(["help", command]));
+        assert!(command == "info" || help.len() < long.len(), "{command}");
     }
+    let [short, long] = ["-h", "--help"].map(|form| ok(["build", form]).lines().count());
+    assert!(short < 80 && long > 2 * short, "{short} {long}");
 }

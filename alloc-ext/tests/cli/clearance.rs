@@ -116,7 +116,7 @@ fn meshes_that_meet_have_no_distance_and_few_steps_widen_the_interval() {
     assert_eq!([&rows[0][1], &rows[0][2]], ["0", "0"]);
     let (lower, upper) = (number(&rows[1][1]), number(&rows[1][2]));
     assert!(0.0 < lower && lower <= upper);
-    for more in [["--steps", "1"], ["--rel", "0.5"], ["--queue", "1"]] {
+    for more in [["--steps", "1"], ["--rel", "0.5"], ["--scratch", "1"]] {
         let rows = parse_csv(&ok([&files[..], &more].concat()), HEADER);
         assert!(number(&rows[1][1]) <= lower && upper <= number(&rows[1][2]), "{rows:?}");
     }

@@ -154,7 +154,7 @@ fn an_undefined_side_has_a_reason_and_an_interval_all_the_same() {
         (&open, "3,3,3", &[][..], "open mesh"),
         (&closed, &vertex, &[], "at the surface"),
         (&closed, "0.5,0,0", &["--steps", "1"], "out of steps"),
-        (&closed, "0.5,0,0", &["--queue", "1"], "out of scratch memory"),
+        (&closed, "0.5,0,0", &["--scratch", "1"], "out of scratch memory"),
     ] {
         let output = run([&["signed", arg(blob), point], options].concat());
         let answers = parse_csv(&String::from_utf8(output.stdout).unwrap(), SIGNED);

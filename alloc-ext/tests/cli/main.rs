@@ -18,6 +18,7 @@ mod info;
 mod overlap;
 mod queries;
 mod refine;
+mod reports;
 mod rounding;
 mod support;
 mod tight;

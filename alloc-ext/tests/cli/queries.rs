@@ -96,7 +96,7 @@ fn queries_that_stop_early_still_contain_the_distance_and_say_so() {
             (["--steps", "3"], "out of steps"),
             (["--rel", "0.5"], "within tolerance"),
             (["--abs", "10"], "within tolerance"),
-            (["--queue", "1"], "out of scratch memory"),
+            (["--scratch", "1"], "out of scratch memory"),
             (["--steps", "0"], "out of steps"),
         ] {
             let output =

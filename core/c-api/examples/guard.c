@@ -59,7 +59,7 @@ static int32_t run(void)
                                   MSW_DISTANCE_ENTRIES, &near);
         const uint32_t took = clock_count() - from;
         worst = took > worst ? took : worst;
-        most_pairs = near.work.splits > most_pairs ? near.work.splits : most_pairs;
+        most_pairs = near.work.opened > most_pairs ? near.work.opened : most_pairs;
         if (error == MSW_OK && !msw_is_clear(near.verdict)) {
             print_line("stopped before pose ", number, "");
             if (near.models[0] == MSW_NO_MODEL) {

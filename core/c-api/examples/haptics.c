@@ -77,9 +77,9 @@ static int32_t run(void)
             fresh_cost += clock_count() - from;
             questions++;
             same += (uint32_t)is_same(&near, &fresh);
-            boxes += near.work.nodes;
+            boxes += near.work.bounds;
             triangles += near.work.triangles;
-            fresh_boxes += fresh.work.nodes;
+            fresh_boxes += fresh.work.bounds;
             fresh_triangles += fresh.work.triangles;
         }
         at++;

@@ -1,7 +1,7 @@
 /* Each linear move of a machine head is proved clear of clamps before it is made. The same program
  * in Rust: core/examples/keep_out.
  *
- * The head is a cutter, which is a capsule, and a nose, which is a box. msw_first_contact asks
+ * The head is a cutter, which is a capsule, and a nose, which is a box. msw_solid_first_contact asks
  * about the whole move, so a thin wall cannot be missed between two positions. Only a proof lets
  * the head go: a move that is undecided is refused as one that collides.
  */
@@ -51,7 +51,7 @@ static int32_t clear_until(const float (*corners)[3], uint32_t count, float radi
         }
     }
     msw_hit found;
-    const int32_t error = msw_first_contact(&clamps, begin[0], end[0], count, radius + KEEP, NULL,
+    const int32_t error = msw_solid_first_contact(&clamps, begin[0], end[0], count, radius + KEEP, NULL,
                                             scratch, CLAMPS_SCRATCH_ENTRIES, &found);
     /* A proof is infinite. After an error t.lower is 0. */
     if (found.t.lower < *until) {

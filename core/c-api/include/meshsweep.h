@@ -119,7 +119,7 @@ enum {
 #define MSW_NO_TRIANGLE UINT32_MAX /* in the place of a triangle's number: there is none */
 #define MSW_NO_MODEL UINT32_MAX    /* in the place of a model's index: there is none */
 #define MSW_FINEST UINT32_MAX      /* for msw_open_tight: the tightest hull */
-#define MSW_MOST_CORNERS 32        /* of a solid, for msw_first_contact */
+#define MSW_MOST_CORNERS 32        /* of a solid, for msw_solid_first_contact */
 #define MSW_OVERLAP_ENTRIES 256    /* scratch entries that are always enough for msw_overlap */
 #define MSW_DISTANCE_ENTRIES 384   /* the same for msw_models_within */
 
@@ -204,10 +204,10 @@ typedef struct {
 /* The work of a question. The numbers are the same on every target, but for an exact closest
  * point: processors with vector registers visit nodes in another order. */
 typedef struct {
-    uint32_t nodes;     /* boxes tested */
+    uint32_t bounds;    /* boxes tested */
     uint32_t triangles; /* triangles tested in float */
     uint32_t exact;     /* triangles tested in double */
-    uint32_t splits;    /* nodes opened: the steps of a budget. Of hulls: splits */
+    uint32_t opened;    /* nodes opened: the steps of a budget. Of hulls: splits */
 } msw_work;
 
 typedef struct {
@@ -273,7 +273,7 @@ typedef struct {
     int32_t verdict;       /* MSW_YES: the surfaces meet. MSW_NO: they have no common point */
     int32_t reason;        /* MSW_REASON_... */
     uint32_t triangles[2]; /* of both models, which meet or may meet, or MSW_NO_TRIANGLE */
-    msw_work work;         /* splits: pairs of nodes opened */
+    msw_work work;         /* opened: pairs of nodes */
 } msw_overlap_answer;
 
 typedef struct {
@@ -435,7 +435,7 @@ int32_t msw_first_hit(const msw_model *model, const float a[3], const float b[3]
  * flat one without radius. MSW_ERROR_COUNT: no corner, or more than MSW_MOST_CORNERS.
  * Cost: the nodes that the solid passes, and one to ten distances in double for each triangle that
  * it may reach. */
-int32_t msw_first_contact(const msw_model *model,
+int32_t msw_solid_first_contact(const msw_model *model,
                           const float *from, const float *to, size_t corner_count,
                           float radius,
                           const msw_budget *budget,

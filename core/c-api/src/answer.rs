@@ -23,10 +23,10 @@ pub struct IntervalC {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WorkC {
-    pub nodes: u32,
+    pub bounds: u32,
     pub triangles: u32,
     pub exact: u32,
-    pub splits: u32,
+    pub opened: u32,
 }
 
 #[repr(C)]
@@ -152,8 +152,8 @@ impl From<Interval> for IntervalC {
 }
 
 impl From<Work> for WorkC {
-    fn from(Work { nodes, triangles, exact, splits, .. }: Work) -> Self {
-        WorkC { nodes, triangles, exact, splits }
+    fn from(Work { bounds, triangles, exact, opened, .. }: Work) -> Self {
+        WorkC { bounds, triangles, exact, opened }
     }
 }
 
@@ -161,10 +161,10 @@ impl WorkC {
     /// The work of both.
     pub fn and(self, other: WorkC) -> WorkC {
         WorkC {
-            nodes: self.nodes.saturating_add(other.nodes),
+            bounds: self.bounds.saturating_add(other.bounds),
             triangles: self.triangles.saturating_add(other.triangles),
             exact: self.exact.saturating_add(other.exact),
-            splits: self.splits.saturating_add(other.splits),
+            opened: self.opened.saturating_add(other.opened),
         }
     }
 }

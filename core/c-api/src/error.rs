@@ -108,7 +108,7 @@ impl From<QueryError> for Error {
             QueryError::OutOfDomain => Error::OutOfDomain,
             QueryError::PoseOutOfDomain => Error::Pose,
             QueryError::NoScratch => Error::NoScratch,
-            QueryError::NotServed { .. } | QueryError::NoHulls => Error::NotServed,
+            QueryError::NotServed { .. } | QueryError::NotEnclosing => Error::NotServed,
             _ => Error::Internal,
         }
     }

@@ -1,6 +1,6 @@
 //! Models at their places.
 
-use meshsweep_core::{Placed, Scene, ScratchEntry, Verdict};
+use meshsweep_core::{PlacedModel, Scene, ScratchEntry, Verdict};
 
 use crate::answer::{ModelsC, NO_MODEL, WorkC, verdict};
 use crate::error::Error;
@@ -21,8 +21,8 @@ pub struct PlacedC {
 unsafe impl AnyBits for PlacedC {}
 
 impl PlacedC {
-    fn placed(&self) -> Result<Placed<'static>, Error> {
-        Ok(Placed { tree: *self.model.view()?, pose: self.pose.pose()? })
+    fn placed(&self) -> Result<PlacedModel<'static>, Error> {
+        Ok(PlacedModel { tree: *self.model.view()?, pose: self.pose.pose()? })
     }
 }
 
@@ -58,7 +58,7 @@ pub extern "C" fn msw_models_within(
                     if skipped.iter().any(|&[a, b]| [a, b] == pair || [b, a] == pair) {
                         continue;
                     }
-                    let budget = budget.with_steps(budget.steps.saturating_sub(work.splits));
+                    let budget = budget.with_steps(budget.steps.saturating_sub(work.opened));
                     let two = [one.placed()?, other.placed()?];
                     let found = Scene::new(&two).within(distance, all, budget, scratch)?;
                     work = work.and(found.work.into());

@@ -190,7 +190,7 @@ pub extern "C" fn msw_first_hit(
 
 /// See `meshsweep.h`.
 #[unsafe(no_mangle)]
-pub extern "C" fn msw_first_contact(
+pub extern "C" fn msw_solid_first_contact(
     model: In<Model>,
     from: In<[f32; 3]>,
     to: In<[f32; 3]>,
@@ -205,7 +205,7 @@ pub extern "C" fn msw_first_contact(
         let (model, [from, to]) = (model.view()?, [from, to].map(|at| at.slice(corner_count)));
         let (from, to) = (Solid::new(from?, radius)?, Solid::new(to?, radius)?);
         ask(budget, scratch, scratch_count, |budget, scratch| {
-            Ok(model.first_contact(&from, &to, budget, scratch)?.into())
+            Ok(model.solid_first_contact(&from, &to, budget, scratch)?.into())
         })
     })
 }

@@ -51,7 +51,7 @@ fn layouts() -> String {
         "msw_placed": PlacedC { model, pose }
         "msw_focus": FocusC { kind, a, b, radius, cosine, error_per_distance }
         "msw_interval": IntervalC { lower, upper }
-        "msw_work": WorkC { nodes, triangles, exact, splits }
+        "msw_work": WorkC { bounds, triangles, exact, opened }
         "msw_closest": ClosestC { distance, point, triangle, ended, work }
         "msw_coherent_closest": CoherentC { closest, safe_radius }
         "msw_signed": SignedC { side, reason, distance, closest }

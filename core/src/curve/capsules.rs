@@ -49,8 +49,8 @@ impl<'a> Capsules<'a> {
     /// A node's children with their bounds, the nearer one first. `None`: the curve is unchecked.
     #[inline(always)]
     pub(crate) fn open(&self, node: u32, work: &mut Work) -> Option<[ScratchEntry; 2]> {
-        work.splits += 1;
-        work.nodes += 2;
+        work.opened += 1;
+        work.bounds += 2;
         let [left, right] = self.curve.children(node)?;
         let (left, right) = (self.bounded(&left)?, self.bounded(&right)?);
         Some(if before(&right, &left) { [right, left] } else { [left, right] })

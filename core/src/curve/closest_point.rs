@@ -169,7 +169,7 @@ impl<'a> Search<'a> {
             }
             match self.capsules.item(entry) {
                 Item::Segment(segment) => self.evaluate(segment)?,
-                Item::Node(_) if self.work.splits >= steps => {
+                Item::Node(_) if self.work.opened >= steps => {
                     self.leave(entry.key());
                     self.leave(queue.lower());
                     return Some(Ended::Steps);

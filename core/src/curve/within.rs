@@ -115,7 +115,7 @@ fn within(
                 }
                 may_be_within |= curve.frame.lower(near.lower) <= distance;
             }
-            Item::Node(_) if work.splits >= steps => return undecided(Undecided::Steps),
+            Item::Node(_) if work.opened >= steps => return undecided(Undecided::Steps),
             Item::Node(node) => {
                 let [near, far] = capsules.open(node, work)?;
                 queue.begin_children(2);

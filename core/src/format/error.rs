@@ -1,5 +1,6 @@
 //! Why a blob was not opened.
 
+use super::contradiction::Contradiction;
 use super::layout::{SectionKind, VERSION_MAJOR};
 
 /// Why a blob was not opened.
@@ -36,14 +37,14 @@ pub enum OpenError {
     /// A number is not finite and must be.
     NotFinite {
         /// Which one.
-        field: &'static str,
+        field: HeaderField,
     },
     /// A reserved byte is not zero.
     Reserved,
     /// Counts that contradict each other or a limit.
     Counts {
         /// The fault.
-        what: &'static str,
+        what: Contradiction,
     },
     /// The header or a section does not have its stored CRC.
     Crc {
@@ -68,6 +69,29 @@ pub enum OpenError {
         /// Which record.
         index: u32,
     },
+}
+
+/// A number of the header that must be finite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum HeaderField {
+    /// How far the stored surface may be from the input mesh.
+    SurfaceError,
+    /// The box of the hulls.
+    HullBox,
+    /// The box of the surface.
+    SurfaceBox,
+}
+
+impl core::fmt::Display for HeaderField {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::SurfaceError => "surface error",
+            Self::HullBox => "hull box",
+            Self::SurfaceBox => "surface box",
+        })
+    }
 }
 
 impl core::fmt::Display for OpenError {

@@ -2,7 +2,7 @@
 //! structures.
 
 use super::bytes::Bytes;
-use super::error::OpenError;
+use super::error::{HeaderField, OpenError};
 use super::layout::{
     FLAG_CUT, FLAG_SWEEP_ONLY, HEADER_BYTES, MAGIC, VERSION_MAJOR, VERSION_MINOR, VertexFormat,
     field, index_bytes,
@@ -99,13 +99,13 @@ impl Header {
             dependency_depth: head.word(field::DEPENDENCY_DEPTH),
         };
         if !header.surface_error.is_finite() {
-            return Err(OpenError::NotFinite { field: "surface error" });
+            return Err(OpenError::NotFinite { field: HeaderField::SurfaceError });
         }
         if !is_finite(&header.hull_box) {
-            return Err(OpenError::NotFinite { field: "hull box" });
+            return Err(OpenError::NotFinite { field: HeaderField::HullBox });
         }
         if !is_finite(&header.surface_box) {
-            return Err(OpenError::NotFinite { field: "surface box" });
+            return Err(OpenError::NotFinite { field: HeaderField::SurfaceBox });
         }
         if !head.is_zero(field::RESERVED_BESIDE_FORMAT, 3)
             || !head.is_zero(field::RESERVED_BESIDE_RINGS, 4)

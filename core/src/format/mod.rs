@@ -7,6 +7,7 @@
 //! | `header` | the fixed header |
 //! | `sections` | the section table and the CRCs |
 //! | `error` | [`OpenError`]: why a blob was not opened |
+//! | `contradiction` | [`Contradiction`]: what a header says and its records do not |
 
 /// `?` of an `Option` in a constant function, where Rust has no `?` yet.
 macro_rules! some {
@@ -36,13 +37,15 @@ macro_rules! ok {
 pub(crate) use {ok, some};
 
 mod bytes;
+mod contradiction;
 mod error;
 mod header;
 pub mod layout;
 mod sections;
 
 pub(crate) use bytes::Bytes;
-pub use error::OpenError;
+pub use contradiction::Contradiction;
+pub use error::{HeaderField, OpenError};
 pub use header::Header;
 pub use sections::{Section, section_crc};
 pub(crate) use sections::{SectionTable, section};

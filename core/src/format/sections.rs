@@ -1,6 +1,7 @@
 //! The section table: where sections lie, and their CRCs.
 
 use super::bytes::Bytes;
+use super::contradiction::Contradiction;
 use super::error::OpenError;
 use super::header::Header;
 use super::layout::{
@@ -54,7 +55,7 @@ const fn read_header(bytes: &[u8]) -> Result<Header, OpenError> {
         return Err(OpenError::TrailingBytes { expected: header.total_bytes, found: found as u32 });
     }
     let sections = header.section_count as usize;
-    let wrong = OpenError::Counts { what: "size of the section table" };
+    let wrong = OpenError::Counts { what: Contradiction::SectionTableSize };
     if sections > MAX_SECTIONS
         || header.header_bytes as usize != HEADER_BYTES + sections * SECTION_ENTRY_BYTES
         || header.header_bytes > header.total_bytes
@@ -138,7 +139,7 @@ impl<'a> SectionTable<'a> {
             }
         }
         if end != header.total_bytes {
-            return Err(OpenError::Counts { what: "bytes after the last section" });
+            return Err(OpenError::Counts { what: Contradiction::BytesAfterSections });
         }
         Ok(SectionTable { header, bytes, entries })
     }

@@ -40,17 +40,17 @@ impl<T: Real> SweptTriangle<T> {
 
     /// Whether both are certainly farther than `margin` from each other. `margin` has to contain
     /// what the corners are off by, and the rounding of a height: 26 unit roundoffs of the longest
-    /// way along an axis from a corner to another.
+    /// offset along an axis from a corner to another.
     #[inline(always)]
     pub fn is_apart(&self, other: &SweptTriangle<T>, margin: T) -> bool {
-        let reach = ((self.radius + other.radius) + margin) * T::from(1.0 + 4.0 * U32);
+        let radii = ((self.radius + other.radius) + margin) * T::from(1.0 + 4.0 * U32);
         let (before, behind) = (minus(other.low, self.high), minus(self.low, other.high));
-        if before.into_iter().chain(behind).any(|gap| gap > reach) {
+        if before.into_iter().chain(behind).any(|gap| gap > radii) {
             return true;
         }
-        self.is_apart_along(minus(other.sum(), self.sum()), other, reach)
-            || self.is_apart_along(self.normal(), other, reach)
-            || self.is_apart_along(other.normal(), other, reach)
+        self.is_apart_along(minus(other.sum(), self.sum()), other, radii)
+            || self.is_apart_along(self.normal(), other, radii)
+            || self.is_apart_along(other.normal(), other, radii)
     }
 
     /// Thrice the centre.
@@ -66,17 +66,17 @@ impl<T: Real> SweptTriangle<T> {
         cross(minus(b, a), minus(c, a))
     }
 
-    /// Whether all corners of one are farther than `reach` from all of the other along a direction.
+    /// Whether all corners of one are farther than `radii` from all of the other along a direction.
     #[inline(always)]
-    fn is_apart_along(&self, way: Point<T>, other: &SweptTriangle<T>, reach: T) -> bool {
+    fn is_apart_along(&self, direction: Point<T>, other: &SweptTriangle<T>, radii: T) -> bool {
         let [from, ..] = self.corners;
-        let height = |corner: Point<T>| dot(way, minus(corner, from));
+        let height = |corner: Point<T>| dot(direction, minus(corner, from));
         let ([p, q, r], [s, t, u]) = (each(self.corners, height), each(other.corners, height));
         let above = lesser(lesser(s, t), u) - greater(greater(p, q), r);
         let below = lesser(lesser(p, q), r) - greater(greater(s, t), u);
         let gap = greater(above, below);
-        let length_sq = dot(way, way);
-        let limit = (reach * reach) * length_sq;
+        let length_sq = dot(direction, direction);
+        let limit = (radii * radii) * length_sq;
         // Below the least number to be trusted the squares may have lost all digits.
         gap > T::ZERO
             && length_sq > T::UNDERFLOW

@@ -28,21 +28,21 @@ pub struct TriangleDistance {
 #[derive(Clone, Copy)]
 struct Candidate {
     points: [Point<f64>; 2],
-    way: Point<f64>,
-    way_sq: f64,
+    offset: Point<f64>,
+    offset_sq: f64,
 }
 
 impl Candidate {
     #[inline(always)]
     fn new(from: Point<f64>, to: Point<f64>) -> Candidate {
-        let way = minus(to, from);
-        Candidate { points: [from, to], way, way_sq: dot(way, way) }
+        let offset = minus(to, from);
+        Candidate { points: [from, to], offset, offset_sq: dot(offset, offset) }
     }
 
     #[inline(always)]
     fn turned(self) -> Candidate {
         let [from, to] = self.points;
-        Candidate { points: [to, from], way: self.way.map(|x| -x), way_sq: self.way_sq }
+        Candidate { points: [to, from], offset: self.offset.map(|x| -x), offset_sq: self.offset_sq }
     }
 }
 
@@ -62,22 +62,22 @@ pub fn triangle_distance(a: [Point<f64>; 3], b: [Point<f64>; 3]) -> TriangleDist
     let mut best = Candidate::new(a[0], b[0]);
     let over = [over_face(&a, to_first, &b), over_face(&b, to_second, &a).map(Candidate::turned)];
     for found in over.into_iter().flatten() {
-        if found.way_sq < best.way_sq {
+        if found.offset_sq < best.offset_sq {
             best = found;
         }
         if is_settled(&best, &a, &b) {
-            return answer(&best, gap_along(best.way, &a, &b), margin);
+            return answer(&best, gap_along(best.offset, &a, &b), margin);
         }
     }
     let mut across = [0.0; 3];
     for (from, to) in edges(&a) {
         for (start, end) in edges(&b) {
             let found = between_edges(from, to, start, end);
-            if found.way_sq < best.way_sq {
+            if found.offset_sq < best.offset_sq {
                 best = found;
                 across = cross(minus(to, from), minus(end, start));
                 if is_settled(&best, &a, &b) {
-                    return answer(&best, gap_along(best.way, &a, &b), margin);
+                    return answer(&best, gap_along(best.offset, &a, &b), margin);
                 }
             }
         }
@@ -86,15 +86,15 @@ pub fn triangle_distance(a: [Point<f64>; 3], b: [Point<f64>; 3]) -> TriangleDist
     let below = below_vertices(&a, to_first, &b);
     let above = below_vertices(&b, to_second, &a).map(|found| found.map(Candidate::turned));
     for found in below.into_iter().chain(above).flatten() {
-        if found.way_sq < best.way_sq {
+        if found.offset_sq < best.offset_sq {
             best = found;
         }
     }
-    // A short way is mostly rounding. Normals are not.
-    let gap = [best.way, to_first, to_second, across]
+    // A short offset is mostly rounding. Normals are not.
+    let gap = [best.offset, to_first, to_second, across]
         .into_iter()
-        .flat_map(|way| [way, way.map(|x| -x)])
-        .map(|way| gap_along(way, &a, &b))
+        .flat_map(|offset| [offset, offset.map(|x| -x)])
+        .map(|offset| gap_along(offset, &a, &b))
         .fold(0.0, greater);
     answer(&best, gap, margin)
 }
@@ -102,7 +102,7 @@ pub fn triangle_distance(a: [Point<f64>; 3], b: [Point<f64>; 3]) -> TriangleDist
 fn answer(best: &Candidate, gap: f64, margin: f64) -> TriangleDistance {
     TriangleDistance {
         lower: greater(0.0, gap - margin),
-        upper: libm::sqrt(best.way_sq) + margin,
+        upper: libm::sqrt(best.offset_sq) + margin,
         points: best.points,
     }
 }
@@ -125,22 +125,22 @@ fn edges(&[a, b, c]: &[Point<f64>; 3]) -> [(Point<f64>, Point<f64>); 3] {
 
 /// How far `b` lies beyond `a` along a direction, times the direction's length.
 #[inline(always)]
-fn beyond(way: Point<f64>, a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> f64 {
-    let ([p, q, r], [s, t, u]) = (a.map(|x| dot(way, x)), b.map(|x| dot(way, x)));
+fn beyond(offset: Point<f64>, a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> f64 {
+    let ([p, q, r], [s, t, u]) = (a.map(|x| dot(offset, x)), b.map(|x| dot(offset, x)));
     lesser(lesser(s, t), u) - greater(greater(p, q), r)
 }
 
 /// The same as a length; 0 of a direction that is too short to be trusted.
 #[inline(always)]
-fn gap_along(way: Point<f64>, a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> f64 {
-    let way_sq = dot(way, way);
-    if way_sq < GAP_DIRECTION_SQ { 0.0 } else { beyond(way, a, b) / libm::sqrt(way_sq) }
+fn gap_along(offset: Point<f64>, a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> f64 {
+    let offset_sq = dot(offset, offset);
+    if offset_sq < GAP_DIRECTION_SQ { 0.0 } else { beyond(offset, a, b) / libm::sqrt(offset_sq) }
 }
 
 /// Whether no other points of the triangles are nearer, but for rounding.
 #[inline(always)]
 fn is_settled(best: &Candidate, a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> bool {
-    best.way_sq >= GAP_DIRECTION_SQ && beyond(best.way, a, b) >= best.way_sq * GAP_SETTLED
+    best.offset_sq >= GAP_DIRECTION_SQ && beyond(best.offset, a, b) >= best.offset_sq * GAP_SETTLED
 }
 
 /// The vertex of `other` nearest to the plane of `face`, and the point below it, if all of `other`
@@ -209,7 +209,7 @@ fn plus([x, y, z]: Point<f64>, e: Point<f64>, v: f64, g: Point<f64>, w: f64) -> 
 
 /// A quotient within 0 and 1; 0 if it is not defined.
 #[inline(always)]
-fn part(x: f64, of: f64) -> f64 {
+fn fraction(x: f64, of: f64) -> f64 {
     if of > 0.0 { (x / of).clamp(0.0, 1.0) } else { 0.0 }
 }
 
@@ -224,15 +224,15 @@ fn between_edges(
     let (d, e, r) = (minus(to, from), minus(end, start), minus(from, start));
     let (dd, ee, de) = (dot(d, d), dot(e, e), dot(d, e));
     let (dr, er) = (dot(d, r), dot(e, r));
-    let mut s = part(de * er - dr * ee, dd * ee - de * de);
+    let mut s = fraction(de * er - dr * ee, dd * ee - de * de);
     let along = de * s + er;
-    let mut t = part(along, ee);
+    let mut t = fraction(along, ee);
     if along < 0.0 || ee <= 0.0 {
         t = 0.0;
-        s = part(-dr, dd);
+        s = fraction(-dr, dd);
     } else if along > ee {
         t = 1.0;
-        s = part(de - dr, dd);
+        s = fraction(de - dr, dd);
     }
     let at =
         |[x, y, z]: Point<f64>, [a, b, c]: Point<f64>, k: f64| [x + a * k, y + b * k, z + c * k];
@@ -249,8 +249,8 @@ pub fn crossing(a: [Point<f64>; 3], b: [Point<f64>; 3]) -> Option<[f64; 3]> {
             if (p > 0.0) == (q > 0.0) {
                 return None;
             }
-            let (way, t) = (minus(to, from), (p / (p - q)).clamp(0.0, 1.0));
-            let point = [from[0] + way[0] * t, from[1] + way[1] * t, from[2] + way[2] * t];
+            let (offset, t) = (minus(to, from), (p / (p - q)).clamp(0.0, 1.0));
+            let point = [from[0] + offset[0] * t, from[1] + offset[1] * t, from[2] + offset[2] * t];
             foot_on(origin, first, second, normal, point)
         })
     })

@@ -102,26 +102,29 @@ fn sign<T: Real>(value: T, margin: T) -> i8 {
 #[derive(Clone, Copy)]
 struct Edge<T> {
     from: Point<T>,
-    way: Point<T>,
+    offset: Point<T>,
     length: T,
 }
 
 #[inline(always)]
 fn edges<T: Real>([a, b, c]: [Point<T>; 3]) -> [Edge<T>; 3] {
     each([(a, b), (b, c), (c, a)], |(from, to)| {
-        let way = minus(to, from);
-        Edge { from, way, length: norm_1(way) }
+        let offset = minus(to, from);
+        Edge { from, offset, length: norm_1(offset) }
     })
 }
 
 /// On which sides of a triangle's plane points lie.
 #[inline(always)]
 fn sides<T: Real>([first, second, _]: &[Edge<T>; 3], points: [Point<T>; 3], shift: T) -> [i8; 3] {
-    let normal = cross(first.way, second.way);
+    let normal = cross(first.offset, second.offset);
     each(points, |p| {
         // From the vertex that both edges share.
-        let way = minus(p, second.from);
-        sign(dot(normal, way), determinant_margin(first.length, second.length, norm_1(way), shift))
+        let offset = minus(p, second.from);
+        sign(
+            dot(normal, offset),
+            determinant_margin(first.length, second.length, norm_1(offset), shift),
+        )
     })
 }
 
@@ -162,9 +165,9 @@ fn is_certain([p, q, r]: [i8; 3]) -> bool {
 /// How one edge turns past another: 1 or −1; 0 if it is not certain.
 #[inline(always)]
 fn turn<T: Real>(first: &Edge<T>, second: &Edge<T>, shift: T) -> i8 {
-    let way = minus(second.from, first.from);
-    let margin = determinant_margin(first.length, second.length, norm_1(way), shift);
-    sign(dot(cross(first.way, second.way), way), margin)
+    let offset = minus(second.from, first.from);
+    let margin = determinant_margin(first.length, second.length, norm_1(offset), shift);
+    sign(dot(cross(first.offset, second.offset), offset), margin)
 }
 
 /// The edges by which a triangle passes up and down through a plane, if some of its vertices are
@@ -172,8 +175,8 @@ fn turn<T: Real>(first: &Edge<T>, second: &Edge<T>, shift: T) -> i8 {
 #[inline(always)]
 fn passing<T: Real>([a, b, c]: [Point<T>; 3], [p, q, r]: [i8; 3]) -> [Edge<T>; 2] {
     let edge = |from: Point<T>, to: Point<T>| {
-        let way = minus(to, from);
-        Edge { from, way, length: norm_1(way) }
+        let offset = minus(to, from);
+        Edge { from, offset, length: norm_1(offset) }
     };
     let (up, down) = if p > q {
         // The edge from `a` goes down. The edge that goes up begins at `b` if `c` is above.
@@ -257,8 +260,10 @@ fn parted_in_a_plane<T: Real>(
 ) -> bool {
     [(edges_a, a, b), (edges_b, b, a)].into_iter().any(|(edges, own, other)| {
         let [first, second, _] = edges;
-        let normal = cross(first.way, second.way);
-        edges.iter().any(|edge| parted_along(cross(edge.way, normal), edge.from, own, other, shift))
+        let normal = cross(first.offset, second.offset);
+        edges
+            .iter()
+            .any(|edge| parted_along(cross(edge.offset, normal), edge.from, own, other, shift))
     })
 }
 
@@ -274,8 +279,8 @@ fn parted_along<T: Real>(
 ) -> bool {
     let length = norm_1(direction);
     let height = |p: Point<T>| {
-        let way = minus(p, from);
-        (dot(direction, way), length * (T::DETERMINANT * norm_1(way) + shift) + T::UNDERFLOW)
+        let offset = minus(p, from);
+        (dot(direction, offset), length * (T::DETERMINANT * norm_1(offset) + shift) + T::UNDERFLOW)
     };
     // The vertices that are farthest out and nearest.
     let [own, other] = [own, other].map(|points| points.map(height));

@@ -62,10 +62,10 @@ pub(crate) struct FocusQuery {
 #[derive(Clone, Copy, Debug)]
 enum Shape {
     Everywhere,
-    /// A segment in direction `way` from `start`, swept by `radius`. A point has `inverse_sq` 0.
+    /// A segment in direction `path` from `start`, swept by `radius`. A point has `inverse_sq` 0.
     Swept {
         start: Vec3,
-        way: Vec3,
+        path: Vec3,
         inverse_sq: f32,
         radius: f32,
     },
@@ -96,7 +96,7 @@ impl FocusQuery {
             Focus::Everywhere => Shape::Everywhere,
             Focus::Ball { centre, radius } => Shape::Swept {
                 start: local(centre)?,
-                way: Vec3::ZERO,
+                path: Vec3::ZERO,
                 inverse_sq: 0.0,
                 radius: length(radius)?,
             },
@@ -106,15 +106,15 @@ impl FocusQuery {
             }
             Focus::Segment { a, b, radius } => {
                 let (start, end) = (local(a)?, local(b)?);
-                let way = end - start;
-                let length_sq = way.dot(way);
+                let path = end - start;
+                let length_sq = path.dot(path);
                 // The point of the segment that is nearest to a vertex is off by some roundings of
                 // the coordinates.
                 let bounds = hull.hull_box();
                 let sizes = start.abs() + end.abs() + bounds.min.abs().max(bounds.max.abs());
                 let doubt = FOCUS_DISTANCE * U32 * (sizes.x + sizes.y + sizes.z);
                 let inverse_sq = if length_sq > f32::MIN_POSITIVE { 1.0 / length_sq } else { 0.0 };
-                Shape::Swept { start, way, inverse_sq, radius: sum_up(length(radius)?, doubt) }
+                Shape::Swept { start, path, inverse_sq, radius: sum_up(length(radius)?, doubt) }
             }
             Focus::Eye { position, axis, cosine, error_per_distance } => {
                 if !cosine.is_finite() || !axis.iter().all(|x| x.is_finite()) {
@@ -154,26 +154,26 @@ impl FocusQuery {
     ///
     /// Rounding may call a split needed that is not, by a few units of f32, but not the reverse.
     #[inline]
-    pub(crate) fn need(&self, vertex: Vec3, reach: f32, error: f32) -> f32 {
+    pub(crate) fn need(&self, vertex: Vec3, star_radius: f32, error: f32) -> f32 {
         if !self.is_above(error) {
             return 0.0;
         }
-        if !reach.is_finite() {
+        if !star_radius.is_finite() {
             return error;
         }
         match self.shape {
             Shape::Everywhere => error,
-            Shape::Swept { start, way, inverse_sq, radius } => {
+            Shape::Swept { start, path, inverse_sq, radius } => {
                 let mut from = vertex - start;
                 if inverse_sq > 0.0 {
-                    from -= way * (from.dot(way) * inverse_sq).clamp(0.0, 1.0);
+                    from -= path * (from.dot(path) * inverse_sq).clamp(0.0, 1.0);
                 }
-                let limit = radius + reach;
+                let limit = radius + star_radius;
                 if from.dot(from) <= limit * limit * FOCUS_SLACK { error } else { 0.0 }
             }
             Shape::Box { min, max } => {
                 let gap = (min - vertex).max(vertex - max).max(Vec3::ZERO);
-                if gap.dot(gap) <= reach * reach * FOCUS_SLACK { error } else { 0.0 }
+                if gap.dot(gap) <= star_radius * star_radius * FOCUS_SLACK { error } else { 0.0 }
             }
             Shape::Eye { position, axis, cosine, sine, error_per_distance } => {
                 let from = vertex - position;
@@ -181,18 +181,18 @@ impl FocusQuery {
                 let along = from.dot(axis);
                 let aside = from - axis * along;
                 let across = libm::sqrtf(aside.dot(aside));
-                let reach = reach + FOCUS_DISTANCE * U32 * centre_distance;
+                let star_radius = star_radius + FOCUS_DISTANCE * U32 * centre_distance;
                 // In the plane of axis and vertex: how far the vertex is outside of the cone's
                 // side, and how far along the side the nearest point is.
                 let beside = across * cosine - along * sine;
                 let forward = along * cosine + across * sine;
-                let is_seen = centre_distance <= reach
+                let is_seen = centre_distance <= star_radius
                     || beside <= 0.0
-                    || (forward >= -reach && beside <= reach);
-                let distance = (centre_distance - reach).max(0.0);
+                    || (forward >= -star_radius && beside <= star_radius);
+                let distance = (centre_distance - star_radius).max(0.0);
                 if is_seen && error > error_per_distance * distance {
                     // The eye may stand in a star of no extent.
-                    (error / distance.max(reach)).min(f32::MAX)
+                    (error / distance.max(star_radius)).min(f32::MAX)
                 } else {
                     0.0
                 }

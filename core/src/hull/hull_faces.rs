@@ -1,6 +1,6 @@
 //! The triangles of hulls: of the base, of a split, of one level. For drawing, export and tests.
 
-use crate::hull::format::{Hull, Level, SplitIdx, VertIdx};
+use crate::hull::format::{Hull, HullLevel, SplitIdx, VertIdx};
 
 /// One triangle of a hull.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ impl<'a> Hull<'a> {
     /// A triangle exists exactly while its three corners exist. It appears with the last of them.
     /// The first split of a corner removes it, with the whole star of the split vertex. Triangles
     /// that close the holes of an open mesh are left out.
-    pub fn faces(&self, level: &Level) -> impl Iterator<Item = HullFace> + '_ {
+    pub fn faces(&self, level: &HullLevel) -> impl Iterator<Item = HullFace> + '_ {
         let splits = level.splits;
         let alive =
             move |vertex: VertIdx| self.split_of(vertex).is_none_or(|split| split.0 >= splits);

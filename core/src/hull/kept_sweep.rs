@@ -182,7 +182,7 @@ impl Sweep<'_, '_> {
     ///
     /// After [`Ended::Steps`] or [`Ended::Tolerance`] another call goes on where this one stopped.
     /// While the point has moved less than half the gap between the nearest few triangles and the
-    /// others, the answer takes constant time: these few triangles. `work.splits` is 0 then.
+    /// others, the answer takes constant time: these few triangles. `work.opened` is 0 then.
     ///
     /// # Errors
     /// [`QueryError::Tolerance`].

@@ -37,12 +37,12 @@ mod split_set;
 mod sweep;
 
 pub use focus::Focus;
-pub use format::{DeformableHull, Hull, Level};
+pub use format::{DeformableHull, Hull, HullLevel};
 pub use frame_hull::FrameHull;
 pub use hull_faces::HullFace;
 pub use kept_sweep::Sweep;
 pub use moved_hull::{MovedHull, MovedVertex};
-pub use outer_hits::{OuterHits, Search};
+pub use outer_hits::{OuterHits, OuterSearch};
 pub use overlap::TriangleOverlap;
-pub use refine::{Change, Refinement};
+pub use refine::{Refinement, SplitChange};
 pub use refined_hull::{ErasedHull, RefinedHull};

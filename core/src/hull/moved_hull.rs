@@ -4,13 +4,13 @@
 //! memory. One pass goes from the finest split to the coarsest. It moves each coarse vertex by a
 //! displacement between those of the two vertices that its split adds, and it bounds two things:
 //! - `spread`: the difference of its displacement and those of the mesh's vertices below it;
-//! - `reach`: its distance from the mesh's vertices below it.
+//! - `farthest`: its distance from the mesh's vertices below it.
 //!
 //! Each mesh vertex of a triangle's part of the surface lies below one of the triangle's corners.
 //! So the triangle covers its part after the motion if its radius grows by the largest spread of
 //! its corners and the largest difference of their displacements; and also if its radius is the
-//! largest reach of its corners. The first is small for small motions, the second does not grow
-//! when a part turns. Proof: `core/docs/rounding.md` §17.
+//! largest `farthest` of its corners. The first is small for small motions, the second does not
+//! grow when a part turns. Proof: `core/docs/rounding.md` §17.
 
 use super::closest_point;
 use super::format::{DeformableHull, Hull, SplitIdx, VertIdx};
@@ -27,12 +27,12 @@ pub struct MovedVertex {
     position: [f32; 3],
     /// [`Radius16`] both, local frame.
     spread: u16,
-    reach: u16,
+    farthest: u16,
 }
 
 impl MovedVertex {
     /// Any value, for filling arrays.
-    pub const EMPTY: MovedVertex = MovedVertex { position: [0.0; 3], spread: 0, reach: 0 };
+    pub const EMPTY: MovedVertex = MovedVertex { position: [0.0; 3], spread: 0, farthest: 0 };
 
     fn position(&self) -> Vec3 {
         Vec3::from_array(self.position)
@@ -42,8 +42,8 @@ impl MovedVertex {
         Radius16(self.spread).get()
     }
 
-    fn reach(&self) -> f32 {
-        Radius16(self.reach).get()
+    fn farthest(&self) -> f32 {
+        Radius16(self.farthest).get()
     }
 }
 
@@ -136,7 +136,7 @@ impl MovedHull<'_, '_> {
             if !position.iter().all(|x| x.abs() < DEFORM_DOMAIN) {
                 return Err(QueryError::VertexOutOfDomain { vertex });
             }
-            *record = MovedVertex { position, spread: 0, reach: 0 };
+            *record = MovedVertex { position, spread: 0, farthest: 0 };
             (low, high) = grown([low, high], record.position());
         }
         self.surface_error = VERTEX_UNDERFLOW;
@@ -153,7 +153,7 @@ impl MovedHull<'_, '_> {
         let hull = self.model.rest();
         for (index, record) in (0..).zip(self.vertices.iter_mut()) {
             let position = hull.position(VertIdx(index)).ok_or(QueryError::Unchecked)?.to_array();
-            *record = MovedVertex { position, spread: 0, reach: 0 };
+            *record = MovedVertex { position, spread: 0, farthest: 0 };
         }
         self.surface_error = f64::from(hull.header().surface_error);
         self.vertex_box = hull.hull_box();
@@ -175,19 +175,19 @@ impl MovedHull<'_, '_> {
             let between = by_d - by_o;
             let position = rest + by_o + between * fraction(between, d.spread() - o.spread());
             (low, high) = grown([low, high], position.into());
-            let (way_o, way_d) = (at_o - position, at_d - position);
-            let (off_o, off_d) = (way_o - (rest_o - rest), way_d - (rest_d - rest));
-            let squares = [way_o, way_d, off_o, off_d].map(|way| way.dot(way).0);
-            let [way_o, way_d, off_o, off_d] = sqrt_up(squares).map(Real);
-            let reach = greater(Real(o.reach()) + way_o, Real(d.reach()) + way_d);
+            let (to_o, to_d) = (at_o - position, at_d - position);
+            let (off_o, off_d) = (to_o - (rest_o - rest), to_d - (rest_d - rest));
+            let squares = [to_o, to_d, off_o, off_d].map(|vector| vector.dot(vector).0);
+            let [to_o, to_d, off_o, off_d] = sqrt_up(squares).map(Real);
+            let farthest = greater(Real(o.farthest()) + to_o, Real(d.farthest()) + to_d);
             let spread = greater(
-                Real(o.spread()) + off_o + rounding(way_o),
-                Real(d.spread()) + off_d + rounding(way_d),
+                Real(o.spread()) + off_o + rounding(to_o),
+                Real(d.spread()) + off_d + rounding(to_d),
             );
-            let [spread, reach] =
-                [spread, reach].map(|x| Radius16::round_up_f32((x * Real(LENGTH_UP)).0).0);
+            let [spread, farthest] =
+                [spread, farthest].map(|x| Radius16::round_up_f32((x * Real(LENGTH_UP)).0).0);
             let record = self.vertices.get_mut(whole.usize())?;
-            *record = MovedVertex { position: Vec3::from(position).to_array(), spread, reach };
+            *record = MovedVertex { position: Vec3::from(position).to_array(), spread, farthest };
         }
         self.vertex_box = Aabb { min: low, max: high };
         self.has_pose = true;
@@ -245,8 +245,8 @@ fn fraction(between: RealVector, spreads: f32) -> Real {
 
 /// Rounding of a difference of displacements, from the moved distance of the two vertices.
 #[inline(always)]
-fn rounding(way: Real) -> Real {
-    Real(DISPLACEMENT * U32) * way
+fn rounding(vector: Real) -> Real {
+    Real(DISPLACEMENT * U32) * vector
 }
 
 /// A box that holds a further point.
@@ -292,12 +292,12 @@ impl<'a> Geometry<'a> for Pose<'a, '_> {
         if is_surface {
             return Some((at, 0.0));
         }
-        let [r, s, t] = records.map(|record| Real(record.reach()));
-        let reach = greater(r, greater(s, t));
+        let [r, s, t] = records.map(|record| Real(record.farthest()));
+        let farthest = greater(r, greater(s, t));
         let [r, s, t] = records.map(|record| Real(record.spread()));
         let spread = Real(self.hull.radius(number)?) + greater(r, greater(s, t));
-        if spread >= reach {
-            return Some((at, reach.0));
+        if spread >= farthest {
+            return Some((at, farthest.0));
         }
         let [a, b, c] = at.map(RealVector::from);
         let [rest_a, rest_b, rest_c] = self.hull.positions(corners)?.map(RealVector::from);
@@ -305,9 +305,9 @@ impl<'a> Geometry<'a> for Pose<'a, '_> {
         let greatest =
             |[ab, bc, ca]: [RealVector; 3]| greater(ab.dot(ab), greater(bc.dot(bc), ca.dot(ca))).0;
         let off = [ab - (rest_b - rest_a), bc - (rest_c - rest_b), ca - (rest_a - rest_c)];
-        let [off, way] = sqrt_up([greatest(off), greatest([ab, bc, ca])]).map(Real);
-        let grown = (spread + off + rounding(way)) * Real(LENGTH_UP);
-        Some((at, lesser(reach, grown).0))
+        let [off, vector] = sqrt_up([greatest(off), greatest([ab, bc, ca])]).map(Real);
+        let grown = (spread + off + rounding(vector)) * Real(LENGTH_UP);
+        Some((at, lesser(farthest, grown).0))
     }
 
     /// The swept triangle of a group is not known after a motion: its bound is 0.

@@ -4,7 +4,7 @@
 //! Every hull encloses the surface. So between a start outside and the first point of the surface
 //! the segment crosses the refined hull. A crossed face that cannot be refined any more is a face
 //! of the surface, and the first hit is found. Faces are tested in groups: those of a split lie
-//! within its `reach` of the vertex that it replaced, and sixteen base faces share a swept
+//! within its `star_radius` of the vertex that it replaced, and sixteen base faces share a swept
 //! triangle. Later hits may lie below an unbroken hull face. [`Hull::all_hits`] finds those.
 
 use super::refined_hull::{Refined, RefinedHull, erased, split_of_face};
@@ -21,7 +21,7 @@ use glam::DVec3;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
-pub enum Search {
+pub enum OuterSearch {
     /// Until the first hit is certain.
     First,
     /// Until every face that the segment crosses is the surface's: the paper's outer intersections.
@@ -42,8 +42,8 @@ pub struct OuterHits {
     /// The segment starts inside the base hull's box. The theorem does not hold there, and no hit
     /// was searched for.
     pub starts_inside: bool,
-    /// The work of the search. `triangles`: faces tested. `splits`: vertex splits performed.
-    /// `nodes`: boxes and bounds of several faces.
+    /// The work of the search. `triangles`: faces tested. `opened`: vertex splits performed.
+    /// `bounds`: boxes and bounds of several faces.
     pub work: Work,
     /// Why the search ended.
     pub ended: Ended,
@@ -70,12 +70,12 @@ impl<'t> Hull<'t> {
     /// and some hundred splits a segment. Source: Platis & Theoharis 2003, 3.2 and Table 3.
     ///
     /// ```
-    /// use meshsweep_core::{Budget, Hit, Hull, RefinedHull, Scratch, Search};
+    /// use meshsweep_core::{Budget, Hit, Hull, RefinedHull, Scratch, OuterSearch};
     /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/bracket.msw"));
     /// let part = Hull::open(bytes)?;
     /// let (mut refined, mut scratch) = (RefinedHull::<128>::new(), Scratch::<64>::new());
     /// let (a, b, mut hits) = ([-400.0, 1.0, 1.0], [400.0, 1.0, 1.0], [Hit::EMPTY; 8]);
-    /// let (first, exact) = (Search::First, Budget::EXACT);
+    /// let (first, exact) = (OuterSearch::First, Budget::EXACT);
     /// let found = part.outer_hits(a, b, first, &mut refined, &mut hits, exact, &mut scratch)?;
     /// assert!(!found.starts_inside);
     /// # Ok::<(), Box<dyn core::error::Error>>(())
@@ -83,7 +83,7 @@ impl<'t> Hull<'t> {
     ///
     /// # Errors
     /// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`], [`QueryError::Tolerance`];
-    /// [`QueryError::NoHulls`] unless the
+    /// [`QueryError::NotEnclosing`] unless the
     /// hierarchy [`encloses`](Hull::encloses) the surface.
     #[expect(
         clippy::too_many_arguments,
@@ -93,7 +93,7 @@ impl<'t> Hull<'t> {
         &self,
         a: [f32; 3],
         b: [f32; 3],
-        search: Search,
+        search: OuterSearch,
         refined: &mut RefinedHull<'t, SPLITS>,
         hits: &mut [Hit],
         budget: Budget,
@@ -107,7 +107,7 @@ impl<'t> Hull<'t> {
 fn outer_hits(
     model: &Hull<'_>,
     [a, b]: [[f32; 3]; 2],
-    search: Search,
+    search: OuterSearch,
     refined: &mut Refined,
     hits: &mut [Hit],
     steps: u32,
@@ -117,7 +117,7 @@ fn outer_hits(
         return Err(QueryError::NO_HULL);
     }
     if !model.encloses() {
-        return Err(QueryError::NoHulls);
+        return Err(QueryError::NotEnclosing);
     }
     let frame = Frame::of(model.header());
     let bounds = model.hull_box();
@@ -126,7 +126,7 @@ fn outer_hits(
         stored: 0,
         dropped: 0,
         starts_inside: false,
-        work: Work { nodes: 1, ..Work::NONE },
+        work: Work { bounds: 1, ..Work::NONE },
         ended: Ended::Exact,
     };
     let is_exact = model.header().surface_error == 0.0 && !model.is_cut();
@@ -148,7 +148,7 @@ fn outer_hits(
     }
     let Some(clipped) = bounds.clip(start, end) else { return Ok(out) };
     refined.begin(model);
-    let mut outer = OuterSearch {
+    let mut outer = Descent {
         model,
         frame,
         start,
@@ -166,7 +166,7 @@ fn outer_hits(
         touch: f32::INFINITY,
     };
     outer.run().ok_or(QueryError::Unchecked)?;
-    let first = if search == Search::First { outer.out.t.upper } else { f32::INFINITY };
+    let first = if search == OuterSearch::First { outer.out.t.upper } else { f32::INFINITY };
     if outer.touch.is_finite() && outer.touch <= first {
         outer.out.ended = outer.out.ended.uncertain();
     }
@@ -174,13 +174,13 @@ fn outer_hits(
     Ok(OuterHits { stored, dropped, ..outer.out })
 }
 
-struct OuterSearch<'a> {
+struct Descent<'a> {
     model: &'a Hull<'a>,
     frame: Frame,
     start: DVec3,
     end: DVec3,
     segment: SweptSegment,
-    search: Search,
+    search: OuterSearch,
     /// Vertex splits that may be performed.
     steps: u32,
     refined: &'a mut Refined,
@@ -196,7 +196,7 @@ struct OuterSearch<'a> {
     touch: f32,
 }
 
-impl OuterSearch<'_> {
+impl Descent<'_> {
     fn run(&mut self) -> Option<()> {
         let mut record_hits = true;
         loop {
@@ -208,7 +208,7 @@ impl OuterSearch<'_> {
             if !self.overflowed {
                 return Some(());
             }
-            if self.out.work.splits >= self.steps {
+            if self.out.work.opened >= self.steps {
                 // Faces that did not fit may be hit anywhere.
                 self.give_up(0.0, Ended::Steps);
                 return Some(());
@@ -234,7 +234,7 @@ impl OuterSearch<'_> {
         if self.beyond(candidate.key()) || self.refined.splits.contains(split) {
             return Some(());
         }
-        if self.out.work.splits >= self.steps {
+        if self.out.work.opened >= self.steps {
             self.give_up(candidate.key(), Ended::Steps);
             return Some(());
         }
@@ -242,7 +242,7 @@ impl OuterSearch<'_> {
         if !self.refined.perform_with_required(self.model, split)? {
             self.give_up(candidate.key(), Ended::Scratch);
         }
-        self.out.work.splits += (self.refined.splits.len() - before) as u32;
+        self.out.work.opened += (self.refined.splits.len() - before) as u32;
         self.test_splits(before, true)
     }
 
@@ -270,7 +270,7 @@ impl OuterSearch<'_> {
     /// Whether the segment may meet a swept triangle below the limit.
     #[inline]
     fn may_meet(&mut self, corners: [VertIdx; 3], radius: f32) -> Option<bool> {
-        self.out.work.nodes += 1;
+        self.out.work.bounds += 1;
         let entered = self.segment.enter(self.model.positions(corners)?, radius);
         Some(entered.is_some_and(|t| !self.beyond(t)))
     }
@@ -280,7 +280,7 @@ impl OuterSearch<'_> {
         for position in from..self.refined.splits.len() {
             let index = self.refined.splits.get(position)?;
             let split = self.model.split(index)?;
-            if !self.may_meet([split.vertex; 3], split.reach)? {
+            if !self.may_meet([split.vertex; 3], split.star_radius)? {
                 continue;
             }
             for slot in 0..split.fine_len() {
@@ -292,7 +292,7 @@ impl OuterSearch<'_> {
 
     /// Whether hits from this parameter on cannot change the answer.
     fn beyond(&self, t: f32) -> bool {
-        self.search == Search::First && t > self.out.t.upper
+        self.search == OuterSearch::First && t > self.out.t.upper
     }
 
     /// Tests a face if it is live. If the segment may cross it, it is a hit if it is a face of the

@@ -38,16 +38,16 @@ pub struct Refinement {
 /// A split that an update performed or undid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Change {
+pub struct SplitChange {
     /// The split.
     split: SplitIdx,
     /// Whether it was performed. Else it was undone.
     is_performed: bool,
 }
 
-impl Change {
+impl SplitChange {
     /// Any value, for filling arrays.
-    pub const EMPTY: Change = Change { split: SplitIdx(0), is_performed: false };
+    pub const EMPTY: SplitChange = SplitChange { split: SplitIdx(0), is_performed: false };
 
     /// Number of the split.
     pub fn split(&self) -> u32 {
@@ -121,12 +121,12 @@ impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {
     /// takes that several times.
     ///
     /// ```
-    /// use meshsweep_core::{Change, Focus, Hull, RefinedHull};
+    /// use meshsweep_core::{SplitChange, Focus, Hull, RefinedHull};
     /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/bracket.msw"));
     /// let part = Hull::open(bytes)?;
     /// let mut refined = RefinedHull::<128>::new();
     /// let near = Focus::Ball { centre: [0.0, 0.0, 10.0], radius: 5.0 };
-    /// let mut changes = [Change::EMPTY; 64];
+    /// let mut changes = [SplitChange::EMPTY; 64];
     /// let update = refined.update(&part, &near, 0.5, &mut changes)?;
     /// assert_eq!(refined.faces(&part).count(), update.faces as usize);
     /// # Ok::<(), Box<dyn core::error::Error>>(())
@@ -140,7 +140,7 @@ impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {
         hull: &Hull<'t>,
         focus: &Focus,
         error: f32,
-        changes: &mut [Change],
+        changes: &mut [SplitChange],
     ) -> Result<Refinement, QueryError> {
         update(erased(&mut self.state), hull, focus, error, changes)
     }
@@ -156,7 +156,7 @@ impl<'t> ErasedHull<'t> {
         hull: &Hull<'t>,
         focus: &Focus,
         error: f32,
-        changes: &mut [Change],
+        changes: &mut [SplitChange],
     ) -> Result<Refinement, QueryError> {
         update(&mut self.state, hull, focus, error, changes)
     }
@@ -167,7 +167,7 @@ fn update(
     hull: &Hull<'_>,
     focus: &Focus,
     error: f32,
-    changes: &mut [Change],
+    changes: &mut [SplitChange],
 ) -> Result<Refinement, QueryError> {
     if !hull.has_hull() {
         return Err(QueryError::NO_HULL);
@@ -198,7 +198,7 @@ struct Update<'a, 't> {
     state: &'a mut Refined,
     hull: &'a Hull<'t>,
     query: FocusQuery,
-    changes: &'a mut [Change],
+    changes: &'a mut [SplitChange],
     stored: usize,
     dropped: u32,
     performed: u32,
@@ -292,11 +292,11 @@ impl Update<'_, '_> {
     /// Performs the split of an existing vertex if it is needed. The inner `Some` ends the pass.
     #[inline(always)]
     fn meet(&mut self, vertex: VertIdx, split: SplitIdx, left: &mut Left) -> Option<Option<Pass>> {
-        let [reach, error] = self.hull.reach_and_error(split)?;
+        let [star_radius, error] = self.hull.star_radius_and_error(split)?;
         if !self.query.is_above(error) {
             return Some(None);
         }
-        let need = self.query.need(self.hull.position(vertex)?, reach, error);
+        let need = self.query.need(self.hull.position(vertex)?, star_radius, error);
         if need > self.state.floor {
             return Some(if self.perform(split)? { None } else { Some(Pass::Full(need)) });
         }
@@ -313,7 +313,7 @@ impl Update<'_, '_> {
         for position in before..self.state.splits.len() {
             let split = self.state.splits.get(position)?;
             self.performed = self.performed.saturating_add(1);
-            self.note(Change { split, is_performed: true });
+            self.note(SplitChange { split, is_performed: true });
         }
         Some(fits)
     }
@@ -331,7 +331,7 @@ impl Update<'_, '_> {
             let split = self.state.splits.get(position)?;
             self.state.undo(self.hull, position)?;
             self.undone = self.undone.saturating_add(1);
-            self.note(Change { split, is_performed: false });
+            self.note(SplitChange { split, is_performed: false });
         }
         if self.undone != before {
             self.state.splits.close_gaps();
@@ -355,15 +355,15 @@ impl Update<'_, '_> {
     #[inline]
     fn need_at(&self, position: usize, factor: f32) -> Option<f32> {
         let split = self.state.splits.get(position)?;
-        let [reach, error] = self.hull.reach_and_error(split)?;
+        let [star_radius, error] = self.hull.star_radius_and_error(split)?;
         if !self.query.is_above(error * factor) {
             return Some(0.0);
         }
         let vertex = self.hull.position(self.hull.replaced_by(split)?)?;
-        Some(self.query.need(vertex, reach * factor, error * factor))
+        Some(self.query.need(vertex, star_radius * factor, error * factor))
     }
 
-    fn note(&mut self, change: Change) {
+    fn note(&mut self, change: SplitChange) {
         match self.changes.get_mut(self.stored) {
             Some(slot) => {
                 *slot = change;

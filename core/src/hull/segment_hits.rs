@@ -181,7 +181,7 @@ fn trace<C: Collect>(
         bounds.min = (bounds.min - surface_error).map(f32::next_down);
         bounds.max = (bounds.max + surface_error).map(f32::next_up);
     }
-    let work = Work { nodes: 1, ..Work::NONE };
+    let work = Work { bounds: 1, ..Work::NONE };
     let missed = Traced { work, ended: Ended::Exact, unopened: f32::INFINITY };
     if SOFT_DOUBLE && frame.is_missed([a, b], &bounds) {
         return Ok(missed);

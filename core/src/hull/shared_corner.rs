@@ -81,11 +81,11 @@ impl SharedCorner {
             _ => (c, a, b),
         };
         let point = RealVector::from(self.point);
-        let (way, one, other) = (point - corner, one - corner, other - corner);
-        let (way_size, one_size, other_size) = (way.norm_1(), one.norm_1(), other.norm_1());
+        let (offset, one, other) = (point - corner, one - corner, other - corner);
+        let (offset_size, one_size, other_size) = (offset.norm_1(), one.norm_1(), other.norm_1());
         let doubt = Real(CORNER_DOUBT) * Real(self.norms) * Real(self.norms);
         let is_behind = |edge: RealVector, size: Real| {
-            way.dot(edge) < -(Real(CORNER_SIDE) * way_size * size + doubt)
+            offset.dot(edge) < -(Real(CORNER_SIDE) * offset_size * size + doubt)
         };
         if !(is_behind(one, one_size) && is_behind(other, other_size)) {
             return false;

@@ -153,7 +153,7 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
             if self.is_partless(radius) {
                 continue;
             }
-            self.work.nodes += 1;
+            self.work.bounds += 1;
             let instance = self.model.tables().instance(Named::Group(index));
             let candidate = Candidate { corners, radius, instance, fate: Fate::Splits };
             self.batch.push(candidate, visitor, &mut self.queue);
@@ -207,13 +207,13 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
 
     /// Whether no triangle may be replaced any more.
     pub(crate) fn is_spent(&self) -> bool {
-        self.work.splits >= self.steps
+        self.work.opened >= self.steps
     }
 
     /// Replaces a triangle or a group by finer triangles. `None`: the model is unchecked.
     #[inline]
     pub(crate) fn open(&mut self, instance: Instance, visitor: &mut impl Visit) -> Option<()> {
-        self.work.splits += 1;
+        self.work.opened += 1;
         if let Named::Group(index) = self.model.tables().named(instance) {
             return self.open_group(index, visitor);
         }
@@ -232,7 +232,7 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
             [triangle, ..] = children.triangles;
             let Some(next) = self.model.tables().stored_split(triangle.split()) else { break };
             split = next;
-            self.work.splits += 1;
+            self.work.opened += 1;
         }
         self.queue.begin_children(children.count as u32);
         for child in children.triangles.iter().take(children.count) {
@@ -320,7 +320,7 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
         let Triangle { instance, ends, radius } = *triangle;
         let fate = self.fate(self.model.tables().stored_split(triangle.split()));
         let counter =
-            if fate == Fate::Surface { &mut self.work.triangles } else { &mut self.work.nodes };
+            if fate == Fate::Surface { &mut self.work.triangles } else { &mut self.work.bounds };
         *counter += 1;
         let corners = each(ends, |end| end.vertex);
         let (corners, radius) = self.model.triangle(corners, radius, fate == Fate::Surface)?;

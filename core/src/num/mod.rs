@@ -18,13 +18,7 @@ pub use sqrt::{sqrt_approx, sqrt_up};
 pub use truncated::truncated;
 
 /// Whether the target is not known to have instructions for f32. Then integers decide first.
-pub const SOFT_FLOAT: bool = !cfg!(any(
-    target_arch = "x86_64",
-    target_arch = "aarch64",
-    target_abi = "eabihf",
-    target_feature = "f"
-));
+pub const SOFT_FLOAT: bool = cfg!(meshsweep_soft_float);
 
 /// Whether the target is not known to have instructions for f64. Then f32 decides first.
-pub const SOFT_DOUBLE: bool =
-    !cfg!(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "d"));
+pub const SOFT_DOUBLE: bool = cfg!(meshsweep_soft_double);

@@ -67,11 +67,7 @@ pub fn floored(x: f32, exponent: i32) -> i32 {
 /// compiler's function for them takes twice as long.
 #[inline(always)]
 pub fn bit_length(x: u32) -> u32 {
-    if cfg!(all(target_arch = "arm", not(target_abi = "eabihf"))) {
-        bit_length_by_table(x)
-    } else {
-        32 - x.leading_zeros()
-    }
+    if cfg!(meshsweep_short_products) { bit_length_by_table(x) } else { 32 - x.leading_zeros() }
 }
 
 #[inline(never)]
@@ -269,7 +265,7 @@ pub(super) fn rounded_product(x: u32, y: u32) -> (u32, u32) {
 }
 
 /// The upper word of the product of two words whose lower bytes are 0, rounded down.
-#[cfg(target_arch = "arm")]
+#[cfg(meshsweep_short_products)]
 #[inline(always)]
 fn upper_product(x: u32, y: u32) -> u32 {
     // The smallest processors have no wider product than this.
@@ -280,7 +276,7 @@ fn upper_product(x: u32, y: u32) -> u32 {
 }
 
 /// The upper word of the product of two words whose lower bytes are 0, rounded down.
-#[cfg(not(target_arch = "arm"))]
+#[cfg(not(meshsweep_short_products))]
 #[inline(always)]
 fn upper_product(x: u32, y: u32) -> u32 {
     ((u64::from(x) * u64::from(y)) >> 32) as u32

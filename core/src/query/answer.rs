@@ -1,6 +1,6 @@
-//! Intervals, closest points, and why a search ended.
+//! Intervals, closest points, signed distances, and why a search ended.
 
-use super::verdict::Undecided;
+use super::verdict::{Side, Undecided};
 use super::work::Work;
 
 /// The true value lies in `lower ..= upper`: that of the input mesh, in real arithmetic.
@@ -82,4 +82,32 @@ impl ClosestPoint {
         work: Work::NONE,
         ended: Ended::Exact,
     };
+}
+
+/// Signed distance: positive outside, negative inside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub struct SignedDistance {
+    /// The signed distance to the input mesh, input units. If the side is undecided, from minus the
+    /// distance to the distance.
+    pub distance: Interval,
+    /// The side of the point.
+    pub side: Side,
+    /// The closest point, and the distance without sign. `work` and `ended` are those of the whole
+    /// search. [`Ended::Resolution`]: sides are defined, and the stored surface or rounding leaves
+    /// this one undecided.
+    pub closest: ClosestPoint,
+}
+
+impl SignedDistance {
+    pub(crate) fn new(closest: ClosestPoint, side: Side) -> Self {
+        let Interval { lower, upper } = closest.distance;
+        let distance = match side {
+            Side::Outside => Interval { lower, upper },
+            Side::Inside => Interval { lower: -upper, upper: -lower },
+            Side::Undecided(_) => Interval { lower: -upper, upper },
+        };
+        SignedDistance { distance, side, closest }
+    }
 }

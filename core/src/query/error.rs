@@ -77,7 +77,7 @@ pub enum QueryError {
     },
     /// The levels of the hierarchy enclose nothing: it was built with `--for sweep`. Hulls need a
     /// closed mesh and `--for hull`.
-    NoHulls,
+    NotEnclosing,
     /// The view does not fit its bytes. No view that an `open` of this crate returned does that.
     Unchecked,
 }
@@ -145,7 +145,7 @@ impl core::fmt::Display for QueryError {
                      with --for {build_for}"
                 );
             }
-            QueryError::NoHulls => {
+            QueryError::NotEnclosing => {
                 "the hierarchy encloses nothing, and this question needs hulls: build it with \
                  --for hull from a closed mesh"
             }

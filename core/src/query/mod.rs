@@ -4,12 +4,12 @@
 //! | --- | --- |
 //! | `budget` | [`Budget`]: when a query may stop |
 //! | `scratch` | [`Scratch`], [`ScratchEntry`]: the caller's memory |
-//! | `answer` | [`Interval`], [`ClosestPoint`], [`Ended`]: why a search ended |
+//! | `answer` | [`Interval`], [`ClosestPoint`], [`SignedDistance`], [`Ended`]: why a search ended |
 //! | `verdict` | [`Verdict`], [`Side`], [`Undecided`]: why there is no verdict |
 //! | `hits` | [`Hit`], [`FirstHit`], [`TriangleHit`], [`AllHits`], and the caller's slice of hits |
 //! | `pose_inverse` | the inverse of a pose's matrix |
 //! | `posed_point` | [`PosedPoint`]: a point in the frame of a moved model |
-//! | `overlap` | [`Overlap`], [`Overlaps`], [`TrianglePair`], and what collects pairs |
+//! | `overlap` | [`Overlap`], [`AllOverlaps`], [`TrianglePair`], and what collects pairs |
 //! | `pair_distance` | [`PairDistance`], [`PairWithin`], [`PairContact`]: how far two surfaces are apart |
 //! | `penetration` | [`Penetration`], [`Relation`]: how deep two solids are in each other |
 //! | `motion` | [`Motion`]: how a model moves from pose to pose |
@@ -38,15 +38,15 @@ mod sweep_queue;
 mod verdict;
 mod work;
 
-pub use answer::{ClosestPoint, Ended, Interval};
+pub use answer::{ClosestPoint, Ended, Interval, SignedDistance};
 pub use budget::Budget;
 pub use error::QueryError;
 pub(crate) use frame::Frame;
 pub(crate) use hits::Hits;
 pub use hits::{AllHits, FirstHit, Hit, TriangleHit};
 pub use motion::Motion;
+pub use overlap::{AllOverlaps, Overlap, TrianglePair};
 pub(crate) use overlap::{AllPairs, FirstPair, PairVisitor};
-pub use overlap::{Overlap, Overlaps, TrianglePair};
 pub use pair_distance::{PairContact, PairDistance, PairWithin};
 pub use penetration::{Penetration, Relation};
 pub(crate) use pose_inverse::{PoseInverse, transposed};

@@ -76,7 +76,7 @@ impl Motion {
             [along, across, cross(axis, across)],
         );
         let mut twist = Twist { axis, angle, velocity, rest: ([[0.0; 3]; 3], [0.0; 3]) };
-        let (rows, shift) = twist.place(&from, 1.0);
+        let (rows, shift) = twist.pose_at(&from, 1.0);
         let less = |[a, b, c]: Point, [x, y, z]: Point| [a - x, b - y, c - z];
         let ([r0, r1, r2], [e0, e1, e2]) = (rows, end);
         twist.rest =
@@ -116,7 +116,7 @@ impl Motion {
 
 impl Twist {
     fn pose(&self, from: &Pose, t: f64) -> Pose {
-        let (rows, shift) = self.place(from, t);
+        let (rows, shift) = self.pose_at(from, t);
         let mut pose = *from;
         for (row, place) in pose.rotation.iter_mut().zip(rows) {
             row.iter_mut().zip(place).for_each(|(entry, x)| *entry = x as f32);
@@ -126,7 +126,7 @@ impl Twist {
     }
 
     /// Rows of the matrix at a time, and the shift.
-    fn place(&self, from: &Pose, t: f64) -> ([Point; 3], Point) {
+    fn pose_at(&self, from: &Pose, t: f64) -> ([Point; 3], Point) {
         let angle = self.angle * t;
         let half = libm::sin(0.5 * angle);
         let (sine, versine) = (libm::sin(angle), 2.0 * half * half);
@@ -139,8 +139,8 @@ impl Twist {
         // A turn turns the columns.
         let [r0, r1, r2] = transposed(&transposed(&from.rotation.map(wide)).map(turned));
         let [d0, d1, d2] = rest_rows;
-        let way = self.displacement(angle, t);
-        let shift = combined([1.0, 1.0, t], [wide(from.translation), way, rest_shift]);
+        let travel = self.displacement(angle, t);
+        let shift = combined([1.0, 1.0, t], [wide(from.translation), travel, rest_shift]);
         ([with_rest(r0, d0), with_rest(r1, d1), with_rest(r2, d2)], shift)
     }
 
@@ -174,22 +174,22 @@ impl Twist {
 }
 
 fn straight_bounds(from: &Pose, to: &Pose, point: Point) -> (f64, f64) {
-    let (mut way_sq, mut rounding) = (0.0, 0.0);
+    let (mut travel_sq, mut rounding) = (0.0, 0.0);
     let starts = from.rotation.iter().zip(&from.translation);
     let ends = to.rotation.iter().zip(&to.translation);
     for ((row, shift), (end_row, end_shift)) in starts.zip(ends) {
-        let mut way = difference(*shift, *end_shift);
+        let mut travel = difference(*shift, *end_shift);
         let mut far = most(*shift, *end_shift);
         for ((a, b), x) in row.iter().zip(end_row).zip(point) {
-            way += difference(*a, *b) * x;
+            travel += difference(*a, *b) * x;
             far += most(*a, *b) * x.abs();
         }
         // Terms that cancel are rounded in proportion to their sizes.
-        let way = way.abs() + far * (16.0 * U64);
-        way_sq += way * way;
+        let travel = travel.abs() + far * (16.0 * U64);
+        travel_sq += travel * travel;
         rounding += far * (f64::from(U32) * (1.0 + 16.0 * U64));
     }
-    (libm::sqrt(way_sq) * (1.0 + 16.0 * U64), rounding)
+    (libm::sqrt(travel_sq) * (1.0 + 16.0 * U64), rounding)
 }
 
 /// The entries of two poses, mixed.

@@ -18,8 +18,8 @@ pub struct Overlap {
     /// [`Resolution`](Undecided::Resolution) two triangles that may meet. Numbers in the input
     /// files.
     pub triangles: Option<[u32; 2]>,
-    /// The work of the search: pairs of boxes as `nodes`, pairs of triangles as `triangles` (in
-    /// f32) and `exact` (in f64), pairs of nodes opened as `splits`.
+    /// The work of the search: pairs of boxes as `bounds`, pairs of triangles as `triangles` (in
+    /// f32) and `exact` (in f64), pairs of nodes as `opened`.
     pub work: Work,
 }
 
@@ -43,7 +43,7 @@ impl TrianglePair {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
-pub struct Overlaps {
+pub struct AllOverlaps {
     /// Pairs in the slice.
     pub stored: usize,
     /// Pairs that did not fit. The slice keeps the first ones that were found.
@@ -113,14 +113,14 @@ impl<'a, Numbers> AllPairs<'a, Numbers> {
         AllPairs { pairs, numbers, stored: 0, dropped: 0, is_undecided: false }
     }
 
-    pub(crate) fn answer(self, truncated: Option<Ended>, work: Work) -> Overlaps {
+    pub(crate) fn answer(self, truncated: Option<Ended>, work: Work) -> AllOverlaps {
         let ended = match truncated {
             Some(why) => why,
             None if self.dropped > 0 => Ended::Scratch,
             None if self.is_undecided => Ended::Resolution,
             None => Ended::Exact,
         };
-        Overlaps { stored: self.stored, dropped: self.dropped, work, ended }
+        AllOverlaps { stored: self.stored, dropped: self.dropped, work, ended }
     }
 }
 

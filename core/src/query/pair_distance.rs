@@ -18,9 +18,9 @@ pub struct PairDistance {
     pub points: [[f32; 3]; 2],
     /// The triangles of these points, by their numbers in the input files.
     pub triangles: [u32; 2],
-    /// The work of the search: pairs of boxes as `nodes`, pairs of triangles bounded as
+    /// The work of the search: pairs of boxes as `bounds`, pairs of triangles bounded as
     /// `triangles`, pairs of triangles whose distance was computed in f64 as `exact`, pairs of
-    /// nodes opened as `splits`.
+    /// nodes as `opened`.
     pub work: Work,
     /// Why the search ended. [`Ended::Resolution`]: the meshes are so far apart that their boxes
     /// answered.

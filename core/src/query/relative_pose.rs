@@ -94,7 +94,7 @@ impl RelativePose {
         b: &Extended,
         pose: &Pose,
     ) -> Result<Option<RelativePose>, QueryError> {
-        let Placement { pose, is_apart, is_in_range } = RelativePose::place(a, b, pose)?;
+        let Placement { pose, is_apart, is_in_range } = RelativePose::relate(a, b, pose)?;
         if is_apart {
             return Ok(None);
         }
@@ -103,7 +103,7 @@ impl RelativePose {
 
     /// The pose, also of models that are far from each other.
     #[inline(always)]
-    pub(crate) fn place(a: &Extended, b: &Extended, pose: &Pose) -> Result<Placement, QueryError> {
+    pub(crate) fn relate(a: &Extended, b: &Extended, pose: &Pose) -> Result<Placement, QueryError> {
         let entries = || pose.rotation.iter().flatten();
         if !entries().chain(&pose.translation).all(|x| x.is_finite()) {
             return Err(QueryError::NotFinite);

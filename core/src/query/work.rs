@@ -9,35 +9,35 @@
 pub struct Work {
     /// Bounds tested: boxes of [`Bvh`](crate::Bvh) children, triboxes, swept triangles,
     /// capsules of a curve.
-    pub nodes: u32,
+    pub bounds: u32,
     /// Triangles of surface or hull tested in f32.
     pub triangles: u32,
     /// Triangles, or segments of a curve, evaluated in f64; of a solid that moves, distances.
     pub exact: u32,
     /// Nodes opened, or vertex splits performed.
-    pub splits: u32,
+    pub opened: u32,
 }
 
 impl Work {
     /// No work.
-    pub const NONE: Work = Work { nodes: 0, triangles: 0, exact: 0, splits: 0 };
+    pub const NONE: Work = Work { bounds: 0, triangles: 0, exact: 0, opened: 0 };
 
     /// The work of this and another search together.
     #[must_use]
     pub fn and(self, other: Work) -> Work {
         Work {
-            nodes: self.nodes.saturating_add(other.nodes),
+            bounds: self.bounds.saturating_add(other.bounds),
             triangles: self.triangles.saturating_add(other.triangles),
             exact: self.exact.saturating_add(other.exact),
-            splits: self.splits.saturating_add(other.splits),
+            opened: self.opened.saturating_add(other.opened),
         }
     }
 
     /// All counters added up.
     pub fn total(&self) -> u32 {
-        self.nodes
+        self.bounds
             .saturating_add(self.triangles)
             .saturating_add(self.exact)
-            .saturating_add(self.splits)
+            .saturating_add(self.opened)
     }
 }

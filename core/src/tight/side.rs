@@ -1,6 +1,6 @@
 //! Distance of a point from a hull, and whether the point is certainly outside.
 
-use crate::bvh::format::Bvh;
+use crate::bvh::tree::format::Bvh;
 use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Side};
 
 /// Whether a point (input units) is outside the box of all stored vertices. Exact, except for

@@ -10,7 +10,7 @@ use crate::tribox::format::Triboxes;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
-pub struct Bound {
+pub struct TriboxBound {
     /// No point of the mesh, or of a solid's inside, is nearer than this (input units) or at a
     /// lesser parameter of the segment. Infinite if no point is on the segment.
     pub lower: f32,
@@ -53,7 +53,7 @@ impl Triboxes<'_> {
         point: [f32; 3],
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<Bound, QueryError> {
+    ) -> Result<TriboxBound, QueryError> {
         budget.check_with(scratch)?;
         Tribox::of_point(point)?;
         least(self, budget.steps, scratch, |tribox| Some(tribox.distance(point)))
@@ -84,7 +84,7 @@ impl Triboxes<'_> {
         b: [f32; 3],
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<Bound, QueryError> {
+    ) -> Result<TriboxBound, QueryError> {
         budget.check_with(scratch)?;
         Tribox::of_point(a)?;
         Tribox::of_point(b)?;
@@ -107,11 +107,15 @@ fn least(
     steps: u32,
     stack: &mut [ScratchEntry],
     bound: impl Fn(&Tribox) -> Option<f32>,
-) -> Result<Bound, QueryError> {
-    let mut answer =
-        Bound { lower: f32::INFINITY, node: None, work: Work::default(), ended: Ended::Exact };
+) -> Result<TriboxBound, QueryError> {
+    let mut answer = TriboxBound {
+        lower: f32::INFINITY,
+        node: None,
+        work: Work::default(),
+        ended: Ended::Exact,
+    };
     let enter = |node: u32, above: f32, work: &mut Work| {
-        work.nodes += 1;
+        work.bounds += 1;
         let tribox = triboxes.node(node).ok_or(QueryError::Unchecked)?;
         let here = bound(&tribox).unwrap_or(f32::INFINITY);
         // Rounding may have given the parent more, and the child is a part of it.
@@ -130,8 +134,8 @@ fn least(
         let children = triboxes.children(entry.node());
         let free = stack.get_mut(top..).and_then(|rest| rest.first_chunk_mut::<2>());
         match (children, free) {
-            (Some([first, second]), Some(free)) if answer.work.splits < steps => {
-                answer.work.splits += 1;
+            (Some([first, second]), Some(free)) if answer.work.opened < steps => {
+                answer.work.opened += 1;
                 let first = enter(first, entry.key(), &mut answer.work)?;
                 let second = enter(second, entry.key(), &mut answer.work)?;
                 *free = if first.key() < second.key() { [second, first] } else { [first, second] };

@@ -69,19 +69,20 @@ impl Tribox {
             // Rounding of either end. The parameter's own rounding is relative.
             let doubt = (4.0 * U32) * (size_a + size_b);
             let (low, high) = (sum_down(low, -doubt), sum_up(high, doubt));
-            let way = to - from;
+            let change = to - from;
             // So far away that the way overflows: the slab gives no bound.
-            if !way.is_finite() {
+            if !change.is_finite() {
                 continue;
             }
-            if way == 0.0 {
+            if change == 0.0 {
                 if from < low || from > high {
                     return None;
                 }
                 continue;
             }
-            let (near, far) = if way > 0.0 { (low, high) } else { (high, low) };
-            let (near, far) = (outward(near, from, way, false), outward(far, from, way, true));
+            let (near, far) = if change > 0.0 { (low, high) } else { (high, low) };
+            let (near, far) =
+                (outward(near, from, change, false), outward(far, from, change, true));
             enter = greater(enter, near);
             leave = lesser(leave, far);
         }
@@ -89,10 +90,10 @@ impl Tribox {
     }
 }
 
-/// `(plane − from)/way`, rounded down or up.
+/// `(plane − from)/change`, rounded down or up.
 #[inline(always)]
-fn outward(plane: f32, from: f32, way: f32, up: bool) -> f32 {
-    let t = (plane - from) / way;
+fn outward(plane: f32, from: f32, change: f32, up: bool) -> f32 {
+    let t = (plane - from) / change;
     let grows = (t > 0.0) == up;
     let t = if grows { t * (1.0 + 8.0 * U32) } else { t * (1.0 - 8.0 * U32) };
     // Below f32's normal range roundings are not relative.

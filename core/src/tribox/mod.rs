@@ -37,6 +37,6 @@ mod support;
 pub use boundary::{Boundary, BoundaryOf, LOOP, Scalar, VERTICES, boundary};
 pub use bounds::{Tribox, TriboxError};
 pub use directions::{DIRECTIONS, FACES, SLABS};
-pub use distance::Bound;
+pub use distance::TriboxBound;
 pub use format::{TriboxLevel, Triboxes};
-pub use separation::{Candidates, NodePair, Separation};
+pub use separation::{NodePair, Separation, TriboxCandidates};

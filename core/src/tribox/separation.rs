@@ -50,7 +50,7 @@ impl Separation {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
-pub struct Candidates {
+pub struct TriboxCandidates {
     /// Pairs in the slice.
     pub stored: usize,
     /// Pairs that did not fit.
@@ -62,7 +62,7 @@ pub struct Candidates {
     pub ended: Ended,
 }
 
-impl Candidates {
+impl TriboxCandidates {
     /// Whether the models are proved to be apart.
     pub fn is_apart(&self) -> bool {
         self.stored == 0 && self.dropped == 0
@@ -147,7 +147,7 @@ impl Triboxes<'_> {
         pairs: &mut [NodePair],
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<Candidates, QueryError> {
+    ) -> Result<TriboxCandidates, QueryError> {
         let (mut stored, mut dropped) = (0, 0u32);
         let (work, ended) = descend([self, other], &pose, &budget, scratch, |pair| {
             match pairs.get_mut(stored) {
@@ -156,7 +156,7 @@ impl Triboxes<'_> {
             }
             ControlFlow::Continue(())
         })?;
-        Ok(Candidates { stored, dropped, work, ended })
+        Ok(TriboxCandidates { stored, dropped, work, ended })
     }
 }
 
@@ -187,7 +187,7 @@ fn descend(
         waiting = top;
         let body_a = Body::of(a, node_a).ok_or(QueryError::Unchecked)?;
         let body_b = Body::of(b, node_b).ok_or(QueryError::Unchecked)?;
-        work.nodes += 1;
+        work.bounds += 1;
         if axes.separate(&body_a, &body_b, &mut hint) {
             continue;
         }
@@ -200,8 +200,8 @@ fn descend(
         };
         let free = stack.get_mut(top..).and_then(|rest| rest.first_chunk_mut::<2>());
         match (opened, free) {
-            (Some((children, of_a)), Some(free)) if work.splits < budget.steps => {
-                work.splits += 1;
+            (Some((children, of_a)), Some(free)) if work.opened < budget.steps => {
+                work.opened += 1;
                 *free = children
                     .map(|child| if of_a { entry(child, node_b) } else { entry(node_a, child) });
                 waiting = top + 2;

@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use meshsweep_core::{Budget, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search};
+use meshsweep_core::{Budget, Hit, Hull, OuterSearch, QueryError, RefinedHull, ScratchEntry};
 
 use crate::Counted;
 
@@ -34,8 +34,8 @@ pub fn ask(counted: &Counted<'_>, question: &str, queries: usize) -> Result<(), 
             }
             return Ok(());
         }
-        "outer_first" => Search::First,
-        "outer_all" => Search::Outer,
+        "outer_first" => OuterSearch::First,
+        "outer_all" => OuterSearch::Outer,
         _ => return Err(format!("no question `{question}` to a hull hierarchy")),
     };
     let mut refined = Box::new(RefinedHull::<SPLITS>::new());

@@ -15,7 +15,7 @@ pub fn ask(counted: &Counted<'_>, question: &str, queries: usize) -> Result<Stri
     let failed = |error: QueryError| error.to_string();
     let mut sum = Work::default();
     let mut add = |work: Work| {
-        sum.splits += work.splits;
+        sum.opened += work.opened;
         sum.triangles += work.triangles;
     };
     let mut stack = vec![ScratchEntry::EMPTY; header.stack_entries as usize];
@@ -67,7 +67,7 @@ pub fn ask(counted: &Counted<'_>, question: &str, queries: usize) -> Result<Stri
         _ => return Err(format!("no question `{question}` to a box tree")),
     }
     let a_leaf = f64::from(header.triangles) / f64::from(header.leaves);
-    Ok(format!("{} {} {a_leaf}", sum.splits, sum.triangles))
+    Ok(format!("{} {} {a_leaf}", sum.opened, sum.triangles))
 }
 
 /// Questions for AVX2.

@@ -10,9 +10,10 @@ use meshsweep_host_tests::blobs::expected;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_lab::measure::tight::FACES;
 use meshsweep_xtask::boards::BOARDS;
-use meshsweep_xtask::firmware::{self, Tools};
+use meshsweep_xtask::firmware;
 use meshsweep_xtask::reading::Reading;
 use meshsweep_xtask::table::{Cell, Table, fixed};
+use meshsweep_xtask::tools::Tools;
 use meshsweep_xtask::workspace;
 
 /// The table of a mesh. The bits of all answers are the host's, or it is an error.

@@ -11,9 +11,9 @@ use meshsweep_lab::measure::{
     margins, measure, measure_bounds, measure_deform, measure_motion, measure_overlap,
     measure_tight, measure_tree, measure_triboxes, measure_winding,
 };
-use meshsweep_xtask::firmware;
 use meshsweep_xtask::say;
 use meshsweep_xtask::steps::Steps;
+use meshsweep_xtask::tools;
 use meshsweep_xtask::valgrind::Valgrind;
 use meshsweep_xtask::workspace;
 
@@ -49,8 +49,9 @@ enum Part {
 
 impl Options {
     /// `[--tree | --triboxes | --deform | --overlap | --motion | --winding | --tight [--firmware] |
-    /// --bounds [--count] | --paper TABLE | --margins TRIALS] [--plot FILE.svg] [--picture FILE.svg]
-    /// [MESH…]`, the picture with `--tight` alone; `None` if that is not what the words are.
+    /// --bounds [--count] | --paper TABLE | --margins TRIALS] [--plot FILE.svg] [--picture
+    /// FILE.svg] [MESH…]`, the picture with `--tight` alone; `None` if that is not what the words
+    /// are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut only = None;
@@ -124,7 +125,7 @@ pub fn run(steps: &mut Steps, options: Options) {
         return;
     }
     let valgrind = if is_counted && part == Some(Part::Bounds) { Valgrind::find() } else { None };
-    let tools = if is_counted && part == Some(Part::Tight) { firmware::setup(steps) } else { None };
+    let tools = if is_counted && part == Some(Part::Tight) { tools::setup(steps) } else { None };
     let (mut plotted, mut drawn) = (Vec::new(), Vec::new());
     for mesh in &or_fixtures(meshes) {
         let counts = valgrind.as_ref().and_then(|valgrind| {

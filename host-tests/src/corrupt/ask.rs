@@ -6,7 +6,7 @@
 
 use meshsweep_core::{
     Budget, Bvh, ClosestPoint, CoherentPair, CoherentQuery, Eye, Facing, Hint, Hit, Motion,
-    Neighbor, Placed, Pose, QueryError, Scene, ScratchEntry, Side, Solid, TriangleHit,
+    Neighbor, PlacedModel, Pose, QueryError, Scene, ScratchEntry, Side, Solid, TriangleHit,
     TrianglePair, Verdict, Work,
 };
 
@@ -141,7 +141,8 @@ impl Asker {
                 }
                 let to = Solid::new(&moved[..solid.corners().len()], radius);
                 let Ok(to) = to else { continue };
-                if let Some(answer) = answered(tree.first_contact(&solid, &to, *stop, stack)) {
+                if let Some(answer) = answered(tree.solid_first_contact(&solid, &to, *stop, stack))
+                {
                     // A triangle that may stop the solid takes up to some sixty distances.
                     ends(answer.work, 70 * once);
                     assert!(
@@ -212,24 +213,28 @@ impl Asker {
         if let Some(answer) =
             answered(a.overlap(b, *pose, Budget::EXACT.with_steps(steps), &mut stack))
         {
-            assert!(answer.work.splits <= steps, "{answer:?}");
+            assert!(answer.work.opened <= steps, "{answer:?}");
             let named = answer.triangles.is_some();
             assert!(named || answer.verdict != Verdict::Yes, "{answer:?}");
             answer.triangles.into_iter().for_each(in_range);
         }
-        if let Some(answer) =
-            answered(a.overlaps(b, *pose, &mut pairs, Budget::EXACT.with_steps(steps), &mut stack))
-        {
-            assert!(answer.work.splits <= steps, "{answer:?}");
+        if let Some(answer) = answered(a.all_overlaps(
+            b,
+            *pose,
+            &mut pairs,
+            Budget::EXACT.with_steps(steps),
+            &mut stack,
+        )) {
+            assert!(answer.work.opened <= steps, "{answer:?}");
             assert!(answer.dropped == 0 || answer.stored == pairs.len(), "{answer:?}");
             pairs[..answer.stored].iter().for_each(|pair| in_range(pair.triangles));
         }
         let budget = Budget::EXACT.with_steps(steps);
         let models =
-            [(a, Pose::IDENTITY), (b, *pose)].map(|(tree, pose)| Placed { tree: *tree, pose });
+            [(a, Pose::IDENTITY), (b, *pose)].map(|(tree, pose)| PlacedModel { tree: *tree, pose });
         let scene = Scene::new(&models);
         if let Some(answer) = answered(scene.nearest_pair(|_, _| true, budget, &mut stack)) {
-            assert!(answer.work.splits <= steps && answer.models == Some([0, 1]), "{answer:?}");
+            assert!(answer.work.opened <= steps && answer.models == Some([0, 1]), "{answer:?}");
             assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
             in_range(answer.triangles);
             answered(scene.within(answer.distance.lower, |_, _| true, budget, &mut stack));
@@ -237,17 +242,17 @@ impl Asker {
         let mut pair = CoherentPair::<64>::new();
         for _ in 0..2 {
             if let Some(answer) = answered(pair.distance(a, b, *pose, budget, &mut stack)) {
-                assert!(answer.work.splits <= steps, "{answer:?}");
+                assert!(answer.work.opened <= steps, "{answer:?}");
                 assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
                 in_range(answer.triangles);
             }
         }
         if let Some(answer) = answered(a.penetration(b, *pose, budget, &mut stack)) {
-            assert!(answer.work.splits <= steps, "{answer:?}");
+            assert!(answer.work.opened <= steps, "{answer:?}");
             assert!(answer.depth.lower <= answer.depth.upper, "{answer:?}");
         }
-        if let Some(answer) = answered(a.distance(b, *pose, budget, &mut stack)) {
-            assert!(answer.work.splits <= steps, "{answer:?}");
+        if let Some(answer) = answered(a.distance_to(b, *pose, budget, &mut stack)) {
+            assert!(answer.work.opened <= steps, "{answer:?}");
             in_range(answer.triangles);
             assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
             assert!(answer.points.iter().flatten().all(|x| x.is_finite()), "{answer:?}");
@@ -256,12 +261,12 @@ impl Asker {
             let motion = Motion::screw(*pose, end).unwrap_or(Motion::straight(*pose, end));
             let motion = a.first_contact_of(b, &motion, half, budget, &mut stack);
             if let Some(answer) = answered(motion) {
-                assert!(answer.work.splits <= steps, "{answer:?}");
+                assert!(answer.work.opened <= steps, "{answer:?}");
                 in_range(answer.triangles);
                 assert!(answer.clear_until >= 0.0, "{answer:?}");
             }
             if let Some(answer) = answered(a.within_of(b, *pose, half, budget, &mut stack)) {
-                assert!(answer.work.splits <= steps, "{answer:?}");
+                assert!(answer.work.opened <= steps, "{answer:?}");
                 assert!(half == 0.0 || answer.verdict != Verdict::Yes, "{answer:?}");
                 answer.triangles.into_iter().for_each(in_range);
             }

@@ -4,6 +4,7 @@
 mod fit;
 mod placed;
 
+use meshsweep::progress::Watch;
 use std::path::Path;
 
 pub use fit::fit;
@@ -87,7 +88,8 @@ fn placed_question(fixtures: &Path, question: &str) -> Result<Vec<u8>, String> {
 fn tree(fixtures: &Path, fixture: &str, kind: &str) -> Result<Vec<u8>, String> {
     let subject = Subject::load(&fixtures.join(fixture))?;
     let input = Input { input_triangles: subject.triangles_read, ..subject.mesh.as_input() };
-    let (tables, _) = build(input, &TreeOptions::default()).map_err(|error| error.to_string())?;
+    let (tables, _) =
+        build(input, &TreeOptions::default(), Watch::NONE).map_err(|error| error.to_string())?;
     let blob = tables.to_bytes();
     if let Some(kind) = kind.strip_prefix("avx2_") {
         let (asked, numbers) = queries(&subject, kind);

@@ -1,10 +1,12 @@
 //! The target for curves of blobs.
 
 use super::input::Input;
+use super::suite::ask_all;
 use crate::generate::curves::{circle, fence, open, walk};
 use meshsweep::curve::{CurveOptions, Polyline, build};
 use meshsweep::progress::Watch;
 use meshsweep_core::{Blob, Budget, Curve, Ended, QueryError, ScratchEntry, Verdict};
+use meshsweep_suite::ask::curve;
 use std::sync::OnceLock;
 
 /// Small valid blobs of curves: one segment and many, several polylines, f32 and grid, 2-D and 3-D.
@@ -83,4 +85,5 @@ pub fn curves(data: &[u8]) {
         .with_absolute(input.float())
         .with_steps(u32::from(input.byte()));
     ask(&curve, input.point(), input.float(), budget, entries);
+    ask_all::<Curve<'_>>(&bytes, curve::Scratch::new(), &mut input);
 }

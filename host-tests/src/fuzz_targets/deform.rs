@@ -1,6 +1,7 @@
 //! The target for hulls that deform.
 
 use super::input::Input;
+use super::suite::ask_all;
 use crate::generate::{Triangles, cube, icosphere, torus};
 use meshsweep::hull::{BuildOptions, Levels, build};
 use meshsweep::mesh::{KeyFrame, Mesh};
@@ -8,6 +9,7 @@ use meshsweep::progress::Watch;
 use meshsweep_core::{
     Blob, Budget, ClosestPoint, DeformableHull, MovedVertex, QueryError, ScratchEntry,
 };
+use meshsweep_suite::ask::deform;
 use std::sync::OnceLock;
 
 /// Small valid blobs: without key frames, with one, and with several.
@@ -82,4 +84,5 @@ pub fn deform(data: &[u8]) {
             Err(_) => assert!(answer.is_err(), "{answer:?}"),
         }
     }
+    ask_all::<DeformableHull<'_>>(&bytes, deform::Scratch::new(), &mut input);
 }

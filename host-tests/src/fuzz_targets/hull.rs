@@ -1,15 +1,17 @@
 //! Targets for the split hierarchy.
 
 use super::input::Input;
+use super::suite::ask_all;
 use crate::generate::{Triangles, cube, groove_block, icosphere, torus};
 use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::progress::Watch;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{
-    Blob, Budget, Change, ClosestPoint, Ended, Focus, Hit, Hull, QueryError, RefinedHull,
-    ScratchEntry, Search, TriangleHit, TrianglePair, Verdict,
+    Blob, Budget, ClosestPoint, Ended, Focus, Hit, Hull, OuterSearch, QueryError, RefinedHull,
+    ScratchEntry, SplitChange, TriangleHit, TrianglePair, Verdict,
 };
+use meshsweep_suite::ask::{hull, hull_moving};
 use std::sync::OnceLock;
 
 /// Small valid blobs of every vertex format, one of them cut.
@@ -44,10 +46,13 @@ pub fn open(data: &[u8]) {
     if let Ok(blob) = Blob::open(data) {
         look(&blob);
     }
-    let bytes = Input(data).blob(seeds());
+    let mut input = Input(data);
+    let bytes = input.blob(seeds());
     if let Ok(blob) = Blob::open(&bytes) {
         look(&blob);
     }
+    ask_all::<hull::Model<'_>>(&bytes, hull::Scratch::new(), &mut input);
+    ask_all::<hull_moving::Moving<'_>>(&bytes, hull_moving::Scratch::new(), &mut input);
 }
 
 /// Sections, levels, faces of every hull: all in range.
@@ -94,7 +99,7 @@ pub fn closest(data: &[u8]) {
             && let Ok(answer) = sweep.closest_point(stop)
         {
             sound(&answer);
-            assert!(answer.work.splits as usize <= 2 * most, "{:?}", answer.work);
+            assert!(answer.work.opened as usize <= 2 * most, "{:?}", answer.work);
         }
     }
     let mut given = 0;
@@ -157,16 +162,16 @@ pub fn overlap(data: &[u8]) {
         let (pose, corners) = (input.pose(), [input.point(), input.point(), input.point()]);
         match a.overlap(&b, pose, stop, &mut queue) {
             Ok(answer) => {
-                assert!(answer.work.splits <= stop.steps, "{answer:?}");
+                assert!(answer.work.opened <= stop.steps, "{answer:?}");
                 let named = answer.triangles.is_some();
                 assert!(named || answer.verdict != Verdict::Yes, "{answer:?}");
                 answer.triangles.into_iter().for_each(in_range);
             }
             Err(error) => assert_ne!(error, QueryError::Unchecked),
         }
-        match a.overlaps(&b, pose, &mut pairs, stop, &mut queue) {
+        match a.all_overlaps(&b, pose, &mut pairs, stop, &mut queue) {
             Ok(answer) => {
-                assert!(answer.work.splits <= stop.steps, "{answer:?}");
+                assert!(answer.work.opened <= stop.steps, "{answer:?}");
                 assert!(answer.dropped == 0 || answer.stored == pairs.len(), "{answer:?}");
                 pairs[..answer.stored].iter().for_each(|pair| in_range(pair.triangles));
             }
@@ -176,7 +181,7 @@ pub fn overlap(data: &[u8]) {
         for stop in [stop, Budget::EXACT] {
             match a.meets_triangle(corners, stop, &mut queue) {
                 Ok(answer) => {
-                    assert!(answer.work.splits <= stop.steps, "{answer:?}");
+                    assert!(answer.work.opened <= stop.steps, "{answer:?}");
                     assert!(answer.work.total() <= bound(&a), "{answer:?}");
                 }
                 Err(error) => assert_ne!(error, QueryError::Unchecked),
@@ -195,13 +200,13 @@ pub fn outer(data: &[u8]) {
     let mut scratch = vec![ScratchEntry::EMPTY; 4096];
     let mut hits = [Hit::EMPTY; 4];
     let (a, b) = (input.point(), input.point());
-    for search in [Search::First, Search::Outer] {
+    for search in [OuterSearch::First, OuterSearch::Outer] {
         let exact = Budget::EXACT;
         match model.outer_hits(a, b, search, &mut refined, &mut hits, exact, &mut scratch) {
             Ok(answer) => {
                 assert!(answer.t.lower >= 0.0 && answer.t.lower <= answer.t.upper, "{answer:?}");
                 assert!(answer.stored <= hits.len(), "{answer:?}");
-                assert!(answer.work.splits <= model.header().splits, "{:?}", answer.work);
+                assert!(answer.work.opened <= model.header().splits, "{:?}", answer.work);
             }
             Err(error) => assert_ne!(error, QueryError::Unchecked),
         }
@@ -215,7 +220,7 @@ pub fn refine(data: &[u8]) {
     let blob = input.blob(seeds());
     let Ok(model) = Hull::open(&blob) else { return };
     let mut refined = Box::new(RefinedHull::<48>::new());
-    let mut changes = [Change::EMPTY; 32];
+    let mut changes = [SplitChange::EMPTY; 32];
     for _ in 0..2 {
         let (a, b) = (input.point(), input.point());
         let (radius, error) = (input.float(), input.float());

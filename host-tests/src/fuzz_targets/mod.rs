@@ -12,6 +12,7 @@ mod deform;
 mod hull;
 mod input;
 mod mesh;
+mod suite;
 mod tight;
 mod tree;
 mod tribox;

@@ -1,6 +1,7 @@
 //! The target for tight hulls of blobs.
 
 use super::input::Input;
+use super::suite::ask_all;
 use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit::assemble;
@@ -9,6 +10,7 @@ use meshsweep::progress::Watch;
 use meshsweep::surface::VertexBits;
 use meshsweep::tight::{self, ChainOptions};
 use meshsweep_core::{Blob, Budget, Ended, QueryError, ScratchEntry, TightHull, TightHulls};
+use meshsweep_suite::ask::tight::{Hulls, Scratch};
 use std::sync::OnceLock;
 
 /// Small valid blobs of tight hulls: one and several, closed and open, on a grid and not, one
@@ -38,8 +40,8 @@ fn blob(
 ) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let (tables, _) = tight::build(mesh.as_input(), options, Watch::NONE).expect("room around it");
-    let tree =
-        beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).expect("builds").0);
+    let tree = beside_a_tree
+        .then(|| build(mesh.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds").0);
     assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())
 }
 
@@ -119,4 +121,5 @@ pub fn tight(data: &[u8]) {
     if let Some(hull) = hulls.finest() {
         ask(&hull, input.point(), input.float(), &stop, usize::from(input.byte()));
     }
+    ask_all::<Hulls<'_>>(&bytes, Scratch::new(), &mut input);
 }

@@ -1,6 +1,7 @@
 //! Targets for the box tree.
 
 use super::input::Input;
+use super::suite::ask_all;
 use crate::corrupt::Asker;
 use crate::generate::{Triangles, cube, icosphere, inverted, rough_sphere, torus};
 use meshsweep::bvh::{TreeOptions, build};
@@ -9,6 +10,7 @@ use meshsweep::hull::{self, BuildOptions};
 use meshsweep::mesh::{Mesh, RawMesh, repair};
 use meshsweep::progress::Watch;
 use meshsweep_core::{Blob, Budget, Bvh, CoherentQuery};
+use meshsweep_suite::ask::{apart, tree};
 use std::sync::OnceLock;
 
 /// Small valid blobs with a box tree: on the grid and exact, with either kind of boxes alone,
@@ -38,13 +40,13 @@ pub fn tree_seeds() -> &'static [Vec<u8>] {
 
 fn blob((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    build(mesh.as_input(), options).expect("builds").0.to_bytes()
+    build(mesh.as_input(), options, Watch::NONE).expect("builds").0.to_bytes()
 }
 
 /// Of the mesh as repair makes it: turned triangles are stored as the file winds them.
 fn as_filed((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let (mesh, _) = repair(RawMesh::from_f32(positions, triangles)).expect("a sound mesh");
-    build(mesh.as_input(), options).expect("builds").0.to_bytes()
+    build(mesh.as_input(), options, Watch::NONE).expect("builds").0.to_bytes()
 }
 
 fn with_hull((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
@@ -53,7 +55,7 @@ fn with_hull((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u
     let built = hull::build(mesh.as_input(), &coarse, Watch::NONE);
     emit::assemble([
         &built.expect("a sphere has hulls").0,
-        &build(mesh.as_input(), options).expect("builds").0,
+        &build(mesh.as_input(), options, Watch::NONE).expect("builds").0,
     ])
 }
 
@@ -62,7 +64,8 @@ pub fn tree_open(data: &[u8]) {
     if let Ok(tree) = Bvh::open(data) {
         look(&tree);
     }
-    let blob = Input(data).blob(tree_seeds());
+    let mut input = Input(data);
+    let blob = input.blob(tree_seeds());
     let tree = Bvh::open(&blob);
     if let Ok(tree) = &tree {
         look(tree);
@@ -71,6 +74,8 @@ pub fn tree_open(data: &[u8]) {
     if Blob::open(&blob).is_ok() {
         assert!(tree.is_ok(), "{tree:?}");
     }
+    ask_all::<Bvh<'_>>(&blob, tree::Scratch::new(), &mut input);
+    ask_all::<apart::Apart<'_>>(&blob, apart::Scratch::new(), &mut input);
 }
 
 /// Every node, leaf and number is in range.

@@ -1,6 +1,7 @@
 //! The target for tribox hierarchies of blobs.
 
 use super::input::Input;
+use super::suite::ask_all;
 use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit::assemble;
@@ -8,6 +9,7 @@ use meshsweep::mesh::Mesh;
 use meshsweep::progress::Watch;
 use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::{Blob, Budget, Ended, NodePair, Pose, QueryError, ScratchEntry, Triboxes};
+use meshsweep_suite::ask::triboxes;
 use std::sync::OnceLock;
 
 /// Small valid blobs of triboxes: one and several, closed and open, one beside a box tree.
@@ -32,8 +34,8 @@ fn blob((positions, triangles): &Triangles, count: u32, beside_a_tree: bool) -> 
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let (tables, _) = tribox::build(mesh.as_input(), &TriboxOptions { count }, Watch::NONE)
         .expect("in the domain");
-    let tree =
-        beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).expect("builds").0);
+    let tree = beside_a_tree
+        .then(|| build(mesh.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds").0);
     assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())
 }
 
@@ -86,9 +88,9 @@ fn ask(a: &Triboxes<'_>, b: &Triboxes<'_>, pose: &Pose, entries: usize) {
     match (all, one) {
         (Ok(all), Ok(one)) => {
             assert_eq!(all.is_apart(), one.is_apart());
-            assert!(one.work.nodes <= all.work.nodes);
+            assert!(one.work.bounds <= all.work.bounds);
             assert!(
-                u64::from(all.work.nodes) <= u64::from(a.node_count()) * u64::from(b.node_count())
+                u64::from(all.work.bounds) <= u64::from(a.node_count()) * u64::from(b.node_count())
             );
             let fine = |pair: &NodePair| {
                 u32::from(pair.a) < a.node_count() && u32::from(pair.b) < b.node_count()
@@ -115,7 +117,7 @@ fn bounds(triboxes: &Triboxes<'_>, p: [f32; 3], q: [f32; 3], entries: usize) {
                     answer.lower >= 0.0
                         && answer.node.is_none_or(|node| node < triboxes.node_count())
                 );
-                assert!(answer.work.nodes <= triboxes.node_count());
+                assert!(answer.work.bounds <= triboxes.node_count());
                 assert!(answer.ended == Ended::Exact || entries < triboxes.scratch_entries());
             }
             Err(error) => assert_ne!(error, QueryError::Unchecked),
@@ -142,4 +144,5 @@ pub fn triboxes(data: &[u8]) {
     let pose = Pose { rotation: [(); 3].map(|()| input.point()), translation: input.point() };
     ask(&a, &b, &pose, entries);
     bounds(&a, input.point(), input.point(), entries);
+    ask_all::<Triboxes<'_>>(&first, triboxes::Scratch::new(), &mut input);
 }

@@ -4,8 +4,8 @@ use super::input::Input;
 use super::tree::tree_seeds;
 use meshsweep_core::{
     Budget, Bvh, ClosestPoint, CoherentPair, CoherentQuery, Eye, Facing, Hint, Motion, Neighbor,
-    Placed, Pose, QueryError, Scene, ScratchEntry, Solid, TightHulls, TriangleHit, TrianglePair,
-    Work,
+    PlacedModel, Pose, QueryError, Scene, ScratchEntry, Solid, TightHulls, TriangleHit,
+    TrianglePair, Work,
 };
 
 /// Opens an edited blob without a check of its records, and asks everything about points, segments,
@@ -65,7 +65,7 @@ fn ask_points(tree: &Bvh<'_>, points: &[[f32; 3]; 3], size: f32, stack: &mut [Sc
             tree.signed_distance(point, budget, stack).map(|found| found.closest.work),
             44 * bound,
         );
-        let signed = tree.signed_by_winding(point, budget, stack);
+        let signed = tree.signed_distance_by_winding(point, budget, stack);
         ends(signed.map(|found| found.closest.work), 16 * bound);
         let followed = coherent.closest_point(tree, point, budget, stack);
         ends(followed.map(|found| found.closest.work), 4 * bound);
@@ -97,7 +97,7 @@ fn ask_segments(
     };
     ends(tree.solid_distance(&from, budget, stack).map(|found| found.work), 2 * bound);
     ends(tree.solid_within(&from, radius, budget, stack).map(|found| found.work), 2 * bound);
-    ends(tree.first_contact(&from, &to, budget, stack).map(|found| found.work), 140 * bound);
+    ends(tree.solid_first_contact(&from, &to, budget, stack).map(|found| found.work), 140 * bound);
 }
 
 fn ask_pair([a, b]: [&Bvh<'_>; 2], pose: &Pose, size: f32, stack: &mut [ScratchEntry]) {
@@ -105,8 +105,8 @@ fn ask_pair([a, b]: [&Bvh<'_>; 2], pose: &Pose, size: f32, stack: &mut [ScratchE
     let budget = Budget::EXACT.with_steps(300);
     let mut pairs = [TrianglePair::EMPTY; 4];
     let _ = a.overlap(b, *pose, budget, stack);
-    let _ = a.overlaps(b, *pose, &mut pairs, budget, stack);
-    let _ = a.distance(b, *pose, budget, stack);
+    let _ = a.all_overlaps(b, *pose, &mut pairs, budget, stack);
+    let _ = a.distance_to(b, *pose, budget, stack);
     let _ = a.within_of(b, *pose, size, budget, stack);
     let _ = a.penetration(b, *pose, budget, stack);
     let motion = Motion::straight(*pose, Pose::IDENTITY);
@@ -116,7 +116,8 @@ fn ask_pair([a, b]: [&Bvh<'_>; 2], pose: &Pose, size: f32, stack: &mut [ScratchE
         let _ = pair.distance(a, b, *pose, budget, stack);
         let _ = pair.within(a, b, *pose, size, budget, stack);
     }
-    let models = [(a, Pose::IDENTITY), (b, *pose)].map(|(tree, pose)| Placed { tree: *tree, pose });
+    let models =
+        [(a, Pose::IDENTITY), (b, *pose)].map(|(tree, pose)| PlacedModel { tree: *tree, pose });
     let _ = Scene::new(&models).nearest_pair(|_, _| true, budget, stack);
 }
 

@@ -125,13 +125,17 @@ fn span(p: [f32; 3], q: [f32; 3]) -> f64 {
 /// Squared distance in plain `f64`.
 #[must_use]
 pub fn rough_distance_sq(p: [f32; 3], corners: [[f32; 3]; 3]) -> f64 {
+    wide_distance_sq(p.map(f64::from), corners.map(|v| v.map(f64::from)))
+}
+
+/// The same of a point and corners in `f64`.
+#[must_use]
+pub fn wide_distance_sq(p: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> f64 {
     let sub = |x: [f64; 3], y: [f64; 3]| [x[0] - y[0], x[1] - y[1], x[2] - y[2]];
     let dot = |x: [f64; 3], y: [f64; 3]| x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
     let cross = |x: [f64; 3], y: [f64; 3]| {
         [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]]
     };
-    let p = p.map(f64::from);
-    let [a, b, c] = corners.map(|v| v.map(f64::from));
     let edges = [(a, b), (b, c), (c, a)];
     let to_edge = |(from, to): ([f64; 3], [f64; 3])| {
         let (d, s) = (sub(to, from), sub(p, from));

@@ -15,6 +15,7 @@ mod written;
 pub use between::{distance_of_meshes, distance_of_moved_triangles};
 pub use distance::{
     Bounded, distance_to_mesh, distance_to_moved_mesh, distance_to_triangle, rough_distance_sq,
+    wide_distance_sq,
 };
 pub use double::{Double, Vector};
 pub use polyline::distance_to_segments;

@@ -13,10 +13,15 @@
 
 pub mod arith;
 pub mod ask;
+pub mod clock;
 pub mod fold;
+pub mod kind;
 pub mod place;
+pub mod questions;
 pub mod rng;
 pub mod run;
 
 pub use ask::Subject;
-pub use run::{Clock, Kind, Plan, Recorder, run};
+pub use clock::Clock;
+pub use kind::Kind;
+pub use run::{Plan, Recorder, run};

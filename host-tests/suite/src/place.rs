@@ -18,14 +18,43 @@ pub type Ends = [Point; 2];
 /// A rotation matrix, by rows and up to rounding, and what is added after it.
 pub type Motion = ([[f32; 3]; 3], [f32; 3]);
 
-/// Where the queries of a kind come from.
+/// Who says where a query is.
+pub trait Place {
+    /// A point anywhere.
+    fn far(&mut self) -> Point;
+
+    /// A point near another.
+    fn near(&mut self, base: Point) -> Point;
+
+    /// The next point of a path.
+    fn step(&mut self) -> Point;
+
+    /// The next point of a path that seldom jumps.
+    fn step_or_jump(&mut self) -> Point;
+
+    /// A segment.
+    fn segment(&mut self) -> Ends;
+
+    /// A motion.
+    fn motion(&mut self) -> Motion;
+
+    /// A distance.
+    fn distance(&mut self) -> f32;
+
+    /// A number from -1 to 1.
+    fn share(&mut self) -> f32;
+
+    /// Any number.
+    fn word(&mut self) -> u32;
+}
+
+/// Places around a box, from a stream of numbers.
 #[derive(Clone, Debug)]
 pub struct Placer {
-    /// The stream of numbers.
-    pub rng: Rng,
+    rng: Rng,
     bounds: Bounds,
     /// Where the path is.
-    here: [f32; 3],
+    here: Point,
 }
 
 impl Placer {
@@ -37,24 +66,31 @@ impl Placer {
         Self { rng, bounds, here }
     }
 
+    /// The stream of numbers.
+    pub const fn rng(&mut self) -> &mut Rng {
+        &mut self.rng
+    }
+}
+
+impl Place for Placer {
     /// See [`far_point`].
-    pub fn far(&mut self) -> [f32; 3] {
+    fn far(&mut self) -> Point {
         far_point(&mut self.rng, &self.bounds)
     }
 
     /// See [`near_point`].
-    pub fn near(&mut self, base: [f32; 3]) -> [f32; 3] {
+    fn near(&mut self, base: Point) -> Point {
         near_point(&mut self.rng, &self.bounds, base)
     }
 
-    /// The next point of the path: a small step away.
-    pub fn step(&mut self) -> [f32; 3] {
+    /// See [`path_point`].
+    fn step(&mut self) -> Point {
         self.here = path_point(&mut self.rng, &self.bounds, self.here);
         self.here
     }
 
-    /// The next point of the path, one time in 128 anywhere.
-    pub fn step_or_jump(&mut self) -> [f32; 3] {
+    /// A step, one time in 128 anywhere.
+    fn step_or_jump(&mut self) -> Point {
         if self.rng.next_u32() & 0x7F == 0 {
             self.here = self.far();
             return self.here;
@@ -63,18 +99,26 @@ impl Placer {
     }
 
     /// See [`segment`].
-    pub fn segment(&mut self) -> [[f32; 3]; 2] {
+    fn segment(&mut self) -> Ends {
         segment(&mut self.rng, &self.bounds)
     }
 
     /// See [`motion`].
-    pub fn motion(&mut self) -> Motion {
+    fn motion(&mut self) -> Motion {
         motion(&mut self.rng, &self.bounds)
     }
 
     /// See [`distance`].
-    pub fn distance(&mut self) -> f32 {
+    fn distance(&mut self) -> f32 {
         distance(&mut self.rng, &self.bounds)
+    }
+
+    fn share(&mut self) -> f32 {
+        self.rng.signed_unit()
+    }
+
+    fn word(&mut self) -> u32 {
+        self.rng.next_u32()
     }
 }
 

@@ -3,12 +3,13 @@
 
 use meshsweep::bvh::{self, TreeOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, ClosestPoint, Hint, QueryError, ScratchEntry};
 use meshsweep_host_tests::generate::{Rng, Triangles, rough_sphere, scaled, torus};
 
 fn blob((positions, triangles): &Triangles) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    build(mesh.as_input(), &TreeOptions::default()).expect("builds").0.to_bytes()
+    build(mesh.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds").0.to_bytes()
 }
 
 fn random(count: usize, size: f32) -> Vec<[f32; 3]> {

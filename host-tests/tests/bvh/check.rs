@@ -4,6 +4,7 @@
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::check::{TreeProof, check_tree};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep_host_tests::corrupt::{Entry, entry, put_u32, seal, word};
 use meshsweep_host_tests::generate::{
     Triangles, bracket, cube, groove_block, icosphere, inverted, needle_comb, rough_sphere, scaled,
@@ -21,7 +22,7 @@ const MOMENTS: u32 = 24;
 
 fn scene((positions, triangles): Triangles, options: &TreeOptions) -> (Vec<u8>, Mesh) {
     let mesh = Mesh::new(positions, triangles);
-    let (tables, _) = build(mesh.as_input(), options).expect("builds");
+    let (tables, _) = build(mesh.as_input(), options, Watch::NONE).expect("builds");
     (tables.to_bytes(), mesh)
 }
 

@@ -3,6 +3,7 @@
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep_core::{
     Budget, Bvh, ClosestPoint, CoherentClosest, CoherentQuery, Ended, QueryError, ScratchEntry,
 };
@@ -15,7 +16,7 @@ use meshsweep_host_tests::oracle::rough_distance_sq;
 fn blob((positions, triangles): &Triangles, single: bool) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let options = TreeOptions::default().with_segments(false).with_f32(single);
-    build(mesh.as_input(), &options).expect("builds").0.to_bytes()
+    build(mesh.as_input(), &options, Watch::NONE).expect("builds").0.to_bytes()
 }
 
 fn stack(tree: &Bvh<'_>) -> Vec<ScratchEntry> {
@@ -190,11 +191,11 @@ fn a_walk_around_is_followed_with_little_work() {
     let points = walk(&mesh, 1.0e-4, 3000, &mut Rng::new(1));
     let mut query = CoherentQuery::<128>::new();
     let followed = same_bits("torus", &mut query, &tree, &points);
-    let opened: u32 = followed.iter().map(|f| f.closest.work.splits).sum();
+    let opened: u32 = followed.iter().map(|f| f.closest.work.opened).sum();
     let mut stack = stack(&tree);
     let plain: u32 = points
         .iter()
-        .map(|&p| tree.closest_point(p, Budget::EXACT, &mut stack).unwrap().work.splits)
+        .map(|&p| tree.closest_point(p, Budget::EXACT, &mut stack).unwrap().work.opened)
         .sum();
     assert!(opened < plain / 10, "{opened} nodes against {plain}");
 }
@@ -209,7 +210,7 @@ fn jumps_cost_hardly_more_than_plain_queries() {
     let mut query = CoherentQuery::<128>::new();
     let (mut with, mut without) = (0, 0);
     for p in points {
-        let cost = |answer: &ClosestPoint| answer.work.splits + answer.work.triangles / 3;
+        let cost = |answer: &ClosestPoint| answer.work.opened + answer.work.triangles / 3;
         with += cost(&query.closest_point(&tree, p, Budget::EXACT, &mut stack).unwrap().closest);
         without += cost(&tree.closest_point(p, Budget::EXACT, &mut stack).unwrap());
     }
@@ -225,7 +226,7 @@ fn a_long_rest_ends_when_steps_get_short() {
     let mut query = CoherentQuery::<128>::new();
     same_bits("jumps", &mut query, &tree, &jumps(&mesh, 3000, &mut rng));
     let followed = same_bits("walk", &mut query, &tree, &walk(&mesh, 1.0e-5, 60, &mut rng));
-    let opened: u32 = followed[20..].iter().map(|f| f.closest.work.splits).sum();
+    let opened: u32 = followed[20..].iter().map(|f| f.closest.work.opened).sum();
     assert!(opened < 40, "{opened} nodes");
 }
 
@@ -273,7 +274,7 @@ fn tolerances_and_budgets_are_kept() {
         for steps in [0, 1, 2, 5] {
             let stop = Budget::EXACT.with_steps(steps);
             let closest = query.closest_point(&tree, p, stop, &mut stack).unwrap().closest;
-            assert!(closest.work.splits <= 2 * steps, "{closest:?}");
+            assert!(closest.work.opened <= 2 * steps, "{closest:?}");
             assert!(
                 closest.distance.lower <= exact.distance.upper
                     && closest.distance.upper >= exact.distance.lower,

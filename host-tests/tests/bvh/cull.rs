@@ -3,6 +3,7 @@
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep_core::{BuildFor, Bvh, Eye, QueryError};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, icosphere, inverted, joined, needle_comb, rough_sphere, scaled,
@@ -11,7 +12,7 @@ use meshsweep_host_tests::generate::{
 
 fn blob((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    build(mesh.as_input(), options).expect("builds").0.to_bytes()
+    build(mesh.as_input(), options, Watch::NONE).expect("builds").0.to_bytes()
 }
 
 fn culling(single: bool) -> TreeOptions {

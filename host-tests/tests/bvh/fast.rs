@@ -3,6 +3,7 @@
 
 use meshsweep::bvh::{FastBvh, TreeOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep_core::{
     AnyHit, Budget, Bvh, ClosestPoint, Ended, Facing, FirstHit, Hint, Hit, QueryError,
     ScratchEntry, Verdict,
@@ -32,7 +33,7 @@ fn blobs() -> Vec<(Vec<u8>, f32)> {
     let options = [false, true].map(|is_f32| TreeOptions::default().with_f32(is_f32));
     let build = |(positions, triangles): &Triangles, options| {
         let mesh = Mesh::new(positions.clone(), triangles.clone());
-        build(mesh.as_input(), options).expect("builds").0.to_bytes()
+        build(mesh.as_input(), options, Watch::NONE).expect("builds").0.to_bytes()
     };
     meshes
         .iter()
@@ -186,7 +187,7 @@ fn answers_after_a_closest_point_do_not_depend_on_its_order() {
     let (positions, triangles) = rough_sphere(3, 0.3, 2);
     let mesh = Mesh::new(positions, triangles);
     let options = TreeOptions::default().with_winding(true).with_f32(true);
-    let blob = build(mesh.as_input(), &options).expect("builds").0.to_bytes();
+    let blob = build(mesh.as_input(), &options, Watch::NONE).expect("builds").0.to_bytes();
     let tree = Bvh::open(&blob).unwrap();
     let nodes = tree.header().nodes;
     let entries = tree.scratch_entries();
@@ -197,7 +198,7 @@ fn answers_after_a_closest_point_do_not_depend_on_its_order() {
         let point = rng.point_in([-1.5; 3], [1.5; 3]);
         let mut splits = |entries: usize| {
             let stack = &mut stack[..entries];
-            tree.closest_point(point, Budget::EXACT, stack).unwrap().work.splits
+            tree.closest_point(point, Budget::EXACT, stack).unwrap().work.opened
         };
         if splits(entries) == splits(entries - 1) {
             continue;
@@ -206,7 +207,7 @@ fn answers_after_a_closest_point_do_not_depend_on_its_order() {
         for budget in (nodes..2 * nodes).map(|steps| Budget::EXACT.with_steps(steps)) {
             let mut of = |entries: usize| {
                 let stack = &mut stack[..entries];
-                let signed = tree.signed_by_winding(point, budget, stack).unwrap();
+                let signed = tree.signed_distance_by_winding(point, budget, stack).unwrap();
                 let precise = tree.closest_point_precise(point, budget, stack).unwrap();
                 (signed.side, signed.closest.ended, bits(&precise))
             };

@@ -413,8 +413,8 @@ fn budgets_are_kept() {
         for steps in [u32::MAX, 4000, 400, 40, 4, 0] {
             let found = ask(&a.bvh(), &b.bvh(), &pose, Budget::EXACT.with_steps(steps));
             holds("steps", [&a, &b], &pose, &found, &mut rng);
-            assert!(found.work.splits <= steps && found.work.splits <= last, "{found:?}");
-            last = found.work.splits;
+            assert!(found.work.opened <= steps && found.work.opened <= last, "{found:?}");
+            last = found.work.opened;
             short += usize::from(found.ended == Ended::Steps);
         }
         for entries in [1, 3, 9] {
@@ -424,7 +424,7 @@ fn budgets_are_kept() {
         }
         let exact = ask(&a.bvh(), &b.bvh(), &pose, Budget::EXACT);
         let rough = ask(&a.bvh(), &b.bvh(), &pose, Budget::EXACT.with_relative(9.0));
-        assert!(rough.work.splits <= exact.work.splits, "{rough:?} {exact:?}");
+        assert!(rough.work.opened <= exact.work.opened, "{rough:?} {exact:?}");
         let is_wider = rough.depth.upper > exact.depth.upper;
         assert!(!is_wider || rough.ended == Ended::Tolerance, "{rough:?} {exact:?}");
     }

@@ -3,6 +3,7 @@
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep_core::{
     Budget, BuildFor, Bvh, ClosestPoint, CoherentQuery, Facing, Hint, Neighbor, Pose, QueryError,
     ScratchEntry, TriangleHit, TrianglePair,
@@ -12,7 +13,7 @@ use meshsweep_host_tests::generate::cube;
 fn blob(segments: bool, closest: bool) -> Vec<u8> {
     let mesh = Mesh::new(cube(1).0, cube(1).1);
     let options = TreeOptions::default().with_segments(segments).with_closest(closest);
-    build(mesh.as_input(), &options).expect("builds").0.to_bytes()
+    build(mesh.as_input(), &options, Watch::NONE).expect("builds").0.to_bytes()
 }
 
 /// What each question about `point` answers.
@@ -55,7 +56,7 @@ fn about_segments(
         ("any_hit", tree.any_hit(a, b, both, budget, scratch).map(drop)),
         ("all_hits", tree.all_hits(a, b, both, &mut hits, budget, scratch).map(drop)),
         ("overlap", tree.overlap(tree, pose, budget, scratch).map(drop)),
-        ("overlaps", tree.overlaps(tree, pose, &mut pairs, budget, scratch).map(drop)),
+        ("overlaps", tree.all_overlaps(tree, pose, &mut pairs, budget, scratch).map(drop)),
     ]
 }
 

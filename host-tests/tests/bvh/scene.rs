@@ -1,7 +1,8 @@
 //! Pairs of models in a scene, against brute force over all of them.
 
 use meshsweep_core::{
-    Budget, Bvh, Ended, Placed, Pose, QueryError, Scene as Models, ScratchEntry, Undecided, Verdict,
+    Budget, Bvh, Ended, PlacedModel, Pose, QueryError, Scene as Models, ScratchEntry, Undecided,
+    Verdict,
 };
 use meshsweep_host_tests::generate::corpus::IDENTITY;
 use meshsweep_host_tests::generate::{Rng, cube, rough_sphere, torus};
@@ -38,9 +39,9 @@ impl World {
         Self { scenes, places }
     }
 
-    fn placed(&self, is_f32: bool) -> Vec<Placed<'_>> {
+    fn placed(&self, is_f32: bool) -> Vec<PlacedModel<'_>> {
         let tree = |which: usize| self.scenes[which].trees()[usize::from(is_f32)];
-        self.places.iter().map(|&(which, pose)| Placed { tree: tree(which), pose }).collect()
+        self.places.iter().map(|&(which, pose)| PlacedModel { tree: tree(which), pose }).collect()
     }
 
     fn distance(&self, a: usize, b: usize) -> Bounded {
@@ -138,7 +139,7 @@ fn a_pose_that_is_no_rotation_is_paid_for() {
     stretched[0][0] = 1.05;
     let place = |x: f32| Pose { rotation: stretched, translation: [x, 0.0, 0.0] };
     for tree in scene.trees() {
-        let models = [place(0.0), place(10.0)].map(|pose| Placed { tree, pose });
+        let models = [place(0.0), place(10.0)].map(|pose| PlacedModel { tree, pose });
         let scene = Models::new(&models);
         let found = scene.nearest_pair(|_, _| true, Budget::EXACT, &mut stack()).unwrap();
         let truth = 10.0 - 1.05 * size;
@@ -163,9 +164,9 @@ fn few_steps_give_an_interval_that_holds() {
             let found = scene.nearest_pair(|_, _| true, budget, &mut stack()).unwrap();
             assert!(f64::from(found.distance.lower) <= truth.upper + slack, "{found:?}");
             assert!(truth.lower <= f64::from(found.distance.upper) + slack, "{found:?}");
-            assert!(found.work.splits <= steps);
+            assert!(found.work.opened <= steps);
             let near = scene.within(1.0, |_, _| true, budget, &mut stack()).unwrap();
-            assert!(near.work.splits <= steps);
+            assert!(near.work.opened <= steps);
             if near.verdict == Verdict::No {
                 assert!(truth.upper + slack >= 1.0, "{near:?} {truth:?}");
             }
@@ -183,15 +184,16 @@ fn a_scene_of_forty_models_looks_into_few_pairs() {
     let models = world.placed(false);
     let scene = Models::new(&models);
     let found = scene.nearest_pair(|_, _| true, Budget::EXACT, &mut stack()).unwrap();
-    assert!(found.work.nodes >= 40 * 39 / 2 && found.work.splits < 400, "{found:?}");
+    assert!(found.work.bounds >= 40 * 39 / 2 && found.work.opened < 400, "{found:?}");
 }
 
 #[test]
 fn what_cannot_be_asked_is_refused_and_no_pair_is_no_error() {
     let scene = Scene::both("", cube(1));
     let tree = scene.bvh();
-    let at = |x: f32| Placed { tree, pose: Pose { translation: [x, 0.0, 0.0], ..Pose::IDENTITY } };
-    let ask = |models: &[Placed<'_>], scratch: &mut [ScratchEntry]| {
+    let at =
+        |x: f32| PlacedModel { tree, pose: Pose { translation: [x, 0.0, 0.0], ..Pose::IDENTITY } };
+    let ask = |models: &[PlacedModel<'_>], scratch: &mut [ScratchEntry]| {
         Models::new(models)
             .nearest_pair(|_, _| true, Budget::EXACT, scratch)
             .map(|near| near.models)
@@ -237,7 +239,7 @@ fn a_scene_of_any_scale_is_never_wrongly_clear() {
             for _ in 0..200 {
                 let off = (high[1] - low[1]) * rng.range(1.0, 1.5);
                 let pose = Pose { translation: [0.0, off, 0.0], ..Pose::IDENTITY };
-                let models = [Pose::IDENTITY, pose].map(|pose| Placed { tree, pose });
+                let models = [Pose::IDENTITY, pose].map(|pose| PlacedModel { tree, pose });
                 let truth = f64::from(off) - (f64::from(high[1]) - f64::from(low[1]));
                 let scene = Models::new(&models);
                 let Ok(found) = scene.nearest_pair(|_, _| true, Budget::EXACT, &mut stack()) else {
@@ -280,8 +282,8 @@ fn a_model_at_the_end_of_f32_is_paid_for() {
     let truth = 1.05 * f64::from(at) - f64::from(half) * f64::from(m);
     for (first, second) in plate.trees().into_iter().zip(blade.trees()) {
         let models = [
-            Placed { tree: first, pose: stretched },
-            Placed { tree: second, pose: Pose { rotation: turned, ..Pose::IDENTITY } },
+            PlacedModel { tree: first, pose: stretched },
+            PlacedModel { tree: second, pose: Pose { rotation: turned, ..Pose::IDENTITY } },
         ];
         let scene = Models::new(&models);
         match scene.nearest_pair(|_, _| true, Budget::EXACT, &mut stack()) {

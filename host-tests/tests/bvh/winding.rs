@@ -3,6 +3,7 @@
 use glam::Vec3;
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep_core::internal::geom::{SeenCorner, SolidAngles};
 use meshsweep_core::{
     Budget, BuildFor, Bvh, Ended, Interval, QueryError, ScratchEntry, Side, Undecided,
@@ -59,7 +60,7 @@ fn the_interval_contains_the_number_of_every_mesh_with_every_budget() {
                 for budget in [Budget::EXACT, narrow].into_iter().chain(steps) {
                     let found = ask(&tree, point, budget);
                     assert!(holds(&scene, point, &found), "{found:?}");
-                    assert!(found.work.splits <= budget.steps);
+                    assert!(found.work.opened <= budget.steps);
                 }
             }
         }
@@ -184,10 +185,10 @@ fn steps_are_kept_to_and_said_and_enough_of_them_end_the_search() {
             for steps in [0, 1, 2, 4, 8, 16, u32::MAX] {
                 let found = ask(&tree, point, Budget::EXACT.with_steps(steps));
                 assert!(holds(&scene, point, &found), "{found:?}");
-                assert!(found.work.splits <= steps);
+                assert!(found.work.opened <= steps);
                 if found.ended == Ended::Steps {
                     assert_eq!(found.side, Side::Undecided(Undecided::Steps));
-                    assert!(found.work.splits == steps && steps < u32::MAX, "{found:?}");
+                    assert!(found.work.opened == steps && steps < u32::MAX, "{found:?}");
                     cut_short += 1;
                 }
             }
@@ -348,13 +349,14 @@ fn the_signed_distance_of_a_mesh_with_holes_has_the_side_of_the_number() {
     let (positions, triangles) = without(&icosphere(3), |number| number % 7 == 3);
     let mesh = Mesh::new(positions, triangles);
     let options = TreeOptions::default().with_winding(true);
-    let bytes = build(mesh.as_input(), &options).expect("builds").0.to_bytes();
+    let bytes = build(mesh.as_input(), &options, Watch::NONE).expect("builds").0.to_bytes();
     let tree = Bvh::open(&bytes).expect("opens");
     let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
     let mut rng = Rng::new(80);
     for _ in 0..300 {
         let point = rng.direction().map(|x| 1.5 * x * rng.unit_f32());
-        let found = tree.signed_by_winding(point, Budget::EXACT, &mut stack).expect("answers");
+        let found =
+            tree.signed_distance_by_winding(point, Budget::EXACT, &mut stack).expect("answers");
         let near = tree.closest_point(point, Budget::EXACT, &mut stack).expect("answers");
         assert_eq!(found.side, ask(&tree, point, Budget::EXACT).side);
         assert_eq!((found.closest.point, found.closest.triangle), (near.point, near.triangle));
@@ -366,16 +368,17 @@ fn the_signed_distance_of_a_mesh_with_holes_has_the_side_of_the_number() {
         };
         assert_eq!(found.distance, signed);
     }
-    let far = tree.signed_by_winding([9.0; 3], Budget::EXACT, &mut stack).expect("answers");
+    let far =
+        tree.signed_distance_by_winding([9.0; 3], Budget::EXACT, &mut stack).expect("answers");
     assert_eq!((far.side, far.closest.ended), (Side::Outside, Ended::Exact));
     let no_steps = Budget::EXACT.with_steps(0);
-    let found = tree.signed_by_winding([0.1; 3], no_steps, &mut stack).expect("answers");
+    let found = tree.signed_distance_by_winding([0.1; 3], no_steps, &mut stack).expect("answers");
     assert_eq!(
         (found.side, found.closest.ended),
         (Side::Undecided(Undecided::Steps), Ended::Steps)
     );
     let plain = Scene::tree("torus", torus(2.0, 0.75, 16, 8), false);
-    let refused = plain.bvh().signed_by_winding([0.0; 3], Budget::EXACT, &mut stack);
+    let refused = plain.bvh().signed_distance_by_winding([0.0; 3], Budget::EXACT, &mut stack);
     assert_eq!(refused, Err(QueryError::NotServed { build_for: BuildFor::Winding }));
 }
 

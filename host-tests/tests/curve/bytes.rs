@@ -5,10 +5,9 @@ use meshsweep::curve::{CurveError, CurveOptions, Polyline, build};
 use meshsweep::progress::Watch;
 use meshsweep_core::{Blob, Curve, OpenError, SectionKind};
 use meshsweep_host_tests::corrupt::{
-    assert_only_the_whole_opens, entry, flip_bits, put_u32, replace_bytes, seal,
+    self, assert_damage_is_safe, assert_only_the_whole_opens, entry, put_u32,
 };
 use meshsweep_host_tests::fuzz_targets::{ask_curve, curve_seeds};
-use meshsweep_host_tests::generate::Rng;
 use meshsweep_host_tests::generate::curves::{circle, open as line, walk};
 
 /// A walk of nine segments and a closed ring of seven: eighteen points in f32.
@@ -29,13 +28,11 @@ fn ask(bytes: &[u8]) -> Result<(), OpenError> {
 
 /// Opens after an edit of the section, the CRCs right.
 fn edited(edit: impl FnOnce(&mut [u8])) -> Result<(), OpenError> {
-    let mut bytes = small();
-    let at = entry(&bytes, SectionKind::Curves as u32);
-    edit(&mut bytes[at.offset as usize..][..at.bytes as usize]);
-    seal(&mut bytes);
-    let result = open(&bytes);
-    assert_eq!(Blob::open(&bytes).map(|_| ()), result, "the whole blob is as strict");
-    result
+    corrupt::edited(small(), SectionKind::Curves, edit, |bytes| {
+        let result = open(bytes);
+        assert_eq!(Blob::open(bytes).map(|_| ()), result, "the whole blob is as strict");
+        result
+    })
 }
 
 // Where things stand in the section.
@@ -61,26 +58,8 @@ fn open_rejects_truncation_and_every_flipped_bit() {
 }
 
 #[test]
-fn every_flipped_bit_with_right_checksums_is_refused_or_safe_to_ask() {
-    let mut opened = 0;
-    for bytes in curve_seeds() {
-        let section = entry(bytes, SectionKind::Curves as u32);
-        let end = section.offset as usize + (section.bytes as usize).min(1500);
-        let bits = (0..8 * 200).chain(8 * section.offset as usize..8 * end);
-        let outcome = flip_bits(bytes, bits, ask);
-        assert!(outcome.reasons.len() >= 6, "{outcome:?}");
-        opened += outcome.opened;
-    }
-    assert!(opened > 1000, "{opened}");
-}
-
-#[test]
-fn random_edits_with_right_checksums_are_refused_or_safe_to_ask() {
-    let rng = &mut Rng::new(5);
-    for bytes in curve_seeds() {
-        let section = entry(bytes, SectionKind::Curves as u32);
-        replace_bytes(bytes, (2000, 30), rng, |_, _| section, ask);
-    }
+fn damage_with_right_checksums_is_refused_or_safe_to_ask() {
+    assert_damage_is_safe(curve_seeds(), SectionKind::Curves, 1500, (2000, 30), ask);
 }
 
 #[test]

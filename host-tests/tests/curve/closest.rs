@@ -67,7 +67,7 @@ fn every_budget_keeps_the_interval_and_meets_what_it_asks() {
             ] {
                 let near = curve.closest_point(p, budget, &mut scratch(entries)).expect("finite");
                 holds(&scene, p, truth, &near);
-                let steps_kept = near.work.splits <= budget.steps;
+                let steps_kept = near.work.opened <= budget.steps;
                 assert!(steps_kept && near.ended != Ended::Scratch, "{near:?}");
                 let width = near.distance.upper - near.distance.lower;
                 let tolerable =
@@ -170,7 +170,7 @@ fn work(scene: &Scene, far: bool, entries: usize) -> [f64; 2] {
     let asked = || points.iter().enumerate().filter(|(k, _)| wanted(k % 10));
     let works = asked().map(|(_, &p)| {
         let near = curve.closest_point(p, Budget::EXACT, &mut scratch(entries)).expect("finite");
-        [near.work.nodes, near.work.exact].map(f64::from)
+        [near.work.bounds, near.work.exact].map(f64::from)
     });
     let sum = works.fold([0.0; 2], |sum, work| [sum[0] + work[0], sum[1] + work[1]]);
     sum.map(|x| x / asked().count() as f64)

@@ -41,7 +41,7 @@ fn verdicts_are_right_with_any_budget_and_scratch_and_decided_where_they_can_be(
                             );
                         }
                         Verdict::Undecided(Undecided::Steps) => {
-                            assert_eq!(answer.work.splits, budget.steps, "{}", told());
+                            assert_eq!(answer.work.opened, budget.steps, "{}", told());
                         }
                         other => {
                             assert_eq!(other, Verdict::Undecided(Undecided::Scratch), "{}", told());

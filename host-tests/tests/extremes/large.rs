@@ -4,6 +4,7 @@ use crate::named::extreme;
 use crate::scene::{Kind, Scene, wide};
 use meshsweep::bvh::{TreeOptions, build, is_too_far_for_grid};
 use meshsweep::mesh::{RawMesh, repair};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, ScratchEntry};
 use meshsweep_host_tests::generate::corpus::{IDENTITY, add};
 use meshsweep_host_tests::generate::{Rng, torus, transformed, uv_sphere};
@@ -15,7 +16,8 @@ fn five_million_triangles_are_served_and_every_interval_contains_the_truth() {
     let (positions, triangles) = uv_sphere(2000, 1251);
     assert!(triangles.len() >= 5_000_000 - 4000, "{}", triangles.len());
     let (mesh, _) = repair(RawMesh::from_f32(&positions, &triangles)).expect("a sphere");
-    let (tables, report) = build(mesh.as_input(), &TreeOptions::default()).expect("builds");
+    let (tables, report) =
+        build(mesh.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds");
     let bytes = tables.to_bytes();
     let tree = Bvh::open(&bytes).expect("opens");
     let each = bytes.len() as f64 / triangles.len() as f64;
@@ -31,7 +33,7 @@ fn five_million_triangles_are_served_and_every_interval_contains_the_truth() {
         let near = tree.closest_point(p, Budget::EXACT, &mut stack).expect("a point");
         let (lower, upper) = (f64::from(near.distance.lower), f64::from(near.distance.upper));
         assert!(lower <= truth.upper && truth.lower <= upper, "{p:?} {near:?} {truth:?}");
-        work += near.work.nodes;
+        work += near.work.bounds;
         widest = widest.max(near.distance.upper - near.distance.lower);
     }
     println!("{} nodes a query, intervals up to {widest:e} wide", work / 24);

@@ -3,6 +3,7 @@
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::check::check_tree;
 use meshsweep::mesh::{Input, Mesh, RawMesh, RepairReport, read, repair};
+use meshsweep::progress::Watch;
 use meshsweep::surface::{VertexBits, snap};
 use meshsweep_core::{Bvh, ScratchEntry};
 use meshsweep_host_tests::generate::{Rng, cube, torus};
@@ -39,9 +40,12 @@ impl Scene {
     pub fn with(name: &str, raw: &Raw, kind: Kind, options: &TreeOptions) -> Scene {
         let (mesh, moved, _) = repaired(raw, kind);
         let options = options.with_f32(kind == Kind::F32);
-        let (tables, _) =
-            build(Input { mesh: &mesh, moved, input_triangles: raw.1.len() }, &options)
-                .expect("builds");
+        let (tables, _) = build(
+            Input { mesh: &mesh, moved, input_triangles: raw.1.len() },
+            &options,
+            Watch::NONE,
+        )
+        .expect("builds");
         let bytes = tables.to_bytes();
         // The checker tells the halves of a flipped cap apart by their corners: not if the grid
         // makes them alike.

@@ -75,7 +75,8 @@ fn sides(extreme: &Extreme) {
             // The repair may have wound parts of a soup otherwise.
             let is_as_wound = !extreme.is_solid || (lower - 1e-9 <= truth && truth <= upper + 1e-9);
             assert!(is_as_wound, "{}: {found:?}", at());
-            let signed = tree.signed_by_winding(p, Budget::EXACT, &mut stack).expect("a point");
+            let signed =
+                tree.signed_distance_by_winding(p, Budget::EXACT, &mut stack).expect("a point");
             let nearest = tree.signed_distance(p, Budget::EXACT, &mut stack);
             let nearest = nearest.ok().filter(|_| extreme.is_solid).map(|a| a.side);
             let by_number = Some(signed.side).filter(|_| extreme.is_solid);
@@ -128,7 +129,7 @@ fn pairs(extreme: &Extreme) {
             }
             let ours = (extreme.mesh.0.as_slice(), extreme.mesh.1.as_slice());
             let truth = || distance_of_meshes(ours, (&probe.0, &probe.1), &IDENTITY, translation);
-            if let Ok(found) = tree.distance(&second, pose, Budget::EXACT, &mut stack) {
+            if let Ok(found) = tree.distance_to(&second, pose, Budget::EXACT, &mut stack) {
                 let (lower, upper) = (f64::from(found.distance.lower), found.distance.upper);
                 let truth = truth();
                 let holds = lower <= truth.upper && f64::from(upper) >= truth.lower;

@@ -44,7 +44,7 @@ impl House {
             let text = fs::read_to_string(file).expect("readable");
             house.sources.insert(module.clone(), Source::of(file, &text));
         }
-        assert!(house.sources.len() > 10, "{}", folder.display());
+        assert!(!house.sources.is_empty(), "{}", folder.display());
         house
     }
 

@@ -206,7 +206,7 @@ fn early_stop_still_contains_the_truth() {
                 for length in [1, 4096] {
                     let answer = ask(&model, p, &Budget::EXACT.with_steps(steps), length);
                     contains(scene, p, &answer, nearest);
-                    assert!(answer.work.splits <= steps, "{}: {answer:?}", scene.name);
+                    assert!(answer.work.opened <= steps, "{}: {answer:?}", scene.name);
                 }
             }
             for relative in [1e-6, 0.01, 0.5, 100.0] {

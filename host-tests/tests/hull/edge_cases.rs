@@ -7,7 +7,7 @@ use meshsweep::hull::build;
 use meshsweep::mesh::{RawMesh, repair};
 use meshsweep::progress::Watch;
 use meshsweep::surface::VertexBits;
-use meshsweep_core::{Budget, Ended, Hull, RefinedHull, ScratchEntry, Search};
+use meshsweep_core::{Budget, Ended, Hull, OuterSearch, RefinedHull, ScratchEntry};
 use meshsweep_host_tests::generate::{Rng, cube, rough_sphere, transformed, uv_sphere};
 use meshsweep_host_tests::scene::Scene;
 
@@ -65,7 +65,7 @@ fn a_hull_of_a_moved_surface_is_never_called_clear_by_its_box() {
         let answer = model.outer_hits(
             [x, 0.4, 5.0],
             [x, 0.4, -5.0],
-            Search::First,
+            OuterSearch::First,
             &mut refined,
             &mut [],
             Budget::EXACT,

@@ -9,8 +9,8 @@ use meshsweep::hull::{Kind, Levels, build};
 use meshsweep::mesh::{Mesh, read_bytes, repair};
 use meshsweep::progress::Watch;
 use meshsweep_core::{
-    Budget, Change, ClosestPoint, Ended, Focus, Hull, Interval, OpenError, QueryError, RefinedHull,
-    ScratchEntry, Search, TriangleHit, VertIdx,
+    Budget, ClosestPoint, Contradiction, Ended, Focus, Hull, Interval, OpenError, OuterSearch,
+    QueryError, RefinedHull, ScratchEntry, SplitChange, TriangleHit, VertIdx,
 };
 use meshsweep_host_tests::corrupt::{entry, put_u32, seal, word};
 use meshsweep_host_tests::generate::corpus::soups;
@@ -263,9 +263,9 @@ fn questions_that_need_hulls_are_refused_and_refined_meshes_keep_their_holes() {
     let model = scene.model();
     let mut refined = RefinedHull::<2048>::new();
     let (a, b) = ([9.0, 0.0, 0.0], [-9.0, 0.0, 0.0]);
-    let first = Search::First;
+    let first = OuterSearch::First;
     let refused = model.outer_hits(a, b, first, &mut refined, &mut [], Budget::EXACT, &mut []);
-    assert_eq!(refused, Err(QueryError::NoHulls));
+    assert_eq!(refused, Err(QueryError::NotEnclosing));
     for error in [1.0, 0.1, 0.01, 0.0] {
         let update = refined.update(&model, &Focus::Everywhere, error, &mut []).expect("sound");
         let faces: Vec<_> = refined.faces(&model).collect();
@@ -356,7 +356,7 @@ fn a_hierarchy_none_of_whose_triangles_stands_for_anything_is_refused() {
     let (from, count) = (radii.offset as usize, radii.bytes as usize);
     bytes[from..from + count].fill(255);
     seal(&mut bytes);
-    let what = "no triangle stands for a part of the surface";
+    let what = Contradiction::UncoveredSurface;
     assert_eq!(Hull::open(&bytes).err(), Some(OpenError::Counts { what }));
 }
 
@@ -375,7 +375,7 @@ fn changes_carried_out_one_after_the_other_give_the_faces() {
             refined.faces(&model).map(|face| rotated(face.corners)).collect::<HashSet<_>>()
         };
         let mut drawn = now(&refined);
-        let mut changes = vec![Change::EMPTY; 8192];
+        let mut changes = vec![SplitChange::EMPTY; 8192];
         for part in [0.25, 0.02, 0.0, 0.1] {
             let error = part * scene.size();
             let update =

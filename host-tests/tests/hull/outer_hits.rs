@@ -3,7 +3,7 @@
 
 use super::scenes::{exact, options};
 use meshsweep_core::{
-    Budget, Ended, Hit, Hull, OuterHits, QueryError, RefinedHull, ScratchEntry, Search,
+    Budget, Ended, Hit, Hull, OuterHits, OuterSearch, QueryError, RefinedHull, ScratchEntry,
 };
 use meshsweep_host_tests::generate::{Rng, cube, groove_block, rough_sphere, torus};
 use meshsweep_host_tests::oracle::contacts;
@@ -22,7 +22,7 @@ const ALL: usize = 4096;
 fn ask<const SPLITS: usize>(
     model: &Hull<'_>,
     segment: Segment,
-    search: Search,
+    search: OuterSearch,
     candidates: Candidates,
 ) -> (OuterHits, Vec<Hit>) {
     ask_again(model, segment, search, candidates, &mut Box::new(RefinedHull::<SPLITS>::new()))
@@ -32,7 +32,7 @@ fn ask<const SPLITS: usize>(
 fn ask_again<'t, const SPLITS: usize>(
     model: &Hull<'t>,
     (a, b): Segment,
-    search: Search,
+    search: OuterSearch,
     candidates: Candidates,
     refined: &mut RefinedHull<'t, SPLITS>,
 ) -> (OuterHits, Vec<Hit>) {
@@ -77,12 +77,12 @@ fn first_outer_hit_is_the_first_hit() {
         let mut asked = 0;
         for _ in 0..200 {
             let segment = from_outside(scene, &mut rng);
-            let (outer, hits) = ask::<ALL>(&model, segment, Search::First, 1024);
+            let (outer, hits) = ask::<ALL>(&model, segment, OuterSearch::First, 1024);
             if outer.starts_inside {
                 continue;
             }
             asked += 1;
-            let (again, _) = ask_again(&model, segment, Search::First, 1024, &mut kept);
+            let (again, _) = ask_again(&model, segment, OuterSearch::First, 1024, &mut kept);
             assert_eq!((again.t, again.ended), (outer.t, outer.ended), "{}: kept", scene.name);
             if asked % 16 == 0 {
                 kept.reset();
@@ -119,7 +119,7 @@ fn outer_search_names_only_true_hits_and_the_first_of_all() {
         let mut rng = Rng::new(32);
         for _ in 0..100 {
             let segment = from_outside(scene, &mut rng);
-            let (outer, hits) = ask_again(&model, segment, Search::Outer, 1024, &mut kept);
+            let (outer, hits) = ask_again(&model, segment, OuterSearch::Outer, 1024, &mut kept);
             if outer.starts_inside {
                 continue;
             }
@@ -189,9 +189,9 @@ fn small_memory<const SPLITS: usize>(what: &'static str, lists: &'static [Candid
             for _ in 0..60 {
                 let segment = from_outside(scene, &mut rng);
                 let truth = contacts(segment.0, segment.1, &scene.positions, &scene.triangles);
-                let (whole, _) = ask::<ALL>(&model, segment, Search::First, 1024);
+                let (whole, _) = ask::<ALL>(&model, segment, OuterSearch::First, 1024);
                 for &list in lists {
-                    for search in [Search::First, Search::Outer] {
+                    for search in [OuterSearch::First, OuterSearch::Outer] {
                         let fresh = ask::<SPLITS>(&model, segment, search, list);
                         let again = ask_again(&model, segment, search, list, &mut kept);
                         for (outer, hits) in [fresh, again] {
@@ -206,7 +206,7 @@ fn small_memory<const SPLITS: usize>(what: &'static str, lists: &'static [Candid
                                 );
                             }
                             if outer.ended == Ended::Exact
-                                && search == Search::First
+                                && search == OuterSearch::First
                                 && !outer.starts_inside
                             {
                                 assert_eq!(outer.t.lower, whole.t.lower, "{}", say());
@@ -248,7 +248,7 @@ fn few_splits_with_a_short_candidate_list_end() {
 fn a_start_inside_the_hulls_box_is_said_and_nothing_is_promised() {
     let scene = Scene::hull("groove block", groove_block(), &options(12));
     let (outer, hits) =
-        ask::<64>(&scene.model(), ([15.0, 20.0, 8.0], [15.0, 20.0, 14.0]), Search::First, 64);
+        ask::<64>(&scene.model(), ([15.0, 20.0, 8.0], [15.0, 20.0, 14.0]), OuterSearch::First, 64);
     assert!(outer.starts_inside && outer.t.lower == 0.0 && hits.is_empty());
 }
 
@@ -262,7 +262,7 @@ fn a_moved_surface_gets_no_wrong_clear() {
     let mut rng = Rng::new(34);
     for _ in 0..300 {
         let segment = from_outside(&scene, &mut rng);
-        let (outer, _) = ask::<64>(&model, segment, Search::First, 64);
+        let (outer, _) = ask::<64>(&model, segment, OuterSearch::First, 64);
         let truth = contacts(segment.0, segment.1, &scene.positions, &scene.triangles);
         if let Some(first) = truth.first() {
             assert!(f64::from(outer.t.lower) <= first.t_upper, "{segment:?}: {outer:?} {first:?}");
@@ -280,7 +280,7 @@ fn nan_infinity_and_far_ends_are_typed_errors() {
         ([0.0, 0.0, 1e30], QueryError::OutOfDomain),
     ] {
         for (a, b) in [(p, [9.0; 3]), ([9.0; 3], p)] {
-            let (mut refined, first) = (RefinedHull::<4>::new(), Search::First);
+            let (mut refined, first) = (RefinedHull::<4>::new(), OuterSearch::First);
             let answer =
                 model.outer_hits(a, b, first, &mut refined, &mut [], Budget::EXACT, &mut []);
             assert_eq!(answer, Err(error));

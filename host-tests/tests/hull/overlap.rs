@@ -60,7 +60,7 @@ fn holds(a: &Scene, b: &Scene, pose: &Pose, tally: &mut Tally) {
     }
     let mut pairs = vec![TrianglePair::EMPTY; truth.len() + 10_000];
     let found = first
-        .overlaps(&second, *pose, &mut pairs, Budget::EXACT, &mut scratch(&first, &second))
+        .all_overlaps(&second, *pose, &mut pairs, Budget::EXACT, &mut scratch(&first, &second))
         .expect("answers");
     assert_eq!(found.dropped, 0);
     let pairs = &pairs[..found.stored];
@@ -253,7 +253,7 @@ fn cut_blobs_are_never_wrongly_apart_and_never_certain_to_meet() {
             let answer = ask(&model, &b.model(), pose);
             let mut pairs = [TrianglePair::EMPTY; 4];
             let all = model
-                .overlaps(
+                .all_overlaps(
                     &b.model(),
                     *pose,
                     &mut pairs,
@@ -301,7 +301,7 @@ fn the_named_memory_is_enough_and_less_is_never_a_wrong_answer() {
                 let budget = Budget::EXACT.with_steps(steps);
                 let mut stack = scratch(&first, &second);
                 let answer = first.overlap(&second, pose, budget, &mut stack).expect("answers");
-                assert!(answer.work.splits <= steps);
+                assert!(answer.work.opened <= steps);
                 if answer.verdict == Verdict::Undecided(Undecided::Steps) {
                     stopped += 1;
                 } else {

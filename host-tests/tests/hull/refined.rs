@@ -6,7 +6,8 @@ use glam::DVec3;
 use meshsweep::check::{Manifold, Surface, Winding, canonical};
 use meshsweep_core::internal::hull::format::SplitIdx;
 use meshsweep_core::{
-    Budget, Change, Focus, Hull, QueryError, RefinedHull, Refinement, Search, SectionKind, VertIdx,
+    Budget, Focus, Hull, OuterSearch, QueryError, RefinedHull, Refinement, SectionKind,
+    SplitChange, VertIdx,
 };
 use meshsweep_host_tests::corrupt::{entries, seal};
 use meshsweep_host_tests::generate::Rng;
@@ -239,7 +240,7 @@ fn assert_update<const SPLITS: usize>(
     refined: &RefinedHull<'_, SPLITS>,
     (focus, error): &(Focus, f32),
     update: &Refinement,
-    changes: &[Change],
+    changes: &[SplitChange],
 ) {
     let say = || format!("{name}: {focus:?} {error}: {update:?}");
     assert_eq!(update.dropped, 0, "{}", say());
@@ -262,7 +263,7 @@ fn assert_update<const SPLITS: usize>(
     assert_eq!(refined.splits(), state.performed.len(), "{}", say());
     for (vertex, split) in state.existing() {
         let split = state.hull.split(split).expect("in range");
-        let [reach, stored] = [split.reach, split.error];
+        let [reach, stored] = [split.star_radius, split.error];
         if is_needed(&state.hull, focus, *error, vertex, [reach, stored]) {
             let left = f64::from(update.error_left) / state.hull.scale();
             assert!(left >= f64::from(stored), "{vertex:?} is needed: {}", say());
@@ -277,7 +278,7 @@ fn follow<const SPLITS: usize>(seed: u64, updates: usize) -> u32 {
         let hull = scene.model();
         let mut state = Replayed::new(hull);
         let mut refined = Box::new(RefinedHull::<SPLITS>::new());
-        let mut changes = vec![Change::EMPTY; 1 << 16];
+        let mut changes = vec![SplitChange::EMPTY; 1 << 16];
         let mut rng = Rng::new(seed);
         for i in 0..updates {
             let asked = any_focus(scene, &mut rng);
@@ -316,7 +317,7 @@ fn a_kept_hull_holds_all_that_a_fresh_one_does_and_comes_back_to_it() {
         let mut rng = Rng::new(99);
         let mut kept = Box::new(RefinedHull::<ALL>::new());
         let mut state = Replayed::new(hull);
-        let mut changes = vec![Change::EMPTY; 1 << 16];
+        let mut changes = vec![SplitChange::EMPTY; 1 << 16];
         let (size, mut here) = (scene.size(), scene.on_surface(&mut rng));
         for _ in 0..40 {
             let way = rng.direction();
@@ -395,7 +396,7 @@ fn faces_that_do_not_fit_are_counted() {
 fn changes_that_do_not_fit_are_counted() {
     let hull = all()[0].model();
     let mut refined = Box::new(RefinedHull::<ALL>::new());
-    let mut changes = [Change::EMPTY; 5];
+    let mut changes = [SplitChange::EMPTY; 5];
     let update = refined.update(&hull, &Focus::Everywhere, 0.0, &mut changes).expect("in domain");
     assert_eq!((update.stored, update.stored as u32 + update.dropped), (5, update.performed));
 }
@@ -491,7 +492,8 @@ fn hits_from_outside_refuse_a_budget_that_is_none() {
     let mut refined = RefinedHull::<4>::new();
     for budget in [Budget::EXACT.with_relative(f32::NAN), Budget::EXACT.with_absolute(-1.0)] {
         let (a, b) = ([9.0; 3], [8.0; 3]);
-        let asked = hull.outer_hits(a, b, Search::First, &mut refined, &mut [], budget, &mut []);
+        let asked =
+            hull.outer_hits(a, b, OuterSearch::First, &mut refined, &mut [], budget, &mut []);
         assert_eq!(asked.err(), Some(QueryError::Tolerance));
     }
 }

@@ -3,7 +3,8 @@
 
 use super::scenes::{all, exact, options};
 use meshsweep_core::{
-    Budget, Ended, FirstHit, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search, TriangleHit,
+    Budget, Ended, FirstHit, Hit, Hull, OuterSearch, QueryError, RefinedHull, ScratchEntry,
+    TriangleHit,
 };
 use meshsweep_host_tests::generate::corpus::IDENTITY;
 use meshsweep_host_tests::generate::{
@@ -294,7 +295,7 @@ fn paper_000_figure_5_segment_below_the_hull_is_found() {
         .expect("in the domain");
     assert_eq!(found.stored, truth.len());
     let mut refined = RefinedHull::<256>::new();
-    let (search, exact) = (Search::First, Budget::EXACT);
+    let (search, exact) = (OuterSearch::First, Budget::EXACT);
     let outer = model
         .outer_hits(segment.0, segment.1, search, &mut refined, &mut hits, exact, &mut queue)
         .expect("in the domain");

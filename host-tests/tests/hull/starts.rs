@@ -3,7 +3,9 @@
 
 use super::scenes::options;
 use meshsweep::cut::cut;
-use meshsweep_core::{Budget, Ended, Hit, Hull, RefinedHull, ScratchEntry, Search, TriangleHit};
+use meshsweep_core::{
+    Budget, Ended, Hit, Hull, OuterSearch, RefinedHull, ScratchEntry, TriangleHit,
+};
 use meshsweep_host_tests::generate::{Rng, groove_block, rough_sphere, torus};
 use meshsweep_host_tests::oracle::{Contact, contacts, winding_number};
 use meshsweep_host_tests::scene::Scene;
@@ -100,7 +102,7 @@ fn a_hull_that_is_kept_for_many_segments_answers_as_a_fresh_one() {
                 }
                 fresh.reset();
                 let (a, b) = (scene.around(3.0, &mut rng), scene.around(1.0, &mut rng));
-                for search in [Search::First, Search::Outer] {
+                for search in [OuterSearch::First, OuterSearch::Outer] {
                     let [one, other] = [&mut kept, &mut fresh].map(|refined| {
                         let mut hits = [Hit::EMPTY; 64];
                         let answer = model
@@ -121,8 +123,8 @@ fn a_hull_that_is_kept_for_many_segments_answers_as_a_fresh_one() {
                     outside += usize::from(!one.0.starts_inside);
                     // A finer hull shows later hits too; the first is the same.
                     assert_eq!((one.0.t, one.1[0]), (other.0.t, other.1[0]), "{}", scene.name);
-                    kept_splits += u64::from(one.0.work.splits);
-                    fresh_splits += u64::from(other.0.work.splits);
+                    kept_splits += u64::from(one.0.work.opened);
+                    fresh_splits += u64::from(other.0.work.opened);
                 }
             }
         }

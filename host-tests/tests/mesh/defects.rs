@@ -4,7 +4,7 @@
 use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::hull::{self, BuildOptions, Levels};
 use meshsweep::mesh::{
-    Input, Mesh, RawMesh, RepairReport, repair, require_closed_manifold, require_deformable,
+    Found, Input, Mesh, RawMesh, RepairReport, repair, require_closed_manifold, require_deformable,
 };
 use meshsweep::progress::Watch;
 use meshsweep::surface::{VertexBits, snap};
@@ -48,7 +48,7 @@ fn check_report(
     ];
     let counted: usize = dropped.iter().map(|finding| finding.count).sum();
     assert!(kept.len() + counted >= report.triangles_read, "{told}: {report}");
-    for (key, _, finding) in report.findings() {
+    for Found { key, finding, .. } in report.findings() {
         assert_eq!(finding.places.is_empty(), finding.count == 0, "{told}: {key}");
         let is_wanted = wanted.iter().any(|defect| defect.found.contains(&key));
         // A second defect may hide the first, or add findings. So may a grid.
@@ -155,7 +155,7 @@ fn build(wanted: &str, raw: &Raw, every: usize) -> Result<(Mesh, RepairReport), 
                 "cull" => none.with_closest(true).with_cull(true),
                 _ => none.with_closest(true).with_winding(true),
             };
-            let bytes = bvh::build(input, &options).map_err(refused)?.0.to_bytes();
+            let bytes = bvh::build(input, &options, Watch::NONE).map_err(refused)?.0.to_bytes();
             let tree = Bvh::open(&bytes).expect("opens");
             let mut memory = stack(tree.scratch_entries());
             for p in points {

@@ -8,10 +8,9 @@ use crate::boards::BOARDS;
 use crate::c_library::{self, CTools};
 use crate::checks::cargo;
 use crate::examples::{self, EXAMPLES, Example};
-use crate::firmware::Tools;
-use crate::images::Profile;
 use crate::process;
 use crate::steps::Steps;
+use crate::tools::Tools;
 use crate::{host, workspace};
 
 const WARNINGS: [&str; 5] = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-pedantic"];
@@ -88,11 +87,8 @@ fn build_and_run(library: &std::path::Path, programs: &[Program]) -> Result<(), 
     Ok(())
 }
 
-/// The board and the library of the C images.
-pub const IMAGES: (&str, Profile) = (BOARDS[0].cpu, Profile::Release);
-
 fn on_board(tools: &Tools, c: &CTools, programs: &[Program]) -> Result<(), String> {
-    let (board, (_, profile)) = (&BOARDS[0], IMAGES);
+    let (board, (_, profile)) = (&BOARDS[0], c_library::IMAGES);
     let library = c_library::build(&tools.cross, c, board.target, profile)?;
     let start = folder().join("cortex-m4");
     for Program { sources, lines } in programs {

@@ -9,6 +9,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::boards::BOARDS;
 use crate::cross::Cross;
 use crate::images::{self, Profile};
 use crate::process;
@@ -20,6 +21,9 @@ const WANTED: Wanted = Wanted {
     alternatives: &[&["gcc-arm-none-eabi", "binutils-riscv64-unknown-elf", "cppcheck"]],
     ignore_installed: &["gcc-arm-none-eabi", "binutils-arm-", "binutils-riscv64", "cppcheck"],
 };
+
+/// The board and the optimisation of the C images.
+pub const IMAGES: (&str, Profile) = (BOARDS[0].cpu, Profile::Release);
 
 /// This machine, as a target.
 pub const HOST: &str = "x86_64-unknown-linux-gnu";

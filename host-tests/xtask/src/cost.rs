@@ -6,8 +6,9 @@ use crate::blobs::Blob;
 use crate::boards::Board;
 use crate::elf::Size;
 use crate::images::Profile;
+use crate::questions::QUESTIONS;
 use crate::reading::{Cost, Reading};
-use crate::stack::{self, Stack, Stacks};
+use crate::stack::{Stack, Stacks};
 
 /// What one image adds to the empty one.
 #[derive(Clone, Debug)]
@@ -87,7 +88,7 @@ pub fn text(rows: &[Row]) -> String {
     table.push_str("\nstack of a question, bytes: most seen, and bound\n");
     for row in rows {
         for profile in Profile::ALL {
-            let stacks = stack::QUESTIONS.iter().zip(row.stacks.of(profile));
+            let stacks = QUESTIONS.iter().zip(row.stacks.of(profile));
             for (question, Stack { painted, bound }) in stacks {
                 let text = |bytes: Option<u32>| bytes.map_or("-".to_owned(), |b| b.to_string());
                 let _ = writeln!(

@@ -29,6 +29,11 @@ pub const CPU: &str = "x86-64";
 /// Counts all kinds of queries to all blobs, on all cores. Nothing, with a line that says so, where
 /// nothing can be counted.
 pub fn run(steps: &mut Steps) -> Vec<Counted> {
+    some(steps, |_| true)
+}
+
+/// The same of some blobs.
+pub fn some(steps: &mut Steps, is_wanted: impl Fn(Blob) -> bool) -> Vec<Counted> {
     if cfg!(not(target_arch = "x86_64")) {
         say!("── the suite on this machine\n   skipped: its counts are those of {CPU}");
         return Vec::new();
@@ -46,7 +51,9 @@ pub fn run(steps: &mut Steps) -> Vec<Counted> {
             let (printed, totals) = valgrind.dumps(&folder, &options, &program, &arguments)?;
             parse(*blob, &printed, &totals)
         };
-        let all = process::parallel(&Blob::all(), of_blob);
+        let mut blobs = Blob::all();
+        blobs.retain(|blob| is_wanted(*blob));
+        let all = process::parallel(&blobs, of_blob);
         let each: Result<Vec<Vec<Counted>>, String> =
             all.into_iter().map(|(counted, _)| counted).collect();
         Ok(each?.concat())

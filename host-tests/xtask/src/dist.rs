@@ -1,10 +1,12 @@
-//! Archives of the C interface, one a target: library, header, packages, README and licences.
+//! Archives of the C interface, one a target: library, header, packages, README and licences. Shell
+//! completions and man pages of the program.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::c_library::{self, CTools, HOST};
+use crate::checks::cargo;
 use crate::cross::Cross;
 use crate::images::Profile;
 use crate::process;
@@ -35,9 +37,19 @@ const PROGRAMS: [(&str, &[&str]); 5] = [
 /// Folders and files of the interface that an archive has.
 const PACKED: [&str; 6] = ["include", "examples", "cmake", "zephyr", "CMakeLists.txt", "README.md"];
 
-/// Writes archives of the wanted targets (all, if none) into `target/dist`. Prints the bytes of
-/// programs with the libraries.
+/// What is wanted of the program's completions and man pages.
+const MANUAL: &str = "manual";
+
+/// Writes archives of the wanted targets, or the program's [`MANUAL`] (all, if none is wanted),
+/// into `target/dist`. Prints the bytes of programs with the libraries.
 pub fn run(steps: &mut Steps, wanted: &[&str]) {
+    if wanted.is_empty() || wanted.contains(&MANUAL) {
+        steps.run("completions and man pages", manual);
+    }
+    if wanted == [MANUAL] {
+        return;
+    }
+    let wanted: Vec<&str> = wanted.iter().copied().filter(|&target| target != MANUAL).collect();
     let Some(cross) = steps.run("setup: std for the boards", Cross::find) else { return };
     let Some(c) = steps.run("setup: arm-none-eabi-gcc, cppcheck", CTools::find) else { return };
     let mut rows = Vec::new();
@@ -56,6 +68,16 @@ pub fn run(steps: &mut Steps, wanted: &[&str]) {
     for row in rows {
         say!("| {} |", row.join(" | "));
     }
+}
+
+/// Completions for shells and man pages, in a folder.
+fn manual() -> Result<(), String> {
+    let folder = workspace::target().join("dist/meshsweep-manual");
+    let _ = fs::remove_dir_all(&folder);
+    let mut command = cargo(&["run", "--quiet", "--package", "meshsweep-manual", "--"]);
+    process::capture(command.arg(&folder))?;
+    say!("   {}", folder.display());
+    Ok(())
 }
 
 fn archive(cross: &Cross, c: &CTools, target: &str) -> Result<Vec<Vec<String>>, String> {

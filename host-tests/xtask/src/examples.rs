@@ -8,9 +8,9 @@ use std::path::PathBuf;
 
 use crate::boards::BOARDS;
 use crate::cross::Cross;
-use crate::firmware::Tools;
 use crate::images::Profile;
 use crate::steps::Steps;
+use crate::tools::Tools;
 use crate::{checks, images, process, workspace};
 
 /// An example: its folder, its C program.

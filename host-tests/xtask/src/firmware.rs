@@ -1,6 +1,5 @@
 //! The firmware's part: same bits on every board, no panic, sizes and costs.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::blobs::{Blob, Blocks};
@@ -9,85 +8,12 @@ use crate::cost::{self, Added, Measured, Row};
 use crate::cross::Cross;
 use crate::images::{self, Profile};
 use crate::process;
-use crate::qemu::Qemu;
+use crate::questions::SIZES;
 use crate::reading::Reading;
 use crate::stack::{self, Stacks};
 use crate::steps::Steps;
-use crate::{blobs, c_checks, c_library, elf, proof, tables};
-
-/// What the firmware's part needs beside cargo.
-#[derive(Clone, Debug)]
-pub struct Tools {
-    pub(crate) cross: Cross,
-    pub(crate) qemu: Qemu,
-}
-
-/// Makes sure of the tools.
-pub fn setup(steps: &mut Steps) -> Option<Tools> {
-    let cross = steps.run("setup: std for the boards", Cross::find);
-    let qemu = steps.run("setup: QEMU", Qemu::find);
-    Some(Tools { cross: cross?, qemu: qemu? })
-}
-
-impl Tools {
-    /// The compiler of the images.
-    #[must_use]
-    pub const fn cross(&self) -> &Cross {
-        &self.cross
-    }
-
-    /// Builds an image for a board; its path.
-    ///
-    /// # Errors
-    /// The compiler's.
-    pub fn image(&self, board: &Board, name: &str) -> Result<PathBuf, String> {
-        images::running(&self.cross, &[board.target], Profile::Release, &[name])?;
-        Ok(images::image(&self.cross, board.target, Profile::Release, name))
-    }
-
-    /// Runs an image on a board, with a file in memory. Its answers are `expected`, bit by bit: at
-    /// least so many blocks of each kind.
-    ///
-    /// # Errors
-    /// Other bits, or an image that does not end.
-    pub fn asked(
-        &self,
-        board: &Board,
-        image: &Path,
-        loaded: (&Path, u32),
-        expected: &Reading,
-        least: u32,
-    ) -> Result<Reading, String> {
-        let printed = self.qemu.run(board.machine, image, Some(loaded))?;
-        let reading = Reading::parse(&printed, Some(board))?;
-        reading.compare(expected, least)?;
-        Ok(reading)
-    }
-
-    /// Runs an image of the suite on a board, with a blob at the end of its flash.
-    ///
-    /// # Errors
-    /// As above, or flash that is too small for both.
-    pub fn asked_in_flash(
-        &self,
-        board: &Board,
-        image: &Path,
-        flash: &Path,
-        expected: &Reading,
-        least: u32,
-    ) -> Result<Reading, String> {
-        let length = fs::metadata(flash)
-            .map_err(|error| format!("cannot read {}: {error}", flash.display()))?
-            .len();
-        let end = elf::address(image, "meshsweep_flash_end")?;
-        let (begin, used) = (end.saturating_sub(length), elf::end_in_flash(image, end)?);
-        if used > begin {
-            return Err(format!("image and blob need {} bytes more than the flash", used - begin));
-        }
-        let begin = u32::try_from(begin).map_err(|error| error.to_string())?;
-        self.asked(board, image, (flash, begin), expected, least)
-    }
-}
+use crate::tools::Tools;
+use crate::{blobs, c_library, elf, proof};
 
 /// An image of the suite, built for one board, and a blob that it is asked about.
 pub struct Asked {
@@ -109,8 +35,8 @@ pub enum Scope {
     /// The proof that nothing panics is linked for size on those boards only, which need it most.
     /// One of the two boards with much the same instructions is asked less.
     Compared,
-    /// What has a cost: `cargo xtask count --all`. As many queries as are [`Self::Compared`], of all
-    /// boards and with both optimisations.
+    /// What has a cost: `cargo xtask count --all`. As many queries as are [`Self::Compared`], of
+    /// all boards and with both optimisations.
     Counted,
 }
 
@@ -132,13 +58,15 @@ impl Scope {
     /// Whether a board is asked about a blob, by an image with this optimisation. The Cortex-M33
     /// runs nearly the instructions of the Cortex-M4F: `cargo xtask test` asks it about the two
     /// structures that have tables. The other optimisation is asked for the stack that it takes.
-    fn asks(self, board: &Board, blob: Blob, profile: Profile) -> bool {
-        let has_table = matches!(blob.image, "suite_hull" | "suite_tree");
-        let is_first = profile == blob.profile(board.flash);
-        let all = is_first || board.flash == Flash::Large && blob.is_painted();
-        match self {
-            Self::All | Self::Counted => all,
-            Self::Compared => is_first && (has_table || board.cpu != "Cortex-M33"),
+    fn asks(self) -> impl Fn(&Board, Blob, Profile) -> bool {
+        move |board, blob, profile| {
+            let has_table = matches!(blob.image, "suite_hull" | "suite_tree");
+            let is_first = profile == blob.profile(board.flash);
+            let all = is_first || board.flash == Flash::Large && blob.is_painted();
+            match self {
+                Self::All | Self::Counted => all,
+                Self::Compared => is_first && (has_table || board.cpu != "Cortex-M33"),
+            }
         }
     }
 
@@ -156,7 +84,7 @@ impl Scope {
     /// Whether the C library's stack is bounded: in `cargo xtask test` that of the library that is
     /// built for its images.
     fn is_bound_in_c(self, board: &Board, profile: Profile) -> bool {
-        self == Self::All || c_checks::IMAGES == (board.cpu, profile)
+        self == Self::All || c_library::IMAGES == (board.cpu, profile)
     }
 
     /// Questions whose code is measured on a board, each by an image of its own: in `cargo xtask
@@ -165,7 +93,7 @@ impl Scope {
         match self {
             Self::All | Self::Counted => &IMAGES,
             Self::Compared if board.cpu == BOARDS[0].cpu => &IMAGES,
-            Self::Compared if profile == Profile::Release => &tables::CODE,
+            Self::Compared if profile == Profile::Release => &CODE,
             Self::Compared => &[],
         }
     }
@@ -189,7 +117,7 @@ pub fn run(steps: &mut Steps, tools: &Tools) -> Vec<Row> {
 /// Runs what has costs on some boards: the images of the suite, and those whose size is measured.
 pub fn count(steps: &mut Steps, tools: &Tools, boards: &[Board]) -> Vec<Row> {
     let (cross, scope) = (&tools.cross, Scope::Counted);
-    let asked = steps.run("images of the suite", || suites(cross, boards, scope));
+    let asked = steps.run("images of the suite", || suites(cross, boards, scope.asks()));
     build_for_sizes(steps, cross, boards, scope);
     let mut rows =
         asked.map(|asked| answers(steps, tools, boards, &asked, scope)).unwrap_or_default();
@@ -197,10 +125,26 @@ pub fn count(steps: &mut Steps, tools: &Tools, boards: &[Board]) -> Vec<Row> {
     rows
 }
 
+/// Builds the images of some blobs, each as it is optimised for the board, and runs them.
+pub fn some(
+    steps: &mut Steps,
+    tools: &Tools,
+    boards: &[Board],
+    is_asked: &dyn Fn(&Board, Blob) -> bool,
+) -> Vec<Row> {
+    let asked = steps.run("images of the suite", || {
+        suites(&tools.cross, boards, |board, blob, profile| {
+            profile == blob.profile(board.flash) && is_asked(board, blob)
+        })
+    });
+    let rows = asked.map(|asked| answers(steps, tools, boards, &asked, Scope::Compared));
+    rows.unwrap_or_default()
+}
+
 /// Builds all images, which takes nothing of the library on this machine. Lints and proofs are
 /// among it.
 pub fn build(steps: &mut Steps, tools: &Tools, scope: Scope) -> Option<Vec<Asked>> {
-    let asked = steps.run("images of the suite", || suites(&tools.cross, &BOARDS, scope));
+    let asked = steps.run("images of the suite", || suites(&tools.cross, &BOARDS, scope.asks()));
     proofs(steps, &tools.cross, scope);
     build_for_sizes(steps, &tools.cross, &BOARDS, scope);
     asked
@@ -355,7 +299,11 @@ fn build_for_sizes(steps: &mut Steps, cross: &Cross, boards: &[Board], scope: Sc
 
 /// Builds all images of the suite: one command for each profile and the boards that take the same
 /// images. What each is asked about.
-fn suites(cross: &Cross, boards: &[Board], scope: Scope) -> Result<Vec<Asked>, String> {
+fn suites(
+    cross: &Cross,
+    boards: &[Board],
+    is_asked: impl Fn(&Board, Blob, Profile) -> bool,
+) -> Result<Vec<Asked>, String> {
     let mut asked = Vec::new();
     let mut built: Vec<(Profile, Vec<&str>, Vec<&str>)> = Vec::new();
     for &board in boards {
@@ -363,7 +311,7 @@ fn suites(cross: &Cross, boards: &[Board], scope: Scope) -> Result<Vec<Asked>, S
         let blobs = Blob::standard(board.flash).into_iter().chain(Blob::VARIANTS);
         let asks = |blob| Profile::ALL.map(|profile| (blob, profile));
         for (blob, profile) in blobs.flat_map(asks) {
-            if !scope.asks(&board, blob, profile) {
+            if !is_asked(&board, blob, profile) {
                 continue;
             }
             let image = images::image(cross, board.target, profile, blob.image);
@@ -407,31 +355,15 @@ pub fn reading(
 /// Boards whose debug builds are looked at: with floating point, and without.
 pub const DEBUGGED: [&str; 2] = ["Cortex-M4F", "Cortex-M0"];
 
-/// Questions whose code is measured, each by an image of its own, and their names in tables.
-pub const QUESTIONS: [(&str, &str); 15] = [
-    ("tree_open", "open a box tree"),
-    ("tree_alone", "closest point"),
-    ("tree_alone_two", "closest point, first hit"),
-    ("tree_alone_four", "closest point, first hit, within, signed distance"),
-    ("tree_closest", "open, closest point"),
-    ("tree_segment", "open, first hit"),
-    ("tree_coherent", "open, coherent query"),
-    ("tree_four", "open, closest point, first hit, within, signed distance"),
-    ("tight", "open tight hulls, within"),
-    ("triboxes", "open triboxes, apart"),
-    ("curve", "open curves, closest point"),
-    ("open", "open a hull hierarchy"),
-    ("closest", "open a hull hierarchy, closest point"),
-    ("segment", "open a hull hierarchy, first hit"),
-    ("outer", "open a hull hierarchy, outer hits"),
-];
+/// Questions whose code a table needs measured.
+pub const CODE: [&str; 2] = ["closest", "tree_alone"];
 
 /// Their images.
-const IMAGES: [&str; QUESTIONS.len()] = {
-    let mut images = [""; QUESTIONS.len()];
+const IMAGES: [&str; SIZES.len()] = {
+    let mut images = [""; SIZES.len()];
     let mut index = 0;
     while index < images.len() {
-        images[index] = QUESTIONS[index].0;
+        images[index] = SIZES[index].0;
         index += 1;
     }
     images

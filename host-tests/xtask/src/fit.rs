@@ -13,13 +13,13 @@ use std::path::{Path, PathBuf};
 
 use crate::boards::{BOARDS, Board};
 use crate::count::LOADED;
-use crate::firmware::Tools;
 use crate::host;
 use crate::process;
 use crate::qemu::Machine;
 use crate::reading::Reading;
 use crate::steps::Steps;
 use crate::table::{Cell, Table, fixed};
+use crate::tools::Tools;
 use crate::workspace;
 
 /// Features of a query.
@@ -203,7 +203,7 @@ fn fitted(name: &str, board: &Board, counted: &[Counted]) -> (String, Vec<String
             all.map(|one| one.error(&costs).abs()).fold(0.0, f64::max)
         };
         let unseen = most(&mut of_search().filter(|one| one.role == "test"));
-        // A comb of needles is told of apart.
+        // A comb of needles has an error of its own.
         let plain = || of_search().filter(|one| one.role != "needles");
         let error = most(&mut plain());
         let dearest = plain().map(|one| one.dearest(&costs)).fold(1.0, f64::max);

@@ -3,6 +3,7 @@
 //! ```text
 //! checks (fmt, clippy, tests, docs)
 //! host (the program of host-tests: blobs, expected answers, fixtures, counted questions)
+//! question (what a change of one question can break) ─ checks, firmware, count_suite, guard
 //! fuzz (cargo-fuzz, on a nightly compiler) ─ host
 //! processors (the committed answers on i686, AArch64, with vectors) ─ toolbox
 //! report ─── chromium (the page of `meshsweep trade --report`) ─ toolbox
@@ -13,7 +14,7 @@
 //! count, count_suite ── valgrind, on host ─┐
 //!                                          ├─ tables (those of the documents), guard (costs.txt)
 //! firmware ─┬ images ─ cross ───────┬─ toolbox (Debian packages, unpacked aside)
-//!           ├ qemu ─────────────────┘
+//!           ├ tools ─ qemu ─────────┘
 //!           ├ reading (what an image printed) ─ compared with the host's own run
 //!           ├ proof   (no panic left)
 //!           ├ stack   (painted, and bounded by call_graph ─ instructions)
@@ -44,17 +45,24 @@ pub mod guard;
 pub mod host;
 pub mod images;
 pub mod instructions;
+#[path = "../../suite/src/kind.rs"]
+pub mod kind;
 pub mod process;
 pub mod processors;
 pub mod proof;
 pub mod qemu;
+pub mod question;
+#[path = "../../suite/src/questions.rs"]
+pub mod questions;
 pub mod reading;
 pub mod report;
 pub mod rival;
 pub mod stack;
+pub mod stack_csv;
 pub mod steps;
 pub mod table;
 pub mod tables;
 pub mod toolbox;
+pub mod tools;
 pub mod valgrind;
 pub mod workspace;

@@ -8,23 +8,26 @@ use std::thread;
 use meshsweep_xtask::boards::{BOARDS, Board};
 use meshsweep_xtask::cost::Row;
 use meshsweep_xtask::count_suite::Counted;
-use meshsweep_xtask::firmware::{Scope, Tools};
+use meshsweep_xtask::firmware::Scope;
 use meshsweep_xtask::guard::Costs;
 use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::tables::Facts;
+use meshsweep_xtask::tools::{Tools, setup};
 use meshsweep_xtask::valgrind::Valgrind;
 use meshsweep_xtask::{
     c_checks, checks, count, count_suite, dist, examples, firmware, fit, fuzz, host, processors,
-    report, rival, say, tables,
+    question, report, rival, say, tables,
 };
 
 const USAGE: &str = "\
 cargo xtask setup                   makes sure of the cross targets, of QEMU and of valgrind
 cargo xtask test                    setup, then everything that has to hold
+cargo xtask test QUESTION           what a change of a question can break, such as `closest_point`
 cargo xtask firmware                only the firmware: bits, panics, sizes, instructions
 cargo xtask examples                only core/examples, on a Cortex-M4F, and defmt
 cargo xtask c                       only the C interface: its programs here and in QEMU
-cargo xtask dist [TARGET...]        static libraries for C, an archive a target, in target/dist
+cargo xtask dist [TARGET...]        static libraries for C, an archive a target, in target/dist;
+                                    manual: shell completions and man pages of the program
 cargo xtask fuzz [MINUTES] [TARGET...]
                                     fuzzes each target for 30 minutes; keeps inputs for `cargo test`
 cargo xtask processors              the committed bits on i686, AArch64, and with all vectors here
@@ -52,13 +55,13 @@ fn main() -> ExitCode {
     let mut steps = Steps::new();
     match words.as_slice() {
         ["setup"] => {
-            firmware::setup(&mut steps);
+            setup(&mut steps);
             say!("── setup: valgrind");
             Valgrind::find();
         }
         ["test"] => {
             // First, because a new machine fails here, and the message tells the remedy.
-            let tools = firmware::setup(&mut steps);
+            let tools = setup(&mut steps);
             // Beside the rest, in folders of their own: long links and long tests leave a processor
             // without work.
             let (rows, counts, here, others) = thread::scope(|scope| {
@@ -91,19 +94,23 @@ fn main() -> ExitCode {
             tables::check(&mut steps, &Facts { counts: counts.as_ref(), rows: &rows });
             guarded(&mut steps, tools.as_ref(), &rows, Scope::Compared, &here, Costs::check);
         }
+        ["test", method] => {
+            let tools = setup(&mut steps);
+            question::run(&mut steps, tools.as_ref(), method);
+        }
         ["firmware"] => {
-            if let Some(tools) = firmware::setup(&mut steps) {
+            if let Some(tools) = setup(&mut steps) {
                 let rows = firmware::run(&mut steps, &tools);
                 guarded(&mut steps, Some(&tools), &rows, Scope::All, &[], Costs::check);
             }
         }
         ["examples"] => {
-            if let Some(tools) = firmware::setup(&mut steps) {
+            if let Some(tools) = setup(&mut steps) {
                 examples::run(&mut steps, &tools);
             }
         }
         ["c"] => {
-            if let Some(tools) = firmware::setup(&mut steps) {
+            if let Some(tools) = setup(&mut steps) {
                 c_checks::run(&mut steps, &tools);
             }
         }
@@ -118,7 +125,7 @@ fn main() -> ExitCode {
             steps.run(word, || host::run(&[*word]).map(|text| say!("{text}")));
         }
         ["tables"] => {
-            let tools = firmware::setup(&mut steps);
+            let tools = setup(&mut steps);
             let counts = count::for_test(&mut steps);
             let run = |tools| firmware::run(&mut steps, tools);
             let rows = tools.as_ref().map(run).unwrap_or_default();
@@ -143,7 +150,7 @@ fn main() -> ExitCode {
             if processors.iter().filter(known).count() < processors.len() {
                 return usage();
             }
-            let tools = firmware::setup(&mut steps);
+            let tools = setup(&mut steps);
             let count = |tools| firmware::count(&mut steps, tools, &boards);
             let rows = tools.as_ref().map(count).unwrap_or_default();
             let is_here = is_asked(count_suite::CPU);
@@ -158,13 +165,13 @@ fn main() -> ExitCode {
             });
         }
         ["count", "--board", questions @ ..] if !questions.is_empty() => {
-            if let Some(tools) = firmware::setup(&mut steps) {
+            if let Some(tools) = setup(&mut steps) {
                 count::on_board(&mut steps, &tools, questions);
             }
         }
         ["fit", "--kept"] => fit::fit_kept(&mut steps),
         ["fit", others @ ..] => {
-            if let Some(tools) = firmware::setup(&mut steps) {
+            if let Some(tools) = setup(&mut steps) {
                 fit::run(&mut steps, &tools, others);
             }
         }

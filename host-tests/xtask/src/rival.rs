@@ -5,7 +5,7 @@ use std::process::Command;
 
 use crate::boards::{BOARDS, Board};
 use crate::cross::Cross;
-use crate::firmware::Tools;
+use crate::tools::Tools;
 use crate::{process, workspace};
 
 /// The only one with a floating-point unit whose emulated board also has RAM enough for a heap.

@@ -8,20 +8,15 @@
 //!
 //! The functions of `meshsweep.h` have bounds of their own, from the linked library.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::boards::Board;
 use crate::c_library;
 use crate::call_graph::CallGraph;
-use crate::cost::Row;
 use crate::cross::Cross;
 use crate::images::{self, Profile};
+use crate::questions::{CLOSEST, QUESTIONS, Question};
 use crate::reading::Reading;
-use crate::workspace;
-
-/// The question that is asked most.
-const CLOSEST: &str = "closest point";
 
 /// Most bytes of stack of a closest point in a debug build with the override of the guide. Without
 /// floating point eight triangles wait there.
@@ -29,123 +24,6 @@ const MOST_IN_DEBUG: u32 = 2816;
 
 /// The image that is built for debug builds: it asks a box tree four questions.
 pub const DEBUG_IMAGE: &str = "size_tree_four";
-
-/// A question, as the tables name it.
-#[derive(Clone, Copy, Debug)]
-pub struct Question {
-    /// Its name.
-    pub name: &'static str,
-    /// What a blob has to have, as the builder's table of stacks names it.
-    pub needs: &'static str,
-    /// The function of the suite.
-    function: &'static str,
-    /// The suite's kinds of queries that call the function; none of opening.
-    kinds: &'static [&'static str],
-    /// The image of the suite that asks it.
-    image: &'static str,
-}
-
-const fn question(
-    name: &'static str,
-    needs: &'static str,
-    function: &'static str,
-    kinds: &'static [&'static str],
-    image: &'static str,
-) -> Question {
-    Question { name, needs, function, kinds, image }
-}
-
-/// The questions of the tables.
-pub const QUESTIONS: [Question; 35] = {
-    const TREE: &str = "suite_tree";
-    const APART: &str = "suite_apart";
-    const HULL: &str = "suite_hull";
-    [
-        question("open a box tree", "tree", "tree::open", &[], TREE),
-        question(
-            CLOSEST,
-            "closest",
-            "tree::distance::closest",
-            &["closest_far", "closest_near"],
-            TREE,
-        ),
-        question(
-            "closest point from a hint",
-            "closest",
-            "tree::distance::follow",
-            &["closest_path"],
-            TREE,
-        ),
-        question(
-            "closest point in f64",
-            "closest",
-            "tree::distance::precise",
-            &["closest_precise"],
-            TREE,
-        ),
-        question(
-            "coherent query",
-            "closest",
-            "tree::distance::coherent",
-            &["coherent_query"],
-            TREE,
-        ),
-        question("closest points", "closest", "tree::distance::batch", &["batch_of_8"], TREE),
-        question("within", "closest", "tree::distance::is_within", &["within"], TREE),
-        question("nearest triangles", "closest", "tree::distance::nearest", &["nearest"], TREE),
-        question("all within", "closest", "tree::distance::all_within", &["all_within"], TREE),
-        question("signed distance", "closest", "tree::distance::signed", &["signed"], TREE),
-        question("winding number", "winding", "apart::winding", &["winding"], APART),
-        question("front facing", "cull", "tree::sight::cull", &["cull"], TREE),
-        question("first hit", "segment", "tree::sight::first_hit", &["first_hit"], TREE),
-        question("any hit", "segment", "tree::sight::any_hit", &["any_hit"], TREE),
-        question("all hits", "segment", "tree::sight::all_hits", &["all_hits"], TREE),
-        question("overlap", "segment", "tree::meeting::overlap", &["overlap"], TREE),
-        question("distance of two models", "segment", "apart::distance", &["pair_distance"], APART),
-        question("coherent pair", "segment", "apart::coherent", &["coherent_pair"], APART),
-        question("scene", "segment", "apart::scene", &["scene"], APART),
-        question("distance of a solid", "segment", "apart::solid", &["solid"], APART),
-        question("first contact", "segment", "apart::contact", &["first_contact"], APART),
-        question("penetration", "winding", "apart::penetration", &["penetration"], APART),
-        question("open tight hulls", "tight", "tight::open", &[], "suite_tight"),
-        question(
-            "closest point of tight hulls",
-            "tight",
-            "tight::closest",
-            &["closest_far", "closest_near"],
-            "suite_tight",
-        ),
-        question("within of tight hulls", "tight", "tight::is_within", &["within"], "suite_tight"),
-        question("open a hull hierarchy", "hull", "hull::open", &[], HULL),
-        question(
-            "closest point of a hull",
-            "hull",
-            "hull::closest",
-            &["closest_far", "closest_near", "closest_path"],
-            HULL,
-        ),
-        question("first hit of a hull", "hull", "hull::first_hit", &["first_hit"], HULL),
-        question("outer hits", "hull", "hull::outer_hits", &["outer_hits"], HULL),
-        question("refine", "hull", "hull::refine", &["refine"], HULL),
-        question("sweep", "hull", "hull_moving::sweep", &["sweep"], "suite_moving"),
-        question("open triboxes", "triboxes", "triboxes::open", &[], "suite_triboxes"),
-        question(
-            "triboxes apart",
-            "triboxes",
-            "triboxes::reject",
-            &["triboxes_apart"],
-            "suite_triboxes",
-        ),
-        question("open curves", "curve", "curve::open", &[], "suite_curve"),
-        question(
-            "closest point of curves",
-            "curve",
-            "curve::closest",
-            &["closest_far", "closest_near"],
-            "suite_curve",
-        ),
-    ]
-};
 
 /// Functions of `meshsweep.h`, and what a blob has to have for them.
 pub const C_FUNCTIONS: [(&str, &str); 20] = [
@@ -161,7 +39,7 @@ pub const C_FUNCTIONS: [(&str, &str); 20] = [
     ("msw_first_hit", "segment"),
     ("msw_overlap", "segment"),
     ("msw_models_within", "segment"),
-    ("msw_first_contact", "segment"),
+    ("msw_solid_first_contact", "segment"),
     ("msw_open_tight", "tight"),
     ("msw_tight_within", "tight"),
     ("msw_tight_model", "tight"),
@@ -174,10 +52,20 @@ pub const C_FUNCTIONS: [(&str, &str); 20] = [
 /// A function of the header that is not in the list takes less. `part.h` says so.
 const MOST_UNLISTED: u32 = 64;
 
-impl Question {
-    fn path(&self) -> String {
-        format!("meshsweep_suite::ask::{}", self.function)
-    }
+/// The function's whole path.
+fn path(question: &Question) -> String {
+    format!("meshsweep_suite::ask::{}", question.function)
+}
+
+/// The image of the suite that asks it: that of the structure.
+fn image(question: &Question) -> String {
+    let structure = question.function.split("::").next().unwrap_or_default();
+    format!("suite_{}", structure.trim_start_matches("hull_"))
+}
+
+/// Whether a query of a kind, by its name, calls the function.
+fn is_asked_by(question: &Question, kind: &str) -> bool {
+    question.kinds.iter().any(|of| of.name() == kind)
 }
 
 /// What a question takes with one optimisation on one board.
@@ -260,7 +148,7 @@ impl Stacks {
         }
         let mut refused = Vec::new();
         for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize].questions) {
-            match graph.bound(&question.path()) {
+            match graph.bound(&path(question)) {
                 Ok(bound) => stack.bound = stack.bound.max(Some(bound.bytes)),
                 Err(reason) => refused.push(format!("{}: {reason}", question.name)),
             }
@@ -280,7 +168,7 @@ impl Stacks {
     ) -> Result<(), String> {
         let graph = CallGraph::of(&images::image(cross, board.target, profile, DEBUG_IMAGE))?;
         for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize].questions) {
-            let bound = graph.bound(&question.path()).ok();
+            let bound = graph.bound(&path(question)).ok();
             stack.bound = bound.as_ref().map(|bound| bound.bytes);
             if profile == Profile::Overridden && question.name == CLOSEST {
                 match bound {
@@ -312,12 +200,11 @@ impl Stacks {
     ) -> Result<(), String> {
         let graph = CallGraph::of(image)?;
         for (question, stack) in QUESTIONS.iter().zip(&mut self.0[profile as usize].questions) {
-            if !image.ends_with(question.image) {
+            if !image.ends_with(self::image(question)) {
                 continue;
             }
-            let path = question.path();
-            let asked =
-                reading.costs.iter().filter(|cost| question.kinds.contains(&cost.kind.as_str()));
+            let path = path(question);
+            let asked = reading.costs.iter().filter(|cost| is_asked_by(question, &cost.kind));
             let Some(below) = asked
                 .map(|cost| cost.stack)
                 .max()
@@ -343,96 +230,4 @@ impl Stacks {
         }
         Ok(())
     }
-}
-
-/// The builder's table, from which `meshsweep build --emit` takes what it writes.
-fn file() -> PathBuf {
-    workspace::root().join("alloc-ext/src/emit/source/stack.csv")
-}
-
-/// What the builder is told of a bound: another compiler's may be a little more.
-fn with_room(bound: u32) -> u32 {
-    (bound + 64).next_multiple_of(64)
-}
-
-/// Columns of the builder's table: a board, and how it is optimised.
-fn columns(rows: &[Row]) -> impl Iterator<Item = (&Row, Profile)> {
-    rows.iter().flat_map(|row| [Profile::Small, Profile::Release].map(|profile| (row, profile)))
-}
-
-/// Where the bounds of a line of the builder's table are.
-#[derive(Clone, Copy)]
-enum Bounds {
-    OfQuestion(usize),
-    OfC(usize),
-}
-
-impl Bounds {
-    fn of(self, row: &Row, profile: Profile) -> Option<u32> {
-        match self {
-            Self::OfQuestion(index) => row.stacks.of(profile)[index].bound,
-            Self::OfC(index) => row.stacks.of_c(profile)[index],
-        }
-    }
-}
-
-/// Lines of the builder's table: a name, what a blob has to have, and the bounds.
-fn listed() -> impl Iterator<Item = (&'static str, &'static str, Bounds)> {
-    let questions = QUESTIONS.iter().enumerate();
-    let questions = questions.map(|(i, of)| (of.name, of.needs, Bounds::OfQuestion(i)));
-    let functions = C_FUNCTIONS.iter().enumerate();
-    questions.chain(functions.map(|(i, &(name, needs))| (name, needs, Bounds::OfC(i))))
-}
-
-/// Writes the builder's table.
-///
-/// # Errors
-/// A bound is not known, or the file cannot be written.
-pub fn write(rows: &[Row]) -> Result<(), String> {
-    let mut text = "question,needs".to_owned();
-    for (row, profile) in columns(rows) {
-        let level = if profile == Profile::Small { "s" } else { "3" };
-        text.push_str(&format!(",{} {level}", row.board.cpu));
-    }
-    for (name, needs, bounds) in listed() {
-        text.push_str(&format!("\n{name},{needs}"));
-        for (row, profile) in columns(rows) {
-            let Some(bound) = bounds.of(row, profile) else {
-                return Err(format!("stack.csv: {name} is not known of all boards"));
-            };
-            text.push_str(&format!(",{}", with_room(bound)));
-        }
-    }
-    text.push('\n');
-    fs::write(file(), text).map_err(|error| format!("{}: {error}", file().display()))
-}
-
-/// Compares the builder's table with the bounds that are known.
-///
-/// # Errors
-/// A number below a bound, or far above it.
-pub fn check(rows: &[Row]) -> Result<(), String> {
-    let text = fs::read_to_string(file());
-    let text = text.map_err(|error| format!("{}: {error}", file().display()))?;
-    let mut lines = text.lines().skip(1);
-    for (name, needs, bounds) in listed() {
-        let mut cells = lines.next().unwrap_or_default().split(',');
-        let named = [cells.next(), cells.next()];
-        if named != [Some(name), Some(needs)] {
-            return Err(format!("stack.csv: {named:?}, not {name}"));
-        }
-        for (row, profile) in columns(rows) {
-            let written = cells.next().and_then(|cell| cell.parse::<u32>().ok()).unwrap_or(0);
-            let Some(bound) = bounds.of(row, profile) else { continue };
-            let most = with_room(bound) + 64 + bound / 8;
-            if !(bound..=most).contains(&written) {
-                return Err(format!(
-                    "stack.csv: {name}, {}, {}: {written}, and the bound is {bound}",
-                    row.board.cpu,
-                    profile.name()
-                ));
-            }
-        }
-    }
-    Ok(())
 }

@@ -14,7 +14,9 @@ use crate::cost::Row;
 use crate::count::Counts;
 use crate::firmware;
 use crate::images::Profile;
+use crate::questions::{QUESTIONS, Question, SIZES};
 use crate::stack::{self, Stack};
+use crate::stack_csv;
 use crate::steps::Steps;
 use crate::workspace;
 
@@ -26,19 +28,6 @@ const DOCUMENTS: [&str; 5] = [
     "core/docs/measured.md",
     "host-tests/README.md",
 ];
-
-/// Questions that a table needs counted.
-pub const QUESTIONS: [&str; 6] = [
-    "tree bracket.stl far",
-    "tree bracket.stl near",
-    "tree bracket.stl first_hit",
-    "far",
-    "near",
-    "first_hit",
-];
-
-/// Questions whose code a table needs measured.
-pub const CODE: [&str; 2] = ["closest", "tree_alone"];
 
 /// Kinds of queries to box trees that a table has of each board.
 const OF_TREES: [&str; 5] = ["closest_far", "closest_near", "first_hit", "within", "signed"];
@@ -173,7 +162,7 @@ fn table(name: &str, facts: &Facts<'_>) -> Result<Option<Vec<Vec<Cell>>>, String
                 "signed",
                 "code of closest point, bytes",
             ]));
-            lines.extend(on_boards(facts.rows, 1, &OF_TREES, CODE[1])?);
+            lines.extend(on_boards(facts.rows, 1, &OF_TREES, firmware::CODE[1])?);
         }
         "firmware_hull" => {
             lines.push(columns(&[
@@ -184,7 +173,7 @@ fn table(name: &str, facts: &Facts<'_>) -> Result<Option<Vec<Vec<Cell>>>, String
                 "outer hits",
                 "code of closest point and opening, bytes",
             ]));
-            lines.extend(on_boards(facts.rows, 0, &OF_HULLS, CODE[0])?);
+            lines.extend(on_boards(facts.rows, 0, &OF_HULLS, firmware::CODE[0])?);
         }
         "stack" => lines = by_board(facts.rows, &SHIPPED, stacks),
         "stack_c" => lines = by_board(facts.rows, &SHIPPED, c_stacks),
@@ -235,11 +224,11 @@ fn by_board<'a>(
 
 /// The stack of each question.
 fn stacks(row: &Row, profile: Profile) -> Vec<(&'static str, Cell)> {
-    let cell = |(question, of): (&stack::Question, Stack)| {
+    let cell = |(question, of): (&Question, Stack)| {
         let is_debug = Profile::DEBUG.contains(&profile);
         (question.name, if is_debug { debug_cell(of) } else { stack_cell(of) })
     };
-    stack::QUESTIONS.iter().zip(row.stacks.of(profile)).map(cell).collect()
+    QUESTIONS.iter().zip(row.stacks.of(profile)).map(cell).collect()
 }
 
 /// The stack's bound of each function of the C interface.
@@ -258,7 +247,7 @@ fn codes(row: &Row, profile: Profile) -> Vec<(&'static str, Cell)> {
         let code = added.map(|added| (added.size.text + added.size.rodata) as f64);
         (name, code.map_or_else(|| near(UNKNOWN), |code| about(&[code])))
     };
-    firmware::QUESTIONS.iter().map(cell).collect()
+    SIZES.iter().map(cell).collect()
 }
 
 /// A line for each board: mean instructions of questions to one of its standard blobs, and the code
@@ -310,7 +299,7 @@ pub fn write(facts: &Facts<'_>) -> Result<(), String> {
         }
         fs::write(&path, out).map_err(|error| format!("{}: {error}", path.display()))?;
     }
-    stack::write(facts.rows)
+    stack_csv::write(facts.rows)
 }
 
 /// Compares all tables with the facts; a table whose facts are missing is passed over.
@@ -330,7 +319,7 @@ pub fn check(steps: &mut Steps, facts: &Facts<'_>) {
                 }
             }
         }
-        stale.extend(stack::check(facts.rows).err());
+        stale.extend(stack_csv::check(facts.rows).err());
         if stale.is_empty() {
             return Ok(());
         }

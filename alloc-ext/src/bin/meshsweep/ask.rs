@@ -50,7 +50,7 @@ impl<'a, const N: usize> Question<'a, N> {
     /// gets the number of a row, from 0, the row and its answer.
     ///
     /// # Errors
-    /// As [`ask_many`](Self::ask_many).
+    /// As [`ask_all`](Self::ask_all).
     pub fn ask<A: Send, F>(
         self,
         asker: impl Fn() -> F + Sync,
@@ -68,29 +68,28 @@ impl<'a, const N: usize> Question<'a, N> {
                 Ok(())
             }
         };
-        self.ask_many(AT_ONCE, one_by_one, write)
+        let ask = |rows: &[[f32; N]], threads| threads::ask(rows, threads, AT_ONCE, one_by_one);
+        self.ask_all(AT_ONCE, ask, write)
     }
 
-    /// Asks about `at_once` rows at once, writes the answers, and says on the standard error how
-    /// the queries ended. A worker is as [`threads::ask`] says.
+    /// Asks about all rows, writes the answers, and says on the standard error how the queries
+    /// ended. `ask` gets the rows and the number of threads, each of which takes `at_once` rows at
+    /// once. It returns the answers before the first refused row, and that row.
     ///
     /// # Errors
     /// A query is refused or broken, after the answers before it have been printed; or the answers
     /// cannot be written.
-    pub fn ask_many<A: Send, W>(
+    pub fn ask_all<A>(
         mut self,
         at_once: usize,
-        worker: impl Fn() -> W + Sync,
+        ask: impl FnOnce(&[[f32; N]], usize) -> (Vec<Answer<A>>, Option<Refused>),
         write: impl Fn(&mut dyn Write, usize, &[f32; N], &Answer<A>) -> io::Result<()>,
-    ) -> Result<(), Failure>
-    where
-        W: FnMut(&[[f32; N]], &mut Vec<Answer<A>>) -> Result<(), Refused>,
-    {
+    ) -> Result<(), Failure> {
         let (queries, search) = (&mut self.queries, self.search);
         let output = Output::file_or_stdout(search.output.as_deref())?;
-        let threads = threads::count(search.threads, queries.rows.len().div_ceil(at_once));
+        let threads = threads::count(search.threads.wanted, queries.rows.len().div_ceil(at_once));
         let started = Instant::now();
-        let (answers, refused) = threads::ask(&queries.rows, threads, at_once, worker);
+        let (answers, refused) = ask(&queries.rows, threads);
         let time = started.elapsed();
         let broken = queries.broken.take();
         let refused = refused.map(|(index, error)| match (error, self.limit) {
@@ -137,9 +136,9 @@ impl SearchArgs {
         Budget::EXACT.with_steps(self.steps.unwrap_or(u32::MAX))
     }
 
-    /// So many entries, unless `--queue` says otherwise.
+    /// So many entries, unless `--scratch` says otherwise.
     pub fn scratch(&self, entries: usize) -> Vec<ScratchEntry> {
-        vec![ScratchEntry::EMPTY; self.queue.map_or(entries, |entries| entries as usize)]
+        vec![ScratchEntry::EMPTY; self.scratch.map_or(entries, |entries| entries as usize)]
     }
 }
 

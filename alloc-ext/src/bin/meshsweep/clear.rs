@@ -38,7 +38,7 @@ pub fn run(args: &ClearArgs) -> Result<(), Failure> {
                 // Corners that were rounded: the tool is within this of them.
                 let radius = up_to_f32(f64::from(*radius) + off.max(off_there));
                 let (from, to) = (Solid::new(&from, radius)?, Solid::new(&to, radius)?);
-                let found = tree.first_contact(&from, &to, search.budget(), &mut scratch)?;
+                let found = tree.solid_first_contact(&from, &to, search.budget(), &mut scratch)?;
                 Ok(Answer { found, ended: found.ended, work: found.work })
             }
         },

@@ -70,7 +70,7 @@ impl Clearance<'_> {
             || {
                 let mut scratch = search.scratch(Bvh::DISTANCE_ENTRIES);
                 move |row| {
-                    let found = first.distance(&second, pose_of(row), budget, &mut scratch)?;
+                    let found = first.distance_to(&second, pose_of(row), budget, &mut scratch)?;
                     Ok(Answer { found, ended: found.ended, work: found.work })
                 }
             },

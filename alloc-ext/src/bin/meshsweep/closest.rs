@@ -7,14 +7,10 @@ use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::served::Engine;
 use crate::{blob_file, served};
-use meshsweep::bvh::FastBvh;
+use meshsweep::bvh::{BATCH, FastBvh, closest_points_until_refused};
 use meshsweep::distances::{Closest, Distances};
-use meshsweep_core::{Blob, BuildFor, ClosestPoint, Hint, Interval, QueryError};
+use meshsweep_core::{Blob, BuildFor, Interval, QueryError};
 use std::io::{self, Write};
-
-/// Points that the box tree sorts and answers at once: enough for neighbours to be near, and for
-/// all threads to have some.
-const BATCH: usize = 1 << 14;
 
 pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     let ClosestArgs { input: PointArgs { blob: file, points }, search, .. } = args;
@@ -52,26 +48,23 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
         };
         return question.ask(asker, write);
     }
-    // Two entries more for each point sort a batch.
-    let entries = tree.scratch_entries() + 2 * BATCH.min(question.queries.rows.len());
-    let worker = || {
-        let mut scratch = search.scratch(entries);
-        let mut found = Vec::new();
-        move |rows: &[[f32; 3]], answers: &mut Vec<_>| {
-            found.resize(rows.len(), ClosestPoint::EMPTY);
-            // Without a hint: so the work does not depend on the batch before.
-            let mut hint = Hint::NONE;
-            tree.closest_points(rows, &mut hint, &mut found, budget, &mut scratch).map_err(
-                |error| match error {
-                    QueryError::PointNotFinite { index } => (index as usize, QueryError::NotFinite),
-                    error => (0, error),
-                },
-            )?;
-            answers.extend(found.iter().map(|&found| answer(found.into())));
-            Ok(())
-        }
+    if search.scratch.is_some() {
+        let asker = || {
+            let mut scratch = search.scratch(tree.scratch_entries());
+            move |point| Ok(answer(tree.closest_point(point, budget, &mut scratch)?.into()))
+        };
+        return question.ask(asker, write);
+    }
+    search.threads.start();
+    let ask = |points: &[[f32; 3]], _| {
+        let (found, refused) = closest_points_until_refused(&tree, points, &budget);
+        let refused = refused.map(|(index, error)| match error {
+            QueryError::PointNotFinite { .. } => (index, QueryError::NotFinite),
+            error => (index, error),
+        });
+        (found.into_iter().map(|found| answer(found.into())).collect(), refused)
     };
-    question.ask_many(BATCH, worker, write)
+    question.ask_all(BATCH, ask, write)
 }
 
 /// The structure that the options choose; or else the box tree, the hull hierarchy, the finest

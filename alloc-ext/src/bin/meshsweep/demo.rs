@@ -7,6 +7,7 @@ use crate::side::name;
 use meshsweep::BuildError;
 use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::mesh;
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, Ended, Facing, Interval, ScratchEntry};
 use std::path::Path;
 
@@ -21,7 +22,7 @@ pub fn run() -> Result<(), Failure> {
     let raw = mesh::read_bytes(file, BRACKET.to_vec()).map_err(refuse)?;
     let triangles = raw.triangles.len();
     let (mesh, _) = mesh::repair(raw).map_err(refuse)?;
-    let (tables, _) = bvh::build(mesh.as_input(), &TreeOptions::default())
+    let (tables, _) = bvh::build(mesh.as_input(), &TreeOptions::default(), Watch::NONE)
         .map_err(|error| Failure::build(file, error))?;
     let bytes = tables.to_bytes();
     let tree = Bvh::open(&bytes).map_err(|error| Failure::open(file, error))?;

@@ -14,8 +14,6 @@ use std::process::ExitCode;
 /// queries before the refused one.
 #[derive(Debug)]
 pub enum Failure {
-    /// A file cannot be read.
-    Read { file: PathBuf, error: io::Error },
     /// A file of queries cannot be read.
     ReadQueries { file: PathBuf, error: io::Error, wanted: &'static str },
     /// A file cannot be written.
@@ -28,7 +26,7 @@ pub enum Failure {
     Build { file: PathBuf, error: BuildError },
     /// Two meshes are not proved to be as close to each other as asked for.
     Apart { first: PathBuf, second: PathBuf, most: f64, lower: f64, upper: f64 },
-    /// Not all that the blob claims of the mesh is proved; `open` says how much.
+    /// Not all that the blob claims of the mesh is proved. `open` counts the missing proofs.
     NotVerified { blob: PathBuf, mesh: PathBuf, open: String },
     /// No setting of the mesh meets the limits.
     Limits { file: PathBuf, what: String },
@@ -46,7 +44,7 @@ pub enum Failure {
     /// The blob serves none of the questions whose dearest query can be searched.
     NothingToSearch { file: PathBuf, served: String },
     /// The levels of the blob's hierarchy enclose nothing.
-    NoHulls { file: PathBuf },
+    NotEnclosing { file: PathBuf },
     /// All tight hulls of the blob have more faces.
     NoTightHull { file: PathBuf, faces: u32, least: u32 },
     /// The blob has no such key frame.
@@ -67,7 +65,7 @@ pub enum Failure {
     NoRotation { place: Place },
     /// A pose's matrix has an entry that is too large, or is no rotation where one is needed.
     Matrix { place: Place, fault: String },
-    /// An end of a segment is too far away; `limit` says how far it may be.
+    /// An end of a segment is too far away. `limit` is the greatest distance, in words.
     TooFar { place: Place, limit: String },
     /// The queries end early, so no file of answers is written.
     Unwritten { file: PathBuf, cause: Box<Failure> },
@@ -106,6 +104,12 @@ impl Failure {
             return Failure::Usage { what: error.to_string() };
         }
         Failure::Build { file: file.to_owned(), error }
+    }
+
+    /// A file, or the standard input, cannot be read.
+    pub fn read(file: &Path, error: &io::Error) -> Self {
+        let (kind, reason) = (error.kind(), error.to_string());
+        Self::build(file, BuildError::Unreadable { file: file.to_owned(), kind, reason })
     }
 
     pub fn open(file: &Path, error: OpenError) -> Self {
@@ -153,9 +157,6 @@ impl fmt::Display for Cause<'_> {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::Read { file, error } => {
-                write!(f, "{}: cannot be read: {}", file.display(), Cause(error))
-            }
             Failure::ReadQueries { file, error, wanted } => {
                 write!(f, "{}: cannot be read: {}", file.display(), Cause(error))?;
                 if error.kind() == io::ErrorKind::NotFound {
@@ -207,7 +208,7 @@ impl fmt::Display for Failure {
                 "{}: serves {served}; worst searches closest, within, signed, winding and segment",
                 file.display()
             ),
-            Failure::NoHulls { file } => write!(
+            Failure::NotEnclosing { file } => write!(
                 f,
                 "{}: was built --for sweep, and its levels are no hulls; build it --for hull from \
                  a closed mesh, or draw its levels with meshsweep refine",

@@ -55,7 +55,7 @@ pub fn run(args: &FieldArgs) -> Result<(), Failure> {
         let _ = writeln!(io::stderr(), "{file}: will be a file of {gibibytes:.1} GiB");
     }
     output.require_size(bytes)?;
-    let threads = threads::count(args.threads, ny * nz);
+    let threads = threads::count(args.threads.wanted, ny * nz);
     let bar = Bar::new(ny * nz, "sampling", "rows");
     let started = Instant::now();
     let mut refused = None;

@@ -22,7 +22,9 @@ pub fn run(args: &HausdorffArgs) -> Result<(), Failure> {
         let what = format!("{}: --heat writes PLY; name a file that ends in .ply", file.display());
         return Err(Failure::Usage { what });
     }
-    let load = |file| mesh_file::load(file, args.unit);
+    mesh_file::check_format(&[&args.first, &args.second], &args.read)?;
+    args.threads.start();
+    let load = |file| mesh_file::load(file, &args.read);
     let [first, second] = [load(&args.first)?, load(&args.second)?];
     mesh_file::refuse_units([(&args.first, first.unit), (&args.second, second.unit)])?;
     for (file, loaded) in [(&args.first, &first), (&args.second, &second)] {

@@ -3,6 +3,7 @@
 mod progressive;
 mod stored;
 mod tight;
+mod written;
 
 pub use stored::enclosing;
 
@@ -14,6 +15,8 @@ use meshsweep::load::is_named_as_mesh;
 use meshsweep::tight::Goal;
 
 pub fn run(args: &HullArgs) -> Result<(), Failure> {
+    mesh_file::check_format(&[&args.input], &args.read)?;
+    args.threads.start();
     let usage = |what: String| Err(Failure::Usage { what });
     refuse_other_extension(&args.output, "ply", "the hull is written as PLY")?;
     if let Some(slack) = args.slack {
@@ -55,11 +58,12 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
             )
         });
     }
+    let mesh = mesh_file::named(&args.input, &args.read)?;
     match args.progressive_option() {
-        _ if args.progressive => progressive::run(args),
+        _ if args.progressive => progressive::run(args, &mesh),
         Some(option) => {
             usage(format!("{option} is for the progressive hull; give --progressive too"))
         }
-        None => tight::run(args),
+        None => tight::run(args, &mesh),
     }
 }

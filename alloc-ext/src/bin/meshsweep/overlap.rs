@@ -91,7 +91,7 @@ fn ask_all<const N: usize>(
                 let (all, found) = ask::all(
                     &mut buffer,
                     TrianglePair::EMPTY,
-                    |buffer| models.overlaps(pose, buffer, search.budget(), &mut scratch),
+                    |buffer| models.all_overlaps(pose, buffer, search.budget(), &mut scratch),
                     |all| (all.stored, all.dropped),
                 )?;
                 Ok(Answer { found, ended: all.ended, work: all.work })

@@ -98,8 +98,7 @@ impl<const N: usize> Queries<N> {
 
     fn raw(&mut self, file: &Path) -> Result<(), Failure> {
         let file = file.to_owned();
-        let bytes =
-            std::fs::read(&file).map_err(|error| Failure::Read { file: file.clone(), error })?;
+        let bytes = std::fs::read(&file).map_err(|error| Failure::read(&file, &error))?;
         let (words, rest) = bytes.as_chunks::<4>();
         let numbers: Vec<f32> = words.iter().map(|&word| f32::from_le_bytes(word)).collect();
         let (rows, partial) = numbers.as_chunks::<N>();

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use meshsweep::distances::{Distances, has_sides};
 use meshsweep_core::{
-    Blob, Budget, BuildFor, Bvh, FrameHull, Hull, Overlap, Overlaps, Pose, QueryError,
+    AllOverlaps, Blob, Budget, BuildFor, Bvh, FrameHull, Hull, Overlap, Pose, QueryError,
     ScratchEntry, TightHull, TrianglePair,
 };
 use std::path::Path;
@@ -117,7 +117,7 @@ pub fn require_tree<'a>(
 /// The blob's hull hierarchy, if its levels are hulls.
 pub fn require_hulls<'a>(file: &Path, blob: &Blob<'a>) -> Result<Hull<'a>, Failure> {
     let hull = require_hull(file, blob)?;
-    if hull.encloses() { Ok(hull) } else { Err(Failure::NoHulls { file: file.to_owned() }) }
+    if hull.encloses() { Ok(hull) } else { Err(Failure::NotEnclosing { file: file.to_owned() }) }
 }
 
 /// The blob's hull hierarchy.
@@ -205,7 +205,7 @@ const COMFORTABLE_SCRATCH: usize = 4096;
 /// More scratch entries of a curve than it needs: with these, searches go best first.
 const BEST_FIRST: usize = 256;
 
-/// Scratch entries to ask a structure about points with, unless `--queue` says otherwise.
+/// Scratch entries to ask a structure about points with, unless `--scratch` says otherwise.
 pub fn entries(structure: &Distances<'_>) -> usize {
     structure.scratch_entries()
         + match structure {
@@ -260,16 +260,20 @@ impl Both<'_> {
         }
     }
 
-    pub fn overlaps(
+    pub fn all_overlaps(
         &self,
         pose: Pose,
         pairs: &mut [TrianglePair],
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<Overlaps, QueryError> {
+    ) -> Result<AllOverlaps, QueryError> {
         match self {
-            Both::Trees([first, second]) => first.overlaps(second, pose, pairs, budget, scratch),
-            Both::Hulls([first, second]) => first.overlaps(second, pose, pairs, budget, scratch),
+            Both::Trees([first, second]) => {
+                first.all_overlaps(second, pose, pairs, budget, scratch)
+            }
+            Both::Hulls([first, second]) => {
+                first.all_overlaps(second, pose, pairs, budget, scratch)
+            }
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::output::{Output, refuse_same_file};
 use meshsweep::emit::source::{SourceNames, c_header, c_source, rust_module};
 use meshsweep_core::Blob;
+use serde_json::Value;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -46,9 +47,9 @@ pub fn probe(args: &BuildArgs, inputs: &[&Path]) -> Result<(), Failure> {
 }
 
 /// Writes the blob, and its source texts.
-pub fn write(args: &BuildArgs, blob: &Blob<'_>) -> Result<(), Failure> {
+pub fn write(args: &BuildArgs, mesh: &Path, blob: &Blob<'_>) -> Result<(), Failure> {
     Output::file(&args.output)?.finish(|out| out.write_all(blob.bytes()))?;
-    let (mesh, name) = (file_name(&args.mesh), file_name(&args.output));
+    let (mesh, name) = (file_name(mesh), file_name(&args.output));
     let names = SourceNames { mesh: &mesh, blob: &name };
     for file in files(args) {
         let text = match file.extension().and_then(|extension| extension.to_str()) {
@@ -64,6 +65,11 @@ pub fn write(args: &BuildArgs, blob: &Blob<'_>) -> Result<(), Failure> {
 /// Names the source texts in a report.
 pub fn report(args: &BuildArgs, out: &mut dyn Write) -> io::Result<()> {
     files(args).iter().try_for_each(|file| writeln!(out, "{}", file.display()))
+}
+
+/// The same for JSON.
+pub fn names(args: &BuildArgs) -> Value {
+    files(args).iter().map(|file| file.display().to_string()).collect()
 }
 
 fn file_name(path: &Path) -> String {

@@ -7,24 +7,28 @@ mod table;
 
 use crate::args::TradeArgs;
 use crate::failure::Failure;
+use crate::mesh_file;
 use crate::output::{Output, refuse_other_extension, refuse_same_file};
 use measured::measured;
 
 pub fn run(args: &TradeArgs) -> Result<(), Failure> {
+    mesh_file::check_format(&[&args.mesh], &args.read)?;
+    let mesh = mesh_file::named(&args.mesh, &args.read)?;
+    args.threads.start();
     if let Some(page) = &args.report {
         refuse_other_extension(page, "html", "the report is a page")?;
         refuse_same_file(Some(page), &[&args.mesh])?;
         Output::probe(page)?;
     }
-    let (loaded, measured) = measured(&args.mesh, args.unit, &args.at, args.points as usize)?;
+    let (loaded, measured) = measured(&args.mesh, &args.read, &args.at, args.points as usize)?;
     if let Some(page) = &args.report {
-        report::write(page, &args.mesh, &loaded, &measured)?;
+        report::write(page, &mesh, &loaded, &measured)?;
     }
     Output::stdout().finish(|out| {
         if args.json {
             return table::write_json(out, &loaded, &measured);
         }
-        table::write(out, args, &loaded, &measured)?;
+        table::write(out, &mesh, &loaded, &measured)?;
         let page = args.report.as_ref();
         page.map_or(Ok(()), |page| writeln!(out, "\n{}: open it in a browser", page.display()))
     })

@@ -4,35 +4,40 @@
 use crate::args::TriboxArgs;
 use crate::failure::Failure;
 use crate::mesh_file;
-use crate::mesh_report::write_rounding;
+use crate::mesh_report::{fields, write_rounding};
 use crate::output::{Output, refuse_other_extension, refuse_same_file};
 use meshsweep::counted::Counted;
 use meshsweep::load::Loaded;
-use meshsweep::mesh::{Mesh, Unit, write_ply};
+use meshsweep::mesh::{Mesh, write_ply};
 use meshsweep::number::{About, AtLeast, AtMost, Percent};
 use meshsweep::tribox::{Hierarchy, Level, Measure, box_tree, level, proxies, surface, volume};
 use meshsweep_core::Bvh;
 use serde_json::{Value, json};
 use std::io::{self, Write};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 pub fn run(args: &TriboxArgs) -> Result<(), Failure> {
+    mesh_file::check_format(&[&args.mesh], &args.read)?;
+    let mesh = mesh_file::named(&args.mesh, &args.read)?;
+    args.threads.start();
     if let Some(output) = &args.output {
         refuse_other_extension(output, "ply", "triboxes are written as PLY")?;
         refuse_same_file(Some(output), &[&args.mesh])?;
         Output::probe(output)?;
     }
-    let loaded = mesh_file::load(&args.mesh, args.unit)?;
+    let loaded = mesh_file::load(&args.mesh, &args.read)?;
     let started = Instant::now();
-    let bytes = box_tree(&loaded.mesh).map_err(|error| Failure::build(&args.mesh, error))?;
-    let tree = Bvh::open(&bytes).map_err(|error| Failure::open(&args.mesh, error))?;
+    let bytes = box_tree(&loaded.mesh).map_err(|error| Failure::build(&mesh, error))?;
+    let tree = Bvh::open(&bytes).map_err(|error| Failure::open(&mesh, error))?;
     let hierarchy = Hierarchy::new(&loaded.mesh, &tree, &args.options())
-        .map_err(|error| Failure::build(&args.mesh, error))?;
+        .map_err(|error| Failure::build(&mesh, error))?;
     let split_time = started.elapsed();
     let started = Instant::now();
     let levels = levels(args, &loaded.mesh, &tree, &hierarchy);
     let report = Report {
         args,
+        mesh: &mesh,
         loaded: &loaded,
         solid: hierarchy.is_solid.then(|| volume(&loaded.mesh)),
         hierarchy: &hierarchy,
@@ -69,6 +74,7 @@ fn levels(args: &TriboxArgs, mesh: &Mesh, tree: &Bvh<'_>, hierarchy: &Hierarchy)
 
 struct Report<'a> {
     args: &'a TriboxArgs,
+    mesh: &'a Path,
     loaded: &'a Loaded,
     /// Volume of the mesh, if it bounds a solid.
     solid: Option<f64>,
@@ -105,14 +111,14 @@ impl Report<'_> {
     }
 
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let Report { args, loaded, .. } = self;
-        write!(out, "{}: {}, ", args.mesh.display(), Counted(self.faces_of_mesh(), "triangle"))?;
+        let Report { args, mesh, loaded, .. } = self;
+        write!(out, "{}: {}, ", mesh.display(), Counted(self.faces_of_mesh(), "triangle"))?;
         match self.solid {
             Some(volume) => writeln!(out, "closed, volume {}", About(volume))?,
             None => writeln!(out, "not closed: triboxes hold its surface, not an inside")?,
         }
         if loaded.report.is_clean() {
-            write_rounding(out, &args.mesh, &loaded.report)?;
+            write_rounding(out, mesh, &loaded.report)?;
         } else {
             writeln!(out, "  {}", loaded.report)?;
         }
@@ -167,15 +173,17 @@ impl Report<'_> {
                 "distance": { "lower": level.distance.lower, "upper": level.distance.upper },
             })
         };
-        json!({
-            "triangles": self.faces_of_mesh(),
-            "unit": self.loaded.unit.map(Unit::symbol),
-            "rounding": self.loaded.report.rounding,
-            "is_closed": self.hierarchy.is_solid,
-            "volume": self.solid,
-            "measure": self.measure(),
-            "levels": self.levels.iter().map(level).collect::<Vec<_>>(),
-            "is_exhausted": self.is_exhausted(),
-        })
+        let mut fields = fields(self.mesh, self.loaded);
+        let output = self.args.output.as_ref().map(|output| output.display().to_string());
+        let others = [
+            ("output", json!(output)),
+            ("is_closed", json!(self.hierarchy.is_solid)),
+            ("volume", json!(self.solid)),
+            ("measure", json!(self.measure())),
+            ("levels", self.levels.iter().map(level).collect()),
+            ("is_exhausted", json!(self.is_exhausted())),
+        ];
+        fields.extend(others.map(|(name, value)| (name.to_owned(), value)));
+        Value::Object(fields)
     }
 }

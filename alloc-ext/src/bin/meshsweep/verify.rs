@@ -10,7 +10,7 @@ use meshsweep::BuildError;
 use meshsweep::check::{Against, Finding, Outcome, verify, verify_file, verify_repair};
 use meshsweep::counted::Counted;
 use meshsweep::curve::read_csv;
-use meshsweep::load::{Loaded, is_named_as_mesh};
+use meshsweep::load::{Loaded, bytes_of, is_named_as_mesh};
 use meshsweep::mesh::{KeyFrame, RawMesh, RepairReport};
 use meshsweep::surface::VertexBits;
 use meshsweep_core::Blob;
@@ -19,8 +19,9 @@ use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 
 pub fn run(args: &VerifyArgs) -> Result<(), Failure> {
-    let bytes = std::fs::read(&args.blob)
-        .map_err(|error| Failure::Read { file: args.blob.clone(), error })?;
+    mesh_file::check_format(&[&args.mesh], &args.read)?;
+    args.threads.start();
+    let bytes = bytes_of(&args.blob).map_err(|error| Failure::build(&args.blob, error))?;
     let blob = Blob::open(&bytes).map_err(|error| Failure::open(&args.blob, error))?;
     let Proofs { findings, hint, report } = prove(args, &bytes, &blob)?;
     Output::stdout().finish(|out| match args.json {
@@ -71,17 +72,20 @@ fn unproved(findings: &[Finding]) -> Option<String> {
 }
 
 fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Failure> {
-    let is_csv = args.mesh.extension().is_some_and(|csv| csv.eq_ignore_ascii_case("csv"));
+    let mesh = mesh_file::named(&args.mesh, &args.read)?;
+    let is_csv = mesh.extension().is_some_and(|csv| csv.eq_ignore_ascii_case("csv"));
     if blob.curve().is_ok() {
-        let file = &args.mesh;
+        let file = &mesh;
         if is_named_as_mesh(file) {
             let (blob, file) = (args.blob.display(), file.display());
             let what =
                 format!("{blob} is of curves, and {file} is a mesh; name their points, .csv");
             return Err(Failure::Usage { what });
         }
-        let text =
-            std::fs::read(file).map_err(|error| Failure::Read { file: file.clone(), error })?;
+        let text = match mesh_file::stdin_bytes(&args.mesh)? {
+            Some(text) => text,
+            None => bytes_of(file).map_err(|error| Failure::build(file, error))?,
+        };
         let polylines = read_csv(&text, false).map_err(|error| {
             Failure::build(file, BuildError::Curve { file: file.clone(), error })
         })?;
@@ -97,17 +101,17 @@ fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Fai
         );
         return Err(Failure::Usage { what });
     }
-    let file = mesh_file::read(&args.mesh, args.unit)?;
+    let file = mesh_file::read(&args.mesh, &args.read)?;
     let raw = file.raw();
     if blob.deformable_hull().is_ok() {
-        let (loaded, keys) = mesh_file::load_deformable(&args.mesh, &args.frames, args.unit)?;
+        let (loaded, keys) = mesh_file::deformable(&file, &args.frames, args.read.unit)?;
         return Ok(of_mesh(args, bytes, blob, raw, &loaded, &keys));
     }
     if !args.frames.is_empty() {
         let what = "several meshes are key frames, and the blob has none; name one mesh".to_owned();
         return Err(Failure::Usage { what });
     }
-    let loaded = file.clone().repaired().map_err(|error| Failure::build(&args.mesh, error))?;
+    let loaded = file.repaired().map_err(|error| Failure::build(&args.mesh, error))?;
     let found = of_mesh(args, bytes, blob, raw, &loaded, &[]);
     // A hull on a grid may have moved the mesh before its repair, as --vertex-bits says.
     let bits = match blob.hull().map(|_| blob.header().vertex_format) {
@@ -118,7 +122,7 @@ fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Fai
     if found.findings.iter().all(|finding| finding.outcome == Outcome::Proved) {
         return Ok(found);
     }
-    let snapped = file.clone().on_grid(bits).map_err(|error| Failure::build(&args.mesh, error))?;
+    let snapped = file.on_grid(bits).map_err(|error| Failure::build(&args.mesh, error))?;
     Ok(of_mesh(args, bytes, blob, raw, &snapped, &[]))
 }
 

@@ -16,6 +16,7 @@ use std::io::{self, Write};
 type Row<'a> = (Subject<'a>, Worst);
 
 pub fn run(args: &WorstArgs) -> Result<(), Failure> {
+    args.threads.start();
     let blob = blob_file::open(&args.blob)?;
     let budget = Budget::EXACT
         .with_relative(args.rel)
@@ -57,7 +58,7 @@ impl WorstQuestion {
 }
 
 fn as_json((subject, worst): &Row<'_>) -> Value {
-    let Work { nodes, triangles, exact, splits, .. } = worst.found.work;
+    let Work { bounds, triangles, exact, opened, .. } = worst.found.work;
     json!({
         "question": subject.question.name(),
         "structure": subject.structure.name(),
@@ -66,8 +67,8 @@ fn as_json((subject, worst): &Row<'_>) -> Value {
         "mean_of_random_queries": worst.typical,
         "query": worst.query,
         "width": worst.found.width,
-        "opened": splits,
-        "bounds": nodes,
+        "opened": opened,
+        "bounds": bounds,
         "triangles": triangles,
         "exact": exact,
         "m4f_instructions": worst.found.instructions.map(|[m4f, _]| m4f),
@@ -79,7 +80,7 @@ fn as_json((subject, worst): &Row<'_>) -> Value {
 
 fn write(out: &mut dyn Write, rows: &[Row<'_>]) -> io::Result<()> {
     for (subject, row) in rows {
-        let Work { nodes, triangles, exact, splits, .. } = row.found.work;
+        let Work { bounds, triangles, exact, opened, .. } = row.found.work;
         let times = About(row.times());
         write!(out, "{} by the {}: ", subject.question.name(), subject.structure.name())?;
         match row.goal {
@@ -95,8 +96,8 @@ fn write(out: &mut dyn Write, rows: &[Row<'_>]) -> io::Result<()> {
         writeln!(
             out,
             "  opens {}, looks at {}, {} and {} in f64; {} of scratch suffice",
-            Counted(splits, "node"),
-            Counted(nodes, "bound"),
+            Counted(opened, "node"),
+            Counted(bounds, "bound"),
             Counted(triangles, "triangle"),
             exact,
             Counted(row.scratch_bytes, "byte"),

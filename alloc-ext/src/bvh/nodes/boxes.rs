@@ -14,7 +14,7 @@
 
 use super::extent::{Extent, Frame, PointSet};
 use glam::DVec3;
-use meshsweep_core::internal::bvh::format::layout::{MOST_EXPONENT, ROW_BITS};
+use meshsweep_core::internal::bvh::tree::format::layout::{MOST_EXPONENT, ROW_BITS};
 use meshsweep_core::internal::num::exp2;
 use std::ops::RangeInclusive;
 

@@ -190,7 +190,7 @@ mod tests {
     use super::super::rotation::stored_rotation;
     use super::*;
     use crate::random::SplitMix;
-    use meshsweep_core::internal::bvh::format::layout::lengthens_nothing;
+    use meshsweep_core::internal::bvh::tree::format::layout::lengthens_nothing;
 
     /// Four flat leaves side by side in a plane that is slanted against all axes.
     fn slanted_leaves(fraction: f64) -> Vec<Vec<DVec3>> {

@@ -4,7 +4,7 @@
 
 use super::boxes::IDENTITY;
 use glam::{DMat3, DQuat, DVec3, Vec3};
-use meshsweep_core::internal::bvh::format::layout::{ROW_BITS, lengthens_nothing};
+use meshsweep_core::internal::bvh::tree::format::layout::{ROW_BITS, lengthens_nothing};
 
 /// Greatest component of a stored quaternion, in magnitude.
 const QUATERNION_MAX: f64 = 127.0;

@@ -5,6 +5,7 @@ use crate::bvh::{self, TreeOptions};
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::{Input, Mesh};
+use crate::progress::Watch;
 use crate::surface::scale_exponent;
 use glam::Vec3;
 use meshsweep_core::SectionKind;
@@ -58,7 +59,9 @@ fn hull_tree(hull: &Mesh, moved: f64, options: &TreeOptions) -> Result<Vec<u8>, 
     let of = |is_f32: bool, moved: f64, rounding: f64| {
         let hull = Mesh { rounding, ..hull.clone() };
         let options = options.with_f32(is_f32);
-        Ok::<Sections, BuildError>(bvh::build(Input { moved, ..hull.as_input() }, &options)?.0)
+        Ok::<Sections, BuildError>(
+            bvh::build(Input { moved, ..hull.as_input() }, &options, Watch::NONE)?.0,
+        )
     };
     let is_f32 = options.is_f32 || of(false, 0.0, 0.0)?.header.surface_error > 0.0;
     Ok(of(is_f32, moved, hull.rounding)?.to_bytes())

@@ -10,7 +10,7 @@ mod board;
 mod link;
 
 use cortex_m_rt::entry;
-use meshsweep_core::{Budget, Bvh, Placed, Pose, QueryError, Scene, Scratch};
+use meshsweep_core::{Budget, Bvh, PlacedModel, Pose, QueryError, Scene, Scratch};
 use semihosting::{println, process};
 
 /// Distance to keep, mm.
@@ -52,13 +52,13 @@ fn run() -> Result<(), QueryError> {
     let (mut most_pairs, mut worst) = (0, 0);
     board::start();
     for number in 0..POSES {
-        let links = poses(number).map(|pose| Placed { tree, pose });
+        let links = poses(number).map(|pose| PlacedModel { tree, pose });
         let scene = Scene::new(&links);
         let distance = KEEP + MOST_PER_POSE;
         let ask = || scene.within(distance, not_a_joint, budget, &mut scratch);
         let (near, cost) = board::timed(ask);
         let near = near?;
-        most_pairs = most_pairs.max(near.work.splits);
+        most_pairs = most_pairs.max(near.work.opened);
         worst = worst.max(cost);
         if !near.is_clear() {
             println!("stopped before pose {number}");

@@ -58,8 +58,8 @@ fn run() -> Result<(), QueryError> {
             fresh_cost += took;
             questions += 1;
             same += u32::from(near.distance == fresh.distance && near.point == fresh.point);
-            work = [work[0] + near.work.nodes, work[1] + near.work.triangles];
-            fresh_work = [fresh_work[0] + fresh.work.nodes, fresh_work[1] + fresh.work.triangles];
+            work = [work[0] + near.work.bounds, work[1] + near.work.triangles];
+            fresh_work = [fresh_work[0] + fresh.work.bounds, fresh_work[1] + fresh.work.triangles];
         }
     }
     println!("questions: {questions}");

@@ -1,8 +1,8 @@
 //! Each linear move of a machine head is proved clear of clamps before it is made.
 //!
-//! The head is a cutter, which is a capsule, and a nose, which is a box. `first_contact` asks about
-//! the whole move, so a thin wall cannot be missed between two positions. Only a proof lets the
-//! head go: a move that is undecided is refused as one that collides.
+//! The head is a cutter, which is a capsule, and a nose, which is a box. `solid_first_contact` asks
+//! about the whole move, so a thin wall cannot be missed between two positions. Only a proof lets
+//! the head go: a move that is undecided is refused as one that collides.
 
 #![no_std]
 #![no_main]
@@ -47,7 +47,7 @@ fn clear_until<const N: usize>(
     let at = |place: [f32; 3]| corners.map(|c| [0, 1, 2].map(|axis| c[axis] + place[axis]));
     let (from, to) = (at(from), at(to));
     let (from, to) = (Solid::new(&from, radius + KEEP)?, Solid::new(&to, radius + KEEP)?);
-    Ok(clamps::TREE.first_contact(&from, &to, Budget::EXACT, scratch)?.t.lower)
+    Ok(clamps::TREE.solid_first_contact(&from, &to, Budget::EXACT, scratch)?.t.lower)
 }
 
 /// The same of the whole head.

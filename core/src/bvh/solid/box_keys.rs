@@ -6,11 +6,11 @@
 //! Derivation: `core/docs/rounding.md` §19.
 
 use super::placed::{FIRST_AXIS, PlacedSolid};
-use crate::bvh::descent::{NodeQuery, OpenedNode};
-use crate::bvh::format::Bvh;
-use crate::bvh::node::{CHILD_MASK, NO_CHILD};
-use crate::bvh::overlap::AxisIntervals;
-use crate::bvh::stored_lengths::{root_of_bound, square_limit};
+use crate::bvh::tree::axis_intervals::AxisIntervals;
+use crate::bvh::tree::descent::{NodeQuery, OpenedNode};
+use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::node::{CHILD_MASK, NO_CHILD};
+use crate::bvh::tree::stored_lengths::{root_of_bound, square_limit};
 use crate::geom::fan::WIDTH;
 use crate::num::tolerance::{EVERYTHING_SQ, SOLID_AXES, U32};
 use crate::num::{greater, lesser, up_to_f32};
@@ -23,7 +23,7 @@ pub(super) struct ByDistance<'a>(pub(super) &'a PlacedSolid);
 pub(super) struct ByTime<'a> {
     placed: &'a PlacedSolid,
     /// Boxes with a greater squared bound are never near.
-    reach_sq: f32,
+    kept_distance_sq: f32,
     /// Boxes that reach down to this coordinate along the first axis may be near at the start.
     start: f32,
     /// Time for a unit of length along the first axis, rounded down.
@@ -31,16 +31,16 @@ pub(super) struct ByTime<'a> {
 }
 
 impl<'a> ByTime<'a> {
-    /// Boxes within `reach` of the solid are wanted.
-    pub(super) fn new(placed: &'a PlacedSolid, reach: f64) -> ByTime<'a> {
+    /// Boxes within `kept_distance` of the solid are wanted.
+    pub(super) fn new(placed: &'a PlacedSolid, kept_distance: f64) -> ByTime<'a> {
         // Rounded to f32, the axis may be longer than 1.
         let slack = 1.0 + 8.0 * f64::from(U32);
-        let start = placed.start + reach * slack;
-        let far = greater(start.abs(), reach);
+        let start = placed.start + kept_distance * slack;
+        let far = greater(start.abs(), kept_distance);
         let speed = up_to_f32(placed.speed);
         ByTime {
             placed,
-            reach_sq: square_limit(reach),
+            kept_distance_sq: square_limit(kept_distance),
             start: up_to_f32(start + far * (8.0 * f64::from(U32))),
             per_length: if speed > 0.0 { 1.0 / speed * (1.0 - 8.0 * U32) } else { 0.0 },
         }
@@ -124,7 +124,7 @@ impl NodeQuery for ByTime<'_> {
         for (child, ((key, bound), low)) in (0u32..opened.count).zip(children) {
             let time = greater(0.0, (low - self.start) * self.per_length);
             let time = time.to_bits().max(opened.bound) & !CHILD_MASK | child;
-            *key = if bound <= self.reach_sq { time } else { NO_CHILD };
+            *key = if bound <= self.kept_distance_sq { time } else { NO_CHILD };
         }
         Some(())
     }

@@ -1,12 +1,12 @@
 //! Where a convex solid that moves first meets the surface.
 
 use super::box_keys::{ByTime, bound_of, key_limit};
-use super::leaf_search::{LeafTriangles, TriangleRef};
+use super::leaf_search::LeafTriangles;
 use super::placed::PlacedSolid;
-use super::solid_distance::number;
-use crate::bvh::descent::{Descent, LeafVisit, LeafVisitor, descend};
-use crate::bvh::format::Bvh;
-use crate::bvh::segment_leaf::Facing;
+use crate::bvh::segment::leaf::Facing;
+use crate::bvh::tree::descent::{Descent, LeafVisit, LeafVisitor, descend};
+use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::tolerance::{ADVANCE_KEPT, U64};
 use crate::num::{down_to_f32, greater, up_to_f32};
 use crate::query::{Budget, Ended, FirstHit, Hit, Interval, QueryError, ScratchEntry, Solid, Work};
@@ -50,7 +50,7 @@ impl Bvh<'_> {
     /// let spindle = [[-150.0, 0.0, 500.0], [-150.0, 0.0, 600.0]];
     /// let moved = [[150.0, 0.0, 500.0], [150.0, 0.0, 600.0]];
     /// let (from, to) = (Solid::new(&spindle, 4.0)?, Solid::new(&moved, 4.0)?);
-    /// assert!(part.first_contact(&from, &to, Budget::EXACT, &mut scratch)?.is_clear());
+    /// assert!(part.solid_first_contact(&from, &to, Budget::EXACT, &mut scratch)?.is_clear());
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     ///
@@ -61,7 +61,7 @@ impl Bvh<'_> {
     /// [`QueryError::Corners`] if `to` has not as many corners as `from`; else those of
     /// [`solid_distance`](Bvh::solid_distance).
     #[inline(never)]
-    pub fn first_contact(
+    pub fn solid_first_contact(
         &self,
         from: &Solid<'_>,
         to: &Solid<'_>,
@@ -77,11 +77,12 @@ impl Bvh<'_> {
             return self.first_hit(*start, *end, Facing::Both, budget, scratch);
         }
         let mut placed = PlacedSolid::NONE;
-        placed.place(self, from, Some(to))?;
-        let reach = (placed.radius + placed.lengths.error) + placed.rounding;
+        placed.set(self, from, Some(to))?;
+        let kept_distance = (placed.radius + placed.lengths.error) + placed.rounding;
         let mut work = Work::default();
-        let query = ByTime::new(&placed, reach);
-        let mut earliest = Earliest { placed: &placed, reach, until: 1.0, stop: None, measured: 0 };
+        let query = ByTime::new(&placed, kept_distance);
+        let mut earliest =
+            Earliest { placed: &placed, kept_distance, until: 1.0, stop: None, measured: 0 };
         let descent = descend(self, &query, budget.steps, scratch, &mut earliest, &mut work)?;
         work.exact = earliest.measured;
         let Earliest { until, stop, .. } = earliest;
@@ -99,7 +100,7 @@ impl Bvh<'_> {
         if met.is_none() && ended == Ended::Exact {
             ended = Ended::Resolution;
         }
-        let triangle = Some(number(self, stop.triangle)?);
+        let triangle = Some(stop.triangle.source(self).ok_or(QueryError::Unchecked)?);
         let hit =
             Hit { t: down_to_f32(until), point: placed.to_input(stop.advance.point), triangle };
         let upper = met.map_or(1.0, |t| up_to_f32(t).min(1.0));
@@ -110,7 +111,7 @@ impl Bvh<'_> {
 /// A triangle that may stop the solid.
 #[derive(Clone, Copy)]
 struct Stop {
-    triangle: TriangleRef,
+    triangle: TriangleAt,
     corners: [[f64; 3]; 3],
     advance: Advance,
 }
@@ -118,7 +119,7 @@ struct Stop {
 /// How far a solid goes on before one triangle may stop it.
 #[derive(Clone, Copy)]
 struct Advance {
-    /// Before this time the solid is certainly farther than the reach.
+    /// Before this time the solid is certainly farther than `kept_distance`.
     t: f64,
     /// On the triangle, next to the solid at that time.
     point: [f64; 3],
@@ -140,7 +141,7 @@ impl PlacedSolid {
     fn advance_to(
         &self,
         corners: &[[f64; 3]; 3],
-        reach: f64,
+        kept_distance: f64,
         until: f64,
         measured: &mut u32,
     ) -> Option<Advance> {
@@ -150,7 +151,7 @@ impl PlacedSolid {
             *measured = measured.saturating_add(1);
             let gap = self.gap_at(t, corners);
             [_, point] = gap.points;
-            let is_apart = gap.lower > reach;
+            let is_apart = gap.lower > kept_distance;
             if !is_apart {
                 break;
             }
@@ -158,7 +159,7 @@ impl PlacedSolid {
             if speed <= 0.0 {
                 return None;
             }
-            let next = t + (gap.lower - reach) / speed * ADVANCE_KEPT;
+            let next = t + (gap.lower - kept_distance) / speed * ADVANCE_KEPT;
             if next > until {
                 return None;
             }
@@ -205,7 +206,7 @@ const LATER: f64 = 8.0;
 /// The visitor that wants the first triangle to stop the solid.
 struct Earliest<'a> {
     placed: &'a PlacedSolid,
-    reach: f64,
+    kept_distance: f64,
     /// The solid is looked at up to this time.
     until: f64,
     stop: Option<Stop>,
@@ -220,9 +221,9 @@ impl LeafVisitor for Earliest<'_> {
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let mut triangles = LeafTriangles::new(self.placed, visit);
-        while let Some((triangle, corners)) = triangles.next(self.reach) {
-            let Self { placed, reach, until, measured, .. } = self;
-            if let Some(advance) = placed.advance_to(&corners, *reach, *until, measured) {
+        while let Some((triangle, corners)) = triangles.next(self.kept_distance) {
+            let Self { placed, kept_distance, until, measured, .. } = self;
+            if let Some(advance) = placed.advance_to(&corners, *kept_distance, *until, measured) {
                 // Of equal times the first one found counts.
                 if advance.t < self.until || self.stop.is_none() {
                     self.until = advance.t;

@@ -5,22 +5,15 @@
 
 use super::box_keys::{bounds_sq, key_limit};
 use super::placed::PlacedSolid;
-use crate::bvh::descent::{LeafVisit, LeafVisitor};
-use crate::bvh::format::{CORNERS, FanLeaf, slots};
-use crate::bvh::stored_lengths::square_limit;
+use crate::bvh::tree::descent::{LeafVisit, LeafVisitor};
+use crate::bvh::tree::format::{CORNERS, FanLeaf, slots};
+use crate::bvh::tree::stored_lengths::square_limit;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::geom::{ConvexGap, convex_gap, dot, norm_1};
 use crate::num::tolerance::{CONVEX_GAP, U64};
 use crate::num::{greater, lesser};
 use crate::query::DIRECTIONS;
-
-/// A triangle of a leaf.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct TriangleRef {
-    pub(super) node: u32,
-    pub(super) child: u32,
-    pub(super) lane: u32,
-}
 
 /// A leaf's triangles with their squared lower bounds.
 pub(super) struct LeafTriangles {
@@ -28,8 +21,8 @@ pub(super) struct LeafTriangles {
     bounds_sq: [f32; WIDTH],
     vertices: [[f32; CORNERS]; 3],
     turn: usize,
-    node: u32,
-    child: u32,
+    /// The leaf's first triangle.
+    first: TriangleAt,
 }
 
 impl LeafTriangles {
@@ -41,8 +34,7 @@ impl LeafTriangles {
             bounds_sq: [f32::INFINITY; WIDTH],
             vertices,
             turn,
-            node: visit.node,
-            child: visit.child,
+            first: visit.triangle(0),
         };
         let (mut low, mut high) = ([[0f32; WIDTH]; DIRECTIONS], [[0f32; WIDTH]; DIRECTIONS]);
         let directions = placed.directions.rows.iter().zip(placed.directions.grow);
@@ -67,7 +59,7 @@ impl LeafTriangles {
 
     /// Takes the triangle with the least bound out, if that is within the limit.
     #[inline(always)]
-    pub(super) fn next(&mut self, limit: f64) -> Option<(TriangleRef, [[f64; 3]; 3])> {
+    pub(super) fn next(&mut self, limit: f64) -> Option<(TriangleAt, [[f64; 3]; 3])> {
         let mut least = (square_limit(limit), WIDTH);
         for (lane, &bound) in self.bounds_sq.iter().enumerate() {
             if bound <= least.0 && bound < f32::INFINITY {
@@ -79,15 +71,24 @@ impl LeafTriangles {
         let [x, y, z] = &self.vertices;
         let corners = slots(lane, self.turn)
             .map(|slot| [x, y, z].map(|axis| axis.get(slot).copied().map_or(0.0, f64::from)));
-        Some((TriangleRef { node: self.node, child: self.child, lane: lane as u32 }, corners))
+        Some((self.first.with_lane(lane), corners))
     }
 }
 
 /// A measured triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TriangleGap {
-    pub(super) place: TriangleRef,
+    pub(super) place: TriangleAt,
     pub(super) gap: ConvexGap,
+}
+
+impl PlacedSolid {
+    /// Whether it is proved that the solid meets the input's triangle: it is so deep in the stored
+    /// one, or so much nearer than the radius.
+    pub(super) fn meets(&self, found: &TriangleGap) -> bool {
+        let error = self.lengths.error;
+        found.gap.depth > error || found.gap.upper + error < self.radius
+    }
 }
 
 /// A question's visitor for triangles.

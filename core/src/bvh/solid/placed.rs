@@ -1,14 +1,14 @@
 //! A solid in the units of a tree, from the tree's origin.
 
-use crate::bvh::format::Bvh;
-use crate::bvh::overlap::extended;
-use crate::bvh::stored_lengths::StoredLengths;
+use crate::bvh::tree::extended::extended;
+use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::stored_lengths::StoredLengths;
 use crate::geom::{ConvexGap, Point, convex_gap, cross, dot, minus, norm_1};
 use crate::num::tolerance::{
     MOVING_CORNER, OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, U32, U64,
 };
 use crate::num::{down_to_f32, exp2, greater, lesser, up_to_f32};
-use crate::query::{DIRECTIONS, Extended, ModelFrame, QueryError, Solid};
+use crate::query::{DIRECTIONS, Extended, Interval, ModelFrame, QueryError, Solid};
 
 type Place = Point<f64>;
 
@@ -19,8 +19,8 @@ pub(super) const FIRST_AXIS: usize = 3;
 pub(super) struct PlacedSolid {
     /// At the start.
     from: [Place; Solid::MOST_CORNERS],
-    /// The way of each corner.
-    ways: [Place; Solid::MOST_CORNERS],
+    /// The path of each corner.
+    paths: [Place; Solid::MOST_CORNERS],
     count: usize,
     pub(super) radius: f64,
     pub(super) lengths: StoredLengths,
@@ -45,7 +45,7 @@ impl PlacedSolid {
     /// No solid.
     pub(super) const NONE: PlacedSolid = PlacedSolid {
         from: [[0.0; 3]; Solid::MOST_CORNERS],
-        ways: [[0.0; 3]; Solid::MOST_CORNERS],
+        paths: [[0.0; 3]; Solid::MOST_CORNERS],
         count: 0,
         radius: 0.0,
         lengths: StoredLengths { error: 0.0, unit: 1.0 },
@@ -68,7 +68,7 @@ impl PlacedSolid {
     /// Places a solid at rest, or one that moves from `solid` to `end`. In place, for a copy takes
     /// two kilobytes of the stack.
     #[inline(never)]
-    pub(super) fn place(
+    pub(super) fn set(
         &mut self,
         tree: &Bvh<'_>,
         solid: &Solid<'_>,
@@ -97,11 +97,11 @@ impl PlacedSolid {
         self.radius = self.lengths.inward(radius);
         let mut farthest = 0f64;
         let ends = end.map_or(solid.corners(), Solid::corners);
-        let places = self.from.iter_mut().zip(&mut self.ways);
-        for ((from, way), (&at, &to)) in places.zip(solid.corners().iter().zip(ends)) {
+        let places = self.from.iter_mut().zip(&mut self.paths);
+        for ((from, path), (&at, &to)) in places.zip(solid.corners().iter().zip(ends)) {
             let to = inward(to);
             *from = inward(at);
-            *way = minus(to, *from);
+            *path = minus(to, *from);
             let far = from.iter().chain(&to).fold(0.0, |far, x| greater(far, x.abs()));
             farthest = greater(farthest, far);
         }
@@ -109,7 +109,7 @@ impl PlacedSolid {
             return Err(QueryError::OutOfDomain);
         }
         self.rounding = MOVING_CORNER * U64 * farthest;
-        let longest = self.ways().iter().copied().map(norm_1).fold(0.0, greater);
+        let longest = self.paths().iter().copied().map(norm_1).fold(0.0, greater);
         self.speed_rounding = longest * (8.0 * U64);
         self.set_directions(farthest);
         Ok(())
@@ -120,30 +120,30 @@ impl PlacedSolid {
         self.from.get(..self.count).unwrap_or(&[])
     }
 
-    fn ways(&self) -> &[Place] {
-        self.ways.get(..self.count).unwrap_or(&[])
+    fn paths(&self) -> &[Place] {
+        self.paths.get(..self.count).unwrap_or(&[])
     }
 
     /// The distance of the hull of the corners from a triangle, at a parameter of the motion.
     #[inline(never)]
     pub(super) fn gap_at(&self, t: f64, triangle: &[Place; 3]) -> ConvexGap {
         let mut at = self.from;
-        for (at, way) in at.iter_mut().zip(self.ways()) {
-            for (x, way) in at.iter_mut().zip(way) {
-                *x += way * t;
+        for (at, path) in at.iter_mut().zip(self.paths()) {
+            for (x, path) in at.iter_mut().zip(path) {
+                *x += path * t;
             }
         }
         convex_gap(at.get(..self.count).unwrap_or(&[]), triangle)
     }
 
-    /// The greatest component of a corner's way along a direction.
+    /// The greatest component of a corner's path along a direction.
     pub(super) fn speed_along(&self, direction: Place) -> f64 {
-        self.ways().iter().map(|&way| dot(direction, way)).fold(f64::NEG_INFINITY, greater)
+        self.paths().iter().map(|&path| dot(direction, path)).fold(f64::NEG_INFINITY, greater)
     }
 
     /// Whether no corner moves.
     pub(super) fn is_still(&self) -> bool {
-        self.ways().iter().all(|way| *way == [0.0; 3])
+        self.paths().iter().all(|path| *path == [0.0; 3])
     }
 
     /// Chooses the solid's axes and its extent along all directions. `far`: the greatest
@@ -161,8 +161,8 @@ impl PlacedSolid {
             let grow = most * (OVERLAP_INTERVAL * f64::from(U32)) + OVERLAP_UNDERFLOW;
             let (mut low, mut high, mut start) =
                 (f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
-            for (from, way) in self.corners().iter().zip(self.ways()) {
-                let (from, moved) = (dot(row, *from), dot(row, *way));
+            for (from, path) in self.corners().iter().zip(self.paths()) {
+                let (from, moved) = (dot(row, *from), dot(row, *path));
                 low = lesser(low, lesser(from, from + moved));
                 high = greater(high, greater(from, from + moved));
                 start = greater(start, from);
@@ -189,10 +189,10 @@ impl PlacedSolid {
     fn axes(&self) -> [[f32; 3]; 3] {
         let first = self.corners().first().copied().unwrap_or_default();
         let edges = || self.corners().iter().map(|&corner| minus(corner, first));
-        let ways = || self.ways().iter().copied();
-        let leading = if self.is_still() { longest(edges()) } else { longest(ways()) };
+        let paths = || self.paths().iter().copied();
+        let leading = if self.is_still() { longest(edges()) } else { longest(paths()) };
         let u = unit(leading).unwrap_or([1.0, 0.0, 0.0]);
-        let across = longest(edges().chain(ways()).map(|edge| without(edge, u)));
+        let across = longest(edges().chain(paths()).map(|edge| without(edge, u)));
         // An axis of the grid that is not along the first one.
         let [x, y, _] = u.map(f64::abs);
         let spare = if x < 0.6 {
@@ -213,6 +213,14 @@ impl PlacedSolid {
     pub(super) fn to_input(&self, [x, y, z]: Place) -> [f32; 3] {
         let [a, b, c] = self.tree.origin;
         [x + a, y + b, z + c].map(|x| ((x * self.lengths.unit) as f32).clamp(-f32::MAX, f32::MAX))
+    }
+
+    /// The distance of the input, from bounds for the hull of the corners.
+    pub(super) fn distance(&self, lower: f64, upper: f64) -> Interval {
+        let lower = self.lengths.lower(lower - self.radius);
+        let rest = upper - self.radius;
+        let upper = if rest > -self.lengths.error { self.lengths.upper(rest) } else { 0.0 };
+        Interval::new(lower, upper)
     }
 }
 

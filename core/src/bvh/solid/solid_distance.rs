@@ -1,10 +1,10 @@
 //! The distance of a convex solid and the surface.
 
 use super::box_keys::{ByDistance, distance_of};
-use super::leaf_search::{GapVisitor, LeafSearch, TriangleGap, TriangleRef};
+use super::leaf_search::{GapVisitor, LeafSearch, TriangleGap};
 use super::placed::PlacedSolid;
-use crate::bvh::descent::{Descent, descend};
-use crate::bvh::format::Bvh;
+use crate::bvh::tree::descent::{Descent, descend};
+use crate::bvh::tree::format::Bvh;
 use crate::num::tolerance::U32;
 use crate::num::{greater, lesser};
 use crate::query::{Budget, Ended, Interval, QueryError, ScratchEntry, Solid, SolidDistance, Work};
@@ -57,7 +57,7 @@ impl Bvh<'_> {
     ) -> Result<SolidDistance, QueryError> {
         budget.check_with(scratch)?;
         let mut placed = PlacedSolid::NONE;
-        placed.place(self, solid, None)?;
+        placed.set(self, solid, None)?;
         let mut work = Work::default();
         let nearest = Nearest {
             placed: &placed,
@@ -95,7 +95,7 @@ impl Bvh<'_> {
         Ok(SolidDistance {
             distance,
             points: best.gap.points.map(|point| placed.to_input(point)),
-            triangle: number(self, best.place)?,
+            triangle: best.place.source(self).ok_or(QueryError::Unchecked)?,
             work,
             ended,
         })
@@ -114,32 +114,6 @@ fn some_triangle(
     let mut work = Work::default();
     descend(tree, &ByDistance(placed), u32::MAX, scratch, &mut search, &mut work)?;
     search.visitor.0.ok_or(QueryError::Unchecked)
-}
-
-/// The number of a triangle in the input file.
-pub(super) fn number(tree: &Bvh<'_>, place: TriangleRef) -> Result<u32, QueryError> {
-    let find = || {
-        let first = tree.links(place.node)?.triangle(place.child);
-        tree.source(first.wrapping_add(place.lane))
-    };
-    find().ok_or(QueryError::Unchecked)
-}
-
-impl PlacedSolid {
-    /// The distance of the input, from bounds for the hull of the corners.
-    pub(super) fn distance(&self, lower: f64, upper: f64) -> Interval {
-        let lower = self.lengths.lower(lower - self.radius);
-        let rest = upper - self.radius;
-        let upper = if rest > -self.lengths.error { self.lengths.upper(rest) } else { 0.0 };
-        Interval::new(lower, upper)
-    }
-
-    /// Whether it is proved that the solid meets the input's triangle: it is so deep in the stored
-    /// one, or so much nearer than the radius.
-    pub(super) fn meets(&self, found: &TriangleGap) -> bool {
-        let error = self.lengths.error;
-        found.gap.depth > error || found.gap.upper + error < self.radius
-    }
 }
 
 /// The visitor that wants the nearest triangle.

@@ -1,11 +1,11 @@
 //! Whether a convex solid and the surface are within a distance of each other.
 
 use super::box_keys::ByDistance;
-use super::leaf_search::{GapVisitor, LeafSearch, TriangleGap, TriangleRef};
+use super::leaf_search::{GapVisitor, LeafSearch, TriangleGap};
 use super::placed::PlacedSolid;
-use super::solid_distance::number;
-use crate::bvh::descent::{Descent, descend};
-use crate::bvh::format::Bvh;
+use crate::bvh::tree::descent::{Descent, descend};
+use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::tolerance::U64;
 use crate::query::{
     Budget, QueryError, ScratchEntry, Solid, SolidWithin, Undecided, Verdict, Work,
@@ -55,13 +55,13 @@ impl Bvh<'_> {
         budget.with_absolute(distance).check()?;
         budget.check_with(scratch)?;
         let mut placed = PlacedSolid::NONE;
-        placed.place(self, solid, None)?;
+        placed.set(self, solid, None)?;
         let lengths = &placed.lengths;
-        let reach = lengths.inward(distance) + placed.radius + lengths.error;
+        let kept_distance = lengths.inward(distance) + placed.radius + lengths.error;
         let threshold = Threshold {
             placed: &placed,
             distance,
-            limit: reach * (1.0 + 8.0 * U64),
+            limit: kept_distance * (1.0 + 8.0 * U64),
             near: None,
             undecided: None,
         };
@@ -79,7 +79,8 @@ impl Bvh<'_> {
             (None, _, Some(place)) => (Verdict::Undecided(Undecided::Resolution), Some(place)),
             (None, _, None) => (Verdict::No, None),
         };
-        let triangle = place.map(|place| number(self, place)).transpose()?;
+        let triangle =
+            place.map(|place| place.source(self).ok_or(QueryError::Unchecked)).transpose()?;
         Ok(SolidWithin { verdict, triangle, work })
     }
 }
@@ -91,9 +92,9 @@ struct Threshold<'a> {
     /// Of the hull of the corners, stored units.
     limit: f64,
     /// A triangle that is certainly within.
-    near: Option<TriangleRef>,
+    near: Option<TriangleAt>,
     /// A triangle that may be within.
-    undecided: Option<TriangleRef>,
+    undecided: Option<TriangleAt>,
 }
 
 impl GapVisitor for Threshold<'_> {

@@ -22,12 +22,13 @@ mod flux;
 mod moment_flux;
 mod search;
 
-use super::hint::Hint;
-use super::point_query::PointQuery;
-use super::signed_distance::SignedDistance;
-use crate::bvh::format::Bvh;
+use crate::bvh::point::hint::Hint;
+use crate::bvh::point::query::{Asked, FarPoint, PreparedPoint};
+use crate::bvh::tree::format::Bvh;
 
-use crate::query::{Budget, Ended, Interval, QueryError, ScratchEntry, Side, Undecided, Work};
+use crate::query::{
+    Budget, Ended, Interval, QueryError, ScratchEntry, Side, SignedDistance, Undecided, Work,
+};
 use search::{Search, side_of};
 
 /// The winding number about a point.
@@ -98,10 +99,12 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<WindingNumber, QueryError> {
         budget.check_with(scratch)?;
-        let query = PointQuery::new(self, point)?;
+        let prepared = PreparedPoint::new(self, point)?;
         if !self.serves_winding() {
             return Err(QueryError::NO_MOMENTS);
         }
+        let asked = prepared.asked();
+        let (Asked::Near(query) | Asked::Far(FarPoint { query })) = asked;
         let mut search = Search {
             tree: *self,
             p: query.p,
@@ -112,8 +115,10 @@ impl Bvh<'_> {
             steps: budget.steps,
             work: Work::default(),
         };
-        let (number, ended) =
-            if query.far { search.number_from_afar() } else { search.number_in_passes(scratch)? };
+        let (number, ended) = match asked {
+            Asked::Near(_) => search.number_in_passes(scratch)?,
+            Asked::Far(_) => search.number_from_afar(),
+        };
         let (side, ended) = match (side_of(search.of_solid(number)), ended) {
             (Some(side), _) => (side, ended),
             (None, Ended::Exact | Ended::Tolerance) => {
@@ -142,7 +147,7 @@ impl Bvh<'_> {
     /// Those of [`closest_point`](Bvh::closest_point) and of
     /// [`winding_number`](Bvh::winding_number).
     #[inline(never)]
-    pub fn signed_by_winding(
+    pub fn signed_distance_by_winding(
         &self,
         point: [f32; 3],
         budget: Budget,
@@ -156,7 +161,7 @@ impl Bvh<'_> {
         // In one order: the steps that are left decide how far the winding number is known.
         let mut hint = Hint::NONE;
         let mut closest = self.closest_point_in_order(point, &mut hint, budget, scratch)?;
-        let left = budget.steps.saturating_sub(closest.work.splits);
+        let left = budget.steps.saturating_sub(closest.work.opened);
         let winding = self.winding_number(point, budget.with_steps(left), scratch)?;
         closest.work = closest.work.and(winding.work);
         if closest.ended == Ended::Exact {

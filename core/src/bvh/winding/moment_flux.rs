@@ -1,6 +1,6 @@
 //! The flux of a node: its triangles' solid angles together, from their moments.
 
-use crate::bvh::format::NodeMoments;
+use crate::bvh::tree::format::NodeMoments;
 use crate::num::sqrt_approx;
 use crate::num::tolerance::{MOMENT_FLUX, SOLID_ANGLE_NEAREST, U32};
 use glam::Vec3;
@@ -12,7 +12,7 @@ const SMALL_MOVE: f32 = 1.0 / 256.0;
 pub(super) struct SeenNode {
     moments: NodeMoments,
     /// From the query point to the node's centre.
-    way: Vec3,
+    to_centre: Vec3,
     /// Length of the way.
     distance: f32,
     /// Lower bound of the distance of the triangles, at their places in the input and as stored. 0
@@ -23,14 +23,14 @@ pub(super) struct SeenNode {
 impl SeenNode {
     /// `error`: how far vertices were moved, grid units.
     pub(super) fn new(moments: NodeMoments, p: Vec3, error: f32) -> SeenNode {
-        let way = moments.centre - p;
-        let distance = sqrt_approx(way.dot(way));
+        let to_centre = moments.centre - p;
+        let distance = sqrt_approx(to_centre.dot(to_centre));
         let gap = if distance >= SOLID_ANGLE_NEAREST {
             distance * (1.0 - 8.0 * U32) - moments.radius - error
         } else {
             0.0
         };
-        SeenNode { moments, way, distance, gap }
+        SeenNode { moments, to_centre, distance, gap }
     }
 
     /// Whether all triangles are certainly away from the point.
@@ -67,7 +67,7 @@ impl SeenNode {
         let NodeMoments { area, first: [xx, xy, xz, yy, yz], spread, area_error, .. } =
             self.moments;
         let near = 1.0 / self.distance;
-        let Vec3 { x, y, z } = self.way * near;
+        let Vec3 { x, y, z } = self.to_centre * near;
         let zero_order = [area.x * x, area.y * y, area.z * z];
         let zz = xx + yy;
         let first_order = [

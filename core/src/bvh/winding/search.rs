@@ -2,7 +2,7 @@
 
 use super::flux::Flux;
 use super::moment_flux::SeenNode;
-use crate::bvh::format::{Bvh, Links};
+use crate::bvh::tree::format::{Bvh, Links};
 use crate::geom::{SeenCorner, SolidAngles};
 use crate::num::{greater, lesser};
 use crate::query::{Ended, Interval, QueryError, ScratchEntry, Side, Work};
@@ -75,8 +75,8 @@ impl Search<'_> {
         let header = self.tree.header();
         let bound = if self.error <= FAR_ERROR {
             // The input's triangles may be larger than the stored ones.
-            let reach = header.star_radius + 4.0 * self.error;
-            let bound = header.triangles as f32 * (reach * reach) * FAR_NUMBER;
+            let largest_star = header.star_radius + 4.0 * self.error;
+            let bound = header.triangles as f32 * (largest_star * largest_star) * FAR_NUMBER;
             lesser(bound + f32::MIN_POSITIVE, self.most)
         } else {
             self.most
@@ -146,7 +146,7 @@ impl Search<'_> {
             left = left.checked_sub(1).ok_or(QueryError::Unchecked)?;
             let moments = self.tree.moments(node).ok_or(QueryError::Unchecked)?;
             let seen = SeenNode::new(moments, self.p, self.error);
-            self.work.nodes = self.work.nodes.saturating_add(1);
+            self.work.bounds = self.work.bounds.saturating_add(1);
             // Moves that are not in the sum's error yet.
             let mut uncounted = if moves_counted { 0.0 } else { self.error };
             let is_small = seen.is_small(ratio);
@@ -157,7 +157,7 @@ impl Search<'_> {
                 pass.take_moments(&seen, uncounted);
             } else {
                 self.steps -= 1;
-                self.work.splits = self.work.splits.saturating_add(1);
+                self.work.opened = self.work.opened.saturating_add(1);
                 if uncounted > 0.0 && seen.bounds_moves(uncounted) {
                     // This bound covers all below the node, so the children add none.
                     pass.flux.add(0.0, seen.moved(uncounted));

@@ -5,6 +5,7 @@ use super::layout::{
     POLYLINE_CLOSED,
 };
 use super::view::{Curve, CurvesHeader, Run};
+use crate::format::Contradiction;
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError, SectionTable};
 use crate::geom::Aabb;
@@ -28,17 +29,17 @@ impl<'a> Curve<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<Curve<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(|kind| kind == SectionKind::Curves)?;
-        let curve = Curve::place(&table)?;
+        let curve = Curve::locate(&table)?;
         curve.check()?;
         Ok(curve)
     }
 
     /// The curves of bytes that were checked before.
     pub(crate) fn view(bytes: &'a [u8]) -> Result<Curve<'a>, OpenError> {
-        Curve::place(&SectionTable::view(bytes)?)
+        Curve::locate(&SectionTable::view(bytes)?)
     }
 
-    fn place(table: &SectionTable<'a>) -> Result<Curve<'a>, OpenError> {
+    fn locate(table: &SectionTable<'a>) -> Result<Curve<'a>, OpenError> {
         let blob = &table.header;
         let malformed = table.malformed(SectionKind::Curves);
         let data = table.bytes(SectionKind::Curves);
@@ -47,19 +48,19 @@ impl<'a> Curve<'a> {
         if header.flags & !(CURVES_PLANAR | CURVES_F32) != 0 {
             return Err(OpenError::Reserved);
         }
-        let wrong = |what: &'static str| Err(OpenError::Counts { what });
+        let wrong = |what: Contradiction| Err(OpenError::Counts { what });
         let CurvesHeader { points, polylines, .. } = header;
         if points >= MAX_POINTS || polylines == 0 || polylines > points / 2 {
-            return wrong("points and polylines of a curve");
+            return wrong(Contradiction::CurvePoints);
         }
         if header.depth as usize > MAX_CURVE_DEPTH {
-            return wrong("nodes of a curve too deep");
+            return wrong(Contradiction::CurveNodes);
         }
         let least = |origin: i32| (-MAX_GRID..=MAX_GRID - 0xFFFF).contains(&origin);
         let fits =
             (-60..=0).contains(&header.grid_exponent) && header.grid_origin.into_iter().all(least);
         if !(header.is_f32() || fits) {
-            return wrong("grid of a curve out of range");
+            return wrong(Contradiction::CurveGrid);
         }
         // The queries rely on the scale and on lengths of the local frame.
         let length = |x: f32| x.abs() <= 16.0;
@@ -68,7 +69,7 @@ impl<'a> Curve<'a> {
             && length(blob.surface_error)
             && blob.surface_box.iter().flatten().all(|&x| length(x));
         if !sound {
-            return wrong("scale, error or box of a curve out of range");
+            return wrong(Contradiction::CurveRange);
         }
         let slices = || {
             let (table, rest) =
@@ -166,7 +167,7 @@ impl<'a> Curve<'a> {
         if deepest == self.header.depth as usize {
             Ok(())
         } else {
-            Err(OpenError::Counts { what: "depth of the nodes of a curve" })
+            Err(OpenError::Counts { what: Contradiction::CurveDepth })
         }
     }
 }

@@ -6,8 +6,11 @@
 //! have the first centre, triangles from `turn` on have the second.
 
 mod cone;
+mod integer;
+mod integer_limit;
+mod integer_sharp;
 mod lanes;
-#[cfg(target_arch = "x86_64")]
+#[cfg(meshsweep_avx2)]
 pub(crate) mod lanes_avx2;
 #[cfg(meshsweep_wide)]
 mod lanes_wide;
@@ -17,11 +20,14 @@ mod point8;
 mod ray;
 #[cfg(meshsweep_wide)]
 mod ray8;
-mod whole;
-mod whole_limit;
-mod whole_sharp;
 
 pub use cone::NormalCone;
+pub use integer::{
+    Corner, IntBounds, IntPoint, IntVector, integer_bounds, is_certain_corner, is_in_front, less,
+    vertex_bounds,
+};
+pub use integer_limit::{IntLimit, IntLower};
+pub use integer_sharp::sharp_lower;
 #[cfg(meshsweep_wide)]
 pub use lanes::{LANES, Lanes, PIECES, lanes_below, least};
 pub use lanes::{LANES_BELOW, WIDTH};
@@ -37,9 +43,3 @@ pub use point8::{Edges, LaneNearness};
 pub use ray::{Crossing, FanRay, Shadow, ShadowPlane, may_meet, ray_leaf};
 #[cfg(meshsweep_wide)]
 pub use ray8::{CentreShadows, Ring8, RingLanes, ShadowLanes};
-pub use whole::{
-    Corner, Whole, WholeBounds, WholePoint, is_certain_corner, is_in_front, less, vertex_bounds,
-    whole_bounds,
-};
-pub use whole_limit::{WholeLimit, WholeLower};
-pub use whole_sharp::sharp_lower;

@@ -248,9 +248,9 @@ fn normal(e: Vec3, g: Vec3) -> Vec3 {
         return cross(e, g);
     }
     Vec3::new(
-        whole_difference((e.y, g.z), (e.z, g.y)),
-        whole_difference((e.z, g.x), (e.x, g.z)),
-        whole_difference((e.x, g.y), (e.y, g.x)),
+        integer_difference((e.y, g.z), (e.z, g.y)),
+        integer_difference((e.z, g.x), (e.x, g.z)),
+        integer_difference((e.x, g.y), (e.y, g.x)),
     )
 }
 
@@ -264,7 +264,7 @@ pub(crate) fn is_whole(v: Vec3, most: f32) -> bool {
 /// The difference of two products of whole numbers, rounded once.
 #[cfg_attr(meshsweep_small, inline(never))]
 #[cfg_attr(not(meshsweep_small), inline(always))]
-fn whole_difference((a, b): (f32, f32), (c, d): (f32, f32)) -> f32 {
+fn integer_difference((a, b): (f32, f32), (c, d): (f32, f32)) -> f32 {
     let product = |a: f32, b: f32| i64::from(a as i32) * i64::from(b as i32);
     (product(a, b) - product(c, d)) as f32
 }

@@ -3,6 +3,7 @@
 use super::index::{SplitIdx, TriIdx, VertIdx};
 use super::layout::{BASE_GROUP, LEVEL_BYTES, MAX_RING, SLOTS, START_GROUP};
 use super::view::{Hull, Vertices, Widths};
+use crate::format::Contradiction;
 use crate::format::layout::{MAX_LEVELS, SectionKind, VertexFormat};
 use crate::format::{Bytes, OpenError, SectionTable};
 use crate::geom::Aabb;
@@ -21,7 +22,7 @@ impl<'a> Hull<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<Hull<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(SectionKind::is_hull)?;
-        let hull = Hull::place(&table)?;
+        let hull = Hull::locate(&table)?;
         if !hull.has_hull() {
             return Err(OpenError::MissingSection { section: SectionKind::BaseTriangles });
         }
@@ -31,28 +32,28 @@ impl<'a> Hull<'a> {
 
     /// The hull hierarchy of bytes that were opened before.
     pub(crate) fn view(bytes: &'a [u8]) -> Result<Hull<'a>, OpenError> {
-        Hull::place(&SectionTable::view(bytes)?)
+        Hull::locate(&SectionTable::view(bytes)?)
     }
 
     /// The sections where they lie, of the right lengths. A blob without a hull hierarchy has none
     /// of them.
-    pub(crate) fn place(table: &SectionTable<'a>) -> Result<Hull<'a>, OpenError> {
+    pub(crate) fn locate(table: &SectionTable<'a>) -> Result<Hull<'a>, OpenError> {
         let header = table.header;
-        let part = |kind: SectionKind| Bytes(table.bytes(kind));
+        let section = |kind: SectionKind| Bytes(table.bytes(kind));
         let hull = Hull {
             header,
             checksum: table.checksum(),
             widths: Widths::of(&header),
             vertices: Vertices::new(header.vertex_format, table.bytes(SectionKind::Vertices)),
-            base: part(SectionKind::BaseTriangles),
-            groups: part(SectionKind::BaseGroups),
-            splits: part(SectionKind::Splits),
-            rings: part(SectionKind::Rings),
-            radii: part(SectionKind::Radii),
-            splits_with: part(SectionKind::SplitsWith),
-            source_starts: part(SectionKind::SourceStarts),
-            source: part(SectionKind::Source),
-            levels: part(SectionKind::Levels),
+            base: section(SectionKind::BaseTriangles),
+            groups: section(SectionKind::BaseGroups),
+            splits: section(SectionKind::Splits),
+            rings: section(SectionKind::Rings),
+            radii: section(SectionKind::Radii),
+            splits_with: section(SectionKind::SplitsWith),
+            source_starts: section(SectionKind::SourceStarts),
+            source: section(SectionKind::Source),
+            levels: section(SectionKind::Levels),
         };
         let wrong = SectionKind::ALL
             .into_iter()
@@ -100,7 +101,7 @@ impl Hull<'_> {
         self.check_splits()?;
         self.check_stars()?;
         if self.last_part().is_none() {
-            let what = "no triangle stands for a part of the surface";
+            let what = Contradiction::UncoveredSurface;
             return Err(OpenError::Counts { what });
         }
         self.check_sources()?;
@@ -114,37 +115,37 @@ impl Hull<'_> {
             [h.vertices, h.base_vertices, h.splits, h.rings, h.surface_triangles, h.levels];
         let rest = [h.flags, h.queue_capacity, h.dependency_depth];
         if counts.iter().chain(&rest).any(|&count| count != 0) {
-            return Err(OpenError::Counts { what: "parts of a hull hierarchy without its base" });
+            return Err(OpenError::Counts { what: Contradiction::HullWithoutBase });
         }
         self.check_frame()
     }
 
     fn check_counts(&self) -> Result<(), OpenError> {
         let h = &self.header;
-        let wrong = |what: &'static str| Err(OpenError::Counts { what });
+        let wrong = |what: Contradiction| Err(OpenError::Counts { what });
         if u64::from(h.vertices) != u64::from(h.base_vertices) + 2 * u64::from(h.splits) {
-            return wrong("vertices are not base vertices and two for each split");
+            return wrong(Contradiction::HullVertices);
         }
         if h.levels > MAX_LEVELS {
-            return wrong("too many levels");
+            return wrong(Contradiction::HullLevels);
         }
         if h.base_triangles == 0 || h.levels == 0 {
-            return wrong("an empty model");
+            return wrong(Contradiction::EmptyHull);
         }
         if self.is_cut() != (h.surface_triangles == 0) {
-            return wrong("a cut model has no surface triangles, any other has");
+            return wrong(Contradiction::HullSurface);
         }
         let most = u32::MAX / 16;
         let numbers = u64::from(SLOTS) * u64::from(h.splits) + 2 * u64::from(h.base_triangles);
         if h.vertices.max(h.rings).max(h.surface_triangles) > most || numbers > u64::from(u32::MAX)
         {
-            return wrong("more records than a blob can address");
+            return wrong(Contradiction::HullRecords);
         }
         self.check_frame()?;
         // No queue holds a triangle twice.
         let triangles = u64::from(h.rings) + 2 * u64::from(h.base_triangles + h.splits);
         if h.queue_capacity == 0 || u64::from(h.queue_capacity) > triangles {
-            return wrong("queue capacity");
+            return wrong(Contradiction::HullScratch);
         }
         Ok(())
     }
@@ -152,12 +153,12 @@ impl Hull<'_> {
     /// Scale, error bound, boxes and grid.
     fn check_frame(&self) -> Result<(), OpenError> {
         let h = &self.header;
-        let wrong = |what: &'static str| Err(OpenError::Counts { what });
+        let wrong = |what: Contradiction| Err(OpenError::Counts { what });
         if !(h.scale_exponent >= -200 && h.scale_exponent <= 200) {
-            return wrong("scale out of range");
+            return wrong(Contradiction::HullScale);
         }
         if h.surface_error.is_sign_negative() {
-            return wrong("negative surface error");
+            return wrong(Contradiction::HullError);
         }
         let ordered = |[low, high]: [[f32; 3]; 2]| {
             low.iter()
@@ -165,7 +166,7 @@ impl Hull<'_> {
                 .all(|(low, high)| low <= high && low.abs().max(high.abs()) <= 16.0)
         };
         if !ordered(h.hull_box) || !ordered(h.surface_box) {
-            return wrong("a box is inverted or far outside the local frame");
+            return wrong(Contradiction::HullBox);
         }
         let grid = h.vertex_format != VertexFormat::F32;
         // Every sum of a stored integer and the origin is exact in f32.
@@ -173,7 +174,7 @@ impl Hull<'_> {
         let limit = 1 << 24;
         let origin_fits = h.grid_origin.iter().all(|&o| o >= -limit && o <= limit - range);
         if grid && !(origin_fits && (-60..=0).contains(&h.grid_exponent)) {
-            return wrong("grid out of range");
+            return wrong(Contradiction::HullGrid);
         }
         Ok(())
     }
@@ -306,7 +307,7 @@ impl Hull<'_> {
                 return Err(OpenError::Record { section: SectionKind::Vertices, index });
             }
         }
-        let wrong = OpenError::Counts { what: "source numbers are not those of the surface" };
+        let wrong = OpenError::Counts { what: Contradiction::SourceNumbers };
         let mut before = self.base_finals(0..self.header.base_triangles).ok_or(wrong)?;
         for index in 0..self.header.splits {
             if index % START_GROUP == 0 && self.source_start(index / START_GROUP) != Some(before) {
@@ -334,7 +335,7 @@ impl Hull<'_> {
             before = level.splits;
         }
         if before != self.header.splits {
-            return Err(OpenError::Counts { what: "the last level is not the whole model" });
+            return Err(OpenError::Counts { what: Contradiction::LastHullLevel });
         }
         Ok(())
     }

@@ -3,6 +3,7 @@
 use super::index::VertIdx;
 use super::layout::{KEY_BYTES, KEYS_HEADER_BYTES, MAX_KEYS, NUMBERS_HEADER_BYTES, key};
 use super::view::Hull;
+use crate::format::Contradiction;
 use crate::format::layout::{SectionKind, index_bytes};
 use crate::format::{Bytes, OpenError, SectionTable};
 use crate::geom::Aabb;
@@ -57,7 +58,7 @@ impl<'a> DeformableHull<'a> {
         let hull = Hull::open(bytes)?;
         let table = SectionTable::view(bytes)?;
         table.check_crcs(SectionKind::is_deform)?;
-        let opened = DeformableHull::place(hull, &table)?;
+        let opened = DeformableHull::locate(hull, &table)?;
         opened.check()?;
         Ok(opened)
     }
@@ -65,17 +66,17 @@ impl<'a> DeformableHull<'a> {
     /// A view of a blob that was checked before.
     pub(crate) fn view(bytes: &'a [u8]) -> Result<DeformableHull<'a>, OpenError> {
         let table = SectionTable::view(bytes)?;
-        DeformableHull::place(Hull::place(&table)?, &table)
+        DeformableHull::locate(Hull::locate(&table)?, &table)
     }
 
-    fn place(hull: Hull<'a>, table: &SectionTable<'a>) -> Result<Self, OpenError> {
-        let part = |kind: SectionKind, wanted: fn(&Hull<'_>, Bytes<'_>) -> Option<usize>| {
+    fn locate(hull: Hull<'a>, table: &SectionTable<'a>) -> Result<Self, OpenError> {
+        let section = |kind: SectionKind, wanted: fn(&Hull<'_>, Bytes<'_>) -> Option<usize>| {
             let data = Bytes(table.bytes(kind));
             let is_whole = !table.has(kind) || wanted(&hull, data) == Some(data.len());
             if is_whole { Ok(data) } else { Err(table.malformed(kind)) }
         };
-        let numbers = part(SectionKind::VertexNumbers, numbers_len)?;
-        let keys = part(SectionKind::KeyFrames, keys_len)?;
+        let numbers = section(SectionKind::VertexNumbers, numbers_len)?;
+        let keys = section(SectionKind::KeyFrames, keys_len)?;
         if numbers.len() == 0 {
             return Err(OpenError::MissingSection { section: SectionKind::VertexNumbers });
         }
@@ -84,9 +85,7 @@ impl<'a> DeformableHull<'a> {
 
     fn check(&self) -> Result<(), OpenError> {
         if self.hull.is_cut() || !self.hull.encloses() {
-            return Err(OpenError::Counts {
-                what: "a model that is cut or no hull does not deform",
-            });
+            return Err(OpenError::Counts { what: Contradiction::DeformsWithoutHull });
         }
         for rank in 0..surface_vertices(&self.hull) {
             if self.number(rank).is_none_or(|number| number >= self.input_vertices()) {

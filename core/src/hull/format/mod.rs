@@ -20,4 +20,4 @@ pub use deform::DeformableHull;
 pub(crate) use deform::Key;
 pub use index::{SplitIdx, TriIdx, VertIdx};
 pub use instance::{Instance, Named};
-pub use view::{Hull, Level, Split};
+pub use view::{Hull, HullLevel, Split};

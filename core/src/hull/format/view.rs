@@ -96,7 +96,7 @@ pub struct Split<'a> {
     /// ring's last.
     pub left_parent: usize,
     /// No point of the fine triangles is farther than this from `vertex`, local frame.
-    pub reach: f32,
+    pub star_radius: f32,
     /// The largest finite certified radius of the triangles that the split removes, local frame.
     pub error: f32,
     /// Number of the split's first triangle, for [`Hull::radius`].
@@ -168,7 +168,7 @@ impl Split<'_> {
 /// frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Level {
+pub struct HullLevel {
     /// Triangles of the hull.
     pub faces: u32,
     /// Splits that make it from the base hull.
@@ -247,9 +247,9 @@ impl Hull<'_> {
     }
 
     /// A level, 0 being the base hull and the last the finest that the blob holds.
-    pub fn level(&self, index: u32) -> Option<Level> {
+    pub fn level(&self, index: u32) -> Option<HullLevel> {
         let at = (index as usize).checked_mul(LEVEL_BYTES)?;
-        Some(Level {
+        Some(HullLevel {
             faces: self.levels.u32(at + level::FACES)?,
             splits: self.levels.u32(at + level::SPLITS)?,
             hull_to_surface: self.levels.f32(at + level::HULL_TO_SURFACE)?,
@@ -259,7 +259,7 @@ impl Hull<'_> {
     }
 
     /// Levels, coarse to fine.
-    pub fn levels(&self) -> impl Iterator<Item = Level> + '_ {
+    pub fn levels(&self) -> impl Iterator<Item = HullLevel> + '_ {
         (0..self.header.levels).map_while(|index| self.level(index))
     }
 
@@ -358,7 +358,7 @@ impl<'a> Hull<'a> {
         let start = self.splits.index(at + wv, wr)?;
         let wings = self.splits.u8(at + wv + wr)?;
         let right = usize::from(wings & RIGHT_WING);
-        let reach = Radius8(self.splits.u8(at + wv + wr + 1)?).get();
+        let star_radius = Radius8(self.splits.u8(at + wv + wr + 1)?).get();
         let error = Radius8(self.splits.u8(at + wv + wr + 2)?).get();
         let end = if split.0.checked_add(1)? < self.header.splits {
             self.splits.index(at + bytes + wv, wr)?
@@ -373,7 +373,7 @@ impl<'a> Hull<'a> {
             right,
             right_parent: right.wrapping_sub(usize::from(wings & RIGHT_BEFORE != 0)),
             left_parent: if wings & LEFT_BEFORE != 0 { len.wrapping_sub(1) } else { 0 },
-            reach,
+            star_radius,
             error,
             first_triangle: self
                 .header
@@ -433,11 +433,11 @@ impl<'a> Hull<'a> {
 
     /// Star radius and error of a split, without the rest of its record.
     #[inline(always)]
-    pub(crate) fn reach_and_error(&self, split: SplitIdx) -> Option<[f32; 2]> {
+    pub(crate) fn star_radius_and_error(&self, split: SplitIdx) -> Option<[f32; 2]> {
         let bytes = self.widths.vertex + self.widths.ring + 3;
         let at = split.usize().wrapping_mul(bytes).wrapping_add(bytes - 2);
-        let [reach, error] = self.splits.array::<2>(at)?;
-        Some([Radius8(reach).get(), Radius8(error).get()])
+        let [star_radius, error] = self.splits.array::<2>(at)?;
+        Some([Radius8(star_radius).get(), Radius8(error).get()])
     }
 
     /// Certified radius of a triangle of any level, local frame: base triangles first, then those

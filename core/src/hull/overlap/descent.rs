@@ -69,7 +69,7 @@ fn run<T: Real>(
         fixed,
     };
     loop {
-        if search.work.splits >= steps {
+        if search.work.opened >= steps {
             return Some((Some(Ended::Steps), search.work));
         }
         let swept = [places.swept(0, &pair[0]), places.swept(1, &pair[1])];
@@ -81,7 +81,7 @@ fn run<T: Real>(
                 || swept[0].size() >= swept[1].size());
         search.opened = usize::from(!first);
         search.pair = pair;
-        let left = steps.saturating_sub(search.work.splits);
+        let left = steps.saturating_sub(search.work.opened);
         let replaced = if first {
             search.fixed = swept[1];
             side_a.open(pair[0].instance, left, &mut search)?
@@ -89,7 +89,7 @@ fn run<T: Real>(
             search.fixed = swept[0];
             side_b.open(pair[1].instance, left, &mut search)?
         };
-        search.work.splits = search.work.splits.saturating_add(replaced);
+        search.work.opened = search.work.opened.saturating_add(replaced);
         // The visitor has its answer. On a cut blob that answer is `Resolution`.
         if !search.found? {
             let cut = if is_cut { Some(Ended::Resolution) } else { None };
@@ -149,7 +149,7 @@ struct Search<'s, T, V> {
 impl<T: Real, V: PairVisitor<Pair>> Visit for Search<'_, T, V> {
     #[inline(always)]
     fn visit(&mut self, found: &[Candidate], _: &mut SweepQueue<'_>) {
-        self.work.nodes = self.work.nodes.saturating_add(found.len() as u32);
+        self.work.bounds = self.work.bounds.saturating_add(found.len() as u32);
         let mut near = 0u32;
         for (i, child) in found.iter().enumerate() {
             let swept = self.places.swept(self.opened, child);

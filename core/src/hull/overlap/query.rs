@@ -5,7 +5,7 @@ use super::side::Side;
 use crate::geom::Pose;
 use crate::hull::format::Hull;
 use crate::query::{
-    AllPairs, Budget, FirstPair, Overlap, Overlaps, QueryError, ScratchEntry, TrianglePair,
+    AllOverlaps, AllPairs, Budget, FirstPair, Overlap, QueryError, ScratchEntry, TrianglePair,
     Verdict, Work,
 };
 
@@ -144,7 +144,7 @@ impl Hull<'_> {
     /// let (part, mut scratch) = (Hull::open(bytes)?, Scratch::<512>::new());
     /// let pose = Pose { translation: [300.0, 0.0, 0.0], ..Pose::IDENTITY };
     /// let mut pairs = [TrianglePair::EMPTY; 8];
-    /// let found = part.overlaps(&part, pose, &mut pairs, Budget::EXACT, &mut scratch)?;
+    /// let found = part.all_overlaps(&part, pose, &mut pairs, Budget::EXACT, &mut scratch)?;
     /// assert_eq!((found.stored, found.dropped), (0, 0));
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
@@ -152,14 +152,14 @@ impl Hull<'_> {
     /// # Errors
     /// Those of [`overlap`](Hull::overlap).
     #[inline(never)]
-    pub fn overlaps(
+    pub fn all_overlaps(
         &self,
         other: &Hull<'_>,
         pose: Pose,
         pairs: &mut [TrianglePair],
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<Overlaps, QueryError> {
+    ) -> Result<AllOverlaps, QueryError> {
         let mut sides = [Side::of_hull(self)?, Side::of_hull(other)?];
         let mut all = AllPairs::new(pairs, |pair: &Pair| numbers([self, other], pair));
         let (truncated, work) = descend(&mut sides, &pose, &budget, scratch, &mut all)?;

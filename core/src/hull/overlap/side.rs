@@ -97,7 +97,7 @@ impl<'a> Side<'a> {
             return Some(1);
         }
         front.open(instance, visitor)?;
-        Some(front.work.splits)
+        Some(front.work.opened)
     }
 
     /// With this many entries for this side no search ends for lack of memory.

@@ -2,7 +2,8 @@
 
 use super::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES, field};
 use super::view::{TightHulls, read};
-use crate::bvh::format::Bvh;
+use crate::bvh::tree::format::Bvh;
+use crate::format::Contradiction;
 use crate::format::layout::{MAX_LEVELS, SECTION_ALIGNMENT, SectionKind};
 use crate::format::{Bytes, OpenError, SectionTable, ok};
 use crate::num::Radius16;
@@ -21,7 +22,7 @@ impl<'a> TightHulls<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<TightHulls<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(|kind| kind == SectionKind::TightHulls)?;
-        let hulls = TightHulls::place(&table)?;
+        let hulls = TightHulls::locate(&table)?;
         hulls.check()?;
         Ok(hulls)
     }
@@ -33,15 +34,15 @@ impl<'a> TightHulls<'a> {
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without tight hulls.
     pub const fn open_trusted(bytes: &'a [u8]) -> Result<TightHulls<'a>, OpenError> {
-        TightHulls::place(&ok!(SectionTable::open(bytes)))
+        TightHulls::locate(&ok!(SectionTable::open(bytes)))
     }
 
     /// The hulls of bytes that were checked before.
     pub(crate) const fn view(bytes: &'a [u8]) -> Result<TightHulls<'a>, OpenError> {
-        TightHulls::place(&ok!(SectionTable::view(bytes)))
+        TightHulls::locate(&ok!(SectionTable::view(bytes)))
     }
 
-    const fn place(table: &SectionTable<'a>) -> Result<TightHulls<'a>, OpenError> {
+    const fn locate(table: &SectionTable<'a>) -> Result<TightHulls<'a>, OpenError> {
         let kind = SectionKind::TightHulls;
         if !table.has(kind) {
             return Err(OpenError::MissingSection { section: kind });
@@ -52,7 +53,7 @@ impl<'a> TightHulls<'a> {
             return Err(OpenError::Reserved);
         }
         if count == 0 || count > MAX_LEVELS {
-            return Err(OpenError::Counts { what: "number of tight hulls" });
+            return Err(OpenError::Counts { what: Contradiction::TightHullCount });
         }
         let records = data.slice(TIGHT_BYTES, count as usize * TIGHT_HULL_BYTES);
         Ok(TightHulls { records: ok!(records, table.malformed(kind)).as_chunks().0, data })
@@ -91,7 +92,7 @@ impl<'a> TightHulls<'a> {
         if end == self.data.len() {
             Ok(())
         } else {
-            Err(OpenError::Counts { what: "bytes after the last tight hull" })
+            Err(OpenError::Counts { what: Contradiction::BytesAfterTightHulls })
         }
     }
 }

@@ -6,7 +6,7 @@
 //! 0. Accessors return `Option` all the same. No path can panic.
 
 use super::layout::{TIGHT_HULL_BYTES, record};
-use crate::bvh::format::Bvh;
+use crate::bvh::tree::format::Bvh;
 use crate::format::{Bytes, some};
 use crate::num::Radius16;
 use crate::num::lesser;

@@ -4,6 +4,7 @@ use super::layout::{
     MAX_TRIBOX_DEPTH, MAX_TRIBOXES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOXES_BYTES, level,
 };
 use super::view::{Triboxes, TriboxesHeader, UNSPLIT};
+use crate::format::Contradiction;
 use crate::format::layout::{MAX_LEVELS, SectionKind};
 use crate::format::{Bytes, OpenError, SectionTable};
 use crate::num::exp2;
@@ -91,28 +92,28 @@ impl<'a> Triboxes<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<Triboxes<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(|kind| kind == SectionKind::Triboxes)?;
-        let triboxes = Triboxes::place(&table)?;
+        let triboxes = Triboxes::locate(&table)?;
         triboxes.check()?;
         Ok(triboxes)
     }
 
     /// The triboxes of bytes that were checked before.
     pub(crate) fn view(bytes: &'a [u8]) -> Result<Triboxes<'a>, OpenError> {
-        Triboxes::place(&SectionTable::view(bytes)?)
+        Triboxes::locate(&SectionTable::view(bytes)?)
     }
 
-    fn place(table: &SectionTable<'a>) -> Result<Triboxes<'a>, OpenError> {
+    fn locate(table: &SectionTable<'a>) -> Result<Triboxes<'a>, OpenError> {
         let blob = &table.header;
         let malformed = table.malformed(SectionKind::Triboxes);
         let data = table.bytes(SectionKind::Triboxes);
         let (head, rest) = data.split_at_checked(TRIBOXES_BYTES).ok_or(malformed)?;
         let header = TriboxesHeader::read(Bytes(head))?;
-        let wrong = |what: &'static str| Err(OpenError::Counts { what });
+        let wrong = |what: Contradiction| Err(OpenError::Counts { what });
         if header.nodes % 2 == 0 || header.nodes >= 2 * MAX_TRIBOXES {
-            return wrong("triboxes are not one and two for each split");
+            return wrong(Contradiction::TriboxCount);
         }
         if !(1..=MAX_LEVELS).contains(&header.levels) || header.depth > MAX_TRIBOX_DEPTH {
-            return wrong("levels of triboxes");
+            return wrong(Contradiction::TriboxLevels);
         }
         let exponent = blob.scale_exponent.saturating_add(header.grid_exponent);
         // So that units and their halves are numbers of f32, and no sum of two parameters
@@ -121,7 +122,7 @@ impl<'a> Triboxes<'a> {
             && (-40..=40).contains(&header.grid_exponent)
             && (-147..=107).contains(&exponent);
         if !in_range || header.grid_origin.iter().any(|o| !(-MAX_ORIGIN..=MAX_ORIGIN).contains(o)) {
-            return wrong("grid of the triboxes out of range");
+            return wrong(Contradiction::TriboxGrid);
         }
         let split_count = header.nodes as usize / 2;
         let (levels, rest) =
@@ -175,14 +176,12 @@ impl<'a> Triboxes<'a> {
             let fine = |at: usize| record.f32(at).is_some_and(|x| x >= 0.0 && x.is_finite());
             let void = record.f32(level::VOID_RATIO).is_some_and(f32::is_finite);
             if triboxes <= before || !fine(level::DISTANCE) || !fine(level::ERROR) || !void {
-                return Err(OpenError::Counts { what: "levels of triboxes" });
+                return Err(OpenError::Counts { what: Contradiction::TriboxLevels });
             }
             before = triboxes;
         }
         if before != self.leaf_count() {
-            return Err(OpenError::Counts {
-                what: "the last level of triboxes is not the whole hierarchy",
-            });
+            return Err(OpenError::Counts { what: Contradiction::LastTriboxLevel });
         }
         Ok(())
     }
@@ -217,9 +216,7 @@ impl<'a> Triboxes<'a> {
             while let Some(node) = above {
                 depth += 1;
                 if depth > self.header.depth {
-                    return Err(OpenError::Counts {
-                        what: "triboxes deeper than their header says",
-                    });
+                    return Err(OpenError::Counts { what: Contradiction::TriboxDepth });
                 }
                 above = self.parent(node);
             }

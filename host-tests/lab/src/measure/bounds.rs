@@ -10,6 +10,7 @@
 //! The tribox (Crosnier & Rossignac 1999) is the 18-DOP of the axes and the edges' diagonals. All
 //! but what is counted is in f64, of the f32 mesh.
 
+mod all;
 pub mod clip;
 pub mod contact;
 mod contenders;
@@ -21,45 +22,12 @@ pub mod oriented_box;
 pub mod pose;
 mod rig;
 
-use glam::DVec3;
 use meshsweep_host_tests::workload::Subject;
-use meshsweep_host_tests::workload::sphere::Sphere;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
 
-use clip::Solid;
-use convex_hull::ConvexHull;
+use all::Bounds;
 use cost::Cost;
-use dop::{Dop, Slabs};
 use false_positives::{Cases, Tally};
-use oriented_box::OrientedBox;
-
-/// Every bound of one mesh.
-struct Bounds {
-    hull: ConvexHull,
-    slabs: Vec<(Slabs, Dop, Solid)>,
-    sphere: Sphere,
-    oriented: OrientedBox,
-}
-
-impl Bounds {
-    fn new(subject: &Subject) -> Result<Self, String> {
-        let points: Vec<DVec3> =
-            subject.mesh.positions.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
-        let hull = ConvexHull::new(&points)
-            .ok_or("the mesh is flat: it has no convex hull with a volume")?;
-        let sphere = Sphere::enclosing(&hull.points);
-        let slabs = Slabs::all()
-            .into_iter()
-            .map(|slabs| {
-                let dop = Dop::of(&slabs, hull.points.iter().copied());
-                let solid = dop.solid(&slabs, sphere.centre, sphere.radius);
-                (slabs, dop, solid)
-            })
-            .collect();
-        let oriented = OrientedBox::on_a_face(&hull);
-        Ok(Self { hull, slabs, sphere, oriented })
-    }
-}
 
 /// The tables; `counts` are the instructions that [`cost::counted`] had counted.
 ///

@@ -1,6 +1,7 @@
 //! Every triangle in f64, by other formulas than the core's.
 
 use glam::{DVec3, Vec3};
+use meshsweep_host_tests::oracle::wide_distance_sq;
 use meshsweep_host_tests::workload::Subject;
 
 /// All triangles of a mesh.
@@ -20,8 +21,12 @@ impl Brute {
 
     /// Distance to the surface.
     pub fn distance(&self, point: [f32; 3]) -> f64 {
-        let p = Vec3::from_array(point).as_dvec3();
-        self.0.iter().map(|triangle| distance_sq(p, triangle)).fold(f64::INFINITY, f64::min).sqrt()
+        let p = point.map(f64::from);
+        self.0
+            .iter()
+            .map(|corners| wide_distance_sq(p, corners.map(DVec3::to_array)))
+            .fold(f64::INFINITY, f64::min)
+            .sqrt()
     }
 
     /// Parameter of the first hit of a segment, and whether every triangle was hit or missed by a
@@ -38,27 +43,6 @@ impl Brute {
             }
         }
         (first.is_finite().then_some(first), clear)
-    }
-}
-
-/// Least of the distances to the plane, if the foot lies in the triangle, and to the three edges.
-fn distance_sq(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> f64 {
-    let to_edge = |a: DVec3, b: DVec3| {
-        let ab = b - a;
-        // A grid may make an edge a point.
-        let t = if ab == DVec3::ZERO {
-            0.0
-        } else {
-            ((p - a).dot(ab) / ab.length_squared()).clamp(0.0, 1.0)
-        };
-        (p - a - ab * t).length_squared()
-    };
-    let normal = (b - a).cross(c - a);
-    let inside = |a: DVec3, b: DVec3| (b - a).cross(p - a).dot(normal) >= 0.0;
-    if normal != DVec3::ZERO && inside(a, b) && inside(b, c) && inside(c, a) {
-        (p - a).dot(normal).powi(2) / normal.length_squared()
-    } else {
-        to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a))
     }
 }
 

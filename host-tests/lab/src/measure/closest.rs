@@ -94,10 +94,10 @@ pub fn tables(subject: &Subject, model: &Hull<'_>) -> Result<[Table; 2], String>
                 fixed(run.nanoseconds, 0),
                 fixed(their_ns, 0),
                 fixed(run.nanoseconds / their_ns, 2),
-                fixed(run.work(|work| work.nodes), 1),
+                fixed(run.work(|work| work.bounds), 1),
                 fixed(run.work(|work| work.triangles), 1),
                 fixed(run.work(|work| work.exact), 2),
-                fixed(run.work(|work| work.splits), 1),
+                fixed(run.work(|work| work.opened), 1),
                 scientific(widest),
             ]);
             if let Some(early) = run.answers.iter().find(|answer| answer.ended != Ended::Exact) {

@@ -191,8 +191,8 @@ fn ask(
     };
     Ok(vec![
         fixed(nanoseconds, 0),
-        mean(|work| work.nodes),
+        mean(|work| work.bounds),
         mean(|work| work.exact),
-        mean(|work| work.splits),
+        mean(|work| work.opened),
     ])
 }

@@ -36,9 +36,9 @@ pub fn table(subject: &Subject, model: &Hull<'_>) -> Result<Table, String> {
                 if near.triangle != new.triangle {
                     return Err(format!("{point:?}: {near:?} is not {new:?}"));
                 }
-                constant += f64::from(u8::from(near.work.splits == 0));
-                opened += f64::from(near.work.splits);
-                fresh += f64::from(new.work.splits);
+                constant += f64::from(u8::from(near.work.opened == 0));
+                opened += f64::from(near.work.opened);
+                fresh += f64::from(new.work.opened);
             }
             let each = 1.0 / path.len() as f64;
             table.push(row![

@@ -2,6 +2,7 @@
 //! places in 106 bits, beside parry3d's shape cast.
 
 use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, Ended, FirstHit, ScratchEntry, Solid};
 use meshsweep_host_tests::generate::Rng;
 use meshsweep_host_tests::generate::corpus::IDENTITY;
@@ -143,14 +144,15 @@ pub fn table(subject: &Subject) -> Result<Table, String> {
             input_triangles: subject.triangles_read,
             ..subject.mesh.as_input()
         };
-        let bytes = build(input, &options).map_err(|error| error.to_string())?.0.to_bytes();
+        let bytes =
+            build(input, &options, Watch::NONE).map_err(|error| error.to_string())?.0.to_bytes();
         let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;
         let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
         let (answers, time) = run(&motions, |Motion { from, to, radius, .. }| {
             let ends = [from, to].map(|corners| Solid::new(corners, *radius));
             let [from, to] = ends;
             let (from, to) = (from.map_err(said)?, to.map_err(said)?);
-            tree.first_contact(&from, &to, Budget::EXACT, &mut stack).map_err(said)
+            tree.solid_first_contact(&from, &to, Budget::EXACT, &mut stack).map_err(said)
         })?;
         let tally = Tally::of(&motions, |index| answers[index].is_clear(), subject.diagonal());
         let open = answers.iter().filter(|answer| answer.ended == Ended::Resolution).count();
@@ -167,7 +169,7 @@ pub fn table(subject: &Subject) -> Result<Table, String> {
             tally.missed,
             open,
             fixed(time / 1e3, 2),
-            each(|answer| answer.work.splits),
+            each(|answer| answer.work.opened),
             each(|answer| answer.work.exact),
         ]);
         if tally.wrong > 0 {

@@ -2,6 +2,7 @@
 //! plain questions, and how wide the intervals of depths are.
 
 use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::progress::Watch;
 use meshsweep_core::{
     Budget, Bvh, CoherentPair, Interval, PairDistance, Penetration, Pose, Relation, ScratchEntry,
 };
@@ -34,7 +35,10 @@ fn tree(subject: &Subject) -> Vec<u8> {
         input_triangles: subject.triangles_read,
         ..subject.mesh.as_input()
     };
-    build(input, &TreeOptions::default().with_winding(true)).expect("builds").0.to_bytes()
+    build(input, &TreeOptions::default().with_winding(true), Watch::NONE)
+        .expect("builds")
+        .0
+        .to_bytes()
 }
 
 fn failed(error: impl ToString) -> String {
@@ -52,7 +56,7 @@ fn paths(
     let mut rng = Rng::new(71);
     let mut all = Vec::new();
     for (_, mut pose) in poses(&sphere(subject), 50 * PATHS) {
-        let found = tree.distance(tree, pose, Budget::EXACT, &mut stack).map_err(failed)?;
+        let found = tree.distance_to(tree, pose, Budget::EXACT, &mut stack).map_err(failed)?;
         if all.len() == PATHS || found.distance.lower <= 0.0 {
             continue;
         }
@@ -123,7 +127,7 @@ fn along_paths(subject: &Subject, tree: &Bvh<'_>) -> Result<Table, String> {
             let paths = paths(subject, tree, length, near)?;
             let mut stack = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
             let mut plain = |pose: Pose, _: usize| {
-                tree.distance(tree, pose, Budget::EXACT, &mut stack).map_err(failed)
+                tree.distance_to(tree, pose, Budget::EXACT, &mut stack).map_err(failed)
             };
             let (fresh, fresh_time) = fastest(|| follow(&paths, || (), &mut plain), |run| run.1)?;
             let half: Vec<f32> = {
@@ -173,7 +177,7 @@ fn along_paths(subject: &Subject, tree: &Bvh<'_>) -> Result<Table, String> {
                 return Err(format!("{:?} and {:?}", a.distance, b.distance));
             }
             let mean = |all: &[PairDistance]| {
-                let sum: f64 = all.iter().map(|found| f64::from(found.work.splits)).sum();
+                let sum: f64 = all.iter().map(|found| f64::from(found.work.opened)).sum();
                 fixed(sum / all.len().max(1) as f64, 0)
             };
             table.push(row![

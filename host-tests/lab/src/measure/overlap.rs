@@ -3,6 +3,7 @@
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::collapse::Priority;
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, Hull, Pose, ScratchEntry, TrianglePair, Verdict, Work};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::contact::Surface;
@@ -107,17 +108,17 @@ fn ours(engine: &Engine<'_>, cases: &[Case]) -> Result<Verdicts, String> {
             verdict => verdicts.wrong += usize::from((verdict == Verdict::Yes) != case.meets),
         }
         let sum = &mut verdicts.work[usize::from(case.meets)];
-        sum.nodes += answer.work.nodes;
+        sum.bounds += answer.work.bounds;
         sum.triangles += answer.work.triangles;
         sum.exact += answer.work.exact;
-        sum.splits += answer.work.splits;
+        sum.opened += answer.work.opened;
     }
     let mut pairs = vec![TrianglePair::EMPTY; 1 << 20];
     let every = |case: &Case| {
         let (pose, exact) = (case.pose, Budget::EXACT);
         let found = match engine {
-            Engine::Tree(tree) => tree.overlaps(tree, pose, &mut pairs, exact, &mut stack),
-            Engine::Hull(hull) => hull.overlaps(hull, pose, &mut pairs, exact, &mut stack),
+            Engine::Tree(tree) => tree.all_overlaps(tree, pose, &mut pairs, exact, &mut stack),
+            Engine::Hull(hull) => hull.all_overlaps(hull, pose, &mut pairs, exact, &mut stack),
         };
         found.map(|found| found.stored).map_err(|error| error.to_string())
     };
@@ -166,6 +167,7 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
                 ..subject.mesh.as_input()
             },
             &options,
+            Watch::NONE,
         )
         .expect("builds")
         .0
@@ -201,12 +203,12 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
             [("apart", MOTIONS - meeting, verdicts.work[0]), ("meeting", meeting, verdicts.work[1])]
         {
             let each = |sum: u32| fixed(f64::from(sum) / count.max(1) as f64, 2);
-            let Work { nodes, triangles, exact, splits, .. } = work_of;
+            let Work { bounds, triangles, exact, opened, .. } = work_of;
             work.push(row![
                 format!("{name}, {which}"),
                 count,
-                each(nodes),
-                each(splits),
+                each(bounds),
+                each(opened),
                 each(triangles),
                 each(exact)
             ]);

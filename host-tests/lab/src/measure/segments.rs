@@ -1,6 +1,6 @@
 //! Segments: the paper's counts (Table 3), and the engines against each other.
 
-use meshsweep_core::{Budget, Ended, Hit, Hull, RefinedHull, ScratchEntry, Search, Work};
+use meshsweep_core::{Budget, Ended, Hit, Hull, OuterSearch, RefinedHull, ScratchEntry, Work};
 use meshsweep_host_tests::workload::segments;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
 
@@ -44,8 +44,8 @@ impl Run {
             let (hit, work, settled) = ask(segment)?;
             run.hits.push(hit);
             run.unsettled += usize::from(!settled);
-            let Work { nodes, triangles, exact, splits, .. } = work;
-            for (sum, one) in run.work.iter_mut().zip([nodes, triangles, exact, splits]) {
+            let Work { bounds, triangles, exact, opened, .. } = work;
+            for (sum, one) in run.work.iter_mut().zip([bounds, triangles, exact, opened]) {
                 *sum += u64::from(one);
             }
         }
@@ -87,7 +87,11 @@ fn cover(model: &Hull<'_>, segments: &[[[f32; 3]; 2]], queue: usize) -> Result<R
 const SPLITS: usize = 4096;
 
 /// All segments on the refined hull, from the base hull each.
-pub fn hull(model: &Hull<'_>, segments: &[[[f32; 3]; 2]], search: Search) -> Result<Run, String> {
+pub fn hull(
+    model: &Hull<'_>,
+    segments: &[[[f32; 3]; 2]],
+    search: OuterSearch,
+) -> Result<Run, String> {
     let mut refined = Box::new(RefinedHull::<SPLITS>::new());
     let mut scratch = [ScratchEntry::EMPTY; 1024];
     let mut hits = [Hit::EMPTY; 64];
@@ -133,8 +137,8 @@ pub fn work(subject: &Subject) -> Result<[Table; 2], String> {
             let built = subject.build(base_faces, priority)?;
             let model = open(&built)?;
             let reference = cover(&model, &segments, model.scratch_entries())?;
-            let [outer, first] =
-                [Search::Outer, Search::First].map(|search| hull(&model, &segments, search));
+            let [outer, first] = [OuterSearch::Outer, OuterSearch::First]
+                .map(|search| hull(&model, &segments, search));
             let (outer, first) = (outer?, first?);
             let theirs = paper.filter(|paper| paper.is_horse()).map(|_| theirs[strategy]);
             table.push(row![
@@ -207,11 +211,11 @@ pub fn engines(subject: &Subject, model: &Hull<'_>) -> Result<Table, String> {
         ),
         (
             format!("outer_hits First, base {BASE_FACES}"),
-            fastest(|| hull(model, &segments, Search::First), |run| run.nanoseconds)?,
+            fastest(|| hull(model, &segments, OuterSearch::First), |run| run.nanoseconds)?,
         ),
         (
             format!("outer_hits Outer, base {BASE_FACES}"),
-            fastest(|| hull(model, &segments, Search::Outer), |run| run.nanoseconds)?,
+            fastest(|| hull(model, &segments, OuterSearch::Outer), |run| run.nanoseconds)?,
         ),
     ];
     for (name, run) in runs {

@@ -2,7 +2,7 @@
 //! hull, the sweep, and every triangle.
 
 use meshsweep::mesh::Mesh;
-use meshsweep_core::{Budget, Hit, Hull, RefinedHull, ScratchEntry, Search, Verdict};
+use meshsweep_core::{Budget, Hit, Hull, OuterSearch, RefinedHull, ScratchEntry, Verdict};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
 
@@ -99,9 +99,9 @@ impl<'a> Times<'a> {
         model: &Hull<'_>,
         [row, column]: [usize; 2],
     ) -> Result<(), String> {
-        let [outer, kept, long] = KEPT.map(|kept| self.refined(model, Search::Outer, kept));
+        let [outer, kept, long] = KEPT.map(|kept| self.refined(model, OuterSearch::Outer, kept));
         let (outer, kept, long) = (outer?, kept?, long?);
-        let first = self.refined(model, Search::First, 1)?;
+        let first = self.refined(model, OuterSearch::First, 1)?;
         let mut scratch = vec![ScratchEntry::EMPTY; model.scratch_entries() + 20];
         let sweep = fastest(
             || {
@@ -122,7 +122,7 @@ impl<'a> Times<'a> {
                     let answer = model
                         .meets_triangle(corners, Budget::EXACT, &mut scratch)
                         .map_err(|error| error.to_string())?;
-                    work[0] += u64::from(answer.work.nodes);
+                    work[0] += u64::from(answer.work.bounds);
                     work[1] += u64::from(answer.work.triangles);
                     undecided += usize::from(matches!(answer.verdict, Verdict::Undecided(_)));
                 }
@@ -160,7 +160,7 @@ impl<'a> Times<'a> {
     }
 
     /// Microseconds a segment on the refined hull, which is reset after `kept` segments.
-    fn refined(&self, model: &Hull<'_>, search: Search, kept: usize) -> Result<f64, String> {
+    fn refined(&self, model: &Hull<'_>, search: OuterSearch, kept: usize) -> Result<f64, String> {
         let mut refined = Box::new(RefinedHull::<SPLITS>::new());
         let mut scratch = [ScratchEntry::EMPTY; 1024];
         let mut hits = [Hit::EMPTY; 64];

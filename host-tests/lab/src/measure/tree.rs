@@ -5,6 +5,7 @@ mod trade;
 
 use meshsweep::bvh::{TreeOptions, TreeReport, build};
 use meshsweep::emit::Sections;
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, ClosestPoint, ScratchEntry, SectionKind};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
@@ -42,6 +43,7 @@ impl Built {
                 ..subject.mesh.as_input()
             },
             options,
+            Watch::NONE,
         )
         .expect("builds");
         let bytes = tables.to_bytes();

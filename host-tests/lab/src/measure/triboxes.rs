@@ -85,10 +85,10 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
             }
             settled += usize::from(answer.is_apart());
             by_vertices_settled += usize::from(other);
-            tested += u64::from(answer.work.nodes);
-            tested_apart += if answer.is_apart() { u64::from(answer.work.nodes) } else { 0 };
+            tested += u64::from(answer.work.bounds);
+            tested_apart += if answer.is_apart() { u64::from(answer.work.bounds) } else { 0 };
             by_vertices_tested += u64::from(other_tested);
-            most = most.max(answer.work.nodes);
+            most = most.max(answer.work.bounds);
             let all = triboxes.candidates(&triboxes, *pose, &mut pairs, Budget::EXACT, &mut stack);
             found += all.map_err(|error| error.to_string())?.stored;
         }

@@ -2,6 +2,7 @@
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::{Input, Mesh};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, Interval, ScratchEntry, Side, Undecided, WindingNumber};
 use meshsweep_host_tests::oracle::{distance_to_mesh, winding_number};
 use meshsweep_host_tests::workload::{Points, Subject, points};
@@ -48,7 +49,7 @@ pub fn table(subject: &Subject) -> Result<Table, String> {
         for (vertices, is_f32) in [("16-bit grid", false), ("f32", true)] {
             let options = TreeOptions::default().with_winding(true).with_f32(is_f32);
             let input = Input { input_triangles: subject.triangles_read, ..mesh.as_input() };
-            let (sections, report) = build(input, &options).map_err(said)?;
+            let (sections, report) = build(input, &options, Watch::NONE).map_err(said)?;
             let bytes = sections.to_bytes();
             let tree = Bvh::open(&bytes).map_err(said)?;
             let moments = tree.header().nodes as f64 * 60.0 / report.triangles as f64;
@@ -115,7 +116,7 @@ impl Measured {
             self.wrong,
             count(|answer| matches!(answer.side, Side::Undecided(Undecided::Resolution))),
             scientific(widths[widths.len() / 2]),
-            mean(|answer| answer.work.nodes),
+            mean(|answer| answer.work.bounds),
             mean(|answer| answer.work.triangles),
             fixed(self.time / 1e3, 2),
             fixed(self.time_of_all / 1e3, 1),

@@ -2,13 +2,13 @@
 //!
 //! ```text
 //! workload (which questions) ─┐
-//! engine (what each one is) ──┼─ timing (interleaved rounds) ─ agreement (with f64, with parry3d) ─ report (tables)
-//!   parry, cwbvh, embree, fcpw, tree: one file each
+//! entrants (the engines) ─────┼─ timing (interleaved rounds) ─ agreement (with f64, with parry3d) ─ report (tables)
+//!   parry, cwbvh, embree, fcpw, tree: one file each ─ engine (their interface)
 //! child (programs in C++) ─ child_engine (embree, fcpw), pairs, hausdorff
 //! pairs     (distance and overlap of two models)
 //! hausdorff (Hausdorff distance of two meshes)
 //! ```
-//! A new engine is a file with an `Engine` and a line in `ENTRANTS`, both of `engine.rs`.
+//! A new engine is a file with an `Engine` and a line in `ENTRANTS`.
 //!
 //! Times are the processor's, the fastest of three rounds. Within a round every engine has its turn
 //! at a workload, so that a busy machine hits all alike. Even so only ratios within one run mean
@@ -20,6 +20,7 @@ mod child_engine;
 mod cwbvh;
 mod embree;
 mod engine;
+mod entrants;
 mod fcpw;
 pub mod hausdorff;
 pub mod pairs;
@@ -42,7 +43,7 @@ pub use workload::Scale;
 /// The file is no mesh, or an engine refused it or a query.
 pub fn race(file: &Path, scale: Scale) -> Result<[Table; 2], String> {
     let subject = Subject::load_any(file)?;
-    let mut blobs: Vec<Vec<u8>> = vec![Vec::new(); engine::ENTRANTS.len()];
+    let mut blobs: Vec<Vec<u8>> = vec![Vec::new(); entrants::ENTRANTS.len()];
     let mut lanes = timing::lanes(&subject, &mut blobs)?;
     let laps = timing::laps(&subject, scale, &mut lanes)?;
     Ok([report::engines(&subject, &lanes), report::laps(&laps, scale)])

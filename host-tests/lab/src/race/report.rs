@@ -3,7 +3,7 @@
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row, scientific};
 
-use super::engine::{ENTRANTS, REFERENCE};
+use super::entrants::{ENTRANTS, REFERENCE};
 use super::timing::{Lane, Lap};
 use super::workload::{Scale, Workload};
 

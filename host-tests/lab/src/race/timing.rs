@@ -3,7 +3,8 @@
 use meshsweep_host_tests::workload::Subject;
 
 use super::agreement::{Agreement, Truth};
-use super::engine::{Answer, ENTRANTS, Engine, Entrant, REFERENCE};
+use super::engine::{Answer, Engine};
+use super::entrants::{ENTRANTS, Entrant, REFERENCE};
 use super::workload::{Queries, Scale, Workload};
 use crate::measure::rival::Rival;
 use crate::measure::stopwatch::Stopwatch;

@@ -3,6 +3,7 @@
 //! The blob serves distances and segments alike. Every answer is computed whole, with its interval
 //! and triangle, though the race looks at its point or parameter alone.
 
+use meshsweep::progress::Watch;
 use std::hint::black_box;
 
 use meshsweep::bvh::{FastBvh, TreeOptions, build as build_tree};
@@ -50,7 +51,8 @@ fn open<'a>(
         ..subject.mesh.as_input()
     };
     let options = TreeOptions::default().with_f32(is_f32);
-    let (tables, _) = build_tree(input, &options).map_err(|error| error.to_string())?;
+    let (tables, _) =
+        build_tree(input, &options, Watch::NONE).map_err(|error| error.to_string())?;
     *blob = tables.to_bytes();
     let tree = FastBvh::new(Bvh::open(blob).map_err(|error| error.to_string())?);
     let stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];

@@ -80,7 +80,8 @@ impl Course {
         };
         let Mesh { positions, triangles, .. } = &self.subject.mesh;
         let (tables, _) =
-            bvh::build(self.subject.mesh.as_input(), &TreeOptions::default()).expect("builds");
+            bvh::build(self.subject.mesh.as_input(), &TreeOptions::default(), Watch::NONE)
+                .expect("builds");
         file("tree.msw", tables.to_bytes())?;
         file("vertices.f32", numbers(positions))?;
         file(

@@ -3,14 +3,15 @@
 //! than the flash of the smallest board.
 
 use meshsweep_core::{
-    Budget, Bvh, CoherentPair, FirstHit, Interval, Motion, Placed, Pose, QueryError, Relation,
+    Budget, Bvh, CoherentPair, FirstHit, Interval, Motion, PlacedModel, Pose, QueryError, Relation,
     Scene, Solid,
 };
 
 use super::{Asked, Refused, Subject, tree};
+use crate::clock::Clock;
 use crate::fold::Fold;
-use crate::place::{Bounds, Ends, Placer};
-use crate::{Clock, Kind};
+use crate::kind::Kind;
+use crate::place::{Bounds, Ends, Place};
 
 /// A box tree, asked about its moved copy and about capsules.
 #[derive(Clone, Debug)]
@@ -34,62 +35,33 @@ impl<'t> Subject<'t> for Apart<'t> {
         self.0.scratch_entries() <= Bvh::DISTANCE_ENTRIES
     }
 
-    fn suits(kind: Kind) -> bool {
-        asks(kind)
+    asks! { Scratch, |self, place, scratch, to|
+        PairDistance => {
+            let (rotation, translation) = place.motion();
+            distance(self, Pose { rotation, translation }, scratch, to);
+        };
+        Solid => solid(self, place.segment(), place.distance(), scratch, to);
+        Contact => {
+            let (start, end) = (place.far(), place.far());
+            let motion = [[start, place.near(start)], [end, place.near(end)]];
+            contact(self, motion, place.distance(), scratch, to);
+        };
+        Winding => winding(self, place.far(), scratch, to);
+        Scene => {
+            let poses = [place.motion(), place.motion(), place.motion()];
+            scene(self, poses.map(tree::pose), place.distance(), scratch, to);
+        };
+        CoherentPair => {
+            let (rotation, translation) = place.motion();
+            let start = Pose { rotation, translation };
+            let [here, there] = [place.step(), place.step()];
+            coherent(self, start, [here, there], scratch, to);
+        };
+        Penetration => {
+            let (rotation, translation) = place.motion();
+            penetration(self, Pose { rotation, translation }, scratch, to);
+        };
     }
-
-    fn ask(
-        &self,
-        kind: Kind,
-        place: &mut Placer,
-        scratch: &mut Scratch,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) {
-        let to = &mut Asked::new(clock, fold);
-        match kind {
-            Kind::PairDistance => {
-                let (rotation, translation) = place.motion();
-                distance(self, Pose { rotation, translation }, scratch, to);
-            }
-            Kind::Solid => solid(self, place.segment(), place.distance(), scratch, to),
-            Kind::Contact => {
-                let (start, end) = (place.far(), place.far());
-                let motion = [[start, place.near(start)], [end, place.near(end)]];
-                contact(self, motion, place.distance(), scratch, to);
-            }
-            Kind::Winding => winding(self, place.far(), scratch, to),
-            Kind::Scene => {
-                let poses = [place.motion(), place.motion(), place.motion()];
-                scene(self, poses.map(tree::pose), place.distance(), scratch, to);
-            }
-            Kind::CoherentPair => {
-                let (rotation, translation) = place.motion();
-                let start = Pose { rotation, translation };
-                let [here, there] = [place.step(), place.step()];
-                coherent(self, start, [here, there], scratch, to);
-            }
-            Kind::Penetration => {
-                let (rotation, translation) = place.motion();
-                penetration(self, Pose { rotation, translation }, scratch, to);
-            }
-            _ => {}
-        }
-    }
-}
-
-/// Whether these questions are asked here, and not by the image of the other ones.
-pub(super) fn asks(kind: Kind) -> bool {
-    matches!(
-        kind,
-        Kind::PairDistance
-            | Kind::Solid
-            | Kind::Contact
-            | Kind::Winding
-            | Kind::Scene
-            | Kind::CoherentPair
-            | Kind::Penetration
-    )
 }
 
 /// How far the surface is from its copy, at a pose and after three steps from the first point to
@@ -157,7 +129,7 @@ pub fn scene(
     scratch: &mut Scratch,
     to: &mut Asked<'_, impl Clock>,
 ) {
-    let models = poses.map(|pose| Placed { tree: *tree, pose });
+    let models = poses.map(|pose| PlacedModel { tree: *tree, pose });
     let scene = Scene::new(&models);
     let budget = Budget::EXACT.with_steps(STEPS);
     to.answer(
@@ -213,7 +185,7 @@ pub fn distance(
 ) {
     let budget = Budget::EXACT.with_steps(STEPS);
     let found = to.answer(
-        || tree.distance(tree, pose, budget, scratch),
+        || tree.distance_to(tree, pose, budget, scratch),
         |fold, answer| {
             nearest(fold, answer.distance, answer.points, answer.triangles);
             super::how(fold, answer.ended);
@@ -289,7 +261,7 @@ pub fn contact(
 ) {
     let call = || -> Result<FirstHit, QueryError> {
         let (from, end) = (Solid::new(&from, radius)?, Solid::new(&end, radius)?);
-        tree.first_contact(&from, &end, Budget::EXACT, scratch)
+        tree.solid_first_contact(&from, &end, Budget::EXACT, scratch)
     };
     to.answer(call, |fold, answer| {
         fold.f32(answer.t.lower);

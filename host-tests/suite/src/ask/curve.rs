@@ -4,9 +4,10 @@ pub use meshsweep_core::Curve;
 use meshsweep_core::{Budget, CurveClosest, CurveSegment, ScratchEntry};
 
 use super::{Asked, Refused, Subject, how, verdict};
+use crate::clock::Clock;
 use crate::fold::Fold;
-use crate::place::{Bounds, Placer, Point};
-use crate::{Clock, Kind};
+use crate::kind::Kind;
+use crate::place::{Bounds, Place, Point};
 
 /// Entries of the queue: enough for the suite's blobs, and some to go best first.
 const ENTRIES: usize = 64;
@@ -33,44 +34,21 @@ impl<'t> Subject<'t> for Curve<'t> {
         size_of::<Curve<'_>>() + self.scratch_entries().saturating_mul(size_of::<ScratchEntry>())
     }
 
-    fn suits(kind: Kind) -> bool {
-        matches!(
-            kind,
-            Kind::Arith
-                | Kind::Contents
-                | Kind::ClosestFar
-                | Kind::ClosestNear
-                | Kind::ClosestPath
-                | Kind::Stopped
-                | Kind::Within
-        )
-    }
-
-    fn ask(
-        &self,
-        kind: Kind,
-        place: &mut Placer,
-        scratch: &mut Scratch,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) {
-        let to = &mut Asked::new(clock, fold);
-        match kind {
-            Kind::Contents => contents(self, to.fold),
-            Kind::ClosestFar => {
-                closest(self, place.far(), scratch, to);
-            }
-            Kind::ClosestNear => {
-                let base = closest(self, place.far(), scratch, &mut Asked::new((), to.fold));
-                closest(self, place.near(base), scratch, to);
-            }
-            Kind::ClosestPath => {
-                closest(self, place.step(), scratch, to);
-            }
-            Kind::Stopped => stopped(self, place.far(), place.distance(), scratch, to),
-            Kind::Within => is_within(self, place.far(), place.distance(), scratch, to),
-            _ => {}
-        }
+    asks! { Scratch, |self, place, scratch, to|
+        Arith => ();
+        Contents => contents(self, to.fold);
+        ClosestFar => {
+            closest(self, place.far(), scratch, to);
+        };
+        ClosestNear => {
+            let base = closest(self, place.far(), scratch, &mut Asked::new((), to.fold));
+            closest(self, place.near(base), scratch, to);
+        };
+        ClosestPath => {
+            closest(self, place.step(), scratch, to);
+        };
+        Stopped => stopped(self, place.far(), place.distance(), scratch, to);
+        Within => is_within(self, place.far(), place.distance(), scratch, to);
     }
 }
 

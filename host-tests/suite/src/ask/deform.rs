@@ -4,9 +4,10 @@ pub use meshsweep_core::DeformableHull;
 use meshsweep_core::{Budget, MovedVertex, ScratchEntry};
 
 use super::{Asked, Refused, Subject, closest_point};
+use crate::clock::Clock;
 use crate::fold::Fold;
-use crate::place::{Bounds, Placer, Point};
-use crate::{Clock, Kind};
+use crate::kind::Kind;
+use crate::place::{Bounds, Place, Point};
 
 /// Entries of the queue: enough for the suite's blob.
 const ENTRIES: usize = 128;
@@ -50,34 +51,21 @@ impl<'t> Subject<'t> for DeformableHull<'t> {
         self.rest().scratch_entries() <= ENTRIES && self.vertex_records() <= RECORDS
     }
 
-    fn suits(kind: Kind) -> bool {
-        matches!(kind, Kind::Arith | Kind::Contents) || kind.is_deform()
-    }
-
-    fn ask(
-        &self,
-        kind: Kind,
-        place: &mut Placer,
-        scratch: &mut Scratch,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) {
-        match kind {
-            Kind::Contents => contents(self, fold),
-            Kind::Frame => {
-                let part = place.rng.signed_unit().abs();
-                at_frame(self, part, place.far(), scratch, &mut Asked::new(clock, fold));
-            }
-            Kind::Update => {
-                let ends = [place.far(), place.far()];
-                moved(self, ends, place.far(), scratch, [Some(clock), None], fold);
-            }
-            Kind::Moved => {
-                let ends = [place.far(), place.far()];
-                moved(self, ends, place.far(), scratch, [None, Some(clock)], fold);
-            }
-            _ => {}
-        }
+    asks! { Scratch, |self, place, scratch, clock, fold|
+        Arith => ();
+        Contents => contents(self, fold);
+        Frame => {
+            let part = place.share().abs();
+            at_frame(self, part, place.far(), scratch, &mut Asked::new(clock, fold));
+        };
+        Update => {
+            let ends = [place.far(), place.far()];
+            moved(self, ends, place.far(), scratch, [Some(clock), None], fold);
+        };
+        Moved => {
+            let ends = [place.far(), place.far()];
+            moved(self, ends, place.far(), scratch, [None, Some(clock)], fold);
+        };
     }
 }
 

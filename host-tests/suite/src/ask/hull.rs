@@ -2,13 +2,14 @@
 
 pub use meshsweep_core::Focus;
 use meshsweep_core::{
-    Blob, Budget, Change, Hit, Hull, RefinedHull, ScratchEntry, Search, TriangleHit,
+    Blob, Budget, Hit, Hull, OuterSearch, RefinedHull, ScratchEntry, SplitChange, TriangleHit,
 };
 
 use super::{Refused, Subject, timed};
+use crate::clock::Clock;
 use crate::fold::Fold;
-use crate::place::{Bounds, Placer};
-use crate::{Clock, Kind};
+use crate::kind::Kind;
+use crate::place::{Bounds, Place};
 
 /// A blob, and its hull hierarchy.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +31,7 @@ pub struct Scratch<'t> {
     hits: [Hit; 16],
     met: [TriangleHit; 16],
     refined: RefinedHull<'t, SPLITS>,
-    changes: [Change; 64],
+    changes: [SplitChange; 64],
 }
 
 impl Scratch<'_> {
@@ -42,7 +43,7 @@ impl Scratch<'_> {
             hits: [Hit::EMPTY; 16],
             met: [TriangleHit::EMPTY; 16],
             refined: RefinedHull::new(),
-            changes: [Change::EMPTY; 64],
+            changes: [SplitChange::EMPTY; 64],
         }
     }
 }
@@ -68,52 +69,28 @@ impl<'t> Subject<'t> for Model<'t> {
         self.hull.scratch_entries() <= QUEUE
     }
 
-    fn suits(kind: Kind) -> bool {
-        matches!(
-            kind,
-            Kind::Arith
-                | Kind::Contents
-                | Kind::ClosestFar
-                | Kind::ClosestNear
-                | Kind::ClosestPath
-                | Kind::FirstHit
-                | Kind::AllHits
-                | Kind::OuterHits
-                | Kind::Refine
-        )
-    }
-
-    fn ask(
-        &self,
-        kind: Kind,
-        place: &mut Placer,
-        scratch: &mut Scratch<'t>,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) {
-        match kind {
-            Kind::Contents => contents(self, fold),
-            Kind::ClosestFar => {
-                closest(self, place.far(), scratch, clock, fold);
-            }
-            Kind::ClosestNear => {
-                // The base is an answer: a wrong one shows in this block already, so its
-                // consequences mislead nobody.
-                let base = closest(self, place.far(), scratch, &mut (), fold);
-                closest(self, place.near(base), scratch, clock, fold);
-            }
-            Kind::ClosestPath => {
-                closest(self, place.step(), scratch, clock, fold);
-            }
-            Kind::FirstHit => first_hit(self, place.segment(), scratch, clock, fold),
-            Kind::AllHits => all_hits(self, place.segment(), scratch, clock, fold),
-            Kind::OuterHits => outer_hits(self, place.segment(), scratch, clock, fold),
-            Kind::Refine => {
-                let (focus, error) = focus(self, place);
-                refine(self, &focus, error, scratch, clock, fold);
-            }
-            _ => {}
-        }
+    asks! { Scratch<'t>, |self, place, scratch, clock, fold|
+        Arith => ();
+        Contents => contents(self, fold);
+        ClosestFar => {
+            closest(self, place.far(), scratch, clock, fold);
+        };
+        ClosestNear => {
+            // The base is an answer: a wrong one shows in this block already, so its
+            // consequences mislead nobody.
+            let base = closest(self, place.far(), scratch, &mut (), fold);
+            closest(self, place.near(base), scratch, clock, fold);
+        };
+        ClosestPath => {
+            closest(self, place.step(), scratch, clock, fold);
+        };
+        FirstHit => first_hit(self, place.segment(), scratch, clock, fold);
+        AllHits => all_hits(self, place.segment(), scratch, clock, fold);
+        OuterHits => outer_hits(self, place.segment(), scratch, clock, fold);
+        Refine => {
+            let (focus, error) = focus(self, place);
+            refine(self, &focus, error, scratch, clock, fold);
+        };
     }
 }
 
@@ -224,7 +201,7 @@ pub fn outer_hits<'t>(
     let Scratch { queue, hits: found, refined, .. } = scratch;
     timed(clock, || {
         refined.reset();
-        for search in [Search::First, Search::Outer] {
+        for search in [OuterSearch::First, OuterSearch::Outer] {
             match model.hull.outer_hits(a, b, search, refined, found, Budget::EXACT, queue) {
                 Ok(answer) => {
                     fold.f32(answer.t.lower);
@@ -241,17 +218,17 @@ pub fn outer_hits<'t>(
 }
 
 /// The focus of a path that seldom jumps, half of the time a ball; and the error.
-fn focus(model: &Model<'_>, place: &mut Placer) -> (Focus, f32) {
+fn focus(model: &Model<'_>, place: &mut impl Place) -> (Focus, f32) {
     let [least, greatest] = bounds(model);
     let size = greatest[0] - least[0];
     let here = place.step_or_jump();
-    let focus = match place.rng.next_u32() & 7 {
+    let focus = match place.word() & 7 {
         0 => Focus::Box { a: here, b: place.near(here) },
         1 => Focus::Segment { a: here, b: place.far(), radius: size / 64.0 },
         2 => Focus::Eye {
             position: here,
-            axis: core::array::from_fn(|_| place.rng.signed_unit()),
-            cosine: place.rng.signed_unit(),
+            axis: core::array::from_fn(|_| place.share()),
+            cosine: place.share(),
             error_per_distance: 0.03125,
         },
         3 => Focus::Everywhere,

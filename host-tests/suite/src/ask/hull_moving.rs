@@ -5,9 +5,10 @@ use meshsweep_core::{Budget, ClosestPoint, Pose};
 
 use super::hull::Model;
 use super::{Refused, Subject, timed};
+use crate::clock::Clock;
 use crate::fold::Fold;
-use crate::place::{Bounds, Placer};
-use crate::{Clock, Kind};
+use crate::kind::Kind;
+use crate::place::{Bounds, Place};
 
 /// A split hierarchy, asked about points that move and about its moved copy.
 #[derive(Clone, Copy, Debug)]
@@ -34,36 +35,22 @@ impl<'t> Subject<'t> for Moving<'t> {
         self.0.hull.overlap_entries(&self.0.hull) <= QUEUE
     }
 
-    fn suits(kind: Kind) -> bool {
-        matches!(kind, Kind::Sweep | Kind::Posed | Kind::Overlap)
-    }
-
-    fn ask(
-        &self,
-        kind: Kind,
-        place: &mut Placer,
-        scratch: &mut Scratch,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) {
-        match kind {
-            Kind::Sweep => {
-                let from = place.far();
-                sweep(self, [from, place.near(from), place.far()], scratch, clock, fold);
-            }
-            Kind::Posed => {
-                let (rotation, translation) = place.motion();
-                let pose = Pose { rotation, translation };
-                posed(self, pose, place.far(), scratch, clock, fold);
-            }
-            Kind::Overlap => {
-                let (rotation, translation) = place.motion();
-                let [a, b] = place.segment();
-                let pose = Pose { rotation, translation };
-                overlap(self, pose, [a, b, place.far()], scratch, clock, fold);
-            }
-            _ => {}
-        }
+    asks! { Scratch, |self, place, scratch, clock, fold|
+        Sweep => {
+            let from = place.far();
+            sweep(self, [from, place.near(from), place.far()], scratch, clock, fold);
+        };
+        Posed => {
+            let (rotation, translation) = place.motion();
+            let pose = Pose { rotation, translation };
+            posed(self, pose, place.far(), scratch, clock, fold);
+        };
+        Overlap => {
+            let (rotation, translation) = place.motion();
+            let [a, b] = place.segment();
+            let pose = Pose { rotation, translation };
+            overlap(self, pose, [a, b, place.far()], scratch, clock, fold);
+        };
     }
 }
 

@@ -6,6 +6,40 @@
 //! visit nodes in another order. Nothing here formats or indexes: the proof image links these
 //! functions, and they may not bring a panic of their own.
 
+/// The questions of a subject, one a row: the kind, and how it is asked. Host and boards run them,
+/// the proof image links them, and fuzzers ask them of any bytes.
+macro_rules! asks {
+    ($scratch:ty, |$model:ident, $place:ident, $memory:ident, $to:ident| $($rows:tt)*) => {
+        asks! { @rows $scratch, $model, $place, $memory, clock, fold,
+            { let $to = &mut Asked::new(clock, fold); } $($rows)* }
+    };
+    ($scratch:ty, |$model:ident, $place:ident, $memory:ident, $clock:ident, $fold:ident|
+        $($rows:tt)*) => {
+        asks! { @rows $scratch, $model, $place, $memory, $clock, $fold, {} $($rows)* }
+    };
+    (@rows $scratch:ty, $model:ident, $place:ident, $memory:ident, $clock:ident, $fold:ident,
+        { $($first:stmt;)? } $($kind:ident => $ask:expr;)*) => {
+        fn suits(kind: Kind) -> bool {
+            matches!(kind, $(Kind::$kind)|*)
+        }
+
+        fn ask(
+            &$model,
+            kind: Kind,
+            $place: &mut impl Place,
+            $memory: &mut $scratch,
+            $clock: &mut impl Clock,
+            $fold: &mut Fold,
+        ) {
+            $($first)?
+            match kind {
+                $(Kind::$kind => $ask,)*
+                _ => {}
+            }
+        }
+    };
+}
+
 pub mod apart;
 pub mod curve;
 pub mod deform;
@@ -22,9 +56,10 @@ use meshsweep_core::{
     ClosestPoint, Ended, FirstHit, Hit, QueryError, TriangleHit, Undecided, Verdict,
 };
 
+use crate::clock::Clock;
 use crate::fold::Fold;
-use crate::place::{Bounds, Placer};
-use crate::{Clock, Kind};
+use crate::kind::Kind;
+use crate::place::{Bounds, Place};
 
 /// The structure of a blob that answers. It is a trait and not an enum, so that an image links only
 /// the structure that it asks.
@@ -62,7 +97,7 @@ pub trait Subject<'t>: Sized {
     fn ask(
         &self,
         kind: Kind,
-        place: &mut Placer,
+        place: &mut impl Place,
         scratch: &mut Self::Scratch,
         clock: &mut impl Clock,
         fold: &mut Fold,
@@ -200,7 +235,7 @@ fn refusal(fold: &mut Fold, error: QueryError) {
         QueryError::NoScratch => 4,
         QueryError::NotServed { .. } => 5,
         QueryError::Unchecked => 6,
-        QueryError::NoHulls => 8,
+        QueryError::NotEnclosing => 8,
         _ => 7,
     };
     // A word that no answer begins with: it would be a NaN's bits.

@@ -6,12 +6,12 @@
 use core::mem::size_of;
 
 use meshsweep_core::{
-    Blob, Bound, Budget, Bvh, Change, ClosestPoint, CoherentQuery, Focus, Hint, Hull, QueryError,
-    RefinedHull, Refinement, ScratchEntry, TightHull, Triboxes,
+    Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Focus, Hint, Hull, QueryError, RefinedHull,
+    Refinement, ScratchEntry, SplitChange, TightHull, TriboxBound, Triboxes,
 };
 
 use super::{Refused, timed};
-use crate::Clock;
+use crate::clock::Clock;
 use crate::fold::Fold;
 
 /// The question at each place.
@@ -132,7 +132,7 @@ const FRONT: usize = 128;
 pub struct Memory<'t> {
     entries: [ScratchEntry; ENTRIES],
     refined: RefinedHull<'t, SPLITS>,
-    changes: [Change; 64],
+    changes: [SplitChange; 64],
     coherent: CoherentQuery<'t, FRONT>,
 }
 
@@ -143,7 +143,7 @@ impl Memory<'_> {
         Self {
             entries: [ScratchEntry::EMPTY; ENTRIES],
             refined: RefinedHull::new(),
-            changes: [Change::EMPTY; 64],
+            changes: [SplitChange::EMPTY; 64],
             coherent: CoherentQuery::new(),
         }
     }
@@ -161,7 +161,7 @@ pub enum Answer {
     /// A closest point.
     Closest(ClosestPoint),
     /// A lower bound from triboxes.
-    Bound(Bound),
+    Bound(TriboxBound),
     /// An update of the refined hull.
     Refined(Refinement),
     /// A refusal.

@@ -4,9 +4,10 @@ pub use meshsweep_core::TightHull;
 use meshsweep_core::{Budget, ScratchEntry, TightHulls, Verdict};
 
 use super::{Asked, Refused, Subject, closest_point, tree, verdict};
+use crate::clock::Clock;
 use crate::fold::Fold;
-use crate::place::{Bounds, Placer, Point};
-use crate::{Clock, Kind};
+use crate::kind::Kind;
+use crate::place::{Bounds, Place, Point};
 
 /// Entries of the stack.
 const STACK: usize = 64;
@@ -42,40 +43,18 @@ impl<'t> Subject<'t> for Hulls<'t> {
         size_of::<TightHull<'_>>() + entries.saturating_mul(size_of::<ScratchEntry>())
     }
 
-    fn suits(kind: Kind) -> bool {
-        matches!(
-            kind,
-            Kind::Arith
-                | Kind::Contents
-                | Kind::ClosestFar
-                | Kind::ClosestNear
-                | Kind::Stopped
-                | Kind::Within
-        )
-    }
-
-    fn ask(
-        &self,
-        kind: Kind,
-        place: &mut Placer,
-        scratch: &mut Scratch,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) {
-        let to = &mut Asked::new(clock, fold);
-        match kind {
-            Kind::Contents => contents(self, to.fold),
-            Kind::ClosestFar => {
-                closest(self, place.far(), scratch, to);
-            }
-            Kind::ClosestNear => {
-                let base = closest(self, place.far(), scratch, &mut Asked::new((), to.fold));
-                closest(self, place.near(base), scratch, to);
-            }
-            Kind::Stopped => stopped(self, place.far(), place.distance(), scratch, to),
-            Kind::Within => is_within(self, place.far(), place.distance(), scratch, to),
-            _ => {}
-        }
+    asks! { Scratch, |self, place, scratch, to|
+        Arith => ();
+        Contents => contents(self, to.fold);
+        ClosestFar => {
+            closest(self, place.far(), scratch, to);
+        };
+        ClosestNear => {
+            let base = closest(self, place.far(), scratch, &mut Asked::new((), to.fold));
+            closest(self, place.near(base), scratch, to);
+        };
+        Stopped => stopped(self, place.far(), place.distance(), scratch, to);
+        Within => is_within(self, place.far(), place.distance(), scratch, to);
     }
 }
 

@@ -9,9 +9,10 @@ use meshsweep_core::TriangleHit;
 use meshsweep_core::{Blob, CoherentQuery, Hint, Neighbor, ScratchEntry, TrianglePair};
 
 use super::{Asked, Refused, Subject};
+use crate::clock::Clock;
 use crate::fold::Fold;
-use crate::place::{Bounds, Placer};
-use crate::{Clock, Kind};
+use crate::kind::Kind;
+use crate::place::{Bounds, Place};
 
 pub use distance::{
     all_within, batch, closest, coherent, follow, is_within, nearest, precise, signed, stopped,
@@ -81,54 +82,37 @@ impl<'t> Subject<'t> for Bvh<'t> {
         size_of::<Bvh<'_>>() + entries.saturating_mul(size_of::<ScratchEntry>())
     }
 
-    fn suits(kind: Kind) -> bool {
-        let is_of_others = kind.is_triboxes() || kind.is_deform();
-        let is_apart = super::apart::asks(kind);
-        let is_hull = matches!(kind, Kind::OuterHits | Kind::Refine | Kind::Sweep | Kind::Posed);
-        !is_apart && !is_hull && !is_of_others
-    }
-
-    fn ask(
-        &self,
-        kind: Kind,
-        place: &mut Placer,
-        scratch: &mut Scratch<'t>,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) {
-        let to = &mut Asked::new(clock, fold);
-        match kind {
-            Kind::Contents => contents(self, to.fold),
-            Kind::ClosestFar => {
-                closest(self, place.far(), scratch, to);
-            }
-            Kind::ClosestNear => {
-                // The base is an answer: a wrong one shows in this block already, so its
-                // consequences mislead nobody.
-                let base = closest(self, place.far(), scratch, &mut Asked::new((), to.fold));
-                closest(self, place.near(base), scratch, to);
-            }
-            Kind::ClosestPath => follow(self, place.step(), scratch, to),
-            Kind::ClosestPrecise => {
-                let base = closest(self, place.far(), scratch, &mut Asked::new((), to.fold));
-                precise(self, place.near(base), scratch, to);
-            }
-            Kind::CoherentQuery => coherent(self, place.step_or_jump(), scratch, to),
-            Kind::Stopped => stopped(self, place.far(), place.distance(), scratch, to),
-            Kind::Within => is_within(self, place.far(), place.distance(), scratch, to),
-            Kind::AllWithin => all_within(self, place.far(), place.distance(), scratch, to),
-            Kind::Nearest => nearest(self, place.far(), scratch, to),
-            Kind::Signed => signed(self, place.far(), scratch, to),
-            Kind::FirstHit => first_hit(self, place.segment(), scratch, to),
-            Kind::Facing => facing(self, place.segment(), scratch, to),
-            Kind::AnyHit => any_hit(self, place.segment(), scratch, to),
-            Kind::AllHits => all_hits(self, place.segment(), scratch, to),
-            Kind::Batch => batch(self, &core::array::from_fn(|_| place.far()), scratch, to),
-            Kind::Cull => cull(self, place.far(), scratch, to),
-            Kind::Overlap => overlap(self, pose(place.motion()), scratch, to),
-            Kind::AllOverlaps => all_overlaps(self, pose(place.motion()), scratch, to),
-            _ => {}
-        }
+    asks! { Scratch<'t>, |self, place, scratch, to|
+        Arith => ();
+        Contents => contents(self, to.fold);
+        ClosestFar => {
+            closest(self, place.far(), scratch, to);
+        };
+        ClosestNear => {
+            // The base is an answer: a wrong one shows in this block already, so its
+            // consequences mislead nobody.
+            let base = closest(self, place.far(), scratch, &mut Asked::new((), to.fold));
+            closest(self, place.near(base), scratch, to);
+        };
+        ClosestPath => follow(self, place.step(), scratch, to);
+        ClosestPrecise => {
+            let base = closest(self, place.far(), scratch, &mut Asked::new((), to.fold));
+            precise(self, place.near(base), scratch, to);
+        };
+        CoherentQuery => coherent(self, place.step_or_jump(), scratch, to);
+        Stopped => stopped(self, place.far(), place.distance(), scratch, to);
+        Within => is_within(self, place.far(), place.distance(), scratch, to);
+        AllWithin => all_within(self, place.far(), place.distance(), scratch, to);
+        Nearest => nearest(self, place.far(), scratch, to);
+        Signed => signed(self, place.far(), scratch, to);
+        FirstHit => first_hit(self, place.segment(), scratch, to);
+        Facing => facing(self, place.segment(), scratch, to);
+        AnyHit => any_hit(self, place.segment(), scratch, to);
+        AllHits => all_hits(self, place.segment(), scratch, to);
+        Batch => batch(self, &core::array::from_fn(|_| place.far()), scratch, to);
+        Cull => cull(self, place.far(), scratch, to);
+        Overlap => overlap(self, pose(place.motion()), scratch, to);
+        AllOverlaps => all_overlaps(self, pose(place.motion()), scratch, to);
     }
 }
 

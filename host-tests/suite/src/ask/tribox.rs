@@ -5,9 +5,10 @@ use meshsweep_core::internal::tribox::FACES;
 use meshsweep_core::{Boundary, Pose, TriboxError};
 
 use super::timed;
+use crate::clock::Clock;
 use crate::fold::Fold;
-use crate::place::Placer;
-use crate::{Clock, Kind};
+use crate::kind::Kind;
+use crate::place::Place;
 
 /// Points of a tribox.
 pub type Points = [[f32; 3]; 8];
@@ -15,7 +16,7 @@ pub type Points = [[f32; 3]; 8];
 /// Asks one question of a kind about triboxes; nothing of any other kind. A call, so that the other
 /// questions' stacks do not hold its boundaries.
 #[inline(never)]
-pub fn ask(kind: Kind, place: &mut Placer, clock: &mut impl Clock, fold: &mut Fold) {
+pub fn ask(kind: Kind, place: &mut impl Place, clock: &mut impl Clock, fold: &mut Fold) {
     let points = [[0.0; 3]; 8].map(|_: [f32; 3]| place.far());
     match kind {
         Kind::TriboxBounds => {
@@ -27,7 +28,7 @@ pub fn ask(kind: Kind, place: &mut Placer, clock: &mut impl Clock, fold: &mut Fo
             let [a, b, .., c, d] = points;
             let (first, second) = ([a, place.near(a)], [b, place.near(b)]);
             let (near, far) = ([a, c], [b, d]);
-            let pair = if place.rng.next_u32() & 1 == 0 { (first, second) } else { (near, far) };
+            let pair = if place.word() & 1 == 0 { (first, second) } else { (near, far) };
             if kind == Kind::BoxOverlap {
                 box_overlap(&pair, clock, fold);
             } else {
@@ -35,7 +36,7 @@ pub fn ask(kind: Kind, place: &mut Placer, clock: &mut impl Clock, fold: &mut Fo
             }
         }
         Kind::TriboxRest => {
-            let snap = place.rng.next_u32() & 0xFF == 0;
+            let snap = place.word() & 0xFF == 0;
             rest(&points, place.distance(), snap, clock, fold);
         }
         _ => {}

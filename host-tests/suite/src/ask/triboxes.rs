@@ -1,13 +1,14 @@
 //! Questions to the tribox hierarchy of a blob.
 
 pub use meshsweep_core::Triboxes;
-use meshsweep_core::{Bound, Budget, NodePair, Pose, ScratchEntry};
+use meshsweep_core::{Budget, NodePair, Pose, ScratchEntry, TriboxBound};
 
 use super::tree::pose;
 use super::{Asked, Refused, Subject, how, number};
+use crate::clock::Clock;
 use crate::fold::Fold;
-use crate::place::{Bounds, Ends, Placer, Point};
-use crate::{Clock, Kind};
+use crate::kind::Kind;
+use crate::place::{Bounds, Ends, Place, Point};
 
 /// Entries of the stack of pairs: more than twice most splits above a node of the suite's blobs.
 const STACK: usize = 64;
@@ -54,35 +55,13 @@ impl<'t> Subject<'t> for Triboxes<'t> {
             + self.separation_entries(self).saturating_mul(size_of::<ScratchEntry>())
     }
 
-    fn suits(kind: Kind) -> bool {
-        matches!(
-            kind,
-            Kind::Arith
-                | Kind::Contents
-                | Kind::TriboxesApart
-                | Kind::TriboxesCandidates
-                | Kind::TriboxesDistance
-                | Kind::TriboxesClip
-        )
-    }
-
-    fn ask(
-        &self,
-        kind: Kind,
-        place: &mut Placer,
-        scratch: &mut Scratch,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) {
-        let to = &mut Asked::new(clock, fold);
-        match kind {
-            Kind::Contents => contents(self, to.fold),
-            Kind::TriboxesApart => reject(self, pose(place.motion()), scratch, to),
-            Kind::TriboxesCandidates => candidates(self, pose(place.motion()), scratch, to),
-            Kind::TriboxesDistance => nearest(self, place.far(), scratch, to),
-            Kind::TriboxesClip => first(self, place.segment(), scratch, to),
-            _ => {}
-        }
+    asks! { Scratch, |self, place, scratch, to|
+        Arith => ();
+        Contents => contents(self, to.fold);
+        TriboxesApart => reject(self, pose(place.motion()), scratch, to);
+        TriboxesCandidates => candidates(self, pose(place.motion()), scratch, to);
+        TriboxesDistance => nearest(self, place.far(), scratch, to);
+        TriboxesClip => first(self, place.segment(), scratch, to);
     }
 }
 
@@ -156,7 +135,7 @@ pub fn candidates(
     }
 }
 
-pub(super) fn bound(fold: &mut Fold, answer: &Bound) {
+pub(super) fn bound(fold: &mut Fold, answer: &TriboxBound) {
     fold.f32(answer.lower);
     number(fold, answer.node);
     how(fold, answer.ended);

@@ -10,6 +10,7 @@ mod winding;
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::check::check_tree;
 use meshsweep::mesh::{Input, RawMesh, repair};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, Facing, Hit, Interval, ScratchEntry, Side};
 use meshsweep_host_tests::generate::Triangles;
 
@@ -35,7 +36,7 @@ impl File {
         let raw = RawMesh::from_f64(self.positions.clone(), self.triangles.clone());
         let (mesh, _) = repair(raw).expect("a mesh");
         let input = Input { mesh: &mesh, moved: 0.0, input_triangles: self.triangles.len() };
-        let bytes = build(input, options).expect("builds").0.to_bytes();
+        let bytes = build(input, options, Watch::NONE).expect("builds").0.to_bytes();
         if let Err(why) = check_tree(&bytes, &mesh) {
             panic!("not proved: {why}: {self:?}");
         }

@@ -4,6 +4,7 @@ use super::{File, side, views, winding};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::check::{check_tree, prove_repair};
 use meshsweep::mesh::{Filed, RawMesh, repair};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Bvh, OpenError, SectionKind, Side, Undecided};
 use meshsweep_host_tests::corrupt::{assert_damage_is_safe, edited, entries, entry};
 use meshsweep_host_tests::generate::evil::room;
@@ -159,7 +160,8 @@ fn a_solid_in_a_solid_that_repair_turned_is_no_proved_cavity() {
     mesh.turned = (0..24).map(|t| t >= 12).collect();
     mesh.triangles[12..].iter_mut().for_each(|t| t.swap(1, 2));
     assert!(prove_repair(&raw, mesh.as_input()).is_ok(), "it does not know what is right");
-    let bytes = build(mesh.as_input(), &TreeOptions::default()).expect("builds").0.to_bytes();
+    let bytes =
+        build(mesh.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds").0.to_bytes();
     let tree = Bvh::open(&bytes).expect("opens");
     assert!(matches!(side(&tree, [0.0; 3]), Side::Undecided(_)), "the builder looks at the file");
     let all_told = edited(

@@ -97,7 +97,8 @@ fn a_cavity_in_a_skin_with_a_hole_is_outside_whichever_triangle_is_missing() {
                 let truth = exact_winding(&File::of(&file), point.map(f64::from)) as f32;
                 assert_number(&tree, point, truth);
                 let stack = &mut vec![ScratchEntry::EMPTY; tree.scratch_entries()];
-                let signed = tree.signed_by_winding(point, Budget::EXACT, stack).expect("answers");
+                let signed =
+                    tree.signed_distance_by_winding(point, Budget::EXACT, stack).expect("answers");
                 assert!(signed.side == Side::Outside && signed.distance.lower > 0.0);
             }
         }

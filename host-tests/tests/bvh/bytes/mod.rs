@@ -9,13 +9,14 @@ mod whole;
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, CoherentQuery, OpenError, Pose, SectionKind};
 use meshsweep_host_tests::corrupt::{self, Asker};
 use meshsweep_host_tests::generate::{Triangles, icosphere};
 
 fn blob_of((positions, triangles): Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions, triangles);
-    build(mesh.as_input(), options).expect("builds").0.to_bytes()
+    build(mesh.as_input(), options, Watch::NONE).expect("builds").0.to_bytes()
 }
 
 /// A sphere of 320 triangles: more than one level of nodes, and every section that needs no choice.

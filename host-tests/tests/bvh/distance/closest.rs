@@ -143,7 +143,7 @@ fn short_stacks_few_steps_and_tolerances_still_contain_the_truth() {
                 for steps in [0, 1, 2, 5, 20] {
                     let answer = ask(&tree, p, &Budget::EXACT.with_steps(steps), entries);
                     contains(scene, p, &answer, truth);
-                    assert!(answer.work.splits <= steps, "{answer:?}");
+                    assert!(answer.work.opened <= steps, "{answer:?}");
                 }
             }
             for relative in [1e-6, 0.01, 0.5, 100.0] {

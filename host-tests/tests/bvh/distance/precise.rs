@@ -66,7 +66,7 @@ fn few_steps_and_little_scratch_leave_an_interval_that_contains_the_truth() {
                 let budget = Budget::EXACT.with_steps(steps);
                 let answer = ask(scene, p, budget);
                 contains(scene, p, &answer);
-                assert!(answer.work.splits <= steps, "{answer:?}");
+                assert!(answer.work.opened <= steps, "{answer:?}");
                 cut_short += usize::from(answer.ended == Ended::Steps);
             }
             let answer = tree.closest_point_precise(p, Budget::EXACT, &mut stack(1));

@@ -3,6 +3,7 @@
 use super::scenes::{STACK, allowed_width, closed, stack};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::{RawMesh, repair};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, Ended, QueryError, Side, SignedDistance, Undecided};
 use meshsweep_host_tests::generate::corpus::{IDENTITY, soups};
 use meshsweep_host_tests::generate::{
@@ -262,7 +263,7 @@ fn short_stacks_and_few_steps_leave_the_side_open_or_right() {
             {
                 let answer = ask(scene, p, &Budget::EXACT.with_steps(steps), entries);
                 undefined += u32::from(!check(scene, p, 1, &answer));
-                assert!(answer.closest.work.splits <= steps);
+                assert!(answer.closest.work.opened <= steps);
             }
         }
     }
@@ -337,7 +338,10 @@ fn a_shell_that_rounding_closes_has_no_sides_and_a_thicker_one_keeps_them() {
         let positions = at(1.0).chain(at(1.0 - wall)).collect();
         let raw = RawMesh::from_f64(positions, triangles.iter().copied().chain(inner).collect());
         let (mesh, report) = repair(raw).expect("a mesh");
-        let bytes = build(mesh.as_input(), &TreeOptions::default()).expect("builds").0.to_bytes();
+        let bytes = build(mesh.as_input(), &TreeOptions::default(), Watch::NONE)
+            .expect("builds")
+            .0
+            .to_bytes();
         let tree = Bvh::open(&bytes).expect("opens");
         let ask = |p| tree.signed_distance(p, Budget::EXACT, &mut stack(64)).expect("finite").side;
         (report.opposite_duplicate.count, ask([0.0; 3]), ask([3.0, 0.0, 0.0]))

@@ -5,6 +5,7 @@ use super::scenes::{STACK, stack};
 use meshsweep::bvh::{TreeOptions, TreeReport, build};
 use meshsweep::check::check_tree;
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, Side};
 use meshsweep_host_tests::generate::{Rng, Triangles, cube, inverted, joined, plate, scaled};
 use meshsweep_host_tests::scene::Scene;
@@ -42,7 +43,8 @@ fn beside(slope: [f32; 2], rng: &mut Rng) -> Vec<[f32; 3]> {
 
 fn built(mesh: &Triangles) -> (Vec<u8>, TreeReport) {
     let mesh = Mesh::new(mesh.0.clone(), mesh.1.clone());
-    let (sections, report) = build(mesh.as_input(), &TreeOptions::default()).expect("builds");
+    let (sections, report) =
+        build(mesh.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds");
     let bytes = sections.to_bytes();
     check_tree(&bytes, &mesh).expect("proved");
     (bytes, report)

@@ -71,7 +71,7 @@ fn a_short_stack_or_few_steps_never_make_a_wrong_verdict() {
                 {
                     let answer = ask(scene, p, d, &Budget::EXACT.with_steps(steps), entries);
                     unknown += u32::from(!check(scene, p, d, truth, answer));
-                    assert!(answer.work.splits <= steps);
+                    assert!(answer.work.opened <= steps);
                 }
             }
         }
@@ -110,7 +110,7 @@ fn far_points_and_huge_distances_are_answered() {
 fn out_of_reach_costs_one_node() {
     let scene = Scene::tree("cube", cube(8), false);
     let answer = ask(&scene, [3.0, 0.0, 0.0], 1.5, &Budget::EXACT, STACK);
-    assert_eq!((answer.verdict, answer.work.splits, answer.work.triangles), (Verdict::No, 1, 0));
+    assert_eq!((answer.verdict, answer.work.opened, answer.work.triangles), (Verdict::No, 1, 0));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use super::motions::{ask, ask_all, motions, truth};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::{Input, Mesh};
+use meshsweep::progress::Watch;
 use meshsweep_core::{
     Budget, BuildFor, Bvh, Ended, Pose, QueryError, ScratchEntry, TrianglePair, Undecided, Verdict,
 };
@@ -31,7 +32,7 @@ fn short_stacks_and_few_steps_leave_answers_open_and_never_wrong() {
             let short = first
                 .overlap(&second, pose, Budget::EXACT.with_steps(steps), &mut stack)
                 .expect("answers");
-            assert!(short.work.splits <= steps);
+            assert!(short.work.opened <= steps);
             if short.verdict == Verdict::Undecided(Undecided::Steps) {
                 cut[1] += 1;
             } else {
@@ -55,8 +56,9 @@ fn pairs_that_do_not_fit_are_counted() {
     let mut stack = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
     for room in [0, 1, 7] {
         let mut pairs = vec![TrianglePair::EMPTY; room];
-        let found =
-            first.overlaps(&second, pose, &mut pairs, Budget::EXACT, &mut stack).expect("answers");
+        let found = first
+            .all_overlaps(&second, pose, &mut pairs, Budget::EXACT, &mut stack)
+            .expect("answers");
         assert_eq!((found.stored, found.dropped as usize), (room, all.len() - room));
         assert_eq!(found.ended, Ended::Scratch);
         assert_eq!(pairs, all[..room]);
@@ -89,13 +91,14 @@ fn what_cannot_be_answered_is_refused() {
     assert_eq!(refused(&tiny.trees()[0], &tree, Pose::IDENTITY, None), QueryError::PoseOutOfDomain);
     let mesh = Mesh::new(cube(1).0, cube(1).1);
     let options = TreeOptions::default().with_segments(false);
-    let bytes = build(mesh.as_input(), &options).expect("builds").0.to_bytes();
+    let bytes = build(mesh.as_input(), &options, Watch::NONE).expect("builds").0.to_bytes();
     let closest_only = Bvh::open(&bytes).expect("opens");
     // A surface error beside which the model is nothing.
-    let bytes = build(Input { moved: 1e12, ..mesh.as_input() }, &TreeOptions::default())
-        .expect("builds")
-        .0
-        .to_bytes();
+    let bytes =
+        build(Input { moved: 1e12, ..mesh.as_input() }, &TreeOptions::default(), Watch::NONE)
+            .expect("builds")
+            .0
+            .to_bytes();
     let vague = Bvh::open(&bytes).expect("opens");
     let flat = Pose { rotation: [[0.0; 3]; 3], ..Pose::IDENTITY };
     for pose in [Pose::IDENTITY, flat] {

@@ -19,7 +19,7 @@ pub fn ask(a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose) -> Overlap {
 pub fn ask_all(a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose) -> (Vec<TrianglePair>, Ended) {
     let mut stack = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
     let mut pairs = vec![TrianglePair::EMPTY; 200_000];
-    let all = a.overlaps(b, *pose, &mut pairs, Budget::EXACT, &mut stack).expect("answers");
+    let all = a.all_overlaps(b, *pose, &mut pairs, Budget::EXACT, &mut stack).expect("answers");
     assert_eq!(all.dropped, 0);
     pairs.truncate(all.stored);
     (pairs, all.ended)

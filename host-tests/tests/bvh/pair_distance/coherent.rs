@@ -99,7 +99,7 @@ fn a_pair_with_few_steps_or_scratch_never_leaves_the_truth() {
             let budget = EXACT.with_steps(steps);
             let found = pair.distance(&first, &second, pose, budget, memory).expect("answers");
             assert!(contains(found.distance, truth), "{found:?} {truth:?}");
-            assert!(found.work.splits <= steps, "{found:?}");
+            assert!(found.work.opened <= steps, "{found:?}");
             let (asked, half) = (truth.upper as f32, 0.5 * truth.upper as f32);
             for distance in [half, asked] {
                 let found = pair.within(&first, &second, pose, distance, budget, memory);
@@ -149,7 +149,7 @@ fn a_model_that_stays_far_is_clear_without_a_look() {
         let keep = 0.1 * a.size();
         let found = pair.within(&first, &second, pose, keep, EXACT, &mut memory).expect("answers");
         assert!(found.is_clear());
-        searched += usize::from(found.work.splits > 0);
+        searched += usize::from(found.work.opened > 0);
     }
     assert!(searched <= 4, "{searched} of 50");
 }
@@ -174,7 +174,7 @@ fn a_pair_contradicts_no_search_from_the_roots() {
         let place = rng.point_in(low.map(|x| x - grown), high.map(|x| x + grown));
         let mut pose = placed(b, rotation(&mut rng), place);
         for _ in 0..24 {
-            let truth = first.distance(&second, pose, EXACT, &mut fresh).expect("answers");
+            let truth = first.distance_to(&second, pose, EXACT, &mut fresh).expect("answers");
             let Interval { lower, upper } = truth.distance;
             let is_cut = run % 3 > 0 && rng.below(3) == 0;
             let entries = if is_cut { [1, 3, 6, 9][rng.below(4)] } else { memory.len() };

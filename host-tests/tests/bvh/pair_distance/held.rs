@@ -10,7 +10,7 @@ use meshsweep_host_tests::scene::Scene;
 
 pub fn ask(a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose, budget: Budget) -> PairDistance {
     let mut stack = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
-    a.distance(b, *pose, budget, &mut stack).expect("answers")
+    a.distance_to(b, *pose, budget, &mut stack).expect("answers")
 }
 
 pub fn ask_within(a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose, distance: f32) -> PairWithin {

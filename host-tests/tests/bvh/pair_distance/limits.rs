@@ -3,6 +3,7 @@
 use super::held::{ask, contains, truth};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep_core::{
     Budget, BuildFor, Bvh, Ended, Pose, QueryError, ScratchEntry, Undecided, Verdict,
 };
@@ -24,7 +25,8 @@ fn short_scratch_and_few_steps_widen_intervals_and_never_make_them_wrong() {
         let full = ask(&first, &second, &pose, Budget::EXACT);
         for entries in 1..16 {
             let mut stack = vec![ScratchEntry::EMPTY; entries];
-            let short = first.distance(&second, pose, Budget::EXACT, &mut stack).expect("answers");
+            let short =
+                first.distance_to(&second, pose, Budget::EXACT, &mut stack).expect("answers");
             assert!(contains(short.distance, truth), "{short:?} {truth:?}");
             assert!(short.distance.upper >= full.distance.upper);
             cut[0] += usize::from(short.ended == Ended::Scratch);
@@ -39,7 +41,7 @@ fn short_scratch_and_few_steps_widen_intervals_and_never_make_them_wrong() {
         }
         for steps in [0, 1, 2, 5, 10, 20] {
             let short = ask(&first, &second, &pose, Budget::EXACT.with_steps(steps));
-            assert!(short.work.splits <= steps);
+            assert!(short.work.opened <= steps);
             assert!(contains(short.distance, truth), "{short:?} {truth:?}");
             cut[1] += usize::from(short.ended == Ended::Steps);
         }
@@ -79,7 +81,7 @@ fn what_cannot_be_answered_is_refused() {
     let [tree, _] = scene.trees();
     let refused = |a: &Bvh<'_>, b: &Bvh<'_>, pose: Pose, entries: usize| {
         let mut stack = vec![ScratchEntry::EMPTY; entries];
-        let first = a.distance(b, pose, Budget::EXACT, &mut stack).expect_err("refused");
+        let first = a.distance_to(b, pose, Budget::EXACT, &mut stack).expect_err("refused");
         let also = a.within_of(b, pose, 1.0, Budget::EXACT, &mut stack).expect_err("refused");
         assert_eq!(first, also);
         first
@@ -100,7 +102,7 @@ fn what_cannot_be_answered_is_refused() {
     assert_eq!(refused(&tree, &tiny.trees()[0], Pose::IDENTITY, 8), QueryError::PoseOutOfDomain);
     let mesh = Mesh::new(cube(1).0, cube(1).1);
     let options = TreeOptions::default().with_segments(false);
-    let bytes = build(mesh.as_input(), &options).expect("builds").0.to_bytes();
+    let bytes = build(mesh.as_input(), &options, Watch::NONE).expect("builds").0.to_bytes();
     let closest_only = Bvh::open(&bytes).expect("opens");
     let refusal = refused(&tree, &closest_only, Pose::IDENTITY, 8);
     assert_eq!(refusal, QueryError::NotServed { build_for: BuildFor::Segment });
@@ -109,7 +111,7 @@ fn what_cannot_be_answered_is_refused() {
         let found = tree.within_of(&tree, Pose::IDENTITY, bad, Budget::EXACT, &mut stack);
         assert_eq!(found.expect_err("refused"), QueryError::Tolerance);
         let budget = Budget::EXACT.with_relative(bad);
-        let found = tree.distance(&tree, Pose::IDENTITY, budget, &mut stack);
+        let found = tree.distance_to(&tree, Pose::IDENTITY, budget, &mut stack);
         assert_eq!(found.expect_err("refused"), QueryError::Tolerance);
     }
 }

@@ -166,7 +166,7 @@ fn few_steps_and_bad_numbers_are_said() {
     let at = |x: f32| Pose { rotation: IDENTITY, translation: [x, 0.0, 0.0] };
     let ends = Motion::straight(at(-9.0), at(9.0));
     let found = ask(&tree, &tree, &ends, 0.0, Budget::EXACT.with_steps(3));
-    assert!(found.ended == Ended::Steps && found.work.splits <= 3, "{found:?}");
+    assert!(found.ended == Ended::Steps && found.work.opened <= 3, "{found:?}");
     let full = ask(&tree, &tree, &ends, 0.0, Budget::EXACT);
     assert!(found.clear_until <= full.clear_until, "{found:?} {full:?}");
     let mut stack = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];

@@ -20,21 +20,22 @@ fn short_scratch_and_few_steps_widen_intervals_and_never_make_them_wrong() {
         let truth = shape.truth(&scene);
         for tree in scene.trees() {
             let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
-            let full = tree.first_contact(&shape.solid(), &to.solid(), Budget::EXACT, &mut stack);
+            let full =
+                tree.solid_first_contact(&shape.solid(), &to.solid(), Budget::EXACT, &mut stack);
             let full = full.expect("answers");
             for (entries, steps) in [(1, u32::MAX), (4, u32::MAX), (64, 0), (64, 1), (64, 3)] {
                 let budget = Budget::EXACT.with_steps(steps);
                 let stack = &mut vec![ScratchEntry::EMPTY; entries][..];
                 let short = tree.solid_distance(&shape.solid(), budget, stack).expect("answers");
                 assert!(contains(&short, truth, shape.radius), "{short:?} {truth:?}");
-                assert!(short.work.splits <= steps);
+                assert!(short.work.opened <= steps);
                 cut[0] += usize::from(matches!(short.ended, Ended::Scratch | Ended::Steps));
                 let limit = (truth.upper as f32 - shape.radius).max(0.0) * 0.9;
                 let within = tree.solid_within(&shape.solid(), limit, budget, stack);
                 let verdict = within.expect("answers").verdict;
                 let is_open = matches!(verdict, Verdict::Undecided(_));
                 assert!(verdict == Verdict::No || is_open || limit == 0.0, "{verdict:?}");
-                let motion = tree.first_contact(&shape.solid(), &to.solid(), budget, stack);
+                let motion = tree.solid_first_contact(&shape.solid(), &to.solid(), budget, stack);
                 let motion = motion.expect("answers");
                 assert!(motion.t.lower <= full.t.lower, "{motion:?} {full:?}");
                 cut[1] += usize::from(matches!(motion.ended, Ended::Scratch | Ended::Steps));
@@ -84,18 +85,18 @@ fn what_no_solid_is_and_no_tree_serves_is_refused_by_name() {
     let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
     let (one, two) = ([[0f32; 3]], [[0f32; 3]; 2]);
     let (one, two) = (Solid::new(&one, 1.0).unwrap(), Solid::new(&two, 1.0).unwrap());
-    let moved = tree.first_contact(&one, &two, Budget::EXACT, &mut stack);
+    let moved = tree.solid_first_contact(&one, &two, Budget::EXACT, &mut stack);
     assert_eq!(moved, Err(QueryError::Corners { found: 2 }));
     let far = [[1e30f32, 0.0, 0.0]];
     let far = Solid::new(&far, 1.0).unwrap();
     let found = tree.solid_distance(&far, Budget::EXACT, &mut stack);
     assert_eq!(found, Err(QueryError::OutOfDomain));
-    let found = tree.first_contact(&one, &far, Budget::EXACT, &mut stack);
+    let found = tree.solid_first_contact(&one, &far, Budget::EXACT, &mut stack);
     assert_eq!(found, Err(QueryError::OutOfDomain));
     // As large a radius would leave nothing of f32's range.
     let large = [[0f32; 3]];
     let large = Solid::new(&large, 1e25).unwrap();
-    let found = tree.first_contact(&large, &large, Budget::EXACT, &mut stack);
+    let found = tree.solid_first_contact(&large, &large, Budget::EXACT, &mut stack);
     assert_eq!(found, Err(QueryError::OutOfDomain));
     let found = tree.solid_within(&one, f32::NAN, Budget::EXACT, &mut stack);
     assert_eq!(found, Err(QueryError::Tolerance));
@@ -115,7 +116,7 @@ fn a_radius_and_a_distance_of_any_size_end() {
         for size in [1.0, 1e4, 1e9, 1e19, 1e30, f32::MAX] {
             let at = [[5.0f32, 0.0, 0.0]];
             let solid = Solid::new(&at, size).unwrap();
-            let found = tree.first_contact(&solid, &solid, Budget::EXACT, &mut stack);
+            let found = tree.solid_first_contact(&solid, &solid, Budget::EXACT, &mut stack);
             match found {
                 Ok(found) => assert!(found.t.lower == 0.0 || size == 1.0, "{size} {found:?}"),
                 Err(error) => assert!(error == QueryError::OutOfDomain && size > 1e4, "{size}"),
@@ -142,7 +143,7 @@ fn no_steps_leave_it_open() {
     let budget = Budget::EXACT.with_steps(0);
     let within = tree.solid_within(&shape.solid(), 1.0, budget, &mut stack).expect("answers");
     assert_eq!(within.verdict, Verdict::Undecided(Undecided::Steps));
-    let motion = tree.first_contact(&shape.solid(), &shape.solid(), budget, &mut stack);
+    let motion = tree.solid_first_contact(&shape.solid(), &shape.solid(), budget, &mut stack);
     let motion = motion.expect("answers");
     assert!(motion.t.lower == 0.0 && motion.hit.is_none() && motion.ended == Ended::Steps);
 }

@@ -9,7 +9,8 @@ use meshsweep_host_tests::scene::Scene;
 
 fn ask(tree: &Bvh<'_>, from: &Shape, to: &Shape) -> FirstHit {
     let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
-    tree.first_contact(&from.solid(), &to.solid(), Budget::EXACT, &mut stack).expect("answers")
+    tree.solid_first_contact(&from.solid(), &to.solid(), Budget::EXACT, &mut stack)
+        .expect("answers")
 }
 
 /// Rounded to a multiple of 2^-6, so that a few hundred parts of a motion are exact in f32.

@@ -123,6 +123,7 @@ fn check_overlap(a: &Scene, b: &Scene, shift: [f32; 3], seen: [&mut usize; 3]) {
         _ => *open += 1,
     }
     let mut pairs = vec![TrianglePair::EMPTY; 10_000];
-    let all = first.overlaps(&second, pose, &mut pairs, Budget::EXACT, &mut stack).expect("a pose");
+    let all =
+        first.all_overlaps(&second, pose, &mut pairs, Budget::EXACT, &mut stack).expect("a pose");
     assert_eq!(all.stored == 0, answer.verdict == Verdict::No, "{}", at());
 }

@@ -112,7 +112,7 @@ fn tables_that_contradict_themselves_are_named() {
 fn hulls_stand_beside_any_other_part_and_older_readers_pass_them_over() {
     let mesh = mesh(&icosphere(1));
     let (tight, _) = tight::build(mesh.as_input(), &options(&[64]), Watch::NONE).expect("room");
-    let (tree, _) = build(mesh.as_input(), &TreeOptions::default()).expect("builds");
+    let (tree, _) = build(mesh.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds");
     let both = assemble([&tight, &tree]);
     let blob = Blob::open(&both).expect("opens");
     assert!(blob.bvh().is_ok() && blob.tight_hulls().is_ok() && blob.hull().is_err());

@@ -171,7 +171,7 @@ fn blobs_hold_triboxes_beside_anything_or_alone() {
     let torus = mesh(&groove_block());
     let (triboxes, _) = tribox::build(torus.as_input(), &TriboxOptions { count: 8 }, Watch::NONE)
         .expect("in the domain");
-    let (tree, _) = build(torus.as_input(), &TreeOptions::default()).expect("builds");
+    let (tree, _) = build(torus.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds");
     let options = BuildOptions { base_faces: 40, ..BuildOptions::default() };
     let hull = hull::build(torus.as_input(), &options, Watch::NONE).expect("a hull").0;
     for parts in 1..8 {

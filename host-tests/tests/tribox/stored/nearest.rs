@@ -41,7 +41,7 @@ fn distances_are_those_of_the_nearest_leaf_and_below_the_mesh_s() {
             let truth = distance_to_mesh(p, &mesh.positions, &mesh.triangles);
             assert!(f64::from(answer.lower) <= truth.upper, "{answer:?} {truth:?}");
             assert_eq!(answer.ended, Ended::Exact);
-            few += usize::from(answer.work.nodes < triboxes.node_count());
+            few += usize::from(answer.work.bounds < triboxes.node_count());
             let short = triboxes.distance(p, Budget::EXACT, &mut stack[..1]).expect("answered");
             assert!(
                 short.lower <= answer.lower

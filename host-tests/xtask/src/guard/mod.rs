@@ -20,11 +20,12 @@ use crate::boards::BOARDS;
 use crate::cost::{Added, Measured, Row};
 use crate::count_suite::{self, Counted};
 use crate::cross;
-use crate::firmware::{Scope, Tools};
+use crate::firmware::Scope;
 use crate::images::Profile;
 use crate::steps::Steps;
 use crate::table::{fixed, row};
 use crate::tables;
+use crate::tools::Tools;
 use crate::workspace;
 
 use compare::compare;
@@ -97,6 +98,14 @@ impl Costs {
             whole.push(count_suite::CPU);
         }
         Ok(Self { compiler, entries, whole })
+    }
+
+    /// Those of some kinds of queries. What else was not measured is not missed.
+    #[must_use]
+    pub fn of_kinds(mut self, kinds: &[&str]) -> Self {
+        self.entries.retain(|entry| kinds.contains(&entry.key.question.as_str()));
+        self.whole.clear();
+        self
     }
 
     /// Compares them with the committed table.

@@ -1,12 +1,10 @@
 //! Arguments of the commands that ask a blob.
 
 use super::given::{self, Given};
-use super::values::{
-    Margin, Tool, direction, frame, margin, point, size, threads, tolerance, tool, whole,
-};
+use super::reading::ThreadArgs;
+use super::values::{Margin, Tool, direction, frame, margin, point, size, tolerance, tool, whole};
 use clap::{Args, ValueEnum};
 use meshsweep_core::{Eye, Facing};
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// The output of answers, and the limits of a search.
@@ -20,10 +18,9 @@ pub struct SearchArgs {
     pub steps: Option<u32>,
     /// Scratch entries to search with [default: as many as the blob needs]
     #[arg(long, value_name = "ENTRIES", value_parser = whole::<1, { 1 << 24 }>)]
-    pub queue: Option<u32>,
-    /// Threads [default: one for each processor]; answers do not depend on it
-    #[arg(long, value_name = "N", value_parser = threads)]
-    pub threads: Option<NonZeroUsize>,
+    pub scratch: Option<u32>,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
     /// Print nanoseconds per query, and how queries ended, to the standard error
     #[arg(long)]
     pub time: bool,
@@ -56,9 +53,10 @@ pub struct ClosestArgs {
     /// Measure in f64 what may be the closest; for a box tree built with --vertex-bits 32
     #[arg(long, conflicts_with_all = ["rel", "abs", "engine", "tight", "frame"])]
     pub precise: bool,
-    /// Ask the finest tight hull of at most FACES faces; the interval is that of the distance to
-    /// the mesh inside the hull [default: the finest hull, if the blob has no other structure for
-    /// distances]
+    /// Ask the finest tight hull of at most FACES faces
+    ///
+    /// The interval is that of the distance to the mesh inside the hull. Without the option the
+    /// finest hull is asked if the blob has no other structure for distances.
     #[arg(
         long,
         value_name = "FACES",
@@ -66,8 +64,9 @@ pub struct ClosestArgs {
         conflicts_with = "engine"
     )]
     pub tight: Option<u32>,
-    /// Key frame of a blob built --for deform, from 0; 1.25 is a quarter of the way from frame 1 to
-    /// frame 2
+    /// Key frame of a blob built --for deform, from 0
+    ///
+    /// 1.25 is a quarter of the way from frame 1 to frame 2.
     #[arg(
         long,
         value_name = "FRAME",
@@ -86,12 +85,15 @@ pub struct WithinArgs {
     /// The distance, in the mesh's unit
     #[arg(short, long, value_name = "D", value_parser = tolerance)]
     pub distance: f32,
-    /// All triangles that are or may be within the distance, nearest first, one on a line; the
-    /// query's number, from 0, is the first column
+    /// All triangles that are or may be within the distance, nearest first
+    ///
+    /// Each stands on a line of its own. The query's number, from 0, is the first column.
     #[arg(long)]
     pub all: bool,
-    /// Ask the finest tight hull of at most FACES faces; the answer is about the mesh inside the
-    /// hull [default: the finest hull, if the blob has no other structure for distances]
+    /// Ask the finest tight hull of at most FACES faces
+    ///
+    /// The answer is about the mesh inside the hull. Without the option the finest hull is asked if
+    /// the blob has no other structure for distances.
     #[arg(
         long,
         value_name = "FACES",
@@ -153,16 +155,16 @@ pub struct FieldArgs {
     /// edge
     #[arg(long, value_name = "MARGIN", default_value = "10%", value_parser = margin)]
     pub margin: Margin,
-    /// Negative values inside, NaN where the side is not proved; the mesh must be closed, or the
-    /// blob built --for winding
+    /// Negative values inside, NaN where the side is not proved
+    ///
+    /// The mesh must be closed, or the blob built --for winding.
     #[arg(long)]
     pub signed: bool,
     /// Write lower and upper bound instead of the middle between them
     #[arg(long)]
     pub interval: bool,
-    /// Threads [default: one for each processor]
-    #[arg(long, value_name = "N", value_parser = threads)]
-    pub threads: Option<NonZeroUsize>,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
 }
 
 /// Samples along x, y and z.
@@ -175,12 +177,15 @@ pub struct SegmentArgs {
     /// Query segments: ax,ay,az,bx,by,bz each, or files of them
     #[arg(required = true, value_parser = given::queries::<6>())]
     pub segments: Vec<Given<6>>,
-    /// All hits, one on a line, and a line without a triangle if some may be missing; the query's
-    /// number, from 0, is the first column
+    /// All hits, one on a line
+    ///
+    /// A line without a triangle says that some may be missing. The query's number, from 0, is the
+    /// first column.
     #[arg(long)]
     pub all: bool,
-    /// Only hits of fronts or of backs, on the box tree; seen from its front a triangle's corners
-    /// run counter-clockwise [default: both]
+    /// Only hits of fronts or of backs, on the box tree [default: both]
+    ///
+    /// Seen from its front a triangle's corners run counter-clockwise.
     #[arg(long, value_enum)]
     pub facing: Option<FacingName>,
     /// tree, the box tree; or hull, a sweep on the hull hierarchy [default: tree if the blob has
@@ -209,8 +214,9 @@ pub struct ClearArgs {
     /// Straight moves of the tool: ax,ay,az,bx,by,bz each, or files of them
     #[arg(required_unless_present = "path", value_parser = given::queries::<6>())]
     pub moves: Vec<Given<6>>,
-    /// A path of the tool in place of moves: x,y,z each, or files of them; it goes straight from
-    /// each place to the next
+    /// A path of the tool in place of moves: x,y,z each, or files of them
+    ///
+    /// The tool goes straight from each place to the next.
     #[arg(
         long,
         value_name = "PLACES",
@@ -219,8 +225,9 @@ pub struct ClearArgs {
         value_parser = given::queries::<3>(),
     )]
     pub path: Vec<Given<3>>,
-    /// Corners of the tool, x,y,z after x,y,z, where it is when its place is 0,0,0: the tool is
-    /// their hull
+    /// Corners of the tool, x,y,z after x,y,z: the tool is their hull
+    ///
+    /// They are where they are when the tool's place is 0,0,0.
     #[arg(long, value_name = "CORNERS", default_value = "0,0,0", value_parser = tool)]
     pub tool: Tool,
     /// Radius about the tool's hull, in the mesh's unit: of the tool, and a distance to keep
@@ -288,9 +295,11 @@ pub struct ClearanceArgs {
     /// Only whether the meshes are within this distance of each other, in the meshes' unit
     #[arg(long, value_name = "D", value_parser = tolerance, conflicts_with_all = ["rel", "abs"])]
     pub within: Option<f32>,
-    /// Moves of the second mesh from each pose to the next: straight, each point along a line; or
-    /// screw, the whole rigid. Is each clear for its whole length, or until when? With --within D:
-    /// farther than D
+    /// Moves of the second mesh from each pose to the next, straight or screw
+    ///
+    /// straight moves each point along a line; screw moves the mesh as a rigid body. The answer
+    /// says whether each move is clear for its whole length, or until when. With --within D clear
+    /// is farther than D.
     #[arg(
         long,
         value_enum,
@@ -364,6 +373,8 @@ pub struct WorstArgs {
     /// Places to climb from
     #[arg(long, value_name = "N", default_value = "48", value_parser = whole::<1, 100_000>)]
     pub starts: u32,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,

@@ -1,14 +1,15 @@
 //! Arguments of the commands that write hulls and triboxes of meshes.
 
 use super::building::{CollapseArgs, StoredBits};
-use super::values::{distance, factor, length, percent, positive, tolerance, unit, whole};
+use super::reading::{ReadArgs, ThreadArgs};
+use super::values::{distance, factor, length, percent, positive, tolerance, whole};
 use clap::Args;
-use meshsweep::mesh::Unit;
 use meshsweep::tribox::SplitOptions;
 use std::path::PathBuf;
 
 /// Options of hulls that are made from a mesh.
-const OF_MESH: [&str; 13] = [
+const OF_MESH: [&str; 14] = [
+    "format",
     "unit",
     "faces",
     "void",
@@ -26,7 +27,7 @@ const OF_MESH: [&str; 13] = [
 
 #[derive(Debug, Args)]
 pub struct HullArgs {
-    /// Mesh file; or blob file, with --level or --tight
+    /// Mesh file; or - for the standard input, with --format; or blob file, with --level or --tight
     pub input: PathBuf,
     /// PLY file to write
     #[arg(short, long, value_name = "PLY")]
@@ -42,8 +43,9 @@ pub struct HullArgs {
         conflicts_with_all = ["faces", "progressive"]
     )]
     pub void: Option<f64>,
-    /// Fewest faces found such that no point of the hull is farther than this from the mesh, in
-    /// its unit
+    /// Fewest faces found within this distance of the mesh, in its unit
+    ///
+    /// No point of the hull is farther than this from the mesh.
     #[arg(
         long,
         value_name = "DISTANCE",
@@ -51,18 +53,20 @@ pub struct HullArgs {
         conflicts_with_all = ["faces", "void", "progressive"]
     )]
     pub slack: Option<f64>,
-    /// Distance that the hull keeps from the mesh, in its unit: all points up to it are inside
-    /// [default: 0]
+    /// Distance that the hull keeps from the mesh, in its unit [default: 0]
+    ///
+    /// All points within the distance are inside.
     #[arg(long, value_name = "DISTANCE", value_parser = length, conflicts_with = "progressive")]
     pub margin: Option<f64>,
     /// One hull for each connected component of the mesh, all in one file
     #[arg(long, conflicts_with = "progressive")]
     pub parts: bool,
-    /// How long to polish, as a factor: 0 not at all, 4 four times as long [default: 1]
+    /// How long to polish, as a factor: 0 not at all [default: 1]
     #[arg(long, value_name = "FACTOR", value_parser = factor, conflicts_with = "progressive")]
     pub effort: Option<f64>,
-    /// Stop each hull after about so many seconds, with more faces than asked for if they are not
-    /// gone by then
+    /// Stop each hull after about so many seconds
+    ///
+    /// It has more faces than asked for if they are not gone by then.
     #[arg(long, value_name = "SECONDS", value_parser = positive, conflicts_with = "progressive")]
     pub seconds: Option<f64>,
     /// The progressive hull: looser, as the levels of a blob's hull hierarchy are
@@ -84,12 +88,12 @@ pub struct HullArgs {
         conflicts_with = "level"
     )]
     pub tight: Option<u32>,
-    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, 3MF and COLLADA
-    /// are scaled to it; of other files it is the unit of their numbers
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
-    pub unit: Option<Unit>,
-    /// Bits of a coordinate of a mesh's hull: 16 and 24 move the mesh to a grid; 32 is single
-    /// precision; auto is 32, or the fewest that hold the mesh exactly if the hull is progressive
+    #[command(flatten)]
+    pub read: ReadArgs,
+    /// Bits of a coordinate of a mesh's hull: auto, 16, 24 or 32
+    ///
+    /// 16 and 24 move the mesh to a grid. 32 is single precision. auto is 32, or the fewest that
+    /// hold the mesh exactly if the hull is progressive.
     #[arg(
         long,
         value_enum,
@@ -100,6 +104,11 @@ pub struct HullArgs {
     pub vertex_bits: StoredBits,
     #[command(flatten)]
     pub collapse: CollapseArgs,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
+    /// Print one JSON object in place of the report
+    #[arg(long)]
+    pub json: bool,
 }
 
 impl HullArgs {
@@ -111,15 +120,13 @@ impl HullArgs {
 
 #[derive(Debug, Args)]
 pub struct TriboxArgs {
-    /// Mesh file, as those of build
+    /// Mesh file, as those of build; or - for the standard input, with --format
     pub mesh: PathBuf,
     /// PLY file to write: the triboxes of the finest level
     #[arg(short, long, value_name = "PLY")]
     pub output: Option<PathBuf>,
-    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, 3MF and COLLADA
-    /// are scaled to it; of other files it is the unit of their numbers
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
-    pub unit: Option<Unit>,
+    #[command(flatten)]
+    pub read: ReadArgs,
     /// Levels, of 1, 2, 4, ... triboxes
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = whole::<1, 12>)]
     pub levels: u32,
@@ -132,6 +139,8 @@ pub struct TriboxArgs {
         hide_default_value = true
     )]
     pub simplify: f32,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,

@@ -1,28 +1,30 @@
 //! Arguments of the commands that make, describe and cut blobs.
 
 use super::measuring::LimitArgs;
-use super::values::{degrees, distance, factor, length, percent, ratio, unit, whole};
+use super::reading::{ReadArgs, ThreadArgs};
+use super::values::{degrees, distance, factor, length, percent, ratio, whole};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args, ValueEnum};
 use meshsweep::Builder;
 use meshsweep::builder::For;
 use meshsweep::builder::ranges::{BASE_FACES, MAX_VALENCE, TIGHT_FACES, TRIBOX_COUNT};
 use meshsweep::collapse::CollapseOptions;
-use meshsweep::mesh::Unit;
 use meshsweep::surface::VertexBits;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct BuildArgs {
-    /// Mesh file: .stl, .ply, .obj, .off, .glb, .gltf, .3mf or .dae; or points of curves: .csv
+    /// Mesh file: .stl, .ply, .obj, .off, .glb, .gltf, .3mf or .dae; or points of curves: .csv; or
+    /// - for the standard input, with --format
     pub mesh: PathBuf,
     /// With --for deform: the same mesh at further key frames, with the same triangles
     pub frames: Vec<PathBuf>,
     /// Blob to write
     #[arg(short, long, value_name = "BLOB")]
     pub output: PathBuf,
-    /// Questions that the blob must serve; only the sections that they need are written (see below)
-    /// [default: closest,segment]
+    /// Questions that the blob must serve [default: closest,segment]
+    ///
+    /// Only the sections that they need are written. See below.
     #[arg(
         long = "for",
         value_parser = PossibleValuesParser::new(For::ALL.map(For::name)).map(question),
@@ -30,11 +32,11 @@ pub struct BuildArgs {
         value_name = "QUESTIONS"
     )]
     serves: Option<Vec<For>>,
-    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, 3MF and COLLADA
-    /// are scaled to it; of other files it is the unit of their numbers
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
-    pub unit: Option<Unit>,
-    /// Bits of a stored coordinate (see below)
+    #[command(flatten)]
+    pub read: ReadArgs,
+    /// Bits of a stored coordinate: auto, 16, 24 or 32
+    ///
+    /// See below.
     #[arg(
         long,
         value_enum,
@@ -57,24 +59,28 @@ pub struct BuildArgs {
         value_parser = whole::<{ TIGHT_FACES[0] }, { TIGHT_FACES[1] }>
     )]
     pub tight: Vec<u32>,
-    /// Instead of numbers of faces: one tight hull, with the fewest faces found such that no point
-    /// of it is farther than this from the mesh, in its unit
+    /// Instead of --tight: the fewest faces found within this distance of the mesh, in its unit
+    ///
+    /// One tight hull is made. No point of it is farther than this from the mesh.
     #[arg(long, value_name = "DISTANCE", value_parser = distance)]
     pub slack: Option<f64>,
-    /// Instead of numbers of faces: one tight hull, with the fewest faces found that leave at most
-    /// this void, in percent of the mesh's volume
+    /// Instead of --tight: the fewest faces found that leave at most this void, in percent
+    ///
+    /// One tight hull is made. The void is that of the hull beside the mesh, in percent of the
+    /// mesh's volume.
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub void: Option<f64>,
-    /// Distance that tight hulls keep from the mesh, in its unit: all points up to it are inside
-    /// [default: 0]
+    /// Distance that tight hulls keep from the mesh, in its unit [default: 0]
+    ///
+    /// All points within the distance are inside.
     #[arg(long, value_name = "DISTANCE", value_parser = length)]
     pub margin: Option<f64>,
-    /// How long to polish tight hulls, as a factor: 0 not at all, 4 four times as long [default:
-    /// 1]
+    /// How long to polish tight hulls, as a factor: 0 not at all [default: 1]
     #[arg(long, value_name = "FACTOR", value_parser = factor)]
     pub effort: Option<f64>,
-    /// Questions to tight hulls: closest; segment, which only the library asks [default:
-    /// closest,segment]
+    /// Questions to tight hulls [default: closest,segment]
+    ///
+    /// Only the library asks segment.
     #[arg(
         long,
         value_enum,
@@ -86,13 +92,26 @@ pub struct BuildArgs {
     /// With --for curve: join the last point of each polyline with its first
     #[arg(long)]
     pub closed: bool,
-    /// Write the blob as source text too, beside it: part.rs, or part.h and part.c
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "LANGUAGE")]
+    /// Write the blob as source text too, in rust or c
+    ///
+    /// The files lie beside the blob: part.rs, or part.h and part.c.
+    #[arg(
+        long,
+        value_enum,
+        value_delimiter = ',',
+        value_name = "LANGUAGE",
+        hide_possible_values = true
+    )]
     pub emit: Vec<Language>,
     #[command(flatten)]
     pub collapse: CollapseArgs,
     #[command(flatten)]
     pub limits: LimitArgs,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
+    /// Print one JSON object in place of the report
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// A language of firmware.
@@ -123,7 +142,7 @@ impl BuildArgs {
     pub fn builder(&self) -> Builder<'_> {
         let builder = Builder::new()
             .serve_all(self.serves.iter().flatten().copied())
-            .unit(self.unit)
+            .unit(self.read.unit)
             .vertex_bits(self.vertex_bits.format())
             .base_faces(self.base)
             .collapse(self.collapse.options())
@@ -144,7 +163,7 @@ impl BuildArgs {
 
     /// Whether a curve is to be built.
     pub fn is_curve(&self) -> bool {
-        self.builder().builds_curve(&self.mesh)
+        self.read.format == Some("csv") || self.builder().builds_curve(&self.mesh)
     }
 
     /// The first given option that names what limits choose.
@@ -162,7 +181,11 @@ impl BuildArgs {
 #[derive(Debug, Args)]
 pub struct CollapseArgs {
     /// Largest valence of a hull vertex [default: 12]
-    #[arg(long, value_name = "EDGES", value_parser = whole::<{ MAX_VALENCE[0] }, { MAX_VALENCE[1] }>)]
+    #[arg(
+        long,
+        value_name = "EDGES",
+        value_parser = whole::<{ MAX_VALENCE[0] }, { MAX_VALENCE[1] }>
+    )]
     pub max_valence: Option<u32>,
     /// Least ratio of a star's worst compactness after a collapse to that before it [default: 0.8]
     #[arg(long, value_name = "RATIO", value_parser = ratio)]
@@ -220,9 +243,10 @@ pub struct VerifyArgs {
     pub mesh: PathBuf,
     /// Of a blob that deforms: the same mesh at its further key frames, in their order
     pub frames: Vec<PathBuf>,
-    /// The unit of `build --unit`, if it was given
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
-    pub unit: Option<Unit>,
+    #[command(flatten)]
+    pub read: ReadArgs,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,

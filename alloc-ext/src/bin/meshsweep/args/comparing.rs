@@ -1,20 +1,18 @@
 //! Arguments of the command that compares two meshes.
 
-use super::values::{length, unit};
+use super::reading::{ReadArgs, ThreadArgs};
+use super::values::length;
 use clap::Args;
-use meshsweep::mesh::Unit;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct HausdorffArgs {
-    /// Mesh file
+    /// Mesh file; or - for the standard input, with --format
     pub first: PathBuf,
     /// Mesh file to compare it with
     pub second: PathBuf,
-    /// Unit of the meshes: um, mm, cm, m, in or ft. glTF, which is in metres, 3MF and COLLADA
-    /// are scaled to it; of other files it is the unit of their numbers
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
-    pub unit: Option<Unit>,
+    #[command(flatten)]
+    pub read: ReadArgs,
     /// Only how far the first mesh is from the second
     #[arg(long)]
     pub one_sided: bool,
@@ -32,15 +30,19 @@ pub struct HausdorffArgs {
         conflicts_with_all = ["rel", "abs"]
     )]
     pub at_most: Option<f64>,
-    /// Mean and quantiles of the distance over the area of the first mesh too, as bounds; the
-    /// mean's are at most a tenth of it apart, where three million pieces suffice
+    /// Mean and quantiles of the distance over the area of the first mesh too, as bounds
+    ///
+    /// The mean's are at most a tenth of it apart, where three million pieces suffice.
     #[arg(long)]
     pub profile: bool,
-    /// Write the first mesh as PLY, each vertex coloured by its distance from the second one: blue
-    /// at 0, red at the farthest vertex; its property 'quality' is the distance
+    /// Write the first mesh as PLY, each vertex coloured by its distance from the second one
+    ///
+    /// Blue is 0, red the farthest vertex. The vertex's property 'quality' is the distance.
     #[arg(long, value_name = "PLY")]
     pub heat: Option<PathBuf>,
-    /// Print JSON
+    #[command(flatten)]
+    pub threads: ThreadArgs,
+    /// Print one JSON object
     #[arg(long)]
     pub json: bool,
 }

@@ -1,29 +1,32 @@
 //! Arguments of the command that measures settings, and limits that choose one.
 
-use super::values::{distance, unit, whole};
+use super::reading::{ReadArgs, ThreadArgs};
+use super::values::{distance, whole};
 use clap::Args;
-use meshsweep::mesh::Unit;
 use meshsweep::trade::{Board, Cpu, Limits, Points};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct TradeArgs {
-    /// Mesh file
+    /// Mesh file; or - for the standard input, with --format
     pub mesh: PathBuf,
-    /// Points that are asked: near the surface; far, in a box twice the mesh's; along a path, in
-    /// steps of 0.1 % of the diagonal; or a file of your own points, in its order
+    /// Points that are asked: near, far, path; or a file of your own points, in its order
+    ///
+    /// near is near the surface; far is in a box twice the mesh's; path is a path near the surface,
+    /// in steps of 0.1 % of the diagonal. A file of such a name is named with its directory:
+    /// ./near.
     #[arg(long, value_name = "near|far|path|FILE", default_value = "near", value_parser = at)]
     pub at: At,
     /// Number of points, unless they are from a file
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = whole::<1, 1_000_000>)]
     pub points: u32,
-    /// Unit of the mesh: um, mm, cm, m, in or ft. glTF, which is in metres, 3MF and COLLADA
-    /// are scaled to it; of other files it is the unit of their numbers
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
-    pub unit: Option<Unit>,
+    #[command(flatten)]
+    pub read: ReadArgs,
     /// Write a page with pictures too: one HTML file, which needs no network
     #[arg(long, value_name = "PAGE.html")]
     pub report: Option<PathBuf>,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -53,7 +56,7 @@ pub struct LimitArgs {
     /// Processor and its clock: m4f:168MHz, m0:48MHz
     #[arg(long, value_name = "CPU:CLOCK", value_parser = cpu, help_heading = "Limits")]
     pub cpu: Option<Cpu>,
-    /// Points that limits are measured at: near, far, path or FILE, as of trade [default: near]
+    /// Points that limits are measured at: near, far, path or a file, as of trade [default: near]
     #[arg(long, value_name = "POINTS", value_parser = at, help_heading = "Limits")]
     pub at: Option<At>,
 }

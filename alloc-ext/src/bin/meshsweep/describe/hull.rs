@@ -5,7 +5,7 @@ use meshsweep::number::{AtMost, Percent};
 use meshsweep_core::internal::format::Header;
 use meshsweep_core::internal::format::layout::VertexFormat;
 use meshsweep_core::internal::num::{exp2, up_to_f32};
-use meshsweep_core::{DeformableHull, Hull, Level, MovedVertex, ScratchEntry};
+use meshsweep_core::{DeformableHull, Hull, HullLevel, MovedVertex, ScratchEntry};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -24,7 +24,7 @@ struct LevelDistances {
     mesh_to_hull: f32,
 }
 
-fn distances(header: &Header, level: &Level) -> LevelDistances {
+fn distances(header: &Header, level: &HullLevel) -> LevelDistances {
     // One rounding of the sum, so a bound stays one.
     let up = |local: f32| {
         let sum = (f64::from(local) + f64::from(header.surface_error)) * (1.0 + f64::EPSILON);
@@ -97,7 +97,7 @@ fn write_memory(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
 }
 
 /// Void of a level, in percent.
-fn void(hull: &Hull<'_>, level: &Level) -> String {
+fn void(hull: &Hull<'_>, level: &HullLevel) -> String {
     let percent = Percent(f64::from(level.void_ratio) * 100.0);
     if hull.encloses() { percent.to_string() } else { "-".to_owned() }
 }

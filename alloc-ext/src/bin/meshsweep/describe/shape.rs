@@ -1,7 +1,7 @@
 //! How full a box tree is: counted by walking it once.
 
 use meshsweep_core::Bvh;
-use meshsweep_core::internal::bvh::format::{BvhHeader, FanLeaf};
+use meshsweep_core::internal::bvh::tree::format::{BvhHeader, FanLeaf};
 use meshsweep_core::internal::geom::fan::WIDTH;
 
 /// Counts and means of a tree.

@@ -59,8 +59,8 @@ pub(super) fn as_json(hulls: &TightHulls<'_>) -> Value {
         json!({
             "faces": record.faces,
             "void_ratio": void(record),
-            "slack": record.slack,
-            "depth": record.depth,
+            "hull_to_mesh": record.slack,
+            "mesh_to_hull": record.depth,
             "bytes": bytes(&hull),
             "vertex_format": format_name(hull.bvh()),
             "serves_distances": hull.bvh().serves_distances(),

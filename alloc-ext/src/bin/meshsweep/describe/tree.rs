@@ -1,12 +1,9 @@
 //! The box tree: shape, memory, surface error, whether sides are defined.
 
 use super::shape::Shape;
+use meshsweep::bvh::half_widths;
 use meshsweep::counted::Counted;
 use meshsweep::number::AtMost;
-use meshsweep_core::internal::num::exp2;
-use meshsweep_core::internal::num::tolerance::{
-    CERTIFIED_PART, FAN_DISTANCE, FAN_RELATIVE, LEAST_FAN_ROUNDING, U32,
-};
 use meshsweep_core::{Bvh, ScratchEntry};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -14,22 +11,6 @@ use std::io::{self, Write};
 /// Bytes of scratch memory with which no query overflows.
 pub fn scratch_bytes(tree: &Bvh<'_>) -> usize {
     tree.scratch_entries() * size_of::<ScratchEntry>()
-}
-
-/// The approximate half-width of an exact answer, in the mesh's unit: next to the surface, and one
-/// diagonal of the mesh away (`core/docs/rounding.md` §8). Wider where slivers are near.
-fn half_widths(tree: &Bvh<'_>, diagonal: f64) -> [f64; 2] {
-    let h = tree.header();
-    let unit = exp2(h.grid_exponent + tree.scale_exponent());
-    let u = f64::from(U32);
-    let near = f64::from(tree.surface_error())
-        + (f64::from(FAN_DISTANCE) * u * f64::from(h.star_radius))
-            .max(f64::from(LEAST_FAN_ROUNDING))
-            * unit;
-    // Triangles that are no slivers are certified to that fraction of the squared distance. So the
-    // distance is certified to half of it: a quarter at either end.
-    let relative = f64::from(FAN_RELATIVE) * u + (1.0 - f64::from(CERTIFIED_PART)) / 4.0;
-    [near, near + relative * diagonal]
 }
 
 /// How coordinates are stored.

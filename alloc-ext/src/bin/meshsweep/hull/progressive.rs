@@ -1,20 +1,19 @@
 //! The progressive hull of a closed mesh.
 
+use super::written::{self, Of, Written};
 use crate::args::HullArgs;
 use crate::failure::Failure;
 use crate::mesh_file;
-use crate::mesh_report::write_repairs;
 use crate::output::Output;
 use crate::progress::StageBars;
 use meshsweep::builder::FACES;
-use meshsweep::counted::Counted;
 use meshsweep::hull::{BuildOptions, hull_of, wires_note, wires_off_surface};
 use meshsweep::mesh::write_ply;
-use meshsweep::number::Percent;
 use meshsweep::progress::Callback;
+use std::path::Path;
 use std::time::Instant;
 
-pub fn run(args: &HullArgs) -> Result<(), Failure> {
+pub fn run(args: &HullArgs, mesh: &Path) -> Result<(), Failure> {
     Output::probe(&args.output)?;
     let faces = args.faces.unwrap_or(FACES);
     let options = BuildOptions {
@@ -23,29 +22,23 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
         vertex_bits: args.vertex_bits.format(),
         ..BuildOptions::default()
     };
-    let solid = mesh_file::load_solid(&args.input, options.vertex_bits, args.unit)?;
+    let solid = mesh_file::load_solid(&args.input, options.vertex_bits, &args.read)?;
     let mut bars = StageBars::default();
     let progress = Callback::new(|stage, _| bars.show(stage));
     let started = Instant::now();
     let (hull, void, stuck) =
         hull_of(solid.input(), options.base_faces, &options, progress.watch())
-            .map_err(|error| Failure::build(&args.input, error))?;
+            .map_err(|error| Failure::build(mesh, error))?;
     let time = started.elapsed();
     drop(bars);
     Output::file(&args.output)?.finish(|out| write_ply(&hull, out))?;
-    let wires =
-        wires_off_surface(&solid.mesh).map_err(|error| Failure::build(&args.input, error))?;
-    Output::stdout().finish(|out| {
-        write_repairs(out, &args.input, &solid)?;
-        writeln!(
-            out,
-            "{}: {}, {} % void space, {:.3} s",
-            args.output.display(),
-            Counted(hull.triangles.len(), "face"),
-            Percent((void * 100.0).max(0.0)),
-            time.as_secs_f64()
-        )?;
-        wires_note(wires).map_or(Ok(()), |note| writeln!(out, "  {note}"))?;
-        stuck.map_or(Ok(()), |stuck| writeln!(out, "{}", stuck.why(faces)))
-    })
+    let wires = wires_off_surface(&solid.mesh).map_err(|error| Failure::build(mesh, error))?;
+    let written = Written {
+        faces: hull.triangles.len(),
+        void: Some(void),
+        time: Some(time),
+        notes: wires_note(wires).into_iter().chain(stuck.map(|stuck| stuck.why(faces))).collect(),
+        ..Written::default()
+    };
+    written::report(args, &Of::Mesh(mesh, &solid), &[written], &[])
 }

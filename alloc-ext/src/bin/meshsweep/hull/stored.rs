@@ -1,14 +1,13 @@
 //! Hulls that a blob holds: levels of its hull hierarchy, and its tight hulls.
 
+use super::written::{self, Of, Written};
 use crate::args::HullArgs;
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::{blob_file, describe, served};
 use meshsweep::BuildError;
-use meshsweep::counted::Counted;
 use meshsweep::hull::{enclosing_input, mesh_of, sticks_out_note};
 use meshsweep::mesh::{Mesh, write_ply};
-use meshsweep::number::{AtMost, Percent};
 use meshsweep::tight::hull_mesh;
 use meshsweep::tribox::volume;
 use meshsweep_core::Hull;
@@ -18,15 +17,15 @@ pub fn write_tight(args: &HullArgs, faces: u32) -> Result<(), Failure> {
     let blob = blob_file::open(&args.input)?;
     let hull = served::require_tight(&args.input, &blob, faces)?;
     Output::file(&args.output)?.finish(|out| write_ply(&hull_mesh(&hull), out))?;
-    Output::stdout().finish(|out| {
-        let record = hull.record();
-        write!(out, "{}: {}, ", args.output.display(), Counted(record.faces, "face"))?;
-        if let Some(void) = describe::tight::void(record) {
-            write!(out, "{} % void space, ", Percent(f64::from(void) * 100.0))?;
-        }
-        let off = hull.bvh().surface_error();
-        writeln!(out, "at most {} from the mesh", AtMost(f64::from(record.slack) + f64::from(off)))
-    })
+    let record = hull.record();
+    let off = f64::from(hull.bvh().surface_error());
+    let written = Written {
+        faces: record.faces as usize,
+        void: describe::tight::void(record).map(f64::from),
+        at_most: Some(f64::from(record.slack) + off),
+        ..Written::default()
+    };
+    written::report(args, &Of::Blob, &[written], &[])
 }
 
 /// Writes level `index` of the hull hierarchy.
@@ -47,17 +46,14 @@ pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
         false => (1.0 + void) * volume(&hull) / volume(&stored) - 1.0,
     };
     Output::file(&args.output)?.finish(|out| write_ply(&hull, out))?;
-    Output::stdout().finish(|out| {
-        writeln!(
-            out,
-            "{}: {}, {} % void space, level {index} of 0 to {}",
-            args.output.display(),
-            Counted(hull.triangles.len(), "face"),
-            Percent(void * 100.0),
-            levels - 1
-        )?;
-        note.map_or(Ok(()), |note| writeln!(out, "  {note}"))
-    })
+    let written = Written {
+        faces: hull.triangles.len(),
+        void: Some(void),
+        level: Some([index, levels - 1]),
+        notes: note.into_iter().collect(),
+        ..Written::default()
+    };
+    written::report(args, &Of::Blob, &[written], &[])
 }
 
 /// A hull that encloses the input; or the stored one, and how far the input sticks out.

@@ -1,12 +1,15 @@
 //! `meshsweep build` with limits: the setting that meets them is chosen by measurement.
 
 use super::measured::measured;
+use super::table;
 use crate::args::{At, BuildArgs};
 use crate::failure::Failure;
 use meshsweep::builder::{Built, Recipe};
+use meshsweep::load::Loaded;
 use meshsweep::number::{About, AtMost};
 use meshsweep::trade::{CYCLES, Choice, How, Limits, Points, Row, Unmet};
 use meshsweep_core::Budget;
+use serde_json::{Value, json};
 use std::io::{self, Write};
 
 /// Points that are measured.
@@ -14,6 +17,8 @@ const POINTS: usize = 1000;
 
 /// A choice, and the points that it was measured at.
 pub struct Chosen {
+    /// The mesh.
+    pub loaded: Loaded,
     limits: Limits,
     first: Row,
     second: Option<Row>,
@@ -25,17 +30,17 @@ pub struct Chosen {
 pub fn choose(args: &BuildArgs) -> Result<(Built, Chosen), Failure> {
     let limits = args.limits.limits();
     let at = args.limits.at.clone().unwrap_or(At::Made(Points::Near));
-    let (_, measured) = measured(&args.mesh, args.unit, &at, POINTS)?;
+    let (loaded, measured) = measured(&args.mesh, &args.read, &at, POINTS)?;
     let points = (measured.points, measured.kind);
     let failed =
         |unmet: Unmet| Failure::Limits { file: args.mesh.clone(), what: unmet.to_string() };
     let Choice { first, second, built, .. } = limits.choose(&measured.trade).map_err(failed)?;
-    Ok((built, Chosen { limits, first, second, points }))
+    Ok((built, Chosen { loaded, limits, first, second, points }))
 }
 
 /// Says what was chosen, why, and how to ask it.
 pub fn write(out: &mut dyn Write, chosen: &Chosen) -> io::Result<()> {
-    let Chosen { limits, first, second, points: (points, kind) } = chosen;
+    let Chosen { limits, first, second, points: (points, kind), .. } = chosen;
     let why = match limits.error {
         Some(_) => "fewest instructions of those that meet all limits",
         None => "smallest error of those that meet all limits",
@@ -43,7 +48,7 @@ pub fn write(out: &mut dyn Write, chosen: &Chosen) -> io::Result<()> {
     writeln!(out, "chosen: {}", first.setting)?;
     writeln!(out, "  why: {why}, at {points} points {kind}")?;
     write_costs(out, limits, first)?;
-    writeln!(out, "  built: {}", first.setting.recipe)?;
+    writeln!(out, "  built: {}", first.build())?;
     let by = match (first.setting.how, first.setting.recipe) {
         (How::Fresh, _) => "",
         (How::Hinted, _) => ", from the hint of the last query",
@@ -74,6 +79,16 @@ pub fn write(out: &mut dyn Write, chosen: &Chosen) -> io::Result<()> {
         }
         None => writeln!(out, "second: nothing else meets them"),
     }
+}
+
+/// The same as the rows of `trade --json`.
+pub fn as_json(Chosen { first, second, points: (points, kind), .. }: &Chosen) -> Value {
+    json!({
+        "points": points,
+        "kind": kind,
+        "first": table::of_row(first),
+        "second": second.as_ref().map(table::of_row),
+    })
 }
 
 fn write_costs(out: &mut dyn Write, limits: &Limits, row: &Row) -> io::Result<()> {

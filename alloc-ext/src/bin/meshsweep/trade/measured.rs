@@ -1,12 +1,11 @@
 //! The standard settings of a mesh, measured with a progress bar.
 
-use crate::args::{At, Given};
+use crate::args::{At, Given, ReadArgs};
 use crate::failure::Failure;
 use crate::mesh_file;
 use crate::progress::Bar;
 use crate::queries::Queries;
 use meshsweep::load::Loaded;
-use meshsweep::mesh::Unit;
 use meshsweep::trade::{self, Points, Trade};
 use std::path::Path;
 use std::sync::Mutex;
@@ -25,11 +24,11 @@ pub struct Measured {
 /// Measures the standard settings.
 pub fn measured(
     file: &Path,
-    unit: Option<Unit>,
+    args: &ReadArgs,
     at: &At,
     count: usize,
 ) -> Result<(Loaded, Measured), Failure> {
-    let source = mesh_file::read(file, unit)?;
+    let source = mesh_file::read(file, args)?;
     let loaded = source.repaired().map_err(|error| Failure::build(file, error))?;
     let mesh = &loaded.mesh;
     let (points, kind, words) = match at {

@@ -1,14 +1,14 @@
 //! Rows of a measurement as text and as JSON.
 
 use super::measured::Measured;
-use crate::args::TradeArgs;
 use crate::mesh_report::write_rounding;
 use meshsweep::counted::Counted;
 use meshsweep::load::Loaded;
 use meshsweep::number::AtMost;
-use meshsweep::trade::{Board, MANY_NEEDLES, Row, Spread, pareto};
+use meshsweep::trade::{Board, COMB_OF_NEEDLES, MANY_NEEDLES, Row, Spread, pareto};
 use serde_json::{Value, json};
 use std::io::{self, Write};
+use std::path::Path;
 
 /// Headings of the columns after structure and dials, each with its width.
 const COLUMNS: [(&str, usize); 11] = [
@@ -27,7 +27,7 @@ const COLUMNS: [(&str, usize); 11] = [
 
 pub fn write(
     out: &mut dyn Write,
-    args: &TradeArgs,
+    mesh: &Path,
     loaded: &Loaded,
     measured: &Measured,
 ) -> io::Result<()> {
@@ -35,12 +35,12 @@ pub fn write(
     writeln!(
         out,
         "{}: {}, diagonal {}; {} {kind}",
-        args.mesh.display(),
+        mesh.display(),
         Counted(loaded.mesh.triangles.len(), "triangle"),
         AtMost(*diagonal),
         Counted(*points, "point"),
     )?;
-    write_rounding(out, &args.mesh, &loaded.report)?;
+    write_rounding(out, mesh, &loaded.report)?;
     loaded.unit_note().map_or(Ok(()), |note| writeln!(out, "  {note}"))?;
     let best = pareto(&trade.rows);
     let of = |rows: &mut dyn Iterator<Item = &Row>| {
@@ -67,11 +67,12 @@ pub fn write(
     if trade.needles < MANY_NEEDLES {
         return Ok(());
     }
+    let [m4f, m0] = COMB_OF_NEEDLES;
     writeln!(
         out,
         "{:.0} % of the triangles are needles, fifty times as long as high: they take more \
-         instructions than\npredicted, of a comb of needles 2.2 times as many on a Cortex-M4F and \
-         4.5 times on a Cortex-M0",
+         instructions than\npredicted, of a comb of needles {m4f} times as many on a Cortex-M4F \
+         and {m0} times on a Cortex-M0",
         100.0 * trade.needles
     )
 }
@@ -166,8 +167,12 @@ pub fn write_json(out: &mut dyn Write, loaded: &Loaded, measured: &Measured) -> 
 pub fn as_json(loaded: &Loaded, measured: &Measured) -> Value {
     let Measured { trade, diagonal, points, kind } = measured;
     let best = pareto(&trade.rows);
-    let rows: Vec<Value> =
-        trade.rows.iter().enumerate().map(|(i, row)| of_row(row, best.contains(&i))).collect();
+    let of = |(i, row): (usize, &Row)| {
+        let mut fields = of_row(row);
+        fields["pareto"] = json!(best.contains(&i));
+        fields
+    };
+    let rows: Vec<Value> = trade.rows.iter().enumerate().map(of).collect();
     let missing = trade.missing.iter().map(|missing| {
         json!({ "structure": missing.recipe.name(), "reason": missing.reason.to_string() })
     });
@@ -183,7 +188,8 @@ pub fn as_json(loaded: &Loaded, measured: &Measured) -> Value {
     })
 }
 
-fn of_row(row: &Row, is_best: bool) -> Value {
+/// A row.
+pub fn of_row(row: &Row) -> Value {
     let spread = |spread: Spread| json!({ "worst": spread.worst, "median": spread.median });
     let boards = Board::ALL.iter().zip(row.boards).filter_map(|(board, found)| {
         let found = found?;
@@ -200,9 +206,8 @@ fn of_row(row: &Row, is_best: bool) -> Value {
     let work = json!({ "nodes": nodes, "triangles": triangles, "exact": exact, "splits": splits });
     json!({
         "structure": row.setting.recipe.name(),
-        "build": row.setting.recipe.to_string(),
+        "build": row.build(),
         "dials": row.setting.dials(),
-        "pareto": is_best,
         "guaranteed": row.guaranteed.map(spread),
         "found_lower": spread(row.found_lower),
         "found_upper": row.found_upper.map(spread),

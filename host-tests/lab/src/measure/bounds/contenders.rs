@@ -4,7 +4,7 @@ use glam::DVec3;
 use meshsweep_core::Tribox;
 use meshsweep_host_tests::workload::pose::Pose;
 
-use super::Bounds;
+use super::all::Bounds;
 use super::contact::Supports;
 use super::dop::{Dop, Slabs};
 use super::pose::parry;

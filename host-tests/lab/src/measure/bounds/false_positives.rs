@@ -7,7 +7,7 @@ use meshsweep_host_tests::workload::contact::Surface;
 use meshsweep_host_tests::workload::pose::{FARTHEST, Pose};
 use meshsweep_xtask::table::{Table, fixed, row};
 
-use super::Bounds;
+use super::all::Bounds;
 use super::contenders::Contender;
 use super::pose::Motion;
 

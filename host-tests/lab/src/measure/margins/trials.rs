@@ -19,7 +19,7 @@ use meshsweep_host_tests::oracle::{
     gap_to_triangle, winding_number,
 };
 
-use super::place::{Point, Shape, halved, point};
+use super::place::{Point, SHAPES, Shape, halved, point};
 
 /// A margin, and a trial of it.
 pub struct Margin {
@@ -361,7 +361,7 @@ fn capsule(rng: &mut Rng, shape: Shape) -> Option<f64> {
 
 fn two_triangles(rng: &mut Rng, shape: Shape) -> Option<f64> {
     let corners = shape.triangle(rng);
-    let other = super::SHAPES[rng.below(super::SHAPES.len())].triangle(rng);
+    let other = SHAPES[rng.below(SHAPES.len())].triangle(rng);
     let near = point(rng, &corners, 4.0);
     let by: Point = std::array::from_fn(|k| near[k] - other[0][k]);
     let other = other.map(|corner| std::array::from_fn(|k| corner[k] + by[k]));

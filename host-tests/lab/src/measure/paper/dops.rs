@@ -3,7 +3,8 @@
 use glam::{DVec3, Vec3};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::collapse::Priority;
-use meshsweep_core::{Budget, Bvh, Facing, ScratchEntry, Search};
+use meshsweep::progress::Watch;
+use meshsweep_core::{Budget, Bvh, Facing, OuterSearch, ScratchEntry};
 use meshsweep_host_tests::workload::{Subject, segments};
 use meshsweep_xtask::table::{Cell, Table, fixed};
 
@@ -74,7 +75,7 @@ pub fn table(subject: &Subject) -> Result<Table, String> {
         return Err("trees of different polytopes find other hits".to_owned());
     }
     let built = subject.build(BASE_FACES.min(subject.mesh.triangles.len()), Priority::Span)?;
-    let run = hull(&open(&built)?, &segments, Search::Outer)?;
+    let run = hull(&open(&built)?, &segments, OuterSearch::Outer)?;
     let counts = [run.mean(0), Cell::Empty, run.mean(1), run.mean(3)];
     let seconds = run.nanoseconds * 1e-9 * COUNT as f64;
     let theirs = paper.map(|model| model.hull);
@@ -112,7 +113,7 @@ type Row = (&'static str, usize, [Cell; 4], f64, Option<u32>);
 fn box_tree(subject: &Subject, segments: &[[[f32; 3]; 2]]) -> Result<Row, String> {
     let options = TreeOptions::default();
     let (sections, _) =
-        build(subject.mesh.as_input(), &options).map_err(|error| error.to_string())?;
+        build(subject.mesh.as_input(), &options, Watch::NONE).map_err(|error| error.to_string())?;
     let bytes = sections.to_bytes();
     let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;
     let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
@@ -123,7 +124,7 @@ fn box_tree(subject: &Subject, segments: &[[[f32; 3]; 2]]) -> Result<Row, String
             .first_hit(a, b, Facing::Both, Budget::EXACT, &mut stack)
             .map_err(|error| error.to_string())?;
         hits += usize::from(found.hit.is_some());
-        nodes += u64::from(found.work.nodes);
+        nodes += u64::from(found.work.bounds);
         triangles += u64::from(found.work.triangles);
     }
     let seconds = begun.seconds();

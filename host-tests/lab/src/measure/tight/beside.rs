@@ -4,6 +4,7 @@ use crate::measure::triboxes;
 use glam::DVec3;
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
+use meshsweep::progress::Watch;
 use meshsweep::tribox::{Extent, Hierarchy, SplitOptions, box_tree};
 use meshsweep_core::Bvh;
 use meshsweep_core::internal::num::Radius16;
@@ -27,7 +28,7 @@ const MOST_TRIBOXES: usize = 256;
 fn hull_bytes(hull: &Mesh) -> usize {
     let faces = hull.triangles.len();
     let options = TreeOptions::default().with_closest(true).with_segments(false);
-    let (tree, _) = build(hull.as_input(), &options).expect("builds");
+    let (tree, _) = build(hull.as_input(), &options, Watch::NONE).expect("builds");
     let blob = tree.to_bytes();
     TIGHT_BYTES + TIGHT_HULL_BYTES + blob.len() + faces * size_of::<Radius16>()
 }

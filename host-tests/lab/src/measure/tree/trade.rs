@@ -86,7 +86,7 @@ fn fill(
                 name.clone(),
                 fixed(run.nanoseconds, 0),
                 fixed(exact.nanoseconds / run.nanoseconds, 2),
-                fixed(run.mean(|answer| f64::from(answer.work.splits)), 2),
+                fixed(run.mean(|answer| f64::from(answer.work.opened)), 2),
                 fixed(run.mean(|answer| f64::from(answer.work.triangles)), 1),
                 scientific(promised),
                 fixed(width.max(0.0) / thousandth, 3),

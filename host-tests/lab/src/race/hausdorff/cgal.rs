@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::toolbox::Wanted;
 
-use super::Side;
+use super::side::Side;
 use crate::race::child::{Child, Program, Source};
 
 const SOURCE: Source = Source {

@@ -3,7 +3,7 @@
 //! ```text
 //! samples (closest points) ─ search (largest bound first) ─┬─ bisector (Guéziec 2000)
 //!                                                          └─ cascade  (Sacht & Jacobson 2024)
-//! cgal    (a child process) ─ report (the table)
+//! cgal    (a child process) ─ engine (all of them, the library) ─ report (the table)
 //! ```
 //! The two ways share nothing with the library but the box tree that names the closest triangle.
 //! All have the same precision, so their intervals have to overlap.
@@ -11,148 +11,26 @@
 mod bisector;
 mod cascade;
 mod cgal;
+mod engine;
 mod report;
 mod samples;
 mod search;
+mod side;
 
 use std::path::Path;
 use std::time::Instant;
 
 use glam::DVec3;
-use meshsweep::hausdorff::{Direction, Precision, hausdorff};
-use meshsweep::mesh::Mesh;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::Table;
 
-use crate::measure::stopwatch::Stopwatch;
 use cgal::Cgal;
-
-/// Precision, as a part of the diagonal of the box about both meshes.
-const PRECISION: f64 = 1e-6;
+use engine::{Answer, Engine, PRECISION, ours};
+use side::Side;
 
 /// Rounds, of which the fastest counts. One that takes longer than `LONG` is not repeated.
 const ROUNDS: usize = 3;
 const LONG: f64 = 20.0;
-
-/// Whose farthest points count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
-    Forward = 0,
-    Backward = 1,
-    Both = 2,
-}
-
-impl Side {
-    /// The meshes whose points are asked.
-    const fn sources(self) -> &'static [usize] {
-        match self {
-            Self::Forward => &[0],
-            Self::Backward => &[1],
-            Self::Both => &[0, 1],
-        }
-    }
-
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Forward => "first to second",
-            Self::Backward => "second to first",
-            Self::Both => "symmetric",
-        }
-    }
-}
-
-/// One answer, and the work of it.
-#[derive(Clone, Copy, Debug)]
-struct Answer {
-    lower: f64,
-    upper: f64,
-    seconds: f64,
-    tree_seconds: Option<f64>,
-    pieces: Option<usize>,
-    asked: Option<usize>,
-}
-
-impl Answer {
-    fn overlaps(&self, other: &Self) -> bool {
-        self.lower <= other.upper && other.lower <= self.upper
-    }
-}
-
-/// Who answers.
-enum Engine {
-    /// The library's search.
-    Ours,
-    Bisectors,
-    Cascade,
-    Cgal(Cgal),
-}
-
-impl Engine {
-    const fn name(&self) -> &'static str {
-        match self {
-            Self::Ours => "branch and bound (ours)",
-            Self::Bisectors => "spiral and bisectors",
-            Self::Cascade => "cascading bounds",
-            Self::Cgal(_) => "CGAL, bounded error",
-        }
-    }
-
-    fn ask(&mut self, meshes: &[Subject; 2], side: Side, precision: f64) -> Result<Answer, String> {
-        let pair = [&meshes[0].mesh, &meshes[1].mesh];
-        let found = match self {
-            Self::Ours => return ours(pair, side, precision),
-            Self::Cgal(cgal) => {
-                let (value, seconds) = cgal.distance(side, precision)?;
-                let (lower, upper) = (value - precision, value + precision);
-                let (tree_seconds, pieces, asked) = (None, None, None);
-                return Ok(Answer { lower, upper, seconds, tree_seconds, pieces, asked });
-            }
-            Self::Bisectors => {
-                timed(|| search::search(&bisector::Bisectors, pair, side, precision))
-            }
-            Self::Cascade => timed(|| search::search(&cascade::Cascade, pair, side, precision)),
-        };
-        let (search::Found { lower, upper, pieces, asked, tree_seconds }, seconds) = found?;
-        let tree_seconds = Some(tree_seconds);
-        let (pieces, asked) = (Some(pieces), Some(asked));
-        Ok(Answer { lower, upper, seconds, tree_seconds, pieces, asked })
-    }
-}
-
-fn timed<T>(run: impl FnOnce() -> Result<T, String>) -> Result<(T, f64), String> {
-    let watch = Stopwatch::start();
-    let answer = run()?;
-    Ok((answer, watch.seconds()))
-}
-
-fn ours([first, second]: [&Mesh; 2], side: Side, precision: f64) -> Result<Answer, String> {
-    let precision = Precision { relative: 0.0, absolute: precision, at_most: None };
-    let (from, to, direction) = match side {
-        Side::Forward => (first, second, Direction::Forward),
-        Side::Backward => (second, first, Direction::Forward),
-        Side::Both => (first, second, Direction::Both),
-    };
-    let (found, seconds) = timed(|| {
-        hausdorff(from, to, direction, &precision, |_, _| ())
-            .map_err(|refused| refused.error.to_string())
-    })?;
-    // The search builds its trees itself: the same ones are built again.
-    let (_, tree_seconds) = timed(|| {
-        side.sources().iter().try_for_each(|&from| {
-            samples::tree([first, second][1 - from], [first, second][from]).map(drop)
-        })
-    })?;
-    let vertices: usize =
-        side.sources().iter().map(|&from| [first, second][from].positions.len()).sum();
-    Ok(Answer {
-        lower: found.lower,
-        upper: found.upper,
-        seconds,
-        tree_seconds: Some(tree_seconds),
-        pieces: Some(found.pieces),
-        asked: Some(vertices + found.pieces),
-    })
-}
 
 /// Diagonal of the box about both meshes.
 fn diagonal(meshes: &[Subject; 2]) -> f64 {

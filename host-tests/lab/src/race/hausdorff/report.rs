@@ -3,7 +3,8 @@
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row, scientific};
 
-use super::{Answer, Engine, PRECISION, Side};
+use super::engine::{Answer, Engine, PRECISION};
+use super::side::Side;
 
 /// Without rows.
 pub fn table(meshes: &[Subject; 2]) -> Table {

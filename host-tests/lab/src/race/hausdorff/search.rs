@@ -6,8 +6,8 @@ use std::collections::BinaryHeap;
 use glam::{DVec3, Vec3};
 use meshsweep::mesh::Mesh;
 
-use super::Side;
 use super::samples::{Sample, Sampler, tree};
+use super::side::Side;
 use crate::measure::stopwatch::Stopwatch;
 
 /// Added to an upper bound and taken off a lower one, as a part of the largest coordinate. It

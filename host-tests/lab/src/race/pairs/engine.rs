@@ -9,67 +9,12 @@ use parry3d::query::{ClosestPoints, closest_points, distance, intersection_test}
 
 use super::fcl::Fcl;
 use super::motions::Case;
+use super::question::{Answer, Question, Run};
 use crate::measure::rival::Rival;
 use crate::measure::stopwatch::Stopwatch;
 
-/// A question about two models at a pose.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Question {
-    /// How far are the models from each other?
-    Distance,
-    /// Are they within this part of their distance?
-    Within(f64),
-    /// Do their surfaces meet?
-    Meets,
-}
-
-impl Question {
-    /// All, in the order of the table.
-    pub const ALL: [Self; 4] = [Self::Distance, Self::Within(0.5), Self::Within(2.0), Self::Meets];
-
-    /// In tables.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Distance => "distance",
-            Self::Within(part) if part < 1.0 => "within half of it",
-            Self::Within(_) => "within twice of it",
-            Self::Meets => "meets",
-        }
-    }
-
-    /// The distance that is asked about.
-    pub fn limit(self, case: &Case) -> f32 {
-        match self {
-            Self::Within(part) => (part * case.truth.upper) as f32,
-            _ => 0.0,
-        }
-    }
-}
-
-/// What an engine says.
-#[derive(Clone, Copy, Debug)]
-pub enum Answer {
-    /// Bounds of the distance.
-    Bounds(f64, f64),
-    /// A distance without bounds.
-    About(f64),
-    /// Yes or no.
-    Is(bool),
-    /// Neither.
-    Open,
-}
-
-/// Answers in the order of the cases, with pairs of boxes and pairs of triangles in f64, and
-/// seconds for all.
-#[derive(Default)]
-pub struct Run {
-    /// The answers.
-    pub answers: Vec<Answer>,
-    /// Sum of the work, of an engine that tells it.
-    pub work: Option<[u64; 2]>,
-    /// Processor time.
-    pub seconds: f64,
-}
+/// The engine that all others are compared with.
+pub const REFERENCE: &str = "parry3d";
 
 /// An engine with its index of the mesh.
 pub enum Engine<'a> {
@@ -103,7 +48,7 @@ impl<'a> Engine<'a> {
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Tree(name, ..) => name,
-            Self::Parry(_) => super::REFERENCE,
+            Self::Parry(_) => REFERENCE,
             Self::Fcl(_) => "FCL",
         }
     }
@@ -121,7 +66,8 @@ impl<'a> Engine<'a> {
                 for case in cases {
                     let (answer, work) = black_box(by_tree(question, tree, case, stack)?);
                     let [nodes, exact] = run.work.unwrap_or_default();
-                    run.work = Some([nodes + u64::from(work.nodes), exact + u64::from(work.exact)]);
+                    run.work =
+                        Some([nodes + u64::from(work.bounds), exact + u64::from(work.exact)]);
                     run.answers.push(answer);
                 }
                 run.seconds += watch.seconds();
@@ -151,7 +97,7 @@ fn by_tree(
         _ => Answer::Open,
     };
     let answer = match question {
-        Question::Distance => tree.distance(tree, pose, exact, stack).map(|found| {
+        Question::Distance => tree.distance_to(tree, pose, exact, stack).map(|found| {
             let bounds =
                 Answer::Bounds(f64::from(found.distance.lower), f64::from(found.distance.upper));
             (if found.ended == Ended::Exact { bounds } else { Answer::Open }, found.work)

@@ -6,8 +6,8 @@ use std::sync::LazyLock;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::toolbox::Wanted;
 
-use super::engine::{Answer, Question, Run};
 use super::motions::Case;
+use super::question::{Answer, Question, Run};
 use crate::race::child::{Child, Program, Source};
 
 /// Not for this processor alone: Eigen's types in the library have the alignment of plain x86-64.

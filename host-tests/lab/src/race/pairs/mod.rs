@@ -1,7 +1,7 @@
 //! Two models, of which one moves: their distance, whether it is below a limit, whether they meet.
 //!
 //! ```text
-//! motions (poses, exact answers) ─ engine (the library, parry3d) ─ fcl (a child process)
+//! motions (poses, exact answers) ─ question ─ fcl (a child process) ─ engine (all, the library, parry3d)
 //! ```
 //! Engines take turns every few motions, so that a busy machine hits all alike. Each answer is held
 //! to an oracle: distances in 106 bits, meetings by exact predicates.
@@ -9,16 +9,17 @@
 mod engine;
 mod fcl;
 mod motions;
+mod question;
 
 use std::path::Path;
 
-use meshsweep::bvh::{TreeOptions, build};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row, scientific};
 
-use engine::{Answer, Engine, Question, Run};
+use engine::{Engine, REFERENCE};
 use fcl::Fcl;
-use motions::{Case, Group, groups};
+use motions::{Case, Group, groups, tree};
+use question::{Answer, Question, Run};
 
 /// Motions of each kind.
 const MOTIONS: usize = 1_000;
@@ -30,19 +31,6 @@ const TURN: usize = 20;
 
 /// A distance without bounds is wrong if it is off by more than this part of the mesh's size.
 const FAR_OFF: f64 = 1e-5;
-
-/// The one whom all others are compared with.
-const REFERENCE: &str = "parry3d";
-
-/// A blob of the mesh.
-fn tree(subject: &Subject, is_f32: bool) -> Vec<u8> {
-    let options = TreeOptions::default().with_closest(false).with_f32(is_f32);
-    let input = meshsweep::mesh::Input {
-        input_triangles: subject.triangles_read,
-        ..subject.mesh.as_input()
-    };
-    build(input, &options).expect("builds").0.to_bytes()
-}
 
 /// How the answers to a question compare with the truth.
 #[derive(Default)]

@@ -1,6 +1,8 @@
 //! Motions of a mesh past itself, and what is true of them.
 
 use glam::DVec3;
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, Pose, ScratchEntry};
 use meshsweep_host_tests::oracle::Bounded;
 use meshsweep_host_tests::workload::Subject;
@@ -9,7 +11,6 @@ use meshsweep_host_tests::workload::pose::{Pose as Motion, poses, sphere};
 use parry3d::math::Pose as ParryPose;
 use rayon::prelude::*;
 
-use super::tree;
 use crate::measure::bounds::pose::parry;
 
 /// Random motions that are looked at for each that is wanted.
@@ -40,6 +41,16 @@ pub struct Group {
     pub is_meeting: bool,
 }
 
+/// A blob of the mesh.
+pub fn tree(subject: &Subject, is_f32: bool) -> Vec<u8> {
+    let options = TreeOptions::default().with_closest(false).with_f32(is_f32);
+    let input = meshsweep::mesh::Input {
+        input_triangles: subject.triangles_read,
+        ..subject.mesh.as_input()
+    };
+    build(input, &options, Watch::NONE).expect("builds").0.to_bytes()
+}
+
 /// Up to `wanted` random motions that are apart, as many after most of the way to contact, and as
 /// many that meet. A motion by less than the distance meets nothing.
 ///
@@ -55,7 +66,7 @@ pub fn groups(subject: &Subject, wanted: usize) -> Result<[Group; 3], String> {
             break;
         }
         let mut stack = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
-        let found = tree.distance(&tree, pose, Budget::EXACT, &mut stack);
+        let found = tree.distance_to(&tree, pose, Budget::EXACT, &mut stack);
         let found = found.map_err(|error| error.to_string())?;
         if found.distance.lower > 0.0 {
             if apart.len() < wanted {
@@ -75,7 +86,7 @@ pub fn groups(subject: &Subject, wanted: usize) -> Result<[Group; 3], String> {
     let measured = |motions: Vec<(Motion, Pose)>| -> Result<Vec<Case>, String> {
         let one = |(near, pose): (Motion, Pose)| {
             let mut stack = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
-            let found = tree.distance(&tree, pose, Budget::EXACT, &mut stack);
+            let found = tree.distance_to(&tree, pose, Budget::EXACT, &mut stack);
             let limit = f64::from(found.map_err(|error| error.to_string())?.distance.upper) * 1.001;
             // Beyond the limit the truth is infinite, and no answer holds it.
             Ok(case(near, pose, surface.distance_up_to(&pose, &near, limit)))

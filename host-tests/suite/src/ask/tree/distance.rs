@@ -3,8 +3,8 @@
 use meshsweep_core::{Budget, ClosestPoint, Neighbor, QueryError, Side, Verdict};
 
 use super::{Bvh, Scratch};
-use crate::Clock;
 use crate::ask::{self, Asked};
+use crate::clock::Clock;
 use crate::fold::Fold;
 use crate::place::Point;
 

@@ -3,8 +3,8 @@
 use meshsweep_core::{Budget, Pose, Verdict};
 
 use super::{Bvh, Scratch};
-use crate::Clock;
 use crate::ask::{self, Asked};
+use crate::clock::Clock;
 use crate::place::Motion;
 
 /// A motion as the core takes it.
@@ -44,7 +44,7 @@ pub fn all_overlaps(
     to: &mut Asked<'_, impl Clock>,
 ) {
     let Scratch { pairs, meeting, .. } = scratch;
-    let call = || tree.overlaps(tree, pose, meeting, Budget::EXACT.with_steps(STEPS), pairs);
+    let call = || tree.all_overlaps(tree, pose, meeting, Budget::EXACT.with_steps(STEPS), pairs);
     if let Some(answer) = to.answer(call, |_, _| ()) {
         for pair in meeting.iter().take(answer.stored) {
             pair.triangles.into_iter().for_each(|number| to.fold.word(number));

@@ -3,8 +3,8 @@
 use meshsweep_core::{Budget, Eye, Facing, FrontFacing, Verdict};
 
 use super::{Bvh, Scratch};
-use crate::Clock;
 use crate::ask::{self, Asked};
+use crate::clock::Clock;
 use crate::place::{Ends, Point};
 
 /// First point of the segment from `a` to `b` on the surface.

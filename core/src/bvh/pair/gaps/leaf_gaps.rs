@@ -1,0 +1,276 @@
+//! The distances of the triangles of two leaves.
+//!
+//! Boxes bound all pairs in f32. The nearest pair is computed in f64. The offset between its points
+//! then bounds all other pairs: most often none is left.
+
+use super::left_out::LeftOut;
+use super::pair_keys::{
+    NO_PAIR, PAIRS, PairKeys, children_of, distance_of, key_limit, key_of, pair_bit,
+};
+use crate::bvh::pair::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
+use crate::bvh::tree::format::FanLeaf;
+use crate::bvh::tree::triangle_at::TriangleAt;
+use crate::geom::fan::WIDTH;
+use crate::geom::{Contact, TriangleDistance, crossing, triangle_distance, triangles_meet};
+use crate::num::tolerance::{GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32};
+use crate::num::{greater, lesser, up_to_f32};
+use crate::query::{RelativePose, Work};
+
+/// The distance of two stored triangles, common units.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TriangleGap {
+    pub(crate) place: [TriangleAt; 2],
+    pub(crate) lower: f64,
+    pub(crate) upper: f64,
+    /// It is proved that the triangles of the input meet.
+    pub(crate) meets: bool,
+    /// A point of each, from the first model's origin.
+    pub(crate) points: [[f64; 3]; 2],
+}
+
+/// A question's visitor for pairs of triangles.
+pub(crate) trait GapVisitor {
+    /// Pairs that are farther than this need no visit, common units.
+    fn limit(&self) -> f64;
+    /// Whether to go on.
+    fn take(&mut self, gap: &TriangleGap) -> bool;
+}
+
+/// What a visit of two leaves showed.
+pub(crate) struct LeafVisit {
+    pub(crate) goes_on: bool,
+    /// A lower bound of the distance of both leaves, common units. 0 if nothing is kept.
+    pub(crate) lower: f64,
+}
+
+/// The search among the triangles of two leaves.
+pub(crate) struct LeafGaps<'a> {
+    pub(crate) pose: &'a RelativePose,
+    /// The greater of both surface errors, common units.
+    pub(crate) surface_error: f64,
+    /// Direction between the nearest points so far, its largest component 1; zero before the first
+    /// pair. Pairs of triangles far apart along it are skipped.
+    pub(crate) direction: [f32; 3],
+}
+
+impl LeafGaps<'_> {
+    /// Visits the pairs of triangles of two leaves that may be within the limit.
+    #[inline(always)]
+    pub(crate) fn visit<L: LeftOut>(
+        &mut self,
+        leaves: [&FanLeaf<'_>; 2],
+        [first_at, second_at]: [TriangleAt; 2],
+        visitor: &mut impl GapVisitor,
+        work: &mut Work,
+    ) -> Option<LeafVisit> {
+        let [first, second] = leaves;
+        let pair = LeafPair::new(self.pose, first, second);
+        let error = self.pose.vertex_error;
+        let margin =
+            (error + error) + GAP_ALONG * U32 * greater(pair.a.max_norm(), pair.b.max_norm()) * 2.0;
+        let reach_sq = |visitor: &_| {
+            let grown_limit = (up_to_f32(GapVisitor::limit(visitor)) + margin) * GAP_SLACK;
+            grown_limit * grown_limit * GAP_SLACK
+        };
+        let mut limit_sq = reach_sq(visitor);
+        let mut seen = Measured { pairs: 0, lower: f64::INFINITY };
+        let visit = |direction, goes_on, seen: &Measured| {
+            let lower =
+                if L::KEEPS { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
+            Some(LeafVisit { goes_on, lower })
+        };
+        if !may_be_near(self.direction, limit_sq, &pair) {
+            return visit(self.direction, true, &seen);
+        }
+        let mut keys = keys(&pair, limit_sq)?;
+        skip_along(&mut keys, self.direction, limit_sq, &pair);
+        work.triangles =
+            work.triangles.saturating_add((pair.a.triangles * pair.b.triangles) as u32);
+        loop {
+            let key = keys.least();
+            if key > key_limit(limit_sq) {
+                return visit(self.direction, true, &seen);
+            }
+            keys.drop(key);
+            let [i, j] = children_of(key);
+            work.exact = work.exact.saturating_add(1);
+            let place = [first_at.with_lane(i as usize), second_at.with_lane(j as usize)];
+            let gap = self.measured(&pair, place);
+            self.turn_to(&gap);
+            seen = Measured {
+                pairs: seen.pairs | pair_bit(key),
+                lower: lesser(seen.lower, gap.lower),
+            };
+            if !visitor.take(&gap) {
+                return visit(self.direction, false, &seen);
+            }
+            limit_sq = reach_sq(visitor);
+            skip_along(&mut keys, self.direction, limit_sq, &pair);
+        }
+    }
+
+    /// The distance of one pair.
+    #[inline(never)]
+    fn measured(&self, pair: &LeafPair<'_>, place: [TriangleAt; 2]) -> TriangleGap {
+        let [i, j] = place.map(TriangleAt::lane);
+        let [a, b] = pair.in_f64(i, j);
+        let TriangleDistance { mut lower, mut upper, mut points } = triangle_distance(a, b);
+        let rounding = self.pose.vertex_error_exact;
+        lower = greater(0.0, lower - (rounding + rounding));
+        upper += rounding + rounding;
+        let mut meets = false;
+        if lower <= 0.0 {
+            meets = triangles_meet(a, b, rounding + self.surface_error) == Contact::Meets;
+            if meets || triangles_meet(a, b, rounding) == Contact::Meets {
+                upper = 0.0;
+                points = crossing(a, b).map_or(points, |common| [common; 2]);
+            }
+        }
+        let [first, _] = &self.pose.frames;
+        let unit = f64::from(first.unit);
+        let [x, y, z] = pair.first_vertex(i).map(|x| x * unit);
+        let points = points.map(|[u, v, w]| [u + x, v + y, w + z]);
+        TriangleGap { place, lower, upper, meets, points }
+    }
+
+    /// Keeps the direction of a pair that is not in contact.
+    fn turn_to(&mut self, gap: &TriangleGap) {
+        let [[a, b, c], [x, y, z]] = gap.points;
+        let direction = [x - a, y - b, z - c];
+        let longest = direction.iter().fold(0.0, |longest, x| greater(longest, x.abs()));
+        if longest > 0.0 {
+            self.direction = direction.map(|x| (x / longest) as f32);
+        }
+    }
+}
+
+/// The pairs of triangles that were measured.
+struct Measured {
+    /// The bits of their keys.
+    pairs: u64,
+    /// The least lower end.
+    lower: f64,
+}
+
+/// A lower bound of the distance of both leaves: of measured pairs their lower ends, of the others
+/// the larger of the gap of their boxes and the gap along the direction (§18). Common units.
+fn least_distance(
+    pair: &LeafPair<'_>,
+    direction: [f32; 3],
+    margin: f32,
+    seen: &Measured,
+) -> Option<f64> {
+    let mut keys = keys(pair, f32::INFINITY)?;
+    raise_keys_along(&mut keys, direction, pair);
+    for (i, key) in keys.0.iter_mut().enumerate() {
+        *key = if seen.pairs >> (i & (PAIRS - 1)) & 1 != 0 { NO_PAIR } else { *key };
+    }
+    let least = keys.least();
+    if least == NO_PAIR {
+        return Some(seen.lower);
+    }
+    Some(lesser(seen.lower, greater(0.0, distance_of(least) - f64::from(margin))))
+}
+
+/// Keys of all pairs, by their boxes. Vertices are as computed, so a limit must have room for
+/// their error.
+#[inline(always)]
+fn keys(pair: &LeafPair<'_>, limit_sq: f32) -> Option<PairKeys> {
+    let (first, second) = (TriangleBoxes::of(&pair.a)?, TriangleBoxes::of(&pair.b)?);
+    let mut keys = PairKeys([NO_PAIR; WIDTH * WIDTH]);
+    let rows = keys.0.as_chunks_mut::<WIDTH>().0.iter_mut();
+    for (i, row) in rows.enumerate().take(pair.a.triangles) {
+        let mut sums = [0f32; WIDTH];
+        for ((from, to), (low, high)) in
+            first.low.iter().zip(&first.high).zip(second.low.iter().zip(&second.high))
+        {
+            let (Some(&from), Some(&to)) = (from.get(i), to.get(i)) else { continue };
+            for (sum, (low, high)) in sums.iter_mut().zip(low.iter().zip(high)) {
+                let gap = greater(0.0, greater(low - to, from - high));
+                *sum += gap * gap;
+            }
+        }
+        for (j, (key, sum)) in row.iter_mut().zip(sums).enumerate() {
+            let is_near = j < pair.b.triangles && sum <= limit_sq;
+            *key = if is_near { key_of(sum, (i * WIDTH + j) as u32) } else { NO_PAIR };
+        }
+    }
+    Some(keys)
+}
+
+/// Drops the pairs that are farther apart along `direction` than the limit.
+#[inline(always)]
+fn skip_along(keys: &mut PairKeys, direction: [f32; 3], limit_sq: f32, pair: &LeafPair<'_>) {
+    let [x, y, z] = direction;
+    let way_sq = x * x + y * y + z * z;
+    if way_sq < LEAST_GAP_SQ {
+        return;
+    }
+    let (first, second) = (heights(&pair.a, direction), heights(&pair.b, direction));
+    let limit = limit_sq * way_sq;
+    for (i, row) in keys.0.as_chunks_mut::<WIDTH>().0.iter_mut().enumerate() {
+        let Some(&top) = first.high.get(i) else { continue };
+        for (key, low) in row.iter_mut().zip(second.low) {
+            let gap = greater(0.0, low - top);
+            *key = if gap * gap * SQUARED_SLACK > limit { NO_PAIR } else { *key };
+        }
+    }
+}
+
+/// Raises the keys of the pairs that are farther apart along `direction` than their boxes.
+fn raise_keys_along(keys: &mut PairKeys, direction: [f32; 3], pair: &LeafPair<'_>) {
+    let [x, y, z] = direction;
+    let way_sq = x * x + y * y + z * z;
+    if way_sq < LEAST_GAP_SQ {
+        return;
+    }
+    let (first, second) = (heights(&pair.a, direction), heights(&pair.b, direction));
+    let factor = SQUARED_SLACK / way_sq;
+    for (i, row) in keys.0.as_chunks_mut::<WIDTH>().0.iter_mut().enumerate() {
+        let Some(&top) = first.high.get(i) else { continue };
+        for (j, (key, low)) in row.iter_mut().zip(second.low).enumerate() {
+            let gap = greater(0.0, low - top);
+            let along = key_of(gap * gap * factor, (i * WIDTH + j) as u32);
+            *key = if *key < along { along } else { *key };
+        }
+    }
+}
+
+/// Whether the leaves as a whole are within the limit along `direction`.
+#[inline(always)]
+fn may_be_near(direction: [f32; 3], limit_sq: f32, pair: &LeafPair<'_>) -> bool {
+    let [x, y, z] = direction;
+    let way_sq = x * x + y * y + z * z;
+    let top = vertex_heights(&pair.a, direction).into_iter().fold(f32::MIN, greater);
+    let low = vertex_heights(&pair.b, direction).into_iter().fold(f32::MAX, lesser);
+    let gap = greater(0.0, low - top);
+    way_sq < LEAST_GAP_SQ || gap * gap * SQUARED_SLACK <= limit_sq * way_sq
+}
+
+/// Triangles along a direction.
+struct Heights {
+    low: [f32; WIDTH],
+    high: [f32; WIDTH],
+}
+
+#[inline(always)]
+fn vertex_heights(corners: &Corners, [a, b, c]: [f32; 3]) -> [f32; SLOTS] {
+    let [x, y, z] = &corners.at;
+    let mut at = [0f32; SLOTS];
+    for i in 0..SLOTS {
+        at[i] = a * x[i] + b * y[i] + c * z[i];
+    }
+    at
+}
+
+#[inline(always)]
+fn heights(corners: &Corners, direction: [f32; 3]) -> Heights {
+    let at = vertex_heights(corners, direction);
+    let mut heights = Heights { low: [0.0; WIDTH], high: [0.0; WIDTH] };
+    for (i, (low, high)) in heights.low.iter_mut().zip(&mut heights.high).enumerate() {
+        let [p, q, r] = corners.slots(i).map(|slot| at.get(slot).copied().unwrap_or(0.0));
+        *low = lesser(p, lesser(q, r));
+        *high = greater(p, greater(q, r));
+    }
+    heights
+}

@@ -1,0 +1,16 @@
+//! The search of the nearest pair of triangles of two models.
+//!
+//! | file | owns |
+//! | --- | --- |
+//! | `nearest_first` | the descent of both trees, nearest pair first |
+//! | `pair_keys` | lower bounds of the distances of all pairs of boxes of two nodes |
+//! | `leaf_gaps` | the distances of the triangles of two leaves |
+//! | `left_out` | what a descent does not look at, for the next one |
+//! | `nearest_gap`, `threshold` | what a search wants: the nearest pair, or one within a distance |
+
+pub(super) mod leaf_gaps;
+pub(super) mod left_out;
+pub(super) mod nearest_first;
+pub(super) mod nearest_gap;
+mod pair_keys;
+pub(super) mod threshold;

@@ -1,0 +1,257 @@
+//! The descent of two trees at once, nearest pair first.
+//!
+//! The nearest pair of children is followed at once. The others of the two nodes wait together, as
+//! 64 bits with the least of their keys. Their keys are computed again when their turn comes, so a
+//! pair of nodes that waits takes three scratch entries however many children wait.
+
+use super::leaf_gaps::{GapVisitor, LeafGaps, LeafVisit};
+use super::left_out::{ChildPairs, LeftOut};
+use super::pair_keys::{
+    NO_PAIR, PairKeys, bound_of, children_of, distance_of, key_limit, pair_bit, second_factor,
+};
+use crate::bvh::pair::models::Models;
+use crate::bvh::pair::stored_pair::StoredPair;
+use crate::bvh::tree::axis_intervals::{AxisIntervals, pairs};
+use crate::bvh::tree::stored_lengths::square_limit;
+use crate::bvh::tree::triangle_at::TriangleAt;
+use crate::num::lesser;
+use crate::num::tolerance::SQUARED_SLACK;
+use crate::query::{Ended, QueryError, ScratchEntry, Work};
+
+/// How a search ended.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum PairDescent {
+    /// Everything within the limit was looked at.
+    Done,
+    /// The visitor wanted no more.
+    Answered,
+    Truncated(Missed),
+}
+
+impl PairDescent {
+    pub(crate) fn missed(self) -> Option<Missed> {
+        match self {
+            PairDescent::Truncated(missed) => Some(missed),
+            PairDescent::Done | PairDescent::Answered => None,
+        }
+    }
+}
+
+/// Scratch entries of a pair of nodes that waits.
+const ENTRIES: usize = 3;
+
+/// What the search did not look at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Missed {
+    pub(crate) why: Ended,
+    /// No pair that was missed is nearer than this, common units.
+    pub(crate) lower: f64,
+}
+
+/// Children of two nodes that are still to be looked at.
+#[derive(Clone, Copy)]
+struct PendingPairs {
+    /// Not above any of their keys.
+    key: u32,
+    pairs: ChildPairs,
+}
+
+impl PendingPairs {
+    /// Keys are the bits of an f32 that is finite, and node numbers are below 2^24.
+    #[inline(always)]
+    fn entries(self) -> [ScratchEntry; ENTRIES] {
+        let ChildPairs { nodes: [a, b], wanted } = self.pairs;
+        [[self.key, wanted as u32], [a, (wanted >> 32) as u32], [b, 0]].map(ScratchEntry::of_words)
+    }
+
+    #[inline(always)]
+    fn of(entries: &[ScratchEntry; ENTRIES]) -> PendingPairs {
+        let [[key, low], [a, high], [b, _]] = entries.map(ScratchEntry::words);
+        let wanted = u64::from(high) << 32 | u64::from(low);
+        PendingPairs { key, pairs: ChildPairs { nodes: [a, b], wanted } }
+    }
+
+    #[inline(always)]
+    fn leave_to<L: LeftOut>(self, left: &mut L) {
+        if L::KEEPS && self.pairs.wanted != 0 {
+            left.keep(self.pairs, distance_of(self.key));
+        }
+    }
+}
+
+/// A search in two trees.
+pub(crate) struct Search<'s, 'a> {
+    pub(crate) models: Models<'a>,
+    pub(crate) leaves: LeafGaps<'a>,
+    /// Budget: pairs of nodes, over all descents.
+    pub(crate) steps: u32,
+    pub(crate) scratch: &'s mut [ScratchEntry],
+    pub(crate) work: Work,
+}
+
+impl<'s, 'a> Search<'s, 'a> {
+    pub(crate) fn new(
+        pair: &'a StoredPair<'a>,
+        steps: u32,
+        scratch: &'s mut [ScratchEntry],
+    ) -> Self {
+        let work = Work::default();
+        Search { models: pair.models(), leaves: pair.leaves(), steps, scratch, work }
+    }
+
+    /// Visits every pair of leaves below `start` that may be within the visitor's limit. What the
+    /// limit left out goes to `left`. None of `start` is nearer than `distance`, common units.
+    pub(crate) fn descend<L: LeftOut>(
+        &mut self,
+        (start, distance): (ChildPairs, f32),
+        visitor: &mut impl GapVisitor,
+        left: &mut L,
+    ) -> Result<PairDescent, QueryError> {
+        let Search { models, leaves, work, .. } = self;
+        let steps = lesser(self.steps, work.opened.saturating_add(models.most_pairs()));
+        let (stack, _) = self.scratch.as_chunks_mut::<ENTRIES>();
+        let factor = second_factor(models.pose);
+        let limit_of = |visitor: &_| key_limit(square_limit(GapVisitor::limit(visitor)));
+        let mut used = 0usize;
+        // The least key of the pairs that did not fit the stack.
+        let mut dropped = NO_PAIR;
+        let key = (distance * distance * SQUARED_SLACK).to_bits();
+        let mut now = PendingPairs { key, pairs: start };
+        loop {
+            if work.opened >= steps {
+                let waiting = stack.iter().take(used).map(|entries| PendingPairs::of(entries).key);
+                let key = waiting.fold(now.key.min(dropped), u32::min);
+                now.leave_to(left);
+                leave_all(stack, used, left);
+                return Ok(PairDescent::Truncated(Missed {
+                    why: Ended::Steps,
+                    lower: distance_of(key),
+                }));
+            }
+            work.opened += 1;
+            let (mut keys, deepest) =
+                keys(models, &now.pairs, factor, work).ok_or(QueryError::Unchecked)?;
+            let nodes = now.pairs.nodes;
+            let mut preferred = deepest;
+            let mut down = None;
+            while down.is_none() {
+                let key = preferred.take().unwrap_or_else(|| keys.least());
+                if key > limit_of(visitor) {
+                    break;
+                }
+                keys.drop(key);
+                let indices = children_of(key);
+                let child = |which: usize, index: u32| {
+                    let tree = if which == 0 { models.a } else { models.b };
+                    tree.child(nodes[which & 1], index).ok_or(QueryError::Unchecked)
+                };
+                let children = [child(0, indices[0])?, child(1, indices[1])?];
+                let [opens_a, opens_b] = models.opened(&children).ok_or(QueryError::Unchecked)?;
+                if opens_a || opens_b {
+                    // A child that is not opened stays a child of its parent, alone.
+                    let part = |opens: bool, which: usize| {
+                        if opens {
+                            (children[which].at, 0xFF)
+                        } else {
+                            (nodes[which], 1u64 << indices[which])
+                        }
+                    };
+                    let ((first, rows), (second, columns)) = (part(opens_a, 0), part(opens_b, 1));
+                    let wanted =
+                        (0..8).fold(0, |bits, i| bits | (columns * (rows >> i & 1)) << (8 * i));
+                    let pairs = ChildPairs { nodes: [first, second], wanted };
+                    down = Some(PendingPairs { key: bound_of(key).to_bits(), pairs });
+                    continue;
+                }
+                let [first, second] = children;
+                let p = models.a.leaf_at(first.at, first.shape).ok_or(QueryError::Unchecked)?;
+                let q = models.b.leaf_at(second.at, second.shape).ok_or(QueryError::Unchecked)?;
+                let place = [0, 1].map(|which| TriangleAt::new(nodes[which], indices[which], 0));
+                let visit = leaves.visit::<L>([&p, &q], place, visitor, work);
+                let LeafVisit { goes_on, lower } = visit.ok_or(QueryError::Unchecked)?;
+                left.keep(ChildPairs { nodes, wanted: pair_bit(key) }, lower);
+                if !goes_on {
+                    let (wanted, _) = keys.up_to(NO_PAIR - 1);
+                    PendingPairs { key: now.key, pairs: ChildPairs { nodes, wanted } }
+                        .leave_to(left);
+                    leave_all(stack, used, left);
+                    return Ok(PairDescent::Answered);
+                }
+            }
+            let limit = limit_of(visitor);
+            let (near, key) = keys.up_to(limit);
+            // Pairs beyond the limit are left out together with the others.
+            let wanted = if L::KEEPS { keys.up_to(NO_PAIR - 1).0 } else { near };
+            let rest =
+                PendingPairs { key: bound_of(key).to_bits(), pairs: ChildPairs { nodes, wanted } };
+            if near == 0 {
+                rest.leave_to(left);
+            }
+            if let Some(next) = down {
+                if near != 0 {
+                    match stack.get_mut(used) {
+                        Some(slot) => {
+                            *slot = rest.entries();
+                            used += 1;
+                        }
+                        None => {
+                            dropped = dropped.min(rest.key);
+                            left.overflow();
+                        }
+                    }
+                }
+                now = next;
+                continue;
+            }
+            now = loop {
+                let Some(top) = used.checked_sub(1) else {
+                    if dropped > limit {
+                        return Ok(PairDescent::Done);
+                    }
+                    let lower = distance_of(dropped);
+                    return Ok(PairDescent::Truncated(Missed { why: Ended::Scratch, lower }));
+                };
+                used = top;
+                let waiting = PendingPairs::of(stack.get(top).ok_or(QueryError::Unchecked)?);
+                if waiting.key <= limit {
+                    break waiting;
+                }
+                waiting.leave_to(left);
+            };
+        }
+    }
+}
+
+/// Leaves out all pairs that wait.
+#[inline(always)]
+fn leave_all(stack: &[[ScratchEntry; ENTRIES]], used: usize, left: &mut impl LeftOut) {
+    stack.iter().take(used).for_each(|entries| PendingPairs::of(entries).leave_to(left));
+}
+
+/// Keys of the pairs that wait. Of boxes that meet, the key of the pair that overlaps most:
+/// surfaces most often meet there.
+#[inline(always)]
+fn keys(
+    models: &Models<'_>,
+    now: &ChildPairs,
+    factor: f32,
+    work: &mut Work,
+) -> Option<(PairKeys, Option<u32>)> {
+    let [a, b] = now.nodes;
+    let [frame_a, frame_b] = &models.pose.frames;
+    let (count_a, count_b) = (models.a.links(a)?.count, models.b.links(b)?.count);
+    let first = AxisIntervals::of(frame_a, models.a.boxes(a)?, count_a)?;
+    let second = AxisIntervals::of(frame_b, models.b.boxes(b)?, count_b)?;
+    let below = |count: u32| u32::MAX >> (32 - count.clamp(1, 8));
+    let (rows, columns) = (below(count_a), below(count_b));
+    let all = (0..8).fold(0, |bits, i| bits | u64::from(columns * (rows >> i & 1)) << (8 * i));
+    let wanted = now.wanted & all;
+    work.bounds = work.bounds.saturating_add(wanted.count_ones());
+    let keys = PairKeys::of(&first, &second, wanted, factor);
+    if bound_of(keys.least()) > 0.0 || wanted & wanted.wrapping_sub(1) == 0 {
+        return Some((keys, None));
+    }
+    let [i, j] = pairs(&first, &second, rows, columns).deepest;
+    let deepest = keys.0.get((8 * i + j) as usize).copied().filter(|&key| bound_of(key) == 0.0);
+    Some((keys, deepest))
+}

@@ -1,0 +1,151 @@
+//! Lower bounds of the distances of all pairs of children of two nodes.
+//!
+//! Boxes are intervals along the axes of both models. The gaps along the three axes of one model
+//! form a vector, and its length is a lower bound of the distance. The greater of the two bounds
+//! counts. Derivation: `core/docs/rounding.md` §18.
+
+use crate::bvh::tree::axis_intervals::AxisIntervals;
+use crate::bvh::tree::node::WIDE;
+use crate::bvh::tree::stored_lengths::root_of_bound;
+use crate::geom::fan::WIDTH;
+use crate::num::greater;
+use crate::num::tolerance::{LEAST_STRETCH, U32};
+use crate::query::RelativePose;
+
+/// Pairs of children of two nodes.
+pub(crate) const PAIRS: usize = WIDTH * WIDTH;
+
+/// The low bits of a key: the number of the pair, eight times the child of the first node and the
+/// child of the second.
+const PAIR_MASK: u32 = PAIRS as u32 - 1;
+
+/// Key of no pair, above every bound.
+pub(crate) const NO_PAIR: u32 = u32::MAX;
+
+/// Bounds of the squared distances of pairs, as the bits of an f32, cut to make room for the
+/// number of the pair.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PairKeys(pub(crate) [u32; PAIRS]);
+
+/// The key of a bound.
+#[inline(always)]
+pub(crate) fn key_of(bound_sq: f32, pair: u32) -> u32 {
+    bound_sq.to_bits() & !PAIR_MASK | pair
+}
+
+/// The greatest key of a bound that is not above the limit.
+#[inline(always)]
+pub(crate) fn key_limit(limit_sq: f32) -> u32 {
+    limit_sq.to_bits() | PAIR_MASK
+}
+
+/// The bound in a key.
+#[inline(always)]
+pub(crate) fn bound_of(key: u32) -> f32 {
+    f32::from_bits(key & !PAIR_MASK)
+}
+
+/// Children of a pair.
+#[inline(always)]
+pub(crate) fn children_of(key: u32) -> [u32; 2] {
+    [key >> 3 & 7, key & 7]
+}
+
+/// The bit of a pair in [`ChildPairs`](super::left_out::ChildPairs).
+#[inline(always)]
+pub(crate) fn pair_bit(key: u32) -> u64 {
+    1 << (key & PAIR_MASK)
+}
+
+/// Lower bound of a distance, from the key of a pair of boxes, common units.
+pub(crate) fn distance_of(key: u32) -> f64 {
+    root_of_bound(bound_of(key))
+}
+
+/// Squared gaps along the second model's axes are multiplied by this. Its axes are longer by the
+/// stretch of the pose's matrix.
+pub(crate) fn second_factor(pose: &RelativePose) -> f32 {
+    let [_, second] = &pose.frames;
+    let stretch = pose.longest / f64::from(second.unit);
+    if stretch < LEAST_STRETCH {
+        return 0.0;
+    }
+    (1.0 / (stretch * stretch)) as f32 * (1.0 - 4.0 * U32)
+}
+
+impl PairKeys {
+    /// The keys of the pairs `wanted`: a byte for each child of the first node, a bit in it for
+    /// each child of the second.
+    #[inline(always)]
+    pub(crate) fn of(a: &AxisIntervals, b: &AxisIntervals, wanted: u64, factor: f32) -> PairKeys {
+        let mut keys = PairKeys([NO_PAIR; PAIRS]);
+        for (i, row) in keys.0.as_chunks_mut::<WIDTH>().0.iter_mut().enumerate() {
+            let bits = (wanted >> (8 * (i & 7))) as u32 & 0xFF;
+            if bits == 0 {
+                continue;
+            }
+            let i = i & (WIDTH - 1);
+            let bounds = bounds(a, b, i, bits, factor);
+            for (j, (key, bound)) in row.iter_mut().zip(bounds).enumerate() {
+                let pair = (i * WIDTH + j) as u32;
+                *key = if bits >> j & 1 != 0 { key_of(bound, pair) } else { NO_PAIR };
+            }
+        }
+        keys
+    }
+
+    /// The least key.
+    #[inline(always)]
+    pub(crate) fn least(&self) -> u32 {
+        let mut lanes = [NO_PAIR; WIDTH];
+        for row in self.0.as_chunks::<WIDTH>().0 {
+            for (least, &key) in lanes.iter_mut().zip(row) {
+                *least = if key < *least { key } else { *least };
+            }
+        }
+        lanes.into_iter().fold(NO_PAIR, |least, key| least.min(key))
+    }
+
+    /// Drops a pair.
+    #[inline(always)]
+    pub(crate) fn drop(&mut self, key: u32) {
+        if let Some(slot) = self.0.get_mut((key & PAIR_MASK) as usize) {
+            *slot = NO_PAIR;
+        }
+    }
+
+    /// The pairs up to a limit, as bits, and the least of their keys.
+    #[inline(always)]
+    pub(crate) fn up_to(&self, limit: u32) -> (u64, u32) {
+        let (mut bits, mut least) = (0u64, NO_PAIR);
+        for (pair, &key) in self.0.iter().enumerate() {
+            bits |= u64::from(key <= limit) << (pair & (PAIRS - 1));
+            least = least.min(key);
+        }
+        (bits, least)
+    }
+}
+
+/// Squared bounds of child `i` of the first node with each child of the second.
+#[inline(always)]
+fn bounds(a: &AxisIntervals, b: &AxisIntervals, i: usize, bits: u32, factor: f32) -> [f32; WIDTH] {
+    let mut sums = [[0f32; WIDTH]; 2];
+    let directions = a.low.iter().zip(&a.high).zip(b.low.iter().zip(&b.high));
+    for (d, ((from, to), (low, high))) in directions.enumerate() {
+        let (Some(&from), Some(&to)) = (from.get(i), to.get(i)) else { continue };
+        let [first, second] = &mut sums;
+        let sum = if d < 3 { first } else { second };
+        for (j, (sum, (low, high))) in sum.iter_mut().zip(low.iter().zip(high)).enumerate() {
+            if WIDE || bits >> j & 1 != 0 {
+                let gap = greater(0.0, greater(low - to, from - high));
+                *sum += gap * gap;
+            }
+        }
+    }
+    let [first, second] = &sums;
+    let mut bounds = *first;
+    for (bound, second) in bounds.iter_mut().zip(second) {
+        *bound = greater(*bound, second * factor);
+    }
+    bounds
+}

@@ -1,0 +1,36 @@
+//! Two box trees, one of them moved.
+//!
+//! | question | file |
+//! | --- | --- |
+//! | whether and where the surfaces meet | `overlap/` |
+//! | how far they are apart, and whether within a distance | `distance`, `within_of` |
+//! | both of models that move from one question to the next | `coherent_pair` |
+//! | where a model that moves first comes near | `first_contact_of` |
+//! | how deep two solids are in each other | `penetration/` |
+//!
+//! | file | what the questions share |
+//! | --- | --- |
+//! | `models` | two trees: which of two nodes a descent opens, the places of triangles |
+//! | `stored_pair` | two models in one frame, and the way back to input units |
+//! | `placed` | a model's box in the world, and the pose of one model in the frame of another |
+//! | `leaf_pair` | the triangles of two leaves |
+//! | `gaps/` | the search of the nearest pair of triangles |
+//! | `from_afar` | two models that are very far from each other |
+//! | `advance` | how far a moving model certainly goes without contact |
+
+mod advance;
+mod coherent_pair;
+mod distance;
+mod first_contact_of;
+mod from_afar;
+mod gaps;
+mod leaf_pair;
+mod models;
+mod overlap;
+mod penetration;
+pub(super) mod placed;
+pub(super) mod stored_pair;
+mod within_of;
+
+pub use coherent_pair::CoherentPair;
+pub use placed::PlacedModel;

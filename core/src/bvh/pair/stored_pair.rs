@@ -1,0 +1,95 @@
+//! Two trees in one frame, and the conversion of results to input units.
+
+use super::gaps::leaf_gaps::LeafGaps;
+use super::models::Models;
+use crate::bvh::tree::extended::extended;
+use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::stored_lengths::StoredLengths;
+use crate::geom::Pose;
+use crate::num::tolerance::U64;
+use crate::num::{exp2, greater};
+use crate::query::{Extended, Placement, QueryError, RelativePose};
+
+/// Two trees, one of them moved.
+pub(crate) struct StoredPair<'a> {
+    pub(crate) trees: [&'a Bvh<'a>; 2],
+    /// Its vertex errors hold rounding only, no surface errors.
+    pub(crate) pose: RelativePose,
+    /// The pose is near enough for f32.
+    pub(crate) is_in_range: bool,
+    /// Holds the sum of both surface errors.
+    pub(crate) lengths: StoredLengths,
+    /// The larger surface error, common units.
+    greater_error: f64,
+    first: Extended,
+    second: Extended,
+}
+
+/// A place of the second model, its units and from its origin, in common units and from the first
+/// model's origin.
+pub(crate) fn moved(pose: &RelativePose, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    let ([r0, r1, r2], [c0, c1, c2]) = (pose.matrix, pose.shift_exact);
+    let along = |row: [f32; 3], shift: f64| {
+        let [a, b, c] = row.map(f64::from);
+        (a * x + b * y) + (c * z + shift)
+    };
+    [along(r0, c0), along(r1, c1), along(r2, c2)]
+}
+
+impl<'a> StoredPair<'a> {
+    pub(crate) fn new([a, b]: [&'a Bvh<'a>; 2], pose: &Pose) -> Result<StoredPair<'a>, QueryError> {
+        if !(a.serves_segments() && b.serves_segments()) {
+            return Err(QueryError::NO_SEGMENTS);
+        }
+        let (first, second) = (extended(a), extended(b));
+        let exact = |model: &Extended| Extended { error: 0.0, ..*model };
+        let Placement { pose, is_in_range, .. } =
+            RelativePose::relate(&exact(&first), &exact(&second), pose)?;
+        let [frame, _] = &pose.frames;
+        let (error_a, error_b) = (first.error * f64::from(frame.unit), second.error * pose.longest);
+        let up = 1.0 + 8.0 * U64;
+        Ok(StoredPair {
+            trees: [a, b],
+            is_in_range,
+            lengths: StoredLengths {
+                error: (error_a + error_b) * up,
+                unit: exp2(greater(first.exponent, second.exponent)),
+            },
+            greater_error: greater(error_a, error_b) * up,
+            first,
+            second,
+            pose,
+        })
+    }
+
+    pub(crate) fn models(&self) -> Models<'_> {
+        let [a, b] = self.trees;
+        Models { a, b, pose: &self.pose }
+    }
+
+    pub(crate) fn leaves(&self) -> LeafGaps<'_> {
+        LeafGaps { pose: &self.pose, surface_error: self.greater_error, direction: [0.0; 3] }
+    }
+
+    /// A place in the first model's frame, input units, from common units and the first model's
+    /// origin.
+    pub(crate) fn to_input(&self, point: [f64; 3]) -> [f32; 3] {
+        self.to_input_exact(point).map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
+    }
+
+    /// The same, rounded to f64.
+    pub(crate) fn to_input_exact(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        let [frame, _] = &self.pose.frames;
+        let (unit, size) = (f64::from(frame.unit), exp2(self.first.exponent));
+        let [a, b, c] = self.first.origin;
+        [x / unit + a, y / unit + b, z / unit + c].map(|x| x * size)
+    }
+
+    /// A place of the second model, its grid units, in common units and from the first model's
+    /// origin.
+    pub(crate) fn moved(&self, vertex: [f32; 3]) -> [f64; 3] {
+        let [x, y, z] = vertex.map(f64::from);
+        let [a, b, c] = self.second.origin;
+        moved(&self.pose, [x - a, y - b, z - c])
+    }
+}

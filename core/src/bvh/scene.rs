@@ -1,0 +1,287 @@
+//! A scene: a few dozen models, each at its place.
+//!
+//! Pairs are looked at one after the other: a scene needs no memory of its own. The boxes in the
+//! world leave few pairs for the trees.
+
+use crate::bvh::pair::placed::{PlacedModel, Relative, WorldBox, check_pose};
+use crate::num::{greater, lesser};
+use crate::query::{Budget, Ended, Interval, QueryError, ScratchEntry, Undecided, Verdict, Work};
+
+/// Models at their places in the world. A model may stand in it several times.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'s, 'a> {
+    models: &'s [PlacedModel<'a>],
+}
+
+/// The nearest pair of models of a [`Scene`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub struct SceneDistance {
+    /// The least distance of two surfaces, of all pairs asked about. From 0 to infinity if there is
+    /// no pair.
+    pub distance: Interval,
+    /// The pair whose distance has the least upper end: indices into the models. `None` if there is
+    /// no pair; then the numbers below are 0.
+    pub models: Option<[usize; 2]>,
+    /// A point of the surface of either model, nearest to each other, in the world and rounded to
+    /// f32.
+    pub points: [[f32; 3]; 2],
+    /// The triangles of these points, by their numbers in the input files.
+    pub triangles: [u32; 2],
+    /// The work of all pairs, as in [`PairDistance::work`](crate::PairDistance::work). Pairs of
+    /// models whose boxes were compared count as `bounds`.
+    pub work: Work,
+    /// Why the search ended.
+    pub ended: Ended,
+}
+
+/// Whether any two models of a [`Scene`] are within a distance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub struct SceneWithin {
+    /// `No`: all pairs asked about are farther from each other. `Yes`: one is not.
+    pub verdict: Verdict,
+    /// With `Yes` a pair that is within the distance, else the first undecided one.
+    pub models: Option<[usize; 2]>,
+    /// The work, as in [`SceneDistance::work`].
+    pub work: Work,
+}
+
+impl SceneWithin {
+    /// Whether it is proved that all pairs are farther from each other.
+    pub fn is_clear(&self) -> bool {
+        self.verdict == Verdict::No
+    }
+}
+
+impl<'s, 'a> Scene<'s, 'a> {
+    /// The scene of these models.
+    pub const fn new(models: &'s [PlacedModel<'a>]) -> Self {
+        Scene { models }
+    }
+
+    /// The pair of models whose surfaces are nearest, and their distance in the world.
+    ///
+    /// Only pairs for which `asks_about` is true count, the lesser index first. It is called twice
+    /// a pair. Leave out neighbours that always touch. Lengths are in the unit of the world, which
+    /// all models share. The poses' numbers are taken as exact. Only surfaces count, and each pair
+    /// is as for [`Bvh::distance_to`](crate::Bvh::distance_to). Surfaces that meet have a distance
+    /// from 0, and an upper end of a few roundings, because the pose of one model in the frame of
+    /// the other is rounded.
+    ///
+    /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. The
+    /// steps (pairs of nodes) of the budget are those of all pairs together. Pairs for which no
+    /// steps are left are bounded by their boxes. The tolerances apply to each pair's
+    /// distance.
+    ///
+    /// Cost: some hundred operations in f32 for each pair of models, twice. A distance for each
+    /// pair whose boxes are nearer than the nearest pair so far, which begins with the nearest
+    /// boxes.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, PlacedModel, Pose, Scene, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (tree, mut scratch) = (Bvh::open(bytes)?, Scratch::<{ Bvh::DISTANCE_ENTRIES }>::new());
+    /// let at = |x: f32| Pose { translation: [x, 0.0, 0.0], ..Pose::IDENTITY };
+    /// let models = [0.0, 300.0, 500.0].map(|x| PlacedModel { tree, pose: at(x) });
+    /// let near = Scene::new(&models).nearest_pair(|_, _| true, Budget::EXACT, &mut scratch)?;
+    /// assert_eq!(near.models, Some([1, 2]));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Bvh::distance_to`](crate::Bvh::distance_to); [`QueryError::PoseOutOfDomain`] also
+    /// if a pose, of any model, is far from a rotation; [`QueryError::OutOfDomain`] if two models
+    /// are farther from each other than f32 reaches.
+    #[inline(never)]
+    pub fn nearest_pair(
+        &self,
+        asks_about: impl Fn(usize, usize) -> bool,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<SceneDistance, QueryError> {
+        budget.check_with(scratch)?;
+        self.check_poses()?;
+        let mut search = NearestPair {
+            models: self.models,
+            budget,
+            scratch,
+            lower: f32::INFINITY,
+            found: SceneDistance {
+                distance: Interval::new(0.0, f32::INFINITY),
+                models: None,
+                points: [[0.0; 3]; 2],
+                triangles: [0; 2],
+                work: Work::default(),
+                ended: Ended::Exact,
+            },
+        };
+        let least = |one: ([usize; 2], f32), other: ([usize; 2], f32)| {
+            if other.1 < one.1 { other } else { one }
+        };
+        let Some((begun, gap)) = self.gaps(&asks_about).reduce(least) else {
+            return Ok(search.found);
+        };
+        search.measure(begun, gap)?;
+        for (pair, gap) in self.gaps(&asks_about) {
+            let work = &mut search.found.work;
+            work.bounds = work.bounds.saturating_add(1);
+            if pair != begun && gap < search.found.distance.upper {
+                search.measure(pair, gap)?;
+            }
+        }
+        search.found.distance.lower = lesser(search.lower, search.found.distance.upper);
+        Ok(search.found)
+    }
+
+    /// Whether the surfaces of any two models are at most `distance` apart in the world.
+    ///
+    /// Pairs, units and poses as for [`nearest_pair`](Self::nearest_pair). Both verdicts are
+    /// proved. It ends at the first pair that certainly is. A distance of 0 asks whether surfaces
+    /// meet; it is answered by `No` or left undecided, because poses are rounded: take an undecided
+    /// answer as `Yes`.
+    ///
+    /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. Of the
+    /// budget only `steps` matters, those of all pairs together.
+    ///
+    /// Cost: some hundred operations in f32 for each pair of models, and a
+    /// [`Bvh::within_of`](crate::Bvh::within_of) for each pair whose boxes are within the distance.
+    ///
+    /// # Errors
+    /// Those of [`nearest_pair`](Self::nearest_pair); [`QueryError::Tolerance`] also for a distance
+    /// that is negative, NaN or infinite.
+    #[inline(never)]
+    pub fn within(
+        &self,
+        distance: f32,
+        asks_about: impl Fn(usize, usize) -> bool,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<SceneWithin, QueryError> {
+        // A distance is refused as an absolute tolerance is.
+        budget.with_absolute(distance).check_with(scratch)?;
+        self.check_poses()?;
+        let mut work = Work::default();
+        let mut undecided: Option<(Undecided, [usize; 2])> = None;
+        for (pair, gap) in self.gaps(&asks_about) {
+            work.bounds = work.bounds.saturating_add(1);
+            if gap > distance {
+                continue;
+            }
+            let (one, other) = two_of(self.models, pair)?;
+            let relative = Relative::new(one, other)?;
+            let mut ask = |distance: f32| {
+                let budget = budget.with_steps(budget.steps.saturating_sub(work.opened));
+                let pose = relative.pose;
+                let found = one.tree.within_of(&other.tree, pose, distance, budget, scratch)?;
+                work = work.and(found.work);
+                Ok::<Verdict, QueryError>(found.verdict)
+            };
+            let open = Verdict::Undecided(Undecided::Resolution);
+            let most = relative.at_most(distance);
+            // Beyond f32 no distance can be asked about.
+            let mut verdict = if most < f32::INFINITY { ask(most)? } else { open };
+            if verdict == Verdict::Yes {
+                // Not within the lesser distance: between both, nothing is proved in the world.
+                verdict = match relative.at_least(distance) {
+                    Some(least) => match ask(least)? {
+                        Verdict::No => open,
+                        other => other,
+                    },
+                    None => open,
+                };
+            }
+            match verdict {
+                Verdict::Yes => return Ok(SceneWithin { verdict, models: Some(pair), work }),
+                Verdict::Undecided(why) if undecided.is_none() => undecided = Some((why, pair)),
+                _ => {}
+            }
+        }
+        Ok(match undecided {
+            Some((why, pair)) => {
+                SceneWithin { verdict: Verdict::Undecided(why), models: Some(pair), work }
+            }
+            None => SceneWithin { verdict: Verdict::No, models: None, work },
+        })
+    }
+
+    fn check_poses(&self) -> Result<(), QueryError> {
+        self.models.iter().try_for_each(|model| check_pose(&model.pose))
+    }
+
+    /// All pairs asked about, with lower bounds of their distances.
+    fn gaps(
+        &self,
+        asks_about: &impl Fn(usize, usize) -> bool,
+    ) -> impl Iterator<Item = ([usize; 2], f32)> {
+        self.models.iter().enumerate().flat_map(move |(a, one)| {
+            let around = WorldBox::new(one);
+            let others = self.models.iter().enumerate().skip(a + 1);
+            others
+                .filter(move |(b, _)| asks_about(a, *b))
+                .map(move |(b, other)| ([a, b], around.gap(&WorldBox::new(other))))
+        })
+    }
+}
+
+fn two_of<'s, 'a>(
+    models: &'s [PlacedModel<'a>],
+    [a, b]: [usize; 2],
+) -> Result<(&'s PlacedModel<'a>, &'s PlacedModel<'a>), QueryError> {
+    models.get(a).zip(models.get(b)).ok_or(QueryError::Unchecked)
+}
+
+/// The nearest pair so far.
+struct NearestPair<'r, 's, 'a> {
+    models: &'s [PlacedModel<'a>],
+    budget: Budget,
+    scratch: &'r mut [ScratchEntry],
+    /// Lower bound of all pairs so far.
+    lower: f32,
+    found: SceneDistance,
+}
+
+impl NearestPair<'_, '_, '_> {
+    fn measure(&mut self, pair: [usize; 2], gap: f32) -> Result<(), QueryError> {
+        let is_first = self.found.models.is_none();
+        if !is_first && self.steps_left() == 0 {
+            self.lower = lesser(self.lower, gap);
+            self.found.ended = Ended::Steps;
+            return Ok(());
+        }
+        let (one, other) = two_of(self.models, pair)?;
+        let relative = Relative::new(one, other)?;
+        let pose = relative.pose;
+        // Most pairs are farther than the nearest one so far, and this is proved at less cost.
+        let limit = relative.at_most(self.found.distance.upper);
+        if !is_first && limit < f32::INFINITY {
+            let budget = self.budget.with_steps(self.steps_left());
+            let near = one.tree.within_of(&other.tree, pose, limit, budget, self.scratch)?;
+            self.found.work = self.found.work.and(near.work);
+            if near.is_clear() {
+                return Ok(());
+            }
+        }
+        let budget = self.budget.with_steps(self.steps_left());
+        let near = one.tree.distance_to(&other.tree, pose, budget, self.scratch)?;
+        self.found.work = self.found.work.and(near.work);
+        let Interval { lower, upper } = relative.in_world(near.distance);
+        self.lower = lesser(self.lower, greater(lower, gap));
+        if is_first || upper < self.found.distance.upper {
+            self.found.distance.upper = upper;
+            self.found.models = Some(pair);
+            self.found.points = near.points.map(|point| one.pose.to_world(point));
+            self.found.triangles = near.triangles;
+        }
+        if near.ended != Ended::Exact {
+            self.found.ended = near.ended;
+        }
+        Ok(())
+    }
+
+    fn steps_left(&self) -> u32 {
+        self.budget.steps.saturating_sub(self.found.work.opened)
+    }
+}

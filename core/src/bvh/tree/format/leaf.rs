@@ -1,0 +1,568 @@
+//! Leaves of the box tree: one or two triangle fans, read where they lie.
+//!
+//! A leaf of an opened tree lies within the fans' section. No read can panic all the same.
+
+#[cfg(meshsweep_wide)]
+use crate::geom::fan::Ring8;
+use crate::geom::fan::WIDTH;
+#[cfg(meshsweep_small)]
+use crate::num::SOFT_FLOAT;
+use crate::num::{Real, float, reals};
+use glam::Vec3;
+
+/// Shape of a leaf in one byte: number of vertices, first triangle of the second fan, whether the
+/// second fan's winding is opposite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LeafShape(pub u8);
+
+impl LeafShape {
+    /// The shape of a leaf of `triangles` with the second fan beginning at triangle `turn` (0: one
+    /// fan).
+    pub fn new(triangles: usize, turn: usize, reversed: bool) -> Self {
+        let vertices = triangles + 2 + usize::from(turn > 0);
+        LeafShape(vertices as u8 & 0x0F | (turn as u8 & 7) << 4 | u8::from(reversed) << 7)
+    }
+
+    /// Vertices stored.
+    #[inline(always)]
+    pub fn vertices(self) -> usize {
+        usize::from(self.0 & 0x0F)
+    }
+
+    /// First triangle of the second fan; 8 if there is none.
+    #[inline(always)]
+    pub fn turn(self) -> usize {
+        match usize::from(self.0 >> 4 & 7) {
+            0 => WIDTH,
+            turn => turn,
+        }
+    }
+
+    /// Centres stored.
+    #[inline(always)]
+    pub fn centres(self) -> usize {
+        1 + usize::from(self.0 & 0x70 != 0)
+    }
+
+    /// Triangles.
+    #[inline(always)]
+    pub fn triangles(self) -> usize {
+        self.vertices().wrapping_sub(1 + self.centres())
+    }
+
+    /// Whether the triangles of the second fan run the other way round than those of the first.
+    pub fn second_reversed(self) -> bool {
+        self.0 & 0x80 != 0
+    }
+
+    /// Whether a leaf can have this shape.
+    pub(crate) fn is_sound(self) -> bool {
+        let triangles = self.vertices().checked_sub(1 + self.centres());
+        let turns = self.turn() == WIDTH || triangles.is_some_and(|count| self.turn() < count);
+        triangles.is_some_and(|count| (1..=WIDTH).contains(&count))
+            && turns
+            && (self.centres() == 2 || !self.second_reversed())
+    }
+}
+
+/// What the vector kernels read of a shape, prepared.
+#[cfg(meshsweep_avx2)]
+#[derive(Clone, Copy)]
+pub(super) struct ShapeOffsets {
+    /// Bytes of a leaf on the grid at which the three rings begin.
+    pub(super) rings: [u8; 3],
+    /// First triangle of the second fan; 8 if there is none.
+    pub(super) turn: u8,
+    /// Triangles, 1 to 8; 0 of what is no shape of a leaf.
+    pub(super) triangles: u8,
+}
+
+/// For each shape.
+#[cfg(meshsweep_avx2)]
+pub(super) const SHAPE_OFFSETS: [ShapeOffsets; 256] = {
+    let mut table = [ShapeOffsets { rings: [0; 3], turn: 0, triangles: 0 }; 256];
+    let mut shape = 0;
+    while shape < 256 {
+        let (vertices, turn) = (shape as u8 & 15, shape as u8 >> 4 & 7);
+        let centres = if turn == 0 { 1 } else { 2 };
+        if vertices > centres + 1 && vertices <= centres + 1 + WIDTH as u8 {
+            let triangles = vertices - 1 - centres;
+            let (ring, step) = (6 * centres, 2 * (triangles + 1));
+            table[shape] = ShapeOffsets {
+                rings: [ring, ring + step, ring + 2 * step],
+                turn: if turn == 0 { WIDTH as u8 } else { turn },
+                triangles,
+            };
+        }
+        shape += 1;
+    }
+    table
+};
+
+/// Numbers of the triangles whose bits are ones.
+#[inline(always)]
+pub fn lanes_of(bits: u32) -> impl Iterator<Item = usize> {
+    let mut left = bits & 0xFF;
+    core::iter::from_fn(move || {
+        if left == 0 {
+            return None;
+        }
+        let lane = left.trailing_zeros() as usize;
+        left &= left - 1;
+        Some(lane)
+    })
+}
+
+/// A leaf: one or two fans.
+#[derive(Clone, Copy, Debug)]
+pub struct FanLeaf<'a> {
+    /// To the end of the section, whose padding lets every leaf be read at full width.
+    pub(crate) bytes: &'a [u8],
+    pub(crate) shape: LeafShape,
+    pub(crate) is_f32: bool,
+    pub(crate) origin: [i32; 3],
+}
+
+/// Stored integers of a leaf on the grid, in an order of the axes. They do not include the grid's
+/// origin.
+#[derive(Clone, Copy, Debug)]
+pub struct GridRing<'a> {
+    /// The grid's origin.
+    pub origin: [i32; 3],
+    /// First and second centre, alike if there is one fan.
+    pub centres: [[i32; 3]; 2],
+    /// First coordinates of the ring.
+    pub x: &'a [[u8; 2]],
+    /// Second coordinates.
+    pub y: &'a [[u8; 2]],
+    /// Third coordinates.
+    pub z: &'a [[u8; 2]],
+}
+
+impl GridRing<'_> {
+    /// Corners of triangle `lane`; `turn` is the first of the second fan. `None` past the last
+    /// triangle.
+    #[inline(always)]
+    pub fn corners(&self, lane: usize, turn: usize) -> Option<[[i32; 3]; 3]> {
+        let [first, second] = self.centres;
+        let centre = if lane < turn { first } else { second };
+        Some([centre, self.vertex(lane)?, self.vertex(lane + 1)?])
+    }
+
+    /// Ring vertex `i`.
+    #[inline(always)]
+    pub fn vertex(&self, i: usize) -> Option<[i32; 3]> {
+        let (x, y, z) = (self.x.get(i)?, self.y.get(i)?, self.z.get(i)?);
+        Some([short_of(*x), short_of(*y), short_of(*z)])
+    }
+}
+
+#[cfg(not(meshsweep_wide))]
+/// Ring vertices of the largest leaf.
+const RING_VERTICES: usize = WIDTH + 1;
+
+#[cfg(not(meshsweep_wide))]
+/// Stored integers of a leaf on the grid with the greatest number of ring vertices. They do not
+/// include the grid's origin.
+#[derive(Clone, Copy, Debug)]
+pub struct FullRing<'a> {
+    window: &'a [u8; GRID_WINDOW],
+    /// Coordinates of the ring, axis by axis. Those past the last triangle have no meaning.
+    pub(crate) rows: [&'a [[u8; 2]; RING_VERTICES]; 3],
+}
+
+#[cfg(not(meshsweep_wide))]
+impl FullRing<'_> {
+    /// First and second centre, alike if there is one fan.
+    #[inline(always)]
+    pub fn centres(&self, shape: LeafShape) -> [[i32; 3]; 2] {
+        [three(self.window, 0), three(self.window, 6 * (shape.centres() - 1))]
+    }
+
+    /// Ring vertex `i`, at most 8.
+    #[inline(always)]
+    pub fn vertex(&self, i: usize) -> Option<[i32; 3]> {
+        let [x, y, z] = self.rows;
+        Some(grid_point([x.get(i)?, y.get(i)?, z.get(i)?]))
+    }
+
+    /// Centre and ring vertices of a triangle.
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
+    pub fn corners(&self, shape: LeafShape, lane: usize) -> Option<[[i32; 3]; 3]> {
+        let centre = self.centres(shape)[usize::from(lane >= shape.turn())];
+        Some([centre, self.vertex(lane)?, self.vertex(lane + 1)?])
+    }
+
+    /// A bit of each ring vertex, the first one's lowest. The compiler unrolls the loop where speed
+    /// counts, for its length is known: three times as fast as one over the vertices there are.
+    #[inline(always)]
+    pub fn bits(&self, bit: impl Fn([i32; 3]) -> u32) -> u32 {
+        let [x, y, z] = self.rows;
+        let mut bits = 0;
+        for i in 0..RING_VERTICES {
+            bits |= bit(grid_point([&x[i], &y[i], &z[i]])) << i;
+        }
+        bits
+    }
+}
+
+#[cfg(not(meshsweep_wide))]
+#[inline(always)]
+fn grid_point([x, y, z]: [&[u8; 2]; 3]) -> [i32; 3] {
+    [short_of(*x), short_of(*y), short_of(*z)]
+}
+
+/// Vertices of the largest leaf: two centres and nine ring vertices.
+pub const CORNERS: usize = 11;
+
+/// Slots of a triangle's corners among a leaf's [stored vertices](FanLeaf::stored_vertices); `turn`
+/// is the first triangle of the second fan.
+#[inline(always)]
+pub fn slots(lane: usize, turn: usize) -> [usize; 3] {
+    [usize::from(lane >= turn), RING + lane, RING + 1 + lane]
+}
+
+/// Slot of the first ring vertex.
+pub const RING: usize = 2;
+
+/// Bytes of the largest leaf on the grid: two centres and nine ring vertices.
+pub(super) const GRID_WINDOW: usize = 66;
+
+#[inline(always)]
+fn short_of(pair: [u8; 2]) -> i32 {
+    i32::from(u16::from_le_bytes(pair))
+}
+
+#[inline(always)]
+pub(super) fn short(bytes: &[u8], at: usize) -> i32 {
+    match bytes.get(at..).and_then(|b| b.first_chunk::<2>()) {
+        Some(&pair) => short_of(pair),
+        None => 0,
+    }
+}
+
+#[inline(always)]
+fn f32_at(bytes: &[u8], at: usize) -> f32 {
+    match bytes.get(at..).and_then(|b| b.first_chunk::<4>()) {
+        Some(&word) => f32::from_le_bytes(word),
+        None => 0.0,
+    }
+}
+
+/// Three u16 at a byte offset.
+#[inline(always)]
+fn three(window: &[u8; GRID_WINDOW], at: usize) -> [i32; 3] {
+    match window.get(at..).and_then(|b| b.first_chunk::<6>()) {
+        Some(&[a, b, c, d, e, f]) => [short_of([a, b]), short_of([c, d]), short_of([e, f])],
+        None => [0; 3],
+    }
+}
+
+impl<'a> FanLeaf<'a> {
+    /// No leaf: a place for one.
+    pub(crate) const NONE: FanLeaf<'static> =
+        FanLeaf { bytes: &[], shape: LeafShape(0), is_f32: false, origin: [0; 3] };
+
+    /// Its shape.
+    #[inline(always)]
+    pub fn shape(&self) -> LeafShape {
+        self.shape
+    }
+
+    /// Centre 0 or 1, grid units, exactly. Here and below, an index past the leaf's centres, ring
+    /// or triangles gives some number.
+    #[inline(always)]
+    pub fn centre(&self, which: usize) -> Vec3 {
+        self.vertex(6 * which, 2)
+    }
+
+    /// The vertex with coordinates at bytes `at`, `at + step` and `at + 2·step` of a leaf on the
+    /// grid. An f32 leaf has twice the offsets. On boards a call: reading a vertex is much code.
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    fn vertex(&self, at: usize, step: usize) -> Vec3 {
+        if self.is_f32 {
+            // Every number is twice as long.
+            let (at, step) = (2 * at, 2 * step);
+            return Vec3::new(
+                f32_at(self.bytes, at),
+                f32_at(self.bytes, at + step),
+                f32_at(self.bytes, at + 2 * step),
+            );
+        }
+        let [x, y, z] = self.stored(at, step);
+        let [ox, oy, oz] = self.origin;
+        let sum = |x: i32, o: i32| float(x.wrapping_add(o));
+        Vec3::new(sum(x, ox), sum(y, oy), sum(z, oz))
+    }
+
+    /// All vertices without the grid's origin, as stored, exactly: both centres, alike if there is
+    /// one fan, then nine of the ring. Vertices past the last triangle have no meaning but are
+    /// finite. `[axis][vertex]`.
+    #[inline(always)]
+    pub fn stored_vertices(&self) -> [[f32; CORNERS]; 3] {
+        let mut out = [[0f32; CORNERS]; 3];
+        if self.is_f32 {
+            self.f32_vertices(&mut out);
+            return out;
+        }
+        let Some(window) = self.bytes.first_chunk::<GRID_WINDOW>() else { return out };
+        let second = 6 * (self.shape.centres() - 1);
+        let step = 2 * (self.shape.triangles() + 1);
+        for (axis, out) in out.iter_mut().enumerate() {
+            let ring = (6 + second + step * axis).min(GRID_WINDOW - 18);
+            let [first, next, rest @ ..] = out;
+            *first = short(window, 2 * axis) as f32;
+            *next = short(window, second + 2 * axis) as f32;
+            if let Some(chunk) = window.get(ring..).and_then(|b| b.first_chunk::<18>()) {
+                for (x, pair) in rest.iter_mut().zip(chunk.as_chunks::<2>().0) {
+                    *x = f32::from(u16::from_le_bytes(*pair));
+                }
+            }
+        }
+        out
+    }
+
+    #[inline(never)]
+    fn f32_vertices(&self, out: &mut [[f32; CORNERS]; 3]) {
+        let second = self.shape.centres() - 1;
+        let used = self.shape.triangles() + 3;
+        for slot in 0..CORNERS {
+            let vertex = match slot {
+                0 => self.centre(0),
+                1 => self.centre(second),
+                _ if slot < used => self.ring(slot - 2),
+                _ => self.centre(0),
+            };
+            for (axis, x) in out.iter_mut().zip(vertex.to_array()) {
+                if let Some(place) = axis.get_mut(slot) {
+                    *place = x;
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn stored(&self, at: usize, step: usize) -> [i32; 3] {
+        [short(self.bytes, at), short(self.bytes, at + step), short(self.bytes, at + 2 * step)]
+    }
+
+    /// Ring vertex `i ≤ triangles`, grid units, exactly.
+    #[inline(always)]
+    pub fn ring(&self, i: usize) -> Vec3 {
+        self.vertex(6 * self.shape.centres() + 2 * i, 2 * (self.shape.triangles() + 1))
+    }
+
+    /// Ring vertex `i` less centre `which`: exact on the grid, rounded once with f32 vertices.
+    #[inline(always)]
+    pub fn spoke(&self, i: usize, which: usize) -> Vec3 {
+        if self.is_f32 {
+            return self.ring(i) - self.centre(which);
+        }
+        let step = 2 * (self.shape.triangles() + 1);
+        let [cx, cy, cz] = self.stored(6 * which, 2);
+        let [x, y, z] = self.stored(6 * self.shape.centres() + 2 * i, step);
+        Vec3::new(x.wrapping_sub(cx) as f32, y.wrapping_sub(cy) as f32, z.wrapping_sub(cz) as f32)
+    }
+
+    /// [`spoke`](Self::spoke) from centre `which` for many ring vertices.
+    #[cfg(meshsweep_wide)]
+    #[inline(always)]
+    pub fn spokes_from(&self, which: usize) -> impl Fn(usize) -> Vec3 {
+        move |i| self.spoke(i, which)
+    }
+
+    /// [`spoke`](Self::spoke) from centre `which` for many ring vertices.
+    #[cfg(not(meshsweep_wide))]
+    #[inline(always)]
+    pub fn spokes_from(&self, which: usize) -> impl Fn(usize) -> Vec3 {
+        self.fan(which).1
+    }
+
+    /// Centre `which`, and [`spoke`](Self::spoke) from it for many ring vertices.
+    #[cfg(not(meshsweep_wide))]
+    #[inline(always)]
+    pub fn fan(&self, which: usize) -> (Vec3, impl Fn(usize) -> Vec3) {
+        let ring = if self.is_f32 { None } else { self.full_ring() };
+        let [cx, cy, cz] = ring.map_or([0; 3], |ring| ring.centres(self.shape)[which & 1]);
+        let centre = match ring {
+            Some(_) => {
+                let [ox, oy, oz] = self.origin;
+                let sum = |x: i32, ox: i32| x.wrapping_add(ox) as f32;
+                Vec3::new(sum(cx, ox), sum(cy, oy), sum(cz, oz))
+            }
+            None => self.centre(which),
+        };
+        let spoke = move |i| match ring.and_then(|ring| ring.vertex(i)) {
+            Some([x, y, z]) => {
+                let less = |x: i32, cx: i32| x.wrapping_sub(cx) as f32;
+                Vec3::new(less(x, cx), less(y, cy), less(z, cz))
+            }
+            None => self.f32_spoke(i, which),
+        };
+        (centre, spoke)
+    }
+
+    #[cfg(not(meshsweep_wide))]
+    #[inline(never)]
+    fn f32_spoke(&self, i: usize, which: usize) -> Vec3 {
+        self.ring(i) - self.centre(which)
+    }
+
+    /// The stored integers of a leaf on the grid.
+    #[inline(always)]
+    pub fn grid_ring(&self) -> Option<GridRing<'a>> {
+        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
+        let entries = self.shape.triangles() + 1;
+        let ring = self.bytes.get(6 * self.shape.centres()..)?;
+        let (x, rest) = ring.split_at_checked(2 * entries)?;
+        let (y, rest) = rest.split_at_checked(2 * entries)?;
+        let z = rest.get(..2 * entries)?;
+        let (x, y, z) = (x.as_chunks().0, y.as_chunks().0, z.as_chunks().0);
+        Some(GridRing {
+            origin: self.origin,
+            centres: [three(window, 0), three(window, 6 * (self.shape.centres() - 1))],
+            x,
+            y,
+            z,
+        })
+    }
+
+    #[cfg(not(meshsweep_wide))]
+    /// The stored integers of a leaf on the grid, as many as the largest leaf has.
+    #[inline(always)]
+    pub fn full_ring(&self) -> Option<FullRing<'a>> {
+        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
+        let first = 6 * self.shape.centres();
+        let step = 2 * (self.shape.triangles() + 1);
+        // The last row of the largest leaf ends with the window.
+        let row = |at: usize| {
+            window.get(at.min(GRID_WINDOW - 2 * RING_VERTICES)..)?.as_chunks::<2>().0.first_chunk()
+        };
+        Some(FullRing { window, rows: [row(first)?, row(first + step)?, row(first + 2 * step)?] })
+    }
+
+    /// The stored integers of a leaf on the grid, in the order of `axes`.
+    #[inline(always)]
+    pub fn ring_in_order(&self, axes: [usize; 3]) -> Option<GridRing<'a>> {
+        let centres = self.shape.centres();
+        let bytes = 2 * (self.shape.triangles() + 1);
+        let ring = |axis: usize| {
+            let row = self.bytes.get(6 * centres + bytes * axis..)?.get(..bytes)?;
+            Some(row.as_chunks::<2>().0)
+        };
+        let [u, v, w] = axes;
+        let origin = |axis: usize| self.origin.get(axis).copied().unwrap_or(0);
+        // Not by `map`: the compiler does not inline that at `opt-level = "s"`.
+        let stored = |at: usize, axis: usize| short(self.bytes, at + 2 * axis);
+        let centre = |at: usize| [stored(at, u), stored(at, v), stored(at, w)];
+        Some(GridRing {
+            origin: [origin(u), origin(v), origin(w)],
+            centres: [centre(0), centre(6 * (centres - 1))],
+            x: ring(u)?,
+            y: ring(v)?,
+            z: ring(w)?,
+        })
+    }
+
+    /// The point `centre + v·e + w·g` of triangle `lane`, grid units.
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
+    pub fn point(&self, lane: usize, v: f32, w: f32) -> Vec3 {
+        let [centre, e, g] = self.spokes(lane);
+        let ([cx, cy, cz], [ex, ey, ez], [gx, gy, gz]) = (reals(centre), reals(e), reals(g));
+        let (v, w) = (Real(v), Real(w));
+        let (x, y, z) = (cx + ex * v + gx * w, cy + ey * v + gy * w, cz + ez * v + gz * w);
+        Vec3::new(x.0, y.0, z.0)
+    }
+
+    /// Centre and both spokes of triangle `lane`. A call, for questions with few triangles: reading
+    /// them is much code.
+    #[inline(never)]
+    pub fn spokes(&self, lane: usize) -> [Vec3; 3] {
+        let which = usize::from(lane >= self.shape.turn());
+        if let (false, Some(stored)) = (self.is_f32, self.stored_triangle(lane, which)) {
+            let [(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])] = stored;
+            let [ox, oy, oz] = self.origin;
+            let sum = |x: i32, o: i32| float(x.wrapping_add(o));
+            let less = |x: i32, c: i32| float(x.wrapping_sub(c));
+            return [
+                Vec3::new(sum(cx, ox), sum(cy, oy), sum(cz, oz)),
+                Vec3::new(less(ax, cx), less(ay, cy), less(az, cz)),
+                Vec3::new(less(bx, cx), less(by, cy), less(bz, cz)),
+            ];
+        }
+        let centre = self.centre(which);
+        [centre, self.ring(lane) - centre, self.ring(lane + 1) - centre]
+    }
+
+    /// By axis the stored integers of centre `which`, and of ring vertices `lane` and `lane + 1`.
+    #[inline(always)]
+    fn stored_triangle(&self, lane: usize, which: usize) -> Option<[(i32, [i32; 2]); 3]> {
+        // Less code, because one length is compared.
+        #[cfg(meshsweep_small)]
+        {
+            let ring = self.full_ring()?;
+            if SOFT_FLOAT {
+                let [[cx, cy, cz], [ax, ay, az], [bx, by, bz]] = ring.corners(self.shape, lane)?;
+                return Some([(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])]);
+            }
+            let ([ax, ay, az], [bx, by, bz]) = (ring.vertex(lane)?, ring.vertex(lane + 1)?);
+            let [cx, cy, cz] = ring.centres(self.shape)[which & 1];
+            return Some([(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])]);
+        }
+        #[cfg(not(meshsweep_small))]
+        self.stored_triangle_by_axis(lane, which)
+    }
+
+    #[cfg(not(meshsweep_small))]
+    #[inline(always)]
+    fn stored_triangle_by_axis(&self, lane: usize, which: usize) -> Option<[(i32, [i32; 2]); 3]> {
+        let &[a, b, c, d, e, f] = self.bytes.get(6 * which..)?.first_chunk::<6>()?;
+        let step = 2 * (self.shape.triangles() + 1);
+        let first = 6 * self.shape.centres() + 2 * lane;
+        let axis = |centre: [u8; 2], at: usize| {
+            let &[a, b, c, d] = self.bytes.get(at..)?.first_chunk::<4>()?;
+            let short = |pair| i32::from(u16::from_le_bytes(pair));
+            Some((short(centre), [short([a, b]), short([c, d])]))
+        };
+        Some([axis([a, b], first)?, axis([c, d], first + step)?, axis([e, f], first + 2 * step)?])
+    }
+
+    /// Corners of triangle `lane`, grid units, in the input's winding.
+    pub fn corners(&self, lane: usize) -> [Vec3; 3] {
+        let second = lane >= self.shape.turn();
+        let centre = self.centre(usize::from(second));
+        let (a, b) = (self.ring(lane), self.ring(lane + 1));
+        if second && self.shape.second_reversed() { [centre, b, a] } else { [centre, a, b] }
+    }
+
+    /// Whether vertices are f32.
+    #[inline(always)]
+    pub fn is_f32(&self) -> bool {
+        self.is_f32
+    }
+
+    /// Ring and centres of a leaf with f32 vertices in the order of `axes`, for the wide segment
+    /// kernel.
+    #[cfg(meshsweep_wide)]
+    #[inline(never)]
+    pub fn f32_ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
+        let second = 12 * (self.shape.centres() - 1);
+        let step = 4 * (self.shape.triangles() + 1);
+        let mut ring =
+            Ring8 { here: [[0.0; WIDTH]; 3], next: [[0.0; WIDTH]; 3], centres: [[0.0; 3]; 2] };
+        for (k, axis) in axes.into_iter().enumerate() {
+            let chunk = self.bytes.get(12 + second + step * axis..)?.first_chunk::<36>()?;
+            let word =
+                |k: usize| f32::from_le_bytes([chunk[k], chunk[k + 1], chunk[k + 2], chunk[k + 3]]);
+            for i in 0..WIDTH {
+                ring.here[k][i] = word(4 * i);
+                ring.next[k][i] = word(4 * i + 4);
+            }
+            ring.centres[0][k] = f32_at(self.bytes, 4 * axis);
+            ring.centres[1][k] = f32_at(self.bytes, second + 4 * axis);
+        }
+        Some(ring)
+    }
+}

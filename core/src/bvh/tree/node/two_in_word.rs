@@ -1,0 +1,276 @@
+//! A point against eight boxes on processors without vector registers: two children in a 32-bit
+//! word, one in each half.
+//!
+//! A plane's place is its byte times the step, less the point: one multiply-add for two children.
+//! Places have fifteen bits. Where a side is not certain, the sixteenth is set before the
+//! subtraction, and stays set where the difference is not negative: no half borrows from the other.
+
+use super::axis_place::AxisPlace;
+use super::frame::{KeyPoint, MAX_DISTANCE, PRODUCT_BITS, ROUND_UP};
+use super::keys::{CHILD_MASK, NO_CHILD};
+use super::opened_node::{OpenedNode, Pushed, Pusher};
+use crate::bvh::tree::format::layout::{FRAME_BYTES, boxes};
+use crate::geom::fan::WIDTH;
+use crate::num::{greater, lesser};
+use crate::query::ScratchEntry;
+
+/// Squared distance of an absent child: its key is above every limit.
+const ABSENT: u32 = NO_CHILD << 1;
+
+/// The highest bit of both halves.
+const HIGH: u32 = 0x8000_8000;
+
+/// Bytes 0 and 2 of a word, each in a half.
+const BYTES: u32 = 0x00FF_00FF;
+
+/// Words of four planes in a frame.
+const PLANE_WORDS: usize = boxes::FRAME_ROWS / 4;
+
+/// Two words of the first axis's low planes, two of its high ones, and so on.
+type PlaneWords = [[u8; 4]; PLANE_WORDS];
+
+/// A word with a number of sixteen bits in both halves.
+#[inline(always)]
+fn splat_halves(x: i32) -> u32 {
+    x.cast_unsigned() | x.cast_unsigned() << 16
+}
+
+/// The planes of one axis, less the point.
+#[derive(Clone, Copy)]
+struct AxisPlanes {
+    /// Key units in a step, up to 128.
+    step: u32,
+    /// Added to places, for the low and the high planes: minus the point's place, and [`HIGH`] if
+    /// both sides count. The first serves if only one side does.
+    less_point: [u32; 2],
+    side: Side,
+}
+
+/// On which side of all children a point is along an axis.
+#[derive(Clone, Copy, PartialEq)]
+#[repr(u32)]
+enum Side {
+    Before,
+    Behind,
+    /// Neither is certain.
+    Within,
+}
+
+impl AxisPlanes {
+    const NONE: AxisPlanes = AxisPlanes { step: 0, less_point: [0; 2], side: Side::Within };
+
+    /// `from` as [`AxisPlace::from`] has it. Where one is negative, it need not be cut to `least`.
+    #[inline(always)]
+    fn new([first, last]: [i32; 2], step: u32, least: i32) -> AxisPlanes {
+        let both = |[first, last]: [i32; 2]| {
+            let less_point = [splat_halves((1 << 15) - first), splat_halves((1 << 15) - last)];
+            AxisPlanes { step, less_point, side: Side::Within }
+        };
+        if (first | last) >> 15 == 0 {
+            both([first, last])
+        } else if first > 0 && last > 0 {
+            // No plane is beyond the greatest distance, so a greater number would say no more.
+            both([lesser(first, MAX_DISTANCE), lesser(last, MAX_DISTANCE)])
+        } else {
+            let (from, side) =
+                if first <= 0 { (first, Side::Before) } else { (last, Side::Behind) };
+            let less_point = splat_halves(greater(from, least).wrapping_neg());
+            AxisPlanes { step, less_point: [less_point, 0], side }
+        }
+    }
+
+    /// The planes less the point. `bytes` has one in each half.
+    #[inline(always)]
+    fn differences(&self, bytes: u32, less_point: u32) -> u32 {
+        (bytes & BYTES).wrapping_mul(self.step).wrapping_add(less_point)
+    }
+
+    /// The differences that are not negative; the others are 0.
+    #[inline(always)]
+    fn above_zero(&self, bytes: u32, less_point: u32) -> u32 {
+        let difference = self.differences(bytes, less_point);
+        let above = difference & HIGH;
+        difference & above.wrapping_sub(above >> 15)
+    }
+}
+
+/// Squared distances of four children from the point, in squares of key units. `words` begins with
+/// their low planes of the first axis. A call, for in the caller the loop would not fit the
+/// registers.
+#[inline(never)]
+fn squares_of_four(
+    words: &[[u8; 4]; PLANE_WORDS - 1],
+    axes: &[AxisPlanes; 3],
+    squares: &mut [u32; 4],
+) {
+    let [mut a, mut b, mut c, mut d] = [0u32; 4];
+    for (k, axis) in axes.iter().enumerate() {
+        let word = |at: usize| u32::from_le_bytes(words[4 * k + at]);
+        let [below, beyond] = axis.less_point;
+        let (even, odd);
+        if axis.side == Side::Within {
+            let (low, high) = (word(0), word(2));
+            // Of a box whose planes are in order at most one of both is above 0.
+            even = axis.above_zero(low, below) | axis.above_zero(high, beyond);
+            odd = axis.above_zero(low >> 8, below) | axis.above_zero(high >> 8, beyond);
+        } else {
+            let word = if axis.side == Side::Before { word(0) } else { word(2) };
+            even = axis.differences(word, below);
+            odd = axis.differences(word >> 8, below);
+        }
+        a = plus_square(a, i32::from(even as i16));
+        b = plus_square(b, i32::from(odd as i16));
+        c = plus_square(c, even.cast_signed() >> 16);
+        d = plus_square(d, odd.cast_signed() >> 16);
+    }
+    *squares = [a, b, c, d];
+}
+
+#[inline(always)]
+fn plus_square(sum: u32, x: i32) -> u32 {
+    sum.wrapping_add(x.wrapping_mul(x).cast_unsigned())
+}
+
+/// By how much the exponents of a frame's steps are above a key unit's, each in a byte. `None`: one
+/// is below.
+#[inline(always)]
+fn coarse_steps(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> Option<u32> {
+    const HIGH: u32 = 0x80_8080;
+    let exponents = record[boxes::FRAME_EXPONENTS..].first_chunk()?;
+    // An exponent is below 10, and a unit's below 27.
+    let unit = p.unit_exponent() | p.unit_exponent() << 8 | p.unit_exponent() << 16;
+    let beyond = (u32::from_le_bytes(*exponents) | HIGH).wrapping_sub(unit);
+    if beyond & HIGH == HIGH { Some(beyond ^ HIGH) } else { None }
+}
+
+/// Sets the axes of a frame whose steps are not finer than a key unit. Then a plane's place is a
+/// whole number of key units.
+#[inline(always)]
+fn set_coarse(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPoint, steps: u32) {
+    let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
+    let (rows, _) = entries.as_chunks::<3>();
+    let [x, y, z] = p.relative_to_origin(record);
+    for k in 0..3 {
+        // As `AxisPlace::of` has it, with the step taken out of the sum that is rounded.
+        let [a, b, c] = rows[k];
+        let term = |pair: [u8; 2], x: i32| i32::from(i16::from_le_bytes(pair)).wrapping_mul(x);
+        let at = term(a, x).wrapping_add(term(b, y)).wrapping_add(term(c, z));
+        let half = 128 << (steps >> (8 * k) & 7);
+        let step = half >> 7;
+        // ⌊(ROUND_UP − at) / 2^PRODUCT_BITS⌋ is minus the other quotient.
+        let down = at.wrapping_sub(ROUND_UP - ((1 << PRODUCT_BITS) - 1));
+        let up = down.wrapping_add(2 * ROUND_UP - ((1 << PRODUCT_BITS) - 1));
+        let first = (up >> PRODUCT_BITS).wrapping_add(half);
+        let last = (half - step).wrapping_sub(down >> PRODUCT_BITS);
+        let least = 2 * half - step - MAX_DISTANCE;
+        axes[k] = AxisPlanes::new([first, last], step.cast_unsigned(), least);
+    }
+}
+
+/// Sets the axes of any frame, and cuts its planes to steps that are no finer than a key unit.
+#[cold]
+#[inline(never)]
+fn set_fine(
+    axes: &mut [AxisPlanes; 3],
+    words: &mut PlaneWords,
+    record: &[u8; FRAME_BYTES],
+    p: &KeyPoint,
+) {
+    let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
+    let (rows, _) = entries.as_chunks::<3>();
+    let (planes, _) = record.as_chunks::<4>().0.as_chunks::<{ 2 * WIDTH / 4 }>();
+    let (cut_planes, _) = words.as_chunks_mut::<{ 2 * WIDTH / 4 }>();
+    let offset = p.relative_to_origin(record);
+    // By number: at `opt-level = "s"` so many iterators would be kept in memory.
+    for k in 0..3 {
+        let exponent = record[boxes::FRAME_EXPONENTS + k];
+        let (axis, to, planes) = (&mut axes[k], &mut cut_planes[k], &planes[k]);
+        let AxisPlace { from, shift } =
+            AxisPlace::of(&rows[k], offset, exponent, p.unit_exponent());
+        // A byte stands for the high one of sixteen bits. `shift` cuts off the low ones, and the
+        // step is the unit of the byte after that.
+        let step = 1 << 8u32.saturating_sub(shift);
+        *axis = AxisPlanes::new(from, step, (0xFF00 >> shift) - MAX_DISTANCE);
+        let cut = shift.saturating_sub(8) & 7;
+        let bytes = 0x0101_0101 * (0xFF >> cut);
+        for (to, plane) in to.iter_mut().zip(planes) {
+            *to = (u32::from_le_bytes(*plane) >> cut & bytes).to_le_bytes();
+        }
+    }
+}
+
+/// Squared distances of the children from the point, in squares of key units.
+#[inline(always)]
+fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH] {
+    let mut squares = [ABSENT; WIDTH];
+    let (mut axes, mut fine);
+    let (words, _) = record.as_chunks::<4>();
+    let Some(mut words) = words.first_chunk::<PLANE_WORDS>() else { return squares };
+    if let Some(steps) = coarse_steps(record, p) {
+        axes = [AxisPlanes::NONE; 3];
+        set_coarse(&mut axes, record, p, steps);
+    } else {
+        axes = [AxisPlanes::NONE; 3];
+        // Not a copy: that would be a call of `memcpy`, for which alone firmware would link it.
+        fine = [[0; 4]; PLANE_WORDS];
+        set_fine(&mut axes, &mut fine, record, p);
+        words = &fine;
+    }
+    let (fours, _) = squares.as_chunks_mut::<4>();
+    if let [first, second] = fours
+        && let Some(of_first) = words.first_chunk()
+        && let Some(of_second) = words.last_chunk()
+    {
+        squares_of_four(of_first, &axes, first);
+        squares_of_four(of_second, &axes, second);
+    }
+    // Planes of absent children have no meaning.
+    let mut absent = count as usize;
+    while absent < WIDTH {
+        // Of equal bytes the loop would become a call of `memset`.
+        squares[absent & (WIDTH - 1)] = ABSENT;
+        absent += 1;
+    }
+    squares
+}
+
+/// Keys of a node's children, as [`box_distances`](super::box_distances()) has them.
+#[inline(never)]
+pub(super) fn keys(
+    record: &[u8; FRAME_BYTES],
+    p: &KeyPoint,
+    count: u32,
+    parent: u32,
+    keys: &mut [u32; WIDTH],
+) {
+    let squares = squares(record, p, count);
+    for (child, (key, square)) in (0..).zip(keys.iter_mut().zip(squares)) {
+        *key = key_of(square, parent, child);
+    }
+}
+
+/// A child's key: at least that of its parent.
+#[inline(always)]
+fn key_of(square: u32, parent: u32, child: u32) -> u32 {
+    let half = square >> 1;
+    (if half > parent { half } else { parent }) & !CHILD_MASK | child
+}
+
+/// Pushes the wanted children of a node, without keys of the others.
+#[inline(never)]
+pub(super) fn push(
+    record: &[u8; FRAME_BYTES],
+    p: &KeyPoint,
+    opened: &OpenedNode,
+    slots: &mut [ScratchEntry; WIDTH],
+) -> Pushed {
+    let &OpenedNode { node, count, bound, limit } = opened;
+    let mut pusher = Pusher::new(node, slots);
+    for (child, square) in (0..).zip(squares(record, p, count)) {
+        // The limit's low bits are ones, so the key need not be made first.
+        if square >> 1 <= limit {
+            pusher.push(key_of(square, bound, child));
+        }
+    }
+    pusher.finish()
+}

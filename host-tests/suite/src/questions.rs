@@ -1,0 +1,108 @@
+//! The questions that have numbers in the documents, one a row: stack and code. Rows of kinds are in
+//! `kind.rs`, and how a kind is asked is a row beside the functions of its structure, in `ask`.
+
+use super::kind::Kind;
+
+/// The question that is asked most.
+pub const CLOSEST: &str = "closest point";
+
+/// A question, as the tables name it.
+#[derive(Clone, Copy, Debug)]
+pub struct Question {
+    /// Its name.
+    pub name: &'static str,
+    /// What a blob has to have, as the builder's table of stacks names it.
+    pub needs: &'static str,
+    /// The function in `ask`, of the structure whose image asks it.
+    pub function: &'static str,
+    /// Kinds of queries that call the function; none of opening.
+    pub kinds: &'static [Kind],
+}
+
+const fn question(
+    name: &'static str,
+    needs: &'static str,
+    function: &'static str,
+    kinds: &'static [Kind],
+) -> Question {
+    Question { name, needs, function, kinds }
+}
+
+/// The questions of the tables of stacks.
+pub const QUESTIONS: [Question; 35] = [
+    question("open a box tree", "tree", "tree::open", &[]),
+    question(CLOSEST, "closest", "tree::distance::closest", &[Kind::ClosestFar, Kind::ClosestNear]),
+    question(
+        "closest point from a hint",
+        "closest",
+        "tree::distance::follow",
+        &[Kind::ClosestPath],
+    ),
+    question("closest point in f64", "closest", "tree::distance::precise", &[Kind::ClosestPrecise]),
+    question("coherent query", "closest", "tree::distance::coherent", &[Kind::CoherentQuery]),
+    question("closest points", "closest", "tree::distance::batch", &[Kind::Batch]),
+    question("within", "closest", "tree::distance::is_within", &[Kind::Within]),
+    question("nearest triangles", "closest", "tree::distance::nearest", &[Kind::Nearest]),
+    question("all within", "closest", "tree::distance::all_within", &[Kind::AllWithin]),
+    question("signed distance", "closest", "tree::distance::signed", &[Kind::Signed]),
+    question("winding number", "winding", "apart::winding", &[Kind::Winding]),
+    question("front facing", "cull", "tree::sight::cull", &[Kind::Cull]),
+    question("first hit", "segment", "tree::sight::first_hit", &[Kind::FirstHit]),
+    question("any hit", "segment", "tree::sight::any_hit", &[Kind::AnyHit]),
+    question("all hits", "segment", "tree::sight::all_hits", &[Kind::AllHits]),
+    question("overlap", "segment", "tree::meeting::overlap", &[Kind::Overlap]),
+    question("distance of two models", "segment", "apart::distance", &[Kind::PairDistance]),
+    question("coherent pair", "segment", "apart::coherent", &[Kind::CoherentPair]),
+    question("scene", "segment", "apart::scene", &[Kind::Scene]),
+    question("distance of a solid", "segment", "apart::solid", &[Kind::Solid]),
+    question("first contact", "segment", "apart::contact", &[Kind::Contact]),
+    question("penetration", "winding", "apart::penetration", &[Kind::Penetration]),
+    question("open tight hulls", "tight", "tight::open", &[]),
+    question(
+        "closest point of tight hulls",
+        "tight",
+        "tight::closest",
+        &[Kind::ClosestFar, Kind::ClosestNear],
+    ),
+    question("within of tight hulls", "tight", "tight::is_within", &[Kind::Within]),
+    question("open a hull hierarchy", "hull", "hull::open", &[]),
+    question(
+        "closest point of a hull",
+        "hull",
+        "hull::closest",
+        &[Kind::ClosestFar, Kind::ClosestNear, Kind::ClosestPath],
+    ),
+    question("first hit of a hull", "hull", "hull::first_hit", &[Kind::FirstHit]),
+    question("outer hits", "hull", "hull::outer_hits", &[Kind::OuterHits]),
+    question("refine", "hull", "hull::refine", &[Kind::Refine]),
+    question("sweep", "hull", "hull_moving::sweep", &[Kind::Sweep]),
+    question("open triboxes", "triboxes", "triboxes::open", &[]),
+    question("triboxes apart", "triboxes", "triboxes::reject", &[Kind::TriboxesApart]),
+    question("open curves", "curve", "curve::open", &[]),
+    question(
+        "closest point of curves",
+        "curve",
+        "curve::closest",
+        &[Kind::ClosestFar, Kind::ClosestNear],
+    ),
+];
+
+/// Questions whose code is measured, each by an image `size_*` of its own, and their names in
+/// tables.
+pub const SIZES: [(&str, &str); 15] = [
+    ("tree_open", "open a box tree"),
+    ("tree_alone", "closest point"),
+    ("tree_alone_two", "closest point, first hit"),
+    ("tree_alone_four", "closest point, first hit, within, signed distance"),
+    ("tree_closest", "open, closest point"),
+    ("tree_segment", "open, first hit"),
+    ("tree_coherent", "open, coherent query"),
+    ("tree_four", "open, closest point, first hit, within, signed distance"),
+    ("tight", "open tight hulls, within"),
+    ("triboxes", "open triboxes, apart"),
+    ("curve", "open curves, closest point"),
+    ("open", "open a hull hierarchy"),
+    ("closest", "open a hull hierarchy, closest point"),
+    ("segment", "open a hull hierarchy, first hit"),
+    ("outer", "open a hull hierarchy, outer hits"),
+];

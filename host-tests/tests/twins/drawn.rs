@@ -1,0 +1,122 @@
+//! Questions about drawn points: on vertices, on edges, near and far, with budgets that end early,
+//! with too little scratch, and from hints.
+
+use super::{scenes, segment};
+use meshsweep_host_tests::generate::Rng;
+use meshsweep_host_tests::scene::Scene;
+
+/// A question, the same for each core.
+struct Drawn {
+    point: [f32; 3],
+    segment: [[f32; 3]; 2],
+    distance: f32,
+    relative: f32,
+    absolute: f32,
+    steps: u32,
+    /// Entries of scratch that are kept from the question.
+    missing: usize,
+}
+
+impl Drawn {
+    fn of(scene: &Scene, count: usize, seed: u64) -> Vec<Self> {
+        let rng = &mut Rng::new(seed);
+        let points: Vec<_> = scene.points(count, rng).collect();
+        let pairs = points.iter().zip(points.iter().cycle().skip(5));
+        let size = scene.size();
+        pairs.map(|(&point, &other)| Self::at(point, other, size, rng)).collect()
+    }
+
+    fn at(point: [f32; 3], other: [f32; 3], size: f32, rng: &mut Rng) -> Self {
+        Self {
+            point,
+            segment: segment(point, other, rng),
+            distance: size * [0.0, 1e-6, 1e-3, 0.1, 1.0][rng.below(5)],
+            relative: [0.0, 0.0, 0.0, 0.01, 0.5][rng.below(5)],
+            absolute: [0.0, 0.0, 0.0, size * 1e-3][rng.below(4)],
+            steps: [u32::MAX, u32::MAX, u32::MAX, 1, 3, 17][rng.below(6)],
+            missing: [0, 0, 0, 1, 3][rng.below(5)],
+        }
+    }
+}
+
+/// The answers of one core, each as text that holds all bits but for the work: kernels that take
+/// eight at once open nodes in another order.
+macro_rules! answers_of {
+    ($name:ident, $core:ident) => {
+        fn $name(bytes: &[u8], drawn: &[Drawn]) -> Vec<[String; 7]> {
+            use $core::{Budget, Bvh, Facing, Hint, Neighbor, ScratchEntry};
+            let tree = Bvh::open(bytes).expect("opens");
+            let mut hint = Hint::NONE;
+            let ask = |question: &Drawn| {
+                let Drawn { point, segment: [a, b], distance, .. } = *question;
+                let budget = Budget::EXACT
+                    .with_relative(question.relative)
+                    .with_absolute(question.absolute)
+                    .with_steps(question.steps);
+                let entries = tree.scratch_entries_for(budget).saturating_sub(question.missing);
+                let stack = &mut vec![ScratchEntry::EMPTY; entries][..];
+                let closest = |answer: Result<$core::ClosestPoint, _>| match answer {
+                    Ok(it) => format!("{:?}", (it.distance, it.point, it.triangle, it.ended)),
+                    Err(error) => format!("{error:?}"),
+                };
+                let mut near = [Neighbor::EMPTY; 3];
+                [
+                    closest(tree.closest_point(point, budget, stack)),
+                    closest(tree.closest_point_from(point, &mut hint, budget, stack)),
+                    match tree.within(point, distance, budget, stack) {
+                        Ok(it) => format!("{:?}", it.verdict),
+                        Err(error) => format!("{error:?}"),
+                    },
+                    match tree.nearest(point, &mut near, budget, stack) {
+                        Ok(it) => format!("{:?}", (it.stored, it.rest_lower, it.ended, near)),
+                        Err(error) => format!("{error:?}"),
+                    },
+                    match tree.signed_distance(point, budget, stack) {
+                        Ok(it) => format!("{:?}", (it.distance, it.side)),
+                        Err(error) => format!("{error:?}"),
+                    },
+                    match tree.first_hit(a, b, Facing::Both, budget, stack) {
+                        Ok(it) => format!("{:?}", (it.t, it.hit, it.ended)),
+                        Err(error) => format!("{error:?}"),
+                    },
+                    match tree.any_hit(a, b, Facing::Front, budget, stack) {
+                        Ok(it) => format!("{:?}", it.verdict),
+                        Err(error) => format!("{error:?}"),
+                    },
+                ]
+            };
+            drawn.iter().map(ask).collect()
+        }
+    };
+}
+
+answers_of!(of_this_machine, meshsweep_core);
+answers_of!(of_m0, meshsweep_core_m0);
+answers_of!(of_m4f, meshsweep_core_m4f);
+
+#[test]
+fn drawn_questions_have_the_same_answers_on_boards() {
+    let count = if cfg!(debug_assertions) { 240 } else { 20_000 };
+    for (index, scene) in scenes().iter().enumerate() {
+        let drawn = Drawn::of(scene, count, 0xb0a2 + index as u64);
+        for bytes in [&scene.bytes, &scene.f32_bytes] {
+            let here = of_this_machine(bytes, &drawn);
+            assert_equal(&format!("{} on m0", scene.name), &here, &of_m0(bytes, &drawn), &drawn);
+            assert_equal(&format!("{} on m4f", scene.name), &here, &of_m4f(bytes, &drawn), &drawn);
+        }
+    }
+}
+
+fn assert_equal(name: &str, here: &[[String; 7]], there: &[[String; 7]], drawn: &[Drawn]) {
+    for ((here, there), question) in here.iter().zip(there).zip(drawn) {
+        assert_eq!(
+            here,
+            there,
+            "{name}: {:?}, segment {:?}, budget {:?}, {} entries missing",
+            question.point,
+            question.segment,
+            (question.relative, question.absolute, question.steps),
+            question.missing,
+        );
+    }
+}
