@@ -229,8 +229,8 @@ impl<'a> Builder<'a> {
         self.build_of(Input::File(file.as_ref()))
     }
 
-    /// As [`build_file`](Self::build_file), for a file's content in memory. Its name tells the format
-    /// by its extension.
+    /// As [`build_file`](Self::build_file), for a file's content in memory. Its name tells the
+    /// format by its extension.
     ///
     /// # Errors
     /// Those of [`build_file`](Self::build_file), but for reading.

@@ -84,7 +84,7 @@ fn boxes(tree: &TreeBlob) -> Result<TreeProof, String> {
 /// What the header, moments and cones say of the stored triangles, whose corners have these
 /// numbers.
 fn measures(tree: &TreeBlob, corners: &[[u32; 3]], proof: &mut TreeProof) -> Result<(), String> {
-    surface::reach(tree)?;
+    surface::star_radius(tree)?;
     moments::moments(tree, corners, proof)?;
     cones::cones(tree, proof)
 }

@@ -202,7 +202,8 @@ impl Collapsing for Edges {
 
     fn is_valid(&self, candidate: &Candidate) -> bool {
         // An edge that is gone has lost its state, see `apply`.
-        matches!(self.states.get(&candidate.ends), Some(EdgeState::Queued(time)) if *time == candidate.time)
+        let state = self.states.get(&candidate.ends);
+        matches!(state, Some(EdgeState::Queued(time)) if *time == candidate.time)
     }
 
     /// A refused edge is remembered and comes back when something near it changes.

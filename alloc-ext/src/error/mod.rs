@@ -239,7 +239,8 @@ impl fmt::Display for BuildError {
             ),
             Self::NotPositive { volume } => write!(
                 f,
-                "the enclosed volume is {volume}: the mesh passes through itself and is inside out there; unite its parts first"
+                "the enclosed volume is {volume}: the mesh passes through itself and is inside \
+                 out there; unite its parts first"
             ),
             Self::NotEnclosed { error } => write!(
                 f,

@@ -22,8 +22,8 @@ pub(super) struct Disks {
 ///
 /// A bound is a sum of five products of numbers below 2. Fewer than sixteen roundings of 2^-23 add
 /// up to less than 2e-6. The normal and the product of normal and axis are off by less than 3e-7,
-/// and the axis is a unit vector to 3e-7, times heights below 2. All is less than this. It counts in
-/// full in each direction, because the sum of a sine and a cosine is at least 1.
+/// and the axis is a unit vector to 3e-7, times heights below 2. All is less than this. It counts
+/// in full in each direction, because the sum of a sine and a cosine is at least 1.
 const PAD: f64 = 4e-6;
 
 /// More than rounding of the square of a cosine, which is off by less than 1.5e-6.

@@ -153,8 +153,8 @@ impl StaticTree {
         tree
     }
 
-    /// With disks about its nodes. `normal` is that of an item, and `corners` gives points that hold
-    /// an item between them. Cost: n log n.
+    /// With disks about its nodes. `normal` is that of an item, and `corners` gives points that
+    /// hold an item between them. Cost: n log n.
     pub fn with_disks(
         mut self,
         normal: impl Fn(usize) -> DVec3,
@@ -291,8 +291,8 @@ impl StaticTree {
     }
 
     /// Calls `item` with the items below nodes whose boxes pass, until it returns false; whether it
-    /// never did. `lanes` gives the lanes of a node or leaf that pass, one bit each, and its entries.
-    /// `state` belongs to both.
+    /// never did. `lanes` gives the lanes of a node or leaf that pass, one bit each, and its
+    /// entries. `state` belongs to both.
     #[inline]
     fn visit<'t, S>(
         &'t self,

@@ -415,7 +415,7 @@ fn assemble(
         let at_label = |l: u32| history.positions[l as usize];
         let corners =
             history.ring(collapse).iter().chain([&collapse.origin, &collapse.destination]);
-        let reach =
+        let star_radius =
             corners.map(|&l| at_label(l).distance(at_label(collapse.vertex))).fold(0.0, f64::max);
         // A triangle without a part of the surface asks for no split.
         let first = history.first_coarse(at);
@@ -428,7 +428,7 @@ fn assemble(
             ring_start: rings.len() as u32,
             right: collapse.right as u8,
             before: forest.wings[at],
-            reach: Radius8::round_up(reach * (1.0 + 1e-14)),
+            star_radius: Radius8::round_up(star_radius * (1.0 + 1e-14)),
             error: Radius8(error.unwrap_or(0)),
         });
         rings.extend(history.ring(collapse).iter().map(|&l| index(l)));

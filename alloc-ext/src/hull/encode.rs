@@ -67,7 +67,7 @@ impl Tables {
                     let [right, left] = split.before;
                     let bits =
                         if right { RIGHT_BEFORE } else { 0 } | if left { LEFT_BEFORE } else { 0 };
-                    out.extend([split.right | bits, split.reach.0, split.error.0]);
+                    out.extend([split.right | bits, split.star_radius.0, split.error.0]);
                 }
             }
             SectionKind::BaseGroups => {

@@ -24,7 +24,7 @@ pub struct SplitRecord {
     /// triangle before the wing.
     pub before: [bool; 2],
     /// No point of the fine triangles is farther than this from `vertex`.
-    pub reach: Radius8,
+    pub star_radius: Radius8,
     /// The largest finite radius of the coarse triangles.
     pub error: Radius8,
 }
@@ -115,14 +115,14 @@ impl Tables {
             let split = hull.split(SplitIdx(index))?;
             let right = u8::try_from(split.right).ok()?;
             let before = [split.right_parent != split.right, split.left_parent != 0];
-            let reach = Radius8::round_up(f64::from(split.reach));
+            let star_radius = Radius8::round_up(f64::from(split.star_radius));
             let error = Radius8::round_up(f64::from(split.error));
             splits.push(SplitRecord {
                 vertex: split.vertex.0,
                 ring_start: rings.len() as u32,
                 right,
                 before,
-                reach,
+                star_radius,
                 error,
             });
             for i in 0..split.ring_len() {

@@ -48,6 +48,17 @@ fn errors_are_those_of_an_independent_distance_and_the_first_table_is_what_nothi
         let is = |row: &&Value| row["structure"] == structure && row["dials"] == dials;
         rows(&trade).iter().find(is).expect("it is measured")
     };
+    let is_cut = |row: &&Value| row["structure"].as_str().is_some_and(|s| s.starts_with("cut"));
+    for row in rows(&trade).iter().filter(is_cut) {
+        // What it says to build and to cut is the blob that was measured.
+        let (build, cut) = row["build"].as_str().unwrap().split_once(", then cut ").unwrap();
+        let (whole, part) = (directory.join("whole.msw"), directory.join("part.msw"));
+        let ([build, cut], input) =
+            ([build, cut].map(|text| text.split(' ').collect::<Vec<_>>()), arg(&mesh));
+        ok([&["build", input, "-o", arg(&whole)], &build[..]].concat());
+        ok([&["cut", arg(&whole), "-o", arg(&part)], &cut[..]].concat());
+        assert_eq!(fs::metadata(&part).unwrap().len(), row["flash"].as_u64().unwrap(), "{row}");
+    }
     let header = "x,y,z,lower,upper,px,py,pz,triangle,work";
     for (dials, options) in [("exact", &[][..]), ("steps 4", &["--steps", "4"])] {
         let row = find("box tree, 16 bits", dials);

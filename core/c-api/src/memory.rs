@@ -98,8 +98,8 @@ impl<T: AnyBits> Out<T> {
     /// The element.
     pub fn one(&mut self) -> Result<&mut T, Error> {
         check(self.0)?;
-        // SAFETY: neither NULL nor misaligned, so by contract an element that overlaps nothing else.
-        // All bits are values of these types.
+        // SAFETY: neither NULL nor misaligned, so by contract an element that overlaps nothing
+        // else. All bits are values of these types.
         Ok(unsafe { &mut *self.0 })
     }
 

@@ -5,7 +5,9 @@
 
 use crate::bvh::pair::placed::{PlacedModel, Relative, WorldBox, check_pose};
 use crate::num::{greater, lesser};
-use crate::query::{Budget, Ended, Interval, QueryError, ScratchEntry, Undecided, Verdict, Work};
+use crate::query::{
+    Budget, Decided, Ended, Interval, QueryError, ScratchEntry, Undecided, Verdict, Work,
+};
 
 /// Models at their places in the world. A model may stand in it several times.
 #[derive(Clone, Copy, Debug)]
@@ -36,26 +38,6 @@ pub struct SceneDistance {
     pub ended: Ended,
 }
 
-/// Whether any two models of a [`Scene`] are within a distance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub struct SceneWithin {
-    /// `No`: all pairs asked about are farther from each other. `Yes`: one is not.
-    pub verdict: Verdict,
-    /// With `Yes` a pair that is within the distance, else the first undecided one.
-    pub models: Option<[usize; 2]>,
-    /// The work, as in [`SceneDistance::work`].
-    pub work: Work,
-}
-
-impl SceneWithin {
-    /// Whether it is proved that all pairs are farther from each other.
-    pub fn is_clear(&self) -> bool {
-        self.verdict == Verdict::No
-    }
-}
-
 impl<'s, 'a> Scene<'s, 'a> {
     /// The scene of these models.
     pub const fn new(models: &'s [PlacedModel<'a>]) -> Self {
@@ -67,9 +49,9 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// Only pairs for which `asks_about` is true count, the lesser index first. It is called twice
     /// a pair. Leave out neighbours that always touch. Lengths are in the unit of the world, which
     /// all models share. The poses' numbers are taken as exact. Only surfaces count, and each pair
-    /// is as for [`Bvh::distance_to`](crate::Bvh::distance_to). Surfaces that meet have a distance from
-    /// 0, and an upper end of a few roundings, because the pose of one model in the frame of the
-    /// other is rounded.
+    /// is as for [`Bvh::distance_to`](crate::Bvh::distance_to). Surfaces that meet have a distance
+    /// from 0, and an upper end of a few roundings, because the pose of one model in the frame of
+    /// the other is rounded.
     ///
     /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. The
     /// steps (pairs of nodes) of the budget are those of all pairs together. Pairs for which no
@@ -92,9 +74,9 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Bvh::distance_to`](crate::Bvh::distance_to); [`QueryError::PoseOutOfDomain`] also if a
-    /// pose, of any model, is far from a rotation; [`QueryError::OutOfDomain`] if two models are
-    /// farther from each other than f32 reaches.
+    /// Those of [`Bvh::distance_to`](crate::Bvh::distance_to); [`QueryError::PoseOutOfDomain`] also
+    /// if a pose, of any model, is far from a rotation; [`QueryError::OutOfDomain`] if two models
+    /// are farther from each other than f32 reaches.
     #[inline(never)]
     pub fn nearest_pair(
         &self,
@@ -139,7 +121,8 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// Whether the surfaces of any two models are at most `distance` apart in the world.
     ///
     /// Pairs, units and poses as for [`nearest_pair`](Self::nearest_pair). Both verdicts are
-    /// proved. It ends at the first pair that certainly is. A distance of 0 asks whether surfaces
+    /// proved. It ends at the first pair that certainly is. The witness of a `Yes` is this pair,
+    /// indices into the models; that of an undecided verdict is the first undecided pair. A distance of 0 asks whether surfaces
     /// meet; it is answered by `No` or left undecided, because poses are rounded: take an undecided
     /// answer as `Yes`.
     ///
@@ -159,7 +142,7 @@ impl<'s, 'a> Scene<'s, 'a> {
         asks_about: impl Fn(usize, usize) -> bool,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<SceneWithin, QueryError> {
+    ) -> Result<Decided<[usize; 2]>, QueryError> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check_with(scratch)?;
         self.check_poses()?;
@@ -194,16 +177,16 @@ impl<'s, 'a> Scene<'s, 'a> {
                 };
             }
             match verdict {
-                Verdict::Yes => return Ok(SceneWithin { verdict, models: Some(pair), work }),
+                Verdict::Yes => return Ok(Decided { verdict, witness: Some(pair), work }),
                 Verdict::Undecided(why) if undecided.is_none() => undecided = Some((why, pair)),
                 _ => {}
             }
         }
         Ok(match undecided {
             Some((why, pair)) => {
-                SceneWithin { verdict: Verdict::Undecided(why), models: Some(pair), work }
+                Decided { verdict: Verdict::Undecided(why), witness: Some(pair), work }
             }
-            None => SceneWithin { verdict: Verdict::No, models: None, work },
+            None => Decided { verdict: Verdict::No, witness: None, work },
         })
     }
 

@@ -47,8 +47,8 @@ pub fn distance_sq([a, b, c]: [RealVector; 3]) -> f32 {
 }
 
 /// Vector from the (approximately) closest point, not `a`, to the query, and whether that point
-/// certainly is one of the triangle. Any finite result is safe as a direction, so no branch needs a proof.
-/// `lanes` evaluates the same formulas.
+/// certainly is one of the triangle. Any finite result is safe as a direction, so no branch needs a
+/// proof. `lanes` evaluates the same formulas.
 #[inline(always)]
 fn residual([ap, ab, ac]: [RealVector; 3], [d1, d2]: [Real; 2]) -> (RealVector, bool) {
     let inverse = |x: Real| Real(1.0 / x.0);

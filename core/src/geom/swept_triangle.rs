@@ -41,8 +41,8 @@ impl SweptPoint {
         SweptPoint { point, margin: POINT_BOUND * U32 * norms + UNDERFLOW }
     }
 
-    /// An upper bound of the 1-norms of the ways from any corner to the point and to another corner,
-    /// together.
+    /// An upper bound of the 1-norms of the ways from any corner to the point and to another
+    /// corner, together.
     pub fn norms(&self) -> f32 {
         self.margin / (POINT_BOUND * U32)
     }

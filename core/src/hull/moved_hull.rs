@@ -9,8 +9,8 @@
 //! Each mesh vertex of a triangle's part of the surface lies below one of the triangle's corners.
 //! So the triangle covers its part after the motion if its radius grows by the largest spread of
 //! its corners and the largest difference of their displacements; and also if its radius is the
-//! largest `farthest` of its corners. The first is small for small motions, the second does not grow
-//! when a part turns. Proof: `core/docs/rounding.md` §17.
+//! largest `farthest` of its corners. The first is small for small motions, the second does not
+//! grow when a part turns. Proof: `core/docs/rounding.md` §17.
 
 use super::closest_point;
 use super::format::{DeformableHull, Hull, SplitIdx, VertIdx};

@@ -57,8 +57,8 @@ pub const WITHIN: f32 = 1.0 + 8.0 * U32;
 /// sum of norms holds two of them. Proved: 31 (§3).
 pub const SEGMENT_BOUND: f32 = 48.0;
 
-/// Rounding of the f32 test whether a segment misses a box, in units of [`U32`] times the 1-norms of
-/// all corners and ends. Proved: 10 (§3). A larger value leaves more segments to f64.
+/// Rounding of the f32 test whether a segment misses a box, in units of [`U32`] times the 1-norms
+/// of all corners and ends. Proved: 10 (§3). A larger value leaves more segments to f64.
 pub const BOX_MISSED: f32 = 16.0;
 
 /// Rounding of the f64 point–triangle interval, in units of [`U64`] times the 1-norms of `ap`,
@@ -190,9 +190,9 @@ pub const LEAST_DENOMINATOR: f32 = 1.0 / ((1u64 << 60) as f32);
 /// one loses the guarantee.
 pub const FAN_DISTANCE: f32 = 32.0;
 
-/// Least rounding of that distance, grid units: 2^-48. Squares below 2^-126 are not exact, and their
-/// roots are off by up to 2^-63. Without this floor, intervals miss the truth next to triangles that
-/// are points (§8).
+/// Least rounding of that distance, grid units: 2^-48. Squares below 2^-126 are not exact, and
+/// their roots are off by up to 2^-63. Without this floor, intervals miss the truth next to
+/// triangles that are points (§8).
 pub const LEAST_FAN_ROUNDING: f32 = 1.0 / ((1u64 << 48) as f32);
 
 /// Rounding of the same distance, in units of [`U32`] times the distance itself. Proved: 9 (§8).
@@ -227,9 +227,9 @@ pub const EVERYTHING_SQ: f32 = f32::from_bits(0x7E80_0000);
 /// Least distance that a limit is made for. Its square is far above underflow.
 pub const LEAST_LIMIT: f32 = 1.0 / (1u64 << 40) as f32;
 
-/// Addition to the sine of a normal cone before a leaf counts as back-facing, 2^-19. The direction to the
-/// eye, its product with the axis and the squares carry less than half of it. A smaller value loses
-/// the guarantee. A larger one keeps a few more leaves.
+/// Addition to the sine of a normal cone before a leaf counts as back-facing, 2^-19. The direction
+/// to the eye, its product with the axis and the squares carry less than half of it. A smaller
+/// value loses the guarantee. A larger one keeps a few more leaves.
 pub const CONE_SINE: f32 = 1.0 / 524_288.0;
 
 // Box tree, segments, in grid units
@@ -262,8 +262,8 @@ pub const STILL: f32 = LEAST_DENOMINATOR / (1u32 << 20) as f32;
 pub const SIGN_TRIPLE_PRODUCT: f32 = 16.0;
 
 /// A triple product whose square exceeds this part of the factors' squared lengths exceeds
-/// [`SIGN_TRIPLE_PRODUCT`] roundings too: twice its square, and 2^-8 for the roundings of both sides
-/// (§8).
+/// [`SIGN_TRIPLE_PRODUCT`] roundings too: twice its square, and 2^-8 for the roundings of both
+/// sides (§8).
 pub const PLAIN_SIDE_SQ: f32 =
     2.0 * SIGN_TRIPLE_PRODUCT * SIGN_TRIPLE_PRODUCT * U32 * U32 * (1.0 + 1.0 / 256.0);
 
@@ -286,8 +286,8 @@ pub const MOST_SURFACE_ERROR: f32 = (1u64 << 60) as f32;
 /// direction. Proved: 76 (§11).
 pub const OVERLAP_INTERVAL: f64 = 96.0;
 
-/// Rounding of a moved vertex, the 2-norm, in unit roundoffs times the longest offset along an axis.
-/// Proved: 8.7 in f32, 19.1 in f64 (§11).
+/// Rounding of a moved vertex, the 2-norm, in unit roundoffs times the longest offset along an
+/// axis. Proved: 8.7 in f32, 19.1 in f64 (§11).
 pub const OVERLAP_VERTEX: f64 = 20.0;
 
 /// Longest offset along an axis, surface errors included: 2^30. Products of four lengths and their

@@ -1,7 +1,7 @@
 //! Floats to whole numbers of a unit that is a power of two.
 
-/// `x · 2^exponent`, rounded towards 0. `None` if that is 2^30 or more or `x` is not finite, or of a
-/// subnormal `x` that may not round to 0.
+/// `x · 2^exponent`, rounded towards 0. `None` if that is 2^30 or more or `x` is not finite, or of
+/// a subnormal `x` that may not round to 0.
 ///
 /// A shift: without an FPU a product and a conversion would be two calls.
 #[inline(always)]

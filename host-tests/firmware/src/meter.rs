@@ -47,8 +47,8 @@ impl Meter {
 }
 
 impl Meter {
-    /// Prints the hash of a block of answers and the ticks of all queries so far, and looks how deep
-    /// the stack was.
+    /// Prints the hash of a block of answers and the ticks of all queries so far, and looks how
+    /// deep the stack was.
     pub fn block_of(&mut self, name: &str, index: u32, hash: u64) {
         // Before and after printing, whose own frames must not count.
         self.deepest = self.deepest.max(self.pointer.saturating_sub(stack::lowest()));

@@ -49,8 +49,9 @@ enum Part {
 
 impl Options {
     /// `[--tree | --triboxes | --deform | --overlap | --motion | --winding | --tight [--firmware] |
-    /// --bounds [--count] | --paper TABLE | --margins TRIALS] [--plot FILE.svg] [--picture FILE.svg]
-    /// [MESH…]`, the picture with `--tight` alone; `None` if that is not what the words are.
+    /// --bounds [--count] | --paper TABLE | --margins TRIALS] [--plot FILE.svg] [--picture
+    /// FILE.svg] [MESH…]`, the picture with `--tight` alone; `None` if that is not what the words
+    /// are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut only = None;

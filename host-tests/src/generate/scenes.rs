@@ -92,8 +92,8 @@ pub fn threemf_archive(model: &str, files: &[(&str, &str)]) -> Vec<u8> {
     bytes
 }
 
-/// COLLADA: a node that turns and one that mirrors the mesh. The corners of half of the triangles are
-/// in a list with normals, those of the others are polygons.
+/// COLLADA: a node that turns and one that mirrors the mesh. The corners of half of the triangles
+/// are in a list with normals, those of the others are polygons.
 #[must_use]
 pub fn dae((positions, triangles): &Triangles) -> Vec<u8> {
     let numbers: Vec<String> =

@@ -211,7 +211,7 @@ fn a_shrunk_reach_is_caught() {
         let at = entry(b, SPLITS).offset as usize + 5;
         b[at] -= 2;
     });
-    refused(&bytes, "its reach is");
+    refused(&bytes, "its star radius is");
 }
 
 #[test]

@@ -263,7 +263,7 @@ fn assert_update<const SPLITS: usize>(
     assert_eq!(refined.splits(), state.performed.len(), "{}", say());
     for (vertex, split) in state.existing() {
         let split = state.hull.split(split).expect("in range");
-        let [reach, stored] = [split.reach, split.error];
+        let [reach, stored] = [split.star_radius, split.error];
         if is_needed(&state.hull, focus, *error, vertex, [reach, stored]) {
             let left = f64::from(update.error_left) / state.hull.scale();
             assert!(left >= f64::from(stored), "{vertex:?} is needed: {}", say());

@@ -12,8 +12,8 @@ use meshsweep_host_tests::generate::corpus::{slivers, solids, soups};
 use meshsweep_host_tests::generate::{Rng, scaled, transformed};
 use meshsweep_host_tests::scene::Scene;
 
-/// Scenes of box trees, two each: the corpus, and needles that lie next to each other at the edge of the
-/// grid.
+/// Scenes of box trees, two each: the corpus, and needles that lie next to each other at the edge
+/// of the grid.
 fn scenes() -> Vec<Scene> {
     let needles = (0..4).map(|seed| {
         let mesh = slivers(120, 90 + seed, seed % 2 == 0);

@@ -57,8 +57,8 @@ const TABLED: [&str; 6] = [
 /// no-vectorize-slp`) it once took 2420, 1489, 1802, 1560, 1119, 1284. "Clear" is for nodes, for it
 /// opens few leaves; "first hit" has its own loops.
 ///
-/// Those for AVX2 are for the paths on which every kernel must be compiled for it: calls between the
-/// two sets of instructions once took 1.8 times as long. They took 330 and 400.
+/// Those for AVX2 are for the paths on which every kernel must be compiled for it: calls between
+/// the two sets of instructions once took 1.8 times as long. They took 330 and 400.
 const LIMITS: [(&str, f64); 8] = [
     ("tree bracket.stl avx2_far", 500.0),
     ("tree bracket.stl avx2_first_hit", 500.0),

@@ -35,8 +35,8 @@ pub enum Scope {
     /// The proof that nothing panics is linked for size on those boards only, which need it most.
     /// One of the two boards with much the same instructions is asked less.
     Compared,
-    /// What has a cost: `cargo xtask count --all`. As many queries as are [`Self::Compared`], of all
-    /// boards and with both optimisations.
+    /// What has a cost: `cargo xtask count --all`. As many queries as are [`Self::Compared`], of
+    /// all boards and with both optimisations.
     Counted,
 }
 

@@ -144,8 +144,8 @@ pub fn processor_seconds() -> f64 {
 }
 
 /// Waits until a child has ended, and adds its processor seconds to this thread's before the system
-/// forgets them. Steps run beside each other, so what the system adds up for the whole process tells
-/// nothing of one of them. Whether the child ended before the deadline.
+/// forgets them. Steps run beside each other, so what the system adds up for the whole process
+/// tells nothing of one of them. Whether the child ended before the deadline.
 fn account_until(child: &mut Child, deadline: Option<Instant>) -> bool {
     loop {
         let has_ended = match State::of(child.id()) {

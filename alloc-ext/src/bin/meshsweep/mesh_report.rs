@@ -28,11 +28,11 @@ pub fn write_rounding(out: &mut dyn Write, file: &Path, report: &RepairReport) -
     note.map_or(Ok(()), |note| writeln!(out, "{}: {note}", file.display()))
 }
 
-/// What JSON says of a mesh, beside other fields: its file, triangles and unit, how far rounding and
-/// a grid moved its vertices, and its repairs.
+/// What JSON says of a mesh, beside other fields: its file, triangles and unit, how far rounding
+/// and a grid moved its vertices, and its repairs.
 pub fn fields(file: &Path, loaded: &Loaded) -> Map<String, Value> {
     let report = &loaded.report;
-    let place = |place: &Place| json!({ "triangle": place.triangle, "vertex": place.vertex, "at": place.at });
+    let place = |&Place { triangle, vertex, at }: &Place| json!({ "triangle": triangle, "vertex": vertex, "at": at });
     let findings = report.findings().into_iter().filter(|found| found.finding.count > 0);
     let finding = |Found { key, finding, .. }: Found<'_>| {
         let places: Vec<Value> = finding.places.iter().map(place).collect();

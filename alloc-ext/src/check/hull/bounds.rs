@@ -57,16 +57,16 @@ pub(super) fn groups(blob: &Blob, forest: &Forest) -> Result<(), String> {
     Ok(())
 }
 
-/// Every split's reach spans its ring and its new vertices.
+/// Every split's star radius spans its ring and its new vertices.
 pub(super) fn reaches(blob: &Blob) -> Result<(), String> {
     for (index, split) in blob.splits.iter().enumerate() {
         let apex = DVec3::from(blob.vertices[split.vertex as usize]);
         for v in blob.fine(index).into_iter().flatten() {
             let d = apex.distance(DVec3::from(blob.vertices[v as usize]));
-            if d > split.reach * ROUNDING {
+            if d > split.star_radius * ROUNDING {
                 return Err(format!(
-                    "split {index}: vertex {v} is {d:e} away, its reach is {:e}",
-                    split.reach
+                    "split {index}: vertex {v} is {d:e} away, its star radius is {:e}",
+                    split.star_radius
                 ));
             }
         }

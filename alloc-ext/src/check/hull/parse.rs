@@ -16,7 +16,7 @@ pub struct Split {
     /// before the wing, not of the one after it.
     pub before: [bool; 2],
     /// Claimed greatest distance of the ring and the new vertices from it.
-    pub reach: f64,
+    pub star_radius: f64,
     pub error: f64,
 }
 
@@ -288,12 +288,13 @@ fn read_splits(
     let mut heads = Vec::new();
     for _ in 0..splits {
         let (vertex, start) = (records.uint(wv)?, records.uint(wr)?);
-        let (wings, reach) = (records.uint(1)? as usize, small_radius(records.uint(1)? as u8));
-        heads.push((vertex, start, wings, [reach, small_radius(records.uint(1)? as u8)]));
+        let (wings, star_radius) =
+            (records.uint(1)? as usize, small_radius(records.uint(1)? as u8));
+        heads.push((vertex, start, wings, [star_radius, small_radius(records.uint(1)? as u8)]));
     }
     records.end()?;
     let mut read = Vec::new();
-    for (i, &(vertex, start, wings, [reach, error])) in heads.iter().enumerate() {
+    for (i, &(vertex, start, wings, [star_radius, error])) in heads.iter().enumerate() {
         let end = heads.get(i + 1).map_or(ring_entries, |next| next.1);
         let length =
             end.checked_sub(start).ok_or(format!("split {i}: its ring ends before it begins"))?;
@@ -302,7 +303,7 @@ fn read_splits(
         if right == 0 || right >= ring.len() {
             return Err(format!("split {i}: its right wing is not in its ring"));
         }
-        read.push(Split { vertex, ring, right, before, reach, error });
+        read.push(Split { vertex, ring, right, before, star_radius, error });
     }
     rings.end()?;
     Ok(read)

@@ -98,7 +98,7 @@ pub(super) struct TreeBlob {
     /// Local frame.
     pub(super) surface_error: f64,
     /// Grid units.
-    pub(super) reach: f64,
+    pub(super) star_radius: f64,
     pub(super) nodes: Vec<Node>,
     pub(super) leaves: Vec<Leaf>,
     /// Empty or one for each node.
@@ -234,7 +234,7 @@ impl TreeBlob {
             bounds: [corner(48), corner(54)],
             stack_entries: count(36),
             surface_error: f64::from(float(head, 40)),
-            reach: f64::from(float(head, 44)),
+            star_radius: f64::from(float(head, 44)),
             nodes: read,
             leaves,
             moments: moments
@@ -300,7 +300,7 @@ impl TreeBlob {
     fn finite(self) -> Result<Self, String> {
         let mut slabs = self.slabs.iter().flat_map(|s| s.origin.iter().chain(&s.step));
         let vertices = self.leaves.iter().flat_map(|leaf| leaf.vertices.as_flattened());
-        let bounds = [self.surface_error, self.reach];
+        let bounds = [self.surface_error, self.star_radius];
         let sound = slabs.all(|x| x.is_finite())
             && vertices.chain(&bounds).all(|x| x.is_finite())
             && bounds.iter().all(|&x| x >= 0.0);

@@ -31,18 +31,18 @@ pub(super) fn triangles(
     Ok(found)
 }
 
-/// The header's reach is no less than any triangle's two spokes, by their 1-norms.
-pub(super) fn reach(tree: &TreeBlob) -> Result<(), String> {
+/// The header's star radius is no less than any triangle's two spokes, by their 1-norms.
+pub(super) fn star_radius(tree: &TreeBlob) -> Result<(), String> {
     let norm = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f64>();
     for leaf in &tree.leaves {
         for triangle in 0..leaf.triangles() {
             let [centre, a, b] = leaf.corners(triangle).map(|corner| leaf.vertices[corner]);
             // Differences of coordinates below 2^25, and sums of six of them.
-            let reach = norm(centre, a) + norm(centre, b);
-            if reach > tree.reach {
+            let star_radius = norm(centre, a) + norm(centre, b);
+            if star_radius > tree.star_radius {
                 return Err(format!(
-                    "a triangle of reach {reach:e}, the header says {:e}",
-                    tree.reach
+                    "a triangle of star radius {star_radius:e}, the header says {:e}",
+                    tree.star_radius
                 ));
             }
         }

@@ -18,7 +18,7 @@ use crate::bvh::tree::format::Bvh;
 use crate::geom::Pose;
 use crate::num::tolerance::U64;
 use crate::num::{down_to_f32, greater, lesser};
-use crate::query::{Budget, Ended, Motion, PairDistance, PairWithin, QueryError, ScratchEntry};
+use crate::query::{Budget, Decided, Ended, Motion, PairDistance, QueryError, ScratchEntry};
 
 /// Two models that move, with the groups of pairs that the last search left out.
 ///
@@ -112,8 +112,8 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         self.last.count
     }
 
-    /// [`Bvh::distance_to`] of `tree` and of `other`, moved by `pose`. The less the models moved since
-    /// the last question, the less work it takes.
+    /// [`Bvh::distance_to`] of `tree` and of `other`, moved by `pose`. The less the models moved
+    /// since the last question, the less work it takes.
     ///
     /// The interval contains the distance like that of [`Bvh::distance_to`]. Its bits may differ,
     /// because another of several pairs that are equally near may be found. They depend on all
@@ -185,7 +185,7 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         distance: f32,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<PairWithin, QueryError> {
+    ) -> Result<Decided<[u32; 2]>, QueryError> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check_with(scratch)?;
         let pair = StoredPair::new([tree, other], &pose)?;
@@ -223,7 +223,7 @@ impl Question<'_, '_> {
     fn leaves(&self) -> Option<ChildPairs> {
         let gap = match self {
             Question::Distance(nearest) => nearest.best?,
-            Question::Within(threshold) => threshold.near?,
+            Question::Within(threshold) => threshold.found.met?,
         };
         let [a, b] = gap.place;
         Some(ChildPairs { nodes: [a.node(), b.node()], wanted: 1 << (a.child() << 3 | b.child()) })

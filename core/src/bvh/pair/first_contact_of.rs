@@ -18,9 +18,9 @@ impl Bvh<'_> {
     /// of nodes) of the budget are those of all distances together. Tolerances are ignored. If
     /// steps or scratch memory run out, `clear_until` is earlier.
     ///
-    /// Cost: a [`distance_to`](Bvh::distance_to) for each advance: three to ten where the motion passes
-    /// at some distance, some dozens before contact, more where the surfaces glide along each
-    /// other.
+    /// Cost: a [`distance_to`](Bvh::distance_to) for each advance: three to ten where the motion
+    /// passes at some distance, some dozens before contact, more where the surfaces glide along
+    /// each other.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Motion, Pose, Scratch};
@@ -37,8 +37,8 @@ impl Bvh<'_> {
     /// Body Systems* (1996), by proved distances.
     ///
     /// # Errors
-    /// Those of [`distance_to`](Bvh::distance_to), also for a `keep` that is negative, NaN or infinite,
-    /// and [`QueryError::NotFinite`] if a pose on the way leaves f32's range.
+    /// Those of [`distance_to`](Bvh::distance_to), also for a `keep` that is negative, NaN or
+    /// infinite, and [`QueryError::NotFinite`] if a pose on the way leaves f32's range.
     #[inline(never)]
     pub fn first_contact_of(
         &self,

@@ -8,7 +8,7 @@ use super::gaps::threshold::Threshold;
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
 use crate::geom::Pose;
-use crate::query::{Budget, PairWithin, QueryError, ScratchEntry};
+use crate::query::{Budget, Decided, QueryError, ScratchEntry};
 
 impl Bvh<'_> {
     /// Whether the surface of `other`, moved by `pose` from its frame to this tree's, is at most
@@ -22,8 +22,11 @@ impl Bvh<'_> {
     /// inside the other. If the models move in small steps, [`CoherentPair`](crate::CoherentPair)
     /// asks for less work. For collision avoidance, treat an undecided answer as `Yes`.
     ///
-    /// Arguments and degenerate cases as for [`distance_to`](Bvh::distance_to). It ends at the first pair
-    /// of triangles that is certainly near enough. `scratch`:
+    /// Arguments and degenerate cases as for [`distance_to`](Bvh::distance_to). It ends at the first
+    /// pair of triangles that is certainly near enough. The witness of a `Yes` is this pair, this tree's
+    /// triangle first; that of an undecided [`Resolution`](crate::Undecided::Resolution) is a pair
+    /// that may be near enough. Numbers are those of the input files. `work` as in
+    /// [`PairDistance::work`](crate::PairDistance::work). `scratch`:
     /// [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES) are always enough. A shorter one may leave the
     /// question undecided. Of the budget only `steps` matters.
     ///
@@ -40,8 +43,8 @@ impl Bvh<'_> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`distance_to`](Bvh::distance_to); [`QueryError::Tolerance`] also for a distance that is
-    /// negative, NaN or infinite.
+    /// Those of [`distance_to`](Bvh::distance_to); [`QueryError::Tolerance`] also for a distance
+    /// that is negative, NaN or infinite.
     #[inline(never)]
     pub fn within_of(
         &self,
@@ -50,7 +53,7 @@ impl Bvh<'_> {
         distance: f32,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<PairWithin, QueryError> {
+    ) -> Result<Decided<[u32; 2]>, QueryError> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check()?;
         budget.check_with(scratch)?;

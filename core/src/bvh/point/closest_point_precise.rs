@@ -60,7 +60,8 @@ impl Bvh<'_> {
             Asked::Far(far) => return far.closest_point(tree, point),
         };
         let of_f32 = Budget::EXACT.with_steps(budget.steps);
-        // In one order, if there is a limit of steps: those that are left may end the second descent.
+        // In one order, if there is a limit of steps: those that are left may end the second
+        // descent.
         let near = tree.closest_point_in_order(point, &mut Hint::NONE.clone(), of_f32, scratch)?;
         if near.ended != Ended::Exact {
             return Ok(near);

@@ -10,8 +10,8 @@ use crate::query::{ClosestPoint, Ended, Interval, QueryError, Work};
 impl FarPoint<'_> {
     /// The interval of the model's box, and some point of the surface.
     ///
-    /// It is computed in input units, scaled by a power of two so that no coordinate's square leaves
-    /// f32's range. Proof: `core/docs/rounding.md` §8, Far away.
+    /// It is computed in input units, scaled by a power of two so that no coordinate's square
+    /// leaves f32's range. Proof: `core/docs/rounding.md` §8, Far away.
     #[cold]
     #[inline(never)]
     pub(crate) fn closest_point(

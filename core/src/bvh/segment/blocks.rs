@@ -1,5 +1,5 @@
-//! The first hit of a segment on vector targets, and any hit with AVX2: nearest child first at every
-//! level.
+//! The first hit of a segment on vector targets, and any hit with AVX2: nearest child first at
+//! every level.
 
 use super::leaf::{CrossingCollector, Facing, FlaggedOfLeaf, SegmentVisitor};
 use super::query::SegmentQuery;

@@ -122,8 +122,8 @@ fn by_entries(
     visitor.collector.answer(&query, descent, work)
 }
 
-/// The answer, if neither steps nor memory may end the search. With one of these limits the order of
-/// visits decides the answer, and it is that of all targets.
+/// The answer, if neither steps nor memory may end the search. With one of these limits the order
+/// of visits decides the answer, and it is that of all targets.
 #[cfg(meshsweep_wide)]
 #[inline(always)]
 pub(crate) fn first_hit_by_blocks(
@@ -156,8 +156,8 @@ pub(crate) fn first_hit_by_blocks(
 
 struct FirstCrossing<'a> {
     tree: &'a Bvh<'a>,
-    /// Bits of a parameter. If `certain`, the input's surface is met not after it. Else the segment's
-    /// end.
+    /// Bits of a parameter. If `certain`, the input's surface is met not after it. Else the
+    /// segment's end.
     limit: u32,
     /// The input's surface is not met before this parameter.
     lower: f32,

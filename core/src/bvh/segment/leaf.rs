@@ -51,8 +51,8 @@ pub(crate) trait CrossingCollector {
     /// The input's surface is met, not later than this.
     fn certain(&mut self, upper: f32);
     /// The input's surface is met, not later than `upper`, by one of a leaf's undecided triangles,
-    /// a bit of `lanes` for each; `first` is the leaf's first. Next to an inner edge of a fan each is undecided, yet the segment
-    /// certainly meets one of them.
+    /// a bit of `lanes` for each; `first` is the leaf's first. Next to an inner edge of a fan each
+    /// is undecided, yet the segment certainly meets one of them.
     fn covered(&mut self, lanes: u32, upper: f32, first: TriangleAt) -> Option<()>;
     /// Whether the question is answered.
     fn is_answered(&self) -> bool;

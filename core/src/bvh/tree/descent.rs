@@ -100,6 +100,15 @@ pub(crate) enum Descent {
 }
 
 impl Descent {
+    /// Why it missed leaves, if it did.
+    #[inline(always)]
+    pub(crate) fn cut(self) -> Option<Ended> {
+        match self {
+            Descent::Truncated { ended, .. } => Some(ended),
+            _ => None,
+        }
+    }
+
     /// Why a search with an interval ended.
     #[inline(always)]
     pub(crate) fn ended(self) -> Ended {
@@ -163,7 +172,7 @@ impl Stack<'_> {
     #[cold]
     fn least(&self) -> u32 {
         let left = self.entries.iter().take(self.used);
-        left.fold(self.dropped, |least, entry| least.min(entry.small_word()))
+        left.fold(self.dropped, |least, entry| least.min(entry.key_bits()))
     }
 }
 
@@ -232,8 +241,8 @@ impl Limit {
             return false;
         }
         let waiting = stack.entries.iter_mut().take(stack.used);
-        if let Some(least) = waiting.min_by_key(|waiting| waiting.small_word())
-            && least.small_word() < entry.small_word()
+        if let Some(least) = waiting.min_by_key(|waiting| waiting.key_bits())
+            && least.key_bits() < entry.key_bits()
         {
             swap(least, entry);
         }
@@ -313,7 +322,7 @@ type Place = (ScratchEntry, BvhChild);
 
 #[inline(always)]
 fn child_of(tree: &Bvh<'_>, entry: ScratchEntry) -> Option<BvhChild> {
-    tree.child(entry.node(), entry.small_word() & CHILD_MASK)
+    tree.child(entry.node(), entry.key_bits() & CHILD_MASK)
 }
 
 impl<'s> Walk<'s> {
@@ -335,7 +344,8 @@ impl<'s> Walk<'s> {
     }
 
     /// Goes on to the next leaf with a key up to `most`, and writes that leaf to `visit`. Returns
-    /// whether there is one. `None` says that the tree is unchecked: the loop carries no other error.
+    /// whether there is one. `None` says that the tree is unchecked: the loop carries no other
+    /// error.
     ///
     /// On boards it is a call, and all questions about a point share it.
     #[cfg_attr(meshsweep_wide, inline(always))]
@@ -382,12 +392,12 @@ impl<'s> Walk<'s> {
                     }
                 },
             };
-            bound = entry.small_word() & !CHILD_MASK;
+            bound = entry.key_bits() & !CHILD_MASK;
             if child.is_leaf() {
                 let leaf = tree.leaf_at(child.at, child.shape)?;
                 work.triangles += child.shape.triangles() as u32;
                 self.least_first = self.limit.is_short;
-                let child = entry.small_word() & CHILD_MASK;
+                let child = entry.key_bits() & CHILD_MASK;
                 *visit = LeafVisit { leaf, key: bound, node: entry.node(), child };
                 return Some(true);
             }
@@ -452,7 +462,7 @@ impl<'s> Walk<'s> {
             let mut entry = self.stack.entries.get(top).copied()?;
             let is_least =
                 self.least_first && self.limit.take_least(&mut self.stack, work, &mut entry);
-            if entry.small_word() <= most {
+            if entry.key_bits() <= most {
                 return Some(Some(entry));
             }
             if is_least {

@@ -59,7 +59,8 @@ pub struct IntPoint {
     pub at: IntVector,
     /// Eighths above `at`, 0 to 7, rounded down.
     pub eighths: IntVector,
-    /// Units of 2^-[`FINE_BITS`] above those, rounded down. Bytes: targets with an FPU copy them too.
+    /// Units of 2^-[`FINE_BITS`] above those, rounded down. Bytes: targets with an FPU copy them
+    /// too.
     rest: [u8; 3],
 }
 

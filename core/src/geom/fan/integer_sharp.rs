@@ -2,8 +2,8 @@
 //! that [`integer_bounds`](super::integer_bounds()) leaves.
 //!
 //! Its plane is across the triangle's normal, or across the way that is orthogonal to the nearest
-//! edge. The direction of `integer_bounds` is off by the rounding of the estimated point, which a long
-//! needle multiplies. Proof: `core/docs/rounding.md` §8, "Whole numbers".
+//! edge. The direction of `integer_bounds` is off by the rounding of the estimated point, which a
+//! long needle multiplies. Proof: `core/docs/rounding.md` §8, "Whole numbers".
 
 use super::integer::{FINE_BITS, IntPoint, IntVector, ONE, less, weights};
 use super::integer_limit::IntLower;
@@ -21,7 +21,8 @@ fn dot([a, b, c]: Wide, [x, y, z]: Wide) -> i64 {
     a * x + b * y + c * z
 }
 
-/// A lower bound of the distance of a triangle. Its corners are on the grid, from the grid's origin.
+/// A lower bound of the distance of a triangle. Its corners are on the grid, from the grid's
+/// origin.
 #[inline(never)]
 pub fn sharp_lower(p: &IntPoint, &[a, b, c]: &[IntVector; 3]) -> IntLower {
     let (s, e, g) = (less(p.at, a), less(b, a), less(c, a));
@@ -44,7 +45,8 @@ pub fn sharp_lower(p: &IntPoint, &[a, b, c]: &[IntVector; 3]) -> IntLower {
     let [x, y, z] = away.map(i64::unsigned_abs);
     let size = 64 - (x | y | z).leading_zeros();
     let direction = away.map(|x| x >> size.saturating_sub(DIRECTION_BITS));
-    // The point is rounded down by a unit at most, and its difference from the grid's origin by two.
+    // The point is rounded down by a unit at most, and its difference from the grid's origin by
+    // two.
     let room = 3 * direction.into_iter().fold(0, |sum, x| sum + x.abs());
     let corners = dot(direction, e).max(dot(direction, g)).max(0) << FINE_BITS;
     let least = dot(direction, offset) - room;

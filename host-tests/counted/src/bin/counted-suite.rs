@@ -1,5 +1,5 @@
-//! `counted-suite IMAGE BLOB BLOCKS`: asks a blob the questions of a firmware image. A line for each
-//! kind of query, in the order of callgrind's dumps.
+//! `counted-suite IMAGE BLOB BLOCKS`: asks a blob the questions of a firmware image. A line for
+//! each kind of query, in the order of callgrind's dumps.
 
 use std::process::ExitCode;
 

@@ -1,5 +1,5 @@
-//! FCPW: the fastest closest points in the West (Sawhney 2021), with its vectors, in a child process
-//! of C++.
+//! FCPW: the fastest closest points in the West (Sawhney 2021), with its vectors, in a child
+//! process of C++.
 //!
 //! No package has its vectorised code. `MESHSWEEP_FCPW` names a folder with FCPW's sources:
 //!

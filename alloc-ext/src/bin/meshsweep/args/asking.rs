@@ -297,9 +297,9 @@ pub struct ClearanceArgs {
     pub within: Option<f32>,
     /// Moves of the second mesh from each pose to the next, straight or screw
     ///
-    /// straight moves each point along a line; screw moves the mesh as a rigid body. The answer says
-    /// whether each move is clear for its whole length, or until when. With --within D clear is
-    /// farther than D.
+    /// straight moves each point along a line; screw moves the mesh as a rigid body. The answer
+    /// says whether each move is clear for its whole length, or until when. With --within D clear
+    /// is farther than D.
     #[arg(
         long,
         value_enum,

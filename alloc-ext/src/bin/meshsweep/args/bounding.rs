@@ -92,8 +92,8 @@ pub struct HullArgs {
     pub read: ReadArgs,
     /// Bits of a coordinate of a mesh's hull: auto, 16, 24 or 32
     ///
-    /// 16 and 24 move the mesh to a grid. 32 is single precision. auto is 32, or the fewest that hold
-    /// the mesh exactly if the hull is progressive.
+    /// 16 and 24 move the mesh to a grid. 32 is single precision. auto is 32, or the fewest that
+    /// hold the mesh exactly if the hull is progressive.
     #[arg(
         long,
         value_enum,

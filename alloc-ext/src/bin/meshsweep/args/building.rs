@@ -181,7 +181,11 @@ impl BuildArgs {
 #[derive(Debug, Args)]
 pub struct CollapseArgs {
     /// Largest valence of a hull vertex [default: 12]
-    #[arg(long, value_name = "EDGES", value_parser = whole::<{ MAX_VALENCE[0] }, { MAX_VALENCE[1] }>)]
+    #[arg(
+        long,
+        value_name = "EDGES",
+        value_parser = whole::<{ MAX_VALENCE[0] }, { MAX_VALENCE[1] }>
+    )]
     pub max_valence: Option<u32>,
     /// Least ratio of a star's worst compactness after a collapse to that before it [default: 0.8]
     #[arg(long, value_name = "RATIO", value_parser = ratio)]

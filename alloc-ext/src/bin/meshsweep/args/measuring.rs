@@ -13,7 +13,8 @@ pub struct TradeArgs {
     /// Points that are asked: near, far, path; or a file of your own points, in its order
     ///
     /// near is near the surface; far is in a box twice the mesh's; path is a path near the surface,
-    /// in steps of 0.1 % of the diagonal. A file of such a name is named with its directory: ./near.
+    /// in steps of 0.1 % of the diagonal. A file of such a name is named with its directory:
+    /// ./near.
     #[arg(long, value_name = "near|far|path|FILE", default_value = "near", value_parser = at)]
     pub at: At,
     /// Number of points, unless they are from a file

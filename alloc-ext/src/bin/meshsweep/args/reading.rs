@@ -10,6 +10,8 @@ use std::num::NonZeroUsize;
 #[derive(Debug, Args)]
 pub struct ReadArgs {
     /// Format of a mesh from the standard input, which is named '-'
+    ///
+    /// One of stl, ply, obj, off, glb, gltf, 3mf and dae; for build and verify also csv.
     #[arg(
         long,
         value_name = "FORMAT",

@@ -71,8 +71,8 @@ pub fn write(
     writeln!(
         out,
         "{:.0} % of the triangles are needles, fifty times as long as high: they take more \
-         instructions than\npredicted, of a comb of needles {m4f} times as many on a Cortex-M4F and \
-         {m0} times on a Cortex-M0",
+         instructions than\npredicted, of a comb of needles {m4f} times as many on a Cortex-M4F \
+         and {m0} times on a Cortex-M0",
         100.0 * trade.needles
     )
 }

@@ -6,7 +6,7 @@ use crate::bvh::pair::from_afar::from_afar;
 use crate::bvh::pair::models::numbers;
 use crate::bvh::pair::stored_pair::StoredPair;
 use crate::num::tolerance::U64;
-use crate::query::{PairWithin, QueryError, Undecided, Verdict, Work};
+use crate::query::{Decided, QueryError, Verdict, Witness, Work};
 
 /// The visitor that wants a pair within a distance.
 pub(crate) struct Threshold<'a> {
@@ -15,16 +15,14 @@ pub(crate) struct Threshold<'a> {
     distance: f32,
     /// Common units.
     limit: f64,
-    /// A pair that is certainly within.
-    pub(crate) near: Option<TriangleGap>,
-    /// A pair that may be within.
-    undecided: Option<TriangleGap>,
+    /// A pair that is certainly within, one that may be.
+    pub(crate) found: Witness<TriangleGap>,
 }
 
 impl<'a> Threshold<'a> {
     pub(crate) fn new(pair: &'a StoredPair<'a>, distance: f32) -> Self {
         let limit = (pair.lengths.inward(distance) + pair.lengths.error) * (1.0 + 8.0 * U64);
-        Threshold { pair, distance, limit, near: None, undecided: None }
+        Threshold { pair, distance, limit, found: Witness::NONE }
     }
 
     /// The answer after a search.
@@ -32,22 +30,18 @@ impl<'a> Threshold<'a> {
         &self,
         missed: Option<Missed>,
         work: Work,
-    ) -> Result<PairWithin, QueryError> {
+    ) -> Result<Decided<[u32; 2]>, QueryError> {
         let &Threshold { pair, distance, .. } = self;
-        let (verdict, gap) = match (self.near, missed, self.undecided) {
-            (Some(gap), _, _) => (Verdict::Yes, Some(gap)),
-            (None, Some(missed), _) => {
-                let far = from_afar(pair).ok_or(QueryError::Unchecked)?;
-                let is_apart = pair.lengths.lower(far.lower) > distance;
-                let open = Verdict::Undecided(missed.why.undecided());
-                (if is_apart { Verdict::No } else { open }, None)
+        let (mut verdict, gap) = self.found.answer(missed.map(|missed| missed.why));
+        if missed.is_some() && self.found.met.is_none() {
+            let far = from_afar(pair).ok_or(QueryError::Unchecked)?;
+            if pair.lengths.lower(far.lower) > distance {
+                verdict = Verdict::No;
             }
-            (None, None, Some(gap)) => (Verdict::Undecided(Undecided::Resolution), Some(gap)),
-            (None, None, None) => (Verdict::No, None),
-        };
+        }
         let [a, b] = pair.trees;
         let numbers = |gap: TriangleGap| numbers(a, b, gap.place).ok_or(QueryError::Unchecked);
-        Ok(PairWithin { verdict, triangles: gap.map(numbers).transpose()?, work })
+        Ok(Decided { verdict, witness: gap.map(numbers).transpose()?, work })
     }
 }
 
@@ -60,11 +54,11 @@ impl GapVisitor for Threshold<'_> {
     #[inline(always)]
     fn take(&mut self, gap: &TriangleGap) -> bool {
         if gap.meets || self.pair.lengths.upper(gap.upper) <= self.distance {
-            self.near = Some(*gap);
+            self.found.met = Some(*gap);
             return false;
         }
-        if self.undecided.is_none() && self.pair.lengths.lower(gap.lower) <= self.distance {
-            self.undecided = Some(*gap);
+        if self.found.may.is_none() && self.pair.lengths.lower(gap.lower) <= self.distance {
+            self.found.may = Some(*gap);
         }
         true
     }

@@ -48,12 +48,12 @@ impl Bvh<'_> {
     /// tried as soon as the interval meets a tolerance.
     ///
     /// Cost: of solids that are apart, a [`distance_to`](Bvh::distance_to), and a
-    /// [`signed_distance_by_winding`](Bvh::signed_distance_by_winding) for each box of either tree that is the first
-    /// on its branch to be farther from the other surface than it is large. Of others at most 320
-    /// points, each asked for in both trees; a dozen translations from afar, with a
-    /// [`first_contact_of`](Bvh::first_contact_of) each; and 17 short ones for each factor of 1.5
-    /// between both ends, with a [`within_of`](Bvh::within_of) each. Of solids that only touch
-    /// there are 35 such factors.
+    /// [`signed_distance_by_winding`](Bvh::signed_distance_by_winding) for each box of either tree
+    /// that is the first on its branch to be farther from the other surface than it is large. Of
+    /// others at most 320 points, each asked for in both trees; a dozen translations from afar,
+    /// with a [`first_contact_of`](Bvh::first_contact_of) each; and 17 short ones for each factor
+    /// of 1.5 between both ends, with a [`within_of`](Bvh::within_of) each. Of solids that only
+    /// touch there are 35 such factors.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Pose, Relation, Scratch};
@@ -66,8 +66,8 @@ impl Bvh<'_> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`distance_to`](Bvh::distance_to), [`signed_distance_by_winding`](Bvh::signed_distance_by_winding) and
-    /// [`Pose::to_model`].
+    /// Those of [`distance_to`](Bvh::distance_to),
+    /// [`signed_distance_by_winding`](Bvh::signed_distance_by_winding) and [`Pose::to_model`].
     #[inline(never)]
     pub fn penetration(
         &self,

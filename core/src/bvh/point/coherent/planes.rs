@@ -33,8 +33,8 @@ impl Planes {
     pub(crate) const EMPTY: Planes =
         Planes([Plane { normal: Vec3::ZERO, offset: 0.0, of: u32::MAX }; PLANES]);
 
-    /// Lower bound of the distance of a leaf, grid units. Negative without a plane. `from_middle` leads
-    /// from the model's middle to the query.
+    /// Lower bound of the distance of a leaf, grid units. Negative without a plane. `from_middle`
+    /// leads from the model's middle to the query.
     #[inline(always)]
     pub(crate) fn bound(&self, child: Child, from_middle: Vec3) -> f32 {
         match self.0.get(slot_of(child)) {

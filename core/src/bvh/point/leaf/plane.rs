@@ -53,7 +53,8 @@ impl Residual {
     }
 }
 
-/// A plane across the residual of the best triangle. Coordinates are grid units from the grid's origin.
+/// A plane across the residual of the best triangle. Coordinates are grid units from the grid's
+/// origin.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(
     all(not(test), meshsweep_wide),
@@ -82,8 +83,8 @@ impl LeafPlane {
 
 #[cfg(any(test, not(meshsweep_wide)))]
 impl LeafPlane {
-    /// The plane across `residual`, whose square is `distance_sq`. What is behind it is farther from
-    /// `at` than the root of `limit`.
+    /// The plane across `residual`, whose square is `distance_sq`. What is behind it is farther
+    /// from `at` than the root of `limit`.
     ///
     /// Without a root: |n|·L ≤ (|n|²/2^k + L²·2^k)/2 for any k. Proof: `core/docs/rounding.md` §8,
     /// "Left out".
@@ -137,8 +138,8 @@ impl LeafPlane {
         a | b | c != 0
     }
 
-    /// Triangles of a leaf that are not behind the plane: bits, the first triangle's lowest. A call,
-    /// for the caller's numbers would leave no registers for the rows.
+    /// Triangles of a leaf that are not behind the plane: bits, the first triangle's lowest. A
+    /// call, for the caller's numbers would leave no registers for the rows.
     #[inline(never)]
     pub(crate) fn in_front(&self, ring: &FullRing<'_>, shape: LeafShape) -> u32 {
         let [a, b, c] = self.normal;

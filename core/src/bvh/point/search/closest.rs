@@ -1,5 +1,5 @@
-//! The search of a closest point, whatever the order of its leaves: the best triangle, the limit that
-//! it gives, slivers, and the answer.
+//! The search of a closest point, whatever the order of its leaves: the best triangle, the limit
+//! that it gives, slivers, and the answer.
 
 #[cfg(not(meshsweep_wide))]
 use super::waiting::Waiting;
@@ -34,7 +34,8 @@ pub(crate) struct Best {
     pub(crate) lanes: Lanes,
 }
 
-/// The nearest triangle of a leaf. Triangles that are proved to be beyond the limit may be left out.
+/// The nearest triangle of a leaf. Triangles that are proved to be beyond the limit may be left
+/// out.
 pub(crate) trait NearestOfLeaf:
     Fn(&FanLeaf<'_>, &PointQuery, &LeafLimit) -> Option<LeafNearest>
 {

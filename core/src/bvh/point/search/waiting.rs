@@ -11,7 +11,8 @@ const ROOM: usize = if SOFT_FLOAT { 8 } else { 0 };
 #[derive(Clone, Copy)]
 pub(crate) struct WaitingTriangle {
     pub(crate) node: u32,
-    /// The leaf's number among the children of `node`, then the triangle's, then its nearest corner.
+    /// The leaf's number among the children of `node`, then the triangle's, then its nearest
+    /// corner.
     pub(crate) place: u32,
     /// [`LeafVisit::key`].
     pub(crate) key: u32,

@@ -1,10 +1,10 @@
 //! A closest point on processors without floating point: triangles wait for the f32 kernel until
 //! integers know no more.
 //!
-//! Integers bound the distance of a triangle from both sides (`geom/fan/integer.rs`). The least upper
-//! bound limits the descent. So the kernel looks only at the triangles that no plane parts from the
-//! query in the end, most often one, and not at each triangle that was the nearest for a while.
-//! Proof: `core/docs/rounding.md` §8, "Limits by upper bounds".
+//! Integers bound the distance of a triangle from both sides (`geom/fan/integer.rs`). The least
+//! upper bound limits the descent. So the kernel looks only at the triangles that no plane parts
+//! from the query in the end, most often one, and not at each triangle that was the nearest for a
+//! while. Proof: `core/docs/rounding.md` §8, "Limits by upper bounds".
 
 use super::closest::{Closest, NearestOfLeaf};
 use super::waiting::{Waiting, WaitingTriangle};

@@ -1,8 +1,8 @@
 //! A glance at a segment and the model's box, in f32 with early exits.
 //!
-//! A product, sum or difference only grows with the margin. A length that is not beyond the projection
-//! without a margin is not beyond it in [`misses`](SegmentAndBox::misses). A length that is beyond
-//! the projection with a greater margin is beyond it there too.
+//! A product, sum or difference only grows with the margin. A length that is not beyond the
+//! projection without a margin is not beyond it in [`misses`](SegmentAndBox::misses). A length that
+//! is beyond the projection with a greater margin is beyond it there too.
 
 use super::{Glance, SegmentAndBox};
 use crate::num::tolerance::{BVH_FAR, LEAST_DENOMINATOR, U32};

@@ -41,7 +41,7 @@ impl Stack<'_> {
                     *slot = *entry;
                     self.used += 1;
                 }
-                None => self.dropped = lesser(self.dropped, entry.small_word()),
+                None => self.dropped = lesser(self.dropped, entry.key_bits()),
             }
         }
     }
@@ -50,7 +50,7 @@ impl Stack<'_> {
     #[inline(always)]
     pub(crate) fn pop_up_to(&mut self, most: u32) -> Option<Option<ScratchEntry>> {
         let waiting = self.entries.get(..self.used)?;
-        let top = waiting.iter().rposition(|entry| entry.small_word() <= most);
+        let top = waiting.iter().rposition(|entry| entry.key_bits() <= most);
         self.used = top.unwrap_or(0);
         match top {
             Some(top) => Some(Some(waiting.get(top).copied()?)),

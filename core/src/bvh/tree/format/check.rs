@@ -106,9 +106,10 @@ impl<'a> Bvh<'a> {
     /// Verified means: [`open`](Self::open) once accepted these bytes, for example on the host, and
     /// something else guards them since, such as the signature of the firmware. Of bytes that were
     /// changed since, any answer of this tree may be wrong. All the same no question panics in a
-    /// release build or reads outside of the bytes, and each ends. A search opens at most
-    /// twice as many nodes as the tree has, and one. A search in two trees of n and m nodes opens up to 81·n·m pairs, which
-    /// may take minutes: give that search a budget of steps. Nothing marks a wrong answer.
+    /// release build or reads outside of the bytes, and each ends. A search opens at most twice as
+    /// many nodes as the tree has, and one. A search in two trees of n and m nodes opens up to
+    /// 81·n·m pairs, which may take minutes: give that search a budget of steps. Nothing marks a
+    /// wrong answer.
     ///
     /// Cost: none in a constant; else some thousand instructions.
     ///

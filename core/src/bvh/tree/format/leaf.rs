@@ -277,8 +277,8 @@ impl<'a> FanLeaf<'a> {
         self.vertex(6 * which, 2)
     }
 
-    /// The vertex with coordinates at bytes `at`, `at + step` and `at + 2·step` of a leaf on the grid.
-    /// An f32 leaf has twice the offsets. On boards a call: reading a vertex is much code.
+    /// The vertex with coordinates at bytes `at`, `at + step` and `at + 2·step` of a leaf on the
+    /// grid. An f32 leaf has twice the offsets. On boards a call: reading a vertex is much code.
     #[cfg_attr(meshsweep_wide, inline(always))]
     fn vertex(&self, at: usize, step: usize) -> Vec3 {
         if self.is_f32 {

@@ -1,9 +1,9 @@
 //! Integer pretest: most triangles of a leaf are far from a segment's line, and few products prove
 //! it. For targets without an FPU: with one, the kernel in f32 is no slower.
 //!
-//! The *shadow* of a vertex (u, v, w), w along the line's dominant axis, is
-//! (u − at_u − slope_u·w, v − at_v − slope_v·w). The line's own shadow is the origin. The line misses
-//! a triangle if it is certainly left of one edge and right of another.
+//! The *shadow* of a vertex (u, v, w), w along the line's dominant axis, is (u − at_u − slope_u·w,
+//! v − at_v − slope_v·w). The line's own shadow is the origin. The line misses a triangle if it is
+//! certainly left of one edge and right of another.
 //!
 //! The tests decide "clear" and nothing else. All other triangles go to the kernel in f32, whose
 //! answer alone counts. So every bit is the same with and without these tests. Margins:

@@ -38,8 +38,8 @@ pub(super) fn push(
     let &OpenedNode { node, count, bound, limit } = opened;
     let mut pusher = Pusher::new(node, slots);
     let Fraction { bits, steep } = ray.fraction;
-    // What does not fit counts as after all parameters. As one of an axis it is beyond `MOST`, and the
-    // node is decided in f32.
+    // What does not fit counts as after all parameters. As one of an axis it is beyond `MOST`, and
+    // the node is decided in f32.
     let whole = |x: f32| truncated(x, bits).unwrap_or(-BEFORE);
     let (first, last) = (whole(f32::from_bits(bound)), whole(f32::from_bits(limit)));
     let (mut parameters, mut steps) = (0, 0);

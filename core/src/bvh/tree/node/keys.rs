@@ -39,8 +39,8 @@ mod vector {
     use wide::bytemuck::cast;
     use wide::{i8x16, i16x8, i32x4, i32x8};
 
-    /// The bits that each key has besides its bound, by child count: the child's number, and from the
-    /// count on [`NO_CHILD`].
+    /// The bits that each key has besides its bound, by child count: the child's number, and from
+    /// the count on [`NO_CHILD`].
     pub(crate) const OTHER_BITS: [[u32; WIDTH]; WIDTH + 1] = {
         let mut table = [[0; WIDTH]; WIDTH + 1];
         let mut count = 0;

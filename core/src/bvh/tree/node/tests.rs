@@ -135,7 +135,7 @@ fn exactly_the_children_within_the_limit_are_pushed_in_order() {
                 let entries = &slots[..pushed.count];
                 assert!(entries.iter().all(|entry| entry.node() == 5));
                 let entries: Vec<u32, WIDTH> =
-                    entries.iter().map(|entry| entry.small_word()).collect();
+                    entries.iter().map(|entry| entry.key_bits()).collect();
                 assert_eq!(entries, within, "{point:?}, {count} of {record:?}");
             }
         }
@@ -265,7 +265,7 @@ fn entries_have_the_same_bits() {
             let nearest = narrow.into_iter().min().unwrap_or(NO_CHILD);
             assert_eq!(pushed.nearest, nearest, "{ray:?}, {count} of {record:?}");
             let others = narrow.into_iter().filter(|&key| key < NO_CHILD && key != nearest);
-            let entries = slots[..pushed.count].iter().map(|entry| entry.small_word());
+            let entries = slots[..pushed.count].iter().map(|entry| entry.key_bits());
             assert!(others.eq(entries), "{ray:?}, {count} of {record:?}");
         }
     }
