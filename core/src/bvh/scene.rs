@@ -122,9 +122,9 @@ impl<'s, 'a> Scene<'s, 'a> {
     ///
     /// Pairs, units and poses as for [`nearest_pair`](Self::nearest_pair). Both verdicts are
     /// proved. It ends at the first pair that certainly is. The witness of a `Yes` is this pair,
-    /// indices into the models; that of an undecided verdict is the first undecided pair. A distance of 0 asks whether surfaces
-    /// meet; it is answered by `No` or left undecided, because poses are rounded: take an undecided
-    /// answer as `Yes`.
+    /// indices into the models; that of an undecided verdict is the first undecided pair. A
+    /// distance of 0 asks whether surfaces meet; it is answered by `No` or left undecided, because
+    /// poses are rounded: take an undecided answer as `Yes`.
     ///
     /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. Of the
     /// budget only `steps` matters, those of all pairs together.

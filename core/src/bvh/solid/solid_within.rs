@@ -1,13 +1,12 @@
 //! Whether a convex solid and the surface are within a distance of each other.
 
 use super::box_keys::ByDistance;
-use super::leaf_search::{GapVisitor, LeafSearch, TriangleGap};
+use super::leaf_search::LeafSearch;
 use super::placed::PlacedSolid;
 use crate::bvh::tree::descent::descend;
 use crate::bvh::tree::format::Bvh;
-use crate::bvh::tree::triangle_at::TriangleAt;
-use crate::num::tolerance::U64;
-use crate::query::{Budget, Decided, QueryError, ScratchEntry, Solid, Witness, Work};
+use crate::bvh::tree::gap::GapThreshold;
+use crate::query::{Budget, Decided, QueryError, ScratchEntry, Solid, Work};
 
 impl Bvh<'_> {
     /// Whether a point of `solid` is at most `distance` from the surface. All lengths in input
@@ -57,14 +56,7 @@ impl Bvh<'_> {
         budget.check_with(scratch)?;
         let mut placed = PlacedSolid::NONE;
         placed.set(self, solid, None)?;
-        let lengths = &placed.lengths;
-        let kept_distance = lengths.inward(distance) + placed.radius + lengths.error;
-        let threshold = Threshold {
-            placed: &placed,
-            distance,
-            limit: kept_distance * (1.0 + 8.0 * U64),
-            found: Witness::NONE,
-        };
+        let threshold = GapThreshold::new(&placed.lengths, placed.radius, distance);
         let mut work = Work::default();
         let mut search = LeafSearch::new(&placed, threshold);
         let query = ByDistance(&placed);
@@ -74,34 +66,5 @@ impl Bvh<'_> {
         let witness =
             place.map(|place| place.source(self).ok_or(QueryError::Unchecked)).transpose()?;
         Ok(Decided { verdict, witness, work })
-    }
-}
-
-struct Threshold<'a> {
-    placed: &'a PlacedSolid,
-    /// Input units.
-    distance: f32,
-    /// Of the hull of the corners, stored units.
-    limit: f64,
-    /// A triangle that is certainly within, one that may be.
-    found: Witness<TriangleAt>,
-}
-
-impl GapVisitor for Threshold<'_> {
-    #[inline(always)]
-    fn limit(&self) -> f64 {
-        self.limit
-    }
-
-    fn take(&mut self, found: &TriangleGap) -> bool {
-        let distance = self.placed.distance(found.gap.lower, found.gap.upper);
-        if self.placed.meets(found) || distance.upper <= self.distance {
-            self.found.met = Some(found.place);
-            return false;
-        }
-        if self.found.may.is_none() && distance.lower <= self.distance {
-            self.found.may = Some(found.place);
-        }
-        true
     }
 }
