@@ -147,12 +147,12 @@ impl Distances<'_> {
             Self::Tight(hull) => hull.within(point, distance, budget, scratch)?,
             Self::Curve(curve) => {
                 let found = curve.within(point, distance, budget, scratch)?;
-                let element = found.segment.map(Element::Segment);
+                let element = found.witness.map(Element::Segment);
                 return Ok(AnyWithin { verdict: found.verdict, element, work: found.work });
             }
             Self::Hull(_) => return Err(QueryError::NotServed { build_for: BuildFor::Closest }),
         };
-        let element = found.triangle.map(Element::Triangle);
+        let element = found.witness.map(Element::Triangle);
         Ok(AnyWithin { verdict: found.verdict, element, work: found.work })
     }
 }

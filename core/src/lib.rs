@@ -95,24 +95,23 @@ mod tribox;
 
 pub use blob::Blob;
 pub use bvh::{
-    AllWithin, AnyHit, Bvh, CoherentClosest, CoherentPair, CoherentQuery, Eye, Facing, FrontFacing,
-    Hint, KNearest, Neighbor, PlacedModel, ProcessorQuestions, Scene, SceneDistance, SceneWithin,
-    WindingNumber, Within,
+    AllWithin, Bvh, CoherentClosest, CoherentPair, CoherentQuery, Eye, Facing, FrontFacing, Hint,
+    KNearest, Neighbor, PlacedModel, ProcessorQuestions, Scene, SceneDistance, WindingNumber,
 };
-pub use curve::{Curve, CurveClosest, CurveSegment, CurveWithin};
+pub use curve::{Curve, CurveClosest, CurveSegment};
 pub use format::layout::{BuildFor, SectionKind};
 pub use format::{Contradiction, HeaderField, OpenError, Section};
 pub use geom::Pose;
 pub use hull::format::VertIdx;
 pub use hull::{
     DeformableHull, Focus, FrameHull, Hull, HullFace, HullLevel, MovedHull, MovedVertex, OuterHits,
-    OuterSearch, RefinedHull, Refinement, SplitChange, Sweep, TriangleOverlap,
+    OuterSearch, RefinedHull, Refinement, SplitChange, Sweep,
 };
 pub use query::{
-    AllHits, AllOverlaps, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Motion, Overlap,
-    PairContact, PairDistance, PairWithin, Penetration, PosedPoint, QueryError, Relation, Scratch,
-    ScratchEntry, Side, SignedDistance, Solid, SolidDistance, SolidWithin, TriangleHit,
-    TrianglePair, Undecided, Verdict, Work,
+    AllHits, AllOverlaps, Budget, ClosestPoint, Decided, Ended, FirstHit, Hit, Interval, Motion,
+    PairContact, PairDistance, Penetration, PosedPoint, QueryError, Relation, Scratch,
+    ScratchEntry, Side, SignedDistance, Solid, SolidDistance, TriangleHit, TrianglePair, Undecided,
+    Verdict, Work,
 };
 pub use tight::{TightHull, TightHulls, TightRecord};
 pub use tribox::{

@@ -213,7 +213,7 @@ fn points(model: &Bvh<'_>) -> Result<String, QueryError> {
         let found = model.within(kind.point(), 20.0, budget, &mut scratch[..entries(round)])?;
         kind.words(&[0]);
         kind.verdict(found.verdict);
-        kind.words(&[found.triangle.unwrap_or(u32::MAX)]);
+        kind.words(&[found.witness.unwrap_or(u32::MAX)]);
         kind.work(found.work);
         Ok(())
     })?;
@@ -313,7 +313,7 @@ fn two_models(model: &Bvh<'_>) -> Result<String, QueryError> {
         let found = model.overlap(model, pose, budget, scratch)?;
         kind.words(&[0]);
         kind.verdict(found.verdict);
-        kind.words(&found.triangles.unwrap_or([u32::MAX; 2]));
+        kind.words(&found.witness.unwrap_or([u32::MAX; 2]));
         kind.work(found.work);
         Ok(())
     })?;
@@ -324,7 +324,7 @@ fn two_models(model: &Bvh<'_>) -> Result<String, QueryError> {
         let found = scene.within(4.0, is_asked, budget, scratch)?;
         kind.words(&[0]);
         kind.verdict(found.verdict);
-        kind.words(&found.models.map_or([u32::MAX; 2], |pair| pair.map(|index| index as u32)));
+        kind.words(&found.witness.map_or([u32::MAX; 2], |pair| pair.map(|index| index as u32)));
         kind.work(found.work);
         Ok(())
     })?;
@@ -342,7 +342,7 @@ fn tight_hull(hulls: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
             let found = hull.within(point, 20.0, budget(round), scratch)?;
             kind.words(&[0]);
             kind.verdict(found.verdict);
-            kind.words(&[found.triangle.unwrap_or(u32::MAX)]);
+            kind.words(&[found.witness.unwrap_or(u32::MAX)]);
             kind.work(found.work);
         }
     }
@@ -357,7 +357,7 @@ fn tight_hull(hulls: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
         }
         kind.words(&[0]);
         kind.verdict(found.verdict);
-        kind.words(&found.models.map_or([u32::MAX; 2], |pair| pair.map(|index| index as u32)));
+        kind.words(&found.witness.map_or([u32::MAX; 2], |pair| pair.map(|index| index as u32)));
         kind.work(found.work);
         Ok(())
     })?;

@@ -2,7 +2,7 @@
 
 use core::ops::Deref;
 use meshsweep_core::{
-    AnyHit, Budget, Bvh, ClosestPoint, Facing, FirstHit, Hint, ProcessorQuestions, QueryError,
+    Budget, Bvh, ClosestPoint, Decided, Facing, FirstHit, Hint, ProcessorQuestions, QueryError,
     ScratchEntry,
 };
 
@@ -109,7 +109,7 @@ impl<'a> FastBvh<'a> {
         facing: Facing,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<AnyHit, QueryError> {
+    ) -> Result<Decided<()>, QueryError> {
         (self.questions.any_hit)(&self.tree, a, b, facing, budget, scratch)
     }
 }

@@ -4,8 +4,8 @@
 #![allow(missing_docs, reason = "meshsweep.h says it")]
 
 use meshsweep_core::{
-    ClosestPoint, CoherentClosest, Ended, FirstHit, Interval, KNearest, Neighbor, Overlap, Side,
-    SignedDistance, Undecided, Verdict, WindingNumber, Within, Work,
+    ClosestPoint, CoherentClosest, Decided, Ended, FirstHit, Interval, KNearest, Neighbor, Side,
+    SignedDistance, Undecided, Verdict, WindingNumber, Work,
 };
 
 /// `MSW_NO_TRIANGLE`.
@@ -270,10 +270,10 @@ impl From<FirstHit> for HitC {
     }
 }
 
-impl From<Within> for WithinC {
-    fn from(found: Within) -> Self {
+impl From<Decided<u32>> for WithinC {
+    fn from(found: Decided<u32>) -> Self {
         let (verdict, reason) = verdict(found.verdict);
-        let triangle = found.triangle.unwrap_or(NO_TRIANGLE);
+        let triangle = found.witness.unwrap_or(NO_TRIANGLE);
         WithinC { verdict, reason, triangle, work: found.work.into() }
     }
 }
@@ -299,10 +299,10 @@ impl From<KNearest> for NearestC {
     }
 }
 
-impl From<Overlap> for OverlapC {
-    fn from(found: Overlap) -> Self {
+impl From<Decided<[u32; 2]>> for OverlapC {
+    fn from(found: Decided<[u32; 2]>) -> Self {
         let (verdict, reason) = verdict(found.verdict);
-        let triangles = found.triangles.unwrap_or([NO_TRIANGLE; 2]);
+        let triangles = found.witness.unwrap_or([NO_TRIANGLE; 2]);
         OverlapC { verdict, reason, triangles, work: found.work.into() }
     }
 }

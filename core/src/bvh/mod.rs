@@ -45,10 +45,10 @@ mod winding;
 
 pub use pair::{CoherentPair, PlacedModel};
 pub use point::{
-    AllWithin, CoherentClosest, CoherentQuery, Eye, FrontFacing, Hint, KNearest, Neighbor, Within,
+    AllWithin, CoherentClosest, CoherentQuery, Eye, FrontFacing, Hint, KNearest, Neighbor,
 };
 pub use processor::ProcessorQuestions;
-pub use scene::{Scene, SceneDistance, SceneWithin};
-pub use segment::{AnyHit, Facing};
+pub use scene::{Scene, SceneDistance};
+pub use segment::Facing;
 pub use tree::format::Bvh;
 pub use winding::WindingNumber;

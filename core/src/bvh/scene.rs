@@ -5,7 +5,9 @@
 
 use crate::bvh::pair::placed::{PlacedModel, Relative, WorldBox, check_pose};
 use crate::num::{greater, lesser};
-use crate::query::{Budget, Ended, Interval, QueryError, ScratchEntry, Undecided, Verdict, Work};
+use crate::query::{
+    Budget, Decided, Ended, Interval, QueryError, ScratchEntry, Undecided, Verdict, Work,
+};
 
 /// Models at their places in the world. A model may stand in it several times.
 #[derive(Clone, Copy, Debug)]
@@ -34,26 +36,6 @@ pub struct SceneDistance {
     pub work: Work,
     /// Why the search ended.
     pub ended: Ended,
-}
-
-/// Whether any two models of a [`Scene`] are within a distance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub struct SceneWithin {
-    /// `No`: all pairs asked about are farther from each other. `Yes`: one is not.
-    pub verdict: Verdict,
-    /// With `Yes` a pair that is within the distance, else the first undecided one.
-    pub models: Option<[usize; 2]>,
-    /// The work, as in [`SceneDistance::work`].
-    pub work: Work,
-}
-
-impl SceneWithin {
-    /// Whether it is proved that all pairs are farther from each other.
-    pub fn is_clear(&self) -> bool {
-        self.verdict == Verdict::No
-    }
 }
 
 impl<'s, 'a> Scene<'s, 'a> {
@@ -139,9 +121,10 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// Whether the surfaces of any two models are at most `distance` apart in the world.
     ///
     /// Pairs, units and poses as for [`nearest_pair`](Self::nearest_pair). Both verdicts are
-    /// proved. It ends at the first pair that certainly is. A distance of 0 asks whether surfaces
-    /// meet; it is answered by `No` or left undecided, because poses are rounded: take an undecided
-    /// answer as `Yes`.
+    /// proved. It ends at the first pair that certainly is. The witness of a `Yes` is this pair,
+    /// indices into the models; that of an undecided verdict is the first undecided pair. A
+    /// distance of 0 asks whether surfaces meet; it is answered by `No` or left undecided, because
+    /// poses are rounded: take an undecided answer as `Yes`.
     ///
     /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. Of the
     /// budget only `steps` matters, those of all pairs together.
@@ -159,7 +142,7 @@ impl<'s, 'a> Scene<'s, 'a> {
         asks_about: impl Fn(usize, usize) -> bool,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<SceneWithin, QueryError> {
+    ) -> Result<Decided<[usize; 2]>, QueryError> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check_with(scratch)?;
         self.check_poses()?;
@@ -194,16 +177,16 @@ impl<'s, 'a> Scene<'s, 'a> {
                 };
             }
             match verdict {
-                Verdict::Yes => return Ok(SceneWithin { verdict, models: Some(pair), work }),
+                Verdict::Yes => return Ok(Decided { verdict, witness: Some(pair), work }),
                 Verdict::Undecided(why) if undecided.is_none() => undecided = Some((why, pair)),
                 _ => {}
             }
         }
         Ok(match undecided {
             Some((why, pair)) => {
-                SceneWithin { verdict: Verdict::Undecided(why), models: Some(pair), work }
+                Decided { verdict: Verdict::Undecided(why), witness: Some(pair), work }
             }
-            None => SceneWithin { verdict: Verdict::No, models: None, work },
+            None => Decided { verdict: Verdict::No, witness: None, work },
         })
     }
 

@@ -14,4 +14,3 @@ mod within;
 
 pub use closest_point::CurveClosest;
 pub use format::{Curve, CurveSegment};
-pub use within::CurveWithin;

@@ -4,34 +4,18 @@ use super::capsules::{Capsules, Item};
 use crate::curve::format::{Curve, CurveSegment};
 use crate::num::tolerance::{CURVE_FAR, U64};
 use crate::num::up_to_f32;
-use crate::query::{Budget, QueryError, ScratchEntry, SweepQueue, Taken, Undecided, Verdict, Work};
-
-/// Whether a curve is within a distance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub struct CurveWithin {
-    /// `Yes`: a point of the curve is not farther. `No`: the whole curve is farther. Undecided for
-    /// [`Resolution`](Undecided::Resolution): the difference from the distance asked about is
-    /// within the surface error and rounding.
-    pub verdict: Verdict,
-    /// With `Yes` a segment that is not farther. It is not always the closest one.
-    pub segment: Option<CurveSegment>,
-    /// The work of the search.
-    pub work: Work,
-}
-
-impl CurveWithin {
-    /// Whether it is proved that nothing of the curve is within the distance.
-    pub fn is_clear(&self) -> bool {
-        self.verdict == Verdict::No
-    }
-}
+use crate::query::{
+    Budget, Decided, Ended, QueryError, ScratchEntry, SweepQueue, Taken, Undecided, Verdict,
+    Witness, Work,
+};
 
 impl Curve<'_> {
     /// Whether the input curve is at most `distance` from `point`, both in input units.
     ///
-    /// It ends as soon as one segment is certainly near enough. A distance of 0 asks whether the
+    /// It ends as soon as one segment is certainly near enough. The witness of a `Yes` is this
+    /// segment. It is not always the closest one. The verdict is undecided for
+    /// [`Resolution`](Undecided::Resolution) if the difference from the distance asked about is
+    /// within the surface error and rounding. A distance of 0 asks whether the
     /// point touches the curve: the answer is `No` or, as rounding cannot prove a contact,
     /// undecided. `scratch` as for [`closest_point`](Curve::closest_point). A shorter one may leave
     /// the question undecided; it never makes the answer wrong. Of the budget only `steps` matters.
@@ -58,12 +42,12 @@ impl Curve<'_> {
         distance: f32,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<CurveWithin, QueryError> {
+    ) -> Result<Decided<CurveSegment>, QueryError> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check_with(scratch)?;
         let p = self.frame.local(point)?;
         let mut work = Work::default();
-        let (verdict, segment) = if p.abs().max_element() > CURVE_FAR {
+        let (verdict, witness) = if p.abs().max_element() > CURVE_FAR {
             let (near, far) = self.bounds.distance_range(p);
             let verdict = if self.frame.upper(far) <= distance {
                 Verdict::Yes
@@ -80,7 +64,7 @@ impl Curve<'_> {
             within(&capsules, queue, distance, budget.steps, &mut work)
                 .ok_or(QueryError::Unchecked)?
         };
-        Ok(CurveWithin { verdict, segment, work })
+        Ok(Decided { verdict, witness, work })
     }
 }
 
@@ -93,11 +77,10 @@ fn within(
     work: &mut Work,
 ) -> Option<(Verdict, Option<CurveSegment>)> {
     let Capsules { curve, .. } = capsules;
-    let undecided = |why| Some((Verdict::Undecided(why), None));
     // Whatever has a greater bound is certainly farther.
     let limit = (curve.frame.length(distance) + curve.frame.surface_error()) * (1.0 + 4.0 * U64);
     let limit = up_to_f32(limit);
-    let mut may_be_within = false;
+    let mut found = Witness::NONE;
     let mut next = Some(Capsules::ROOT);
     while let Some(Taken { entry, least }) = queue.take(next.take(), false) {
         if entry.key() > limit {
@@ -111,11 +94,14 @@ fn within(
                 let Some(segment) = curve.segment_at(number) else { continue };
                 let (near, _) = capsules.distance(number, work)?;
                 if curve.frame.upper(near.upper) <= distance {
-                    return Some((Verdict::Yes, Some(segment)));
+                    found.met = Some(segment);
+                    break;
                 }
-                may_be_within |= curve.frame.lower(near.lower) <= distance;
+                if curve.frame.lower(near.lower) <= distance {
+                    found.may = Some(segment);
+                }
             }
-            Item::Node(_) if work.opened >= steps => return undecided(Undecided::Steps),
+            Item::Node(_) if work.opened >= steps => return Some(found.proof(Some(Ended::Steps))),
             Item::Node(node) => {
                 let [near, far] = capsules.open(node, work)?;
                 queue.begin_children(2);
@@ -126,11 +112,5 @@ fn within(
             }
         }
     }
-    if queue.dropped() <= limit {
-        undecided(Undecided::Scratch)
-    } else if may_be_within {
-        undecided(Undecided::Resolution)
-    } else {
-        Some((Verdict::No, None))
-    }
+    Some(found.proof((queue.dropped() <= limit).then_some(Ended::Scratch)))
 }

@@ -43,6 +43,5 @@ pub use hull_faces::HullFace;
 pub use kept_sweep::Sweep;
 pub use moved_hull::{MovedHull, MovedVertex};
 pub use outer_hits::{OuterHits, OuterSearch};
-pub use overlap::TriangleOverlap;
 pub use refine::{Refinement, SplitChange};
 pub use refined_hull::{ErasedHull, RefinedHull};

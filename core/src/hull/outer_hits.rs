@@ -11,7 +11,7 @@ use super::refined_hull::{Refined, RefinedHull, erased, split_of_face};
 use crate::geom::{SweptSegment, segment_triangle};
 use crate::hull::format::layout::BASE_GROUP;
 use crate::hull::format::{Hull, Named, SplitIdx, VertIdx};
-use crate::num::{down_to_f32, up_to_f32};
+use crate::num::{SOFT_DOUBLE, down_to_f32, up_to_f32};
 use crate::query::{
     Budget, Ended, FirstHit, Frame, Hit, Hits, Interval, QueryError, ScratchEntry, Work,
 };
@@ -130,7 +130,7 @@ fn outer_hits(
         ended: Ended::Exact,
     };
     let is_exact = model.header().surface_error == 0.0 && !model.is_cut();
-    if is_exact && frame.is_missed([a, b], &bounds) {
+    if SOFT_DOUBLE && is_exact && frame.is_missed([a, b], &bounds) {
         return Ok(out);
     }
     let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);

@@ -7,7 +7,7 @@
 use super::sweep::{Candidate, Fate, Front, Visit};
 use crate::geom::{Aabb, Clipped, SegmentTriangle, SweptSegment, comes_within, segment_triangle};
 use crate::hull::format::{Hull, Instance};
-use crate::num::{down_to_f32, up_to_f32};
+use crate::num::{SOFT_DOUBLE, down_to_f32, up_to_f32};
 use crate::query::{
     AllHits, Budget, Ended, FirstHit, Frame, Hit, Hits, Interval, QueryError, ScratchEntry,
     SweepQueue, Taken, TriangleHit, Work,
@@ -183,7 +183,7 @@ fn trace<C: Collect>(
     }
     let work = Work { bounds: 1, ..Work::NONE };
     let missed = Traced { work, ended: Ended::Exact, unopened: f32::INFINITY };
-    if frame.is_missed([a, b], &bounds) {
+    if SOFT_DOUBLE && frame.is_missed([a, b], &bounds) {
         return Ok(missed);
     }
     let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);

@@ -184,10 +184,11 @@ impl PartialOrd for Real {
     }
 }
 
+/// Of bits that came as bits: of those of an f32 the compiler would make a comparison of f32, which
+/// is a call.
 #[inline(always)]
 fn is_zero(bits: u32) -> bool {
-    // Else the compiler makes a comparison of f32 of it, which is a call.
-    core::hint::black_box(bits << 1) == 0
+    bits << 1 == 0
 }
 
 #[inline(always)]
@@ -227,12 +228,20 @@ fn is_usual(exponent: u32) -> bool {
 }
 
 /// `a * b`.
-#[inline(never)]
+#[inline(always)]
 pub fn product(a: f32, b: f32) -> f32 {
-    let (x, y) = (a.to_bits(), b.to_bits());
+    product_of_bits(a.to_bits(), b.to_bits())
+}
+
+#[inline(never)]
+fn product_of_bits(x: u32, y: u32) -> f32 {
     let (of_x, of_y) = (exponent(x), exponent(y));
     if !is_usual(of_x) || !is_usual(of_y) {
-        return rare_product(a, b);
+        // Machined parts have many zeros.
+        if is_zero(x) && of_y < 255 || is_zero(y) && of_x < 255 {
+            return f32::from_bits((x ^ y) & SIGN);
+        }
+        return rare_product(x, y);
     }
     let (whole, carry) = rounded_product(mantissa(x), mantissa(y));
     packed((x ^ y) & SIGN, of_x + of_y - 127 + carry, whole)
@@ -275,24 +284,26 @@ fn upper_product(x: u32, y: u32) -> u32 {
 
 #[cold]
 #[inline(never)]
-fn rare_product(a: f32, b: f32) -> f32 {
-    let (x, y) = (a.to_bits(), b.to_bits());
-    if is_zero(x) && exponent(y) < 255 || is_zero(y) && exponent(x) < 255 {
-        f32::from_bits((x ^ y) & SIGN)
-    } else {
-        a * b
-    }
+fn rare_product(x: u32, y: u32) -> f32 {
+    f32::from_bits(x) * f32::from_bits(y)
 }
 
 /// `a + b`.
-#[inline(never)]
+#[inline(always)]
 pub fn sum(a: f32, b: f32) -> f32 {
-    let (mut x, mut y) = (a.to_bits(), b.to_bits());
+    sum_of_bits(a.to_bits(), b.to_bits())
+}
+
+#[inline(never)]
+fn sum_of_bits(mut x: u32, mut y: u32) -> f32 {
     if x << 1 < y << 1 {
         (x, y) = (y, x);
     }
     let (mut of_x, of_y) = (exponent(x), exponent(y));
     if of_y == 0 || !is_normal(of_x) {
+        if is_zero(y) && is_normal(of_x) {
+            return f32::from_bits(x);
+        }
         return rare_sum(x, y);
     }
     let apart = of_x - of_y;
@@ -339,14 +350,10 @@ pub fn sum(a: f32, b: f32) -> f32 {
 #[inline(never)]
 fn rare_sum(x: u32, y: u32) -> f32 {
     if is_zero(x) {
-        // Both are zero. Machined parts have many.
+        // Both are zero.
         return f32::from_bits(x & y);
     }
-    if is_zero(y) && is_normal(exponent(x)) {
-        f32::from_bits(x)
-    } else {
-        f32::from_bits(x) + f32::from_bits(y)
-    }
+    f32::from_bits(x) + f32::from_bits(y)
 }
 
 #[cfg(test)]

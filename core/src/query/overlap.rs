@@ -1,27 +1,9 @@
 //! Whether two surfaces meet, and which of their triangles do.
 
 use super::answer::Ended;
-use super::verdict::{Undecided, Verdict};
+use super::decided::Witness;
 use super::work::Work;
 use crate::geom::Contact;
-
-/// Whether two surfaces meet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub struct Overlap {
-    /// `Yes`: the surfaces of the input meshes meet. `No`: they have no common point. Undecided for
-    /// [`Resolution`](Undecided::Resolution): they come nearer to each other than the stored meshes
-    /// can tell.
-    pub verdict: Verdict,
-    /// With `Yes` two triangles that meet, the first mesh's first. With an undecided
-    /// [`Resolution`](Undecided::Resolution) two triangles that may meet. Numbers in the input
-    /// files.
-    pub triangles: Option<[u32; 2]>,
-    /// The work of the search: pairs of boxes as `bounds`, pairs of triangles as `triangles` (in
-    /// f32) and `exact` (in f64), pairs of nodes as `opened`.
-    pub work: Work,
-}
 
 /// Two triangles that meet or may meet: their numbers in the input files, the first mesh's first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +30,8 @@ pub struct AllOverlaps {
     pub stored: usize,
     /// Pairs that did not fit. The slice keeps the first ones that were found.
     pub dropped: u32,
-    /// The work of the search, as in [`Overlap::work`].
+    /// The work of the search: pairs of boxes as `bounds`, pairs of triangles as `triangles` (in
+    /// f32) and `exact` (in f64), pairs of nodes as `opened`.
     pub work: Work,
     /// [`Ended::Exact`]: these are all of the input's pairs. [`Ended::Resolution`]: pairs that are
     /// not certain may not meet; no other pair does. [`Ended::Scratch`]: some pairs did not fit the
@@ -63,36 +46,16 @@ pub(crate) trait PairVisitor<Place> {
     fn pair(&mut self, place: Place, contact: Contact) -> Option<bool>;
 }
 
-/// The visitor that wants a pair that meets, or else one that may meet.
-#[derive(Debug)]
-pub(crate) struct FirstPair<Place> {
-    met: Option<Place>,
-    undecided: Option<Place>,
-}
-
-impl<Place> FirstPair<Place> {
-    pub(crate) const NONE: FirstPair<Place> = FirstPair { met: None, undecided: None };
-
-    /// The verdict, and the place of its witness. `truncated`: why the search missed pairs.
-    pub(crate) fn answer(self, truncated: Option<Ended>) -> (Verdict, Option<Place>) {
-        match (self.met, truncated, self.undecided) {
-            (Some(place), _, _) => (Verdict::Yes, Some(place)),
-            (None, Some(why), _) => (Verdict::Undecided(why.undecided()), None),
-            (None, None, Some(place)) => (Verdict::Undecided(Undecided::Resolution), Some(place)),
-            (None, None, None) => (Verdict::No, None),
-        }
-    }
-}
-
-impl<Place> PairVisitor<Place> for FirstPair<Place> {
+/// Wants a pair that meets, or else one that may meet.
+impl<Place> PairVisitor<Place> for Witness<Place> {
     #[inline(always)]
     fn pair(&mut self, place: Place, contact: Contact) -> Option<bool> {
         if contact == Contact::Meets {
             self.met = Some(place);
             return Some(false);
         }
-        if self.undecided.is_none() {
-            self.undecided = Some(place);
+        if self.may.is_none() {
+            self.may = Some(place);
         }
         Some(true)
     }

@@ -1,7 +1,6 @@
 //! How far two surfaces are apart.
 
 use super::answer::{Ended, Interval};
-use super::verdict::Verdict;
 use super::work::Work;
 
 /// The distance of two surfaces, and where they are nearest.
@@ -25,30 +24,6 @@ pub struct PairDistance {
     /// Why the search ended. [`Ended::Resolution`]: the meshes are so far apart that their boxes
     /// answered.
     pub ended: Ended,
-}
-
-/// Whether two surfaces are within a distance of each other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub struct PairWithin {
-    /// `Yes`: a point of one mesh is not farther from a point of the other. `No`: all points are
-    /// farther. Undecided for [`Resolution`](crate::Undecided::Resolution): the difference from the
-    /// distance asked about is within the surface errors and rounding.
-    pub verdict: Verdict,
-    /// With `Yes` two triangles that are not farther, the first mesh's first. With an undecided
-    /// [`Resolution`](crate::Undecided::Resolution) two triangles that may not be farther. Numbers
-    /// in the input files.
-    pub triangles: Option<[u32; 2]>,
-    /// The work of the search, as in [`PairDistance::work`].
-    pub work: Work,
-}
-
-impl PairWithin {
-    /// Whether it is proved that the surfaces are farther from each other.
-    pub fn is_clear(&self) -> bool {
-        self.verdict == Verdict::No
-    }
 }
 
 /// Where a model that moves first comes near another one.

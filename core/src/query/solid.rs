@@ -2,7 +2,6 @@
 
 use super::answer::{Ended, Interval};
 use super::error::QueryError;
-use super::verdict::Verdict;
 use super::work::Work;
 
 /// A convex solid: all points within `radius` of the hull of its corners.
@@ -84,28 +83,4 @@ pub struct SolidDistance {
     pub work: Work,
     /// Why the search ended.
     pub ended: Ended,
-}
-
-/// Whether a convex solid and a surface are within a distance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub struct SolidWithin {
-    /// `Yes`: a point of the solid is not farther from a point of the input mesh. `No`: all points
-    /// are farther. Undecided for [`Resolution`](crate::Undecided::Resolution): the difference from
-    /// the distance asked about is within the surface error and rounding.
-    pub verdict: Verdict,
-    /// With `Yes` a triangle that is not farther. With an undecided
-    /// [`Resolution`](crate::Undecided::Resolution) one that may not be farther. Numbers in the
-    /// input file.
-    pub triangle: Option<u32>,
-    /// The work of the search, as in [`SolidDistance::work`].
-    pub work: Work,
-}
-
-impl SolidWithin {
-    /// Whether it is proved that all points of the solid are farther from the surface.
-    pub fn is_clear(&self) -> bool {
-        self.verdict == Verdict::No
-    }
 }

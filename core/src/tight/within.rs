@@ -2,8 +2,7 @@
 
 use super::closest_point::upper_end;
 use super::side::is_outside_box;
-use crate::bvh::Within;
-use crate::query::{Budget, Ended, QueryError, ScratchEntry, Side, Undecided, Verdict};
+use crate::query::{Budget, Decided, Ended, QueryError, ScratchEntry, Side, Undecided, Verdict};
 use crate::tight::format::TightHull;
 
 impl TightHull<'_> {
@@ -12,7 +11,7 @@ impl TightHull<'_> {
     /// The answer is `No` only outside the hull, so that it holds for a solid part with its inside.
     /// Within the hull, and nearer to it than its slack, the answer is `Yes` or undecided. If it is
     /// undecided for [`Resolution`](Undecided::Resolution), a tighter hull may decide. For
-    /// collision avoidance, treat undecided as `Yes`. There is no triangle. `budget` and `scratch`
+    /// collision avoidance, treat undecided as `Yes`. There is no witness. `budget` and `scratch`
     /// as for [`Bvh::within`](crate::Bvh::within).
     ///
     /// Cost: if the hull is farther, that of its tree's `within`, and inside the hull's box also of
@@ -37,10 +36,10 @@ impl TightHull<'_> {
         distance: f32,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<Within, QueryError> {
+    ) -> Result<Decided<u32>, QueryError> {
         let tree = self.bvh();
         let near = tree.within(point, distance, budget, scratch)?;
-        let answer = |verdict, work| Ok(Within { verdict, triangle: None, work });
+        let answer = |verdict, work| Ok(Decided { verdict, witness: None, work });
         if near.is_clear() && is_outside_box(tree, point) {
             return answer(Verdict::No, near.work);
         }

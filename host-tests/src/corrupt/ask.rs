@@ -54,7 +54,7 @@ impl Asker {
             }
             if let Some(answer) = answered(tree.within(point, distance, *stop, stack)) {
                 ends(answer.work, once);
-                let named = answer.triangle.is_some_and(|number| number < tree.input_triangles());
+                let named = answer.witness.is_some_and(|number| number < tree.input_triangles());
                 assert_eq!(answer.verdict == Verdict::Yes, named, "{answer:?}");
             }
             if let Some(answer) = answered(tree.nearest(point, near, *stop, stack)) {
@@ -137,7 +137,7 @@ impl Asker {
                 }
                 if let Some(answer) = answered(tree.solid_within(&solid, radius, *stop, stack)) {
                     ends(answer.work, once);
-                    answer.triangle.into_iter().for_each(numbered);
+                    answer.witness.into_iter().for_each(numbered);
                 }
                 let to = Solid::new(&moved[..solid.corners().len()], radius);
                 let Ok(to) = to else { continue };
@@ -214,9 +214,9 @@ impl Asker {
             answered(a.overlap(b, *pose, Budget::EXACT.with_steps(steps), &mut stack))
         {
             assert!(answer.work.opened <= steps, "{answer:?}");
-            let named = answer.triangles.is_some();
+            let named = answer.witness.is_some();
             assert!(named || answer.verdict != Verdict::Yes, "{answer:?}");
-            answer.triangles.into_iter().for_each(in_range);
+            answer.witness.into_iter().for_each(in_range);
         }
         if let Some(answer) = answered(a.all_overlaps(
             b,
@@ -268,7 +268,7 @@ impl Asker {
             if let Some(answer) = answered(a.within_of(b, *pose, half, budget, &mut stack)) {
                 assert!(answer.work.opened <= steps, "{answer:?}");
                 assert!(half == 0.0 || answer.verdict != Verdict::Yes, "{answer:?}");
-                answer.triangles.into_iter().for_each(in_range);
+                answer.witness.into_iter().for_each(in_range);
             }
         }
     }

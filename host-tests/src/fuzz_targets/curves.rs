@@ -58,7 +58,7 @@ fn ask(curve: &Curve<'_>, p: [f32; 3], distance: f32, budget: Budget, entries: u
     match curve.within(p, distance, budget, &mut scratch) {
         Ok(near) => {
             assert!(near.work.total() <= most, "{near:?}");
-            assert_eq!(near.segment.is_some(), near.verdict == Verdict::Yes, "{near:?}");
+            assert_eq!(near.witness.is_some(), near.verdict == Verdict::Yes, "{near:?}");
         }
         Err(error) => assert_ne!(error, QueryError::Unchecked),
     }

@@ -163,9 +163,9 @@ pub fn overlap(data: &[u8]) {
         match a.overlap(&b, pose, stop, &mut queue) {
             Ok(answer) => {
                 assert!(answer.work.opened <= stop.steps, "{answer:?}");
-                let named = answer.triangles.is_some();
+                let named = answer.witness.is_some();
                 assert!(named || answer.verdict != Verdict::Yes, "{answer:?}");
-                answer.triangles.into_iter().for_each(in_range);
+                answer.witness.into_iter().for_each(in_range);
             }
             Err(error) => assert_ne!(error, QueryError::Unchecked),
         }

@@ -82,7 +82,7 @@ fn ask(hull: &TightHull<'_>, p: [f32; 3], distance: f32, stop: &Budget, entries:
                 "{closest:?}"
             );
             assert!(closest.triangle.is_none() && closest.ended != Ended::Exact);
-            assert!(within.triangle.is_none(), "{within:?}");
+            assert!(within.witness.is_none(), "{within:?}");
             // A side may be asked from nearer by, from several places.
             let most =
                 64 * (u64::from(hull.bvh().header().nodes) + u64::from(hull.record().faces) + 1);

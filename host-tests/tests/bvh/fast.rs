@@ -5,7 +5,7 @@ use meshsweep::bvh::{FastBvh, TreeOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::progress::Watch;
 use meshsweep_core::{
-    AnyHit, Budget, Bvh, ClosestPoint, Ended, Facing, FirstHit, Hint, Hit, QueryError,
+    Budget, Bvh, ClosestPoint, Decided, Ended, Facing, FirstHit, Hint, Hit, QueryError,
     ScratchEntry, Verdict,
 };
 use meshsweep_host_tests::generate::{Rng, Triangles, rough_sphere, scaled, torus};
@@ -151,7 +151,7 @@ fn segments_with_a_processors_own_instructions_have_the_same_bits() {
                     let own = hit_bits(fast.first_hit(a, b, facing, budget, &mut stack));
                     assert_eq!(plain, own, "{a:?} {b:?}, {facing:?}, {budget:?}, {entries}");
                     hits += u32::from(plain.is_ok_and(|(_, triangle, _)| triangle.is_some()));
-                    let verdict = |found: Result<AnyHit, _>| found.map(|found| found.verdict);
+                    let verdict = |found: Result<Decided<()>, _>| found.map(|found| found.verdict);
                     let plain = verdict(tree.any_hit(a, b, facing, budget, &mut stack));
                     let own = verdict(fast.any_hit(a, b, facing, budget, &mut stack));
                     assert_eq!(plain, own, "{a:?} {b:?}, {facing:?}, {budget:?}, {entries}");

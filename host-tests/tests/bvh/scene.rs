@@ -121,7 +121,7 @@ fn the_nearest_pair_is_that_of_all_pairs_and_within_agrees() {
                             "{near:?} {truth:?} {distance}"
                         ),
                     }
-                    assert_eq!(near.models.is_none(), near.is_clear());
+                    assert_eq!(near.witness.is_none(), near.is_clear());
                 }
             }
         }

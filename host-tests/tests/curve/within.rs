@@ -29,7 +29,7 @@ fn verdicts_are_right_with_any_budget_and_scratch_and_decided_where_they_can_be(
                     match answer.verdict {
                         Verdict::Yes => {
                             assert!(truth.lower <= asked, "{}", told());
-                            let segment = answer.segment.expect("it is named");
+                            let segment = answer.witness.expect("it is named");
                             assert!(scene.distance(p, segment).lower <= asked, "{}", told());
                         }
                         Verdict::No => assert!(truth.upper > asked, "{}", told()),

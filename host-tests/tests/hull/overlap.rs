@@ -6,8 +6,8 @@ use meshsweep::cut::cut;
 use meshsweep::hull::BuildOptions;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{
-    Budget, Bvh, Ended, Hull, Overlap, Pose, QueryError, ScratchEntry, TriangleOverlap,
-    TrianglePair, Undecided, Verdict,
+    Budget, Bvh, Decided, Ended, Hull, Pose, QueryError, ScratchEntry, TrianglePair, Undecided,
+    Verdict,
 };
 use meshsweep_host_tests::generate::corpus::IDENTITY;
 use meshsweep_host_tests::generate::{
@@ -31,7 +31,7 @@ fn scratch(a: &Hull<'_>, b: &Hull<'_>) -> Vec<ScratchEntry> {
     vec![ScratchEntry::EMPTY; a.overlap_entries(b)]
 }
 
-fn ask(a: &Hull<'_>, b: &Hull<'_>, pose: &Pose) -> Overlap {
+fn ask(a: &Hull<'_>, b: &Hull<'_>, pose: &Pose) -> Decided<[u32; 2]> {
     a.overlap(b, *pose, Budget::EXACT, &mut scratch(a, b)).expect("answers")
 }
 
@@ -45,16 +45,16 @@ fn holds(a: &Scene, b: &Scene, pose: &Pose, tally: &mut Tally) {
         Verdict::No => {
             tally.apart += 1;
             assert!(truth.is_empty(), "{say}: wrongly apart: {} pairs meet", truth.len());
-            assert_eq!(answer.triangles, None);
+            assert_eq!(answer.witness, None);
         }
         Verdict::Yes => {
             tally.meets += 1;
-            let pair = answer.triangles.expect("a pair");
+            let pair = answer.witness.expect("a pair");
             assert!(truth.contains(&pair), "{say}: {pair:?} do not meet");
         }
         verdict => {
             assert_eq!(verdict, Verdict::Undecided(Undecided::Resolution), "{say}");
-            assert!(answer.triangles.is_some(), "{say}: which pair is open");
+            assert!(answer.witness.is_some(), "{say}: which pair is open");
             tally.open += 1;
         }
     }
@@ -261,7 +261,7 @@ fn cut_blobs_are_never_wrongly_apart_and_never_certain_to_meet() {
                     &mut scratch(&model, &model),
                 )
                 .expect("answers");
-            assert_eq!((answer.triangles, all.stored), (None, 0));
+            assert_eq!((answer.witness, all.stored), (None, 0));
             if answer.verdict == Verdict::No {
                 assert!(!meets, "wrongly apart: {pose:?}");
                 assert_eq!(all.ended, Ended::Exact);
@@ -305,7 +305,7 @@ fn the_named_memory_is_enough_and_less_is_never_a_wrong_answer() {
                 if answer.verdict == Verdict::Undecided(Undecided::Steps) {
                     stopped += 1;
                 } else {
-                    assert_eq!((answer.verdict, answer.triangles), (full.verdict, full.triangles));
+                    assert_eq!((answer.verdict, answer.witness), (full.verdict, full.witness));
                 }
             }
         }
@@ -350,7 +350,7 @@ fn triangle_scene(corners: Corners) -> Scene {
     }
 }
 
-fn ask_triangle(model: &Hull<'_>, corners: Corners) -> TriangleOverlap {
+fn ask_triangle(model: &Hull<'_>, corners: Corners) -> Decided<u32> {
     let mut stack = vec![ScratchEntry::EMPTY; model.scratch_entries() + 20];
     model.meets_triangle(corners, Budget::EXACT, &mut stack).expect("answers")
 }
@@ -398,12 +398,12 @@ fn a_triangle_meets_the_surface_exactly_where_it_does() {
                 }
                 Verdict::Yes => {
                     tally.meets += 1;
-                    assert!(truth.contains(&[answer.triangle.expect("one"), 0]), "{say}");
+                    assert!(truth.contains(&[answer.witness.expect("one"), 0]), "{say}");
                 }
                 verdict => {
                     tally.open += 1;
                     assert_eq!(verdict, Verdict::Undecided(Undecided::Resolution), "{say}");
-                    assert!(answer.triangle.is_some(), "{say}");
+                    assert!(answer.witness.is_some(), "{say}");
                     // In general position only an inexact mesh leaves it open.
                     assert!(!is_exact || i % 6 == 5, "{say}");
                 }
@@ -468,7 +468,7 @@ fn on_a_cut_blob_a_triangle_is_never_wrongly_apart() {
         }
         for &corners in &asked {
             let answer = ask_triangle(&model, corners);
-            assert_eq!(answer.triangle, None);
+            assert_eq!(answer.witness, None);
             if answer.verdict == Verdict::No {
                 let truth = truth(&scene, &triangle_scene(corners), &Pose::IDENTITY);
                 assert!(truth.is_empty(), "{corners:?}");

@@ -34,9 +34,10 @@ pub fn lints(steps: &mut Steps) {
     });
 }
 
-/// Hands the words to the laboratory, which is built as users build the library.
+/// Hands the words to the laboratory, which is built as published programs are.
 pub fn lab(words: &[&str]) -> ExitCode {
-    let mut command = cargo(&["run", "--quiet", "--release", "--package", "meshsweep-lab", "--"]);
+    let mut command =
+        cargo(&["run", "--quiet", "--profile", "dist", "--package", "meshsweep-lab", "--"]);
     let code = command.args(words).status().ok().and_then(|status| status.code());
     code.map_or(ExitCode::FAILURE, |code| ExitCode::from(code as u8))
 }

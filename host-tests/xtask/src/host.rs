@@ -13,9 +13,10 @@ pub fn run(arguments: &[&str]) -> Result<String, String> {
     process::capture(std::process::Command::new(program.join("host")).args(arguments))
 }
 
-/// Builds those that ask, as users build the core; their folder.
+/// Builds those that ask, as published programs are built; their folder.
 pub fn counted() -> Result<PathBuf, String> {
-    build("release", "release", &["--package", "meshsweep-counted"])
+    let bins = ["--bin", "counted", "--bin", "counted-suite"];
+    build("dist", "dist", &[&["--package", "meshsweep-counted"][..], &bins].concat())
 }
 
 /// The folder of what was built.

@@ -75,7 +75,7 @@ impl Processor {
 
     /// The program, with no library but its own.
     fn build(&self) -> Result<PathBuf, String> {
-        let mut command = cargo(&["build", "--quiet", "--release", "--package"]);
+        let mut command = cargo(&["build", "--quiet", "--profile", "dist", "--package"]);
         command.args(["meshsweep-counted", "--bin", "answers"]).env("RUSTFLAGS", self.flags);
         let mut folder = workspace::target().join("processors");
         if !self.flags.is_empty() {
@@ -91,7 +91,7 @@ impl Processor {
             folder = folder.join(target);
         }
         process::capture(&mut command)?;
-        Ok(folder.join("release/answers"))
+        Ok(folder.join("dist/answers"))
     }
 
     fn command(&self, program: &Path) -> Result<Command, String> {

@@ -134,7 +134,7 @@ impl Clearance<'_> {
             },
             |out, query, _, Answer { found, work, .. }| {
                 write!(out, "{query},{},", verdict_name(found.verdict))?;
-                write_pair(out, found.triangles, *work)
+                write_pair(out, found.witness, *work)
             },
         )
     }

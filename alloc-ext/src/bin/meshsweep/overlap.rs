@@ -69,7 +69,7 @@ fn ask_any<const N: usize>(
                 Verdict::No => APART,
                 _ => UNDECIDED,
             };
-            write_row(out, query, contact, found.triangles, *work)
+            write_row(out, query, contact, found.witness, *work)
         },
     )
 }

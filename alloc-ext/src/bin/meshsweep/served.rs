@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use meshsweep::distances::{Distances, has_sides};
 use meshsweep_core::{
-    AllOverlaps, Blob, Budget, BuildFor, Bvh, FrameHull, Hull, Overlap, Pose, QueryError,
+    AllOverlaps, Blob, Budget, BuildFor, Bvh, Decided, FrameHull, Hull, Pose, QueryError,
     ScratchEntry, TightHull, TrianglePair,
 };
 use std::path::Path;
@@ -253,7 +253,7 @@ impl Both<'_> {
         pose: Pose,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<Overlap, QueryError> {
+    ) -> Result<Decided<[u32; 2]>, QueryError> {
         match self {
             Both::Trees([first, second]) => first.overlap(second, pose, budget, scratch),
             Both::Hulls([first, second]) => first.overlap(second, pose, budget, scratch),

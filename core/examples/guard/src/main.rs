@@ -62,7 +62,7 @@ fn run() -> Result<(), QueryError> {
         worst = worst.max(cost);
         if !near.is_clear() {
             println!("stopped before pose {number}");
-            if let Some([a, b]) = near.models {
+            if let Some([a, b]) = near.witness {
                 println!("  link {a}");
                 println!("  and link {b} may be too near");
             } else {

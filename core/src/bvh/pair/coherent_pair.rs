@@ -8,17 +8,18 @@
 use core::marker::PhantomData;
 
 use super::advance::longest_path;
-use super::gaps::leaf_gaps::{GapVisitor, TriangleGap};
+use super::gaps::answers;
+use super::gaps::leaf_gaps::TriangleGap;
 use super::gaps::left_out::{ChildPairs, LeftOut};
 use super::gaps::nearest_first::{Missed, PairDescent, Search};
-use super::gaps::nearest_gap::Nearest;
-use super::gaps::threshold::Threshold;
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::gap::{GapThreshold, GapVisitor, NearestGap};
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::Pose;
 use crate::num::tolerance::U64;
 use crate::num::{down_to_f32, greater, lesser};
-use crate::query::{Budget, Ended, Motion, PairDistance, PairWithin, QueryError, ScratchEntry};
+use crate::query::{Budget, Decided, Ended, Motion, PairDistance, QueryError, ScratchEntry};
 
 /// Two models that move, with the groups of pairs that the last search left out.
 ///
@@ -158,11 +159,11 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
             self.reset();
             return tree.distance_to(other, pose, budget, scratch);
         }
-        let mut nearest = Nearest::new(&pair, &budget);
+        let mut nearest = NearestGap::new(&pair.lengths, 0.0, &budget);
         let mut search = Search::new(&pair, budget.steps, scratch);
         let front = PairFront::after_motion(&mut self.last, &mut self.groups, &pair, &pose);
         let missed = front.search(&mut search, &mut Question::Distance(&mut nearest))?;
-        nearest.answer(&pair, missed, search.work)
+        answers::nearest(&nearest, &pair, missed, search.work)
     }
 
     /// [`Bvh::within_of`] of `tree` and of `other`, moved by `pose`. It may follow questions about
@@ -185,7 +186,7 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         distance: f32,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<PairWithin, QueryError> {
+    ) -> Result<Decided<[u32; 2]>, QueryError> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check_with(scratch)?;
         let pair = StoredPair::new([tree, other], &pose)?;
@@ -193,11 +194,11 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
             self.reset();
             return tree.within_of(other, pose, distance, budget, scratch);
         }
-        let mut threshold = Threshold::new(&pair, distance);
+        let mut threshold = GapThreshold::new(&pair.lengths, 0.0, distance);
         let mut search = Search::new(&pair, budget.steps, scratch);
         let front = PairFront::after_motion(&mut self.last, &mut self.groups, &pair, &pose);
         let missed = front.search(&mut search, &mut Question::Within(&mut threshold))?;
-        threshold.answer(missed, search.work)
+        answers::within(&threshold, &pair, missed, search.work)
     }
 }
 
@@ -213,24 +214,23 @@ impl Last {
 }
 
 /// The visitors of both questions. As one type, the search is compiled once.
-enum Question<'v, 'a> {
-    Distance(&'v mut Nearest),
-    Within(&'v mut Threshold<'a>),
+enum Question<'v> {
+    Distance(&'v mut NearestGap<[TriangleAt; 2]>),
+    Within(&'v mut GapThreshold<[TriangleAt; 2]>),
 }
 
-impl Question<'_, '_> {
+impl Question<'_> {
     /// The leaves of the triangles that answer it.
     fn leaves(&self) -> Option<ChildPairs> {
-        let gap = match self {
-            Question::Distance(nearest) => nearest.best?,
-            Question::Within(threshold) => threshold.near?,
+        let [a, b] = match self {
+            Question::Distance(nearest) => nearest.best?.place,
+            Question::Within(threshold) => threshold.found.met?,
         };
-        let [a, b] = gap.place;
         Some(ChildPairs { nodes: [a.node(), b.node()], wanted: 1 << (a.child() << 3 | b.child()) })
     }
 }
 
-impl GapVisitor for Question<'_, '_> {
+impl GapVisitor<[TriangleAt; 2]> for Question<'_> {
     fn limit(&self) -> f64 {
         match self {
             Question::Distance(nearest) => nearest.limit(),
@@ -313,7 +313,7 @@ impl<'f> PairFront<'f> {
     fn search(
         mut self,
         search: &mut Search<'_, '_>,
-        visitor: &mut Question<'_, '_>,
+        visitor: &mut Question<'_>,
     ) -> Result<Option<Missed>, QueryError> {
         let is_clear = nearer(self.last.least, self.last.path) > visitor.limit();
         if self.last.count > 0 && is_clear {
@@ -332,7 +332,7 @@ impl<'f> PairFront<'f> {
     fn search_groups(
         &mut self,
         search: &mut Search<'_, '_>,
-        visitor: &mut Question<'_, '_>,
+        visitor: &mut Question<'_>,
     ) -> Result<Option<Missed>, QueryError> {
         let mut missed: Option<Missed> = None;
         let mut is_first = true;

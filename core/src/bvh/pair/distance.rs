@@ -1,10 +1,11 @@
 //! The distance of two surfaces, one of them moved.
 
+use super::gaps::answers;
 use super::gaps::left_out::{ChildPairs, Forgotten};
 use super::gaps::nearest_first::{Missed, Search};
-use super::gaps::nearest_gap::Nearest;
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::gap::NearestGap;
 use crate::geom::Pose;
 use crate::query::{Budget, Ended, PairDistance, QueryError, ScratchEntry};
 
@@ -62,13 +63,13 @@ impl Bvh<'_> {
     ) -> Result<PairDistance, QueryError> {
         budget.check_with(scratch)?;
         let pair = StoredPair::new([self, other], &pose)?;
-        let mut nearest = Nearest::new(&pair, &budget);
+        let mut nearest = NearestGap::new(&pair.lengths, 0.0, &budget);
         let mut search = Search::new(&pair, budget.steps, scratch);
         let missed = if pair.is_in_range {
             search.descend((ChildPairs::ALL, 0.0), &mut nearest, &mut Forgotten)?.missed()
         } else {
             Some(Missed { why: Ended::Resolution, lower: f64::INFINITY })
         };
-        nearest.answer(&pair, missed, search.work)
+        answers::nearest(&nearest, &pair, missed, search.work)
     }
 }

@@ -1,14 +1,14 @@
 //! Whether two surfaces, one of them moved, are within a distance of each other.
 
 use super::from_afar::from_afar;
-use super::gaps::leaf_gaps::GapVisitor;
+use super::gaps::answers;
 use super::gaps::left_out::{ChildPairs, Forgotten};
 use super::gaps::nearest_first::Search;
-use super::gaps::threshold::Threshold;
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::gap::{GapThreshold, GapVisitor};
 use crate::geom::Pose;
-use crate::query::{Budget, PairWithin, QueryError, ScratchEntry};
+use crate::query::{Budget, Decided, QueryError, ScratchEntry};
 
 impl Bvh<'_> {
     /// Whether the surface of `other`, moved by `pose` from its frame to this tree's, is at most
@@ -23,9 +23,12 @@ impl Bvh<'_> {
     /// asks for less work. For collision avoidance, treat an undecided answer as `Yes`.
     ///
     /// Arguments and degenerate cases as for [`distance_to`](Bvh::distance_to). It ends at the
-    /// first pair of triangles that is certainly near enough. `scratch`:
-    /// [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES) are always enough. A shorter one may leave the
-    /// question undecided. Of the budget only `steps` matters.
+    /// first pair of triangles that is certainly near enough. The witness of a `Yes` is this pair,
+    /// this tree's triangle first; that of an undecided
+    /// [`Resolution`](crate::Undecided::Resolution) is a pair that may be near enough. Numbers are
+    /// those of the input files. `work` as in [`PairDistance::work`](crate::PairDistance::work).
+    /// `scratch`: [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES) are always enough. A shorter one may
+    /// leave the question undecided. Of the budget only `steps` matters.
     ///
     /// Cost: less than the distance. One pair of nodes if the boxes are farther.
     ///
@@ -50,12 +53,12 @@ impl Bvh<'_> {
         distance: f32,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<PairWithin, QueryError> {
+    ) -> Result<Decided<[u32; 2]>, QueryError> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check()?;
         budget.check_with(scratch)?;
         let pair = StoredPair::new([self, other], &pose)?;
-        let mut threshold = Threshold::new(&pair, distance);
+        let mut threshold = GapThreshold::new(&pair.lengths, 0.0, distance);
         let mut search = Search::new(&pair, budget.steps, scratch);
         let missed = if pair.is_in_range {
             search.descend((ChildPairs::ALL, 0.0), &mut threshold, &mut Forgotten)?.missed()
@@ -63,6 +66,6 @@ impl Bvh<'_> {
             threshold.take(&from_afar(&pair).ok_or(QueryError::Unchecked)?);
             None
         };
-        threshold.answer(missed, search.work)
+        answers::within(&threshold, &pair, missed, search.work)
     }
 }

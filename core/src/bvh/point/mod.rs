@@ -43,4 +43,3 @@ pub use front_facing::{Eye, FrontFacing};
 pub use hint::Hint;
 pub use nearest::KNearest;
 pub use neighbors::Neighbor;
-pub use within::Within;

@@ -8,40 +8,22 @@ use super::leaf::nearest::LeafNearest;
 use super::leaf::squares::LeafSquares;
 use super::query::{Asked, FarPoint, PointQuery, PreparedPoint};
 use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
-use crate::bvh::tree::descent::{Descent, LeafVisit, descend};
+use crate::bvh::tree::descent::{LeafVisit, descend};
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::{Real, sqrt_approx};
-use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Undecided, Verdict, Work};
+use crate::query::{
+    Budget, ClosestPoint, Decided, QueryError, ScratchEntry, Undecided, Verdict, Witness, Work,
+};
 use glam::Vec3;
-
-/// Whether the mesh is within a distance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub struct Within {
-    /// `Yes`: a point of the mesh is not farther. `No`: the whole mesh is farther. Undecided for
-    /// [`Resolution`](Undecided::Resolution): the difference from the distance asked about is
-    /// within the surface error and rounding.
-    pub verdict: Verdict,
-    /// With `Yes` a triangle that is not farther, by its number in the input file. It is not always
-    /// the closest one. `None` of a structure that knows no triangles.
-    pub triangle: Option<u32>,
-    /// The work of the search.
-    pub work: Work,
-}
-
-impl Within {
-    /// Whether it is proved that nothing of the mesh is within the distance.
-    pub fn is_clear(&self) -> bool {
-        self.verdict == Verdict::No
-    }
-}
 
 impl Bvh<'_> {
     /// Whether the input mesh is at most `distance` from `point`, both in input units.
     ///
-    /// It ends as soon as one triangle is certainly near enough. A distance of 0 asks whether the
+    /// It ends as soon as one triangle is certainly near enough. The witness of a `Yes` is this
+    /// triangle, by its number in the input file. It is not always the closest one. The verdict is
+    /// undecided for [`Resolution`](Undecided::Resolution) if the difference from the distance
+    /// asked about is within the surface error and rounding. A distance of 0 asks whether the
     /// point touches the surface: the answer is `No` or, as f32 cannot prove a contact, undecided.
     /// The verdict is undecided for lack of precision only if the distance is within
     /// [`surface_error`](Bvh::surface_error) and rounding of the one asked about. Farther than a
@@ -72,7 +54,7 @@ impl Bvh<'_> {
         distance: f32,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<Within, QueryError> {
+    ) -> Result<Decided<u32>, QueryError> {
         let tree = self;
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check()?;
@@ -85,20 +67,15 @@ impl Bvh<'_> {
         };
         let mut work = Work::default();
         let limit = limit_within(query, distance);
-        let collector = Threshold { query, distance, near: None, undecided: false };
+        let collector = Threshold { query, distance, found: Witness::NONE };
         let mut visitor = TriangleVisitor::new(tree, query, limit, collector);
         let descent = descend(tree, query, budget.steps, scratch, &mut visitor, &mut work)?;
-        let Threshold { near, undecided, .. } = visitor.collector;
-        if let Some(place) = near {
-            let triangle = Some(place.source(tree).ok_or(QueryError::Unchecked)?);
-            return Ok(Within { verdict: Verdict::Yes, triangle, work });
+        let (verdict, place) = visitor.collector.found.proof(descent.cut());
+        let mut witness = None;
+        if let Some(place) = place {
+            witness = Some(place.source(tree).ok_or(QueryError::Unchecked)?);
         }
-        let verdict = match descent {
-            Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),
-            _ if undecided => Verdict::Undecided(Undecided::Resolution),
-            _ => Verdict::No,
-        };
-        Ok(Within { verdict, triangle: None, work })
+        Ok(Decided { verdict, witness, work })
     }
 }
 
@@ -108,24 +85,22 @@ fn from_afar(
     point: [f32; 3],
     far: FarPoint<'_>,
     distance: f32,
-) -> Result<Within, QueryError> {
+) -> Result<Decided<u32>, QueryError> {
     let ClosestPoint { distance: found, triangle, work, .. } = far.closest_point(tree, point)?;
-    let (verdict, triangle) = match triangle {
+    let (verdict, witness) = match triangle {
         Some(_) if found.upper <= distance => (Verdict::Yes, triangle),
         _ if found.lower > distance => (Verdict::No, None),
         _ => (Verdict::Undecided(Undecided::Resolution), None),
     };
-    Ok(Within { verdict, triangle, work })
+    Ok(Decided { verdict, witness, work })
 }
 
 struct Threshold<'a> {
     query: &'a PointQuery,
     /// Input units.
     distance: f32,
-    /// A triangle that is certainly within.
-    near: Option<TriangleAt>,
-    /// A triangle may be within.
-    undecided: bool,
+    /// A triangle that is certainly within, one that may be.
+    found: Witness<TriangleAt>,
 }
 
 impl TriangleCollector for Threshold<'_> {
@@ -138,10 +113,10 @@ impl TriangleCollector for Threshold<'_> {
     ) -> Option<Next> {
         if Real(near.distance_sq) <= Real(*limit) && self.is_within(near.distance_sq) {
             let (lane, ..) = near.lane();
-            self.near = Some(visit.triangle(lane));
+            self.found.met = Some(visit.triangle(lane));
             return Some(Next::Nothing);
         }
-        Some(if self.undecided { Next::Leaf } else { Next::Triangles })
+        Some(if self.found.may.is_some() { Next::Leaf } else { Next::Triangles })
     }
 
     /// A triangle that is not certainly beyond the distance leaves the verdict undecided. A refined
@@ -154,17 +129,19 @@ impl TriangleCollector for Threshold<'_> {
         _: Option<&[Vec3; 3]>,
         _: &mut f32,
     ) {
-        if self.near.is_none() && self.is_within(triangle.distance_sq) {
-            self.near = Some(triangle.place);
+        if self.found.met.is_none() && self.is_within(triangle.distance_sq) {
+            self.found.met = Some(triangle.place);
         }
-        if !self.undecided {
-            self.undecided = self.query.lower(triangle.lower(leaf, self.query)) <= self.distance;
+        if self.found.may.is_none()
+            && self.query.lower(triangle.lower(leaf, self.query)) <= self.distance
+        {
+            self.found.may = Some(triangle.place);
         }
     }
 
     #[inline(always)]
     fn is_answered(&self) -> bool {
-        self.near.is_some()
+        self.found.met.is_some()
     }
 }
 

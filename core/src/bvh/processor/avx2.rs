@@ -13,7 +13,7 @@ use crate::bvh::point::leaf::distance::nearest_avx2;
 use crate::bvh::point::leaf::limit::LeafLimit;
 use crate::bvh::point::query::PointQuery;
 use crate::bvh::point::search::blocks::{Kernels, search_by_blocks};
-use crate::bvh::segment::any_hit::{AnyHit, any_hit_by_blocks};
+use crate::bvh::segment::any_hit::any_hit_by_blocks;
 use crate::bvh::segment::blocks::SegmentKernels;
 use crate::bvh::segment::first_hit::first_hit_by_blocks;
 use crate::bvh::segment::leaf::{Facing, flagged_avx2};
@@ -21,7 +21,7 @@ use crate::bvh::segment::query::SegmentQuery;
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::bvh::tree::node::{OpenedNode, take_least_avx2};
 use crate::geom::fan::WIDTH;
-use crate::query::{Budget, ClosestPoint, FirstHit, QueryError, ScratchEntry};
+use crate::query::{Budget, ClosestPoint, Decided, FirstHit, QueryError, ScratchEntry};
 
 /// [`Bvh::closest_point_from`].
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
@@ -80,7 +80,7 @@ pub(super) fn any_hit(
     facing: Facing,
     budget: Budget,
     scratch: &mut [ScratchEntry],
-) -> Result<AnyHit, QueryError> {
+) -> Result<Decided<()>, QueryError> {
     let kernels = SegmentKernels::new(
         |query: &SegmentQuery, opened: &OpenedNode| query.keys_avx2(tree, opened),
         |keys: &[u32; WIDTH], limit: u32| take_least_avx2(keys, limit),

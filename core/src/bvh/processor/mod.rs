@@ -5,10 +5,9 @@ mod avx2;
 
 use crate::bvh::point::closest_points::closest_points_by;
 use crate::bvh::point::hint::Hint;
-use crate::bvh::segment::any_hit::AnyHit;
 use crate::bvh::segment::leaf::Facing;
 use crate::bvh::tree::format::Bvh;
-use crate::query::{Budget, ClosestPoint, FirstHit, QueryError, ScratchEntry};
+use crate::query::{Budget, ClosestPoint, Decided, FirstHit, QueryError, ScratchEntry};
 
 /// Questions compiled for the instructions of one kind of processor: functions with the arguments,
 /// errors and bits of the methods of [`Bvh`] with the same names.
@@ -22,7 +21,7 @@ pub struct ProcessorQuestions {
     /// [`Bvh::first_hit`].
     pub first_hit: OfSegment<FirstHit>,
     /// [`Bvh::any_hit`].
-    pub any_hit: OfSegment<AnyHit>,
+    pub any_hit: OfSegment<Decided<()>>,
 }
 
 type ClosestPointFrom = fn(

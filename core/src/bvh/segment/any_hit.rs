@@ -15,25 +15,16 @@ use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::Crossing;
 #[cfg(meshsweep_avx2)]
 use crate::geom::fan::WIDTH;
-use crate::query::{Budget, QueryError, ScratchEntry, Undecided, Verdict, Work};
-
-/// Whether a segment meets the surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub struct AnyHit {
-    /// `Yes`: the segment meets the input mesh. `No`: no point of the segment lies on a triangle of
-    /// the wanted facing. Undecided for [`Resolution`](Undecided::Resolution): the segment passes
-    /// so near an edge, or ends so near the surface, that rounding and the surface error leave it
-    /// undecided.
-    pub verdict: Verdict,
-    /// The work of the search.
-    pub work: Work,
-}
+use crate::query::{Budget, Decided, QueryError, ScratchEntry, Verdict, Witness, Work};
 
 impl Bvh<'_> {
     /// Whether the closed segment `a b` (input units) meets the surface. It ends at the first
     /// proof.
+    ///
+    /// `No` says that no point of the segment lies on a triangle of the wanted facing. The verdict
+    /// is undecided for [`Resolution`](crate::Undecided::Resolution) if the segment passes so near
+    /// an edge, or ends so near the surface, that rounding and the surface error leave it
+    /// undecided. The witness names no triangle: [`first_hit`](Bvh::first_hit) does.
     ///
     /// Arguments and degenerate cases as for [`first_hit`](Bvh::first_hit). Cost: less than there.
     ///
@@ -57,10 +48,10 @@ impl Bvh<'_> {
         facing: Facing,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<AnyHit, QueryError> {
+    ) -> Result<Decided<()>, QueryError> {
         let mut work = Work::default();
         let Some(start) = SegmentStart::find(self, [a, b], &budget, scratch)? else {
-            return Ok(AnyHit { verdict: Verdict::No, work });
+            return Ok(CLEAR);
         };
         let query = SegmentQuery::new(self, &start);
         let collector = AnyCrossing::new(&query);
@@ -86,13 +77,13 @@ pub(crate) fn any_hit_by_blocks(
         impl Fn(&[u32; WIDTH], u32) -> TakenLeast,
         impl FlaggedOfLeaf,
     >,
-) -> Option<Result<AnyHit, QueryError>> {
+) -> Option<Result<Decided<()>, QueryError>> {
     if !is_unlimited(tree, budget, scratch) {
         return None;
     }
     let start = match SegmentStart::find(tree, ends, budget, scratch) {
         Ok(Some(start)) => start,
-        Ok(None) => return Some(Ok(AnyHit { verdict: Verdict::No, work: Work::default() })),
+        Ok(None) => return Some(Ok(CLEAR)),
         Err(error) => return Some(Err(error)),
     };
     let query = SegmentQuery::new(tree, &start);
@@ -100,28 +91,25 @@ pub(crate) fn any_hit_by_blocks(
     Some(found.map(|(found, work)| found.answer(Descent::Done, work)))
 }
 
+/// The answer where a segment is clear of the model's box.
+const CLEAR: Decided<()> = Decided { verdict: Verdict::No, witness: None, work: Work::NONE };
+
 struct AnyCrossing {
     /// Bits of the greatest parameter.
     end: u32,
-    undecided: bool,
-    certain: bool,
+    found: Witness<()>,
 }
 
 impl AnyCrossing {
     #[inline(always)]
     fn new(query: &SegmentQuery) -> Self {
-        AnyCrossing { end: query.ray.end().to_bits(), undecided: false, certain: false }
+        AnyCrossing { end: query.ray.end().to_bits(), found: Witness::NONE }
     }
 
     #[inline(always)]
-    fn answer(&self, descent: Descent, work: Work) -> AnyHit {
-        let verdict = match descent {
-            _ if self.certain => Verdict::Yes,
-            Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),
-            _ if self.undecided => Verdict::Undecided(Undecided::Resolution),
-            _ => Verdict::No,
-        };
-        AnyHit { verdict, work }
+    fn answer(&self, descent: Descent, work: Work) -> Decided<()> {
+        let (verdict, witness) = self.found.answer(descent.cut());
+        Decided { verdict, witness, work }
     }
 }
 
@@ -133,13 +121,13 @@ impl CrossingCollector for AnyCrossing {
 
     #[inline(always)]
     fn meet(&mut self, _: &Crossing, _: TriangleAt) -> Option<()> {
-        self.undecided = true;
+        self.found.may = Some(());
         Some(())
     }
 
     #[inline(always)]
     fn certain(&mut self, _: f32) {
-        self.certain = true;
+        self.found.met = Some(());
     }
 
     #[inline(always)]
@@ -150,7 +138,7 @@ impl CrossingCollector for AnyCrossing {
 
     #[inline(always)]
     fn is_answered(&self) -> bool {
-        self.certain
+        self.found.met.is_some()
     }
 
     const TELLS_EACH: bool = false;

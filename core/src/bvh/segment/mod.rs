@@ -19,5 +19,4 @@ mod model_box;
 pub(super) mod query;
 mod start;
 
-pub use any_hit::AnyHit;
 pub use leaf::Facing;

@@ -7,6 +7,7 @@ use super::box_keys::{bounds_sq, key_limit};
 use super::placed::PlacedSolid;
 use crate::bvh::tree::descent::{LeafVisit, LeafVisitor};
 use crate::bvh::tree::format::{CORNERS, FanLeaf, slots};
+use crate::bvh::tree::gap::{Gap, GapVisitor};
 use crate::bvh::tree::stored_lengths::square_limit;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
@@ -75,30 +76,6 @@ impl LeafTriangles {
     }
 }
 
-/// A measured triangle.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct TriangleGap {
-    pub(super) place: TriangleAt,
-    pub(super) gap: ConvexGap,
-}
-
-impl PlacedSolid {
-    /// Whether it is proved that the solid meets the input's triangle: it is so deep in the stored
-    /// one, or so much nearer than the radius.
-    pub(super) fn meets(&self, found: &TriangleGap) -> bool {
-        let error = self.lengths.error;
-        found.gap.depth > error || found.gap.upper + error < self.radius
-    }
-}
-
-/// A question's visitor for triangles.
-pub(super) trait GapVisitor {
-    /// Triangles that are farther from the hull of the corners need no visit.
-    fn limit(&self) -> f64;
-    /// Whether to go on.
-    fn take(&mut self, found: &TriangleGap) -> bool;
-}
-
 /// The search among leaves for a solid at rest.
 pub(super) struct LeafSearch<'a, V> {
     placed: &'a PlacedSolid,
@@ -112,7 +89,7 @@ pub(super) struct LeafSearch<'a, V> {
     pub(super) visitor: V,
 }
 
-impl<V: GapVisitor> LeafVisitor for LeafSearch<'_, V> {
+impl<V: GapVisitor<TriangleAt>> LeafVisitor for LeafSearch<'_, V> {
     #[inline(always)]
     fn limit(&self) -> u32 {
         key_limit(square_limit(self.visitor.limit()))
@@ -126,8 +103,8 @@ impl<V: GapVisitor> LeafVisitor for LeafSearch<'_, V> {
                 continue;
             }
             self.measured = self.measured.saturating_add(1);
-            let gap = self.measure(&corners);
-            if !self.visitor.take(&TriangleGap { place, gap }) {
+            let gap = self.measure(place, &corners);
+            if !self.visitor.take(&gap) {
                 return Some(false);
             }
         }
@@ -135,20 +112,24 @@ impl<V: GapVisitor> LeafVisitor for LeafSearch<'_, V> {
     }
 }
 
-impl<'a, V: GapVisitor> LeafSearch<'a, V> {
+impl<'a, V: GapVisitor<TriangleAt>> LeafSearch<'a, V> {
     pub(super) fn new(placed: &'a PlacedSolid, visitor: V) -> LeafSearch<'a, V> {
         let largest = placed.corners().iter().copied().map(norm_1).fold(0.0, greater);
         LeafSearch { placed, plane: ([0.0; 3], 0.0), largest, measured: 0, visitor }
     }
 
     #[inline(never)]
-    fn measure(&mut self, corners: &[[f64; 3]; 3]) -> ConvexGap {
+    fn measure(&mut self, place: TriangleAt, corners: &[[f64; 3]; 3]) -> Gap<TriangleAt> {
         let gap = convex_gap(self.placed.corners(), corners);
         if gap.lower > 0.0 {
             let heights = self.placed.corners().iter().map(|&p| dot(gap.direction, p));
             self.plane = (gap.direction, heights.fold(f64::NEG_INFINITY, greater));
         }
-        gap
+        // So deep in the stored triangle, or so much nearer than the radius.
+        let error = self.placed.lengths.error;
+        let meets = gap.depth > error || gap.upper + error < self.placed.radius;
+        let ConvexGap { lower, upper, points, .. } = gap;
+        Gap { place, lower, upper, meets, points }
     }
 
     /// Whether the plane proves that a triangle is farther than the limit.

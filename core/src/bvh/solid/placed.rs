@@ -218,9 +218,7 @@ impl PlacedSolid {
     /// The distance of the input, from bounds for the hull of the corners.
     pub(super) fn distance(&self, lower: f64, upper: f64) -> Interval {
         let lower = self.lengths.lower(lower - self.radius);
-        let rest = upper - self.radius;
-        let upper = if rest > -self.lengths.error { self.lengths.upper(rest) } else { 0.0 };
-        Interval::new(lower, upper)
+        Interval::new(lower, self.lengths.upper_about(upper, self.radius))
     }
 }
 

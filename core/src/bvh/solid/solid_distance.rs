@@ -1,13 +1,14 @@
 //! The distance of a convex solid and the surface.
 
 use super::box_keys::{ByDistance, distance_of};
-use super::leaf_search::{GapVisitor, LeafSearch, TriangleGap};
+use super::leaf_search::LeafSearch;
 use super::placed::PlacedSolid;
 use crate::bvh::tree::descent::{Descent, descend};
 use crate::bvh::tree::format::Bvh;
-use crate::num::tolerance::U32;
-use crate::num::{greater, lesser};
-use crate::query::{Budget, Ended, Interval, QueryError, ScratchEntry, Solid, SolidDistance, Work};
+use crate::bvh::tree::gap::{Gap, GapVisitor, NearestGap};
+use crate::bvh::tree::triangle_at::TriangleAt;
+use crate::num::lesser;
+use crate::query::{Budget, Interval, QueryError, ScratchEntry, Solid, SolidDistance, Work};
 
 impl Bvh<'_> {
     /// The least distance of a point of `solid` from the surface, and where the two are nearest.
@@ -19,10 +20,10 @@ impl Bvh<'_> {
     /// [`solid_within`](Bvh::solid_within) where a threshold matters: it is faster.
     ///
     /// `scratch`: [`scratch_entries`](Bvh::scratch_entries) make overflow impossible. With fewer
-    /// the interval still holds, and [`Ended::Scratch`] says so. Lengths and coordinates are in
-    /// input units, in the mesh's frame. A tolerance or the steps of the budget end the search
-    /// earlier. A search that ends before the first triangle goes down to one all the same, and
-    /// does not count that.
+    /// the interval still holds, and [`Ended::Scratch`](crate::Ended::Scratch) says so. Lengths and
+    /// coordinates are in input units, in the mesh's frame. A tolerance or the steps of the budget
+    /// end the search earlier. A search that ends before the first triangle goes down to one all
+    /// the same, and does not count that.
     ///
     /// Solids may be flat, or have equal corners. A solid without radius that the surface only
     /// touches has a lower end of 0 and an upper end of the surface error and rounding.
@@ -59,21 +60,18 @@ impl Bvh<'_> {
         let mut placed = PlacedSolid::NONE;
         placed.set(self, solid, None)?;
         let mut work = Work::default();
-        let nearest = Nearest {
-            placed: &placed,
-            best: None,
-            lower: f64::INFINITY,
-            limit: f64::INFINITY,
-            relative: f64::from(budget.relative),
-            absolute: placed.lengths.inward(budget.absolute),
-        };
+        let nearest = NearestGap::new(&placed.lengths, placed.radius, &budget);
         let query = ByDistance(&placed);
         let mut search = LeafSearch::new(&placed, nearest);
         let descent = descend(self, &query, budget.steps, scratch, &mut search, &mut work)?;
         work.exact = search.measured;
         let (best, lower, ended) = match search.visitor.best {
             Some(best) => {
-                let (lower, ended) = search.visitor.lower(descent);
+                let missed = match descent {
+                    Descent::Truncated { least, ended } => Some((ended, distance_of(least))),
+                    _ => None,
+                };
+                let (lower, ended) = search.visitor.lower(missed);
                 (best, lower, ended)
             }
             // The search ended before the first leaf.
@@ -86,15 +84,15 @@ impl Bvh<'_> {
                 (best, lower, descent.ended())
             }
         };
-        let distance = if placed.meets(&best) {
+        let distance = if best.meets {
             Interval::new(0.0, 0.0)
         } else {
-            let Interval { lower, upper } = placed.distance(lower, best.gap.upper);
+            let Interval { lower, upper } = placed.distance(lower, best.upper);
             Interval::new(lesser(lower, upper), upper)
         };
         Ok(SolidDistance {
             distance,
-            points: best.gap.points.map(|point| placed.to_input(point)),
+            points: best.points.map(|point| placed.to_input(point)),
             triangle: best.place.source(self).ok_or(QueryError::Unchecked)?,
             work,
             ended,
@@ -109,75 +107,22 @@ fn some_triangle(
     tree: &Bvh<'_>,
     placed: &PlacedSolid,
     scratch: &mut [ScratchEntry],
-) -> Result<TriangleGap, QueryError> {
+) -> Result<Gap<TriangleAt>, QueryError> {
     let mut search = LeafSearch::new(placed, FirstTriangle(None));
     let mut work = Work::default();
     descend(tree, &ByDistance(placed), u32::MAX, scratch, &mut search, &mut work)?;
     search.visitor.0.ok_or(QueryError::Unchecked)
 }
 
-/// The visitor that wants the nearest triangle.
-struct Nearest<'a> {
-    placed: &'a PlacedSolid,
-    best: Option<TriangleGap>,
-    /// The least lower end of all triangles that were measured.
-    lower: f64,
-    /// Triangles that are farther cannot matter, for the tolerance or at all.
-    limit: f64,
-    relative: f64,
-    absolute: f64,
-}
-
-impl Nearest<'_> {
-    /// The least lower end that meets the tolerance: upper ≤ lower · (1 + relative), or upper −
-    /// lower ≤ absolute, where the answer's ends lack the radius, have the surface error and are
-    /// rounded to f32.
-    fn tolerated(&self, upper: f64) -> f64 {
-        let (error, radius) = (self.placed.lengths.error, self.placed.radius);
-        let (told, rounded) = (greater(0.0, upper - radius + error), 4.0 * f64::from(U32));
-        let relative = told / (1.0 + self.relative) * (1.0 + rounded);
-        let absolute = told - greater(0.0, self.absolute - told * rounded);
-        let least = lesser(relative, absolute) + error + radius;
-        greater(0.0, lesser(upper, least))
-    }
-
-    /// The lower end of all triangles, and why the search ended.
-    fn lower(&self, descent: Descent) -> (f64, Ended) {
-        let lower = lesser(self.lower, self.limit);
-        match descent {
-            Descent::Truncated { least, ended } => (lesser(lower, distance_of(least)), ended),
-            _ if self.limit < self.lower => (lower, Ended::Tolerance),
-            _ => (lower, Ended::Exact),
-        }
-    }
-}
-
-impl GapVisitor for Nearest<'_> {
-    #[inline(always)]
-    fn limit(&self) -> f64 {
-        self.limit
-    }
-
-    fn take(&mut self, found: &TriangleGap) -> bool {
-        self.lower = lesser(self.lower, found.gap.lower);
-        let meets = self.placed.meets(found);
-        if meets || self.best.is_none_or(|best| found.gap.upper < best.gap.upper) {
-            self.best = Some(*found);
-            self.limit = self.tolerated(found.gap.upper);
-        }
-        !meets
-    }
-}
-
 /// The visitor that ends at the first triangle.
-struct FirstTriangle(Option<TriangleGap>);
+struct FirstTriangle(Option<Gap<TriangleAt>>);
 
-impl GapVisitor for FirstTriangle {
+impl GapVisitor<TriangleAt> for FirstTriangle {
     fn limit(&self) -> f64 {
         f64::INFINITY
     }
 
-    fn take(&mut self, found: &TriangleGap) -> bool {
+    fn take(&mut self, found: &Gap<TriangleAt>) -> bool {
         self.0 = Some(*found);
         false
     }

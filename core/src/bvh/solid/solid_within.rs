@@ -1,15 +1,12 @@
 //! Whether a convex solid and the surface are within a distance of each other.
 
 use super::box_keys::ByDistance;
-use super::leaf_search::{GapVisitor, LeafSearch, TriangleGap};
+use super::leaf_search::LeafSearch;
 use super::placed::PlacedSolid;
-use crate::bvh::tree::descent::{Descent, descend};
+use crate::bvh::tree::descent::descend;
 use crate::bvh::tree::format::Bvh;
-use crate::bvh::tree::triangle_at::TriangleAt;
-use crate::num::tolerance::U64;
-use crate::query::{
-    Budget, QueryError, ScratchEntry, Solid, SolidWithin, Undecided, Verdict, Work,
-};
+use crate::bvh::tree::gap::GapThreshold;
+use crate::query::{Budget, Decided, QueryError, ScratchEntry, Solid, Work};
 
 impl Bvh<'_> {
     /// Whether a point of `solid` is at most `distance` from the surface. All lengths in input
@@ -23,7 +20,10 @@ impl Bvh<'_> {
     /// Only the surface counts: a solid inside of a closed mesh may be clear.
     ///
     /// `scratch` and degenerate cases as for [`solid_distance`](Bvh::solid_distance). It ends at
-    /// the first triangle that is certainly near enough. Of the budget only `steps` matters.
+    /// the first triangle that is certainly near enough. The witness of a `Yes` is this triangle;
+    /// that of an undecided [`Resolution`](crate::Undecided::Resolution) is one that may be near
+    /// enough. Numbers are those of the input file. `work` as in
+    /// [`SolidDistance::work`](crate::SolidDistance::work). Of the budget only `steps` matters.
     ///
     /// Cost: less than the distance. One node if the model's boxes are farther; all triangles
     /// within the distance if the answer is nearly `Yes`.
@@ -50,68 +50,21 @@ impl Bvh<'_> {
         distance: f32,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<SolidWithin, QueryError> {
+    ) -> Result<Decided<u32>, QueryError> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check()?;
         budget.check_with(scratch)?;
         let mut placed = PlacedSolid::NONE;
         placed.set(self, solid, None)?;
-        let lengths = &placed.lengths;
-        let kept_distance = lengths.inward(distance) + placed.radius + lengths.error;
-        let threshold = Threshold {
-            placed: &placed,
-            distance,
-            limit: kept_distance * (1.0 + 8.0 * U64),
-            near: None,
-            undecided: None,
-        };
+        let threshold = GapThreshold::new(&placed.lengths, placed.radius, distance);
         let mut work = Work::default();
         let mut search = LeafSearch::new(&placed, threshold);
         let query = ByDistance(&placed);
         let descent = descend(self, &query, budget.steps, scratch, &mut search, &mut work)?;
         work.exact = search.measured;
-        let Threshold { near, undecided, .. } = search.visitor;
-        let (verdict, place) = match (near, descent, undecided) {
-            (Some(place), _, _) => (Verdict::Yes, Some(place)),
-            (None, Descent::Truncated { ended, .. }, _) => {
-                (Verdict::Undecided(ended.undecided()), None)
-            }
-            (None, _, Some(place)) => (Verdict::Undecided(Undecided::Resolution), Some(place)),
-            (None, _, None) => (Verdict::No, None),
-        };
-        let triangle =
+        let (verdict, place) = search.visitor.found.answer(descent.cut());
+        let witness =
             place.map(|place| place.source(self).ok_or(QueryError::Unchecked)).transpose()?;
-        Ok(SolidWithin { verdict, triangle, work })
-    }
-}
-
-struct Threshold<'a> {
-    placed: &'a PlacedSolid,
-    /// Input units.
-    distance: f32,
-    /// Of the hull of the corners, stored units.
-    limit: f64,
-    /// A triangle that is certainly within.
-    near: Option<TriangleAt>,
-    /// A triangle that may be within.
-    undecided: Option<TriangleAt>,
-}
-
-impl GapVisitor for Threshold<'_> {
-    #[inline(always)]
-    fn limit(&self) -> f64 {
-        self.limit
-    }
-
-    fn take(&mut self, found: &TriangleGap) -> bool {
-        let distance = self.placed.distance(found.gap.lower, found.gap.upper);
-        if self.placed.meets(found) || distance.upper <= self.distance {
-            self.near = Some(found.place);
-            return false;
-        }
-        if self.undecided.is_none() && distance.lower <= self.distance {
-            self.undecided = Some(found.place);
-        }
-        true
+        Ok(Decided { verdict, witness, work })
     }
 }

@@ -100,6 +100,15 @@ pub(crate) enum Descent {
 }
 
 impl Descent {
+    /// Why it missed leaves, if it did.
+    #[inline(always)]
+    pub(crate) fn cut(self) -> Option<Ended> {
+        match self {
+            Descent::Truncated { ended, .. } => Some(ended),
+            _ => None,
+        }
+    }
+
     /// Why a search with an interval ended.
     #[inline(always)]
     pub(crate) fn ended(self) -> Ended {

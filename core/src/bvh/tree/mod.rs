@@ -9,6 +9,7 @@
 //! | `triangle_at` | the place of a triangle, in one word |
 //! | `axis_intervals` | the boxes of a node as intervals along directions |
 //! | `extended` | a model's extent, for its pose in the frame of another |
+//! | `gap` | measured distances: the nearest, or one within a distance |
 //! | `input_box` | a box that holds the input's vertices |
 //! | `stored_lengths` | from distances of stored surfaces to those of the input |
 
@@ -18,6 +19,7 @@ pub(super) mod block_walk;
 pub(super) mod descent;
 pub(super) mod extended;
 pub mod format;
+pub(super) mod gap;
 pub(super) mod input_box;
 pub mod node;
 #[cfg(meshsweep_wide)]

@@ -54,6 +54,12 @@ impl StoredLengths {
         down_to_f32(lower * self.unit)
     }
 
+    /// An upper end in input units, about a solid whose corners have a radius.
+    pub(crate) fn upper_about(&self, upper: f64, radius: f64) -> f32 {
+        let rest = upper - radius;
+        if rest > -self.error { self.upper(rest) } else { 0.0 }
+    }
+
     /// An upper end in input units.
     pub(crate) fn upper(&self, upper: f64) -> f32 {
         let sum = upper + self.error;

@@ -138,8 +138,9 @@ impl<'a> Hull<'a> {
 
     /// Triangles of the surface among the first of a split's.
     pub(super) fn finals(&self, split: &Split<'a>, slots: usize) -> Option<u32> {
-        /// A call: five copies are a third of a kilobyte on boards.
-        #[inline(never)]
+        /// Five copies are a third of a kilobyte on boards.
+        #[cfg_attr(meshsweep_small, inline(never))]
+        #[cfg_attr(not(meshsweep_small), inline(always))]
         fn is_final(hull: &Hull<'_>, vertex: VertIdx) -> Option<bool> {
             hull.is_final(vertex)
         }

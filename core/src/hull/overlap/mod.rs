@@ -11,5 +11,3 @@ mod descent;
 mod places;
 mod query;
 mod side;
-
-pub use query::TriangleOverlap;

@@ -5,26 +5,8 @@ use super::side::Side;
 use crate::geom::Pose;
 use crate::hull::format::Hull;
 use crate::query::{
-    AllOverlaps, AllPairs, Budget, FirstPair, Overlap, QueryError, ScratchEntry, TrianglePair,
-    Verdict, Work,
+    AllOverlaps, AllPairs, Budget, Decided, QueryError, ScratchEntry, TrianglePair, Witness,
 };
-
-/// Whether a triangle meets a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub struct TriangleOverlap {
-    /// `Yes`: the triangle meets the surface of the input mesh. `No`: they have no common point.
-    /// Undecided for [`Resolution`](crate::Undecided::Resolution): they come nearer to each other
-    /// than the stored mesh can tell.
-    pub verdict: Verdict,
-    /// With `Yes` a triangle of the mesh that the triangle meets, by its number in the input file.
-    /// With an undecided [`Resolution`](crate::Undecided::Resolution) one that it may meet; `None`
-    /// on a cut blob.
-    pub triangle: Option<u32>,
-    /// The work of the search, as in [`Overlap::work`].
-    pub work: Work,
-}
 
 impl Hull<'_> {
     /// Whether a triangle (input units) meets the surface.
@@ -37,6 +19,9 @@ impl Hull<'_> {
     /// cut blob the answer is `No` or undecided.
     ///
     /// The search ends at the first triangle that is proved to meet: the same one on every target.
+    /// The witness of a `Yes` is this triangle, that of an undecided
+    /// [`Resolution`](crate::Undecided::Resolution) one that may meet, by its number in the input
+    /// file.
     /// `scratch`: [`scratch_entries`](Hull::scratch_entries) and 20 more are always enough. A
     /// shorter one may leave the question undecided. Of the budget only `steps` matters: triangles
     /// replaced by finer ones. Cost: in proportion to the surface that is near the triangle.
@@ -62,17 +47,17 @@ impl Hull<'_> {
         corners: [[f32; 3]; 3],
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<TriangleOverlap, QueryError> {
+    ) -> Result<Decided<u32>, QueryError> {
         let mut sides = [Side::of_hull(self)?, Side::of_triangle(corners, self)?];
-        let mut first = FirstPair::NONE;
+        let mut first = Witness::NONE;
         let (truncated, work) = descend(&mut sides, &Pose::IDENTITY, &budget, scratch, &mut first)
             .map_err(|error| match error {
                 QueryError::PoseOutOfDomain => QueryError::OutOfDomain,
                 error => error,
             })?;
         let (verdict, place) = first.answer(truncated);
-        let triangle = place.and_then(|[instance, _]| self.number(instance));
-        Ok(TriangleOverlap { verdict, triangle, work })
+        let witness = place.and_then(|[instance, _]| self.number(instance));
+        Ok(Decided { verdict, witness, work })
     }
 
     /// With this many scratch entries no [`overlap`](Hull::overlap) with `other` ends for lack of
@@ -87,9 +72,10 @@ impl Hull<'_> {
     /// Each hierarchy is refined only where the other is near. Both verdicts, the pose, surfaces
     /// that touch, and the work are as for [`Bvh::overlap`](crate::Bvh::overlap). The two questions
     /// never contradict each other. Only surfaces count: one solid may lie inside the other. If
-    /// either blob is cut, the answer is `No` or undecided, without triangles.
+    /// either blob is cut, the answer is `No` or undecided, without a witness.
     ///
-    /// It ends at the first pair that is proved to meet: the same pair on every target. `scratch`:
+    /// It ends at the first pair that is proved to meet: the same pair on every target. The witness
+    /// is that of [`Bvh::overlap`](crate::Bvh::overlap). `scratch`:
     /// [`overlap_entries`](Hull::overlap_entries) are always enough, of models with less than 16
     /// million splits. A shorter one may leave the question undecided. Of the budget only `steps`
     /// matters: triangles replaced by finer ones.
@@ -118,16 +104,16 @@ impl Hull<'_> {
         pose: Pose,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<Overlap, QueryError> {
+    ) -> Result<Decided<[u32; 2]>, QueryError> {
         let mut sides = [Side::of_hull(self)?, Side::of_hull(other)?];
-        let mut first = FirstPair::NONE;
+        let mut first = Witness::NONE;
         let (truncated, work) = descend(&mut sides, &pose, &budget, scratch, &mut first)?;
         let (verdict, place) = first.answer(truncated);
-        let triangles = place
+        let witness = place
             .map(|place| numbers([self, other], &place))
             .map(|numbers| numbers.ok_or(QueryError::Unchecked))
             .transpose()?;
-        Ok(Overlap { verdict, triangles, work })
+        Ok(Decided { verdict, witness, work })
     }
 
     /// All pairs of triangles of this surface and of that of `other`, moved by `pose`, that meet or

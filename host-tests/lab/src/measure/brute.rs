@@ -24,7 +24,7 @@ impl Brute {
         let p = point.map(f64::from);
         self.0
             .iter()
-            .map(|corners| wide_distance_sq(p, corners.map(DVec3::to_array)))
+            .map(|corners| wide_distance_sq(p, corners.map(|corner| corner.to_array())))
             .fold(f64::INFINITY, f64::min)
             .sqrt()
     }

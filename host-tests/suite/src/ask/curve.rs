@@ -135,7 +135,7 @@ pub fn is_within(
     to.answer(
         || curve.within(p, distance, Budget::EXACT, scratch),
         |fold, answer| {
-            segment(fold, answer.segment);
+            segment(fold, answer.witness);
             verdict(fold, answer.verdict);
         },
     );

@@ -72,7 +72,7 @@ pub fn overlap(
     timed(clock, || {
         match model.hull.overlap(&model.hull, pose, budget, queue) {
             Ok(answer) => {
-                let triangles = answer.triangles.unwrap_or([u32::MAX; 2]);
+                let triangles = answer.witness.unwrap_or([u32::MAX; 2]);
                 triangles.into_iter().for_each(|number| fold.word(number));
                 super::verdict(fold, answer.verdict);
             }
@@ -80,7 +80,7 @@ pub fn overlap(
         }
         match model.hull.meets_triangle(triangle, Budget::EXACT, queue) {
             Ok(answer) => {
-                super::number(fold, answer.triangle);
+                super::number(fold, answer.witness);
                 super::verdict(fold, answer.verdict);
             }
             Err(error) => super::refusal(fold, error),

@@ -352,7 +352,7 @@ fn flat_parts_are_right_from_any_distance() {
                     let twice = (2.0 * truth.upper) as f32;
                     let within =
                         tree.within(p, twice, Budget::EXACT, &mut stack(STACK)).expect("finite");
-                    let named = within.triangle.is_some();
+                    let named = within.witness.is_some();
                     assert!(
                         within.verdict == Verdict::Yes && named,
                         "{}: {p:?}: {within:?}",

@@ -1,22 +1,22 @@
 //! Is the mesh within a distance?
 
 use super::scenes::{STACK, all, allowed_width, stack};
-use meshsweep_core::{Budget, QueryError, Undecided, Verdict, Within};
+use meshsweep_core::{Budget, Decided, QueryError, Undecided, Verdict};
 use meshsweep_host_tests::generate::{Rng, cube, scaled, torus};
 use meshsweep_host_tests::oracle::Bounded;
 use meshsweep_host_tests::scene::Scene;
 use proptest::prelude::*;
 
-fn ask(scene: &Scene, p: [f32; 3], d: f32, stop: &Budget, entries: usize) -> Within {
+fn ask(scene: &Scene, p: [f32; 3], d: f32, stop: &Budget, entries: usize) -> Decided<u32> {
     scene.bvh().within(p, d, *stop, &mut stack(entries)).expect("a finite question")
 }
 
 /// Never a wrong answer; whether there was one.
-fn check(scene: &Scene, p: [f32; 3], d: f32, truth: Bounded, answer: Within) -> bool {
+fn check(scene: &Scene, p: [f32; 3], d: f32, truth: Bounded, answer: Decided<u32>) -> bool {
     let name = &scene.name;
     match answer.verdict {
         Verdict::Yes => {
-            let triangle = answer.triangle.expect("a tree knows its triangles");
+            let triangle = answer.witness.expect("a tree knows its triangles");
             assert!(
                 truth.lower <= f64::from(d),
                 "{name}: {p:?}: within {d:e}? {answer:?}, {truth:?}"
@@ -33,7 +33,7 @@ fn check(scene: &Scene, p: [f32; 3], d: f32, truth: Bounded, answer: Within) -> 
                 "{name}: {p:?}: within {d:e}? {answer:?}, {truth:?}"
             )
         }
-        _ => assert!(answer.triangle.is_none(), "{name}: {answer:?}"),
+        _ => assert!(answer.witness.is_none(), "{name}: {answer:?}"),
     }
     assert_eq!(answer.is_clear(), answer.verdict == Verdict::No);
     !matches!(answer.verdict, Verdict::Undecided(_))

@@ -36,7 +36,7 @@ fn short_stacks_and_few_steps_leave_answers_open_and_never_wrong() {
             if short.verdict == Verdict::Undecided(Undecided::Steps) {
                 cut[1] += 1;
             } else {
-                assert_eq!((short.verdict, short.triangles), (full.verdict, full.triangles));
+                assert_eq!((short.verdict, short.witness), (full.verdict, full.witness));
             }
         }
     }

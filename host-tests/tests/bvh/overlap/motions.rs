@@ -1,7 +1,7 @@
 //! Answers about motions, held to the exact ones.
 
 use meshsweep_core::{
-    Budget, Bvh, Ended, Overlap, Pose, ScratchEntry, TrianglePair, Undecided, Verdict,
+    Budget, Bvh, Decided, Ended, Pose, ScratchEntry, TrianglePair, Undecided, Verdict,
 };
 pub use meshsweep_host_tests::motion::{motions, placed, rotation, truth};
 use meshsweep_host_tests::scene::Scene;
@@ -10,7 +10,7 @@ pub fn is_open(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::Undecided(_))
 }
 
-pub fn ask(a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose) -> Overlap {
+pub fn ask(a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose) -> Decided<[u32; 2]> {
     let mut stack = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
     a.overlap(b, *pose, Budget::EXACT, &mut stack).expect("answers")
 }
@@ -48,13 +48,13 @@ pub fn holds(name: &str, a: &Scene, b: &Scene, pose: &Pose, tallies: &mut [Tally
             }
             Verdict::Yes => {
                 tally.meets += 1;
-                let pair = answer.triangles.expect("a pair");
+                let pair = answer.witness.expect("a pair");
                 assert!(truth.contains(&pair), "{name}: {pair:?} do not meet");
             }
             verdict => {
                 assert_eq!(verdict, Verdict::Undecided(Undecided::Resolution), "{name}");
                 tally.open += 1;
-                assert!(answer.triangles.is_some(), "{name}: which pair is open");
+                assert!(answer.witness.is_some(), "{name}: which pair is open");
             }
         }
         let (pairs, ended) = ask_all(&first, &second, pose);

@@ -1,7 +1,7 @@
 //! Answers about motions, held to the true distance.
 
 use meshsweep_core::{
-    Budget, Bvh, Ended, Interval, PairDistance, PairWithin, Pose, ScratchEntry, Undecided, Verdict,
+    Budget, Bvh, Decided, Ended, Interval, PairDistance, Pose, ScratchEntry, Undecided, Verdict,
 };
 use meshsweep_host_tests::oracle::{
     Bounded, distance_of_meshes, distance_to_moved_mesh, distance_to_triangle,
@@ -13,7 +13,7 @@ pub fn ask(a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose, budget: Budget) -> PairDistanc
     a.distance_to(b, *pose, budget, &mut stack).expect("answers")
 }
 
-pub fn ask_within(a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose, distance: f32) -> PairWithin {
+pub fn ask_within(a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose, distance: f32) -> Decided<[u32; 2]> {
     let mut stack = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
     a.within_of(b, *pose, distance, Budget::EXACT, &mut stack).expect("answers")
 }
@@ -103,11 +103,17 @@ fn thresholds(name: &str, [a, b]: [&Bvh<'_>; 2], pose: &Pose, truth: Bounded, wi
 }
 
 /// The verdict is not wrong, and not open farther than `width` from the truth.
-pub fn verdict_holds(name: &str, found: &PairWithin, distance: f32, truth: Bounded, width: f64) {
+pub fn verdict_holds(
+    name: &str,
+    found: &Decided<[u32; 2]>,
+    distance: f32,
+    truth: Bounded,
+    width: f64,
+) {
     let name = format!("{name}, {distance:e}: {found:?} {truth:?}");
     match found.verdict {
         Verdict::Yes => {
-            assert!(truth.lower <= f64::from(distance) && found.triangles.is_some(), "{name}");
+            assert!(truth.lower <= f64::from(distance) && found.witness.is_some(), "{name}");
         }
         Verdict::No => {
             assert!(truth.upper > f64::from(distance) && found.is_clear(), "{name}");

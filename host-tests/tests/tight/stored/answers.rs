@@ -94,7 +94,7 @@ fn check(
             }
             clear += usize::from(within.is_clear());
             near += usize::from(within.verdict == Verdict::Yes);
-            assert!(within.triangle.is_none(), "{name}: a hull knows no triangles");
+            assert!(within.witness.is_none(), "{name}: a hull knows no triangles");
         }
     }
     [clear, near]

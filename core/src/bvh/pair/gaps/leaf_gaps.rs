@@ -9,6 +9,7 @@ use super::pair_keys::{
 };
 use crate::bvh::pair::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
 use crate::bvh::tree::format::FanLeaf;
+use crate::bvh::tree::gap::{Gap, GapVisitor};
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::geom::{Contact, TriangleDistance, crossing, triangle_distance, triangles_meet};
@@ -16,25 +17,8 @@ use crate::num::tolerance::{GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U
 use crate::num::{greater, lesser, up_to_f32};
 use crate::query::{RelativePose, Work};
 
-/// The distance of two stored triangles, common units.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct TriangleGap {
-    pub(crate) place: [TriangleAt; 2],
-    pub(crate) lower: f64,
-    pub(crate) upper: f64,
-    /// It is proved that the triangles of the input meet.
-    pub(crate) meets: bool,
-    /// A point of each, from the first model's origin.
-    pub(crate) points: [[f64; 3]; 2],
-}
-
-/// A question's visitor for pairs of triangles.
-pub(crate) trait GapVisitor {
-    /// Pairs that are farther than this need no visit, common units.
-    fn limit(&self) -> f64;
-    /// Whether to go on.
-    fn take(&mut self, gap: &TriangleGap) -> bool;
-}
+/// The distance of two stored triangles, common units. Points are from the first model's origin.
+pub(crate) type TriangleGap = Gap<[TriangleAt; 2]>;
 
 /// What a visit of two leaves showed.
 pub(crate) struct LeafVisit {
@@ -60,7 +44,7 @@ impl LeafGaps<'_> {
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
         [first_at, second_at]: [TriangleAt; 2],
-        visitor: &mut impl GapVisitor,
+        visitor: &mut impl GapVisitor<[TriangleAt; 2]>,
         work: &mut Work,
     ) -> Option<LeafVisit> {
         let [first, second] = leaves;

@@ -6,11 +6,10 @@
 //! | `pair_keys` | lower bounds of the distances of all pairs of boxes of two nodes |
 //! | `leaf_gaps` | the distances of the triangles of two leaves |
 //! | `left_out` | what a descent does not look at, for the next one |
-//! | `nearest_gap`, `threshold` | what a search wants: the nearest pair, or one within a distance |
+//! | `answers` | what the questions say after a search |
 
+pub(super) mod answers;
 pub(super) mod leaf_gaps;
 pub(super) mod left_out;
 pub(super) mod nearest_first;
-pub(super) mod nearest_gap;
 mod pair_keys;
-pub(super) mod threshold;

@@ -4,7 +4,7 @@
 //! 64 bits with the least of their keys. Their keys are computed again when their turn comes, so a
 //! pair of nodes that waits takes three scratch entries however many children wait.
 
-use super::leaf_gaps::{GapVisitor, LeafGaps, LeafVisit};
+use super::leaf_gaps::{LeafGaps, LeafVisit};
 use super::left_out::{ChildPairs, LeftOut};
 use super::pair_keys::{
     NO_PAIR, PairKeys, bound_of, children_of, distance_of, key_limit, pair_bit, second_factor,
@@ -12,6 +12,7 @@ use super::pair_keys::{
 use crate::bvh::pair::models::Models;
 use crate::bvh::pair::stored_pair::StoredPair;
 use crate::bvh::tree::axis_intervals::{AxisIntervals, pairs};
+use crate::bvh::tree::gap::GapVisitor;
 use crate::bvh::tree::stored_lengths::square_limit;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::lesser;
@@ -104,7 +105,7 @@ impl<'s, 'a> Search<'s, 'a> {
     pub(crate) fn descend<L: LeftOut>(
         &mut self,
         (start, distance): (ChildPairs, f32),
-        visitor: &mut impl GapVisitor,
+        visitor: &mut impl GapVisitor<[TriangleAt; 2]>,
         left: &mut L,
     ) -> Result<PairDescent, QueryError> {
         let Search { models, leaves, work, .. } = self;

@@ -6,7 +6,7 @@ use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::Pose;
 use crate::query::{
-    AllOverlaps, AllPairs, Budget, FirstPair, Overlap, QueryError, ScratchEntry, TrianglePair,
+    AllOverlaps, AllPairs, Budget, Decided, QueryError, ScratchEntry, TrianglePair, Witness,
 };
 
 impl Bvh<'_> {
@@ -23,7 +23,10 @@ impl Bvh<'_> {
     /// errors. Two triangles without area are never proved to meet. Only surfaces count: one
     /// closed mesh may lie inside the other. [`penetration`](Bvh::penetration) tells that.
     ///
-    /// It ends at the first pair that is proved to meet: the same pair on every target. `scratch`:
+    /// It ends at the first pair that is proved to meet: the same pair on every target. The witness
+    /// of a `Yes` is this pair, this tree's triangle first; that of an undecided
+    /// [`Resolution`](crate::Undecided::Resolution) is a pair that may meet. Numbers are those of
+    /// the input files. `work` as in [`AllOverlaps::work`](crate::AllOverlaps::work). `scratch`:
     /// [`OVERLAP_ENTRIES`](Bvh::OVERLAP_ENTRIES) are always enough. A shorter one may leave the
     /// question undecided. Of the budget only `steps` matters: pairs of nodes.
     ///
@@ -52,13 +55,13 @@ impl Bvh<'_> {
         pose: Pose,
         budget: Budget,
         scratch: &mut [ScratchEntry],
-    ) -> Result<Overlap, QueryError> {
-        let mut first = FirstPair::NONE;
+    ) -> Result<Decided<[u32; 2]>, QueryError> {
+        let mut first = Witness::NONE;
         let (truncated, work) = descend([self, other], &pose, &budget, scratch, &mut first)?;
         let (verdict, place) = first.answer(truncated);
         let numbers = |place| numbers(self, other, place).ok_or(QueryError::Unchecked);
-        let triangles = place.map(numbers).transpose()?;
-        Ok(Overlap { verdict, triangles, work })
+        let witness = place.map(numbers).transpose()?;
+        Ok(Decided { verdict, witness, work })
     }
 
     /// All pairs of triangles of this tree and of `other`, moved by `pose`, that meet or that may

@@ -167,43 +167,46 @@ fn set_coarse(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPoi
     }
 }
 
-/// Sets the axes of any frame, and cuts its planes to steps that are no finer than a key unit.
+/// Sets the axes of any frame. Its planes, cut to steps that are no finer than a key unit.
 #[cold]
 #[inline(never)]
 fn set_fine(
     axes: &mut [AxisPlanes; 3],
-    words: &mut PlaneWords,
     record: &[u8; FRAME_BYTES],
+    words: &PlaneWords,
     p: &KeyPoint,
-) {
+) -> PlaneWords {
     let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
     let (rows, _) = entries.as_chunks::<3>();
-    let (planes, _) = record.as_chunks::<4>().0.as_chunks::<{ 2 * WIDTH / 4 }>();
-    let (cut_planes, _) = words.as_chunks_mut::<{ 2 * WIDTH / 4 }>();
     let offset = p.relative_to_origin(record);
+    let mut cuts = [0; 3];
     // By number: at `opt-level = "s"` so many iterators would be kept in memory.
     for k in 0..3 {
         let exponent = record[boxes::FRAME_EXPONENTS + k];
-        let (axis, to, planes) = (&mut axes[k], &mut cut_planes[k], &planes[k]);
         let AxisPlace { from, shift } =
             AxisPlace::of(&rows[k], offset, exponent, p.unit_exponent());
         // A byte stands for the high one of sixteen bits. `shift` cuts off the low ones, and the
         // step is the unit of the byte after that.
         let step = 1 << 8u32.saturating_sub(shift);
-        *axis = AxisPlanes::new(from, step, (0xFF00 >> shift) - MAX_DISTANCE);
-        let cut = shift.saturating_sub(8) & 7;
-        let bytes = 0x0101_0101 * (0xFF >> cut);
-        for (to, plane) in to.iter_mut().zip(planes) {
-            *to = (u32::from_le_bytes(*plane) >> cut & bytes).to_le_bytes();
-        }
+        axes[k] = AxisPlanes::new(from, step, (0xFF00 >> shift) - MAX_DISTANCE);
+        cuts[k] = shift.saturating_sub(8) & 7;
     }
+    let cut = |k: usize, word: [u8; 4]| {
+        let bytes = 0x0101_0101 * (0xFF >> cuts[k]);
+        (u32::from_le_bytes(word) >> cuts[k] & bytes).to_le_bytes()
+    };
+    // One by one: an array of zeros to write to would be a call of `memset`.
+    let [a, b, c, d, e, f, g, h, i, j, k, l] = *words;
+    let (a, b, c, d) = (cut(0, a), cut(0, b), cut(0, c), cut(0, d));
+    let (e, f, g, h) = (cut(1, e), cut(1, f), cut(1, g), cut(1, h));
+    [a, b, c, d, e, f, g, h, cut(2, i), cut(2, j), cut(2, k), cut(2, l)]
 }
 
 /// Squared distances of the children from the point, in squares of key units.
 #[inline(always)]
 fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH] {
     let mut squares = [ABSENT; WIDTH];
-    let (mut axes, mut fine);
+    let (mut axes, fine);
     let (words, _) = record.as_chunks::<4>();
     let Some(mut words) = words.first_chunk::<PLANE_WORDS>() else { return squares };
     if let Some(steps) = coarse_steps(record, p) {
@@ -211,9 +214,7 @@ fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH]
         set_coarse(&mut axes, record, p, steps);
     } else {
         axes = [AxisPlanes::NONE; 3];
-        // Not a copy: that would be a call of `memcpy`, for which alone firmware would link it.
-        fine = [[0; 4]; PLANE_WORDS];
-        set_fine(&mut axes, &mut fine, record, p);
+        fine = set_fine(&mut axes, record, words, p);
         words = &fine;
     }
     let (fours, _) = squares.as_chunks_mut::<4>();

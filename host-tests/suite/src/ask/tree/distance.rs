@@ -84,7 +84,7 @@ pub fn is_within(
         || tree.within(p, distance, Budget::EXACT, &mut scratch.stack),
         |fold, answer| {
             let [kind, triangle] = match answer.verdict {
-                Verdict::Yes => [1, answer.triangle.unwrap_or(u32::MAX)],
+                Verdict::Yes => [1, answer.witness.unwrap_or(u32::MAX)],
                 Verdict::No => [2, 0],
                 _ => [3, 0],
             };

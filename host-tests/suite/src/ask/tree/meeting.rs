@@ -24,7 +24,7 @@ pub fn overlap(tree: &Bvh<'_>, pose: Pose, s: &mut Scratch<'_>, to: &mut Asked<'
                 Verdict::Yes => 2,
                 _ => 3,
             });
-            let triangles = answer.triangles.unwrap_or([u32::MAX; 2]);
+            let triangles = answer.witness.unwrap_or([u32::MAX; 2]);
             triangles.into_iter().for_each(|number| fold.word(number));
             ask::verdict(fold, answer.verdict);
         },
