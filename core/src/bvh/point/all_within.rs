@@ -66,7 +66,9 @@ impl Bvh<'_> {
         let tree = self;
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check()?;
-        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch)?;
+        // In place: `?` would copy it.
+        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch);
+        let prepared = prepared.as_ref().map_err(|&refused| refused)?;
         let query = match prepared.asked() {
             Asked::Near(query) => query,
             Asked::Far(far) => return from_afar(tree, point, far, distance, out),

@@ -54,7 +54,9 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
         let tree = self;
-        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch)?;
+        // In place: `?` would copy it.
+        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch);
+        let prepared = prepared.as_ref().map_err(|&refused| refused)?;
         let query = match prepared.asked() {
             Asked::Near(query) => query,
             Asked::Far(far) => return far.closest_point(tree, point),

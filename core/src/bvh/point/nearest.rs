@@ -68,7 +68,9 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<KNearest, QueryError> {
         let tree = self;
-        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch)?;
+        // In place: `?` would copy it.
+        let prepared = PreparedPoint::prepare(tree, point, &budget, scratch);
+        let prepared = prepared.as_ref().map_err(|&refused| refused)?;
         let mut work = Work::default();
         if out.is_empty() {
             return Ok(KNearest { stored: 0, rest_lower: 0.0, work, ended: Ended::Exact });

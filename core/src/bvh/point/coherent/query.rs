@@ -260,13 +260,15 @@ impl Memory {
         budget: &Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<CoherentClosest, QueryError> {
-        let prepared = PreparedPoint::prepare(tree, point, budget, scratch)?;
-        let query = match prepared.asked() {
-            Asked::Near(query) if budget.relative <= 0.0 && budget.absolute <= 0.0 => query,
-            Asked::Near(_) | Asked::Far(_) => {
+        // In place: `?` would copy it.
+        let prepared = PreparedPoint::prepare(tree, point, budget, scratch);
+        let query = match prepared.as_ref().map(PreparedPoint::asked) {
+            Ok(Asked::Near(query)) if budget.relative <= 0.0 && budget.absolute <= 0.0 => query,
+            Ok(Asked::Near(_) | Asked::Far(_)) => {
                 let closest = tree.closest_point(point, *budget, scratch)?;
                 return Ok(CoherentClosest { closest, safe_radius: 0.0 });
             }
+            Err(refused) => return Err(*refused),
         };
         let of = tree.identity();
         if self.of != of {

@@ -167,19 +167,15 @@ fn set_coarse(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPoi
     }
 }
 
-/// Sets the axes of any frame. Its planes, cut to steps that are no finer than a key unit.
+/// Sets the axes of any frame. The bits by which its planes are to be cut, so that the steps are no
+/// finer than a key unit: a byte of each axis.
 #[cold]
 #[inline(never)]
-fn set_fine(
-    axes: &mut [AxisPlanes; 3],
-    record: &[u8; FRAME_BYTES],
-    words: &PlaneWords,
-    p: &KeyPoint,
-) -> PlaneWords {
+fn set_fine(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPoint) -> u32 {
     let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
     let (rows, _) = entries.as_chunks::<3>();
     let offset = p.relative_to_origin(record);
-    let mut cuts = [0; 3];
+    let mut cuts = 0;
     // By number: at `opt-level = "s"` so many iterators would be kept in memory.
     for k in 0..3 {
         let exponent = record[boxes::FRAME_EXPONENTS + k];
@@ -189,24 +185,34 @@ fn set_fine(
         // step is the unit of the byte after that.
         let step = 1 << 8u32.saturating_sub(shift);
         axes[k] = AxisPlanes::new(from, step, (0xFF00 >> shift) - MAX_DISTANCE);
-        cuts[k] = shift.saturating_sub(8) & 7;
+        cuts |= (shift.saturating_sub(8) & 7) << (8 * k);
     }
-    let cut = |k: usize, word: [u8; 4]| {
-        let bytes = 0x0101_0101 * (0xFF >> cuts[k]);
-        (u32::from_le_bytes(word) >> cuts[k] & bytes).to_le_bytes()
-    };
-    // One by one: an array of zeros to write to would be a call of `memset`.
+    cuts
+}
+
+/// Four planes of axis `k`, cut.
+#[inline(always)]
+fn cut(cuts: u32, k: usize, planes: [u8; 4]) -> [u8; 4] {
+    let cut = cuts >> (8 * k) & 7;
+    (u32::from_le_bytes(planes) >> cut & 0x0101_0101 * (0xFF >> cut)).to_le_bytes()
+}
+
+/// All planes, cut. One by one: an array of zeros to write to would be a call of `memset`.
+#[cold]
+#[inline(never)]
+fn cut_planes(cuts: u32, words: &PlaneWords) -> PlaneWords {
     let [a, b, c, d, e, f, g, h, i, j, k, l] = *words;
-    let (a, b, c, d) = (cut(0, a), cut(0, b), cut(0, c), cut(0, d));
-    let (e, f, g, h) = (cut(1, e), cut(1, f), cut(1, g), cut(1, h));
-    [a, b, c, d, e, f, g, h, cut(2, i), cut(2, j), cut(2, k), cut(2, l)]
+    let (a, b, c, d) = (cut(cuts, 0, a), cut(cuts, 0, b), cut(cuts, 0, c), cut(cuts, 0, d));
+    let (e, f, g, h) = (cut(cuts, 1, e), cut(cuts, 1, f), cut(cuts, 1, g), cut(cuts, 1, h));
+    let (i, j, k, l) = (cut(cuts, 2, i), cut(cuts, 2, j), cut(cuts, 2, k), cut(cuts, 2, l));
+    [a, b, c, d, e, f, g, h, i, j, k, l]
 }
 
 /// Squared distances of the children from the point, in squares of key units.
 #[inline(always)]
 fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH] {
     let mut squares = [ABSENT; WIDTH];
-    let (mut axes, fine);
+    let (mut axes, mut fine);
     let (words, _) = record.as_chunks::<4>();
     let Some(mut words) = words.first_chunk::<PLANE_WORDS>() else { return squares };
     if let Some(steps) = coarse_steps(record, p) {
@@ -214,7 +220,17 @@ fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH]
         set_coarse(&mut axes, record, p, steps);
     } else {
         axes = [AxisPlanes::NONE; 3];
-        fine = set_fine(&mut axes, record, words, p);
+        let cuts = set_fine(&mut axes, record, p);
+        if cfg!(meshsweep_small) {
+            // Less code. Not a copy: that would be a call of `memcpy`, for which alone firmware
+            // would link it.
+            fine = [[0; 4]; PLANE_WORDS];
+            for (at, (to, word)) in fine.iter_mut().zip(words).enumerate() {
+                *to = cut(cuts, at >> 2, *word);
+            }
+        } else {
+            fine = cut_planes(cuts, words);
+        }
         words = &fine;
     }
     let (fours, _) = squares.as_chunks_mut::<4>();
