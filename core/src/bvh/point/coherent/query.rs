@@ -260,10 +260,12 @@ impl Memory {
         budget: &Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<CoherentClosest, QueryError> {
-        let prepared = PreparedPoint::prepare(tree, point, budget, scratch)?;
-        let query = match prepared.asked() {
-            Asked::Near(query) if budget.relative <= 0.0 && budget.absolute <= 0.0 => query,
-            Asked::Near(_) | Asked::Far(_) => {
+        // In place: a copy would take a board as long as the preparation.
+        let prepared = PreparedPoint::prepare(tree, point, budget, scratch);
+        let query = match prepared.as_ref().map(PreparedPoint::asked) {
+            Err(refused) => return Err(*refused),
+            Ok(Asked::Near(query)) if budget.relative <= 0.0 && budget.absolute <= 0.0 => query,
+            Ok(Asked::Near(_) | Asked::Far(_)) => {
                 let closest = tree.closest_point(point, *budget, scratch)?;
                 return Ok(CoherentClosest { closest, safe_radius: 0.0 });
             }
