@@ -51,7 +51,7 @@ impl Bvh<'_> {
     ) -> Result<Decided<()>, QueryError> {
         let mut work = Work::default();
         let Some(start) = SegmentStart::find(self, [a, b], &budget, scratch)? else {
-            return Ok(CLEAR);
+            return Ok(Decided { verdict: Verdict::No, witness: None, work });
         };
         let query = SegmentQuery::new(self, &start);
         let collector = AnyCrossing::new(&query);
@@ -83,16 +83,15 @@ pub(crate) fn any_hit_by_blocks(
     }
     let start = match SegmentStart::find(tree, ends, budget, scratch) {
         Ok(Some(start)) => start,
-        Ok(None) => return Some(Ok(CLEAR)),
+        Ok(None) => {
+            return Some(Ok(Decided { verdict: Verdict::No, witness: None, work: Work::NONE }));
+        }
         Err(error) => return Some(Err(error)),
     };
     let query = SegmentQuery::new(tree, &start);
     let found = kernels.search(tree, &query, facing, AnyCrossing::new(&query), scratch)?;
     Some(found.map(|(found, work)| found.answer(Descent::Done, work)))
 }
-
-/// The answer where a segment is clear of the model's box.
-const CLEAR: Decided<()> = Decided { verdict: Verdict::No, witness: None, work: Work::NONE };
 
 struct AnyCrossing {
     /// Bits of the greatest parameter.

@@ -44,7 +44,7 @@ pub(crate) struct Waiting {
     pub(crate) count: usize,
     /// Least [`IntBounds::upper`].
     pub(crate) upper: u32,
-    /// The way to the point that `upper` is of.
+    /// The offset to the point that `upper` is of.
     pub(crate) residual: Residual,
     /// The search's limit.
     pub(crate) limit: IntLimit,
