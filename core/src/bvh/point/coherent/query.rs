@@ -260,16 +260,9 @@ impl Memory {
         budget: &Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<CoherentClosest, QueryError> {
-<<<<<<< HEAD
         // In place: `?` would copy it.
         let prepared = PreparedPoint::prepare(tree, point, budget, scratch);
         let query = match prepared.as_ref().map(PreparedPoint::asked) {
-=======
-        // In place: a copy would take a board as long as the preparation.
-        let prepared = PreparedPoint::prepare(tree, point, budget, scratch);
-        let query = match prepared.as_ref().map(PreparedPoint::asked) {
-            Err(refused) => return Err(*refused),
->>>>>>> b
             Ok(Asked::Near(query)) if budget.relative <= 0.0 && budget.absolute <= 0.0 => query,
             Ok(Asked::Near(_) | Asked::Far(_)) => {
                 let closest = tree.closest_point(point, *budget, scratch)?;
