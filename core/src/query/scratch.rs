@@ -3,48 +3,52 @@
 use core::ops::{Deref, DerefMut};
 
 /// Eight bytes of working memory. Its contents mean nothing between queries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScratchEntry {
-    words: [u32; 2],
+    /// A bound, or the bits of an integer below `SMALL_WORDS`.
+    key: f32,
+    /// The node that the key belongs to, or any word.
+    node: u32,
 }
 
 impl ScratchEntry {
     /// Any value, for filling arrays.
-    pub const EMPTY: ScratchEntry = ScratchEntry { words: [0; 2] };
+    pub const EMPTY: ScratchEntry = ScratchEntry { key: 0.0, node: 0 };
 
-    /// A bound and the node that it belongs to.
     #[inline(always)]
     pub(crate) const fn new(key: f32, node: u32) -> ScratchEntry {
-        ScratchEntry { words: [key.to_bits(), node] }
+        ScratchEntry { key, node }
     }
 
-    /// Any two words.
+    /// The words below this one are the bits of f32 that are not NaN: 2^31 − 2^23.
+    pub(crate) const SMALL_WORDS: u32 = f32::INFINITY.to_bits();
+
+    /// Two words, the first below [`SMALL_WORDS`](Self::SMALL_WORDS). A copy keeps the bits of an
+    /// f32 that is not NaN on every target.
     #[inline(always)]
-    pub(crate) const fn of_words(words: [u32; 2]) -> ScratchEntry {
-        ScratchEntry { words }
+    pub(crate) const fn of_words([small, any]: [u32; 2]) -> ScratchEntry {
+        ScratchEntry { key: f32::from_bits(small), node: any }
     }
 
     #[inline(always)]
     pub(crate) const fn key(self) -> f32 {
-        f32::from_bits(self.key_bits())
-    }
-
-    /// The bits of the key. Keys are not negative, so bits compare as keys do.
-    #[inline(always)]
-    pub(crate) const fn key_bits(self) -> u32 {
-        let [key, _] = self.words;
-        key
+        self.key
     }
 
     #[inline(always)]
     pub(crate) const fn node(self) -> u32 {
-        let [_, node] = self.words;
-        node
+        self.node
+    }
+
+    /// The bits of the key, or the first word.
+    #[inline(always)]
+    pub(crate) const fn key_bits(self) -> u32 {
+        self.key.to_bits()
     }
 
     #[inline(always)]
     pub(crate) const fn words(self) -> [u32; 2] {
-        self.words
+        [self.key.to_bits(), self.node]
     }
 }
 

@@ -74,7 +74,7 @@ fn run<T: Real>(
         }
         let swept = [places.swept(0, &pair[0]), places.swept(1, &pair[1])];
         let [opens_a, opens_b] = pair.map(|triangle| triangle.fate == Fate::Splits);
-        // The first root is refined before the second, whatever their sizes.
+        // A root is refined at once: its number is too large for a waiting pair.
         let first = opens_a
             && (!opens_b
                 || pair[0].instance == side_a.root.instance
@@ -114,11 +114,11 @@ struct Stack<'s> {
 impl Stack<'_> {
     fn push(&mut self, [a, b]: Pair) {
         match self.slots.get_mut(self.used) {
-            Some(slot) => {
+            Some(slot) if a.0 < ScratchEntry::SMALL_WORDS => {
                 *slot = ScratchEntry::of_words([a.0, b.0]);
                 self.used += 1;
             }
-            None => self.is_short = true,
+            _ => self.is_short = true,
         }
     }
 
