@@ -25,7 +25,8 @@ fn main() {
     // The target is not known to have a product of two words, nor an instruction that counts bits.
     set("meshsweep_short_products", is_soft && architecture == "arm");
     // The level of the profile that this package is compiled with. It decides which functions are
-    // copied into their callers, never an answer. Where vectors are, a call would store them.
+    // copied into their callers and how much a search leaves out early, never an answer. Where
+    // vectors are, a call would store them.
     let is_small = ["s", "z"].contains(&variable("OPT_LEVEL").as_str());
     set("meshsweep_small", is_small && !is_wide);
 }

@@ -50,7 +50,7 @@
 //! - `defmt`, off by default: answers, errors, verdicts and budgets implement `defmt::Format`, so
 //!   that firmware can log them. Nothing else changes.
 //!
-//! Examples for a board, in Rust and in C, are in the repository's folder `core/examples`.
+//! Examples for a board, are in the repository: in Rust in `core/examples`, in C in `core/c-api/examples`.
 //!
 //! # Layers
 //! A folder may use only folders to its left in this line:
@@ -59,17 +59,17 @@
 //! | folder | owns |
 //! | --- | --- |
 //! | `num` | scalars with known rounding, stored radii, every tolerance with its derivation |
-//! | `geom` | closed-form kernels: point–triangle, segment–triangle, triangle pair, box, fan, swept triangle, point–segment; they know no bytes |
+//! | `geom` | closed-form kernels: point–triangle, segment–triangle, triangle pair, box, fan, swept triangle, point–segment, triangle distance, convex gap, solid angle, pose; they know no bytes |
 //! | `format` | bytes that all structures share: header, section table, CRC, reading numbers |
 //! | `query` | types that all questions share: [`Budget`], [`Scratch`], intervals, work counters, errors |
 //! | `bvh` | the box tree over fans, one file per question |
-//! | `hull` | split tables: levels, the refined hull, the sweep |
+//! | `hull` | split tables: levels, the refined hull, outer hits, the sweep, overlap, hulls that deform |
 //! | `tribox` | bounds of eighteen planes, and their hierarchy |
 //! | `curve` | polygonal curves in 2-D and 3-D |
 //! | `tight` | tight hulls, each stored as a box tree |
 //! | `blob` | [`Blob`]: opens, lets each structure check its own sections, hands out views |
 //!
-//! Each structure has its bytes in a folder `format`: `layout` (sizes and offsets), `view`,
+//! Each structure has its bytes in a folder `format` (the box tree in `tree/format`): `layout` (sizes and offsets), `view`,
 //! `check`.
 //!
 //! # The same bits everywhere

@@ -1,4 +1,4 @@
-//! The blobs that the firmware images are asked about: split hierarchies in every coordinate
+//! The blobs that the firmware images are asked about: hull hierarchies in every coordinate
 //! format, whole and cut, box trees, triboxes, tight hulls and curves.
 
 use std::fs;
@@ -203,7 +203,7 @@ pub fn write(folder: &Path) -> Result<(), String> {
 
 /// What an image should print of a blob: the suite's answers on this machine. The suite asks the
 /// blob's box tree if there is one, else its triboxes, its tight hulls, its curves, its hull that
-/// deforms or its split hierarchy.
+/// deforms or its hull hierarchy.
 ///
 /// # Errors
 /// The core's refusal.

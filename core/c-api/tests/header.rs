@@ -168,6 +168,23 @@ fn sizes_offsets_and_constants_are_those_of_rust() {
 }
 
 #[test]
+fn the_table_of_storage_is_that_of_rust() {
+    let readme = std::fs::read_to_string(here().join("README.md")).expect("the table's file");
+    let words = [
+        ("msw_model", MODEL_WORDS),
+        ("msw_tight", TIGHT_WORDS),
+        ("msw_hull", HULL_WORDS),
+        ("msw_coherent", COHERENT_WORDS),
+    ];
+    for (name, of_64_bits) in words {
+        let row = readme.lines().find(|line| line.starts_with(&format!("| `{name}` |")));
+        let last = row.and_then(|row| row.trim_end_matches(" |").rsplit("| ").next());
+        let bytes = last.map(|bytes| bytes.replace(',', ""));
+        assert_eq!(bytes, Some((8 * of_64_bits).to_string()), "{name}");
+    }
+}
+
+#[test]
 fn a_wrong_size_is_noticed() {
     let mut text = String::new();
     holds(&mut text, "sizeof(msw_closest)", size_of::<ClosestC>() + 1);

@@ -13,8 +13,8 @@
 //! | `scene` | a few dozen models, each moved |
 //! | `processor/` | questions compiled for the instructions of one processor |
 //!
-//! Each room's `mod.rs` lists its files. A question is a file that no other file of the tree takes
-//! a function from.
+//! Each room's `mod.rs` lists its files. A question's file holds its public method; what
+//! several questions need lies beside them.
 //!
 //! Two numbers lead to a triangle from its node: `child` is the number of the leaf among the node's
 //! children, `lane` the number of the triangle in the leaf.
@@ -30,7 +30,7 @@
 //! | --- | --- | --- |
 //! | triangles, by their distance from a point | `point::triangle_visitor::TriangleCollector` | `point/all_within` |
 //! | triangles that a segment meets | `segment::leaf::CrossingCollector` | `segment/any_hit` |
-//! | leaves as a whole | `tree::descent::LeafVisitor` | `point/closest_point` |
+//! | leaves as a whole | `tree::descent::LeafVisitor` | `solid/leaf_search` |
 //!
 //! `core/docs/guide.md` lists the other places.
 

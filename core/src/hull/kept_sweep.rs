@@ -1,8 +1,8 @@
 //! A sweep that is kept between questions: interrupted and continued, moved with its point
 //! (Guéziec 2000, 3.3, 5.1, 5.2), or asked for one triangle after another.
 //!
-//! A key in the queue is a bound of the distance plus the motion so far when it was computed. So
-//! the key less the motion so far is a bound at any later time, and no key is changed when the
+//! A key in the queue is a lower bound of the distance, plus the path of the point until then. The
+//! key less the path until now is a lower bound at any later time. So no key is changed when the
 //! point moves. A triangle is bounded anew when it comes to the top.
 
 use super::closest_point::Nearest;

@@ -1,4 +1,4 @@
-//! Targets for the split hierarchy.
+//! Targets for the hull hierarchy.
 
 use super::input::Input;
 use super::suite::ask_all;

@@ -14,7 +14,7 @@ use meshsweep_suite::ask::{apart, tree};
 use std::sync::OnceLock;
 
 /// Small valid blobs with a box tree: on the grid and exact, with either kind of boxes alone,
-/// closed and open, one that holds a split hierarchy too, one with turned triangles.
+/// closed and open, one that holds a hull hierarchy too, one with turned triangles.
 ///
 /// # Panics
 /// If one of them cannot be built.

@@ -39,15 +39,17 @@ impl Drawn {
     }
 }
 
-/// The answers of one core, each as text that holds all bits but for the work: kernels that take
-/// eight at once open nodes in another order.
+/// The answers of one core, each as text that holds the bits of intervals, points, triangles and
+/// verdicts, and the nodes that closest points opened. Kernels that take eight at once open them in
+/// another order, so those are not compared.
 macro_rules! answers_of {
     ($name:ident, $core:ident) => {
-        fn $name(bytes: &[u8], drawn: &[Drawn]) -> Vec<[String; 7]> {
+        fn $name(bytes: &[u8], drawn: &[Drawn]) -> (Vec<[String; 7]>, u64) {
             use $core::{Budget, Bvh, Facing, Hint, Neighbor, ScratchEntry};
             let tree = Bvh::open(bytes).expect("opens");
             let mut hint = Hint::NONE;
-            let ask = |question: &Drawn| {
+            let mut opened = 0;
+            let mut ask = |question: &Drawn| {
                 let Drawn { point, segment: [a, b], distance, .. } = *question;
                 let budget = Budget::EXACT
                     .with_relative(question.relative)
@@ -55,8 +57,11 @@ macro_rules! answers_of {
                     .with_steps(question.steps);
                 let entries = tree.scratch_entries_for(budget).saturating_sub(question.missing);
                 let stack = &mut vec![ScratchEntry::EMPTY; entries][..];
-                let closest = |answer: Result<$core::ClosestPoint, _>| match answer {
-                    Ok(it) => format!("{:?}", (it.distance, it.point, it.triangle, it.ended)),
+                let mut closest = |answer: Result<$core::ClosestPoint, _>| match answer {
+                    Ok(it) => {
+                        opened += u64::from(it.work.opened) + u64::from(it.work.triangles);
+                        format!("{:?}", (it.distance, it.point, it.triangle, it.ended))
+                    }
                     Err(error) => format!("{error:?}"),
                 };
                 let mut near = [Neighbor::EMPTY; 3];
@@ -72,7 +77,7 @@ macro_rules! answers_of {
                         Err(error) => format!("{error:?}"),
                     },
                     match tree.signed_distance(point, budget, stack) {
-                        Ok(it) => format!("{:?}", (it.distance, it.side)),
+                        Ok(it) => format!("{:?}", (it.distance, it.side, it.closest.triangle)),
                         Err(error) => format!("{error:?}"),
                     },
                     match tree.first_hit(a, b, Facing::Both, budget, stack) {
@@ -85,7 +90,8 @@ macro_rules! answers_of {
                     },
                 ]
             };
-            drawn.iter().map(ask).collect()
+            let answers = drawn.iter().map(&mut ask).collect();
+            (answers, opened)
         }
     };
 }
@@ -97,14 +103,22 @@ answers_of!(of_m4f, meshsweep_core_m4f);
 #[test]
 fn drawn_questions_have_the_same_answers_on_boards() {
     let count = if cfg!(debug_assertions) { 240 } else { 20_000 };
+    let mut work = [0; 3];
     for (index, scene) in scenes().iter().enumerate() {
         let drawn = Drawn::of(scene, count, 0xb0a2 + index as u64);
         for bytes in [&scene.bytes, &scene.f32_bytes] {
-            let here = of_this_machine(bytes, &drawn);
-            assert_equal(&format!("{} on m0", scene.name), &here, &of_m0(bytes, &drawn), &drawn);
-            assert_equal(&format!("{} on m4f", scene.name), &here, &of_m4f(bytes, &drawn), &drawn);
+            let (here, of_here) = of_this_machine(bytes, &drawn);
+            let (m0, of_m0) = of_m0(bytes, &drawn);
+            let (m4f, of_m4f) = of_m4f(bytes, &drawn);
+            assert_equal(&format!("{} on m0", scene.name), &here, &m0, &drawn);
+            assert_equal(&format!("{} on m4f", scene.name), &here, &m4f, &drawn);
+            for (sum, one) in work.iter_mut().zip([of_here, of_m0, of_m4f]) {
+                *sum += one;
+            }
         }
     }
+    let [here, m0, m4f] = work;
+    assert!(here != m0 && here != m4f, "one core three times: {work:?}");
 }
 
 fn assert_equal(name: &str, here: &[[String; 7]], there: &[[String; 7]], drawn: &[Drawn]) {

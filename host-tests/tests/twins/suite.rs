@@ -1,7 +1,7 @@
 //! The suite's questions, every one, about blobs that no board has in its flash.
 
 use super::scenes;
-use meshsweep::hull::{BuildOptions, Levels};
+use meshsweep::hull::BuildOptions;
 use meshsweep_host_tests::generate::corpus::solids;
 use meshsweep_host_tests::golden::{
     bending_torus, bracket_hulls, fence_curves, tool_path_curve, torus_triboxes,
@@ -16,7 +16,7 @@ macro_rules! blocks_of {
     ($name:ident, $suite:ident) => {
         mod $name {
             use super::Blocks;
-            use $suite::ask::{apart, curve, deform, hull, tight, tree, triboxes};
+            use $suite::ask::{apart, curve, deform, hull, hull_moving, tight, tree, triboxes};
             use $suite::{Clock, Kind, Plan, Recorder, Subject, run};
 
             #[derive(Default)]
@@ -49,6 +49,7 @@ macro_rules! blocks_of {
                 asked::<tree::Bvh<'_>>(blob, &mut tree::Scratch::new(), to);
                 asked::<apart::Apart<'_>>(blob, &mut apart::Scratch::new(), to);
                 asked::<hull::Model<'_>>(blob, &mut hull::Scratch::new(), to);
+                asked::<hull_moving::Moving<'_>>(blob, &mut hull_moving::Scratch::new(), to);
                 asked::<deform::DeformableHull<'_>>(blob, &mut deform::Scratch::new(), to);
                 asked::<triboxes::Triboxes<'_>>(blob, &mut triboxes::Scratch::new(), to);
                 asked::<tight::Hulls<'_>>(blob, &mut tight::Scratch::new(), to);
@@ -86,8 +87,9 @@ fn hulls_answer_the_suite_as_on_boards() {
     let mut asked = 0;
     for (name, mesh) in solids() {
         let options = BuildOptions::default();
-        let scene = Scene::sweep(name, mesh, &options.with_levels(Levels::Sweep));
-        asked += assert_equal(name, &scene.bytes);
+        let sweep = Scene::sweep(name, mesh.clone(), &options);
+        asked += assert_equal(name, &sweep.bytes);
+        asked += assert_equal(name, &Scene::hull(name, mesh, &options).bytes);
     }
     assert!(asked > 100, "{asked} blocks");
 }

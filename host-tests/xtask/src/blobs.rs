@@ -39,7 +39,7 @@ const DEFORM: Blob = Blob { name: "bend", image: "suite_deform" };
 const TIGHT: Blob = Blob { name: "tight", image: "suite_tight" };
 
 impl Blob {
-    /// The blobs whose costs are reported for a part with so much flash: split hierarchy and box
+    /// The blobs whose costs are reported for a part with so much flash: hull hierarchy and box
     /// tree of one mesh, triboxes, tight hulls, and a curve.
     #[must_use]
     pub const fn standard(flash: Flash) -> [Self; 5] {

@@ -13,7 +13,7 @@
 //! | `describe` | tables and JSON of sections, levels and memory |
 //! | `mesh_report` | what commands say of a mesh that they read |
 //! | `progress` | progress bars |
-//! | `curve` | what commands do with curves |
+//! | `side`, `source` | the words for sides; what `--emit` writes |
 //! | all others | one command each |
 //!
 //! A new question:

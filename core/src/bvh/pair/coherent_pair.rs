@@ -2,8 +2,8 @@
 //!
 //! A search leaves pairs of children out, each with a lower bound of their distance. They are kept.
 //! When the models have moved, each bound less the longest path of any point is still a lower
-//! bound. So the
-//! next search begins with the pairs that may have come near enough, in place of both roots.
+//! bound. So the next search begins with the pairs that may have come near enough, in place of both
+//! roots.
 
 use core::marker::PhantomData;
 

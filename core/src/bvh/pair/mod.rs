@@ -3,7 +3,7 @@
 //! | question | file |
 //! | --- | --- |
 //! | whether and where the surfaces meet | `overlap/` |
-//! | how far they are apart, and whether within a distance | `distance`, `within_of` |
+//! | how far they are apart, and whether within a distance | `distance_to`, `within_of` |
 //! | both of models that move from one question to the next | `coherent_pair` |
 //! | where a model that moves first comes near | `first_contact_of` |
 //! | how deep two solids are in each other | `penetration/` |
@@ -20,7 +20,7 @@
 
 mod advance;
 mod coherent_pair;
-mod distance;
+mod distance_to;
 mod first_contact_of;
 mod from_afar;
 mod gaps;

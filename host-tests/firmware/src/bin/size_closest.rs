@@ -1,4 +1,4 @@
-//! The size of an image that asks a split hierarchy for closest points and nothing else.
+//! The size of an image that asks a hull hierarchy for closest points and nothing else.
 #![no_std]
 #![no_main]
 

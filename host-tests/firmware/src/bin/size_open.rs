@@ -1,4 +1,4 @@
-//! The size of an image that opens a split hierarchy and asks nothing of it.
+//! The size of an image that opens a hull hierarchy and asks nothing of it.
 #![no_std]
 #![no_main]
 

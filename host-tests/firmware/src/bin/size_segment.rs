@@ -1,4 +1,4 @@
-//! The size of an image that asks a split hierarchy for the first hit of a segment and nothing
+//! The size of an image that asks a hull hierarchy for the first hit of a segment and nothing
 //! else.
 #![no_std]
 #![no_main]

@@ -1,4 +1,4 @@
-//! Runs the suite on a split hierarchy.
+//! Runs the suite on a hull hierarchy.
 #![no_std]
 #![no_main]
 

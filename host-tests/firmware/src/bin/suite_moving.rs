@@ -1,4 +1,4 @@
-//! Runs the suite on a split hierarchy that moves.
+//! Runs the suite on a hull hierarchy that moves.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Questions to the split hierarchy.
+//! Questions to the hull hierarchy.
 
 pub use meshsweep_core::Focus;
 use meshsweep_core::{

@@ -1,4 +1,4 @@
-//! Questions about a split hierarchy that moves: the kept sweep, and overlaps. They have an image
+//! Questions about a hull hierarchy that moves: the kept sweep, and overlaps. They have an image
 //! of their own, because all questions together are more than the flash of the smallest board.
 
 use meshsweep_core::{Budget, ClosestPoint, Pose};
@@ -10,7 +10,7 @@ use crate::fold::Fold;
 use crate::kind::Kind;
 use crate::place::{Bounds, Place};
 
-/// A split hierarchy, asked about points that move and about its moved copy.
+/// A hull hierarchy, asked about points that move and about its moved copy.
 #[derive(Clone, Copy, Debug)]
 pub struct Moving<'t>(Model<'t>);
 

@@ -1,11 +1,11 @@
-//! The settings of a Cortex-M0: see `core/build.rs`.
+//! The settings of a Cortex-M0, compiled for size: see `core/build.rs`.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rustc-check-cfg=cfg(feature, values(\"defmt\"))");
-    println!("cargo::rustc-check-cfg=cfg(meshsweep_wide, meshsweep_avx2, meshsweep_small)");
-    for name in ["meshsweep_soft_float", "meshsweep_soft_double", "meshsweep_short_products"] {
-        println!("cargo::rustc-check-cfg=cfg({name})");
-        println!("cargo::rustc-cfg={name}");
+    println!("cargo::rustc-check-cfg=cfg(meshsweep_wide, meshsweep_avx2)");
+    for name in ["soft_float", "soft_double", "short_products", "small"] {
+        println!("cargo::rustc-check-cfg=cfg(meshsweep_{name})");
+        println!("cargo::rustc-cfg=meshsweep_{name}");
     }
 }
