@@ -211,7 +211,7 @@ fn claims_of_the_header_that_do_not_hold_are_noticed() {
     let complaint = with_word(40, |bits| (f32::from_bits(bits) * 0.999).to_bits());
     assert!(complaint.contains("is not the input's"), "{complaint}");
     let complaint = with_word(44, |bits| (f32::from_bits(bits) * 0.999).to_bits());
-    assert!(complaint.contains("reach"), "{complaint}");
+    assert!(complaint.contains("star radius"), "{complaint}");
     // The closed flag is the second byte.
     let complaint = with_word(0, |word| word ^ 0x100);
     assert!(complaint.contains("closed"), "{complaint}");

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use meshsweep_core::internal::geom::fan::{
-    Edges, FanRay, LANES, Lanes, Nearness, PIECES, PointFan, Ring8, WIDTH, lanes_below,
+    ABOVE_ZERO, Edges, FanRay, LANES, Lanes, Nearness, PIECES, PointFan, Ring8, WIDTH, lanes_below,
     point_lanes, point_leaf, ray_leaf, ray_leaf8,
 };
 use meshsweep_core::internal::num::tolerance::STILL;
@@ -92,6 +92,7 @@ fn points(patch: &Patch, rng: &mut Rng) -> Vec<Vec3> {
 fn points_get_the_same_bits_from_eight_lanes() {
     let rng = &mut Rng::new(1);
     let mut left_out = 0;
+    let mut at_centre = 0;
     for _ in 0..20_000 {
         let patch = patch(rng);
         for p in points(&patch, rng) {
@@ -149,7 +150,12 @@ fn points_get_the_same_bits_from_eight_lanes() {
                             let [a, b] = [number, number + 1].map(|i| fan.spoke(spoke(i, which)));
                             // Boards compare with `culled_below`, which has no product of squares.
                             let [of_a, of_b] = [a, b].map(|spoke| spoke.edge.dot(away));
-                            if of_a.max(of_b) < fan.culled_below(limit) {
+                            let culled_below = fan.culled_below(limit);
+                            if of_a.max(of_b) < culled_below && culled_below <= ABOVE_ZERO {
+                                // Its closest point is the centre, which is not beyond the limit.
+                                assert_eq!(scalar[number].distance_sq, fan.centre().distance_sq);
+                                at_centre += 1;
+                            } else if of_a.max(of_b) < culled_below {
                                 let size = a.edge.length() + b.edge.length() + away.length();
                                 let distance = scalar[number].distance_sq.sqrt();
                                 assert!(distance > limit.sqrt() - 1e-5 * size, "from {p:?}");
@@ -165,6 +171,7 @@ fn points_get_the_same_bits_from_eight_lanes() {
         }
     }
     assert!(left_out > 10_000, "spokes leave out {left_out} triangles");
+    assert!(at_centre > 10_000, "{at_centre} triangles are told by their centre");
 }
 
 /// A ray through two points, as the queries make it.
