@@ -167,7 +167,10 @@ impl<'s, 'a> Search<'s, 'a> {
                 let [first, second] = children;
                 let p = models.a.leaf_at(first.at, first.shape).ok_or(QueryError::Unchecked)?;
                 let q = models.b.leaf_at(second.at, second.shape).ok_or(QueryError::Unchecked)?;
-                let place = [0, 1].map(|which| TriangleAt::new(nodes[which], indices[which], 0));
+                // One by one: at `opt-level = "s"` a `map` stays a loop that checks its indices.
+                let ([node_a, node_b], [index_a, index_b]) = (nodes, indices);
+                let place =
+                    [TriangleAt::new(node_a, index_a, 0), TriangleAt::new(node_b, index_b, 0)];
                 let visit = leaves.visit::<L>([&p, &q], place, visitor, work);
                 let LeafVisit { goes_on, lower } = visit.ok_or(QueryError::Unchecked)?;
                 left.keep(ChildPairs { nodes, wanted: pair_bit(key) }, lower);
