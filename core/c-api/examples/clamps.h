@@ -7,18 +7,18 @@
  * libmeshsweep.a. Of the functions for this blob, those that are not listed take less
  * than 64.
  *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
- *   msw_open                        2496 / 2048    2560 / 2112    2496 / 2048    2368 / 2048
+ *   msw_open                        2496 / 2048    2560 / 2112    2496 / 2048    2368 / 1984
  *   msw_open_trusted                1280 / 1024    1280 / 1088    1280 / 1024     1152 / 960
- *   msw_closest_point               1280 / 1344    2560 / 2944    1280 / 1344    2048 / 2304
- *   msw_closest_point_from          1280 / 1344    2624 / 2944    1280 / 1344    2048 / 2368
- *   msw_coherent_closest_point      2112 / 2112    3200 / 3520    2112 / 2112    2560 / 2880
- *   msw_within                      1856 / 1856    3200 / 3520    1856 / 1856    2560 / 2880
- *   msw_nearest                     1856 / 1984    3136 / 3584    1856 / 1984    2560 / 2880
- *   msw_signed_distance             2560 / 2752    3712 / 3712    2560 / 2752    3008 / 3072
- *   msw_first_hit                   1344 / 1472    1728 / 1728    1344 / 1472    1600 / 1536
- *   msw_overlap                     7360 / 6464    7104 / 6464    7360 / 6464    6656 / 6080
- *   msw_models_within             10944 / 12352  10816 / 11968  10944 / 12352   9984 / 11264
- *   msw_solid_first_contact              10240 / 9792   10240 / 9472   10240 / 9792    9856 / 9088
+ *   msw_closest_point               1344 / 1344    2560 / 2944    1344 / 1344    2048 / 2368
+ *   msw_closest_point_from          1280 / 1344    2560 / 3008    1280 / 1344    2048 / 2368
+ *   msw_coherent_closest_point      2112 / 2112    3136 / 3584    2112 / 2112    2560 / 2944
+ *   msw_within                      1152 / 1280    1984 / 2048    1152 / 1280    1408 / 1472
+ *   msw_nearest                     1216 / 1472    2048 / 2176    1216 / 1472    1472 / 1536
+ *   msw_signed_distance             2560 / 2688    3648 / 3712    2560 / 2688    3008 / 3072
+ *   msw_first_hit                   1344 / 1408    1728 / 1728    1344 / 1408    1600 / 1536
+ *   msw_overlap                     7616 / 6720    7232 / 6592    7616 / 6784    6784 / 6272
+ *   msw_models_within             10944 / 12352  10816 / 11968  10944 / 12416   9984 / 11264
+ *   msw_solid_first_contact        10240 / 9728   10176 / 9472   10240 / 9728    9792 / 9088
  *   msw_checksum                     1088 / 896     1088 / 960     1088 / 896      960 / 832
  */
 #ifndef CLAMPS_MSW_H
