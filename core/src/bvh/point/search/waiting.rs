@@ -64,6 +64,11 @@ impl Waiting {
     }
 
     /// Drops those that are beyond the limit. Returns whether there is room for another one.
+    #[allow(
+        clippy::reversed_empty_ranges,
+        clippy::absurd_extreme_comparisons,
+        reason = "with floating point no triangle waits"
+    )]
     pub(crate) fn makes_room(&mut self) -> bool {
         if self.count == ROOM {
             let mut left = 0;

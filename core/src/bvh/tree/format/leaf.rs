@@ -509,7 +509,7 @@ impl<'a> FanLeaf<'a> {
             }
             let ([ax, ay, az], [bx, by, bz]) = (ring.vertex(lane)?, ring.vertex(lane + 1)?);
             let [cx, cy, cz] = ring.centres(self.shape)[which & 1];
-            return Some([(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])]);
+            Some([(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])])
         }
         #[cfg(not(meshsweep_small))]
         self.stored_triangle_by_axis(lane, which)

@@ -194,7 +194,7 @@ fn set_fine(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPoint
 #[inline(always)]
 fn cut(cuts: u32, k: usize, planes: [u8; 4]) -> [u8; 4] {
     let cut = cuts >> (8 * k) & 7;
-    (u32::from_le_bytes(planes) >> cut & 0x0101_0101 * (0xFF >> cut)).to_le_bytes()
+    ((u32::from_le_bytes(planes) >> cut) & (0x0101_0101 * (0xFF >> cut))).to_le_bytes()
 }
 
 /// All planes, cut. One by one: an array of zeros to write to would be a call of `memset`.
