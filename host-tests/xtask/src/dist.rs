@@ -40,7 +40,7 @@ const PACKED: [&str; 6] = ["include", "examples", "cmake", "zephyr", "CMakeLists
 /// What is wanted of the program's completions and man pages.
 const MANUAL: &str = "manual";
 
-/// Writes archives of the wanted targets, or the program's [`MANUAL`] (all, if none is wanted),
+/// Writes archives of the wanted targets, or the program's `MANUAL` (all, if none is wanted),
 /// into `target/dist`. Prints the bytes of programs with the libraries.
 pub fn run(steps: &mut Steps, wanted: &[&str]) {
     if wanted.is_empty() || wanted.contains(&MANUAL) {
