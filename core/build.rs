@@ -15,7 +15,7 @@ fn main() {
 
     // Kernels take eight triangles or boxes at once, in vector registers.
     set("meshsweep_wide", is_wide);
-    // There are kernels for AVX2 beside: whoever calls them has asked the processor.
+    // The core has kernels for AVX2 too. The caller asks the processor before it calls them.
     set("meshsweep_avx2", architecture == "x86_64");
     // The target is not known to have instructions for f32. Then integers decide first.
     let is_soft = !has("f") && !has_eabihf;

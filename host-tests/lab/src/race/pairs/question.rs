@@ -1,4 +1,4 @@
-//! What is asked about two models, and what is answered.
+//! The questions about two models, and their answers.
 
 use super::motions::Case;
 
