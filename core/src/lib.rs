@@ -20,7 +20,7 @@
 //! # Which structure answers
 //! | question | method |
 //! | --- | --- |
-//! | closest point, distance interval | [`Bvh::closest_point`], [`Bvh::closest_points`] |
+//! | closest point, distance interval | [`Bvh::closest_point`], [`Bvh::closest_point_from`] |
 //! | the same in f64, of a tree with vertices of 32 bits | [`Bvh::closest_point_precise`] |
 //! | closest point of a query that moves little | [`CoherentQuery::closest_point`] |
 //! | is the mesh within a distance; the nearest triangles | [`Bvh::within`], [`Bvh::all_within`], [`Bvh::nearest`] |

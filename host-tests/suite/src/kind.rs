@@ -75,8 +75,6 @@ kinds! {
     AnyHit = 14, "any_hit";
     /// Closest point along a path of small steps and few jumps, by a coherent query.
     CoherentQuery = 15, "coherent_query";
-    /// Closest points of eight points from the doubled box.
-    Batch = 16, "batch_of_8";
     /// Triangles that may face an eye.
     Cull = 17, "cull";
     /// Whether the surface meets its moved copy.

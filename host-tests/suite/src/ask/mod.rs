@@ -228,7 +228,7 @@ fn verdict(fold: &mut Fold, verdict: Verdict) {
 
 fn refusal(fold: &mut Fold, error: QueryError) {
     let number = match error {
-        QueryError::NotFinite | QueryError::PointNotFinite { .. } => 0,
+        QueryError::NotFinite => 0,
         QueryError::Tolerance => 1,
         QueryError::OutOfDomain => 2,
         QueryError::PoseOutOfDomain => 3,
