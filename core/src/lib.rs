@@ -45,6 +45,7 @@
 //! | does a triangle, or a moved mesh, meet the surface; each refined only where they meet | [`Hull::meets_triangle`], [`Hull::overlap`], [`Hull::all_overlaps`] |
 //! | closest point, hits, and the next triangles on the split tables | [`Hull::closest_point`], [`Hull::first_hit`], [`Hull::sweep`] |
 //! | closest point of a mesh that deforms | [`FrameHull::closest_point`], [`MovedHull::closest_point`] |
+//! | does a rigid mesh meet a mesh that deforms | [`FrameHull::overlap`], [`MovedHull::overlap`] |
 //!
 //! # Features
 //! - `defmt`, off by default: answers, errors, verdicts and budgets implement `defmt::Format`, so

@@ -7,9 +7,9 @@
 //! a part that turns end for end passes through a point. Proof: `core/docs/rounding.md` §17.
 
 use super::closest_point;
+use super::deformed::Deformed;
 use super::format::{DeformableHull, Hull, Key, VertIdx};
 use super::geometry::Geometry;
-use super::overlap::query::overlap;
 use crate::geom::{Aabb, Pose, RealVector};
 use crate::num::tolerance::{KEY_RADIUS, KEY_VERTEX, U32, VERTEX_UNDERFLOW};
 use crate::num::{Real, greater};
@@ -126,7 +126,7 @@ impl FrameHull<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<[u32; 2]>, QueryError> {
-        overlap(self, other, &pose, &budget, scratch)
+        Deformed::Frame(*self).overlap(other, pose, budget, scratch)
     }
 
     #[inline(always)]

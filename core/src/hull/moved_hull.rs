@@ -13,9 +13,9 @@
 //! grow when a part turns. Proof: `core/docs/rounding.md` §17.
 
 use super::closest_point;
+use super::deformed::Deformed;
 use super::format::{DeformableHull, Hull, SplitIdx, VertIdx};
 use super::geometry::Geometry;
-use super::overlap::query::overlap;
 use crate::geom::{Aabb, Pose, RealVector};
 use crate::num::tolerance::{DEFORM_DOMAIN, DISPLACEMENT, LENGTH_UP, U32, VERTEX_UNDERFLOW};
 use crate::num::{Radius16, Real, exp2, greater, lesser, sqrt_up};
@@ -241,7 +241,7 @@ impl MovedHull<'_, '_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<[u32; 2]>, QueryError> {
-        overlap(&self.seen()?, other, &pose, &budget, scratch)
+        Deformed::Moved(self.seen()?).overlap(other, pose, budget, scratch)
     }
 
     fn seen(&self) -> Result<Moved<'_, '_>, QueryError> {
@@ -287,7 +287,7 @@ fn grown([low, high]: [Vec3; 2], point: Vec3) -> (Vec3, Vec3) {
 
 /// A moved hull as a question sees it.
 #[derive(Clone, Copy)]
-struct Moved<'a, 'v> {
+pub(super) struct Moved<'a, 'v> {
     hull: Hull<'a>,
     vertices: &'v [MovedVertex],
     vertex_box: Aabb,

@@ -119,6 +119,10 @@ kinds! {
     Update = 33, "update";
     /// Closest point of a moved hull.
     Moved = 34, "moved";
+    /// Whether the hull at rest, moved, meets itself between two key frames.
+    FrameOverlap = 43, "frame_overlap";
+    /// Whether the hull at rest, moved, meets itself under a free motion.
+    MovedOverlap = 44, "moved_overlap";
     /// Closest point in f64 from near the surface.
     ClosestPrecise = 42, "closest_precise";
 }
