@@ -15,7 +15,7 @@ use crate::num::{bit_length as bits, floored};
 pub struct Corner {
     /// 0, 1 or 2; 3 if it is none.
     pub number: u8,
-    /// Whether [`is_certain_corner`] is known to hold.
+    /// Whether [`CornerWay::is_certain`] is known to hold.
     pub is_certain: bool,
 }
 
@@ -40,7 +40,7 @@ impl Corner {
 pub type IntVector = [i32; 3];
 
 /// Bits of a coordinate below a grid unit.
-const FRACTION_BITS: u32 = 3;
+pub(super) const FRACTION_BITS: u32 = 3;
 /// Bits of the finest coordinate below a grid unit.
 pub(super) const FINE_BITS: u32 = 9;
 /// Coordinates of a [`IntPoint`] are below 2^this grid units in magnitude.
@@ -92,6 +92,13 @@ impl IntPoint {
         fine
     }
 
+    /// The way from a vertex in eighths.
+    #[inline(always)]
+    pub(super) fn eighths_from(&self, vertex: IntVector) -> IntVector {
+        let ([x, y, z], [i, j, k]) = (less(self.at, vertex), self.eighths);
+        [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k]
+    }
+
     /// About the squared distance of a vertex, for comparison.
     #[inline(always)]
     pub fn about(&self, vertex: IntVector) -> u32 {
@@ -117,12 +124,12 @@ impl IntPoint {
 }
 
 #[inline(always)]
-fn largest([x, y, z]: IntVector) -> u32 {
+pub(super) fn largest([x, y, z]: IntVector) -> u32 {
     x.unsigned_abs().max(y.unsigned_abs()).max(z.unsigned_abs())
 }
 
 #[inline(always)]
-fn dot([a, b, c]: IntVector, [x, y, z]: IntVector) -> i32 {
+pub(super) fn dot([a, b, c]: IntVector, [x, y, z]: IntVector) -> i32 {
     a.wrapping_mul(x).wrapping_add(b.wrapping_mul(y)).wrapping_add(c.wrapping_mul(z))
 }
 
@@ -188,8 +195,7 @@ pub fn integer_bounds(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> IntBounds {
 
 /// Upper bound and direction of a point, which is the corner of a triangle.
 pub fn vertex_bounds(p: &IntPoint, vertex: IntVector) -> IntBounds {
-    let ([x, y, z], [i, j, k]) = (less(p.at, vertex), p.eighths);
-    upper_bound([(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k])
+    upper_bound(p.eighths_from(vertex))
 }
 
 /// Upper bound and direction of a way from a point of a triangle, in eighths.
@@ -209,33 +215,16 @@ fn upper_bound(offset: IntVector) -> IntBounds {
     IntBounds { upper, direction, ..IntBounds::NONE }
 }
 
-/// Whether the f32 kernel certainly takes the corner `vertex` for the closest point. The vectors
-/// `to_others` lead from it to the other corners.
-///
-/// Both make an obtuse angle with the way to the query, by more than all roundings: those of the
-/// point here, and those of the kernel. Then no other region of the kernel applies, and its lower
-/// bound is the distance.
-#[inline(never)]
-pub fn is_certain_corner(p: &IntPoint, vertex: IntVector, to_others: [IntVector; 2]) -> bool {
-    let [x, y, z] = less(p.at, vertex);
-    let [i, j, k] = p.eighths;
-    let offset = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
-    let size = |[x, y, z]: IntVector| x.abs() + y.abs() + z.abs();
-    let [one, other] = to_others;
-    let edges = 2 * (size(one) + size(other));
-    let room = edges * (3 + (((size(offset) >> FRACTION_BITS) + edges) >> 17));
-    let along = |edge: IntVector| {
-        offset.into_iter().zip(edge).fold(0, |sum, (x, y)| sum + i64::from(x) * i64::from(y))
-    };
-    to_others.into_iter().all(|edge| along(edge) < -i64::from(room))
+#[inline(always)]
+pub(super) fn norm_1([x, y, z]: IntVector) -> i32 {
+    x.abs() + y.abs() + z.abs()
 }
 
 /// Whether the point is in front of a triangle: its corners run counter-clockwise seen from there.
 /// `None` where the f32 kernel may not decide the same, because of its own roundings.
 #[inline(never)]
 pub fn is_in_front(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> Option<bool> {
-    let ([x, y, z], [i, j, k]) = (less(p.at, *a), p.eighths);
-    let offset = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
+    let offset = p.eighths_from(*a);
     let (e, g) = (less(*b, *a), less(*c, *a));
     let product = |x: i32, y: i32| i64::from(x) * i64::from(y);
     let ([ex, ey, ez], [gx, gy, gz]) = (e, g);
@@ -249,7 +238,6 @@ pub fn is_in_front(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> Option<bool> {
         volume += n * i64::from(x);
         size += n.abs();
     }
-    let norm_1 = |[x, y, z]: IntVector| x.abs() + y.abs() + z.abs();
     let products = product(norm_1(e), norm_1(g));
     let rounding = ((products >> 10) + 1) * i64::from((largest(offset) >> 9) + 1);
     let room = 2 * size + rounding;
@@ -318,7 +306,7 @@ pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::fan::{IntLimit, sharp_lower};
+    use crate::geom::fan::{CornerWay, IntLimit, sharp_lower};
     use crate::geom::fan::{Nearness, PointFan};
     use glam::Vec3;
 
@@ -425,7 +413,9 @@ mod tests {
                 let size = f64::from(edge.map(i32::abs).into_iter().sum::<i32>());
                 f64::from(dot(*edge, off.map(|x| x.clamp(-8000, 8000)))) < -20.0 * size
             };
-            let is_certain = is_certain_corner(&point, vertex, to_others);
+            let way = CornerWay::new(&point, vertex);
+            let [one, other] = to_others.map(|edge| way.edge(edge));
+            let is_certain = way.is_certain(one, other);
             if round % 17 < 12 && off.iter().all(|x| x.abs() < 8000) && to_others.iter().all(far) {
                 clear += 1;
                 certain += i32::from(is_certain);
