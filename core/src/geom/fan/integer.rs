@@ -8,7 +8,7 @@
 //! numbers".
 
 use super::integer_limit::IntLower;
-use crate::num::{bit_length as bits, floored};
+use crate::num::{bit_length as bits, each, floored};
 
 /// The corner of a triangle that a point near the closest one is.
 #[derive(Clone, Copy, Debug)]
@@ -102,7 +102,7 @@ impl IntPoint {
     /// About the squared distance of a vertex, for comparison.
     #[inline(always)]
     pub fn about(&self, vertex: IntVector) -> u32 {
-        let offset = less(self.at, vertex).map(|x| x >> 4);
+        let offset = each(less(self.at, vertex), |x| x >> 4);
         dot(offset, offset).cast_unsigned()
     }
 
@@ -113,11 +113,10 @@ impl IntPoint {
     /// at most. There is room for twice 2^-7 more.
     #[inline(always)]
     pub fn along(&self, direction: IntVector) -> i32 {
-        let (mut against, mut all) = (0, 0);
-        for x in direction {
-            against += if x < 0 { -x } else { 0 };
-            all += x.abs();
-        }
+        let all = norm_1(direction);
+        let [x, y, z] = direction;
+        // What is negative counts twice in the difference.
+        let against = (all - (x + y + z)) >> 1;
         let eighths = dot(direction, self.eighths).wrapping_sub(against) >> FRACTION_BITS;
         dot(direction, self.at).wrapping_add(eighths).wrapping_sub(((3 * all) >> 8) + 1)
     }
@@ -171,14 +170,15 @@ impl IntBounds {
 pub fn integer_bounds(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> IntBounds {
     let (s, e, g) = (less(p.at, *a), less(*b, *a), less(*c, *a));
     let (v, w) = weights(s, e, g);
-    let mut offset = [0i32; 3];
-    for axis in 0..3 {
-        let inside = v.wrapping_mul(e[axis]).wrapping_add(w.wrapping_mul(g[axis]));
-        offset[axis] = (s[axis] << FRACTION_BITS)
-            .wrapping_add(p.eighths[axis])
-            .wrapping_sub(inside >> (WEIGHT_BITS - FRACTION_BITS));
-    }
-    let mut bounds = upper_bound(offset);
+    let along = |s: i32, eighths: i32, e: i32, g: i32| {
+        let inside = v.wrapping_mul(e).wrapping_add(w.wrapping_mul(g));
+        (s << FRACTION_BITS)
+            .wrapping_add(eighths)
+            .wrapping_sub(inside >> (WEIGHT_BITS - FRACTION_BITS))
+    };
+    let ([sx, sy, sz], [i, j, k], [ex, ey, ez], [gx, gy, gz]) = (s, p.eighths, e, g);
+    let mut bounds =
+        upper_bound([along(sx, i, ex, gx), along(sy, j, ey, gy), along(sz, k, ez, gz)]);
     let direction = bounds.direction;
     bounds.corner = match (v, w) {
         (0, 0) => Corner::new(0),
@@ -203,11 +203,12 @@ pub fn vertex_bounds(p: &IntPoint, vertex: IntVector) -> IntBounds {
 #[cfg_attr(not(meshsweep_small), inline(always))]
 fn upper_bound(offset: IntVector) -> IntBounds {
     let size = bits(largest(offset));
-    let direction = offset.map(|x| x >> size.saturating_sub(DIRECTION_BITS));
+    let down = size.saturating_sub(DIRECTION_BITS);
+    let direction = each(offset, |x| x >> down);
     // Along an axis the way is less than two eighths longer. Squares of 14 bits, rounded up: their
     // sum is below 2^30.
     let cut = size.saturating_sub(14);
-    let square = offset.map(|x| (x.abs() + 1 + (1 << cut)) >> cut);
+    let square = each(offset, |x| (x.abs() + 1 + (1 << cut)) >> cut);
     let square = dot(square, square).cast_unsigned();
     let up = 32 - bits(square);
     let exponent = (127 + 30 - 2 * FRACTION_BITS + 2 * cut).wrapping_sub(up);
@@ -251,9 +252,9 @@ pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
     // Products of 14 bits and 15 bits have a sum below 2^31.
     let size = bits(largest(e).max(largest(g)));
     let down = size.saturating_sub(14);
-    let (e, g, size) = (e.map(|x| x >> down), g.map(|x| x >> down), size - down);
+    let (e, g, size) = (each(e, |x| x >> down), each(g, |x| x >> down), size - down);
     let more = (bits(largest(s)) + size).saturating_sub(29);
-    let s = s.map(|x| x >> more);
+    let s = each(s, |x| x >> more);
     // The spokes' own products are coarser by the same power.
     let scaled = |x: i32| if more >= down { x >> (more - down) } else { x };
     let along = |x: i32| if more < down { x >> (down - more) } else { x };
@@ -271,7 +272,7 @@ pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
     let most =
         d1.unsigned_abs().max(d2.unsigned_abs()).max(aa.unsigned_abs()).max(cc.unsigned_abs());
     let cut = bits(most).saturating_sub(13);
-    let [d1, d2, aa, bb, cc] = [d1, d2, aa, bb, cc].map(|x| x >> cut);
+    let (d1, d2, aa, bb, cc) = (d1 >> cut, d2 >> cut, aa >> cut, bb >> cut, cc >> cut);
     let (d3, d4, d5, d6) = (d1 - aa, d2 - bb, d1 - bb, d2 - cc);
     let vc = d1.wrapping_mul(d4).wrapping_sub(d3.wrapping_mul(d2));
     let vb = d5.wrapping_mul(d2).wrapping_sub(d1.wrapping_mul(d6));
@@ -287,7 +288,7 @@ pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
             (nv, nw, whole) = (y, x, x + y);
         } else {
             // Halved, so that their sum stays within 32 bits.
-            let [pa, pb, pc] = [va, vb, vc].map(|x| x.max(0) >> 1);
+            let [pa, pb, pc] = each([va, vb, vc], |x| x.max(0) >> 1);
             (nv, nw, whole) = (pb, pc, pa + pb + pc);
         }
     }

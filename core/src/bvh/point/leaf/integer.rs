@@ -27,15 +27,9 @@ pub(crate) fn integer_nearest(
 ) -> Option<LeafNearest> {
     let mut nearest = LeafNearest::NONE;
     let mut bounds = [IntBounds::NONE; WIDTH];
-    let wanted = leaf_bounds(leaf, point, &limit.plane, &mut bounds)?;
+    let (wanted, likeliest) = leaf_bounds(leaf, point, &limit.plane, &mut bounds)?;
     if wanted == 0 {
         return Some(nearest);
-    }
-    let (mut likeliest, mut least) = (0, u32::MAX);
-    for (lane, bounds) in bounds.iter().enumerate() {
-        if bounds.upper < least {
-            (likeliest, least) = (lane, bounds.upper);
-        }
     }
     let mut within = limit.distance_sq;
     let mut integer_limit = IntLimit::of(within);
@@ -78,7 +72,7 @@ pub(crate) fn integer_nearest(
     }
 }
 
-/// Bounds of the triangles of a leaf that are not behind a plane.
+/// Bounds of the triangles of a leaf that are not behind a plane: their bits, and the likeliest.
 ///
 /// Some have no bounds but the number of a [`first`](IntBounds::first) triangle before, of which
 /// the f32 kernel certainly finds the same square: they share the fan's centre and a corner, and
@@ -89,21 +83,30 @@ pub(crate) fn leaf_bounds(
     point: &IntPoint,
     plane: &LeafPlane,
     bounds: &mut [IntBounds; WIDTH],
-) -> Option<u32> {
+) -> Option<(u32, usize)> {
     let (ring, shape) = (leaf.full_ring()?, leaf.shape());
     let wanted = plane.in_front(&ring, shape);
-    let of_first_fan = !(u32::MAX << (shape.turn() & 31));
-    let (mut least, mut left) = (u32::MAX, wanted);
+    let (mut least, mut likeliest, mut left) = (u32::MAX, 0, wanted);
+    let mut of_fan = !(u32::MAX << (shape.turn() & 31));
+    let [centre, second_centre] = ring.centres(shape);
+    let (mut next, mut corners) = (usize::MAX, [centre; 3]);
     while left != 0 {
         let lane = lowest(left);
         left &= left - 1;
-        let corners = ring.corners(shape, lane)?;
-        let of_fan = if lane < shape.turn() { of_first_fan } else { !of_first_fan };
+        if lane >= shape.turn() {
+            (corners[0], of_fan) = (second_centre, u32::MAX);
+        }
+        corners[1] = if lane == next { corners[2] } else { ring.vertex(lane)? };
+        next = lane + 1;
+        corners[2] = ring.vertex(next)?;
         let slot = bounds.get_mut(lane)?;
         *slot = integer_bounds(point, &corners);
         slot.first = (lane & 7) as u8;
         if slot.upper > least {
             continue;
+        }
+        if slot.upper < least {
+            likeliest = lane;
         }
         least = slot.upper;
         let ties = match slot.corner.number {
@@ -126,7 +129,7 @@ pub(crate) fn leaf_bounds(
             bounds.get_mut(tie)?.first = (lane & 7) as u8;
         }
     }
-    Some(wanted)
+    Some((wanted, likeliest))
 }
 
 /// Those of a fan's triangles whose closest point is certainly the centre.
