@@ -46,6 +46,7 @@ pub mod deform;
 pub mod hull;
 pub mod hull_moving;
 pub mod placed;
+pub mod robot;
 pub mod tight;
 pub mod tree;
 pub mod tribox;
