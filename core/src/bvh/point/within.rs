@@ -119,6 +119,13 @@ impl TriangleCollector for Threshold<'_> {
         Some(if self.found.may.is_some() { Next::Leaf } else { Next::Triangles })
     }
 
+    /// A triangle that a nearer one of the leaf leaves out does not change the verdict: it is not
+    /// certainly within unless the nearer one is, and it is beyond if the nearer one is.
+    #[inline(always)]
+    fn allowance(&self) -> f32 {
+        self.query.side_allowance()
+    }
+
     /// A triangle that is not certainly beyond the distance leaves the verdict undecided. A refined
     /// sliver may be certainly within.
     #[inline(always)]
