@@ -12,7 +12,8 @@ use super::query::PointQuery;
 use crate::bvh::tree::descent::{LeafVisit, LeafVisitor};
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::bvh::tree::triangle_at::TriangleAt;
-use crate::num::{Real, SOFT_FLOAT};
+use crate::num::tolerance::U32;
+use crate::num::{Real, SOFT_FLOAT, greater};
 use glam::Vec3;
 
 /// A triangle that a descent has reached.
@@ -132,6 +133,16 @@ impl<'a, C> TriangleVisitor<'a, C> {
         follow(query, limit, &mut key_limit, &mut beyond);
         let known = LeafSquares::NONE;
         TriangleVisitor { tree, query, limit, key_limit, beyond, known, collector }
+    }
+
+    /// Whether the model's box is beyond the limit, and so are all triangles.
+    #[inline(always)]
+    pub(crate) fn is_box_beyond(&self) -> bool {
+        let (low, high) = self.tree.grid_bounds();
+        let (below, above) = (low - self.query.p, self.query.p - high);
+        let gap = |below: f32, above: f32| greater(greater(below, above), 0.0);
+        let (x, y, z) = (gap(below.x, above.x), gap(below.y, above.y), gap(below.z, above.z));
+        (x * x + y * y + z * z) * (1.0 - 16.0 * U32) > self.beyond.distance_sq
     }
 
     /// Makes the other limits follow `limit`.
