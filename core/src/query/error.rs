@@ -15,6 +15,8 @@ pub enum QueryError {
         /// The first such query.
         index: u32,
     },
+    /// A pair names a model that the scene does not have, or one model twice.
+    NoModel,
     /// The number of places for answers is not that of the queries.
     AnswerCount {
         /// Queries.
@@ -106,6 +108,7 @@ impl core::fmt::Display for QueryError {
             QueryError::PointNotFinite { index } => {
                 return write!(f, "query {index}: a coordinate of the query is NaN or infinite");
             }
+            QueryError::NoModel => "a pair names a model that the scene lacks, or one model twice",
             QueryError::AnswerCount { points, answers } => {
                 return write!(f, "{points} queries, but {answers} answers");
             }
