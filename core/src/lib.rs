@@ -20,7 +20,7 @@
 //! # Which structure answers
 //! | question | method |
 //! | --- | --- |
-//! | closest point, distance interval | [`Bvh::closest_point`], [`Bvh::closest_points`] |
+//! | closest point, distance interval | [`Bvh::closest_point`], [`Bvh::closest_point_from`] |
 //! | the same in f64, of a tree with vertices of 32 bits | [`Bvh::closest_point_precise`] |
 //! | closest point of a query that moves little | [`CoherentQuery::closest_point`] |
 //! | is the mesh within a distance; the nearest triangles | [`Bvh::within`], [`Bvh::all_within`], [`Bvh::nearest`] |
@@ -46,6 +46,7 @@
 //! | does a triangle, or a moved mesh, meet the surface; each refined only where they meet | [`Hull::meets_triangle`], [`Hull::overlap`], [`Hull::all_overlaps`] |
 //! | closest point, hits, and the next triangles on the split tables | [`Hull::closest_point`], [`Hull::first_hit`], [`Hull::sweep`] |
 //! | closest point of a mesh that deforms | [`FrameHull::closest_point`], [`MovedHull::closest_point`] |
+//! | does a rigid mesh meet a mesh that deforms | [`FrameHull::overlap`], [`MovedHull::overlap`] |
 //!
 //! # Features
 //! - `defmt`, off by default: answers, errors, verdicts and budgets implement `defmt::Format`, so

@@ -3,9 +3,8 @@
 use super::input::Input;
 use super::tree::tree_seeds;
 use meshsweep_core::{
-    Budget, Bvh, ClosestPoint, CoherentPair, CoherentQuery, Eye, Facing, Hint, Motion, Neighbor,
-    PlacedModel, Pose, QueryError, Scene, ScratchEntry, Solid, TightHulls, TriangleHit,
-    TrianglePair, Work,
+    Budget, Bvh, CoherentPair, CoherentQuery, Eye, Facing, Hint, Motion, Neighbor, PlacedModel,
+    Pose, QueryError, Scene, ScratchEntry, Solid, TightHulls, TriangleHit, TrianglePair, Work,
 };
 
 /// Opens an edited blob without a check of its records, and asks everything about points, segments,
@@ -73,8 +72,6 @@ fn ask_points(tree: &Bvh<'_>, points: &[[f32; 3]; 3], size: f32, stack: &mut [Sc
             let _ = tree.front_facing(eye, &mut [0; 16]);
         }
     }
-    let mut answers = [ClosestPoint::EMPTY; 3];
-    let _ = tree.closest_points(points, &mut hint, &mut answers, budget, stack);
 }
 
 fn ask_segments(

@@ -6,6 +6,7 @@ mod double;
 pub mod exact;
 pub mod lp;
 pub mod moved;
+pub mod placed;
 mod polyline;
 pub mod polytope;
 mod segment;
