@@ -33,6 +33,7 @@
 //! | the same of models that move little from one question to the next | [`CoherentPair::distance`], [`CoherentPair::within`] |
 //! | is one solid inside another; how deep; which translation separates them | [`Bvh::penetration`] |
 //! | which two of a few dozen models are nearest; are any two within a distance | [`Scene::nearest_pair`], [`Scene::within`] |
+//! | does any pair of models that move little keep its own distance no longer | [`CoherentScene::within`] |
 //! | how far is a sphere, a capsule or a box; is it within a distance | [`Bvh::solid_distance`], [`Bvh::solid_within`] |
 //! | is the move of a tool, or of another mesh, clear for its whole length | [`Bvh::solid_first_contact`], [`Bvh::first_contact_of`] |
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
@@ -96,8 +97,9 @@ mod tribox;
 
 pub use blob::Blob;
 pub use bvh::{
-    AllWithin, Bvh, CoherentClosest, CoherentPair, CoherentQuery, Eye, Facing, FrontFacing, Hint,
-    KNearest, Neighbor, PlacedModel, ProcessorQuestions, Scene, SceneDistance, WindingNumber,
+    AllWithin, Bvh, CoherentClosest, CoherentPair, CoherentQuery, CoherentScene, Eye, Facing,
+    FrontFacing, Hint, KNearest, KeptPair, Neighbor, PlacedModel, ProcessorQuestions, Scene,
+    SceneDistance, WindingNumber,
 };
 pub use curve::{Curve, CurveClosest, CurveSegment};
 pub use format::layout::{BuildFor, SectionKind};

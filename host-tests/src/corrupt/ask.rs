@@ -212,10 +212,13 @@ impl Asker {
             pairs[..answer.stored].iter().for_each(|pair| in_range(pair.triangles));
         }
         let budget = Budget::EXACT.with_steps(steps);
-        let models =
-            [(a, Pose::IDENTITY), (b, *pose)].map(|(tree, pose)| PlacedModel { tree: *tree, pose });
-        let scene = Scene::new(&models);
-        if let Some(answer) = answered(scene.nearest_pair(|_, _| true, budget, &mut stack)) {
+        let models = [(a, Pose::IDENTITY), (b, *pose)]
+            .map(|(tree, pose)| answered(PlacedModel::new(*tree, pose)));
+        if let [Some(one), Some(other)] = models
+            && let models = [one, other]
+            && let scene = Scene::new(&models)
+            && let Some(answer) = answered(scene.nearest_pair(|_, _| true, budget, &mut stack))
+        {
             assert!(answer.work.opened <= steps && answer.models == Some([0, 1]), "{answer:?}");
             assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
             in_range(answer.triangles);

@@ -114,8 +114,12 @@ fn ask_pair([a, b]: [&Bvh<'_>; 2], pose: &Pose, size: f32, stack: &mut [ScratchE
         let _ = pair.within(a, b, *pose, size, budget, stack);
     }
     let models =
-        [(a, Pose::IDENTITY), (b, *pose)].map(|(tree, pose)| PlacedModel { tree: *tree, pose });
-    let _ = Scene::new(&models).nearest_pair(|_, _| true, budget, stack);
+        [(a, Pose::IDENTITY), (b, *pose)].map(|(tree, pose)| PlacedModel::new(*tree, pose));
+    if let [Ok(one), Ok(other)] = models {
+        let models = [one.with_least_ball(), other];
+        let _ = Scene::new(&models).nearest_pair(|_, _| true, budget, stack);
+        let _ = Scene::new(&models).within(size, |_, _| true, budget, stack);
+    }
 }
 
 /// More than one descent can cost: a record of links names up to fifteen children, each of up to

@@ -13,7 +13,7 @@ mod segment;
 mod winding;
 mod written;
 
-pub use between::{distance_of_meshes, distance_of_moved_triangles};
+pub use between::{distance_of_meshes, distance_of_moved_triangles, distance_of_placed};
 pub use distance::{
     Bounded, distance_to_mesh, distance_to_moved_mesh, distance_to_triangle, rough_distance_sq,
     wide_distance_sq,

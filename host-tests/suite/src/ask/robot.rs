@@ -7,7 +7,8 @@
 use core::mem::size_of;
 
 use meshsweep_core::{
-    Budget, Bvh, Decided, PairDistance, PlacedModel, Pose, QueryError, Scene, Scratch, Verdict,
+    Budget, Bvh, CoherentScene, Decided, KeptPair, PairDistance, PlacedModel, Pose, QueryError,
+    Scratch, Verdict,
 };
 
 use super::{Refused, refusal, timed, tree};
@@ -48,17 +49,23 @@ pub const PAIRS: [(usize, usize, f32); 21] = [
     (6, 8, WORLD),
 ];
 
-/// A bit for each pair with this distance.
-const fn asked(distance: f32) -> [[bool; MODELS]; MODELS] {
-    let mut asked = [[false; MODELS]; MODELS];
+/// The same, as the scene takes them.
+const KEPT: [KeptPair; PAIRS.len()] = {
+    let mut kept = [KeptPair { models: [0; 2], distance: 0.0 }; PAIRS.len()];
     let mut at = 0;
     while at < PAIRS.len() {
-        let (a, b, d) = PAIRS[at];
-        asked[a][b] = d == distance;
+        let (a, b, distance) = PAIRS[at];
+        kept[at] = KeptPair { models: [a as u16, b as u16], distance };
         at += 1;
     }
-    asked
-}
+    kept
+};
+
+/// Models that move; the others stand still during a run.
+const MOVING: usize = 7;
+
+/// An arm that remembers.
+type Guard<'t> = CoherentScene<'t, MODELS, { PAIRS.len() }>;
 
 /// A row of poses: whether a run of ticks begins, and a pose a model.
 const ROW: usize = 4 + MODELS * POSE;
@@ -278,37 +285,37 @@ pub fn ticks(
     clock: &mut impl Clock,
     mut told: impl FnMut(&Result<Verdict, QueryError>),
 ) -> usize {
-    let mut models = laid.trees.map(|tree| PlacedModel { tree, pose: Pose::IDENTITY });
+    let Ok(mut guard) = guard(&laid.trees) else { return 0 };
     for row in laid.rows() {
-        let verdict = timed(clock, || tick(&mut models, &row.poses, &mut memory.scratch));
+        if row.begins {
+            // Not a part of a tick: what stands around, and what was remembered.
+            guard.reset();
+            let still = row.poses.iter().enumerate().skip(MOVING);
+            still.for_each(|(model, pose)| _ = guard.move_to(model, *pose));
+        }
+        let verdict = timed(clock, || tick(&mut guard, &row.poses, &mut memory.scratch));
         told(&verdict);
     }
-    size_of::<[PlacedModel<'_>; MODELS]>().saturating_add(size_of::<Memory>())
+    size_of::<Guard<'_>>().saturating_add(size_of::<Memory>())
+}
+
+#[inline(never)]
+fn guard<'t>(trees: &[Bvh<'t>; MODELS]) -> Result<Guard<'t>, QueryError> {
+    let [a, b, c, d, e, f, g, h, i] = trees.map(|tree| PlacedModel::new(tree, Pose::IDENTITY));
+    CoherentScene::new([a?, b?, c?, d?, e?, f?, g?, h?, i?], KEPT)
 }
 
 /// One tick.
 #[inline(never)]
 fn tick(
-    models: &mut [PlacedModel<'_>; MODELS],
+    guard: &mut Guard<'_>,
     poses: &[Pose; MODELS],
     scratch: &mut Scratch<{ Bvh::DISTANCE_ENTRIES }>,
 ) -> Result<Verdict, QueryError> {
-    const OF_LINKS: [[bool; MODELS]; MODELS] = asked(LINKS);
-    const OF_WORLD: [[bool; MODELS]; MODELS] = asked(WORLD);
-    for (model, pose) in models.iter_mut().zip(poses) {
-        model.pose = *pose;
+    for (model, pose) in poses.iter().enumerate().take(MOVING) {
+        guard.move_to(model, *pose)?;
     }
-    let scene = Scene::new(models);
-    let is_asked = |table: &[[bool; MODELS]; MODELS], a: usize, b: usize| {
-        table.get(a).and_then(|row| row.get(b)).is_some_and(|is| *is)
-    };
-    let exact = Budget::EXACT;
-    let links = scene.within(LINKS, |a, b| is_asked(&OF_LINKS, a, b), exact, scratch)?.verdict;
-    if links == Verdict::Yes {
-        return Ok(links);
-    }
-    let world = scene.within(WORLD, |a, b| is_asked(&OF_WORLD, a, b), exact, scratch)?.verdict;
-    Ok(if world == Verdict::No { links } else { world })
+    Ok(guard.within(Budget::EXACT, scratch)?.verdict)
 }
 
 /// Asks about all pairs. Returns the bytes of RAM that it needs beside the stack.
