@@ -34,6 +34,7 @@
 //! | is one solid inside another; how deep; which translation separates them | [`Bvh::penetration`] |
 //! | which two of a few dozen models are nearest; are any two within a distance | [`Scene::nearest_pair`], [`Scene::within`] |
 //! | does any pair of models that move little keep its own distance no longer | [`CoherentScene::within`] |
+//! | poses of quaternions, products and inverses, with how far rounding moves a model | [`Pose::of_quaternion`], [`RoundedPose`] |
 //! | how far is a sphere, a capsule or a box; is it within a distance | [`Bvh::solid_distance`], [`Bvh::solid_within`] |
 //! | is the move of a tool, or of another mesh, clear for its whole length | [`Bvh::solid_first_contact`], [`Bvh::first_contact_of`] |
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
@@ -112,7 +113,7 @@ pub use hull::{
 };
 pub use query::{
     AllHits, AllOverlaps, Budget, ClosestPoint, Decided, Ended, FirstHit, Hit, Interval, Motion,
-    PairContact, PairDistance, Penetration, PosedPoint, QueryError, Relation, Scratch,
+    PairContact, PairDistance, Penetration, PosedPoint, QueryError, Relation, RoundedPose, Scratch,
     ScratchEntry, Side, SignedDistance, Solid, SolidDistance, TriangleHit, TrianglePair, Undecided,
     Verdict, Work,
 };

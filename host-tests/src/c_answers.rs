@@ -41,7 +41,7 @@ impl Kind {
     fn pose(&mut self, round: usize) -> Pose {
         let turned = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
         let rotation = if round % 2 == 1 { turned } else { Pose::IDENTITY.rotation };
-        Pose { rotation, translation: self.point() }
+        Pose::rigid(rotation, self.point())
     }
 
     fn words(&mut self, words: &[u32]) {

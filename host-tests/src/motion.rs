@@ -45,7 +45,7 @@ pub fn placed(b: &Scene, rotation: [Point; 3], place: Point) -> Pose {
         let turned: f64 = (0..3).map(|j| f64::from(rotation[k][j]) * middle[j]).sum();
         (f64::from(place[k]) - turned) as f32
     });
-    Pose { rotation, translation }
+    Pose::rigid(rotation, translation)
 }
 
 /// Random motions that leave the one now inside, now across, now beside the other.

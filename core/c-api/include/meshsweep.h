@@ -69,7 +69,7 @@ enum {
     MSW_ERROR_NOT_FINITE = -40,     /* a coordinate is NaN or infinite */
     MSW_ERROR_TOLERANCE = -41,      /* a tolerance, distance or radius is negative, NaN, infinite */
     MSW_ERROR_OUT_OF_DOMAIN = -42,  /* a point or end is too far away: clip segments first */
-    MSW_ERROR_POSE = -43,           /* a pose is all zeros, or far from a rotation, or too large */
+    MSW_ERROR_POSE = -43,           /* a pose is no rotation (all zeros, for one), or too large */
     MSW_ERROR_NO_SCRATCH = -44,     /* the scratch memory has no entries */
     MSW_ERROR_NOT_SERVED = -45,     /* the blob lacks the sections of this question: build --for */
     MSW_ERROR_INTERNAL = -46        /* the bytes of the blob changed, or a fault of the library */
@@ -169,11 +169,20 @@ typedef struct {
     uint32_t steps; /* end after so many nodes were opened; 0: no limit */
 } msw_budget;
 
-/* A motion: rotation * p + translation; each row of the matrix gives a coordinate. */
+/* A motion: rotation * p + translation; each row of the matrix gives a coordinate. Questions refuse
+ * a matrix that is no rotation, up to three decimals, by MSW_ERROR_POSE: all zeros, for one. */
 typedef struct {
     float rotation[3][3];
     float translation[3];
 } msw_pose;
+
+/* A pose that was computed, or is known up to something. The matrix is off by a factor of lengths
+ * (about radians) of at most `turn`, the translation by at most `shift`; 0 and 0 is exact. */
+typedef struct {
+    msw_pose pose;
+    float turn;
+    float shift;
+} msw_rounded_pose;
 
 /* A model at its place: from the model's frame to the world. A model may stand in several. */
 typedef struct {
@@ -461,8 +470,8 @@ int32_t msw_nearest(const msw_model *model, const float point[3],
  *
  * Both verdicts are proved. Surfaces that touch without passing through each other are undecided.
  * Only surfaces count: one part may lie inside the other. Both models may be the same.
- * MSW_OVERLAP_ENTRIES are always enough scratch. MSW_ERROR_POSE: an entry of the matrix is beyond
- * 2, or all are 0. Cost: in proportion to the surface that is near the other model. */
+ * MSW_OVERLAP_ENTRIES are always enough scratch. MSW_ERROR_POSE: the matrix is no
+ * rotation. Cost: in proportion to the surface that is near the other model. */
 int32_t msw_overlap(const msw_model *model, const msw_model *other, const msw_pose *pose,
                     const msw_budget *budget,
                     msw_scratch_entry *scratch, size_t scratch_count,
@@ -477,7 +486,7 @@ int32_t msw_overlap(const msw_model *model, const msw_model *other, const msw_po
  * pairs the verdict is MSW_NO. A distance of 0 is answered by MSW_NO or undecided. It ends at the
  * first pair that certainly is within. Only surfaces count: one part may lie inside the other.
  * MSW_DISTANCE_ENTRIES are always enough scratch.
- * Errors: MSW_ERROR_POSE: a pose is all zeros, or far from a rotation. MSW_ERROR_OUT_OF_DOMAIN: two
+ * Errors: MSW_ERROR_POSE: a pose is no rotation, as all zeros are. MSW_ERROR_OUT_OF_DOMAIN: two
  * models are farther from each other than float reaches. MSW_ERROR_NOT_OPENED: of any of the
  * models. MSW_ERROR_NOT_SERVED: a model was built without segments.
  * Cost: some hundred operations for each pair, and a search for each pair whose boxes are within
@@ -487,6 +496,31 @@ int32_t msw_models_within(const msw_placed *models, size_t model_count, float di
                           const msw_budget *budget,
                           msw_scratch_entry *scratch, size_t scratch_count,
                           msw_models_answer *answer);
+
+/* ---- Poses: products and inverses in float, the same bits on every target ---- */
+
+/* The rotation of `quaternion`, x, y, z, w, then `translation`. Its length does not matter. The real
+ * part is the last: some libraries write it first. MSW_ERROR_POSE: zeros. Cost: 100 instructions. */
+int32_t msw_pose_of_quaternion(const float quaternion[4], const float translation[3],
+                               msw_rounded_pose *answer);
+
+/* The motion of `first`, then that of `next`: from a link to its parent, then from the parent to
+ * the world. What both are off by is in the answer's `turn` and `shift`, and the rounding. `answer`
+ * may be one of both. Cost: 200 instructions. */
+int32_t msw_pose_then(const msw_rounded_pose *first, const msw_rounded_pose *next,
+                      msw_rounded_pose *answer);
+
+/* The motion back. MSW_ERROR_POSE: the matrix is no rotation, or `turn` is above a quarter. */
+int32_t msw_pose_inverse(const msw_rounded_pose *pose, msw_rounded_pose *answer);
+
+/* `pose` as seen from `frame`: its motion, then the motion back of `frame`. It is what msw_overlap
+ * takes of two models in the world. Errors: as msw_pose_inverse, of `frame`. */
+int32_t msw_pose_relative_to(const msw_rounded_pose *pose, const msw_rounded_pose *frame,
+                             msw_rounded_pose *answer);
+
+/* No point of a model within `radius` of its origin is farther than `answer` from its place at the
+ * exact pose. Add those of both models to the distance that msw_models_within is asked about. */
+int32_t msw_pose_motion(const msw_rounded_pose *pose, float radius, float *answer);
 
 /* ---- Tight hulls: build --for tight. A few kilobytes for a part of any size ---- */
 

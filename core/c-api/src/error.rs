@@ -68,7 +68,7 @@ errors! {
     OutOfDomain = -42, c"a point or a segment's end is too far from the model: clip segments first";
     /// A pose that nothing can be computed with.
     Pose = -43,
-        c"a pose is all zeros, has an entry beyond 2, or is no rotation where one is needed";
+        c"a pose's matrix is no rotation (all zeros, for one), or its translation is too large";
     /// No scratch memory.
     NoScratch = -44, c"the scratch memory has no entries";
     /// The blob lacks sections.
@@ -106,7 +106,7 @@ impl From<QueryError> for Error {
             QueryError::Corners { .. } => Error::Count,
             QueryError::Tolerance => Error::Tolerance,
             QueryError::OutOfDomain => Error::OutOfDomain,
-            QueryError::PoseOutOfDomain => Error::Pose,
+            QueryError::PoseOutOfDomain | QueryError::NotRigid => Error::Pose,
             QueryError::NoScratch => Error::NoScratch,
             QueryError::NotServed { .. } | QueryError::NotEnclosing => Error::NotServed,
             _ => Error::Internal,

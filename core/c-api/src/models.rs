@@ -22,7 +22,7 @@ unsafe impl AnyBits for PlacedC {}
 
 impl PlacedC {
     fn placed(&self) -> Result<PlacedModel<'static>, Error> {
-        Ok(PlacedModel::new(*self.model.view()?, self.pose.pose()?)?)
+        Ok(PlacedModel::new(*self.model.view()?, self.pose.pose())?)
     }
 }
 

@@ -250,7 +250,7 @@ pub extern "C" fn msw_overlap(
 ) -> i32 {
     answer.answer(|| {
         let (model, other) = (model.view()?, other.view()?);
-        let pose = pose.get_or(PoseC::IDENTITY)?.pose()?;
+        let pose = pose.get_or(PoseC::IDENTITY)?.pose();
         ask(budget, scratch, scratch_count, |budget, scratch| {
             Ok(model.overlap(other, pose, budget, scratch)?.into())
         })

@@ -11,6 +11,7 @@ use meshsweep_c::error::Error;
 use meshsweep_c::hull::{HULL_WORDS, HullStorage};
 use meshsweep_c::memory::{COHERENT_WORDS, CoherentStorage, REFINED_ENTRIES, RefinedEntry};
 use meshsweep_c::models::PlacedC;
+use meshsweep_c::pose::RoundedPoseC;
 use meshsweep_c::question::{BudgetC, FocusC, HintC, PoseC, facing};
 use meshsweep_c::tight::{FINEST, TIGHT_WORDS, Tight};
 use meshsweep_c::tree::{MODEL_WORDS, Model};
@@ -48,6 +49,7 @@ fn layouts() -> String {
         "msw_refined_entry": RefinedEntry {}
         "msw_budget": BudgetC { relative, absolute, steps }
         "msw_pose": PoseC { rotation, translation }
+        "msw_rounded_pose": RoundedPoseC { pose, turn, shift }
         "msw_placed": PlacedC { model, pose }
         "msw_focus": FocusC { kind, a, b, radius, cosine, error_per_distance }
         "msw_interval": IntervalC { lower, upper }

@@ -76,7 +76,8 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
     }
 
     /// Moves a model to another pose. Models that stand still need no call. If the pose is refused,
-    /// the model stays where it was.
+    /// the model stays where it was. A matrix that changed little may be refused by the question
+    /// that first looks at one of the model's pairs.
     ///
     /// Cost: some 60 operations in f32.
     ///

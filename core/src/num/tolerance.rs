@@ -42,6 +42,21 @@ pub const POSED_STRETCH: f64 = 64.0;
 /// with any value below 1.
 pub const POSE_DEFECT: f64 = 0.25;
 
+/// The largest row sum of `RRᵀ − 1` above which a matrix is refused as a rotation, where a pose
+/// does not say that it may be any. It changes lengths by half of that. A rotation that was rounded
+/// to f32 has some 1e-7, one of three decimals up to this.
+pub const RIGID: f32 = 3e-3;
+
+/// Rounding of a quaternion's matrix, in units of [`U32`]. Proved: 31.1 (§25).
+pub const QUATERNION: f32 = 34.0;
+
+/// Rounding of a product of two matrices, in units of [`U32`] times their norms. Proved: 9.1 (§25).
+pub const POSE_PRODUCT: f32 = 10.0;
+
+/// Rounding of a translation that a pose carries, in units of [`U32`] times the lengths of its
+/// terms. Proved: 7 (§25).
+pub const POSE_SHIFT: f32 = 8.0;
+
 // Hull, in the local frame
 
 /// Rounding of the f32 lower bound of a point–triangle distance, in units of [`U32`] times
@@ -355,9 +370,6 @@ pub const ADVANCE_KEPT: f64 = 1.0 - 1.0 / (1u64 << 40) as f64;
 
 /// Room for the rounding in f64 of a pose on a screw, beside its rounding to f32 (§19).
 pub const SCREW_ROUNDING: f64 = 1.0 + 1.0 / (1u64 << 20) as f64;
-
-/// How far a matrix may be from a rotation, in its rows' inner products, for a screw.
-pub const SCREW_DEFECT: f64 = 1e-3;
 
 /// Rounding of a model's box in the world, in units of [`U32`] times the sizes of its terms.
 /// Proved: 13 (§21).

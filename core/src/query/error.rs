@@ -31,12 +31,13 @@ pub enum QueryError {
     /// - an entry of its matrix is beyond 2;
     /// - for [`Pose::to_model`](crate::Pose::to_model) and [`Scene`](crate::Scene), its columns are
     ///   far from orthonormal: the Frobenius norm of `RᵀR − 1` is above a quarter;
-    /// - for [`Motion::screw`](crate::Motion::screw), its rows are not orthonormal up to a
-    ///   thousandth, or it is a mirror;
     /// - for triboxes, its translation is beyond [`Tribox::DOMAIN`](crate::Tribox::DOMAIN);
     /// - one model's grid is more than 2^40 times as coarse as the other's;
     /// - a surface error is far larger than its model.
     PoseOutOfDomain,
+    /// A pose's matrix is no rotation, not even up to three decimals, or a mirror: all zeros, for one. See
+    /// [`Pose::is_affine`](crate::Pose::is_affine). Or a quaternion is all zeros.
+    NotRigid,
     /// The key frame is not a number from 0 to the number of frames less 1.
     NoFrame {
         /// Key frames of the blob, the mesh at rest among them.
@@ -106,6 +107,9 @@ impl core::fmt::Display for QueryError {
             QueryError::PoseOutOfDomain => {
                 "an entry of the matrix is beyond 2, the matrix far from a rotation where one is \
                  needed, the translation too large, or one model 2^40 times as large as the other"
+            }
+            QueryError::NotRigid => {
+                "a pose's matrix is no rotation: if it may be any, make the pose by Pose::affine"
             }
             QueryError::NoFrame { frames } => {
                 let last = frames.saturating_sub(1);

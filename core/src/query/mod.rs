@@ -8,6 +8,8 @@
 //! | `verdict` | [`Verdict`], [`Side`], [`Undecided`]: why there is no verdict |
 //! | `decided` | [`Decided`]: a verdict and its witness |
 //! | `hits` | [`Hit`], [`FirstHit`], [`TriangleHit`], [`AllHits`], and the caller's slice of hits |
+//! | `rigid` | which matrices are rotations |
+//! | `rounded_pose` | [`RoundedPose`]: poses of quaternions, products, inverses, and their rounding |
 //! | `pose_inverse` | the inverse of a pose's matrix |
 //! | `posed_point` | [`PosedPoint`]: a point in the frame of a moved model |
 //! | `overlap` | [`AllOverlaps`], [`TrianglePair`], and what collects pairs |
@@ -34,6 +36,8 @@ mod penetration;
 mod pose_inverse;
 mod posed_point;
 mod relative_pose;
+mod rigid;
+mod rounded_pose;
 mod scratch;
 mod solid;
 mod sweep_queue;
@@ -56,6 +60,8 @@ pub use penetration::{Penetration, Relation};
 pub(crate) use pose_inverse::{PoseInverse, transposed};
 pub use posed_point::PosedPoint;
 pub(crate) use relative_pose::{DIRECTIONS, Extended, ModelFrame, Placement, RelativePose};
+pub(crate) use rigid::{check_rigid, is_rotation};
+pub use rounded_pose::RoundedPose;
 pub use scratch::{Scratch, ScratchEntry};
 pub use solid::{Solid, SolidDistance};
 pub(crate) use sweep_queue::{SweepQueue, Taken, before};

@@ -2,9 +2,10 @@
 
 use super::error::QueryError;
 use super::pose_inverse::transposed;
+use super::rigid::check_rigid;
 use crate::geom::{Pose, cross, dot};
 use crate::num::greater;
-use crate::num::tolerance::{SCREW_DEFECT, SCREW_ROUNDING, U32, U64};
+use crate::num::tolerance::{SCREW_ROUNDING, U32, U64};
 
 type Point = [f64; 3];
 
@@ -39,7 +40,9 @@ struct Twist {
 impl Motion {
     /// Each point goes along a straight line from its place in `from` to its place in `to`, at a
     /// steady pace: the entries of both poses are mixed. Any two matrices will do. If both have the
-    /// same rotation it is a translation; else the model shrinks on the way as it turns.
+    /// same rotation it is a translation; else the model shrinks on the way as it turns. A matrix
+    /// that is no rotation at an end is refused where the motion is asked about, unless the pose
+    /// there says that it may be any.
     /// Translations are in the unit of the first model of the question.
     pub const fn straight(from: Pose, to: Pose) -> Motion {
         Motion { from, path: Path::Straight(to) }
@@ -53,14 +56,13 @@ impl Motion {
     /// Cost: some hundred operations in f64 here, and as many for each pose on the way.
     ///
     /// # Errors
-    /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if a matrix is not nearly a
-    /// rotation.
+    /// [`QueryError::NotFinite`]; [`QueryError::NotRigid`] if a matrix is no rotation.
     pub fn screw(from: Pose, to: Pose) -> Result<Motion, QueryError> {
-        if !(is_finite(&from) && is_finite(&to)) {
-            return Err(QueryError::NotFinite);
-        }
-        if !(is_rotation(&from) && is_rotation(&to)) {
-            return Err(QueryError::PoseOutOfDomain);
+        for pose in [&from, &to] {
+            if !is_finite(pose) {
+                return Err(QueryError::NotFinite);
+            }
+            check_rigid(&Pose { is_affine: false, ..*pose })?;
         }
         let [start, end] = [&from, &to].map(|pose| pose.rotation.map(wide));
         // end · startᵀ
@@ -84,7 +86,8 @@ impl Motion {
         Ok(Motion { from, path: Path::Screw(twist) })
     }
 
-    /// The pose at a time from 0 to 1, rounded to f32.
+    /// The pose at a time from 0 to 1, rounded to f32. It [is affine](Pose::is_affine) if entries of
+    /// two different matrices were mixed.
     pub fn at(&self, t: f32) -> Pose {
         self.at_time(f64::from(t))
     }
@@ -102,6 +105,15 @@ impl Motion {
                 Path::Straight(to) => is_finite(to),
                 Path::Screw(_) => true,
             }
+    }
+
+    /// Refuses ends that are no rotations, unless a pose says that its matrix may be any.
+    pub(crate) fn check_rigid(&self) -> Result<(), QueryError> {
+        check_rigid(&self.from)?;
+        match &self.path {
+            Path::Straight(to) => check_rigid(to),
+            Path::Screw(_) => Ok(()),
+        }
     }
 
     /// How far a point of the model goes during the motion, and how far it may be from its place at
@@ -199,6 +211,7 @@ fn mixed(from: &Pose, to: &Pose, t: f64) -> Pose {
     let entries = pose.rotation.iter_mut().flatten().zip(to.rotation.iter().flatten());
     entries.for_each(|(x, to)| *x = mix(*x, *to));
     pose.translation.iter_mut().zip(&to.translation).for_each(|(x, to)| *x = mix(*x, *to));
+    pose.is_affine |= to.is_affine || from.rotation != to.rotation;
     pose
 }
 
@@ -231,15 +244,6 @@ fn axis_and_angle(turn: &[Point; 3]) -> (Point, f64) {
 
 fn is_finite(pose: &Pose) -> bool {
     pose.rotation.iter().flatten().chain(&pose.translation).all(|x| x.is_finite())
-}
-
-/// Whether the rows are orthonormal up to [`SCREW_DEFECT`], and no mirror.
-fn is_rotation(pose: &Pose) -> bool {
-    let rows = pose.rotation.map(wide);
-    let [a, b, c] = rows;
-    let unit = rows.iter().all(|row| (dot(*row, *row) - 1.0).abs() <= SCREW_DEFECT);
-    let right = [dot(a, b), dot(b, c), dot(c, a)].into_iter().all(|x| x.abs() <= SCREW_DEFECT);
-    unit && right && dot(a, cross(b, c)) > 0.0
 }
 
 fn wide([x, y, z]: [f32; 3]) -> Point {

@@ -65,7 +65,7 @@ impl Pose {
     /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
     /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<64>::new());
     /// let turned = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
-    /// let pose = Pose { rotation: turned, translation: [300.0, 0.0, 0.0] };
+    /// let pose = Pose::rigid(turned, [300.0, 0.0, 0.0]);
     /// let here = pose.to_model([310.0, 5.0, 40.0])?;
     /// let near = part.closest_point(here.point, Budget::EXACT, &mut scratch)?;
     /// let (distance, place) = (here.distance(near.distance), pose.to_world(near.point));

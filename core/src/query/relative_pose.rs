@@ -5,6 +5,7 @@
 //! that a mesh far from its own zero costs no precision. See `core/docs/rounding.md` §11.
 
 use super::error::QueryError;
+use super::rigid::check_rigid;
 use crate::geom::Pose;
 use crate::num::tolerance::{
     OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, OVERLAP_VERTEX, U32, U64,
@@ -114,7 +115,7 @@ impl RelativePose {
         if largest > 2f32.to_bits() || a - b > RATIO || b - a > RATIO {
             return Err(QueryError::PoseOutOfDomain);
         }
-        Ok(())
+        check_rigid(pose)
     }
 
     /// The pose, also of models that are far from each other.

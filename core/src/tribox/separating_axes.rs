@@ -5,7 +5,7 @@ use super::directions::{DIRECTIONS, FACES, SLABS};
 use super::support::Support;
 use crate::geom::Pose;
 use crate::num::tolerance::{PRODUCT_UNDERFLOW, TRIBOX_AXIS, U32};
-use crate::query::QueryError;
+use crate::query::{QueryError, check_rigid};
 use crate::tribox::format::Triboxes;
 
 /// A direction of one tribox's own slabs in the other's frame.
@@ -98,6 +98,7 @@ impl Axes {
             TriboxError::OutOfDomain => QueryError::PoseOutOfDomain,
         })?;
         let (largest_a, largest_b) = (largest_coordinate(a)?, largest_coordinate(b)?);
+        check_rigid(pose)?;
         let [p, q, r] = pose.rotation;
         let largest = size(pose.translation);
         // Mᵀw, and the same of sizes.

@@ -86,7 +86,7 @@ impl Triboxes<'_> {
     /// tribox around the moved vertices, which is a third to a half larger. The search ends with
     /// the first pair of leaves that may meet.
     ///
-    /// The matrix is taken as exact. If it is no rotation, fewer pairs are proved apart. Below
+    /// The matrix is taken as exact. If it is an affine one, fewer pairs are proved apart. Below
     /// f32's normal range all pairs may meet. Of the budget only `steps` matters: pairs opened.
     ///
     /// Cost: some 2,000 instructions of a Cortex-M4F once, 1,500 a pair on average; 2 KiB of stack.
@@ -104,6 +104,7 @@ impl Triboxes<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] for an entry of the matrix beyond
     /// 2 or a translation beyond [`Tribox::DOMAIN`](crate::Tribox::DOMAIN);
+    /// [`QueryError::NotRigid`] for a matrix that is no rotation, unless it is [`Pose::affine`];
     /// [`QueryError::Tolerance`], [`QueryError::NoScratch`].
     #[inline(never)]
     pub fn separation(

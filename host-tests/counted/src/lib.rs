@@ -84,7 +84,7 @@ impl<'t> Counted<'t> {
     fn poses(&self, queries: usize) -> impl Iterator<Item = Pose> {
         self.rows::<12>(queries).iter().map(|row| {
             let row = |k| [row[k], row[k + 1], row[k + 2]];
-            Pose { rotation: [row(0), row(3), row(6)], translation: row(9) }
+            Pose::rigid([row(0), row(3), row(6)], row(9))
         })
     }
 }

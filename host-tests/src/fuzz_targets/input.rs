@@ -56,7 +56,7 @@ impl Input<'_> {
             1 => Pose::IDENTITY.rotation,
             _ => [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]],
         };
-        Pose { rotation, translation }
+        Pose::affine(rotation, translation)
     }
 
     /// One of some blobs with up to fifteen edits, with right CRCs.

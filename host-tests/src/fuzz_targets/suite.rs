@@ -30,7 +30,7 @@ impl Place for Input<'_> {
     }
 
     fn motion(&mut self) -> Motion {
-        let Pose { rotation, translation } = self.pose();
+        let Pose { rotation, translation, .. } = self.pose();
         (rotation, translation)
     }
 

@@ -11,7 +11,7 @@ pub fn tribox(data: &[u8]) {
     let mut three = || input.point();
     let points = [(); 4].map(|()| three());
     let (p, q) = (three(), three());
-    let pose = Pose { rotation: [(); 3].map(|()| three()), translation: three() };
+    let pose = Pose::affine([(); 3].map(|()| three()), three());
     let of_points = Tribox::of_points(points);
     if let Ok(tribox) = of_points {
         assert!(points.iter().all(|point| tribox.contains_point(*point)) && !tribox.is_empty());

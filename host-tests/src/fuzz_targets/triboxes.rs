@@ -48,7 +48,7 @@ pub fn ask_triboxes(a: &Triboxes<'_>, b: &Triboxes<'_>) {
     look(a);
     for translation in [[0.1, -0.2, 0.3], [5.0, 0.0, 1.0], [1e36, -1e36, 1e30], [1e-40; 3]] {
         let rotation = [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]];
-        ask(a, b, &Pose { rotation, translation }, a.separation_entries(b));
+        ask(a, b, &Pose::affine(rotation, translation), a.separation_entries(b));
         ask(b, a, &Pose { translation, ..Pose::IDENTITY }, 3);
     }
     for p in [[0.1, 0.2, 0.3], [5.0, -3.0, 1.0], [1e36, -1e36, 1e36], [1e-40, 0.0, -0.0]] {
@@ -141,7 +141,7 @@ pub fn triboxes(data: &[u8]) {
     let (Ok(a), Ok(b)) = (opened, Triboxes::open(&second)) else { return };
     ask_triboxes(&a, &b);
     let entries = 1 + usize::from(input.byte());
-    let pose = Pose { rotation: [(); 3].map(|()| input.point()), translation: input.point() };
+    let pose = Pose::affine([(); 3].map(|()| input.point()), input.point());
     ask(&a, &b, &pose, entries);
     bounds(&a, input.point(), input.point(), entries);
     ask_all::<Triboxes<'_>>(&first, triboxes::Scratch::new(), &mut input);

@@ -233,8 +233,7 @@ fn of_edges(s: &[Point; 2], r: &[Point; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{Tree, distance};
-    use crate::generate::Rng;
-    use crate::generate::solids::{block, torus};
+    use crate::generate::{Rng, block, torus};
     use crate::oracle::distance_of_meshes;
     use meshsweep_core::Pose;
 
@@ -253,7 +252,7 @@ mod tests {
             let rotation = [rotation[0], rotation[1], rotation[2]];
             let translation = rng.point_in([-2.0; 3], [2.0; 3]);
             let truth = distance_of_meshes((&a.0, &a.1), (&b.0, &b.1), &rotation, translation);
-            let pose = Pose { rotation, translation };
+            let pose = Pose::affine(rotation, translation);
             let found = distance(&x.at(&Pose::IDENTITY), &y.at(&pose));
             met += usize::from(found == 0.0);
             let is_near = truth.lower - 1e-12 <= found && found <= truth.upper + 1e-12;

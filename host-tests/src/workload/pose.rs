@@ -56,7 +56,7 @@ impl Pose {
     pub fn rounded(&self) -> CorePose {
         let single = |row: DVec3| row.to_array().map(|x| x as f32);
         let rotation = [0, 1, 2].map(|k| single(self.rotation.row(k)));
-        CorePose { rotation, translation: single(self.shift) }
+        CorePose::rigid(rotation, single(self.shift))
     }
 
     /// A point moved.

@@ -39,15 +39,15 @@ fn turned(rows: &[[f32; 3]; 3], angle: f64, rng: &mut Rng) -> [[f32; 3]; 3] {
 /// Small steps, and now and then a jump, to a reflection too.
 fn walk(ticks: usize, scale: f32, rng: &mut Rng) -> Walk {
     let place = |rng: &mut Rng| rng.point_in([-4.0; 3], [4.0; 3]).map(|x| scale * x);
-    let mut poses =
-        [(); MODELS].map(|()| Pose { rotation: rotation(rng), translation: place(rng) });
+    let mut poses = [(); MODELS].map(|()| Pose::rigid(rotation(rng), place(rng)));
     let mut walk = Vec::new();
     for tick in 0..ticks {
         for pose in poses.iter_mut().skip(1) {
             if rng.below(25) == 0 {
-                *pose = Pose { rotation: rotation(rng), translation: place(rng) };
+                *pose = Pose::rigid(rotation(rng), place(rng));
                 if rng.below(2) == 0 {
                     pose.rotation[0] = pose.rotation[0].map(|x| -x);
+                    pose.is_affine = true;
                 }
             } else if tick % 7 != 3 {
                 let step = rng.direction().map(|x| 0.02 * scale * x);
@@ -177,7 +177,7 @@ fn a_scene_that_remembers_refuses_what_it_cannot_keep() {
     assert_eq!(scene.move_to(2, pose(0.0)), Err(QueryError::NoModel));
     assert_eq!(scene.move_to(1, pose(f32::NAN)), Err(QueryError::NotFinite));
     // A matrix that leaves the rotations by small steps is refused as at once.
-    let mut flat = pose(9.0);
+    let mut flat = Pose { is_affine: true, ..pose(9.0) };
     let mut is_refused = false;
     for step in 0..200 {
         flat.rotation[2] = [0.0, 0.0, 1.0 - 0.005 * step as f32];
@@ -186,6 +186,9 @@ fn a_scene_that_remembers_refuses_what_it_cannot_keep() {
         is_refused |= at_once == Err(QueryError::PoseOutOfDomain);
     }
     assert!(is_refused);
+    // One that may be none is refused when it changes much.
+    flat.is_affine = false;
+    assert_eq!(scene.move_to(1, flat), Err(QueryError::NotRigid));
     assert!(scene.within(Budget::EXACT, &mut stack()).unwrap().is_clear());
     assert_eq!(scene.within(Budget::EXACT, &mut []), Err(QueryError::NoScratch));
     let mut none = CoherentScene::new([], []).unwrap();

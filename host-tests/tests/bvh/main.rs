@@ -16,6 +16,7 @@ mod pair_distance;
 mod penetration;
 mod placed;
 mod posed;
+mod poses;
 mod refusals;
 mod scene;
 mod segments;

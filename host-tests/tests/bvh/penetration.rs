@@ -230,7 +230,7 @@ fn a_shallow_contact_in_a_hole_or_a_slot_is_known_to_a_factor() {
         ("corner", &slot, &block, [0.3, 2.4, 0.2], 0.02f64.sqrt()),
         ("touching", &slot, &block, [0.2, 4.0, 0.5], 0.0),
     ] {
-        let pose = Pose { rotation: IDENTITY, translation: at };
+        let pose = Pose::rigid(IDENTITY, at);
         for (i, (first, second)) in a.trees().iter().zip(b.trees()).enumerate() {
             let found = ask(first, &second, &pose, Budget::EXACT);
             let Interval { lower, upper } = found.depth;
@@ -296,14 +296,14 @@ fn a_part_inside_is_told_from_one_in_a_cavity() {
     let wall: Vec<Pose> = [1.6, 2.0, 2.8, 3.5].into_iter().map(&mut at).collect();
     assert_eq!(check("cavity", &shell, &grain, &cavity, 58), [4, 0, 0, 0]);
     assert_eq!(check("wall", &shell, &grain, &wall, 59), [0, 0, 0, 4]);
-    let identity = Pose { rotation: IDENTITY, translation: [-2.8; 3] };
+    let identity = Pose::rigid(IDENTITY, [-2.8; 3]);
     assert_eq!(check("in the moved wall", &grain, &shell, &[identity], 60), [0, 0, 1, 0]);
 
     // One of two parts lies inside, whichever is first in the file.
     let parts = Scene::solid("", two_parts(), 0.0, 0);
     let large = Scene::solid("", scaled(&cube(2), 3.0), 0.0, 0);
     for x in [0.5f32, -4.5] {
-        let pose = Pose { rotation: IDENTITY, translation: [x, 0.25, 0.5] };
+        let pose = Pose::rigid(IDENTITY, [x, 0.25, 0.5]);
         let found = ask(&large.bvh(), &parts.bvh(), &pose, Budget::EXACT);
         assert_eq!(found.relation, Relation::SecondInside, "{found:?}");
     }
@@ -386,7 +386,7 @@ fn what_holds_no_solid_has_no_depth() {
 fn surfaces_that_touch_and_meshes_without_sides_are_undecided() {
     let a = Scene::solid("", cube(2), 0.0, 0);
     for tree in a.trees() {
-        let pose = Pose { rotation: IDENTITY, translation: [2.0, 0.25, 0.5] };
+        let pose = Pose::rigid(IDENTITY, [2.0, 0.25, 0.5]);
         let found = ask(&tree, &tree, &pose, Budget::EXACT);
         let is_open = matches!(found.relation, Relation::Undecided(Undecided::Resolution));
         assert!(is_open && found.depth.lower == 0.0 && found.depth.upper < 1e-3, "{found:?}");
@@ -448,6 +448,6 @@ fn what_cannot_be_answered_is_refused() {
     let pose = Pose { translation: [f32::NAN, 0.0, 0.0], ..Pose::IDENTITY };
     assert_eq!(refused(&whole, &whole, pose, exact), QueryError::NotFinite);
     let sheared = [[1.0, 0.9, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let pose = Pose { rotation: sheared, translation: [0.5; 3] };
+    let pose = Pose::affine(sheared, [0.5; 3]);
     assert_eq!(refused(&whole, &whole, pose, exact), QueryError::PoseOutOfDomain);
 }

@@ -92,8 +92,7 @@ fn no_box_or_ball_makes_two_placed_models_clear_that_are_not() {
         let origin = rng.direction().map(|x| x * base);
         let way = rng.direction().map(|x| x * rng.range(5.0, 12.0));
         let place = |by: f32| [0, 1, 2].map(|k| scale * (origin[k] + by * way[k]));
-        let poses = [0.0, 1.0]
-            .map(|by| Pose { rotation: matrix(rng.below(10), &mut rng), translation: place(by) });
+        let poses = [0.0, 1.0].map(|by| Pose::affine(matrix(rng.below(10), &mut rng), place(by)));
         if truth([&a, &b], &poses).lower > 0.1 * f64::from(scale) {
             holds([&a, &b], &poses, &mut tally);
         }
@@ -118,7 +117,7 @@ fn boxes_that_nearly_touch_are_never_called_clear() {
         let axis = turned.map(|row| f64::from(row[1]));
         let base = rng.point_in([-3.0; 3], [3.0; 3]).map(|x| f64::from(size * x));
         let place = |off: f64| [0, 1, 2].map(|k| (base[k] + off * axis[k]) as f32);
-        let poses = [0.0, side + gap].map(|off| Pose { rotation: turned, translation: place(off) });
+        let poses = [0.0, side + gap].map(|off| Pose::rigid(turned, place(off)));
         holds([&scene, &scene], &poses, &mut tally);
     }
     assert!(tally.cheap > 100, "{tally:?}");
@@ -141,7 +140,7 @@ fn no_box_makes_a_model_clear_that_any_matrix_moved() {
             _ => matrix(round, &mut rng),
         };
         let translation = rng.direction().map(|x| scale * x * rng.range(6.0, 20.0));
-        let poses = [Pose::IDENTITY, Pose { rotation, translation }];
+        let poses = [Pose::IDENTITY, Pose::affine(rotation, translation)];
         let truth = truth([&a, &b], &poses);
         if truth.lower < 0.1 * f64::from(scale) {
             continue;

@@ -272,7 +272,7 @@ fn a_sweep_about_a_point_and_a_model_that_both_move_holds() {
 
 #[test]
 fn a_pose_that_is_no_motion_is_refused() {
-    let of = |rotation: [Point; 3], translation: Point| Pose { rotation, translation };
+    let of = |rotation: [Point; 3], translation: Point| Pose::rigid(rotation, translation);
     let zero = of([[0.0; 3]; 3], [0.0; 3]);
     assert_eq!(zero.to_model([0.0; 3]).err(), Some(QueryError::PoseOutOfDomain));
     let mut twice = Pose::IDENTITY;

@@ -33,7 +33,7 @@ impl World {
         let places = (0..count)
             .map(|_| {
                 let translation = [(); 3].map(|()| spread * rng.range(-1.0, 1.0));
-                (rng.below(scenes.len()), Pose { rotation: rotation(rng), translation })
+                (rng.below(scenes.len()), Pose::rigid(rotation(rng), translation))
             })
             .collect();
         Self { scenes, places }
@@ -140,7 +140,7 @@ fn a_pose_that_is_no_rotation_is_paid_for() {
     let size = 2.0;
     let mut stretched = IDENTITY;
     stretched[0][0] = 1.05;
-    let place = |x: f32| Pose { rotation: stretched, translation: [x, 0.0, 0.0] };
+    let place = |x: f32| Pose::affine(stretched, [x, 0.0, 0.0]);
     for tree in scene.trees() {
         let models = [place(0.0), place(10.0)].map(|pose| PlacedModel::new(tree, pose).unwrap());
         let scene = Models::new(&models);
@@ -217,10 +217,12 @@ fn what_cannot_be_asked_is_refused_and_no_pair_is_no_error() {
     }
     for place in [3.0, 1e6, f32::MAX] {
         let mut flat = pose(place);
-        flat.rotation[2] = [0.0; 3];
-        assert_eq!(model.move_to(flat), Err(QueryError::PoseOutOfDomain));
-        flat.rotation = [[0.0; 3]; 3];
-        assert_eq!(model.move_to(flat), Err(QueryError::PoseOutOfDomain));
+        for rows in [[flat.rotation[0], flat.rotation[1], [0.0; 3]], [[0.0; 3]; 3]] {
+            flat.rotation = rows;
+            assert_eq!(model.move_to(flat), Err(QueryError::NotRigid));
+            let flat = Pose { is_affine: true, ..flat };
+            assert_eq!(model.move_to(flat), Err(QueryError::PoseOutOfDomain));
+        }
     }
     assert_eq!(*model.pose(), pose(3.0));
     for far in [1e20, 1e30, f32::MAX] {
@@ -287,6 +289,7 @@ fn a_model_at_the_end_of_f32_is_paid_for() {
     let turned = [[half, -half, 0.0], [half, half, 0.0], [0.0, 0.0, 1.0]];
     let mut stretched = Pose::IDENTITY;
     stretched.rotation[0][0] = 1.05;
+    stretched.is_affine = true;
     // The blade's tip, and the plate as it is stretched.
     let truth = 1.05 * f64::from(at) - f64::from(half) * f64::from(m);
     for (first, second) in plate.trees().into_iter().zip(blade.trees()) {

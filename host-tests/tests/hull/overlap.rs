@@ -163,7 +163,7 @@ fn matrices_need_not_be_rotations() {
     for matrix in matrices {
         for _ in 0..8 {
             let place = rng.point_in([-4.0, -4.0, -2.0], [4.0, 4.0, 2.0]);
-            holds(&a, &b, &placed(&b, matrix, place), &mut tally);
+            holds(&a, &b, &Pose { is_affine: true, ..placed(&b, matrix, place) }, &mut tally);
         }
     }
     assert!(tally.meets > 0 && tally.apart > 0, "{tally:?}");
@@ -171,7 +171,7 @@ fn matrices_need_not_be_rotations() {
 
 #[test]
 fn surfaces_that_touch_are_open_and_a_model_inside_another_is_apart() {
-    let shifted = |by| Pose { rotation: IDENTITY, translation: by };
+    let shifted = |by| Pose::rigid(IDENTITY, by);
     let scene = Scene::hull("cube", cube(2), &options(12));
     let model = scene.model();
     for by in [[0.0; 3], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [2.0, -2.0, 2.0], [0.5, 2.0, 0.25]] {
@@ -206,7 +206,7 @@ fn moved_vertices_are_answered_for_the_input() {
     let vertex = a.positions.iter().copied().max_by(|p, q| p[0].total_cmp(&q[0])).expect("one");
     let most = b.positions.iter().fold(f32::MAX, |least, p| least.min(p[0]));
     let by = vertex[0] - most + 0.5 * a.model().surface_error();
-    let pose = Pose { rotation: IDENTITY, translation: [by, 0.0, 0.0] };
+    let pose = Pose::rigid(IDENTITY, [by, 0.0, 0.0]);
     let answer = ask(&a.model(), &b.model(), &pose);
     assert_ne!(answer.verdict, Verdict::Yes);
 }

@@ -212,7 +212,7 @@ fn row_of_poses(poses: [Pose; 2]) -> [f32; 24] {
 fn poses_of_row(row: &[f32; 24]) -> [Pose; 2] {
     let pose = |at: usize| {
         let triple = |k: usize| [0, 1, 2].map(|i| row[at + 3 * k + i]);
-        Pose { rotation: [0, 1, 2].map(triple), translation: triple(3) }
+        Pose::affine([0, 1, 2].map(triple), triple(3))
     };
     [pose(0), pose(12)]
 }

@@ -6,7 +6,7 @@ use crate::output;
 use crate::queries::Queries;
 use meshsweep::number::Short;
 use meshsweep_core::Pose;
-use meshsweep_core::internal::num::tolerance::SCREW_DEFECT;
+use meshsweep_core::internal::num::tolerance::RIGID;
 
 /// A question about poses, given as `N` numbers each.
 pub trait AskPoses {
@@ -57,7 +57,7 @@ fn of_quaternion([x, y, z, qw, qx, qy, qz]: [f32; 7]) -> Pose {
         [two * (a * b + w * c), 1.0 - two * (a * a + c * c), two * (b * c - w * a)],
         [two * (a * c - w * b), two * (b * c + w * a), 1.0 - two * (a * a + b * b)],
     ];
-    Pose { rotation: rotation.map(|row| row.map(|x| x as f32)), translation: [x, y, z] }
+    Pose::rigid(rotation.map(|row| row.map(|x| x as f32)), [x, y, z])
 }
 
 /// The first matrix that has an entry beyond 2, and which entry.
@@ -73,9 +73,12 @@ fn first_fault(rows: &[[f32; 12]]) -> Option<(usize, String)> {
 pub fn no_rotation(pose: &Pose) -> Option<String> {
     let rows = pose.rotation.map(|row| row.map(f64::from));
     let dot = |a: usize, b: usize| -> f64 { (0..3).map(|k| rows[a][k] * rows[b][k]).sum() };
-    // As `Motion::screw` demands, but for its rounding.
-    let long = (0..3).find(|&row| (dot(row, row) - 1.0).abs() > SCREW_DEFECT);
-    let skew = [(0, 1), (1, 2), (0, 2)].into_iter().find(|&(a, b)| dot(a, b).abs() > SCREW_DEFECT);
+    // As `Motion::screw` demands, but for its rounding: the largest part of a sum that is too large.
+    let excess = |a: usize, b: usize| (dot(a, b) - f64::from(u8::from(a == b))).abs();
+    let most = (0..3).map(|a| (0..3).map(|b| excess(a, b)).sum()).fold(0.0, f64::max);
+    let limit = if most > f64::from(RIGID) { most / 3.0 } else { f64::INFINITY };
+    let long = (0..3).find(|&row| excess(row, row) >= limit);
+    let skew = [(0, 1), (1, 2), (0, 2)].into_iter().find(|&(a, b)| excess(a, b) >= limit);
     let [a, b, c] = rows.map(glam::DVec3::from);
     if let Some(row) = long {
         let length = dot(row, row).sqrt();
@@ -90,7 +93,7 @@ pub fn no_rotation(pose: &Pose) -> Option<String> {
     }
 }
 
-/// The pose of a matrix's rows, each with its translation.
+/// The pose of a matrix's rows, each with its translation. A file may hold any matrix.
 fn of_matrix([a, b, c, x, d, e, f, y, g, h, i, z]: [f32; 12]) -> Pose {
-    Pose { rotation: [[a, b, c], [d, e, f], [g, h, i]], translation: [x, y, z] }
+    Pose::affine([[a, b, c], [d, e, f], [g, h, i]], [x, y, z])
 }

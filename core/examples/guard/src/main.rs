@@ -29,10 +29,7 @@ const LENGTH: f32 = 60.0;
 fn turned(half: f32, x: f32, z: f32) -> Pose {
     let cosine = (1.0 - half * half) / (1.0 + half * half);
     let sine = 2.0 * half / (1.0 + half * half);
-    Pose {
-        rotation: [[cosine, 0.0, -sine], [0.0, 1.0, 0.0], [sine, 0.0, cosine]],
-        translation: [x, 0.0, z],
-    }
+    Pose::rigid([[cosine, 0.0, -sine], [0.0, 1.0, 0.0], [sine, 0.0, cosine]], [x, 0.0, z])
 }
 
 /// Upper arm, forearm, and the link in the way.

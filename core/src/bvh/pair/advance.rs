@@ -2,6 +2,7 @@
 
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::input_box::corners_of_input;
+use crate::geom::Pose;
 use crate::num::tolerance::ADVANCE_KEPT;
 use crate::num::{down_to_f32, greater};
 use crate::query::{Budget, Ended, Motion, PairContact, QueryError, ScratchEntry, Work};
@@ -26,6 +27,7 @@ impl Bvh<'_> {
         if !motion.is_finite() {
             return Err(QueryError::NotFinite);
         }
+        motion.check_rigid()?;
         let (longest, rounding) = longest_path(other, motion);
         let mut contact = PairContact {
             clear_until: 0.0,
@@ -42,7 +44,8 @@ impl Bvh<'_> {
                 contact.ended = Ended::Steps;
                 break;
             }
-            let pose = motion.at_time(t);
+            // On the way it is as it is.
+            let pose = Pose { is_affine: true, ..motion.at_time(t) };
             let budget = Budget::EXACT.with_steps(steps);
             let found = self.distance_to(other, pose, budget, scratch)?;
             contact.work = contact.work.and(found.work);

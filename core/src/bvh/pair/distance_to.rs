@@ -18,8 +18,8 @@ impl Bvh<'_> {
     /// frame to this tree's (both in input units), and where the surfaces are nearest.
     ///
     /// The interval contains the distance of the input meshes as they were after repair, even if a
-    /// grid moved vertices. The pose's numbers are taken as exact, and its matrix need not be a
-    /// rotation. The interval is `0 ..= 0` if it is proved that the surfaces meet. Only surfaces
+    /// grid moved vertices. The pose's numbers are taken as exact. Its matrix need not be a
+    /// rotation if it [says so](Pose::affine). The interval is `0 ..= 0` if it is proved that the surfaces meet. Only surfaces
     /// count: of one closed mesh inside the other it is the distance of the two surfaces.
     /// Ask [`overlap`](Bvh::overlap) where contact alone matters, and
     /// [`within_of`](Bvh::within_of) where a threshold does: both are faster. If the models move in
@@ -51,7 +51,8 @@ impl Bvh<'_> {
     ///
     /// # Errors
     /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is
-    /// beyond 2 or one grid is 2^40 times as coarse as the other; [`QueryError::NotServed`] unless
+    /// beyond 2 or one grid is 2^40 times as coarse as the other; [`QueryError::NotRigid`] for a
+    /// matrix that is no rotation, unless the pose says that; [`QueryError::NotServed`] unless
     /// both trees have boxes for segments; [`QueryError::Tolerance`], [`QueryError::NoScratch`].
     #[inline(never)]
     pub fn distance_to(

@@ -7,7 +7,7 @@ use crate::bvh::tree::format::Bvh;
 use crate::geom::Pose;
 use crate::num::tolerance::{BOX_PAIR, MOTION, NEARLY_RIGID, U32};
 use crate::num::{difference, dot, greater, sqrt_approx};
-use crate::query::{PoseInverse, QueryError};
+use crate::query::{PoseInverse, QueryError, check_rigid, is_rotation};
 use glam::Vec3;
 
 /// A model at its place in a [`Scene`](crate::Scene).
@@ -51,8 +51,8 @@ impl<'a> PlacedModel<'a> {
     /// A model at a pose: from its frame to the world.
     ///
     /// # Errors
-    /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if the pose is far from a
-    /// rotation.
+    /// [`QueryError::NotFinite`]; [`QueryError::NotRigid`] if the matrix is no rotation, unless the
+    /// pose is [affine](Pose::affine); [`QueryError::PoseOutOfDomain`] if that is far from one.
     pub fn new(tree: Bvh<'a>, pose: Pose) -> Result<Self, QueryError> {
         let bounds = ModelBox::of(&tree);
         let ball = ModelBall::around(&bounds);
@@ -189,19 +189,21 @@ impl Place {
         let size = shift.abs();
         let far = (size.x + size.y + size.z) + 2.0 * bounds.reach;
         let skew = skew(&rows);
-        if !(skew < NEARLY_RIGID && far < f32::INFINITY) {
+        let is_sound = is_rotation(&pose.rotation, skew) || pose.is_affine && skew < NEARLY_RIGID;
+        if !(is_sound && far < f32::INFINITY) {
             check_pose(pose)?;
         }
         Ok(Place { centre: turned(&rows, middle) + shift, far, skew })
     }
 }
 
-/// Refuses a pose that is not finite, or far from a rotation.
+/// Refuses a pose that is not finite, no rotation, or, if it may be any, far from one.
 #[cold]
 #[inline(never)]
 fn check_pose(pose: &Pose) -> Result<(), QueryError> {
     if !pose.rotation.iter().flatten().chain(&pose.translation).all(|x| x.is_finite()) {
         return Err(QueryError::NotFinite);
     }
+    check_rigid(pose)?;
     PoseInverse::new(wide(pose).0).map(|_| ())
 }

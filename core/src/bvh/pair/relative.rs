@@ -29,6 +29,7 @@ impl Relative {
         let pose = Pose {
             rotation: m_rows.map(|row| row.map(|x| x as f32)),
             translation: m_shift.map(|x| x as f32),
+            is_affine: true,
         };
         if !pose.translation.iter().all(|x| x.is_finite()) {
             return Err(QueryError::OutOfDomain);

@@ -77,7 +77,7 @@ fn paths(
                 z,
             ];
             let translation = [0, 1, 2].map(|i| pose.translation[i] + far * 0.7 * way[i]);
-            Pose { rotation, translation }
+            Pose::rigid(rotation, translation)
         };
         all.push((0..STEPS).map(step).collect());
     }

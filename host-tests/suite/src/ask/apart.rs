@@ -38,7 +38,7 @@ impl<'t> Subject<'t> for Apart<'t> {
     asks! { Scratch, |self, place, scratch, to|
         PairDistance => {
             let (rotation, translation) = place.motion();
-            distance(self, Pose { rotation, translation }, scratch, to);
+            distance(self, Pose::rigid(rotation, translation), scratch, to);
         };
         Solid => solid(self, place.segment(), place.distance(), scratch, to);
         Contact => {
@@ -53,13 +53,13 @@ impl<'t> Subject<'t> for Apart<'t> {
         };
         CoherentPair => {
             let (rotation, translation) = place.motion();
-            let start = Pose { rotation, translation };
+            let start = Pose::rigid(rotation, translation);
             let [here, there] = [place.step(), place.step()];
             coherent(self, start, [here, there], scratch, to);
         };
         Penetration => {
             let (rotation, translation) = place.motion();
-            penetration(self, Pose { rotation, translation }, scratch, to);
+            penetration(self, Pose::rigid(rotation, translation), scratch, to);
         };
     }
 }

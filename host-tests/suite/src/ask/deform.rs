@@ -69,13 +69,13 @@ impl<'t> Subject<'t> for DeformableHull<'t> {
         FrameOverlap => {
             let part = place.share().abs();
             let (rotation, translation) = place.motion();
-            let pose = Pose { rotation, translation };
+            let pose = Pose::rigid(rotation, translation);
             frame_overlap(self, part, pose, scratch, &mut Asked::new(clock, fold));
         };
         MovedOverlap => {
             let ends = [place.far(), place.far()];
             let (rotation, translation) = place.motion();
-            let pose = Pose { rotation, translation };
+            let pose = Pose::rigid(rotation, translation);
             moved_overlap(self, ends, pose, scratch, clock, fold);
         };
     }

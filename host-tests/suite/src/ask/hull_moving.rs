@@ -42,13 +42,13 @@ impl<'t> Subject<'t> for Moving<'t> {
         };
         Posed => {
             let (rotation, translation) = place.motion();
-            let pose = Pose { rotation, translation };
+            let pose = Pose::rigid(rotation, translation);
             posed(self, pose, place.far(), scratch, clock, fold);
         };
         Overlap => {
             let (rotation, translation) = place.motion();
             let [a, b] = place.segment();
-            let pose = Pose { rotation, translation };
+            let pose = Pose::rigid(rotation, translation);
             overlap(self, pose, [a, b, place.far()], scratch, clock, fold);
         };
     }

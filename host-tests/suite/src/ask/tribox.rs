@@ -126,10 +126,7 @@ pub fn rest(points: &Points, distance: f32, snap: bool, clock: &mut impl Clock, 
         fold.f32(enter);
         fold.f32(leave);
     }
-    let pose = Pose {
-        rotation: [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]],
-        translation: h,
-    };
+    let pose = Pose::rigid([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]], h);
     parameters(&known(first.moved(&pose), fold), fold);
     parameters(&known(pose.bound([a, b, c]), fold), fold);
     if snap {

@@ -72,7 +72,8 @@ fn matrices_need_not_be_rotations() {
     for matrix in [mirrored, sheared, flat] {
         for _ in 0..8 {
             let place = rng.point_in([-4.0, -4.0, -2.0], [4.0, 4.0, 2.0]);
-            holds("matrix", &a, &b, &placed(&b, matrix, place), &mut tallies);
+            let pose = meshsweep_core::Pose { is_affine: true, ..placed(&b, matrix, place) };
+            holds("matrix", &a, &b, &pose, &mut tallies);
         }
     }
     assert!(tallies[3].meets > 0 && tallies[3].apart > 0, "{tallies:?}");
@@ -90,8 +91,7 @@ fn matrices_with_next_to_nothing_in_a_column_part_nothing_that_meets() {
         while column < 1e-2 {
             for by in [1.500_591f32, 1.4991, 1.502] {
                 let matrix = [[column, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-                let pose =
-                    meshsweep_core::Pose { rotation: matrix, translation: [by * factor, 0.0, 0.0] };
+                let pose = meshsweep_core::Pose::affine(matrix, [by * factor, 0.0, 0.0]);
                 holds("column", &a, &b, &pose, &mut tallies);
             }
             column *= 7.0;
@@ -121,7 +121,9 @@ fn answers_hold_where_far_origins_cancel() {
         // than such rounding.
         for scale in [1.0 / (1u32 << 24) as f32, 1.0] {
             let a = Scene::both("", scaled(&icosphere(0), scale));
-            holds("cancelled", &a, &b, &placed(&b, rotation, [0.0; 3]), &mut tallies);
+            let pose = placed(&b, rotation, [0.0; 3]);
+            let pose = meshsweep_core::Pose { is_affine: true, ..pose };
+            holds("cancelled", &a, &b, &pose, &mut tallies);
         }
     }
     assert!(tallies.iter().all(|tally| tally.apart > 50 && tally.meets > 50), "{tallies:?}");

@@ -100,7 +100,7 @@ fn what_cannot_be_answered_is_refused() {
             .0
             .to_bytes();
     let vague = Bvh::open(&bytes).expect("opens");
-    let flat = Pose { rotation: [[0.0; 3]; 3], ..Pose::IDENTITY };
+    let flat = Pose::affine([[0.0; 3]; 3], [0.0; 3]);
     for pose in [Pose::IDENTITY, flat] {
         assert_eq!(refused(&vague, &vague, pose, None), QueryError::PoseOutOfDomain);
     }

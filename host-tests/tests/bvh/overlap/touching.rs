@@ -7,7 +7,7 @@ use meshsweep_host_tests::generate::{cube, icosphere, joined, needle_comb, torus
 use meshsweep_host_tests::scene::Scene;
 
 fn shifted(by: [f32; 3]) -> Pose {
-    Pose { rotation: IDENTITY, translation: by }
+    Pose::rigid(IDENTITY, by)
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn coplanar_triangles_beside_each_other_are_apart() {
     }
     // Turned by 45 degrees beside a corner: boxes meet, triangles do not.
     let turned = [[0.6, -0.8, 0.0], [0.8, 0.6, 0.0], [0.0, 0.0, 1.0]];
-    let pose = Pose { rotation: turned, translation: [1.45, 0.55, 0.0] };
+    let pose = Pose::rigid(turned, [1.45, 0.55, 0.0]);
     let mut tallies: [Tally; 4] = Default::default();
     holds("coplanar", &scene, &scene, &pose, &mut tallies);
 }

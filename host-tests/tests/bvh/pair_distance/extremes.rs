@@ -87,7 +87,8 @@ fn matrices_need_not_be_rotations() {
     for matrix in [mirrored, sheared, tiny] {
         for _ in 0..8 {
             let place = rng.point_in([-4.0, -4.0, -2.0], [4.0, 4.0, 2.0]);
-            holds("matrix", &a, &b, &placed(&b, matrix, place), &mut tally);
+            let pose = Pose { is_affine: true, ..placed(&b, matrix, place) };
+            holds("matrix", &a, &b, &pose, &mut tally);
         }
     }
     assert!(tally.meets > 0 && tally.apart > 0, "{tally:?}");

@@ -57,11 +57,10 @@ impl Screw {
         let end = |k: usize| [0, 1, 2].map(|i: usize| origin[i] + f64::from(from.rotation[i][k]));
         let at = self.moved(origin, t);
         let ends = [0, 1, 2].map(|k| self.moved(end(k), t));
-        Pose {
-            rotation: [0, 1, 2]
-                .map(|i: usize| [0, 1, 2].map(|k: usize| (ends[k][i] - at[i]) as f32)),
-            translation: at.map(|x| x as f32),
-        }
+        Pose::rigid(
+            [0, 1, 2].map(|i: usize| [0, 1, 2].map(|k: usize| (ends[k][i] - at[i]) as f32)),
+            at.map(|x| x as f32),
+        )
     }
 
     fn random(rng: &mut Rng, size: f32) -> Self {
@@ -84,11 +83,9 @@ fn screwed(from: Pose, screw: &Screw) -> Course<'_> {
 fn mixed(ends: &[Pose; 2], t: f64) -> Pose {
     let mix = |a: f32, b: f32| (f64::from(a) * (1.0 - t) + f64::from(b) * t) as f32;
     let [from, to] = ends;
-    Pose {
-        rotation: [0, 1, 2]
-            .map(|i: usize| [0, 1, 2].map(|k: usize| mix(from.rotation[i][k], to.rotation[i][k]))),
-        translation: [0, 1, 2].map(|k: usize| mix(from.translation[k], to.translation[k])),
-    }
+    let row = |i: usize| [0, 1, 2].map(|k: usize| mix(from.rotation[i][k], to.rotation[i][k]));
+    let shift = |k: usize| mix(from.translation[k], to.translation[k]);
+    Pose::affine([0, 1, 2].map(row), [0, 1, 2].map(shift))
 }
 
 #[test]
@@ -163,7 +160,7 @@ fn a_wall_between_two_places_is_not_jumped_over() {
 fn few_steps_and_bad_numbers_are_said() {
     let scene = Scene::both("", torus(2.0, 0.75, 24, 12));
     let [tree, _] = scene.trees();
-    let at = |x: f32| Pose { rotation: IDENTITY, translation: [x, 0.0, 0.0] };
+    let at = |x: f32| Pose::rigid(IDENTITY, [x, 0.0, 0.0]);
     let ends = Motion::straight(at(-9.0), at(9.0));
     let found = ask(&tree, &tree, &ends, 0.0, Budget::EXACT.with_steps(3));
     assert!(found.ended == Ended::Steps && found.work.opened <= 3, "{found:?}");
@@ -182,8 +179,7 @@ fn a_screw_between_two_poses_is_the_one_that_leads_from_one_to_the_other() {
     let mut rng = Rng::new(4);
     for _ in 0..2000 {
         let screw = Screw::random(&mut rng, 10.0);
-        let from =
-            Pose { rotation: rotation(&mut rng), translation: rng.direction().map(|x| 20.0 * x) };
+        let from = Pose::rigid(rotation(&mut rng), rng.direction().map(|x| 20.0 * x));
         let Course { motion, at } = screwed(from, &screw);
         assert_eq!(motion.at(0.0), from);
         assert_eq!(motion.at(1.0), screw.pose(&from, 1.0));
@@ -209,7 +205,7 @@ fn a_wall_in_the_way_of_a_turn_is_found() {
     let at = |degrees: f32| {
         let (s, c) = degrees.to_radians().sin_cos();
         let rotation = [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]];
-        Pose { rotation, translation: [-8.0 * s, 8.0 * c, 0.0] }
+        Pose::rigid(rotation, [-8.0 * s, 8.0 * c, 0.0])
     };
     let (from, to) = (at(-80.0), at(80.0));
     for (first, second) in wall.trees().iter().zip(ball.trees()) {
@@ -224,9 +220,9 @@ fn a_wall_in_the_way_of_a_turn_is_found() {
 #[test]
 fn a_screw_ends_at_its_second_pose_also_with_matrices_of_three_decimals() {
     let mut rng = Rng::new(5);
-    let coarse = |rng: &mut Rng| Pose {
-        rotation: rotation(rng).map(|row| row.map(|x| (x * 2e3).round() / 2e3)),
-        translation: rng.direction(),
+    let coarse = |rng: &mut Rng| {
+        let rotation = rotation(rng).map(|row| row.map(|x| (x * 2e3).round() / 2e3));
+        Pose::rigid(rotation, rng.direction())
     };
     let scene = Scene::both("", cube(1));
     for _ in 0..50 {
@@ -263,7 +259,7 @@ fn what_is_no_rotation_has_no_screw() {
     large.rotation[1][1] = 1.01;
     for other in [mirror, large] {
         for (from, to) in [(Pose::IDENTITY, other), (other, Pose::IDENTITY)] {
-            assert_eq!(Motion::screw(from, to), Err(QueryError::PoseOutOfDomain));
+            assert_eq!(Motion::screw(from, to), Err(QueryError::NotRigid));
         }
     }
     let nan = Pose { translation: [0.0, f32::NAN, 0.0], ..Pose::IDENTITY };

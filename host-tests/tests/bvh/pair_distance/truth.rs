@@ -68,7 +68,7 @@ fn touching_surfaces_have_a_lower_end_of_zero() {
         [0.0; 3],
         [0.25 * side, side, 0.5 * side],
     ] {
-        holds("touching", &a, &b, &Pose { rotation: IDENTITY, translation }, &mut tally);
+        holds("touching", &a, &b, &Pose::rigid(IDENTITY, translation), &mut tally);
     }
     assert_eq!(tally.apart, 0, "{tally:?}");
 }
@@ -81,7 +81,7 @@ fn a_small_body_on_a_large_face_has_a_distance_near_zero() {
     let mut tally = Tally::default();
     for sideways in [[20.0, 30.0], [-50.0, 1.0], [7.25, -41.5]] {
         let translation = [sideways[0], sideways[1], top[2] - bottom[2]];
-        let pose = Pose { rotation: IDENTITY, translation };
+        let pose = Pose::rigid(IDENTITY, translation);
         holds("standing", &large, &small, &pose, &mut tally);
         for (a, b) in large.trees().iter().zip(small.trees()) {
             let found = ask(a, &b, &pose, Budget::EXACT);

@@ -75,10 +75,8 @@ fn what_is_moved_stays_inside() {
         let (sine, cosine) = (rng.below(6283) as f64 * 1e-3).sin_cos();
         let (s, c) = (sine as f32, cosine as f32);
         let t = [0; 3].map(|_: i32| rng.below(1000) as f32 * 0.1 - 50.0);
-        let pose = Pose {
-            rotation: [[c, -s, 0.0], [0.6 * s, 0.6 * c, -0.8], [0.8 * s, 0.8 * c, 0.6]],
-            translation: t,
-        };
+        let pose =
+            Pose::rigid([[c, -s, 0.0], [0.6 * s, 0.6 * c, -0.8], [0.8 * s, 0.8 * c, 0.6]], t);
         let tight = pose.bound(points.iter().copied()).unwrap();
         let loose = Tribox::of_points(points.iter().copied()).unwrap().moved(&pose).unwrap();
         for point in &points {
@@ -101,7 +99,7 @@ fn what_is_moved_stays_inside() {
     let point = Tribox::of_point([1.0, 2.0, 3.0]).unwrap();
     let there = point.moved(&Pose::IDENTITY).unwrap();
     assert!(there.contains(&point) && there.high[0] - there.low[0] < 3e-5);
-    assert!(Pose { rotation: [[3.0; 3]; 3], translation: [0.0; 3] }.bound([[0.0; 3]]).is_err());
+    assert!(Pose::rigid([[3.0; 3]; 3], [0.0; 3]).bound([[0.0; 3]]).is_err());
 }
 
 #[test]

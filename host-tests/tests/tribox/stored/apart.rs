@@ -73,7 +73,7 @@ fn leaves_that_are_left_out_have_no_common_point() {
             // A multiple of the unit, so that all is an integer.
             let far = if run % 3 == 0 { 0.7 } else { 1.5 };
             let shift = [(); 3].map(|()| (rng.range(-far, far) * size / unit).round() * unit);
-            let pose = Pose { rotation: matrix, translation: shift };
+            let pose = Pose::affine(matrix, shift);
             let (mut pairs, mut stack) = (
                 vec![NodePair::EMPTY; 64],
                 vec![ScratchEntry::EMPTY; all.separation_entries(&all)],
@@ -280,7 +280,7 @@ fn poses_that_are_none_are_refused() {
     // As far as there are numbers, and of no volume at all.
     let far = Pose { translation: [1e36, -1e36, 1e36], ..Pose::IDENTITY };
     assert!(all.separation(&all, far, Budget::EXACT, stack).expect("answered").is_apart());
-    let flat = Pose { rotation: [[0.0; 3]; 3], translation: [0.5; 3] };
+    let flat = Pose::affine([[0.0; 3]; 3], [0.5; 3]);
     assert!(
         !all.separation(&all, flat, Budget::EXACT, stack).expect("answered").is_apart(),
         "a point inside of the cube"

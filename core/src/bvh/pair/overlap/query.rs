@@ -46,7 +46,8 @@ impl Bvh<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is
     /// beyond 2, one grid is 2^40 times as coarse as the other, or a surface error is beyond 2^30
-    /// grid units; [`QueryError::NotServed`] unless both trees have boxes for segments;
+    /// grid units; [`QueryError::NotRigid`] for a matrix that is no rotation, unless it is
+    /// [`Pose::affine`]; [`QueryError::NotServed`] unless both trees have boxes for segments;
     /// [`QueryError::Tolerance`], [`QueryError::NoScratch`].
     #[inline(never)]
     pub fn overlap(

@@ -60,10 +60,7 @@ impl Motion {
     /// As the library takes it: rounded to f32.
     #[must_use]
     pub fn pose(&self) -> Pose {
-        Pose {
-            rotation: self.rows.map(|row| row.map(|x| x as f32)),
-            translation: self.shift.map(|x| x as f32),
-        }
+        Pose::rigid(self.rows.map(|row| row.map(|x| x as f32)), self.shift.map(|x| x as f32))
     }
 }
 

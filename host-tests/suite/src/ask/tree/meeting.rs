@@ -10,7 +10,7 @@ use crate::place::Motion;
 /// A motion as the core takes it.
 #[must_use]
 pub fn pose((rotation, translation): Motion) -> Pose {
-    Pose { rotation, translation }
+    Pose::rigid(rotation, translation)
 }
 
 /// Whether the surface meets its moved copy.
