@@ -36,11 +36,12 @@ cargo xtask measure --margins TRIALS
           --paper     a table of the papers; alone: the list of tables
           --margins   how much of each margin for rounding is used, in so many trials, of no mesh
           --plot      loss against cost
-cargo xtask measure --robot DIR [--every COUNT] [--json]
+cargo xtask measure --robot DIR [--every COUNT] [--json | --oracle PAIRS]
           an arm that guards itself at 1 kHz, on a Cortex-M4F and here: instructions a tick and a
           pair, and verdicts beside the true ones. DIR has the links' meshes, path.csv, ticks.csv
           --every     every so many places of the path, such a part of each run of ticks
           --json      only the numbers that have targets, on the standard output
+          --oracle    verdicts about so many random pairs, a tenth at their threshold; no board
 cargo xtask race [--pairs] [--quick] [MESH...]
                                     this library, parry3d and obvhs on the same queries
                                     (AVX2: RUSTFLAGS=\"-C target-cpu=x86-64-v3\" cargo xtask race)

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use meshsweep_lab::measure::robot::{Asked, Costs, Workload, json, table};
+use meshsweep_lab::measure::robot::{Asked, Costs, Workload, json, table, table_of_verdicts};
 use meshsweep_xtask::boards::BOARDS;
 use meshsweep_xtask::count::LOADED;
 use meshsweep_xtask::reading::Reading;
@@ -19,17 +19,20 @@ pub struct Options {
     folder: PathBuf,
     every: usize,
     is_json: bool,
+    /// Random pairs, of no board.
+    oracle: Option<usize>,
 }
 
 impl Options {
-    /// `DIR [--every COUNT] [--json]`; `None` if that is not what the words are.
+    /// `DIR [--every COUNT] [--json] [--oracle PAIRS]`; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
-        let (mut folder, mut every, mut is_json) = (None, 1, false);
+        let (mut folder, mut every, mut is_json, mut oracle) = (None, 1, false, None);
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             match word {
                 "--every" => every = words.next()?.parse().ok().filter(|every| *every > 0)?,
                 "--json" => is_json = true,
+                "--oracle" => oracle = Some(words.next()?.parse().ok()?),
                 flag if flag.starts_with("--") => return None,
                 name => {
                     if folder.replace(PathBuf::from(name)).is_some() {
@@ -38,7 +41,7 @@ impl Options {
                 }
             }
         }
-        Some(Self { folder: folder?, every, is_json })
+        Some(Self { folder: folder?, every, is_json, oracle })
     }
 }
 
@@ -46,6 +49,12 @@ impl Options {
 pub fn run(steps: &mut Steps, options: &Options) {
     if options.is_json {
         say::aside();
+    }
+    if let Some(pairs) = options.oracle {
+        steps.run("pairs beside the oracle", || {
+            table_of_verdicts(&options.folder, pairs).map(|table| say::text(table.text()))
+        });
+        return;
     }
     let Some(tools) = tools::setup(steps) else { return };
     let read = || Workload::read(&options.folder, options.every, PAIRS.div_ceil(options.every));
@@ -90,7 +99,10 @@ mod tests {
     #[test]
     fn a_folder_and_flags_come_in_any_order() {
         let options = Options::parse(&["--every", "5", "arm", "--json"]).expect("fine");
-        assert_eq!(options, Options { folder: PathBuf::from("arm"), every: 5, is_json: true });
+        assert_eq!(
+            options,
+            Options { folder: PathBuf::from("arm"), every: 5, is_json: true, oracle: None }
+        );
         assert_eq!(Options::parse(&["arm"]).expect("fine").every, 1);
         for words in [&["--json"][..], &["a", "b"], &["a", "--every", "0"], &["a", "--fast"]] {
             assert_eq!(Options::parse(words), None);

@@ -3,12 +3,14 @@
 //! ```text
 //! subject (mesh) ─┬─ points, segments, field, paths
 //! sphere ─ pose ──┴─ contact (whether a mesh meets its moved copy)
+//! thresholds (verdicts about pairs, beside the oracle's)
 //! ```
 
 pub mod contact;
 pub mod pose;
 pub mod sphere;
 mod subject;
+pub mod thresholds;
 
 pub use meshsweep::trade::Points;
 pub use subject::Subject;

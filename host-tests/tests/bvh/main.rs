@@ -21,4 +21,5 @@ mod refusals;
 mod scene;
 mod segments;
 mod solid;
+mod thresholds;
 mod winding;

@@ -1,16 +1,19 @@
 //! An arm that guards itself: what a tick costs, and a pair of models, by their distance.
 //!
 //! ```text
-//! arm (kinematics in f64) ─ workload (poses, pairs, their true distances) ─ asked (on this machine)
+//! arm (kinematics in f64) ─┬─ workload (poses, pairs, their true distances) ─ asked (on this machine)
+//!                          └─ verdicts (random places, and pairs at their thresholds)
 //! ```
 //! The same bytes are asked on a board. An answer that is wrong is an error; a verdict that is not
 //! the true one is counted.
 
 pub mod arm;
 mod asked;
+mod verdicts;
 mod workload;
 
 pub use asked::Asked;
+pub use verdicts::table_of_verdicts;
 pub use workload::Workload;
 
 use std::fmt::Write as _;

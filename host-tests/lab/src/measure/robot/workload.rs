@@ -189,7 +189,7 @@ impl Single {
 }
 
 /// The mesh's box tree as `meshsweep build --for segment` makes it.
-fn blob(file: &Path) -> Result<Vec<u8>, String> {
+pub(super) fn blob(file: &Path) -> Result<Vec<u8>, String> {
     let subject = Subject::load_any(file)?;
     let mesh = subject.mesh.as_input();
     let input = meshsweep::mesh::Input { input_triangles: subject.triangles_read, ..mesh };
@@ -199,7 +199,7 @@ fn blob(file: &Path) -> Result<Vec<u8>, String> {
 }
 
 /// The triangles of a binary STL, by no code of the library.
-fn triangles(file: &Path) -> Result<Vec<Corners>, String> {
+pub(super) fn triangles(file: &Path) -> Result<Vec<Corners>, String> {
     let bytes = std::fs::read(file).map_err(|error| format!("{}: {error}", file.display()))?;
     let count = bytes.get(80..84).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
     let body = bytes.get(84..).unwrap_or_default();
