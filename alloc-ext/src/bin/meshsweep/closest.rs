@@ -64,7 +64,7 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
         });
         (found.into_iter().map(|found| answer(found.into())).collect(), refused)
     };
-    question.ask_all(BATCH, ask, write)
+    question.ask_all(BATCH, &ask, &write)
 }
 
 /// The structure that the options choose; or else the box tree, the hull hierarchy, the finest
