@@ -124,7 +124,7 @@ fn each_option_means_what_it_means_to_the_program() {
     let tight = || Builder::new().serve(For::Tight).effort(0.0);
     for (builder, typed) in [
         (tight().slack(0.3).margin(0.1), "--slack 0.3 --margin 0.1"),
-        (tight().void_percent(40.0).tight_for(true, false), "--void 40 --tight-for closest"),
+        (tight().void_percent(12.0).tight_for(true, false), "--void 12 --tight-for closest"),
         (tight().void_percent(1e-6), "--void 1e-6"),
         (tight().tight_faces(&[200, 201, 600]), "--tight 200,201,600"),
     ] {
