@@ -20,7 +20,7 @@
 //! # Which structure answers
 //! | question | method |
 //! | --- | --- |
-//! | closest point, distance interval | [`Bvh::closest_point`], [`Bvh::closest_points`] |
+//! | closest point, distance interval | [`Bvh::closest_point`], [`Bvh::closest_point_from`] |
 //! | the same in f64, of a tree with vertices of 32 bits | [`Bvh::closest_point_precise`] |
 //! | closest point of a query that moves little | [`CoherentQuery::closest_point`] |
 //! | is the mesh within a distance; the nearest triangles | [`Bvh::within`], [`Bvh::all_within`], [`Bvh::nearest`] |
@@ -33,6 +33,7 @@
 //! | the same of models that move little from one question to the next | [`CoherentPair::distance`], [`CoherentPair::within`] |
 //! | is one solid inside another; how deep; which translation separates them | [`Bvh::penetration`] |
 //! | which two of a few dozen models are nearest; are any two within a distance | [`Scene::nearest_pair`], [`Scene::within`] |
+//! | does any pair of models that move little keep its own distance no longer | [`CoherentScene::within`] |
 //! | how far is a sphere, a capsule or a box; is it within a distance | [`Bvh::solid_distance`], [`Bvh::solid_within`] |
 //! | is the move of a tool, or of another mesh, clear for its whole length | [`Bvh::solid_first_contact`], [`Bvh::first_contact_of`] |
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
@@ -45,6 +46,7 @@
 //! | does a triangle, or a moved mesh, meet the surface; each refined only where they meet | [`Hull::meets_triangle`], [`Hull::overlap`], [`Hull::all_overlaps`] |
 //! | closest point, hits, and the next triangles on the split tables | [`Hull::closest_point`], [`Hull::first_hit`], [`Hull::sweep`] |
 //! | closest point of a mesh that deforms | [`FrameHull::closest_point`], [`MovedHull::closest_point`] |
+//! | does a rigid mesh meet a mesh that deforms | [`FrameHull::overlap`], [`MovedHull::overlap`] |
 //!
 //! # Features
 //! - `defmt`, off by default: answers, errors, verdicts and budgets implement `defmt::Format`, so
@@ -95,8 +97,9 @@ mod tribox;
 
 pub use blob::Blob;
 pub use bvh::{
-    AllWithin, Bvh, CoherentClosest, CoherentPair, CoherentQuery, Eye, Facing, FrontFacing, Hint,
-    KNearest, Neighbor, PlacedModel, ProcessorQuestions, Scene, SceneDistance, WindingNumber,
+    AllWithin, Bvh, CoherentClosest, CoherentPair, CoherentQuery, CoherentScene, Eye, Facing,
+    FrontFacing, Hint, KNearest, KeptPair, Neighbor, PlacedModel, ProcessorQuestions, Scene,
+    SceneDistance, WindingNumber,
 };
 pub use curve::{Curve, CurveClosest, CurveSegment};
 pub use format::layout::{BuildFor, SectionKind};

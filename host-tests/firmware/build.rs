@@ -25,8 +25,9 @@ const BARE: [&str; 17] = [
 ];
 
 /// Images that run.
-const RUNNING: [&str; 9] = [
+const RUNNING: [&str; 10] = [
     "ask",
+    "robot",
     "suite_hull",
     "suite_apart",
     "suite_moving",
@@ -67,8 +68,8 @@ fn memory(target: &str) -> Option<&'static str> {
     })
 }
 
-/// `ask` has all questions in one image, and finds its blob in external RAM. So for a Cortex-M0 it
-/// runs on mps2-an385, which has more of both memories.
+/// `ask` has all questions in one image, and finds its blob in external RAM, as `robot` does. So for a
+/// Cortex-M0 they run on mps2-an385, which has more of both memories.
 fn of_ask<'t>(target: &str, memory: &'t str) -> &'t str {
     match target {
         "thumbv6m-none-eabi" => {
@@ -93,7 +94,8 @@ fn main() {
     };
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
     for image in RUNNING {
-        let memory = if image == "ask" { of_ask(&target, memory) } else { memory };
+        let memory =
+            if ["ask", "robot"].contains(&image) { of_ask(&target, memory) } else { memory };
         let folder = out.join(image);
         let memory = format!("{memory}\nmeshsweep_flash_end = ORIGIN(FLASH) + LENGTH(FLASH);\n");
         let written =

@@ -318,7 +318,8 @@ fn two_models(model: &Bvh<'_>) -> Result<String, QueryError> {
         Ok(())
     })?;
     let within = rounds("models_within", |kind, round, budget, scratch| {
-        let models = [(); 3].map(|()| PlacedModel { tree: *model, pose: kind.pose(round) });
+        let [one, two, three] = [(); 3].map(|()| PlacedModel::new(*model, kind.pose(round)));
+        let models = [one?, two?, three?];
         let is_asked = |a: usize, b: usize| round % 2 == 0 || [a, b] != [1, 2];
         let (scene, scratch) = (Scene::new(&models), &mut scratch[..entries(round)]);
         let found = scene.within(4.0, is_asked, budget, scratch)?;
@@ -349,7 +350,8 @@ fn tight_hull(hulls: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
     let text = kind.line("tight_within");
     let tree = *hulls.finest().ok_or("no hull")?.bvh();
     let tight = rounds("tight_models", |kind, round, budget, scratch| {
-        let models = [(); 2].map(|()| PlacedModel { tree, pose: kind.pose(round) });
+        let [one, two] = [(); 2].map(|()| PlacedModel::new(tree, kind.pose(round)));
+        let models = [one?, two?];
         let scratch = &mut scratch[..entries(round)];
         let found = Scene::new(&models).within(4.0, |_, _| true, budget, scratch)?;
         if round == 0 {

@@ -66,21 +66,6 @@ impl<'a> FastBvh<'a> {
         (self.questions.closest_point_from)(&self.tree, point, hint, budget, scratch)
     }
 
-    /// [`Bvh::closest_points`]. [`closest_points`](super::closest_points()) asks on all cores.
-    ///
-    /// # Errors
-    /// Those of [`Bvh::closest_points`].
-    pub fn closest_points(
-        &self,
-        points: &[[f32; 3]],
-        hint: &mut Hint,
-        answers: &mut [ClosestPoint],
-        budget: Budget,
-        scratch: &mut [ScratchEntry],
-    ) -> Result<(), QueryError> {
-        self.questions.closest_points(&self.tree, points, hint, answers, budget, scratch)
-    }
-
     /// [`Bvh::first_hit`].
     ///
     /// # Errors

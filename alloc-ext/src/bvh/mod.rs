@@ -15,6 +15,7 @@ mod fans;
 mod fast;
 mod half_widths;
 mod moments;
+mod morton;
 mod nodes;
 mod packing;
 mod sides;
@@ -23,7 +24,7 @@ mod store;
 mod stored_triangles;
 mod unfold;
 
-pub use batch::{BATCH, closest_points, closest_points_until_refused};
+pub use batch::{BATCH, RefusedPoint, closest_points, closest_points_until_refused};
 pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, WhyF32, build};
 pub use encode::sections_of;
 pub(crate) use exact::exact_blob_watched;

@@ -22,7 +22,7 @@ unsafe impl AnyBits for PlacedC {}
 
 impl PlacedC {
     fn placed(&self) -> Result<PlacedModel<'static>, Error> {
-        Ok(PlacedModel { tree: *self.model.view()?, pose: self.pose.pose()? })
+        Ok(PlacedModel::new(*self.model.view()?, self.pose.pose()?)?)
     }
 }
 
@@ -49,7 +49,7 @@ pub extern "C" fn msw_models_within(
             // Refuses what no pair would refuse if there is none.
             Scene::new(&[]).within(distance, all, budget, scratch)?;
             for model in models {
-                Scene::new(&[model.placed()?]).within(distance, all, budget, scratch)?;
+                model.placed()?;
             }
             let (mut work, mut undecided) = (WorkC::default(), None);
             for (a, one) in models.iter().enumerate() {

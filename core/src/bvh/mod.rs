@@ -11,6 +11,7 @@
 //! | `solid/` | a convex solid, at rest or moving |
 //! | `winding/` | the winding number about a point, of a mesh that need not be closed |
 //! | `scene` | a few dozen models, each moved |
+//! | `coherent_scene` | the same, moved a little from one question to the next |
 //! | `processor/` | questions compiled for the instructions of one processor |
 //!
 //! Each room's `mod.rs` lists its files. A question's file holds its public method; what
@@ -34,6 +35,7 @@
 //!
 //! `core/docs/guide.md` lists the other places.
 
+mod coherent_scene;
 mod pair;
 mod point;
 mod processor;
@@ -43,6 +45,7 @@ mod solid;
 pub mod tree;
 mod winding;
 
+pub use coherent_scene::{CoherentScene, KeptPair};
 pub use pair::{CoherentPair, PlacedModel};
 pub use point::{
     AllWithin, CoherentClosest, CoherentQuery, Eye, FrontFacing, Hint, KNearest, Neighbor,

@@ -3,7 +3,10 @@
 //! Pairs are looked at one after the other: a scene needs no memory of its own. The boxes in the
 //! world leave few pairs for the trees.
 
-use crate::bvh::pair::placed::{PlacedModel, Relative, WorldBox, check_pose};
+use crate::bvh::pair::placed::PlacedModel;
+use crate::bvh::pair::relative::Relative;
+use crate::bvh::pair::world_box::WorldBox;
+use crate::num::tolerance::U32;
 use crate::num::{greater, lesser};
 use crate::query::{
     Budget, Decided, Ended, Interval, QueryError, ScratchEntry, Undecided, Verdict, Work,
@@ -67,16 +70,16 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
     /// let (tree, mut scratch) = (Bvh::open(bytes)?, Scratch::<{ Bvh::DISTANCE_ENTRIES }>::new());
     /// let at = |x: f32| Pose { translation: [x, 0.0, 0.0], ..Pose::IDENTITY };
-    /// let models = [0.0, 300.0, 500.0].map(|x| PlacedModel { tree, pose: at(x) });
+    /// let placed = |x: f32| PlacedModel::new(tree, at(x));
+    /// let models = [placed(0.0)?, placed(300.0)?, placed(500.0)?];
     /// let near = Scene::new(&models).nearest_pair(|_, _| true, Budget::EXACT, &mut scratch)?;
     /// assert_eq!(near.models, Some([1, 2]));
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     ///
     /// # Errors
-    /// Those of [`Bvh::distance_to`](crate::Bvh::distance_to); [`QueryError::PoseOutOfDomain`] also
-    /// if a pose, of any model, is far from a rotation; [`QueryError::OutOfDomain`] if two models
-    /// are farther from each other than f32 reaches.
+    /// Those of [`Bvh::distance_to`](crate::Bvh::distance_to); [`QueryError::OutOfDomain`] if two
+    /// models are farther from each other than f32 reaches.
     #[inline(never)]
     pub fn nearest_pair(
         &self,
@@ -85,7 +88,6 @@ impl<'s, 'a> Scene<'s, 'a> {
         scratch: &mut [ScratchEntry],
     ) -> Result<SceneDistance, QueryError> {
         budget.check_with(scratch)?;
-        self.check_poses()?;
         let mut search = NearestPair {
             models: self.models,
             budget,
@@ -127,10 +129,11 @@ impl<'s, 'a> Scene<'s, 'a> {
     /// poses are rounded: take an undecided answer as `Yes`.
     ///
     /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. Of the
-    /// budget only `steps` matters, those of all pairs together.
+    /// budget only `steps` matters, those of all pairs together. Each pair that is searched takes
+    /// one step at least, so the steps bound the time.
     ///
-    /// Cost: some hundred operations in f32 for each pair of models, and a
-    /// [`Bvh::within_of`](crate::Bvh::within_of) for each pair whose boxes are within the distance.
+    /// Cost: 30 operations in f32 for a pair whose balls are apart, some 200 for one whose boxes
+    /// are, and a [`Bvh::within_of`](crate::Bvh::within_of) for each other one.
     ///
     /// # Errors
     /// Those of [`nearest_pair`](Self::nearest_pair); [`QueryError::Tolerance`] also for a distance
@@ -145,39 +148,18 @@ impl<'s, 'a> Scene<'s, 'a> {
     ) -> Result<Decided<[usize; 2]>, QueryError> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check_with(scratch)?;
-        self.check_poses()?;
         let mut work = Work::default();
         let mut undecided: Option<(Undecided, [usize; 2])> = None;
-        for (pair, gap) in self.gaps(&asks_about) {
+        for (pair, [one, other]) in self.pairs(&asks_about) {
             work.bounds = work.bounds.saturating_add(1);
-            if gap > distance {
+            if one.apart(other, distance).is_some() {
                 continue;
             }
-            let (one, other) = two_of(self.models, pair)?;
-            let relative = Relative::new(one, other)?;
-            let mut ask = |distance: f32| {
-                let budget = budget.with_steps(budget.steps.saturating_sub(work.opened));
-                let pose = relative.pose;
-                let found = one.tree.within_of(&other.tree, pose, distance, budget, scratch)?;
-                work = work.and(found.work);
-                Ok::<Verdict, QueryError>(found.verdict)
-            };
-            let open = Verdict::Undecided(Undecided::Resolution);
-            let most = relative.at_most(distance);
-            // Beyond f32 no distance can be asked about.
-            let mut verdict = if most < f32::INFINITY { ask(most)? } else { open };
-            if verdict == Verdict::Yes {
-                // Not within the lesser distance: between both, nothing is proved in the world.
-                verdict = match relative.at_least(distance) {
-                    Some(least) => match ask(least)? {
-                        Verdict::No => open,
-                        other => other,
-                    },
-                    None => open,
-                };
-            }
-            match verdict {
-                Verdict::Yes => return Ok(Decided { verdict, witness: Some(pair), work }),
+            let search = PairSearch { models: [one, other], distance, more: 0.0 };
+            match search.are_near(budget, scratch, &mut work)?.0 {
+                Verdict::Yes => {
+                    return Ok(Decided { verdict: Verdict::Yes, witness: Some(pair), work });
+                }
                 Verdict::Undecided(why) if undecided.is_none() => undecided = Some((why, pair)),
                 _ => {}
             }
@@ -190,8 +172,18 @@ impl<'s, 'a> Scene<'s, 'a> {
         })
     }
 
-    fn check_poses(&self) -> Result<(), QueryError> {
-        self.models.iter().try_for_each(|model| check_pose(&model.pose))
+    /// All pairs asked about.
+    fn pairs(
+        &self,
+        asks_about: &impl Fn(usize, usize) -> bool,
+    ) -> impl Iterator<Item = ([usize; 2], [&'s PlacedModel<'a>; 2])> {
+        let models = self.models;
+        models.iter().enumerate().flat_map(move |(a, one)| {
+            let others = models.iter().enumerate().skip(a + 1);
+            others
+                .filter(move |(b, _)| asks_about(a, *b))
+                .map(move |(b, other)| ([a, b], [one, other]))
+        })
     }
 
     /// All pairs asked about, with lower bounds of their distances.
@@ -205,6 +197,63 @@ impl<'s, 'a> Scene<'s, 'a> {
             others
                 .filter(move |(b, _)| asks_about(a, *b))
                 .map(move |(b, other)| ([a, b], around.gap(&WorldBox::new(other))))
+        })
+    }
+}
+
+/// A pair to search: the distance asked about, and how much farther to look.
+pub(super) struct PairSearch<'s, 'a> {
+    pub(super) models: [&'s PlacedModel<'a>; 2],
+    pub(super) distance: f32,
+    pub(super) more: f32,
+}
+
+impl PairSearch<'_, '_> {
+    /// Whether two models are within a distance of each other in the world, by their trees. With a
+    /// `No` how much farther they are, in the world. The budget's steps count with those of `work`.
+    /// Each set-up is a step.
+    #[inline(never)]
+    pub(super) fn are_near(
+        &self,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+        work: &mut Work,
+    ) -> Result<(Verdict, f32), QueryError> {
+        let Self { models: [one, other], distance, more } = *self;
+        let out_of_steps = (Verdict::Undecided(Undecided::Steps), 0.0);
+        if work.opened >= budget.steps {
+            return Ok(out_of_steps);
+        }
+        let relative = Relative::new(&one.pose, &other.pose, &other.tree)?;
+        let mut ask = |asked: [f32; 2]| {
+            let steps = budget.steps.saturating_sub(work.opened);
+            if steps == 0 {
+                return Ok(out_of_steps);
+            }
+            let (budget, pose) = (budget.with_steps(steps), &relative.pose);
+            let (found, lower) =
+                one.tree.search_within_of(&other.tree, pose, asked, budget, scratch)?;
+            *work = work.and(found.work.with_set_up());
+            Ok::<_, QueryError>((found.verdict, lower))
+        };
+        let open = (Verdict::Undecided(Undecided::Resolution), 0.0);
+        let most = relative.at_most(distance);
+        // Beyond f32 no distance can be asked about.
+        let found = if most < f32::INFINITY { ask([most, more])? } else { open };
+        Ok(match found {
+            (Verdict::No, lower) => {
+                let Interval { lower, .. } = relative.in_world(Interval::new(lower, lower));
+                (Verdict::No, greater(0.0, lower - distance) * (1.0 - 2.0 * U32))
+            }
+            // Not within the lesser distance: between both, nothing is proved in the world.
+            (Verdict::Yes, _) => match relative.at_least(distance) {
+                Some(least) => match ask([least, 0.0])? {
+                    (Verdict::No, _) => open,
+                    found => found,
+                },
+                None => open,
+            },
+            found => found,
         })
     }
 }
@@ -235,14 +284,18 @@ impl NearestPair<'_, '_, '_> {
             return Ok(());
         }
         let (one, other) = two_of(self.models, pair)?;
-        let relative = Relative::new(one, other)?;
+        let limit = self.found.distance.upper;
+        if !is_first && limit < f32::INFINITY && one.apart(other, limit).is_some() {
+            return Ok(());
+        }
+        let relative = Relative::new(&one.pose, &other.pose, &other.tree)?;
         let pose = relative.pose;
         // Most pairs are farther than the nearest one so far, and this is proved at less cost.
         let limit = relative.at_most(self.found.distance.upper);
         if !is_first && limit < f32::INFINITY {
             let budget = self.budget.with_steps(self.steps_left());
             let near = one.tree.within_of(&other.tree, pose, limit, budget, self.scratch)?;
-            self.found.work = self.found.work.and(near.work);
+            self.found.work = self.found.work.and(near.work.with_set_up());
             if near.is_clear() {
                 return Ok(());
             }

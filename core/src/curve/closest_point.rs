@@ -81,7 +81,7 @@ fn closest_point(
 ) -> Result<CurveClosest, QueryError> {
     let frame = curve.frame;
     let p = frame.local(point)?;
-    let mut search = Search::new(curve, p);
+    let mut search = SegmentSearch::new(curve, p);
     let is_far = p.abs().max_element() > CURVE_FAR;
     let ended = if is_far {
         Some(Ended::Exact)
@@ -111,7 +111,7 @@ struct Best {
 }
 
 /// State of one query. Lengths are in the local frame.
-struct Search<'a> {
+struct SegmentSearch<'a> {
     capsules: Capsules<'a>,
     /// Not below the distance; f64 for the answer, f32 rounded up for pruning.
     upper: f64,
@@ -126,9 +126,9 @@ struct Search<'a> {
     work: Work,
 }
 
-impl<'a> Search<'a> {
+impl<'a> SegmentSearch<'a> {
     fn new(curve: &'a Curve<'a>, p: DVec3) -> Self {
-        Search {
+        SegmentSearch {
             capsules: Capsules::new(curve, p),
             upper: f64::INFINITY,
             upper_f32: f32::INFINITY,

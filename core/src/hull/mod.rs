@@ -9,24 +9,29 @@
 //! | `refine` | how it follows a focus |
 //! | `hull_faces` | the triangles of hulls |
 //! | `geometry` | where a sweep's triangles lie: at rest, at a key frame, or moved |
-//! | `sweep` | the front of the sweeping process |
+//! | `front` | the front of the sweeping process: triangles that stand for the surface |
 //! | `closest_point` | closest point by a sweep |
+//! | `nearest` | the nearest triangle so far, and the bounds of the distance |
 //! | `shared_corner` | a corner that is the closest point of many triangles, on boards |
 //! | `kept_sweep` | a sweep that is interrupted, moved, or gives triangle after triangle |
 //! | `frame_hull` | the hull between two key frames |
+//! | `deformed` | whether a hull that deforms meets one at rest |
 //! | `moved_hull` | the hull under any motion of the mesh's vertices |
 //! | `segment_hits` | first hit and all hits by a sweep |
 //! | `overlap/` | a triangle, or another hull hierarchy, against the surface |
 //! | `outer_hits` | hits from outside on the refined hull |
 
 mod closest_point;
+mod deformed;
 mod focus;
 pub mod format;
 mod frame_hull;
+mod front;
 mod geometry;
 mod hull_faces;
 mod kept_sweep;
 mod moved_hull;
+mod nearest;
 mod outer_hits;
 mod overlap;
 mod refine;
@@ -34,7 +39,6 @@ mod refined_hull;
 mod segment_hits;
 mod shared_corner;
 mod split_set;
-mod sweep;
 
 pub use focus::Focus;
 pub use format::{DeformableHull, Hull, HullLevel};

@@ -13,12 +13,13 @@
 //! grow when a part turns. Proof: `core/docs/rounding.md` §17.
 
 use super::closest_point;
+use super::deformed::Deformed;
 use super::format::{DeformableHull, Hull, SplitIdx, VertIdx};
 use super::geometry::Geometry;
-use crate::geom::{Aabb, RealVector};
+use crate::geom::{Aabb, Pose, RealVector};
 use crate::num::tolerance::{DEFORM_DOMAIN, DISPLACEMENT, LENGTH_UP, U32, VERTEX_UNDERFLOW};
 use crate::num::{Radius16, Real, exp2, greater, lesser, sqrt_up};
-use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry};
+use crate::query::{Budget, ClosestPoint, Decided, QueryError, ScratchEntry};
 use glam::Vec3;
 
 /// Sixteen bytes of a [`MovedHull`]'s memory, for one vertex of one level.
@@ -217,17 +218,42 @@ impl MovedHull<'_, '_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
         budget.check_with(scratch)?;
+        let Budget { relative, absolute, steps } = budget;
+        closest_point::closest_point(&self.seen()?, point, [relative, absolute], steps, scratch)
+    }
+
+    /// Whether the surface of `other`, moved by `pose` to this hull's frame, meets the moved
+    /// surface of this hull.
+    ///
+    /// Verdicts, witness, `scratch`, errors and degenerate cases are those of [`Hull::overlap`], of
+    /// the mesh whose vertices are where the last update put them. Here the cost also grows with
+    /// the number of base triangles: their groups have no bound.
+    ///
+    /// Source: Guéziec 2000, section 5, with both deforming (5.3) and rigid motion (5.2).
+    ///
+    /// # Errors
+    /// Those of [`Hull::overlap`]; [`QueryError::NoPose`] after an update that failed.
+    #[inline(never)]
+    pub fn overlap(
+        &self,
+        other: &Hull<'_>,
+        pose: Pose,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<Decided<[u32; 2]>, QueryError> {
+        Deformed::Moved(self.seen()?).overlap(other, pose, budget, scratch)
+    }
+
+    fn seen(&self) -> Result<Moved<'_, '_>, QueryError> {
         if !self.has_pose {
             return Err(QueryError::NoPose);
         }
-        let Budget { relative, absolute, steps } = budget;
-        let pose = Pose {
+        Ok(Moved {
             hull: self.model.rest(),
             vertices: self.vertices,
             vertex_box: self.vertex_box,
             surface_error: self.surface_error,
-        };
-        closest_point::closest_point(&pose, point, [relative, absolute], steps, scratch)
+        })
     }
 }
 
@@ -261,14 +287,14 @@ fn grown([low, high]: [Vec3; 2], point: Vec3) -> (Vec3, Vec3) {
 
 /// A moved hull as a question sees it.
 #[derive(Clone, Copy)]
-struct Pose<'a, 'v> {
+pub(super) struct Moved<'a, 'v> {
     hull: Hull<'a>,
     vertices: &'v [MovedVertex],
     vertex_box: Aabb,
     surface_error: f64,
 }
 
-impl Pose<'_, '_> {
+impl Moved<'_, '_> {
     #[inline(always)]
     fn records(&self, [a, b, c]: [VertIdx; 3]) -> Option<[MovedVertex; 3]> {
         let at = |vertex: VertIdx| self.vertices.get(vertex.usize()).copied();
@@ -276,7 +302,7 @@ impl Pose<'_, '_> {
     }
 }
 
-impl<'a> Geometry<'a> for Pose<'a, '_> {
+impl<'a> Geometry<'a> for Moved<'a, '_> {
     fn tables(&self) -> &Hull<'a> {
         &self.hull
     }

@@ -4,7 +4,7 @@
 //! surface, whether or not it crosses a hull face. So hits below an unbroken hull (Platis &
 //! Theoharis 2003, Figure 5) are found, wherever the segment starts.
 
-use super::sweep::{Candidate, Fate, Front, Visit};
+use super::front::{Candidate, Front, Refinable, Visit};
 use crate::geom::{Aabb, Clipped, SegmentTriangle, SweptSegment, comes_within, segment_triangle};
 use crate::hull::format::{Hull, Instance};
 use crate::num::{SOFT_DOUBLE, down_to_f32, up_to_f32};
@@ -258,10 +258,10 @@ impl<C: Collect> Visit for Along<'_, C> {
             if key > self.limit {
                 continue;
             }
-            match candidate.fate {
-                Fate::Splits => queue.push(ScratchEntry::new(key, candidate.instance.0)),
-                Fate::Surface => self.meet(candidate, key),
-                Fate::Cut => self.may_meet(candidate.instance, key),
+            match candidate.refinable {
+                Refinable::BySplit => queue.push(ScratchEntry::new(key, candidate.instance.0)),
+                Refinable::Surface => self.meet(candidate, key),
+                Refinable::Cut => self.may_meet(candidate.instance, key),
             }
         }
     }

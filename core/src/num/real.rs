@@ -72,7 +72,14 @@ pub fn bit_length(x: u32) -> u32 {
 
 #[inline(never)]
 fn bit_length_by_table(x: u32) -> u32 {
-    const OF_FOUR: [u8; 16] = [0, 1, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4];
+    const OF_BYTE: [u8; 256] = {
+        let (mut table, mut x) = ([0; 256], 0);
+        while x < 256 {
+            table[x] = (usize::BITS - x.leading_zeros()) as u8;
+            x += 1;
+        }
+        table
+    };
     let (mut x, mut count) = (x, 0);
     if x >> 16 != 0 {
         (x, count) = (x >> 16, 16);
@@ -80,10 +87,7 @@ fn bit_length_by_table(x: u32) -> u32 {
     if x >> 8 != 0 {
         (x, count) = (x >> 8, count + 8);
     }
-    if x >> 4 != 0 {
-        (x, count) = (x >> 4, count + 4);
-    }
-    count + u32::from(OF_FOUR[x as usize & 15])
+    count + u32::from(OF_BYTE[x as usize & 255])
 }
 
 impl Real {
@@ -251,14 +255,14 @@ fn product_of_bits(x: u32, y: u32) -> f32 {
 /// what is added to the exponent.
 #[inline(always)]
 pub(super) fn rounded_product(x: u32, y: u32) -> (u32, u32) {
-    let upper = upper_product(x, y);
-    let (mut whole, carry, lower) = if upper >= SIGN {
-        (half_up(upper >> 7), 1, upper << 24)
-    } else {
-        (half_up(upper >> 6), 0, upper << 25)
-    };
+    let mut upper = upper_product(x, y);
+    let carry = upper >> 31;
+    if carry == 0 {
+        upper <<= 1;
+    }
+    let mut whole = half_up(upper >> 7);
     // Half of the last bit, if all that is cut is 0: to even.
-    if lower == SIGN && (x >> 8).wrapping_mul(y >> 8) << 16 == 0 {
+    if upper << 24 == SIGN && (x >> 8).wrapping_mul(y >> 8) << 16 == 0 {
         whole &= !1;
     }
     (whole, carry)

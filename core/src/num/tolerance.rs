@@ -370,6 +370,28 @@ pub const LEAST_WORLD_GAP: f32 = 1.0 / (1u64 << 60) as f32;
 /// of [`U64`] times the sum of its terms. Proved: 8 (§21).
 pub const RELATIVE_POSE: f64 = 16.0;
 
+// Box tree, boxes of two models in f32, in input units
+
+/// Rounding of a model's box, of its ball's radius and of its reach, in units of [`U32`] times the
+/// 1-norms of its corners. Proved: 4 (§24).
+pub const MODEL_BOX: f32 = 8.0;
+
+/// Rounding of the gap of two boxes, or of a box and a ball, in units of [`U32`] times the reach of
+/// both models. Proved: 66 (§24). A larger value leaves more pairs to the trees: 128 units are 8
+/// millionths of the distance.
+pub const BOX_PAIR: f32 = 128.0;
+
+/// Rounding of the way of a ball's middle, in units of [`U32`] times the change of the matrix and
+/// the model's reach. Proved: 6 (§24).
+pub const MOTION: f32 = 64.0;
+
+/// Rounding of the distance of a matrix from a rotation, in units of [`U32`]. Proved: 12 (§24).
+pub const SKEW: f32 = 16.0;
+
+/// The distance of a matrix from a rotation below which it is within [`POSE_DEFECT`]: √3 times it
+/// is less (§24).
+pub const NEARLY_RIGID: f32 = 0.140_625;
+
 // Box tree, winding numbers
 
 /// Rounding of numerator and denominator of a solid angle's tangent, in units of [`U32`] times the

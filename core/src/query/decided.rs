@@ -21,6 +21,10 @@ pub struct Decided<W> {
 }
 
 impl<W> Decided<W> {
+    /// A `No` without work.
+    pub(crate) const CLEAR: Self =
+        Decided { verdict: Verdict::No, witness: None, work: Work::NONE };
+
     /// Whether `No` is proved: nothing meets, nothing is within the distance.
     pub fn is_clear(&self) -> bool {
         self.verdict == Verdict::No

@@ -10,18 +10,8 @@ use crate::format::layout::BuildFor;
 pub enum QueryError {
     /// A coordinate of the query is NaN or infinite.
     NotFinite,
-    /// A coordinate of one query of a batch is NaN or infinite.
-    PointNotFinite {
-        /// The first such query.
-        index: u32,
-    },
-    /// The number of places for answers is not that of the queries.
-    AnswerCount {
-        /// Queries.
-        points: u32,
-        /// Places for answers.
-        answers: u32,
-    },
+    /// A pair names a model that the scene does not have, or one model twice.
+    NoModel,
     /// A solid has no corners, or more than [`Solid::MOST_CORNERS`](crate::Solid::MOST_CORNERS). Or
     /// a solid that moves has not as many at the end as at the start.
     Corners {
@@ -103,12 +93,7 @@ impl core::fmt::Display for QueryError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(match self {
             QueryError::NotFinite => "a coordinate of the query is NaN or infinite",
-            QueryError::PointNotFinite { index } => {
-                return write!(f, "query {index}: a coordinate of the query is NaN or infinite");
-            }
-            QueryError::AnswerCount { points, answers } => {
-                return write!(f, "{points} queries, but {answers} answers");
-            }
+            QueryError::NoModel => "a pair names a model that the scene lacks, or one model twice",
             QueryError::Corners { found } => {
                 return write!(f, "{found} corners: 1 to 32, and as many at a motion's end");
             }

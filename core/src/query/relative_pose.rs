@@ -101,21 +101,28 @@ impl RelativePose {
         if is_in_range { Ok(Some(pose)) } else { Err(QueryError::PoseOutOfDomain) }
     }
 
+    /// Refuses a pose that no question about two models of these exponents takes.
+    #[inline(always)]
+    pub(crate) fn check(pose: &Pose, [a, b]: [i32; 2]) -> Result<(), QueryError> {
+        // As integers: a comparison of f32 is a call where there is no float unit.
+        let size = |x: &f32| x.to_bits() & !(1 << 31);
+        let largest = pose.rotation.iter().flatten().map(size).fold(0, greater);
+        let farthest = pose.translation.iter().map(size).fold(largest, greater);
+        if farthest >= f32::INFINITY.to_bits() {
+            return Err(QueryError::NotFinite);
+        }
+        if largest > 2f32.to_bits() || a - b > RATIO || b - a > RATIO {
+            return Err(QueryError::PoseOutOfDomain);
+        }
+        Ok(())
+    }
+
     /// The pose, also of models that are far from each other.
     #[inline(always)]
     pub(crate) fn relate(a: &Extended, b: &Extended, pose: &Pose) -> Result<Placement, QueryError> {
-        let entries = || pose.rotation.iter().flatten();
-        if !entries().chain(&pose.translation).all(|x| x.is_finite()) {
-            return Err(QueryError::NotFinite);
-        }
-        if entries().any(|x| x.abs() > 2.0) {
-            return Err(QueryError::PoseOutOfDomain);
-        }
         let (ea, eb) = (a.exponent, b.exponent);
         let common = greater(eb, ea);
-        if ea - eb > RATIO || eb - ea > RATIO {
-            return Err(QueryError::PoseOutOfDomain);
-        }
+        RelativePose::check(pose, [ea, eb])?;
         let units = [exp2(ea - common), exp2(eb - common)];
         let [unit_a, unit_b] = units;
         let rotation = pose.rotation.map(|row| row.map(f64::from));

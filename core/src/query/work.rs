@@ -1,5 +1,7 @@
 //! Counters of the work of a query.
 
+use crate::num::greater;
+
 /// The work of a query. The numbers are the same on every target, but for an exact closest point of
 /// a box tree: processors with vector registers visit its nodes in another order. `meshsweep trade`
 /// and `meshsweep worst` count in the order of boards.
@@ -31,6 +33,11 @@ impl Work {
             exact: self.exact.saturating_add(other.exact),
             opened: self.opened.saturating_add(other.opened),
         }
+    }
+
+    /// The work of a search that opened nothing counts as one step: its set-up takes time too.
+    pub(crate) fn with_set_up(self) -> Work {
+        Work { opened: greater(self.opened, 1), ..self }
     }
 
     /// All counters added up.

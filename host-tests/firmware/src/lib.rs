@@ -3,5 +3,6 @@
 
 pub mod board;
 pub mod flash;
+pub mod kept;
 pub mod meter;
 pub mod stack;

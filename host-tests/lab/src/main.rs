@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! measuring ─ measure, hulls_on_board, valgrind
+//! robot ───── measure::robot, in the emulator
 //! racing ──── race
 //! rival ───── images of other engines, in the emulator
 //! ```
@@ -10,6 +11,7 @@ mod hulls_on_board;
 mod measuring;
 mod racing;
 mod rival;
+mod robot;
 
 use std::process::ExitCode;
 
@@ -34,6 +36,11 @@ cargo xtask measure --margins TRIALS
           --paper     a table of the papers; alone: the list of tables
           --margins   how much of each margin for rounding is used, in so many trials, of no mesh
           --plot      loss against cost
+cargo xtask measure --robot DIR [--every COUNT] [--json]
+          an arm that guards itself at 1 kHz, on a Cortex-M4F and here: instructions a tick and a
+          pair, and verdicts beside the true ones. DIR has the links' meshes, path.csv, ticks.csv
+          --every     every so many places of the path, such a part of each run of ticks
+          --json      only the numbers that have targets, on the standard output
 cargo xtask race [--pairs] [--quick] [MESH...]
                                     this library, parry3d and obvhs on the same queries
                                     (AVX2: RUSTFLAGS=\"-C target-cpu=x86-64-v3\" cargo xtask race)
@@ -50,6 +57,10 @@ fn main() -> ExitCode {
     let mut steps = Steps::new();
     match words.as_slice() {
         ["measure", "--paper"] => say::text(paper::list().text()),
+        ["measure", "--robot", rest @ ..] => match robot::Options::parse(rest) {
+            Some(options) => robot::run(&mut steps, &options),
+            None => return usage(),
+        },
         ["measure", rest @ ..] => match measuring::Options::parse(rest) {
             Some(options) => measuring::run(&mut steps, options),
             None => return usage(),
@@ -83,8 +94,12 @@ mod tests {
 
     #[test]
     fn the_usage_names_every_flag_that_is_parsed() {
-        let sources =
-            [include_str!("measuring.rs"), include_str!("racing.rs"), include_str!("rival.rs")];
+        let sources = [
+            include_str!("measuring.rs"),
+            include_str!("racing.rs"),
+            include_str!("rival.rs"),
+            include_str!("robot.rs"),
+        ];
         // Patterns: other flags are passed on to other programs.
         let is_pattern = |line: &&str| line.contains("=>") || line.contains("let [");
         let patterns = sources.iter().flat_map(|source| source.lines()).filter(is_pattern);

@@ -178,24 +178,6 @@ impl Asker {
 }
 
 impl Asker {
-    /// Closest points of a batch, in pieces of `piece` queries.
-    ///
-    /// # Panics
-    /// If an answer is out of range or took too long.
-    pub fn batch(&mut self, tree: &Bvh<'_>, points: &[[f32; 3]], piece: usize, stop: &Budget) {
-        let Self { stack, hint, .. } = self;
-        let mut answers = vec![ClosestPoint::EMPTY; points.len()];
-        // The entries behind the descent's own put so many queries in order at a time.
-        let mut scratch = vec![ScratchEntry::EMPTY; stack.len() + 2 * piece];
-        match tree.closest_points(points, hint, &mut answers, *stop, &mut scratch) {
-            Ok(()) => answers.iter().for_each(|answer| closest(tree, answer, 2 * descent(tree))),
-            Err(QueryError::PointNotFinite { index }) => {
-                assert!((index as usize) < points.len(), "{index}");
-            }
-            Err(error) => assert_ne!(error, QueryError::Unchecked),
-        }
-    }
-
     /// Whether and where two trees meet, and how far apart they are, in at most so many steps:
     /// every pair of nodes may have to be opened.
     ///
@@ -230,10 +212,13 @@ impl Asker {
             pairs[..answer.stored].iter().for_each(|pair| in_range(pair.triangles));
         }
         let budget = Budget::EXACT.with_steps(steps);
-        let models =
-            [(a, Pose::IDENTITY), (b, *pose)].map(|(tree, pose)| PlacedModel { tree: *tree, pose });
-        let scene = Scene::new(&models);
-        if let Some(answer) = answered(scene.nearest_pair(|_, _| true, budget, &mut stack)) {
+        let models = [(a, Pose::IDENTITY), (b, *pose)]
+            .map(|(tree, pose)| answered(PlacedModel::new(*tree, pose)));
+        if let [Some(one), Some(other)] = models
+            && let models = [one, other]
+            && let scene = Scene::new(&models)
+            && let Some(answer) = answered(scene.nearest_pair(|_, _| true, budget, &mut stack))
+        {
             assert!(answer.work.opened <= steps && answer.models == Some([0, 1]), "{answer:?}");
             assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
             in_range(answer.triangles);

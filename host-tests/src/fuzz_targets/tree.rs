@@ -109,7 +109,7 @@ fn stop(input: &mut Input<'_>) -> Budget {
     Budget::EXACT.with_relative(input.float()).with_absolute(input.float()).with_steps(input.u32())
 }
 
-/// Every question about points on an edited blob, one by one and all at once.
+/// Every question about points on an edited blob.
 pub fn tree_closest(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(tree_seeds());
@@ -121,16 +121,9 @@ pub fn tree_closest(data: &[u8]) {
     if let Ok(other) = Bvh::open(other) {
         asker.point(&other, input.point(), input.float(), &stop);
     }
-    let mut points = Vec::new();
     for _ in 0..3 {
-        points.push(input.point());
-        asker.point(&tree, points[points.len() - 1], input.float(), &stop);
+        asker.point(&tree, input.point(), input.float(), &stop);
     }
-    let piece = usize::from(input.byte() % 4);
-    asker.batch(&tree, &points, piece, &stop);
-    // A refused query would leave nothing to sort.
-    points.retain(|point| point.iter().all(|x| x.is_finite()));
-    asker.batch(&tree, &points, piece, &Budget::EXACT);
 }
 
 /// Every question about segments on an edited blob, one of them of no length, and what faces their

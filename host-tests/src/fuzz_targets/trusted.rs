@@ -3,9 +3,8 @@
 use super::input::Input;
 use super::tree::tree_seeds;
 use meshsweep_core::{
-    Budget, Bvh, ClosestPoint, CoherentPair, CoherentQuery, Eye, Facing, Hint, Motion, Neighbor,
-    PlacedModel, Pose, QueryError, Scene, ScratchEntry, Solid, TightHulls, TriangleHit,
-    TrianglePair, Work,
+    Budget, Bvh, CoherentPair, CoherentQuery, Eye, Facing, Hint, Motion, Neighbor, PlacedModel,
+    Pose, QueryError, Scene, ScratchEntry, Solid, TightHulls, TriangleHit, TrianglePair, Work,
 };
 
 /// Opens an edited blob without a check of its records, and asks everything about points, segments,
@@ -73,8 +72,6 @@ fn ask_points(tree: &Bvh<'_>, points: &[[f32; 3]; 3], size: f32, stack: &mut [Sc
             let _ = tree.front_facing(eye, &mut [0; 16]);
         }
     }
-    let mut answers = [ClosestPoint::EMPTY; 3];
-    let _ = tree.closest_points(points, &mut hint, &mut answers, budget, stack);
 }
 
 fn ask_segments(
@@ -117,8 +114,12 @@ fn ask_pair([a, b]: [&Bvh<'_>; 2], pose: &Pose, size: f32, stack: &mut [ScratchE
         let _ = pair.within(a, b, *pose, size, budget, stack);
     }
     let models =
-        [(a, Pose::IDENTITY), (b, *pose)].map(|(tree, pose)| PlacedModel { tree: *tree, pose });
-    let _ = Scene::new(&models).nearest_pair(|_, _| true, budget, stack);
+        [(a, Pose::IDENTITY), (b, *pose)].map(|(tree, pose)| PlacedModel::new(*tree, pose));
+    if let [Ok(one), Ok(other)] = models {
+        let models = [one.with_least_ball(), other];
+        let _ = Scene::new(&models).nearest_pair(|_, _| true, budget, stack);
+        let _ = Scene::new(&models).within(size, |_, _| true, budget, stack);
+    }
 }
 
 /// More than one descent can cost: a record of links names up to fifteen children, each of up to

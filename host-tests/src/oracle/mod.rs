@@ -6,13 +6,14 @@ mod double;
 pub mod exact;
 pub mod lp;
 pub mod moved;
+pub mod placed;
 mod polyline;
 pub mod polytope;
 mod segment;
 mod winding;
 mod written;
 
-pub use between::{distance_of_meshes, distance_of_moved_triangles};
+pub use between::{distance_of_meshes, distance_of_moved_triangles, distance_of_placed};
 pub use distance::{
     Bounded, distance_to_mesh, distance_to_moved_mesh, distance_to_triangle, rough_distance_sq,
     wide_distance_sq,

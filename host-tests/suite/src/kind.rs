@@ -75,8 +75,6 @@ kinds! {
     AnyHit = 14, "any_hit";
     /// Closest point along a path of small steps and few jumps, by a coherent query.
     CoherentQuery = 15, "coherent_query";
-    /// Closest points of eight points from the doubled box.
-    Batch = 16, "batch_of_8";
     /// Triangles that may face an eye.
     Cull = 17, "cull";
     /// Whether the surface meets its moved copy.
@@ -121,6 +119,10 @@ kinds! {
     Update = 33, "update";
     /// Closest point of a moved hull.
     Moved = 34, "moved";
+    /// Whether the hull at rest, moved, meets itself between two key frames.
+    FrameOverlap = 43, "frame_overlap";
+    /// Whether the hull at rest, moved, meets itself under a free motion.
+    MovedOverlap = 44, "moved_overlap";
     /// Closest point in f64 from near the surface.
     ClosestPrecise = 42, "closest_precise";
 }

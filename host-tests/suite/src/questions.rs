@@ -29,7 +29,7 @@ const fn question(
 }
 
 /// The questions of the tables of stacks.
-pub const QUESTIONS: [Question; 35] = [
+pub const QUESTIONS: [Question; 34] = [
     question("open a box tree", "tree", "tree::open", &[]),
     question(CLOSEST, "closest", "tree::distance::closest", &[Kind::ClosestFar, Kind::ClosestNear]),
     question(
@@ -40,7 +40,6 @@ pub const QUESTIONS: [Question; 35] = [
     ),
     question("closest point in f64", "closest", "tree::distance::precise", &[Kind::ClosestPrecise]),
     question("coherent query", "closest", "tree::distance::coherent", &[Kind::CoherentQuery]),
-    question("closest points", "closest", "tree::distance::batch", &[Kind::Batch]),
     question("within", "closest", "tree::distance::is_within", &[Kind::Within]),
     question("nearest triangles", "closest", "tree::distance::nearest", &[Kind::Nearest]),
     question("all within", "closest", "tree::distance::all_within", &[Kind::AllWithin]),

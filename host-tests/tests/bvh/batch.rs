@@ -1,10 +1,10 @@
 //! A batch gives the same bits as its queries one at a time, in any order and with any number of
 //! threads.
 
-use meshsweep::bvh::{self, TreeOptions, build};
+use meshsweep::bvh::{self, RefusedPoint, TreeOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::progress::Watch;
-use meshsweep_core::{Budget, Bvh, ClosestPoint, Hint, QueryError, ScratchEntry};
+use meshsweep_core::{Budget, Bvh, ClosestPoint, QueryError, ScratchEntry};
 use meshsweep_host_tests::generate::{Rng, Triangles, rough_sphere, scaled, torus};
 
 fn blob((positions, triangles): &Triangles) -> Vec<u8> {
@@ -42,31 +42,16 @@ fn a_batch_has_the_bits_of_its_queries_in_any_order() {
     {
         let bytes = blob(&mesh);
         let tree = Bvh::open(&bytes).unwrap();
-        let needed = tree.header().stack_entries as usize;
+        let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
         let mut points = random(500, size);
         // Equal ones, one far away, one at the end of f32.
         points.extend([[0.25 * size; 3]; 20]);
         points.extend([[1.0e7 * size, 0.0, 0.0], [f32::MAX, f32::MIN, 0.0]]);
         for stop in [Budget::EXACT, Budget::EXACT.with_relative(0.1), Budget::EXACT.with_steps(3)] {
-            // Entries behind those that the descent needs put the points in order.
-            let rooms = [0, 1, 2, 7, 64, 2 * points.len(), 3 * points.len()];
-            for (entries, rooms) in [(needed, rooms.as_slice()), (4, &[0])] {
-                let mut stack = vec![ScratchEntry::EMPTY; entries];
-                let wanted = one_at_a_time(&tree, &points, &stop, &mut stack);
-                for room in rooms {
-                    let mut answers = vec![wanted[0]; points.len()];
-                    let mut stack = vec![ScratchEntry::EMPTY; entries + room];
-                    let mut hint = Hint::NONE;
-                    tree.closest_points(&points, &mut hint, &mut answers, stop, &mut stack)
-                        .unwrap();
-                    for (answer, wanted) in answers.iter().zip(&wanted) {
-                        assert_eq!(
-                            bits(answer),
-                            bits(wanted),
-                            "{stop:?}, {entries} entries, room {room}"
-                        );
-                    }
-                }
+            let wanted = one_at_a_time(&tree, &points, &stop, &mut stack);
+            let answers = bvh::closest_points(&tree, &points, &stop).unwrap();
+            for (answer, wanted) in answers.iter().zip(&wanted) {
+                assert_eq!(bits(answer), bits(wanted), "{stop:?}");
             }
         }
     }
@@ -111,39 +96,28 @@ fn a_batch_in_order_takes_less_work() {
 }
 
 #[test]
-fn errors_are_typed_and_name_the_query() {
+fn a_refusal_names_the_first_point_and_why() {
     let bytes = blob(&torus(2.0, 0.75, 20, 12));
     let tree = Bvh::open(&bytes).unwrap();
-    let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
     let mut points = random(50, 4.0);
-    let untouched = one_at_a_time(&tree, &points[..1], &Budget::EXACT, &mut stack)[0];
-    let ask = |points: &[[f32; 3]], answers: usize, stop: &Budget, stack: &mut [ScratchEntry]| {
-        let mut answers = vec![untouched; answers];
-        let result =
-            tree.closest_points(points, &mut Hint::NONE.clone(), &mut answers, *stop, stack);
-        assert!(result.is_ok() || answers.iter().all(|a| *a == untouched));
-        result
-    };
-    assert_eq!(
-        ask(&points, 49, &Budget::EXACT, &mut stack),
-        Err(QueryError::AnswerCount { points: 50, answers: 49 })
-    );
-    assert_eq!(ask(&[], 0, &Budget::EXACT, &mut stack), Ok(()));
-    assert_eq!(ask(&points, 50, &Budget::EXACT, &mut []), Err(QueryError::NoScratch));
+    assert_eq!(bvh::closest_points(&tree, &[], &Budget::EXACT), Ok(Vec::new()));
     let wrong = Budget::EXACT.with_absolute(f32::NAN);
-    assert_eq!(ask(&points, 50, &wrong, &mut stack), Err(QueryError::Tolerance));
+    let tolerance = RefusedPoint { index: 0, error: QueryError::Tolerance };
+    assert_eq!(bvh::closest_points(&tree, &points, &wrong), Err(tolerance));
     (points[31][1], points[44][0]) = (f32::INFINITY, f32::NAN);
-    let first = QueryError::PointNotFinite { index: 31 };
-    assert_eq!(ask(&points, 50, &Budget::EXACT, &mut stack), Err(first));
+    let first = RefusedPoint { index: 31, error: QueryError::NotFinite };
     // The first and the second are in different pieces.
     let mut many = random(60_000, 4.0);
     (many[20_001][1], many[50_000][0]) = (f32::INFINITY, f32::NAN);
-    let second = QueryError::PointNotFinite { index: 20_001 };
+    let second = RefusedPoint { index: 20_001, ..first };
     for threads in [1, 2, 3, 50] {
         for (points, error) in [(&points, first), (&many, second)] {
             let refused =
                 with_threads(threads, || bvh::closest_points(&tree, points, &Budget::EXACT));
             assert_eq!(refused.map(|a| a.len()), Err(error));
+            let (before, refused) =
+                bvh::closest_points_until_refused(&tree, points, &Budget::EXACT);
+            assert_eq!((before.len(), refused), (error.index, Some(error)));
         }
     }
 }

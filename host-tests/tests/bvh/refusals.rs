@@ -5,8 +5,8 @@ use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::progress::Watch;
 use meshsweep_core::{
-    Budget, BuildFor, Bvh, ClosestPoint, CoherentQuery, Facing, Hint, Neighbor, Pose, QueryError,
-    ScratchEntry, TriangleHit, TrianglePair,
+    Budget, BuildFor, Bvh, CoherentQuery, Facing, Hint, Neighbor, Pose, QueryError, ScratchEntry,
+    TriangleHit, TrianglePair,
 };
 use meshsweep_host_tests::generate::cube;
 
@@ -22,17 +22,12 @@ fn about_a_point(
     point: [f32; 3],
     budget: Budget,
     scratch: &mut [ScratchEntry],
-) -> [(&'static str, Result<(), QueryError>); 10] {
+) -> [(&'static str, Result<(), QueryError>); 8] {
     let (mut hint, mut near) = (Hint::NONE, [Neighbor::EMPTY; 2]);
-    let mut places = [ClosestPoint::EMPTY];
     let mut coherent = CoherentQuery::<16>::new();
-    let batch = tree.closest_points(&[point], &mut hint, &mut places, budget, scratch);
-    let no_batch = tree.closest_points(&[], &mut hint, &mut [], budget, scratch);
     [
         ("closest_point", tree.closest_point(point, budget, scratch).map(drop)),
         ("from", tree.closest_point_from(point, &mut hint, budget, scratch).map(drop)),
-        ("closest_points", batch),
-        ("closest_points of none", no_batch),
         ("coherent", coherent.closest_point(tree, point, budget, scratch).map(drop)),
         ("within", tree.within(point, 1.0, budget, scratch).map(drop)),
         ("all_within", tree.all_within(point, 1.0, &mut near, budget, scratch).map(drop)),

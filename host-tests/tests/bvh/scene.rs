@@ -41,7 +41,10 @@ impl World {
 
     fn placed(&self, is_f32: bool) -> Vec<PlacedModel<'_>> {
         let tree = |which: usize| self.scenes[which].trees()[usize::from(is_f32)];
-        self.places.iter().map(|&(which, pose)| PlacedModel { tree: tree(which), pose }).collect()
+        self.places
+            .iter()
+            .map(|&(which, pose)| PlacedModel::new(tree(which), pose).unwrap())
+            .collect()
     }
 
     fn distance(&self, a: usize, b: usize) -> Bounded {
@@ -97,8 +100,8 @@ fn the_nearest_pair_is_that_of_all_pairs_and_within_agrees() {
                     (f64::from(found.distance.lower), f64::from(found.distance.upper));
                 assert!(lower <= truth.upper + slack, "{found:?} {truth:?}");
                 assert!(truth.lower - slack <= upper, "{found:?} {truth:?}");
-                let errors = 2.0 * f64::from(models[a].tree.surface_error())
-                    + 2.0 * f64::from(models[b].tree.surface_error());
+                let errors = 2.0 * f64::from(models[a].tree().surface_error())
+                    + 2.0 * f64::from(models[b].tree().surface_error());
                 assert!(upper - lower <= errors + 1e-5 * far, "{found:?}");
                 assert_eq!(found.ended, Ended::Exact);
                 let [p, q] = found.points;
@@ -139,7 +142,7 @@ fn a_pose_that_is_no_rotation_is_paid_for() {
     stretched[0][0] = 1.05;
     let place = |x: f32| Pose { rotation: stretched, translation: [x, 0.0, 0.0] };
     for tree in scene.trees() {
-        let models = [place(0.0), place(10.0)].map(|pose| PlacedModel { tree, pose });
+        let models = [place(0.0), place(10.0)].map(|pose| PlacedModel::new(tree, pose).unwrap());
         let scene = Models::new(&models);
         let found = scene.nearest_pair(|_, _| true, Budget::EXACT, &mut stack()).unwrap();
         let truth = 10.0 - 1.05 * size;
@@ -191,8 +194,8 @@ fn a_scene_of_forty_models_looks_into_few_pairs() {
 fn what_cannot_be_asked_is_refused_and_no_pair_is_no_error() {
     let scene = Scene::both("", cube(1));
     let tree = scene.bvh();
-    let at =
-        |x: f32| PlacedModel { tree, pose: Pose { translation: [x, 0.0, 0.0], ..Pose::IDENTITY } };
+    let pose = |x: f32| Pose { translation: [x, 0.0, 0.0], ..Pose::IDENTITY };
+    let at = |x: f32| PlacedModel::new(tree, pose(x)).unwrap();
     let ask = |models: &[PlacedModel<'_>], scratch: &mut [ScratchEntry]| {
         Models::new(models)
             .nearest_pair(|_, _| true, Budget::EXACT, scratch)
@@ -202,19 +205,24 @@ fn what_cannot_be_asked_is_refused_and_no_pair_is_no_error() {
     assert_eq!(ask(&[at(0.0)], &mut stack()), Ok(None));
     assert_eq!(ask(&[at(0.0), at(9.0)], &mut stack()), Ok(Some([0, 1])));
     assert_eq!(ask(&[at(0.0), at(9.0)], &mut []), Err(QueryError::NoScratch));
-    assert_eq!(ask(&[at(0.0), at(f32::NAN)], &mut stack()), Err(QueryError::NotFinite));
-    // Wherever the others are.
-    for place in [3.0, 1e6] {
-        let mut flat = at(place);
-        flat.pose.rotation[2] = [0.0; 3];
-        assert_eq!(ask(&[at(9.0), at(0.0), flat], &mut stack()), Err(QueryError::PoseOutOfDomain));
-        let mut lost = at(f32::NAN);
-        lost.pose.translation[1] = place;
-        let models = [at(9.0), at(0.0), lost];
-        assert_eq!(ask(&models, &mut stack()), Err(QueryError::NotFinite));
-        let found = Models::new(&models).within(1.0, |_, _| true, Budget::EXACT, &mut stack());
+    // A model that is refused stays where it was.
+    let mut model = at(3.0);
+    for lost in [f32::NAN, f32::INFINITY] {
+        let found = PlacedModel::new(tree, pose(lost)).map(|_| ());
         assert_eq!(found, Err(QueryError::NotFinite));
+        assert_eq!(model.move_to(pose(lost)), Err(QueryError::NotFinite));
+        let mut flat = pose(9.0);
+        flat.rotation[1][2] = lost;
+        assert_eq!(model.move_to(flat), Err(QueryError::NotFinite));
     }
+    for place in [3.0, 1e6, f32::MAX] {
+        let mut flat = pose(place);
+        flat.rotation[2] = [0.0; 3];
+        assert_eq!(model.move_to(flat), Err(QueryError::PoseOutOfDomain));
+        flat.rotation = [[0.0; 3]; 3];
+        assert_eq!(model.move_to(flat), Err(QueryError::PoseOutOfDomain));
+    }
+    assert_eq!(*model.pose(), pose(3.0));
     for far in [1e20, 1e30, f32::MAX] {
         let found =
             Models::new(&[at(0.0), at(far)]).nearest_pair(|_, _| true, Budget::EXACT, &mut stack());
@@ -239,7 +247,8 @@ fn a_scene_of_any_scale_is_never_wrongly_clear() {
             for _ in 0..200 {
                 let off = (high[1] - low[1]) * rng.range(1.0, 1.5);
                 let pose = Pose { translation: [0.0, off, 0.0], ..Pose::IDENTITY };
-                let models = [Pose::IDENTITY, pose].map(|pose| PlacedModel { tree, pose });
+                let models =
+                    [Pose::IDENTITY, pose].map(|pose| PlacedModel::new(tree, pose).unwrap());
                 let truth = f64::from(off) - (f64::from(high[1]) - f64::from(low[1]));
                 let scene = Models::new(&models);
                 let Ok(found) = scene.nearest_pair(|_, _| true, Budget::EXACT, &mut stack()) else {
@@ -282,8 +291,8 @@ fn a_model_at_the_end_of_f32_is_paid_for() {
     let truth = 1.05 * f64::from(at) - f64::from(half) * f64::from(m);
     for (first, second) in plate.trees().into_iter().zip(blade.trees()) {
         let models = [
-            PlacedModel { tree: first, pose: stretched },
-            PlacedModel { tree: second, pose: Pose { rotation: turned, ..Pose::IDENTITY } },
+            PlacedModel::new(first, stretched).unwrap(),
+            PlacedModel::new(second, Pose { rotation: turned, ..Pose::IDENTITY }).unwrap(),
         ];
         let scene = Models::new(&models);
         match scene.nearest_pair(|_, _| true, Budget::EXACT, &mut stack()) {

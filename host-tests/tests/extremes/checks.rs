@@ -1,8 +1,9 @@
 //! What must hold of a box tree's answers on any mesh, by the exact oracle.
 
 use crate::scene::Scene;
+use meshsweep::bvh::closest_points;
 use meshsweep_core::{
-    Budget, ClosestPoint, CoherentQuery, Ended, Facing, Hint, Interval, Neighbor, QueryError,
+    Budget, ClosestPoint, CoherentQuery, Ended, Facing, Interval, Neighbor, QueryError,
     TriangleHit, Verdict,
 };
 use meshsweep_host_tests::oracle::exact::{Corners, distance_compared, first_meeting};
@@ -138,10 +139,7 @@ pub fn bits_do_not_depend_on_the_way(scene: &Scene, points: &[[f32; 3]]) {
         .iter()
         .map(|&p| tree.closest_point(p, Budget::EXACT, &mut stack).expect("a point"))
         .collect();
-    let mut batch = single.clone();
-    batch.iter_mut().for_each(|answer| answer.distance.upper = -1.0);
-    let hint = &mut Hint::NONE.clone();
-    tree.closest_points(points, hint, &mut batch, Budget::EXACT, &mut stack).expect("points");
+    let batch = closest_points(&tree, points, &Budget::EXACT).expect("points");
     let mut query = CoherentQuery::<64>::new();
     for ((&p, single), batch) in points.iter().zip(&single).zip(&batch) {
         let moving = query.closest_point(&tree, p, Budget::EXACT, &mut stack).expect("a point");

@@ -19,7 +19,7 @@ use std::ops::Range;
 /// Frames of a motion.
 const FRAMES: usize = 1000;
 
-fn build((positions, triangles): &Triangles, frames: &[Vec<[f32; 3]>]) -> Vec<u8> {
+pub fn build((positions, triangles): &Triangles, frames: &[Vec<[f32; 3]>]) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let key = |positions: &Vec<[f32; 3]>| KeyFrame { positions: positions.clone(), rounding: 0.0 };
     let frames: Vec<KeyFrame> = frames.iter().map(key).collect();
@@ -36,7 +36,7 @@ fn rigid() -> Vec<u8> {
 
 /// A strong motion, of a mesh about the origin of about one unit: it bends about y, twists about z,
 /// and turns the upper half by 180° until `t` = 1.
-fn motion(positions: &[[f32; 3]], t: f64) -> Vec<[f32; 3]> {
+pub fn motion(positions: &[[f32; 3]], t: f64) -> Vec<[f32; 3]> {
     let turned = |x: f64, y: f64, angle: f64| {
         let (sin, cos) = angle.sin_cos();
         (cos * x - sin * y, sin * x + cos * y)
@@ -107,11 +107,11 @@ fn scratch(hull: &DeformableHull<'_>) -> Vec<ScratchEntry> {
     vec![ScratchEntry::EMPTY; hull.rest().scratch_entries()]
 }
 
-fn memory(hull: &DeformableHull<'_>) -> Vec<MovedVertex> {
+pub fn memory(hull: &DeformableHull<'_>) -> Vec<MovedVertex> {
     vec![MovedVertex::EMPTY; hull.vertex_records()]
 }
 
-fn place(moved: &mut MovedHull<'_, '_>, positions: &[[f32; 3]]) {
+pub fn place(moved: &mut MovedHull<'_, '_>, positions: &[[f32; 3]]) {
     moved.update(|vertex| positions[vertex as usize]).expect("in the domain");
 }
 

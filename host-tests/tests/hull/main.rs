@@ -4,6 +4,7 @@ mod bytes;
 mod check;
 mod closest;
 mod deform;
+mod deform_overlap;
 mod edge_cases;
 mod kept_sweep;
 mod open;

@@ -97,8 +97,8 @@ pub type Counts<'a> = BTreeMap<&'a str, Each>;
 /// Queries that a board is asked.
 const ON_BOARD: &str = "1000";
 
-/// Where the image `ask` finds its question: in the external RAM of the first board.
-pub(crate) const LOADED: u32 = 0x2100_0000;
+/// Where the images `ask` and `robot` find their questions: in the external RAM of the first board.
+pub const LOADED: u32 = 0x2100_0000;
 
 /// Counts questions at places on the Cortex-M4F, in the emulator, and prints the table. The
 /// answers' bits are this machine's, or it is an error.

@@ -9,7 +9,7 @@ use crate::served::Engine;
 use crate::{blob_file, served};
 use meshsweep::bvh::{BATCH, FastBvh, closest_points_until_refused};
 use meshsweep::distances::{Closest, Distances};
-use meshsweep_core::{Blob, BuildFor, Interval, QueryError};
+use meshsweep_core::{Blob, BuildFor, Interval};
 use std::io::{self, Write};
 
 pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
@@ -58,10 +58,7 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     search.threads.start();
     let ask = |points: &[[f32; 3]], _| {
         let (found, refused) = closest_points_until_refused(&tree, points, &budget);
-        let refused = refused.map(|(index, error)| match error {
-            QueryError::PointNotFinite { .. } => (index, QueryError::NotFinite),
-            error => (index, error),
-        });
+        let refused = refused.map(|refused| (refused.index, refused.error));
         (found.into_iter().map(|found| answer(found.into())).collect(), refused)
     };
     question.ask_all(BATCH, &ask, &write)

@@ -52,7 +52,8 @@ fn run() -> Result<(), QueryError> {
     let (mut most_pairs, mut worst) = (0, 0);
     board::start();
     for number in 0..POSES {
-        let links = poses(number).map(|pose| PlacedModel { tree, pose });
+        let [upper, forearm, table] = poses(number).map(|pose| PlacedModel::new(tree, pose));
+        let links = [upper?, forearm?, table?];
         let scene = Scene::new(&links);
         let distance = KEEP + MOST_PER_POSE;
         let ask = || scene.within(distance, not_a_joint, budget, &mut scratch);

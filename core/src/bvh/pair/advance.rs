@@ -37,6 +37,11 @@ impl Bvh<'_> {
         let mut t = 0.0;
         for _ in 0..MOST_ADVANCES {
             let steps = budget.steps.saturating_sub(contact.work.opened);
+            // Each distance takes time before its first step.
+            if steps == 0 && t > 0.0 {
+                contact.ended = Ended::Steps;
+                break;
+            }
             let pose = motion.at_time(t);
             let budget = Budget::EXACT.with_steps(steps);
             let found = self.distance_to(other, pose, budget, scratch)?;

@@ -12,6 +12,7 @@ use super::gaps::answers;
 use super::gaps::leaf_gaps::TriangleGap;
 use super::gaps::left_out::{ChildPairs, LeftOut};
 use super::gaps::nearest_first::{Missed, PairDescent, Search};
+use super::model_box::are_apart;
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::gap::{GapThreshold, GapVisitor, NearestGap};
@@ -189,6 +190,10 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
     ) -> Result<Decided<[u32; 2]>, QueryError> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check_with(scratch)?;
+        if are_apart([tree, other], &pose, distance)? {
+            // What is kept is kept about the pose of the last search.
+            return Ok(Decided::CLEAR);
+        }
         let pair = StoredPair::new([tree, other], &pose)?;
         if !pair.is_in_range {
             self.reset();

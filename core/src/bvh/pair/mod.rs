@@ -12,7 +12,12 @@
 //! | --- | --- |
 //! | `models` | two trees: which of two nodes a descent opens, the places of triangles |
 //! | `stored_pair` | two models in one frame, and the way back to input units |
-//! | `placed` | a model's box in the world, and the pose of one model in the frame of another |
+//! | `model_box` | the box of a model, and what the boxes of two prove |
+//! | `model_ball` | a small ball that holds a model |
+//! | `placed` | a model at its place in the world: its ball and its box |
+//! | `mover` | a placed model that moves, and how far its points went |
+//! | `world_box` | the same box along the axes of the world |
+//! | `relative` | the pose of one model in the frame of another |
 //! | `leaf_pair` | the triangles of two leaves |
 //! | `gaps/` | the search of the nearest pair of triangles |
 //! | `from_afar` | two models that are very far from each other |
@@ -25,12 +30,18 @@ mod first_contact_of;
 mod from_afar;
 mod gaps;
 mod leaf_pair;
+mod model_ball;
+mod model_box;
 mod models;
+mod mover;
 mod overlap;
 mod penetration;
 pub(super) mod placed;
+pub(super) mod relative;
 pub(super) mod stored_pair;
 mod within_of;
+pub(super) mod world_box;
 
 pub use coherent_pair::CoherentPair;
+pub(super) use mover::Mover;
 pub use placed::PlacedModel;

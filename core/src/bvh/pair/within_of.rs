@@ -4,6 +4,7 @@ use super::from_afar::from_afar;
 use super::gaps::answers;
 use super::gaps::left_out::{ChildPairs, Forgotten};
 use super::gaps::nearest_first::Search;
+use super::model_box::are_apart;
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::gap::{GapThreshold, GapVisitor};
@@ -57,8 +58,25 @@ impl Bvh<'_> {
         // A distance is refused as an absolute tolerance is.
         budget.with_absolute(distance).check()?;
         budget.check_with(scratch)?;
-        let pair = StoredPair::new([self, other], &pose)?;
-        let mut threshold = GapThreshold::new(&pair.lengths, 0.0, distance);
+        if are_apart([self, other], &pose, distance)? {
+            return Ok(Decided::CLEAR);
+        }
+        Ok(self.search_within_of(other, &pose, [distance, 0.0], budget, scratch)?.0)
+    }
+
+    /// The same by the trees. With a `No` a lower end of the distance, at most `more` above the one
+    /// asked about.
+    pub(crate) fn search_within_of(
+        &self,
+        other: &Bvh<'_>,
+        pose: &Pose,
+        [distance, more]: [f32; 2],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<(Decided<[u32; 2]>, f32), QueryError> {
+        let pair = StoredPair::new([self, other], pose)?;
+        let threshold = GapThreshold::new(&pair.lengths, 0.0, distance);
+        let mut threshold = threshold.and_beyond(more);
         let mut search = Search::new(&pair, budget.steps, scratch);
         let missed = if pair.is_in_range {
             search.descend((ChildPairs::ALL, 0.0), &mut threshold, &mut Forgotten)?.missed()
@@ -66,6 +84,7 @@ impl Bvh<'_> {
             threshold.take(&from_afar(&pair).ok_or(QueryError::Unchecked)?);
             None
         };
-        answers::within(&threshold, &pair, missed, search.work)
+        let lower = if missed.is_some() { distance } else { threshold.lower() };
+        Ok((answers::within(&threshold, &pair, missed, search.work)?, lower))
     }
 }

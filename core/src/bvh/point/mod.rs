@@ -2,7 +2,7 @@
 //!
 //! | question | file |
 //! | --- | --- |
-//! | the closest point, of one point or of many | `closest_point`, `closest_points` |
+//! | the closest point | `closest_point` |
 //! | the closest point, its candidates measured in f64 | `closest_point_precise` |
 //! | whether the surface is within a distance, and all triangles that are | `within`, `all_within` |
 //! | the nearest triangles | `nearest` |
@@ -23,7 +23,6 @@
 mod all_within;
 mod closest_point;
 mod closest_point_precise;
-pub(super) mod closest_points;
 mod coherent;
 mod far_point;
 mod front_facing;

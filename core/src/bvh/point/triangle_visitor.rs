@@ -1,7 +1,7 @@
 //! The visitor of point questions that look at triangles one by one: more than the nearest one
 //! counts.
 
-use super::leaf::bounds::{each_triangle, is_certified, lower_of};
+use super::leaf::bounds::{TriangleTaker, each_triangle, is_certified, lower_of};
 use super::leaf::distance::nearest_within;
 use super::leaf::limit::LeafLimit;
 use super::leaf::nearest::LeafNearest;
@@ -12,7 +12,8 @@ use super::query::PointQuery;
 use crate::bvh::tree::descent::{LeafVisit, LeafVisitor};
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::bvh::tree::triangle_at::TriangleAt;
-use crate::num::{Real, SOFT_FLOAT};
+use crate::num::tolerance::U32;
+use crate::num::{Real, SOFT_FLOAT, greater};
 use glam::Vec3;
 
 /// A triangle that a descent has reached.
@@ -73,6 +74,13 @@ pub(crate) trait TriangleCollector {
         limit: &mut f32,
     );
 
+    /// See [`TriangleTaker::told_side`].
+    #[cfg(not(meshsweep_wide))]
+    #[inline(always)]
+    fn told_side(&self, _: &FanLeaf<'_>, _lane: usize) -> Option<bool> {
+        None
+    }
+
     /// Looks at a leaf as a whole, before [`take`](Self::take). May lower the limit. `None` says
     /// that the tree is unchecked.
     #[inline(always)]
@@ -125,6 +133,16 @@ impl<'a, C> TriangleVisitor<'a, C> {
         follow(query, limit, &mut key_limit, &mut beyond);
         let known = LeafSquares::NONE;
         TriangleVisitor { tree, query, limit, key_limit, beyond, known, collector }
+    }
+
+    /// Whether the model's box is beyond the limit, and so are all triangles.
+    #[inline(always)]
+    pub(crate) fn is_box_beyond(&self) -> bool {
+        let (low, high) = self.tree.grid_bounds();
+        let (below, above) = (low - self.query.p, self.query.p - high);
+        let gap = |below: f32, above: f32| greater(greater(below, above), 0.0);
+        let (x, y, z) = (gap(below.x, above.x), gap(below.y, above.y), gap(below.z, above.z));
+        (x * x + y * y + z * z) * (1.0 - 16.0 * U32) > self.beyond.distance_sq
     }
 
     /// Makes the other limits follow `limit`.
@@ -205,23 +223,40 @@ impl<C: TriangleCollector> TriangleVisitor<'_, C> {
         let TriangleVisitor { query, limit, known, collector, beyond, .. } = self;
         let before = *limit;
         let leaf = &visit.leaf;
-        each_triangle(
-            query,
-            leaf,
-            beyond,
-            (low, known),
-            |lane, seen, [distance_sq, lower_bound_sq]| {
-                if Real(lower_bound_sq) > Real(*limit) {
-                    return;
-                }
-                let place = visit.triangle(lane);
-                let here = LeafTriangle { distance_sq, lower_bound_sq, place };
-                collector.take(here, leaf, seen, limit);
-            },
-        );
+        each_triangle(query, leaf, beyond, (low, known), Taker { visit, collector, limit });
         if Real(self.limit) < Real(before) {
             self.lower_limits();
         }
         Some(!self.collector.is_answered())
+    }
+}
+
+/// Hands triangles of a leaf to a collector.
+struct Taker<'a, 'v, C> {
+    visit: &'a LeafVisit<'v>,
+    collector: &'a mut C,
+    limit: &'a mut f32,
+}
+
+impl<C: TriangleCollector> TriangleTaker for Taker<'_, '_, C> {
+    #[inline(always)]
+    fn triangle(
+        &mut self,
+        lane: usize,
+        seen: Option<&[Vec3; 3]>,
+        [distance_sq, lower_bound_sq]: [f32; 2],
+    ) {
+        if Real(lower_bound_sq) > Real(*self.limit) {
+            return;
+        }
+        let place = self.visit.triangle(lane);
+        let here = LeafTriangle { distance_sq, lower_bound_sq, place };
+        self.collector.take(here, &self.visit.leaf, seen, self.limit);
+    }
+
+    #[cfg(not(meshsweep_wide))]
+    #[inline(always)]
+    fn told_side(&self, lane: usize) -> Option<bool> {
+        self.collector.told_side(&self.visit.leaf, lane)
     }
 }

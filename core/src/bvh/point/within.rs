@@ -11,7 +11,7 @@ use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVis
 use crate::bvh::tree::descent::{LeafVisit, descend};
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::bvh::tree::triangle_at::TriangleAt;
-use crate::num::{Real, sqrt_approx};
+use crate::num::{Real, SOFT_FLOAT, sqrt_approx};
 use crate::query::{
     Budget, ClosestPoint, Decided, QueryError, ScratchEntry, Undecided, Verdict, Witness, Work,
 };
@@ -32,7 +32,7 @@ impl Bvh<'_> {
     /// `scratch` as for [`closest_point`](Bvh::closest_point). A shorter one may leave the question
     /// undecided; it never makes the answer wrong. Of the budget only `steps` matters.
     ///
-    /// Cost: one node if the model's box is beyond the distance. Else everything within `distance`,
+    /// Cost: no node if the model's box is beyond the distance, one without floating point. Else everything within `distance`,
     /// and no more than a few leaves where the answer is yes.
     ///
     /// ```
@@ -69,6 +69,14 @@ impl Bvh<'_> {
         let limit = limit_within(query, distance);
         let collector = Threshold { query, distance, found: Witness::NONE };
         let mut visitor = TriangleVisitor::new(tree, query, limit, collector);
+        // Where steps or memory may end the search, the verdict is that of the search.
+        if !SOFT_FLOAT
+            && visitor.is_box_beyond()
+            && budget.steps == Budget::EXACT.steps
+            && scratch.len() >= tree.scratch_entries()
+        {
+            return Ok(Decided { verdict: Verdict::No, witness: None, work });
+        }
         let descent = descend(tree, query, budget.steps, scratch, &mut visitor, &mut work)?;
         let (verdict, place) = visitor.collector.found.proof(descent.cut());
         let mut witness = None;
@@ -117,6 +125,13 @@ impl TriangleCollector for Threshold<'_> {
             return Some(Next::Nothing);
         }
         Some(if self.found.may.is_some() { Next::Leaf } else { Next::Triangles })
+    }
+
+    /// A triangle that a nearer one of the leaf leaves out does not change the verdict: it is not
+    /// certainly within unless the nearer one is, and it is beyond if the nearer one is.
+    #[inline(always)]
+    fn allowance(&self) -> f32 {
+        self.query.side_allowance()
     }
 
     /// A triangle that is not certainly beyond the distance leaves the verdict undecided. A refined

@@ -3,7 +3,6 @@
 #[cfg(meshsweep_avx2)]
 mod avx2;
 
-use crate::bvh::point::closest_points::closest_points_by;
 use crate::bvh::point::hint::Hint;
 use crate::bvh::segment::leaf::Facing;
 use crate::bvh::tree::format::Bvh;
@@ -80,31 +79,5 @@ impl ProcessorQuestions {
                 avx2::any_hit(tree, a, b, facing, budget, scratch)
             },
         }
-    }
-
-    /// [`Bvh::closest_points`].
-    ///
-    /// # Errors
-    /// Those of [`Bvh::closest_points`].
-    pub fn closest_points(
-        &self,
-        tree: &Bvh<'_>,
-        points: &[[f32; 3]],
-        hint: &mut Hint,
-        answers: &mut [ClosestPoint],
-        budget: Budget,
-        scratch: &mut [ScratchEntry],
-    ) -> Result<(), QueryError> {
-        let ask = self.closest_point_from;
-        closest_points_by(
-            tree,
-            points,
-            hint,
-            answers,
-            budget,
-            scratch,
-            |point, scratch| ask(tree, point, &mut Hint::NONE.clone(), budget, scratch),
-            |point, hint, scratch| ask(tree, point, hint, Budget::EXACT, scratch),
-        )
     }
 }

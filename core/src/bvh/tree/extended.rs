@@ -4,6 +4,11 @@ use super::format::Bvh;
 use crate::num::greater;
 use crate::query::Extended;
 
+/// Input units of a grid unit are 2^this.
+pub(crate) fn unit_exponent(tree: &Bvh<'_>) -> i32 {
+    tree.scale_exponent().wrapping_add(tree.header().grid_exponent)
+}
+
 /// The tree in grid units, from the grid's origin: vertices are stored without the origin, f32
 /// vertices with it. Each extent is one more, for boxes without extent.
 pub(crate) fn extended(tree: &Bvh<'_>) -> Extended {
@@ -16,7 +21,7 @@ pub(crate) fn extended(tree: &Bvh<'_>) -> Extended {
     };
     let [x, y, z] = origin;
     Extended {
-        exponent: tree.scale_exponent().wrapping_add(header.grid_exponent),
+        exponent: unit_exponent(tree),
         origin,
         extent: [along(low.x, high.x, x), along(low.y, high.y, y), along(low.z, high.z, z)],
         error: f64::from(tree.units().surface_error),

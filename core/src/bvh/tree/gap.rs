@@ -102,7 +102,11 @@ pub(crate) struct GapThreshold<P> {
     radius: f64,
     /// Input units.
     pub(crate) distance: f32,
+    /// The limit of what matters for the distance alone.
+    least_limit: f64,
     limit: f64,
+    /// The least lower end of all that were measured.
+    lower: f64,
     /// A place that is certainly within, one that may be.
     pub(crate) found: Witness<P>,
 }
@@ -111,7 +115,27 @@ impl<P: Copy> GapThreshold<P> {
     pub(crate) fn new(lengths: &StoredLengths, radius: f64, distance: f32) -> Self {
         let kept_distance = lengths.inward(distance) + radius + lengths.error;
         let limit = kept_distance * (1.0 + 8.0 * U64);
-        GapThreshold { lengths: *lengths, radius, distance, limit, found: Witness::NONE }
+        GapThreshold {
+            lengths: *lengths,
+            radius,
+            distance,
+            least_limit: limit,
+            limit,
+            lower: f64::INFINITY,
+            found: Witness::NONE,
+        }
+    }
+
+    /// The visitor looks farther by `more`, input units, until it meets a gap. If it meets none,
+    /// [`lower`](Self::lower) tells that everything is so much farther.
+    pub(crate) fn and_beyond(mut self, more: f32) -> Self {
+        self.limit += self.lengths.inward(more);
+        self
+    }
+
+    /// A lower end of all gaps, input units, after a search that missed none.
+    pub(crate) fn lower(&self) -> f32 {
+        self.lengths.lower(lesser(self.limit, self.lower) - self.radius)
     }
 }
 
@@ -131,6 +155,9 @@ impl<P: Copy> GapVisitor<P> for GapThreshold<P> {
         if self.found.may.is_none() && lengths.lower(gap.lower - *radius) <= *distance {
             self.found.may = Some(gap.place);
         }
+        self.lower = lesser(self.lower, gap.lower);
+        // Farther than asked about, it looks no longer: that would be a search for the distance.
+        self.limit = self.least_limit;
         true
     }
 }

@@ -29,7 +29,7 @@ use crate::bvh::tree::format::Bvh;
 use crate::query::{
     Budget, Ended, Interval, QueryError, ScratchEntry, Side, SignedDistance, Undecided, Work,
 };
-use search::{Search, side_of};
+use search::{WindingSearch, side_of};
 
 /// The winding number about a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,7 +105,7 @@ impl Bvh<'_> {
         }
         let asked = prepared.asked();
         let (Asked::Near(query) | Asked::Far(FarPoint { query })) = asked;
-        let mut search = Search {
+        let mut search = WindingSearch {
             tree: *self,
             p: query.p,
             error: self.units().surface_error,

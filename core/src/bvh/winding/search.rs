@@ -22,7 +22,7 @@ const FAR_ERROR: f32 = (1u64 << 36) as f32;
 const FAR_NUMBER: f32 = 1.0 / ((1u64 << 39) as f32 * (1u64 << 39) as f32);
 
 /// The query, and the work of its passes.
-pub(super) struct Search<'a> {
+pub(super) struct WindingSearch<'a> {
     pub(super) tree: Bvh<'a>,
     /// Grid units.
     pub(super) p: Vec3,
@@ -68,7 +68,7 @@ impl Waiting {
     }
 }
 
-impl Search<'_> {
+impl WindingSearch<'_> {
     /// The number from so far away that squares would leave f32's range: |w| ≤ Σ area/(4π·d²). The
     /// distance is at least 2^36 (§20).
     pub(super) fn number_from_afar(&self) -> (Interval, Ended) {

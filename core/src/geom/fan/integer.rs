@@ -8,14 +8,14 @@
 //! numbers".
 
 use super::integer_limit::IntLower;
-use crate::num::{bit_length as bits, floored};
+use crate::num::{bit_length as bits, each, floored};
 
 /// The corner of a triangle that a point near the closest one is.
 #[derive(Clone, Copy, Debug)]
 pub struct Corner {
     /// 0, 1 or 2; 3 if it is none.
     pub number: u8,
-    /// Whether [`is_certain_corner`] is known to hold.
+    /// Whether [`CornerWay::is_certain`] is known to hold.
     pub is_certain: bool,
 }
 
@@ -40,7 +40,7 @@ impl Corner {
 pub type IntVector = [i32; 3];
 
 /// Bits of a coordinate below a grid unit.
-const FRACTION_BITS: u32 = 3;
+pub(super) const FRACTION_BITS: u32 = 3;
 /// Bits of the finest coordinate below a grid unit.
 pub(super) const FINE_BITS: u32 = 9;
 /// Coordinates of a [`IntPoint`] are below 2^this grid units in magnitude.
@@ -92,10 +92,17 @@ impl IntPoint {
         fine
     }
 
+    /// The way from a vertex in eighths.
+    #[inline(always)]
+    pub(super) fn eighths_from(&self, vertex: IntVector) -> IntVector {
+        let ([x, y, z], [i, j, k]) = (less(self.at, vertex), self.eighths);
+        [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k]
+    }
+
     /// About the squared distance of a vertex, for comparison.
     #[inline(always)]
     pub fn about(&self, vertex: IntVector) -> u32 {
-        let offset = less(self.at, vertex).map(|x| x >> 4);
+        let offset = each(less(self.at, vertex), |x| x >> 4);
         dot(offset, offset).cast_unsigned()
     }
 
@@ -106,23 +113,22 @@ impl IntPoint {
     /// at most. There is room for twice 2^-7 more.
     #[inline(always)]
     pub fn along(&self, direction: IntVector) -> i32 {
-        let (mut against, mut all) = (0, 0);
-        for x in direction {
-            against += if x < 0 { -x } else { 0 };
-            all += x.abs();
-        }
+        let all = norm_1(direction);
+        let [x, y, z] = direction;
+        // What is negative counts twice in the difference.
+        let against = (all - (x + y + z)) >> 1;
         let eighths = dot(direction, self.eighths).wrapping_sub(against) >> FRACTION_BITS;
         dot(direction, self.at).wrapping_add(eighths).wrapping_sub(((3 * all) >> 8) + 1)
     }
 }
 
 #[inline(always)]
-fn largest([x, y, z]: IntVector) -> u32 {
+pub(super) fn largest([x, y, z]: IntVector) -> u32 {
     x.unsigned_abs().max(y.unsigned_abs()).max(z.unsigned_abs())
 }
 
 #[inline(always)]
-fn dot([a, b, c]: IntVector, [x, y, z]: IntVector) -> i32 {
+pub(super) fn dot([a, b, c]: IntVector, [x, y, z]: IntVector) -> i32 {
     a.wrapping_mul(x).wrapping_add(b.wrapping_mul(y)).wrapping_add(c.wrapping_mul(z))
 }
 
@@ -164,14 +170,15 @@ impl IntBounds {
 pub fn integer_bounds(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> IntBounds {
     let (s, e, g) = (less(p.at, *a), less(*b, *a), less(*c, *a));
     let (v, w) = weights(s, e, g);
-    let mut offset = [0i32; 3];
-    for axis in 0..3 {
-        let inside = v.wrapping_mul(e[axis]).wrapping_add(w.wrapping_mul(g[axis]));
-        offset[axis] = (s[axis] << FRACTION_BITS)
-            .wrapping_add(p.eighths[axis])
-            .wrapping_sub(inside >> (WEIGHT_BITS - FRACTION_BITS));
-    }
-    let mut bounds = upper_bound(offset);
+    let along = |s: i32, eighths: i32, e: i32, g: i32| {
+        let inside = v.wrapping_mul(e).wrapping_add(w.wrapping_mul(g));
+        (s << FRACTION_BITS)
+            .wrapping_add(eighths)
+            .wrapping_sub(inside >> (WEIGHT_BITS - FRACTION_BITS))
+    };
+    let ([sx, sy, sz], [i, j, k], [ex, ey, ez], [gx, gy, gz]) = (s, p.eighths, e, g);
+    let mut bounds =
+        upper_bound([along(sx, i, ex, gx), along(sy, j, ey, gy), along(sz, k, ez, gz)]);
     let direction = bounds.direction;
     bounds.corner = match (v, w) {
         (0, 0) => Corner::new(0),
@@ -188,8 +195,7 @@ pub fn integer_bounds(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> IntBounds {
 
 /// Upper bound and direction of a point, which is the corner of a triangle.
 pub fn vertex_bounds(p: &IntPoint, vertex: IntVector) -> IntBounds {
-    let ([x, y, z], [i, j, k]) = (less(p.at, vertex), p.eighths);
-    upper_bound([(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k])
+    upper_bound(p.eighths_from(vertex))
 }
 
 /// Upper bound and direction of a way from a point of a triangle, in eighths.
@@ -197,11 +203,12 @@ pub fn vertex_bounds(p: &IntPoint, vertex: IntVector) -> IntBounds {
 #[cfg_attr(not(meshsweep_small), inline(always))]
 fn upper_bound(offset: IntVector) -> IntBounds {
     let size = bits(largest(offset));
-    let direction = offset.map(|x| x >> size.saturating_sub(DIRECTION_BITS));
+    let down = size.saturating_sub(DIRECTION_BITS);
+    let direction = each(offset, |x| x >> down);
     // Along an axis the way is less than two eighths longer. Squares of 14 bits, rounded up: their
     // sum is below 2^30.
     let cut = size.saturating_sub(14);
-    let square = offset.map(|x| (x.abs() + 1 + (1 << cut)) >> cut);
+    let square = each(offset, |x| (x.abs() + 1 + (1 << cut)) >> cut);
     let square = dot(square, square).cast_unsigned();
     let up = 32 - bits(square);
     let exponent = (127 + 30 - 2 * FRACTION_BITS + 2 * cut).wrapping_sub(up);
@@ -209,33 +216,16 @@ fn upper_bound(offset: IntVector) -> IntBounds {
     IntBounds { upper, direction, ..IntBounds::NONE }
 }
 
-/// Whether the f32 kernel certainly takes the corner `vertex` for the closest point. The vectors
-/// `to_others` lead from it to the other corners.
-///
-/// Both make an obtuse angle with the way to the query, by more than all roundings: those of the
-/// point here, and those of the kernel. Then no other region of the kernel applies, and its lower
-/// bound is the distance.
-#[inline(never)]
-pub fn is_certain_corner(p: &IntPoint, vertex: IntVector, to_others: [IntVector; 2]) -> bool {
-    let [x, y, z] = less(p.at, vertex);
-    let [i, j, k] = p.eighths;
-    let offset = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
-    let size = |[x, y, z]: IntVector| x.abs() + y.abs() + z.abs();
-    let [one, other] = to_others;
-    let edges = 2 * (size(one) + size(other));
-    let room = edges * (3 + (((size(offset) >> FRACTION_BITS) + edges) >> 17));
-    let along = |edge: IntVector| {
-        offset.into_iter().zip(edge).fold(0, |sum, (x, y)| sum + i64::from(x) * i64::from(y))
-    };
-    to_others.into_iter().all(|edge| along(edge) < -i64::from(room))
+#[inline(always)]
+pub(super) fn norm_1([x, y, z]: IntVector) -> i32 {
+    x.abs() + y.abs() + z.abs()
 }
 
 /// Whether the point is in front of a triangle: its corners run counter-clockwise seen from there.
 /// `None` where the f32 kernel may not decide the same, because of its own roundings.
 #[inline(never)]
 pub fn is_in_front(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> Option<bool> {
-    let ([x, y, z], [i, j, k]) = (less(p.at, *a), p.eighths);
-    let offset = [(x << FRACTION_BITS) + i, (y << FRACTION_BITS) + j, (z << FRACTION_BITS) + k];
+    let offset = p.eighths_from(*a);
     let (e, g) = (less(*b, *a), less(*c, *a));
     let product = |x: i32, y: i32| i64::from(x) * i64::from(y);
     let ([ex, ey, ez], [gx, gy, gz]) = (e, g);
@@ -249,7 +239,6 @@ pub fn is_in_front(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> Option<bool> {
         volume += n * i64::from(x);
         size += n.abs();
     }
-    let norm_1 = |[x, y, z]: IntVector| x.abs() + y.abs() + z.abs();
     let products = product(norm_1(e), norm_1(g));
     let rounding = ((products >> 10) + 1) * i64::from((largest(offset) >> 9) + 1);
     let room = 2 * size + rounding;
@@ -263,9 +252,9 @@ pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
     // Products of 14 bits and 15 bits have a sum below 2^31.
     let size = bits(largest(e).max(largest(g)));
     let down = size.saturating_sub(14);
-    let (e, g, size) = (e.map(|x| x >> down), g.map(|x| x >> down), size - down);
+    let (e, g, size) = (each(e, |x| x >> down), each(g, |x| x >> down), size - down);
     let more = (bits(largest(s)) + size).saturating_sub(29);
-    let s = s.map(|x| x >> more);
+    let s = each(s, |x| x >> more);
     // The spokes' own products are coarser by the same power.
     let scaled = |x: i32| if more >= down { x >> (more - down) } else { x };
     let along = |x: i32| if more < down { x >> (down - more) } else { x };
@@ -283,7 +272,7 @@ pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
     let most =
         d1.unsigned_abs().max(d2.unsigned_abs()).max(aa.unsigned_abs()).max(cc.unsigned_abs());
     let cut = bits(most).saturating_sub(13);
-    let [d1, d2, aa, bb, cc] = [d1, d2, aa, bb, cc].map(|x| x >> cut);
+    let (d1, d2, aa, bb, cc) = (d1 >> cut, d2 >> cut, aa >> cut, bb >> cut, cc >> cut);
     let (d3, d4, d5, d6) = (d1 - aa, d2 - bb, d1 - bb, d2 - cc);
     let vc = d1.wrapping_mul(d4).wrapping_sub(d3.wrapping_mul(d2));
     let vb = d5.wrapping_mul(d2).wrapping_sub(d1.wrapping_mul(d6));
@@ -299,7 +288,7 @@ pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
             (nv, nw, whole) = (y, x, x + y);
         } else {
             // Halved, so that their sum stays within 32 bits.
-            let [pa, pb, pc] = [va, vb, vc].map(|x| x.max(0) >> 1);
+            let [pa, pb, pc] = each([va, vb, vc], |x| x.max(0) >> 1);
             (nv, nw, whole) = (pb, pc, pa + pb + pc);
         }
     }
@@ -318,7 +307,7 @@ pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::fan::{IntLimit, sharp_lower};
+    use crate::geom::fan::{CornerWay, IntLimit, sharp_lower};
     use crate::geom::fan::{Nearness, PointFan};
     use glam::Vec3;
 
@@ -425,7 +414,9 @@ mod tests {
                 let size = f64::from(edge.map(i32::abs).into_iter().sum::<i32>());
                 f64::from(dot(*edge, off.map(|x| x.clamp(-8000, 8000)))) < -20.0 * size
             };
-            let is_certain = is_certain_corner(&point, vertex, to_others);
+            let way = CornerWay::new(&point, vertex);
+            let [one, other] = to_others.map(|edge| way.edge(edge));
+            let is_certain = way.is_certain(one, other);
             if round % 17 < 12 && off.iter().all(|x| x.abs() < 8000) && to_others.iter().all(far) {
                 clear += 1;
                 certain += i32::from(is_certain);

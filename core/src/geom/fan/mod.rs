@@ -7,6 +7,7 @@
 
 mod cone;
 mod integer;
+mod integer_corner;
 mod integer_limit;
 mod integer_sharp;
 mod lanes;
@@ -23,9 +24,9 @@ mod ray8;
 
 pub use cone::NormalCone;
 pub use integer::{
-    Corner, IntBounds, IntPoint, IntVector, integer_bounds, is_certain_corner, is_in_front, less,
-    vertex_bounds,
+    Corner, IntBounds, IntPoint, IntVector, integer_bounds, is_in_front, less, vertex_bounds,
 };
+pub use integer_corner::{CornerWay, EdgeWay};
 pub use integer_limit::{IntLimit, IntLower};
 pub use integer_sharp::sharp_lower;
 #[cfg(meshsweep_wide)]

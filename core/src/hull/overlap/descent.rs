@@ -5,11 +5,12 @@
 //! is replaced by its children. So each model is refined only where the other is near. Pairs of
 //! triangles of both surfaces are told exactly.
 
+use super::model::Model;
 use super::places::{Places, is_f32_enough};
-use super::side::Side;
 use crate::geom::{Contact, Pose, Real, SweptTriangle};
 use crate::hull::format::Instance;
-use crate::hull::sweep::{Candidate, Fate, Visit};
+use crate::hull::front::{Candidate, Refinable, Visit};
+use crate::hull::geometry::Geometry;
 use crate::query::{
     Budget, Ended, PairVisitor, QueryError, RelativePose, ScratchEntry, SweepQueue, Work,
 };
@@ -18,45 +19,45 @@ use crate::query::{
 pub(super) type Pair = [Instance; 2];
 
 /// Visits every pair of triangles that meet or may meet. Returns why it missed some.
-pub(super) fn descend(
-    sides: &mut [Side<'_>; 2],
+pub(super) fn descend<'a, 'b>(
+    sides: (&mut Model<impl Geometry<'a>>, &mut Model<impl Geometry<'b>>),
     pose: &Pose,
     budget: &Budget,
     scratch: &mut [ScratchEntry],
     visitor: &mut impl PairVisitor<Pair>,
 ) -> Result<(Option<Ended>, Work), QueryError> {
     budget.check_with(scratch)?;
-    let [a, b] = [&sides[0].extended, &sides[1].extended];
+    let (side_a, side_b) = sides;
+    let [a, b] = [&side_a.extended, &side_b.extended];
     let Some(pose) = RelativePose::new(a, b, pose)? else { return Ok((None, Work::NONE)) };
     let is_f32 = is_f32_enough(&pose, [a, b]);
     let exact = Places::<f64>::of(&pose);
     // No pair is opened twice. With this limit a search ends even if checked tables name a triangle
     // twice.
-    let pairs = sides[0].triangles().saturating_mul(sides[1].triangles());
+    let pairs = side_a.triangles().saturating_mul(side_b.triangles());
     let steps = budget.steps.min(pairs);
     let stack = Stack { slots: scratch, used: 0, is_short: false };
     let found = if is_f32 {
-        run(sides, &Places::<f32>::of(&pose), &exact, stack, steps, visitor)
+        run((side_a, side_b), &Places::<f32>::of(&pose), &exact, stack, steps, visitor)
     } else {
-        run(sides, &exact, &exact, stack, steps, visitor)
+        run((side_a, side_b), &exact, &exact, stack, steps, visitor)
     };
     found.ok_or(QueryError::Unchecked)
 }
 
-fn run<T: Real>(
-    sides: &mut [Side<'_>; 2],
+fn run<'a, 'b, T: Real>(
+    (side_a, side_b): (&mut Model<impl Geometry<'a>>, &mut Model<impl Geometry<'b>>),
     places: &Places<T>,
     exact: &Places<f64>,
     stack: Stack<'_>,
     steps: u32,
     visitor: &mut impl PairVisitor<Pair>,
 ) -> Option<(Option<Ended>, Work)> {
-    let is_cut = sides.iter().any(Side::is_cut);
-    let [side_a, side_b] = sides;
+    let is_cut = side_a.is_cut() || side_b.is_cut();
     let mut pair = [side_a.root, side_b.root];
     let fixed = places.swept(0, &pair[0]);
     let work = Work::NONE;
-    let mut search = Search {
+    let mut search = Descent {
         places,
         exact,
         stack,
@@ -73,7 +74,7 @@ fn run<T: Real>(
             return Some((Some(Ended::Steps), search.work));
         }
         let swept = [places.swept(0, &pair[0]), places.swept(1, &pair[1])];
-        let [opens_a, opens_b] = pair.map(|triangle| triangle.fate == Fate::Splits);
+        let [opens_a, opens_b] = pair.map(|triangle| triangle.refinable == Refinable::BySplit);
         // A root is refined at once: its number is too large for a waiting pair.
         let first = opens_a
             && (!opens_b
@@ -129,7 +130,7 @@ impl Stack<'_> {
 }
 
 /// What is done with the children of a triangle.
-struct Search<'s, T, V> {
+struct Descent<'s, T, V> {
     places: &'s Places<T>,
     exact: &'s Places<f64>,
     stack: Stack<'s>,
@@ -146,7 +147,7 @@ struct Search<'s, T, V> {
     fixed: SweptTriangle<T>,
 }
 
-impl<T: Real, V: PairVisitor<Pair>> Visit for Search<'_, T, V> {
+impl<T: Real, V: PairVisitor<Pair>> Visit for Descent<'_, T, V> {
     #[inline(always)]
     fn visit(&mut self, found: &[Candidate], _: &mut SweepQueue<'_>) {
         self.work.bounds = self.work.bounds.saturating_add(found.len() as u32);
@@ -162,7 +163,7 @@ impl<T: Real, V: PairVisitor<Pair>> Visit for Search<'_, T, V> {
         // those that can be opened is what the builder counted.
         for splits in [true, false] {
             for (i, child) in found.iter().enumerate() {
-                if near >> i & 1 != 0 && (child.fate == Fate::Splits) == splits {
+                if near >> i & 1 != 0 && (child.refinable == Refinable::BySplit) == splits {
                     self.take(child);
                 }
             }
@@ -170,7 +171,7 @@ impl<T: Real, V: PairVisitor<Pair>> Visit for Search<'_, T, V> {
     }
 }
 
-impl<T: Real, V: PairVisitor<Pair>> Search<'_, T, V> {
+impl<T: Real, V: PairVisitor<Pair>> Descent<'_, T, V> {
     /// A pair that is not certainly apart.
     fn take(&mut self, child: &Candidate) {
         if self.found != Some(true) {
@@ -179,7 +180,7 @@ impl<T: Real, V: PairVisitor<Pair>> Search<'_, T, V> {
         let [a, b] = &self.pair;
         let pair = if self.opened == 0 { [child, b] } else { [a, child] };
         let instances = pair.map(|triangle| triangle.instance);
-        if pair.iter().any(|triangle| triangle.fate == Fate::Splits) {
+        if pair.iter().any(|triangle| triangle.refinable == Refinable::BySplit) {
             self.stack.push(instances);
             return;
         }

@@ -3,11 +3,11 @@
 //! | file | owns |
 //! | --- | --- |
 //! | `query` | the questions and their answers |
-//! | `side` | one of the two: a hull hierarchy, or a triangle |
+//! | `model` | one of the two: a hull hierarchy, or a triangle |
 //! | `places` | the corners of both in one frame, and what rounding leaves open |
 //! | `descent` | the refinement of both where they meet |
 
 mod descent;
+mod model;
 mod places;
-mod query;
-mod side;
+pub(super) mod query;

@@ -1,7 +1,7 @@
 //! The corners of two models in one frame, in f32 or f64.
 
 use crate::geom::{Contact, Real, SweptTriangle, triangles_meet};
-use crate::hull::sweep::Candidate;
+use crate::hull::front::Candidate;
 use crate::num::tolerance::F32_EXTENT;
 use crate::num::{each, greater, lesser, up_to_f32};
 use crate::query::{Extended, RelativePose};

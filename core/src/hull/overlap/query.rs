@@ -1,9 +1,10 @@
 //! Whether a triangle, or another hull hierarchy, meets the surface.
 
 use super::descent::{Pair, descend};
-use super::side::Side;
+use super::model::{Model, entries};
 use crate::geom::Pose;
 use crate::hull::format::Hull;
+use crate::hull::geometry::Geometry;
 use crate::query::{
     AllOverlaps, AllPairs, Budget, Decided, QueryError, ScratchEntry, TrianglePair, Witness,
 };
@@ -48,13 +49,15 @@ impl Hull<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<u32>, QueryError> {
-        let mut sides = [Side::of_hull(self)?, Side::of_triangle(corners, self)?];
+        let mut hull = Model::of_hull(self)?;
+        let mut triangle = Model::<Hull<'_>>::of_triangle(corners, self)?;
         let mut first = Witness::NONE;
-        let (truncated, work) = descend(&mut sides, &Pose::IDENTITY, &budget, scratch, &mut first)
-            .map_err(|error| match error {
-                QueryError::PoseOutOfDomain => QueryError::OutOfDomain,
-                error => error,
-            })?;
+        let (truncated, work) =
+            descend((&mut hull, &mut triangle), &Pose::IDENTITY, &budget, scratch, &mut first)
+                .map_err(|error| match error {
+                    QueryError::PoseOutOfDomain => QueryError::OutOfDomain,
+                    error => error,
+                })?;
         let (verdict, place) = first.answer(truncated);
         let witness = place.and_then(|[instance, _]| self.number(instance));
         Ok(Decided { verdict, witness, work })
@@ -63,7 +66,7 @@ impl Hull<'_> {
     /// With this many scratch entries no [`overlap`](Hull::overlap) with `other` ends for lack of
     /// memory.
     pub fn overlap_entries(&self, other: &Hull<'_>) -> usize {
-        Side::entries(self).saturating_add(Side::entries(other))
+        entries(self).saturating_add(entries(other))
     }
 
     /// Whether the surface of `other`, moved by `pose` from its frame to this hull's (both in input
@@ -105,15 +108,7 @@ impl Hull<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<[u32; 2]>, QueryError> {
-        let mut sides = [Side::of_hull(self)?, Side::of_hull(other)?];
-        let mut first = Witness::NONE;
-        let (truncated, work) = descend(&mut sides, &pose, &budget, scratch, &mut first)?;
-        let (verdict, place) = first.answer(truncated);
-        let witness = place
-            .map(|place| numbers([self, other], &place))
-            .map(|numbers| numbers.ok_or(QueryError::Unchecked))
-            .transpose()?;
-        Ok(Decided { verdict, witness, work })
+        overlap(self, other, &pose, &budget, scratch)
     }
 
     /// All pairs of triangles of this surface and of that of `other`, moved by `pose`, that meet or
@@ -146,11 +141,30 @@ impl Hull<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<AllOverlaps, QueryError> {
-        let mut sides = [Side::of_hull(self)?, Side::of_hull(other)?];
+        let [mut a, mut b] = [Model::of_hull(self)?, Model::of_hull(other)?];
         let mut all = AllPairs::new(pairs, |pair: &Pair| numbers([self, other], pair));
-        let (truncated, work) = descend(&mut sides, &pose, &budget, scratch, &mut all)?;
+        let (truncated, work) = descend((&mut a, &mut b), &pose, &budget, scratch, &mut all)?;
         Ok(all.answer(truncated, work))
     }
+}
+
+/// [`Hull::overlap`], of hulls at rest or deformed.
+pub(in crate::hull) fn overlap<'a, 'b>(
+    a: &impl Geometry<'a>,
+    b: &impl Geometry<'b>,
+    pose: &Pose,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<Decided<[u32; 2]>, QueryError> {
+    let (mut first, mut sides) = (Witness::NONE, (Model::of_hull(a)?, Model::of_hull(b)?));
+    let (truncated, work) =
+        descend((&mut sides.0, &mut sides.1), pose, budget, scratch, &mut first)?;
+    let (verdict, place) = first.answer(truncated);
+    let witness = place
+        .map(|place| numbers([a.tables(), b.tables()], &place))
+        .map(|numbers| numbers.ok_or(QueryError::Unchecked))
+        .transpose()?;
+    Ok(Decided { verdict, witness, work })
 }
 
 /// Their numbers in the input files.

@@ -12,6 +12,7 @@
 //!                         ├─ motion   (a capsule that moves)┤
 //!                         ├─ winding  (inside or outside) ──┤
 //!                         ├─ margins  (rounding, no mesh) ──┤
+//!                         ├─ robot    (an arm's own guard) ─┤
 //!                         ├─ deform   (hulls that deform) ─┤
 //!                         ├─ triboxes (their hierarchies) ──┤
 //!                         ├─ tight    (tight hulls, drawn) ─┤
@@ -33,6 +34,7 @@ mod overlap;
 pub mod paper;
 pub mod plot;
 pub mod rival;
+pub mod robot;
 mod segments;
 pub(crate) mod stopwatch;
 mod storage;

@@ -6,11 +6,11 @@
 use meshsweep::progress::Watch;
 use std::hint::black_box;
 
-use meshsweep::bvh::{FastBvh, TreeOptions, build as build_tree};
-use meshsweep_core::{
-    Budget, Bvh, ClosestPoint, CoherentQuery, Facing, Hint, ScratchEntry, Verdict,
-};
+use meshsweep::bvh::{FastBvh, TreeOptions, build as build_tree, closest_points};
+use meshsweep_core::{Budget, Bvh, CoherentQuery, Facing, ScratchEntry, Verdict};
 use meshsweep_host_tests::workload::Subject;
+
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::engine::{Answer, Engine, try_each};
 use super::workload::{HitKind, Workload};
@@ -32,8 +32,8 @@ struct Tree<'a> {
     bytes: usize,
     tree: FastBvh<'a>,
     stack: Vec<ScratchEntry>,
-    /// Answers of a batch.
-    found: Vec<ClosestPoint>,
+    /// One thread, for a batch.
+    pool: ThreadPool,
     way: Way,
     workloads: &'static [Workload],
 }
@@ -56,7 +56,8 @@ fn open<'a>(
     *blob = tables.to_bytes();
     let tree = FastBvh::new(Bvh::open(blob).map_err(|error| error.to_string())?);
     let stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
-    Ok(Box::new(Tree { bytes: blob.len(), tree, stack, found: Vec::new(), way, workloads }))
+    let pool = ThreadPoolBuilder::new().num_threads(1).build().map_err(|e| e.to_string())?;
+    Ok(Box::new(Tree { bytes: blob.len(), tree, stack, pool, way, workloads }))
 }
 
 /// One query after the other.
@@ -124,7 +125,7 @@ impl Engine for Tree<'_> {
     }
 
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
-        let Self { tree, stack, found, .. } = self;
+        let Self { tree, stack, pool, .. } = self;
         match self.way {
             Way::Alone => try_each(points, answers, |point| {
                 let found = black_box(tree.closest_point(point, Budget::EXACT, stack));
@@ -144,10 +145,8 @@ impl Engine for Tree<'_> {
                 })
             }
             Way::Batch => {
-                found.resize(points.len(), ClosestPoint::EMPTY);
-                // The entries behind the descent's own put the points in order.
-                stack.resize(tree.scratch_entries() + 2 * points.len(), ScratchEntry::EMPTY);
-                tree.closest_points(points, &mut Hint::NONE.clone(), found, Budget::EXACT, stack)
+                let found = pool
+                    .install(|| closest_points(tree, points, &Budget::EXACT))
                     .map_err(|error| error.to_string())?;
                 answers.clear();
                 answers.extend(found.iter().map(|found| Answer::Point(found.point)));

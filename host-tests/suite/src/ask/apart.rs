@@ -129,7 +129,10 @@ pub fn scene(
     scratch: &mut Scratch,
     to: &mut Asked<'_, impl Clock>,
 ) {
-    let models = poses.map(|pose| PlacedModel { tree: *tree, pose });
+    let [Ok(first), Ok(second), Ok(third)] = poses.map(|pose| PlacedModel::new(*tree, pose)) else {
+        return;
+    };
+    let models = [first, second, third];
     let scene = Scene::new(&models);
     let budget = Budget::EXACT.with_steps(STEPS);
     to.answer(

@@ -1,7 +1,7 @@
 //! Questions to a hull hierarchy that deforms.
 
 pub use meshsweep_core::DeformableHull;
-use meshsweep_core::{Budget, MovedVertex, ScratchEntry};
+use meshsweep_core::{Budget, Decided, MovedVertex, Pose, ScratchEntry};
 
 use super::{Asked, Refused, Subject, closest_point};
 use crate::clock::Clock;
@@ -66,6 +66,18 @@ impl<'t> Subject<'t> for DeformableHull<'t> {
             let ends = [place.far(), place.far()];
             moved(self, ends, place.far(), scratch, [None, Some(clock)], fold);
         };
+        FrameOverlap => {
+            let part = place.share().abs();
+            let (rotation, translation) = place.motion();
+            let pose = Pose { rotation, translation };
+            frame_overlap(self, part, pose, scratch, &mut Asked::new(clock, fold));
+        };
+        MovedOverlap => {
+            let ends = [place.far(), place.far()];
+            let (rotation, translation) = place.motion();
+            let pose = Pose { rotation, translation };
+            moved_overlap(self, ends, pose, scratch, clock, fold);
+        };
     }
 }
 
@@ -120,20 +132,9 @@ pub fn moved(
         Ok(moved) => moved,
         Err(error) => return super::refusal(fold, error),
     };
-    let arc = |vertex: u32| {
-        // Rings of eight vertices, as those of the suite's torus.
-        let along = (vertex / 8) as f32 * 0.0625;
-        let across = (vertex % 8) as f32 * 0.125;
-        let swing = [across, along * along, across * across];
-        let mut place = a;
-        for ((x, end), swing) in place.iter_mut().zip(b).zip(swing) {
-            *x = *x + (end - *x) * along + swing;
-        }
-        place
-    };
     let updated = match update_clock {
-        Some(clock) => super::timed(clock, || moved.update(arc)),
-        None => moved.update(arc),
+        Some(clock) => super::timed(clock, || moved.update(arc([a, b]))),
+        None => moved.update(arc([a, b])),
     };
     if let Err(error) = updated {
         super::refusal(fold, error);
@@ -143,4 +144,65 @@ pub fn moved(
         Some(clock) => Asked::new(clock, fold).answer(call, closest_point),
         None => Asked::new((), fold).answer(call, closest_point),
     };
+}
+
+/// A motion of the vertices onto an arc between two ends.
+fn arc([a, b]: [Point; 2]) -> impl Fn(u32) -> Point {
+    move |vertex| {
+        // Rings of eight vertices, as those of the suite's torus.
+        let along = (vertex / 8) as f32 * 0.0625;
+        let across = (vertex % 8) as f32 * 0.125;
+        let swing = [across, along * along, across * across];
+        let mut place = a;
+        for ((x, end), swing) in place.iter_mut().zip(b).zip(swing) {
+            *x = *x + (end - *x) * along + swing;
+        }
+        place
+    }
+}
+
+/// Triangles that an overlap may open.
+const STEPS: u32 = 48;
+
+/// Whether the hull at rest, moved by `pose`, meets the one between the first two key frames.
+#[inline(never)]
+pub fn frame_overlap(
+    hull: &DeformableHull<'_>,
+    part: f32,
+    pose: Pose,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Clock>,
+) {
+    let budget = Budget::EXACT.with_steps(STEPS);
+    let call = || hull.at_frame(part)?.overlap(&hull.rest(), pose, budget, &mut scratch.queue);
+    to.answer(call, meeting);
+}
+
+/// Whether the hull at rest, moved by `pose`, meets the one whose vertices lie on an arc.
+#[inline(never)]
+pub fn moved_overlap(
+    hull: &DeformableHull<'_>,
+    ends: [Point; 2],
+    pose: Pose,
+    scratch: &mut Scratch,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let Scratch { queue, records } = scratch;
+    let mut moved = match hull.moved(records) {
+        Ok(moved) => moved,
+        Err(error) => return super::refusal(fold, error),
+    };
+    if let Err(error) = moved.update(arc(ends)) {
+        super::refusal(fold, error);
+    }
+    let budget = Budget::EXACT.with_steps(STEPS);
+    let call = || moved.overlap(&hull.rest(), pose, budget, queue);
+    Asked::new(clock, fold).answer(call, meeting);
+}
+
+fn meeting(fold: &mut Fold, answer: &Decided<[u32; 2]>) {
+    let triangles = answer.witness.unwrap_or([u32::MAX; 2]);
+    triangles.into_iter().for_each(|number| fold.word(number));
+    super::verdict(fold, answer.verdict);
 }

@@ -46,6 +46,7 @@ pub mod deform;
 pub mod hull;
 pub mod hull_moving;
 pub mod placed;
+pub mod robot;
 pub mod tight;
 pub mod tree;
 pub mod tribox;
@@ -228,7 +229,7 @@ fn verdict(fold: &mut Fold, verdict: Verdict) {
 
 fn refusal(fold: &mut Fold, error: QueryError) {
     let number = match error {
-        QueryError::NotFinite | QueryError::PointNotFinite { .. } => 0,
+        QueryError::NotFinite => 0,
         QueryError::Tolerance => 1,
         QueryError::OutOfDomain => 2,
         QueryError::PoseOutOfDomain => 3,

@@ -15,7 +15,7 @@ use crate::kind::Kind;
 use crate::place::{Bounds, Place};
 
 pub use distance::{
-    all_within, batch, closest, coherent, follow, is_within, nearest, precise, signed, stopped,
+    all_within, closest, coherent, follow, is_within, nearest, precise, signed, stopped,
 };
 pub use meeting::{all_overlaps, overlap, pose};
 pub use sight::{all_hits, any_hit, cull, facing, first_hit};
@@ -109,7 +109,6 @@ impl<'t> Subject<'t> for Bvh<'t> {
         Facing => facing(self, place.segment(), scratch, to);
         AnyHit => any_hit(self, place.segment(), scratch, to);
         AllHits => all_hits(self, place.segment(), scratch, to);
-        Batch => batch(self, &core::array::from_fn(|_| place.far()), scratch, to);
         Cull => cull(self, place.far(), scratch, to);
         Overlap => overlap(self, pose(place.motion()), scratch, to);
         AllOverlaps => all_overlaps(self, pose(place.motion()), scratch, to);

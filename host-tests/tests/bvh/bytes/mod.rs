@@ -73,7 +73,6 @@ fn ask_everything(tree: &Bvh<'_>, some: bool) {
     for [a, b] in ENDS.into_iter().take(if some { 2 } else { 4 }) {
         asker.segment(tree, a, b);
     }
-    asker.batch(tree, &POINTS, 2, &Budget::EXACT);
     asker.sight(tree, POINTS[1]);
     let path = (0..6).map(|step| [0.9, 0.2, 0.01 * step as f32]);
     asker.path(&mut CoherentQuery::<16>::new(), tree, path, &Budget::EXACT);

@@ -6,6 +6,7 @@
 //! scratch entries, each with one node and 32 of the bits.
 
 use crate::bvh::pair::leaf_pair::LeafPair;
+use crate::bvh::pair::model_box::are_apart;
 use crate::bvh::pair::models::Models;
 use crate::bvh::tree::axis_intervals::{AxisIntervals, Pairs, pairs};
 use crate::bvh::tree::extended::extended;
@@ -29,6 +30,9 @@ pub(crate) fn descend(
         return Err(QueryError::NO_SEGMENTS);
     }
     budget.check_with(scratch)?;
+    if are_apart([a, b], pose, 0.0)? {
+        return Ok((None, work));
+    }
     let (stack, _) = scratch.as_chunks_mut::<2>();
     let Some(pose) = RelativePose::new(&extended(a), &extended(b), pose)? else {
         return Ok((None, work));

@@ -1,6 +1,8 @@
 //! Bounds of single triangles of a leaf, for questions that look at triangles one by one.
 
 use super::limit::LeafLimit;
+#[cfg(not(meshsweep_wide))]
+use super::plain_side::showing_at_centre;
 use super::squares::LeafSquares;
 use crate::bvh::point::query::PointQuery;
 use crate::bvh::tree::format::{FanLeaf, lanes_of};
@@ -46,18 +48,31 @@ pub(crate) fn nearness(seen: &[Vec3; 3]) -> Nearness {
     lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g))
 }
 
-/// Calls `each` for the triangles of a leaf whose bits in `low` are ones, in order: lane, the
-/// triangle [seen](seen_from) from the query, its squared distance and lower bound. Triangles
-/// beyond the limit may be left out.
-///
-/// `seen` is there where it costs nothing.
+/// What takes the triangles of a leaf one by one.
+pub(crate) trait TriangleTaker {
+    /// Takes a triangle: lane, the triangle [seen](seen_from) from the query where that costs
+    /// nothing, its squared distance and lower bound.
+    fn triangle(&mut self, lane: usize, seen: Option<&[Vec3; 3]>, squares: [f32; 2]);
+
+    /// Triangle `lane`, whose closest point is the centre of its fan, was taken last. Those after it
+    /// in the fan with the same closest point change nothing if they show this side, which is the
+    /// front in the fan's winding or the back.
+    #[cfg(not(meshsweep_wide))]
+    #[inline(always)]
+    fn told_side(&self, _lane: usize) -> Option<bool> {
+        None
+    }
+}
+
+/// Hands over the triangles of a leaf whose bits in `low` are ones, in order. Triangles beyond the
+/// limit may be left out.
 #[inline]
 pub(crate) fn each_triangle(
     query: &PointQuery,
     leaf: &FanLeaf<'_>,
     limit: &LeafLimit,
     (low, known): (u32, &LeafSquares),
-    mut each: impl FnMut(usize, Option<&[Vec3; 3]>, [f32; 2]),
+    mut each: impl TriangleTaker,
 ) {
     let low = low & !(u32::MAX << (leaf.shape().triangles() & 31));
     // A copy of the kernel's loop for each question.
@@ -69,11 +84,11 @@ pub(crate) fn each_triangle(
     for lane in lanes_of(low) {
         match known.of(lane) {
             Some([_, lower_bound_sq]) if Real(lower_bound_sq) > Real(limit.low_sq) => {}
-            Some(squares) if !is_sliver(query, squares) => each(lane, None, squares),
+            Some(squares) if !is_sliver(query, squares) => each.triangle(lane, None, squares),
             _ => {
                 let seen = seen_from(leaf, lane, query.p);
                 let near = refined_nearness(query, &seen);
-                each(lane, Some(&seen), [near.distance_sq, near.lower_bound_sq]);
+                each.triangle(lane, Some(&seen), [near.distance_sq, near.lower_bound_sq]);
             }
         }
     }
@@ -82,12 +97,12 @@ pub(crate) fn each_triangle(
 /// [`each_triangle`] where what two neighbours share is computed once.
 #[cfg(not(meshsweep_wide))]
 #[inline(always)]
-fn each_by_fans(
+fn each_by_fans<T: TriangleTaker>(
     query: &PointQuery,
     leaf: &FanLeaf<'_>,
     limit: &LeafLimit,
     low: u32,
-    mut each: impl FnMut(usize, Option<&[Vec3; 3]>, [f32; 2]),
+    mut each: T,
 ) {
     let of_first_fan = !(u32::MAX << (leaf.shape().turn() & 31));
     let (mut which, mut lanes, mut of_next_fan) = (0, low & of_first_fan, low & !of_first_fan);
@@ -97,12 +112,16 @@ fn each_by_fans(
             let fan = PointFan::new(query.p - centre);
             let mut next = usize::MAX;
             let mut second = fan.spoke(Vec3::ZERO);
-            for lane in lanes_of(lanes) {
+            lanes &= 0xFF;
+            while lanes != 0 {
+                let lane = lanes.trailing_zeros() as usize;
+                lanes &= lanes - 1;
                 let first = if next == lane { second } else { fan.spoke(spoke(lane)) };
                 next = lane + 1;
                 second = fan.spoke(spoke(next));
                 let seen = [fan.s, first.edge, second.edge];
-                let mut squares = match fan.at_centre(&first, &second) {
+                let at_centre = fan.at_centre(&first, &second);
+                let mut squares = match at_centre {
                     Some(distance_sq) => [distance_sq; 2],
                     None => of_triangle(fan, first, second),
                 };
@@ -112,7 +131,13 @@ fn each_by_fans(
                 if is_sliver(query, squares) {
                     squares = refined_squares(query, seen);
                 }
-                each(lane, Some(&seen), squares);
+                each.triangle(lane, Some(&seen), squares);
+                if at_centre.is_some()
+                    && let Some(side) = each.told_side(lane)
+                    && lanes != 0
+                {
+                    lanes &= !showing_at_centre(leaf, which, &fan, lanes, side).unwrap_or(0);
+                }
             }
         }
         if of_next_fan == 0 {

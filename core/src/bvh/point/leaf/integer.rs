@@ -7,10 +7,10 @@ use super::nearest::LeafNearest;
 use super::plane::{LeafPlane, Residual};
 use super::squares::LeafSquares;
 use crate::bvh::point::query::limit_of;
-use crate::bvh::tree::format::{FanLeaf, lanes_of};
+use crate::bvh::tree::format::{FanLeaf, FullRing, lanes_of};
 use crate::geom::fan::{
-    Corner, IntBounds, IntLimit, IntLower, IntPoint, IntVector, Nearness, WIDTH, integer_bounds,
-    is_certain_corner, less, sharp_lower,
+    Corner, CornerWay, EdgeWay, IntBounds, IntLimit, IntLower, IntPoint, IntVector, Nearness,
+    WIDTH, integer_bounds, less, sharp_lower,
 };
 use crate::num::{Real, difference, dot, float, lesser};
 use glam::Vec3;
@@ -27,29 +27,31 @@ pub(crate) fn integer_nearest(
 ) -> Option<LeafNearest> {
     let mut nearest = LeafNearest::NONE;
     let mut bounds = [IntBounds::NONE; WIDTH];
-    let wanted = leaf_bounds(leaf, point, &limit.plane, &mut bounds)?;
+    let (wanted, likeliest) = leaf_bounds(leaf, point, &limit.plane, &mut bounds)?;
     if wanted == 0 {
         return Some(nearest);
-    }
-    let (mut likeliest, mut least) = (0, u32::MAX);
-    for (lane, bounds) in bounds.iter().enumerate() {
-        if bounds.upper < least {
-            (likeliest, least) = (lane, bounds.upper);
-        }
     }
     let mut within = limit.distance_sq;
     let mut integer_limit = IntLimit::of(within);
     let mut squares = [0f32; WIDTH];
-    // The others: bits, the lowest that of `next`.
-    let (mut lane, mut next, mut left) = (likeliest, 0, wanted & !(1 << (likeliest & 31)));
+    // Bits of the triangles that were looked at, and the others.
+    let (mut seen, mut left) = (0u32, wanted & !(1 << (likeliest & 31)));
+    let mut lane = likeliest;
     loop {
         let bounds = bounds.get(lane)?;
-        if !bounds.lower.is_beyond(integer_limit) {
-            let near = if usize::from(bounds.first) == lane {
-                nearness_by_corner(leaf, p, point, lane, bounds.corner)?
-            } else {
-                at_corner(*squares.get(usize::from(bounds.first))?, bounds.corner)
-            };
+        let first = usize::from(bounds.first);
+        if first != lane {
+            // The same square. The other one has the lesser number.
+            if seen >> (first & 31) & 1 != 0 {
+                let &distance_sq = squares.get(first)?;
+                nearest.low |= (nearest.low >> (first & 31) & 1) << (lane & 31);
+                if let Some(known) = &mut known {
+                    known.keep(lane, [distance_sq; 2]);
+                }
+            }
+        } else if !bounds.lower.is_beyond(integer_limit) {
+            seen |= 1 << (lane & 31);
+            let near = nearness_by_corner(leaf, p, point, lane, bounds.corner)?;
             *squares.get_mut(lane)? = near.distance_sq;
             if Real(near.distance_sq) < Real(nearest.distance_sq) {
                 let limit = Real(limit_of(near.distance_sq, limit.allowance));
@@ -65,69 +67,99 @@ pub(crate) fn integer_nearest(
         if left == 0 {
             return Some(nearest);
         }
-        while left & 1 == 0 {
-            (left, next) = (left >> 1, next + 1);
-        }
-        lane = next;
-        (left, next) = (left >> 1, next + 1);
+        lane = lowest(left);
+        left &= left - 1;
     }
 }
 
-/// Bounds of the triangles of a leaf that are not behind a plane.
+/// Bounds of the triangles of a leaf that are not behind a plane: their bits, and the likeliest.
 ///
-/// Some have the bounds of a [`first`](IntBounds::first) triangle before, of which the f32
-/// kernel certainly finds the same square: they share the fan's centre and a corner, and the
-/// corner is the closest point of both.
+/// Some have no bounds but the number of a [`first`](IntBounds::first) triangle before, of which
+/// the f32 kernel certainly finds the same square: they share the fan's centre and a corner, and
+/// the corner is the closest point of both.
 #[inline(never)]
 pub(crate) fn leaf_bounds(
     leaf: &FanLeaf<'_>,
     point: &IntPoint,
     plane: &LeafPlane,
     bounds: &mut [IntBounds; WIDTH],
-) -> Option<u32> {
+) -> Option<(u32, usize)> {
     let (ring, shape) = (leaf.full_ring()?, leaf.shape());
     let wanted = plane.in_front(&ring, shape);
-    let mut least = u32::MAX;
-    // The nearest corner so far: its fan, its number in the ring if it is there, and its triangle.
-    let (mut of_fan, mut in_ring, mut first) = (2, None, 0);
-    for lane in lanes_of(wanted) {
-        let corners = ring.corners(shape, lane)?;
-        let fan = usize::from(lane >= shape.turn());
-        if fan == of_fan {
-            let number = match in_ring {
-                None => 0,
-                Some(vertex) if vertex == lane => 1,
-                Some(vertex) if vertex == lane + 1 => 2,
-                Some(_) => Corner::NONE.number,
-            };
-            let known = bounds.get_mut(first)?;
-            if is_certain(point, &corners, Corner::new(number)) {
-                let corner = known.corner;
-                if is_certain(point, &ring.corners(shape, first)?, corner) {
-                    known.corner = Corner::certain(corner.number);
-                    // Field by field: else it would be a call of `memmove`.
-                    let IntBounds { upper, direction: [x, y, z], first, lower, .. } = *known;
-                    let slot = bounds.get_mut(lane)?;
-                    (slot.upper, slot.first, slot.lower) = (upper, first, lower);
-                    (slot.direction, slot.corner) = ([x, y, z], Corner::certain(number));
-                    continue;
-                }
-                of_fan = 2;
-            }
+    let (mut least, mut likeliest, mut left) = (u32::MAX, 0, wanted);
+    let mut of_fan = !(u32::MAX << (shape.turn() & 31));
+    let [centre, second_centre] = ring.centres(shape);
+    let (mut next, mut corners) = (usize::MAX, [centre; 3]);
+    while left != 0 {
+        let lane = lowest(left);
+        left &= left - 1;
+        if lane >= shape.turn() {
+            (corners[0], of_fan) = (second_centre, u32::MAX);
         }
+        corners[1] = if lane == next { corners[2] } else { ring.vertex(lane)? };
+        next = lane + 1;
+        corners[2] = ring.vertex(next)?;
         let slot = bounds.get_mut(lane)?;
         *slot = integer_bounds(point, &corners);
         slot.first = (lane & 7) as u8;
-        if slot.upper <= least {
-            least = slot.upper;
-            let Corner { number, .. } = slot.corner;
-            if number != Corner::NONE.number {
-                (of_fan, first) = (fan, lane);
-                in_ring = if number > 0 { Some(lane + usize::from(number) - 1) } else { None };
-            }
+        if slot.upper > least {
+            continue;
+        }
+        if slot.upper < least {
+            likeliest = lane;
+        }
+        least = slot.upper;
+        let ties = match slot.corner.number {
+            0 => left & of_fan,
+            // The ring vertex that the next triangle has too.
+            2 => left & of_fan & 2 << (lane & 31),
+            _ => 0,
+        };
+        if ties == 0 || !is_certain(point, &corners, slot.corner) {
+            continue;
+        }
+        let ties = match slot.corner.number {
+            0 => certain_at_centre(point, &ring, corners[0], ties)?,
+            _ if is_certain(point, &ring.corners(shape, lane + 1)?, Corner::new(1)) => ties,
+            _ => 0,
+        };
+        slot.corner.is_certain = true;
+        left &= !ties;
+        for tie in lanes_of(ties) {
+            bounds.get_mut(tie)?.first = (lane & 7) as u8;
         }
     }
-    Some(wanted)
+    Some((wanted, likeliest))
+}
+
+/// Those of a fan's triangles whose closest point is certainly the centre.
+#[inline(never)]
+fn certain_at_centre(
+    point: &IntPoint,
+    ring: &FullRing<'_>,
+    centre: IntVector,
+    mut lanes: u32,
+) -> Option<u32> {
+    let way = CornerWay::new(point, centre);
+    let (mut certain, mut next) = (0, usize::MAX);
+    let mut second = EdgeWay::NONE;
+    while lanes != 0 {
+        let lane = lowest(lanes);
+        let first = if lane == next { second } else { way.edge(less(ring.vertex(lane)?, centre)) };
+        next = lane + 1;
+        second = way.edge(less(ring.vertex(next)?, centre));
+        if way.is_certain(first, second) {
+            certain |= lanes & lanes.wrapping_neg();
+        }
+        lanes &= lanes - 1;
+    }
+    Some(certain)
+}
+
+/// The first of a leaf's triangles whose bits are ones.
+#[inline(always)]
+fn lowest(lanes: u32) -> usize {
+    lanes.trailing_zeros() as usize & (WIDTH - 1)
 }
 
 /// Whether the f32 kernel certainly takes a corner for the closest point.
@@ -141,7 +173,8 @@ fn is_certain(point: &IntPoint, &[a, b, c]: &[IntVector; 3], corner: Corner) -> 
         2 => (c, [a, b]),
         _ => return false,
     };
-    is_certain_corner(point, vertex, [less(one, vertex), less(other, vertex)])
+    let way = CornerWay::new(point, vertex);
+    way.is_certain(way.edge(less(one, vertex)), way.edge(less(other, vertex)))
 }
 
 /// [`sharp_lower`] of a triangle.

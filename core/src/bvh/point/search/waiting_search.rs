@@ -12,7 +12,7 @@ use crate::bvh::point::leaf::integer::{leaf_bounds, nearness_by_corner, sharp_lo
 use crate::bvh::point::leaf::nearest::Lanes;
 use crate::bvh::point::leaf::plane::{LeafPlane, Residual};
 use crate::bvh::tree::descent::LeafVisit;
-use crate::bvh::tree::format::{FanLeaf, FullRing, LeafShape};
+use crate::bvh::tree::format::{FanLeaf, FullRing, LeafShape, lanes_of};
 use crate::geom::fan::{Corner, IntBounds, IntLimit, IntPoint, Nearness, WIDTH, vertex_bounds};
 use crate::num::Real;
 
@@ -30,9 +30,10 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
     pub(crate) fn wait(&mut self, visit: &LeafVisit<'_>, point: &IntPoint) -> Option<()> {
         let mut bounds = [IntBounds::NONE; WIDTH];
         let wanted = self.bound(&visit.leaf, point, &mut bounds)?;
-        for (lane, bounds) in bounds.iter().enumerate() {
+        for lane in lanes_of(wanted) {
+            let bounds = bounds.get(lane)?;
             // The first of several with the same square is the answer.
-            let is_first = wanted >> lane & 1 != 0 && usize::from(bounds.first) == lane;
+            let is_first = usize::from(bounds.first) == lane;
             if !is_first || bounds.lower.is_beyond(self.waiting.limit) {
                 continue;
             }
@@ -72,15 +73,10 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
             let limit = IntLimit::of(self.limit_by(near.upper));
             self.beyond.plane = LeafPlane::new(point, near.direction, limit);
         }
-        let wanted = leaf_bounds(leaf, point, &self.beyond.plane, bounds)?;
-        let mut nearest = None;
-        for here in &*bounds {
-            if here.upper < self.waiting.upper {
-                self.waiting.upper = here.upper;
-                nearest = Some(here.direction);
-            }
-        }
-        if let Some(direction) = nearest {
+        let (wanted, likeliest) = leaf_bounds(leaf, point, &self.beyond.plane, bounds)?;
+        let &IntBounds { upper, direction, .. } = bounds.get(likeliest)?;
+        if wanted != 0 && upper < self.waiting.upper {
+            self.waiting.upper = upper;
             self.waiting.residual = Residual::of_integers(direction);
             let limit = self.limit_by(self.waiting.upper);
             if Real(limit) < Real(self.beyond.distance_sq) {

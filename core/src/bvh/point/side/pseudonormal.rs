@@ -17,14 +17,14 @@
 
 use super::search::Search;
 use super::viewed_side::{ViewedSide, cross, is_flat, is_same, norm_1, viewed_side};
-use crate::bvh::point::leaf::bounds::{each_triangle, limit_of, lower_of};
+use crate::bvh::point::leaf::bounds::{TriangleTaker, each_triangle, limit_of, lower_of};
 use crate::bvh::point::leaf::distance::nearest_within;
 use crate::bvh::point::leaf::limit::LeafLimit;
 use crate::bvh::point::leaf::squares::LeafSquares;
 use crate::bvh::point::query::PointQuery;
 use crate::bvh::point::triangle_visitor::follow;
 use crate::bvh::tree::descent::{LeafVisit, LeafVisitor};
-use crate::bvh::tree::format::{Bvh, FanLeaf};
+use crate::bvh::tree::format::{Bvh, FanLeaf, lanes_of};
 use crate::num::tolerance::{SIGN_COSINE, TRUSTED_DIRECTION_SQ, U32};
 use crate::num::{Real, greater, sqrt_approx};
 use crate::query::Side;
@@ -110,26 +110,42 @@ impl LeafVisitor for Shared<'_> {
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let (leaf, query) = (&visit.leaf, self.candidates.query);
         let low = nearest_within(leaf, query, &self.beyond, Some(&mut self.known))?.low;
-        each_triangle(
-            query,
-            leaf,
-            &self.beyond,
-            (low, &self.known),
-            |lane, seen, [distance_sq, lower_bound_sq]| {
-                if lower_bound_sq > self.beyond.low_sq
-                    || lower_of(leaf, lane, query.p, distance_sq, lower_bound_sq)
-                        > self.candidates.band
-                    || viewed_side(query, leaf, lane, seen) == ViewedSide::Flat
-                {
-                    return;
-                }
-                let corners = leaf.corners(lane);
-                for (kept, corner) in self.kept.iter_mut().zip(&self.corners) {
-                    *kept &= corners.contains(corner);
-                }
-            },
-        );
+        let Shared { candidates, beyond, known, .. } = self;
+        let low_sq = beyond.low_sq;
+        let mut lanes = 0;
+        let taker = CandidatesOfLeaf { candidates, low_sq, leaf, lanes: &mut lanes };
+        each_triangle(query, leaf, beyond, (low, known), taker);
+        for (kept, &corner) in self.kept.iter_mut().zip(&self.corners) {
+            *kept = *kept && lanes & !leaf.lanes_at(corner) == 0;
+        }
         Some(self.kept != [false; 3])
+    }
+}
+
+/// Finds the candidates of a leaf.
+struct CandidatesOfLeaf<'a, 'l> {
+    candidates: &'a Candidates<'a>,
+    low_sq: f32,
+    leaf: &'a FanLeaf<'l>,
+    /// Bits of the triangles.
+    lanes: &'a mut u32,
+}
+
+impl TriangleTaker for CandidatesOfLeaf<'_, '_> {
+    #[inline(always)]
+    fn triangle(
+        &mut self,
+        lane: usize,
+        seen: Option<&[Vec3; 3]>,
+        [distance_sq, lower_bound_sq]: [f32; 2],
+    ) {
+        let &Candidates { query, band, .. } = self.candidates;
+        if lower_bound_sq <= self.low_sq
+            && lower_of(self.leaf, lane, query.p, distance_sq, lower_bound_sq) <= band
+            && viewed_side(query, self.leaf, lane, seen) != ViewedSide::Flat
+        {
+            *self.lanes |= 1 << (lane & 31);
+        }
     }
 }
 
@@ -238,39 +254,34 @@ impl LeafVisitor for Star<'_> {
             Some(tree) => Some((tree, tree.links(visit.node)?.triangle(visit.child))),
             None => None,
         };
-        for lane in 0..visit.leaf.shape().triangles() {
+        let leaf = &visit.leaf;
+        let lanes = match self.feature {
+            Feature::Vertex { at, .. } => leaf.lanes_at(at),
+            Feature::Edge { ends: [one, other], .. } => leaf.lanes_at(one) & leaf.lanes_at(other),
+        };
+        for lane in lanes_of(lanes) {
             let factor = match marked {
                 Some((tree, first)) => factor(tree, first.wrapping_add(lane as u32)),
                 None => 1.0,
             };
-            self.take(&visit.leaf, lane, factor);
+            self.take(leaf, lane, factor);
         }
         Some(true)
     }
 }
 
 impl Star<'_> {
-    /// Adds a triangle, if it is one of the feature's. The factor of its normal is −1 if sides are
+    /// Adds a triangle of the feature. The factor of its normal is −1 if sides are
     /// those of the triangle turned, 0 if it tells no side.
     #[inline(always)]
     fn take(&mut self, leaf: &FanLeaf<'_>, lane: usize, factor: f32) {
         let corners = leaf.corners(lane);
         let [a, b, c] = corners;
-        let has = |place: &Vec3| [&a, &b, &c].into_iter().position(|c| is_same(c, place));
         // About a vertex from the vertex on.
         let [x, y, z] = match &self.feature {
-            Feature::Vertex { at, .. } => match has(at) {
-                Some(0) => corners,
-                Some(1) => [b, c, a],
-                Some(_) => [c, a, b],
-                None => return,
-            },
-            Feature::Edge { ends: [one, other], .. } => {
-                if has(one).is_none() || has(other).is_none() {
-                    return;
-                }
-                corners
-            }
+            Feature::Vertex { at, .. } if is_same(&b, at) && !is_same(&a, at) => [b, c, a],
+            Feature::Vertex { at, .. } if is_same(&c, at) && !is_same(&a, at) => [c, a, b],
+            _ => corners,
         };
         let (e, g) = (y - x, z - x);
         let (normal, size) = cross(e, g);

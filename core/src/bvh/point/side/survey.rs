@@ -374,6 +374,17 @@ impl TriangleCollector for Collector<'_, '_> {
         }
     }
 
+    /// The side of the latest triangle, which had the same squares and a lesser number; or of any
+    /// triangle, if those beyond the band.
+    #[cfg(not(meshsweep_wide))]
+    #[inline(always)]
+    fn told_side(&self, leaf: &FanLeaf<'_>, lane: usize) -> Option<bool> {
+        if self.marked.is_some() {
+            return None;
+        }
+        self.latest_facing.in_winding(leaf, lane)
+    }
+
     #[inline(always)]
     fn take(
         &mut self,

@@ -5,14 +5,13 @@
 //! (`core/docs/rounding.md` §8, Facing).
 
 use crate::bvh::point::leaf::bounds::seen_from;
+use crate::bvh::point::leaf::plain_side::is_plainly_in_front;
 use crate::bvh::point::query::PointQuery;
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::{is_in_front, is_whole};
 use crate::num::SOFT_FLOAT;
-use crate::num::tolerance::{
-    EXACT_INTEGERS, PLAIN_SIDE_FLOOR, PLAIN_SIDE_SQ, SIGN_TRIPLE_PRODUCT, U32,
-};
+use crate::num::tolerance::{EXACT_INTEGERS, SIGN_TRIPLE_PRODUCT, U32};
 use glam::Vec3;
 
 /// Which side of a triangle is seen.
@@ -33,6 +32,18 @@ impl ViewedSide {
         if is_front { ViewedSide::Front } else { ViewedSide::Back }
     }
 
+    /// Whether it is the front in the winding of the triangle's fan; `None` if it is no side.
+    #[cfg(not(meshsweep_wide))]
+    #[inline(always)]
+    pub(crate) fn in_winding(self, leaf: &FanLeaf<'_>, lane: usize) -> Option<bool> {
+        let is_reversed = is_reversed(leaf, lane);
+        match self {
+            ViewedSide::Front => Some(!is_reversed),
+            ViewedSide::Back => Some(is_reversed),
+            _ => None,
+        }
+    }
+
     /// The side that a triangle tells a point which sees this side of it: the other one if it is
     /// turned, none if it is sideless.
     #[cold]
@@ -51,6 +62,12 @@ impl ViewedSide {
     }
 }
 
+/// Whether the fan of triangle `lane` runs the other way round.
+#[inline(always)]
+fn is_reversed(leaf: &FanLeaf<'_>, lane: usize) -> bool {
+    lane >= leaf.shape().turn() && leaf.shape().second_reversed()
+}
+
 /// How triangle `lane` faces the query's point, from which it is `seen` so by [`seen_from`].
 #[cfg_attr(meshsweep_small, inline(never))]
 #[cfg_attr(not(meshsweep_small), inline(always))]
@@ -60,7 +77,7 @@ pub(crate) fn viewed_side(
     lane: usize,
     seen: Option<&[Vec3; 3]>,
 ) -> ViewedSide {
-    let is_reversed = lane >= leaf.shape().turn() && leaf.shape().second_reversed();
+    let is_reversed = is_reversed(leaf, lane);
     if SOFT_FLOAT
         && let Some(point) = &query.whole
         && let Some(ring) = leaf.grid_ring()
@@ -73,11 +90,11 @@ pub(crate) fn viewed_side(
         Some(seen) => *seen,
         None => seen_from(leaf, lane, query.p),
     };
-    let normal = e.cross(g);
-    let volume = normal.dot(s);
-    let sizes = e.dot(e) * g.dot(g) * s.dot(s);
-    if !SOFT_FLOAT && !leaf.is_f32() && volume * volume > PLAIN_SIDE_SQ * sizes + PLAIN_SIDE_FLOOR {
-        return ViewedSide::of((volume > 0.0) != is_reversed);
+    if !SOFT_FLOAT
+        && !leaf.is_f32()
+        && let Some(is_front) = is_plainly_in_front(&[s, e, g])
+    {
+        return ViewedSide::of(is_front != is_reversed);
     }
     by_rounding(leaf, lane, [s, e, g], is_reversed)
 }

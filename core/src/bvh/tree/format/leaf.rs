@@ -179,6 +179,12 @@ impl FullRing<'_> {
         [three(self.window, 0), three(self.window, 6 * (shape.centres() - 1))]
     }
 
+    /// First or second centre of a leaf that has so many.
+    #[inline(always)]
+    pub fn centre(&self, which: usize) -> [i32; 3] {
+        three(self.window, 6 * (which & 1))
+    }
+
     /// Ring vertex `i`, at most 8.
     #[inline(always)]
     pub fn vertex(&self, i: usize) -> Option<[i32; 3]> {

@@ -7,6 +7,7 @@
 //! | `view` | [`Bvh`]: nodes, links, boxes and source numbers where they lie |
 //! | `units` | grid units and input units |
 //! | `leaf` | [`FanLeaf`]: one or two fans where they lie |
+//! | `leaf_corners` | which triangles of a leaf have a corner at a place |
 //! | `leaf_lanes` | a leaf's fans a register at a time, on vector targets |
 //! | `leaf_avx2` | the same in registers of 256 bits |
 //! | `cone` | the bytes of a leaf's normal cone |
@@ -21,6 +22,7 @@ pub mod layout;
 mod leaf;
 #[cfg(meshsweep_avx2)]
 mod leaf_avx2;
+mod leaf_corners;
 #[cfg(meshsweep_wide)]
 mod leaf_lanes;
 mod moments;

@@ -1,6 +1,6 @@
 //! Distances: closest points, one and many, with a tolerance and with a sign.
 
-use meshsweep_core::{Budget, ClosestPoint, Neighbor, QueryError, Side, Verdict};
+use meshsweep_core::{Budget, Neighbor, Side, Verdict};
 
 use super::{Bvh, Scratch};
 use crate::ask::{self, Asked};
@@ -141,30 +141,6 @@ pub fn signed(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, 
             ask::closest_point(fold, &answer.closest);
         },
     );
-}
-
-/// Queries of a batch.
-const BATCH: usize = 8;
-
-/// Closest points of eight points, in an order of the core's own.
-#[inline(never)]
-pub fn batch<'t>(
-    tree: &Bvh<'t>,
-    points: &[Point; BATCH],
-    scratch: &mut Scratch<'t>,
-    to: &mut Asked<'_, impl Clock>,
-) {
-    // The longer memory: the entries beyond the stack hold the order of the queries.
-    let Scratch { pairs, hint, .. } = scratch;
-    let mut answers = [ClosestPoint::EMPTY; BATCH];
-    match to.timed(|| tree.closest_points(points, hint, &mut answers, Budget::EXACT, pairs)) {
-        Ok(()) => answers.iter().for_each(|answer| ask::closest_point(to.fold, answer)),
-        Err(QueryError::AnswerCount { .. }) => to.fold.word(u32::MAX),
-        Err(error) => {
-            to.fold.word(if let QueryError::PointNotFinite { index } = error { index } else { 0 });
-            ask::refusal(to.fold, error);
-        }
-    }
 }
 
 fn found(fold: &mut Fold, triangles: &[Neighbor]) {

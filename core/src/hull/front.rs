@@ -17,9 +17,9 @@ use glam::Vec3;
 
 /// How a triangle can be refined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Fate {
+pub(crate) enum Refinable {
     /// A split refines it.
-    Splits,
+    BySplit,
     /// It is one of the surface.
     Surface,
     /// The split that refines it is not in the blob.
@@ -32,12 +32,16 @@ pub(crate) struct Candidate {
     pub(crate) corners: [Vec3; 3],
     pub(crate) radius: f32,
     pub(crate) instance: Instance,
-    pub(crate) fate: Fate,
+    pub(crate) refinable: Refinable,
 }
 
 impl Candidate {
-    const EMPTY: Candidate =
-        Candidate { corners: [Vec3::ZERO; 3], radius: 0.0, instance: Instance(0), fate: Fate::Cut };
+    const EMPTY: Candidate = Candidate {
+        corners: [Vec3::ZERO; 3],
+        radius: 0.0,
+        instance: Instance(0),
+        refinable: Refinable::Cut,
+    };
 }
 
 /// Receives triangles, bounds them, and queues those that may matter.
@@ -155,7 +159,7 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
             }
             self.work.bounds += 1;
             let instance = self.model.tables().instance(Named::Group(index));
-            let candidate = Candidate { corners, radius, instance, fate: Fate::Splits };
+            let candidate = Candidate { corners, radius, instance, refinable: Refinable::BySplit };
             self.batch.push(candidate, visitor, &mut self.queue);
         }
         self.batch.flush(visitor, &mut self.queue);
@@ -184,7 +188,12 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
         let (corners, radius) = match self.model.tables().named(instance) {
             Named::Group(index) => {
                 let (corners, radius) = self.model.group(index)?;
-                return Some(Candidate { corners, radius, instance, fate: Fate::Splits });
+                return Some(Candidate {
+                    corners,
+                    radius,
+                    instance,
+                    refinable: Refinable::BySplit,
+                });
             }
             Named::Base(index) => (self.model.tables().base_triangle(index)?, index),
             Named::Fine(split, slot) => {
@@ -192,16 +201,17 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
                 (split.fine(slot as usize)?, split.first_triangle.checked_add(slot)?)
             }
         };
-        let fate = self.fate(self.model.tables().removed_by(corners));
-        let (corners, radius) = self.model.triangle(corners, radius, fate == Fate::Surface)?;
-        Some(Candidate { corners, radius, instance, fate })
+        let refinable = self.refinable(self.model.tables().removed_by(corners));
+        let (corners, radius) =
+            self.model.triangle(corners, radius, refinable == Refinable::Surface)?;
+        Some(Candidate { corners, radius, instance, refinable })
     }
 
-    fn fate(&self, split: Option<SplitIdx>) -> Fate {
+    fn refinable(&self, split: Option<SplitIdx>) -> Refinable {
         match split {
-            Some(_) => Fate::Splits,
-            None if self.model.tables().is_cut() => Fate::Cut,
-            None => Fate::Surface,
+            Some(_) => Refinable::BySplit,
+            None if self.model.tables().is_cut() => Refinable::Cut,
+            None => Refinable::Surface,
         }
     }
 
@@ -318,12 +328,16 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
     #[inline(always)]
     fn candidate(&mut self, triangle: &Triangle) -> Option<Candidate> {
         let Triangle { instance, ends, radius } = *triangle;
-        let fate = self.fate(self.model.tables().stored_split(triangle.split()));
-        let counter =
-            if fate == Fate::Surface { &mut self.work.triangles } else { &mut self.work.bounds };
+        let refinable = self.refinable(self.model.tables().stored_split(triangle.split()));
+        let counter = if refinable == Refinable::Surface {
+            &mut self.work.triangles
+        } else {
+            &mut self.work.bounds
+        };
         *counter += 1;
         let corners = each(ends, |end| end.vertex);
-        let (corners, radius) = self.model.triangle(corners, radius, fate == Fate::Surface)?;
-        Some(Candidate { corners, radius, instance, fate })
+        let (corners, radius) =
+            self.model.triangle(corners, radius, refinable == Refinable::Surface)?;
+        Some(Candidate { corners, radius, instance, refinable })
     }
 }

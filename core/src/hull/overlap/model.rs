@@ -2,7 +2,8 @@
 
 use crate::geom::Aabb;
 use crate::hull::format::{Hull, Instance};
-use crate::hull::sweep::{Candidate, Fate, Front, Visit, triangles};
+use crate::hull::front::{Candidate, Front, Refinable, Visit, triangles};
+use crate::hull::geometry::Geometry;
 use crate::num::greater;
 use crate::query::{Extended, Frame, QueryError};
 use glam::{DVec3, Vec3};
@@ -11,33 +12,37 @@ use glam::{DVec3, Vec3};
 const ROOT: Instance = Instance(u32::MAX);
 
 #[derive(Debug)]
-pub(super) struct Side<'a> {
+pub(super) struct Model<G> {
     /// The hierarchy; none of a triangle.
-    front: Option<Front<'static, Hull<'a>>>,
+    front: Option<Front<'static, G>>,
     /// The ball that contains the model, or the triangle.
     pub(super) root: Candidate,
     pub(super) extended: Extended,
 }
 
-impl<'a> Side<'a> {
-    pub(super) fn of_hull(hull: &Hull<'a>) -> Result<Side<'a>, QueryError> {
-        if !hull.has_hull() {
+impl<'a, G: Geometry<'a>> Model<G> {
+    pub(super) fn of_hull(hull: &G) -> Result<Model<G>, QueryError> {
+        if !hull.tables().has_hull() {
             return Err(QueryError::NO_HULL);
         }
-        let bounds = hull.hull_box();
+        let bounds = hull.vertex_box();
         let centre = (bounds.min + bounds.max) * 0.5;
         // The corner that is farthest from the rounded centre.
         let far = (bounds.max - centre).max(centre - bounds.min);
         let radius = libm::sqrtf(far.dot(far)) * (1.0 + 4.0 * f32::EPSILON);
-        let header = hull.header();
-        Ok(Side {
+        Ok(Model {
             front: Some(Front::new(hull, &mut [], 0)),
-            root: Candidate { corners: [centre; 3], radius, instance: ROOT, fate: Fate::Splits },
+            root: Candidate {
+                corners: [centre; 3],
+                radius,
+                instance: ROOT,
+                refinable: Refinable::BySplit,
+            },
             extended: extended(
-                header.scale_exponent,
+                hull.tables().header().scale_exponent,
                 &bounds,
                 centre,
-                f64::from(header.surface_error),
+                hull.surface_error(),
             ),
         })
     }
@@ -47,7 +52,7 @@ impl<'a> Side<'a> {
     pub(super) fn of_triangle(
         corners: [[f32; 3]; 3],
         hull: &Hull<'_>,
-    ) -> Result<Side<'a>, QueryError> {
+    ) -> Result<Model<G>, QueryError> {
         let header = hull.header();
         let frame = Frame::of(header);
         let mut largest = 0f32;
@@ -68,9 +73,14 @@ impl<'a> Side<'a> {
         let bounds = Aabb { min: a.min(b).min(c), max: a.max(b).max(c) };
         // Only an underflow is not exact.
         let error = if is_exact { 0.0 } else { f64::from(f32::MIN_POSITIVE) };
-        Ok(Side {
+        Ok(Model {
             front: None,
-            root: Candidate { corners: stored, radius: 0.0, instance: ROOT, fate: Fate::Surface },
+            root: Candidate {
+                corners: stored,
+                radius: 0.0,
+                instance: ROOT,
+                refinable: Refinable::Surface,
+            },
             extended: extended(exponent, &bounds, (bounds.min + bounds.max) * 0.5, error),
         })
     }
@@ -100,23 +110,23 @@ impl<'a> Side<'a> {
         Some(front.work.opened)
     }
 
-    /// With this many entries for this side no search ends for lack of memory.
-    ///
-    /// The hierarchy's own number counts the siblings that wait while one is opened, but for those
-    /// that are not opened. Of these only the last opened triangle's wait: up to 16 of a group, 3
-    /// of a split.
-    pub(super) fn entries(hull: &Hull<'_>) -> usize {
-        hull.scratch_entries().saturating_add(20)
-    }
-
     /// Triangles of all levels.
     pub(super) fn triangles(&self) -> u32 {
-        self.front.as_ref().map_or(1, |front| triangles(&front.model))
+        self.front.as_ref().map_or(1, |front| triangles(front.model.tables()))
     }
 
     pub(super) fn is_cut(&self) -> bool {
-        self.front.as_ref().is_some_and(|front| front.model.is_cut())
+        self.front.as_ref().is_some_and(|front| front.model.tables().is_cut())
     }
+}
+
+/// With this many entries for this side no search ends for lack of memory.
+///
+/// The hierarchy's own number counts the siblings that wait while one is opened, but for those
+/// that are not opened. Of these only the last opened triangle's wait: up to 16 of a group, 3
+/// of a split.
+pub(super) fn entries(hull: &Hull<'_>) -> usize {
+    hull.scratch_entries().saturating_add(20)
 }
 
 fn extended(exponent: i32, bounds: &Aabb, origin: Vec3, error: f64) -> Extended {

@@ -1,0 +1,149 @@
+//! The box of a model in its own frame, in f32, and what it proves of two models.
+
+use crate::bvh::tree::extended::unit_exponent;
+use crate::bvh::tree::format::Bvh;
+use crate::geom::Pose;
+use crate::num::tolerance::{BOX_PAIR, MODEL_BOX, NEARLY_RIGID, SKEW, SQUARE_FLOOR, U32};
+use crate::num::{dot, greater};
+use crate::query::{QueryError, RelativePose};
+use glam::Vec3;
+
+/// A box that holds the surface of the input. `core/docs/rounding.md` §24.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ModelBox {
+    pub(crate) middle: Vec3,
+    /// Half of the edges. The surface error and all roundings are in it.
+    pub(crate) half: Vec3,
+    /// No point of the box has a larger 1-norm.
+    pub(crate) reach: f32,
+}
+
+/// The rows of a matrix.
+pub(crate) type Rows = [Vec3; 3];
+
+impl ModelBox {
+    /// In input units.
+    pub(crate) fn of(tree: &Bvh<'_>) -> ModelBox {
+        let [low, high] = tree.bounds().map(Vec3::from_array);
+        ModelBox::new(low, high, tree.surface_error())
+    }
+
+    /// In grid units times a power of two.
+    #[inline(always)]
+    fn in_units(tree: &Bvh<'_>, unit: f32) -> ModelBox {
+        let (low, high) = tree.grid_bounds();
+        ModelBox::new(low * unit, high * unit, tree.units().surface_error * unit)
+    }
+
+    #[inline(always)]
+    fn new(low: Vec3, high: Vec3, error: f32) -> ModelBox {
+        let size = low.abs() + high.abs() + error;
+        let room = size * (MODEL_BOX * U32) + f32::MIN_POSITIVE;
+        ModelBox {
+            middle: 0.5 * low + 0.5 * high,
+            half: (0.5 * high - 0.5 * low) + error + room,
+            reach: (size.x + size.y + size.z) * (1.0 + MODEL_BOX * U32) + f32::MIN_POSITIVE,
+        }
+    }
+}
+
+/// Whether the boxes prove that the surface of the second model, moved by a pose from its frame to
+/// the first one's, is farther than `distance` from the first one's. It refuses what no question
+/// about two models takes.
+#[inline(never)]
+pub(crate) fn are_apart(
+    [a, b]: [&Bvh<'_>; 2],
+    pose: &Pose,
+    distance: f32,
+) -> Result<bool, QueryError> {
+    if !(a.serves_segments() && b.serves_segments()) {
+        return Err(QueryError::NO_SEGMENTS);
+    }
+    let exponents = [unit_exponent(a), unit_exponent(b)];
+    RelativePose::check(pose, exponents)?;
+    // In units of the coarser grid, so that answers do not depend on the scale of all.
+    let [first, second] = exponents;
+    let common = greater(first, second);
+    let units = if first == common { a.units() } else { b.units() };
+    let [first, second] =
+        [(a, first), (b, second)].map(|(tree, own)| ModelBox::in_units(tree, power(own - common)));
+    let shift = units.inward_point(pose.translation);
+    Ok(are_boxes_apart([&first, &second], &pose.rotation, shift, units.inward(distance)))
+}
+
+/// `2^exponent` for exponents from -126 to 0.
+fn power(exponent: i32) -> f32 {
+    f32::from_bits((127 + exponent).cast_unsigned() << 23)
+}
+
+/// The entries of the matrix are at most 2.
+#[inline(always)]
+fn are_boxes_apart(
+    [first, second]: [&ModelBox; 2],
+    rotation: &[[f32; 3]; 3],
+    shift: Vec3,
+    distance: f32,
+) -> bool {
+    let rows = rotation.map(Vec3::from_array);
+    let way = (turned(&rows, second.middle) + shift) - first.middle;
+    let size = shift.abs();
+    let sizes = (size.x + size.y + size.z) + 6.0 * second.reach + 2.0 * first.reach;
+    let slack = sizes * (BOX_PAIR * U32);
+    if exceeds(gap_sq(way, first.half, &rows, second.half), distance + slack) {
+        return true;
+    }
+    let skew = skew(&rows);
+    let columns = columns(&rows);
+    skew < NEARLY_RIGID
+        && exceeds(
+            gap_sq(turned(&columns, way), second.half, &columns, first.half),
+            distance + (slack + 4.0 * skew * sizes),
+        )
+}
+
+/// The squared gap of two boxes along the axes of one of them. `rows` turn the other one's frame
+/// into its frame, and `way` is there, from middle to middle.
+#[inline(always)]
+pub(crate) fn gap_sq(way: Vec3, half: Vec3, rows: &Rows, other_half: Vec3) -> f32 {
+    let [x, y, z] = rows.map(Vec3::abs);
+    beyond_sq((way.abs() - half) - turned(&[x, y, z], other_half))
+}
+
+/// The squared length of a gap's components above 0. NaN is no gap.
+#[inline(always)]
+pub(crate) fn beyond_sq(gap: Vec3) -> f32 {
+    let [x, y, z] = gap.to_array().map(|x| greater(0.0, x));
+    (x * x + y * y) + z * z
+}
+
+/// Whether a squared length proves one above `least`, whatever was rounded on the way. False of
+/// NaN.
+#[inline(always)]
+pub(crate) fn exceeds(square: f32, least: f32) -> bool {
+    let least = least * (1.0 + 8.0 * U32);
+    square > least * least + SQUARE_FLOOR
+}
+
+/// The product of a matrix and a vector.
+#[inline(always)]
+pub(crate) fn turned([x, y, z]: &Rows, v: Vec3) -> Vec3 {
+    Vec3::new(dot(*x, v), dot(*y, v), dot(*z, v))
+}
+
+/// The columns of a matrix.
+#[inline(always)]
+pub(crate) fn columns([x, y, z]: &Rows) -> Rows {
+    [Vec3::new(x.x, y.x, z.x), Vec3::new(x.y, y.y, z.y), Vec3::new(x.z, y.z, z.z)]
+}
+
+/// How far a matrix is from a rotation or a reflection: an upper bound of the 2-norm of `RᵀR − 1`
+/// if it is at most [`NEARLY_RIGID`]. NaN if an entry is.
+#[inline(always)]
+pub(crate) fn skew([x, y, z]: &Rows) -> f32 {
+    let lengths = [dot(*x, *x) - 1.0, dot(*y, *y) - 1.0, dot(*z, *z) - 1.0].map(f32::abs);
+    let [xy, yz, zx] = [dot(*x, *y), dot(*y, *z), dot(*z, *x)].map(f32::abs);
+    let [x, y, z] = lengths;
+    let (x, y, z) = (x + (xy + zx), y + (xy + yz), z + (yz + zx));
+    // A row with NaN makes all three NaN.
+    greater(greater(x, y), z) + SKEW * U32
+}

@@ -1,0 +1,79 @@
+//! A model that moves, and a bound of how far its points went.
+
+use super::placed::PlacedModel;
+use crate::geom::Pose;
+use crate::num::tolerance::NEARLY_RIGID;
+use crate::num::{difference, dot, sqrt_up};
+use crate::query::QueryError;
+use glam::Vec3;
+
+/// A model of a scene that remembers. `core/docs/rounding.md` §24.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mover<'a> {
+    pub(crate) model: PlacedModel<'a>,
+    /// No point went farther at the last motion.
+    pub(crate) step: f32,
+    /// The radius of the ball, and room for roundings.
+    arm: f32,
+    /// No sum of the changes of the matrix since it was checked is greater.
+    turned: f32,
+    /// The model was not placed since it moved.
+    is_off: bool,
+}
+
+/// Largest square that has a root here.
+const MOST_SQUARE: f32 = (1u64 << 60) as f32;
+
+impl<'a> Mover<'a> {
+    pub(crate) fn new(model: PlacedModel<'a>) -> Self {
+        let model = model.with_least_ball();
+        Mover { model, step: 0.0, arm: model.arm(), turned: 0.0, is_off: false }
+    }
+
+    /// Moves the model. It is placed when a pair asks for it. No point goes farther than what is
+    /// returned.
+    #[inline(always)]
+    pub(crate) fn move_to(&mut self, pose: Pose) -> Result<f32, QueryError> {
+        let [turn, path] = self.change(&pose);
+        let turned = self.turned + turn;
+        // A matrix that changed little is still nearly a rotation. NaN is no small change.
+        if path < f32::INFINITY && self.model.skew() + 3.0 * turned < NEARLY_RIGID {
+            self.model.pose = pose;
+            (self.turned, self.is_off) = (turned, true);
+        } else {
+            self.model.move_to(pose)?;
+            (self.turned, self.is_off) = (0.0, false);
+        }
+        self.step = path;
+        Ok(path)
+    }
+
+    /// Places the model where it is.
+    #[inline(always)]
+    pub(crate) fn place(&mut self) -> Result<(), QueryError> {
+        if self.is_off {
+            self.model.move_to(self.model.pose)?;
+            (self.turned, self.is_off) = (0.0, false);
+        }
+        Ok(())
+    }
+
+    /// Upper bounds of the change of the matrix, the Frobenius norm, and of the way of a point.
+    /// Infinite if they are large or NaN.
+    #[inline(always)]
+    fn change(&self, pose: &Pose) -> [f32; 2] {
+        let change =
+            |new: [f32; 3], old: [f32; 3]| difference(Vec3::from_array(new), Vec3::from_array(old));
+        let ([x, y, z], [old_x, old_y, old_z]) = (pose.rotation, self.model.pose.rotation);
+        let [x, y, z] = [change(x, old_x), change(y, old_y), change(z, old_z)];
+        let middle = self.model.ball_middle();
+        let way = Vec3::new(dot(x, middle), dot(y, middle), dot(z, middle))
+            + change(pose.translation, self.model.pose.translation);
+        let squares = [dot(x, x) + dot(y, y) + dot(z, z), dot(way, way)];
+        if !squares.iter().all(|square| *square <= MOST_SQUARE) {
+            return [f32::INFINITY; 2];
+        }
+        let [turn, way] = sqrt_up(squares);
+        [turn, way + turn * self.arm]
+    }
+}

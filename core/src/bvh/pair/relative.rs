@@ -1,0 +1,95 @@
+//! The pose of one model in the frame of another.
+
+use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::input_box::corners_of_input;
+use crate::geom::{Pose, dot};
+use crate::num::tolerance::{POSED_POINT, RELATIVE_POSE, U64};
+use crate::num::{down_to_f32, greater, up_to_f32};
+use crate::query::{Interval, PoseInverse, QueryError, transposed};
+
+/// The pose of one model in the frame of another, and how distances there differ from those in the
+/// world.
+pub(crate) struct Relative {
+    pub(crate) pose: Pose,
+    /// A vertex is no farther than this from its place at that pose, in the first model's frame.
+    pub(crate) error: f64,
+    /// The first model's pose changes lengths by a factor within `1 ± stretch`.
+    stretch: f64,
+}
+
+impl Relative {
+    /// `tree` is the second model. The first pose is nearly a rotation.
+    pub(crate) fn new(first: &Pose, second: &Pose, tree: &Bvh<'_>) -> Result<Relative, QueryError> {
+        let ((a_rows, a_shift), (b_rows, b_shift)) = (wide(first), wide(second));
+        let inverse = PoseInverse::new(a_rows)?;
+        let stretch = inverse.stretch;
+        let ([ax, ay, az], [bx, by, bz]) = (a_shift, b_shift);
+        let m_rows = transposed(&transposed(&b_rows).map(|column| inverse.apply(column)));
+        let m_shift = inverse.apply([bx - ax, by - ay, bz - az]);
+        let pose = Pose {
+            rotation: m_rows.map(|row| row.map(|x| x as f32)),
+            translation: m_shift.map(|x| x as f32),
+        };
+        if !pose.translation.iter().all(|x| x.is_finite()) {
+            return Err(QueryError::OutOfDomain);
+        }
+        // As rounded.
+        let (m_rows, m_shift) = wide(&pose);
+        let mut largest = 0.0;
+        // How far off a point is, is a convex function of the point: a corner of the box is worst.
+        for x in corners_of_input(tree) {
+            let [p, q, r] = m_rows.map(|row| dot(row, x));
+            let [u, v, w] = m_shift;
+            let carried = [p + u, q + v, r + w];
+            let sizes = |row: Row, v: Row| dot(row.map(f64::abs), v.map(f64::abs));
+            // B·x + t − (A·(M·x + m) + s) along an axis, and room for its rounding.
+            let residual = |a_row: Row, b_row: Row, s: f64, t: f64| {
+                let terms = sizes(a_row, m_rows.map(|row| sizes(row, x)))
+                    + sizes(a_row, m_shift)
+                    + sizes(b_row, x)
+                    + s.abs()
+                    + t.abs();
+                let left = dot(b_row, x) + (t - s) - dot(a_row, carried);
+                left.abs() + RELATIVE_POSE * U64 * terms
+            };
+            let ([a0, a1, a2], [b0, b1, b2]) = (a_rows, b_rows);
+            let off =
+                [residual(a0, b0, ax, bx), residual(a1, b1, ay, by), residual(a2, b2, az, bz)];
+            let off_sq = dot(off, off);
+            if !off_sq.is_finite() {
+                return Err(QueryError::OutOfDomain);
+            }
+            largest = greater(largest, off_sq);
+        }
+        let error = libm::sqrt(largest) / (1.0 - stretch) * (1.0 + POSED_POINT * U64);
+        Ok(Relative { pose, error, stretch })
+    }
+
+    /// The distance in the world, from that in the first model's frame.
+    pub(crate) fn in_world(&self, distance: Interval) -> Interval {
+        let lower = (f64::from(distance.lower) - self.error) * (1.0 - self.stretch);
+        let upper = (f64::from(distance.upper) + self.error) * (1.0 + self.stretch);
+        Interval::new(down_to_f32(greater(lower, 0.0)), up_to_f32(upper))
+    }
+
+    /// If nothing is within this distance in the first model's frame, nothing is within `distance`
+    /// in the world.
+    pub(crate) fn at_most(&self, distance: f32) -> f32 {
+        let in_model = f64::from(distance) / (1.0 - self.stretch) + self.error;
+        up_to_f32(in_model * (1.0 + 4.0 * U64))
+    }
+
+    /// What is within this distance in the first model's frame is within `distance` in the world.
+    /// `None` if no distance is.
+    pub(crate) fn at_least(&self, distance: f32) -> Option<f32> {
+        let in_model = (f64::from(distance) / (1.0 + self.stretch)) * (1.0 - 4.0 * U64);
+        let in_model = in_model - self.error * (1.0 + 4.0 * U64);
+        (in_model >= 0.0).then(|| down_to_f32(in_model))
+    }
+}
+
+type Row = [f64; 3];
+
+pub(crate) fn wide(pose: &Pose) -> ([Row; 3], Row) {
+    (pose.rotation.map(|row| row.map(f64::from)), pose.translation.map(f64::from))
+}

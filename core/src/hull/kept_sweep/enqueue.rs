@@ -1,0 +1,65 @@
+//! Triangles on their way into the queue of a sweep.
+//!
+//! A key is a lower bound of the distance, plus the path of the point until then. The key less the
+//! path until now is a lower bound at any later time. So no key is changed when the point moves.
+
+use crate::hull::front::{Candidate, Visit};
+use crate::hull::nearest::Nearest;
+use crate::num::down_to_f32;
+use crate::num::tolerance::SUMMED;
+use crate::query::{ScratchEntry, SweepQueue};
+
+/// Puts triangles into the queue.
+pub(super) struct Enqueue {
+    pub(super) nearest: Nearest,
+    /// The bound of the triangle that was replaced. Its children are not nearer.
+    pub(super) parent: f32,
+    pub(super) moved: f64,
+    pub(super) pruned: f32,
+    /// The nearest of those that were just found, while no triangle of the surface is known.
+    pub(super) next: Option<ScratchEntry>,
+    pub(super) dives: bool,
+}
+
+impl Visit for Enqueue {
+    fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
+        for (bound, candidate) in self.nearest.bounds(found).into_iter().zip(found) {
+            if bound == f32::INFINITY {
+                self.pruned = self.pruned.min(stored(self.nearest.limit(), self.moved));
+                continue;
+            }
+            let key = stored(f64::from(bound.max(self.parent)), self.moved);
+            let entry = ScratchEntry::new(key, candidate.instance.0);
+            match &mut self.next {
+                Some(near) if entry.key() < near.key() => {
+                    queue.push(core::mem::replace(near, entry));
+                }
+                None if self.dives => self.next = Some(entry),
+                _ => queue.push(entry),
+            }
+        }
+    }
+}
+
+/// A bound as a key.
+pub(super) fn stored(bound: f64, moved: f64) -> f32 {
+    down_to_f32((bound + moved) * (2.0 - SUMMED))
+}
+
+/// A key as a bound.
+pub(super) fn bound_of(key: f32, moved: f64) -> f64 {
+    (f64::from(key) - moved).max(0.0)
+}
+
+impl Enqueue {
+    /// A lower bound of a triangle's distance, at most the limit.
+    pub(super) fn least(&self, candidate: &Candidate) -> f64 {
+        let [bound, ..] = self.nearest.bounds(core::slice::from_ref(candidate));
+        f64::from(bound).min(self.nearest.limit())
+    }
+
+    /// Triangles farther than the nearest by more than this are not kept.
+    pub(super) fn limit_to(&mut self, margin: f64) {
+        self.nearest.set_limit(self.nearest.upper() + margin);
+    }
+}
