@@ -56,7 +56,7 @@ pub fn profile(
     to: &Mesh,
     parts: &[f64],
     relative: f64,
-    mut progress: impl FnMut(f64, f64),
+    progress: &mut dyn FnMut(f64, f64),
 ) -> Result<Profile, Refused> {
     for (mesh, is_second) in [(from, false), (to, true)] {
         if mesh.all_triangles().next().is_none() {

@@ -120,7 +120,7 @@ pub fn hausdorff(
     second: &Mesh,
     direction: Direction,
     precision: &Precision,
-    mut progress: impl FnMut(f64, f64),
+    progress: &mut dyn FnMut(f64, f64),
 ) -> Result<Hausdorff, Refused> {
     let refused = |is_second| move |error| Refused { is_second, error };
     for (mesh, is_second) in [(first, false), (second, true)] {
@@ -165,7 +165,7 @@ pub fn hausdorff(
         attained: None,
         pieces: 0,
     };
-    let (upper, ended) = search.run(&mut progress);
+    let (upper, ended) = search.run(progress);
     let Search { attained, pieces, .. } = search;
     let [lower, upper] = search.told(upper);
     Ok(Hausdorff { lower, upper, attained, pieces, ended })
@@ -207,7 +207,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// Cuts the piece with the largest bound until the bounds are close enough. The upper bound.
-    fn run(&mut self, progress: &mut impl FnMut(f64, f64)) -> (f64, Ended) {
+    fn run(&mut self, progress: &mut dyn FnMut(f64, f64)) -> (f64, Ended) {
         let sides = self.sides;
         let mut scratch: Vec<QueryScratch> =
             sides.iter().map(|side| side.surface.scratch()).collect();

@@ -2,11 +2,6 @@
 
 use std::io::{self, Write};
 
-use ply_rs_bw::ply::{
-    Addable, ElementDef, Encoding, Header, PropertyAccess, PropertyDef, PropertyType, ScalarType,
-};
-use ply_rs_bw::writer::Writer;
-
 use super::Mesh;
 
 /// Writes positions and triangles as little-endian PLY: `x`, `y`, `z` as `float`, `vertex_indices`
@@ -41,89 +36,35 @@ fn write(
     qualities: &[(f32, [u8; 3])],
     out: &mut (impl Write + ?Sized),
 ) -> io::Result<()> {
-    let mut faces = Vec::with_capacity(mesh.triangles.len());
-    for corners in &mesh.triangles {
-        let [a, b, c] = corners.map(i32::try_from);
-        let beyond = |_| io::Error::from(io::ErrorKind::InvalidInput);
-        faces.push(Face([a.map_err(beyond)?, b.map_err(beyond)?, c.map_err(beyond)?]));
+    if mesh.triangles.iter().flatten().any(|&corner| i32::try_from(corner).is_err()) {
+        return Err(io::ErrorKind::InvalidInput.into());
     }
-    // The crate's writer wants a sized one.
-    let mut out = out;
-    let float = PropertyType::Scalar(ScalarType::Float);
-    let mut vertex = element("vertex", mesh.positions.len(), &["x", "y", "z"], &float);
+    out.write_all(b"ply\nformat binary_little_endian 1.0\n")?;
+    writeln!(out, "element vertex {}", mesh.positions.len())?;
+    out.write_all(b"property float x\nproperty float y\nproperty float z\n")?;
     if !qualities.is_empty() {
-        let byte = PropertyType::Scalar(ScalarType::UChar);
-        add(&mut vertex, &["quality"], &float);
-        add(&mut vertex, &["red", "green", "blue"], &byte);
+        out.write_all(b"property float quality\n")?;
+        out.write_all(b"property uchar red\nproperty uchar green\nproperty uchar blue\n")?;
     }
-    let list = PropertyType::List(ScalarType::UChar, ScalarType::Int);
-    let face = element("face", faces.len(), &["vertex_indices"], &list);
-    let mut header = Header::new();
-    header.encoding = Encoding::BinaryLittleEndian;
-    header.elements.add(vertex.clone());
-    header.elements.add(face.clone());
-    let vertices = Writer::<Vertex>::new();
-    vertices.write_header(&mut out, &header)?;
-    for (number, &position) in mesh.positions.iter().enumerate() {
-        let (quality, colour) = qualities.get(number).copied().unwrap_or_default();
-        let record = Vertex { position, quality, colour };
-        vertices.write_little_endian_element(&mut out, &record, &vertex)?;
+    writeln!(out, "element face {}", mesh.triangles.len())?;
+    out.write_all(b"property list uchar int vertex_indices\nend_header\n")?;
+    for (number, position) in mesh.positions.iter().enumerate() {
+        for coordinate in position {
+            out.write_all(&coordinate.to_le_bytes())?;
+        }
+        if !qualities.is_empty() {
+            let (quality, colour) = qualities.get(number).copied().unwrap_or_default();
+            out.write_all(&quality.to_le_bytes())?;
+            out.write_all(&colour)?;
+        }
     }
-    let triangles = Writer::<Face>::new();
-    for corners in &faces {
-        triangles.write_little_endian_element(&mut out, corners, &face)?;
+    for corners in &mesh.triangles {
+        out.write_all(&[3])?;
+        for corner in corners {
+            out.write_all(&corner.to_le_bytes())?;
+        }
     }
     out.flush()
-}
-
-fn element(name: &str, count: usize, properties: &[&str], kind: &PropertyType) -> ElementDef {
-    let mut element = ElementDef::new(name.to_owned());
-    element.count = count;
-    add(&mut element, properties, kind);
-    element
-}
-
-fn add(element: &mut ElementDef, properties: &[&str], kind: &PropertyType) {
-    for property in properties {
-        element.properties.add(PropertyDef::new((*property).to_owned(), kind.clone()));
-    }
-}
-
-struct Vertex {
-    position: [f32; 3],
-    quality: f32,
-    colour: [u8; 3],
-}
-
-impl PropertyAccess for Vertex {
-    fn new() -> Self {
-        Self { position: [0.0; 3], quality: 0.0, colour: [0; 3] }
-    }
-
-    fn get_float(&self, key: &str) -> Option<f32> {
-        if key == "quality" {
-            return Some(self.quality);
-        }
-        let axis = ["x", "y", "z"].iter().position(|name| *name == key)?;
-        self.position.get(axis).copied()
-    }
-
-    fn get_uchar(&self, key: &str) -> Option<u8> {
-        let part = ["red", "green", "blue"].iter().position(|name| *name == key)?;
-        self.colour.get(part).copied()
-    }
-}
-
-struct Face([i32; 3]);
-
-impl PropertyAccess for Face {
-    fn new() -> Self {
-        Self([0; 3])
-    }
-
-    fn get_list_int(&self, _: &str) -> Option<&[i32]> {
-        Some(&self.0)
-    }
 }
 
 #[cfg(test)]

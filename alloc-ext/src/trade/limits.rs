@@ -39,7 +39,7 @@ pub struct Cpu {
 /// let points = trade::points(&part.mesh, near, 1000);
 /// let triangles = part.mesh.triangles.len();
 /// let settings = trade::standard(trade::diagonal(&part.mesh), triangles, Some(near));
-/// let trade = trade::measure(&source, &part, &points, &settings, |_, _| {})?;
+/// let trade = trade::measure(&source, &part, &points, &settings, &|_, _| {})?;
 /// let limits = Limits { flash: Some(16 << 10), ..Limits::default() };
 /// let choice = limits.choose(&trade)?;
 /// println!("{}", choice.first.setting);
@@ -254,7 +254,7 @@ mod tests {
         let [coarse, fine] =
             [VertexBits::Grid16, VertexBits::F32].map(|bits| Setting::new(Recipe::Tree(bits)));
         let settings = [coarse, coarse.with_budget(coarse.budget.with_steps(4)), fine];
-        measure(&source, &part, &points, &settings, |_, _| {}).expect("points are finite")
+        measure(&source, &part, &points, &settings, &|_, _| {}).expect("points are finite")
     }
 
     const CPU: Cpu = Cpu { board: Board::CortexM4F, hertz: 1e9 };

@@ -151,7 +151,7 @@ pub fn measure(
     repaired: &Loaded,
     points: &[[f32; 3]],
     settings: &[Setting],
-    progress: impl Fn(usize, usize) + Sync,
+    progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Trade, QueryError> {
     let mut recipes: Vec<Recipe> = Vec::new();
     for setting in settings {

@@ -85,7 +85,7 @@ pub fn climb<const N: usize>(
     domain: &Domain<N>,
     seeds: &[[f32; N]],
     options: &Climb,
-    value: impl Fn(&[f32; N]) -> Option<f64> + Sync,
+    value: &(dyn Fn(&[f32; N]) -> Option<f64> + Sync),
 ) -> Option<Summit<N>> {
     let numbers = 0..options.starts + seeds.len();
     let climbed: Vec<_> = numbers
@@ -95,7 +95,7 @@ pub fn climb<const N: usize>(
             let random = number.checked_sub(seeds.len()).map(|_| domain.random(&mut rng));
             let start = random.unwrap_or_else(|| seeds[number]);
             let first = value(&start)?;
-            let (query, best) = climb_from(domain, start, first, options.moves, &mut rng, &value);
+            let (query, best) = climb_from(domain, start, first, options.moves, &mut rng, value);
             Some((query, best, random.map(|_| first)))
         })
         .collect();
@@ -120,7 +120,7 @@ fn climb_from<const N: usize>(
     first: f64,
     moves: usize,
     rng: &mut SplitMix,
-    value: impl Fn(&[f32; N]) -> Option<f64>,
+    value: &(dyn Fn(&[f32; N]) -> Option<f64> + Sync),
 ) -> ([f32; N], f64) {
     let (mut query, mut best, mut part) = (start, first, LARGEST_MOVE);
     for _ in 0..moves {
@@ -148,9 +148,9 @@ mod tests {
     #[test]
     fn the_top_of_a_hill_is_found_from_any_start() {
         let hill = |&[x, y]: &[f32; 2]| Some(-f64::from((x - 1.25).powi(2) + (y - 1.5).powi(2)));
-        let top = climb(&SQUARE, &[], &Climb::default(), hill).expect("a value everywhere");
+        let top = climb(&SQUARE, &[], &Climb::default(), &hill).expect("a value everywhere");
         assert!(top.value > -1e-6 && top.typical < -0.5, "{top:?}");
-        assert_eq!(climb(&SQUARE, &[], &Climb::default(), hill), Some(top));
+        assert_eq!(climb(&SQUARE, &[], &Climb::default(), &hill), Some(top));
     }
 
     #[test]
@@ -159,16 +159,16 @@ mod tests {
             assert!((-3.0..=5.0).contains(&x) && (1.0..=2.0).contains(&y));
             (x < 0.0).then_some(f64::from(x))
         };
-        let top = climb(&SQUARE, &[], &Climb::default(), inside).expect("half of it");
+        let top = climb(&SQUARE, &[], &Climb::default(), &inside).expect("half of it");
         assert!(top.value <= 0.0 && top.value > -0.01, "{top:?}");
-        assert_eq!(climb(&SQUARE, &[], &Climb::default(), |_| None), None);
+        assert_eq!(climb(&SQUARE, &[], &Climb::default(), &|_| None), None);
     }
 
     #[test]
     fn a_named_start_on_a_spike_is_the_summit() {
         let spike = [2.0, 1.125];
         let value = |query: &[f32; 2]| Some(if *query == spike { 7.0 } else { 1.0 });
-        let top = climb(&SQUARE, &[spike], &Climb::default(), value).expect("values");
+        let top = climb(&SQUARE, &[spike], &Climb::default(), &value).expect("values");
         assert_eq!((top.query, top.value, top.typical), (spike, 7.0, 1.0));
     }
 }

@@ -121,7 +121,7 @@ impl<'s, 'a> Search<'s, 'a> {
         &self,
         ask: impl Fn(&[f32; 3], &mut [ScratchEntry]) -> Option<Found> + Sync,
     ) -> Option<Worst> {
-        self.search(&Domain { low: self.low, high: self.high }, &self.seeds(), ask)
+        self.search(&Domain { low: self.low, high: self.high }, &self.seeds(), &ask)
     }
 
     /// Points, each with a distance to ask about: up to twice that of the surface.
@@ -132,7 +132,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let with = |[x, y, z]: [f32; 3], share: f32| [x, y, z, share];
         let domain = Domain { low: with(self.low, 0.0), high: with(self.high, 2.0) };
         let seeds: Vec<_> = self.seeds().into_iter().map(|point| with(point, 1.0)).collect();
-        self.search(&domain, &seeds, |&[x, y, z, share], scratch| ask([x, y, z], share, scratch))
+        self.search(&domain, &seeds, &|&[x, y, z, share], scratch| ask([x, y, z], share, scratch))
     }
 
     pub fn segments(
@@ -142,7 +142,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let join = |[a, b, c]: [f32; 3], [d, e, f]: [f32; 3]| [a, b, c, d, e, f];
         let domain = Domain { low: join(self.low, self.low), high: join(self.high, self.high) };
         let seeds = [join(self.low, self.high), join(self.middle(), self.high)];
-        self.search(&domain, &seeds, |&[a, b, c, d, e, f], scratch| {
+        self.search(&domain, &seeds, &|&[a, b, c, d, e, f], scratch| {
             ask([a, b, c], [d, e, f], scratch)
         })
     }
@@ -151,14 +151,14 @@ impl<'s, 'a> Search<'s, 'a> {
         &self,
         domain: &Domain<N>,
         seeds: &[[f32; N]],
-        ask: impl Fn(&[f32; N], &mut [ScratchEntry]) -> Option<Found> + Sync,
+        ask: &(dyn Fn(&[f32; N], &mut [ScratchEntry]) -> Option<Found> + Sync),
     ) -> Option<Worst> {
         let value = |found: Found| match self.goal {
             Goal::Work => Some(found.effort()),
             Goal::Width => found.width.map(f64::from),
         };
         let of = |query: &[f32; N]| value(ask(query, &mut self.scratch())?);
-        let Summit { query, typical, asked, .. } = climb(domain, seeds, &self.climb, of)?;
+        let Summit { query, typical, asked, .. } = climb(domain, seeds, &self.climb, &of)?;
         Some(Worst {
             goal: self.goal,
             query: query.to_vec(),

@@ -22,9 +22,10 @@ fn quick<'a>(question: For) -> (&'static str, Builder<'a>, &'static [&'static st
     match question {
         For::Curve => ("fence.csv", builder, &[]),
         For::Tight => {
-            let builder = builder.tight_faces(&[60]).effort(0.05);
-            ("bracket.stl", builder, &["--tight", "60", "--effort", "0.05"])
+            let builder = builder.tight_faces(&[300]).effort(0.01);
+            ("bracket.stl", builder, &["--tight", "300", "--effort", "0.01"])
         }
+        For::Triboxes => ("bracket.stl", builder.triboxes(6), &["--triboxes", "6"]),
         _ => ("bracket.stl", builder, &[]),
     }
 }
@@ -90,7 +91,7 @@ fn a_recipe_says_the_options_that_build_it() {
         Recipe::Tree(VertexBits::Grid16),
         Recipe::Tree(VertexBits::F32),
         Recipe::Sweep(VertexBits::Grid24),
-        Recipe::Tight(60),
+        Recipe::Tight(200),
         Recipe::Triboxes(8),
     ] {
         let typed = recipe.to_string();
@@ -123,9 +124,9 @@ fn each_option_means_what_it_means_to_the_program() {
     let tight = || Builder::new().serve(For::Tight).effort(0.0);
     for (builder, typed) in [
         (tight().slack(0.3).margin(0.1), "--slack 0.3 --margin 0.1"),
-        (tight().void_percent(40.0).tight_for(true, false), "--void 40 --tight-for closest"),
+        (tight().void_percent(12.0).tight_for(true, false), "--void 12 --tight-for closest"),
         (tight().void_percent(1e-6), "--void 1e-6"),
-        (tight().tight_faces(&[60, 61, 600]), "--tight 60,61,600"),
+        (tight().tight_faces(&[200, 201, 600]), "--tight 200,201,600"),
     ] {
         let typed = format!("--for tight --effort 0 {typed}");
         demand_same(&directory, &torus, builder, &typed.split_whitespace().collect::<Vec<_>>());
@@ -367,7 +368,7 @@ fn each_structure_that_is_built_alone_tells_its_own_stages() {
     let source = Source::of_file(&fixture("bracket.stl"), None).expect("it is read");
     let part = source.repaired().expect("it is a mesh");
     let (input, of_hull) = (part.input(), BuildOptions::default());
-    let of_tight = ChainOptions::of_faces(&[60]).with_effort(0.05);
+    let of_tight = ChainOptions::of_faces(&[300]).with_effort(0.01);
     let of_triboxes = TriboxOptions { count: 8 };
     let curves = read_csv(b"0,0,0\n1,0,0\n1,1,0\n", false).expect("they are curves");
     let of_curves = CurveOptions::default();

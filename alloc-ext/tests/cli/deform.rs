@@ -161,8 +161,9 @@ fn key_frames_stay_where_triboxes_or_tight_hulls_are_cut() {
     let directory = scratch("deform_cut");
     let [rest, bent] = frames(&directory);
     let output = directory.join("bend.msw");
-    let serves = "deform,triboxes,tight";
-    ok(["build", arg(&rest), arg(&bent), "-o", arg(&output), "--for", serves]);
+    let serves = ["--for", "deform,triboxes,tight", "--triboxes", "8", "--tight", "200"];
+    let build = ["build", arg(&rest), arg(&bent), "-o", arg(&output), "--effort", "0"];
+    ok([&build[..], &serves].concat());
     let ask = |blob: &Path| ok(["closest", arg(blob), "3,1,2", "-1,0,0", "--frame", "0.25"]);
     let cut = directory.join("cut.msw");
     for (option, number) in [("--triboxes", "4"), ("--tight", "200")] {

@@ -56,12 +56,13 @@ fn hull_as_json_tells_the_numbers_of_its_text() {
     let directory = scratch("hull_json");
     let (mesh, out) = (fixture("groove.obj"), directory.join("h.ply"));
     let blob = directory.join("b.msw");
-    ok(["build", arg(&mesh), "-o", arg(&blob), "--for", "tight,hull", "--tight", "30"]);
+    let build = ["build", arg(&mesh), "-o", arg(&blob), "--effort", "0"];
+    ok([&build[..], &["--for", "tight,hull", "--tight", "100"]].concat());
     for (input, options) in [
-        (&mesh, &["--faces", "30", "--effort", "0"][..]),
+        (&mesh, &["--faces", "100", "--effort", "0"][..]),
         (&mesh, &["--progressive", "--faces", "30"]),
-        (&mesh, &["--parts", "--faces", "30", "--effort", "0"]),
-        (&blob, &["--tight", "30"]),
+        (&mesh, &["--parts", "--faces", "100", "--effort", "0"]),
+        (&blob, &["--tight", "100"]),
         (&blob, &["--level", "0"]),
     ] {
         let args = [&["hull", arg(input), "-o", arg(&out)], options].concat();

@@ -7,8 +7,8 @@
 use super::pair::{Mover, PlacedModel};
 use super::scene::PairSearch;
 use crate::geom::Pose;
-use crate::num::lesser;
 use crate::num::tolerance::U32;
+use crate::num::{greater, lesser};
 use crate::query::{Budget, Decided, QueryError, ScratchEntry, Undecided, Verdict, Work};
 
 /// Two models of a [`CoherentScene`], and the distance that they are to keep.
@@ -31,6 +31,8 @@ pub struct CoherentScene<'a, const MODELS: usize, const PAIRS: usize> {
     /// No point of each model went farther since the clearances were written.
     moved: [f32; MODELS],
     pairs: [RememberedPair; PAIRS],
+    /// No pair had less clearance when they were written.
+    least: f32,
     /// The pair that the last question ended with.
     last: usize,
 }
@@ -71,6 +73,7 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
             models: models.map(Mover::new),
             moved: [0.0; MODELS],
             pairs: pairs.map(|kept| RememberedPair { kept, left: 0.0 }),
+            least: 0.0,
             last: 0,
         })
     }
@@ -129,13 +132,14 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<[usize; 2]>, QueryError> {
-        let CoherentScene { models, moved, pairs, last } = self;
-        Question { models, moved, pairs, last }.within(budget, scratch)
+        let CoherentScene { models, moved, pairs, least, last } = self;
+        Question { models, moved, pairs, least, last }.within(budget, scratch)
     }
 
     /// Forgets all clearances.
     pub fn reset(&mut self) {
         self.pairs.iter_mut().for_each(|pair| pair.left = 0.0);
+        self.least = 0.0;
     }
 }
 
@@ -144,6 +148,7 @@ struct Question<'q, 'a> {
     models: &'q mut [Mover<'a>],
     moved: &'q mut [f32],
     pairs: &'q mut [RememberedPair],
+    least: &'q mut f32,
     last: &'q mut usize,
 }
 
@@ -159,11 +164,19 @@ impl Question<'_, '_> {
         let is_clear = |pair: &RememberedPair| {
             moved(self.moved, &pair.kept).is_some_and(|moved| pair.left > moved)
         };
-        if self.pairs.iter().all(is_clear) {
+        // Most often no pair can have used up the least clearance of all.
+        let most = self.moved.iter().fold(0.0, |most, &moved| greater(most, moved));
+        if *self.least > 2.0 * most || self.pairs.iter().all(is_clear) {
             return Ok(Decided::CLEAR);
         }
+        *self.least = 0.0;
         self.subtract_motion().ok_or(QueryError::Unchecked)?;
-        self.ask(budget, scratch)
+        let found = self.ask(budget, scratch)?;
+        if found.is_clear() {
+            let left = |least: f32, pair: &RememberedPair| lesser(least, pair.left);
+            *self.least = self.pairs.iter().fold(f32::INFINITY, left);
+        }
+        Ok(found)
     }
 
     /// Takes the motion of both models off the clearance of every pair, before any is asked about.

@@ -74,11 +74,11 @@ fn truths(scenes: &[Scene; MODELS], poses: &[Pose; MODELS]) -> [Bounded; PAIRS.l
 fn a_scene_that_remembers_never_clears_a_pair_that_is_too_near() {
     let mut rng = Rng::new(401);
     let (mut yes, mut no, mut remembered) = (0, 0, 0);
-    for round in 0..12 {
+    for round in 0..8 {
         let scale = [1.0, 1e-30, 1e30, 0.3][round % 4];
         let shapes = [block([-6.0, -6.0, -5.0], [6.0, 6.0, -4.0]), cube(1), cube(1), icosphere(1)];
         let scenes = shapes.map(|shape| Scene::both("", scaled(&shape, scale)));
-        let walk = walk(90, scale, &mut rng);
+        let walk = walk(60, scale, &mut rng);
         let truths: Vec<_> = walk.iter().map(|poses| truths(&scenes, poses)).collect();
         for _ in 0..4 {
             // Each pair's threshold is next to its distance at one of the ticks.
@@ -121,7 +121,7 @@ fn a_scene_that_remembers_never_clears_a_pair_that_is_too_near() {
             }
         }
     }
-    assert!(yes > 100 && no > 100 && remembered > 50, "{yes} {no} {remembered}");
+    assert!(yes > 40 && no > 40 && remembered > 15, "{yes} {no} {remembered}");
 }
 
 #[test]

@@ -18,7 +18,7 @@ fn repaired((positions, triangles): &Triangles) -> Mesh {
 }
 
 fn of(a: &Triangles, b: &Triangles, direction: Direction, precision: &Precision) -> Hausdorff {
-    hausdorff(&repaired(a), &repaired(b), direction, precision, |_, _| ()).expect("two meshes")
+    hausdorff(&repaired(a), &repaired(b), direction, precision, &mut |_, _| ()).expect("two meshes")
 }
 
 /// Largest coordinate.
@@ -240,7 +240,8 @@ fn two_roundings_of_a_mesh_end_at_their_rounding() {
     second.decimal = true;
     let [first, second] = [first, second].map(|raw| repair(raw).expect("a mesh").0);
     let precision = Precision { relative: 1e-4, ..FINE };
-    let found = hausdorff(&first, &second, Direction::Both, &precision, |_, _| ()).expect("meshes");
+    let found =
+        hausdorff(&first, &second, Direction::Both, &precision, &mut |_, _| ()).expect("meshes");
     assert_eq!(found.ended, Ended::Rounding, "{found:?}");
     assert!(found.pieces < 30_000, "{found:?}");
     let rounding = first.rounding + second.rounding;
@@ -263,7 +264,8 @@ fn a_search_that_ends_at_once_names_a_point() {
 }
 
 fn profile_of(a: &Triangles, b: &Triangles, relative: f64) -> Profile {
-    profile(&repaired(a), &repaired(b), &[0.25, 0.5, 0.9], relative, |_, _| ()).expect("meshes")
+    profile(&repaired(a), &repaired(b), &[0.25, 0.5, 0.9], relative, &mut |_, _| ())
+        .expect("meshes")
 }
 
 fn holds([lower, upper]: [f64; 2], truth: f64, slack: f64) -> bool {

@@ -17,7 +17,7 @@ use meshsweep_core::{
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 use tally::Tally;
-use threads::Refused;
+use threads::{Refused, Worker};
 
 /// Rows that a thread takes at once: enough to make the cost of taking them vanish.
 const AT_ONCE: usize = 512;
@@ -41,6 +41,10 @@ pub struct Answer<A> {
     pub work: Work,
 }
 
+/// Writes the number of a row, from 0, the row and its answer.
+type WriteAnswer<'a, const N: usize, A> =
+    dyn Fn(&mut dyn Write, usize, &[f32; N], &Answer<A>) -> io::Result<()> + 'a;
+
 impl<'a, const N: usize> Question<'a, N> {
     pub fn new(header: &'static str, queries: Queries<N>, search: &'a SearchArgs) -> Self {
         Question { header, queries, search, is_by_hull: false, limit: None }
@@ -59,17 +63,12 @@ impl<'a, const N: usize> Question<'a, N> {
     where
         F: FnMut([f32; N]) -> Result<Answer<A>, QueryError>,
     {
-        let one_by_one = || {
+        let worker = || -> Worker<'_, [f32; N], Answer<A>> {
             let mut ask = asker();
-            move |rows: &[[f32; N]], answers: &mut Vec<Answer<A>>| {
-                for (index, &row) in rows.iter().enumerate() {
-                    answers.push(ask(row).map_err(|error| (index, error))?);
-                }
-                Ok(())
-            }
+            Box::new(move |row| ask(*row))
         };
-        let ask = |rows: &[[f32; N]], threads| threads::ask(rows, threads, AT_ONCE, one_by_one);
-        self.ask_all(AT_ONCE, ask, write)
+        let ask = |rows: &[[f32; N]], threads| threads::ask(rows, threads, AT_ONCE, &worker);
+        self.ask_all(AT_ONCE, &ask, &write)
     }
 
     /// Asks about all rows, writes the answers, and says on the standard error how the queries
@@ -82,8 +81,8 @@ impl<'a, const N: usize> Question<'a, N> {
     pub fn ask_all<A>(
         mut self,
         at_once: usize,
-        ask: impl FnOnce(&[[f32; N]], usize) -> (Vec<Answer<A>>, Option<Refused>),
-        write: impl Fn(&mut dyn Write, usize, &[f32; N], &Answer<A>) -> io::Result<()>,
+        ask: &dyn Fn(&[[f32; N]], usize) -> (Vec<Answer<A>>, Option<Refused>),
+        write: &WriteAnswer<'_, N, A>,
     ) -> Result<(), Failure> {
         let (queries, search) = (&mut self.queries, self.search);
         let output = Output::file_or_stdout(search.output.as_deref())?;

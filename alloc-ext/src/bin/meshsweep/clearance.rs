@@ -4,7 +4,7 @@
 use crate::args::{ClearanceArgs, MoveKind, MovedArgs};
 use crate::ask::{self, Answer, Question, verdict_name, write_numbers, write_pair};
 use crate::failure::Failure;
-use crate::poses::{self, AskPoses};
+use crate::poses;
 use crate::queries::Queries;
 use crate::{blob_file, served};
 use meshsweep_core::{BuildFor, Bvh, Interval, Motion, Pose, Relation};
@@ -29,7 +29,17 @@ pub fn run(args: &ClearanceArgs) -> Result<(), Failure> {
             }
         }
     }
-    poses::ask(&args.input, Clearance { args, trees })
+    let (poses, clearance) = (poses::read(&args.input)?, Clearance { args, trees });
+    if let Some(kind) = args.moves {
+        return clearance.ask_moves(kind, poses);
+    }
+    if args.depth {
+        return clearance.ask_depth(poses);
+    }
+    match args.within {
+        Some(distance) => clearance.ask_within(distance, poses),
+        None => clearance.ask_distance(poses),
+    }
 }
 
 struct Clearance<'a> {
@@ -37,31 +47,8 @@ struct Clearance<'a> {
     trees: [Bvh<'a>; 2],
 }
 
-impl AskPoses for Clearance<'_> {
-    fn ask<const N: usize>(
-        self,
-        poses: Queries<N>,
-        pose_of: fn([f32; N]) -> Pose,
-    ) -> Result<(), Failure> {
-        if let Some(kind) = self.args.moves {
-            return self.ask_moves(kind, poses, pose_of);
-        }
-        if self.args.depth {
-            return self.ask_depth(poses, pose_of);
-        }
-        match self.args.within {
-            Some(distance) => self.ask_within(distance, poses, pose_of),
-            None => self.ask_distance(poses, pose_of),
-        }
-    }
-}
-
 impl Clearance<'_> {
-    fn ask_distance<const N: usize>(
-        self,
-        poses: Queries<N>,
-        pose_of: fn([f32; N]) -> Pose,
-    ) -> Result<(), Failure> {
+    fn ask_distance(self, poses: Queries<12>) -> Result<(), Failure> {
         let Clearance { args: ClearanceArgs { search, rel, abs, .. }, trees: [first, second] } =
             self;
         let budget = search.budget().with_relative(*rel).with_absolute(*abs);
@@ -70,7 +57,8 @@ impl Clearance<'_> {
             || {
                 let mut scratch = search.scratch(Bvh::DISTANCE_ENTRIES);
                 move |row| {
-                    let found = first.distance_to(&second, pose_of(row), budget, &mut scratch)?;
+                    let found =
+                        first.distance_to(&second, poses::of_row(row), budget, &mut scratch)?;
                     Ok(Answer { found, ended: found.ended, work: found.work })
                 }
             },
@@ -84,11 +72,7 @@ impl Clearance<'_> {
         )
     }
 
-    fn ask_depth<const N: usize>(
-        self,
-        poses: Queries<N>,
-        pose_of: fn([f32; N]) -> Pose,
-    ) -> Result<(), Failure> {
+    fn ask_depth(self, poses: Queries<12>) -> Result<(), Failure> {
         let Clearance { args: ClearanceArgs { search, rel, abs, .. }, trees: [first, second] } =
             self;
         let budget = search.budget().with_relative(*rel).with_absolute(*abs);
@@ -98,7 +82,8 @@ impl Clearance<'_> {
             || {
                 let mut scratch = search.scratch(entries.max(Bvh::DISTANCE_ENTRIES));
                 move |row| {
-                    let found = first.penetration(&second, pose_of(row), budget, &mut scratch)?;
+                    let found =
+                        first.penetration(&second, poses::of_row(row), budget, &mut scratch)?;
                     Ok(Answer { found, ended: found.ended, work: found.work })
                 }
             },
@@ -116,18 +101,13 @@ impl Clearance<'_> {
         )
     }
 
-    fn ask_within<const N: usize>(
-        self,
-        distance: f32,
-        poses: Queries<N>,
-        pose_of: fn([f32; N]) -> Pose,
-    ) -> Result<(), Failure> {
+    fn ask_within(self, distance: f32, poses: Queries<12>) -> Result<(), Failure> {
         let Clearance { args: ClearanceArgs { search, .. }, trees: [first, second] } = self;
         Question::new("pose,within,first,second,work", poses, search).ask(
             || {
                 let mut scratch = search.scratch(Bvh::DISTANCE_ENTRIES);
                 move |row| {
-                    let (pose, budget) = (pose_of(row), search.budget());
+                    let (pose, budget) = (poses::of_row(row), search.budget());
                     let found = first.within_of(&second, pose, distance, budget, &mut scratch)?;
                     Ok(Answer { found, ended: ask::ended(found.verdict), work: found.work })
                 }
@@ -139,27 +119,24 @@ impl Clearance<'_> {
         )
     }
 
-    fn ask_moves<const N: usize>(
-        self,
-        kind: MoveKind,
-        mut poses: Queries<N>,
-        pose_of: fn([f32; N]) -> Pose,
-    ) -> Result<(), Failure> {
+    fn ask_moves(self, kind: MoveKind, mut poses: Queries<12>) -> Result<(), Failure> {
         let Clearance { args: ClearanceArgs { search, within, .. }, trees: [first, second] } = self;
         let keep = within.unwrap_or(0.0);
         // A pose that begins no screw is refused where it stands, not where a move to it begins.
-        let refused = |row: &[f32; N]| Motion::screw(pose_of(*row), pose_of(*row)).err();
+        let refused =
+            |row: &[f32; 12]| Motion::screw(poses::of_row(*row), poses::of_row(*row)).err();
         let mut checked = poses.rows.iter().enumerate();
         let bad = checked.find_map(|(index, row)| Some((index, refused(row)?)));
         if let (MoveKind::Screw, Some((index, error))) = (kind, bad) {
             let place = poses.place(index);
-            let failure = match poses::no_rotation(&pose_of(poses.rows[index])) {
+            let failure = match poses::no_rotation(&poses::of_row(poses.rows[index])) {
                 Some(fault) => Failure::Matrix { place, fault },
                 None => Failure::Query { place, error },
             };
             poses.end_at(index, failure)?;
         }
-        let moves = poses.moves(|from, to| row_of_poses([pose_of(from), pose_of(to)]))?;
+        let moves =
+            poses.moves(|from, to| row_of_poses([poses::of_row(from), poses::of_row(to)]))?;
         let header = "move,clear,t,ax,ay,az,bx,by,bz,first,second,work";
         Question::new(header, moves, search).ask(
             || {

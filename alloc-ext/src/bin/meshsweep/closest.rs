@@ -61,7 +61,7 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
         let refused = refused.map(|refused| (refused.index, refused.error));
         (found.into_iter().map(|found| answer(found.into())).collect(), refused)
     };
-    question.ask_all(BATCH, ask, write)
+    question.ask_all(BATCH, &ask, &write)
 }
 
 /// The structure that the options choose; or else the box tree, the hull hierarchy, the finest

@@ -43,13 +43,12 @@ pub fn run(args: &HausdorffArgs) -> Result<(), Failure> {
     let direction = if args.one_sided { Direction::Forward } else { Direction::Both };
     let precision = Precision { relative: args.rel, absolute: args.abs, at_most: args.at_most };
     let bar = Bar::new(DIGITS, "comparing", "digits");
-    let progress = |lower: f64, upper: f64| bar.show(digits(lower, upper));
+    let mut progress = |lower: f64, upper: f64| bar.show(digits(lower, upper));
     let started = Instant::now();
-    let found = hausdorff(&first.mesh, &second.mesh, direction, &precision, progress).map_err(
-        |Refused { is_second, error }| {
+    let found = hausdorff(&first.mesh, &second.mesh, direction, &precision, &mut progress)
+        .map_err(|Refused { is_second, error }| {
             Failure::build(if is_second { &args.second } else { &args.first }, error)
-        },
-    )?;
+        })?;
     let seconds = started.elapsed().as_secs_f64();
     drop(bar);
     let profile = if args.profile || args.heat.is_some() {
@@ -96,11 +95,11 @@ const MEAN_WIDTH: f64 = 0.1;
 
 fn spread(args: &HausdorffArgs, first: &Mesh, second: &Mesh) -> Result<Profile, Failure> {
     let bar = Bar::new(DIGITS, "measuring", "digits");
-    let progress = |lower: f64, upper: f64| bar.show(digits(lower, upper));
+    let mut progress = |lower: f64, upper: f64| bar.show(digits(lower, upper));
     // Colours need no mean.
     let (parts, width) =
         if args.profile { (&PARTS[..], MEAN_WIDTH) } else { (&[][..], f64::INFINITY) };
-    profile(first, second, parts, width, progress).map_err(|Refused { is_second, error }| {
+    profile(first, second, parts, width, &mut progress).map_err(|Refused { is_second, error }| {
         Failure::build(if is_second { &args.second } else { &args.first }, error)
     })
 }

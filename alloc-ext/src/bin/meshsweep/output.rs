@@ -68,7 +68,12 @@ impl Output {
         mut self,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        let done = write(&mut self).and_then(|()| self.commit());
+        let written = write(&mut self);
+        self.end(written)
+    }
+
+    fn end(mut self, written: io::Result<()>) -> Result<(), Failure> {
+        let done = written.and_then(|()| self.commit());
         done.map_err(|error| {
             let is_stdout = matches!(self.target, Target::Stdout(_));
             if is_stdout && error.kind() == io::ErrorKind::BrokenPipe {

@@ -3,11 +3,10 @@
 use crate::args::{Engine, MovedArgs, OverlapArgs};
 use crate::ask::{self, Answer, Question, write_pair};
 use crate::failure::Failure;
-use crate::poses::{self, AskPoses};
-use crate::queries::Queries;
+use crate::poses;
 use crate::served::Both;
 use crate::{blob_file, served};
-use meshsweep_core::{Ended, Pose, TrianglePair, Verdict, Work};
+use meshsweep_core::{Ended, TrianglePair, Verdict, Work};
 use std::io::{self, Write};
 
 // Words of the column `contact`.
@@ -24,42 +23,22 @@ pub fn run(args: &OverlapArgs) -> Result<(), Failure> {
     let blobs = [blob_file::open(first)?, blob_file::open(second)?];
     let tree_chosen = args.engine.map(|engine| engine == Engine::Tree);
     let models = served::choose_both([first, second], &blobs, tree_chosen)?;
-    poses::ask(&args.input, Contacts { args, models })
-}
-
-struct Contacts<'a> {
-    args: &'a OverlapArgs,
-    models: Both<'a>,
-}
-
-impl AskPoses for Contacts<'_> {
-    fn ask<const N: usize>(
-        self,
-        poses: Queries<N>,
-        pose_of: fn([f32; N]) -> Pose,
-    ) -> Result<(), Failure> {
-        let Contacts { args, models } = self;
-        let question = Question::new("pose,contact,first,second,work", poses, &args.search);
-        if args.all {
-            ask_all(args, models, question, pose_of)
-        } else {
-            ask_any(args, models, question, pose_of)
-        }
-    }
+    let poses = poses::read(&args.input)?;
+    let question = Question::new("pose,contact,first,second,work", poses, &args.search);
+    if args.all { ask_all(args, models, question) } else { ask_any(args, models, question) }
 }
 
 /// Asks whether the meshes meet.
-fn ask_any<const N: usize>(
+fn ask_any(
     OverlapArgs { search, .. }: &OverlapArgs,
     models: Both<'_>,
-    question: Question<'_, N>,
-    pose_of: fn([f32; N]) -> Pose,
+    question: Question<'_, 12>,
 ) -> Result<(), Failure> {
     question.ask(
         || {
             let mut scratch = search.scratch(models.entries());
             move |row| {
-                let found = models.overlap(pose_of(row), search.budget(), &mut scratch)?;
+                let found = models.overlap(poses::of_row(row), search.budget(), &mut scratch)?;
                 Ok(Answer { found, ended: ask::ended(found.verdict), work: found.work })
             }
         },
@@ -76,18 +55,17 @@ fn ask_any<const N: usize>(
 
 /// Asks for all pairs of triangles that meet. Writes a row for each pair; one without triangles if
 /// there is none, or if pairs may be missing.
-fn ask_all<const N: usize>(
+fn ask_all(
     OverlapArgs { search, .. }: &OverlapArgs,
     models: Both<'_>,
-    question: Question<'_, N>,
-    pose_of: fn([f32; N]) -> Pose,
+    question: Question<'_, 12>,
 ) -> Result<(), Failure> {
     question.ask(
         || {
             let mut scratch = search.scratch(models.entries());
             let mut buffer = vec![TrianglePair::EMPTY; PAIRS];
             move |row| {
-                let pose = pose_of(row);
+                let pose = poses::of_row(row);
                 let (all, found) = ask::all(
                     &mut buffer,
                     TrianglePair::EMPTY,

@@ -8,15 +8,6 @@ use meshsweep::number::Short;
 use meshsweep_core::Pose;
 use meshsweep_core::internal::num::tolerance::RIGID;
 
-/// A question about poses, given as `N` numbers each.
-pub trait AskPoses {
-    fn ask<const N: usize>(
-        self,
-        poses: Queries<N>,
-        pose_of: fn([f32; N]) -> Pose,
-    ) -> Result<(), Failure>;
-}
-
 /// Refuses an output file that is also read.
 pub fn refuse_same_file(input: &MovedArgs, search: &SearchArgs) -> Result<(), Failure> {
     let MovedArgs { first, second, pose, matrix } = input;
@@ -24,18 +15,15 @@ pub fn refuse_same_file(input: &MovedArgs, search: &SearchArgs) -> Result<(), Fa
     output::refuse_same_file(search.output.as_deref(), &inputs)
 }
 
-/// Reads the poses and asks about them.
-pub fn ask(
-    MovedArgs { pose, matrix, .. }: &MovedArgs,
-    question: impl AskPoses,
-) -> Result<(), Failure> {
+/// Reads the poses: rows of matrices, each with its translation.
+pub fn read(MovedArgs { pose, matrix, .. }: &MovedArgs) -> Result<Queries<12>, Failure> {
     if !matrix.is_empty() {
         let mut poses = Queries::read(matrix)?;
         if let Some((index, fault)) = first_fault(&poses.rows) {
             let failure = Failure::Matrix { place: poses.place(index), fault };
             poses.end_at(index, failure)?;
         }
-        return question.ask(poses, of_matrix);
+        return Ok(poses);
     }
     let as_built = [Given::Query([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])];
     let mut poses = Queries::read(if pose.is_empty() { &as_built } else { pose })?;
@@ -43,21 +31,22 @@ pub fn ask(
         let failure = Failure::NoRotation { place: poses.place(index) };
         poses.end_at(index, failure)?;
     }
-    question.ask(poses, of_quaternion)
+    Ok(poses.map(of_quaternion))
 }
 
-/// The pose of a translation and a quaternion, which need not have length 1.
-fn of_quaternion([x, y, z, qw, qx, qy, qz]: [f32; 7]) -> Pose {
+/// The matrix of a translation and a quaternion, which need not have length 1.
+fn of_quaternion([x, y, z, qw, qx, qy, qz]: [f32; 7]) -> [f32; 12] {
     let q = [qw, qx, qy, qz].map(f64::from);
     let largest = q.iter().fold(0f64, |most, x| most.max(x.abs()));
     let [w, a, b, c] = q.map(|x| x / largest);
     let two = 2.0 / (w * w + a * a + b * b + c * c);
-    let rotation = [
+    let [[a, b, c], [d, e, f], [g, h, i]] = [
         [1.0 - two * (b * b + c * c), two * (a * b - w * c), two * (a * c + w * b)],
         [two * (a * b + w * c), 1.0 - two * (a * a + c * c), two * (b * c - w * a)],
         [two * (a * c - w * b), two * (b * c + w * a), 1.0 - two * (a * a + b * b)],
-    ];
-    Pose::rigid(rotation.map(|row| row.map(|x| x as f32)), [x, y, z])
+    ]
+    .map(|row| row.map(|x| x as f32));
+    [a, b, c, x, d, e, f, y, g, h, i, z]
 }
 
 /// The first matrix that has an entry beyond 2, and which entry.
@@ -94,6 +83,6 @@ pub fn no_rotation(pose: &Pose) -> Option<String> {
 }
 
 /// The pose of a matrix's rows, each with its translation. A file may hold any matrix.
-fn of_matrix([a, b, c, x, d, e, f, y, g, h, i, z]: [f32; 12]) -> Pose {
+pub fn of_row([a, b, c, x, d, e, f, y, g, h, i, z]: [f32; 12]) -> Pose {
     Pose::affine([[a, b, c], [d, e, f], [g, h, i]], [x, y, z])
 }

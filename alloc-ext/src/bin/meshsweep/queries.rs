@@ -28,7 +28,8 @@ enum Source {
     Argument(String),
     /// A text, with the line of each query.
     Text(PathBuf, Vec<usize>),
-    Raw(PathBuf),
+    /// A file of f32, and the bytes of a record.
+    Raw(PathBuf, usize),
 }
 
 impl<const N: usize> Queries<N> {
@@ -106,7 +107,7 @@ impl<const N: usize> Queries<N> {
             return Err(Failure::RawLength { file, bytes: bytes.len(), record: 4 * N });
         }
         let first = self.rows.len();
-        self.sources.push((first, Source::Raw(file)));
+        self.sources.push((first, Source::Raw(file, 4 * N)));
         self.rows.extend(rows);
         if let Some(index) = rows.iter().position(|row| !row.iter().all(|x| x.is_finite())) {
             let (place, error) = (self.place(first + index), QueryError::NotFinite);
@@ -137,9 +138,9 @@ impl<const N: usize> Queries<N> {
                 let line = lines.get(index - first).copied().unwrap_or_default();
                 Place::Line { file: file.clone(), line }
             }
-            Some((first, Source::Raw(file))) => {
+            Some((first, Source::Raw(file, bytes))) => {
                 let number = index - first;
-                Place::Record { file: file.clone(), number, byte: number * 4 * N }
+                Place::Record { file: file.clone(), number, byte: number * bytes }
             }
             Some((_, Source::Argument(text))) => Place::Argument { text: text.clone() },
             None => Place::Argument { text: String::new() },
@@ -148,6 +149,12 @@ impl<const N: usize> Queries<N> {
 }
 
 impl<const N: usize> Queries<N> {
+    /// Other numbers for each row.
+    pub fn map<const M: usize>(self, row: fn([f32; N]) -> [f32; M]) -> Queries<M> {
+        let Self { rows, sources, broken } = self;
+        Queries { rows: rows.into_iter().map(row).collect(), sources, broken }
+    }
+
     /// The moves from each row to the next one, as `move_of` gives them. A move came from where its
     /// start did.
     ///

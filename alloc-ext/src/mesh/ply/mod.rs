@@ -1,7 +1,7 @@
 //! PLY, in text or binary.
 //!
-//! `ply-rs-bw`, which writes files here, does not read them: it refuses `nan` in properties that
-//! nobody wants, strings, and headers whose lines end with CR, and it drops what stands twice.
+//! The crate `ply-rs-bw` refuses `nan` in properties that nobody wants, strings, and headers whose
+//! lines end with CR, and it drops what stands twice.
 
 mod body;
 mod header;

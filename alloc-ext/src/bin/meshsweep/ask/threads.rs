@@ -2,7 +2,8 @@
 
 use meshsweep_core::QueryError;
 use std::num::NonZeroUsize;
-use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 /// A row that is refused, by its index, and why.
 pub type Refused = (usize, QueryError);
@@ -14,50 +15,76 @@ pub fn count(wanted: Option<NonZeroUsize>, parts: usize) -> usize {
     wanted.or_else(all).map_or(1, NonZeroUsize::get).min(parts).max(1)
 }
 
-/// Runs `work` on so many threads, the caller's among them. Panics continue in the caller.
+/// Runs `work` on so many threads, the caller's among them. Returns the results in the order in
+/// which they were ready. Panics continue in the caller.
 pub fn each<T: Send>(threads: usize, work: impl Fn() -> T + Sync) -> Vec<T> {
-    std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads).map(|_| scope.spawn(&work)).collect();
-        let mine = work();
-        let join = |other: std::thread::ScopedJoinHandle<'_, T>| {
-            other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        };
-        std::iter::once(mine).chain(others.into_iter().map(join)).collect()
-    })
+    let all = Mutex::new(Vec::new());
+    run(threads, &|| {
+        let one = work();
+        // No thread can panic while it holds the lock.
+        all.lock().unwrap_or_else(PoisonError::into_inner).push(one);
+    });
+    all.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Asks all `rows` in chunks of `at_once`. `worker` makes a thread's worker. A worker gets a chunk
-/// and appends its answers. If it refuses rows, it names the first of them by its index in the
-/// chunk, and appends at most the answers before it. Returns the answers in the order of the rows,
-/// up to the first refused row, and that row.
-pub fn ask<R: Sync, A: Send, W>(
+/// Not generic, here and below: the compiler would make a copy for each question.
+fn run(threads: usize, work: &(dyn Fn() + Sync)) {
+    std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+        work();
+        for other in others {
+            other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        }
+    });
+}
+
+/// Answers one row after the other.
+pub type Worker<'a, R, A> = Box<dyn FnMut(&R) -> Result<A, QueryError> + 'a>;
+
+/// Asks all `rows`, of which a thread takes `at_once` at once. `worker` makes a thread's worker.
+/// Returns the answers in the order of the rows, up to the first refused row, and that row.
+pub fn ask<'a, R: Sync, A: Send>(
     rows: &[R],
     threads: usize,
     at_once: usize,
-    worker: impl Fn() -> W + Sync,
-) -> (Vec<A>, Option<Refused>)
-where
-    W: FnMut(&[R], &mut Vec<A>) -> Result<(), Refused>,
-{
-    let chunks = Mutex::new(rows.chunks(at_once).enumerate());
-    let all = each(threads, || {
+    worker: &(dyn Fn() -> Worker<'a, R, A> + Sync),
+) -> (Vec<A>, Option<Refused>) {
+    let chunks: Vec<_> = rows.chunks(at_once).map(|rows| (rows, Mutex::default())).collect();
+    let (next, refused) = (AtomicUsize::new(0), Mutex::new(None));
+    run(threads, &|| {
         let mut worker = worker();
-        let mut done = Vec::new();
-        // No thread can panic while it holds the lock.
-        while let Some((chunk, rows)) = chunks.lock().ok().and_then(|mut chunks| chunks.next()) {
+        loop {
+            let chunk = next.fetch_add(1, Ordering::Relaxed);
+            let Some((rows, place)) = chunks.get(chunk) else { return };
             let mut answers = Vec::with_capacity(rows.len());
-            let asked = worker(rows, &mut answers);
-            done.push((chunk, answers));
-            if let Err((index, error)) = asked {
-                return (done, Some((chunk * at_once + index, error)));
+            for row in *rows {
+                match worker(row) {
+                    Ok(answer) => answers.push(answer),
+                    Err(error) => {
+                        // The other threads take no chunk more.
+                        next.store(chunks.len(), Ordering::Relaxed);
+                        take_first(&refused, (chunk * at_once + answers.len(), error));
+                        break;
+                    }
+                }
             }
+            *place.lock().unwrap_or_else(PoisonError::into_inner) = answers;
         }
-        (done, None)
     });
     // Threads take chunks in order. So all chunks before the first refused row were asked.
-    let refused = all.iter().filter_map(|(_, refused)| *refused).min_by_key(|(index, _)| *index);
-    let mut done: Vec<_> = all.into_iter().flat_map(|(done, _)| done).collect();
-    done.retain(|(chunk, _)| refused.is_none_or(|(index, _)| *chunk <= index / at_once));
-    done.sort_unstable_by_key(|(chunk, _)| *chunk);
-    (done.into_iter().flat_map(|(_, answers)| answers).collect(), refused)
+    let refused = refused.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let asked = refused.map_or(chunks.len(), |(index, _)| index / at_once + 1);
+    let mut answers = Vec::with_capacity(rows.len());
+    for (_, place) in chunks.into_iter().take(asked) {
+        answers.append(&mut place.into_inner().unwrap_or_else(PoisonError::into_inner));
+    }
+    (answers, refused)
+}
+
+/// Keeps the refused row that comes first.
+fn take_first(refused: &Mutex<Option<Refused>>, row: Refused) {
+    let mut first = refused.lock().unwrap_or_else(PoisonError::into_inner);
+    if first.is_none_or(|(index, _)| row.0 < index) {
+        *first = Some(row);
+    }
 }

@@ -54,7 +54,7 @@ pub fn measured(
             bar.get_or_insert_with(|| Bar::new(of, "measuring", "steps")).show(done);
         }
     };
-    let trade = trade::measure(&source, &loaded, &points, &settings, progress)
+    let trade = trade::measure(&source, &loaded, &points, &settings, &progress)
         .map_err(|error| Failure::Search { file: file.to_owned(), error })?;
     drop(bar);
     Ok((loaded, Measured { trade, diagonal, points: points.len(), kind: words }))

@@ -108,7 +108,7 @@ pub fn ours([first, second]: [&Mesh; 2], side: Side, precision: f64) -> Result<A
         Side::Both => (first, second, Direction::Both),
     };
     let (found, seconds) = timed(|| {
-        hausdorff(from, to, direction, &precision, |_, _| ())
+        hausdorff(from, to, direction, &precision, &mut |_, _| ())
             .map_err(|refused| refused.error.to_string())
     })?;
     // The search builds its trees itself: the same ones are built again.
