@@ -118,16 +118,22 @@ fn passage_in_f32(a: DVec3, d: DVec3, corners: [DVec3; 3]) -> Option<Passage> {
         return None;
     }
     let unit = nd * Real(SIGN_TRIPLE_PRODUCT * U32);
-    let side = |x: RealVector, y: RealVector, nx: Real, ny: Real| {
-        let (product, error) = (d.dot(x.cross(y)), unit * (nx * ny));
-        i32::from(product > error) - i32::from(product < -error)
-    };
-    let (u, v, w) = (side(q, r, nq, nr), side(r, p, nr, np), side(p, q, np, nq));
+    let u = side(d, q, r, unit * (nq * nr));
+    let v = side(d, r, p, unit * (nr * np));
+    let w = side(d, p, q, unit * (np * nq));
     match (lesser(lesser(u, v), w), greater(greater(u, v), w)) {
         (1, _) | (_, -1) => Some(Passage::Through),
         (-1, 1) => Some(Passage::Beside),
         _ => None,
     }
+}
+
+/// The sign of a triple product; 0 if it does not exceed the error.
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
+fn side(d: RealVector, x: RealVector, y: RealVector, error: Real) -> i32 {
+    let product = d.dot(x.cross(y));
+    i32::from(product > error) - i32::from(product < -error)
 }
 
 /// The segment lies in the plane of the triangle up to rounding, or one of them is degenerate.
