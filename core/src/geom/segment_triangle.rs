@@ -108,9 +108,8 @@ fn passage(a: DVec3, d: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Passage {
 #[inline(never)]
 fn passage_in_f32(a: DVec3, d: DVec3, corners: [DVec3; 3]) -> Option<Passage> {
     let (a, d) = (RealVector::from(a.as_vec3()), RealVector::from(d.as_vec3()));
-    let [p, q, r] = each(corners, |corner| RealVector::from(corner.as_vec3()) - a);
     let (na, nd) = (a.norm_1(), d.norm_1());
-    let (np, nq, nr) = (p.norm_1() + na, q.norm_1() + na, r.norm_1() + na);
+    let [(p, np), (q, nq), (r, nr)] = each(corners, |corner| seen_in_f32(a, na, corner));
     let (least, most) =
         (lesser(lesser(nd, np), lesser(nq, nr)), greater(greater(nd, np), greater(nq, nr)));
     // No triple product leaves the range of normal numbers by as much as its margin.
@@ -126,6 +125,14 @@ fn passage_in_f32(a: DVec3, d: DVec3, corners: [DVec3; 3]) -> Option<Passage> {
         (-1, 1) => Some(Passage::Beside),
         _ => None,
     }
+}
+
+/// The way from a start to a corner, and its 1-norm and the start's.
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
+fn seen_in_f32(a: RealVector, na: Real, corner: DVec3) -> (RealVector, Real) {
+    let seen = RealVector::from(corner.as_vec3()) - a;
+    (seen, seen.norm_1() + na)
 }
 
 /// The sign of a triple product; 0 if it does not exceed the error.
