@@ -108,9 +108,8 @@ fn passage(a: DVec3, d: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Passage {
 #[inline(never)]
 fn passage_in_f32(a: DVec3, d: DVec3, corners: [DVec3; 3]) -> Option<Passage> {
     let (a, d) = (RealVector::from(a.as_vec3()), RealVector::from(d.as_vec3()));
-    let [p, q, r] = each(corners, |corner| RealVector::from(corner.as_vec3()) - a);
     let (na, nd) = (a.norm_1(), d.norm_1());
-    let (np, nq, nr) = (p.norm_1() + na, q.norm_1() + na, r.norm_1() + na);
+    let [(p, np), (q, nq), (r, nr)] = each(corners, |corner| seen_in_f32(a, na, corner));
     let (least, most) =
         (lesser(lesser(nd, np), lesser(nq, nr)), greater(greater(nd, np), greater(nq, nr)));
     // No triple product leaves the range of normal numbers by as much as its margin.
@@ -118,16 +117,30 @@ fn passage_in_f32(a: DVec3, d: DVec3, corners: [DVec3; 3]) -> Option<Passage> {
         return None;
     }
     let unit = nd * Real(SIGN_TRIPLE_PRODUCT * U32);
-    let side = |x: RealVector, y: RealVector, nx: Real, ny: Real| {
-        let (product, error) = (d.dot(x.cross(y)), unit * (nx * ny));
-        i32::from(product > error) - i32::from(product < -error)
-    };
-    let (u, v, w) = (side(q, r, nq, nr), side(r, p, nr, np), side(p, q, np, nq));
+    let u = side(d, q, r, unit * (nq * nr));
+    let v = side(d, r, p, unit * (nr * np));
+    let w = side(d, p, q, unit * (np * nq));
     match (lesser(lesser(u, v), w), greater(greater(u, v), w)) {
         (1, _) | (_, -1) => Some(Passage::Through),
         (-1, 1) => Some(Passage::Beside),
         _ => None,
     }
+}
+
+/// The way from a start to a corner, and its 1-norm and the start's.
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
+fn seen_in_f32(a: RealVector, na: Real, corner: DVec3) -> (RealVector, Real) {
+    let seen = RealVector::from(corner.as_vec3()) - a;
+    (seen, seen.norm_1() + na)
+}
+
+/// The sign of a triple product; 0 if it does not exceed the error.
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
+fn side(d: RealVector, x: RealVector, y: RealVector, error: Real) -> i32 {
+    let product = d.dot(x.cross(y));
+    i32::from(product > error) - i32::from(product < -error)
 }
 
 /// The segment lies in the plane of the triangle up to rounding, or one of them is degenerate.

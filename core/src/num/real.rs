@@ -72,14 +72,7 @@ pub fn bit_length(x: u32) -> u32 {
 
 #[inline(never)]
 fn bit_length_by_table(x: u32) -> u32 {
-    const OF_BYTE: [u8; 256] = {
-        let (mut table, mut x) = ([0; 256], 0);
-        while x < 256 {
-            table[x] = (usize::BITS - x.leading_zeros()) as u8;
-            x += 1;
-        }
-        table
-    };
+    const OF_FOUR: [u8; 16] = [0, 1, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4];
     let (mut x, mut count) = (x, 0);
     if x >> 16 != 0 {
         (x, count) = (x >> 16, 16);
@@ -87,7 +80,10 @@ fn bit_length_by_table(x: u32) -> u32 {
     if x >> 8 != 0 {
         (x, count) = (x >> 8, count + 8);
     }
-    count + u32::from(OF_BYTE[x as usize & 255])
+    if x >> 4 != 0 {
+        (x, count) = (x >> 4, count + 4);
+    }
+    count + u32::from(OF_FOUR[x as usize & 15])
 }
 
 impl Real {

@@ -239,7 +239,7 @@ struct Taker<'a, 'v, C> {
 }
 
 impl<C: TriangleCollector> TriangleTaker for Taker<'_, '_, C> {
-    #[inline(always)]
+    #[inline]
     fn triangle(
         &mut self,
         lane: usize,

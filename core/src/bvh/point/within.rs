@@ -32,8 +32,9 @@ impl Bvh<'_> {
     /// `scratch` as for [`closest_point`](Bvh::closest_point). A shorter one may leave the question
     /// undecided; it never makes the answer wrong. Of the budget only `steps` matters.
     ///
-    /// Cost: no node if the model's box is beyond the distance, one without floating point. Else everything within `distance`,
-    /// and no more than a few leaves where the answer is yes.
+    /// Cost: no node if the model's box is beyond the distance, one in small code and without
+    /// floating point. Else everything within `distance`, and no more than a few leaves where the
+    /// answer is yes.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Scratch};
@@ -70,7 +71,7 @@ impl Bvh<'_> {
         let collector = Threshold { query, distance, found: Witness::NONE };
         let mut visitor = TriangleVisitor::new(tree, query, limit, collector);
         // Where steps or memory may end the search, the verdict is that of the search.
-        if !SOFT_FLOAT
+        if !(SOFT_FLOAT || cfg!(meshsweep_small))
             && visitor.is_box_beyond()
             && budget.steps == Budget::EXACT.steps
             && scratch.len() >= tree.scratch_entries()

@@ -132,7 +132,7 @@ struct CandidatesOfLeaf<'a, 'l> {
 }
 
 impl TriangleTaker for CandidatesOfLeaf<'_, '_> {
-    #[inline(always)]
+    #[inline]
     fn triangle(
         &mut self,
         lane: usize,

@@ -3,6 +3,22 @@
 use super::FanLeaf;
 use glam::Vec3;
 
+#[cfg(meshsweep_small)]
+impl FanLeaf<'_> {
+    /// The triangles with a corner at a vertex of the tree: bits, the first triangle's lowest.
+    #[inline(never)]
+    pub(crate) fn lanes_at(&self, at: Vec3) -> u32 {
+        let mut lanes = 0;
+        for lane in 0..self.shape().triangles() {
+            if self.corners(lane).contains(&at) {
+                lanes |= 1 << (lane & 31);
+            }
+        }
+        lanes
+    }
+}
+
+#[cfg(not(meshsweep_small))]
 impl FanLeaf<'_> {
     /// The triangles with a corner at a vertex of the tree: bits, the first triangle's lowest.
     /// `at`: see [`corners`](Self::corners).
@@ -48,6 +64,7 @@ impl FanLeaf<'_> {
 }
 
 /// Zero if two vertices are the same.
+#[cfg(not(meshsweep_small))]
 #[inline(always)]
 fn differ([a, b, c]: [i32; 3], [x, y, z]: [i32; 3]) -> i32 {
     (a ^ x) | (b ^ y) | (c ^ z)
