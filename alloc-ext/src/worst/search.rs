@@ -68,6 +68,9 @@ impl Worst {
     }
 }
 
+/// How a query is asked.
+type Ask<'q, const N: usize> = dyn Fn(&[f32; N], &mut [ScratchEntry]) -> Option<Found> + Sync + 'q;
+
 /// A search, up to the way a query is asked.
 pub(super) struct Search<'s, 'a> {
     structure: &'s Distances<'a>,
@@ -151,7 +154,7 @@ impl<'s, 'a> Search<'s, 'a> {
         &self,
         domain: &Domain<N>,
         seeds: &[[f32; N]],
-        ask: &(dyn Fn(&[f32; N], &mut [ScratchEntry]) -> Option<Found> + Sync),
+        ask: &Ask<'_, N>,
     ) -> Option<Worst> {
         let value = |found: Found| match self.goal {
             Goal::Work => Some(found.effort()),
