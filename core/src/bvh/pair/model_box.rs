@@ -86,6 +86,10 @@ fn are_boxes_apart(
 ) -> bool {
     let rows = rotation.map(Vec3::from_array);
     let way = (turned(&rows, second.middle) + shift) - first.middle;
+    if (way.abs() - first.half).max_element() <= 0.0 {
+        // The middle of one is inside the other.
+        return false;
+    }
     let size = shift.abs();
     let sizes = (size.x + size.y + size.z) + 6.0 * second.reach + 2.0 * first.reach;
     let slack = sizes * (BOX_PAIR * U32);
