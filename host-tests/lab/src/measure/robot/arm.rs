@@ -66,6 +66,7 @@ impl Motion {
 
 /// Where all models are at these angles.
 #[must_use]
+#[allow(clippy::approx_constant, reason = "the digits of the robot's own description")]
 pub fn placed(angles: [f64; JOINTS]) -> [Motion; MODELS] {
     const TURN: f64 = 1.570_796_327;
     let joints = [
