@@ -41,6 +41,10 @@ pub struct Answer<A> {
     pub work: Work,
 }
 
+/// Asks about rows on so many threads. Gives the answers before the first refused row, and that row.
+type AskRows<'a, const N: usize, A> =
+    dyn Fn(&[[f32; N]], usize) -> (Vec<Answer<A>>, Option<Refused>) + 'a;
+
 /// Writes the number of a row, from 0, the row and its answer.
 type WriteAnswer<'a, const N: usize, A> =
     dyn Fn(&mut dyn Write, usize, &[f32; N], &Answer<A>) -> io::Result<()> + 'a;
@@ -81,7 +85,7 @@ impl<'a, const N: usize> Question<'a, N> {
     pub fn ask_all<A>(
         mut self,
         at_once: usize,
-        ask: &dyn Fn(&[[f32; N]], usize) -> (Vec<Answer<A>>, Option<Refused>),
+        ask: &AskRows<'_, N, A>,
         write: &WriteAnswer<'_, N, A>,
     ) -> Result<(), Failure> {
         let (queries, search) = (&mut self.queries, self.search);
