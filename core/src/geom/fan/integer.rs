@@ -15,7 +15,7 @@ use crate::num::{bit_length as bits, each, floored};
 pub struct Corner {
     /// 0, 1 or 2; 3 if it is none.
     pub number: u8,
-    /// Whether [`CornerWay::is_certain`] is known to hold.
+    /// Whether [`is_certain`](super::CornerWay::is_certain) of a corner's way is known to hold.
     pub is_certain: bool,
 }
 
