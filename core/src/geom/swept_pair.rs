@@ -67,8 +67,7 @@ impl<T: Real> SweptTriangle<T> {
     }
 
     /// Whether all corners of one are farther than `radii` from all of the other along a direction.
-    #[cfg_attr(not(meshsweep_soft_float), inline(always))]
-    #[cfg_attr(meshsweep_soft_float, inline(never))]
+    #[inline(always)]
     fn is_apart_along(&self, direction: Point<T>, other: &SweptTriangle<T>, radii: T) -> bool {
         let [from, ..] = self.corners;
         let height = |corner: Point<T>| dot(direction, minus(corner, from));

@@ -162,6 +162,7 @@ impl MovedHull<'_, '_> {
     }
 
     /// Moves the coarse vertices after those of the mesh, fine to coarse.
+    #[inline(never)]
     fn settle(&mut self) -> Option<()> {
         let hull = self.model.rest();
         let Aabb { min: mut low, max: mut high } = self.vertex_box;

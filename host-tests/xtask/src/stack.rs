@@ -26,7 +26,7 @@ const MOST_IN_DEBUG: u32 = 2816;
 pub const DEBUG_IMAGE: &str = "size_tree_four";
 
 /// Functions of `meshsweep.h`, and what a blob has to have for them.
-pub const C_FUNCTIONS: [(&str, &str); 20] = [
+pub const C_FUNCTIONS: [(&str, &str); 25] = [
     ("msw_open", "tree"),
     ("msw_open_trusted", "tree"),
     ("msw_closest_point", "closest"),
@@ -47,6 +47,11 @@ pub const C_FUNCTIONS: [(&str, &str); 20] = [
     ("msw_refine", "hull"),
     ("msw_refined_faces", "hull"),
     ("msw_checksum", "any"),
+    ("msw_pose_of_quaternion", "any"),
+    ("msw_pose_then", "any"),
+    ("msw_pose_inverse", "any"),
+    ("msw_pose_relative_to", "any"),
+    ("msw_pose_motion", "any"),
 ];
 
 /// A function of the header that is not in the list takes less. `part.h` says so.

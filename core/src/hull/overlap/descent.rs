@@ -148,7 +148,8 @@ struct Descent<'s, T, V> {
 }
 
 impl<T: Real, V: PairVisitor<Pair>> Visit for Descent<'_, T, V> {
-    #[inline(always)]
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     fn visit(&mut self, found: &[Candidate], _: &mut SweepQueue<'_>) {
         self.work.bounds = self.work.bounds.saturating_add(found.len() as u32);
         let mut near = 0u32;

@@ -1,7 +1,7 @@
 //! Questions to a hull hierarchy that deforms.
 
 pub use meshsweep_core::DeformableHull;
-use meshsweep_core::{Budget, Decided, MovedVertex, Pose, ScratchEntry};
+use meshsweep_core::{Budget, Decided, MovedHull, MovedVertex, Pose, QueryError, ScratchEntry};
 
 use super::{Asked, Refused, Subject, closest_point};
 use crate::clock::Clock;
@@ -132,9 +132,10 @@ pub fn moved(
         Ok(moved) => moved,
         Err(error) => return super::refusal(fold, error),
     };
+    let mut update = || put_on_arc(&mut moved, [a, b]);
     let updated = match update_clock {
-        Some(clock) => super::timed(clock, || moved.update(arc([a, b]))),
-        None => moved.update(arc([a, b])),
+        Some(clock) => super::timed(clock, update),
+        None => update(),
     };
     if let Err(error) = updated {
         super::refusal(fold, error);
@@ -146,9 +147,10 @@ pub fn moved(
     };
 }
 
-/// A motion of the vertices onto an arc between two ends.
-fn arc([a, b]: [Point; 2]) -> impl Fn(u32) -> Point {
-    move |vertex| {
+/// Moves the vertices onto an arc between two ends.
+#[inline(never)]
+fn put_on_arc(moved: &mut MovedHull<'_, '_>, [a, b]: [Point; 2]) -> Result<(), QueryError> {
+    moved.update(|vertex| {
         // Rings of eight vertices, as those of the suite's torus.
         let along = (vertex / 8) as f32 * 0.0625;
         let across = (vertex % 8) as f32 * 0.125;
@@ -158,7 +160,7 @@ fn arc([a, b]: [Point; 2]) -> impl Fn(u32) -> Point {
             *x = *x + (end - *x) * along + swing;
         }
         place
-    }
+    })
 }
 
 /// Triangles that an overlap may open.
@@ -193,7 +195,7 @@ pub fn moved_overlap(
         Ok(moved) => moved,
         Err(error) => return super::refusal(fold, error),
     };
-    if let Err(error) = moved.update(arc(ends)) {
+    if let Err(error) = put_on_arc(&mut moved, ends) {
         super::refusal(fold, error);
     }
     let budget = Budget::EXACT.with_steps(STEPS);

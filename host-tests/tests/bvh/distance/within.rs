@@ -107,10 +107,11 @@ fn far_points_and_huge_distances_are_answered() {
 }
 
 #[test]
-fn out_of_reach_costs_one_node() {
+fn out_of_reach_opens_at_most_one_node() {
     let scene = Scene::tree("cube", cube(8), false);
     let answer = ask(&scene, [3.0, 0.0, 0.0], 1.5, &Budget::EXACT, STACK);
-    assert_eq!((answer.verdict, answer.work.opened, answer.work.triangles), (Verdict::No, 1, 0));
+    assert_eq!((answer.verdict, answer.work.triangles), (Verdict::No, 0));
+    assert!(answer.work.opened <= 1, "{answer:?}");
 }
 
 #[test]
