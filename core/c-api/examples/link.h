@@ -8,9 +8,14 @@
  * than 64.
  *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
  *   msw_open_tight                  3136 / 2688    3264 / 2816    3136 / 2688    3072 / 2688
- *   msw_tight_within                2688 / 2816    3776 / 3840    2688 / 2816    3136 / 3136
+ *   msw_tight_within                2688 / 2816    3776 / 3840    2688 / 2816    3136 / 3200
  *   msw_tight_model                   384 / 384      384 / 384      384 / 384      320 / 320
  *   msw_checksum                     1088 / 896     1088 / 960     1088 / 896      960 / 832
+ *   msw_pose_of_quaternion            192 / 256      320 / 384      192 / 256      192 / 320
+ *   msw_pose_then                     320 / 512      640 / 832      320 / 512      512 / 704
+ *   msw_pose_inverse                  576 / 448      768 / 768      576 / 448      704 / 640
+ *   msw_pose_relative_to              640 / 448      832 / 768      640 / 448      704 / 704
+ *   msw_pose_motion                   128 / 128      192 / 192      128 / 128      128 / 128
  */
 #ifndef LINK_MSW_H
 #define LINK_MSW_H

@@ -10,7 +10,7 @@
 // take several times as much: core/docs/guide.md tells how to avoid it.
 //                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
 //   open tight hulls                2944 / 2496    2816 / 2560    2944 / 2496    2816 / 2496
-//   closest point of tight hulls    2816 / 2880    3840 / 3904    2816 / 2880    3200 / 3200
+//   closest point of tight hulls    2816 / 2880    3840 / 3904    2816 / 2880    3200 / 3264
 //   within of tight hulls           2752 / 2752    3776 / 3840    2752 / 2752    3136 / 3264
 //
 // Distances are in the mesh's unit. Intervals hold of the mesh, not only of the stored surface.
