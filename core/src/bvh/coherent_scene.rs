@@ -11,7 +11,7 @@ use crate::num::tolerance::U32;
 use crate::num::{greater, lesser};
 use crate::query::{Budget, Decided, QueryError, ScratchEntry, Undecided, Verdict, Work};
 
-/// Two models of a [`CoherentScene`], and the distance that they are to keep.
+/// Two models of a [`CoherentScene`], and the distance that their surfaces are to keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct KeptPair {
@@ -24,7 +24,8 @@ pub struct KeptPair {
 /// Models that move little from one question to the next, and the pairs that are to keep a
 /// distance. Pairs that are not in the list are never looked at.
 ///
-/// RAM: 12 bytes for each pair, and for each model a tree and some 200 bytes.
+/// RAM: 12 bytes for each pair; for each model a tree (some 200 bytes on a board) and some 140
+/// bytes.
 #[derive(Clone, Debug)]
 pub struct CoherentScene<'a, const MODELS: usize, const PAIRS: usize> {
     models: [Mover<'a>; MODELS],
@@ -96,10 +97,11 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
 
     /// Whether the surfaces of any pair are at most the pair's distance apart.
     ///
-    /// Verdicts, witnesses and poses are as for [`Scene::within`](crate::Scene::within), where
-    /// several pairs are too near, of another of these. The verdict is the same as without memory,
-    /// but where the limits of a search are reached. The bits depend on all questions before, and
-    /// are the same on every target.
+    /// Verdict, witness and poses are as for [`Scene::within`](crate::Scene::within). If several
+    /// pairs are too near, the witness may be another one of them. The verdict is the one without
+    /// memory, except where a search reaches its limits. It is about the poses of now: to cover the
+    /// way to the next ones, add the longest path of a point of each of the two models to the
+    /// distance. The bits depend on all questions before, and are the same on every target.
     ///
     /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. Of the
     /// budget only `steps` matters, those of all pairs together. The pair that ended the last

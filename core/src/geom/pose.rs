@@ -9,7 +9,7 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Pose {
-    /// Rows of the matrix; entries of at most 1, up to rounding.
+    /// Rows of the matrix. Entries are at most 1, up to rounding; of an affine one at most 2.
     pub rotation: [[f32; 3]; 3],
     /// Added to the rotated point.
     pub translation: [f32; 3],

@@ -111,8 +111,8 @@ impl FrameHull<'_> {
     ///
     /// Verdicts, witness, `scratch`, errors and degenerate cases are those of [`Hull::overlap`], of
     /// the mesh whose vertices are interpolated from those of the input files. Between keys a
-    /// contact nearer than 1.5 millionths of the largest coordinate is undecided. Here the cost
-    /// also grows with the number of base triangles: their groups have no bound.
+    /// contact nearer than 1.5 millionths of the largest coordinate is undecided. The search begins
+    /// with all base triangles, for a hull that deforms has no bound of groups of them.
     ///
     /// Source: Guéziec 2000, section 5, with deformation (5.3) and rigid motion (5.2).
     ///

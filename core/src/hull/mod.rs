@@ -13,7 +13,7 @@
 //! | `closest_point` | closest point by a sweep |
 //! | `nearest` | the nearest triangle so far, and the bounds of the distance |
 //! | `shared_corner` | a corner that is the closest point of many triangles, on boards |
-//! | `kept_sweep` | a sweep that is interrupted, moved, or gives triangle after triangle |
+//! | `kept_sweep/` | a sweep that is interrupted, moved, or gives triangle after triangle |
 //! | `frame_hull` | the hull between two key frames |
 //! | `deformed` | whether a hull that deforms meets one at rest |
 //! | `moved_hull` | the hull under any motion of the mesh's vertices |

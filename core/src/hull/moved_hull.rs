@@ -227,8 +227,8 @@ impl MovedHull<'_, '_> {
     /// surface of this hull.
     ///
     /// Verdicts, witness, `scratch`, errors and degenerate cases are those of [`Hull::overlap`], of
-    /// the mesh whose vertices are where the last update put them. Here the cost also grows with
-    /// the number of base triangles: their groups have no bound.
+    /// the mesh whose vertices are where the last update put them. The search begins
+    /// with all base triangles, for a hull that deforms has no bound of groups of them.
     ///
     /// Source: Guéziec 2000, section 5, with both deforming (5.3) and rigid motion (5.2).
     ///

@@ -35,8 +35,8 @@ pub enum QueryError {
     /// - one model's grid is more than 2^40 times as coarse as the other's;
     /// - a surface error is far larger than its model.
     PoseOutOfDomain,
-    /// A pose's matrix is no rotation, not even up to three decimals, or a mirror: all zeros, for one. See
-    /// [`Pose::is_affine`](crate::Pose::is_affine). Or a quaternion is all zeros.
+    /// A pose's matrix is no rotation up to three decimals, or it is a mirror. All zeros are no
+    /// rotation. See [`Pose::is_affine`](crate::Pose::is_affine). Or a quaternion is all zeros.
     NotRigid,
     /// The key frame is not a number from 0 to the number of frames less 1.
     NoFrame {

@@ -8,7 +8,10 @@ const LEAST_ADVANCE: f64 = 1.0 / (1u64 << 25) as f64;
 
 impl Bvh<'_> {
     /// Where the surface of `other` first comes within `keep` of the surface of this tree during a
-    /// [`Motion`] along straight lines or along a screw.
+    /// [`Motion`] along straight lines or along a screw. The motion's poses carry `other`'s frame
+    /// to this tree's. If both models move in the world, take poses of one as seen from the other
+    /// ([`Pose::relative_to`](crate::Pose::relative_to)); the way between these is a screw only if
+    /// one model stands still.
     ///
     /// Before `clear_until` the surfaces of the input meshes are proved to be farther than `keep`
     /// apart, at every instant. If [`is_clear`](PairContact::is_clear), they are during the whole

@@ -97,9 +97,10 @@ impl Hull<'_> {
     /// ```
     ///
     /// # Errors
-    /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is
-    /// beyond 2, one model is 2^40 times as large as the other, or a surface error is far larger
-    /// than its model; [`QueryError::NoScratch`], [`QueryError::Tolerance`].
+    /// [`QueryError::NotFinite`]; [`QueryError::NotRigid`] for a matrix that is no rotation, unless
+    /// it is [`Pose::affine`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is beyond
+    /// 2, one model is 2^40 times as large as the other, or a surface error is far larger than its
+    /// model; [`QueryError::NoScratch`], [`QueryError::Tolerance`].
     #[inline(never)]
     pub fn overlap(
         &self,
