@@ -99,7 +99,8 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
     ///
     /// Verdict, witness and poses are as for [`Scene::within`](crate::Scene::within). If several
     /// pairs are too near, the witness may be another one of them. The verdict is the one without
-    /// memory, except where a search reaches its limits. It is about the poses of now: to cover the
+    /// memory, except where a search without it would reach its limits or be undecided for
+    /// resolution. It is about the poses of now: to cover the
     /// way to the next ones, add the longest path of a point of each of the two models to the
     /// distance. The bits depend on all questions before, and are the same on every target.
     ///
@@ -264,5 +265,7 @@ fn clearance(
     }
     let search = PairSearch { models: [one, other], distance, more: beyond(MOTIONS_BY_SEARCH) };
     let (verdict, left) = search.are_near(budget, scratch, work)?;
-    Ok((verdict, if verdict == Verdict::No { left } else { 0.0 }))
+    // What is infinite would never be used up.
+    let is_kept = verdict == Verdict::No && left < f32::INFINITY;
+    Ok((verdict, if is_kept { left } else { 0.0 }))
 }

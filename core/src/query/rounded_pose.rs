@@ -44,9 +44,9 @@ impl RoundedPose {
         RoundedPose { pose, turn: 0.0, shift: 0.0 }
     }
 
-    /// A pose that is known up to `turn` and `shift`, as from an encoder.
+    /// A pose that is known up to `turn` and `shift`, as from an encoder. Their signs do not count.
     pub const fn within(pose: Pose, turn: f32, shift: f32) -> RoundedPose {
-        RoundedPose { pose, turn, shift }
+        RoundedPose { pose, turn: turn.abs(), shift: shift.abs() }
     }
 
     /// No point of a model is farther than this from its place at the exact pose. `radius`: all

@@ -2,8 +2,10 @@
 
 use crate::num::greater;
 
-/// The work of a query. The numbers are the same on every target, but for an exact closest point of
-/// a box tree: processors with vector registers visit its nodes in another order. `meshsweep trade`
+/// The work of a query. The numbers are the same on every target, but for two questions to a box
+/// tree. Processors with vector registers visit the nodes of an exact closest point in another
+/// order. `within` of a model whose box is beyond the distance opens no node, except without a
+/// floating-point unit or in small code. `meshsweep trade`
 /// and `meshsweep worst` count in the order of boards.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -194,3 +194,29 @@ fn a_scene_that_remembers_refuses_what_it_cannot_keep() {
     let mut none = CoherentScene::new([], []).unwrap();
     assert!(none.within(Budget::EXACT, &mut stack()).unwrap().is_clear());
 }
+
+/// A huge bar turns about its middle towards a part: its squared gap is infinite in f32.
+#[test]
+fn a_clearance_whose_square_is_infinite_is_used_up() {
+    let bar = Scene::both("", block([-5e20, -1e18, -1e18], [5e20, 1e18, 1e18]));
+    let part = Scene::both("", scaled(&cube(1), 1e18));
+    let at = Pose { translation: [0.0, 1e20, 0.0], ..Pose::IDENTITY };
+    let models = [
+        PlacedModel::new(bar.bvh(), Pose::IDENTITY).unwrap(),
+        PlacedModel::new(part.bvh(), at).unwrap(),
+    ];
+    let pairs = [KeptPair { models: [0, 1], distance: 1e18 }];
+    let mut scene = CoherentScene::new(models, pairs).unwrap();
+    assert!(scene.within(Budget::EXACT, &mut stack()).unwrap().is_clear());
+    for step in 1..=80 {
+        let (sine, cosine) = (f64::from(step) * std::f64::consts::FRAC_PI_2 / 80.0).sin_cos();
+        let [sine, cosine] = [sine, cosine].map(|x| x as f32);
+        let turned = [[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]];
+        scene.move_to(0, Pose::rigid(turned, [0.0; 3])).unwrap();
+        let found = scene.within(Budget::EXACT, &mut stack()).unwrap();
+        // Until here the bar is far below the part.
+        assert!(step > 70 || found.is_clear(), "{step} {found:?}");
+        // At a right angle it passes through.
+        assert!(step < 80 || !found.is_clear(), "{found:?}");
+    }
+}

@@ -6,7 +6,7 @@ use super::relative::wide;
 use crate::bvh::tree::format::Bvh;
 use crate::geom::Pose;
 use crate::num::tolerance::{BOX_PAIR, MOTION, NEARLY_RIGID, U32};
-use crate::num::{difference, dot, greater, sqrt_approx};
+use crate::num::{difference, dot, greater, lesser, sqrt_approx};
 use crate::query::{PoseInverse, QueryError, check_rigid, is_rotation};
 use glam::Vec3;
 
@@ -40,10 +40,15 @@ pub(crate) struct Apart {
     less: f32,
 }
 
+/// A square that counts as no more than this: of an infinite one a root would be infinite too, and
+/// no motion would ever use it up.
+const MOST_SQUARE: f32 = f32::from_bits((127 + 126) << 23);
+
 impl Apart {
-    /// A lower bound of the distance.
+    /// A lower bound of the distance. Not infinite.
     pub(crate) fn gap(&self) -> f32 {
-        sqrt_approx(self.square) * (1.0 - 8.0 * U32) - self.less * (1.0 + 8.0 * U32)
+        let square = lesser(self.square, MOST_SQUARE);
+        sqrt_approx(square) * (1.0 - 8.0 * U32) - self.less * (1.0 + 8.0 * U32)
     }
 }
 
@@ -72,11 +77,10 @@ impl<'a> PlacedModel<'a> {
         {
             let size = ball.middle.abs();
             let reach = (size.x + size.y + size.z) * (1.0 + 4.0 * U32);
-            self.bounds.reach = greater(self.bounds.reach, reach);
-            self.ball = ball;
+            let bounds = ModelBox { reach: greater(self.bounds.reach, reach), ..self.bounds };
             // The pose was checked.
-            if let Ok(place) = Place::new(&self.bounds, ball.middle, &self.pose) {
-                self.place = place;
+            if let Ok(place) = Place::new(&bounds, ball.middle, &self.pose) {
+                (self.bounds, self.ball, self.place) = (bounds, ball, place);
             }
         }
         self
