@@ -7,13 +7,12 @@
 //! a part that turns end for end passes through a point. Proof: `core/docs/rounding.md` §17.
 
 use super::closest_point;
-use super::deformed::Deformed;
 use super::format::{DeformableHull, Hull, Key, VertIdx};
 use super::geometry::Geometry;
-use crate::geom::{Aabb, Pose, RealVector};
+use crate::geom::{Aabb, RealVector};
 use crate::num::tolerance::{KEY_RADIUS, KEY_VERTEX, U32, VERTEX_UNDERFLOW};
 use crate::num::{Real, greater};
-use crate::query::{Budget, ClosestPoint, Decided, QueryError, ScratchEntry};
+use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry};
 use glam::Vec3;
 
 /// The hull hierarchy of a mesh at a key frame or between two. Copies are cheap.
@@ -104,29 +103,6 @@ impl FrameHull<'_> {
         budget.check_with(scratch)?;
         let Budget { relative, absolute, steps } = budget;
         closest_point::closest_point(self, point, [relative, absolute], steps, scratch)
-    }
-
-    /// Whether the surface of `other`, moved by `pose` to this hull's frame, meets the surface at
-    /// this frame.
-    ///
-    /// Verdicts, witness, `scratch`, errors and degenerate cases are those of [`Hull::overlap`], of
-    /// the mesh whose vertices are interpolated from those of the input files. Between keys a
-    /// contact nearer than 1.5 millionths of the largest coordinate is undecided. The search begins
-    /// with all base triangles, for a hull that deforms has no bound of groups of them.
-    ///
-    /// Source: Guéziec 2000, section 5, with deformation (5.3) and rigid motion (5.2).
-    ///
-    /// # Errors
-    /// Those of [`Hull::overlap`].
-    #[inline(never)]
-    pub fn overlap(
-        &self,
-        other: &Hull<'_>,
-        pose: Pose,
-        budget: Budget,
-        scratch: &mut [ScratchEntry],
-    ) -> Result<Decided<[u32; 2]>, QueryError> {
-        Deformed::Frame(*self).overlap(other, pose, budget, scratch)
     }
 
     #[inline(always)]

@@ -15,14 +15,14 @@
 //! | `shared_corner` | a corner that is the closest point of many triangles, on boards |
 //! | `kept_sweep/` | a sweep that is interrupted, moved, or gives triangle after triangle |
 //! | `frame_hull` | the hull between two key frames |
-//! | `deformed` | whether a hull that deforms meets one at rest |
+//! | `deformed_overlap` | whether a hull that deforms meets one at rest |
 //! | `moved_hull` | the hull under any motion of the mesh's vertices |
 //! | `segment_hits` | first hit and all hits by a sweep |
 //! | `overlap/` | a triangle, or another hull hierarchy, against the surface |
 //! | `outer_hits` | hits from outside on the refined hull |
 
 mod closest_point;
-mod deformed;
+mod deformed_overlap;
 mod focus;
 pub mod format;
 mod frame_hull;

@@ -13,13 +13,12 @@
 //! grow when a part turns. Proof: `core/docs/rounding.md` §17.
 
 use super::closest_point;
-use super::deformed::Deformed;
 use super::format::{DeformableHull, Hull, SplitIdx, VertIdx};
 use super::geometry::Geometry;
-use crate::geom::{Aabb, Pose, RealVector};
+use crate::geom::{Aabb, RealVector};
 use crate::num::tolerance::{DEFORM_DOMAIN, DISPLACEMENT, LENGTH_UP, U32, VERTEX_UNDERFLOW};
 use crate::num::{Radius16, Real, exp2, greater, lesser, sqrt_up};
-use crate::query::{Budget, ClosestPoint, Decided, QueryError, ScratchEntry};
+use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry};
 use glam::Vec3;
 
 /// Sixteen bytes of a [`MovedHull`]'s memory, for one vertex of one level.
@@ -223,29 +222,7 @@ impl MovedHull<'_, '_> {
         closest_point::closest_point(&self.seen()?, point, [relative, absolute], steps, scratch)
     }
 
-    /// Whether the surface of `other`, moved by `pose` to this hull's frame, meets the moved
-    /// surface of this hull.
-    ///
-    /// Verdicts, witness, `scratch`, errors and degenerate cases are those of [`Hull::overlap`], of
-    /// the mesh whose vertices are where the last update put them. The search begins
-    /// with all base triangles, for a hull that deforms has no bound of groups of them.
-    ///
-    /// Source: Guéziec 2000, section 5, with both deforming (5.3) and rigid motion (5.2).
-    ///
-    /// # Errors
-    /// Those of [`Hull::overlap`]; [`QueryError::NoPose`] after an update that failed.
-    #[inline(never)]
-    pub fn overlap(
-        &self,
-        other: &Hull<'_>,
-        pose: Pose,
-        budget: Budget,
-        scratch: &mut [ScratchEntry],
-    ) -> Result<Decided<[u32; 2]>, QueryError> {
-        Deformed::Moved(self.seen()?).overlap(other, pose, budget, scratch)
-    }
-
-    fn seen(&self) -> Result<Moved<'_, '_>, QueryError> {
+    pub(super) fn seen(&self) -> Result<Moved<'_, '_>, QueryError> {
         if !self.has_pose {
             return Err(QueryError::NoPose);
         }

@@ -6,7 +6,7 @@ use super::{QueueHolds, Sweep};
 use crate::hull::format::Instance;
 use crate::hull::front::Refinable;
 use crate::num::down_to_f32;
-use crate::num::tolerance::HULL_FAR;
+use crate::num::tolerance::{HULL_FAR, SUMMED};
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 
 impl Sweep<'_, '_> {
@@ -148,5 +148,37 @@ impl Sweep<'_, '_> {
         }
         self.front.queue.take_back();
         Some(ended)
+    }
+
+    /// Evaluates the near triangles that f32 cannot rule out. On a Cortex-M f64 is slow.
+    fn settle_near(&self, enqueue: &mut Enqueue) -> Option<()> {
+        let margin = self.margin();
+        for &instance in &self.safe.near {
+            let candidate = self.front.look(instance)?;
+            enqueue.limit_to(margin);
+            if Some(instance) != self.best && enqueue.least(&candidate) <= enqueue.nearest.upper() {
+                enqueue.nearest.evaluate(&candidate);
+            }
+        }
+        Some(())
+    }
+
+    /// The motion up to which one of the triangles that were set aside stays the nearest. Nothing
+    /// else is nearer than `others`.
+    fn find_safe_motion(&mut self, upper: f64, mut others: f64) {
+        self.safe.near.clear();
+        let bound = |entry: &ScratchEntry| bound_of(entry.key(), self.moved);
+        // Half way to the nearest other triangle. Entries below it stay near.
+        let threshold = upper + 0.5 * (others - upper);
+        for entry in self.front.queue.aside() {
+            if bound(entry) > threshold || self.safe.near.push(Instance(entry.node())).is_err() {
+                others = others.min(bound(entry));
+            }
+        }
+        // The gap is a difference of numbers with a rounding each.
+        let gap = others * (2.0 - SUMMED) - upper * SUMMED;
+        if gap > 0.0 {
+            self.safe.motion = self.moved + 0.5 * gap * (2.0 - SUMMED);
+        }
     }
 }
