@@ -18,9 +18,10 @@ impl Bvh<'_> {
     /// frame to this tree's (both in input units), and where the surfaces are nearest.
     ///
     /// The interval contains the distance of the input meshes as they were after repair, even if a
-    /// grid moved vertices. The pose's numbers are taken as exact. Its matrix need not be a
-    /// rotation if it [says so](Pose::affine). The interval is `0 ..= 0` if it is proved that the surfaces meet. Only surfaces
-    /// count: of one closed mesh inside the other it is the distance of the two surfaces.
+    /// grid moved vertices. The pose's numbers are taken as exact. Its matrix is a rotation, or any
+    /// matrix if the pose [says so](Pose::affine). The interval is `0 ..= 0` if it is proved that
+    /// the surfaces meet. Only surfaces count: of one closed mesh inside the other it is the
+    /// distance of the two surfaces.
     /// Ask [`overlap`](Bvh::overlap) where contact alone matters, and
     /// [`within_of`](Bvh::within_of) where a threshold does: both are faster. If the models move in
     /// small steps, [`CoherentPair`](crate::CoherentPair) remembers what the last search showed.

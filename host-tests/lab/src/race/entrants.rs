@@ -69,7 +69,7 @@ pub const ENTRANTS: [Entrant; 9] = [
     },
     Entrant {
         name: "batch",
-        remark: "closest_points of the builder crate on the same tree, one thread, Morton order included",
+        remark: "bvh::closest_points on the same tree, one thread, Morton order included",
         missing: || None,
         build: tree::build_batch,
     },

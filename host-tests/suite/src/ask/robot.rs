@@ -89,7 +89,7 @@ pub struct Row {
     pub poses: [Pose; MODELS],
 }
 
-/// What is asked of a pair.
+/// A question about a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
     /// [`Bvh::within_of`].
@@ -101,7 +101,7 @@ pub enum Question {
 /// A pair that is asked about alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
-    /// What is asked.
+    /// The question.
     pub question: Question,
     /// Two models, by their numbers.
     pub models: [usize; 2],

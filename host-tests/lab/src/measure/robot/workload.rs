@@ -1,4 +1,4 @@
-//! What is asked: blobs, poses, pairs, and what is true of them.
+//! The arm's blobs, poses and pairs, and the true distances of the pairs.
 
 use std::path::Path;
 
@@ -47,7 +47,7 @@ impl Tick {
 /// A pair that is asked about alone, and its distance.
 #[derive(Clone, Copy, Debug)]
 pub struct Single {
-    /// What is asked.
+    /// The pair, with its question.
     pub pair: Pair,
     /// Its distance.
     pub truth: f64,
