@@ -4,7 +4,7 @@
 //! path of its points off the clearance of all its pairs, before any pair is asked about: an answer
 //! may end the question early. A pair with clearance left is clear.
 
-use super::pair::{Mover, PlacedModel};
+use super::pair::{MovingModel, PlacedModel};
 use super::scene::PairSearch;
 use crate::geom::Pose;
 use crate::num::tolerance::U32;
@@ -28,7 +28,7 @@ pub struct KeptPair {
 /// bytes.
 #[derive(Clone, Debug)]
 pub struct CoherentScene<'a, const MODELS: usize, const PAIRS: usize> {
-    models: [Mover<'a>; MODELS],
+    models: [MovingModel<'a>; MODELS],
     /// No point of each model went farther since the clearances were written.
     moved: [f32; MODELS],
     pairs: [RememberedPair; PAIRS],
@@ -71,7 +71,7 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
             Budget::EXACT.with_absolute(distance).check()?;
         }
         Ok(CoherentScene {
-            models: models.map(Mover::new),
+            models: models.map(MovingModel::new),
             moved: [0.0; MODELS],
             pairs: pairs.map(|kept| RememberedPair { kept, left: 0.0 }),
             least: 0.0,
@@ -148,7 +148,7 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
 
 /// A question about a scene of any size. As one type, it is compiled once.
 struct Question<'q, 'a> {
-    models: &'q mut [Mover<'a>],
+    models: &'q mut [MovingModel<'a>],
     moved: &'q mut [f32],
     pairs: &'q mut [RememberedPair],
     least: &'q mut f32,
@@ -244,7 +244,7 @@ fn moved(moved: &[f32], kept: &KeptPair) -> Option<f32> {
 
 /// Whether a pair is nearer than its distance; if not, a proved clearance. Both are placed.
 fn clearance(
-    models: &[Mover<'_>],
+    models: &[MovingModel<'_>],
     kept: &KeptPair,
     (budget, scratch): (Budget, &mut [ScratchEntry]),
     work: &mut Work,

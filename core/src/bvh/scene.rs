@@ -3,8 +3,8 @@
 //! Pairs are looked at one after the other: a scene needs no memory of its own. The boxes in the
 //! world leave few pairs for the trees.
 
-use crate::bvh::pair::placed::PlacedModel;
-use crate::bvh::pair::relative::Relative;
+use crate::bvh::pair::placed_model::PlacedModel;
+use crate::bvh::pair::placed_pair::PlacedPair;
 use crate::bvh::pair::world_box::WorldBox;
 use crate::num::tolerance::U32;
 use crate::num::{greater, lesser};
@@ -224,7 +224,7 @@ impl PairSearch<'_, '_> {
         if work.opened >= budget.steps {
             return Ok(out_of_steps);
         }
-        let relative = Relative::new(&one.pose, &other.pose, &other.tree)?;
+        let relative = PlacedPair::new(&one.pose, &other.pose, &other.tree)?;
         let mut ask = |asked: [f32; 2]| {
             let steps = budget.steps.saturating_sub(work.opened);
             if steps == 0 {
@@ -288,7 +288,7 @@ impl NearestPair<'_, '_, '_> {
         if !is_first && limit < f32::INFINITY && one.apart(other, limit).is_some() {
             return Ok(());
         }
-        let relative = Relative::new(&one.pose, &other.pose, &other.tree)?;
+        let relative = PlacedPair::new(&one.pose, &other.pose, &other.tree)?;
         let pose = relative.pose;
         // Most pairs are farther than the nearest one so far, and this is proved at less cost.
         let limit = relative.at_most(self.found.distance.upper);

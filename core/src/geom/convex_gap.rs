@@ -8,7 +8,7 @@
 //! misjudges costs width and no truth. Derivation: `core/docs/rounding.md` §19.
 
 use super::point_triangle::{Closest, closest};
-use super::triangle_pair::{Point, cross, dot, minus, norm_1};
+use super::vector::{Point, cross, dot, minus, norm_1};
 use crate::num::tolerance::{CONVEX_DEPTH, CONVEX_GAP, GAP_DIRECTION_SQ, GAP_SETTLED, U64};
 use crate::num::{greater, lesser};
 use glam::DVec3;

@@ -8,6 +8,7 @@ mod point_segment;
 mod point_triangle;
 mod pose;
 mod real_vector;
+mod rows;
 mod segment_triangle;
 mod solid_angle;
 mod support;
@@ -15,6 +16,7 @@ mod swept_pair;
 mod swept_triangle;
 mod triangle_distance;
 mod triangle_pair;
+mod vector;
 
 pub use boxes::{Aabb, Clipped};
 pub use convex_gap::{ConvexGap, convex_gap};
@@ -23,13 +25,13 @@ pub use point_segment::{CapsulePoint, PointSegment, point_segment};
 pub use point_triangle::{PointTriangle, point_triangle};
 pub use pose::Pose;
 pub(crate) use real_vector::RealVector;
+pub(crate) use rows::{Rows, columns, turned};
 pub use segment_triangle::{SegmentTriangle, comes_within, segment_triangle};
 pub use solid_angle::{SeenCorner, SolidAngles};
 pub use support::Support;
 pub use swept_pair::SweptTriangle;
 pub use swept_triangle::{SweptPoint, SweptSegment, direction_bound};
 pub use triangle_distance::{TriangleDistance, crossing, triangle_distance};
-pub use triangle_pair::{
-    Contact, Real, determinant_margin, straddling_triangles_meet, triangles_meet,
-};
-pub(crate) use triangle_pair::{Point, cross, dot, minus, norm_1};
+pub use triangle_pair::{Contact, determinant_margin, straddling_triangles_meet, triangles_meet};
+pub use vector::Precision;
+pub(crate) use vector::{Point, cross, dot, minus, norm_1, transposed};

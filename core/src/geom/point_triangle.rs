@@ -4,6 +4,7 @@
 //! length of the residual `ap − u·ab − v·ac`. The lower end is a supporting plane, which holds for
 //! any region that rounding chooses. Derivation: `core/docs/rounding.md` §4.
 
+use super::vector::norm_1;
 use crate::num::greater;
 use crate::num::tolerance::{POINT_INTERVAL, U64};
 use glam::DVec3;
@@ -130,12 +131,6 @@ pub(super) fn closest(ap: DVec3, ab: DVec3, ac: DVec3) -> Closest {
 #[inline]
 fn orthogonal(r: DVec3, edge: DVec3, edge_sq: f64) -> DVec3 {
     if edge_sq > 0.0 { r - edge * (r.dot(edge) / edge_sq) } else { r }
-}
-
-/// Sum of absolute coordinates: an upper bound of the length that needs no square root.
-#[inline]
-fn norm_1(x: DVec3) -> f64 {
-    x.x.abs() + x.y.abs() + x.z.abs()
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! A motion of one frame into another.
 
+use super::vector::Point;
+
 /// A motion: `rotation · p + translation`. Each row of the matrix gives a coordinate.
 ///
 /// The numbers are taken as they are, in real arithmetic. If the matrix is a rotation up to
@@ -33,5 +35,11 @@ impl Pose {
     /// questions say which matrices they take.
     pub const fn affine(matrix: [[f32; 3]; 3], translation: [f32; 3]) -> Pose {
         Pose { rotation: matrix, translation, is_affine: true }
+    }
+
+    /// Rows and translation in f64.
+    #[inline(always)]
+    pub(crate) fn wide(&self) -> ([Point<f64>; 3], Point<f64>) {
+        (self.rotation.map(|row| row.map(f64::from)), self.translation.map(f64::from))
     }
 }

@@ -8,6 +8,7 @@
 
 use super::point_triangle::point_triangle;
 use super::real_vector::RealVector;
+use super::vector::norm_1;
 use crate::num::tolerance::{COPLANAR_TOUCH, SIGN_TRIPLE_PRODUCT, TRIPLE_PRODUCT, U32, U64};
 use crate::num::{Real, SOFT_DOUBLE, each, greater, lesser};
 use glam::DVec3;
@@ -254,11 +255,6 @@ fn edge_crossing(a: DVec3, d: DVec3, from: DVec3, to: DVec3, touch: f64) -> Opti
     consider(0.0, divide(es, ee));
     consider(1.0, divide(de + es, ee));
     first
-}
-
-#[inline]
-fn norm_1(x: DVec3) -> f64 {
-    x.x.abs() + x.y.abs() + x.z.abs()
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //! product is turned back by a right angle whenever its argument exceeds half of one, and the right
 //! angles are counted.
 
+use super::vector::norm_1;
 use crate::num::tolerance::{
     ANGLE_PRODUCT, ARCTANGENT, EDGE_DISTANCE, SOLID_ANGLE, SOLID_ANGLE_NEAREST,
     TRUSTED_DIRECTION_SQ, TWO_ARCSINES, U32,
@@ -204,10 +205,6 @@ fn is_clear_of_plane([a, b, c]: [Vec3; 3], sine: f32, moved: f32) -> bool {
     let rounding = (norm_1(a) + norm_1(b) + norm_1(c)) * (8.0 * U32);
     let [e, g] = [b - a, c - a].map(|edge| norm_1(edge) + rounding);
     sine > moved * (e * g) * (1.0 + 16.0 * U32)
-}
-
-fn norm_1(v: Vec3) -> f32 {
-    v.x.abs() + v.y.abs() + v.z.abs()
 }
 
 /// π, rounded up.

@@ -4,7 +4,7 @@
 //! direction is taken as it was computed, and all corners are measured along it. So a normal
 //! misjudged on a sliver costs tightness and not truth. Derivation: `core/docs/rounding.md` §16.
 
-use super::triangle_pair::{Point, Real, cross, dot, minus};
+use super::vector::{Point, Precision, cross, dot, minus};
 use crate::num::tolerance::{SQUARED_SLACK, U32};
 use crate::num::{each, greater, lesser};
 
@@ -19,7 +19,7 @@ pub struct SweptTriangle<T> {
     high: Point<T>,
 }
 
-impl<T: Real> SweptTriangle<T> {
+impl<T: Precision> SweptTriangle<T> {
     /// Of its corners and the sphere's radius, which may be infinite.
     #[inline(always)]
     pub fn new(corners: [Point<T>; 3], radius: T) -> Self {

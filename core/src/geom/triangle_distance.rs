@@ -9,7 +9,7 @@
 //! that of Larsen, Gottschalk, Lin and Manocha, *Fast Proximity Queries with Swept Sphere Volumes*
 //! (1999).
 
-use super::triangle_pair::{Point, cross, dot, minus};
+use super::vector::{Point, cross, dot, minus};
 use crate::num::tolerance::{GAP_DIRECTION_SQ, GAP_SETTLED, TRIANGLE_DISTANCE, U64};
 use crate::num::{greater, lesser};
 

@@ -9,9 +9,8 @@
 //! and a sign counts only where it would be the same for all vertices within `doubt`:
 //! `core/docs/rounding.md` §11.
 
+use super::vector::{Point, Precision, cross, dot, minus, norm_1};
 use crate::num::each;
-use crate::num::tolerance::{DETERMINANT, U32, U64};
-use core::ops::{Add, Mul, Sub};
 
 /// The proved relation of two surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,68 +23,9 @@ pub enum Contact {
     Undecided,
 }
 
-/// A precision of the test.
-pub trait Real:
-    Copy + PartialOrd + From<f32> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
-{
-    /// Zero.
-    const ZERO: Self;
-    /// Rounding of a determinant, as a part of the product of its vectors' 1-norms.
-    const DETERMINANT: Self;
-    /// Upper limit of the loss of a determinant and its bound by underflow.
-    const UNDERFLOW: Self;
-    /// The absolute value.
-    fn abs(self) -> Self;
-}
-
-impl Real for f32 {
-    const ZERO: f32 = 0.0;
-    const DETERMINANT: f32 = DETERMINANT * U32;
-    // Products of two that underflow lose 2^-150 each, and are multiplied once more, by less than
-    // 2^38.
-    const UNDERFLOW: f32 = 1.0 / (1u128 << 100) as f32;
-    #[inline(always)]
-    fn abs(self) -> f32 {
-        f32::abs(self)
-    }
-}
-
-impl Real for f64 {
-    const ZERO: f64 = 0.0;
-    const DETERMINANT: f64 = DETERMINANT as f64 * U64;
-    const UNDERFLOW: f64 = f64::MIN_POSITIVE;
-    #[inline(always)]
-    fn abs(self) -> f64 {
-        f64::abs(self)
-    }
-}
-
-/// A place or a direction.
-pub(crate) type Point<T> = [T; 3];
-
-#[inline(always)]
-pub(crate) fn minus<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> Point<T> {
-    [ax - bx, ay - by, az - bz]
-}
-
-#[inline(always)]
-pub(crate) fn cross<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> Point<T> {
-    [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
-}
-
-#[inline(always)]
-pub(crate) fn dot<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> T {
-    ax * bx + ay * by + az * bz
-}
-
-#[inline(always)]
-pub(crate) fn norm_1<T: Real>([x, y, z]: Point<T>) -> T {
-    x.abs() + y.abs() + z.abs()
-}
-
 /// Error of a determinant of vectors of these 1-norms, each of which may be off by `shift`.
 #[inline(always)]
-pub fn determinant_margin<T: Real>(x: T, y: T, z: T, shift: T) -> T {
+pub fn determinant_margin<T: Precision>(x: T, y: T, z: T, shift: T) -> T {
     let (xy, sum) = (x * y, x + y);
     T::DETERMINANT * (xy * z)
         + shift * ((xy + sum * z) + shift * ((sum + z) + shift))
@@ -94,7 +34,7 @@ pub fn determinant_margin<T: Real>(x: T, y: T, z: T, shift: T) -> T {
 
 /// The proved sign, 1 or −1; 0 if no sign is proved.
 #[inline(always)]
-fn sign<T: Real>(value: T, margin: T) -> i8 {
+fn sign<T: Precision>(value: T, margin: T) -> i8 {
     i8::from(value > margin) - i8::from(value < T::ZERO - margin)
 }
 
@@ -107,7 +47,7 @@ struct Edge<T> {
 }
 
 #[inline(always)]
-fn edges<T: Real>([a, b, c]: [Point<T>; 3]) -> [Edge<T>; 3] {
+fn edges<T: Precision>([a, b, c]: [Point<T>; 3]) -> [Edge<T>; 3] {
     each([(a, b), (b, c), (c, a)], |(from, to)| {
         let offset = minus(to, from);
         Edge { from, offset, length: norm_1(offset) }
@@ -116,7 +56,11 @@ fn edges<T: Real>([a, b, c]: [Point<T>; 3]) -> [Edge<T>; 3] {
 
 /// On which sides of a triangle's plane points lie.
 #[inline(always)]
-fn sides<T: Real>([first, second, _]: &[Edge<T>; 3], points: [Point<T>; 3], shift: T) -> [i8; 3] {
+fn sides<T: Precision>(
+    [first, second, _]: &[Edge<T>; 3],
+    points: [Point<T>; 3],
+    shift: T,
+) -> [i8; 3] {
     let normal = cross(first.offset, second.offset);
     each(points, |p| {
         // From the vertex that both edges share.
@@ -138,7 +82,7 @@ fn sides<T: Real>([first, second, _]: &[Edge<T>; 3], points: [Point<T>; 3], shif
 /// Cost: 3 or 6 determinants if the plane of one triangle separates them, mostly 8; 15 and 36 inner
 /// products where a vertex comes near the other's plane.
 #[inline(always)]
-pub fn triangles_meet<T: Real>(a: [Point<T>; 3], b: [Point<T>; 3], doubt: T) -> Contact {
+pub fn triangles_meet<T: Precision>(a: [Point<T>; 3], b: [Point<T>; 3], doubt: T) -> Contact {
     // Each end of a difference may be off.
     let shift = doubt + doubt;
     let (edges_a, edges_b) = (edges(a), edges(b));
@@ -164,7 +108,7 @@ fn is_certain([p, q, r]: [i8; 3]) -> bool {
 
 /// How one edge turns past another: 1 or −1; 0 if it is not certain.
 #[inline(always)]
-fn turn<T: Real>(first: &Edge<T>, second: &Edge<T>, shift: T) -> i8 {
+fn turn<T: Precision>(first: &Edge<T>, second: &Edge<T>, shift: T) -> i8 {
     let offset = minus(second.from, first.from);
     let margin = determinant_margin(first.length, second.length, norm_1(offset), shift);
     sign(dot(cross(first.offset, second.offset), offset), margin)
@@ -173,7 +117,7 @@ fn turn<T: Real>(first: &Edge<T>, second: &Edge<T>, shift: T) -> i8 {
 /// The edges by which a triangle passes up and down through a plane, if some of its vertices are
 /// above (1) and the others below it (−1).
 #[inline(always)]
-fn passing<T: Real>([a, b, c]: [Point<T>; 3], [p, q, r]: [i8; 3]) -> [Edge<T>; 2] {
+fn passing<T: Precision>([a, b, c]: [Point<T>; 3], [p, q, r]: [i8; 3]) -> [Edge<T>; 2] {
     let edge = |from: Point<T>, to: Point<T>| {
         let offset = minus(to, from);
         Edge { from, offset, length: norm_1(offset) }
@@ -199,7 +143,7 @@ fn passing<T: Real>([a, b, c]: [Point<T>; 3], [p, q, r]: [i8; 3]) -> [Edge<T>; 2
 /// interval begins where an edge passes up, and the second where an edge passes down. So two
 /// determinants tell whether either interval ends before the other begins.
 #[inline(always)]
-pub fn straddling_triangles_meet<T: Real>(
+pub fn straddling_triangles_meet<T: Precision>(
     a: [Point<T>; 3],
     b: [Point<T>; 3],
     [a_sides, b_sides]: [[i8; 3]; 2],
@@ -220,7 +164,7 @@ pub fn straddling_triangles_meet<T: Real>(
 
 /// Whether they meet if some vertex has no certain side of the other plane.
 #[inline(never)]
-fn undecided<T: Real>(
+fn undecided<T: Precision>(
     edges_a: &[Edge<T>; 3],
     edges_b: &[Edge<T>; 3],
     points: [[Point<T>; 3]; 2],
@@ -252,7 +196,7 @@ fn undecided<T: Real>(
 
 /// Whether some plane upright on a triangle, along one of its edges, separates it from the other.
 /// Of triangles in one plane no determinant says more.
-fn parted_in_a_plane<T: Real>(
+fn parted_in_a_plane<T: Precision>(
     edges_a: &[Edge<T>; 3],
     edges_b: &[Edge<T>; 3],
     [a, b]: [[Point<T>; 3]; 2],
@@ -270,7 +214,7 @@ fn parted_in_a_plane<T: Real>(
 /// Whether the direction, taken as it is, points from all of `own` to all of `other`. Distances are
 /// measured from a vertex of `own`.
 #[inline(always)]
-fn parted_along<T: Real>(
+fn parted_along<T: Precision>(
     direction: Point<T>,
     from: Point<T>,
     own: [Point<T>; 3],

@@ -1,13 +1,12 @@
 //! How a model moves from one pose to another.
 
 use super::error::QueryError;
-use super::pose_inverse::transposed;
 use super::rigid::check_rigid;
-use crate::geom::{Pose, cross, dot};
+use crate::geom::{Point, Pose, cross, dot, minus, transposed};
 use crate::num::greater;
 use crate::num::tolerance::{SCREW_ROUNDING, U32, U64};
 
-type Point = [f64; 3];
+type Vector = Point<f64>;
 
 /// A motion of a model from one pose to another. Its time runs from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,14 +26,14 @@ enum Path {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Twist {
     /// A unit vector.
-    axis: Point,
+    axis: Vector,
     /// Radians, 0 to π.
     angle: f64,
     /// Velocity of the model's origin at the time 0.
-    velocity: Point,
+    velocity: Vector,
     /// What is missing at the end to the second pose, because matrices are no perfect rotations:
     /// rows, and the shift. It is added in proportion to the time.
-    rest: ([Point; 3], Point),
+    rest: ([Vector; 3], Vector),
 }
 
 impl Motion {
@@ -64,13 +63,12 @@ impl Motion {
             }
             check_rigid(&Pose { is_affine: false, ..*pose })?;
         }
-        let [start, end] = [&from, &to].map(|pose| pose.rotation.map(wide));
+        let [(start, from_shift), (end, to_shift)] = [&from, &to].map(Pose::wide);
         // end · startᵀ
         let turn = end.map(|row| start.map(|other| dot(row, other)));
         let (axis, angle) = axis_and_angle(&turn);
-        let ([x, y, z], [a, b, c]) = (wide(from.translation), wide(to.translation));
         // The inverse of `Twist::displacement` at the time 1.
-        let (along, across) = split(axis, [a - x, b - y, c - z]);
+        let (along, across) = split(axis, minus(to_shift, from_shift));
         let (mean_cosine, mean_sine) = mean_turn(angle);
         let size = mean_cosine * mean_cosine + mean_sine * mean_sine;
         let velocity = combined(
@@ -79,10 +77,8 @@ impl Motion {
         );
         let mut twist = Twist { axis, angle, velocity, rest: ([[0.0; 3]; 3], [0.0; 3]) };
         let (rows, shift) = twist.pose_at(&from, 1.0);
-        let less = |[a, b, c]: Point, [x, y, z]: Point| [a - x, b - y, c - z];
         let ([r0, r1, r2], [e0, e1, e2]) = (rows, end);
-        twist.rest =
-            ([less(e0, r0), less(e1, r1), less(e2, r2)], less(wide(to.translation), shift));
+        twist.rest = ([minus(e0, r0), minus(e1, r1), minus(e2, r2)], minus(to_shift, shift));
         Ok(Motion { from, path: Path::Screw(twist) })
     }
 
@@ -118,7 +114,7 @@ impl Motion {
 
     /// How far a point of the model goes during the motion, and how far it may be from its place at
     /// a pose that was rounded to f32. Both are convex functions of the point.
-    pub(crate) fn path_bounds(&self, point: Point) -> (f64, f64) {
+    pub(crate) fn path_bounds(&self, point: Vector) -> (f64, f64) {
         match &self.path {
             Path::Straight(to) => straight_bounds(&self.from, to, point),
             Path::Screw(twist) => twist.path_bounds(&self.from, point),
@@ -138,27 +134,28 @@ impl Twist {
     }
 
     /// Rows of the matrix at a time, and the shift.
-    fn pose_at(&self, from: &Pose, t: f64) -> ([Point; 3], Point) {
+    fn pose_at(&self, from: &Pose, t: f64) -> ([Vector; 3], Vector) {
         let angle = self.angle * t;
         let half = libm::sin(0.5 * angle);
         let (sine, versine) = (libm::sin(angle), 2.0 * half * half);
-        let turned = |v: Point| {
+        let turned = |v: Vector| {
             let once = cross(self.axis, v);
             combined([1.0, sine, versine], [v, once, cross(self.axis, once)])
         };
         let (rest_rows, rest_shift) = self.rest;
-        let with_rest = |x: Point, rest: Point| combined([1.0, t, 0.0], [x, rest, [0.0; 3]]);
+        let with_rest = |x: Vector, rest: Vector| combined([1.0, t, 0.0], [x, rest, [0.0; 3]]);
         // A turn turns the columns.
-        let [r0, r1, r2] = transposed(&transposed(&from.rotation.map(wide)).map(turned));
+        let (rows, from_shift) = from.wide();
+        let [r0, r1, r2] = transposed(&transposed(&rows).map(turned));
         let [d0, d1, d2] = rest_rows;
         let travel = self.displacement(angle, t);
-        let shift = combined([1.0, 1.0, t], [wide(from.translation), travel, rest_shift]);
+        let shift = combined([1.0, 1.0, t], [from_shift, travel, rest_shift]);
         ([with_rest(r0, d0), with_rest(r1, d1), with_rest(r2, d2)], shift)
     }
 
     /// How far the model's origin has gone until the time `t`, when it has turned by `angle`: the
     /// integral of the velocity, which turns too.
-    fn displacement(&self, angle: f64, t: f64) -> Point {
+    fn displacement(&self, angle: f64, t: f64) -> Vector {
         let (along, across) = split(self.axis, self.velocity);
         let (mean_cosine, mean_sine) = mean_turn(angle);
         combined([t, t * mean_cosine, t * mean_sine], [along, across, cross(self.axis, across)])
@@ -166,8 +163,8 @@ impl Twist {
 
     /// A point of a rigid body that turns and goes steadily has a steady speed. What is missing at
     /// the end adds its own.
-    fn path_bounds(&self, from: &Pose, point: Point) -> (f64, f64) {
-        let rotation = from.rotation.map(wide);
+    fn path_bounds(&self, from: &Pose, point: Vector) -> (f64, f64) {
+        let (rotation, from_shift) = from.wide();
         let arm = rotation.map(|row| dot(row, point));
         let turning = cross(self.axis, arm).map(|x| x * self.angle);
         let speed = length(combined([1.0, 1.0, 0.0], [self.velocity, turning, [0.0; 3]]));
@@ -177,7 +174,7 @@ impl Twist {
         let [x, y, z] = rest_rows.map(|row| dot(row, point));
         let rest = length([x + p, y + q, z + r]);
         let far = stretch * length(point)
-            + length(wide(from.translation))
+            + length(from_shift)
             + length(self.velocity)
             + rest
             + f64::from(f32::MIN_POSITIVE);
@@ -185,7 +182,7 @@ impl Twist {
     }
 }
 
-fn straight_bounds(from: &Pose, to: &Pose, point: Point) -> (f64, f64) {
+fn straight_bounds(from: &Pose, to: &Pose, point: Vector) -> (f64, f64) {
     let (mut travel_sq, mut rounding) = (0.0, 0.0);
     let starts = from.rotation.iter().zip(&from.translation);
     let ends = to.rotation.iter().zip(&to.translation);
@@ -217,7 +214,7 @@ fn mixed(from: &Pose, to: &Pose, t: f64) -> Pose {
 
 /// Axis and angle of a rotation, by the largest component of its quaternion (Shepperd 1978). Any
 /// axis if it turns nothing.
-fn axis_and_angle(turn: &[Point; 3]) -> (Point, f64) {
+fn axis_and_angle(turn: &[Vector; 3]) -> (Vector, f64) {
     let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = *turn;
     // Each is four times a product of two components, in the order x, y, z, w.
     let squares = [1.0 + xx - yy - zz, 1.0 - xx + yy - zz, 1.0 - xx - yy + zz, 1.0 + xx + yy + zz];
@@ -246,24 +243,19 @@ fn is_finite(pose: &Pose) -> bool {
     pose.rotation.iter().flatten().chain(&pose.translation).all(|x| x.is_finite())
 }
 
-fn wide([x, y, z]: [f32; 3]) -> Point {
-    [f64::from(x), f64::from(y), f64::from(z)]
-}
-
-fn combined([a, b, c]: [f64; 3], [u, v, w]: [Point; 3]) -> Point {
+fn combined([a, b, c]: [f64; 3], [u, v, w]: [Vector; 3]) -> Vector {
     let ([ux, uy, uz], [vx, vy, vz], [wx, wy, wz]) = (u, v, w);
     [a * ux + b * vx + c * wx, a * uy + b * vy + c * wy, a * uz + b * vz + c * wz]
 }
 
-fn length(v: Point) -> f64 {
+fn length(v: Vector) -> f64 {
     libm::sqrt(dot(v, v))
 }
 
 /// The parts of a vector along an axis and across it.
-fn split(axis: Point, v: Point) -> (Point, Point) {
+fn split(axis: Vector, v: Vector) -> (Vector, Vector) {
     let along = axis.map(|n| n * dot(axis, v));
-    let ([x, y, z], [p, q, r]) = (v, along);
-    (along, [x - p, y - q, z - r])
+    (along, minus(v, along))
 }
 
 /// The means of the cosine and of the sine on a turn from 0 to an angle: sin x / x and (1 − cos x)

@@ -1,7 +1,7 @@
 //! The inverse of a pose's matrix, nearly a rotation.
 
 use super::error::QueryError;
-use crate::geom::dot;
+use crate::geom::{dot, transposed};
 use crate::num::tolerance::{POSE_DEFECT, POSED_STRETCH, U64};
 
 type Row = [f64; 3];
@@ -39,12 +39,6 @@ impl PoseInverse {
         }
         at
     }
-}
-
-/// The transpose.
-pub(crate) fn transposed([a, b, c]: &[Row; 3]) -> [Row; 3] {
-    let ([ax, ay, az], [bx, by, bz], [cx, cy, cz]) = (*a, *b, *c);
-    [[ax, bx, cx], [ay, by, cy], [az, bz, cz]]
 }
 
 /// How far the columns are from orthonormal: the Frobenius norm of `RᵀR − 1`.

@@ -80,8 +80,7 @@ impl Pose {
     /// from orthonormal (a reflection is accepted); [`QueryError::OutOfDomain`] if the carried
     /// point is beyond f32's range.
     pub fn to_model(&self, world: [f32; 3]) -> Result<PosedPoint, QueryError> {
-        let rows = self.rotation.map(|row| row.map(f64::from));
-        let shift = self.translation.map(f64::from);
+        let (rows, shift) = self.wide();
         let world = world.map(f64::from);
         if !rows.iter().flatten().chain(&shift).chain(&world).all(|x| x.is_finite()) {
             return Err(QueryError::NotFinite);
@@ -119,8 +118,8 @@ impl Pose {
 
     /// The place to which the pose takes a point of the model, in f64.
     pub(crate) fn carry(&self, model: [f64; 3]) -> [f64; 3] {
-        let [x, y, z] = self.rotation.map(|row| dot(row.map(f64::from), model));
-        let [a, b, c] = self.translation.map(f64::from);
+        let (rows, [a, b, c]) = self.wide();
+        let [x, y, z] = rows.map(|row| dot(row, model));
         [x + a, y + b, z + c]
     }
 }

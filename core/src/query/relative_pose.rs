@@ -6,7 +6,7 @@
 
 use super::error::QueryError;
 use super::rigid::check_rigid;
-use crate::geom::Pose;
+use crate::geom::{Pose, dot, transposed};
 use crate::num::tolerance::{
     OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, OVERLAP_VERTEX, U32, U64,
 };
@@ -75,10 +75,6 @@ pub(crate) struct Placement {
     pub(crate) is_in_range: bool,
 }
 
-fn dot([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
-    (a * x + b * y) + c * z
-}
-
 /// The greatest that `row·q` can be for `|q| ≤ extent`, axis by axis.
 fn most([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
     (a.abs() * x + b.abs() * y) + c.abs() * z
@@ -141,7 +137,7 @@ impl RelativePose {
         let (extent_a, extent_b) = (a.extent.map(|x| x * unit_a), b.extent.map(|x| x * unit_b));
         let longest = unit_b * stretch(&rotation);
         let (error_a, error_b) = (a.error * unit_a, b.error * longest);
-        let columns = [[r0[0], r1[0], r2[0]], [r0[1], r1[1], r2[1]], [r0[2], r1[2], r2[2]]];
+        let columns = transposed(&rotation);
         let [c0, c1, c2] = columns;
         let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let directions = [x, y, z, c0, c1, c2];

@@ -2,8 +2,8 @@
 //! `core/docs/rounding.md` §25.
 
 use super::error::QueryError;
-use super::rigid::{is_rotation, longest, skew};
-use crate::geom::Pose;
+use super::rigid::{is_rotation, longest, skew_of};
+use crate::geom::{Pose, dot, transposed};
 use crate::num::greater;
 use crate::num::tolerance::{POSE_PRODUCT, POSE_SHIFT, QUATERNION, U32};
 
@@ -69,7 +69,8 @@ impl RoundedPose {
         let rotation = second.rotation.map(|row| product(row, &first.rotation));
         let [x, y, z] = second.rotation.map(|row| dot(row, first.translation));
         let [a, b, c] = second.translation;
-        let [before, after] = [longest(skew(&first.rotation)), longest(skew(&second.rotation))];
+        let [before, after] =
+            [longest(skew_of(&first.rotation)), longest(skew_of(&second.rotation))];
         let (away, by) = (size(first.translation), size(second.translation));
         let turn = after * self.turn
             + next.turn * (before + self.turn)
@@ -110,7 +111,7 @@ impl RoundedPose {
     /// Those of [`inverse`](Self::inverse), about `frame`.
     pub fn relative_to(&self, frame: &RoundedPose) -> Result<RoundedPose, QueryError> {
         let rows = &frame.pose.rotation;
-        let lack = skew(rows);
+        let lack = skew_of(rows);
         if !(is_rotation(rows, lack) && frame.turn <= 0.25) {
             let is_finite = rows.iter().flatten().all(|x| x.is_finite());
             return Err(if is_finite { QueryError::NotRigid } else { QueryError::NotFinite });
@@ -120,7 +121,7 @@ impl RoundedPose {
         let [x, y, z] = moved.translation;
         let between = [x - a, y - b, z - c];
         let longest_back = longest(lack);
-        let before = longest(skew(&moved.rotation));
+        let before = longest(skew_of(&moved.rotation));
         // The inverse of the matrix, and that of the exact one, make no length longer than this.
         let lack = lack * UP + 16.0 * U32;
         let inverse = (1.0 + lack) * UP;
@@ -216,17 +217,9 @@ fn up(bound: f32) -> f32 {
     bound * UP + f32::MIN_POSITIVE
 }
 
-fn dot([a, b, c]: [f32; 3], [x, y, z]: [f32; 3]) -> f32 {
-    (a * x + b * y) + c * z
-}
-
 /// A row, times a matrix.
 fn product(row: [f32; 3], &[[a, b, c], [d, e, f], [g, h, i]]: &[[f32; 3]; 3]) -> [f32; 3] {
     [dot(row, [a, d, g]), dot(row, [b, e, h]), dot(row, [c, f, i])]
-}
-
-fn transposed(&[[a, b, c], [d, e, f], [g, h, i]]: &[[f32; 3]; 3]) -> [[f32; 3]; 3] {
-    [[a, d, g], [b, e, h], [c, f, i]]
 }
 
 /// An upper bound of a length.

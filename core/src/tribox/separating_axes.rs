@@ -3,7 +3,7 @@
 use super::bounds::TriboxError;
 use super::directions::{DIRECTIONS, FACES, SLABS};
 use super::support::Support;
-use crate::geom::Pose;
+use crate::geom::{Pose, dot, norm_1};
 use crate::num::tolerance::{PRODUCT_UNDERFLOW, TRIBOX_AXIS, U32};
 use crate::query::{QueryError, check_rigid};
 use crate::tribox::format::Triboxes;
@@ -24,17 +24,6 @@ struct Axis {
 /// The nine directions of the first one and the nine of the second.
 pub(crate) struct Axes {
     sides: [[Axis; SLABS]; 2],
-}
-
-#[inline(always)]
-fn dot([a, b, c]: [f32; 3], [x, y, z]: [f32; 3]) -> f32 {
-    (a * x + b * y) + c * z
-}
-
-#[inline(always)]
-fn size(v: [f32; 3]) -> f32 {
-    let [x, y, z] = v.map(f32::abs);
-    (x + y) + z
 }
 
 /// Largest coordinate of a hierarchy.
@@ -100,7 +89,7 @@ impl Axes {
         let (largest_a, largest_b) = (largest_coordinate(a)?, largest_coordinate(b)?);
         check_rigid(pose)?;
         let [p, q, r] = pose.rotation;
-        let largest = size(pose.translation);
+        let largest = norm_1(pose.translation);
         // Mᵀw, and the same of sizes.
         let back = |[x, y, z]: [f32; 3]| {
             let mut to = [0f32; 3];
@@ -119,7 +108,7 @@ impl Axes {
         for ((of_a, of_b), direction) in first.iter_mut().zip(second.iter_mut()).zip(DIRECTIONS) {
             let f = direction.map(f32::from);
             let margin = |w: [f32; 3]| {
-                TRIBOX_AXIS * U32 * (back_sizes(w) * largest_b + size(w) * (largest_a + largest))
+                TRIBOX_AXIS * U32 * (back_sizes(w) * largest_b + norm_1(w) * (largest_a + largest))
                     + PRODUCT_UNDERFLOW
             };
             let e = back(f);
@@ -128,7 +117,7 @@ impl Axes {
             let [x, y, z] = back(w);
             let [fx, fy, fz] = f;
             // Bound of the matrix's difference from a rotation.
-            let rest = size([x - fx, y - fy, z - fz]) * largest_b;
+            let rest = norm_1([x - fx, y - fy, z - fz]) * largest_b;
             (of_b.towards, of_b.offset, of_b.margin) =
                 (w, -dot(w, pose.translation), margin(w) + rest);
         }

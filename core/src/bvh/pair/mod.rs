@@ -14,10 +14,10 @@
 //! | `stored_pair` | two models in one frame, and the way back to input units |
 //! | `model_box` | the box of a model, and what the boxes of two prove |
 //! | `model_ball` | a small ball that holds a model |
-//! | `placed` | a model at its place in the world: its ball and its box |
-//! | `mover` | a placed model that moves, and how far its points went |
+//! | `placed_model` | a model at its place in the world: its ball and its box |
+//! | `moving_model` | a placed model that moves, and how far its points went |
 //! | `world_box` | the same box along the axes of the world |
-//! | `relative` | the pose of one model in the frame of another |
+//! | `placed_pair` | two models placed in the world, in the frame of one of them |
 //! | `leaf_pair` | the triangles of two leaves |
 //! | `gaps/` | the search of the nearest pair of triangles |
 //! | `from_afar` | two models that are very far from each other |
@@ -33,15 +33,15 @@ mod leaf_pair;
 mod model_ball;
 mod model_box;
 mod models;
-mod mover;
+mod moving_model;
 mod overlap;
 mod penetration;
-pub(super) mod placed;
-pub(super) mod relative;
+pub(super) mod placed_model;
+pub(super) mod placed_pair;
 pub(super) mod stored_pair;
 mod within_of;
 pub(super) mod world_box;
 
 pub use coherent_pair::CoherentPair;
-pub(super) use mover::Mover;
-pub use placed::PlacedModel;
+pub(super) use moving_model::MovingModel;
+pub use placed_model::PlacedModel;

@@ -2,10 +2,10 @@
 
 use crate::bvh::tree::extended::unit_exponent;
 use crate::bvh::tree::format::Bvh;
-use crate::geom::Pose;
+use crate::geom::{Pose, Rows, columns, turned};
+use crate::num::greater;
 use crate::num::tolerance::{BOX_PAIR, MODEL_BOX, NEARLY_RIGID, SKEW, SQUARE_FLOOR, U32};
-use crate::num::{dot, greater};
-use crate::query::{QueryError, RelativePose};
+use crate::query::{QueryError, RelativePose, skew};
 use glam::Vec3;
 
 /// A box that holds the surface of the input. `core/docs/rounding.md` §24.
@@ -17,9 +17,6 @@ pub(crate) struct ModelBox {
     /// No point of the box has a larger 1-norm.
     pub(crate) reach: f32,
 }
-
-/// The rows of a matrix.
-pub(crate) type Rows = [Vec3; 3];
 
 impl ModelBox {
     /// In input units.
@@ -96,7 +93,7 @@ fn are_boxes_apart(
     if exceeds(gap_sq(way, first.half, &rows, second.half), distance + slack) {
         return true;
     }
-    let skew = skew(&rows);
+    let skew = skew(&rows) + SKEW * U32;
     let columns = columns(&rows);
     skew < NEARLY_RIGID
         && exceeds(
@@ -126,28 +123,4 @@ pub(crate) fn beyond_sq(gap: Vec3) -> f32 {
 pub(crate) fn exceeds(square: f32, least: f32) -> bool {
     let least = least * (1.0 + 8.0 * U32);
     square > least * least + SQUARE_FLOOR
-}
-
-/// The product of a matrix and a vector.
-#[inline(always)]
-pub(crate) fn turned([x, y, z]: &Rows, v: Vec3) -> Vec3 {
-    Vec3::new(dot(*x, v), dot(*y, v), dot(*z, v))
-}
-
-/// The columns of a matrix.
-#[inline(always)]
-pub(crate) fn columns([x, y, z]: &Rows) -> Rows {
-    [Vec3::new(x.x, y.x, z.x), Vec3::new(x.y, y.y, z.y), Vec3::new(x.z, y.z, z.z)]
-}
-
-/// How far a matrix is from a rotation or a reflection: an upper bound of the 2-norm of `RᵀR − 1`
-/// if it is at most [`NEARLY_RIGID`]. NaN if an entry is.
-#[inline(always)]
-pub(crate) fn skew([x, y, z]: &Rows) -> f32 {
-    let lengths = [dot(*x, *x) - 1.0, dot(*y, *y) - 1.0, dot(*z, *z) - 1.0].map(f32::abs);
-    let [xy, yz, zx] = [dot(*x, *y), dot(*y, *z), dot(*z, *x)].map(f32::abs);
-    let [x, y, z] = lengths;
-    let (x, y, z) = (x + (xy + zx), y + (xy + yz), z + (yz + zx));
-    // A row with NaN makes all three NaN.
-    greater(greater(x, y), z) + SKEW * U32
 }

@@ -1,6 +1,6 @@
 //! The box of a placed model along the axes of the world.
 
-use super::placed::PlacedModel;
+use super::placed_model::PlacedModel;
 use crate::num::sqrt_approx;
 use crate::num::tolerance::{LEAST_WORLD_GAP, U32, WORLD_BOX};
 

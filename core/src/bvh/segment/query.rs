@@ -1,7 +1,6 @@
 //! A segment in the tree's grid units, prepared for boxes and fans, and the rounding of its
 //! answers.
 
-use super::model_box::norm_1;
 use super::start::SegmentStart;
 use crate::bvh::tree::descent::{NodeQuery, OpenedNode};
 use crate::bvh::tree::format::{Bvh, Units};
@@ -15,6 +14,7 @@ use crate::bvh::tree::node::box_entries_avx2;
 use crate::bvh::tree::node::{Pushed, push_entries};
 use crate::geom::fan::FanRay;
 use crate::geom::fan::WIDTH;
+use crate::geom::norm_1;
 #[cfg(not(meshsweep_wide))]
 use crate::num::SOFT_FLOAT;
 use crate::num::tolerance::{BOX_ENTRY, STILL, U32};

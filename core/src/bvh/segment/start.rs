@@ -1,7 +1,8 @@
 //! Where a segment's line begins, unless the segment is proved clear of the model's box.
 
-use super::model_box::{SegmentAndBox, norm_1};
+use super::model_box::SegmentAndBox;
 use crate::bvh::tree::format::Bvh;
+use crate::geom::norm_1;
 use crate::num::tolerance::{LEAST_DENOMINATOR, NEAR_START, STILL, U32};
 use crate::num::{greater, lesser, two_sum};
 use crate::query::{Budget, QueryError, ScratchEntry};

@@ -5,7 +5,7 @@
 //! distance. The tree's axes give one bound, the solid's axes another. The greater one counts.
 //! Derivation: `core/docs/rounding.md` §19.
 
-use super::placed::{FIRST_AXIS, PlacedSolid};
+use super::placed_solid::{FIRST_AXIS, PlacedSolid};
 use crate::bvh::tree::axis_intervals::AxisIntervals;
 use crate::bvh::tree::descent::{NodeQuery, OpenedNode};
 use crate::bvh::tree::format::Bvh;

@@ -2,7 +2,7 @@
 
 use super::box_keys::{ByTime, bound_of, key_limit};
 use super::leaf_search::LeafTriangles;
-use super::placed::PlacedSolid;
+use super::placed_solid::PlacedSolid;
 use crate::bvh::segment::leaf::Facing;
 use crate::bvh::tree::descent::{Descent, LeafVisit, LeafVisitor, descend};
 use crate::bvh::tree::format::Bvh;

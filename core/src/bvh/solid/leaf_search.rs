@@ -4,7 +4,7 @@
 //! f64, the one with the least bound first.
 
 use super::box_keys::{bounds_sq, key_limit};
-use super::placed::PlacedSolid;
+use super::placed_solid::PlacedSolid;
 use crate::bvh::tree::descent::{LeafVisit, LeafVisitor};
 use crate::bvh::tree::format::{CORNERS, FanLeaf, slots};
 use crate::bvh::tree::gap::{Gap, GapVisitor};

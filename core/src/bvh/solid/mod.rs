@@ -3,7 +3,7 @@
 //!
 //! | file | owns |
 //! | --- | --- |
-//! | `placed` | the solid in the tree's units: its corners, its extent along six directions |
+//! | `placed_solid` | the solid in the tree's units: its corners, its extent along six directions |
 //! | `box_keys` | lower bounds of its distance from the boxes of a node |
 //! | `leaf_search` | its distance from the triangles of a leaf |
 //! | `solid_distance`, `solid_within` | the two questions about a solid at rest |
@@ -12,6 +12,6 @@
 mod box_keys;
 mod first_contact;
 mod leaf_search;
-mod placed;
+mod placed_solid;
 mod solid_distance;
 mod solid_within;

@@ -2,7 +2,7 @@
 
 use super::box_keys::{ByDistance, distance_of};
 use super::leaf_search::LeafSearch;
-use super::placed::PlacedSolid;
+use super::placed_solid::PlacedSolid;
 use crate::bvh::tree::descent::{Descent, descend};
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::gap::{Gap, GapVisitor, NearestGap};

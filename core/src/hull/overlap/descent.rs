@@ -7,7 +7,7 @@
 
 use super::model::Model;
 use super::places::{Places, is_f32_enough};
-use crate::geom::{Contact, Pose, Real, SweptTriangle};
+use crate::geom::{Contact, Pose, Precision, SweptTriangle};
 use crate::hull::format::Instance;
 use crate::hull::front::{Candidate, Refinable, Visit};
 use crate::hull::geometry::Geometry;
@@ -45,7 +45,7 @@ pub(super) fn descend<'a, 'b>(
     found.ok_or(QueryError::Unchecked)
 }
 
-fn run<'a, 'b, T: Real>(
+fn run<'a, 'b, T: Precision>(
     (side_a, side_b): (&mut Model<impl Geometry<'a>>, &mut Model<impl Geometry<'b>>),
     places: &Places<T>,
     exact: &Places<f64>,
@@ -147,7 +147,7 @@ struct Descent<'s, T, V> {
     fixed: SweptTriangle<T>,
 }
 
-impl<T: Real, V: PairVisitor<Pair>> Visit for Descent<'_, T, V> {
+impl<T: Precision, V: PairVisitor<Pair>> Visit for Descent<'_, T, V> {
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
     fn visit(&mut self, found: &[Candidate], _: &mut SweepQueue<'_>) {
@@ -172,7 +172,7 @@ impl<T: Real, V: PairVisitor<Pair>> Visit for Descent<'_, T, V> {
     }
 }
 
-impl<T: Real, V: PairVisitor<Pair>> Descent<'_, T, V> {
+impl<T: Precision, V: PairVisitor<Pair>> Descent<'_, T, V> {
     /// A pair that is not certainly apart.
     fn take(&mut self, child: &Candidate) {
         if self.found != Some(true) {

@@ -1,6 +1,6 @@
 //! The corners of two models in one frame, in f32 or f64.
 
-use crate::geom::{Contact, Real, SweptTriangle, triangles_meet};
+use crate::geom::{Contact, Precision, SweptTriangle, triangles_meet};
 use crate::hull::front::Candidate;
 use crate::num::tolerance::F32_EXTENT;
 use crate::num::{each, greater, lesser, up_to_f32};
@@ -61,7 +61,7 @@ impl Places<f64> {
     }
 }
 
-impl<T: Real> Places<T> {
+impl<T: Precision> Places<T> {
     /// Where a corner of the first (0) or the second (1) model lies.
     #[inline(always)]
     fn corner(&self, side: usize, corner: Vec3) -> [T; 3] {

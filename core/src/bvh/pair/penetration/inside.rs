@@ -4,7 +4,7 @@
 //! that are farther from the other surface than they are large. It needs no list of components.
 
 use super::pair_queries::PairQueries;
-use crate::bvh::pair::relative::Relative;
+use crate::bvh::pair::placed_pair::PlacedPair;
 use crate::bvh::pair::stored_pair::StoredPair;
 use crate::bvh::tree::axis_intervals::AxisIntervals;
 use crate::bvh::tree::format::Bvh;
@@ -25,7 +25,7 @@ impl PairQueries<'_, '_> {
         if second == Side::Inside {
             return Ok(Relation::SecondInside);
         }
-        let relative = Relative::new(pose, &Pose::IDENTITY, a)?;
+        let relative = PlacedPair::new(pose, &Pose::IDENTITY, a)?;
         let first =
             self.side_of_surface(&MovedSurface::new([b, a], &relative.pose, relative.error)?)?;
         Ok(match (first, second) {

@@ -16,7 +16,7 @@
 //! So the product with u has the right sign if it exceeds this error and rounding.
 
 use super::search::Search;
-use super::viewed_side::{ViewedSide, cross, is_flat, is_same, norm_1, viewed_side};
+use super::viewed_side::{ViewedSide, cross, is_flat, is_same, viewed_side};
 use crate::bvh::point::leaf::bounds::{TriangleTaker, each_triangle, limit_of, lower_of};
 use crate::bvh::point::leaf::distance::nearest_within;
 use crate::bvh::point::leaf::limit::LeafLimit;
@@ -25,6 +25,7 @@ use crate::bvh::point::query::PointQuery;
 use crate::bvh::point::triangle_visitor::follow;
 use crate::bvh::tree::descent::{LeafVisit, LeafVisitor};
 use crate::bvh::tree::format::{Bvh, FanLeaf, lanes_of};
+use crate::geom::norm_1;
 use crate::num::tolerance::{SIGN_COSINE, TRUSTED_DIRECTION_SQ, U32};
 use crate::num::{Real, greater, sqrt_approx};
 use crate::query::Side;

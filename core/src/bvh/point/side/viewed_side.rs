@@ -10,6 +10,7 @@ use crate::bvh::point::query::PointQuery;
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::{is_in_front, is_whole};
+use crate::geom::norm_1;
 use crate::num::SOFT_FLOAT;
 use crate::num::tolerance::{EXACT_INTEGERS, SIGN_TRIPLE_PRODUCT, U32};
 use glam::Vec3;
@@ -120,13 +121,6 @@ fn by_rounding(
     } else {
         ViewedSide::Unclear
     }
-}
-
-/// The 1-norm.
-#[inline(always)]
-pub(crate) fn norm_1(v: Vec3) -> f32 {
-    let v = v.abs();
-    v.x + v.y + v.z
 }
 
 /// Normal of two spokes, and for each component the sum of the absolute values of its products.

@@ -20,6 +20,7 @@ mod wide;
 
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::node::WIDE;
+use crate::geom::norm_1;
 use crate::num::tolerance::BVH_FAR;
 #[cfg(any(test, not(meshsweep_wide)))]
 use crate::num::tolerance::{LEAST_DENOMINATOR, U32};
@@ -154,9 +155,3 @@ impl SegmentAndBox {
 
 /// The bit of a number's sign.
 const SIGN: u32 = 1 << 31;
-
-/// The sum of the absolute values.
-#[inline(always)]
-pub(super) fn norm_1(v: Vec3) -> f32 {
-    v.x.abs() + v.y.abs() + v.z.abs()
-}

@@ -1,7 +1,8 @@
 //! A glance never contradicts [`SegmentAndBox::is_clear`].
 
-use super::{Glance, SegmentAndBox, integer, norm_1, plain};
+use super::{Glance, SegmentAndBox, integer, plain};
 use crate::bvh::tree::format::Bvh;
+use crate::geom::norm_1;
 use crate::query::QueryError;
 
 /// A number from −1 to 1.

@@ -2,14 +2,14 @@
 
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::input_box::corners_of_input;
-use crate::geom::{Pose, dot};
+use crate::geom::{Point, Pose, dot, transposed};
 use crate::num::tolerance::{POSED_POINT, RELATIVE_POSE, U64};
 use crate::num::{down_to_f32, greater, up_to_f32};
-use crate::query::{Interval, PoseInverse, QueryError, transposed};
+use crate::query::{Interval, PoseInverse, QueryError};
 
 /// The pose of one model in the frame of another, and how distances there differ from those in the
 /// world.
-pub(crate) struct Relative {
+pub(crate) struct PlacedPair {
     pub(crate) pose: Pose,
     /// A vertex is no farther than this from its place at that pose, in the first model's frame.
     pub(crate) error: f64,
@@ -17,10 +17,14 @@ pub(crate) struct Relative {
     stretch: f64,
 }
 
-impl Relative {
+impl PlacedPair {
     /// `tree` is the second model. The first pose is nearly a rotation.
-    pub(crate) fn new(first: &Pose, second: &Pose, tree: &Bvh<'_>) -> Result<Relative, QueryError> {
-        let ((a_rows, a_shift), (b_rows, b_shift)) = (wide(first), wide(second));
+    pub(crate) fn new(
+        first: &Pose,
+        second: &Pose,
+        tree: &Bvh<'_>,
+    ) -> Result<PlacedPair, QueryError> {
+        let ((a_rows, a_shift), (b_rows, b_shift)) = (first.wide(), second.wide());
         let inverse = PoseInverse::new(a_rows)?;
         let stretch = inverse.stretch;
         let ([ax, ay, az], [bx, by, bz]) = (a_shift, b_shift);
@@ -35,16 +39,16 @@ impl Relative {
             return Err(QueryError::OutOfDomain);
         }
         // As rounded.
-        let (m_rows, m_shift) = wide(&pose);
+        let (m_rows, m_shift) = pose.wide();
         let mut largest = 0.0;
         // How far off a point is, is a convex function of the point: a corner of the box is worst.
         for x in corners_of_input(tree) {
             let [p, q, r] = m_rows.map(|row| dot(row, x));
             let [u, v, w] = m_shift;
             let carried = [p + u, q + v, r + w];
-            let sizes = |row: Row, v: Row| dot(row.map(f64::abs), v.map(f64::abs));
+            let sizes = |row: Point<f64>, v: Point<f64>| dot(row.map(f64::abs), v.map(f64::abs));
             // B·x + t − (A·(M·x + m) + s) along an axis, and room for its rounding.
-            let residual = |a_row: Row, b_row: Row, s: f64, t: f64| {
+            let residual = |a_row: Point<f64>, b_row: Point<f64>, s: f64, t: f64| {
                 let terms = sizes(a_row, m_rows.map(|row| sizes(row, x)))
                     + sizes(a_row, m_shift)
                     + sizes(b_row, x)
@@ -63,7 +67,7 @@ impl Relative {
             largest = greater(largest, off_sq);
         }
         let error = libm::sqrt(largest) / (1.0 - stretch) * (1.0 + POSED_POINT * U64);
-        Ok(Relative { pose, error, stretch })
+        Ok(PlacedPair { pose, error, stretch })
     }
 
     /// The distance in the world, from that in the first model's frame.
@@ -87,10 +91,4 @@ impl Relative {
         let in_model = in_model - self.error * (1.0 + 4.0 * U64);
         (in_model >= 0.0).then(|| down_to_f32(in_model))
     }
-}
-
-type Row = [f64; 3];
-
-pub(crate) fn wide(pose: &Pose) -> ([Row; 3], Row) {
-    (pose.rotation.map(|row| row.map(f64::from)), pose.translation.map(f64::from))
 }

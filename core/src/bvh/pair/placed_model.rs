@@ -1,13 +1,12 @@
 //! A model at its place in the world, and what boxes and balls prove of two of them.
 
 use super::model_ball::ModelBall;
-use super::model_box::{ModelBox, Rows, beyond_sq, columns, exceeds, gap_sq, skew, turned};
-use super::relative::wide;
+use super::model_box::{ModelBox, beyond_sq, exceeds, gap_sq};
 use crate::bvh::tree::format::Bvh;
-use crate::geom::Pose;
-use crate::num::tolerance::{BOX_PAIR, MOTION, NEARLY_RIGID, U32};
+use crate::geom::{Pose, Rows, columns, turned};
+use crate::num::tolerance::{BOX_PAIR, MOTION, NEARLY_RIGID, SKEW, U32};
 use crate::num::{difference, dot, greater, lesser, sqrt_approx};
-use crate::query::{PoseInverse, QueryError, check_rigid, is_rotation};
+use crate::query::{PoseInverse, QueryError, check_rigid, is_rotation, skew};
 use glam::Vec3;
 
 /// A model at its place in a [`Scene`](crate::Scene).
@@ -30,7 +29,7 @@ struct Place {
     centre: Vec3,
     /// Twice the box's reach, and the 1-norm of the translation.
     far: f32,
-    /// See [`skew`].
+    /// Upper bound of [`skew`].
     skew: f32,
 }
 
@@ -119,7 +118,7 @@ impl<'a> PlacedModel<'a> {
         (self.ball.radius + self.bounds.reach * (MOTION * U32)) * (1.0 + 4.0 * U32)
     }
 
-    /// See [`skew`].
+    /// Upper bound of [`skew`].
     #[inline(always)]
     pub(crate) fn skew(&self) -> f32 {
         self.place.skew
@@ -192,7 +191,7 @@ impl Place {
         let shift = Vec3::from_array(pose.translation);
         let size = shift.abs();
         let far = (size.x + size.y + size.z) + 2.0 * bounds.reach;
-        let skew = skew(&rows);
+        let skew = skew(&rows) + SKEW * U32;
         let is_sound = is_rotation(&pose.rotation, skew) || pose.is_affine && skew < NEARLY_RIGID;
         if !(is_sound && far < f32::INFINITY) {
             check_pose(pose)?;
@@ -209,5 +208,5 @@ fn check_pose(pose: &Pose) -> Result<(), QueryError> {
         return Err(QueryError::NotFinite);
     }
     check_rigid(pose)?;
-    PoseInverse::new(wide(pose).0).map(|_| ())
+    PoseInverse::new(pose.wide().0).map(|_| ())
 }

@@ -1,6 +1,6 @@
 //! A model that moves, and a bound of how far its points went.
 
-use super::placed::PlacedModel;
+use super::placed_model::PlacedModel;
 use crate::geom::Pose;
 use crate::num::tolerance::NEARLY_RIGID;
 use crate::num::{difference, dot, sqrt_up};
@@ -9,7 +9,7 @@ use glam::Vec3;
 
 /// A model of a scene that remembers. `core/docs/rounding.md` §24.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Mover<'a> {
+pub(crate) struct MovingModel<'a> {
     pub(crate) model: PlacedModel<'a>,
     /// No point went farther at the last motion.
     pub(crate) step: f32,
@@ -24,10 +24,10 @@ pub(crate) struct Mover<'a> {
 /// Largest square that has a root here.
 const MOST_SQUARE: f32 = (1u64 << 60) as f32;
 
-impl<'a> Mover<'a> {
+impl<'a> MovingModel<'a> {
     pub(crate) fn new(model: PlacedModel<'a>) -> Self {
         let model = model.with_least_ball();
-        Mover { model, step: 0.0, arm: model.arm(), turned: 0.0, is_off: false }
+        MovingModel { model, step: 0.0, arm: model.arm(), turned: 0.0, is_off: false }
     }
 
     /// Moves the model. It is placed when a pair asks for it. No point goes farther than what is
