@@ -60,7 +60,7 @@ pub use penetration::{Penetration, Relation};
 pub(crate) use pose_inverse::PoseInverse;
 pub use posed_point::PosedPoint;
 pub(crate) use relative_pose::{DIRECTIONS, Extended, ModelFrame, Placement, RelativePose};
-pub(crate) use rigid::{check_rigid, is_rotation, skew};
+pub(crate) use rigid::{check_rigid, is_rotation, longest, skew};
 pub use rounded_pose::RoundedPose;
 pub use scratch::{Scratch, ScratchEntry};
 pub use solid::{Solid, SolidDistance};

@@ -20,6 +20,7 @@ mod poses;
 mod refusals;
 mod scene;
 mod segments;
+mod separation;
 mod solid;
 mod thresholds;
 mod winding;
