@@ -68,18 +68,19 @@ impl IntPoint {
     /// `None` if the point is too far from the grid's origin.
     #[inline(always)]
     pub fn new(p: [f32; 3]) -> Option<IntPoint> {
-        let mut point = IntPoint { at: [0; 3], eighths: [0; 3], rest: [0; 3] };
-        let places = point.at.iter_mut().zip(&mut point.eighths).zip(&mut point.rest);
-        for (x, ((at, eighths), rest)) in p.into_iter().zip(places) {
-            if x.to_bits() << 1 >> 24 >= 127 + WHOLE_BITS {
-                return None;
-            }
-            let fine = floored(x, FINE_BITS.cast_signed());
-            *rest = (fine & ((1 << (FINE_BITS - FRACTION_BITS)) - 1)) as u8;
-            *at = fine >> FINE_BITS;
-            *eighths = fine >> (FINE_BITS - FRACTION_BITS) & ((1 << FRACTION_BITS) - 1);
+        let is_near = |x: f32| x.to_bits() << 1 >> 24 < 127 + WHOLE_BITS;
+        let [x, y, z] = p;
+        if !(is_near(x) && is_near(y) && is_near(z)) {
+            return None;
         }
-        Some(point)
+        let fine = each(p, |x| floored(x, FINE_BITS.cast_signed()));
+        Some(IntPoint {
+            at: each(fine, |x| x >> FINE_BITS),
+            eighths: each(fine, |x| {
+                x >> (FINE_BITS - FRACTION_BITS) & ((1 << FRACTION_BITS) - 1)
+            }),
+            rest: each(fine, |x| (x & ((1 << (FINE_BITS - FRACTION_BITS)) - 1)) as u8),
+        })
     }
 
     /// In units of 2^-[`FINE_BITS`], rounded down.

@@ -22,13 +22,15 @@ const HIGH: u32 = 0x8000_8000;
 
 /// Bytes 0 and 2 of a word, and bytes 1 and 3, each in a half.
 #[inline(always)]
-fn halves([a, b, c, d]: [u8; 4]) -> [u32; 2] {
+fn halves(bytes: &[u8; 4]) -> [u32; 2] {
     if SOFT_FLOAT {
-        // Processors without an FPU read a word at any place byte by byte.
-        let both = |low: u8, high: u8| u32::from(low) | u32::from(high) << 16;
+        // Processors without an FPU read a word at any place byte by byte. By reference: from a
+        // word the compiler would take the bytes again.
+        let [a, b, c, d] = bytes;
+        let both = |low: &u8, high: &u8| u32::from(*low) | u32::from(*high) << 16;
         return [both(a, c), both(b, d)];
     }
-    let word = u32::from_le_bytes([a, b, c, d]);
+    let word = u32::from_le_bytes(*bytes);
     [word & 0x00FF_00FF, word >> 8 & 0x00FF_00FF]
 }
 
@@ -113,7 +115,7 @@ fn squares_of_four(
 ) -> [u32; 4] {
     let [mut a, mut b, mut c, mut d] = [0u32; 4];
     for (k, axis) in axes.iter().enumerate() {
-        let bytes = |at: usize| halves(words[4 * k + at]);
+        let bytes = |at: usize| halves(&words[4 * k + at]);
         let [below, beyond] = axis.less_point;
         let (even, odd);
         if axis.side == Side::Within {
