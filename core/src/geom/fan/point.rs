@@ -7,7 +7,7 @@
 
 use super::lanes::WIDTH;
 use crate::num::tolerance::LEAST_DENOMINATOR;
-use crate::num::{Real, difference, dot, greater, reals, sqrt_approx};
+use crate::num::{Real, SOFT_FLOAT, difference, dot, greater, reals, sqrt_approx};
 use glam::Vec3;
 
 /// The distance of a point and a triangle, as computed (`core/docs/rounding.md` §8).
@@ -140,8 +140,12 @@ fn triangle_of_numbers(
         (v, w, r) = (zero, Real(1.0), difference(s, second));
     } else {
         let (nv, nw);
-        let vc = d1 * d4 - d3 * d2;
-        let vb = d5 * d2 - d1 * d6;
+        // Without an FPU a comparison may spare the products: then they are not at most 0.
+        let knows_first = !SOFT_FLOAT || d1 >= zero && d3 <= zero;
+        let knows_second = !SOFT_FLOAT || d2 >= zero && d6 <= zero;
+        let (first_area, second_area) = (|| d1 * d4 - d3 * d2, || d5 * d2 - d1 * d6);
+        let vc = if knows_first { first_area() } else { Real(1.0) };
+        let vb = if knows_second { second_area() } else { Real(1.0) };
         let least;
         if vc <= zero && d1 >= zero && d3 <= zero {
             (nv, nw, least) = (d1, zero, aa);
@@ -155,6 +159,8 @@ fn triangle_of_numbers(
             } else {
                 // A coordinate that rounding made negative counts as 0: the point must lie on
                 // the triangle.
+                let vc = if knows_first { vc } else { first_area() };
+                let vb = if knows_second { vb } else { second_area() };
                 let (pa, pb, pc) = (greater(zero, va), greater(zero, vb), greater(zero, vc));
                 (nv, nw, least) = (pb, pc, pa + pb + pc);
             }

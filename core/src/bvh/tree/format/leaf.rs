@@ -200,13 +200,15 @@ impl FullRing<'_> {
         Some([centre, self.vertex(lane)?, self.vertex(lane + 1)?])
     }
 
-    /// A bit of each ring vertex, the first one's lowest. The compiler unrolls the loop where speed
-    /// counts, for its length is known: three times as fast as one over the vertices there are.
+    /// A bit of each ring vertex, the first one's lowest. Those past the last one of a leaf have no
+    /// meaning. The compiler unrolls the loop where speed counts, for its length is known: three
+    /// times as fast as one over the vertices there are, which is for small code.
     #[inline(always)]
-    pub fn bits(&self, bit: impl Fn([i32; 3]) -> u32) -> u32 {
+    pub fn bits(&self, shape: LeafShape, bit: impl Fn([i32; 3]) -> u32) -> u32 {
         let [x, y, z] = self.rows;
+        let used = if cfg!(meshsweep_small) { shape.triangles() + 1 } else { RING_VERTICES };
         let mut bits = 0;
-        for i in 0..RING_VERTICES {
+        for i in 0..used.min(RING_VERTICES) {
             bits |= bit(grid_point([&x[i], &y[i], &z[i]])) << i;
         }
         bits
@@ -489,17 +491,24 @@ impl<'a> FanLeaf<'a> {
         let which = usize::from(lane >= self.shape.turn());
         if let (false, Some(stored)) = (self.is_f32, self.stored_triangle(lane, which)) {
             let [(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])] = stored;
-            let [ox, oy, oz] = self.origin;
-            let sum = |x: i32, o: i32| float(x.wrapping_add(o));
-            let less = |x: i32, c: i32| float(x.wrapping_sub(c));
-            return [
-                Vec3::new(sum(cx, ox), sum(cy, oy), sum(cz, oz)),
-                Vec3::new(less(ax, cx), less(ay, cy), less(az, cz)),
-                Vec3::new(less(bx, cx), less(by, cy), less(bz, cz)),
-            ];
+            return self.spokes_of(&[[cx, cy, cz], [ax, ay, az], [bx, by, bz]]);
         }
         let centre = self.centre(which);
         [centre, self.ring(lane) - centre, self.ring(lane + 1) - centre]
+    }
+
+    /// Centre and both spokes of a triangle on the grid whose corners are stored so.
+    #[cfg_attr(all(meshsweep_soft_float, meshsweep_small), inline(never))]
+    #[cfg_attr(not(all(meshsweep_soft_float, meshsweep_small)), inline(always))]
+    pub fn spokes_of(&self, &[[cx, cy, cz], a, b]: &[[i32; 3]; 3]) -> [Vec3; 3] {
+        let ([ox, oy, oz], [ax, ay, az], [bx, by, bz]) = (self.origin, a, b);
+        let sum = |x: i32, o: i32| float(x.wrapping_add(o));
+        let less = |x: i32, c: i32| float(x.wrapping_sub(c));
+        [
+            Vec3::new(sum(cx, ox), sum(cy, oy), sum(cz, oz)),
+            Vec3::new(less(ax, cx), less(ay, cy), less(az, cz)),
+            Vec3::new(less(bx, cx), less(by, cy), less(bz, cz)),
+        ]
     }
 
     /// By axis the stored integers of centre `which`, and of ring vertices `lane` and `lane + 1`.
