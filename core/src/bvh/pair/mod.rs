@@ -43,5 +43,5 @@ mod within_of;
 pub(super) mod world_box;
 
 pub use coherent_pair::CoherentPair;
-pub(super) use mover::Mover;
+pub use mover::Mover;
 pub use placed::PlacedModel;
