@@ -45,5 +45,5 @@ mod within_of;
 pub(super) mod world_box;
 
 pub use coherent_pair::CoherentPair;
-pub(super) use moving_model::MovingModel;
+pub use moving_model::MovingModel;
 pub use placed_model::PlacedModel;

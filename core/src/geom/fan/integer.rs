@@ -76,9 +76,7 @@ impl IntPoint {
         let fine = each(p, |x| floored(x, FINE_BITS.cast_signed()));
         Some(IntPoint {
             at: each(fine, |x| x >> FINE_BITS),
-            eighths: each(fine, |x| {
-                x >> (FINE_BITS - FRACTION_BITS) & ((1 << FRACTION_BITS) - 1)
-            }),
+            eighths: each(fine, |x| x >> (FINE_BITS - FRACTION_BITS) & ((1 << FRACTION_BITS) - 1)),
             rest: each(fine, |x| (x & ((1 << (FINE_BITS - FRACTION_BITS)) - 1)) as u8),
         })
     }
