@@ -109,10 +109,7 @@ impl AxisPlanes {
 /// their low planes of the first axis. A call, for in the caller the loop would not fit the
 /// registers.
 #[inline(never)]
-fn squares_of_four(
-    words: &[[u8; 4]; PLANE_WORDS - 1],
-    axes: &[AxisPlanes; 3],
-) -> [u32; 4] {
+fn squares_of_four(words: &[[u8; 4]; PLANE_WORDS - 1], axes: &[AxisPlanes; 3]) -> [u32; 4] {
     let [mut a, mut b, mut c, mut d] = [0u32; 4];
     for (k, axis) in axes.iter().enumerate() {
         let bytes = |at: usize| halves(&words[4 * k + at]);
