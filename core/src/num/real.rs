@@ -107,6 +107,19 @@ impl Real {
         self * Real(power)
     }
 
+    /// Whether it is 0 or less. Of the order of a number and 0 the compiler would make a comparison
+    /// of f32, which is a call.
+    #[inline(always)]
+    pub fn is_at_most_zero(self) -> bool {
+        if SOFT_FLOAT { self.0.to_bits().cast_signed() <= 0 } else { self.0 <= 0.0 }
+    }
+
+    /// Whether it is 0 or more.
+    #[inline(always)]
+    pub fn is_at_least_zero(self) -> bool {
+        if SOFT_FLOAT { (-self).is_at_most_zero() } else { self.0 >= 0.0 }
+    }
+
     /// The order of these integers is that of the numbers.
     #[inline(always)]
     fn order(self) -> i32 {

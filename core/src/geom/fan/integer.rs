@@ -173,6 +173,9 @@ impl IntBounds {
         first: 0,
         lower: IntLower::NONE,
     };
+
+    /// A place for some: bits of zeros.
+    pub const ZERO: IntBounds = IntBounds { upper: 0, corner: Corner::new(0), ..IntBounds::NONE };
 }
 
 /// Bounds of the distance of a triangle. Its corners are on the grid, from the grid's origin.
@@ -202,10 +205,9 @@ pub fn integer_bounds(p: &IntPoint, [a, b, c]: &[IntVector; 3], bounds: &mut Int
 }
 
 /// Upper bound and direction of a point, which is the corner of a triangle.
-pub fn vertex_bounds(p: &IntPoint, vertex: IntVector) -> IntBounds {
-    let mut bounds = IntBounds::NONE;
-    upper_bound(p.eighths_from(vertex), &mut bounds);
-    bounds
+#[inline(always)]
+pub fn vertex_bounds(p: &IntPoint, vertex: IntVector, bounds: &mut IntBounds) {
+    upper_bound(p.eighths_from(vertex), bounds);
 }
 
 /// Upper bound and direction of a way from a point of a triangle, in eighths.

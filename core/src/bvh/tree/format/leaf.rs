@@ -5,9 +5,7 @@
 #[cfg(meshsweep_wide)]
 use crate::geom::fan::Ring8;
 use crate::geom::fan::WIDTH;
-#[cfg(meshsweep_small)]
-use crate::num::SOFT_FLOAT;
-use crate::num::{Real, float, reals};
+use crate::num::{Real, SOFT_FLOAT, float, reals};
 use glam::Vec3;
 
 /// Shape of a leaf in one byte: number of vertices, first triangle of the second fan, whether the
@@ -480,7 +478,15 @@ impl<'a> FanLeaf<'a> {
         let [centre, e, g] = self.spokes(lane);
         let ([cx, cy, cz], [ex, ey, ez], [gx, gy, gz]) = (reals(centre), reals(e), reals(g));
         let (v, w) = (Real(v), Real(w));
-        let (x, y, z) = (cx + ex * v + gx * w, cy + ey * v + gy * w, cz + ez * v + gz * w);
+        let [mut x, mut y, mut z] = [cx, cy, cz];
+        // No coordinate of the grid is -0, so a zero that is added changes nothing.
+        let spares_zeros = SOFT_FLOAT && !self.is_f32;
+        if !(spares_zeros && v.is_at_most_zero()) {
+            (x, y, z) = (x + ex * v, y + ey * v, z + ez * v);
+        }
+        if !(spares_zeros && w.is_at_most_zero()) {
+            (x, y, z) = (x + gx * w, y + gy * w, z + gz * w);
+        }
         Vec3::new(x.0, y.0, z.0)
     }
 
