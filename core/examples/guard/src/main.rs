@@ -54,11 +54,8 @@ type Guard = CoherentScene<'static, { LINKS + 2 }, { PAIRS.len() }>;
 
 /// The models at their first places.
 fn begin() -> Result<Guard, QueryError> {
-    let [a, b, c, d, e, f, g] =
-        arm::places(0)?.map(|link| PlacedModel::new(link::TREE, link.pose));
-    let still = |tree, translation| {
-        PlacedModel::new(tree, Pose { translation, ..Pose::IDENTITY })
-    };
+    let [a, b, c, d, e, f, g] = arm::places(0)?.map(|link| PlacedModel::new(link::TREE, link.pose));
+    let still = |tree, translation| PlacedModel::new(tree, Pose { translation, ..Pose::IDENTITY });
     let table = still(table::TREE, [-100.0, -100.0, -28.0]);
     let machine = still(groove::TREE, [210.0, -16.0, -8.0]);
     CoherentScene::new([a?, b?, c?, d?, e?, f?, g?, table?, machine?], PAIRS)
