@@ -266,16 +266,16 @@ impl PairSearch<'_, '_> {
             Ok::<_, QueryError>((found.verdict, lower))
         };
         let open = (Verdict::Undecided(Undecided::Resolution), 0.0);
-        let most = relative.at_most(distance);
+        let most = relative.lengths.at_most(distance);
         // Beyond f32 no distance can be asked about.
         let found = if most < f32::INFINITY { ask([most, more])? } else { open };
         Ok(match found {
             (Verdict::No, lower) => {
-                let Interval { lower, .. } = relative.in_world(Interval::new(lower, lower));
+                let Interval { lower, .. } = relative.lengths.in_world(Interval::new(lower, lower));
                 (Verdict::No, greater(0.0, lower - distance) * (1.0 - 2.0 * U32))
             }
             // Not within the lesser distance: between both, nothing is proved in the world.
-            (Verdict::Yes, _) => match relative.at_least(distance) {
+            (Verdict::Yes, _) => match relative.lengths.at_least(distance) {
                 Some(least) => match ask([least, 0.0])? {
                     (Verdict::No, _) => open,
                     found => found,
@@ -320,7 +320,7 @@ impl NearestPair<'_, '_, '_> {
         let relative = PlacedPair::new(&one.pose, &other.pose, &other.tree)?;
         let pose = relative.pose;
         // Most pairs are farther than the nearest one so far, and this is proved at less cost.
-        let limit = relative.at_most(self.found.distance.upper);
+        let limit = relative.lengths.at_most(self.found.distance.upper);
         if !is_first && limit < f32::INFINITY {
             let budget = self.budget.with_steps(self.steps_left());
             let near = one.tree.within_of(&other.tree, pose, limit, budget, self.scratch)?;
@@ -332,7 +332,7 @@ impl NearestPair<'_, '_, '_> {
         let budget = self.budget.with_steps(self.steps_left());
         let near = one.tree.distance_to(&other.tree, pose, budget, self.scratch)?;
         self.found.work = self.found.work.and(near.work);
-        let Interval { lower, upper } = relative.in_world(near.distance);
+        let Interval { lower, upper } = relative.lengths.in_world(near.distance);
         self.lower = lesser(self.lower, greater(lower, gap));
         if is_first || upper < self.found.distance.upper {
             self.found.distance.upper = upper;

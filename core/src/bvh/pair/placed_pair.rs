@@ -1,20 +1,18 @@
-//! The pose of one model in the frame of another.
+//! Two models that are placed in the world, in the frame of one of them.
 
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::input_box::corners_of_input;
 use crate::geom::{Point, Pose, dot, transposed};
+use crate::num::greater;
 use crate::num::tolerance::{POSED_POINT, RELATIVE_POSE, U64};
-use crate::num::{down_to_f32, greater, up_to_f32};
-use crate::query::{Interval, PoseInverse, QueryError};
+use crate::query::{PoseInverse, QueryError, WorldLengths};
 
 /// The pose of one model in the frame of another, and how distances there differ from those in the
 /// world.
 pub(crate) struct PlacedPair {
     pub(crate) pose: Pose,
-    /// A vertex is no farther than this from its place at that pose, in the first model's frame.
-    pub(crate) error: f64,
-    /// The first model's pose changes lengths by a factor within `1 ± stretch`.
-    stretch: f64,
+    /// Distances in the first model's frame, and those in the world.
+    pub(crate) lengths: WorldLengths,
 }
 
 impl PlacedPair {
@@ -67,28 +65,6 @@ impl PlacedPair {
             largest = greater(largest, off_sq);
         }
         let error = libm::sqrt(largest) / (1.0 - stretch) * (1.0 + POSED_POINT * U64);
-        Ok(PlacedPair { pose, error, stretch })
-    }
-
-    /// The distance in the world, from that in the first model's frame.
-    pub(crate) fn in_world(&self, distance: Interval) -> Interval {
-        let lower = (f64::from(distance.lower) - self.error) * (1.0 - self.stretch);
-        let upper = (f64::from(distance.upper) + self.error) * (1.0 + self.stretch);
-        Interval::new(down_to_f32(greater(lower, 0.0)), up_to_f32(upper))
-    }
-
-    /// If nothing is within this distance in the first model's frame, nothing is within `distance`
-    /// in the world.
-    pub(crate) fn at_most(&self, distance: f32) -> f32 {
-        let in_model = f64::from(distance) / (1.0 - self.stretch) + self.error;
-        up_to_f32(in_model * (1.0 + 4.0 * U64))
-    }
-
-    /// What is within this distance in the first model's frame is within `distance` in the world.
-    /// `None` if no distance is.
-    pub(crate) fn at_least(&self, distance: f32) -> Option<f32> {
-        let in_model = (f64::from(distance) / (1.0 + self.stretch)) * (1.0 - 4.0 * U64);
-        let in_model = in_model - self.error * (1.0 + 4.0 * U64);
-        (in_model >= 0.0).then(|| down_to_f32(in_model))
+        Ok(PlacedPair { pose, lengths: WorldLengths { error, stretch } })
     }
 }

@@ -26,8 +26,11 @@ impl PairQueries<'_, '_> {
             return Ok(Relation::SecondInside);
         }
         let relative = PlacedPair::new(pose, &Pose::IDENTITY, a)?;
-        let first =
-            self.side_of_surface(&MovedSurface::new([b, a], &relative.pose, relative.error)?)?;
+        let first = self.side_of_surface(&MovedSurface::new(
+            [b, a],
+            &relative.pose,
+            relative.lengths.error,
+        )?)?;
         Ok(match (first, second) {
             (Side::Inside, _) => Relation::FirstInside,
             (Side::Undecided(why), _) | (_, Side::Undecided(why)) => Relation::Undecided(why),

@@ -1,11 +1,12 @@
 //! A point in the frame of a model that a pose moved. Derivation: `core/docs/rounding.md` §15.
 
-use super::answer::Interval;
-use super::error::QueryError;
-use super::pose_inverse::PoseInverse;
+use super::inverse::PoseInverse;
+use super::world_lengths::WorldLengths;
 use crate::geom::{Pose, dot};
 use crate::num::tolerance::{POSED_POINT, U64};
-use crate::num::{down_to_f32, up_to_f32};
+use crate::num::up_to_f32;
+use crate::query::answer::Interval;
+use crate::query::error::QueryError;
 
 /// A point that a [`Pose`] carried into a model's frame, with the error that distances there carry.
 ///
@@ -21,7 +22,6 @@ pub struct PosedPoint {
     /// The place that the pose carries exactly onto the point of the world is no farther than this
     /// from [`point`](Self::point), model's frame.
     pub error: f32,
-    /// The pose changes lengths by a factor within `1 ± stretch`.
     stretch: f64,
 }
 
@@ -33,19 +33,21 @@ impl PosedPoint {
     /// the point in the world. For winding numbers ask
     /// [`with_error`](crate::Bvh::with_error) of [`error`](Self::error).
     pub fn distance(&self, in_model: Interval) -> Interval {
-        let error = f64::from(self.error);
-        let lower = (f64::from(in_model.lower) - error) * (1.0 - self.stretch);
-        let upper = (f64::from(in_model.upper) + error) * (1.0 + self.stretch);
-        Interval { lower: down_to_f32(lower.max(0.0)), upper: up_to_f32(upper) }
+        self.lengths().in_world(in_model)
     }
 
     /// The distance to ask [`Bvh::within`](crate::Bvh::within) about. If the model is not within
     /// this distance of [`point`](Self::point), the moved model is not within `distance` of the
-    /// point in the world. If it is, [`distance`](Self::distance) of the closest point decides. Of
-    /// a distance that is negative, NaN or infinite comes one that `within` refuses.
+    /// point in the world. If it is, the moved model may be farther than `distance` by rounding:
+    /// [`distance`](Self::distance) of the closest point is then the interval to compare.
+    /// `within` refuses the result of a NaN, of an infinite distance, and of one that leaves f32. A
+    /// negative distance may become one above 0.
     pub fn model_distance(&self, distance: f32) -> f32 {
-        let in_model = f64::from(distance) / (1.0 - self.stretch) + f64::from(self.error);
-        up_to_f32(in_model * (1.0 + 4.0 * U64))
+        self.lengths().at_most(distance)
+    }
+
+    fn lengths(&self) -> WorldLengths {
+        WorldLengths { error: f64::from(self.error), stretch: self.stretch }
     }
 }
 

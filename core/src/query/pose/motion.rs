@@ -1,10 +1,10 @@
 //! How a model moves from one pose to another.
 
-use super::error::QueryError;
-use super::rigid::check_rigid;
+use super::rotation::check_rigid;
 use crate::geom::{Point, Pose, cross, dot, minus, transposed};
 use crate::num::greater;
 use crate::num::tolerance::{SCREW_ROUNDING, U32, U64};
+use crate::query::error::QueryError;
 
 type Vector = Point<f64>;
 

@@ -1,9 +1,9 @@
 //! Which matrices are rotations. Derivation: `core/docs/rounding.md` §25.
 
-use super::error::QueryError;
 use crate::geom::{self, Pose, Rows};
 use crate::num::tolerance::{RIGID, U32};
 use crate::num::{dot, each, greater};
+use crate::query::error::QueryError;
 use glam::Vec3;
 
 /// How far a matrix is from a rotation or a reflection: the largest row sum of `RRᵀ − 1`, which

@@ -1,11 +1,11 @@
 //! Poses that were computed, and how far rounding may have moved a model. Derivation:
 //! `core/docs/rounding.md` §25.
 
-use super::error::QueryError;
-use super::rigid::{is_rotation, longest, skew_of};
+use super::rotation::{is_rotation, longest, skew_of};
 use crate::geom::{Pose, dot, transposed};
 use crate::num::greater;
 use crate::num::tolerance::{POSE_PRODUCT, POSE_SHIFT, QUATERNION, U32};
+use crate::query::error::QueryError;
 
 /// Room for the roundings of a bound, of which there are less than 16.
 const UP: f32 = 1.0 + 32.0 * U32;

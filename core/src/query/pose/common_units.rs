@@ -4,13 +4,13 @@
 //! grows when it is converted. The frame is the first model's, with the first model's origin, so
 //! that a mesh far from its own zero costs no precision. See `core/docs/rounding.md` §11.
 
-use super::error::QueryError;
-use super::rigid::check_rigid;
+use super::rotation::check_rigid;
 use crate::geom::{Pose, dot, transposed};
 use crate::num::tolerance::{
     OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, OVERLAP_VERTEX, U32, U64,
 };
 use crate::num::{exp2, greater};
+use crate::query::error::QueryError;
 
 /// Directions along which boxes are compared: the axes of both models' boxes.
 pub(crate) const DIRECTIONS: usize = 6;

@@ -1,8 +1,8 @@
 //! The inverse of a pose's matrix, nearly a rotation.
 
-use super::error::QueryError;
 use crate::geom::{dot, transposed};
 use crate::num::tolerance::{POSE_DEFECT, POSED_STRETCH, U64};
+use crate::query::error::QueryError;
 
 type Row = [f64; 3];
 

@@ -1,0 +1,27 @@
+//! Poses: which matrices are rotations, what rounding does to them, and how models move.
+//!
+//! | file | owns |
+//! | --- | --- |
+//! | `rotation` | which matrices are rotations, and how far one is from that |
+//! | `rounded` | [`RoundedPose`]: poses of quaternions, products, inverses, and their rounding |
+//! | `inverse` | the inverse of a matrix that is nearly a rotation, in f64 |
+//! | `carried_point` | [`PosedPoint`]: a point in the frame of a moved model |
+//! | `world_lengths` | distances in that frame, and those in the world |
+//! | `common_units` | [`RelativePose`]: one model in the frame and the units of another |
+//! | `motion` | [`Motion`]: how a model moves from pose to pose |
+
+mod carried_point;
+mod common_units;
+mod inverse;
+mod motion;
+mod rotation;
+mod rounded;
+mod world_lengths;
+
+pub use carried_point::PosedPoint;
+pub(crate) use common_units::{DIRECTIONS, Extended, ModelFrame, Placement, RelativePose};
+pub(crate) use inverse::PoseInverse;
+pub use motion::Motion;
+pub(crate) use rotation::{check_rigid, is_rotation, longest, skew};
+pub use rounded::RoundedPose;
+pub(crate) use world_lengths::WorldLengths;
