@@ -10,6 +10,7 @@
 //! | `hits` | [`Hit`], [`FirstHit`], [`TriangleHit`], [`AllHits`], and the caller's slice of hits |
 //! | `rigid` | which matrices are rotations |
 //! | `rounded_pose` | [`RoundedPose`]: poses of quaternions, products, inverses, and their rounding |
+//! | `joint` | [`Joint`], [`link_poses`]: where the links of a mechanism are |
 //! | `pose_inverse` | the inverse of a pose's matrix |
 //! | `posed_point` | [`PosedPoint`]: a point in the frame of a moved model |
 //! | `overlap` | [`AllOverlaps`], [`TrianglePair`], and what collects pairs |
@@ -29,6 +30,7 @@ mod decided;
 mod error;
 mod frame;
 mod hits;
+mod joint;
 mod motion;
 mod overlap;
 mod pair_distance;
@@ -52,6 +54,7 @@ pub use error::QueryError;
 pub(crate) use frame::Frame;
 pub(crate) use hits::Hits;
 pub use hits::{AllHits, FirstHit, Hit, TriangleHit};
+pub use joint::{Joint, JointAxis, JointKind, link_poses};
 pub use motion::Motion;
 pub use overlap::{AllOverlaps, TrianglePair};
 pub(crate) use overlap::{AllPairs, PairVisitor};
