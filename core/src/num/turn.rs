@@ -9,7 +9,7 @@ const MOST_ANGLE: f32 = 8192.0;
 pub const TURN: f32 = 42.0;
 
 /// π/2 in three parts, of which the first two have 12 bits (Cody and Waite 1980).
-const QUARTER: [f32; 3] = [3216.0 / 2048.0, 4059.0 / 8_388_608.0, -4.371_138_8e-8];
+const QUARTER: [f32; 3] = [3216.0 / 2048.0, 4059.0 / 8_388_608.0, -4.371_139e-8];
 
 /// Sine and cosine of half of an angle in radians, the root of the sum of their squared errors less
 /// than 2.2 units of [`U32`](super::tolerance::U32). `None` beyond 8192, or if the angle is not a

@@ -61,7 +61,7 @@ impl JointAxis {
         if !place.is_finite() || !size_sq.is_finite() {
             return Err(QueryError::NotFinite);
         }
-        if !((size_sq - 1.0).abs() <= 8.0 * U32) {
+        if (size_sq - 1.0).abs() > 8.0 * U32 {
             return Err(QueryError::NotRigid);
         }
         if self.factor == 1.0 && self.offset == 0.0 {
