@@ -7,15 +7,18 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// A joint of the arm: its name, parent and child, its origin as shift and angles, and its kind.
-const JOINTS: [(&str, &str, &str, [f64; 3], [f64; 3], &str); 9] = [
+/// Name, parent and child, origin as shift and angles, and kind.
+type Joint = (&'static str, &'static str, &'static str, Point, Point, &'static str);
+
+/// The arm's joints.
+const JOINTS: [Joint; 9] = [
     ("mount", "world", "base_link", [0.0; 3], [0.0; 3], "fixed"),
     ("board", "world", "table", [0.0, 0.0, -0.05], [0.0; 3], "fixed"),
     ("pan", "base_link", "shoulder", [0.0, 0.0, 0.089159], [0.0; 3], "revolute"),
-    ("lift", "shoulder", "upperarm", [0.0; 3], [1.570796327, 0.0, 0.0], "revolute"),
+    ("lift", "shoulder", "upperarm", [0.0; 3], [1.57, 0.0, 0.0], "revolute"),
     ("elbow", "upperarm", "forearm", [-0.425, 0.0, 0.0], [0.0; 3], "revolute"),
     ("flange", "forearm", "bare", [-0.39225, 0.0, 0.10915], [0.1, -0.2, 0.3], "fixed"),
-    ("roll", "bare", "wrist", [0.0, -0.09465, 0.0], [1.570796327, 0.0, 0.0], "continuous"),
+    ("roll", "bare", "wrist", [0.0, -0.09465, 0.0], [1.57, 0.0, 0.0], "continuous"),
     ("left", "wrist", "Finger", [0.0, 0.03, 0.1], [0.0; 3], "prismatic"),
     ("right", "wrist", "finger", [0.0, -0.03, 0.1], [0.0; 3], "prismatic"),
 ];
