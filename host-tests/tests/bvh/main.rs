@@ -10,6 +10,7 @@ mod cull;
 mod distance;
 mod examples;
 mod fast;
+mod joints;
 mod kernels;
 mod overlap;
 mod pair_distance;
