@@ -103,8 +103,8 @@ enum {
     MSW_ENDED_RESOLUTION = 5  /* stored precision or rounding leaves it undecided */
 };
 
-/* Which sides of triangles a segment hits. From its front a triangle's corners run counter-clockwise,
- * in the order of the input file. */
+/* Which sides of triangles a segment hits. From its front a triangle's corners run
+ * counter-clockwise, in the order of the input file. */
 enum { MSW_FACING_BOTH = 0, MSW_FACING_FRONT = 1, MSW_FACING_BACK = 2 };
 
 /* Where a hull is refined. */
@@ -148,8 +148,8 @@ typedef struct { uintptr_t opaque[MSW_HULL_WORDS]; } msw_hull;
  * belongs to one model at a time, and points to nothing. */
 typedef struct { uintptr_t opaque[MSW_COHERENT_WORDS]; } msw_coherent;
 
-/* Where the last closest point was found. Zeros are no hint. Any contents are safe, of another model
- * too: a bad hint costs a leaf. */
+/* Where the last closest point was found. Zeros are no hint. Any contents are safe, of another
+ * model too: a bad hint costs a leaf. */
 typedef struct { uint32_t opaque; } msw_hint;
 
 /* Eight bytes of working memory. Need not be initialised. */
@@ -348,8 +348,8 @@ int32_t msw_closest_point(const msw_model *model, const float point[3],
                           msw_scratch_entry *scratch, size_t scratch_count,
                           msw_closest *answer);
 
-/* msw_closest_point that looks at the leaf of `hint` first and leaves its own there. So a query near
- * the last one takes less work, in four bytes of memory.
+/* msw_closest_point that looks at the leaf of `hint` first and leaves its own there. So a query
+ * near the last one takes less work, in four bytes of memory.
  *
  * An exact answer has the same bits with every hint. With a tolerance or steps the interval holds,
  * and may be another one. After an error the hint is as before. MSW_ERROR_NULL: `hint` is NULL.
@@ -393,11 +393,11 @@ int32_t msw_signed_distance(const msw_model *model, const float point[3],
  *
  * The number is nearly 1 inside and nearly 0 outside, and between them in a hole. It is that of all
  * triangles of the input file, as wound there. Components that overlap or share walls are united,
- * if they are wound alike. In a component that is inside out the number is nearly -1. The search ends as
- * soon as the side is decided and the interval is no wider than budget->absolute, a pure number
- * here; budget->relative is ignored. The side is undecided within some ten surface errors of the
- * surface, where the number is 1/2, and below -1/2. Only in a closed mesh that is proved to face
- * inwards as a whole a number below -1/2 is inside.
+ * if they are wound alike. In a component that is inside out the number is nearly -1. The search
+ * ends as soon as the side is decided and the interval is no wider than budget->absolute, a pure
+ * number here; budget->relative is ignored. The side is undecided within some ten surface errors
+ * of the surface, where the number is 1/2, and below -1/2. Only in a closed mesh that is proved to
+ * face inwards as a whole a number below -1/2 is inside.
  * MSW_ERROR_NOT_SERVED: the blob was built without --for winding.
  * Cost: far from the mesh one node; else the nodes and triangles within a few times the distance
  * from the surface; several times as much where the side stays undecided. */
@@ -499,8 +499,9 @@ int32_t msw_models_within(const msw_placed *models, size_t model_count, float di
 
 /* ---- Poses: products and inverses in float, the same bits on every target ---- */
 
-/* The rotation of `quaternion`, x, y, z, w, then `translation`. Its length does not matter. The real
- * part is the last: some libraries write it first. MSW_ERROR_POSE: zeros. Cost: 100 instructions. */
+/* The rotation of `quaternion`, x, y, z, w, then `translation`. Its length does not matter. The
+ * real part is the last: some libraries write it first. MSW_ERROR_POSE: zeros. Cost: 100
+ * instructions. */
 int32_t msw_pose_of_quaternion(const float quaternion[4], const float translation[3],
                                msw_rounded_pose *answer);
 
