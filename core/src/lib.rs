@@ -54,7 +54,8 @@
 //! - `defmt`, off by default: answers, errors, verdicts and budgets implement `defmt::Format`, so
 //!   that firmware can log them. Nothing else changes.
 //!
-//! Examples for a board, are in the repository: in Rust in `core/examples`, in C in `core/c-api/examples`.
+//! Examples for a board, are in the repository: in Rust in `core/examples`, in C in
+//! `core/c-api/examples`.
 //!
 //! # Layers
 //! A folder may use only folders to its left in this line:
@@ -73,8 +74,8 @@
 //! | `tight` | tight hulls, each stored as a box tree |
 //! | `blob` | [`Blob`]: opens, lets each structure check its own sections, hands out views |
 //!
-//! Each structure has its bytes in a folder `format` (the box tree in `tree/format`): `layout` (sizes and offsets), `view`,
-//! `check`.
+//! Each structure has its bytes in a folder `format` (the box tree in `tree/format`): `layout`
+//! (sizes and offsets), `view`, `check`.
 //!
 //! # The same bits everywhere
 //! The same blob and query give the same bits on a workstation and on a Cortex-M0. The code uses

@@ -68,8 +68,8 @@ fn memory(target: &str) -> Option<&'static str> {
     })
 }
 
-/// `ask` has all questions in one image, and finds its blob in external RAM, as `robot` does. So for a
-/// Cortex-M0 they run on mps2-an385, which has more of both memories.
+/// `ask` has all questions in one image, and finds its blob in external RAM, as `robot` does. So
+/// for a Cortex-M0 they run on mps2-an385, which has more of both memories.
 fn of_ask<'t>(target: &str, memory: &'t str) -> &'t str {
     match target {
         "thumbv6m-none-eabi" => {

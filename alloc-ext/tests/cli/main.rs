@@ -10,6 +10,7 @@ mod cull;
 mod curve;
 mod deform;
 mod distances;
+mod emit;
 mod errors;
 mod formats;
 mod hausdorff;

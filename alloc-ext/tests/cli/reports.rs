@@ -1,4 +1,4 @@
-//! Reports as JSON, meshes from the standard input, and threads of a build.
+//! Reports as text and as JSON, meshes from the standard input, and threads of a build.
 
 use crate::support::{arg, fixture, info, meshsweep, ok, refused, run, scratch};
 use serde_json::Value;
@@ -140,4 +140,80 @@ fn what_is_written_does_not_depend_on_threads() {
         (fs::read(out).unwrap(), fs::read(hull).unwrap(), told)
     });
     assert!(one == more);
+}
+
+/// Builds a mesh written by hand; the report.
+fn report(directory: &Path, name: &str, content: &str) -> String {
+    let (mesh, out) = (directory.join(name), directory.join("out.msw"));
+    fs::write(&mesh, content).unwrap();
+    ok(["build", arg(&mesh), "-o", arg(&out)])
+}
+
+#[test]
+fn polygons_that_were_split_are_reported() {
+    let directory = scratch("polygons");
+    let corners = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n";
+    let obj: String = corners.lines().map(|corner| format!("v {corner}\n")).collect();
+    let text = report(&directory, "a.obj", &(obj.clone() + "f 1 2 3 4\nf 1 2 5\nf 5 4 3 2\n"));
+    assert!(
+        text.contains("5 vertices, 5 triangles read") && text.contains("\n  2 polygons split: "),
+        "{text}"
+    );
+    let ply = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n\
+        property float z\n\
+        element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+    let text = report(&directory, "a.ply", &(ply.to_owned() + corners + "4 0 1 2 3\n3 0 1 4\n"));
+    assert!(text.contains("\n  1 polygon split: numbers of triangles count"), "{text}");
+    assert!(!report(&directory, "b.obj", &(obj + "f 1 2 3\n")).contains(" split: "));
+}
+
+/// Closed tetrahedra with their right angles at `places` on the x axis, as OBJ.
+fn tetrahedra(places: &[f32]) -> String {
+    let corners = |x: &f32| format!("v {x} 0 0\nv {} 0 0\nv {x} 2 0\nv {x} 0 2\n", x + 2.0);
+    let faces = |t: usize| {
+        let [a, b, c, d] = [1, 2, 3, 4].map(|k| 4 * t + k);
+        format!("f {a} {c} {b}\nf {a} {b} {d}\nf {a} {d} {c}\nf {b} {c} {d}\n")
+    };
+    places.iter().map(corners).chain((0..places.len()).map(faces)).collect()
+}
+
+#[test]
+fn triangles_that_cross_are_named_where_sides_are_promised() {
+    let directory = scratch("crossing_components");
+    let note =
+        "triangles: the surface crosses, overlaps or touches itself, as triangles 0 and 8 do";
+    let apart = report(&directory, "apart.obj", &tetrahedra(&[0.0, 3.0]));
+    assert!(!apart.contains("undecided"), "{apart}");
+    let text = report(&directory, "overlap.obj", &tetrahedra(&[0.0, 9.0, 1.0]));
+    assert!(text.contains(note) && text.contains("--for closest,winding decides"), "{text}");
+    // Inside one component, beside the front of another one; and next to the one that crosses none.
+    let answers = ok(["signed", arg(&directory.join("out.msw")), "0.95,0.1,0.1", "9.2,0.1,0.1"]);
+    assert!(answers.contains(",undecided,rounding,") && answers.contains(",inside,"), "{answers}");
+    let mesh = directory.join("overlap.obj");
+    let out = directory.join("segments.msw");
+    assert!(!ok(["build", arg(&mesh), "-o", arg(&out), "--for", "segment"]).contains(note));
+}
+
+#[test]
+fn one_of_a_thing_is_in_the_singular() {
+    let directory = scratch("singular");
+    let text = report(
+        &directory,
+        "a.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 0 0 1\nv 0 3 0\n\
+         f 1 2 3\nf 1 2 4\nf 2 4 5\nf 1 1 2\nf 6 6 6\n",
+    );
+    for part in [
+        "1 triangle without area kept",
+        "1 zero-area triangle dropped",
+        "1 triangle with a repeated corner",
+        "3 fans of one",
+    ] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    assert!(
+        !["1 triangles", "1 vertices", "1 fans", "1 copies"]
+            .iter()
+            .any(|wrong| text.contains(&format!(" {wrong}")))
+    );
 }

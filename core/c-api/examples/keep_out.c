@@ -1,9 +1,9 @@
 /* Each linear move of a machine head is proved clear of clamps before it is made. The same program
  * in Rust: core/examples/keep_out.
  *
- * The head is a cutter, which is a capsule, and a nose, which is a box. msw_solid_first_contact asks
- * about the whole move, so a thin wall cannot be missed between two positions. Only a proof lets
- * the head go: a move that is undecided is refused as one that collides.
+ * The head is a cutter, which is a capsule, and a nose, which is a box. msw_solid_first_contact
+ * asks about the whole move, so a thin wall cannot be missed between two positions. Only a proof
+ * lets the head go: a move that is undecided is refused as one that collides.
  */
 
 #include "board.h"

@@ -482,8 +482,8 @@ int32_t msw_signed_distance(const msw_model *model, const float point[3],
  * triangles of the input file, as wound there. Components that overlap or share walls are united,
  * if they are wound alike. In a component that is inside out the number is nearly -1. The search
  * ends as soon as the side is decided and the interval is no wider than budget->absolute, a pure
- * number here; budget->relative is ignored. The side is undecided within some ten surface errors of
- * the surface, where the number is 1/2, and below -1/2. Only in a closed mesh that is proved to
+ * number here; budget->relative is ignored. The side is undecided within some ten surface errors
+ * of the surface, where the number is 1/2, and below -1/2. Only in a closed mesh that is proved to
  * face inwards as a whole a number below -1/2 is inside.
  * MSW_ERROR_NOT_SERVED: the blob was built without --for winding.
  * Cost: far from the mesh one node; else the nodes and triangles within a few times the distance

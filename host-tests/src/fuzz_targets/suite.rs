@@ -1,5 +1,5 @@
-//! Every kind of query of the suite, on any bytes. A question that is new in the suite is asked here
-//! without more.
+//! Every kind of query of the suite, on any bytes. A question that is new in the suite is asked
+//! here without more.
 
 use super::input::Input;
 use meshsweep_core::Pose;

@@ -1,5 +1,5 @@
-//! The distance of two meshes, each at its place, in f64: fast enough for thousands of pairs of real
-//! parts.
+//! The distance of two meshes, each at its place, in f64: fast enough for thousands of pairs of
+//! real parts.
 //!
 //! A tree of boxes, and its own distance of two triangles: nine pairs of edges, and the heights of
 //! the corners that are over the other triangle.

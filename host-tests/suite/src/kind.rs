@@ -1,8 +1,8 @@
 //! Kinds of queries, one a row.
 
-/// Rows of kinds in the order in which they are run: the variant, its seed, and its name in reports,
-/// which is one word. Seeds stay as they are, or `fixtures/answers.txt` changes. The documents'
-/// tables hold the instructions on the boards of those that are `tabled`.
+/// Rows of kinds in the order in which they are run: the variant, its seed, and its name in
+/// reports, which is one word. Seeds stay as they are, or `fixtures/answers.txt` changes. The
+/// documents' tables hold the instructions on the boards of those that are `tabled`.
 macro_rules! kinds {
     ($($(#[$doc:meta])* $kind:ident = $seed:literal, $name:literal $(, $tabled:ident)?;)*) => {
         /// What a block asks.

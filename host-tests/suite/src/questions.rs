@@ -1,5 +1,5 @@
-//! The questions that have numbers in the documents, one a row: stack and code. Rows of kinds are in
-//! `kind.rs`, and how a kind is asked is a row beside the functions of its structure, in `ask`.
+//! The questions that have numbers in the documents, one a row: stack and code. Rows of kinds are
+//! in `kind.rs`, and how a kind is asked is a row beside the functions of its structure, in `ask`.
 
 use super::kind::Kind;
 

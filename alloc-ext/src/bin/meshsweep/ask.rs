@@ -41,7 +41,8 @@ pub struct Answer<A> {
     pub work: Work,
 }
 
-/// Asks about rows on so many threads. Gives the answers before the first refused row, and that row.
+/// Asks about rows on so many threads. Gives the answers before the first refused row, and that
+/// row.
 type AskRows<'a, const N: usize, A> =
     dyn Fn(&[[f32; N]], usize) -> (Vec<Answer<A>>, Option<Refused>) + 'a;
 

@@ -62,7 +62,8 @@ fn first_fault(rows: &[[f32; 12]]) -> Option<(usize, String)> {
 pub fn no_rotation(pose: &Pose) -> Option<String> {
     let rows = pose.rotation.map(|row| row.map(f64::from));
     let dot = |a: usize, b: usize| -> f64 { (0..3).map(|k| rows[a][k] * rows[b][k]).sum() };
-    // As `Motion::screw` demands, but for its rounding: the largest part of a sum that is too large.
+    // As `Motion::screw` demands, but for its rounding: the largest part of a sum that is too
+    // large.
     let excess = |a: usize, b: usize| (dot(a, b) - f64::from(u8::from(a == b))).abs();
     let most = (0..3).map(|a| (0..3).map(|b| excess(a, b)).sum()).fold(0.0, f64::max);
     let limit = if most > f64::from(RIGID) { most / 3.0 } else { f64::INFINITY };

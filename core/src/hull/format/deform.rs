@@ -178,25 +178,6 @@ impl DeformableHull<'_> {
     pub fn vertex_number(&self, rank: u32) -> Option<u32> {
         self.number(rank)
     }
-
-    /// Place of a vertex at a key frame, local frame.
-    pub fn key_position(&self, frame: u32, vertex: VertIdx) -> Option<Vec3> {
-        if frame == 0 { self.hull.position(vertex) } else { self.key(frame)?.position(vertex) }
-    }
-
-    /// Radius of a triangle at a key frame, local frame; see [`Hull::radius`].
-    pub fn key_radius(&self, frame: u32, triangle: u32) -> Option<f32> {
-        if frame == 0 { self.hull.radius(triangle) } else { self.key(frame)?.radius(triangle) }
-    }
-
-    /// Error of a key frame, local frame.
-    pub fn key_error(&self, frame: u32) -> Option<f32> {
-        if frame == 0 {
-            Some(self.hull.header().surface_error)
-        } else {
-            Some(self.key(frame)?.error)
-        }
-    }
 }
 
 /// Vertices that no split replaces.

@@ -82,10 +82,13 @@ impl Motion {
         Ok(Motion { from, path: Path::Screw(twist) })
     }
 
-    /// The pose at a time from 0 to 1, rounded to f32. It [is affine](Pose::is_affine) if entries of
-    /// two different matrices were mixed.
+    /// The pose at a time from 0 to 1, rounded to f32. It [is affine](Pose::is_affine) if entries
+    /// of two different matrices were mixed, and on a screw where what the ends lack of rotations
+    /// adds up to more than a rotation may lack.
     pub fn at(&self, t: f32) -> Pose {
-        self.at_time(f64::from(t))
+        let pose = self.at_time(f64::from(t));
+        let is_bent = matches!(self.path, Path::Screw(_)) && check_rigid(&pose).is_err();
+        Pose { is_affine: pose.is_affine || is_bent, ..pose }
     }
 
     pub(crate) fn at_time(&self, t: f64) -> Pose {

@@ -32,7 +32,8 @@ const UP: f32 = 1.0 + 32.0 * U32;
 pub struct RoundedPose {
     /// The pose.
     pub pose: Pose,
-    /// The matrix is no farther from the exact one than this, as a factor of lengths: about radians.
+    /// The matrix is no farther from the exact one than this, as a factor of lengths: about
+    /// radians.
     pub turn: f32,
     /// The translation is no farther from the exact one than this, in its unit.
     pub shift: f32,

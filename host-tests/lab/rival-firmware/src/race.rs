@@ -4,9 +4,9 @@
 //! ```text
 //! calibration INSTRUCTIONS TICKS
 //! reading ROUNDS TICKS                                what reading the counter costs
-//! build TICKS STACK HEAP MOST MEMORY                  bytes of heap after it, and the most while it ran; bytes beside heap and stack
-//! asked KIND QUERIES TICKS MAX STACK HEAP FOUND SUM   heap beyond what building left; f64 sum of the answers, its bits
-//! done
+//! build TICKS STACK HEAP MOST MEMORY                  bytes of heap after it, and the most while
+//! it ran; bytes beside heap and stack asked KIND QUERIES TICKS MAX STACK HEAP FOUND SUM   heap
+//! beyond what building left; f64 sum of the answers, its bits done
 //! ```
 
 use core::hint::black_box;

@@ -7,7 +7,7 @@ use core::mem::size_of;
 
 use meshsweep_core::{
     Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Focus, Hint, Hull, QueryError, RefinedHull,
-    Refinement, ScratchEntry, SplitChange, TightHull, TriboxBound, Triboxes,
+    Refinement, ScratchEntry, SplitChange, TriboxBound,
 };
 
 use super::{Refused, timed};
@@ -200,22 +200,52 @@ pub fn ask<'t>(
     let blob = Blob::open(placed.blob).map_err(Refused::of)?;
     let places = placed.places.iter().take(queries).map(place);
     let asking = Asking { places, clock, told: &mut told };
-    // Each a function that is not inlined, so that the stack that is measured is its own.
     match placed.question {
-        Question::Tree(budget) => fresh(&tree(&blob)?, budget, memory, asking),
-        Question::Precise(budget) => precise(&tree(&blob)?, budget, memory, asking),
-        Question::Hinted(budget) => hinted(&tree(&blob)?, budget, memory, asking),
-        Question::Coherent(budget) => coherent(&tree(&blob)?, budget, memory, asking),
+        Question::Tree(budget) => {
+            let tree = tree(&blob)?;
+            let entries = tree.scratch_entries_for(budget);
+            let ask = |place, stack: &mut [_]| tree.closest_point(place, budget, stack);
+            by_entries(&mut memory.entries, entries, asking, ask, Answer::Closest)
+        }
+        Question::Precise(budget) => {
+            let tree = tree(&blob)?;
+            let ask = |place, stack: &mut [_]| tree.closest_point_precise(place, budget, stack);
+            let entries = tree.scratch_entries();
+            by_entries(&mut memory.entries, entries, asking, ask, Answer::Closest)
+        }
+        Question::Hinted(budget) => {
+            let (tree, mut hint) = (tree(&blob)?, Hint::NONE);
+            let entries = tree.scratch_entries_for(budget);
+            let ask =
+                |place, stack: &mut [_]| tree.closest_point_from(place, &mut hint, budget, stack);
+            by_entries(&mut memory.entries, entries, asking, ask, Answer::Closest)
+        }
+        Question::Coherent(budget) => {
+            let (tree, Memory { entries, coherent, .. }) = (tree(&blob)?, memory);
+            let ask = |place, stack: &mut [_]| coherent.closest_point(&tree, place, budget, stack);
+            let wanted = tree.scratch_entries_for(budget);
+            let used =
+                by_entries(entries, wanted, asking, ask, |near| Answer::Closest(near.closest))?;
+            Ok(used.saturating_add(size_of::<CoherentQuery<'_, FRONT>>()))
+        }
         Question::Tight(budget) => {
             let hulls = blob.tight_hulls().map_err(|_| Refused::NO_SECTION)?;
             let hull = hulls.finest().ok_or(Refused::NO_SECTION)?;
-            tight(&hull, budget, memory, asking)
+            let ask = |place, stack: &mut [_]| hull.closest_point(place, budget, stack);
+            let entries = hull.scratch_entries();
+            by_entries(&mut memory.entries, entries, asking, ask, Answer::Closest)
         }
         Question::Triboxes(budget) => {
             let triboxes = blob.triboxes().map_err(|_| Refused::NO_SECTION)?;
-            bound(&triboxes, budget, memory, asking)
+            let ask = |place, stack: &mut [_]| triboxes.distance(place, budget, stack);
+            let entries = triboxes.scratch_entries();
+            by_entries(&mut memory.entries, entries, asking, ask, Answer::Bound)
         }
-        Question::Sweep(budget) => sweep(&hull(&blob)?, budget, memory, asking),
+        Question::Sweep(budget) => {
+            let hull = hull(&blob)?;
+            let ask = |place, queue: &mut [_]| hull.closest_point(place, budget, queue);
+            by_entries(&mut memory.entries, ENTRIES, asking, ask, Answer::Closest)
+        }
         Question::KeptSweep(budget) => kept_sweep(&hull(&blob)?, budget, memory, asking),
         Question::Refine(radius, error) => refine(&hull(&blob)?, (radius, error), memory, asking),
     }
@@ -259,94 +289,19 @@ const fn bytes(entries: usize) -> usize {
     entries.saturating_mul(size_of::<ScratchEntry>())
 }
 
+/// A question that takes no memory but scratch. Not inlined, so that the stack that is measured is
+/// its own.
 #[inline(never)]
-fn fresh(
-    tree: &Bvh<'_>,
-    budget: Budget,
-    memory: &mut Memory<'_>,
+fn by_entries<A>(
+    entries: &mut [ScratchEntry],
+    wanted: usize,
     asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
+    mut ask: impl FnMut([f32; 3], &mut [ScratchEntry]) -> Result<A, QueryError>,
+    answer: impl Fn(A) -> Answer,
 ) -> Result<usize, Refused> {
-    let stack =
-        memory.entries.get_mut(..tree.scratch_entries_for(budget)).ok_or(Refused::MEMORY)?;
-    asking.each(|place| tree.closest_point(place, budget, stack), Answer::Closest);
-    Ok(bytes(stack.len()))
-}
-
-#[inline(never)]
-fn precise(
-    tree: &Bvh<'_>,
-    budget: Budget,
-    memory: &mut Memory<'_>,
-    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
-) -> Result<usize, Refused> {
-    let stack = memory.entries.get_mut(..tree.scratch_entries()).ok_or(Refused::MEMORY)?;
-    asking.each(|place| tree.closest_point_precise(place, budget, stack), Answer::Closest);
-    Ok(bytes(stack.len()))
-}
-
-#[inline(never)]
-fn hinted(
-    tree: &Bvh<'_>,
-    budget: Budget,
-    memory: &mut Memory<'_>,
-    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
-) -> Result<usize, Refused> {
-    let stack =
-        memory.entries.get_mut(..tree.scratch_entries_for(budget)).ok_or(Refused::MEMORY)?;
-    let mut hint = Hint::NONE;
-    let ask = |place| tree.closest_point_from(place, &mut hint, budget, stack);
-    asking.each(ask, Answer::Closest);
-    Ok(bytes(stack.len()))
-}
-
-#[inline(never)]
-fn coherent<'t>(
-    tree: &Bvh<'t>,
-    budget: Budget,
-    memory: &mut Memory<'t>,
-    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
-) -> Result<usize, Refused> {
-    let Memory { entries, coherent, .. } = memory;
-    let stack = entries.get_mut(..tree.scratch_entries_for(budget)).ok_or(Refused::MEMORY)?;
-    let ask = |place| coherent.closest_point(tree, place, budget, stack);
-    asking.each(ask, |near| Answer::Closest(near.closest));
-    Ok(bytes(stack.len()).saturating_add(size_of::<CoherentQuery<'_, FRONT>>()))
-}
-
-#[inline(never)]
-fn tight(
-    hull: &TightHull<'_>,
-    budget: Budget,
-    memory: &mut Memory<'_>,
-    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
-) -> Result<usize, Refused> {
-    let stack = memory.entries.get_mut(..hull.scratch_entries()).ok_or(Refused::MEMORY)?;
-    asking.each(|place| hull.closest_point(place, budget, stack), Answer::Closest);
-    Ok(bytes(stack.len()))
-}
-
-#[inline(never)]
-fn bound(
-    triboxes: &Triboxes<'_>,
-    budget: Budget,
-    memory: &mut Memory<'_>,
-    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
-) -> Result<usize, Refused> {
-    let stack = memory.entries.get_mut(..triboxes.scratch_entries()).ok_or(Refused::MEMORY)?;
-    asking.each(|place| triboxes.distance(place, budget, stack), Answer::Bound);
-    Ok(bytes(stack.len()))
-}
-
-#[inline(never)]
-fn sweep(
-    hull: &Hull<'_>,
-    budget: Budget,
-    memory: &mut Memory<'_>,
-    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
-) -> Result<usize, Refused> {
-    let ask = |place| hull.closest_point(place, budget, &mut memory.entries);
-    asking.each(ask, Answer::Closest);
-    Ok(bytes(ENTRIES))
+    let stack = entries.get_mut(..wanted).ok_or(Refused::MEMORY)?;
+    asking.each(|place| ask(place, stack), answer);
+    Ok(bytes(wanted))
 }
 
 #[inline(never)]

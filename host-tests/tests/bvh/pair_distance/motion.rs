@@ -265,3 +265,30 @@ fn what_is_no_rotation_has_no_screw() {
     let nan = Pose { translation: [0.0, f32::NAN, 0.0], ..Pose::IDENTITY };
     assert_eq!(Motion::screw(nan, Pose::IDENTITY), Err(QueryError::NotFinite));
 }
+
+#[test]
+fn every_pose_on_a_screw_serves_the_next_question() {
+    let mut rng = Rng::new(11);
+    let scene = Scene::both("", cube(1));
+    let [tree, _] = scene.trees();
+    let mut stack = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
+    // Rotations as f32 rounds them, and those that are as long or as short as one may be.
+    for lack in [0.0, 1.45e-3] {
+        let mut affine = 0;
+        for _ in 0..200 {
+            let longer = |pose: Pose, by: f32| Pose {
+                rotation: pose.rotation.map(|row| row.map(|x| x * (1.0 + by))),
+                ..pose
+            };
+            let from = Pose::rigid(rotation(&mut rng), [4.0, 0.0, 0.0]);
+            let to = Screw::random(&mut rng, 3.0).pose(&from, 1.0);
+            let motion = Motion::screw(longer(from, lack), longer(to, -lack)).expect("rotations");
+            for part in 0..=32 {
+                let pose = motion.at(part as f32 / 32.0);
+                affine += u32::from(pose.is_affine);
+                tree.distance_to(&tree, pose, Budget::EXACT, &mut stack).expect("answers");
+            }
+        }
+        assert_eq!(affine > 0, lack > 0.0, "{affine}");
+    }
+}

@@ -9,7 +9,7 @@ use super::front::Child;
 use crate::bvh::point::leaf::distance::LeafEdges;
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::num::tolerance::{PLANE_NORMAL, SHORTFALL};
-use crate::num::{lesser, sqrt_approx};
+use crate::num::{dot, lesser, sqrt_approx};
 use glam::Vec3;
 
 /// Planes of a coherent query: a power of two.
@@ -147,9 +147,4 @@ pub(crate) fn middle(tree: &Bvh<'_>) -> Vec3 {
 #[inline(always)]
 fn slot_of(child: Child) -> usize {
     (child.without_bound() >> 8).wrapping_mul(5).wrapping_add(child.index()) as usize % PLANES
-}
-
-#[inline(always)]
-fn dot(a: Vec3, b: Vec3) -> f32 {
-    a.x * b.x + a.y * b.y + a.z * b.z
 }

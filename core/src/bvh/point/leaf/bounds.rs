@@ -54,9 +54,9 @@ pub(crate) trait TriangleTaker {
     /// nothing, its squared distance and lower bound.
     fn triangle(&mut self, lane: usize, seen: Option<&[Vec3; 3]>, squares: [f32; 2]);
 
-    /// Triangle `lane`, whose closest point is the centre of its fan, was taken last. Those after it
-    /// in the fan with the same closest point change nothing if they show this side, which is the
-    /// front in the fan's winding or the back.
+    /// Triangle `lane`, whose closest point is the centre of its fan, was taken last. Those after
+    /// it in the fan with the same closest point change nothing if they show this side, which is
+    /// the front in the fan's winding or the back.
     #[cfg(not(meshsweep_wide))]
     #[inline(always)]
     fn told_side(&self, _lane: usize) -> Option<bool> {

@@ -7,12 +7,13 @@
 //! winding is that of the mesh as the builder wound it: triangles that the file winds otherwise are
 //! marked in the tree, and show the side that they turn away.
 //!
-//! *What a triangle tells.* If the winding number is 0 in front of the nearest triangle and 1 behind
-//! it, a point that sees its front is outside, and one that sees its back is inside. The builder proves this of each triangle of the stored
-//! surface. It does not hold of triangles that cross others, of those that lie inside another part
-//! of the surface, and of a component that is inside out. Such triangles are marked *sideless*.
-//! Where one may be the nearest, the side is undecided. If all are sideless, the tree says so
-//! ([`Bvh::has_sides`]), and every side is undecided.
+//! *What a triangle tells.* If the winding number is 0 in front of the nearest triangle and 1
+//! behind it, a point that sees its front is outside, and one that sees its back is inside. The
+//! builder proves this of each triangle of the stored surface. It does not hold of triangles that
+//! cross others, of those that lie inside another part of the surface, and of a component that is
+//! inside out. Such triangles are marked *sideless*. Where one may be the nearest, the side is
+//! undecided. If all are sideless, the tree says so ([`Bvh::has_sides`]), and every side is
+//! undecided.
 //!
 //! *Why the stored surface's side is the input's.* Move every vertex on a straight line from its
 //! input place to its stored place. Every point of every triangle moves by at most `surface_error`.

@@ -5,7 +5,8 @@ use super::layout::{
     BVH_BYTES, BVH_SIDELESS, BVH_TURNED, FAN_PADDING, FRAME_BYTES, MOST_EXPONENT, SOURCE_BLOCK,
     SOURCE_ENTRY_BYTES, SOURCE_PADDING, boxes, lengthens_nothing,
 };
-use super::leaf::{FanLeaf, LeafShape};
+use super::leaf::FanLeaf;
+use super::leaf_shape::LeafShape;
 use super::moments::NodeMoments;
 use super::triangle_bits::TriangleBits;
 use super::units::Units;

@@ -2,100 +2,14 @@
 //!
 //! A leaf of an opened tree lies within the fans' section. No read can panic all the same.
 
+#[cfg(not(meshsweep_wide))]
+use super::grid_ring::{FullRing, RING_VERTICES};
+use super::grid_ring::{GRID_WINDOW, GridRing, short, three};
+use super::leaf_shape::LeafShape;
 #[cfg(meshsweep_wide)]
-use crate::geom::fan::Ring8;
-use crate::geom::fan::WIDTH;
+use crate::geom::fan::{Ring8, WIDTH};
 use crate::num::{Real, SOFT_FLOAT, float, reals};
 use glam::Vec3;
-
-/// Shape of a leaf in one byte: number of vertices, first triangle of the second fan, whether the
-/// second fan's winding is opposite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LeafShape(pub u8);
-
-impl LeafShape {
-    /// The shape of a leaf of `triangles` with the second fan beginning at triangle `turn` (0: one
-    /// fan).
-    pub fn new(triangles: usize, turn: usize, reversed: bool) -> Self {
-        let vertices = triangles + 2 + usize::from(turn > 0);
-        LeafShape(vertices as u8 & 0x0F | (turn as u8 & 7) << 4 | u8::from(reversed) << 7)
-    }
-
-    /// Vertices stored.
-    #[inline(always)]
-    pub fn vertices(self) -> usize {
-        usize::from(self.0 & 0x0F)
-    }
-
-    /// First triangle of the second fan; 8 if there is none.
-    #[inline(always)]
-    pub fn turn(self) -> usize {
-        match usize::from(self.0 >> 4 & 7) {
-            0 => WIDTH,
-            turn => turn,
-        }
-    }
-
-    /// Centres stored.
-    #[inline(always)]
-    pub fn centres(self) -> usize {
-        1 + usize::from(self.0 & 0x70 != 0)
-    }
-
-    /// Triangles.
-    #[inline(always)]
-    pub fn triangles(self) -> usize {
-        self.vertices().wrapping_sub(1 + self.centres())
-    }
-
-    /// Whether the triangles of the second fan run the other way round than those of the first.
-    pub fn second_reversed(self) -> bool {
-        self.0 & 0x80 != 0
-    }
-
-    /// Whether a leaf can have this shape.
-    pub(crate) fn is_sound(self) -> bool {
-        let triangles = self.vertices().checked_sub(1 + self.centres());
-        let turns = self.turn() == WIDTH || triangles.is_some_and(|count| self.turn() < count);
-        triangles.is_some_and(|count| (1..=WIDTH).contains(&count))
-            && turns
-            && (self.centres() == 2 || !self.second_reversed())
-    }
-}
-
-/// What the vector kernels read of a shape, prepared.
-#[cfg(meshsweep_avx2)]
-#[derive(Clone, Copy)]
-pub(super) struct ShapeOffsets {
-    /// Bytes of a leaf on the grid at which the three rings begin.
-    pub(super) rings: [u8; 3],
-    /// First triangle of the second fan; 8 if there is none.
-    pub(super) turn: u8,
-    /// Triangles, 1 to 8; 0 of what is no shape of a leaf.
-    pub(super) triangles: u8,
-}
-
-/// For each shape.
-#[cfg(meshsweep_avx2)]
-pub(super) const SHAPE_OFFSETS: [ShapeOffsets; 256] = {
-    let mut table = [ShapeOffsets { rings: [0; 3], turn: 0, triangles: 0 }; 256];
-    let mut shape = 0;
-    while shape < 256 {
-        let (vertices, turn) = (shape as u8 & 15, shape as u8 >> 4 & 7);
-        let centres = if turn == 0 { 1 } else { 2 };
-        if vertices > centres + 1 && vertices <= centres + 1 + WIDTH as u8 {
-            let triangles = vertices - 1 - centres;
-            let (ring, step) = (6 * centres, 2 * (triangles + 1));
-            table[shape] = ShapeOffsets {
-                rings: [ring, ring + step, ring + 2 * step],
-                turn: if turn == 0 { WIDTH as u8 } else { turn },
-                triangles,
-            };
-        }
-        shape += 1;
-    }
-    table
-};
 
 /// Numbers of the triangles whose bits are ones.
 #[inline(always)]
@@ -121,104 +35,6 @@ pub struct FanLeaf<'a> {
     pub(crate) origin: [i32; 3],
 }
 
-/// Stored integers of a leaf on the grid, in an order of the axes. They do not include the grid's
-/// origin.
-#[derive(Clone, Copy, Debug)]
-pub struct GridRing<'a> {
-    /// The grid's origin.
-    pub origin: [i32; 3],
-    /// First and second centre, alike if there is one fan.
-    pub centres: [[i32; 3]; 2],
-    /// First coordinates of the ring.
-    pub x: &'a [[u8; 2]],
-    /// Second coordinates.
-    pub y: &'a [[u8; 2]],
-    /// Third coordinates.
-    pub z: &'a [[u8; 2]],
-}
-
-impl GridRing<'_> {
-    /// Corners of triangle `lane`; `turn` is the first of the second fan. `None` past the last
-    /// triangle.
-    #[inline(always)]
-    pub fn corners(&self, lane: usize, turn: usize) -> Option<[[i32; 3]; 3]> {
-        let [first, second] = self.centres;
-        let centre = if lane < turn { first } else { second };
-        Some([centre, self.vertex(lane)?, self.vertex(lane + 1)?])
-    }
-
-    /// Ring vertex `i`.
-    #[inline(always)]
-    pub fn vertex(&self, i: usize) -> Option<[i32; 3]> {
-        let (x, y, z) = (self.x.get(i)?, self.y.get(i)?, self.z.get(i)?);
-        Some([short_of(*x), short_of(*y), short_of(*z)])
-    }
-}
-
-#[cfg(not(meshsweep_wide))]
-/// Ring vertices of the largest leaf.
-const RING_VERTICES: usize = WIDTH + 1;
-
-#[cfg(not(meshsweep_wide))]
-/// Stored integers of a leaf on the grid with the greatest number of ring vertices. They do not
-/// include the grid's origin.
-#[derive(Clone, Copy, Debug)]
-pub struct FullRing<'a> {
-    window: &'a [u8; GRID_WINDOW],
-    /// Coordinates of the ring, axis by axis. Those past the last triangle have no meaning.
-    pub(crate) rows: [&'a [[u8; 2]; RING_VERTICES]; 3],
-}
-
-#[cfg(not(meshsweep_wide))]
-impl FullRing<'_> {
-    /// First and second centre, alike if there is one fan.
-    #[inline(always)]
-    pub fn centres(&self, shape: LeafShape) -> [[i32; 3]; 2] {
-        [three(self.window, 0), three(self.window, 6 * (shape.centres() - 1))]
-    }
-
-    /// First or second centre of a leaf that has so many.
-    #[inline(always)]
-    pub fn centre(&self, which: usize) -> [i32; 3] {
-        three(self.window, 6 * (which & 1))
-    }
-
-    /// Ring vertex `i`, at most 8.
-    #[inline(always)]
-    pub fn vertex(&self, i: usize) -> Option<[i32; 3]> {
-        let [x, y, z] = self.rows;
-        Some(grid_point([x.get(i)?, y.get(i)?, z.get(i)?]))
-    }
-
-    /// Centre and ring vertices of a triangle.
-    #[cfg_attr(meshsweep_small, inline(never))]
-    #[cfg_attr(not(meshsweep_small), inline(always))]
-    pub fn corners(&self, shape: LeafShape, lane: usize) -> Option<[[i32; 3]; 3]> {
-        let centre = self.centres(shape)[usize::from(lane >= shape.turn())];
-        Some([centre, self.vertex(lane)?, self.vertex(lane + 1)?])
-    }
-
-    /// A bit of each ring vertex, the first one's lowest. Those past the last one of a leaf have no
-    /// meaning. The compiler unrolls the loop where speed counts, for its length is known: three
-    /// times as fast as one over the vertices there are, which is for small code.
-    #[inline(always)]
-    pub fn bits(&self, shape: LeafShape, bit: impl Fn([i32; 3]) -> u32) -> u32 {
-        let [x, y, z] = self.rows;
-        let used = if cfg!(meshsweep_small) { shape.triangles() + 1 } else { RING_VERTICES };
-        let mut bits = 0;
-        for i in 0..used.min(RING_VERTICES) {
-            bits |= bit(grid_point([&x[i], &y[i], &z[i]])) << i;
-        }
-        bits
-    }
-}
-
-#[cfg(not(meshsweep_wide))]
-#[inline(always)]
-fn grid_point([x, y, z]: [&[u8; 2]; 3]) -> [i32; 3] {
-    [short_of(*x), short_of(*y), short_of(*z)]
-}
-
 /// Vertices of the largest leaf: two centres and nine ring vertices.
 pub const CORNERS: usize = 11;
 
@@ -232,36 +48,11 @@ pub fn slots(lane: usize, turn: usize) -> [usize; 3] {
 /// Slot of the first ring vertex.
 pub const RING: usize = 2;
 
-/// Bytes of the largest leaf on the grid: two centres and nine ring vertices.
-pub(super) const GRID_WINDOW: usize = 66;
-
-#[inline(always)]
-fn short_of(pair: [u8; 2]) -> i32 {
-    i32::from(u16::from_le_bytes(pair))
-}
-
-#[inline(always)]
-pub(super) fn short(bytes: &[u8], at: usize) -> i32 {
-    match bytes.get(at..).and_then(|b| b.first_chunk::<2>()) {
-        Some(&pair) => short_of(pair),
-        None => 0,
-    }
-}
-
 #[inline(always)]
 fn f32_at(bytes: &[u8], at: usize) -> f32 {
     match bytes.get(at..).and_then(|b| b.first_chunk::<4>()) {
         Some(&word) => f32::from_le_bytes(word),
         None => 0.0,
-    }
-}
-
-/// Three u16 at a byte offset.
-#[inline(always)]
-fn three(window: &[u8; GRID_WINDOW], at: usize) -> [i32; 3] {
-    match window.get(at..).and_then(|b| b.first_chunk::<6>()) {
-        Some(&[a, b, c, d, e, f]) => [short_of([a, b]), short_of([c, d]), short_of([e, f])],
-        None => [0; 3],
     }
 }
 

@@ -1,7 +1,9 @@
 //! Leaves on the grid, read into registers of 256 bits.
 
-use super::leaf::{FanLeaf, GRID_WINDOW, SHAPE_OFFSETS, ShapeOffsets};
+use super::grid_ring::GRID_WINDOW;
+use super::leaf::FanLeaf;
 use super::leaf_lanes::LanePoint;
+use super::leaf_shape::{SHAPE_OFFSETS, ShapeOffsets};
 use crate::geom::fan::lanes_avx2::{ray_lanes, shadow_lanes};
 use crate::geom::fan::{Edges, FanRay, LANES_BELOW, RingLanes, WIDTH};
 use core::arch::x86_64::{

@@ -1,6 +1,7 @@
 //! Leaves read a register at a time, for the point kernel of vector targets.
 
-use super::leaf::{FanLeaf, GRID_WINDOW, short};
+use super::grid_ring::{GRID_WINDOW, short};
+use super::leaf::FanLeaf;
 use crate::geom::fan::{
     CentreShadows, Edges, FanRay, LANES, Lanes, PIECES, RingLanes, WIDTH, lanes_below, ray_lanes,
 };

@@ -9,7 +9,8 @@ use super::layout::{
     BOXES_BYTES, BVH_SIDELESS, BVH_TURNED, CONE_BYTES, FRAME_BYTES, LINK_BYTES, MOMENTS_BYTES,
     SOURCE_BLOCK, SOURCE_ENTRY_BYTES,
 };
-use super::leaf::{FanLeaf, LeafShape};
+use super::leaf::FanLeaf;
+use super::leaf_shape::LeafShape;
 use super::moments::NodeMoments;
 use super::triangle_bits::TriangleBits;
 use super::units::Units;
