@@ -17,6 +17,8 @@ pub struct Facet {
     pub double_area: f64,
     /// 1 for the equilateral triangle, towards 0 for needles.
     pub compactness: f64,
+    /// A point of the plane: the first corner. With it a facet fills a line of the cache.
+    pub corner: DVec3,
 }
 
 impl Facet {
@@ -29,6 +31,7 @@ impl Facet {
             normal: if double_area > 0.0 { cross / double_area } else { DVec3::ZERO },
             double_area,
             compactness: compactness(corners, double_area),
+            corner: a,
         }
     }
 }

@@ -7,6 +7,7 @@ use super::star::Connectivity;
 use crate::lp::HalfSpace;
 use crate::surface::{Grid, compact_in_order};
 use glam::DVec3;
+use std::hint::select_unpredictable as select;
 
 /// A closed manifold mesh while its edges are collapsed.
 pub struct Surface {
@@ -117,14 +118,9 @@ impl Surface {
         for (v, other) in [(a, b), (b, a)] {
             for &t in self.mesh.at(v) {
                 let [p, q, r] = self.mesh.corners[t as usize];
-                let [next, last] = if p == v {
-                    [q, r]
-                } else if q == v {
-                    [r, p]
-                } else {
-                    [p, q]
-                };
-                if next != other && last != other {
+                // Each corner is as likely to be `v`: a branch would be guessed wrong.
+                let next = select(p == v, q, select(q == v, r, p));
+                if p != other && q != other && r != other {
                     centre += self.positions[next as usize];
                     count += 1.0;
                 }
@@ -132,9 +128,8 @@ impl Surface {
         }
         centre /= count;
         let volume = |t: u32| {
-            let corner = self.positions[self.mesh.corners[t as usize][0] as usize];
             let facet = &self.facets[t as usize];
-            (facet.normal.dot(centre - corner) * facet.double_area).abs()
+            (facet.normal.dot(centre - facet.corner) * facet.double_area).abs()
         };
         let of_a: f64 = self.mesh.at(a).iter().map(|&t| volume(t)).sum();
         let only_of_b =

@@ -23,15 +23,18 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Positive where `p` is in front of the triangle's plane, 0 on it. Only the sign means anything.
 #[inline]
-pub(crate) fn side([a, b, c]: &Triangle, p: DVec3) -> f64 {
+pub(crate) fn side(t: &Triangle, p: DVec3) -> f64 {
+    let [a, b, c] = t;
+    rounded_side(t, p).unwrap_or_else(|| exact_side(a, b, c, p))
+}
+
+/// [`side`], if rounding leaves no doubt.
+#[inline]
+fn rounded_side([a, b, c]: &Triangle, p: DVec3) -> Option<f64> {
     let sum = |v: DVec3| v.x.abs() + v.y.abs() + v.z.abs();
     let (ab, ac, ap) = (*b - *a, *c - *a, p - *a);
     let height = ab.cross(ac).dot(ap);
-    if height.abs() > ROUNDING * sum(ab) * sum(ac) * sum(ap) {
-        height
-    } else {
-        exact_side(a, b, c, p)
-    }
+    (height.abs() > ROUNDING * sum(ab) * sum(ac) * sum(ap)).then_some(height)
 }
 
 #[cold]
@@ -142,7 +145,23 @@ pub(crate) struct Face {
 /// Whether two faces with area share no points but common corners and edges.
 pub(crate) fn are_apart(s: &Face, t: &Face) -> bool {
     let shared = |ids: &[u32; 3], other: &[u32; 3]| ids.map(|id| other.contains(&id));
-    let (in_t, in_s) = (shared(&s.ids, &t.ids), shared(&t.ids, &s.ids));
+    let shared = [shared(&s.ids, &t.ids), shared(&t.ids, &s.ids)];
+    shared[0] != [true; 3] && (is_simply_apart(s, t, shared) || is_apart(s, t, shared))
+}
+
+/// Whether two faces are apart for a reason that takes no exact sides: neighbours on a fine surface
+/// nearly lie in a plane, where these take long. `shared` tells which corners the other face has.
+fn is_simply_apart(s: &Face, t: &Face, [in_t, in_s]: [[bool; 3]; 2]) -> bool {
+    // One reaches the plane of the other in common corners alone.
+    let is_off_plane = |of: &Face, shared: [bool; 3], t: &Triangle| {
+        let own = || (0..3).filter(|&i| !shared[i]).map(|i| rounded_side(t, of.at[i]));
+        own().all(|s| s.is_some_and(|s| s > 0.0)) || own().all(|s| s.is_some_and(|s| s < 0.0))
+    };
+    is_off_plane(s, in_t, &t.at) || is_off_plane(t, in_s, &s.at) || are_beside(s, t)
+}
+
+/// [`are_apart`] of faces that share two corners at most, by sides.
+fn is_apart(s: &Face, t: &Face, [in_t, in_s]: [[bool; 3]; 2]) -> bool {
     match in_t.iter().filter(|&&is| is).count() {
         0 => !meet(&s.at, &t.at),
         1 => {
@@ -156,7 +175,7 @@ pub(crate) fn are_apart(s: &Face, t: &Face) -> bool {
             !segment_meets(edge_s, edge_s.map(|p| side(&t.at, p)), &t.at)
                 && !segment_meets(edge_t, edge_t.map(|p| side(&s.at, p)), &s.at)
         }
-        2 => {
+        _ => {
             let odd = |shared: [bool; 3]| shared.iter().position(|&is| !is).unwrap_or_default();
             let (of_s, of_t) = (odd(in_t), odd(in_s));
             let apex = t.at[of_t];
@@ -168,8 +187,40 @@ pub(crate) fn are_apart(s: &Face, t: &Face) -> bool {
             let (here, there) = (turn(axes, u, v, s.at[of_s]), turn(axes, u, v, apex));
             (here > 0.0 && there < 0.0) || (here < 0.0 && there > 0.0)
         }
-        _ => false,
     }
+}
+
+/// Whether a line along an edge of one of two faces, seen along the axis that is nearest to the
+/// first one's normal, tells them apart. Then they share nothing but the common corners on that
+/// edge. Exact if true.
+fn are_beside(s: &Face, t: &Face) -> bool {
+    let [a, b, c] = s.at;
+    let normal = (b - a).cross(c - a).abs();
+    let axes = if normal.z >= normal.x.max(normal.y) {
+        [0, 1]
+    } else if normal.x >= normal.y {
+        [1, 2]
+    } else {
+        [2, 0]
+    };
+    lies_off_an_edge(axes, t, s) || lies_off_an_edge(axes, s, t)
+}
+
+/// Whether `t`, seen along an axis, lies beyond an edge of `s`, but for corners that are ends of
+/// that edge. With its third corner on the other side, `s` reaches the line in the edge alone.
+fn lies_off_an_edge(axes: [usize; 2], t: &Face, s: &Face) -> bool {
+    let winding = turn(axes, s.at[0], s.at[1], s.at[2]);
+    let is_off = |i: usize| {
+        let j = (i + 1) % 3;
+        t.ids.iter().zip(t.at).all(|(id, p)| {
+            if *id == s.ids[i] || *id == s.ids[j] {
+                return true;
+            }
+            let turned = turn(axes, s.at[i], s.at[j], p);
+            (winding > 0.0 && turned < 0.0) || (winding < 0.0 && turned > 0.0)
+        })
+    };
+    (0..3).any(is_off)
 }
 
 /// Whether an edit that replaces the face `base` by faces at `apex` cuts `p` off the hull: `apex`
@@ -187,6 +238,7 @@ pub(crate) fn is_cut_off(base: &Triangle, apex: DVec3, p: DVec3) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::SplitMix;
 
     fn triangle(points: [[f64; 3]; 3]) -> Triangle {
         points.map(DVec3::from)
@@ -234,6 +286,31 @@ mod tests {
             !are_apart(&flat, &face([3, 4, 5], [a, [0.0, 0.0, 1.0], [0.0, -1.0, 1.0]])),
             "same place, other number"
         );
+    }
+
+    #[test]
+    fn faces_that_are_simply_apart_are_apart_by_sides() {
+        let mut random = SplitMix::new(11);
+        let mut counts = [[0; 2]; 3];
+        while counts.as_flattened().iter().any(|&n| n < 500) {
+            // Corners of a lattice, so that many faces touch and lie in a plane.
+            let places = [0; 6].map(|_| [0; 3].map(|_| (random.roll() * 4.0).floor()));
+            let mut face = |of: usize| {
+                let ids = [0; 3].map(|_| (random.roll() * of as f64) as u32);
+                Face { ids, at: triangle(ids.map(|id| places[id as usize])) }
+            };
+            let (s, t) = (face(6), face(5));
+            if is_degenerate(&s.at) || is_degenerate(&t.at) {
+                continue;
+            }
+            let shared = [s.ids.map(|id| t.ids.contains(&id)), t.ids.map(|id| s.ids.contains(&id))];
+            let count = shared[0].iter().filter(|&&is| is).count();
+            if count < 3 {
+                let (simply, apart) = (is_simply_apart(&s, &t, shared), is_apart(&s, &t, shared));
+                assert!(apart || !simply, "{s:?} {t:?}");
+                counts[count][usize::from(simply)] += 1;
+            }
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@
 use super::bounds::{Bounds, Plane};
 use super::disks::Disks;
 use super::lane_corners::{Cut, LaneCorners};
-use super::order::{WIDTH, ranges};
+use super::order::{Placed, WIDTH, ranges};
 use arrayvec::ArrayVec;
 use glam::DVec3;
 use wide::f32x8;
@@ -99,15 +99,15 @@ impl StaticTree {
             origin,
             scale: 1.0 / unit,
         };
-        let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
+        let mut order = Placed::all(boxes);
         let mut open = vec![(0usize, 0usize, boxes.len())];
         while let Some((node, from, to)) = open.pop() {
-            for (lane, (from, to)) in ranges(&mut order, boxes, from, to).into_iter().enumerate() {
+            for (lane, (from, to)) in ranges(&mut order, from, to).into_iter().enumerate() {
                 let bounds = order[from..to]
                     .iter()
-                    .fold(Bounds::EMPTY, |all, &i| all.join(boxes[i as usize]));
+                    .fold(Bounds::EMPTY, |all, of| all.join(boxes[of.item as usize]));
                 let entry = if to - from == 1 {
-                    order[from] | ITEM
+                    order[from].item | ITEM
                 } else {
                     tree.nodes.push(EMPTY);
                     open.push((tree.nodes.len() - 1, from, to));
@@ -186,6 +186,21 @@ impl StaticTree {
             }
         }
         self
+    }
+
+    /// Numbers the items anew, as they lie in the tree, and returns their old numbers. Searches
+    /// visit them as before.
+    pub fn renumber(&mut self) -> Vec<u32> {
+        let mut old = Vec::new();
+        let entries = self.nodes.iter_mut().flat_map(|node| &mut node.entry);
+        for entry in entries.filter(|entry| **entry & ITEM != 0) {
+            old.push(*entry ^ ITEM);
+            *entry = (old.len() - 1) as u32 | ITEM;
+        }
+        for leaf in &mut self.leaves {
+            leaf.entry = self.nodes[leaf.node as usize].entry;
+        }
+        old
     }
 
     /// The items below an entry that is no item, but no more than those of a disk and a node's.
@@ -458,18 +473,24 @@ impl Probe {
                 - f32x8::splat(self.half[axis])
         });
         let mut out = x.fast_max(y).fast_max(z);
+        // On the first plane, which is the one next to the surface.
+        let mut at_first = f32x8::ZERO;
         for (number, cut) in cuts.iter().enumerate() {
             let [x, y, z] = cut.normal.map(f32x8::splat);
             let [along_x, along_y, along_z] = cut.along.map(f32x8::splat);
             let at_middle = x * middle[0] + y * middle[1] + z * middle[2];
-            let mut reach = at_middle + along_x * half[0] + along_y * half[1] + along_z * half[2];
-            // The first plane is the one next to the surface.
-            if let Some(disks) = disks.filter(|_| number == 0) {
-                reach = reach.fast_min(disks.reach(cut, at_middle));
-            }
+            let reach = at_middle + along_x * half[0] + along_y * half[1] + along_z * half[2];
             out = out.fast_max(f32x8::splat(cut.offset) - reach);
+            if number == 0 {
+                at_first = at_middle;
+            }
         }
-        out.simd_le(f32x8::ZERO).to_bitmask()
+        let lanes = out.simd_le(f32x8::ZERO).to_bitmask();
+        // Disks lie elsewhere in memory. They are read if a box is left.
+        let (Some(disks), Some(cut), true) = (disks, cuts.first(), lanes != 0) else {
+            return lanes;
+        };
+        lanes & disks.reach(cut, at_first).simd_ge(f32x8::splat(cut.offset)).to_bitmask()
     }
 }
 

@@ -137,9 +137,21 @@ pub fn distance_compared(p: [f64; 3], corners: &Corners, x: f64) -> Ordering {
     squared.over.cmp(&(&x * &x * &squared.under))
 }
 
+/// Whether all points of one set lie before all of another along an axis, by comparisons alone. Most
+/// pairs do, and integers take a thousand times as long.
+fn lie_apart(first: &[[f64; 3]], second: &[[f64; 3]]) -> bool {
+    let lie_before = |k: usize, low: &[[f64; 3]], high: &[[f64; 3]]| {
+        low.iter().all(|p| high.iter().all(|q| p[k] < q[k]))
+    };
+    (0..3).any(|k| lie_before(k, first, second) || lie_before(k, second, first))
+}
+
 /// The least parameter at which the closed segment from `a` to `b` has a point of a triangle.
 #[must_use]
 pub fn first_meeting(a: [f64; 3], b: [f64; 3], corners: &Corners) -> Option<Fraction> {
+    if lie_apart(&[a, b], corners) {
+        return None;
+    }
     let unit = unit_of(&[*corners, [a, b, a]].concat());
     let triangle = corners.map(|p| integers(p, unit));
     first_exactly([&integers(a, unit), &integers(b, unit)], &triangle)
@@ -194,6 +206,9 @@ fn first_on_side([a, b]: [&Vector; 2], [u, v]: [&Vector; 2]) -> Option<Fraction>
 /// Whether two triangles have a common point.
 #[must_use]
 pub fn meet(first: &Corners, second: &Corners) -> bool {
+    if lie_apart(first, second) {
+        return false;
+    }
     let edges_meet = |of: &Corners, with: &Corners| {
         (0..3).any(|k| first_meeting(of[k], of[(k + 1) % 3], with).is_some())
     };
@@ -237,6 +252,7 @@ pub fn about(p: [f64; 3], corners: &Corners) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::generate::Rng;
 
     #[test]
     fn the_oracle_knows_segments_points_and_triangles() {
@@ -256,5 +272,21 @@ mod tests {
         assert!(at([3.0, 0.0, 0.0], [4.0, 0.0, 0.0], &wire).is_none());
         assert!(at([0.5, 0.5, 1.0], [0.5, 0.5, -1.0], &[o, x, y]).is_some());
         assert!(meet(&wire, &[o; 3]) && !meet(&wire, &[[0.0, 0.0, 1e-9]; 3]));
+    }
+
+    #[test]
+    fn what_lies_apart_along_an_axis_does_not_meet_in_integers_either() {
+        let mut rng = Rng::new(3);
+        // Few places, so that many triangles touch.
+        let mut corners = || [0; 3].map(|_| [0; 3].map(|_| rng.below(4) as f64));
+        let (mut apart, mut together) = (0, 0);
+        for _ in 0..2000 {
+            let (s, t): (Corners, Corners) = (corners(), corners());
+            let exactly = meet_exactly(&s.map(|p| integers(p, 0)), &t.map(|p| integers(p, 0)));
+            assert_eq!(meet(&s, &t), exactly, "{s:?} {t:?}");
+            apart += usize::from(lie_apart(&s, &t));
+            together += usize::from(exactly);
+        }
+        assert!(apart > 300 && together > 300, "{apart} {together}");
     }
 }

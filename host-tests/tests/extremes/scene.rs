@@ -9,6 +9,7 @@ use meshsweep_core::{Bvh, ScratchEntry};
 use meshsweep_host_tests::generate::{Rng, cube, torus};
 use meshsweep_host_tests::oracle::exact::{Corners, about};
 use std::path::Path;
+use std::sync::LazyLock;
 
 /// Positions as in a file, and triangles.
 pub type Raw = (Vec<[f64; 3]>, Vec<[u32; 3]>);
@@ -289,8 +290,12 @@ pub fn inputs() -> Vec<(&'static str, Raw)> {
     all
 }
 
-pub fn scenes() -> Vec<Scene> {
-    let kinds = [Kind::Grid, Kind::F32, Kind::Snapped];
-    let all = inputs();
-    all.iter().flat_map(|(name, raw)| kinds.map(|kind| Scene::new(name, raw, kind))).collect()
+/// Every input in every kind, built once.
+pub fn scenes() -> &'static [Scene] {
+    static SCENES: LazyLock<Vec<Scene>> = LazyLock::new(|| {
+        let kinds = [Kind::Grid, Kind::F32, Kind::Snapped];
+        let all = inputs();
+        all.iter().flat_map(|(name, raw)| kinds.map(|kind| Scene::new(name, raw, kind))).collect()
+    });
+    &SCENES
 }

@@ -1,7 +1,7 @@
 //! An initial hull of any triangles, open, crossing or loose: a level of their voxel closure.
 
 use super::initial_hull::{InitialHull, InitialInput};
-use super::levels::{ClosedSurface, Faces, LEVELS};
+use super::levels::{ClosedSurface, Faces, tried};
 use super::voxel_closure::voxel_closure;
 use crate::collapse::Conditions;
 use crate::progress::Stage;
@@ -49,12 +49,10 @@ pub(crate) fn closure_hull(
     };
     // Thinned levels may grow into each other in narrow places.
     for &thins in if surface.is_fine(target) { &[true, false][..] } else { &[false] } {
-        let mut levels = surface.levels(input, target, thins, on_progress)?;
-        let tried = if thins { &LEVELS[..1] } else { &LEVELS };
-        let found = tried
-            .iter()
-            .filter(|&&level| level >= 0)
-            .find_map(|&level| levels.take(Some(level)).and_then(proved));
+        // Coarser levels would be farther from the mesh than the closure.
+        let wanted = || tried(thins).iter().filter(|&&level| level >= 0).map(|&level| Some(level));
+        let mut levels = surface.levels(input, target, thins, wanted(), on_progress)?;
+        let found = wanted().find_map(|level| levels.take(level).and_then(proved));
         if found.is_some() {
             return found;
         }

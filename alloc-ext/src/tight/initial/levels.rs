@@ -21,7 +21,12 @@ fn ample_faces(target: usize) -> usize {
 
 /// Levels in the order in which they are tried: level n has [`ample_faces`] · 2^n faces. Finer
 /// levels are closer to the mesh. Coarser levels pass over places where the mesh crosses itself.
-pub(super) const LEVELS: [i32; 7] = [0, 1, -1, 2, -2, 3, -3];
+const LEVELS: [i32; 7] = [0, 1, -1, 2, -2, 3, -3];
+
+/// The [`LEVELS`] that are tried. A thinned surface that grew into itself does so at any level.
+pub(super) fn tried(thins: bool) -> &'static [i32] {
+    if thins { &LEVELS[..1] } else { &LEVELS }
+}
 
 /// Least faces of a level that is coarser than level 0.
 const LEAST_FACES: usize = 40;
@@ -63,13 +68,14 @@ impl ClosedSurface<'_> {
         self.triangles.len() > finest_faces(target)
     }
 
-    /// The levels for a hull of `target` faces; `None` if the deadline passes first. Level 0 and
-    /// the level without number may be the surface itself.
+    /// The levels of these numbers for a hull of `target` faces; `None` if the deadline passes
+    /// first. Level 0 and the level without number may be the surface itself.
     pub fn levels(
         &self,
         &InitialInput { stored, deadline, .. }: &InitialInput<'_>,
         target: usize,
         thins: bool,
+        wanted: impl IntoIterator<Item = Option<i32>>,
         on_progress: &mut dyn FnMut(Stage),
     ) -> Option<Levels> {
         let is_late = || deadline.has_passed();
@@ -81,12 +87,14 @@ impl ClosedSurface<'_> {
                 of: from.saturating_sub(target),
             });
         };
-        let mut counts: Vec<(Option<i32>, usize)> = (-3..=3)
-            .map(|level| (Some(level), (ample_faces(target) as f64 * exp2(level)) as usize))
-            .filter(|&(level, faces)| {
-                !(faces >= from && level > Some(0) || faces < LEAST_FACES && level < Some(0))
-            })
-            .chain([(None, target)])
+        let faces_of = |level| (ample_faces(target) as f64 * exp2(level)) as usize;
+        let exists = |&(level, faces): &(Option<i32>, usize)| {
+            level.is_none_or(|n| !(faces >= from && n > 0 || faces < LEAST_FACES && n < 0))
+        };
+        let mut counts: Vec<(Option<i32>, usize)> = wanted
+            .into_iter()
+            .map(|level| (level, level.map_or(target, faces_of)))
+            .filter(exists)
             .collect();
         counts.sort_unstable_by_key(|&(level, faces)| (std::cmp::Reverse(faces), level));
         let thinned = (thins && self.is_fine(target)).then(|| {

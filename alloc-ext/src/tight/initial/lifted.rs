@@ -4,7 +4,7 @@
 //! lifted by a few steps of the grid. Where that does not prove a level, another may do.
 
 use super::initial_hull::{InitialHull, InitialInput};
-use super::levels::{ClosedSurface, LEVELS};
+use super::levels::{ClosedSurface, tried};
 use crate::collapse::{Conditions, MAX_STAR};
 use crate::geom::side;
 use crate::lp::{HalfSpace, Order, minimise_bounded};
@@ -17,7 +17,7 @@ use glam::DVec3;
 /// Initial hulls that come from levels of the progressive hull.
 #[derive(Default)]
 pub(crate) struct LiftedLevels {
-    /// The first of [`LEVELS`] that is proved: the choice for round meshes.
+    /// The first level that is proved: the choice for round meshes.
     pub ample: Option<InitialHull>,
     /// The level with the target faces, if it is proved. On blocks with few flat faces it may be
     /// the solid itself.
@@ -38,7 +38,10 @@ pub(crate) fn lifted_levels(
         conditions: Conditions::STANDARD,
     };
     let mut hulls = |thins| {
-        let mut levels = surface.levels(input, target, thins, on_progress).unwrap_or_default();
+        let ample = tried(thins);
+        let wanted = ample.iter().copied().map(Some).chain([None]);
+        let levels = surface.levels(input, target, thins, wanted, on_progress);
+        let mut levels = levels.unwrap_or_default();
         let mut lifted = |level: Option<i32>| {
             let (positions, triangles) = levels.take(level)?;
             let mut shell = Shell::new(positions, &triangles);
@@ -46,10 +49,9 @@ pub(crate) fn lifted_levels(
             lift(&mut shell, rounding, obstacle.margin());
             InitialHull::proved(shell, Start::Progressive { faces }, obstacle)
         };
-        let tried = if thins { &LEVELS[..1] } else { &LEVELS };
         LiftedLevels {
             exact: lifted(None),
-            ample: tried.iter().find_map(|&level| lifted(Some(level))),
+            ample: ample.iter().find_map(|&level| lifted(Some(level))),
         }
     };
     // Thinning may make the surface grow into itself where collapses in order do not.

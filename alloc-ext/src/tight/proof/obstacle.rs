@@ -60,17 +60,18 @@ impl Obstacle {
                 let normal = normal(&t.map(|v| positions[v as usize]));
                 t.iter().for_each(|&v| normals[v as usize] += normal);
             }
-            let tree = tree_of_points(positions)
+            let mut tree = tree_of_points(positions)
                 .with_disks(|i| normals[i], |i, points| points.push(positions[i]));
-            (tree, witnesses(positions, triangles))
+            let points = tree.renumber().iter().map(|&i| positions[i as usize].as_vec3()).collect();
+            (tree, points, witnesses(positions, triangles))
         };
-        let ((triangle_tree, sorted), (point_tree, witnesses)) =
+        let ((triangle_tree, sorted), (point_tree, points, witnesses)) =
             rayon::join(of_triangles, of_points);
         Self {
             triangle_tree,
             triangles: sorted,
             point_tree,
-            points: positions.iter().map(|p| p.as_vec3()).collect(),
+            points,
             witness_tree: tree_of_points(&witnesses),
             witnesses,
             margin: 0.0,

@@ -20,7 +20,7 @@ fn every_interval_of_closest_points_holds_the_exact_distance() {
 #[test]
 fn intervals_are_as_narrow_as_those_of_triangles() {
     for scene in scenes() {
-        intervals_are_narrow(&scene, &scene.points(100, 12));
+        intervals_are_narrow(scene, &scene.points(100, 12));
     }
 }
 
@@ -28,7 +28,7 @@ fn intervals_are_as_narrow_as_those_of_triangles() {
 fn verdicts_of_being_within_a_distance_are_true() {
     let mut seen = [0; 3];
     for scene in scenes() {
-        verdicts_are_true(&scene, &scene.points(60, 13), &mut seen);
+        verdicts_are_true(scene, &scene.points(60, 13), &mut seen);
     }
     assert!(seen[0] > 1000 && seen[1] > 1000, "{seen:?}");
 }
@@ -36,16 +36,16 @@ fn verdicts_of_being_within_a_distance_are_true() {
 #[test]
 fn nearest_triangles_and_all_within_a_distance_miss_nothing() {
     for scene in scenes() {
-        neighbors_are_complete(&scene, &scene.points(60, 14));
+        neighbors_are_complete(scene, &scene.points(60, 14));
     }
 }
 
 #[test]
 fn batches_and_moving_queries_give_the_bits_of_single_ones() {
     for scene in scenes() {
-        bits_do_not_depend_on_the_way(&scene, &scene.points(90, 15));
+        bits_do_not_depend_on_the_way(scene, &scene.points(90, 15));
         let ends = scene.points(6, 16);
-        bits_are_kept_on_a_path(&scene, [ends[3], ends[5]]);
+        bits_are_kept_on_a_path(scene, [ends[3], ends[5]]);
     }
 }
 

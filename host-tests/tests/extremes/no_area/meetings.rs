@@ -44,7 +44,7 @@ fn segments(scene: &Scene, count: usize, seed: u64, off: &[f64]) -> Vec<Segment>
 fn no_segment_is_wrongly_clear_and_no_hit_is_wrongly_certain() {
     let mut seen = [0; 3];
     for scene in scenes() {
-        hits_are_true(&scene, &segments(&scene, 140, 21, &OFF), &mut seen);
+        hits_are_true(scene, &segments(scene, 140, 21, &OFF), &mut seen);
     }
     let [clear, certain, open] = seen;
     assert!(clear > 500 && certain > 300 && open > 500, "{clear} {certain} {open}");
