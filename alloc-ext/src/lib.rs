@@ -26,6 +26,7 @@
 //! | [`emit`] | sections to bytes; it knows no builder |
 //! | [`builder`] | from options or a recipe, and a mesh, to a blob in memory: what the program does |
 //! | [`progress`] | how much of a build is done, and whether to go on |
+//! | [`robot`] | a robot's description: links, joints, pairs, and firmware's module of them |
 //! | [`cut`] | a coarser blob out of a finer one |
 //! | [`distances`] | a structure of a blob that answers distances, whichever it is |
 //! | [`worst`] | a search for the query that costs most |
@@ -34,8 +35,8 @@
 //!
 //! A room uses those to its left in this line, and no other: `geom` ← `{emit, lp, mesh}` ←
 //! `progress` ← `surface` ← `{collapse, bvh, load}` ← `hausdorff` ← `{tight, tribox, curve}` ←
-//! `hull` ← `{cut, builder}` ← `trade` ← `worst` ← the program. `trade` also uses the distance of
-//! `check`, and `distances` uses no room. A test keeps that (`host-tests/tests/house`).
+//! `hull` ← `{cut, builder}` ← `{trade, robot}` ← `worst` ← the program. `trade` also uses the
+//! distance of `check`, and `distances` uses no room. A test keeps that (`host-tests/tests/house`).
 
 pub mod builder;
 pub mod bvh;
@@ -57,6 +58,7 @@ pub mod mesh;
 pub mod number;
 pub mod progress;
 mod random;
+pub mod robot;
 pub mod surface;
 pub mod tight;
 pub mod trade;

@@ -35,6 +35,7 @@
 //! | which two of a few dozen models are nearest; are any two within a distance | [`Scene::nearest_pair`], [`Scene::within`] |
 //! | does any pair of models that move little keep its own distance no longer | [`CoherentScene::within`] |
 //! | poses of quaternions, products and inverses, with how far rounding moves a model | [`Pose::of_quaternion`], [`RoundedPose`] |
+//! | where are the links of a robot, from the places of its joints, with the rounding | [`link_poses`] |
 //! | how far is a sphere, a capsule or a box; is it within a distance | [`Bvh::solid_distance`], [`Bvh::solid_within`] |
 //! | is the move of a tool, or of another mesh, clear for its whole length | [`Bvh::solid_first_contact`], [`Bvh::first_contact_of`] |
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
@@ -113,10 +114,10 @@ pub use hull::{
     OuterSearch, RefinedHull, Refinement, SplitChange, Sweep,
 };
 pub use query::{
-    AllHits, AllOverlaps, Budget, ClosestPoint, Decided, Ended, FirstHit, Hit, Interval, Motion,
-    PairContact, PairDistance, Penetration, PosedPoint, QueryError, Relation, RoundedPose, Scratch,
-    ScratchEntry, Side, SignedDistance, Solid, SolidDistance, TriangleHit, TrianglePair, Undecided,
-    Verdict, Work,
+    AllHits, AllOverlaps, Budget, ClosestPoint, Decided, Ended, FirstHit, Hit, Interval, Joint,
+    JointAxis, JointKind, Motion, PairContact, PairDistance, Penetration, PosedPoint, QueryError,
+    Relation, RoundedPose, Scratch, ScratchEntry, Side, SignedDistance, Solid, SolidDistance,
+    TriangleHit, TrianglePair, Undecided, Verdict, Work, link_poses,
 };
 pub use tight::{TightHull, TightHulls, TightRecord};
 pub use tribox::{

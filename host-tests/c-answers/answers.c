@@ -14,6 +14,8 @@ extern const unsigned char hulls[];
 extern const uint32_t hulls_bytes;
 extern const unsigned char bracket[];
 extern const uint32_t bracket_bytes;
+extern const unsigned char torus[];
+extern const uint32_t torus_bytes;
 
 enum { ROUNDS = 24, SPLITS = 60, FACES = 160 };
 
@@ -98,10 +100,21 @@ static size_t scratch_of(int round)
 
 static msw_pose pose_of(int round)
 {
-    static const msw_pose half_turn = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}, {0, 0, 0}};
-    static const msw_pose none = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
+    static const msw_pose half_turn = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}, {0, 0, 0}, 0};
+    static const msw_pose none = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}, 0};
     msw_pose pose = round % 2 ? half_turn : none;
     random_point(pose.translation);
+    return pose;
+}
+
+/* Every other one mirrors. */
+static msw_pose affine_of(int round)
+{
+    msw_pose pose = pose_of(round);
+    if (round % 2) {
+        pose.rotation[2][2] = -1.0f;
+        pose = msw_pose_affine(pose);
+    }
     return pose;
 }
 
@@ -304,16 +317,150 @@ static void two_models(const msw_model *model)
 
     begin();
     for (int round = 0; round < ROUNDS; round++) {
-        static const uint32_t skipped[1][2] = {{2, 1}};
-        const msw_placed models[3] = {
-            {model, pose_of(round)}, {model, pose_of(round)}, {model, pose_of(round)}};
-        msw_models_answer answer;
-        fold_word((uint32_t)msw_models_within(models, 3, 4.0f, skipped, (size_t)(round % 2),
-                                              budget_of(round), scratch, scratch_of(round),
-                                              &answer));
+        const msw_pose pose = affine_of(round);
+        msw_within_of_answer answer;
+        fold_word((uint32_t)msw_within_of(model, model, &pose, 4.0f, budget_of(round), scratch,
+                                          scratch_of(round), &answer));
         fold(&answer, sizeof answer);
     }
-    end("models_within");
+    end("within_of");
+
+    begin();
+    for (int round = 0; round < ROUNDS; round++) {
+        const msw_pose pose = affine_of(round);
+        msw_pair_distance answer;
+        fold_word((uint32_t)msw_distance(model, model, &pose, budget_of(round), scratch,
+                                         scratch_of(round), &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("distance");
+
+    /* A walk: most answers come from what is kept. */
+    static msw_coherent_pair pair;
+    msw_pose walk = pose_of(0);
+    begin();
+    random_point(walk.translation);
+    for (int round = 0; round < ROUNDS; round++) {
+        random_step(walk.translation);
+        msw_pair_distance distance;
+        fold_word((uint32_t)msw_coherent_pair_distance(&pair, model, model, &walk,
+                                                       budget_of(round), scratch,
+                                                       scratch_of(round), &distance));
+        fold(&distance, sizeof distance);
+        msw_within_of_answer within;
+        fold_word((uint32_t)msw_coherent_pair_within(&pair, model, model, &walk, 30.0f,
+                                                     budget_of(round), scratch,
+                                                     scratch_of(round), &within));
+        fold(&within, sizeof within);
+    }
+    end("coherent_pair");
+
+    begin();
+    for (int round = 0; round < ROUNDS; round++) {
+        msw_motion motion;
+        motion.kind = round % 4 < 2 ? MSW_MOTION_STRAIGHT : MSW_MOTION_SCREW;
+        motion.from = pose_of(round);
+        motion.to = pose_of(0);
+        if (motion.kind == MSW_MOTION_STRAIGHT) {
+            /* One rotation: then nothing shrinks. */
+            for (int row = 0; row < 3; row++) {
+                for (int column = 0; column < 3; column++) {
+                    motion.to.rotation[row][column] = motion.from.rotation[row][column];
+                }
+            }
+        }
+        msw_pair_contact answer;
+        fold_word((uint32_t)msw_first_contact_of(model, model, &motion, 1.0f, budget_of(round),
+                                                 scratch, scratch_of(round), &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("first_contact_of");
+}
+
+/* Three copies of a model: one stands, one walks, one stands far away from time to time. */
+static void scene(const msw_model *model, const char *kind)
+{
+    enum { MODELS = 3, PAIRS = 2 };
+    static msw_scene_entry memory[MSW_SCENE_ENTRIES(MODELS, PAIRS)];
+    static const msw_kept_pair pairs[PAIRS] = {{{0, 1}, 4.0f}, {{2, 1}, 8.0f}};
+    const size_t count = sizeof memory / sizeof memory[0];
+    begin();
+    msw_placed models[MODELS];
+    for (int index = 0; index < MODELS; index++) {
+        models[index].model = model;
+        models[index].pose = pose_of(index);
+    }
+    fold_word((uint32_t)msw_scene_begin(memory, count, models, MODELS, pairs, PAIRS));
+    for (int round = 0; round < ROUNDS; round++) {
+        random_step(models[1].pose.translation);
+        fold_word((uint32_t)msw_scene_move(memory, 1, &models[1].pose));
+        if (round % 8 == 7) {
+            models[2].pose = pose_of(round);
+            fold_word((uint32_t)msw_scene_move(memory, 2, &models[2].pose));
+            models[1].pose = pose_of(round);
+        }
+        if (round % 16 == 15) {
+            fold_word((uint32_t)msw_scene_reset(memory));
+        }
+        msw_scene_answer answer;
+        fold_word((uint32_t)msw_scene_within(memory, budget_of(round), scratch,
+                                             scratch_of(round), &answer));
+        fold(&answer, sizeof answer);
+    }
+    end(kind);
+}
+
+static void poses(void)
+{
+    begin();
+    msw_rounded_pose world = {pose_of(0), 0.0f, 0.0f};
+    for (int round = 0; round < ROUNDS; round++) {
+        float quaternion[4] = {0, 0, 0, 1};
+        float translation[3];
+        random_point(quaternion);
+        random_point(translation);
+        msw_rounded_pose link, back, seen;
+        float motion;
+        fold_word((uint32_t)msw_pose_of_quaternion(quaternion, translation, &link));
+        fold(&link, sizeof link);
+        fold_word((uint32_t)msw_pose_then(&link, &world, &world));
+        fold(&world, sizeof world);
+        fold_word((uint32_t)msw_pose_inverse(&link, &back));
+        fold(&back, sizeof back);
+        fold_word((uint32_t)msw_pose_relative_to(&world, &link, &seen));
+        fold(&seen, sizeof seen);
+        fold_word((uint32_t)msw_pose_motion(&seen, 32.0f, &motion));
+        fold(&motion, sizeof motion);
+    }
+    end("poses");
+}
+
+static void triboxes(void)
+{
+    static msw_triboxes part;
+    static msw_node_pair pairs[16];
+    begin();
+    fold_word((uint32_t)msw_open_triboxes(&part, torus, torus_bytes));
+    fold_word(msw_triboxes_scratch_entries(&part, &part));
+    for (int round = 0; round < ROUNDS; round++) {
+        msw_pose pose = pose_of(round);
+        for (int axis = 0; axis < 3; axis++) {
+            pose.translation[axis] *= 1.0f / 16.0f;
+        }
+        msw_apart_answer apart;
+        fold_word((uint32_t)msw_triboxes_apart(&part, &part, &pose, budget_of(round), scratch,
+                                               scratch_of(round), &apart));
+        fold(&apart, sizeof apart);
+        msw_candidates_answer found;
+        fold_word((uint32_t)msw_triboxes_candidates(&part, &part, &pose, pairs, 16,
+                                                    budget_of(round), scratch,
+                                                    scratch_of(round), &found));
+        fold(&found, sizeof found);
+        for (uint32_t at = 0; at < found.stored; at++) {
+            fold_word(pairs[at].a | (uint32_t)pairs[at].b << 16);
+        }
+    }
+    end("triboxes");
 }
 
 static void tight_hull(void)
@@ -339,10 +486,10 @@ static void tight_hull(void)
     begin();
     fold_word((uint32_t)msw_tight_model(&surface, &hull));
     for (int round = 0; round < ROUNDS; round++) {
-        const msw_placed models[2] = {{&surface, pose_of(round)}, {&surface, pose_of(round)}};
-        msw_models_answer answer;
-        fold_word((uint32_t)msw_models_within(models, 2, 4.0f, NULL, 0, budget_of(round), scratch,
-                                              scratch_of(round), &answer));
+        const msw_pose pose = pose_of(round);
+        msw_within_of_answer answer;
+        fold_word((uint32_t)msw_within_of(&surface, &surface, &pose, 4.0f, budget_of(round),
+                                          scratch, scratch_of(round), &answer));
         fold(&answer, sizeof answer);
     }
     end("tight_models");
@@ -426,6 +573,39 @@ static void refusals(const msw_model *model)
     /* It was used with another count. */
     fold_word((uint32_t)msw_refine(&hull, refined, 7, NULL, 1.0f, &refinement));
     fold_word((uint32_t)msw_refine(&hull, refined, 1, NULL, 1.0f, &refinement));
+    /* Scenes: too few entries, no such model, one twice, a distance below 0, a pose of zeros, memory
+     * without a scene, then with one. */
+    static msw_scene_entry memory[MSW_SCENE_ENTRIES(2, 1)];
+    static const msw_kept_pair wrong[3] = {{{0, 2}, 1.0f}, {{1, 1}, 1.0f}, {{0, 1}, -1.0f}};
+    static const msw_kept_pair right = {{0, 1}, 1.0f};
+    const size_t entries = MSW_SCENE_ENTRIES(2, 1);
+    msw_placed models[2] = {{model, pose_of(0)}, {model, pose_of(0)}};
+    msw_scene_answer near;
+    fold_word((uint32_t)msw_scene_begin(memory, entries - 1, models, 2, &right, 1));
+    for (int index = 0; index < 3; index++) {
+        fold_word((uint32_t)msw_scene_begin(memory, entries, models, 2, &wrong[index], 1));
+    }
+    models[1].pose = zeros;
+    fold_word((uint32_t)msw_scene_begin(memory, entries, models, 2, &right, 1));
+    fold_word((uint32_t)msw_scene_within(memory, NULL, scratch, count, &near));
+    models[1].pose = pose_of(1);
+    fold_word((uint32_t)msw_scene_begin(memory, entries, models, 2, &right, 1));
+    fold_word((uint32_t)msw_scene_move(memory, 2, &models[1].pose));
+    fold_word((uint32_t)msw_scene_move(memory, 1, &zeros));
+    fold_word((uint32_t)msw_scene_within(memory, NULL, scratch, 0, &near));
+    fold(&near, sizeof near);
+    /* A kind of motion, and a motion of zeros. */
+    msw_motion motion = {2, pose_of(0), pose_of(0)};
+    msw_pair_contact contact;
+    fold_word((uint32_t)msw_first_contact_of(model, model, &motion, 1.0f, NULL, scratch, count,
+                                             &contact));
+    static const msw_motion unmoved;
+    fold_word((uint32_t)msw_first_contact_of(model, model, &unmoved, 1.0f, NULL, scratch, count,
+                                             &contact));
+    fold(&contact, sizeof contact);
+    static msw_triboxes bounds;
+    fold_word((uint32_t)msw_open_triboxes(&bounds, groove, groove_bytes));
+    fold_word(msw_triboxes_scratch_entries(&bounds, &bounds));
     end("refusals");
 }
 
@@ -446,6 +626,9 @@ int main(void)
     replaced();
     segments(&model);
     two_models(&model);
+    scene(&model, "scene");
+    poses();
+    triboxes();
     tight_hull();
     refined_hull();
     refusals(&model);

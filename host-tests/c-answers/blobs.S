@@ -14,6 +14,7 @@
     blob groove
     blob hulls
     blob bracket
+    blob torus
 
 #ifdef __linux__
     .section .note.GNU-stack, "", %progbits

@@ -5,9 +5,10 @@
 use crate::corrupt::{entry, put_u32, seal, word};
 use meshsweep_core::internal::format::layout::VERSION_MAJOR;
 use meshsweep_core::{
-    Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Ended, Facing, FirstHit, Focus, Hint, Hit,
-    Hull, Interval, Neighbor, PlacedModel, Pose, QueryError, RefinedHull, Scene, Scratch, Side,
-    Solid, TightHulls, Undecided, Verdict, Work,
+    Blob, Budget, Bvh, ClosestPoint, CoherentPair, CoherentQuery, CoherentScene, Decided, Ended,
+    Facing, FirstHit, Focus, Hint, Hit, Hull, Interval, KeptPair, Motion, Neighbor, NodePair,
+    PairDistance, PlacedModel, Pose, QueryError, RefinedHull, RoundedPose, Scratch, Side, Solid,
+    TightHulls, Triboxes, Undecided, Verdict, Work,
 };
 
 const ROUNDS: usize = 24;
@@ -42,6 +43,16 @@ impl Kind {
         let turned = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
         let rotation = if round % 2 == 1 { turned } else { Pose::IDENTITY.rotation };
         Pose::rigid(rotation, self.point())
+    }
+
+    /// Every other one mirrors.
+    fn affine(&mut self, round: usize) -> Pose {
+        let Pose { mut rotation, translation, .. } = self.pose(round);
+        if round % 2 == 0 {
+            return Pose::rigid(rotation, translation);
+        }
+        rotation[2][2] = -1.0;
+        Pose::affine(rotation, translation)
     }
 
     fn words(&mut self, words: &[u32]) {
@@ -105,6 +116,20 @@ impl Kind {
         self.work(found.work);
     }
 
+    fn within_of(&mut self, found: &Decided<[u32; 2]>) {
+        self.verdict(found.verdict);
+        self.words(&found.witness.unwrap_or([u32::MAX; 2]));
+        self.work(found.work);
+    }
+
+    fn pair_distance(&mut self, found: &PairDistance) {
+        self.interval(found.distance);
+        self.floats(found.points.as_flattened());
+        self.words(&found.triangles);
+        self.words(&[ended(found.ended)]);
+        self.work(found.work);
+    }
+
     fn line(&self, name: &str) -> String {
         format!("{name} {:08x}\n", self.hash)
     }
@@ -153,6 +178,7 @@ pub fn lines(
     groove: &[u8],
     hulls: &[u8],
     bracket: &[u8],
+    torus: &[u8],
 ) -> Result<String, Box<dyn std::error::Error>> {
     let model = Bvh::open(groove)?;
     let mut kind = Kind::begin();
@@ -168,6 +194,9 @@ pub fn lines(
     text += &segments(&model)?;
     text += &moved_solids(&model)?;
     text += &two_models(&model)?;
+    text += &scene(&model)?;
+    text += &poses()?;
+    text += &triboxes(torus)?;
     text += &tight_hull(hulls)?;
     text += &refined_hull(bracket)?;
     Ok(text + &refusals())
@@ -312,24 +341,128 @@ fn two_models(model: &Bvh<'_>) -> Result<String, QueryError> {
         let (pose, scratch) = (kind.pose(round), &mut scratch[..entries(round)]);
         let found = model.overlap(model, pose, budget, scratch)?;
         kind.words(&[0]);
-        kind.verdict(found.verdict);
-        kind.words(&found.witness.unwrap_or([u32::MAX; 2]));
+        kind.within_of(&found);
+        Ok(())
+    })?;
+    let within = rounds("within_of", |kind, round, budget, scratch| {
+        let (pose, scratch) = (kind.affine(round), &mut scratch[..entries(round)]);
+        kind.words(&[0]);
+        kind.within_of(&model.within_of(model, pose, 4.0, budget, scratch)?);
+        Ok(())
+    })?;
+    let distance = rounds("distance", |kind, round, budget, scratch| {
+        let (pose, scratch) = (kind.affine(round), &mut scratch[..entries(round)]);
+        kind.words(&[0]);
+        kind.pair_distance(&model.distance_to(model, pose, budget, scratch)?);
+        Ok(())
+    })?;
+    let (mut pair, mut place) = (CoherentPair::<256>::new(), None);
+    let coherent = rounds("coherent_pair", |kind, round, budget, scratch| {
+        let here = place.get_or_insert_with(|| kind.point());
+        kind.step(here);
+        let pose = Pose { translation: *here, ..Pose::IDENTITY };
+        let scratch = &mut scratch[..entries(round)];
+        kind.words(&[0]);
+        kind.pair_distance(&pair.distance(model, model, pose, budget, scratch)?);
+        kind.words(&[0]);
+        kind.within_of(&pair.within(model, model, pose, 30.0, budget, scratch)?);
+        Ok(())
+    })?;
+    let contact = rounds("first_contact_of", |kind, round, budget, scratch| {
+        let (from, to) = (kind.pose(round), kind.pose(0));
+        let motion = if round % 4 < 2 {
+            Motion::straight(from, Pose { translation: to.translation, ..from })
+        } else {
+            Motion::screw(from, to)?
+        };
+        let scratch = &mut scratch[..entries(round)];
+        let found = model.first_contact_of(model, &motion, 1.0, budget, scratch)?;
+        kind.words(&[0, if found.is_clear() { 2 } else { 0 }]);
+        kind.floats(&[found.clear_until]);
+        kind.floats(found.points.as_flattened());
+        kind.words(&found.triangles);
+        kind.words(&[ended(found.ended)]);
         kind.work(found.work);
         Ok(())
     })?;
-    let within = rounds("models_within", |kind, round, budget, scratch| {
-        let [one, two, three] = [(); 3].map(|()| PlacedModel::new(*model, kind.pose(round)));
-        let models = [one?, two?, three?];
-        let is_asked = |a: usize, b: usize| round % 2 == 0 || [a, b] != [1, 2];
-        let (scene, scratch) = (Scene::new(&models), &mut scratch[..entries(round)]);
-        let found = scene.within(4.0, is_asked, budget, scratch)?;
+    Ok(overlap + &within + &distance + &coherent + &contact)
+}
+
+/// Three copies of a model: one stands, one walks, one stands far away from time to time.
+fn scene(model: &Bvh<'_>) -> Result<String, QueryError> {
+    let (mut kind, mut scratch) = (Kind::begin(), Scratch::<SCRATCH>::new());
+    let mut poses = [0, 1, 2].map(|round| kind.pose(round));
+    let [one, two, three] = poses.map(|pose| PlacedModel::new(*model, pose));
+    let pairs = [([0, 1], 4.0), ([2, 1], 8.0)];
+    let pairs = pairs.map(|(models, distance)| KeptPair { models, distance });
+    let mut scene = CoherentScene::new([one?, two?, three?], pairs)?;
+    kind.words(&[0]);
+    for round in 0..ROUNDS {
+        kind.step(&mut poses[1].translation);
+        scene.move_to(1, poses[1])?;
+        kind.words(&[0]);
+        if round % 8 == 7 {
+            poses[2] = kind.pose(round);
+            scene.move_to(2, poses[2])?;
+            kind.words(&[0]);
+            poses[1] = kind.pose(round);
+        }
+        if round % 16 == 15 {
+            scene.reset();
+            kind.words(&[0]);
+        }
+        let found = scene.within(budget(round), &mut scratch[..entries(round)])?;
         kind.words(&[0]);
         kind.verdict(found.verdict);
         kind.words(&found.witness.map_or([u32::MAX; 2], |pair| pair.map(|index| index as u32)));
         kind.work(found.work);
-        Ok(())
-    })?;
-    Ok(overlap + &within)
+    }
+    Ok(kind.line("scene"))
+}
+
+fn poses() -> Result<String, QueryError> {
+    let mut kind = Kind::begin();
+    let mut world = RoundedPose::exact(kind.pose(0));
+    for _ in 0..ROUNDS {
+        let ([x, y, z], translation) = (kind.point(), kind.point());
+        let link = Pose::of_quaternion([x, y, z, 1.0], translation)?;
+        world = link.then(&world);
+        let seen = world.relative_to(&link)?;
+        for pose in [link, world, link.inverse()?, seen] {
+            kind.words(&[0]);
+            kind.floats(pose.pose.rotation.as_flattened());
+            kind.floats(&pose.pose.translation);
+            kind.words(&[u32::from(pose.pose.is_affine)]);
+            kind.floats(&[pose.turn, pose.shift]);
+        }
+        kind.words(&[0]);
+        kind.floats(&[seen.motion(32.0)]);
+    }
+    Ok(kind.line("poses"))
+}
+
+fn triboxes(torus: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
+    let part = Triboxes::open(torus)?;
+    let (mut kind, mut scratch) = (Kind::begin(), Scratch::<SCRATCH>::new());
+    kind.words(&[0, part.separation_entries(&part) as u32]);
+    for round in 0..ROUNDS {
+        let mut pose = kind.pose(round);
+        pose.translation = pose.translation.map(|x| x / 16.0);
+        let (budget, scratch) = (budget(round), &mut scratch[..entries(round)]);
+        let apart = part.separation(&part, pose, budget, scratch)?;
+        let clear = |is_apart: bool| if is_apart { 2 } else { 0 };
+        kind.words(&[0, clear(apart.is_apart()), ended(apart.ended)]);
+        let node = |pair: NodePair| u32::from(pair.a) | u32::from(pair.b) << 16;
+        kind.words(&[apart.may_meet.map_or(0, node)]);
+        kind.work(apart.work);
+        let mut pairs = [NodePair::EMPTY; 16];
+        let found = part.candidates(&part, pose, &mut pairs, budget, scratch)?;
+        kind.words(&[0, clear(found.is_apart()), ended(found.ended)]);
+        kind.words(&[found.stored as u32, found.dropped]);
+        kind.work(found.work);
+        pairs[..found.stored].iter().for_each(|pair| kind.words(&[node(*pair)]));
+    }
+    Ok(kind.line("triboxes"))
 }
 
 fn tight_hull(hulls: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
@@ -350,17 +483,12 @@ fn tight_hull(hulls: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
     let text = kind.line("tight_within");
     let tree = *hulls.finest().ok_or("no hull")?.bvh();
     let tight = rounds("tight_models", |kind, round, budget, scratch| {
-        let [one, two] = [(); 2].map(|()| PlacedModel::new(tree, kind.pose(round)));
-        let models = [one?, two?];
-        let scratch = &mut scratch[..entries(round)];
-        let found = Scene::new(&models).within(4.0, |_, _| true, budget, scratch)?;
+        let (pose, scratch) = (kind.pose(round), &mut scratch[..entries(round)]);
         if round == 0 {
             kind.words(&[0]); // The model is opened.
         }
         kind.words(&[0]);
-        kind.verdict(found.verdict);
-        kind.words(&found.witness.map_or([u32::MAX; 2], |pair| pair.map(|index| index as u32)));
-        kind.work(found.work);
+        kind.within_of(&tree.within_of(&tree, pose, 4.0, budget, scratch)?);
         Ok(())
     })?;
     Ok(text + &tight)
@@ -412,6 +540,14 @@ fn refusals() -> String {
     codes(&mut kind, &[-20, -3, -26, -22]);
     // A hull that was not opened, no such hull, then memory of another count, and too little.
     codes(&mut kind, &[-3, -7, 0, -6, -6]);
+    // Scenes: too few entries, no such model, one twice, a distance below 0, a pose of zeros; none
+    // in the memory; one; no such model, a pose of zeros, no scratch.
+    codes(&mut kind, &[-6, -47, -47, -41, -43, -3, 0, -47, -43, -44]);
+    kind.words(&zeros[..8]);
+    // An unknown kind of motion, one of zeros, a blob without triboxes.
+    codes(&mut kind, &[-5, -43]);
+    kind.words(&[0; 15]);
+    codes(&mut kind, &[-26, 0]);
     kind.line("refusals")
 }
 
@@ -423,5 +559,5 @@ pub fn of_fixtures(folder: &std::path::Path) -> Result<String, String> {
     let read =
         |name: &str| std::fs::read(folder.join(name)).map_err(|error| format!("{name}: {error}"));
     let [groove, hulls, bracket] = [read("groove.msw")?, read("hulls.msw")?, read("bracket.msw")?];
-    lines(&groove, &hulls, &bracket).map_err(|error| error.to_string())
+    lines(&groove, &hulls, &bracket, &read("torus.msw")?).map_err(|error| error.to_string())
 }

@@ -17,7 +17,7 @@ use meshsweep_counted::answers;
 
 use crate::generate::curves::{fence, tool_path};
 use crate::generate::fixtures::write_fixtures;
-use crate::generate::{bracket, clamps, groove_block, link, torus};
+use crate::generate::{bracket, clamps, groove_block, link, table, torus};
 use crate::workload;
 
 /// Writes the committed fixtures: meshes by their generators, blobs by the builder, then answers.
@@ -85,12 +85,17 @@ pub fn torus_sieve() -> Vec<u8> {
 /// Never: the builder's blobs open.
 #[must_use]
 pub fn sources() -> Vec<(String, Vec<u8>)> {
-    let (groove, clamps, link) = (groove_tree(), clamps_tree(), link_hull());
+    let (groove, clamps, [link, table]) = (groove_tree(), clamps_tree(), arm_trees());
     let mut files = Vec::new();
     for (name, bytes, folders) in [
-        ("groove", &groove, &["fixtures", "examples/probe/src", "examples/haptics/src"][..]),
+        (
+            "groove",
+            &groove,
+            &["fixtures", "examples/probe/src", "examples/haptics/src", "examples/guard/src"][..],
+        ),
         ("clamps", &clamps, &["examples/keep_out/src"]),
         ("link", &link, &["examples/guard/src"]),
+        ("table", &table, &["examples/guard/src"]),
     ] {
         let blob = Blob::open(bytes).expect("the builder's blob opens");
         let (mesh, file) = (format!("{name}.obj"), format!("{name}.msw"));
@@ -118,17 +123,17 @@ pub fn clamps_tree() -> Vec<u8> {
     tables.to_bytes()
 }
 
-/// A tight hull of the link of the example `guard`, and nothing else.
+/// The box trees of the link and of the table of the example `guard`, for pairs of models.
 ///
 /// # Panics
-/// Never: there is room around the link.
+/// Never: both have an area.
 #[must_use]
-pub fn link_hull() -> Vec<u8> {
-    let (positions, triangles) = link();
-    let mesh = Mesh::new(positions, triangles);
-    let options = ChainOptions::of_faces(&[40]);
-    let (tables, _) = tight::build(mesh.as_input(), &options, Watch::NONE).expect("room around it");
-    tables.to_bytes()
+pub fn arm_trees() -> [Vec<u8>; 2] {
+    let options = TreeOptions::default().with_closest(false);
+    [link(), table()].map(|(positions, triangles)| {
+        let mesh = Mesh::new(positions, triangles);
+        build(mesh.as_input(), &options, Watch::NONE).expect("builds").0.to_bytes()
+    })
 }
 
 /// The box tree of `groove_block()`, with every section that a tree can have.

@@ -47,6 +47,15 @@ pub enum BuildError {
         /// Why.
         error: CurveError,
     },
+    /// The description of a robot is refused.
+    Robot {
+        /// Its file.
+        file: PathBuf,
+        /// Where.
+        line: Option<usize>,
+        /// Which element, why, and the remedy.
+        what: String,
+    },
     /// An option says nothing about what the blob is to serve, or contradicts it. Options have the
     /// names of the program's.
     Option {
@@ -211,6 +220,11 @@ impl fmt::Display for BuildError {
             Self::Curve { file, error } => {
                 // A line of the file, else what all of the file lacks.
                 write_of(f, file, if error.names_line() { "," } else { ":" }, error)
+            }
+            Self::Robot { file, line, what } => {
+                write!(f, "{}", file.display())?;
+                line.map_or(Ok(()), |line| write!(f, ", line {line}"))?;
+                write!(f, ": {what}")
             }
             Self::Option { option, why } => write!(f, "{option} {why}"),
             Self::OutOfRange { option, found, least, most } => {

@@ -2,7 +2,7 @@
 
 /// An affine transform of points, in `f64`.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Placement {
+pub(crate) struct Placement {
     /// `x` becomes `rows · (x, 1)`.
     rows: [[f64; 4]; 3],
     /// The same with the magnitudes of all that was added up.
@@ -13,7 +13,7 @@ pub(super) struct Placement {
 }
 
 impl Placement {
-    pub(super) const IDENTITY: Self =
+    pub(crate) const IDENTITY: Self =
         Self { rows: IDENTITY, bounds: IDENTITY, roundings: 0.0, is_identity: true };
 
     /// A transform by entries that were rounded once, from decimals.
@@ -86,8 +86,68 @@ impl Placement {
         Some(Self { rows, bounds, roundings, is_identity: false })
     }
 
+    /// An origin of a robot's description: turns about the fixed axes x, y and z, in radians, and
+    /// then a shift.
+    pub(crate) fn of_origin(shift: [f64; 3], turns: [f64; 3]) -> Self {
+        let mut rows = IDENTITY;
+        rows.iter_mut().zip(shift).for_each(|(row, x)| row[3] = x);
+        let shifted = Self::of_rows(rows);
+        let turned = [0, 1, 2].into_iter().zip(turns).map(|(axis, turn)| Self::of_turn(axis, turn));
+        shifted.after(&turned.fold(Self::IDENTITY, |inner, turn| turn.after(&inner)))
+    }
+
+    /// A scaling along each axis, which comes first.
+    pub(crate) fn of_scale([x, y, z]: [f64; 3]) -> Self {
+        Self::of_rows([[x, 0.0, 0.0, 0.0], [0.0, y, 0.0, 0.0], [0.0, 0.0, z, 0.0]])
+    }
+
+    /// A turn about one of the frame's axes, in radians.
+    fn of_turn(axis: usize, angle: f64) -> Self {
+        if angle == 0.0 {
+            return Self::IDENTITY;
+        }
+        let (sin, cos) = angle.sin_cos();
+        let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+        let (mut rows, mut bounds) = (IDENTITY, IDENTITY);
+        // The angle's rounding turns as much as the angle.
+        for (row, column, x) in
+            [(next, next, cos), (next, last, -sin), (last, next, sin), (last, last, cos)]
+        {
+            rows[row][column] = x;
+            bounds[row][column] = 1.0 + angle.abs();
+        }
+        // The decimal, and the sine within two units in its last place.
+        Self { rows, bounds, roundings: 5.0, is_identity: false }
+    }
+
+    /// Rotation and shift rounded to f32, and how far each is from the exact one at most.
+    pub(crate) fn rounded(&self) -> ([[f32; 3]; 3], [f32; 3], [f64; 2]) {
+        let nearest = self.rows.map(|row| row.map(|x| x as f32));
+        let half_units = if self.is_identity { 0.0 } else { 1.5 * (self.roundings + 2.0) };
+        let off = |row: usize, k: usize| {
+            let exact = self.rows[row][k];
+            // A 1 of the identity. A bound of 0 is a sum of nothing.
+            let is_one = k < 3 && exact == 1.0 && self.bounds[row][k] == 1.0;
+            let half_units = if is_one { 0.0 } else { half_units };
+            let own = self.bounds[row][k] * (half_units * 0.5 * f64::EPSILON);
+            (f64::from(nearest[row][k]) - exact).abs() + own
+        };
+        let all = |columns: std::ops::Range<usize>| {
+            let entries = (0..3).flat_map(|row| columns.clone().map(move |k| (row, k)));
+            entries.map(|(row, k)| off(row, k).powi(2)).sum::<f64>().sqrt() * (1.0 + 1e-12)
+        };
+        let errors = [all(0..3), all(3..4)];
+        (nearest.map(|[x, y, z, _]| [x, y, z]), nearest.map(|[.., shift]| shift), errors)
+    }
+
+    /// No length grows by more than this factor.
+    pub(super) fn stretch(&self) -> f64 {
+        let squares = self.rows.iter().flat_map(|[x, y, z, _]| [x, y, z]).map(|x| x * x);
+        squares.sum::<f64>().sqrt() * (1.0 + 1e-9)
+    }
+
     /// `self` after `inner`.
-    pub(super) fn after(&self, inner: &Self) -> Self {
+    pub(crate) fn after(&self, inner: &Self) -> Self {
         if self.is_identity {
             return inner.clone();
         }
@@ -170,6 +230,22 @@ mod tests {
         assert!(off <= error && error < 1e-12, "{at:?} {error:e}");
         assert!(Placement::of_rotation([0.0; 3], 1.0).is_none());
         assert_eq!(Placement::of_rotation([0.0; 3], 360.0), Some(Placement::IDENTITY));
+    }
+
+    #[test]
+    fn origins_turn_about_fixed_axes_in_the_order_x_y_z_and_rounding_tells_its_size() {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let origin = Placement::of_origin([1.0, 2.0, 3.0], [quarter, 0.0, quarter]);
+        // About x: (0, 0, 1) to (0, -1, 0); about z: to (1, 0, 0).
+        let (at, error) = origin.put([0.0, 0.0, 1.0]);
+        let off = at.iter().zip([2.0, 2.0, 3.0]).map(|(a, b)| (a - b).abs()).sum::<f64>();
+        assert!(off <= error && error < 1e-13, "{at:?}");
+        let (rows, shift, [turn, moved]) = origin.rounded();
+        assert_eq!((rows[0][2], shift, moved < 1e-14), (1.0, [1.0, 2.0, 3.0], true));
+        assert!(turn > 0.0 && turn < 1e-7);
+        assert_eq!(Placement::IDENTITY.rounded().2, [0.0; 2]);
+        let (.., [turn, moved]) = Placement::of_origin([0.1, 0.0, 0.0], [0.0; 3]).rounded();
+        assert!(turn == 0.0 && moved > 1e-9 && moved < 1e-8);
     }
 
     #[test]

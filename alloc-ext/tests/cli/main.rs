@@ -20,6 +20,7 @@ mod overlap;
 mod queries;
 mod refine;
 mod reports;
+mod robot;
 mod rounding;
 mod support;
 mod tight;

@@ -49,7 +49,7 @@ extern "C" {
 extern const uint8_t clamps_bytes[CLAMPS_BYTES];
 
 /* Does not compile if a question about a point or a segment could run out of entries.
- * msw_overlap and msw_models_within need MSW_OVERLAP_ENTRIES and MSW_DISTANCE_ENTRIES. */
+ * Questions about models need MSW_OVERLAP_ENTRIES and MSW_DISTANCE_ENTRIES. */
 #ifdef __cplusplus
 #define CLAMPS_CHECK_SCRATCH(array) \
     static_assert(sizeof(array) / sizeof((array)[0]) >= CLAMPS_SCRATCH_ENTRIES, \

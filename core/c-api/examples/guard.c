@@ -1,72 +1,159 @@
-/* A robot's arm stops before it comes near a third link that stands in its way. The same program in
- * Rust: core/examples/guard.
+/* An arm guards itself 1,000 times a second: seven links, a table and a machine, 21 pairs, each
+ * with a distance to keep. It stops before the machine. The same program in Rust:
+ * core/examples/guard.
  *
- * A tight hull of 40 faces stands for each link of 284 triangles. It encloses the link: where hulls
- * are apart, links are. Each pose is proved clear before the arm goes there. link.h and link.c are
- * by `meshsweep build link.obj -o link.msw --for tight --tight 40 --emit c`.
+ * A tick computes where the links are, tells the scene, and asks. What the links may be off by is
+ * in the distances. link.h, link.c, table.h and table.c are by
+ * `meshsweep build link.obj -o link.msw --for segment --emit c`; the machine is groove.c.
  */
 
 #include "board.h"
+#include "groove.h"
 #include "link.h"
 #include "meshsweep.h"
+#include "table.h"
 
-#define KEEP 5.0f /* distance to keep, mm */
-/* No point of the arm moves farther from one pose to the next. So the distance is kept between them
- * too. */
-#define MOST_PER_POSE 1.5f
-#define STEPS 2000 /* pairs of nodes that the question about a pose may open */
-#define LENGTH 60.0f /* from axis to axis of a link */
+#define KEEP_LINKS 5.0f   /* distance to keep of two links, mm */
+#define KEEP_AROUND 10.0f /* of a link from what stands around */
+/* No point of a link is farther than this from the place that is computed, mm. Each tick checks
+ * it. */
+#define MOST_OFF 0.25f
+/* No point of a link moves farther in a tick, mm. So the distances are kept between ticks too. */
+#define MOST_PER_TICK 0.5f
+/* Pairs of nodes that a tick may open: what bounds its time. With fewer it stops too early. */
+#define STEPS 2000
 
-enum { POSES = 128, LINKS = 3 };
+#define LENGTH 60.0f  /* from axis to axis of a link, mm */
+#define RADIUS 67.0f  /* a link is within this of its first axis, mm */
+#define ENCODER 1e-4f /* what an encoder of 16 bits does not tell, rad */
 
+enum { TICKS = 1200, LINKS = 7, TABLE = 7, MACHINE = 8, MODELS = 9, PAIRS = 21 };
+
+/* Two links. Of a link and the next but one joints of 90 degrees keep the distance. */
+#define BETWEEN(a, b) {{a, b}, KEEP_LINKS + 2.0f * (MOST_OFF + MOST_PER_TICK)}
+/* A link and what does not move. */
+#define AROUND(a, b) {{a, b}, KEEP_AROUND + MOST_OFF + MOST_PER_TICK}
+
+static const msw_kept_pair pairs[PAIRS] = {
+    BETWEEN(0, 3),      BETWEEN(0, 4),      BETWEEN(0, 5),      BETWEEN(0, 6),
+    BETWEEN(1, 4),      BETWEEN(1, 5),      BETWEEN(1, 6),      BETWEEN(2, 5),
+    BETWEEN(2, 6),      BETWEEN(3, 6),      AROUND(1, TABLE),   AROUND(2, TABLE),
+    AROUND(3, TABLE),   AROUND(4, TABLE),   AROUND(5, TABLE),   AROUND(6, TABLE),
+    AROUND(2, MACHINE), AROUND(3, MACHINE), AROUND(4, MACHINE), AROUND(5, MACHINE),
+    AROUND(6, MACHINE),
+};
+
+static msw_model link, table, machine;
+static msw_scene_entry guard[MSW_SCENE_ENTRIES(MODELS, PAIRS)];
 static msw_scratch_entry scratch[MSW_DISTANCE_ENTRIES];
-static msw_tight hull;
-static msw_model surface; /* of the hull */
+static msw_rounded_pose places[LINKS]; /* from each link's frame to the world */
 
-/* Turned about its first axis, which is at x and z. `half` is the tangent of half the angle: a
- * rotation without sines. */
-static msw_placed turned(float half, float x, float z)
+/* Turned about y by twice the angle of this tangent, then moved along x. */
+static int32_t turned(float half, float along, msw_rounded_pose *answer)
 {
-    const float cosine = (1.0f - half * half) / (1.0f + half * half);
-    const float sine = 2.0f * half / (1.0f + half * half);
-    const msw_placed placed = {
-        &surface,
-        {{{cosine, 0, -sine}, {0, 1, 0}, {sine, 0, cosine}}, {x, 0, z}},
+    const float quaternion[4] = {0, half, 0, 1};
+    const float translation[3] = {along, 0, 0};
+    return msw_pose_of_quaternion(quaternion, translation, answer);
+}
+
+/* Where the links are. Each pose knows how far it may be off: by rounding and by the encoders. */
+static int32_t place(uint32_t tick)
+{
+    /* Tangents of half the joints' angles at the start, and 65,536ths more each tick. So no sine is
+     * needed. */
+    static const float start[LINKS - 1] = {0.0f, 0.05f, 0.05f, 0.1f, 0.1f, 0.1f};
+    static const uint32_t per_tick[LINKS - 1] = {13, 13, 13, 7, 13, 7};
+    int32_t error = turned(-1.0f, 0.0f, &places[0]); /* the base points up */
+    for (int joint = 0; joint < LINKS - 1 && error == MSW_OK; joint++) {
+        msw_rounded_pose at;
+        const float half = (float)(per_tick[joint] * tick) / 65536.0f;
+        error = turned(start[joint] + half, LENGTH, &at);
+        at.turn += ENCODER;
+        if (error == MSW_OK) {
+            error = msw_pose_then(&at, &places[joint], &places[joint + 1]);
+        }
+    }
+    return error;
+}
+
+/* Whether the distances allow for what the links may be off by. */
+static int is_near_enough(void)
+{
+    for (int index = 0; index < LINKS; index++) {
+        float off;
+        if (msw_pose_motion(&places[index], RADIUS, &off) != MSW_OK || !(off <= MOST_OFF)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int32_t begin(void)
+{
+    int32_t error = msw_open_trusted(&link, link_bytes, LINK_BYTES);
+    if (error == MSW_OK) {
+        error = msw_open_trusted(&table, table_bytes, TABLE_BYTES);
+    }
+    if (error == MSW_OK) {
+        error = msw_open_trusted(&machine, groove_bytes, GROOVE_BYTES);
+    }
+    if (error == MSW_OK) {
+        error = place(0);
+    }
+    if (error != MSW_OK) {
+        return error;
+    }
+    msw_placed models[MODELS] = {
+        [TABLE] = {&table, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {-100, -100, -28}, 0}},
+        [MACHINE] = {&machine, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {210, -16, -8}, 0}},
     };
-    return placed;
+    for (int index = 0; index < LINKS; index++) {
+        models[index].model = &link;
+        models[index].pose = places[index].pose;
+    }
+    return msw_scene_begin(guard, MSW_SCENE_ENTRIES(MODELS, PAIRS), models, MODELS, pairs, PAIRS);
+}
+
+/* One tick. */
+static int32_t ask(msw_scene_answer *near)
+{
+    static const msw_budget budget = {.steps = STEPS};
+    for (uint32_t index = 0; index < LINKS; index++) {
+        const int32_t error = msw_scene_move(guard, index, &places[index].pose);
+        if (error != MSW_OK) {
+            return error;
+        }
+    }
+    return msw_scene_within(guard, &budget, scratch, MSW_DISTANCE_ENTRIES, near);
 }
 
 static int32_t run(void)
 {
-    int32_t error = msw_open_tight(&hull, link_bytes, LINK_BYTES, MSW_FINEST);
-    if (error == MSW_OK) {
-        error = msw_tight_model(&surface, &hull);
-    }
-    static const uint32_t joint[1][2] = {{0, 1}};
-    const msw_budget budget = {.steps = STEPS};
-    uint32_t most_pairs = 0, worst = 0;
-    for (uint32_t number = 0; number < POSES && error == MSW_OK; number++) {
-        /* Upper arm, forearm, and the link in the way. */
-        const float half = 0.25f - (float)number / 256.0f;
-        msw_placed links[LINKS];
-        links[0] = turned(half, 0, 0);
-        links[1] = turned(1.5f * half, LENGTH * links[0].pose.rotation[0][0],
-                          LENGTH * links[0].pose.rotation[2][0]);
-        links[2] = turned(0, 40, -50);
-        msw_models_answer near;
-        const uint32_t from = clock_count();
-        error = msw_models_within(links, LINKS, KEEP + MOST_PER_POSE, joint, 1, &budget, scratch,
-                                  MSW_DISTANCE_ENTRIES, &near);
+    int32_t error = begin();
+    uint32_t sum = 0, most = 0, most_before = 0, ticks = 0;
+    for (uint32_t tick = 0; tick < TICKS && error == MSW_OK; tick++) {
+        uint32_t from = clock_count();
+        error = place(tick);
+        const uint32_t before = clock_count() - from;
+        if (error == MSW_OK && !is_near_enough()) {
+            print("the links are farther off than the distances allow for\n");
+            break;
+        }
+        msw_scene_answer near = {0};
+        from = clock_count();
+        if (error == MSW_OK) {
+            error = ask(&near);
+        }
         const uint32_t took = clock_count() - from;
-        worst = took > worst ? took : worst;
-        most_pairs = near.work.opened > most_pairs ? near.work.opened : most_pairs;
+        ticks++;
+        sum += took;
+        most = took > most ? took : most;
+        most_before = before > most_before ? before : most_before;
         if (error == MSW_OK && !msw_is_clear(near.verdict)) {
-            print_line("stopped before pose ", number, "");
-            if (near.models[0] == MSW_NO_MODEL) {
-                print("  it is not known which links may be too near\n");
-            } else {
-                print_line("  link ", near.models[0], "");
-                print_line("  and link ", near.models[1], " may be too near");
+            print_line("stopped before tick ", tick, "");
+            if (near.models[0] != MSW_NO_MODEL) {
+                print_line("  model ", near.models[0], "");
+                print_line("  and model ", near.models[1], " may be too near");
             }
             break;
         }
@@ -75,8 +162,9 @@ static int32_t run(void)
     if (error != MSW_OK) {
         return error;
     }
-    print_line("most pairs of nodes that a pose opened: ", most_pairs, "");
-    print_line("cost: the worst pose took ", worst, clock_unit);
+    print_line("cost: a tick takes ", sum / ticks, clock_unit);
+    print_line("cost: the dearest tick takes ", most, clock_unit);
+    print_line("cost: places of the links take ", most_before, clock_unit);
     return MSW_OK;
 }
 

@@ -7,9 +7,12 @@
  * libmeshsweep.a. Of the functions for this blob, those that are not listed take less
  * than 64.
  *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
- *   msw_open_tight                  3136 / 2688    3264 / 2816    3136 / 2688    3072 / 2688
- *   msw_tight_within                2688 / 2816    3776 / 3840    2688 / 2816    3136 / 3200
- *   msw_tight_model                   384 / 384      384 / 384      384 / 384      320 / 320
+ *   msw_open                        2496 / 2048    2560 / 2112    2496 / 2048    2368 / 1984
+ *   msw_open_trusted                1280 / 1024    1280 / 1088    1280 / 1024     1152 / 960
+ *   msw_first_hit                   1344 / 1408    1728 / 1728    1344 / 1408    1600 / 1536
+ *   msw_overlap                     6912 / 6592    6592 / 6336    6912 / 6592    6208 / 6080
+ *   msw_models_within             12032 / 13376  11904 / 13248  12032 / 13376  11008 / 12096
+ *   msw_solid_first_contact        10240 / 9728   10176 / 9472   10240 / 9728    9792 / 9088
  *   msw_checksum                     1088 / 896     1088 / 960     1088 / 896      960 / 832
  *   msw_pose_of_quaternion            192 / 256      320 / 384      192 / 256      192 / 320
  *   msw_pose_then                     320 / 512      640 / 832      320 / 512      512 / 704
@@ -26,19 +29,21 @@
 extern "C" {
 #endif
 
-#define LINK_BYTES 1214u /* of the blob */
-#define LINK_CHECKSUM 0xfd904fb2u /* by msw_checksum; covers all sections */
+#define LINK_BYTES 4032u /* of the blob */
+#define LINK_CHECKSUM 0xcd35923du /* by msw_checksum; covers all sections */
 #define LINK_TRIANGLES 284u /* of the mesh */
-#define LINK_SCRATCH_ENTRIES 13u /* no question about a point or a segment needs more */
-#define LINK_BOX_LOW {-8.503906f, -0.00390625f, -8.310547f} /* of a box that contains the mesh */
-#define LINK_BOX_HIGH {66.00391f, 8.003906f, 8.310547f} /* of a box that contains the mesh */
-#define LINK_TIGHT_HULLS 1u /* coarse to fine, for msw_open_tight */
+#define LINK_SCRATCH_ENTRIES 30u /* no question about a point or a segment needs more */
+#define LINK_IS_CLOSED 1 /* whether the mesh is closed */
+#define LINK_HAS_SIDES 1 /* whether msw_signed_distance decides sides */
+#define LINK_SURFACE_ERROR 0.0f /* most distance of the mesh from the stored surface */
+#define LINK_BOX_LOW {-6.0f, 0.0f, -6.0f} /* of a box that contains the mesh */
+#define LINK_BOX_HIGH {66.0f, 8.0f, 6.0f} /* of a box that contains the mesh */
 
 /* The blob; it begins at a multiple of four. */
 extern const uint8_t link_bytes[LINK_BYTES];
 
 /* Does not compile if a question about a point or a segment could run out of entries.
- * msw_overlap and msw_models_within need MSW_OVERLAP_ENTRIES and MSW_DISTANCE_ENTRIES. */
+ * Questions about models need MSW_OVERLAP_ENTRIES and MSW_DISTANCE_ENTRIES. */
 #ifdef __cplusplus
 #define LINK_CHECK_SCRATCH(array) \
     static_assert(sizeof(array) / sizeof((array)[0]) >= LINK_SCRATCH_ENTRIES, \

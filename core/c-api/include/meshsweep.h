@@ -54,8 +54,8 @@ enum {
     MSW_ERROR_ALIGNMENT = -2,       /* a pointer is not aligned for its type */
     MSW_ERROR_NOT_OPENED = -3,      /* the model was not opened, or its open function failed */
     MSW_ERROR_COUNT = -4,           /* a count is larger than memory or a limit; no corner */
-    MSW_ERROR_VALUE = -5,           /* a facing or kind of focus is no constant of this header */
-    MSW_ERROR_MEMORY = -6,          /* a refined hull's memory, see msw_refine */
+    MSW_ERROR_VALUE = -5,           /* a facing or a kind is no constant of this header */
+    MSW_ERROR_MEMORY = -6,          /* of a refined hull, see msw_refine; too few of a scene */
     MSW_ERROR_NO_SUCH_HULL = -7,    /* the blob has no tight hull of this number */
     /* Of the open functions: */
     MSW_ERROR_TRUNCATED = -20,      /* the blob is cut short */
@@ -72,7 +72,8 @@ enum {
     MSW_ERROR_POSE = -43,           /* a pose is no rotation (all zeros, for one), or too large */
     MSW_ERROR_NO_SCRATCH = -44,     /* the scratch memory has no entries */
     MSW_ERROR_NOT_SERVED = -45,     /* the blob lacks the sections of this question: build --for */
-    MSW_ERROR_INTERNAL = -46        /* the bytes of the blob changed, or a fault of the library */
+    MSW_ERROR_INTERNAL = -46,       /* the bytes of the blob changed, or a fault of the library */
+    MSW_ERROR_NO_MODEL = -47        /* a scene lacks a named model, or a pair names one twice */
 };
 
 /* Verdicts. MSW_YES and MSW_NO are proved. `!verdict` is not "no": compare, or use msw_is_clear. */
@@ -116,12 +117,15 @@ enum {
     MSW_FOCUS_EYE = 4         /* seen from `a` along `b`, see msw_focus */
 };
 
+/* How a model moves, see msw_motion. */
+enum { MSW_MOTION_STRAIGHT = 0, MSW_MOTION_SCREW = 1 };
+
 #define MSW_NO_TRIANGLE UINT32_MAX /* in the place of a triangle's number: there is none */
 #define MSW_NO_MODEL UINT32_MAX    /* in the place of a model's index: there is none */
 #define MSW_FINEST UINT32_MAX      /* for msw_open_tight: the tightest hull */
 #define MSW_MOST_CORNERS 32        /* of a solid, for msw_solid_first_contact */
 #define MSW_OVERLAP_ENTRIES 256    /* scratch entries that are always enough for msw_overlap */
-#define MSW_DISTANCE_ENTRIES 384   /* the same for msw_models_within */
+#define MSW_DISTANCE_ENTRIES 384   /* the same for all others about models, see there */
 
 /* ---- Memory of the caller ---- */
 
@@ -130,23 +134,41 @@ enum {
 #define MSW_TIGHT_WORDS 44
 #define MSW_HULL_WORDS 48
 #define MSW_COHERENT_WORDS 256
+#define MSW_TRIBOXES_WORDS 16
+#define MSW_SCENE_MODEL_ENTRIES 56
 #else
 #define MSW_MODEL_WORDS 52
 #define MSW_TIGHT_WORDS 60
 #define MSW_HULL_WORDS 64
 #define MSW_COHERENT_WORDS 480
+#define MSW_TRIBOXES_WORDS 20
+#define MSW_SCENE_MODEL_ENTRIES 88
 #endif
+#define MSW_COHERENT_PAIR_WORDS 664
 
-/* An opened box tree, an opened tight hull, an opened hull hierarchy. They point into the blob,
- * which must stay where it is, unchanged, as long as they are used. Copies are as good. A storage
- * of zeros is not opened, and every question about it is refused. */
+/* An opened box tree, an opened tight hull, an opened hull hierarchy, opened triboxes. They point
+ * into the blob, which must stay where it is, unchanged, as long as they are used. Copies are as
+ * good. A storage of zeros is not opened, and every question about it is refused. */
 typedef struct { uintptr_t opaque[MSW_MODEL_WORDS]; } msw_model;
 typedef struct { uintptr_t opaque[MSW_TIGHT_WORDS]; } msw_tight;
 typedef struct { uintptr_t opaque[MSW_HULL_WORDS]; } msw_hull;
+typedef struct { uintptr_t opaque[MSW_TRIBOXES_WORDS]; } msw_triboxes;
 
 /* What a query that moves keeps between calls. Zero it before the first call, or to start anew. It
  * belongs to one model at a time, and points to nothing. */
 typedef struct { uintptr_t opaque[MSW_COHERENT_WORDS]; } msw_coherent;
+
+/* The same of two models that move: up to 256 groups of pairs of boxes. Zero it before the first
+ * call, or to start anew. */
+typedef struct { uint64_t opaque[MSW_COHERENT_PAIR_WORDS]; } msw_coherent_pair;
+
+/* A word of the memory of a scene that remembers, and how many words hold a scene. It points into
+ * the models' blobs. Copies are as good. After msw_scene_begin returned an error, and of zeros,
+ * there is no scene, and its functions return MSW_ERROR_NOT_OPENED. */
+typedef struct { uintptr_t opaque; } msw_scene_entry;
+#define MSW_SCENE_ENTRIES(models, pairs) \
+    (5 + (models) * MSW_SCENE_MODEL_ENTRIES \
+     + ((pairs) * 12 + sizeof(uintptr_t) - 1) / sizeof(uintptr_t))
 
 /* Where the last closest point was found. Zeros are no hint. Any contents are safe, of another
  * model too: a bad hint costs a leaf. */
@@ -170,10 +192,12 @@ typedef struct {
 } msw_budget;
 
 /* A motion: rotation * p + translation; each row of the matrix gives a coordinate. Questions refuse
- * a matrix that is no rotation, up to three decimals, by MSW_ERROR_POSE: all zeros, for one. */
+ * a matrix that is no rotation, up to three decimals, by MSW_ERROR_POSE: all zeros, for one. Of an
+ * affine pose they take any matrix whose entries are at most 2, see msw_pose_affine. */
 typedef struct {
     float rotation[3][3];
     float translation[3];
+    uint32_t is_affine; /* 1: the matrix may scale, mirror or shear. All else: it is a rotation */
 } msw_pose;
 
 /* A pose that was computed, or is known up to something. The matrix is off by a factor of lengths
@@ -189,6 +213,22 @@ typedef struct {
     const msw_model *model;
     msw_pose pose;
 } msw_placed;
+
+/* Two models of a scene, and the distance that their surfaces are to keep. */
+typedef struct {
+    uint32_t models[2]; /* indices into the models */
+    float distance;     /* in the unit of the world */
+} msw_kept_pair;
+
+/* How a model moves from one pose to another, in the time from 0 to 1. MSW_MOTION_STRAIGHT: each
+ * point goes along a straight line at a steady pace, so with two rotations the model shrinks on the
+ * way. MSW_MOTION_SCREW: the model stays rigid, turns about a fixed axis by half a turn at most,
+ * and goes along it. */
+typedef struct {
+    int32_t kind; /* MSW_MOTION_... */
+    msw_pose from;
+    msw_pose to;
+} msw_motion;
 
 /* Where msw_refine refines. Of an eye: `b` is the middle of the view, of any length; `cosine` that
  * of half the cone's opening angle; `error_per_distance` the error that is allowed at distance 1.
@@ -286,11 +326,58 @@ typedef struct {
 } msw_overlap_answer;
 
 typedef struct {
-    int32_t verdict;    /* MSW_NO: all pairs are farther from each other. MSW_YES: one is not */
+    int32_t verdict;       /* MSW_NO: the surfaces are farther than asked. MSW_YES: they are not */
+    int32_t reason;        /* MSW_REASON_... */
+    uint32_t triangles[2]; /* of both models, that are or may be as near, or MSW_NO_TRIANGLE */
+    msw_work work;         /* opened: pairs of nodes */
+} msw_within_of_answer;
+
+typedef struct {
+    msw_interval distance; /* of both surfaces. 0 and 0: it is proved that they meet */
+    float points[2][3];    /* of each surface, nearest to each other, in the first model's frame; at
+                            * most distance.upper apart but for their rounding */
+    uint32_t triangles[2]; /* which hold these points, by their numbers in the input files */
+    int32_t ended;         /* MSW_ENDED_... */
+    msw_work work;         /* opened: pairs of nodes */
+} msw_pair_distance;
+
+typedef struct {
+    int32_t verdict;       /* MSW_NO: they keep the distance all the time. Else undecided */
+    float clear_until;     /* the part of the motion before which they do; infinite: all of it */
+    float points[2][3];    /* of each surface, nearest at that time, in the first model's frame */
+    uint32_t triangles[2]; /* which hold these points */
+    int32_t ended;         /* MSW_ENDED_EXACT: it is clear. MSW_ENDED_RESOLUTION: at clear_until the
+                            * surfaces are at the distance, as far as can be told */
+    msw_work work;         /* of all distances */
+} msw_pair_contact;
+
+typedef struct {
+    int32_t verdict;    /* MSW_NO: all pairs keep their distance. MSW_YES: one does not */
     int32_t reason;     /* MSW_REASON_... */
-    uint32_t models[2]; /* the pair that is within, else the first undecided one, or MSW_NO_MODEL */
-    msw_work work;
-} msw_models_answer;
+    uint32_t models[2]; /* the pair too near, else the first undecided one, or MSW_NO_MODEL */
+    msw_work work;      /* bounds: pairs that were looked at */
+} msw_scene_answer;
+
+/* A node of each of two hierarchies of triboxes. */
+typedef struct {
+    uint16_t a; /* of the first one */
+    uint16_t b; /* of the second one, which is moved */
+} msw_node_pair;
+
+typedef struct {
+    int32_t verdict;        /* MSW_NO: the models are apart. Else MSW_UNDECIDED */
+    int32_t ended;          /* MSW_ENDED_... */
+    msw_node_pair may_meet; /* the first pair found that may meet; zeros with MSW_NO */
+    msw_work work;          /* bounds: pairs tested. opened: pairs opened */
+} msw_apart_answer;
+
+typedef struct {
+    int32_t verdict;  /* MSW_NO: the models are apart. Else MSW_UNDECIDED */
+    int32_t ended;    /* MSW_ENDED_SCRATCH, _STEPS: some pairs are not of leaves */
+    uint32_t stored;  /* pairs that were written */
+    uint32_t dropped; /* pairs that did not fit */
+    msw_work work;    /* as of msw_apart_answer */
+} msw_candidates_answer;
 
 typedef struct {
     uint32_t is_complete; /* 1: all splits that the focus needs are performed. 0: see below */
@@ -323,7 +410,7 @@ int32_t msw_open(msw_model *model, const void *bytes, size_t count);
  *
  * Checks header and section table, and looks at no record. If the bytes were changed since msw_open
  * accepted them, here or on the host, any answer may be wrong. No question then crashes or reads
- * outside of the bytes, and each ends, msw_overlap and msw_models_within perhaps after minutes. It
+ * outside of the bytes, and each ends, one about two models perhaps after minutes. It
  * may return MSW_ERROR_INTERNAL. msw_checksum tells whether the bytes are the verified ones.
  * Cost: some thousand instructions. No scratch. */
 int32_t msw_open_trusted(msw_model *model, const void *bytes, size_t count);
@@ -465,11 +552,14 @@ int32_t msw_nearest(const msw_model *model, const float point[3],
                     msw_scratch_entry *scratch, size_t scratch_count,
                     msw_nearest_answer *answer);
 
+/* ---- Two models: build --for segment. The second one is moved into the frame of the first ---- */
+
 /* Whether the surface of `other`, moved by `pose` into the frame of `model`, meets the surface of
  * `model`. NULL: `other` is where it is. Of the budget only `steps` matters: pairs of nodes.
  *
  * Both verdicts are proved. Surfaces that touch without passing through each other are undecided.
- * Only surfaces count: one part may lie inside the other. Both models may be the same.
+ * Only surfaces count: one part may lie inside the other. Both models may be the same. If both
+ * stand in a world, `pose` is that of msw_pose_relative_to.
  * MSW_OVERLAP_ENTRIES are always enough scratch. MSW_ERROR_POSE: the matrix is no
  * rotation. Cost: in proportion to the surface that is near the other model. */
 int32_t msw_overlap(const msw_model *model, const msw_model *other, const msw_pose *pose,
@@ -477,27 +567,136 @@ int32_t msw_overlap(const msw_model *model, const msw_model *other, const msw_po
                     msw_scratch_entry *scratch, size_t scratch_count,
                     msw_overlap_answer *answer);
 
-/* Whether the surfaces of any two of a few dozen models are at most `distance` apart in the world.
- * Of the budget only `steps` matters, of all pairs together.
+/* Whether the surface of `other`, moved by `pose` into the frame of `model`, is at most `distance`
+ * from the surface of `model`. Of the budget only `steps` matters: pairs of nodes.
  *
- * Units: `distance` and the translations of the poses are in the world's unit. A pose does not
- * scale, so this is also the unit of all models. `skipped` lists pairs of indices, in any order,
- * that are not asked about, such as neighbours that touch at a joint; NULL and 0 for none. Without
- * pairs the verdict is MSW_NO. A distance of 0 is answered by MSW_NO or undecided. It ends at the
- * first pair that certainly is within. Only surfaces count: one part may lie inside the other.
- * MSW_DISTANCE_ENTRIES are always enough scratch.
- * Errors: MSW_ERROR_POSE: a pose is no rotation, as all zeros are. MSW_ERROR_OUT_OF_DOMAIN: two
- * models are farther from each other than float reaches. MSW_ERROR_NOT_OPENED: of any of the
- * models. MSW_ERROR_NOT_SERVED: a model was built without segments.
- * Cost: some hundred operations for each pair, and a search for each pair whose boxes are within
- * the distance: in proportion to the surface that is near the other model. */
-int32_t msw_models_within(const msw_placed *models, size_t model_count, float distance,
-                          const uint32_t (*skipped)[2], size_t skipped_count,
-                          const msw_budget *budget,
-                          msw_scratch_entry *scratch, size_t scratch_count,
-                          msw_models_answer *answer);
+ * Models, pose, units and errors as for msw_overlap. A distance of 0 asks whether they meet.
+ * Between surfaces that are as near as `distance`, up to surface errors and rounding, it is
+ * undecided. MSW_DISTANCE_ENTRIES are always enough scratch. MSW_ERROR_TOLERANCE: `distance` is
+ * negative, NaN or infinite.
+ * Cost on a Cortex-M4F: 500 instructions for models that are far apart, in proportion to the
+ * surface that is near the other model else: hundreds of thousands a few per cent beyond
+ * `distance`. Models that move: msw_scene_within. */
+int32_t msw_within_of(const msw_model *model, const msw_model *other, const msw_pose *pose,
+                      float distance,
+                      const msw_budget *budget,
+                      msw_scratch_entry *scratch, size_t scratch_count,
+                      msw_within_of_answer *answer);
+
+/* The least distance of the surface of `model` and that of `other`, moved by `pose` into its frame,
+ * and where they are nearest.
+ *
+ * Models, pose and errors as for msw_overlap. Lengths are in the meshes' unit. Two closed meshes
+ * one inside the other have the distance of their surfaces. With few steps or little scratch the
+ * interval is wider. MSW_DISTANCE_ENTRIES are always enough scratch.
+ * Cost: some dozens of pairs of nodes and of triangles where the nearest place is one, and in
+ * proportion to the surfaces that run side by side: millions of instructions on a Cortex-M4F. Where
+ * a threshold is enough, msw_within_of is much faster. */
+int32_t msw_distance(const msw_model *model, const msw_model *other, const msw_pose *pose,
+                     const msw_budget *budget,
+                     msw_scratch_entry *scratch, size_t scratch_count,
+                     msw_pair_distance *answer);
+
+/* msw_distance of models that move: `pair` keeps what the last search left out. The less they moved
+ * since the last call, the less work it takes.
+ *
+ * The interval holds as that of msw_distance, and its bits may differ: they depend on all calls
+ * since `pair` was zeros, and are the same on every target. With other models it starts anew. If
+ * they need more groups of pairs than `pair` holds, each call searches afresh. After an error the
+ * memory is as before. Errors as for msw_distance; MSW_ERROR_NULL also of `pair`.
+ * Cost: one pass over the groups, and the pairs of boxes that came below the distance. */
+int32_t msw_coherent_pair_distance(msw_coherent_pair *pair,
+                                   const msw_model *model, const msw_model *other,
+                                   const msw_pose *pose,
+                                   const msw_budget *budget,
+                                   msw_scratch_entry *scratch, size_t scratch_count,
+                                   msw_pair_distance *answer);
+
+/* msw_within_of of models that move, in the same memory. It may follow questions about other
+ * distances. Where several pairs of triangles are within, or none is decided, another one may be
+ * named.
+ *
+ * Errors as for msw_within_of. Cost: if the motion is too short to bring the models within the
+ * distance, the paths of eight corners. Many pairs of models: msw_scene_within. */
+int32_t msw_coherent_pair_within(msw_coherent_pair *pair,
+                                 const msw_model *model, const msw_model *other,
+                                 const msw_pose *pose, float distance,
+                                 const msw_budget *budget,
+                                 msw_scratch_entry *scratch, size_t scratch_count,
+                                 msw_within_of_answer *answer);
+
+/* Where the surface of `other` first comes within `keep` of the surface of `model`, as `motion`
+ * carries it through the frame of `model`.
+ *
+ * Before clear_until the surfaces are proved to be farther than `keep` apart, at every instant.
+ * MSW_NO: during the whole motion. It is never MSW_YES. If both models move, the way of one as seen
+ * from the other is a screw only if one of them stands still. Only surfaces count. Of the budget
+ * only `steps` matters. MSW_DISTANCE_ENTRIES are always enough scratch.
+ * Errors: those of msw_distance; MSW_ERROR_TOLERANCE: `keep` is negative, NaN or infinite;
+ * MSW_ERROR_VALUE: an unknown kind of motion; MSW_ERROR_POSE: also an affine pose of a screw.
+ * Cost: a msw_distance for each advance: three to ten where it passes at some distance, dozens
+ * before contact. */
+int32_t msw_first_contact_of(const msw_model *model, const msw_model *other,
+                             const msw_motion *motion, float keep,
+                             const msw_budget *budget,
+                             msw_scratch_entry *scratch, size_t scratch_count,
+                             msw_pair_contact *answer);
+
+/* ---- A scene that remembers: models that move, and pairs that are to keep a distance ---- */
+
+/* Begins a scene of models at their places and of the pairs that msw_scene_within asks about. Pairs
+ * that are not listed, such as links that touch at a joint, are never looked at.
+ *
+ * `scene`: MSW_SCENE_ENTRIES(model_count, pair_count) entries, with any contents. `models` and
+ * `pairs` are copied; the blobs stay where they are. Units: distances and translations are in the
+ * world's unit, which is that of all models, as a pose does not scale. No pairs (NULL and 0) is no
+ * error.
+ * Errors: MSW_ERROR_MEMORY: too few entries. MSW_ERROR_NO_MODEL: a pair names a model that is not
+ * there, or one twice. MSW_ERROR_TOLERANCE: a distance is negative, NaN or infinite.
+ * MSW_ERROR_POSE, MSW_ERROR_NOT_FINITE: of a pose. MSW_ERROR_NOT_OPENED: of a model.
+ * MSW_ERROR_NULL, _ALIGNMENT, _COUNT: of an array.
+ * Cost: 16 looks at each vertex of each model; once per start. */
+int32_t msw_scene_begin(msw_scene_entry *scene, size_t scene_count,
+                        const msw_placed *models, size_t model_count,
+                        const msw_kept_pair *pairs, size_t pair_count);
+
+/* Moves a model to another pose, from its frame to the world. Models that stand still need no call.
+ *
+ * Errors: MSW_ERROR_NO_MODEL; MSW_ERROR_POSE, MSW_ERROR_NOT_FINITE: the model stays where it was.
+ * Of a matrix that changed little they may come from msw_scene_within. Cost: some 150
+ * instructions. */
+int32_t msw_scene_move(msw_scene_entry *scene, uint32_t model, const msw_pose *pose);
+
+/* Whether the surfaces of any pair are at most the pair's distance apart, where the models are now.
+ * Of the budget only `steps` matters, of all pairs together; each set-up of a search is one.
+ *
+ * Both verdicts are proved. It ends at the first pair that is too near. A distance of 0 is answered
+ * by MSW_NO or undecided. Only surfaces count: one part may lie inside the other. To cover the way
+ * to the next poses, add the longest path of a point of both models to the distance. The verdict is
+ * that without memory, but where the budget ends a search or it is undecided for resolution. Bits
+ * depend on all calls before, and are the same on every target.
+ * MSW_DISTANCE_ENTRIES are always enough scratch. MSW_ERROR_NOT_SERVED: a model was built without
+ * segments. MSW_ERROR_OUT_OF_DOMAIN: two models are farther from each other than float reaches.
+ * Cost: ten operations for a pair whose clearance outlasted the motion, some hundreds for one whose
+ * boxes tell, else a search as of msw_within_of. */
+int32_t msw_scene_within(msw_scene_entry *scene,
+                         const msw_budget *budget,
+                         msw_scratch_entry *scratch, size_t scratch_count,
+                         msw_scene_answer *answer);
+
+/* Forgets all that was remembered. Models stay at their places. Only MSW_ERROR_NULL, _ALIGNMENT and
+ * _NOT_OPENED. Cost: a store for each pair. */
+int32_t msw_scene_reset(msw_scene_entry *scene);
 
 /* ---- Poses: products and inverses in float, the same bits on every target ---- */
+
+/* The same motion, whose matrix may scale, mirror or shear: questions do not ask that it is a
+ * rotation. Without it a matrix that nobody filled in is refused. */
+static inline msw_pose msw_pose_affine(msw_pose pose)
+{
+    pose.is_affine = 1;
+    return pose;
+}
 
 /* The rotation of `quaternion`, x, y, z, w, then `translation`. Its length does not matter. The
  * real part is the last: some libraries write it first. MSW_ERROR_POSE: zeros. Cost: 100
@@ -514,14 +713,46 @@ int32_t msw_pose_then(const msw_rounded_pose *first, const msw_rounded_pose *nex
 /* The motion back. MSW_ERROR_POSE: the matrix is no rotation, or `turn` is above a quarter. */
 int32_t msw_pose_inverse(const msw_rounded_pose *pose, msw_rounded_pose *answer);
 
-/* `pose` as seen from `frame`: its motion, then the motion back of `frame`. It is what msw_overlap
- * takes of two models in the world. Errors: as msw_pose_inverse, of `frame`. */
+/* `pose` as seen from `frame`: its motion, then the motion back of `frame`. It is what questions
+ * about two models take of models in the world. Errors: as msw_pose_inverse, of `frame`. */
 int32_t msw_pose_relative_to(const msw_rounded_pose *pose, const msw_rounded_pose *frame,
                              msw_rounded_pose *answer);
 
 /* No point of a model within `radius` of its origin is farther than `answer` from its place at the
- * exact pose. Add those of both models to the distance that msw_models_within is asked about. */
+ * exact pose. Add those of both models to the distance that is asked about. */
 int32_t msw_pose_motion(const msw_rounded_pose *pose, float radius, float *answer);
+
+/* ---- Triboxes: build --for triboxes. Bounds of 18 planes, in a few kilobytes ---- */
+
+/* Opens the triboxes of a blob. As msw_open. */
+int32_t msw_open_triboxes(msw_triboxes *triboxes, const void *bytes, size_t count);
+
+/* How many scratch entries are always enough for a question about both. 0 if one is not opened. */
+uint32_t msw_triboxes_scratch_entries(const msw_triboxes *triboxes, const msw_triboxes *other);
+
+/* Whether the models are apart, `other` moved by `pose` into the frame of `triboxes`; NULL: it is
+ * where it is. Of the budget only `steps` matters: pairs of nodes opened.
+ *
+ * MSW_NO: the meshes have no common point, and, where both are solids, no point is in both. Else
+ * the answer names the first pair of leaves that may meet. It is never MSW_YES. Units are the
+ * meshes'. MSW_ERROR_POSE: the matrix is no rotation, or the translation is beyond the domain of
+ * triboxes. Cost on a Cortex-M4F: 2,000 instructions, and 1,500 for each pair of nodes. */
+int32_t msw_triboxes_apart(const msw_triboxes *triboxes, const msw_triboxes *other,
+                           const msw_pose *pose,
+                           const msw_budget *budget,
+                           msw_scratch_entry *scratch, size_t scratch_count,
+                           msw_apart_answer *answer);
+
+/* All pairs of leaves that may meet, into `pairs`: between all others there is no common point.
+ * After an error the contents of `pairs` are undefined. NULL and 0: they are counted as dropped.
+ *
+ * Arguments, errors and cost as for msw_triboxes_apart. */
+int32_t msw_triboxes_candidates(const msw_triboxes *triboxes, const msw_triboxes *other,
+                                const msw_pose *pose,
+                                msw_node_pair *pairs, size_t pair_count,
+                                const msw_budget *budget,
+                                msw_scratch_entry *scratch, size_t scratch_count,
+                                msw_candidates_answer *answer);
 
 /* ---- Tight hulls: build --for tight. A few kilobytes for a part of any size ---- */
 

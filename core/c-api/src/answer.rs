@@ -4,8 +4,9 @@
 #![allow(missing_docs, reason = "meshsweep.h says it")]
 
 use meshsweep_core::{
-    ClosestPoint, CoherentClosest, Decided, Ended, FirstHit, Interval, KNearest, Neighbor, Side,
-    SignedDistance, Undecided, Verdict, WindingNumber, Work,
+    ClosestPoint, CoherentClosest, Decided, Ended, FirstHit, Interval, KNearest, Neighbor,
+    NodePair, PairContact, PairDistance, Separation, Side, SignedDistance, TriboxCandidates,
+    Undecided, Verdict, WindingNumber, Work,
 };
 
 /// `MSW_NO_TRIANGLE`.
@@ -114,10 +115,57 @@ pub struct OverlapC {
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
-pub struct ModelsC {
+pub struct SceneC {
     pub verdict: i32,
     pub reason: i32,
     pub models: [u32; 2],
+    pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PairDistanceC {
+    pub distance: IntervalC,
+    pub points: [[f32; 3]; 2],
+    pub triangles: [u32; 2],
+    pub ended: i32,
+    pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PairContactC {
+    pub verdict: i32,
+    pub clear_until: f32,
+    pub points: [[f32; 3]; 2],
+    pub triangles: [u32; 2],
+    pub ended: i32,
+    pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NodePairC {
+    pub a: u16,
+    pub b: u16,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ApartC {
+    pub verdict: i32,
+    pub ended: i32,
+    pub may_meet: NodePairC,
+    pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CandidatesC {
+    pub verdict: i32,
+    pub ended: i32,
+    pub stored: u32,
+    pub dropped: u32,
     pub work: WorkC,
 }
 
@@ -154,18 +202,6 @@ impl From<Interval> for IntervalC {
 impl From<Work> for WorkC {
     fn from(Work { bounds, triangles, exact, opened, .. }: Work) -> Self {
         WorkC { bounds, triangles, exact, opened }
-    }
-}
-
-impl WorkC {
-    /// The work of both.
-    pub fn and(self, other: WorkC) -> WorkC {
-        WorkC {
-            bounds: self.bounds.saturating_add(other.bounds),
-            triangles: self.triangles.saturating_add(other.triangles),
-            exact: self.exact.saturating_add(other.exact),
-            opened: self.opened.saturating_add(other.opened),
-        }
     }
 }
 
@@ -304,5 +340,56 @@ impl From<Decided<[u32; 2]>> for OverlapC {
         let (verdict, reason) = verdict(found.verdict);
         let triangles = found.witness.unwrap_or([NO_TRIANGLE; 2]);
         OverlapC { verdict, reason, triangles, work: found.work.into() }
+    }
+}
+
+impl From<Decided<[usize; 2]>> for SceneC {
+    fn from(found: Decided<[usize; 2]>) -> Self {
+        let (verdict, reason) = verdict(found.verdict);
+        let models = found.witness.map_or([NO_MODEL; 2], |pair| pair.map(|index| index as u32));
+        SceneC { verdict, reason, models, work: found.work.into() }
+    }
+}
+
+impl From<PairDistance> for PairDistanceC {
+    fn from(found: PairDistance) -> Self {
+        let PairDistance { points, triangles, .. } = found;
+        let (distance, ended) = (found.distance.into(), ended(found.ended));
+        PairDistanceC { distance, points, triangles, ended, work: found.work.into() }
+    }
+}
+
+/// `MSW_NO` if it is proved that there is no contact, else `MSW_UNDECIDED`.
+const fn clear(is_clear: bool) -> i32 {
+    if is_clear { 2 } else { 0 }
+}
+
+impl From<PairContact> for PairContactC {
+    fn from(found: PairContact) -> Self {
+        let PairContact { clear_until, points, triangles, .. } = found;
+        let (verdict, ended) = (clear(found.is_clear()), ended(found.ended));
+        PairContactC { verdict, clear_until, points, triangles, ended, work: found.work.into() }
+    }
+}
+
+impl From<NodePair> for NodePairC {
+    fn from(NodePair { a, b, .. }: NodePair) -> Self {
+        NodePairC { a, b }
+    }
+}
+
+impl From<Separation> for ApartC {
+    fn from(found: Separation) -> Self {
+        let may_meet = found.may_meet.map_or(NodePairC::default(), NodePairC::from);
+        let (verdict, ended) = (clear(found.is_apart()), ended(found.ended));
+        ApartC { verdict, ended, may_meet, work: found.work.into() }
+    }
+}
+
+impl From<TriboxCandidates> for CandidatesC {
+    fn from(found: TriboxCandidates) -> Self {
+        let (stored, dropped) = (found.stored as u32, found.dropped);
+        let (verdict, ended) = (clear(found.is_apart()), ended(found.ended));
+        CandidatesC { verdict, ended, stored, dropped, work: found.work.into() }
     }
 }

@@ -38,10 +38,11 @@ errors! {
     /// An array is larger than memory.
     Count = -4, c"a count of elements is larger than memory or a limit, or a solid has no corner";
     /// A constant is unknown.
-    Value = -5, c"a facing or a kind of focus is none of the named constants";
-    /// Memory of a refined hull.
+    Value = -5, c"a facing or a kind of focus or motion is none of the named constants";
+    /// Memory of a refined hull or a scene.
     Memory = -6,
-        c"a refined hull needs MSW_REFINED_ENTRIES(splits) entries, zeroed, always as many";
+        c"a refined hull needs MSW_REFINED_ENTRIES(splits) entries, zeroed, always as many; \
+          a scene MSW_SCENE_ENTRIES(models, pairs)";
     /// A tight hull that is not there.
     NoSuchHull = -7, c"the blob has no tight hull of this number";
 
@@ -76,6 +77,8 @@ errors! {
         c"the blob was built without the sections of this question: see build --for";
     /// A fault of the library.
     Internal = -46, c"the bytes of the blob changed, or a fault of the library";
+    /// A model that a scene lacks.
+    NoModel = -47, c"a pair or a move names a model that the scene lacks, or a pair one twice";
 }
 
 impl Error {
@@ -108,6 +111,7 @@ impl From<QueryError> for Error {
             QueryError::OutOfDomain => Error::OutOfDomain,
             QueryError::PoseOutOfDomain | QueryError::NotRigid => Error::Pose,
             QueryError::NoScratch => Error::NoScratch,
+            QueryError::NoModel => Error::NoModel,
             QueryError::NotServed { .. } | QueryError::NotEnclosing => Error::NotServed,
             _ => Error::Internal,
         }

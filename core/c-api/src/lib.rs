@@ -5,7 +5,7 @@
 //! | `memory` | the caller's pointers, and every `unsafe` block |
 //! | `error` | negative numbers and their texts |
 //! | `question`, `answer` | structures of the header |
-//! | `tree`, `tight`, `hull`, `models`, `pose` | the functions |
+//! | `tree`, `pair`, `scene`, `triboxes`, `tight`, `hull`, `pose` | the functions |
 //!
 //! This crate has no panic handler, so that the workspace builds and tests it like the others.
 //! `host-tests/firmware/c-library` makes the static libraries of it, with the boards' profiles.
@@ -16,11 +16,13 @@ pub mod answer;
 pub mod error;
 pub mod hull;
 pub mod memory;
-pub mod models;
+pub mod pair;
 pub mod pose;
 pub mod question;
+pub mod scene;
 pub mod tight;
 pub mod tree;
+pub mod triboxes;
 
 use core::ffi::c_char;
 

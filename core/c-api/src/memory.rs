@@ -7,12 +7,12 @@
 //! nobody writes to them during the call, and memory that a call writes overlaps nothing else.
 
 use core::mem::{ManuallyDrop, MaybeUninit, align_of, size_of};
-use core::ptr;
+use core::{ptr, slice};
 
+use meshsweep_core::internal::bvh::{ErasedScene, MovingModel, RememberedPair};
 use meshsweep_core::internal::hull::ErasedHull;
-use meshsweep_core::{CoherentQuery, Neighbor, ScratchEntry};
+use meshsweep_core::{CoherentPair, CoherentQuery, Neighbor, NodePair, ScratchEntry};
 
-use crate::answer::NeighborC;
 use crate::error::Error;
 
 /// A type of which all bits are a value.
@@ -29,6 +29,8 @@ unsafe impl AnyBits for [f32; 3] {}
 unsafe impl AnyBits for [u32; 2] {}
 // SAFETY: six words.
 unsafe impl AnyBits for Neighbor {}
+// SAFETY: two u16.
+unsafe impl AnyBits for NodePair {}
 // SAFETY: an f32 and a u32.
 unsafe impl AnyBits for ScratchEntry {}
 
@@ -88,7 +90,7 @@ impl<T: AnyBits> In<T> {
         match check_slice(self.0, count)? {
             // SAFETY: neither NULL nor misaligned, so by contract `count` elements that nobody
             // writes to: the function's, or for a blob the model's life long.
-            Some(()) => Ok(unsafe { core::slice::from_raw_parts(self.0, count) }),
+            Some(()) => Ok(unsafe { slice::from_raw_parts(self.0, count) }),
             None => Ok(&[]),
         }
     }
@@ -108,7 +110,7 @@ impl<T: AnyBits> Out<T> {
         match check_slice(self.0, count)? {
             // SAFETY: neither NULL nor misaligned, so by contract `count` elements that overlap
             // nothing else. All bits are values of these types.
-            Some(()) => Ok(unsafe { core::slice::from_raw_parts_mut(self.0, count) }),
+            Some(()) => Ok(unsafe { slice::from_raw_parts_mut(self.0, count) }),
             None => Ok(&mut []),
         }
     }
@@ -140,13 +142,10 @@ impl<T> Out<T> {
         }
         Ok(())
     }
-}
 
-impl Out<NeighborC> {
     /// The same memory as a search holds it. Read an element before it is written as the other.
-    pub fn held(&self) -> Out<Neighbor> {
-        const { assert!(size_of::<NeighborC>() == size_of::<Neighbor>()) }
-        const { assert!(align_of::<NeighborC>() == align_of::<Neighbor>()) }
+    pub fn held<H: AnyBits>(&self) -> Out<H> {
+        const { assert!(size_of::<T>() == size_of::<H>() && align_of::<T>() == align_of::<H>()) }
         Out(self.0.cast())
     }
 }
@@ -213,6 +212,67 @@ impl<T: View, const WORDS: usize> Out<Storage<T, WORDS>> {
     }
 }
 
+/// What a question keeps between calls.
+pub trait Keeps {
+    /// The first word of its memory in use.
+    const TAG: usize;
+
+    /// Nothing is kept yet.
+    fn new() -> Self;
+}
+
+/// The caller's memory for what is kept: all zeros, or begun.
+#[repr(C)]
+#[allow(missing_debug_implementations, reason = "which field holds is known at run time")]
+pub union Kept<T, W: Copy> {
+    begun: ManuallyDrop<Begun<T>>,
+    words: W,
+}
+
+/// Contents of such memory.
+#[repr(C)]
+#[allow(missing_debug_implementations, reason = "which field holds is known at run time")]
+pub struct Begun<T> {
+    tag: usize,
+    state: T,
+}
+
+impl<T, W: Copy> Kept<T, W> {
+    /// The memory is as large as the header says, and what is kept fits.
+    pub const FITS: () =
+        assert!(size_of::<Self>() == size_of::<W>() && align_of::<Self>() == align_of::<W>());
+}
+
+/// Writes a new state. A function of its own: a copy of the state lies on its stack, which then is
+/// not below a question.
+///
+/// # Safety
+/// The pointer leads to room for the state. What lies there needs no drop.
+#[cold]
+#[inline(never)]
+unsafe fn begin<T: Keeps>(begun: *mut Begun<T>) {
+    // SAFETY: the caller's.
+    unsafe { begun.write(Begun { tag: T::TAG, state: T::new() }) };
+}
+
+impl<T: Keeps, W: Copy> Out<Kept<T, W>> {
+    /// What the memory keeps. It is new if the memory is all zeros.
+    pub fn kept(&mut self) -> Result<&mut T, Error> {
+        let () = Kept::<T, W>::FITS;
+        check(self.0)?;
+        // SAFETY: neither NULL nor misaligned, so by contract such memory. Its first word is always
+        // some integer.
+        let begun = unsafe { &raw mut (*self.0).begun }.cast::<Begun<T>>();
+        // SAFETY: as above.
+        if unsafe { (&raw const (*begun).tag).read() } != T::TAG {
+            // SAFETY: the memory has room.
+            unsafe { begin(begun) };
+        }
+        // SAFETY: the tag is only written with a state.
+        Ok(unsafe { &mut (*begun).state })
+    }
+}
+
 /// Entries of a coherent query: enough for steps of a thousandth of the model.
 pub const COHERENT_ENTRIES: usize = 128;
 
@@ -220,53 +280,165 @@ pub const COHERENT_ENTRIES: usize = 128;
 pub const COHERENT_WORDS: usize = if cfg!(target_pointer_width = "64") { 256 } else { 480 };
 
 /// `msw_coherent`: what a coherent query keeps between calls.
-#[repr(C)]
-#[allow(missing_debug_implementations, reason = "which field holds is known at run time")]
-pub union CoherentStorage {
-    kept: ManuallyDrop<KeptQuery>,
-    words: [usize; COHERENT_WORDS],
+pub type CoherentStorage = Kept<CoherentQuery<'static, COHERENT_ENTRIES>, [usize; COHERENT_WORDS]>;
+
+impl Keeps for CoherentQuery<'static, COHERENT_ENTRIES> {
+    const TAG: usize = 0x6d73_7704;
+
+    fn new() -> Self {
+        CoherentQuery::new()
+    }
 }
 
-#[repr(C)]
-struct KeptQuery {
-    tag: usize,
-    query: CoherentQuery<'static, COHERENT_ENTRIES>,
+/// Groups of a coherent pair.
+pub const PAIR_GROUPS: usize = 256;
+
+/// Words of eight bytes of `msw_coherent_pair`: one path is in f64.
+pub const PAIR_WORDS: usize = 664;
+
+/// `msw_coherent_pair`: what questions about a pair keep between calls.
+pub type PairStorage = Kept<CoherentPair<'static, PAIR_GROUPS>, [u64; PAIR_WORDS]>;
+
+impl Keeps for CoherentPair<'static, PAIR_GROUPS> {
+    const TAG: usize = 0x6d73_7705;
+
+    fn new() -> Self {
+        CoherentPair::new()
+    }
 }
+
+/// A word of a scene's memory.
+#[repr(transparent)]
+#[derive(Clone, Copy, Debug)]
+pub struct SceneEntry(usize);
+
+/// Entries of a scene before those of its models.
+pub const SCENE_ENTRIES: usize = 5;
+
+/// Entries of a model of a scene.
+pub const SCENE_MODEL_ENTRIES: usize = if cfg!(target_pointer_width = "64") { 56 } else { 88 };
+
+/// The first word of a scene's memory in use.
+const SCENE_TAG: usize = 0x6d73_7706;
+
+/// The beginning of a scene's memory. Models, their motions and the pairs follow.
+#[repr(C)]
+struct SceneHead {
+    tag: usize,
+    last: usize,
+    models: u32,
+    pairs: u32,
+    least: f32,
+}
+
+const WORD: usize = size_of::<usize>();
 
 const _: () = assert!(
-    size_of::<CoherentStorage>() == COHERENT_WORDS * size_of::<usize>()
-        && align_of::<CoherentStorage>() == align_of::<usize>()
+    size_of::<SceneHead>() <= SCENE_ENTRIES * WORD
+        && size_of::<MovingModel<'_>>() + size_of::<f32>() <= SCENE_MODEL_ENTRIES * WORD
+        && size_of::<RememberedPair>() == 12
+        && align_of::<SceneHead>() == align_of::<SceneEntry>()
+        && align_of::<MovingModel<'_>>() == align_of::<SceneEntry>()
+        && align_of::<RememberedPair>() == align_of::<f32>()
 );
 
-/// The first word of a coherent query's memory in use.
-const COHERENT_TAG: usize = 0x6d73_7704;
-
-/// Writes a new query. A function of its own: a copy of the query lies on its stack, which then is
-/// not below a question.
-///
-/// # Safety
-/// The pointer leads to room for a query. What lies there needs no drop.
-#[cold]
-#[inline(never)]
-unsafe fn begin(kept: *mut KeptQuery) {
-    // SAFETY: the caller's.
-    unsafe { kept.write(KeptQuery { tag: COHERENT_TAG, query: CoherentQuery::new() }) };
+/// Entries of a scene, or `None` if memory has no such number: `MSW_SCENE_ENTRIES`.
+pub const fn scene_entries(models: usize, pairs: usize) -> Option<usize> {
+    let (Some(models), Some(pairs)) =
+        (models.checked_mul(SCENE_MODEL_ENTRIES), pairs.checked_mul(size_of::<RememberedPair>()))
+    else {
+        return None;
+    };
+    let Some(entries) = models.checked_add(pairs.div_ceil(WORD)) else { return None };
+    entries.checked_add(SCENE_ENTRIES)
 }
 
-impl Out<CoherentStorage> {
-    /// The query that the storage keeps. It is a new one if the memory is all zeros.
-    pub fn kept(&mut self) -> Result<&mut CoherentQuery<'static, COHERENT_ENTRIES>, Error> {
-        check(self.0)?;
-        // SAFETY: neither NULL nor misaligned, so by contract a storage. Its first word is always
-        // some integer.
-        let kept = unsafe { &raw mut (*self.0).kept }.cast::<KeptQuery>();
-        // SAFETY: as above.
-        if unsafe { (&raw const (*kept).tag).read() } != COHERENT_TAG {
-            // SAFETY: the storage has room.
-            unsafe { begin(kept) };
+/// Where the parts of a scene are.
+#[derive(Clone, Copy)]
+struct SceneParts {
+    head: *mut SceneHead,
+    models: *mut MovingModel<'static>,
+    moved: *mut f32,
+    pairs: *mut RememberedPair,
+}
+
+impl Out<SceneEntry> {
+    /// The parts of a scene of so many models.
+    const fn parts(&self, models: usize) -> SceneParts {
+        let bytes = self.0.cast::<u8>();
+        let first = bytes.wrapping_add(SCENE_ENTRIES * WORD);
+        let moved = first.wrapping_add(models * size_of::<MovingModel<'_>>());
+        SceneParts {
+            head: self.0.cast(),
+            models: first.cast(),
+            moved: moved.cast(),
+            pairs: moved.wrapping_add(models * size_of::<f32>()).cast(),
         }
-        // SAFETY: the tag is only written with a query.
-        Ok(unsafe { &mut (*kept).query })
+    }
+
+    /// Begins a scene in `count` entries. After an error the memory holds none.
+    pub fn begin_scene(
+        &mut self,
+        count: usize,
+        [models, pairs]: [usize; 2],
+        model: impl Fn(usize) -> Result<MovingModel<'static>, Error>,
+        pair: impl Fn(usize) -> Result<RememberedPair, Error>,
+    ) -> Result<(), Error> {
+        check_slice(self.0, count)?.ok_or(Error::Memory)?;
+        // SAFETY: neither NULL nor misaligned, so by contract the first of `count` entries.
+        unsafe { self.0.write(SceneEntry(0)) };
+        let [Ok(model_count), Ok(pair_count)] = [models, pairs].map(u32::try_from) else {
+            return Err(Error::Count);
+        };
+        if scene_entries(models, pairs).is_none_or(|needed| needed > count) {
+            return Err(Error::Memory);
+        }
+        let parts = self.parts(models);
+        for index in 0..models {
+            let model = model(index)?;
+            // SAFETY: the entries have room for all parts, as the assertion above says.
+            unsafe { parts.models.add(index).write(model) };
+            // SAFETY: as above.
+            unsafe { parts.moved.add(index).write(0.0) };
+        }
+        for index in 0..pairs {
+            let pair = pair(index)?;
+            // SAFETY: as above.
+            unsafe { parts.pairs.add(index).write(pair) };
+        }
+        let head = SceneHead {
+            tag: SCENE_TAG,
+            last: 0,
+            models: model_count,
+            pairs: pair_count,
+            least: 0.0,
+        };
+        // SAFETY: as above.
+        unsafe { parts.head.write(head) };
+        Ok(())
+    }
+
+    /// The scene that the memory holds.
+    pub fn scene(&mut self) -> Result<ErasedScene<'_, 'static>, Error> {
+        check(self.0)?;
+        // SAFETY: neither NULL nor misaligned, so by contract an entry.
+        if unsafe { self.0.read() }.0 != SCENE_TAG {
+            return Err(Error::NotOpened);
+        }
+        // SAFETY: only `begin_scene` writes the tag, with the head.
+        let head = unsafe { &mut *self.0.cast::<SceneHead>() };
+        let (models, pairs) = (head.models as usize, head.pairs as usize);
+        let parts = self.parts(models);
+        // SAFETY: with the head `begin_scene` wrote as many models, motions and pairs, which do not
+        // overlap.
+        let (models, moved, pairs) = unsafe {
+            (
+                slice::from_raw_parts_mut(parts.models, models),
+                slice::from_raw_parts_mut(parts.moved, models),
+                slice::from_raw_parts_mut(parts.pairs, pairs),
+            )
+        };
+        Ok(ErasedScene { models, moved, pairs, least: &mut head.least, last: &mut head.last })
     }
 }
 

@@ -24,7 +24,7 @@ unsafe impl AnyBits for [f32; 4] {}
 impl Default for RoundedPoseC {
     /// All zeros: no question takes it.
     fn default() -> Self {
-        let pose = PoseC { rotation: [[0.0; 3]; 3], translation: [0.0; 3] };
+        let pose = PoseC { rotation: [[0.0; 3]; 3], translation: [0.0; 3], is_affine: 0 };
         RoundedPoseC { pose, turn: 0.0, shift: 0.0 }
     }
 }
@@ -37,8 +37,7 @@ impl RoundedPoseC {
 
 impl From<RoundedPose> for RoundedPoseC {
     fn from(RoundedPose { pose, turn, shift, .. }: RoundedPose) -> Self {
-        let pose = PoseC { rotation: pose.rotation, translation: pose.translation };
-        RoundedPoseC { pose, turn, shift }
+        RoundedPoseC { pose: PoseC::of(pose), turn, shift }
     }
 }
 

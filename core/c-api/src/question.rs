@@ -1,6 +1,6 @@
 //! Arguments that are structures. Each field is as in `meshsweep.h`.
 
-use meshsweep_core::{Budget, Facing, Focus, Pose};
+use meshsweep_core::{Budget, Facing, Focus, KeptPair, Motion, Pose};
 
 use crate::error::Error;
 use crate::memory::AnyBits;
@@ -23,6 +23,27 @@ pub struct BudgetC {
 pub struct PoseC {
     pub rotation: [[f32; 3]; 3],
     pub translation: [f32; 3],
+    /// 1: any matrix. All else is a rotation.
+    pub is_affine: u32,
+}
+
+/// `msw_motion`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "meshsweep.h says it")]
+pub struct MotionC {
+    pub kind: i32,
+    pub from: PoseC,
+    pub to: PoseC,
+}
+
+/// `msw_kept_pair`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "meshsweep.h says it")]
+pub struct KeptPairC {
+    pub models: [u32; 2],
+    pub distance: f32,
 }
 
 /// `msw_hint`: a word of zeros is no hint.
@@ -50,8 +71,12 @@ pub struct FocusC {
 unsafe impl AnyBits for BudgetC {}
 // SAFETY: an integer.
 unsafe impl AnyBits for HintC {}
-// SAFETY: floats.
+// SAFETY: floats and an integer.
 unsafe impl AnyBits for PoseC {}
+// SAFETY: floats and integers.
+unsafe impl AnyBits for MotionC {}
+// SAFETY: integers and a float.
+unsafe impl AnyBits for KeptPairC {}
 // SAFETY: integers and floats.
 unsafe impl AnyBits for FocusC {}
 
@@ -69,12 +94,38 @@ impl BudgetC {
 
 impl PoseC {
     /// In the place of a NULL pointer.
-    pub const IDENTITY: PoseC =
-        PoseC { rotation: Pose::IDENTITY.rotation, translation: Pose::IDENTITY.translation };
+    pub const IDENTITY: PoseC = PoseC::of(Pose::IDENTITY);
 
-    /// The pose. A question refuses one that is no rotation: all zeros, as nobody filled in.
+    /// The pose. A question refuses one that is no rotation, unless it says that it may be any: all
+    /// zeros, as nobody filled in.
     pub const fn pose(self) -> Pose {
-        Pose::rigid(self.rotation, self.translation)
+        let PoseC { rotation, translation, is_affine } = self;
+        Pose { rotation, translation, is_affine: is_affine == 1 }
+    }
+
+    /// As C has it.
+    pub const fn of(Pose { rotation, translation, is_affine }: Pose) -> PoseC {
+        PoseC { rotation, translation, is_affine: is_affine as u32 }
+    }
+}
+
+impl MotionC {
+    /// The motion.
+    pub fn motion(self) -> Result<Motion, Error> {
+        let (from, to) = (self.from.pose(), self.to.pose());
+        match self.kind {
+            0 => Ok(Motion::straight(from, to)),
+            1 => Ok(Motion::screw(from, to)?),
+            _ => Err(Error::Value),
+        }
+    }
+}
+
+impl KeptPairC {
+    /// The pair.
+    pub fn kept(self) -> Result<KeptPair, Error> {
+        let [Ok(a), Ok(b)] = self.models.map(u16::try_from) else { return Err(Error::NoModel) };
+        Ok(KeptPair { models: [a, b], distance: self.distance })
     }
 }
 

@@ -2,12 +2,10 @@
 
 use meshsweep_core::{Blob, Budget, Bvh, Hint, Neighbor, ScratchEntry, Solid};
 
-use crate::answer::{
-    ClosestC, CoherentC, HitC, NearestC, NeighborC, OverlapC, SignedC, WindingC, WithinC,
-};
+use crate::answer::{ClosestC, CoherentC, HitC, NearestC, NeighborC, SignedC, WindingC, WithinC};
 use crate::error::Error;
 use crate::memory::{CoherentStorage, In, Out, Storage, View};
-use crate::question::{BudgetC, HintC, PoseC, facing};
+use crate::question::{BudgetC, HintC, facing};
 
 /// Words of `msw_model`.
 pub const MODEL_WORDS: usize = if cfg!(target_pointer_width = "64") { 36 } else { 52 };
@@ -225,7 +223,7 @@ pub extern "C" fn msw_nearest(
     answer.answer(|| {
         let (model, point) = (model.view()?, point.get()?);
         // The search keeps its state where the answers will be.
-        let mut held = neighbors.held();
+        let mut held = neighbors.held::<Neighbor>();
         let found = ask(budget, scratch, scratch_count, |budget, scratch| {
             Ok(model.nearest(point, held.slice(neighbor_count)?, budget, scratch)?)
         })?;
@@ -234,25 +232,5 @@ pub extern "C" fn msw_nearest(
             neighbors.set(neighbor_count, index, near.ok_or(Error::Internal)?.into())?;
         }
         Ok(found.into())
-    })
-}
-
-/// See `meshsweep.h`.
-#[unsafe(no_mangle)]
-pub extern "C" fn msw_overlap(
-    model: In<Model>,
-    other: In<Model>,
-    pose: In<PoseC>,
-    budget: In<BudgetC>,
-    scratch: Out<ScratchEntry>,
-    scratch_count: usize,
-    answer: Out<OverlapC>,
-) -> i32 {
-    answer.answer(|| {
-        let (model, other) = (model.view()?, other.view()?);
-        let pose = pose.get_or(PoseC::IDENTITY)?.pose();
-        ask(budget, scratch, scratch_count, |budget, scratch| {
-            Ok(model.overlap(other, pose, budget, scratch)?.into())
-        })
     })
 }

@@ -9,13 +9,19 @@ use std::process::Command;
 use meshsweep_c::answer::*;
 use meshsweep_c::error::Error;
 use meshsweep_c::hull::{HULL_WORDS, HullStorage};
-use meshsweep_c::memory::{COHERENT_WORDS, CoherentStorage, REFINED_ENTRIES, RefinedEntry};
-use meshsweep_c::models::PlacedC;
+use meshsweep_c::memory::{
+    COHERENT_WORDS, CoherentStorage, PAIR_WORDS, PairStorage, REFINED_ENTRIES, RefinedEntry,
+    SCENE_MODEL_ENTRIES, SceneEntry, scene_entries,
+};
 use meshsweep_c::pose::RoundedPoseC;
-use meshsweep_c::question::{BudgetC, FocusC, HintC, PoseC, facing};
+use meshsweep_c::question::{BudgetC, FocusC, HintC, KeptPairC, MotionC, PoseC, facing};
+use meshsweep_c::scene::PlacedC;
 use meshsweep_c::tight::{FINEST, TIGHT_WORDS, Tight};
 use meshsweep_c::tree::{MODEL_WORDS, Model};
-use meshsweep_core::{Bvh, Ended, Facing, Focus, ScratchEntry, Side, Solid, Undecided, Verdict};
+use meshsweep_c::triboxes::{TRIBOXES_WORDS, TriboxesStorage};
+use meshsweep_core::{
+    Bvh, Ended, Facing, Focus, Motion, Pose, ScratchEntry, Side, Solid, Undecided, Verdict,
+};
 
 macro_rules! layouts {
     ($($name:literal: $rust:ty { $($field:ident),* })*) => {{
@@ -43,14 +49,19 @@ fn layouts() -> String {
         "msw_model": Model {}
         "msw_tight": Tight {}
         "msw_hull": HullStorage {}
+        "msw_triboxes": TriboxesStorage {}
         "msw_coherent": CoherentStorage {}
+        "msw_coherent_pair": PairStorage {}
+        "msw_scene_entry": SceneEntry {}
         "msw_hint": HintC {}
         "msw_scratch_entry": ScratchEntry {}
         "msw_refined_entry": RefinedEntry {}
         "msw_budget": BudgetC { relative, absolute, steps }
-        "msw_pose": PoseC { rotation, translation }
+        "msw_pose": PoseC { rotation, translation, is_affine }
         "msw_rounded_pose": RoundedPoseC { pose, turn, shift }
         "msw_placed": PlacedC { model, pose }
+        "msw_kept_pair": KeptPairC { models, distance }
+        "msw_motion": MotionC { kind, from, to }
         "msw_focus": FocusC { kind, a, b, radius, cosine, error_per_distance }
         "msw_interval": IntervalC { lower, upper }
         "msw_work": WorkC { bounds, triangles, exact, opened }
@@ -63,7 +74,15 @@ fn layouts() -> String {
         "msw_neighbor": NeighborC { distance, point, triangle }
         "msw_nearest_answer": NearestC { stored, ended, rest_lower, work }
         "msw_overlap_answer": OverlapC { verdict, reason, triangles, work }
-        "msw_models_answer": ModelsC { verdict, reason, models, work }
+        "msw_within_of_answer": OverlapC { verdict, reason, triangles, work }
+        "msw_pair_distance": PairDistanceC { distance, points, triangles, ended, work }
+        "msw_pair_contact": PairContactC {
+            verdict, clear_until, points, triangles, ended, work
+        }
+        "msw_scene_answer": SceneC { verdict, reason, models, work }
+        "msw_node_pair": NodePairC { a, b }
+        "msw_apart_answer": ApartC { verdict, ended, may_meet, work }
+        "msw_candidates_answer": CandidatesC { verdict, ended, stored, dropped, work }
         "msw_refinement": RefinementC { is_complete, error_left, faces, performed, undone }
         "msw_face": FaceC { corners, error }
         "msw_faces_answer": FacesC { stored, dropped }
@@ -77,6 +96,13 @@ fn constants() -> String {
     holds(&mut text, "MSW_TIGHT_WORDS", TIGHT_WORDS);
     holds(&mut text, "MSW_HULL_WORDS", HULL_WORDS);
     holds(&mut text, "MSW_COHERENT_WORDS", COHERENT_WORDS);
+    holds(&mut text, "MSW_COHERENT_PAIR_WORDS", PAIR_WORDS);
+    holds(&mut text, "MSW_TRIBOXES_WORDS", TRIBOXES_WORDS);
+    holds(&mut text, "MSW_SCENE_MODEL_ENTRIES", SCENE_MODEL_ENTRIES);
+    for (models, pairs) in [(0, 0), (9, 21), (2, 2)] {
+        let entries = scene_entries(models, pairs).expect("few");
+        holds(&mut text, &format!("MSW_SCENE_ENTRIES({models}, {pairs})"), entries);
+    }
     holds(&mut text, "MSW_MOST_CORNERS", Solid::MOST_CORNERS);
     holds(&mut text, "MSW_REFINED_ENTRIES(7)", REFINED_ENTRIES + 7);
     holds(&mut text, "MSW_OVERLAP_ENTRIES", Bvh::OVERLAP_ENTRIES);
@@ -127,6 +153,16 @@ fn constants() -> String {
     }
     assert!(FocusC { kind: 5, ..FocusC::EVERYWHERE }.focus() == Err(Error::Value));
     assert!(facing(3) == Err(Error::Value));
+    let motion = |kind| MotionC { kind, from: PoseC::IDENTITY, to: PoseC::IDENTITY }.motion();
+    let same = Pose::IDENTITY;
+    assert!(
+        motion(0) == Ok(Motion::straight(same, same))
+            && motion(1) == Motion::screw(same, same).map_err(Error::from)
+    );
+    assert!(motion(2) == Err(Error::Value));
+    for (code, name) in [(0, "STRAIGHT"), (1, "SCREW")] {
+        holds(&mut text, &format!("MSW_MOTION_{name}"), code);
+    }
     for error in Error::ALL {
         holds(&mut text, &c_name(*error), error.code());
     }
@@ -176,7 +212,9 @@ fn the_table_of_storage_is_that_of_rust() {
         ("msw_model", MODEL_WORDS),
         ("msw_tight", TIGHT_WORDS),
         ("msw_hull", HULL_WORDS),
+        ("msw_triboxes", TRIBOXES_WORDS),
         ("msw_coherent", COHERENT_WORDS),
+        ("msw_coherent_pair", PAIR_WORDS),
     ];
     for (name, of_64_bits) in words {
         let row = readme.lines().find(|line| line.starts_with(&format!("| `{name}` |")));

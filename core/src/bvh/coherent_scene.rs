@@ -38,12 +38,28 @@ pub struct CoherentScene<'a, const MODELS: usize, const PAIRS: usize> {
     last: usize,
 }
 
+/// A pair, and what is remembered of it.
 #[derive(Clone, Copy, Debug)]
-struct RememberedPair {
+pub struct RememberedPair {
     kept: KeptPair,
     /// Proved clearance beyond the distance, less all motion since. Nothing is proved unless it is
     /// above 0.
     left: f32,
+}
+
+impl RememberedPair {
+    /// A pair of a scene of so many models, without memory.
+    ///
+    /// # Errors
+    /// As [`CoherentScene::new`].
+    pub fn new(kept: KeptPair, models: usize) -> Result<Self, QueryError> {
+        let [a, b] = kept.models.map(usize::from);
+        if a == b || a >= models || b >= models {
+            return Err(QueryError::NoModel);
+        }
+        Budget::EXACT.with_absolute(kept.distance).check()?;
+        Ok(RememberedPair { kept, left: 0.0 })
+    }
 }
 
 /// How many of the last motions a proof by boxes is to outlast. No answer depends on it.
@@ -64,11 +80,8 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
         models: [PlacedModel<'a>; MODELS],
         pairs: [KeptPair; PAIRS],
     ) -> Result<Self, QueryError> {
-        for KeptPair { models: [a, b], distance } in pairs {
-            if a == b || usize::from(a) >= MODELS || usize::from(b) >= MODELS {
-                return Err(QueryError::NoModel);
-            }
-            Budget::EXACT.with_absolute(distance).check()?;
+        for kept in pairs {
+            RememberedPair::new(kept, MODELS)?;
         }
         Ok(CoherentScene {
             models: models.map(MovingModel::new),
@@ -88,11 +101,7 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
     /// # Errors
     /// [`QueryError::NoModel`], and those of [`PlacedModel::new`].
     pub fn move_to(&mut self, model: usize, pose: Pose) -> Result<(), QueryError> {
-        let mover = self.models.get_mut(model).ok_or(QueryError::NoModel)?;
-        let path = mover.move_to(pose)?;
-        let moved = self.moved.get_mut(model).ok_or(QueryError::NoModel)?;
-        *moved = (*moved + path) * (1.0 + 4.0 * U32);
-        Ok(())
+        self.erased().move_to(model, pose)
     }
 
     /// Whether the surfaces of any pair are at most the pair's distance apart.
@@ -135,29 +144,60 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<[usize; 2]>, QueryError> {
-        let CoherentScene { models, moved, pairs, least, last } = self;
-        Question { models, moved, pairs, least, last }.within(budget, scratch)
+        self.erased().within(budget, scratch)
     }
 
     /// Forgets all clearances.
     pub fn reset(&mut self) {
-        self.pairs.iter_mut().for_each(|pair| pair.left = 0.0);
-        self.least = 0.0;
+        self.erased().reset();
+    }
+
+    #[inline(always)]
+    fn erased(&mut self) -> ErasedScene<'_, 'a> {
+        let CoherentScene { models, moved, pairs, least, last } = self;
+        ErasedScene { models, moved, pairs, least, last }
     }
 }
 
-/// A question about a scene of any size. As one type, it is compiled once.
-struct Question<'q, 'a> {
-    models: &'q mut [MovingModel<'a>],
-    moved: &'q mut [f32],
-    pairs: &'q mut [RememberedPair],
-    least: &'q mut f32,
-    last: &'q mut usize,
+/// A [`CoherentScene`] of any size. As one type, its questions are compiled once. The C interface
+/// makes it of the caller's memory: `moved` has as many elements as `models`, and these, `least` and
+/// `last` are 0 before the first question.
+#[derive(Debug)]
+#[allow(missing_docs, reason = "the fields of CoherentScene")]
+pub struct ErasedScene<'q, 'a> {
+    pub models: &'q mut [MovingModel<'a>],
+    pub moved: &'q mut [f32],
+    pub pairs: &'q mut [RememberedPair],
+    pub least: &'q mut f32,
+    pub last: &'q mut usize,
 }
 
-impl Question<'_, '_> {
+impl ErasedScene<'_, '_> {
+    /// As [`CoherentScene::move_to`].
+    ///
+    /// # Errors
+    /// As there.
+    #[inline(always)]
+    pub fn move_to(self, model: usize, pose: Pose) -> Result<(), QueryError> {
+        let mover = self.models.get_mut(model).ok_or(QueryError::NoModel)?;
+        let path = mover.move_to(pose)?;
+        let moved = self.moved.get_mut(model).ok_or(QueryError::NoModel)?;
+        *moved = (*moved + path) * (1.0 + 4.0 * U32);
+        Ok(())
+    }
+
+    /// As [`CoherentScene::reset`].
+    pub fn reset(self) {
+        self.pairs.iter_mut().for_each(|pair| pair.left = 0.0);
+        *self.least = 0.0;
+    }
+
+    /// As [`CoherentScene::within`].
+    ///
+    /// # Errors
+    /// As there.
     #[inline(never)]
-    fn within(
+    pub fn within(
         mut self,
         budget: Budget,
         scratch: &mut [ScratchEntry],

@@ -45,8 +45,8 @@ mod solid;
 pub mod tree;
 mod winding;
 
-pub use coherent_scene::{CoherentScene, KeptPair};
-pub use pair::{CoherentPair, PlacedModel};
+pub use coherent_scene::{CoherentScene, ErasedScene, KeptPair, RememberedPair};
+pub use pair::{CoherentPair, MovingModel, PlacedModel};
 pub use point::{
     AllWithin, CoherentClosest, CoherentQuery, Eye, FrontFacing, Hint, KNearest, Neighbor,
 };

@@ -5,6 +5,8 @@
 
 use crate::bvh::pair::placed_model::PlacedModel;
 use crate::bvh::pair::placed_pair::PlacedPair;
+use crate::bvh::pair::separation::grid_pose::GridPose;
+use crate::bvh::pair::separation::search::{Separation, separation};
 use crate::bvh::pair::world_box::WorldBox;
 use crate::num::tolerance::U32;
 use crate::num::{greater, lesser};
@@ -209,9 +211,9 @@ pub(super) struct PairSearch<'s, 'a> {
 }
 
 impl PairSearch<'_, '_> {
-    /// Whether two models are within a distance of each other in the world, by their trees. With a
-    /// `No` how much farther they are, in the world. The budget's steps count with those of `work`.
-    /// Each set-up is a step.
+    /// Whether two models are within a distance of each other in the world, by their trees: in f32,
+    /// and if that does not tell in f64. With a `No` how much farther they are, in the world.
+    /// The budget's steps count with those of `work`. Each set-up is a step.
     #[inline(never)]
     pub(super) fn are_near(
         &self,
@@ -224,15 +226,42 @@ impl PairSearch<'_, '_> {
         if work.opened >= budget.steps {
             return Ok(out_of_steps);
         }
+        let pose = one.pose_of(other, distance + more);
+        let trees = [&one.tree, &other.tree];
+        if let Some(pose) = pose.and_then(|pose| GridPose::of(trees, &pose)) {
+            let asked = [distance, more];
+            match separation(&pose, asked, budget.steps, scratch, work) {
+                Separation::Apart(lower) => {
+                    let left = greater(0.0, lower - distance) * (1.0 - 2.0 * U32);
+                    return Ok((Verdict::No, left));
+                }
+                Separation::Near(_) => return Ok((Verdict::Yes, 0.0)),
+                Separation::Open => {}
+            }
+        }
+        self.are_exactly_near(budget, scratch, work)
+    }
+
+    /// The same in f64.
+    #[cold]
+    #[inline(never)]
+    fn are_exactly_near(
+        &self,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+        work: &mut Work,
+    ) -> Result<(Verdict, f32), QueryError> {
+        let Self { models: [one, other], distance, more } = *self;
+        let out_of_steps = (Verdict::Undecided(Undecided::Steps), 0.0);
         let relative = PlacedPair::new(&one.pose, &other.pose, &other.tree)?;
         let mut ask = |asked: [f32; 2]| {
             let steps = budget.steps.saturating_sub(work.opened);
             if steps == 0 {
                 return Ok(out_of_steps);
             }
-            let (budget, pose) = (budget.with_steps(steps), &relative.pose);
+            let (new, pose) = ((budget.with_steps(steps), Work::NONE), &relative.pose);
             let (found, lower) =
-                one.tree.search_within_of(&other.tree, pose, asked, budget, scratch)?;
+                one.tree.exactly_within_of(&other.tree, pose, asked, new, scratch)?;
             *work = work.and(found.work.with_set_up());
             Ok::<_, QueryError>((found.verdict, lower))
         };

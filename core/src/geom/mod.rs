@@ -3,6 +3,7 @@
 mod boxes;
 mod convex_gap;
 pub mod fan;
+mod hull_gap;
 mod lanes;
 mod point_segment;
 mod point_triangle;
@@ -20,6 +21,7 @@ mod vector;
 
 pub use boxes::{Aabb, Clipped};
 pub use convex_gap::{ConvexGap, convex_gap};
+pub use hull_gap::{GapLimits, HullGap, hull_gap};
 pub use lanes::{LANES, Lanes};
 pub use point_segment::{CapsulePoint, PointSegment, point_segment};
 pub use point_triangle::{PointTriangle, point_triangle};

@@ -8,6 +8,7 @@ mod round;
 mod sqrt;
 pub mod tolerance;
 mod truncated;
+mod turn;
 
 pub use each::each;
 pub use order::{greater, lesser};
@@ -16,6 +17,7 @@ pub use real::{Real, bit_length, difference, dot, float, floored, reals};
 pub use round::{down_to_f32, exp2, sum_down, sum_up, two_sum, up_to_f32};
 pub use sqrt::{sqrt_approx, sqrt_up};
 pub use truncated::truncated;
+pub use turn::{TURN, half_turn};
 
 /// Whether the target is not known to have instructions for f32. Then integers decide first.
 pub const SOFT_FLOAT: bool = cfg!(meshsweep_soft_float);

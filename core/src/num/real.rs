@@ -73,17 +73,23 @@ pub fn bit_length(x: u32) -> u32 {
 #[inline(never)]
 fn bit_length_by_table(x: u32) -> u32 {
     const OF_FOUR: [u8; 16] = [0, 1, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4];
-    let (mut x, mut count) = (x, 0);
-    if x >> 16 != 0 {
-        (x, count) = (x >> 16, 16);
+    // Each way has its own end: no count is kept on it.
+    let length = |down: u32| down + u32::from(OF_FOUR[(x >> down) as usize & 15]);
+    if x >> 16 == 0 {
+        if x >> 8 == 0 {
+            if x >> 4 == 0 { length(0) } else { length(4) }
+        } else if x >> 12 == 0 {
+            length(8)
+        } else {
+            length(12)
+        }
+    } else if x >> 24 == 0 {
+        if x >> 20 == 0 { length(16) } else { length(20) }
+    } else if x >> 28 == 0 {
+        length(24)
+    } else {
+        length(28)
     }
-    if x >> 8 != 0 {
-        (x, count) = (x >> 8, count + 8);
-    }
-    if x >> 4 != 0 {
-        (x, count) = (x >> 4, count + 4);
-    }
-    count + u32::from(OF_FOUR[x as usize & 15])
 }
 
 impl Real {
@@ -99,6 +105,19 @@ impl Real {
             return Real(f32::from_bits(bits.wrapping_add(by)));
         }
         self * Real(power)
+    }
+
+    /// Whether it is 0 or less. Of the order of a number and 0 the compiler would make a comparison
+    /// of f32, which is a call.
+    #[inline(always)]
+    pub fn is_at_most_zero(self) -> bool {
+        if SOFT_FLOAT { self.0.to_bits().cast_signed() <= 0 } else { self.0 <= 0.0 }
+    }
+
+    /// Whether it is 0 or more.
+    #[inline(always)]
+    pub fn is_at_least_zero(self) -> bool {
+        if SOFT_FLOAT { (-self).is_at_most_zero() } else { self.0 >= 0.0 }
     }
 
     /// The order of these integers is that of the numbers.
@@ -208,18 +227,6 @@ pub(super) fn packed(sign: u32, exponent: u32, whole: u32) -> f32 {
     f32::from_bits((exponent.wrapping_sub(1) << 23).wrapping_add(whole) | sign)
 }
 
-/// Half of a number, rounded up.
-#[inline(always)]
-fn half_up(x: u32) -> u32 {
-    (x + 1) >> 1
-}
-
-/// Whether an exponent, biased, is that of a normal number even if one is added.
-#[inline(always)]
-fn is_normal(exponent: u32) -> bool {
-    exponent.wrapping_sub(1) < 253
-}
-
 /// Whether a number is from 2^-63 to 2^64. No product of two of these leaves the range of normal
 /// numbers.
 #[inline(always)]
@@ -243,43 +250,67 @@ fn product_of_bits(x: u32, y: u32) -> f32 {
         }
         return rare_product(x, y);
     }
-    let (whole, carry) = rounded_product(mantissa(x), mantissa(y));
-    packed((x ^ y) & SIGN, of_x + of_y - 127 + carry, whole)
+    // The signs are added as well: what is carried out of them leaves the word.
+    let head = (x >> 23).wrapping_add(y >> 23).wrapping_sub(127);
+    let (upper, is_cut) = upper_product(mantissa(x), mantissa(y));
+    if upper < SIGN {
+        rounded(head.wrapping_sub(1), upper >> 7, upper << 25, is_cut)
+    } else {
+        rounded(head, upper >> 8, upper << 24, is_cut)
+    }
+}
+
+/// The number of a mantissa with 24 bits, rounded. Its highest bit adds one to `head`, the sign and
+/// the exponent. `rest` follows the mantissa; `is_cut` tells whether anything follows that.
+#[inline(always)]
+fn rounded(head: u32, mantissa: u32, rest: u32, is_cut: bool) -> f32 {
+    // 2^24 after the rounding adds one more.
+    let bits = (head << 23).wrapping_add(mantissa);
+    f32::from_bits(if rest < SIGN {
+        bits
+    } else if rest == SIGN && !is_cut {
+        bits.wrapping_add(bits & 1)
+    } else {
+        bits.wrapping_add(1)
+    })
 }
 
 /// The product of two mantissas in the upper 24 bits, rounded: a mantissa of 24 bits, or 2^24, and
 /// what is added to the exponent.
 #[inline(always)]
 pub(super) fn rounded_product(x: u32, y: u32) -> (u32, u32) {
-    let mut upper = upper_product(x, y);
+    let (mut upper, is_cut) = upper_product(x, y);
     let carry = upper >> 31;
     if carry == 0 {
         upper <<= 1;
     }
-    let mut whole = half_up(upper >> 7);
+    let mut whole = ((upper >> 7) + 1) >> 1;
     // Half of the last bit, if all that is cut is 0: to even.
-    if upper << 24 == SIGN && (x >> 8).wrapping_mul(y >> 8) << 16 == 0 {
+    if upper << 24 == SIGN && !is_cut {
         whole &= !1;
     }
     (whole, carry)
 }
 
-/// The upper word of the product of two words whose lower bytes are 0, rounded down.
+/// The upper word of the product of two words whose lower bytes are 0, rounded down, and whether
+/// that cuts anything.
 #[cfg(meshsweep_short_products)]
 #[inline(always)]
-fn upper_product(x: u32, y: u32) -> u32 {
-    // The smallest processors have no wider product than this.
-    let (a, b, c, d) = (x >> 20, x << 12 >> 20, y >> 20, y << 12 >> 20);
-    let middle = a.wrapping_mul(d).wrapping_add(b.wrapping_mul(c));
-    let middle = middle.wrapping_add(b.wrapping_mul(d) >> 12);
-    (a.wrapping_mul(c) << 8).wrapping_add(middle >> 4)
+fn upper_product(x: u32, y: u32) -> (u32, bool) {
+    // The smallest processors have no wider product than a word.
+    let (x, a, b) = (x >> 8, y >> 24, y << 8 >> 16);
+    let low = (x & 0xFFFF).wrapping_mul(b);
+    let upper = x.wrapping_mul(a).wrapping_add((x >> 16).wrapping_mul(b));
+    (upper.wrapping_add(low >> 16), low << 16 != 0)
 }
 
-/// The upper word of the product of two words whose lower bytes are 0, rounded down.
+/// The upper word of the product of two words whose lower bytes are 0, rounded down, and whether
+/// that cuts anything.
 #[cfg(not(meshsweep_short_products))]
 #[inline(always)]
-fn upper_product(x: u32, y: u32) -> u32 {
-    ((u64::from(x) * u64::from(y)) >> 32) as u32
+fn upper_product(x: u32, y: u32) -> (u32, bool) {
+    let product = u64::from(x) * u64::from(y);
+    ((product >> 32) as u32, product as u32 != 0)
 }
 
 #[cold]
@@ -295,55 +326,54 @@ pub fn sum(a: f32, b: f32) -> f32 {
 }
 
 #[inline(never)]
-fn sum_of_bits(mut x: u32, mut y: u32) -> f32 {
-    if x << 1 < y << 1 {
-        (x, y) = (y, x);
+fn sum_of_bits(x: u32, y: u32) -> f32 {
+    let differing = x ^ y;
+    let swapped = if x << 1 < y << 1 { differing } else { 0 };
+    let (x, y) = (x ^ swapped, y ^ swapped);
+    let of_x = exponent(x);
+    if of_x > 253 {
+        return library_sum(x, y);
     }
-    let (mut of_x, of_y) = (exponent(x), exponent(y));
-    if of_y == 0 || !is_normal(of_x) {
-        if is_zero(y) && is_normal(of_x) {
-            return f32::from_bits(x);
-        }
+    if of_x < LEAST_SUMMED {
         return rare_sum(x, y);
     }
-    let apart = of_x - of_y;
+    let apart = of_x - exponent(y);
     if apart > 25 {
-        // Less than a quarter of the last bit, even below a power of two.
+        // Less than a quarter of the last bit, even below a power of two. So is what is not normal.
         return f32::from_bits(x);
     }
-    let smaller = mantissa(y) >> 1;
+    let (larger, smaller) = (mantissa(x) >> 1, mantissa(y) >> 1);
     let cut = smaller >> apart;
-    let mut upper = mantissa(x) >> 1;
-    let less;
-    if (x ^ y) < SIGN {
-        less = 0;
-        upper += cut;
-        if upper < SIGN {
-            upper <<= 1;
+    if differing < SIGN {
+        let upper = larger + cut;
+        let is_cut = cut << apart != smaller;
+        return if upper < SIGN {
+            rounded((x >> 23).wrapping_sub(1), upper >> 7, upper << 25, is_cut)
         } else {
-            of_x += 1;
-        }
-    } else {
-        less = 1;
-        upper = (upper - cut) << 1;
-        if upper == 0 {
-            return 0.0;
-        }
-        while upper < SIGN {
-            upper <<= 1;
-            of_x = of_x.wrapping_sub(1);
-        }
-        if !is_normal(of_x) {
-            return rare_sum(x, y);
+            rounded(x >> 23, upper >> 8, upper << 24, is_cut)
+        };
+    }
+    let (mut head, mut upper) = (x >> 23, larger - cut);
+    if upper == 0 {
+        return 0.0;
+    }
+    loop {
+        (head, upper) = (head.wrapping_sub(1), upper << 1);
+        if upper >= SIGN {
+            break;
         }
     }
-    let mut whole = half_up(upper >> 7);
-    if upper << 24 == SIGN {
-        // Half of the last bit, but for what was cut.
-        whole = if cut << apart == smaller { whole & !1 } else { whole - less };
+    let (mantissa, rest) = (upper >> 8, upper << 24);
+    // What was cut makes it less.
+    if rest < SIGN || rest == SIGN && cut << apart != smaller {
+        return rounded(head, mantissa, 0, false);
     }
-    packed(x & SIGN, of_x, whole)
+    rounded(head, mantissa, rest, false)
 }
+
+/// From this exponent of the larger number on, a difference is 0 or a normal number: if the exponents
+/// are at most one apart it is no less than a last bit, else no less than half of the larger number.
+const LEAST_SUMMED: u32 = 27;
 
 /// `x` is the greater in magnitude.
 #[cold]
@@ -353,6 +383,12 @@ fn rare_sum(x: u32, y: u32) -> f32 {
         // Both are zero.
         return f32::from_bits(x & y);
     }
+    library_sum(x, y)
+}
+
+#[cold]
+#[inline(never)]
+fn library_sum(x: u32, y: u32) -> f32 {
     f32::from_bits(x) + f32::from_bits(y)
 }
 

@@ -20,7 +20,7 @@ pub fn sqrt_approx(x: f32) -> f32 {
     const SMALL: f32 = 1.0 / (1u64 << 60) as f32;
     const UP: f32 = (1u128 << 64) as f32;
     const DOWN: f32 = 1.0 / (1u64 << 32) as f32;
-    if Real(x) <= Real::ZERO {
+    if Real(x).is_at_most_zero() {
         return 0.0;
     }
     if Real(x) > Real(f32::MAX) {

@@ -404,6 +404,27 @@ pub const SKEW: f32 = 16.0;
 /// is less (§24).
 pub const NEARLY_RIGID: f32 = 0.140_625;
 
+// Box tree, two trees in f32, in units of the first grid
+
+/// Rounding of a gap of two triangles, and of the way between two of their points, in units of
+/// [`U32`] times the sizes of the terms of a place. Proved: 16 (§26).
+pub const SEPARATION_VERTEX: f32 = 24.0;
+
+/// Rounding of a gap of two boxes, in the same units. Proved: 61 (§26). A larger value opens a few
+/// more pairs.
+pub const SEPARATION_BOX: f32 = 72.0;
+
+/// Rounding of the pose of one placed model in the frame of another, in units of [`U32`] times the
+/// reach of both models. Proved: 7.5 (§26).
+pub const SEPARATION_POSE: f32 = 10.0;
+
+/// Longest place for which two trees are compared in f32: 2^29. Products of four differences stay
+/// in f32's range.
+pub const SEPARATION_FARTHEST: f32 = (1u32 << 29) as f32;
+
+/// Least distance that points are proved to be within: 2^-20. Its square is far above underflow.
+pub const LEAST_NEAR: f32 = 1.0 / (1u32 << 20) as f32;
+
 // Box tree, winding numbers
 
 /// Rounding of numerator and denominator of a solid angle's tangent, in units of [`U32`] times the

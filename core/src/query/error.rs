@@ -12,6 +12,9 @@ pub enum QueryError {
     NotFinite,
     /// A pair names a model that the scene does not have, or one model twice.
     NoModel,
+    /// A [`Joint`](crate::Joint) names a parent that is not before it, or a place that is not given;
+    /// or there is not one pose for each joint.
+    NoJoint,
     /// A solid has no corners, or more than [`Solid::MOST_CORNERS`](crate::Solid::MOST_CORNERS). Or
     /// a solid that moves has not as many at the end as at the start.
     Corners {
@@ -25,7 +28,8 @@ pub enum QueryError {
     /// - [`Bvh`](crate::Bvh): 2^38 grid units from the model's farthest corner; for corners of a
     ///   [`Solid`](crate::Solid) 2^30 grid units from the grid's origin, and for its radius;
     /// - [`Scene`](crate::Scene): two models that are farther from each other than f32 reaches;
-    /// - [`Triboxes`](crate::Triboxes): [`Tribox::DOMAIN`](crate::Tribox::DOMAIN).
+    /// - [`Triboxes`](crate::Triboxes): [`Tribox::DOMAIN`](crate::Tribox::DOMAIN);
+    /// - a [`Joint`](crate::Joint) that turns: 8192 radians.
     OutOfDomain,
     /// A pose cannot be computed with. One of these holds:
     /// - an entry of its matrix is beyond 2;
@@ -36,7 +40,8 @@ pub enum QueryError {
     /// - a surface error is far larger than its model.
     PoseOutOfDomain,
     /// A pose's matrix is no rotation up to three decimals, or it is a mirror. All zeros are no
-    /// rotation. See [`Pose::is_affine`](crate::Pose::is_affine). Or a quaternion is all zeros.
+    /// rotation. See [`Pose::is_affine`](crate::Pose::is_affine). Or a quaternion is all zeros, or
+    /// the axis of a joint no unit vector.
     NotRigid,
     /// The key frame is not a number from 0 to the number of frames less 1.
     NoFrame {
@@ -95,6 +100,9 @@ impl core::fmt::Display for QueryError {
         f.write_str(match self {
             QueryError::NotFinite => "a coordinate of the query is NaN or infinite",
             QueryError::NoModel => "a pair names a model that the scene lacks, or one model twice",
+            QueryError::NoJoint => {
+                "a joint's parent is not before it, its place is not given, or poses are missing"
+            }
             QueryError::Corners { found } => {
                 return write!(f, "{found} corners: 1 to 32, and as many at a motion's end");
             }

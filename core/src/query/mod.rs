@@ -8,7 +8,7 @@
 //! | `verdict` | [`Verdict`], [`Side`], [`Undecided`]: why there is no verdict |
 //! | `decided` | [`Decided`]: a verdict and its witness |
 //! | `hits` | [`Hit`], [`FirstHit`], [`TriangleHit`], [`AllHits`], and the caller's slice of hits |
-//! | `pose/` | poses: their rounding, what they do to points and lengths, motions |
+//! | `pose/` | poses: their rounding, what they do to points and lengths, motions, joints |
 //! | `overlap` | [`AllOverlaps`], [`TrianglePair`], and what collects pairs |
 //! | `pair_distance` | [`PairDistance`], [`PairContact`]: how far two surfaces are apart |
 //! | `penetration` | [`Penetration`], [`Relation`]: how deep two solids are in each other |
@@ -48,9 +48,9 @@ pub use pair_distance::{PairContact, PairDistance};
 pub use penetration::{Penetration, Relation};
 pub(crate) use pose::{
     DIRECTIONS, Extended, ModelFrame, Placement, PoseInverse, RelativePose, WorldLengths,
-    check_rigid, is_rotation, skew,
+    check_rigid, is_rotation, longest, skew,
 };
-pub use pose::{Motion, PosedPoint, RoundedPose};
+pub use pose::{Joint, JointAxis, JointKind, Motion, PosedPoint, RoundedPose, link_poses};
 pub use scratch::{Scratch, ScratchEntry};
 pub use solid::{Solid, SolidDistance};
 pub(crate) use sweep_queue::{SweepQueue, Taken, before};

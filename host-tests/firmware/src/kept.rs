@@ -6,13 +6,15 @@ use semihosting::println;
 use crate::meter::Meter;
 use crate::stack;
 
-/// Where the emulator puts the host's file: the first half of the external RAM of mps2-an385 and
-/// mps2-an386, which have 16 MiB of it.
-const LOADED: *const u8 = 0x2100_0000 as *const u8;
+/// The external RAM of mps2-an385 and mps2-an386, and of mps2-an500: 16 MiB.
+const EXTERNAL: usize = if cfg!(cortex_m7) { 0x6000_0000 } else { 0x2100_0000 };
+
+/// Where the emulator puts the host's file: the first half.
+const LOADED: *const u8 = EXTERNAL as *const u8;
 const BYTES: usize = 8 << 20;
 
 /// The second half has the ticks of each query: a query takes more than four bytes of the file.
-const TICKS: *mut u32 = 0x2180_0000 as *mut u32;
+const TICKS: *mut u32 = (EXTERNAL + BYTES) as *mut u32;
 
 /// What the host wrote for this image, and what follows it.
 #[must_use]

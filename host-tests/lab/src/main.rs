@@ -36,10 +36,11 @@ cargo xtask measure --margins TRIALS
           --paper     a table of the papers; alone: the list of tables
           --margins   how much of each margin for rounding is used, in so many trials, of no mesh
           --plot      loss against cost
-cargo xtask measure --robot DIR [--every COUNT] [--json | --oracle PAIRS]
+cargo xtask measure --robot DIR [--every COUNT] [--cpu m7] [--json | --oracle PAIRS]
           an arm that guards itself at 1 kHz, on a Cortex-M4F and here: instructions a tick and a
           pair, and verdicts beside the true ones. DIR has the links' meshes, path.csv, ticks.csv
           --every     every so many places of the path, such a part of each run of ticks
+          --cpu m7    a Cortex-M7, by code for its unit for f64
           --json      only the numbers that have targets, on the standard output
           --oracle    verdicts about so many random pairs, a tenth at their threshold; no board
 cargo xtask race [--pairs] [--quick] [MESH...]

@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use meshsweep_lab::measure::robot::{Asked, Costs, Workload, json, table, table_of_verdicts};
-use meshsweep_xtask::boards::BOARDS;
-use meshsweep_xtask::count::LOADED;
+use meshsweep_xtask::boards::{BOARDS, Board, CORTEX_M7};
 use meshsweep_xtask::reading::Reading;
 use meshsweep_xtask::say;
 use meshsweep_xtask::steps::Steps;
@@ -21,17 +20,21 @@ pub struct Options {
     is_json: bool,
     /// Random pairs, of no board.
     oracle: Option<usize>,
+    is_m7: bool,
 }
 
 impl Options {
-    /// `DIR [--every COUNT] [--json] [--oracle PAIRS]`; `None` if that is not what the words are.
+    /// `DIR [--every COUNT] [--cpu m7] [--json] [--oracle PAIRS]`; `None` if that is not what the
+    /// words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let (mut folder, mut every, mut is_json, mut oracle) = (None, 1, false, None);
+        let mut is_m7 = false;
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             match word {
                 "--every" => every = words.next()?.parse().ok().filter(|every| *every > 0)?,
                 "--json" => is_json = true,
+                "--cpu" => is_m7 = (*words.next()? == "m7").then_some(true)?,
                 "--oracle" => oracle = Some(words.next()?.parse().ok()?),
                 flag if flag.starts_with("--") => return None,
                 name => {
@@ -41,7 +44,7 @@ impl Options {
                 }
             }
         }
-        Some(Self { folder: folder?, every, is_json, oracle })
+        Some(Self { folder: folder?, every, is_json, oracle, is_m7 })
     }
 }
 
@@ -61,13 +64,14 @@ pub fn run(steps: &mut Steps, options: &Options) {
     let Some(workload) = steps.run("the arm", read) else { return };
     let laid = workload.laid();
     let Some(here) = steps.run("here", || Asked::of(&workload, &laid)) else { return };
-    let [board, ..] = BOARDS;
+    let [first, ..] = BOARDS;
+    let board: Board = if options.is_m7 { CORTEX_M7 } else { first };
     steps.run(board.cpu, || {
         let file = workspace::target().join("robot.bin");
         std::fs::write(&file, &laid).map_err(|error| format!("{}: {error}", file.display()))?;
         let image = tools.image(&board, "robot")?;
         let expected = Reading::parse(&here.expected, None)?;
-        let reading = tools.asked(&board, &image, (&file, LOADED), &expected, u32::MAX)?;
+        let reading = tools.asked(&board, &image, (&file, board.loaded), &expected, u32::MAX)?;
         let there = Costs::new(&workload, &reading.each)?;
         let times = Costs::new(&workload, &here.nanoseconds)?;
         if options.is_json {
@@ -101,9 +105,16 @@ mod tests {
         let options = Options::parse(&["--every", "5", "arm", "--json"]).expect("fine");
         assert_eq!(
             options,
-            Options { folder: PathBuf::from("arm"), every: 5, is_json: true, oracle: None }
+            Options {
+                folder: PathBuf::from("arm"),
+                every: 5,
+                is_json: true,
+                oracle: None,
+                is_m7: false,
+            }
         );
         assert_eq!(Options::parse(&["arm"]).expect("fine").every, 1);
+        assert!(Options::parse(&["arm", "--cpu", "m7"]).expect("fine").is_m7);
         for words in [&["--json"][..], &["a", "b"], &["a", "--every", "0"], &["a", "--fast"]] {
             assert_eq!(Options::parse(words), None);
         }

@@ -54,6 +54,12 @@ pub fn link() -> Triangles {
     extrude(&outline, 8.0, 8)
 }
 
+/// A table's plate, 600 × 200 × 20. Closed, genus 0, 12 triangles.
+#[must_use]
+pub fn table() -> Triangles {
+    extrude(&[[0.0, 0.0], [600.0, 0.0], [600.0, 20.0], [0.0, 20.0]], 200.0, 1)
+}
+
 /// The prism over a simple polygon in x and z, counter-clockwise seen from −y, from y = 0 to
 /// `length` in `steps` steps.
 fn extrude(profile: &[[f32; 2]], length: f32, steps: usize) -> Triangles {

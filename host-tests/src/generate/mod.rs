@@ -21,7 +21,7 @@ mod transform;
 pub mod writers;
 
 pub use bracket::bracket;
-pub use extrude::{clamps, groove_block, link, needle_comb};
+pub use extrude::{clamps, groove_block, link, needle_comb, table};
 pub use rng::Rng;
 pub use solids::{block, coil, cube, icosphere, plate, rough_sphere, torus, uv_sphere};
 pub use transform::{EXTREME_SCALES, inverted, joined, scaled, transformed, two_parts};

@@ -1,10 +1,12 @@
 //! What the READMEs of `core/examples` promise is true of the meshes, by the exact oracle.
 //! `cargo xtask test` shows that the images print what is promised.
 
+use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
-use meshsweep_core::{Solid, TightHulls};
-use meshsweep_host_tests::generate::{Triangles, clamps, groove_block, link};
+use meshsweep_core::{Pose, Solid};
+use meshsweep_host_tests::generate::{Triangles, clamps, groove_block, link, table};
+use meshsweep_host_tests::oracle::placed::{Tree, distance};
 use meshsweep_host_tests::oracle::{distance_of_meshes, distance_to_mesh};
 
 const STILL: [[f32; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -111,35 +113,69 @@ fn the_finger_is_pushed_by_its_depth_and_all_answers_are_those_of_fresh_queries(
     assert_eq!(same, numbers(&lines, "questions: "));
 }
 
-/// Distance of the arm of `guard` in a pose from the link in its way.
-fn arm_distance(number: u32) -> f64 {
-    let (positions, triangles) = link();
-    let fixed: Vec<_> = positions.iter().map(|[x, y, z]| [x + 40.0, *y, z - 50.0]).collect();
-    let turned = |half: f32| {
-        let cosine = (1.0 - half * half) / (1.0 + half * half);
-        (cosine, 2.0 * half / (1.0 + half * half))
-    };
-    let half = 0.25 - number as f32 / 256.0;
-    let (upper, forearm) = (turned(half), turned(1.5 * half));
-    let elbow = [60.0 * upper.0, 0.0, 60.0 * upper.1];
-    let distances = [(upper, [0.0; 3]), (forearm, elbow)].map(|((cosine, sine), place)| {
-        let rotation = [[cosine, 0.0, -sine], [0.0, 1.0, 0.0], [sine, 0.0, cosine]];
-        let moved = (&positions[..], &triangles[..]);
-        distance_of_meshes((&fixed, &triangles), moved, &rotation, place).lower
-    });
-    distances[0].min(distances[1])
+/// Places of the arm of `guard` at a tick, by angles in f64: seven links, a table, a machine.
+fn arm(tick: u32) -> [Pose; 9] {
+    const START: [f64; 6] = [0.0, 0.05, 0.05, 0.1, 0.1, 0.1];
+    const PER_TICK: [f64; 6] = [13.0, 13.0, 13.0, 7.0, 13.0, 7.0];
+    let (mut angle, mut axis) = (-FRAC_PI_2, [0.0, 0.0]);
+    let mut places = [Pose::IDENTITY; 9];
+    places[7].translation = [-100.0, -100.0, -28.0];
+    places[8].translation = [210.0, -16.0, -8.0];
+    for link in 0..7 {
+        if link > 0 {
+            axis = [axis[0] + 60.0 * angle.cos(), axis[1] - 60.0 * angle.sin()];
+            let half = START[link - 1] + PER_TICK[link - 1] * f64::from(tick) / 65536.0;
+            angle += 2.0 * half.atan();
+        }
+        let (cosine, sine) = (angle.cos() as f32, angle.sin() as f32);
+        let rotation = [[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]];
+        places[link] = Pose::rigid(rotation, [axis[0] as f32, 0.0, axis[1] as f32]);
+    }
+    places
 }
 
 #[test]
-fn the_arm_goes_on_while_the_links_themselves_keep_the_distance_and_stops_in_time() {
-    let hulls = include_bytes!("../../../core/examples/guard/src/link.msw");
-    let hull = TightHulls::open(hulls).expect("opens").finest().expect("there");
-    assert_eq!((hull.record().faces, link().1.len()), (40, 284));
-    let stopped = numbers(&promised("guard"), "stopped before pose ")[0];
-    for number in [0, stopped / 2, stopped - 1] {
-        assert!(arm_distance(number) > 6.5, "{number}");
+fn the_arm_goes_on_while_all_pairs_keep_their_distances_and_stops_in_time() {
+    let trees = [link(), table(), groove_block()].map(|(positions, triangles)| {
+        let corners = |face: &[u32; 3]| face.map(|corner| positions[corner as usize]);
+        Tree::new(triangles.iter().map(corners).collect())
+    });
+    // How far each pair is beyond the distance that it keeps, and the pair: the least.
+    let beyond = |tick: u32| {
+        let tree = |model: usize| &trees[model.saturating_sub(6)];
+        let places = arm(tick);
+        let placed: Vec<_> = (0..9).map(|model| tree(model).at(&places[model])).collect();
+        let links = (0..7).flat_map(|a| (a + 3..7).map(move |b| (a, b, 5.0)));
+        let around = (1..7).flat_map(|a| (7..9).map(move |b| (a, b, 10.0)));
+        let pairs = links.chain(around).filter(|pair| *pair != (1, 8, 10.0));
+        assert_eq!(pairs.clone().count(), 21);
+        let beyond = pairs.map(|(a, b, keep)| (distance(&placed[a], &placed[b]) - keep, a, b));
+        beyond.min_by(|one, other| one.0.total_cmp(&other.0)).expect("21 pairs")
+    };
+    let lines = promised("guard");
+    let stopped = numbers(&lines, "stopped before tick ")[0];
+    // Pairs with the machine are asked with 0.75 more, two links with 1.5 more.
+    for tick in [0, stopped / 2, stopped - 1] {
+        assert!(beyond(tick).0 > 0.7499, "{tick}: {:?}", beyond(tick));
     }
-    // The hull is some millimetres wider than the link.
-    let then = arm_distance(stopped);
-    assert!(then > 5.0 && then < 6.5 + 3.0, "{then}");
+    let then = beyond(stopped);
+    assert!(then.0 > 0.0 && then.0 < 0.7501 && (then.1, then.2) == (6, 8), "{then:?}");
+    assert_eq!([numbers(&lines, "model ")[0], numbers(&lines, "and model ")[0]], [6, 8]);
+    // No point of a link moves more than half a millimetre in a tick.
+    for tick in [0, stopped / 2, stopped - 1] {
+        let way = |place: fn(&Pose, [f32; 3]) -> [f64; 3], point| {
+            let [before, after] = [arm(tick)[6], arm(tick + 1)[6]].map(|at| place(&at, point));
+            (0..3).map(|k| (after[k] - before[k]).powi(2)).sum::<f64>().sqrt()
+        };
+        let place = |pose: &Pose, point: [f32; 3]| {
+            [0, 1, 2].map(|k: usize| {
+                let row = pose.rotation[k].iter().zip(point);
+                row.map(|(r, x)| f64::from(*r) * f64::from(x)).sum::<f64>()
+                    + f64::from(pose.translation[k])
+            })
+        };
+        for point in link().0 {
+            assert!(way(place, point) < 0.5, "{tick}");
+        }
+    }
 }

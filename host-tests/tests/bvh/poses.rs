@@ -7,13 +7,13 @@ use meshsweep_core::{
 use meshsweep_host_tests::generate::{Rng, cube};
 use meshsweep_host_tests::scene::Scene;
 
-type Point = [f64; 3];
+pub type Point = [f64; 3];
 
-fn cross(a: Point, b: Point) -> Point {
+pub fn cross(a: Point, b: Point) -> Point {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-fn dot(a: Point, b: Point) -> f64 {
+pub fn dot(a: Point, b: Point) -> f64 {
     (0..3).map(|k| a[k] * b[k]).sum()
 }
 
@@ -34,7 +34,7 @@ fn turned(quaternion: [f32; 4], p: Point) -> Point {
 }
 
 /// A point carried by a pose, whose numbers are exact.
-fn carried(pose: &Pose, p: Point) -> Point {
+pub fn carried(pose: &Pose, p: Point) -> Point {
     [0, 1, 2]
         .map(|k: usize| dot(pose.rotation[k].map(f64::from), p) + f64::from(pose.translation[k]))
 }
@@ -61,14 +61,14 @@ fn shift(rng: &mut Rng) -> [f32; 3] {
     [0; 3].map(|_| rng.range(-far, far))
 }
 
-fn pose(rng: &mut Rng) -> RoundedPose {
+pub fn pose(rng: &mut Rng) -> RoundedPose {
     let q = quaternion(rng);
     let translation = shift(rng);
     Pose::of_quaternion(q, translation).expect("finite and not zero")
 }
 
 /// Points within a radius of the origin.
-fn points(rng: &mut Rng) -> impl Iterator<Item = (f32, Point)> {
+pub fn points(rng: &mut Rng) -> impl Iterator<Item = (f32, Point)> {
     let all: Vec<(f32, Point)> = [0.0, 1e-3, 1.0, 1e3]
         .map(|radius: f32| {
             let direction = rng.direction().map(f64::from);
@@ -80,7 +80,7 @@ fn points(rng: &mut Rng) -> impl Iterator<Item = (f32, Point)> {
 }
 
 /// That a point is where it should be, up to what the pose says; the part of it that is used.
-fn used(found: &RoundedPose, radius: f32, point: Point, truth: Point) -> f64 {
+pub fn used(found: &RoundedPose, radius: f32, point: Point, truth: Point) -> f64 {
     let (off, most) = (apart(carried(&found.pose, point), truth), found.motion(radius));
     // The truth's own rounding.
     let slack = 1e-13 * truth.iter().map(|x| x.abs()).sum::<f64>();

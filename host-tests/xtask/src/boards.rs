@@ -18,7 +18,26 @@ pub struct Board {
     pub flash: Flash,
     /// Whether its processor computes with floats; else a product is fifty instructions.
     pub has_floats: bool,
+    /// What the compiler is told beside the target.
+    pub flags: &'static [&'static str],
+    /// Where the images `ask` and `robot` find their questions: the board's external RAM.
+    pub loaded: u32,
 }
+
+/// A processor with a unit for f64. No test asks it: `cargo xtask measure --robot DIR --cpu m7`.
+pub const CORTEX_M7: Board = Board {
+    cpu: "Cortex-M7",
+    target: "thumbv7em-none-eabihf",
+    machine: Machine::Arm("mps2-an500"),
+    instructions_per_tick: 40.0,
+    flash: Flash::Large,
+    has_floats: true,
+    flags: &["-Ctarget-cpu=cortex-m7", "--cfg=cortex_m7"],
+    loaded: 0x6000_0000,
+};
+
+/// Of most boards: that of mps2-an385 and mps2-an386.
+const LOADED: u32 = 0x2100_0000;
 
 /// Sizes of flash that blobs are made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +57,8 @@ pub const BOARDS: [Board; 4] = [
         instructions_per_tick: 40.0,
         flash: Flash::Large,
         has_floats: true,
+        flags: &[],
+        loaded: LOADED,
     },
     Board {
         cpu: "Cortex-M0",
@@ -46,6 +67,8 @@ pub const BOARDS: [Board; 4] = [
         instructions_per_tick: 62.5,
         flash: Flash::Small,
         has_floats: false,
+        flags: &[],
+        loaded: LOADED,
     },
     Board {
         cpu: "Cortex-M33",
@@ -55,6 +78,8 @@ pub const BOARDS: [Board; 4] = [
         instructions_per_tick: 50.0,
         flash: Flash::Large,
         has_floats: true,
+        flags: &[],
+        loaded: LOADED,
     },
     Board {
         cpu: "RV32IMAC",
@@ -63,5 +88,7 @@ pub const BOARDS: [Board; 4] = [
         instructions_per_tick: 1.0,
         flash: Flash::Large,
         has_floats: false,
+        flags: &[],
+        loaded: LOADED,
     },
 ];

@@ -110,8 +110,9 @@ struct Program {
 /// The examples, and the program with all questions.
 fn programs(answers_of_rust: &str) -> Result<Vec<Program>, String> {
     let mut programs = Vec::new();
-    for Example { name, model } in EXAMPLES {
-        let sources = [name, model].map(|stem| folder().join(format!("{stem}.c"))).to_vec();
+    for Example { name, models } in EXAMPLES {
+        let stems = [name].into_iter().chain(models.iter().copied());
+        let sources = stems.map(|stem| folder().join(format!("{stem}.c"))).collect();
         programs.push(Program { sources, lines: examples::promised(name)? });
     }
     let sources = ["answers.c", "blobs.S"].map(|file| answers().join(file)).to_vec();

@@ -97,9 +97,6 @@ pub type Counts<'a> = BTreeMap<&'a str, Each>;
 /// Queries that a board is asked.
 const ON_BOARD: &str = "1000";
 
-/// Where the images `ask` and `robot` find their questions: in the external RAM of the first board.
-pub const LOADED: u32 = 0x2100_0000;
-
 /// Counts questions at places on the Cortex-M4F, in the emulator, and prints the table. The
 /// answers' bits are this machine's, or it is an error.
 pub fn on_board(steps: &mut Steps, tools: &Tools, asked: &[&str]) {
@@ -115,7 +112,8 @@ pub fn on_board(steps: &mut Steps, tools: &Tools, asked: &[&str]) {
             let printed = host::run(&["lay", question, ON_BOARD, &path])?;
             let (means, expected) = printed.split_once('\n').unwrap_or_default();
             let expected = Reading::parse(expected, None)?;
-            let reading = tools.asked(&board, &image, (&file, LOADED), &expected, u32::MAX)?;
+            let reading =
+                tools.asked(&board, &image, (&file, board.loaded), &expected, u32::MAX)?;
             let cost = reading.costs.first().ok_or("the image told no cost")?;
             table.push(vec![
                 Cell::from(question),

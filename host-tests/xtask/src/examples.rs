@@ -18,16 +18,16 @@ use crate::{checks, images, process, workspace};
 pub struct Example {
     /// Name of the folder and of the program.
     pub name: &'static str,
-    /// The model that it asks, as source.
-    pub model: &'static str,
+    /// The models that it asks, as source.
+    pub models: &'static [&'static str],
 }
 
 /// All examples.
 pub const EXAMPLES: [Example; 4] = [
-    Example { name: "probe", model: "groove" },
-    Example { name: "keep_out", model: "clamps" },
-    Example { name: "haptics", model: "groove" },
-    Example { name: "guard", model: "link" },
+    Example { name: "probe", models: &["groove"] },
+    Example { name: "keep_out", models: &["clamps"] },
+    Example { name: "haptics", models: &["groove"] },
+    Example { name: "guard", models: &["link", "table", "groove"] },
 ];
 
 /// Files that all folders have alike.

@@ -12,7 +12,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::boards::{BOARDS, Board};
-use crate::count::LOADED;
 use crate::host;
 use crate::process;
 use crate::qemu::Machine;
@@ -136,7 +135,7 @@ fn read(name: &str) -> Result<String, String> {
 fn count(tools: &Tools, board: &Board, image: &Path, number: usize) -> Result<(), String> {
     let expected = Reading::parse(&read(&format!("{number}.expected"))?, None)?;
     let question = folder().join(format!("{number}.bin"));
-    let reading = tools.asked(board, image, (&question, LOADED), &expected, u32::MAX)?;
+    let reading = tools.asked(board, image, (&question, board.loaded), &expected, u32::MAX)?;
     let cost = reading.costs.first().ok_or("the image told no cost")?;
     let counts = [f64::from(cost.stack)].into_iter().chain(reading.each);
     let all: String = counts.map(|count| format!("{count}\n")).collect();

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::Command;
 
+use crate::boards::Board;
 use crate::cross::Cross;
 use crate::process;
 use crate::workspace;
@@ -39,6 +40,10 @@ impl Profile {
     }
 }
 
+/// Each image tells the frame of each function: `call_graph` reads them. The option is not stable; it
+/// adds a section to the file and nothing to the code.
+const FLAGS: &str = "-Zemit-stack-sizes";
+
 /// Builds images that run, for several targets at once.
 ///
 /// # Errors
@@ -54,6 +59,29 @@ pub fn running(
         command.args(["--bin", name]);
     }
     process::capture(&mut command).map(drop)
+}
+
+/// Builds an image for one board, with what the compiler is told of the board; its path.
+///
+/// # Errors
+/// The compiler's.
+pub fn of_board(
+    cross: &Cross,
+    board: &Board,
+    profile: Profile,
+    name: &str,
+) -> Result<PathBuf, String> {
+    if board.flags.is_empty() {
+        running(cross, &[board.target], profile, &[name])?;
+        return Ok(image(cross, board.target, profile, name));
+    }
+    // A folder of its own: other flags would rebuild all in the shared one.
+    let folder = workspace::target().join(cross.folder()).join(board.machine.name());
+    let mut command = cargo(cross, "build", &[board.target], profile);
+    let flags = [FLAGS].iter().chain(board.flags).copied().collect::<Vec<_>>().join("\u{1f}");
+    command.env("CARGO_TARGET_DIR", &folder).env("CARGO_ENCODED_RUSTFLAGS", flags);
+    process::capture(command.args(["--bin", name]))?;
+    Ok(folder.join(board.target).join(profile.name()).join(name))
 }
 
 /// Lints the images.
@@ -91,9 +119,7 @@ pub fn cargo(cross: &Cross, subcommand: &str, targets: &[&str], profile: Profile
     command
         .current_dir(workspace::firmware())
         .env("CARGO_TARGET_DIR", workspace::target().join(cross.folder()));
-    // Each image tells the frame of each function: `call_graph` reads them. The option is not
-    // stable; it adds a section to the file and nothing to the code.
-    command.env("RUSTC_BOOTSTRAP", "1").env("CARGO_ENCODED_RUSTFLAGS", "-Zemit-stack-sizes");
+    command.env("RUSTC_BOOTSTRAP", "1").env("CARGO_ENCODED_RUSTFLAGS", FLAGS);
     command.args(["--quiet", "--profile", profile.name()]);
     command
 }

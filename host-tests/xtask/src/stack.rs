@@ -26,7 +26,7 @@ const MOST_IN_DEBUG: u32 = 2816;
 pub const DEBUG_IMAGE: &str = "size_tree_four";
 
 /// Functions of `meshsweep.h`, and what a blob has to have for them.
-pub const C_FUNCTIONS: [(&str, &str); 25] = [
+pub const C_FUNCTIONS: [(&str, &str); 35] = [
     ("msw_open", "tree"),
     ("msw_open_trusted", "tree"),
     ("msw_closest_point", "closest"),
@@ -38,8 +38,18 @@ pub const C_FUNCTIONS: [(&str, &str); 25] = [
     ("msw_winding_number", "winding"),
     ("msw_first_hit", "segment"),
     ("msw_overlap", "segment"),
-    ("msw_models_within", "segment"),
+    ("msw_within_of", "segment"),
+    ("msw_distance", "segment"),
+    ("msw_coherent_pair_distance", "segment"),
+    ("msw_coherent_pair_within", "segment"),
+    ("msw_first_contact_of", "segment"),
+    ("msw_scene_begin", "segment"),
+    ("msw_scene_move", "segment"),
+    ("msw_scene_within", "segment"),
     ("msw_solid_first_contact", "segment"),
+    ("msw_open_triboxes", "triboxes"),
+    ("msw_triboxes_apart", "triboxes"),
+    ("msw_triboxes_candidates", "triboxes"),
     ("msw_open_tight", "tight"),
     ("msw_tight_within", "tight"),
     ("msw_tight_model", "tight"),

@@ -37,8 +37,7 @@ impl Tools {
     /// # Errors
     /// The compiler's.
     pub fn image(&self, board: &Board, name: &str) -> Result<PathBuf, String> {
-        images::running(&self.cross, &[board.target], Profile::Release, &[name])?;
-        Ok(images::image(&self.cross, board.target, Profile::Release, name))
+        images::of_board(&self.cross, board, Profile::Release, name)
     }
 
     /// Runs an image on a board, with a file in memory. Its answers are `expected`, bit by bit: at

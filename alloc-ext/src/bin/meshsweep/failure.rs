@@ -197,6 +197,7 @@ impl fmt::Display for Failure {
                 BuildError::Unreadable { .. }
                 | BuildError::Mesh { .. }
                 | BuildError::NotSolid { .. }
+                | BuildError::Robot { .. }
                 | BuildError::Curve { .. } => error.fmt(f),
                 BuildError::Unmet(_) => {
                     write!(f, "{}: {error}; nothing is written", file.display())

@@ -49,6 +49,7 @@ mod poses;
 mod progress;
 mod queries;
 mod refine;
+mod robot;
 mod segment;
 mod served;
 mod side;
@@ -93,6 +94,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Refine(args)) => refine::run(&args),
         Some(Command::Cut(args)) => cut::run(&args),
         Some(Command::Tribox(args)) => tribox::run(&args),
+        Some(Command::Robot(args)) => robot::run(&args),
         Some(Command::Verify(args)) => verify::run(&args),
         Some(Command::Trade(args)) => trade::run(&args),
         Some(Command::Worst(args)) => worst::run(&args),

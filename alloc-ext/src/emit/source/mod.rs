@@ -9,6 +9,7 @@ mod stack;
 
 pub use c::{c_header, c_source};
 pub use rust::rust_module;
+pub(crate) use rust::{rust_items, rust_name};
 
 use meshsweep_core::{Blob, Bvh};
 
@@ -29,11 +30,16 @@ impl SourceNames<'_> {
 
     /// The same as an identifier in lower case.
     fn identifier(&self) -> String {
-        let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
-        let name: String = self.file_stem().chars().map(letter).collect();
-        // A number cannot begin an identifier.
-        if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
+        identifier(self.file_stem())
     }
+}
+
+/// A name as an identifier in lower case.
+fn identifier(name: &str) -> String {
+    let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
+    let name: String = name.chars().map(letter).collect();
+    // A number cannot begin an identifier.
+    if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
 }
 
 /// A box that contains the mesh: that of the stored vertices, grown by the surface error.
@@ -46,7 +52,7 @@ fn around(tree: &Bvh<'_>) -> [[f32; 3]; 2] {
 }
 
 /// A name that ends no comment and begins no other.
-fn in_comment(name: &str) -> String {
+pub(crate) fn in_comment(name: &str) -> String {
     // Compilers refuse characters that change the direction of text.
     let turns = |c: char| {
         matches!(c, '\u{200E}' | '\u{200F}' | '\u{202A}'..='\u{202E}')

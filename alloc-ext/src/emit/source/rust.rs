@@ -1,7 +1,7 @@
 //! A Rust module.
 
 use super::stack::{self, Caller};
-use super::{Facts, SourceNames, in_comment};
+use super::{Facts, SourceNames, identifier, in_comment};
 use meshsweep_core::Blob;
 use std::fmt::Write;
 
@@ -10,9 +10,23 @@ use std::fmt::Write;
 #[must_use]
 pub fn rust_module(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
     let facts = Facts::of(blob);
-    let mut out = head(&facts, names, &stack::lines(blob, Caller::Rust));
-    let first = Some(bytes(&facts, names));
-    for part in [first, tree(&facts), hulls(&facts), sweep(&facts), more(&facts)] {
+    head(&facts, names, &stack::lines(blob, Caller::Rust)) + &items(&facts, names)
+}
+
+/// The same without the comment on the blob: what it imports, and its items.
+pub(crate) fn rust_items(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
+    items(&Facts::of(blob), names)
+}
+
+/// A name as that of a module.
+pub(crate) fn rust_name(name: &str) -> String {
+    module(&identifier(name))
+}
+
+fn items(facts: &Facts, names: SourceNames<'_>) -> String {
+    let mut out = format!("use meshsweep_core::{{{}}};\n\n", imports(facts).join(", "));
+    let first = Some(bytes(facts, names));
+    for part in [first, tree(facts), hulls(facts), sweep(facts), more(facts)] {
         out.extend(part);
     }
     out
@@ -54,11 +68,9 @@ fn head(facts: &Facts, names: SourceNames<'_>, stack: &[String]) -> String {
     for line in stack {
         let _ = writeln!(out, "//   {line}");
     }
-    let _ = writeln!(
-        out,
+    out.push_str(
         "//\n// Distances are in the mesh's unit. Intervals hold of the mesh, not only of the \
-         stored surface.\n\nuse meshsweep_core::{{{}}};\n",
-        imports(facts).join(", ")
+         stored surface.\n\n",
     );
     out
 }

@@ -1,10 +1,10 @@
 //! The meshes of a COLLADA file.
 
+use super::super::document::Document;
 use super::super::polygons::{FacePlace, Faces, Polygons, Split};
 use super::super::strip::strip;
 use super::super::text::{finite, quoted};
 use super::super::{LeftOut, MeshError};
-use super::document::Document;
 
 /// A mesh in its own frame.
 pub(super) struct Geometry {

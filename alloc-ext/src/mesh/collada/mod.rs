@@ -2,7 +2,6 @@
 //!
 //! Crates for it name no line in their errors, and do not tell what they leave out.
 
-mod document;
 mod geometry;
 mod transform;
 
@@ -10,9 +9,9 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::path::Path;
 use std::rc::Rc;
 
-use self::document::Document;
 use self::geometry::Geometry;
 use super::copies::Copies;
+use super::document::{self, Document};
 use super::placement::Placement;
 use super::text::{number, quoted};
 use super::{MeshError, RawMesh, Unit};

@@ -1,8 +1,8 @@
 //! Where a node of a COLLADA scene is in its parent.
 
 use super::super::MeshError;
+use super::super::document::Document;
 use super::super::placement::Placement;
-use super::document::Document;
 
 /// How far the last row of an affine matrix may be off, where a program multiplied matrices.
 const NOISE: f64 = 1e-6;

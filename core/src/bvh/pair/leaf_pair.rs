@@ -1,12 +1,13 @@
 //! Two leaves: which of their triangles may meet, then each of these pairs in f32, and in f64 where
 //! f32 cannot decide.
 
-use crate::bvh::tree::format::{FanLeaf, RING, slots};
+use crate::bvh::tree::format::{FanLeaf, LeafShape, RING, slots};
 use crate::bvh::tree::node::WIDE;
 use crate::geom::fan::{LANES_BELOW, WIDTH};
 use crate::geom::{Contact, determinant_margin, straddling_triangles_meet, triangles_meet};
 use crate::num::{each, greater, lesser};
 use crate::query::{RelativePose, Work};
+use glam::Vec3;
 
 /// Slots for a leaf's vertices: two centres, the ring, and spare ones so that eight can be read at
 /// shift 1.
@@ -35,6 +36,20 @@ impl Corners {
             // Unused slots repeat the first centre, so that they do not widen the box.
             *at = [stored[0]; SLOTS];
             at.iter_mut().zip(stored).take(used).for_each(|(x, stored)| *x = stored);
+        }
+        Corners { at, used, triangles, turn: shape.turn() }
+    }
+
+    /// These vertices of a leaf of this shape.
+    #[inline(always)]
+    pub(crate) fn of(vertices: &[Vec3; SLOTS], shape: LeafShape) -> Corners {
+        let triangles = shape.triangles().min(WIDTH);
+        let used = (RING + triangles + 1).min(SLOTS);
+        let [first, ..] = vertices;
+        let mut at = [[first.x; SLOTS], [first.y; SLOTS], [first.z; SLOTS]];
+        let [x, y, z] = &mut at;
+        for (i, vertex) in vertices.iter().enumerate().take(used) {
+            [x[i], y[i], z[i]] = vertex.to_array();
         }
         Corners { at, used, triangles, turn: shape.turn() }
     }

@@ -19,6 +19,7 @@
 //! | `world_box` | the same box along the axes of the world |
 //! | `placed_pair` | two models placed in the world, in the frame of one of them |
 //! | `leaf_pair` | the triangles of two leaves |
+//! | `separation/` | whether two models are within a distance, in f32 |
 //! | `gaps/` | the search of the nearest pair of triangles |
 //! | `from_afar` | two models that are very far from each other |
 //! | `advance` | how far a moving model certainly goes without contact |
@@ -38,10 +39,11 @@ mod overlap;
 mod penetration;
 pub(super) mod placed_model;
 pub(super) mod placed_pair;
+pub(super) mod separation;
 pub(super) mod stored_pair;
 mod within_of;
 pub(super) mod world_box;
 
 pub use coherent_pair::CoherentPair;
-pub(super) use moving_model::MovingModel;
+pub use moving_model::MovingModel;
 pub use placed_model::PlacedModel;

@@ -33,14 +33,14 @@ pub(crate) struct Models<'a> {
     pub(crate) pose: &'a RelativePose,
 }
 
-impl Models<'_> {
-    /// No search opens more pairs: on each side is a node or a child of a node, and no pair comes
-    /// twice. It ends searches in trees whose links were not checked.
-    pub(crate) fn most_pairs(&self) -> u32 {
-        let places = |tree: &Bvh<'_>| tree.most_steps().saturating_mul(1 + WIDTH as u32);
-        places(self.a).saturating_mul(places(self.b))
-    }
+/// No search opens more pairs: on each side is a node or a child of a node, and no pair comes
+/// twice. It ends searches in trees whose links were not checked.
+pub(crate) fn most_pairs(a: &Bvh<'_>, b: &Bvh<'_>) -> u32 {
+    let places = |tree: &Bvh<'_>| tree.most_steps().saturating_mul(1 + WIDTH as u32);
+    places(a).saturating_mul(places(b))
+}
 
+impl Models<'_> {
     /// Which of two children to open: both, unless one is a leaf or much smaller.
     #[inline(always)]
     pub(crate) fn opened(&self, [first, second]: &[BvhChild; 2]) -> Option<[bool; 2]> {

@@ -9,7 +9,7 @@ use glam::Vec3;
 
 /// A model of a scene that remembers. `core/docs/rounding.md` §24.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct MovingModel<'a> {
+pub struct MovingModel<'a> {
     pub(crate) model: PlacedModel<'a>,
     /// No point went farther at the last motion.
     pub(crate) step: f32,
@@ -25,7 +25,8 @@ pub(crate) struct MovingModel<'a> {
 const MOST_SQUARE: f32 = (1u64 << 60) as f32;
 
 impl<'a> MovingModel<'a> {
-    pub(crate) fn new(model: PlacedModel<'a>) -> Self {
+    /// A model that stands still, with its least ball.
+    pub fn new(model: PlacedModel<'a>) -> Self {
         let model = model.with_least_ball();
         MovingModel { model, step: 0.0, arm: model.arm(), turned: 0.0, is_off: false }
     }

@@ -2,9 +2,10 @@
 
 use super::model_ball::ModelBall;
 use super::model_box::{ModelBox, beyond_sq, exceeds, gap_sq};
+use super::separation::grid_pose::FramePose;
 use crate::bvh::tree::format::Bvh;
 use crate::geom::{Pose, Rows, columns, turned};
-use crate::num::tolerance::{BOX_PAIR, MOTION, NEARLY_RIGID, SKEW, U32};
+use crate::num::tolerance::{BOX_PAIR, MOTION, NEARLY_RIGID, SEPARATION_POSE, SKEW, U32};
 use crate::num::{difference, dot, greater, lesser, sqrt_approx};
 use crate::query::{PoseInverse, QueryError, check_rigid, is_rotation, skew};
 use glam::Vec3;
@@ -159,6 +160,21 @@ impl<'a> PlacedModel<'a> {
             return first;
         }
         proof(gap_sq(turned(&back, way), other_half, &back, half), slack)
+    }
+
+    /// The pose of another model in the frame of this one, for questions about a distance in the
+    /// world. `None` if a matrix is far from a rotation. `core/docs/rounding.md` §26.
+    #[inline(always)]
+    pub(crate) fn pose_of(&self, other: &PlacedModel<'_>, distance: f32) -> Option<FramePose> {
+        let (a, b) = (&self.place, &other.place);
+        let rows = columns(&self.rows());
+        let turned_columns = columns(&other.rows()).map(|column| turned(&rows, column));
+        let far = (a.far + b.far) * (SEPARATION_POSE * U32 + 0.5 * a.skew);
+        (a.skew < NEARLY_RIGID && b.skew < NEARLY_RIGID).then(|| FramePose {
+            rows: columns(&turned_columns),
+            shift: turned(&rows, difference(other.translation(), self.translation())),
+            error: far + 2.0 * a.skew * distance + f32::MIN_POSITIVE,
+        })
     }
 
     /// The squared distance of a place in the world from the box. `columns` are the pose's.

@@ -5,11 +5,15 @@ use super::gaps::answers;
 use super::gaps::left_out::{ChildPairs, Forgotten};
 use super::gaps::nearest_first::Search;
 use super::model_box::are_apart;
+use super::models::numbers;
+use super::separation::grid_pose::{FramePose, GridPose};
+use super::separation::search::{Separation, separation};
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::gap::{GapThreshold, GapVisitor};
 use crate::geom::Pose;
-use crate::query::{Budget, Decided, QueryError, ScratchEntry};
+use crate::query::{Budget, Decided, QueryError, ScratchEntry, Verdict, Work};
+use glam::Vec3;
 
 impl Bvh<'_> {
     /// Whether the surface of `other`, moved by `pose` from its frame to this tree's, is at most
@@ -64,20 +68,52 @@ impl Bvh<'_> {
         Ok(self.search_within_of(other, &pose, [distance, 0.0], budget, scratch)?.0)
     }
 
-    /// The same by the trees. With a `No` a lower end of the distance, at most `more` above the one
-    /// asked about.
+    /// The same by the trees: in f32 first, then in f64. With a `No` a lower end of the distance, at
+    /// most `more` above the one asked about.
     pub(crate) fn search_within_of(
         &self,
         other: &Bvh<'_>,
         pose: &Pose,
-        [distance, more]: [f32; 2],
+        asked: [f32; 2],
         budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<(Decided<[u32; 2]>, f32), QueryError> {
+        let mut work = Work::NONE;
+        let exact = FramePose {
+            rows: pose.rotation.map(Vec3::from_array),
+            shift: Vec3::from_array(pose.translation),
+            error: 0.0,
+        };
+        if let Some(pose) = GridPose::of([self, other], &exact) {
+            match separation(&pose, asked, budget.steps, scratch, &mut work) {
+                Separation::Apart(lower) => {
+                    return Ok((Decided { work, ..Decided::CLEAR }, lower));
+                }
+                Separation::Near(place) => {
+                    let witness = numbers(self, other, place).ok_or(QueryError::Unchecked)?;
+                    let found = Decided { verdict: Verdict::Yes, witness: Some(witness), work };
+                    return Ok((found, 0.0));
+                }
+                Separation::Open => {}
+            }
+        }
+        self.exactly_within_of(other, pose, asked, (budget, work), scratch)
+    }
+
+    /// The same in f64. The budget's steps count with those of `work`.
+    #[inline(never)]
+    pub(crate) fn exactly_within_of(
+        &self,
+        other: &Bvh<'_>,
+        pose: &Pose,
+        [distance, more]: [f32; 2],
+        (budget, work): (Budget, Work),
         scratch: &mut [ScratchEntry],
     ) -> Result<(Decided<[u32; 2]>, f32), QueryError> {
         let pair = StoredPair::new([self, other], pose)?;
         let threshold = GapThreshold::new(&pair.lengths, 0.0, distance);
         let mut threshold = threshold.and_beyond(more);
-        let mut search = Search::new(&pair, budget.steps, scratch);
+        let mut search = Search { work, ..Search::new(&pair, budget.steps, scratch) };
         let missed = if pair.is_in_range {
             search.descend((ChildPairs::ALL, 0.0), &mut threshold, &mut Forgotten)?.missed()
         } else {

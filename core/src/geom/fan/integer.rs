@@ -68,18 +68,17 @@ impl IntPoint {
     /// `None` if the point is too far from the grid's origin.
     #[inline(always)]
     pub fn new(p: [f32; 3]) -> Option<IntPoint> {
-        let mut point = IntPoint { at: [0; 3], eighths: [0; 3], rest: [0; 3] };
-        let places = point.at.iter_mut().zip(&mut point.eighths).zip(&mut point.rest);
-        for (x, ((at, eighths), rest)) in p.into_iter().zip(places) {
-            if x.to_bits() << 1 >> 24 >= 127 + WHOLE_BITS {
-                return None;
-            }
-            let fine = floored(x, FINE_BITS.cast_signed());
-            *rest = (fine & ((1 << (FINE_BITS - FRACTION_BITS)) - 1)) as u8;
-            *at = fine >> FINE_BITS;
-            *eighths = fine >> (FINE_BITS - FRACTION_BITS) & ((1 << FRACTION_BITS) - 1);
+        let is_near = |x: f32| x.to_bits() << 1 >> 24 < 127 + WHOLE_BITS;
+        let [x, y, z] = p;
+        if !(is_near(x) && is_near(y) && is_near(z)) {
+            return None;
         }
-        Some(point)
+        let fine = each(p, |x| floored(x, FINE_BITS.cast_signed()));
+        Some(IntPoint {
+            at: each(fine, |x| x >> FINE_BITS),
+            eighths: each(fine, |x| x >> (FINE_BITS - FRACTION_BITS) & ((1 << FRACTION_BITS) - 1)),
+            rest: each(fine, |x| (x & ((1 << (FINE_BITS - FRACTION_BITS)) - 1)) as u8),
+        })
     }
 
     /// In units of 2^-[`FINE_BITS`], rounded down.
@@ -107,24 +106,35 @@ impl IntPoint {
     }
 
     /// A product of the point and a direction of twelve bits: not above the true one.
+    #[inline(always)]
+    pub fn along(&self, direction: IntVector) -> i32 {
+        self.along_way(direction, self.at)
+    }
+
+    /// The same of the way from a vertex: `at` is [`Self::at`] less that.
     ///
     /// The eighths are rounded down. So the true point may lie an eighth farther along any axis,
     /// which counts where the direction is negative. The difference before was rounded too, by 2^-8
     /// at most. There is room for twice 2^-7 more.
     #[inline(always)]
-    pub fn along(&self, direction: IntVector) -> i32 {
-        let all = norm_1(direction);
-        let [x, y, z] = direction;
-        // What is negative counts twice in the difference.
-        let against = (all - (x + y + z)) >> 1;
-        let eighths = dot(direction, self.eighths).wrapping_sub(against) >> FRACTION_BITS;
-        dot(direction, self.at).wrapping_add(eighths).wrapping_sub(((3 * all) >> 8) + 1)
+    fn along_way(&self, direction: IntVector, at: IntVector) -> i32 {
+        const ROOM: i32 = ((3 * 3 << DIRECTION_BITS) >> 8) + 1;
+        let [x, y, z] = each(direction, |x| x & x >> 31);
+        let eighths = dot(direction, self.eighths).wrapping_add(x + y + z) >> FRACTION_BITS;
+        dot(direction, at).wrapping_add(eighths).wrapping_sub(ROOM)
     }
 }
 
 #[inline(always)]
 pub(super) fn largest([x, y, z]: IntVector) -> u32 {
     x.unsigned_abs().max(y.unsigned_abs()).max(z.unsigned_abs())
+}
+
+/// A number with as many bits as the largest component without its sign: of a negative one that is
+/// its complement.
+#[inline(always)]
+fn as_long_as([x, y, z]: IntVector) -> u32 {
+    ((x ^ x >> 31) | (y ^ y >> 31) | (z ^ z >> 31)).cast_unsigned()
 }
 
 #[inline(always)]
@@ -163,11 +173,14 @@ impl IntBounds {
         first: 0,
         lower: IntLower::NONE,
     };
+
+    /// A place for some: bits of zeros.
+    pub const ZERO: IntBounds = IntBounds { upper: 0, corner: Corner::new(0), ..IntBounds::NONE };
 }
 
 /// Bounds of the distance of a triangle. Its corners are on the grid, from the grid's origin.
 #[inline(never)]
-pub fn integer_bounds(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> IntBounds {
+pub fn integer_bounds(p: &IntPoint, [a, b, c]: &[IntVector; 3], bounds: &mut IntBounds) {
     let (s, e, g) = (less(p.at, *a), less(*b, *a), less(*c, *a));
     let (v, w) = weights(s, e, g);
     let along = |s: i32, eighths: i32, e: i32, g: i32| {
@@ -177,8 +190,7 @@ pub fn integer_bounds(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> IntBounds {
             .wrapping_sub(inside >> (WEIGHT_BITS - FRACTION_BITS))
     };
     let ([sx, sy, sz], [i, j, k], [ex, ey, ez], [gx, gy, gz]) = (s, p.eighths, e, g);
-    let mut bounds =
-        upper_bound([along(sx, i, ex, gx), along(sy, j, ey, gy), along(sz, k, ez, gz)]);
+    upper_bound([along(sx, i, ex, gx), along(sy, j, ey, gy), along(sz, k, ez, gz)], bounds);
     let direction = bounds.direction;
     bounds.corner = match (v, w) {
         (0, 0) => Corner::new(0),
@@ -186,23 +198,23 @@ pub fn integer_bounds(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> IntBounds {
         (0, ONE) => Corner::new(2),
         _ => Corner::NONE,
     };
-    let farthest = dot(direction, *a).max(dot(direction, *b)).max(dot(direction, *c));
-    let along = p.along(direction).wrapping_sub(farthest);
+    let farthest = dot(direction, e).max(dot(direction, g)).max(0);
+    let along = p.along_way(direction, s).wrapping_sub(farthest);
     let direction_sq = dot(direction, direction).cast_unsigned();
     bounds.lower = IntLower::new(along, direction_sq);
-    bounds
 }
 
 /// Upper bound and direction of a point, which is the corner of a triangle.
-pub fn vertex_bounds(p: &IntPoint, vertex: IntVector) -> IntBounds {
-    upper_bound(p.eighths_from(vertex))
+#[inline(always)]
+pub fn vertex_bounds(p: &IntPoint, vertex: IntVector, bounds: &mut IntBounds) {
+    upper_bound(p.eighths_from(vertex), bounds);
 }
 
 /// Upper bound and direction of a way from a point of a triangle, in eighths.
 #[cfg_attr(meshsweep_small, inline(never))]
 #[cfg_attr(not(meshsweep_small), inline(always))]
-fn upper_bound(offset: IntVector) -> IntBounds {
-    let size = bits(largest(offset));
+fn upper_bound(offset: IntVector, bounds: &mut IntBounds) {
+    let size = bits(as_long_as(offset));
     let down = size.saturating_sub(DIRECTION_BITS);
     let direction = each(offset, |x| x >> down);
     // Along an axis the way is less than two eighths longer. Squares of 14 bits, rounded up: their
@@ -212,8 +224,8 @@ fn upper_bound(offset: IntVector) -> IntBounds {
     let square = dot(square, square).cast_unsigned();
     let up = 32 - bits(square);
     let exponent = (127 + 30 - 2 * FRACTION_BITS + 2 * cut).wrapping_sub(up);
-    let upper = (exponent << 23) + ((square << (up & 31)) >> 8) + 1;
-    IntBounds { upper, direction, ..IntBounds::NONE }
+    bounds.upper = (exponent << 23) + ((square << (up & 31)) >> 8) + 1;
+    bounds.direction = direction;
 }
 
 #[inline(always)]
@@ -250,10 +262,10 @@ pub fn is_in_front(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> Option<bool> {
 #[inline(always)]
 pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
     // Products of 14 bits and 15 bits have a sum below 2^31.
-    let size = bits(largest(e).max(largest(g)));
+    let size = bits(as_long_as(e) | as_long_as(g));
     let down = size.saturating_sub(14);
     let (e, g, size) = (each(e, |x| x >> down), each(g, |x| x >> down), size - down);
-    let more = (bits(largest(s)) + size).saturating_sub(29);
+    let more = (bits(as_long_as(s)) + size).saturating_sub(29);
     let s = each(s, |x| x >> more);
     // The spokes' own products are coarser by the same power.
     let scaled = |x: i32| if more >= down { x >> (more - down) } else { x };
@@ -269,9 +281,7 @@ pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
     if d2 >= cc && d1.wrapping_sub(bb) <= d2 - cc {
         return (0, ONE);
     }
-    let most =
-        d1.unsigned_abs().max(d2.unsigned_abs()).max(aa.unsigned_abs()).max(cc.unsigned_abs());
-    let cut = bits(most).saturating_sub(13);
+    let cut = bits(as_long_as([d1, d2, aa]) | cc.cast_unsigned()).saturating_sub(13);
     let (d1, d2, aa, bb, cc) = (d1 >> cut, d2 >> cut, aa >> cut, bb >> cut, cc >> cut);
     let (d3, d4, d5, d6) = (d1 - aa, d2 - bb, d1 - bb, d2 - cc);
     let vc = d1.wrapping_mul(d4).wrapping_sub(d3.wrapping_mul(d2));
@@ -292,16 +302,36 @@ pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
             (nv, nw, whole) = (pb, pc, pa + pb + pc);
         }
     }
-    // A divisor of 16 bits, so that one division serves both weights.
-    let cut = bits(whole.max(1).cast_unsigned()).saturating_sub(16);
-    let whole = whole.max(1).cast_unsigned() >> cut;
-    let inverse = (1u32 << 31) / whole.max(1);
+    // A divisor of 16 bits, so that one reciprocal serves both weights.
+    let whole = whole.max(1).cast_unsigned();
+    let size = bits(whole);
+    let (mut up, cut) = (0, size.saturating_sub(16));
+    let inverse = if cfg!(meshsweep_short_products) {
+        up = 16u32.saturating_sub(size);
+        reciprocal(whole << up >> cut)
+    } else {
+        (1 << 31) / (whole >> cut)
+    };
+    let whole = whole << up >> cut;
     let weight = |x: i32| {
-        let x = (x.max(0).cast_unsigned() >> cut).min(whole);
+        let x = (x.max(0).cast_unsigned() << up >> cut).min(whole);
         ((x * inverse) >> (31 - WEIGHT_BITS)).cast_signed().min(ONE)
     };
     let v = weight(nv);
     (v, weight(nw).min(ONE - v))
+}
+
+/// About 2^31 / `x` of a number of 16 bits, not more than 2^16: a line, and two of Newton's steps.
+/// The smallest processors divide ten times as long.
+#[inline(always)]
+fn reciprocal(x: u32) -> u32 {
+    // Of 1 / x between 1/2 and 1 the line 48/17 - 32/17·x is off by a seventeenth at most.
+    let about = 92_521 - (x * 61_681 >> 16);
+    let rest = |about: u32| (1u32 << 31).wrapping_sub(x.wrapping_mul(about)).cast_signed();
+    let about = about.cast_signed();
+    let about = about + (about * (rest(about.cast_unsigned()) >> 15) >> 16);
+    let about = about + (about * (rest(about.cast_unsigned()) >> 8) >> 23);
+    about.cast_unsigned().min(1 << 16)
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 
 use super::lanes::WIDTH;
 use crate::num::tolerance::LEAST_DENOMINATOR;
-use crate::num::{Real, difference, dot, greater, reals, sqrt_approx};
+use crate::num::{Real, SOFT_FLOAT, difference, dot, greater, reals, sqrt_approx};
 use glam::Vec3;
 
 /// The distance of a point and a triangle, as computed (`core/docs/rounding.md` §8).
@@ -81,7 +81,7 @@ impl PointFan {
 
     #[inline(always)]
     fn is_at_centre(&self, a: &SpokeTerms, b: &SpokeTerms) -> bool {
-        Real(a.along) <= Real::ZERO && Real(b.along) <= Real::ZERO
+        Real(a.along).is_at_most_zero() && Real(b.along).is_at_most_zero()
     }
 
     /// A triangle whose closest point is the centre, as [`Self::triangle`] computes it.
@@ -133,28 +133,34 @@ fn triangle_of_numbers(
     let bb = Real(dot(first, second));
     let (d3, d4, d5, d6) = (d1 - aa, d2 - bb, d1 - bb, d2 - cc);
     let (v, w, r);
-    if d3 >= zero && d4 <= d3 {
+    if d3.is_at_least_zero() && d4 <= d3 {
         // Without the products by 1 and 0: the same numbers, up to the sign of a zero.
         (v, w, r) = (Real(1.0), zero, difference(s, first));
-    } else if d6 >= zero && d5 <= d6 {
+    } else if d6.is_at_least_zero() && d5 <= d6 {
         (v, w, r) = (zero, Real(1.0), difference(s, second));
     } else {
         let (nv, nw);
-        let vc = d1 * d4 - d3 * d2;
-        let vb = d5 * d2 - d1 * d6;
+        // Without an FPU a comparison may spare the products: then they are not at most 0.
+        let knows_first = !SOFT_FLOAT || d1.is_at_least_zero() && d3.is_at_most_zero();
+        let knows_second = !SOFT_FLOAT || d2.is_at_least_zero() && d6.is_at_most_zero();
+        let (first_area, second_area) = (|| d1 * d4 - d3 * d2, || d5 * d2 - d1 * d6);
+        let vc = if knows_first { first_area() } else { Real(1.0) };
+        let vb = if knows_second { second_area() } else { Real(1.0) };
         let least;
-        if vc <= zero && d1 >= zero && d3 <= zero {
+        if vc.is_at_most_zero() && d1.is_at_least_zero() && d3.is_at_most_zero() {
             (nv, nw, least) = (d1, zero, aa);
-        } else if vb <= zero && d2 >= zero && d6 <= zero {
+        } else if vb.is_at_most_zero() && d2.is_at_least_zero() && d6.is_at_most_zero() {
             (nv, nw, least) = (zero, d2, cc);
         } else {
             let va = d3 * d6 - d5 * d4;
             let (e, g) = (d4 - d3, d5 - d6);
-            if va <= zero && e >= zero && g >= zero {
+            if va.is_at_most_zero() && e.is_at_least_zero() && g.is_at_least_zero() {
                 (nv, nw, least) = (g, e, e + g);
             } else {
                 // A coordinate that rounding made negative counts as 0: the point must lie on
                 // the triangle.
+                let vc = if knows_first { vc } else { first_area() };
+                let vb = if knows_second { vb } else { second_area() };
                 let (pa, pb, pc) = (greater(zero, va), greater(zero, vb), greater(zero, vc));
                 (nv, nw, least) = (pb, pc, pa + pb + pc);
             }

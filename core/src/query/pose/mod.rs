@@ -8,11 +8,13 @@
 //! | `carried_point` | [`PosedPoint`]: a point in the frame of a moved model |
 //! | `world_lengths` | distances in that frame, and those in the world |
 //! | `common_units` | [`RelativePose`]: one model in the frame and the units of another |
+//! | `joint` | [`Joint`], [`link_poses`]: where the links of a mechanism are |
 //! | `motion` | [`Motion`]: how a model moves from pose to pose |
 
 mod carried_point;
 mod common_units;
 mod inverse;
+mod joint;
 mod motion;
 mod rotation;
 mod rounded;
@@ -21,7 +23,8 @@ mod world_lengths;
 pub use carried_point::PosedPoint;
 pub(crate) use common_units::{DIRECTIONS, Extended, ModelFrame, Placement, RelativePose};
 pub(crate) use inverse::PoseInverse;
+pub use joint::{Joint, JointAxis, JointKind, link_poses};
 pub use motion::Motion;
-pub(crate) use rotation::{check_rigid, is_rotation, skew};
+pub(crate) use rotation::{check_rigid, is_rotation, longest, skew};
 pub use rounded::RoundedPose;
 pub(crate) use world_lengths::WorldLengths;

@@ -12,7 +12,7 @@ use core::hint::black_box;
 
 use bare::Input;
 use meshsweep_suite::ask::{
-    Asked, apart, curve, deform, hull, hull_moving, tight, tree, tribox, triboxes,
+    Asked, apart, curve, deform, hull, hull_moving, joints, tight, tree, tribox, triboxes,
 };
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::place::{Ends, Motion, Place, Point};
@@ -134,4 +134,11 @@ extern "C" fn ask_tribox(input: &Input<'_>, kind: &Kind, fold: &mut Fold) {
 #[unsafe(no_mangle)]
 extern "C" fn ask_tribox_faces(tribox: &tribox::Tribox, fold: &mut Fold) {
     tribox::faces(tribox, &mut (), fold);
+}
+
+/// Links of any joints at any places.
+#[cfg(not(feature = "inject_panic"))]
+#[unsafe(no_mangle)]
+extern "C" fn ask_joints(mechanism: &mut joints::Mechanism<'_>, fold: &mut Fold) {
+    joints::ask(mechanism, fold);
 }

@@ -58,6 +58,7 @@ pub mod curve;
 pub mod deform;
 pub mod hull;
 pub mod hull_moving;
+pub mod joints;
 pub mod placed;
 pub mod robot;
 pub mod tight;

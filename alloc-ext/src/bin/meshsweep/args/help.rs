@@ -57,6 +57,7 @@ fn file(command: &str) -> &'static str {
         "refine" => include_str!("help/refine.txt"),
         "cut" => include_str!("help/cut.txt"),
         "tribox" => include_str!("help/tribox.txt"),
+        "robot" => include_str!("help/robot.txt"),
         "verify" => include_str!("help/verify.txt"),
         "trade" => include_str!("help/trade.txt"),
         "worst" => include_str!("help/worst.txt"),

@@ -53,7 +53,7 @@ pub struct LimitArgs {
         help_heading = "Limits"
     )]
     pub rate: Option<f64>,
-    /// Processor and its clock: m4f:168MHz, m0:48MHz
+    /// Processor and its clock: m4f:168MHz, m0:48MHz; m7:400MHz counts the code of an m4f
     #[arg(long, value_name = "CPU:CLOCK", value_parser = cpu, help_heading = "Limits")]
     pub cpu: Option<Cpu>,
     /// Points that limits are measured at: near, far, path or a file, as of trade [default: near]
@@ -123,10 +123,12 @@ fn hertz(text: &str) -> Result<f64, String> {
 }
 
 fn cpu(text: &str) -> Result<Cpu, String> {
-    let wanted = || "a processor and its clock are wanted, as m4f:168MHz or m0:48MHz".to_owned();
+    let wanted =
+        || "a processor and its clock are wanted, as m4f:168MHz, m7:400MHz or m0:48MHz".to_owned();
     let (name, clock) = text.split_once(':').ok_or_else(wanted)?;
     let board = match name {
-        "m4f" => Board::CortexM4F,
+        // A Cortex-M7 runs the same instructions, in no more cycles each.
+        "m4f" | "m7" => Board::CortexM4F,
         "m0" => Board::CortexM0,
         _ => return Err(wanted()),
     };
@@ -146,6 +148,7 @@ mod tests {
         for wrong in ["", "K", "-1", "0", "1.5X", "nan"] {
             assert!(bytes(wrong).is_err() && hertz(wrong).is_err() && cpu(wrong).is_err());
         }
-        assert!(cpu("m7:1MHz").is_err() && cpu("m4f").is_err() && cpu("m4f:0").is_err());
+        assert_eq!(cpu("m7:400MHz"), Ok(Cpu { board: Board::CortexM4F, hertz: 4e8 }));
+        assert!(cpu("m3:1MHz").is_err() && cpu("m4f").is_err() && cpu("m4f:0").is_err());
     }
 }

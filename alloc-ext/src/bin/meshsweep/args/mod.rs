@@ -10,6 +10,7 @@ mod help;
 mod measuring;
 mod reading;
 mod refining;
+mod robot;
 mod values;
 
 pub use asking::{
@@ -24,6 +25,7 @@ pub use given::{Given, files, names};
 pub use measuring::{At, TradeArgs};
 pub use reading::ReadArgs;
 pub use refining::RefineArgs;
+pub use robot::{Keep, RobotArgs};
 pub use values::Margin;
 
 use help::Help;
@@ -100,6 +102,8 @@ pub enum Command {
     Cut(CutArgs),
     /// Cover a mesh with unions of 1, 2, 4, ... triboxes, and write the finest as binary PLY
     Tribox(TriboxArgs),
+    /// Blobs, joints and pairs of a robot, from its URDF, as a Rust module for firmware
+    Robot(RobotArgs),
     /// Prove the claims of a blob again, from its bytes and the mesh that it was built from
     Verify(VerifyArgs),
     /// Measure error, instructions and bytes of each structure and setting of a mesh

@@ -66,8 +66,9 @@ impl LeafGaps<'_> {
         if !may_be_near(self.direction, limit_sq, &pair) {
             return visit(self.direction, true, &seen);
         }
-        let mut keys = keys(&pair, limit_sq)?;
-        skip_along(&mut keys, self.direction, limit_sq, &pair);
+        let (first, second) = (&pair.a, &pair.b);
+        let mut keys = keys(first, second, limit_sq)?;
+        skip_along(&mut keys, self.direction, limit_sq, first, second);
         work.triangles =
             work.triangles.saturating_add((pair.a.triangles * pair.b.triangles) as u32);
         loop {
@@ -89,7 +90,7 @@ impl LeafGaps<'_> {
                 return visit(self.direction, false, &seen);
             }
             limit_sq = reach_sq(visitor);
-            skip_along(&mut keys, self.direction, limit_sq, &pair);
+            skip_along(&mut keys, self.direction, limit_sq, first, second);
         }
     }
 
@@ -144,7 +145,7 @@ fn least_distance(
     margin: f32,
     seen: &Measured,
 ) -> Option<f64> {
-    let mut keys = keys(pair, f32::INFINITY)?;
+    let mut keys = keys(&pair.a, &pair.b, f32::INFINITY)?;
     raise_keys_along(&mut keys, direction, pair);
     for (i, key) in keys.0.iter_mut().enumerate() {
         *key = if seen.pairs >> (i & (PAIRS - 1)) & 1 != 0 { NO_PAIR } else { *key };
@@ -159,11 +160,11 @@ fn least_distance(
 /// Keys of all pairs, by their boxes. Vertices are as computed, so a limit must have room for
 /// their error.
 #[inline(always)]
-fn keys(pair: &LeafPair<'_>, limit_sq: f32) -> Option<PairKeys> {
-    let (first, second) = (TriangleBoxes::of(&pair.a)?, TriangleBoxes::of(&pair.b)?);
+pub(crate) fn keys(a: &Corners, b: &Corners, limit_sq: f32) -> Option<PairKeys> {
+    let (first, second) = (TriangleBoxes::of(a)?, TriangleBoxes::of(b)?);
     let mut keys = PairKeys([NO_PAIR; WIDTH * WIDTH]);
     let rows = keys.0.as_chunks_mut::<WIDTH>().0.iter_mut();
-    for (i, row) in rows.enumerate().take(pair.a.triangles) {
+    for (i, row) in rows.enumerate().take(a.triangles) {
         let mut sums = [0f32; WIDTH];
         for ((from, to), (low, high)) in
             first.low.iter().zip(&first.high).zip(second.low.iter().zip(&second.high))
@@ -175,7 +176,7 @@ fn keys(pair: &LeafPair<'_>, limit_sq: f32) -> Option<PairKeys> {
             }
         }
         for (j, (key, sum)) in row.iter_mut().zip(sums).enumerate() {
-            let is_near = j < pair.b.triangles && sum <= limit_sq;
+            let is_near = j < b.triangles && sum <= limit_sq;
             *key = if is_near { key_of(sum, (i * WIDTH + j) as u32) } else { NO_PAIR };
         }
     }
@@ -184,13 +185,19 @@ fn keys(pair: &LeafPair<'_>, limit_sq: f32) -> Option<PairKeys> {
 
 /// Drops the pairs that are farther apart along `direction` than the limit.
 #[inline(always)]
-fn skip_along(keys: &mut PairKeys, direction: [f32; 3], limit_sq: f32, pair: &LeafPair<'_>) {
+pub(crate) fn skip_along(
+    keys: &mut PairKeys,
+    direction: [f32; 3],
+    limit_sq: f32,
+    a: &Corners,
+    b: &Corners,
+) {
     let [x, y, z] = direction;
     let way_sq = x * x + y * y + z * z;
     if way_sq < LEAST_GAP_SQ {
         return;
     }
-    let (first, second) = (heights(&pair.a, direction), heights(&pair.b, direction));
+    let (first, second) = (heights(a, direction), heights(b, direction));
     let limit = limit_sq * way_sq;
     for (i, row) in keys.0.as_chunks_mut::<WIDTH>().0.iter_mut().enumerate() {
         let Some(&top) = first.high.get(i) else { continue };

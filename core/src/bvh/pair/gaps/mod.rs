@@ -12,4 +12,4 @@ pub(super) mod answers;
 pub(super) mod leaf_gaps;
 pub(super) mod left_out;
 pub(super) mod nearest_first;
-mod pair_keys;
+pub(super) mod pair_keys;

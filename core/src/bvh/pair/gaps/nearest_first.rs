@@ -9,7 +9,7 @@ use super::left_out::{ChildPairs, LeftOut};
 use super::pair_keys::{
     NO_PAIR, PairKeys, bound_of, children_of, distance_of, key_limit, pair_bit, second_factor,
 };
-use crate::bvh::pair::models::Models;
+use crate::bvh::pair::models::{Models, most_pairs};
 use crate::bvh::pair::stored_pair::StoredPair;
 use crate::bvh::tree::axis_intervals::{AxisIntervals, pairs};
 use crate::bvh::tree::gap::GapVisitor;
@@ -109,7 +109,7 @@ impl<'s, 'a> Search<'s, 'a> {
         left: &mut L,
     ) -> Result<PairDescent, QueryError> {
         let Search { models, leaves, work, .. } = self;
-        let steps = lesser(self.steps, work.opened.saturating_add(models.most_pairs()));
+        let steps = lesser(self.steps, work.opened.saturating_add(most_pairs(models.a, models.b)));
         let (stack, _) = self.scratch.as_chunks_mut::<ENTRIES>();
         let factor = second_factor(models.pose);
         let limit_of = |visitor: &_| key_limit(square_limit(GapVisitor::limit(visitor)));

@@ -7,7 +7,7 @@
 
 use crate::bvh::pair::leaf_pair::LeafPair;
 use crate::bvh::pair::model_box::are_apart;
-use crate::bvh::pair::models::Models;
+use crate::bvh::pair::models::{Models, most_pairs};
 use crate::bvh::tree::axis_intervals::{AxisIntervals, Pairs, pairs};
 use crate::bvh::tree::extended::extended;
 use crate::bvh::tree::format::{Bvh, BvhChild};
@@ -38,7 +38,7 @@ pub(crate) fn descend(
         return Ok((None, work));
     };
     let models = Models { a, b, pose: &pose };
-    let steps = lesser(budget.steps, models.most_pairs());
+    let steps = lesser(budget.steps, most_pairs(models.a, models.b));
     let mut truncated = None;
     let mut used = 0usize;
     let mut nodes = [0u32; 2];

@@ -1,7 +1,7 @@
 //! The triangles of a leaf in integers, for processors without floating point: bounds of all, and
 //! the f32 kernel only for those that may be the nearest.
 
-use super::bounds::{nearness, seen_from};
+use super::bounds::nearness;
 use super::limit::LeafLimit;
 use super::nearest::LeafNearest;
 use super::plane::{LeafPlane, Residual};
@@ -100,7 +100,7 @@ pub(crate) fn leaf_bounds(
         next = lane + 1;
         corners[2] = ring.vertex(next)?;
         let slot = bounds.get_mut(lane)?;
-        *slot = integer_bounds(point, &corners);
+        integer_bounds(point, &corners, slot);
         slot.first = (lane & 7) as u8;
         if slot.upper > least {
             continue;
@@ -198,7 +198,10 @@ pub(crate) fn nearness_by_corner(
     let corners = leaf.full_ring()?.corners(leaf.shape(), lane)?;
     Some(match corner_nearness(leaf, p, point, &corners, lane, corner) {
         Some(near) => near,
-        None => nearness(&seen_from(leaf, lane, p)),
+        None => {
+            let [centre, e, g] = leaf.spokes_of(&corners);
+            nearness(&[difference(p, centre), e, g])
+        }
     })
 }
 

@@ -150,7 +150,7 @@ impl LeafPlane {
             let sum = sum.wrapping_add(b.wrapping_mul(y)).wrapping_add(c.wrapping_mul(z));
             sum.cast_unsigned() >> 31
         };
-        let behind = ring.bits(is_behind);
+        let behind = ring.bits(shape, is_behind);
         let first_fan = !(u32::MAX << (shape.turn() & 31));
         let [one, other] = ring.centres(shape);
         let (one, other) = (is_behind(one).wrapping_sub(1), is_behind(other).wrapping_sub(1));

@@ -16,8 +16,6 @@ use crate::bvh::tree::format::{Bvh, FanLeaf, lanes_of};
 #[cfg(meshsweep_wide)]
 use crate::bvh::tree::prefetch::prefetch_source;
 use crate::bvh::tree::triangle_at::TriangleAt;
-#[cfg(not(meshsweep_wide))]
-use crate::geom::fan::{IntBounds, WIDTH};
 use crate::geom::fan::{lower_bound_up_to, refined};
 #[cfg(not(meshsweep_wide))]
 use crate::num::SOFT_FLOAT;
@@ -126,7 +124,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             && !leaf.is_f32()
             && let Some(point) = &self.query.whole
         {
-            return self.bound(leaf, point, &mut [IntBounds::NONE; WIDTH]).map(drop);
+            return self.bound(leaf, point).map(drop);
         }
         self.bound_by(&nearest_triangle(leaf, self.query)?);
         Some(())

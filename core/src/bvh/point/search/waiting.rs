@@ -2,11 +2,14 @@
 
 use crate::bvh::point::leaf::plane::Residual;
 use crate::bvh::tree::node::CHILD_MASK;
-use crate::geom::fan::{Corner, IntLimit, IntLower, WIDTH};
+use crate::geom::fan::{Corner, IntBounds, IntLimit, IntLower, WIDTH};
 use crate::num::SOFT_FLOAT;
 
 /// Triangles that may wait. If there are more, all of them are looked at, and the next ones wait.
 const ROOM: usize = if SOFT_FLOAT { 8 } else { 0 };
+
+/// Triangles of a leaf that are bounded at a time.
+const BOUNDED: usize = if SOFT_FLOAT { WIDTH } else { 0 };
 
 #[derive(Clone, Copy)]
 pub(crate) struct WaitingTriangle {
@@ -48,6 +51,8 @@ pub(crate) struct Waiting {
     pub(crate) residual: Residual,
     /// The search's limit.
     pub(crate) limit: IntLimit,
+    /// Those of the last leaf.
+    pub(crate) bounds: [IntBounds; BOUNDED],
 }
 
 impl Waiting {
@@ -60,6 +65,7 @@ impl Waiting {
             upper: u32::MAX,
             residual: Residual::NONE,
             limit: IntLimit::NONE,
+            bounds: const { [IntBounds::ZERO; BOUNDED] },
         }
     }
 

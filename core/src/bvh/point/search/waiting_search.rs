@@ -13,7 +13,7 @@ use crate::bvh::point::leaf::nearest::Lanes;
 use crate::bvh::point::leaf::plane::{LeafPlane, Residual};
 use crate::bvh::tree::descent::LeafVisit;
 use crate::bvh::tree::format::{FanLeaf, FullRing, LeafShape, lanes_of};
-use crate::geom::fan::{Corner, IntBounds, IntLimit, IntPoint, Nearness, WIDTH, vertex_bounds};
+use crate::geom::fan::{Corner, IntBounds, IntLimit, IntPoint, IntVector, Nearness, vertex_bounds};
 use crate::num::Real;
 
 /// Added to the bits of a squared upper bound: at least 2^-12 of it.
@@ -28,13 +28,12 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
     /// Takes the triangles of a leaf that may be the nearest.
     #[inline(never)]
     pub(crate) fn wait(&mut self, visit: &LeafVisit<'_>, point: &IntPoint) -> Option<()> {
-        let mut bounds = [IntBounds::NONE; WIDTH];
-        let wanted = self.bound(&visit.leaf, point, &mut bounds)?;
+        let wanted = self.bound(&visit.leaf, point)?;
         for lane in lanes_of(wanted) {
-            let bounds = bounds.get(lane)?;
+            let &IntBounds { upper, corner, first, lower, .. } = self.waiting.bounds.get(lane)?;
             // The first of several with the same square is the answer.
-            let is_first = usize::from(bounds.first) == lane;
-            if !is_first || bounds.lower.is_beyond(self.waiting.limit) {
+            let is_first = usize::from(first) == lane;
+            if !is_first || lower.is_beyond(self.waiting.limit) {
                 continue;
             }
             if !self.waiting.makes_room() {
@@ -42,26 +41,21 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
                 self.look_at_waiting()?;
             }
             if let Some(slot) = self.waiting.triangles.get_mut(self.waiting.count) {
-                let Corner { number, is_certain } = bounds.corner;
+                let Corner { number, is_certain } = corner;
                 let corner = u32::from(number) | u32::from(is_certain) << 2;
                 let place = visit.child | (lane as u32) << 3 | corner << 6;
-                let (node, key, upper) = (visit.node, visit.key, bounds.upper);
-                *slot = WaitingTriangle { node, place, key, upper, lower: bounds.lower };
+                let (node, key) = (visit.node, visit.key);
+                *slot = WaitingTriangle { node, place, key, upper, lower };
                 self.waiting.count += 1;
             }
         }
         Some(())
     }
 
-    /// Lowers the limit by the triangles of a leaf. Those that are not behind the plane have
-    /// `bounds`: their bits.
+    /// Lowers the limit by the triangles of a leaf. Those that are not behind the plane have bounds:
+    /// their bits.
     #[inline(never)]
-    pub(crate) fn bound(
-        &mut self,
-        leaf: &FanLeaf<'_>,
-        point: &IntPoint,
-        bounds: &mut [IntBounds; WIDTH],
-    ) -> Option<u32> {
+    pub(crate) fn bound(&mut self, leaf: &FanLeaf<'_>, point: &IntPoint) -> Option<u32> {
         if self.has_old_plane {
             self.has_old_plane = false;
             let Waiting { residual, limit, .. } = self.waiting;
@@ -69,15 +63,19 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
         } else if self.waiting.upper == u32::MAX {
             // The first leaf: a vertex gives the first plane.
             let (ring, shape) = (leaf.full_ring()?, leaf.shape());
-            let near = nearest_vertex(point, &ring, shape)?;
-            let limit = IntLimit::of(self.limit_by(near.upper));
-            self.beyond.plane = LeafPlane::new(point, near.direction, limit);
+            let near = self.waiting.bounds.first_mut()?;
+            vertex_bounds(point, nearest_vertex(point, &ring, shape)?, near);
+            let &mut IntBounds { upper, direction, .. } = near;
+            let limit = IntLimit::of(self.limit_by(upper));
+            self.beyond.plane = LeafPlane::new(point, direction, limit);
         }
+        let bounds = self.waiting.bounds.first_chunk_mut()?;
         let (wanted, likeliest) = leaf_bounds(leaf, point, &self.beyond.plane, bounds)?;
-        let &IntBounds { upper, direction, .. } = bounds.get(likeliest)?;
+        // One by one: else it would be a call of `memmove`, for which alone firmware links it.
+        let &IntBounds { upper, direction: [x, y, z], .. } = bounds.get(likeliest)?;
         if wanted != 0 && upper < self.waiting.upper {
             self.waiting.upper = upper;
-            self.waiting.residual = Residual::of_integers(direction);
+            self.waiting.residual = Residual::of_integers([x, y, z]);
             let limit = self.limit_by(self.waiting.upper);
             if Real(limit) < Real(self.beyond.distance_sq) {
                 self.beyond.distance_sq = limit;
@@ -160,9 +158,9 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
     }
 }
 
-/// Bounds of the vertex of a leaf that is about the nearest.
+/// The vertex of a leaf that is about the nearest.
 #[inline(never)]
-fn nearest_vertex(point: &IntPoint, ring: &FullRing<'_>, shape: LeafShape) -> Option<IntBounds> {
+fn nearest_vertex(point: &IntPoint, ring: &FullRing<'_>, shape: LeafShape) -> Option<IntVector> {
     let [one, other] = ring.centres(shape);
     let mut nearest = one;
     let mut least = point.about(one);
@@ -173,8 +171,8 @@ fn nearest_vertex(point: &IntPoint, ring: &FullRing<'_>, shape: LeafShape) -> Op
         }
     };
     take(other);
-    for at in 0..=shape.triangles() {
+    for at in 0..shape.triangles() + 1 {
         take(ring.vertex(at)?);
     }
-    Some(vertex_bounds(point, nearest))
+    Some(nearest)
 }

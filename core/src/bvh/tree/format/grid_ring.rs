@@ -85,13 +85,15 @@ impl FullRing<'_> {
         Some([centre, self.vertex(lane)?, self.vertex(lane + 1)?])
     }
 
-    /// A bit of each ring vertex, the first one's lowest. The compiler unrolls the loop where speed
-    /// counts, for its length is known: three times as fast as one over the vertices there are.
+    /// A bit of each ring vertex, the first one's lowest. Those past the last one of a leaf have no
+    /// meaning. The compiler unrolls the loop where speed counts, for its length is known: three
+    /// times as fast as one over the vertices there are, which is for small code.
     #[inline(always)]
-    pub fn bits(&self, bit: impl Fn([i32; 3]) -> u32) -> u32 {
+    pub fn bits(&self, shape: LeafShape, bit: impl Fn([i32; 3]) -> u32) -> u32 {
         let [x, y, z] = self.rows;
+        let used = if cfg!(meshsweep_small) { shape.triangles() + 1 } else { RING_VERTICES };
         let mut bits = 0;
-        for i in 0..RING_VERTICES {
+        for i in 0..used.min(RING_VERTICES) {
             bits |= bit(grid_point([&x[i], &y[i], &z[i]])) << i;
         }
         bits

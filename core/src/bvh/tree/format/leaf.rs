@@ -8,9 +8,7 @@ use super::grid_ring::{GRID_WINDOW, GridRing, short, three};
 use super::leaf_shape::LeafShape;
 #[cfg(meshsweep_wide)]
 use crate::geom::fan::{Ring8, WIDTH};
-#[cfg(meshsweep_small)]
-use crate::num::SOFT_FLOAT;
-use crate::num::{Real, float, reals};
+use crate::num::{Real, SOFT_FLOAT, float, reals};
 use glam::Vec3;
 
 /// Numbers of the triangles whose bits are ones.
@@ -271,7 +269,15 @@ impl<'a> FanLeaf<'a> {
         let [centre, e, g] = self.spokes(lane);
         let ([cx, cy, cz], [ex, ey, ez], [gx, gy, gz]) = (reals(centre), reals(e), reals(g));
         let (v, w) = (Real(v), Real(w));
-        let (x, y, z) = (cx + ex * v + gx * w, cy + ey * v + gy * w, cz + ez * v + gz * w);
+        let [mut x, mut y, mut z] = [cx, cy, cz];
+        // No coordinate of the grid is -0, so a zero that is added changes nothing.
+        let spares_zeros = SOFT_FLOAT && !self.is_f32;
+        if !(spares_zeros && v.is_at_most_zero()) {
+            (x, y, z) = (x + ex * v, y + ey * v, z + ez * v);
+        }
+        if !(spares_zeros && w.is_at_most_zero()) {
+            (x, y, z) = (x + gx * w, y + gy * w, z + gz * w);
+        }
         Vec3::new(x.0, y.0, z.0)
     }
 
@@ -282,17 +288,24 @@ impl<'a> FanLeaf<'a> {
         let which = usize::from(lane >= self.shape.turn());
         if let (false, Some(stored)) = (self.is_f32, self.stored_triangle(lane, which)) {
             let [(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])] = stored;
-            let [ox, oy, oz] = self.origin;
-            let sum = |x: i32, o: i32| float(x.wrapping_add(o));
-            let less = |x: i32, c: i32| float(x.wrapping_sub(c));
-            return [
-                Vec3::new(sum(cx, ox), sum(cy, oy), sum(cz, oz)),
-                Vec3::new(less(ax, cx), less(ay, cy), less(az, cz)),
-                Vec3::new(less(bx, cx), less(by, cy), less(bz, cz)),
-            ];
+            return self.spokes_of(&[[cx, cy, cz], [ax, ay, az], [bx, by, bz]]);
         }
         let centre = self.centre(which);
         [centre, self.ring(lane) - centre, self.ring(lane + 1) - centre]
+    }
+
+    /// Centre and both spokes of a triangle on the grid whose corners are stored so.
+    #[cfg_attr(all(meshsweep_soft_float, meshsweep_small), inline(never))]
+    #[cfg_attr(not(all(meshsweep_soft_float, meshsweep_small)), inline(always))]
+    pub fn spokes_of(&self, &[[cx, cy, cz], a, b]: &[[i32; 3]; 3]) -> [Vec3; 3] {
+        let ([ox, oy, oz], [ax, ay, az], [bx, by, bz]) = (self.origin, a, b);
+        let sum = |x: i32, o: i32| float(x.wrapping_add(o));
+        let less = |x: i32, c: i32| float(x.wrapping_sub(c));
+        [
+            Vec3::new(sum(cx, ox), sum(cy, oy), sum(cz, oz)),
+            Vec3::new(less(ax, cx), less(ay, cy), less(az, cz)),
+            Vec3::new(less(bx, cx), less(by, cy), less(bz, cz)),
+        ]
     }
 
     /// By axis the stored integers of centre `which`, and of ring vertices `lane` and `lane + 1`.

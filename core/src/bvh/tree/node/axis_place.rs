@@ -10,14 +10,15 @@ impl KeyPoint {
     #[inline(always)]
     pub fn relative_to_origin(&self, record: &[u8; FRAME_BYTES]) -> [i32; 3] {
         let (origin, _) = record[boxes::FRAME_ORIGIN..].as_chunks::<2>();
-        let mut away = self.at;
-        for (x, &origin) in away.iter_mut().zip(origin) {
-            // The unit is at least that of the bits below it.
-            let places = self.unit_exponent.wrapping_sub(FRACTION_BITS) & 31;
-            let origin = u32::from(u16::from_le_bytes(origin)) >> places;
-            *x = x.wrapping_sub(origin.cast_signed());
-        }
-        away
+        // The unit is at least that of the bits below it.
+        let places = self.unit_exponent.wrapping_sub(FRACTION_BITS) & 31;
+        let away = |x: i32, axis: usize| {
+            let origin = u32::from(u16::from_le_bytes(origin[axis])) >> places;
+            x.wrapping_sub(origin.cast_signed())
+        };
+        // By number: at `opt-level = "s"` a loop would keep the vector in memory.
+        let [x, y, z] = self.at;
+        [away(x, 0), away(y, 1), away(z, 2)]
     }
 }
 

@@ -11,7 +11,7 @@ use super::keys::{CHILD_MASK, NO_CHILD};
 use super::opened_node::{OpenedNode, Pushed, Pusher};
 use crate::bvh::tree::format::layout::{FRAME_BYTES, boxes};
 use crate::geom::fan::WIDTH;
-use crate::num::{greater, lesser};
+use crate::num::{SOFT_FLOAT, greater, lesser};
 use crate::query::ScratchEntry;
 
 /// Squared distance of an absent child: its key is above every limit.
@@ -20,8 +20,19 @@ const ABSENT: u32 = NO_CHILD << 1;
 /// The highest bit of both halves.
 const HIGH: u32 = 0x8000_8000;
 
-/// Bytes 0 and 2 of a word, each in a half.
-const BYTES: u32 = 0x00FF_00FF;
+/// Bytes 0 and 2 of a word, and bytes 1 and 3, each in a half.
+#[inline(always)]
+fn halves(bytes: &[u8; 4]) -> [u32; 2] {
+    if SOFT_FLOAT {
+        // Processors without an FPU read a word at any place byte by byte. By reference: from a
+        // word the compiler would take the bytes again.
+        let [a, b, c, d] = bytes;
+        let both = |low: &u8, high: &u8| u32::from(*low) | u32::from(*high) << 16;
+        return [both(a, c), both(b, d)];
+    }
+    let word = u32::from_le_bytes(*bytes);
+    [word & 0x00FF_00FF, word >> 8 & 0x00FF_00FF]
+}
 
 /// Words of four planes in a frame.
 const PLANE_WORDS: usize = boxes::FRAME_ROWS / 4;
@@ -82,7 +93,7 @@ impl AxisPlanes {
     /// The planes less the point. `bytes` has one in each half.
     #[inline(always)]
     fn differences(&self, bytes: u32, less_point: u32) -> u32 {
-        (bytes & BYTES).wrapping_mul(self.step).wrapping_add(less_point)
+        bytes.wrapping_mul(self.step).wrapping_add(less_point)
     }
 
     /// The differences that are not negative; the others are 0.
@@ -98,32 +109,28 @@ impl AxisPlanes {
 /// their low planes of the first axis. A call, for in the caller the loop would not fit the
 /// registers.
 #[inline(never)]
-fn squares_of_four(
-    words: &[[u8; 4]; PLANE_WORDS - 1],
-    axes: &[AxisPlanes; 3],
-    squares: &mut [u32; 4],
-) {
+fn squares_of_four(words: &[[u8; 4]; PLANE_WORDS - 1], axes: &[AxisPlanes; 3]) -> [u32; 4] {
     let [mut a, mut b, mut c, mut d] = [0u32; 4];
     for (k, axis) in axes.iter().enumerate() {
-        let word = |at: usize| u32::from_le_bytes(words[4 * k + at]);
+        let bytes = |at: usize| halves(&words[4 * k + at]);
         let [below, beyond] = axis.less_point;
         let (even, odd);
         if axis.side == Side::Within {
-            let (low, high) = (word(0), word(2));
+            let ([low, odd_low], [high, odd_high]) = (bytes(0), bytes(2));
             // Of a box whose planes are in order at most one of both is above 0.
             even = axis.above_zero(low, below) | axis.above_zero(high, beyond);
-            odd = axis.above_zero(low >> 8, below) | axis.above_zero(high >> 8, beyond);
+            odd = axis.above_zero(odd_low, below) | axis.above_zero(odd_high, beyond);
         } else {
-            let word = if axis.side == Side::Before { word(0) } else { word(2) };
-            even = axis.differences(word, below);
-            odd = axis.differences(word >> 8, below);
+            let [bytes, odd_bytes] = if axis.side == Side::Before { bytes(0) } else { bytes(2) };
+            even = axis.differences(bytes, below);
+            odd = axis.differences(odd_bytes, below);
         }
         a = plus_square(a, i32::from(even as i16));
         b = plus_square(b, i32::from(odd as i16));
         c = plus_square(c, even.cast_signed() >> 16);
         d = plus_square(d, odd.cast_signed() >> 16);
     }
-    *squares = [a, b, c, d];
+    [a, b, c, d]
 }
 
 #[inline(always)]
@@ -211,10 +218,9 @@ fn cut_planes(cuts: u32, words: &PlaneWords) -> PlaneWords {
 /// Squared distances of the children from the point, in squares of key units.
 #[inline(always)]
 fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH] {
-    let mut squares = [ABSENT; WIDTH];
     let (mut axes, mut fine);
     let (words, _) = record.as_chunks::<4>();
-    let Some(mut words) = words.first_chunk::<PLANE_WORDS>() else { return squares };
+    let Some(mut words) = words.first_chunk::<PLANE_WORDS>() else { return [ABSENT; WIDTH] };
     if let Some(steps) = coarse_steps(record, p) {
         axes = [AxisPlanes::NONE; 3];
         set_coarse(&mut axes, record, p, steps);
@@ -233,14 +239,12 @@ fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH]
         }
         words = &fine;
     }
-    let (fours, _) = squares.as_chunks_mut::<4>();
-    if let [first, second] = fours
-        && let Some(of_first) = words.first_chunk()
-        && let Some(of_second) = words.last_chunk()
-    {
-        squares_of_four(of_first, &axes, first);
-        squares_of_four(of_second, &axes, second);
-    }
+    let (Some(first), Some(second)) = (words.first_chunk(), words.last_chunk()) else {
+        return [ABSENT; WIDTH];
+    };
+    let [a, b, c, d] = squares_of_four(first, &axes);
+    let [e, f, g, h] = squares_of_four(second, &axes);
+    let mut squares = [a, b, c, d, e, f, g, h];
     // Planes of absent children have no meaning.
     let mut absent = count as usize;
     while absent < WIDTH {
@@ -283,7 +287,7 @@ pub(super) fn push(
 ) -> Pushed {
     let &OpenedNode { node, count, bound, limit } = opened;
     let mut pusher = Pusher::new(node, slots);
-    for (child, square) in (0..).zip(squares(record, p, count)) {
+    for (child, &square) in (0..).zip(&squares(record, p, count)) {
         // The limit's low bits are ones, so the key need not be made first.
         if square >> 1 <= limit {
             pusher.push(key_of(square, bound, child));

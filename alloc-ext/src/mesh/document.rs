@@ -1,4 +1,4 @@
-//! The XML of a COLLADA file as a tree, with lines for messages.
+//! The XML of COLLADA and of robots' descriptions as a tree, with lines for messages.
 
 use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE};
 use quick_xml::XmlVersion;
@@ -8,12 +8,12 @@ use rustc_hash::FxHashMap;
 use std::borrow::Cow;
 use std::path::Path;
 
-use super::super::MeshError;
-use super::super::text::{decoded, number, quoted};
-use super::super::xml::{ENDS_EARLY, why};
+use super::MeshError;
+use super::text::{decoded, number, quoted};
+use super::xml::{ENDS_EARLY, why};
 
 /// The file as text, in the encoding that its byte order mark or its first line tells.
-pub(super) fn text_of<'a>(file: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, MeshError> {
+pub(crate) fn text_of<'a>(file: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, MeshError> {
     let head = bytes.get(..bytes.len().min(200)).unwrap_or_default();
     let head = String::from_utf8_lossy(head);
     let declared = head.split("?>").next().filter(|head| head.trim_start().starts_with("<?xml"));
@@ -34,25 +34,25 @@ pub(super) fn text_of<'a>(file: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, 
 }
 
 /// An element.
-pub(super) struct Node<'a> {
-    pub(super) name: String,
+pub(crate) struct Node<'a> {
+    pub(crate) name: String,
     attributes: Vec<(String, String)>,
     /// All text in it, without that of its children.
-    pub(super) text: Cow<'a, str>,
-    pub(super) children: Vec<usize>,
+    pub(crate) text: Cow<'a, str>,
+    pub(crate) children: Vec<usize>,
     parent: Option<usize>,
-    pub(super) line: usize,
+    pub(crate) line: usize,
 }
 
 /// The elements of a file, in its order. The first is the root.
-pub(super) struct Document<'a> {
-    pub(super) file: &'a Path,
-    pub(super) nodes: Vec<Node<'a>>,
+pub(crate) struct Document<'a> {
+    pub(crate) file: &'a Path,
+    pub(crate) nodes: Vec<Node<'a>>,
     ids: FxHashMap<String, Vec<usize>>,
 }
 
 impl<'a> Document<'a> {
-    pub(super) fn parse(file: &'a Path, text: &'a str) -> Result<Self, MeshError> {
+    pub(crate) fn parse(file: &'a Path, text: &'a str) -> Result<Self, MeshError> {
         let mut document = Self { file, nodes: Vec::new(), ids: FxHashMap::default() };
         let mut reader = Reader::from_str(text);
         let mut open: Vec<usize> = Vec::new();
@@ -140,11 +140,11 @@ impl<'a> Document<'a> {
     }
 
     /// The children of a name.
-    pub(super) fn all<'b>(&'b self, of: usize, name: &'b str) -> impl Iterator<Item = usize> + 'b {
+    pub(crate) fn all<'b>(&'b self, of: usize, name: &'b str) -> impl Iterator<Item = usize> + 'b {
         self.nodes[of].children.iter().copied().filter(move |&child| self.nodes[child].name == name)
     }
 
-    pub(super) fn child(&self, of: usize, name: &str) -> Option<usize> {
+    pub(crate) fn child(&self, of: usize, name: &str) -> Option<usize> {
         self.all(of, name).next()
     }
 
@@ -160,7 +160,7 @@ impl<'a> Document<'a> {
         })
     }
 
-    pub(super) fn attribute(&self, of: usize, name: &str) -> Option<&str> {
+    pub(crate) fn attribute(&self, of: usize, name: &str) -> Option<&str> {
         let found = self.nodes[of].attributes.iter().find(|(key, _)| key == name);
         found.map(|(_, value)| value.as_str())
     }
@@ -212,7 +212,7 @@ impl<'a> Document<'a> {
         })
     }
 
-    pub(super) fn malformed(&self, at: usize, reason: impl Into<String>) -> MeshError {
+    pub(crate) fn malformed(&self, at: usize, reason: impl Into<String>) -> MeshError {
         MeshError::Malformed {
             file: self.file.to_owned(),
             line: Some(self.nodes[at].line),
@@ -222,13 +222,13 @@ impl<'a> Document<'a> {
     }
 
     /// Refuses what `what` says of an element.
-    pub(super) fn unsupported(&self, at: usize, what: &str) -> MeshError {
+    pub(crate) fn unsupported(&self, at: usize, what: &str) -> MeshError {
         let what = format!("{what} in line {}, {},", self.nodes[at].line, self.place(at));
         MeshError::Unsupported { file: self.file.to_owned(), what }
     }
 
     /// An element's name, and that of the one around it that has an id.
-    pub(super) fn place(&self, at: usize) -> String {
+    pub(crate) fn place(&self, at: usize) -> String {
         let mut place = self.nodes[at].name.clone();
         let mut around = Some(at);
         while let Some(element) = around {

@@ -1,0 +1,203 @@
+//! Links and joints in the order of computation, fixed joints folded into the next ones.
+
+use super::urdf::{Moves, Urdf, refused};
+use crate::error::BuildError;
+use crate::mesh::Placement;
+use meshsweep_core::{Joint, JointAxis, JointKind, Pose, RoundedPose};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// A number that a caller gives for each pose: the place of a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// The joint's name.
+    pub joint: String,
+    /// Whether the joint slides. If not, it turns, and the place is in radians.
+    pub slides: bool,
+    /// Lowest and highest place.
+    pub limits: [f64; 2],
+}
+
+/// A link with geometry.
+pub(super) struct Body {
+    /// Index of the link in the file.
+    pub(super) link: usize,
+    /// Index of its joint.
+    pub(super) joint: u16,
+    /// The last joint on the way from the world that moves. Bodies of one mover never move
+    /// relative to each other.
+    pub(super) mover: Option<u16>,
+    /// The next body on the way to the world.
+    pub(super) parent: Option<usize>,
+}
+
+pub(super) struct Mechanism {
+    pub(super) joints: Vec<Joint>,
+    pub(super) bodies: Vec<Body>,
+    pub(super) places: Vec<Place>,
+}
+
+/// Where a link is.
+#[derive(Clone)]
+struct Frame {
+    /// The joint before it that is stored.
+    anchor: Option<u16>,
+    /// In the frame of the anchor's link.
+    placement: Placement,
+    mover: Option<u16>,
+    body: Option<usize>,
+}
+
+/// Indices of the links, parents first, each with the joint that carries it.
+fn ordered(file: &Path, urdf: &Urdf) -> Result<Vec<(usize, Option<usize>)>, BuildError> {
+    let link = |name: &str| urdf.links.iter().position(|link| link.name == name);
+    let mut carrier: Vec<Option<usize>> = vec![None; urdf.links.len()];
+    let mut carried: Vec<Vec<(usize, usize)>> = vec![Vec::new(); urdf.links.len()];
+    for (index, joint) in urdf.joints.iter().enumerate() {
+        let (Some(parent), Some(child)) = (link(&joint.parent), link(&joint.child)) else {
+            continue;
+        };
+        if let Some(first) = carrier[child].replace(index) {
+            let (child, first) = (&joint.child, &urdf.joints[first].name);
+            let what =
+                format!("joint {:?}: link {child:?} is carried by {first:?} already", joint.name);
+            return Err(refused(file, joint.line, what));
+        }
+        carried[parent].push((child, index));
+    }
+    let mut roots = (0..urdf.links.len()).filter(|&link| carrier[link].is_none());
+    let Some(root) = roots.next() else {
+        let what = "no link is without a joint above it: nothing is the root".to_owned();
+        return Err(BuildError::Robot { file: file.to_owned(), line: None, what });
+    };
+    if let Some(other) = roots.next() {
+        let (first, other) = (&urdf.links[root].name, &urdf.links[other]);
+        let what =
+            format!("link {:?}: a second root, beside {first:?}; no joint joins them", other.name);
+        return Err(refused(file, other.line, what));
+    }
+    let (mut order, mut open) = (Vec::new(), vec![(root, None)]);
+    while let Some((link, joint)) = open.pop() {
+        order.push((link, joint));
+        open.extend(carried[link].iter().rev().map(|&(child, joint)| (child, Some(joint))));
+    }
+    let is_known = |link: usize| order.iter().any(|&(known, _)| known == link);
+    match (0..urdf.links.len()).find(|&link| !is_known(link)) {
+        Some(link) => {
+            let link = &urdf.links[link];
+            let what = format!("link {:?}: its joints go round in a circle", link.name);
+            Err(refused(file, link.line, what))
+        }
+        None => Ok(order),
+    }
+}
+
+impl Mechanism {
+    pub(super) fn new(file: &Path, urdf: &Urdf) -> Result<Self, BuildError> {
+        let order = ordered(file, urdf)?;
+        // Links that carry no geometry need no pose.
+        let mut is_needed: Vec<bool> =
+            urdf.links.iter().map(|link| !link.collisions.is_empty()).collect();
+        let index: HashMap<&str, usize> =
+            urdf.links.iter().enumerate().map(|(at, link)| (link.name.as_str(), at)).collect();
+        for &(link, joint) in order.iter().rev() {
+            if let (true, Some(joint)) = (is_needed[link], joint) {
+                is_needed[index[urdf.joints[joint].parent.as_str()]] = true;
+            }
+        }
+        let mut all = Self { joints: Vec::new(), bodies: Vec::new(), places: Vec::new() };
+        let still = Frame { anchor: None, placement: Placement::IDENTITY, mover: None, body: None };
+        let mut frames: Vec<Frame> = vec![still; urdf.links.len()];
+        for (link, joint) in order.into_iter().filter(|&(link, _)| is_needed[link]) {
+            if let Some(joint) = joint.map(|joint| &urdf.joints[joint]) {
+                let parent = &frames[index[joint.parent.as_str()]];
+                let (anchor, body) = (parent.anchor, parent.body);
+                let placement = parent.placement.after(&joint.origin);
+                frames[link] = if joint.moves == Moves::Not {
+                    Frame { placement, ..parent.clone() }
+                } else {
+                    let axis = all.axis(file, urdf, joint)?;
+                    let kind = if joint.moves == Moves::Turns {
+                        JointKind::Turns(axis)
+                    } else {
+                        JointKind::Slides(axis)
+                    };
+                    let own = Some(all.push(file, joint.line, (anchor, &placement, kind))?);
+                    Frame { anchor: own, placement: Placement::IDENTITY, mover: own, body }
+                };
+            }
+            if urdf.links[link].collisions.is_empty() {
+                continue;
+            }
+            let Frame { anchor, placement, mover, body: parent } = frames[link].clone();
+            let joint = match anchor {
+                Some(anchor) if placement == Placement::IDENTITY => anchor,
+                _ => {
+                    all.push(file, urdf.links[link].line, (anchor, &placement, JointKind::Fixed))?
+                }
+            };
+            frames[link].body = Some(all.bodies.len());
+            all.bodies.push(Body { link, joint, mover, parent });
+        }
+        Ok(all)
+    }
+
+    /// Stores a joint; its index.
+    fn push(
+        &mut self,
+        file: &Path,
+        line: usize,
+        (parent, placement, kind): (Option<u16>, &Placement, JointKind),
+    ) -> Result<u16, BuildError> {
+        let (rows, shift, [turn, moved]) = placement.rounded();
+        if !rows.iter().flatten().chain(&shift).all(|x| x.is_finite()) {
+            return Err(refused(file, line, "an origin is beyond f32 (3.4e38)".to_owned()));
+        }
+        let origin = RoundedPose::within(Pose::rigid(rows, shift), up(turn), up(moved));
+        let index = u16::try_from(self.joints.len());
+        let index = index.map_err(|_| refused(file, line, "too many joints".to_owned()))?;
+        self.joints.push(Joint { parent, origin, kind });
+        Ok(index)
+    }
+
+    /// The axis of a joint, with the place of the joint that it follows at the end.
+    fn axis(
+        &mut self,
+        file: &Path,
+        urdf: &Urdf,
+        joint: &super::urdf::UrdfJoint,
+    ) -> Result<JointAxis, BuildError> {
+        let (mut of, mut factor, mut offset) = (joint, 1.0, 0.0);
+        for step in 0.. {
+            let Some(follows) = &of.follows else { break };
+            let leader = urdf.joints.iter().find(|other| other.name == follows.joint);
+            let leader =
+                leader.filter(|leader| leader.moves != Moves::Not && step <= urdf.joints.len());
+            let Some(leader) = leader else {
+                let what = format!(
+                    "joint {:?}: there is no {:?} that moves by itself, which it mimics",
+                    joint.name, follows.joint
+                );
+                return Err(refused(file, joint.line, what));
+            };
+            (offset, factor) = (factor * follows.offset + offset, factor * follows.factor);
+            of = leader;
+        }
+        let known = self.places.iter().position(|place| place.joint == of.name);
+        let place = known.unwrap_or_else(|| {
+            let slides = of.moves == Moves::Slides;
+            self.places.push(Place { joint: of.name.clone(), slides, limits: of.limits });
+            self.places.len() - 1
+        });
+        let place = u16::try_from(place);
+        let place = place.map_err(|_| refused(file, joint.line, "too many joints".to_owned()))?;
+        let (factor, offset) = (factor as f32, offset as f32);
+        Ok(JointAxis { factor, offset, ..JointAxis::new(joint.axis.map(|x| x as f32), place) })
+    }
+}
+
+/// Rounded up.
+pub(super) fn up(x: f64) -> f32 {
+    let nearest = x as f32;
+    if f64::from(nearest) < x { nearest.next_up() } else { nearest }
+}

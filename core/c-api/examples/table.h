@@ -1,0 +1,61 @@
+/* The blob `table.msw` of `table.obj`.
+ *
+ * Written by `meshsweep build --emit c`, for version 0.1.0 of the library. Compile table.c
+ * with your program. Give table_bytes to an open function of meshsweep.h.
+ *
+ * Bytes of the processor's stack that a function takes in libmeshsweep_small.a /
+ * libmeshsweep.a. Of the functions for this blob, those that are not listed take less
+ * than 64.
+ *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
+ *   msw_open                        2496 / 2048    2560 / 2112    2496 / 2048    2368 / 1984
+ *   msw_open_trusted                1280 / 1024    1280 / 1088    1280 / 1024     1152 / 960
+ *   msw_first_hit                   1344 / 1408    1728 / 1728    1344 / 1408    1600 / 1536
+ *   msw_overlap                     6912 / 6592    6592 / 6336    6912 / 6592    6208 / 6080
+ *   msw_models_within             12032 / 13376  11904 / 13248  12032 / 13376  11008 / 12096
+ *   msw_solid_first_contact        10240 / 9728   10176 / 9472   10240 / 9728    9792 / 9088
+ *   msw_checksum                     1088 / 896     1088 / 960     1088 / 896      960 / 832
+ *   msw_pose_of_quaternion            192 / 256      320 / 384      192 / 256      192 / 320
+ *   msw_pose_then                     320 / 512      640 / 832      320 / 512      512 / 704
+ *   msw_pose_inverse                  576 / 448      768 / 768      576 / 448      704 / 640
+ *   msw_pose_relative_to              640 / 448      832 / 768      640 / 448      704 / 704
+ *   msw_pose_motion                   128 / 128      192 / 192      128 / 128      128 / 128
+ */
+#ifndef TABLE_MSW_H
+#define TABLE_MSW_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define TABLE_BYTES 570u /* of the blob */
+#define TABLE_CHECKSUM 0xc74974c5u /* by msw_checksum; covers all sections */
+#define TABLE_TRIANGLES 12u /* of the mesh */
+#define TABLE_SCRATCH_ENTRIES 9u /* no question about a point or a segment needs more */
+#define TABLE_IS_CLOSED 1 /* whether the mesh is closed */
+#define TABLE_HAS_SIDES 1 /* whether msw_signed_distance decides sides */
+#define TABLE_SURFACE_ERROR 0.0f /* most distance of the mesh from the stored surface */
+#define TABLE_BOX_LOW {0.0f, 0.0f, 0.0f} /* of a box that contains the mesh */
+#define TABLE_BOX_HIGH {600.0f, 200.0f, 20.0f} /* of a box that contains the mesh */
+
+/* The blob; it begins at a multiple of four. */
+extern const uint8_t table_bytes[TABLE_BYTES];
+
+/* Does not compile if a question about a point or a segment could run out of entries.
+ * Questions about models need MSW_OVERLAP_ENTRIES and MSW_DISTANCE_ENTRIES. */
+#ifdef __cplusplus
+#define TABLE_CHECK_SCRATCH(array) \
+    static_assert(sizeof(array) / sizeof((array)[0]) >= TABLE_SCRATCH_ENTRIES, \
+        "too few scratch entries for table")
+#else
+#define TABLE_CHECK_SCRATCH(array) \
+    _Static_assert(sizeof(array) / sizeof((array)[0]) >= TABLE_SCRATCH_ENTRIES, \
+        "too few scratch entries for table")
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

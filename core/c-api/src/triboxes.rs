@@ -1,0 +1,89 @@
+//! Triboxes.
+
+use meshsweep_core::{NodePair, ScratchEntry, Triboxes};
+
+use crate::answer::{ApartC, CandidatesC, NodePairC};
+use crate::error::Error;
+use crate::memory::{In, Out, Storage, View};
+use crate::question::{BudgetC, PoseC};
+use crate::tree::ask;
+
+/// Words of `msw_triboxes`.
+pub const TRIBOXES_WORDS: usize = if cfg!(target_pointer_width = "64") { 16 } else { 20 };
+
+/// `msw_triboxes`.
+pub type TriboxesStorage = Storage<Triboxes<'static>, TRIBOXES_WORDS>;
+
+impl View for Triboxes<'static> {
+    const TAG: usize = 0x6d73_7707;
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_open_triboxes(
+    triboxes: Out<TriboxesStorage>,
+    bytes: In<u8>,
+    count: usize,
+) -> i32 {
+    triboxes.open(|| Ok(Triboxes::open(bytes.slice(count)?)?))
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_triboxes_scratch_entries(
+    triboxes: In<TriboxesStorage>,
+    other: In<TriboxesStorage>,
+) -> u32 {
+    let views = triboxes.view().and_then(|one| other.view().map(|other| (one, other)));
+    views.map_or(0, |(one, other)| one.separation_entries(other) as u32)
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_triboxes_apart(
+    triboxes: In<TriboxesStorage>,
+    other: In<TriboxesStorage>,
+    pose: In<PoseC>,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<ApartC>,
+) -> i32 {
+    answer.answer(|| {
+        let (triboxes, other) = (triboxes.view()?, other.view()?);
+        let pose = pose.get_or(PoseC::IDENTITY)?.pose();
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(triboxes.separation(other, pose, budget, scratch)?.into())
+        })
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_triboxes_candidates(
+    triboxes: In<TriboxesStorage>,
+    other: In<TriboxesStorage>,
+    pose: In<PoseC>,
+    mut pairs: Out<NodePairC>,
+    pair_count: usize,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<CandidatesC>,
+) -> i32 {
+    answer.answer(|| {
+        let (triboxes, other) = (triboxes.view()?, other.view()?);
+        let pose = pose.get_or(PoseC::IDENTITY)?.pose();
+        // The search keeps its pairs where the answers will be.
+        let mut held = pairs.held::<NodePair>();
+        let found = ask(budget, scratch, scratch_count, |budget, scratch| {
+            let held = held.slice(pair_count)?;
+            Ok(triboxes.candidates(other, pose, held, budget, scratch)?)
+        })?;
+        for index in 0..found.stored {
+            let pair = held.slice(pair_count)?.get(index).copied();
+            pairs.set(pair_count, index, pair.ok_or(Error::Internal)?.into())?;
+        }
+        Ok(found.into())
+    })
+}

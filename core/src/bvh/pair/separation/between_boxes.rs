@@ -1,0 +1,62 @@
+//! The direction between the boxes of two models.
+
+use super::direction::Direction;
+use super::grid_pose::GridPose;
+use crate::bvh::tree::format::Bvh;
+use crate::geom::{Rows, columns, turned};
+use crate::num::dot;
+use glam::Vec3;
+
+/// How two boxes lie along the axes of one of them.
+struct Apart {
+    /// The gaps, with the signs of the way. Zero if the boxes meet along all axes.
+    gap: Vec3,
+    gap_sq: f32,
+    /// Along the axis of greatest gap, or of least depth: 1 or −1.
+    axis: Vec3,
+    /// The gap along this axis, or less than 0.
+    along: f32,
+}
+
+impl Apart {
+    fn new(way: Vec3, half: Vec3, rows: &Rows, other_half: Vec3) -> Apart {
+        let gaps = (way.abs() - half) - turned(&rows.map(Vec3::abs), other_half);
+        let signs = Vec3::ONE.copysign(way);
+        let gap = gaps.max(Vec3::ZERO) * signs;
+        let [x, y, z] = gaps.to_array();
+        let (axis, along) = if x >= y && x >= z {
+            (Vec3::X, x)
+        } else if y >= z {
+            (Vec3::Y, y)
+        } else {
+            (Vec3::Z, z)
+        };
+        Apart { gap, gap_sq: dot(gap, gap), axis: axis * signs, along }
+    }
+}
+
+/// The direction of the gap of the models' boxes, in the frame in which it is longer. If they meet,
+/// the axis along which they do least.
+#[inline(never)]
+pub(crate) fn between_boxes(pose: &GridPose<'_>) -> Option<Direction> {
+    let boxes = |tree: &Bvh<'_>, origin: Vec3| {
+        let (low, high) = tree.grid_bounds();
+        (0.5 * low + 0.5 * high - origin, 0.5 * high - 0.5 * low)
+    };
+    let ([a, b], [origin_a, origin_b]) = (pose.trees, pose.origins);
+    let ((middle_a, half_a), (middle_b, half_b)) = (boxes(a, origin_a), boxes(b, origin_b));
+    let way = pose.moved(middle_b) - middle_a;
+    let first = Apart::new(way, half_a, &pose.rows, half_b);
+    let turned_back = pose.rows.map(|row| row * (1.0 / pose.ratio));
+    let axes = columns(&turned_back);
+    let second = Apart::new(turned(&axes, way), half_b * pose.ratio, &axes, half_a);
+    let back = |vector: Vec3| turned(&turned_back, vector);
+    let found = if first.gap_sq > 0.0 || second.gap_sq > 0.0 {
+        if second.gap_sq > first.gap_sq { back(second.gap) } else { first.gap }
+    } else if second.along > first.along {
+        back(second.axis)
+    } else {
+        first.axis
+    };
+    Direction::of(found).or_else(|| Direction::of(first.axis))
+}

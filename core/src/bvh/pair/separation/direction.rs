@@ -1,0 +1,53 @@
+//! The direction along which pairs are apart.
+
+use crate::num::tolerance::U32;
+use crate::num::{dot, sqrt_approx};
+use glam::Vec3;
+
+/// A direction in the first grid, towards the second model. Any direction serves, so its own
+/// rounding does not matter.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Direction {
+    /// The greatest component is from 1 to 2.
+    pub(crate) way: Vec3,
+    /// An upper bound of its length.
+    pub(crate) length: f32,
+}
+
+impl Direction {
+    /// `None` of a vector that is zero or not finite, or nearly so.
+    #[inline(always)]
+    pub(crate) fn of(vector: Vec3) -> Option<Direction> {
+        let way = vector * power_for(vector)?;
+        Some(Direction { way, length: sqrt_approx(dot(way, way)) * (1.0 + 8.0 * U32) })
+    }
+}
+
+/// The power of two that brings the greatest component to 1 or up to 2. It is within 2^±88.
+#[inline(always)]
+fn power_for(vector: Vec3) -> Option<f32> {
+    // The order of these integers is that of the sizes.
+    let size = |x: f32| x.to_bits() & !(1 << 31);
+    let [x, y, z] = vector.to_array().map(size);
+    let exponent = x.max(y).max(z) >> 23;
+    (40..214).contains(&exponent).then(|| f32::from_bits((254 - exponent) << 23))
+}
+
+/// A direction in integers below 2^30, for vertices of 16 bits: heights are exact but for that.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WholeDirection {
+    pub(crate) way: [i32; 3],
+    /// Of a height.
+    pub(crate) unit: f32,
+}
+
+impl WholeDirection {
+    /// The components are cut. `None` as of [`Direction::of`].
+    #[inline(always)]
+    pub(crate) fn of(way: Vec3) -> Option<WholeDirection> {
+        const BITS: f32 = (1u32 << 29) as f32;
+        let power = power_for(way)?;
+        let [x, y, z] = (way * (power * BITS)).to_array();
+        Some(WholeDirection { way: [x as i32, y as i32, z as i32], unit: 1.0 / (power * BITS) })
+    }
+}

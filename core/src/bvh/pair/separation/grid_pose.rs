@@ -1,0 +1,90 @@
+//! Two models in the grid of the first one, in f32, and what rounding does to it.
+
+use crate::bvh::tree::extended::unit_exponent;
+use crate::bvh::tree::format::Bvh;
+use crate::geom::{Rows, turned};
+use crate::num::tolerance::{SEPARATION_BOX, SEPARATION_FARTHEST, SEPARATION_VERTEX, U32};
+use crate::num::{dot, sqrt_approx};
+use crate::query::{longest, skew};
+use glam::Vec3;
+
+/// The second of two models in the grid of the first: grid units, from the grid's origin.
+pub(crate) struct GridPose<'a> {
+    pub(crate) trees: [&'a Bvh<'a>; 2],
+    /// The grids' origins, each in its own units.
+    pub(crate) origins: [Vec3; 2],
+    /// A place `q` of the second model, its grid units from its origin, is at `rows·q + shift`.
+    pub(crate) rows: Rows,
+    pub(crate) shift: Vec3,
+    /// Units of the first grid in one of the second: a power of two.
+    pub(crate) ratio: f32,
+    /// A gap of triangles, or the way between two of their points, is off by less than this from
+    /// that of the input.
+    pub(crate) error: f32,
+    /// How much more a gap of two boxes may be off.
+    pub(crate) box_error: f32,
+}
+
+/// Where the second model is: from its frame to the first one's, input units.
+#[derive(Clone, Copy)]
+pub(crate) struct FramePose {
+    pub(crate) rows: Rows,
+    pub(crate) shift: Vec3,
+    /// What the pose itself does to a distance.
+    pub(crate) error: f32,
+}
+
+impl<'a> GridPose<'a> {
+    /// `None` if f32 does not serve: vertices are f32, or a length is beyond 2^29 units of the
+    /// first grid or no number, or one unit is more than 2^40 times the other. Entries of the
+    /// matrix are at most 2.
+    #[inline(always)]
+    pub(crate) fn of([a, b]: [&'a Bvh<'a>; 2], pose: &FramePose) -> Option<GridPose<'a>> {
+        let finer = unit_exponent(b) - unit_exponent(a);
+        if a.header().is_f32() || b.header().is_f32() || finer.abs() > UNITS_APART {
+            return None;
+        }
+        let (units, ratio) = (a.units(), power(finer));
+        let origins = [a, b].map(|tree| {
+            let [x, y, z] = tree.header().grid_origin.map(|x| x as f32);
+            Vec3::new(x, y, z)
+        });
+        let extent = |tree: &Bvh<'_>, origin: Vec3| (tree.grid_bounds().1 - origin) + 1.0;
+        let [origin_a, origin_b] = origins;
+        let rows = pose.rows.map(|row| row * ratio);
+        let place = units.inward_point(pose.shift.to_array());
+        let shift = (turned(&rows, origin_b) + place) - origin_a;
+        // No term of a place is longer along an axis, nor a sum of some.
+        let size = turned(&rows.map(Vec3::abs), origin_b.abs() + extent(b, origin_b))
+            + (place.abs() + origin_a.abs())
+            + extent(a, origin_a);
+        let far = sqrt_approx(dot(size, size)) * (1.0 + 8.0 * U32);
+        let surfaces =
+            a.units().surface_error + b.units().surface_error * (ratio * longest(skew(&pose.rows)));
+        let up = 1.0 + 16.0 * U32;
+        let error = ((surfaces + units.inward(pose.error)) + far * (SEPARATION_VERTEX * U32)) * up;
+        (far <= SEPARATION_FARTHEST).then_some(GridPose {
+            trees: [a, b],
+            origins,
+            rows,
+            shift,
+            ratio,
+            error,
+            box_error: far * ((SEPARATION_BOX - SEPARATION_VERTEX) * U32) * up,
+        })
+    }
+
+    /// A place of the second model in the first grid.
+    #[inline(always)]
+    pub(crate) fn moved(&self, place: Vec3) -> Vec3 {
+        turned(&self.rows, place) + self.shift
+    }
+}
+
+/// Largest ratio of the models' units, as a power of two: with a greater one f64 refuses the pair.
+const UNITS_APART: i32 = 40;
+
+/// `2^exponent`, for exponents within ±126.
+fn power(exponent: i32) -> f32 {
+    f32::from_bits((127 + exponent).cast_unsigned() << 23)
+}

@@ -1,0 +1,158 @@
+//! The hulls of two leaves in the first grid, and their triangles.
+
+use super::grid_pose::GridPose;
+use crate::bvh::pair::gaps::leaf_gaps::{keys, skip_along};
+use crate::bvh::pair::gaps::pair_keys::{children_of, key_limit};
+use crate::bvh::pair::leaf_pair::{Corners, SLOTS};
+use crate::bvh::tree::format::{LeafShape, RING};
+use crate::bvh::tree::triangle_at::TriangleAt;
+use crate::geom::{GapLimits, HullGap, hull_gap};
+use crate::num::{each, float};
+use crate::query::Work;
+use glam::Vec3;
+
+/// The vertices of a leaf in the first grid: both centres, alike if there is one fan, then the
+/// ring.
+#[derive(Clone, Copy)]
+pub(crate) struct LeafHull {
+    of: TriangleAt,
+    vertices: [Vec3; SLOTS],
+    used: usize,
+    shape: LeafShape,
+}
+
+impl LeafHull {
+    pub(crate) const NONE: LeafHull = LeafHull {
+        of: TriangleAt::NONE,
+        vertices: [Vec3::ZERO; SLOTS],
+        used: 0,
+        shape: LeafShape(0),
+    };
+
+    /// Those of a leaf of model 0 or 1, unless they are there.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, pose: &GridPose<'_>, model: usize, of: TriangleAt) -> Option<()> {
+        if self.of == of {
+            return Some(());
+        }
+        let leaf = of.leaf(pose.trees[model & 1])?;
+        let ring = leaf.grid_ring()?;
+        let place = |[x, y, z]: [i32; 3]| {
+            let vertex = Vec3::new(float(x), float(y), float(z));
+            if model == 0 { vertex } else { pose.moved(vertex) }
+        };
+        let [first, second] = ring.centres;
+        let [v, w, rest @ ..] = &mut self.vertices;
+        *v = place(first);
+        *w = if leaf.shape().centres() == 2 { place(second) } else { *v };
+        let whole = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
+        let stored = ring.x.iter().zip(ring.y).zip(ring.z);
+        for (vertex, ((x, y), z)) in rest.iter_mut().zip(stored) {
+            *vertex = place([whole(x), whole(y), whole(z)]);
+        }
+        self.shape = leaf.shape();
+        (self.of, self.used) = (of, (RING + self.shape.triangles() + 1).min(SLOTS));
+        Some(())
+    }
+
+    #[inline(always)]
+    fn all(&self) -> &[Vec3] {
+        self.vertices.get(..self.used).unwrap_or(&[])
+    }
+
+    #[inline(always)]
+    fn corners(&self) -> Corners {
+        Corners::of(&self.vertices, self.shape)
+    }
+
+    #[inline(always)]
+    fn triangle(&self, lane: usize) -> [Vec3; 3] {
+        let slots = crate::bvh::tree::format::slots(lane, self.shape.turn());
+        each(slots, |slot| self.vertices.get(slot).copied().unwrap_or(Vec3::ZERO))
+    }
+
+    /// A triangle with the vertex in a slot.
+    #[inline(always)]
+    fn triangle_with(&self, slot: usize) -> TriangleAt {
+        let last = self.shape.triangles().wrapping_sub(1);
+        let lane = match slot {
+            0 => 0,
+            1 => self.shape.turn(),
+            _ => slot.wrapping_sub(RING),
+        };
+        // One fan has two equal centres.
+        self.of.with_lane(if slot == 1 && lane > last { 0 } else { lane.min(last) })
+    }
+}
+
+/// What two leaves are asked.
+pub(crate) struct LeafLimits {
+    pub(crate) gap: GapLimits,
+    /// A triangle whose squared gap is above this does not matter.
+    pub(crate) clear_sq: f32,
+}
+
+/// What two leaves are.
+pub(crate) struct LeafVisit {
+    /// These triangles are near.
+    pub(crate) near: Option<[TriangleAt; 2]>,
+    /// A direction along which the leaves are apart.
+    pub(crate) way: Option<Vec3>,
+    /// The least squared gap of triangles that are neither near nor far.
+    pub(crate) between_sq: f32,
+}
+
+/// Whether triangles of two leaves are near; all others are far, or their gap is told.
+#[inline(never)]
+pub(crate) fn visit(
+    [a, b]: [&LeafHull; 2],
+    start: Vec3,
+    limits: &LeafLimits,
+    work: &mut Work,
+) -> Option<LeafVisit> {
+    let mut limit = limits.gap;
+    let hull = hull_gap(a.all(), b.all(), start, limit);
+    let way = (hull.gap_sq > 0.0).then_some(hull.way);
+    let mut visit = LeafVisit { near: None, way, between_sq: f32::INFINITY };
+    if hull.gap_sq > limit.far_sq {
+        return Some(visit);
+    }
+    if hull.vertex_sq <= limit.near_sq {
+        let [p, q] = hull.vertices;
+        visit.near = Some([a.triangle_with(p), b.triangle_with(q)]);
+        return Some(visit);
+    }
+    let corners = [a.corners(), b.corners()];
+    let [first, second] = &corners;
+    let mut keys = keys(first, second, limit.far_sq)?;
+    if let Some(way) = way {
+        skip_along(&mut keys, way.to_array(), limit.far_sq, first, second);
+    }
+    let mut way = hull.way;
+    loop {
+        let key = keys.least();
+        if key > key_limit(limit.far_sq) {
+            return Some(visit);
+        }
+        keys.drop(key);
+        let [i, j] = children_of(key).map(|lane| lane as usize);
+        work.triangles = work.triangles.saturating_add(1);
+        let HullGap { gap_sq, hull_sq, way: found, .. } =
+            hull_gap(&a.triangle(i), &b.triangle(j), way, limit);
+        way = found;
+        if hull_sq <= limit.near_sq {
+            visit.near = Some([a.of.with_lane(i), b.of.with_lane(j)]);
+            return Some(visit);
+        }
+        if gap_sq > limit.far_sq {
+            continue;
+        }
+        visit.between_sq = crate::num::lesser(visit.between_sq, gap_sq);
+        if gap_sq > limits.clear_sq {
+            // Clear, but no farther: nothing beyond this pair matters any more.
+            limit.far_sq = gap_sq;
+        } else if limit.near_sq < 0.0 {
+            return Some(visit);
+        }
+    }
+}

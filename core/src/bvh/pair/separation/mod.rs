@@ -1,0 +1,24 @@
+//! Whether two models are within a distance, in f32: what f32 cannot tell is left to `gaps/`.
+//!
+//! Everything that is left out lies beyond a gap along some direction. One direction is kept from
+//! pair to pair, because where one pair of boxes is apart the next one most often is too. At first
+//! it is that of the gap of the models' boxes, later that of the hulls of two leaves. Two points of
+//! two triangles prove that models are near. Derivation: `core/docs/rounding.md` §26.
+//!
+//! | file | owns |
+//! | --- | --- |
+//! | `grid_pose` | two models in the grid of the first one, and what rounding does to it |
+//! | `direction` | the direction that is kept, also in integers |
+//! | `between_boxes` | the first direction |
+//! | `node_boxes` | the boxes of a node's children: along the direction, and along the axes |
+//! | `pending` | pairs that wait, in the caller's scratch memory |
+//! | `leaf_hulls` | the hulls of two leaves, and their triangles |
+//! | `search` | the descent of both trees |
+
+mod between_boxes;
+mod direction;
+pub(crate) mod grid_pose;
+mod leaf_hulls;
+mod node_boxes;
+mod pending;
+pub(crate) mod search;

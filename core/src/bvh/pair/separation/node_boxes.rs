@@ -1,0 +1,283 @@
+//! The boxes of two nodes' children: along the direction, and along the axes of the first grid.
+
+use super::direction::{Direction, WholeDirection};
+use super::grid_pose::GridPose;
+use super::pending::Pending;
+use crate::bvh::tree::format::layout::boxes;
+use crate::bvh::tree::format::{Bvh, FanLeaf};
+use crate::bvh::tree::node::WIDE;
+use crate::geom::fan::WIDTH;
+use crate::geom::{Rows, columns, turned};
+use crate::num::{Real, difference, dot, each, float, greater, lesser};
+use crate::query::Work;
+use glam::Vec3;
+
+/// Children of a node that are looked at.
+#[derive(Clone, Copy)]
+pub(crate) struct Children {
+    pub(crate) node: u32,
+    /// A bit for each.
+    wanted: u32,
+    /// Those from this number on are leaves.
+    inner: u32,
+    /// It is a leaf alone.
+    is_leaf: bool,
+}
+
+impl Children {
+    /// All of a node.
+    #[inline(always)]
+    pub(crate) fn of(tree: &Bvh<'_>, node: u32) -> Option<Children> {
+        let links = tree.links(node)?;
+        let wanted = u32::MAX >> (32 - links.count.clamp(1, WIDTH as u32));
+        Some(Children { node, wanted, inner: links.inner, is_leaf: false })
+    }
+
+    /// Child number `index` of a node: the child's children, or itself if it is a leaf.
+    #[inline(always)]
+    pub(crate) fn below(tree: &Bvh<'_>, node: u32, index: u32) -> Option<Children> {
+        let links = tree.links(node)?;
+        if index < links.inner {
+            return Children::of(tree, links.first_node.wrapping_add(index));
+        }
+        Some(Children { node, wanted: 1 << (index & 7), inner: 0, is_leaf: true })
+    }
+
+    /// The leaf, if it is one alone.
+    #[inline(always)]
+    pub(crate) fn leaf(&self) -> Option<u32> {
+        self.is_leaf.then(|| self.wanted.trailing_zeros())
+    }
+
+    #[inline(always)]
+    fn leaves(&self) -> u32 {
+        self.wanted & u32::MAX << (self.inner & 15)
+    }
+}
+
+/// A node's boxes, grid units from the grid's origin.
+struct NodeBoxes<'a> {
+    /// Low and high planes of each axis.
+    rows: &'a [[u8; WIDTH]; 6],
+    /// Where byte 0 lies.
+    start: Vec3,
+    step: Vec3,
+}
+
+impl<'a> NodeBoxes<'a> {
+    #[inline(always)]
+    fn of(tree: &Bvh<'a>, node: u32, origin: Vec3) -> Option<NodeBoxes<'a>> {
+        let record = tree.boxes(node)?;
+        let rows = record.as_chunks::<WIDTH>().0.first_chunk::<6>()?;
+        let words = record.as_chunks::<4>().0.get(boxes::ORIGIN / 4..)?.first_chunk::<6>()?;
+        let [x, y, z, a, b, c] = words.map(f32::from_le_bytes);
+        let (middle, step) = (Vec3::new(x, y, z), Vec3::new(a, b, c));
+        Some(NodeBoxes { rows, start: difference(middle, origin) - 128.0 * step, step })
+    }
+
+    /// How far the wanted boxes reach along a direction, in units of its length, plus `base`.
+    #[inline(always)]
+    fn tops(&self, way: Vec3, base: f32, wanted: u32) -> [f32; WIDTH] {
+        let [lx, hx, ly, hy, lz, hz] = self.rows;
+        let by = way * self.step;
+        let base = Real(dot(way, self.start)) + Real(base);
+        let (x, y, z) = (Real(by.x), Real(by.y), Real(by.z));
+        let rx = if by.x > 0.0 { hx } else { lx };
+        let ry = if by.y > 0.0 { hy } else { ly };
+        let rz = if by.z > 0.0 { hz } else { lz };
+        let mut tops = [0.0; WIDTH];
+        for i in 0..WIDTH {
+            if WIDE || wanted >> i & 1 != 0 {
+                let [a, b, c] = [rx[i], ry[i], rz[i]].map(|byte| Real(float(i32::from(byte))));
+                tops[i] = ((x * a + y * b + z * c) + base).0;
+            }
+        }
+        tops
+    }
+
+    /// Sum and difference of the planes of child `i` along each axis: twice the middle and the
+    /// length, in steps from byte 0.
+    #[inline(always)]
+    fn doubled(&self, i: usize) -> [Vec3; 2] {
+        let [lx, hx, ly, hy, lz, hz] =
+            self.rows.map(|row| i32::from(row.get(i).copied().unwrap_or(0)));
+        [
+            Vec3::new(float(hx + lx), float(hy + ly), float(hz + lz)),
+            Vec3::new(float(hx - lx), float(hy - ly), float(hz - lz)),
+        ]
+    }
+}
+
+/// A box along the axes of the first grid.
+#[derive(Clone, Copy)]
+struct AxisBox {
+    middle: Vec3,
+    half: Vec3,
+}
+
+impl AxisBox {
+    const NONE: AxisBox = AxisBox { middle: Vec3::ZERO, half: Vec3::ZERO };
+
+    /// A lower bound of the squared distance. Of boxes that meet the least overlap, below 0.
+    #[inline(always)]
+    fn key(&self, other: &AxisBox) -> f32 {
+        let gap = difference(self.middle, other.middle).abs() - (self.half + other.half);
+        let [x, y, z] = gap.to_array().map(Real);
+        let zero = Real::ZERO;
+        let (p, q, r) = (greater(zero, x), greater(zero, y), greater(zero, z));
+        let square = p * p + q * q + r * r;
+        if square > zero { square.0 } else { greater(x, greater(y, z)).0 }
+    }
+}
+
+/// What a pair of children is left out for.
+pub(crate) struct Reach {
+    /// The distance.
+    pub(crate) length: f32,
+    /// Its square.
+    pub(crate) square: f32,
+}
+
+/// Adds the pairs of children that may be within reach to those that wait. `None` if a tree is
+/// unchecked or memory ends.
+#[inline(never)]
+pub(crate) fn open(
+    pose: &GridPose<'_>,
+    children: &[Children; 2],
+    direction: &Direction,
+    reach: &Reach,
+    pending: &mut Pending<'_>,
+    work: &mut Work,
+) -> Option<()> {
+    let ([tree_a, tree_b], [origin_a, origin_b]) = (pose.trees, pose.origins);
+    let [a, b] = children;
+    let boxes_a = NodeBoxes::of(tree_a, a.node, origin_a)?;
+    let boxes_b = NodeBoxes::of(tree_b, b.node, origin_b)?;
+    // Towards each other: the second model's in its own frame.
+    let way = direction.way;
+    let back = -turned(&columns(&pose.rows), way);
+    let between = Real(dot(pose.shift, way));
+    // What is left of the reach beyond the boxes of the second model.
+    let limit = (Real(reach.length) * Real(direction.length)).0;
+    let limit = (between - Real(limit)).0;
+    let mut tops_a = boxes_a.tops(way, 0.0, a.wanted);
+    let mut tops_b = boxes_b.tops(back, 0.0, b.wanted);
+    let left = |top_b: f32| Real(limit) - Real(top_b);
+    work.bounds =
+        work.bounds.saturating_add(a.wanted.count_ones().saturating_mul(b.wanted.count_ones()));
+    let highest = bits(a.wanted).fold(f32::MIN, |most, i| greater(Real(most), Real(tops_a[i])).0);
+    // For each child of the second node those of the first. NaN is within reach.
+    let mut pairs = [0u8; WIDTH];
+    let mut rows = 0;
+    for j in bits(b.wanted) {
+        let left = left(tops_b[j]);
+        if left > Real(highest) {
+            continue;
+        }
+        for i in bits(a.wanted) {
+            pairs[j] |= u8::from(!(left > Real(tops_a[i]))) << i;
+        }
+        rows |= pairs[j];
+    }
+    if rows == 0 {
+        return Some(());
+    }
+    let mut waiting = pending.open([a.node, b.node])?;
+    let first = along_axes(&boxes_a, u32::from(rows));
+    let second = MovedBoxes::new(pose, &boxes_b);
+    let (mut leaves_a, mut leaves_b) = (0, 0);
+    for j in bits(b.wanted) {
+        if pairs[j] == 0 {
+            continue;
+        }
+        let other = second.along_axes(j);
+        for i in bits(u32::from(pairs[j])) {
+            let key = first[i].key(&other);
+            if !(Real(key) > Real(reach.square)) {
+                waiting.add(key, (i * WIDTH + j) as u32)?;
+                leaves_a |= 1 << i;
+                leaves_b |= 1 << j;
+            }
+        }
+    }
+    (leaves_a, leaves_b) = (leaves_a & a.leaves(), leaves_b & b.leaves());
+    if leaves_a | leaves_b != 0 {
+        // Of leaves their vertices.
+        if let Some(whole) = WholeDirection::of(way) {
+            for i in bits(leaves_a) {
+                tops_a[i] = lesser(tops_a[i], leaf_top(&tree_a.leaf(a.node, i as u32)?, &whole)?);
+            }
+        }
+        if let Some(whole) = WholeDirection::of(back) {
+            for j in bits(leaves_b) {
+                tops_b[j] = lesser(tops_b[j], leaf_top(&tree_b.leaf(b.node, j as u32)?, &whole)?);
+            }
+        }
+        waiting.retain(|[i, j]| !(left(tops_b[j]) > Real(tops_a[i])));
+    }
+    waiting.close()
+}
+
+/// The numbers of the lowest eight bits that are ones.
+#[inline(always)]
+fn bits(mut left: u32) -> impl Iterator<Item = usize> {
+    left &= 0xFF;
+    core::iter::from_fn(move || {
+        if left == 0 {
+            return None;
+        }
+        let bit = left.trailing_zeros() as usize & (WIDTH - 1);
+        left &= left - 1;
+        Some(bit)
+    })
+}
+
+#[inline(always)]
+fn along_axes(boxes: &NodeBoxes<'_>, wanted: u32) -> [AxisBox; WIDTH] {
+    let mut found = [AxisBox::NONE; WIDTH];
+    let step = 0.5 * boxes.step;
+    for i in bits(wanted) {
+        let [sum, length] = boxes.doubled(i);
+        found[i] = AxisBox { middle: boxes.start + step * sum, half: step * length };
+    }
+    found
+}
+
+/// Boxes of the second model, turned into the first grid.
+struct MovedBoxes<'b, 'a> {
+    boxes: &'b NodeBoxes<'a>,
+    /// Half a step, for sums of planes and for lengths.
+    rows: Rows,
+    sizes: Rows,
+    start: Vec3,
+}
+
+impl<'b, 'a> MovedBoxes<'b, 'a> {
+    #[inline(always)]
+    fn new(pose: &GridPose<'_>, boxes: &'b NodeBoxes<'a>) -> MovedBoxes<'b, 'a> {
+        let step = 0.5 * boxes.step;
+        let rows = each(pose.rows, |row| row * step);
+        MovedBoxes { boxes, rows, sizes: each(rows, Vec3::abs), start: pose.moved(boxes.start) }
+    }
+
+    #[inline(always)]
+    fn along_axes(&self, j: usize) -> AxisBox {
+        let [sum, length] = self.boxes.doubled(j);
+        AxisBox { middle: turned(&self.rows, sum) + self.start, half: turned(&self.sizes, length) }
+    }
+}
+
+/// How far the vertices of a leaf reach along a direction.
+#[inline(never)]
+fn leaf_top(leaf: &FanLeaf<'_>, direction: &WholeDirection) -> Option<f32> {
+    let ring = leaf.grid_ring()?;
+    let [x, y, z] = direction.way.map(i64::from);
+    let height = |[p, q, r]: [i32; 3]| i64::from(p) * x + i64::from(q) * y + i64::from(r) * z;
+    let [first, second] = ring.centres;
+    let mut top = greater(height(first), height(second));
+    for ((x, y), z) in ring.x.iter().zip(ring.y).zip(ring.z) {
+        let whole = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
+        top = greater(top, height([whole(x), whole(y), whole(z)]));
+    }
+    Some(top as f32 * direction.unit)
+}

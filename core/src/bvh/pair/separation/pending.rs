@@ -1,0 +1,112 @@
+//! Pairs of children that wait, in the caller's scratch memory.
+//!
+//! ```text
+//! nodes a b │ key pair │ key pair │ nodes a b │ key pair
+//! ```
+//! The children of two nodes wait together behind an entry that names the nodes. The next pair is
+//! the last one.
+
+use crate::num::Real;
+use crate::query::ScratchEntry;
+
+/// Pairs that wait.
+pub(crate) struct Pending<'s> {
+    entries: &'s mut [ScratchEntry],
+    used: usize,
+}
+
+/// Children of two nodes that are opened: eight times the child of the first and the child of the
+/// second.
+const PAIR_BITS: u32 = 6;
+
+impl<'s> Pending<'s> {
+    /// Places are kept in a word, with the pair. A longer memory is not used to its end.
+    pub(crate) fn new(entries: &'s mut [ScratchEntry]) -> Pending<'s> {
+        let most = entries.len().min(1 << 24);
+        Pending { entries: entries.get_mut(..most).unwrap_or_default(), used: 0 }
+    }
+
+    /// Begins the children of two nodes. `None` if memory ends.
+    #[inline(always)]
+    pub(crate) fn open(&mut self, [a, b]: [u32; 2]) -> Option<PendingChildren<'_, 's>> {
+        let at = self.used;
+        // A node's number has 24 bits.
+        *self.entries.get_mut(at)? = ScratchEntry::of_words([a & 0xFF_FFFF, b]);
+        self.used += 1;
+        Some(PendingChildren { pending: self, at })
+    }
+
+    /// The nodes of the last pair and its children. Pairs with keys above the limit are dropped.
+    #[inline(always)]
+    pub(crate) fn next(&mut self, limit: f32) -> Option<([u32; 2], [u32; 2])> {
+        loop {
+            let last = self.used.checked_sub(1)?;
+            let entry = *self.entries.get(last)?;
+            let at = (entry.node() >> PAIR_BITS) as usize;
+            // With the last of its pairs the entry of the nodes goes.
+            self.used = if at + 1 >= last { at } else { last };
+            if Real(entry.key()) <= Real(limit) {
+                let [a, b] = self.entries.get(at)?.words();
+                return Some(([a, b], children_of(&entry)));
+            }
+        }
+    }
+}
+
+/// Children of two nodes that are added to those that wait.
+pub(crate) struct PendingChildren<'p, 's> {
+    pending: &'p mut Pending<'s>,
+    /// Place of the nodes' entry.
+    at: usize,
+}
+
+impl PendingChildren<'_, '_> {
+    /// `None` if memory ends.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, key: f32, pair: u32) -> Option<()> {
+        let Pending { entries, used } = &mut *self.pending;
+        let word = (self.at as u32) << PAIR_BITS | pair;
+        *entries.get_mut(*used)? = ScratchEntry::new(key, word);
+        *used += 1;
+        Some(())
+    }
+
+    /// Keeps some of them.
+    #[inline(always)]
+    pub(crate) fn retain(&mut self, is_kept: impl Fn([usize; 2]) -> bool) {
+        let Pending { entries, used } = &mut *self.pending;
+        let end = *used;
+        *used = self.at + 1;
+        for from in self.at + 1..end {
+            let Some(&entry) = entries.get(from) else { continue };
+            let [i, j] = children_of(&entry);
+            if is_kept([i as usize, j as usize])
+                && let Some(slot) = entries.get_mut(*used)
+            {
+                *slot = entry;
+                *used += 1;
+            }
+        }
+    }
+
+    /// The least key comes last. If there is no pair, nothing waits.
+    #[inline(always)]
+    pub(crate) fn close(self) -> Option<()> {
+        let Pending { entries, used } = self.pending;
+        let Some((last, others)) = entries.get_mut(self.at + 1..*used)?.split_last_mut() else {
+            *used = self.at;
+            return Some(());
+        };
+        for entry in others {
+            if Real(entry.key()) < Real(last.key()) {
+                core::mem::swap(entry, last);
+            }
+        }
+        Some(())
+    }
+}
+
+#[inline(always)]
+fn children_of(entry: &ScratchEntry) -> [u32; 2] {
+    [entry.node() >> 3 & 7, entry.node() & 7]
+}
