@@ -18,13 +18,7 @@ pub type Scratch = meshsweep_core::Scratch<ENTRIES>;
 impl<'t> Subject<'t> for Curve<'t> {
     type Scratch = Scratch;
 
-    fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
-        open(bytes)
-    }
-
-    fn bounds(&self) -> Bounds {
-        bounds(self)
-    }
+    opened_here! { 't }
 
     fn memory_suffices(&self) -> bool {
         self.scratch_entries() <= ENTRIES

@@ -39,13 +39,7 @@ impl Default for Scratch {
 impl<'t> Subject<'t> for DeformableHull<'t> {
     type Scratch = Scratch;
 
-    fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
-        open(bytes)
-    }
-
-    fn bounds(&self) -> Bounds {
-        bounds(self)
-    }
+    opened_here! { 't }
 
     fn memory_suffices(&self) -> bool {
         self.rest().scratch_entries() <= ENTRIES && self.vertex_records() <= RECORDS

@@ -57,13 +57,7 @@ impl Default for Scratch<'_> {
 impl<'t> Subject<'t> for Model<'t> {
     type Scratch = Scratch<'t>;
 
-    fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
-        open(bytes)
-    }
-
-    fn bounds(&self) -> Bounds {
-        bounds(self)
-    }
+    opened_here! { 't }
 
     fn memory_suffices(&self) -> bool {
         self.hull.scratch_entries() <= QUEUE

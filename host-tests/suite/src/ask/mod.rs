@@ -40,6 +40,19 @@ macro_rules! asks {
     };
 }
 
+/// A subject whose module has functions that open the blob and tell the box.
+macro_rules! opened_here {
+    ($bytes:lifetime) => {
+        fn open(bytes: &$bytes [u8]) -> Result<Self, Refused> {
+            open(bytes)
+        }
+
+        fn bounds(&self) -> Bounds {
+            bounds(self)
+        }
+    };
+}
+
 pub mod apart;
 pub mod curve;
 pub mod deform;

@@ -25,13 +25,7 @@ pub struct Hulls<'t> {
 impl<'t> Subject<'t> for Hulls<'t> {
     type Scratch = Scratch;
 
-    fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
-        open(bytes)
-    }
-
-    fn bounds(&self) -> Bounds {
-        bounds(self)
-    }
+    opened_here! { 't }
 
     fn memory_suffices(&self) -> bool {
         self.finest.scratch_entries() <= STACK

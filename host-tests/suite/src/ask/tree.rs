@@ -64,13 +64,7 @@ impl<'t> Subject<'t> for Bvh<'t> {
 
     type Scratch = Scratch<'t>;
 
-    fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
-        open(bytes)
-    }
-
-    fn bounds(&self) -> Bounds {
-        bounds(self)
-    }
+    opened_here! { 't }
 
     fn memory_suffices(&self) -> bool {
         self.scratch_entries() <= STACK

@@ -37,13 +37,7 @@ impl Default for Scratch {
 impl<'t> Subject<'t> for Triboxes<'t> {
     type Scratch = Scratch;
 
-    fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
-        open(bytes)
-    }
-
-    fn bounds(&self) -> Bounds {
-        bounds(self)
-    }
+    opened_here! { 't }
 
     fn memory_suffices(&self) -> bool {
         self.separation_entries(self) <= STACK && self.scratch_entries() <= STACK
