@@ -241,7 +241,7 @@ mod tests {
         let off = at.iter().zip([2.0, 2.0, 3.0]).map(|(a, b)| (a - b).abs()).sum::<f64>();
         assert!(off <= error && error < 1e-13, "{at:?}");
         let (rows, shift, [turn, moved]) = origin.rounded();
-        assert_eq!((rows[0][2], shift, moved < 1e-14), (1.0, [1.0, 2.0, 3.0], true));
+        assert_eq!((rows[0][2], shift, moved < 1e-13), (1.0, [1.0, 2.0, 3.0], true));
         assert!(turn > 0.0 && turn < 1e-7);
         assert_eq!(Placement::IDENTITY.rounded().2, [0.0; 2]);
         let (.., [turn, moved]) = Placement::of_origin([0.1, 0.0, 0.0], [0.0; 3]).rounded();

@@ -1,6 +1,6 @@
 //! Links and joints in the order of computation, fixed joints folded into the next ones.
 
-use super::urdf::{Moves, Urdf, refused};
+use super::urdf::{Moves, Urdf, UrdfJoint, refused};
 use crate::error::BuildError;
 use crate::mesh::Placement;
 use meshsweep_core::{Joint, JointAxis, JointKind, Pose, RoundedPose};
@@ -165,7 +165,7 @@ impl Mechanism {
         &mut self,
         file: &Path,
         urdf: &Urdf,
-        joint: &super::urdf::UrdfJoint,
+        joint: &UrdfJoint,
     ) -> Result<JointAxis, BuildError> {
         let (mut of, mut factor, mut offset) = (joint, 1.0, 0.0);
         for step in 0.. {

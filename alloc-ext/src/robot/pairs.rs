@@ -1,7 +1,8 @@
 //! Which pairs of links keep a distance, and why others do not.
 
+use super::link::Link;
 use super::mechanism::{Body, Mechanism, Place};
-use super::{Link, RobotOptions};
+use super::options::RobotOptions;
 use crate::random::SplitMix;
 use meshsweep_core::{Budget, Bvh, Pose, QueryError, RoundedPose, ScratchEntry, link_poses};
 use std::fmt;

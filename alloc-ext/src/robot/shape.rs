@@ -46,7 +46,7 @@ pub(super) fn mesh(
         }
         Shape::Cylinder { radius, length } => {
             let reach = radius / (0.5 * TAU / SIDES as f64).cos() * ABOUT;
-            let more = (reach - radius).next_up();
+            let more = (reach * ABOUT - radius).next_up();
             Ok((made(prism(reach, 0.5 * length)), Placement::IDENTITY, more))
         }
         Shape::Sphere { radius } => {
@@ -60,7 +60,7 @@ pub(super) fn mesh(
             let nearest = triangles.iter().map(plane).fold(f64::INFINITY, f64::min);
             let reach = radius / nearest * ABOUT;
             let positions = directions.iter().map(|d| d.map(|x| x * reach)).collect();
-            let more = (reach - radius).next_up();
+            let more = (reach * ABOUT - radius).next_up();
             Ok((made((positions, triangles)), Placement::IDENTITY, more))
         }
     }

@@ -1,6 +1,9 @@
 //! A robot as a Rust module.
 
-use super::{Link, Robot};
+use super::assembled::Robot;
+use super::link::Link;
+use super::mechanism::Place;
+use super::pairs::RobotPair;
 use crate::emit::source::{SourceNames, in_comment, rust_items, rust_name};
 use crate::number::Short;
 use meshsweep_core::{Joint, JointAxis, JointKind, RoundedPose};
@@ -96,9 +99,8 @@ impl Robot {
             format!("pub const PLACES: [&str; {places}]"),
             names,
         );
-        let limits = |place: &super::Place| {
-            format!("[{:?}, {:?}]", place.limits[0] as f32, place.limits[1] as f32)
-        };
+        let limits =
+            |place: &Place| format!("[{:?}, {:?}]", place.limits[0] as f32, place.limits[1] as f32);
         let limits = self.places.iter().map(limits).collect();
         table(
             "/// Lowest and highest place of each joint, rounded. Nothing checks them.",
@@ -118,7 +120,7 @@ impl Robot {
             format!("pub const ROUNDING: [f32; {links}]"),
             numbers(|link| link.rounding),
         );
-        let pair = |pair: &super::RobotPair| {
+        let pair = |pair: &RobotPair| {
             let [a, b] = pair.links;
             format!(
                 "// {} and {}: {}\n    KeptPair {{ models: [{a}, {b}], distance: {:?} }}",

@@ -126,6 +126,18 @@ fn every_command_s_help_has_examples_that_run() {
     for frame in ["rest.ply", "bent.ply"] {
         fs::copy(&scan, directory.join(frame)).unwrap();
     }
+    fs::create_dir(directory.join("src")).unwrap();
+    for (robot, package) in [("arm", ""), ("ur5", "package://ur_description/")] {
+        let link = |name: &str| {
+            let shape = format!("<geometry><mesh filename=\"{package}part.stl\"/></geometry>");
+            format!("<link name=\"{name}\"><collision>{shape}</collision></link>")
+        };
+        let joint = "<joint name=\"turn\" type=\"continuous\"><parent link=\"base\"/>\
+            <child link=\"tool\"/></joint>";
+        let text = format!("<robot name=\"arm\">{}{}{joint}</robot>", link("base"), link("tool"));
+        fs::write(directory.join(robot).with_extension("urdf"), text).unwrap();
+    }
+    fs::write(directory.join("arm.srdf"), "<robot name=\"arm\"/>").unwrap();
     let everything = ["--for", "closest,segment,cull,winding,hull,triboxes", "--triboxes", "8"];
     let part = blob(&directory, "torus.ply", &everything);
     let boxed = directory.join("boxed.msw");
@@ -136,7 +148,7 @@ fn every_command_s_help_has_examples_that_run() {
         .map_while(|line| line.split_whitespace().next())
         .filter(|command| *command != "help")
         .collect();
-    assert_eq!(commands.len(), 21, "{commands:?}");
+    assert_eq!(commands.len(), 22, "{commands:?}");
     for command in commands {
         let help = ok(["help", command]);
         let examples: Vec<&str> =

@@ -266,6 +266,43 @@ fn the_emitted_module_compiles_without_warnings_and_gives_the_poses_of_the_libra
 }
 
 #[test]
+fn collision_shapes_of_a_link_are_one_mesh_scaled_turned_and_shifted() {
+    let second = "</collision><collision><origin xyz=\"0 0 1\" rpy=\"0.3 0.4 0.5\"/>\
+        <geometry><box size=\"0.1 0.2 0.3\"/></geometry></collision>\n</link>";
+    let change = [("0.001 0.001 0.001", "0.001 -0.002 0.003"), ("</collision>\n</link>", second)];
+    let file = arm(&scratch("robot_shapes"), &change);
+    let robot = Robot::read(&file, &options()).unwrap();
+    let mesh = &robot.links[0].built.loaded.as_ref().unwrap().mesh;
+    let corners = |half: Point, turns: Point, shift: Point| {
+        (0..8).map(move |at| {
+            let signed = |k: usize| if at >> k & 1 == 0 { -half[k] } else { half[k] };
+            let turned = about([1.0, 0.0, 0.0], turns[0], [0, 1, 2].map(signed));
+            let turned = about([0.0, 1.0, 0.0], turns[1], turned);
+            let turned = about([0.0, 0.0, 1.0], turns[2], turned);
+            [0, 1, 2].map(|k: usize| turned[k] + shift[k])
+        })
+    };
+    let first = corners([0.05, 0.1, 0.15], [0.0, 0.0, 0.5], [0.0; 3]);
+    let all = first.chain(corners([0.05, 0.1, 0.15], [0.3, 0.4, 0.5], [0.0, 0.0, 1.0]));
+    let mut found = mesh.positions.clone();
+    for corner in all {
+        let off = |p: &[f32; 3]| (0..3).map(|k| (f64::from(p[k]) - corner[k]).abs()).sum::<f64>();
+        let at = found.iter().position(|p| off(p) < 2e-7).expect("the corner");
+        found.swap_remove(at);
+        let far = corner.iter().map(|x| x * x).sum::<f64>().sqrt();
+        assert!(far <= f64::from(robot.links[0].radius));
+    }
+    assert!(found.is_empty());
+    // Outward, though the mesh is mirrored.
+    let corner = |v: u32| mesh.positions[v as usize].map(f64::from);
+    let volume = mesh.triangles.iter().map(|triangle| {
+        let [a, b, c] = triangle.map(corner);
+        crate::support::dot(a, crate::support::cross(b, c)) / 6.0
+    });
+    assert!((volume.sum::<f64>() - 0.012).abs() < 1e-6);
+}
+
+#[test]
 fn every_pair_is_kept_or_has_a_reason() {
     let directory = scratch("robot_pairs");
     let file = arm(&directory, &[]);

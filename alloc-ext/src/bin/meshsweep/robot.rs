@@ -81,17 +81,18 @@ fn write(
     let widest = robot.links.iter().map(|link| link.name.chars().count()).max().unwrap_or(0).max(4);
     writeln!(
         out,
-        "{:widest$} {:>9} {:>8} {:>10} {:>9}  blob",
-        "link", "triangles", "bytes", "rounding", "beyond"
+        "{:widest$} {:>9} {:>8} {:>10} {:>10} {:>10}  blob",
+        "link", "triangles", "bytes", "radius", "rounding", "beyond"
     )?;
     for (link, blob) in robot.links.iter().zip(blobs) {
         let (count, bytes) = (triangles(link), link.built.bytes().len());
+        let radius = AtMost(link.radius).to_string();
         let (rounding, beyond) =
             (AtMost(link.rounding).to_string(), AtMost(link.beyond).to_string());
         let name = &link.name;
         writeln!(
             out,
-            "{name:widest$} {count:>9} {bytes:>8} {rounding:>10} {beyond:>9}  {}",
+            "{name:widest$} {count:>9} {bytes:>8} {radius:>10} {rounding:>10} {beyond:>10}  {}",
             blob.display()
         )?;
     }

@@ -305,7 +305,8 @@ mod tests {
     use crate::args;
 
     /// Commands that take a mesh, or tell what a blob holds, or ask all that it serves.
-    const OTHERS: [&str; 7] = ["build", "hausdorff", "info", "trade", "tribox", "verify", "worst"];
+    const OTHERS: [&str; 8] =
+        ["build", "hausdorff", "info", "robot", "trade", "tribox", "verify", "worst"];
 
     #[test]
     fn every_command_that_asks_a_blob_has_a_row() {
