@@ -108,10 +108,10 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
     ///
     /// Verdict, witness and poses are as for [`Scene::within`](crate::Scene::within). If several
     /// pairs are too near, the witness may be another one of them. The verdict is the one without
-    /// memory, except where a search without it would reach its limits or be undecided for
-    /// resolution. It is about the poses of now: to cover the
-    /// way to the next ones, add the longest path of a point of each of the two models to the
-    /// distance. The bits depend on all questions before, and are the same on every target.
+    /// memory, except where either search reaches its limits, or the one without memory is undecided
+    /// for resolution. It is about the poses of now: to cover the way to the next ones, add the
+    /// longest path of a point of each of the two models to the distance. The bits depend on all
+    /// questions before, and are the same on every target.
     ///
     /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. Of the
     /// budget only `steps` matters, those of all pairs together. The pair that ended the last

@@ -181,3 +181,61 @@ fn few_steps_and_little_memory_change_no_verdict_but_to_undecided() {
     }
     assert!(cut > 500 && whole > 500, "{cut} {whole}");
 }
+
+#[test]
+fn an_edge_that_a_matrix_squashes_is_not_taken_for_shorter_than_it_is() {
+    let long = (1 << 20) as f32;
+    let first = vec![[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 0.0, 1.0]];
+    let second = vec![[0.0; 3], [0.0, long, 0.0], [0.0, 0.0, long]];
+    let [a, b] = [first, second].map(|corners| Scene::both("", (corners, vec![[0, 1, 2]])));
+    // The matrix takes the long edge nearly across the direction of the gap.
+    let across = -0.85 / (1u32 << 29) as f32;
+    let rows = [[1.0, across, 0.0], [0.0; 3], [0.0; 3]];
+    let mut tally = Tally::default();
+    for part in [0.25, 0.5, 1.0, 2.0, 4.0] {
+        let rows = rows.map(|[x, y, z]| [x, part * y, z]);
+        for ahead in [0.0031, 0.01, 0.1] {
+            let pose = Pose::affine(rows, [ahead * part, 0.0, 0.0]);
+            holds([&a, &b], &[Pose::IDENTITY, pose], &mut tally);
+        }
+    }
+    assert!(tally.clear > 20 && tally.near > 20, "{tally:?}");
+}
+
+/// Triangles whose vertices are on the grid, so that nothing but the search rounds.
+fn on_the_grid(rng: &mut Rng, size: f32) -> Triangles {
+    let triangles = 1 + rng.below(12);
+    let flat = rng.below(4);
+    let vertex = |rng: &mut Rng| {
+        let mut vertex = [(); 3].map(|()| rng.range(-8000.0, 8000.0).round());
+        if let Some(x) = vertex.get_mut(flat) {
+            *x = 0.0;
+        }
+        vertex.map(|x| x * size)
+    };
+    let corners = (0..3 * triangles).map(|_| vertex(rng)).collect();
+    (corners, (0..triangles as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect())
+}
+
+#[test]
+fn no_verdict_is_wrong_of_models_of_other_sizes_and_matrices_that_squash_or_shear() {
+    let mut rng = Rng::new(344);
+    let mut tally = Tally::default();
+    for round in 0..400 {
+        let size = [1.0, 1.0, 4096.0, 1.0 / 4096.0, 1_048_576.0, 1.0 / 1_048_576.0][round % 6];
+        let [a, b] = [1.0, size].map(|size| Scene::both("", on_the_grid(&mut rng, size)));
+        let mut rows = rotation(&mut rng);
+        if round % 3 == 1 {
+            rows = rows.map(|row| row.map(|x| x * rng.range(0.0, 1.3)));
+        }
+        if round % 3 == 2 {
+            let squash = [0, 1, 2].map(|_: i32| [1.0, 1e-3, 1e-6, 1e-9, 0.0][rng.below(5)]);
+            rows = rows.map(|row| [0, 1, 2].map(|k: usize| row[k] * squash[k]));
+        }
+        let away = 8000.0 * f32::max(1.0, size) * [0.0, 0.5, 2.0, 300.0][rng.below(4)];
+        let translation = rng.direction().map(|x| x * away);
+        let second = Pose { rotation: rows, translation, is_affine: round % 3 != 0 };
+        holds([&a, &b], &[Pose::IDENTITY, second], &mut tally);
+    }
+    assert!(tally.clear > 1000 && tally.near > 1000, "{tally:?}");
+}

@@ -35,7 +35,9 @@ impl Bvh<'_> {
     /// `scratch`: [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES) are always enough. A shorter one may
     /// leave the question undecided. Of the budget only `steps` matters.
     ///
-    /// Cost: less than the distance. One pair of nodes if the boxes are farther.
+    /// Cost: one pair of nodes if the boxes are farther; else a search in f32. If the distance is
+    /// within some surface errors of the one asked about, or the f32 search needs more memory than
+    /// `scratch` has, a search in f64 follows, with the steps that are left.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Pose, Scratch};

@@ -33,7 +33,8 @@ fn power_for(vector: Vec3) -> Option<f32> {
     (40..214).contains(&exponent).then(|| f32::from_bits((254 - exponent) << 23))
 }
 
-/// A direction in integers below 2^30, for vertices of 16 bits: heights are exact but for that.
+/// A direction in integers of at most 2^30, for vertices of 16 bits. No height along it is too low,
+/// for no stored coordinate is negative.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WholeDirection {
     pub(crate) way: [i32; 3],
@@ -42,12 +43,14 @@ pub(crate) struct WholeDirection {
 }
 
 impl WholeDirection {
-    /// The components are cut. `None` as of [`Direction::of`].
+    /// The components are rounded up. To the nearest would not do: a matrix that squashes the
+    /// second model may turn a long edge across the direction. `None` as of [`Direction::of`].
     #[inline(always)]
     pub(crate) fn of(way: Vec3) -> Option<WholeDirection> {
         const BITS: f32 = (1u32 << 29) as f32;
         let power = power_for(way)?;
         let [x, y, z] = (way * (power * BITS)).to_array();
-        Some(WholeDirection { way: [x as i32, y as i32, z as i32], unit: 1.0 / (power * BITS) })
+        let way = [x as i32 + 1, y as i32 + 1, z as i32 + 1];
+        Some(WholeDirection { way, unit: 1.0 / (power * BITS) })
     }
 }

@@ -108,9 +108,9 @@ impl<'a> Bvh<'a> {
     /// something else guards them since, such as the signature of the firmware. Of bytes that were
     /// changed since, any answer of this tree may be wrong. All the same no question panics in a
     /// release build or reads outside of the bytes, and each ends. A search opens at most twice as
-    /// many nodes as the tree has, and one. A search in two trees of n and m nodes opens up to
-    /// 81·n·m pairs, which may take minutes: give that search a budget of steps. Nothing marks a
-    /// wrong answer.
+    /// many nodes as the tree has, and one. A question about two trees of n and m nodes opens up to
+    /// 81·n·m pairs in each of its searches, of which it has at most three. That may take minutes:
+    /// give it a budget of steps. Nothing marks a wrong answer.
     ///
     /// Cost: none in a constant; else some thousand instructions.
     ///
