@@ -82,7 +82,7 @@
 //! `+ − × ÷ √` and comparisons, in one written order, never fused. The square root is `libm`'s,
 //! which is correctly rounded on every target, or `sqrt_approx`, products and sums of our own.
 //! Screws, winding numbers and signs at vertices also take a sine or an arctangent from `libm`,
-//! where the code of both is the same for every target.
+//! where the code of both is the same for every target. [`link_poses`] has series of its own.
 
 #![no_std]
 #![forbid(unsafe_code)]
