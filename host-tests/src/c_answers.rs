@@ -49,7 +49,7 @@ impl Kind {
     /// Every other one mirrors.
     fn affine(&mut self, round: usize) -> Pose {
         let Pose { mut rotation, translation, .. } = self.pose(round);
-        if round % 2 == 0 {
+        if round.is_multiple_of(2) {
             return Pose::rigid(rotation, translation);
         }
         rotation[2][2] = -1.0;
