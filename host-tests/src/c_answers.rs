@@ -12,6 +12,7 @@ use meshsweep_core::{
 };
 
 const ROUNDS: usize = 24;
+const PAIR_ROUNDS: usize = 6;
 const SPLITS: usize = 60;
 const FACES: usize = 160;
 const SCRATCH: usize = Bvh::DISTANCE_ENTRIES;
@@ -48,7 +49,7 @@ impl Kind {
     /// Every other one mirrors.
     fn affine(&mut self, round: usize) -> Pose {
         let Pose { mut rotation, translation, .. } = self.pose(round);
-        if round % 2 == 0 {
+        if round.is_multiple_of(2) {
             return Pose::rigid(rotation, translation);
         }
         rotation[2][2] = -1.0;
@@ -205,10 +206,18 @@ pub fn lines(
 /// Asks a question of each round; 0, as C returns, comes before each answer.
 fn rounds(
     name: &str,
+    ask: impl FnMut(&mut Kind, usize, Budget, &mut Scratch<SCRATCH>) -> Result<(), QueryError>,
+) -> Result<String, QueryError> {
+    some_rounds(ROUNDS, name, ask)
+}
+
+fn some_rounds(
+    count: usize,
+    name: &str,
     mut ask: impl FnMut(&mut Kind, usize, Budget, &mut Scratch<SCRATCH>) -> Result<(), QueryError>,
 ) -> Result<String, QueryError> {
     let (mut kind, mut scratch) = (Kind::begin(), Scratch::new());
-    for round in 0..ROUNDS {
+    for round in 0..count {
         ask(&mut kind, round, budget(round), &mut scratch)?;
     }
     Ok(kind.line(name))
@@ -350,14 +359,14 @@ fn two_models(model: &Bvh<'_>) -> Result<String, QueryError> {
         kind.within_of(&model.within_of(model, pose, 4.0, budget, scratch)?);
         Ok(())
     })?;
-    let distance = rounds("distance", |kind, round, budget, scratch| {
+    let distance = some_rounds(PAIR_ROUNDS, "distance", |kind, round, budget, scratch| {
         let (pose, scratch) = (kind.affine(round), &mut scratch[..entries(round)]);
         kind.words(&[0]);
         kind.pair_distance(&model.distance_to(model, pose, budget, scratch)?);
         Ok(())
     })?;
     let (mut pair, mut place) = (CoherentPair::<256>::new(), None);
-    let coherent = rounds("coherent_pair", |kind, round, budget, scratch| {
+    let coherent = some_rounds(PAIR_ROUNDS, "coherent_pair", |kind, round, budget, scratch| {
         let here = place.get_or_insert_with(|| kind.point());
         kind.step(here);
         let pose = Pose { translation: *here, ..Pose::IDENTITY };
@@ -368,7 +377,7 @@ fn two_models(model: &Bvh<'_>) -> Result<String, QueryError> {
         kind.within_of(&pair.within(model, model, pose, 30.0, budget, scratch)?);
         Ok(())
     })?;
-    let contact = rounds("first_contact_of", |kind, round, budget, scratch| {
+    let contact = some_rounds(PAIR_ROUNDS, "first_contact_of", |kind, round, budget, scratch| {
         let (from, to) = (kind.pose(round), kind.pose(0));
         let motion = if round % 4 < 2 {
             Motion::straight(from, Pose { translation: to.translation, ..from })

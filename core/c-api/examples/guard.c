@@ -103,7 +103,7 @@ static int32_t begin(void)
     if (error != MSW_OK) {
         return error;
     }
-    msw_placed models[MODELS] = {
+    static msw_placed models[MODELS] = {
         [TABLE] = {&table, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {-100, -100, -28}, 0}},
         [MACHINE] = {&machine, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {210, -16, -8}, 0}},
     };
@@ -129,6 +129,7 @@ static int32_t ask(msw_scene_answer *near)
 
 static int32_t run(void)
 {
+    static msw_scene_answer near;
     int32_t error = begin();
     uint32_t sum = 0, most = 0, most_before = 0, ticks = 0;
     for (uint32_t tick = 0; tick < TICKS && error == MSW_OK; tick++) {
@@ -139,7 +140,6 @@ static int32_t run(void)
             print("the links are farther off than the distances allow for\n");
             break;
         }
-        msw_scene_answer near = {0};
         from = clock_count();
         if (error == MSW_OK) {
             error = ask(&near);

@@ -77,7 +77,7 @@ pub fn programs_on_host(library: &std::path::Path, expected: &str) -> Result<(),
 fn build_and_run(library: &std::path::Path, programs: &[Program]) -> Result<(), String> {
     let made = workspace::target().join("c");
     std::fs::create_dir_all(&made).map_err(|error| format!("{}: {error}", made.display()))?;
-    for Program { sources, lines } in programs {
+    for Program { sources, lines, .. } in programs {
         let program = made.join("host-program");
         let mut cc = compiler(Command::new("cc"));
         cc.args(["-O2"]).arg(folder().join("host.c")).args(sources).arg(library);
@@ -91,10 +91,23 @@ fn on_board(tools: &Tools, c: &CTools, programs: &[Program]) -> Result<(), Strin
     let (board, (_, profile)) = (&BOARDS[0], c_library::IMAGES);
     let library = c_library::build(&tools.cross, c, board.target, profile)?;
     let start = folder().join("cortex-m4");
-    for Program { sources, lines } in programs {
+    let script = |program: &Program| {
+        let file = start.join("image.ld");
+        if program.is_example {
+            return Ok(file);
+        }
+        // All questions are more than an example's part has room for. The emulated one has 4 MB.
+        let named = |error: std::io::Error| format!("{}: {error}", file.display());
+        let text = std::fs::read_to_string(&file).map_err(named)?;
+        let large = library.with_file_name("large.ld");
+        std::fs::write(&large, text.replace("512K", "4M")).map_err(named)?;
+        Ok::<PathBuf, String>(large)
+    };
+    for program in programs {
+        let Program { sources, lines, .. } = program;
         let image = library.with_file_name("image.elf");
         let mut gcc = compiler(c.command("arm-none-eabi-gcc"));
-        gcc.args(CORTEX_M4F).arg("-T").arg(start.join("image.ld")).arg(start.join("startup.c"));
+        gcc.args(CORTEX_M4F).arg("-T").arg(script(program)?).arg(start.join("startup.c"));
         process::capture(gcc.args(sources).arg(&library).args(["-lgcc", "-o"]).arg(&image))?;
         compare(&tools.qemu.run(board.machine, &image, None)?, lines)?;
     }
@@ -105,6 +118,7 @@ fn on_board(tools: &Tools, c: &CTools, programs: &[Program]) -> Result<(), Strin
 struct Program {
     sources: Vec<PathBuf>,
     lines: String,
+    is_example: bool,
 }
 
 /// The examples, and the program with all questions.
@@ -113,10 +127,10 @@ fn programs(answers_of_rust: &str) -> Result<Vec<Program>, String> {
     for Example { name, models } in EXAMPLES {
         let stems = [name].into_iter().chain(models.iter().copied());
         let sources = stems.map(|stem| folder().join(format!("{stem}.c"))).collect();
-        programs.push(Program { sources, lines: examples::promised(name)? });
+        programs.push(Program { sources, lines: examples::promised(name)?, is_example: true });
     }
     let sources = ["answers.c", "blobs.S"].map(|file| answers().join(file)).to_vec();
-    programs.push(Program { sources, lines: answers_of_rust.to_owned() });
+    programs.push(Program { sources, lines: answers_of_rust.to_owned(), is_example: false });
     Ok(programs)
 }
 
