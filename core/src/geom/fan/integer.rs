@@ -113,10 +113,12 @@ impl IntPoint {
     /// at most. There is room for twice 2^-7 more.
     #[inline(always)]
     fn along_way(&self, direction: IntVector, at: IntVector) -> i32 {
-        const ROOM: i32 = ((3 * 3 << DIRECTION_BITS) >> 8) + 1;
-        let [x, y, z] = each(direction, |x| x & x >> 31);
-        let eighths = dot(direction, self.eighths).wrapping_add(x + y + z) >> FRACTION_BITS;
-        dot(direction, at).wrapping_add(eighths).wrapping_sub(ROOM)
+        let all = norm_1(direction);
+        let [x, y, z] = direction;
+        // What is negative counts twice in the difference.
+        let against = (all - (x + y + z)) >> 1;
+        let eighths = dot(direction, self.eighths).wrapping_sub(against) >> FRACTION_BITS;
+        dot(direction, at).wrapping_add(eighths).wrapping_sub(((3 * all) >> 8) + 1)
     }
 }
 
