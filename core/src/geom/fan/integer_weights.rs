@@ -77,11 +77,11 @@ pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
 #[inline(always)]
 fn reciprocal(x: u32) -> u32 {
     // Of 1 / x between 1/2 and 1 the line 48/17 - 32/17·x is off by a seventeenth at most.
-    let about = 92_521 - (x * 61_681 >> 16);
+    let about = 92_521 - ((x * 61_681) >> 16);
     let rest = |about: u32| (1u32 << 31).wrapping_sub(x.wrapping_mul(about)).cast_signed();
     let about = about.cast_signed();
-    let about = about + (about * (rest(about.cast_unsigned()) >> 15) >> 16);
-    let about = about + (about * (rest(about.cast_unsigned()) >> 8) >> 23);
+    let about = about + ((about * (rest(about.cast_unsigned()) >> 15)) >> 16);
+    let about = about + ((about * (rest(about.cast_unsigned()) >> 8)) >> 23);
     about.cast_unsigned().min(1 << 16)
 }
 
