@@ -8,6 +8,8 @@
 //! numbers".
 
 use super::integer_limit::IntLower;
+use super::integer_vector::{IntVector, as_long_as, dot, largest, less, norm_1};
+use super::integer_weights::{ONE, WEIGHT_BITS, weights};
 use crate::num::{bit_length as bits, each, floored};
 
 /// The corner of a triangle that a point near the closest one is.
@@ -36,19 +38,12 @@ impl Corner {
     }
 }
 
-/// A vector of whole numbers.
-pub type IntVector = [i32; 3];
-
 /// Bits of a coordinate below a grid unit.
 pub(super) const FRACTION_BITS: u32 = 3;
 /// Bits of the finest coordinate below a grid unit.
 pub(super) const FINE_BITS: u32 = 9;
 /// Coordinates of a [`IntPoint`] are below 2^this grid units in magnitude.
 pub const WHOLE_BITS: u32 = 17;
-/// Bits of a barycentric weight.
-const WEIGHT_BITS: u32 = 12;
-/// The weight of a whole.
-pub(super) const ONE: i32 = 1 << WEIGHT_BITS;
 /// Bits of the components of a direction.
 const DIRECTION_BITS: u32 = 12;
 
@@ -118,34 +113,13 @@ impl IntPoint {
     /// at most. There is room for twice 2^-7 more.
     #[inline(always)]
     fn along_way(&self, direction: IntVector, at: IntVector) -> i32 {
-        const ROOM: i32 = ((3 * 3 << DIRECTION_BITS) >> 8) + 1;
-        let [x, y, z] = each(direction, |x| x & x >> 31);
-        let eighths = dot(direction, self.eighths).wrapping_add(x + y + z) >> FRACTION_BITS;
-        dot(direction, at).wrapping_add(eighths).wrapping_sub(ROOM)
+        let all = norm_1(direction);
+        let [x, y, z] = direction;
+        // What is negative counts twice in the difference.
+        let against = (all - (x + y + z)) >> 1;
+        let eighths = dot(direction, self.eighths).wrapping_sub(against) >> FRACTION_BITS;
+        dot(direction, at).wrapping_add(eighths).wrapping_sub(((3 * all) >> 8) + 1)
     }
-}
-
-#[inline(always)]
-pub(super) fn largest([x, y, z]: IntVector) -> u32 {
-    x.unsigned_abs().max(y.unsigned_abs()).max(z.unsigned_abs())
-}
-
-/// A number with as many bits as the largest component without its sign: of a negative one that is
-/// its complement.
-#[inline(always)]
-fn as_long_as([x, y, z]: IntVector) -> u32 {
-    ((x ^ x >> 31) | (y ^ y >> 31) | (z ^ z >> 31)).cast_unsigned()
-}
-
-#[inline(always)]
-pub(super) fn dot([a, b, c]: IntVector, [x, y, z]: IntVector) -> i32 {
-    a.wrapping_mul(x).wrapping_add(b.wrapping_mul(y)).wrapping_add(c.wrapping_mul(z))
-}
-
-/// The difference. It wraps around.
-#[inline(always)]
-pub fn less([a, b, c]: IntVector, [x, y, z]: IntVector) -> IntVector {
-    [a.wrapping_sub(x), b.wrapping_sub(y), c.wrapping_sub(z)]
 }
 
 /// What integers tell of a point and a triangle.
@@ -228,11 +202,6 @@ fn upper_bound(offset: IntVector, bounds: &mut IntBounds) {
     bounds.direction = direction;
 }
 
-#[inline(always)]
-pub(super) fn norm_1([x, y, z]: IntVector) -> i32 {
-    x.abs() + y.abs() + z.abs()
-}
-
 /// Whether the point is in front of a triangle: its corners run counter-clockwise seen from there.
 /// `None` where the f32 kernel may not decide the same, because of its own roundings.
 #[inline(never)]
@@ -257,83 +226,6 @@ pub fn is_in_front(p: &IntPoint, [a, b, c]: &[IntVector; 3]) -> Option<bool> {
     if volume.abs() > room { Some(volume > 0) } else { None }
 }
 
-/// Weights of the second and third corner at a point near the closest one, of twelve bits;
-/// their sum is at most one. Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
-#[inline(always)]
-pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
-    // Products of 14 bits and 15 bits have a sum below 2^31.
-    let size = bits(as_long_as(e) | as_long_as(g));
-    let down = size.saturating_sub(14);
-    let (e, g, size) = (each(e, |x| x >> down), each(g, |x| x >> down), size - down);
-    let more = (bits(as_long_as(s)) + size).saturating_sub(29);
-    let s = each(s, |x| x >> more);
-    // The spokes' own products are coarser by the same power.
-    let scaled = |x: i32| if more >= down { x >> (more - down) } else { x };
-    let along = |x: i32| if more < down { x >> (down - more) } else { x };
-    let (d1, d2) = (along(dot(e, s)), along(dot(g, s)));
-    if d1 <= 0 && d2 <= 0 {
-        return (0, 0);
-    }
-    let (aa, bb, cc) = (scaled(dot(e, e)), scaled(dot(e, g)), scaled(dot(g, g)));
-    if d1 >= aa && d2.wrapping_sub(bb) <= d1 - aa {
-        return (ONE, 0);
-    }
-    if d2 >= cc && d1.wrapping_sub(bb) <= d2 - cc {
-        return (0, ONE);
-    }
-    let cut = bits(as_long_as([d1, d2, aa]) | cc.cast_unsigned()).saturating_sub(13);
-    let (d1, d2, aa, bb, cc) = (d1 >> cut, d2 >> cut, aa >> cut, bb >> cut, cc >> cut);
-    let (d3, d4, d5, d6) = (d1 - aa, d2 - bb, d1 - bb, d2 - cc);
-    let vc = d1.wrapping_mul(d4).wrapping_sub(d3.wrapping_mul(d2));
-    let vb = d5.wrapping_mul(d2).wrapping_sub(d1.wrapping_mul(d6));
-    let (nv, nw, whole);
-    if vc <= 0 && d1 >= 0 && d3 <= 0 {
-        (nv, nw, whole) = (d1, 0, aa);
-    } else if vb <= 0 && d2 >= 0 && d6 <= 0 {
-        (nv, nw, whole) = (0, d2, cc);
-    } else {
-        let va = d3.wrapping_mul(d6).wrapping_sub(d5.wrapping_mul(d4));
-        let (x, y) = (d4 - d3, d5 - d6);
-        if va <= 0 && x >= 0 && y >= 0 {
-            (nv, nw, whole) = (y, x, x + y);
-        } else {
-            // Halved, so that their sum stays within 32 bits.
-            let [pa, pb, pc] = each([va, vb, vc], |x| x.max(0) >> 1);
-            (nv, nw, whole) = (pb, pc, pa + pb + pc);
-        }
-    }
-    // A divisor of 16 bits, so that one reciprocal serves both weights.
-    let whole = whole.max(1).cast_unsigned();
-    let size = bits(whole);
-    let (mut up, cut) = (0, size.saturating_sub(16));
-    let inverse = if cfg!(meshsweep_short_products) {
-        up = 16u32.saturating_sub(size);
-        reciprocal(whole << up >> cut)
-    } else {
-        (1 << 31) / (whole >> cut)
-    };
-    let whole = whole << up >> cut;
-    let weight = |x: i32| {
-        let x = (x.max(0).cast_unsigned() << up >> cut).min(whole);
-        ((x * inverse) >> (31 - WEIGHT_BITS)).cast_signed().min(ONE)
-    };
-    let v = weight(nv);
-    (v, weight(nw).min(ONE - v))
-}
-
-/// About 2^31 / `x` of a number of 16 bits, not more than 2^16: a line, and two of Newton's steps.
-/// The smallest processors divide ten times as long.
-#[inline(always)]
-fn reciprocal(x: u32) -> u32 {
-    // Of 1 / x between 1/2 and 1 the line 48/17 - 32/17·x is off by a seventeenth at most.
-    let about = 92_521 - (x * 61_681 >> 16);
-    let rest = |about: u32| (1u32 << 31).wrapping_sub(x.wrapping_mul(about)).cast_signed();
-    let about = about.cast_signed();
-    let about = about + (about * (rest(about.cast_unsigned()) >> 15) >> 16);
-    let about = about + (about * (rest(about.cast_unsigned()) >> 8) >> 23);
-    about.cast_unsigned().min(1 << 16)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -346,6 +238,12 @@ mod tests {
         let at = |v: [f64; 3]| glam::DVec3::from_array(v);
         let [a, b, c] = corners.map(|v| at(v.map(f64::from)));
         crate::geom::point_triangle(at(p), a, b, c).distance_sq
+    }
+
+    fn bounds_of(point: &IntPoint, corners: &[IntVector; 3]) -> IntBounds {
+        let mut bounds = IntBounds::NONE;
+        integer_bounds(point, corners, &mut bounds);
+        bounds
     }
 
     struct Noise(u64);
@@ -394,7 +292,7 @@ mod tests {
             let Some(point) = IntPoint::new(p.map(|x| x - origin)) else { continue };
             let p = p.map(|x| f64::from(x) - f64::from(origin));
             let square = exact(p, &corners);
-            let (bounds, sharp) = (integer_bounds(&point, &corners), sharp_lower(&point, &corners));
+            let (bounds, sharp) = (bounds_of(&point, &corners), sharp_lower(&point, &corners));
             assert!(square <= f64::from(f32::from_bits(bounds.upper)), "{p:?} {corners:?}");
             for share in [0.5, 0.9, 0.99, 0.999, 1.0, 1.000_01, 1.1] {
                 let limit = (square * share) as f32;
@@ -478,7 +376,7 @@ mod tests {
             let p = [(); 3].map(|()| noise.below(0x1_0000) as f32);
             let point = IntPoint::new(p).expect("in range");
             let [near, far] =
-                [one, two].map(|t| (exact(p.map(f64::from), &t), integer_bounds(&point, &t).upper));
+                [one, two].map(|t| (exact(p.map(f64::from), &t), bounds_of(&point, &t).upper));
             if near.0 > 1.02 * far.0 || far.0 > 1.02 * near.0 {
                 all += 1;
                 right += i32::from((near.0 < far.0) == (near.1 < far.1));

@@ -2,7 +2,8 @@
 //!
 //! Proof: `core/docs/rounding.md` §8, "Certain corners".
 
-use super::integer::{FRACTION_BITS, IntPoint, IntVector, dot, largest, norm_1};
+use super::integer::{FRACTION_BITS, IntPoint};
+use super::integer_vector::{IntVector, dot, largest, norm_1};
 use crate::num::bit_length as bits;
 
 /// The way from a corner of triangles to a query, for [`is_certain`](Self::is_certain).

@@ -5,8 +5,10 @@
 //! edge. The direction of `integer_bounds` is off by the rounding of the estimated point, which a
 //! long needle multiplies. Proof: `core/docs/rounding.md` §8, "Whole numbers".
 
-use super::integer::{FINE_BITS, IntPoint, IntVector, ONE, less, weights};
+use super::integer::{FINE_BITS, IntPoint};
 use super::integer_limit::IntLower;
+use super::integer_vector::{IntVector, less};
+use super::integer_weights::{ONE, weights};
 
 type Wide = [i64; 3];
 

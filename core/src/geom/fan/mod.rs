@@ -10,6 +10,8 @@ mod integer;
 mod integer_corner;
 mod integer_limit;
 mod integer_sharp;
+mod integer_vector;
+mod integer_weights;
 mod lanes;
 #[cfg(meshsweep_avx2)]
 pub(crate) mod lanes_avx2;
@@ -23,12 +25,11 @@ mod ray;
 mod ray8;
 
 pub use cone::NormalCone;
-pub use integer::{
-    Corner, IntBounds, IntPoint, IntVector, integer_bounds, is_in_front, less, vertex_bounds,
-};
+pub use integer::{Corner, IntBounds, IntPoint, integer_bounds, is_in_front, vertex_bounds};
 pub use integer_corner::{CornerWay, EdgeWay};
 pub use integer_limit::{IntLimit, IntLower};
 pub use integer_sharp::sharp_lower;
+pub use integer_vector::{IntVector, less};
 #[cfg(meshsweep_wide)]
 pub use lanes::{LANES, Lanes, PIECES, lanes_below, least};
 pub use lanes::{LANES_BELOW, WIDTH};

@@ -124,7 +124,7 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
         let count = self.waiting.count;
         let waiting = self.waiting.triangles.iter().take(count).enumerate();
         let likeliest = waiting.min_by_key(|(_, here)| here.upper).map_or(0, |(at, _)| at);
-        for turn in 0..=count {
+        for turn in 0..count + 1 {
             let at = if turn == 0 { likeliest } else { count - turn };
             let is_again = turn > 0 && at == likeliest;
             if count == 0 || is_again {
