@@ -293,13 +293,13 @@ mod tests {
 
     #[test]
     fn both_ends_are_the_distance_of_faces_edges_and_vertices() {
-        let at = |x, y, z| {
+        let at = |x: f32, y: f32, z: f32| {
             [(0.0, 0.0, 0.0), (0.5, 0.0, 2.0), (0.0, 0.5, 2.0)]
                 .map(|(a, b, c)| Vec3::new(a + x, b + y, c + z))
         };
         for (second, distance) in [
             (at(1.0, 1.0, 1.0), 1.0),
-            (at(-4.0, 1.0, 1.0), (3.5f32 * 3.5 + 1.0).sqrt().min(4.0)),
+            (at(-4.0, 1.0, 1.0), 17f32.sqrt()),
             (at(5.0, 5.0, 0.0), 18f32.sqrt()),
             (at(1.0, 1.0, -5.0), 3.0),
         ] {

@@ -56,7 +56,7 @@ impl Candidate {
 /// Cost: two cross products and fifteen inner products if a vertex is over a face, else up to nine
 /// pairs of edges with some eight inner products each, and the feet of six vertices.
 pub fn triangle_distance(a: [Point<f64>; 3], b: [Point<f64>; 3]) -> TriangleDistance {
-    let margin = TRIANGLE_DISTANCE * U64 * (farthest(&a) + farthest(&b));
+    let margin = margin(&a, &b);
     let normals = [normal(&a), normal(&b)];
     let [to_first, to_second] = normals;
     let mut best = Candidate::new(a[0], b[0]);
@@ -66,7 +66,7 @@ pub fn triangle_distance(a: [Point<f64>; 3], b: [Point<f64>; 3]) -> TriangleDist
             best = found;
         }
         if is_settled(&best, &a, &b) {
-            return answer(&best, gap_along(best.offset, &a, &b), margin);
+            return answer(&best, length_along(best.offset, &a, &b), margin);
         }
     }
     let mut across = [0.0; 3];
@@ -77,7 +77,7 @@ pub fn triangle_distance(a: [Point<f64>; 3], b: [Point<f64>; 3]) -> TriangleDist
                 best = found;
                 across = cross(minus(to, from), minus(end, start));
                 if is_settled(&best, &a, &b) {
-                    return answer(&best, gap_along(best.offset, &a, &b), margin);
+                    return answer(&best, length_along(best.offset, &a, &b), margin);
                 }
             }
         }
@@ -94,9 +94,19 @@ pub fn triangle_distance(a: [Point<f64>; 3], b: [Point<f64>; 3]) -> TriangleDist
     let gap = [best.offset, to_first, to_second, across]
         .into_iter()
         .flat_map(|offset| [offset, offset.map(|x| -x)])
-        .map(|offset| gap_along(offset, &a, &b))
+        .map(|offset| length_along(offset, &a, &b))
         .fold(0.0, greater);
     answer(&best, gap, margin)
+}
+
+/// A lower bound of the distance of the triangles `a` and `b`: the gap along a direction, 0 if there
+/// is none.
+pub fn gap_along(offset: Point<f64>, a: [Point<f64>; 3], b: [Point<f64>; 3]) -> f64 {
+    greater(0.0, length_along(offset, &a, &b) - margin(&a, &b))
+}
+
+fn margin(a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> f64 {
+    TRIANGLE_DISTANCE * U64 * (farthest(a) + farthest(b))
 }
 
 fn answer(best: &Candidate, gap: f64, margin: f64) -> TriangleDistance {
@@ -132,7 +142,7 @@ fn beyond(offset: Point<f64>, a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> f64 {
 
 /// The same as a length; 0 of a direction that is too short to be trusted.
 #[inline(always)]
-fn gap_along(offset: Point<f64>, a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> f64 {
+fn length_along(offset: Point<f64>, a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> f64 {
     let offset_sq = dot(offset, offset);
     if offset_sq < GAP_DIRECTION_SQ { 0.0 } else { beyond(offset, a, b) / libm::sqrt(offset_sq) }
 }

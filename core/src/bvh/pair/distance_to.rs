@@ -3,11 +3,15 @@
 use super::gaps::answers;
 use super::gaps::left_out::{ChildPairs, Forgotten};
 use super::gaps::nearest_first::{Missed, Search};
+use super::models::most_pairs;
+use super::separation::grid_pose::{FramePose, GridPose};
+use super::separation::search::{NearestTriangles, nearest_triangles};
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::gap::NearestGap;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::Pose;
-use crate::query::{Budget, Ended, PairDistance, QueryError, ScratchEntry};
+use crate::query::{Budget, Ended, PairDistance, QueryError, ScratchEntry, Work};
 
 impl Bvh<'_> {
     /// With this many scratch entries no distance of two trees ends for lack of memory. Every three
@@ -66,7 +70,18 @@ impl Bvh<'_> {
         budget.check_with(scratch)?;
         let pair = StoredPair::new([self, other], &pose)?;
         let mut nearest = NearestGap::new(&pair.lengths, 0.0, &budget);
-        let mut search = Search::new(&pair, budget.steps, scratch);
+        let mut work = Work::NONE;
+        // A search with few steps or a tolerance is bounded by what waits: that is of f64 alone.
+        let is_whole = budget.relative == 0.0
+            && budget.absolute == 0.0
+            && budget.steps >= most_pairs(self, other);
+        if is_whole
+            && pair.is_in_range
+            && measure_nearest(&pair, &pose, &mut nearest, (scratch, &mut work))
+        {
+            return answers::nearest(&nearest, &pair, None, work);
+        }
+        let mut search = Search { work, ..Search::new(&pair, budget.steps, scratch) };
         let missed = if pair.is_in_range {
             search.descend((ChildPairs::ALL, 0.0), &mut nearest, &mut Forgotten)?.missed()
         } else {
@@ -74,4 +89,33 @@ impl Bvh<'_> {
         };
         answers::nearest(&nearest, &pair, missed, search.work)
     }
+}
+
+/// Measures in f64 the pairs of triangles that f32 cannot tell from the nearest one. Whether these
+/// are all that matter.
+#[inline(never)]
+fn measure_nearest(
+    pair: &StoredPair<'_>,
+    pose: &Pose,
+    nearest: &mut NearestGap<[TriangleAt; 2]>,
+    (scratch, work): (&mut [ScratchEntry], &mut Work),
+) -> bool {
+    let trees = pair.trees;
+    let Some(grid) = GridPose::of(trees, &FramePose::of(pose)) else { return false };
+    let found = nearest_triangles(&grid, u32::MAX, scratch, work);
+    let Some(NearestTriangles { mut candidates, are_all }) = found else { return false };
+    let mut leaves = pair.leaves();
+    while let Some(place) = candidates.remove_least() {
+        let [first, second] = place;
+        let [a, b] = trees;
+        let (Some(p), Some(q)) = (first.leaf(a), second.leaf(b)) else { return false };
+        if !leaves.measure([&p, &q], place, nearest, work) {
+            return true;
+        }
+        if !are_all {
+            // The search in f64 begins with a limit.
+            return false;
+        }
+    }
+    nearest.best.is_some()
 }

@@ -68,7 +68,12 @@ impl<'a> StoredPair<'a> {
     }
 
     pub(crate) fn leaves(&self) -> LeafGaps<'_> {
-        LeafGaps { pose: &self.pose, surface_error: self.greater_error, direction: [0.0; 3] }
+        LeafGaps {
+            pose: &self.pose,
+            surface_error: self.greater_error,
+            direction: [0.0; 3],
+            offset: [0.0; 3],
+        }
     }
 
     /// A place in the first model's frame, input units, from common units and the first model's

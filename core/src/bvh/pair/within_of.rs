@@ -13,7 +13,6 @@ use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::gap::{GapThreshold, GapVisitor};
 use crate::geom::Pose;
 use crate::query::{Budget, Decided, QueryError, ScratchEntry, Verdict, Work};
-use glam::Vec3;
 
 impl Bvh<'_> {
     /// Whether the surface of `other`, moved by `pose` from its frame to this tree's, is at most
@@ -81,12 +80,7 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<(Decided<[u32; 2]>, f32), QueryError> {
         let mut work = Work::NONE;
-        let exact = FramePose {
-            rows: pose.rotation.map(Vec3::from_array),
-            shift: Vec3::from_array(pose.translation),
-            error: 0.0,
-        };
-        if let Some(pose) = GridPose::of([self, other], &exact) {
+        if let Some(pose) = GridPose::of([self, other], &FramePose::of(pose)) {
             match separation(&pose, asked, budget.steps, scratch, &mut work) {
                 Separation::Apart(lower) => {
                     return Ok((Decided { work, ..Decided::CLEAR }, lower));

@@ -12,8 +12,10 @@ use crate::bvh::tree::format::FanLeaf;
 use crate::bvh::tree::gap::{Gap, GapVisitor};
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
-use crate::geom::{Contact, TriangleDistance, crossing, triangle_distance, triangles_meet};
-use crate::num::tolerance::{GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32};
+use crate::geom::{
+    Contact, TriangleDistance, crossing, gap_along, triangle_distance, triangles_meet,
+};
+use crate::num::tolerance::{GAP_ALONG, GAP_SETTLED, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32};
 use crate::num::{greater, lesser, up_to_f32};
 use crate::query::{RelativePose, Work};
 
@@ -35,9 +37,48 @@ pub(crate) struct LeafGaps<'a> {
     /// Direction between the nearest points so far, its largest component 1; zero before the first
     /// pair. Pairs of triangles far apart along it are skipped.
     pub(crate) direction: [f32; 3],
+    /// The same in f64, of any length.
+    pub(crate) offset: [f64; 3],
 }
 
 impl LeafGaps<'_> {
+    /// Measures one pair of triangles, unless it is as far as the limit along the direction. Whether
+    /// the visitor goes on.
+    pub(crate) fn measure(
+        &mut self,
+        leaves: [&FanLeaf<'_>; 2],
+        place: [TriangleAt; 2],
+        visitor: &mut impl GapVisitor<[TriangleAt; 2]>,
+        work: &mut Work,
+    ) -> bool {
+        let [first, second] = leaves;
+        let pair = LeafPair::new(self.pose, first, second);
+        let [i, j] = place.map(TriangleAt::lane);
+        let [a, b] = pair.in_f64(i, j);
+        let lower = self.without_rounding(gap_along(self.offset, a, b));
+        work.triangles = work.triangles.saturating_add(1);
+        if lower >= visitor.limit() * GAP_SETTLED {
+            // Its distance would tell no more.
+            let points = [self.offset; 2];
+            return visitor.take(&TriangleGap {
+                place,
+                lower,
+                upper: f64::INFINITY,
+                meets: false,
+                points,
+            });
+        }
+        work.exact = work.exact.saturating_add(1);
+        let gap = self.measured(&pair, place);
+        self.turn_to(&gap);
+        visitor.take(&gap)
+    }
+
+    fn without_rounding(&self, lower: f64) -> f64 {
+        let rounding = self.pose.vertex_error_exact;
+        greater(0.0, lower - (rounding + rounding))
+    }
+
     /// Visits the pairs of triangles of two leaves that may be within the limit.
     #[inline(always)]
     pub(crate) fn visit<L: LeftOut>(
@@ -99,9 +140,9 @@ impl LeafGaps<'_> {
     fn measured(&self, pair: &LeafPair<'_>, place: [TriangleAt; 2]) -> TriangleGap {
         let [i, j] = place.map(TriangleAt::lane);
         let [a, b] = pair.in_f64(i, j);
-        let TriangleDistance { mut lower, mut upper, mut points } = triangle_distance(a, b);
+        let TriangleDistance { lower, mut upper, mut points } = triangle_distance(a, b);
         let rounding = self.pose.vertex_error_exact;
-        lower = greater(0.0, lower - (rounding + rounding));
+        let lower = self.without_rounding(lower);
         upper += rounding + rounding;
         let mut meets = false;
         if lower <= 0.0 {
@@ -122,6 +163,7 @@ impl LeafGaps<'_> {
     fn turn_to(&mut self, gap: &TriangleGap) {
         let [[a, b, c], [x, y, z]] = gap.points;
         let direction = [x - a, y - b, z - c];
+        self.offset = direction;
         let longest = direction.iter().fold(0.0, |longest, x| greater(longest, x.abs()));
         if longest > 0.0 {
             self.direction = direction.map(|x| (x / longest) as f32);

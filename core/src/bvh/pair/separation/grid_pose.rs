@@ -2,7 +2,7 @@
 
 use crate::bvh::tree::extended::unit_exponent;
 use crate::bvh::tree::format::Bvh;
-use crate::geom::{Rows, turned};
+use crate::geom::{Pose, Rows, turned};
 use crate::num::tolerance::{SEPARATION_BOX, SEPARATION_FARTHEST, SEPARATION_VERTEX, U32};
 use crate::num::{dot, sqrt_approx};
 use crate::query::{longest, skew};
@@ -21,6 +21,8 @@ pub(crate) struct GridPose<'a> {
     /// A gap of triangles, or the way between two of their points, is off by less than this from
     /// that of the input.
     pub(crate) error: f32,
+    /// The same from that of the stored surfaces.
+    pub(crate) rounding: f32,
     /// How much more a gap of two boxes may be off.
     pub(crate) box_error: f32,
 }
@@ -32,6 +34,18 @@ pub(crate) struct FramePose {
     pub(crate) shift: Vec3,
     /// What the pose itself does to a distance.
     pub(crate) error: f32,
+}
+
+impl FramePose {
+    /// The pose's numbers are exact.
+    #[inline(always)]
+    pub(crate) fn of(pose: &Pose) -> FramePose {
+        FramePose {
+            rows: pose.rotation.map(Vec3::from_array),
+            shift: Vec3::from_array(pose.translation),
+            error: 0.0,
+        }
+    }
 }
 
 impl<'a> GridPose<'a> {
@@ -70,6 +84,7 @@ impl<'a> GridPose<'a> {
             shift,
             ratio,
             error,
+            rounding: far * (SEPARATION_VERTEX * U32) * up,
             box_error: far * ((SEPARATION_BOX - SEPARATION_VERTEX) * U32) * up,
         })
     }

@@ -1,12 +1,13 @@
 //! The hulls of two leaves in the first grid, and their triangles.
 
+use super::goal::Goal;
 use super::grid_pose::GridPose;
 use crate::bvh::pair::gaps::leaf_gaps::{keys, skip_along};
 use crate::bvh::pair::gaps::pair_keys::{children_of, key_limit};
 use crate::bvh::pair::leaf_pair::{Corners, SLOTS};
 use crate::bvh::tree::format::{LeafShape, RING};
 use crate::bvh::tree::triangle_at::TriangleAt;
-use crate::geom::{GapLimits, HullGap, hull_gap};
+use crate::geom::hull_gap;
 use crate::num::{each, float};
 use crate::query::Work;
 use glam::Vec3;
@@ -85,74 +86,49 @@ impl LeafHull {
     }
 }
 
-/// What two leaves are asked.
-pub(crate) struct LeafLimits {
-    pub(crate) gap: GapLimits,
-    /// A triangle whose squared gap is above this does not matter.
-    pub(crate) clear_sq: f32,
-}
-
-/// What two leaves are.
+/// What a visit of two leaves showed.
 pub(crate) struct LeafVisit {
-    /// These triangles are near.
-    pub(crate) near: Option<[TriangleAt; 2]>,
+    pub(crate) goes_on: bool,
     /// A direction along which the leaves are apart.
     pub(crate) way: Option<Vec3>,
-    /// The least squared gap of triangles that are neither near nor far.
-    pub(crate) between_sq: f32,
 }
 
-/// Whether triangles of two leaves are near; all others are far, or their gap is told.
+/// Tells the goal of the triangles of two leaves that may matter to it.
 #[inline(never)]
 pub(crate) fn visit(
     [a, b]: [&LeafHull; 2],
     start: Vec3,
-    limits: &LeafLimits,
+    goal: &mut Goal<'_>,
     work: &mut Work,
 ) -> Option<LeafVisit> {
-    let mut limit = limits.gap;
-    let hull = hull_gap(a.all(), b.all(), start, limit);
+    let hull = hull_gap(a.all(), b.all(), start, goal.limits);
     let way = (hull.gap_sq > 0.0).then_some(hull.way);
-    let mut visit = LeafVisit { near: None, way, between_sq: f32::INFINITY };
-    if hull.gap_sq > limit.far_sq {
-        return Some(visit);
+    let visit = |goes_on| Some(LeafVisit { goes_on, way });
+    let [p, q] = hull.vertices;
+    if !goal.take_vertices(hull.vertex_sq, || [a.triangle_with(p), b.triangle_with(q)]) {
+        return visit(false);
     }
-    if hull.vertex_sq <= limit.near_sq {
-        let [p, q] = hull.vertices;
-        visit.near = Some([a.triangle_with(p), b.triangle_with(q)]);
-        return Some(visit);
+    if hull.gap_sq > goal.limits.far_sq {
+        return visit(true);
     }
-    let corners = [a.corners(), b.corners()];
-    let [first, second] = &corners;
-    let mut keys = keys(first, second, limit.far_sq)?;
+    let (first, second) = (a.corners(), b.corners());
+    let mut keys = keys(&first, &second, goal.limits.far_sq)?;
     if let Some(way) = way {
-        skip_along(&mut keys, way.to_array(), limit.far_sq, first, second);
+        skip_along(&mut keys, way.to_array(), goal.limits.far_sq, &first, &second);
     }
     let mut way = hull.way;
     loop {
         let key = keys.least();
-        if key > key_limit(limit.far_sq) {
-            return Some(visit);
+        if key > key_limit(goal.limits.far_sq) {
+            return visit(true);
         }
         keys.drop(key);
         let [i, j] = children_of(key).map(|lane| lane as usize);
         work.triangles = work.triangles.saturating_add(1);
-        let HullGap { gap_sq, hull_sq, way: found, .. } =
-            hull_gap(&a.triangle(i), &b.triangle(j), way, limit);
-        way = found;
-        if hull_sq <= limit.near_sq {
-            visit.near = Some([a.of.with_lane(i), b.of.with_lane(j)]);
-            return Some(visit);
-        }
-        if gap_sq > limit.far_sq {
-            continue;
-        }
-        visit.between_sq = crate::num::lesser(visit.between_sq, gap_sq);
-        if gap_sq > limits.clear_sq {
-            // Clear, but no farther: nothing beyond this pair matters any more.
-            limit.far_sq = gap_sq;
-        } else if limit.near_sq < 0.0 {
-            return Some(visit);
+        let found = hull_gap(&a.triangle(i), &b.triangle(j), way, goal.limits);
+        way = found.way;
+        if !goal.take([a.of.with_lane(i), b.of.with_lane(j)], &found) {
+            return visit(false);
         }
     }
 }

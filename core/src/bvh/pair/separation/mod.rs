@@ -13,10 +13,12 @@
 //! | `node_boxes` | the boxes of a node's children: along the direction, and along the axes |
 //! | `pending` | pairs that wait, in the caller's scratch memory |
 //! | `leaf_hulls` | the hulls of two leaves, and their triangles |
+//! | `goal` | what a search wants of pairs of triangles |
 //! | `search` | the descent of both trees |
 
 mod between_boxes;
 mod direction;
+mod goal;
 pub(crate) mod grid_pose;
 mod leaf_hulls;
 mod node_boxes;

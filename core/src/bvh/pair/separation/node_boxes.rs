@@ -166,16 +166,16 @@ pub(crate) fn open(
     work.bounds =
         work.bounds.saturating_add(a.wanted.count_ones().saturating_mul(b.wanted.count_ones()));
     let highest = bits(a.wanted).fold(f32::MIN, |most, i| greater(Real(most), Real(tops_a[i])).0);
-    // For each child of the second node those of the first. NaN is within reach.
+    // For each child of the second node those of the first.
     let mut pairs = [0u8; WIDTH];
     let mut rows = 0;
     for j in bits(b.wanted) {
         let left = left(tops_b[j]);
-        if left > Real(highest) {
+        if is_beyond(left, highest) {
             continue;
         }
         for i in bits(a.wanted) {
-            pairs[j] |= u8::from(!(left > Real(tops_a[i]))) << i;
+            pairs[j] |= u8::from(!is_beyond(left, tops_a[i])) << i;
         }
         rows |= pairs[j];
     }
@@ -193,7 +193,7 @@ pub(crate) fn open(
         let other = second.along_axes(j);
         for i in bits(u32::from(pairs[j])) {
             let key = first[i].key(&other);
-            if !(Real(key) > Real(reach.square)) {
+            if !is_beyond(Real(key), reach.square) {
                 waiting.add(key, (i * WIDTH + j) as u32)?;
                 leaves_a |= 1 << i;
                 leaves_b |= 1 << j;
@@ -213,9 +213,15 @@ pub(crate) fn open(
                 tops_b[j] = lesser(tops_b[j], leaf_top(&tree_b.leaf(b.node, j as u32)?, &whole)?);
             }
         }
-        waiting.retain(|[i, j]| !(left(tops_b[j]) > Real(tops_a[i])));
+        waiting.retain(|[i, j]| !is_beyond(left(tops_b[j]), tops_a[i]));
     }
     waiting.close()
+}
+
+/// Not a number is beyond nothing.
+#[inline(always)]
+fn is_beyond(x: Real, limit: f32) -> bool {
+    x > Real(limit)
 }
 
 /// The numbers of the lowest eight bits that are ones.
