@@ -191,9 +191,9 @@ impl<'s> Candidates<'s> {
             let key = |at: usize| used.get(at).map_or(f32::INFINITY, |[first, _]| first.key());
             if key(at) < key(best) { at } else { best }
         })?;
-        used.swap(least, last);
+        let end = *used.get(last)?;
+        let [first, second] = core::mem::replace(used.get_mut(least)?, end);
         self.used = last;
-        let [first, second] = self.slots.get(last)?;
         Some([TriangleAt::of_word(first.node()), TriangleAt::of_word(second.node())])
     }
 }
