@@ -191,8 +191,16 @@ impl Mechanism {
         });
         let place = u16::try_from(place);
         let place = place.map_err(|_| refused(file, joint.line, "too many joints".to_owned()))?;
-        let (factor, offset) = (factor as f32, offset as f32);
-        Ok(JointAxis { factor, offset, ..JointAxis::new(joint.axis.map(|x| x as f32), place) })
+        let follows = joint.follows.is_some().then_some([factor as f32, offset as f32]);
+        let fits = |[by, offset]: [f32; 2]| (factor == 0.0 || by.is_normal()) && offset.is_finite();
+        if !follows.is_none_or(fits) {
+            let what = format!(
+                "joint {:?}: it mimics by numbers beyond f32 (1.2e-38 to 3.4e38)",
+                joint.name
+            );
+            return Err(refused(file, joint.line, what));
+        }
+        Ok(JointAxis { follows, ..JointAxis::new(joint.axis.map(|x| x as f32), place) })
     }
 }
 

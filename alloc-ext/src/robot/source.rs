@@ -207,11 +207,11 @@ fn joint(joint: &Joint) -> String {
 }
 
 fn axis(axis: &JointAxis) -> String {
-    let JointAxis { direction, place, factor, offset } = axis;
-    if (*factor, *offset) == (1.0, 0.0) {
-        return format!("JointAxis::new({direction:?}, {place})");
+    let JointAxis { direction, place, follows } = axis;
+    match follows {
+        None => format!("JointAxis::new({direction:?}, {place})"),
+        Some(_) => format!(
+            "JointAxis {{ direction: {direction:?}, place: {place}, follows: {follows:?} }}"
+        ),
     }
-    format!(
-        "JointAxis {{ direction: {direction:?}, place: {place}, factor: {factor:?}, offset: {offset:?} }}"
-    )
 }
