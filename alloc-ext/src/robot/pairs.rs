@@ -46,15 +46,18 @@ impl fmt::Display for Skipped {
 /// Two links, by their indices.
 type Two = [usize; 2];
 
+/// Two links, and the distance that they are to keep.
+type Kept = (Two, f64);
+
 /// All pairs.
 #[derive(Default)]
 pub(super) struct Chosen {
     /// They keep a distance.
-    pub(super) kept: Vec<(Two, f64)>,
+    pub(super) kept: Vec<Kept>,
     /// They do not, and why.
     pub(super) skipped: Vec<(Two, Skipped)>,
     /// They are nearer than the distance at each of the places that were tried, but need not meet.
-    pub(super) near: Vec<(Two, f64)>,
+    pub(super) near: Vec<Kept>,
     /// How many are kept that an SRDF disables as never near.
     pub(super) never: usize,
 }
@@ -103,7 +106,7 @@ pub(super) fn chosen(
     }
     all.kept.sort_by_key(|(pair, _)| *pair);
     all.skipped.sort_by_key(|(pair, _)| *pair);
-    let is_never = |(pair, _): &&(Two, f64)| {
+    let is_never = |(pair, _): &&Kept| {
         disabled.iter().any(|(names, reason)| is(names, *pair) && is_by_sampling(reason))
     };
     all.never = all.kept.iter().filter(is_never).count();
@@ -120,9 +123,9 @@ fn is_by_sampling(reason: &str) -> bool {
 fn always_near(
     mechanism: &Mechanism,
     links: &[Link],
-    pairs: &[(Two, f64)],
+    pairs: &[Kept],
     samples: u32,
-) -> Result<Vec<((Two, f64), bool)>, QueryError> {
+) -> Result<Vec<(Kept, bool)>, QueryError> {
     let mut near: Vec<_> = pairs.iter().map(|pair| (*pair, true)).collect();
     if samples == 0 {
         near.clear();
