@@ -75,8 +75,23 @@ impl Robot {
         }
         let refused = |error| other(format!("the joints: {error}"));
         measure_rounding(&mechanism, &mut links).map_err(refused)?;
-        let (kept, skipped) =
-            pairs::chosen(&mechanism, &links, &disabled, options).map_err(refused)?;
+        let chosen = pairs::chosen(&mechanism, &links, &disabled, options).map_err(refused)?;
+        if !chosen.near.is_empty() {
+            let name = |&([a, b], keep): &([usize; 2], f64)| {
+                format!("{}, {} at {keep}", links[a].name, links[b].name)
+            };
+            let named: Vec<String> = chosen.near.iter().map(name).collect();
+            return Err(other(format!(
+                "{}: nearer at each of {} random places, but not certain to meet at all places; \
+                 give their distance by --keep A,B=D, or disable them in the SRDF",
+                named.join("; "),
+                options.samples,
+            )));
+        }
+        if chosen.kept.is_empty() {
+            let what = "no pair of links keeps a distance; name pairs by --keep A,B=D";
+            return Err(other(what.to_owned()));
+        }
         let pair = |(two @ [a, b], keep): ([usize; 2], f64)| {
             let rounding = f64::from(links[a].rounding) + f64::from(links[b].rounding);
             RobotPair { links: two, keep, distance: up(keep + rounding).next_up() }
@@ -94,9 +109,9 @@ impl Robot {
         let without_geometry = urdf.links.iter().filter(is_bare).map(|link| link.name.clone());
         Ok(Self {
             without_geometry: without_geometry.collect(),
-            pairs: kept.into_iter().map(pair).collect(),
-            skipped,
-            never: disabled.iter().filter(|(_, reason)| reason == pairs::NEVER).count(),
+            pairs: chosen.kept.into_iter().map(pair).collect(),
+            skipped: chosen.skipped,
+            never: chosen.never,
             unknown,
             name: urdf.name,
             links,

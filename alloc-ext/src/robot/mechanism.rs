@@ -27,8 +27,8 @@ pub(super) struct Body {
     /// The last joint on the way from the world that moves. Bodies of one mover never move
     /// relative to each other.
     pub(super) mover: Option<u16>,
-    /// The next body on the way to the world.
-    pub(super) parent: Option<usize>,
+    /// The next body on the way to the world, if at most one joint between them moves.
+    pub(super) neighbour: Option<usize>,
 }
 
 pub(super) struct Mechanism {
@@ -45,7 +45,8 @@ struct Frame {
     /// In the frame of the anchor's link.
     placement: Placement,
     mover: Option<u16>,
-    body: Option<usize>,
+    /// The last body on the way from the world, and how many joints after it move.
+    body: Option<(usize, usize)>,
 }
 
 /// Indices of the links, parents first, each with the joint that carries it.
@@ -111,7 +112,8 @@ impl Mechanism {
         for (link, joint) in order.into_iter().filter(|&(link, _)| is_needed[link]) {
             if let Some(joint) = joint.map(|joint| &urdf.joints[joint]) {
                 let parent = &frames[index[joint.parent.as_str()]];
-                let (anchor, body) = (parent.anchor, parent.body);
+                let anchor = parent.anchor;
+                let body = parent.body.map(|(body, moving)| (body, moving + 1));
                 let placement = parent.placement.after(&joint.origin);
                 frames[link] = if joint.moves == Moves::Not {
                     Frame { placement, ..parent.clone() }
@@ -129,15 +131,16 @@ impl Mechanism {
             if urdf.links[link].collisions.is_empty() {
                 continue;
             }
-            let Frame { anchor, placement, mover, body: parent } = frames[link].clone();
+            let Frame { anchor, placement, mover, body } = frames[link].clone();
+            let neighbour = body.and_then(|(body, moving)| (moving <= 1).then_some(body));
             let joint = match anchor {
                 Some(anchor) if placement == Placement::IDENTITY => anchor,
                 _ => {
                     all.push(file, urdf.links[link].line, (anchor, &placement, JointKind::Fixed))?
                 }
             };
-            frames[link].body = Some(all.bodies.len());
-            all.bodies.push(Body { link, joint, mover, parent });
+            frames[link].body = Some((all.bodies.len(), 0));
+            all.bodies.push(Body { link, joint, mover, neighbour });
         }
         Ok(all)
     }
@@ -191,8 +194,36 @@ impl Mechanism {
         });
         let place = u16::try_from(place);
         let place = place.map_err(|_| refused(file, joint.line, "too many joints".to_owned()))?;
-        let (factor, offset) = (factor as f32, offset as f32);
-        Ok(JointAxis { factor, offset, ..JointAxis::new(joint.axis.map(|x| x as f32), place) })
+        let follows = joint.follows.is_some().then_some([factor as f32, offset as f32]);
+        let fits = |[by, offset]: [f32; 2]| (factor == 0.0 || by.is_normal()) && offset.is_finite();
+        if !follows.is_none_or(fits) {
+            let what = format!(
+                "joint {:?}: it mimics by numbers beyond f32 (1.2e-38 to 3.4e38)",
+                joint.name
+            );
+            return Err(refused(file, joint.line, what));
+        }
+        Ok(JointAxis { follows, ..JointAxis::new(joint.axis.map(|x| x as f32), place) })
+    }
+
+    /// Whether all joints between two bodies have more than one place.
+    pub(super) fn is_free(&self, bodies: [usize; 2]) -> bool {
+        let [a, b] = bodies.map(|body| -> Vec<u16> {
+            let first = Some(self.bodies[body].joint);
+            std::iter::successors(first, |&at| self.joints[usize::from(at)].parent).collect()
+        });
+        let of_one = |a: &[u16], b: &[u16]| {
+            a.iter().filter(|joint| !b.contains(joint)).all(|&joint| {
+                match &self.joints[usize::from(joint)].kind {
+                    JointKind::Fixed => true,
+                    JointKind::Turns(axis) | JointKind::Slides(axis) => {
+                        let [low, high] = self.places[usize::from(axis.place)].limits;
+                        low < high
+                    }
+                }
+            })
+        };
+        of_one(&a, &b) && of_one(&b, &a)
     }
 }
 

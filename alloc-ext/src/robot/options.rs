@@ -14,8 +14,8 @@ pub struct RobotOptions {
     pub keep: f64,
     /// Pairs of links that keep a distance of their own.
     pub keep_pairs: Vec<([String; 2], f64)>,
-    /// Random places at which pairs are tried that may be too near at all places. 0: none is left
-    /// out for that.
+    /// Random places at which pairs are tried that may meet at all places. 0: none is left out for
+    /// that.
     pub samples: u32,
 }
 

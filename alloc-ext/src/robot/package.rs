@@ -1,6 +1,6 @@
 //! Names of mesh files in a description, as paths.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// Where packages are.
 pub(super) struct Packages<'a> {
@@ -16,17 +16,23 @@ impl<'a> Packages<'a> {
     }
 
     /// The file of a name: of a package that was named, or that is a folder above the description
-    /// or beside one of those; or a path, from the description's folder.
+    /// or beside one of those, and never out of it; or a path, from the description's folder.
     pub(super) fn find(&self, name: &str) -> Result<PathBuf, String> {
         let Some((scheme, rest)) = name.split_once("://") else {
             return Ok(self.folder.join(name));
         };
         match scheme {
-            "file" => return Ok(PathBuf::from(rest)),
+            "file" => return Ok(self.folder.join(rest)),
             "package" | "model" => {}
             _ => return Err(format!("{name}: only files and packages are read")),
         }
         let (package, path) = rest.split_once('/').unwrap_or((rest, ""));
+        let path = path.trim_start_matches('/');
+        let parts = Path::new(package).join(path);
+        let is_inside = parts.components().all(|part| matches!(part, Component::Normal(_)));
+        if package.is_empty() || path.is_empty() || !is_inside {
+            return Err(format!("{name}: a package and a file in it are wanted"));
+        }
         if let Some((_, folder)) = self.named.iter().find(|(name, _)| name == package) {
             return Ok(folder.join(path));
         }

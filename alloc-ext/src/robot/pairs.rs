@@ -22,14 +22,14 @@ pub struct RobotPair {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Skipped {
-    /// A joint joins them, or links without geometry and their joints do.
+    /// At most one joint that moves is between them, and no link with geometry.
     Neighbours,
     /// They do not move relative to each other.
     Rigid,
     /// The SRDF disables them, for another reason than `Never`.
     Disabled,
-    /// They are not farther apart than their distance at any of the places that were tried.
-    AlwaysNear,
+    /// Their surfaces meet at each of the places that were tried.
+    AlwaysMeet,
 }
 
 impl fmt::Display for Skipped {
@@ -38,7 +38,7 @@ impl fmt::Display for Skipped {
             Self::Neighbours => "neighbours",
             Self::Rigid => "fixed to each other",
             Self::Disabled => "disabled by the SRDF",
-            Self::AlwaysNear => "too near at every place that was tried",
+            Self::AlwaysMeet => "meet at every place that was tried",
         })
     }
 }
@@ -46,8 +46,21 @@ impl fmt::Display for Skipped {
 /// Two links, by their indices.
 type Two = [usize; 2];
 
-/// Pairs that keep a distance, and others with the reason.
-pub(super) type Chosen = (Vec<(Two, f64)>, Vec<(Two, Skipped)>);
+/// Two links, and the distance that they are to keep.
+type Kept = (Two, f64);
+
+/// All pairs.
+#[derive(Default)]
+pub(super) struct Chosen {
+    /// They keep a distance.
+    pub(super) kept: Vec<Kept>,
+    /// They do not, and why.
+    pub(super) skipped: Vec<(Two, Skipped)>,
+    /// They are nearer than the distance at each of the places that were tried, but need not meet.
+    pub(super) near: Vec<Kept>,
+    /// How many are kept that an SRDF disables as never near.
+    pub(super) never: usize,
+}
 
 /// Chooses among all pairs. A pair that is named by an option is never left out.
 pub(super) fn chosen(
@@ -62,9 +75,9 @@ pub(super) fn chosen(
     };
     let bodies: &[Body] = &mechanism.bodies;
     let why = |pair @ [a, b]: Two| {
-        // A reason that was found by sampling proves nothing.
-        let by_srdf = |(names, reason): &([String; 2], String)| is(names, pair) && reason != NEVER;
-        if bodies[b].parent == Some(a) || bodies[a].parent == Some(b) {
+        let by_srdf =
+            |(names, reason): &([String; 2], String)| is(names, pair) && !is_by_sampling(reason);
+        if bodies[b].neighbour == Some(a) || bodies[a].neighbour == Some(b) {
             Some(Skipped::Neighbours)
         } else if bodies[a].mover == bodies[b].mover {
             Some(Skipped::Rigid)
@@ -72,34 +85,51 @@ pub(super) fn chosen(
             disabled.iter().any(by_srdf).then_some(Skipped::Disabled)
         }
     };
-    let (mut kept, mut open, mut skipped) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut all, mut open) = (Chosen::default(), Vec::new());
     for pair in (0..links.len()).flat_map(|a| (a + 1..links.len()).map(move |b| [a, b])) {
         let own = options.keep_pairs.iter().rev().find(|(names, _)| is(names, pair));
         match (own, why(pair)) {
-            (Some((_, keep)), _) => kept.push((pair, *keep)),
-            (None, Some(why)) => skipped.push((pair, why)),
+            (Some((_, keep)), _) => all.kept.push((pair, *keep)),
+            (None, Some(why)) => all.skipped.push((pair, why)),
             (None, None) => open.push((pair, options.keep)),
         }
     }
-    let near = always_near(mechanism, links, open.clone(), options.samples)?;
-    kept.extend(open.into_iter().filter(|pair| !near.contains(pair)));
-    skipped.extend(near.into_iter().map(|(pair, _)| (pair, Skipped::AlwaysNear)));
-    kept.sort_by_key(|(pair, _)| *pair);
-    skipped.sort_by_key(|(pair, _)| *pair);
-    Ok((kept, skipped))
+    let near = always_near(mechanism, links, &open, options.samples)?;
+    all.kept.extend(open.into_iter().filter(|open| near.iter().all(|(near, _)| near != open)));
+    for (near, meets) in near {
+        // Places that a joint never had say nothing.
+        if meets && mechanism.is_free(near.0) {
+            all.skipped.push((near.0, Skipped::AlwaysMeet));
+        } else {
+            all.near.push(near);
+        }
+    }
+    all.kept.sort_by_key(|(pair, _)| *pair);
+    all.skipped.sort_by_key(|(pair, _)| *pair);
+    let is_never = |(pair, _): &&Kept| {
+        disabled.iter().any(|(names, reason)| is(names, *pair) && is_by_sampling(reason))
+    };
+    all.never = all.kept.iter().filter(is_never).count();
+    Ok(all)
 }
 
-/// The reason of an SRDF for pairs that its writer found far apart at all places that it tried.
-pub(super) const NEVER: &str = "Never";
+/// Whether an SRDF disables a pair because its writer found it far apart at all places that it
+/// tried. That proves nothing.
+fn is_by_sampling(reason: &str) -> bool {
+    reason.trim().eq_ignore_ascii_case("never")
+}
 
-/// The pairs that are too near in every sample; none of no samples.
+/// The pairs that are too near in every sample, and whether they meet in each; none of no samples.
 fn always_near(
     mechanism: &Mechanism,
     links: &[Link],
-    pairs: Vec<(Two, f64)>,
+    pairs: &[Kept],
     samples: u32,
-) -> Result<Vec<(Two, f64)>, QueryError> {
-    let mut near = if samples == 0 { Vec::new() } else { pairs };
+) -> Result<Vec<(Kept, bool)>, QueryError> {
+    let mut near: Vec<_> = pairs.iter().map(|pair| (*pair, true)).collect();
+    if samples == 0 {
+        near.clear();
+    }
     let blobs: Vec<_> = links.iter().map(|link| link.built.blob()).collect();
     let trees = blobs.iter().map(|blob| blob.bvh().map_err(|_| QueryError::Unchecked));
     let trees = trees.collect::<Result<Vec<Bvh<'_>>, _>>()?;
@@ -109,20 +139,22 @@ fn always_near(
             break;
         }
         let poses = mechanism.poses(&places)?;
-        let mut failed = None;
-        near.retain(|&([a, b], keep)| {
-            let relative = poses[b].pose.relative_to(&poses[a].pose);
-            let found = relative.and_then(|relative| {
-                let (distance, budget) = (keep as f32, Budget::EXACT);
-                trees[a].within_of(&trees[b], relative.pose, distance, budget, &mut scratch)
+        let mut failed: Option<QueryError> = None;
+        near.retain_mut(|(([a, b], keep), meets)| {
+            let relative = poses[*b].pose.relative_to(&poses[*a].pose);
+            let mut is_near = |distance: f32| -> Result<bool, QueryError> {
+                let (a, b, pose) = (&trees[*a], &trees[*b], relative?.pose);
+                let found = a.within_of(b, pose, distance, Budget::EXACT, &mut scratch)?;
+                Ok(!found.is_clear())
+            };
+            let found = is_near(*keep as f32).and_then(|near| {
+                *meets = *meets && near && is_near(0.0)?;
+                Ok(near)
             });
-            found.map_or_else(
-                |error| {
-                    failed = Some(error);
-                    true
-                },
-                |found| !found.is_clear(),
-            )
+            found.unwrap_or_else(|error| {
+                failed = Some(error);
+                true
+            })
         });
         failed.map_or(Ok(()), Err)?;
     }

@@ -51,27 +51,51 @@ impl Robot {
         } else {
             format!("#[path = {:?}] ", format!("{stem}.rs"))
         };
-        format!(
+        let mut out = format!(
             "// The robot `{}` of `{}`: links, joints, and the pairs that keep a distance.\n//\n\
-             // Written by `meshsweep robot`. Keep it and the blobs of the links in one folder, and\n\
-             // write `{path}mod {module};` in a crate that depends on `meshsweep-core` {}. Lengths are in metres,\n\
-             // angles in radians. Once, and then in every tick:\n//\n\
+             // Written by `meshsweep robot`. Keep it and the blobs of the links in one folder, and write\n\
+             // `{path}mod {module};` in a crate that depends on `meshsweep-core` {}. Lengths are in\n\
+             // metres, angles in radians.\n//\n\
              // let mut scratch = Scratch::<{{ Bvh::DISTANCE_ENTRIES }}>::new();\n\
-             // let mut scene = CoherentScene::new({module}::links(&{module}::poses(&places)?)?, {module}::PAIRS)?;\n//\n\
-             // for (link, found) in {module}::poses(&places)?.iter().enumerate() {{\n\
-             //     scene.move_to(link, found.pose)?;\n\
-             // }}\n\
-             // if !scene.within(Budget::EXACT, &mut scratch)?.is_clear() {{\n\
+             // let pairs = {module}::pairs(&[0.01; {links}]); // The links' allowances: see below.\n\
+             // let mut scene = CoherentScene::new({module}::links(&{module}::poses(&places)?)?, pairs)?;\n\
+             // let mut ask = |places: &[f32; {places}]| {{\n\
+             //     for (link, found) in {module}::poses(places)?.iter().enumerate() {{\n\
+             //         scene.move_to(link, found.pose)?;\n\
+             //     }}\n\
+             //     scene.within(Budget::EXACT, &mut scratch)\n\
+             // }};\n\
+             // // In each tick. An error stops the robot too.\n\
+             // if !ask(&places).is_ok_and(|found| found.is_clear()) {{\n\
              //     stop();\n\
              // }}\n//\n\
-             // A pair's distance has room for the rounding of `poses`. Add to it how far both links go until\n\
-             // the next tick, and how far encoders and the arm itself may be off.\n\n\
-             use meshsweep_core::{{\n    {}KeptPair, PlacedModel, Pose, QueryError, RoundedPose, link_poses,\n}};\n",
+             // The distances of `PAIRS` have room for the rounding of `poses` (`ROUNDING`), and for nothing\n\
+             // else. `pairs` adds an allowance of each link. It is the sum of how far the link may be from\n\
+             // its pose, or go:\n\
+             // - encoders, calibration: the angle times the reach beyond the joint, for all joints before it\n\
+             // - age of the reading, and motion until the next verdict: the largest speed times the time\n\
+             // - braking: the way from the verdict until the robot stands\n\
+             // - links that bend, cables, and all that the collision geometry lacks\n//\n\
+             // Not guarded:\n",
             in_comment(&self.name),
             in_comment(file),
             env!("CARGO_PKG_VERSION"),
+            links = self.links.len(),
+            places = self.places.len(),
+        );
+        for link in &self.without_geometry {
+            let _ = writeln!(out, "// - {}: no collision geometry", in_comment(link));
+        }
+        for (pair, why) in &self.skipped {
+            let [a, b] = pair.map(|link| in_comment(&self.links[link].name));
+            let _ = writeln!(out, "// - {a} and {b}: {why}");
+        }
+        let _ = write!(
+            out,
+            "\nuse meshsweep_core::{{\n    {}KeptPair, PlacedModel, Pose, QueryError, RoundedPose, link_poses,\n}};\n",
             self.imports(),
-        )
+        );
+        out
     }
 
     fn imports(&self) -> &'static str {
@@ -132,7 +156,7 @@ impl Robot {
         };
         let pairs = self.pairs.iter().map(pair).collect();
         table(
-            "/// Pairs that keep a distance.",
+            "/// Pairs that keep a distance, without allowances.",
             format!("pub const PAIRS: [KeptPair; {}]", self.pairs.len()),
             pairs,
         );
@@ -146,6 +170,7 @@ impl Robot {
 
     fn functions(&self, out: &mut String, modules: &[String]) {
         let (links, places, joints) = (self.links.len(), self.places.len(), self.joints.len());
+        let pairs = self.pairs.len();
         let picked: Vec<String> =
             self.links.iter().map(|link| format!("all[{}]", link.joint)).collect();
         let placed = |(at, name): (usize, &String)| {
@@ -174,7 +199,20 @@ impl Robot {
              /// Those of `PlacedModel::new`.\n\
              #[allow(dead_code)]\n\
              pub fn links(poses: &[RoundedPose; {links}]) -> Result<[PlacedModel<'static>; {links}], QueryError> {{\n    \
-                 Ok([\n{placed}    ])\n}}\n",
+                 Ok([\n{placed}    ])\n}}\n\n\
+             /// `PAIRS`, each farther apart by the allowances of its two links. Their signs do not count.\n\
+             #[allow(dead_code)]\n\
+             pub fn pairs(allowances: &[f32; {links}]) -> [KeptPair; {pairs}] {{\n    \
+                 let mut all = PAIRS;\n    \
+                 for pair in &mut all {{\n        \
+                     for model in pair.models {{\n            \
+                         if let Some(more) = allowances.get(usize::from(model)) {{\n                \
+                             // No less than the exact sum.\n                \
+                             pair.distance = (pair.distance + more.abs()).next_up();\n            \
+                         }}\n        \
+                     }}\n    \
+                 }}\n    \
+                 all\n}}\n",
             picked.join(", "),
         );
     }
@@ -207,11 +245,11 @@ fn joint(joint: &Joint) -> String {
 }
 
 fn axis(axis: &JointAxis) -> String {
-    let JointAxis { direction, place, factor, offset } = axis;
-    if (*factor, *offset) == (1.0, 0.0) {
-        return format!("JointAxis::new({direction:?}, {place})");
+    let JointAxis { direction, place, follows } = axis;
+    match follows {
+        None => format!("JointAxis::new({direction:?}, {place})"),
+        Some(_) => format!(
+            "JointAxis {{ direction: {direction:?}, place: {place}, follows: {follows:?} }}"
+        ),
     }
-    format!(
-        "JointAxis {{ direction: {direction:?}, place: {place}, factor: {factor:?}, offset: {offset:?} }}"
-    )
 }

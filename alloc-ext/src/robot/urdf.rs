@@ -271,19 +271,6 @@ fn joint(element: Element<'_>) -> Result<UrdfJoint, BuildError> {
             element.child(name)?.ok_or_else(|| element.refused(&format!("it has no {name}")))?;
         end.wanted("link").map(str::to_owned)
     };
-    let limits = match (element.child("limit")?, kind) {
-        _ if moves == Moves::Not => [0.0; 2],
-        (_, "continuous") => [-std::f64::consts::PI, std::f64::consts::PI],
-        (None, _) => return Err(element.refused("it has no limit")),
-        (Some(limit), _) => {
-            let [low, high] =
-                [limit.number("lower")?, limit.number("upper")?].map(Option::unwrap_or_default);
-            if low > high {
-                return Err(limit.refused("lower is above upper"));
-            }
-            [low, high]
-        }
-    };
     let follows = match element.child("mimic")? {
         Some(mimic) if moves != Moves::Not => Some(Follows {
             joint: mimic.wanted("joint")?.to_owned(),
@@ -291,6 +278,22 @@ fn joint(element: Element<'_>) -> Result<UrdfJoint, BuildError> {
             offset: mimic.number("offset")?.unwrap_or(0.0),
         }),
         _ => None,
+    };
+    let limits = match (element.child("limit")?, kind) {
+        _ if moves == Moves::Not || follows.is_some() => [0.0; 2],
+        (_, "continuous") => [-std::f64::consts::PI, std::f64::consts::PI],
+        (None, _) => return Err(element.refused("it has no limit")),
+        (Some(limit), _) => {
+            let end = |name: &str| {
+                let missing = || limit.refused(&format!("it has no {name}"));
+                limit.number(name)?.ok_or_else(missing)
+            };
+            let [low, high] = [end("lower")?, end("upper")?];
+            if low > high {
+                return Err(limit.refused("lower is above upper"));
+            }
+            [low, high]
+        }
     };
     let axis = match element.child("axis")? {
         None => [1.0, 0.0, 0.0],

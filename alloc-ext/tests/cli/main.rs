@@ -21,6 +21,7 @@ mod queries;
 mod refine;
 mod reports;
 mod robot;
+mod robot_gantry;
 mod rounding;
 mod support;
 mod tight;

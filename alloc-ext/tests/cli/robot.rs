@@ -220,7 +220,13 @@ fn links_are_no_farther_from_their_places_than_their_poses_say() {
 #[test]
 fn the_emitted_module_compiles_without_warnings_and_gives_the_poses_of_the_library() {
     let directory = scratch("robot_emitted");
-    let (file, out) = (arm(&directory, &[]), directory.join("arm"));
+    // A link that has the name of the crate, and one that follows another by a factor near 1.
+    let change = [
+        ("\"table\"", "\"meshsweep_core\""),
+        ("\"table\"", "\"meshsweep_core\""),
+        ("multiplier=\"0.9\" offset=\"0.001\"", "multiplier=\"1.00000005\""),
+    ];
+    let (file, out) = (arm(&directory, &change), directory.join("arm"));
     let text = ok(["robot", arg(&file), "-o", arg(&out), "--keep", "0.01", "--samples", "100"]);
     for part in
         ["forearm", "arm_finger_2.msw", "without collision geometry, not guarded: world, bare"]
@@ -230,13 +236,29 @@ fn the_emitted_module_compiles_without_warnings_and_gives_the_poses_of_the_libra
     let robot = Robot::read(&file, &options()).unwrap();
     let still = meshsweep_core::RoundedPose::exact(meshsweep_core::Pose::IDENTITY);
     let mut poses = vec![still; robot.joints.len()];
-    let mut body = "let mut scratch = Scratch::<{ Bvh::DISTANCE_ENTRIES }>::new();\n\
+    let module = fs::read_to_string(directory.join("arm.rs")).unwrap();
+    for part in
+        ["follows: Some([1.0, 0.0])", "// - bare: no col", "// - shoulder and upperarm: neighbours"]
+    {
+        assert!(module.contains(part), "{part} in {module}");
+    }
+    // The use that the module's first lines show.
+    let shown = module.lines().skip_while(|line| !line.starts_with("// let mut scratch"));
+    let shown = shown.take_while(|line| *line != "//");
+    let shown: Vec<&str> = shown.map(|line| line.strip_prefix("// ").unwrap_or(line)).collect();
+    let mut body = "let (places, stop) = ([0.0; 5], || println!(\"stop\"));\n".to_owned()
+        + &shown.join("\n")
+        + "\nassert_eq!(ask(&[f32::NAN; 5]).err(), Some(QueryError::NotFinite));\n\
+        for (wide, pair) in arm::pairs(&[0.25, -0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).iter().zip(arm::PAIRS) {\n\
+        let more: f64 = pair.models.iter().map(|&of| [0.25, 0.5, 0.0][usize::from(of.min(2))]).sum();\n\
+        let over = f64::from(wide.distance) - f64::from(pair.distance) - more;\n\
+        assert!((0.0..1e-6).contains(&over));\n\
+        }\n\
         let still = arm::links(&arm::poses(&[0.0; 5])?)?;\n\
         let mut scene = CoherentScene::new(still, arm::PAIRS)?;\n\
         assert_eq!((arm::LINKS[3], arm::PLACES[4], arm::LIMITS[4]), (\"forearm\", \"left\", [0.0, 0.04]));\n\
         let far = arm::poses(&[0.0, 0.0, 0.0, 0.0, 1e6]);\n\
-        assert_eq!(far, Err(QueryError::OutOfDomain));\n"
-        .to_owned();
+        assert_eq!(far, Err(QueryError::OutOfDomain));\n";
     let mut wanted = String::new();
     for number in 0..40 {
         let places = places(number);
@@ -261,7 +283,7 @@ fn the_emitted_module_compiles_without_warnings_and_gives_the_poses_of_the_libra
         let _ = writeln!(wanted, "{own:?} {is_clear}");
     }
     let said = emitted(&directory, &body);
-    assert_eq!(said, wanted);
+    assert_eq!(said.trim_start_matches("stop\n"), wanted);
     assert!(said.contains(" true\n") && said.contains(" false\n"));
 }
 
@@ -305,12 +327,15 @@ fn collision_shapes_of_a_link_are_one_mesh_scaled_turned_and_shifted() {
 #[test]
 fn every_pair_is_kept_or_has_a_reason() {
     let directory = scratch("robot_pairs");
-    let file = arm(&directory, &[]);
+    // The upper arm always sticks in the base.
+    let file = arm(&directory, &[("0.001 0.001 0.001", "0.003 0.003 0.003")]);
     let srdf = directory.join("arm.srdf");
     let disable = |a: &str, b: &str, why: &str| {
         format!("<disable_collisions link1=\"{a}\" link2=\"{b}\" reason=\"{why}\"/>\n")
     };
     let all = disable("wrist", "base_link", "Never")
+        + &disable("base_link", "forearm", " never ")
+        + &disable("wrist", "Finger", "Never")
         + &disable("finger", "Finger", "User")
         + &disable("lost", "wrist", "Adjacent");
     fs::write(&srdf, format!("<robot name=\"small arm\">\n{all}</robot>\n")).unwrap();
@@ -332,7 +357,7 @@ fn every_pair_is_kept_or_has_a_reason() {
         skipped,
         [
             "base_link shoulder: neighbours",
-            "base_link upperarm: too near at every place that was tried",
+            "base_link upperarm: meet at every place that was tried",
             "shoulder upperarm: neighbours",
             "upperarm forearm: neighbours",
             "forearm wrist: neighbours",
@@ -341,7 +366,7 @@ fn every_pair_is_kept_or_has_a_reason() {
             "Finger finger: disabled by the SRDF",
         ]
     );
-    assert_eq!((robot.never, robot.unknown.as_slice()), (1, &["lost".to_owned()][..]));
+    assert_eq!((robot.never, robot.unknown.as_slice()), (2, &["lost".to_owned()][..]));
     let of = |wanted: &str| robot.pairs.iter().find(|pair| names(&robot, pair.links) == wanted);
     // Kept though fixed to each other, by its name; and though an SRDF found it far by sampling.
     let kept = of("base_link table").unwrap();
@@ -353,13 +378,60 @@ fn every_pair_is_kept_or_has_a_reason() {
     let rigid = robot.skipped.iter().find(|(pair, _)| names(&robot, *pair) == "base_link table");
     assert_eq!(rigid.unwrap().1.to_string(), "fixed to each other");
     assert!(robot.pairs.iter().any(|pair| names(&robot, pair.links) == "base_link upperarm"));
+    // Always near, but without contact: no larger distance leaves a pair out.
+    options.samples = 100;
+    let file = arm(&directory, &[]);
+    let error = Robot::read(&file, &options).unwrap_err().to_string();
+    assert!(error.contains("base_link, upperarm at 0.05") && error.contains("--keep"), "{error}");
+    options.keep = 0.01;
+    let robot = Robot::read(&file, &options).unwrap();
+    assert!(robot.pairs.iter().any(|pair| names(&robot, pair.links) == "base_link upperarm"));
+}
+
+#[test]
+fn collision_meshes_are_converted_from_their_unit_and_found_in_their_folder() {
+    let directory = scratch("robot_meshes");
+    let text = "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">\n\
+        <asset><unit meter=\"0.01\"/><up_axis>Z_UP</up_axis></asset><library_geometries>\
+        <geometry id=\"g\"><mesh><source id=\"p\"><float_array id=\"a\" count=\"12\">\
+        0 0 0 30 0 0 0 20 0 0 0 10</float_array><technique_common>\
+        <accessor source=\"#a\" count=\"4\" stride=\"3\"><param name=\"X\" type=\"float\"/>\
+        <param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor>\
+        </technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/>\
+        </vertices><triangles count=\"4\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>\
+        <p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries>\
+        <library_visual_scenes><visual_scene id=\"s\"><node><instance_geometry url=\"#g\"/></node>\
+        </visual_scene></library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene>\
+        </COLLADA>\n";
+    let change = [
+        ("meshes/short.stl\" scale=\"0.001 0.001 0.001\"", "file://meshes/tetra.dae\""),
+        ("package://my_arm/meshes", "package://my_arm//meshes"),
+        // A joint that follows another needs no limits.
+        ("<axis xyz=\"0 -1 0\"/><limit lower=\"0\" upper=\"0.04\"/>", "<axis xyz=\"0 -1 0\"/>"),
+    ];
+    let file = arm(&directory, &change);
+    fs::write(directory.join("my_arm/meshes/tetra.dae"), text).unwrap();
+    let robot = Robot::read(&file, &options()).unwrap();
+    let base = &robot.links[0];
+    assert_eq!(base.built.loaded.as_ref().unwrap().input_triangles, 4);
+    assert!((0.3..0.300001).contains(&base.radius), "{}", base.radius);
 }
 
 #[test]
 fn faults_of_a_description_are_refused_with_their_line() {
     let directory = scratch("robot_faults");
     let limit = "<limit lower=\"-3.14\" upper=\"3.14\"/>";
-    let faults: [(&str, &str, &str); 20] = [
+    let factor = "multiplier=\"0.9\"";
+    let faults: [(&str, &str, &str); 25] = [
+        (factor, "multiplier=\"1e39\"", "it mimics by numbers beyond f32"),
+        (factor, "multiplier=\"1e-39\"", "it mimics by numbers beyond f32"),
+        ("limit lower=\"0\" upper", "limit upper", "it has no lower"),
+        ("package://my_arm/", "package:///", "a package and a file in it are wanted"),
+        (
+            "package://my_arm/",
+            "package://my_arm/../my_arm/",
+            "a package and a file in it are wanted",
+        ),
         ("<box size=\"1.5 1 0.1\"", "<capsule radius=\"1\" length=\"2\"", "this shape is not read"),
         ("1.5 1 0.1", "1.5 1", "size \"1.5 1\": 3 finite numbers wanted"),
         ("1.5 1 0.1", "1.5 0 0.1", "a size of 0"),

@@ -68,15 +68,13 @@ impl True {
         let along = [0, 1, 2].map(|_| f64::from(rng.range(-1.0, 1.0)));
         let length = dot(along, along).sqrt();
         let axis = [along.map(|x| x / length), [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]][rng.below(3)];
-        let follows = rng.below(3) == 0;
-        let (factor, offset) = if follows {
-            (f64::from(rng.range(-2.0, 2.0)) / 3.0, f64::from(rng.range(-1.0, 1.0)) / 3.0)
-        } else {
-            (1.0, 0.0)
-        };
+        let any = (f64::from(rng.range(-2.0, 2.0)) / 3.0, f64::from(rng.range(-1.0, 1.0)) / 3.0);
+        let follows = (rng.below(3) == 0).then(|| {
+            [any, (any.0, 0.0), (1.00000005, 0.0), (3.0 * 0.33333333333, 0.0)][rng.below(4)]
+        });
+        let (factor, offset) = follows.unwrap_or((1.0, 0.0));
         let of_axis = JointAxis {
-            factor: factor as f32,
-            offset: offset as f32,
+            follows: follows.map(|(factor, offset)| [factor as f32, offset as f32]),
             ..JointAxis::new(axis.map(|x| x as f32), rng.below(3) as u16)
         };
         let kinds = [JointKind::Fixed, JointKind::Turns(of_axis), JointKind::Slides(of_axis)];
@@ -133,6 +131,27 @@ fn no_link_is_farther_off_than_its_pose_says() {
         }
     }
     assert!(most > 0.05, "{most}");
+}
+
+#[test]
+fn a_joint_that_follows_another_by_a_rounded_factor_of_1_is_not_taken_as_exact() {
+    for (factor, kind) in [1.00000005, 3.0 * 0.33333333333]
+        .into_iter()
+        .flat_map(|factor| [JointKind::Turns, JointKind::Slides].map(|kind| (factor, kind)))
+    {
+        assert_eq!(factor as f32, 1.0);
+        let axis = JointAxis { follows: Some([1.0, 0.0]), ..JointAxis::new([0.0, 0.0, 1.0], 0) };
+        let origin = RoundedPose::exact(Pose::IDENTITY);
+        let of_axis = True {
+            joint: Joint { parent: None, origin, kind: kind(axis) },
+            axis: [0.0, 0.0, 1.0],
+            factor,
+            offset: 0.0,
+        };
+        let mut found = [origin];
+        link_poses(&[of_axis.joint], &[8000.0], &mut found).expect("a mechanism");
+        used(&found[0], 1.0, [1.0, 0.0, 0.0], of_axis.carried(&[8000.0], [1.0, 0.0, 0.0]));
+    }
 }
 
 #[test]

@@ -121,7 +121,7 @@ fn write(
         let [a, b] = pair.links.map(name);
         writeln!(out, "  {a}, {b}: {}", AtMost(pair.keep))?;
     }
-    for why in [Skipped::Neighbours, Skipped::Rigid, Skipped::Disabled, Skipped::AlwaysNear] {
+    for why in [Skipped::Neighbours, Skipped::Rigid, Skipped::Disabled, Skipped::AlwaysMeet] {
         let of = robot.skipped.iter().filter(|(_, other)| *other == why);
         let pairs: Vec<String> =
             of.map(|([a, b], _)| format!("{}, {}", name(*a), name(*b))).collect();
@@ -134,7 +134,7 @@ fn write(
             )?;
         }
     }
-    if robot.skipped.iter().any(|(_, why)| *why == Skipped::AlwaysNear) {
+    if robot.skipped.iter().any(|(_, why)| *why == Skipped::AlwaysMeet) {
         writeln!(
             out,
             "  tried at {}; guard them by --keep A,B=D",

@@ -40,17 +40,16 @@ pub struct JointAxis {
     pub direction: [f32; 3],
     /// Which of the places is this joint's.
     pub place: u16,
-    /// The joint is at `factor · place + offset`. 1 unless it follows another joint. Rounded to
-    /// f32.
-    pub factor: f32,
-    /// 0 unless it follows another joint. Rounded to f32.
-    pub offset: f32,
+    /// Of a joint that follows another one, `[factor, offset]`: it is at `factor · place + offset`.
+    /// Both are rounded to f32, and the factor is 0 or a normal number. `None`: the joint is at the
+    /// place.
+    pub follows: Option<[f32; 2]>,
 }
 
 impl JointAxis {
     /// An axis with a place of its own.
     pub const fn new(direction: [f32; 3], place: u16) -> JointAxis {
-        JointAxis { direction, place, factor: 1.0, offset: 0.0 }
+        JointAxis { direction, place, follows: None }
     }
 
     /// The joint's place, and how far it may be from the exact one.
@@ -64,12 +63,10 @@ impl JointAxis {
         if (size_sq - 1.0).abs() > 8.0 * U32 {
             return Err(QueryError::NotRigid);
         }
-        if self.factor == 1.0 && self.offset == 0.0 {
-            return Ok((place, 0.0));
-        }
-        let scaled = self.factor * place;
-        let off = (scaled.abs() + self.offset.abs()) * (4.0 * U32) + f32::MIN_POSITIVE;
-        Ok((scaled + self.offset, off))
+        let Some([factor, offset]) = self.follows else { return Ok((place, 0.0)) };
+        let scaled = factor * place;
+        let off = (scaled.abs() + offset.abs()) * (4.0 * U32) + f32::MIN_POSITIVE;
+        Ok((scaled + offset, off))
     }
 }
 

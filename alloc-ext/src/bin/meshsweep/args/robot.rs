@@ -21,7 +21,7 @@ pub struct RobotArgs {
     /// Folder of a package that mesh files are named by [default: a folder above, of its name]
     #[arg(long, value_name = "NAME=DIR", value_parser = package)]
     pub package: Vec<(String, PathBuf)>,
-    /// Random places at which pairs are tried that may be too near everywhere; 0 keeps them
+    /// Random places at which pairs are tried that may meet everywhere; 0 keeps them
     #[arg(long, value_name = "N", default_value = "1000", value_parser = clap::value_parser!(u32).range(..=1_000_000))]
     pub samples: u32,
     #[command(flatten)]
