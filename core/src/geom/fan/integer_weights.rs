@@ -61,7 +61,7 @@ pub(super) fn weights(s: IntVector, e: IntVector, g: IntVector) -> (i32, i32) {
         up = 16u32.saturating_sub(size);
         reciprocal(whole << up >> cut)
     } else {
-        (1 << 31) / (whole >> cut)
+        (1 << 31) / (whole >> cut).max(1)
     };
     let whole = whole << up >> cut;
     let weight = |x: i32| {
