@@ -102,7 +102,7 @@ fn poses(kind: usize, scale: f32, rng: &mut Rng) -> [Pose; 2] {
     };
     let translation = rng.direction().map(|x| scale * x * rng.range(0.5, 5.0));
     let second = Pose { rotation: rows, translation, is_affine: is_any };
-    if kind % 3 > 0 {
+    if !kind.is_multiple_of(3) {
         return [Pose::IDENTITY, second];
     }
     let base = rng.direction().map(|x| scale * x * [0.0, 3.0, 300.0][rng.below(3)]);
