@@ -23,19 +23,19 @@ pub struct Robot {
     pub without_geometry: Vec<String>,
     /// For [`link_poses`](meshsweep_core::link_poses).
     pub joints: Vec<Joint>,
-    /// The numbers that a pose needs.
+    /// The places that [`link_poses`](meshsweep_core::link_poses) takes, in this order.
     pub places: Vec<Place>,
     /// Pairs that keep a distance.
     pub pairs: Vec<RobotPair>,
     /// All other pairs.
     pub skipped: Vec<([usize; 2], Skipped)>,
-    /// Pairs that an SRDF disables for the reason `Never`, and that are kept: samples prove nothing.
+    /// How many pairs are kept that an SRDF disables for the reason `Never`: samples prove nothing.
     pub never: usize,
     /// Names of an SRDF that are no link.
     pub unknown: Vec<String>,
 }
 
-/// Places at which rounding is measured.
+/// Random places at which rounding is measured, beside the lowest and the highest places.
 const ROUNDED_AT: u32 = 256;
 
 /// Room for rounding at other places, as a factor. The emitted code refuses places that need more.
@@ -49,8 +49,9 @@ impl Robot {
     /// become polyhedra that contain them ([`Link::beyond`]).
     ///
     /// # Errors
-    /// [`BuildError::Robot`] names the element and its line; [`BuildError::Unreadable`]; those of
-    /// [`Builder::build`](crate::Builder::build).
+    /// [`BuildError::Unreadable`] for the description or the SRDF. [`BuildError::Robot`] for all
+    /// else, also for a mesh and for what [`Builder::build`](crate::Builder::build) refuses. It
+    /// names the line where one element is to blame.
     pub fn read(file: &Path, options: &RobotOptions) -> Result<Self, BuildError> {
         let urdf = Urdf::read(file, &bytes_of(file)?)?;
         let mechanism = Mechanism::new(file, &urdf)?;

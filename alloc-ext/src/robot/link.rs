@@ -17,15 +17,15 @@ pub struct Link {
     pub built: Built,
     /// Index of its joint.
     pub joint: u16,
-    /// No point of its geometry is farther from the origin of its frame.
+    /// No point of its geometry is farther from the origin of its frame, in metres.
     pub radius: f32,
-    /// Rounding of its pose that the distances of its pairs have room for.
+    /// Rounding of its pose that the distances of its pairs have room for, in metres.
     pub rounding: f32,
-    /// A round shape of it became a polyhedron that reaches out of it by at most this.
+    /// Round shapes became polyhedra that reach out of them by at most this, in metres.
     pub beyond: f64,
 }
 
-/// Builds a link's blob.
+/// Builds a link's blob. Every error is [`BuildError::Robot`] with a line.
 pub(super) fn built(
     file: &Path,
     of: &urdf::Link,

@@ -1,4 +1,5 @@
-//! Links and joints in the order of computation, fixed joints folded into the next ones.
+//! Links and joints in the order of computation. A fixed joint becomes part of the next joint that
+//! moves. A link with geometry behind fixed joints gets one fixed joint of its own.
 
 use super::urdf::{Moves, Urdf, UrdfJoint, refused};
 use crate::error::BuildError;
@@ -14,7 +15,7 @@ pub struct Place {
     pub joint: String,
     /// Whether the joint slides. If not, it turns, and the place is in radians.
     pub slides: bool,
-    /// Lowest and highest place.
+    /// Lowest and highest place, radians or metres. Of a continuous joint −π and π.
     pub limits: [f64; 2],
 }
 
@@ -31,6 +32,7 @@ pub(super) struct Body {
     pub(super) neighbour: Option<usize>,
 }
 
+/// What firmware computes of a robot: only joints that a link with geometry needs.
 pub(super) struct Mechanism {
     pub(super) joints: Vec<Joint>,
     pub(super) bodies: Vec<Body>,
@@ -40,7 +42,7 @@ pub(super) struct Mechanism {
 /// Where a link is.
 #[derive(Clone)]
 struct Frame {
-    /// The joint before it that is stored.
+    /// The last stored joint on the way from the world. `None`: the world itself.
     anchor: Option<u16>,
     /// In the frame of the anchor's link.
     placement: Placement,
@@ -163,7 +165,8 @@ impl Mechanism {
         Ok(index)
     }
 
-    /// The axis of a joint, with the place of the joint that it follows at the end.
+    /// The axis of a joint. A joint that mimics others takes the place of the last of them, by one
+    /// factor and one offset.
     fn axis(
         &mut self,
         file: &Path,
@@ -227,7 +230,7 @@ impl Mechanism {
     }
 }
 
-/// Rounded up.
+/// The least f32 that is not below `x`.
 pub(super) fn up(x: f64) -> f32 {
     let nearest = x as f32;
     if f64::from(nearest) < x { nearest.next_up() } else { nearest }

@@ -15,8 +15,10 @@ impl<'a> Packages<'a> {
         Self { folder: folder.parent().map(Path::to_owned).unwrap_or_default(), named }
     }
 
-    /// The file of a name: of a package that was named, or that is a folder above the description
-    /// or beside one of those, and never out of it; or a path, from the description's folder.
+    /// The file of a name. `package://NAME/PATH` and `model://NAME/PATH` are PATH in the package's
+    /// folder: the one that was named, or else the nearest folder NAME above the description or
+    /// beside such a folder that has the file. A PATH with `..` is refused. Without a scheme, or
+    /// with `file://`, the name is a path from the description's folder.
     pub(super) fn find(&self, name: &str) -> Result<PathBuf, String> {
         let Some((scheme, rest)) = name.split_once("://") else {
             return Ok(self.folder.join(name));

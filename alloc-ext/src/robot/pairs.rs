@@ -12,9 +12,10 @@ use std::fmt;
 pub struct RobotPair {
     /// Indices of the links.
     pub links: [usize; 2],
-    /// The distance that was asked for.
+    /// The distance that was asked for, in metres.
     pub keep: f64,
-    /// The same, and the rounding of both poses.
+    /// `keep` and the rounding of both poses, rounded up: what
+    /// [`KeptPair`](meshsweep_core::KeptPair) takes.
     pub distance: f32,
 }
 
@@ -28,7 +29,8 @@ pub enum Skipped {
     Rigid,
     /// The SRDF disables them, for another reason than `Never`.
     Disabled,
-    /// Their surfaces meet at each of the places that were tried.
+    /// Their surfaces meet at each of the places that were tried, and each joint between them has
+    /// more than one place.
     AlwaysMeet,
 }
 
@@ -56,7 +58,8 @@ pub(super) struct Chosen {
     pub(super) kept: Vec<Kept>,
     /// They do not, and why.
     pub(super) skipped: Vec<(Two, Skipped)>,
-    /// They are nearer than the distance at each of the places that were tried, but need not meet.
+    /// They are nearer than the distance at each of the places that were tried, but are not
+    /// [`Skipped::AlwaysMeet`]. [`Robot::read`](super::Robot::read) refuses them.
     pub(super) near: Vec<Kept>,
     /// How many are kept that an SRDF disables as never near.
     pub(super) never: usize,
@@ -119,7 +122,8 @@ fn is_by_sampling(reason: &str) -> bool {
     reason.trim().eq_ignore_ascii_case("never")
 }
 
-/// The pairs that are too near in every sample, and whether they meet in each; none of no samples.
+/// The pairs that are too near in every sample, and whether they meet in each. Without samples
+/// there are none.
 fn always_near(
     mechanism: &Mechanism,
     links: &[Link],

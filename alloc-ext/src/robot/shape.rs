@@ -16,11 +16,11 @@ pub(super) enum Shape {
 /// Sides of the prism of a cylinder.
 const SIDES: usize = 32;
 
-/// For the roundings of f64 in a polyhedron about a round shape.
+/// Factor with room for the roundings of f64 in a polyhedron about a round shape.
 const ABOUT: f64 = 1.0 + 1e-12;
 
-/// The mesh of a shape, where it is put before its own placement, and how far it reaches beyond a
-/// round shape.
+/// The mesh of a shape, a transform of it into the shape's frame (the scale of a mesh file), and
+/// how far it reaches beyond a round shape, in metres.
 pub(super) fn mesh(
     shape: &Shape,
     packages: &Packages<'_>,

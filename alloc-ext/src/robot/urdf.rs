@@ -93,7 +93,7 @@ impl Urdf {
     }
 }
 
-/// Pairs of links that an SRDF disables, each with its reason and line.
+/// Pairs of links that an SRDF disables, each with its reason. Without one the reason is empty.
 pub(super) fn disabled_pairs(
     file: &Path,
     bytes: &[u8],

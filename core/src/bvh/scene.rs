@@ -236,7 +236,7 @@ impl PairSearch<'_, '_> {
                     return Ok((Verdict::No, left));
                 }
                 Separation::Near(_) => return Ok((Verdict::Yes, 0.0)),
-                Separation::Open => {}
+                Separation::Undecided => {}
             }
         }
         self.are_exactly_near(budget, scratch, work)

@@ -252,7 +252,8 @@ impl Asker {
             }
             if let Some(answer) = answered(a.within_of(b, *pose, half, budget, &mut stack)) {
                 assert!(answer.work.opened <= steps, "{answer:?}");
-                assert!(half == 0.0 || answer.verdict != Verdict::Yes, "{answer:?}");
+                // An edited box may not hold its triangles, so two searches may contradict each
+                // other.
                 answer.witness.into_iter().for_each(in_range);
             }
         }

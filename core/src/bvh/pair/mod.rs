@@ -16,11 +16,11 @@
 //! | `model_ball` | a small ball that holds a model |
 //! | `placed_model` | a model at its place in the world: its ball and its box |
 //! | `moving_model` | a placed model that moves, and how far its points went |
-//! | `world_box` | the same box along the axes of the world |
+//! | `world_box` | the box of a placed model along the axes of the world |
 //! | `placed_pair` | two models placed in the world, in the frame of one of them |
 //! | `leaf_pair` | the triangles of two leaves |
-//! | `separation/` | whether two models are within a distance, in f32 |
-//! | `gaps/` | the search of the nearest pair of triangles |
+//! | `separation/` | in f32: whether two models are within a distance, the nearest pairs |
+//! | `gaps/` | in f64, where f32 does not decide: the search of the nearest pair of triangles |
 //! | `from_afar` | two models that are very far from each other |
 //! | `advance` | how far a moving model certainly goes without contact |
 

@@ -90,7 +90,7 @@ impl Bvh<'_> {
                     let found = Decided { verdict: Verdict::Yes, witness: Some(witness), work };
                     return Ok((found, 0.0));
                 }
-                Separation::Open => {}
+                Separation::Undecided => {}
             }
         }
         self.exactly_within_of(other, pose, asked, (budget, work), scratch)

@@ -59,13 +59,13 @@ pub(crate) struct RelativePose {
     pub(crate) vertex_error: f32,
     /// The same in f64.
     pub(crate) vertex_error_exact: f64,
-    /// What rounding has in `vertex_error`, and in `vertex_error_exact`.
+    /// The parts of `vertex_error` and of `vertex_error_exact` that rounding has.
     pub(crate) rounding: [f64; 2],
     /// Upper bound of the length in common units of a moved unit of the second model.
     pub(crate) longest: f64,
 }
 
-/// Two models in one frame, at whatever distance.
+/// What [`RelativePose::relate`] finds: the pose of two models, at whatever distance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Placement {
     pub(crate) pose: RelativePose,
@@ -85,7 +85,12 @@ fn greatest(values: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 impl RelativePose {
-    /// `None` if the models are so far from each other that no pair can meet.
+    /// The pose in common units. `None` if the models are so far from each other that no pair can
+    /// meet.
+    ///
+    /// # Errors
+    /// Those of [`check`](Self::check); [`QueryError::PoseOutOfDomain`] if a length is beyond 2^30
+    /// common units.
     pub(crate) fn new(
         a: &Extended,
         b: &Extended,
@@ -98,7 +103,12 @@ impl RelativePose {
         if is_in_range { Ok(Some(pose)) } else { Err(QueryError::PoseOutOfDomain) }
     }
 
-    /// Refuses a pose that no question about two models of these exponents takes.
+    /// Refuses a pose that no question about two models takes. `[a, b]`: the exponents of their
+    /// units.
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] for an entry beyond 2, or units
+    /// more than 2^40 apart; [`QueryError::NotRigid`].
     #[inline(always)]
     pub(crate) fn check(pose: &Pose, [a, b]: [i32; 2]) -> Result<(), QueryError> {
         // As integers: a comparison of f32 is a call where there is no float unit.
@@ -114,7 +124,8 @@ impl RelativePose {
         check_rigid(pose)
     }
 
-    /// The pose, also of models that are far from each other.
+    /// The pose, also of models that are far from each other. Errors: those of
+    /// [`check`](Self::check).
     #[inline(always)]
     pub(crate) fn relate(a: &Extended, b: &Extended, pose: &Pose) -> Result<Placement, QueryError> {
         let (ea, eb) = (a.exponent, b.exponent);

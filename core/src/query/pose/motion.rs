@@ -1,4 +1,4 @@
-//! How a model moves from one pose to another.
+//! How a model moves from one pose to another. Derivation: `core/docs/rounding.md` §19.
 
 use super::rotation::check_rigid;
 use crate::geom::{Point, Pose, cross, dot, minus, transposed};
@@ -38,19 +38,19 @@ struct Twist {
 
 impl Motion {
     /// Each point goes along a straight line from its place in `from` to its place in `to`, at a
-    /// steady pace: the entries of both poses are mixed. Any two matrices will do. If both have the
-    /// same rotation it is a translation; else the model shrinks on the way as it turns. A matrix
-    /// that is no rotation at an end is refused where the motion is asked about, unless the pose
-    /// there says that it may be any.
+    /// steady pace: the entries of both poses are mixed. If both have the same rotation it is a
+    /// translation; else the model shrinks on the way as it turns. Nothing is checked here. A
+    /// question about the motion refuses an end whose matrix is no rotation, unless that pose [is
+    /// affine](Pose::is_affine).
     /// Translations are in the unit of the first model of the question.
     pub const fn straight(from: Pose, to: Pose) -> Motion {
         Motion { from, path: Path::Straight(to) }
     }
 
     /// A screw: the model stays rigid, turns at a steady pace about a fixed axis by half a turn at
-    /// most, and goes along this axis. It begins at `from` and ends at `to`. What both matrices
-    /// lack of rotations is made up for steadily on the way. Of exactly half a turn either
-    /// direction may be taken. A longer turn is two motions.
+    /// most, and goes along this axis. It begins at `from` and ends at `to`. Rounded matrices are
+    /// no perfect rotations; the difference at the end is added in proportion to the time. Of
+    /// exactly half a turn either direction may be taken. A longer turn is two motions.
     ///
     /// Cost: some hundred operations in f64 here, and as many for each pose on the way.
     ///
@@ -82,9 +82,9 @@ impl Motion {
         Ok(Motion { from, path: Path::Screw(twist) })
     }
 
-    /// The pose at a time from 0 to 1, rounded to f32. It [is affine](Pose::is_affine) if entries
-    /// of two different matrices were mixed, and on a screw where what the ends lack of rotations
-    /// adds up to more than a rotation may lack.
+    /// The pose at a time from 0 to 1, rounded to f32. Other times continue the motion. The pose
+    /// [is affine](Pose::is_affine) if entries of two different matrices were mixed. On a screw it
+    /// is if `from` is, or if the matrix is no rotation up to three decimals.
     pub fn at(&self, t: f32) -> Pose {
         let pose = self.at_time(f64::from(t));
         let is_bent = matches!(self.path, Path::Screw(_)) && check_rigid(&pose).is_err();
@@ -115,8 +115,9 @@ impl Motion {
         }
     }
 
-    /// How far a point of the model goes during the motion, and how far it may be from its place at
-    /// a pose that was rounded to f32. Both are convex functions of the point.
+    /// Upper bounds of the path of a point of the model during the motion, and of how far it may be
+    /// from its place at a pose that was rounded to f32. Both are convex functions of the point.
+    /// Units of the translations.
     pub(crate) fn path_bounds(&self, point: Vector) -> (f64, f64) {
         match &self.path {
             Path::Straight(to) => straight_bounds(&self.from, to, point),

@@ -199,7 +199,7 @@ impl Pose {
     /// [`RoundedPose::inverse`] of a pose whose numbers are exact.
     ///
     /// # Errors
-    /// As there.
+    /// Those of [`RoundedPose::inverse`].
     pub fn inverse(&self) -> Result<RoundedPose, QueryError> {
         RoundedPose::exact(*self).inverse()
     }
@@ -207,7 +207,7 @@ impl Pose {
     /// [`RoundedPose::relative_to`] of poses whose numbers are exact.
     ///
     /// # Errors
-    /// As there.
+    /// Those of [`RoundedPose::relative_to`].
     pub fn relative_to(&self, frame: &Pose) -> Result<RoundedPose, QueryError> {
         RoundedPose::exact(*self).relative_to(&RoundedPose::exact(*frame))
     }

@@ -15,7 +15,7 @@ pub struct RobotArgs {
     /// Distance that all pairs of links keep, in metres; or that of one pair, as base,wrist=0.05
     #[arg(long, value_name = "D", value_parser = keep, required = true)]
     pub keep: Vec<Keep>,
-    /// SRDF whose disable_collisions name pairs to leave out
+    /// SRDF whose disable_collisions name pairs to leave out, but for the reason Never
     #[arg(long, value_name = "FILE")]
     pub srdf: Option<PathBuf>,
     /// Folder of a package that mesh files are named by [default: a folder above, of its name]

@@ -9,12 +9,13 @@ use glam::Vec3;
 
 /// How two boxes lie along the axes of one of them.
 struct Apart {
-    /// The gaps, with the signs of the way. Zero if the boxes meet along all axes.
+    /// The gap along each axis, towards the second box. 0 along an axis on which the boxes overlap.
     gap: Vec3,
     gap_sq: f32,
-    /// Along the axis of greatest gap, or of least depth: 1 or −1.
+    /// A unit vector towards the second box, along the axis of the greatest gap. If the boxes meet,
+    /// along the axis of the least overlap.
     axis: Vec3,
-    /// The gap along this axis, or less than 0.
+    /// The gap along this axis. Below 0: the overlap, times −1.
     along: f32,
 }
 
@@ -35,8 +36,8 @@ impl Apart {
     }
 }
 
-/// The direction of the gap of the models' boxes, in the frame in which it is longer. If they meet,
-/// the axis along which they do least.
+/// The direction of the gap of both models' boxes, along the axes of the model that shows the
+/// longer gap. If the boxes meet: the axis of the least overlap.
 #[inline(never)]
 pub(crate) fn between_boxes(pose: &GridPose<'_>) -> Option<Direction> {
     let boxes = |tree: &Bvh<'_>, origin: Vec3| {

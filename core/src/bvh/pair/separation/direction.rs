@@ -8,9 +8,9 @@ use glam::Vec3;
 /// rounding does not matter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Direction {
-    /// The greatest component is from 1 to 2.
+    /// The size of the greatest component is at least 1 and below 2.
     pub(crate) way: Vec3,
-    /// An upper bound of its length.
+    /// An upper bound of the length of `way`.
     pub(crate) length: f32,
 }
 
@@ -23,28 +23,30 @@ impl Direction {
     }
 }
 
-/// The power of two that brings the greatest component to 1 or up to 2. It is within 2^±88.
+/// The power of two that brings the size of the greatest component to at least 1 and below 2. It is
+/// from 2^-86 to 2^87; `None` beyond.
 #[inline(always)]
 fn power_for(vector: Vec3) -> Option<f32> {
-    // The order of these integers is that of the sizes.
+    // Positive f32 have the order of their bits.
     let size = |x: f32| x.to_bits() & !(1 << 31);
     let [x, y, z] = vector.to_array().map(size);
     let exponent = x.max(y).max(z) >> 23;
     (40..214).contains(&exponent).then(|| f32::from_bits((254 - exponent) << 23))
 }
 
-/// A direction in integers of at most 2^30, for vertices of 16 bits. No height along it is too low,
-/// for no stored coordinate is negative.
+/// A direction in integers of at most 2^30, for vertices of 16 bits. Heights along it are exact
+/// sums of integers. None is too low: components are rounded up, and no stored coordinate is
+/// negative.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WholeDirection {
     pub(crate) way: [i32; 3],
-    /// Of a height.
+    /// An integer height times this is a height along the direction that was rounded.
     pub(crate) unit: f32,
 }
 
 impl WholeDirection {
-    /// The components are rounded up. To the nearest would not do: a matrix that squashes the
-    /// second model may turn a long edge across the direction. `None` as of [`Direction::of`].
+    /// The components are rounded up, not to the nearest: see `core/docs/rounding.md` §26,
+    /// *Vertices of leaves along w*. `None` as of [`Direction::of`].
     #[inline(always)]
     pub(crate) fn of(way: Vec3) -> Option<WholeDirection> {
         const BITS: f32 = (1u32 << 29) as f32;

@@ -8,11 +8,11 @@ use crate::num::{greater, sqrt_approx};
 use crate::query::ScratchEntry;
 
 /// Two triangles, one of each model.
-pub(crate) type Place = [TriangleAt; 2];
+pub(crate) type TrianglesAt = [TriangleAt; 2];
 
 /// What a search wants, in units of the first grid.
 pub(crate) struct Goal<'s> {
-    /// What is farther than this, as computed, does not matter.
+    /// Pairs with a computed gap above this are left out.
     pub(crate) far: f32,
     pub(crate) limits: GapLimits,
     pub(crate) wanted: Wanted<'s>,
@@ -25,11 +25,11 @@ pub(crate) enum Wanted<'s> {
 
 /// Whether triangles are within a distance.
 pub(crate) struct Threshold {
-    /// Triangles that are certainly near.
-    pub(crate) near: Option<Place>,
-    /// Some may be near or not.
+    /// Two triangles that are certainly within the distance.
+    pub(crate) near: Option<TrianglesAt>,
+    /// There are triangles of which f32 does not tell whether they are within the distance.
     pub(crate) is_undecided: bool,
-    /// What is farther than this, as computed, is certainly farther than asked about.
+    /// A computed gap above this proves that two triangles are farther than the distance.
     clear: f32,
     clear_sq: f32,
 }
@@ -37,11 +37,11 @@ pub(crate) struct Threshold {
 /// The triangles that may be the nearest ones.
 pub(crate) struct Nearest<'s> {
     pub(crate) candidates: Candidates<'s>,
-    /// It ended at two triangles that f32 cannot tell from such that meet.
+    /// The search ended early, at two triangles that are within rounding of each other.
     pub(crate) is_cut: bool,
-    /// Of two points that were met.
+    /// Least squared distance, as computed, of two points of the models so far.
     upper_sq: f32,
-    /// Of a distance of stored surfaces.
+    /// [`GridPose::rounding`].
     rounding: f32,
 }
 
@@ -52,7 +52,8 @@ pub(crate) fn square_up(length: f32) -> f32 {
 }
 
 impl<'s> Goal<'s> {
-    /// Whether triangles are within a distance; what is farther is told to be so by up to `more`.
+    /// Whether triangles are within `distance`. If none are, a lower bound of at most `distance +
+    /// more` is wanted. Both in input units of the first model.
     pub(crate) fn threshold(pose: &GridPose<'_>, [distance, more]: [f32; 2]) -> Goal<'s> {
         let [a, _] = pose.trees;
         let (distance, more) = (a.units().inward(distance), a.units().inward(more));
@@ -66,7 +67,7 @@ impl<'s> Goal<'s> {
         Goal { far, limits, wanted: Wanted::Near(threshold) }
     }
 
-    /// The triangles that may be the nearest ones, for which there is memory.
+    /// The triangles that may be the nearest ones. `scratch` keeps them, two entries each.
     pub(crate) fn nearest(pose: &GridPose<'_>, scratch: &'s mut [ScratchEntry]) -> Goal<'s> {
         let limits = GapLimits { far_sq: f32::INFINITY, near_sq: -1.0 };
         let nearest = Nearest {
@@ -78,9 +79,10 @@ impl<'s> Goal<'s> {
         Goal { far: f32::INFINITY, limits, wanted: Wanted::Nearest(nearest) }
     }
 
-    /// Takes two vertices of two leaves, which `places` have. Whether to go on.
+    /// Takes the squared distance of two vertices. `places` gives two triangles that have them.
+    /// Returns whether the search goes on.
     #[inline(always)]
-    pub(crate) fn take_vertices(&mut self, square: f32, places: impl Fn() -> Place) -> bool {
+    pub(crate) fn take_vertices(&mut self, square: f32, places: impl Fn() -> TrianglesAt) -> bool {
         if let Wanted::Near(threshold) = &mut self.wanted {
             if square <= self.limits.near_sq {
                 threshold.near = Some(places());
@@ -91,9 +93,9 @@ impl<'s> Goal<'s> {
         true
     }
 
-    /// Takes two triangles. Whether to go on.
+    /// Takes what was found of two triangles. Returns whether the search goes on.
     #[inline(always)]
-    pub(crate) fn take(&mut self, place: Place, found: &HullGap) -> bool {
+    pub(crate) fn take(&mut self, place: TrianglesAt, found: &HullGap) -> bool {
         let &HullGap { gap_sq, hull_sq, .. } = found;
         self.bring_upper(hull_sq);
         match &mut self.wanted {
@@ -103,7 +105,7 @@ impl<'s> Goal<'s> {
             }
             _ if gap_sq > self.limits.far_sq => true,
             Wanted::Near(threshold) if gap_sq > threshold.clear_sq => {
-                // Clear, but no farther: nothing beyond this pair matters any more.
+                // Clear, and the bound that is returned is at most this gap: the limit falls to it.
                 let far = sqrt_approx(gap_sq) * (1.0 - 8.0 * U32);
                 self.far = greater(threshold.clear, far);
                 self.limits.far_sq = square_up(self.far);
@@ -122,7 +124,7 @@ impl<'s> Goal<'s> {
         }
     }
 
-    /// Of two points that were met.
+    /// Lowers the limit of [`Wanted::Nearest`] to the squared distance of two points.
     #[inline(always)]
     fn bring_upper(&mut self, square: f32) {
         if let Wanted::Nearest(nearest) = &mut self.wanted
@@ -153,7 +155,7 @@ impl<'s> Candidates<'s> {
     }
 
     /// Adds one, and drops those beyond the limit if memory ends.
-    fn add(&mut self, [a, b]: Place, gap_sq: f32, limit_sq: f32) {
+    fn add(&mut self, [a, b]: TrianglesAt, gap_sq: f32, limit_sq: f32) {
         if self.used == self.slots.len() {
             self.drop_beyond(limit_sq);
         }
@@ -184,7 +186,7 @@ impl<'s> Candidates<'s> {
     }
 
     /// Takes the one with the least gap.
-    pub(crate) fn remove_least(&mut self) -> Option<Place> {
+    pub(crate) fn remove_least(&mut self) -> Option<TrianglesAt> {
         let last = self.used.checked_sub(1)?;
         let used = self.slots.get_mut(..self.used)?;
         let least = (0..used.len()).reduce(|best, at| {

@@ -18,10 +18,10 @@ pub(crate) struct GridPose<'a> {
     pub(crate) shift: Vec3,
     /// Units of the first grid in one of the second: a power of two.
     pub(crate) ratio: f32,
-    /// A gap of triangles, or the way between two of their points, is off by less than this from
-    /// that of the input.
+    /// A computed gap of triangles, or distance of two of their points, differs by less than this
+    /// from that of the input meshes. Units of the first grid.
     pub(crate) error: f32,
-    /// The same from that of the stored surfaces.
+    /// The same, compared with the stored surfaces: `error` without surface errors and pose error.
     pub(crate) rounding: f32,
     /// How much more a gap of two boxes may be off.
     pub(crate) box_error: f32,
@@ -32,7 +32,7 @@ pub(crate) struct GridPose<'a> {
 pub(crate) struct FramePose {
     pub(crate) rows: Rows,
     pub(crate) shift: Vec3,
-    /// What the pose itself does to a distance.
+    /// A distance may be off by this because the pose was rounded.
     pub(crate) error: f32,
 }
 
@@ -50,8 +50,8 @@ impl FramePose {
 
 impl<'a> GridPose<'a> {
     /// `None` if f32 does not serve: vertices are f32, or a length is beyond 2^29 units of the
-    /// first grid or no number, or one unit is more than 2^40 times the other. Entries of the
-    /// matrix are at most 2.
+    /// first grid or NaN, or one unit is more than 2^40 times the other. The caller has checked
+    /// that entries of the matrix are at most 2.
     #[inline(always)]
     pub(crate) fn of([a, b]: [&'a Bvh<'a>; 2], pose: &FramePose) -> Option<GridPose<'a>> {
         let finer = unit_exponent(b) - unit_exponent(a);
@@ -96,7 +96,8 @@ impl<'a> GridPose<'a> {
     }
 }
 
-/// Largest ratio of the models' units, as a power of two: with a greater one f64 refuses the pair.
+/// Largest ratio of the models' units, as a power of two. It is `RATIO` of
+/// `query/pose/common_units.rs`: with a greater one that refuses the pair.
 const UNITS_APART: i32 = 40;
 
 /// `2^exponent`, for exponents within ±126.

@@ -12,8 +12,8 @@ use crate::num::{each, float};
 use crate::query::Work;
 use glam::Vec3;
 
-/// The vertices of a leaf in the first grid: both centres, alike if there is one fan, then the
-/// ring.
+/// The vertices of a leaf, units and frame of the first grid: two centres, then the ring. Of a leaf
+/// with one fan both centres are the same.
 #[derive(Clone, Copy)]
 pub(crate) struct LeafHull {
     of: TriangleAt,
@@ -30,7 +30,8 @@ impl LeafHull {
         shape: LeafShape(0),
     };
 
-    /// Those of a leaf of model 0 or 1, unless they are there.
+    /// Computes the vertices of a leaf of model 0 or 1, unless they are those of this leaf already.
+    /// `None` if the tree is unchecked.
     #[inline(always)]
     pub(crate) fn set(&mut self, pose: &GridPose<'_>, model: usize, of: TriangleAt) -> Option<()> {
         if self.of == of {
@@ -93,7 +94,8 @@ pub(crate) struct LeafVisit {
     pub(crate) way: Option<Vec3>,
 }
 
-/// Tells the goal of the triangles of two leaves that may matter to it.
+/// Gives the goal each pair of triangles of two leaves that may matter to it, nearest bound first.
+/// `start`: the direction that is tried first. `None` if a tree is unchecked.
 #[inline(never)]
 pub(crate) fn visit(
     [a, b]: [&LeafHull; 2],

@@ -1,9 +1,11 @@
-//! Whether two models are within a distance, in f32: what f32 cannot tell is left to `gaps/`.
+//! Whether two models are within a distance, and which triangles may be the nearest, in f32. What
+//! f32 cannot tell is left to `gaps/`.
 //!
-//! Everything that is left out lies beyond a gap along some direction. One direction is kept from
-//! pair to pair, because where one pair of boxes is apart the next one most often is too. At first
-//! it is that of the gap of the models' boxes, later that of the hulls of two leaves. Two points of
-//! two triangles prove that models are near. Derivation: `core/docs/rounding.md` §26.
+//! A pair of nodes, leaves or triangles is left out if a gap along some direction is longer than
+//! the limit. One direction is kept from pair to pair: along it most of the next pairs are apart
+//! too. The first direction is that of the gap of both models' boxes. Each pair of leaves that is
+//! apart gives a new one. Two points of two triangles prove that models are near. Derivation:
+//! `core/docs/rounding.md` §26.
 //!
 //! | file | owns |
 //! | --- | --- |

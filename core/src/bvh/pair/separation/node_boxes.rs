@@ -75,7 +75,8 @@ impl<'a> NodeBoxes<'a> {
         Some(NodeBoxes { rows, start: difference(middle, origin) - 128.0 * step, step })
     }
 
-    /// How far the wanted boxes reach along a direction, in units of its length, plus `base`.
+    /// For each wanted box the greatest `way · place` of its places, plus `base`. It is not divided
+    /// by the length of `way`.
     #[inline(always)]
     fn tops(&self, way: Vec3, base: f32, wanted: u32) -> [f32; WIDTH] {
         let [lx, hx, ly, hy, lz, hz] = self.rows;
@@ -118,7 +119,8 @@ struct AxisBox {
 impl AxisBox {
     const NONE: AxisBox = AxisBox { middle: Vec3::ZERO, half: Vec3::ZERO };
 
-    /// A lower bound of the squared distance. Of boxes that meet the least overlap, below 0.
+    /// A lower bound of the squared distance. If the boxes meet: the least overlap along an axis,
+    /// times −1, so that the deepest pair comes first.
     #[inline(always)]
     fn key(&self, other: &AxisBox) -> f32 {
         let gap = difference(self.middle, other.middle).abs() - (self.half + other.half);
@@ -130,11 +132,11 @@ impl AxisBox {
     }
 }
 
-/// What a pair of children is left out for.
+/// Pairs of children that are farther apart than this are left out.
 pub(crate) struct Reach {
-    /// The distance.
+    /// Units of the first grid.
     pub(crate) length: f32,
-    /// Its square.
+    /// Square of the length, rounded up.
     pub(crate) square: f32,
 }
 
@@ -153,11 +155,11 @@ pub(crate) fn open(
     let [a, b] = children;
     let boxes_a = NodeBoxes::of(tree_a, a.node, origin_a)?;
     let boxes_b = NodeBoxes::of(tree_b, b.node, origin_b)?;
-    // Towards each other: the second model's in its own frame.
+    // `back` points from the second model to the first, in the frame of the second grid.
     let way = direction.way;
     let back = -turned(&columns(&pose.rows), way);
     let between = Real(dot(pose.shift, way));
-    // What is left of the reach beyond the boxes of the second model.
+    // `left`: if the top of a box of the first model is below this, the pair is out of reach.
     let limit = (Real(reach.length) * Real(direction.length)).0;
     let limit = (between - Real(limit)).0;
     let mut tops_a = boxes_a.tops(way, 0.0, a.wanted);
@@ -166,7 +168,7 @@ pub(crate) fn open(
     work.bounds =
         work.bounds.saturating_add(a.wanted.count_ones().saturating_mul(b.wanted.count_ones()));
     let highest = bits(a.wanted).fold(f32::MIN, |most, i| greater(Real(most), Real(tops_a[i])).0);
-    // For each child of the second node those of the first.
+    // For each child of the second node, a bit for each child of the first that is within reach.
     let mut pairs = [0u8; WIDTH];
     let mut rows = 0;
     for j in bits(b.wanted) {
@@ -202,7 +204,7 @@ pub(crate) fn open(
     }
     (leaves_a, leaves_b) = (leaves_a & a.leaves(), leaves_b & b.leaves());
     if leaves_a | leaves_b != 0 {
-        // Of leaves their vertices.
+        // The vertices of a leaf reach less far than its box.
         if let Some(whole) = WholeDirection::of(way) {
             for i in bits(leaves_a) {
                 tops_a[i] = lesser(tops_a[i], leaf_top(&tree_a.leaf(a.node, i as u32)?, &whole)?);
@@ -218,7 +220,7 @@ pub(crate) fn open(
     waiting.close()
 }
 
-/// Not a number is beyond nothing.
+/// NaN is beyond no limit: its pair is looked at.
 #[inline(always)]
 fn is_beyond(x: Real, limit: f32) -> bool {
     x > Real(limit)
@@ -273,7 +275,7 @@ impl<'b, 'a> MovedBoxes<'b, 'a> {
     }
 }
 
-/// How far the vertices of a leaf reach along a direction.
+/// The greatest height of a leaf's vertices along a direction. Units as in [`NodeBoxes::tops`].
 #[inline(never)]
 fn leaf_top(leaf: &FanLeaf<'_>, direction: &WholeDirection) -> Option<f32> {
     let ring = leaf.grid_ring()?;

@@ -3,8 +3,8 @@
 //! ```text
 //! nodes a b │ key pair │ key pair │ nodes a b │ key pair
 //! ```
-//! The children of two nodes wait together behind an entry that names the nodes. The next pair is
-//! the last one.
+//! The pairs of children of two nodes wait together behind an entry that names the nodes. It is a
+//! stack: the last pair is taken first.
 
 use crate::num::Real;
 use crate::query::ScratchEntry;
@@ -15,12 +15,13 @@ pub(crate) struct Pending<'s> {
     used: usize,
 }
 
-/// Children of two nodes that are opened: eight times the child of the first and the child of the
-/// second.
+/// Bits of the number of a pair of children: eight times the child of the first node, plus the
+/// child of the second.
 const PAIR_BITS: u32 = 6;
 
 impl<'s> Pending<'s> {
-    /// Places are kept in a word, with the pair. A longer memory is not used to its end.
+    /// The index of the nodes' entry shares a word of 32 bits with the pair's number. So entries
+    /// from 2^24 on are not used.
     pub(crate) fn new(entries: &'s mut [ScratchEntry]) -> Pending<'s> {
         let most = entries.len().min(1 << 24);
         Pending { entries: entries.get_mut(..most).unwrap_or_default(), used: 0 }
@@ -43,7 +44,7 @@ impl<'s> Pending<'s> {
             let last = self.used.checked_sub(1)?;
             let entry = *self.entries.get(last)?;
             let at = (entry.node() >> PAIR_BITS) as usize;
-            // With the last of its pairs the entry of the nodes goes.
+            // The last pair of two nodes takes their entry with it.
             self.used = if at + 1 >= last { at } else { last };
             if Real(entry.key()) <= Real(limit) {
                 let [a, b] = self.entries.get(at)?.words();
@@ -56,7 +57,7 @@ impl<'s> Pending<'s> {
 /// Children of two nodes that are added to those that wait.
 pub(crate) struct PendingChildren<'p, 's> {
     pending: &'p mut Pending<'s>,
-    /// Place of the nodes' entry.
+    /// Index of the nodes' entry.
     at: usize,
 }
 
@@ -89,7 +90,8 @@ impl PendingChildren<'_, '_> {
         }
     }
 
-    /// The least key comes last. If there is no pair, nothing waits.
+    /// Puts the pair with the least key last, so that it is taken first. Without a pair the nodes'
+    /// entry is removed.
     #[inline(always)]
     pub(crate) fn close(self) -> Option<()> {
         let Pending { entries, used } = self.pending;

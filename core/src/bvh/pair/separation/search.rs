@@ -2,7 +2,7 @@
 
 use super::between_boxes::between_boxes;
 use super::direction::Direction;
-use super::goal::{Candidates, Goal, Place, Wanted, square_up};
+use super::goal::{Candidates, Goal, TrianglesAt, Wanted, square_up};
 use super::grid_pose::GridPose;
 use super::leaf_hulls::{LeafHull, LeafVisit, visit};
 use super::node_boxes::{Children, Reach, open};
@@ -15,16 +15,16 @@ use crate::query::{ScratchEntry, Work};
 
 /// What is proved of two models.
 pub(crate) enum Separation {
-    /// They are farther apart than this, input units of the first.
+    /// Lower bound of their distance, above the distance asked about. Input units of the first.
     Apart(f32),
-    /// These triangles are near.
-    Near(Place),
-    /// f32 does not tell, or steps or memory ended.
-    Open,
+    /// These triangles are certainly within the distance asked about.
+    Near(TrianglesAt),
+    /// No verdict: f32 does not tell, or steps or memory ended.
+    Undecided,
 }
 
-/// Whether two models are within a distance, input units of the first one. Farther ones are told to
-/// be so by up to `more`.
+/// Whether two models are within a distance. `asked` is the distance, and how far above it a lower
+/// bound is wanted: both in input units of the first model.
 #[inline(never)]
 pub(crate) fn separation(
     pose: &GridPose<'_>,
@@ -35,26 +35,27 @@ pub(crate) fn separation(
 ) -> Separation {
     let mut goal = Goal::threshold(pose, asked);
     let end = descend(pose, &mut goal, steps, scratch, work);
-    let Wanted::Near(threshold) = &goal.wanted else { return Separation::Open };
+    let Wanted::Near(threshold) = &goal.wanted else { return Separation::Undecided };
     match (threshold.near, end) {
         (Some(place), Some(_)) => Separation::Near(place),
         (None, Some(())) if !threshold.is_undecided => {
-            // What was left out is farther than this.
+            // Every pair that was left out is farther than this.
             let [a, _] = pose.trees;
             let lower = (goal.far - pose.error) * (1.0 - 4.0 * U32);
             Separation::Apart(a.units().lower(lower))
         }
-        _ => Separation::Open,
+        _ => Separation::Undecided,
     }
 }
 
-/// Pairs of triangles, and whether all are among them that may be the nearest.
+/// Pairs of triangles. If `are_all`, every pair that may be the nearest is among them.
 pub(crate) struct NearestTriangles<'s> {
     pub(crate) candidates: Candidates<'s>,
     pub(crate) are_all: bool,
 }
 
-/// The pairs of triangles that may be the nearest ones, as far as f32 tells.
+/// The pairs of triangles that may be the nearest ones, as far as f32 tells. Three quarters of
+/// `scratch` hold pairs of nodes that wait, one quarter holds the result.
 #[inline(never)]
 pub(crate) fn nearest_triangles<'s>(
     pose: &GridPose<'_>,
@@ -73,8 +74,8 @@ pub(crate) fn nearest_triangles<'s>(
     Some(NearestTriangles { candidates, are_all })
 }
 
-/// Visits every pair of leaves that may matter to the goal. `None` if steps or memory ended, or a
-/// tree is unchecked.
+/// Visits every pair of leaves that may matter to the goal, until the goal is reached. `None` if
+/// steps or memory ended first, or a tree is unchecked.
 #[inline(never)]
 fn descend(
     pose: &GridPose<'_>,
