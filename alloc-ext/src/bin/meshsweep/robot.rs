@@ -165,9 +165,7 @@ fn as_json(robot: &Robot, module: &Path, blobs: &[PathBuf]) -> Value {
             "notes": notes.map(ToString::to_string).collect::<Vec<_>>(),
         })
     };
-    let place = |place: &meshsweep::robot::Place| {
-        json!({ "joint": place.joint, "slides": place.slides, "limits": place.limits })
-    };
+    let place = |place: &meshsweep::robot::Place| json!({ "joint": place.joint, "slides": place.slides, "limits": place.limits });
     let names = |links: [usize; 2]| links.map(|at| robot.links[at].name.as_str());
     json!({
         "name": robot.name,
