@@ -162,7 +162,7 @@ static int32_t run(void)
     if (error != MSW_OK) {
         return error;
     }
-    print_line("cost: a tick takes ", sum / ticks, clock_unit);
+    print_line("cost: a tick takes ", sum / (ticks == 0 ? 1 : ticks), clock_unit);
     print_line("cost: the dearest tick takes ", most, clock_unit);
     print_line("cost: places of the links take ", most_before, clock_unit);
     return MSW_OK;
