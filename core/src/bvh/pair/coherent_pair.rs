@@ -264,7 +264,9 @@ struct PairFront<'f> {
 }
 
 impl LeftOut for PairFront<'_> {
-    const KEEPS: bool = true;
+    fn keeps(&self) -> bool {
+        true
+    }
 
     fn keep(&mut self, pairs: ChildPairs, distance: f64) {
         if self.is_known {

@@ -268,7 +268,8 @@ pub(crate) struct LeafPair<'a> {
 }
 
 impl<'a> LeafPair<'a> {
-    #[inline(always)]
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
     pub(crate) fn new(pose: &'a RelativePose, a: &FanLeaf<'a>, b: &FanLeaf<'a>) -> LeafPair<'a> {
         let (mut first, mut second) = (Corners::stored(a), Corners::stored(b));
         let [frame, _] = &pose.frames;

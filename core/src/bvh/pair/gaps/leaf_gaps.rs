@@ -3,7 +3,6 @@
 //! Boxes bound all pairs in f32. The nearest pair is computed in f64. The offset between its points
 //! then bounds all other pairs: most often none is left.
 
-use super::left_out::LeftOut;
 use super::pair_keys::{
     NO_PAIR, PAIRS, PairKeys, children_of, distance_of, key_limit, key_of, pair_bit,
 };
@@ -48,7 +47,7 @@ impl LeafGaps<'_> {
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
         place: [TriangleAt; 2],
-        visitor: &mut impl GapVisitor<[TriangleAt; 2]>,
+        visitor: &mut dyn GapVisitor<[TriangleAt; 2]>,
         work: &mut Work,
     ) -> bool {
         let [first, second] = leaves;
@@ -79,13 +78,15 @@ impl LeafGaps<'_> {
         greater(0.0, lower - (rounding + rounding))
     }
 
-    /// Visits the pairs of triangles of two leaves that may be within the limit.
+    /// Visits the pairs of triangles of two leaves that may be within the limit. `keeps`: whether the
+    /// least distance of those left out is wanted.
     #[inline(always)]
-    pub(crate) fn visit<L: LeftOut>(
+    pub(crate) fn visit(
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
         [first_at, second_at]: [TriangleAt; 2],
-        visitor: &mut impl GapVisitor<[TriangleAt; 2]>,
+        keeps: bool,
+        visitor: &mut dyn GapVisitor<[TriangleAt; 2]>,
         work: &mut Work,
     ) -> Option<LeafVisit> {
         let [first, second] = leaves;
@@ -100,8 +101,7 @@ impl LeafGaps<'_> {
         let mut limit_sq = reach_sq(visitor);
         let mut seen = Measured { pairs: 0, lower: f64::INFINITY };
         let visit = |direction, goes_on, seen: &Measured| {
-            let lower =
-                if L::KEEPS { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
+            let lower = if keeps { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
             Some(LeafVisit { goes_on, lower })
         };
         if !may_be_near(self.direction, limit_sq, &pair) {
@@ -146,8 +146,8 @@ impl LeafGaps<'_> {
         upper += rounding + rounding;
         let mut meets = false;
         if lower <= 0.0 {
-            meets = triangles_meet(a, b, rounding + self.surface_error) == Contact::Meets;
-            if meets || triangles_meet(a, b, rounding) == Contact::Meets {
+            meets = meet(&a, &b, rounding + self.surface_error);
+            if meets || meet(&a, &b, rounding) {
                 upper = 0.0;
                 points = crossing(a, b).map_or(points, |common| [common; 2]);
             }
@@ -169,6 +169,12 @@ impl LeafGaps<'_> {
             self.direction = direction.map(|x| (x / longest) as f32);
         }
     }
+}
+
+/// Whether two triangles meet, as one function for both errors.
+#[inline(never)]
+fn meet(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], doubt: f64) -> bool {
+    triangles_meet(*a, *b, doubt) == Contact::Meets
 }
 
 /// The pairs of triangles that were measured.

@@ -3,7 +3,7 @@
 /// Keeps the pairs that a search left out, so that a later search can begin with them.
 pub(crate) trait LeftOut {
     /// Whether it keeps anything.
-    const KEEPS: bool;
+    fn keeps(&self) -> bool;
     /// These pairs are not nearer than `distance`, common units.
     fn keep(&mut self, pairs: ChildPairs, distance: f64);
     /// Pairs were dropped for lack of scratch memory. It never gets them.
@@ -14,7 +14,9 @@ pub(crate) trait LeftOut {
 pub(crate) struct Forgotten;
 
 impl LeftOut for Forgotten {
-    const KEEPS: bool = false;
+    fn keeps(&self) -> bool {
+        false
+    }
 
     fn keep(&mut self, _: ChildPairs, _: f64) {}
 
