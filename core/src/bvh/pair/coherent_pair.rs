@@ -264,9 +264,7 @@ struct PairFront<'f> {
 }
 
 impl LeftOut for PairFront<'_> {
-    fn keeps(&self) -> bool {
-        true
-    }
+    const KEEPS: bool = true;
 
     fn keep(&mut self, pairs: ChildPairs, distance: f64) {
         if self.is_known {

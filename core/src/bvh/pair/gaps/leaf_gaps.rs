@@ -3,6 +3,7 @@
 //! Boxes bound all pairs in f32. The nearest pair is computed in f64. The offset between its points
 //! then bounds all other pairs: most often none is left.
 
+use super::left_out::LeftOut;
 use super::pair_keys::{
     NO_PAIR, PAIRS, PairKeys, children_of, distance_of, key_limit, key_of, pair_bit,
 };
@@ -47,7 +48,7 @@ impl LeafGaps<'_> {
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
         place: [TriangleAt; 2],
-        visitor: &mut dyn GapVisitor<[TriangleAt; 2]>,
+        visitor: &mut impl GapVisitor<[TriangleAt; 2]>,
         work: &mut Work,
     ) -> bool {
         let [first, second] = leaves;
@@ -78,15 +79,13 @@ impl LeafGaps<'_> {
         greater(0.0, lower - (rounding + rounding))
     }
 
-    /// Visits the pairs of triangles of two leaves that may be within the limit. `keeps`: whether the
-    /// least distance of those left out is wanted.
+    /// Visits the pairs of triangles of two leaves that may be within the limit.
     #[inline(always)]
-    pub(crate) fn visit(
+    pub(crate) fn visit<L: LeftOut>(
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
         [first_at, second_at]: [TriangleAt; 2],
-        keeps: bool,
-        visitor: &mut dyn GapVisitor<[TriangleAt; 2]>,
+        visitor: &mut impl GapVisitor<[TriangleAt; 2]>,
         work: &mut Work,
     ) -> Option<LeafVisit> {
         let [first, second] = leaves;
@@ -101,7 +100,8 @@ impl LeafGaps<'_> {
         let mut limit_sq = reach_sq(visitor);
         let mut seen = Measured { pairs: 0, lower: f64::INFINITY };
         let visit = |direction, goes_on, seen: &Measured| {
-            let lower = if keeps { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
+            let lower =
+                if L::KEEPS { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
             Some(LeafVisit { goes_on, lower })
         };
         if !may_be_near(self.direction, limit_sq, &pair) {

@@ -3,7 +3,7 @@
 /// Keeps the pairs that a search left out, so that a later search can begin with them.
 pub(crate) trait LeftOut {
     /// Whether it keeps anything.
-    fn keeps(&self) -> bool;
+    const KEEPS: bool;
     /// These pairs are not nearer than `distance`, common units.
     fn keep(&mut self, pairs: ChildPairs, distance: f64);
     /// Pairs were dropped for lack of scratch memory. It never gets them.
@@ -14,9 +14,7 @@ pub(crate) trait LeftOut {
 pub(crate) struct Forgotten;
 
 impl LeftOut for Forgotten {
-    fn keeps(&self) -> bool {
-        false
-    }
+    const KEEPS: bool = false;
 
     fn keep(&mut self, _: ChildPairs, _: f64) {}
 

@@ -73,8 +73,8 @@ impl PendingPairs {
     }
 
     #[inline(always)]
-    fn leave_to(self, left: &mut dyn LeftOut) {
-        if left.keeps() && self.pairs.wanted != 0 {
+    fn leave_to<L: LeftOut>(self, left: &mut L) {
+        if L::KEEPS && self.pairs.wanted != 0 {
             left.keep(self.pairs, distance_of(self.key));
         }
     }
@@ -102,18 +102,17 @@ impl<'s, 'a> Search<'s, 'a> {
 
     /// Visits every pair of leaves below `start` that may be within the visitor's limit. What the
     /// limit left out goes to `left`. None of `start` is nearer than `distance`, common units.
-    pub(crate) fn descend(
+    pub(crate) fn descend<L: LeftOut>(
         &mut self,
         (start, distance): (ChildPairs, f32),
-        visitor: &mut dyn GapVisitor<[TriangleAt; 2]>,
-        left: &mut dyn LeftOut,
+        visitor: &mut impl GapVisitor<[TriangleAt; 2]>,
+        left: &mut L,
     ) -> Result<PairDescent, QueryError> {
         let Search { models, leaves, work, .. } = self;
         let steps = lesser(self.steps, work.opened.saturating_add(most_pairs(models.a, models.b)));
         let (stack, _) = self.scratch.as_chunks_mut::<ENTRIES>();
         let factor = second_factor(models.pose);
-        let limit_of =
-            |visitor: &dyn GapVisitor<_>| key_limit(square_limit(GapVisitor::limit(visitor)));
+        let limit_of = |visitor: &_| key_limit(square_limit(GapVisitor::limit(visitor)));
         let mut used = 0usize;
         // The least key of the pairs that did not fit the stack.
         let mut dropped = NO_PAIR;
@@ -172,7 +171,7 @@ impl<'s, 'a> Search<'s, 'a> {
                 let ([node_a, node_b], [index_a, index_b]) = (nodes, indices);
                 let place =
                     [TriangleAt::new(node_a, index_a, 0), TriangleAt::new(node_b, index_b, 0)];
-                let visit = leaves.visit([&p, &q], place, left.keeps(), visitor, work);
+                let visit = leaves.visit::<L>([&p, &q], place, visitor, work);
                 let LeafVisit { goes_on, lower } = visit.ok_or(QueryError::Unchecked)?;
                 left.keep(ChildPairs { nodes, wanted: pair_bit(key) }, lower);
                 if !goes_on {
@@ -186,7 +185,7 @@ impl<'s, 'a> Search<'s, 'a> {
             let limit = limit_of(visitor);
             let (near, key) = keys.up_to(limit);
             // Pairs beyond the limit are left out together with the others.
-            let wanted = if left.keeps() { keys.up_to(NO_PAIR - 1).0 } else { near };
+            let wanted = if L::KEEPS { keys.up_to(NO_PAIR - 1).0 } else { near };
             let rest =
                 PendingPairs { key: bound_of(key).to_bits(), pairs: ChildPairs { nodes, wanted } };
             if near == 0 {
@@ -229,7 +228,7 @@ impl<'s, 'a> Search<'s, 'a> {
 
 /// Leaves out all pairs that wait.
 #[inline(always)]
-fn leave_all(stack: &[[ScratchEntry; ENTRIES]], used: usize, left: &mut dyn LeftOut) {
+fn leave_all(stack: &[[ScratchEntry; ENTRIES]], used: usize, left: &mut impl LeftOut) {
     stack.iter().take(used).for_each(|entries| PendingPairs::of(entries).leave_to(left));
 }
 
