@@ -6,32 +6,25 @@
  * Bytes of the processor's stack that a function takes in libmeshsweep_small.a /
  * libmeshsweep.a. Of the functions for this blob, those that are not listed take less
  * than 64.
- *                               
- *   msw_open                    
- *   msw_open_trusted            
- *   msw_closest_point           
- *   msw_closest_point_from      
- *   msw_coherent_closest_point  
- *   msw_within                  
- *   msw_nearest                 
- *   msw_signed_distance         
- *   msw_first_hit               
- *   msw_overlap                 
- *   msw_within_of               
- *   msw_distance                
- *   msw_coherent_pair_distance  
- *   msw_coherent_pair_within    
- *   msw_first_contact_of        
- *   msw_scene_begin             
- *   msw_scene_move              
- *   msw_scene_within            
- *   msw_solid_first_contact     
- *   msw_checksum                
- *   msw_pose_of_quaternion      
- *   msw_pose_then               
- *   msw_pose_inverse            
- *   msw_pose_relative_to        
- *   msw_pose_motion             
+ *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
+ *   msw_open                        2496 / 2048    2560 / 2112    2496 / 2048    2368 / 1984
+ *   msw_open_trusted                1280 / 1024    1280 / 1088    1280 / 1024     1152 / 960
+ *   msw_closest_point               1344 / 1344    2560 / 2944    1344 / 1344    2048 / 2368
+ *   msw_closest_point_from          1280 / 1344    2560 / 3008    1280 / 1344    2048 / 2368
+ *   msw_coherent_closest_point      2112 / 2112    3136 / 3584    2112 / 2112    2560 / 2944
+ *   msw_within                      1152 / 1280    1984 / 2048    1152 / 1280    1408 / 1472
+ *   msw_nearest                     1216 / 1472    2048 / 2176    1216 / 1472    1472 / 1600
+ *   msw_signed_distance             2560 / 2688    3648 / 3712    2560 / 2688    3008 / 3072
+ *   msw_first_hit                   1344 / 1408    1728 / 1728    1344 / 1408    1600 / 1536
+ *   msw_overlap                     6912 / 6592    6592 / 6336    6912 / 6592    6208 / 6080
+ *   msw_models_within             12032 / 13376  11904 / 13248  12032 / 13376  11008 / 12096
+ *   msw_solid_first_contact        10240 / 9728   10176 / 9472   10240 / 9728    9792 / 9088
+ *   msw_checksum                     1088 / 896     1088 / 960     1088 / 896      960 / 832
+ *   msw_pose_of_quaternion            192 / 256      320 / 384      192 / 256      192 / 320
+ *   msw_pose_then                     320 / 512      640 / 832      320 / 512      512 / 704
+ *   msw_pose_inverse                  576 / 448      768 / 768      576 / 448      704 / 640
+ *   msw_pose_relative_to              640 / 448      832 / 768      640 / 448      704 / 704
+ *   msw_pose_motion                   128 / 128      192 / 192      128 / 128      128 / 128
  */
 #ifndef CLAMPS_MSW_H
 #define CLAMPS_MSW_H

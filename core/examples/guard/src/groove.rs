@@ -10,28 +10,28 @@
 //
 // Bytes of the processor's stack that a question takes, at opt-level "s" / 3. Debug builds
 // take several times as much: core/docs/guide.md tells how to avoid it.
-//                               
-//   open a box tree             
-//   closest point               
-//   closest point from a hint   
-//   closest point in f64        
-//   coherent query              
-//   within                      
-//   nearest triangles           
-//   all within                  
-//   signed distance             
-//   winding number              
-//   front facing                
-//   first hit                   
-//   any hit                     
-//   all hits                    
-//   overlap                     
-//   distance of two models      
-//   coherent pair               
-//   scene                       
-//   distance of a solid         
-//   first contact               
-//   penetration                 
+//                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
+//   open a box tree                 2240 / 1792    2368 / 1920    2240 / 1792    2176 / 1792
+//   closest point                   1344 / 1344    2560 / 2944    1344 / 1344    2048 / 2432
+//   closest point from a hint       1280 / 1344    2496 / 2944    1280 / 1344    1984 / 2368
+//   closest point in f64            7424 / 7104    7296 / 6784    7424 / 7104    7040 / 6528
+//   coherent query                  1792 / 1856    3072 / 3520    1792 / 1856    2496 / 2880
+//   within                          1152 / 1280    1984 / 1984    1152 / 1280    1408 / 1472
+//   nearest triangles               1152 / 1280    1920 / 1984    1152 / 1280    1408 / 1472
+//   all within                      1152 / 1280    1984 / 2048    1152 / 1280    1408 / 1472
+//   signed distance                 2496 / 2624    3584 / 3648    2496 / 2624    2944 / 3008
+//   winding number                   1344 / 960    1856 / 1536     1344 / 960    1664 / 1344
+//   front facing                      640 / 640    1024 / 1088      640 / 640      832 / 832
+//   first hit                       1216 / 1344    1600 / 1664    1216 / 1344    1472 / 1472
+//   any hit                         1152 / 1088    1472 / 1600    1152 / 1088    1408 / 1408
+//   all hits                        1344 / 1408    1664 / 1664    1344 / 1408    1472 / 1536
+//   overlap                         6848 / 6464    6464 / 6208    6848 / 6464    6144 / 5952
+//   distance of two models        10112 / 10496   9984 / 10112  10112 / 10560    9216 / 9344
+//   coherent pair                 12096 / 12672  12032 / 12352  12096 / 12672  11328 / 11776
+//   scene                         11456 / 12288  11456 / 11968  11456 / 12288  10688 / 11328
+//   distance of a solid           11840 / 10368  11712 / 10176  11840 / 10368   11328 / 9600
+//   first contact                 10688 / 10048   10560 / 9728  10688 / 10048   10240 / 9344
+//   penetration                   11520 / 12352  11328 / 11968  11520 / 12416  10560 / 11264
 //
 // Distances are in the mesh's unit. Intervals hold of the mesh, not only of the stored surface.
 
