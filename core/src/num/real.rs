@@ -339,7 +339,7 @@ fn sum_of_bits(x: u32, y: u32) -> f32 {
     }
     let apart = of_x - exponent(y);
     if apart > 25 {
-        // Less than a quarter of the last bit, even below a power of two. So is what is not normal.
+        // Less than a quarter of the last bit, even below a power of two. Subnormal numbers are too.
         return f32::from_bits(x);
     }
     let (larger, smaller) = (mantissa(x) >> 1, mantissa(y) >> 1);
