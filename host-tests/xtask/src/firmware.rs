@@ -62,10 +62,6 @@ impl Scope {
         move |board, blob, profile| {
             let has_table = matches!(blob.image, "suite_hull" | "suite_tree");
             let is_first = profile == blob.profile(board.flash);
-            if blob == blobs::APART && board.flash == Flash::Small {
-                // Questions about other bodies do not fit: `tests/twins` asks them of the same code.
-                return false;
-            }
             let all = is_first || board.flash == Flash::Large && blob.is_painted();
             match self {
                 Self::All | Self::Counted => all,

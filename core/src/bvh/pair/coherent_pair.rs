@@ -9,14 +9,13 @@ use core::marker::PhantomData;
 
 use super::advance::longest_path;
 use super::gaps::answers;
-use super::gaps::leaf_gaps::TriangleGap;
 use super::gaps::left_out::{ChildPairs, LeftOut};
 use super::gaps::nearest_first::{Missed, PairDescent, Search};
+use super::gaps::question::PairQuestion;
 use super::model_box::are_apart;
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
-use crate::bvh::tree::gap::{GapThreshold, GapVisitor, NearestGap};
-use crate::bvh::tree::triangle_at::TriangleAt;
+use crate::bvh::tree::gap::{GapThreshold, NearestGap};
 use crate::geom::Pose;
 use crate::num::tolerance::U64;
 use crate::num::{down_to_f32, greater, lesser};
@@ -163,7 +162,7 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         let mut nearest = NearestGap::new(&pair.lengths, 0.0, &budget);
         let mut search = Search::new(&pair, budget.steps, scratch);
         let front = PairFront::after_motion(&mut self.last, &mut self.groups, &pair, &pose);
-        let missed = front.search(&mut search, &mut Question::Distance(&mut nearest))?;
+        let missed = front.search(&mut search, &mut PairQuestion::Distance(&mut nearest))?;
         answers::nearest(&nearest, &pair, missed, search.work)
     }
 
@@ -202,7 +201,7 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         let mut threshold = GapThreshold::new(&pair.lengths, 0.0, distance);
         let mut search = Search::new(&pair, budget.steps, scratch);
         let front = PairFront::after_motion(&mut self.last, &mut self.groups, &pair, &pose);
-        let missed = front.search(&mut search, &mut Question::Within(&mut threshold))?;
+        let missed = front.search(&mut search, &mut PairQuestion::Within(&mut threshold))?;
         answers::within(&threshold, &pair, missed, search.work)
     }
 }
@@ -216,39 +215,6 @@ impl Last {
         path: 0.0,
         leaves: None,
     };
-}
-
-/// The visitors of both questions. As one type, the search is compiled once.
-enum Question<'v> {
-    Distance(&'v mut NearestGap<[TriangleAt; 2]>),
-    Within(&'v mut GapThreshold<[TriangleAt; 2]>),
-}
-
-impl Question<'_> {
-    /// The leaves of the triangles that answer it.
-    fn leaves(&self) -> Option<ChildPairs> {
-        let [a, b] = match self {
-            Question::Distance(nearest) => nearest.best?.place,
-            Question::Within(threshold) => threshold.found.met?,
-        };
-        Some(ChildPairs { nodes: [a.node(), b.node()], wanted: 1 << (a.child() << 3 | b.child()) })
-    }
-}
-
-impl GapVisitor<[TriangleAt; 2]> for Question<'_> {
-    fn limit(&self) -> f64 {
-        match self {
-            Question::Distance(nearest) => nearest.limit(),
-            Question::Within(threshold) => threshold.limit(),
-        }
-    }
-
-    fn take(&mut self, gap: &TriangleGap) -> bool {
-        match self {
-            Question::Distance(nearest) => nearest.take(gap),
-            Question::Within(threshold) => threshold.take(gap),
-        }
-    }
 }
 
 /// The groups in the caller's memory.
@@ -314,19 +280,19 @@ impl<'f> PairFront<'f> {
         PairFront { last, groups, unseen: 0, is_lost: false, is_known: false }
     }
 
-    /// Searches the groups that may hold a pair within the visitor's limit.
+    /// Searches the groups that may hold a pair within the question's limit.
     fn search(
         mut self,
         search: &mut Search<'_, '_>,
-        visitor: &mut Question<'_>,
+        question: &mut PairQuestion<'_>,
     ) -> Result<Option<Missed>, QueryError> {
-        let is_clear = nearer(self.last.least, self.last.path) > visitor.limit();
+        let is_clear = nearer(self.last.least, self.last.path) > question.limit();
         if self.last.count > 0 && is_clear {
             return Ok(None);
         }
         self.bring_nearer();
-        let found = self.search_groups(search, visitor);
-        self.last.leaves = visitor.leaves().or(self.last.leaves);
+        let found = self.search_groups(search, question);
+        self.last.leaves = question.leaves().or(self.last.leaves);
         if self.is_lost || found.is_err() {
             self.last.count = 0;
         }
@@ -337,7 +303,7 @@ impl<'f> PairFront<'f> {
     fn search_groups(
         &mut self,
         search: &mut Search<'_, '_>,
-        visitor: &mut Question<'_>,
+        question: &mut PairQuestion<'_>,
     ) -> Result<Option<Missed>, QueryError> {
         let mut missed: Option<Missed> = None;
         let mut is_first = true;
@@ -356,12 +322,12 @@ impl<'f> PairFront<'f> {
             } else {
                 let Some(at) = self.unseen.checked_sub(1) else { return Ok(missed) };
                 self.unseen = at;
-                match self.remove_near(at, visitor.limit()) {
+                match self.remove_near(at, question.limit()) {
                     Some(group) => (group.pairs(), group.distance),
                     None => continue,
                 }
             };
-            match search.descend(start, visitor, self)? {
+            match search.descend(start, question, self)? {
                 PairDescent::Done => {}
                 PairDescent::Answered => return Ok(missed),
                 PairDescent::Truncated(now) => {
@@ -377,7 +343,7 @@ impl<'f> PairFront<'f> {
             if self.is_known {
                 continue;
             }
-            is_fresh = is_first && !is_fresh && self.are_many_near(visitor.limit());
+            is_fresh = is_first && !is_fresh && self.are_many_near(question.limit());
             is_first = false;
         }
     }

@@ -3,13 +3,13 @@
 use super::gaps::answers;
 use super::gaps::left_out::{ChildPairs, Forgotten};
 use super::gaps::nearest_first::{Missed, Search};
+use super::gaps::question::PairQuestion;
 use super::models::most_pairs;
 use super::separation::grid_pose::{FramePose, GridPose};
 use super::separation::search::{NearestTriangles, nearest_triangles};
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::gap::NearestGap;
-use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::Pose;
 use crate::query::{Budget, Ended, PairDistance, QueryError, ScratchEntry, Work};
 
@@ -70,6 +70,7 @@ impl Bvh<'_> {
         budget.check_with(scratch)?;
         let pair = StoredPair::new([self, other], &pose)?;
         let mut nearest = NearestGap::new(&pair.lengths, 0.0, &budget);
+        let mut question = PairQuestion::Distance(&mut nearest);
         let mut work = Work::NONE;
         // A search with few steps or a tolerance is bounded by what waits: that is of f64 alone.
         let is_whole = budget.relative == 0.0
@@ -77,13 +78,13 @@ impl Bvh<'_> {
             && budget.steps >= most_pairs(self, other);
         if is_whole
             && pair.is_in_range
-            && measure_nearest(&pair, &pose, &mut nearest, (scratch, &mut work))
+            && measure_nearest(&pair, &pose, &mut question, (scratch, &mut work))
         {
             return answers::nearest(&nearest, &pair, None, work);
         }
         let mut search = Search { work, ..Search::new(&pair, budget.steps, scratch) };
         let missed = if pair.is_in_range {
-            search.descend((ChildPairs::ALL, 0.0), &mut nearest, &mut Forgotten)?.missed()
+            search.descend((ChildPairs::ALL, 0.0), &mut question, &mut Forgotten)?.missed()
         } else {
             Some(Missed { why: Ended::Resolution, lower: f64::INFINITY })
         };
@@ -97,7 +98,7 @@ impl Bvh<'_> {
 fn measure_nearest(
     pair: &StoredPair<'_>,
     pose: &Pose,
-    nearest: &mut NearestGap<[TriangleAt; 2]>,
+    question: &mut PairQuestion<'_>,
     (scratch, work): (&mut [ScratchEntry], &mut Work),
 ) -> bool {
     let trees = pair.trees;
@@ -109,7 +110,7 @@ fn measure_nearest(
         let [first, second] = place;
         let [a, b] = trees;
         let (Some(p), Some(q)) = (first.leaf(a), second.leaf(b)) else { return false };
-        if !leaves.measure([&p, &q], place, nearest, work) {
+        if !leaves.measure([&p, &q], place, question, work) {
             return true;
         }
         if !are_all {
@@ -117,5 +118,5 @@ fn measure_nearest(
             return false;
         }
     }
-    nearest.best.is_some()
+    question.leaves().is_some()
 }

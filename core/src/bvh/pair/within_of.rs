@@ -4,6 +4,7 @@ use super::from_afar::from_afar;
 use super::gaps::answers;
 use super::gaps::left_out::{ChildPairs, Forgotten};
 use super::gaps::nearest_first::Search;
+use super::gaps::question::PairQuestion;
 use super::model_box::are_apart;
 use super::models::numbers;
 use super::separation::grid_pose::{FramePose, GridPose};
@@ -111,7 +112,8 @@ impl Bvh<'_> {
         let mut threshold = threshold.and_beyond(more);
         let mut search = Search { work, ..Search::new(&pair, budget.steps, scratch) };
         let missed = if pair.is_in_range {
-            search.descend((ChildPairs::ALL, 0.0), &mut threshold, &mut Forgotten)?.missed()
+            let mut question = PairQuestion::Within(&mut threshold);
+            search.descend((ChildPairs::ALL, 0.0), &mut question, &mut Forgotten)?.missed()
         } else {
             threshold.take(&from_afar(&pair).ok_or(QueryError::Unchecked)?);
             None

@@ -7,9 +7,10 @@ use super::left_out::LeftOut;
 use super::pair_keys::{
     NO_PAIR, PAIRS, PairKeys, children_of, distance_of, key_limit, key_of, pair_bit,
 };
+use super::question::PairQuestion;
 use crate::bvh::pair::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
 use crate::bvh::tree::format::FanLeaf;
-use crate::bvh::tree::gap::{Gap, GapVisitor};
+use crate::bvh::tree::gap::Gap;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::geom::{
@@ -43,12 +44,12 @@ pub(crate) struct LeafGaps<'a> {
 
 impl LeafGaps<'_> {
     /// Measures one pair of triangles, unless it is as far as the limit along the direction. Whether
-    /// the visitor goes on.
+    /// the question goes on.
     pub(crate) fn measure(
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
         place: [TriangleAt; 2],
-        visitor: &mut impl GapVisitor<[TriangleAt; 2]>,
+        question: &mut PairQuestion<'_>,
         work: &mut Work,
     ) -> bool {
         let [first, second] = leaves;
@@ -57,10 +58,10 @@ impl LeafGaps<'_> {
         let [a, b] = pair.in_f64(i, j);
         let lower = self.without_rounding(gap_along(self.offset, a, b));
         work.triangles = work.triangles.saturating_add(1);
-        if lower >= visitor.limit() * GAP_SETTLED {
+        if lower >= question.limit() * GAP_SETTLED {
             // Its distance would tell no more.
             let points = [self.offset; 2];
-            return visitor.take(&TriangleGap {
+            return question.take(&TriangleGap {
                 place,
                 lower,
                 upper: f64::INFINITY,
@@ -71,7 +72,7 @@ impl LeafGaps<'_> {
         work.exact = work.exact.saturating_add(1);
         let gap = self.measured(&pair, place);
         self.turn_to(&gap);
-        visitor.take(&gap)
+        question.take(&gap)
     }
 
     fn without_rounding(&self, lower: f64) -> f64 {
@@ -85,7 +86,7 @@ impl LeafGaps<'_> {
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
         [first_at, second_at]: [TriangleAt; 2],
-        visitor: &mut impl GapVisitor<[TriangleAt; 2]>,
+        question: &mut PairQuestion<'_>,
         work: &mut Work,
     ) -> Option<LeafVisit> {
         let [first, second] = leaves;
@@ -93,11 +94,11 @@ impl LeafGaps<'_> {
         let error = self.pose.vertex_error;
         let margin =
             (error + error) + GAP_ALONG * U32 * greater(pair.a.max_norm(), pair.b.max_norm()) * 2.0;
-        let reach_sq = |visitor: &_| {
-            let grown_limit = (up_to_f32(GapVisitor::limit(visitor)) + margin) * GAP_SLACK;
+        let reach_sq = |question: &PairQuestion<'_>| {
+            let grown_limit = (up_to_f32(question.limit()) + margin) * GAP_SLACK;
             grown_limit * grown_limit * GAP_SLACK
         };
-        let mut limit_sq = reach_sq(visitor);
+        let mut limit_sq = reach_sq(question);
         let mut seen = Measured { pairs: 0, lower: f64::INFINITY };
         let visit = |direction, goes_on, seen: &Measured| {
             let lower =
@@ -127,10 +128,10 @@ impl LeafGaps<'_> {
                 pairs: seen.pairs | pair_bit(key),
                 lower: lesser(seen.lower, gap.lower),
             };
-            if !visitor.take(&gap) {
+            if !question.take(&gap) {
                 return visit(self.direction, false, &seen);
             }
-            limit_sq = reach_sq(visitor);
+            limit_sq = reach_sq(question);
             skip_along(&mut keys, self.direction, limit_sq, first, second);
         }
     }

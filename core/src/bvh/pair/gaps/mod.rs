@@ -6,6 +6,7 @@
 //! | `pair_keys` | lower bounds of the distances of all pairs of boxes of two nodes |
 //! | `leaf_gaps` | the distances of the triangles of two leaves |
 //! | `left_out` | what a descent does not look at, for the next one |
+//! | `question` | the two questions, as one type for the search |
 //! | `answers` | what the questions say after a search |
 
 pub(super) mod answers;
@@ -13,3 +14,4 @@ pub(super) mod leaf_gaps;
 pub(super) mod left_out;
 pub(super) mod nearest_first;
 pub(super) mod pair_keys;
+pub(super) mod question;

@@ -9,10 +9,10 @@ use super::left_out::{ChildPairs, LeftOut};
 use super::pair_keys::{
     NO_PAIR, PairKeys, bound_of, children_of, distance_of, key_limit, pair_bit, second_factor,
 };
+use super::question::PairQuestion;
 use crate::bvh::pair::models::{Models, most_pairs};
 use crate::bvh::pair::stored_pair::StoredPair;
 use crate::bvh::tree::axis_intervals::{AxisIntervals, pairs};
-use crate::bvh::tree::gap::GapVisitor;
 use crate::bvh::tree::stored_lengths::square_limit;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::lesser;
@@ -24,7 +24,7 @@ use crate::query::{Ended, QueryError, ScratchEntry, Work};
 pub(crate) enum PairDescent {
     /// Everything within the limit was looked at.
     Done,
-    /// The visitor wanted no more.
+    /// The question wanted no more.
     Answered,
     Truncated(Missed),
 }
@@ -100,19 +100,19 @@ impl<'s, 'a> Search<'s, 'a> {
         Search { models: pair.models(), leaves: pair.leaves(), steps, scratch, work }
     }
 
-    /// Visits every pair of leaves below `start` that may be within the visitor's limit. What the
+    /// Visits every pair of leaves below `start` that may be within the question's limit. What the
     /// limit left out goes to `left`. None of `start` is nearer than `distance`, common units.
     pub(crate) fn descend<L: LeftOut>(
         &mut self,
         (start, distance): (ChildPairs, f32),
-        visitor: &mut impl GapVisitor<[TriangleAt; 2]>,
+        question: &mut PairQuestion<'_>,
         left: &mut L,
     ) -> Result<PairDescent, QueryError> {
         let Search { models, leaves, work, .. } = self;
         let steps = lesser(self.steps, work.opened.saturating_add(most_pairs(models.a, models.b)));
         let (stack, _) = self.scratch.as_chunks_mut::<ENTRIES>();
         let factor = second_factor(models.pose);
-        let limit_of = |visitor: &_| key_limit(square_limit(GapVisitor::limit(visitor)));
+        let limit_of = |question: &PairQuestion<'_>| key_limit(square_limit(question.limit()));
         let mut used = 0usize;
         // The least key of the pairs that did not fit the stack.
         let mut dropped = NO_PAIR;
@@ -137,7 +137,7 @@ impl<'s, 'a> Search<'s, 'a> {
             let mut down = None;
             while down.is_none() {
                 let key = preferred.take().unwrap_or_else(|| keys.least());
-                if key > limit_of(visitor) {
+                if key > limit_of(question) {
                     break;
                 }
                 keys.drop(key);
@@ -171,7 +171,7 @@ impl<'s, 'a> Search<'s, 'a> {
                 let ([node_a, node_b], [index_a, index_b]) = (nodes, indices);
                 let place =
                     [TriangleAt::new(node_a, index_a, 0), TriangleAt::new(node_b, index_b, 0)];
-                let visit = leaves.visit::<L>([&p, &q], place, visitor, work);
+                let visit = leaves.visit::<L>([&p, &q], place, question, work);
                 let LeafVisit { goes_on, lower } = visit.ok_or(QueryError::Unchecked)?;
                 left.keep(ChildPairs { nodes, wanted: pair_bit(key) }, lower);
                 if !goes_on {
@@ -182,7 +182,7 @@ impl<'s, 'a> Search<'s, 'a> {
                     return Ok(PairDescent::Answered);
                 }
             }
-            let limit = limit_of(visitor);
+            let limit = limit_of(question);
             let (near, key) = keys.up_to(limit);
             // Pairs beyond the limit are left out together with the others.
             let wanted = if L::KEEPS { keys.up_to(NO_PAIR - 1).0 } else { near };
