@@ -132,9 +132,16 @@ fn every_command_s_help_has_examples_that_run() {
             let shape = format!("<geometry><mesh filename=\"{package}part.stl\"/></geometry>");
             format!("<link name=\"{name}\"><collision>{shape}</collision></link>")
         };
-        let joint = "<joint name=\"turn\" type=\"continuous\"><parent link=\"base\"/>\
-            <child link=\"tool\"/></joint>";
-        let text = format!("<robot name=\"arm\">{}{}{joint}</robot>", link("base"), link("tool"));
+        let joint = |[name, parent, child]: [&str; 3]| {
+            format!(
+                "<joint name=\"{name}\" type=\"continuous\"><parent link=\"{parent}\"/>\
+                 <child link=\"{child}\"/></joint>"
+            )
+        };
+        // Links that share a joint keep no distance.
+        let links = ["base", "arm", "tool"].map(link).concat();
+        let joints = [["turn", "base", "arm"], ["bend", "arm", "tool"]].map(joint).concat();
+        let text = format!("<robot name=\"arm\">{links}{joints}</robot>");
         fs::write(directory.join(robot).with_extension("urdf"), text).unwrap();
     }
     fs::write(directory.join("arm.srdf"), "<robot name=\"arm\"/>").unwrap();

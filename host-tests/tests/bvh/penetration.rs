@@ -425,7 +425,7 @@ fn budgets_are_kept() {
             let found = a.bvh().penetration(&b.bvh(), pose, Budget::EXACT, &mut scratch[..entries]);
             holds("scratch", [&a, &b], &pose, &found.expect("answers"), &mut rng);
         }
-        let exact = ask(&a.bvh(), &b.bvh(), &pose, Budget::EXACT.with_steps(4000));
+        let exact = ask(&a.bvh(), &b.bvh(), &pose, Budget::EXACT.with_steps(20_000));
         assert_eq!(exact.ended, Ended::Exact, "{exact:?}");
         let rough = ask(&a.bvh(), &b.bvh(), &pose, Budget::EXACT.with_relative(9.0));
         assert!(rough.work.opened <= exact.work.opened, "{rough:?} {exact:?}");

@@ -1,7 +1,7 @@
 //! Two models that are very far from each other, or of which nothing was looked at: their boxes
 //! bound the distance.
 
-use super::gaps::leaf_gaps::TriangleGap;
+use super::gaps::question::TriangleGap;
 use super::stored_pair::{StoredPair, moved};
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::triangle_at::TriangleAt;

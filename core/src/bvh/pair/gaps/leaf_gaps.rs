@@ -7,10 +7,9 @@ use super::left_out::LeftOut;
 use super::pair_keys::{
     NO_PAIR, PAIRS, PairKeys, children_of, distance_of, key_limit, key_of, pair_bit,
 };
-use super::question::PairQuestion;
+use super::question::{PairQuestion, TriangleGap};
 use crate::bvh::pair::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
 use crate::bvh::tree::format::FanLeaf;
-use crate::bvh::tree::gap::Gap;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::geom::{
@@ -19,9 +18,6 @@ use crate::geom::{
 use crate::num::tolerance::{GAP_ALONG, GAP_SETTLED, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32};
 use crate::num::{greater, lesser, up_to_f32};
 use crate::query::{RelativePose, Work};
-
-/// The distance of two stored triangles, common units. Points are from the first model's origin.
-pub(crate) type TriangleGap = Gap<[TriangleAt; 2]>;
 
 /// What a visit of two leaves showed.
 pub(crate) struct LeafVisit {
