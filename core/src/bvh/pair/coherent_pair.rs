@@ -9,7 +9,7 @@ use core::marker::PhantomData;
 
 use super::advance::longest_path;
 use super::gaps::answers;
-use super::gaps::left_out::{ChildPairs, LeftOut};
+use super::gaps::left_out::{ChildPairs, Group, LeftOut};
 use super::gaps::nearest_first::{Missed, PairDescent, Search};
 use super::gaps::question::PairQuestion;
 use super::model_box::are_apart;
@@ -36,43 +36,6 @@ pub struct CoherentPair<'t, const N: usize = 1024> {
     groups: [Group; N],
     bytes: PhantomData<&'t [u8]>,
 }
-
-/// Pairs of children of two nodes that a search left out.
-#[derive(Clone, Copy, Debug)]
-struct Group {
-    /// No pair is nearer, common units.
-    distance: f32,
-    nodes: [u32; 2],
-    /// [`ChildPairs::wanted`], its lower half first. In halves an entry has 20 bytes.
-    wanted: [u32; 2],
-}
-
-impl Group {
-    const EMPTY: Group = Group { distance: 0.0, nodes: [0; 2], wanted: [0; 2] };
-
-    fn pairs(&self) -> ChildPairs {
-        let [low, high] = self.wanted.map(u64::from);
-        ChildPairs { nodes: self.nodes, wanted: high << 32 | low }
-    }
-
-    fn is_like(&self, other: &Group) -> bool {
-        self.nodes == other.nodes
-            && self.distance <= other.distance * LIKE
-            && other.distance <= self.distance * LIKE
-    }
-
-    fn add(&mut self, other: &Group) {
-        let ([low, high], [more_low, more_high]) = (self.wanted, other.wanted);
-        self.wanted = [low | more_low, high | more_high];
-        self.distance = lesser(self.distance, other.distance);
-    }
-}
-
-/// Groups of the same nodes are merged if their distances are within this factor.
-const LIKE: f32 = 1.25;
-
-/// Only this many latest groups are compared: those of the same nodes come soon after each other.
-const LATEST: usize = 8;
 
 /// The last question.
 #[derive(Clone, Copy, Debug)]
@@ -220,44 +183,9 @@ impl Last {
 /// The groups in the caller's memory.
 struct PairFront<'f> {
     last: &'f mut Last,
-    groups: &'f mut [Group],
+    left: LeftOut<'f>,
     /// Groups at the start of the list that this search did not look at yet.
     unseen: usize,
-    /// A group did not fit.
-    is_lost: bool,
-    /// Groups already hold what is searched.
-    is_known: bool,
-}
-
-impl LeftOut for PairFront<'_> {
-    const KEEPS: bool = true;
-
-    fn keep(&mut self, pairs: ChildPairs, distance: f64) {
-        if self.is_known {
-            return;
-        }
-        let ChildPairs { nodes, wanted } = pairs;
-        let wanted = [wanted as u32, (wanted >> 32) as u32];
-        let group = Group { distance: down_to_f32(distance), nodes, wanted };
-        let count = self.last.count;
-        let latest = count.saturating_sub(LATEST)..count;
-        let latest = self.groups.get_mut(latest).unwrap_or(&mut []);
-        if let Some(like) = latest.iter_mut().find(|other| other.is_like(&group)) {
-            like.add(&group);
-            return;
-        }
-        match self.groups.get_mut(count) {
-            Some(slot) => {
-                *slot = group;
-                self.last.count += 1;
-            }
-            None => self.is_lost = true,
-        }
-    }
-
-    fn overflow(&mut self) {
-        self.is_lost |= !self.is_known;
-    }
 }
 
 impl<'f> PairFront<'f> {
@@ -277,7 +205,8 @@ impl<'f> PairFront<'f> {
         } else {
             Last { of, pose: *pose, ..Last::NONE }
         };
-        PairFront { last, groups, unseen: 0, is_lost: false, is_known: false }
+        let left = LeftOut { groups, count: last.count, is_lost: false, is_known: false };
+        PairFront { last, left, unseen: 0 }
     }
 
     /// Searches the groups that may hold a pair within the question's limit.
@@ -287,15 +216,16 @@ impl<'f> PairFront<'f> {
         question: &mut PairQuestion<'_>,
     ) -> Result<Option<Missed>, QueryError> {
         let is_clear = nearer(self.last.least, self.last.path) > question.limit();
-        if self.last.count > 0 && is_clear {
+        if self.left.count > 0 && is_clear {
             return Ok(None);
         }
         self.bring_nearer();
         let found = self.search_groups(search, question);
         self.last.leaves = question.leaves().or(self.last.leaves);
-        if self.is_lost || found.is_err() {
-            self.last.count = 0;
+        if self.left.is_lost || found.is_err() {
+            self.left.count = 0;
         }
+        self.last.count = self.left.count;
         self.last.least = least(self.known());
         found
     }
@@ -311,12 +241,12 @@ impl<'f> PairFront<'f> {
         // The last answer first. If the models still meet there, nothing else is searched.
         let mut known = self.last.leaves.filter(|_| !is_fresh);
         loop {
-            self.is_known = known.is_some();
+            self.left.is_known = known.is_some();
             let start = if let Some(leaves) = known.take() {
                 (leaves, 0.0)
             } else if is_fresh {
                 // What the first group told is looked at again.
-                (self.last.count, self.unseen, self.is_lost) = (0, 0, false);
+                (self.left.count, self.unseen, self.left.is_lost) = (0, 0, false);
                 missed = None;
                 (ChildPairs::ALL, 0.0)
             } else {
@@ -327,7 +257,7 @@ impl<'f> PairFront<'f> {
                     None => continue,
                 }
             };
-            match search.descend(start, question, self)? {
+            match search.descend(start, question, Some(&mut self.left))? {
                 PairDescent::Done => {}
                 PairDescent::Answered => return Ok(missed),
                 PairDescent::Truncated(now) => {
@@ -340,7 +270,7 @@ impl<'f> PairFront<'f> {
                     }
                 }
             }
-            if self.is_known {
+            if self.left.is_known {
                 continue;
             }
             is_fresh = is_first && !is_fresh && self.are_many_near(question.limit());
@@ -350,36 +280,36 @@ impl<'f> PairFront<'f> {
 
     /// The groups in use.
     fn known(&self) -> &[Group] {
-        self.groups.get(..self.last.count).unwrap_or(&[])
+        self.left.groups.get(..self.left.count).unwrap_or(&[])
     }
 
     /// Subtracts the path from all distances. The nearest group comes last: its triangles leave few
     /// of the others.
     fn bring_nearer(&mut self) {
-        let (count, path) = (self.last.count, self.last.path);
+        let (count, path) = (self.left.count, self.last.path);
         (self.unseen, self.last.path) = (count, 0.0);
         let (mut nearest, mut least) = (0, f32::INFINITY);
-        for (i, group) in self.groups.iter_mut().take(count).enumerate() {
+        for (i, group) in self.left.groups.iter_mut().take(count).enumerate() {
             group.distance = down_to_f32(greater(0.0, nearer(group.distance, path)));
             if group.distance < least {
                 (nearest, least) = (i, group.distance);
             }
         }
-        if let Some([nearest, .., last]) = self.groups.get_mut(nearest..count) {
+        if let Some([nearest, .., last]) = self.left.groups.get_mut(nearest..count) {
             core::mem::swap(nearest, last);
         }
     }
 
     /// Removes a group if it may hold a pair within the limit.
     fn remove_near(&mut self, at: usize, limit: f64) -> Option<Group> {
-        let group = *self.groups.get(at)?;
+        let group = *self.left.groups.get(at)?;
         if f64::from(group.distance) > limit {
             return None;
         }
-        let end = self.last.count.checked_sub(1)?;
-        let last = *self.groups.get(end)?;
-        *self.groups.get_mut(at)? = last;
-        self.last.count = end;
+        let end = self.left.count.checked_sub(1)?;
+        let last = *self.left.groups.get(end)?;
+        *self.left.groups.get_mut(at)? = last;
+        self.left.count = end;
         Some(group)
     }
 

@@ -1,7 +1,7 @@
 //! The distance of two surfaces, one of them moved.
 
 use super::gaps::answers;
-use super::gaps::left_out::{ChildPairs, Forgotten};
+use super::gaps::left_out::ChildPairs;
 use super::gaps::nearest_first::{Missed, Search};
 use super::gaps::question::PairQuestion;
 use super::models::most_pairs;
@@ -84,7 +84,7 @@ impl Bvh<'_> {
         }
         let mut search = Search { work, ..Search::new(&pair, budget.steps, scratch) };
         let missed = if pair.is_in_range {
-            search.descend((ChildPairs::ALL, 0.0), &mut question, &mut Forgotten)?.missed()
+            search.descend((ChildPairs::ALL, 0.0), &mut question, None)?.missed()
         } else {
             Some(Missed { why: Ended::Resolution, lower: f64::INFINITY })
         };

@@ -2,7 +2,7 @@
 
 use super::from_afar::from_afar;
 use super::gaps::answers;
-use super::gaps::left_out::{ChildPairs, Forgotten};
+use super::gaps::left_out::ChildPairs;
 use super::gaps::nearest_first::Search;
 use super::gaps::question::PairQuestion;
 use super::model_box::are_apart;
@@ -113,7 +113,7 @@ impl Bvh<'_> {
         let mut search = Search { work, ..Search::new(&pair, budget.steps, scratch) };
         let missed = if pair.is_in_range {
             let mut question = PairQuestion::Within(&mut threshold);
-            search.descend((ChildPairs::ALL, 0.0), &mut question, &mut Forgotten)?.missed()
+            search.descend((ChildPairs::ALL, 0.0), &mut question, None)?.missed()
         } else {
             threshold.take(&from_afar(&pair).ok_or(QueryError::Unchecked)?);
             None

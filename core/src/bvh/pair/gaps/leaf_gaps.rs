@@ -3,7 +3,6 @@
 //! Boxes bound all pairs in f32. The nearest pair is computed in f64. The offset between its points
 //! then bounds all other pairs: most often none is left.
 
-use super::left_out::LeftOut;
 use super::pair_keys::{
     NO_PAIR, PAIRS, PairKeys, children_of, distance_of, key_limit, key_of, pair_bit,
 };
@@ -76,13 +75,15 @@ impl LeafGaps<'_> {
         greater(0.0, lower - (rounding + rounding))
     }
 
-    /// Visits the pairs of triangles of two leaves that may be within the limit.
+    /// Visits the pairs of triangles of two leaves that may be within the limit. If the search keeps
+    /// what it leaves out, a lower bound of both leaves is found as well.
     #[inline(always)]
-    pub(crate) fn visit<L: LeftOut>(
+    pub(crate) fn visit(
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
         [first_at, second_at]: [TriangleAt; 2],
         question: &mut PairQuestion<'_>,
+        keeps: bool,
         work: &mut Work,
     ) -> Option<LeafVisit> {
         let [first, second] = leaves;
@@ -97,8 +98,7 @@ impl LeafGaps<'_> {
         let mut limit_sq = reach_sq(question);
         let mut seen = Measured { pairs: 0, lower: f64::INFINITY };
         let visit = |direction, goes_on, seen: &Measured| {
-            let lower =
-                if L::KEEPS { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
+            let lower = if keeps { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
             Some(LeafVisit { goes_on, lower })
         };
         if !may_be_near(self.direction, limit_sq, &pair) {

@@ -1,25 +1,85 @@
-//! Pairs that a search left out.
+//! Pairs that a search left out, so that a later search can begin with them.
 
-/// Keeps the pairs that a search left out, so that a later search can begin with them.
-pub(crate) trait LeftOut {
-    /// Whether it keeps anything.
-    const KEEPS: bool;
+use crate::num::{down_to_f32, lesser};
+
+/// The groups of pairs that searches left out, in the caller's memory.
+pub(crate) struct LeftOut<'f> {
+    pub(crate) groups: &'f mut [Group],
+    /// Groups in use.
+    pub(crate) count: usize,
+    /// A group did not fit.
+    pub(crate) is_lost: bool,
+    /// Groups already hold what is searched.
+    pub(crate) is_known: bool,
+}
+
+impl LeftOut<'_> {
     /// These pairs are not nearer than `distance`, common units.
-    fn keep(&mut self, pairs: ChildPairs, distance: f64);
+    pub(crate) fn keep(&mut self, pairs: ChildPairs, distance: f64) {
+        if self.is_known {
+            return;
+        }
+        let ChildPairs { nodes, wanted } = pairs;
+        let wanted = [wanted as u32, (wanted >> 32) as u32];
+        let group = Group { distance: down_to_f32(distance), nodes, wanted };
+        let count = self.count;
+        let latest = count.saturating_sub(LATEST)..count;
+        let latest = self.groups.get_mut(latest).unwrap_or(&mut []);
+        if let Some(like) = latest.iter_mut().find(|other| other.is_like(&group)) {
+            like.add(&group);
+            return;
+        }
+        match self.groups.get_mut(count) {
+            Some(slot) => {
+                *slot = group;
+                self.count += 1;
+            }
+            None => self.is_lost = true,
+        }
+    }
+
     /// Pairs were dropped for lack of scratch memory. It never gets them.
-    fn overflow(&mut self);
+    pub(crate) fn overflow(&mut self) {
+        self.is_lost |= !self.is_known;
+    }
 }
 
-/// A search that is not continued.
-pub(crate) struct Forgotten;
-
-impl LeftOut for Forgotten {
-    const KEEPS: bool = false;
-
-    fn keep(&mut self, _: ChildPairs, _: f64) {}
-
-    fn overflow(&mut self) {}
+/// Pairs of children of two nodes that a search left out.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Group {
+    /// No pair is nearer, common units.
+    pub(crate) distance: f32,
+    nodes: [u32; 2],
+    /// [`ChildPairs::wanted`], its lower half first. In halves an entry has 20 bytes.
+    wanted: [u32; 2],
 }
+
+impl Group {
+    pub(crate) const EMPTY: Group = Group { distance: 0.0, nodes: [0; 2], wanted: [0; 2] };
+
+    pub(crate) fn pairs(&self) -> ChildPairs {
+        let [low, high] = self.wanted.map(u64::from);
+        ChildPairs { nodes: self.nodes, wanted: high << 32 | low }
+    }
+
+    fn is_like(&self, other: &Group) -> bool {
+        self.nodes == other.nodes
+            && self.distance <= other.distance * LIKE
+            && other.distance <= self.distance * LIKE
+    }
+
+    fn add(&mut self, other: &Group) {
+        let ([low, high], [more_low, more_high]) = (self.wanted, other.wanted);
+        self.wanted = [low | more_low, high | more_high];
+        self.distance = lesser(self.distance, other.distance);
+    }
+}
+
+/// Groups of the same nodes are merged if their distances are within this factor.
+const LIKE: f32 = 1.25;
+
+/// Only this many latest groups are compared: those of the same nodes come soon after each other.
+const LATEST: usize = 8;
 
 /// Pairs of children of two nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -73,8 +73,10 @@ impl PendingPairs {
     }
 
     #[inline(always)]
-    fn leave_to<L: LeftOut>(self, left: &mut L) {
-        if L::KEEPS && self.pairs.wanted != 0 {
+    fn leave_to(self, left: &mut Option<&mut LeftOut<'_>>) {
+        if let Some(left) = left
+            && self.pairs.wanted != 0
+        {
             left.keep(self.pairs, distance_of(self.key));
         }
     }
@@ -102,11 +104,11 @@ impl<'s, 'a> Search<'s, 'a> {
 
     /// Visits every pair of leaves below `start` that may be within the question's limit. What the
     /// limit left out goes to `left`. None of `start` is nearer than `distance`, common units.
-    pub(crate) fn descend<L: LeftOut>(
+    pub(crate) fn descend(
         &mut self,
         (start, distance): (ChildPairs, f32),
         question: &mut PairQuestion<'_>,
-        left: &mut L,
+        mut left: Option<&mut LeftOut<'_>>,
     ) -> Result<PairDescent, QueryError> {
         let Search { models, leaves, work, .. } = self;
         let steps = lesser(self.steps, work.opened.saturating_add(most_pairs(models.a, models.b)));
@@ -122,8 +124,8 @@ impl<'s, 'a> Search<'s, 'a> {
             if work.opened >= steps {
                 let waiting = stack.iter().take(used).map(|entries| PendingPairs::of(entries).key);
                 let key = waiting.fold(now.key.min(dropped), u32::min);
-                now.leave_to(left);
-                leave_all(stack, used, left);
+                now.leave_to(&mut left);
+                leave_all(stack, used, &mut left);
                 return Ok(PairDescent::Truncated(Missed {
                     why: Ended::Steps,
                     lower: distance_of(key),
@@ -171,25 +173,27 @@ impl<'s, 'a> Search<'s, 'a> {
                 let ([node_a, node_b], [index_a, index_b]) = (nodes, indices);
                 let place =
                     [TriangleAt::new(node_a, index_a, 0), TriangleAt::new(node_b, index_b, 0)];
-                let visit = leaves.visit::<L>([&p, &q], place, question, work);
+                let visit = leaves.visit([&p, &q], place, question, left.is_some(), work);
                 let LeafVisit { goes_on, lower } = visit.ok_or(QueryError::Unchecked)?;
-                left.keep(ChildPairs { nodes, wanted: pair_bit(key) }, lower);
+                if let Some(left) = &mut left {
+                    left.keep(ChildPairs { nodes, wanted: pair_bit(key) }, lower);
+                }
                 if !goes_on {
                     let (wanted, _) = keys.up_to(NO_PAIR - 1);
                     PendingPairs { key: now.key, pairs: ChildPairs { nodes, wanted } }
-                        .leave_to(left);
-                    leave_all(stack, used, left);
+                        .leave_to(&mut left);
+                    leave_all(stack, used, &mut left);
                     return Ok(PairDescent::Answered);
                 }
             }
             let limit = limit_of(question);
             let (near, key) = keys.up_to(limit);
             // Pairs beyond the limit are left out together with the others.
-            let wanted = if L::KEEPS { keys.up_to(NO_PAIR - 1).0 } else { near };
+            let wanted = if left.is_some() { keys.up_to(NO_PAIR - 1).0 } else { near };
             let rest =
                 PendingPairs { key: bound_of(key).to_bits(), pairs: ChildPairs { nodes, wanted } };
             if near == 0 {
-                rest.leave_to(left);
+                rest.leave_to(&mut left);
             }
             if let Some(next) = down {
                 if near != 0 {
@@ -200,7 +204,9 @@ impl<'s, 'a> Search<'s, 'a> {
                         }
                         None => {
                             dropped = dropped.min(rest.key);
-                            left.overflow();
+                            if let Some(left) = &mut left {
+                                left.overflow();
+                            }
                         }
                     }
                 }
@@ -220,7 +226,7 @@ impl<'s, 'a> Search<'s, 'a> {
                 if waiting.key <= limit {
                     break waiting;
                 }
-                waiting.leave_to(left);
+                waiting.leave_to(&mut left);
             };
         }
     }
@@ -228,7 +234,7 @@ impl<'s, 'a> Search<'s, 'a> {
 
 /// Leaves out all pairs that wait.
 #[inline(always)]
-fn leave_all(stack: &[[ScratchEntry; ENTRIES]], used: usize, left: &mut impl LeftOut) {
+fn leave_all(stack: &[[ScratchEntry; ENTRIES]], used: usize, left: &mut Option<&mut LeftOut<'_>>) {
     stack.iter().take(used).for_each(|entries| PendingPairs::of(entries).leave_to(left));
 }
 
