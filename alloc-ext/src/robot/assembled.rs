@@ -1,13 +1,14 @@
 //! The stages from a description to a robot.
 
 use super::link::{self, Link};
-use super::mechanism::{Mechanism, Place, up};
+use super::mechanism::{Mechanism, Place};
 use super::options::RobotOptions;
 use super::package::Packages;
 use super::pairs::{self, RobotPair, Skipped};
 use super::urdf::{self, Urdf};
 use crate::error::BuildError;
 use crate::load::bytes_of;
+use meshsweep_core::internal::num::up_to_f32;
 use meshsweep_core::{Joint, QueryError};
 use std::path::Path;
 
@@ -95,7 +96,7 @@ impl Robot {
         }
         let pair = |(two @ [a, b], keep): ([usize; 2], f64)| {
             let rounding = f64::from(links[a].rounding) + f64::from(links[b].rounding);
-            RobotPair { links: two, keep, distance: up(keep + rounding).next_up() }
+            RobotPair { links: two, keep, distance: up_to_f32(keep + rounding).next_up() }
         };
         let is_link = |name: &str| urdf.links.iter().any(|link| link.name == name);
         let mut unknown: Vec<String> = disabled
@@ -132,6 +133,8 @@ fn measure_rounding(mechanism: &Mechanism, links: &mut [Link]) -> Result<(), Que
             link.rounding = link.rounding.max(pose.motion(link.radius));
         }
     }
-    links.iter_mut().for_each(|link| link.rounding = up(f64::from(link.rounding) * ROUNDING_ROOM));
+    links
+        .iter_mut()
+        .for_each(|link| link.rounding = up_to_f32(f64::from(link.rounding) * ROUNDING_ROOM));
     Ok(())
 }

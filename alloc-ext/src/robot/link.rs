@@ -1,11 +1,11 @@
 //! A link's collision shapes as one mesh, and its blob.
 
-use super::mechanism::up;
 use super::package::Packages;
 use super::{shape, urdf};
 use crate::builder::{Builder, Built, For};
 use crate::error::BuildError;
 use crate::mesh::{RawMesh, Unit, joined};
+use meshsweep_core::internal::num::up_to_f32;
 use std::path::Path;
 
 /// A link with collision geometry.
@@ -53,6 +53,6 @@ pub(super) fn built(
         radius = loaded.mesh.positions.iter().map(length_sq).fold(0.0, f64::max).sqrt();
         error = loaded.error();
     }
-    let radius = up((radius + error) * (1.0 + 1e-12)).next_up();
+    let radius = up_to_f32((radius + error) * (1.0 + 1e-12)).next_up();
     Ok(Link { name: of.name.clone(), built, joint, radius, rounding: 0.0, beyond })
 }

@@ -4,6 +4,7 @@
 use super::urdf::{Moves, Urdf, UrdfJoint, refused};
 use crate::error::BuildError;
 use crate::mesh::Placement;
+use meshsweep_core::internal::num::up_to_f32;
 use meshsweep_core::{Joint, JointAxis, JointKind, Pose, RoundedPose};
 use std::collections::HashMap;
 use std::path::Path;
@@ -158,7 +159,8 @@ impl Mechanism {
         if !rows.iter().flatten().chain(&shift).all(|x| x.is_finite()) {
             return Err(refused(file, line, "an origin is beyond f32 (3.4e38)".to_owned()));
         }
-        let origin = RoundedPose::within(Pose::rigid(rows, shift), up(turn), up(moved));
+        let origin =
+            RoundedPose::within(Pose::rigid(rows, shift), up_to_f32(turn), up_to_f32(moved));
         let index = u16::try_from(self.joints.len());
         let index = index.map_err(|_| refused(file, line, "too many joints".to_owned()))?;
         self.joints.push(Joint { parent, origin, kind });
@@ -228,10 +230,4 @@ impl Mechanism {
         };
         of_one(&a, &b) && of_one(&b, &a)
     }
-}
-
-/// The least f32 that is not below `x`.
-pub(super) fn up(x: f64) -> f32 {
-    let nearest = x as f32;
-    if f64::from(nearest) < x { nearest.next_up() } else { nearest }
 }

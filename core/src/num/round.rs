@@ -22,6 +22,12 @@ pub fn exp2(exponent: i32) -> f64 {
     f64::from_bits(u64::from((clamped + 1023).unsigned_abs()) << 52)
 }
 
+/// `2^exponent` exactly, for `-126 ≤ exponent ≤ 127`.
+#[inline(always)]
+pub(crate) const fn exp2_f32(exponent: i32) -> f32 {
+    f32::from_bits((127 + exponent).cast_unsigned() << 23)
+}
+
 /// `a + b` and its rounding error, exactly (Knuth, TAOCP 4.2.2). Both numbers and the sum must be
 /// finite.
 #[inline(always)]

@@ -47,8 +47,8 @@ pub(crate) use overlap::{AllPairs, PairVisitor};
 pub use pair_distance::{PairContact, PairDistance};
 pub use penetration::{Penetration, Relation};
 pub(crate) use pose::{
-    DIRECTIONS, Extended, ModelFrame, Placement, PoseInverse, RelativePose, WorldLengths,
-    check_rigid, is_rotation, longest, skew,
+    DIRECTIONS, Extended, ModelFrame, Placement, PoseInverse, RelativePose, UNITS_APART,
+    WorldLengths, check_rigid, is_rotation, longest, skew,
 };
 pub use pose::{Joint, JointAxis, JointKind, Motion, PosedPoint, RoundedPose, link_poses};
 pub use scratch::{Scratch, ScratchEntry};

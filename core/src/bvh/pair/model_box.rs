@@ -3,8 +3,8 @@
 use crate::bvh::tree::extended::unit_exponent;
 use crate::bvh::tree::format::Bvh;
 use crate::geom::{Pose, Rows, columns, turned};
-use crate::num::greater;
 use crate::num::tolerance::{BOX_PAIR, MODEL_BOX, NEARLY_RIGID, SKEW, SQUARE_FLOOR, U32};
+use crate::num::{exp2_f32, greater};
 use crate::query::{QueryError, RelativePose, skew};
 use glam::Vec3;
 
@@ -62,15 +62,10 @@ pub(crate) fn are_apart(
     let [first, second] = exponents;
     let common = greater(first, second);
     let units = if first == common { a.units() } else { b.units() };
-    let [first, second] =
-        [(a, first), (b, second)].map(|(tree, own)| ModelBox::in_units(tree, power(own - common)));
+    let [first, second] = [(a, first), (b, second)]
+        .map(|(tree, own)| ModelBox::in_units(tree, exp2_f32(own - common)));
     let shift = units.inward_point(pose.translation);
     Ok(are_boxes_apart([&first, &second], &pose.rotation, shift, units.inward(distance)))
-}
-
-/// `2^exponent` for exponents from -126 to 0.
-fn power(exponent: i32) -> f32 {
-    f32::from_bits((127 + exponent).cast_unsigned() << 23)
 }
 
 /// The entries of the matrix are at most 2.

@@ -17,7 +17,7 @@ pub(crate) const DIRECTIONS: usize = 6;
 
 /// Largest ratio of the models' units, as a power of two. At 2^40 the smaller model is a point
 /// to the larger one.
-const RATIO: i32 = 40;
+pub(crate) const UNITS_APART: i32 = 40;
 
 /// A model in its own units.
 #[derive(Clone, Copy, Debug)]
@@ -118,7 +118,7 @@ impl RelativePose {
         if farthest >= f32::INFINITY.to_bits() {
             return Err(QueryError::NotFinite);
         }
-        if largest > 2f32.to_bits() || a - b > RATIO || b - a > RATIO {
+        if largest > 2f32.to_bits() || a - b > UNITS_APART || b - a > UNITS_APART {
             return Err(QueryError::PoseOutOfDomain);
         }
         check_rigid(pose)

@@ -21,7 +21,9 @@ mod rounded;
 mod world_lengths;
 
 pub use carried_point::PosedPoint;
-pub(crate) use common_units::{DIRECTIONS, Extended, ModelFrame, Placement, RelativePose};
+pub(crate) use common_units::{
+    DIRECTIONS, Extended, ModelFrame, Placement, RelativePose, UNITS_APART,
+};
 pub(crate) use inverse::PoseInverse;
 pub use joint::{Joint, JointAxis, JointKind, link_poses};
 pub use motion::Motion;

@@ -4,7 +4,8 @@ use crate::bvh::tree::extended::unit_exponent;
 use crate::bvh::tree::format::Bvh;
 use crate::geom::{Pose, Rows, turned};
 use crate::num::tolerance::{SEPARATION_BOX, SEPARATION_FARTHEST, SEPARATION_VERTEX, U32};
-use crate::num::{dot, sqrt_approx};
+use crate::num::{dot, exp2_f32, sqrt_approx};
+use crate::query::UNITS_APART;
 use crate::query::{longest, skew};
 use glam::Vec3;
 
@@ -58,7 +59,7 @@ impl<'a> GridPose<'a> {
         if a.header().is_f32() || b.header().is_f32() || finer.abs() > UNITS_APART {
             return None;
         }
-        let (units, ratio) = (a.units(), power(finer));
+        let (units, ratio) = (a.units(), exp2_f32(finer));
         let origins = [a, b].map(|tree| {
             let [x, y, z] = tree.header().grid_origin.map(|x| x as f32);
             Vec3::new(x, y, z)
@@ -94,13 +95,4 @@ impl<'a> GridPose<'a> {
     pub(crate) fn moved(&self, place: Vec3) -> Vec3 {
         turned(&self.rows, place) + self.shift
     }
-}
-
-/// Largest ratio of the models' units, as a power of two. It is `RATIO` of
-/// `query/pose/common_units.rs`: with a greater one that refuses the pair.
-const UNITS_APART: i32 = 40;
-
-/// `2^exponent`, for exponents within ±126.
-fn power(exponent: i32) -> f32 {
-    f32::from_bits((127 + exponent).cast_unsigned() << 23)
 }

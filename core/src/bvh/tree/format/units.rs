@@ -1,7 +1,7 @@
 //! The grid units of a tree, and conversion between them and input units.
 
 use super::header::BvhHeader;
-use crate::num::{SOFT_FLOAT, lesser};
+use crate::num::{SOFT_FLOAT, exp2_f32, lesser};
 use glam::Vec3;
 
 /// Conversion between input units and grid units, by powers of two.
@@ -126,14 +126,14 @@ pub(crate) fn at_most(x: f32) -> f32 {
     if x >= f32::MIN_POSITIVE { x } else { f32::MIN_POSITIVE }
 }
 
-/// `2^exponent`, exactly, within f32's range.
+/// `2^exponent`, cut to the normal range of f32.
 const fn power(exponent: i32) -> f32 {
     let exponent = match exponent {
         ..-126 => -126,
         128.. => 127,
         exponent => exponent,
     };
-    f32::from_bits((127 + exponent).cast_unsigned() << 23)
+    exp2_f32(exponent)
 }
 
 #[cfg(test)]
