@@ -148,8 +148,7 @@ impl<'s, 'a> Scene<'s, 'a> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<[usize; 2]>, QueryError> {
-        // A distance is refused as an absolute tolerance is.
-        budget.with_absolute(distance).check_with(scratch)?;
+        budget.check_about(distance, scratch)?;
         let mut work = Work::default();
         let mut undecided: Option<(Undecided, [usize; 2])> = None;
         for (pair, [one, other]) in self.pairs(&asks_about) {

@@ -43,8 +43,7 @@ impl Curve<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<CurveSegment>, QueryError> {
-        // A distance is refused as an absolute tolerance is.
-        budget.with_absolute(distance).check_with(scratch)?;
+        budget.check_about(distance, scratch)?;
         let p = self.frame.local(point)?;
         let mut work = Work::default();
         let (verdict, witness) = if p.abs().max_element() > CURVE_FAR {

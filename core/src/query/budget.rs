@@ -64,6 +64,18 @@ impl Budget {
         self.check()?;
         if scratch.is_empty() { Err(QueryError::NoScratch) } else { Ok(()) }
     }
+
+    /// [`check_with`](Self::check_with), and refuses a distance asked about that is negative, NaN or
+    /// infinite.
+    #[inline(always)]
+    pub(crate) fn check_about(
+        &self,
+        distance: f32,
+        scratch: &[ScratchEntry],
+    ) -> Result<(), QueryError> {
+        self.with_absolute(distance).check()?;
+        self.check_with(scratch)
+    }
 }
 
 impl Default for Budget {

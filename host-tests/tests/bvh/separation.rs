@@ -1,7 +1,9 @@
 //! The search of two trees in f32: verdicts next to the true distance of all triangles in 106 bits,
 //! with no more steps or memory than were given, and nothing left to f64 where f32 can tell.
 
-use meshsweep_core::{Budget, Bvh, PlacedModel, Pose, Scene as Models, ScratchEntry, Verdict};
+use meshsweep_core::{
+    Budget, Bvh, Decided, PlacedModel, Pose, Scene as Models, ScratchEntry, Verdict,
+};
 use meshsweep_host_tests::generate::corpus::slivers;
 use meshsweep_host_tests::generate::{
     Rng, Triangles, block, cube, icosphere, inverted, joined, needle_comb, plate, rough_sphere,
@@ -16,16 +18,38 @@ fn stack() -> [ScratchEntry; Bvh::DISTANCE_ENTRIES] {
 }
 
 fn truth(scenes: [&Scene; 2], poses: &[Pose; 2]) -> Bounded {
-    let trees = scenes.map(|scene| {
+    truth_among(scenes.map(|scene| (scene, scene.triangles.as_slice())), poses)
+}
+
+/// The distance of some triangles of each.
+fn truth_among(some: [(&Scene, &[[u32; 3]]); 2], poses: &[Pose; 2]) -> Bounded {
+    let trees = some.map(|(scene, triangles)| {
         let corner = |v: u32| scene.positions[v as usize];
-        placed::Tree::new(scene.triangles.iter().map(|t| t.map(corner)).collect())
+        placed::Tree::new(triangles.iter().map(|t| t.map(corner)).collect())
     });
     if placed::distance(&trees[0].at(&poses[0]), &trees[1].at(&poses[1])) == 0.0 {
         // The other oracle is for models that do not meet.
         return Bounded { lower: 0.0, upper: 0.0 };
     }
-    let [a, b] = scenes.map(|scene| (scene.positions.as_slice(), scene.triangles.as_slice()));
+    let [a, b] = some.map(|(scene, triangles)| (scene.positions.as_slice(), triangles));
     distance_of_placed((a, &poses[0]), (b, &poses[1]))
+}
+
+/// The triangles that a `Yes` names are as near as was asked.
+fn is_witness(
+    scenes: [&Scene; 2],
+    poses: &[Pose; 2],
+    found: &Decided<[u32; 2]>,
+    distance: f32,
+) -> bool {
+    if found.verdict != Verdict::Yes {
+        return true;
+    }
+    let named = found.witness.expect("a `Yes` names two triangles");
+    let [i, j] = named.map(|number| number as usize);
+    let named =
+        [(scenes[0], &scenes[0].triangles[i..=i]), (scenes[1], &scenes[1].triangles[j..=j])];
+    truth_among(named, poses).lower <= f64::from(distance)
 }
 
 #[derive(Debug, Default)]
@@ -62,6 +86,7 @@ fn holds(scenes: [&Scene; 2], poses: &[Pose; 2], tally: &mut Tally) {
             if poses[0] == Pose::IDENTITY {
                 let exact = Budget::EXACT;
                 let found = a.within_of(&b, poses[1], distance, exact, &mut stack()).expect("asks");
+                assert!(is_witness(scenes, poses, &found, distance), "{found:?} {distance:e}");
                 check(found.verdict, found.work.exact);
             }
             if let Some(models) = &placed {

@@ -195,7 +195,7 @@ fn hulls_of_random_meshes_in_random_decimals_enclose_them() {
         ([0.0; 3], 1e30),
         ([1e-31, 2e-30, 0.0], 1e-30),
     ];
-    for round in 0..3 {
+    for round in 0..2 {
         for (origin, size) in frames {
             let (positions, triangles) =
                 if round == 1 { torus(2.0, 0.8, 12, 8) } else { icosphere(2) };

@@ -22,8 +22,7 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<PairContact, QueryError> {
-        // A distance is refused as an absolute tolerance is.
-        budget.with_absolute(keep).check()?;
+        budget.check_about(keep, scratch)?;
         if !motion.is_finite() {
             return Err(QueryError::NotFinite);
         }
@@ -39,12 +38,12 @@ impl Bvh<'_> {
         let mut t = 0.0;
         for _ in 0..MOST_ADVANCES {
             let steps = budget.steps.saturating_sub(contact.work.opened);
-            // Each distance takes time before its first step.
+            // The set-up of a distance takes time. Without steps only the first distance is asked.
             if steps == 0 && t > 0.0 {
                 contact.ended = Ended::Steps;
                 break;
             }
-            // On the way it is as it is.
+            // A matrix between two rotations is mostly no rotation. It is taken as given.
             let pose = Pose { is_affine: true, ..motion.at_time(t) };
             let budget = Budget::EXACT.with_steps(steps);
             let found = self.distance_to(other, pose, budget, scratch)?;
@@ -81,7 +80,7 @@ pub(crate) fn longest_path(tree: &Bvh<'_>, motion: &Motion) -> (f64, f64) {
         if path.is_finite() && off.is_finite() {
             (greater(longest, path), greater(rounding, off))
         } else {
-            // No distance is enough for that.
+            // The path has no bound, so no distance permits an advance.
             (f64::INFINITY, f64::INFINITY)
         }
     })

@@ -150,10 +150,9 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<[u32; 2]>, QueryError> {
-        // A distance is refused as an absolute tolerance is.
-        budget.with_absolute(distance).check_with(scratch)?;
+        budget.check_about(distance, scratch)?;
         if are_apart([tree, other], &pose, distance)? {
-            // What is kept is kept about the pose of the last search.
+            // The groups stay as they are. Their bounds hold at the pose of the last search.
             return Ok(Decided::CLEAR);
         }
         let pair = StoredPair::new([tree, other], &pose)?;
@@ -180,7 +179,7 @@ impl Last {
     };
 }
 
-/// The groups in the caller's memory.
+/// The groups of a [`CoherentPair`] during one search.
 struct PairFront<'f> {
     last: &'f mut Last,
     left: LeftOut<'f>,
@@ -215,11 +214,12 @@ impl<'f> PairFront<'f> {
         search: &mut Search<'_, '_>,
         question: &mut PairQuestion<'_>,
     ) -> Result<Option<Missed>, QueryError> {
-        let is_clear = nearer(self.last.least, self.last.path) > question.limit();
+        // Only a threshold ends here: the limit of a distance is infinite before its first pair.
+        let is_clear = less_path(self.last.least, self.last.path) > question.limit();
         if self.left.count > 0 && is_clear {
             return Ok(None);
         }
-        self.bring_nearer();
+        self.subtract_path();
         let found = self.search_groups(search, question);
         self.last.leaves = question.leaves().or(self.last.leaves);
         if self.left.is_lost || found.is_err() {
@@ -230,6 +230,11 @@ impl<'f> PairFront<'f> {
         found
     }
 
+    /// Descends from one start after the other, in this order:
+    /// 1. the leaves of the last answer, which mostly bring the limit down at once;
+    /// 2. the groups within the limit, the nearest first;
+    /// 3. both roots instead, if no group is known or, after the first group, more than half of the
+    ///    others are within the limit.
     fn search_groups(
         &mut self,
         search: &mut Search<'_, '_>,
@@ -245,7 +250,7 @@ impl<'f> PairFront<'f> {
             let start = if let Some(leaves) = known.take() {
                 (leaves, 0.0)
             } else if is_fresh {
-                // What the first group told is looked at again.
+                // The roots include the first group, so its pairs are searched again.
                 (self.left.count, self.unseen, self.left.is_lost) = (0, 0, false);
                 missed = None;
                 (ChildPairs::ALL, 0.0)
@@ -285,12 +290,12 @@ impl<'f> PairFront<'f> {
 
     /// Subtracts the path from all distances. The nearest group comes last: its triangles leave few
     /// of the others.
-    fn bring_nearer(&mut self) {
+    fn subtract_path(&mut self) {
         let (count, path) = (self.left.count, self.last.path);
         (self.unseen, self.last.path) = (count, 0.0);
         let (mut nearest, mut least) = (0, f32::INFINITY);
         for (i, group) in self.left.groups.iter_mut().take(count).enumerate() {
-            group.distance = down_to_f32(greater(0.0, nearer(group.distance, path)));
+            group.distance = down_to_f32(greater(0.0, less_path(group.distance, path)));
             if group.distance < least {
                 (nearest, least) = (i, group.distance);
             }
@@ -322,7 +327,7 @@ impl<'f> PairFront<'f> {
 }
 
 /// A distance less a path, rounded down.
-fn nearer(distance: f32, path: f64) -> f64 {
+fn less_path(distance: f32, path: f64) -> f64 {
     (f64::from(distance) - path).next_down()
 }
 

@@ -9,6 +9,7 @@ use super::separation::grid_pose::{FramePose, GridPose};
 use super::separation::search::{NearestTriangles, nearest_triangles};
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::format::layout::MAX_TREE_DEPTH;
 use crate::bvh::tree::gap::NearestGap;
 use crate::geom::Pose;
 use crate::query::{Budget, Ended, PairDistance, QueryError, ScratchEntry, Work};
@@ -16,7 +17,7 @@ use crate::query::{Budget, Ended, PairDistance, QueryError, ScratchEntry, Work};
 impl Bvh<'_> {
     /// With this many scratch entries no distance of two trees ends for lack of memory. Every three
     /// entries are a pair of nodes deeper in one of the trees, and no tree has more than 64 levels.
-    pub const DISTANCE_ENTRIES: usize = 384;
+    pub const DISTANCE_ENTRIES: usize = 3 * 2 * MAX_TREE_DEPTH;
 
     /// The least distance of the surface of this tree and that of `other`, moved by `pose` from its
     /// frame to this tree's (both in input units), and where the surfaces are nearest.
@@ -36,8 +37,11 @@ impl Bvh<'_> {
     /// give the interval, and beyond 2^30 grid units they always do: it is then some 2e-4 of the
     /// distance wide.
     ///
-    /// Cost: some dozens of pairs of nodes and of triangles where the nearest place is one. In
-    /// proportion to the surfaces that are nearly equally near where they run side by side.
+    /// Cost: a search in f32, then the distance in f64 of each pair of triangles that f32 cannot
+    /// tell from the nearest one. Some dozens of pairs of nodes and of triangles if one place is
+    /// nearest. If the surfaces run side by side, the cost is in proportion to the surface there.
+    /// The search is in f64 from the roots if the budget has a tolerance or few steps, if vertices
+    /// are f32, if the surfaces meet, or if the candidates do not fit a quarter of `scratch`.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Pose, Scratch};
@@ -72,7 +76,8 @@ impl Bvh<'_> {
         let mut nearest = NearestGap::new(&pair.lengths, 0.0, &budget);
         let mut question = PairQuestion::Distance(&mut nearest);
         let mut work = Work::NONE;
-        // A search with few steps or a tolerance is bounded by what waits: that is of f64 alone.
+        // A search that ends early needs a lower bound of the pairs that wait. Only the search in
+        // f64 has one.
         let is_whole = budget.relative == 0.0
             && budget.absolute == 0.0
             && budget.steps >= most_pairs(self, other);
@@ -92,8 +97,8 @@ impl Bvh<'_> {
     }
 }
 
-/// Measures in f64 the pairs of triangles that f32 cannot tell from the nearest one. Whether these
-/// are all that matter.
+/// Measures in f64 the pairs of triangles that f32 cannot tell from the nearest one. Returns
+/// `true` if the question is answered. Otherwise the search in f64 follows.
 #[inline(never)]
 fn measure_nearest(
     pair: &StoredPair<'_>,

@@ -1,17 +1,15 @@
-//! Two models that are very far from each other, or of which nothing was looked at: their boxes
-//! bound the distance.
+//! Two models that are very far from each other, or of which no pair was measured. Balls around
+//! their boxes bound the distance from below, two vertices from above.
 
 use super::gaps::question::TriangleGap;
 use super::stored_pair::{StoredPair, moved};
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::format::layout::MAX_TREE_DEPTH;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::greater;
 use crate::num::tolerance::U64;
 
-/// No tree has more levels.
-const LEVELS: usize = 64;
-
-/// A bound of the boxes as the lower end, the distance of one vertex of each as the upper end.
+/// Lower end: the gap of balls around both boxes. Upper end: the distance of one vertex of each.
 /// `None` if a tree is unchecked.
 #[cold]
 #[inline(never)]
@@ -46,7 +44,7 @@ struct Vertex {
 
 fn some_vertex(tree: &Bvh<'_>) -> Option<Vertex> {
     let mut node = 0;
-    for _ in 0..LEVELS {
+    for _ in 0..MAX_TREE_DEPTH {
         let child = tree.child(node, 0)?;
         if child.is_leaf() {
             let leaf = tree.leaf_at(child.at, child.shape)?;

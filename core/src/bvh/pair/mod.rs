@@ -3,8 +3,9 @@
 //! | question | file |
 //! | --- | --- |
 //! | whether and where the surfaces meet | `overlap/` |
-//! | how far they are apart, and whether within a distance | `distance_to`, `within_of` |
-//! | both of models that move from one question to the next | `coherent_pair` |
+//! | how far apart the surfaces are | `distance_to` |
+//! | whether the surfaces are within a distance | `within_of` |
+//! | these two questions, about models that move in small steps | `coherent_pair` |
 //! | where a model that moves first comes near | `first_contact_of` |
 //! | how deep two solids are in each other | `penetration/` |
 //!
@@ -19,8 +20,8 @@
 //! | `world_box` | the box of a placed model along the axes of the world |
 //! | `placed_pair` | two models placed in the world, in the frame of one of them |
 //! | `leaf_pair` | the triangles of two leaves |
-//! | `separation/` | in f32: whether two models are within a distance, the nearest pairs |
-//! | `gaps/` | in f64, where f32 does not decide: the search of the nearest pair of triangles |
+//! | `separation/` | descent in f32: models within a distance, candidates for the nearest triangles |
+//! | `gaps/` | descent with bounds in f32 and triangles in f64, nearest pair first |
 //! | `from_afar` | two models that are very far from each other |
 //! | `advance` | how far a moving model certainly goes without contact |
 

@@ -45,8 +45,10 @@ impl ModelBox {
 }
 
 /// Whether the boxes prove that the surface of the second model, moved by a pose from its frame to
-/// the first one's, is farther than `distance` from the first one's. It refuses what no question
-/// about two models takes.
+/// the first one's, is farther than `distance` from the first one's.
+///
+/// # Errors
+/// Those of [`RelativePose::check`], and trees without boxes for segments.
 #[inline(never)]
 pub(crate) fn are_apart(
     [a, b]: [&Bvh<'_>; 2],
@@ -68,7 +70,7 @@ pub(crate) fn are_apart(
     Ok(are_boxes_apart([&first, &second], &pose.rotation, shift, units.inward(distance)))
 }
 
-/// The entries of the matrix are at most 2.
+/// [`are_apart`] in common units. The caller has checked that entries of the matrix are at most 2.
 #[inline(always)]
 fn are_boxes_apart(
     [first, second]: [&ModelBox; 2],
@@ -83,6 +85,7 @@ fn are_boxes_apart(
         return false;
     }
     let size = shift.abs();
+    // A point of the second model goes through sums of up to six times its 1-norm.
     let sizes = (size.x + size.y + size.z) + 6.0 * second.reach + 2.0 * first.reach;
     let slack = sizes * (BOX_PAIR * U32);
     if exceeds(gap_sq(way, first.half, &rows, second.half), distance + slack) {
@@ -97,8 +100,8 @@ fn are_boxes_apart(
         )
 }
 
-/// The squared gap of two boxes along the axes of one of them. `rows` turn the other one's frame
-/// into its frame, and `way` is there, from middle to middle.
+/// The squared gap of two boxes along the axes of the first box. `rows` turn the second box's frame
+/// into the first's. `way` goes from the first middle to the second, in the first frame.
 #[inline(always)]
 pub(crate) fn gap_sq(way: Vec3, half: Vec3, rows: &Rows, other_half: Vec3) -> f32 {
     let [x, y, z] = rows.map(Vec3::abs);
@@ -112,8 +115,7 @@ pub(crate) fn beyond_sq(gap: Vec3) -> f32 {
     (x * x + y * y) + z * z
 }
 
-/// Whether a squared length proves one above `least`, whatever was rounded on the way. False of
-/// NaN.
+/// Whether a squared length, with its roundings, proves a length above `least`. `false` for NaN.
 #[inline(always)]
 pub(crate) fn exceeds(square: f32, least: f32) -> bool {
     let least = least * (1.0 + 8.0 * U32);

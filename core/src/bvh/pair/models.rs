@@ -26,7 +26,7 @@ fn size(tree: &Bvh<'_>, node: u32) -> Option<f32> {
 /// A node that is larger by this factor is opened alone.
 const LARGER: f32 = 4.0;
 
-/// Two trees, one of them moved.
+/// Two trees and their pose, as `overlap/` and `gaps/` open them.
 pub(crate) struct Models<'a> {
     pub(crate) a: &'a Bvh<'a>,
     pub(crate) b: &'a Bvh<'a>,

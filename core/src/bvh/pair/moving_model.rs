@@ -7,18 +7,18 @@ use crate::num::{difference, dot, sqrt_up};
 use crate::query::QueryError;
 use glam::Vec3;
 
-/// A model of a scene that remembers. `core/docs/rounding.md` §24.
+/// A model of a [`CoherentScene`](crate::CoherentScene). `core/docs/rounding.md` §24.
 #[derive(Clone, Copy, Debug)]
 pub struct MovingModel<'a> {
     pub(crate) model: PlacedModel<'a>,
     /// No point went farther at the last motion.
     pub(crate) step: f32,
-    /// The radius of the ball, and room for roundings.
+    /// How far a point goes for each unit that the matrix changes: the ball's radius, rounded up.
     arm: f32,
-    /// No sum of the changes of the matrix since it was checked is greater.
-    turned: f32,
-    /// The model was not placed since it moved.
-    is_off: bool,
+    /// Upper bound of the matrix's change since it was checked, Frobenius norm.
+    unchecked_turn: f32,
+    /// `model.place` is not yet that of `model.pose`.
+    is_stale: bool,
 }
 
 /// Largest square that has a root here.
@@ -28,7 +28,7 @@ impl<'a> MovingModel<'a> {
     /// A model that stands still, with its least ball.
     pub fn new(model: PlacedModel<'a>) -> Self {
         let model = model.with_least_ball();
-        MovingModel { model, step: 0.0, arm: model.arm(), turned: 0.0, is_off: false }
+        MovingModel { model, step: 0.0, arm: model.arm(), unchecked_turn: 0.0, is_stale: false }
     }
 
     /// Moves the model. It is placed when a pair asks for it. No point goes farther than what is
@@ -36,14 +36,14 @@ impl<'a> MovingModel<'a> {
     #[inline(always)]
     pub(crate) fn move_to(&mut self, pose: Pose) -> Result<f32, QueryError> {
         let [turn, path] = self.change(&pose);
-        let turned = self.turned + turn;
+        let unchecked_turn = self.unchecked_turn + turn;
         // A matrix that changed little is still nearly a rotation. NaN is no small change.
-        if path < f32::INFINITY && self.model.skew() + 3.0 * turned < NEARLY_RIGID {
+        if path < f32::INFINITY && self.model.skew() + 3.0 * unchecked_turn < NEARLY_RIGID {
             self.model.pose = pose;
-            (self.turned, self.is_off) = (turned, true);
+            (self.unchecked_turn, self.is_stale) = (unchecked_turn, true);
         } else {
             self.model.move_to(pose)?;
-            (self.turned, self.is_off) = (0.0, false);
+            (self.unchecked_turn, self.is_stale) = (0.0, false);
         }
         self.step = path;
         Ok(path)
@@ -52,9 +52,9 @@ impl<'a> MovingModel<'a> {
     /// Places the model where it is.
     #[inline(always)]
     pub(crate) fn place(&mut self) -> Result<(), QueryError> {
-        if self.is_off {
+        if self.is_stale {
             self.model.move_to(self.model.pose)?;
-            (self.turned, self.is_off) = (0.0, false);
+            (self.unchecked_turn, self.is_stale) = (0.0, false);
         }
         Ok(())
     }

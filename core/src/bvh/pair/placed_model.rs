@@ -6,7 +6,7 @@ use super::separation::grid_pose::FramePose;
 use crate::bvh::tree::format::Bvh;
 use crate::geom::{Pose, Rows, columns, turned};
 use crate::num::tolerance::{BOX_PAIR, MOTION, NEARLY_RIGID, SEPARATION_POSE, SKEW, U32};
-use crate::num::{difference, dot, greater, lesser, sqrt_approx};
+use crate::num::{difference, dot, exp2_f32, greater, lesser, sqrt_approx};
 use crate::query::{PoseInverse, QueryError, check_rigid, is_rotation, skew};
 use glam::Vec3;
 
@@ -40,14 +40,14 @@ pub(crate) struct Apart {
     less: f32,
 }
 
-/// A square that counts as no more than this: of an infinite one a root would be infinite too, and
-/// no motion would ever use it up.
-const MOST_SQUARE: f32 = f32::from_bits((127 + 126) << 23);
+/// Greater squares count as this one. The root of an infinite square is infinite, and no motion
+/// would use up an infinite clearance.
+const SQUARE_CAP: f32 = exp2_f32(126);
 
 impl Apart {
     /// A lower bound of the distance. Not infinite.
     pub(crate) fn gap(&self) -> f32 {
-        let square = lesser(self.square, MOST_SQUARE);
+        let square = lesser(self.square, SQUARE_CAP);
         sqrt_approx(square) * (1.0 - 8.0 * U32) - self.less * (1.0 + 8.0 * U32)
     }
 }
@@ -57,7 +57,8 @@ impl<'a> PlacedModel<'a> {
     ///
     /// # Errors
     /// [`QueryError::NotFinite`]; [`QueryError::NotRigid`] if the matrix is no rotation, unless the
-    /// pose is [affine](Pose::affine); [`QueryError::PoseOutOfDomain`] if that is far from one.
+    /// pose is [affine](Pose::affine); [`QueryError::PoseOutOfDomain`] if the matrix of an affine
+    /// pose is far from a rotation.
     pub fn new(tree: Bvh<'a>, pose: Pose) -> Result<Self, QueryError> {
         let bounds = ModelBox::of(&tree);
         let ball = ModelBall::around(&bounds);

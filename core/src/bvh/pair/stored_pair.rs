@@ -10,12 +10,12 @@ use crate::num::tolerance::U64;
 use crate::num::{exp2, greater};
 use crate::query::{Extended, Placement, QueryError, RelativePose};
 
-/// Two trees, one of them moved.
+/// Two trees for the search in f64: the pose without surface errors, and these errors apart.
 pub(crate) struct StoredPair<'a> {
     pub(crate) trees: [&'a Bvh<'a>; 2],
     /// Its vertex errors hold rounding only, no surface errors.
     pub(crate) pose: RelativePose,
-    /// The pose is near enough for f32.
+    /// No length is beyond 2^30 common units, so bounds in f32 hold.
     pub(crate) is_in_range: bool,
     /// Holds the sum of both surface errors.
     pub(crate) lengths: StoredLengths,
@@ -42,6 +42,7 @@ impl<'a> StoredPair<'a> {
             return Err(QueryError::NO_SEGMENTS);
         }
         let (first, second) = (extended(a), extended(b));
+        // Surface errors are added to the answer once. So the pose has none.
         let exact = |model: &Extended| Extended { error: 0.0, ..*model };
         let Placement { pose, is_in_range, .. } =
             RelativePose::relate(&exact(&first), &exact(&second), pose)?;

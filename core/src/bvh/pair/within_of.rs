@@ -35,9 +35,9 @@ impl Bvh<'_> {
     /// `scratch`: [`DISTANCE_ENTRIES`](Bvh::DISTANCE_ENTRIES) are always enough. A shorter one may
     /// leave the question undecided. Of the budget only `steps` matters.
     ///
-    /// Cost: one pair of nodes if the boxes are farther; else a search in f32. If the distance is
-    /// within some surface errors of the one asked about, or the f32 search needs more memory than
-    /// `scratch` has, a search in f64 follows, with the steps that are left.
+    /// Cost: one test of both models' boxes in f32 if they are farther apart; else a search in f32.
+    /// A search in f64 follows, with the steps that are left, in three cases: the distance is within
+    /// some surface errors of the one asked about, vertices are f32, or `scratch` is too short.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Pose, Scratch};
@@ -61,9 +61,7 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<[u32; 2]>, QueryError> {
-        // A distance is refused as an absolute tolerance is.
-        budget.with_absolute(distance).check()?;
-        budget.check_with(scratch)?;
+        budget.check_about(distance, scratch)?;
         if are_apart([self, other], &pose, distance)? {
             return Ok(Decided::CLEAR);
         }
@@ -97,7 +95,8 @@ impl Bvh<'_> {
         self.exactly_within_of(other, pose, asked, (budget, work), scratch)
     }
 
-    /// The same in f64. The budget's steps count with those of `work`.
+    /// The question in f64, for `[distance, more]`. The steps of `work` count against the budget.
+    /// With a `No` also a lower bound of the distance: at most `distance + more`, input units.
     #[inline(never)]
     pub(crate) fn exactly_within_of(
         &self,

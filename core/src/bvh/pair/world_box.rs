@@ -1,4 +1,7 @@
 //! The box of a placed model along the axes of the world.
+//!
+//! `Scene::nearest_pair` needs a lower bound for every pair, to begin with the nearest. This one is
+//! cheap. [`PlacedModel::apart`] is tighter, and proves a given distance only.
 
 use super::placed_model::PlacedModel;
 use crate::num::sqrt_approx;

@@ -51,9 +51,7 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<u32>, QueryError> {
-        // A distance is refused as an absolute tolerance is.
-        budget.with_absolute(distance).check()?;
-        budget.check_with(scratch)?;
+        budget.check_about(distance, scratch)?;
         let mut placed = PlacedSolid::NONE;
         placed.set(self, solid, None)?;
         let threshold = GapThreshold::new(&placed.lengths, placed.radius, distance);

@@ -30,16 +30,18 @@ pub(crate) struct LeafGaps<'a> {
     pub(crate) pose: &'a RelativePose,
     /// The greater of both surface errors, common units.
     pub(crate) surface_error: f64,
-    /// Direction between the nearest points so far, its largest component 1; zero before the first
-    /// pair. Pairs of triangles far apart along it are skipped.
+    /// Direction between the points of the last measured pair that was not in contact. Its largest
+    /// component is 1. Zero before the first such pair. `visit` skips pairs that are far apart
+    /// along it.
     pub(crate) direction: [f32; 3],
-    /// The same in f64, of any length.
+    /// From point to point of the last measured pair. Zero if the pair is in contact. `measure`
+    /// bounds the next pairs along it.
     pub(crate) offset: [f64; 3],
 }
 
 impl LeafGaps<'_> {
-    /// Measures one pair of triangles, unless it is as far as the limit along the direction. Whether
-    /// the question goes on.
+    /// Measures one pair of triangles. A pair that is as far as the limit along the last offset is
+    /// bounded only. Returns whether the question goes on.
     pub(crate) fn measure(
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
@@ -54,14 +56,14 @@ impl LeafGaps<'_> {
         let lower = self.without_rounding(gap_along(self.offset, a, b));
         work.triangles = work.triangles.saturating_add(1);
         if lower >= question.limit() * GAP_SETTLED {
-            // Its distance would tell no more.
-            let points = [self.offset; 2];
+            // The distance would not narrow the answer. An infinite upper end is never the best, so
+            // the points are not used.
             return question.take(&TriangleGap {
                 place,
                 lower,
                 upper: f64::INFINITY,
                 meets: false,
-                points,
+                points: [[0.0; 3]; 2],
             });
         }
         work.exact = work.exact.saturating_add(1);
@@ -75,8 +77,8 @@ impl LeafGaps<'_> {
         greater(0.0, lower - (rounding + rounding))
     }
 
-    /// Visits the pairs of triangles of two leaves that may be within the limit. If the search keeps
-    /// what it leaves out, a lower bound of both leaves is found as well.
+    /// Visits the pairs of triangles of two leaves that may be within the limit. `keeps`: also finds
+    /// a lower bound of the distance of both leaves.
     #[inline(always)]
     pub(crate) fn visit(
         &mut self,
@@ -143,6 +145,8 @@ impl LeafGaps<'_> {
         upper += rounding + rounding;
         let mut meets = false;
         if lower <= 0.0 {
+            // With the surface error the proof is about the input. Without it the proof is about
+            // the stored surfaces: the upper end is then their surface errors.
             meets = meet(&a, &b, rounding + self.surface_error);
             if meets || meet(&a, &b, rounding) {
                 upper = 0.0;
@@ -156,7 +160,7 @@ impl LeafGaps<'_> {
         TriangleGap { place, lower, upper, meets, points }
     }
 
-    /// Keeps the direction of a pair that is not in contact.
+    /// Keeps the offset of a measured pair, and the direction if the pair is not in contact.
     fn turn_to(&mut self, gap: &TriangleGap) {
         let [[a, b, c], [x, y, z]] = gap.points;
         let direction = [x - a, y - b, z - c];
@@ -168,7 +172,7 @@ impl LeafGaps<'_> {
     }
 }
 
-/// Whether two triangles meet, as one function for both errors.
+/// Whether it is proved that two triangles meet. Not inlined, so that it is compiled once.
 #[inline(never)]
 fn meet(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], doubt: f64) -> bool {
     triangles_meet(*a, *b, doubt) == Contact::Meets

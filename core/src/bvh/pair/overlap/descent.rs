@@ -16,7 +16,7 @@ use crate::geom::{Contact, Pose};
 use crate::num::lesser;
 use crate::query::{Budget, Ended, PairVisitor, QueryError, RelativePose, ScratchEntry, Work};
 
-/// Visits every pair of leaves whose boxes meet. Returns why it missed some.
+/// Visits every pair of leaves whose boxes meet. Returns why the descent was truncated, or `None`.
 #[inline(always)]
 pub(crate) fn descend(
     [a, b]: [&Bvh<'_>; 2],
@@ -35,6 +35,7 @@ pub(crate) fn descend(
     }
     let (stack, _) = scratch.as_chunks_mut::<2>();
     let Some(pose) = RelativePose::new(&extended(a), &extended(b), pose)? else {
+        // The boxes are proved apart.
         return Ok((None, work));
     };
     let models = Models { a, b, pose: &pose };

@@ -3,6 +3,7 @@
 use super::descent::descend;
 use crate::bvh::pair::models::numbers;
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::format::layout::MAX_TREE_DEPTH;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::Pose;
 use crate::query::{
@@ -12,7 +13,7 @@ use crate::query::{
 impl Bvh<'_> {
     /// With this many scratch entries no overlap ends for lack of memory. Every pair of entries is
     /// deeper in one of the trees, and no tree has more than 64 levels.
-    pub const OVERLAP_ENTRIES: usize = 256;
+    pub const OVERLAP_ENTRIES: usize = 2 * 2 * MAX_TREE_DEPTH;
 
     /// Whether the surface of `other`, moved by `pose` from its frame to this tree's (both in input
     /// units), meets the surface of this tree.

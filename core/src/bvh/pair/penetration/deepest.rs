@@ -12,7 +12,7 @@ use crate::query::{Interval, QueryError, Side};
 
 type Vector = [f64; 3];
 
-/// Vectors that are looked at from each start, at most.
+/// Most points that a climb asks about, before those beyond walls ([`BEYOND`]).
 const MOST_SAMPLES: u32 = 160;
 
 /// The first steps of the search, as a fraction of the smaller model's size.

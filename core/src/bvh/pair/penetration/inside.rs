@@ -8,14 +8,12 @@ use crate::bvh::pair::placed_pair::PlacedPair;
 use crate::bvh::pair::stored_pair::StoredPair;
 use crate::bvh::tree::axis_intervals::AxisIntervals;
 use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::format::layout::MAX_TREE_DEPTH;
 use crate::bvh::tree::input_box::{bounds_of, corners_of_input};
 use crate::geom::Pose;
 use crate::geom::fan::WIDTH;
 use crate::num::tolerance::{U32, U64};
 use crate::query::{QueryError, Relation, Side, Undecided};
-
-/// No tree has more levels.
-const LEVELS: usize = 64;
 
 impl PairQueries<'_, '_> {
     /// How two solids lie to each other whose surfaces do not meet at a pose.
@@ -40,7 +38,7 @@ impl PairQueries<'_, '_> {
 
     /// `Inside` if any of the surface is, `Outside` if all of it is.
     fn side_of_surface(&mut self, surface: &MovedSurface<'_>) -> Result<Side, QueryError> {
-        let mut stack = [(0u32, 0u32); LEVELS];
+        let mut stack = [(0u32, 0u32); MAX_TREE_DEPTH];
         let mut used = 0;
         let mut side = Side::Outside;
         let mut now = Some(0);

@@ -50,7 +50,7 @@ impl Bvh<'_> {
     /// Cost: of solids that are apart, a [`distance_to`](Bvh::distance_to), and a
     /// [`signed_distance_by_winding`](Bvh::signed_distance_by_winding) for each box of either tree
     /// that is the first on its branch to be farther from the other surface than it is large. Of
-    /// others at most 320 points, each asked for in both trees; a dozen translations from afar,
+    /// others at most 332 points, each asked for in both trees; a dozen translations from afar,
     /// with a [`first_contact_of`](Bvh::first_contact_of) each; and 17 short ones for each factor
     /// of 1.5 between both ends, with a [`within_of`](Bvh::within_of) each. Of solids that only
     /// touch there are 35 such factors.

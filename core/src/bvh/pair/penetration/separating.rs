@@ -25,12 +25,12 @@ const BACK: [f32; 5] = [1.0 / 4194304.0, 1.0 / 262144.0, 1.0 / 16384.0, 1.0 / 10
 /// Directions that are tried from afar: the first ones, and the axes.
 const FROM_AFAR: usize = 9;
 
-/// The first way that is tried in place, as a part of the lower end.
-const FIRST_WAY: f64 = 1.125;
+/// The first travel that is tried in place, as a fraction of the lower end.
+const FIRST_TRAVEL: f64 = 1.125;
 
-/// Its least length, as a part of the best translation from afar. Of solids that only touch the
-/// lower end is 0.
-const LEAST_WAY: f64 = 1.0 / 1_048_576.0;
+/// The first travel is at least this fraction of the best translation from afar. If solids only
+/// touch, the lower end is 0.
+const LEAST_TRAVEL: f64 = 1.0 / 1_048_576.0;
 
 /// Each way is longer than the last one by this factor. So a hole whose play is at least half of
 /// the depth has a way that ends in it.
@@ -70,7 +70,7 @@ pub(super) fn search(
             return Ok(best);
         }
     }
-    let mut travel = greater(lower * FIRST_WAY, best.length * LEAST_WAY);
+    let mut travel = greater(lower * FIRST_TRAVEL, best.length * LEAST_TRAVEL);
     while travel < best.length {
         for direction in directions.clone() {
             best.try_in_place(queries, direction, travel)?;

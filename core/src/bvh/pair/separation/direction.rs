@@ -35,8 +35,8 @@ fn power_for(vector: Vec3) -> Option<f32> {
 }
 
 /// A direction in integers of at most 2^30, for vertices of 16 bits. Heights along it are exact
-/// sums of integers. None is too low: components are rounded up, and no stored coordinate is
-/// negative.
+/// sums of integers. No height is below the true one, because components are rounded up and no
+/// stored coordinate is negative.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WholeDirection {
     pub(crate) way: [i32; 3],

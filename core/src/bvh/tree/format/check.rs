@@ -2,8 +2,8 @@
 
 use super::header::BvhHeader;
 use super::layout::{
-    BVH_BYTES, BVH_SIDELESS, BVH_TURNED, FAN_PADDING, FRAME_BYTES, MOST_EXPONENT, SOURCE_BLOCK,
-    SOURCE_ENTRY_BYTES, SOURCE_PADDING, boxes, lengthens_nothing,
+    BVH_BYTES, BVH_SIDELESS, BVH_TURNED, FAN_PADDING, FRAME_BYTES, MAX_TREE_DEPTH, MOST_EXPONENT,
+    SOURCE_BLOCK, SOURCE_ENTRY_BYTES, SOURCE_PADDING, boxes, lengthens_nothing,
 };
 use super::leaf::FanLeaf;
 use super::leaf_shape::LeafShape;
@@ -18,10 +18,6 @@ use crate::geom::fan::WIDTH;
 use crate::num::tolerance::{MOST_SURFACE_ERROR, U32};
 use crate::num::{SOFT_FLOAT, greater};
 use glam::Vec3;
-
-/// Nodes on the longest path from the root: eight-fold branching needs fewer than ten, degenerate
-/// input a few more.
-const MAX_TREE_DEPTH: usize = 64;
 
 /// Largest coordinate on a grid.
 const MAX_GRID: f32 = (1u32 << 25) as f32;

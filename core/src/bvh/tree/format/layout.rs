@@ -10,6 +10,9 @@ pub const FRAME_BYTES: usize = 76;
 pub const ROW_BITS: u32 = 13;
 /// Greatest binary exponent of the step of a frame's axis: 255 steps span every model.
 pub const MOST_EXPONENT: u8 = 9;
+/// Nodes on the longest path from the root: eight-fold branching needs fewer than ten, degenerate
+/// input a few more.
+pub const MAX_TREE_DEPTH: usize = 64;
 /// Whether a frame's matrix makes no vector longer. By Gershgorin's theorem no eigenvalue of the
 /// rows' inner products is above the greatest sum of magnitudes.
 #[must_use]
