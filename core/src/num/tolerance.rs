@@ -514,6 +514,10 @@ pub const CURVE_FAR: f64 = (1u32 << 24) as f64;
 /// millionths of the models' size.
 pub const TRIBOX_AXIS: f32 = 64.0;
 
+/// Factor by which the distance that two moved triboxes are asked about is enlarged for rounding.
+/// Proved: 11 units of [`U32`] (§10). A smaller value loses the guarantee.
+pub const TRIBOX_DISTANCE: f32 = 1.0 + 16.0 * U32;
+
 /// Rounding of a moved coordinate, in units of [`U32`] times the sum of the sizes of its terms.
 /// Proved: 5, of the product 1, of the sums 3, of this product 1.
 pub const TRIBOX_COORDINATE: f32 = 8.0;

@@ -1,17 +1,18 @@
-//! Directions along which two triboxes may be apart, prepared for one motion.
+//! Directions along which two triboxes may be apart, prepared for one motion and one distance.
 
 use super::bounds::TriboxError;
 use super::directions::{DIRECTIONS, FACES, SLABS};
 use super::support::Support;
 use crate::geom::{Pose, dot, norm_1};
-use crate::num::tolerance::{PRODUCT_UNDERFLOW, TRIBOX_AXIS, U32};
-use crate::query::{QueryError, check_rigid};
+use crate::num::tolerance::{PRODUCT_UNDERFLOW, TRIBOX_AXIS, TRIBOX_DISTANCE, U32};
+use crate::query::{QueryError, check_rigid, longest, skew_of};
 use crate::tribox::format::Triboxes;
 
 /// A direction of one tribox's own slabs in the other's frame.
 ///
 /// A point p of the other one has the value `towards` · p + `offset` along the slab, up to
-/// `margin`. The margin is more than the rounding of a comparison.
+/// `margin`. The margin is more than the rounding of a comparison, and the distance that is asked
+/// about is in it.
 #[derive(Clone, Copy)]
 struct Axis {
     /// Along `towards`; prepared when it is first wanted.
@@ -68,19 +69,22 @@ impl Axes {
         Axes { sides: [[none; SLABS]; 2] }
     };
 
-    /// Prepares the directions for a motion of `b`.
+    /// Prepares the directions for a motion of `b`, to tell apart nodes that are farther than
+    /// `distance` from each other.
     ///
     /// Let w be a direction, M and t the motion. The value of a moved point is w·(Mp + t), which is
     /// (Mᵀw)·p and w·t. Along the slabs of `a`, w is a direction of small integers, and e = Mᵀw is
     /// computed. Along the slabs of `b`, w = Mf is computed from a direction f, and Mᵀw is f up to
     /// the rounding of M. This rounding and the rounding of e count with the largest coordinate of
-    /// `b`. No gap is rounded by more than [`TRIBOX_AXIS`] units of the sum of its terms
+    /// `b`. No gap is rounded by more than [`TRIBOX_AXIS`] units of the sum of its terms. Points
+    /// that are `distance` apart or nearer have a gap of at most |w| times it
     /// (`core/docs/rounding.md` §10).
     pub(crate) fn prepare(
         &mut self,
         a: &Triboxes<'_>,
         b: &Triboxes<'_>,
         pose: &Pose,
+        distance: f32,
     ) -> Result<(), QueryError> {
         pose.check().map_err(|error| match error {
             TriboxError::NotFinite => QueryError::NotFinite,
@@ -104,28 +108,32 @@ impl Axes {
             }
             sum
         };
+        let kept = distance * TRIBOX_DISTANCE;
+        let kept = [kept, kept * longest(skew_of(&pose.rotation))];
         let [first, second] = &mut self.sides;
         for ((of_a, of_b), direction) in first.iter_mut().zip(second.iter_mut()).zip(DIRECTIONS) {
             let f = direction.map(f32::from);
+            let length = if norm_1(f) > 1.0 { core::f32::consts::SQRT_2 } else { 1.0 };
+            let [kept_a, kept_b] = kept.map(|kept| kept * length);
             let margin = |w: [f32; 3]| {
                 TRIBOX_AXIS * U32 * (back_sizes(w) * largest_b + norm_1(w) * (largest_a + largest))
                     + PRODUCT_UNDERFLOW
             };
             let e = back(f);
-            (of_a.towards, of_a.offset, of_a.margin) = (e, dot(f, pose.translation), margin(f));
+            (of_a.towards, of_a.offset, of_a.margin) = (e, dot(f, pose.translation), margin(f) + kept_a);
             let w = [dot(p, f), dot(q, f), dot(r, f)];
             let [x, y, z] = back(w);
             let [fx, fy, fz] = f;
             // Bound of the matrix's difference from a rotation.
             let rest = norm_1([x - fx, y - fy, z - fz]) * largest_b;
             (of_b.towards, of_b.offset, of_b.margin) =
-                (w, -dot(w, pose.translation), margin(w) + rest);
+                (w, -dot(w, pose.translation), margin(w) + rest + kept_b);
         }
         Ok(())
     }
 
-    /// Whether one of the directions proves that two nodes have no common point. It tests the side
-    /// and slab in `*hint` first, and leaves there the one that proved it.
+    /// Whether one of the directions proves that two nodes are farther than the distance from each
+    /// other. It tests the side and slab in `*hint` first, and leaves there the one that proved it.
     #[inline]
     pub(crate) fn separate(&mut self, a: &Body, b: &Body, hint: &mut (usize, usize)) -> bool {
         let [of_a, of_b] = &mut self.sides;
@@ -147,8 +155,8 @@ impl Axes {
 }
 
 impl Axis {
-    /// Whether there is a gap along the direction between the slab of `own` and the other one's
-    /// extent.
+    /// Whether there is a gap beyond the margin along the direction, between the slab of `own` and
+    /// the other one's extent.
     #[inline(always)]
     fn separates(&mut self, own: &Body, other: &Body, slab: usize) -> bool {
         let plane = |plane: usize| own.planes.get(plane).copied().unwrap_or(f32::INFINITY);

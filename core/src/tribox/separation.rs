@@ -1,5 +1,5 @@
-//! Two hierarchies of triboxes, one of them moved: a proof that the models are apart, or where they
-//! may meet.
+//! Two hierarchies of triboxes, one of them moved: a proof that the models are apart, or farther
+//! than a distance from each other, or where they may meet.
 
 use super::separating_axes::{Axes, Body};
 use crate::geom::Pose;
@@ -23,14 +23,15 @@ impl NodePair {
     pub const EMPTY: NodePair = NodePair { a: 0, b: 0 };
 }
 
-/// Whether two models are apart.
+/// Whether two models are apart, or farther than a distance from each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Separation {
-    /// A pair of nodes that may meet: the first one found. Both are leaves unless `ended` says
-    /// otherwise. `None` is a proof that the meshes have no common point, and, where both are
-    /// solids, that no point is in both.
+    /// A pair of nodes that may meet, or may be within the distance: the first one found. Both are
+    /// leaves unless `ended` says otherwise. `None` is a proof that the meshes have no common point,
+    /// and, where both are solids, that no point is in both; or that all points of both meshes or
+    /// solids are farther than the distance from each other.
     pub may_meet: Option<NodePair>,
     /// The work of the search: pairs tested, pairs opened.
     pub work: Work,
@@ -39,7 +40,7 @@ pub struct Separation {
 }
 
 impl Separation {
-    /// Whether the models are proved to be apart.
+    /// Whether the models are proved to be apart, or farther than the distance from each other.
     pub fn is_apart(&self) -> bool {
         self.may_meet.is_none()
     }
@@ -71,8 +72,8 @@ impl TriboxCandidates {
 
 impl Triboxes<'_> {
     /// With this many scratch entries neither [`separation`](Triboxes::separation) nor
-    /// [`candidates`](Triboxes::candidates) ends for lack of memory: one more than both depths
-    /// together.
+    /// [`within_of`](Triboxes::within_of) nor [`candidates`](Triboxes::candidates) ends for lack of
+    /// memory: one more than both depths together.
     pub fn separation_entries(&self, other: &Triboxes<'_>) -> usize {
         (self.depth() + other.depth()) as usize + 1
     }
@@ -106,7 +107,7 @@ impl Triboxes<'_> {
     /// 2 or a translation beyond [`Tribox::DOMAIN`](crate::Tribox::DOMAIN);
     /// [`QueryError::NotRigid`] for a matrix that is no rotation, unless it is [`Pose::affine`];
     /// [`QueryError::Tolerance`], [`QueryError::NoScratch`].
-    #[inline(never)]
+    #[inline]
     pub fn separation(
         &self,
         other: &Triboxes<'_>,
@@ -114,8 +115,47 @@ impl Triboxes<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Separation, QueryError> {
+        self.within_of(other, pose, 0.0, budget, scratch)
+    }
+
+    /// Whether this model is farther than `distance` from `other`, moved by `pose`. All lengths in
+    /// input units.
+    ///
+    /// [`Separation::is_apart`] is a proof that it is, for the input meshes and, where both are
+    /// solids, for their insides. There is no proof that the models are nearer. Two nodes are
+    /// farther if one of the eighteen directions shows a gap of more than the distance. Where an
+    /// edge or a vertex is nearest, the gap may be 18 % less than the distance of both. To cover a
+    /// rounded pose, add [`RoundedPose::motion`](crate::RoundedPose::motion) of both models. A
+    /// distance of 0 asks whether the models are apart.
+    ///
+    /// Arguments and cost as for [`separation`](Triboxes::separation).
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Pose, Scratch, Triboxes};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/torus.msw"));
+    /// let (part, mut scratch) = (Triboxes::open(bytes)?, Scratch::<64>::new());
+    /// let pose = Pose { translation: [300.0, 0.0, 0.0], ..Pose::IDENTITY };
+    /// let found = part.within_of(&part, pose, 20.0, Budget::EXACT, &mut scratch)?;
+    /// assert!(found.is_apart());
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`separation`](Triboxes::separation); [`QueryError::Tolerance`] also for a distance
+    /// that is negative, NaN or infinite.
+    #[inline(never)]
+    pub fn within_of(
+        &self,
+        other: &Triboxes<'_>,
+        pose: Pose,
+        distance: f32,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<Separation, QueryError> {
+        // A distance is refused as an absolute tolerance is.
+        budget.with_absolute(distance).check()?;
         let mut may_meet = None;
-        let (work, ended) = descend([self, other], &pose, &budget, scratch, |pair| {
+        let (work, ended) = descend([self, other], &pose, distance, &budget, scratch, |pair| {
             may_meet = Some(pair);
             ControlFlow::Break(())
         })?;
@@ -150,7 +190,7 @@ impl Triboxes<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<TriboxCandidates, QueryError> {
         let (mut stored, mut dropped) = (0, 0u32);
-        let (work, ended) = descend([self, other], &pose, &budget, scratch, |pair| {
+        let (work, ended) = descend([self, other], &pose, 0.0, &budget, scratch, |pair| {
             match pairs.get_mut(stored) {
                 Some(slot) => (*slot, stored) = (pair, stored + 1),
                 None => dropped = dropped.saturating_add(1),
@@ -167,17 +207,18 @@ fn entry(a: u32, b: u32) -> ScratchEntry {
     ScratchEntry::of_words([a, b])
 }
 
-/// Calls `found` with every pair that may meet and that was not opened.
+/// Calls `found` with every pair that may be within `distance` and that was not opened.
 fn descend(
     [a, b]: [&Triboxes<'_>; 2],
     pose: &Pose,
+    distance: f32,
     budget: &Budget,
     stack: &mut [ScratchEntry],
     mut found: impl FnMut(NodePair) -> ControlFlow<()>,
 ) -> Result<(Work, Ended), QueryError> {
     budget.check_with(stack)?;
     let mut axes = Axes::NONE;
-    axes.prepare(a, b, pose)?;
+    axes.prepare(a, b, pose, distance)?;
     let mut work = Work::default();
     let mut ended = Ended::Exact;
     let mut hint = (0, 0);

@@ -18,7 +18,7 @@ pub(crate) fn skew(&[a, b, c]: &Rows) -> f32 {
 
 /// The same of a pose's matrix.
 #[inline(always)]
-pub(super) fn skew_of(rows: &[[f32; 3]; 3]) -> f32 {
+pub(crate) fn skew_of(rows: &[[f32; 3]; 3]) -> f32 {
     skew(&each(*rows, Vec3::from_array))
 }
 
