@@ -452,6 +452,9 @@ static void triboxes(void)
         fold_word((uint32_t)msw_triboxes_apart(&part, &part, &pose, budget_of(round), scratch,
                                                scratch_of(round), &apart));
         fold(&apart, sizeof apart);
+        fold_word((uint32_t)msw_triboxes_within(&part, &part, &pose, 4.0f, budget_of(round),
+                                                scratch, scratch_of(round), &apart));
+        fold(&apart, sizeof apart);
         msw_candidates_answer found;
         fold_word((uint32_t)msw_triboxes_candidates(&part, &part, &pose, pairs, 16,
                                                     budget_of(round), scratch,
@@ -575,7 +578,7 @@ static void refusals(const msw_model *model)
     fold_word((uint32_t)msw_refine(&hull, refined, 7, NULL, 1.0f, &refinement));
     fold_word((uint32_t)msw_refine(&hull, refined, 1, NULL, 1.0f, &refinement));
     /* Scenes: too few entries, no such model, one twice, a distance below 0, a pose of zeros, memory
-     * without a scene, then with one. */
+     * without a scene, then with one; begun anew in too many entries, and in none. */
     static msw_scene_entry memory[MSW_SCENE_ENTRIES(2, 1)];
     static const msw_kept_pair wrong[3] = {{{0, 2}, 1.0f}, {{1, 1}, 1.0f}, {{0, 1}, -1.0f}};
     static const msw_kept_pair right = {{0, 1}, 1.0f};
@@ -595,6 +598,12 @@ static void refusals(const msw_model *model)
     fold_word((uint32_t)msw_scene_move(memory, 1, &zeros));
     fold_word((uint32_t)msw_scene_within(memory, NULL, scratch, 0, &near));
     fold(&near, sizeof near);
+    static const size_t bad_counts[2] = {SIZE_MAX, 0};
+    for (int index = 0; index < 2; index++) {
+        fold_word((uint32_t)msw_scene_begin(memory, entries, models, 2, &right, 1));
+        fold_word((uint32_t)msw_scene_begin(memory, bad_counts[index], models, 2, &right, 1));
+        fold_word((uint32_t)msw_scene_within(memory, NULL, scratch, count, &near));
+    }
     /* A kind of motion, and a motion of zeros. */
     msw_motion motion = {2, pose_of(0), pose_of(0)};
     msw_pair_contact contact;
@@ -607,6 +616,12 @@ static void refusals(const msw_model *model)
     static msw_triboxes bounds;
     fold_word((uint32_t)msw_open_triboxes(&bounds, groove, groove_bytes));
     fold_word(msw_triboxes_scratch_entries(&bounds, &bounds));
+    static msw_triboxes part;
+    msw_apart_answer apart;
+    fold_word((uint32_t)msw_open_triboxes(&part, torus, torus_bytes));
+    fold_word((uint32_t)msw_triboxes_within(&part, &part, NULL, -1.0f, NULL, scratch, count,
+                                            &apart));
+    fold(&apart, sizeof apart);
     end("refusals");
 }
 

@@ -458,12 +458,14 @@ fn triboxes(torus: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
         let mut pose = kind.pose(round);
         pose.translation = pose.translation.map(|x| x / 16.0);
         let (budget, scratch) = (budget(round), &mut scratch[..entries(round)]);
-        let apart = part.separation(&part, pose, budget, scratch)?;
         let clear = |is_apart: bool| if is_apart { 2 } else { 0 };
-        kind.words(&[0, clear(apart.is_apart()), ended(apart.ended)]);
         let node = |pair: NodePair| u32::from(pair.a) | u32::from(pair.b) << 16;
-        kind.words(&[apart.may_meet.map_or(0, node)]);
-        kind.work(apart.work);
+        let apart = part.separation(&part, pose, budget, scratch)?;
+        for found in [apart, part.within_of(&part, pose, 4.0, budget, scratch)?] {
+            kind.words(&[0, clear(found.is_apart()), ended(found.ended)]);
+            kind.words(&[found.may_meet.map_or(0, node)]);
+            kind.work(found.work);
+        }
         let mut pairs = [NodePair::EMPTY; 16];
         let found = part.candidates(&part, pose, &mut pairs, budget, scratch)?;
         kind.words(&[0, clear(found.is_apart()), ended(found.ended)]);
@@ -553,10 +555,15 @@ fn refusals() -> String {
     // in the memory; one; no such model, a pose of zeros, no scratch.
     codes(&mut kind, &[-6, -47, -47, -41, -43, -3, 0, -47, -43, -44]);
     kind.words(&zeros[..8]);
+    // A scene, too many entries, none in the memory; a scene, no entries, none in the memory.
+    codes(&mut kind, &[0, -4, -3, 0, -6, -3]);
     // An unknown kind of motion, one of zeros, a blob without triboxes.
     codes(&mut kind, &[-5, -43]);
     kind.words(&[0; 15]);
     codes(&mut kind, &[-26, 0]);
+    // Triboxes, and a distance below 0.
+    codes(&mut kind, &[0, -41]);
+    kind.words(&[0; 7]);
     kind.line("refusals")
 }
 

@@ -68,7 +68,7 @@ enum {
     /* Of questions: */
     MSW_ERROR_NOT_FINITE = -40,     /* a coordinate is NaN or infinite */
     MSW_ERROR_TOLERANCE = -41,      /* a tolerance, distance or radius is negative, NaN, infinite */
-    MSW_ERROR_OUT_OF_DOMAIN = -42,  /* a point or end is too far away: clip segments first */
+    MSW_ERROR_OUT_OF_DOMAIN = -42,  /* a point, end or model is too far: clip segments first */
     MSW_ERROR_POSE = -43,           /* a pose is no rotation (all zeros, for one), or too large */
     MSW_ERROR_NO_SCRATCH = -44,     /* the scratch memory has no entries */
     MSW_ERROR_NOT_SERVED = -45,     /* the blob lacks the sections of this question: build --for */
@@ -365,9 +365,9 @@ typedef struct {
 } msw_node_pair;
 
 typedef struct {
-    int32_t verdict;        /* MSW_NO: the models are apart. Else MSW_UNDECIDED */
+    int32_t verdict;        /* MSW_NO: the models are apart, or farther. Else MSW_UNDECIDED */
     int32_t ended;          /* MSW_ENDED_... */
-    msw_node_pair may_meet; /* the first pair found that may meet; zeros with MSW_NO */
+    msw_node_pair may_meet; /* the first found that may meet or be nearer; zeros with MSW_NO */
     msw_work work;          /* bounds: pairs tested. opened: pairs opened */
 } msw_apart_answer;
 
@@ -648,10 +648,13 @@ int32_t msw_first_contact_of(const msw_model *model, const msw_model *other,
  * that are not listed, such as links that touch at a joint, are never looked at.
  *
  * `scene`: MSW_SCENE_ENTRIES(model_count, pair_count) entries, with any contents. `models` and
- * `pairs` are copied; the blobs stay where they are. Units: distances and translations are in the
+ * `pairs` are copied; the blobs stay where they are. After an error `scene` holds no scene, not
+ * even one that was begun before, and questions refuse it by MSW_ERROR_NOT_OPENED. For this the
+ * first entry is written even if `scene_count` is 0. Units: distances and translations are in the
  * world's unit, which is that of all models, as a pose does not scale. No pairs (NULL and 0) is no
  * error.
- * Errors: MSW_ERROR_MEMORY: too few entries. MSW_ERROR_NO_MODEL: a pair names a model that is not
+ * Errors: MSW_ERROR_MEMORY: too few entries. MSW_ERROR_COUNT: more than memory can have.
+ * MSW_ERROR_NO_MODEL: a pair names a model that is not
  * there, or one twice. MSW_ERROR_TOLERANCE: a distance is negative, NaN or infinite.
  * MSW_ERROR_POSE, MSW_ERROR_NOT_FINITE: of a pose. MSW_ERROR_NOT_OPENED: of a model.
  * MSW_ERROR_NULL, _ALIGNMENT, _COUNT: of an array.
@@ -742,6 +745,18 @@ int32_t msw_triboxes_apart(const msw_triboxes *triboxes, const msw_triboxes *oth
                            const msw_budget *budget,
                            msw_scratch_entry *scratch, size_t scratch_count,
                            msw_apart_answer *answer);
+
+/* Whether the models are farther from each other than `distance`, in the meshes' unit.
+ *
+ * MSW_NO: all points of the meshes are, and, where both are solids, those inside too. Else the
+ * answer names the first pair of leaves that may be nearer. It is never MSW_YES. To cover a rounded
+ * pose, add msw_pose_motion of both models. MSW_ERROR_TOLERANCE: the distance is negative, NaN or
+ * infinite. Other arguments, errors and cost as for msw_triboxes_apart. */
+int32_t msw_triboxes_within(const msw_triboxes *triboxes, const msw_triboxes *other,
+                            const msw_pose *pose, float distance,
+                            const msw_budget *budget,
+                            msw_scratch_entry *scratch, size_t scratch_count,
+                            msw_apart_answer *answer);
 
 /* All pairs of leaves that may meet, into `pairs`: between all others there is no common point.
  * After an error the contents of `pairs` are undefined. NULL and 0: they are counted as dropped.

@@ -66,7 +66,7 @@ errors! {
     /// A tolerance, distance or radius.
     Tolerance = -41, c"a tolerance, a distance or a radius is negative, NaN, infinite or too large";
     /// Too far away.
-    OutOfDomain = -42, c"a point or a segment's end is too far from the model: clip segments first";
+    OutOfDomain = -42, c"a point, a segment's end or a model is too far away: clip segments first";
     /// A pose that nothing can be computed with.
     Pose = -43,
         c"a pose's matrix is no rotation (all zeros, for one), or its translation is too large";

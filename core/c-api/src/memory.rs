@@ -376,7 +376,7 @@ impl Out<SceneEntry> {
         }
     }
 
-    /// Begins a scene in `count` entries. After an error the memory holds none.
+    /// Begins a scene in `count` entries. After an error the memory holds none, whatever the count.
     pub fn begin_scene(
         &mut self,
         count: usize,
@@ -384,9 +384,10 @@ impl Out<SceneEntry> {
         model: impl Fn(usize) -> Result<MovingModel<'static>, Error>,
         pair: impl Fn(usize) -> Result<RememberedPair, Error>,
     ) -> Result<(), Error> {
-        check_slice(self.0, count)?.ok_or(Error::Memory)?;
-        // SAFETY: neither NULL nor misaligned, so by contract the first of `count` entries.
+        check(self.0)?;
+        // SAFETY: neither NULL nor misaligned, so by contract an entry, whatever the count.
         unsafe { self.0.write(SceneEntry(0)) };
+        check_slice(self.0, count)?.ok_or(Error::Memory)?;
         let [Ok(model_count), Ok(pair_count)] = [models, pairs].map(u32::try_from) else {
             return Err(Error::Count);
         };

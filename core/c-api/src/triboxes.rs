@@ -60,6 +60,27 @@ pub extern "C" fn msw_triboxes_apart(
 
 /// See `meshsweep.h`.
 #[unsafe(no_mangle)]
+pub extern "C" fn msw_triboxes_within(
+    triboxes: In<TriboxesStorage>,
+    other: In<TriboxesStorage>,
+    pose: In<PoseC>,
+    distance: f32,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<ApartC>,
+) -> i32 {
+    answer.answer(|| {
+        let (triboxes, other) = (triboxes.view()?, other.view()?);
+        let pose = pose.get_or(PoseC::IDENTITY)?.pose();
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(triboxes.within_of(other, pose, distance, budget, scratch)?.into())
+        })
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
 pub extern "C" fn msw_triboxes_candidates(
     triboxes: In<TriboxesStorage>,
     other: In<TriboxesStorage>,

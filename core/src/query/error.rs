@@ -23,7 +23,8 @@ pub enum QueryError {
     },
     /// A tolerance, a distance or a radius is negative, NaN, infinite or too large.
     Tolerance,
-    /// A point or an end of a segment is too far away. Clip segments first. The limits:
+    /// A point, an end of a segment or a model is too far away, or a joint turns too far. Clip
+    /// segments first. The limits:
     /// - [`Hull`](crate::Hull): 2^40 times the model's size from its origin;
     /// - [`Bvh`](crate::Bvh): 2^38 grid units from the model's farthest corner; for corners of a
     ///   [`Solid`](crate::Solid) 2^30 grid units from the grid's origin, and for its radius;
@@ -110,7 +111,8 @@ impl core::fmt::Display for QueryError {
                 "a tolerance, a distance or a radius is negative, NaN, infinite or too large"
             }
             QueryError::OutOfDomain => {
-                "a point or a segment's end is too far from the model: clip segments first"
+                "a point, a segment's end or a model is too far away (clip segments first), or a joint \
+                 turns by more than 8192 radians"
             }
             QueryError::PoseOutOfDomain => {
                 "an entry of the matrix is beyond 2, the matrix far from a rotation where one is \

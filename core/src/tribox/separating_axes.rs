@@ -4,6 +4,7 @@ use super::bounds::TriboxError;
 use super::directions::{DIRECTIONS, FACES, SLABS};
 use super::support::Support;
 use crate::geom::{Pose, dot, norm_1};
+use crate::num;
 use crate::num::tolerance::{PRODUCT_UNDERFLOW, TRIBOX_AXIS, TRIBOX_DISTANCE, U32};
 use crate::query::{QueryError, check_rigid, longest, skew_of};
 use crate::tribox::format::Triboxes;
@@ -120,7 +121,8 @@ impl Axes {
                     + PRODUCT_UNDERFLOW
             };
             let e = back(f);
-            (of_a.towards, of_a.offset, of_a.margin) = (e, dot(f, pose.translation), margin(f) + kept_a);
+            (of_a.towards, of_a.offset, of_a.margin) =
+                (e, dot(f, pose.translation), margin(f) + kept_a);
             let w = [dot(p, f), dot(q, f), dot(r, f)];
             let [x, y, z] = back(w);
             let [fx, fy, fz] = f;
@@ -161,7 +163,8 @@ impl Axis {
     fn separates(&mut self, own: &Body, other: &Body, slab: usize) -> bool {
         let plane = |plane: usize| own.planes.get(plane).copied().unwrap_or(f32::INFINITY);
         let (low, high) = (plane(2 * slab), plane(2 * slab + 1));
-        let centre = dot(self.towards, other.centre) + self.offset;
+        // The same bits as `geom::dot`, and fewer instructions on boards.
+        let centre = num::dot(self.towards.into(), other.centre.into()) + self.offset;
         // A gap beyond a plane needs the centre beyond it.
         let is_above = centre > high;
         if !(is_above || -centre > low) {

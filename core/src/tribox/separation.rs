@@ -123,10 +123,10 @@ impl Triboxes<'_> {
     ///
     /// [`Separation::is_apart`] is a proof that it is, for the input meshes and, where both are
     /// solids, for their insides. There is no proof that the models are nearer. Two nodes are
-    /// farther if one of the eighteen directions shows a gap of more than the distance. Where an
-    /// edge or a vertex is nearest, the gap may be 18 % less than the distance of both. To cover a
-    /// rounded pose, add [`RoundedPose::motion`](crate::RoundedPose::motion) of both models. A
-    /// distance of 0 asks whether the models are apart.
+    /// farther if one of the eighteen directions shows a gap of more than the distance. Between
+    /// edges or vertices that gap is less than their distance, so some models that are farther stay
+    /// unproved. To cover a rounded pose, add [`RoundedPose::motion`](crate::RoundedPose::motion) of
+    /// both models. A distance of 0 asks whether the models are apart.
     ///
     /// Arguments and cost as for [`separation`](Triboxes::separation).
     ///

@@ -85,6 +85,16 @@ fn ask(a: &Triboxes<'_>, b: &Triboxes<'_>, pose: &Pose, entries: usize) {
     let mut pairs = [NodePair::EMPTY; 8];
     let all = a.candidates(b, *pose, &mut pairs, Budget::EXACT, &mut stack);
     let one = a.separation(b, *pose, Budget::EXACT, &mut stack);
+    if let Ok(one) = one {
+        let mut most = 0.0;
+        for distance in [0.0, 1e-30, 0.5, 1e30] {
+            let found = a.within_of(b, *pose, distance, Budget::EXACT, &mut stack);
+            let found = found.expect("the distance is one");
+            // What is farther than a distance is farther than each lesser one.
+            assert!(!found.is_apart() || one.is_apart() && most == 0.0);
+            most = if found.is_apart() { most } else { distance.max(f32::MIN_POSITIVE) };
+        }
+    }
     match (all, one) {
         (Ok(all), Ok(one)) => {
             assert_eq!(all.is_apart(), one.is_apart());

@@ -29,7 +29,7 @@ const fn question(
 }
 
 /// The questions of the tables of stacks.
-pub const QUESTIONS: [Question; 34] = [
+pub const QUESTIONS: [Question; 35] = [
     question("open a box tree", "tree", "tree::open", &[]),
     question(CLOSEST, "closest", "tree::distance::closest", &[Kind::ClosestFar, Kind::ClosestNear]),
     question(
@@ -77,6 +77,7 @@ pub const QUESTIONS: [Question; 34] = [
     question("sweep", "hull", "hull_moving::sweep", &[Kind::Sweep]),
     question("open triboxes", "triboxes", "triboxes::open", &[]),
     question("triboxes apart", "triboxes", "triboxes::reject", &[Kind::TriboxesApart]),
+    question("within of triboxes", "triboxes", "triboxes::within", &[Kind::TriboxesWithin]),
     question("open curves", "curve", "curve::open", &[]),
     question(
         "closest point of curves",

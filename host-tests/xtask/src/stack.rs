@@ -49,6 +49,7 @@ pub const C_FUNCTIONS: [(&str, &str); 35] = [
     ("msw_solid_first_contact", "segment"),
     ("msw_open_triboxes", "triboxes"),
     ("msw_triboxes_apart", "triboxes"),
+    ("msw_triboxes_within", "triboxes"),
     ("msw_triboxes_candidates", "triboxes"),
     ("msw_open_tight", "tight"),
     ("msw_tight_within", "tight"),

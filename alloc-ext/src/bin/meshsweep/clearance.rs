@@ -7,12 +7,20 @@ use crate::failure::Failure;
 use crate::poses;
 use crate::queries::Queries;
 use crate::{blob_file, served};
-use meshsweep_core::{BuildFor, Bvh, Interval, Motion, Pose, Relation};
+use meshsweep_core::{BuildFor, Bvh, Interval, Motion, Pose, Relation, Triboxes};
+
+/// Columns of the answers to --within.
+const WITHIN: &str = "pose,within,first,second,work";
 
 pub fn run(args: &ClearanceArgs) -> Result<(), Failure> {
     let MovedArgs { first, second, .. } = &args.input;
     poses::refuse_same_file(&args.input, &args.search)?;
     let (blob, other) = (blob_file::open(first)?, blob_file::open(second)?);
+    if let (true, Some(distance)) = (args.triboxes, args.within) {
+        let triboxes =
+            [served::require_triboxes(first, &blob)?, served::require_triboxes(second, &other)?];
+        return ask_triboxes(args, triboxes, distance);
+    }
     let trees = [
         served::require_tree(first, &blob, BuildFor::Segment)?,
         served::require_tree(second, &other, BuildFor::Segment)?,
@@ -40,6 +48,31 @@ pub fn run(args: &ClearanceArgs) -> Result<(), Failure> {
         Some(distance) => clearance.ask_within(distance, poses),
         None => clearance.ask_distance(poses),
     }
+}
+
+/// Asks triboxes whether the meshes are farther than a distance. Else the row names the triboxes
+/// that may be nearer.
+fn ask_triboxes(
+    ClearanceArgs { input, search, .. }: &ClearanceArgs,
+    [first, second]: [Triboxes<'_>; 2],
+    distance: f32,
+) -> Result<(), Failure> {
+    Question::new(WITHIN, poses::read(input)?, search).ask(
+        || {
+            let mut scratch = search.scratch(first.separation_entries(&second));
+            move |row| {
+                let (pose, budget) = (poses::of_row(row), search.budget());
+                let found = first.within_of(&second, pose, distance, budget, &mut scratch)?;
+                Ok(Answer { found, ended: found.ended, work: found.work })
+            }
+        },
+        |out, query, _, Answer { found, work, .. }| {
+            let verdict = if found.is_apart() { "no" } else { "undecided" };
+            write!(out, "{query},{verdict},")?;
+            let nodes = found.may_meet.map(|pair| [u32::from(pair.a), u32::from(pair.b)]);
+            write_pair(out, nodes, *work)
+        },
+    )
 }
 
 struct Clearance<'a> {
@@ -103,7 +136,7 @@ impl Clearance<'_> {
 
     fn ask_within(self, distance: f32, poses: Queries<12>) -> Result<(), Failure> {
         let Clearance { args: ClearanceArgs { search, .. }, trees: [first, second] } = self;
-        Question::new("pose,within,first,second,work", poses, search).ask(
+        Question::new(WITHIN, poses, search).ask(
             || {
                 let mut scratch = search.scratch(Bvh::DISTANCE_ENTRIES);
                 move |row| {

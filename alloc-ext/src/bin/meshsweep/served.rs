@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use meshsweep::distances::{Distances, has_sides};
 use meshsweep_core::{
     AllOverlaps, Blob, Budget, BuildFor, Bvh, Decided, FrameHull, Hull, Pose, QueryError,
-    ScratchEntry, TightHull, TrianglePair,
+    ScratchEntry, TightHull, TrianglePair, Triboxes,
 };
 use std::path::Path;
 
@@ -28,7 +28,7 @@ const QUESTIONS: [(&str, Serves); 17] = [
     ("hull --level", |blob| blob.hull().is_ok_and(|hull| hull.encloses())),
     ("refine", |blob| blob.hull().is_ok()),
     ("hull --tight", |blob| blob.tight_hulls().is_ok()),
-    ("triboxes", |blob| blob.triboxes().is_ok()),
+    ("clearance --triboxes", |blob| blob.triboxes().is_ok()),
     ("cut", |blob| blob.hull().is_ok() || blob.triboxes().is_ok() || blob.tight_hulls().is_ok()),
 ];
 
@@ -123,6 +123,11 @@ pub fn require_hulls<'a>(file: &Path, blob: &Blob<'a>) -> Result<Hull<'a>, Failu
 /// The blob's hull hierarchy.
 pub fn require_hull<'a>(file: &Path, blob: &Blob<'a>) -> Result<Hull<'a>, Failure> {
     blob.hull().map_err(|_| not_served(file, blob, BuildFor::Hull, None))
+}
+
+/// The blob's triboxes.
+pub fn require_triboxes<'a>(file: &Path, blob: &Blob<'a>) -> Result<Triboxes<'a>, Failure> {
+    blob.triboxes().map_err(|_| not_served(file, blob, BuildFor::Triboxes, None))
 }
 
 /// The blob's hull hierarchy at a key frame, and the scratch entries to ask it with.

@@ -54,6 +54,10 @@ impl<'t> Subject<'t> for Triboxes<'t> {
         Contents => contents(self, to.fold);
         TriboxesApart => reject(self, pose(place.motion()), scratch, to);
         TriboxesCandidates => candidates(self, pose(place.motion()), scratch, to);
+        TriboxesWithin => {
+            let (pose, distance) = (pose(place.motion()), place.distance());
+            within(self, pose, distance, scratch, to)
+        };
         TriboxesDistance => nearest(self, place.far(), scratch, to);
         TriboxesClip => first(self, place.segment(), scratch, to);
     }
@@ -105,6 +109,24 @@ fn pairs(fold: &mut Fold, pairs: &[NodePair]) {
 pub fn reject(all: &Triboxes<'_>, pose: Pose, s: &mut Scratch, to: &mut Asked<'_, impl Clock>) {
     to.answer(
         || all.separation(all, pose, Budget::EXACT, &mut s.stack),
+        |fold, answer| {
+            pairs(fold, answer.may_meet.as_slice());
+            how(fold, answer.ended);
+        },
+    );
+}
+
+/// Whether it is farther than a distance from that copy.
+#[inline(never)]
+pub fn within(
+    all: &Triboxes<'_>,
+    pose: Pose,
+    distance: f32,
+    s: &mut Scratch,
+    to: &mut Asked<'_, impl Clock>,
+) {
+    to.answer(
+        || all.within_of(all, pose, distance, Budget::EXACT, &mut s.stack),
         |fold, answer| {
             pairs(fold, answer.may_meet.as_slice());
             how(fold, answer.ended);

@@ -6,6 +6,7 @@ use meshsweep_counted::triboxes::by_vertices;
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, rough_sphere, scaled, torus,
 };
+use meshsweep_host_tests::oracle::distance_of_meshes;
 use meshsweep_host_tests::oracle::polytope::{HalfSpace, Polytope};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::contact::Surface;
@@ -158,6 +159,66 @@ fn surfaces_that_touch_are_never_apart() {
     }
 }
 
+/// The largest distance that is proved, by halving, of at most `most`; `None` if they may meet.
+fn proved(a: &Triboxes<'_>, b: &Triboxes<'_>, pose: Pose, most: f32) -> Option<f32> {
+    let mut stack = vec![ScratchEntry::EMPTY; a.separation_entries(b)];
+    let mut is_proved = |distance: f32| {
+        let found = a.within_of(b, pose, distance, Budget::EXACT, &mut stack).expect("answered");
+        found.is_apart()
+    };
+    if !is_proved(0.0) {
+        return None;
+    }
+    let (mut low, mut high) = (0.0f32, most);
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        if is_proved(middle) { low = middle } else { high = middle }
+    }
+    Some(low)
+}
+
+#[test]
+fn no_distance_is_proved_that_the_meshes_do_not_keep() {
+    let mut rng = Rng::new(32);
+    let (mut counted, mut shares) = (0, 0.0);
+    for triangles in [torus(2.0, 0.75, 12, 8), groove_block(), rough_sphere(1, 0.4, 2), cube(1)] {
+        let bytes = of(&triangles, 24);
+        let all = Triboxes::open(&bytes).expect("opens");
+        let root = all.node(0).expect("a root");
+        let size = root.high[0] - root.low[0];
+        let sphere = sphere(&subject(&triangles));
+        let rigid = poses(&sphere, 20).map(|(_, core)| core);
+        let affine = (0..20).map(|run| {
+            let matrix = MATRICES[run % 5].map(|row| row.map(|x| x * [1.0, 1e-25][run / 5 % 2]));
+            Pose::affine(matrix, [(); 3].map(|()| rng.range(-2.0, 2.0) * size))
+        });
+        for pose in rigid.collect::<Vec<_>>().into_iter().chain(affine) {
+            let Some(distance) = proved(&all, &all, pose, 16.0 * size) else { continue };
+            let mesh = (triangles.0.as_slice(), triangles.1.as_slice());
+            let exact = distance_of_meshes(mesh, mesh, &pose.rotation, pose.translation);
+            assert!(f64::from(distance) < exact.upper, "{distance} {exact:?} {pose:?}");
+            (counted, shares) = (counted + 1, shares + f64::from(distance) / exact.upper);
+        }
+    }
+    assert!(counted > 60 && shares > 0.75 * f64::from(counted), "{shares} of {counted}");
+}
+
+#[test]
+fn a_gap_along_a_slab_is_proved_to_the_last_digits() {
+    let bytes = of(&cube(1), 1);
+    let all = Triboxes::open(&bytes).expect("opens");
+    let root = all.node(0).expect("a root");
+    let side = root.high[0] - root.low[0];
+    for (axis, gap) in [(0, 1.5f32), (1, 100.0), (2, 0.125)] {
+        let mut translation = [0.0; 3];
+        translation[axis] = side + gap;
+        let pose = Pose { translation, ..Pose::IDENTITY };
+        let distance = proved(&all, &all, pose, 4.0 * gap).expect("apart");
+        let lost = 1e-4 * (side + gap);
+        assert!(distance < gap && distance > gap - lost, "{distance} of {gap}");
+    }
+}
+
 #[test]
 fn answers_do_not_depend_on_the_scale() {
     let triangles = torus(2.0, 0.75, 16, 8);
@@ -180,6 +241,9 @@ fn answers_do_not_depend_on_the_scale() {
                 .expect("answered");
             assert_eq!((here, pairs), (there, others), "{exponent}");
             apart_count += usize::from(here.is_apart());
+            let here = plain.within_of(&plain, pose, 0.75, Budget::EXACT, &mut stack);
+            let there = scaled.within_of(&scaled, moved, 0.75 * factor, Budget::EXACT, &mut stack);
+            assert_eq!(here, there, "{exponent}");
         }
         assert!((20..80).contains(&apart_count));
     }
@@ -277,9 +341,15 @@ fn poses_that_are_none_are_refused() {
         all.separation(&all, Pose::IDENTITY, bad, stack).unwrap_err(),
         QueryError::Tolerance
     );
+    for distance in [-1.0, f32::NAN, f32::INFINITY] {
+        let found = all.within_of(&all, Pose::IDENTITY, distance, Budget::EXACT, stack);
+        assert_eq!(found.unwrap_err(), QueryError::Tolerance);
+    }
     // As far as there are numbers, and of no volume at all.
     let far = Pose { translation: [1e36, -1e36, 1e36], ..Pose::IDENTITY };
     assert!(all.separation(&all, far, Budget::EXACT, stack).expect("answered").is_apart());
+    let found = all.within_of(&all, far, f32::MAX, Budget::EXACT, stack).expect("answered");
+    assert!(!found.is_apart());
     let flat = Pose::affine([[0.0; 3]; 3], [0.5; 3]);
     assert!(
         !all.separation(&all, flat, Budget::EXACT, stack).expect("answered").is_apart(),

@@ -295,6 +295,9 @@ pub struct ClearanceArgs {
     /// Only whether the meshes are within this distance of each other, in the meshes' unit
     #[arg(long, value_name = "D", value_parser = tolerance, conflicts_with_all = ["rel", "abs"])]
     pub within: Option<f32>,
+    /// Ask the blobs' triboxes, which can tell that the meshes are farther than D, and nothing else
+    #[arg(long, requires = "within", conflicts_with_all = ["moves", "depth"])]
+    pub triboxes: bool,
     /// Moves of the second mesh from each pose to the next, straight or screw
     ///
     /// straight moves each point along a line; screw moves the mesh as a rigid body. The answer
