@@ -37,6 +37,12 @@ impl Unit {
         }
     }
 
+    /// A length that is given in another unit, in this one.
+    #[must_use]
+    pub fn of(self, length: f64, unit: Unit) -> f64 {
+        length * unit.micrometres() / self.micrometres()
+    }
+
     /// The nearest number.
     pub(super) fn metres(self) -> f64 {
         self.micrometres() / 1e6

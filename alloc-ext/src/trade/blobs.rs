@@ -59,7 +59,7 @@ pub(super) fn build_group(
 }
 
 /// Of what the builder made, what the recipe wants.
-fn kept(recipe: Recipe, built: &Built) -> Result<Built, NotBuilt> {
+pub(super) fn kept(recipe: Recipe, built: &Built) -> Result<Built, NotBuilt> {
     match (recipe, built.tight.first()) {
         (Recipe::CutLevel(error), _) => cut_level(built, error),
         (Recipe::Tight(most), Some(report)) if report.wrapped.faces > most as usize => {

@@ -51,11 +51,15 @@ pub enum Search {
     Tight,
     /// A lower bound of the distance from triboxes.
     Triboxes,
+    /// Whether two box trees, or two tight hulls, are within a distance of each other.
+    PairOfTrees,
+    /// Whether triboxes prove that two models are farther than a distance.
+    PairOfTriboxes,
 }
 
 impl Search {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Tree,
         Self::TreeF32,
         Self::Precise,
@@ -65,6 +69,8 @@ impl Search {
         Self::KeptSweep,
         Self::Tight,
         Self::Triboxes,
+        Self::PairOfTrees,
+        Self::PairOfTriboxes,
     ];
 
     /// Its name in tables.
@@ -80,6 +86,8 @@ impl Search {
             Self::KeptSweep => "sweep, kept",
             Self::Tight => "tight hull",
             Self::Triboxes => "triboxes",
+            Self::PairOfTrees => "pair of trees",
+            Self::PairOfTriboxes => "pair of triboxes",
         }
     }
 }
@@ -91,6 +99,15 @@ pub type Features = [f64; 8];
 /// divided by those of a mean leaf. `tolerant`: splits of a query with a tolerance.
 pub const FEATURES: [&str; 8] =
     ["query", "inside", "node", "triangle", "exact", "split", "leaf", "tolerant"];
+
+/// The features of a question about two models. `inside`: a search began.
+#[must_use]
+pub fn features_of_pair(work: &Work) -> Features {
+    let counters = [work.bounds, work.triangles, work.exact, work.opened].map(f64::from);
+    let [nodes, triangles, exact, splits] = counters;
+    let searched = if work.total() > 0 { 1.0 } else { 0.0 };
+    [1.0, searched, nodes, triangles, exact, splits, 0.0, 0.0]
+}
 
 /// What the features of a query need of its structure.
 #[derive(Clone, Copy, Debug, PartialEq)]

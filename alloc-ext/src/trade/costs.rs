@@ -116,6 +116,30 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         },
     ),
     (
+        Board::CortexM4F,
+        Search::PairOfTrees,
+        Cost {
+            instructions: [529.7, 18284.2, 0.0, 1553.8, 0.0, 3000.2, 0.0, 0.0],
+            stack: 3908,
+            least: 520.0,
+            dearest: 2.313,
+            error: 0.2118,
+            typical: 0.043,
+        },
+    ),
+    (
+        Board::CortexM4F,
+        Search::PairOfTriboxes,
+        Cost {
+            instructions: [3080.4, 0.0, 936.2, 0.0, 0.0, 1038.8, 0.0, 0.0],
+            stack: 2116,
+            least: 3320.0,
+            dearest: 1.813,
+            error: 0.1255,
+            typical: 0.055,
+        },
+    ),
+    (
         Board::CortexM0,
         Search::Tree,
         Cost {
@@ -221,6 +245,30 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
             dearest: 1.102,
             error: 0.0734,
             typical: 0.016,
+        },
+    ),
+    (
+        Board::CortexM0,
+        Search::PairOfTrees,
+        Cost {
+            instructions: [16933.7, 243256.5, 0.0, 16017.2, 0.0, 45275.0, 0.0, 0.0],
+            stack: 4164,
+            least: 15160.0,
+            dearest: 2.331,
+            error: 0.2141,
+            typical: 0.047,
+        },
+    ),
+    (
+        Board::CortexM0,
+        Search::PairOfTriboxes,
+        Cost {
+            instructions: [111610.3, 0.0, 20706.4, 0.0, 0.0, 14297.9, 0.0, 0.0],
+            stack: 2732,
+            least: 120840.0,
+            dearest: 1.339,
+            error: 0.1192,
+            typical: 0.031,
         },
     ),
 ];

@@ -2,7 +2,7 @@
 
 use super::ask::{Asked, ask};
 use super::blobs::{NotBuilt, build_group};
-use super::cost::Board;
+use super::cost::{Board, Cost};
 use super::fitted::cost;
 use super::setting::Setting;
 use super::truth::Truth;
@@ -51,6 +51,18 @@ pub struct Instructions {
 }
 
 impl Instructions {
+    /// Of queries whose instructions a cost predicts.
+    pub(super) fn of(cost: &Cost, all: &[f64]) -> Self {
+        Self {
+            mean: all.iter().sum::<f64>() / all.len() as f64,
+            worst: all.iter().copied().fold(0.0, f64::max),
+            dearest: cost.dearest,
+            error: cost.error,
+            typical: cost.typical,
+            stack: cost.stack,
+        }
+    }
+
     /// Of the dearest query, with what the fit missed at most.
     #[must_use]
     pub fn most(&self) -> f64 {
@@ -221,15 +233,8 @@ fn row(setting: Setting, built: &Built, asked: &Asked, distances: &[f64]) -> Opt
     let is_bounded = answers.iter().all(|answer| answer.upper.is_finite());
     let boards = Board::ALL.map(|board| {
         let cost = cost(board, setting.search())?;
-        let all = answers.iter().map(|answer| cost.of(&answer.features));
-        Some(Instructions {
-            mean: all.clone().sum::<f64>() / answers.len() as f64,
-            worst: all.fold(0.0, f64::max),
-            dearest: cost.dearest,
-            error: cost.error,
-            typical: cost.typical,
-            stack: cost.stack,
-        })
+        let all: Vec<f64> = answers.iter().map(|answer| cost.of(&answer.features)).collect();
+        Some(Instructions::of(cost, &all))
     });
     let mean = |feature: usize| {
         answers.iter().map(|answer| answer.features[feature]).sum::<f64>() / answers.len() as f64

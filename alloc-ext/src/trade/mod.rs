@@ -15,6 +15,7 @@
 //! | `cost` | instructions of a board from the work of a query |
 //! | `costs`, `fitted` | the fitted numbers, written by `cargo xtask fit`; looked up |
 //! | `measure` | the rows, and which of them nothing else beats |
+//! | `pairs` | two models that keep a distance: structures, verdicts and costs |
 //! | `limits` | which row meets the limits of a device |
 //!
 //! A guaranteed error is the width of an interval that holds. It is the largest among the measured
@@ -28,15 +29,17 @@ mod costs;
 mod fitted;
 mod limits;
 mod measure;
+mod pairs;
 mod points;
 mod setting;
 mod truth;
 
 pub use ask::intervals;
 pub use blobs::{NotBuilt, build};
-pub use cost::{Board, Cost, FEATURES, Features, Search, Shape};
+pub use cost::{Board, Cost, FEATURES, Features, Search, Shape, features_of_pair};
 pub use fitted::cost;
 pub use limits::{COMB_OF_NEEDLES, CYCLES, Choice, Cpu, Limits, MANY_NEEDLES, Unmet};
 pub use measure::{Instructions, Missing, Row, Spread, Trade, distances, measure, pareto};
+pub use pairs::{PairError, PairRow, PairStructure, PairTrade, measure_pair};
 pub use points::{Points, diagonal, points};
 pub use setting::{How, Setting, standard};

@@ -115,6 +115,7 @@ fn every_command_s_help_has_examples_that_run() {
     let directory = scratch("examples");
     // A box: its hulls and triboxes are found at once.
     write_stl(&directory.join("part.stl"), &box_triangles([40.0, 20.0, 10.0]));
+    write_stl(&directory.join("tool.stl"), &box_triangles([8.0, 8.0, 30.0]));
     let (torus, scan) = (fixture("torus.ply"), directory.join("scan.ply"));
     ok(["hull", arg(&torus), "--progressive", "--faces", "60", "-o", arg(&scan)]);
     let (points, segments) = ([[1f32, 2.0, 3.0]; 3], [[20f32, 10.0, 90.0, 20.0, 10.0, -90.0]; 3]);

@@ -196,3 +196,36 @@ fn moves_from_pose_to_pose_are_clear_or_name_where_they_stop() {
     let one = ["clearance", arg(&part), arg(&part), "--pose", "1,2,3,1,0,0,0", "--moves", "screw"];
     assert_eq!(run(one).status.code(), Some(2));
 }
+
+#[test]
+fn triboxes_tell_no_distance_that_the_surfaces_do_not_keep() {
+    let directory = scratch("clearance_triboxes");
+    let options = ["--for", "segment,triboxes", "--triboxes", "16"];
+    let torus = blob(&directory, "torus.ply", &options);
+    let poses: Vec<String> = (0..40)
+        .map(|i| {
+            let (x, y, turn) = (0.4 * f64::from(i), 0.1 * f64::from(i % 7), f64::from(i % 5));
+            format!("{x},{y},0.3,1,{turn},0.5,0")
+        })
+        .collect();
+    let mut files = vec!["clearance", arg(&torus), arg(&torus), "--within", "1.5", "--pose"];
+    files.extend(poses.iter().map(String::as_str));
+    let by_trees = parse_csv(&ok(files.clone()), WITHIN);
+    files.push("--triboxes");
+    let by_triboxes = parse_csv(&ok(files), WITHIN);
+    let mut farther = 0;
+    for (theirs, row) in by_trees.iter().zip(&by_triboxes) {
+        assert!(["no", "undecided"].contains(&row[1].as_str()), "{row:?}");
+        assert!(row[1] == "undecided" || theirs[1] == "no", "{row:?} {theirs:?}");
+        // It names triboxes that may be nearer.
+        assert_eq!(row[1] == "no", row[2].is_empty() && row[3].is_empty(), "{row:?}");
+        farther += usize::from(row[1] == "no");
+    }
+    assert_eq!(by_triboxes.len(), 40);
+    assert!((5..40).contains(&farther), "{farther}");
+    let files = ["clearance", arg(&torus), arg(&torus), "--triboxes"];
+    assert_eq!(run(files).status.code(), Some(2), "it wants --within");
+    let tree = blob(&directory, "groove.obj", &["--for", "segment"]);
+    let files = ["clearance", arg(&tree), arg(&torus), "--within", "1", "--triboxes"];
+    refused(&run(files), 1, "--for triboxes");
+}

@@ -198,3 +198,81 @@ fn a_page_asks_for_nothing_and_its_intervals_hold_the_truth() {
     };
     assert!(without_times(&page) == without_times(&written()), "two runs differ");
 }
+
+/// Poses of a mesh, up to some way off.
+fn write_poses(file: &Path, count: u32) {
+    let row = |i: u32| {
+        let [x, y, turn] = [0.25 * f64::from(i), 0.5 * f64::from(i % 6), f64::from(i % 5)];
+        format!("{x},{y},-1,1,{turn},0.5,0")
+    };
+    fs::write(file, (0..count).map(row).collect::<Vec<_>>().join("\n")).unwrap();
+}
+
+#[test]
+fn structures_of_two_meshes_have_the_verdicts_of_clearance() {
+    let directory = scratch("trade_pair");
+    let mesh = coarse_torus(&directory);
+    let poses = directory.join("poses.csv");
+    write_poses(&poses, 60);
+    let pair = ["trade", arg(&mesh), arg(&mesh), "--poses", arg(&poses), "--keep", "1.25"];
+    let text = ok([&pair[..], &["--json", "--cpu", "m4f:168MHz"]].concat());
+    let trade: Value = serde_json::from_str(&text).expect("it is JSON");
+    let keeps = trade["clear"].as_u64().unwrap();
+    assert!(trade["poses"] == 60 && (5..55).contains(&keeps), "{keeps}");
+    let header = "pose,within,first,second,work";
+    let mut told = 0;
+    for row in rows(&trade) {
+        let count = |of: &str| row[of].as_u64().expect("a count");
+        let structure = row["structure"].as_str().unwrap();
+        assert_eq!(count("clear") + count("false_alarms"), keeps + count("missed"), "{row}");
+        if let Some(most) = row["most"].as_f64() {
+            let [mean, time] = ["mean", "microseconds"].map(|of| row[of].as_f64().unwrap());
+            assert!(mean <= most && (time - 2.0 * most / 168.0).abs() < 1e-6 * time, "{row}");
+        } else {
+            assert_eq!(structure, "box trees, 32 bits");
+        }
+        let blob = directory.join("pair.msw");
+        let build: Vec<&str> = row["build"].as_str().unwrap().split(' ').collect();
+        ok([&["build", arg(&mesh), "-o", arg(&blob)], &build[..]].concat());
+        let length = fs::metadata(&blob).unwrap().len();
+        assert_eq!((&row["flash"][0], &row["flash"][1]), (&length.into(), &length.into()));
+        if structure.starts_with("tight") {
+            continue;
+        }
+        let files =
+            ["clearance", arg(&blob), arg(&blob), "--pose", arg(&poses), "--within", "1.25"];
+        let engine: &[&str] = if structure.starts_with("tri") { &["--triboxes"] } else { &[] };
+        let answers = parse_csv(&ok([&files[..], engine].concat()), header);
+        let of = |verdict: &str| answers.iter().filter(|row| row[1] == verdict).count() as u64;
+        assert_eq!((of("no"), of("undecided")), (count("clear"), count("undecided")), "{row}");
+        assert_eq!(count("missed"), 0, "{row}");
+        told += 1;
+    }
+    assert_eq!(told, 4);
+    let text = ok([&pair[..], &["--cpu", "m0:48MHz"]].concat());
+    assert!(text.contains("Cortex-M0") && text.contains("triboxes, 8 "), "{text}");
+}
+
+#[test]
+fn a_distance_to_keep_has_the_unit_that_it_names() {
+    let directory = scratch("trade_keep");
+    let mesh = directory.join("cube.obj");
+    fs::write(&mesh, CUBE).unwrap();
+    let keep = |keep: &str, unit: &[&str]| {
+        let pair = ["trade", arg(&mesh), arg(&mesh), "--poses", "3,0,0,1,0,0,0", "--keep", keep];
+        let text = ok([&pair[..], &["--json"], unit].concat());
+        let trade: Value = serde_json::from_str(&text).expect("it is JSON");
+        (trade["keep"].as_f64().unwrap(), trade["clear"].as_u64().unwrap())
+    };
+    assert_eq!(keep("1.5", &[]), (1.5, 1));
+    assert_eq!(keep("2.5mm", &[]), (2.5, 0));
+    assert_eq!(keep("15mm", &["--unit", "cm"]), (1.5, 1));
+    for wrong in ["0", "-1", "15kg", "mm", "nan"] {
+        let output = run(["trade", arg(&mesh), arg(&mesh), "--poses", "0,0,0,1,0,0,0", "--keep"]
+            .into_iter()
+            .chain([wrong]));
+        assert_eq!(output.status.code(), Some(2), "{wrong}");
+    }
+    let alone = run(["trade", arg(&mesh), arg(&mesh), "--keep", "1"]);
+    assert_eq!(alone.status.code(), Some(2));
+}

@@ -69,5 +69,8 @@ fn a_blob_without_such_questions_is_refused_with_those_it_serves() {
     let directory = scratch("worst_refused");
     let blob = blob(&directory, "torus.ply", &["--for", "triboxes", "--triboxes", "2"]);
     let line = refused(&run(["worst", arg(&blob)]), 1, "torus");
-    assert!(line.contains("serves triboxes") && line.contains("searches closest"), "{line}");
+    assert!(
+        line.contains("serves clearance --triboxes") && line.contains("searches closest"),
+        "{line}"
+    );
 }

@@ -111,8 +111,8 @@ impl core::fmt::Display for QueryError {
                 "a tolerance, a distance or a radius is negative, NaN, infinite or too large"
             }
             QueryError::OutOfDomain => {
-                "a point, a segment's end or a model is too far away (clip segments first), or a joint \
-                 turns by more than 8192 radians"
+                "a point, a segment's end or a model is too far away (clip segments first), or a \
+                 joint turns by more than 8192 radians"
             }
             QueryError::PoseOutOfDomain => {
                 "an entry of the matrix is beyond 2, the matrix far from a rotation where one is \

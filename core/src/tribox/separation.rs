@@ -29,9 +29,9 @@ impl NodePair {
 #[non_exhaustive]
 pub struct Separation {
     /// A pair of nodes that may meet, or may be within the distance: the first one found. Both are
-    /// leaves unless `ended` says otherwise. `None` is a proof that the meshes have no common point,
-    /// and, where both are solids, that no point is in both; or that all points of both meshes or
-    /// solids are farther than the distance from each other.
+    /// leaves unless `ended` says otherwise. `None` is a proof that the meshes have no common
+    /// point, and, where both are solids, that no point is in both; or that all points of both
+    /// meshes or solids are farther than the distance from each other.
     pub may_meet: Option<NodePair>,
     /// The work of the search: pairs tested, pairs opened.
     pub work: Work,
@@ -125,8 +125,8 @@ impl Triboxes<'_> {
     /// solids, for their insides. There is no proof that the models are nearer. Two nodes are
     /// farther if one of the eighteen directions shows a gap of more than the distance. Between
     /// edges or vertices that gap is less than their distance, so some models that are farther stay
-    /// unproved. To cover a rounded pose, add [`RoundedPose::motion`](crate::RoundedPose::motion) of
-    /// both models. A distance of 0 asks whether the models are apart.
+    /// unproved. To cover a rounded pose, add [`RoundedPose::motion`](crate::RoundedPose::motion)
+    /// of both models. A distance of 0 asks whether the models are apart.
     ///
     /// Arguments and cost as for [`separation`](Triboxes::separation).
     ///

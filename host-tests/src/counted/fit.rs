@@ -3,17 +3,20 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use meshsweep::builder::{Built, Recipe};
+use meshsweep::builder::{Builder, Built, For, Recipe};
 use meshsweep::load::Source;
 use meshsweep::mesh::{RawMesh, repair};
 use meshsweep::surface::VertexBits;
-use meshsweep::trade::{self, Search, Shape};
+use meshsweep::trade::{self, Search, Shape, features_of_pair};
 use meshsweep_core::{Blob, Budget, QueryError, Work};
 use meshsweep_counted::placed::{answers, expected};
 use meshsweep_suite::ask::placed::{Answer, Question};
 
 use super::placed::written;
-use crate::generate::{Triangles, cube, needle_comb, rough_sphere, torus, two_parts, uv_sphere};
+use crate::generate::{
+    Rng, Triangles, cube, needle_comb, rough_sphere, torus, two_parts, uv_sphere,
+};
+use crate::workload::pose::{Pose, sphere};
 use crate::workload::{Points, Subject, points};
 
 /// Queries of a question.
@@ -32,9 +35,8 @@ pub fn fit(fixtures: &Path, folder: &Path, others: &[&str]) -> Result<String, St
     for (role, subject) in subjects(fixtures, others)? {
         for search in Search::ALL {
             let Some(bytes) = built(&subject, search) else { continue };
-            for (kind, budget) in questions(search, subject.diagonal()) {
-                let question = question(search, budget);
-                let laid = written(question, &bytes, &points(&subject, kind, QUERIES));
+            for Asked { question, budget, places, dials } in asked(&subject, search) {
+                let laid = written(question, &bytes, &places);
                 let rows = rows(&laid, &bytes, search, budget)?;
                 let expected = expected(&laid, QUERIES)?;
                 let all = [
@@ -47,7 +49,6 @@ pub fn fit(fixtures: &Path, folder: &Path, others: &[&str]) -> Result<String, St
                     let failed = |error| format!("{}: {error}", file.display());
                     std::fs::write(&file, bytes).map_err(failed)?;
                 }
-                let dials = format!("{} {}", kind.name(), dials(budget));
                 let _ = writeln!(lines, "{search:?}\t{role}\t{}\t{dials}", subject.name);
                 number += 1;
             }
@@ -87,17 +88,64 @@ fn subjects(fixtures: &Path, others: &[&str]) -> Result<Vec<(&'static str, Subje
 }
 
 fn built(subject: &Subject, search: Search) -> Option<Vec<u8>> {
+    let triangles: Vec<[u32; 3]> = subject.mesh.all_triangles().collect();
+    let raw = RawMesh::from_f32(&subject.mesh.positions, &triangles);
     let recipe = match search {
         Search::Tree | Search::Hinted | Search::Coherent => Recipe::Tree(VertexBits::Grid16),
         Search::TreeF32 | Search::Precise => Recipe::Tree(VertexBits::F32),
         Search::Sweep | Search::KeptSweep => Recipe::Sweep(VertexBits::F32),
         Search::Tight => Recipe::Tight(200),
-        Search::Triboxes => Recipe::Triboxes(64),
+        Search::Triboxes | Search::PairOfTriboxes => Recipe::Triboxes(64),
+        Search::PairOfTrees => {
+            let builder = Builder::new().serve(For::Segment).vertex_bits(VertexBits::Grid16);
+            return builder.build(raw).ok().map(Built::into_bytes);
+        }
     };
-    let triangles: Vec<[u32; 3]> = subject.mesh.all_triangles().collect();
-    let source = Source::of(RawMesh::from_f32(&subject.mesh.positions, &triangles), None).ok()?;
+    let source = Source::of(raw, None).ok()?;
     let built = trade::build(recipe, &source, &source.repaired().ok()?);
     built.ok().map(Built::into_bytes)
+}
+
+/// A question at its places.
+struct Asked {
+    question: Question,
+    budget: Budget,
+    places: Vec<[f32; 3]>,
+    dials: String,
+}
+
+fn asked(subject: &Subject, search: Search) -> Vec<Asked> {
+    let of_pair: fn(f32) -> Question = match search {
+        Search::PairOfTrees => Question::PairOfTrees,
+        Search::PairOfTriboxes => Question::PairOfTriboxes,
+        _ => {
+            let at = |(kind, budget): (Points, Budget)| Asked {
+                question: question(search, budget),
+                budget,
+                places: points(subject, kind, QUERIES),
+                dials: format!("{} {}", kind.name(), dials(budget)),
+            };
+            return questions(search, subject.diagonal()).into_iter().map(at).collect();
+        }
+    };
+    let at = |part: f64| Asked {
+        question: of_pair((part * subject.diagonal()) as f32),
+        budget: Budget::EXACT,
+        places: poses(subject),
+        dials: format!("{part} diagonals"),
+    };
+    [0.01, 0.05, 0.2].map(at).into()
+}
+
+/// Poses of a copy up to two diagonals away: the rows of each matrix, then its translation.
+fn poses(subject: &Subject) -> Vec<[f32; 3]> {
+    let (mut rng, sphere) = (Rng::new(0x7061_6972), sphere(subject));
+    let mut place = || {
+        let pose = Pose::random(&mut rng, &sphere, 4.0).rounded();
+        let [a, b, c] = pose.rotation;
+        [a, b, c, pose.translation]
+    };
+    (0..QUERIES).flat_map(|_| place()).collect()
 }
 
 fn questions(search: Search, diagonal: f64) -> Vec<(Points, Budget)> {
@@ -128,6 +176,7 @@ fn questions(search: Search, diagonal: f64) -> Vec<(Points, Budget)> {
         Search::Hinted | Search::Precise | Search::Triboxes => {
             vec![(Far, exact), (Near, exact), (Path, exact)]
         }
+        Search::PairOfTrees | Search::PairOfTriboxes => Vec::new(),
         Search::Tight => vec![(Far, exact), (Near, exact), (Near, steps(8)), (Far, steps(4))],
     }
 }
@@ -141,7 +190,9 @@ fn question(search: Search, budget: Budget) -> Question {
         Search::Sweep => Question::Sweep(budget),
         Search::KeptSweep => Question::KeptSweep(budget),
         Search::Tight => Question::Tight(budget),
-        Search::Triboxes => Question::Triboxes(budget),
+        Search::Triboxes | Search::PairOfTrees | Search::PairOfTriboxes => {
+            Question::Triboxes(budget)
+        }
     }
 }
 
@@ -168,7 +219,9 @@ fn rows(laid: &[u8], blob: &[u8], search: Search, budget: Budget) -> Result<Stri
             let hulls = blob.tight_hulls().map_err(said)?;
             Shape::of_tight(&hulls.finest().ok_or("no hull")?)
         }
-        Search::Triboxes => Shape::of_triboxes(&blob.triboxes().map_err(said)?),
+        Search::Triboxes | Search::PairOfTriboxes => {
+            Shape::of_triboxes(&blob.triboxes().map_err(said)?)
+        }
         _ => Shape::of_tree(&blob.bvh().map_err(said)?),
     };
     let mut rows = String::new();
@@ -176,9 +229,15 @@ fn rows(laid: &[u8], blob: &[u8], search: Search, budget: Budget) -> Result<Stri
         let work = match answer {
             Answer::Closest(near) => near.work,
             Answer::Bound(bound) => bound.work,
+            Answer::Within(found) => found.work,
+            Answer::Farther(found) => found.work,
             _ => Work::NONE,
         };
-        let row = shape.features(point, &budget, &work).map(|x| x.to_string()).join(" ");
+        let features = match search {
+            Search::PairOfTrees | Search::PairOfTriboxes => features_of_pair(&work),
+            _ => shape.features(point, &budget, &work),
+        };
+        let row = features.map(|x| x.to_string()).join(" ");
         let _ = writeln!(rows, "{row}");
     })?;
     Ok(rows)

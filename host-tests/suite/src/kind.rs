@@ -110,7 +110,7 @@ kinds! {
     /// Which of its leaves may meet those of the copy.
     TriboxesCandidates = 26, "triboxes_candidates";
     /// Whether it is farther than a distance from the copy.
-    TriboxesWithin = 45, "triboxes_within";
+    TriboxesWithin = 16, "triboxes_within";
     /// A lower bound of the distance from the doubled box.
     TriboxesDistance = 27, "triboxes_distance";
     /// Where a segment first enters a leaf.

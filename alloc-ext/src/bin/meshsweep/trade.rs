@@ -1,7 +1,9 @@
-//! `meshsweep trade`: what each setting of a mesh promises, finds and costs.
+//! `meshsweep trade`: what each setting of a mesh promises, finds and costs; or which structures of
+//! two meshes tell that they keep a distance.
 
 pub mod choose;
 mod measured;
+mod pair;
 mod report;
 mod table;
 
@@ -12,6 +14,9 @@ use crate::output::{Output, refuse_other_extension, refuse_same_file};
 use measured::measured;
 
 pub fn run(args: &TradeArgs) -> Result<(), Failure> {
+    if let (Some(other), Some(keep)) = (&args.other, args.keep) {
+        return pair::run(args, other, keep);
+    }
     mesh_file::check_format(&[&args.mesh], &args.read)?;
     let mesh = mesh_file::named(&args.mesh, &args.read)?;
     args.threads.start();

@@ -6,8 +6,8 @@
 use core::mem::size_of;
 
 use meshsweep_core::{
-    Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Focus, Hint, Hull, QueryError, RefinedHull,
-    Refinement, ScratchEntry, SplitChange, TriboxBound,
+    Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Decided, Focus, Hint, Hull, Pose, QueryError,
+    RefinedHull, Refinement, ScratchEntry, Separation, SplitChange, TriboxBound,
 };
 
 use super::{Refused, timed};
@@ -35,6 +35,11 @@ pub enum Question {
     Triboxes(Budget),
     /// The box tree's closest point in f64.
     Precise(Budget),
+    /// Whether the box tree is within a distance of its copy at a pose. Four places are a pose: the
+    /// rows of its matrix, then its translation.
+    PairOfTrees(f32),
+    /// Whether the triboxes prove that the model is farther than a distance from that copy.
+    PairOfTriboxes(f32),
 }
 
 impl Question {
@@ -52,6 +57,8 @@ impl Question {
             Self::Tight(budget) => of(6, budget),
             Self::Triboxes(budget) => of(7, budget),
             Self::Precise(budget) => of(8, budget),
+            Self::PairOfTrees(distance) => [9, distance.to_bits(), 0, 0],
+            Self::PairOfTriboxes(distance) => [10, distance.to_bits(), 0, 0],
         }
     }
 
@@ -68,6 +75,8 @@ impl Question {
             6 => Self::Tight(budget),
             7 => Self::Triboxes(budget),
             8 => Self::Precise(budget),
+            9 => Self::PairOfTrees(first),
+            10 => Self::PairOfTriboxes(first),
             _ => return None,
         })
     }
@@ -164,6 +173,10 @@ pub enum Answer {
     Bound(TriboxBound),
     /// An update of the refined hull.
     Refined(Refinement),
+    /// Whether two box trees are within a distance.
+    Within(Decided<[u32; 2]>),
+    /// Whether triboxes are farther than a distance.
+    Farther(Separation),
     /// A refusal.
     Refused(QueryError),
 }
@@ -179,6 +192,11 @@ impl Answer {
                     fold.word(word);
                 }
                 fold.f32(update.error_left);
+            }
+            Self::Within(answer) => super::verdict(fold, answer.verdict),
+            Self::Farther(answer) => {
+                fold.word(u32::from(answer.is_apart()));
+                super::how(fold, answer.ended);
             }
             Self::Refused(error) => super::refusal(fold, *error),
         }
@@ -199,8 +217,23 @@ pub fn ask<'t>(
 ) -> Result<usize, Refused> {
     let blob = Blob::open(placed.blob).map_err(Refused::of)?;
     let places = placed.places.iter().take(queries).map(place);
+    let poses = placed.places.as_chunks::<4>().0.iter().take(queries).map(pose);
     let asking = Asking { places, clock, told: &mut told };
     match placed.question {
+        Question::PairOfTrees(distance) => {
+            let (tree, exact) = (tree(&blob)?, Budget::EXACT);
+            let ask = |pose, stack: &mut [_]| tree.within_of(&tree, pose, distance, exact, stack);
+            let (asking, wanted) = (asking.at(poses), Bvh::DISTANCE_ENTRIES);
+            by_entries(&mut memory.entries, wanted, asking, ask, Answer::Within)
+        }
+        Question::PairOfTriboxes(distance) => {
+            let triboxes = blob.triboxes().map_err(|_| Refused::NO_SECTION)?;
+            let exact = Budget::EXACT;
+            let ask =
+                |pose, stack: &mut [_]| triboxes.within_of(&triboxes, pose, distance, exact, stack);
+            let wanted = triboxes.separation_entries(&triboxes);
+            by_entries(&mut memory.entries, wanted, asking.at(poses), ask, Answer::Farther)
+        }
         Question::Tree(budget) => {
             let tree = tree(&blob)?;
             let entries = tree.scratch_entries_for(budget);
@@ -258,16 +291,23 @@ struct Asking<'a, P, C, T> {
     told: &'a mut T,
 }
 
+impl<'a, P, C, T> Asking<'a, P, C, T> {
+    /// The same at other places.
+    fn at<Q>(self, places: Q) -> Asking<'a, Q, C, T> {
+        Asking { places, clock: self.clock, told: self.told }
+    }
+}
+
 impl<P, C, T> Asking<'_, P, C, T>
 where
-    P: Iterator<Item = [f32; 3]>,
+    P: Iterator,
     C: Clock,
     T: FnMut(&Answer),
 {
     #[inline(always)]
     fn each<A>(
         self,
-        mut ask: impl FnMut([f32; 3]) -> Result<A, QueryError>,
+        mut ask: impl FnMut(P::Item) -> Result<A, QueryError>,
         answer: impl Fn(A) -> Answer,
     ) {
         for place in self.places {
@@ -292,11 +332,11 @@ const fn bytes(entries: usize) -> usize {
 /// A question that takes no memory but scratch. Not inlined, so that the stack that is measured is
 /// its own.
 #[inline(never)]
-fn by_entries<A>(
+fn by_entries<P, A>(
     entries: &mut [ScratchEntry],
     wanted: usize,
-    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
-    mut ask: impl FnMut([f32; 3], &mut [ScratchEntry]) -> Result<A, QueryError>,
+    asking: Asking<'_, impl Iterator<Item = P>, impl Clock, impl FnMut(&Answer)>,
+    mut ask: impl FnMut(P, &mut [ScratchEntry]) -> Result<A, QueryError>,
     answer: impl Fn(A) -> Answer,
 ) -> Result<usize, Refused> {
     let stack = entries.get_mut(..wanted).ok_or(Refused::MEMORY)?;
@@ -340,4 +380,9 @@ fn place(bytes: &[u8; 12]) -> [f32; 3] {
         *to = f32::from_le_bytes(*word);
     }
     place
+}
+
+fn pose(rows: &[[u8; 12]; 4]) -> Pose {
+    let [a, b, c, translation] = rows.each_ref().map(place);
+    Pose::rigid([a, b, c], translation)
 }

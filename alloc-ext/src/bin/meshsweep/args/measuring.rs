@@ -1,8 +1,10 @@
 //! Arguments of the command that measures settings, and limits that choose one.
 
+use super::given::{self, Given};
 use super::reading::{ReadArgs, ThreadArgs};
 use super::values::{distance, whole};
 use clap::Args;
+use meshsweep::mesh::Unit;
 use meshsweep::trade::{Board, Cpu, Limits, Points};
 use std::path::PathBuf;
 
@@ -10,6 +12,24 @@ use std::path::PathBuf;
 pub struct TradeArgs {
     /// Mesh file; or - for the standard input, with --format
     pub mesh: PathBuf,
+    /// Second mesh file, to be moved: which structures tell that it keeps a distance
+    #[arg(requires_all = ["poses", "keep"], conflicts_with_all = ["at", "points", "report"])]
+    pub other: Option<PathBuf>,
+    /// Poses of the second mesh: x,y,z,qw,qx,qy,qz each, or files of them
+    #[arg(
+        long,
+        value_name = "POSE",
+        num_args = 1..,
+        requires = "other",
+        value_parser = given::queries::<7>()
+    )]
+    pub poses: Vec<Given<7>>,
+    /// Distance that the second mesh is to keep: 2.5 in the meshes' unit, or 20mm
+    #[arg(long, value_name = "DISTANCE", requires = "other", value_parser = length_in_unit)]
+    pub keep: Option<(f64, Option<Unit>)>,
+    /// Processor and its clock, as of build: m4f:168MHz [default: a Cortex-M4F, without times]
+    #[arg(long, value_name = "CPU:CLOCK", requires = "other", value_parser = cpu)]
+    pub cpu: Option<Cpu>,
     /// Points that are asked: near, far, path; or a file of your own points, in its order
     ///
     /// near is near the surface; far is in a box twice the mesh's; path is a path near the surface,
@@ -120,6 +140,23 @@ fn hertz(text: &str) -> Result<f64, String> {
     };
     let number = digits.trim().parse::<f64>().ok().map(|x| x * factor);
     number.filter(|x| *x > 0.0 && x.is_finite()).ok_or_else(wanted)
+}
+
+/// A length above 0, and its unit if it is told.
+fn length_in_unit(text: &str) -> Result<(f64, Option<Unit>), String> {
+    let wanted = || "a distance above 0 is wanted, as 2.5 or 20mm".to_owned();
+    let text = text.trim();
+    let digits = text.trim_end_matches(|c: char| c.is_alphabetic());
+    let unit = match &text[digits.len()..] {
+        "" => None,
+        symbol => Some(Unit::ALL.into_iter().find(|unit| unit.symbol() == symbol)),
+    };
+    let length = digits.trim().parse::<f64>().ok().filter(|x| *x > 0.0 && x.is_finite());
+    match (length, unit) {
+        (Some(length), None) => Ok((length, None)),
+        (Some(length), Some(Some(unit))) => Ok((length, Some(unit))),
+        _ => Err(wanted()),
+    }
 }
 
 fn cpu(text: &str) -> Result<Cpu, String> {

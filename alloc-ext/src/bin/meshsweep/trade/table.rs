@@ -5,7 +5,7 @@ use crate::mesh_report::write_rounding;
 use meshsweep::counted::Counted;
 use meshsweep::load::Loaded;
 use meshsweep::number::AtMost;
-use meshsweep::trade::{Board, COMB_OF_NEEDLES, MANY_NEEDLES, Row, Spread, pareto};
+use meshsweep::trade::{Board, COMB_OF_NEEDLES, Instructions, MANY_NEEDLES, Row, Spread, pareto};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::path::Path;
@@ -82,20 +82,26 @@ fn write_rows<'r>(
     rows: impl Iterator<Item = &'r Row>,
     width: usize,
 ) -> io::Result<()> {
-    write!(out, "  {:<width$}  {:<18}", "structure", "dials")?;
-    for (heading, width) in COLUMNS {
-        write!(out, " {heading:>width$}")?;
+    let named = |name: &str, dials: &str| format!("{name:<width$}  {dials:<18}");
+    write_line(out, &named("structure", "dials"), &COLUMNS, &COLUMNS.map(|(name, _)| name))?;
+    rows.into_iter().try_for_each(|row| {
+        let name = named(&row.setting.recipe.name(), &row.setting.dials());
+        write_line(out, &name, &COLUMNS, &cells(row))
+    })
+}
+
+/// A line of a table: a name, and a cell under each heading.
+pub(super) fn write_line(
+    out: &mut dyn Write,
+    name: &str,
+    columns: &[(&str, usize)],
+    cells: &[impl AsRef<str>],
+) -> io::Result<()> {
+    write!(out, "  {name}")?;
+    for (cell, (_, width)) in cells.iter().zip(columns) {
+        write!(out, " {:>width$}", cell.as_ref())?;
     }
-    writeln!(out)?;
-    for row in rows {
-        let text = row.setting.recipe.name();
-        write!(out, "  {text:<width$}  {:<18}", row.setting.dials())?;
-        for (cell, (_, width)) in cells(row).iter().zip(COLUMNS) {
-            write!(out, " {cell:>width$}")?;
-        }
-        writeln!(out)?;
-    }
-    Ok(())
+    writeln!(out)
 }
 
 fn cells(row: &Row) -> [String; 11] {
@@ -191,7 +197,26 @@ pub fn as_json(loaded: &Loaded, measured: &Measured) -> Value {
 /// A row.
 pub fn of_row(row: &Row) -> Value {
     let spread = |spread: Spread| json!({ "worst": spread.worst, "median": spread.median });
-    let boards = Board::ALL.iter().zip(row.boards).filter_map(|(board, found)| {
+    let [nodes, triangles, exact, splits] = row.work;
+    let work = json!({ "nodes": nodes, "triangles": triangles, "exact": exact, "splits": splits });
+    json!({
+        "structure": row.setting.recipe.name(),
+        "build": row.build(),
+        "dials": row.setting.dials(),
+        "guaranteed": row.guaranteed.map(spread),
+        "found_lower": spread(row.found_lower),
+        "found_upper": row.found_upper.map(spread),
+        "instructions": of_boards(row.boards),
+        "flash": row.flash,
+        "scratch_bytes": row.scratch,
+        "host_ns": row.nanoseconds,
+        "work": work,
+    })
+}
+
+/// Instructions of the boards, in the order of [`Board::ALL`].
+pub(super) fn of_boards(boards: [Option<Instructions>; 2]) -> Value {
+    let boards = Board::ALL.iter().zip(boards).filter_map(|(board, found)| {
         let found = found?;
         Some(json!({
             "cpu": board.name(),
@@ -202,19 +227,5 @@ pub fn of_row(row: &Row) -> Value {
             "stack": found.stack,
         }))
     });
-    let [nodes, triangles, exact, splits] = row.work;
-    let work = json!({ "nodes": nodes, "triangles": triangles, "exact": exact, "splits": splits });
-    json!({
-        "structure": row.setting.recipe.name(),
-        "build": row.build(),
-        "dials": row.setting.dials(),
-        "guaranteed": row.guaranteed.map(spread),
-        "found_lower": spread(row.found_lower),
-        "found_upper": row.found_upper.map(spread),
-        "instructions": boards.collect::<Vec<_>>(),
-        "flash": row.flash,
-        "scratch_bytes": row.scratch,
-        "host_ns": row.nanoseconds,
-        "work": work,
-    })
+    Value::Array(boards.collect())
 }

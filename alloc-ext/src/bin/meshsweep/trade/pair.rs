@@ -1,0 +1,215 @@
+//! `meshsweep trade` of two meshes: which structures tell that the second one, moved by poses,
+//! keeps a distance from the first, and what they cost.
+
+use super::table::{of_boards, write_line};
+use crate::args::{MovedArgs, TradeArgs};
+use crate::failure::Failure;
+use crate::output::Output;
+use crate::progress::Bar;
+use crate::{mesh_file, poses};
+use meshsweep::counted::Counted;
+use meshsweep::mesh::Unit;
+use meshsweep::number::About;
+use meshsweep::trade::{
+    Board, CYCLES, Instructions, Limits, NotBuilt, PairError, PairRow, PairTrade, measure_pair,
+};
+use serde_json::{Value, json};
+use std::io::{self, Write};
+use std::path::Path;
+use std::sync::Mutex;
+
+/// Headings of the columns after the structure, each with its width.
+const COLUMNS: [(&str, usize); 10] = [
+    ("mean", 9),
+    ("most", 9),
+    ("us", 9),
+    ("clear", 7),
+    ("alarms", 7),
+    ("undecided", 9),
+    ("missed", 7),
+    ("flash a", 8),
+    ("flash b", 8),
+    ("scratch", 7),
+];
+
+/// What was measured, and of what.
+struct Measured<'a> {
+    args: &'a TradeArgs,
+    other: &'a Path,
+    /// In the meshes' unit.
+    keep: f32,
+    unit: Option<Unit>,
+    poses: usize,
+    trade: PairTrade,
+}
+
+pub fn run(
+    args: &TradeArgs,
+    other: &Path,
+    (keep, keep_unit): (f64, Option<Unit>),
+) -> Result<(), Failure> {
+    let files = [args.mesh.as_path(), other];
+    mesh_file::check_format(&files, &args.read)?;
+    args.threads.start();
+    let sources = [mesh_file::read(files[0], &args.read)?, mesh_file::read(files[1], &args.read)?];
+    let repair = |which: usize| {
+        sources[which].repaired().map_err(|error| Failure::build(files[which], error))
+    };
+    let loaded = [repair(0)?, repair(1)?];
+    mesh_file::refuse_units([(files[0], loaded[0].unit), (files[1], loaded[1].unit)])?;
+    // Meshes that name no unit are in that of the distance.
+    let unit = loaded[0].unit.or(loaded[1].unit).or(keep_unit);
+    let keep = match (unit, keep_unit) {
+        (Some(unit), Some(of)) => unit.of(keep, of),
+        _ => keep,
+    } as f32;
+    for (file, loaded) in files.iter().zip(&loaded) {
+        if let (None, Some(unit)) = (loaded.unit, unit) {
+            // A closed standard error does not withhold the answers.
+            let _ = writeln!(io::stderr(), "{} names no unit; taken as {unit}", file.display());
+        }
+    }
+    let mut queries = poses::read(&MovedArgs {
+        first: args.mesh.clone(),
+        second: other.to_owned(),
+        pose: args.poses.clone(),
+        matrix: Vec::new(),
+    })?;
+    if let Some(failure) = queries.broken.take() {
+        return Err(failure);
+    }
+    let all: Vec<_> = queries.rows.iter().map(|row| poses::of_row(*row)).collect();
+    let bar = Mutex::new(None);
+    let progress = |done, of| {
+        if let Ok(mut bar) = bar.lock() {
+            bar.get_or_insert_with(|| Bar::new(of, "measuring", "structures")).show(done);
+        }
+    };
+    let meshes = [(&sources[0], &loaded[0]), (&sources[1], &loaded[1])];
+    let trade = measure_pair(meshes, &all, keep, &progress).map_err(|error| match error {
+        PairError::Refused(index, error) => Failure::Query { place: queries.place(index), error },
+        PairError::NoTree(which, NotBuilt::Refused(error)) => Failure::build(files[which], error),
+        PairError::NoTree(which, reason) => {
+            Failure::Usage { what: format!("{}: {reason}", files[which].display()) }
+        }
+    })?;
+    drop(bar);
+    let measured = Measured { args, other, keep, unit, poses: all.len(), trade };
+    Output::stdout().finish(|out| {
+        if args.json {
+            serde_json::to_writer_pretty(&mut *out, &measured.as_json())?;
+            return writeln!(out);
+        }
+        measured.write(out)
+    })
+}
+
+impl Measured<'_> {
+    fn limits(&self) -> Limits {
+        Limits { cpu: self.args.cpu, ..Limits::default() }
+    }
+
+    /// Predicted instructions of a row: mean and most; and the microseconds of the most.
+    fn cost(&self, row: &PairRow) -> [Option<f64>; 3] {
+        let found = self.found(row);
+        let most = found.map(|found| found.most());
+        let time = most.zip(self.args.cpu).map(|(most, cpu)| 1e6 * most * CYCLES / cpu.hertz);
+        [found.map(|found| found.mean), most, time]
+    }
+
+    /// Instructions on the processor that is asked about.
+    fn found(&self, row: &PairRow) -> Option<Instructions> {
+        let board = self.limits().board();
+        Board::ALL.iter().zip(row.boards).find(|(of, _)| **of == board)?.1
+    }
+
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let Self { args, other, keep, unit, poses, trade } = self;
+        let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
+        writeln!(
+            out,
+            "{} and {}: {}, {} clear of {}{unit}",
+            args.mesh.display(),
+            other.display(),
+            Counted(*poses, "pose"),
+            trade.clear,
+            About(f64::from(*keep)),
+        )?;
+        let width = trade.rows.iter().map(|row| row.structure.name().len()).max().unwrap_or(0);
+        let name = format!("{:<width$}", "structure");
+        write_line(out, &name, &COLUMNS, &COLUMNS.map(|(name, _)| name))?;
+        for row in &trade.rows {
+            let count = |x: Option<f64>| x.map_or("-".to_owned(), |x| format!("{x:.0}"));
+            let [mean, most, time] = self.cost(row).map(count);
+            let counts = [row.clear, row.false_alarms, row.undecided, row.missed];
+            let [clear, alarms, undecided, missed] = counts.map(|count| count.to_string());
+            let bytes = [row.flash[0], row.flash[1], row.scratch].map(|bytes| bytes.to_string());
+            let [first, second, scratch] = bytes;
+            let cells =
+                [mean, most, time, clear, alarms, undecided, missed, first, second, scratch];
+            let name = format!("{:<width$}", row.structure.name());
+            write_line(out, &name, &COLUMNS, &cells)?;
+        }
+        for (structure, reason) in &trade.missing {
+            let reason = reason.to_string();
+            let reason: Vec<&str> = reason.lines().map(str::trim).collect();
+            writeln!(out, "not built: {}: {}", structure.name(), reason.join("; "))?;
+        }
+        writeln!(
+            out,
+            "\nmean, most: instructions of a {}, predicted; most is of the dearest pose, with what \
+             the\nfit missed. us: microseconds of most, {CYCLES} cycles an instruction. clear: \
+             poses proved to keep the\ndistance. alarms: poses that keep it and are not proved \
+             to. missed: poses that are clear of the\nhull's surface and not of the mesh. flash: \
+             bytes of the blobs. scratch: bytes.\na mean of the fit's meshes and of its tests was \
+             predicted within",
+            self.limits().board().name(),
+        )?;
+        let mut said: Vec<String> = Vec::new();
+        for row in &trade.rows {
+            let (Some(search), Some(found)) = (row.structure.search(), self.found(row)) else {
+                continue;
+            };
+            let [error, typical] = [found.error, found.typical].map(|error| 100.0 * error);
+            let line = format!("  {}: {error:.0} % (median {typical:.0} %)", search.name());
+            if !said.contains(&line) {
+                writeln!(out, "{line}")?;
+                said.push(line);
+            }
+        }
+        Ok(())
+    }
+
+    fn as_json(&self) -> Value {
+        let Self { keep, unit, poses, trade, .. } = self;
+        let of = |row: &PairRow| {
+            let [mean, most, microseconds] = self.cost(row);
+            json!({
+                "structure": row.structure.name(),
+                "build": row.structure.to_string(),
+                "instructions": of_boards(row.boards),
+                "mean": mean,
+                "most": most,
+                "microseconds": microseconds,
+                "clear": row.clear,
+                "false_alarms": row.false_alarms,
+                "undecided": row.undecided,
+                "missed": row.missed,
+                "flash": row.flash,
+                "scratch_bytes": row.scratch,
+            })
+        };
+        let missing = trade.missing.iter().map(|(structure, reason)| {
+            json!({ "structure": structure.name(), "reason": reason.to_string() })
+        });
+        json!({
+            "poses": poses,
+            "clear": trade.clear,
+            "keep": keep,
+            "unit": unit.map(Unit::symbol),
+            "cpu": self.limits().board().name(),
+            "rows": trade.rows.iter().map(of).collect::<Vec<_>>(),
+            "not_built": missing.collect::<Vec<_>>(),
+        })
+    }
+}
