@@ -6,7 +6,7 @@ use super::support::Support;
 use crate::geom::{Pose, dot, norm_1};
 use crate::num;
 use crate::num::tolerance::{PRODUCT_UNDERFLOW, TRIBOX_AXIS, TRIBOX_DISTANCE, U32};
-use crate::query::{QueryError, check_rigid, longest, skew_of};
+use crate::query::{QueryError, checked_skew, longest};
 use crate::tribox::format::Triboxes;
 
 /// A direction of one tribox's own slabs in the other's frame.
@@ -92,7 +92,7 @@ impl Axes {
             TriboxError::OutOfDomain => QueryError::PoseOutOfDomain,
         })?;
         let (largest_a, largest_b) = (largest_coordinate(a)?, largest_coordinate(b)?);
-        check_rigid(pose)?;
+        let skew = checked_skew(pose)?;
         let [p, q, r] = pose.rotation;
         let largest = norm_1(pose.translation);
         // Mᵀw, and the same of sizes.
@@ -110,7 +110,7 @@ impl Axes {
             sum
         };
         let kept = distance * TRIBOX_DISTANCE;
-        let kept = [kept, kept * longest(skew_of(&pose.rotation))];
+        let kept = [kept, kept * longest(skew)];
         let [first, second] = &mut self.sides;
         for ((of_a, of_b), direction) in first.iter_mut().zip(second.iter_mut()).zip(DIRECTIONS) {
             let f = direction.map(f32::from);

@@ -27,6 +27,6 @@ pub(crate) use common_units::{
 pub(crate) use inverse::PoseInverse;
 pub use joint::{Joint, JointAxis, JointKind, link_poses};
 pub use motion::Motion;
-pub(crate) use rotation::{check_rigid, is_rotation, longest, skew, skew_of};
+pub(crate) use rotation::{check_rigid, checked_skew, is_rotation, longest, skew};
 pub use rounded::RoundedPose;
 pub(crate) use world_lengths::WorldLengths;

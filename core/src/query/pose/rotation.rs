@@ -18,7 +18,7 @@ pub(crate) fn skew(&[a, b, c]: &Rows) -> f32 {
 
 /// The same of a pose's matrix.
 #[inline(always)]
-pub(crate) fn skew_of(rows: &[[f32; 3]; 3]) -> f32 {
+pub(super) fn skew_of(rows: &[[f32; 3]; 3]) -> f32 {
     skew(&each(*rows, Vec3::from_array))
 }
 
@@ -42,6 +42,13 @@ pub(crate) fn check_rigid(pose: &Pose) -> Result<(), QueryError> {
     } else {
         Err(refused(pose))
     }
+}
+
+/// The same, and the matrix's [`skew`].
+#[inline(always)]
+pub(crate) fn checked_skew(pose: &Pose) -> Result<f32, QueryError> {
+    let skew = skew_of(&pose.rotation);
+    if pose.is_affine || is_rotation(&pose.rotation, skew) { Ok(skew) } else { Err(refused(pose)) }
 }
 
 #[cold]
