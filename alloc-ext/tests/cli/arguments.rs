@@ -136,10 +136,10 @@ fn every_command_s_help_has_examples_that_run() {
         let joint = |[name, parent, child]: [&str; 3]| {
             format!(
                 "<joint name=\"{name}\" type=\"continuous\"><parent link=\"{parent}\"/>\
-                 <child link=\"{child}\"/></joint>"
+                 <child link=\"{child}\"/><origin xyz=\"60 0 0\"/><axis xyz=\"0 1 0\"/></joint>"
             )
         };
-        // Links that share a joint keep no distance.
+        // Links that share a joint keep no distance. The tool comes near the base at some angles.
         let links = ["base", "arm", "tool"].map(link).concat();
         let joints = [["turn", "base", "arm"], ["bend", "arm", "tool"]].map(joint).concat();
         let text = format!("<robot name=\"arm\">{links}{joints}</robot>");
