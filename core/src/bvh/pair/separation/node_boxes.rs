@@ -46,7 +46,7 @@ impl Children {
 
     /// The leaf of a triangle, alone.
     #[inline(always)]
-    pub(crate) fn one(place: TriangleAt) -> Children {
+    pub(crate) fn leaf_of(place: TriangleAt) -> Children {
         Children { node: place.node(), wanted: 1 << place.child(), inner: 0, is_leaf: true }
     }
 

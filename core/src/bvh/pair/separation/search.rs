@@ -106,22 +106,36 @@ fn descend(
     scratch: &mut [ScratchEntry],
     work: &mut Work,
 ) -> Option<()> {
-    let [a, b] = pose.trees;
-    let steps = lesser(steps, work.opened.saturating_add(most_pairs(a, b)));
     let [x, y, z] = start.way.map(|x| float(i32::from(x)));
     let mut direction = match Direction::of(Vec3::new(x, y, z)) {
         Some(direction) => direction,
         None => between_boxes(pose)?,
     };
+    let end = visit_leaves(pose, goal, (&mut direction, start.near), steps, scratch, work);
+    // No component is 2 or more.
+    start.way = direction.way.to_array().map(|x| (x * 63.0) as i8);
+    end
+}
+
+#[inline(always)]
+fn visit_leaves(
+    pose: &GridPose<'_>,
+    goal: &mut Goal<'_>,
+    (direction, [first_a, first_b]): (&mut Direction, TrianglesAt),
+    steps: u32,
+    scratch: &mut [ScratchEntry],
+    work: &mut Work,
+) -> Option<()> {
+    let [a, b] = pose.trees;
+    let steps = lesser(steps, work.opened.saturating_add(most_pairs(a, b)));
     let mut pending = Pending::new(scratch);
     let mut hulls = [LeafHull::NONE; 2];
-    let root = [Children::of(a, 0)?, Children::of(b, 0)?];
-    let mut children = root;
-    if start.near[0] != TriangleAt::NONE {
-        let [p, q] = start.near;
-        children = [Children::one(p), Children::one(q)];
-    }
-    let mut is_first = start.near[0] != TriangleAt::NONE;
+    let mut roots = Some([Children::of(a, 0)?, Children::of(b, 0)?]);
+    let mut children = if first_a == TriangleAt::NONE {
+        roots.take()?
+    } else {
+        [Children::leaf_of(first_a), Children::leaf_of(first_b)]
+    };
     loop {
         let length = goal.far + pose.box_error;
         let reach = Reach { length: length * (1.0 + 16.0 * U32), square: square_up(length) };
@@ -134,19 +148,17 @@ fn descend(
                 return Some(());
             }
             if let Some(turned) = way.and_then(Direction::of) {
-                direction = turned;
-                start.way = turned.way.to_array().map(|x| (x * 63.0) as i8);
+                *direction = turned;
             }
         } else {
             if work.opened >= steps {
                 return None;
             }
             work.opened += 1;
-            open(pose, &children, &direction, &reach, &mut pending, work)?;
+            open(pose, &children, direction, &reach, &mut pending, work)?;
         }
-        if is_first {
-            is_first = false;
-            children = root;
+        if let Some(roots) = roots.take() {
+            children = roots;
             continue;
         }
         let length = goal.far + pose.box_error;
