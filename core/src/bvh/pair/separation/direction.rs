@@ -58,23 +58,17 @@ impl WholeDirection {
     }
 
     /// The greatest height of a leaf's vertices along the direction, units of its grid.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn top(&self, leaf: &FanLeaf<'_>) -> Option<f32> {
-        Some(whole_top(leaf, self.way)? as f32 * self.unit)
+        let ring = leaf.grid_ring()?;
+        let [x, y, z] = self.way.map(i64::from);
+        let height = |[p, q, r]: [i32; 3]| i64::from(p) * x + i64::from(q) * y + i64::from(r) * z;
+        let [first, second] = ring.centres;
+        let mut top = greater(height(first), height(second));
+        for ((x, y), z) in ring.x.iter().zip(ring.y).zip(ring.z) {
+            let whole = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
+            top = greater(top, height([whole(x), whole(y), whole(z)]));
+        }
+        Some(top as f32 * self.unit)
     }
-}
-
-/// The greatest sum of products of a direction and a vertex of a leaf.
-#[inline(never)]
-pub(crate) fn whole_top(leaf: &FanLeaf<'_>, way: [i32; 3]) -> Option<i64> {
-    let ring = leaf.grid_ring()?;
-    let [x, y, z] = way.map(i64::from);
-    let height = |[p, q, r]: [i32; 3]| i64::from(p) * x + i64::from(q) * y + i64::from(r) * z;
-    let [first, second] = ring.centres;
-    let mut top = greater(height(first), height(second));
-    for ((x, y), z) in ring.x.iter().zip(ring.y).zip(ring.z) {
-        let whole = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
-        top = greater(top, height([whole(x), whole(y), whole(z)]));
-    }
-    Some(top)
 }

@@ -130,11 +130,12 @@ fn visit_leaves(
     let steps = lesser(steps, work.opened.saturating_add(most_pairs(a, b)));
     let mut pending = Pending::new(scratch);
     let mut hulls = [LeafHull::NONE; 2];
-    let mut roots = Some([Children::of(a, 0)?, Children::of(b, 0)?]);
-    let mut children = if first_a == TriangleAt::NONE {
-        roots.take()?
-    } else {
+    let roots = || Some([Children::of(a, 0)?, Children::of(b, 0)?]);
+    let mut are_roots_next = first_a != TriangleAt::NONE;
+    let mut children = if are_roots_next {
         [Children::leaf_of(first_a), Children::leaf_of(first_b)]
+    } else {
+        roots()?
     };
     loop {
         let length = goal.far + pose.box_error;
@@ -157,8 +158,8 @@ fn visit_leaves(
             work.opened += 1;
             open(pose, &children, direction, &reach, &mut pending, work)?;
         }
-        if let Some(roots) = roots.take() {
-            children = roots;
+        if are_roots_next {
+            (children, are_roots_next) = (roots()?, false);
             continue;
         }
         let length = goal.far + pose.box_error;
