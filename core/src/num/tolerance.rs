@@ -328,7 +328,7 @@ pub const GAP_SETTLED: f64 = 1.0 - 1.0 / (1u64 << 30) as f64;
 /// How much nearer than the limit leaves may be along a direction in integers without a look at
 /// their triangles, in units of the coarser grid. A larger value widens the interval by as much, a
 /// smaller one measures more.
-pub const WHOLE_GAP: f64 = 1.0 / 512.0;
+pub const WHOLE_GAP: f64 = 1.0 / (1u64 << 18) as f64;
 
 /// Squared length below which a direction in f64 is not trusted, so that no product that decides
 /// underflows (§18). It bounds nothing then, which is always true.

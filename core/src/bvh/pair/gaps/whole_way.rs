@@ -12,9 +12,9 @@ use crate::query::RelativePose;
 pub(crate) struct WholeWay<'a> {
     pose: &'a RelativePose,
     /// From the first model to the second, in the first grid.
-    way: [i32; 3],
+    way: [i64; 3],
     /// The other way round, in the second grid, rounded up.
-    back: [i32; 3],
+    back: [i64; 3],
     /// The length of one unit of `back` in units of `way`.
     back_unit: f64,
     /// The height of the second grid's origin, and the length of `way`.
@@ -26,7 +26,7 @@ impl<'a> WholeWay<'a> {
     #[inline(never)]
     pub(crate) fn new(pose: &'a RelativePose, offset: [f64; 3]) -> Option<WholeWay<'a>> {
         let (way, _) = whole(offset)?;
-        let [x, y, z] = way.map(f64::from);
+        let [x, y, z] = way.map(|x| x as f64);
         let RelativePose { matrix: [r, s, t], shift_exact: [u, v, w], .. } = *pose;
         let column = |k: usize| {
             let along = |row: &[f32; 3]| f64::from(row.get(k).copied().unwrap_or(0.0));
@@ -73,9 +73,9 @@ struct WholeTops {
 
 impl WholeTops {
     #[inline(never)]
-    fn new(leaf: &FanLeaf<'_>, way: [i32; 3]) -> Option<WholeTops> {
+    fn new(leaf: &FanLeaf<'_>, way: [i64; 3]) -> Option<WholeTops> {
         let ring = leaf.grid_ring()?;
-        let [x, y, z] = way.map(i64::from);
+        let [x, y, z] = way;
         let height = |[p, q, r]: [i32; 3]| i64::from(p) * x + i64::from(q) * y + i64::from(r) * z;
         let (shape, mut each, mut most) = (leaf.shape(), [i64::MIN; WIDTH], i64::MIN);
         let centres = ring.centres.map(height);
@@ -92,14 +92,17 @@ impl WholeTops {
     }
 }
 
-/// A direction in integers of at most 2^30, rounded up, and the length of their unit. `None` if it
+/// The greatest component of a direction has one bit more. A vertex has 16, so heights have 63.
+const BITS: u64 = 44;
+
+/// A direction in integers of at most 2^45, rounded up, and the length of their unit. `None` if it
 /// is zero, or very long or short.
-fn whole(way: [f64; 3]) -> Option<([i32; 3], f64)> {
+fn whole(way: [f64; 3]) -> Option<([i64; 3], f64)> {
     let most = way.into_iter().fold(0.0, |most, x| greater(most, x.abs()));
     let exponent = most.to_bits() >> 52;
     if !(200..1800).contains(&exponent) {
         return None;
     }
-    let power = f64::from_bits((2046 + 29 - exponent) << 52);
-    Some((way.map(|x| (x * power) as i32 + 1), f64::from_bits((exponent - 29) << 52)))
+    let power = f64::from_bits((2046 + BITS - exponent) << 52);
+    Some((way.map(|x| (x * power) as i64 + 1), f64::from_bits((exponent - BITS) << 52)))
 }
