@@ -168,7 +168,7 @@ typedef struct { uint64_t opaque[MSW_COHERENT_PAIR_WORDS]; } msw_coherent_pair;
 typedef struct { uintptr_t opaque; } msw_scene_entry;
 #define MSW_SCENE_ENTRIES(models, pairs) \
     (5 + (models) * MSW_SCENE_MODEL_ENTRIES \
-     + ((pairs) * 12 + sizeof(uintptr_t) - 1) / sizeof(uintptr_t))
+     + ((pairs) * 24 + sizeof(uintptr_t) - 1) / sizeof(uintptr_t))
 
 /* Where the last closest point was found. Zeros are no hint. Any contents are safe, of another
  * model too: a bad hint costs a leaf. */

@@ -336,7 +336,7 @@ const WORD: usize = size_of::<usize>();
 const _: () = assert!(
     size_of::<SceneHead>() <= SCENE_ENTRIES * WORD
         && size_of::<MovingModel<'_>>() + size_of::<f32>() <= SCENE_MODEL_ENTRIES * WORD
-        && size_of::<RememberedPair>() == 12
+        && size_of::<RememberedPair>() == 24
         && align_of::<SceneHead>() == align_of::<SceneEntry>()
         && align_of::<MovingModel<'_>>() == align_of::<SceneEntry>()
         && align_of::<RememberedPair>() == align_of::<f32>()

@@ -4,6 +4,7 @@
 //! path of its points off the clearance of all its pairs, before any pair is asked about: an answer
 //! may end the question early. A pair with clearance left is clear.
 
+use super::pair::separation::search::SearchStart;
 use super::pair::{MovingModel, PlacedModel};
 use super::scene::PairSearch;
 use crate::geom::Pose;
@@ -24,7 +25,7 @@ pub struct KeptPair {
 /// Models that move little from one question to the next, and the pairs that are to keep a
 /// distance. Pairs that are not in the list are never looked at.
 ///
-/// RAM: 12 bytes for each pair; for each model a tree (some 200 bytes on a board) and some 140
+/// RAM: 24 bytes for each pair; for each model a tree (some 200 bytes on a board) and some 140
 /// bytes.
 #[derive(Clone, Debug)]
 pub struct CoherentScene<'a, const MODELS: usize, const PAIRS: usize> {
@@ -45,6 +46,8 @@ pub struct RememberedPair {
     /// Proved clearance beyond the distance, less all motion since. Nothing is proved unless it is
     /// above 0.
     left: f32,
+    /// What the last search of the pair left to the next one.
+    start: SearchStart,
 }
 
 impl RememberedPair {
@@ -58,7 +61,7 @@ impl RememberedPair {
             return Err(QueryError::NoModel);
         }
         Budget::EXACT.with_absolute(kept.distance).check()?;
-        Ok(RememberedPair { kept, left: 0.0 })
+        Ok(RememberedPair { kept, left: 0.0, start: SearchStart::NONE })
     }
 }
 
@@ -86,7 +89,7 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
         Ok(CoherentScene {
             models: models.map(MovingModel::new),
             moved: [0.0; MODELS],
-            pairs: pairs.map(|kept| RememberedPair { kept, left: 0.0 }),
+            pairs: pairs.map(|kept| RememberedPair { kept, left: 0.0, start: SearchStart::NONE }),
             least: 0.0,
             last: 0,
         })
@@ -188,7 +191,7 @@ impl ErasedScene<'_, '_> {
 
     /// As [`CoherentScene::reset`].
     pub fn reset(self) {
-        self.pairs.iter_mut().for_each(|pair| pair.left = 0.0);
+        self.pairs.iter_mut().for_each(|pair| (pair.left, pair.start) = (0.0, SearchStart::NONE));
         *self.least = 0.0;
     }
 
@@ -224,7 +227,7 @@ impl ErasedScene<'_, '_> {
 
     /// Takes the motion of both models off the clearance of every pair, before any is asked about.
     fn subtract_motion(&mut self) -> Option<()> {
-        for RememberedPair { kept, left } in self.pairs.iter_mut() {
+        for RememberedPair { kept, left, .. } in self.pairs.iter_mut() {
             *left = (*left - moved(self.moved, kept)?) * (1.0 - 4.0 * U32);
         }
         self.moved.iter_mut().for_each(|moved| *moved = 0.0);
@@ -251,8 +254,8 @@ impl ErasedScene<'_, '_> {
             for index in witness {
                 self.models.get_mut(index).ok_or(QueryError::Unchecked)?.place()?;
             }
-            let (verdict, left) =
-                clearance(self.models, &kept, (budget, &mut *scratch), &mut work)?;
+            let memory = (&mut pair.start, &mut *scratch);
+            let (verdict, left) = clearance(self.models, &kept, budget, memory, &mut work)?;
             pair.left = left;
             match verdict {
                 Verdict::Yes => {
@@ -286,7 +289,8 @@ fn moved(moved: &[f32], kept: &KeptPair) -> Option<f32> {
 fn clearance(
     models: &[MovingModel<'_>],
     kept: &KeptPair,
-    (budget, scratch): (Budget, &mut [ScratchEntry]),
+    budget: Budget,
+    (start, scratch): (&mut SearchStart, &mut [ScratchEntry]),
     work: &mut Work,
 ) -> Result<(Verdict, f32), QueryError> {
     let [a, b] = kept.models.map(|index| models.get(usize::from(index)));
@@ -294,7 +298,7 @@ fn clearance(
     let (one, other, moved) = (&a.model, &b.model, a.step + b.step);
     let distance = kept.distance;
     // A pair that moves fast gains nothing by looking farther.
-    let moved = if moved < distance { moved } else { 0.0 };
+    let moved = if MOTIONS_BY_SEARCH * moved < distance { moved } else { 0.0 };
     let beyond = |motions: f32| lesser(motions * moved, distance);
     let mut proof = one.apart(other, distance + beyond(MOTIONS_BY_BOXES));
     if proof.is_none() && moved > 0.0 {
@@ -304,7 +308,7 @@ fn clearance(
         return Ok((Verdict::No, (proof.gap() - distance) * (1.0 - 4.0 * U32)));
     }
     let search = PairSearch { models: [one, other], distance, more: beyond(MOTIONS_BY_SEARCH) };
-    let (verdict, left) = search.are_near(budget, scratch, work)?;
+    let (verdict, left) = search.are_near(budget, start, scratch, work)?;
     // What is infinite would never be used up.
     let is_kept = verdict == Verdict::No && left < f32::INFINITY;
     Ok((verdict, if is_kept { left } else { 0.0 }))

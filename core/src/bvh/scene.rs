@@ -6,7 +6,7 @@
 use crate::bvh::pair::placed_model::PlacedModel;
 use crate::bvh::pair::placed_pair::PlacedPair;
 use crate::bvh::pair::separation::grid_pose::GridPose;
-use crate::bvh::pair::separation::search::{Separation, separation};
+use crate::bvh::pair::separation::search::{SearchStart, Separation, separation};
 use crate::bvh::pair::world_box::WorldBox;
 use crate::num::tolerance::U32;
 use crate::num::{greater, lesser};
@@ -157,7 +157,8 @@ impl<'s, 'a> Scene<'s, 'a> {
                 continue;
             }
             let search = PairSearch { models: [one, other], distance, more: 0.0 };
-            match search.are_near(budget, scratch, &mut work)?.0 {
+            let mut start = SearchStart::NONE;
+            match search.are_near(budget, &mut start, scratch, &mut work)?.0 {
                 Verdict::Yes => {
                     return Ok(Decided { verdict: Verdict::Yes, witness: Some(pair), work });
                 }
@@ -217,6 +218,7 @@ impl PairSearch<'_, '_> {
     pub(super) fn are_near(
         &self,
         budget: Budget,
+        start: &mut SearchStart,
         scratch: &mut [ScratchEntry],
         work: &mut Work,
     ) -> Result<(Verdict, f32), QueryError> {
@@ -229,7 +231,7 @@ impl PairSearch<'_, '_> {
         let trees = [&one.tree, &other.tree];
         if let Some(pose) = pose.and_then(|pose| GridPose::of(trees, &pose)) {
             let asked = [distance, more];
-            match separation(&pose, asked, budget.steps, scratch, work) {
+            match separation(&pose, asked, start, budget.steps, scratch, work) {
                 Separation::Apart(lower) => {
                     let left = greater(0.0, lower - distance) * (1.0 - 2.0 * U32);
                     return Ok((Verdict::No, left));

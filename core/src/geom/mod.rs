@@ -33,7 +33,7 @@ pub use solid_angle::{SeenCorner, SolidAngles};
 pub use support::Support;
 pub use swept_pair::SweptTriangle;
 pub use swept_triangle::{SweptPoint, SweptSegment, direction_bound};
-pub use triangle_distance::{TriangleDistance, crossing, gap_along, triangle_distance};
+pub use triangle_distance::{TriangleDistance, crossing, triangle_distance};
 pub use triangle_pair::{Contact, determinant_margin, straddling_triangles_meet, triangles_meet};
 pub use vector::Precision;
 pub(crate) use vector::{Point, cross, dot, minus, norm_1, transposed};

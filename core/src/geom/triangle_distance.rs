@@ -99,12 +99,6 @@ pub fn triangle_distance(a: [Point<f64>; 3], b: [Point<f64>; 3]) -> TriangleDist
     answer(&best, gap, margin)
 }
 
-/// A lower bound of the distance of the triangles `a` and `b`: the gap along a direction, 0 if there
-/// is none.
-pub fn gap_along(offset: Point<f64>, a: [Point<f64>; 3], b: [Point<f64>; 3]) -> f64 {
-    greater(0.0, length_along(offset, &a, &b) - margin(&a, &b))
-}
-
 fn margin(a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> f64 {
     TRIANGLE_DISTANCE * U64 * (farthest(a) + farthest(b))
 }

@@ -325,6 +325,11 @@ pub const TRIANGLE_DISTANCE: f64 = 32.0;
 /// of two triangles ends, 1 − 2^-30. A smaller value ends earlier and widens the interval.
 pub const GAP_SETTLED: f64 = 1.0 - 1.0 / (1u64 << 30) as f64;
 
+/// How much nearer than the limit leaves may be along a direction in integers without a look at
+/// their triangles, in units of the coarser grid. A larger value widens the interval by as much, a
+/// smaller one measures more.
+pub const WHOLE_GAP: f64 = 1.0 / (1u64 << 18) as f64;
+
 /// Squared length below which a direction in f64 is not trusted, so that no product that decides
 /// underflows (§18). It bounds nothing then, which is always true.
 pub const GAP_DIRECTION_SQ: f64 = 1e-270;

@@ -6,7 +6,7 @@ use super::gaps::nearest_first::{Missed, Search};
 use super::gaps::question::PairQuestion;
 use super::models::most_pairs;
 use super::separation::grid_pose::{FramePose, GridPose};
-use super::separation::search::{NearestTriangles, nearest_triangles};
+use super::separation::search::{NearestLeaves, nearest_leaves};
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::format::layout::MAX_TREE_DEPTH;
@@ -97,8 +97,8 @@ impl Bvh<'_> {
     }
 }
 
-/// Measures in f64 the pairs of triangles that f32 cannot tell from the nearest one. Returns
-/// `true` if the question is answered. Otherwise the search in f64 follows.
+/// Measures in f64 the triangles that f32 cannot tell from the nearest ones. Returns `true` if the
+/// question is answered. Otherwise the search in f64 follows.
 #[inline(never)]
 fn measure_nearest(
     pair: &StoredPair<'_>,
@@ -108,19 +108,23 @@ fn measure_nearest(
 ) -> bool {
     let trees = pair.trees;
     let Some(grid) = GridPose::of(trees, &FramePose::of(pose)) else { return false };
-    let found = nearest_triangles(&grid, u32::MAX, scratch, work);
-    let Some(NearestTriangles { mut candidates, are_all }) = found else { return false };
+    let found = nearest_leaves(&grid, u32::MAX, scratch, work);
+    let Some(NearestLeaves { best, mut candidates, are_all }) = found else { return false };
     let mut leaves = pair.leaves();
-    while let Some(place) = candidates.remove_least() {
+    let [a, b] = trees;
+    let (Some(p), Some(q)) = (best[0].leaf(a), best[1].leaf(b)) else { return false };
+    if !leaves.measure([&p, &q], best, question, work) {
+        return true;
+    }
+    // Otherwise the search in f64 begins with a limit.
+    let Some(mut between) = leaves.between().filter(|_| are_all) else { return false };
+    while let Some(place) = candidates.take_last() {
         let [first, second] = place;
-        let [a, b] = trees;
         let (Some(p), Some(q)) = (first.leaf(a), second.leaf(b)) else { return false };
-        if !leaves.measure([&p, &q], place, question, work) {
-            return true;
-        }
-        if !are_all {
-            // The search in f64 begins with a limit.
-            return false;
+        match leaves.visit_along(&mut between, [&p, &q], place, question, work) {
+            Some(true) => {}
+            Some(false) => return true,
+            None => return false,
         }
     }
     question.leaves().is_some()

@@ -8,7 +8,7 @@ use super::gaps::question::PairQuestion;
 use super::model_box::are_apart;
 use super::models::numbers;
 use super::separation::grid_pose::{FramePose, GridPose};
-use super::separation::search::{Separation, separation};
+use super::separation::search::{SearchStart, Separation, separation};
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::gap::{GapThreshold, GapVisitor};
@@ -80,7 +80,8 @@ impl Bvh<'_> {
     ) -> Result<(Decided<[u32; 2]>, f32), QueryError> {
         let mut work = Work::NONE;
         if let Some(pose) = GridPose::of([self, other], &FramePose::of(pose)) {
-            match separation(&pose, asked, budget.steps, scratch, &mut work) {
+            let mut start = SearchStart::NONE;
+            match separation(&pose, asked, &mut start, budget.steps, scratch, &mut work) {
                 Separation::Apart(lower) => {
                     return Ok((Decided { work, ..Decided::CLEAR }, lower));
                 }

@@ -7,14 +7,13 @@ use super::pair_keys::{
     NO_PAIR, PAIRS, PairKeys, children_of, distance_of, key_limit, key_of, pair_bit,
 };
 use super::question::{PairQuestion, TriangleGap};
+use super::whole_way::WholeWay;
 use crate::bvh::pair::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
 use crate::bvh::tree::format::FanLeaf;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
-use crate::geom::{
-    Contact, TriangleDistance, crossing, gap_along, triangle_distance, triangles_meet,
-};
-use crate::num::tolerance::{GAP_ALONG, GAP_SETTLED, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32};
+use crate::geom::{Contact, TriangleDistance, crossing, triangle_distance, triangles_meet};
+use crate::num::tolerance::{GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32, WHOLE_GAP};
 use crate::num::{greater, lesser, up_to_f32};
 use crate::query::{RelativePose, Work};
 
@@ -23,6 +22,8 @@ pub(crate) struct LeafVisit {
     pub(crate) goes_on: bool,
     /// A lower bound of the distance of both leaves, common units. 0 if nothing is kept.
     pub(crate) lower: f64,
+    /// The bits of the pairs of triangles that were measured.
+    pub(crate) pairs: u64,
 }
 
 /// The search among the triangles of two leaves.
@@ -34,14 +35,12 @@ pub(crate) struct LeafGaps<'a> {
     /// component is 1. Zero before the first such pair. `visit` skips pairs that are far apart
     /// along it.
     pub(crate) direction: [f32; 3],
-    /// From point to point of the last measured pair. Zero if the pair is in contact. `measure`
-    /// bounds the next pairs along it.
+    /// From point to point of the last measured pair. Zero if the pair is in contact.
     pub(crate) offset: [f64; 3],
 }
 
-impl LeafGaps<'_> {
-    /// Measures one pair of triangles. A pair that is as far as the limit along the last offset is
-    /// bounded only. Returns whether the question goes on.
+impl<'a> LeafGaps<'a> {
+    /// Measures one pair of triangles. Returns whether the question goes on.
     pub(crate) fn measure(
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
@@ -51,25 +50,54 @@ impl LeafGaps<'_> {
     ) -> bool {
         let [first, second] = leaves;
         let pair = LeafPair::new(self.pose, first, second);
-        let [i, j] = place.map(TriangleAt::lane);
-        let [a, b] = pair.in_f64(i, j);
-        let lower = self.without_rounding(gap_along(self.offset, a, b));
         work.triangles = work.triangles.saturating_add(1);
-        if lower >= question.limit() * GAP_SETTLED {
-            // The distance would not narrow the answer. An infinite upper end is never the best, so
-            // the points are not used.
-            return question.take(&TriangleGap {
-                place,
-                lower,
-                upper: f64::INFINITY,
-                meets: false,
-                points: [[0.0; 3]; 2],
-            });
-        }
         work.exact = work.exact.saturating_add(1);
         let gap = self.measured(&pair, place);
         self.turn_to(&gap);
         question.take(&gap)
+    }
+
+    /// The direction between the nearest points so far, for whole leaves. `None` if it is zero.
+    pub(crate) fn between(&self) -> Option<WholeWay<'a>> {
+        WholeWay::new(self.pose, self.offset)
+    }
+
+    /// Measures the pairs of triangles of two leaves that may be nearer than the limit. `between` is
+    /// the direction between the nearest points so far, and is kept up to it. Whether the question
+    /// goes on. `core/docs/rounding.md` §26, *The nearest triangles*.
+    pub(crate) fn visit_along(
+        &mut self,
+        between: &mut WholeWay<'a>,
+        leaves: [&FanLeaf<'_>; 2],
+        places: [TriangleAt; 2],
+        question: &mut PairQuestion<'_>,
+        work: &mut Work,
+    ) -> Option<bool> {
+        let [first, _] = &self.pose.frames;
+        let coarser = greater(f64::from(first.unit), self.pose.longest);
+        let rounding = self.pose.vertex_error_exact;
+        let mut left_out = 0;
+        loop {
+            let lower = question.limit() - coarser * WHOLE_GAP;
+            let beyond = between.pairs_beyond(lower + (rounding + rounding), leaves)?;
+            if beyond & !left_out != 0 {
+                // An infinite upper end is never the best, so the points are not used.
+                let (points, upper) = ([[0.0; 3]; 2], f64::INFINITY);
+                question.take(&TriangleGap { place: places, lower, upper, meets: false, points });
+            }
+            left_out |= beyond;
+            if left_out == u64::MAX {
+                return Some(true);
+            }
+            let visit = self.visit(leaves, places, Some(left_out), question, false, work)?;
+            if !visit.goes_on || visit.pairs == 0 {
+                return Some(visit.goes_on);
+            }
+            left_out |= visit.pairs;
+            if let Some(new) = self.between() {
+                *between = new;
+            }
+        }
     }
 
     fn without_rounding(&self, lower: f64) -> f64 {
@@ -77,13 +105,15 @@ impl LeafGaps<'_> {
         greater(0.0, lower - (rounding + rounding))
     }
 
-    /// Visits the pairs of triangles of two leaves that may be within the limit. `keeps`: also finds
-    /// a lower bound of the distance of both leaves.
-    #[inline(always)]
+    /// Visits the pairs of triangles of two leaves that may be within the limit. `left_out`: leaves
+    /// out the pairs with these bits, and ends after one pair. `keeps`: also finds a lower bound of
+    /// the distance of both leaves.
+    #[inline(never)]
     pub(crate) fn visit(
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
         [first_at, second_at]: [TriangleAt; 2],
+        left_out: Option<u64>,
         question: &mut PairQuestion<'_>,
         keeps: bool,
         work: &mut Work,
@@ -101,7 +131,7 @@ impl LeafGaps<'_> {
         let mut seen = Measured { pairs: 0, lower: f64::INFINITY };
         let visit = |direction, goes_on, seen: &Measured| {
             let lower = if keeps { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
-            Some(LeafVisit { goes_on, lower })
+            Some(LeafVisit { goes_on, lower, pairs: seen.pairs })
         };
         if !may_be_near(self.direction, limit_sq, &pair) {
             return visit(self.direction, true, &seen);
@@ -109,6 +139,11 @@ impl LeafGaps<'_> {
         let (first, second) = (&pair.a, &pair.b);
         let mut keys = keys(first, second, limit_sq)?;
         skip_along(&mut keys, self.direction, limit_sq, first, second);
+        if let Some(left_out) = left_out {
+            for (at, key) in keys.0.iter_mut().enumerate() {
+                *key = if left_out >> (at & (PAIRS - 1)) & 1 != 0 { NO_PAIR } else { *key };
+            }
+        }
         work.triangles =
             work.triangles.saturating_add((pair.a.triangles * pair.b.triangles) as u32);
         loop {
@@ -126,8 +161,9 @@ impl LeafGaps<'_> {
                 pairs: seen.pairs | pair_bit(key),
                 lower: lesser(seen.lower, gap.lower),
             };
-            if !question.take(&gap) {
-                return visit(self.direction, false, &seen);
+            let goes_on = question.take(&gap);
+            if !goes_on || left_out.is_some() {
+                return visit(self.direction, goes_on, &seen);
             }
             limit_sq = reach_sq(question);
             skip_along(&mut keys, self.direction, limit_sq, first, second);

@@ -15,3 +15,4 @@ pub(super) mod left_out;
 pub(super) mod nearest_first;
 pub(super) mod pair_keys;
 pub(super) mod question;
+pub(super) mod whole_way;

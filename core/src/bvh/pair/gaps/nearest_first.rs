@@ -173,8 +173,8 @@ impl<'s, 'a> Search<'s, 'a> {
                 let ([node_a, node_b], [index_a, index_b]) = (nodes, indices);
                 let place =
                     [TriangleAt::new(node_a, index_a, 0), TriangleAt::new(node_b, index_b, 0)];
-                let visit = leaves.visit([&p, &q], place, question, left.is_some(), work);
-                let LeafVisit { goes_on, lower } = visit.ok_or(QueryError::Unchecked)?;
+                let visit = leaves.visit([&p, &q], place, None, question, left.is_some(), work);
+                let LeafVisit { goes_on, lower, .. } = visit.ok_or(QueryError::Unchecked)?;
                 if let Some(left) = &mut left {
                     left.keep(ChildPairs { nodes, wanted: pair_bit(key) }, lower);
                 }

@@ -1,7 +1,8 @@
 //! The direction along which pairs are apart.
 
+use crate::bvh::tree::format::FanLeaf;
 use crate::num::tolerance::U32;
-use crate::num::{dot, sqrt_approx};
+use crate::num::{dot, greater, sqrt_approx};
 use glam::Vec3;
 
 /// A direction in the first grid, towards the second model. Any direction serves, so its own
@@ -54,5 +55,20 @@ impl WholeDirection {
         let [x, y, z] = (way * (power * BITS)).to_array();
         let way = [x as i32 + 1, y as i32 + 1, z as i32 + 1];
         Some(WholeDirection { way, unit: 1.0 / (power * BITS) })
+    }
+
+    /// The greatest height of a leaf's vertices along the direction, units of its grid.
+    #[inline(never)]
+    pub(crate) fn top(&self, leaf: &FanLeaf<'_>) -> Option<f32> {
+        let ring = leaf.grid_ring()?;
+        let [x, y, z] = self.way.map(i64::from);
+        let height = |[p, q, r]: [i32; 3]| i64::from(p) * x + i64::from(q) * y + i64::from(r) * z;
+        let [first, second] = ring.centres;
+        let mut top = greater(height(first), height(second));
+        for ((x, y), z) in ring.x.iter().zip(ring.y).zip(ring.z) {
+            let whole = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
+            top = greater(top, height([whole(x), whole(y), whole(z)]));
+        }
+        Some(top as f32 * self.unit)
     }
 }

@@ -4,7 +4,7 @@ use super::grid_pose::GridPose;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::{GapLimits, HullGap};
 use crate::num::tolerance::{GAP_SLACK, LEAST_NEAR, SQUARED_SLACK, U32};
-use crate::num::{greater, sqrt_approx};
+use crate::num::{greater, lesser, sqrt_approx};
 use crate::query::ScratchEntry;
 
 /// Two triangles, one of each model.
@@ -34,9 +34,11 @@ pub(crate) struct Threshold {
     clear_sq: f32,
 }
 
-/// The triangles that may be the nearest ones.
+/// The leaves that may have the nearest triangles.
 pub(crate) struct Nearest<'s> {
     pub(crate) candidates: Candidates<'s>,
+    /// Triangles with the two points of `upper_sq`.
+    pub(crate) best: TrianglesAt,
     /// The search ended early, at two triangles that are within rounding of each other.
     pub(crate) is_cut: bool,
     /// Least squared distance, as computed, of two points of the models so far.
@@ -67,11 +69,12 @@ impl<'s> Goal<'s> {
         Goal { far, limits, wanted: Wanted::Near(threshold) }
     }
 
-    /// The triangles that may be the nearest ones. `scratch` keeps them, two entries each.
+    /// The leaves that may have the nearest triangles. `scratch` keeps them, two entries each.
     pub(crate) fn nearest(pose: &GridPose<'_>, scratch: &'s mut [ScratchEntry]) -> Goal<'s> {
         let limits = GapLimits { far_sq: f32::INFINITY, near_sq: -1.0 };
         let nearest = Nearest {
             candidates: Candidates::new(scratch),
+            best: [TriangleAt::NONE; 2],
             is_cut: false,
             upper_sq: f32::INFINITY,
             rounding: pose.rounding,
@@ -89,15 +92,27 @@ impl<'s> Goal<'s> {
             }
             return threshold.near.is_none();
         }
-        self.bring_upper(square);
+        self.bring_upper(square, places);
         true
+    }
+
+    /// Whether two leaves whose hulls have this gap are kept as they are: none of their triangles
+    /// is nearer than the nearest ones so far, but for rounding.
+    #[inline(always)]
+    pub(crate) fn keeps(&mut self, place: TrianglesAt, gap_sq: f32) -> bool {
+        let Wanted::Nearest(nearest) = &mut self.wanted else { return false };
+        let is_kept = gap_sq >= nearest.upper_sq * HULLS_SETTLED;
+        if is_kept {
+            nearest.candidates.add(place, gap_sq, self.limits.far_sq);
+        }
+        is_kept
     }
 
     /// Takes what was found of two triangles. Returns whether the search goes on.
     #[inline(always)]
     pub(crate) fn take(&mut self, place: TrianglesAt, found: &HullGap) -> bool {
         let &HullGap { gap_sq, hull_sq, .. } = found;
-        self.bring_upper(hull_sq);
+        self.bring_upper(hull_sq, || place);
         match &mut self.wanted {
             Wanted::Near(threshold) if hull_sq <= self.limits.near_sq => {
                 threshold.near = Some(place);
@@ -126,11 +141,11 @@ impl<'s> Goal<'s> {
 
     /// Lowers the limit of [`Wanted::Nearest`] to the squared distance of two points.
     #[inline(always)]
-    fn bring_upper(&mut self, square: f32) {
+    fn bring_upper(&mut self, square: f32, places: impl Fn() -> TrianglesAt) {
         if let Wanted::Nearest(nearest) = &mut self.wanted
             && square < nearest.upper_sq
         {
-            nearest.upper_sq = square;
+            (nearest.upper_sq, nearest.best) = (square, places());
             let upper = sqrt_approx(square) * (1.0 + 8.0 * U32);
             self.far = (upper + 2.0 * nearest.rounding) * (1.0 + 8.0 * U32);
             self.limits.far_sq = square_up(self.far);
@@ -138,10 +153,14 @@ impl<'s> Goal<'s> {
     }
 }
 
+/// The part of the least squared distance that the gap of two leaves must have. No answer depends
+/// on it.
+const HULLS_SETTLED: f32 = 1.0 - 2e-5;
+
 /// Entries of a candidate.
 const ENTRIES: usize = 2;
 
-/// Pairs of triangles in the caller's scratch memory.
+/// Pairs of leaves in the caller's scratch memory.
 pub(crate) struct Candidates<'s> {
     slots: &'s mut [[ScratchEntry; ENTRIES]],
     used: usize,
@@ -154,8 +173,17 @@ impl<'s> Candidates<'s> {
         Candidates { slots: scratch.as_chunks_mut::<ENTRIES>().0, used: 0, is_short: false }
     }
 
-    /// Adds one, and drops those beyond the limit if memory ends.
-    fn add(&mut self, [a, b]: TrianglesAt, gap_sq: f32, limit_sq: f32) {
+    /// Adds one, and drops those beyond the limit if memory ends. The leaves that were added last
+    /// are not added again.
+    fn add(&mut self, place: TrianglesAt, gap_sq: f32, limit_sq: f32) {
+        let [a, b] = place.map(|triangle| triangle.with_lane(0));
+        if let Some([first, second]) =
+            self.used.checked_sub(1).and_then(|at| self.slots.get_mut(at))
+            && [first.node(), second.node()] == [a.word(), b.word()]
+        {
+            *first = ScratchEntry::new(lesser(first.key(), gap_sq), a.word());
+            return;
+        }
         if self.used == self.slots.len() {
             self.drop_beyond(limit_sq);
         }
@@ -185,17 +213,10 @@ impl<'s> Candidates<'s> {
         }
     }
 
-    /// Takes the one with the least gap.
-    pub(crate) fn remove_least(&mut self) -> Option<TrianglesAt> {
-        let last = self.used.checked_sub(1)?;
-        let used = self.slots.get_mut(..self.used)?;
-        let least = (0..used.len()).reduce(|best, at| {
-            let key = |at: usize| used.get(at).map_or(f32::INFINITY, |[first, _]| first.key());
-            if key(at) < key(best) { at } else { best }
-        })?;
-        let end = *used.get(last)?;
-        let [first, second] = core::mem::replace(used.get_mut(least)?, end);
-        self.used = last;
+    /// Takes the last one.
+    pub(crate) fn take_last(&mut self) -> Option<TrianglesAt> {
+        self.used = self.used.checked_sub(1)?;
+        let [first, second] = self.slots.get(self.used)?;
         Some([TriangleAt::of_word(first.node()), TriangleAt::of_word(second.node())])
     }
 }

@@ -110,7 +110,7 @@ pub(crate) fn visit(
     if !goal.take_vertices(hull.vertex_sq, || [a.triangle_with(p), b.triangle_with(q)]) {
         return visit(false);
     }
-    if hull.gap_sq > goal.limits.far_sq {
+    if hull.gap_sq > goal.limits.far_sq || goal.keeps([a.of, b.of], hull.gap_sq) {
         return visit(true);
     }
     let (first, second) = (a.corners(), b.corners());
@@ -131,6 +131,9 @@ pub(crate) fn visit(
         way = found.way;
         if !goal.take([a.of.with_lane(i), b.of.with_lane(j)], &found) {
             return visit(false);
+        }
+        if goal.keeps([a.of, b.of], hull.gap_sq) {
+            return visit(true);
         }
     }
 }

@@ -19,7 +19,7 @@
 //! | `search` | the descent of both trees |
 
 mod between_boxes;
-mod direction;
+pub(crate) mod direction;
 mod goal;
 pub(crate) mod grid_pose;
 mod leaf_hulls;

@@ -3,9 +3,10 @@
 use super::direction::{Direction, WholeDirection};
 use super::grid_pose::GridPose;
 use super::pending::Pending;
+use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::format::layout::boxes;
-use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::bvh::tree::node::WIDE;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::geom::{Rows, columns, turned};
 use crate::num::{Real, difference, dot, each, float, greater, lesser};
@@ -41,6 +42,12 @@ impl Children {
             return Children::of(tree, links.first_node.wrapping_add(index));
         }
         Some(Children { node, wanted: 1 << (index & 7), inner: 0, is_leaf: true })
+    }
+
+    /// The leaf of a triangle, alone.
+    #[inline(always)]
+    pub(crate) fn leaf_of(place: TriangleAt) -> Children {
+        Children { node: place.node(), wanted: 1 << place.child(), inner: 0, is_leaf: true }
     }
 
     /// The leaf, if it is one alone.
@@ -207,12 +214,12 @@ pub(crate) fn open(
         // The vertices of a leaf reach less far than its box.
         if let Some(whole) = WholeDirection::of(way) {
             for i in bits(leaves_a) {
-                tops_a[i] = lesser(tops_a[i], leaf_top(&tree_a.leaf(a.node, i as u32)?, &whole)?);
+                tops_a[i] = lesser(tops_a[i], whole.top(&tree_a.leaf(a.node, i as u32)?)?);
             }
         }
         if let Some(whole) = WholeDirection::of(back) {
             for j in bits(leaves_b) {
-                tops_b[j] = lesser(tops_b[j], leaf_top(&tree_b.leaf(b.node, j as u32)?, &whole)?);
+                tops_b[j] = lesser(tops_b[j], whole.top(&tree_b.leaf(b.node, j as u32)?)?);
             }
         }
         waiting.retain(|[i, j]| !is_beyond(left(tops_b[j]), tops_a[i]));
@@ -273,19 +280,4 @@ impl<'b, 'a> MovedBoxes<'b, 'a> {
         let [sum, length] = self.boxes.doubled(j);
         AxisBox { middle: turned(&self.rows, sum) + self.start, half: turned(&self.sizes, length) }
     }
-}
-
-/// The greatest height of a leaf's vertices along a direction. Units as in [`NodeBoxes::tops`].
-#[inline(never)]
-fn leaf_top(leaf: &FanLeaf<'_>, direction: &WholeDirection) -> Option<f32> {
-    let ring = leaf.grid_ring()?;
-    let [x, y, z] = direction.way.map(i64::from);
-    let height = |[p, q, r]: [i32; 3]| i64::from(p) * x + i64::from(q) * y + i64::from(r) * z;
-    let [first, second] = ring.centres;
-    let mut top = greater(height(first), height(second));
-    for ((x, y), z) in ring.x.iter().zip(ring.y).zip(ring.z) {
-        let whole = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
-        top = greater(top, height([whole(x), whole(y), whole(z)]));
-    }
-    Some(top as f32 * direction.unit)
 }

@@ -2,16 +2,32 @@
 
 use super::between_boxes::between_boxes;
 use super::direction::Direction;
-use super::goal::{Candidates, Goal, TrianglesAt, Wanted, square_up};
+use super::goal::{Candidates, Goal, Nearest, TrianglesAt, Wanted, square_up};
 use super::grid_pose::GridPose;
 use super::leaf_hulls::{LeafHull, LeafVisit, visit};
 use super::node_boxes::{Children, Reach, open};
 use super::pending::Pending;
 use crate::bvh::pair::models::most_pairs;
 use crate::bvh::tree::triangle_at::TriangleAt;
-use crate::num::lesser;
 use crate::num::tolerance::U32;
+use crate::num::{float, lesser};
 use crate::query::{ScratchEntry, Work};
+use glam::Vec3;
+
+/// What a search starts with, and leaves to the next one of the same two models. No answer depends
+/// on it but the triangles that are named near.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SearchStart {
+    /// The direction that is tried first, rounded. Zero: the one between the boxes.
+    way: [i8; 3],
+    /// The leaves that are visited first: of the triangles that were near.
+    near: TrianglesAt,
+}
+
+impl SearchStart {
+    /// Nothing is known.
+    pub(crate) const NONE: SearchStart = SearchStart { way: [0; 3], near: [TriangleAt::NONE; 2] };
+}
 
 /// What is proved of two models.
 pub(crate) enum Separation {
@@ -29,13 +45,15 @@ pub(crate) enum Separation {
 pub(crate) fn separation(
     pose: &GridPose<'_>,
     asked: [f32; 2],
+    start: &mut SearchStart,
     steps: u32,
     scratch: &mut [ScratchEntry],
     work: &mut Work,
 ) -> Separation {
     let mut goal = Goal::threshold(pose, asked);
-    let end = descend(pose, &mut goal, steps, scratch, work);
+    let end = descend(pose, &mut goal, start, steps, scratch, work);
     let Wanted::Near(threshold) = &goal.wanted else { return Separation::Undecided };
+    start.near = threshold.near.unwrap_or([TriangleAt::NONE; 2]);
     match (threshold.near, end) {
         (Some(place), Some(_)) => Separation::Near(place),
         (None, Some(())) if !threshold.is_undecided => {
@@ -48,30 +66,33 @@ pub(crate) fn separation(
     }
 }
 
-/// Pairs of triangles. If `are_all`, every pair that may be the nearest is among them.
-pub(crate) struct NearestTriangles<'s> {
+/// Pairs of leaves. If `are_all`, every pair of triangles that may be the nearest is in them.
+pub(crate) struct NearestLeaves<'s> {
+    /// Two triangles that are nearest, as far as f32 tells.
+    pub(crate) best: TrianglesAt,
     pub(crate) candidates: Candidates<'s>,
     pub(crate) are_all: bool,
 }
 
-/// The pairs of triangles that may be the nearest ones, as far as f32 tells. Three quarters of
+/// The leaves that may have the nearest triangles, as far as f32 tells. Three quarters of
 /// `scratch` hold pairs of nodes that wait, one quarter holds the result.
 #[inline(never)]
-pub(crate) fn nearest_triangles<'s>(
+pub(crate) fn nearest_leaves<'s>(
     pose: &GridPose<'_>,
     steps: u32,
     scratch: &'s mut [ScratchEntry],
     work: &mut Work,
-) -> Option<NearestTriangles<'s>> {
+) -> Option<NearestLeaves<'s>> {
     let (waiting, kept) = scratch.split_at_mut_checked(scratch.len() / 4 * 3)?;
     let mut goal = Goal::nearest(pose, kept);
-    let end = descend(pose, &mut goal, steps, waiting, work);
+    let end =
+        descend(pose, &mut goal, &mut SearchStart { ..SearchStart::NONE }, steps, waiting, work);
     let far_sq = goal.limits.far_sq;
     let Wanted::Nearest(nearest) = goal.wanted else { return None };
-    let (mut candidates, is_cut) = (nearest.candidates, nearest.is_cut);
+    let Nearest { best, mut candidates, is_cut, .. } = nearest;
     candidates.drop_beyond(far_sq);
     let are_all = end.is_some() && !is_cut && !candidates.is_short;
-    Some(NearestTriangles { candidates, are_all })
+    (best[0] != TriangleAt::NONE).then_some(NearestLeaves { best, candidates, are_all })
 }
 
 /// Visits every pair of leaves that may matter to the goal, until the goal is reached. `None` if
@@ -80,16 +101,42 @@ pub(crate) fn nearest_triangles<'s>(
 fn descend(
     pose: &GridPose<'_>,
     goal: &mut Goal<'_>,
+    start: &mut SearchStart,
+    steps: u32,
+    scratch: &mut [ScratchEntry],
+    work: &mut Work,
+) -> Option<()> {
+    let [x, y, z] = start.way.map(|x| float(i32::from(x)));
+    let mut direction = match Direction::of(Vec3::new(x, y, z)) {
+        Some(direction) => direction,
+        None => between_boxes(pose)?,
+    };
+    let end = visit_leaves(pose, goal, (&mut direction, start.near), steps, scratch, work);
+    // No component is 2 or more.
+    start.way = direction.way.to_array().map(|x| (x * 63.0) as i8);
+    end
+}
+
+#[inline(always)]
+fn visit_leaves(
+    pose: &GridPose<'_>,
+    goal: &mut Goal<'_>,
+    (direction, [first_a, first_b]): (&mut Direction, TrianglesAt),
     steps: u32,
     scratch: &mut [ScratchEntry],
     work: &mut Work,
 ) -> Option<()> {
     let [a, b] = pose.trees;
     let steps = lesser(steps, work.opened.saturating_add(most_pairs(a, b)));
-    let mut direction = between_boxes(pose)?;
     let mut pending = Pending::new(scratch);
     let mut hulls = [LeafHull::NONE; 2];
-    let mut children = [Children::of(a, 0)?, Children::of(b, 0)?];
+    let roots = || Some([Children::of(a, 0)?, Children::of(b, 0)?]);
+    let mut are_roots_next = first_a != TriangleAt::NONE;
+    let mut children = if are_roots_next {
+        [Children::leaf_of(first_a), Children::leaf_of(first_b)]
+    } else {
+        roots()?
+    };
     loop {
         let length = goal.far + pose.box_error;
         let reach = Reach { length: length * (1.0 + 16.0 * U32), square: square_up(length) };
@@ -102,14 +149,18 @@ fn descend(
                 return Some(());
             }
             if let Some(turned) = way.and_then(Direction::of) {
-                direction = turned;
+                *direction = turned;
             }
         } else {
             if work.opened >= steps {
                 return None;
             }
             work.opened += 1;
-            open(pose, &children, &direction, &reach, &mut pending, work)?;
+            open(pose, &children, direction, &reach, &mut pending, work)?;
+        }
+        if are_roots_next {
+            (children, are_roots_next) = (roots()?, false);
+            continue;
         }
         let length = goal.far + pose.box_error;
         let Some(([node_a, node_b], [i, j])) = pending.next(square_up(length)) else {

@@ -1,0 +1,108 @@
+//! Leaves along a direction in integers.
+//!
+//! Stored vertices and the direction are integers, so heights are exact. `core/docs/rounding.md`
+//! §26, *The nearest triangles*.
+
+use crate::bvh::tree::format::FanLeaf;
+use crate::geom::fan::WIDTH;
+use crate::num::greater;
+use crate::query::RelativePose;
+
+/// A direction in integers, in the grids of both models.
+pub(crate) struct WholeWay<'a> {
+    pose: &'a RelativePose,
+    /// From the first model to the second, in the first grid.
+    way: [i64; 3],
+    /// The other way round, in the second grid, rounded up.
+    back: [i64; 3],
+    /// The length of one unit of `back` in units of `way`.
+    back_unit: f64,
+    /// The height of the second grid's origin, and the length of `way`.
+    shift: f64,
+    length: f64,
+}
+
+impl<'a> WholeWay<'a> {
+    #[inline(never)]
+    pub(crate) fn new(pose: &'a RelativePose, offset: [f64; 3]) -> Option<WholeWay<'a>> {
+        let (way, _) = whole(offset)?;
+        let [x, y, z] = way.map(|x| x as f64);
+        let RelativePose { matrix: [r, s, t], shift_exact: [u, v, w], .. } = *pose;
+        let column = |k: usize| {
+            let along = |row: &[f32; 3]| f64::from(row.get(k).copied().unwrap_or(0.0));
+            -((x * along(&r) + y * along(&s)) + z * along(&t))
+        };
+        let (back, back_unit) = whole([column(0), column(1), column(2)])?;
+        Some(WholeWay {
+            pose,
+            way,
+            back,
+            back_unit,
+            shift: (x * u + y * v) + z * w,
+            length: libm::sqrt((x * x + y * y) + z * z),
+        })
+    }
+
+    /// The bits of the pairs of triangles that are at least so far apart, common units. All bits
+    /// are ones if all pairs are.
+    pub(crate) fn pairs_beyond(&self, far: f64, [first, second]: [&FanLeaf<'_>; 2]) -> Option<u64> {
+        let [frame, _] = &self.pose.frames;
+        let unit = f64::from(frame.unit);
+        let (tops, backs) = (WholeTops::new(first, self.way)?, WholeTops::new(second, self.back)?);
+        let left = self.shift - far * self.length;
+        let (top, back) = (|x: i64| x as f64 * unit, |x: i64| left - x as f64 * self.back_unit);
+        if back(backs.most) >= top(tops.most) {
+            return Some(u64::MAX);
+        }
+        let (tops, backs) = (tops.each.map(top), backs.each.map(back));
+        let mut pairs = 0;
+        for (i, top) in tops.iter().enumerate() {
+            for (j, back) in backs.iter().enumerate() {
+                pairs |= u64::from(back >= top) << (i * WIDTH + j);
+            }
+        }
+        Some(pairs)
+    }
+}
+
+/// The greatest heights of a leaf and of its triangles along a direction in integers.
+struct WholeTops {
+    most: i64,
+    each: [i64; WIDTH],
+}
+
+impl WholeTops {
+    #[inline(never)]
+    fn new(leaf: &FanLeaf<'_>, way: [i64; 3]) -> Option<WholeTops> {
+        let ring = leaf.grid_ring()?;
+        let [x, y, z] = way;
+        let height = |[p, q, r]: [i32; 3]| i64::from(p) * x + i64::from(q) * y + i64::from(r) * z;
+        let (shape, mut each, mut most) = (leaf.shape(), [i64::MIN; WIDTH], i64::MIN);
+        let centres = ring.centres.map(height);
+        let mut last = height(ring.vertex(0)?);
+        for (lane, top) in each.iter_mut().enumerate().take(shape.triangles()) {
+            let [first, second] = centres;
+            let centre = if lane < shape.turn() { first } else { second };
+            let next = height(ring.vertex(lane + 1)?);
+            *top = greater(centre, greater(last, next));
+            most = greater(most, *top);
+            last = next;
+        }
+        Some(WholeTops { most, each })
+    }
+}
+
+/// The greatest component of a direction has one bit more. A vertex has 16, so heights have 63.
+const BITS: u64 = 44;
+
+/// A direction in integers of at most 2^45, rounded up, and the length of their unit. `None` if it
+/// is zero, or very long or short.
+fn whole(way: [f64; 3]) -> Option<([i64; 3], f64)> {
+    let most = way.into_iter().fold(0.0, |most, x| greater(most, x.abs()));
+    let exponent = most.to_bits() >> 52;
+    if !(200..1800).contains(&exponent) {
+        return None;
+    }
+    let power = f64::from_bits((2046 + BITS - exponent) << 52);
+    Some((way.map(|x| (x * power) as i64 + 1), f64::from_bits((exponent - BITS) << 52)))
+}
