@@ -113,13 +113,17 @@ impl PreparedPoint {
         let farthest = farthest(p, low, high);
         let size = (Real(farthest.x) + Real(farthest.y) + Real(farthest.z)).0;
         // As numbers, for the size may be NaN.
-        let near = size <= BVH_FAR;
+        let near = if SOFT_FLOAT {
+            size.to_bits() <= BVH_FAR.to_bits()
+        } else {
+            size <= BVH_FAR
+        };
         // Of a point that is not finite the size is neither.
         if !(near || x.is_finite() && y.is_finite() && z.is_finite()) {
             return Err(QueryError::NotFinite);
         }
-        let fan = Real(header.star_radius).times_power(FAN_DISTANCE * U32).0;
-        let fan = greater(fan, LEAST_FAN_ROUNDING);
+        let fan = Real(header.star_radius).times_power(FAN_DISTANCE * U32);
+        let fan = greater(fan, Real(LEAST_FAN_ROUNDING)).0;
         let shortfall_sq = if header.is_f32() { 0.0 } else { CERTIFIED_SHORTFALL };
         let [ox, oy, oz] = header.grid_origin;
         let (ox, oy, oz) = (float(ox), float(oy), float(oz));

@@ -103,7 +103,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             best: Best { distance_sq: f32::MAX, node: u32::MAX, child: 0, lanes: Lanes::NONE },
             refine_below: f32::NEG_INFINITY,
             refined_lower_sq: f32::INFINITY,
-            tolerant: budget.relative > 0.0 || budget.absolute > 0.0,
+            tolerant: !is_exact(budget),
             #[cfg(meshsweep_wide)]
             is_alone: true,
             #[cfg(not(meshsweep_wide))]
@@ -240,13 +240,13 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
     ) -> Result<ClosestPoint, QueryError> {
         let Best { distance_sq, node, child, lanes, .. } = self.best;
         // Every triangle that was not refined has at least this squared lower bound.
-        let mut least_sq = match self.refine_below {
-            below if below > 0.0 => below,
+        let mut least_sq = match Real(self.refine_below) {
+            below if !below.is_at_most_zero() => below.0,
             // No leaf was visited.
-            f32::NEG_INFINITY => f32::MAX,
+            below if below == Real(f32::NEG_INFINITY) => f32::MAX,
             _ => 0.0,
         };
-        if self.refined_lower_sq < least_sq {
+        if Real(self.refined_lower_sq) < Real(least_sq) {
             least_sq = self.refined_lower_sq;
         }
         let mut ended = Ended::Exact;
@@ -315,6 +315,12 @@ impl<N: NearestOfLeaf> LeafVisitor for Closest<'_, N> {
         }
         Some(true)
     }
+}
+
+/// Whether a budget has no tolerance. None is negative.
+#[inline(always)]
+pub(crate) fn is_exact(budget: &Budget) -> bool {
+    Real(budget.relative).is_at_most_zero() && Real(budget.absolute).is_at_most_zero()
 }
 
 fn square(x: f32) -> f32 {

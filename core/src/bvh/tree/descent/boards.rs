@@ -21,7 +21,8 @@ impl Stack<'_> {
         let free = self.entries.get_mut(self.used..);
         let slots = match free.and_then(|free| free.first_chunk_mut::<WIDTH>()) {
             Some(slots) => slots,
-            None => spare.insert([ScratchEntry::EMPTY; WIDTH]),
+            // Of zeros alone it would be a call of `memclr`, for which alone firmware links it.
+            None => spare.insert([ScratchEntry::of_words([0, 1]); WIDTH]),
         };
         let Pushed { nearest, count } = query.push(tree, opened, slots)?;
         match &spare {

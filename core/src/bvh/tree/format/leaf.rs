@@ -320,7 +320,7 @@ impl<'a> FanLeaf<'a> {
                 return Some([(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])]);
             }
             let ([ax, ay, az], [bx, by, bz]) = (ring.vertex(lane)?, ring.vertex(lane + 1)?);
-            let [cx, cy, cz] = ring.centres(self.shape)[which & 1];
+            let [cx, cy, cz] = ring.centre(which);
             Some([(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])])
         }
         #[cfg(not(meshsweep_small))]

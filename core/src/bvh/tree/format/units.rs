@@ -52,7 +52,11 @@ impl Units {
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn point(&self, p: Vec3) -> [f32; 3] {
-        let outward = |x: f32| self.outward.times(x).clamp(-f32::MAX, f32::MAX);
+        let outward = |x: f32| {
+            let x = self.outward.times(x);
+            // Without an FPU a comparison of f32 is a call.
+            if SOFT_FLOAT && is_finite(x) { x } else { x.clamp(-f32::MAX, f32::MAX) }
+        };
         [outward(p.x), outward(p.y), outward(p.z)]
     }
 
@@ -117,13 +121,35 @@ impl Power {
 /// A lower bound in f32's normal range, or 0.
 #[inline(always)]
 pub(crate) fn at_least(x: f32) -> f32 {
-    if x >= f32::MIN_POSITIVE { lesser(x, f32::MAX) } else { 0.0 }
+    if !is_normal_and_positive(x) {
+        0.0
+    } else if SOFT_FLOAT {
+        f32::from_bits(lesser(x.to_bits(), f32::MAX.to_bits()))
+    } else {
+        lesser(x, f32::MAX)
+    }
 }
 
 /// An upper bound in f32's normal range, or infinite.
 #[inline(always)]
 pub(crate) fn at_most(x: f32) -> f32 {
-    if x >= f32::MIN_POSITIVE { x } else { f32::MIN_POSITIVE }
+    if is_normal_and_positive(x) { x } else { f32::MIN_POSITIVE }
+}
+
+/// Whether a number is at least the least normal one, or infinite.
+#[inline(always)]
+fn is_normal_and_positive(x: f32) -> bool {
+    const LEAST: u32 = f32::MIN_POSITIVE.to_bits();
+    if !SOFT_FLOAT {
+        return x >= f32::MIN_POSITIVE;
+    }
+    x.to_bits().wrapping_sub(LEAST) <= f32::INFINITY.to_bits() - LEAST
+}
+
+/// Whether a number is finite, by its bits.
+#[inline(always)]
+fn is_finite(x: f32) -> bool {
+    x.to_bits() << 1 < f32::INFINITY.to_bits() << 1
 }
 
 /// `2^exponent`, cut to the normal range of f32.

@@ -27,7 +27,7 @@
 //! | `box_distances` | a point against eight boxes: the choice between `box_lanes` and `two_in_word` |
 //! | `box_lanes` | a point against eight boxes, in vector registers, frame included |
 //! | `box_avx2` | the same, and the least key, in registers of 256 bits |
-//! | `axis_place` | `AxisPlace`, a point along one axis of a frame, on targets without vector registers |
+//! | `axis_place` | a point along one axis of a frame, on targets without vector registers |
 //! | `two_in_word` | a point against eight boxes, on targets without vector registers |
 //! | `slab_ray` | [`SlabRay`], a segment prepared for the test |
 //! | `slab_planes` | a segment against one box, on targets without vector registers |
