@@ -119,7 +119,7 @@ impl PreparedPoint {
             size <= BVH_FAR
         };
         // Of a point that is not finite the size is neither.
-        if !(near || x.is_finite() && y.is_finite() && z.is_finite()) {
+        if !near && 0.0 * x + 0.0 * y + 0.0 * z != 0.0 {
             return Err(QueryError::NotFinite);
         }
         let fan = Real(header.star_radius).times_power(FAN_DISTANCE * U32);

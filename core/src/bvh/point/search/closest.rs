@@ -212,8 +212,9 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             let (best_sq, lanes) = (self.best.distance_sq, &self.best.lanes);
             let here = node == self.best.node && child == self.best.child;
             let first = !here || lane < lanes.at(best_sq).0;
-            let nearer = better.distance_sq < best_sq || (better.distance_sq == best_sq && first);
-            if better.distance_sq < near.distance_sq && nearer {
+            let better_sq = better.distance_sq;
+            let nearer = if first { better_sq <= best_sq } else { better_sq < best_sq };
+            if better_sq < near.distance_sq && nearer {
                 self.improve(better.distance_sq, &Lanes::one(lane, &better), [node, child]);
             }
             // From here on a greater bound changes no answer: `refine_below` only falls.
