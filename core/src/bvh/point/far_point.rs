@@ -42,7 +42,7 @@ impl FarPoint<'_> {
             farthest[axis] = greater(below.abs(), above.abs());
         }
         let (near, far) = (length(nearest), length(farthest));
-        let fixed_error = scaled(query.fixed_error(), scale);
+        let fixed_error = scaled(query.fixed_error, scale);
         let margin = |distance: f32| distance * (2.0 * FAN_RELATIVE * U32) + fixed_error;
         // Any point of the surface serves: the first leaf. A damaged tree must not loop.
         let mut node = 0;

@@ -46,6 +46,9 @@ pub(crate) struct PointQuery {
     /// Rounding of a computed distance, grid units, in addition to [`FAN_RELATIVE`] roundings of
     /// the distance itself.
     pub(crate) rounding: f32,
+    /// The error of a distance that does not grow with the distance: rounding and surface error,
+    /// grid units.
+    pub(crate) fixed_error: f32,
     /// Added to a squared limit, so that no rounding hides a candidate.
     pub(crate) allowance: f32,
     /// The point in integers, on targets without floating point, if the model is near and on a
@@ -55,8 +58,8 @@ pub(crate) struct PointQuery {
     key_point: KeyPoint,
     /// Keys in a square of the grid unit: a power of two.
     keys_in_square: f32,
-    /// Rounding of the distance from a plane that parts the point from a leaf, grid units.
-    pub(crate) plane_error: f32,
+    /// The 1-norm of the way to the model's farthest corner, grid units.
+    size: f32,
     /// Square by which a lower bound may fall short: [`CERTIFIED_SHORTFALL`], or 0 for f32
     /// vertices.
     shortfall_sq: f32,
@@ -144,12 +147,13 @@ impl PreparedPoint {
             units,
             shortfall_sq,
             rounding: fan,
+            fixed_error: (Real(fan) + Real(units.surface_error)).0,
             allowance: (Real(fan).times_power(ALLOWANCE) * Real(fan)).0,
             whole,
             key_point,
             // Keys are halves of squares.
             keys_in_square: f32::from_bits((126 - 2 * key_point.unit_exponent()) << 23),
-            plane_error: (Real(size).times_power(PLANE_DISTANCE * U32) + Real(fan)).0,
+            size,
         };
         Ok(PreparedPoint { query, is_far: !near })
     }
@@ -246,21 +250,20 @@ impl PointQuery {
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn upper(&self, distance: f32) -> f32 {
-        let error = Real(distance).times_power(FAN_RELATIVE * U32) + Real(self.fixed_error());
+        let error = Real(distance).times_power(FAN_RELATIVE * U32) + Real(self.fixed_error);
         self.units.upper((Real(distance) + error).0)
     }
 
-    /// The error of a distance that does not grow with the distance: rounding and surface error,
-    /// grid units.
-    pub(crate) fn fixed_error(&self) -> f32 {
-        (Real(self.rounding) + Real(self.units.surface_error)).0
+    /// Rounding of the distance from a plane that parts the point from a leaf, grid units.
+    pub(crate) fn plane_error(&self) -> f32 {
+        (Real(self.size).times_power(PLANE_DISTANCE * U32) + Real(self.rounding)).0
     }
 
     /// Lower bound of the distance to the input surface, input units, from a computed one.
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn lower(&self, distance: f32) -> f32 {
-        let error = Real(distance).times_power(FAN_RELATIVE * U32) + Real(self.fixed_error());
+        let error = Real(distance).times_power(FAN_RELATIVE * U32) + Real(self.fixed_error);
         self.units.lower((Real(distance) - error).0)
     }
 }

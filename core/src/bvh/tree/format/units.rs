@@ -54,8 +54,7 @@ impl Units {
     pub(crate) fn point(&self, p: Vec3) -> [f32; 3] {
         let outward = |x: f32| {
             let x = self.outward.times(x);
-            // Without an FPU a comparison of f32 is a call.
-            if SOFT_FLOAT && is_finite(x) { x } else { x.clamp(-f32::MAX, f32::MAX) }
+            if SOFT_FLOAT && is_finite(x) { x } else { kept_finite(x) }
         };
         [outward(p.x), outward(p.y), outward(p.z)]
     }
@@ -144,6 +143,14 @@ fn is_normal_and_positive(x: f32) -> bool {
         return x >= f32::MIN_POSITIVE;
     }
     x.to_bits().wrapping_sub(LEAST) <= f32::INFINITY.to_bits() - LEAST
+}
+
+/// The nearest finite number. Without an FPU it is a call, for else the compiler compares every
+/// number, which is a call too.
+#[cfg_attr(meshsweep_soft_float, cold, inline(never))]
+#[cfg_attr(not(meshsweep_soft_float), inline(always))]
+fn kept_finite(x: f32) -> f32 {
+    x.clamp(-f32::MAX, f32::MAX)
 }
 
 /// Whether a number is finite, by its bits.
