@@ -113,7 +113,8 @@ impl PreparedPoint {
         let p = units.inward_point(point);
         let header = tree.header();
         let (low, high) = tree.grid_bounds();
-        let farthest = farthest(p, low, high);
+        let from_low = difference(p, low);
+        let farthest = farthest(from_low, difference(p, high));
         let size = (Real(farthest.x) + Real(farthest.y) + Real(farthest.z)).0;
         // As numbers, for the size may be NaN.
         let near = if SOFT_FLOAT {
@@ -128,10 +129,14 @@ impl PreparedPoint {
         let fan = Real(header.star_radius).times_power(FAN_DISTANCE * U32);
         let fan = greater(fan, Real(LEAST_FAN_ROUNDING)).0;
         let shortfall_sq = if header.is_f32() { 0.0 } else { CERTIFIED_SHORTFALL };
-        let [ox, oy, oz] = header.grid_origin;
-        let (ox, oy, oz) = (float(ox), float(oy), float(oz));
         let most = greater(greater(Real(farthest.x), Real(farthest.y)), Real(farthest.z)).0;
-        let from_origin = difference(p, Vec3::new(ox, oy, oz));
+        let from_origin = if SOFT_FLOAT && header.low == [0; 3] {
+            // The same numbers.
+            from_low
+        } else {
+            let [x, y, z] = header.grid_origin;
+            difference(p, Vec3::new(float(x), float(y), float(z)))
+        };
         let key_point = KeyPoint::new(from_origin, most);
         let whole = if SOFT_FLOAT && !header.is_f32() {
             IntPoint::new(from_origin.to_array())
@@ -270,11 +275,11 @@ impl PointQuery {
 
 /// By axis the largest way from a point to a corner of a box.
 #[inline(always)]
-fn farthest(p: Vec3, low: Vec3, high: Vec3) -> Vec3 {
+fn farthest(from_low: Vec3, from_high: Vec3) -> Vec3 {
+    let (low, high) = (from_low.abs(), from_high.abs());
     if !SOFT_FLOAT {
-        return (p - low).abs().max((p - high).abs());
+        return low.max(high);
     }
-    let (low, high) = (difference(p, low).abs(), difference(p, high).abs());
     let most = |a: f32, b: f32| greater(Real(a), Real(b)).0;
     Vec3::new(most(low.x, high.x), most(low.y, high.y), most(low.z, high.z))
 }
