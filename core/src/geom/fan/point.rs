@@ -264,8 +264,8 @@ fn normal(e: Vec3, g: Vec3) -> Vec3 {
 /// Whether all coordinates are whole numbers below `most`.
 #[cfg_attr(meshsweep_small, inline(never))]
 pub(crate) fn is_whole(v: Vec3, most: f32) -> bool {
-    let is_whole = |x: f32| x as i32 as f32 == x && x.abs() < most;
-    is_whole(v.x) && is_whole(v.y) && is_whole(v.z)
+    let parts: &[f32; 3] = v.as_ref();
+    parts.iter().all(|&x| x as i32 as f32 == x && x.abs() < most)
 }
 
 /// The difference of two products of whole numbers, rounded once.

@@ -8,7 +8,9 @@ use super::grid_ring::{GRID_WINDOW, GridRing, short, three};
 use super::leaf_shape::LeafShape;
 #[cfg(meshsweep_wide)]
 use crate::geom::fan::{Ring8, WIDTH};
-use crate::num::{Real, SOFT_FLOAT, float, reals};
+#[cfg(meshsweep_small)]
+use crate::num::SOFT_FLOAT;
+use crate::num::{Real, float, reals};
 use glam::Vec3;
 
 /// Numbers of the triangles whose bits are ones.

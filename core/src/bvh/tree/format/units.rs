@@ -52,11 +52,12 @@ impl Units {
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn point(&self, p: Vec3) -> [f32; 3] {
-        let outward = |x: f32| {
-            let x = self.outward.times(x);
-            if SOFT_FLOAT && is_finite(x) { x } else { kept_finite(x) }
-        };
-        [outward(p.x), outward(p.y), outward(p.z)]
+        let mut point = p.to_array();
+        for x in &mut point {
+            let outward = self.outward.times(*x);
+            *x = if SOFT_FLOAT && is_finite(outward) { outward } else { kept_finite(outward) };
+        }
+        point
     }
 
     /// A lower bound in input units: at least 0, and below f32's normal range 0.

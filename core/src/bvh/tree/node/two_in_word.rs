@@ -187,8 +187,9 @@ fn any_axes(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> ([AxisPlanes; 3], bool)
     ([axis(0, x), axis(1, y), axis(2, z)], (x | y | z) < 0)
 }
 
-/// An axis of any frame. A call: a loop over axes would keep its numbers in memory.
-#[inline(never)]
+/// An axis of any frame. In small code a call: a loop over axes would keep its numbers in memory.
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
 fn any_axis(row: &[[u8; 2]; 3], offset: &[i32; 3], above: i32) -> AxisPlanes {
     // A byte stands for the high one of sixteen bits, of which the low ones are cut off.
     let least = (0xFF00 >> (8 - greater(above, -FINEST))) - MAX_DISTANCE;
@@ -228,10 +229,9 @@ fn cut_planes(record: &[u8; FRAME_BYTES], p: &KeyPoint, words: &PlaneWords) -> P
     [a, b, c, d, e, f, g, h, i, j, k, l]
 }
 
-/// Squared distances of the children from the point, in squares of key units. Those of absent
-/// children have no meaning.
+/// Squared distances of the children from the point, in squares of key units.
 #[inline(always)]
-fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> [u32; WIDTH] {
+fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH] {
     let (mut axes, is_fine, mut fine);
     let (words, _) = record.as_chunks::<4>();
     let Some(mut words) = words.first_chunk::<PLANE_WORDS>() else { return [ABSENT; WIDTH] };
@@ -260,7 +260,15 @@ fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> [u32; WIDTH] {
     };
     let [a, b, c, d] = squares_of_four(first, &axes);
     let [e, f, g, h] = squares_of_four(second, &axes);
-    [a, b, c, d, e, f, g, h]
+    let mut squares = [a, b, c, d, e, f, g, h];
+    // Planes of absent children have no meaning. Small code does not look at them.
+    let mut absent = if cfg!(meshsweep_small) { WIDTH } else { count as usize };
+    while absent < WIDTH {
+        // Of equal bytes the loop would become a call of `memset`.
+        squares[absent & (WIDTH - 1)] = ABSENT;
+        absent += 1;
+    }
+    squares
 }
 
 /// Keys of a node's children, as [`box_distances`](super::box_distances()) has them.
@@ -272,8 +280,9 @@ pub(super) fn keys(
     parent: u32,
     keys: &mut [u32; WIDTH],
 ) {
-    for (child, (key, square)) in (0..).zip(keys.iter_mut().zip(squares(record, p))) {
-        *key = key_of(if child < count { square } else { ABSENT }, parent, child);
+    for (child, (key, square)) in (0..).zip(keys.iter_mut().zip(squares(record, p, count))) {
+        let square = if cfg!(meshsweep_small) && child >= count { ABSENT } else { square };
+        *key = key_of(square, parent, child);
     }
 }
 
@@ -294,7 +303,8 @@ pub(super) fn push(
 ) -> Pushed {
     let &OpenedNode { node, count, bound, limit } = opened;
     let mut pusher = Pusher::new(node, slots);
-    for (child, &square) in (0..count).zip(&squares(record, p)) {
+    let looked_at = if cfg!(meshsweep_small) { count } else { WIDTH as u32 };
+    for (child, &square) in (0..looked_at).zip(&squares(record, p, count)) {
         // The limit's low bits are ones, so the key need not be made first.
         if square >> 1 <= limit {
             pusher.push(key_of(square, bound, child));
