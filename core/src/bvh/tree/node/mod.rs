@@ -49,7 +49,7 @@ mod entry_avx2;
 #[cfg(meshsweep_wide)]
 mod entry_lanes;
 mod frame;
-#[cfg(any(test, not(meshsweep_wide)))]
+#[cfg(any(test, meshsweep_soft_float))]
 mod grid_line;
 #[cfg(any(test, not(meshsweep_wide)))]
 mod integer_entries;
@@ -74,7 +74,7 @@ pub(crate) use box_entries::push_entries;
 #[cfg(meshsweep_avx2)]
 pub(crate) use entry_avx2::keys as box_entries_avx2;
 pub use frame::KeyPoint;
-#[cfg(any(test, not(meshsweep_wide)))]
+#[cfg(meshsweep_soft_float)]
 pub use grid_line::GridLine;
 pub use keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory, least_key};
 #[cfg(meshsweep_wide)]
