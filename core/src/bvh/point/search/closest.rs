@@ -256,11 +256,15 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             least_sq = lesser(least_sq, square(self.query.distance_of_key(least)));
         }
         if node == u32::MAX {
-            let mut answer = FarPoint { query: self.query }.closest_point(self.tree, self.point)?;
-            let Interval { lower, upper } = answer.distance;
-            let least = self.query.lower(sqrt_approx(least_sq));
-            answer.distance.lower = lesser(greater(lower, least), upper);
-            return Ok(ClosestPoint { work, ended, ..answer });
+            // In place: a copy is made number by number.
+            let mut answer = FarPoint { query: self.query }.closest_point(self.tree, self.point);
+            if let Ok(answer) = &mut answer {
+                let Interval { lower, upper } = answer.distance;
+                let least = self.query.lower(sqrt_approx(least_sq));
+                answer.distance.lower = lesser(greater(lower, least), upper);
+                (answer.work, answer.ended) = (work, ended);
+            }
+            return answer;
         }
         *hint = Hint::of(node, child);
         let distance = sqrt_approx(distance_sq);
