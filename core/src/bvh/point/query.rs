@@ -117,11 +117,7 @@ impl PreparedPoint {
         let farthest = farthest(from_low, difference(p, high));
         let size = (Real(farthest.x) + Real(farthest.y) + Real(farthest.z)).0;
         // As numbers, for the size may be NaN.
-        let near = if SOFT_FLOAT {
-            size.to_bits() <= BVH_FAR.to_bits()
-        } else {
-            size <= BVH_FAR
-        };
+        let near = if SOFT_FLOAT { size.to_bits() <= BVH_FAR.to_bits() } else { size <= BVH_FAR };
         // Of a point that is not finite the size is neither.
         if !near && 0.0 * x + 0.0 * y + 0.0 * z != 0.0 {
             return Err(QueryError::NotFinite);

@@ -52,7 +52,10 @@ pub(crate) fn search_by_blocks(
         impl NearestOfLeaf,
     >,
 ) -> Option<Result<ClosestPoint, QueryError>> {
-    if !is_exact(budget) || budget.steps < tree.most_steps() || scratch.len() < tree.scratch_entries() {
+    if !is_exact(budget)
+        || budget.steps < tree.most_steps()
+        || scratch.len() < tree.scratch_entries()
+    {
         return None;
     }
     let prepared = match PreparedPoint::prepare(tree, point, budget, scratch) {

@@ -277,8 +277,7 @@ impl<'a> FanLeaf<'a> {
         let [centre, e, g] = self.spokes(lane);
         let ([cx, cy, cz], [ex, ey, ez], [gx, gy, gz]) = (reals(centre), reals(e), reals(g));
         let (v, w) = (Real(v), Real(w));
-        let (x, y, z) =
-            (cx + ex * v + gx * w, cy + ey * v + gy * w, cz + ez * v + gz * w);
+        let (x, y, z) = (cx + ex * v + gx * w, cy + ey * v + gy * w, cz + ez * v + gz * w);
         Vec3::new(x.0, y.0, z.0)
     }
 

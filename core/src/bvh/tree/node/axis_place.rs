@@ -21,15 +21,15 @@ impl KeyPoint {
     }
 }
 
-/// How far a step is below a key unit at most, in powers of two. A finer one counts as this, so that
-/// a plane comes less than one key unit too far inward.
+/// How far a step is below a key unit at most, in powers of two. A finer one counts as this, so a
+/// plane comes less than one key unit too far inward.
 pub(super) const FINEST: i32 = MAX_SHIFT.cast_signed() - 8;
 
 /// Distances of the query point inward from byte 0 and from byte 255 along an axis of a node's
 /// frame: key units, rounded up.
 ///
-/// `[a, b, c]` is the axis's row of the matrix. `[x, y, z]` is the point less the frame's origin, as
-/// [`KeyPoint::relative_to_origin`] has it. The axis's step is 2^`above` key units.
+/// `[a, b, c]` is the axis's row of the matrix. `[x, y, z]` is the point less the frame's origin,
+/// by [`KeyPoint::relative_to_origin`]. The axis's step is 2^`above` key units.
 #[inline(always)]
 pub(super) fn axis_place([a, b, c]: &[[u8; 2]; 3], [x, y, z]: [i32; 3], above: i32) -> [i32; 2] {
     let term = |pair: &[u8; 2], x: i32| i32::from(i16::from_le_bytes(*pair)).wrapping_mul(x);

@@ -174,7 +174,7 @@ fn set_coarse(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPoi
     }
 }
 
-/// The axes of any frame. Whether a step is finer than a key unit, so that its planes are to be cut.
+/// The axes of any frame. Whether a step is finer than a key unit: then its planes are to be cut.
 #[cfg_attr(meshsweep_small, inline(always))]
 #[cfg_attr(not(meshsweep_small), cold, inline(never))]
 fn any_axes(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> ([AxisPlanes; 3], bool) {
