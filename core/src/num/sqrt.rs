@@ -52,9 +52,9 @@ fn guess(x: f32) -> u32 {
 fn reciprocal(x: f32) -> f32 {
     let half = 0.5 * x;
     let mut y = f32::from_bits(guess(x));
-    for _ in 0..3 {
-        y = y * (1.5 - half * y * y);
-    }
+    y = y * (1.5 - half * y * y);
+    y = y * (1.5 - half * y * y);
+    y = y * (1.5 - half * y * y);
     y
 }
 
