@@ -26,12 +26,20 @@ pub fn sqrt_approx(x: f32) -> f32 {
     if Real(x) > Real(f32::MAX) {
         return x;
     }
-    let (x, down) = if Real(x) < Real(SMALL) { (x * UP, DOWN) } else { (x, 1.0) };
+    let is_small = Real(x) < Real(SMALL);
+    let (x, down) = if is_small { (scaled(x, UP), DOWN) } else { (x, 1.0) };
     let y = if SOFT_FLOAT { reciprocal_in_integers(x) } else { reciprocal(x) };
     let (x, y) = (Real(x), Real(y));
     let root = x * y;
     let root = root + (x - root * root) * y.times_power(0.5);
-    if SOFT_FLOAT && down == 1.0 { root.0 } else { root.0 * down }
+    if SOFT_FLOAT && !is_small { root.0 } else { scaled(root.0, down) }
+}
+
+/// `x` times a power of two. Without an FPU it is a call: else the compiler multiplies every number.
+#[cfg_attr(meshsweep_soft_float, cold, inline(never))]
+#[cfg_attr(not(meshsweep_soft_float), inline(always))]
+fn scaled(x: f32, power: f32) -> f32 {
+    x * power
 }
 
 /// The guess of the reciprocal root, by bits.

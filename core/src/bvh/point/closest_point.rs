@@ -6,6 +6,8 @@ use super::leaf::limit::LeafLimit;
 use super::query::{Asked, PointQuery, PreparedPoint};
 #[cfg(meshsweep_wide)]
 use super::search::blocks::{Kernels, search_by_blocks};
+#[cfg(not(meshsweep_wide))]
+use super::search::closest::is_exact;
 use super::search::closest::{Closest, inlined};
 use crate::bvh::tree::descent::descend_inlined;
 use crate::bvh::tree::format::{Bvh, FanLeaf};
@@ -163,8 +165,7 @@ fn search_by_entries(
     let mut waits = SOFT_FLOAT
         && budget.steps == Budget::EXACT.steps
         && scratch.len() >= tree.scratch_entries()
-        && budget.relative == 0.0
-        && budget.absolute == 0.0;
+        && is_exact(budget);
     loop {
         let nearest = inlined(
             #[inline(always)]

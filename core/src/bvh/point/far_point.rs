@@ -20,30 +20,29 @@ impl FarPoint<'_> {
         point: [f32; 3],
     ) -> Result<ClosestPoint, QueryError> {
         let query = self.query;
-        let (low, high) = tree.grid_bounds();
-        let (lowest, highest) = (query.units.point(low), query.units.point(high));
+        // In place: at `opt-level = "s"` copies of arrays are made number by number.
+        let (low, high) = tree.grid_ends();
+        let scaled = |x: f32, scale: f32| query.units.outward(x, scale);
         let mut size = 0.0;
         // Here and below by number: at `opt-level = "s"` iterators over arrays are kept in memory.
         for axis in 0..3 {
-            let ends = greater(lowest[axis].abs(), highest[axis].abs());
-            size = greater(size, greater(ends, point[axis].abs()));
+            let (low, high) = (scaled(low[axis], 1.0).abs(), scaled(high[axis], 1.0).abs());
+            size = greater(size, greater(greater(low, high), point[axis].abs()));
         }
         let (scale, unscale) = match size {
             size if size > POWER_40 => (1.0 / POWER_70, POWER_70),
             size if size < 1.0 / POWER_40 => (POWER_70, 1.0 / POWER_70),
             _ => (1.0, 1.0),
         };
-        let scaled = |x: f32| query.units.outward(x, scale);
-        let (mut nearest, mut farthest) = ([0f32; 3], [0f32; 3]);
-        let (low, high) = (low.to_array(), high.to_array());
+        let (mut nearest, mut farthest) = ([1f32; 3], [1f32; 3]);
         for axis in 0..3 {
             let x = point[axis] * scale;
-            let (below, above) = (scaled(low[axis]) - x, x - scaled(high[axis]));
+            let (below, above) = (scaled(low[axis], scale) - x, x - scaled(high[axis], scale));
             nearest[axis] = greater(0.0, greater(below, above));
             farthest[axis] = greater(below.abs(), above.abs());
         }
         let (near, far) = (length(nearest), length(farthest));
-        let fixed_error = scaled(query.fixed_error());
+        let fixed_error = scaled(query.fixed_error, scale);
         let margin = |distance: f32| distance * (2.0 * FAN_RELATIVE * U32) + fixed_error;
         // Any point of the surface serves: the first leaf. A damaged tree must not loop.
         let mut node = 0;

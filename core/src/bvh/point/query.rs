@@ -46,6 +46,9 @@ pub(crate) struct PointQuery {
     /// Rounding of a computed distance, grid units, in addition to [`FAN_RELATIVE`] roundings of
     /// the distance itself.
     pub(crate) rounding: f32,
+    /// The error of a distance that does not grow with the distance: rounding and surface error,
+    /// grid units.
+    pub(crate) fixed_error: f32,
     /// Added to a squared limit, so that no rounding hides a candidate.
     pub(crate) allowance: f32,
     /// The point in integers, on targets without floating point, if the model is near and on a
@@ -55,8 +58,8 @@ pub(crate) struct PointQuery {
     key_point: KeyPoint,
     /// Keys in a square of the grid unit: a power of two.
     keys_in_square: f32,
-    /// Rounding of the distance from a plane that parts the point from a leaf, grid units.
-    pub(crate) plane_error: f32,
+    /// The 1-norm of the way to the model's farthest corner, grid units.
+    size: f32,
     /// Square by which a lower bound may fall short: [`CERTIFIED_SHORTFALL`], or 0 for f32
     /// vertices.
     shortfall_sq: f32,
@@ -110,21 +113,26 @@ impl PreparedPoint {
         let p = units.inward_point(point);
         let header = tree.header();
         let (low, high) = tree.grid_bounds();
-        let farthest = farthest(p, low, high);
+        let from_low = difference(p, low);
+        let farthest = farthest(from_low, difference(p, high));
         let size = (Real(farthest.x) + Real(farthest.y) + Real(farthest.z)).0;
         // As numbers, for the size may be NaN.
-        let near = size <= BVH_FAR;
+        let near = if SOFT_FLOAT { size.to_bits() <= BVH_FAR.to_bits() } else { size <= BVH_FAR };
         // Of a point that is not finite the size is neither.
-        if !(near || x.is_finite() && y.is_finite() && z.is_finite()) {
+        if !near && 0.0 * x + 0.0 * y + 0.0 * z != 0.0 {
             return Err(QueryError::NotFinite);
         }
-        let fan = Real(header.star_radius).times_power(FAN_DISTANCE * U32).0;
-        let fan = greater(fan, LEAST_FAN_ROUNDING);
+        let fan = Real(header.star_radius).times_power(FAN_DISTANCE * U32);
+        let fan = greater(fan, Real(LEAST_FAN_ROUNDING)).0;
         let shortfall_sq = if header.is_f32() { 0.0 } else { CERTIFIED_SHORTFALL };
-        let [ox, oy, oz] = header.grid_origin;
-        let (ox, oy, oz) = (float(ox), float(oy), float(oz));
         let most = greater(greater(Real(farthest.x), Real(farthest.y)), Real(farthest.z)).0;
-        let from_origin = difference(p, Vec3::new(ox, oy, oz));
+        let from_origin = if SOFT_FLOAT && header.low == [0; 3] {
+            // The same numbers.
+            from_low
+        } else {
+            let [x, y, z] = header.grid_origin;
+            difference(p, Vec3::new(float(x), float(y), float(z)))
+        };
         let key_point = KeyPoint::new(from_origin, most);
         let whole = if SOFT_FLOAT && !header.is_f32() {
             IntPoint::new(from_origin.to_array())
@@ -140,12 +148,13 @@ impl PreparedPoint {
             units,
             shortfall_sq,
             rounding: fan,
+            fixed_error: (Real(fan) + Real(units.surface_error)).0,
             allowance: (Real(fan).times_power(ALLOWANCE) * Real(fan)).0,
             whole,
             key_point,
             // Keys are halves of squares.
             keys_in_square: f32::from_bits((126 - 2 * key_point.unit_exponent()) << 23),
-            plane_error: (Real(size).times_power(PLANE_DISTANCE * U32) + Real(fan)).0,
+            size,
         };
         Ok(PreparedPoint { query, is_far: !near })
     }
@@ -242,32 +251,31 @@ impl PointQuery {
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn upper(&self, distance: f32) -> f32 {
-        let error = Real(distance).times_power(FAN_RELATIVE * U32) + Real(self.fixed_error());
+        let error = Real(distance).times_power(FAN_RELATIVE * U32) + Real(self.fixed_error);
         self.units.upper((Real(distance) + error).0)
     }
 
-    /// The error of a distance that does not grow with the distance: rounding and surface error,
-    /// grid units.
-    pub(crate) fn fixed_error(&self) -> f32 {
-        (Real(self.rounding) + Real(self.units.surface_error)).0
+    /// Rounding of the distance from a plane that parts the point from a leaf, grid units.
+    pub(crate) fn plane_error(&self) -> f32 {
+        (Real(self.size).times_power(PLANE_DISTANCE * U32) + Real(self.rounding)).0
     }
 
     /// Lower bound of the distance to the input surface, input units, from a computed one.
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn lower(&self, distance: f32) -> f32 {
-        let error = Real(distance).times_power(FAN_RELATIVE * U32) + Real(self.fixed_error());
+        let error = Real(distance).times_power(FAN_RELATIVE * U32) + Real(self.fixed_error);
         self.units.lower((Real(distance) - error).0)
     }
 }
 
 /// By axis the largest way from a point to a corner of a box.
 #[inline(always)]
-fn farthest(p: Vec3, low: Vec3, high: Vec3) -> Vec3 {
+fn farthest(from_low: Vec3, from_high: Vec3) -> Vec3 {
+    let (low, high) = (from_low.abs(), from_high.abs());
     if !SOFT_FLOAT {
-        return (p - low).abs().max((p - high).abs());
+        return low.max(high);
     }
-    let (low, high) = (difference(p, low).abs(), difference(p, high).abs());
     let most = |a: f32, b: f32| greater(Real(a), Real(b)).0;
     Vec3::new(most(low.x, high.x), most(low.y, high.y), most(low.z, high.z))
 }

@@ -16,6 +16,8 @@
 use super::query::SegmentQuery;
 use crate::bvh::tree::descent::{LeafVisit, LeafVisitor};
 use crate::bvh::tree::format::FanLeaf;
+#[cfg(not(any(meshsweep_wide, meshsweep_soft_float)))]
+use crate::bvh::tree::format::GridRing;
 use crate::bvh::tree::triangle_at::TriangleAt;
 #[cfg(meshsweep_wide)]
 use crate::geom::fan::ray_leaf8;
@@ -148,10 +150,19 @@ fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
     }
     let ring = leaf.ring_in_order(ray.axes())?;
     let turn = leaf.shape().turn();
-    if SOFT_FLOAT {
-        let near = query.line.near(&ring, turn);
-        return Some(if near == 0 { 0 } else { flagged_near(leaf, ray, near) });
-    }
+    #[cfg(meshsweep_soft_float)]
+    let flagged = match query.line.near(&ring, turn) {
+        0 => 0,
+        near => flagged_near(leaf, ray, near),
+    };
+    #[cfg(not(meshsweep_soft_float))]
+    let flagged = flagged_in_ring(&ring, turn, ray);
+    Some(flagged)
+}
+
+#[cfg(not(any(meshsweep_wide, meshsweep_soft_float)))]
+#[inline(always)]
+fn flagged_in_ring(ring: &GridRing<'_>, turn: usize, ray: &FanRay) -> u32 {
     let [ox, oy, oz] = ring.origin;
     let shadow = |[x, y, z]: [i32; 3]| {
         let sum = |x: i32, origin: i32| x.wrapping_add(origin) as f32;
@@ -161,7 +172,7 @@ fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
     let short = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
     let vertices = vertices.map(|((x, y), z)| [short(x), short(y), short(z)]);
     let centres = [shadow(ring.centres[0]), shadow(ring.centres[1])];
-    Some(ray_leaf(ray, turn, centres, vertices.map(shadow)))
+    ray_leaf(ray, turn, centres, vertices.map(shadow))
 }
 
 /// The same of a leaf on the grid where code is to be small.
@@ -184,7 +195,7 @@ fn flagged_in_rows(leaf: &FanLeaf<'_>, ray: &FanRay) -> Option<u32> {
 }
 
 /// The flagged ones of a few triangles.
-#[cfg(not(meshsweep_wide))]
+#[cfg(meshsweep_soft_float)]
 #[inline(never)]
 fn flagged_near(leaf: &FanLeaf<'_>, ray: &FanRay, near: u32) -> u32 {
     let (mut left, mut flagged) = (near, 0);

@@ -4,7 +4,7 @@
 use super::start::SegmentStart;
 use crate::bvh::tree::descent::{NodeQuery, OpenedNode};
 use crate::bvh::tree::format::{Bvh, Units};
-#[cfg(not(meshsweep_wide))]
+#[cfg(meshsweep_soft_float)]
 use crate::bvh::tree::node::GridLine;
 use crate::bvh::tree::node::SlabRay;
 use crate::bvh::tree::node::box_entries;
@@ -15,8 +15,6 @@ use crate::bvh::tree::node::{Pushed, push_entries};
 use crate::geom::fan::FanRay;
 use crate::geom::fan::WIDTH;
 use crate::geom::norm_1;
-#[cfg(not(meshsweep_wide))]
-use crate::num::SOFT_FLOAT;
 use crate::num::tolerance::{BOX_ENTRY, STILL, U32};
 #[cfg(not(meshsweep_wide))]
 use crate::query::ScratchEntry;
@@ -29,7 +27,7 @@ pub(crate) struct SegmentQuery {
     pub(crate) ray: FanRay,
     pub(crate) slab_ray: SlabRay,
     /// For targets without an FPU.
-    #[cfg(not(meshsweep_wide))]
+    #[cfg(meshsweep_soft_float)]
     pub(crate) line: GridLine,
     units: Units,
     /// The line's origin and direction, grid units.
@@ -60,12 +58,8 @@ impl SegmentQuery {
             .turning(units.has_place_error);
         SegmentQuery {
             ray,
-            #[cfg(not(meshsweep_wide))]
-            line: if SOFT_FLOAT {
-                GridLine::new(&ray, tree.header.grid_origin)
-            } else {
-                GridLine::NONE
-            },
+            #[cfg(meshsweep_soft_float)]
+            line: GridLine::new(&ray, tree.header.grid_origin),
             slab_ray: SlabRay::new(from, inverse, margin, far.to_array()),
             units,
             origin,

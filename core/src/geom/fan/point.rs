@@ -211,7 +211,8 @@ pub fn refined(&[s, e, g]: &[Vec3; 3], near: &Nearness) -> Nearness {
     let w = share(difference(s, e), difference(g, e));
     *on_rim = (1.0 - w, w);
     let mut best = *near;
-    for (v, w) in places {
+    // By reference: at `opt-level = "s"` an iterator of values is a copy.
+    for &(v, w) in &places {
         let r = residual(s, e, g, v, w);
         let distance_sq = dot(r, r);
         if v >= 0.0 && w >= 0.0 && distance_sq < best.distance_sq {
@@ -263,8 +264,8 @@ fn normal(e: Vec3, g: Vec3) -> Vec3 {
 /// Whether all coordinates are whole numbers below `most`.
 #[cfg_attr(meshsweep_small, inline(never))]
 pub(crate) fn is_whole(v: Vec3, most: f32) -> bool {
-    let is_whole = |x: f32| x as i32 as f32 == x && x.abs() < most;
-    is_whole(v.x) && is_whole(v.y) && is_whole(v.z)
+    let parts: &[f32; 3] = v.as_ref();
+    parts.iter().all(|&x| x as i32 as f32 == x && x.abs() < most)
 }
 
 /// The difference of two products of whole numbers, rounded once.
@@ -272,7 +273,19 @@ pub(crate) fn is_whole(v: Vec3, most: f32) -> bool {
 #[cfg_attr(not(meshsweep_small), inline(always))]
 fn integer_difference((a, b): (f32, f32), (c, d): (f32, f32)) -> f32 {
     let product = |a: f32, b: f32| i64::from(a as i32) * i64::from(b as i32);
-    (product(a, b) - product(c, d)) as f32
+    let mut difference = product(a, b) - product(c, d);
+    if !cfg!(meshsweep_small) {
+        return difference as f32;
+    }
+    // Less code than the library's. What is cut leaves a one, so that the rest is rounded as the
+    // whole: it keeps 29 bits.
+    let mut unit = 1.0;
+    while difference != i64::from(difference as i32) {
+        let rest = i64::from(difference & 3 != 0);
+        difference = difference >> 2 | rest;
+        unit *= 4.0;
+    }
+    difference as i32 as f32 * unit
 }
 
 /// All triangles of a leaf, in order. `s` gives the point less the first or the second centre,

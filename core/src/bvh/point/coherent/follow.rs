@@ -107,7 +107,7 @@ impl<'a, 't> Follow<'a, 't> {
         ahead: f32,
         steps: u32,
     ) -> Self {
-        let plane_error = query.plane_error;
+        let plane_error = query.plane_error();
         let shortfall = tree.header().star_radius * SHORTFALL + query.rounding;
         Follow {
             tree,

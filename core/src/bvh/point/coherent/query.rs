@@ -356,7 +356,7 @@ impl Memory {
         };
         let distance = sqrt_approx(nearest.distance_sq);
         let below = query.refine_below(nearest.distance_sq);
-        let error = query.fixed_error();
+        let error = query.fixed_error;
         let path = follow.front.state.path;
         let safe = |other_key: f32| {
             0.5 * ((other_key - path) * (1.0 - ROOT_AND_PRODUCTS)

@@ -88,13 +88,12 @@ pub(crate) fn leaf_bounds(
     let wanted = plane.in_front(&ring, shape);
     let (mut least, mut likeliest, mut left) = (u32::MAX, 0, wanted);
     let mut of_fan = !(u32::MAX << (shape.turn() & 31));
-    let [centre, second_centre] = ring.centres(shape);
-    let (mut next, mut corners) = (usize::MAX, [centre; 3]);
+    let (mut next, mut corners) = (usize::MAX, [ring.centre(0); 3]);
     while left != 0 {
         let lane = lowest(left);
         left &= left - 1;
-        if lane >= shape.turn() {
-            (corners[0], of_fan) = (second_centre, u32::MAX);
+        if lane >= shape.turn() && of_fan != u32::MAX {
+            (corners[0], of_fan) = (ring.centre(1), u32::MAX);
         }
         corners[1] = if lane == next { corners[2] } else { ring.vertex(lane)? };
         next = lane + 1;

@@ -98,7 +98,9 @@ mod narrow {
     }
 
     impl Lanes {
-        pub(crate) const NONE: Lanes = Lanes { lane: 0, v: 0.0, w: 0.0, residual: Residual::NONE };
+        /// None. Not all of it is zeros: so many would be a call of `memclr`, for which alone
+        /// firmware links it.
+        pub(crate) const NONE: Lanes = Lanes { lane: 0, v: 0.0, w: 1.0, residual: Residual::NONE };
 
         /// One triangle alone.
         pub(crate) fn one(lane: usize, near: &Nearness) -> Lanes {

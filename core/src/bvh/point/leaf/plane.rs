@@ -91,10 +91,10 @@ impl LeafPlane {
     #[cfg_attr(meshsweep_small, inline(never))]
     #[cfg_attr(not(meshsweep_small), inline(always))]
     fn across_residual(at: Vec3, residual: Vec3, distance_sq: f32, limit: f32) -> LeafPlane {
-        let is_known = residual != Vec3::ZERO && distance_sq > LEAST_DENOMINATOR;
-        if !(is_known && limit < EVERYTHING_SQ) {
+        if !(distance_sq > LEAST_DENOMINATOR && limit < EVERYTHING_SQ) {
             return LeafPlane::NONE;
         }
+        // Of zeros, which stand for no residual, the normal is zeros: see `parts`.
         // The residual is not longer than 2^half.
         let half = ((distance_sq.to_bits() >> 23).cast_signed() - 127 + 2) >> 1;
         let power = |k: i32| f32::from_bits((127 + k).cast_unsigned() << 23);

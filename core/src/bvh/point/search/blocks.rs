@@ -1,6 +1,6 @@
 //! The search of an exact closest point on vector targets, nearest child first at every level.
 
-use super::closest::{Closest, NearestOfLeaf};
+use super::closest::{Closest, NearestOfLeaf, is_exact};
 use crate::bvh::point::hint::Hint;
 use crate::bvh::point::leaf::limit::LeafLimit;
 use crate::bvh::point::query::{Asked, PointQuery, PreparedPoint};
@@ -52,8 +52,10 @@ pub(crate) fn search_by_blocks(
         impl NearestOfLeaf,
     >,
 ) -> Option<Result<ClosestPoint, QueryError>> {
-    let is_exact = budget.relative == 0.0 && budget.absolute == 0.0;
-    if !is_exact || budget.steps < tree.most_steps() || scratch.len() < tree.scratch_entries() {
+    if !is_exact(budget)
+        || budget.steps < tree.most_steps()
+        || scratch.len() < tree.scratch_entries()
+    {
         return None;
     }
     let prepared = match PreparedPoint::prepare(tree, point, budget, scratch) {

@@ -103,7 +103,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             best: Best { distance_sq: f32::MAX, node: u32::MAX, child: 0, lanes: Lanes::NONE },
             refine_below: f32::NEG_INFINITY,
             refined_lower_sq: f32::INFINITY,
-            tolerant: budget.relative > 0.0 || budget.absolute > 0.0,
+            tolerant: !is_exact(budget),
             #[cfg(meshsweep_wide)]
             is_alone: true,
             #[cfg(not(meshsweep_wide))]
@@ -212,8 +212,9 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             let (best_sq, lanes) = (self.best.distance_sq, &self.best.lanes);
             let here = node == self.best.node && child == self.best.child;
             let first = !here || lane < lanes.at(best_sq).0;
-            let nearer = better.distance_sq < best_sq || (better.distance_sq == best_sq && first);
-            if better.distance_sq < near.distance_sq && nearer {
+            let better_sq = better.distance_sq;
+            let nearer = if first { better_sq <= best_sq } else { better_sq < best_sq };
+            if better_sq < near.distance_sq && nearer {
                 self.improve(better.distance_sq, &Lanes::one(lane, &better), [node, child]);
             }
             // From here on a greater bound changes no answer: `refine_below` only falls.
@@ -240,13 +241,13 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
     ) -> Result<ClosestPoint, QueryError> {
         let Best { distance_sq, node, child, lanes, .. } = self.best;
         // Every triangle that was not refined has at least this squared lower bound.
-        let mut least_sq = match self.refine_below {
-            below if below > 0.0 => below,
+        let mut least_sq = match Real(self.refine_below) {
+            below if !below.is_at_most_zero() => below.0,
             // No leaf was visited.
-            f32::NEG_INFINITY => f32::MAX,
+            below if below == Real(f32::NEG_INFINITY) => f32::MAX,
             _ => 0.0,
         };
-        if self.refined_lower_sq < least_sq {
+        if Real(self.refined_lower_sq) < Real(least_sq) {
             least_sq = self.refined_lower_sq;
         }
         let mut ended = Ended::Exact;
@@ -255,11 +256,15 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             least_sq = lesser(least_sq, square(self.query.distance_of_key(least)));
         }
         if node == u32::MAX {
-            let mut answer = FarPoint { query: self.query }.closest_point(self.tree, self.point)?;
-            let Interval { lower, upper } = answer.distance;
-            let least = self.query.lower(sqrt_approx(least_sq));
-            answer.distance.lower = lesser(greater(lower, least), upper);
-            return Ok(ClosestPoint { work, ended, ..answer });
+            // In place: a copy is made number by number.
+            let mut answer = FarPoint { query: self.query }.closest_point(self.tree, self.point);
+            if let Ok(answer) = &mut answer {
+                let Interval { lower, upper } = answer.distance;
+                let least = self.query.lower(sqrt_approx(least_sq));
+                answer.distance.lower = lesser(greater(lower, least), upper);
+                (answer.work, answer.ended) = (work, ended);
+            }
+            return answer;
         }
         *hint = Hint::of(node, child);
         let distance = sqrt_approx(distance_sq);
@@ -315,6 +320,12 @@ impl<N: NearestOfLeaf> LeafVisitor for Closest<'_, N> {
         }
         Some(true)
     }
+}
+
+/// Whether a budget has no tolerance. None is negative.
+#[inline(always)]
+pub(crate) fn is_exact(budget: &Budget) -> bool {
+    Real(budget.relative).is_at_most_zero() && Real(budget.absolute).is_at_most_zero()
 }
 
 fn square(x: f32) -> f32 {

@@ -25,9 +25,6 @@ pub(crate) struct WaitingTriangle {
 }
 
 impl WaitingTriangle {
-    const NONE: WaitingTriangle =
-        WaitingTriangle { node: 0, place: 0, key: 0, upper: 0, lower: IntLower::NONE };
-
     pub(crate) fn leaf(&self) -> [u32; 2] {
         [self.node, self.place & CHILD_MASK]
     }
@@ -43,8 +40,7 @@ impl WaitingTriangle {
 
 /// Triangles that may be the nearest.
 pub(crate) struct Waiting {
-    pub(crate) triangles: [WaitingTriangle; ROOM],
-    pub(crate) count: usize,
+    pub(crate) triangles: heapless::Vec<WaitingTriangle, ROOM>,
     /// Least [`IntBounds::upper`].
     pub(crate) upper: u32,
     /// The offset to the point that `upper` is of.
@@ -60,8 +56,7 @@ impl Waiting {
     #[inline(always)]
     pub(crate) fn none() -> Waiting {
         Waiting {
-            triangles: const { [WaitingTriangle::NONE; ROOM] },
-            count: 0,
+            triangles: heapless::Vec::new(),
             upper: u32::MAX,
             residual: Residual::NONE,
             limit: IntLimit::NONE,
@@ -70,18 +65,14 @@ impl Waiting {
     }
 
     /// Drops those that are beyond the limit. Returns whether there is room for another one.
-    #[allow(
-        clippy::reversed_empty_ranges,
-        clippy::absurd_extreme_comparisons,
-        reason = "with floating point no triangle waits"
-    )]
     pub(crate) fn makes_room(&mut self) -> bool {
-        if self.count == ROOM {
+        if self.triangles.is_full() {
             let mut left = 0;
             for at in 0..ROOM {
                 // Field by field: else it would be a call of `memmove`, for which alone firmware
                 // links it.
-                let WaitingTriangle { node, place, key, upper, lower } = self.triangles[at];
+                let Some(here) = self.triangles.get(at) else { break };
+                let &WaitingTriangle { node, place, key, upper, lower } = here;
                 if !lower.is_beyond(self.limit)
                     && let Some(slot) = self.triangles.get_mut(left)
                 {
@@ -90,8 +81,8 @@ impl Waiting {
                     left += 1;
                 }
             }
-            self.count = left;
+            self.triangles.truncate(left);
         }
-        self.count < ROOM
+        !self.triangles.is_full()
     }
 }

@@ -40,14 +40,13 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
                 // An answer that is too far is told by the last look: limits only fall.
                 self.look_at_waiting()?;
             }
-            if let Some(slot) = self.waiting.triangles.get_mut(self.waiting.count) {
-                let Corner { number, is_certain } = corner;
-                let corner = u32::from(number) | u32::from(is_certain) << 2;
-                let place = visit.child | (lane as u32) << 3 | corner << 6;
-                let (node, key) = (visit.node, visit.key);
-                *slot = WaitingTriangle { node, place, key, upper, lower };
-                self.waiting.count += 1;
-            }
+            let Corner { number, is_certain } = corner;
+            let corner = u32::from(number) | u32::from(is_certain) << 2;
+            let place = visit.child | (lane as u32) << 3 | corner << 6;
+            let (node, key) = (visit.node, visit.key);
+            let here = WaitingTriangle { node, place, key, upper, lower };
+            // There is room.
+            self.waiting.triangles.push(here).ok();
         }
         Some(())
     }
@@ -99,7 +98,7 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
     #[inline(never)]
     fn is_sharply_beyond(&self, here: &WaitingTriangle, point: &IntPoint) -> Option<bool> {
         let is_inner = here.corner().number == Corner::NONE.number;
-        if cfg!(meshsweep_small) || self.waiting.count <= 2 || !is_inner {
+        if cfg!(meshsweep_small) || self.waiting.triangles.len() <= 2 || !is_inner {
             return Some(false);
         }
         let [node, child] = here.leaf();
@@ -121,8 +120,8 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
     #[inline(never)]
     pub(crate) fn look_at_waiting(&mut self) -> Option<bool> {
         let Some(point) = &self.query.whole else { return Some(true) };
-        let count = self.waiting.count;
-        let waiting = self.waiting.triangles.iter().take(count).enumerate();
+        let count = self.waiting.triangles.len();
+        let waiting = self.waiting.triangles.iter().enumerate();
         let likeliest = waiting.min_by_key(|(_, here)| here.upper).map_or(0, |(at, _)| at);
         for turn in 0..count + 1 {
             let at = if turn == 0 { likeliest } else { count - turn };
@@ -152,7 +151,7 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
                 self.refine(leaf, key, 1 << (lane & 31))?;
             }
         }
-        self.waiting.count = 0;
+        self.waiting.triangles.clear();
         let (upper, limit) = (self.waiting.upper, self.query.limit(self.best.distance_sq));
         Some(upper == u32::MAX || Real(limit) <= Real(self.limit_by(upper)))
     }

@@ -86,7 +86,7 @@ pub(crate) fn side_of_shared_feature(
     let Some(About { feature, to_query, feature_error, inexact }) = about else {
         return Some(None);
     };
-    let mut star = Star { tree: search.tree, limit: key_limit, feature, sum: Sum::default() };
+    let mut star = Star { tree: search.tree, limit: key_limit, feature, sum: Sum::NONE };
     if !search.descend(candidates.query, &mut star)? {
         return Some(None);
     }
@@ -161,20 +161,26 @@ const EDGE_FEATURE_ERROR: f32 = 1.2;
 const LARGEST_ETA: f32 = 0.25;
 
 /// A sum of weighted unit normals, and its rounding.
-#[derive(Default)]
+///
+/// The flag stands between numbers that begin as zeros: more of them at once would be a call of
+/// `memclr`.
+#[repr(C)]
 struct Sum {
     normal: Vec3,
     /// Sum of the weights, each times the relative rounding of its normal. A sliver's is large.
     unsure: f32,
+    /// Every triangle has a trusted normal and directions.
+    is_sound: bool,
     weight: f32,
     count: f32,
     /// No triangle reaches a direction whose cosine to the query is greater.
     eta: f32,
-    /// Some triangle has no trusted normal or directions.
-    broken: bool,
 }
 
 impl Sum {
+    const NONE: Sum =
+        Sum { normal: Vec3::ZERO, unsure: 0.0, is_sound: true, weight: 0.0, count: 0.0, eta: 0.0 };
+
     fn add(&mut self, normal: Vec3, size: Vec3, weight: f32, eta: f32) {
         let largest = normal.abs().max_element();
         let scaled = normal * (1.0 / largest);
@@ -196,7 +202,7 @@ impl Sum {
         let roundings = 16.0 * self.unsure + (32.0 + 2.0 * count) * self.weight + 64.0 * count;
         let margin = U32 * (norm_1(to_query) * roundings + 16.0 * self.weight * inexact)
             + feature_error * self.eta * self.eta * norm_1(to_query);
-        if self.broken || self.count == 0.0 || margin.is_nan() || self.eta >= LARGEST_ETA {
+        if !self.is_sound || self.count == 0.0 || margin.is_nan() || self.eta >= LARGEST_ETA {
             None
         } else if product > margin {
             Some(Side::Outside)
@@ -326,7 +332,7 @@ impl Star<'_> {
         if is_known {
             self.sum.add(normal * factor, size, weight, eta);
         } else {
-            self.sum.broken = true;
+            self.sum.is_sound = false;
         }
     }
 }

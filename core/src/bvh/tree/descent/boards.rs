@@ -8,6 +8,13 @@ use crate::geom::fan::WIDTH;
 use crate::num::lesser;
 use crate::query::ScratchEntry;
 
+/// Any entries. Of zeros alone it would be a call of `memclr`, for which alone firmware links it.
+#[cold]
+#[inline(never)]
+fn blank() -> [ScratchEntry; WIDTH] {
+    [ScratchEntry::of_words([0, 1]); WIDTH]
+}
+
 impl Stack<'_> {
     /// Pushes the children of a node within the limit, except the nearest. The nearest one's key.
     #[inline(always)]
@@ -21,7 +28,7 @@ impl Stack<'_> {
         let free = self.entries.get_mut(self.used..);
         let slots = match free.and_then(|free| free.first_chunk_mut::<WIDTH>()) {
             Some(slots) => slots,
-            None => spare.insert([ScratchEntry::EMPTY; WIDTH]),
+            None => spare.insert(blank()),
         };
         let Pushed { nearest, count } = query.push(tree, opened, slots)?;
         match &spare {

@@ -81,7 +81,7 @@ impl FullRing<'_> {
     #[cfg_attr(meshsweep_small, inline(never))]
     #[cfg_attr(not(meshsweep_small), inline(always))]
     pub fn corners(&self, shape: LeafShape, lane: usize) -> Option<[[i32; 3]; 3]> {
-        let centre = self.centres(shape)[usize::from(lane >= shape.turn())];
+        let centre = self.centre(usize::from(lane >= shape.turn()));
         Some([centre, self.vertex(lane)?, self.vertex(lane + 1)?])
     }
 

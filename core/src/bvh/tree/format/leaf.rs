@@ -8,7 +8,9 @@ use super::grid_ring::{GRID_WINDOW, GridRing, short, three};
 use super::leaf_shape::LeafShape;
 #[cfg(meshsweep_wide)]
 use crate::geom::fan::{Ring8, WIDTH};
-use crate::num::{Real, SOFT_FLOAT, float, reals};
+#[cfg(meshsweep_small)]
+use crate::num::SOFT_FLOAT;
+use crate::num::{Real, float, reals};
 use glam::Vec3;
 
 /// Numbers of the triangles whose bits are ones.
@@ -266,19 +268,36 @@ impl<'a> FanLeaf<'a> {
     #[cfg_attr(meshsweep_small, inline(never))]
     #[cfg_attr(not(meshsweep_small), inline(always))]
     pub fn point(&self, lane: usize, v: f32, w: f32) -> Vec3 {
+        #[cfg(meshsweep_soft_float)]
+        if !self.is_f32
+            && let Some(corners) = self.full_ring().and_then(|it| it.corners(self.shape, lane))
+        {
+            return self.point_of(&corners, [v, w]);
+        }
         let [centre, e, g] = self.spokes(lane);
         let ([cx, cy, cz], [ex, ey, ez], [gx, gy, gz]) = (reals(centre), reals(e), reals(g));
         let (v, w) = (Real(v), Real(w));
-        let [mut x, mut y, mut z] = [cx, cy, cz];
-        // No coordinate of the grid is -0, so a zero that is added changes nothing.
-        let spares_zeros = SOFT_FLOAT && !self.is_f32;
-        if !(spares_zeros && v.is_at_most_zero()) {
-            (x, y, z) = (x + ex * v, y + ey * v, z + ez * v);
-        }
-        if !(spares_zeros && w.is_at_most_zero()) {
-            (x, y, z) = (x + gx * w, y + gy * w, z + gz * w);
-        }
+        let (x, y, z) = (cx + ex * v + gx * w, cy + ey * v + gy * w, cz + ez * v + gz * w);
         Vec3::new(x.0, y.0, z.0)
+    }
+
+    /// [`point`](Self::point) on the grid. A spoke that counts nothing is not converted. No
+    /// coordinate of the grid is -0, so a zero that is added would change nothing.
+    #[cfg(meshsweep_soft_float)]
+    #[inline(always)]
+    fn point_of(&self, [centre, a, b]: &[[i32; 3]; 3], shares: [f32; 2]) -> Vec3 {
+        let mut point = [0f32; 3];
+        for axis in 0..3 {
+            let mut sum = Real(float(centre[axis].wrapping_add(self.origin[axis])));
+            for (vertex, share) in [a, b].into_iter().zip(shares) {
+                if !Real(share).is_at_most_zero() {
+                    let spoke = Real(float(vertex[axis].wrapping_sub(centre[axis])));
+                    sum = sum + spoke * Real(share);
+                }
+            }
+            point[axis] = sum.0;
+        }
+        Vec3::from_array(point)
     }
 
     /// Centre and both spokes of triangle `lane`. A call, for questions with few triangles: reading
@@ -320,7 +339,7 @@ impl<'a> FanLeaf<'a> {
                 return Some([(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])]);
             }
             let ([ax, ay, az], [bx, by, bz]) = (ring.vertex(lane)?, ring.vertex(lane + 1)?);
-            let [cx, cy, cz] = ring.centres(self.shape)[which & 1];
+            let [cx, cy, cz] = ring.centre(which);
             Some([(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])])
         }
         #[cfg(not(meshsweep_small))]

@@ -52,8 +52,12 @@ impl Units {
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn point(&self, p: Vec3) -> [f32; 3] {
-        let outward = |x: f32| self.outward.times(x).clamp(-f32::MAX, f32::MAX);
-        [outward(p.x), outward(p.y), outward(p.z)]
+        let mut point = p.to_array();
+        for x in &mut point {
+            let outward = self.outward.times(*x);
+            *x = if SOFT_FLOAT && is_finite(outward) { outward } else { kept_finite(outward) };
+        }
+        point
     }
 
     /// A lower bound in input units: at least 0, and below f32's normal range 0.
@@ -117,13 +121,43 @@ impl Power {
 /// A lower bound in f32's normal range, or 0.
 #[inline(always)]
 pub(crate) fn at_least(x: f32) -> f32 {
-    if x >= f32::MIN_POSITIVE { lesser(x, f32::MAX) } else { 0.0 }
+    if !is_normal_and_positive(x) {
+        0.0
+    } else if SOFT_FLOAT {
+        f32::from_bits(lesser(x.to_bits(), f32::MAX.to_bits()))
+    } else {
+        lesser(x, f32::MAX)
+    }
 }
 
 /// An upper bound in f32's normal range, or infinite.
 #[inline(always)]
 pub(crate) fn at_most(x: f32) -> f32 {
-    if x >= f32::MIN_POSITIVE { x } else { f32::MIN_POSITIVE }
+    if is_normal_and_positive(x) { x } else { f32::MIN_POSITIVE }
+}
+
+/// Whether a number is at least the least normal one, or infinite.
+#[inline(always)]
+fn is_normal_and_positive(x: f32) -> bool {
+    const LEAST: u32 = f32::MIN_POSITIVE.to_bits();
+    if !SOFT_FLOAT {
+        return x >= f32::MIN_POSITIVE;
+    }
+    x.to_bits().wrapping_sub(LEAST) <= f32::INFINITY.to_bits() - LEAST
+}
+
+/// The nearest finite number. Without an FPU it is a call, for else the compiler compares every
+/// number, which is a call too.
+#[cfg_attr(meshsweep_soft_float, cold, inline(never))]
+#[cfg_attr(not(meshsweep_soft_float), inline(always))]
+fn kept_finite(x: f32) -> f32 {
+    x.clamp(-f32::MAX, f32::MAX)
+}
+
+/// Whether a number is finite, by its bits.
+#[inline(always)]
+fn is_finite(x: f32) -> bool {
+    x.to_bits() << 1 < f32::INFINITY.to_bits() << 1
 }
 
 /// `2^exponent`, cut to the normal range of f32.

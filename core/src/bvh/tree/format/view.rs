@@ -344,6 +344,13 @@ impl<'a> Bvh<'a> {
         self.grid_bounds
     }
 
+    /// [`grid_bounds`](Self::grid_bounds) in place.
+    #[inline(always)]
+    pub(crate) fn grid_ends(&self) -> (&[f32; 3], &[f32; 3]) {
+        let (low, high) = &self.grid_bounds;
+        (low.as_ref(), high.as_ref())
+    }
+
     /// Tells the tree from others: an address, and the blob's checksum. In Rust the address
     /// suffices. In C the caller may put another blob at the same place.
     #[inline(always)]

@@ -25,7 +25,7 @@ impl AxisPairs {
     }
 }
 
-/// A query point in a node's frame, ready for the boxes. See `AxisPlace`, which has one axis.
+/// A query point in a node's frame, ready for the boxes. See `axis_place`, which has one axis.
 struct LaneFrame {
     from_first: AxisPairs,
     from_last: AxisPairs,
@@ -61,7 +61,7 @@ const KEY_UNIT: f32 = (1 << PRODUCT_BITS) as f32;
 const LEAST_STEP: f32 = KEY_UNIT / (1 << (MAX_SHIFT - 8)) as f32;
 
 impl LaneFrame {
-    /// The steps of `AxisPlace::of`, for all axes at once.
+    /// The steps of `axis_place`, for all axes at once.
     #[inline(always)]
     fn of(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> Option<LaneFrame> {
         let along = along(record, offset(record, p)?)?;

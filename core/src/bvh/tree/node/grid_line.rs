@@ -43,10 +43,6 @@ pub struct GridLine {
 type IntShadow = [i32; 2];
 
 impl GridLine {
-    /// Nothing is clear of it.
-    #[cfg(not(meshsweep_wide))]
-    pub const NONE: GridLine = GridLine { at: [0; 2], slope: [0; 2], margin: 0 };
-
     /// The line of `ray`.
     #[inline(always)]
     pub fn new(ray: &FanRay, grid_origin: [i32; 3]) -> Self {

@@ -27,7 +27,7 @@
 //! | `box_distances` | a point against eight boxes: the choice between `box_lanes` and `two_in_word` |
 //! | `box_lanes` | a point against eight boxes, in vector registers, frame included |
 //! | `box_avx2` | the same, and the least key, in registers of 256 bits |
-//! | `axis_place` | `AxisPlace`, a point along one axis of a frame, on targets without vector registers |
+//! | `axis_place` | a point along one axis of a frame, on targets without vector registers |
 //! | `two_in_word` | a point against eight boxes, on targets without vector registers |
 //! | `slab_ray` | [`SlabRay`], a segment prepared for the test |
 //! | `slab_planes` | a segment against one box, on targets without vector registers |
@@ -49,7 +49,7 @@ mod entry_avx2;
 #[cfg(meshsweep_wide)]
 mod entry_lanes;
 mod frame;
-#[cfg(any(test, not(meshsweep_wide)))]
+#[cfg(any(test, meshsweep_soft_float))]
 mod grid_line;
 #[cfg(any(test, not(meshsweep_wide)))]
 mod integer_entries;
@@ -74,7 +74,7 @@ pub(crate) use box_entries::push_entries;
 #[cfg(meshsweep_avx2)]
 pub(crate) use entry_avx2::keys as box_entries_avx2;
 pub use frame::KeyPoint;
-#[cfg(any(test, not(meshsweep_wide)))]
+#[cfg(meshsweep_soft_float)]
 pub use grid_line::GridLine;
 pub use keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory, least_key};
 #[cfg(meshsweep_wide)]

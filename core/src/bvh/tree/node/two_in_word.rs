@@ -5,7 +5,7 @@
 //! Places have fifteen bits. Where a side is not certain, the sixteenth is set before the
 //! subtraction, and stays set where the difference is not negative: no half borrows from the other.
 
-use super::axis_place::AxisPlace;
+use super::axis_place::{FINEST, axis_place};
 use super::frame::{KeyPoint, MAX_DISTANCE, PRODUCT_BITS, ROUND_UP};
 use super::keys::{CHILD_MASK, NO_CHILD};
 use super::opened_node::{OpenedNode, Pushed, Pusher};
@@ -70,7 +70,7 @@ enum Side {
 impl AxisPlanes {
     const NONE: AxisPlanes = AxisPlanes { step: 0, less_point: [0; 2], side: Side::Within };
 
-    /// `from` as [`AxisPlace::from`] has it. Where one is negative, it need not be cut to `least`.
+    /// The two numbers are those of [`axis_place`]. One that is negative is cut to `least`.
     #[inline(always)]
     fn new([first, last]: [i32; 2], step: u32, least: i32) -> AxisPlanes {
         let both = |[first, last]: [i32; 2]| {
@@ -158,7 +158,7 @@ fn set_coarse(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPoi
     let (rows, _) = entries.as_chunks::<3>();
     let [x, y, z] = p.relative_to_origin(record);
     for k in 0..3 {
-        // As `AxisPlace::of` has it, with the step taken out of the sum that is rounded.
+        // As `axis_place` has it, with the step taken out of the sum that is rounded.
         let [a, b, c] = rows[k];
         let term = |pair: [u8; 2], x: i32| i32::from(i16::from_le_bytes(pair)).wrapping_mul(x);
         let at = term(a, x).wrapping_add(term(b, y)).wrapping_add(term(c, z));
@@ -174,69 +174,85 @@ fn set_coarse(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPoi
     }
 }
 
-/// Sets the axes of any frame. The bits by which its planes are to be cut, so that the steps are no
-/// finer than a key unit: a byte of each axis.
-#[cold]
-#[inline(never)]
-fn set_fine(axes: &mut [AxisPlanes; 3], record: &[u8; FRAME_BYTES], p: &KeyPoint) -> u32 {
+/// The axes of any frame. Whether a step is finer than a key unit: then its planes are to be cut.
+#[cfg_attr(meshsweep_small, inline(always))]
+#[cfg_attr(not(meshsweep_small), cold, inline(never))]
+fn any_axes(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> ([AxisPlanes; 3], bool) {
     let (entries, _) = record[boxes::FRAME_ROWS..].as_chunks::<2>();
     let (rows, _) = entries.as_chunks::<3>();
     let offset = p.relative_to_origin(record);
-    let mut cuts = 0;
-    // By number: at `opt-level = "s"` so many iterators would be kept in memory.
-    for k in 0..3 {
-        let exponent = record[boxes::FRAME_EXPONENTS + k];
-        let AxisPlace { from, shift } =
-            AxisPlace::of(&rows[k], offset, exponent, p.unit_exponent());
-        // A byte stands for the high one of sixteen bits. `shift` cuts off the low ones, and the
-        // step is the unit of the byte after that.
-        let step = 1 << 8u32.saturating_sub(shift);
-        axes[k] = AxisPlanes::new(from, step, (0xFF00 >> shift) - MAX_DISTANCE);
-        cuts |= (shift.saturating_sub(8) & 7) << (8 * k);
-    }
-    cuts
+    let above = |axis| above_unit(record, p, axis);
+    let (x, y, z) = (above(0), above(1), above(2));
+    let axis = |k: usize, above| any_axis(&rows[k], &offset, above);
+    ([axis(0, x), axis(1, y), axis(2, z)], (x | y | z) < 0)
 }
 
-/// Four planes of axis `k`, cut.
+/// An axis of any frame. In small code a call: a loop over axes would keep its numbers in memory.
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
+fn any_axis(row: &[[u8; 2]; 3], offset: &[i32; 3], above: i32) -> AxisPlanes {
+    // A byte stands for the high one of sixteen bits, of which the low ones are cut off.
+    let least = (0xFF00 >> (8 - greater(above, -FINEST))) - MAX_DISTANCE;
+    AxisPlanes::new(axis_place(row, *offset, above), 1 << greater(above, 0), least)
+}
+
+/// The exponent of an axis's step less that of a key unit.
 #[inline(always)]
-fn cut(cuts: u32, k: usize, planes: [u8; 4]) -> [u8; 4] {
-    let cut = cuts >> (8 * k) & 7;
-    ((u32::from_le_bytes(planes) >> cut) & (0x0101_0101 * (0xFF >> cut))).to_le_bytes()
+fn above_unit(record: &[u8; FRAME_BYTES], p: &KeyPoint, axis: usize) -> i32 {
+    let exponent = record[boxes::FRAME_EXPONENTS + axis];
+    i32::from(exponent).wrapping_sub(p.unit_exponent().cast_signed())
+}
+
+/// The bits by which planes are to be cut, so that their step is no finer than a key unit.
+#[inline(always)]
+fn bits_to_cut(record: &[u8; FRAME_BYTES], p: &KeyPoint, axis: usize) -> u32 {
+    greater(0, lesser(-above_unit(record, p, axis), FINEST)).cast_unsigned()
+}
+
+/// Four planes, cut by up to seven bits.
+#[inline(always)]
+fn cut(by: u32, planes: [u8; 4]) -> [u8; 4] {
+    ((u32::from_le_bytes(planes) >> by) & (0x0101_0101 * (0xFF >> by))).to_le_bytes()
 }
 
 /// All planes, cut. One by one: an array of zeros to write to would be a call of `memset`.
 #[cold]
 #[inline(never)]
-fn cut_planes(cuts: u32, words: &PlaneWords) -> PlaneWords {
+fn cut_planes(record: &[u8; FRAME_BYTES], p: &KeyPoint, words: &PlaneWords) -> PlaneWords {
     let [a, b, c, d, e, f, g, h, i, j, k, l] = *words;
-    let (a, b, c, d) = (cut(cuts, 0, a), cut(cuts, 0, b), cut(cuts, 0, c), cut(cuts, 0, d));
-    let (e, f, g, h) = (cut(cuts, 1, e), cut(cuts, 1, f), cut(cuts, 1, g), cut(cuts, 1, h));
-    let (i, j, k, l) = (cut(cuts, 2, i), cut(cuts, 2, j), cut(cuts, 2, k), cut(cuts, 2, l));
+    let by = bits_to_cut(record, p, 0);
+    let (a, b, c, d) = (cut(by, a), cut(by, b), cut(by, c), cut(by, d));
+    let by = bits_to_cut(record, p, 1);
+    let (e, f, g, h) = (cut(by, e), cut(by, f), cut(by, g), cut(by, h));
+    let by = bits_to_cut(record, p, 2);
+    let (i, j, k, l) = (cut(by, i), cut(by, j), cut(by, k), cut(by, l));
     [a, b, c, d, e, f, g, h, i, j, k, l]
 }
 
 /// Squared distances of the children from the point, in squares of key units.
 #[inline(always)]
 fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH] {
-    let (mut axes, mut fine);
+    let (mut axes, is_fine, mut fine);
     let (words, _) = record.as_chunks::<4>();
     let Some(mut words) = words.first_chunk::<PLANE_WORDS>() else { return [ABSENT; WIDTH] };
-    if let Some(steps) = coarse_steps(record, p) {
+    if cfg!(meshsweep_small) {
+        // One way for all frames.
+        (axes, is_fine) = any_axes(record, p);
+        if is_fine {
+            // Less code. Not a copy: that would be a call of `memcpy`, for which alone firmware
+            // would link it. Of equal bytes it would be a call of `memclr` or `memset`.
+            fine = [[0, 1, 2, 3]; PLANE_WORDS];
+            for (at, (to, word)) in fine.iter_mut().zip(words).enumerate() {
+                *to = cut(bits_to_cut(record, p, at >> 2 & 3), *word);
+            }
+            words = &fine;
+        }
+    } else if let Some(steps) = coarse_steps(record, p) {
         axes = [AxisPlanes::NONE; 3];
         set_coarse(&mut axes, record, p, steps);
     } else {
-        axes = [AxisPlanes::NONE; 3];
-        let cuts = set_fine(&mut axes, record, p);
-        if cfg!(meshsweep_small) {
-            // Less code. Not a copy: that would be a call of `memcpy`, for which alone firmware
-            // would link it.
-            fine = [[0; 4]; PLANE_WORDS];
-            for (at, (to, word)) in fine.iter_mut().zip(words).enumerate() {
-                *to = cut(cuts, at >> 2, *word);
-            }
-        } else {
-            fine = cut_planes(cuts, words);
-        }
+        (axes, _) = any_axes(record, p);
+        fine = cut_planes(record, p, words);
         words = &fine;
     }
     let (Some(first), Some(second)) = (words.first_chunk(), words.last_chunk()) else {
@@ -245,8 +261,8 @@ fn squares(record: &[u8; FRAME_BYTES], p: &KeyPoint, count: u32) -> [u32; WIDTH]
     let [a, b, c, d] = squares_of_four(first, &axes);
     let [e, f, g, h] = squares_of_four(second, &axes);
     let mut squares = [a, b, c, d, e, f, g, h];
-    // Planes of absent children have no meaning.
-    let mut absent = count as usize;
+    // Planes of absent children have no meaning. Small code does not look at them.
+    let mut absent = if cfg!(meshsweep_small) { WIDTH } else { count as usize };
     while absent < WIDTH {
         // Of equal bytes the loop would become a call of `memset`.
         squares[absent & (WIDTH - 1)] = ABSENT;
@@ -264,8 +280,8 @@ pub(super) fn keys(
     parent: u32,
     keys: &mut [u32; WIDTH],
 ) {
-    let squares = squares(record, p, count);
-    for (child, (key, square)) in (0..).zip(keys.iter_mut().zip(squares)) {
+    for (child, (key, square)) in (0..).zip(keys.iter_mut().zip(squares(record, p, count))) {
+        let square = if cfg!(meshsweep_small) && child >= count { ABSENT } else { square };
         *key = key_of(square, parent, child);
     }
 }
@@ -287,7 +303,8 @@ pub(super) fn push(
 ) -> Pushed {
     let &OpenedNode { node, count, bound, limit } = opened;
     let mut pusher = Pusher::new(node, slots);
-    for (child, &square) in (0..).zip(&squares(record, p, count)) {
+    let looked_at = if cfg!(meshsweep_small) { count } else { WIDTH as u32 };
+    for (child, &square) in (0..looked_at).zip(&squares(record, p, count)) {
         // The limit's low bits are ones, so the key need not be made first.
         if square >> 1 <= limit {
             pusher.push(key_of(square, bound, child));
