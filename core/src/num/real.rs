@@ -52,6 +52,7 @@ fn small_float(x: i32) -> f32 {
 }
 
 /// `x · 2^exponent`, rounded down, if that is below 2^30 in magnitude; else no number of meaning.
+/// Of -0 it is -1.
 #[inline(never)]
 pub fn floored(x: f32, exponent: i32) -> i32 {
     let bits = x.to_bits();

@@ -31,8 +31,8 @@ impl Bvh<'_> {
     /// lower bound of 0. Farther than a million model sizes the model's box gives the interval.
     ///
     /// Cost: five to fifteen nodes and three to twelve leaves on scanned parts, all in f32. The
-    /// worst case is the whole tree, at the centre of a sphere. Where time is bounded, set
-    /// [`Budget::with_steps`].
+    /// worst case is the whole tree, at the centre of a sphere; without floating point, twice that.
+    /// Where time is bounded, set [`Budget::with_steps`].
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Scratch};

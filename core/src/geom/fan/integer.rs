@@ -110,7 +110,7 @@ impl IntPoint {
     ///
     /// The eighths are rounded down. So the true point may lie an eighth farther along any axis,
     /// which counts where the direction is negative. The difference before was rounded too, by 2^-8
-    /// at most. There is room for twice 2^-7 more.
+    /// at most. There is room for 2^-7 more.
     #[inline(always)]
     fn along_way(&self, direction: IntVector, at: IntVector) -> i32 {
         let all = norm_1(direction);

@@ -85,8 +85,8 @@ pub(crate) fn nearest_leaves<'s>(
 ) -> Option<NearestLeaves<'s>> {
     let (waiting, kept) = scratch.split_at_mut_checked(scratch.len() / 4 * 3)?;
     let mut goal = Goal::nearest(pose, kept);
-    let end =
-        descend(pose, &mut goal, &mut SearchStart { ..SearchStart::NONE }, steps, waiting, work);
+    let mut start = SearchStart::NONE;
+    let end = descend(pose, &mut goal, &mut start, steps, waiting, work);
     let far_sq = goal.limits.far_sq;
     let Wanted::Nearest(nearest) = goal.wanted else { return None };
     let Nearest { best, mut candidates, is_cut, .. } = nearest;

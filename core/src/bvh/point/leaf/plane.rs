@@ -74,7 +74,9 @@ impl LeafPlane {
 #[cfg(not(meshsweep_wide))]
 impl LeafPlane {
     /// The plane across `normal`, which has twelve bits. What is behind it is farther from `p` than
-    /// the root of `limit`.
+    /// the root of `limit`. Both are of one triangle: `normal` is along the way from it to `p`, and
+    /// the root of `limit` is at most as long as that way. So no sum wraps: `core/docs/rounding.md`
+    /// §8, "Roots of limits".
     pub(crate) fn new(p: &IntPoint, normal: IntVector, limit: IntLimit) -> LeafPlane {
         let far = limit.root_of_product(normal.into_iter().fold(0, |sum, x| sum + x * x));
         LeafPlane { normal, behind: p.along(normal).saturating_sub(far).saturating_sub(1) }

@@ -115,8 +115,8 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
     /// Looks at the triangles that wait: at the likeliest, then at the others, the latest first.
     ///
     /// False: the kernel found the nearest one farther than integers had promised. What was left
-    /// out may be nearer, so the search has to begin anew without waiting. No blob is known to do
-    /// so; crafted needles do.
+    /// out may be nearer, so the search has to begin anew without waiting. A triangle with two
+    /// corners in one place of the grid and an edge of one unit can do so.
     #[inline(never)]
     pub(crate) fn look_at_waiting(&mut self) -> Option<bool> {
         let Some(point) = &self.query.whole else { return Some(true) };

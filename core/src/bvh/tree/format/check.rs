@@ -104,7 +104,8 @@ impl<'a> Bvh<'a> {
     /// something else guards them since, such as the signature of the firmware. Of bytes that were
     /// changed since, any answer of this tree may be wrong. All the same no question panics in a
     /// release build or reads outside of the bytes, and each ends. A search opens at most twice as
-    /// many nodes as the tree has, and one. A question about two trees of n and m nodes opens up to
+    /// many nodes as the tree has, and one. A closest point without a limit of steps may search
+    /// twice on a board without floating point. A question about two trees of n and m nodes opens up to
     /// 81·n·m pairs in each of its searches, of which it has at most three. That may take minutes:
     /// give it a budget of steps. Nothing marks a wrong answer.
     ///
