@@ -649,10 +649,9 @@ int32_t msw_first_contact_of(const msw_model *model, const msw_model *other,
  *
  * `scene`: MSW_SCENE_ENTRIES(model_count, pair_count) entries, with any contents. `models` and
  * `pairs` are copied; the blobs stay where they are. After an error `scene` holds no scene, not
- * even one that was begun before, and questions refuse it by MSW_ERROR_NOT_OPENED. For this the
- * first entry is written even if `scene_count` is 0. Units: distances and translations are in the
- * world's unit, which is that of all models, as a pose does not scale. No pairs (NULL and 0) is no
- * error.
+ * even one that was begun before, and questions refuse it by MSW_ERROR_NOT_OPENED. Without entries
+ * (`scene_count` 0) nothing is written. Units: distances and translations are in the world's unit,
+ * which is that of all models, as a pose does not scale. No pairs (NULL and 0) is no error.
  * Errors: MSW_ERROR_MEMORY: too few entries. MSW_ERROR_COUNT: more than memory can have.
  * MSW_ERROR_NO_MODEL: a pair names a model that is not
  * there, or one twice. MSW_ERROR_TOLERANCE: a distance is negative, NaN or infinite.

@@ -385,8 +385,10 @@ impl Out<SceneEntry> {
         pair: impl Fn(usize) -> Result<RememberedPair, Error>,
     ) -> Result<(), Error> {
         check(self.0)?;
-        // SAFETY: neither NULL nor misaligned, so by contract an entry, whatever the count.
-        unsafe { self.0.write(SceneEntry(0)) };
+        if count > 0 {
+            // SAFETY: neither NULL nor misaligned, so by contract an entry.
+            unsafe { self.0.write(SceneEntry(0)) };
+        }
         check_slice(self.0, count)?.ok_or(Error::Memory)?;
         let [Ok(model_count), Ok(pair_count)] = [models, pairs].map(u32::try_from) else {
             return Err(Error::Count);

@@ -330,6 +330,9 @@ pub const GAP_SETTLED: f64 = 1.0 - 1.0 / (1u64 << 30) as f64;
 /// smaller one measures more.
 pub const WHOLE_GAP: f64 = 1.0 / (1u64 << 18) as f64;
 
+/// No more than this part of the limit is given up for [`WHOLE_GAP`].
+pub const WHOLE_PART: f64 = 1.0 / (1u64 << 20) as f64;
+
 /// Squared length below which a direction in f64 is not trusted, so that no product that decides
 /// underflows (§18). It bounds nothing then, which is always true.
 pub const GAP_DIRECTION_SQ: f64 = 1e-270;

@@ -12,6 +12,7 @@ use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::format::layout::MAX_TREE_DEPTH;
 use crate::bvh::tree::gap::NearestGap;
 use crate::geom::Pose;
+use crate::num::lesser;
 use crate::query::{Budget, Ended, PairDistance, QueryError, ScratchEntry, Work};
 
 impl Bvh<'_> {
@@ -37,8 +38,8 @@ impl Bvh<'_> {
     /// give the interval, and beyond 2^30 grid units they always do: it is then some 2e-4 of the
     /// distance wide.
     ///
-    /// Cost: a search in f32, then the distance in f64 of each pair of triangles that f32 cannot
-    /// tell from the nearest one. Some dozens of pairs of nodes and of triangles if one place is
+    /// Cost: a search in f32, then the distance in f64 of a pair of triangles, and of those that
+    /// neither f32 nor integers tell from the nearest one. Some dozens of pairs of nodes and of triangles if one place is
     /// nearest. If the surfaces run side by side, the cost is in proportion to the surface there.
     /// The search is in f64 from the roots if the budget has a tolerance or few steps, if vertices
     /// are f32, if the surfaces meet, or if the candidates do not fit a quarter of `scratch`.
@@ -80,7 +81,7 @@ impl Bvh<'_> {
         // f64 has one.
         let is_whole = budget.relative == 0.0
             && budget.absolute == 0.0
-            && budget.steps >= most_pairs(self, other);
+            && budget.steps >= lesser(most_pairs(self, other), u32::MAX / 2);
         if is_whole
             && pair.is_in_range
             && measure_nearest(&pair, &pose, &mut question, (scratch, &mut work))
@@ -121,7 +122,7 @@ fn measure_nearest(
     while let Some(place) = candidates.take_last() {
         let [first, second] = place;
         let (Some(p), Some(q)) = (first.leaf(a), second.leaf(b)) else { return false };
-        match leaves.visit_along(&mut between, [&p, &q], place, question, work) {
+        match leaves.visit_along(&mut between, [&p, &q], [place, best], question, work) {
             Some(true) => {}
             Some(false) => return true,
             None => return false,

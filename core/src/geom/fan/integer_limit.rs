@@ -46,7 +46,7 @@ impl IntLimit {
     }
 }
 
-/// The square root of a positive number below 2^32, rounded up, or at most 2^-11 of it more.
+/// The square root of a positive number below 2^32, rounded up, or at most 0.0005 of it more.
 ///
 /// Two of Newton's steps for the reciprocal root of its upper 16 bits, from a line that is off by a
 /// tenth. They end below it, by less than 2^-12 of it.

@@ -5,7 +5,8 @@ use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::progress::Watch;
 use meshsweep_core::{
-    Budget, BuildFor, Bvh, Ended, Pose, QueryError, ScratchEntry, Undecided, Verdict,
+    Budget, BuildFor, Bvh, CoherentPair, Ended, Pose, QueryError, Scratch, ScratchEntry, Undecided,
+    Verdict,
 };
 use meshsweep_host_tests::generate::{cube, rough_sphere, scaled, torus};
 use meshsweep_host_tests::motion::motions;
@@ -113,5 +114,24 @@ fn what_cannot_be_answered_is_refused() {
         let budget = Budget::EXACT.with_relative(bad);
         let found = tree.distance_to(&tree, Pose::IDENTITY, budget, &mut stack);
         assert_eq!(found.expect_err("refused"), QueryError::Tolerance);
+    }
+}
+
+/// Without surface errors nothing but rounding widens an interval.
+#[test]
+fn next_to_contact_an_interval_is_as_narrow_as_that_of_the_search_in_f64() {
+    let first = [[30000.0, 30000.0, 30000.0], [60000.0, 0.0, 0.0], [0.0, 60000.0, 0.0]];
+    let second = [[30000.0, 30000.0, 30000.0], [60000.0, 1000.0, 60000.0], [0.0, 60000.0, 60000.0]];
+    let [a, b] = [first, second].map(|of| Scene::both("", (of.to_vec(), vec![[0, 1, 2]])));
+    let (a, b) = (a.bvh(), b.bvh());
+    assert_eq!([a.surface_error(), b.surface_error()], [0.0; 2]);
+    let mut scratch = Scratch::<{ Bvh::DISTANCE_ENTRIES }>::new();
+    for z in [1e3f32, 1.0, 1e-2, 1e-4, 1e-5, 3e-6, 1e-6, 1e-7] {
+        let pose = Pose { translation: [0.0, 0.0, z], ..Pose::IDENTITY };
+        let found = a.distance_to(&b, pose, Budget::EXACT, &mut scratch).expect("answers");
+        let mut pair = CoherentPair::<1024>::new();
+        let other = pair.distance(&a, &b, pose, Budget::EXACT, &mut scratch).expect("answers");
+        let [width, known] = [found, other].map(|d| d.distance.upper - d.distance.lower);
+        assert!(width <= known + 4.0 * f32::EPSILON * z, "{z:e}: {found:?} {other:?}");
     }
 }

@@ -13,7 +13,9 @@ use crate::bvh::tree::format::FanLeaf;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::geom::{Contact, TriangleDistance, crossing, triangle_distance, triangles_meet};
-use crate::num::tolerance::{GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32, WHOLE_GAP};
+use crate::num::tolerance::{
+    GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32, WHOLE_GAP, WHOLE_PART,
+};
 use crate::num::{greater, lesser, up_to_f32};
 use crate::query::{RelativePose, Work};
 
@@ -62,23 +64,31 @@ impl<'a> LeafGaps<'a> {
         WholeWay::new(self.pose, self.offset)
     }
 
-    /// Measures the pairs of triangles of two leaves that may be nearer than the limit. `between` is
-    /// the direction between the nearest points so far, and is kept up to it. Whether the question
-    /// goes on. `core/docs/rounding.md` §26, *The nearest triangles*.
+    /// Measures the pairs of triangles of two leaves that may be nearer than the limit, but not
+    /// `measured`. `between` is the direction between the nearest points so far, and is kept up to
+    /// it. Returns whether the question goes on. `core/docs/rounding.md` §26, *The nearest
+    /// triangles*.
     pub(crate) fn visit_along(
         &mut self,
         between: &mut WholeWay<'a>,
         leaves: [&FanLeaf<'_>; 2],
-        places: [TriangleAt; 2],
+        [places, measured]: [[TriangleAt; 2]; 2],
         question: &mut PairQuestion<'_>,
         work: &mut Work,
     ) -> Option<bool> {
         let [first, _] = &self.pose.frames;
         let coarser = greater(f64::from(first.unit), self.pose.longest);
         let rounding = self.pose.vertex_error_exact;
-        let mut left_out = 0;
+        let triangles = leaves.map(|leaf| leaf.shape().triangles());
+        let pairs = triangles[0].saturating_mul(triangles[1]);
+        work.triangles = work.triangles.saturating_add(pairs as u32);
+        let mut left_out = !pairs_of(triangles);
+        if measured.map(|at| at.with_lane(0)) == places.map(|at| at.with_lane(0)) {
+            left_out |= 1u64 << ((measured[0].lane() * WIDTH + measured[1].lane()) & (PAIRS - 1));
+        }
         loop {
-            let lower = question.limit() - coarser * WHOLE_GAP;
+            let limit = question.limit();
+            let lower = limit - lesser(coarser * WHOLE_GAP, limit * WHOLE_PART);
             let beyond = between.pairs_beyond(lower + (rounding + rounding), leaves)?;
             if beyond & !left_out != 0 {
                 // An infinite upper end is never the best, so the points are not used.
@@ -144,8 +154,10 @@ impl<'a> LeafGaps<'a> {
                 *key = if left_out >> (at & (PAIRS - 1)) & 1 != 0 { NO_PAIR } else { *key };
             }
         }
-        work.triangles =
-            work.triangles.saturating_add((pair.a.triangles * pair.b.triangles) as u32);
+        if left_out.is_none() {
+            let pairs = (pair.a.triangles * pair.b.triangles) as u32;
+            work.triangles = work.triangles.saturating_add(pairs);
+        }
         loop {
             let key = keys.least();
             if key > key_limit(limit_sq) {
@@ -212,6 +224,12 @@ impl<'a> LeafGaps<'a> {
 #[inline(never)]
 fn meet(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], doubt: f64) -> bool {
     triangles_meet(*a, *b, doubt) == Contact::Meets
+}
+
+/// The bits of all pairs of so many triangles.
+fn pairs_of([rows, columns]: [usize; 2]) -> u64 {
+    let row = (1u64 << (columns & 15)) - 1;
+    (0..WIDTH).take(rows).fold(0, |bits, i| bits | (row & 0xFF) << (i * WIDTH))
 }
 
 /// The pairs of triangles that were measured.

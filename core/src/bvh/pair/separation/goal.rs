@@ -92,8 +92,7 @@ impl<'s> Goal<'s> {
             }
             return threshold.near.is_none();
         }
-        self.bring_upper(square, places);
-        true
+        self.bring_upper(square, places)
     }
 
     /// Whether two leaves whose hulls have this gap are kept as they are: none of their triangles
@@ -112,7 +111,7 @@ impl<'s> Goal<'s> {
     #[inline(always)]
     pub(crate) fn take(&mut self, place: TrianglesAt, found: &HullGap) -> bool {
         let &HullGap { gap_sq, hull_sq, .. } = found;
-        self.bring_upper(hull_sq, || place);
+        let goes_on = self.bring_upper(hull_sq, || place);
         match &mut self.wanted {
             Wanted::Near(threshold) if hull_sq <= self.limits.near_sq => {
                 threshold.near = Some(place);
@@ -133,23 +132,24 @@ impl<'s> Goal<'s> {
             }
             Wanted::Nearest(nearest) => {
                 nearest.candidates.add(place, gap_sq, self.limits.far_sq);
-                nearest.is_cut = sqrt_approx(nearest.upper_sq) <= nearest.rounding;
-                !nearest.is_cut
+                goes_on
             }
         }
     }
 
-    /// Lowers the limit of [`Wanted::Nearest`] to the squared distance of two points.
+    /// Lowers the limit of [`Wanted::Nearest`] to the squared distance of two points. Returns whether
+    /// the search goes on.
     #[inline(always)]
-    fn bring_upper(&mut self, square: f32, places: impl Fn() -> TrianglesAt) {
-        if let Wanted::Nearest(nearest) = &mut self.wanted
-            && square < nearest.upper_sq
-        {
+    fn bring_upper(&mut self, square: f32, places: impl Fn() -> TrianglesAt) -> bool {
+        let Wanted::Nearest(nearest) = &mut self.wanted else { return true };
+        if square < nearest.upper_sq {
             (nearest.upper_sq, nearest.best) = (square, places());
             let upper = sqrt_approx(square) * (1.0 + 8.0 * U32);
             self.far = (upper + 2.0 * nearest.rounding) * (1.0 + 8.0 * U32);
             self.limits.far_sq = square_up(self.far);
+            nearest.is_cut = upper <= nearest.rounding;
         }
+        !nearest.is_cut
     }
 }
 

@@ -192,8 +192,11 @@ fn any_axes(record: &[u8; FRAME_BYTES], p: &KeyPoint) -> ([AxisPlanes; 3], bool)
 #[cfg_attr(not(meshsweep_small), inline(always))]
 fn any_axis(row: &[[u8; 2]; 3], offset: &[i32; 3], above: i32) -> AxisPlanes {
     // A byte stands for the high one of sixteen bits, of which the low ones are cut off.
-    let least = (0xFF00 >> (8 - greater(above, -FINEST))) - MAX_DISTANCE;
-    AxisPlanes::new(axis_place(row, *offset, above), 1 << greater(above, 0), least)
+    // Counts of at most 15 bits, but for the bytes of an unchecked tree.
+    let (down, up) = (8 - greater(above, -FINEST), greater(above, 0));
+    let least = 0xFF00i32.wrapping_shr(down.cast_unsigned()) - MAX_DISTANCE;
+    let step = 1u32.wrapping_shl(up.cast_unsigned());
+    AxisPlanes::new(axis_place(row, *offset, above), step, least)
 }
 
 /// The exponent of an axis's step less that of a key unit.
