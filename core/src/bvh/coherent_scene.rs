@@ -191,7 +191,12 @@ impl ErasedScene<'_, '_> {
 
     /// As [`CoherentScene::reset`].
     pub fn reset(self) {
-        self.pairs.iter_mut().for_each(|pair| (pair.left, pair.start) = (0.0, SearchStart::NONE));
+        // By number: the end of an iterator of these would be a division without an instruction.
+        for at in 0..self.pairs.len() {
+            if let Some(pair) = self.pairs.get_mut(at) {
+                (pair.left, pair.start) = (0.0, SearchStart::NONE);
+            }
+        }
         *self.least = 0.0;
     }
 
