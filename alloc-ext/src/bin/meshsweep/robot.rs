@@ -154,6 +154,7 @@ fn write(
 fn as_json(robot: &Robot, module: &Path, blobs: &[PathBuf]) -> Value {
     let link = |(link, blob): (&Link, &PathBuf)| {
         let notes = link.built.report_on(meshsweep::builder::Topic::Input);
+        let notes = notes.filter(|note| !note.text.starts_with("unit: "));
         json!({
             "name": link.name,
             "blob": blob.display().to_string(),

@@ -15,13 +15,13 @@ pub struct RobotArgs {
     /// Distance that all pairs of links keep, in metres; or that of one pair, as base,wrist=0.05
     #[arg(long, value_name = "D", value_parser = keep, required = true)]
     pub keep: Vec<Keep>,
-    /// SRDF whose disable_collisions name pairs to leave out, but for the reason Never
+    /// SRDF: the pairs that it disables are left out, except those with the reason Never
     #[arg(long, value_name = "FILE")]
     pub srdf: Option<PathBuf>,
     /// Folder of a package that mesh files are named by [default: a folder above, of its name]
     #[arg(long, value_name = "NAME=DIR", value_parser = package)]
     pub package: Vec<(String, PathBuf)>,
-    /// Random places at which pairs are tried that may meet everywhere; 0 keeps them
+    /// Random places of the joints; a pair that meets at all of them is left out; 0: none is
     #[arg(long, value_name = "N", default_value = "1000", value_parser = clap::value_parser!(u32).range(..=1_000_000))]
     pub samples: u32,
     #[command(flatten)]

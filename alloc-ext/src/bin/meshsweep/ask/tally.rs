@@ -4,7 +4,7 @@ use meshsweep_core::{Ended, Work};
 
 /// Words for queries that ended with `Ended::Resolution`: more work does not help them.
 const RESOLUTION: &str =
-    "left undecided by rounding or the blob (cut, or vertices moved to a grid), or for touching";
+    "left undecided: they may touch, or rounding or the blob (cut, or on a grid) leaves it open";
 
 /// The same where the blob knows the mesh by a tight hull alone, which leaves most queries
 /// undecided.

@@ -157,12 +157,12 @@ impl Measured<'_> {
         }
         writeln!(
             out,
-            "\nmean, most: instructions of a {}, predicted; most is of the dearest pose, with what \
-             the\nfit missed. us: microseconds of most, {CYCLES} cycles an instruction. clear: \
+            "\nmean, most: instructions of a {}, predicted; most is of the dearest pose, times the \
+             fit's\nworst ratio. us: microseconds of most, {CYCLES} cycles an instruction. clear: \
              poses proved to keep the\ndistance. alarms: poses that keep it and are not proved \
-             to. missed: poses that are clear of the\nhull's surface and not of the mesh. flash: \
-             bytes of the blobs. scratch: bytes.\na mean of the fit's meshes and of its tests was \
-             predicted within",
+             to. undecided: neither clear nor proved\nnearer. missed: poses that are clear of the \
+             hull's surface and not of the mesh. flash: bytes of\nthe blobs. scratch: bytes.\n\
+             error of a predicted mean, over the meshes that it was fitted to and tested with",
             self.limits().board().name(),
         )?;
         let mut said: Vec<String> = Vec::new();
