@@ -46,12 +46,7 @@ impl Budget {
     /// Refuses a tolerance that no interval can meet.
     #[inline(always)]
     pub(crate) fn check(&self) -> Result<(), QueryError> {
-        // As integers: a comparison of f32 is a call where there is no float unit.
-        let is_fine = |x: f32| {
-            let bits = x.to_bits();
-            bits < f32::INFINITY.to_bits() || bits == (-0.0f32).to_bits()
-        };
-        if is_fine(self.relative) && is_fine(self.absolute) {
+        if is_length(self.relative) && is_length(self.absolute) {
             Ok(())
         } else {
             Err(QueryError::Tolerance)
@@ -73,9 +68,19 @@ impl Budget {
         distance: f32,
         scratch: &[ScratchEntry],
     ) -> Result<(), QueryError> {
-        self.with_absolute(distance).check()?;
+        if !is_length(distance) {
+            return Err(QueryError::Tolerance);
+        }
         self.check_with(scratch)
     }
+}
+
+/// Whether a number is finite and not negative. As integers: a comparison of f32 is a call where
+/// there is no float unit.
+#[inline(always)]
+fn is_length(x: f32) -> bool {
+    let bits = x.to_bits();
+    bits < f32::INFINITY.to_bits() || bits == (-0.0f32).to_bits()
 }
 
 impl Default for Budget {

@@ -22,8 +22,7 @@ impl Fold {
         self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(Self::PRIME);
     }
 
-    /// Folds the four bytes of a word. A call: images for a small flash fold in many places.
-    #[inline(never)]
+    /// Folds the four bytes of a word.
     pub fn word(&mut self, word: u32) {
         for byte in word.to_le_bytes() {
             self.byte(byte);

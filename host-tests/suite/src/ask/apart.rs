@@ -83,7 +83,7 @@ pub fn coherent(
             || pair.distance(tree, tree, pose, budget, scratch),
             |fold, answer| {
                 nearest(fold, answer.distance, answer.points, answer.triangles);
-                super::how(fold, answer.ended);
+                words(fold, &[answer.ended as u32]);
             },
         );
         half = found.map_or(half, |found| 0.5 * found.distance.lower);
@@ -109,13 +109,13 @@ pub fn penetration(
     to.answer(
         || tree.penetration(tree, pose, budget, scratch),
         |fold, answer| {
-            fold.f32(answer.depth.lower);
-            fold.f32(answer.depth.upper);
-            fold.word(u32::from(answer.relation == Relation::Apart));
+            words(fold, &[answer.depth.lower.to_bits()]);
+            words(fold, &[answer.depth.upper.to_bits()]);
+            words(fold, &[u32::from(answer.relation == Relation::Apart)]);
             if let Some(apart) = answer.apart {
-                fold.point(apart.translation);
+                words(fold, &apart.translation.map(f32::to_bits));
             }
-            super::how(fold, answer.ended);
+            words(fold, &[answer.ended as u32]);
         },
     );
 }
@@ -139,7 +139,7 @@ pub fn scene(
         || scene.nearest_pair(|_, _| true, budget, scratch),
         |fold, answer| {
             nearest(fold, answer.distance, answer.points, answer.triangles);
-            super::how(fold, answer.ended);
+            words(fold, &[answer.ended as u32]);
         },
     );
     to.answer(
@@ -149,11 +149,21 @@ pub fn scene(
 }
 
 /// Where two surfaces are nearest.
-fn nearest(fold: &mut Fold, distance: Interval, points: [[f32; 3]; 2], triangles: [u32; 2]) {
-    fold.f32(distance.lower);
-    fold.f32(distance.upper);
-    points.into_iter().for_each(|point| fold.point(point));
-    triangles.into_iter().for_each(|number| fold.word(number));
+fn nearest(
+    fold: &mut Fold,
+    distance: Interval,
+    [[a, b, c], [x, y, z]]: [[f32; 3]; 2],
+    [first, second]: [u32; 2],
+) {
+    let [a, b, c, x, y, z] = [a, b, c, x, y, z].map(f32::to_bits);
+    let (lower, upper) = (distance.lower.to_bits(), distance.upper.to_bits());
+    words(fold, &[lower, upper, a, b, c, x, y, z, first, second]);
+}
+
+/// Folds words by a call: all is more than the flash of the smallest board.
+#[inline(never)]
+fn words(fold: &mut Fold, words: &[u32]) {
+    words.iter().for_each(|&word| fold.word(word));
 }
 
 /// How often the surface encloses a point.
@@ -167,9 +177,9 @@ pub fn winding(
     to.answer(
         || tree.winding_number(point, Budget::EXACT, scratch),
         |fold, answer| {
-            fold.f32(answer.number.lower);
-            fold.f32(answer.number.upper);
-            super::how(fold, answer.ended);
+            let number = answer.number;
+            let ends = [number.lower, number.upper].map(f32::to_bits);
+            words(fold, &[ends[0], ends[1], answer.ended as u32]);
         },
     );
 }
@@ -191,7 +201,7 @@ pub fn distance(
         || tree.distance_to(tree, pose, budget, scratch),
         |fold, answer| {
             nearest(fold, answer.distance, answer.points, answer.triangles);
-            super::how(fold, answer.ended);
+            words(fold, &[answer.ended as u32]);
         },
     );
     if let Some(found) = found {
@@ -211,9 +221,9 @@ pub fn distance(
                 tree.first_contact_of(tree, &motion, half, budget, scratch)
             },
             |fold, answer| {
-                fold.f32(answer.clear_until);
-                answer.triangles.into_iter().for_each(|number| fold.word(number));
-                super::how(fold, answer.ended);
+                words(fold, &[answer.clear_until.to_bits()]);
+                answer.triangles.into_iter().for_each(|number| words(fold, &[number]));
+                words(fold, &[answer.ended as u32]);
             },
         );
     }
@@ -234,11 +244,11 @@ pub fn solid(
             tree.solid_distance(&capsule, Budget::EXACT, scratch)
         },
         |fold, answer| {
-            fold.f32(answer.distance.lower);
-            fold.f32(answer.distance.upper);
-            answer.points.into_iter().for_each(|point| fold.point(point));
-            fold.word(answer.triangle);
-            super::how(fold, answer.ended);
+            words(fold, &[answer.distance.lower.to_bits()]);
+            words(fold, &[answer.distance.upper.to_bits()]);
+            answer.points.into_iter().for_each(|point| words(fold, &point.map(f32::to_bits)));
+            words(fold, &[answer.triangle]);
+            words(fold, &[answer.ended as u32]);
         },
     );
     if let Some(found) = found {
@@ -267,12 +277,12 @@ pub fn contact(
         tree.solid_first_contact(&from, &end, Budget::EXACT, scratch)
     };
     to.answer(call, |fold, answer| {
-        fold.f32(answer.t.lower);
-        fold.f32(answer.t.upper);
+        words(fold, &[answer.t.lower.to_bits()]);
+        words(fold, &[answer.t.upper.to_bits()]);
         if let Some(hit) = answer.hit {
             fold.point(hit.point);
             super::number(fold, hit.triangle);
         }
-        super::how(fold, answer.ended);
+        words(fold, &[answer.ended as u32]);
     });
 }
