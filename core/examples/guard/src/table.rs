@@ -12,15 +12,15 @@
 // take several times as much: core/docs/guide.md tells how to avoid it.
 //                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
 //   open a box tree                 2240 / 1792    2368 / 1920    2240 / 1792    2176 / 1792
-//   first hit                       1216 / 1280    1536 / 1600    1216 / 1280    1472 / 1472
+//   first hit                       1216 / 1280    1536 / 1664    1216 / 1280    1472 / 1472
 //   any hit                         1088 / 1088    1472 / 1600    1088 / 1088    1408 / 1408
 //   all hits                        1344 / 1344    1664 / 1664    1344 / 1344    1472 / 1536
 //   overlap                         6720 / 6464    6336 / 6208    6720 / 6464    6080 / 5952
 //   distance of two models        13888 / 12608  13504 / 12288  13888 / 12608  12992 / 11840
 //   coherent pair                 16000 / 15040  15744 / 14720  16000 / 15040  15168 / 14144
 //   scene                         15360 / 14656  15104 / 14336  15360 / 14656  14464 / 13760
-//   distance of a solid           11904 / 10368  11712 / 10176  11904 / 10368   11328 / 9600
-//   first contact                 10688 / 10048   10560 / 9728  10688 / 10048   10240 / 9344
+//   distance of a solid           11840 / 10368  11712 / 10176  11840 / 10368   11264 / 9600
+//   first contact                 10688 / 10048   10560 / 9728  10688 / 10048   10240 / 9280
 //
 // Distances are in the mesh's unit. Intervals hold of the mesh, not only of the stored surface.
 
