@@ -65,6 +65,7 @@ impl Waiting {
     }
 
     /// Drops those that are beyond the limit. Returns whether there is room for another one.
+    #[allow(clippy::reversed_empty_ranges, reason = "nothing waits where floats are instructions")]
     pub(crate) fn makes_room(&mut self) -> bool {
         if self.triangles.is_full() {
             let mut left = 0;

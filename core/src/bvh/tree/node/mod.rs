@@ -49,7 +49,7 @@ mod entry_avx2;
 #[cfg(meshsweep_wide)]
 mod entry_lanes;
 mod frame;
-#[cfg(any(test, meshsweep_soft_float))]
+#[cfg(any(all(test, meshsweep_wide), meshsweep_soft_float))]
 mod grid_line;
 #[cfg(any(test, not(meshsweep_wide)))]
 mod integer_entries;
