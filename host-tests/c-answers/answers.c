@@ -578,7 +578,7 @@ static void refusals(const msw_model *model)
     fold_word((uint32_t)msw_refine(&hull, refined, 7, NULL, 1.0f, &refinement));
     fold_word((uint32_t)msw_refine(&hull, refined, 1, NULL, 1.0f, &refinement));
     /* Scenes: too few entries, no such model, one twice, a distance below 0, a pose of zeros, memory
-     * without a scene, then with one; begun anew in too many entries, and in none. */
+     * without a scene, then with one; begun anew in too many entries, and in too few. */
     static msw_scene_entry memory[MSW_SCENE_ENTRIES(2, 1)];
     static const msw_kept_pair wrong[3] = {{{0, 2}, 1.0f}, {{1, 1}, 1.0f}, {{0, 1}, -1.0f}};
     static const msw_kept_pair right = {{0, 1}, 1.0f};
@@ -598,7 +598,7 @@ static void refusals(const msw_model *model)
     fold_word((uint32_t)msw_scene_move(memory, 1, &zeros));
     fold_word((uint32_t)msw_scene_within(memory, NULL, scratch, 0, &near));
     fold(&near, sizeof near);
-    static const size_t bad_counts[2] = {SIZE_MAX, 0};
+    static const size_t bad_counts[2] = {SIZE_MAX, 1};
     for (int index = 0; index < 2; index++) {
         fold_word((uint32_t)msw_scene_begin(memory, entries, models, 2, &right, 1));
         fold_word((uint32_t)msw_scene_begin(memory, bad_counts[index], models, 2, &right, 1));

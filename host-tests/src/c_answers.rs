@@ -555,7 +555,7 @@ fn refusals() -> String {
     // in the memory; one; no such model, a pose of zeros, no scratch.
     codes(&mut kind, &[-6, -47, -47, -41, -43, -3, 0, -47, -43, -44]);
     kind.words(&zeros[..8]);
-    // A scene, too many entries, none in the memory; a scene, no entries, none in the memory.
+    // A scene, too many entries, none in the memory; a scene, too few entries, none in the memory.
     codes(&mut kind, &[0, -4, -3, 0, -6, -3]);
     // An unknown kind of motion, one of zeros, a blob without triboxes.
     codes(&mut kind, &[-5, -43]);
