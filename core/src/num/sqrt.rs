@@ -35,7 +35,7 @@ pub fn sqrt_approx(x: f32) -> f32 {
     if SOFT_FLOAT && !is_small { root.0 } else { scaled(root.0, down) }
 }
 
-/// `x` times a power of two. Without an FPU it is a call: else the compiler multiplies every number.
+/// `x` times a power of two. Without an FPU it is a call: else every number is multiplied.
 #[cfg_attr(meshsweep_soft_float, cold, inline(never))]
 #[cfg_attr(not(meshsweep_soft_float), inline(always))]
 fn scaled(x: f32, power: f32) -> f32 {

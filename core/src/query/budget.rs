@@ -60,8 +60,8 @@ impl Budget {
         if scratch.is_empty() { Err(QueryError::NoScratch) } else { Ok(()) }
     }
 
-    /// [`check_with`](Self::check_with), and refuses a distance asked about that is negative, NaN or
-    /// infinite.
+    /// [`check_with`](Self::check_with), and refuses a distance asked about that is negative, NaN
+    /// or infinite.
     #[inline(always)]
     pub(crate) fn check_about(
         &self,

@@ -39,10 +39,11 @@ impl Bvh<'_> {
     /// distance wide.
     ///
     /// Cost: a search in f32, then the distance in f64 of a pair of triangles, and of those that
-    /// neither f32 nor integers tell from the nearest one. Some dozens of pairs of nodes and of triangles if one place is
-    /// nearest. If the surfaces run side by side, the cost is in proportion to the surface there.
-    /// The search is in f64 from the roots if the budget has a tolerance or few steps, if vertices
-    /// are f32, if the surfaces meet, or if the candidates do not fit a quarter of `scratch`.
+    /// neither f32 nor integers tell from the nearest one. Some dozens of pairs of nodes and of
+    /// triangles if one place is nearest. If the surfaces run side by side, the cost is in
+    /// proportion to the surface there. The search is in f64 from the roots if the budget has a
+    /// tolerance or few steps, if vertices are f32, if the surfaces meet, or if the candidates do
+    /// not fit a quarter of `scratch`.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Pose, Scratch};

@@ -137,8 +137,8 @@ impl<'s> Goal<'s> {
         }
     }
 
-    /// Lowers the limit of [`Wanted::Nearest`] to the squared distance of two points. Returns whether
-    /// the search goes on.
+    /// Lowers the limit of [`Wanted::Nearest`] to the squared distance of two points. Returns
+    /// whether the search goes on.
     #[inline(always)]
     fn bring_upper(&mut self, square: f32, places: impl Fn() -> TrianglesAt) -> bool {
         let Wanted::Nearest(nearest) = &mut self.wanted else { return true };
