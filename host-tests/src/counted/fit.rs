@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use glam::Vec3;
 use meshsweep::builder::{Builder, Built, For, Recipe};
 use meshsweep::load::Source;
 use meshsweep::mesh::{RawMesh, repair};
@@ -32,11 +33,21 @@ const QUERIES: usize = 200;
 pub fn fit(fixtures: &Path, folder: &Path, others: &[&str]) -> Result<String, String> {
     std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let (mut lines, mut number) = (String::new(), 0);
-    for (role, subject) in subjects(fixtures, others)? {
+    let subjects = subjects(fixtures, others)?;
+    for (at, (role, subject)) in subjects.iter().enumerate() {
         for search in Search::ALL {
-            let Some(bytes) = built(&subject, search) else { continue };
-            for Asked { question, budget, places, dials } in asked(&subject, search) {
-                let laid = written(question, &bytes, &places);
+            let Some(bytes) = built(subject, search) else { continue };
+            let mut all = asked(subject, search);
+            if let Some(apart) = apart_of(search) {
+                let (_, next) = &subjects[(at + 1) % subjects.len()];
+                all = pairs(subject, &bytes, apart, "its copy");
+                let small = beside(next, subject);
+                if let Some(other) = built(&small, search) {
+                    all.extend(pairs(subject, &other, apart, &next.name));
+                }
+            }
+            for Asked { question, budget, other, places, dials } in all {
+                let laid = written(question, &bytes, &other, &places);
                 let rows = rows(&laid, &bytes, search, budget)?;
                 let expected = expected(&laid, QUERIES)?;
                 let all = [
@@ -110,34 +121,60 @@ fn built(subject: &Subject, search: Search) -> Option<Vec<u8>> {
 struct Asked {
     question: Question,
     budget: Budget,
+    /// The blob of the model that moves; of a question about one model, no bytes.
+    other: Vec<u8>,
     places: Vec<[f32; 3]>,
     dials: String,
 }
 
+/// Questions about one model.
 fn asked(subject: &Subject, search: Search) -> Vec<Asked> {
-    let of_pair: fn(f32) -> Question = match search {
-        Search::PairOfTrees => Question::PairOfTrees,
-        Search::PairOfTriboxes => Question::PairOfTriboxes,
-        _ => {
-            let at = |(kind, budget): (Points, Budget)| Asked {
-                question: question(search, budget),
-                budget,
-                places: points(subject, kind, QUERIES),
-                dials: format!("{} {}", kind.name(), dials(budget)),
-            };
-            return questions(search, subject.diagonal()).into_iter().map(at).collect();
-        }
+    let at = |(kind, budget): (Points, Budget)| Asked {
+        question: question(search, budget),
+        budget,
+        other: Vec::new(),
+        places: points(subject, kind, QUERIES),
+        dials: format!("{} {}", kind.name(), dials(budget)),
     };
+    questions(search, subject.diagonal()).into_iter().map(at).collect()
+}
+
+/// The question about two models, by its distance.
+fn apart_of(search: Search) -> Option<fn(f32) -> Question> {
+    match search {
+        Search::PairOfTrees => Some(Question::PairOfTrees),
+        Search::PairOfTriboxes => Some(Question::PairOfTriboxes),
+        _ => None,
+    }
+}
+
+/// Questions about a model and the one of the blob `other`, which moves.
+fn pairs(subject: &Subject, other: &[u8], apart: fn(f32) -> Question, name: &str) -> Vec<Asked> {
     let at = |part: f64| Asked {
-        question: of_pair((part * subject.diagonal()) as f32),
+        question: apart((part * subject.diagonal()) as f32),
         budget: Budget::EXACT,
+        other: other.to_vec(),
         places: poses(subject),
-        dials: format!("{part} diagonals"),
+        dials: format!("{name}, {part} diagonals"),
     };
     [0.01, 0.05, 0.2].map(at).into()
 }
 
-/// Poses of a copy up to two diagonals away: the rows of each matrix, then its translation.
+/// The mesh of `other`, half as large as `subject` and in its middle.
+fn beside(other: &Subject, subject: &Subject) -> Subject {
+    let [from, to] = [other, subject].map(|of| {
+        let [low, high] = of.bounds.map(Vec3::from_array);
+        (low + high) / 2.0
+    });
+    let scale = (0.5 * subject.diagonal() / other.diagonal()) as f32;
+    let mut mesh = other.mesh.clone();
+    for place in &mut mesh.positions {
+        *place = (to + (Vec3::from_array(*place) - from) * scale).to_array();
+    }
+    Subject::of(&other.name, mesh)
+}
+
+/// Poses up to two diagonals away: the rows of each matrix, then its translation.
 fn poses(subject: &Subject) -> Vec<[f32; 3]> {
     let (mut rng, sphere) = (Rng::new(0x7061_6972), sphere(subject));
     let mut place = || {

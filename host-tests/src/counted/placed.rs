@@ -35,7 +35,7 @@ pub fn lay(fixtures: &Path, question: &str, count: usize) -> Option<Result<Vec<u
         ["bvh", blob, relative] => read(blob).and_then(|bytes| {
             let bounds = of(&bytes, |blob| Ok(blob.bvh()?.bounds()))?;
             let budget = Budget::EXACT.with_relative(number(relative)?);
-            Ok(written(Question::Tree(budget), &bytes, &far(bounds, count)))
+            Ok(written(Question::Tree(budget), &bytes, &[], &far(bounds, count)))
         }),
         ["sweep", blob, step, relative] => read(blob).and_then(|bytes| {
             let bounds = of(&bytes, |blob| Ok(blob.hull()?.bounds()))?;
@@ -43,10 +43,10 @@ pub fn lay(fixtures: &Path, question: &str, count: usize) -> Option<Result<Vec<u
             let budget = Budget::EXACT.with_relative(number(relative)?);
             let places = far(bounds, count.max(2));
             Ok(if step == 0.0 {
-                written(Question::Sweep(budget), &bytes, &places)
+                written(Question::Sweep(budget), &bytes, &[], &places)
             } else {
                 let places = walk(places.into_iter(), step, count);
-                written(Question::KeptSweep(budget), &bytes, &places)
+                written(Question::KeptSweep(budget), &bytes, &[], &places)
             })
         }),
         ["refine", blob, radius, error] => read(blob).and_then(|bytes| {
@@ -54,7 +54,7 @@ pub fn lay(fixtures: &Path, question: &str, count: usize) -> Option<Result<Vec<u
             let diagonal = diagonal(hull.bounds());
             let part = |word| number(word).map(|part| part * diagonal);
             let question = Question::Refine(part(radius)?, part(error)?);
-            Ok(written(question, &bytes, &walk(along_base(&hull), STEP * diagonal, count)))
+            Ok(written(question, &bytes, &[], &walk(along_base(&hull), STEP * diagonal, count)))
         }),
         _ => return None,
     };
@@ -102,8 +102,14 @@ fn walk(mut corners: impl Iterator<Item = [f32; 3]>, step: f32, count: usize) ->
     places
 }
 
-pub(crate) fn written(question: Question, blob: &[u8], places: &[[f32; 3]]) -> Vec<u8> {
-    let header = placed::header(question, blob.len() as u32, places.len() as u32);
+pub(crate) fn written(
+    question: Question,
+    blob: &[u8],
+    other: &[u8],
+    places: &[[f32; 3]],
+) -> Vec<u8> {
+    let bytes = [blob, other].map(|blob| blob.len() as u32);
+    let header = placed::header(question, bytes, places.len() as u32);
     let places = places.as_flattened().iter().flat_map(|x| x.to_le_bytes());
-    header.into_iter().chain(blob.iter().copied()).chain(places).collect()
+    header.into_iter().chain([blob, other].concat()).chain(places).collect()
 }

@@ -35,10 +35,10 @@ pub enum Question {
     Triboxes(Budget),
     /// The box tree's closest point in f64.
     Precise(Budget),
-    /// Whether the box tree is within a distance of its copy at a pose. Four places are a pose: the
-    /// rows of its matrix, then its translation.
+    /// Whether the box tree is within a distance of the other blob's at a pose. Four places are a
+    /// pose: the rows of its matrix, then its translation.
     PairOfTrees(f32),
-    /// Whether the triboxes prove that the model is farther than a distance from that copy.
+    /// Whether the triboxes prove that the model is farther than a distance from the other blob's.
     PairOfTriboxes(f32),
 }
 
@@ -82,27 +82,29 @@ impl Question {
     }
 }
 
-/// A question, the blob and the places.
+/// A question, its blobs and the places.
 #[derive(Clone, Copy, Debug)]
 pub struct Placed<'t> {
     /// The question.
     pub question: Question,
     /// The blob.
     pub blob: &'t [u8],
+    /// The blob of the model that moves, for a question about two; else no bytes.
+    pub other: &'t [u8],
     places: &'t [[u8; 12]],
 }
 
-/// Bytes of the header: the question in four words, the length of the blob, the number of places.
-pub const HEADER: usize = 24;
+/// Bytes of the header: the question in four words, the lengths of the blobs, the number of places.
+pub const HEADER: usize = 28;
 
-/// The header of a blob of `bytes` bytes and of some places. The blob follows, then three f32 a
+/// The header of two blobs of `bytes` bytes and of some places. The blobs follow, then three f32 a
 /// place, little-endian.
 #[must_use]
-pub fn header(question: Question, bytes: u32, places: u32) -> [u8; HEADER] {
-    let [kind, first, second, steps] = question.words();
+pub fn header(question: Question, bytes: [u32; 2], places: u32) -> [u8; HEADER] {
+    let ([kind, first, second, steps], [blob, other]) = (question.words(), bytes);
     let mut header = [0; HEADER];
     let (words, _) = header.as_chunks_mut();
-    for (to, word) in words.iter_mut().zip([kind, first, second, steps, bytes, places]) {
+    for (to, word) in words.iter_mut().zip([kind, first, second, steps, blob, other, places]) {
         *to = word.to_le_bytes();
     }
     header
@@ -117,8 +119,9 @@ impl<'t> Placed<'t> {
         let mut next = || words.next();
         let question = Question::of_words([next()?, next()?, next()?, next()?])?;
         let (blob, rest) = rest.split_at_checked(next()? as usize)?;
+        let (other, rest) = rest.split_at_checked(next()? as usize)?;
         let places = rest.as_chunks().0.get(..next()? as usize)?;
-        Some(Self { question, blob, places })
+        Some(Self { question, blob, other, places })
     }
 
     /// The places.
@@ -216,22 +219,22 @@ pub fn ask<'t>(
     mut told: impl FnMut(&Answer),
 ) -> Result<usize, Refused> {
     let blob = Blob::open(placed.blob).map_err(Refused::of)?;
+    let other = || Blob::open(placed.other).map_err(Refused::of);
     let places = placed.places.iter().take(queries).map(place);
     let poses = placed.places.as_chunks::<4>().0.iter().take(queries).map(pose);
     let asking = Asking { places, clock, told: &mut told };
     match placed.question {
         Question::PairOfTrees(distance) => {
-            let (tree, exact) = (tree(&blob)?, Budget::EXACT);
-            let ask = |pose, stack: &mut [_]| tree.within_of(&tree, pose, distance, exact, stack);
+            let (first, second, exact) = (tree(&blob)?, tree(&other()?)?, Budget::EXACT);
+            let ask = |pose, stack: &mut [_]| first.within_of(&second, pose, distance, exact, stack);
             let (asking, wanted) = (asking.at(poses), Bvh::DISTANCE_ENTRIES);
             by_entries(&mut memory.entries, wanted, asking, ask, Answer::Within)
         }
         Question::PairOfTriboxes(distance) => {
-            let triboxes = blob.triboxes().map_err(|_| Refused::NO_SECTION)?;
-            let exact = Budget::EXACT;
-            let ask =
-                |pose, stack: &mut [_]| triboxes.within_of(&triboxes, pose, distance, exact, stack);
-            let wanted = triboxes.separation_entries(&triboxes);
+            let triboxes = |blob: &Blob<'t>| blob.triboxes().map_err(|_| Refused::NO_SECTION);
+            let (first, second, exact) = (triboxes(&blob)?, triboxes(&other()?)?, Budget::EXACT);
+            let ask = |pose, stack: &mut [_]| first.within_of(&second, pose, distance, exact, stack);
+            let wanted = first.separation_entries(&second);
             by_entries(&mut memory.entries, wanted, asking.at(poses), ask, Answer::Farther)
         }
         Question::Tree(budget) => {
