@@ -56,6 +56,8 @@ pub mod lp;
 pub mod mesh;
 #[doc(hidden)]
 pub mod number;
+#[doc(hidden)]
+pub mod pose;
 pub mod progress;
 mod random;
 pub mod robot;

@@ -6,13 +6,18 @@
 //! | file | owns |
 //! | --- | --- |
 //! | `climb` | hill climbing in a box of numbers |
+//! | `goal` | what a search makes great, and the query that it found |
 //! | `search` | the box and the seeds of points, balls and segments |
 //! | `subject` | a question to a structure, and what its worst query costs |
+//! | `pair` | the same of two models: the worst pose |
 
 mod climb;
+mod goal;
+mod pair;
 mod search;
 mod subject;
 
 pub use climb::{Climb, Domain, Summit, climb};
-pub use search::{Found, Goal, Worst};
+pub use goal::{Found, Goal, Worst};
+pub use pair::{Pair, PairQuestion};
 pub use subject::{Question, Subject};

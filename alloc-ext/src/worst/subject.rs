@@ -1,6 +1,7 @@
 //! A question to a structure, and the search for its worst query.
 
-use super::search::{Found, Goal, Search, Worst};
+use super::goal::{Found, Goal, Worst};
+use super::search::Search;
 use crate::distances::{Distances, has_sides, signed_distance};
 use crate::trade::{self, Board, Shape};
 use meshsweep_core::{Blob, Budget, Facing, Interval, Work};

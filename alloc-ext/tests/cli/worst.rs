@@ -65,6 +65,33 @@ fn the_widest_interval_within_a_step_budget_is_wider_than_those_of_random_points
 }
 
 #[test]
+fn the_dearest_pose_of_a_second_mesh_costs_what_is_said_and_stays_within_steps() {
+    let directory = scratch("worst_pair");
+    let [first, second] =
+        ["bracket.stl", "torus.ply"].map(|name| blob(&directory, name, &["--for", "segment"]));
+    let second = arg(&second);
+    for within in [&[][..], &["--within", "2"]] {
+        for steps in [&[][..], &["--steps", "20"]] {
+            let rows = dearest(&first, &[&[second], within, steps].concat());
+            for row in &rows {
+                let pose = typed(row);
+                let command = ["clearance", arg(&first), second, "--pose", &pose];
+                let text = ok([&command[..], within, steps].concat());
+                let work = text.lines().nth(1).unwrap().rsplit(',').next().unwrap();
+                assert_eq!(work.parse(), Ok(sum(row)), "{row}");
+                let limit = if steps.is_empty() { f64::INFINITY } else { 20.0 };
+                assert!(row["opened"].as_f64().unwrap() <= limit, "{row}");
+            }
+            let [dearest, mean] = ["value", "mean_of_random_queries"]
+                .map(|of| rows[0][of].as_f64().expect("a number"));
+            assert!(dearest > 2.0 * mean, "{rows:?}");
+            let has_widest = within.is_empty() && !steps.is_empty();
+            assert_eq!(rows.iter().any(|row| row["greatest"] == "width"), has_widest);
+        }
+    }
+}
+
+#[test]
 fn a_blob_without_such_questions_is_refused_with_those_it_serves() {
     let directory = scratch("worst_refused");
     let blob = blob(&directory, "torus.ply", &["--for", "triboxes", "--triboxes", "2"]);

@@ -43,14 +43,15 @@ const BENEATH: &[&str] = &[
 
 /// The same of `alloc-ext/src`. `emit` is beneath: it knows sections and no builder. `counted` and
 /// `number` print numbers, `error` says why there is no blob, `progress` tells how much is done and
-/// asks whether to go on, `random` gives the same numbers in every run. `cut`, `trade` and
-/// `builder` are above: they know all structures. `load` makes a clean mesh of a file for them.
-/// `check` proves the others' work and shares nothing with them but meshes. `trade` measures
-/// distances by it.
-const BUILDER: [(&str, &[&str]); 25] = [
+/// asks whether to go on, `pose` makes matrices of quaternions, `random` gives the same numbers in
+/// every run. `cut`, `trade` and `builder` are above: they know all structures. `load` makes a clean
+/// mesh of a file for them. `check` proves the others' work and shares nothing with them but meshes.
+/// `trade` measures distances by it.
+const BUILDER: [(&str, &[&str]); 26] = [
     ("counted", &[]),
     ("number", &[]),
     ("emit", &[]),
+    ("pose", &[]),
     ("random", &[]),
     ("lp", &["random"]),
     ("geom", &[]),
@@ -109,7 +110,7 @@ const BUILDER: [(&str, &[&str]); 25] = [
             "builder",
         ],
     ),
-    ("worst", &["distances", "random", "trade"]),
+    ("worst", &["distances", "pose", "random", "trade"]),
     ("robot", &["builder", "emit", "error", "load", "mesh", "number", "random"]),
 ];
 

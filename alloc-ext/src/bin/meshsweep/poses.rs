@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::output;
 use crate::queries::Queries;
 use meshsweep::number::Short;
+pub use meshsweep::pose::{of_quaternion, of_row};
 use meshsweep_core::Pose;
 use meshsweep_core::internal::num::tolerance::RIGID;
 
@@ -32,21 +33,6 @@ pub fn read(MovedArgs { pose, matrix, .. }: &MovedArgs) -> Result<Queries<12>, F
         poses.end_at(index, failure)?;
     }
     Ok(poses.map(of_quaternion))
-}
-
-/// The matrix of a translation and a quaternion, which need not have length 1.
-fn of_quaternion([x, y, z, qw, qx, qy, qz]: [f32; 7]) -> [f32; 12] {
-    let q = [qw, qx, qy, qz].map(f64::from);
-    let largest = q.iter().fold(0f64, |most, x| most.max(x.abs()));
-    let [w, a, b, c] = q.map(|x| x / largest);
-    let two = 2.0 / (w * w + a * a + b * b + c * c);
-    let [[a, b, c], [d, e, f], [g, h, i]] = [
-        [1.0 - two * (b * b + c * c), two * (a * b - w * c), two * (a * c + w * b)],
-        [two * (a * b + w * c), 1.0 - two * (a * a + c * c), two * (b * c - w * a)],
-        [two * (a * c - w * b), two * (b * c + w * a), 1.0 - two * (a * a + b * b)],
-    ]
-    .map(|row| row.map(|x| x as f32));
-    [a, b, c, x, d, e, f, y, g, h, i, z]
 }
 
 /// The first matrix that has an entry beyond 2, and which entry.
@@ -81,9 +67,4 @@ pub fn no_rotation(pose: &Pose) -> Option<String> {
         let is_mirror = a.dot(b.cross(c)) <= 0.0;
         is_mirror.then(|| "the matrix is a mirror, and a screw needs a rotation".to_owned())
     }
-}
-
-/// The pose of a matrix's rows, each with its translation. A file may hold any matrix.
-pub fn of_row([a, b, c, x, d, e, f, y, g, h, i, z]: [f32; 12]) -> Pose {
-    Pose::affine([[a, b, c], [d, e, f], [g, h, i]], [x, y, z])
 }

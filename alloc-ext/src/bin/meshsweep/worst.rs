@@ -1,4 +1,5 @@
-//! `meshsweep worst`: the dearest query of each question, found by hill climbing.
+//! `meshsweep worst`: the dearest query of each question, or the dearest pose of a second mesh, found
+//! by hill climbing.
 
 use crate::args::{WorstArgs, WorstQuestion};
 use crate::failure::Failure;
@@ -7,34 +8,33 @@ use crate::{blob_file, served};
 use meshsweep::counted::Counted;
 use meshsweep::number::{About, Short};
 use meshsweep::trade::Board;
-use meshsweep::worst::{Goal, Question, Subject, Worst};
-use meshsweep_core::{Budget, Work};
+use meshsweep::worst::{Goal, Pair, PairQuestion, Question, Subject, Worst};
+use meshsweep_core::{Budget, BuildFor, Work};
 use serde_json::{Value, json};
 use std::io::{self, Write};
+use std::path::Path;
 
 /// The worst query of a question to a structure.
-type Row<'a> = (Subject<'a>, Worst);
+struct Row {
+    question: &'static str,
+    structure: &'static str,
+    /// The name of what a step opens.
+    opens: &'static str,
+    /// What the last numbers of a query are, where that is not plain.
+    note: &'static str,
+    worst: Worst,
+}
 
 pub fn run(args: &WorstArgs) -> Result<(), Failure> {
     args.threads.start();
-    let blob = blob_file::open(&args.blob)?;
     let budget = Budget::EXACT
         .with_relative(args.rel)
         .with_absolute(args.abs)
         .with_steps(args.steps.unwrap_or(u32::MAX));
-    let mut rows: Vec<Row<'_>> = Vec::new();
-    for subject in Subject::all(&blob) {
-        if args.ask.is_empty() || args.ask.contains(&WorstQuestion::of(subject.question)) {
-            let found = subject.worst(budget, args.starts as usize);
-            rows.extend(found.into_iter().map(|worst| (subject, worst)));
-        }
-    }
-    if rows.is_empty() {
-        return Err(Failure::NothingToSearch {
-            file: args.blob.clone(),
-            served: served::listed(&blob),
-        });
-    }
+    let rows = match &args.moved {
+        Some(moved) => of_pair(args, moved, budget)?,
+        None => of_blob(args, budget)?,
+    };
     Output::stdout().finish(|out| match args.json {
         true => {
             let all: Vec<Value> = rows.iter().map(as_json).collect();
@@ -43,6 +43,53 @@ pub fn run(args: &WorstArgs) -> Result<(), Failure> {
         }
         false => write(out, &rows),
     })
+}
+
+fn of_blob(args: &WorstArgs, budget: Budget) -> Result<Vec<Row>, Failure> {
+    let blob = blob_file::open(&args.blob)?;
+    let mut rows = Vec::new();
+    for subject in Subject::all(&blob) {
+        let question = subject.question;
+        if args.ask.is_empty() || args.ask.contains(&WorstQuestion::of(question)) {
+            let found = subject.worst(budget, args.starts as usize).into_iter();
+            rows.extend(found.map(|worst| Row {
+                question: question.name(),
+                structure: subject.structure.name(),
+                opens: "node",
+                note: match question {
+                    Question::Within => {
+                        " (point, and the share of its distance that is asked about)"
+                    }
+                    _ => "",
+                },
+                worst,
+            }));
+        }
+    }
+    if rows.is_empty() {
+        let (file, served) = (args.blob.clone(), served::listed(&blob));
+        return Err(Failure::NothingToSearch { file, served });
+    }
+    Ok(rows)
+}
+
+fn of_pair(args: &WorstArgs, moved: &Path, budget: Budget) -> Result<Vec<Row>, Failure> {
+    let (blob, other) = (blob_file::open(&args.blob)?, blob_file::open(moved)?);
+    let trees = [
+        served::require_tree(&args.blob, &blob, BuildFor::Segment)?,
+        served::require_tree(moved, &other, BuildFor::Segment)?,
+    ];
+    let question = args.within.map_or(PairQuestion::Distance, PairQuestion::Within);
+    let found = Pair { trees, question }.worst(budget, args.starts as usize).into_iter();
+    Ok(found
+        .map(|worst| Row {
+            question: question.name(),
+            structure: "box trees",
+            opens: "pair",
+            note: " (x,y,z,qw,qx,qy,qz, as for --pose)",
+            worst,
+        })
+        .collect())
 }
 
 impl WorstQuestion {
@@ -57,11 +104,11 @@ impl WorstQuestion {
     }
 }
 
-fn as_json((subject, worst): &Row<'_>) -> Value {
+fn as_json(Row { question, structure, worst, .. }: &Row) -> Value {
     let Work { bounds, triangles, exact, opened, .. } = worst.found.work;
     json!({
-        "question": subject.question.name(),
-        "structure": subject.structure.name(),
+        "question": question,
+        "structure": structure,
         "greatest": match worst.goal { Goal::Work => "work", Goal::Width => "width" },
         "value": worst.value(),
         "mean_of_random_queries": worst.typical,
@@ -78,11 +125,11 @@ fn as_json((subject, worst): &Row<'_>) -> Value {
     })
 }
 
-fn write(out: &mut dyn Write, rows: &[Row<'_>]) -> io::Result<()> {
-    for (subject, row) in rows {
+fn write(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
+    for Row { question, structure, opens, note, worst: row } in rows {
         let Work { bounds, triangles, exact, opened, .. } = row.found.work;
         let times = About(row.times());
-        write!(out, "{} by the {}: ", subject.question.name(), subject.structure.name())?;
+        write!(out, "{question} by the {structure}: ")?;
         match row.goal {
             Goal::Work => write!(out, "dearest, {times} times the mean of random queries")?,
             Goal::Width => write!(
@@ -92,11 +139,11 @@ fn write(out: &mut dyn Write, rows: &[Row<'_>]) -> io::Result<()> {
             )?,
         }
         let numbers: Vec<String> = row.query.iter().map(|&x| Short(x).to_string()).collect();
-        writeln!(out, ", at {}{}", numbers.join(","), note(subject.question))?;
+        writeln!(out, ", at {}{note}", numbers.join(","))?;
         writeln!(
             out,
             "  opens {}, looks at {}, {} and {} in f64; {} of scratch suffice",
-            Counted(opened, "node"),
+            Counted(opened, opens),
             Counted(bounds, "bound"),
             Counted(triangles, "triangle"),
             exact,
@@ -108,12 +155,4 @@ fn write(out: &mut dyn Write, rows: &[Row<'_>]) -> io::Result<()> {
         }
     }
     Ok(())
-}
-
-/// What the last number of a query is, where that is not plain.
-fn note(question: Question) -> &'static str {
-    match question {
-        Question::Within => " (point, and the share of its distance that is asked about)",
-        _ => "",
-    }
 }

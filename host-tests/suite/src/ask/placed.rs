@@ -226,14 +226,16 @@ pub fn ask<'t>(
     match placed.question {
         Question::PairOfTrees(distance) => {
             let (first, second, exact) = (tree(&blob)?, tree(&other()?)?, Budget::EXACT);
-            let ask = |pose, stack: &mut [_]| first.within_of(&second, pose, distance, exact, stack);
+            let ask =
+                |pose, stack: &mut [_]| first.within_of(&second, pose, distance, exact, stack);
             let (asking, wanted) = (asking.at(poses), Bvh::DISTANCE_ENTRIES);
             by_entries(&mut memory.entries, wanted, asking, ask, Answer::Within)
         }
         Question::PairOfTriboxes(distance) => {
             let triboxes = |blob: &Blob<'t>| blob.triboxes().map_err(|_| Refused::NO_SECTION);
             let (first, second, exact) = (triboxes(&blob)?, triboxes(&other()?)?, Budget::EXACT);
-            let ask = |pose, stack: &mut [_]| first.within_of(&second, pose, distance, exact, stack);
+            let ask =
+                |pose, stack: &mut [_]| first.within_of(&second, pose, distance, exact, stack);
             let wanted = first.separation_entries(&second);
             by_entries(&mut memory.entries, wanted, asking.at(poses), ask, Answer::Farther)
         }

@@ -361,8 +361,20 @@ impl CullArgs {
 pub struct WorstArgs {
     /// Blob file
     pub blob: PathBuf,
+    /// Search the pose of this second blob at which clearance costs most
+    pub moved: Option<PathBuf>,
+    /// Of two blobs: ask whether they are within D of each other, in the meshes' unit, in place of
+    /// their distance
+    #[arg(long, value_name = "D", value_parser = tolerance, requires = "moved")]
+    pub within: Option<f32>,
     /// Only these questions [default: all that the blob serves]
-    #[arg(long, value_name = "QUESTION", value_enum, value_delimiter = ',')]
+    #[arg(
+        long,
+        value_name = "QUESTION",
+        value_enum,
+        value_delimiter = ',',
+        conflicts_with = "moved"
+    )]
     pub ask: Vec<WorstQuestion>,
     /// Stop a query after opening so many nodes, and search the widest interval that is left too
     #[arg(long, value_name = "NODES", value_parser = whole::<0, { u32::MAX }>)]
