@@ -222,6 +222,7 @@ pub(super) fn of_boards(boards: [Option<Instructions>; 2]) -> Value {
             "cpu": board.name(),
             "mean": found.mean,
             "worst": found.worst,
+            "most": found.most(),
             "error": found.error,
             "typical": found.typical,
             "stack": found.stack,
