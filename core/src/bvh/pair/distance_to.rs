@@ -84,13 +84,14 @@ impl Bvh<'_> {
             && budget.absolute == 0.0
             && budget.steps >= lesser(most_pairs(self, other), u32::MAX / 2);
         if is_whole
-            && pair.is_in_range
+            && pair.placement.is_in_range
             && measure_nearest(&pair, &pose, &mut question, (scratch, &mut work))
         {
             return answers::nearest(&nearest, &pair, None, work);
         }
-        let mut search = Search { work, ..Search::new(&pair, budget.steps, scratch) };
-        let missed = if pair.is_in_range {
+        let relative = pair.relative();
+        let mut search = Search { work, ..Search::new(&pair, &relative, budget.steps, scratch) };
+        let missed = if pair.placement.is_in_range {
             search.descend((ChildPairs::ALL, 0.0), &mut question, None)?.missed()
         } else {
             Some(Missed { why: Ended::Resolution, lower: f64::INFINITY })

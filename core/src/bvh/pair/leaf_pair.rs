@@ -6,7 +6,7 @@ use crate::bvh::tree::node::WIDE;
 use crate::geom::fan::{LANES_BELOW, WIDTH};
 use crate::geom::{Contact, determinant_margin, straddling_triangles_meet, triangles_meet};
 use crate::num::{each, greater, lesser};
-use crate::query::{RelativePose, Work};
+use crate::query::{VertexPose, Work};
 use glam::Vec3;
 
 /// Slots for a leaf's vertices: two centres, the ring, and spare ones so that eight can be read at
@@ -259,7 +259,7 @@ fn blend(mask: u32, axis: &[f32; SLOTS]) -> f32 {
 
 /// A leaf of the first tree, and one of the second, in common units from a vertex of the first.
 pub(crate) struct LeafPair<'a> {
-    pose: &'a RelativePose,
+    pose: &'a VertexPose,
     leaves: [FanLeaf<'a>; 2],
     pub(crate) a: Corners,
     pub(crate) b: Corners,
@@ -270,10 +270,9 @@ pub(crate) struct LeafPair<'a> {
 impl<'a> LeafPair<'a> {
     #[cfg_attr(meshsweep_small, inline(never))]
     #[cfg_attr(not(meshsweep_small), inline(always))]
-    pub(crate) fn new(pose: &'a RelativePose, a: &FanLeaf<'a>, b: &FanLeaf<'a>) -> LeafPair<'a> {
+    pub(crate) fn new(pose: &'a VertexPose, a: &FanLeaf<'a>, b: &FanLeaf<'a>) -> LeafPair<'a> {
         let (mut first, mut second) = (Corners::stored(a), Corners::stored(b));
-        let [frame, _] = &pose.frames;
-        let unit = frame.unit;
+        let [unit, _] = pose.units;
         let base = first.corner(0).map(|x| x * unit);
         for (axis, base) in first.at.iter_mut().zip(base) {
             for x in axis {
@@ -383,9 +382,9 @@ impl<'a> LeafPair<'a> {
     /// farther than `vertex_error_exact` of the pose from its place.
     #[inline(always)]
     pub(crate) fn in_f64(&self, i: usize, j: usize) -> [[[f64; 3]; 3]; 2] {
-        let RelativePose { matrix, shift_exact, .. } = *self.pose;
+        let VertexPose { matrix, shift_exact, .. } = *self.pose;
         let [first, second] = &self.leaves;
-        let unit = f64::from(self.pose.frames[0].unit);
+        let unit = f64::from(self.pose.units[0]);
         let wide = |leaf: &FanLeaf<'_>, slots: [usize; 3]| {
             let stored = leaf.stored_vertices();
             slots.map(|slot| stored.map(|axis| f64::from(axis.get(slot).copied().unwrap_or(0.0))))

@@ -17,7 +17,7 @@ use crate::num::tolerance::{
     GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32, WHOLE_GAP, WHOLE_PART,
 };
 use crate::num::{greater, lesser, up_to_f32};
-use crate::query::{RelativePose, Work};
+use crate::query::{VertexPose, Work};
 
 /// What a visit of two leaves showed.
 pub(crate) struct LeafVisit {
@@ -30,7 +30,7 @@ pub(crate) struct LeafVisit {
 
 /// The search among the triangles of two leaves.
 pub(crate) struct LeafGaps<'a> {
-    pub(crate) pose: &'a RelativePose,
+    pub(crate) pose: &'a VertexPose,
     /// The greater of both surface errors, common units.
     pub(crate) surface_error: f64,
     /// Direction between the points of the last measured pair that was not in contact. Its largest
@@ -76,8 +76,8 @@ impl<'a> LeafGaps<'a> {
         question: &mut PairQuestion<'_>,
         work: &mut Work,
     ) -> Option<bool> {
-        let [first, _] = &self.pose.frames;
-        let coarser = greater(f64::from(first.unit), self.pose.longest);
+        let [unit, _] = self.pose.units;
+        let coarser = greater(f64::from(unit), self.pose.longest);
         let rounding = self.pose.vertex_error_exact;
         let triangles = leaves.map(|leaf| leaf.shape().triangles());
         let pairs = triangles[0].saturating_mul(triangles[1]);
@@ -201,8 +201,7 @@ impl<'a> LeafGaps<'a> {
                 points = crossing(a, b).map_or(points, |common| [common; 2]);
             }
         }
-        let [first, _] = &self.pose.frames;
-        let unit = f64::from(first.unit);
+        let [unit, _] = self.pose.units.map(f64::from);
         let [x, y, z] = pair.first_vertex(i).map(|x| x * unit);
         let points = points.map(|[u, v, w]| [u + x, v + y, w + z]);
         TriangleGap { place, lower, upper, meets, points }

@@ -65,8 +65,8 @@ pub(crate) fn distance_of(key: u32) -> f64 {
 /// Squared gaps along the second model's axes are multiplied by this. Its axes are longer by the
 /// stretch of the pose's matrix.
 pub(crate) fn second_factor(pose: &RelativePose) -> f32 {
-    let [_, second] = &pose.frames;
-    let stretch = pose.longest / f64::from(second.unit);
+    let [_, unit] = pose.vertices.units;
+    let stretch = pose.vertices.longest / f64::from(unit);
     if stretch < LEAST_STRETCH {
         return 0.0;
     }

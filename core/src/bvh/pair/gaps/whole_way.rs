@@ -6,11 +6,11 @@
 use crate::bvh::tree::format::FanLeaf;
 use crate::geom::fan::WIDTH;
 use crate::num::greater;
-use crate::query::RelativePose;
+use crate::query::VertexPose;
 
 /// A direction in integers, in the grids of both models.
 pub(crate) struct WholeWay<'a> {
-    pose: &'a RelativePose,
+    pose: &'a VertexPose,
     /// From the first model to the second, in the first grid.
     way: [i64; 3],
     /// The other way round, in the second grid, rounded up.
@@ -24,10 +24,10 @@ pub(crate) struct WholeWay<'a> {
 
 impl<'a> WholeWay<'a> {
     #[inline(never)]
-    pub(crate) fn new(pose: &'a RelativePose, offset: [f64; 3]) -> Option<WholeWay<'a>> {
+    pub(crate) fn new(pose: &'a VertexPose, offset: [f64; 3]) -> Option<WholeWay<'a>> {
         let (way, _) = whole(offset)?;
         let [x, y, z] = way.map(|x| x as f64);
-        let RelativePose { matrix: [r, s, t], shift_exact: [u, v, w], .. } = *pose;
+        let VertexPose { matrix: [r, s, t], shift_exact: [u, v, w], .. } = *pose;
         let column = |k: usize| {
             let along = |row: &[f32; 3]| f64::from(row.get(k).copied().unwrap_or(0.0));
             -((x * along(&r) + y * along(&s)) + z * along(&t))
@@ -46,8 +46,7 @@ impl<'a> WholeWay<'a> {
     /// The bits of the pairs of triangles that are at least so far apart, common units. All bits
     /// are ones if all pairs are.
     pub(crate) fn pairs_beyond(&self, far: f64, [first, second]: [&FanLeaf<'_>; 2]) -> Option<u64> {
-        let [frame, _] = &self.pose.frames;
-        let unit = f64::from(frame.unit);
+        let [unit, _] = self.pose.units.map(f64::from);
         let (tops, backs) = (WholeTops::new(first, self.way)?, WholeTops::new(second, self.back)?);
         let left = self.shift - far * self.length;
         let (top, back) = (|x: i64| x as f64 * unit, |x: i64| left - x as f64 * self.back_unit);
