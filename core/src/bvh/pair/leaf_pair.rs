@@ -61,6 +61,11 @@ impl Corners {
     }
 
     #[inline(always)]
+    pub(crate) fn triangle(&self, triangle: usize) -> [Vec3; 3] {
+        each(self.slots(triangle), |slot| Vec3::from_array(self.corner(slot)))
+    }
+
+    #[inline(always)]
     pub(crate) fn slots(&self, triangle: usize) -> [usize; 3] {
         slots(triangle, self.turn)
     }

@@ -12,12 +12,15 @@ use crate::bvh::pair::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
 use crate::bvh::tree::format::FanLeaf;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
-use crate::geom::{Contact, TriangleDistance, crossing, triangle_distance, triangles_meet};
+use crate::geom::{
+    Contact, GapLimits, TriangleDistance, crossing, hull_gap, triangle_distance, triangles_meet,
+};
 use crate::num::tolerance::{
     GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32, WHOLE_GAP, WHOLE_PART,
 };
-use crate::num::{greater, lesser, up_to_f32};
+use crate::num::{difference, dot, greater, lesser, up_to_f32};
 use crate::query::{VertexPose, Work};
+use glam::Vec3;
 
 /// What a visit of two leaves showed.
 pub(crate) struct LeafVisit {
@@ -187,7 +190,7 @@ impl<'a> LeafGaps<'a> {
     fn measured(&self, pair: &LeafPair<'_>, place: [TriangleAt; 2]) -> TriangleGap {
         let [i, j] = place.map(TriangleAt::lane);
         let [a, b] = pair.in_f64(i, j);
-        let TriangleDistance { lower, mut upper, mut points } = triangle_distance(a, b);
+        let TriangleDistance { lower, mut upper, mut points } = triangle_distance(a, b, self.guess(pair, [i, j]));
         let rounding = self.pose.vertex_error_exact;
         let lower = self.without_rounding(lower);
         upper += rounding + rounding;
@@ -207,6 +210,17 @@ impl<'a> LeafGaps<'a> {
         TriangleGap { place, lower, upper, meets, points }
     }
 
+    /// The corners of two triangles that are nearest, as f32 tells.
+    fn guess(&self, pair: &LeafPair<'_>, [i, j]: [usize; 2]) -> [u32; 2] {
+        let (a, b) = (pair.a.triangle(i), pair.b.triangle(j));
+        let start = Vec3::from_array(self.direction);
+        let [from, ..] = a;
+        let [to, ..] = b;
+        let start = if start == Vec3::ZERO { difference(to, from) } else { start };
+        let way = hull_gap(&a, &b, start, GapLimits { far_sq: f32::INFINITY, near_sq: -1.0 }).way;
+        [nearest_along(&a, way), nearest_along(&b, -way)]
+    }
+
     /// Keeps the offset of a measured pair, and the direction if the pair is not in contact.
     fn turn_to(&mut self, gap: &TriangleGap) {
         let [[a, b, c], [x, y, z]] = gap.points;
@@ -217,6 +231,25 @@ impl<'a> LeafGaps<'a> {
             self.direction = direction.map(|x| (x / longest) as f32);
         }
     }
+}
+
+/// The corners of a triangle that are highest along a direction: no edge between two of them rises
+/// by more than a hundredth.
+fn nearest_along(triangle: &[Vec3; 3], way: Vec3) -> u32 {
+    let heights = triangle.map(|corner| dot(corner, way));
+    let way_sq = dot(way, way);
+    let (mut top, mut most) = (Vec3::ZERO, f32::MIN);
+    for (&corner, &height) in triangle.iter().zip(&heights) {
+        if height > most {
+            (top, most) = (corner, height);
+        }
+    }
+    let mut bits = 0;
+    for (k, (&corner, &height)) in triangle.iter().zip(&heights).enumerate() {
+        let (edge, fall) = (difference(corner, top), most - height);
+        bits |= u32::from(fall * fall <= 1e-4 * way_sq * dot(edge, edge)) << (k & 3);
+    }
+    bits
 }
 
 /// Whether it is proved that two triangles meet. Not inlined, so that it is compiled once.
