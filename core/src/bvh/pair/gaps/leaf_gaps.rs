@@ -190,7 +190,8 @@ impl<'a> LeafGaps<'a> {
     fn measured(&self, pair: &LeafPair<'_>, place: [TriangleAt; 2]) -> TriangleGap {
         let [i, j] = place.map(TriangleAt::lane);
         let [a, b] = pair.in_f64(i, j);
-        let TriangleDistance { lower, mut upper, mut points } = triangle_distance(a, b, self.guess(pair, [i, j]));
+        let TriangleDistance { lower, mut upper, mut points } =
+            triangle_distance(a, b, self.guess(pair, [i, j]));
         let rounding = self.pose.vertex_error_exact;
         let lower = self.without_rounding(lower);
         upper += rounding + rounding;
