@@ -2,10 +2,12 @@
 
 use super::gaps::answers;
 use super::gaps::left_out::ChildPairs;
+use super::gaps::nearest_along::NearestAlong;
 use super::gaps::nearest_first::{Missed, Search};
 use super::gaps::question::PairQuestion;
 use super::models::most_pairs;
 use super::separation::grid_pose::{FramePose, GridPose};
+use super::separation::leaf_hulls::LeafHulls;
 use super::separation::search::{NearestLeaves, nearest_leaves};
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
@@ -120,15 +122,21 @@ fn measure_nearest(
         return true;
     }
     // Otherwise the search in f64 begins with a limit.
-    let Some(mut between) = leaves.between().filter(|_| are_all) else { return false };
+    if !are_all {
+        return false;
+    }
+    let Some(mut along) = NearestAlong::new(leaves, question) else { return false };
+    let mut hulls = LeafHulls::new(&grid);
     while let Some(place) = candidates.take_last() {
         let [first, second] = place;
         let (Some(p), Some(q)) = (first.leaf(a), second.leaf(b)) else { return false };
-        match leaves.visit_along(&mut between, [&p, &q], [place, best], question, work) {
+        let own = || hulls.way_between(place);
+        match along.visit([&p, &q], [place, best], own, question, work) {
             Some(true) => {}
             Some(false) => return true,
             None => return false,
         }
     }
-    question.leaves().is_some()
+    along.tell(best, question);
+    true
 }

@@ -88,8 +88,9 @@ fn most([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
     (a.abs() * x + b.abs() * y) + c.abs() * z
 }
 
-fn greatest(values: impl IntoIterator<Item = f64>) -> f64 {
-    values.into_iter().fold(0.0, greater)
+/// The same in f32, rounded.
+fn most_f32([a, b, c]: [f32; 3], [x, y, z]: [f32; 3]) -> f32 {
+    (a * x).abs() + (b * y).abs() + (c * z).abs()
 }
 
 impl RelativePose {
@@ -154,21 +155,24 @@ impl RelativePose {
             (dot(r1, from) * unit_b - p1 * unit_a) + t1,
             (dot(r2, from) * unit_b - p2 * unit_a) + t2,
         ];
-        let (extent_a, extent_b) = (a.extent.map(|x| x * unit_a), b.extent.map(|x| x * unit_b));
         let longest = unit_b * stretch(&rotation);
         let (error_a, error_b) = (a.error * unit_a, b.error * longest);
         // Along each axis, an upper bound of a moved vertex's coordinate, and of its difference
         // from a vertex of the first model.
-        let along = [(r0, 0), (r1, 1), (r2, 2)].map(|(row, axis)| {
-            most(row, extent_b)
-                + extent_a.get(axis).copied().unwrap_or(0.0)
-                + shift_exact.get(axis).map_or(0.0, |x| x.abs())
-        });
-        let near = greatest(along);
+        let (rows, origin_a, origin_b) = (pose.rotation, narrow(into), narrow(from));
+        let sizes = |extent: [f64; 3], unit: f64| narrow(extent).map(|x| x * unit as f32);
+        let (extent_a, extent_b) = (sizes(a.extent, unit_a), sizes(b.extent, unit_b));
+        let mut near = 0.0;
+        let mut origins = 0.0;
+        for k in 0..3 {
+            let extents = most_f32(rows[k], extent_b) + extent_a[k];
+            near = greater(near, f64::from(extents) + shift_exact[k].abs());
+            let both = most_f32(rows[k], origin_b) * unit_b as f32 + origin_a[k].abs() * unit_a as f32;
+            origins = greater(origins, both);
+        }
+        let near = near * (1.0 + 16.0 * f64::from(U32));
         // The same before large terms cancel: the rounding is in proportion to these.
-        let far = near
-            + greatest([r0, r1, r2].map(|row| most(row, from.map(|x| x * unit_b))))
-            + greatest(into.map(f64::abs)) * unit_a;
+        let far = near + f64::from(2.0 * origins);
         let errors = error_a + error_b;
         let rounded = OVERLAP_VERTEX * U64 * far;
         let larger = greater(error_b, error_a);
@@ -244,10 +248,9 @@ fn narrow(v: [f64; 3]) -> [f32; 3] {
 /// The square of a 2-norm is the 2-norm of the product of the matrix and its transpose. That is at
 /// most the product's largest row sum.
 fn stretch(rows: &[[f64; 3]; 3]) -> f64 {
-    let mut most = 0f64;
-    for a in rows {
-        let sum = rows.iter().fold(0.0, |sum, b| sum + dot(*a, *b).abs());
-        most = greater(most, sum);
-    }
+    let [a, b, c] = *rows;
+    let (ab, bc, ca) = (dot(a, b).abs(), dot(b, c).abs(), dot(c, a).abs());
+    let sums = [dot(a, a) + ab + ca, ab + dot(b, b) + bc, ca + bc + dot(c, c)];
+    let most = sums.into_iter().fold(0.0, greater);
     libm::sqrt(most) * (1.0 + 16.0 * U64)
 }

@@ -7,7 +7,6 @@ use super::pair_keys::{
     NO_PAIR, PAIRS, PairKeys, children_of, distance_of, key_limit, key_of, pair_bit,
 };
 use super::question::{PairQuestion, TriangleGap};
-use super::whole_way::WholeWay;
 use crate::bvh::pair::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
 use crate::bvh::tree::format::FanLeaf;
 use crate::bvh::tree::triangle_at::TriangleAt;
@@ -16,7 +15,7 @@ use crate::geom::{
     Contact, GapLimits, TriangleDistance, crossing, hull_gap, triangle_distance, triangles_meet,
 };
 use crate::num::tolerance::{
-    GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32, WHOLE_GAP, WHOLE_PART,
+    GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32,
 };
 use crate::num::{difference, dot, greater, lesser, up_to_f32};
 use crate::query::{VertexPose, Work};
@@ -60,57 +59,6 @@ impl<'a> LeafGaps<'a> {
         let gap = self.measured(&pair, place);
         self.turn_to(&gap);
         question.take(&gap)
-    }
-
-    /// The direction between the nearest points so far, for whole leaves. `None` if it is zero.
-    pub(crate) fn between(&self) -> Option<WholeWay<'a>> {
-        WholeWay::new(self.pose, self.offset)
-    }
-
-    /// Measures the pairs of triangles of two leaves that may be nearer than the limit, but not
-    /// `measured`. `between` is the direction between the nearest points so far, and is kept up to
-    /// it. Returns whether the question goes on. `core/docs/rounding.md` §26, *The nearest
-    /// triangles*.
-    pub(crate) fn visit_along(
-        &mut self,
-        between: &mut WholeWay<'a>,
-        leaves: [&FanLeaf<'_>; 2],
-        [places, measured]: [[TriangleAt; 2]; 2],
-        question: &mut PairQuestion<'_>,
-        work: &mut Work,
-    ) -> Option<bool> {
-        let [unit, _] = self.pose.units;
-        let coarser = greater(f64::from(unit), self.pose.longest);
-        let rounding = self.pose.vertex_error_exact;
-        let triangles = leaves.map(|leaf| leaf.shape().triangles());
-        let pairs = triangles[0].saturating_mul(triangles[1]);
-        work.triangles = work.triangles.saturating_add(pairs as u32);
-        let mut left_out = !pairs_of(triangles);
-        if measured.map(|at| at.with_lane(0)) == places.map(|at| at.with_lane(0)) {
-            left_out |= 1u64 << ((measured[0].lane() * WIDTH + measured[1].lane()) & (PAIRS - 1));
-        }
-        loop {
-            let limit = question.limit();
-            let lower = limit - lesser(coarser * WHOLE_GAP, limit * WHOLE_PART);
-            let beyond = between.pairs_beyond(lower + (rounding + rounding), leaves)?;
-            if beyond & !left_out != 0 {
-                // An infinite upper end is never the best, so the points are not used.
-                let (points, upper) = ([[0.0; 3]; 2], f64::INFINITY);
-                question.take(&TriangleGap { place: places, lower, upper, meets: false, points });
-            }
-            left_out |= beyond;
-            if left_out == u64::MAX {
-                return Some(true);
-            }
-            let visit = self.visit(leaves, places, Some(left_out), question, false, work)?;
-            if !visit.goes_on || visit.pairs == 0 {
-                return Some(visit.goes_on);
-            }
-            left_out |= visit.pairs;
-            if let Some(new) = self.between() {
-                *between = new;
-            }
-        }
     }
 
     fn without_rounding(&self, lower: f64) -> f64 {
@@ -257,12 +205,6 @@ fn nearest_along(triangle: &[Vec3; 3], way: Vec3) -> u32 {
 #[inline(never)]
 fn meet(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], doubt: f64) -> bool {
     triangles_meet(*a, *b, doubt) == Contact::Meets
-}
-
-/// The bits of all pairs of so many triangles.
-fn pairs_of([rows, columns]: [usize; 2]) -> u64 {
-    let row = (1u64 << (columns & 15)) - 1;
-    (0..WIDTH).take(rows).fold(0, |bits, i| bits | (row & 0xFF) << (i * WIDTH))
 }
 
 /// The pairs of triangles that were measured.

@@ -20,6 +20,8 @@ pub(crate) struct WholeWay<'a> {
     /// The height of the second grid's origin, and the length of `way`.
     shift: f64,
     length: f64,
+    /// Heights of both models that add up to no more are far enough apart.
+    left: f64,
 }
 
 impl<'a> WholeWay<'a> {
@@ -40,24 +42,36 @@ impl<'a> WholeWay<'a> {
             back_unit,
             shift: (x * u + y * v) + z * w,
             length: libm::sqrt((x * x + y * y) + z * z),
+            left: f64::NEG_INFINITY,
         })
     }
 
-    /// The bits of the pairs of triangles that are at least so far apart, common units. All bits
-    /// are ones if all pairs are.
-    pub(crate) fn pairs_beyond(&self, far: f64, [first, second]: [&FanLeaf<'_>; 2]) -> Option<u64> {
+    /// From now on pairs at least so far apart are wanted, common units.
+    pub(crate) fn set_far(&mut self, far: f64) {
+        self.left = self.shift - far * self.length;
+    }
+
+    /// The bits of the pairs of triangles that are far enough apart. All bits are ones if all pairs
+    /// are.
+    pub(crate) fn pairs_beyond(&self, [first, second]: [&FanLeaf<'_>; 2]) -> Option<u64> {
         let [unit, _] = self.pose.units.map(f64::from);
         let (tops, backs) = (WholeTops::new(first, self.way)?, WholeTops::new(second, self.back)?);
-        let left = self.shift - far * self.length;
-        let (top, back) = (|x: i64| x as f64 * unit, |x: i64| left - x as f64 * self.back_unit);
-        if back(backs.most) >= top(tops.most) {
+        let top = |x: i64| x as f64 * unit;
+        let back = |x: i64| self.left - x as f64 * self.back_unit;
+        let least = back(backs.most);
+        if least >= top(tops.most) {
             return Some(u64::MAX);
         }
-        let (tops, backs) = (tops.each.map(top), backs.each.map(back));
+        let backs = backs.each.map(back);
         let mut pairs = 0;
-        for (i, top) in tops.iter().enumerate() {
+        for (i, &top_of) in tops.each.iter().enumerate() {
+            let top = top(top_of);
+            if least >= top {
+                pairs |= 0xFF << (i * WIDTH);
+                continue;
+            }
             for (j, back) in backs.iter().enumerate() {
-                pairs |= u64::from(back >= top) << (i * WIDTH + j);
+                pairs |= u64::from(*back >= top) << (i * WIDTH + j);
             }
         }
         Some(pairs)

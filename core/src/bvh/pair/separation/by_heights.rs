@@ -24,10 +24,10 @@ use glam::Vec3;
 const MOST_ROUNDS: u32 = 4;
 
 /// More pairs of leaves are left to the descent.
-const MOST_PAIRS: usize = 256;
+const MOST_PAIRS: usize = 512;
 
 /// More leaves of a model are left to the descent.
-const MOST_LEAVES: usize = 24;
+const MOST_LEAVES: usize = 48;
 
 /// The heights of one model along a direction, in its own grid.
 struct Climb<'a> {
