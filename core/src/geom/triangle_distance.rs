@@ -51,9 +51,9 @@ impl Candidate {
     }
 }
 
-/// The distance of the triangles `a` and `b`. They may be segments or points. `guess`: a bit for
-/// each corner of either that may be among the nearest ones. These are tried first; no proof rests
-/// on them.
+/// The distance of the triangles `a` and `b`. They may be segments or points. `guesses`: a bit for
+/// each corner of either that may be among the nearest ones. These are tried first, then the next
+/// guess; no proof rests on them.
 ///
 /// Triangles that pass through each other have a lower end of 0. Their upper end is then only that
 /// of a vertex and a face, or of two edges: ask [`triangles_meet`](super::triangles_meet) too.
@@ -65,9 +65,14 @@ impl Candidate {
 pub fn triangle_distance(
     a: [Point<f64>; 3],
     b: [Point<f64>; 3],
-    guess: [u32; 2],
+    guesses: [[u32; 2]; 2],
 ) -> TriangleDistance {
-    let found = guessed(&a, &b, guess).and_then(|found| Some((found, settled(&found, &a, &b)?)));
+    let try_one = |guess: &[u32; 2]| {
+        let found = guessed(&a, &b, *guess)?;
+        Some((found, settled(&found, &a, &b)?))
+    };
+    let [first, second] = &guesses;
+    let found = try_one(first).or_else(|| if first == second { None } else { try_one(second) });
     let (best, gap) = found.unwrap_or_else(|| among_all(&a, &b));
     let margin = TRIANGLE_DISTANCE * U64 * (farthest(&a) + farthest(&b));
     TriangleDistance {
@@ -293,7 +298,7 @@ mod tests {
         let turned = |[p, q, r]: [Point<f64>; 3]| [q, r, p];
         for (x, y) in [(FLAT, b), (b, FLAT), (turned(FLAT), turned(turned(b)))] {
             for y in [y, [y[1], y[0], y[2]]] {
-                let found = triangle_distance(x, y, [0; 2]);
+                let found = triangle_distance(x, y, [[0; 2]; 2]);
                 assert!(
                     found.lower <= expected && expected <= found.upper,
                     "{x:?} {y:?} {found:?}"
@@ -334,7 +339,7 @@ mod tests {
     fn triangles_that_pass_through_each_other_have_a_lower_end_of_zero_and_a_common_point() {
         let spike = [[0.5, 0.5, -1.0], [1.0, 0.5, -1.0], [1.0, 1.0, 1.0]];
         for (x, y) in [(FLAT, spike), (spike, FLAT)] {
-            assert_eq!(triangle_distance(x, y, [0; 2]).lower, 0.0);
+            assert_eq!(triangle_distance(x, y, [[0; 2]; 2]).lower, 0.0);
             let [_, _, z] = crossing(x, y).expect("an edge crosses");
             assert!(z.abs() < 1e-15, "{z}");
         }

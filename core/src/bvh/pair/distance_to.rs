@@ -7,7 +7,6 @@ use super::gaps::nearest_first::{Missed, Search};
 use super::gaps::question::PairQuestion;
 use super::models::most_pairs;
 use super::separation::grid_pose::{FramePose, GridPose};
-use super::separation::leaf_hulls::LeafHulls;
 use super::separation::search::{NearestLeaves, nearest_leaves};
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
@@ -126,12 +125,10 @@ fn measure_nearest(
         return false;
     }
     let Some(mut along) = NearestAlong::new(leaves, question) else { return false };
-    let mut hulls = LeafHulls::new(&grid);
     while let Some(place) = candidates.take_last() {
         let [first, second] = place;
         let (Some(p), Some(q)) = (first.leaf(a), second.leaf(b)) else { return false };
-        let own = || hulls.way_between(place);
-        match along.visit([&p, &q], [place, best], own, question, work) {
+        match along.visit([&p, &q], [place, best], question, work) {
             Some(true) => {}
             Some(false) => return true,
             None => return false,

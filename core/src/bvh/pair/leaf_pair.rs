@@ -396,14 +396,15 @@ impl<'a> LeafPair<'a> {
         };
         let a = wide(first, self.a.slots(i));
         let [[cx, cy, cz], ..] = a;
+        let [u, v, w] = shift_exact;
+        let [u, v, w] = [u - cx * unit, v - cy * unit, w - cz * unit];
         let b = wide(second, self.b.slots(j)).map(|[x, y, z]| {
-            let along = |[a, b, c]: [f32; 3], shift: f64, centre: f64| {
+            let along = |[a, b, c]: [f32; 3], shift: f64| {
                 let [a, b, c] = [a, b, c].map(f64::from);
-                ((a * x + b * y) + (c * z + shift)) - centre * unit
+                (a * x + b * y) + (c * z + shift)
             };
             let [r, s, t] = matrix;
-            let [u, v, w] = shift_exact;
-            [along(r, u, cx), along(s, v, cy), along(t, w, cz)]
+            [along(r, u), along(s, v), along(t, w)]
         });
         [a.map(|[x, y, z]| [(x - cx) * unit, (y - cy) * unit, (z - cz) * unit]), b]
     }

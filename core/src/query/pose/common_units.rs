@@ -179,7 +179,7 @@ impl RelativePose {
         let rounded_f32 = OVERLAP_VERTEX * f64::from(U32) * near;
         let vertices = VertexPose {
             units: units.map(|x| x as f32),
-            matrix: rotation.map(|row| narrow(row.map(|x| x * unit_b))),
+            matrix: pose.rotation.map(|row| row.map(|x| x * unit_b as f32)),
             shift: narrow(shift_exact),
             shift_exact,
             vertex_error: (larger + rounded_f32) as f32 * (1.0 + 2.0 * U32),

@@ -2,7 +2,7 @@
 //! integers, and the triangles that these leave over in f64. `core/docs/rounding.md` §26, *The
 //! nearest triangles*.
 
-use super::leaf_gaps::LeafGaps;
+use super::leaf_gaps::{LeafGaps, LeftOutPairs};
 use super::pair_keys::PAIRS;
 use super::question::{PairQuestion, TriangleGap};
 use super::whole_way::WholeWay;
@@ -59,13 +59,11 @@ impl<'a> NearestAlong<'a> {
     }
 
     /// Measures the pairs of triangles of two leaves that may be nearer than the limit, but not
-    /// `measured`. `own`: a direction along which these leaves may be apart. Returns whether the
-    /// question goes on.
+    /// `measured`. Returns whether the question goes on.
     pub(crate) fn visit(
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
         [places, measured]: [[TriangleAt; 2]; 2],
-        own: impl FnOnce() -> Option<[f64; 3]>,
         question: &mut PairQuestion<'_>,
         work: &mut Work,
     ) -> Option<bool> {
@@ -73,27 +71,23 @@ impl<'a> NearestAlong<'a> {
         let pairs = triangles[0].saturating_mul(triangles[1]);
         work.triangles = work.triangles.saturating_add(pairs as u32);
         let mut left_out = !pairs_of(triangles);
-        let mut own = Some(own);
         if measured.map(|at| at.with_lane(0)) == places.map(|at| at.with_lane(0)) {
             left_out |= 1u64 << ((measured[0].lane() * WIDTH + measured[1].lane()) & (PAIRS - 1));
-            own = None;
         }
         loop {
-            let mut beyond = self.between.pairs_beyond(leaves)?;
-            if (beyond | left_out) != u64::MAX
-                && let Some(offset) = own.take().and_then(|own| own())
-                && let Some(mut way) = WholeWay::new(self.leaves.pose, offset)
-            {
-                way.set_far(self.far());
-                beyond |= way.pairs_beyond(leaves)?;
-            }
+            let beyond = self.between.pairs_beyond(leaves)?;
             self.has_beyond |= beyond & !left_out != 0;
             left_out |= beyond;
             if left_out == u64::MAX {
                 return Some(true);
             }
             self.tell(places, question);
-            let visit = self.leaves.visit(leaves, places, Some(left_out), question, false, work)?;
+            let some = Some(LeftOutPairs { pairs: left_out, far: self.far() });
+            let visit = self.leaves.visit(leaves, places, some, question, false, work)?;
+            if visit.has_beyond {
+                self.has_beyond = true;
+                self.tell(places, question);
+            }
             if !visit.goes_on || visit.pairs == 0 {
                 return Some(visit.goes_on);
             }

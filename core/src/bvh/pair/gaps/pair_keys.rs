@@ -106,6 +106,14 @@ impl PairKeys {
         lanes.into_iter().fold(NO_PAIR, |least, key| least.min(key))
     }
 
+    /// Keeps the pairs with these bits.
+    #[inline(always)]
+    pub(crate) fn keep(&mut self, pairs: u64) {
+        for (at, key) in self.0.iter_mut().enumerate() {
+            *key = if pairs >> (at & (PAIRS - 1)) & 1 != 0 { *key } else { NO_PAIR };
+        }
+    }
+
     /// Drops a pair.
     #[inline(always)]
     pub(crate) fn drop(&mut self, key: u32) {

@@ -3,10 +3,14 @@
 //! Stored vertices and the direction are integers, so heights are exact. `core/docs/rounding.md`
 //! §26, *The nearest triangles*.
 
+use crate::bvh::pair::separation::direction::WholeDirection;
 use crate::bvh::tree::format::FanLeaf;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
-use crate::num::greater;
+use crate::num::tolerance::U32;
+use crate::num::{dot, greater, sqrt_approx};
 use crate::query::VertexPose;
+use glam::Vec3;
 
 /// A direction in integers, in the grids of both models.
 pub(crate) struct WholeWay<'a> {
@@ -25,9 +29,25 @@ pub(crate) struct WholeWay<'a> {
 }
 
 impl<'a> WholeWay<'a> {
-    #[inline(never)]
+    /// From point to point, common units.
     pub(crate) fn new(pose: &'a VertexPose, offset: [f64; 3]) -> Option<WholeWay<'a>> {
         let (way, _) = whole(offset)?;
+        let [x, y, z] = way.map(|x| x as f64);
+        WholeWay::along(pose, way, libm::sqrt((x * x + y * y) + z * z))
+    }
+
+    /// Any direction in f32.
+    pub(crate) fn of(pose: &'a VertexPose, way: Vec3) -> Option<WholeWay<'a>> {
+        let whole = WholeDirection::of(way)?;
+        let [x, y, z] = whole.way.map(|x| x as f32);
+        let way = Vec3::new(x, y, z);
+        let length = sqrt_approx(dot(way, way)) * (1.0 + 16.0 * U32);
+        WholeWay::along(pose, whole.way.map(i64::from), f64::from(length))
+    }
+
+    /// `length` is not less than that of `way`.
+    #[inline(never)]
+    fn along(pose: &'a VertexPose, way: [i64; 3], length: f64) -> Option<WholeWay<'a>> {
         let [x, y, z] = way.map(|x| x as f64);
         let VertexPose { matrix: [r, s, t], shift_exact: [u, v, w], .. } = *pose;
         let column = |k: usize| {
@@ -41,7 +61,7 @@ impl<'a> WholeWay<'a> {
             back,
             back_unit,
             shift: (x * u + y * v) + z * w,
-            length: libm::sqrt((x * x + y * y) + z * z),
+            length,
             left: f64::NEG_INFINITY,
         })
     }
@@ -49,6 +69,20 @@ impl<'a> WholeWay<'a> {
     /// From now on pairs at least so far apart are wanted, common units.
     pub(crate) fn set_far(&mut self, far: f64) {
         self.left = self.shift - far * self.length;
+    }
+
+    /// Whether two triangles are at least so far apart, common units.
+    pub(crate) fn is_beyond(
+        &self,
+        far: f64,
+        [first, second]: [&FanLeaf<'_>; 2],
+        [i, j]: [TriangleAt; 2],
+    ) -> Option<bool> {
+        let [unit, _] = self.pose.units.map(f64::from);
+        let top = top_of(first, i.lane(), self.way)?;
+        let back = top_of(second, j.lane(), self.back)?;
+        let left = self.shift - far * self.length;
+        Some(left - back as f64 * self.back_unit >= top as f64 * unit)
     }
 
     /// The bits of the pairs of triangles that are far enough apart. All bits are ones if all pairs
@@ -76,6 +110,14 @@ impl<'a> WholeWay<'a> {
         }
         Some(pairs)
     }
+}
+
+/// The greatest height of a triangle along a direction in integers.
+fn top_of(leaf: &FanLeaf<'_>, lane: usize, [x, y, z]: [i64; 3]) -> Option<i64> {
+    let corners = leaf.grid_ring()?.corners(lane, leaf.shape().turn())?;
+    let heights =
+        corners.map(|[p, q, r]| i64::from(p) * x + i64::from(q) * y + i64::from(r) * z);
+    Some(heights.into_iter().fold(i64::MIN, greater))
 }
 
 /// The greatest heights of a leaf and of its triangles along a direction in integers.

@@ -1,13 +1,13 @@
 //! The hulls of two leaves in the first grid, and their triangles.
 
-use super::goal::{Goal, TrianglesAt};
+use super::goal::Goal;
 use super::grid_pose::GridPose;
-use crate::bvh::pair::gaps::leaf_gaps::{keys, skip_along};
+use crate::bvh::pair::gaps::leaf_gaps::{keys, pairs_along};
 use crate::bvh::pair::gaps::pair_keys::{children_of, key_limit};
 use crate::bvh::pair::leaf_pair::{Corners, SLOTS};
 use crate::bvh::tree::format::{LeafShape, RING};
 use crate::bvh::tree::triangle_at::TriangleAt;
-use crate::geom::{GapLimits, hull_gap};
+use crate::geom::hull_gap;
 use crate::num::{each, float};
 use crate::query::Work;
 use glam::Vec3;
@@ -87,30 +87,6 @@ impl LeafHull {
     }
 }
 
-/// The hulls of two leaves.
-pub(crate) struct LeafHulls<'p, 'a> {
-    pose: &'p GridPose<'a>,
-    hulls: [LeafHull; 2],
-    way: Vec3,
-}
-
-impl<'p, 'a> LeafHulls<'p, 'a> {
-    pub(crate) fn new(pose: &'p GridPose<'a>) -> Self {
-        LeafHulls { pose, hulls: [LeafHull::NONE; 2], way: Vec3::X }
-    }
-
-    /// The direction along which two leaves are apart, in the first grid. `None` if they are not.
-    pub(crate) fn way_between(&mut self, [a, b]: TrianglesAt) -> Option<[f64; 3]> {
-        let [first, second] = &mut self.hulls;
-        first.set(self.pose, 0, a)?;
-        second.set(self.pose, 1, b)?;
-        let limits = GapLimits { far_sq: f32::INFINITY, near_sq: -1.0 };
-        let found = hull_gap(first.all(), second.all(), self.way, limits);
-        self.way = found.way;
-        (found.gap_sq > 0.0).then(|| found.way.to_array().map(f64::from))
-    }
-}
-
 /// What a visit of two leaves showed.
 pub(crate) struct LeafVisit {
     pub(crate) goes_on: bool,
@@ -138,10 +114,13 @@ pub(crate) fn visit(
         return visit(true);
     }
     let (first, second) = (a.corners(), b.corners());
-    let mut keys = keys(&first, &second, goal.limits.far_sq)?;
-    if let Some(way) = way {
-        skip_along(&mut keys, way.to_array(), goal.limits.far_sq, &first, &second);
+    let far_sq = goal.limits.far_sq;
+    let along = |way: Vec3| pairs_along(way.to_array(), far_sq, &first, &second);
+    let near = way.map_or(u64::MAX, along);
+    if near == 0 {
+        return visit(true);
     }
+    let mut keys = keys(&first, &second, far_sq, near)?;
     let mut way = hull.way;
     loop {
         let key = keys.least();

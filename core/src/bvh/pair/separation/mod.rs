@@ -24,7 +24,7 @@ mod by_heights;
 pub(crate) mod direction;
 mod goal;
 pub(crate) mod grid_pose;
-pub(crate) mod leaf_hulls;
+mod leaf_hulls;
 mod node_boxes;
 mod pending;
 pub(crate) mod search;
