@@ -16,12 +16,12 @@ use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::columns;
 use crate::geom::fan::WIDTH;
 use crate::geom::turned;
-use crate::num::{Real, greater, lesser};
+use crate::num::{Real, dot, greater, lesser};
 use crate::query::{ScratchEntry, Work};
 use glam::Vec3;
 
 /// Most directions that are tried.
-const MOST_ROUNDS: u32 = 4;
+const MOST_ROUNDS: u32 = 3;
 
 /// More pairs of leaves are left to the descent.
 const MOST_PAIRS: usize = 512;
@@ -169,9 +169,13 @@ pub(super) fn visit_by_heights(
     }
     *direction = along;
     let [first, second] = Climb::both(pose, along.way)?;
-    let (_, floor) = second.high(work)?;
+    let ((_, top_a), (_, floor)) = (first.high(work)?, second.high(work)?);
     let (_, top_b) = second.leaves(floor, true, scratch, work)?;
     let limit = left(pose, goal, &along);
+    // Models that overlap along the direction have many leaves that stick out.
+    if is_beyond(Real(top_a) + Real(top_b), dot(pose.shift, along.way)) {
+        return Some(false);
+    }
     let (count_a, _) = first.leaves(limit - top_b, false, scratch, work)?;
     let (list_a, rest) = scratch.split_at_mut_checked(count_a)?;
     let top_a = list_a.iter().fold(f32::MIN, |top, entry| greater(Real(top), Real(entry.key())).0);
