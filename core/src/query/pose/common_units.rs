@@ -144,17 +144,13 @@ impl RelativePose {
         let units = [exp2(ea - common), exp2(eb - common)];
         let [unit_a, unit_b] = units;
         let rotation = pose.rotation.map(|row| row.map(f64::from));
-        let [r0, r1, r2] = rotation;
         // Products of f32 are exact in f64; the sum of seven terms is rounded six times.
         let (from, into) = (b.origin, a.origin);
         let scale = exp2(common.wrapping_neg());
-        let [t0, t1, t2] = pose.translation.map(|x| f64::from(x) * scale);
-        let [p0, p1, p2] = into;
-        let shift_exact = [
-            (dot(r0, from) * unit_b - p0 * unit_a) + t0,
-            (dot(r1, from) * unit_b - p1 * unit_a) + t1,
-            (dot(r2, from) * unit_b - p2 * unit_a) + t2,
-        ];
+        let mut shift_exact = pose.translation.map(|x| f64::from(x) * scale);
+        for k in 0..3 {
+            shift_exact[k] += dot(rotation[k], from) * unit_b - into[k] * unit_a;
+        }
         let longest = unit_b * stretch(&rotation);
         let (error_a, error_b) = (a.error * unit_a, b.error * longest);
         // Along each axis, an upper bound of a moved vertex's coordinate, and of its difference
@@ -167,12 +163,13 @@ impl RelativePose {
         for k in 0..3 {
             let extents = most_f32(rows[k], extent_b) + extent_a[k];
             near = greater(near, f64::from(extents) + shift_exact[k].abs());
-            let both = most_f32(rows[k], origin_b) * unit_b as f32 + origin_a[k].abs() * unit_a as f32;
+            let both =
+                most_f32(rows[k], origin_b) * unit_b as f32 + origin_a[k].abs() * unit_a as f32;
             origins = greater(origins, both);
         }
         let near = near * (1.0 + 16.0 * f64::from(U32));
         // The same before large terms cancel: the rounding is in proportion to these.
-        let far = near + f64::from(2.0 * origins);
+        let far = near + f64::from(origins * (1.0 + 16.0 * U32));
         let errors = error_a + error_b;
         let rounded = OVERLAP_VERTEX * U64 * far;
         let larger = greater(error_b, error_a);

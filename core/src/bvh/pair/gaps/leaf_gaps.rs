@@ -16,9 +16,7 @@ use crate::geom::fan::WIDTH;
 use crate::geom::{
     Contact, GapLimits, TriangleDistance, crossing, hull_gap, triangle_distance, triangles_meet,
 };
-use crate::num::tolerance::{
-    GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32,
-};
+use crate::num::tolerance::{GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32};
 use crate::num::{difference, dot, greater, lesser, up_to_f32};
 use crate::query::{VertexPose, Work};
 use glam::Vec3;
@@ -160,8 +158,7 @@ impl<'a> LeafGaps<'a> {
             [nearest_along(&first, way, slope_sq), nearest_along(&second, -way, slope_sq)]
         });
         let [a, b] = pair.in_f64(i, j);
-        let TriangleDistance { lower, mut upper, mut points } =
-            triangle_distance(a, b, guesses);
+        let TriangleDistance { lower, mut upper, mut points } = triangle_distance(a, b, guesses);
         let rounding = self.pose.vertex_error_exact;
         let lower = self.without_rounding(lower);
         upper += rounding + rounding;
@@ -264,7 +261,8 @@ fn least_distance(
 
 /// Keys of the pairs `wanted`, by their boxes: a bit for each pair. Vertices are as computed, so a
 /// limit must have room for their error.
-#[inline(always)]
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
 pub(crate) fn keys(a: &Corners, b: &Corners, limit_sq: f32, wanted: u64) -> Option<PairKeys> {
     let (first, second) = (TriangleBoxes::of(a)?, TriangleBoxes::of(b)?);
     let mut keys = PairKeys([NO_PAIR; WIDTH * WIDTH]);
@@ -295,7 +293,8 @@ pub(crate) fn keys(a: &Corners, b: &Corners, limit_sq: f32, wanted: u64) -> Opti
 }
 
 /// The pairs that are not farther apart along `direction` than the limit: a bit for each.
-#[inline(always)]
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
 pub(crate) fn pairs_along(direction: [f32; 3], limit_sq: f32, a: &Corners, b: &Corners) -> u64 {
     let [x, y, z] = direction;
     let way_sq = x * x + y * y + z * z;

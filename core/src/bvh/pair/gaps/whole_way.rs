@@ -115,8 +115,7 @@ impl<'a> WholeWay<'a> {
 /// The greatest height of a triangle along a direction in integers.
 fn top_of(leaf: &FanLeaf<'_>, lane: usize, [x, y, z]: [i64; 3]) -> Option<i64> {
     let corners = leaf.grid_ring()?.corners(lane, leaf.shape().turn())?;
-    let heights =
-        corners.map(|[p, q, r]| i64::from(p) * x + i64::from(q) * y + i64::from(r) * z);
+    let heights = corners.map(|[p, q, r]| i64::from(p) * x + i64::from(q) * y + i64::from(r) * z);
     Some(heights.into_iter().fold(i64::MIN, greater))
 }
 

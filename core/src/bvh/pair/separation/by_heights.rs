@@ -8,7 +8,7 @@
 use super::direction::{Direction, WholeDirection};
 use super::goal::{Goal, square_up};
 use super::grid_pose::GridPose;
-use super::leaf_hulls::{LeafHull, LeafVisit, visit};
+use super::leaf_hulls::{LeafHull, LeafVisit, look};
 use super::node_boxes::{NodeBoxes, Reach, bits, first_box, is_beyond, second_box};
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::format::layout::MAX_TREE_DEPTH;
@@ -213,17 +213,4 @@ pub(super) fn visit_by_heights(
 /// If the tops of two children along a direction add up to less than this, they are out of reach.
 fn left(pose: &GridPose<'_>, goal: &Goal<'_>, direction: &Direction) -> f32 {
     Reach::of(pose, goal.far).left(pose, direction)
-}
-
-fn look(
-    pose: &GridPose<'_>,
-    goal: &mut Goal<'_>,
-    [first, second]: &mut [LeafHull; 2],
-    [a, b]: [TriangleAt; 2],
-    start: Vec3,
-    work: &mut Work,
-) -> Option<LeafVisit> {
-    first.set(pose, 0, a)?;
-    second.set(pose, 1, b)?;
-    visit([first, second], start, goal, work)
 }

@@ -94,10 +94,25 @@ pub(crate) struct LeafVisit {
     pub(crate) way: Option<Vec3>,
 }
 
+/// Visits two leaves. `hulls`: those of the last visit.
+#[inline(never)]
+pub(super) fn look(
+    pose: &GridPose<'_>,
+    goal: &mut Goal<'_>,
+    [first, second]: &mut [LeafHull; 2],
+    [a, b]: [TriangleAt; 2],
+    start: Vec3,
+    work: &mut Work,
+) -> Option<LeafVisit> {
+    first.set(pose, 0, a)?;
+    second.set(pose, 1, b)?;
+    visit([first, second], start, goal, work)
+}
+
 /// Gives the goal each pair of triangles of two leaves that may matter to it, nearest bound first.
 /// `start`: the direction that is tried first. `None` if a tree is unchecked.
 #[inline(never)]
-pub(crate) fn visit(
+fn visit(
     [a, b]: [&LeafHull; 2],
     start: Vec3,
     goal: &mut Goal<'_>,

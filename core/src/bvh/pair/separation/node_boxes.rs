@@ -74,7 +74,8 @@ pub(super) struct NodeBoxes<'a> {
 }
 
 impl<'a> NodeBoxes<'a> {
-    #[inline(always)]
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
     pub(super) fn of(tree: &Bvh<'a>, node: u32, origin: Vec3) -> Option<NodeBoxes<'a>> {
         let record = tree.boxes(node)?;
         let rows = record.as_chunks::<WIDTH>().0.first_chunk::<6>()?;
@@ -86,7 +87,8 @@ impl<'a> NodeBoxes<'a> {
 
     /// For each wanted box the greatest `way · place` of its places, plus `base`. It is not divided
     /// by the length of `way`.
-    #[inline(always)]
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
     pub(super) fn tops(&self, way: Vec3, base: f32, wanted: u32) -> [f32; WIDTH] {
         let [lx, hx, ly, hy, lz, hz] = self.rows;
         let by = way * self.step;

@@ -5,7 +5,7 @@ use super::by_heights::visit_by_heights;
 use super::direction::Direction;
 use super::goal::{Candidates, Goal, Nearest, TrianglesAt, Wanted, square_up};
 use super::grid_pose::GridPose;
-use super::leaf_hulls::{LeafHull, LeafVisit, visit};
+use super::leaf_hulls::{LeafHull, LeafVisit, look};
 use super::node_boxes::{Children, Reach, open};
 use super::pending::Pending;
 use crate::bvh::pair::models::most_pairs;
@@ -148,10 +148,10 @@ fn visit_leaves(
     loop {
         let reach = Reach::of(pose, goal.far);
         if let [Some(i), Some(j)] = [children[0].leaf(), children[1].leaf()] {
-            let [first, second] = &mut hulls;
-            first.set(pose, 0, TriangleAt::new(children[0].node, i, 0))?;
-            second.set(pose, 1, TriangleAt::new(children[1].node, j, 0))?;
-            let LeafVisit { goes_on, way } = visit([first, second], direction.way, goal, work)?;
+            let places =
+                [TriangleAt::new(children[0].node, i, 0), TriangleAt::new(children[1].node, j, 0)];
+            let visit = look(pose, goal, &mut hulls, places, direction.way, work)?;
+            let LeafVisit { goes_on, way } = visit;
             if !goes_on {
                 return Some(());
             }
