@@ -268,7 +268,7 @@ pub(crate) fn keys(a: &Corners, b: &Corners, limit_sq: f32, wanted: u64) -> Opti
     let mut keys = PairKeys([NO_PAIR; WIDTH * WIDTH]);
     let rows = keys.0.as_chunks_mut::<WIDTH>().0.iter_mut();
     for (i, row) in rows.enumerate().take(a.triangles) {
-        let bits = (wanted >> (i * WIDTH & 63)) as u32 & 0xFF;
+        let bits = (wanted >> (i * WIDTH)) as u32 & 0xFF;
         if bits == 0 {
             continue;
         }
@@ -310,7 +310,7 @@ pub(crate) fn pairs_along(direction: [f32; 3], limit_sq: f32, a: &Corners, b: &C
             let gap = greater(0.0, low - top);
             bits |= u32::from(gap * gap * SQUARED_SLACK <= limit) << j;
         }
-        pairs |= u64::from(bits) << (i * WIDTH & 63);
+        pairs |= u64::from(bits) << (i * WIDTH);
     }
     pairs
 }

@@ -75,7 +75,7 @@ impl<'a> NearestAlong<'a> {
             left_out |= 1u64 << ((measured[0].lane() * WIDTH + measured[1].lane()) & (PAIRS - 1));
         }
         loop {
-            let beyond = self.between.pairs_beyond(leaves)?;
+            let beyond = self.between.pairs_beyond(leaves, places)?;
             self.has_beyond |= beyond & !left_out != 0;
             left_out |= beyond;
             if left_out == u64::MAX {

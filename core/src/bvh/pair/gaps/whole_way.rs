@@ -26,6 +26,8 @@ pub(crate) struct WholeWay<'a> {
     length: f64,
     /// Heights of both models that add up to no more are far enough apart.
     left: f64,
+    /// The last leaf of each model.
+    kept: [WholeTops; 2],
 }
 
 impl<'a> WholeWay<'a> {
@@ -63,6 +65,7 @@ impl<'a> WholeWay<'a> {
             shift: (x * u + y * v) + z * w,
             length,
             left: f64::NEG_INFINITY,
+            kept: [WholeTops::NONE; 2],
         })
     }
 
@@ -87,9 +90,15 @@ impl<'a> WholeWay<'a> {
 
     /// The bits of the pairs of triangles that are far enough apart. All bits are ones if all pairs
     /// are.
-    pub(crate) fn pairs_beyond(&self, [first, second]: [&FanLeaf<'_>; 2]) -> Option<u64> {
+    pub(crate) fn pairs_beyond(
+        &mut self,
+        [first, second]: [&FanLeaf<'_>; 2],
+        [a, b]: [TriangleAt; 2],
+    ) -> Option<u64> {
         let [unit, _] = self.pose.units.map(f64::from);
-        let (tops, backs) = (WholeTops::new(first, self.way)?, WholeTops::new(second, self.back)?);
+        let [tops, backs] = &mut self.kept;
+        tops.set(a, first, self.way)?;
+        backs.set(b, second, self.back)?;
         let top = |x: i64| x as f64 * unit;
         let back = |x: i64| self.left - x as f64 * self.back_unit;
         let least = back(backs.most);
@@ -121,13 +130,20 @@ fn top_of(leaf: &FanLeaf<'_>, lane: usize, [x, y, z]: [i64; 3]) -> Option<i64> {
 
 /// The greatest heights of a leaf and of its triangles along a direction in integers.
 struct WholeTops {
+    of: TriangleAt,
     most: i64,
     each: [i64; WIDTH],
 }
 
 impl WholeTops {
+    const NONE: WholeTops = WholeTops { of: TriangleAt::NONE, most: 0, each: [0; WIDTH] };
+
+    /// Computes the heights of a leaf, unless they are those of this leaf already.
     #[inline(never)]
-    fn new(leaf: &FanLeaf<'_>, way: [i64; 3]) -> Option<WholeTops> {
+    fn set(&mut self, of: TriangleAt, leaf: &FanLeaf<'_>, way: [i64; 3]) -> Option<()> {
+        if self.of == of {
+            return Some(());
+        }
         let ring = leaf.grid_ring()?;
         let [x, y, z] = way;
         let height = |[p, q, r]: [i32; 3]| i64::from(p) * x + i64::from(q) * y + i64::from(r) * z;
@@ -142,7 +158,8 @@ impl WholeTops {
             most = greater(most, *top);
             last = next;
         }
-        Some(WholeTops { most, each })
+        *self = WholeTops { of, most, each };
+        Some(())
     }
 }
 

@@ -152,7 +152,11 @@ pub(super) fn visit_by_heights(
     let mut far = goal.far;
     for _ in 0..MOST_ROUNDS {
         let [first, second] = Climb::both(pose, direction.way)?;
-        let ((a, _), (b, _)) = (first.high(work)?, second.high(work)?);
+        let ((a, top_a), (b, top_b)) = (first.high(work)?, second.high(work)?);
+        // Models that overlap along the direction have many leaves that stick out.
+        if is_beyond(Real(top_a) + Real(top_b), dot(pose.shift, direction.way)) {
+            return Some(false);
+        }
         if last == [a, b] {
             break;
         }
@@ -172,7 +176,6 @@ pub(super) fn visit_by_heights(
     let ((_, top_a), (_, floor)) = (first.high(work)?, second.high(work)?);
     let (_, top_b) = second.leaves(floor, true, scratch, work)?;
     let limit = left(pose, goal, &along);
-    // Models that overlap along the direction have many leaves that stick out.
     if is_beyond(Real(top_a) + Real(top_b), dot(pose.shift, along.way)) {
         return Some(false);
     }
