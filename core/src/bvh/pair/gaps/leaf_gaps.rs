@@ -116,6 +116,7 @@ impl<'a> LeafGaps<'a> {
             let pairs = (pair.a.triangles * pair.b.triangles) as u32;
             work.triangles = work.triangles.saturating_add(pairs);
         }
+        let mut own = None;
         loop {
             let key = keys.least();
             if key > key_limit(limit_sq) {
@@ -124,11 +125,19 @@ impl<'a> LeafGaps<'a> {
             keys.drop(key);
             let [i, j] = children_of(key);
             let place = [first_at.with_lane(i as usize), second_at.with_lane(j as usize)];
-            let way = self.way_between(&pair, place);
-            if let Some(LeftOutPairs { far, .. }) = left_out
-                && WholeWay::of(self.pose, way)
-                    .is_some_and(|way| way.is_beyond(far, leaves, place) == Some(true))
-            {
+            let is_beyond = |own: &Option<WholeWay<'_>>| {
+                let (Some(own), Some(left_out)) = (own, left_out) else { return false };
+                own.is_beyond(left_out.far, leaves, place) == Some(true)
+            };
+            // Triangles of one leaf that have the same face across are apart along its normal.
+            let mut is_far = is_beyond(&own);
+            let mut way = Vec3::ZERO;
+            if !is_far {
+                way = self.way_between(&pair, place);
+                own = left_out.and_then(|_| WholeWay::of(self.pose, way));
+                is_far = is_beyond(&own);
+            }
+            if is_far {
                 (seen.pairs, seen.has_beyond) = (seen.pairs | pair_bit(key), true);
                 continue;
             }
