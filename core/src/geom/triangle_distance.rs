@@ -5,9 +5,8 @@
 //! end is the gap along a direction: no direction makes it too great. So a case that rounding
 //! misjudges costs width and no truth. Derivation: `core/docs/rounding.md` §18.
 //!
-//! The order of cases, with an end as soon as the gap along the way is the length of the way, is
-//! that of Larsen, Gottschalk, Lin and Manocha, *Fast Proximity Queries with Swept Sphere Volumes*
-//! (1999).
+//! That the search ends as soon as the gap along the way is the length of the way is of Larsen,
+//! Gottschalk, Lin and Manocha, *Fast Proximity Queries with Swept Sphere Volumes* (1999).
 
 use super::vector::{Point, cross, dot, minus};
 use crate::num::tolerance::{GAP_DIRECTION_SQ, GAP_SETTLED, TRIANGLE_DISTANCE, U64};
@@ -297,8 +296,11 @@ mod tests {
     fn check(b: [Point<f64>; 3], expected: f64) {
         let turned = |[p, q, r]: [Point<f64>; 3]| [q, r, p];
         for (x, y) in [(FLAT, b), (b, FLAT), (turned(FLAT), turned(turned(b)))] {
-            for y in [y, [y[1], y[0], y[2]]] {
-                let found = triangle_distance(x, y, [[0; 2]; 2]);
+            // No guess makes an answer wrong or wide.
+            for guess in 0..64 {
+                let y = if guess & 1 == 0 { y } else { [y[1], y[0], y[2]] };
+                let guesses = [[guess & 7, guess >> 3], [guess >> 3, guess & 7]];
+                let found = triangle_distance(x, y, guesses);
                 assert!(
                     found.lower <= expected && expected <= found.upper,
                     "{x:?} {y:?} {found:?}"
