@@ -5,9 +5,8 @@
 //! end is the gap along a direction: no direction makes it too great. So a case that rounding
 //! misjudges costs width and no truth. Derivation: `core/docs/rounding.md` §18.
 //!
-//! The order of cases, with an end as soon as the gap along the way is the length of the way, is
-//! that of Larsen, Gottschalk, Lin and Manocha, *Fast Proximity Queries with Swept Sphere Volumes*
-//! (1999).
+//! That the search ends as soon as the gap along the way is the length of the way is of Larsen,
+//! Gottschalk, Lin and Manocha, *Fast Proximity Queries with Swept Sphere Volumes* (1999).
 
 use super::vector::{Point, cross, dot, minus};
 use crate::num::tolerance::{GAP_DIRECTION_SQ, GAP_SETTLED, TRIANGLE_DISTANCE, U64};
@@ -44,71 +43,118 @@ impl Candidate {
         let [from, to] = self.points;
         Candidate { points: [to, from], offset: self.offset.map(|x| -x), offset_sq: self.offset_sq }
     }
+
+    #[inline(always)]
+    fn or_nearer(self, other: Option<Candidate>) -> Candidate {
+        other.filter(|other| other.offset_sq < self.offset_sq).unwrap_or(self)
+    }
 }
 
-/// The distance of the triangles `a` and `b`. They may be segments or points.
+/// The distance of the triangles `a` and `b`. They may be segments or points. `guesses`: a bit for
+/// each corner of either that may be among the nearest ones. These are tried first, then the next
+/// guess; no proof rests on them.
 ///
 /// Triangles that pass through each other have a lower end of 0. Their upper end is then only that
 /// of a vertex and a face, or of two edges: ask [`triangles_meet`](super::triangles_meet) too.
 /// Triangles that touch have an upper end of a few roundings.
 /// Coordinates must be finite, 0 or from 1e-60 to 1e60 in size.
 ///
-/// Cost: two cross products and fifteen inner products if a vertex is over a face, else up to nine
-/// pairs of edges with some eight inner products each, and the feet of six vertices.
-pub fn triangle_distance(a: [Point<f64>; 3], b: [Point<f64>; 3]) -> TriangleDistance {
-    let margin = margin(&a, &b);
-    let normals = [normal(&a), normal(&b)];
-    let [to_first, to_second] = normals;
-    let mut best = Candidate::new(a[0], b[0]);
-    let over = [over_face(&a, to_first, &b), over_face(&b, to_second, &a).map(Candidate::turned)];
-    for found in over.into_iter().flatten() {
-        if found.offset_sq < best.offset_sq {
-            best = found;
-        }
-        if is_settled(&best, &a, &b) {
-            return answer(&best, length_along(best.offset, &a, &b), margin);
-        }
+/// Cost: some fifteen inner products if the guess is right. Else up to nine pairs of edges with
+/// some eight inner products each, and the feet of six vertices.
+pub fn triangle_distance(
+    a: [Point<f64>; 3],
+    b: [Point<f64>; 3],
+    guesses: [[u32; 2]; 2],
+) -> TriangleDistance {
+    let try_one = |guess: &[u32; 2]| {
+        let found = guessed(&a, &b, *guess)?;
+        Some((found, settled(&found, &a, &b)?))
+    };
+    let [first, second] = &guesses;
+    let found = try_one(first).or_else(|| if first == second { None } else { try_one(second) });
+    let (best, gap) = found.unwrap_or_else(|| among_all(&a, &b));
+    let margin = TRIANGLE_DISTANCE * U64 * (farthest(&a) + farthest(&b));
+    TriangleDistance {
+        lower: greater(0.0, gap - margin),
+        upper: libm::sqrt(best.offset_sq) + margin,
+        points: best.points,
+    }
+}
+
+/// The nearest points of the corners of a guess.
+#[inline(always)]
+fn guessed(
+    a: &[Point<f64>; 3],
+    b: &[Point<f64>; 3],
+    [first, second]: [u32; 2],
+) -> Option<Candidate> {
+    if first == ALL {
+        return foot_of_some(a, b, second);
+    }
+    if second == ALL {
+        return foot_of_some(b, a, first).map(Candidate::turned);
+    }
+    let ([from, to], [start, end]) = (ends(a, first)?, ends(b, second)?);
+    Some(between_edges(from, to, start, end))
+}
+
+/// The bits of all corners.
+const ALL: u32 = 0b111;
+
+/// The first foot of a corner with its bit that is in the face.
+fn foot_of_some(
+    face: &[Point<f64>; 3],
+    other: &[Point<f64>; 3],
+    corners: u32,
+) -> Option<Candidate> {
+    let normal = normal(face);
+    let wanted = other.iter().enumerate().filter(|(k, _)| corners >> (k & 3) & 1 != 0);
+    wanted.into_iter().find_map(|(_, corner)| over_face(face, normal, *corner))
+}
+
+/// The ends of an edge with these corners; twice the same if there is one. `None` if there is none.
+fn ends(triangle: &[Point<f64>; 3], corners: u32) -> Option<[Point<f64>; 2]> {
+    let at = |k: u32| triangle.get(k as usize).copied();
+    Some([at(corners.trailing_zeros())?, at(31u32.wrapping_sub(corners.leading_zeros()))?])
+}
+
+/// The nearest points of all edges, vertices and faces, and the gap.
+#[inline(never)]
+fn among_all(a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> (Candidate, f64) {
+    let [to_first, to_second] = [normal(a), normal(b)];
+    let [from, ..] = *a;
+    let [to, ..] = *b;
+    let mut best = Candidate::new(from, to);
+    // Of triangles that touch, a vertex may lie in the other one's plane or a little beyond it.
+    for vertex in b {
+        best = best.or_nearer(over_face(a, to_first, *vertex));
+    }
+    for vertex in a {
+        best = best.or_nearer(over_face(b, to_second, *vertex).map(Candidate::turned));
+    }
+    if let Some(gap) = settled(&best, a, b) {
+        return (best, gap);
     }
     let mut across = [0.0; 3];
-    for (from, to) in edges(&a) {
-        for (start, end) in edges(&b) {
+    for (from, to) in edges(a) {
+        for (start, end) in edges(b) {
             let found = between_edges(from, to, start, end);
             if found.offset_sq < best.offset_sq {
                 best = found;
                 across = cross(minus(to, from), minus(end, start));
-                if is_settled(&best, &a, &b) {
-                    return answer(&best, length_along(best.offset, &a, &b), margin);
+                if let Some(gap) = settled(&best, a, b) {
+                    return (best, gap);
                 }
             }
-        }
-    }
-    // Of triangles that touch, a vertex may lie in the other one's plane or a little beyond it.
-    let below = below_vertices(&a, to_first, &b);
-    let above = below_vertices(&b, to_second, &a).map(|found| found.map(Candidate::turned));
-    for found in below.into_iter().chain(above).flatten() {
-        if found.offset_sq < best.offset_sq {
-            best = found;
         }
     }
     // A short offset is mostly rounding. Normals are not.
     let gap = [best.offset, to_first, to_second, across]
         .into_iter()
         .flat_map(|offset| [offset, offset.map(|x| -x)])
-        .map(|offset| length_along(offset, &a, &b))
+        .map(|offset| length_along(offset, a, b))
         .fold(0.0, greater);
-    answer(&best, gap, margin)
-}
-
-fn margin(a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> f64 {
-    TRIANGLE_DISTANCE * U64 * (farthest(a) + farthest(b))
-}
-
-fn answer(best: &Candidate, gap: f64, margin: f64) -> TriangleDistance {
-    TriangleDistance {
-        lower: greater(0.0, gap - margin),
-        upper: libm::sqrt(best.offset_sq) + margin,
-        points: best.points,
-    }
+    (best, gap)
 }
 
 /// Largest 1-norm.
@@ -141,56 +187,32 @@ fn length_along(offset: Point<f64>, a: &[Point<f64>; 3], b: &[Point<f64>; 3]) ->
     if offset_sq < GAP_DIRECTION_SQ { 0.0 } else { beyond(offset, a, b) / libm::sqrt(offset_sq) }
 }
 
-/// Whether no other points of the triangles are nearer, but for rounding.
-#[inline(always)]
-fn is_settled(best: &Candidate, a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> bool {
-    best.offset_sq >= GAP_DIRECTION_SQ && beyond(best.offset, a, b) >= best.offset_sq * GAP_SETTLED
-}
-
-/// The vertex of `other` nearest to the plane of `face`, and the point below it, if all of `other`
-/// is on one side and the point is in the face. If another vertex is equally near, two edges are
-/// too.
-#[inline(always)]
-fn over_face(
-    face: &[Point<f64>; 3],
-    normal: Point<f64>,
-    other: &[Point<f64>; 3],
-) -> Option<Candidate> {
-    let &[origin, first, second] = face;
-    let [p, q, r] = other.map(|vertex| dot(normal, minus(vertex, origin)));
-    let is_above = p > 0.0 && q > 0.0 && r > 0.0;
-    let is_below = p < 0.0 && q < 0.0 && r < 0.0;
-    if !is_above && !is_below {
+/// The gap along the way, if no other points of the triangles are nearer, but for rounding.
+#[cfg_attr(meshsweep_wide, inline(always))]
+#[cfg_attr(not(meshsweep_wide), inline(never))]
+fn settled(best: &Candidate, a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> Option<f64> {
+    if best.offset_sq < GAP_DIRECTION_SQ {
         return None;
     }
-    let (p, q, r) = (p.abs(), q.abs(), r.abs());
-    let &[x, y, z] = other;
-    let vertex = if p <= q && p <= r {
-        x
-    } else if q <= r {
-        y
-    } else {
-        z
-    };
+    let beyond = beyond(best.offset, a, b);
+    let is_settled = beyond >= best.offset_sq * GAP_SETTLED;
+    is_settled.then(|| beyond / libm::sqrt(best.offset_sq))
+}
+
+/// A vertex and the point of the face below or above it.
+#[inline(always)]
+fn over_face(
+    &[origin, first, second]: &[Point<f64>; 3],
+    normal: Point<f64>,
+    vertex: Point<f64>,
+) -> Option<Candidate> {
     let foot = foot_on(origin, first, second, normal, vertex)?;
     Some(Candidate::new(foot, vertex))
 }
 
-/// The vertices of `other`, each with the point of the face below or above it.
-#[inline(always)]
-fn below_vertices(
-    &[origin, first, second]: &[Point<f64>; 3],
-    normal: Point<f64>,
-    other: &[Point<f64>; 3],
-) -> [Option<Candidate>; 3] {
-    other.map(|vertex| {
-        let foot = foot_on(origin, first, second, normal, vertex)?;
-        Some(Candidate::new(foot, vertex))
-    })
-}
-
 /// The foot of a perpendicular on a face, if it is in the face.
-#[inline(always)]
+#[cfg_attr(meshsweep_wide, inline(always))]
+#[cfg_attr(not(meshsweep_wide), inline(never))]
 fn foot_on(
     origin: Point<f64>,
     first: Point<f64>,
@@ -218,7 +240,8 @@ fn fraction(x: f64, of: f64) -> f64 {
 }
 
 /// Nearest points of two segments (Ericson, *Real-Time Collision Detection*, 5.1.9).
-#[inline(always)]
+#[cfg_attr(meshsweep_wide, inline(always))]
+#[cfg_attr(not(meshsweep_wide), inline(never))]
 fn between_edges(
     from: Point<f64>,
     to: Point<f64>,
@@ -273,8 +296,11 @@ mod tests {
     fn check(b: [Point<f64>; 3], expected: f64) {
         let turned = |[p, q, r]: [Point<f64>; 3]| [q, r, p];
         for (x, y) in [(FLAT, b), (b, FLAT), (turned(FLAT), turned(turned(b)))] {
-            for y in [y, [y[1], y[0], y[2]]] {
-                let found = triangle_distance(x, y);
+            // No guess makes an answer wrong or wide.
+            for guess in 0..64 {
+                let y = if guess & 1 == 0 { y } else { [y[1], y[0], y[2]] };
+                let guesses = [[guess & 7, guess >> 3], [guess >> 3, guess & 7]];
+                let found = triangle_distance(x, y, guesses);
                 assert!(
                     found.lower <= expected && expected <= found.upper,
                     "{x:?} {y:?} {found:?}"
@@ -315,7 +341,7 @@ mod tests {
     fn triangles_that_pass_through_each_other_have_a_lower_end_of_zero_and_a_common_point() {
         let spike = [[0.5, 0.5, -1.0], [1.0, 0.5, -1.0], [1.0, 1.0, 1.0]];
         for (x, y) in [(FLAT, spike), (spike, FLAT)] {
-            assert_eq!(triangle_distance(x, y).lower, 0.0);
+            assert_eq!(triangle_distance(x, y, [[0; 2]; 2]).lower, 0.0);
             let [_, _, z] = crossing(x, y).expect("an edge crosses");
             assert!(z.abs() < 1e-15, "{z}");
         }

@@ -48,7 +48,7 @@ pub use pair_distance::{PairContact, PairDistance};
 pub use penetration::{Penetration, Relation};
 pub(crate) use pose::{
     DIRECTIONS, Extended, ModelFrame, Placement, PoseInverse, RelativePose, UNITS_APART,
-    WorldLengths, check_rigid, checked_skew, is_rotation, longest, skew,
+    VertexPose, WorldLengths, check_rigid, checked_skew, is_rotation, longest, skew,
 };
 pub use pose::{Joint, JointAxis, JointKind, Motion, PosedPoint, RoundedPose, link_poses};
 pub use scratch::{Scratch, ScratchEntry};

@@ -18,8 +18,8 @@ pub struct PairDistance {
     /// The triangles of these points, by their numbers in the input files.
     pub triangles: [u32; 2],
     /// The work of the search: pairs of boxes as `bounds`, pairs of triangles bounded as
-    /// `triangles`, pairs of triangles whose distance was computed in f64 as `exact`, pairs of
-    /// nodes as `opened`.
+    /// `triangles`, pairs of triangles whose distance was computed in f64 as `exact`, nodes
+    /// and pairs of nodes as `opened`.
     pub work: Work,
     /// Why the search ended. [`Ended::Resolution`]: the meshes are so far apart that their boxes
     /// answered.

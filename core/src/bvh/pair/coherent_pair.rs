@@ -118,12 +118,13 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
     ) -> Result<PairDistance, QueryError> {
         budget.check_with(scratch)?;
         let pair = StoredPair::new([tree, other], &pose)?;
-        if !pair.is_in_range {
+        if !pair.placement.is_in_range {
             self.reset();
             return tree.distance_to(other, pose, budget, scratch);
         }
         let mut nearest = NearestGap::new(&pair.lengths, 0.0, &budget);
-        let mut search = Search::new(&pair, budget.steps, scratch);
+        let relative = pair.relative();
+        let mut search = Search::new(&pair, &relative, budget.steps, scratch);
         let front = PairFront::after_motion(&mut self.last, &mut self.groups, &pair, &pose);
         let missed = front.search(&mut search, &mut PairQuestion::Distance(&mut nearest))?;
         answers::nearest(&nearest, &pair, missed, search.work)
@@ -156,12 +157,13 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
             return Ok(Decided::CLEAR);
         }
         let pair = StoredPair::new([tree, other], &pose)?;
-        if !pair.is_in_range {
+        if !pair.placement.is_in_range {
             self.reset();
             return tree.within_of(other, pose, distance, budget, scratch);
         }
         let mut threshold = GapThreshold::new(&pair.lengths, 0.0, distance);
-        let mut search = Search::new(&pair, budget.steps, scratch);
+        let relative = pair.relative();
+        let mut search = Search::new(&pair, &relative, budget.steps, scratch);
         let front = PairFront::after_motion(&mut self.last, &mut self.groups, &pair, &pose);
         let missed = front.search(&mut search, &mut PairQuestion::Within(&mut threshold))?;
         answers::within(&threshold, &pair, missed, search.work)

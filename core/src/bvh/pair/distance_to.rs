@@ -2,6 +2,7 @@
 
 use super::gaps::answers;
 use super::gaps::left_out::ChildPairs;
+use super::gaps::nearest_along::NearestAlong;
 use super::gaps::nearest_first::{Missed, Search};
 use super::gaps::question::PairQuestion;
 use super::models::most_pairs;
@@ -84,13 +85,14 @@ impl Bvh<'_> {
             && budget.absolute == 0.0
             && budget.steps >= lesser(most_pairs(self, other), u32::MAX / 2);
         if is_whole
-            && pair.is_in_range
+            && pair.placement.is_in_range
             && measure_nearest(&pair, &pose, &mut question, (scratch, &mut work))
         {
             return answers::nearest(&nearest, &pair, None, work);
         }
-        let mut search = Search { work, ..Search::new(&pair, budget.steps, scratch) };
-        let missed = if pair.is_in_range {
+        let relative = pair.relative();
+        let mut search = Search { work, ..Search::new(&pair, &relative, budget.steps, scratch) };
+        let missed = if pair.placement.is_in_range {
             search.descend((ChildPairs::ALL, 0.0), &mut question, None)?.missed()
         } else {
             Some(Missed { why: Ended::Resolution, lower: f64::INFINITY })
@@ -119,15 +121,19 @@ fn measure_nearest(
         return true;
     }
     // Otherwise the search in f64 begins with a limit.
-    let Some(mut between) = leaves.between().filter(|_| are_all) else { return false };
+    if !are_all {
+        return false;
+    }
+    let Some(mut along) = NearestAlong::new(leaves, question) else { return false };
     while let Some(place) = candidates.take_last() {
         let [first, second] = place;
         let (Some(p), Some(q)) = (first.leaf(a), second.leaf(b)) else { return false };
-        match leaves.visit_along(&mut between, [&p, &q], [place, best], question, work) {
+        match along.visit([&p, &q], [place, best], question, work) {
             Some(true) => {}
             Some(false) => return true,
             None => return false,
         }
     }
-    question.leaves().is_some()
+    along.tell(best, question);
+    true
 }

@@ -6,7 +6,7 @@ use crate::bvh::tree::node::WIDE;
 use crate::geom::fan::{LANES_BELOW, WIDTH};
 use crate::geom::{Contact, determinant_margin, straddling_triangles_meet, triangles_meet};
 use crate::num::{each, greater, lesser};
-use crate::query::{RelativePose, Work};
+use crate::query::{VertexPose, Work};
 use glam::Vec3;
 
 /// Slots for a leaf's vertices: two centres, the ring, and spare ones so that eight can be read at
@@ -58,6 +58,11 @@ impl Corners {
     fn corner(&self, slot: usize) -> [f32; 3] {
         let [x, y, z] = &self.at;
         each([x, y, z], |axis| axis.get(slot).copied().unwrap_or(0.0))
+    }
+
+    #[inline(always)]
+    pub(crate) fn triangle(&self, triangle: usize) -> [Vec3; 3] {
+        each(self.slots(triangle), |slot| Vec3::from_array(self.corner(slot)))
     }
 
     #[inline(always)]
@@ -259,7 +264,7 @@ fn blend(mask: u32, axis: &[f32; SLOTS]) -> f32 {
 
 /// A leaf of the first tree, and one of the second, in common units from a vertex of the first.
 pub(crate) struct LeafPair<'a> {
-    pose: &'a RelativePose,
+    pose: &'a VertexPose,
     leaves: [FanLeaf<'a>; 2],
     pub(crate) a: Corners,
     pub(crate) b: Corners,
@@ -270,10 +275,9 @@ pub(crate) struct LeafPair<'a> {
 impl<'a> LeafPair<'a> {
     #[cfg_attr(meshsweep_small, inline(never))]
     #[cfg_attr(not(meshsweep_small), inline(always))]
-    pub(crate) fn new(pose: &'a RelativePose, a: &FanLeaf<'a>, b: &FanLeaf<'a>) -> LeafPair<'a> {
+    pub(crate) fn new(pose: &'a VertexPose, a: &FanLeaf<'a>, b: &FanLeaf<'a>) -> LeafPair<'a> {
         let (mut first, mut second) = (Corners::stored(a), Corners::stored(b));
-        let [frame, _] = &pose.frames;
-        let unit = frame.unit;
+        let [unit, _] = pose.units;
         let base = first.corner(0).map(|x| x * unit);
         for (axis, base) in first.at.iter_mut().zip(base) {
             for x in axis {
@@ -383,23 +387,24 @@ impl<'a> LeafPair<'a> {
     /// farther than `vertex_error_exact` of the pose from its place.
     #[inline(always)]
     pub(crate) fn in_f64(&self, i: usize, j: usize) -> [[[f64; 3]; 3]; 2] {
-        let RelativePose { matrix, shift_exact, .. } = *self.pose;
+        let VertexPose { matrix, shift_exact, .. } = *self.pose;
         let [first, second] = &self.leaves;
-        let unit = f64::from(self.pose.frames[0].unit);
+        let unit = f64::from(self.pose.units[0]);
         let wide = |leaf: &FanLeaf<'_>, slots: [usize; 3]| {
             let stored = leaf.stored_vertices();
             slots.map(|slot| stored.map(|axis| f64::from(axis.get(slot).copied().unwrap_or(0.0))))
         };
         let a = wide(first, self.a.slots(i));
         let [[cx, cy, cz], ..] = a;
+        let [u, v, w] = shift_exact;
+        let [u, v, w] = [u - cx * unit, v - cy * unit, w - cz * unit];
         let b = wide(second, self.b.slots(j)).map(|[x, y, z]| {
-            let along = |[a, b, c]: [f32; 3], shift: f64, centre: f64| {
+            let along = |[a, b, c]: [f32; 3], shift: f64| {
                 let [a, b, c] = [a, b, c].map(f64::from);
-                ((a * x + b * y) + (c * z + shift)) - centre * unit
+                (a * x + b * y) + (c * z + shift)
             };
             let [r, s, t] = matrix;
-            let [u, v, w] = shift_exact;
-            [along(r, u, cx), along(s, v, cy), along(t, w, cz)]
+            [along(r, u), along(s, v), along(t, w)]
         });
         [a.map(|[x, y, z]| [(x - cx) * unit, (y - cy) * unit, (z - cz) * unit]), b]
     }

@@ -46,7 +46,7 @@ impl Models<'_> {
     pub(crate) fn opened(&self, [first, second]: &[BvhChild; 2]) -> Option<[bool; 2]> {
         Some(match (first.is_leaf(), second.is_leaf()) {
             (false, false) => {
-                let [unit_a, unit_b] = [self.pose.frames[0].unit, self.pose.frames[1].unit];
+                let [unit_a, unit_b] = self.pose.vertices.units;
                 let (x, y) = (size(self.a, first.at)? * unit_a, size(self.b, second.at)? * unit_b);
                 [x * LARGER >= y, y * LARGER >= x]
             }

@@ -1,22 +1,21 @@
 //! Two trees in one frame, and the conversion of results to input units.
 
 use super::gaps::leaf_gaps::LeafGaps;
-use super::models::Models;
 use crate::bvh::tree::extended::extended;
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::stored_lengths::StoredLengths;
 use crate::geom::Pose;
 use crate::num::tolerance::U64;
 use crate::num::{exp2, greater};
-use crate::query::{Extended, Placement, QueryError, RelativePose};
+use crate::query::{Extended, Placement, QueryError, RelativePose, VertexPose};
 
 /// Two trees for the search in f64: the pose without surface errors, and these errors apart.
 pub(crate) struct StoredPair<'a> {
     pub(crate) trees: [&'a Bvh<'a>; 2],
-    /// Its vertex errors hold rounding only, no surface errors.
-    pub(crate) pose: RelativePose,
-    /// No length is beyond 2^30 common units, so bounds in f32 hold.
-    pub(crate) is_in_range: bool,
+    pose: Pose,
+    /// Its vertex errors hold rounding only, no surface errors. In range no length is beyond 2^30
+    /// common units, so bounds in f32 hold.
+    pub(crate) placement: Placement,
     /// Holds the sum of both surface errors.
     pub(crate) lengths: StoredLengths,
     /// The larger surface error, common units.
@@ -27,7 +26,7 @@ pub(crate) struct StoredPair<'a> {
 
 /// A place of the second model, its units and from its origin, in common units and from the first
 /// model's origin.
-pub(crate) fn moved(pose: &RelativePose, [x, y, z]: [f64; 3]) -> [f64; 3] {
+pub(crate) fn moved(pose: &VertexPose, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let ([r0, r1, r2], [c0, c1, c2]) = (pose.matrix, pose.shift_exact);
     let along = |row: [f32; 3], shift: f64| {
         let [a, b, c] = row.map(f64::from);
@@ -43,15 +42,15 @@ impl<'a> StoredPair<'a> {
         }
         let (first, second) = (extended(a), extended(b));
         // Surface errors are added to the answer once. So the pose has none.
-        let exact = |model: &Extended| Extended { error: 0.0, ..*model };
-        let Placement { pose, is_in_range, .. } =
-            RelativePose::relate(&exact(&first), &exact(&second), pose)?;
-        let [frame, _] = &pose.frames;
-        let (error_a, error_b) = (first.error * f64::from(frame.unit), second.error * pose.longest);
+        let [error_a, error_b] = [first.error, second.error];
+        let (first, second) = (Extended { error: 0.0, ..first }, Extended { error: 0.0, ..second });
+        let placement = RelativePose::relate(&first, &second, pose)?;
+        let vertices = &placement.vertices;
+        let [unit, _] = vertices.units.map(f64::from);
+        let (error_a, error_b) = (error_a * unit, error_b * vertices.longest);
         let up = 1.0 + 8.0 * U64;
         Ok(StoredPair {
             trees: [a, b],
-            is_in_range,
             lengths: StoredLengths {
                 error: (error_a + error_b) * up,
                 unit: exp2(greater(first.exponent, second.exponent)),
@@ -59,18 +58,20 @@ impl<'a> StoredPair<'a> {
             greater_error: greater(error_a, error_b) * up,
             first,
             second,
-            pose,
+            pose: *pose,
+            placement,
         })
     }
 
-    pub(crate) fn models(&self) -> Models<'_> {
-        let [a, b] = self.trees;
-        Models { a, b, pose: &self.pose }
+    /// The pose for the search in f64.
+    pub(crate) fn relative(&self) -> RelativePose {
+        let Self { first, second, pose, placement, .. } = self;
+        RelativePose::along_axes(first, second, pose, placement).0
     }
 
     pub(crate) fn leaves(&self) -> LeafGaps<'_> {
         LeafGaps {
-            pose: &self.pose,
+            pose: &self.placement.vertices,
             surface_error: self.greater_error,
             direction: [0.0; 3],
             offset: [0.0; 3],
@@ -85,8 +86,8 @@ impl<'a> StoredPair<'a> {
 
     /// The same, rounded to f64.
     pub(crate) fn to_input_exact(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        let [frame, _] = &self.pose.frames;
-        let (unit, size) = (f64::from(frame.unit), exp2(self.first.exponent));
+        let ([unit, _], size) =
+            (self.placement.vertices.units.map(f64::from), exp2(self.first.exponent));
         let [a, b, c] = self.first.origin;
         [x / unit + a, y / unit + b, z / unit + c].map(|x| x * size)
     }
@@ -96,6 +97,6 @@ impl<'a> StoredPair<'a> {
     pub(crate) fn moved(&self, vertex: [f32; 3]) -> [f64; 3] {
         let [x, y, z] = vertex.map(f64::from);
         let [a, b, c] = self.second.origin;
-        moved(&self.pose, [x - a, y - b, z - c])
+        moved(&self.placement.vertices, [x - a, y - b, z - c])
     }
 }

@@ -110,8 +110,9 @@ impl Bvh<'_> {
         let pair = StoredPair::new([self, other], pose)?;
         let threshold = GapThreshold::new(&pair.lengths, 0.0, distance);
         let mut threshold = threshold.and_beyond(more);
-        let mut search = Search { work, ..Search::new(&pair, budget.steps, scratch) };
-        let missed = if pair.is_in_range {
+        let relative = pair.relative();
+        let mut search = Search { work, ..Search::new(&pair, &relative, budget.steps, scratch) };
+        let missed = if pair.placement.is_in_range {
             let mut question = PairQuestion::Within(&mut threshold);
             search.descend((ChildPairs::ALL, 0.0), &mut question, None)?.missed()
         } else {

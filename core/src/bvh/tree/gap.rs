@@ -38,6 +38,7 @@ pub(crate) struct NearestGap<P> {
     error: f64,
     /// Of the solid; 0 of two surfaces.
     radius: f64,
+    is_exact: bool,
     relative: f64,
     absolute: f64,
 }
@@ -50,6 +51,8 @@ impl<P: Copy> NearestGap<P> {
             limit: f64::INFINITY,
             error: lengths.error,
             radius,
+            // Then the limit below is the upper end.
+            is_exact: budget.relative == 0.0 && budget.absolute == 0.0,
             relative: f64::from(budget.relative),
             absolute: lengths.inward(budget.absolute),
         }
@@ -59,6 +62,9 @@ impl<P: Copy> NearestGap<P> {
     /// lower ≤ absolute, where the answer's ends lack the radius, have the surface errors and are
     /// rounded to f32.
     fn tolerated(&self, upper: f64) -> f64 {
+        if self.is_exact {
+            return upper;
+        }
         let told = greater(0.0, upper - self.radius + self.error);
         let rounded = 4.0 * f64::from(U32);
         let relative = told / (1.0 + self.relative) * (1.0 + rounded);

@@ -33,30 +33,30 @@ pub(super) fn is_f32_enough(pose: &RelativePose, sides: [&Extended; 2]) -> bool 
 
 impl Places<f32> {
     pub(super) fn of(pose: &RelativePose) -> Self {
-        let [first, second] = &pose.frames;
-        let rounding = up_to_f32(pose.rounding[0]);
+        let RelativePose { frames: [first, second], vertices } = pose;
+        let rounding = up_to_f32(vertices.rounding[0]);
         Places {
             origins: [first.origin, second.origin],
-            units: [first.unit, up_to_f32(pose.longest)],
-            matrix: pose.matrix,
-            shift: pose.shift,
-            doubt: pose.vertex_error,
-            margin: 2.0 * pose.vertex_error + rounding,
+            units: [first.unit, up_to_f32(vertices.longest)],
+            matrix: vertices.matrix,
+            shift: vertices.shift,
+            doubt: vertices.vertex_error,
+            margin: 2.0 * vertices.vertex_error + rounding,
         }
     }
 }
 
 impl Places<f64> {
     pub(super) fn of(pose: &RelativePose) -> Self {
-        let [first, second] = &pose.frames;
+        let RelativePose { frames: [first, second], vertices } = pose;
         let wide = |v: [f32; 3]| v.map(f64::from);
         Places {
             origins: [wide(first.origin), wide(second.origin)],
-            units: [f64::from(first.unit), pose.longest],
-            matrix: pose.matrix.map(wide),
-            shift: pose.shift_exact,
-            doubt: pose.vertex_error_exact,
-            margin: 2.0 * pose.vertex_error_exact + pose.rounding[1],
+            units: [f64::from(first.unit), vertices.longest],
+            matrix: vertices.matrix.map(wide),
+            shift: vertices.shift_exact,
+            doubt: vertices.vertex_error_exact,
+            margin: 2.0 * vertices.vertex_error_exact + vertices.rounding[1],
         }
     }
 }

@@ -47,10 +47,11 @@ pub(crate) struct ModelFrame {
     pub(crate) unit: f32,
 }
 
-/// The pose of both models in common units.
+/// How places of both models are carried to common units.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct RelativePose {
-    pub(crate) frames: [ModelFrame; 2],
+pub(crate) struct VertexPose {
+    /// Common units in one unit of each model.
+    pub(crate) units: [f32; 2],
     /// A place `q` of the second model, from its origin, is at `matrix·q + shift`.
     pub(crate) matrix: [[f32; 3]; 3],
     pub(crate) shift: [f32; 3],
@@ -65,14 +66,21 @@ pub(crate) struct RelativePose {
     pub(crate) longest: f64,
 }
 
+/// The pose of both models in common units.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RelativePose {
+    pub(crate) frames: [ModelFrame; 2],
+    pub(crate) vertices: VertexPose,
+}
+
 /// What [`RelativePose::relate`] finds: the pose of two models, at whatever distance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Placement {
-    pub(crate) pose: RelativePose,
-    /// Proved: nothing of one model meets the other.
-    pub(crate) is_apart: bool,
+    pub(crate) vertices: VertexPose,
     /// The numbers are small enough for f32.
     pub(crate) is_in_range: bool,
+    /// The sum of both surface errors and of the rounding of a vertex, common units.
+    error: f64,
 }
 
 /// The greatest that `row·q` can be for `|q| ≤ extent`, axis by axis.
@@ -80,8 +88,9 @@ fn most([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
     (a.abs() * x + b.abs() * y) + c.abs() * z
 }
 
-fn greatest(values: impl IntoIterator<Item = f64>) -> f64 {
-    values.into_iter().fold(0.0, greater)
+/// The same in f32, rounded.
+fn most_f32([a, b, c]: [f32; 3], [x, y, z]: [f32; 3]) -> f32 {
+    (a * x).abs() + (b * y).abs() + (c * z).abs()
 }
 
 impl RelativePose {
@@ -96,11 +105,12 @@ impl RelativePose {
         b: &Extended,
         pose: &Pose,
     ) -> Result<Option<RelativePose>, QueryError> {
-        let Placement { pose, is_apart, is_in_range } = RelativePose::relate(a, b, pose)?;
+        let placement = RelativePose::relate(a, b, pose)?;
+        let (pose, is_apart) = RelativePose::along_axes(a, b, pose, &placement);
         if is_apart {
             return Ok(None);
         }
-        if is_in_range { Ok(Some(pose)) } else { Err(QueryError::PoseOutOfDomain) }
+        if placement.is_in_range { Ok(Some(pose)) } else { Err(QueryError::PoseOutOfDomain) }
     }
 
     /// Refuses a pose that no question about two models takes. `[a, b]`: the exponents of their
@@ -124,9 +134,9 @@ impl RelativePose {
         check_rigid(pose)
     }
 
-    /// The pose, also of models that are far from each other. Errors: those of
+    /// How places are carried, also of models that are far from each other. Errors: those of
     /// [`check`](Self::check).
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn relate(a: &Extended, b: &Extended, pose: &Pose) -> Result<Placement, QueryError> {
         let (ea, eb) = (a.exponent, b.exponent);
         let common = greater(eb, ea);
@@ -134,71 +144,39 @@ impl RelativePose {
         let units = [exp2(ea - common), exp2(eb - common)];
         let [unit_a, unit_b] = units;
         let rotation = pose.rotation.map(|row| row.map(f64::from));
-        let [r0, r1, r2] = rotation;
         // Products of f32 are exact in f64; the sum of seven terms is rounded six times.
         let (from, into) = (b.origin, a.origin);
         let scale = exp2(common.wrapping_neg());
-        let [t0, t1, t2] = pose.translation.map(|x| f64::from(x) * scale);
-        let [p0, p1, p2] = into;
-        let shift_exact = [
-            (dot(r0, from) * unit_b - p0 * unit_a) + t0,
-            (dot(r1, from) * unit_b - p1 * unit_a) + t1,
-            (dot(r2, from) * unit_b - p2 * unit_a) + t2,
-        ];
-        let (extent_a, extent_b) = (a.extent.map(|x| x * unit_a), b.extent.map(|x| x * unit_b));
+        let mut shift_exact = pose.translation.map(|x| f64::from(x) * scale);
+        for k in 0..3 {
+            shift_exact[k] += dot(rotation[k], from) * unit_b - into[k] * unit_a;
+        }
         let longest = unit_b * stretch(&rotation);
         let (error_a, error_b) = (a.error * unit_a, b.error * longest);
-        let columns = transposed(&rotation);
-        let [c0, c1, c2] = columns;
-        let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let directions = [x, y, z, c0, c1, c2];
-        let back = directions.map(|d| columns.map(|column| dot(column, d)));
-        let away = directions.map(|d| dot(d, shift_exact));
         // Along each axis, an upper bound of a moved vertex's coordinate, and of its difference
         // from a vertex of the first model.
-        let along = [(r0, 0), (r1, 1), (r2, 2)].map(|(row, axis)| {
-            most(row, extent_b)
-                + extent_a.get(axis).copied().unwrap_or(0.0)
-                + shift_exact.get(axis).map_or(0.0, |x| x.abs())
-        });
-        let near = greatest(along);
+        let (rows, origin_a, origin_b) = (pose.rotation, narrow(into), narrow(from));
+        let sizes = |extent: [f64; 3], unit: f64| narrow(extent).map(|x| x * unit as f32);
+        let (extent_a, extent_b) = (sizes(a.extent, unit_a), sizes(b.extent, unit_b));
+        let mut near = 0.0;
+        let mut origins = 0.0;
+        for k in 0..3 {
+            let extents = most_f32(rows[k], extent_b) + extent_a[k];
+            near = greater(near, f64::from(extents) + shift_exact[k].abs());
+            let both =
+                most_f32(rows[k], origin_b) * unit_b as f32 + origin_a[k].abs() * unit_a as f32;
+            origins = greater(origins, both);
+        }
+        let near = near * (1.0 + 16.0 * f64::from(U32));
         // The same before large terms cancel: the rounding is in proportion to these.
-        let far = near
-            + greatest([r0, r1, r2].map(|row| most(row, from.map(|x| x * unit_b))))
-            + greatest(into.map(f64::abs)) * unit_a;
+        let far = near + f64::from(origins * (1.0 + 16.0 * U32));
         let errors = error_a + error_b;
         let rounded = OVERLAP_VERTEX * U64 * far;
-        let mut grow = [0f32; DIRECTIONS];
-        let mut is_apart = false;
-        for (((grow, d), row), away) in grow.iter_mut().zip(directions).zip(back).zip(away) {
-            let both = most(d, extent_a) + most(row, extent_b);
-            let error = (errors + rounded) * libm::sqrt(dot(d, d)) + OVERLAP_UNDERFLOW;
-            is_apart |= away.abs() * (1.0 - 64.0 * U64) > both + error;
-            *grow = ((both + away.abs()) * (OVERLAP_INTERVAL * f64::from(U32)) + error) as f32
-                * (1.0 + 2.0 * U32);
-        }
-        // NaN is out of range too.
-        let is_in_range = far + errors <= OVERLAP_FARTHEST;
-        let narrow = |v: [f64; 3]| v.map(|x| x as f32);
-        let first = ModelFrame {
-            rows: directions.map(|d| narrow(d.map(|x| x * unit_a))),
-            shift: [0.0; DIRECTIONS],
-            origin: narrow(into),
-            grow,
-            unit: unit_a as f32,
-        };
-        let second = ModelFrame {
-            rows: back.map(|row| narrow(row.map(|x| x * unit_b))),
-            shift: away.map(|x| x as f32),
-            origin: narrow(from),
-            grow: [0.0; DIRECTIONS],
-            unit: unit_b as f32,
-        };
         let larger = greater(error_b, error_a);
         let rounded_f32 = OVERLAP_VERTEX * f64::from(U32) * near;
-        let pose = RelativePose {
-            frames: [first, second],
-            matrix: rotation.map(|row| narrow(row.map(|x| x * unit_b))),
+        let vertices = VertexPose {
+            units: units.map(|x| x as f32),
+            matrix: pose.rotation.map(|row| row.map(|x| x * unit_b as f32)),
             shift: narrow(shift_exact),
             shift_exact,
             vertex_error: (larger + rounded_f32) as f32 * (1.0 + 2.0 * U32),
@@ -206,8 +184,60 @@ impl RelativePose {
             rounding: [rounded_f32, rounded],
             longest,
         };
-        Ok(Placement { pose, is_apart, is_in_range })
+        // NaN is out of range too.
+        let is_in_range = far + errors <= OVERLAP_FARTHEST;
+        Ok(Placement { vertices, is_in_range, error: errors + rounded })
     }
+
+    /// The places along the axes of both models, and whether it is proved that nothing of one model
+    /// meets the other.
+    #[inline(never)]
+    pub(crate) fn along_axes(
+        a: &Extended,
+        b: &Extended,
+        pose: &Pose,
+        placement: &Placement,
+    ) -> (RelativePose, bool) {
+        let Placement { vertices, error, .. } = *placement;
+        let units = vertices.units.map(f64::from);
+        let [unit_a, unit_b] = units;
+        let (extent_a, extent_b) = (a.extent.map(|x| x * unit_a), b.extent.map(|x| x * unit_b));
+        let columns = transposed(&pose.rotation.map(|row| row.map(f64::from)));
+        let [c0, c1, c2] = columns;
+        let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let directions = [x, y, z, c0, c1, c2];
+        let back = directions.map(|d| columns.map(|column| dot(column, d)));
+        let away = directions.map(|d| dot(d, vertices.shift_exact));
+        let mut grow = [0f32; DIRECTIONS];
+        let mut is_apart = false;
+        for (((grow, d), row), away) in grow.iter_mut().zip(directions).zip(back).zip(away) {
+            let both = most(d, extent_a) + most(row, extent_b);
+            let error = error * libm::sqrt(dot(d, d)) + OVERLAP_UNDERFLOW;
+            is_apart |= away.abs() * (1.0 - 64.0 * U64) > both + error;
+            *grow = ((both + away.abs()) * (OVERLAP_INTERVAL * f64::from(U32)) + error) as f32
+                * (1.0 + 2.0 * U32);
+        }
+        let [first, second] = vertices.units;
+        let first = ModelFrame {
+            rows: directions.map(|d| narrow(d.map(|x| x * unit_a))),
+            shift: [0.0; DIRECTIONS],
+            origin: narrow(a.origin),
+            grow,
+            unit: first,
+        };
+        let second = ModelFrame {
+            rows: back.map(|row| narrow(row.map(|x| x * unit_b))),
+            shift: away.map(|x| x as f32),
+            origin: narrow(b.origin),
+            grow: [0.0; DIRECTIONS],
+            unit: second,
+        };
+        (RelativePose { frames: [first, second], vertices }, is_apart)
+    }
+}
+
+fn narrow(v: [f64; 3]) -> [f32; 3] {
+    v.map(|x| x as f32)
 }
 
 /// Upper bound of the factor by which a matrix makes lengths longer; 1 for a rotation.
@@ -215,10 +245,9 @@ impl RelativePose {
 /// The square of a 2-norm is the 2-norm of the product of the matrix and its transpose. That is at
 /// most the product's largest row sum.
 fn stretch(rows: &[[f64; 3]; 3]) -> f64 {
-    let mut most = 0f64;
-    for a in rows {
-        let sum = rows.iter().fold(0.0, |sum, b| sum + dot(*a, *b).abs());
-        most = greater(most, sum);
-    }
+    let [a, b, c] = *rows;
+    let (ab, bc, ca) = (dot(a, b).abs(), dot(b, c).abs(), dot(c, a).abs());
+    let sums = [dot(a, a) + ab + ca, ab + dot(b, b) + bc, ca + bc + dot(c, c)];
+    let most = sums.into_iter().fold(0.0, greater);
     libm::sqrt(most) * (1.0 + 16.0 * U64)
 }

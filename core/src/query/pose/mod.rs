@@ -22,7 +22,7 @@ mod world_lengths;
 
 pub use carried_point::PosedPoint;
 pub(crate) use common_units::{
-    DIRECTIONS, Extended, ModelFrame, Placement, RelativePose, UNITS_APART,
+    DIRECTIONS, Extended, ModelFrame, Placement, RelativePose, UNITS_APART, VertexPose,
 };
 pub(crate) use inverse::PoseInverse;
 pub use joint::{Joint, JointAxis, JointKind, link_poses};

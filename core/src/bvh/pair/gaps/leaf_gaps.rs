@@ -10,27 +10,40 @@ use super::question::{PairQuestion, TriangleGap};
 use super::whole_way::WholeWay;
 use crate::bvh::pair::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
 use crate::bvh::tree::format::FanLeaf;
+use crate::bvh::tree::node::WIDE;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
-use crate::geom::{Contact, TriangleDistance, crossing, triangle_distance, triangles_meet};
-use crate::num::tolerance::{
-    GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32, WHOLE_GAP, WHOLE_PART,
+use crate::geom::{
+    Contact, GapLimits, TriangleDistance, crossing, hull_gap, triangle_distance, triangles_meet,
 };
-use crate::num::{greater, lesser, up_to_f32};
-use crate::query::{RelativePose, Work};
+use crate::num::tolerance::{GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32};
+use crate::num::{difference, dot, greater, lesser, up_to_f32};
+use crate::query::{VertexPose, Work};
+use glam::Vec3;
 
 /// What a visit of two leaves showed.
 pub(crate) struct LeafVisit {
     pub(crate) goes_on: bool,
     /// A lower bound of the distance of both leaves, common units. 0 if nothing is kept.
     pub(crate) lower: f64,
-    /// The bits of the pairs of triangles that were measured.
+    /// The bits of the pairs of triangles that were measured, or are far apart.
     pub(crate) pairs: u64,
+    /// There are some of the latter.
+    pub(crate) has_beyond: bool,
+}
+
+/// Pairs of triangles that need no visit.
+#[derive(Clone, Copy)]
+pub(crate) struct LeftOutPairs {
+    /// A bit for each.
+    pub(crate) pairs: u64,
+    /// Others are left out too if they are so far apart, as computed along a direction in integers.
+    pub(crate) far: f64,
 }
 
 /// The search among the triangles of two leaves.
 pub(crate) struct LeafGaps<'a> {
-    pub(crate) pose: &'a RelativePose,
+    pub(crate) pose: &'a VertexPose,
     /// The greater of both surface errors, common units.
     pub(crate) surface_error: f64,
     /// Direction between the points of the last measured pair that was not in contact. Its largest
@@ -54,60 +67,9 @@ impl<'a> LeafGaps<'a> {
         let pair = LeafPair::new(self.pose, first, second);
         work.triangles = work.triangles.saturating_add(1);
         work.exact = work.exact.saturating_add(1);
-        let gap = self.measured(&pair, place);
+        let gap = self.measured(&pair, place, self.way_between(&pair, place));
         self.turn_to(&gap);
         question.take(&gap)
-    }
-
-    /// The direction between the nearest points so far, for whole leaves. `None` if it is zero.
-    pub(crate) fn between(&self) -> Option<WholeWay<'a>> {
-        WholeWay::new(self.pose, self.offset)
-    }
-
-    /// Measures the pairs of triangles of two leaves that may be nearer than the limit, but not
-    /// `measured`. `between` is the direction between the nearest points so far, and is kept up to
-    /// it. Returns whether the question goes on. `core/docs/rounding.md` §26, *The nearest
-    /// triangles*.
-    pub(crate) fn visit_along(
-        &mut self,
-        between: &mut WholeWay<'a>,
-        leaves: [&FanLeaf<'_>; 2],
-        [places, measured]: [[TriangleAt; 2]; 2],
-        question: &mut PairQuestion<'_>,
-        work: &mut Work,
-    ) -> Option<bool> {
-        let [first, _] = &self.pose.frames;
-        let coarser = greater(f64::from(first.unit), self.pose.longest);
-        let rounding = self.pose.vertex_error_exact;
-        let triangles = leaves.map(|leaf| leaf.shape().triangles());
-        let pairs = triangles[0].saturating_mul(triangles[1]);
-        work.triangles = work.triangles.saturating_add(pairs as u32);
-        let mut left_out = !pairs_of(triangles);
-        if measured.map(|at| at.with_lane(0)) == places.map(|at| at.with_lane(0)) {
-            left_out |= 1u64 << ((measured[0].lane() * WIDTH + measured[1].lane()) & (PAIRS - 1));
-        }
-        loop {
-            let limit = question.limit();
-            let lower = limit - lesser(coarser * WHOLE_GAP, limit * WHOLE_PART);
-            let beyond = between.pairs_beyond(lower + (rounding + rounding), leaves)?;
-            if beyond & !left_out != 0 {
-                // An infinite upper end is never the best, so the points are not used.
-                let (points, upper) = ([[0.0; 3]; 2], f64::INFINITY);
-                question.take(&TriangleGap { place: places, lower, upper, meets: false, points });
-            }
-            left_out |= beyond;
-            if left_out == u64::MAX {
-                return Some(true);
-            }
-            let visit = self.visit(leaves, places, Some(left_out), question, false, work)?;
-            if !visit.goes_on || visit.pairs == 0 {
-                return Some(visit.goes_on);
-            }
-            left_out |= visit.pairs;
-            if let Some(new) = self.between() {
-                *between = new;
-            }
-        }
     }
 
     fn without_rounding(&self, lower: f64) -> f64 {
@@ -116,14 +78,14 @@ impl<'a> LeafGaps<'a> {
     }
 
     /// Visits the pairs of triangles of two leaves that may be within the limit. `left_out`: leaves
-    /// out the pairs with these bits, and ends after one pair. `keeps`: also finds a lower bound of
+    /// out some pairs, and ends after one that was measured. `keeps`: also finds a lower bound of
     /// the distance of both leaves.
     #[inline(never)]
     pub(crate) fn visit(
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
         [first_at, second_at]: [TriangleAt; 2],
-        left_out: Option<u64>,
+        left_out: Option<LeftOutPairs>,
         question: &mut PairQuestion<'_>,
         keeps: bool,
         work: &mut Work,
@@ -138,26 +100,23 @@ impl<'a> LeafGaps<'a> {
             grown_limit * grown_limit * GAP_SLACK
         };
         let mut limit_sq = reach_sq(question);
-        let mut seen = Measured { pairs: 0, lower: f64::INFINITY };
+        let mut seen = Measured { pairs: 0, lower: f64::INFINITY, has_beyond: false };
         let visit = |direction, goes_on, seen: &Measured| {
             let lower = if keeps { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
-            Some(LeafVisit { goes_on, lower, pairs: seen.pairs })
+            Some(LeafVisit { goes_on, lower, pairs: seen.pairs, has_beyond: seen.has_beyond })
         };
         if !may_be_near(self.direction, limit_sq, &pair) {
             return visit(self.direction, true, &seen);
         }
         let (first, second) = (&pair.a, &pair.b);
-        let mut keys = keys(first, second, limit_sq)?;
-        skip_along(&mut keys, self.direction, limit_sq, first, second);
-        if let Some(left_out) = left_out {
-            for (at, key) in keys.0.iter_mut().enumerate() {
-                *key = if left_out >> (at & (PAIRS - 1)) & 1 != 0 { NO_PAIR } else { *key };
-            }
-        }
+        let near = pairs_along(self.direction, limit_sq, first, second);
+        let near = near & !left_out.map_or(0, |left_out| left_out.pairs);
+        let mut keys = keys(first, second, limit_sq, near)?;
         if left_out.is_none() {
             let pairs = (pair.a.triangles * pair.b.triangles) as u32;
             work.triangles = work.triangles.saturating_add(pairs);
         }
+        let mut own = None;
         loop {
             let key = keys.least();
             if key > key_limit(limit_sq) {
@@ -165,29 +124,50 @@ impl<'a> LeafGaps<'a> {
             }
             keys.drop(key);
             let [i, j] = children_of(key);
-            work.exact = work.exact.saturating_add(1);
             let place = [first_at.with_lane(i as usize), second_at.with_lane(j as usize)];
-            let gap = self.measured(&pair, place);
+            let is_beyond = |own: &Option<WholeWay<'_>>| {
+                let (Some(own), Some(left_out)) = (own, left_out) else { return false };
+                own.is_beyond(left_out.far, leaves, place) == Some(true)
+            };
+            // Triangles of one leaf that have the same face across are apart along its normal.
+            let mut is_far = is_beyond(&own);
+            let mut way = Vec3::ZERO;
+            if !is_far {
+                way = self.way_between(&pair, place);
+                own = left_out.and_then(|_| WholeWay::of(self.pose, way));
+                is_far = is_beyond(&own);
+            }
+            if is_far {
+                (seen.pairs, seen.has_beyond) = (seen.pairs | pair_bit(key), true);
+                continue;
+            }
+            let gap = self.measured(&pair, place, way);
+            work.exact = work.exact.saturating_add(1);
             self.turn_to(&gap);
             seen = Measured {
                 pairs: seen.pairs | pair_bit(key),
                 lower: lesser(seen.lower, gap.lower),
+                ..seen
             };
             let goes_on = question.take(&gap);
             if !goes_on || left_out.is_some() {
                 return visit(self.direction, goes_on, &seen);
             }
             limit_sq = reach_sq(question);
-            skip_along(&mut keys, self.direction, limit_sq, first, second);
+            keys.keep(pairs_along(self.direction, limit_sq, first, second));
         }
     }
 
     /// The distance of one pair.
     #[inline(never)]
-    fn measured(&self, pair: &LeafPair<'_>, place: [TriangleAt; 2]) -> TriangleGap {
+    fn measured(&self, pair: &LeafPair<'_>, place: [TriangleAt; 2], way: Vec3) -> TriangleGap {
         let [i, j] = place.map(TriangleAt::lane);
+        let (first, second) = (pair.a.triangle(i), pair.b.triangle(j));
+        let guesses = SLOPES_SQ.map(|slope_sq| {
+            [nearest_along(&first, way, slope_sq), nearest_along(&second, -way, slope_sq)]
+        });
         let [a, b] = pair.in_f64(i, j);
-        let TriangleDistance { lower, mut upper, mut points } = triangle_distance(a, b);
+        let TriangleDistance { lower, mut upper, mut points } = triangle_distance(a, b, guesses);
         let rounding = self.pose.vertex_error_exact;
         let lower = self.without_rounding(lower);
         upper += rounding + rounding;
@@ -201,11 +181,21 @@ impl<'a> LeafGaps<'a> {
                 points = crossing(a, b).map_or(points, |common| [common; 2]);
             }
         }
-        let [first, _] = &self.pose.frames;
-        let unit = f64::from(first.unit);
+        let [unit, _] = self.pose.units.map(f64::from);
         let [x, y, z] = pair.first_vertex(i).map(|x| x * unit);
         let points = points.map(|[u, v, w]| [u + x, v + y, w + z]);
         TriangleGap { place, lower, upper, meets, points }
+    }
+
+    /// The direction between two triangles, as f32 tells.
+    fn way_between(&self, pair: &LeafPair<'_>, place: [TriangleAt; 2]) -> Vec3 {
+        let [i, j] = place.map(TriangleAt::lane);
+        let (a, b) = (pair.a.triangle(i), pair.b.triangle(j));
+        let start = Vec3::from_array(self.direction);
+        let [from, ..] = a;
+        let [to, ..] = b;
+        let start = if start == Vec3::ZERO { difference(to, from) } else { start };
+        hull_gap(&a, &b, start, GapLimits { far_sq: f32::INFINITY, near_sq: -1.0 }).way
     }
 
     /// Keeps the offset of a measured pair, and the direction if the pair is not in contact.
@@ -220,16 +210,33 @@ impl<'a> LeafGaps<'a> {
     }
 }
 
+/// Squares of the slopes up to which an edge may be level, of the first guess and the second. No
+/// answer depends on them.
+const SLOPES_SQ: [f32; 2] = [1e-4, 1e-9];
+
+/// The corners of a triangle that are highest along a direction: no edge between two of them is
+/// steeper than a slope.
+fn nearest_along(triangle: &[Vec3; 3], way: Vec3, slope_sq: f32) -> u32 {
+    let heights = triangle.map(|corner| dot(corner, way));
+    let way_sq = dot(way, way);
+    let (mut top, mut most) = (Vec3::ZERO, f32::MIN);
+    for (&corner, &height) in triangle.iter().zip(&heights) {
+        if height > most {
+            (top, most) = (corner, height);
+        }
+    }
+    let mut bits = 0;
+    for (k, (&corner, &height)) in triangle.iter().zip(&heights).enumerate() {
+        let (edge, fall) = (difference(corner, top), most - height);
+        bits |= u32::from(fall * fall <= slope_sq * way_sq * dot(edge, edge)) << (k & 3);
+    }
+    bits
+}
+
 /// Whether it is proved that two triangles meet. Not inlined, so that it is compiled once.
 #[inline(never)]
 fn meet(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], doubt: f64) -> bool {
     triangles_meet(*a, *b, doubt) == Contact::Meets
-}
-
-/// The bits of all pairs of so many triangles.
-fn pairs_of([rows, columns]: [usize; 2]) -> u64 {
-    let row = (1u64 << (columns & 15)) - 1;
-    (0..WIDTH).take(rows).fold(0, |bits, i| bits | (row & 0xFF) << (i * WIDTH))
 }
 
 /// The pairs of triangles that were measured.
@@ -238,6 +245,7 @@ struct Measured {
     pairs: u64,
     /// The least lower end.
     lower: f64,
+    has_beyond: bool,
 }
 
 /// A lower bound of the distance of both leaves: of measured pairs their lower ends, of the others
@@ -248,7 +256,7 @@ fn least_distance(
     margin: f32,
     seen: &Measured,
 ) -> Option<f64> {
-    let mut keys = keys(&pair.a, &pair.b, f32::INFINITY)?;
+    let mut keys = keys(&pair.a, &pair.b, f32::INFINITY, u64::MAX)?;
     raise_keys_along(&mut keys, direction, pair);
     for (i, key) in keys.0.iter_mut().enumerate() {
         *key = if seen.pairs >> (i & (PAIRS - 1)) & 1 != 0 { NO_PAIR } else { *key };
@@ -260,55 +268,60 @@ fn least_distance(
     Some(lesser(seen.lower, greater(0.0, distance_of(least) - f64::from(margin))))
 }
 
-/// Keys of all pairs, by their boxes. Vertices are as computed, so a limit must have room for
-/// their error.
-#[inline(always)]
-pub(crate) fn keys(a: &Corners, b: &Corners, limit_sq: f32) -> Option<PairKeys> {
+/// Keys of the pairs `wanted`, by their boxes: a bit for each pair. Vertices are as computed, so a
+/// limit must have room for their error.
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
+pub(crate) fn keys(a: &Corners, b: &Corners, limit_sq: f32, wanted: u64) -> Option<PairKeys> {
     let (first, second) = (TriangleBoxes::of(a)?, TriangleBoxes::of(b)?);
     let mut keys = PairKeys([NO_PAIR; WIDTH * WIDTH]);
     let rows = keys.0.as_chunks_mut::<WIDTH>().0.iter_mut();
     for (i, row) in rows.enumerate().take(a.triangles) {
+        let bits = (wanted >> (i * WIDTH)) as u32 & 0xFF;
+        if bits == 0 {
+            continue;
+        }
         let mut sums = [0f32; WIDTH];
         for ((from, to), (low, high)) in
             first.low.iter().zip(&first.high).zip(second.low.iter().zip(&second.high))
         {
             let (Some(&from), Some(&to)) = (from.get(i), to.get(i)) else { continue };
-            for (sum, (low, high)) in sums.iter_mut().zip(low.iter().zip(high)) {
-                let gap = greater(0.0, greater(low - to, from - high));
-                *sum += gap * gap;
+            for (j, (sum, (low, high))) in sums.iter_mut().zip(low.iter().zip(high)).enumerate() {
+                if WIDE || bits >> j & 1 != 0 {
+                    let gap = greater(0.0, greater(low - to, from - high));
+                    *sum += gap * gap;
+                }
             }
         }
         for (j, (key, sum)) in row.iter_mut().zip(sums).enumerate() {
-            let is_near = j < b.triangles && sum <= limit_sq;
+            let is_near = bits >> j & 1 != 0 && j < b.triangles && sum <= limit_sq;
             *key = if is_near { key_of(sum, (i * WIDTH + j) as u32) } else { NO_PAIR };
         }
     }
     Some(keys)
 }
 
-/// Drops the pairs that are farther apart along `direction` than the limit.
-#[inline(always)]
-pub(crate) fn skip_along(
-    keys: &mut PairKeys,
-    direction: [f32; 3],
-    limit_sq: f32,
-    a: &Corners,
-    b: &Corners,
-) {
+/// The pairs that are not farther apart along `direction` than the limit: a bit for each.
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
+pub(crate) fn pairs_along(direction: [f32; 3], limit_sq: f32, a: &Corners, b: &Corners) -> u64 {
     let [x, y, z] = direction;
     let way_sq = x * x + y * y + z * z;
     if way_sq < LEAST_GAP_SQ {
-        return;
+        return u64::MAX;
     }
     let (first, second) = (heights(a, direction), heights(b, direction));
     let limit = limit_sq * way_sq;
-    for (i, row) in keys.0.as_chunks_mut::<WIDTH>().0.iter_mut().enumerate() {
-        let Some(&top) = first.high.get(i) else { continue };
-        for (key, low) in row.iter_mut().zip(second.low) {
+    let mut pairs = 0;
+    for (i, &top) in first.high.iter().enumerate() {
+        let mut bits = 0u32;
+        for (j, low) in second.low.iter().enumerate() {
             let gap = greater(0.0, low - top);
-            *key = if gap * gap * SQUARED_SLACK > limit { NO_PAIR } else { *key };
+            bits |= u32::from(gap * gap * SQUARED_SLACK <= limit) << j;
         }
+        pairs |= u64::from(bits) << (i * WIDTH);
     }
+    pairs
 }
 
 /// Raises the keys of the pairs that are farther apart along `direction` than their boxes.

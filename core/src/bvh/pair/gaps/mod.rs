@@ -5,6 +5,8 @@
 //! | `nearest_first` | the descent of both trees, nearest pair first |
 //! | `pair_keys` | lower bounds of the distances of all pairs of boxes of two nodes |
 //! | `leaf_gaps` | the distances of the triangles of two leaves |
+//! | `whole_way` | leaves along a direction in integers |
+//! | `nearest_along` | leaves that may have the nearest triangles, along such directions |
 //! | `left_out` | what a descent does not look at, for the next one |
 //! | `question` | the two questions, as one type for the search |
 //! | `answers` | what the questions say after a search |
@@ -12,6 +14,7 @@
 pub(super) mod answers;
 pub(super) mod leaf_gaps;
 pub(super) mod left_out;
+pub(super) mod nearest_along;
 pub(super) mod nearest_first;
 pub(super) mod pair_keys;
 pub(super) mod question;

@@ -17,7 +17,7 @@ use crate::bvh::tree::stored_lengths::square_limit;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::lesser;
 use crate::num::tolerance::SQUARED_SLACK;
-use crate::query::{Ended, QueryError, ScratchEntry, Work};
+use crate::query::{Ended, QueryError, RelativePose, ScratchEntry, Work};
 
 /// How a search ended.
 #[derive(Clone, Copy, Debug)]
@@ -95,11 +95,13 @@ pub(crate) struct Search<'s, 'a> {
 impl<'s, 'a> Search<'s, 'a> {
     pub(crate) fn new(
         pair: &'a StoredPair<'a>,
+        pose: &'a RelativePose,
         steps: u32,
         scratch: &'s mut [ScratchEntry],
     ) -> Self {
-        let work = Work::default();
-        Search { models: pair.models(), leaves: pair.leaves(), steps, scratch, work }
+        let [a, b] = pair.trees;
+        let (models, leaves) = (Models { a, b, pose }, pair.leaves());
+        Search { models, leaves, steps, scratch, work: Work::NONE }
     }
 
     /// Visits every pair of leaves below `start` that may be within the question's limit. What the

@@ -65,8 +65,8 @@ pub(crate) fn distance_of(key: u32) -> f64 {
 /// Squared gaps along the second model's axes are multiplied by this. Its axes are longer by the
 /// stretch of the pose's matrix.
 pub(crate) fn second_factor(pose: &RelativePose) -> f32 {
-    let [_, second] = &pose.frames;
-    let stretch = pose.longest / f64::from(second.unit);
+    let [_, unit] = pose.vertices.units;
+    let stretch = pose.vertices.longest / f64::from(unit);
     if stretch < LEAST_STRETCH {
         return 0.0;
     }
@@ -104,6 +104,14 @@ impl PairKeys {
             }
         }
         lanes.into_iter().fold(NO_PAIR, |least, key| least.min(key))
+    }
+
+    /// Keeps the pairs with these bits.
+    #[inline(always)]
+    pub(crate) fn keep(&mut self, pairs: u64) {
+        for (at, key) in self.0.iter_mut().enumerate() {
+            *key = if pairs >> (at & (PAIRS - 1)) & 1 != 0 { *key } else { NO_PAIR };
+        }
     }
 
     /// Drops a pair.

@@ -3,14 +3,18 @@
 //! Stored vertices and the direction are integers, so heights are exact. `core/docs/rounding.md`
 //! §26, *The nearest triangles*.
 
+use crate::bvh::pair::separation::direction::WholeDirection;
 use crate::bvh::tree::format::FanLeaf;
+use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
-use crate::num::greater;
-use crate::query::RelativePose;
+use crate::num::tolerance::U32;
+use crate::num::{dot, greater, sqrt_approx};
+use crate::query::VertexPose;
+use glam::Vec3;
 
 /// A direction in integers, in the grids of both models.
 pub(crate) struct WholeWay<'a> {
-    pose: &'a RelativePose,
+    pose: &'a VertexPose,
     /// From the first model to the second, in the first grid.
     way: [i64; 3],
     /// The other way round, in the second grid, rounded up.
@@ -20,14 +24,34 @@ pub(crate) struct WholeWay<'a> {
     /// The height of the second grid's origin, and the length of `way`.
     shift: f64,
     length: f64,
+    /// Heights of both models that add up to no more are far enough apart.
+    left: f64,
+    /// The last leaf of each model.
+    kept: [WholeTops; 2],
 }
 
 impl<'a> WholeWay<'a> {
-    #[inline(never)]
-    pub(crate) fn new(pose: &'a RelativePose, offset: [f64; 3]) -> Option<WholeWay<'a>> {
+    /// From point to point, common units.
+    pub(crate) fn new(pose: &'a VertexPose, offset: [f64; 3]) -> Option<WholeWay<'a>> {
         let (way, _) = whole(offset)?;
         let [x, y, z] = way.map(|x| x as f64);
-        let RelativePose { matrix: [r, s, t], shift_exact: [u, v, w], .. } = *pose;
+        WholeWay::along(pose, way, libm::sqrt((x * x + y * y) + z * z))
+    }
+
+    /// Any direction in f32.
+    pub(crate) fn of(pose: &'a VertexPose, way: Vec3) -> Option<WholeWay<'a>> {
+        let whole = WholeDirection::of(way)?;
+        let [x, y, z] = whole.way.map(|x| x as f32);
+        let way = Vec3::new(x, y, z);
+        let length = sqrt_approx(dot(way, way)) * (1.0 + 16.0 * U32);
+        WholeWay::along(pose, whole.way.map(i64::from), f64::from(length))
+    }
+
+    /// `length` is not less than that of `way`.
+    #[inline(never)]
+    fn along(pose: &'a VertexPose, way: [i64; 3], length: f64) -> Option<WholeWay<'a>> {
+        let [x, y, z] = way.map(|x| x as f64);
+        let VertexPose { matrix: [r, s, t], shift_exact: [u, v, w], .. } = *pose;
         let column = |k: usize| {
             let along = |row: &[f32; 3]| f64::from(row.get(k).copied().unwrap_or(0.0));
             -((x * along(&r) + y * along(&s)) + z * along(&t))
@@ -39,41 +63,87 @@ impl<'a> WholeWay<'a> {
             back,
             back_unit,
             shift: (x * u + y * v) + z * w,
-            length: libm::sqrt((x * x + y * y) + z * z),
+            length,
+            left: f64::NEG_INFINITY,
+            kept: [WholeTops::NONE; 2],
         })
     }
 
-    /// The bits of the pairs of triangles that are at least so far apart, common units. All bits
-    /// are ones if all pairs are.
-    pub(crate) fn pairs_beyond(&self, far: f64, [first, second]: [&FanLeaf<'_>; 2]) -> Option<u64> {
-        let [frame, _] = &self.pose.frames;
-        let unit = f64::from(frame.unit);
-        let (tops, backs) = (WholeTops::new(first, self.way)?, WholeTops::new(second, self.back)?);
+    /// From now on pairs at least so far apart are wanted, common units.
+    pub(crate) fn set_far(&mut self, far: f64) {
+        self.left = self.shift - far * self.length;
+    }
+
+    /// Whether two triangles are at least so far apart, common units.
+    pub(crate) fn is_beyond(
+        &self,
+        far: f64,
+        [first, second]: [&FanLeaf<'_>; 2],
+        [i, j]: [TriangleAt; 2],
+    ) -> Option<bool> {
+        let [unit, _] = self.pose.units.map(f64::from);
+        let top = top_of(first, i.lane(), self.way)?;
+        let back = top_of(second, j.lane(), self.back)?;
         let left = self.shift - far * self.length;
-        let (top, back) = (|x: i64| x as f64 * unit, |x: i64| left - x as f64 * self.back_unit);
-        if back(backs.most) >= top(tops.most) {
+        Some(left - back as f64 * self.back_unit >= top as f64 * unit)
+    }
+
+    /// The bits of the pairs of triangles that are far enough apart. All bits are ones if all pairs
+    /// are.
+    pub(crate) fn pairs_beyond(
+        &mut self,
+        [first, second]: [&FanLeaf<'_>; 2],
+        [a, b]: [TriangleAt; 2],
+    ) -> Option<u64> {
+        let [unit, _] = self.pose.units.map(f64::from);
+        let [tops, backs] = &mut self.kept;
+        tops.set(a, first, self.way)?;
+        backs.set(b, second, self.back)?;
+        let top = |x: i64| x as f64 * unit;
+        let back = |x: i64| self.left - x as f64 * self.back_unit;
+        let least = back(backs.most);
+        if least >= top(tops.most) {
             return Some(u64::MAX);
         }
-        let (tops, backs) = (tops.each.map(top), backs.each.map(back));
+        let backs = backs.each.map(back);
         let mut pairs = 0;
-        for (i, top) in tops.iter().enumerate() {
+        for (i, &top_of) in tops.each.iter().enumerate() {
+            let top = top(top_of);
+            if least >= top {
+                pairs |= 0xFF << (i * WIDTH);
+                continue;
+            }
             for (j, back) in backs.iter().enumerate() {
-                pairs |= u64::from(back >= top) << (i * WIDTH + j);
+                pairs |= u64::from(*back >= top) << (i * WIDTH + j);
             }
         }
         Some(pairs)
     }
 }
 
+/// The greatest height of a triangle along a direction in integers.
+fn top_of(leaf: &FanLeaf<'_>, lane: usize, [x, y, z]: [i64; 3]) -> Option<i64> {
+    let corners = leaf.grid_ring()?.corners(lane, leaf.shape().turn())?;
+    let heights = corners.map(|[p, q, r]| i64::from(p) * x + i64::from(q) * y + i64::from(r) * z);
+    Some(heights.into_iter().fold(i64::MIN, greater))
+}
+
 /// The greatest heights of a leaf and of its triangles along a direction in integers.
 struct WholeTops {
+    of: TriangleAt,
     most: i64,
     each: [i64; WIDTH],
 }
 
 impl WholeTops {
+    const NONE: WholeTops = WholeTops { of: TriangleAt::NONE, most: 0, each: [0; WIDTH] };
+
+    /// Computes the heights of a leaf, unless they are those of this leaf already.
     #[inline(never)]
-    fn new(leaf: &FanLeaf<'_>, way: [i64; 3]) -> Option<WholeTops> {
+    fn set(&mut self, of: TriangleAt, leaf: &FanLeaf<'_>, way: [i64; 3]) -> Option<()> {
+        if self.of == of {
+            return Some(());
+        }
         let ring = leaf.grid_ring()?;
         let [x, y, z] = way;
         let height = |[p, q, r]: [i32; 3]| i64::from(p) * x + i64::from(q) * y + i64::from(r) * z;
@@ -88,7 +158,8 @@ impl WholeTops {
             most = greater(most, *top);
             last = next;
         }
-        Some(WholeTops { most, each })
+        *self = WholeTops { of, most, each };
+        Some(())
     }
 }
 

@@ -154,7 +154,7 @@ impl Models<'_> {
     ) -> Option<bool> {
         let p = self.a.leaf_at(first.at, first.shape)?;
         let q = self.b.leaf_at(second.at, second.shape)?;
-        let mut pair = LeafPair::new(self.pose, &p, &q);
+        let mut pair = LeafPair::new(&self.pose.vertices, &p, &q);
         for (i, mut bits) in pair.candidates()?.into_iter().enumerate() {
             while bits != 0 {
                 let j = bits.trailing_zeros();

@@ -13,7 +13,7 @@ use crate::bvh::tree::input_box::{bounds_of, corners_of_input};
 use crate::geom::Pose;
 use crate::geom::fan::WIDTH;
 use crate::num::tolerance::{U32, U64};
-use crate::query::{QueryError, Relation, Side, Undecided};
+use crate::query::{QueryError, Relation, RelativePose, Side, Undecided};
 
 impl PairQueries<'_, '_> {
     /// How two solids lie to each other whose surfaces do not meet at a pose.
@@ -164,6 +164,7 @@ struct Children {
 /// A surface whose sides are asked for, in the frame of the other one.
 struct MovedSurface<'a> {
     pair: StoredPair<'a>,
+    relative: RelativePose,
     /// A point of the input's surface is no farther than this from its stored place, input units.
     error: f64,
     /// The box of the other surface, input units.
@@ -178,9 +179,10 @@ impl<'a> MovedSurface<'a> {
         let pair = StoredPair::new(trees, pose)?;
         let [other, _] = trees;
         let [low, high] = bounds_of(corners_of_input(other));
-        let rounding = pair.lengths.error + 2.0 * pair.pose.vertex_error_exact;
+        let rounding = pair.lengths.error + 2.0 * pair.placement.vertices.vertex_error_exact;
         let error = error + rounding * pair.lengths.unit;
-        Ok(MovedSurface { pair, error: error * (1.0 + 16.0 * U64), low, high })
+        let relative = pair.relative();
+        Ok(MovedSurface { pair, relative, error: error * (1.0 + 16.0 * U64), low, high })
     }
 
     fn tree(&self) -> &'a Bvh<'a> {
@@ -195,7 +197,7 @@ impl<'a> MovedSurface<'a> {
 
     /// The boxes of a node's children, input units, and their count.
     fn boxes(&self, node: u32) -> Option<([[[f64; 3]; 2]; WIDTH], u32)> {
-        let [_, frame] = &self.pair.pose.frames;
+        let [_, frame] = &self.relative.frames;
         let count = self.tree().links(node)?.count.min(WIDTH as u32);
         let intervals = AxisIntervals::of(frame, self.tree().boxes(node)?, count)?;
         let mut boxes = [[[0.0; 3]; 2]; WIDTH];

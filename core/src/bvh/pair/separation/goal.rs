@@ -95,6 +95,13 @@ impl<'s> Goal<'s> {
         self.bring_upper(square, places)
     }
 
+    /// Forgets the leaves that were kept, but not the limit.
+    pub(crate) fn forget(&mut self) {
+        if let Wanted::Nearest(nearest) = &mut self.wanted {
+            (nearest.candidates.used, nearest.candidates.is_short) = (0, false);
+        }
+    }
+
     /// Whether two leaves whose hulls have this gap are kept as they are: none of their triangles
     /// is nearer than the nearest ones so far, but for rounding.
     #[inline(always)]

@@ -53,7 +53,8 @@ impl<'a> GridPose<'a> {
     /// `None` if f32 does not serve: vertices are f32, or a length is beyond 2^29 units of the
     /// first grid or NaN, or one unit is more than 2^40 times the other. The caller has checked
     /// that entries of the matrix are at most 2.
-    #[inline(always)]
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
     pub(crate) fn of([a, b]: [&'a Bvh<'a>; 2], pose: &FramePose) -> Option<GridPose<'a>> {
         let finer = unit_exponent(b) - unit_exponent(a);
         if a.header().is_f32() || b.header().is_f32() || finer.abs() > UNITS_APART {
@@ -91,7 +92,8 @@ impl<'a> GridPose<'a> {
     }
 
     /// A place of the second model in the first grid.
-    #[inline(always)]
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
     pub(crate) fn moved(&self, place: Vec3) -> Vec3 {
         turned(&self.rows, place) + self.shift
     }

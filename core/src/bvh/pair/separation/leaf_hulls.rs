@@ -2,7 +2,7 @@
 
 use super::goal::Goal;
 use super::grid_pose::GridPose;
-use crate::bvh::pair::gaps::leaf_gaps::{keys, skip_along};
+use crate::bvh::pair::gaps::leaf_gaps::{keys, pairs_along};
 use crate::bvh::pair::gaps::pair_keys::{children_of, key_limit};
 use crate::bvh::pair::leaf_pair::{Corners, SLOTS};
 use crate::bvh::tree::format::{LeafShape, RING};
@@ -94,10 +94,25 @@ pub(crate) struct LeafVisit {
     pub(crate) way: Option<Vec3>,
 }
 
+/// Visits two leaves. `hulls`: those of the last visit.
+#[inline(never)]
+pub(super) fn look(
+    pose: &GridPose<'_>,
+    goal: &mut Goal<'_>,
+    [first, second]: &mut [LeafHull; 2],
+    [a, b]: [TriangleAt; 2],
+    start: Vec3,
+    work: &mut Work,
+) -> Option<LeafVisit> {
+    first.set(pose, 0, a)?;
+    second.set(pose, 1, b)?;
+    visit([first, second], start, goal, work)
+}
+
 /// Gives the goal each pair of triangles of two leaves that may matter to it, nearest bound first.
 /// `start`: the direction that is tried first. `None` if a tree is unchecked.
 #[inline(never)]
-pub(crate) fn visit(
+fn visit(
     [a, b]: [&LeafHull; 2],
     start: Vec3,
     goal: &mut Goal<'_>,
@@ -114,10 +129,13 @@ pub(crate) fn visit(
         return visit(true);
     }
     let (first, second) = (a.corners(), b.corners());
-    let mut keys = keys(&first, &second, goal.limits.far_sq)?;
-    if let Some(way) = way {
-        skip_along(&mut keys, way.to_array(), goal.limits.far_sq, &first, &second);
+    let far_sq = goal.limits.far_sq;
+    let along = |way: Vec3| pairs_along(way.to_array(), far_sq, &first, &second);
+    let near = way.map_or(u64::MAX, along);
+    if near == 0 {
+        return visit(true);
     }
+    let mut keys = keys(&first, &second, far_sq, near)?;
     let mut way = hull.way;
     loop {
         let key = keys.least();

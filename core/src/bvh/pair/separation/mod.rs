@@ -16,9 +16,11 @@
 //! | `pending` | pairs that wait, in the caller's scratch memory |
 //! | `leaf_hulls` | the hulls of two leaves, and their triangles |
 //! | `goal` | what a search wants of pairs of triangles |
+//! | `by_heights` | the nearest leaves, one tree at a time |
 //! | `search` | the descent of both trees |
 
 mod between_boxes;
+mod by_heights;
 pub(crate) mod direction;
 mod goal;
 pub(crate) mod grid_pose;

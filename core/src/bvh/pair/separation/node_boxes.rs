@@ -1,6 +1,7 @@
 //! The boxes of two nodes' children: along the direction, and along the axes of the first grid.
 
 use super::direction::{Direction, WholeDirection};
+use super::goal::square_up;
 use super::grid_pose::GridPose;
 use super::pending::Pending;
 use crate::bvh::tree::format::Bvh;
@@ -9,6 +10,7 @@ use crate::bvh::tree::node::WIDE;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::geom::{Rows, columns, turned};
+use crate::num::tolerance::U32;
 use crate::num::{Real, difference, dot, each, float, greater, lesser};
 use crate::query::Work;
 use glam::Vec3;
@@ -63,7 +65,7 @@ impl Children {
 }
 
 /// A node's boxes, grid units from the grid's origin.
-struct NodeBoxes<'a> {
+pub(super) struct NodeBoxes<'a> {
     /// Low and high planes of each axis.
     rows: &'a [[u8; WIDTH]; 6],
     /// Where byte 0 lies.
@@ -72,8 +74,9 @@ struct NodeBoxes<'a> {
 }
 
 impl<'a> NodeBoxes<'a> {
-    #[inline(always)]
-    fn of(tree: &Bvh<'a>, node: u32, origin: Vec3) -> Option<NodeBoxes<'a>> {
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
+    pub(super) fn of(tree: &Bvh<'a>, node: u32, origin: Vec3) -> Option<NodeBoxes<'a>> {
         let record = tree.boxes(node)?;
         let rows = record.as_chunks::<WIDTH>().0.first_chunk::<6>()?;
         let words = record.as_chunks::<4>().0.get(boxes::ORIGIN / 4..)?.first_chunk::<6>()?;
@@ -84,8 +87,9 @@ impl<'a> NodeBoxes<'a> {
 
     /// For each wanted box the greatest `way · place` of its places, plus `base`. It is not divided
     /// by the length of `way`.
-    #[inline(always)]
-    fn tops(&self, way: Vec3, base: f32, wanted: u32) -> [f32; WIDTH] {
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
+    pub(super) fn tops(&self, way: Vec3, base: f32, wanted: u32) -> [f32; WIDTH] {
         let [lx, hx, ly, hy, lz, hz] = self.rows;
         let by = way * self.step;
         let base = Real(dot(way, self.start)) + Real(base);
@@ -118,7 +122,7 @@ impl<'a> NodeBoxes<'a> {
 
 /// A box along the axes of the first grid.
 #[derive(Clone, Copy)]
-struct AxisBox {
+pub(super) struct AxisBox {
     middle: Vec3,
     half: Vec3,
 }
@@ -129,7 +133,7 @@ impl AxisBox {
     /// A lower bound of the squared distance. If the boxes meet: the least overlap along an axis,
     /// times −1, so that the deepest pair comes first.
     #[inline(always)]
-    fn key(&self, other: &AxisBox) -> f32 {
+    pub(super) fn key(&self, other: &AxisBox) -> f32 {
         let gap = difference(self.middle, other.middle).abs() - (self.half + other.half);
         let [x, y, z] = gap.to_array().map(Real);
         let zero = Real::ZERO;
@@ -145,6 +149,24 @@ pub(crate) struct Reach {
     pub(crate) length: f32,
     /// Square of the length, rounded up.
     pub(crate) square: f32,
+}
+
+impl Reach {
+    /// `far` is how far children may be, without the rounding of boxes.
+    #[inline(always)]
+    pub(super) fn of(pose: &GridPose<'_>, far: f32) -> Reach {
+        let length = far + pose.box_error;
+        Reach { length: length * (1.0 + 16.0 * U32), square: square_up(length) }
+    }
+
+    /// If the tops of two children along a direction add up to less than this, they are out of
+    /// reach.
+    #[inline(always)]
+    pub(super) fn left(&self, pose: &GridPose<'_>, direction: &Direction) -> f32 {
+        let between = Real(dot(pose.shift, direction.way));
+        let limit = (Real(self.length) * Real(direction.length)).0;
+        (between - Real(limit)).0
+    }
 }
 
 /// Adds the pairs of children that may be within reach to those that wait. `None` if a tree is
@@ -165,10 +187,8 @@ pub(crate) fn open(
     // `back` points from the second model to the first, in the frame of the second grid.
     let way = direction.way;
     let back = -turned(&columns(&pose.rows), way);
-    let between = Real(dot(pose.shift, way));
     // `left`: if the top of a box of the first model is below this, the pair is out of reach.
-    let limit = (Real(reach.length) * Real(direction.length)).0;
-    let limit = (between - Real(limit)).0;
+    let limit = reach.left(pose, direction);
     let mut tops_a = boxes_a.tops(way, 0.0, a.wanted);
     let mut tops_b = boxes_b.tops(back, 0.0, b.wanted);
     let left = |top_b: f32| Real(limit) - Real(top_b);
@@ -229,13 +249,13 @@ pub(crate) fn open(
 
 /// NaN is beyond no limit: its pair is looked at.
 #[inline(always)]
-fn is_beyond(x: Real, limit: f32) -> bool {
+pub(super) fn is_beyond(x: Real, limit: f32) -> bool {
     x > Real(limit)
 }
 
 /// The numbers of the lowest eight bits that are ones.
 #[inline(always)]
-fn bits(mut left: u32) -> impl Iterator<Item = usize> {
+pub(super) fn bits(mut left: u32) -> impl Iterator<Item = usize> {
     left &= 0xFF;
     core::iter::from_fn(move || {
         if left == 0 {
@@ -245,6 +265,22 @@ fn bits(mut left: u32) -> impl Iterator<Item = usize> {
         left &= left - 1;
         Some(bit)
     })
+}
+
+/// The box of a leaf of the first model.
+pub(super) fn first_box(pose: &GridPose<'_>, of: TriangleAt) -> Option<AxisBox> {
+    let ([tree, _], [origin, _]) = (pose.trees, pose.origins);
+    let boxes = NodeBoxes::of(tree, of.node(), origin)?;
+    let [sum, length] = boxes.doubled(of.child() as usize);
+    let step = 0.5 * boxes.step;
+    Some(AxisBox { middle: boxes.start + step * sum, half: step * length })
+}
+
+/// The box around the box of a leaf of the second model.
+pub(super) fn second_box(pose: &GridPose<'_>, of: TriangleAt) -> Option<AxisBox> {
+    let ([_, tree], [_, origin]) = (pose.trees, pose.origins);
+    let boxes = NodeBoxes::of(tree, of.node(), origin)?;
+    Some(MovedBoxes::new(pose, &boxes).along_axes(of.child() as usize))
 }
 
 #[inline(always)]

@@ -1,10 +1,11 @@
 //! The descent of two trees, in the grid of the first.
 
 use super::between_boxes::between_boxes;
+use super::by_heights::visit_by_heights;
 use super::direction::Direction;
 use super::goal::{Candidates, Goal, Nearest, TrianglesAt, Wanted, square_up};
 use super::grid_pose::GridPose;
-use super::leaf_hulls::{LeafHull, LeafVisit, visit};
+use super::leaf_hulls::{LeafHull, LeafVisit, look};
 use super::node_boxes::{Children, Reach, open};
 use super::pending::Pending;
 use crate::bvh::pair::models::most_pairs;
@@ -85,8 +86,15 @@ pub(crate) fn nearest_leaves<'s>(
 ) -> Option<NearestLeaves<'s>> {
     let (waiting, kept) = scratch.split_at_mut_checked(scratch.len() / 4 * 3)?;
     let mut goal = Goal::nearest(pose, kept);
-    let mut start = SearchStart::NONE;
-    let end = descend(pose, &mut goal, &mut start, steps, waiting, work);
+    let mut direction = between_boxes(pose)?;
+    let is_done = visit_by_heights(pose, &mut goal, &mut direction, waiting, work) == Some(true);
+    let end = if is_done {
+        Some(())
+    } else {
+        goal.forget();
+        let start = (&mut direction, [TriangleAt::NONE; 2]);
+        visit_leaves(pose, &mut goal, start, steps, waiting, work)
+    };
     let far_sq = goal.limits.far_sq;
     let Wanted::Nearest(nearest) = goal.wanted else { return None };
     let Nearest { best, mut candidates, is_cut, .. } = nearest;
@@ -117,7 +125,7 @@ fn descend(
     end
 }
 
-#[inline(always)]
+#[inline(never)]
 fn visit_leaves(
     pose: &GridPose<'_>,
     goal: &mut Goal<'_>,
@@ -138,13 +146,12 @@ fn visit_leaves(
         roots()?
     };
     loop {
-        let length = goal.far + pose.box_error;
-        let reach = Reach { length: length * (1.0 + 16.0 * U32), square: square_up(length) };
+        let reach = Reach::of(pose, goal.far);
         if let [Some(i), Some(j)] = [children[0].leaf(), children[1].leaf()] {
-            let [first, second] = &mut hulls;
-            first.set(pose, 0, TriangleAt::new(children[0].node, i, 0))?;
-            second.set(pose, 1, TriangleAt::new(children[1].node, j, 0))?;
-            let LeafVisit { goes_on, way } = visit([first, second], direction.way, goal, work)?;
+            let places =
+                [TriangleAt::new(children[0].node, i, 0), TriangleAt::new(children[1].node, j, 0)];
+            let visit = look(pose, goal, &mut hulls, places, direction.way, work)?;
+            let LeafVisit { goes_on, way } = visit;
             if !goes_on {
                 return Some(());
             }

@@ -369,7 +369,7 @@ fn two_triangles(rng: &mut Rng, shape: Shape) -> Option<f64> {
         |t: &[Point; 3]| t.iter().map(|&p| wide(p).abs().element_sum()).fold(0.0, f64::max);
     let margin = TRIANGLE_DISTANCE * U64 * (farthest(&corners) + farthest(&other));
     let [a, b] = [corners, other].map(|t| t.map(|p| p.map(f64::from)));
-    let found = triangle_distance(a, b);
+    let found = triangle_distance(a, b, [[0; 2]; 2]);
     let one = [[0, 1, 2]];
     let truth = distance_of_meshes((&corners, &one), (&other, &one), &IDENTITY, [0.0; 3]);
     // The kernel's upper end is not that of triangles that pass through each other.

@@ -1,0 +1,108 @@
+//! The leaves that f32 cannot tell from the nearest ones: by their heights along directions in
+//! integers, and the triangles that these leave over in f64. `core/docs/rounding.md` §26, *The
+//! nearest triangles*.
+
+use super::leaf_gaps::{LeafGaps, LeftOutPairs};
+use super::pair_keys::PAIRS;
+use super::question::{PairQuestion, TriangleGap};
+use super::whole_way::WholeWay;
+use crate::bvh::tree::format::FanLeaf;
+use crate::bvh::tree::triangle_at::TriangleAt;
+use crate::geom::fan::WIDTH;
+use crate::num::tolerance::{WHOLE_GAP, WHOLE_PART};
+use crate::num::{greater, lesser};
+use crate::query::Work;
+
+/// Pairs of leaves beside the nearest triangles so far.
+pub(crate) struct NearestAlong<'a> {
+    leaves: LeafGaps<'a>,
+    /// The direction between the points measured last.
+    between: WholeWay<'a>,
+    /// A pair of triangles that is at least so far apart is not measured.
+    lower: f64,
+    /// Some were not.
+    has_beyond: bool,
+}
+
+impl<'a> NearestAlong<'a> {
+    /// After the first measured pair. `None` if its triangles touch.
+    pub(crate) fn new(leaves: LeafGaps<'a>, question: &PairQuestion<'_>) -> Option<Self> {
+        let between = WholeWay::new(leaves.pose, leaves.offset)?;
+        let mut along = NearestAlong { leaves, between, lower: 0.0, has_beyond: false };
+        along.lower = along.lower_of(question);
+        along.between.set_far(along.far());
+        Some(along)
+    }
+
+    fn lower_of(&self, question: &PairQuestion<'_>) -> f64 {
+        let pose = self.leaves.pose;
+        let ([unit, _], limit) = (pose.units, question.limit());
+        let coarser = greater(f64::from(unit), pose.longest);
+        limit - lesser(coarser * WHOLE_GAP, limit * WHOLE_PART)
+    }
+
+    /// The gap as computed that proves so much.
+    fn far(&self) -> f64 {
+        let rounding = self.leaves.pose.vertex_error_exact;
+        self.lower + (rounding + rounding)
+    }
+
+    /// Tells the question of the pairs that were not measured.
+    pub(crate) fn tell(&mut self, places: [TriangleAt; 2], question: &mut PairQuestion<'_>) {
+        if self.has_beyond {
+            // An infinite upper end is never the best, so the points are not used.
+            let (points, upper) = ([[0.0; 3]; 2], f64::INFINITY);
+            let lower = self.lower;
+            question.take(&TriangleGap { place: places, lower, upper, meets: false, points });
+            self.has_beyond = false;
+        }
+    }
+
+    /// Measures the pairs of triangles of two leaves that may be nearer than the limit, but not
+    /// `measured`. Returns whether the question goes on.
+    pub(crate) fn visit(
+        &mut self,
+        leaves: [&FanLeaf<'_>; 2],
+        [places, measured]: [[TriangleAt; 2]; 2],
+        question: &mut PairQuestion<'_>,
+        work: &mut Work,
+    ) -> Option<bool> {
+        let triangles = leaves.map(|leaf| leaf.shape().triangles());
+        let pairs = triangles[0].saturating_mul(triangles[1]);
+        work.triangles = work.triangles.saturating_add(pairs as u32);
+        let mut left_out = !pairs_of(triangles);
+        if measured.map(|at| at.with_lane(0)) == places.map(|at| at.with_lane(0)) {
+            left_out |= 1u64 << ((measured[0].lane() * WIDTH + measured[1].lane()) & (PAIRS - 1));
+        }
+        loop {
+            let beyond = self.between.pairs_beyond(leaves, places)?;
+            self.has_beyond |= beyond & !left_out != 0;
+            left_out |= beyond;
+            if left_out == u64::MAX {
+                return Some(true);
+            }
+            self.tell(places, question);
+            let some = Some(LeftOutPairs { pairs: left_out, far: self.far() });
+            let visit = self.leaves.visit(leaves, places, some, question, false, work)?;
+            if visit.has_beyond {
+                self.has_beyond = true;
+                self.tell(places, question);
+            }
+            if !visit.goes_on || visit.pairs == 0 {
+                return Some(visit.goes_on);
+            }
+            left_out |= visit.pairs;
+            self.lower = self.lower_of(question);
+            if let Some(new) = WholeWay::new(self.leaves.pose, self.leaves.offset) {
+                self.between = new;
+            }
+            self.between.set_far(self.far());
+        }
+    }
+}
+
+/// The bits of all pairs of so many triangles.
+fn pairs_of([rows, columns]: [usize; 2]) -> u64 {
+    let row = (1u64 << (columns & 15)) - 1;
+    (0..WIDTH).take(rows).fold(0, |bits, i| bits | (row & 0xFF) << (i * WIDTH))
+}

@@ -1,0 +1,219 @@
+//! The nearest leaves by their heights along one direction, one tree at a time.
+//!
+//! A high leaf of each model along a direction gives a pair, and the pair gives the next direction.
+//! Along the direction of the nearest pair few leaves of either model stick out, most often: each of
+//! these is looked at with each of the other model. Else the descent of both trees follows, which
+//! begins with what was found. `core/docs/rounding.md` §26, *One tree at a time*.
+
+use super::direction::{Direction, WholeDirection};
+use super::goal::{Goal, square_up};
+use super::grid_pose::GridPose;
+use super::leaf_hulls::{LeafHull, LeafVisit, look};
+use super::node_boxes::{NodeBoxes, Reach, bits, first_box, is_beyond, second_box};
+use crate::bvh::tree::format::Bvh;
+use crate::bvh::tree::format::layout::MAX_TREE_DEPTH;
+use crate::bvh::tree::triangle_at::TriangleAt;
+use crate::geom::fan::WIDTH;
+use crate::geom::{columns, turned};
+use crate::num::{Real, dot, greater, lesser};
+use crate::query::{ScratchEntry, Work};
+use glam::Vec3;
+
+/// Most directions that are tried. No answer depends on it but the nearest triangles of several.
+const MOST_ROUNDS: u32 = 3;
+
+/// More pairs of leaves are left to the descent.
+const MOST_PAIRS: usize = 512;
+
+/// More leaves of a model are left to the descent. Measured on an arm: twice as many lists cost more
+/// than they save.
+const MOST_LEAVES: usize = 48;
+
+/// The heights of one model along a direction, in its own grid.
+struct Climb<'a> {
+    tree: &'a Bvh<'a>,
+    origin: Vec3,
+    way: Vec3,
+    whole: WholeDirection,
+}
+
+impl<'a> Climb<'a> {
+    fn both(pose: &GridPose<'a>, way: Vec3) -> Option<[Climb<'a>; 2]> {
+        let ([a, b], [origin_a, origin_b]) = (pose.trees, pose.origins);
+        // From the second model to the first, in the frame of the second grid.
+        let back = -turned(&columns(&pose.rows), way);
+        let (first, second) = (WholeDirection::of(way)?, WholeDirection::of(back)?);
+        Some([
+            Climb { tree: a, origin: origin_a, way, whole: first },
+            Climb { tree: b, origin: origin_b, way: back, whole: second },
+        ])
+    }
+
+    /// A high leaf, and an upper bound of its height. The highest child of each node is followed.
+    #[inline(never)]
+    fn high(&self, work: &mut Work) -> Option<(TriangleAt, f32)> {
+        let mut node = 0;
+        for _ in 0..MAX_TREE_DEPTH {
+            work.opened += 1;
+            let links = self.tree.links(node)?;
+            let wanted = u32::MAX >> (32 - links.count.clamp(1, WIDTH as u32));
+            let tops = NodeBoxes::of(self.tree, node, self.origin)?.tops(self.way, 0.0, wanted);
+            let mut best = 0;
+            for i in bits(wanted) {
+                best = if Real(tops[i]) > Real(tops[best & 7]) { i } else { best };
+            }
+            let index = best as u32;
+            if index >= links.inner {
+                let top = self.whole.top(&self.tree.leaf(node, index)?)?;
+                return Some((TriangleAt::new(node, index, 0), lesser(top, tops[best & 7])));
+            }
+            node = links.first_node.wrapping_add(index);
+        }
+        None
+    }
+
+    /// Lists the leaves that are at least as high as `floor`, with upper bounds of their heights;
+    /// if `only_highest`, the highest one alone. Returns their number, and the last floor. `None`
+    /// if they are many, memory ends, or the tree is unchecked.
+    #[inline(never)]
+    fn leaves(
+        &self,
+        mut floor: f32,
+        only_highest: bool,
+        memory: &mut [ScratchEntry],
+        work: &mut Work,
+    ) -> Option<(usize, f32)> {
+        let (mut listed, mut waiting) = (0, memory.len());
+        let mut node = 0;
+        for _ in 0..self.tree.most_steps() {
+            work.opened += 1;
+            let links = self.tree.links(node)?;
+            let wanted = u32::MAX >> (32 - links.count.clamp(1, WIDTH as u32));
+            let tops = NodeBoxes::of(self.tree, node, self.origin)?.tops(self.way, 0.0, wanted);
+            let begun = waiting;
+            for i in bits(wanted) {
+                let top = tops[i];
+                if is_beyond(Real(floor), top) {
+                    continue;
+                }
+                let index = i as u32;
+                if index < links.inner {
+                    waiting = waiting.checked_sub(1).filter(|&waiting| waiting >= listed)?;
+                    let child = links.first_node.wrapping_add(index);
+                    *memory.get_mut(waiting)? = ScratchEntry::new(top, child);
+                    continue;
+                }
+                let top = lesser(top, self.whole.top(&self.tree.leaf(node, index)?)?);
+                if is_beyond(Real(floor), top) {
+                    continue;
+                }
+                if only_highest {
+                    (floor, listed) = (top, 0);
+                }
+                if listed >= waiting || listed >= MOST_LEAVES {
+                    return None;
+                }
+                let place = TriangleAt::new(node, index, 0);
+                *memory.get_mut(listed)? = ScratchEntry::new(top, place.word());
+                listed += 1;
+            }
+            // The highest child comes next.
+            if let Some([next, others @ ..]) = memory.get_mut(waiting..begun) {
+                for other in others {
+                    if Real(other.key()) > Real(next.key()) {
+                        core::mem::swap(other, next);
+                    }
+                }
+            }
+            node = loop {
+                let Some(next) = memory.get(waiting) else { return Some((listed, floor)) };
+                waiting += 1;
+                if !is_beyond(Real(floor), next.key()) {
+                    break next.node();
+                }
+            };
+        }
+        None
+    }
+}
+
+/// Gives the goal every pair of leaves that may matter to it. Returns `false` if they are left to
+/// the descent: the limit may be lower then, and `direction` is a good one.
+pub(super) fn visit_by_heights(
+    pose: &GridPose<'_>,
+    goal: &mut Goal<'_>,
+    direction: &mut Direction,
+    scratch: &mut [ScratchEntry],
+    work: &mut Work,
+) -> Option<bool> {
+    let mut hulls = [LeafHull::NONE; 2];
+    let mut last = [TriangleAt::NONE; 2];
+    let mut along = *direction;
+    let mut far = goal.far;
+    for _ in 0..MOST_ROUNDS {
+        let [first, second] = Climb::both(pose, direction.way)?;
+        let ((a, top_a), (b, top_b)) = (first.high(work)?, second.high(work)?);
+        // Models that overlap along the direction have many leaves that stick out.
+        if is_beyond(Real(top_a) + Real(top_b), dot(pose.shift, direction.way)) {
+            return Some(false);
+        }
+        if last == [a, b] {
+            break;
+        }
+        last = [a, b];
+        let LeafVisit { goes_on, way } = look(pose, goal, &mut hulls, last, direction.way, work)?;
+        if !goes_on {
+            return Some(true);
+        }
+        let Some(turned) = way.and_then(Direction::of) else { break };
+        *direction = turned;
+        if goal.far < far {
+            (far, along) = (goal.far, turned);
+        }
+    }
+    *direction = along;
+    let [first, second] = Climb::both(pose, along.way)?;
+    let ((_, top_a), (_, floor)) = (first.high(work)?, second.high(work)?);
+    let (_, top_b) = second.leaves(floor, true, scratch, work)?;
+    let limit = left(pose, goal, &along);
+    if is_beyond(Real(top_a) + Real(top_b), dot(pose.shift, along.way)) {
+        return Some(false);
+    }
+    let (count_a, _) = first.leaves(limit - top_b, false, scratch, work)?;
+    let (list_a, rest) = scratch.split_at_mut_checked(count_a)?;
+    let top_a = list_a.iter().fold(f32::MIN, |top, entry| greater(Real(top), Real(entry.key())).0);
+    let (count_b, _) = second.leaves(limit - top_a, false, rest, work)?;
+    if count_a.saturating_mul(count_b) > MOST_PAIRS {
+        return Some(false);
+    }
+    goal.forget();
+    let mut start = along.way;
+    for second in rest.get(..count_b)? {
+        let b = TriangleAt::of_word(second.node());
+        let mut moved = None;
+        for first in list_a.iter() {
+            if is_beyond(Real(left(pose, goal, &along) - second.key()), first.key()) {
+                continue;
+            }
+            let a = TriangleAt::of_word(first.node());
+            if moved.is_none() {
+                moved = Some(second_box(pose, b)?);
+            }
+            let key = first_box(pose, a)?.key(moved.as_ref()?);
+            if is_beyond(Real(key), square_up(goal.far + pose.box_error)) {
+                continue;
+            }
+            let LeafVisit { goes_on, way } = look(pose, goal, &mut hulls, [a, b], start, work)?;
+            if !goes_on {
+                return Some(true);
+            }
+            start = way.unwrap_or(start);
+        }
+    }
+    Some(true)
+}
+
+/// If the tops of two children along a direction add up to less than this, they are out of reach.
+fn left(pose: &GridPose<'_>, goal: &Goal<'_>, direction: &Direction) -> f32 {
+    Reach::of(pose, goal.far).left(pose, direction)
+}
