@@ -9,6 +9,7 @@ use meshsweep_core::{Bvh, Hull};
 use crate::generate::corpus::add;
 use crate::generate::{Rng, Triangles};
 use crate::oracle::{Bounded, distance_to_mesh, distance_to_triangle};
+use std::sync::OnceLock;
 
 type Point = [f32; 3];
 
@@ -27,13 +28,16 @@ pub struct Scene {
     pub has_wires: bool,
     /// The same with f32 vertices, of [`Scene::both`] and [`Scene::moved`].
     pub f32_bytes: Vec<u8>,
+    /// What [`Scene::model`] opened.
+    model: OnceLock<Hull<'static>>,
 }
 
 impl Scene {
     fn new(name: impl Into<String>, (positions, triangles): Triangles) -> Self {
         let name = name.into();
         let (bytes, f32_bytes) = (Vec::new(), Vec::new());
-        Self { name, positions, triangles, bytes, has_wires: false, f32_bytes }
+        let model = OnceLock::new();
+        Self { name, positions, triangles, bytes, has_wires: false, f32_bytes, model }
     }
 
     /// A closed mesh with a hull hierarchy.
@@ -115,13 +119,16 @@ impl Scene {
         scene
     }
 
-    /// The hull hierarchy.
+    /// The hull hierarchy. It is opened once, of a copy that is never freed: to open it takes longer
+    /// than most questions.
     ///
     /// # Panics
     /// The scene has none.
     #[must_use]
     pub fn model(&self) -> Hull<'_> {
-        Hull::open(&self.bytes).expect("opens")
+        *self.model.get_or_init(|| {
+            Hull::open(Box::leak(self.bytes.clone().into_boxed_slice())).expect("opens")
+        })
     }
 
     /// The box tree. It was checked when it was built: tests ask for it more often than for answers.
