@@ -40,6 +40,12 @@ impl Scene {
         Self { name, positions, triangles, bytes, has_wires: false, f32_bytes, model }
     }
 
+    /// A mesh to be measured, without a blob.
+    #[must_use]
+    pub fn of_mesh(name: &str, mesh: Triangles) -> Self {
+        Self::new(name, mesh)
+    }
+
     /// A closed mesh with a hull hierarchy.
     ///
     /// # Panics
