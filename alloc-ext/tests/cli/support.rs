@@ -10,9 +10,12 @@ use std::sync::{Arc, LazyLock, Mutex, OnceLock};
 pub type Point = [f64; 3];
 pub type Triangle = [Point; 3];
 
-/// The program.
+/// The program, as if by its own name: its usage says how it was called.
 pub fn meshsweep() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_meshsweep"))
+    let mut command = Command::new(env!("CARGO_BIN_EXE_meshsweep-tested"));
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::arg0(&mut command, "meshsweep");
+    command
 }
 
 /// Runs the program on arguments.
@@ -37,7 +40,7 @@ pub fn refused(output: &Output, status: i32, file: &str) -> String {
 }
 
 pub fn fixture(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures").join(name)
 }
 
 /// A torus as in `fixtures/torus.ply`, of 576 triangles: searches for few faces end at once.
