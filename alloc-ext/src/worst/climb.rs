@@ -44,7 +44,7 @@ pub struct Summit<const N: usize> {
     pub query: [f32; N],
     /// Its value.
     pub value: f64,
-    /// Mean value of the random starts.
+    /// Mean value of the random starts; if none has a value, that of the summit.
     pub typical: f64,
     /// Queries asked.
     pub asked: usize,
@@ -75,7 +75,7 @@ impl<const N: usize> Domain<N> {
 }
 
 /// Climbs from random starts and from `seeds` to the query of the greatest value. A query without a
-/// value (`None`) is not taken.
+/// value (`None`) is not taken, and no start.
 ///
 /// The result is the same in every run and on any number of threads, if `value` is. `None` if no
 /// query has a value.
@@ -109,8 +109,11 @@ pub fn climb<const N: usize>(
     summit.map(|(query, value)| Summit {
         query,
         value,
-        typical: typical.iter().sum::<f64>() / typical.len().max(1) as f64,
-        asked: climbed.len() * (options.moves + 1),
+        typical: match typical.len() {
+            0 => value,
+            count => typical.iter().sum::<f64>() / count as f64,
+        },
+        asked: climbed.len() * options.moves + options.starts + seeds.len(),
     })
 }
 

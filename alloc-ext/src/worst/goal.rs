@@ -1,4 +1,4 @@
-//! What a search makes great, and the query that it found.
+//! What a search maximises, its result, and the call of the climb.
 
 use super::climb::{Climb, Domain, Summit, climb};
 use meshsweep_core::{ScratchEntry, Work};
@@ -12,7 +12,7 @@ pub enum Goal {
     Width,
 }
 
-/// An answer, as far as the search wants to know it.
+/// Work, width and predicted instructions of an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
     /// The work of the search.

@@ -6,7 +6,7 @@
 //! | file | owns |
 //! | --- | --- |
 //! | `climb` | hill climbing in a box of numbers |
-//! | `goal` | what a search makes great, and the query that it found |
+//! | `goal` | what a search maximises, its result, the call of the climb |
 //! | `search` | the box and the seeds of points, balls and segments |
 //! | `subject` | a question to a structure, and what its worst query costs |
 //! | `pair` | the same of two models: the worst pose |

@@ -36,8 +36,8 @@ pub struct Pair<'a> {
 }
 
 impl Pair<'_> {
-    /// Searches the dearest pose; with a limit of steps the widest distance too. The second model's
-    /// middle stays in twice the first one's box, enlarged by the second one's. See
+    /// Searches the dearest pose; with a limit of steps the widest interval of the distance too. The
+    /// second model's middle stays in twice the first one's box, enlarged by the second one's. See
     /// [`Climb::starts`].
     #[must_use]
     pub fn worst(&self, budget: Budget, starts: usize) -> Vec<Worst> {
@@ -82,7 +82,8 @@ impl Pair<'_> {
         (Domain { low: corner(-1.0, -1.0), high: corner(1.0, 1.0) }, [middle, half])
     }
 
-    /// The translation and the quaternion of a place of the middle. `None` of a quaternion of zeros.
+    /// The translation and the quaternion of a place of the middle. `None` of a quaternion of
+    /// zeros.
     fn row(&self, numbers: &[f32; 7]) -> Option<[f32; 7]> {
         let [x, y, z, w, a, b, c] = *numbers;
         if [w, a, b, c] == [0.0; 4] {

@@ -1,11 +1,11 @@
-//! The box and the seeds of a search, up to the way a query is asked.
+//! The domain and the seeds of searches for points, balls and segments.
 
 use super::climb::{Climb, Domain};
 use super::goal::{Found, Goal, Setup, Worst};
 use crate::distances::Distances;
 use meshsweep_core::{Budget, ScratchEntry};
 
-/// A search, up to the way a query is asked.
+/// A search for queries about one structure.
 pub(super) struct Search<'s, 'a> {
     structure: &'s Distances<'a>,
     setup: Setup,

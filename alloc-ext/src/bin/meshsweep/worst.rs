@@ -1,11 +1,12 @@
-//! `meshsweep worst`: the dearest query of each question, or the dearest pose of a second mesh, found
-//! by hill climbing.
+//! `meshsweep worst`: the dearest query of each question, or the dearest pose of a second mesh,
+//! found by hill climbing.
 
 use crate::args::{WorstArgs, WorstQuestion};
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::{blob_file, served};
 use meshsweep::counted::Counted;
+use meshsweep::distances::Distances;
 use meshsweep::number::{About, Short};
 use meshsweep::trade::Board;
 use meshsweep::worst::{Goal, Pair, PairQuestion, Question, Subject, Worst};
@@ -55,7 +56,10 @@ fn of_blob(args: &WorstArgs, budget: Budget) -> Result<Vec<Row>, Failure> {
             rows.extend(found.map(|worst| Row {
                 question: question.name(),
                 structure: subject.structure.name(),
-                opens: "node",
+                opens: match subject.structure {
+                    Distances::Hull(_) => "split",
+                    _ => "node",
+                },
                 note: match question {
                     Question::Within => {
                         " (point, and the share of its distance that is asked about)"

@@ -376,8 +376,9 @@ pub struct WorstArgs {
         conflicts_with = "moved"
     )]
     pub ask: Vec<WorstQuestion>,
-    /// Stop a query after opening so many nodes, and search the widest interval that is left too
-    #[arg(long, value_name = "NODES", value_parser = whole::<0, { u32::MAX }>)]
+    /// Stop a query after opening so many nodes, splits or pairs of nodes, and search the widest
+    /// interval that is left too
+    #[arg(long, value_name = "STEPS", value_parser = whole::<0, { u32::MAX }>)]
     pub steps: Option<u32>,
     /// Stop a query when upper ≤ lower · (1 + REL)
     #[arg(long, value_name = "REL", default_value_t = 0.0, value_parser = tolerance)]
@@ -385,7 +386,7 @@ pub struct WorstArgs {
     /// Stop a query when upper − lower ≤ ABS, in the mesh's unit
     #[arg(long, value_name = "ABS", default_value_t = 0.0, value_parser = tolerance)]
     pub abs: f32,
-    /// Places to climb from
+    /// Random queries to climb from, beside a few fixed ones
     #[arg(long, value_name = "N", default_value = "48", value_parser = whole::<1, 100_000>)]
     pub starts: u32,
     #[command(flatten)]
