@@ -5,7 +5,7 @@ use super::encode;
 use super::fans::{self, Effort, Fan, FanLeaf, Packed};
 use super::moments::moments;
 use super::nodes::fit::{axis_aligned_boxes, shared_frames, unturned_frames};
-use super::nodes::order::topology;
+use super::nodes::order::{Topology, topology};
 use super::packing::{self, PackingReport};
 use super::sides::{Sided, Sides, SidesReport};
 use super::source;
@@ -218,7 +218,7 @@ pub(super) fn build_in(
     let Vertices { grid, mut flags, why_f32, sides } =
         store_vertices(input, &stored, options, is_quick);
     let is_f32 = flags & BVH_F32 != 0;
-    let effort = if is_quick { Effort::QUICK } else { Effort::FULL };
+    let effort = if is_quick { Effort::QUICK } else { packing::effort(mesh.triangles.len()) };
     let part = watch.part(0.0, PACKED);
     let packing = match purpose {
         Purpose::Stored => {
@@ -235,26 +235,22 @@ pub(super) fn build_in(
     let bounds: Vec<(DVec3, DVec3)> = points.par_iter().map(|points| bounds(points)).collect();
     watch.part(PACKED, 1.0).step(0, 1)?;
     let topology = topology(&bounds);
-    let framed = watch.part(PACKED, FRAMED);
-    framed.step(0, 1)?;
-    let mut sections = vec![(SectionKind::TreeLinks, encode::links(&topology, &leaves))];
-    if options.stores_frames() {
-        let frames = match is_quick {
-            true => unturned_frames(&topology, &views, framed)?,
-            false => shared_frames(&topology, &views, framed)?,
-        };
-        sections.push((SectionKind::TreeFrames, encode::frames(&frames)));
-    }
-    if options.segments {
-        let boxes = axis_aligned_boxes(&topology, &views, watch.part(FRAMED, BOXED))?;
-        sections.push((SectionKind::TreeBoxes, encode::boxes(&boxes, grid.origin)));
-    }
-    sections.push((SectionKind::TreeFans, encode::fans(&topology, &leaves, &grid, is_f32)));
     let sources: Vec<u32> = mesh.all_sources().collect();
     let in_order =
         || topology.leaf_order.iter().flat_map(|&leaf| leaves[leaf as usize].triangles());
-    let numbers: Vec<u32> = in_order().map(|t| sources[t as usize]).collect();
-    sections.push((SectionKind::TreeSource, source::pack(&numbers)));
+    let [mut links, mut fans, mut numbers] = <[Vec<u8>; 3]>::default();
+    // The watch stays on this thread.
+    let of_boxes = rayon::in_place_scope(|scope| {
+        scope.spawn(|_| links = encode::links(&topology, &leaves));
+        scope.spawn(|_| fans = encode::fans(&topology, &leaves, &grid, is_f32));
+        scope.spawn(|_| {
+            numbers = source::pack(&in_order().map(|t| sources[t as usize]).collect::<Vec<_>>());
+        });
+        boxes(&topology, &views, options, is_quick, &grid, watch)
+    })?;
+    let mut sections = vec![(SectionKind::TreeLinks, links)];
+    sections.extend(of_boxes);
+    sections.extend([(SectionKind::TreeFans, fans), (SectionKind::TreeSource, numbers)]);
     if options.cull {
         sections.push((SectionKind::TreeCones, cones(&topology, &leaves, &grid.positions)));
     }
@@ -295,6 +291,32 @@ pub(super) fn build_in(
     };
     let sections = encode::sections(grid.scale_exponent, input.triangle_count(), &header, sections);
     Ok((sections, report))
+}
+
+/// The sections of boxes that are asked for.
+fn boxes(
+    topology: &Topology,
+    leaves: &[&[DVec3]],
+    options: &TreeOptions,
+    is_quick: bool,
+    grid: &OnGrid,
+    watch: Watch<'_>,
+) -> Result<Vec<(SectionKind, Vec<u8>)>, BuildError> {
+    let framed = watch.part(PACKED, FRAMED);
+    framed.step(0, 1)?;
+    let mut sections = Vec::new();
+    if options.stores_frames() {
+        let frames = match is_quick {
+            true => unturned_frames(topology, leaves, framed)?,
+            false => shared_frames(topology, leaves, framed)?,
+        };
+        sections.push((SectionKind::TreeFrames, encode::frames(&frames)));
+    }
+    if options.segments {
+        let boxes = axis_aligned_boxes(topology, leaves, watch.part(FRAMED, BOXED))?;
+        sections.push((SectionKind::TreeBoxes, encode::boxes(&boxes, grid.origin)));
+    }
+    Ok(sections)
 }
 
 /// The leaf of a wire. From its first end both spokes lead to the second: so the kernels see two

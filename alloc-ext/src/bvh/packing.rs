@@ -1,12 +1,8 @@
 //! How large the cells are that leaves are packed in, and the report of the choice.
 
-use super::fans::{Cost, LeafBytes, Packed, Packing};
+use super::fans::{Cost, Effort, LARGE, LeafBytes, Packed, Packing};
 use crate::counted::Counted;
 use std::fmt;
-
-/// Most triangles of a mesh whose cells are chosen by their cost. The choice takes about five times
-/// as long as packing.
-const MOST_CHOSEN: usize = 1 << 19;
 
 /// Triangles of a cell at most, where no cost chooses.
 const CELL: usize = 128;
@@ -17,14 +13,20 @@ const FAST: (usize, f64) = (256, 1.0);
 /// from full leaves and few nodes.
 const FULL: (usize, f64) = (2048, 4.0);
 
-/// The packing of a tree that is stored, with so many bytes a node.
+/// The packing of a tree that is stored, with so many bytes a node. Cells are chosen by their cost,
+/// which takes about five times as long as packing, unless the mesh is large.
 pub(super) fn of_stored(node: usize, has_winding: bool, triangles: usize, is_f32: bool) -> Packing {
-    if triangles > MOST_CHOSEN {
+    if triangles > LARGE {
         return quick();
     }
     let (largest, weight_of_bytes) = if has_winding { FULL } else { FAST };
     let bytes = LeafBytes { node, coordinate: if is_f32 { 4 } else { 2 } };
     Packing::Cheapest { largest, weight_of_bytes, bytes }
+}
+
+/// How many candidates the packing of a tree that is stored looks at.
+pub(super) const fn effort(triangles: usize) -> Effort {
+    if triangles > LARGE { Effort::LARGE } else { Effort::FULL }
 }
 
 /// The packing of a tree that only a builder asks.

@@ -59,6 +59,9 @@ pub struct Conditions {
     /// Whether an edge of [`Priority::Span`] goes back into the queue if its collapse would add
     /// more than the span. The paper collapses it.
     pub puts_back: bool,
+    /// Whether an edge is refused whose collapse would make the surface meet itself. A surface that
+    /// does not meet itself then never does. It costs about as much as the collapses.
+    pub keeps_apart: bool,
 }
 
 impl Conditions {
@@ -71,6 +74,7 @@ impl Conditions {
         order: Order::MostViolated,
         lazy_above: 4000,
         puts_back: true,
+        keeps_apart: false,
     };
 
     /// The paper's algorithm: costs evaluated at once, no edge put back, Seidel's order. The second

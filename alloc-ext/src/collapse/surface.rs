@@ -4,6 +4,7 @@ use super::Conditions;
 use super::placement::{Facet, Placement, Refusal, StarFace, place};
 use super::quadric::Quadrics;
 use super::star::Connectivity;
+use crate::geom::{Bounds, Face, MovingBoxes, fits};
 use crate::lp::HalfSpace;
 use crate::surface::{Grid, compact_in_order};
 use glam::DVec3;
@@ -14,6 +15,8 @@ pub struct Surface {
     pub mesh: Connectivity,
     pub positions: Vec<DVec3>,
     facets: Vec<Facet>,
+    /// Boxes of the faces, if these have to stay apart.
+    boxes: Option<MovingBoxes>,
     pub conditions: Conditions,
     grid: Grid,
     /// Triangles from this one on close holes. No condition is about them.
@@ -36,9 +39,12 @@ impl Surface {
         conditions: Conditions,
         grid: Grid,
     ) -> Self {
+        let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize]);
+        let boxes = || triangles.iter().map(|t| Bounds::of(&corners(t))).collect::<Vec<_>>();
         Surface {
             mesh: Connectivity::new(positions.len(), triangles),
-            facets: triangles.iter().map(|t| Facet::of(t.map(|v| positions[v as usize]))).collect(),
+            facets: triangles.iter().map(|t| Facet::of(corners(t))).collect(),
+            boxes: conditions.keeps_apart.then(|| MovingBoxes::new(&boxes())),
             positions,
             conditions,
             grid,
@@ -106,7 +112,33 @@ impl Surface {
         }
         self.programs += 1;
         let middle = (self.positions[a as usize] + self.positions[b as usize]) * 0.5;
-        place(&self.faces, middle, &self.conditions, &self.grid, exact, &mut self.planes)
+        let placed =
+            place(&self.faces, middle, &self.conditions, &self.grid, exact, &mut self.planes)?;
+        if exact && !self.keeps_apart(a, placed.position) {
+            return Err(Refusal::Condition(placed.cost));
+        }
+        Ok(placed)
+    }
+
+    /// Whether the faces of the star that was gathered last still meet none, if they have to, once
+    /// their ends are at `x`, which is vertex `a`. Exact.
+    fn keeps_apart(&self, a: u32, x: DVec3) -> bool {
+        let Some(boxes) = &self.boxes else { return true };
+        let moved = |(&t, face): (&u32, &StarFace)| {
+            let Face { mut ids, mut at } = self.face(t);
+            let moving = face.moving?;
+            (ids[moving], at[moving]) = (a, x);
+            Some(Face { ids, at })
+        };
+        let new: Vec<Face> = self.star.iter().zip(&self.faces).filter_map(moved).collect();
+        fits(&new, |bounds, is_apart| {
+            boxes.visit_meeting(bounds, |t| self.star.contains(&t) || is_apart(&self.face(t)))
+        })
+    }
+
+    fn face(&self, t: u32) -> Face {
+        let ids = self.mesh.corners[t as usize];
+        Face { ids, at: ids.map(|v| self.positions[v as usize]) }
     }
 
     /// The second priority of an edge, whether it may collapse or not: unsigned volumes of the
@@ -139,6 +171,9 @@ impl Surface {
 
     /// Collapses edge `a b` into `a`, which moves to `x`.
     pub fn collapse(&mut self, a: u32, b: u32, x: DVec3) {
+        if let Some(boxes) = &mut self.boxes {
+            self.mesh.at(b).iter().for_each(|&t| boxes.set(t, &Bounds::EMPTY));
+        }
         self.mesh.collapse(a, b);
         self.move_vertex(a, x);
         if let Some(quadrics) = &mut self.quadrics {
@@ -151,7 +186,11 @@ impl Surface {
         self.positions[v as usize] = x;
         for &t in self.mesh.at(v) {
             let corners = self.mesh.corners[t as usize];
-            self.facets[t as usize] = Facet::of(corners.map(|v| self.positions[v as usize]));
+            let corners = corners.map(|v| self.positions[v as usize]);
+            self.facets[t as usize] = Facet::of(corners);
+            if let Some(boxes) = &mut self.boxes {
+                boxes.set(t, &Bounds::of(&corners));
+            }
         }
     }
 

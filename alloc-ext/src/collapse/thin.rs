@@ -161,6 +161,8 @@ impl<F> Rounds<F> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::collapse::{Engine, Priority};
+    use crate::geom::crosses_itself;
     use crate::mesh::{Mesh, require_closed_manifold};
     use crate::surface::{VertexBits, store};
     use robust::{Coord3D, orient3d};
@@ -182,6 +184,30 @@ mod tests {
         let quad = |i: u32, j: u32| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
         let quads = (0..n).flat_map(|i| (0..n).map(move |j| quad(i, j)));
         Mesh::new(positions, quads.flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect())
+    }
+
+    #[test]
+    fn a_surface_that_has_to_stay_apart_does_not_grow_into_itself() {
+        let mesh = torus(40);
+        // Two tori, one above the other, with a gap that hulls of few faces close.
+        let above = mesh.positions.iter().map(|&[x, y, z]| [x, y, z + 2.05]);
+        let positions: Vec<[f32; 3]> = mesh.positions.iter().copied().chain(above).collect();
+        let count = mesh.positions.len() as u32;
+        let next = mesh.triangles.iter().map(|t| t.map(|v| v + count));
+        let mesh = Mesh::new(positions, mesh.triangles.iter().copied().chain(next).collect());
+        let stored = store(&mesh, VertexBits::F32);
+        for keeps_apart in [false, true] {
+            let conditions =
+                Conditions { compactness_ratio: 0.4, keeps_apart, ..Conditions::STANDARD };
+            let (positions, triangles) =
+                thin(&stored.positions, &mesh.triangles, 1000, conditions, stored.grid, |_| false);
+            let mut engine =
+                Engine::new(&positions, &triangles, conditions, Priority::Program, stored.grid);
+            engine.run(300, |_| true);
+            let faces: Vec<[u32; 3]> = engine.faces().collect();
+            assert!(faces.len() < 400, "{}", faces.len());
+            assert_eq!(crosses_itself(engine.positions(), &faces), !keeps_apart);
+        }
     }
 
     fn crossings(from: DVec3, to: DVec3, faces: &[[DVec3; 3]]) -> i32 {

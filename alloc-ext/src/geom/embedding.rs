@@ -20,6 +20,28 @@ pub(crate) fn is_embedded(faces: &[Face]) -> bool {
     (0..faces.len()).into_par_iter().all(is_apart_from_later)
 }
 
+/// Whether faces have area and share no points but common corners and common edges, with each other
+/// and with others. Exact. `near` calls its second argument with each of the others whose box meets
+/// the first, until it returns false, and returns whether it never did.
+pub(crate) fn fits(
+    new: &[Face],
+    near: impl FnOnce(&Bounds, &mut dyn FnMut(&Face) -> bool) -> bool,
+) -> bool {
+    if new.iter().any(|face| is_degenerate(&face.at)) {
+        return false;
+    }
+    let among = |i: usize| new[..i].iter().all(|other| are_apart(&new[i], other));
+    if !(1..new.len()).all(among) {
+        return false;
+    }
+    let boxes: Vec<Bounds> = new.iter().map(|face| Bounds::of(&face.at)).collect();
+    let all = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.join(b));
+    near(&all, &mut |old| {
+        let bounds = Bounds::of(&old.at);
+        new.iter().zip(&boxes).all(|(face, b)| !b.meets(&bounds) || are_apart(face, old))
+    })
+}
+
 /// The faces of triangles.
 pub(crate) fn faces(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Face> {
     let face = |ids: &[u32; 3]| Face { ids: *ids, at: ids.map(|v| positions[v as usize]) };

@@ -27,7 +27,7 @@ pub(crate) struct Meeting {
 }
 
 /// Faces whose contacts are searched before they are counted.
-const BLOCK: usize = 1 << 8;
+const BLOCK: usize = 1 << 12;
 
 impl<'a> FaceTree<'a> {
     /// Cost: n log n.

@@ -50,19 +50,15 @@ pub(crate) fn spatial_order(boxes: &[Bounds]) -> Vec<u32> {
     order.into_iter().map(|placed| placed.item).collect()
 }
 
-/// Ranges of up to eight parts of a range. The items are ordered by halving, again and again.
-pub(super) fn ranges(
-    order: &mut [Placed],
-    from: usize,
-    to: usize,
-) -> ArrayVec<(usize, usize), WIDTH> {
+/// Ranges of up to eight parts of items, which are ordered by halving, again and again.
+pub(super) fn ranges(order: &mut [Placed]) -> ArrayVec<(usize, usize), WIDTH> {
     let mut ranges: ArrayVec<(usize, usize), WIDTH> = ArrayVec::new();
-    if from < to {
-        ranges.push((from, to));
+    if !order.is_empty() {
+        ranges.push((0, order.len()));
     }
     // Parts of full nodes, so that few lanes are empty.
     let mut full = 1;
-    while full * WIDTH < to - from {
+    while full * WIDTH < order.len() {
         full *= WIDTH;
     }
     while ranges.len() < WIDTH {

@@ -10,6 +10,7 @@ use super::lane_corners::{Cut, LaneCorners};
 use super::order::{Placed, WIDTH, ranges};
 use arrayvec::ArrayVec;
 use glam::DVec3;
+use rayon::prelude::*;
 use wide::f32x8;
 
 /// Distance in the tree's frame by which a box may lie below a plane, or off another box, and still
@@ -85,8 +86,27 @@ const FRONTIER: usize = 6;
 /// Seven entries wait at each of the eleven depths that 2^31 items have.
 const DEPTH: usize = 96;
 
+/// Least items of a node whose subtrees grow in parallel.
+const LEAST_PARALLEL: usize = 1 << 14;
+
+/// Puts a subtree's root in place of node `root`, and what is below it at the end.
+fn adopt(subtree: Vec<Node>, root: usize, nodes: &mut Vec<Node>) {
+    // Node 1 of the subtree comes to the end.
+    let by = nodes.len() as u32 - 1;
+    let mut moved = subtree.into_iter().map(|mut node| {
+        let lanes = node.entry.iter_mut().zip(&node.half[0]);
+        for (entry, _) in lanes.filter(|(entry, half)| **entry & ITEM == 0 && **half >= 0.0) {
+            *entry += by;
+        }
+        node
+    });
+    nodes[root] = moved.next().expect("a subtree has a root");
+    nodes.extend(moved);
+}
+
 impl StaticTree {
-    /// Of items with these boxes. Cost: n log n.
+    /// Of items with these boxes. Cost: n log n, on all threads; the tree is the same on any number
+    /// of them.
     pub fn new(boxes: &[Bounds]) -> Self {
         let all = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.join(b));
         let extent = (all.high - all.low).max_element();
@@ -99,30 +119,88 @@ impl StaticTree {
             origin,
             scale: 1.0 / unit,
         };
-        let mut order = Placed::all(boxes);
-        let mut open = vec![(0usize, 0usize, boxes.len())];
-        while let Some((node, from, to)) = open.pop() {
-            for (lane, (from, to)) in ranges(&mut order, from, to).into_iter().enumerate() {
-                let bounds = order[from..to]
-                    .iter()
-                    .fold(Bounds::EMPTY, |all, of| all.join(boxes[of.item as usize]));
-                let entry = if to - from == 1 {
-                    order[from].item | ITEM
-                } else {
-                    tree.nodes.push(EMPTY);
-                    open.push((tree.nodes.len() - 1, from, to));
-                    tree.nodes.len() as u32 - 1
-                };
-                let (middle, half) = tree.local(&bounds);
-                let node = &mut tree.nodes[node];
-                node.entry[lane] = entry;
-                for axis in 0..3 {
-                    node.middle[axis][lane] = middle[axis];
-                    node.half[axis][lane] = half[axis];
-                }
+        let mut nodes = std::mem::take(&mut tree.nodes);
+        tree.grow(boxes, &mut Placed::all(boxes), 0, &mut nodes);
+        tree.nodes = nodes;
+        tree
+    }
+
+    /// Fills node `at` with items and adds those below it: its children, then all below the last
+    /// child, and so on up to the first. The box of all items.
+    fn grow(
+        &self,
+        boxes: &[Bounds],
+        items: &mut [Placed],
+        at: usize,
+        nodes: &mut Vec<Node>,
+    ) -> Bounds {
+        let is_large = items.len() >= LEAST_PARALLEL;
+        let ranges = ranges(items);
+        let mut below: ArrayVec<(usize, (usize, usize)), WIDTH> = ArrayVec::new();
+        for (lane, &(from, to)) in ranges.iter().enumerate() {
+            nodes[at].entry[lane] = if to - from == 1 {
+                items[from].item | ITEM
+            } else {
+                nodes.push(EMPTY);
+                below.push((lane, (from, to)));
+                nodes.len() as u32 - 1
+            };
+        }
+        let mut bounds = [Bounds::EMPTY; WIDTH];
+        for (lane, &(from, to)) in ranges.iter().enumerate() {
+            if to - from == 1 {
+                bounds[lane] = boxes[items[from].item as usize];
             }
         }
-        tree
+        below.reverse();
+        if is_large {
+            let grown = self.grow_apart(boxes, items, &below);
+            for ((lane, _), (bounds_of, subtree)) in below.into_iter().zip(grown) {
+                bounds[lane] = bounds_of;
+                let root = nodes[at].entry[lane] as usize;
+                adopt(subtree, root, nodes);
+            }
+        } else {
+            for (lane, (from, to)) in below {
+                let root = nodes[at].entry[lane] as usize;
+                bounds[lane] = self.grow(boxes, &mut items[from..to], root, nodes);
+            }
+        }
+        for (lane, bounds) in bounds[..ranges.len()].iter().enumerate() {
+            let (middle, half) = self.local(bounds);
+            for axis in 0..3 {
+                nodes[at].middle[axis][lane] = middle[axis];
+                nodes[at].half[axis][lane] = half[axis];
+            }
+        }
+        bounds.iter().fold(Bounds::EMPTY, |all, &b| all.join(b))
+    }
+
+    /// Subtrees of parts of items, on all threads.
+    fn grow_apart(
+        &self,
+        boxes: &[Bounds],
+        items: &mut [Placed],
+        parts: &[(usize, (usize, usize))],
+    ) -> Vec<(Bounds, Vec<Node>)> {
+        let mut order: Vec<usize> = (0..parts.len()).collect();
+        order.sort_unstable_by_key(|&part| parts[part].1);
+        let mut slices = Vec::with_capacity(parts.len());
+        let (mut rest, mut start) = (items, 0);
+        for part in order {
+            let (from, to) = parts[part].1;
+            let (_, after) = rest.split_at_mut(from - start);
+            let (slice, after) = after.split_at_mut(to - from);
+            slices.push((part, slice));
+            (rest, start) = (after, to);
+        }
+        slices.sort_unstable_by_key(|&(part, _)| part);
+        let grown = slices.into_par_iter().with_max_len(1).map(|(_, items)| {
+            let mut nodes = vec![EMPTY];
+            let bounds = self.grow(boxes, items, 0, &mut nodes);
+            (bounds, nodes)
+        });
+        grown.collect()
     }
 
     /// Of triangles. Planes then pass over triangles by their corners, and not only by their boxes.

@@ -11,7 +11,7 @@ use glam::DVec3;
 use meshsweep_core::internal::num::exp2;
 
 /// Positions and triangles.
-pub(super) type Faces = (Vec<DVec3>, Vec<[u32; 3]>);
+type Faces = (Vec<DVec3>, Vec<[u32; 3]>);
 
 /// Faces of level 0 for a hull of `target` faces: enough to choose from, and no more, because each
 /// face costs a collapse against the mesh. `DESIGN.md`, "Moves", has what lost.

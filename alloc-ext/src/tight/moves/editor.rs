@@ -19,7 +19,7 @@ use super::placement::{PlacementObjective, Placer};
 use super::rounding::Rounding;
 use super::shell::Shell;
 use super::star::{StarFace, added_volume, corners};
-use crate::geom::{Bounds, Face, Triangle, are_apart, is_degenerate};
+use crate::geom::{Bounds, Face, Triangle, fits};
 use crate::tight::deadline::Deadline;
 use crate::tight::proof::{DistanceField, Obstacle};
 use glam::DVec3;
@@ -145,31 +145,14 @@ impl<'a> HullEditor<'a> {
         bases: &[Triangle],
         apex: DVec3,
     ) -> bool {
-        let stays_embedded = self.stays_embedded(new, dead);
-        self.is_blocked_by_hull |= !stays_embedded;
-        stays_embedded
+        let shell = &self.shell;
+        let is_embedded = fits(new, |bounds, is_apart| {
+            shell.near(bounds, |f| dead.contains(&f) || is_apart(&shell.face(f)))
+        });
+        self.is_blocked_by_hull |= !is_embedded;
+        is_embedded
             && !new.iter().any(|face| self.obstacle.meets(&face.at))
             && !self.obstacle.has_witness_in(bases, apex)
-    }
-
-    fn stays_embedded(&self, new: &[Face], dead: &[u32]) -> bool {
-        if new.iter().any(|face| is_degenerate(&face.at)) {
-            return false;
-        }
-        let among = |i: usize| new[..i].iter().all(|other| are_apart(&new[i], other));
-        if !(1..new.len()).all(among) {
-            return false;
-        }
-        let boxes: Vec<Bounds> = new.iter().map(|face| Bounds::of(&face.at)).collect();
-        let all = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.join(b));
-        self.shell.near(&all, |f| {
-            if dead.contains(&f) {
-                return true;
-            }
-            let old = self.shell.face(f);
-            let bounds = Bounds::of(&old.at);
-            new.iter().zip(&boxes).all(|(face, b)| !b.meets(&bounds) || are_apart(face, &old))
-        })
     }
 
     /// Whether a star with its vertex at `x` has a sound shape and `x` is not too far from the

@@ -121,7 +121,8 @@ impl<'a> HullSearch<'a, '_> {
                 None => grown_box(&input),
             };
             if let Some(initial) = initial {
-                keep_better(&mut best, self.prepare(initial, target));
+                let hull = self.prepare(initial, target, best.as_ref());
+                keep_better(&mut best, hull);
             }
         }
         let mut best = best.ok_or_else(|| self.no_room())?;
@@ -138,8 +139,7 @@ impl<'a> HullSearch<'a, '_> {
         large_margin: Option<usize>,
     ) -> impl Iterator<Item = Option<usize>> + use<> {
         let finest = finest(target.faces);
-        // If the levels of the finest closure meet themselves in narrow places, a slightly coarser
-        // grid may do.
+        // If the hull of the finest closure gets stuck, that of a slightly coarser one may not.
         let second = Some(finest * 2 / 3).filter(|&voxels| Some(voxels) > COARSER[0]);
         let coarser = COARSER.into_iter().filter(move |&voxels| voxels != Some(finest));
         let finest = if self.is_hurried { None } else { Some(finest) };
@@ -190,7 +190,8 @@ impl<'a> HullSearch<'a, '_> {
         let levels = lifted_levels(&input, self.mesh, target.faces, self.on_progress);
         for initial in [levels.ample, levels.exact].into_iter().flatten() {
             if !self.is_solid_itself(best.as_ref(), target) {
-                keep_better(best, self.prepare(initial, target));
+                let hull = self.prepare(initial, target, None);
+                keep_better(best, hull);
             }
         }
         self.is_hurried |= best.is_none() && half.has_passed();
@@ -214,13 +215,26 @@ impl<'a> HullSearch<'a, '_> {
         (volume..=volume + more).contains(&shell.volume())
     }
 
-    /// Settles an initial hull and brings it to the number of faces.
-    fn prepare(&mut self, initial: InitialHull, target: Target) -> CandidateHull<'a> {
+    /// Settles an initial hull and brings it to the number of faces. It counts as stuck if it has
+    /// more volume with all its faces than the best hull has with few.
+    fn prepare(
+        &mut self,
+        initial: InitialHull,
+        target: Target,
+        best: Option<&CandidateHull<'a>>,
+    ) -> CandidateHull<'a> {
         let InitialHull { start, filled, .. } = initial;
         let mut editor = self.editor(initial);
         for _ in 0..2 {
             editor.settle_all();
             editor.flip_all();
+        }
+        let is_larger = |best: &CandidateHull<'_>| {
+            best.stop == Outcome::Reached && best.editor.shell.volume() < editor.shell.volume()
+        };
+        let comes_down = editor.shell.face_count() > target.faces && !target.is_few();
+        if comes_down && best.is_some_and(is_larger) {
+            return CandidateHull { editor, start, filled, stop: Outcome::Stuck };
         }
         let stop = if target.descends {
             self.descend(&mut editor, target.faces)
