@@ -21,8 +21,9 @@ fn without_arguments_it_explains_itself_in_ten_lines_with_numbers() {
 
 #[test]
 fn the_built_in_bracket_is_the_fixture() {
-    let copy = fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/src/bin/meshsweep/demo/bracket.stl"))
-        .unwrap();
+    let copy =
+        fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../src/bin/meshsweep/demo/bracket.stl"))
+            .unwrap();
     assert!(copy == fs::read(fixture("bracket.stl")).unwrap());
 }
 

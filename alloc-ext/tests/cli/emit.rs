@@ -26,7 +26,7 @@ fn emitted_sources_depend_on_the_blob_and_on_names_of_files_alone() {
     let listed: Vec<u8> = listed.map_while(Result::ok).collect();
     assert!(&listed == bytes);
     // The C compiles, with names that are no identifiers.
-    let include = concat!("-I", env!("CARGO_MANIFEST_DIR"), "/../core/c-api/include");
+    let include = concat!("-I", env!("CARGO_MANIFEST_DIR"), "/../../core/c-api/include");
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli/emit_other/3 part.c");
     let checked = ["cc", "gcc", "clang"].into_iter().find_map(|compiler| {
         let mut command = std::process::Command::new(compiler);

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 const SEEDED: usize = 64;
 
 fn file(target: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(target).with_extension("hex")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus").join(target).with_extension("hex")
 }
 
 /// The committed inputs of a target.

@@ -3,11 +3,12 @@
 use std::env;
 use std::process::{Command, ExitCode};
 
+use crate::cross::sysroot;
 use crate::process;
 use crate::steps::Steps;
 use crate::workspace;
 
-/// Formatting, tests, documentation: of the laboratory too.
+/// Formatting and tests: of the laboratory too.
 ///
 /// Each command is about the whole workspace. One about a part of it enables fewer features of the
 /// dependencies, and compiles them and the library again.
@@ -16,21 +17,29 @@ pub fn run(steps: &mut Steps) {
     steps.run("formatting of the firmware", || {
         process::run(cargo(&["fmt", "--all", "--check"]).current_dir(workspace::firmware()))
     });
-    steps.run("tests", || process::run(&mut cargo(&["test", "--workspace", "--no-fail-fast"])));
-    steps.run("documentation", || {
-        process::run(
-            cargo(&["doc", "--quiet", "--workspace", "--no-deps"])
-                .env("RUSTDOCFLAGS", "-D warnings"),
-        )
-    });
+    // Apart, so that the summary tells what compiling takes and what the tests themselves.
+    let test = ["test", "--workspace", "--no-fail-fast"];
+    let compile = || process::run(&mut cargo(&[&test[..], &["--quiet", "--no-run"]].concat()));
+    if steps.run("tests compile", compile).is_some() {
+        steps.run("tests pass", || process::run(&mut cargo(&test)));
+    }
 }
 
-/// Lints of the whole workspace. They compile nothing that the tests need, so they can wait until a
-/// processor is free.
+/// Lints and documentation of the whole workspace. They compile nothing that the tests need, so they
+/// can wait until a processor is free.
 pub fn lints(steps: &mut Steps) {
     steps.run("lints", || {
         let mut command = cargo(&["clippy", "--quiet", "--workspace", "--all-targets"]);
+        // The fuzzer is linted and not linked, so its own C++ need not be compiled.
+        command.env("CUSTOM_LIBFUZZER_PATH", workspace::target().join("libfuzzer.a"));
         process::run(command.args(["--", "-D", "warnings"]))
+    });
+    steps.run("documentation", || {
+        let mut command = cargo(&["doc", "--quiet", "--workspace", "--no-deps"]);
+        // What the lints were told: else each crate beneath a documented one is checked again.
+        command.env("RUSTC_WORKSPACE_WRAPPER", sysroot()?.join("bin/clippy-driver"));
+        command.env("CLIPPY_ARGS", "-D__CLIPPY_HACKERY__warnings__CLIPPY_HACKERY__");
+        process::run(command.env("RUSTDOCFLAGS", "-D warnings"))
     });
 }
 

@@ -191,7 +191,11 @@ pub fn own_version() -> Result<String, String> {
     Ok(process::capture(Command::new("rustc").arg("-V"))?.trim().to_owned())
 }
 
-fn sysroot() -> Result<PathBuf, String> {
+/// The folder of the toolchain in use.
+///
+/// # Errors
+/// It cannot be asked.
+pub fn sysroot() -> Result<PathBuf, String> {
     let printed = process::capture(Command::new("rustc").args(["--print", "sysroot"]))?;
     Ok(PathBuf::from(printed.trim()))
 }

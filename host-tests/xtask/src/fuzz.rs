@@ -38,20 +38,6 @@ pub fn run(steps: &mut Steps, minutes: u32, targets: &[&str]) {
     }
 }
 
-/// Checks that the program compiles, by the compiler of the tests and with the committed versions.
-///
-/// # Errors
-/// The compiler's.
-pub fn compiles() -> Result<(), String> {
-    let mut command = cargo(&["check", "--quiet", "--locked"]);
-    command.current_dir(crate_folder());
-    command.env("CARGO_TARGET_DIR", workspace::target().join("fuzz-check"));
-    command.env("CARGO_PROFILE_DEV_DEBUG", "false");
-    // Nothing is linked, so the fuzzer's own C++ need not be compiled.
-    command.env("CUSTOM_LIBFUZZER_PATH", folder().join("libfuzzer.a"));
-    process::capture(&mut command).map(drop)
-}
-
 /// The program of all targets, with coverage and address sanitizer.
 fn build() -> Result<PathBuf, String> {
     let nightly = || {

@@ -78,7 +78,6 @@ fn main() -> ExitCode {
                         c_checks::run(&mut steps, tools);
                         steps.run("the laboratory's images build", || rival::builds(tools));
                     }
-                    steps.run("the fuzzer compiles", fuzz::compiles);
                     let mut rows = Vec::new();
                     if let (Some(tools), Some(images)) = (&tools, images) {
                         rows = firmware::ask(&mut steps, tools, &images, Scope::Compared);
