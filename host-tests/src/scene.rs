@@ -9,6 +9,7 @@ use meshsweep_core::{Bvh, Hull};
 use crate::generate::corpus::add;
 use crate::generate::{Rng, Triangles};
 use crate::oracle::{Bounded, distance_to_mesh, distance_to_triangle};
+use std::sync::OnceLock;
 
 type Point = [f32; 3];
 
@@ -27,13 +28,22 @@ pub struct Scene {
     pub has_wires: bool,
     /// The same with f32 vertices, of [`Scene::both`] and [`Scene::moved`].
     pub f32_bytes: Vec<u8>,
+    /// What [`Scene::model`] opened.
+    model: OnceLock<Hull<'static>>,
 }
 
 impl Scene {
     fn new(name: impl Into<String>, (positions, triangles): Triangles) -> Self {
         let name = name.into();
         let (bytes, f32_bytes) = (Vec::new(), Vec::new());
-        Self { name, positions, triangles, bytes, has_wires: false, f32_bytes }
+        let model = OnceLock::new();
+        Self { name, positions, triangles, bytes, has_wires: false, f32_bytes, model }
+    }
+
+    /// A mesh to be measured, without a blob.
+    #[must_use]
+    pub fn of_mesh(name: &str, mesh: Triangles) -> Self {
+        Self::new(name, mesh)
     }
 
     /// A closed mesh with a hull hierarchy.
@@ -115,22 +125,25 @@ impl Scene {
         scene
     }
 
-    /// The hull hierarchy.
+    /// The hull hierarchy. It is opened once, of a copy that is never freed: to open it takes longer
+    /// than most questions.
     ///
     /// # Panics
     /// The scene has none.
     #[must_use]
     pub fn model(&self) -> Hull<'_> {
-        Hull::open(&self.bytes).expect("opens")
+        *self.model.get_or_init(|| {
+            Hull::open(Box::leak(self.bytes.clone().into_boxed_slice())).expect("opens")
+        })
     }
 
-    /// The box tree.
+    /// The box tree. It was checked when it was built: tests ask for it more often than for answers.
     ///
     /// # Panics
     /// The scene has none.
     #[must_use]
     pub fn bvh(&self) -> Bvh<'_> {
-        Bvh::open(&self.bytes).expect("opens")
+        Bvh::open_trusted(&self.bytes).expect("opens")
     }
 
     /// Both box trees: on a grid, then with f32 vertices.
@@ -139,7 +152,7 @@ impl Scene {
     /// The scene has only one.
     #[must_use]
     pub fn trees(&self) -> [Bvh<'_>; 2] {
-        [&self.bytes, &self.f32_bytes].map(|bytes| Bvh::open(bytes).expect("opens"))
+        [&self.bytes, &self.f32_bytes].map(|bytes| Bvh::open_trusted(bytes).expect("opens"))
     }
 
     /// Corners of a triangle.
@@ -283,8 +296,8 @@ fn tree_blob(
     options: &TreeOptions,
 ) -> Vec<u8> {
     let mesh = Mesh::new(positions.to_vec(), triangles.to_vec());
-    build_tree(meshsweep::mesh::Input { moved, ..mesh.as_input() }, options, Watch::NONE)
-        .expect("builds")
-        .0
-        .to_bytes()
+    let input = meshsweep::mesh::Input { moved, ..mesh.as_input() };
+    let bytes = build_tree(input, options, Watch::NONE).expect("builds").0.to_bytes();
+    assert!(Bvh::open(&bytes).is_ok(), "what the builder wrote opens");
+    bytes
 }

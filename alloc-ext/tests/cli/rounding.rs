@@ -27,7 +27,7 @@ fn every_command_that_reads_a_mesh_says_what_rounding_moved() {
     };
     let is_moved = |value: &Value| value.as_f64().is_some_and(|moved| moved > 1e-8);
     let of: [&[&str]; 8] = [
-        &["build", mesh, "-o", blob, "--for", "hull,tight,triboxes"],
+        &["build", mesh, "-o", blob, "--for", "hull,tight,triboxes", "--triboxes", "4"],
         &["build", mesh, "-o", blob, "--flash", "1M"],
         &["hull", mesh, "-o", ply],
         &["hull", mesh, "-o", ply, "--progressive", "--faces", "8"],

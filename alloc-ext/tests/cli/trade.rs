@@ -249,6 +249,10 @@ fn structures_of_two_meshes_have_the_verdicts_of_clearance() {
         told += 1;
     }
     assert_eq!(told, 4);
+    // The words depend on no mesh.
+    let cube = directory.join("cube.obj");
+    fs::write(&cube, CUBE).unwrap();
+    let pair = ["trade", arg(&cube), arg(&cube), "--poses", arg(&poses), "--keep", "1.25"];
     let text = ok([&pair[..], &["--cpu", "m0:48MHz"]].concat());
     assert!(text.contains("Cortex-M0") && text.contains("triboxes, 8 "), "{text}");
 }

@@ -24,14 +24,11 @@ pub fn distance_of_meshes(
     let second = corners(b, |p| Place::moved(p, rotation, translation));
     let stay = corners(a, Vector::new);
     let moved = corners(b, |p| moved_place(p, rotation, translation));
-    let [boxes, others] = [&first, &second].map(|t| t.iter().map(bounds).collect::<Vec<_>>());
-    let mut pairs = Vec::new();
-    for (i, near) in boxes.iter().enumerate() {
-        pairs.extend(others.iter().enumerate().map(|(j, other)| (gap(near, other), i, j)));
-    }
-    pairs.sort_unstable_by(|x, y| x.0.total_cmp(&y.0));
+    let boxes = |places: &[[Place; 3]]| {
+        places.iter().map(|t| bounds(&t.each_ref().map(|p| p.near))).collect()
+    };
     let mut best = Bounded { lower: f64::INFINITY, upper: f64::INFINITY };
-    for (gap, i, j) in pairs {
+    for (gap, i, j) in by_gap(boxes(&first), boxes(&second)) {
         if gap > best.upper {
             break;
         }
@@ -56,21 +53,35 @@ pub fn distance_of_moved_triangles(
     distance_of_triangles(&a.map(Vector::new), &b.map(|p| moved_place(p, rotation, translation)))
 }
 
-/// Distance of two meshes that do not meet, each moved by its own matrix and translation. Every
-/// pair of triangles is measured in 106 bits.
+/// Distance of two meshes that do not meet, each moved by its own matrix and translation. Cost:
+/// every pair of boxes, and 106 bits for the pairs that may be the nearest.
 #[must_use]
 pub fn distance_of_placed(a: (Mesh<'_>, &Pose), b: (Mesh<'_>, &Pose)) -> Bounded {
     let [first, second] = [a, b]
         .map(|(mesh, pose)| corners(mesh, |p| moved_place(p, &pose.rotation, pose.translation)));
+    let near = |v: &Vector| v.0.map(|x| x.hi);
+    let boxes =
+        |moved: &[[Vector; 3]]| moved.iter().map(|t| bounds(&t.each_ref().map(near))).collect();
     let mut best = Bounded { lower: f64::INFINITY, upper: f64::INFINITY };
-    for one in &first {
-        for other in &second {
-            let found = distance_of_triangles(one, other);
-            best.lower = best.lower.min(found.lower);
-            best.upper = best.upper.min(found.upper);
+    for (gap, i, j) in by_gap(boxes(&first), boxes(&second)) {
+        if gap > best.upper {
+            break;
         }
+        let found = distance_of_triangles(&first[i], &second[j]);
+        best.lower = best.lower.min(found.lower);
+        best.upper = best.upper.min(found.upper);
     }
     best
+}
+
+/// All pairs of boxes, the nearest first, each with a lower bound of its distance.
+fn by_gap(boxes: Vec<Box3>, others: Vec<Box3>) -> Vec<(f64, usize, usize)> {
+    let mut pairs = Vec::with_capacity(boxes.len() * others.len());
+    for (i, near) in boxes.iter().enumerate() {
+        pairs.extend(others.iter().enumerate().map(|(j, other)| (gap(near, other), i, j)));
+    }
+    pairs.sort_unstable_by(|x, y| x.0.total_cmp(&y.0));
+    pairs
 }
 
 fn moved_place(p: [f32; 3], rotation: &[[f32; 3]; 3], translation: [f32; 3]) -> Vector {
@@ -85,9 +96,9 @@ fn corners<T>((positions, triangles): Mesh<'_>, of: impl Fn([f32; 3]) -> T) -> V
 
 type Box3 = [[f64; 3]; 2];
 
-fn bounds(t: &[Place; 3]) -> Box3 {
+fn bounds(t: &[[f64; 3]; 3]) -> Box3 {
     let of = |pick: fn(f64, f64) -> f64| {
-        std::array::from_fn(|k| t.iter().map(|p| p.near[k]).reduce(pick).unwrap_or(0.0))
+        std::array::from_fn(|k| t.iter().map(|p| p[k]).reduce(pick).unwrap_or(0.0))
     };
     [of(f64::min), of(f64::max)]
 }

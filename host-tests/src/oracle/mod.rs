@@ -10,6 +10,7 @@ pub mod placed;
 mod polyline;
 pub mod polytope;
 mod segment;
+mod wide;
 mod winding;
 mod written;
 
@@ -21,5 +22,6 @@ pub use distance::{
 pub use double::{Double, Vector};
 pub use polyline::distance_to_segments;
 pub use segment::{Contact, contacts, gap_to_triangle, meets};
+pub use wide::distance_to_wide_mesh;
 pub use winding::winding_number;
 pub use written::Around;

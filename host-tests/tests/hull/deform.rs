@@ -13,6 +13,7 @@ use meshsweep_core::{
 };
 use meshsweep_host_tests::corrupt::{entry, put_u32, seal};
 use meshsweep_host_tests::generate::{Rng, Triangles, cube, icosphere, rough_sphere, torus};
+use meshsweep_host_tests::oracle::distance_to_wide_mesh;
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -55,36 +56,11 @@ fn wide(positions: &[[f32; 3]]) -> Vec<DVec3> {
     positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect()
 }
 
-/// Distance of `p` and a triangle, to some 1e-15 of the lengths: the foot on the plane if it lies
-/// inside, else the nearest edge.
-fn to_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
-    let to_edge = |from: DVec3, to: DVec3| {
-        let (d, s) = (to - from, p - from);
-        let t = if d == DVec3::ZERO { 0.0 } else { (d.dot(s) / d.dot(d)).clamp(0.0, 1.0) };
-        (s - d * t).length()
-    };
-    let normal = (b - a).cross(c - a);
-    let within = |from: DVec3, to: DVec3| (to - from).cross(normal).dot(p - from) <= 0.0;
-    let edges = to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a));
-    // The plane of a needle is not trusted.
-    let longest = (b - a).length_squared().max((c - a).length_squared());
-    if normal.length() > 1e-7 * longest && within(a, b) && within(b, c) && within(c, a) {
-        return edges.min((normal.dot(p - a) / normal.length()).abs());
-    }
-    edges
-}
-
-fn truth(p: [f32; 3], positions: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
-    let p = DVec3::from(p.map(f64::from));
-    let corners = triangles.iter().map(|t| t.map(|v| positions[v as usize]));
-    corners.map(|corners| to_triangle(p, corners)).fold(f64::INFINITY, f64::min)
-}
-
 /// Fails unless the interval contains the distance. `size`: that of the model and the question.
 fn holds(answer: &ClosestPoint, p: [f32; 3], positions: &[DVec3], triangles: &[[u32; 3]]) {
     let size = positions.iter().fold(0f64, |most, p| most.max(p.abs().max_element()));
     let slack = 1e-8 * 1e-5 * (size + f64::from(p.iter().fold(0f32, |m, x| m.max(x.abs()))));
-    let truth = truth(p, positions, triangles);
+    let truth = distance_to_wide_mesh(p, positions, triangles);
     let (lower, upper) = (f64::from(answer.distance.lower), f64::from(answer.distance.upper));
     assert!(lower <= truth + slack && truth - slack <= upper, "{p:?}: {truth:e}: {answer:?}");
 }

@@ -340,14 +340,7 @@ fn poses_that_cannot_be_answered_are_refused() {
 }
 
 fn triangle_scene(corners: Corners) -> Scene {
-    Scene {
-        name: "triangle".into(),
-        positions: corners.to_vec(),
-        triangles: vec![[0, 1, 2]],
-        has_wires: false,
-        bytes: Vec::new(),
-        f32_bytes: Vec::new(),
-    }
+    Scene::of_mesh("triangle", (corners.to_vec(), vec![[0, 1, 2]]))
 }
 
 fn ask_triangle(model: &Hull<'_>, corners: Corners) -> Decided<u32> {
