@@ -49,6 +49,15 @@ impl Quadric {
     }
 }
 
+/// The inverse. Written out, for versions of glam differ in the order of the determinant's products,
+/// and with it in the bits of blobs.
+fn inverse(m: &DMat3) -> DMat3 {
+    let (x, y, z) = (m.x_axis, m.y_axis, m.z_axis);
+    let (yz, zx, xy) = (y.cross(z), z.cross(x), x.cross(y));
+    let scale = DVec3::splat(z.dot(xy).recip());
+    DMat3::from_cols(yz * scale, zx * scale, xy * scale).transpose()
+}
+
 /// The quadrics of all vertices of a mesh.
 pub struct Quadrics {
     of_vertex: Vec<Quadric>,
@@ -111,7 +120,7 @@ impl Quadrics {
         grid: Option<&Grid>,
     ) -> Result<Placement, Refusal> {
         let quadric = self.of_vertex[a as usize].plus(self.of_vertex[b as usize]);
-        let best = quadric.a.inverse() * quadric.b;
+        let best = inverse(&quadric.a) * quadric.b;
         let middle = (at_a + at_b) * 0.5;
         let mut places: Vec<(f64, DVec3)> = [best, at_a, at_b, middle]
             .into_iter()
