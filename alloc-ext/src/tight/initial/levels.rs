@@ -15,7 +15,7 @@ type Faces = (Vec<DVec3>, Vec<[u32; 3]>);
 
 /// Faces of level 0 for a hull of `target` faces: enough to choose from, and no more, because each
 /// face costs a collapse against the mesh. `DESIGN.md`, "Moves", has what lost.
-fn ample_faces(target: usize) -> usize {
+pub(crate) fn ample_faces(target: usize) -> usize {
     if target <= 200 { 875 } else { target.saturating_add(target / 2).saturating_add(800) }
 }
 

@@ -25,4 +25,5 @@ mod voxel_closure;
 pub(crate) use closure_hull::{STAIR_CONDITIONS, closure_hull};
 pub(crate) use grown_box::grown_box;
 pub(crate) use initial_hull::{InitialHull, InitialInput};
+pub(crate) use levels::ample_faces;
 pub(crate) use lifted::{lift, lifted_levels};

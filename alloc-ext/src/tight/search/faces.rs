@@ -9,8 +9,9 @@
 //! | bounds a volume | levels of its own progressive hull; if they are stuck, the hulls of the last row until one reaches the goal; if none is proved, the last row |
 //! | any other | all compete: voxel closures from fine to coarse, the grown box |
 //!
-//! The coarsest closure is skipped once a hull has reached the goal. A hull that only comes up to
-//! the goal, by splits, reaches it always, and is not polished here.
+//! The coarsest closure is skipped once a hull has reached the goal, unless a finer closure failed
+//! and faces are not few. A hull that only comes up to the goal, by splits, reaches it always, and
+//! is not polished here.
 //!
 //! With few faces a coarse closure may come to less volume, because it has fewer handles and narrow
 //! places.
@@ -19,7 +20,9 @@ use super::candidate::{CandidateHull, keep_better};
 use super::hull_search::HullSearch;
 use crate::collapse::Conditions;
 use crate::error::BuildError;
-use crate::tight::initial::{InitialHull, InitialInput, closure_hull, grown_box, lifted_levels};
+use crate::tight::initial::{
+    InitialHull, InitialInput, ample_faces, closure_hull, grown_box, lifted_levels,
+};
 use crate::tight::moves::HullEditor;
 use crate::tight::report::{Outcome, Start};
 
@@ -27,8 +30,12 @@ use crate::tight::report::{Outcome, Start};
 /// grown box.
 const COARSER: [Option<usize>; 4] = [Some(40), Some(16), LAST_RESORT, None];
 
-/// A closure that is tried only where all before it got stuck.
+/// A closure that is tried only where one before it failed; for few faces, where all did.
 const LAST_RESORT: Option<usize> = Some(6);
+
+/// A level of a closure with more faces than this, in parts of those wanted, has too many handles to
+/// come down to few faces. It would take most of the time, and get stuck.
+const MOST_HANDLES: f64 = 1.5;
 
 /// Faces that the grown box is split to first, and the factor of each further step. If all splits
 /// came at once the first would decide, and no polish undoes them.
@@ -103,8 +110,10 @@ impl<'a> HullSearch<'a, '_> {
         // A level, or the closure for a large margin, needs no competitor once it reaches the goal.
         let is_enough = best.is_some() || large_margin.is_some();
         let all_compete = target.is_few() && !self.is_solid_itself(best.as_ref(), target);
+        let mut is_hard = false;
         for voxels in self.closures(target, large_margin) {
-            match self.next(voxels, best.as_ref(), !is_enough || all_compete) {
+            let is_skipped = voxels == LAST_RESORT && (target.is_few() || !is_hard);
+            match self.next(voxels, best.as_ref(), !is_enough || all_compete, is_skipped) {
                 Next::Try => {}
                 Next::Skip => continue,
                 Next::Stop => break,
@@ -120,8 +129,15 @@ impl<'a> HullSearch<'a, '_> {
                 ),
                 None => grown_box(&input),
             };
+            let comes_down = |initial: &InitialHull| {
+                let most = MOST_HANDLES * ample_faces(target.faces) as f64;
+                !target.descends || initial.shell.face_count() as f64 <= most
+            };
+            let initial = initial.filter(comes_down);
+            is_hard |= initial.is_none();
             if let Some(initial) = initial {
                 let hull = self.prepare(initial, target, best.as_ref());
+                is_hard |= hull.stop == Outcome::Stuck && best.is_none();
                 keep_better(&mut best, hull);
             }
         }
@@ -153,13 +169,14 @@ impl<'a> HullSearch<'a, '_> {
     /// | --- | --- | --- |
     /// | none | try | skip to the grown box, which is quick; stop if the caller wants no hull |
     /// | stuck | try | stop |
-    /// | reached, `is_open` | try all but the last resort | stop |
+    /// | reached, `is_open` | try unless `is_skipped` | stop |
     /// | reached, not `is_open` | stop | stop |
     fn next(
         &mut self,
         voxels: Option<usize>,
         best: Option<&CandidateHull<'a>>,
         is_open: bool,
+        is_skipped: bool,
     ) -> Next {
         let is_late = self.is_late();
         let Some(best) = best else {
@@ -175,7 +192,7 @@ impl<'a> HullSearch<'a, '_> {
         let is_reached = best.stop != Outcome::Stuck;
         if is_late || is_reached && !is_open {
             Next::Stop
-        } else if is_reached && voxels == LAST_RESORT {
+        } else if is_reached && is_skipped {
             Next::Skip
         } else {
             Next::Try
