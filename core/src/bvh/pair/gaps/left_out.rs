@@ -38,7 +38,7 @@ impl LeftOut<'_> {
         }
     }
 
-    /// Pairs were dropped for lack of scratch memory. It never gets them.
+    /// Pairs did not fit the search's stack, so they never reach these groups.
     pub(crate) fn overflow(&mut self) {
         self.is_lost |= !self.is_known;
     }

@@ -1,6 +1,6 @@
-//! The leaves that f32 cannot tell from the nearest ones: by their heights along directions in
-//! integers, and the triangles that these leave over in f64. `core/docs/rounding.md` §26, *The
-//! nearest triangles*.
+//! Finds the nearest triangles among the pairs of leaves that f32 left. Pairs that are far apart
+//! along an integer direction are not measured; the others are measured in f64.
+//! `core/docs/rounding.md` §26, *The nearest triangles*.
 
 use super::leaf_gaps::{LeafGaps, LeftOutPairs};
 use super::pair_keys::PAIRS;
@@ -18,9 +18,9 @@ pub(crate) struct NearestAlong<'a> {
     leaves: LeafGaps<'a>,
     /// The direction between the points measured last.
     between: WholeWay<'a>,
-    /// A pair of triangles that is at least so far apart is not measured.
+    /// A pair of triangles that is at least this far apart is not measured. Common units.
     lower: f64,
-    /// Some were not.
+    /// Pairs were skipped, and the question was not yet told.
     has_beyond: bool,
 }
 
@@ -41,7 +41,7 @@ impl<'a> NearestAlong<'a> {
         limit - lesser(coarser * WHOLE_GAP, limit * WHOLE_PART)
     }
 
-    /// The gap as computed that proves so much.
+    /// The computed gap that proves `lower`.
     fn far(&self) -> f64 {
         let rounding = self.leaves.pose.vertex_error_exact;
         self.lower + (rounding + rounding)
