@@ -5,8 +5,8 @@ use super::by_heights::visit_by_heights;
 use super::direction::Direction;
 use super::goal::{Candidates, Goal, Nearest, TrianglesAt, Wanted, square_up};
 use super::grid_pose::GridPose;
-use super::leaf_hulls::{LeafHull, LeafVisit, look};
-use super::node_boxes::{Children, Reach, open};
+use super::leaf_hulls::{HullVisit, LeafHull, visit_leaves_at};
+use super::node_boxes::{Children, PairLimit, push_children};
 use super::pending::Pending;
 use crate::bvh::pair::models::most_pairs;
 use crate::bvh::tree::triangle_at::TriangleAt;
@@ -97,9 +97,9 @@ pub(crate) fn nearest_leaves<'s>(
     };
     let far_sq = goal.limits.far_sq;
     let Wanted::Nearest(nearest) = goal.wanted else { return None };
-    let Nearest { best, mut candidates, is_cut, .. } = nearest;
+    let Nearest { best, mut candidates, is_touching, .. } = nearest;
     candidates.drop_beyond(far_sq);
-    let are_all = end.is_some() && !is_cut && !candidates.is_short;
+    let are_all = end.is_some() && !is_touching && !candidates.is_truncated;
     (best[0] != TriangleAt::NONE).then_some(NearestLeaves { best, candidates, are_all })
 }
 
@@ -146,12 +146,12 @@ fn visit_leaves(
         roots()?
     };
     loop {
-        let reach = Reach::of(pose, goal.far);
+        let limit = PairLimit::of(pose, goal.far);
         if let [Some(i), Some(j)] = [children[0].leaf(), children[1].leaf()] {
             let places =
                 [TriangleAt::new(children[0].node, i, 0), TriangleAt::new(children[1].node, j, 0)];
-            let visit = look(pose, goal, &mut hulls, places, direction.way, work)?;
-            let LeafVisit { goes_on, way } = visit;
+            let visit = visit_leaves_at(pose, goal, &mut hulls, places, direction.way, work)?;
+            let HullVisit { goes_on, way } = visit;
             if !goes_on {
                 return Some(());
             }
@@ -163,7 +163,7 @@ fn visit_leaves(
                 return None;
             }
             work.opened += 1;
-            open(pose, &children, direction, &reach, &mut pending, work)?;
+            push_children(pose, &children, direction, &limit, &mut pending, work)?;
         }
         if are_roots_next {
             (children, are_roots_next) = (roots()?, false);
