@@ -2,8 +2,8 @@
 //!
 //! A high leaf of each model along a direction gives a pair, and the pair gives the next direction.
 //! Along the direction of the nearest pair few leaves of either model stick out, most often: each
-//! of these is looked at with each of the other model. Else the descent of both trees follows, which
-//! begins with what was found. `core/docs/rounding.md` §26, *One tree at a time*.
+//! of these is looked at with each of the other model. Else the descent of both trees follows,
+//! which begins with what was found. `core/docs/rounding.md` §26, *One tree at a time*.
 
 use super::direction::{Direction, WholeDirection};
 use super::goal::{Goal, square_up};
