@@ -73,11 +73,6 @@ impl<'a> LeafGaps<'a> {
         question.take(&gap)
     }
 
-    fn without_rounding(&self, lower: f64) -> f64 {
-        let rounding = self.pose.vertex_error_exact;
-        greater(0.0, lower - (rounding + rounding))
-    }
-
     /// Visits the pairs of triangles of two leaves that may be within the limit. `settled`:
     /// skips these pairs, and ends after one that was measured. `keeps`: also finds a lower bound
     /// of the distance of both leaves.
@@ -170,7 +165,7 @@ impl<'a> LeafGaps<'a> {
         let [a, b] = pair.in_f64(i, j);
         let TriangleDistance { lower, mut upper, mut points } = triangle_distance(a, b, guesses);
         let rounding = self.pose.vertex_error_exact;
-        let lower = self.without_rounding(lower);
+        let lower = greater(0.0, lower - (rounding + rounding));
         upper += rounding + rounding;
         let mut meets = false;
         if lower <= 0.0 {

@@ -80,7 +80,6 @@ pub(crate) struct NearestLeaves<'s> {
 #[inline(never)]
 pub(crate) fn nearest_leaves<'s>(
     pose: &GridPose<'_>,
-    steps: u32,
     scratch: &'s mut [ScratchEntry],
     work: &mut Work,
 ) -> Option<NearestLeaves<'s>> {
@@ -93,7 +92,7 @@ pub(crate) fn nearest_leaves<'s>(
     } else {
         goal.forget();
         let start = (&mut direction, [TriangleAt::NONE; 2]);
-        visit_leaves(pose, &mut goal, start, steps, waiting, work)
+        visit_leaves(pose, &mut goal, start, u32::MAX, waiting, work)
     };
     let far_sq = goal.limits.far_sq;
     let Wanted::Nearest(nearest) = goal.wanted else { return None };
@@ -103,8 +102,8 @@ pub(crate) fn nearest_leaves<'s>(
     (best[0] != TriangleAt::NONE).then_some(NearestLeaves { best, candidates, are_all })
 }
 
-/// Visits every pair of leaves that may matter to the goal, until the goal is reached. `None` if
-/// steps or memory ended first, or a tree is unchecked.
+/// Runs [`visit_leaves`] from the direction and the leaves of `start`, and writes the last direction
+/// back.
 #[inline(never)]
 fn descend(
     pose: &GridPose<'_>,
@@ -125,6 +124,8 @@ fn descend(
     end
 }
 
+/// Visits every pair of leaves that may matter to the goal, until the goal is reached. `None` if
+/// steps or memory ended first, or a tree is unchecked.
 #[inline(never)]
 fn visit_leaves(
     pose: &GridPose<'_>,
