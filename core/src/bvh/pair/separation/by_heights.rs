@@ -140,16 +140,36 @@ impl<'a> ModelHeights<'a> {
     }
 }
 
-/// Gives the goal every pair of leaves that may matter to it. Returns `false` if they are left to
-/// the descent: the limit may be lower then, and `direction` is a good one.
+/// Gives the goal the pairs of leaves that may matter to it. Returns whether every pair that may
+/// matter was given. If not, the descent of both trees follows: the limit may have fallen, and
+/// `direction` is a good start.
 pub(super) fn visit_by_heights(
     pose: &GridPose<'_>,
     goal: &mut Goal<'_>,
     direction: &mut Direction,
     scratch: &mut [ScratchEntry],
     work: &mut Work,
-) -> Option<bool> {
+) -> bool {
     let mut hulls = [LeafHull::NONE; 2];
+    match turn_to_nearest_pair(pose, goal, &mut hulls, direction, work) {
+        Some(true) => {}
+        Some(false) => return true,
+        None => return false,
+    }
+    let Some(lists) = list_leaves(pose, goal, direction, scratch, work) else { return false };
+    visit_listed_pairs(pose, goal, &mut hulls, direction, lists, work).is_some()
+}
+
+/// Turns `direction` to that of a near pair of leaves. Returns whether the search goes on. `None`
+/// if the models overlap along a direction, or a tree is unchecked.
+#[inline(always)]
+fn turn_to_nearest_pair(
+    pose: &GridPose<'_>,
+    goal: &mut Goal<'_>,
+    hulls: &mut [LeafHull; 2],
+    direction: &mut Direction,
+    work: &mut Work,
+) -> Option<bool> {
     let mut last = [TriangleAt::NONE; 2];
     let mut along = *direction;
     let mut far = goal.far;
@@ -158,16 +178,16 @@ pub(super) fn visit_by_heights(
         let ((a, top_a), (b, top_b)) = (first.high_leaf(work)?, second.high_leaf(work)?);
         // Models that overlap along the direction have many leaves that stick out.
         if is_beyond(Real(top_a) + Real(top_b), dot(pose.shift, direction.way)) {
-            return Some(false);
+            return None;
         }
         if last == [a, b] {
             break;
         }
         last = [a, b];
         let HullVisit { goes_on, way } =
-            visit_leaves_at(pose, goal, &mut hulls, last, direction.way, work)?;
+            visit_leaves_at(pose, goal, hulls, last, direction.way, work)?;
         if !goes_on {
-            return Some(true);
+            return Some(false);
         }
         let Some(turned) = way.and_then(Direction::of) else { break };
         *direction = turned;
@@ -176,27 +196,54 @@ pub(super) fn visit_by_heights(
         }
     }
     *direction = along;
+    Some(true)
+}
+
+/// Lists the leaves of each model that may be within the limit along `along`. `None` if they are
+/// many, the models overlap along it, memory ends, or a tree is unchecked.
+#[inline(always)]
+fn list_leaves<'s>(
+    pose: &GridPose<'_>,
+    goal: &Goal<'_>,
+    along: &Direction,
+    scratch: &'s mut [ScratchEntry],
+    work: &mut Work,
+) -> Option<[&'s [ScratchEntry]; 2]> {
     let [first, second] = ModelHeights::of_both_models(pose, along.way)?;
     let ((_, top_a), (_, floor)) = (first.high_leaf(work)?, second.high_leaf(work)?);
     let (_, top_b) = second.leaves(floor, true, scratch, work)?;
-    let least_sum = least_sum_of_tops(pose, goal, &along);
+    let least_sum = least_sum_of_tops(pose, goal, along);
     if is_beyond(Real(top_a) + Real(top_b), dot(pose.shift, along.way)) {
-        return Some(false);
+        return None;
     }
     let (count_a, _) = first.leaves(least_sum - top_b, false, scratch, work)?;
     let (list_a, rest) = scratch.split_at_mut_checked(count_a)?;
     let top_a = list_a.iter().fold(f32::MIN, |top, entry| greater(Real(top), Real(entry.key())).0);
     let (count_b, _) = second.leaves(least_sum - top_a, false, rest, work)?;
     if count_a.saturating_mul(count_b) > MOST_PAIRS {
-        return Some(false);
+        return None;
     }
+    Some([list_a, rest.get(..count_b)?])
+}
+
+/// Gives the goal the pairs of listed leaves that may be within the limit. `None` if a tree is
+/// unchecked.
+#[inline(always)]
+fn visit_listed_pairs(
+    pose: &GridPose<'_>,
+    goal: &mut Goal<'_>,
+    hulls: &mut [LeafHull; 2],
+    along: &Direction,
+    [list_a, list_b]: [&[ScratchEntry]; 2],
+    work: &mut Work,
+) -> Option<()> {
     goal.forget();
     let mut start = along.way;
-    for second in rest.get(..count_b)? {
+    for second in list_b {
         let b = TriangleAt::of_word(second.node());
         let mut moved = None;
-        for first in list_a.iter() {
-            if is_beyond(Real(least_sum_of_tops(pose, goal, &along) - second.key()), first.key()) {
+        for first in list_a {
+            if is_beyond(Real(least_sum_of_tops(pose, goal, along) - second.key()), first.key()) {
                 continue;
             }
             let a = TriangleAt::of_word(first.node());
@@ -208,14 +255,14 @@ pub(super) fn visit_by_heights(
                 continue;
             }
             let HullVisit { goes_on, way } =
-                visit_leaves_at(pose, goal, &mut hulls, [a, b], start, work)?;
+                visit_leaves_at(pose, goal, hulls, [a, b], start, work)?;
             if !goes_on {
-                return Some(true);
+                return Some(());
             }
             start = way.unwrap_or(start);
         }
     }
-    Some(true)
+    Some(())
 }
 
 /// If the tops of two leaves along a direction add up to less than this, they are beyond the limit.

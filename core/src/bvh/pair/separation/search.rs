@@ -86,7 +86,7 @@ pub(crate) fn nearest_leaves<'s>(
     let (waiting, kept) = scratch.split_at_mut_checked(scratch.len() / 4 * 3)?;
     let mut goal = Goal::nearest(pose, kept);
     let mut direction = between_boxes(pose)?;
-    let is_done = visit_by_heights(pose, &mut goal, &mut direction, waiting, work) == Some(true);
+    let is_done = visit_by_heights(pose, &mut goal, &mut direction, waiting, work);
     let end = if is_done {
         Some(())
     } else {
@@ -102,8 +102,8 @@ pub(crate) fn nearest_leaves<'s>(
     (best[0] != TriangleAt::NONE).then_some(NearestLeaves { best, candidates, are_all })
 }
 
-/// Runs [`visit_leaves`] from the direction and the leaves of `start`, and writes the last direction
-/// back.
+/// Runs [`visit_leaves`] from the direction and the leaves of `start`, and writes the last
+/// direction back.
 #[inline(never)]
 fn descend(
     pose: &GridPose<'_>,
