@@ -255,11 +255,10 @@ fn keys_of_children(
 ) -> Option<(PairKeys, Option<u32>)> {
     let [a, b] = now.nodes;
     let [frame_a, frame_b] = &models.pose.frames;
-    let (count_a, count_b) = (models.a.links(a)?.count, models.b.links(b)?.count);
-    let first = AxisIntervals::of(frame_a, models.a.boxes(a)?, count_a)?;
-    let second = AxisIntervals::of(frame_b, models.b.boxes(b)?, count_b)?;
-    let below = |count: u32| u32::MAX >> (32 - count.clamp(1, 8));
-    let (rows, columns) = (below(count_a), below(count_b));
+    let (links_a, links_b) = (models.a.links(a)?, models.b.links(b)?);
+    let first = AxisIntervals::of(frame_a, models.a.boxes(a)?, links_a.count)?;
+    let second = AxisIntervals::of(frame_b, models.b.boxes(b)?, links_b.count)?;
+    let (rows, columns) = (links_a.mask(), links_b.mask());
     let all = (0..8).fold(0, |bits, i| bits | u64::from(columns * (rows >> i & 1)) << (8 * i));
     let wanted = now.wanted & all;
     work.bounds = work.bounds.saturating_add(wanted.count_ones());

@@ -13,7 +13,6 @@ use super::node_boxes::{NodeBoxes, PairLimit, bits, first_box, is_beyond, second
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::format::layout::MAX_TREE_DEPTH;
 use crate::bvh::tree::triangle_at::TriangleAt;
-use crate::geom::fan::WIDTH;
 use crate::geom::{columns, turned};
 use crate::num::{Real, dot, greater, lesser};
 use crate::query::{ScratchEntry, Work};
@@ -59,7 +58,7 @@ impl<'a> ModelHeights<'a> {
         for _ in 0..MAX_TREE_DEPTH {
             work.opened += 1;
             let links = self.tree.links(node)?;
-            let wanted = u32::MAX >> (32 - links.count.clamp(1, WIDTH as u32));
+            let wanted = links.mask();
             let tops = NodeBoxes::of(self.tree, node, self.origin)?.tops(self.way, 0.0, wanted);
             let mut best = 0;
             for i in bits(wanted) {
@@ -91,7 +90,7 @@ impl<'a> ModelHeights<'a> {
         for _ in 0..self.tree.most_steps() {
             work.opened += 1;
             let links = self.tree.links(node)?;
-            let wanted = u32::MAX >> (32 - links.count.clamp(1, WIDTH as u32));
+            let wanted = links.mask();
             let tops = NodeBoxes::of(self.tree, node, self.origin)?.tops(self.way, 0.0, wanted);
             let begun = waiting;
             for i in bits(wanted) {
@@ -228,7 +227,7 @@ fn list_leaves<'s>(
 
 /// Gives the goal the pairs of listed leaves that may be within the limit. `None` if a tree is
 /// unchecked.
-#[inline(always)]
+#[inline(never)]
 fn visit_listed_pairs(
     pose: &GridPose<'_>,
     goal: &mut Goal<'_>,

@@ -32,8 +32,7 @@ impl Children {
     #[inline(always)]
     pub(crate) fn of(tree: &Bvh<'_>, node: u32) -> Option<Children> {
         let links = tree.links(node)?;
-        let wanted = u32::MAX >> (32 - links.count.clamp(1, WIDTH as u32));
-        Some(Children { node, wanted, inner: links.inner, is_leaf: false })
+        Some(Children { node, wanted: links.mask(), inner: links.inner, is_leaf: false })
     }
 
     /// Child number `index` of a node: the child's children, or itself if it is a leaf.
@@ -117,6 +116,14 @@ impl<'a> NodeBoxes<'a> {
             Vec3::new(float(hx + lx), float(hy + ly), float(hz + lz)),
             Vec3::new(float(hx - lx), float(hy - ly), float(hz - lz)),
         ]
+    }
+
+    /// The box of child `i`, along the axes of its own grid.
+    #[inline(always)]
+    fn axis_box(&self, i: usize) -> AxisBox {
+        let [sum, length] = self.doubled(i);
+        let step = 0.5 * self.step;
+        AxisBox { middle: self.start + step * sum, half: step * length }
     }
 }
 
@@ -273,9 +280,7 @@ pub(super) fn bits(mut mask: u32) -> impl Iterator<Item = usize> {
 pub(super) fn first_box(pose: &GridPose<'_>, of: TriangleAt) -> Option<AxisBox> {
     let ([tree, _], [origin, _]) = (pose.trees, pose.origins);
     let boxes = NodeBoxes::of(tree, of.node(), origin)?;
-    let [sum, length] = boxes.doubled(of.child() as usize);
-    let step = 0.5 * boxes.step;
-    Some(AxisBox { middle: boxes.start + step * sum, half: step * length })
+    Some(boxes.axis_box(of.child() as usize))
 }
 
 /// The box around the box of a leaf of the second model.
@@ -288,10 +293,8 @@ pub(super) fn second_box(pose: &GridPose<'_>, of: TriangleAt) -> Option<AxisBox>
 #[inline(always)]
 fn along_axes(boxes: &NodeBoxes<'_>, wanted: u32) -> [AxisBox; WIDTH] {
     let mut found = [AxisBox::NONE; WIDTH];
-    let step = 0.5 * boxes.step;
     for i in bits(wanted) {
-        let [sum, length] = boxes.doubled(i);
-        found[i] = AxisBox { middle: boxes.start + step * sum, half: step * length };
+        found[i] = boxes.axis_box(i);
     }
     found
 }
