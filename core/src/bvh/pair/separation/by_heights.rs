@@ -226,7 +226,8 @@ fn list_leaves<'s>(
 }
 
 /// Gives the goal the pairs of listed leaves that may be within the limit. `None` if a tree is
-/// unchecked. Not inlined, so that its frame is not on the stack during the descent that may follow.
+/// unchecked. Not inlined, so that its frame is not on the stack during the descent that may
+/// follow.
 #[inline(never)]
 fn visit_listed_pairs(
     pose: &GridPose<'_>,
