@@ -184,7 +184,7 @@ impl Last {
 /// The groups of a [`CoherentPair`] during one search.
 struct PairFront<'f> {
     last: &'f mut Last,
-    left: LeftOut<'f>,
+    left_out: LeftOut<'f>,
     /// Groups at the start of the list that this search did not look at yet.
     unseen: usize,
 }
@@ -206,8 +206,8 @@ impl<'f> PairFront<'f> {
         } else {
             Last { of, pose: *pose, ..Last::NONE }
         };
-        let left = LeftOut { groups, count: last.count, is_lost: false, is_known: false };
-        PairFront { last, left, unseen: 0 }
+        let left_out = LeftOut { groups, count: last.count, is_truncated: false, is_known: false };
+        PairFront { last, left_out, unseen: 0 }
     }
 
     /// Searches the groups that may hold a pair within the question's limit.
@@ -218,16 +218,16 @@ impl<'f> PairFront<'f> {
     ) -> Result<Option<Missed>, QueryError> {
         // Only a threshold ends here: the limit of a distance is infinite before its first pair.
         let is_clear = less_path(self.last.least, self.last.path) > question.limit();
-        if self.left.count > 0 && is_clear {
+        if self.left_out.count > 0 && is_clear {
             return Ok(None);
         }
         self.subtract_path();
         let found = self.search_groups(search, question);
         self.last.leaves = question.leaves().or(self.last.leaves);
-        if self.left.is_lost || found.is_err() {
-            self.left.count = 0;
+        if self.left_out.is_truncated || found.is_err() {
+            self.left_out.count = 0;
         }
-        self.last.count = self.left.count;
+        self.last.count = self.left_out.count;
         self.last.least = least(self.known());
         found
     }
@@ -248,12 +248,12 @@ impl<'f> PairFront<'f> {
         // The last answer first. If the models still meet there, nothing else is searched.
         let mut known = self.last.leaves.filter(|_| !is_fresh);
         loop {
-            self.left.is_known = known.is_some();
+            self.left_out.is_known = known.is_some();
             let start = if let Some(leaves) = known.take() {
                 (leaves, 0.0)
             } else if is_fresh {
                 // The roots include the first group, so its pairs are searched again.
-                (self.left.count, self.unseen, self.left.is_lost) = (0, 0, false);
+                (self.left_out.count, self.unseen, self.left_out.is_truncated) = (0, 0, false);
                 missed = None;
                 (ChildPairs::ALL, 0.0)
             } else {
@@ -264,7 +264,7 @@ impl<'f> PairFront<'f> {
                     None => continue,
                 }
             };
-            match search.descend(start, question, Some(&mut self.left))? {
+            match search.descend(start, question, Some(&mut self.left_out))? {
                 PairDescent::Done => {}
                 PairDescent::Answered => return Ok(missed),
                 PairDescent::Truncated(now) => {
@@ -277,7 +277,7 @@ impl<'f> PairFront<'f> {
                     }
                 }
             }
-            if self.left.is_known {
+            if self.left_out.is_known {
                 continue;
             }
             is_fresh = is_first && !is_fresh && self.are_many_near(question.limit());
@@ -287,36 +287,36 @@ impl<'f> PairFront<'f> {
 
     /// The groups in use.
     fn known(&self) -> &[Group] {
-        self.left.groups.get(..self.left.count).unwrap_or(&[])
+        self.left_out.groups.get(..self.left_out.count).unwrap_or(&[])
     }
 
     /// Subtracts the path from all distances. The nearest group comes last: its triangles leave few
     /// of the others.
     fn subtract_path(&mut self) {
-        let (count, path) = (self.left.count, self.last.path);
+        let (count, path) = (self.left_out.count, self.last.path);
         (self.unseen, self.last.path) = (count, 0.0);
         let (mut nearest, mut least) = (0, f32::INFINITY);
-        for (i, group) in self.left.groups.iter_mut().take(count).enumerate() {
+        for (i, group) in self.left_out.groups.iter_mut().take(count).enumerate() {
             group.distance = down_to_f32(greater(0.0, less_path(group.distance, path)));
             if group.distance < least {
                 (nearest, least) = (i, group.distance);
             }
         }
-        if let Some([nearest, .., last]) = self.left.groups.get_mut(nearest..count) {
+        if let Some([nearest, .., last]) = self.left_out.groups.get_mut(nearest..count) {
             core::mem::swap(nearest, last);
         }
     }
 
     /// Removes a group if it may hold a pair within the limit.
     fn remove_near(&mut self, at: usize, limit: f64) -> Option<Group> {
-        let group = *self.left.groups.get(at)?;
+        let group = *self.left_out.groups.get(at)?;
         if f64::from(group.distance) > limit {
             return None;
         }
-        let end = self.left.count.checked_sub(1)?;
-        let last = *self.left.groups.get(end)?;
-        *self.left.groups.get_mut(at)? = last;
-        self.left.count = end;
+        let end = self.left_out.count.checked_sub(1)?;
+        let last = *self.left_out.groups.get(end)?;
+        *self.left_out.groups.get_mut(at)? = last;
+        self.left_out.count = end;
         Some(group)
     }
 

@@ -112,7 +112,7 @@ fn measure_nearest(
 ) -> bool {
     let trees = pair.trees;
     let Some(grid) = GridPose::of(trees, &FramePose::of(pose)) else { return false };
-    let found = nearest_leaves(&grid, u32::MAX, scratch, work);
+    let found = nearest_leaves(&grid, scratch, work);
     let Some(NearestLeaves { best, mut candidates, are_all }) = found else { return false };
     let mut leaves = pair.leaves();
     let [a, b] = trees;

@@ -36,8 +36,9 @@ impl Bvh<'_> {
     /// leave the question undecided. Of the budget only `steps` matters.
     ///
     /// Cost: one test of both models' boxes in f32 if they are farther apart; else a search in f32.
-    /// A search in f64 follows, with the steps that are left, in three cases: the distance is within
-    /// some surface errors of the one asked about, vertices are f32, or `scratch` is too short.
+    /// A search in f64 follows, with the steps that are left, in three cases: the distance is
+    /// within some surface errors of the one asked about, vertices are f32, or `scratch` is too
+    /// short.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Pose, Scratch};
@@ -68,8 +69,8 @@ impl Bvh<'_> {
         Ok(self.search_within_of(other, &pose, [distance, 0.0], budget, scratch)?.0)
     }
 
-    /// The same by the trees: in f32 first, then in f64. With a `No` a lower end of the distance, at
-    /// most `more` above the one asked about.
+    /// The same by the trees: in f32 first, then in f64. With a `No` a lower end of the distance,
+    /// at most `more` above the one asked about.
     pub(crate) fn search_within_of(
         &self,
         other: &Bvh<'_>,

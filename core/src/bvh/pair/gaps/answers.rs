@@ -21,7 +21,8 @@ pub(crate) fn nearest(
             let (lower, ended) = found.lower(missed.map(|missed| (missed.why, missed.lower)));
             if gap.meets { (gap, 0.0, Ended::Exact) } else { (gap, lower, ended) }
         }
-        // Nothing was measured, so both numbers bound all pairs.
+        // Nothing was measured, so `gap.lower` and `missed.lower` are both lower bounds; the
+        // greater counts.
         None => {
             let gap = from_afar(pair).ok_or(QueryError::Unchecked)?;
             let (bound, ended) = missed.map_or((0.0, Ended::Exact), |m| (m.lower, m.why));

@@ -22,22 +22,23 @@ use crate::query::{VertexPose, Work};
 use glam::Vec3;
 
 /// What a visit of two leaves showed.
-pub(crate) struct LeafVisit {
+pub(crate) struct GapVisit {
     pub(crate) goes_on: bool,
     /// A lower bound of the distance of both leaves, common units. 0 if nothing is kept.
     pub(crate) lower: f64,
-    /// The bits of the pairs of triangles that were measured, or are far apart.
+    /// A bit for each pair of triangles that was measured or proved far.
     pub(crate) pairs: u64,
-    /// There are some of the latter.
+    /// Some pairs were proved far and not measured.
     pub(crate) has_beyond: bool,
 }
 
 /// Pairs of triangles that need no visit.
 #[derive(Clone, Copy)]
-pub(crate) struct LeftOutPairs {
+pub(crate) struct SettledPairs {
     /// A bit for each.
     pub(crate) pairs: u64,
-    /// Others are left out too if they are so far apart, as computed along a direction in integers.
+    /// Other pairs are settled if their gap, as computed along a direction in integers, is at least
+    /// this. Common units.
     pub(crate) far: f64,
 }
 
@@ -72,47 +73,42 @@ impl<'a> LeafGaps<'a> {
         question.take(&gap)
     }
 
-    fn without_rounding(&self, lower: f64) -> f64 {
-        let rounding = self.pose.vertex_error_exact;
-        greater(0.0, lower - (rounding + rounding))
-    }
-
-    /// Visits the pairs of triangles of two leaves that may be within the limit. `left_out`: leaves
-    /// out some pairs, and ends after one that was measured. `keeps`: also finds a lower bound of
-    /// the distance of both leaves.
+    /// Visits the pairs of triangles of two leaves that may be within the limit. `settled`:
+    /// skips these pairs, and ends after one that was measured. `keeps`: also finds a lower bound
+    /// of the distance of both leaves.
     #[inline(never)]
     pub(crate) fn visit(
         &mut self,
         leaves: [&FanLeaf<'_>; 2],
         [first_at, second_at]: [TriangleAt; 2],
-        left_out: Option<LeftOutPairs>,
+        settled: Option<SettledPairs>,
         question: &mut PairQuestion<'_>,
         keeps: bool,
         work: &mut Work,
-    ) -> Option<LeafVisit> {
+    ) -> Option<GapVisit> {
         let [first, second] = leaves;
         let pair = LeafPair::new(self.pose, first, second);
         let error = self.pose.vertex_error;
         let margin =
             (error + error) + GAP_ALONG * U32 * greater(pair.a.max_norm(), pair.b.max_norm()) * 2.0;
-        let reach_sq = |question: &PairQuestion<'_>| {
+        let limit_sq_of = |question: &PairQuestion<'_>| {
             let grown_limit = (up_to_f32(question.limit()) + margin) * GAP_SLACK;
             grown_limit * grown_limit * GAP_SLACK
         };
-        let mut limit_sq = reach_sq(question);
-        let mut seen = Measured { pairs: 0, lower: f64::INFINITY, has_beyond: false };
-        let visit = |direction, goes_on, seen: &Measured| {
+        let mut limit_sq = limit_sq_of(question);
+        let mut seen = Settled { pairs: 0, lower: f64::INFINITY, has_beyond: false };
+        let visit = |direction, goes_on, seen: &Settled| {
             let lower = if keeps { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
-            Some(LeafVisit { goes_on, lower, pairs: seen.pairs, has_beyond: seen.has_beyond })
+            Some(GapVisit { goes_on, lower, pairs: seen.pairs, has_beyond: seen.has_beyond })
         };
         if !may_be_near(self.direction, limit_sq, &pair) {
             return visit(self.direction, true, &seen);
         }
         let (first, second) = (&pair.a, &pair.b);
         let near = pairs_along(self.direction, limit_sq, first, second);
-        let near = near & !left_out.map_or(0, |left_out| left_out.pairs);
-        let mut keys = keys(first, second, limit_sq, near)?;
-        if left_out.is_none() {
+        let near = near & !settled.map_or(0, |settled| settled.pairs);
+        let mut keys = keys_of_triangles(first, second, limit_sq, near)?;
+        if settled.is_none() {
             let pairs = (pair.a.triangles * pair.b.triangles) as u32;
             work.triangles = work.triangles.saturating_add(pairs);
         }
@@ -126,15 +122,15 @@ impl<'a> LeafGaps<'a> {
             let [i, j] = children_of(key);
             let place = [first_at.with_lane(i as usize), second_at.with_lane(j as usize)];
             let is_beyond = |own: &Option<WholeWay<'_>>| {
-                let (Some(own), Some(left_out)) = (own, left_out) else { return false };
-                own.is_beyond(left_out.far, leaves, place) == Some(true)
+                let (Some(own), Some(settled)) = (own, settled) else { return false };
+                own.is_beyond(settled.far, leaves, place) == Some(true)
             };
             // Triangles of one leaf that have the same face across are apart along its normal.
             let mut is_far = is_beyond(&own);
             let mut way = Vec3::ZERO;
             if !is_far {
                 way = self.way_between(&pair, place);
-                own = left_out.and_then(|_| WholeWay::of(self.pose, way));
+                own = settled.and_then(|_| WholeWay::of(self.pose, way));
                 is_far = is_beyond(&own);
             }
             if is_far {
@@ -144,16 +140,16 @@ impl<'a> LeafGaps<'a> {
             let gap = self.measured(&pair, place, way);
             work.exact = work.exact.saturating_add(1);
             self.turn_to(&gap);
-            seen = Measured {
+            seen = Settled {
                 pairs: seen.pairs | pair_bit(key),
                 lower: lesser(seen.lower, gap.lower),
                 ..seen
             };
             let goes_on = question.take(&gap);
-            if !goes_on || left_out.is_some() {
+            if !goes_on || settled.is_some() {
                 return visit(self.direction, goes_on, &seen);
             }
-            limit_sq = reach_sq(question);
+            limit_sq = limit_sq_of(question);
             keys.keep(pairs_along(self.direction, limit_sq, first, second));
         }
     }
@@ -164,12 +160,12 @@ impl<'a> LeafGaps<'a> {
         let [i, j] = place.map(TriangleAt::lane);
         let (first, second) = (pair.a.triangle(i), pair.b.triangle(j));
         let guesses = SLOPES_SQ.map(|slope_sq| {
-            [nearest_along(&first, way, slope_sq), nearest_along(&second, -way, slope_sq)]
+            [highest_corners(&first, way, slope_sq), highest_corners(&second, -way, slope_sq)]
         });
         let [a, b] = pair.in_f64(i, j);
         let TriangleDistance { lower, mut upper, mut points } = triangle_distance(a, b, guesses);
         let rounding = self.pose.vertex_error_exact;
-        let lower = self.without_rounding(lower);
+        let lower = greater(0.0, lower - (rounding + rounding));
         upper += rounding + rounding;
         let mut meets = false;
         if lower <= 0.0 {
@@ -214,9 +210,9 @@ impl<'a> LeafGaps<'a> {
 /// answer depends on them.
 const SLOPES_SQ: [f32; 2] = [1e-4, 1e-9];
 
-/// The corners of a triangle that are highest along a direction: no edge between two of them is
-/// steeper than a slope.
-fn nearest_along(triangle: &[Vec3; 3], way: Vec3, slope_sq: f32) -> u32 {
+/// A bit for each corner whose edge to the highest corner along `way` is no steeper than the slope.
+/// The highest corner is always among them.
+fn highest_corners(triangle: &[Vec3; 3], way: Vec3, slope_sq: f32) -> u32 {
     let heights = triangle.map(|corner| dot(corner, way));
     let way_sq = dot(way, way);
     let (mut top, mut most) = (Vec3::ZERO, f32::MIN);
@@ -239,12 +235,13 @@ fn meet(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], doubt: f64) -> bool {
     triangles_meet(*a, *b, doubt) == Contact::Meets
 }
 
-/// The pairs of triangles that were measured.
-struct Measured {
-    /// The bits of their keys.
+/// Pairs of triangles that need no further look.
+struct Settled {
+    /// A bit for each pair that was measured or proved far.
     pairs: u64,
-    /// The least lower end.
+    /// The least lower end of the measured pairs.
     lower: f64,
+    /// Some pairs were proved far and not measured.
     has_beyond: bool,
 }
 
@@ -254,9 +251,9 @@ fn least_distance(
     pair: &LeafPair<'_>,
     direction: [f32; 3],
     margin: f32,
-    seen: &Measured,
+    seen: &Settled,
 ) -> Option<f64> {
-    let mut keys = keys(&pair.a, &pair.b, f32::INFINITY, u64::MAX)?;
+    let mut keys = keys_of_triangles(&pair.a, &pair.b, f32::INFINITY, u64::MAX)?;
     raise_keys_along(&mut keys, direction, pair);
     for (i, key) in keys.0.iter_mut().enumerate() {
         *key = if seen.pairs >> (i & (PAIRS - 1)) & 1 != 0 { NO_PAIR } else { *key };
@@ -272,7 +269,12 @@ fn least_distance(
 /// limit must have room for their error.
 #[cfg_attr(meshsweep_small, inline(never))]
 #[cfg_attr(not(meshsweep_small), inline(always))]
-pub(crate) fn keys(a: &Corners, b: &Corners, limit_sq: f32, wanted: u64) -> Option<PairKeys> {
+pub(crate) fn keys_of_triangles(
+    a: &Corners,
+    b: &Corners,
+    limit_sq: f32,
+    wanted: u64,
+) -> Option<PairKeys> {
     let (first, second) = (TriangleBoxes::of(a)?, TriangleBoxes::of(b)?);
     let mut keys = PairKeys([NO_PAIR; WIDTH * WIDTH]);
     let rows = keys.0.as_chunks_mut::<WIDTH>().0.iter_mut();

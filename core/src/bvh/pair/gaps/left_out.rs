@@ -8,7 +8,7 @@ pub(crate) struct LeftOut<'f> {
     /// Groups in use.
     pub(crate) count: usize,
     /// A group did not fit.
-    pub(crate) is_lost: bool,
+    pub(crate) is_truncated: bool,
     /// Groups already hold what is searched.
     pub(crate) is_known: bool,
 }
@@ -34,13 +34,13 @@ impl LeftOut<'_> {
                 *slot = group;
                 self.count += 1;
             }
-            None => self.is_lost = true,
+            None => self.is_truncated = true,
         }
     }
 
-    /// Pairs were dropped for lack of scratch memory. It never gets them.
+    /// Pairs did not fit the search's stack, so they never reach these groups.
     pub(crate) fn overflow(&mut self) {
-        self.is_lost |= !self.is_known;
+        self.is_truncated |= !self.is_known;
     }
 }
 

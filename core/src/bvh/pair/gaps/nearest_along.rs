@@ -1,8 +1,8 @@
-//! The leaves that f32 cannot tell from the nearest ones: by their heights along directions in
-//! integers, and the triangles that these leave over in f64. `core/docs/rounding.md` §26, *The
-//! nearest triangles*.
+//! Finds the nearest triangles among the pairs of leaves that f32 left. Pairs that are far apart
+//! along an integer direction are not measured; the others are measured in f64.
+//! `core/docs/rounding.md` §26, *The nearest triangles*.
 
-use super::leaf_gaps::{LeafGaps, LeftOutPairs};
+use super::leaf_gaps::{LeafGaps, SettledPairs};
 use super::pair_keys::PAIRS;
 use super::question::{PairQuestion, TriangleGap};
 use super::whole_way::WholeWay;
@@ -18,9 +18,9 @@ pub(crate) struct NearestAlong<'a> {
     leaves: LeafGaps<'a>,
     /// The direction between the points measured last.
     between: WholeWay<'a>,
-    /// A pair of triangles that is at least so far apart is not measured.
+    /// A pair of triangles that is at least this far apart is not measured. Common units.
     lower: f64,
-    /// Some were not.
+    /// Pairs were skipped, and the question was not yet told.
     has_beyond: bool,
 }
 
@@ -41,7 +41,7 @@ impl<'a> NearestAlong<'a> {
         limit - lesser(coarser * WHOLE_GAP, limit * WHOLE_PART)
     }
 
-    /// The gap as computed that proves so much.
+    /// The computed gap that proves `lower`.
     fn far(&self) -> f64 {
         let rounding = self.leaves.pose.vertex_error_exact;
         self.lower + (rounding + rounding)
@@ -70,19 +70,19 @@ impl<'a> NearestAlong<'a> {
         let triangles = leaves.map(|leaf| leaf.shape().triangles());
         let pairs = triangles[0].saturating_mul(triangles[1]);
         work.triangles = work.triangles.saturating_add(pairs as u32);
-        let mut left_out = !pairs_of(triangles);
+        let mut settled = !pairs_of(triangles);
         if measured.map(|at| at.with_lane(0)) == places.map(|at| at.with_lane(0)) {
-            left_out |= 1u64 << ((measured[0].lane() * WIDTH + measured[1].lane()) & (PAIRS - 1));
+            settled |= 1u64 << ((measured[0].lane() * WIDTH + measured[1].lane()) & (PAIRS - 1));
         }
         loop {
             let beyond = self.between.pairs_beyond(leaves, places)?;
-            self.has_beyond |= beyond & !left_out != 0;
-            left_out |= beyond;
-            if left_out == u64::MAX {
+            self.has_beyond |= beyond & !settled != 0;
+            settled |= beyond;
+            if settled == u64::MAX {
                 return Some(true);
             }
             self.tell(places, question);
-            let some = Some(LeftOutPairs { pairs: left_out, far: self.far() });
+            let some = Some(SettledPairs { pairs: settled, far: self.far() });
             let visit = self.leaves.visit(leaves, places, some, question, false, work)?;
             if visit.has_beyond {
                 self.has_beyond = true;
@@ -91,7 +91,7 @@ impl<'a> NearestAlong<'a> {
             if !visit.goes_on || visit.pairs == 0 {
                 return Some(visit.goes_on);
             }
-            left_out |= visit.pairs;
+            settled |= visit.pairs;
             self.lower = self.lower_of(question);
             if let Some(new) = WholeWay::new(self.leaves.pose, self.leaves.offset) {
                 self.between = new;

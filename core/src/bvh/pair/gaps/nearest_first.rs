@@ -4,7 +4,7 @@
 //! 64 bits with the least of their keys. Their keys are computed again when their turn comes, so a
 //! pair of nodes that waits takes three scratch entries however many children wait.
 
-use super::leaf_gaps::{LeafGaps, LeafVisit};
+use super::leaf_gaps::{GapVisit, LeafGaps};
 use super::left_out::{ChildPairs, LeftOut};
 use super::pair_keys::{
     NO_PAIR, PairKeys, bound_of, children_of, distance_of, key_limit, pair_bit, second_factor,
@@ -73,11 +73,11 @@ impl PendingPairs {
     }
 
     #[inline(always)]
-    fn leave_to(self, left: &mut Option<&mut LeftOut<'_>>) {
-        if let Some(left) = left
+    fn leave_to(self, left_out: &mut Option<&mut LeftOut<'_>>) {
+        if let Some(left_out) = left_out
             && self.pairs.wanted != 0
         {
-            left.keep(self.pairs, distance_of(self.key));
+            left_out.keep(self.pairs, distance_of(self.key));
         }
     }
 }
@@ -105,12 +105,12 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// Visits every pair of leaves below `start` that may be within the question's limit. What the
-    /// limit left out goes to `left`. None of `start` is nearer than `distance`, common units.
+    /// limit left out goes to `left_out`. None of `start` is nearer than `distance`, common units.
     pub(crate) fn descend(
         &mut self,
         (start, distance): (ChildPairs, f32),
         question: &mut PairQuestion<'_>,
-        mut left: Option<&mut LeftOut<'_>>,
+        mut left_out: Option<&mut LeftOut<'_>>,
     ) -> Result<PairDescent, QueryError> {
         let Search { models, leaves, work, .. } = self;
         let steps = lesser(self.steps, work.opened.saturating_add(most_pairs(models.a, models.b)));
@@ -126,8 +126,8 @@ impl<'s, 'a> Search<'s, 'a> {
             if work.opened >= steps {
                 let waiting = stack.iter().take(used).map(|entries| PendingPairs::of(entries).key);
                 let key = waiting.fold(now.key.min(dropped), u32::min);
-                now.leave_to(&mut left);
-                leave_all(stack, used, &mut left);
+                now.leave_to(&mut left_out);
+                leave_all(stack, used, &mut left_out);
                 return Ok(PairDescent::Truncated(Missed {
                     why: Ended::Steps,
                     lower: distance_of(key),
@@ -135,7 +135,7 @@ impl<'s, 'a> Search<'s, 'a> {
             }
             work.opened += 1;
             let (mut keys, deepest) =
-                keys(models, &now.pairs, factor, work).ok_or(QueryError::Unchecked)?;
+                keys_of_children(models, &now.pairs, factor, work).ok_or(QueryError::Unchecked)?;
             let nodes = now.pairs.nodes;
             let mut preferred = deepest;
             let mut down = None;
@@ -175,27 +175,27 @@ impl<'s, 'a> Search<'s, 'a> {
                 let ([node_a, node_b], [index_a, index_b]) = (nodes, indices);
                 let place =
                     [TriangleAt::new(node_a, index_a, 0), TriangleAt::new(node_b, index_b, 0)];
-                let visit = leaves.visit([&p, &q], place, None, question, left.is_some(), work);
-                let LeafVisit { goes_on, lower, .. } = visit.ok_or(QueryError::Unchecked)?;
-                if let Some(left) = &mut left {
-                    left.keep(ChildPairs { nodes, wanted: pair_bit(key) }, lower);
+                let visit = leaves.visit([&p, &q], place, None, question, left_out.is_some(), work);
+                let GapVisit { goes_on, lower, .. } = visit.ok_or(QueryError::Unchecked)?;
+                if let Some(left_out) = &mut left_out {
+                    left_out.keep(ChildPairs { nodes, wanted: pair_bit(key) }, lower);
                 }
                 if !goes_on {
                     let (wanted, _) = keys.up_to(NO_PAIR - 1);
                     PendingPairs { key: now.key, pairs: ChildPairs { nodes, wanted } }
-                        .leave_to(&mut left);
-                    leave_all(stack, used, &mut left);
+                        .leave_to(&mut left_out);
+                    leave_all(stack, used, &mut left_out);
                     return Ok(PairDescent::Answered);
                 }
             }
             let limit = limit_of(question);
             let (near, key) = keys.up_to(limit);
             // Pairs beyond the limit are left out together with the others.
-            let wanted = if left.is_some() { keys.up_to(NO_PAIR - 1).0 } else { near };
+            let wanted = if left_out.is_some() { keys.up_to(NO_PAIR - 1).0 } else { near };
             let rest =
                 PendingPairs { key: bound_of(key).to_bits(), pairs: ChildPairs { nodes, wanted } };
             if near == 0 {
-                rest.leave_to(&mut left);
+                rest.leave_to(&mut left_out);
             }
             if let Some(next) = down {
                 if near != 0 {
@@ -206,8 +206,8 @@ impl<'s, 'a> Search<'s, 'a> {
                         }
                         None => {
                             dropped = dropped.min(rest.key);
-                            if let Some(left) = &mut left {
-                                left.overflow();
+                            if let Some(left_out) = &mut left_out {
+                                left_out.overflow();
                             }
                         }
                     }
@@ -228,7 +228,7 @@ impl<'s, 'a> Search<'s, 'a> {
                 if waiting.key <= limit {
                     break waiting;
                 }
-                waiting.leave_to(&mut left);
+                waiting.leave_to(&mut left_out);
             };
         }
     }
@@ -236,14 +236,18 @@ impl<'s, 'a> Search<'s, 'a> {
 
 /// Leaves out all pairs that wait.
 #[inline(always)]
-fn leave_all(stack: &[[ScratchEntry; ENTRIES]], used: usize, left: &mut Option<&mut LeftOut<'_>>) {
-    stack.iter().take(used).for_each(|entries| PendingPairs::of(entries).leave_to(left));
+fn leave_all(
+    stack: &[[ScratchEntry; ENTRIES]],
+    used: usize,
+    left_out: &mut Option<&mut LeftOut<'_>>,
+) {
+    stack.iter().take(used).for_each(|entries| PendingPairs::of(entries).leave_to(left_out));
 }
 
 /// Keys of the pairs that wait. Of boxes that meet, the key of the pair that overlaps most:
 /// surfaces most often meet there.
 #[inline(always)]
-fn keys(
+fn keys_of_children(
     models: &Models<'_>,
     now: &ChildPairs,
     factor: f32,
@@ -251,11 +255,10 @@ fn keys(
 ) -> Option<(PairKeys, Option<u32>)> {
     let [a, b] = now.nodes;
     let [frame_a, frame_b] = &models.pose.frames;
-    let (count_a, count_b) = (models.a.links(a)?.count, models.b.links(b)?.count);
-    let first = AxisIntervals::of(frame_a, models.a.boxes(a)?, count_a)?;
-    let second = AxisIntervals::of(frame_b, models.b.boxes(b)?, count_b)?;
-    let below = |count: u32| u32::MAX >> (32 - count.clamp(1, 8));
-    let (rows, columns) = (below(count_a), below(count_b));
+    let (links_a, links_b) = (models.a.links(a)?, models.b.links(b)?);
+    let first = AxisIntervals::of(frame_a, models.a.boxes(a)?, links_a.count)?;
+    let second = AxisIntervals::of(frame_b, models.b.boxes(b)?, links_b.count)?;
+    let (rows, columns) = (links_a.mask(), links_b.mask());
     let all = (0..8).fold(0, |bits, i| bits | u64::from(columns * (rows >> i & 1)) << (8 * i));
     let wanted = now.wanted & all;
     work.bounds = work.bounds.saturating_add(wanted.count_ones());

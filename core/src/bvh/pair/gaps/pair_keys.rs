@@ -122,7 +122,8 @@ impl PairKeys {
         }
     }
 
-    /// The pairs up to a limit, as bits, and the least of their keys.
+    /// The bits of the pairs with keys up to a limit, and the least key of all pairs. If no bit is
+    /// set, this key is above the limit.
     #[inline(always)]
     pub(crate) fn up_to(&self, limit: u32) -> (u64, u32) {
         let (mut bits, mut least) = (0u64, NO_PAIR);

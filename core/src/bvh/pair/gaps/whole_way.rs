@@ -24,8 +24,8 @@ pub(crate) struct WholeWay<'a> {
     /// The height of the second grid's origin, and the length of `way`.
     shift: f64,
     length: f64,
-    /// Heights of both models that add up to no more are far enough apart.
-    left: f64,
+    /// Pairs with heights that add up to no more than this are far enough apart.
+    least_sum: f64,
     /// The last leaf of each model.
     kept: [WholeTops; 2],
 }
@@ -64,14 +64,14 @@ impl<'a> WholeWay<'a> {
             back_unit,
             shift: (x * u + y * v) + z * w,
             length,
-            left: f64::NEG_INFINITY,
+            least_sum: f64::NEG_INFINITY,
             kept: [WholeTops::NONE; 2],
         })
     }
 
     /// From now on pairs at least so far apart are wanted, common units.
     pub(crate) fn set_far(&mut self, far: f64) {
-        self.left = self.shift - far * self.length;
+        self.least_sum = self.shift - far * self.length;
     }
 
     /// Whether two triangles are at least so far apart, common units.
@@ -84,8 +84,8 @@ impl<'a> WholeWay<'a> {
         let [unit, _] = self.pose.units.map(f64::from);
         let top = top_of(first, i.lane(), self.way)?;
         let back = top_of(second, j.lane(), self.back)?;
-        let left = self.shift - far * self.length;
-        Some(left - back as f64 * self.back_unit >= top as f64 * unit)
+        let least_sum = self.shift - far * self.length;
+        Some(least_sum - back as f64 * self.back_unit >= top as f64 * unit)
     }
 
     /// The bits of the pairs of triangles that are far enough apart. All bits are ones if all pairs
@@ -100,7 +100,7 @@ impl<'a> WholeWay<'a> {
         tops.set(a, first, self.way)?;
         backs.set(b, second, self.back)?;
         let top = |x: i64| x as f64 * unit;
-        let back = |x: i64| self.left - x as f64 * self.back_unit;
+        let back = |x: i64| self.least_sum - x as f64 * self.back_unit;
         let least = back(backs.most);
         if least >= top(tops.most) {
             return Some(u64::MAX);

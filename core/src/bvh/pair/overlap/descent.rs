@@ -133,9 +133,9 @@ impl Models<'_> {
     #[inline(always)]
     fn pairs(&self, nodes: [u32; 2], wanted: [u32; 2], work: &mut Work) -> Option<Pairs> {
         let side = |tree: &Bvh<'_>, which: usize| {
-            let (count, boxes) = (tree.links(nodes[which])?.count, tree.boxes(nodes[which])?);
-            let intervals = AxisIntervals::of(&self.pose.frames[which], boxes, count)?;
-            Some((intervals, u32::MAX >> (32 - count.clamp(1, 8)) & wanted[which]))
+            let (links, boxes) = (tree.links(nodes[which])?, tree.boxes(nodes[which])?);
+            let intervals = AxisIntervals::of(&self.pose.frames[which], boxes, links.count)?;
+            Some((intervals, links.mask() & wanted[which]))
         };
         let ((first, rows), (second, columns)) = (side(self.a, 0)?, side(self.b, 1)?);
         work.bounds = work.bounds.saturating_add(rows.count_ones() * columns.count_ones());

@@ -1,62 +1,64 @@
 //! The nearest leaves by their heights along one direction, one tree at a time.
 //!
 //! A high leaf of each model along a direction gives a pair, and the pair gives the next direction.
-//! Along the direction of the nearest pair few leaves of either model stick out, most often: each of
-//! these is looked at with each of the other model. Else the descent of both trees follows, which
-//! begins with what was found. `core/docs/rounding.md` §26, *One tree at a time*.
+//! Along the direction of the nearest pair few leaves of either model stick out, most often: each
+//! of these is looked at with each of the other model. Else the descent of both trees follows,
+//! which begins with what was found. `core/docs/rounding.md` §26, *One tree at a time*.
 
 use super::direction::{Direction, WholeDirection};
 use super::goal::{Goal, square_up};
 use super::grid_pose::GridPose;
-use super::leaf_hulls::{LeafHull, LeafVisit, look};
-use super::node_boxes::{NodeBoxes, Reach, bits, first_box, is_beyond, second_box};
+use super::leaf_hulls::{HullVisit, LeafHull, visit_leaves_at};
+use super::node_boxes::{NodeBoxes, PairLimit, bits, first_box, is_beyond, second_box};
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::format::layout::MAX_TREE_DEPTH;
 use crate::bvh::tree::triangle_at::TriangleAt;
-use crate::geom::fan::WIDTH;
 use crate::geom::{columns, turned};
 use crate::num::{Real, dot, greater, lesser};
 use crate::query::{ScratchEntry, Work};
 use glam::Vec3;
 
-/// Most directions that are tried. No answer depends on it but the nearest triangles of several.
+/// Most directions that are tried before leaves are listed. Each costs a walk down both trees and a
+/// look at two leaves. Only which of several equally near triangles is named depends on this
+/// number.
 const MOST_ROUNDS: u32 = 3;
 
-/// More pairs of leaves are left to the descent.
+/// Most pairs of listed leaves that are compared one by one. More pairs are left to the descent,
+/// which drops many at once by the boxes of nodes.
 const MOST_PAIRS: usize = 512;
 
-/// More leaves of a model are left to the descent. Measured on an arm: twice as many lists cost more
-/// than they save.
+/// Most leaves that are listed of a model. If there are more, the descent follows, and the list was
+/// in vain. On an arm lists of up to 100 leaves cost more than they saved.
 const MOST_LEAVES: usize = 48;
 
 /// The heights of one model along a direction, in its own grid.
-struct Climb<'a> {
+struct ModelHeights<'a> {
     tree: &'a Bvh<'a>,
     origin: Vec3,
     way: Vec3,
     whole: WholeDirection,
 }
 
-impl<'a> Climb<'a> {
-    fn both(pose: &GridPose<'a>, way: Vec3) -> Option<[Climb<'a>; 2]> {
+impl<'a> ModelHeights<'a> {
+    fn of_both_models(pose: &GridPose<'a>, way: Vec3) -> Option<[ModelHeights<'a>; 2]> {
         let ([a, b], [origin_a, origin_b]) = (pose.trees, pose.origins);
         // From the second model to the first, in the frame of the second grid.
         let back = -turned(&columns(&pose.rows), way);
         let (first, second) = (WholeDirection::of(way)?, WholeDirection::of(back)?);
         Some([
-            Climb { tree: a, origin: origin_a, way, whole: first },
-            Climb { tree: b, origin: origin_b, way: back, whole: second },
+            ModelHeights { tree: a, origin: origin_a, way, whole: first },
+            ModelHeights { tree: b, origin: origin_b, way: back, whole: second },
         ])
     }
 
     /// A high leaf, and an upper bound of its height. The highest child of each node is followed.
     #[inline(never)]
-    fn high(&self, work: &mut Work) -> Option<(TriangleAt, f32)> {
+    fn high_leaf(&self, work: &mut Work) -> Option<(TriangleAt, f32)> {
         let mut node = 0;
         for _ in 0..MAX_TREE_DEPTH {
             work.opened += 1;
             let links = self.tree.links(node)?;
-            let wanted = u32::MAX >> (32 - links.count.clamp(1, WIDTH as u32));
+            let wanted = links.mask();
             let tops = NodeBoxes::of(self.tree, node, self.origin)?.tops(self.way, 0.0, wanted);
             let mut best = 0;
             for i in bits(wanted) {
@@ -88,7 +90,7 @@ impl<'a> Climb<'a> {
         for _ in 0..self.tree.most_steps() {
             work.opened += 1;
             let links = self.tree.links(node)?;
-            let wanted = u32::MAX >> (32 - links.count.clamp(1, WIDTH as u32));
+            let wanted = links.mask();
             let tops = NodeBoxes::of(self.tree, node, self.origin)?.tops(self.way, 0.0, wanted);
             let begun = waiting;
             for i in bits(wanted) {
@@ -137,33 +139,54 @@ impl<'a> Climb<'a> {
     }
 }
 
-/// Gives the goal every pair of leaves that may matter to it. Returns `false` if they are left to
-/// the descent: the limit may be lower then, and `direction` is a good one.
+/// Gives the goal the pairs of leaves that may matter to it. Returns whether every pair that may
+/// matter was given. If not, the descent of both trees follows: the limit may have fallen, and
+/// `direction` is a good start.
 pub(super) fn visit_by_heights(
     pose: &GridPose<'_>,
     goal: &mut Goal<'_>,
     direction: &mut Direction,
     scratch: &mut [ScratchEntry],
     work: &mut Work,
-) -> Option<bool> {
+) -> bool {
     let mut hulls = [LeafHull::NONE; 2];
+    match turn_to_nearest_pair(pose, goal, &mut hulls, direction, work) {
+        Some(true) => {}
+        Some(false) => return true,
+        None => return false,
+    }
+    let Some(lists) = list_leaves(pose, goal, direction, scratch, work) else { return false };
+    visit_listed_pairs(pose, goal, &mut hulls, direction, lists, work).is_some()
+}
+
+/// Turns `direction` to that of a near pair of leaves. Returns whether the search goes on. `None`
+/// if the models overlap along a direction, or a tree is unchecked.
+#[inline(always)]
+fn turn_to_nearest_pair(
+    pose: &GridPose<'_>,
+    goal: &mut Goal<'_>,
+    hulls: &mut [LeafHull; 2],
+    direction: &mut Direction,
+    work: &mut Work,
+) -> Option<bool> {
     let mut last = [TriangleAt::NONE; 2];
     let mut along = *direction;
     let mut far = goal.far;
     for _ in 0..MOST_ROUNDS {
-        let [first, second] = Climb::both(pose, direction.way)?;
-        let ((a, top_a), (b, top_b)) = (first.high(work)?, second.high(work)?);
+        let [first, second] = ModelHeights::of_both_models(pose, direction.way)?;
+        let ((a, top_a), (b, top_b)) = (first.high_leaf(work)?, second.high_leaf(work)?);
         // Models that overlap along the direction have many leaves that stick out.
         if is_beyond(Real(top_a) + Real(top_b), dot(pose.shift, direction.way)) {
-            return Some(false);
+            return None;
         }
         if last == [a, b] {
             break;
         }
         last = [a, b];
-        let LeafVisit { goes_on, way } = look(pose, goal, &mut hulls, last, direction.way, work)?;
+        let HullVisit { goes_on, way } =
+            visit_leaves_at(pose, goal, hulls, last, direction.way, work)?;
         if !goes_on {
-            return Some(true);
+            return Some(false);
         }
         let Some(turned) = way.and_then(Direction::of) else { break };
         *direction = turned;
@@ -172,27 +195,55 @@ pub(super) fn visit_by_heights(
         }
     }
     *direction = along;
-    let [first, second] = Climb::both(pose, along.way)?;
-    let ((_, top_a), (_, floor)) = (first.high(work)?, second.high(work)?);
+    Some(true)
+}
+
+/// Lists the leaves of each model that may be within the limit along `along`. `None` if they are
+/// many, the models overlap along it, memory ends, or a tree is unchecked.
+#[inline(always)]
+fn list_leaves<'s>(
+    pose: &GridPose<'_>,
+    goal: &Goal<'_>,
+    along: &Direction,
+    scratch: &'s mut [ScratchEntry],
+    work: &mut Work,
+) -> Option<[&'s [ScratchEntry]; 2]> {
+    let [first, second] = ModelHeights::of_both_models(pose, along.way)?;
+    let ((_, top_a), (_, floor)) = (first.high_leaf(work)?, second.high_leaf(work)?);
     let (_, top_b) = second.leaves(floor, true, scratch, work)?;
-    let limit = left(pose, goal, &along);
+    let least_sum = least_sum_of_tops(pose, goal, along);
     if is_beyond(Real(top_a) + Real(top_b), dot(pose.shift, along.way)) {
-        return Some(false);
+        return None;
     }
-    let (count_a, _) = first.leaves(limit - top_b, false, scratch, work)?;
+    let (count_a, _) = first.leaves(least_sum - top_b, false, scratch, work)?;
     let (list_a, rest) = scratch.split_at_mut_checked(count_a)?;
     let top_a = list_a.iter().fold(f32::MIN, |top, entry| greater(Real(top), Real(entry.key())).0);
-    let (count_b, _) = second.leaves(limit - top_a, false, rest, work)?;
+    let (count_b, _) = second.leaves(least_sum - top_a, false, rest, work)?;
     if count_a.saturating_mul(count_b) > MOST_PAIRS {
-        return Some(false);
+        return None;
     }
+    Some([list_a, rest.get(..count_b)?])
+}
+
+/// Gives the goal the pairs of listed leaves that may be within the limit. `None` if a tree is
+/// unchecked. Not inlined, so that its frame is not on the stack during the descent that may
+/// follow.
+#[inline(never)]
+fn visit_listed_pairs(
+    pose: &GridPose<'_>,
+    goal: &mut Goal<'_>,
+    hulls: &mut [LeafHull; 2],
+    along: &Direction,
+    [list_a, list_b]: [&[ScratchEntry]; 2],
+    work: &mut Work,
+) -> Option<()> {
     goal.forget();
     let mut start = along.way;
-    for second in rest.get(..count_b)? {
+    for second in list_b {
         let b = TriangleAt::of_word(second.node());
         let mut moved = None;
-        for first in list_a.iter() {
-            if is_beyond(Real(left(pose, goal, &along) - second.key()), first.key()) {
+        for first in list_a {
+            if is_beyond(Real(least_sum_of_tops(pose, goal, along) - second.key()), first.key()) {
                 continue;
             }
             let a = TriangleAt::of_word(first.node());
@@ -203,17 +254,18 @@ pub(super) fn visit_by_heights(
             if is_beyond(Real(key), square_up(goal.far + pose.box_error)) {
                 continue;
             }
-            let LeafVisit { goes_on, way } = look(pose, goal, &mut hulls, [a, b], start, work)?;
+            let HullVisit { goes_on, way } =
+                visit_leaves_at(pose, goal, hulls, [a, b], start, work)?;
             if !goes_on {
-                return Some(true);
+                return Some(());
             }
             start = way.unwrap_or(start);
         }
     }
-    Some(true)
+    Some(())
 }
 
-/// If the tops of two children along a direction add up to less than this, they are out of reach.
-fn left(pose: &GridPose<'_>, goal: &Goal<'_>, direction: &Direction) -> f32 {
-    Reach::of(pose, goal.far).left(pose, direction)
+/// If the tops of two leaves along a direction add up to less than this, they are beyond the limit.
+fn least_sum_of_tops(pose: &GridPose<'_>, goal: &Goal<'_>, direction: &Direction) -> f32 {
+    PairLimit::of(pose, goal.far).least_sum_of_tops(pose, direction)
 }

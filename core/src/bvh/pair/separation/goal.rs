@@ -39,8 +39,8 @@ pub(crate) struct Nearest<'s> {
     pub(crate) candidates: Candidates<'s>,
     /// Triangles with the two points of `upper_sq`.
     pub(crate) best: TrianglesAt,
-    /// The search ended early, at two triangles that are within rounding of each other.
-    pub(crate) is_cut: bool,
+    /// Two triangles are within rounding of each other: f32 cannot go on.
+    pub(crate) is_touching: bool,
     /// Least squared distance, as computed, of two points of the models so far.
     upper_sq: f32,
     /// [`GridPose::rounding`].
@@ -75,7 +75,7 @@ impl<'s> Goal<'s> {
         let nearest = Nearest {
             candidates: Candidates::new(scratch),
             best: [TriangleAt::NONE; 2],
-            is_cut: false,
+            is_touching: false,
             upper_sq: f32::INFINITY,
             rounding: pose.rounding,
         };
@@ -98,14 +98,14 @@ impl<'s> Goal<'s> {
     /// Forgets the leaves that were kept, but not the limit.
     pub(crate) fn forget(&mut self) {
         if let Wanted::Nearest(nearest) = &mut self.wanted {
-            (nearest.candidates.used, nearest.candidates.is_short) = (0, false);
+            (nearest.candidates.used, nearest.candidates.is_truncated) = (0, false);
         }
     }
 
-    /// Whether two leaves whose hulls have this gap are kept as they are: none of their triangles
-    /// is nearer than the nearest ones so far, but for rounding.
+    /// Keeps two leaves without a look at their triangles, if none of these can be nearer than the
+    /// best ones, but for rounding. Returns whether it did.
     #[inline(always)]
-    pub(crate) fn keeps(&mut self, place: TrianglesAt, gap_sq: f32) -> bool {
+    pub(crate) fn keep_whole(&mut self, place: TrianglesAt, gap_sq: f32) -> bool {
         let Wanted::Nearest(nearest) = &mut self.wanted else { return false };
         let is_kept = gap_sq >= nearest.upper_sq * HULLS_SETTLED;
         if is_kept {
@@ -154,9 +154,9 @@ impl<'s> Goal<'s> {
             let upper = sqrt_approx(square) * (1.0 + 8.0 * U32);
             self.far = (upper + 2.0 * nearest.rounding) * (1.0 + 8.0 * U32);
             self.limits.far_sq = square_up(self.far);
-            nearest.is_cut = upper <= nearest.rounding;
+            nearest.is_touching = upper <= nearest.rounding;
         }
-        !nearest.is_cut
+        !nearest.is_touching
     }
 }
 
@@ -172,12 +172,12 @@ pub(crate) struct Candidates<'s> {
     slots: &'s mut [[ScratchEntry; ENTRIES]],
     used: usize,
     /// Some did not fit.
-    pub(crate) is_short: bool,
+    pub(crate) is_truncated: bool,
 }
 
 impl<'s> Candidates<'s> {
     fn new(scratch: &'s mut [ScratchEntry]) -> Candidates<'s> {
-        Candidates { slots: scratch.as_chunks_mut::<ENTRIES>().0, used: 0, is_short: false }
+        Candidates { slots: scratch.as_chunks_mut::<ENTRIES>().0, used: 0, is_truncated: false }
     }
 
     /// Adds one, and drops those beyond the limit if memory ends. The leaves that were added last
@@ -200,7 +200,7 @@ impl<'s> Candidates<'s> {
                 *slot = [first, ScratchEntry::of_words([0, b.word()])];
                 self.used += 1;
             }
-            None => self.is_short = true,
+            None => self.is_truncated = true,
         }
     }
 

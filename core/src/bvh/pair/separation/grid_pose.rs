@@ -50,9 +50,9 @@ impl FramePose {
 }
 
 impl<'a> GridPose<'a> {
-    /// `None` if f32 does not serve: vertices are f32, or a length is beyond 2^29 units of the
-    /// first grid or NaN, or one unit is more than 2^40 times the other. The caller has checked
-    /// that entries of the matrix are at most 2.
+    /// `None` if this search cannot be used: a tree does not store its vertices on a grid, or a
+    /// length is beyond 2^29 units of the first grid or NaN, or one unit is more than 2^40 times
+    /// the other. The caller has checked that entries of the matrix are at most 2.
     #[cfg_attr(meshsweep_small, inline(never))]
     #[cfg_attr(not(meshsweep_small), inline(always))]
     pub(crate) fn of([a, b]: [&'a Bvh<'a>; 2], pose: &FramePose) -> Option<GridPose<'a>> {

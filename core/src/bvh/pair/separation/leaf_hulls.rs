@@ -2,7 +2,7 @@
 
 use super::goal::Goal;
 use super::grid_pose::GridPose;
-use crate::bvh::pair::gaps::leaf_gaps::{keys, pairs_along};
+use crate::bvh::pair::gaps::leaf_gaps::{keys_of_triangles, pairs_along};
 use crate::bvh::pair::gaps::pair_keys::{children_of, key_limit};
 use crate::bvh::pair::leaf_pair::{Corners, SLOTS};
 use crate::bvh::tree::format::{LeafShape, RING};
@@ -88,44 +88,44 @@ impl LeafHull {
 }
 
 /// What a visit of two leaves showed.
-pub(crate) struct LeafVisit {
+pub(crate) struct HullVisit {
     pub(crate) goes_on: bool,
     /// A direction along which the leaves are apart.
     pub(crate) way: Option<Vec3>,
 }
 
-/// Visits two leaves. `hulls`: those of the last visit.
+/// Visits the leaves at two places. `hulls`: those of the last visit.
 #[inline(never)]
-pub(super) fn look(
+pub(super) fn visit_leaves_at(
     pose: &GridPose<'_>,
     goal: &mut Goal<'_>,
     [first, second]: &mut [LeafHull; 2],
     [a, b]: [TriangleAt; 2],
     start: Vec3,
     work: &mut Work,
-) -> Option<LeafVisit> {
+) -> Option<HullVisit> {
     first.set(pose, 0, a)?;
     second.set(pose, 1, b)?;
-    visit([first, second], start, goal, work)
+    visit_hulls([first, second], start, goal, work)
 }
 
 /// Gives the goal each pair of triangles of two leaves that may matter to it, nearest bound first.
 /// `start`: the direction that is tried first. `None` if a tree is unchecked.
 #[inline(never)]
-fn visit(
+fn visit_hulls(
     [a, b]: [&LeafHull; 2],
     start: Vec3,
     goal: &mut Goal<'_>,
     work: &mut Work,
-) -> Option<LeafVisit> {
+) -> Option<HullVisit> {
     let hull = hull_gap(a.all(), b.all(), start, goal.limits);
     let way = (hull.gap_sq > 0.0).then_some(hull.way);
-    let visit = |goes_on| Some(LeafVisit { goes_on, way });
+    let visit = |goes_on| Some(HullVisit { goes_on, way });
     let [p, q] = hull.vertices;
     if !goal.take_vertices(hull.vertex_sq, || [a.triangle_with(p), b.triangle_with(q)]) {
         return visit(false);
     }
-    if hull.gap_sq > goal.limits.far_sq || goal.keeps([a.of, b.of], hull.gap_sq) {
+    if hull.gap_sq > goal.limits.far_sq || goal.keep_whole([a.of, b.of], hull.gap_sq) {
         return visit(true);
     }
     let (first, second) = (a.corners(), b.corners());
@@ -135,7 +135,7 @@ fn visit(
     if near == 0 {
         return visit(true);
     }
-    let mut keys = keys(&first, &second, far_sq, near)?;
+    let mut keys = keys_of_triangles(&first, &second, far_sq, near)?;
     let mut way = hull.way;
     loop {
         let key = keys.least();
@@ -150,7 +150,7 @@ fn visit(
         if !goal.take([a.of.with_lane(i), b.of.with_lane(j)], &found) {
             return visit(false);
         }
-        if goal.keeps([a.of, b.of], hull.gap_sq) {
+        if goal.keep_whole([a.of, b.of], hull.gap_sq) {
             return visit(true);
         }
     }

@@ -32,8 +32,7 @@ impl Children {
     #[inline(always)]
     pub(crate) fn of(tree: &Bvh<'_>, node: u32) -> Option<Children> {
         let links = tree.links(node)?;
-        let wanted = u32::MAX >> (32 - links.count.clamp(1, WIDTH as u32));
-        Some(Children { node, wanted, inner: links.inner, is_leaf: false })
+        Some(Children { node, wanted: links.mask(), inner: links.inner, is_leaf: false })
     }
 
     /// Child number `index` of a node: the child's children, or itself if it is a leaf.
@@ -118,6 +117,14 @@ impl<'a> NodeBoxes<'a> {
             Vec3::new(float(hx - lx), float(hy - ly), float(hz - lz)),
         ]
     }
+
+    /// The box of child `i`, along the axes of its own grid.
+    #[inline(always)]
+    fn axis_box(&self, i: usize) -> AxisBox {
+        let [sum, length] = self.doubled(i);
+        let step = 0.5 * self.step;
+        AxisBox { middle: self.start + step * sum, half: step * length }
+    }
 }
 
 /// A box along the axes of the first grid.
@@ -143,40 +150,41 @@ impl AxisBox {
     }
 }
 
-/// Pairs of children that are farther apart than this are left out.
-pub(crate) struct Reach {
+/// Pairs of children farther apart than this are left out: the limit of the goal plus the rounding
+/// of boxes.
+pub(crate) struct PairLimit {
     /// Units of the first grid.
     pub(crate) length: f32,
     /// Square of the length, rounded up.
     pub(crate) square: f32,
 }
 
-impl Reach {
+impl PairLimit {
     /// `far` is how far children may be, without the rounding of boxes.
     #[inline(always)]
-    pub(super) fn of(pose: &GridPose<'_>, far: f32) -> Reach {
+    pub(super) fn of(pose: &GridPose<'_>, far: f32) -> PairLimit {
         let length = far + pose.box_error;
-        Reach { length: length * (1.0 + 16.0 * U32), square: square_up(length) }
+        PairLimit { length: length * (1.0 + 16.0 * U32), square: square_up(length) }
     }
 
-    /// If the tops of two children along a direction add up to less than this, they are out of
-    /// reach.
+    /// If the tops of two children along a direction add up to less than this, they are beyond the
+    /// limit.
     #[inline(always)]
-    pub(super) fn left(&self, pose: &GridPose<'_>, direction: &Direction) -> f32 {
+    pub(super) fn least_sum_of_tops(&self, pose: &GridPose<'_>, direction: &Direction) -> f32 {
         let between = Real(dot(pose.shift, direction.way));
         let limit = (Real(self.length) * Real(direction.length)).0;
         (between - Real(limit)).0
     }
 }
 
-/// Adds the pairs of children that may be within reach to those that wait. `None` if a tree is
+/// Adds the pairs of children that may be within the limit to those that wait. `None` if a tree is
 /// unchecked or memory ends.
 #[inline(never)]
-pub(crate) fn open(
+pub(crate) fn push_children(
     pose: &GridPose<'_>,
     children: &[Children; 2],
     direction: &Direction,
-    reach: &Reach,
+    limit: &PairLimit,
     pending: &mut Pending<'_>,
     work: &mut Work,
 ) -> Option<()> {
@@ -187,31 +195,32 @@ pub(crate) fn open(
     // `back` points from the second model to the first, in the frame of the second grid.
     let way = direction.way;
     let back = -turned(&columns(&pose.rows), way);
-    // `left`: if the top of a box of the first model is below this, the pair is out of reach.
-    let limit = reach.left(pose, direction);
+    let least_sum = limit.least_sum_of_tops(pose, direction);
     let mut tops_a = boxes_a.tops(way, 0.0, a.wanted);
     let mut tops_b = boxes_b.tops(back, 0.0, b.wanted);
-    let left = |top_b: f32| Real(limit) - Real(top_b);
+    // The least top of a box of the first model that is within the limit of a box with this top.
+    let least_top_a = |top_b: f32| Real(least_sum) - Real(top_b);
     work.bounds =
         work.bounds.saturating_add(a.wanted.count_ones().saturating_mul(b.wanted.count_ones()));
     let highest = bits(a.wanted).fold(f32::MIN, |most, i| greater(Real(most), Real(tops_a[i])).0);
-    // For each child of the second node, a bit for each child of the first that is within reach.
+    // For each child of the second node, a bit for each child of the first that is within the
+    // limit.
     let mut pairs = [0u8; WIDTH];
     let mut rows = 0;
     for j in bits(b.wanted) {
-        let left = left(tops_b[j]);
-        if is_beyond(left, highest) {
+        let least_top = least_top_a(tops_b[j]);
+        if is_beyond(least_top, highest) {
             continue;
         }
         for i in bits(a.wanted) {
-            pairs[j] |= u8::from(!is_beyond(left, tops_a[i])) << i;
+            pairs[j] |= u8::from(!is_beyond(least_top, tops_a[i])) << i;
         }
         rows |= pairs[j];
     }
     if rows == 0 {
         return Some(());
     }
-    let mut waiting = pending.open([a.node, b.node])?;
+    let mut waiting = pending.begin([a.node, b.node])?;
     let first = along_axes(&boxes_a, u32::from(rows));
     let second = MovedBoxes::new(pose, &boxes_b);
     let (mut leaves_a, mut leaves_b) = (0, 0);
@@ -222,7 +231,7 @@ pub(crate) fn open(
         let other = second.along_axes(j);
         for i in bits(u32::from(pairs[j])) {
             let key = first[i].key(&other);
-            if !is_beyond(Real(key), reach.square) {
+            if !is_beyond(Real(key), limit.square) {
                 waiting.add(key, (i * WIDTH + j) as u32)?;
                 leaves_a |= 1 << i;
                 leaves_b |= 1 << j;
@@ -231,7 +240,7 @@ pub(crate) fn open(
     }
     (leaves_a, leaves_b) = (leaves_a & a.leaves(), leaves_b & b.leaves());
     if leaves_a | leaves_b != 0 {
-        // The vertices of a leaf reach less far than its box.
+        // The vertices of a leaf are not higher than its box.
         if let Some(whole) = WholeDirection::of(way) {
             for i in bits(leaves_a) {
                 tops_a[i] = lesser(tops_a[i], whole.top(&tree_a.leaf(a.node, i as u32)?)?);
@@ -242,9 +251,9 @@ pub(crate) fn open(
                 tops_b[j] = lesser(tops_b[j], whole.top(&tree_b.leaf(b.node, j as u32)?)?);
             }
         }
-        waiting.retain(|[i, j]| !is_beyond(left(tops_b[j]), tops_a[i]));
+        waiting.retain(|[i, j]| !is_beyond(least_top_a(tops_b[j]), tops_a[i]));
     }
-    waiting.close()
+    waiting.finish()
 }
 
 /// NaN is beyond no limit: its pair is looked at.
@@ -255,14 +264,14 @@ pub(super) fn is_beyond(x: Real, limit: f32) -> bool {
 
 /// The numbers of the lowest eight bits that are ones.
 #[inline(always)]
-pub(super) fn bits(mut left: u32) -> impl Iterator<Item = usize> {
-    left &= 0xFF;
+pub(super) fn bits(mut mask: u32) -> impl Iterator<Item = usize> {
+    mask &= 0xFF;
     core::iter::from_fn(move || {
-        if left == 0 {
+        if mask == 0 {
             return None;
         }
-        let bit = left.trailing_zeros() as usize & (WIDTH - 1);
-        left &= left - 1;
+        let bit = mask.trailing_zeros() as usize & (WIDTH - 1);
+        mask &= mask - 1;
         Some(bit)
     })
 }
@@ -271,9 +280,7 @@ pub(super) fn bits(mut left: u32) -> impl Iterator<Item = usize> {
 pub(super) fn first_box(pose: &GridPose<'_>, of: TriangleAt) -> Option<AxisBox> {
     let ([tree, _], [origin, _]) = (pose.trees, pose.origins);
     let boxes = NodeBoxes::of(tree, of.node(), origin)?;
-    let [sum, length] = boxes.doubled(of.child() as usize);
-    let step = 0.5 * boxes.step;
-    Some(AxisBox { middle: boxes.start + step * sum, half: step * length })
+    Some(boxes.axis_box(of.child() as usize))
 }
 
 /// The box around the box of a leaf of the second model.
@@ -286,10 +293,8 @@ pub(super) fn second_box(pose: &GridPose<'_>, of: TriangleAt) -> Option<AxisBox>
 #[inline(always)]
 fn along_axes(boxes: &NodeBoxes<'_>, wanted: u32) -> [AxisBox; WIDTH] {
     let mut found = [AxisBox::NONE; WIDTH];
-    let step = 0.5 * boxes.step;
     for i in bits(wanted) {
-        let [sum, length] = boxes.doubled(i);
-        found[i] = AxisBox { middle: boxes.start + step * sum, half: step * length };
+        found[i] = boxes.axis_box(i);
     }
     found
 }

@@ -29,7 +29,7 @@ impl<'s> Pending<'s> {
 
     /// Begins the children of two nodes. `None` if memory ends.
     #[inline(always)]
-    pub(crate) fn open(&mut self, [a, b]: [u32; 2]) -> Option<PendingChildren<'_, 's>> {
+    pub(crate) fn begin(&mut self, [a, b]: [u32; 2]) -> Option<PendingChildren<'_, 's>> {
         let at = self.used;
         // A node's number has 24 bits.
         *self.entries.get_mut(at)? = ScratchEntry::of_words([a & 0xFF_FFFF, b]);
@@ -93,7 +93,7 @@ impl PendingChildren<'_, '_> {
     /// Puts the pair with the least key last, so that it is taken first. Without a pair the nodes'
     /// entry is removed.
     #[inline(always)]
-    pub(crate) fn close(self) -> Option<()> {
+    pub(crate) fn finish(self) -> Option<()> {
         let Pending { entries, used } = self.pending;
         let Some((last, others)) = entries.get_mut(self.at + 1..*used)?.split_last_mut() else {
             *used = self.at;

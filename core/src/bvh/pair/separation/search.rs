@@ -5,8 +5,8 @@ use super::by_heights::visit_by_heights;
 use super::direction::Direction;
 use super::goal::{Candidates, Goal, Nearest, TrianglesAt, Wanted, square_up};
 use super::grid_pose::GridPose;
-use super::leaf_hulls::{LeafHull, LeafVisit, look};
-use super::node_boxes::{Children, Reach, open};
+use super::leaf_hulls::{HullVisit, LeafHull, visit_leaves_at};
+use super::node_boxes::{Children, PairLimit, push_children};
 use super::pending::Pending;
 use crate::bvh::pair::models::most_pairs;
 use crate::bvh::tree::triangle_at::TriangleAt;
@@ -80,31 +80,30 @@ pub(crate) struct NearestLeaves<'s> {
 #[inline(never)]
 pub(crate) fn nearest_leaves<'s>(
     pose: &GridPose<'_>,
-    steps: u32,
     scratch: &'s mut [ScratchEntry],
     work: &mut Work,
 ) -> Option<NearestLeaves<'s>> {
     let (waiting, kept) = scratch.split_at_mut_checked(scratch.len() / 4 * 3)?;
     let mut goal = Goal::nearest(pose, kept);
     let mut direction = between_boxes(pose)?;
-    let is_done = visit_by_heights(pose, &mut goal, &mut direction, waiting, work) == Some(true);
+    let is_done = visit_by_heights(pose, &mut goal, &mut direction, waiting, work);
     let end = if is_done {
         Some(())
     } else {
         goal.forget();
         let start = (&mut direction, [TriangleAt::NONE; 2]);
-        visit_leaves(pose, &mut goal, start, steps, waiting, work)
+        visit_leaves(pose, &mut goal, start, u32::MAX, waiting, work)
     };
     let far_sq = goal.limits.far_sq;
     let Wanted::Nearest(nearest) = goal.wanted else { return None };
-    let Nearest { best, mut candidates, is_cut, .. } = nearest;
+    let Nearest { best, mut candidates, is_touching, .. } = nearest;
     candidates.drop_beyond(far_sq);
-    let are_all = end.is_some() && !is_cut && !candidates.is_short;
+    let are_all = end.is_some() && !is_touching && !candidates.is_truncated;
     (best[0] != TriangleAt::NONE).then_some(NearestLeaves { best, candidates, are_all })
 }
 
-/// Visits every pair of leaves that may matter to the goal, until the goal is reached. `None` if
-/// steps or memory ended first, or a tree is unchecked.
+/// Runs [`visit_leaves`] from the direction and the leaves of `start`, and writes the last
+/// direction back.
 #[inline(never)]
 fn descend(
     pose: &GridPose<'_>,
@@ -125,6 +124,8 @@ fn descend(
     end
 }
 
+/// Visits every pair of leaves that may matter to the goal, until the goal is reached. `None` if
+/// steps or memory ended first, or a tree is unchecked.
 #[inline(never)]
 fn visit_leaves(
     pose: &GridPose<'_>,
@@ -146,12 +147,12 @@ fn visit_leaves(
         roots()?
     };
     loop {
-        let reach = Reach::of(pose, goal.far);
+        let limit = PairLimit::of(pose, goal.far);
         if let [Some(i), Some(j)] = [children[0].leaf(), children[1].leaf()] {
             let places =
                 [TriangleAt::new(children[0].node, i, 0), TriangleAt::new(children[1].node, j, 0)];
-            let visit = look(pose, goal, &mut hulls, places, direction.way, work)?;
-            let LeafVisit { goes_on, way } = visit;
+            let visit = visit_leaves_at(pose, goal, &mut hulls, places, direction.way, work)?;
+            let HullVisit { goes_on, way } = visit;
             if !goes_on {
                 return Some(());
             }
@@ -163,7 +164,7 @@ fn visit_leaves(
                 return None;
             }
             work.opened += 1;
-            open(pose, &children, direction, &reach, &mut pending, work)?;
+            push_children(pose, &children, direction, &limit, &mut pending, work)?;
         }
         if are_roots_next {
             (children, are_roots_next) = (roots()?, false);

@@ -106,6 +106,12 @@ fn sum_before(bytes: u64, index: u32) -> u32 {
 }
 
 impl Links {
+    /// A bit for each child.
+    #[inline(always)]
+    pub(crate) fn mask(&self) -> u32 {
+        u32::MAX >> (32 - self.count.clamp(1, 8))
+    }
+
     #[inline(always)]
     fn read(bytes: &[u8; LINK_BYTES]) -> Option<Self> {
         let (words, _) = bytes.as_chunks::<4>();
