@@ -31,6 +31,10 @@ const MOST_PAIRS: usize = 512;
 /// in vain. On an arm lists of up to 100 leaves cost more than they saved.
 const MOST_LEAVES: usize = 48;
 
+/// Most nodes of a model that are opened for a list. Of a model whose leaves are equally high, such
+/// as a plate seen across its edge, all would be.
+const MOST_NODES: u32 = 128;
+
 /// The heights of one model along a direction, in its own grid.
 struct ModelHeights<'a> {
     tree: &'a Bvh<'a>,
@@ -87,7 +91,7 @@ impl<'a> ModelHeights<'a> {
     ) -> Option<(usize, f32)> {
         let (mut listed, mut waiting) = (0, memory.len());
         let mut node = 0;
-        for _ in 0..self.tree.most_steps() {
+        for _ in 0..lesser(self.tree.most_steps(), MOST_NODES) {
             work.opened += 1;
             let links = self.tree.links(node)?;
             let wanted = links.mask();
@@ -95,7 +99,8 @@ impl<'a> ModelHeights<'a> {
             let begun = waiting;
             for i in bits(wanted) {
                 let top = tops[i];
-                if is_beyond(Real(floor), top) {
+                // A leaf that is as high as the highest one does not raise the floor.
+                if is_beyond(Real(floor), top) || only_highest && Real(top) <= Real(floor) {
                     continue;
                 }
                 let index = i as u32;
@@ -130,7 +135,8 @@ impl<'a> ModelHeights<'a> {
             node = loop {
                 let Some(next) = memory.get(waiting) else { return Some((listed, floor)) };
                 waiting += 1;
-                if !is_beyond(Real(floor), next.key()) {
+                let is_low = only_highest && Real(next.key()) <= Real(floor);
+                if !is_low && !is_beyond(Real(floor), next.key()) {
                     break next.node();
                 }
             };
