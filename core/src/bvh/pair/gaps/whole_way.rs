@@ -1,7 +1,7 @@
 //! Leaves along a direction in integers.
 //!
 //! Stored vertices and the direction are integers, so heights are exact. `core/docs/rounding.md`
-//! §26, *The nearest triangles*.
+//! §26, *Along w* and *Rounding along w*.
 
 use crate::bvh::pair::separation::direction::WholeDirection;
 use crate::bvh::tree::format::FanLeaf;
