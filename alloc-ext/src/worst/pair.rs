@@ -49,14 +49,8 @@ impl Pair<'_> {
     fn worst_of(&self, goal: Goal, budget: Budget, starts: usize) -> Option<Worst> {
         let climb = Climb::default().with_starts(starts);
         let setup = Setup { goal, climb, entries: Bvh::DISTANCE_ENTRIES };
-        let (domain, [middle, half]) = self.domain();
-        let beside = |axis: usize, sign: f32| {
-            let mut seed = [middle[0], middle[1], middle[2], 1.0, 0.0, 0.0, 0.0];
-            seed[axis] += sign * half[axis];
-            seed
-        };
-        let seeds: Vec<_> =
-            (0..3).flat_map(|axis| [beside(axis, -1.0), beside(axis, 1.0)]).collect();
+        let domain = self.domain();
+        let seeds = self.seeds();
         let ask = |numbers: &[f32; 7], scratch: &mut [ScratchEntry]| {
             self.ask(of_row(of_quaternion(self.row(numbers)?)), budget, scratch)
         };
@@ -65,21 +59,46 @@ impl Pair<'_> {
         Some(Worst { query: self.row(numbers)?.to_vec(), ..worst })
     }
 
-    /// Places of the second model's middle, then quaternions. With the middle of the first box, and
-    /// how far from it along each axis the boxes touch.
-    fn domain(&self) -> (Domain<7>, [[f32; 3]; 2]) {
+    /// Places of the second model's middle, then quaternions.
+    fn domain(&self) -> Domain<7> {
         let [first, second] = self.trees.map(|tree| tree.bounds());
-        let middle = middle_of(first);
-        let half: [f32; 3] = std::array::from_fn(|k| {
-            (0.5 * first[1][k] - 0.5 * first[0][k]) + (0.5 * second[1][k] - 0.5 * second[0][k])
-        });
+        let (middle, [one, other]) = (middle_of(first), [half_of(first), half_of(second)]);
         let corner = |sign: f32, turn: f32| {
             let [x, y, z] = std::array::from_fn(|k| {
-                (middle[k] + 2.0 * sign * half[k]).clamp(f32::MIN, f32::MAX)
+                (middle[k] + 2.0 * sign * (one[k] + other[k])).clamp(f32::MIN, f32::MAX)
             });
             [x, y, z, turn, turn, turn, turn]
         };
-        (Domain { low: corner(-1.0, -1.0), high: corner(1.0, 1.0) }, [middle, half])
+        Domain { low: corner(-1.0, -1.0), high: corner(1.0, 1.0) }
+    }
+
+    /// Poses at which faces along the axes are parallel: the boxes side by side, as far apart as
+    /// the question asks, not turned and in quarter turns. Of parts with flat faces these are often
+    /// the dearest.
+    fn seeds(&self) -> Vec<[f32; 7]> {
+        let [first, second] = self.trees.map(|tree| tree.bounds());
+        let (middle, one, [x, y, z]) = (middle_of(first), half_of(first), half_of(second));
+        let apart = match self.question {
+            PairQuestion::Distance => 0.0,
+            PairQuestion::Within(distance) => distance,
+        };
+        let turns = [
+            ([1.0, 0.0, 0.0, 0.0], [x, y, z]),
+            ([1.0, 1.0, 0.0, 0.0], [x, z, y]),
+            ([1.0, 0.0, 1.0, 0.0], [z, y, x]),
+            ([1.0, 0.0, 0.0, 1.0], [y, x, z]),
+        ];
+        let mut seeds = Vec::new();
+        for ([w, a, b, c], other) in turns {
+            for axis in 0..3 {
+                for sign in [-1.0, 1.0] {
+                    let mut at = middle;
+                    at[axis] += sign * (one[axis] + other[axis] + apart);
+                    seeds.push([at[0], at[1], at[2], w, a, b, c]);
+                }
+            }
+        }
+        seeds
     }
 
     /// The translation and the quaternion of a place of the middle. `None` of a quaternion of
@@ -124,4 +143,8 @@ impl Pair<'_> {
 
 fn middle_of([low, high]: [[f32; 3]; 2]) -> [f32; 3] {
     std::array::from_fn(|k| 0.5 * low[k] + 0.5 * high[k])
+}
+
+fn half_of([low, high]: [[f32; 3]; 2]) -> [f32; 3] {
+    std::array::from_fn(|k| 0.5 * high[k] - 0.5 * low[k])
 }

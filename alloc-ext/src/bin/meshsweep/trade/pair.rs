@@ -78,6 +78,9 @@ pub fn run(
     if let Some(failure) = queries.broken.take() {
         return Err(failure);
     }
+    if queries.rows.is_empty() {
+        return Err(Failure::Usage { what: "--poses: no pose to ask about".to_owned() });
+    }
     let all: Vec<_> = queries.rows.iter().map(|row| poses::of_row(*row)).collect();
     let bar = Mutex::new(None);
     let progress = |done, of| {

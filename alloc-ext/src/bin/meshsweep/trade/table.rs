@@ -134,9 +134,10 @@ fn write_notes(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
         "\nerror, median: width of the interval that holds, the largest and the median of these \
          points, in\nthe mesh's unit; at other points it may be wider, and holds. found: the \
          distance in f64 less the\nlower end, and the upper end less that distance, the largest. \
-         M4F, M0: instructions of a\nCortex-M4F and a Cortex-M0, predicted. flash: bytes of the \
-         blob. scratch: bytes, memory kept\nbetween queries among them. stack: bytes of a \
-         Cortex-M4F's. host ns: of this machine, on one thread."
+         M4F, M0: instructions of a\nCortex-M4F and a Cortex-M0, predicted; worst is of these \
+         points, meshsweep worst finds worse ones.\nflash: bytes of the blob. scratch: bytes, \
+         memory kept between queries among them. stack: bytes of a\nCortex-M4F's. host ns: of this \
+         machine, on one thread."
     )?;
     let mut said: Vec<String> = Vec::new();
     for row in rows {
