@@ -24,12 +24,6 @@ pub enum Valgrind {
     Unpacked(Toolbox),
 }
 
-/// Settings of the C library under which it copies and clears in the same steps everywhere. By
-/// default some lengths are copied by one instruction, which callgrind counts once a byte; whether
-/// they are depends on the processor and on the places in memory.
-const COPIES: &str = "glibc.cpu.x86_rep_movsb_threshold=0x100000000:\
-                      glibc.cpu.x86_rep_stosb_threshold=0x100000000";
-
 impl Valgrind {
     /// valgrind, or a line that says why it is skipped: counts are worth having, but no machine has
     /// to have them.
@@ -48,12 +42,6 @@ impl Valgrind {
 
     /// A command that lacks its tool and what it runs.
     pub fn command(&self) -> Command {
-        let mut command = self.bare();
-        command.env("GLIBC_TUNABLES", COPIES);
-        command
-    }
-
-    fn bare(&self) -> Command {
         match self {
             Self::Installed => Command::new("valgrind"),
             Self::Unpacked(toolbox) => {

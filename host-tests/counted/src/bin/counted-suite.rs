@@ -1,6 +1,9 @@
 //! `counted-suite IMAGE BLOB BLOCKS`: asks a blob the questions of a firmware image. A line for
 //! each kind of query, in the order of callgrind's dumps.
 
+#[path = "../copies.rs"]
+mod copies;
+
 use std::process::ExitCode;
 
 use meshsweep_counted::callgrind;

@@ -1,5 +1,8 @@
 //! `counted FILE N`: asks the first N queries of a question that `host place` wrote.
 
+#[path = "../copies.rs"]
+mod copies;
+
 use std::process::ExitCode;
 
 use meshsweep_counted::Counted;
