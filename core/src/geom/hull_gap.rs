@@ -50,6 +50,26 @@ const ZERO: Real = Real(0.0);
 /// first.
 #[inline(never)]
 pub fn hull_gap(first: &[Vec3], second: &[Vec3], start: Vec3, limits: GapLimits) -> HullGap {
+    gap_of(first, second, start, limits)
+}
+
+/// The same of two triangles: a copy whose loops over corners are unrolled, but for small code.
+#[cfg_attr(not(meshsweep_small), inline(never))]
+#[cfg_attr(meshsweep_small, inline(always))]
+pub fn triangle_gap(
+    first: &[Vec3; 3],
+    second: &[Vec3; 3],
+    start: Vec3,
+    limits: GapLimits,
+) -> HullGap {
+    if cfg!(meshsweep_small) {
+        return hull_gap(first, second, start, limits);
+    }
+    gap_of(first, second, start, limits)
+}
+
+#[inline(always)]
+fn gap_of(first: &[Vec3], second: &[Vec3], start: Vec3, limits: GapLimits) -> HullGap {
     let mut found = HullGap {
         gap_sq: 0.0,
         way: start,

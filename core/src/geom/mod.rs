@@ -21,7 +21,7 @@ mod vector;
 
 pub use boxes::{Aabb, Clipped};
 pub use convex_gap::{ConvexGap, convex_gap};
-pub use hull_gap::{GapLimits, HullGap, hull_gap};
+pub use hull_gap::{GapLimits, HullGap, hull_gap, triangle_gap};
 pub use lanes::{LANES, Lanes};
 pub use point_segment::{CapsulePoint, PointSegment, point_segment};
 pub use point_triangle::{PointTriangle, point_triangle};

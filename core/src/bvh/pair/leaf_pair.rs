@@ -54,6 +54,12 @@ impl Corners {
         Corners { at, used, triangles, turn: shape.turn() }
     }
 
+    /// The least and the greatest number of each triangle's vertices, of one for each slot.
+    #[inline(always)]
+    pub(crate) fn ends(&self, at: &[f32; SLOTS]) -> Option<([f32; WIDTH], [f32; WIDTH])> {
+        Some(ends_of_triangles(LANES_BELOW.get(self.turn)?, at))
+    }
+
     #[inline(always)]
     fn corner(&self, slot: usize) -> [f32; 3] {
         let [x, y, z] = &self.at;
@@ -204,11 +210,7 @@ impl TriangleBoxes {
         let first = LANES_BELOW.get(corners.turn)?;
         let mut boxes = TriangleBoxes { low: [[0.0; WIDTH]; 3], high: [[0.0; WIDTH]; 3] };
         for ((x, low), high) in corners.at.iter().zip(&mut boxes.low).zip(&mut boxes.high) {
-            for i in 0..WIDTH {
-                let (c, e, g) = (blend(first[i], x), x[RING + i], x[RING + 1 + i]);
-                low[i] = lesser(c, lesser(e, g));
-                high[i] = greater(c, greater(e, g));
-            }
+            (*low, *high) = ends_of_triangles(first, x);
         }
         Some(boxes)
     }
@@ -254,6 +256,18 @@ impl Extent {
         }
         bits
     }
+}
+
+/// The least and the greatest number of each triangle's vertices.
+#[inline(always)]
+fn ends_of_triangles(first: &[u32; WIDTH], at: &[f32; SLOTS]) -> ([f32; WIDTH], [f32; WIDTH]) {
+    let (mut low, mut high) = ([0.0; WIDTH], [0.0; WIDTH]);
+    for i in 0..WIDTH {
+        let (c, e, g) = (blend(first[i], at), at[RING + i], at[RING + 1 + i]);
+        low[i] = lesser(c, lesser(e, g));
+        high[i] = greater(c, greater(e, g));
+    }
+    (low, high)
 }
 
 /// The first or the second centre.

@@ -117,16 +117,20 @@ pub(crate) fn pairs(a: &AxisIntervals, b: &AxisIntervals, rows: u32, columns: u3
         let i = left.trailing_zeros();
         left &= left - 1;
         let depths = if WIDE { wide(a, b, i as usize) } else { narrow(a, b, i as usize, columns) };
-        let (mut meeting, mut bit) = (0u32, 1u32);
-        for (j, &deep) in (0u32..).zip(&depths) {
-            if deep >= 0.0 && columns & bit != 0 {
-                meeting |= bit;
-                if deep > depth {
-                    depth = deep;
-                    pairs.deepest = [i, j];
-                }
+        let mut meeting = 0;
+        for (j, &deep) in depths.iter().enumerate() {
+            meeting |= if deep >= 0.0 { 1 << (j & 7) } else { 0 };
+        }
+        meeting &= columns;
+        let mut open = meeting;
+        while open != 0 {
+            let j = open.trailing_zeros();
+            open &= open - 1;
+            let deep = depths[j as usize & 7];
+            if deep > depth {
+                depth = deep;
+                pairs.deepest = [i, j];
             }
-            bit <<= 1;
         }
         let [low, high] = &mut pairs.bits;
         *(if i < 4 { low } else { high }) |= meeting << (8 * (i & 3));

@@ -4,7 +4,7 @@
 //! then bounds all other pairs: most often none is left.
 
 use super::pair_keys::{
-    NO_PAIR, PAIRS, PairKeys, children_of, distance_of, key_limit, key_of, pair_bit,
+    NO_PAIR, PairKeys, children_of, distance_of, higher_key, key_limit, key_of, pair_bit,
 };
 use super::question::{PairQuestion, TriangleGap};
 use super::whole_way::WholeWay;
@@ -14,7 +14,7 @@ use crate::bvh::tree::node::WIDE;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::geom::{
-    Contact, GapLimits, TriangleDistance, crossing, hull_gap, triangle_distance, triangles_meet,
+    Contact, GapLimits, TriangleDistance, crossing, triangle_distance, triangle_gap, triangles_meet,
 };
 use crate::num::tolerance::{GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32};
 use crate::num::{difference, dot, greater, lesser, up_to_f32};
@@ -101,11 +101,15 @@ impl<'a> LeafGaps<'a> {
             let lower = if keeps { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
             Some(GapVisit { goes_on, lower, pairs: seen.pairs, has_beyond: seen.has_beyond })
         };
-        if !may_be_near(self.direction, limit_sq, &pair) {
+        // Vectors tell of all pairs in the time of this question.
+        if !WIDE && !may_be_near(self.direction, limit_sq, &pair) {
             return visit(self.direction, true, &seen);
         }
         let (first, second) = (&pair.a, &pair.b);
         let near = pairs_along(self.direction, limit_sq, first, second);
+        if near == 0 {
+            return visit(self.direction, true, &seen);
+        }
         let near = near & !settled.map_or(0, |settled| settled.pairs);
         let mut keys = keys_of_triangles(first, second, limit_sq, near)?;
         if settled.is_none() {
@@ -113,6 +117,7 @@ impl<'a> LeafGaps<'a> {
             work.triangles = work.triangles.saturating_add(pairs);
         }
         let mut own = None;
+        let mut direction = self.direction;
         loop {
             let key = keys.least();
             if key > key_limit(limit_sq) {
@@ -149,8 +154,11 @@ impl<'a> LeafGaps<'a> {
             if !goes_on || settled.is_some() {
                 return visit(self.direction, goes_on, &seen);
             }
-            limit_sq = limit_sq_of(question);
-            keys.keep(pairs_along(self.direction, limit_sq, first, second));
+            let along = (self.direction, limit_sq_of(question));
+            if along != (direction, limit_sq) {
+                (direction, limit_sq) = along;
+                keys.keep(pairs_along(direction, limit_sq, first, second));
+            }
         }
     }
 
@@ -159,10 +167,9 @@ impl<'a> LeafGaps<'a> {
     fn measured(&self, pair: &LeafPair<'_>, place: [TriangleAt; 2], way: Vec3) -> TriangleGap {
         let [i, j] = place.map(TriangleAt::lane);
         let (first, second) = (pair.a.triangle(i), pair.b.triangle(j));
-        let guesses = SLOPES_SQ.map(|slope_sq| {
-            [highest_corners(&first, way, slope_sq), highest_corners(&second, -way, slope_sq)]
-        });
+        let tops = [Tops::of(&first, way), Tops::of(&second, -way)];
         let [a, b] = pair.in_f64(i, j);
+        let guesses = SLOPES_SQ.map(|slope_sq| tops.map(|tops| tops.corners(slope_sq)));
         let TriangleDistance { lower, mut upper, mut points } = triangle_distance(a, b, guesses);
         let rounding = self.pose.vertex_error_exact;
         let lower = greater(0.0, lower - (rounding + rounding));
@@ -191,7 +198,7 @@ impl<'a> LeafGaps<'a> {
         let [from, ..] = a;
         let [to, ..] = b;
         let start = if start == Vec3::ZERO { difference(to, from) } else { start };
-        hull_gap(&a, &b, start, GapLimits { far_sq: f32::INFINITY, near_sq: -1.0 }).way
+        triangle_gap(&a, &b, start, GapLimits { far_sq: f32::INFINITY, near_sq: -1.0 }).way
     }
 
     /// Keeps the offset of a measured pair, and the direction if the pair is not in contact.
@@ -210,23 +217,42 @@ impl<'a> LeafGaps<'a> {
 /// answer depends on them.
 const SLOPES_SQ: [f32; 2] = [1e-4, 1e-9];
 
-/// A bit for each corner whose edge to the highest corner along `way` is no steeper than the slope.
-/// The highest corner is always among them.
-fn highest_corners(triangle: &[Vec3; 3], way: Vec3, slope_sq: f32) -> u32 {
-    let heights = triangle.map(|corner| dot(corner, way));
-    let way_sq = dot(way, way);
-    let (mut top, mut most) = (Vec3::ZERO, f32::MIN);
-    for (&corner, &height) in triangle.iter().zip(&heights) {
-        if height > most {
-            (top, most) = (corner, height);
+/// How far the corners of a triangle are below the highest one along a direction.
+#[derive(Clone, Copy)]
+struct Tops {
+    /// Squares of the fall of each corner, and of its edge to the highest one, times that of the
+    /// direction.
+    fall_sq: [f32; 3],
+    edge_sq: [f32; 3],
+    way_sq: f32,
+}
+
+impl Tops {
+    #[inline(always)]
+    fn of(triangle: &[Vec3; 3], way: Vec3) -> Tops {
+        let heights = triangle.map(|corner| dot(corner, way));
+        let (mut top, mut most) = (Vec3::ZERO, f32::MIN);
+        for (&corner, &height) in triangle.iter().zip(&heights) {
+            if height > most {
+                (top, most) = (corner, height);
+            }
+        }
+        let square = |vector| dot(vector, vector);
+        Tops {
+            fall_sq: heights.map(|height| (most - height) * (most - height)),
+            edge_sq: triangle.map(|corner| square(difference(corner, top))),
+            way_sq: square(way),
         }
     }
-    let mut bits = 0;
-    for (k, (&corner, &height)) in triangle.iter().zip(&heights).enumerate() {
-        let (edge, fall) = (difference(corner, top), most - height);
-        bits |= u32::from(fall * fall <= slope_sq * way_sq * dot(edge, edge)) << (k & 3);
+
+    /// A bit for each corner whose edge to the highest one is no steeper than the slope. The
+    /// highest corner is always among them.
+    #[inline(always)]
+    fn corners(&self, slope_sq: f32) -> u32 {
+        let ([p, q, r], [u, v, w]) = (self.fall_sq, self.edge_sq);
+        let bit = |fall_sq, edge_sq| u32::from(fall_sq <= slope_sq * self.way_sq * edge_sq);
+        bit(p, u) | bit(q, v) << 1 | bit(r, w) << 2
     }
-    bits
 }
 
 /// Whether it is proved that two triangles meet. Not inlined, so that it is compiled once.
@@ -255,9 +281,7 @@ fn least_distance(
 ) -> Option<f64> {
     let mut keys = keys_of_triangles(&pair.a, &pair.b, f32::INFINITY, u64::MAX)?;
     raise_keys_along(&mut keys, direction, pair);
-    for (i, key) in keys.0.iter_mut().enumerate() {
-        *key = if seen.pairs >> (i & (PAIRS - 1)) & 1 != 0 { NO_PAIR } else { *key };
-    }
+    keys.keep(!seen.pairs);
     let least = keys.least();
     if least == NO_PAIR {
         return Some(seen.lower);
@@ -277,9 +301,10 @@ pub(crate) fn keys_of_triangles(
 ) -> Option<PairKeys> {
     let (first, second) = (TriangleBoxes::of(a)?, TriangleBoxes::of(b)?);
     let mut keys = PairKeys([NO_PAIR; WIDTH * WIDTH]);
+    let columns = (1u32 << (b.triangles & 15)) - 1;
     let rows = keys.0.as_chunks_mut::<WIDTH>().0.iter_mut();
     for (i, row) in rows.enumerate().take(a.triangles) {
-        let bits = (wanted >> (i * WIDTH)) as u32 & 0xFF;
+        let bits = (wanted >> (i * WIDTH)) as u32 & columns;
         if bits == 0 {
             continue;
         }
@@ -296,7 +321,7 @@ pub(crate) fn keys_of_triangles(
             }
         }
         for (j, (key, sum)) in row.iter_mut().zip(sums).enumerate() {
-            let is_near = bits >> j & 1 != 0 && j < b.triangles && sum <= limit_sq;
+            let is_near = bits & 1 << (j & 7) != 0 && sum <= limit_sq;
             *key = if is_near { key_of(sum, (i * WIDTH + j) as u32) } else { NO_PAIR };
         }
     }
@@ -315,11 +340,11 @@ pub(crate) fn pairs_along(direction: [f32; 3], limit_sq: f32, a: &Corners, b: &C
     let (first, second) = (heights(a, direction), heights(b, direction));
     let limit = limit_sq * way_sq;
     let mut pairs = 0;
-    for (i, &top) in first.high.iter().enumerate() {
+    for (i, &top) in first.high.iter().enumerate().take(a.triangles) {
         let mut bits = 0u32;
         for (j, low) in second.low.iter().enumerate() {
             let gap = greater(0.0, low - top);
-            bits |= u32::from(gap * gap * SQUARED_SLACK <= limit) << j;
+            bits |= if gap * gap * SQUARED_SLACK <= limit { 1 << (j & 7) } else { 0 };
         }
         pairs |= u64::from(bits) << (i * WIDTH);
     }
@@ -336,11 +361,11 @@ fn raise_keys_along(keys: &mut PairKeys, direction: [f32; 3], pair: &LeafPair<'_
     let (first, second) = (heights(&pair.a, direction), heights(&pair.b, direction));
     let factor = SQUARED_SLACK / way_sq;
     for (i, row) in keys.0.as_chunks_mut::<WIDTH>().0.iter_mut().enumerate() {
-        let Some(&top) = first.high.get(i) else { continue };
-        for (j, (key, low)) in row.iter_mut().zip(second.low).enumerate() {
-            let gap = greater(0.0, low - top);
-            let along = key_of(gap * gap * factor, (i * WIDTH + j) as u32);
-            *key = if *key < along { along } else { *key };
+        let top = first.high[i & 7];
+        for j in 0..WIDTH {
+            let gap = greater(0.0, second.low[j] - top);
+            let along = key_of(gap * gap * factor, (WIDTH * (i & 7) + j) as u32);
+            row[j] = higher_key(row[j], along);
         }
     }
 }
@@ -375,11 +400,8 @@ fn vertex_heights(corners: &Corners, [a, b, c]: [f32; 3]) -> [f32; SLOTS] {
 #[inline(always)]
 fn heights(corners: &Corners, direction: [f32; 3]) -> Heights {
     let at = vertex_heights(corners, direction);
-    let mut heights = Heights { low: [0.0; WIDTH], high: [0.0; WIDTH] };
-    for (i, (low, high)) in heights.low.iter_mut().zip(&mut heights.high).enumerate() {
-        let [p, q, r] = corners.slots(i).map(|slot| at.get(slot).copied().unwrap_or(0.0));
-        *low = lesser(p, lesser(q, r));
-        *high = greater(p, greater(q, r));
-    }
-    heights
+    let Some((low, high)) = corners.ends(&at) else {
+        return Heights { low: [f32::MIN; WIDTH], high: [f32::MAX; WIDTH] };
+    };
+    Heights { low, high }
 }

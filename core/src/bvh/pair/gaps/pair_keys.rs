@@ -10,7 +10,7 @@ use crate::bvh::tree::stored_lengths::root_of_bound;
 use crate::geom::fan::WIDTH;
 use crate::num::greater;
 use crate::num::tolerance::{LEAST_STRETCH, U32};
-use crate::query::RelativePose;
+use crate::query::{DIRECTIONS, RelativePose};
 
 /// Pairs of children of two nodes.
 pub(crate) const PAIRS: usize = WIDTH * WIDTH;
@@ -19,8 +19,9 @@ pub(crate) const PAIRS: usize = WIDTH * WIDTH;
 /// child of the second.
 const PAIR_MASK: u32 = PAIRS as u32 - 1;
 
-/// Key of no pair, above every bound.
-pub(crate) const NO_PAIR: u32 = u32::MAX;
+/// Key of no pair, above every bound. It is no negative number, as no key is: processors without
+/// vectors of unsigned integers compare keys too.
+pub(crate) const NO_PAIR: u32 = i32::MAX.cast_unsigned();
 
 /// Bounds of the squared distances of pairs, as the bits of an f32, cut to make room for the
 /// number of the pair.
@@ -88,7 +89,7 @@ impl PairKeys {
             let bounds = bounds(a, b, i, bits, factor);
             for (j, (key, bound)) in row.iter_mut().zip(bounds).enumerate() {
                 let pair = (i * WIDTH + j) as u32;
-                *key = if bits >> j & 1 != 0 { key_of(bound, pair) } else { NO_PAIR };
+                *key = if bits & 1 << (j & 7) != 0 { key_of(bound, pair) } else { NO_PAIR };
             }
         }
         keys
@@ -100,17 +101,20 @@ impl PairKeys {
         let mut lanes = [NO_PAIR; WIDTH];
         for row in self.0.as_chunks::<WIDTH>().0 {
             for (least, &key) in lanes.iter_mut().zip(row) {
-                *least = if key < *least { key } else { *least };
+                *least = lower_key(*least, key);
             }
         }
-        lanes.into_iter().fold(NO_PAIR, |least, key| least.min(key))
+        lanes.into_iter().fold(NO_PAIR, lower_key)
     }
 
     /// Keeps the pairs with these bits.
     #[inline(always)]
     pub(crate) fn keep(&mut self, pairs: u64) {
-        for (at, key) in self.0.iter_mut().enumerate() {
-            *key = if pairs >> (at & (PAIRS - 1)) & 1 != 0 { *key } else { NO_PAIR };
+        for (i, row) in self.0.as_chunks_mut::<WIDTH>().0.iter_mut().enumerate() {
+            let bits = (pairs >> (WIDTH * (i & 7))) as u32;
+            for (j, key) in row.iter_mut().enumerate() {
+                *key = if bits & 1 << (j & 7) != 0 { *key } else { NO_PAIR };
+            }
         }
     }
 
@@ -127,6 +131,20 @@ impl PairKeys {
     #[inline(always)]
     pub(crate) fn up_to(&self, limit: u32) -> (u64, u32) {
         let (mut bits, mut least) = (0u64, NO_PAIR);
+        if WIDE {
+            for (i, row) in self.0.as_chunks::<WIDTH>().0.iter().enumerate() {
+                let lanes = row.iter().enumerate();
+                let near = lanes.fold(0, |near, (j, &key)| {
+                    near | if key.cast_signed() <= limit.cast_signed() {
+                        1u32 << (j & 7)
+                    } else {
+                        0
+                    }
+                });
+                bits |= u64::from(near) << (WIDTH * (i & 7));
+            }
+            return (bits, self.least());
+        }
         for (pair, &key) in self.0.iter().enumerate() {
             bits |= u64::from(key <= limit) << (pair & (PAIRS - 1));
             least = least.min(key);
@@ -135,23 +153,36 @@ impl PairKeys {
     }
 }
 
+/// The higher of two keys.
+#[inline(always)]
+pub(crate) fn higher_key(a: u32, b: u32) -> u32 {
+    if b.cast_signed() > a.cast_signed() { b } else { a }
+}
+
+/// The lower of two keys.
+#[inline(always)]
+fn lower_key(a: u32, b: u32) -> u32 {
+    if b.cast_signed() < a.cast_signed() { b } else { a }
+}
+
 /// Squared bounds of child `i` of the first node with each child of the second.
 #[inline(always)]
 fn bounds(a: &AxisIntervals, b: &AxisIntervals, i: usize, bits: u32, factor: f32) -> [f32; WIDTH] {
-    let mut sums = [[0f32; WIDTH]; 2];
-    let directions = a.low.iter().zip(&a.high).zip(b.low.iter().zip(&b.high));
-    for (d, ((from, to), (low, high))) in directions.enumerate() {
-        let (Some(&from), Some(&to)) = (from.get(i), to.get(i)) else { continue };
-        let [first, second] = &mut sums;
-        let sum = if d < 3 { first } else { second };
-        for (j, (sum, (low, high))) in sum.iter_mut().zip(low.iter().zip(high)).enumerate() {
-            if WIDE || bits >> j & 1 != 0 {
-                let gap = greater(0.0, greater(low - to, from - high));
-                *sum += gap * gap;
+    let sums = |directions: core::ops::Range<usize>| {
+        let mut sums = [0f32; WIDTH];
+        for d in directions {
+            let (low, high) = (&b.low[d % DIRECTIONS], &b.high[d % DIRECTIONS]);
+            let (from, to) = (a.low[d % DIRECTIONS][i & 7], a.high[d % DIRECTIONS][i & 7]);
+            for (j, (sum, (low, high))) in sums.iter_mut().zip(low.iter().zip(high)).enumerate() {
+                if WIDE || bits >> j & 1 != 0 {
+                    let gap = greater(0.0, greater(low - to, from - high));
+                    *sum += gap * gap;
+                }
             }
         }
-    }
-    let [first, second] = &sums;
+        sums
+    };
+    let (first, second) = (&sums(0..3), &sums(3..6));
     let mut bounds = *first;
     for (bound, second) in bounds.iter_mut().zip(second) {
         *bound = greater(*bound, second * factor);

@@ -7,7 +7,7 @@ use crate::bvh::pair::gaps::pair_keys::{children_of, key_limit};
 use crate::bvh::pair::leaf_pair::{Corners, SLOTS};
 use crate::bvh::tree::format::{LeafShape, RING};
 use crate::bvh::tree::triangle_at::TriangleAt;
-use crate::geom::hull_gap;
+use crate::geom::{hull_gap, triangle_gap};
 use crate::num::{each, float};
 use crate::query::Work;
 use glam::Vec3;
@@ -145,7 +145,7 @@ fn visit_hulls(
         keys.drop(key);
         let [i, j] = children_of(key).map(|lane| lane as usize);
         work.triangles = work.triangles.saturating_add(1);
-        let found = hull_gap(&a.triangle(i), &b.triangle(j), way, goal.limits);
+        let found = triangle_gap(&a.triangle(i), &b.triangle(j), way, goal.limits);
         way = found.way;
         if !goal.take([a.of.with_lane(i), b.of.with_lane(j)], &found) {
             return visit(false);
