@@ -404,15 +404,14 @@ impl<'a> LeafPair<'a> {
         let VertexPose { matrix, shift_exact, .. } = *self.pose;
         let [first, second] = &self.leaves;
         let unit = f64::from(self.pose.units[0]);
-        let wide = |leaf: &FanLeaf<'_>, slots: [usize; 3]| {
-            let stored = leaf.stored_vertices();
-            slots.map(|slot| stored.map(|axis| f64::from(axis.get(slot).copied().unwrap_or(0.0))))
+        let wide = |leaf: &FanLeaf<'_>, lane: usize| {
+            leaf.stored_corners(lane).map(|corner| corner.to_array().map(f64::from))
         };
-        let a = wide(first, self.a.slots(i));
+        let a = wide(first, i);
         let [[cx, cy, cz], ..] = a;
         let [u, v, w] = shift_exact;
         let [u, v, w] = [u - cx * unit, v - cy * unit, w - cz * unit];
-        let b = wide(second, self.b.slots(j)).map(|[x, y, z]| {
+        let b = wide(second, j).map(|[x, y, z]| {
             let along = |[a, b, c]: [f32; 3], shift: f64| {
                 let [a, b, c] = [a, b, c].map(f64::from);
                 (a * x + b * y) + (c * z + shift)
@@ -426,8 +425,8 @@ impl<'a> LeafPair<'a> {
     /// The first vertex of triangle `i` of the first leaf, its units from its origin, exactly.
     #[inline(always)]
     pub(crate) fn first_vertex(&self, i: usize) -> [f64; 3] {
-        let [slot, ..] = self.a.slots(i);
         let [first, _] = &self.leaves;
-        first.stored_vertices().map(|axis| f64::from(axis.get(slot).copied().unwrap_or(0.0)))
+        let [corner, ..] = first.stored_corners(i);
+        corner.to_array().map(f64::from)
     }
 }

@@ -3,9 +3,7 @@
 //! Boxes bound all pairs in f32. The nearest pair is computed in f64. The offset between its points
 //! then bounds all other pairs: most often none is left.
 
-use super::pair_keys::{
-    NO_PAIR, PairKeys, children_of, distance_of, higher_key, key_limit, key_of, pair_bit,
-};
+use super::pair_keys::{NO_PAIR, PairKeys, children_of, distance_of, key_limit, key_of, pair_bit};
 use super::question::{PairQuestion, TriangleGap};
 use super::whole_way::WholeWay;
 use crate::bvh::pair::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
@@ -17,7 +15,7 @@ use crate::geom::{
     Contact, GapLimits, TriangleDistance, crossing, triangle_distance, triangle_gap, triangles_meet,
 };
 use crate::num::tolerance::{GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32};
-use crate::num::{difference, dot, greater, lesser, up_to_f32};
+use crate::num::{difference, dot, greater, lesser, sqrt_approx, up_to_f32};
 use crate::query::{VertexPose, Work};
 use glam::Vec3;
 
@@ -279,14 +277,53 @@ fn least_distance(
     margin: f32,
     seen: &Settled,
 ) -> Option<f64> {
-    let mut keys = keys_of_triangles(&pair.a, &pair.b, f32::INFINITY, u64::MAX)?;
-    raise_keys_along(&mut keys, direction, pair);
-    keys.keep(!seen.pairs);
-    let least = keys.least();
-    if least == NO_PAIR {
+    let (a, b) = (&pair.a, &pair.b);
+    let (first, second) = (TriangleBoxes::of(a)?, TriangleBoxes::of(b)?);
+    let (tops, lows) = (heights(a, direction).high, heights(b, direction).low);
+    let [x, y, z] = direction;
+    let way_sq = x * x + y * y + z * z;
+    let factor = if way_sq < LEAST_GAP_SQ { 0.0 } else { SQUARED_SLACK / way_sq };
+    let columns = (1u32 << (b.triangles & 15)) - 1;
+    let mut least = [f32::INFINITY; WIDTH];
+    for (i, &top) in tops.iter().enumerate().take(a.triangles) {
+        let bits = (!seen.pairs >> (i * WIDTH)) as u32 & columns;
+        if bits == 0 {
+            continue;
+        }
+        let sums = box_gaps_sq(&first, &second, i, bits);
+        for (j, (least, (sum, low))) in least.iter_mut().zip(sums.iter().zip(lows)).enumerate() {
+            if WIDE || bits >> j & 1 != 0 {
+                let gap = greater(0.0, low - top);
+                let bound = greater(*sum, gap * gap * factor);
+                let bound = if bits & 1 << (j & 7) != 0 { bound } else { f32::INFINITY };
+                *least = lesser(*least, bound);
+            }
+        }
+    }
+    let least = least.into_iter().fold(f32::INFINITY, lesser);
+    if least == f32::INFINITY {
         return Some(seen.lower);
     }
-    Some(lesser(seen.lower, greater(0.0, distance_of(least) - f64::from(margin))))
+    Some(lesser(seen.lower, greater(0.0, distance_of(key_of(least, 0)) - f64::from(margin))))
+}
+
+/// The squared gaps between the boxes of triangle `i` and each of the other leaf's triangles, of
+/// those with a bit.
+#[inline(always)]
+fn box_gaps_sq(first: &TriangleBoxes, second: &TriangleBoxes, i: usize, bits: u32) -> [f32; WIDTH] {
+    let mut sums = [0f32; WIDTH];
+    for ((from, to), (low, high)) in
+        first.low.iter().zip(&first.high).zip(second.low.iter().zip(&second.high))
+    {
+        let (Some(&from), Some(&to)) = (from.get(i), to.get(i)) else { continue };
+        for (j, (sum, (low, high))) in sums.iter_mut().zip(low.iter().zip(high)).enumerate() {
+            if WIDE || bits >> j & 1 != 0 {
+                let gap = greater(0.0, greater(low - to, from - high));
+                *sum += gap * gap;
+            }
+        }
+    }
+    sums
 }
 
 /// Keys of the pairs `wanted`, by their boxes: a bit for each pair. Vertices are as computed, so a
@@ -308,18 +345,7 @@ pub(crate) fn keys_of_triangles(
         if bits == 0 {
             continue;
         }
-        let mut sums = [0f32; WIDTH];
-        for ((from, to), (low, high)) in
-            first.low.iter().zip(&first.high).zip(second.low.iter().zip(&second.high))
-        {
-            let (Some(&from), Some(&to)) = (from.get(i), to.get(i)) else { continue };
-            for (j, (sum, (low, high))) in sums.iter_mut().zip(low.iter().zip(high)).enumerate() {
-                if WIDE || bits >> j & 1 != 0 {
-                    let gap = greater(0.0, greater(low - to, from - high));
-                    *sum += gap * gap;
-                }
-            }
-        }
+        let sums = box_gaps_sq(&first, &second, i, bits);
         for (j, (key, sum)) in row.iter_mut().zip(sums).enumerate() {
             let is_near = bits & 1 << (j & 7) != 0 && sum <= limit_sq;
             *key = if is_near { key_of(sum, (i * WIDTH + j) as u32) } else { NO_PAIR };
@@ -332,53 +358,36 @@ pub(crate) fn keys_of_triangles(
 #[cfg_attr(meshsweep_small, inline(never))]
 #[cfg_attr(not(meshsweep_small), inline(always))]
 pub(crate) fn pairs_along(direction: [f32; 3], limit_sq: f32, a: &Corners, b: &Corners) -> u64 {
-    let [x, y, z] = direction;
-    let way_sq = x * x + y * y + z * z;
-    if way_sq < LEAST_GAP_SQ {
-        return u64::MAX;
-    }
+    let Some(limit) = limit_along(direction, limit_sq) else { return u64::MAX };
     let (first, second) = (heights(a, direction), heights(b, direction));
-    let limit = limit_sq * way_sq;
     let mut pairs = 0;
     for (i, &top) in first.high.iter().enumerate().take(a.triangles) {
         let mut bits = 0u32;
         for (j, low) in second.low.iter().enumerate() {
-            let gap = greater(0.0, low - top);
-            bits |= if gap * gap * SQUARED_SLACK <= limit { 1 << (j & 7) } else { 0 };
+            bits |= if low - top <= limit { 1 << (j & 7) } else { 0 };
         }
         pairs |= u64::from(bits) << (i * WIDTH);
     }
     pairs
 }
 
-/// Raises the keys of the pairs that are farther apart along `direction` than their boxes.
-fn raise_keys_along(keys: &mut PairKeys, direction: [f32; 3], pair: &LeafPair<'_>) {
-    let [x, y, z] = direction;
-    let way_sq = x * x + y * y + z * z;
-    if way_sq < LEAST_GAP_SQ {
-        return;
-    }
-    let (first, second) = (heights(&pair.a, direction), heights(&pair.b, direction));
-    let factor = SQUARED_SLACK / way_sq;
-    for (i, row) in keys.0.as_chunks_mut::<WIDTH>().0.iter_mut().enumerate() {
-        let top = first.high[i & 7];
-        for j in 0..WIDTH {
-            let gap = greater(0.0, second.low[j] - top);
-            let along = key_of(gap * gap * factor, (WIDTH * (i & 7) + j) as u32);
-            row[j] = higher_key(row[j], along);
-        }
-    }
-}
-
 /// Whether the leaves as a whole are within the limit along `direction`.
 #[inline(always)]
 fn may_be_near(direction: [f32; 3], limit_sq: f32, pair: &LeafPair<'_>) -> bool {
-    let [x, y, z] = direction;
-    let way_sq = x * x + y * y + z * z;
+    let Some(limit) = limit_along(direction, limit_sq) else { return true };
     let top = vertex_heights(&pair.a, direction).into_iter().fold(f32::MIN, greater);
     let low = vertex_heights(&pair.b, direction).into_iter().fold(f32::MAX, lesser);
-    let gap = greater(0.0, low - top);
-    way_sq < LEAST_GAP_SQ || gap * gap * SQUARED_SLACK <= limit_sq * way_sq
+    low - top <= limit
+}
+
+/// The limit times the length of the direction, rounded up. `None` if the square is too small to be
+/// trusted.
+#[inline(always)]
+fn limit_along([x, y, z]: [f32; 3], limit_sq: f32) -> Option<f32> {
+    let way_sq = x * x + y * y + z * z;
+    let square = limit_sq * way_sq;
+    let is_trusted = way_sq >= LEAST_GAP_SQ && square >= LEAST_GAP_SQ;
+    is_trusted.then(|| sqrt_approx(square) * (1.0 + 8.0 * U32))
 }
 
 /// Triangles along a direction.

@@ -153,12 +153,6 @@ impl PairKeys {
     }
 }
 
-/// The higher of two keys.
-#[inline(always)]
-pub(crate) fn higher_key(a: u32, b: u32) -> u32 {
-    if b.cast_signed() > a.cast_signed() { b } else { a }
-}
-
 /// The lower of two keys.
 #[inline(always)]
 fn lower_key(a: u32, b: u32) -> u32 {

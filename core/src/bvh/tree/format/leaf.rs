@@ -122,6 +122,18 @@ impl<'a> FanLeaf<'a> {
         out
     }
 
+    /// The corners of a triangle as stored, without the grid's origin, exactly.
+    #[inline(always)]
+    pub fn stored_corners(&self, lane: usize) -> [Vec3; 3] {
+        let which = usize::from(lane >= self.shape.turn());
+        if let (false, Some(stored)) = (self.is_f32, self.stored_triangle(lane, which)) {
+            let [(cx, [ax, bx]), (cy, [ay, by]), (cz, [az, bz])] = stored;
+            let corner = |x, y, z| Vec3::new(float(x), float(y), float(z));
+            return [corner(cx, cy, cz), corner(ax, ay, az), corner(bx, by, bz)];
+        }
+        [self.centre(which), self.ring(lane), self.ring(lane + 1)]
+    }
+
     #[inline(never)]
     fn f32_vertices(&self, out: &mut [[f32; CORNERS]; 3]) {
         let second = self.shape.centres() - 1;
