@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::{env, fs};
 
 /// Images without a runtime: linked by `bare.x`, never started.
-const BARE: [&str; 17] = [
+const BARE: [&str; 18] = [
     "proof",
     "size_empty",
     "size_open",
@@ -19,6 +19,7 @@ const BARE: [&str; 17] = [
     "size_tree_segment",
     "size_tree_coherent",
     "size_tree_four",
+    "size_scene",
     "size_triboxes",
     "size_tight",
     "size_curve",

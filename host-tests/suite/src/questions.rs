@@ -89,7 +89,7 @@ pub const QUESTIONS: [Question; 35] = [
 
 /// Questions whose code is measured, each by an image `size_*` of its own, and their names in
 /// tables.
-pub const SIZES: [(&str, &str); 15] = [
+pub const SIZES: [(&str, &str); 16] = [
     ("tree_open", "open a box tree"),
     ("tree_alone", "closest point"),
     ("tree_alone_two", "closest point, first hit"),
@@ -98,6 +98,7 @@ pub const SIZES: [(&str, &str); 15] = [
     ("tree_segment", "open, first hit"),
     ("tree_coherent", "open, coherent query"),
     ("tree_four", "open, closest point, first hit, within, signed distance"),
+    ("scene", "a scene that remembers, within"),
     ("tight", "open tight hulls, within"),
     ("triboxes", "open triboxes, apart"),
     ("curve", "open curves, closest point"),

@@ -299,6 +299,12 @@ pub fn ticks(
     size_of::<Guard<'_>>().saturating_add(size_of::<Memory>())
 }
 
+/// Guards one row: all that an image needs of the core which guards an arm.
+pub fn guard_once(laid: &Laid<'_>, row: &Row, memory: &mut Memory, fold: &mut Fold) {
+    let tick = |mut guard| tick(&mut guard, &row.poses, &mut memory.scratch);
+    told(fold, &guard(&laid.trees).and_then(tick));
+}
+
 #[inline(never)]
 fn guard<'t>(trees: &[Bvh<'t>; MODELS]) -> Result<Guard<'t>, QueryError> {
     let [a, b, c, d, e, f, g, h, i] = trees.map(|tree| PlacedModel::new(tree, Pose::IDENTITY));
