@@ -5,7 +5,7 @@
 //! a bound, two units of rounding do not matter.
 
 use super::real::{exponent, mantissa, packed, rounded_product};
-use super::tolerance::{ROOT_UP, SQUARE_FLOOR};
+use super::tolerance::{GUESS_UP, ROOT_UP, SQUARE_FLOOR};
 use super::{Real, SOFT_FLOAT};
 
 /// Square root of `x ≥ 0`, off by less than 2 units of f32 relative; 0 for 0, infinity for
@@ -119,9 +119,17 @@ pub fn sqrt_up<const N: usize>(x: [f32; N]) -> [f32; N] {
     y.map(|root| root.0)
 }
 
+/// An upper bound of the square root of 0 ≤ `x` ≤ 2^60, at most 0.076 of it and 2^-49 too large: the
+/// guess by bits alone.
+#[inline(always)]
+pub fn sqrt_above(x: f32) -> f32 {
+    let x = Real(x) + Real(SQUARE_FLOOR);
+    (x * Real(f32::from_bits(guess(x.0))) * Real(GUESS_UP)).0
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{reciprocal, reciprocal_in_integers, sqrt_approx, sqrt_up};
+    use super::{reciprocal, reciprocal_in_integers, sqrt_above, sqrt_approx, sqrt_up};
 
     #[test]
     fn upper_bounds_of_roots_are_not_below_them_and_close() {
@@ -130,6 +138,8 @@ mod tests {
             let x = f32::from_bits(bits);
             let (exact, up) = (libm::sqrt(f64::from(x)), f64::from(sqrt_up([x])[0]));
             assert!(exact <= up && up <= exact * (1.0 + 3.1e-5) + 1.8e-15, "{x:e}: {up:e}");
+            let above = f64::from(sqrt_above(x));
+            assert!(exact <= above && above <= exact * 1.076 + 1.8e-15, "{x:e}: {above:e}");
             bits += 9_973;
         }
     }
