@@ -6,7 +6,7 @@ use super::separation::grid_pose::FramePose;
 use crate::bvh::tree::format::Bvh;
 use crate::geom::{Pose, Rows, columns, turned};
 use crate::num::tolerance::{BOX_PAIR, MOTION, NEARLY_RIGID, SEPARATION_POSE, SKEW, U32};
-use crate::num::{difference, dot, exp2_f32, greater, lesser, sqrt_approx};
+use crate::num::{difference, dot, exp2_f32, greater, lesser, sqrt_below};
 use crate::query::{PoseInverse, QueryError, check_rigid, is_rotation, skew};
 use glam::Vec3;
 
@@ -55,7 +55,7 @@ impl Apart {
     /// A lower bound of the distance. Not infinite.
     pub(crate) fn gap(&self) -> f32 {
         let square = lesser(self.square, SQUARE_CAP);
-        sqrt_approx(square) * (1.0 - 8.0 * U32) - self.less * (1.0 + 8.0 * U32)
+        sqrt_below(square) - self.less * (1.0 + 8.0 * U32)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The boxes of two nodes' children: along the direction, and along the axes of the first grid.
 
-use super::direction::{Direction, WholeDirection};
+use super::direction::{Direction, ShortDirection};
 use super::goal::square_up;
 use super::grid_pose::GridPose;
 use super::pending::Pending;
@@ -241,14 +241,14 @@ pub(crate) fn push_children(
     (leaves_a, leaves_b) = (leaves_a & a.leaves(), leaves_b & b.leaves());
     if leaves_a | leaves_b != 0 {
         // The vertices of a leaf are not higher than its box.
-        if let Some(whole) = WholeDirection::of(way) {
+        if let Some(short) = ShortDirection::of(way) {
             for i in bits(leaves_a) {
-                tops_a[i] = lesser(tops_a[i], whole.top(&tree_a.leaf(a.node, i as u32)?)?);
+                tops_a[i] = lesser(tops_a[i], short.top(&tree_a.leaf(a.node, i as u32)?)?);
             }
         }
-        if let Some(whole) = WholeDirection::of(back) {
+        if let Some(short) = ShortDirection::of(back) {
             for j in bits(leaves_b) {
-                tops_b[j] = lesser(tops_b[j], whole.top(&tree_b.leaf(b.node, j as u32)?)?);
+                tops_b[j] = lesser(tops_b[j], short.top(&tree_b.leaf(b.node, j as u32)?)?);
             }
         }
         waiting.retain(|[i, j]| !is_beyond(least_top_a(tops_b[j]), tops_a[i]));
