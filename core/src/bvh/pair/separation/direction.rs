@@ -2,7 +2,7 @@
 
 use crate::bvh::tree::format::FanLeaf;
 use crate::num::tolerance::U32;
-use crate::num::{dot, float, greater, sqrt_approx};
+use crate::num::{dot, greater, sqrt_approx};
 use glam::Vec3;
 
 /// A direction in the first grid, towards the second model. Any direction serves, so its own
@@ -99,7 +99,7 @@ impl ShortDirection {
             let whole = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
             top = greater(top, height([whole(x), whole(y), whole(z)]));
         }
-        Some(float(top) * self.unit)
+        Some(top as f32 * self.unit)
     }
 }
 
