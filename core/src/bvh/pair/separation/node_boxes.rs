@@ -11,7 +11,7 @@ use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::geom::{Rows, columns, turned};
 use crate::num::tolerance::U32;
-use crate::num::{Real, difference, dot, each, float, greater, lesser};
+use crate::num::{Real, SOFT_FLOAT, difference, dot, each, float, greater, lesser};
 use crate::query::Work;
 use glam::Vec3;
 
@@ -155,8 +155,15 @@ impl AxisBox {
         let gap = difference(self.middle, other.middle).abs() - (self.half + other.half);
         let [x, y, z] = gap.to_array().map(Real);
         let zero = Real::ZERO;
-        let (p, q, r) = (greater(zero, x), greater(zero, y), greater(zero, z));
-        let square = p * p + q * q + r * r;
+        let square = if SOFT_FLOAT || WIDE {
+            let (p, q, r) = (greater(zero, x), greater(zero, y), greater(zero, z));
+            p * p + q * q + r * r
+        } else {
+            // The same bits: twice a number above 0, else 0. It costs half of a comparison.
+            let doubled = |x: Real| x + Real(x.0.abs());
+            let (p, q, r) = (doubled(x), doubled(y), doubled(z));
+            (p * p + q * q + r * r) * Real(0.25)
+        };
         if square > zero { square.0 } else { greater(x, greater(y, z)).0 }
     }
 }
