@@ -9,7 +9,7 @@
 use core::mem::{ManuallyDrop, MaybeUninit, align_of, size_of};
 use core::{ptr, slice};
 
-use meshsweep_core::internal::bvh::{ErasedScene, MovingModel, RememberedPair};
+use meshsweep_core::internal::bvh::{ErasedScene, ModelPath, MovingModel, RememberedPair};
 use meshsweep_core::internal::hull::ErasedHull;
 use meshsweep_core::{CoherentPair, CoherentQuery, Neighbor, NodePair, ScratchEntry};
 
@@ -321,21 +321,21 @@ pub const SCENE_MODEL_ENTRIES: usize = if cfg!(target_pointer_width = "64") { 56
 /// The first word of a scene's memory in use.
 const SCENE_TAG: usize = 0x6d73_7706;
 
-/// The beginning of a scene's memory. Models, their motions and the pairs follow.
+/// The beginning of a scene's memory. Models, their paths and the pairs follow.
 #[repr(C)]
 struct SceneHead {
     tag: usize,
     last: usize,
     models: u32,
     pairs: u32,
-    least: f32,
+    questions: u32,
 }
 
 const WORD: usize = size_of::<usize>();
 
 const _: () = assert!(
     size_of::<SceneHead>() <= SCENE_ENTRIES * WORD
-        && size_of::<MovingModel<'_>>() + size_of::<f32>() <= SCENE_MODEL_ENTRIES * WORD
+        && size_of::<MovingModel<'_>>() + size_of::<ModelPath>() <= SCENE_MODEL_ENTRIES * WORD
         && size_of::<RememberedPair>() == 24
         && align_of::<SceneHead>() == align_of::<SceneEntry>()
         && align_of::<MovingModel<'_>>() == align_of::<SceneEntry>()
@@ -358,7 +358,7 @@ pub const fn scene_entries(models: usize, pairs: usize) -> Option<usize> {
 struct SceneParts {
     head: *mut SceneHead,
     models: *mut MovingModel<'static>,
-    moved: *mut f32,
+    paths: *mut ModelPath,
     pairs: *mut RememberedPair,
 }
 
@@ -367,12 +367,12 @@ impl Out<SceneEntry> {
     const fn parts(&self, models: usize) -> SceneParts {
         let bytes = self.0.cast::<u8>();
         let first = bytes.wrapping_add(SCENE_ENTRIES * WORD);
-        let moved = first.wrapping_add(models * size_of::<MovingModel<'_>>());
+        let paths = first.wrapping_add(models * size_of::<MovingModel<'_>>());
         SceneParts {
             head: self.0.cast(),
             models: first.cast(),
-            moved: moved.cast(),
-            pairs: moved.wrapping_add(models * size_of::<f32>()).cast(),
+            paths: paths.cast(),
+            pairs: paths.wrapping_add(models * size_of::<ModelPath>()).cast(),
         }
     }
 
@@ -402,7 +402,7 @@ impl Out<SceneEntry> {
             // SAFETY: the entries have room for all parts, as the assertion above says.
             unsafe { parts.models.add(index).write(model) };
             // SAFETY: as above.
-            unsafe { parts.moved.add(index).write(0.0) };
+            unsafe { parts.paths.add(index).write(ModelPath::NONE) };
         }
         for index in 0..pairs {
             let pair = pair(index)?;
@@ -414,7 +414,7 @@ impl Out<SceneEntry> {
             last: 0,
             models: model_count,
             pairs: pair_count,
-            least: 0.0,
+            questions: 0,
         };
         // SAFETY: as above.
         unsafe { parts.head.write(head) };
@@ -432,16 +432,17 @@ impl Out<SceneEntry> {
         let head = unsafe { &mut *self.0.cast::<SceneHead>() };
         let (models, pairs) = (head.models as usize, head.pairs as usize);
         let parts = self.parts(models);
-        // SAFETY: with the head `begin_scene` wrote as many models, motions and pairs, which do not
+        // SAFETY: with the head `begin_scene` wrote as many models, paths and pairs, which do not
         // overlap.
-        let (models, moved, pairs) = unsafe {
+        let (models, paths, pairs) = unsafe {
             (
                 slice::from_raw_parts_mut(parts.models, models),
-                slice::from_raw_parts_mut(parts.moved, models),
+                slice::from_raw_parts_mut(parts.paths, models),
                 slice::from_raw_parts_mut(parts.pairs, pairs),
             )
         };
-        Ok(ErasedScene { models, moved, pairs, least: &mut head.least, last: &mut head.last })
+        let SceneHead { questions, last, .. } = head;
+        Ok(ErasedScene { models, paths, pairs, questions, last })
     }
 }
 

@@ -2,14 +2,15 @@
 //!
 //! A pair keeps the clearance that was proved beyond its distance. Whatever moves takes the longest
 //! path of its points off the clearance of all its pairs, before any pair is asked about: an answer
-//! may end the question early. A pair with clearance left is clear.
+//! may end the question early. A pair with clearance left is clear. Every model has a limit: while
+//! no path is longer, every pair has clearance left, and no pair is looked at.
 
 use super::pair::separation::search::SearchStart;
 use super::pair::{MovingModel, PlacedModel};
 use super::scene::PairSearch;
 use crate::geom::Pose;
+use crate::num::lesser;
 use crate::num::tolerance::U32;
-use crate::num::{greater, lesser};
 use crate::query::{Budget, Decided, QueryError, ScratchEntry, Undecided, Verdict, Work};
 
 /// Two models of a [`CoherentScene`], and the distance that their surfaces are to keep.
@@ -25,16 +26,15 @@ pub struct KeptPair {
 /// Models that move little from one question to the next, and the pairs that are to keep a
 /// distance. Pairs that are not in the list are never looked at.
 ///
-/// RAM: 24 bytes for each pair; for each model a tree (some 200 bytes on a board) and some 140
+/// RAM: 24 bytes for each pair; for each model a tree (some 200 bytes on a board) and some 150
 /// bytes.
 #[derive(Clone, Debug)]
 pub struct CoherentScene<'a, const MODELS: usize, const PAIRS: usize> {
     models: [MovingModel<'a>; MODELS],
-    /// No point of each model went farther since the clearances were written.
-    moved: [f32; MODELS],
+    paths: [ModelPath; MODELS],
     pairs: [RememberedPair; PAIRS],
-    /// No pair had less clearance when they were written.
-    least: f32,
+    /// Questions since the motion was taken off the clearances.
+    questions: u32,
     /// The pair that the last question ended with.
     last: usize,
 }
@@ -65,6 +65,37 @@ impl RememberedPair {
     }
 }
 
+/// How far the points of a model went.
+#[derive(Clone, Copy, Debug)]
+pub struct ModelPath {
+    /// No point went farther since the clearances were written.
+    moved: f32,
+    /// While no model goes farther than its limit, every pair has clearance left.
+    limit: f32,
+    /// `moved` when the clearances were written.
+    before: f32,
+}
+
+impl ModelPath {
+    /// Nothing went anywhere, and nothing is proved.
+    pub const NONE: ModelPath = ModelPath { moved: 0.0, limit: NO_LIMIT, before: 0.0 };
+}
+
+/// No path keeps this limit.
+const NO_LIMIT: f32 = -1.0;
+
+/// Most times that a motion is repeated.
+const MOST_TIMES: f32 = (1u64 << 60) as f32;
+
+/// Pairs without clearance.
+struct Open {
+    /// The first one.
+    first: usize,
+    count: usize,
+    /// How often all models may go as far as they went before, until a pair has no clearance left.
+    times: f32,
+}
+
 /// How many of the last motions a proof by boxes is to outlast. No answer depends on it.
 const MOTIONS_BY_BOXES: f32 = 16.0;
 
@@ -88,9 +119,9 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
         }
         Ok(CoherentScene {
             models: models.map(MovingModel::new),
-            moved: [0.0; MODELS],
+            paths: [ModelPath::NONE; MODELS],
             pairs: pairs.map(|kept| RememberedPair { kept, left: 0.0, start: SearchStart::NONE }),
-            least: 0.0,
+            questions: 0,
             last: 0,
         })
     }
@@ -157,21 +188,21 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
 
     #[inline(always)]
     fn erased(&mut self) -> ErasedScene<'_, 'a> {
-        let CoherentScene { models, moved, pairs, least, last } = self;
-        ErasedScene { models, moved, pairs, least, last }
+        let CoherentScene { models, paths, pairs, questions, last } = self;
+        ErasedScene { models, paths, pairs, questions, last }
     }
 }
 
 /// A [`CoherentScene`] of any size. As one type, its questions are compiled once. The C interface
-/// makes it of the caller's memory: `moved` has as many elements as `models`, and these, `least` and
+/// makes it of the caller's memory: `paths` has as many elements as `models`, and `questions` and
 /// `last` are 0 before the first question.
 #[derive(Debug)]
 #[allow(missing_docs, reason = "the fields of CoherentScene")]
 pub struct ErasedScene<'q, 'a> {
     pub models: &'q mut [MovingModel<'a>],
-    pub moved: &'q mut [f32],
+    pub paths: &'q mut [ModelPath],
     pub pairs: &'q mut [RememberedPair],
-    pub least: &'q mut f32,
+    pub questions: &'q mut u32,
     pub last: &'q mut usize,
 }
 
@@ -183,9 +214,9 @@ impl ErasedScene<'_, '_> {
     #[inline(always)]
     pub fn move_to(self, model: usize, pose: Pose) -> Result<(), QueryError> {
         let mover = self.models.get_mut(model).ok_or(QueryError::NoModel)?;
-        let path = mover.move_to(pose)?;
-        let moved = self.moved.get_mut(model).ok_or(QueryError::NoModel)?;
-        *moved = (*moved + path) * (1.0 + 4.0 * U32);
+        let way = mover.move_to(pose)?;
+        let path = self.paths.get_mut(model).ok_or(QueryError::NoModel)?;
+        path.moved = (path.moved + way) * (1.0 + 4.0 * U32);
         Ok(())
     }
 
@@ -197,7 +228,7 @@ impl ErasedScene<'_, '_> {
                 (pair.left, pair.start) = (0.0, SearchStart::NONE);
             }
         }
-        *self.least = 0.0;
+        self.paths.iter_mut().for_each(|path| path.limit = NO_LIMIT);
     }
 
     /// As [`CoherentScene::within`].
@@ -211,68 +242,89 @@ impl ErasedScene<'_, '_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<[usize; 2]>, QueryError> {
         budget.check_with(scratch)?;
-        // NaN is not clear.
-        let is_clear = |pair: &RememberedPair| {
-            moved(self.moved, &pair.kept).is_some_and(|moved| pair.left > moved)
-        };
-        // Most often no pair can have used up the least clearance of all.
-        let most = self.moved.iter().fold(0.0, |most, &moved| greater(most, moved));
-        if *self.least > 2.0 * most || self.pairs.iter().all(is_clear) {
+        *self.questions = self.questions.saturating_add(1);
+        // Most often no model went far enough. NaN keeps no limit.
+        if self.paths.iter().all(|path| path.moved <= path.limit) {
             return Ok(Decided::CLEAR);
         }
-        *self.least = 0.0;
-        self.subtract_motion().ok_or(QueryError::Unchecked)?;
-        let found = self.ask(budget, scratch)?;
-        if found.is_clear() {
-            let left = |least: f32, pair: &RememberedPair| lesser(least, pair.left);
-            *self.least = self.pairs.iter().fold(f32::INFINITY, left);
+        let mut open = self.subtract_motion().ok_or(QueryError::Unchecked)?;
+        let found = self.ask(&mut open, budget, scratch)?;
+        if found.is_clear() && open.times > 0.0 {
+            // A path is 0 or at least 2^-50, so a product below f32's normal range is as good as 0.
+            let times = open.times * (1.0 - 16.0 * U32);
+            self.paths.iter_mut().for_each(|path| path.limit = times * path.before);
         }
         Ok(found)
     }
 
     /// Takes the motion of both models off the clearance of every pair, before any is asked about.
-    fn subtract_motion(&mut self) -> Option<()> {
-        for RememberedPair { kept, left, .. } in self.pairs.iter_mut() {
-            *left = (*left - moved(self.moved, kept)?) * (1.0 - 4.0 * U32);
+    #[inline(always)]
+    fn subtract_motion(&mut self) -> Option<Open> {
+        let mut open = Open { first: 0, count: 0, times: MOST_TIMES };
+        for (at, RememberedPair { kept, left, .. }) in self.pairs.iter_mut().enumerate() {
+            let moved = sum_of(self.paths, kept, |path| path.moved)?;
+            *left = (*left - moved) * (1.0 - 4.0 * U32);
+            // NaN is no clearance.
+            if *left > 0.0 {
+                open.times = lesser(open.times, *left / moved);
+            } else {
+                open.first = if open.count == 0 { at } else { open.first };
+                open.count += 1;
+            }
         }
-        self.moved.iter_mut().for_each(|moved| *moved = 0.0);
-        Some(())
+        for path in self.paths.iter_mut() {
+            *path = ModelPath { moved: 0.0, limit: NO_LIMIT, before: path.moved };
+        }
+        Some(open)
     }
 
+    /// Asks about the pairs without clearance: first the one that the last question ended with.
+    #[inline(always)]
     fn ask(
         &mut self,
+        open: &mut Open,
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<[usize; 2]>, QueryError> {
         let mut work = Work::NONE;
         let mut undecided: Option<(Undecided, [usize; 2])> = None;
+        let questions = *self.questions as f32;
+        *self.questions = 0;
         let last = *self.last;
-        let others = (0..self.pairs.len()).filter(|&at| at != last);
-        for at in (last..last.saturating_add(1)).chain(others) {
-            let Some(pair) = self.pairs.get_mut(at) else { continue };
-            if pair.left > 0.0 {
-                continue;
-            }
-            work.bounds = work.bounds.saturating_add(1);
-            let kept = pair.kept;
-            let witness = kept.models.map(usize::from);
-            for index in witness {
-                self.models.get_mut(index).ok_or(QueryError::Unchecked)?.place()?;
-            }
-            let memory = (&mut pair.start, &mut *scratch);
-            let (verdict, left) = clearance(self.models, &kept, budget, memory, &mut work)?;
-            pair.left = left;
-            match verdict {
-                Verdict::Yes => {
-                    *self.last = at;
-                    return Ok(Decided { verdict, witness: Some(witness), work });
+        let (mut at, mut next) = (last, open.first);
+        while open.count > 0 && at < self.pairs.len() {
+            if let Some(pair) = self.pairs.get_mut(at)
+                && !has_clearance(pair)
+            {
+                open.count -= 1;
+                work.bounds = work.bounds.saturating_add(1);
+                let kept = pair.kept;
+                let witness = kept.models.map(usize::from);
+                for index in witness {
+                    self.models.get_mut(index).ok_or(QueryError::Unchecked)?.place()?;
                 }
-                Verdict::Undecided(why) if undecided.is_none() => {
-                    *self.last = at;
-                    undecided = Some((why, witness));
+                let moved = sum_of(self.paths, &kept, |path| path.before);
+                let moved = moved.ok_or(QueryError::Unchecked)?;
+                let memory = (&mut pair.start, &mut *scratch);
+                let asked = (&kept, moved / questions);
+                let (verdict, left) = clearance(self.models, asked, budget, memory, &mut work)?;
+                pair.left = left;
+                open.times = lesser(open.times, left / moved);
+                match verdict {
+                    Verdict::Yes => {
+                        *self.last = at;
+                        return Ok(Decided { verdict, witness: Some(witness), work });
+                    }
+                    Verdict::Undecided(why) if undecided.is_none() => {
+                        *self.last = at;
+                        undecided = Some((why, witness));
+                    }
+                    _ => {}
                 }
-                _ => {}
             }
+            // The last one is not asked twice.
+            at = if next == last { next.wrapping_add(1) } else { next };
+            next = at.wrapping_add(1);
         }
         Ok(match undecided {
             Some((why, pair)) => {
@@ -283,33 +335,37 @@ impl ErasedScene<'_, '_> {
     }
 }
 
-/// The paths of both models together. Either has room for the rounding of the sum.
+/// NaN is no clearance.
 #[inline(always)]
-fn moved(moved: &[f32], kept: &KeptPair) -> Option<f32> {
-    let [a, b] = kept.models;
-    Some(moved.get(usize::from(a))? + moved.get(usize::from(b))?)
+fn has_clearance(pair: &RememberedPair) -> bool {
+    pair.left > 0.0
 }
 
-/// Whether a pair is nearer than its distance; if not, a proved clearance. Both are placed.
+/// The paths of both models together. Either has room for the rounding of the sum.
+#[inline(always)]
+fn sum_of(paths: &[ModelPath], kept: &KeptPair, of: impl Fn(&ModelPath) -> f32) -> Option<f32> {
+    let [a, b] = kept.models;
+    Some(of(paths.get(usize::from(a))?) + of(paths.get(usize::from(b))?))
+}
+
+/// Whether a pair is nearer than its distance; if not, a proved clearance. Both are placed. `moved`:
+/// how far both go from one question to the next.
+#[inline(always)]
 fn clearance(
     models: &[MovingModel<'_>],
-    kept: &KeptPair,
+    (kept, moved): (&KeptPair, f32),
     budget: Budget,
     (start, scratch): (&mut SearchStart, &mut [ScratchEntry]),
     work: &mut Work,
 ) -> Result<(Verdict, f32), QueryError> {
     let [a, b] = kept.models.map(|index| models.get(usize::from(index)));
     let (a, b) = (a.ok_or(QueryError::Unchecked)?, b.ok_or(QueryError::Unchecked)?);
-    let (one, other, moved) = (&a.model, &b.model, a.step + b.step);
+    let (one, other) = (&a.model, &b.model);
     let distance = kept.distance;
     // A pair that moves fast gains nothing by looking farther.
     let moved = if MOTIONS_BY_SEARCH * moved < distance { moved } else { 0.0 };
     let beyond = |motions: f32| lesser(motions * moved, distance);
-    let mut proof = one.apart(other, distance + beyond(MOTIONS_BY_BOXES));
-    if proof.is_none() && moved > 0.0 {
-        proof = one.apart(other, distance);
-    }
-    if let Some(proof) = proof {
+    if let Some(proof) = one.apart(other, distance, beyond(MOTIONS_BY_BOXES)) {
         return Ok((Verdict::No, (proof.gap() - distance) * (1.0 - 4.0 * U32)));
     }
     let search = PairSearch { models: [one, other], distance, more: beyond(MOTIONS_BY_SEARCH) };

@@ -45,7 +45,7 @@ mod solid;
 pub mod tree;
 mod winding;
 
-pub use coherent_scene::{CoherentScene, ErasedScene, KeptPair, RememberedPair};
+pub use coherent_scene::{CoherentScene, ErasedScene, KeptPair, ModelPath, RememberedPair};
 pub use pair::{CoherentPair, MovingModel, PlacedModel};
 pub use point::{
     AllWithin, CoherentClosest, CoherentQuery, Eye, FrontFacing, Hint, KNearest, Neighbor,

@@ -153,7 +153,7 @@ impl<'s, 'a> Scene<'s, 'a> {
         let mut undecided: Option<(Undecided, [usize; 2])> = None;
         for (pair, [one, other]) in self.pairs(&asks_about) {
             work.bounds = work.bounds.saturating_add(1);
-            if one.apart(other, distance).is_some() {
+            if one.apart(other, distance, 0.0).is_some() {
                 continue;
             }
             let search = PairSearch { models: [one, other], distance, more: 0.0 };
@@ -315,7 +315,7 @@ impl NearestPair<'_, '_, '_> {
         }
         let (one, other) = two_of(self.models, pair)?;
         let limit = self.found.distance.upper;
-        if !is_first && limit < f32::INFINITY && one.apart(other, limit).is_some() {
+        if !is_first && limit < f32::INFINITY && one.apart(other, limit, 0.0).is_some() {
             return Ok(());
         }
         let relative = PlacedPair::new(&one.pose, &other.pose, &other.tree)?;

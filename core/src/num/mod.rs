@@ -16,7 +16,7 @@ pub use radius::{Radius8, Radius16};
 pub use real::{Real, bit_length, difference, dot, float, floored, reals};
 pub(crate) use round::exp2_f32;
 pub use round::{down_to_f32, exp2, sum_down, sum_up, two_sum, up_to_f32};
-pub use sqrt::{sqrt_approx, sqrt_up};
+pub use sqrt::{sqrt_above, sqrt_approx, sqrt_below, sqrt_up};
 pub use truncated::truncated;
 pub use turn::{TURN, half_turn};
 

@@ -5,7 +5,7 @@
 //! a bound, two units of rounding do not matter.
 
 use super::real::{exponent, mantissa, packed, rounded_product};
-use super::tolerance::{ROOT_UP, SQUARE_FLOOR};
+use super::tolerance::{GUESS_UP, ROOT_UP, SQUARE_FLOOR, U32};
 use super::{Real, SOFT_FLOAT};
 
 /// Square root of `x ≥ 0`, off by less than 2 units of f32 relative; 0 for 0, infinity for
@@ -119,9 +119,26 @@ pub fn sqrt_up<const N: usize>(x: [f32; N]) -> [f32; N] {
     y.map(|root| root.0)
 }
 
+/// An upper bound of the square root of 0 ≤ `x` ≤ 2^60, at most 0.076 of it and 2^-49 too large: the
+/// guess by bits alone.
+#[inline(always)]
+pub fn sqrt_above(x: f32) -> f32 {
+    let x = Real(x) + Real(SQUARE_FLOOR);
+    (x * Real(f32::from_bits(guess(x.0))) * Real(GUESS_UP)).0
+}
+
+/// A lower bound of the square root of 0 ≤ `x` < 2^127, at most 0.0021 of it too small, and less of
+/// a square below f32's normal range: one step of Newton's iteration.
+#[inline(always)]
+pub fn sqrt_below(x: f32) -> f32 {
+    let (x, y) = (Real(x), Real(f32::from_bits(guess(x))));
+    let y = y * (Real(1.5) - Real(0.5) * x * y * y);
+    (x * y * Real(1.0 - 16.0 * U32)).0
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{reciprocal, reciprocal_in_integers, sqrt_approx, sqrt_up};
+    use super::{reciprocal, reciprocal_in_integers, sqrt_above, sqrt_approx, sqrt_below, sqrt_up};
 
     #[test]
     fn upper_bounds_of_roots_are_not_below_them_and_close() {
@@ -130,6 +147,20 @@ mod tests {
             let x = f32::from_bits(bits);
             let (exact, up) = (libm::sqrt(f64::from(x)), f64::from(sqrt_up([x])[0]));
             assert!(exact <= up && up <= exact * (1.0 + 3.1e-5) + 1.8e-15, "{x:e}: {up:e}");
+            let above = f64::from(sqrt_above(x));
+            assert!(exact <= above && above <= exact * 1.076 + 1.8e-15, "{x:e}: {above:e}");
+            bits += 9_973;
+        }
+    }
+
+    #[test]
+    fn lower_bounds_of_roots_are_not_above_them_and_close() {
+        let mut bits = 0u32;
+        while bits < (127 + 127) << 23 {
+            let x = f32::from_bits(bits);
+            let (exact, below) = (libm::sqrt(f64::from(x)), f64::from(sqrt_below(x)));
+            assert!(below <= exact, "{x:e}: {below:e}");
+            assert!(x < f32::MIN_POSITIVE || below >= exact * (1.0 - 0.0021), "{x:e}: {below:e}");
             bits += 9_973;
         }
     }

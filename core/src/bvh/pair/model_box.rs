@@ -35,11 +35,12 @@ impl ModelBox {
     #[inline(always)]
     fn new(low: Vec3, high: Vec3, error: f32) -> ModelBox {
         let size = low.abs() + high.abs() + error;
-        let room = size * (MODEL_BOX * U32) + f32::MIN_POSITIVE;
+        let sizes = size.x + size.y + size.z;
+        let room = sizes * (MODEL_BOX * U32) + f32::MIN_POSITIVE;
         ModelBox {
             middle: 0.5 * low + 0.5 * high,
-            half: (0.5 * high - 0.5 * low) + error + room,
-            reach: (size.x + size.y + size.z) * (1.0 + MODEL_BOX * U32) + f32::MIN_POSITIVE,
+            half: (0.5 * high - 0.5 * low) + (error + room),
+            reach: sizes + room,
         }
     }
 }
@@ -80,16 +81,16 @@ fn are_boxes_apart(
 ) -> bool {
     let rows = rotation.map(Vec3::from_array);
     let way = (turned(&rows, second.middle) + shift) - first.middle;
-    if (way.abs() - first.half).max_element() <= 0.0 {
-        // The middle of one is inside the other.
-        return false;
-    }
     let size = shift.abs();
     // A point of the second model goes through sums of up to six times its 1-norm.
     let sizes = (size.x + size.y + size.z) + 6.0 * second.reach + 2.0 * first.reach;
     let slack = sizes * (BOX_PAIR * U32);
     if exceeds(gap_sq(way, first.half, &rows, second.half), distance + slack) {
         return true;
+    }
+    if (way.abs() - first.half).max_element() <= 0.0 {
+        // The middle of one is inside the other.
+        return false;
     }
     let skew = skew(&rows) + SKEW * U32;
     let columns = columns(&rows);

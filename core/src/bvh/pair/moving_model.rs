@@ -3,7 +3,7 @@
 use super::placed_model::PlacedModel;
 use crate::geom::Pose;
 use crate::num::tolerance::NEARLY_RIGID;
-use crate::num::{difference, dot, sqrt_up};
+use crate::num::{difference, dot, sqrt_above};
 use crate::query::QueryError;
 use glam::Vec3;
 
@@ -11,8 +11,6 @@ use glam::Vec3;
 #[derive(Clone, Copy, Debug)]
 pub struct MovingModel<'a> {
     pub(crate) model: PlacedModel<'a>,
-    /// No point went farther at the last motion.
-    pub(crate) step: f32,
     /// How far a point goes for each unit that the matrix changes: the ball's radius, rounded up.
     arm: f32,
     /// Upper bound of the matrix's change since it was checked, Frobenius norm.
@@ -28,7 +26,7 @@ impl<'a> MovingModel<'a> {
     /// A model that stands still, with its least ball.
     pub fn new(model: PlacedModel<'a>) -> Self {
         let model = model.with_least_ball();
-        MovingModel { model, step: 0.0, arm: model.arm(), unchecked_turn: 0.0, is_stale: false }
+        MovingModel { model, arm: model.arm(), unchecked_turn: 0.0, is_stale: false }
     }
 
     /// Moves the model. It is placed when a pair asks for it. No point goes farther than what is
@@ -37,15 +35,14 @@ impl<'a> MovingModel<'a> {
     pub(crate) fn move_to(&mut self, pose: Pose) -> Result<f32, QueryError> {
         let [turn, path] = self.change(&pose);
         let unchecked_turn = self.unchecked_turn + turn;
-        // A matrix that changed little is still nearly a rotation. NaN is no small change.
-        if path < f32::INFINITY && self.model.skew() + 3.0 * unchecked_turn < NEARLY_RIGID {
+        // A matrix that changed little is still nearly a rotation.
+        if self.model.skew() + 3.0 * unchecked_turn < NEARLY_RIGID {
             self.model.pose = pose;
             (self.unchecked_turn, self.is_stale) = (unchecked_turn, true);
         } else {
             self.model.move_to(pose)?;
             (self.unchecked_turn, self.is_stale) = (0.0, false);
         }
-        self.step = path;
         Ok(path)
     }
 
@@ -53,7 +50,7 @@ impl<'a> MovingModel<'a> {
     #[inline(always)]
     pub(crate) fn place(&mut self) -> Result<(), QueryError> {
         if self.is_stale {
-            self.model.move_to(self.model.pose)?;
+            self.model.place_again()?;
             (self.unchecked_turn, self.is_stale) = (0.0, false);
         }
         Ok(())
@@ -70,11 +67,12 @@ impl<'a> MovingModel<'a> {
         let middle = self.model.ball_middle();
         let way = Vec3::new(dot(x, middle), dot(y, middle), dot(z, middle))
             + change(pose.translation, self.model.pose.translation);
-        let squares = [dot(x, x) + dot(y, y) + dot(z, z), dot(way, way)];
-        if !squares.iter().all(|square| *square <= MOST_SQUARE) {
+        let (turn_sq, way_sq) = (dot(x, x) + dot(y, y) + dot(z, z), dot(way, way));
+        // NaN is no small change.
+        if turn_sq + way_sq > MOST_SQUARE || (turn_sq + way_sq).is_nan() {
             return [f32::INFINITY; 2];
         }
-        let [turn, way] = sqrt_up(squares);
+        let [turn, way] = [turn_sq, way_sq].map(sqrt_above);
         [turn, way + turn * self.arm]
     }
 }

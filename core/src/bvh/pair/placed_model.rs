@@ -6,7 +6,7 @@ use super::separation::grid_pose::FramePose;
 use crate::bvh::tree::format::Bvh;
 use crate::geom::{Pose, Rows, columns, turned};
 use crate::num::tolerance::{BOX_PAIR, MOTION, NEARLY_RIGID, SEPARATION_POSE, SKEW, U32};
-use crate::num::{difference, dot, exp2_f32, greater, lesser, sqrt_approx};
+use crate::num::{difference, dot, exp2_f32, greater, lesser, sqrt_below};
 use crate::query::{PoseInverse, QueryError, check_rigid, is_rotation, skew};
 use glam::Vec3;
 
@@ -35,6 +35,7 @@ struct Place {
 }
 
 /// Two models are farther apart than `sqrt(square) − less`, in the world.
+#[derive(Clone, Copy)]
 pub(crate) struct Apart {
     square: f32,
     less: f32,
@@ -45,10 +46,16 @@ pub(crate) struct Apart {
 const SQUARE_CAP: f32 = exp2_f32(126);
 
 impl Apart {
+    /// Whether the models are farther than `distance`.
+    #[inline(always)]
+    fn proves(&self, distance: f32) -> bool {
+        exceeds(self.square, distance + self.less)
+    }
+
     /// A lower bound of the distance. Not infinite.
     pub(crate) fn gap(&self) -> f32 {
         let square = lesser(self.square, SQUARE_CAP);
-        sqrt_approx(square) * (1.0 - 8.0 * U32) - self.less * (1.0 + 8.0 * U32)
+        sqrt_below(square) - self.less * (1.0 + 8.0 * U32)
     }
 }
 
@@ -99,6 +106,13 @@ impl<'a> PlacedModel<'a> {
         Ok(())
     }
 
+    /// Places the model where its pose was changed to.
+    #[inline(never)]
+    pub(crate) fn place_again(&mut self) -> Result<(), QueryError> {
+        self.place = Place::new(&self.bounds, self.ball.middle, &self.pose)?;
+        Ok(())
+    }
+
     /// The model.
     pub const fn tree(&self) -> &Bvh<'a> {
         &self.tree
@@ -127,27 +141,45 @@ impl<'a> PlacedModel<'a> {
     }
 
     /// A proof that this model and another one are farther than `distance` from each other in the
-    /// world, if their balls and boxes prove it. `core/docs/rounding.md` §24.
-    #[inline(never)]
-    pub(crate) fn apart(&self, other: &PlacedModel<'_>, distance: f32) -> Option<Apart> {
+    /// world, if their balls and boxes prove it. One that proves `more` as well ends the search.
+    /// `core/docs/rounding.md` §24.
+    #[cfg_attr(meshsweep_small, inline(never))]
+    #[cfg_attr(not(meshsweep_small), inline(always))]
+    pub(crate) fn apart(&self, other: &PlacedModel<'_>, distance: f32, more: f32) -> Option<Apart> {
         let (a, b) = (&self.place, &other.place);
         let slack = (a.far + b.far) * (BOX_PAIR * U32 + 4.0 * (a.skew + b.skew));
-        let proof = |square: f32, less: f32| {
-            exceeds(square, distance + less).then_some(Apart { square, less })
-        };
         let way = difference(b.centre, a.centre);
-        let balls = proof(dot(way, way), (self.ball.radius + other.ball.radius) + slack);
-        if balls.is_some() {
-            return balls;
+        let balls =
+            Apart { square: dot(way, way), less: (self.ball.radius + other.ball.radius) + slack };
+        if balls.proves(distance + more) {
+            return Some(balls);
         }
+        self.apart_by_boxes(other, [distance, more], slack, balls)
+    }
+
+    /// The same by the boxes, if the balls do not prove enough.
+    #[inline(never)]
+    fn apart_by_boxes(
+        &self,
+        other: &PlacedModel<'_>,
+        [distance, more]: [f32; 2],
+        slack: f32,
+        balls: Apart,
+    ) -> Option<Apart> {
+        let mut found = balls.proves(distance).then_some(balls);
+        let mut is_enough = |square: f32, less: f32| {
+            let proof = Apart { square, less };
+            if proof.proves(distance) {
+                found = Some(proof);
+            }
+            proof.proves(distance + more)
+        };
         let [rows, other_rows] = [self, other].map(|model| columns(&model.rows()));
-        let one = proof(self.ball_gap_sq(&rows, b.centre), other.ball.radius + slack);
-        if one.is_some() {
-            return one;
-        }
-        let two = proof(other.ball_gap_sq(&other_rows, a.centre), self.ball.radius + slack);
-        if two.is_some() {
-            return two;
+        let (a, b) = (&self.place, &other.place);
+        if is_enough(self.ball_gap_sq(&rows, b.centre), other.ball.radius + slack)
+            || is_enough(other.ball_gap_sq(&other_rows, a.centre), self.ball.radius + slack)
+        {
+            return found;
         }
         // The second box in the frame of the first.
         let middle = turned(&other.rows(), other.bounds.middle) + other.translation();
@@ -156,11 +188,10 @@ impl<'a> PlacedModel<'a> {
         let back = relative;
         let relative = columns(&relative);
         let (half, other_half) = (self.bounds.half, other.bounds.half);
-        let first = proof(gap_sq(way, half, &relative, other_half), slack);
-        if first.is_some() {
-            return first;
+        if !is_enough(gap_sq(way, half, &relative, other_half), slack) {
+            is_enough(gap_sq(turned(&back, way), other_half, &back, half), slack);
         }
-        proof(gap_sq(turned(&back, way), other_half, &back, half), slack)
+        found
     }
 
     /// The pose of another model in the frame of this one, for questions about a distance in the

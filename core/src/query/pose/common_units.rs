@@ -4,12 +4,12 @@
 //! grows when it is converted. The frame is the first model's, with the first model's origin, so
 //! that a mesh far from its own zero costs no precision. See `core/docs/rounding.md` §11.
 
-use super::rotation::check_rigid;
+use super::rotation::{check_rigid, is_rotation, skew_of};
 use crate::geom::{Pose, dot, transposed};
 use crate::num::tolerance::{
     OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, OVERLAP_VERTEX, U32, U64,
 };
-use crate::num::{exp2, greater};
+use crate::num::{SOFT_FLOAT, exp2, greater};
 use crate::query::error::QueryError;
 
 /// Directions along which boxes are compared: the axes of both models' boxes.
@@ -120,7 +120,20 @@ impl RelativePose {
     /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] for an entry beyond 2, or units
     /// more than 2^40 apart; [`QueryError::NotRigid`].
     #[inline(always)]
-    pub(crate) fn check(pose: &Pose, [a, b]: [i32; 2]) -> Result<(), QueryError> {
+    pub(crate) fn check(pose: &Pose, exponents: [i32; 2]) -> Result<(), QueryError> {
+        let [a, b] = exponents;
+        // No entry of a matrix that is nearly a rotation is beyond 2, infinite or NaN.
+        let is_usual = !pose.is_affine
+            && a - b <= UNITS_APART
+            && b - a <= UNITS_APART
+            && is_rotation(&pose.rotation, skew_of(&pose.rotation))
+            && are_finite(pose.translation);
+        if is_usual { Ok(()) } else { RelativePose::check_any(pose, exponents) }
+    }
+
+    /// The same, of any pose.
+    #[inline(never)]
+    fn check_any(pose: &Pose, [a, b]: [i32; 2]) -> Result<(), QueryError> {
         // As integers: a comparison of f32 is a call where there is no float unit.
         let size = |x: &f32| x.to_bits() & !(1 << 31);
         let largest = pose.rotation.iter().flatten().map(size).fold(0, greater);
@@ -250,4 +263,17 @@ fn stretch(rows: &[[f64; 3]; 3]) -> f64 {
     let sums = [dot(a, a) + ab + ca, ab + dot(b, b) + bc, ca + bc + dot(c, c)];
     let most = sums.into_iter().fold(0.0, greater);
     libm::sqrt(most) * (1.0 + 16.0 * U64)
+}
+
+/// Whether no number is infinite or NaN.
+#[inline(always)]
+fn are_finite(numbers: [f32; 3]) -> bool {
+    let [x, y, z] = numbers;
+    if SOFT_FLOAT {
+        let size = |x: f32| x.to_bits() << 1;
+        greater(greater(size(x), size(y)), size(z)) < f32::INFINITY.to_bits() << 1
+    } else {
+        // Only of finite numbers this is 0.
+        x * 0.0 + y * 0.0 + z * 0.0 == 0.0
+    }
 }

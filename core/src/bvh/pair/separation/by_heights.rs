@@ -155,7 +155,7 @@ pub(super) fn visit_by_heights(
     scratch: &mut [ScratchEntry],
     work: &mut Work,
 ) -> bool {
-    let mut hulls = [LeafHull::NONE; 2];
+    let mut hulls = [LeafHull::none(), LeafHull::none()];
     match turn_to_nearest_pair(pose, goal, &mut hulls, direction, work) {
         Some(true) => {}
         Some(false) => return true,

@@ -50,11 +50,8 @@ impl WholeDirection {
     /// *Vertices of leaves along w*. `None` as of [`Direction::of`].
     #[inline(always)]
     pub(crate) fn of(way: Vec3) -> Option<WholeDirection> {
-        const BITS: f32 = (1u32 << 29) as f32;
-        let power = power_for(way)?;
-        let [x, y, z] = (way * (power * BITS)).to_array();
-        let way = [x as i32 + 1, y as i32 + 1, z as i32 + 1];
-        Some(WholeDirection { way, unit: 1.0 / (power * BITS) })
+        let (way, unit) = rounded_up(way, (1u32 << 29) as f32)?;
+        Some(WholeDirection { way, unit })
     }
 
     /// The greatest height of a leaf's vertices along the direction, units of its grid.
@@ -71,4 +68,46 @@ impl WholeDirection {
         }
         Some(top as f32 * self.unit)
     }
+}
+
+/// The same in integers of at most 2^13, so that heights are sums in 32 bits. They are higher by at
+/// most 48 units of the grid.
+pub(super) struct ShortDirection {
+    way: [i32; 3],
+    unit: f32,
+}
+
+impl ShortDirection {
+    /// As [`WholeDirection::of`].
+    #[inline(always)]
+    pub(super) fn of(way: Vec3) -> Option<ShortDirection> {
+        let (way, unit) = rounded_up(way, (1u32 << 12) as f32)?;
+        Some(ShortDirection { way, unit })
+    }
+
+    /// As [`WholeDirection::top`].
+    #[inline(never)]
+    pub(super) fn top(&self, leaf: &FanLeaf<'_>) -> Option<f32> {
+        let ring = leaf.grid_ring()?;
+        let [x, y, z] = self.way;
+        let height = |[p, q, r]: [i32; 3]| {
+            p.wrapping_mul(x).wrapping_add(q.wrapping_mul(y)).wrapping_add(r.wrapping_mul(z))
+        };
+        let [first, second] = ring.centres;
+        let mut top = greater(height(first), height(second));
+        for ((x, y), z) in ring.x.iter().zip(ring.y).zip(ring.z) {
+            let whole = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
+            top = greater(top, height([whole(x), whole(y), whole(z)]));
+        }
+        Some(top as f32 * self.unit)
+    }
+}
+
+/// The direction times a power of two that is at most `bits`, each component rounded up, and the
+/// inverse of the power.
+#[inline(always)]
+fn rounded_up(way: Vec3, bits: f32) -> Option<([i32; 3], f32)> {
+    let power = power_for(way)?;
+    let [x, y, z] = (way * (power * bits)).to_array();
+    Some(([x as i32 + 1, y as i32 + 1, z as i32 + 1], 1.0 / (power * bits)))
 }

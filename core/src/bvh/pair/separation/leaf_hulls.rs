@@ -23,12 +23,12 @@ pub(crate) struct LeafHull {
 }
 
 impl LeafHull {
-    pub(crate) const NONE: LeafHull = LeafHull {
-        of: TriangleAt::NONE,
-        vertices: [Vec3::ZERO; SLOTS],
-        used: 0,
-        shape: LeafShape(0),
-    };
+    /// Of no leaf. Not a constant: a constant is copied, and this is cleared.
+    #[inline(always)]
+    pub(crate) fn none() -> LeafHull {
+        let vertices = [Vec3::ZERO; SLOTS];
+        LeafHull { of: TriangleAt::NONE, vertices, used: 0, shape: LeafShape(0) }
+    }
 
     /// Computes the vertices of a leaf of model 0 or 1, unless they are those of this leaf already.
     /// `None` if the tree is unchecked.

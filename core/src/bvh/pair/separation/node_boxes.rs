@@ -1,6 +1,6 @@
 //! The boxes of two nodes' children: along the direction, and along the axes of the first grid.
 
-use super::direction::{Direction, WholeDirection};
+use super::direction::{Direction, ShortDirection};
 use super::goal::square_up;
 use super::grid_pose::GridPose;
 use super::pending::Pending;
@@ -11,7 +11,7 @@ use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::geom::{Rows, columns, turned};
 use crate::num::tolerance::U32;
-use crate::num::{Real, difference, dot, each, float, greater, lesser};
+use crate::num::{Real, SOFT_FLOAT, difference, dot, each, float, greater, lesser};
 use crate::query::Work;
 use glam::Vec3;
 
@@ -137,6 +137,17 @@ pub(super) struct AxisBox {
 impl AxisBox {
     const NONE: AxisBox = AxisBox { middle: Vec3::ZERO, half: Vec3::ZERO };
 
+    /// Middle and half along one axis.
+    #[inline(always)]
+    fn side(&self, axis: usize) -> [f32; 2] {
+        let (middle, half) = (self.middle, self.half);
+        match axis {
+            0 => [middle.x, half.x],
+            1 => [middle.y, half.y],
+            _ => [middle.z, half.z],
+        }
+    }
+
     /// A lower bound of the squared distance. If the boxes meet: the least overlap along an axis,
     /// times −1, so that the deepest pair comes first.
     #[inline(always)]
@@ -144,8 +155,15 @@ impl AxisBox {
         let gap = difference(self.middle, other.middle).abs() - (self.half + other.half);
         let [x, y, z] = gap.to_array().map(Real);
         let zero = Real::ZERO;
-        let (p, q, r) = (greater(zero, x), greater(zero, y), greater(zero, z));
-        let square = p * p + q * q + r * r;
+        let square = if SOFT_FLOAT || WIDE {
+            let (p, q, r) = (greater(zero, x), greater(zero, y), greater(zero, z));
+            p * p + q * q + r * r
+        } else {
+            // The same bits: twice a number above 0, else 0. It costs half of a comparison.
+            let doubled = |x: Real| x + Real(x.0.abs());
+            let (p, q, r) = (doubled(x), doubled(y), doubled(z));
+            (p * p + q * q + r * r) * Real(0.25)
+        };
         if square > zero { square.0 } else { greater(x, greater(y, z)).0 }
     }
 }
@@ -203,33 +221,38 @@ pub(crate) fn push_children(
     work.bounds =
         work.bounds.saturating_add(a.wanted.count_ones().saturating_mul(b.wanted.count_ones()));
     let highest = bits(a.wanted).fold(f32::MIN, |most, i| greater(Real(most), Real(tops_a[i])).0);
-    // For each child of the second node, a bit for each child of the first that is within the
-    // limit.
-    let mut pairs = [0u8; WIDTH];
-    let mut rows = 0;
+    // Children that are within the limit of some child of the other node.
+    let (mut near_a, mut near_b, mut lowest) = (0, 0, f32::INFINITY);
     for j in bits(b.wanted) {
         let least_top = least_top_a(tops_b[j]);
-        if is_beyond(least_top, highest) {
-            continue;
+        if !is_beyond(least_top, highest) {
+            near_b |= 1 << j;
+            lowest = lesser(Real(lowest), least_top).0;
         }
-        for i in bits(a.wanted) {
-            pairs[j] |= u8::from(!is_beyond(least_top, tops_a[i])) << i;
-        }
-        rows |= pairs[j];
     }
-    if rows == 0 {
+    for i in bits(a.wanted) {
+        near_a |= u32::from(!is_beyond(Real(lowest), tops_a[i])) << i;
+    }
+    if near_b == 0 {
         return Some(());
     }
     let mut waiting = pending.begin([a.node, b.node])?;
-    let first = along_axes(&boxes_a, u32::from(rows));
+    let first = along_axes(&boxes_a, near_a);
     let second = MovedBoxes::new(pose, &boxes_b);
+    // Of pairs that are near along the direction most are far along the axis across it.
+    let across = axis_across(way);
+    let sides = first.map(|first| first.side(across));
     let (mut leaves_a, mut leaves_b) = (0, 0);
-    for j in bits(b.wanted) {
-        if pairs[j] == 0 {
-            continue;
-        }
+    for j in bits(near_b) {
+        let least_top = least_top_a(tops_b[j]);
         let other = second.along_axes(j);
-        for i in bits(u32::from(pairs[j])) {
+        let side = other.side(across);
+        for i in bits(near_a) {
+            if is_beyond(least_top, tops_a[i])
+                || is_beyond(Real(gap_of(sides[i], side)), limit.length)
+            {
+                continue;
+            }
             let key = first[i].key(&other);
             if !is_beyond(Real(key), limit.square) {
                 waiting.add(key, (i * WIDTH + j) as u32)?;
@@ -241,19 +264,38 @@ pub(crate) fn push_children(
     (leaves_a, leaves_b) = (leaves_a & a.leaves(), leaves_b & b.leaves());
     if leaves_a | leaves_b != 0 {
         // The vertices of a leaf are not higher than its box.
-        if let Some(whole) = WholeDirection::of(way) {
+        if let Some(short) = ShortDirection::of(way) {
             for i in bits(leaves_a) {
-                tops_a[i] = lesser(tops_a[i], whole.top(&tree_a.leaf(a.node, i as u32)?)?);
+                tops_a[i] = lesser(tops_a[i], short.top(&tree_a.leaf(a.node, i as u32)?)?);
             }
         }
-        if let Some(whole) = WholeDirection::of(back) {
+        if let Some(short) = ShortDirection::of(back) {
             for j in bits(leaves_b) {
-                tops_b[j] = lesser(tops_b[j], whole.top(&tree_b.leaf(b.node, j as u32)?)?);
+                tops_b[j] = lesser(tops_b[j], short.top(&tree_b.leaf(b.node, j as u32)?)?);
             }
         }
         waiting.retain(|[i, j]| !is_beyond(least_top_a(tops_b[j]), tops_a[i]));
     }
     waiting.finish()
+}
+
+/// The axis that is most across a direction.
+#[inline(always)]
+fn axis_across(way: Vec3) -> usize {
+    let [x, y, z] = way.abs().to_array().map(Real);
+    if x < y && x < z {
+        0
+    } else if y < z {
+        1
+    } else {
+        2
+    }
+}
+
+/// The gap of two boxes along an axis. Below 0: the overlap, times −1.
+#[inline(always)]
+fn gap_of([middle, half]: [f32; 2], [other, other_half]: [f32; 2]) -> f32 {
+    (Real((Real(middle) - Real(other)).0.abs()) - (Real(half) + Real(other_half))).0
 }
 
 /// NaN is beyond no limit: its pair is looked at.

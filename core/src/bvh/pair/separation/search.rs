@@ -138,7 +138,7 @@ fn visit_leaves(
     let [a, b] = pose.trees;
     let steps = lesser(steps, work.opened.saturating_add(most_pairs(a, b)));
     let mut pending = Pending::new(scratch);
-    let mut hulls = [LeafHull::NONE; 2];
+    let mut hulls = [LeafHull::none(), LeafHull::none()];
     let roots = || Some([Children::of(a, 0)?, Children::of(b, 0)?]);
     let mut are_roots_next = first_a != TriangleAt::NONE;
     let mut children = if are_roots_next {
