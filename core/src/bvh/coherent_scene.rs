@@ -26,7 +26,7 @@ pub struct KeptPair {
 /// Models that move little from one question to the next, and the pairs that are to keep a
 /// distance. Pairs that are not in the list are never looked at.
 ///
-/// RAM: 24 bytes for each pair; for each model a tree (some 200 bytes on a board) and some 150
+/// RAM: 24 bytes for each pair; for each model a tree (some 200 bytes on a board) and some 140
 /// bytes.
 #[derive(Clone, Debug)]
 pub struct CoherentScene<'a, const MODELS: usize, const PAIRS: usize> {

@@ -11,7 +11,7 @@ mod truncated;
 mod turn;
 
 pub use each::each;
-pub use order::{greater, lesser};
+pub use order::{above_zero, greater, lesser};
 pub use radius::{Radius8, Radius16};
 pub use real::{Real, bit_length, difference, dot, float, floored, reals};
 pub(crate) use round::exp2_f32;

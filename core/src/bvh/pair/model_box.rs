@@ -4,7 +4,7 @@ use crate::bvh::tree::extended::unit_exponent;
 use crate::bvh::tree::format::Bvh;
 use crate::geom::{Pose, Rows, columns, turned};
 use crate::num::tolerance::{BOX_PAIR, MODEL_BOX, NEARLY_RIGID, SKEW, SQUARE_FLOOR, U32};
-use crate::num::{exp2_f32, greater};
+use crate::num::{above_zero, exp2_f32, greater};
 use crate::query::{QueryError, RelativePose, skew};
 use glam::Vec3;
 
@@ -112,7 +112,7 @@ pub(crate) fn gap_sq(way: Vec3, half: Vec3, rows: &Rows, other_half: Vec3) -> f3
 /// The squared length of a gap's components above 0. NaN is no gap.
 #[inline(always)]
 pub(crate) fn beyond_sq(gap: Vec3) -> f32 {
-    let [x, y, z] = gap.to_array().map(|x| greater(0.0, x));
+    let [x, y, z] = gap.to_array().map(above_zero);
     (x * x + y * y) + z * z
 }
 
