@@ -14,3 +14,6 @@ pub mod oracle;
 pub mod picture;
 pub mod scene;
 pub mod workload;
+
+/// Whether all is optimised, as `cargo test --release` has it: tests may draw more.
+pub const IS_RELEASE: bool = !cfg!(debug_assertions);

@@ -9,6 +9,7 @@ pub mod moved;
 pub mod placed;
 mod polyline;
 pub mod polytope;
+pub mod replayed;
 mod segment;
 mod wide;
 mod winding;

@@ -3,10 +3,11 @@
 use super::scenes::options;
 use meshsweep::cut::cut;
 use meshsweep_core::{
-    Blob, Budget, Contradiction, Ended, Hull, OpenError, ScratchEntry, SectionKind, TriangleHit,
+    Blob, Budget, Contradiction, Ended, Hull, OpenError, ScratchEntry, SectionKind,
 };
 use meshsweep_host_tests::corrupt::{
-    assert_only_the_whole_opens, entries, entry, flip_bits, put_u32, seal, swap_entries, word,
+    ask_hull, assert_only_the_whole_opens, entries, entry, flip_bits, put_u32, seal, swap_entries,
+    word,
 };
 use meshsweep_host_tests::generate::{Rng, cube, icosphere, rough_sphere};
 use meshsweep_host_tests::oracle::{contacts, distance_to_mesh};
@@ -29,32 +30,6 @@ fn edited(edit: impl FnOnce(&mut Vec<u8>)) -> Result<(), OpenError> {
     Hull::open(&bytes).map(|_| ())
 }
 
-/// Asks an opened model everything; all of it ends, within work that its tables bound.
-fn ask_everything(model: &Hull<'_>) {
-    let h = model.header();
-    let most = 4 * (h.rings + 2 * h.splits + 2 * h.base_triangles) + 64;
-    let mut queue = [ScratchEntry::EMPTY; 24];
-    let mut hits = [TriangleHit::EMPTY; 4];
-    for p in [[0.1, 0.2, 0.3], [5.0, -3.0, 1.0]] {
-        let answer =
-            model.closest_point(p, Budget::EXACT, &mut queue).expect("an opened model answers");
-        assert!(
-            answer.distance.lower <= answer.distance.upper && answer.work.total() <= most,
-            "{answer:?}"
-        );
-    }
-    let (a, b) = ([-3.0, 0.1, 0.2], [3.0, 0.15, 0.1]);
-    if let Ok(first) = model.first_hit(a, b, Budget::EXACT, &mut queue) {
-        assert!(first.t.lower <= first.t.upper && first.work.total() <= most, "{first:?}");
-        let all =
-            model.all_hits(a, b, &mut hits, Budget::EXACT, &mut queue).expect("in the domain");
-        assert!(all.work.total() <= most, "{all:?}");
-    }
-    for level in model.levels() {
-        assert!(model.faces(&level).all(|f| model.positions(f.corners).is_some()));
-    }
-}
-
 #[test]
 fn open_rejects_truncation_and_every_flipped_bit() {
     for bytes in [cube_blob(), small()] {
@@ -66,7 +41,7 @@ fn open_rejects_truncation_and_every_flipped_bit() {
 fn every_flipped_bit_with_right_checksums_is_refused_or_safe_to_ask() {
     for bytes in [cube_blob(), small()] {
         let outcome = flip_bits(&bytes, 0..8 * bytes.len(), |bytes| {
-            Hull::open(bytes).map(|model| ask_everything(&model))
+            Hull::open(bytes).map(|model| ask_hull(&model))
         });
         assert!(outcome.opened > 100 && outcome.reasons.len() >= 8, "{outcome:?}");
     }

@@ -12,7 +12,7 @@ use meshsweep_core::{
     Budget, ClosestPoint, Contradiction, Ended, Focus, Hull, Interval, OpenError, OuterSearch,
     QueryError, RefinedHull, ScratchEntry, SplitChange, TriangleHit, VertIdx,
 };
-use meshsweep_host_tests::corrupt::{entry, put_u32, seal, word};
+use meshsweep_host_tests::corrupt::{entry, every_face_has_corners, put_u32, seal, word};
 use meshsweep_host_tests::generate::corpus::soups;
 use meshsweep_host_tests::generate::evil::{Outcome, evil};
 use meshsweep_host_tests::generate::{
@@ -328,9 +328,7 @@ fn damaged_bytes_are_refused_or_safe_to_ask_with_the_flag_and_without() {
         let (a, b) = ([-3.0, 0.1, 0.2], [3.0, 0.15, 0.1]);
         let first = model.first_hit(a, b, Budget::EXACT, &mut queue).expect("in the domain");
         assert!(first.t.lower <= first.t.upper, "{first:?}");
-        for level in model.levels() {
-            assert!(model.faces(&level).all(|f| model.positions(f.corners).is_some()));
-        }
+        every_face_has_corners(&model);
         Ok(())
     };
     for bytes in [open, closed] {

@@ -2,145 +2,27 @@
 //! update gives what its focus needs.
 
 use super::scenes::all;
-use glam::DVec3;
-use meshsweep::check::{Manifold, Surface, Winding, canonical};
+use meshsweep::check::canonical;
 use meshsweep_core::internal::hull::format::SplitIdx;
 use meshsweep_core::{
-    Budget, Focus, Hull, OuterSearch, QueryError, RefinedHull, Refinement, SectionKind,
-    SplitChange, VertIdx,
+    Budget, Focus, Hull, OuterSearch, QueryError, RefinedHull, Refinement, SectionKind, SplitChange,
 };
 use meshsweep_host_tests::corrupt::{entries, seal};
 use meshsweep_host_tests::generate::Rng;
 use meshsweep_host_tests::oracle::distance_to_triangle;
+use meshsweep_host_tests::oracle::replayed::{Inside, Replayed, is_needed};
 use meshsweep_host_tests::scene::Scene;
 use std::collections::BTreeSet;
 
 /// Splits of a refined hull that holds all of each scene.
 const ALL: usize = 4096;
 
-/// A refined hull by the tables alone: a set of splits, and a mesh that refuses what does not fit.
-struct Replayed<'t> {
-    hull: Hull<'t>,
-    mesh: Manifold,
-    performed: BTreeSet<u32>,
-}
-
-impl<'t> Replayed<'t> {
-    fn new(hull: Hull<'t>) -> Self {
-        let mut mesh = Manifold::default();
-        for triangle in 0..hull.header().base_triangles {
-            let corners = hull.base_triangle(triangle).expect("in range");
-            mesh.add(corners.map(|v| v.0)).expect("the base hull is a mesh");
-        }
-        Self { hull, mesh, performed: BTreeSet::new() }
-    }
-
-    /// The vertex that a split replaces, and its ring.
-    fn named(&self, split: u32) -> impl Iterator<Item = VertIdx> {
-        let split = self.hull.split(SplitIdx(split)).expect("in range");
-        let ring = (0..split.ring_len()).map(move |i| split.ring(i).expect("in range"));
-        std::iter::once(split.vertex).chain(ring)
-    }
-
-    fn requires(&self, split: u32) -> BTreeSet<u32> {
-        self.named(split).filter_map(|v| self.hull.made_by(v)).map(|maker| maker.0).collect()
-    }
-
-    fn may_perform(&self, split: u32) -> bool {
-        !self.performed.contains(&split) && self.requires(split).is_subset(&self.performed)
-    }
-
-    fn may_undo(&self, split: u32) -> bool {
-        self.performed.contains(&split)
-            && !self.performed.range(split + 1..).any(|&s| self.requires(s).contains(&split))
-    }
-
-    /// Replaces the coarse triangles of a split by the fine ones, or the reverse.
-    fn turn(&mut self, number: u32, perform: bool) {
-        let split = self.hull.split(SplitIdx(number)).expect("in range");
-        let coarse = (0..split.ring_len()).map(|i| split.coarse(i).expect("in range"));
-        let fine = (0..split.fine_len()).map(|i| split.fine(i).expect("in range"));
-        let mut stars = [coarse.collect::<Vec<_>>(), fine.collect()];
-        if !perform {
-            stars.reverse();
-        }
-        let [old, new] = stars;
-        for corners in old {
-            self.mesh.remove(corners.map(|v| v.0)).expect("the star of the vertex");
-        }
-        for corners in new {
-            self.mesh.add(corners.map(|v| v.0)).expect("a free place");
-        }
-        let changed =
-            if perform { self.performed.insert(number) } else { self.performed.remove(&number) };
-        assert!(changed);
-    }
-
-    /// Closed, a manifold, and around each point at least as often as the surface, in exact
-    /// arithmetic.
-    fn assert_encloses(&self, points: &Inside) {
-        self.mesh.closed_manifold().expect("a closed manifold");
-        let hull = Winding::new(&surface(&self.hull, self.mesh.triangles()));
-        for &(p, turns) in &points.0 {
-            let around = hull.around(p).expect("below the surface is no face");
-            assert!(around >= turns, "{p:?} is not enclosed");
-        }
-    }
-
-    /// Vertices that exist, each with the split that would replace it.
-    fn existing(&self) -> impl Iterator<Item = (VertIdx, SplitIdx)> {
-        let of_base = 0..self.hull.header().base_vertices;
-        let brought = self.performed.iter().flat_map(|&split| {
-            let first = self.hull.header().base_vertices + 2 * split;
-            [first, first + 1]
-        });
-        of_base.chain(brought).filter_map(|v| {
-            let split = self.hull.split_of(VertIdx(v))?;
-            (!self.performed.contains(&split.0)).then_some((VertIdx(v), split))
-        })
-    }
-}
-
-/// Points just below the surface, each with the surface's winding number.
-struct Inside(Vec<([f64; 3], i64)>);
-
-fn surface(hull: &Hull<'_>, triangles: Vec<[u32; 3]>) -> Surface {
-    let position = |v| hull.position(VertIdx(v)).expect("in range").as_dvec3().to_array();
-    Surface { positions: (0..hull.header().vertices).map(position).collect(), triangles }
-}
-
-impl Inside {
-    fn new(scene: &Scene) -> Self {
-        let hull = scene.model();
-        let mut finest = Replayed::new(hull);
-        (0..hull.split_count()).for_each(|split| finest.turn(split, true));
-        let part = surface(&hull, finest.mesh.triangles());
-        let winding = Winding::new(&part);
-        let mut rng = Rng::new(91);
-        let mut points = Vec::new();
-        while points.len() < 60 {
-            // Just below the surface, where a hull that cuts into the part shows.
-            let triangle = part.triangles[rng.below(part.triangles.len())];
-            let [a, b, c] = triangle.map(|v| DVec3::from(part.positions[v as usize]));
-            let weights = [rng.unit_f64(), rng.unit_f64(), rng.unit_f64()];
-            let sum: f64 = weights.iter().sum();
-            let on = (a * weights[0] + b * weights[1] + c * weights[2]) / sum;
-            let inward = (c - a).cross(b - a);
-            let p = (on + inward.normalize_or_zero() * 1e-7).to_array();
-            if let Ok(turns @ 1..) = winding.around(p) {
-                points.push((p, turns));
-            }
-        }
-        Self(points)
-    }
-}
-
 #[test]
 fn any_order_that_the_tables_allow_gives_a_closed_mesh_around_the_part() {
     for scene in all() {
-        let points = Inside::new(scene);
+        let points = Inside::new(scene.model());
         let mut state = Replayed::new(scene.model());
-        let count = state.hull.split_count() as usize;
+        let count = scene.model().split_count() as usize;
         let mut rng = Rng::new(92);
         let (mut performed, mut undone) = (0, 0);
         for step in 0..600 {
@@ -189,53 +71,10 @@ fn any_focus(scene: &Scene, rng: &mut Rng) -> (Focus, f32) {
     (focus, error)
 }
 
-/// Whether a ball certainly meets a focus and an error is certainly not allowed there, in the local
-/// frame, by arithmetic of its own.
-fn is_needed(
-    hull: &Hull<'_>,
-    focus: &Focus,
-    wanted: f32,
-    vertex: VertIdx,
-    [reach, error]: [f32; 2],
-) -> bool {
-    const SURE: f64 = 1e-5;
-    let local = |p: [f32; 3]| DVec3::from(p.map(f64::from)) / hull.scale();
-    let length = |x: f32| f64::from(x) / hull.scale();
-    let v = hull.position(vertex).expect("in range").as_dvec3();
-    let (reach, error) = (f64::from(reach), f64::from(error));
-    let least_error = length(wanted);
-    let gap = match *focus {
-        Focus::Everywhere => 0.0,
-        Focus::Ball { centre, radius } => v.distance(local(centre)) - length(radius),
-        Focus::Box { a, b } => {
-            let (a, b) = (local(a), local(b));
-            v.clamp(a.min(b), a.max(b)).distance(v)
-        }
-        Focus::Segment { a, b, radius } => {
-            let (a, way) = (local(a), local(b) - local(a));
-            let t = ((v - a).dot(way) / way.length_squared()).clamp(0.0, 1.0);
-            v.distance(a + way * t) - length(radius)
-        }
-        Focus::Eye { position, axis, cosine, error_per_distance } => {
-            let from = v - local(position);
-            let distance = (from.length() - reach).max(0.0);
-            let axis = DVec3::from(axis.map(f64::from)).normalize();
-            let angle = (from.dot(axis) / from.length()).clamp(-1.0, 1.0).acos();
-            let half = f64::from(cosine).acos();
-            let span = (reach / from.length()).clamp(0.0, 1.0).asin();
-            return error > least_error * (1.0 + SURE)
-                && error > f64::from(error_per_distance) * distance * (1.0 + SURE)
-                && (distance == 0.0 || angle - span < half - SURE);
-        }
-        _ => unreachable!("no other focus"),
-    };
-    gap < reach * (1.0 - SURE) && error > least_error * (1.0 + SURE)
-}
-
 /// Whatever an update says holds: its changes are legal, one after the other; its faces are those
 /// of the splits; what is needed and not there is told.
 fn assert_update<const SPLITS: usize>(
-    name: &str,
+    (name, hull): (&str, &Hull<'_>),
     state: &mut Replayed<'_>,
     refined: &RefinedHull<'_, SPLITS>,
     (focus, error): &(Focus, f32),
@@ -256,16 +95,16 @@ fn assert_update<const SPLITS: usize>(
         state.turn(change.split(), perform);
     }
     let mut faces: Vec<_> =
-        refined.faces(&state.hull).map(|face| canonical(face.corners.map(|v| v.0))).collect();
+        refined.faces(hull).map(|face| canonical(face.corners.map(|v| v.0))).collect();
     assert_eq!(faces.len(), update.faces as usize, "{}", say());
     faces.sort_unstable();
-    assert_eq!(faces, state.mesh.triangles(), "{}", say());
-    assert_eq!(refined.splits(), state.performed.len(), "{}", say());
+    assert_eq!(faces, state.triangles(), "{}", say());
+    assert_eq!(refined.splits(), state.performed().len(), "{}", say());
     for (vertex, split) in state.existing() {
-        let split = state.hull.split(split).expect("in range");
+        let split = hull.split(split).expect("in range");
         let [reach, stored] = [split.star_radius, split.error];
-        if is_needed(&state.hull, focus, *error, vertex, [reach, stored]) {
-            let left = f64::from(update.error_left) / state.hull.scale();
+        if is_needed(hull, focus, *error, vertex, [reach, stored]) {
+            let left = f64::from(update.error_left) / hull.scale();
             assert!(left >= f64::from(stored), "{vertex:?} is needed: {}", say());
         }
     }
@@ -274,7 +113,7 @@ fn assert_update<const SPLITS: usize>(
 fn follow<const SPLITS: usize>(seed: u64, updates: usize) -> u32 {
     let mut was_short = 0;
     for scene in all() {
-        let points = Inside::new(scene);
+        let points = Inside::new(scene.model());
         let hull = scene.model();
         let mut state = Replayed::new(hull);
         let mut refined = Box::new(RefinedHull::<SPLITS>::new());
@@ -283,7 +122,7 @@ fn follow<const SPLITS: usize>(seed: u64, updates: usize) -> u32 {
         for i in 0..updates {
             let asked = any_focus(scene, &mut rng);
             let update = refined.update(&hull, &asked.0, asked.1, &mut changes).expect("in domain");
-            assert_update(&scene.name, &mut state, &refined, &asked, &update, &changes);
+            assert_update((&scene.name, &hull), &mut state, &refined, &asked, &update, &changes);
             was_short += u32::from(update.error_left > 0.0);
             if i % 8 == 7 {
                 state.assert_encloses(&points);
@@ -324,12 +163,19 @@ fn a_kept_hull_holds_all_that_a_fresh_one_does_and_comes_back_to_it() {
             here = std::array::from_fn(|k| here[k] + way[k] * size * 0.02);
             let asked = (Focus::Ball { centre: here, radius: size * 0.1 }, size / 512.0);
             let update = kept.update(&hull, &asked.0, asked.1, &mut changes).expect("in domain");
-            assert_update(&scene.name, &mut state, &kept, &asked, &update, &changes);
+            assert_update((&scene.name, &hull), &mut state, &kept, &asked, &update, &changes);
             let mut fresh = Box::new(RefinedHull::<ALL>::new());
             let mut fresh_state = Replayed::new(hull);
             let update = fresh.update(&hull, &asked.0, asked.1, &mut changes).expect("in domain");
-            assert_update(&scene.name, &mut fresh_state, &fresh, &asked, &update, &changes);
-            assert!(fresh_state.performed.is_subset(&state.performed), "{}", scene.name);
+            assert_update(
+                (&scene.name, &hull),
+                &mut fresh_state,
+                &fresh,
+                &asked,
+                &update,
+                &changes,
+            );
+            assert!(fresh_state.performed().is_subset(state.performed()), "{}", scene.name);
             // Away, where nothing is needed, and back.
             let first = splits_of(&fresh);
             let far = here.map(|x| x + size * 1e3);

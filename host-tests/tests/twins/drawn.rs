@@ -2,6 +2,7 @@
 //! with too little scratch, and from hints.
 
 use super::{scenes, segment};
+use meshsweep_host_tests::IS_RELEASE;
 use meshsweep_host_tests::generate::Rng;
 use meshsweep_host_tests::scene::Scene;
 
@@ -102,7 +103,7 @@ answers_of!(of_m4f, meshsweep_core_m4f);
 
 #[test]
 fn drawn_questions_have_the_same_answers_on_boards() {
-    let count = if cfg!(debug_assertions) { 240 } else { 20_000 };
+    let count = if IS_RELEASE { 20_000 } else { 240 };
     let mut work = [0; 3];
     for (index, scene) in scenes().iter().enumerate() {
         let drawn = Drawn::of(scene, count, 0xb0a2 + index as u64);
