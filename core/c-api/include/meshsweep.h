@@ -679,8 +679,8 @@ int32_t msw_scene_move(msw_scene_entry *scene, uint32_t model, const msw_pose *p
  * depend on all calls before, and are the same on every target.
  * MSW_DISTANCE_ENTRIES are always enough scratch. MSW_ERROR_NOT_SERVED: a model was built without
  * segments. MSW_ERROR_OUT_OF_DOMAIN: two models are farther from each other than float reaches.
- * Cost: ten operations for a pair whose clearance outlasted the motion, some hundreds for one whose
- * boxes tell, else a search as of msw_within_of. */
+ * Cost: one comparison a model while none went beyond its limit. Else ten operations for a pair
+ * with clearance left, some hundreds for one whose boxes tell, else a search as of msw_within_of. */
 int32_t msw_scene_within(msw_scene_entry *scene,
                          const msw_budget *budget,
                          msw_scratch_entry *scratch, size_t scratch_count,

@@ -1,9 +1,10 @@
 //! A scene that remembers, from one question to the next, how far apart its pairs are.
 //!
-//! A pair keeps the clearance that was proved beyond its distance. Whatever moves takes the longest
-//! path of its points off the clearance of all its pairs, before any pair is asked about: an answer
-//! may end the question early. A pair with clearance left is clear. Every model has a limit: while
-//! no path is longer, every pair has clearance left, and no pair is looked at.
+//! A pair keeps its clearance: how much farther than its distance it was proved to be. When models
+//! have moved, their longest paths are taken off the clearances of all pairs, before any pair is
+//! asked about: a `Yes` ends the question, and pairs not yet asked would miss the motion. A pair
+//! with clearance left is clear. Every model also has a limit. While no path is longer than its
+//! limit, every pair is clear, and no pair is looked at.
 
 use super::pair::separation::search::SearchStart;
 use super::pair::{MovingModel, PlacedModel};
@@ -68,11 +69,11 @@ impl RememberedPair {
 /// How far the points of a model went.
 #[derive(Clone, Copy, Debug)]
 pub struct ModelPath {
-    /// No point went farther since the clearances were written.
+    /// The longest path of a point since motion was last taken off the clearances.
     moved: f32,
-    /// While no model goes farther than its limit, every pair has clearance left.
+    /// While no model has a longer path than its limit, every pair is clear.
     limit: f32,
-    /// `moved` when the clearances were written.
+    /// The path that was taken off last.
     before: f32,
 }
 
@@ -81,14 +82,14 @@ impl ModelPath {
     pub const NONE: ModelPath = ModelPath { moved: 0.0, limit: NO_LIMIT, before: 0.0 };
 }
 
-/// No path keeps this limit.
+/// Every path is longer, so pairs are looked at.
 const NO_LIMIT: f32 = -1.0;
 
-/// Most times that a motion is repeated.
+/// Upper limit of [`Spent::times`], so that its product with a path stays in f32's range.
 const MOST_TIMES: f32 = (1u64 << 60) as f32;
 
-/// Pairs without clearance.
-struct Open {
+/// The pairs that used up their clearance.
+struct Spent {
     /// The first one.
     first: usize,
     count: usize,
@@ -152,7 +153,8 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
     /// question comes first, then the others in their order. `work` counts the pairs that were
     /// looked at as `bounds`.
     ///
-    /// Cost: ten operations for each pair whose clearance outlasted the motion. Otherwise as for
+    /// Cost: one comparison for each model while no path is longer than its limit. Else ten
+    /// operations for each pair with clearance left, and for the others as for
     /// [`Scene::within`](crate::Scene::within); a search looks farther than the distance by a few
     /// motions, so that it need not be repeated soon.
     ///
@@ -214,9 +216,9 @@ impl ErasedScene<'_, '_> {
     #[inline(always)]
     pub fn move_to(self, model: usize, pose: Pose) -> Result<(), QueryError> {
         let mover = self.models.get_mut(model).ok_or(QueryError::NoModel)?;
-        let way = mover.move_to(pose)?;
+        let step = mover.move_to(pose)?;
         let path = self.paths.get_mut(model).ok_or(QueryError::NoModel)?;
-        path.moved = (path.moved + way) * (1.0 + 4.0 * U32);
+        path.moved = (path.moved + step) * (1.0 + 4.0 * U32);
         Ok(())
     }
 
@@ -247,11 +249,11 @@ impl ErasedScene<'_, '_> {
         if self.paths.iter().all(|path| path.moved <= path.limit) {
             return Ok(Decided::CLEAR);
         }
-        let mut open = self.subtract_motion().ok_or(QueryError::Unchecked)?;
-        let found = self.ask(&mut open, budget, scratch)?;
-        if found.is_clear() && open.times > 0.0 {
+        let mut spent = self.subtract_motion().ok_or(QueryError::Unchecked)?;
+        let found = self.ask(&mut spent, budget, scratch)?;
+        if found.is_clear() && spent.times >= f32::MIN_POSITIVE {
             // A path is 0 or at least 2^-50, so a product below f32's normal range is as good as 0.
-            let times = open.times * (1.0 - 16.0 * U32);
+            let times = spent.times * (1.0 - 16.0 * U32);
             self.paths.iter_mut().for_each(|path| path.limit = times * path.before);
         }
         Ok(found)
@@ -259,30 +261,30 @@ impl ErasedScene<'_, '_> {
 
     /// Takes the motion of both models off the clearance of every pair, before any is asked about.
     #[inline(always)]
-    fn subtract_motion(&mut self) -> Option<Open> {
-        let mut open = Open { first: 0, count: 0, times: MOST_TIMES };
+    fn subtract_motion(&mut self) -> Option<Spent> {
+        let mut spent = Spent { first: 0, count: 0, times: MOST_TIMES };
         for (at, RememberedPair { kept, left, .. }) in self.pairs.iter_mut().enumerate() {
             let moved = sum_of(self.paths, kept, |path| path.moved)?;
             *left = (*left - moved) * (1.0 - 4.0 * U32);
             // NaN is no clearance.
             if *left > 0.0 {
-                open.times = lesser(open.times, *left / moved);
+                spent.times = lesser(spent.times, *left / moved);
             } else {
-                open.first = if open.count == 0 { at } else { open.first };
-                open.count += 1;
+                spent.first = if spent.count == 0 { at } else { spent.first };
+                spent.count += 1;
             }
         }
         for path in self.paths.iter_mut() {
             *path = ModelPath { moved: 0.0, limit: NO_LIMIT, before: path.moved };
         }
-        Some(open)
+        Some(spent)
     }
 
     /// Asks about the pairs without clearance: first the one that the last question ended with.
     #[inline(always)]
     fn ask(
         &mut self,
-        open: &mut Open,
+        spent: &mut Spent,
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<[usize; 2]>, QueryError> {
@@ -291,12 +293,12 @@ impl ErasedScene<'_, '_> {
         let questions = *self.questions as f32;
         *self.questions = 0;
         let last = *self.last;
-        let (mut at, mut next) = (last, open.first);
-        while open.count > 0 && at < self.pairs.len() {
+        let (mut at, mut next) = (last, spent.first);
+        while spent.count > 0 && at < self.pairs.len() {
             if let Some(pair) = self.pairs.get_mut(at)
                 && !has_clearance(pair)
             {
-                open.count -= 1;
+                spent.count -= 1;
                 work.bounds = work.bounds.saturating_add(1);
                 let kept = pair.kept;
                 let witness = kept.models.map(usize::from);
@@ -309,7 +311,7 @@ impl ErasedScene<'_, '_> {
                 let asked = (&kept, moved / questions);
                 let (verdict, left) = clearance(self.models, asked, budget, memory, &mut work)?;
                 pair.left = left;
-                open.times = lesser(open.times, left / moved);
+                spent.times = lesser(spent.times, left / moved);
                 match verdict {
                     Verdict::Yes => {
                         *self.last = at;
@@ -348,8 +350,8 @@ fn sum_of(paths: &[ModelPath], kept: &KeptPair, of: impl Fn(&ModelPath) -> f32) 
     Some(of(paths.get(usize::from(a))?) + of(paths.get(usize::from(b))?))
 }
 
-/// Whether a pair is nearer than its distance; if not, a proved clearance. Both are placed. `moved`:
-/// how far both go from one question to the next.
+/// Whether a pair is nearer than its distance. If it is not, a proved clearance. Both models are
+/// placed. `moved`: how far both go from one question to the next.
 #[inline(always)]
 fn clearance(
     models: &[MovingModel<'_>],
@@ -365,8 +367,12 @@ fn clearance(
     // A pair that moves fast gains nothing by looking farther.
     let moved = if MOTIONS_BY_SEARCH * moved < distance { moved } else { 0.0 };
     let beyond = |motions: f32| lesser(motions * moved, distance);
-    if let Some(proof) = one.apart(other, distance, beyond(MOTIONS_BY_BOXES)) {
-        return Ok((Verdict::No, (proof.gap() - distance) * (1.0 - 4.0 * U32)));
+    let more = beyond(MOTIONS_BY_BOXES);
+    if let Some(proof) = one.apart(other, distance, more) {
+        let left = (proof.gap() - distance) * (1.0 - 4.0 * U32);
+        // The quick root may lose more than was proved.
+        let left = if left <= 0.0 { proof.sharp_clearance(distance) } else { left };
+        return Ok((Verdict::No, left));
     }
     let search = PairSearch { models: [one, other], distance, more: beyond(MOTIONS_BY_SEARCH) };
     let (verdict, left) = search.are_near(budget, start, scratch, work)?;

@@ -77,7 +77,8 @@ fn gap_of(first: &[Vec3], second: &[Vec3], start: Vec3, limits: GapLimits) -> Hu
         vertices: [0; 2],
         hull_sq: f32::INFINITY,
     };
-    let mut simplex = Simplex { corners: [RealVector::from(Vec3::ZERO); 4], count: 0 };
+    // Any corners: zeros would be cleared by a call.
+    let mut simplex = Simplex { corners: [RealVector::from(start); 4], count: 0 };
     let mut way = start;
     for _ in 0..MOST_ROUNDS {
         let way_sq = dot(way, way);

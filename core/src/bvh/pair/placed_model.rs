@@ -6,7 +6,7 @@ use super::separation::grid_pose::FramePose;
 use crate::bvh::tree::format::Bvh;
 use crate::geom::{Pose, Rows, columns, turned};
 use crate::num::tolerance::{BOX_PAIR, MOTION, NEARLY_RIGID, SEPARATION_POSE, SKEW, U32};
-use crate::num::{difference, dot, exp2_f32, greater, lesser, sqrt_below};
+use crate::num::{difference, dot, exp2_f32, greater, lesser, sqrt_approx, sqrt_below};
 use crate::query::{PoseInverse, QueryError, check_rigid, is_rotation, skew};
 use glam::Vec3;
 
@@ -56,6 +56,15 @@ impl Apart {
     pub(crate) fn gap(&self) -> f32 {
         let square = lesser(self.square, SQUARE_CAP);
         sqrt_below(square) - self.less * (1.0 + 8.0 * U32)
+    }
+
+    /// How much farther than `distance` the models certainly are, by a root that loses less.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn sharp_clearance(&self, distance: f32) -> f32 {
+        let square = lesser(self.square, SQUARE_CAP);
+        let gap = sqrt_approx(square) * (1.0 - 8.0 * U32) - self.less * (1.0 + 8.0 * U32);
+        (gap - distance) * (1.0 - 4.0 * U32)
     }
 }
 
@@ -167,6 +176,7 @@ impl<'a> PlacedModel<'a> {
         balls: Apart,
     ) -> Option<Apart> {
         let mut found = balls.proves(distance).then_some(balls);
+        // Keeps the last proof, not the one with the longest gap: to compare gaps takes roots.
         let mut is_enough = |square: f32, less: f32| {
             let proof = Apart { square, less };
             if proof.proves(distance) {

@@ -1,9 +1,10 @@
 //! The distances of the triangles of two leaves.
 //!
-//! Boxes bound all pairs in f32. The nearest pair is computed in f64. The offset between its points
-//! then bounds all other pairs: most often none is left.
+//! Pairs that are apart along the direction of the last measured pair are dropped. Boxes bound the
+//! others in f32, and the nearest bound is measured in f64. The offset between its points is the
+//! next direction: most often no pair is left.
 
-use super::pair_keys::{NO_PAIR, PairKeys, children_of, distance_of, key_limit, key_of, pair_bit};
+use super::pair_keys::{NO_PAIR, PairKeys, distance_of, indices_of, key_limit, key_of, pair_bit};
 use super::question::{PairQuestion, TriangleGap};
 use super::whole_way::WholeWay;
 use crate::bvh::pair::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
@@ -30,7 +31,7 @@ pub(crate) struct GapVisit {
     pub(crate) has_beyond: bool,
 }
 
-/// Pairs of triangles that need no visit.
+/// Pairs of triangles that the caller knows already.
 #[derive(Clone, Copy)]
 pub(crate) struct SettledPairs {
     /// A bit for each.
@@ -94,12 +95,12 @@ impl<'a> LeafGaps<'a> {
             grown_limit * grown_limit * GAP_SLACK
         };
         let mut limit_sq = limit_sq_of(question);
-        let mut seen = Settled { pairs: 0, lower: f64::INFINITY, has_beyond: false };
-        let visit = |direction, goes_on, seen: &Settled| {
+        let mut seen = SeenPairs { pairs: 0, lower: f64::INFINITY, has_beyond: false };
+        let visit = |direction, goes_on, seen: &SeenPairs| {
             let lower = if keeps { least_distance(&pair, direction, margin, seen)? } else { 0.0 };
             Some(GapVisit { goes_on, lower, pairs: seen.pairs, has_beyond: seen.has_beyond })
         };
-        // Vectors tell of all pairs in the time of this question.
+        // With vectors, `pairs_along` costs no more than this test.
         if !WIDE && !may_be_near(self.direction, limit_sq, &pair) {
             return visit(self.direction, true, &seen);
         }
@@ -110,11 +111,12 @@ impl<'a> LeafGaps<'a> {
         }
         let near = near & !settled.map_or(0, |settled| settled.pairs);
         let mut keys = keys_of_triangles(first, second, limit_sq, near)?;
+        // With `settled` the caller has counted the pairs: it visits the same leaves again.
         if settled.is_none() {
             let pairs = (pair.a.triangles * pair.b.triangles) as u32;
             work.triangles = work.triangles.saturating_add(pairs);
         }
-        let mut own = None;
+        let mut last_way = None;
         let mut direction = self.direction;
         loop {
             let key = keys.least();
@@ -122,19 +124,20 @@ impl<'a> LeafGaps<'a> {
                 return visit(self.direction, true, &seen);
             }
             keys.drop(key);
-            let [i, j] = children_of(key);
+            let [i, j] = indices_of(key);
             let place = [first_at.with_lane(i as usize), second_at.with_lane(j as usize)];
-            let is_beyond = |own: &Option<WholeWay<'_>>| {
-                let (Some(own), Some(settled)) = (own, settled) else { return false };
-                own.is_beyond(settled.far, leaves, place) == Some(true)
+            let is_beyond = |last_way: &Option<WholeWay<'_>>| {
+                let (Some(last_way), Some(settled)) = (last_way, settled) else { return false };
+                last_way.is_beyond(settled.far, leaves, place) == Some(true)
             };
-            // Triangles of one leaf that have the same face across are apart along its normal.
-            let mut is_far = is_beyond(&own);
+            // Neighbours often face the same triangle. Then the direction of the pair before proves
+            // this one.
+            let mut is_far = is_beyond(&last_way);
             let mut way = Vec3::ZERO;
             if !is_far {
                 way = self.way_between(&pair, place);
-                own = settled.and_then(|_| WholeWay::of(self.pose, way));
-                is_far = is_beyond(&own);
+                last_way = settled.and_then(|_| WholeWay::of(self.pose, way));
+                is_far = is_beyond(&last_way);
             }
             if is_far {
                 (seen.pairs, seen.has_beyond) = (seen.pairs | pair_bit(key), true);
@@ -143,7 +146,7 @@ impl<'a> LeafGaps<'a> {
             let gap = self.measured(&pair, place, way);
             work.exact = work.exact.saturating_add(1);
             self.turn_to(&gap);
-            seen = Settled {
+            seen = SeenPairs {
                 pairs: seen.pairs | pair_bit(key),
                 lower: lesser(seen.lower, gap.lower),
                 ..seen
@@ -165,7 +168,7 @@ impl<'a> LeafGaps<'a> {
     fn measured(&self, pair: &LeafPair<'_>, place: [TriangleAt; 2], way: Vec3) -> TriangleGap {
         let [i, j] = place.map(TriangleAt::lane);
         let (first, second) = (pair.a.triangle(i), pair.b.triangle(j));
-        let tops = [Tops::of(&first, way), Tops::of(&second, -way)];
+        let tops = [CornerFalls::of(&first, way), CornerFalls::of(&second, -way)];
         let [a, b] = pair.in_f64(i, j);
         let guesses = SLOPES_SQ.map(|slope_sq| tops.map(|tops| tops.corners(slope_sq)));
         let TriangleDistance { lower, mut upper, mut points } = triangle_distance(a, b, guesses);
@@ -211,23 +214,24 @@ impl<'a> LeafGaps<'a> {
     }
 }
 
-/// Squares of the slopes up to which an edge may be level, of the first guess and the second. No
-/// answer depends on them.
+/// An edge that is no steeper counts as level, and its corners are guessed to be the nearest ones:
+/// squares of the slopes, for the first guess and the second. No proof rests on them.
 const SLOPES_SQ: [f32; 2] = [1e-4, 1e-9];
 
 /// How far the corners of a triangle are below the highest one along a direction.
 #[derive(Clone, Copy)]
-struct Tops {
-    /// Squares of the fall of each corner, and of its edge to the highest one, times that of the
-    /// direction.
+struct CornerFalls {
+    /// Squared fall of each corner below the highest one, times `way_sq`.
     fall_sq: [f32; 3],
+    /// Squared length of the edge from each corner to the highest one.
     edge_sq: [f32; 3],
+    /// Squared length of the direction.
     way_sq: f32,
 }
 
-impl Tops {
+impl CornerFalls {
     #[inline(always)]
-    fn of(triangle: &[Vec3; 3], way: Vec3) -> Tops {
+    fn of(triangle: &[Vec3; 3], way: Vec3) -> CornerFalls {
         let heights = triangle.map(|corner| dot(corner, way));
         let (mut top, mut most) = (Vec3::ZERO, f32::MIN);
         for (&corner, &height) in triangle.iter().zip(&heights) {
@@ -236,7 +240,7 @@ impl Tops {
             }
         }
         let square = |vector| dot(vector, vector);
-        Tops {
+        CornerFalls {
             fall_sq: heights.map(|height| (most - height) * (most - height)),
             edge_sq: triangle.map(|corner| square(difference(corner, top))),
             way_sq: square(way),
@@ -259,8 +263,8 @@ fn meet(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], doubt: f64) -> bool {
     triangles_meet(*a, *b, doubt) == Contact::Meets
 }
 
-/// Pairs of triangles that need no further look.
-struct Settled {
+/// What the visit showed of the pairs so far.
+struct SeenPairs {
     /// A bit for each pair that was measured or proved far.
     pairs: u64,
     /// The least lower end of the measured pairs.
@@ -275,7 +279,7 @@ fn least_distance(
     pair: &LeafPair<'_>,
     direction: [f32; 3],
     margin: f32,
-    seen: &Settled,
+    seen: &SeenPairs,
 ) -> Option<f64> {
     let (a, b) = (&pair.a, &pair.b);
     let (first, second) = (TriangleBoxes::of(a)?, TriangleBoxes::of(b)?);

@@ -7,7 +7,7 @@
 use super::leaf_gaps::{GapVisit, LeafGaps};
 use super::left_out::{ChildPairs, LeftOut};
 use super::pair_keys::{
-    NO_PAIR, PairKeys, bound_of, children_of, distance_of, key_limit, pair_bit, second_factor,
+    NO_PAIR, PairKeys, bound_of, distance_of, indices_of, key_limit, pair_bit, second_factor,
 };
 use super::question::PairQuestion;
 use crate::bvh::pair::models::{Models, most_pairs};
@@ -145,7 +145,7 @@ impl<'s, 'a> Search<'s, 'a> {
                     break;
                 }
                 keys.drop(key);
-                let indices = children_of(key);
+                let indices = indices_of(key);
                 let child = |which: usize, index: u32| {
                     let tree = if which == 0 { models.a } else { models.b };
                     tree.child(nodes[which & 1], index).ok_or(QueryError::Unchecked)

@@ -1,4 +1,4 @@
-//! Lower bounds of the distances of all pairs of children of two nodes.
+//! Lower bounds of the distances of all pairs of children of two nodes, or of triangles of leaves.
 //!
 //! Boxes are intervals along the axes of both models. The gaps along the three axes of one model
 //! form a vector, and its length is a lower bound of the distance. The greater of the two bounds
@@ -19,12 +19,12 @@ pub(crate) const PAIRS: usize = WIDTH * WIDTH;
 /// child of the second.
 const PAIR_MASK: u32 = PAIRS as u32 - 1;
 
-/// Key of no pair, above every bound. It is no negative number, as no key is: processors without
-/// vectors of unsigned integers compare keys too.
+/// Key of no pair, above every bound. Like every key it fits an i32: vectors without unsigned
+/// comparison compare keys as signed numbers.
 pub(crate) const NO_PAIR: u32 = i32::MAX.cast_unsigned();
 
 /// Bounds of the squared distances of pairs, as the bits of an f32, cut to make room for the
-/// number of the pair.
+/// number of the pair. A bound that is cut is lower, so it is still a lower bound.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PairKeys(pub(crate) [u32; PAIRS]);
 
@@ -46,9 +46,9 @@ pub(crate) fn bound_of(key: u32) -> f32 {
     f32::from_bits(key & !PAIR_MASK)
 }
 
-/// Children of a pair.
+/// The indices of a pair: in the first node or leaf, and in the second.
 #[inline(always)]
-pub(crate) fn children_of(key: u32) -> [u32; 2] {
+pub(crate) fn indices_of(key: u32) -> [u32; 2] {
     [key >> 3 & 7, key & 7]
 }
 
@@ -176,6 +176,7 @@ fn bounds(a: &AxisIntervals, b: &AxisIntervals, i: usize, bits: u32, factor: f32
         }
         sums
     };
+    // Three directions are the first model's axes, three the second's.
     let (first, second) = (&sums(0..3), &sums(3..6));
     let mut bounds = *first;
     for (bound, second) in bounds.iter_mut().zip(second) {

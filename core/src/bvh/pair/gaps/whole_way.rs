@@ -21,8 +21,9 @@ pub(crate) struct WholeWay<'a> {
     back: [i64; 3],
     /// The length of one unit of `back` in units of `way`.
     back_unit: f64,
-    /// The height of the second grid's origin, and the length of `way`.
+    /// The height of the second grid's origin along `way`.
     shift: f64,
+    /// Upper bound of the length of `way`.
     length: f64,
     /// Pairs with heights that add up to no more than this are far enough apart.
     least_sum: f64,
@@ -31,7 +32,8 @@ pub(crate) struct WholeWay<'a> {
 }
 
 impl<'a> WholeWay<'a> {
-    /// From point to point, common units.
+    /// The direction of an offset from point to point, common units. `None` if it is zero, or very
+    /// long or short.
     pub(crate) fn new(pose: &'a VertexPose, offset: [f64; 3]) -> Option<WholeWay<'a>> {
         let (way, _) = whole(offset)?;
         let [x, y, z] = way.map(|x| x as f64);
@@ -163,7 +165,7 @@ impl WholeTops {
     }
 }
 
-/// The greatest component of a direction has one bit more. A vertex has 16, so heights have 63.
+/// A direction's greatest component has up to 45 bits, a vertex 16, a sum of three 2: 63.
 const BITS: u64 = 44;
 
 /// A direction in integers of at most 2^45, rounded up, and the length of their unit. `None` if it

@@ -54,7 +54,7 @@ impl WholeDirection {
         Some(WholeDirection { way, unit })
     }
 
-    /// The greatest height of a leaf's vertices along the direction, units of its grid.
+    /// The greatest `way · vertex` of a leaf. It is not divided by the length of `way`.
     #[inline(never)]
     pub(crate) fn top(&self, leaf: &FanLeaf<'_>) -> Option<f32> {
         let ring = leaf.grid_ring()?;
@@ -70,8 +70,8 @@ impl WholeDirection {
     }
 }
 
-/// The same in integers of at most 2^13, so that heights are sums in 32 bits. They are higher by at
-/// most 48 units of the grid.
+/// The same in integers of at most 2^13, so that heights are sums in 32 bits. They are less than 96
+/// units of the grid higher: a component is raised by up to 2 of 2^12.
 pub(super) struct ShortDirection {
     way: [i32; 3],
     unit: f32,
@@ -103,11 +103,12 @@ impl ShortDirection {
     }
 }
 
-/// The direction times a power of two that is at most `bits`, each component rounded up, and the
-/// inverse of the power.
+/// The direction, scaled by a power of two so that the size of its greatest component is from
+/// `scale` to twice that, each component rounded up; and the inverse of that power.
 #[inline(always)]
-fn rounded_up(way: Vec3, bits: f32) -> Option<([i32; 3], f32)> {
+fn rounded_up(way: Vec3, scale: f32) -> Option<([i32; 3], f32)> {
     let power = power_for(way)?;
-    let [x, y, z] = (way * (power * bits)).to_array();
-    Some(([x as i32 + 1, y as i32 + 1, z as i32 + 1], 1.0 / (power * bits)))
+    let [x, y, z] = (way * (power * scale)).to_array();
+    // Cut towards 0, and 1 more: above the component, whatever its sign.
+    Some(([x as i32 + 1, y as i32 + 1, z as i32 + 1], 1.0 / (power * scale)))
 }

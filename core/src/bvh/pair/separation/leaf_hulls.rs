@@ -3,7 +3,7 @@
 use super::goal::Goal;
 use super::grid_pose::GridPose;
 use crate::bvh::pair::gaps::leaf_gaps::{keys_of_triangles, pairs_along};
-use crate::bvh::pair::gaps::pair_keys::{children_of, key_limit};
+use crate::bvh::pair::gaps::pair_keys::{indices_of, key_limit};
 use crate::bvh::pair::leaf_pair::{Corners, SLOTS};
 use crate::bvh::tree::format::{LeafShape, RING};
 use crate::bvh::tree::triangle_at::TriangleAt;
@@ -90,7 +90,7 @@ impl LeafHull {
 /// What a visit of two leaves showed.
 pub(crate) struct HullVisit {
     pub(crate) goes_on: bool,
-    /// A direction along which the leaves are apart.
+    /// A direction along which the leaves are apart. `None` if none was found.
     pub(crate) way: Option<Vec3>,
 }
 
@@ -143,7 +143,7 @@ fn visit_hulls(
             return visit(true);
         }
         keys.drop(key);
-        let [i, j] = children_of(key).map(|lane| lane as usize);
+        let [i, j] = indices_of(key).map(|lane| lane as usize);
         work.triangles = work.triangles.saturating_add(1);
         let found = triangle_gap(&a.triangle(i), &b.triangle(j), way, goal.limits);
         way = found.way;

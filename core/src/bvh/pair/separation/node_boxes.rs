@@ -11,7 +11,7 @@ use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::geom::{Rows, columns, turned};
 use crate::num::tolerance::U32;
-use crate::num::{Real, SOFT_FLOAT, difference, dot, each, float, greater, lesser};
+use crate::num::{Real, SOFT_FLOAT, above_zero, difference, dot, each, float, greater, lesser};
 use crate::query::Work;
 use glam::Vec3;
 
@@ -159,10 +159,8 @@ impl AxisBox {
             let (p, q, r) = (greater(zero, x), greater(zero, y), greater(zero, z));
             p * p + q * q + r * r
         } else {
-            // The same bits: twice a number above 0, else 0. It costs half of a comparison.
-            let doubled = |x: Real| x + Real(x.0.abs());
-            let (p, q, r) = (doubled(x), doubled(y), doubled(z));
-            (p * p + q * q + r * r) * Real(0.25)
+            let [p, q, r] = each([x, y, z], |x: Real| Real(above_zero(x.0)));
+            p * p + q * q + r * r
         };
         if square > zero { square.0 } else { greater(x, greater(y, z)).0 }
     }
@@ -216,7 +214,7 @@ pub(crate) fn push_children(
     let least_sum = limit.least_sum_of_tops(pose, direction);
     let mut tops_a = boxes_a.tops(way, 0.0, a.wanted);
     let mut tops_b = boxes_b.tops(back, 0.0, b.wanted);
-    // The least top of a box of the first model that is within the limit of a box with this top.
+    // A box of the first model with a lower top than this is beyond the limit of one with `top_b`.
     let least_top_a = |top_b: f32| Real(least_sum) - Real(top_b);
     work.bounds =
         work.bounds.saturating_add(a.wanted.count_ones().saturating_mul(b.wanted.count_ones()));
@@ -263,7 +261,8 @@ pub(crate) fn push_children(
     }
     (leaves_a, leaves_b) = (leaves_a & a.leaves(), leaves_b & b.leaves());
     if leaves_a | leaves_b != 0 {
-        // The vertices of a leaf are not higher than its box.
+        // Most often a leaf's vertices lie below the top of its box. Rounded up they may lie above
+        // it.
         if let Some(short) = ShortDirection::of(way) {
             for i in bits(leaves_a) {
                 tops_a[i] = lesser(tops_a[i], short.top(&tree_a.leaf(a.node, i as u32)?)?);
@@ -279,7 +278,7 @@ pub(crate) fn push_children(
     waiting.finish()
 }
 
-/// The axis that is most across a direction.
+/// The axis at the largest angle to a direction.
 #[inline(always)]
 fn axis_across(way: Vec3) -> usize {
     let [x, y, z] = way.abs().to_array().map(Real);
@@ -298,7 +297,7 @@ fn gap_of([middle, half]: [f32; 2], [other, other_half]: [f32; 2]) -> f32 {
     (Real((Real(middle) - Real(other)).0.abs()) - (Real(half) + Real(other_half))).0
 }
 
-/// NaN is beyond no limit: its pair is looked at.
+/// Whether a number is above a limit. Neither is NaN: [`GridPose::of`] refuses such a pose.
 #[inline(always)]
 pub(super) fn is_beyond(x: Real, limit: f32) -> bool {
     x > Real(limit)

@@ -2,21 +2,22 @@
 
 use super::between_boxes::between_boxes;
 use super::by_heights::visit_by_heights;
-use super::direction::Direction;
+use super::direction::{Direction, ShortDirection};
 use super::goal::{Candidates, Goal, Nearest, TrianglesAt, Wanted, square_up};
 use super::grid_pose::GridPose;
 use super::leaf_hulls::{HullVisit, LeafHull, visit_leaves_at};
-use super::node_boxes::{Children, PairLimit, push_children};
+use super::node_boxes::{Children, PairLimit, is_beyond, push_children};
 use super::pending::Pending;
 use crate::bvh::pair::models::most_pairs;
 use crate::bvh::tree::triangle_at::TriangleAt;
+use crate::geom::{columns, turned};
 use crate::num::tolerance::U32;
-use crate::num::{float, lesser};
+use crate::num::{Real, float, lesser};
 use crate::query::{ScratchEntry, Work};
 use glam::Vec3;
 
-/// What a search starts with, and leaves to the next one of the same two models. No answer depends
-/// on it but the triangles that are named near.
+/// What a search starts with, and leaves to the next one of the same two models. Every start gives
+/// a true answer. The triangles named, the lower bound, and where steps end depend on it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SearchStart {
     /// The direction that is tried first, rounded. Zero: the one between the boxes.
@@ -119,7 +120,7 @@ fn descend(
         None => between_boxes(pose)?,
     };
     let end = visit_leaves(pose, goal, (&mut direction, start.near), steps, scratch, work);
-    // No component is 2 or more.
+    // Components are below 2: times 63 they fit an i8.
     start.way = direction.way.to_array().map(|x| (x * 63.0) as i8);
     end
 }
@@ -146,20 +147,30 @@ fn visit_leaves(
     } else {
         roots()?
     };
+    // Of the direction, if it was turned since pairs were pushed.
+    let mut tops: Option<LeafTops> = None;
     loop {
         let limit = PairLimit::of(pose, goal.far);
         if let [Some(i), Some(j)] = [children[0].leaf(), children[1].leaf()] {
             let places =
                 [TriangleAt::new(children[0].node, i, 0), TriangleAt::new(children[1].node, j, 0)];
-            let visit = visit_leaves_at(pose, goal, &mut hulls, places, direction.way, work)?;
-            let HullVisit { goes_on, way } = visit;
-            if !goes_on {
-                return Some(());
-            }
-            if let Some(turned) = way.and_then(Direction::of) {
-                *direction = turned;
+            let is_beyond = match &mut tops {
+                Some(tops) => tops.are_beyond(pose, places, &limit, direction)?,
+                None => false,
+            };
+            if !is_beyond {
+                let visit = visit_leaves_at(pose, goal, &mut hulls, places, direction.way, work)?;
+                let HullVisit { goes_on, way } = visit;
+                if !goes_on {
+                    return Some(());
+                }
+                if let Some(turned) = way.and_then(Direction::of) {
+                    *direction = turned;
+                    tops = LeafTops::of(pose, turned.way);
+                }
             }
         } else {
+            tops = None;
             if work.opened >= steps {
                 return None;
             }
@@ -175,5 +186,41 @@ fn visit_leaves(
             return Some(());
         };
         children = [Children::below(a, node_a, i)?, Children::below(b, node_b, j)?];
+    }
+}
+
+/// The tops of two leaves along the direction.
+struct LeafTops {
+    short: [ShortDirection; 2],
+    /// The last leaf of each model, and its top.
+    kept: [(TriangleAt, f32); 2],
+}
+
+impl LeafTops {
+    #[inline(always)]
+    fn of(pose: &GridPose<'_>, way: Vec3) -> Option<LeafTops> {
+        let back = -turned(&columns(&pose.rows), way);
+        let short = [ShortDirection::of(way)?, ShortDirection::of(back)?];
+        Some(LeafTops { short, kept: [(TriangleAt::NONE, 0.0); 2] })
+    }
+
+    /// Whether two leaves are beyond the limit along the direction. `None` if a tree is unchecked.
+    #[inline(never)]
+    fn are_beyond(
+        &mut self,
+        pose: &GridPose<'_>,
+        places: TrianglesAt,
+        limit: &PairLimit,
+        direction: &Direction,
+    ) -> Option<bool> {
+        for k in 0..2 {
+            let (of, top) = &mut self.kept[k];
+            if *of != places[k] {
+                (*of, *top) = (places[k], self.short[k].top(&places[k].leaf(pose.trees[k])?)?);
+            }
+        }
+        let [(_, top_a), (_, top_b)] = self.kept;
+        let least_top_a = limit.least_sum_of_tops(pose, direction) - top_b;
+        Some(is_beyond(Real(least_top_a), top_a))
     }
 }
