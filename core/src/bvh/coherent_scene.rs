@@ -36,7 +36,7 @@ pub struct CoherentScene<'a, const MODELS: usize, const PAIRS: usize> {
     pairs: [RememberedPair; PAIRS],
     /// Questions since the motion was taken off the clearances.
     questions: u32,
-    /// The pair that the last question ended with.
+    /// The pair that the last verdict other than `No` named.
     last: usize,
 }
 
@@ -44,8 +44,8 @@ pub struct CoherentScene<'a, const MODELS: usize, const PAIRS: usize> {
 #[derive(Clone, Copy, Debug)]
 pub struct RememberedPair {
     kept: KeptPair,
-    /// Proved clearance beyond the distance, less all motion since. Nothing is proved unless it is
-    /// above 0.
+    /// Proved clearance beyond the distance, less the motion that was taken off:
+    /// [`ModelPath::moved`] is not. Nothing is proved unless it is above 0.
     left: f32,
     /// What the last search of the pair left to the next one.
     start: SearchStart,
@@ -100,8 +100,8 @@ struct Spent {
 /// How many of the last motions a proof by boxes is to outlast. No answer depends on it.
 const MOTIONS_BY_BOXES: f32 = 16.0;
 
-/// How many of the last motions a search looks beyond the distance. Measured by a prototype on an
-/// arm: less is searched again too soon, more makes each search longer. No answer depends on it.
+/// How many of the last motions a search looks beyond the distance. With fewer, pairs are searched
+/// again sooner; with more, each search is longer. No verdict depends on it.
 const MOTIONS_BY_SEARCH: f32 = 4.0;
 
 impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIRS> {
@@ -149,8 +149,8 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
     /// questions before, and are the same on every target.
     ///
     /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. Of the
-    /// budget only `steps` matters, those of all pairs together. The pair that ended the last
-    /// question comes first, then the others in their order. `work` counts the pairs that were
+    /// budget only `steps` matters, those of all pairs together. The pair of the last
+    /// verdict other than `No` comes first, then the others in their order. `work` counts the pairs that were
     /// looked at as `bounds`.
     ///
     /// Cost: one comparison for each model while no path is longer than its limit. Else ten
@@ -280,7 +280,7 @@ impl ErasedScene<'_, '_> {
         Some(spent)
     }
 
-    /// Asks about the pairs without clearance: first the one that the last question ended with.
+    /// Asks about the pairs without clearance, the one that was named last first.
     #[inline(always)]
     fn ask(
         &mut self,
@@ -324,7 +324,7 @@ impl ErasedScene<'_, '_> {
                     _ => {}
                 }
             }
-            // The last one is not asked twice.
+            // The first one is not asked twice.
             at = if next == last { next.wrapping_add(1) } else { next };
             next = at.wrapping_add(1);
         }

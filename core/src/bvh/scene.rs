@@ -275,7 +275,7 @@ impl PairSearch<'_, '_> {
                 let Interval { lower, .. } = relative.lengths.in_world(Interval::new(lower, lower));
                 (Verdict::No, greater(0.0, lower - distance) * (1.0 - 2.0 * U32))
             }
-            // Not within the lesser distance: between both, nothing is proved in the world.
+            // Within the larger bound of the distance. Only within the smaller one is `Yes` proved.
             (Verdict::Yes, _) => match relative.lengths.at_least(distance) {
                 Some(least) => match ask([least, 0.0])? {
                     (Verdict::No, _) => open,

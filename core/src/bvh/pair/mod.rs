@@ -9,6 +9,9 @@
 //! | where a model that moves first comes near | `first_contact_of` |
 //! | how deep two solids are in each other | `penetration/` |
 //!
+//! Lengths in *common units* are in the unit of the coarser grid (`query/pose/common_units.rs`). The
+//! *surface error* is how far the input may be from the stored surface.
+//!
 //! | file | what the questions share |
 //! | --- | --- |
 //! | `models` | two trees: which of two nodes a descent opens, the places of triangles |

@@ -19,7 +19,7 @@ pub struct MovingModel<'a> {
     is_stale: bool,
 }
 
-/// Largest square that has a root here.
+/// Largest square for which [`sqrt_above`] is proved. Longer paths count as infinite.
 const MOST_SQUARE: f32 = (1u64 << 60) as f32;
 
 impl<'a> MovingModel<'a> {
@@ -29,8 +29,8 @@ impl<'a> MovingModel<'a> {
         MovingModel { model, arm: model.arm(), unchecked_turn: 0.0, is_stale: false }
     }
 
-    /// Moves the model. It is placed when a pair asks for it. No point goes farther than what is
-    /// returned.
+    /// Moves the model. Its ball and box in the world wait until a pair is asked about. Returns an
+    /// upper bound of the path of its points.
     #[inline(always)]
     pub(crate) fn move_to(&mut self, pose: Pose) -> Result<f32, QueryError> {
         let [turn, path] = self.change(&pose);
@@ -56,7 +56,7 @@ impl<'a> MovingModel<'a> {
         Ok(())
     }
 
-    /// Upper bounds of the change of the matrix, the Frobenius norm, and of the way of a point.
+    /// Upper bounds of the change of the matrix, the Frobenius norm, and of the path of a point.
     /// Infinite if they are large or NaN.
     #[inline(always)]
     fn change(&self, pose: &Pose) -> [f32; 2] {

@@ -28,7 +28,8 @@ pub struct PlacedModel<'a> {
 struct Place {
     /// The ball's middle in the world.
     centre: Vec3,
-    /// Twice the box's reach, and the 1-norm of the translation.
+    /// Twice the model's reach plus the 1-norm of the translation: its part of F in §24 of
+    /// `core/docs/rounding.md`.
     far: f32,
     /// Upper bound of [`skew`].
     skew: f32,

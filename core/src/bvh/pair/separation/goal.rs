@@ -134,7 +134,7 @@ impl<'s> Goal<'s> {
             }
             Wanted::Near(threshold) => {
                 threshold.is_undecided = true;
-                // If nothing is proved to be near, f64 is asked.
+                // A later pair may still prove `Yes`, unless the distance is too short for that.
                 self.limits.near_sq >= 0.0
             }
             Wanted::Nearest(nearest) => {
