@@ -230,7 +230,11 @@ impl ErasedScene<'_, '_> {
                 (pair.left, pair.start) = (0.0, SearchStart::NONE);
             }
         }
-        self.paths.iter_mut().for_each(|path| path.limit = NO_LIMIT);
+        for at in 0..self.paths.len() {
+            if let Some(path) = self.paths.get_mut(at) {
+                path.limit = NO_LIMIT;
+            }
+        }
     }
 
     /// As [`CoherentScene::within`].

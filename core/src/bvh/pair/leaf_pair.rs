@@ -259,7 +259,8 @@ impl Extent {
 }
 
 /// The least and the greatest number of each triangle's vertices.
-#[inline(always)]
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
 fn ends_of_triangles(first: &[u32; WIDTH], at: &[f32; SLOTS]) -> ([f32; WIDTH], [f32; WIDTH]) {
     let (mut low, mut high) = ([0.0; WIDTH], [0.0; WIDTH]);
     for i in 0..WIDTH {

@@ -313,7 +313,8 @@ fn least_distance(
 
 /// The squared gaps between the boxes of triangle `i` and each of the other leaf's triangles, of
 /// those with a bit.
-#[inline(always)]
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
 fn box_gaps_sq(first: &TriangleBoxes, second: &TriangleBoxes, i: usize, bits: u32) -> [f32; WIDTH] {
     let mut sums = [0f32; WIDTH];
     for ((from, to), (low, high)) in
@@ -386,7 +387,8 @@ fn may_be_near(direction: [f32; 3], limit_sq: f32, pair: &LeafPair<'_>) -> bool 
 
 /// The limit times the length of the direction, rounded up. `None` if the square is too small to be
 /// trusted.
-#[inline(always)]
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
 fn limit_along([x, y, z]: [f32; 3], limit_sq: f32) -> Option<f32> {
     let way_sq = x * x + y * y + z * z;
     let square = limit_sq * way_sq;
@@ -410,7 +412,8 @@ fn vertex_heights(corners: &Corners, [a, b, c]: [f32; 3]) -> [f32; SLOTS] {
     at
 }
 
-#[inline(always)]
+#[cfg_attr(meshsweep_small, inline(never))]
+#[cfg_attr(not(meshsweep_small), inline(always))]
 fn heights(corners: &Corners, direction: [f32; 3]) -> Heights {
     let at = vertex_heights(corners, direction);
     let Some((low, high)) = corners.ends(&at) else {

@@ -166,7 +166,10 @@ fn visit_leaves(
                 }
                 if let Some(turned) = way.and_then(Direction::of) {
                     *direction = turned;
-                    tops = LeafTops::of(pose, turned.way);
+                    // A pair that is beyond ends its visit at once, and changes nothing. So where
+                    // code is to be small the question is not asked.
+                    tops =
+                        if cfg!(meshsweep_small) { None } else { LeafTops::of(pose, turned.way) };
                 }
             }
         } else {
