@@ -5,6 +5,7 @@
 //! fitted to counts in an emulator. A cost is at least 0. `cargo xtask fit` fits them again, and
 //! prints the error on meshes that the fit has not seen.
 
+use crate::emit::source::stack_bound;
 use meshsweep_core::{Budget, Bvh, Hull, TightHull, Triboxes, Work};
 
 /// A processor whose instructions are predicted.
@@ -72,6 +73,28 @@ impl Search {
         Self::PairOfTrees,
         Self::PairOfTriboxes,
     ];
+
+    /// Bytes of stack below the caller that the question takes at most on a board.
+    #[must_use]
+    pub fn stack(self, board: Board) -> u32 {
+        stack_bound(self.question(), board.name())
+    }
+
+    /// The question, as the table of stacks names it.
+    const fn question(self) -> &'static str {
+        match self {
+            Self::Tree | Self::TreeF32 => "closest point",
+            Self::Precise => "closest point in f64",
+            Self::Hinted => "closest point from a hint",
+            Self::Coherent => "coherent query",
+            Self::Sweep => "closest point of a hull",
+            Self::KeptSweep => "sweep",
+            Self::Tight => "closest point of tight hulls",
+            Self::Triboxes => "triboxes apart",
+            Self::PairOfTrees => "distance of two models",
+            Self::PairOfTriboxes => "within of triboxes",
+        }
+    }
 
     /// Its name in tables.
     #[must_use]
@@ -167,8 +190,6 @@ impl Shape {
 pub struct Cost {
     /// Instructions for one of each feature.
     pub instructions: Features,
-    /// Most bytes of the processor's stack below the caller that the emulator saw.
-    pub stack: u32,
     /// The least instructions of a query that the emulator counted.
     pub least: f64,
     /// Largest factor by which the dearest query of a question was dearer than the dearest

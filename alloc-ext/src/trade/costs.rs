@@ -12,7 +12,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::Tree,
         Cost {
             instructions: [1893.1, 560.8, 13.4, 0.0, 0.0, 406.9, 791.0, 0.0],
-            stack: 1152,
             least: 2680.0,
             dearest: 1.776,
             error: 0.2912,
@@ -24,7 +23,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::TreeF32,
         Cost {
             instructions: [2219.4, 1272.1, 5.8, 102.1, 0.0, 413.1, 837.2, 0.0],
-            stack: 1152,
             least: 2680.0,
             dearest: 1.623,
             error: 0.2661,
@@ -36,7 +34,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::Precise,
         Cost {
             instructions: [12738.5, 1294.4, 29.6, 176.1, 7810.9, 352.3, 425.0, 0.0],
-            stack: 4400,
             least: 20800.0,
             dearest: 1.381,
             error: 0.0995,
@@ -48,7 +45,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::Hinted,
         Cost {
             instructions: [2722.6, 688.7, 0.0, 0.0, 0.0, 488.6, 676.1, 0.0],
-            stack: 1152,
             least: 2880.0,
             dearest: 1.380,
             error: 0.2631,
@@ -60,7 +56,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::Coherent,
         Cost {
             instructions: [2058.8, 0.0, 3.5, 0.0, 0.0, 673.4, 1313.8, 0.0],
-            stack: 1648,
             least: 1360.0,
             dearest: 1.789,
             error: 0.1761,
@@ -72,7 +67,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::Sweep,
         Cost {
             instructions: [26644.3, 7040.1, 318.4, 826.0, 877.9, 406.5, 0.0, 533.8],
-            stack: 2532,
             least: 21160.0,
             dearest: 1.454,
             error: 0.1827,
@@ -84,7 +78,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::KeptSweep,
         Cost {
             instructions: [2760.5, 4211.5, 263.2, 1109.6, 20382.9, 1404.0, 0.0, 286.0],
-            stack: 2188,
             least: 19640.0,
             dearest: 1.284,
             error: 0.3588,
@@ -96,7 +89,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::Tight,
         Cost {
             instructions: [1934.5, 4284.2, 47.7, 0.0, 0.0, 328.7, 627.1, 0.0],
-            stack: 2360,
             least: 2320.0,
             dearest: 1.742,
             error: 0.1927,
@@ -108,7 +100,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::Triboxes,
         Cost {
             instructions: [116.9, 0.0, 1331.4, 0.0, 0.0, 0.0, 0.0, 0.0],
-            stack: 640,
             least: 1320.0,
             dearest: 1.084,
             error: 0.0411,
@@ -120,7 +111,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::PairOfTrees,
         Cost {
             instructions: [534.8, 15686.9, 0.0, 1587.7, 0.0, 3557.6, 0.0, 0.0],
-            stack: 7548,
             least: 520.0,
             dearest: 3.156,
             error: 0.4946,
@@ -132,7 +122,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::PairOfTriboxes,
         Cost {
             instructions: [3041.6, 0.0, 842.8, 0.0, 0.0, 1197.1, 0.0, 0.0],
-            stack: 2116,
             least: 3320.0,
             dearest: 1.864,
             error: 0.1330,
@@ -144,7 +133,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::Tree,
         Cost {
             instructions: [17612.3, 7212.3, 0.0, 0.0, 0.0, 0.0, 4314.9, 693.9],
-            stack: 2396,
             least: 11280.0,
             dearest: 5.053,
             error: 0.5509,
@@ -156,7 +144,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::TreeF32,
         Cost {
             instructions: [17097.9, 24844.3, 0.0, 3819.4, 0.0, 10.3, 0.0, 0.0],
-            stack: 2028,
             least: 13080.0,
             dearest: 1.907,
             error: 0.3512,
@@ -168,7 +155,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::Precise,
         Cost {
             instructions: [70952.2, 40610.6, 27.6, 3661.0, 14761.3, 0.0, 2738.9, 0.0],
-            stack: 4236,
             least: 72360.0,
             dearest: 1.616,
             error: 0.2345,
@@ -180,7 +166,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::Hinted,
         Cost {
             instructions: [21871.6, 7526.8, 0.0, 0.0, 0.0, 547.6, 3341.2, 0.0],
-            stack: 2340,
             least: 13960.0,
             dearest: 2.742,
             error: 0.3744,
@@ -192,7 +177,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::Coherent,
         Cost {
             instructions: [15176.9, 0.0, 0.0, 0.0, 0.0, 0.0, 18826.5, 0.0],
-            stack: 2900,
             least: 16200.0,
             dearest: 3.946,
             error: 0.4785,
@@ -204,7 +188,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::Sweep,
         Cost {
             instructions: [72926.2, 70584.6, 4439.6, 3557.2, 4319.2, 1555.9, 0.0, 1154.0],
-            stack: 2532,
             least: 136600.0,
             dearest: 1.222,
             error: 0.0932,
@@ -216,7 +199,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::KeptSweep,
         Cost {
             instructions: [0.0, 11570.7, 4284.3, 5692.0, 57824.9, 4796.4, 0.0, 525.3],
-            stack: 2140,
             least: 46400.0,
             dearest: 1.195,
             error: 0.4025,
@@ -228,7 +210,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::Tight,
         Cost {
             instructions: [23404.6, 44834.4, 216.9, 0.0, 0.0, 0.0, 1698.1, 0.0],
-            stack: 3228,
             least: 11680.0,
             dearest: 4.109,
             error: 0.4003,
@@ -240,7 +221,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::Triboxes,
         Cost {
             instructions: [27040.6, 0.0, 0.0, 0.0, 0.0, 52906.6, 0.0, 0.0],
-            stack: 736,
             least: 24640.0,
             dearest: 1.091,
             error: 0.0605,
@@ -252,7 +232,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::PairOfTrees,
         Cost {
             instructions: [17243.6, 199218.2, 0.0, 15960.8, 0.0, 54020.4, 0.0, 0.0],
-            stack: 8572,
             least: 15160.0,
             dearest: 3.259,
             error: 0.5757,
@@ -264,7 +243,6 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Search::PairOfTriboxes,
         Cost {
             instructions: [110379.8, 0.0, 18595.2, 0.0, 0.0, 17663.9, 0.0, 0.0],
-            stack: 2732,
             least: 118800.0,
             dearest: 1.379,
             error: 0.1295,

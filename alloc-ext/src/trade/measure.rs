@@ -46,20 +46,20 @@ pub struct Instructions {
     pub error: f64,
     /// The median of these errors on meshes that the fit has not seen.
     pub typical: f64,
-    /// Bytes of the processor's stack below the caller.
+    /// Bytes of the processor's stack below the caller, at most.
     pub stack: u32,
 }
 
 impl Instructions {
     /// Of queries whose instructions a cost predicts.
-    pub(super) fn of(cost: &Cost, all: &[f64]) -> Self {
+    pub(super) fn of(cost: &Cost, stack: u32, all: &[f64]) -> Self {
         Self {
             mean: all.iter().sum::<f64>() / all.len() as f64,
             worst: all.iter().copied().fold(0.0, f64::max),
             dearest: cost.dearest,
             error: cost.error,
             typical: cost.typical,
-            stack: cost.stack,
+            stack,
         }
     }
 
@@ -234,7 +234,7 @@ fn row(setting: Setting, built: &Built, asked: &Asked, distances: &[f64]) -> Opt
     let boards = Board::ALL.map(|board| {
         let cost = cost(board, setting.search())?;
         let all: Vec<f64> = answers.iter().map(|answer| cost.of(&answer.features)).collect();
-        Some(Instructions::of(cost, &all))
+        Some(Instructions::of(cost, setting.search().stack(board), &all))
     });
     let mean = |feature: usize| {
         answers.iter().map(|answer| answer.features[feature]).sum::<f64>() / answers.len() as f64

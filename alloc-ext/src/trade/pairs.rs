@@ -250,9 +250,10 @@ fn row(
     flash: [usize; 2],
 ) -> PairRow {
     let boards = Board::ALL.map(|board| {
-        let cost = cost(board, structure.search()?)?;
+        let search = structure.search()?;
+        let cost = cost(board, search)?;
         let all = answers.iter().map(|(_, work)| cost.of(&features_of_pair(work)));
-        Some(Instructions::of(cost, &all.collect::<Vec<_>>()))
+        Some(Instructions::of(cost, search.stack(board), &all.collect::<Vec<_>>()))
     });
     let count = |is: &dyn Fn(&Verdict, &Verdict) -> bool| {
         answers.iter().zip(exact).filter(|((verdict, _), exact)| is(verdict, exact)).count()

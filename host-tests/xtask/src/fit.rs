@@ -40,7 +40,6 @@ struct Counted {
     dials: String,
     rows: Vec<[f64; FEATURES]>,
     instructions: Vec<f64>,
-    stack: u32,
 }
 
 impl Counted {
@@ -135,14 +134,12 @@ fn read(name: &str) -> Result<String, String> {
     fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Counts a question on a board, and keeps the counts: a line of the stack, then a line a query.
+/// Counts a question on a board, and keeps the counts: a line a query.
 fn count(tools: &Tools, board: &Board, image: &Path, number: usize) -> Result<(), String> {
     let expected = Reading::parse(&read(&format!("{number}.expected"))?, None)?;
     let question = folder().join(format!("{number}.bin"));
     let reading = tools.asked(board, image, (&question, board.loaded), &expected, u32::MAX)?;
-    let cost = reading.costs.first().ok_or("the image told no cost")?;
-    let counts = [f64::from(cost.stack)].into_iter().chain(reading.each);
-    let all: String = counts.map(|count| format!("{count}\n")).collect();
+    let all: String = reading.each.iter().map(|count| format!("{count}\n")).collect();
     let kept = folder().join(format!("{number}.{}", board.cpu));
     fs::write(&kept, all).map_err(|error| format!("{}: {error}", kept.display()))
 }
@@ -159,14 +156,13 @@ fn counted(board: &Board, number: usize, line: &str) -> Result<Counted, String> 
     let rows = read(&format!("{number}.rows"))?;
     let rows = rows.lines().map(numbers).collect::<Result<Vec<_>, _>>()?;
     let counts = read(&format!("{number}.{}", board.cpu))?;
-    let mut counts = counts.lines().filter_map(|line| line.parse::<f64>().ok());
-    let stack = counts.next().unwrap_or(0.0) as u32;
+    let counts = counts.lines().filter_map(|line| line.parse::<f64>().ok());
     let instructions: Vec<f64> = counts.collect();
     if rows.len() != instructions.len() || rows.is_empty() {
         return Err(format!("{line}: {} queries, not {}", instructions.len(), rows.len()));
     }
     let [search, role, mesh, dials] = [search, role, mesh, dials].map(str::to_owned);
-    Ok(Counted { search, role, mesh, dials, rows, instructions, stack })
+    Ok(Counted { search, role, mesh, dials, rows, instructions })
 }
 
 /// Prints the errors of a board. Returns its lines of the file, and searches beyond the limit.
@@ -190,7 +186,6 @@ fn fitted(name: &str, board: &Board, counted: &[Counted]) -> (String, Vec<String
         "split",
         "leaf",
         "tolerant",
-        "stack",
         "fitted, error %",
         "unseen, error %",
         "median",
@@ -218,7 +213,6 @@ fn fitted(name: &str, board: &Board, counted: &[Counted]) -> (String, Vec<String
             .collect();
         typical.sort_by(f64::total_cmp);
         let typical = typical.get(typical.len() / 2).copied().unwrap_or(f64::INFINITY);
-        let stack = of_search().map(|one| one.stack).max().unwrap_or(0);
         for one in of_search().filter(|one| one.role != "fit") {
             // Half of the queries are predicted as well as this.
             let pairs = one.rows.iter().zip(&one.instructions);
@@ -240,7 +234,7 @@ fn fitted(name: &str, board: &Board, counted: &[Counted]) -> (String, Vec<String
         let errors =
             [fitted, unseen, typical, most(&mut of_search().filter(|one| one.role == "other"))];
         let errors = errors.map(|error| fixed(100.0 * error, 1));
-        let row = [Cell::from(search)].into_iter().chain(cells).chain([Cell::from(stack)]);
+        let row = [Cell::from(search)].into_iter().chain(cells);
         costs_table.push(row.chain(errors).collect());
         let limit = if search == "PairOfTrees" { LIMIT_OF_TREES } else { LIMIT };
         if board.has_floats && typical > limit {
@@ -250,8 +244,8 @@ fn fitted(name: &str, board: &Board, counted: &[Counted]) -> (String, Vec<String
         let _ = write!(
             lines,
             "    (\n        Board::{name},\n        Search::{search},\n        Cost {{\n            \
-             instructions: [{}],\n            stack: {stack},\n            least: \
-             {least:.1},\n            dearest: {:.3},\n            error: {:.4},\n            typical: {:.3},\n        }},\n    ),\n",
+             instructions: [{}],\n            least: {least:.1},\n            dearest: {:.3},\n            \
+             error: {:.4},\n            typical: {:.3},\n        }},\n    ),\n",
             told.join(", "),
             (1000.0 * dearest).ceil() / 1000.0,
             (10_000.0 * error).ceil() / 10_000.0,
@@ -356,7 +350,7 @@ mod tests {
         let instructions = rows.iter().map(instructions).collect();
         let text = String::new;
         let (search, mesh, dials) = (text(), text(), text());
-        Counted { search, role: text(), mesh, dials, rows, instructions, stack: 0 }
+        Counted { search, role: text(), mesh, dials, rows, instructions }
     }
 
     #[test]

@@ -10,6 +10,7 @@ mod stack;
 pub use c::{c_header, c_source};
 pub use rust::rust_module;
 pub(crate) use rust::{rust_items, rust_name};
+pub(crate) use stack::stack_bound;
 
 use meshsweep_core::{Blob, Bvh};
 

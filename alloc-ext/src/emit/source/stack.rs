@@ -27,6 +27,15 @@ impl Caller {
     }
 }
 
+/// Bytes that a question takes at most on a board, whichever optimisation; 0 if the table lacks it.
+pub(crate) fn stack_bound(question: &str, board: &str) -> u32 {
+    let mut rows = BOUNDS.lines().map(|row| row.split(','));
+    let heads = rows.next().into_iter().flatten();
+    let Some(row) = rows.find(|row| row.clone().next() == Some(question)) else { return 0 };
+    let of_board = heads.zip(row).filter(|(head, _)| head.split(' ').next() == Some(board));
+    of_board.filter_map(|(_, bytes)| bytes.parse().ok()).max().unwrap_or(0)
+}
+
 /// The bounds of the questions that a blob serves: a heading, then a line a question.
 pub(super) fn lines(blob: &Blob<'_>, caller: Caller) -> Vec<String> {
     let served = served(blob);
