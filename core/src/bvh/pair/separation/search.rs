@@ -216,10 +216,10 @@ impl LeafTops {
         limit: &PairLimit,
         direction: &Direction,
     ) -> Option<bool> {
-        for k in 0..2 {
-            let (of, top) = &mut self.kept[k];
-            if *of != places[k] {
-                (*of, *top) = (places[k], self.short[k].top(&places[k].leaf(pose.trees[k])?)?);
+        let models = self.short.iter().zip(pose.trees);
+        for (((of, top), place), (short, tree)) in self.kept.iter_mut().zip(places).zip(models) {
+            if *of != place {
+                (*of, *top) = (place, short.top(&place.leaf(tree)?)?);
             }
         }
         let [(_, top_a), (_, top_b)] = self.kept;
