@@ -101,6 +101,7 @@ const BUILDER: [(&str, &[&str]); 26] = [
             "check",
             "distances",
             "number",
+            "emit",
             "error",
             "random",
             "mesh",

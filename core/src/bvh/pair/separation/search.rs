@@ -216,10 +216,11 @@ impl LeafTops {
         limit: &PairLimit,
         direction: &Direction,
     ) -> Option<bool> {
-        let models = self.short.iter().zip(pose.trees);
-        for (((of, top), place), (short, tree)) in self.kept.iter_mut().zip(places).zip(models) {
-            if *of != place {
-                (*of, *top) = (place, short.top(&place.leaf(tree)?)?);
+        #[allow(clippy::needless_range_loop, reason = "of either model, in four arrays")]
+        for k in 0..2 {
+            let (of, top) = &mut self.kept[k];
+            if *of != places[k] {
+                (*of, *top) = (places[k], self.short[k].top(&places[k].leaf(pose.trees[k])?)?);
             }
         }
         let [(_, top_a), (_, top_b)] = self.kept;
