@@ -680,7 +680,8 @@ int32_t msw_scene_move(msw_scene_entry *scene, uint32_t model, const msw_pose *p
  * MSW_DISTANCE_ENTRIES are always enough scratch. MSW_ERROR_NOT_SERVED: a model was built without
  * segments. MSW_ERROR_OUT_OF_DOMAIN: two models are farther from each other than float reaches.
  * Cost: one comparison a model while none went beyond its limit. Else ten operations for a pair
- * with clearance left, some hundreds for one whose boxes tell, else a search as of msw_within_of. */
+ * with clearance left, some hundreds for one whose boxes tell, else a search as of
+ * msw_within_of. */
 int32_t msw_scene_within(msw_scene_entry *scene,
                          const msw_budget *budget,
                          msw_scratch_entry *scratch, size_t scratch_count,

@@ -149,8 +149,8 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
     /// questions before, and are the same on every target.
     ///
     /// `scratch`: [`Bvh::DISTANCE_ENTRIES`](crate::Bvh::DISTANCE_ENTRIES) are always enough. Of the
-    /// budget only `steps` matters, those of all pairs together. The pair of the last
-    /// verdict other than `No` comes first, then the others in their order. `work` counts the pairs that were
+    /// budget only `steps` matters, those of all pairs together. The pair of the last verdict other
+    /// than `No` comes first, then the others in their order. `work` counts the pairs that were
     /// looked at as `bounds`.
     ///
     /// Cost: one comparison for each model while no path is longer than its limit. Else ten
