@@ -16,17 +16,15 @@
 use super::query::SegmentQuery;
 use crate::bvh::tree::descent::{LeafVisit, LeafVisitor};
 use crate::bvh::tree::format::FanLeaf;
-#[cfg(not(any(meshsweep_wide, meshsweep_soft_float)))]
-use crate::bvh::tree::format::GridRing;
 use crate::bvh::tree::triangle_at::TriangleAt;
+#[cfg(not(meshsweep_wide))]
+use crate::geom::fan::may_meet;
+#[cfg(not(any(meshsweep_wide, meshsweep_soft_float)))]
+use crate::geom::fan::ray_leaf;
 #[cfg(meshsweep_wide)]
 use crate::geom::fan::ray_leaf8;
 use crate::geom::fan::{Crossing, WIDTH};
 use crate::geom::fan::{FanRay, Shadow};
-#[cfg(not(meshsweep_wide))]
-use crate::geom::fan::{may_meet, ray_leaf};
-#[cfg(not(meshsweep_wide))]
-use crate::num::SOFT_FLOAT;
 
 /// Which sides of triangles a segment meets. The front is where corners run counter-clockwise in
 /// the input file. What the builder turns to tell inside from outside is not turned here.
@@ -141,57 +139,27 @@ fn f32_flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
 #[cfg(not(meshsweep_wide))]
 #[inline(always)]
 fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
-    let ray = &query.ray;
+    let (ray, shape) = (&query.ray, leaf.shape());
     if leaf.is_f32() {
         return Some(flagged_f32(leaf, ray));
     }
-    if cfg!(meshsweep_small) && !SOFT_FLOAT {
-        return flagged_in_rows(leaf, ray);
-    }
-    let ring = leaf.ring_in_order(ray.axes())?;
-    let turn = leaf.shape().turn();
+    let ring = leaf.full_ring_in_order(ray.axes())?;
+    let (centres, vertices) = (ring.centres(shape), ring.vertices(shape));
     #[cfg(meshsweep_soft_float)]
-    let flagged = match query.line.near(&ring, turn) {
+    let flagged = match query.line.near(centres, vertices, shape) {
         0 => 0,
         near => flagged_near(leaf, ray, near),
     };
     #[cfg(not(meshsweep_soft_float))]
-    let flagged = flagged_in_ring(&ring, turn, ray);
+    let flagged = {
+        let [ox, oy, oz] = ray.in_order(leaf.origin);
+        let shadow = |[x, y, z]: [i32; 3]| {
+            let sum = |x: i32, origin: i32| x.wrapping_add(origin) as f32;
+            ray.shadow_in_order([sum(x, ox), sum(y, oy), sum(z, oz)])
+        };
+        ray_leaf(ray, shape.turn(), centres.map(shadow), vertices.map(shadow))
+    };
     Some(flagged)
-}
-
-#[cfg(not(any(meshsweep_wide, meshsweep_soft_float)))]
-#[inline(always)]
-fn flagged_in_ring(ring: &GridRing<'_>, turn: usize, ray: &FanRay) -> u32 {
-    let [ox, oy, oz] = ring.origin;
-    let shadow = |[x, y, z]: [i32; 3]| {
-        let sum = |x: i32, origin: i32| x.wrapping_add(origin) as f32;
-        ray.shadow_in_order([sum(x, ox), sum(y, oy), sum(z, oz)])
-    };
-    let vertices = ring.x.iter().zip(ring.y).zip(ring.z);
-    let short = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
-    let vertices = vertices.map(|((x, y), z)| [short(x), short(y), short(z)]);
-    let centres = [shadow(ring.centres[0]), shadow(ring.centres[1])];
-    ray_leaf(ray, turn, centres, vertices.map(shadow))
-}
-
-/// The same of a leaf on the grid where code is to be small.
-#[cfg(not(meshsweep_wide))]
-#[inline(always)]
-fn flagged_in_rows(leaf: &FanLeaf<'_>, ray: &FanRay) -> Option<u32> {
-    let (ring, shape) = (leaf.full_ring()?, leaf.shape());
-    let [ox, oy, oz] = ray.in_order(leaf.origin);
-    let shadow = |[x, y, z]: [i32; 3]| {
-        let sum = |x: i32, origin: i32| x.wrapping_add(origin) as f32;
-        ray.shadow_in_order([sum(x, ox), sum(y, oy), sum(z, oz)])
-    };
-    let [x, y, z] = ray.in_order(ring.rows);
-    let short = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
-    let vertices = x.iter().zip(y).zip(z).take(shape.triangles() + 1);
-    let vertices = vertices.map(|((x, y), z)| shadow([short(x), short(y), short(z)]));
-    let [first, second] = ring.centres(shape);
-    let centres = [shadow(ray.in_order(first)), shadow(ray.in_order(second))];
-    Some(ray_leaf(ray, shape.turn(), centres, vertices))
 }
 
 /// The flagged ones of a few triangles.

@@ -8,8 +8,7 @@ use crate::geom::fan::WIDTH;
 /// Bytes of the largest leaf on the grid: two centres and nine ring vertices.
 pub(super) const GRID_WINDOW: usize = 66;
 
-/// Stored integers of a leaf on the grid, in an order of the axes. They do not include the grid's
-/// origin.
+/// Stored integers of a leaf on the grid. They do not include the grid's origin.
 #[derive(Clone, Copy, Debug)]
 pub struct GridRing<'a> {
     /// The grid's origin.
@@ -46,12 +45,13 @@ impl GridRing<'_> {
 #[cfg(not(meshsweep_wide))]
 pub(super) const RING_VERTICES: usize = WIDTH + 1;
 
+/// Stored integers of a leaf on the grid with the greatest number of ring vertices, in an order of
+/// the axes. They do not include the grid's origin.
 #[cfg(not(meshsweep_wide))]
-/// Stored integers of a leaf on the grid with the greatest number of ring vertices. They do not
-/// include the grid's origin.
 #[derive(Clone, Copy, Debug)]
 pub struct FullRing<'a> {
     pub(super) window: &'a [u8; GRID_WINDOW],
+    pub(super) axes: [usize; 3],
     /// Coordinates of the ring, axis by axis. Those past the last triangle have no meaning.
     pub(crate) rows: [&'a [[u8; 2]; RING_VERTICES]; 3],
 }
@@ -61,13 +61,27 @@ impl FullRing<'_> {
     /// First and second centre, alike if there is one fan.
     #[inline(always)]
     pub fn centres(&self, shape: LeafShape) -> [[i32; 3]; 2] {
-        [three(self.window, 0), three(self.window, 6 * (shape.centres() - 1))]
+        [self.centre(0), self.centre(shape.centres() - 1)]
     }
 
     /// First or second centre of a leaf that has so many.
     #[inline(always)]
     pub fn centre(&self, which: usize) -> [i32; 3] {
-        three(self.window, 6 * (which & 1))
+        let [u, v, w] = self.axes;
+        // A mask that changes nothing, for less than a bounds check.
+        let stored = |axis: usize| {
+            let at = (6 * (which & 1) + 2 * axis) & 63;
+            short_of([self.window[at], self.window[at + 1]])
+        };
+        [stored(u), stored(v), stored(w)]
+    }
+
+    /// The ring vertices of a leaf of this shape.
+    #[inline(always)]
+    pub fn vertices(&self, shape: LeafShape) -> impl Iterator<Item = [i32; 3]> {
+        let [x, y, z] = self.rows;
+        let vertices = x.iter().zip(y).zip(z).take(shape.triangles() + 1);
+        vertices.map(|((x, y), z)| grid_point([x, y, z]))
     }
 
     /// Ring vertex `i`, at most 8.

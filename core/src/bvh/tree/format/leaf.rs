@@ -240,41 +240,26 @@ impl<'a> FanLeaf<'a> {
         })
     }
 
-    #[cfg(not(meshsweep_wide))]
     /// The stored integers of a leaf on the grid, as many as the largest leaf has.
+    #[cfg(not(meshsweep_wide))]
     #[inline(always)]
     pub fn full_ring(&self) -> Option<FullRing<'a>> {
+        self.full_ring_in_order([0, 1, 2])
+    }
+
+    /// The same in the order of `axes`.
+    #[cfg(not(meshsweep_wide))]
+    #[inline(always)]
+    pub fn full_ring_in_order(&self, [u, v, w]: [usize; 3]) -> Option<FullRing<'a>> {
         let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
         let first = 6 * self.shape.centres();
         let step = 2 * (self.shape.triangles() + 1);
         // The last row of the largest leaf ends with the window.
-        let row = |at: usize| {
-            window.get(at.min(GRID_WINDOW - 2 * RING_VERTICES)..)?.as_chunks::<2>().0.first_chunk()
+        let row = |axis: usize| {
+            let at = (first + step * axis).min(GRID_WINDOW - 2 * RING_VERTICES);
+            window.get(at..)?.as_chunks::<2>().0.first_chunk()
         };
-        Some(FullRing { window, rows: [row(first)?, row(first + step)?, row(first + 2 * step)?] })
-    }
-
-    /// The stored integers of a leaf on the grid, in the order of `axes`.
-    #[inline(always)]
-    pub fn ring_in_order(&self, axes: [usize; 3]) -> Option<GridRing<'a>> {
-        let centres = self.shape.centres();
-        let bytes = 2 * (self.shape.triangles() + 1);
-        let ring = |axis: usize| {
-            let row = self.bytes.get(6 * centres + bytes * axis..)?.get(..bytes)?;
-            Some(row.as_chunks::<2>().0)
-        };
-        let [u, v, w] = axes;
-        let origin = |axis: usize| self.origin.get(axis).copied().unwrap_or(0);
-        // Not by `map`: the compiler does not inline that at `opt-level = "s"`.
-        let stored = |at: usize, axis: usize| short(self.bytes, at + 2 * axis);
-        let centre = |at: usize| [stored(at, u), stored(at, v), stored(at, w)];
-        Some(GridRing {
-            origin: [origin(u), origin(v), origin(w)],
-            centres: [centre(0), centre(6 * (centres - 1))],
-            x: ring(u)?,
-            y: ring(v)?,
-            z: ring(w)?,
-        })
+        Some(FullRing { window, axes: [u, v, w], rows: [row(u)?, row(v)?, row(w)?] })
     }
 
     /// The point `centre + v·e + w·g` of triangle `lane`, grid units.

@@ -3,14 +3,12 @@
 
 use super::keys::NO_CHILD;
 #[cfg(not(meshsweep_wide))]
-use super::opened_node::{OpenedNode, Pushed, Pusher};
+use super::opened_node::{OpenedNode, Pushed};
 #[cfg(not(meshsweep_wide))]
 use super::slab_planes::SlabPlanes;
 use super::slab_ray::SlabRay;
 use crate::bvh::tree::format::layout::BOXES_BYTES;
 use crate::geom::fan::WIDTH;
-#[cfg(not(meshsweep_wide))]
-use crate::num::{SOFT_FLOAT, lesser};
 #[cfg(not(meshsweep_wide))]
 use crate::query::ScratchEntry;
 
@@ -43,14 +41,9 @@ pub(crate) fn push_entries(
     slots: &mut [ScratchEntry; WIDTH],
 ) -> Option<Pushed> {
     let planes = SlabPlanes::of(record, ray)?;
-    if SOFT_FLOAT {
-        return Some(super::integer_entries::push(&planes, ray, opened, slots));
-    }
-    let mut pusher = Pusher::new(opened.node, slots);
-    for child in 0..lesser(opened.count as usize, WIDTH) {
-        if let Some(key) = planes.entry(child, [opened.bound, opened.limit]) {
-            pusher.push(key);
-        }
-    }
-    Some(pusher.finish())
+    #[cfg(meshsweep_soft_float)]
+    let pushed = super::integer_entries::push(&planes, ray, opened, slots);
+    #[cfg(not(meshsweep_soft_float))]
+    let pushed = planes.push(opened, slots);
+    Some(pushed)
 }

@@ -74,18 +74,21 @@ impl GridLine {
         [along(u, self.slope[0], self.at[0]), along(v, self.slope[1], self.at[1])]
     }
 
-    /// Triangles of a leaf that are not proved clear of the line, a bit for each. `ring` is in the
-    /// order of the ray's axes, `turn` is the first triangle of the second fan.
+    /// Triangles of a leaf that are not proved clear of the line, a bit for each. `centres` and
+    /// `vertices` are those of the leaf, in the order of the ray's axes.
     #[inline(never)]
-    pub fn near(&self, ring: &GridRing<'_>, turn: usize) -> u32 {
+    pub fn near(
+        &self,
+        centres: [[i32; 3]; 2],
+        vertices: impl Iterator<Item = [i32; 3]>,
+        shape: LeafShape,
+    ) -> u32 {
         if self.margin == 0 {
-            return !(u32::MAX << lesser(ring.x.len().saturating_sub(1), WIDTH));
+            return !(u32::MAX << lesser(shape.triangles(), WIDTH));
         }
-        let centres = [self.shadow(ring.centres[0]), self.shadow(ring.centres[1])];
-        let short = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
-        let vertices = ring.x.iter().zip(ring.y).zip(ring.z);
-        let shadows = vertices.map(|((x, y), z)| self.shadow([short(x), short(y), short(z)]));
-        ray_leaf(self, turn, centres, shadows)
+        let [first, second] = centres;
+        let centres = [self.shadow(first), self.shadow(second)];
+        ray_leaf(self, shape.turn(), centres, vertices.map(|vertex| self.shadow(vertex)))
     }
 }
 

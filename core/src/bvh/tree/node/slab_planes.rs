@@ -1,10 +1,14 @@
 //! The planes of a node's boxes as a segment meets them, one box after the other.
 
 use super::keys::{CHILD_MASK, NO_CHILD};
+#[cfg(not(any(meshsweep_wide, meshsweep_soft_float)))]
+use super::opened_node::{OpenedNode, Pushed, Pusher};
 use super::slab_ray::{ByAxis, SlabRay};
 use crate::bvh::tree::format::layout::{BOXES_BYTES, boxes};
 use crate::geom::fan::WIDTH;
 use crate::num::{greater, lesser};
+#[cfg(not(any(meshsweep_wide, meshsweep_soft_float)))]
+use crate::query::ScratchEntry;
 
 impl SlabRay {
     /// Parameter of byte 0 on the near and on the far side, and of one step.
@@ -84,6 +88,19 @@ impl<'a> SlabPlanes<'a> {
             }
         }
         Some(enter.cast_unsigned() & !CHILD_MASK | child as u32)
+    }
+
+    /// Pushes the children that the segment enters, one after the other.
+    #[cfg(not(any(meshsweep_wide, meshsweep_soft_float)))]
+    #[inline(always)]
+    pub(super) fn push(&self, opened: &OpenedNode, slots: &mut [ScratchEntry; WIDTH]) -> Pushed {
+        let mut pusher = Pusher::new(opened.node, slots);
+        for child in 0..lesser(opened.count as usize, WIDTH) {
+            if let Some(key) = self.entry(child, [opened.bound, opened.limit]) {
+                pusher.push(key);
+            }
+        }
+        pusher.finish()
     }
 
     /// Keys of the first `count` children, one after the other.
