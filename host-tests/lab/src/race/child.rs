@@ -76,9 +76,10 @@ impl Program {
             pip.args(["-m", "pip", "install", "--quiet", "--only-binary", ":all:"]).args(packages);
             process::capture(venv.args(["-m", "venv", "--clear"]).arg(&folder))
                 .and_then(|_| process::capture(&mut pip))
-                .map_err(|reason| match reason.lines().find(|line| line.contains("rror")) {
-                    Some(line) => line.to_owned(),
-                    None => reason.replace('\n', " "),
+                .map_err(|reason| {
+                    let is_error = |line: &&str| line.to_ascii_lowercase().starts_with("error");
+                    let line = reason.lines().find(is_error).map(str::to_owned);
+                    line.unwrap_or_else(|| reason.replace('\n', " "))
                 })?;
             write(&list, &packages.join(" "))?;
         }
