@@ -18,7 +18,7 @@
 //!                         ├─ tight    (tight hulls, drawn) ─┤
 //!                         └─ bounds   (paper 001: triboxes) ┴─ plot (those that are a trade, SVG)
 //! ```
-//! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so
+//! Times are the processor's, of all threads, the fastest of three runs; on a busy machine even so
 //! only ratios within one run mean something. Counts are exact.
 
 pub mod bounds;

@@ -1,27 +1,25 @@
-//! Engines in C++, as Debian has their libraries: child processes that answer over pipes.
+//! Engines that are no crates: child processes that answer over pipes.
 //!
-//! The source is compiled when the race begins, and says which bytes go to and fro. The child
+//! A source in C++ is compiled against Debian's libraries when the race begins, one in Python gets
+//! an environment with PyPI's packages. The source says which bytes go to and fro. The child
 //! measures its own time; reading and writing is no part of it.
 
-use std::env;
 use std::fs;
 use std::io::{BufReader, BufWriter, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{self as system, ChildStdin, ChildStdout, Command, Stdio};
 
 use meshsweep::mesh::Mesh;
-use meshsweep_xtask::process;
 use meshsweep_xtask::toolbox::{Toolbox, Wanted};
+use meshsweep_xtask::{process, workspace};
 
-/// What all of them include.
+/// What all in C++ include.
 const SHARED: &str = include_str!("child.h");
 
 /// A program in C++.
 pub struct Source {
     /// Debian's packages.
     pub wanted: Wanted,
-    /// Sources that the user has.
-    pub checkout: Option<Checkout>,
     /// The program. It includes `child.h`.
     pub text: &'static str,
     /// Folders of headers below `usr/include`.
@@ -30,17 +28,11 @@ pub struct Source {
     pub options: &'static [&'static str],
 }
 
-/// Sources that no package has.
-pub struct Checkout {
-    /// The environment variable that names their folder.
-    pub variable: &'static str,
-    /// Folders of headers in it.
-    pub headers: &'static [&'static str],
-}
-
-/// A compiled program.
+/// A program that can be started.
 pub struct Program {
-    toolbox: Toolbox,
+    words: Vec<PathBuf>,
+    /// Whose libraries it needs.
+    toolbox: Option<Toolbox>,
 }
 
 impl Program {
@@ -52,32 +44,48 @@ impl Program {
         if !process::on_path("c++") {
             return Err("no `c++` to compile it".to_owned());
         }
-        let mut checkout = Vec::new();
-        if let Some(Checkout { variable, headers }) = &source.checkout {
-            let folder = env::var_os(variable)
-                .ok_or_else(|| format!("{variable} does not name a folder with its sources"))?;
-            checkout.extend(headers.iter().map(|headers| Path::new(&folder).join(headers)));
-        }
         let toolbox = Toolbox::open(&source.wanted)?;
-        for (name, text) in [("race.cpp", source.text), ("child.h", SHARED)] {
-            let file = toolbox.path(name);
-            fs::write(&file, text)
-                .map_err(|error| format!("cannot write {}: {error}", file.display()))?;
-        }
+        write(&toolbox.path("race.cpp"), source.text)?;
+        write(&toolbox.path("child.h"), SHARED)?;
         let mut compiler = Command::new("c++");
         compiler.args(["-std=c++17", "-O3", "-DNDEBUG"]);
         for folder in [""].iter().chain(source.headers) {
             compiler.arg("-isystem").arg(toolbox.path("usr/include").join(folder));
-        }
-        for folder in checkout {
-            compiler.arg("-isystem").arg(folder);
         }
         compiler.arg(toolbox.path("race.cpp")).arg("-o").arg(toolbox.path("race"));
         for folder in toolbox.libraries() {
             compiler.arg("-L").arg(&folder).arg(format!("-Wl,-rpath-link,{}", folder.display()));
         }
         process::capture(compiler.args(source.options))?;
-        Ok(Self { toolbox })
+        Ok(Self { words: vec![toolbox.path("race")], toolbox: Some(toolbox) })
+    }
+
+    /// Makes an environment with the packages below `target`, if it is not there.
+    ///
+    /// # Errors
+    /// One line: no `python3`, no `venv`, or no packages.
+    pub fn python(name: &str, packages: &[&str], text: &str) -> Result<Self, String> {
+        if !process::on_path("python3") {
+            return Err("no `python3` to run it".to_owned());
+        }
+        let folder = workspace::target().join("race").join(name);
+        let (python, list) = (folder.join("bin/python"), folder.join("packages"));
+        if fs::read_to_string(&list).ok().as_deref() != Some(&packages.join(" ")) {
+            let mut venv = Command::new("python3");
+            let mut pip = Command::new(&python);
+            pip.args(["-m", "pip", "install", "--quiet", "--only-binary", ":all:"]).args(packages);
+            process::capture(venv.args(["-m", "venv", "--clear"]).arg(&folder))
+                .and_then(|_| process::capture(&mut pip))
+                .map_err(|reason| {
+                    let is_error = |line: &&str| line.to_ascii_lowercase().starts_with("error");
+                    let line = reason.lines().find(is_error).map(str::to_owned);
+                    line.unwrap_or_else(|| reason.replace('\n', " "))
+                })?;
+            write(&list, &packages.join(" "))?;
+        }
+        let program = folder.join("race.py");
+        write(&program, text)?;
+        Ok(Self { words: vec![python, program], toolbox: None })
     }
 
     /// Starts it.
@@ -85,8 +93,11 @@ impl Program {
     /// # Errors
     /// The system's.
     pub fn start(&self) -> Result<Child, String> {
-        let mut command = Command::new(self.toolbox.path("race"));
-        self.toolbox.lend_libraries(&mut command);
+        let mut command = Command::new(&self.words[0]);
+        command.args(&self.words[1..]);
+        if let Some(toolbox) = &self.toolbox {
+            toolbox.lend_libraries(&mut command);
+        }
         command.stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut child = command.spawn().map_err(|error| format!("cannot start: {error}"))?;
         let (Some(questions), Some(answers)) = (child.stdin.take(), child.stdout.take()) else {
@@ -95,6 +106,10 @@ impl Program {
         let (questions, answers) = (Some(BufWriter::new(questions)), BufReader::new(answers));
         Ok(Child { child, questions, answers })
     }
+}
+
+fn write(file: &Path, text: &str) -> Result<(), String> {
+    fs::write(file, text).map_err(|error| format!("cannot write {}: {error}", file.display()))
 }
 
 /// A running program.

@@ -1,9 +1,9 @@
-//! An engine in C++: its index is in a child process.
+//! An engine whose index is in a child process.
 
 use meshsweep_host_tests::workload::Subject;
 
 use super::child::{Child, Program};
-use super::engine::{Answer, Engine};
+use super::engine::{Answer, Answers, Engine};
 use super::workload::{HitKind, Workload};
 
 /// The first number of a list, as the programs name them.
@@ -16,33 +16,38 @@ pub struct ChildEngine {
     child: Child,
     bytes: usize,
     build_seconds: f64,
-    seconds: f64,
-    workloads: &'static [Workload],
 }
 
 impl ChildEngine {
     /// Starts the program, and lets it build its index.
     ///
     /// # Errors
-    /// The child's end.
+    /// Why there is no program, or the child's end.
     pub fn start<'a>(
         program: &Result<Program, String>,
         subject: &Subject,
-        workloads: &'static [Workload],
     ) -> Result<Box<dyn Engine + 'a>, String> {
         let mut child = program.as_ref().map_err(Clone::clone)?.start()?;
         child.send_mesh(&subject.mesh)?;
         let bytes = child.whole()? as usize;
         let build_seconds = child.double()?;
-        Ok(Box::new(ChildEngine { child, bytes, build_seconds, seconds: 0.0, workloads }))
+        Ok(Box::new(Self { child, bytes, build_seconds }))
     }
 
-    /// Sends a list; its answers follow.
-    fn ask(&mut self, question: u32, count: usize, numbers: &[f32]) -> Result<(), String> {
-        self.child.send_question(question, count)?;
-        self.child.send(numbers.iter().flat_map(|x| x.to_ne_bytes()))?;
-        self.seconds = self.child.double()?;
-        Ok(())
+    /// Sends a list; receives each answer with `one`.
+    fn ask(
+        &mut self,
+        question: u32,
+        count: usize,
+        numbers: &[f32],
+        one: impl Fn(&mut Child) -> Result<Answer, String>,
+    ) -> Result<Answers, String> {
+        let child = &mut self.child;
+        child.send_question(question, count)?;
+        child.send(numbers.iter().flat_map(|x| x.to_ne_bytes()))?;
+        let seconds = child.double()?;
+        let all = (0..count).map(|_| one(child)).collect::<Result<_, _>>()?;
+        Ok(Answers { all, seconds })
     }
 }
 
@@ -51,48 +56,28 @@ impl Engine for ChildEngine {
         self.bytes
     }
 
-    fn answers(&self, workload: Workload) -> bool {
-        self.workloads.contains(&workload)
+    fn answers(&self, _: Workload) -> bool {
+        true
     }
 
     fn own_build_seconds(&self) -> Option<f64> {
         Some(self.build_seconds)
     }
 
-    fn own_seconds(&self) -> Option<f64> {
-        Some(self.seconds)
+    fn closest(&mut self, points: &[[f32; 3]]) -> Result<Answers, String> {
+        self.ask(CLOSEST_POINT, points.len(), points.as_flattened(), |child| {
+            Ok(Answer::Point([child.float()?, child.float()?, child.float()?]))
+        })
     }
 
-    fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
-        answers.clear();
-        self.ask(CLOSEST_POINT, points.len(), points.as_flattened())?;
-        for _ in points {
-            let child = &mut self.child;
-            answers.push(Answer::Point([child.float()?, child.float()?, child.float()?]));
-        }
-        Ok(())
-    }
-
-    fn hits(
-        &mut self,
-        segments: &[[[f32; 3]; 2]],
-        kind: HitKind,
-        answers: &mut Vec<Answer>,
-    ) -> Result<(), String> {
-        answers.clear();
-        let question = match kind {
-            HitKind::First => FIRST_HIT,
-            HitKind::Any => ANY_HIT,
+    fn hits(&mut self, segments: &[[[f32; 3]; 2]], kind: HitKind) -> Result<Answers, String> {
+        let (question, hit): (_, fn(f32) -> Answer) = match kind {
+            HitKind::First => (FIRST_HIT, Answer::Hit),
+            HitKind::Any => (ANY_HIT, |_| Answer::Meets),
         };
-        self.ask(question, segments.len(), segments.as_flattened().as_flattened())?;
-        for _ in segments {
-            let parameter = self.child.float()?;
-            answers.push(match kind {
-                _ if parameter < 0.0 => Answer::Miss,
-                HitKind::First => Answer::Hit(parameter),
-                HitKind::Any => Answer::Meets,
-            });
-        }
-        Ok(())
+        self.ask(question, segments.len(), segments.as_flattened().as_flattened(), |child| {
+            let parameter = child.float()?;
+            Ok(if parameter < 0.0 { Answer::Miss } else { hit(parameter) })
+        })
     }
 }

@@ -7,6 +7,7 @@
 //! determinant, which ends the search too early at a hit that need not be the first. Its binary
 //! tree is slower.
 
+use std::convert::Infallible;
 use std::mem::{size_of, size_of_val};
 use std::time::Duration;
 
@@ -18,7 +19,7 @@ use obvhs::cwbvh::node::CwBvhNode;
 use obvhs::ray::{Ray, RayHit};
 use obvhs::triangle::Triangle;
 
-use super::engine::{Answer, Engine, each};
+use super::engine::{Answer, Answers, Engine};
 use super::workload::{HitKind, Workload};
 
 struct Compressed {
@@ -59,29 +60,20 @@ impl Engine for Compressed {
         matches!(workload, Workload::Segments | Workload::AnyHit)
     }
 
-    fn closest(&mut self, _: &[[f32; 3]], _: &mut Vec<Answer>) -> Result<(), String> {
+    fn closest(&mut self, _: &[[f32; 3]]) -> Result<Answers, String> {
         Err("obvhs answers no closest points".to_owned())
     }
 
-    fn hits(
-        &mut self,
-        segments: &[[[f32; 3]; 2]],
-        kind: HitKind,
-        answers: &mut Vec<Answer>,
-    ) -> Result<(), String> {
+    fn hits(&mut self, segments: &[[[f32; 3]; 2]], kind: HitKind) -> Result<Answers, String> {
         let at = |ray: &Ray, index: usize| meet(&self.triangles[index], ray);
-        match kind {
-            HitKind::First => each(segments, answers, |segment| {
-                let mut hit = RayHit::none();
-                let is_hit = self.tree.ray_traverse(along(segment), &mut hit, at);
-                if is_hit { Answer::Hit(hit.t) } else { Answer::Miss }
-            }),
-            HitKind::Any => each(segments, answers, |segment| {
-                let is_miss = self.tree.ray_traverse_miss(along(segment), at);
-                if is_miss { Answer::Miss } else { Answer::Meets }
-            }),
-        }
-        Ok(())
+        Answers::each(segments, |segment| {
+            let (ray, mut hit) = (along(segment), RayHit::none());
+            Ok::<_, Infallible>(match kind {
+                HitKind::First if self.tree.ray_traverse(ray, &mut hit, at) => Answer::Hit(hit.t),
+                HitKind::Any if !self.tree.ray_traverse_miss(ray, at) => Answer::Meets,
+                _ => Answer::Miss,
+            })
+        })
     }
 }
 

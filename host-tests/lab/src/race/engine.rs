@@ -3,6 +3,7 @@
 use std::hint::black_box;
 
 use super::workload::{HitKind, Workload};
+use crate::measure::stopwatch::Stopwatch;
 
 /// An index over one mesh that answers lists of queries. A list is one call, so that the call's
 /// cost is no part of a query's, a coherent query may carry over what it knows, and a batch may be
@@ -16,31 +17,21 @@ pub trait Engine {
         None
     }
 
-    /// Seconds of the last list, for an engine in another process.
-    fn own_seconds(&self) -> Option<f64> {
-        None
-    }
-
     /// Whether it takes part in a workload.
     fn answers(&self, workload: Workload) -> bool;
 
-    /// Replaces `answers` by those to `points`, in their order: [`Answer::Point`].
+    /// Answers to `points`, in their order: [`Answer::Point`].
     ///
     /// # Errors
     /// The engine's refusal.
-    fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String>;
+    fn closest(&mut self, points: &[[f32; 3]]) -> Result<Answers, String>;
 
-    /// Replaces `answers` by those to `segments`, in their order: [`Answer::Hit`] of first hits,
-    /// [`Answer::Meets`] or [`Answer::Undecided`] of any, [`Answer::Miss`] of both.
+    /// Answers to `segments`, in their order: [`Answer::Hit`] of first hits, [`Answer::Meets`] or
+    /// [`Answer::Undecided`] of any, [`Answer::Miss`] of both.
     ///
     /// # Errors
     /// The engine's refusal.
-    fn hits(
-        &mut self,
-        segments: &[[[f32; 3]; 2]],
-        kind: HitKind,
-        answers: &mut Vec<Answer>,
-    ) -> Result<(), String>;
+    fn hits(&mut self, segments: &[[[f32; 3]; 2]], kind: HitKind) -> Result<Answers, String>;
 }
 
 /// What an engine says.
@@ -58,25 +49,29 @@ pub enum Answer {
     Undecided,
 }
 
-/// Asks one query after the other. Each answer passes through a [`black_box`], so that none is
-/// computed in part or left out.
-pub fn each<Q: Copy>(queries: &[Q], answers: &mut Vec<Answer>, mut ask: impl FnMut(Q) -> Answer) {
-    answers.clear();
-    answers.extend(queries.iter().map(|&query| black_box(ask(query))));
+/// Answers to a list of queries.
+pub struct Answers {
+    /// In the order of the queries.
+    pub all: Vec<Answer>,
+    /// Processor time of all.
+    pub seconds: f64,
 }
 
-/// As [`each`], up to the first refusal.
-///
-/// # Errors
-/// That refusal.
-pub fn try_each<Q: Copy>(
-    queries: &[Q],
-    answers: &mut Vec<Answer>,
-    mut ask: impl FnMut(Q) -> Result<Answer, String>,
-) -> Result<(), String> {
-    answers.clear();
-    for &query in queries {
-        answers.push(black_box(ask(query)?));
+impl Answers {
+    /// Asks one query after the other, up to the first refusal. Each answer passes through a
+    /// [`black_box`], so that none is computed in part or left out.
+    ///
+    /// # Errors
+    /// That refusal.
+    pub fn each<Q: Copy, E: ToString>(
+        queries: &[Q],
+        mut ask: impl FnMut(Q) -> Result<Answer, E>,
+    ) -> Result<Self, String> {
+        let mut all = Vec::with_capacity(queries.len());
+        let watch = Stopwatch::start();
+        for &query in queries {
+            all.push(black_box(ask(query).map_err(|error| error.to_string())?));
+        }
+        Ok(Self { all, seconds: watch.seconds() })
     }
-    Ok(())
 }

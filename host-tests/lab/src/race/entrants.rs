@@ -2,10 +2,13 @@
 
 use meshsweep_host_tests::workload::Subject;
 
+use super::child_engine::ChildEngine;
 use super::engine::Engine;
-use super::{cwbvh, embree, fcpw, parry, tree};
+use super::tree::{self, Way};
+use super::{cwbvh, embree, fcpw, parry};
 
 /// A mesh's engine. The blob is for one that reads its index from bytes, which have to outlive it.
+/// An error says why the engine cannot take part.
 type Build = for<'a> fn(&Subject, &'a mut Vec<u8>) -> Result<Box<dyn Engine + 'a>, String>;
 
 /// An engine that takes part.
@@ -14,8 +17,6 @@ pub struct Entrant {
     pub name: &'static str,
     /// What else there is to know of it, for the table of engines.
     pub remark: &'static str,
-    /// Why it cannot take part on this machine, if it cannot.
-    pub missing: fn() -> Option<String>,
     /// Builds its index.
     pub build: Build,
 }
@@ -24,59 +25,55 @@ pub struct Entrant {
 pub const REFERENCE: &str = "parry3d";
 
 /// All engines, in the order of the tables.
-pub const ENTRANTS: [Entrant; 9] = [
+pub const ENTRANTS: [Entrant; 10] = [
     Entrant {
         name: REFERENCE,
         remark: "TriMesh: project_local_point, cast_local_ray, intersects_local_ray",
-        missing: || None,
         build: parry::build,
     },
     Entrant {
         name: "obvhs",
         remark: "CWBVH, very slow build, own triangle test: ray_traverse, ray_traverse_miss",
-        missing: || None,
         build: cwbvh::build,
     },
     Entrant {
         name: "embree",
         remark: "Debian's, C++, SIMD, robust: rtcPointQuery, rtcIntersect1, rtcOccluded1",
-        missing: embree::missing,
-        build: embree::build,
+        build: |subject, _| ChildEngine::start(&embree::PROGRAM, subject),
     },
     Entrant {
         name: "fcpw",
-        remark: "C++, SIMD of 8 lanes: findClosestPoint; bytes unknown",
-        missing: fcpw::missing,
-        build: fcpw::build,
+        remark: "PyPI's, C++, AVX2: find_closest_points, intersect, has_line_of_sight; bytes unknown",
+        build: |subject, _| ChildEngine::start(&fcpw::PROGRAM, subject),
     },
     Entrant {
         name: "tree",
         remark: "closest_point, first_hit, any_hit on the box tree, 16-bit grid, AVX2 if there",
-        missing: || None,
-        build: tree::build,
+        build: |subject, blob| tree::build(subject, blob, Way::Alone, false),
     },
     Entrant {
         name: "tree compiled",
         remark: "the same without FastBvh: by the instructions that the program is compiled for",
-        missing: || None,
-        build: tree::build_compiled,
+        build: |subject, blob| tree::build(subject, blob, Way::Compiled, false),
+    },
+    Entrant {
+        name: "hint",
+        remark: "closest_point_from on the same tree, AVX2 if there, along paths",
+        build: |subject, blob| tree::build(subject, blob, Way::Hint, false),
     },
     Entrant {
         name: "coherent",
-        remark: "CoherentQuery of 128 entries on the same tree, along paths",
-        missing: || None,
-        build: tree::build_coherent,
+        remark: "CoherentQuery of 128 entries on the same tree, without FastBvh, along paths",
+        build: |subject, blob| tree::build(subject, blob, Way::Coherent, false),
     },
     Entrant {
         name: "batch",
         remark: "bvh::closest_points on the same tree, one thread, Morton order included",
-        missing: || None,
-        build: tree::build_batch,
+        build: |subject, blob| tree::build(subject, blob, Way::Batch, false),
     },
     Entrant {
         name: "tree single",
-        remark: "the same with vertices in f32",
-        missing: || None,
-        build: tree::build_single,
+        remark: "as tree, with vertices in f32",
+        build: |subject, blob| tree::build(subject, blob, Way::Alone, true),
     },
 ];

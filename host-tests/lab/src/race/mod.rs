@@ -4,7 +4,7 @@
 //! workload (which questions) ─┐
 //! entrants (the engines) ─────┼─ timing (interleaved rounds) ─ agreement (with f64, with parry3d) ─ report (tables)
 //!   parry, cwbvh, embree, fcpw, tree: one file each ─ engine (their interface)
-//! child (programs in C++) ─ child_engine (embree, fcpw), pairs, hausdorff
+//! child (programs in C++ and Python) ─ child_engine (embree, fcpw), pairs, hausdorff
 //! pairs     (distance and overlap of two models)
 //! hausdorff (Hausdorff distance of two meshes)
 //! ```
@@ -31,9 +31,11 @@ mod tree;
 mod workload;
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::Table;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 pub use workload::Scale;
 
@@ -44,7 +46,15 @@ pub use workload::Scale;
 pub fn race(file: &Path, scale: Scale) -> Result<[Table; 2], String> {
     let subject = Subject::load_any(file)?;
     let mut blobs: Vec<Vec<u8>> = vec![Vec::new(); entrants::ENTRANTS.len()];
-    let mut lanes = timing::lanes(&subject, &mut blobs)?;
+    let (mut lanes, missing) = timing::lanes(&subject, &mut blobs);
     let laps = timing::laps(&subject, scale, &mut lanes)?;
-    Ok([report::engines(&subject, &lanes), report::laps(&laps, scale)])
+    Ok([report::engines(&subject, &lanes, missing), report::laps(&laps, scale)])
+}
+
+/// Does work on the only thread of a pool, so that what it gives to rayon takes one processor.
+fn on_one_thread<T: Send>(work: impl FnOnce() -> Result<T, String> + Send) -> Result<T, String> {
+    static POOL: LazyLock<Result<ThreadPool, String>> = LazyLock::new(|| {
+        ThreadPoolBuilder::new().num_threads(1).build().map_err(|error| error.to_string())
+    });
+    POOL.as_ref().map_err(Clone::clone)?.install(work)
 }

@@ -1,8 +1,10 @@
 //! parry3d: a binary tree of boxes in f32.
 
+use std::convert::Infallible;
+
 use meshsweep_host_tests::workload::Subject;
 
-use super::engine::{Answer, Engine, each};
+use super::engine::{Answer, Answers, Engine};
 use super::workload::{HitKind, Workload};
 use crate::measure::rival::Rival;
 
@@ -25,25 +27,17 @@ impl Engine for Parry {
         true
     }
 
-    fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
-        each(points, answers, |point| Answer::Point(self.0.closest(point)));
-        Ok(())
+    fn closest(&mut self, points: &[[f32; 3]]) -> Result<Answers, String> {
+        Answers::each(points, |point| Ok::<_, Infallible>(Answer::Point(self.0.closest(point))))
     }
 
-    fn hits(
-        &mut self,
-        segments: &[[[f32; 3]; 2]],
-        kind: HitKind,
-        answers: &mut Vec<Answer>,
-    ) -> Result<(), String> {
-        match kind {
-            HitKind::First => each(segments, answers, |segment| {
-                self.0.first_hit(segment).map_or(Answer::Miss, Answer::Hit)
-            }),
-            HitKind::Any => each(segments, answers, |segment| {
-                if self.0.meets(segment) { Answer::Meets } else { Answer::Miss }
-            }),
-        }
-        Ok(())
+    fn hits(&mut self, segments: &[[[f32; 3]; 2]], kind: HitKind) -> Result<Answers, String> {
+        Answers::each(segments, |segment| {
+            Ok::<_, Infallible>(match kind {
+                HitKind::First => self.0.first_hit(segment).map_or(Answer::Miss, Answer::Hit),
+                HitKind::Any if self.0.meets(segment) => Answer::Meets,
+                HitKind::Any => Answer::Miss,
+            })
+        })
     }
 }

@@ -3,12 +3,12 @@
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row, scientific};
 
-use super::entrants::{ENTRANTS, REFERENCE};
+use super::entrants::REFERENCE;
 use super::timing::{Lane, Lap};
 use super::workload::{Scale, Workload};
 
 /// The mesh, and what each engine's index takes.
-pub fn engines(subject: &Subject, lanes: &[Lane<'_>]) -> Table {
+pub fn engines(subject: &Subject, lanes: &[Lane<'_>], missing: Vec<String>) -> Table {
     let triangles = subject.mesh.triangles.len();
     let title = format!("== {}: {triangles} triangles, {} ==", subject.name, machine());
     let mut table = Table::new("engines", title, &["engine", "build s", "bytes/triangle", "what"]);
@@ -16,11 +16,7 @@ pub fn engines(subject: &Subject, lanes: &[Lane<'_>]) -> Table {
         let bytes = engine.bytes() as f64 / triangles as f64;
         table.push(row![entrant.name, fixed(*build_seconds, 3), fixed(bytes, 1), entrant.remark]);
     }
-    for entrant in &ENTRANTS {
-        if let Some(reason) = (entrant.missing)() {
-            table.note(format!("without {}: {reason}", entrant.name));
-        }
-    }
+    missing.into_iter().for_each(|line| table.note(line));
     table
 }
 

@@ -3,14 +3,11 @@
 use meshsweep_host_tests::workload::Subject;
 
 use super::agreement::{Agreement, Truth};
-use super::engine::{Answer, Engine};
+use super::engine::Engine;
 use super::entrants::{ENTRANTS, Entrant, REFERENCE};
 use super::workload::{Queries, Scale, Workload};
 use crate::measure::rival::Rival;
-use crate::measure::stopwatch::Stopwatch;
-
-/// Rounds, of which the fastest counts: others on the machine can only slow an engine down.
-const ROUNDS: usize = 3;
+use crate::measure::stopwatch::{Stopwatch, rounds};
 
 /// An engine with its index built.
 pub struct Lane<'a> {
@@ -36,18 +33,21 @@ pub struct Lap {
     pub agreement: Agreement,
 }
 
-/// Builds every index that this machine can have. `blobs` has one place for each entrant.
-pub fn lanes<'a>(subject: &Subject, blobs: &'a mut [Vec<u8>]) -> Result<Vec<Lane<'a>>, String> {
-    let mut lanes = Vec::new();
-    let there = |(entrant, _): &(&Entrant, _)| (entrant.missing)().is_none();
-    for (entrant, blob) in ENTRANTS.iter().zip(blobs).filter(there) {
+/// Builds every index that this machine can have, and says which it cannot have and why. `blobs`
+/// has one place for each entrant.
+pub fn lanes<'a>(subject: &Subject, blobs: &'a mut [Vec<u8>]) -> (Vec<Lane<'a>>, Vec<String>) {
+    let (mut lanes, mut missing) = (Vec::new(), Vec::new());
+    for (entrant, blob) in ENTRANTS.iter().zip(blobs) {
         let begun = Stopwatch::start();
-        let engine = (entrant.build)(subject, blob)
-            .map_err(|reason| format!("{}: {reason}", entrant.name))?;
-        let build_seconds = engine.own_build_seconds().unwrap_or(begun.seconds());
-        lanes.push(Lane { entrant, engine, build_seconds });
+        match (entrant.build)(subject, blob) {
+            Ok(engine) => {
+                let build_seconds = engine.own_build_seconds().unwrap_or(begun.seconds());
+                lanes.push(Lane { entrant, engine, build_seconds });
+            }
+            Err(reason) => missing.push(format!("without {}: {reason}", entrant.name)),
+        }
     }
-    Ok(lanes)
+    (lanes, missing)
 }
 
 /// Runs and checks all workloads.
@@ -56,59 +56,33 @@ pub fn laps(subject: &Subject, scale: Scale, lanes: &mut [Lane<'_>]) -> Result<V
     let mut laps = Vec::new();
     for workload in Workload::ALL {
         let queries = workload.queries(subject, &guide, scale);
-        let runs = rounds(workload, &queries, lanes)?;
-        let reference = runs.iter().find(|run| run.engine == REFERENCE);
-        let reference = reference.ok_or_else(|| format!("no {REFERENCE} to compare with"))?;
+        let mut lanes: Vec<_> =
+            lanes.iter_mut().filter(|lane| lane.engine.answers(workload)).collect();
+        let runs = rounds(
+            &mut lanes,
+            |lane| {
+                let answers = match &queries {
+                    Queries::Points(points) => lane.engine.closest(points),
+                    Queries::Segments(segments, kind) => lane.engine.hits(segments, *kind),
+                }?;
+                let is_whole = answers.all.len() == queries.len();
+                is_whole.then_some(answers).ok_or_else(|| "queries left unanswered".to_owned())
+            },
+            |run| run.seconds,
+        )?;
+        let runs = || lanes.iter().map(|lane| lane.entrant.name).zip(&runs);
+        let (_, reference) = runs()
+            .find(|(name, _)| *name == REFERENCE)
+            .ok_or_else(|| format!("no {REFERENCE} to compare with"))?;
         let truth = Truth::new(subject, &queries, scale.checked);
-        for run in &runs {
-            laps.push(Lap {
-                workload,
-                engine: run.engine,
-                queries: run.answers.len(),
-                nanoseconds: run.nanoseconds,
-                speed: reference.nanoseconds / run.nanoseconds,
-                agreement: truth.compare(&run.answers, &reference.answers),
-            });
-        }
+        laps.extend(runs().map(|(engine, run)| Lap {
+            workload,
+            engine,
+            queries: queries.len(),
+            nanoseconds: run.seconds * 1e9 / queries.len() as f64,
+            speed: reference.seconds / run.seconds,
+            agreement: truth.compare(&run.all, &reference.all),
+        }));
     }
     Ok(laps)
-}
-
-struct Run {
-    engine: &'static str,
-    answers: Vec<Answer>,
-    nanoseconds: f64,
-}
-
-fn rounds(
-    workload: Workload,
-    queries: &Queries,
-    lanes: &mut [Lane<'_>],
-) -> Result<Vec<Run>, String> {
-    let mut runs: Vec<(Run, &mut Lane<'_>)> = lanes
-        .iter_mut()
-        .filter(|lane| lane.engine.answers(workload))
-        .map(|lane| {
-            let answers = Vec::with_capacity(queries.len());
-            (Run { engine: lane.entrant.name, answers, nanoseconds: f64::INFINITY }, lane)
-        })
-        .collect();
-    for _ in 0..ROUNDS {
-        for (run, lane) in &mut runs {
-            let begun = Stopwatch::start();
-            match queries {
-                Queries::Points(points) => lane.engine.closest(points, &mut run.answers)?,
-                Queries::Segments(segments, kind) => {
-                    lane.engine.hits(segments, *kind, &mut run.answers)?
-                }
-            }
-            let own = lane.engine.own_seconds().map(|s| s * 1e9 / queries.len() as f64);
-            let nanoseconds = own.unwrap_or_else(|| begun.nanoseconds_each(queries.len()));
-            run.nanoseconds = run.nanoseconds.min(nanoseconds);
-            if run.answers.len() != queries.len() {
-                return Err(format!("{} left queries unanswered", run.engine));
-            }
-        }
-    }
-    Ok(runs.into_iter().map(|(run, _)| run).collect())
 }

@@ -7,21 +7,23 @@ use meshsweep::progress::Watch;
 use std::hint::black_box;
 
 use meshsweep::bvh::{FastBvh, TreeOptions, build as build_tree, closest_points};
-use meshsweep_core::{Budget, Bvh, CoherentQuery, Facing, ScratchEntry, Verdict};
+use meshsweep_core::{Budget, Bvh, CoherentQuery, Facing, Hint, ScratchEntry, Verdict};
 use meshsweep_host_tests::workload::Subject;
 
-use rayon::{ThreadPool, ThreadPoolBuilder};
-
-use super::engine::{Answer, Engine, try_each};
+use super::engine::{Answer, Answers, Engine};
+use super::on_one_thread;
 use super::workload::{HitKind, Workload};
+use crate::measure::stopwatch::Stopwatch;
 
-/// How a list of points is asked.
+/// How a list of queries is asked.
 #[derive(Clone, Copy, PartialEq)]
-enum Way {
+pub enum Way {
     /// Each on its own.
     Alone,
     /// The same with the instructions that the program is compiled for.
     Compiled,
+    /// Each with the one before as a hint.
+    Hint,
     /// Each from where the one before ended.
     Coherent,
     /// All at once, in Morton order where they come in none.
@@ -32,19 +34,18 @@ struct Tree<'a> {
     bytes: usize,
     tree: FastBvh<'a>,
     stack: Vec<ScratchEntry>,
-    /// One thread, for a batch.
-    pool: ThreadPool,
     way: Way,
-    workloads: &'static [Workload],
 }
 
 /// A tree of a mesh, which may be open.
-fn open<'a>(
+///
+/// # Errors
+/// None but a fault of the builder.
+pub fn build<'a>(
     subject: &Subject,
-    is_f32: bool,
     blob: &'a mut Vec<u8>,
     way: Way,
-    workloads: &'static [Workload],
+    is_f32: bool,
 ) -> Result<Box<dyn Engine + 'a>, String> {
     let input = meshsweep::mesh::Input {
         input_triangles: subject.triangles_read,
@@ -56,63 +57,7 @@ fn open<'a>(
     *blob = tables.to_bytes();
     let tree = FastBvh::new(Bvh::open(blob).map_err(|error| error.to_string())?);
     let stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
-    let pool = ThreadPoolBuilder::new().num_threads(1).build().map_err(|e| e.to_string())?;
-    Ok(Box::new(Tree { bytes: blob.len(), tree, stack, pool, way, workloads }))
-}
-
-/// One query after the other.
-///
-/// # Errors
-/// None but a fault of the builder.
-pub fn build<'a>(subject: &Subject, blob: &'a mut Vec<u8>) -> Result<Box<dyn Engine + 'a>, String> {
-    open(subject, false, blob, Way::Alone, &Workload::ALL)
-}
-
-/// One query after the other, without the instructions of this processor.
-///
-/// # Errors
-/// None but a fault of the builder.
-pub fn build_compiled<'a>(
-    subject: &Subject,
-    blob: &'a mut Vec<u8>,
-) -> Result<Box<dyn Engine + 'a>, String> {
-    let workloads = &[Workload::Far, Workload::Near, Workload::Segments, Workload::AnyHit];
-    open(subject, false, blob, Way::Compiled, workloads)
-}
-
-/// With vertices as they were, in f32.
-///
-/// # Errors
-/// None but a fault of the builder.
-pub fn build_single<'a>(
-    subject: &Subject,
-    blob: &'a mut Vec<u8>,
-) -> Result<Box<dyn Engine + 'a>, String> {
-    let workloads = &[Workload::Far, Workload::Near, Workload::Segments, Workload::AnyHit];
-    open(subject, true, blob, Way::Alone, workloads)
-}
-
-/// On paths, a coherent query.
-///
-/// # Errors
-/// None but a fault of the builder.
-pub fn build_coherent<'a>(
-    subject: &Subject,
-    blob: &'a mut Vec<u8>,
-) -> Result<Box<dyn Engine + 'a>, String> {
-    open(subject, false, blob, Way::Coherent, &[Workload::Path, Workload::Orbit])
-}
-
-/// All queries of a list at once.
-///
-/// # Errors
-/// None but a fault of the builder.
-pub fn build_batch<'a>(
-    subject: &Subject,
-    blob: &'a mut Vec<u8>,
-) -> Result<Box<dyn Engine + 'a>, String> {
-    let workloads = &[Workload::Far, Workload::Near, Workload::Field];
-    open(subject, false, blob, Way::Batch, workloads)
+    Ok(Box::new(Tree { bytes: blob.len(), tree, stack, way }))
 }
 
 impl Engine for Tree<'_> {
@@ -121,65 +66,64 @@ impl Engine for Tree<'_> {
     }
 
     fn answers(&self, workload: Workload) -> bool {
-        self.workloads.contains(&workload)
-    }
-
-    fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
-        let Self { tree, stack, pool, .. } = self;
+        use Workload::{Far, Field, Near, Orbit, Path};
         match self.way {
-            Way::Alone => try_each(points, answers, |point| {
-                let found = black_box(tree.closest_point(point, Budget::EXACT, stack));
-                found.map(|found| Answer::Point(found.point)).map_err(|error| error.to_string())
-            }),
-            Way::Compiled => try_each(points, answers, |point| {
-                let found = black_box((**tree).closest_point(point, Budget::EXACT, stack));
-                found.map(|found| Answer::Point(found.point)).map_err(|error| error.to_string())
-            }),
-            Way::Coherent => {
-                let mut query = CoherentQuery::<128>::new();
-                try_each(points, answers, |point| {
-                    let found = black_box(query.closest_point(tree, point, Budget::EXACT, stack));
-                    found
-                        .map(|found| Answer::Point(found.closest.point))
-                        .map_err(|error| error.to_string())
-                })
-            }
-            Way::Batch => {
-                let found = pool
-                    .install(|| closest_points(tree, points, &Budget::EXACT))
-                    .map_err(|error| error.to_string())?;
-                answers.clear();
-                answers.extend(found.iter().map(|found| Answer::Point(found.point)));
-                Ok(())
-            }
+            Way::Alone | Way::Compiled => true,
+            Way::Hint | Way::Coherent => matches!(workload, Path | Orbit),
+            Way::Batch => matches!(workload, Far | Near | Field),
         }
     }
 
-    fn hits(
-        &mut self,
-        segments: &[[[f32; 3]; 2]],
-        kind: HitKind,
-        answers: &mut Vec<Answer>,
-    ) -> Result<(), String> {
+    fn closest(&mut self, points: &[[f32; 3]]) -> Result<Answers, String> {
+        let Self { tree, stack, .. } = self;
+        let (mut hint, mut query) = (Hint::NONE, CoherentQuery::<128>::new());
+        match self.way {
+            Way::Alone => Answers::each(points, |point| {
+                black_box(tree.closest_point(point, Budget::EXACT, stack))
+                    .map(|found| Answer::Point(found.point))
+            }),
+            Way::Compiled => Answers::each(points, |point| {
+                black_box((**tree).closest_point(point, Budget::EXACT, stack))
+                    .map(|found| Answer::Point(found.point))
+            }),
+            Way::Hint => Answers::each(points, |point| {
+                black_box(tree.closest_point_from(point, &mut hint, Budget::EXACT, stack))
+                    .map(|found| Answer::Point(found.point))
+            }),
+            Way::Coherent => Answers::each(points, |point| {
+                black_box(query.closest_point(tree, point, Budget::EXACT, stack))
+                    .map(|found| Answer::Point(found.closest.point))
+            }),
+            Way::Batch => on_one_thread(|| {
+                let watch = Stopwatch::start();
+                let found = black_box(closest_points(tree, points, &Budget::EXACT));
+                let seconds = watch.seconds();
+                let found = found.map_err(|error| error.to_string())?;
+                let all = found.iter().map(|found| Answer::Point(found.point)).collect();
+                Ok(Answers { all, seconds })
+            }),
+        }
+    }
+
+    fn hits(&mut self, segments: &[[[f32; 3]; 2]], kind: HitKind) -> Result<Answers, String> {
         let Self { tree, stack, way, .. } = self;
         let (is_compiled, facing, budget) = (*way == Way::Compiled, Facing::Both, Budget::EXACT);
         match kind {
-            HitKind::First => try_each(segments, answers, |[a, b]| {
-                let found = black_box(if is_compiled {
+            HitKind::First => Answers::each(segments, |[a, b]| {
+                black_box(if is_compiled {
                     (**tree).first_hit(a, b, facing, budget, stack)
                 } else {
                     tree.first_hit(a, b, facing, budget, stack)
-                });
-                let found = found.map_err(|error| error.to_string())?;
-                Ok(found.hit.map_or(Answer::Miss, |hit| Answer::Hit(hit.t)))
+                })
+                .map(|found| found.hit.map_or(Answer::Miss, |hit| Answer::Hit(hit.t)))
             }),
-            HitKind::Any => try_each(segments, answers, |[a, b]| {
-                let found = black_box(if is_compiled {
+            HitKind::Any => Answers::each(segments, |[a, b]| {
+                black_box(if is_compiled {
                     (**tree).any_hit(a, b, facing, budget, stack)
                 } else {
                     tree.any_hit(a, b, facing, budget, stack)
-                });
-                Ok(match found.map_err(|error| error.to_string())?.verdict {
+                })
+                .map(|found| match found.verdict {
                     Verdict::Yes => Answer::Meets,
                     Verdict::No => Answer::Miss,
                     _ => Answer::Undecided,

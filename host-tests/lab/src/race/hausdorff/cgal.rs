@@ -17,7 +17,6 @@ const SOURCE: Source = Source {
         alternatives: &[&["libcgal-dev"]],
         ignore_installed: &["libcgal", "libboost", "libgmp", "libmpfr"],
     },
-    checkout: None,
     text: include_str!("cgal.cpp"),
     headers: &[],
     options: &["-march=native", "-lgmp", "-lmpfr"],

@@ -25,41 +25,16 @@ use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::Table;
 
 use cgal::Cgal;
-use engine::{Answer, Engine, PRECISION, ours};
+use engine::{Engine, PRECISION, ours};
 use side::Side;
 
-/// Rounds, of which the fastest counts. One that takes longer than `LONG` is not repeated.
-const ROUNDS: usize = 3;
-const LONG: f64 = 20.0;
+use super::on_one_thread;
+use crate::measure::stopwatch::rounds;
 
 /// Diagonal of the box about both meshes.
 fn diagonal(meshes: &[Subject; 2]) -> f64 {
     let [a, b] = [0, 1].map(|k| meshes[k].bounds.map(|p| DVec3::from_array(p.map(f64::from))));
     (a[1].max(b[1]) - a[0].min(b[0])).length()
-}
-
-/// Answers of each side: of each engine the fastest. `pool` has one thread: all work is on the
-/// thread whose time is measured.
-fn laps(
-    pool: &rayon::ThreadPool,
-    meshes: &[Subject; 2],
-    engines: &mut [Engine],
-    side: Side,
-    precision: f64,
-) -> Result<Vec<Answer>, String> {
-    let mut best: Vec<Option<Answer>> = vec![None; engines.len()];
-    for _ in 0..ROUNDS {
-        for (engine, best) in engines.iter_mut().zip(&mut best) {
-            if best.is_some_and(|best| best.seconds > LONG) {
-                continue;
-            }
-            let answer = pool.install(|| engine.ask(meshes, side, precision))?;
-            if best.is_none_or(|best| answer.seconds < best.seconds) {
-                *best = Some(answer);
-            }
-        }
-    }
-    Ok(best.into_iter().flatten().collect())
 }
 
 /// Races all on two mesh files.
@@ -70,19 +45,12 @@ pub fn race(first: &Path, second: &Path) -> Result<Table, String> {
     let meshes = [Subject::load_any(first)?, Subject::load_any(second)?];
     let diagonal = diagonal(&meshes);
     let precision = PRECISION * diagonal;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    let pool = pool.map_err(|error| error.to_string())?;
     let mut engines = vec![Engine::Ours, Engine::Bisectors, Engine::Cascade];
-    let missing = match Cgal::new(&meshes) {
-        Ok(cgal) => {
-            engines.push(Engine::Cgal(cgal));
-            None
-        }
-        Err(reason) => Some(reason),
-    };
+    let missing = Cgal::new(&meshes).map(|cgal| engines.push(Engine::Cgal(cgal))).err();
     let mut table = report::table(&meshes);
     for side in [Side::Forward, Side::Backward, Side::Both] {
-        let answers = laps(&pool, &meshes, &mut engines, side, precision)?;
+        let ask = |engine: &mut Engine| on_one_thread(|| engine.ask(&meshes, side, precision));
+        let answers = rounds(&mut engines, ask, |answer| answer.seconds)?;
         report::side(&mut table, side, &engines, &answers, diagonal);
     }
     let begun = Instant::now();
@@ -93,7 +61,8 @@ pub fn race(first: &Path, second: &Path) -> Result<Table, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Answer, Engine, Side};
+    use super::engine::{Answer, Engine};
+    use super::side::Side;
     use meshsweep::mesh::Mesh;
     use meshsweep_host_tests::generate::torus;
     use meshsweep_host_tests::workload::Subject;

@@ -53,34 +53,38 @@ impl<'a> Engine<'a> {
         }
     }
 
-    /// Adds the answers about some cases to a run. FCL is not asked about a limit: its distances
-    /// have none.
+    /// FCL is not asked about a limit: its distances have none.
+    pub const fn answers(&self, question: Question) -> bool {
+        !matches!((self, question), (Self::Fcl(_), Question::Within(_)))
+    }
+
+    /// Answers about all cases.
     ///
     /// # Errors
     /// The engine's refusal.
-    pub fn ask(&mut self, question: Question, cases: &[Case], run: &mut Run) -> Result<(), String> {
-        match self {
-            Self::Fcl(fcl) => return fcl.ask(question, cases, run),
+    pub fn ask(&mut self, question: Question, cases: &[Case]) -> Result<Run, String> {
+        let mut answers = Vec::with_capacity(cases.len());
+        let watch = Stopwatch::start();
+        let work = match self {
+            Self::Fcl(fcl) => return fcl.ask(question, cases),
             Self::Tree(_, tree, stack) => {
-                let watch = Stopwatch::start();
+                let mut sum = [0; 2];
                 for case in cases {
                     let (answer, work) = black_box(by_tree(question, tree, case, stack)?);
-                    let [nodes, exact] = run.work.unwrap_or_default();
-                    run.work =
-                        Some([nodes + u64::from(work.bounds), exact + u64::from(work.exact)]);
-                    run.answers.push(answer);
+                    sum[0] += u64::from(work.bounds);
+                    sum[1] += u64::from(work.exact);
+                    answers.push(answer);
                 }
-                run.seconds += watch.seconds();
+                Some(sum)
             }
             Self::Parry(rival) => {
-                let watch = Stopwatch::start();
                 for case in cases {
-                    run.answers.push(black_box(by_parry(question, rival, case)?));
+                    answers.push(black_box(by_parry(question, rival, case)?));
                 }
-                run.seconds += watch.seconds();
+                None
             }
-        }
-        Ok(())
+        };
+        Ok(Run { answers, work, seconds: watch.seconds() })
     }
 }
 

@@ -17,7 +17,6 @@ const SOURCE: Source = Source {
         alternatives: &[&["libfcl-dev"]],
         ignore_installed: &["libfcl", "libccd", "liboctomap", "libeigen3"],
     },
-    checkout: None,
     text: include_str!("fcl.cpp"),
     headers: &["eigen3"],
     options: &["-lfcl", "-lccd", "-loctomap", "-loctomath"],
@@ -44,17 +43,13 @@ impl Fcl {
         Ok(Self(child))
     }
 
-    /// As [`Engine::ask`](super::engine::Engine::ask).
+    /// As [`Engine::ask`](super::engine::Engine::ask), but for a limit.
     ///
     /// # Errors
     /// The child's end.
-    pub fn ask(&mut self, question: Question, cases: &[Case], run: &mut Run) -> Result<(), String> {
-        let number = match question {
-            Question::Distance => DISTANCE,
-            Question::Meets => MEETS,
-            Question::Within(_) => return Ok(()),
-        };
-        self.0.send_question(number, cases.len())?;
+    pub fn ask(&mut self, question: Question, cases: &[Case]) -> Result<Run, String> {
+        let is_meeting = question == Question::Meets;
+        self.0.send_question(if is_meeting { MEETS } else { DISTANCE }, cases.len())?;
         let numbers = cases.iter().flat_map(|case| {
             let rotation = glam::DMat3::from_quat(case.near.turn);
             [0, 1, 2].map(|k| {
@@ -63,14 +58,12 @@ impl Fcl {
             })
         });
         self.0.send(numbers.flatten().flat_map(f64::to_ne_bytes))?;
-        run.seconds += self.0.double()?;
-        for _ in cases {
+        let seconds = self.0.double()?;
+        let one = |_| {
             let value = self.0.double()?;
-            run.answers.push(match question {
-                Question::Meets => Answer::Is(value > 0.0),
-                _ => Answer::About(value),
-            });
-        }
-        Ok(())
+            Ok(if is_meeting { Answer::Is(value > 0.0) } else { Answer::About(value) })
+        };
+        let answers = cases.iter().map(one).collect::<Result<_, String>>()?;
+        Ok(Run { answers, work: None, seconds })
     }
 }

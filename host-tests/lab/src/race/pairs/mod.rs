@@ -3,8 +3,7 @@
 //! ```text
 //! motions (poses, exact answers) ─ question ─ fcl (a child process) ─ engine (all, the library, parry3d)
 //! ```
-//! Engines take turns every few motions, so that a busy machine hits all alike. Each answer is held
-//! to an oracle: distances in 106 bits, meetings by exact predicates.
+//! Each answer is held to an oracle: distances in 106 bits, meetings by exact predicates.
 
 mod engine;
 mod fcl;
@@ -19,15 +18,14 @@ use meshsweep_xtask::table::{Cell, Table, fixed, row, scientific};
 use engine::{Engine, REFERENCE};
 use fcl::Fcl;
 use motions::{Case, Group, groups, tree};
-use question::{Answer, Question, Run};
+use question::{Answer, Question};
+
+use crate::measure::stopwatch::rounds;
 
 /// Motions of each kind.
 const MOTIONS: usize = 1_000;
 /// For a look.
 const FEW_MOTIONS: usize = 60;
-
-/// Motions of a turn.
-const TURN: usize = 20;
 
 /// A distance without bounds is wrong if it is off by more than this part of the mesh's size.
 const FAR_OFF: f64 = 1e-5;
@@ -124,7 +122,7 @@ pub fn race(file: &Path, is_quick: bool) -> Result<Table, String> {
     Ok(table)
 }
 
-/// Lets the engines take turns at one question, and adds their rows.
+/// Races the engines at one question, and adds their rows.
 fn rows(
     table: &mut Table,
     group: &Group,
@@ -132,16 +130,14 @@ fn rows(
     engines: &mut [Engine<'_>],
     size: f64,
 ) -> Result<(), String> {
-    let mut runs: Vec<Run> = engines.iter().map(|_| Run::default()).collect();
-    for cases in group.cases.chunks(TURN) {
-        for (engine, run) in engines.iter_mut().zip(&mut runs) {
-            engine.ask(question, cases, run)?;
-        }
-    }
+    let mut engines: Vec<_> =
+        engines.iter_mut().filter(|engine| engine.answers(question)).collect();
+    let ask = |engine: &mut &mut Engine<'_>| engine.ask(question, &group.cases);
+    let runs = rounds(&mut engines, ask, |run| run.seconds)?;
     let all = engines.iter().zip(&runs);
     let reference = all.clone().find(|(engine, _)| engine.name() == REFERENCE);
     let theirs = reference.map_or(f64::NAN, |(_, run)| run.seconds);
-    for (engine, run) in all.filter(|(_, run)| !run.answers.is_empty()) {
+    for (engine, run) in all {
         let count = run.answers.len();
         let score = score(question, &group.cases, &run.answers, size);
         let each = |which: usize| {
@@ -167,7 +163,7 @@ fn rows(
 #[cfg(test)]
 mod tests {
     use super::motions::groups;
-    use super::{Engine, Question, Run, score, tree};
+    use super::{Engine, Question, score, tree};
     use meshsweep::mesh::Mesh;
     use meshsweep_host_tests::generate::torus;
     use meshsweep_host_tests::workload::Subject;
@@ -184,9 +180,8 @@ mod tests {
                     continue;
                 }
                 for blob in &blobs {
-                    let (mut run, mut engine) =
-                        (Run::default(), Engine::tree("tree", blob).expect("opens"));
-                    engine.ask(question, &group.cases, &mut run).expect("answers");
+                    let mut engine = Engine::tree("tree", blob).expect("opens");
+                    let run = engine.ask(question, &group.cases).expect("answers");
                     let score = score(question, &group.cases, &run.answers, subject.diagonal());
                     assert_eq!(score.wrong, 0, "{} {}", group.name, question.name());
                 }

@@ -49,14 +49,12 @@ pub enum Answer {
     Open,
 }
 
-/// Answers in the order of the cases, with pairs of boxes and pairs of triangles in f64, and
-/// seconds for all.
-#[derive(Default)]
+/// Answers about all cases, in their order.
 pub struct Run {
     /// The answers.
     pub answers: Vec<Answer>,
-    /// Sum of the work, of an engine that tells it.
+    /// Pairs of boxes and pairs of triangles in f64, of an engine that tells them.
     pub work: Option<[u64; 2]>,
-    /// Processor time.
+    /// Processor time of all.
     pub seconds: f64,
 }
