@@ -1,7 +1,7 @@
 //! Bounds of the distance of the farthest point of some triangles, within a few percent. The
 //! builders use them.
 
-use super::piece::{CUT_ROUNDING, MAX_DEPTH, Piece, ROUNDED_UP, bounding_ball};
+use super::piece::{CUT_ROUNDING, MAX_DEPTH, Piece, ROUNDED_UP, bounding_ball, greater};
 use super::surface::Surface;
 use crate::mesh::Mesh;
 use glam::DVec3;
@@ -65,6 +65,58 @@ pub fn farthest(
         size = corners.iter().fold(size, |size, p| size.max(p.abs().max_element()));
         heap.push(bounded(corners, 0, &mut found, &mut nearest));
     }
+    cut_down(heap, found, size, enough, nearest)
+}
+
+/// Triangles that [`farthest_of_many`] bounds together.
+const GROUP: usize = 16;
+
+/// As [`farthest`], for many triangles, of which those near each other follow each other.
+///
+/// Cost: one query for sixteen triangles, and for each triangle of those that may hold the
+/// farthest point.
+pub fn farthest_of_many(
+    triangles: impl Iterator<Item = [DVec3; 3]>,
+    mut nearest: impl FnMut(DVec3) -> Option<Nearest>,
+) -> Farthest {
+    let triangles: Vec<[DVec3; 3]> = triangles.collect();
+    let size = triangles.iter().flatten().fold(0f64, |size, p| size.max(p.abs().max_element()));
+    // No piece of a group has a greater bound.
+    let mut group_bound = |group: &[[DVec3; 3]]| {
+        let (centre, _) = bounding_ball(&group[0]);
+        let radius = |corners| {
+            let (at, radius) = bounding_ball(corners);
+            (at - centre).length() + radius
+        };
+        let upper = nearest(centre).map_or(f64::INFINITY, |near| near.upper);
+        (upper + group.iter().map(radius).fold(0.0, greater)) * ROUNDED_UP * ROUNDED_UP
+    };
+    let mut groups: Vec<(f64, &[[DVec3; 3]])> =
+        triangles.chunks(GROUP).map(|group| (group_bound(group), group)).collect();
+    groups.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut found = 0f64;
+    let mut heap = BinaryHeap::new();
+    for (bound, group) in groups {
+        // The search ends at a piece with a bound of at least `found`.
+        if bound < found {
+            break;
+        }
+        for &corners in group {
+            heap.push(bounded(corners, 0, &mut found, &mut nearest));
+        }
+    }
+    cut_down(heap, found, size, 0.0, nearest)
+}
+
+/// Cuts the piece of the largest bound until that is close to the distance `found`, or at most
+/// `enough`. `size` is the largest coordinate.
+fn cut_down(
+    mut heap: BinaryHeap<Piece<Option<[DVec3; 3]>>>,
+    mut found: f64,
+    size: f64,
+    enough: f64,
+    mut nearest: impl FnMut(DVec3) -> Option<Nearest>,
+) -> Farthest {
     let mut cuts = MAX_CUTS;
     while let Some(piece) = heap.pop() {
         let rounding = size * CUT_ROUNDING;

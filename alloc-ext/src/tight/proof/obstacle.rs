@@ -2,6 +2,7 @@
 //! witness of each connected component.
 
 use super::clearance::Clearance;
+use super::hints::Hints;
 use super::tetrahedron::Tetrahedron;
 use crate::geom::{Bounds, Frontier, Plane, StaticTree, Triangle, is_cut_off, meet, spatial_order};
 use crate::mesh::Mesh;
@@ -17,9 +18,12 @@ pub(crate) struct Obstacle {
     triangle_tree: StaticTree,
     /// In single precision too.
     points: Vec<Vec3>,
-    point_tree: StaticTree,
+    point_tree: StaticTree<1>,
     witnesses: Vec<DVec3>,
-    witness_tree: StaticTree,
+    witness_tree: StaticTree<1>,
+    /// Vertices and triangles that gave the highest plane lately.
+    likely_points: Hints,
+    likely_triangles: Hints,
     /// Distance within which no face may come; 0 for none.
     margin: f64,
     /// Whether the margin is more than the steps that placements keep anyway.
@@ -36,8 +40,8 @@ fn normal([a, b, c]: &Triangle) -> DVec3 {
     (b - a).cross(c - a)
 }
 
-fn tree_of_points(points: &[DVec3]) -> StaticTree {
-    StaticTree::new(&points.iter().map(|&p| Bounds { low: p, high: p }).collect::<Vec<_>>())
+fn tree_of_points(points: &[DVec3]) -> StaticTree<1> {
+    StaticTree::of_corners(&points.iter().map(|&p| [p]).collect::<Vec<_>>())
 }
 
 impl Obstacle {
@@ -50,7 +54,7 @@ impl Obstacle {
                 .iter()
                 .map(|&i| triangles[i as usize].map(|v| positions[v as usize]))
                 .collect();
-            let tree = StaticTree::of_triangles(&sorted)
+            let tree = StaticTree::of_corners(&sorted)
                 .with_disks(|i| normal(&sorted[i]), |i, points| points.extend(sorted[i]));
             (tree, sorted.iter().map(|t| t.map(|p| p.as_vec3())).collect())
         };
@@ -74,6 +78,8 @@ impl Obstacle {
             points,
             witness_tree: tree_of_points(&witnesses),
             witnesses,
+            likely_points: Hints::default(),
+            likely_triangles: Hints::default(),
             margin: 0.0,
             is_wide: false,
         }
@@ -188,18 +194,23 @@ impl Obstacle {
         self.triangle_tree.frontier(bounds, triangles);
     }
 
-    /// The highest plane that `raise` makes of the vertices in a tetrahedron. Not exact.
+    /// The highest plane above `least` that `raise` makes of the vertices in a tetrahedron. Not
+    /// exact.
     #[inline]
     pub fn highest_point(
         &self,
         near: &Frontier,
         tetrahedron: &Tetrahedron,
-        raise: impl Fn(DVec3) -> Option<Plane>,
-    ) -> Option<Plane> {
-        highest(&self.point_tree, near, tetrahedron, |i, highest| {
+        least: f64,
+        raise: impl Fn(DVec3) -> Option<Raised>,
+    ) -> Option<Raised> {
+        let search = Search { tree: &self.point_tree, hints: &self.likely_points, tetrahedron };
+        let bounds = |i| Bounds::of(&[self.point(i)]);
+        search.highest(near, least, bounds, |i, highest| {
             let p = self.point(i);
-            let stands_out = highest.is_none_or(|plane| plane.holds(p)) && tetrahedron.holds(p);
-            if stands_out { raise(p) } else { None }
+            if tetrahedron.holds(p) {
+                highest.offer(i, raise(p));
+            }
         })
     }
 
@@ -210,16 +221,14 @@ impl Obstacle {
         &self,
         near: &Frontier,
         tetrahedron: &Tetrahedron,
-        raise: impl Fn(DVec3) -> Option<Plane>,
-    ) -> Option<Plane> {
-        highest(&self.triangle_tree, near, tetrahedron, |i, highest| {
-            let triangle = self.triangle(i);
-            if highest.is_some_and(|plane| triangle.iter().all(|&p| !plane.holds(p))) {
-                return None;
-            }
-            let mut raised = None;
-            tetrahedron.clip(&triangle, |p| raised = raise(p).or(raised));
-            raised
+        least: f64,
+        raise: impl Fn(DVec3) -> Option<Raised>,
+    ) -> Option<Raised> {
+        let search =
+            Search { tree: &self.triangle_tree, hints: &self.likely_triangles, tetrahedron };
+        let bounds = |i| Bounds::of(&self.triangle(i));
+        search.highest(near, least, bounds, |i, highest| {
+            tetrahedron.clip(&self.triangle(i), |p| highest.offer(i, raise(p)));
         })
     }
 
@@ -281,20 +290,65 @@ fn witnesses(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
         .collect()
 }
 
-/// The last plane that `raise` makes of an item and the highest plane so far.
-#[inline]
-fn highest(
-    tree: &StaticTree,
-    near: &Frontier,
-    tetrahedron: &Tetrahedron,
-    raise: impl Fn(usize, Option<Plane>) -> Option<Plane>,
-) -> Option<Plane> {
-    let mut highest = None;
-    let probe = tree.probe(tetrahedron.bounds(), tetrahedron.turning_planes());
-    tree.visit_raising(near, probe, |i| {
-        let raised = raise(i, highest);
-        highest = raised.or(highest);
-        raised
-    });
-    highest
+/// A plane through a point of the mesh, and how high it is for a search, which wants the highest.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Raised {
+    pub plane: Plane,
+    pub height: f64,
+}
+
+/// The highest plane so far, and the item that it goes through.
+struct Highest {
+    height: f64,
+    found: Option<(usize, Plane)>,
+}
+
+impl Highest {
+    /// Takes a plane through an item if it is higher. Of equals that of the least item is taken, so
+    /// that the order of a search does not show.
+    #[inline]
+    fn offer(&mut self, item: usize, raised: Option<Raised>) {
+        let Some(Raised { plane, height }) = raised else { return };
+        let is_first = self.found.is_some_and(|(other, _)| item < other);
+        if height > self.height || height == self.height && is_first {
+            *self = Self { height, found: Some((item, plane)) };
+        }
+    }
+}
+
+/// A search for the highest plane through the items of a tree in a tetrahedron.
+struct Search<'s, const CORNERS: usize> {
+    tree: &'s StaticTree<CORNERS>,
+    hints: &'s Hints,
+    tetrahedron: &'s Tetrahedron,
+}
+
+impl<const CORNERS: usize> Search<'_, CORNERS> {
+    /// The highest plane above `least` that `visit` offers. `bounds` is the box of an item.
+    #[inline]
+    fn highest(
+        &self,
+        near: &Frontier,
+        least: f64,
+        bounds: impl Fn(usize) -> Bounds,
+        visit: impl Fn(usize, &mut Highest),
+    ) -> Option<Raised> {
+        let Self { tree, hints, tetrahedron } = *self;
+        let mut highest = Highest { height: least, found: None };
+        let mut raise = |i: usize| {
+            let before = highest.height;
+            visit(i, &mut highest);
+            highest.found.filter(|_| highest.height > before).map(|(_, plane)| plane)
+        };
+        let mut probe = tree.probe(tetrahedron.bounds(), tetrahedron.turning_planes());
+        let hint = hints.about(tetrahedron.edge());
+        let likely = hint.get().filter(|&i| bounds(i).meets(tetrahedron.bounds()));
+        if let Some(plane) = likely.and_then(&mut raise) {
+            tree.raise(&mut probe, &plane);
+        }
+        tree.visit_raising(near, probe, &mut raise);
+        let (item, plane) = highest.found?;
+        hint.set(item);
+        Some(Raised { plane, height: highest.height })
+    }
 }
