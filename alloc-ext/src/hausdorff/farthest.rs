@@ -4,7 +4,7 @@
 use super::piece::{CUT_ROUNDING, MAX_DEPTH, Piece, ROUNDED_UP, bounding_ball, greater};
 use super::surface::Surface;
 use crate::mesh::Mesh;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use meshsweep_core::Bvh;
 use std::collections::BinaryHeap;
 
@@ -76,22 +76,23 @@ const GROUP: usize = 16;
 /// Cost: one query for sixteen triangles, and for each triangle of those that may hold the
 /// farthest point.
 pub fn farthest_of_many(
-    triangles: impl Iterator<Item = [DVec3; 3]>,
+    triangles: &[[Vec3; 3]],
     mut nearest: impl FnMut(DVec3) -> Option<Nearest>,
 ) -> Farthest {
-    let triangles: Vec<[DVec3; 3]> = triangles.collect();
-    let size = triangles.iter().flatten().fold(0f64, |size, p| size.max(p.abs().max_element()));
+    let wide = |t: &[Vec3; 3]| t.map(|p| p.as_dvec3());
+    let size =
+        triangles.as_flattened().iter().fold(0f32, |size, p| size.max(p.abs().max_element()));
     // No piece of a group has a greater bound.
-    let mut group_bound = |group: &[[DVec3; 3]]| {
-        let (centre, _) = bounding_ball(&group[0]);
-        let radius = |corners| {
-            let (at, radius) = bounding_ball(corners);
+    let mut group_bound = |group: &[[Vec3; 3]]| {
+        let (centre, _) = bounding_ball(&wide(&group[0]));
+        let radius = |triangle| {
+            let (at, radius) = bounding_ball(&wide(triangle));
             (at - centre).length() + radius
         };
         let upper = nearest(centre).map_or(f64::INFINITY, |near| near.upper);
         (upper + group.iter().map(radius).fold(0.0, greater)) * ROUNDED_UP * ROUNDED_UP
     };
-    let mut groups: Vec<(f64, &[[DVec3; 3]])> =
+    let mut groups: Vec<(f64, &[[Vec3; 3]])> =
         triangles.chunks(GROUP).map(|group| (group_bound(group), group)).collect();
     groups.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut found = 0f64;
@@ -101,11 +102,9 @@ pub fn farthest_of_many(
         if bound < found {
             break;
         }
-        for &corners in group {
-            heap.push(bounded(corners, 0, &mut found, &mut nearest));
-        }
+        heap.extend(group.iter().map(|t| bounded(wide(t), 0, &mut found, &mut nearest)));
     }
-    cut_down(heap, found, size, 0.0, nearest)
+    cut_down(heap, found, size.into(), 0.0, nearest)
 }
 
 /// Cuts the piece of the largest bound until that is close to the distance `found`, or at most

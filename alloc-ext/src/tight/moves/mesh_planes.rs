@@ -4,8 +4,9 @@ use super::star::{Frame, StarFace};
 use super::tolerance::ROUNDING;
 use crate::geom::{Frontier, Plane};
 use crate::lp::HalfSpace;
-use crate::tight::proof::{Obstacle, Raised, Tetrahedron};
+use crate::tight::proof::{Obstacle, Tetrahedron};
 use glam::DVec3;
+use std::cell::Cell;
 
 /// A place for a star's vertex, against which planes are looked for.
 pub(super) struct Trial<'a> {
@@ -30,17 +31,22 @@ impl Trial<'_> {
         let [a, b] = ring;
         let edge = b - a;
         let least = 10.0 * self.tolerance() * edge.length();
+        let height = Cell::new(self.tolerance());
         let turned = |q: DVec3| {
             let normal = edge.cross(q - a);
             let length = normal.length();
             // A point on the edge gives no plane.
-            (length > least).then(|| {
-                let normal = normal / length;
-                let height = normal.dot(a - self.x);
-                Raised { plane: Plane { normal, offset: normal.dot(a) }, height }
+            if length <= least {
+                return None;
+            }
+            let normal = normal / length;
+            let above = normal.dot(a - self.x);
+            (above > height.get()).then(|| {
+                height.set(above);
+                Plane { normal, offset: normal.dot(a) }
             })
         };
-        let Plane { normal, .. } = self.highest(face, edges, turned)?.plane;
+        let Plane { normal, .. } = self.highest(face, edges, turned)?;
         let offset = normal.dot(self.frame.local(a)) + self.clearance / self.frame.radius;
         Some(HalfSpace { normal, offset })
     }
@@ -49,32 +55,36 @@ impl Trial<'_> {
     pub fn raised(&self, face: &StarFace, edges: bool) -> Option<HalfSpace> {
         let normal = face.normal;
         let below = normal.dot(self.x);
+        let height = Cell::new(self.tolerance());
         let raised = |q: DVec3| {
             let offset = normal.dot(q);
-            Some(Raised { plane: Plane { normal, offset }, height: offset - below })
+            (offset - below > height.get()).then(|| {
+                height.set(offset - below);
+                Plane { normal, offset }
+            })
         };
-        let Raised { height, .. } = self.highest(face, edges, raised)?;
+        self.highest(face, edges, raised)?;
         let radius = self.frame.radius;
         let clearance = (self.obstacle.margin() + self.clearance) / radius;
-        let offset = normal.dot(self.frame.local(self.x)) + height / radius + clearance;
+        let offset = normal.dot(self.frame.local(self.x)) + height.get() / radius + clearance;
         Some(HalfSpace { normal, offset })
     }
 
-    /// The highest plane that `raise` makes of points of the mesh between an old face and the
-    /// vertex. Points below a higher plane need not be visited.
+    /// The last plane that `raise` returned for points of the mesh between an old face and the
+    /// vertex. Each plane must be above the one before, so that points below it need not be
+    /// visited.
     fn highest(
         &self,
         face: &StarFace,
         edges: bool,
-        raise: impl Fn(DVec3) -> Option<Raised>,
-    ) -> Option<Raised> {
+        raise: impl Fn(DVec3) -> Option<Plane>,
+    ) -> Option<Plane> {
         let tetrahedron = Tetrahedron::new(&face.ring_first(), self.x);
         let [points, triangles] = self.near;
-        let least = self.tolerance();
         if edges {
-            self.obstacle.highest_piece(triangles, &tetrahedron, least, raise)
+            self.obstacle.highest_piece(triangles, &tetrahedron, raise)
         } else {
-            self.obstacle.highest_point(points, &tetrahedron, least, raise)
+            self.obstacle.highest_point(points, &tetrahedron, raise)
         }
     }
 }

@@ -7,18 +7,16 @@
 //! | `obstacle.rs` | [`Obstacle`]: the mesh that a hull may not meet, with its search trees |
 //! | `distance_field.rs` | bounds of the distance to the mesh, kept on a lattice |
 //! | `enclosure.rs` | whether a whole surface is an outer hull; components inside others |
-//! | `hints.rs` | what searches of the obstacle found lately |
 //! | `tetrahedron.rs` | the tetrahedron that an edit cuts off, in floating point |
 
 mod clearance;
 mod distance_field;
 mod enclosure;
-mod hints;
 mod obstacle;
 mod tetrahedron;
 
 pub(crate) use clearance::{Clearance, Nearest};
 pub(crate) use distance_field::DistanceField;
 pub(crate) use enclosure::{holds, is_outer_hull, outermost};
-pub(crate) use obstacle::{Obstacle, Raised};
+pub(crate) use obstacle::Obstacle;
 pub(crate) use tetrahedron::Tetrahedron;

@@ -2,7 +2,6 @@
 //! witness of each connected component.
 
 use super::clearance::Clearance;
-use super::hints::Hints;
 use super::tetrahedron::Tetrahedron;
 use crate::geom::{Bounds, Frontier, Plane, StaticTree, Triangle, is_cut_off, meet, spatial_order};
 use crate::mesh::Mesh;
@@ -21,9 +20,6 @@ pub(crate) struct Obstacle {
     point_tree: StaticTree<1>,
     witnesses: Vec<DVec3>,
     witness_tree: StaticTree<1>,
-    /// Vertices and triangles that gave the highest plane lately.
-    likely_points: Hints,
-    likely_triangles: Hints,
     /// Distance within which no face may come; 0 for none.
     margin: f64,
     /// Whether the margin is more than the steps that placements keep anyway.
@@ -78,8 +74,6 @@ impl Obstacle {
             points,
             witness_tree: tree_of_points(&witnesses),
             witnesses,
-            likely_points: Hints::default(),
-            likely_triangles: Hints::default(),
             margin: 0.0,
             is_wide: false,
         }
@@ -123,6 +117,11 @@ impl Obstacle {
     /// All triangles.
     pub fn triangles(&self) -> impl Iterator<Item = Triangle> + '_ {
         (0..self.triangles.len()).map(|i| self.triangle(i))
+    }
+
+    /// All triangles in single precision, those near each other next to each other.
+    pub fn singles(&self) -> &[[Vec3; 3]] {
+        &self.triangles
     }
 
     fn triangle(&self, i: usize) -> Triangle {
@@ -194,23 +193,18 @@ impl Obstacle {
         self.triangle_tree.frontier(bounds, triangles);
     }
 
-    /// The highest plane above `least` that `raise` makes of the vertices in a tetrahedron. Not
-    /// exact.
+    /// The highest plane that `raise` makes of the vertices in a tetrahedron. Not exact.
     #[inline]
     pub fn highest_point(
         &self,
         near: &Frontier,
         tetrahedron: &Tetrahedron,
-        least: f64,
-        raise: impl Fn(DVec3) -> Option<Raised>,
-    ) -> Option<Raised> {
-        let search = Search { tree: &self.point_tree, hints: &self.likely_points, tetrahedron };
-        let bounds = |i| Bounds::of(&[self.point(i)]);
-        search.highest(near, least, bounds, |i, highest| {
+        raise: impl Fn(DVec3) -> Option<Plane>,
+    ) -> Option<Plane> {
+        highest(&self.point_tree, near, tetrahedron, |i, highest| {
             let p = self.point(i);
-            if tetrahedron.holds(p) {
-                highest.offer(i, raise(p));
-            }
+            let stands_out = highest.is_none_or(|plane| plane.holds(p)) && tetrahedron.holds(p);
+            if stands_out { raise(p) } else { None }
         })
     }
 
@@ -221,14 +215,16 @@ impl Obstacle {
         &self,
         near: &Frontier,
         tetrahedron: &Tetrahedron,
-        least: f64,
-        raise: impl Fn(DVec3) -> Option<Raised>,
-    ) -> Option<Raised> {
-        let search =
-            Search { tree: &self.triangle_tree, hints: &self.likely_triangles, tetrahedron };
-        let bounds = |i| Bounds::of(&self.triangle(i));
-        search.highest(near, least, bounds, |i, highest| {
-            tetrahedron.clip(&self.triangle(i), |p| highest.offer(i, raise(p)));
+        raise: impl Fn(DVec3) -> Option<Plane>,
+    ) -> Option<Plane> {
+        highest(&self.triangle_tree, near, tetrahedron, |i, highest| {
+            let triangle = self.triangle(i);
+            if highest.is_some_and(|plane| triangle.iter().all(|&p| !plane.holds(p))) {
+                return None;
+            }
+            let mut raised = None;
+            tetrahedron.clip(&triangle, |p| raised = raise(p).or(raised));
+            raised
         })
     }
 
@@ -290,65 +286,20 @@ fn witnesses(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
         .collect()
 }
 
-/// A plane through a point of the mesh, and how high it is for a search, which wants the highest.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Raised {
-    pub plane: Plane,
-    pub height: f64,
-}
-
-/// The highest plane so far, and the item that it goes through.
-struct Highest {
-    height: f64,
-    found: Option<(usize, Plane)>,
-}
-
-impl Highest {
-    /// Takes a plane through an item if it is higher. Of equals that of the least item is taken, so
-    /// that the order of a search does not show.
-    #[inline]
-    fn offer(&mut self, item: usize, raised: Option<Raised>) {
-        let Some(Raised { plane, height }) = raised else { return };
-        let is_first = self.found.is_some_and(|(other, _)| item < other);
-        if height > self.height || height == self.height && is_first {
-            *self = Self { height, found: Some((item, plane)) };
-        }
-    }
-}
-
-/// A search for the highest plane through the items of a tree in a tetrahedron.
-struct Search<'s, const CORNERS: usize> {
-    tree: &'s StaticTree<CORNERS>,
-    hints: &'s Hints,
-    tetrahedron: &'s Tetrahedron,
-}
-
-impl<const CORNERS: usize> Search<'_, CORNERS> {
-    /// The highest plane above `least` that `visit` offers. `bounds` is the box of an item.
-    #[inline]
-    fn highest(
-        &self,
-        near: &Frontier,
-        least: f64,
-        bounds: impl Fn(usize) -> Bounds,
-        visit: impl Fn(usize, &mut Highest),
-    ) -> Option<Raised> {
-        let Self { tree, hints, tetrahedron } = *self;
-        let mut highest = Highest { height: least, found: None };
-        let mut raise = |i: usize| {
-            let before = highest.height;
-            visit(i, &mut highest);
-            highest.found.filter(|_| highest.height > before).map(|(_, plane)| plane)
-        };
-        let mut probe = tree.probe(tetrahedron.bounds(), tetrahedron.turning_planes());
-        let hint = hints.about(tetrahedron.edge());
-        let likely = hint.get().filter(|&i| bounds(i).meets(tetrahedron.bounds()));
-        if let Some(plane) = likely.and_then(&mut raise) {
-            tree.raise(&mut probe, &plane);
-        }
-        tree.visit_raising(near, probe, &mut raise);
-        let (item, plane) = highest.found?;
-        hint.set(item);
-        Some(Raised { plane, height: highest.height })
-    }
+/// The last plane that `raise` makes of an item and the highest plane so far.
+#[inline]
+fn highest<const CORNERS: usize>(
+    tree: &StaticTree<CORNERS>,
+    near: &Frontier,
+    tetrahedron: &Tetrahedron,
+    raise: impl Fn(usize, Option<Plane>) -> Option<Plane>,
+) -> Option<Plane> {
+    let mut highest = None;
+    let probe = tree.probe(tetrahedron.bounds(), tetrahedron.turning_planes());
+    tree.visit_raising(near, probe, |i| {
+        let raised = raise(i, highest);
+        highest = raised.or(highest);
+        raised
+    });
+    highest
 }

@@ -55,11 +55,6 @@ impl Tetrahedron {
         &self.planes[..self.planes.len() - usize::from(self.has_face)]
     }
 
-    /// The first two corners of the face.
-    pub fn edge(&self) -> [DVec3; 2] {
-        [self.corners[0], self.corners[1]]
-    }
-
     /// Its box.
     pub fn bounds(&self) -> &Bounds {
         &self.bounds
@@ -80,17 +75,14 @@ impl Tetrahedron {
     /// Whether a point is in it.
     #[inline]
     pub fn holds(&self, p: DVec3) -> bool {
-        // The search has looked at all planes but the last, the face's.
-        self.planes.iter().rev().all(|plane| plane.holds(p))
+        self.planes.iter().all(|plane| plane.holds(p))
     }
 
     /// Whether a triangle lies behind one plane, or the tetrahedron on one side of the triangle.
     #[inline]
     fn misses(&self, triangle: &Triangle) -> bool {
         let [a, b, c] = *triangle;
-        // The search has looked at all planes but the last, the face's.
-        let is_behind = |plane: &Plane| !plane.holds(a) && !plane.holds(b) && !plane.holds(c);
-        if self.planes.iter().rev().any(is_behind) {
+        if self.planes.iter().any(|plane| !plane.holds(a) && !plane.holds(b) && !plane.holds(c)) {
             return true;
         }
         let normal = (b - a).cross(c - a);

@@ -44,7 +44,7 @@ pub(super) fn distances_from(
     slack: Farthest,
     watch: Watch<'_>,
 ) -> Distances {
-    let all = obstacle.triangles().count();
+    let all = obstacle.singles().len();
     let mut to_mesh = watch.asks(all, |p| nearest(obstacle, p));
     let enough = slack.lower * FINE;
     let slacks = hull
@@ -53,6 +53,6 @@ pub(super) fn distances_from(
         .collect();
     let hull_surface = Obstacle::of(hull);
     let to_hull = watch.asks(all, |p| nearest(&hull_surface, p));
-    let depth = farthest_of_many(obstacle.triangles(), to_hull);
+    let depth = farthest_of_many(obstacle.singles(), to_hull);
     Distances { slacks, slack, depth }
 }
