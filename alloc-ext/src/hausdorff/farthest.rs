@@ -194,6 +194,7 @@ pub fn nearest_in<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::SplitMix;
     use meshsweep_core::internal::geom::point_triangle;
 
     const SURFACE: [[[f64; 3]; 3]; 3] = [
@@ -230,6 +231,24 @@ mod tests {
                 "{corners:?} {far:?}"
             );
             assert!(!is_within(corners, far.upper * 1.01, 0, about, nearest));
+        }
+    }
+
+    #[test]
+    fn many_triangles_have_the_bounds_that_each_alone_gives() {
+        let mut dice = SplitMix::new(5);
+        let mut roll = || Vec3::new(dice.roll() as f32, dice.roll() as f32, dice.roll() as f32);
+        for count in [1, 15, 16, 17, 1000] {
+            // Runs of triangles near each other, and a few far from all.
+            let mut at = Vec3::ZERO;
+            let triangles: Vec<[Vec3; 3]> = (0..count)
+                .map(|i| {
+                    at = if i % 13 == 0 { roll() * 6.0 - 1.0 } else { at + roll() * 0.1 };
+                    [at, at + roll() * 0.2, at + roll() * 0.2]
+                })
+                .collect();
+            let each = triangles.iter().map(|t| t.map(|p| p.as_dvec3()));
+            assert_eq!(farthest_of_many(&triangles, nearest), farthest(each, 0.0, nearest));
         }
     }
 }
