@@ -1,5 +1,6 @@
-//! Leaves of the static tree over triangles: corners of eight triangles, to pass over them at once.
-//! A triangle that lies oblique in its box often misses a plane that its box reaches.
+//! Leaves of the static tree over triangles or points: corners of eight of them, to pass over them
+//! at once. A triangle that lies oblique in its box often misses a plane that its box reaches. A
+//! point takes less memory than a box.
 
 use super::order::WIDTH;
 use glam::Vec3;
@@ -14,36 +15,36 @@ pub(super) struct Cut {
     pub offset: f32,
 }
 
-/// Corners of the triangles of a node that has nothing else, in the tree's frame.
+/// Corners of the items of a node that has nothing else, in the tree's frame.
 #[derive(Clone, Debug)]
-pub(super) struct LaneCorners {
+pub(super) struct LaneCorners<const CORNERS: usize> {
     /// By corner and axis.
-    at: [[[f32; WIDTH]; 3]; 3],
-    /// Lanes that hold a triangle, one bit each.
+    at: [[[f32; WIDTH]; 3]; CORNERS],
+    /// Lanes that hold an item, one bit each.
     lanes: u32,
-    /// The node with the boxes of the triangles.
+    /// The node with the boxes of the items.
     pub node: u32,
     /// The entries of that node, for searches that need no boxes.
     pub entry: [u32; WIDTH],
 }
 
-impl LaneCorners {
-    /// Of a node without triangles yet.
+impl<const CORNERS: usize> LaneCorners<CORNERS> {
+    /// Of a node without items yet.
     pub fn new(node: u32, entry: [u32; WIDTH]) -> Self {
-        Self { at: Default::default(), lanes: 0, node, entry }
+        Self { at: [Default::default(); CORNERS], lanes: 0, node, entry }
     }
 
-    /// Puts a triangle into a lane.
-    pub fn set(&mut self, lane: usize, triangle: [Vec3; 3]) {
+    /// Puts an item into a lane.
+    pub fn set(&mut self, lane: usize, corners: [Vec3; CORNERS]) {
         self.lanes |= 1 << lane;
-        for (at, corner) in self.at.iter_mut().zip(triangle) {
+        for (at, corner) in self.at.iter_mut().zip(corners) {
             for (at, x) in at.iter_mut().zip(corner.to_array()) {
                 at[lane] = x;
             }
         }
     }
 
-    /// The lanes whose triangles reach all planes and a box, by its middle and half extent; one bit
+    /// The lanes whose items reach all planes and a box, by its middle and half extent; one bit
     /// each.
     #[inline]
     pub fn reached(&self, cuts: &[Cut], middle: [f32; 3], half: [f32; 3]) -> u32 {
@@ -51,17 +52,18 @@ impl LaneCorners {
         let mut lanes = self.lanes;
         for &Cut { normal, offset, .. } in cuts {
             let [x, y, z] = normal.map(f32x8::splat);
-            let [a, b, c] = at.map(|p| x * p[0] + y * p[1] + z * p[2]);
-            let most = a.fast_max(b).fast_max(c);
+            let most =
+                at.map(|p| x * p[0] + y * p[1] + z * p[2]).into_iter().reduce(f32x8::fast_max);
+            let Some(most) = most else { return 0 };
             lanes &= most.simd_ge(f32x8::splat(offset)).to_bitmask();
             if lanes == 0 {
                 return 0;
             }
         }
-        let [a, b, c] = at;
         for axis in 0..3 {
-            let low = a[axis].fast_min(b[axis]).fast_min(c[axis]);
-            let high = a[axis].fast_max(b[axis]).fast_max(c[axis]);
+            let corners = || at.iter().map(|p| p[axis]);
+            let Some(low) = corners().reduce(f32x8::fast_min) else { return 0 };
+            let Some(high) = corners().reduce(f32x8::fast_max) else { return 0 };
             let reaches_low = high.simd_ge(f32x8::splat(middle[axis] - half[axis]));
             let reaches_high = low.simd_le(f32x8::splat(middle[axis] + half[axis]));
             lanes &= (reaches_low & reaches_high).to_bitmask();

@@ -47,11 +47,11 @@ const EMPTY: Node =
 /// Most items with a disk. Larger parts of a surface are curved.
 const MOST_IN_A_DISK: usize = 4096;
 
-/// A static tree of boxes. Items keep the numbers of their boxes.
+/// A static tree of boxes, or of items with so many corners. Items keep their numbers.
 #[derive(Clone, Debug)]
-pub(crate) struct StaticTree {
+pub(crate) struct StaticTree<const CORNERS: usize = 3> {
     nodes: Vec<Node>,
-    leaves: Vec<LaneCorners>,
+    leaves: Vec<LaneCorners<CORNERS>>,
     disks: Vec<Disks>,
     origin: DVec3,
     /// Units of the tree's frame in one of the mesh.
@@ -108,6 +108,12 @@ impl StaticTree {
     /// Of items with these boxes. Cost: n log n, on all threads; the tree is the same on any number
     /// of them.
     pub fn new(boxes: &[Bounds]) -> Self {
+        Self::of_boxes(boxes)
+    }
+}
+
+impl<const CORNERS: usize> StaticTree<CORNERS> {
+    fn of_boxes(boxes: &[Bounds]) -> Self {
         let all = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.join(b));
         let extent = (all.high - all.low).max_element();
         let unit = if extent > 0.0 && extent.is_finite() { 0.5 * extent } else { 1.0 };
@@ -203,10 +209,11 @@ impl StaticTree {
         grown.collect()
     }
 
-    /// Of triangles. Planes then pass over triangles by their corners, and not only by their boxes.
-    pub fn of_triangles(triangles: &[[DVec3; 3]]) -> Self {
-        let boxes: Vec<Bounds> = triangles.iter().map(|t| Bounds::of(t)).collect();
-        let mut tree = Self::new(&boxes);
+    /// Of triangles or points. Planes then pass over items by their corners, and not only by their
+    /// boxes.
+    pub fn of_corners(items: &[[DVec3; CORNERS]]) -> Self {
+        let boxes: Vec<Bounds> = items.iter().map(|corners| Bounds::of(corners)).collect();
+        let mut tree = Self::of_boxes(&boxes);
         let (origin, scale) = (tree.origin, tree.scale);
         // What stands for each node among the entries.
         let mut names: Vec<u32> = (0..tree.nodes.len() as u32).collect();
@@ -217,8 +224,8 @@ impl StaticTree {
             }
             let mut leaf = LaneCorners::new(*name, node.entry);
             for lane in (0..WIDTH).filter(|&lane| is_item(lane)) {
-                let triangle = triangles[(node.entry[lane] ^ ITEM) as usize];
-                leaf.set(lane, triangle.map(|p| ((p - origin) * scale).as_vec3()));
+                let corners = items[(node.entry[lane] ^ ITEM) as usize];
+                leaf.set(lane, corners.map(|p| ((p - origin) * scale).as_vec3()));
             }
             *name = LEAF | tree.leaves.len() as u32;
             tree.leaves.push(leaf);

@@ -1,10 +1,10 @@
 //! Bounds of the distance of the farthest point of some triangles, within a few percent. The
 //! builders use them.
 
-use super::piece::{CUT_ROUNDING, MAX_DEPTH, Piece, ROUNDED_UP, bounding_ball};
+use super::piece::{CUT_ROUNDING, MAX_DEPTH, Piece, ROUNDED_UP, bounding_ball, greater};
 use super::surface::Surface;
 use crate::mesh::Mesh;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use meshsweep_core::Bvh;
 use std::collections::BinaryHeap;
 
@@ -65,6 +65,57 @@ pub fn farthest(
         size = corners.iter().fold(size, |size, p| size.max(p.abs().max_element()));
         heap.push(bounded(corners, 0, &mut found, &mut nearest));
     }
+    cut_down(heap, found, size, enough, nearest)
+}
+
+/// Triangles that [`farthest_of_many`] bounds together.
+const GROUP: usize = 16;
+
+/// As [`farthest`], for many triangles, of which those near each other follow each other.
+///
+/// Cost: one query for sixteen triangles, and for each triangle of those that may hold the
+/// farthest point.
+pub fn farthest_of_many(
+    triangles: &[[Vec3; 3]],
+    mut nearest: impl FnMut(DVec3) -> Option<Nearest>,
+) -> Farthest {
+    let wide = |t: &[Vec3; 3]| t.map(|p| p.as_dvec3());
+    let size =
+        triangles.as_flattened().iter().fold(0f32, |size, p| size.max(p.abs().max_element()));
+    // No piece of a group has a greater bound.
+    let mut group_bound = |group: &[[Vec3; 3]]| {
+        let (centre, _) = bounding_ball(&wide(&group[0]));
+        let radius = |triangle| {
+            let (at, radius) = bounding_ball(&wide(triangle));
+            (at - centre).length() + radius
+        };
+        let upper = nearest(centre).map_or(f64::INFINITY, |near| near.upper);
+        (upper + group.iter().map(radius).fold(0.0, greater)) * ROUNDED_UP * ROUNDED_UP
+    };
+    let mut groups: Vec<(f64, &[[Vec3; 3]])> =
+        triangles.chunks(GROUP).map(|group| (group_bound(group), group)).collect();
+    groups.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut found = 0f64;
+    let mut heap = BinaryHeap::new();
+    for (bound, group) in groups {
+        // The search ends at a piece with a bound of at least `found`.
+        if bound < found {
+            break;
+        }
+        heap.extend(group.iter().map(|t| bounded(wide(t), 0, &mut found, &mut nearest)));
+    }
+    cut_down(heap, found, size.into(), 0.0, nearest)
+}
+
+/// Cuts the piece of the largest bound until that is close to the distance `found`, or at most
+/// `enough`. `size` is the largest coordinate.
+fn cut_down(
+    mut heap: BinaryHeap<Piece<Option<[DVec3; 3]>>>,
+    mut found: f64,
+    size: f64,
+    enough: f64,
+    mut nearest: impl FnMut(DVec3) -> Option<Nearest>,
+) -> Farthest {
     let mut cuts = MAX_CUTS;
     while let Some(piece) = heap.pop() {
         let rounding = size * CUT_ROUNDING;
@@ -143,6 +194,7 @@ pub fn nearest_in<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::SplitMix;
     use meshsweep_core::internal::geom::point_triangle;
 
     const SURFACE: [[[f64; 3]; 3]; 3] = [
@@ -179,6 +231,24 @@ mod tests {
                 "{corners:?} {far:?}"
             );
             assert!(!is_within(corners, far.upper * 1.01, 0, about, nearest));
+        }
+    }
+
+    #[test]
+    fn many_triangles_have_the_bounds_that_each_alone_gives() {
+        let mut dice = SplitMix::new(5);
+        let mut roll = || Vec3::new(dice.roll() as f32, dice.roll() as f32, dice.roll() as f32);
+        for count in [1, 15, 16, 17, 1000] {
+            // Runs of triangles near each other, and a few far from all.
+            let mut at = Vec3::ZERO;
+            let triangles: Vec<[Vec3; 3]> = (0..count)
+                .map(|i| {
+                    at = if i % 13 == 0 { roll() * 6.0 - 1.0 } else { at + roll() * 0.1 };
+                    [at, at + roll() * 0.2, at + roll() * 0.2]
+                })
+                .collect();
+            let each = triangles.iter().map(|t| t.map(|p| p.as_dvec3()));
+            assert_eq!(farthest_of_many(&triangles, nearest), farthest(each, 0.0, nearest));
         }
     }
 }

@@ -27,6 +27,6 @@ mod profile;
 mod surface;
 mod two_meshes;
 
-pub use farthest::{Farthest, Nearest, farthest, is_within, nearest_in};
+pub use farthest::{Farthest, Nearest, farthest, farthest_of_many, is_within, nearest_in};
 pub use profile::{Profile, profile};
 pub use two_meshes::{Attained, Direction, Ended, Hausdorff, Precision, Refused, hausdorff};

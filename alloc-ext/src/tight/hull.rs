@@ -44,8 +44,16 @@ pub fn wrap<'m>(
     options: &Options,
     watch: Watch<'_>,
 ) -> Result<Hull, BuildError> {
+    wrap_obstacle(input.into(), options, watch).map(|(hull, _)| hull)
+}
+
+/// As [`wrap()`], with the mesh as the obstacle of the search.
+pub(super) fn wrap_obstacle(
+    input: Input<'_>,
+    options: &Options,
+    watch: Watch<'_>,
+) -> Result<(Hull, Obstacle), BuildError> {
     let started = Instant::now();
-    let input: Input<'m> = input.into();
     let mesh = input.mesh;
     require_valid(mesh, MAX_TRIANGLES)?;
     let triangles: Vec<[u32; 3]> = mesh.all_triangles().collect();
@@ -149,7 +157,7 @@ pub fn wrap<'m>(
         programs: editor.placer.programs,
         time: started.elapsed(),
     };
-    Ok(Hull { mesh, report })
+    Ok((Hull { mesh, report }, obstacle))
 }
 
 /// The part of the work on a hull that is done.

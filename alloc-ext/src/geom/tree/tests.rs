@@ -118,7 +118,7 @@ fn with_disks(triangles: &[[DVec3; 3]]) -> StaticTree {
         let [a, b, c] = triangles[i];
         (b - a).cross(c - a)
     };
-    StaticTree::of_triangles(triangles).with_disks(normal, |i, points| points.extend(triangles[i]))
+    StaticTree::of_corners(triangles).with_disks(normal, |i, points| points.extend(triangles[i]))
 }
 
 #[test]
@@ -169,7 +169,7 @@ fn every_triangle_that_reaches_all_planes_is_visited_once() {
 #[test]
 fn a_plane_next_to_an_oblique_surface_misses_its_disks_where_it_reaches_its_boxes() {
     let triangles = sheet(64, 1.0, DVec3::ZERO);
-    let plain = StaticTree::of_triangles(&triangles);
+    let plain = StaticTree::of_corners(&triangles);
     let disks = with_disks(&triangles);
     let normal = DVec3::new(0.6, 0.48, 0.64);
     let highest =

@@ -17,9 +17,9 @@ pub(crate) struct Obstacle {
     triangle_tree: StaticTree,
     /// In single precision too.
     points: Vec<Vec3>,
-    point_tree: StaticTree,
+    point_tree: StaticTree<1>,
     witnesses: Vec<DVec3>,
-    witness_tree: StaticTree,
+    witness_tree: StaticTree<1>,
     /// Distance within which no face may come; 0 for none.
     margin: f64,
     /// Whether the margin is more than the steps that placements keep anyway.
@@ -36,8 +36,8 @@ fn normal([a, b, c]: &Triangle) -> DVec3 {
     (b - a).cross(c - a)
 }
 
-fn tree_of_points(points: &[DVec3]) -> StaticTree {
-    StaticTree::new(&points.iter().map(|&p| Bounds { low: p, high: p }).collect::<Vec<_>>())
+fn tree_of_points(points: &[DVec3]) -> StaticTree<1> {
+    StaticTree::of_corners(&points.iter().map(|&p| [p]).collect::<Vec<_>>())
 }
 
 impl Obstacle {
@@ -50,7 +50,7 @@ impl Obstacle {
                 .iter()
                 .map(|&i| triangles[i as usize].map(|v| positions[v as usize]))
                 .collect();
-            let tree = StaticTree::of_triangles(&sorted)
+            let tree = StaticTree::of_corners(&sorted)
                 .with_disks(|i| normal(&sorted[i]), |i, points| points.extend(sorted[i]));
             (tree, sorted.iter().map(|t| t.map(|p| p.as_vec3())).collect())
         };
@@ -117,6 +117,11 @@ impl Obstacle {
     /// All triangles.
     pub fn triangles(&self) -> impl Iterator<Item = Triangle> + '_ {
         (0..self.triangles.len()).map(|i| self.triangle(i))
+    }
+
+    /// All triangles in single precision, those near each other next to each other.
+    pub fn singles(&self) -> &[[Vec3; 3]] {
+        &self.triangles
     }
 
     fn triangle(&self, i: usize) -> Triangle {
@@ -283,8 +288,8 @@ fn witnesses(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
 
 /// The last plane that `raise` makes of an item and the highest plane so far.
 #[inline]
-fn highest(
-    tree: &StaticTree,
+fn highest<const CORNERS: usize>(
+    tree: &StaticTree<CORNERS>,
     near: &Frontier,
     tetrahedron: &Tetrahedron,
     raise: impl Fn(usize, Option<Plane>) -> Option<Plane>,

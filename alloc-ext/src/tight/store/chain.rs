@@ -1,6 +1,6 @@
 //! A chain of hulls of one mesh.
 
-use super::distances::{Distances, distances_watched};
+use super::distances::{Distances, distances_from};
 use super::section::{Stored, sections};
 use crate::bvh::TreeOptions;
 use crate::emit::Sections;
@@ -9,7 +9,7 @@ use crate::mesh::Input;
 use crate::mesh::NoVolume;
 use crate::progress::{Stage, Watch};
 use crate::surface::VertexBits;
-use crate::tight::hull::{Hull, wrap};
+use crate::tight::hull::{Hull, wrap_obstacle};
 use crate::tight::options::{Goal, Options};
 use crate::tight::report::Report;
 use meshsweep_core::internal::format::layout::MAX_LEVELS;
@@ -132,7 +132,7 @@ impl ChainOptions {
 pub struct HullReport {
     /// The goal.
     pub asked: Goal,
-    /// Measures from [`wrap()`].
+    /// Measures from [`wrap()`](crate::tight::wrap).
     pub wrapped: Report,
     /// Distances both ways between hull and mesh, input units.
     pub distances: Distances,
@@ -148,10 +148,10 @@ pub struct HullReport {
 /// Makes tight hulls of a mesh. A hull with as many faces as a finer hull is left out, and no
 /// report names its goal.
 ///
-/// The hulls enclose the surface of the input file, see [`wrap()`]. The blob's answers hold for it
+/// The hulls enclose the surface of the input file, see [`wrap()`](crate::tight::wrap). The blob's answers hold for it
 /// too: they include the distance that vertices were moved.
 ///
-/// Cost: that of [`wrap()`] for each hull; some hundred distance queries for each triangle of the
+/// Cost: that of [`wrap()`](crate::tight::wrap) for each hull; some hundred distance queries for each triangle of the
 /// hulls, and one for each triangle of the mesh.
 ///
 /// # Errors
@@ -170,7 +170,7 @@ pub fn build(
     for (index, &goal) in goals.iter().rev().enumerate() {
         let started = Instant::now();
         let watch = watch.part(part(index), part(index + 1));
-        let hull = wrap(input, &options.of_hull(goal), watch)?;
+        let (hull, obstacle) = wrap_obstacle(input, &options.of_hull(goal), watch)?;
         if made
             .last()
             .is_some_and(|(finer, _)| finer.mesh.triangles.len() <= hull.mesh.triangles.len())
@@ -179,14 +179,8 @@ pub fn build(
         }
         let certifying = watch.during(Stage::Certifying).part(0.9, 1.0);
         certifying.step(0, 1)?;
-        let mut distances = distances_watched(&hull.mesh, mesh, certifying);
+        let distances = distances_from(&hull.mesh, &obstacle, hull.report.slack, certifying);
         certifying.check()?;
-        if let Goal::Slack(_) = goal {
-            // The search proved a smaller distance, face by face, than branch and bound finds.
-            let most = hull.report.slack.upper;
-            let slacks = distances.slacks.iter_mut().chain([&mut distances.slack.upper]);
-            slacks.for_each(|slack| *slack = slack.min(most));
-        }
         if !fits(&distances) {
             return Err(BuildError::NoRoom);
         }

@@ -1,6 +1,6 @@
 //! Certified distances both ways between a hull and the mesh within.
 
-use crate::hausdorff::{Farthest, Nearest, farthest};
+use crate::hausdorff::{Farthest, Nearest, farthest, farthest_of_many};
 use crate::mesh::Mesh;
 use crate::progress::Watch;
 use crate::tight::proof::Obstacle;
@@ -26,25 +26,33 @@ const FINE: f64 = 1.0 / 512.0;
 /// Cost: a branch and bound by nearest points for each face of the hull, and once for all of the
 /// mesh.
 pub fn distances(hull: &Mesh, mesh: &Mesh) -> Distances {
-    distances_watched(hull, mesh, Watch::NONE)
+    let obstacle = Obstacle::of(mesh);
+    let slack = farthest(hull.corners_f64(), 0.0, |p| nearest(&obstacle, p));
+    distances_from(hull, &obstacle, slack, Watch::NONE)
 }
 
-/// [`distances`] under a watch. If it asks to end, they mean nothing.
-pub(super) fn distances_watched(hull: &Mesh, mesh: &Mesh, watch: Watch<'_>) -> Distances {
-    let (hull_surface, mesh_surface) = (Obstacle::of(hull), Obstacle::of(mesh));
-    let to = |surface: &Obstacle, p: DVec3| {
-        let (triangle, [lower, upper]) = surface.nearest(p)?;
-        Some(Nearest { lower, upper, triangle: Some(triangle) })
-    };
-    let all = mesh.triangles.len();
-    let mut to_mesh = watch.asks(all, |p| to(&mesh_surface, p));
-    let slack = farthest(hull.corners_f64(), 0.0, &mut to_mesh);
+fn nearest(surface: &Obstacle, p: DVec3) -> Option<Nearest> {
+    let (triangle, [lower, upper]) = surface.nearest(p)?;
+    Some(Nearest { lower, upper, triangle: Some(triangle) })
+}
+
+/// [`distances`] between a hull and its obstacle, if its slack is known. If the watch asks to end,
+/// they mean nothing.
+pub(super) fn distances_from(
+    hull: &Mesh,
+    obstacle: &Obstacle,
+    slack: Farthest,
+    watch: Watch<'_>,
+) -> Distances {
+    let all = obstacle.singles().len();
+    let mut to_mesh = watch.asks(all, |p| nearest(obstacle, p));
     let enough = slack.lower * FINE;
     let slacks = hull
         .corners_f64()
         .map(|face| farthest(std::iter::once(face), enough, &mut to_mesh).upper.min(slack.upper))
         .collect();
-    let to_hull = watch.asks(all, |p| to(&hull_surface, p));
-    let depth = farthest(mesh.all_corners_f64(), 0.0, to_hull);
+    let hull_surface = Obstacle::of(hull);
+    let to_hull = watch.asks(all, |p| nearest(&hull_surface, p));
+    let depth = farthest_of_many(obstacle.singles(), to_hull);
     Distances { slacks, slack, depth }
 }
