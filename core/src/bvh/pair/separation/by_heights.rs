@@ -9,7 +9,7 @@ use super::direction::{Direction, WholeDirection};
 use super::goal::{Goal, square_up};
 use super::grid_pose::GridPose;
 use super::leaf_hulls::{HullVisit, LeafHull, visit_leaves_at};
-use super::node_boxes::{NodeBoxes, PairLimit, bits, first_box, is_beyond, second_box};
+use super::node_boxes::{NodeBoxes, PairLimit, bits, first_box, is_above, is_below, second_box};
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::format::layout::MAX_TREE_DEPTH;
 use crate::bvh::tree::triangle_at::TriangleAt;
@@ -100,7 +100,7 @@ impl<'a> ModelHeights<'a> {
             for i in bits(wanted) {
                 let top = tops[i];
                 // A leaf that is as high as the highest one does not raise the floor.
-                if is_beyond(Real(floor), top) || only_highest && Real(top) <= Real(floor) {
+                if is_below(top, Real(floor)) || only_highest && Real(top) <= Real(floor) {
                     continue;
                 }
                 let index = i as u32;
@@ -111,7 +111,7 @@ impl<'a> ModelHeights<'a> {
                     continue;
                 }
                 let top = lesser(top, self.whole.top(&self.tree.leaf(node, index)?)?);
-                if is_beyond(Real(floor), top) {
+                if is_below(top, Real(floor)) {
                     continue;
                 }
                 if only_highest {
@@ -136,7 +136,7 @@ impl<'a> ModelHeights<'a> {
                 let Some(next) = memory.get(waiting) else { return Some((listed, floor)) };
                 waiting += 1;
                 let is_low = only_highest && Real(next.key()) <= Real(floor);
-                if !is_low && !is_beyond(Real(floor), next.key()) {
+                if !is_low && !is_below(next.key(), Real(floor)) {
                     break next.node();
                 }
             };
@@ -182,7 +182,7 @@ fn turn_to_nearest_pair(
         let [first, second] = ModelHeights::of_both_models(pose, direction.way)?;
         let ((a, top_a), (b, top_b)) = (first.high_leaf(work)?, second.high_leaf(work)?);
         // Models that overlap along the direction have many leaves that stick out.
-        if is_beyond(Real(top_a) + Real(top_b), dot(pose.shift, direction.way)) {
+        if is_above(Real(top_a) + Real(top_b), dot(pose.shift, direction.way)) {
             return None;
         }
         if last == [a, b] {
@@ -218,7 +218,7 @@ fn list_leaves<'s>(
     let ((_, top_a), (_, floor)) = (first.high_leaf(work)?, second.high_leaf(work)?);
     let (_, top_b) = second.leaves(floor, true, scratch, work)?;
     let least_sum = least_sum_of_tops(pose, goal, along);
-    if is_beyond(Real(top_a) + Real(top_b), dot(pose.shift, along.way)) {
+    if is_above(Real(top_a) + Real(top_b), dot(pose.shift, along.way)) {
         return None;
     }
     let (count_a, _) = first.leaves(least_sum - top_b, false, scratch, work)?;
@@ -249,7 +249,7 @@ fn visit_listed_pairs(
         let b = TriangleAt::of_word(second.node());
         let mut moved = None;
         for first in list_a {
-            if is_beyond(Real(least_sum_of_tops(pose, goal, along) - second.key()), first.key()) {
+            if is_below(first.key(), Real(least_sum_of_tops(pose, goal, along) - second.key())) {
                 continue;
             }
             let a = TriangleAt::of_word(first.node());
@@ -257,7 +257,7 @@ fn visit_listed_pairs(
                 moved = Some(second_box(pose, b)?);
             }
             let key = first_box(pose, a)?.key(moved.as_ref()?);
-            if is_beyond(Real(key), square_up(goal.far + pose.box_error)) {
+            if is_above(Real(key), square_up(goal.far + pose.box_error)) {
                 continue;
             }
             let HullVisit { goes_on, way } =

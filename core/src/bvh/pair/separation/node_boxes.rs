@@ -223,13 +223,13 @@ pub(crate) fn push_children(
     let (mut near_a, mut near_b, mut lowest) = (0, 0, f32::INFINITY);
     for j in bits(b.wanted) {
         let least_top = least_top_a(tops_b[j]);
-        if !is_beyond(least_top, highest) {
+        if !is_below(highest, least_top) {
             near_b |= 1 << j;
             lowest = lesser(Real(lowest), least_top).0;
         }
     }
     for i in bits(a.wanted) {
-        near_a |= u32::from(!is_beyond(Real(lowest), tops_a[i])) << i;
+        near_a |= u32::from(!is_below(tops_a[i], Real(lowest))) << i;
     }
     if near_b == 0 {
         return Some(());
@@ -246,13 +246,13 @@ pub(crate) fn push_children(
         let other = second.along_axes(j);
         let side = other.side(across);
         for i in bits(near_a) {
-            if is_beyond(least_top, tops_a[i])
-                || is_beyond(Real(gap_of(sides[i], side)), limit.length)
+            if is_below(tops_a[i], least_top)
+                || is_above(Real(gap_of(sides[i], side)), limit.length)
             {
                 continue;
             }
             let key = first[i].key(&other);
-            if !is_beyond(Real(key), limit.square) {
+            if !is_above(Real(key), limit.square) {
                 waiting.add(key, (i * WIDTH + j) as u32)?;
                 leaves_a |= 1 << i;
                 leaves_b |= 1 << j;
@@ -273,7 +273,7 @@ pub(crate) fn push_children(
                 tops_b[j] = lesser(tops_b[j], short.top(&tree_b.leaf(b.node, j as u32)?)?);
             }
         }
-        waiting.retain(|[i, j]| !is_beyond(least_top_a(tops_b[j]), tops_a[i]));
+        waiting.retain(|[i, j]| !is_below(tops_a[i], least_top_a(tops_b[j])));
     }
     waiting.finish()
 }
@@ -299,8 +299,14 @@ fn gap_of([middle, half]: [f32; 2], [other, other_half]: [f32; 2]) -> f32 {
 
 /// Whether a number is above a limit. Neither is NaN: [`GridPose::of`] refuses such a pose.
 #[inline(always)]
-pub(super) fn is_beyond(x: Real, limit: f32) -> bool {
+pub(super) fn is_above(x: Real, limit: f32) -> bool {
     x > Real(limit)
+}
+
+/// Whether a number is below a limit. Neither is NaN, as of [`is_above`].
+#[inline(always)]
+pub(super) fn is_below(x: f32, limit: Real) -> bool {
+    limit > Real(x)
 }
 
 /// The numbers of the lowest eight bits that are ones.

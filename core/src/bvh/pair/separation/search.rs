@@ -6,7 +6,7 @@ use super::direction::{Direction, ShortDirection};
 use super::goal::{Candidates, Goal, Nearest, TrianglesAt, Wanted, square_up};
 use super::grid_pose::GridPose;
 use super::leaf_hulls::{HullVisit, LeafHull, visit_leaves_at};
-use super::node_boxes::{Children, PairLimit, is_beyond, push_children};
+use super::node_boxes::{Children, PairLimit, is_below, push_children};
 use super::pending::Pending;
 use crate::bvh::pair::models::most_pairs;
 use crate::bvh::tree::triangle_at::TriangleAt;
@@ -225,6 +225,6 @@ impl LeafTops {
         }
         let [(_, top_a), (_, top_b)] = self.kept;
         let least_top_a = limit.least_sum_of_tops(pose, direction) - top_b;
-        Some(is_beyond(Real(least_top_a), top_a))
+        Some(is_below(top_a, Real(least_top_a)))
     }
 }
