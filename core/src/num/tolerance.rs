@@ -332,10 +332,10 @@ pub const GAP_SETTLED: f64 = 1.0 - 1.0 / (1u64 << 30) as f64;
 /// How much nearer than the limit leaves may be along a direction in integers without a look at
 /// their triangles, in units of the coarser grid. A larger value widens the interval by as much, a
 /// smaller one measures more.
-pub const WHOLE_GAP: f64 = 1.0 / (1u64 << 18) as f64;
+pub const INT_GAP: f64 = 1.0 / (1u64 << 18) as f64;
 
-/// No more than this part of the limit is given up for [`WHOLE_GAP`].
-pub const WHOLE_PART: f64 = 1.0 / (1u64 << 20) as f64;
+/// No more than this part of the limit is given up for [`INT_GAP`].
+pub const INT_PART: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// Squared length below which a direction in f64 is not trusted, so that no product that decides
 /// underflows (§18). It bounds nothing then, which is always true.

@@ -80,11 +80,12 @@ impl Bvh<'_> {
         let mut question = PairQuestion::Distance(&mut nearest);
         let mut work = Work::NONE;
         // A search that ends early needs a lower bound of the pairs that wait. Only the search in
-        // f64 has one.
-        let is_whole = budget.relative == 0.0
+        // f64 has one. Half of all u32 is no limit of steps: `Scene` takes what earlier pairs used
+        // off u32::MAX.
+        let runs_to_end = budget.relative == 0.0
             && budget.absolute == 0.0
             && budget.steps >= lesser(most_pairs(self, other), u32::MAX / 2);
-        if is_whole
+        if runs_to_end
             && pair.placement.is_in_range
             && measure_nearest(&pair, &pose, &mut question, (scratch, &mut work))
         {

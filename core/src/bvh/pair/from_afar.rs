@@ -24,8 +24,7 @@ pub(crate) fn from_afar(pair: &StoredPair<'_>) -> Option<TriangleGap> {
     let between = distance(near(middle_a), moved(&pair.placement.vertices, middle_b));
     // Roundings of f64 in lengths up to the sum of all of these.
     let radii = radius_a * unit + radius_b * longest;
-    let rounding =
-        4.0 * pair.placement.vertices.vertex_error_exact + 16.0 * U64 * (between + radii);
+    let rounding = 4.0 * pair.placement.vertices.vertex_error_f64 + 16.0 * U64 * (between + radii);
     let [p, q] = points;
     Some(TriangleGap {
         place: [first.place, second.place],

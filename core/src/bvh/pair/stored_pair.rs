@@ -27,7 +27,7 @@ pub(crate) struct StoredPair<'a> {
 /// A place of the second model, its units and from its origin, in common units and from the first
 /// model's origin.
 pub(crate) fn moved(pose: &VertexPose, [x, y, z]: [f64; 3]) -> [f64; 3] {
-    let ([r0, r1, r2], [c0, c1, c2]) = (pose.matrix, pose.shift_exact);
+    let ([r0, r1, r2], [c0, c1, c2]) = (pose.matrix, pose.shift_f64);
     let along = |row: [f32; 3], shift: f64| {
         let [a, b, c] = row.map(f64::from);
         (a * x + b * y) + (c * z + shift)
@@ -81,11 +81,11 @@ impl<'a> StoredPair<'a> {
     /// A place in the first model's frame, input units, from common units and the first model's
     /// origin.
     pub(crate) fn to_input(&self, point: [f64; 3]) -> [f32; 3] {
-        self.to_input_exact(point).map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
+        self.to_input_f64(point).map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
     }
 
     /// The same, rounded to f64.
-    pub(crate) fn to_input_exact(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn to_input_f64(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let ([unit, _], size) =
             (self.placement.vertices.units.map(f64::from), exp2(self.first.exponent));
         let [a, b, c] = self.first.origin;

@@ -94,13 +94,13 @@ impl Bvh<'_> {
                 Separation::Undecided => {}
             }
         }
-        self.exactly_within_of(other, pose, asked, (budget, work), scratch)
+        self.within_of_f64(other, pose, asked, (budget, work), scratch)
     }
 
     /// The question in f64, for `[distance, more]`. The steps of `work` count against the budget.
     /// With a `No` also a lower bound of the distance: at most `distance + more`, input units.
     #[inline(never)]
-    pub(crate) fn exactly_within_of(
+    pub(crate) fn within_of_f64(
         &self,
         other: &Bvh<'_>,
         pose: &Pose,

@@ -53,7 +53,7 @@ pub(crate) struct PointQuery {
     pub(crate) allowance: f32,
     /// The point in integers, on targets without floating point, if the model is near and on a
     /// grid.
-    pub(crate) whole: Option<IntPoint>,
+    pub(crate) int_point: Option<IntPoint>,
     /// The point, prepared for the boxes of nodes.
     key_point: KeyPoint,
     /// Keys in a square of the grid unit: a power of two.
@@ -134,7 +134,7 @@ impl PreparedPoint {
             difference(p, Vec3::new(float(x), float(y), float(z)))
         };
         let key_point = KeyPoint::new(from_origin, most);
-        let whole = if SOFT_FLOAT && !header.is_f32() {
+        let int_point = if SOFT_FLOAT && !header.is_f32() {
             IntPoint::new(from_origin.to_array())
         } else {
             None
@@ -150,7 +150,7 @@ impl PreparedPoint {
             rounding: fan,
             fixed_error: (Real(fan) + Real(units.surface_error)).0,
             allowance: (Real(fan).times_power(ALLOWANCE) * Real(fan)).0,
-            whole,
+            int_point,
             key_point,
             // Keys are halves of squares.
             keys_in_square: f32::from_bits((126 - 2 * key_point.unit_exponent()) << 23),

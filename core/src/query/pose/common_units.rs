@@ -55,12 +55,13 @@ pub(crate) struct VertexPose {
     /// A place `q` of the second model, from its origin, is at `matrix·q + shift`.
     pub(crate) matrix: [[f32; 3]; 3],
     pub(crate) shift: [f32; 3],
-    pub(crate) shift_exact: [f64; 3],
-    /// Greatest error of a vertex computed in f32, surface errors included.
+    pub(crate) shift_f64: [f64; 3],
+    /// Greatest error of a vertex computed in f32. It includes the surface errors of both
+    /// [`Extended`]; `StoredPair::new` sets these to 0, so that its errors are rounding alone.
     pub(crate) vertex_error: f32,
     /// The same in f64.
-    pub(crate) vertex_error_exact: f64,
-    /// The parts of `vertex_error` and of `vertex_error_exact` that rounding has.
+    pub(crate) vertex_error_f64: f64,
+    /// The parts of `vertex_error` and of `vertex_error_f64` that rounding has.
     pub(crate) rounding: [f64; 2],
     /// Upper bound of the length in common units of a moved unit of the second model.
     pub(crate) longest: f64,
@@ -160,9 +161,9 @@ impl RelativePose {
         // Products of f32 are exact in f64; the sum of seven terms is rounded six times.
         let (from, into) = (b.origin, a.origin);
         let scale = exp2(common.wrapping_neg());
-        let mut shift_exact = pose.translation.map(|x| f64::from(x) * scale);
+        let mut shift_f64 = pose.translation.map(|x| f64::from(x) * scale);
         for k in 0..3 {
-            shift_exact[k] += dot(rotation[k], from) * unit_b - into[k] * unit_a;
+            shift_f64[k] += dot(rotation[k], from) * unit_b - into[k] * unit_a;
         }
         let longest = unit_b * stretch(&rotation);
         let (error_a, error_b) = (a.error * unit_a, b.error * longest);
@@ -175,7 +176,7 @@ impl RelativePose {
         let mut origins = 0.0;
         for k in 0..3 {
             let extents = most_f32(rows[k], extent_b) + extent_a[k];
-            near = greater(near, f64::from(extents) + shift_exact[k].abs());
+            near = greater(near, f64::from(extents) + shift_f64[k].abs());
             let both =
                 most_f32(rows[k], origin_b) * unit_b as f32 + origin_a[k].abs() * unit_a as f32;
             origins = greater(origins, both);
@@ -190,10 +191,10 @@ impl RelativePose {
         let vertices = VertexPose {
             units: units.map(|x| x as f32),
             matrix: pose.rotation.map(|row| row.map(|x| x * unit_b as f32)),
-            shift: narrow(shift_exact),
-            shift_exact,
+            shift: narrow(shift_f64),
+            shift_f64,
             vertex_error: (larger + rounded_f32) as f32 * (1.0 + 2.0 * U32),
-            vertex_error_exact: larger + rounded,
+            vertex_error_f64: larger + rounded,
             rounding: [rounded_f32, rounded],
             longest,
         };
@@ -220,7 +221,7 @@ impl RelativePose {
         let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let directions = [x, y, z, c0, c1, c2];
         let back = directions.map(|d| columns.map(|column| dot(column, d)));
-        let away = directions.map(|d| dot(d, vertices.shift_exact));
+        let away = directions.map(|d| dot(d, vertices.shift_f64));
         let mut grow = [0f32; DIRECTIONS];
         let mut is_apart = false;
         for (((grow, d), row), away) in grow.iter_mut().zip(directions).zip(back).zip(away) {

@@ -4,9 +4,9 @@
 //! others in f32, and the nearest bound is measured in f64. The offset between its points is the
 //! next direction: most often no pair is left.
 
+use super::int_pair_direction::IntPairDirection;
 use super::pair_keys::{NO_PAIR, PairKeys, distance_of, indices_of, key_limit, key_of, pair_bit};
 use super::question::{PairQuestion, TriangleGap};
-use super::whole_way::WholeWay;
 use crate::bvh::pair::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
 use crate::bvh::tree::format::FanLeaf;
 use crate::bvh::tree::node::WIDE;
@@ -126,7 +126,7 @@ impl<'a> LeafGaps<'a> {
             keys.drop(key);
             let [i, j] = indices_of(key);
             let place = [first_at.with_lane(i as usize), second_at.with_lane(j as usize)];
-            let is_beyond = |last_way: &Option<WholeWay<'_>>| {
+            let is_beyond = |last_way: &Option<IntPairDirection<'_>>| {
                 let (Some(last_way), Some(settled)) = (last_way, settled) else { return false };
                 last_way.is_beyond(settled.far, leaves, place) == Some(true)
             };
@@ -136,7 +136,7 @@ impl<'a> LeafGaps<'a> {
             let mut way = Vec3::ZERO;
             if !is_far {
                 way = self.way_between(&pair, place);
-                last_way = settled.and_then(|_| WholeWay::of(self.pose, way));
+                last_way = settled.and_then(|_| IntPairDirection::of(self.pose, way));
                 is_far = is_beyond(&last_way);
             }
             if is_far {
@@ -172,7 +172,7 @@ impl<'a> LeafGaps<'a> {
         let [a, b] = pair.in_f64(i, j);
         let guesses = SLOPES_SQ.map(|slope_sq| tops.map(|tops| tops.corners(slope_sq)));
         let TriangleDistance { lower, mut upper, mut points } = triangle_distance(a, b, guesses);
-        let rounding = self.pose.vertex_error_exact;
+        let rounding = self.pose.vertex_error_f64;
         let lower = greater(0.0, lower - (rounding + rounding));
         upper += rounding + rounding;
         let mut meets = false;

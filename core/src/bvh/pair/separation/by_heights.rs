@@ -5,7 +5,7 @@
 //! of these is looked at with each of the other model. Else the descent of both trees follows,
 //! which begins with what was found. `core/docs/rounding.md` §26, *One tree at a time*.
 
-use super::direction::{Direction, WholeDirection};
+use super::direction::{Direction, IntDirection};
 use super::goal::{Goal, square_up};
 use super::grid_pose::GridPose;
 use super::leaf_hulls::{HullVisit, LeafHull, visit_leaves_at};
@@ -40,7 +40,7 @@ struct ModelHeights<'a> {
     tree: &'a Bvh<'a>,
     origin: Vec3,
     way: Vec3,
-    whole: WholeDirection,
+    integers: IntDirection,
 }
 
 impl<'a> ModelHeights<'a> {
@@ -48,10 +48,10 @@ impl<'a> ModelHeights<'a> {
         let ([a, b], [origin_a, origin_b]) = (pose.trees, pose.origins);
         // From the second model to the first, in the frame of the second grid.
         let back = -turned(&columns(&pose.rows), way);
-        let (first, second) = (WholeDirection::of(way)?, WholeDirection::of(back)?);
+        let (first, second) = (IntDirection::of(way)?, IntDirection::of(back)?);
         Some([
-            ModelHeights { tree: a, origin: origin_a, way, whole: first },
-            ModelHeights { tree: b, origin: origin_b, way: back, whole: second },
+            ModelHeights { tree: a, origin: origin_a, way, integers: first },
+            ModelHeights { tree: b, origin: origin_b, way: back, integers: second },
         ])
     }
 
@@ -70,7 +70,7 @@ impl<'a> ModelHeights<'a> {
             }
             let index = best as u32;
             if index >= links.inner {
-                let top = self.whole.top(&self.tree.leaf(node, index)?)?;
+                let top = self.integers.top(&self.tree.leaf(node, index)?)?;
                 return Some((TriangleAt::new(node, index, 0), lesser(top, tops[best & 7])));
             }
             node = links.first_node.wrapping_add(index);
@@ -110,7 +110,7 @@ impl<'a> ModelHeights<'a> {
                     *memory.get_mut(waiting)? = ScratchEntry::new(top, child);
                     continue;
                 }
-                let top = lesser(top, self.whole.top(&self.tree.leaf(node, index)?)?);
+                let top = lesser(top, self.integers.top(&self.tree.leaf(node, index)?)?);
                 if is_below(top, Real(floor)) {
                     continue;
                 }

@@ -39,19 +39,19 @@ fn power_for(vector: Vec3) -> Option<f32> {
 /// sums of integers. No height is below the true one, because components are rounded up and no
 /// stored coordinate is negative.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct WholeDirection {
+pub(crate) struct IntDirection {
     pub(crate) way: [i32; 3],
     /// An integer height times this is a height along the direction that was rounded.
     pub(crate) unit: f32,
 }
 
-impl WholeDirection {
+impl IntDirection {
     /// The components are rounded up, not to the nearest: see `core/docs/rounding.md` §26,
     /// *Vertices of leaves along w*. `None` as of [`Direction::of`].
     #[inline(always)]
-    pub(crate) fn of(way: Vec3) -> Option<WholeDirection> {
+    pub(crate) fn of(way: Vec3) -> Option<IntDirection> {
         let (way, unit) = rounded_up(way, (1u32 << 29) as f32)?;
-        Some(WholeDirection { way, unit })
+        Some(IntDirection { way, unit })
     }
 
     /// The greatest `way · vertex` of a leaf. It is not divided by the length of `way`.
@@ -63,8 +63,8 @@ impl WholeDirection {
         let [first, second] = ring.centres;
         let mut top = greater(height(first), height(second));
         for ((x, y), z) in ring.x.iter().zip(ring.y).zip(ring.z) {
-            let whole = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
-            top = greater(top, height([whole(x), whole(y), whole(z)]));
+            let integer = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
+            top = greater(top, height([integer(x), integer(y), integer(z)]));
         }
         Some(top as f32 * self.unit)
     }
@@ -78,14 +78,14 @@ pub(super) struct ShortDirection {
 }
 
 impl ShortDirection {
-    /// As [`WholeDirection::of`].
+    /// As [`IntDirection::of`].
     #[inline(always)]
     pub(super) fn of(way: Vec3) -> Option<ShortDirection> {
         let (way, unit) = rounded_up(way, (1u32 << 12) as f32)?;
         Some(ShortDirection { way, unit })
     }
 
-    /// As [`WholeDirection::top`].
+    /// As [`IntDirection::top`].
     #[inline(never)]
     pub(super) fn top(&self, leaf: &FanLeaf<'_>) -> Option<f32> {
         let ring = leaf.grid_ring()?;
@@ -96,8 +96,8 @@ impl ShortDirection {
         let [first, second] = ring.centres;
         let mut top = greater(height(first), height(second));
         for ((x, y), z) in ring.x.iter().zip(ring.y).zip(ring.z) {
-            let whole = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
-            top = greater(top, height([whole(x), whole(y), whole(z)]));
+            let integer = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
+            top = greater(top, height([integer(x), integer(y), integer(z)]));
         }
         Some(top as f32 * self.unit)
     }

@@ -47,10 +47,10 @@ impl LeafHull {
         let [v, w, rest @ ..] = &mut self.vertices;
         *v = place(first);
         *w = if leaf.shape().centres() == 2 { place(second) } else { *v };
-        let whole = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
+        let integer = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
         let stored = ring.x.iter().zip(ring.y).zip(ring.z);
         for (vertex, ((x, y), z)) in rest.iter_mut().zip(stored) {
-            *vertex = place([whole(x), whole(y), whole(z)]);
+            *vertex = place([integer(x), integer(y), integer(z)]);
         }
         self.shape = leaf.shape();
         (self.of, self.used) = (of, (RING + self.shape.triangles() + 1).min(SLOTS));
@@ -125,7 +125,7 @@ fn visit_hulls(
     if !goal.take_vertices(hull.vertex_sq, || [a.triangle_with(p), b.triangle_with(q)]) {
         return visit(false);
     }
-    if hull.gap_sq > goal.limits.far_sq || goal.keep_whole([a.of, b.of], hull.gap_sq) {
+    if hull.gap_sq > goal.limits.far_sq || goal.keep_unopened([a.of, b.of], hull.gap_sq) {
         return visit(true);
     }
     let (first, second) = (a.corners(), b.corners());
@@ -150,7 +150,7 @@ fn visit_hulls(
         if !goal.take([a.of.with_lane(i), b.of.with_lane(j)], &found) {
             return visit(false);
         }
-        if goal.keep_whole([a.of, b.of], hull.gap_sq) {
+        if goal.keep_unopened([a.of, b.of], hull.gap_sq) {
             return visit(true);
         }
     }

@@ -119,7 +119,7 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
     /// corners in one place of the grid and an edge of one unit can do so.
     #[inline(never)]
     pub(crate) fn look_at_waiting(&mut self) -> Option<bool> {
-        let Some(point) = &self.query.whole else { return Some(true) };
+        let Some(point) = &self.query.int_point else { return Some(true) };
         let count = self.waiting.triangles.len();
         let waiting = self.waiting.triangles.iter().enumerate();
         let likeliest = waiting.min_by_key(|(_, here)| here.upper).map_or(0, |(at, _)| at);

@@ -3,7 +3,7 @@
 //! Stored vertices and the direction are integers, so heights are exact. `core/docs/rounding.md`
 //! §26, *Along w* and *Rounding along w*.
 
-use crate::bvh::pair::separation::direction::WholeDirection;
+use crate::bvh::pair::separation::direction::IntDirection;
 use crate::bvh::tree::format::FanLeaf;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
@@ -13,7 +13,7 @@ use crate::query::VertexPose;
 use glam::Vec3;
 
 /// A direction in integers, in the grids of both models.
-pub(crate) struct WholeWay<'a> {
+pub(crate) struct IntPairDirection<'a> {
     pose: &'a VertexPose,
     /// From the first model to the second, in the first grid.
     way: [i64; 3],
@@ -28,38 +28,38 @@ pub(crate) struct WholeWay<'a> {
     /// Pairs with heights that add up to no more than this are far enough apart.
     least_sum: f64,
     /// The last leaf of each model.
-    kept: [WholeTops; 2],
+    kept: [IntTops; 2],
 }
 
-impl<'a> WholeWay<'a> {
+impl<'a> IntPairDirection<'a> {
     /// The direction of an offset from point to point, common units. `None` if it is zero, or very
     /// long or short.
-    pub(crate) fn new(pose: &'a VertexPose, offset: [f64; 3]) -> Option<WholeWay<'a>> {
-        let (way, _) = whole(offset)?;
+    pub(crate) fn new(pose: &'a VertexPose, offset: [f64; 3]) -> Option<IntPairDirection<'a>> {
+        let (way, _) = rounded_up(offset)?;
         let [x, y, z] = way.map(|x| x as f64);
-        WholeWay::along(pose, way, libm::sqrt((x * x + y * y) + z * z))
+        IntPairDirection::along(pose, way, libm::sqrt((x * x + y * y) + z * z))
     }
 
     /// Any direction in f32.
-    pub(crate) fn of(pose: &'a VertexPose, way: Vec3) -> Option<WholeWay<'a>> {
-        let whole = WholeDirection::of(way)?;
-        let [x, y, z] = whole.way.map(|x| x as f32);
+    pub(crate) fn of(pose: &'a VertexPose, way: Vec3) -> Option<IntPairDirection<'a>> {
+        let direction = IntDirection::of(way)?;
+        let [x, y, z] = direction.way.map(|x| x as f32);
         let way = Vec3::new(x, y, z);
         let length = sqrt_approx(dot(way, way)) * (1.0 + 16.0 * U32);
-        WholeWay::along(pose, whole.way.map(i64::from), f64::from(length))
+        IntPairDirection::along(pose, direction.way.map(i64::from), f64::from(length))
     }
 
     /// `length` is not less than that of `way`.
     #[inline(never)]
-    fn along(pose: &'a VertexPose, way: [i64; 3], length: f64) -> Option<WholeWay<'a>> {
+    fn along(pose: &'a VertexPose, way: [i64; 3], length: f64) -> Option<IntPairDirection<'a>> {
         let [x, y, z] = way.map(|x| x as f64);
-        let VertexPose { matrix: [r, s, t], shift_exact: [u, v, w], .. } = *pose;
+        let VertexPose { matrix: [r, s, t], shift_f64: [u, v, w], .. } = *pose;
         let column = |k: usize| {
             let along = |row: &[f32; 3]| f64::from(row.get(k).copied().unwrap_or(0.0));
             -((x * along(&r) + y * along(&s)) + z * along(&t))
         };
-        let (back, back_unit) = whole([column(0), column(1), column(2)])?;
-        Some(WholeWay {
+        let (back, back_unit) = rounded_up([column(0), column(1), column(2)])?;
+        Some(IntPairDirection {
             pose,
             way,
             back,
@@ -67,7 +67,7 @@ impl<'a> WholeWay<'a> {
             shift: (x * u + y * v) + z * w,
             length,
             least_sum: f64::NEG_INFINITY,
-            kept: [WholeTops::NONE; 2],
+            kept: [IntTops::NONE; 2],
         })
     }
 
@@ -131,14 +131,14 @@ fn top_of(leaf: &FanLeaf<'_>, lane: usize, [x, y, z]: [i64; 3]) -> Option<i64> {
 }
 
 /// The greatest heights of a leaf and of its triangles along a direction in integers.
-struct WholeTops {
+struct IntTops {
     of: TriangleAt,
     most: i64,
     each: [i64; WIDTH],
 }
 
-impl WholeTops {
-    const NONE: WholeTops = WholeTops { of: TriangleAt::NONE, most: 0, each: [0; WIDTH] };
+impl IntTops {
+    const NONE: IntTops = IntTops { of: TriangleAt::NONE, most: 0, each: [0; WIDTH] };
 
     /// Computes the heights of a leaf, unless they are those of this leaf already.
     #[inline(never)]
@@ -160,7 +160,7 @@ impl WholeTops {
             most = greater(most, *top);
             last = next;
         }
-        *self = WholeTops { of, most, each };
+        *self = IntTops { of, most, each };
         Some(())
     }
 }
@@ -170,7 +170,7 @@ const BITS: u64 = 44;
 
 /// A direction in integers of at most 2^45, rounded up, and the length of their unit. `None` if it
 /// is zero, or very long or short.
-fn whole(way: [f64; 3]) -> Option<([i64; 3], f64)> {
+fn rounded_up(way: [f64; 3]) -> Option<([i64; 3], f64)> {
     let most = way.into_iter().fold(0.0, |most, x| greater(most, x.abs()));
     let exponent = most.to_bits() >> 52;
     if !(200..1800).contains(&exponent) {
