@@ -15,7 +15,7 @@
 //!
 //! So the product with u has the right sign if it exceeds this error and rounding.
 
-use super::search::Search;
+use super::search::{Searched, SideSearch};
 use super::viewed_side::{ViewedSide, cross, is_flat, is_same, viewed_side};
 use crate::bvh::point::leaf::bounds::{TriangleTaker, each_triangle, limit_of, lower_of};
 use crate::bvh::point::leaf::distance::nearest_within;
@@ -61,10 +61,10 @@ impl<'p> Candidates<'p> {
 /// The side by the feature that all candidates share, if that proves one. `corners` are those of
 /// any candidate.
 pub(crate) fn side_of_shared_feature(
-    search: &mut Search<'_, '_>,
+    search: &mut SideSearch<'_, '_>,
     candidates: &Candidates<'_>,
     corners: [Vec3; 3],
-) -> Option<Option<Side>> {
+) -> Searched<Side> {
     let limit = limit_of(candidates.query, candidates.band);
     let (mut key_limit, mut beyond) = (0, LeafLimit::NONE);
     follow(candidates.query, limit, &mut key_limit, &mut beyond);
@@ -278,8 +278,8 @@ impl LeafVisitor for Star<'_> {
 }
 
 impl Star<'_> {
-    /// Adds a triangle of the feature. The factor of its normal is −1 if sides are
-    /// those of the triangle turned, 0 if it tells no side.
+    /// Adds a triangle of the feature. `factor` multiplies its normal: −1 for a turned triangle, 0
+    /// for a sideless one, 1 for others.
     #[inline(always)]
     fn take(&mut self, leaf: &FanLeaf<'_>, lane: usize, factor: f32) {
         let corners = leaf.corners(lane);
