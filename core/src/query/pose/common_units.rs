@@ -76,7 +76,7 @@ pub(crate) struct RelativePose {
 
 /// What [`RelativePose::relate`] finds: the pose of two models, at whatever distance.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Placement {
+pub(crate) struct CommonPose {
     pub(crate) vertices: VertexPose,
     /// The numbers are small enough for f32.
     pub(crate) is_in_range: bool,
@@ -106,12 +106,12 @@ impl RelativePose {
         b: &Extended,
         pose: &Pose,
     ) -> Result<Option<RelativePose>, QueryError> {
-        let placement = RelativePose::relate(a, b, pose)?;
-        let (pose, is_apart) = RelativePose::along_axes(a, b, pose, &placement);
+        let common = RelativePose::relate(a, b, pose)?;
+        let (pose, is_apart) = RelativePose::along_axes(a, b, pose, &common);
         if is_apart {
             return Ok(None);
         }
-        if placement.is_in_range { Ok(Some(pose)) } else { Err(QueryError::PoseOutOfDomain) }
+        if common.is_in_range { Ok(Some(pose)) } else { Err(QueryError::PoseOutOfDomain) }
     }
 
     /// Refuses a pose that no question about two models takes. `[a, b]`: the exponents of their
@@ -151,7 +151,11 @@ impl RelativePose {
     /// How places are carried, also of models that are far from each other. Errors: those of
     /// [`check`](Self::check).
     #[inline(never)]
-    pub(crate) fn relate(a: &Extended, b: &Extended, pose: &Pose) -> Result<Placement, QueryError> {
+    pub(crate) fn relate(
+        a: &Extended,
+        b: &Extended,
+        pose: &Pose,
+    ) -> Result<CommonPose, QueryError> {
         let (ea, eb) = (a.exponent, b.exponent);
         let common = greater(eb, ea);
         RelativePose::check(pose, [ea, eb])?;
@@ -200,7 +204,7 @@ impl RelativePose {
         };
         // NaN is out of range too.
         let is_in_range = far + errors <= OVERLAP_FARTHEST;
-        Ok(Placement { vertices, is_in_range, error: errors + rounded })
+        Ok(CommonPose { vertices, is_in_range, error: errors + rounded })
     }
 
     /// The places along the axes of both models, and whether it is proved that nothing of one model
@@ -210,9 +214,9 @@ impl RelativePose {
         a: &Extended,
         b: &Extended,
         pose: &Pose,
-        placement: &Placement,
+        common: &CommonPose,
     ) -> (RelativePose, bool) {
-        let Placement { vertices, error, .. } = *placement;
+        let CommonPose { vertices, error, .. } = *common;
         let units = vertices.units.map(f64::from);
         let [unit_a, unit_b] = units;
         let (extent_a, extent_b) = (a.extent.map(|x| x * unit_a), b.extent.map(|x| x * unit_b));

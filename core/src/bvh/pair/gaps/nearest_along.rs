@@ -48,7 +48,11 @@ impl<'a> NearestAlong<'a> {
     }
 
     /// Tells the question of the pairs that were not measured.
-    pub(crate) fn tell(&mut self, places: [TriangleAt; 2], question: &mut PairQuestion<'_>) {
+    pub(crate) fn report_skipped(
+        &mut self,
+        places: [TriangleAt; 2],
+        question: &mut PairQuestion<'_>,
+    ) {
         if self.has_beyond {
             // An infinite upper end is never the best, so the points are not used.
             let (points, upper) = ([[0.0; 3]; 2], f64::INFINITY);
@@ -81,12 +85,12 @@ impl<'a> NearestAlong<'a> {
             if settled == u64::MAX {
                 return Some(true);
             }
-            self.tell(places, question);
+            self.report_skipped(places, question);
             let some = Some(SettledPairs { pairs: settled, far: self.far() });
             let visit = self.leaves.visit(leaves, places, some, question, false, work)?;
             if visit.has_beyond {
                 self.has_beyond = true;
-                self.tell(places, question);
+                self.report_skipped(places, question);
             }
             if !visit.goes_on || visit.pairs == 0 {
                 return Some(visit.goes_on);

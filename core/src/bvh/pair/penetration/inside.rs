@@ -179,7 +179,7 @@ impl<'a> MovedSurface<'a> {
         let pair = StoredPair::new(trees, pose)?;
         let [other, _] = trees;
         let [low, high] = bounds_of(corners_of_input(other));
-        let rounding = pair.lengths.error + 2.0 * pair.placement.vertices.vertex_error_f64;
+        let rounding = pair.lengths.error + 2.0 * pair.common.vertices.vertex_error_f64;
         let error = error + rounding * pair.lengths.unit;
         let relative = pair.relative();
         Ok(MovedSurface { pair, relative, error: error * (1.0 + 16.0 * U64), low, high })
