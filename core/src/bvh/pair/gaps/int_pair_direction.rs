@@ -7,7 +7,7 @@ use crate::bvh::pair::separation::direction::IntDirection;
 use crate::bvh::tree::format::FanLeaf;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
-use crate::num::tolerance::U32;
+use crate::num::tolerance::{INT_DIRECTION_BITS, U32};
 use crate::num::{dot, greater, sqrt_approx};
 use crate::query::VertexPose;
 use glam::Vec3;
@@ -165,9 +165,6 @@ impl IntTops {
     }
 }
 
-/// A direction's greatest component has up to 45 bits, a vertex 16, a sum of three 2: 63.
-const BITS: u64 = 44;
-
 /// A direction in integers of at most 2^45, rounded up, and the length of their unit. `None` if it
 /// is zero, or very long or short.
 fn rounded_up(way: [f64; 3]) -> Option<([i64; 3], f64)> {
@@ -176,6 +173,9 @@ fn rounded_up(way: [f64; 3]) -> Option<([i64; 3], f64)> {
     if !(200..1800).contains(&exponent) {
         return None;
     }
-    let power = f64::from_bits((2046 + BITS - exponent) << 52);
-    Some((way.map(|x| (x * power) as i64 + 1), f64::from_bits((exponent - BITS) << 52)))
+    let power = f64::from_bits((2046 + INT_DIRECTION_BITS - exponent) << 52);
+    Some((
+        way.map(|x| (x * power) as i64 + 1),
+        f64::from_bits((exponent - INT_DIRECTION_BITS) << 52),
+    ))
 }

@@ -71,7 +71,7 @@ impl IntDirection {
 }
 
 /// The same in integers of at most 2^13, so that heights are sums in 32 bits. They are less than 96
-/// units of the grid higher: a component is raised by up to 2 of 2^12.
+/// units of the grid higher: a component is raised by up to 2 of 2^12. Only time depends on that.
 pub(super) struct ShortDirection {
     way: [i32; 3],
     unit: f32,
