@@ -163,9 +163,9 @@ impl<'a> PlacedModel<'a> {
     ) -> Option<WorldGap> {
         let (a, b) = (&self.place, &other.place);
         let slack = (a.far + b.far) * (BOX_PAIR * U32 + 4.0 * (a.skew + b.skew));
-        let way = difference(b.centre, a.centre);
+        let offset = difference(b.centre, a.centre);
         let balls = WorldGap {
-            square: dot(way, way),
+            square: dot(offset, offset),
             less: (self.ball.radius + other.ball.radius) + slack,
         };
         if balls.proves(distance + more) {
@@ -201,13 +201,13 @@ impl<'a> PlacedModel<'a> {
         }
         // The second box in the frame of the first.
         let middle = turned(&other.rows(), other.bounds.middle) + other.translation();
-        let way = self.seen(&rows, middle);
+        let offset = self.seen(&rows, middle);
         let relative = other_rows.map(|column| turned(&rows, column));
         let back = relative;
         let relative = columns(&relative);
         let (half, other_half) = (self.bounds.half, other.bounds.half);
-        if !is_enough(gap_sq(way, half, &relative, other_half), slack) {
-            is_enough(gap_sq(turned(&back, way), other_half, &back, half), slack);
+        if !is_enough(gap_sq(offset, half, &relative, other_half), slack) {
+            is_enough(gap_sq(turned(&back, offset), other_half, &back, half), slack);
         }
         found
     }

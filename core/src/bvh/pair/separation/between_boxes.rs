@@ -20,9 +20,9 @@ struct BoxGap {
 }
 
 impl BoxGap {
-    fn new(way: Vec3, half: Vec3, rows: &Rows, other_half: Vec3) -> BoxGap {
-        let gaps = (way.abs() - half) - turned(&rows.map(Vec3::abs), other_half);
-        let signs = Vec3::ONE.copysign(way);
+    fn new(offset: Vec3, half: Vec3, rows: &Rows, other_half: Vec3) -> BoxGap {
+        let gaps = (offset.abs() - half) - turned(&rows.map(Vec3::abs), other_half);
+        let signs = Vec3::ONE.copysign(offset);
         let gap = gaps.max(Vec3::ZERO) * signs;
         let [x, y, z] = gaps.to_array();
         let (axis, along) = if x >= y && x >= z {
@@ -46,11 +46,11 @@ pub(crate) fn between_boxes(pose: &GridPose<'_>) -> Option<Direction> {
     };
     let ([a, b], [origin_a, origin_b]) = (pose.trees, pose.origins);
     let ((middle_a, half_a), (middle_b, half_b)) = (boxes(a, origin_a), boxes(b, origin_b));
-    let way = pose.moved(middle_b) - middle_a;
-    let first = BoxGap::new(way, half_a, &pose.rows, half_b);
+    let offset = pose.moved(middle_b) - middle_a;
+    let first = BoxGap::new(offset, half_a, &pose.rows, half_b);
     let turned_back = pose.rows.map(|row| row * (1.0 / pose.ratio));
     let axes = columns(&turned_back);
-    let second = BoxGap::new(turned(&axes, way), half_b * pose.ratio, &axes, half_a);
+    let second = BoxGap::new(turned(&axes, offset), half_b * pose.ratio, &axes, half_a);
     let back = |vector: Vec3| turned(&turned_back, vector);
     let found = if first.gap_sq > 0.0 || second.gap_sq > 0.0 {
         if second.gap_sq > first.gap_sq { back(second.gap) } else { first.gap }

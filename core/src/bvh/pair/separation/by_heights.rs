@@ -39,19 +39,19 @@ const MOST_NODES: u32 = 128;
 struct ModelHeights<'a> {
     tree: &'a Bvh<'a>,
     origin: Vec3,
-    way: Vec3,
+    direction: Vec3,
     integers: IntDirection,
 }
 
 impl<'a> ModelHeights<'a> {
-    fn of_both_models(pose: &GridPose<'a>, way: Vec3) -> Option<[ModelHeights<'a>; 2]> {
+    fn of_both_models(pose: &GridPose<'a>, direction: Vec3) -> Option<[ModelHeights<'a>; 2]> {
         let ([a, b], [origin_a, origin_b]) = (pose.trees, pose.origins);
         // From the second model to the first, in the frame of the second grid.
-        let back = -turned(&columns(&pose.rows), way);
-        let (first, second) = (IntDirection::of(way)?, IntDirection::of(back)?);
+        let back = -turned(&columns(&pose.rows), direction);
+        let (first, second) = (IntDirection::of(direction)?, IntDirection::of(back)?);
         Some([
-            ModelHeights { tree: a, origin: origin_a, way, integers: first },
-            ModelHeights { tree: b, origin: origin_b, way: back, integers: second },
+            ModelHeights { tree: a, origin: origin_a, direction, integers: first },
+            ModelHeights { tree: b, origin: origin_b, direction: back, integers: second },
         ])
     }
 
@@ -63,7 +63,8 @@ impl<'a> ModelHeights<'a> {
             work.opened += 1;
             let links = self.tree.links(node)?;
             let wanted = links.mask();
-            let tops = NodeBoxes::of(self.tree, node, self.origin)?.tops(self.way, 0.0, wanted);
+            let tops =
+                NodeBoxes::of(self.tree, node, self.origin)?.tops(self.direction, 0.0, wanted);
             let mut best = 0;
             for i in bits(wanted) {
                 best = if Real(tops[i]) > Real(tops[best & 7]) { i } else { best };
@@ -95,7 +96,8 @@ impl<'a> ModelHeights<'a> {
             work.opened += 1;
             let links = self.tree.links(node)?;
             let wanted = links.mask();
-            let tops = NodeBoxes::of(self.tree, node, self.origin)?.tops(self.way, 0.0, wanted);
+            let tops =
+                NodeBoxes::of(self.tree, node, self.origin)?.tops(self.direction, 0.0, wanted);
             let begun = waiting;
             for i in bits(wanted) {
                 let top = tops[i];
@@ -179,22 +181,22 @@ fn turn_to_nearest_pair(
     let mut along = *direction;
     let mut far = goal.far;
     for _ in 0..MOST_ROUNDS {
-        let [first, second] = ModelHeights::of_both_models(pose, direction.way)?;
+        let [first, second] = ModelHeights::of_both_models(pose, direction.vector)?;
         let ((a, top_a), (b, top_b)) = (first.high_leaf(work)?, second.high_leaf(work)?);
         // Models that overlap along the direction have many leaves that stick out.
-        if is_above(Real(top_a) + Real(top_b), dot(pose.shift, direction.way)) {
+        if is_above(Real(top_a) + Real(top_b), dot(pose.shift, direction.vector)) {
             return None;
         }
         if last == [a, b] {
             break;
         }
         last = [a, b];
-        let HullVisit { goes_on, way } =
-            visit_leaves_at(pose, goal, hulls, last, direction.way, work)?;
+        let HullVisit { goes_on, direction: next } =
+            visit_leaves_at(pose, goal, hulls, last, direction.vector, work)?;
         if !goes_on {
             return Some(false);
         }
-        let Some(turned) = way.and_then(Direction::of) else { break };
+        let Some(turned) = next.and_then(Direction::of) else { break };
         *direction = turned;
         if goal.far < far {
             (far, along) = (goal.far, turned);
@@ -214,11 +216,11 @@ fn list_leaves<'s>(
     scratch: &'s mut [ScratchEntry],
     work: &mut Work,
 ) -> Option<[&'s [ScratchEntry]; 2]> {
-    let [first, second] = ModelHeights::of_both_models(pose, along.way)?;
+    let [first, second] = ModelHeights::of_both_models(pose, along.vector)?;
     let ((_, top_a), (_, floor)) = (first.high_leaf(work)?, second.high_leaf(work)?);
     let (_, top_b) = second.leaves(floor, true, scratch, work)?;
     let least_sum = least_sum_of_tops(pose, goal, along);
-    if is_above(Real(top_a) + Real(top_b), dot(pose.shift, along.way)) {
+    if is_above(Real(top_a) + Real(top_b), dot(pose.shift, along.vector)) {
         return None;
     }
     let (count_a, _) = first.leaves(least_sum - top_b, false, scratch, work)?;
@@ -244,7 +246,7 @@ fn visit_listed_pairs(
     work: &mut Work,
 ) -> Option<()> {
     goal.forget();
-    let mut start = along.way;
+    let mut start = along.vector;
     for second in list_b {
         let b = TriangleAt::of_word(second.node());
         let mut moved = None;
@@ -260,12 +262,12 @@ fn visit_listed_pairs(
             if is_above(Real(key), square_up(goal.far + pose.box_error)) {
                 continue;
             }
-            let HullVisit { goes_on, way } =
+            let HullVisit { goes_on, direction: next } =
                 visit_leaves_at(pose, goal, hulls, [a, b], start, work)?;
             if !goes_on {
                 return Some(());
             }
-            start = way.unwrap_or(start);
+            start = next.unwrap_or(start);
         }
     }
     Some(())
