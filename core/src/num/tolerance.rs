@@ -32,8 +32,9 @@ pub const GUESS_UP: f32 = 1.0 + 5.0 / 128.0;
 /// subnormal range. A root grows by 2^-50 at most.
 pub const SQUARE_FLOOR: f32 = 1.0 / ((1u64 << 50) as f32 * (1u64 << 50) as f32);
 
-/// Upper limit of the loss of a determinant in f32, and of its bound, by underflow, 2^-100. Products
-/// of two that underflow lose 2^-150 each, and are multiplied once more, by less than 2^38 (§11).
+/// Upper limit of the loss of a determinant in f32, and of its bound, by underflow, 2^-100.
+/// Products of two that underflow lose 2^-150 each, and are multiplied once more, by less than 2^38
+/// (§11).
 pub const DETERMINANT_UNDERFLOW: f32 = 1.0 / (1u128 << 100) as f32;
 
 // Poses

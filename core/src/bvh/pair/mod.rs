@@ -1,7 +1,7 @@
 //! Two box trees, one of them moved.
 //!
-//! `separation/` works in f32, `gaps/` in f64. `distance_to` and `within_of` run the first, and then
-//! the second on what the first could not tell.
+//! `separation/` works in f32, `gaps/` in f64. `distance_to` and `within_of` first run the one, and
+//! then the other on what f32 could not tell.
 //!
 //! | question | file |
 //! | --- | --- |
@@ -30,6 +30,10 @@
 //! | `gaps/` | descent with bounds in f32 and triangles in f64, nearest pair first |
 //! | `from_afar` | two models that are very far from each other |
 //! | `advance` | how far a moving model certainly goes without contact |
+//!
+//! A *direction* has no length of its own: places are compared along it. An *offset* goes from one
+//! place to another at the same time, a *displacement* from a place to where it is later. A *way* is
+//! what a point travels.
 //!
 //! These words say what was not looked at.
 //!

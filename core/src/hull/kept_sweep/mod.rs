@@ -8,8 +8,8 @@
 //! | `safe_motion` | how far the point may move before another triangle may be the nearest |
 //! | `next_triangle` | one triangle after another |
 //!
-//! A triangle that is not in the queue is one of these. All but the last two lower `lost`, the least
-//! bound of what an answer cannot see.
+//! Words for triangles. The first two kinds are not in the queue. They lower `lost`, the least bound
+//! of what an answer cannot see.
 //!
 //! | word | the triangle |
 //! | --- | --- |

@@ -3,9 +3,9 @@
 
 use crate::hull::format::Instance;
 
-/// Until the path of the point reaches `until`, the nearest triangle is one of `near` (Guéziec 2000,
-/// 3.3). The paper keeps one triangle. Triangles that share the closest vertex have no gap between
-/// them, so several are kept.
+/// Until the path of the point reaches `until`, the nearest triangle is one of `near` (Guéziec
+/// 2000, 3.3). The paper keeps one triangle. Triangles that share the closest vertex have no gap
+/// between them, so several are kept.
 #[derive(Debug)]
 pub(super) struct SafeMotion {
     /// The value of `Sweep::moved` up to which this holds. −1: nothing is known.
