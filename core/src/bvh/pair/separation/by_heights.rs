@@ -251,7 +251,8 @@ fn visit_listed_pairs(
         let b = TriangleAt::of_word(second.node());
         let mut moved = None;
         for first in list_a {
-            if is_below(first.key(), Real(least_sum_of_tops(pose, goal, along) - second.key())) {
+            let least_top = Real(least_sum_of_tops(pose, goal, along) - second.key());
+            if is_below(first.key(), least_top) {
                 continue;
             }
             let a = TriangleAt::of_word(first.node());

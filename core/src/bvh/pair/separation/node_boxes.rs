@@ -273,7 +273,10 @@ pub(crate) fn push_children(
                 tops_b[j] = lesser(tops_b[j], short.top(&tree_b.leaf(b.node, j as u32)?)?);
             }
         }
-        waiting.retain(|[i, j]| !is_below(tops_a[i], least_top_a(tops_b[j])));
+        waiting.retain(|[i, j]| {
+            let least_top = least_top_a(tops_b[j]);
+            !is_below(tops_a[i], least_top)
+        });
     }
     waiting.finish()
 }
