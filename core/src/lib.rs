@@ -39,7 +39,7 @@
 //! | how far is a sphere, a capsule or a box; is it within a distance | [`Bvh::solid_distance`], [`Bvh::solid_within`] |
 //! | is the move of a tool, or of another mesh, clear for its whole length | [`Bvh::solid_first_contact`], [`Bvh::first_contact_of`] |
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
-//! | the same, bounded by a tight hull of few faces | [`TightHull::closest_point`], [`TightHull::within`] |
+//! | how far is a mesh, by a tight hull of few faces; is it within a distance | [`TightHull::closest_point`], [`TightHull::within`] |
 //! | are two models apart, or farther than a distance; bounds without triangles | [`Triboxes::separation`], [`Triboxes::within_of`], [`Triboxes::distance`], [`Triboxes::clip`] |
 //! | fences and tool paths | [`Curve::closest_point`], [`Curve::within`] |
 //! | the faces of a nested hull | [`Hull::faces`] |
@@ -54,7 +54,7 @@
 //! - `defmt`, off by default: answers, errors, verdicts and budgets implement `defmt::Format`, so
 //!   that firmware can log them. Nothing else changes.
 //!
-//! Examples for a board, are in the repository: in Rust in `core/examples`, in C in
+//! Examples for a board are in the repository: in Rust in `core/examples`, in C in
 //! `core/c-api/examples`.
 //!
 //! # Layers

@@ -325,7 +325,7 @@ const SCENE_TAG: usize = 0x6d73_7706;
 #[repr(C)]
 struct SceneHead {
     tag: usize,
-    last: usize,
+    last_witness: usize,
     models: u32,
     pairs: u32,
     questions: u32,
@@ -411,7 +411,7 @@ impl Out<SceneEntry> {
         }
         let head = SceneHead {
             tag: SCENE_TAG,
-            last: 0,
+            last_witness: 0,
             models: model_count,
             pairs: pair_count,
             questions: 0,
@@ -441,8 +441,8 @@ impl Out<SceneEntry> {
                 slice::from_raw_parts_mut(parts.pairs, pairs),
             )
         };
-        let SceneHead { questions, last, .. } = head;
-        Ok(ErasedScene { models, paths, pairs, questions, last })
+        let SceneHead { questions, last_witness, .. } = head;
+        Ok(ErasedScene { models, paths, pairs, questions, last_witness })
     }
 }
 

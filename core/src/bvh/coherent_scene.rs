@@ -37,7 +37,7 @@ pub struct CoherentScene<'a, const MODELS: usize, const PAIRS: usize> {
     /// Questions since the motion was taken off the clearances.
     questions: u32,
     /// The pair that the last verdict other than `No` named.
-    last: usize,
+    last_witness: usize,
 }
 
 /// A pair, and what is remembered of it.
@@ -123,7 +123,7 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
             paths: [ModelPath::NONE; MODELS],
             pairs: pairs.map(|kept| RememberedPair { kept, left: 0.0, start: SearchStart::NONE }),
             questions: 0,
-            last: 0,
+            last_witness: 0,
         })
     }
 
@@ -190,14 +190,14 @@ impl<'a, const MODELS: usize, const PAIRS: usize> CoherentScene<'a, MODELS, PAIR
 
     #[inline(always)]
     fn erased(&mut self) -> ErasedScene<'_, 'a> {
-        let CoherentScene { models, paths, pairs, questions, last } = self;
-        ErasedScene { models, paths, pairs, questions, last }
+        let CoherentScene { models, paths, pairs, questions, last_witness } = self;
+        ErasedScene { models, paths, pairs, questions, last_witness }
     }
 }
 
 /// A [`CoherentScene`] of any size. As one type, its questions are compiled once. The C interface
 /// makes it of the caller's memory: `paths` has as many elements as `models`, and `questions` and
-/// `last` are 0 before the first question.
+/// `last_witness` are 0 before the first question.
 #[derive(Debug)]
 #[allow(missing_docs, reason = "the fields of CoherentScene")]
 pub struct ErasedScene<'q, 'a> {
@@ -205,7 +205,7 @@ pub struct ErasedScene<'q, 'a> {
     pub paths: &'q mut [ModelPath],
     pub pairs: &'q mut [RememberedPair],
     pub questions: &'q mut u32,
-    pub last: &'q mut usize,
+    pub last_witness: &'q mut usize,
 }
 
 impl ErasedScene<'_, '_> {
@@ -296,7 +296,7 @@ impl ErasedScene<'_, '_> {
         let mut undecided: Option<(Undecided, [usize; 2])> = None;
         let questions = *self.questions as f32;
         *self.questions = 0;
-        let last = *self.last;
+        let last = *self.last_witness;
         let (mut at, mut next) = (last, spent.first);
         while spent.count > 0 && at < self.pairs.len() {
             if let Some(pair) = self.pairs.get_mut(at)
@@ -318,11 +318,11 @@ impl ErasedScene<'_, '_> {
                 spent.times = lesser(spent.times, left / moved);
                 match verdict {
                     Verdict::Yes => {
-                        *self.last = at;
+                        *self.last_witness = at;
                         return Ok(Decided { verdict, witness: Some(witness), work });
                     }
                     Verdict::Undecided(why) if undecided.is_none() => {
-                        *self.last = at;
+                        *self.last_witness = at;
                         undecided = Some((why, witness));
                     }
                     _ => {}

@@ -240,13 +240,13 @@ impl PairSearch<'_, '_> {
                 Separation::Undecided => {}
             }
         }
-        self.are_exactly_near(budget, scratch, work)
+        self.are_near_f64(budget, scratch, work)
     }
 
     /// The same in f64.
     #[cold]
     #[inline(never)]
-    fn are_exactly_near(
+    fn are_near_f64(
         &self,
         budget: Budget,
         scratch: &mut [ScratchEntry],
@@ -261,8 +261,7 @@ impl PairSearch<'_, '_> {
                 return Ok(out_of_steps);
             }
             let (new, pose) = ((budget.with_steps(steps), Work::NONE), &relative.pose);
-            let (found, lower) =
-                one.tree.exactly_within_of(&other.tree, pose, asked, new, scratch)?;
+            let (found, lower) = one.tree.within_of_f64(&other.tree, pose, asked, new, scratch)?;
             *work = work.and(found.work.with_set_up());
             Ok::<_, QueryError>((found.verdict, lower))
         };

@@ -25,24 +25,24 @@ pub struct HullGap {
     /// The square of the greatest gap along a direction; 0 if there is none.
     pub gap_sq: f32,
     /// The direction of this gap, from the first set to the second.
-    pub way: Vec3,
-    /// The squared way between two of the points, and which two.
+    pub direction: Vec3,
+    /// The squared distance of two of the points, one of either set.
     pub vertex_sq: f32,
     /// Places of these points in the sets.
     pub vertices: [usize; 2],
-    /// The squared way between a point of either hull.
+    /// The squared distance of a point of either hull.
     pub hull_sq: f32,
 }
 
 /// Most simplices of a search. Few take six.
 const MOST_ROUNDS: usize = 12;
 
-/// The part of a way's square that the gap along it must have before the search ends. No answer
-/// depends on it.
+/// The part of a direction's square that the gap along it must have before the search ends. No
+/// answer depends on it.
 const SETTLED: f32 = 1.0 - 1e-5;
 
-/// A way whose square is less has no direction in f32.
-const NO_WAY_SQ: f32 = 1.0 / (1u64 << 40) as f32;
+/// A vector whose square is less has no direction in f32.
+const NO_DIRECTION_SQ: f32 = 1.0 / (1u64 << 40) as f32;
 
 const ZERO: Real = Real(0.0);
 
@@ -72,27 +72,27 @@ pub fn triangle_gap(
 fn gap_of(first: &[Vec3], second: &[Vec3], start: Vec3, limits: GapLimits) -> HullGap {
     let mut found = HullGap {
         gap_sq: 0.0,
-        way: start,
+        direction: start,
         vertex_sq: f32::INFINITY,
         vertices: [0; 2],
         hull_sq: f32::INFINITY,
     };
     // Any corners: zeros would be cleared by a call.
     let mut simplex = Simplex { corners: [RealVector::from(start); 4], count: 0 };
-    let mut way = start;
+    let mut direction = start;
     for _ in 0..MOST_ROUNDS {
-        let way_sq = dot(way, way);
-        if Real(way_sq) < Real(NO_WAY_SQ) {
+        let direction_sq = dot(direction, direction);
+        if Real(direction_sq) < Real(NO_DIRECTION_SQ) {
             break;
         }
-        let (p, top) = highest(first, way);
-        let (q, low) = highest(second, -way);
+        let (p, top) = highest(first, direction);
+        let (q, low) = highest(second, -direction);
         let (Some(&from), Some(&to)) = (first.get(p), second.get(q)) else { break };
         let along = -low - top;
         if Real(along) > ZERO {
-            let gap_sq = along * along / way_sq;
+            let gap_sq = along * along / direction_sq;
             if Real(gap_sq) > Real(found.gap_sq) {
-                (found.gap_sq, found.way) = (gap_sq, way);
+                (found.gap_sq, found.direction) = (gap_sq, direction);
             }
             if Real(gap_sq) > Real(limits.far_sq) {
                 break;
@@ -104,27 +104,27 @@ fn gap_of(first: &[Vec3], second: &[Vec3], start: Vec3, limits: GapLimits) -> Hu
             (found.vertex_sq, found.vertices) = (corner_sq, [p, q]);
             found.hull_sq = crate::num::lesser(found.hull_sq, corner_sq);
         }
-        let is_settled = simplex.count > 0 && Real(along) >= Real(SETTLED * way_sq);
+        let is_settled = simplex.count > 0 && Real(along) >= Real(SETTLED * direction_sq);
         if Real(found.hull_sq) <= Real(limits.near_sq) || is_settled || simplex.has(corner) {
             break;
         }
-        let Nearest { point, direction } = simplex.add(corner.into());
+        let Nearest { point, direction: next } = simplex.add(corner.into());
         let point = Vec3::from(point);
         found.hull_sq = crate::num::lesser(found.hull_sq, dot(point, point));
         if Real(found.hull_sq) <= Real(limits.near_sq) {
             break;
         }
-        way = direction.into();
+        direction = next.into();
     }
     found
 }
 
 /// The place of the point that is farthest along a direction, and its height.
 #[inline(always)]
-fn highest(points: &[Vec3], way: Vec3) -> (usize, f32) {
+fn highest(points: &[Vec3], direction: Vec3) -> (usize, f32) {
     let (mut place, mut most) = (0, f32::MIN);
     for (at, point) in points.iter().enumerate() {
-        let height = dot(*point, way);
+        let height = dot(*point, direction);
         if Real(height) > Real(most) {
             (place, most) = (at, height);
         }

@@ -79,8 +79,8 @@ impl<T: Precision> SweptTriangle<T> {
         let limit = (radii * radii) * length_sq;
         // Below the least number to be trusted the squares may have lost all digits.
         gap > T::ZERO
-            && length_sq > T::UNDERFLOW
-            && limit > T::UNDERFLOW
+            && length_sq > T::DETERMINANT_UNDERFLOW
+            && limit > T::DETERMINANT_UNDERFLOW
             && (gap * gap) * T::from(SQUARED_SLACK) > limit
     }
 }

@@ -1,12 +1,12 @@
 //! The distance of two triangles in f64, with both ends proved.
 //!
 //! Disjoint triangles are nearest at a vertex and a face, or at two edges. The upper end is the
-//! length of the way between two points that lie on the triangles, whichever were found. The lower
+//! length of the offset of two points that lie on the triangles, whichever were found. The lower
 //! end is the gap along a direction: no direction makes it too great. So a case that rounding
 //! misjudges costs width and no truth. Derivation: `core/docs/rounding.md` §18.
 //!
-//! That the search ends as soon as the gap along the way is the length of the way is of Larsen,
-//! Gottschalk, Lin and Manocha, *Fast Proximity Queries with Swept Sphere Volumes* (1999).
+//! That the search ends as soon as the gap along the offset is its length is of Larsen, Gottschalk,
+//! Lin and Manocha, *Fast Proximity Queries with Swept Sphere Volumes* (1999).
 
 use super::vector::{Point, cross, dot, minus};
 use crate::num::tolerance::{GAP_DIRECTION_SQ, GAP_SETTLED, TRIANGLE_DISTANCE, U64};
@@ -23,7 +23,7 @@ pub struct TriangleDistance {
     pub points: [[f64; 3]; 2],
 }
 
-/// Two points on the triangles, the way from the first to the second, and its squared length.
+/// Two points on the triangles, the offset from the first to the second, and its squared length.
 #[derive(Clone, Copy)]
 struct Candidate {
     points: [Point<f64>; 2],
@@ -187,7 +187,7 @@ fn length_along(offset: Point<f64>, a: &[Point<f64>; 3], b: &[Point<f64>; 3]) ->
     if offset_sq < GAP_DIRECTION_SQ { 0.0 } else { beyond(offset, a, b) / libm::sqrt(offset_sq) }
 }
 
-/// The gap along the way, if no other points of the triangles are nearer, but for rounding.
+/// The gap along the offset of two points, if no others are nearer, but for rounding.
 #[cfg_attr(meshsweep_wide, inline(always))]
 #[cfg_attr(not(meshsweep_wide), inline(never))]
 fn settled(best: &Candidate, a: &[Point<f64>; 3], b: &[Point<f64>; 3]) -> Option<f64> {

@@ -29,7 +29,7 @@ pub fn determinant_margin<T: Precision>(x: T, y: T, z: T, shift: T) -> T {
     let (xy, sum) = (x * y, x + y);
     T::DETERMINANT * (xy * z)
         + shift * ((xy + sum * z) + shift * ((sum + z) + shift))
-        + T::UNDERFLOW
+        + T::DETERMINANT_UNDERFLOW
 }
 
 /// The proved sign, 1 or −1; 0 if no sign is proved.
@@ -224,7 +224,10 @@ fn parted_along<T: Precision>(
     let length = norm_1(direction);
     let height = |p: Point<T>| {
         let offset = minus(p, from);
-        (dot(direction, offset), length * (T::DETERMINANT * norm_1(offset) + shift) + T::UNDERFLOW)
+        (
+            dot(direction, offset),
+            length * (T::DETERMINANT * norm_1(offset) + shift) + T::DETERMINANT_UNDERFLOW,
+        )
     };
     // The vertices that are farthest out and nearest.
     let [own, other] = [own, other].map(|points| points.map(height));

@@ -8,7 +8,10 @@
 
 use crate::geom::{PointTriangle, RealVector};
 use crate::num::Real;
-use crate::num::tolerance::{CORNER_AREA, CORNER_DOUBT, CORNER_SIDE, CORNER_WIDTH};
+use crate::num::tolerance::{
+    CORNER_AREA, CORNER_DOUBT, CORNER_FARTHEST, CORNER_LARGEST, CORNER_LEAST, CORNER_SIDE,
+    CORNER_WIDTH, CORNER_WIDTH_LEAST,
+};
 use glam::{DVec3, Vec3};
 
 /// A query point that looks for such a corner.
@@ -37,7 +40,7 @@ impl SharedCorner {
     pub(super) fn new(p: DVec3, norms: f32, surface_error: f64) -> Option<Self> {
         let point = p.as_vec3();
         let is_coarse =
-            point.to_array().into_iter().all(|x| x == 0.0 || is_multiple(x.abs(), FARTHEST));
+            point.to_array().into_iter().all(|x| x == 0.0 || is_multiple(x.abs(), CORNER_FARTHEST));
         is_coarse.then_some(SharedCorner { point, norms, surface_error, known: None })
     }
 
@@ -99,7 +102,7 @@ impl SharedCorner {
                 return false;
             }
         }
-        let is_coarse = |x: f32| x.to_bits() == 0 || is_multiple(x.abs(), LARGEST);
+        let is_coarse = |x: f32| x.to_bits() == 0 || is_multiple(x.abs(), CORNER_LARGEST);
         corners.iter().all(|at| is_coarse(at.x) && is_coarse(at.y) && is_coarse(at.z))
     }
 
@@ -108,7 +111,7 @@ impl SharedCorner {
     fn is_settled(&self, distance: f64) -> bool {
         // One f32 is this many f64 from the next.
         const STEP: u32 = 1 << 29;
-        let doubt = CORNER_WIDTH * self.norms / distance as f32 + 16.0;
+        let doubt = CORNER_WIDTH * self.norms / distance as f32 + CORNER_WIDTH_LEAST;
         let above = (distance.to_bits() % u64::from(STEP)) as u32;
         // NaN of a distance of 0 is refused, too.
         distance > 0.0 && doubt < (STEP / 2) as f32 && {
@@ -118,19 +121,10 @@ impl SharedCorner {
     }
 }
 
-/// Coordinates are multiples of 2^-46 from here on, or 0.
-const LEAST: f32 = 1.0 / (1u32 << 23) as f32;
-
-/// Coordinates of corners are below this.
-const LARGEST: f32 = 2.0;
-
-/// The point's coordinates are below this. Differences of multiples of 2^-46 below 2^6 are exact.
-const FARTHEST: f32 = 32.0;
-
 /// Whether a positive number is a multiple of 2^-46 below a limit.
 #[inline(always)]
 fn is_multiple(x: f32, limit: f32) -> bool {
-    x.to_bits().wrapping_sub(LEAST.to_bits()) < limit.to_bits() - LEAST.to_bits()
+    x.to_bits().wrapping_sub(CORNER_LEAST.to_bits()) < limit.to_bits() - CORNER_LEAST.to_bits()
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ pub(crate) use round::exp2_f32;
 pub use round::{down_to_f32, exp2, sum_down, sum_up, two_sum, up_to_f32};
 pub use sqrt::{sqrt_above, sqrt_approx, sqrt_below, sqrt_up};
 pub use truncated::truncated;
-pub use turn::{TURN, half_turn};
+pub use turn::half_turn;
 
 /// Whether the target is not known to have instructions for f32. Then integers decide first.
 pub const SOFT_FLOAT: bool = cfg!(meshsweep_soft_float);

@@ -1,5 +1,5 @@
-//! Every tolerance that a guarantee rests on. The derivations are in `core/docs/rounding.md`; each
-//! constant names its section.
+//! Every tolerance that a guarantee rests on, and a few that only cost time; these say so. The
+//! derivations are in `core/docs/rounding.md`; each constant names its section.
 //!
 //! All tolerances are relative. They multiply lengths of the model and of the query, or they apply
 //! in the local frame, where the model's largest coordinate lies in [½, 1).
@@ -32,6 +32,11 @@ pub const GUESS_UP: f32 = 1.0 + 5.0 / 128.0;
 /// subnormal range. A root grows by 2^-50 at most.
 pub const SQUARE_FLOOR: f32 = 1.0 / ((1u64 << 50) as f32 * (1u64 << 50) as f32);
 
+/// Upper limit of the loss of a determinant in f32, and of its bound, by underflow, 2^-100.
+/// Products of two that underflow lose 2^-150 each, and are multiplied once more, by less than 2^38
+/// (§11).
+pub const DETERMINANT_UNDERFLOW: f32 = 1.0 / (1u128 << 100) as f32;
+
 // Poses
 
 /// Rounding of the residual of a carried point, in units of [`U64`] times the sum of its terms.
@@ -60,6 +65,13 @@ pub const POSE_PRODUCT: f32 = 10.0;
 /// Rounding of a translation that a pose carries, in units of [`U32`] times the lengths of its
 /// terms. Proved: 7 (§25).
 pub const POSE_SHIFT: f32 = 8.0;
+
+/// Room for the roundings of a bound of a pose's rounding, of which there are less than 16 (§25).
+pub const POSE_UP: f32 = 1.0 + 32.0 * U32;
+
+/// Rounding of a rotation's matrix by an angle about an axis that was rounded to f32, in units of
+/// [`U32`]. Proved: 39.5 (§27).
+pub const TURN: f32 = 42.0;
 
 // Hull, in the local frame
 
@@ -110,6 +122,20 @@ pub const CORNER_AREA: f32 = 1.0 / (1u64 << 40) as f32;
 /// the distance and over the 1-norms of the query's offsets. Proved: 102 (§4).
 pub const CORNER_WIDTH: f32 = 128.0;
 
+/// Added to [`CORNER_WIDTH`] times its lengths, in units of f64 of the distance (§4).
+pub const CORNER_WIDTH_LEAST: f32 = 16.0;
+
+/// Coordinates of a corner and of the point are 0 or at least this, 2^-23, and so multiples of
+/// 2^-46 (§4).
+pub const CORNER_LEAST: f32 = 1.0 / (1u32 << 23) as f32;
+
+/// Coordinates of a corner are below this (§4).
+pub const CORNER_LARGEST: f32 = 2.0;
+
+/// Coordinates of a point whose nearest corner is decided are below this. Differences of multiples
+/// of 2^-46 below 2^6 are exact (§4).
+pub const CORNER_FARTHEST: f32 = 32.0;
+
 /// Bounds are compared as squares, with less than eight roundings. This factor keeps the comparison
 /// on the safe side (§2). [`POINT_BOUND`] has room for it.
 pub const SQUARED_SLACK: f32 = 1.0 - 8.0 * U32;
@@ -142,7 +168,8 @@ pub const HULL_FAR: f64 = (1u64 << 40) as f64;
 pub const SWEEP_KEPT: f64 = 1.0 / 32.0;
 
 /// Motion in the local frame after which a sweep begins anew. Keys in f32 hold a bound plus the
-/// motion: with a larger value they lose digits, and triangles are bounded in vain.
+/// motion: with a larger value they lose digits, and triangles are bounded in vain. No guarantee
+/// rests on it.
 pub const SWEEP_MOTION: f64 = 16.0;
 
 /// Least extent of the smaller of two models, in units of the larger one, for which pairs of swept
@@ -243,6 +270,19 @@ pub const BVH_FAR: f32 = (1u64 << 38) as f32;
 /// Squared limit above every square of the domain and below the key of a lane without a child.
 pub const EVERYTHING_SQ: f32 = f32::from_bits(0x7E80_0000);
 
+/// Part by which a squared limit grows: with [`LIMIT_ALLOWANCE`] it holds without a root (§8).
+pub const LIMIT_GROWTH: f32 = 1.0 + 1.0 / 8192.0;
+
+/// Factor of the square of a triangle's rounding in a limit (§8).
+pub const LIMIT_ALLOWANCE: f32 = 32_768.0;
+
+/// Added to the bits of a squared upper bound by integers: at least 2^-12 of it (§8).
+pub const INT_LIMIT_GROWTH_BITS: u32 = 1 << 12;
+
+/// Factor of [`LIMIT_ALLOWANCE`] in a limit by an upper bound of integers. Room for f32 (§8); an
+/// answer beyond the limit is noticed, whatever the room.
+pub const INT_LIMIT_SLACK: f32 = 8.0;
+
 /// Least distance that a limit is made for. Its square is far above underflow.
 pub const LEAST_LIMIT: f32 = 1.0 / (1u64 << 40) as f32;
 
@@ -295,6 +335,52 @@ pub const EXACT_INTEGERS: f32 = (1u32 << 24) as f32;
 /// Rounding of a cosine, in units of [`U32`].
 pub const SIGN_COSINE: f32 = 16.0;
 
+/// Factor of [`LIMIT_ALLOWANCE`] where a side is asked. Proved: 41 (§8).
+pub const SIDE_ALLOWANCE: f32 = 64.0;
+
+/// Part of the distance up to which a triangle may be the closest, for a side: more than twice the
+/// need of rounding (§8, "Sides").
+pub const SIDE_BAND: f32 = 1.0 + 128.0 * U32;
+
+/// The same in roundings of a triangle's distance (§8, "Sides").
+pub const SIDE_BAND_ROUNDINGS: f32 = 8.0;
+
+/// Part of the distance up to which a feature may be the closest. All nearer triangles are within
+/// [`SIDE_BAND`]: half of its room.
+pub const SIDE_FEATURE: f32 = 1.0 + 64.0 * U32;
+
+/// The same in roundings of a triangle's distance.
+pub const SIDE_FEATURE_ROUNDINGS: f32 = 4.0;
+
+/// Error of a sum of normals about a vertex, in units of η²: 2π, rounded up
+/// (`bvh/point/side/pseudonormal.rs`).
+pub const VERTEX_FEATURE_ERROR: f32 = 6.5;
+
+/// The same about an edge: 1, and more than the further terms up to [`LARGEST_ETA`].
+pub const EDGE_FEATURE_ERROR: f32 = 1.2;
+
+/// From this η on the sum is not used. Below, the next term about an edge, η⁴/4, is less than a
+/// fiftieth of the first.
+pub const LARGEST_ETA: f32 = 0.25;
+
+/// Rounding of a term of a sum of normals, in units of [`U32`] times the relative size of its
+/// normal's products. Also that of the product with a direction that was itself a difference.
+pub const SIDE_SUM_NORMAL: f32 = 16.0;
+
+/// Rounding of a sum of normals and of its product with the direction, in units of [`U32`] times
+/// the sum of the weights. Each term adds [`SIDE_SUM_TERM`].
+pub const SIDE_SUM_WEIGHTS: f32 = 32.0;
+
+/// What each term adds to [`SIDE_SUM_WEIGHTS`].
+pub const SIDE_SUM_TERM: f32 = 2.0;
+
+/// Room for the rounding of a weight, in units of [`U32`].
+pub const SIDE_SUM_WEIGHT: f32 = 64.0;
+
+/// Length of a normal in units of [`U32`] times the sizes of its products, from which on it has a
+/// direction.
+pub const SIDE_NORMAL: f32 = 64.0;
+
 /// Largest surface error of a box tree, grid units: 2^60. Its square and its product with any
 /// length of a query stay finite.
 pub const MOST_SURFACE_ERROR: f32 = (1u64 << 60) as f32;
@@ -332,10 +418,14 @@ pub const GAP_SETTLED: f64 = 1.0 - 1.0 / (1u64 << 30) as f64;
 /// How much nearer than the limit leaves may be along a direction in integers without a look at
 /// their triangles, in units of the coarser grid. A larger value widens the interval by as much, a
 /// smaller one measures more.
-pub const WHOLE_GAP: f64 = 1.0 / (1u64 << 18) as f64;
+pub const INT_GAP: f64 = 1.0 / (1u64 << 18) as f64;
 
-/// No more than this part of the limit is given up for [`WHOLE_GAP`].
-pub const WHOLE_PART: f64 = 1.0 / (1u64 << 20) as f64;
+/// No more than this part of the limit is given up for [`INT_GAP`].
+pub const INT_PART: f64 = 1.0 / (1u64 << 20) as f64;
+
+/// Bits after the first of a direction in integers. Its greatest component has up to 45 bits, a
+/// vertex 16, a sum of three 2: 63, so heights are exact (§26).
+pub const INT_DIRECTION_BITS: u64 = 44;
 
 /// Squared length below which a direction in f64 is not trusted, so that no product that decides
 /// underflows (§18). It bounds nothing then, which is always true.
@@ -465,6 +555,12 @@ pub const MOMENT_FLUX: f32 = 64.0;
 /// Shortest distance of a corner, or of a node's centre, with which squares and products keep their
 /// precision: 2^-30 grid units (§20).
 pub const SOLID_ANGLE_NEAREST: f32 = 1.0 / (1u32 << 30) as f32;
+
+/// Largest error for which a point beyond [`BVH_FAR`] is certainly far, 2^36 grid units (§20).
+pub const WINDING_FAR_ERROR: f32 = (1u64 << 36) as f32;
+
+/// Winding number of a far triangle per squared grid unit of its star, 2^-78 (§20).
+pub const WINDING_FAR: f32 = 1.0 / ((1u64 << 39) as f32 * (1u64 << 39) as f32);
 
 // Two box trees that are solids
 

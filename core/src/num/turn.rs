@@ -4,10 +4,6 @@
 /// Beyond this angle the products of [`QUARTER`] are no longer exact.
 const MOST_ANGLE: f32 = 8192.0;
 
-/// Rounding of a rotation's matrix by an angle about an axis that was rounded to f32, in units of
-/// [`U32`](super::tolerance::U32). Proved: 39.5 (§27).
-pub const TURN: f32 = 42.0;
-
 /// π/2 in three parts, of which the first two have 12 bits (Cody and Waite 1980).
 const QUARTER: [f32; 3] = [3216.0 / 2048.0, 4059.0 / 8_388_608.0, -4.371_139e-8];
 

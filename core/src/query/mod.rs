@@ -47,7 +47,7 @@ pub(crate) use overlap::{AllPairs, PairVisitor};
 pub use pair_distance::{PairContact, PairDistance};
 pub use penetration::{Penetration, Relation};
 pub(crate) use pose::{
-    DIRECTIONS, Extended, ModelFrame, Placement, PoseInverse, RelativePose, UNITS_APART,
+    CommonPose, DIRECTIONS, Extended, ModelFrame, PoseInverse, RelativePose, UNITS_APART,
     VertexPose, WorldLengths, check_rigid, checked_skew, is_rotation, longest, skew,
 };
 pub use pose::{Joint, JointAxis, JointKind, Motion, PosedPoint, RoundedPose, link_poses};

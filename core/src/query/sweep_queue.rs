@@ -29,7 +29,10 @@ pub(crate) struct Taken {
 #[derive(Debug)]
 pub(crate) struct SweepQueue<'a> {
     slots: &'a mut [ScratchEntry],
+    /// Entries at the left end.
     heap: usize,
+    /// Entries at the right end: the stack of a depth-first descent. If `best_first`: the entries
+    /// that were set aside.
     stack: usize,
     /// Free slots that a depth-first descent may need.
     reserve: usize,

@@ -9,9 +9,9 @@ use core::marker::PhantomData;
 
 use super::advance::longest_path;
 use super::gaps::answers;
-use super::gaps::left_out::{ChildPairs, Group, LeftOut};
 use super::gaps::nearest_first::{Missed, PairDescent, Search};
 use super::gaps::question::PairQuestion;
+use super::gaps::skipped::{ChildPairs, Group, SkippedPairs};
 use super::model_box::are_apart;
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
@@ -32,14 +32,14 @@ use crate::query::{Budget, Decided, Ended, Motion, PairDistance, QueryError, Scr
 /// bytes, so they cannot change between questions.
 #[derive(Clone, Debug)]
 pub struct CoherentPair<'t, const N: usize = 1024> {
-    last: Last,
+    last_question: LastQuestion,
     groups: [Group; N],
     bytes: PhantomData<&'t [u8]>,
 }
 
 /// The last question.
 #[derive(Clone, Copy, Debug)]
-struct Last {
+struct LastQuestion {
     /// The identities of both trees.
     of: [(usize, u32); 2],
     pose: Pose,
@@ -62,18 +62,22 @@ impl<const N: usize> Default for CoherentPair<'_, N> {
 impl<'t, const N: usize> CoherentPair<'t, N> {
     /// A pair without memory of earlier questions. May initialise a `static`.
     pub const fn new() -> Self {
-        CoherentPair { last: Last::NONE, groups: [Group::EMPTY; N], bytes: PhantomData }
+        CoherentPair {
+            last_question: LastQuestion::NONE,
+            groups: [Group::EMPTY; N],
+            bytes: PhantomData,
+        }
     }
 
     /// Forgets all earlier questions.
     pub fn reset(&mut self) {
-        self.last = Last::NONE;
+        self.last_question = LastQuestion::NONE;
     }
 
     /// The groups in use, at most `N`. 0 before the first question, and if those of the last one
     /// did not fit.
     pub fn groups(&self) -> usize {
-        self.last.count
+        self.last_question.count
     }
 
     /// [`Bvh::distance_to`] of `tree` and of `other`, moved by `pose`. The less the models moved
@@ -118,14 +122,15 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
     ) -> Result<PairDistance, QueryError> {
         budget.check_with(scratch)?;
         let pair = StoredPair::new([tree, other], &pose)?;
-        if !pair.placement.is_in_range {
+        if !pair.common.is_in_range {
             self.reset();
             return tree.distance_to(other, pose, budget, scratch);
         }
         let mut nearest = NearestGap::new(&pair.lengths, 0.0, &budget);
         let relative = pair.relative();
         let mut search = Search::new(&pair, &relative, budget.steps, scratch);
-        let front = PairFront::after_motion(&mut self.last, &mut self.groups, &pair, &pose);
+        let front =
+            PairFront::after_motion(&mut self.last_question, &mut self.groups, &pair, &pose);
         let missed = front.search(&mut search, &mut PairQuestion::Distance(&mut nearest))?;
         answers::nearest(&nearest, &pair, missed, search.work)
     }
@@ -157,21 +162,22 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
             return Ok(Decided::CLEAR);
         }
         let pair = StoredPair::new([tree, other], &pose)?;
-        if !pair.placement.is_in_range {
+        if !pair.common.is_in_range {
             self.reset();
             return tree.within_of(other, pose, distance, budget, scratch);
         }
         let mut threshold = GapThreshold::new(&pair.lengths, 0.0, distance);
         let relative = pair.relative();
         let mut search = Search::new(&pair, &relative, budget.steps, scratch);
-        let front = PairFront::after_motion(&mut self.last, &mut self.groups, &pair, &pose);
+        let front =
+            PairFront::after_motion(&mut self.last_question, &mut self.groups, &pair, &pose);
         let missed = front.search(&mut search, &mut PairQuestion::Within(&mut threshold))?;
         answers::within(&threshold, &pair, missed, search.work)
     }
 }
 
-impl Last {
-    const NONE: Last = Last {
+impl LastQuestion {
+    const NONE: LastQuestion = LastQuestion {
         of: [(0, 0); 2],
         pose: Pose::IDENTITY,
         count: 0,
@@ -183,8 +189,8 @@ impl Last {
 
 /// The groups of a [`CoherentPair`] during one search.
 struct PairFront<'f> {
-    last: &'f mut Last,
-    left_out: LeftOut<'f>,
+    last: &'f mut LastQuestion,
+    skipped: SkippedPairs<'f>,
     /// Groups at the start of the list that this search did not look at yet.
     unseen: usize,
 }
@@ -192,7 +198,7 @@ struct PairFront<'f> {
 impl<'f> PairFront<'f> {
     /// The front after the motion from the last pose.
     fn after_motion(
-        last: &'f mut Last,
+        last: &'f mut LastQuestion,
         groups: &'f mut [Group],
         pair: &StoredPair<'_>,
         pose: &Pose,
@@ -202,12 +208,13 @@ impl<'f> PairFront<'f> {
         let (step, _) = longest_path(b, &Motion::straight(last.pose, *pose));
         let path = (last.path + step / pair.lengths.unit) * (1.0 + 4.0 * U64);
         *last = if last.of == of && path.is_finite() {
-            Last { pose: *pose, path, ..*last }
+            LastQuestion { pose: *pose, path, ..*last }
         } else {
-            Last { of, pose: *pose, ..Last::NONE }
+            LastQuestion { of, pose: *pose, ..LastQuestion::NONE }
         };
-        let left_out = LeftOut { groups, count: last.count, is_truncated: false, is_known: false };
-        PairFront { last, left_out, unseen: 0 }
+        let skipped =
+            SkippedPairs { groups, count: last.count, is_truncated: false, is_known: false };
+        PairFront { last, skipped, unseen: 0 }
     }
 
     /// Searches the groups that may hold a pair within the question's limit.
@@ -218,16 +225,16 @@ impl<'f> PairFront<'f> {
     ) -> Result<Option<Missed>, QueryError> {
         // Only a threshold ends here: the limit of a distance is infinite before its first pair.
         let is_clear = less_path(self.last.least, self.last.path) > question.limit();
-        if self.left_out.count > 0 && is_clear {
+        if self.skipped.count > 0 && is_clear {
             return Ok(None);
         }
         self.subtract_path();
         let found = self.search_groups(search, question);
         self.last.leaves = question.leaves().or(self.last.leaves);
-        if self.left_out.is_truncated || found.is_err() {
-            self.left_out.count = 0;
+        if self.skipped.is_truncated || found.is_err() {
+            self.skipped.count = 0;
         }
-        self.last.count = self.left_out.count;
+        self.last.count = self.skipped.count;
         self.last.least = least(self.known());
         found
     }
@@ -248,12 +255,12 @@ impl<'f> PairFront<'f> {
         // The last answer first. If the models still meet there, nothing else is searched.
         let mut known = self.last.leaves.filter(|_| !is_fresh);
         loop {
-            self.left_out.is_known = known.is_some();
+            self.skipped.is_known = known.is_some();
             let start = if let Some(leaves) = known.take() {
                 (leaves, 0.0)
             } else if is_fresh {
                 // The roots include the first group, so its pairs are searched again.
-                (self.left_out.count, self.unseen, self.left_out.is_truncated) = (0, 0, false);
+                (self.skipped.count, self.unseen, self.skipped.is_truncated) = (0, 0, false);
                 missed = None;
                 (ChildPairs::ALL, 0.0)
             } else {
@@ -264,7 +271,7 @@ impl<'f> PairFront<'f> {
                     None => continue,
                 }
             };
-            match search.descend(start, question, Some(&mut self.left_out))? {
+            match search.descend(start, question, Some(&mut self.skipped))? {
                 PairDescent::Done => {}
                 PairDescent::Answered => return Ok(missed),
                 PairDescent::Truncated(now) => {
@@ -277,7 +284,7 @@ impl<'f> PairFront<'f> {
                     }
                 }
             }
-            if self.left_out.is_known {
+            if self.skipped.is_known {
                 continue;
             }
             is_fresh = is_first && !is_fresh && self.are_many_near(question.limit());
@@ -287,36 +294,36 @@ impl<'f> PairFront<'f> {
 
     /// The groups in use.
     fn known(&self) -> &[Group] {
-        self.left_out.groups.get(..self.left_out.count).unwrap_or(&[])
+        self.skipped.groups.get(..self.skipped.count).unwrap_or(&[])
     }
 
     /// Subtracts the path from all distances. The nearest group comes last: its triangles leave few
     /// of the others.
     fn subtract_path(&mut self) {
-        let (count, path) = (self.left_out.count, self.last.path);
+        let (count, path) = (self.skipped.count, self.last.path);
         (self.unseen, self.last.path) = (count, 0.0);
         let (mut nearest, mut least) = (0, f32::INFINITY);
-        for (i, group) in self.left_out.groups.iter_mut().take(count).enumerate() {
+        for (i, group) in self.skipped.groups.iter_mut().take(count).enumerate() {
             group.distance = down_to_f32(greater(0.0, less_path(group.distance, path)));
             if group.distance < least {
                 (nearest, least) = (i, group.distance);
             }
         }
-        if let Some([nearest, .., last]) = self.left_out.groups.get_mut(nearest..count) {
+        if let Some([nearest, .., last]) = self.skipped.groups.get_mut(nearest..count) {
             core::mem::swap(nearest, last);
         }
     }
 
     /// Removes a group if it may hold a pair within the limit.
     fn remove_near(&mut self, at: usize, limit: f64) -> Option<Group> {
-        let group = *self.left_out.groups.get(at)?;
+        let group = *self.skipped.groups.get(at)?;
         if f64::from(group.distance) > limit {
             return None;
         }
-        let end = self.left_out.count.checked_sub(1)?;
-        let last = *self.left_out.groups.get(end)?;
-        *self.left_out.groups.get_mut(at)? = last;
-        self.left_out.count = end;
+        let end = self.skipped.count.checked_sub(1)?;
+        let last = *self.skipped.groups.get(end)?;
+        *self.skipped.groups.get_mut(at)? = last;
+        self.skipped.count = end;
         Some(group)
     }
 

@@ -1,10 +1,10 @@
 //! The distance of two surfaces, one of them moved.
 
 use super::gaps::answers;
-use super::gaps::left_out::ChildPairs;
 use super::gaps::nearest_along::NearestAlong;
 use super::gaps::nearest_first::{Missed, Search};
 use super::gaps::question::PairQuestion;
+use super::gaps::skipped::ChildPairs;
 use super::models::most_pairs;
 use super::separation::grid_pose::{FramePose, GridPose};
 use super::separation::search::{NearestLeaves, nearest_leaves};
@@ -80,19 +80,20 @@ impl Bvh<'_> {
         let mut question = PairQuestion::Distance(&mut nearest);
         let mut work = Work::NONE;
         // A search that ends early needs a lower bound of the pairs that wait. Only the search in
-        // f64 has one.
-        let is_whole = budget.relative == 0.0
+        // f64 has one. Half of all u32 is no limit of steps: `Scene` takes what earlier pairs used
+        // off u32::MAX.
+        let runs_to_end = budget.relative == 0.0
             && budget.absolute == 0.0
             && budget.steps >= lesser(most_pairs(self, other), u32::MAX / 2);
-        if is_whole
-            && pair.placement.is_in_range
+        if runs_to_end
+            && pair.common.is_in_range
             && measure_nearest(&pair, &pose, &mut question, (scratch, &mut work))
         {
             return answers::nearest(&nearest, &pair, None, work);
         }
         let relative = pair.relative();
         let mut search = Search { work, ..Search::new(&pair, &relative, budget.steps, scratch) };
-        let missed = if pair.placement.is_in_range {
+        let missed = if pair.common.is_in_range {
             search.descend((ChildPairs::ALL, 0.0), &mut question, None)?.missed()
         } else {
             Some(Missed { why: Ended::Resolution, lower: f64::INFINITY })
@@ -134,6 +135,6 @@ fn measure_nearest(
             None => return false,
         }
     }
-    along.tell(best, question);
+    along.report_skipped(best, question);
     true
 }

@@ -16,16 +16,15 @@ use crate::num::tolerance::U64;
 pub(crate) fn from_afar(pair: &StoredPair<'_>) -> Option<TriangleGap> {
     let [a, b] = pair.trees;
     let ([unit, _], longest) =
-        (pair.placement.vertices.units.map(f64::from), pair.placement.vertices.longest);
+        (pair.common.vertices.units.map(f64::from), pair.common.vertices.longest);
     let (first, second) = (some_vertex(a)?, some_vertex(b)?);
     let near = |p: [f64; 3]| p.map(|x| x * unit);
-    let points = [near(first.at), moved(&pair.placement.vertices, second.at)];
+    let points = [near(first.at), moved(&pair.common.vertices, second.at)];
     let ((middle_a, radius_a), (middle_b, radius_b)) = (ball(a), ball(b));
-    let between = distance(near(middle_a), moved(&pair.placement.vertices, middle_b));
+    let between = distance(near(middle_a), moved(&pair.common.vertices, middle_b));
     // Roundings of f64 in lengths up to the sum of all of these.
     let radii = radius_a * unit + radius_b * longest;
-    let rounding =
-        4.0 * pair.placement.vertices.vertex_error_exact + 16.0 * U64 * (between + radii);
+    let rounding = 4.0 * pair.common.vertices.vertex_error_f64 + 16.0 * U64 * (between + radii);
     let [p, q] = points;
     Some(TriangleGap {
         place: [first.place, second.place],

@@ -395,14 +395,14 @@ impl<'a> LeafPair<'a> {
     #[inline(never)]
     fn meet_exactly(&self, i: usize, j: usize) -> Contact {
         let [a, b] = self.in_f64(i, j);
-        triangles_meet(a, b, self.pose.vertex_error_exact)
+        triangles_meet(a, b, self.pose.vertex_error_f64)
     }
 
     /// Both triangles in f64, common units from the first vertex of the first one. No vertex is
-    /// farther than `vertex_error_exact` of the pose from its place.
+    /// farther than `vertex_error_f64` of the pose from its place.
     #[inline(always)]
     pub(crate) fn in_f64(&self, i: usize, j: usize) -> [[[f64; 3]; 3]; 2] {
-        let VertexPose { matrix, shift_exact, .. } = *self.pose;
+        let VertexPose { matrix, shift_f64, .. } = *self.pose;
         let [first, second] = &self.leaves;
         let unit = f64::from(self.pose.units[0]);
         let wide = |leaf: &FanLeaf<'_>, lane: usize| {
@@ -410,7 +410,7 @@ impl<'a> LeafPair<'a> {
         };
         let a = wide(first, i);
         let [[cx, cy, cz], ..] = a;
-        let [u, v, w] = shift_exact;
+        let [u, v, w] = shift_f64;
         let [u, v, w] = [u - cx * unit, v - cy * unit, w - cz * unit];
         let b = wide(second, j).map(|[x, y, z]| {
             let along = |[a, b, c]: [f32; 3], shift: f64| {

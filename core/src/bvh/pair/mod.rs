@@ -1,5 +1,8 @@
 //! Two box trees, one of them moved.
 //!
+//! `separation/` works in f32, `gaps/` in f64. `distance_to` and `within_of` first run the one, and
+//! then the other on what f32 could not tell.
+//!
 //! | question | file |
 //! | --- | --- |
 //! | whether and where the surfaces meet | `overlap/` |
@@ -27,6 +30,20 @@
 //! | `gaps/` | descent with bounds in f32 and triangles in f64, nearest pair first |
 //! | `from_afar` | two models that are very far from each other |
 //! | `advance` | how far a moving model certainly goes without contact |
+//!
+//! A *direction* has no length of its own: places are compared along it. An *offset* goes from one
+//! place to another at the same time, a *displacement* from a place to where it is later. A *way* is
+//! what a point travels.
+//!
+//! These words say what was not looked at.
+//!
+//! | word | what was not looked at |
+//! | --- | --- |
+//! | `Missed` | pairs within the limit, because steps or memory ended: the answer is wider |
+//! | `SkippedPairs` | pairs beyond the limit, kept for the next question of a `CoherentPair` |
+//! | `has_beyond` | pairs of triangles beyond a bound that the question was not told of yet |
+//! | `is_truncated` | a list of pairs is not complete: some did not fit its memory |
+//! | `drop_beyond` | candidates beyond a limit that fell: none can be the answer |
 
 mod advance;
 mod coherent_pair;

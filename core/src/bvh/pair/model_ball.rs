@@ -55,8 +55,8 @@ impl ModelBall {
 fn farthest(tree: &Bvh<'_>, from: Vec3) -> Option<(Vec3, f32)> {
     let mut found = (from, 0.0);
     let mut look = |vertex: Vec3| {
-        let way = difference(vertex, from);
-        let square = dot(way, way);
+        let offset = difference(vertex, from);
+        let square = dot(offset, offset);
         if square > found.1 {
             found = (vertex, square);
         }

@@ -80,15 +80,15 @@ fn are_boxes_apart(
     distance: f32,
 ) -> bool {
     let rows = rotation.map(Vec3::from_array);
-    let way = (turned(&rows, second.middle) + shift) - first.middle;
+    let offset = (turned(&rows, second.middle) + shift) - first.middle;
     let size = shift.abs();
     // A point of the second model goes through sums of up to six times its 1-norm.
     let sizes = (size.x + size.y + size.z) + 6.0 * second.reach + 2.0 * first.reach;
     let slack = sizes * (BOX_PAIR * U32);
-    if exceeds(gap_sq(way, first.half, &rows, second.half), distance + slack) {
+    if exceeds(gap_sq(offset, first.half, &rows, second.half), distance + slack) {
         return true;
     }
-    if (way.abs() - first.half).max_element() <= 0.0 {
+    if (offset.abs() - first.half).max_element() <= 0.0 {
         // The middle of one is inside the other.
         return false;
     }
@@ -96,17 +96,17 @@ fn are_boxes_apart(
     let columns = columns(&rows);
     skew < NEARLY_RIGID
         && exceeds(
-            gap_sq(turned(&columns, way), second.half, &columns, first.half),
+            gap_sq(turned(&columns, offset), second.half, &columns, first.half),
             distance + (slack + 4.0 * skew * sizes),
         )
 }
 
 /// The squared gap of two boxes along the axes of the first box. `rows` turn the second box's frame
-/// into the first's. `way` goes from the first middle to the second, in the first frame.
+/// into the first's. `offset` goes from the first middle to the second, in the first frame.
 #[inline(always)]
-pub(crate) fn gap_sq(way: Vec3, half: Vec3, rows: &Rows, other_half: Vec3) -> f32 {
+pub(crate) fn gap_sq(offset: Vec3, half: Vec3, rows: &Rows, other_half: Vec3) -> f32 {
     let [x, y, z] = rows.map(Vec3::abs);
-    beyond_sq((way.abs() - half) - turned(&[x, y, z], other_half))
+    beyond_sq((offset.abs() - half) - turned(&[x, y, z], other_half))
 }
 
 /// The squared length of a gap's components above 0. NaN is no gap.

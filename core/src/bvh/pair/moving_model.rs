@@ -65,14 +65,15 @@ impl<'a> MovingModel<'a> {
         let ([x, y, z], [old_x, old_y, old_z]) = (pose.rotation, self.model.pose.rotation);
         let [x, y, z] = [change(x, old_x), change(y, old_y), change(z, old_z)];
         let middle = self.model.ball_middle();
-        let way = Vec3::new(dot(x, middle), dot(y, middle), dot(z, middle))
+        let displacement = Vec3::new(dot(x, middle), dot(y, middle), dot(z, middle))
             + change(pose.translation, self.model.pose.translation);
-        let (turn_sq, way_sq) = (dot(x, x) + dot(y, y) + dot(z, z), dot(way, way));
+        let (turn_sq, displacement_sq) =
+            (dot(x, x) + dot(y, y) + dot(z, z), dot(displacement, displacement));
         // NaN is no small change.
-        if turn_sq + way_sq > MOST_SQUARE || (turn_sq + way_sq).is_nan() {
+        if turn_sq + displacement_sq > MOST_SQUARE || (turn_sq + displacement_sq).is_nan() {
             return [f32::INFINITY; 2];
         }
-        let [turn, way] = [turn_sq, way_sq].map(sqrt_above);
-        [turn, way + turn * self.arm]
+        let [turn, displacement] = [turn_sq, displacement_sq].map(sqrt_above);
+        [turn, displacement + turn * self.arm]
     }
 }

@@ -37,7 +37,7 @@ struct Place {
 
 /// Two models are farther apart than `sqrt(square) − less`, in the world.
 #[derive(Clone, Copy)]
-pub(crate) struct Apart {
+pub(crate) struct WorldGap {
     square: f32,
     less: f32,
 }
@@ -46,7 +46,7 @@ pub(crate) struct Apart {
 /// would use up an infinite clearance.
 const SQUARE_CAP: f32 = exp2_f32(126);
 
-impl Apart {
+impl WorldGap {
     /// Whether the models are farther than `distance`.
     #[inline(always)]
     fn proves(&self, distance: f32) -> bool {
@@ -155,12 +155,19 @@ impl<'a> PlacedModel<'a> {
     /// `core/docs/rounding.md` §24.
     #[cfg_attr(meshsweep_small, inline(never))]
     #[cfg_attr(not(meshsweep_small), inline(always))]
-    pub(crate) fn apart(&self, other: &PlacedModel<'_>, distance: f32, more: f32) -> Option<Apart> {
+    pub(crate) fn apart(
+        &self,
+        other: &PlacedModel<'_>,
+        distance: f32,
+        more: f32,
+    ) -> Option<WorldGap> {
         let (a, b) = (&self.place, &other.place);
         let slack = (a.far + b.far) * (BOX_PAIR * U32 + 4.0 * (a.skew + b.skew));
-        let way = difference(b.centre, a.centre);
-        let balls =
-            Apart { square: dot(way, way), less: (self.ball.radius + other.ball.radius) + slack };
+        let offset = difference(b.centre, a.centre);
+        let balls = WorldGap {
+            square: dot(offset, offset),
+            less: (self.ball.radius + other.ball.radius) + slack,
+        };
         if balls.proves(distance + more) {
             return Some(balls);
         }
@@ -174,12 +181,12 @@ impl<'a> PlacedModel<'a> {
         other: &PlacedModel<'_>,
         [distance, more]: [f32; 2],
         slack: f32,
-        balls: Apart,
-    ) -> Option<Apart> {
+        balls: WorldGap,
+    ) -> Option<WorldGap> {
         let mut found = balls.proves(distance).then_some(balls);
         // Keeps the last proof, not the one with the longest gap: to compare gaps takes roots.
         let mut is_enough = |square: f32, less: f32| {
-            let proof = Apart { square, less };
+            let proof = WorldGap { square, less };
             if proof.proves(distance) {
                 found = Some(proof);
             }
@@ -194,13 +201,13 @@ impl<'a> PlacedModel<'a> {
         }
         // The second box in the frame of the first.
         let middle = turned(&other.rows(), other.bounds.middle) + other.translation();
-        let way = self.seen(&rows, middle);
+        let offset = self.seen(&rows, middle);
         let relative = other_rows.map(|column| turned(&rows, column));
         let back = relative;
         let relative = columns(&relative);
         let (half, other_half) = (self.bounds.half, other.bounds.half);
-        if !is_enough(gap_sq(way, half, &relative, other_half), slack) {
-            is_enough(gap_sq(turned(&back, way), other_half, &back, half), slack);
+        if !is_enough(gap_sq(offset, half, &relative, other_half), slack) {
+            is_enough(gap_sq(turned(&back, offset), other_half, &back, half), slack);
         }
         found
     }

@@ -7,7 +7,7 @@ use crate::bvh::tree::stored_lengths::StoredLengths;
 use crate::geom::Pose;
 use crate::num::tolerance::U64;
 use crate::num::{exp2, greater};
-use crate::query::{Extended, Placement, QueryError, RelativePose, VertexPose};
+use crate::query::{CommonPose, Extended, QueryError, RelativePose, VertexPose};
 
 /// Two trees for the search in f64: the pose without surface errors, and these errors apart.
 pub(crate) struct StoredPair<'a> {
@@ -15,7 +15,7 @@ pub(crate) struct StoredPair<'a> {
     pose: Pose,
     /// Its vertex errors hold rounding only, no surface errors. In range no length is beyond 2^30
     /// common units, so bounds in f32 hold.
-    pub(crate) placement: Placement,
+    pub(crate) common: CommonPose,
     /// Holds the sum of both surface errors.
     pub(crate) lengths: StoredLengths,
     /// The larger surface error, common units.
@@ -27,7 +27,7 @@ pub(crate) struct StoredPair<'a> {
 /// A place of the second model, its units and from its origin, in common units and from the first
 /// model's origin.
 pub(crate) fn moved(pose: &VertexPose, [x, y, z]: [f64; 3]) -> [f64; 3] {
-    let ([r0, r1, r2], [c0, c1, c2]) = (pose.matrix, pose.shift_exact);
+    let ([r0, r1, r2], [c0, c1, c2]) = (pose.matrix, pose.shift_f64);
     let along = |row: [f32; 3], shift: f64| {
         let [a, b, c] = row.map(f64::from);
         (a * x + b * y) + (c * z + shift)
@@ -44,8 +44,8 @@ impl<'a> StoredPair<'a> {
         // Surface errors are added to the answer once. So the pose has none.
         let [error_a, error_b] = [first.error, second.error];
         let (first, second) = (Extended { error: 0.0, ..first }, Extended { error: 0.0, ..second });
-        let placement = RelativePose::relate(&first, &second, pose)?;
-        let vertices = &placement.vertices;
+        let common = RelativePose::relate(&first, &second, pose)?;
+        let vertices = &common.vertices;
         let [unit, _] = vertices.units.map(f64::from);
         let (error_a, error_b) = (error_a * unit, error_b * vertices.longest);
         let up = 1.0 + 8.0 * U64;
@@ -59,19 +59,19 @@ impl<'a> StoredPair<'a> {
             first,
             second,
             pose: *pose,
-            placement,
+            common,
         })
     }
 
     /// The pose for the search in f64.
     pub(crate) fn relative(&self) -> RelativePose {
-        let Self { first, second, pose, placement, .. } = self;
-        RelativePose::along_axes(first, second, pose, placement).0
+        let Self { first, second, pose, common, .. } = self;
+        RelativePose::along_axes(first, second, pose, common).0
     }
 
     pub(crate) fn leaves(&self) -> LeafGaps<'_> {
         LeafGaps {
-            pose: &self.placement.vertices,
+            pose: &self.common.vertices,
             surface_error: self.greater_error,
             direction: [0.0; 3],
             offset: [0.0; 3],
@@ -81,13 +81,13 @@ impl<'a> StoredPair<'a> {
     /// A place in the first model's frame, input units, from common units and the first model's
     /// origin.
     pub(crate) fn to_input(&self, point: [f64; 3]) -> [f32; 3] {
-        self.to_input_exact(point).map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
+        self.to_input_f64(point).map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
     }
 
     /// The same, rounded to f64.
-    pub(crate) fn to_input_exact(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn to_input_f64(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let ([unit, _], size) =
-            (self.placement.vertices.units.map(f64::from), exp2(self.first.exponent));
+            (self.common.vertices.units.map(f64::from), exp2(self.first.exponent));
         let [a, b, c] = self.first.origin;
         [x / unit + a, y / unit + b, z / unit + c].map(|x| x * size)
     }
@@ -97,6 +97,6 @@ impl<'a> StoredPair<'a> {
     pub(crate) fn moved(&self, vertex: [f32; 3]) -> [f64; 3] {
         let [x, y, z] = vertex.map(f64::from);
         let [a, b, c] = self.second.origin;
-        moved(&self.placement.vertices, [x - a, y - b, z - c])
+        moved(&self.common.vertices, [x - a, y - b, z - c])
     }
 }

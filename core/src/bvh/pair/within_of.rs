@@ -2,9 +2,9 @@
 
 use super::from_afar::from_afar;
 use super::gaps::answers;
-use super::gaps::left_out::ChildPairs;
 use super::gaps::nearest_first::Search;
 use super::gaps::question::PairQuestion;
+use super::gaps::skipped::ChildPairs;
 use super::model_box::are_apart;
 use super::models::numbers;
 use super::separation::grid_pose::{FramePose, GridPose};
@@ -94,13 +94,13 @@ impl Bvh<'_> {
                 Separation::Undecided => {}
             }
         }
-        self.exactly_within_of(other, pose, asked, (budget, work), scratch)
+        self.within_of_f64(other, pose, asked, (budget, work), scratch)
     }
 
     /// The question in f64, for `[distance, more]`. The steps of `work` count against the budget.
     /// With a `No` also a lower bound of the distance: at most `distance + more`, input units.
     #[inline(never)]
-    pub(crate) fn exactly_within_of(
+    pub(crate) fn within_of_f64(
         &self,
         other: &Bvh<'_>,
         pose: &Pose,
@@ -113,7 +113,7 @@ impl Bvh<'_> {
         let mut threshold = threshold.and_beyond(more);
         let relative = pair.relative();
         let mut search = Search { work, ..Search::new(&pair, &relative, budget.steps, scratch) };
-        let missed = if pair.placement.is_in_range {
+        let missed = if pair.common.is_in_range {
             let mut question = PairQuestion::Within(&mut threshold);
             search.descend((ChildPairs::ALL, 0.0), &mut question, None)?.missed()
         } else {

@@ -13,20 +13,11 @@ use crate::format::layout::BuildFor;
 use crate::geom::fan::{IntPoint, WIDTH};
 use crate::num::tolerance::{
     BVH_FAR, CERTIFIED_PART, CERTIFIED_SHORTFALL, FAN_DISTANCE, FAN_RELATIVE, LEAST_FAN_ROUNDING,
-    PLANE_DISTANCE, U32,
+    LIMIT_ALLOWANCE, LIMIT_GROWTH, PLANE_DISTANCE, SIDE_ALLOWANCE, U32,
 };
 use crate::num::{Real, SOFT_FLOAT, difference, float, greater, sqrt_approx};
 use crate::query::{Budget, QueryError, ScratchEntry};
 use glam::Vec3;
-
-/// Part by which a squared limit grows: with [`ALLOWANCE`] it holds without a root.
-const GROWTH: f32 = 1.0 + 1.0 / 8192.0;
-
-/// Factor of the square of a triangle's rounding in a limit.
-const ALLOWANCE: f32 = 32_768.0;
-
-/// Factor of [`ALLOWANCE`] where a side is asked. Proved: 41 (`core/docs/rounding.md` §8).
-const SIDE: f32 = 64.0;
 
 /// Key limit that lets every child pass.
 pub(crate) const EVERY_KEY: u32 = NO_CHILD - 1;
@@ -53,7 +44,7 @@ pub(crate) struct PointQuery {
     pub(crate) allowance: f32,
     /// The point in integers, on targets without floating point, if the model is near and on a
     /// grid.
-    pub(crate) whole: Option<IntPoint>,
+    pub(crate) int_point: Option<IntPoint>,
     /// The point, prepared for the boxes of nodes.
     key_point: KeyPoint,
     /// Keys in a square of the grid unit: a power of two.
@@ -134,7 +125,7 @@ impl PreparedPoint {
             difference(p, Vec3::new(float(x), float(y), float(z)))
         };
         let key_point = KeyPoint::new(from_origin, most);
-        let whole = if SOFT_FLOAT && !header.is_f32() {
+        let int_point = if SOFT_FLOAT && !header.is_f32() {
             IntPoint::new(from_origin.to_array())
         } else {
             None
@@ -149,8 +140,8 @@ impl PreparedPoint {
             shortfall_sq,
             rounding: fan,
             fixed_error: (Real(fan) + Real(units.surface_error)).0,
-            allowance: (Real(fan).times_power(ALLOWANCE) * Real(fan)).0,
-            whole,
+            allowance: (Real(fan).times_power(LIMIT_ALLOWANCE) * Real(fan)).0,
+            int_point,
             key_point,
             // Keys are halves of squares.
             keys_in_square: f32::from_bits((126 - 2 * key_point.unit_exponent()) << 23),
@@ -171,7 +162,7 @@ impl PointQuery {
     /// No triangle that is computed as near as `distance_sq` has a true squared distance above
     /// this.
     ///
-    /// (D·(1 + 16u) + f)² ≤ D²·[`GROWTH`] + [`ALLOWANCE`]·f², so no root is needed.
+    /// (D·(1 + 16u) + f)² ≤ D²·[`LIMIT_GROWTH`] + [`LIMIT_ALLOWANCE`]·f², so no root is needed.
     #[inline(always)]
     pub(crate) fn limit(&self, distance_sq: f32) -> f32 {
         limit_of(distance_sq, self.allowance)
@@ -179,10 +170,10 @@ impl PointQuery {
 
     /// [`allowance`](Self::allowance) with room for all candidates of a side.
     ///
-    /// (D·(1 + 500u) + 9f)² ≤ D²·[`GROWTH`] + [`SIDE`]·[`ALLOWANCE`]·f².
+    /// (D·(1 + 500u) + 9f)² ≤ D²·[`LIMIT_GROWTH`] + [`SIDE_ALLOWANCE`]·[`LIMIT_ALLOWANCE`]·f².
     #[inline(always)]
     pub(crate) fn side_allowance(&self) -> f32 {
-        Real(self.allowance).times_power(SIDE).0
+        Real(self.allowance).times_power(SIDE_ALLOWANCE).0
     }
 
     /// A child with a greater key is farther than the root of `limit`.
@@ -295,7 +286,7 @@ fn integer_product(x: f32, power: f32) -> i32 {
 /// [`PointQuery::limit`] for an allowance.
 #[inline(always)]
 pub(crate) fn limit_of(distance_sq: f32, allowance: f32) -> f32 {
-    (Real(distance_sq) * Real(GROWTH) + Real(allowance)).0
+    (Real(distance_sq) * Real(LIMIT_GROWTH) + Real(allowance)).0
 }
 
 impl NodeQuery for PointQuery {

@@ -4,6 +4,7 @@ use super::flux::Flux;
 use super::moment_flux::SeenNode;
 use crate::bvh::tree::format::{Bvh, Links};
 use crate::geom::{SeenCorner, SolidAngles};
+use crate::num::tolerance::{WINDING_FAR, WINDING_FAR_ERROR};
 use crate::num::{greater, lesser};
 use crate::query::{Ended, Interval, QueryError, ScratchEntry, Side, Work};
 use glam::Vec3;
@@ -14,12 +15,6 @@ const RATIOS: [f32; 6] = [0.4, 0.25, 0.15, 0.08, 0.04, 0.0];
 
 /// Least part of the error that is worth another pass.
 const WORTH_A_PASS: f32 = 1.0 / 32.0;
-
-/// 2^36 grid units: with a larger error a far point may be near.
-const FAR_ERROR: f32 = (1u64 << 36) as f32;
-
-/// 2^-78 per squared grid unit (§20).
-const FAR_NUMBER: f32 = 1.0 / ((1u64 << 39) as f32 * (1u64 << 39) as f32);
 
 /// The query, and the work of its passes.
 pub(super) struct WindingSearch<'a> {
@@ -73,10 +68,10 @@ impl WindingSearch<'_> {
     /// distance is at least 2^36 (§20).
     pub(super) fn number_from_afar(&self) -> (Interval, Ended) {
         let header = self.tree.header();
-        let bound = if self.error <= FAR_ERROR {
+        let bound = if self.error <= WINDING_FAR_ERROR {
             // The input's triangles may be larger than the stored ones.
             let largest_star = header.star_radius + 4.0 * self.error;
-            let bound = header.triangles as f32 * (largest_star * largest_star) * FAR_NUMBER;
+            let bound = header.triangles as f32 * (largest_star * largest_star) * WINDING_FAR;
             lesser(bound + f32::MIN_POSITIVE, self.most)
         } else {
             self.most

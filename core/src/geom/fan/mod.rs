@@ -35,7 +35,7 @@ pub use lanes::{LANES, Lanes, PIECES, lanes_below, least};
 pub use lanes::{LANES_BELOW, WIDTH};
 #[cfg(meshsweep_wide)]
 pub use lanes_wide::{point_lanes, ray_lanes, ray_leaf8};
-pub(crate) use point::is_whole;
+pub(crate) use point::is_integer;
 pub use point::{
     ABOVE_ZERO, Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, lower_bound_up_to,
     point_leaf, refined,

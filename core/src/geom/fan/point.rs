@@ -251,7 +251,7 @@ fn cross(a: Vec3, b: Vec3) -> Vec3 {
 fn normal(e: Vec3, g: Vec3) -> Vec3 {
     // Spokes on a grid are below 2^17. Above 2^30 a sum of two products might not fit.
     let most = (1 << 30) as f32;
-    if !(is_whole(e, most) && is_whole(g, most)) {
+    if !(is_integer(e, most) && is_integer(g, most)) {
         return cross(e, g);
     }
     Vec3::new(
@@ -263,7 +263,7 @@ fn normal(e: Vec3, g: Vec3) -> Vec3 {
 
 /// Whether all coordinates are whole numbers below `most`.
 #[cfg_attr(meshsweep_small, inline(never))]
-pub(crate) fn is_whole(v: Vec3, most: f32) -> bool {
+pub(crate) fn is_integer(v: Vec3, most: f32) -> bool {
     let parts: &[f32; 3] = v.as_ref();
     parts.iter().all(|&x| x as i32 as f32 == x && x.abs() < most)
 }

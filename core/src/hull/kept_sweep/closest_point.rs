@@ -1,6 +1,6 @@
 //! The closest point of a sweep that is kept.
 
-use super::enqueue::{Enqueue, bound_of, stored};
+use super::enqueue::{Enqueuer, bound_of, key_of};
 use super::safe_motion::{SAFE_PAUSE, SAFE_STEPS, SAFE_TRIANGLES};
 use super::{QueueHolds, Sweep};
 use crate::hull::format::Instance;
@@ -28,55 +28,55 @@ impl Sweep<'_, '_> {
     fn nearest(&mut self, budget: &Budget) -> Option<ClosestPoint> {
         self.front.allow(budget.steps);
         if self.p.abs().max_element() > HULL_FAR {
-            let mut far = self.point()?;
+            let mut far = self.nearest_from_here()?;
             far.settle_by_box(&self.front.model)?;
-            let ended = if self.front.model.is_cut() { Ended::Resolution } else { Ended::Exact };
+            let ended = self.ended();
             return Some(far.answer(&self.front.model, &self.frame, Work::NONE, ended));
         }
         let mut is_new = self.holds != QueueHolds::Near;
         let mut evaluated = 0;
         loop {
-            let mut enqueue = self.enqueue(0.0)?;
-            let is_safe = !is_new && self.moved <= self.safe.motion;
+            let mut enqueuer = self.enqueuer(0.0)?;
+            let is_safe = !is_new && self.moved <= self.safe.until;
             if let Some(best) = self.best {
-                enqueue.nearest.evaluate(&self.front.look(best)?);
+                enqueuer.nearest.evaluate(&self.front.look(best)?);
             }
             if is_safe {
-                self.settle_near(&mut enqueue)?;
+                self.settle_near(&mut enqueuer)?;
             }
-            enqueue.dives = self.best.is_none();
+            enqueuer.dives = self.best.is_none();
             let ended = if is_safe {
                 self.ended()
             } else {
                 if is_new {
                     self.restart();
-                    enqueue.moved = 0.0;
-                    enqueue.limit_to(self.margin());
-                    self.front.begin(&mut enqueue)?;
+                    enqueuer.moved = 0.0;
+                    enqueuer.limit_to(self.margin());
+                    self.front.begin(&mut enqueuer)?;
                 }
-                self.run(&mut enqueue, budget)?
+                self.run(&mut enqueuer, budget)?
             };
-            let lost = bound_of(enqueue.pruned.min(self.pruned), self.moved)
+            let lost = bound_of(enqueuer.pruned.min(self.pruned), self.moved)
                 .min(bound_of(self.front.queue.dropped(), self.moved));
-            self.pruned = self.pruned.min(enqueue.pruned);
-            self.best = enqueue.nearest.instance();
+            self.pruned = self.pruned.min(enqueuer.pruned);
+            self.best = enqueuer.nearest.instance();
             // An entry that was lost may be the nearest, so the search starts once more.
-            if lost < enqueue.nearest.upper() && !is_new {
+            if lost < enqueuer.nearest.upper() && !is_new {
                 is_new = true;
-                evaluated = enqueue.nearest.work(Work::NONE).exact;
+                evaluated = enqueuer.nearest.work(Work::NONE).exact;
                 continue;
             }
-            let ended = if lost < enqueue.nearest.upper() { Ended::Scratch } else { ended };
-            enqueue.nearest.lower_to(lost);
-            let mut work = enqueue.nearest.work(self.front.work);
+            let ended = if lost < enqueuer.nearest.upper() { Ended::Scratch } else { ended };
+            enqueuer.nearest.lower_to(lost);
+            let mut work = enqueuer.nearest.work(self.front.work);
             work.exact = work.exact.saturating_add(evaluated);
-            enqueue.nearest.settle_unreached(&self.front.model)?;
-            return Some(enqueue.nearest.answer(&self.front.model, &self.frame, work, ended));
+            enqueuer.nearest.settle_unreached(&self.front.model)?;
+            return Some(enqueuer.nearest.answer(&self.front.model, &self.frame, work, ended));
         }
     }
 
     /// Refines until no triangle that waits may be nearer than the best one.
-    fn run(&mut self, enqueue: &mut Enqueue, budget: &Budget) -> Option<Ended> {
+    fn run(&mut self, enqueuer: &mut Enqueuer, budget: &Budget) -> Option<Ended> {
         let error = f64::from(self.front.model.header().surface_error);
         let (relative, absolute) = (f64::from(budget.relative), self.frame.length(budget.absolute));
         let margin = self.margin();
@@ -88,76 +88,77 @@ impl Sweep<'_, '_> {
             self.safe.pause -= 1;
             wider = 0.0;
         }
-        self.safe.motion = -1.0;
-        while let Some(entry) = enqueue.next.take().or_else(|| self.front.queue.pop_heap()) {
+        self.safe.until = -1.0;
+        while let Some(entry) = enqueuer.next.take().or_else(|| self.front.queue.pop_heap()) {
             let bound = bound_of(entry.key(), self.moved);
             if self.front.queue.aside().len() > SAFE_TRIANGLES && wider > 0.0 {
                 wider = 0.0;
                 self.safe.pause = SAFE_PAUSE;
             }
-            let is_beaten = bound > enqueue.nearest.upper();
-            if bound > enqueue.nearest.upper() + wider || (is_beaten && self.front.is_spent()) {
+            let is_beaten = bound > enqueuer.nearest.upper();
+            if bound > enqueuer.nearest.upper() + wider || (is_beaten && self.front.is_spent()) {
                 others = bound;
                 self.front.queue.push(entry);
                 break;
             }
             let is_near_enough = !is_beaten
                 && (relative > 0.0 || absolute > 0.0)
-                && enqueue.nearest.is_within([relative, absolute], bound, error);
+                && enqueuer.nearest.is_within([relative, absolute], bound, error);
             if is_near_enough || self.front.is_spent() {
                 ended = if is_near_enough { Ended::Tolerance } else { Ended::Steps };
                 let waiting = bound_of(self.front.queue.lower(), self.moved);
-                enqueue.nearest.lower_to(bound.min(waiting));
+                enqueuer.nearest.lower_to(bound.min(waiting));
                 self.front.queue.push(entry);
                 break;
             }
             let instance = Instance(entry.node());
             let candidate = self.front.look(instance)?;
-            enqueue.limit_to(margin);
+            enqueuer.limit_to(margin);
             if candidate.refinable != Refinable::BySplit {
-                let near = enqueue.least(&candidate);
-                let lower = if near > enqueue.nearest.upper() {
+                let near = enqueuer.least(&candidate);
+                let lower = if near > enqueuer.nearest.upper() {
                     near
                 } else {
-                    enqueue.dives = false;
-                    enqueue.nearest.evaluate(&candidate)
+                    enqueuer.dives = false;
+                    enqueuer.nearest.evaluate(&candidate)
                 };
-                let key = stored(lower.max(bound), self.moved);
+                let key = key_of(lower.max(bound), self.moved);
                 self.front.queue.set_aside(ScratchEntry::new(key, instance.0));
                 continue;
             }
             if self.moved > 0.0 {
-                let key = stored(enqueue.least(&candidate), self.moved);
+                let key = key_of(enqueuer.least(&candidate), self.moved);
                 // Compares the stored key, which is rounded down. With the unrounded bound the
                 // entry could return for ever.
-                if bound_of(key, self.moved) > enqueue.nearest.upper() + wider {
+                if bound_of(key, self.moved) > enqueuer.nearest.upper() + wider {
                     self.front.queue.push(ScratchEntry::new(key.max(entry.key()), instance.0));
                     continue;
                 }
             }
-            enqueue.parent = down_to_f32(bound);
-            self.front.open(instance, enqueue)?;
+            enqueuer.parent = down_to_f32(bound);
+            self.front.open(instance, enqueuer)?;
         }
-        if let Some(entry) = enqueue.next.take() {
+        if let Some(entry) = enqueuer.next.take() {
             self.front.queue.push(entry);
         }
-        let lost = enqueue.pruned.min(self.pruned).min(self.front.queue.dropped());
+        let lost = enqueuer.pruned.min(self.pruned).min(self.front.queue.dropped());
         others = others.min(bound_of(lost, self.moved));
         if ended == self.ended() {
-            self.find_safe_motion(enqueue.nearest.upper(), others);
+            self.find_safe_motion(enqueuer.nearest.upper(), others);
         }
         self.front.queue.take_back();
         Some(ended)
     }
 
     /// Evaluates the near triangles that f32 cannot rule out. On a Cortex-M f64 is slow.
-    fn settle_near(&self, enqueue: &mut Enqueue) -> Option<()> {
+    fn settle_near(&self, enqueuer: &mut Enqueuer) -> Option<()> {
         let margin = self.margin();
         for &instance in &self.safe.near {
             let candidate = self.front.look(instance)?;
-            enqueue.limit_to(margin);
-            if Some(instance) != self.best && enqueue.least(&candidate) <= enqueue.nearest.upper() {
-                enqueue.nearest.evaluate(&candidate);
+            enqueuer.limit_to(margin);
+            if Some(instance) != self.best && enqueuer.least(&candidate) <= enqueuer.nearest.upper()
+            {
+                enqueuer.nearest.evaluate(&candidate);
             }
         }
         Some(())
@@ -178,7 +179,7 @@ impl Sweep<'_, '_> {
         // The gap is a difference of numbers with a rounding each.
         let gap = others * (2.0 - SUMMED) - upper * SUMMED;
         if gap > 0.0 {
-            self.safe.motion = self.moved + 0.5 * gap * (2.0 - SUMMED);
+            self.safe.until = self.moved + 0.5 * gap * (2.0 - SUMMED);
         }
     }
 }

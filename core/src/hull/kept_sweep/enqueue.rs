@@ -10,7 +10,7 @@ use crate::num::tolerance::SUMMED;
 use crate::query::{ScratchEntry, SweepQueue};
 
 /// Puts triangles into the queue.
-pub(super) struct Enqueue {
+pub(super) struct Enqueuer {
     pub(super) nearest: Nearest,
     /// The bound of the triangle that was replaced. Its children are not nearer.
     pub(super) parent: f32,
@@ -21,14 +21,14 @@ pub(super) struct Enqueue {
     pub(super) dives: bool,
 }
 
-impl Visit for Enqueue {
+impl Visit for Enqueuer {
     fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
         for (bound, candidate) in self.nearest.bounds(found).into_iter().zip(found) {
             if bound == f32::INFINITY {
-                self.pruned = self.pruned.min(stored(self.nearest.limit(), self.moved));
+                self.pruned = self.pruned.min(key_of(self.nearest.limit(), self.moved));
                 continue;
             }
-            let key = stored(f64::from(bound.max(self.parent)), self.moved);
+            let key = key_of(f64::from(bound.max(self.parent)), self.moved);
             let entry = ScratchEntry::new(key, candidate.instance.0);
             match &mut self.next {
                 Some(near) if entry.key() < near.key() => {
@@ -41,17 +41,17 @@ impl Visit for Enqueue {
     }
 }
 
-/// A bound as a key.
-pub(super) fn stored(bound: f64, moved: f64) -> f32 {
+/// A bound as a key: the inverse of [`bound_of`], rounded down.
+pub(super) fn key_of(bound: f64, moved: f64) -> f32 {
     down_to_f32((bound + moved) * (2.0 - SUMMED))
 }
 
-/// A key as a bound.
+/// A key as a bound: the inverse of [`key_of`].
 pub(super) fn bound_of(key: f32, moved: f64) -> f64 {
     (f64::from(key) - moved).max(0.0)
 }
 
-impl Enqueue {
+impl Enqueuer {
     /// A lower bound of a triangle's distance, at most the limit.
     pub(super) fn least(&self, candidate: &Candidate) -> f64 {
         let [bound, ..] = self.nearest.bounds(core::slice::from_ref(candidate));

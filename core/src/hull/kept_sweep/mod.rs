@@ -7,6 +7,17 @@
 //! | `closest_point` | the closest point, and where a search goes on |
 //! | `safe_motion` | how far the point may move before another triangle may be the nearest |
 //! | `next_triangle` | one triangle after another |
+//!
+//! Words for triangles. The first two kinds are not in the queue. They lower `lost`, the least bound
+//! of what an answer cannot see.
+//!
+//! | word | the triangle |
+//! | --- | --- |
+//! | pruned | was beyond the limit when it was found; `pruned` is the least such key |
+//! | dropped | did not fit the queue; `SweepQueue::dropped` is the least such key |
+//! | lost | was pruned or dropped |
+//! | aside | was looked at in this search, and returns to the queue at its end |
+//! | near | is one of the few that may be the nearest while the motion is safe |
 
 mod closest_point;
 mod enqueue;
@@ -18,7 +29,7 @@ use crate::hull::front::Front;
 use crate::hull::nearest::Nearest;
 use crate::num::tolerance::{SUMMED, SWEEP_KEPT, SWEEP_MOTION};
 use crate::query::{Ended, Frame, QueryError, ScratchEntry};
-use enqueue::Enqueue;
+use enqueue::Enqueuer;
 use glam::DVec3;
 use safe_motion::SafeMotion;
 
@@ -41,6 +52,14 @@ pub struct Sweep<'a, 'm> {
 }
 
 /// The triangles that the queue holds.
+///
+/// What it holds after a call. Beyond `HULL_FAR` `closest_point` changes nothing.
+///
+/// | before | `closest_point` | `next_triangle` | `move_to` |
+/// | --- | --- | --- | --- |
+/// | `Nothing` | `Near` | `Rest` | `Nothing` |
+/// | `Near` | `Near` | `Rest` | `Near`, after a long path `Nothing` |
+/// | `Rest` | `Near` | `Rest` | `Nothing` |
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum QueueHolds {
     Nothing,
@@ -121,13 +140,13 @@ impl Sweep<'_, '_> {
         Ok(())
     }
 
-    fn point(&self) -> Option<Nearest> {
+    fn nearest_from_here(&self) -> Option<Nearest> {
         Nearest::new(&self.front.model, self.p)
     }
 
-    fn enqueue(&self, parent: f32) -> Option<Enqueue> {
-        Some(Enqueue {
-            nearest: self.point()?,
+    fn enqueuer(&self, parent: f32) -> Option<Enqueuer> {
+        Some(Enqueuer {
+            nearest: self.nearest_from_here()?,
             parent,
             moved: self.moved,
             pruned: f32::INFINITY,
@@ -136,12 +155,13 @@ impl Sweep<'_, '_> {
         })
     }
 
-    /// An empty queue.
+    /// Forgets everything but the point: the queue is empty and [`QueueHolds::Near`], no path was
+    /// gone, nothing was pruned, no motion is safe.
     fn restart(&mut self) {
         self.front.queue.clear();
         self.moved = 0.0;
         self.pruned = f32::INFINITY;
-        self.safe.motion = -1.0;
+        self.safe.until = -1.0;
         self.holds = QueueHolds::Near;
     }
 

@@ -30,9 +30,9 @@ impl Sweep<'_, '_> {
             self.holds = QueueHolds::Rest;
             self.best = None;
         }
-        let mut enqueue = self.enqueue(0.0)?;
+        let mut enqueuer = self.enqueuer(0.0)?;
         if begins {
-            self.front.begin(&mut enqueue)?;
+            self.front.begin(&mut enqueuer)?;
         }
         let model = self.front.model;
         let mut exact = 0;
@@ -41,18 +41,18 @@ impl Sweep<'_, '_> {
             if least < entry.key() || self.front.is_spent() {
                 self.front.queue.push(entry);
                 let ended = if least < entry.key() { Ended::Scratch } else { Ended::Steps };
-                let mut known = self.point()?;
+                let mut known = self.nearest_from_here()?;
                 known.lower_to(f64::from(least.min(entry.key())));
                 let answer = known.answer(&model, &self.frame, self.front.work, ended);
                 return Some(Some(ClosestPoint { triangle: None, ..answer }));
             }
             let candidate = self.front.look(Instance(entry.node()))?;
             if candidate.refinable == Refinable::BySplit {
-                enqueue.parent = entry.key();
-                self.front.open(candidate.instance, &mut enqueue)?;
+                enqueuer.parent = entry.key();
+                self.front.open(candidate.instance, &mut enqueuer)?;
                 continue;
             }
-            let mut alone = self.point()?;
+            let mut alone = self.nearest_from_here()?;
             exact += 1;
             let lower = alone.evaluate(&candidate).max(f64::from(entry.key()));
             let key = down_to_f32(lower);
@@ -67,7 +67,7 @@ impl Sweep<'_, '_> {
             return Some(Some(alone.answer(&model, &self.frame, work, self.ended())));
         }
         if self.front.queue.dropped().is_finite() {
-            let mut known = self.point()?;
+            let mut known = self.nearest_from_here()?;
             known.lower_to(f64::from(self.front.queue.dropped()));
             let answer = known.answer(&model, &self.frame, self.front.work, Ended::Scratch);
             return Some(Some(ClosestPoint { triangle: None, ..answer }));

@@ -3,12 +3,13 @@
 
 use crate::hull::format::Instance;
 
-/// While the point moves less than `motion`, the nearest triangle is one of `near` (Guéziec 2000,
-/// 3.3). The paper keeps one triangle. Triangles that share the closest vertex have no gap between
-/// them, so several are kept.
+/// Until the path of the point reaches `until`, the nearest triangle is one of `near` (Guéziec
+/// 2000, 3.3). The paper keeps one triangle. Triangles that share the closest vertex have no gap
+/// between them, so several are kept.
 #[derive(Debug)]
 pub(super) struct SafeMotion {
-    pub(super) motion: f64,
+    /// The value of `Sweep::moved` up to which this holds. −1: nothing is known.
+    pub(super) until: f64,
     pub(super) near: heapless::Vec<Instance, SAFE_TRIANGLES>,
     /// Answers that do not search for a safe motion, because an earlier search failed.
     pub(super) pause: u8,
@@ -16,7 +17,7 @@ pub(super) struct SafeMotion {
 
 impl SafeMotion {
     pub(super) const NONE: SafeMotion =
-        SafeMotion { motion: -1.0, near: heapless::Vec::new(), pause: 0 };
+        SafeMotion { until: -1.0, near: heapless::Vec::new(), pause: 0 };
 }
 
 /// Triangles that may be nearest within the safe motion: about the star of a vertex.

@@ -54,9 +54,9 @@ impl Places<f64> {
             origins: [wide(first.origin), wide(second.origin)],
             units: [f64::from(first.unit), vertices.longest],
             matrix: vertices.matrix.map(wide),
-            shift: vertices.shift_exact,
-            doubt: vertices.vertex_error_exact,
-            margin: 2.0 * vertices.vertex_error_exact + vertices.rounding[1],
+            shift: vertices.shift_f64,
+            doubt: vertices.vertex_error_f64,
+            margin: 2.0 * vertices.vertex_error_f64 + vertices.rounding[1],
         }
     }
 }

@@ -55,12 +55,13 @@ pub(crate) struct VertexPose {
     /// A place `q` of the second model, from its origin, is at `matrix·q + shift`.
     pub(crate) matrix: [[f32; 3]; 3],
     pub(crate) shift: [f32; 3],
-    pub(crate) shift_exact: [f64; 3],
-    /// Greatest error of a vertex computed in f32, surface errors included.
+    pub(crate) shift_f64: [f64; 3],
+    /// Greatest error of a vertex computed in f32. It includes the surface errors of both
+    /// [`Extended`]; `StoredPair::new` sets these to 0, so that its errors are rounding alone.
     pub(crate) vertex_error: f32,
     /// The same in f64.
-    pub(crate) vertex_error_exact: f64,
-    /// The parts of `vertex_error` and of `vertex_error_exact` that rounding has.
+    pub(crate) vertex_error_f64: f64,
+    /// The parts of `vertex_error` and of `vertex_error_f64` that rounding has.
     pub(crate) rounding: [f64; 2],
     /// Upper bound of the length in common units of a moved unit of the second model.
     pub(crate) longest: f64,
@@ -75,7 +76,7 @@ pub(crate) struct RelativePose {
 
 /// What [`RelativePose::relate`] finds: the pose of two models, at whatever distance.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Placement {
+pub(crate) struct CommonPose {
     pub(crate) vertices: VertexPose,
     /// The numbers are small enough for f32.
     pub(crate) is_in_range: bool,
@@ -105,12 +106,12 @@ impl RelativePose {
         b: &Extended,
         pose: &Pose,
     ) -> Result<Option<RelativePose>, QueryError> {
-        let placement = RelativePose::relate(a, b, pose)?;
-        let (pose, is_apart) = RelativePose::along_axes(a, b, pose, &placement);
+        let common = RelativePose::relate(a, b, pose)?;
+        let (pose, is_apart) = RelativePose::along_axes(a, b, pose, &common);
         if is_apart {
             return Ok(None);
         }
-        if placement.is_in_range { Ok(Some(pose)) } else { Err(QueryError::PoseOutOfDomain) }
+        if common.is_in_range { Ok(Some(pose)) } else { Err(QueryError::PoseOutOfDomain) }
     }
 
     /// Refuses a pose that no question about two models takes. `[a, b]`: the exponents of their
@@ -150,7 +151,11 @@ impl RelativePose {
     /// How places are carried, also of models that are far from each other. Errors: those of
     /// [`check`](Self::check).
     #[inline(never)]
-    pub(crate) fn relate(a: &Extended, b: &Extended, pose: &Pose) -> Result<Placement, QueryError> {
+    pub(crate) fn relate(
+        a: &Extended,
+        b: &Extended,
+        pose: &Pose,
+    ) -> Result<CommonPose, QueryError> {
         let (ea, eb) = (a.exponent, b.exponent);
         let common = greater(eb, ea);
         RelativePose::check(pose, [ea, eb])?;
@@ -160,9 +165,9 @@ impl RelativePose {
         // Products of f32 are exact in f64; the sum of seven terms is rounded six times.
         let (from, into) = (b.origin, a.origin);
         let scale = exp2(common.wrapping_neg());
-        let mut shift_exact = pose.translation.map(|x| f64::from(x) * scale);
+        let mut shift_f64 = pose.translation.map(|x| f64::from(x) * scale);
         for k in 0..3 {
-            shift_exact[k] += dot(rotation[k], from) * unit_b - into[k] * unit_a;
+            shift_f64[k] += dot(rotation[k], from) * unit_b - into[k] * unit_a;
         }
         let longest = unit_b * stretch(&rotation);
         let (error_a, error_b) = (a.error * unit_a, b.error * longest);
@@ -175,7 +180,7 @@ impl RelativePose {
         let mut origins = 0.0;
         for k in 0..3 {
             let extents = most_f32(rows[k], extent_b) + extent_a[k];
-            near = greater(near, f64::from(extents) + shift_exact[k].abs());
+            near = greater(near, f64::from(extents) + shift_f64[k].abs());
             let both =
                 most_f32(rows[k], origin_b) * unit_b as f32 + origin_a[k].abs() * unit_a as f32;
             origins = greater(origins, both);
@@ -190,16 +195,16 @@ impl RelativePose {
         let vertices = VertexPose {
             units: units.map(|x| x as f32),
             matrix: pose.rotation.map(|row| row.map(|x| x * unit_b as f32)),
-            shift: narrow(shift_exact),
-            shift_exact,
+            shift: narrow(shift_f64),
+            shift_f64,
             vertex_error: (larger + rounded_f32) as f32 * (1.0 + 2.0 * U32),
-            vertex_error_exact: larger + rounded,
+            vertex_error_f64: larger + rounded,
             rounding: [rounded_f32, rounded],
             longest,
         };
         // NaN is out of range too.
         let is_in_range = far + errors <= OVERLAP_FARTHEST;
-        Ok(Placement { vertices, is_in_range, error: errors + rounded })
+        Ok(CommonPose { vertices, is_in_range, error: errors + rounded })
     }
 
     /// The places along the axes of both models, and whether it is proved that nothing of one model
@@ -209,9 +214,9 @@ impl RelativePose {
         a: &Extended,
         b: &Extended,
         pose: &Pose,
-        placement: &Placement,
+        common: &CommonPose,
     ) -> (RelativePose, bool) {
-        let Placement { vertices, error, .. } = *placement;
+        let CommonPose { vertices, error, .. } = *common;
         let units = vertices.units.map(f64::from);
         let [unit_a, unit_b] = units;
         let (extent_a, extent_b) = (a.extent.map(|x| x * unit_a), b.extent.map(|x| x * unit_b));
@@ -220,7 +225,7 @@ impl RelativePose {
         let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let directions = [x, y, z, c0, c1, c2];
         let back = directions.map(|d| columns.map(|column| dot(column, d)));
-        let away = directions.map(|d| dot(d, vertices.shift_exact));
+        let away = directions.map(|d| dot(d, vertices.shift_f64));
         let mut grow = [0f32; DIRECTIONS];
         let mut is_apart = false;
         for (((grow, d), row), away) in grow.iter_mut().zip(directions).zip(back).zip(away) {

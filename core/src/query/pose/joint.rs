@@ -3,8 +3,8 @@
 
 use super::rounded::RoundedPose;
 use crate::geom::Pose;
-use crate::num::tolerance::U32;
-use crate::num::{TURN, half_turn};
+use crate::num::half_turn;
+use crate::num::tolerance::{TURN, U32};
 use crate::query::error::QueryError;
 
 /// A joint, and the link that it carries.

@@ -10,6 +10,18 @@
 //! | `common_units` | [`RelativePose`]: one model in the frame and the units of another |
 //! | `joint` | [`Joint`], [`link_poses`]: where the links of a mechanism are |
 //! | `motion` | [`Motion`]: how a model moves from pose to pose |
+//!
+//! Two models have a pose in these forms.
+//!
+//! | type | frame and unit | numbers | surface errors |
+//! | --- | --- | --- | --- |
+//! | `PlacedPair` (`bvh/pair`) | first model, input units; from two poses in the world | f32 | none; how world lengths differ |
+//! | `FramePose` (`bvh/pair/separation`) | first model, input units | f32, and the error of its rounding | none |
+//! | `GridPose` (`bvh/pair/separation`) | first grid, its units | f32, and the rounding of places | in `error`, not in `rounding` |
+//! | [`VertexPose`] | common units, for vertices | f32 and f64, and the rounding of places | of both [`Extended`] |
+//! | [`CommonPose`] | a [`VertexPose`], and whether f32 can hold its numbers | the same | the same |
+//! | [`RelativePose`] | a [`VertexPose`], and one frame a model for boxes | the same | the same |
+//! | `StoredPair` (`bvh/pair`) | two trees and their [`CommonPose`] | the same | none; their sum beside it |
 
 mod carried_point;
 mod common_units;
@@ -22,7 +34,7 @@ mod world_lengths;
 
 pub use carried_point::PosedPoint;
 pub(crate) use common_units::{
-    DIRECTIONS, Extended, ModelFrame, Placement, RelativePose, UNITS_APART, VertexPose,
+    CommonPose, DIRECTIONS, Extended, ModelFrame, RelativePose, UNITS_APART, VertexPose,
 };
 pub(crate) use inverse::PoseInverse;
 pub use joint::{Joint, JointAxis, JointKind, link_poses};

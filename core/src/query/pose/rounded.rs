@@ -4,11 +4,8 @@
 use super::rotation::{is_rotation, longest, skew_of};
 use crate::geom::{Pose, dot, transposed};
 use crate::num::greater;
-use crate::num::tolerance::{POSE_PRODUCT, POSE_SHIFT, QUATERNION, U32};
+use crate::num::tolerance::{POSE_PRODUCT, POSE_SHIFT, POSE_UP, QUATERNION, U32};
 use crate::query::error::QueryError;
-
-/// Room for the roundings of a bound, of which there are less than 16.
-const UP: f32 = 1.0 + 32.0 * U32;
 
 /// A pose that was computed, and how far it may be from the exact one.
 ///
@@ -55,7 +52,7 @@ impl RoundedPose {
     /// from that at their exact poses by at most the sum of both motions: add it to the distance
     /// that is asked about.
     pub fn motion(&self, radius: f32) -> f32 {
-        (self.turn * radius + self.shift) * UP + f32::MIN_POSITIVE
+        (self.turn * radius + self.shift) * POSE_UP + f32::MIN_POSITIVE
     }
 
     /// The motion of this pose, and then that of `next`: from a link's frame to its parent's, then
@@ -124,10 +121,10 @@ impl RoundedPose {
         let longest_back = longest(lack);
         let before = longest(skew_of(&moved.rotation));
         // The inverse of the matrix, and that of the exact one, make no length longer than this.
-        let lack = lack * UP + 16.0 * U32;
-        let inverse = (1.0 + lack) * UP;
-        let exact = inverse / (1.0 - inverse * frame.turn) * UP;
-        let off = (lack + exact * frame.turn) * inverse * UP;
+        let lack = lack * POSE_UP + 16.0 * U32;
+        let inverse = (1.0 + lack) * POSE_UP;
+        let exact = inverse / (1.0 - inverse * frame.turn) * POSE_UP;
+        let off = (lack + exact * frame.turn) * inverse * POSE_UP;
         let away = size(between);
         let turn = longest_back * self.turn
             + off * (before + self.turn)
@@ -215,7 +212,7 @@ impl Pose {
 
 /// Room for the roundings of a bound and of what it is made of, and for what underflows.
 fn up(bound: f32) -> f32 {
-    bound * UP + f32::MIN_POSITIVE
+    bound * POSE_UP + f32::MIN_POSITIVE
 }
 
 /// A row, times a matrix.
@@ -225,5 +222,5 @@ fn product(row: [f32; 3], &[[a, b, c], [d, e, f], [g, h, i]]: &[[f32; 3]; 3]) ->
 
 /// An upper bound of a length.
 fn size([x, y, z]: [f32; 3]) -> f32 {
-    ((x.abs() + y.abs()) + z.abs()) * UP
+    ((x.abs() + y.abs()) + z.abs()) * POSE_UP
 }

@@ -43,10 +43,9 @@ pub mod level {
     pub const VOID_RATIO: usize = 12;
 }
 
-/// Offsets in a node.
+/// Offsets in a node. It begins with eighteen i16: the least and the greatest value along each
+/// direction.
 pub mod node {
-    /// Eighteen i16: the least and the greatest value along each direction.
-    pub const PARAMETERS: usize = 0;
     /// u16: the split that splits the node.
     pub const SPLIT: usize = 36;
     /// u16: the error as a stored radius.

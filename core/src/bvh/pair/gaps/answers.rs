@@ -26,7 +26,7 @@ pub(crate) fn nearest(
         None => {
             let gap = from_afar(pair).ok_or(QueryError::Unchecked)?;
             let (bound, ended) = missed.map_or((0.0, Ended::Exact), |m| (m.lower, m.why));
-            (gap, greater(gap.lower, if pair.placement.is_in_range { bound } else { 0.0 }), ended)
+            (gap, greater(gap.lower, if pair.common.is_in_range { bound } else { 0.0 }), ended)
         }
     };
     let distance =

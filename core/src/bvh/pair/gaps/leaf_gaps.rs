@@ -4,9 +4,9 @@
 //! others in f32, and the nearest bound is measured in f64. The offset between its points is the
 //! next direction: most often no pair is left.
 
+use super::int_pair_direction::IntPairDirection;
 use super::pair_keys::{NO_PAIR, PairKeys, distance_of, indices_of, key_limit, key_of, pair_bit};
 use super::question::{PairQuestion, TriangleGap};
-use super::whole_way::WholeWay;
 use crate::bvh::pair::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
 use crate::bvh::tree::format::FanLeaf;
 use crate::bvh::tree::node::WIDE;
@@ -67,7 +67,7 @@ impl<'a> LeafGaps<'a> {
         let pair = LeafPair::new(self.pose, first, second);
         work.triangles = work.triangles.saturating_add(1);
         work.exact = work.exact.saturating_add(1);
-        let gap = self.measured(&pair, place, self.way_between(&pair, place));
+        let gap = self.measured(&pair, place, self.direction_between(&pair, place));
         self.turn_to(&gap);
         question.take(&gap)
     }
@@ -116,7 +116,7 @@ impl<'a> LeafGaps<'a> {
             let pairs = (pair.a.triangles * pair.b.triangles) as u32;
             work.triangles = work.triangles.saturating_add(pairs);
         }
-        let mut last_way = None;
+        let mut last_between = None;
         let mut direction = self.direction;
         loop {
             let key = keys.least();
@@ -126,24 +126,26 @@ impl<'a> LeafGaps<'a> {
             keys.drop(key);
             let [i, j] = indices_of(key);
             let place = [first_at.with_lane(i as usize), second_at.with_lane(j as usize)];
-            let is_beyond = |last_way: &Option<WholeWay<'_>>| {
-                let (Some(last_way), Some(settled)) = (last_way, settled) else { return false };
-                last_way.is_beyond(settled.far, leaves, place) == Some(true)
+            let is_beyond = |last_between: &Option<IntPairDirection<'_>>| {
+                let (Some(last_between), Some(settled)) = (last_between, settled) else {
+                    return false;
+                };
+                last_between.is_beyond(settled.far, leaves, place) == Some(true)
             };
             // Neighbours often face the same triangle. Then the direction of the pair before proves
             // this one.
-            let mut is_far = is_beyond(&last_way);
-            let mut way = Vec3::ZERO;
+            let mut is_far = is_beyond(&last_between);
+            let mut between = Vec3::ZERO;
             if !is_far {
-                way = self.way_between(&pair, place);
-                last_way = settled.and_then(|_| WholeWay::of(self.pose, way));
-                is_far = is_beyond(&last_way);
+                between = self.direction_between(&pair, place);
+                last_between = settled.and_then(|_| IntPairDirection::of(self.pose, between));
+                is_far = is_beyond(&last_between);
             }
             if is_far {
                 (seen.pairs, seen.has_beyond) = (seen.pairs | pair_bit(key), true);
                 continue;
             }
-            let gap = self.measured(&pair, place, way);
+            let gap = self.measured(&pair, place, between);
             work.exact = work.exact.saturating_add(1);
             self.turn_to(&gap);
             seen = SeenPairs {
@@ -165,14 +167,19 @@ impl<'a> LeafGaps<'a> {
 
     /// The distance of one pair.
     #[inline(never)]
-    fn measured(&self, pair: &LeafPair<'_>, place: [TriangleAt; 2], way: Vec3) -> TriangleGap {
+    fn measured(
+        &self,
+        pair: &LeafPair<'_>,
+        place: [TriangleAt; 2],
+        direction: Vec3,
+    ) -> TriangleGap {
         let [i, j] = place.map(TriangleAt::lane);
         let (first, second) = (pair.a.triangle(i), pair.b.triangle(j));
-        let tops = [CornerFalls::of(&first, way), CornerFalls::of(&second, -way)];
+        let tops = [CornerFalls::of(&first, direction), CornerFalls::of(&second, -direction)];
         let [a, b] = pair.in_f64(i, j);
         let guesses = SLOPES_SQ.map(|slope_sq| tops.map(|tops| tops.corners(slope_sq)));
         let TriangleDistance { lower, mut upper, mut points } = triangle_distance(a, b, guesses);
-        let rounding = self.pose.vertex_error_exact;
+        let rounding = self.pose.vertex_error_f64;
         let lower = greater(0.0, lower - (rounding + rounding));
         upper += rounding + rounding;
         let mut meets = false;
@@ -192,14 +199,14 @@ impl<'a> LeafGaps<'a> {
     }
 
     /// The direction between two triangles, as f32 tells.
-    fn way_between(&self, pair: &LeafPair<'_>, place: [TriangleAt; 2]) -> Vec3 {
+    fn direction_between(&self, pair: &LeafPair<'_>, place: [TriangleAt; 2]) -> Vec3 {
         let [i, j] = place.map(TriangleAt::lane);
         let (a, b) = (pair.a.triangle(i), pair.b.triangle(j));
         let start = Vec3::from_array(self.direction);
         let [from, ..] = a;
         let [to, ..] = b;
         let start = if start == Vec3::ZERO { difference(to, from) } else { start };
-        triangle_gap(&a, &b, start, GapLimits { far_sq: f32::INFINITY, near_sq: -1.0 }).way
+        triangle_gap(&a, &b, start, GapLimits { far_sq: f32::INFINITY, near_sq: -1.0 }).direction
     }
 
     /// Keeps the offset of a measured pair, and the direction if the pair is not in contact.
@@ -221,18 +228,18 @@ const SLOPES_SQ: [f32; 2] = [1e-4, 1e-9];
 /// How far the corners of a triangle are below the highest one along a direction.
 #[derive(Clone, Copy)]
 struct CornerFalls {
-    /// Squared fall of each corner below the highest one, times `way_sq`.
+    /// Squared fall of each corner below the highest one, times `direction_sq`.
     fall_sq: [f32; 3],
     /// Squared length of the edge from each corner to the highest one.
     edge_sq: [f32; 3],
     /// Squared length of the direction.
-    way_sq: f32,
+    direction_sq: f32,
 }
 
 impl CornerFalls {
     #[inline(always)]
-    fn of(triangle: &[Vec3; 3], way: Vec3) -> CornerFalls {
-        let heights = triangle.map(|corner| dot(corner, way));
+    fn of(triangle: &[Vec3; 3], direction: Vec3) -> CornerFalls {
+        let heights = triangle.map(|corner| dot(corner, direction));
         let (mut top, mut most) = (Vec3::ZERO, f32::MIN);
         for (&corner, &height) in triangle.iter().zip(&heights) {
             if height > most {
@@ -243,7 +250,7 @@ impl CornerFalls {
         CornerFalls {
             fall_sq: heights.map(|height| (most - height) * (most - height)),
             edge_sq: triangle.map(|corner| square(difference(corner, top))),
-            way_sq: square(way),
+            direction_sq: square(direction),
         }
     }
 
@@ -252,7 +259,7 @@ impl CornerFalls {
     #[inline(always)]
     fn corners(&self, slope_sq: f32) -> u32 {
         let ([p, q, r], [u, v, w]) = (self.fall_sq, self.edge_sq);
-        let bit = |fall_sq, edge_sq| u32::from(fall_sq <= slope_sq * self.way_sq * edge_sq);
+        let bit = |fall_sq, edge_sq| u32::from(fall_sq <= slope_sq * self.direction_sq * edge_sq);
         bit(p, u) | bit(q, v) << 1 | bit(r, w) << 2
     }
 }
@@ -285,8 +292,8 @@ fn least_distance(
     let (first, second) = (TriangleBoxes::of(a)?, TriangleBoxes::of(b)?);
     let (tops, lows) = (heights(a, direction).high, heights(b, direction).low);
     let [x, y, z] = direction;
-    let way_sq = x * x + y * y + z * z;
-    let factor = if way_sq < LEAST_GAP_SQ { 0.0 } else { SQUARED_SLACK / way_sq };
+    let direction_sq = x * x + y * y + z * z;
+    let factor = if direction_sq < LEAST_GAP_SQ { 0.0 } else { SQUARED_SLACK / direction_sq };
     let columns = (1u32 << (b.triangles & 15)) - 1;
     let mut least = [f32::INFINITY; WIDTH];
     for (i, &top) in tops.iter().enumerate().take(a.triangles) {
@@ -390,9 +397,9 @@ fn may_be_near(direction: [f32; 3], limit_sq: f32, pair: &LeafPair<'_>) -> bool 
 #[cfg_attr(meshsweep_small, inline(never))]
 #[cfg_attr(not(meshsweep_small), inline(always))]
 fn limit_along([x, y, z]: [f32; 3], limit_sq: f32) -> Option<f32> {
-    let way_sq = x * x + y * y + z * z;
-    let square = limit_sq * way_sq;
-    let is_trusted = way_sq >= LEAST_GAP_SQ && square >= LEAST_GAP_SQ;
+    let direction_sq = x * x + y * y + z * z;
+    let square = limit_sq * direction_sq;
+    let is_trusted = direction_sq >= LEAST_GAP_SQ && square >= LEAST_GAP_SQ;
     is_trusted.then(|| sqrt_approx(square) * (1.0 + 8.0 * U32))
 }
 

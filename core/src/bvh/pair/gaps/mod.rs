@@ -5,17 +5,17 @@
 //! | `nearest_first` | the descent of both trees, nearest pair first |
 //! | `pair_keys` | lower bounds of the distances of all pairs of boxes of two nodes |
 //! | `leaf_gaps` | the distances of the triangles of two leaves |
-//! | `whole_way` | leaves along a direction in integers |
+//! | `int_pair_direction` | leaves along a direction in integers |
 //! | `nearest_along` | leaves that may have the nearest triangles, along such directions |
-//! | `left_out` | what a descent does not look at, for the next one |
+//! | `skipped` | what a descent does not look at, for the next one |
 //! | `question` | the two questions, as one type for the search |
 //! | `answers` | what the questions say after a search |
 
 pub(super) mod answers;
+pub(super) mod int_pair_direction;
 pub(super) mod leaf_gaps;
-pub(super) mod left_out;
 pub(super) mod nearest_along;
 pub(super) mod nearest_first;
 pub(super) mod pair_keys;
 pub(super) mod question;
-pub(super) mod whole_way;
+pub(super) mod skipped;

@@ -2,14 +2,14 @@
 //! along an integer direction are not measured; the others are measured in f64.
 //! `core/docs/rounding.md` §26, *The nearest triangles*.
 
+use super::int_pair_direction::IntPairDirection;
 use super::leaf_gaps::{LeafGaps, SettledPairs};
 use super::pair_keys::PAIRS;
 use super::question::{PairQuestion, TriangleGap};
-use super::whole_way::WholeWay;
 use crate::bvh::tree::format::FanLeaf;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
-use crate::num::tolerance::{WHOLE_GAP, WHOLE_PART};
+use crate::num::tolerance::{INT_GAP, INT_PART};
 use crate::num::{greater, lesser};
 use crate::query::Work;
 
@@ -17,7 +17,7 @@ use crate::query::Work;
 pub(crate) struct NearestAlong<'a> {
     leaves: LeafGaps<'a>,
     /// The direction between the points measured last.
-    between: WholeWay<'a>,
+    between: IntPairDirection<'a>,
     /// A pair of triangles that is at least this far apart is not measured. Common units.
     lower: f64,
     /// Pairs were skipped, and the question was not yet told.
@@ -27,7 +27,7 @@ pub(crate) struct NearestAlong<'a> {
 impl<'a> NearestAlong<'a> {
     /// After the first measured pair. `None` if its triangles touch.
     pub(crate) fn new(leaves: LeafGaps<'a>, question: &PairQuestion<'_>) -> Option<Self> {
-        let between = WholeWay::new(leaves.pose, leaves.offset)?;
+        let between = IntPairDirection::new(leaves.pose, leaves.offset)?;
         let mut along = NearestAlong { leaves, between, lower: 0.0, has_beyond: false };
         along.lower = along.lower_of(question);
         along.between.set_far(along.far());
@@ -38,17 +38,21 @@ impl<'a> NearestAlong<'a> {
         let pose = self.leaves.pose;
         let ([unit, _], limit) = (pose.units, question.limit());
         let coarser = greater(f64::from(unit), pose.longest);
-        limit - lesser(coarser * WHOLE_GAP, limit * WHOLE_PART)
+        limit - lesser(coarser * INT_GAP, limit * INT_PART)
     }
 
     /// The computed gap that proves `lower`.
     fn far(&self) -> f64 {
-        let rounding = self.leaves.pose.vertex_error_exact;
+        let rounding = self.leaves.pose.vertex_error_f64;
         self.lower + (rounding + rounding)
     }
 
     /// Tells the question of the pairs that were not measured.
-    pub(crate) fn tell(&mut self, places: [TriangleAt; 2], question: &mut PairQuestion<'_>) {
+    pub(crate) fn report_skipped(
+        &mut self,
+        places: [TriangleAt; 2],
+        question: &mut PairQuestion<'_>,
+    ) {
         if self.has_beyond {
             // An infinite upper end is never the best, so the points are not used.
             let (points, upper) = ([[0.0; 3]; 2], f64::INFINITY);
@@ -81,19 +85,19 @@ impl<'a> NearestAlong<'a> {
             if settled == u64::MAX {
                 return Some(true);
             }
-            self.tell(places, question);
+            self.report_skipped(places, question);
             let some = Some(SettledPairs { pairs: settled, far: self.far() });
             let visit = self.leaves.visit(leaves, places, some, question, false, work)?;
             if visit.has_beyond {
                 self.has_beyond = true;
-                self.tell(places, question);
+                self.report_skipped(places, question);
             }
             if !visit.goes_on || visit.pairs == 0 {
                 return Some(visit.goes_on);
             }
             settled |= visit.pairs;
             self.lower = self.lower_of(question);
-            if let Some(new) = WholeWay::new(self.leaves.pose, self.leaves.offset) {
+            if let Some(new) = IntPairDirection::new(self.leaves.pose, self.leaves.offset) {
                 self.between = new;
             }
             self.between.set_far(self.far());

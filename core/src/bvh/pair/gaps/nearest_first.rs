@@ -5,11 +5,11 @@
 //! pair of nodes that waits takes three scratch entries however many children wait.
 
 use super::leaf_gaps::{GapVisit, LeafGaps};
-use super::left_out::{ChildPairs, LeftOut};
 use super::pair_keys::{
     NO_PAIR, PairKeys, bound_of, distance_of, indices_of, key_limit, pair_bit, second_factor,
 };
 use super::question::PairQuestion;
+use super::skipped::{ChildPairs, SkippedPairs};
 use crate::bvh::pair::models::{Models, most_pairs};
 use crate::bvh::pair::stored_pair::StoredPair;
 use crate::bvh::tree::axis_intervals::{AxisIntervals, pairs};
@@ -73,11 +73,11 @@ impl PendingPairs {
     }
 
     #[inline(always)]
-    fn leave_to(self, left_out: &mut Option<&mut LeftOut<'_>>) {
-        if let Some(left_out) = left_out
+    fn leave_to(self, skipped: &mut Option<&mut SkippedPairs<'_>>) {
+        if let Some(skipped) = skipped
             && self.pairs.wanted != 0
         {
-            left_out.keep(self.pairs, distance_of(self.key));
+            skipped.keep(self.pairs, distance_of(self.key));
         }
     }
 }
@@ -105,12 +105,12 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// Visits every pair of leaves below `start` that may be within the question's limit. What the
-    /// limit left out goes to `left_out`. None of `start` is nearer than `distance`, common units.
+    /// limit left out goes to `skipped`. None of `start` is nearer than `distance`, common units.
     pub(crate) fn descend(
         &mut self,
         (start, distance): (ChildPairs, f32),
         question: &mut PairQuestion<'_>,
-        mut left_out: Option<&mut LeftOut<'_>>,
+        mut skipped: Option<&mut SkippedPairs<'_>>,
     ) -> Result<PairDescent, QueryError> {
         let Search { models, leaves, work, .. } = self;
         let steps = lesser(self.steps, work.opened.saturating_add(most_pairs(models.a, models.b)));
@@ -126,8 +126,8 @@ impl<'s, 'a> Search<'s, 'a> {
             if work.opened >= steps {
                 let waiting = stack.iter().take(used).map(|entries| PendingPairs::of(entries).key);
                 let key = waiting.fold(now.key.min(dropped), u32::min);
-                now.leave_to(&mut left_out);
-                leave_all(stack, used, &mut left_out);
+                now.leave_to(&mut skipped);
+                leave_all(stack, used, &mut skipped);
                 return Ok(PairDescent::Truncated(Missed {
                     why: Ended::Steps,
                     lower: distance_of(key),
@@ -175,27 +175,27 @@ impl<'s, 'a> Search<'s, 'a> {
                 let ([node_a, node_b], [index_a, index_b]) = (nodes, indices);
                 let place =
                     [TriangleAt::new(node_a, index_a, 0), TriangleAt::new(node_b, index_b, 0)];
-                let visit = leaves.visit([&p, &q], place, None, question, left_out.is_some(), work);
+                let visit = leaves.visit([&p, &q], place, None, question, skipped.is_some(), work);
                 let GapVisit { goes_on, lower, .. } = visit.ok_or(QueryError::Unchecked)?;
-                if let Some(left_out) = &mut left_out {
-                    left_out.keep(ChildPairs { nodes, wanted: pair_bit(key) }, lower);
+                if let Some(skipped) = &mut skipped {
+                    skipped.keep(ChildPairs { nodes, wanted: pair_bit(key) }, lower);
                 }
                 if !goes_on {
                     let (wanted, _) = keys.up_to(NO_PAIR - 1);
                     PendingPairs { key: now.key, pairs: ChildPairs { nodes, wanted } }
-                        .leave_to(&mut left_out);
-                    leave_all(stack, used, &mut left_out);
+                        .leave_to(&mut skipped);
+                    leave_all(stack, used, &mut skipped);
                     return Ok(PairDescent::Answered);
                 }
             }
             let limit = limit_of(question);
             let (near, key) = keys.up_to(limit);
             // Pairs beyond the limit are left out together with the others.
-            let wanted = if left_out.is_some() { keys.up_to(NO_PAIR - 1).0 } else { near };
+            let wanted = if skipped.is_some() { keys.up_to(NO_PAIR - 1).0 } else { near };
             let rest =
                 PendingPairs { key: bound_of(key).to_bits(), pairs: ChildPairs { nodes, wanted } };
             if near == 0 {
-                rest.leave_to(&mut left_out);
+                rest.leave_to(&mut skipped);
             }
             if let Some(next) = down {
                 if near != 0 {
@@ -206,8 +206,8 @@ impl<'s, 'a> Search<'s, 'a> {
                         }
                         None => {
                             dropped = dropped.min(rest.key);
-                            if let Some(left_out) = &mut left_out {
-                                left_out.overflow();
+                            if let Some(skipped) = &mut skipped {
+                                skipped.overflow();
                             }
                         }
                     }
@@ -228,7 +228,7 @@ impl<'s, 'a> Search<'s, 'a> {
                 if waiting.key <= limit {
                     break waiting;
                 }
-                waiting.leave_to(&mut left_out);
+                waiting.leave_to(&mut skipped);
             };
         }
     }
@@ -239,9 +239,9 @@ impl<'s, 'a> Search<'s, 'a> {
 fn leave_all(
     stack: &[[ScratchEntry; ENTRIES]],
     used: usize,
-    left_out: &mut Option<&mut LeftOut<'_>>,
+    skipped: &mut Option<&mut SkippedPairs<'_>>,
 ) {
-    stack.iter().take(used).for_each(|entries| PendingPairs::of(entries).leave_to(left_out));
+    stack.iter().take(used).for_each(|entries| PendingPairs::of(entries).leave_to(skipped));
 }
 
 /// Keys of the pairs that wait. Of boxes that meet, the key of the pair that overlaps most:

@@ -52,7 +52,7 @@ pub(crate) fn indices_of(key: u32) -> [u32; 2] {
     [key >> 3 & 7, key & 7]
 }
 
-/// The bit of a pair in [`ChildPairs`](super::left_out::ChildPairs).
+/// The bit of a pair in [`ChildPairs`](super::skipped::ChildPairs).
 #[inline(always)]
 pub(crate) fn pair_bit(key: u32) -> u64 {
     1 << (key & PAIR_MASK)

@@ -1,6 +1,6 @@
 //! The questions about the distance of two models.
 
-use super::left_out::ChildPairs;
+use super::skipped::ChildPairs;
 use crate::bvh::tree::gap::{Gap, GapThreshold, GapVisitor, NearestGap};
 use crate::bvh::tree::triangle_at::TriangleAt;
 

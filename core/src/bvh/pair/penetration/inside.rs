@@ -179,7 +179,7 @@ impl<'a> MovedSurface<'a> {
         let pair = StoredPair::new(trees, pose)?;
         let [other, _] = trees;
         let [low, high] = bounds_of(corners_of_input(other));
-        let rounding = pair.lengths.error + 2.0 * pair.placement.vertices.vertex_error_exact;
+        let rounding = pair.lengths.error + 2.0 * pair.common.vertices.vertex_error_f64;
         let error = error + rounding * pair.lengths.unit;
         let relative = pair.relative();
         Ok(MovedSurface { pair, relative, error: error * (1.0 + 16.0 * U64), low, high })
@@ -204,8 +204,8 @@ impl<'a> MovedSurface<'a> {
         let ([lx, ly, lz, ..], [hx, hy, hz, ..]) = (intervals.low, intervals.high);
         for (i, [low, high]) in boxes.iter_mut().enumerate() {
             let at = |x: &[f32; WIDTH]| x.get(i).copied().map_or(0.0, f64::from);
-            *low = self.pair.to_input_exact([at(&lx), at(&ly), at(&lz)]);
-            *high = self.pair.to_input_exact([at(&hx), at(&hy), at(&hz)]);
+            *low = self.pair.to_input_f64([at(&lx), at(&ly), at(&lz)]);
+            *high = self.pair.to_input_f64([at(&hx), at(&hy), at(&hz)]);
         }
         Some((boxes, count))
     }
@@ -224,6 +224,6 @@ impl<'a> MovedSurface<'a> {
 
     /// The place of a stored vertex in the frame of the other surface, input units.
     fn to_input(&self, vertex: [f32; 3]) -> [f64; 3] {
-        self.pair.to_input_exact(self.pair.moved(vertex))
+        self.pair.to_input_f64(self.pair.moved(vertex))
     }
 }

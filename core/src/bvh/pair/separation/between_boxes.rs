@@ -8,7 +8,7 @@ use crate::num::dot;
 use glam::Vec3;
 
 /// How two boxes lie along the axes of one of them.
-struct Apart {
+struct BoxGap {
     /// The gap along each axis, towards the second box. 0 along an axis on which the boxes overlap.
     gap: Vec3,
     gap_sq: f32,
@@ -19,10 +19,10 @@ struct Apart {
     along: f32,
 }
 
-impl Apart {
-    fn new(way: Vec3, half: Vec3, rows: &Rows, other_half: Vec3) -> Apart {
-        let gaps = (way.abs() - half) - turned(&rows.map(Vec3::abs), other_half);
-        let signs = Vec3::ONE.copysign(way);
+impl BoxGap {
+    fn new(offset: Vec3, half: Vec3, rows: &Rows, other_half: Vec3) -> BoxGap {
+        let gaps = (offset.abs() - half) - turned(&rows.map(Vec3::abs), other_half);
+        let signs = Vec3::ONE.copysign(offset);
         let gap = gaps.max(Vec3::ZERO) * signs;
         let [x, y, z] = gaps.to_array();
         let (axis, along) = if x >= y && x >= z {
@@ -32,7 +32,7 @@ impl Apart {
         } else {
             (Vec3::Z, z)
         };
-        Apart { gap, gap_sq: dot(gap, gap), axis: axis * signs, along }
+        BoxGap { gap, gap_sq: dot(gap, gap), axis: axis * signs, along }
     }
 }
 
@@ -46,11 +46,11 @@ pub(crate) fn between_boxes(pose: &GridPose<'_>) -> Option<Direction> {
     };
     let ([a, b], [origin_a, origin_b]) = (pose.trees, pose.origins);
     let ((middle_a, half_a), (middle_b, half_b)) = (boxes(a, origin_a), boxes(b, origin_b));
-    let way = pose.moved(middle_b) - middle_a;
-    let first = Apart::new(way, half_a, &pose.rows, half_b);
+    let offset = pose.moved(middle_b) - middle_a;
+    let first = BoxGap::new(offset, half_a, &pose.rows, half_b);
     let turned_back = pose.rows.map(|row| row * (1.0 / pose.ratio));
     let axes = columns(&turned_back);
-    let second = Apart::new(turned(&axes, way), half_b * pose.ratio, &axes, half_a);
+    let second = BoxGap::new(turned(&axes, offset), half_b * pose.ratio, &axes, half_a);
     let back = |vector: Vec3| turned(&turned_back, vector);
     let found = if first.gap_sq > 0.0 || second.gap_sq > 0.0 {
         if second.gap_sq > first.gap_sq { back(second.gap) } else { first.gap }

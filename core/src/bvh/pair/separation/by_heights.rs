@@ -5,11 +5,11 @@
 //! of these is looked at with each of the other model. Else the descent of both trees follows,
 //! which begins with what was found. `core/docs/rounding.md` §26, *One tree at a time*.
 
-use super::direction::{Direction, WholeDirection};
+use super::direction::{Direction, IntDirection};
 use super::goal::{Goal, square_up};
 use super::grid_pose::GridPose;
 use super::leaf_hulls::{HullVisit, LeafHull, visit_leaves_at};
-use super::node_boxes::{NodeBoxes, PairLimit, bits, first_box, is_beyond, second_box};
+use super::node_boxes::{NodeBoxes, PairLimit, bits, first_box, is_above, is_below, second_box};
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::format::layout::MAX_TREE_DEPTH;
 use crate::bvh::tree::triangle_at::TriangleAt;
@@ -39,19 +39,19 @@ const MOST_NODES: u32 = 128;
 struct ModelHeights<'a> {
     tree: &'a Bvh<'a>,
     origin: Vec3,
-    way: Vec3,
-    whole: WholeDirection,
+    direction: Vec3,
+    integers: IntDirection,
 }
 
 impl<'a> ModelHeights<'a> {
-    fn of_both_models(pose: &GridPose<'a>, way: Vec3) -> Option<[ModelHeights<'a>; 2]> {
+    fn of_both_models(pose: &GridPose<'a>, direction: Vec3) -> Option<[ModelHeights<'a>; 2]> {
         let ([a, b], [origin_a, origin_b]) = (pose.trees, pose.origins);
         // From the second model to the first, in the frame of the second grid.
-        let back = -turned(&columns(&pose.rows), way);
-        let (first, second) = (WholeDirection::of(way)?, WholeDirection::of(back)?);
+        let back = -turned(&columns(&pose.rows), direction);
+        let (first, second) = (IntDirection::of(direction)?, IntDirection::of(back)?);
         Some([
-            ModelHeights { tree: a, origin: origin_a, way, whole: first },
-            ModelHeights { tree: b, origin: origin_b, way: back, whole: second },
+            ModelHeights { tree: a, origin: origin_a, direction, integers: first },
+            ModelHeights { tree: b, origin: origin_b, direction: back, integers: second },
         ])
     }
 
@@ -63,14 +63,15 @@ impl<'a> ModelHeights<'a> {
             work.opened += 1;
             let links = self.tree.links(node)?;
             let wanted = links.mask();
-            let tops = NodeBoxes::of(self.tree, node, self.origin)?.tops(self.way, 0.0, wanted);
+            let tops =
+                NodeBoxes::of(self.tree, node, self.origin)?.tops(self.direction, 0.0, wanted);
             let mut best = 0;
             for i in bits(wanted) {
                 best = if Real(tops[i]) > Real(tops[best & 7]) { i } else { best };
             }
             let index = best as u32;
             if index >= links.inner {
-                let top = self.whole.top(&self.tree.leaf(node, index)?)?;
+                let top = self.integers.top(&self.tree.leaf(node, index)?)?;
                 return Some((TriangleAt::new(node, index, 0), lesser(top, tops[best & 7])));
             }
             node = links.first_node.wrapping_add(index);
@@ -95,12 +96,13 @@ impl<'a> ModelHeights<'a> {
             work.opened += 1;
             let links = self.tree.links(node)?;
             let wanted = links.mask();
-            let tops = NodeBoxes::of(self.tree, node, self.origin)?.tops(self.way, 0.0, wanted);
+            let tops =
+                NodeBoxes::of(self.tree, node, self.origin)?.tops(self.direction, 0.0, wanted);
             let begun = waiting;
             for i in bits(wanted) {
                 let top = tops[i];
                 // A leaf that is as high as the highest one does not raise the floor.
-                if is_beyond(Real(floor), top) || only_highest && Real(top) <= Real(floor) {
+                if is_below(top, Real(floor)) || only_highest && Real(top) <= Real(floor) {
                     continue;
                 }
                 let index = i as u32;
@@ -110,8 +112,8 @@ impl<'a> ModelHeights<'a> {
                     *memory.get_mut(waiting)? = ScratchEntry::new(top, child);
                     continue;
                 }
-                let top = lesser(top, self.whole.top(&self.tree.leaf(node, index)?)?);
-                if is_beyond(Real(floor), top) {
+                let top = lesser(top, self.integers.top(&self.tree.leaf(node, index)?)?);
+                if is_below(top, Real(floor)) {
                     continue;
                 }
                 if only_highest {
@@ -136,7 +138,7 @@ impl<'a> ModelHeights<'a> {
                 let Some(next) = memory.get(waiting) else { return Some((listed, floor)) };
                 waiting += 1;
                 let is_low = only_highest && Real(next.key()) <= Real(floor);
-                if !is_low && !is_beyond(Real(floor), next.key()) {
+                if !is_low && !is_below(next.key(), Real(floor)) {
                     break next.node();
                 }
             };
@@ -179,22 +181,22 @@ fn turn_to_nearest_pair(
     let mut along = *direction;
     let mut far = goal.far;
     for _ in 0..MOST_ROUNDS {
-        let [first, second] = ModelHeights::of_both_models(pose, direction.way)?;
+        let [first, second] = ModelHeights::of_both_models(pose, direction.vector)?;
         let ((a, top_a), (b, top_b)) = (first.high_leaf(work)?, second.high_leaf(work)?);
         // Models that overlap along the direction have many leaves that stick out.
-        if is_beyond(Real(top_a) + Real(top_b), dot(pose.shift, direction.way)) {
+        if is_above(Real(top_a) + Real(top_b), dot(pose.shift, direction.vector)) {
             return None;
         }
         if last == [a, b] {
             break;
         }
         last = [a, b];
-        let HullVisit { goes_on, way } =
-            visit_leaves_at(pose, goal, hulls, last, direction.way, work)?;
+        let HullVisit { goes_on, direction: next } =
+            visit_leaves_at(pose, goal, hulls, last, direction.vector, work)?;
         if !goes_on {
             return Some(false);
         }
-        let Some(turned) = way.and_then(Direction::of) else { break };
+        let Some(turned) = next.and_then(Direction::of) else { break };
         *direction = turned;
         if goal.far < far {
             (far, along) = (goal.far, turned);
@@ -214,11 +216,11 @@ fn list_leaves<'s>(
     scratch: &'s mut [ScratchEntry],
     work: &mut Work,
 ) -> Option<[&'s [ScratchEntry]; 2]> {
-    let [first, second] = ModelHeights::of_both_models(pose, along.way)?;
+    let [first, second] = ModelHeights::of_both_models(pose, along.vector)?;
     let ((_, top_a), (_, floor)) = (first.high_leaf(work)?, second.high_leaf(work)?);
     let (_, top_b) = second.leaves(floor, true, scratch, work)?;
     let least_sum = least_sum_of_tops(pose, goal, along);
-    if is_beyond(Real(top_a) + Real(top_b), dot(pose.shift, along.way)) {
+    if is_above(Real(top_a) + Real(top_b), dot(pose.shift, along.vector)) {
         return None;
     }
     let (count_a, _) = first.leaves(least_sum - top_b, false, scratch, work)?;
@@ -244,12 +246,13 @@ fn visit_listed_pairs(
     work: &mut Work,
 ) -> Option<()> {
     goal.forget();
-    let mut start = along.way;
+    let mut start = along.vector;
     for second in list_b {
         let b = TriangleAt::of_word(second.node());
         let mut moved = None;
         for first in list_a {
-            if is_beyond(Real(least_sum_of_tops(pose, goal, along) - second.key()), first.key()) {
+            let least_top = Real(least_sum_of_tops(pose, goal, along) - second.key());
+            if is_below(first.key(), least_top) {
                 continue;
             }
             let a = TriangleAt::of_word(first.node());
@@ -257,15 +260,15 @@ fn visit_listed_pairs(
                 moved = Some(second_box(pose, b)?);
             }
             let key = first_box(pose, a)?.key(moved.as_ref()?);
-            if is_beyond(Real(key), square_up(goal.far + pose.box_error)) {
+            if is_above(Real(key), square_up(goal.far + pose.box_error)) {
                 continue;
             }
-            let HullVisit { goes_on, way } =
+            let HullVisit { goes_on, direction: next } =
                 visit_leaves_at(pose, goal, hulls, [a, b], start, work)?;
             if !goes_on {
                 return Some(());
             }
-            start = way.unwrap_or(start);
+            start = next.unwrap_or(start);
         }
     }
     Some(())

@@ -105,7 +105,7 @@ impl<'s> Goal<'s> {
     /// Keeps two leaves without a look at their triangles, if none of these can be nearer than the
     /// best ones, but for rounding. Returns whether it did.
     #[inline(always)]
-    pub(crate) fn keep_whole(&mut self, place: TrianglesAt, gap_sq: f32) -> bool {
+    pub(crate) fn keep_unopened(&mut self, place: TrianglesAt, gap_sq: f32) -> bool {
         let Wanted::Nearest(nearest) = &mut self.wanted else { return false };
         let is_kept = gap_sq >= nearest.upper_sq * HULLS_SETTLED;
         if is_kept {

@@ -47,10 +47,10 @@ impl LeafHull {
         let [v, w, rest @ ..] = &mut self.vertices;
         *v = place(first);
         *w = if leaf.shape().centres() == 2 { place(second) } else { *v };
-        let whole = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
+        let integer = |pair: &[u8; 2]| i32::from(u16::from_le_bytes(*pair));
         let stored = ring.x.iter().zip(ring.y).zip(ring.z);
         for (vertex, ((x, y), z)) in rest.iter_mut().zip(stored) {
-            *vertex = place([whole(x), whole(y), whole(z)]);
+            *vertex = place([integer(x), integer(y), integer(z)]);
         }
         self.shape = leaf.shape();
         (self.of, self.used) = (of, (RING + self.shape.triangles() + 1).min(SLOTS));
@@ -91,7 +91,7 @@ impl LeafHull {
 pub(crate) struct HullVisit {
     pub(crate) goes_on: bool,
     /// A direction along which the leaves are apart. `None` if none was found.
-    pub(crate) way: Option<Vec3>,
+    pub(crate) direction: Option<Vec3>,
 }
 
 /// Visits the leaves at two places. `hulls`: those of the last visit.
@@ -119,24 +119,24 @@ fn visit_hulls(
     work: &mut Work,
 ) -> Option<HullVisit> {
     let hull = hull_gap(a.all(), b.all(), start, goal.limits);
-    let way = (hull.gap_sq > 0.0).then_some(hull.way);
-    let visit = |goes_on| Some(HullVisit { goes_on, way });
+    let direction = (hull.gap_sq > 0.0).then_some(hull.direction);
+    let visit = |goes_on| Some(HullVisit { goes_on, direction });
     let [p, q] = hull.vertices;
     if !goal.take_vertices(hull.vertex_sq, || [a.triangle_with(p), b.triangle_with(q)]) {
         return visit(false);
     }
-    if hull.gap_sq > goal.limits.far_sq || goal.keep_whole([a.of, b.of], hull.gap_sq) {
+    if hull.gap_sq > goal.limits.far_sq || goal.keep_unopened([a.of, b.of], hull.gap_sq) {
         return visit(true);
     }
     let (first, second) = (a.corners(), b.corners());
     let far_sq = goal.limits.far_sq;
-    let along = |way: Vec3| pairs_along(way.to_array(), far_sq, &first, &second);
-    let near = way.map_or(u64::MAX, along);
+    let along = |direction: Vec3| pairs_along(direction.to_array(), far_sq, &first, &second);
+    let near = direction.map_or(u64::MAX, along);
     if near == 0 {
         return visit(true);
     }
     let mut keys = keys_of_triangles(&first, &second, far_sq, near)?;
-    let mut way = hull.way;
+    let mut direction = hull.direction;
     loop {
         let key = keys.least();
         if key > key_limit(goal.limits.far_sq) {
@@ -145,12 +145,12 @@ fn visit_hulls(
         keys.drop(key);
         let [i, j] = indices_of(key).map(|lane| lane as usize);
         work.triangles = work.triangles.saturating_add(1);
-        let found = triangle_gap(&a.triangle(i), &b.triangle(j), way, goal.limits);
-        way = found.way;
+        let found = triangle_gap(&a.triangle(i), &b.triangle(j), direction, goal.limits);
+        direction = found.direction;
         if !goal.take([a.of.with_lane(i), b.of.with_lane(j)], &found) {
             return visit(false);
         }
-        if goal.keep_whole([a.of, b.of], hull.gap_sq) {
+        if goal.keep_unopened([a.of, b.of], hull.gap_sq) {
             return visit(true);
         }
     }

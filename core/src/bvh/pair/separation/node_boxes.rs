@@ -84,14 +84,14 @@ impl<'a> NodeBoxes<'a> {
         Some(NodeBoxes { rows, start: difference(middle, origin) - 128.0 * step, step })
     }
 
-    /// For each wanted box the greatest `way · place` of its places, plus `base`. It is not divided
-    /// by the length of `way`.
+    /// For each wanted box the greatest `direction · place` of its places, plus `base`. It is not
+    /// divided by the length of `direction`.
     #[cfg_attr(meshsweep_small, inline(never))]
     #[cfg_attr(not(meshsweep_small), inline(always))]
-    pub(super) fn tops(&self, way: Vec3, base: f32, wanted: u32) -> [f32; WIDTH] {
+    pub(super) fn tops(&self, direction: Vec3, base: f32, wanted: u32) -> [f32; WIDTH] {
         let [lx, hx, ly, hy, lz, hz] = self.rows;
-        let by = way * self.step;
-        let base = Real(dot(way, self.start)) + Real(base);
+        let by = direction * self.step;
+        let base = Real(dot(direction, self.start)) + Real(base);
         let (x, y, z) = (Real(by.x), Real(by.y), Real(by.z));
         let rx = if by.x > 0.0 { hx } else { lx };
         let ry = if by.y > 0.0 { hy } else { ly };
@@ -187,7 +187,7 @@ impl PairLimit {
     /// limit.
     #[inline(always)]
     pub(super) fn least_sum_of_tops(&self, pose: &GridPose<'_>, direction: &Direction) -> f32 {
-        let between = Real(dot(pose.shift, direction.way));
+        let between = Real(dot(pose.shift, direction.vector));
         let limit = (Real(self.length) * Real(direction.length)).0;
         (between - Real(limit)).0
     }
@@ -209,10 +209,10 @@ pub(crate) fn push_children(
     let boxes_a = NodeBoxes::of(tree_a, a.node, origin_a)?;
     let boxes_b = NodeBoxes::of(tree_b, b.node, origin_b)?;
     // `back` points from the second model to the first, in the frame of the second grid.
-    let way = direction.way;
-    let back = -turned(&columns(&pose.rows), way);
+    let vector = direction.vector;
+    let back = -turned(&columns(&pose.rows), vector);
     let least_sum = limit.least_sum_of_tops(pose, direction);
-    let mut tops_a = boxes_a.tops(way, 0.0, a.wanted);
+    let mut tops_a = boxes_a.tops(vector, 0.0, a.wanted);
     let mut tops_b = boxes_b.tops(back, 0.0, b.wanted);
     // A box of the first model with a lower top than this is beyond the limit of one with `top_b`.
     let least_top_a = |top_b: f32| Real(least_sum) - Real(top_b);
@@ -223,13 +223,13 @@ pub(crate) fn push_children(
     let (mut near_a, mut near_b, mut lowest) = (0, 0, f32::INFINITY);
     for j in bits(b.wanted) {
         let least_top = least_top_a(tops_b[j]);
-        if !is_beyond(least_top, highest) {
+        if !is_below(highest, least_top) {
             near_b |= 1 << j;
             lowest = lesser(Real(lowest), least_top).0;
         }
     }
     for i in bits(a.wanted) {
-        near_a |= u32::from(!is_beyond(Real(lowest), tops_a[i])) << i;
+        near_a |= u32::from(!is_below(tops_a[i], Real(lowest))) << i;
     }
     if near_b == 0 {
         return Some(());
@@ -238,7 +238,7 @@ pub(crate) fn push_children(
     let first = along_axes(&boxes_a, near_a);
     let second = MovedBoxes::new(pose, &boxes_b);
     // Of pairs that are near along the direction most are far along the axis across it.
-    let across = axis_across(way);
+    let across = axis_across(vector);
     let sides = first.map(|first| first.side(across));
     let (mut leaves_a, mut leaves_b) = (0, 0);
     for j in bits(near_b) {
@@ -246,13 +246,13 @@ pub(crate) fn push_children(
         let other = second.along_axes(j);
         let side = other.side(across);
         for i in bits(near_a) {
-            if is_beyond(least_top, tops_a[i])
-                || is_beyond(Real(gap_of(sides[i], side)), limit.length)
+            if is_below(tops_a[i], least_top)
+                || is_above(Real(gap_of(sides[i], side)), limit.length)
             {
                 continue;
             }
             let key = first[i].key(&other);
-            if !is_beyond(Real(key), limit.square) {
+            if !is_above(Real(key), limit.square) {
                 waiting.add(key, (i * WIDTH + j) as u32)?;
                 leaves_a |= 1 << i;
                 leaves_b |= 1 << j;
@@ -263,7 +263,7 @@ pub(crate) fn push_children(
     if leaves_a | leaves_b != 0 {
         // Most often a leaf's vertices lie below the top of its box. Rounded up they may lie above
         // it.
-        if let Some(short) = ShortDirection::of(way) {
+        if let Some(short) = ShortDirection::of(vector) {
             for i in bits(leaves_a) {
                 tops_a[i] = lesser(tops_a[i], short.top(&tree_a.leaf(a.node, i as u32)?)?);
             }
@@ -273,15 +273,18 @@ pub(crate) fn push_children(
                 tops_b[j] = lesser(tops_b[j], short.top(&tree_b.leaf(b.node, j as u32)?)?);
             }
         }
-        waiting.retain(|[i, j]| !is_beyond(least_top_a(tops_b[j]), tops_a[i]));
+        waiting.retain(|[i, j]| {
+            let least_top = least_top_a(tops_b[j]);
+            !is_below(tops_a[i], least_top)
+        });
     }
     waiting.finish()
 }
 
 /// The axis at the largest angle to a direction.
 #[inline(always)]
-fn axis_across(way: Vec3) -> usize {
-    let [x, y, z] = way.abs().to_array().map(Real);
+fn axis_across(direction: Vec3) -> usize {
+    let [x, y, z] = direction.abs().to_array().map(Real);
     if x < y && x < z {
         0
     } else if y < z {
@@ -299,8 +302,14 @@ fn gap_of([middle, half]: [f32; 2], [other, other_half]: [f32; 2]) -> f32 {
 
 /// Whether a number is above a limit. Neither is NaN: [`GridPose::of`] refuses such a pose.
 #[inline(always)]
-pub(super) fn is_beyond(x: Real, limit: f32) -> bool {
+pub(super) fn is_above(x: Real, limit: f32) -> bool {
     x > Real(limit)
+}
+
+/// Whether a number is below a limit. Neither is NaN, as of [`is_above`].
+#[inline(always)]
+pub(super) fn is_below(x: f32, limit: Real) -> bool {
+    limit > Real(x)
 }
 
 /// The numbers of the lowest eight bits that are ones.

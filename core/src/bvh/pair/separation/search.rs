@@ -6,7 +6,7 @@ use super::direction::{Direction, ShortDirection};
 use super::goal::{Candidates, Goal, Nearest, TrianglesAt, Wanted, square_up};
 use super::grid_pose::GridPose;
 use super::leaf_hulls::{HullVisit, LeafHull, visit_leaves_at};
-use super::node_boxes::{Children, PairLimit, is_beyond, push_children};
+use super::node_boxes::{Children, PairLimit, is_below, push_children};
 use super::pending::Pending;
 use crate::bvh::pair::models::most_pairs;
 use crate::bvh::tree::triangle_at::TriangleAt;
@@ -21,14 +21,15 @@ use glam::Vec3;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SearchStart {
     /// The direction that is tried first, rounded. Zero: the one between the boxes.
-    way: [i8; 3],
+    direction: [i8; 3],
     /// The leaves that are visited first: of the triangles that were near.
     near: TrianglesAt,
 }
 
 impl SearchStart {
     /// Nothing is known.
-    pub(crate) const NONE: SearchStart = SearchStart { way: [0; 3], near: [TriangleAt::NONE; 2] };
+    pub(crate) const NONE: SearchStart =
+        SearchStart { direction: [0; 3], near: [TriangleAt::NONE; 2] };
 }
 
 /// What is proved of two models.
@@ -114,14 +115,14 @@ fn descend(
     scratch: &mut [ScratchEntry],
     work: &mut Work,
 ) -> Option<()> {
-    let [x, y, z] = start.way.map(|x| float(i32::from(x)));
+    let [x, y, z] = start.direction.map(|x| float(i32::from(x)));
     let mut direction = match Direction::of(Vec3::new(x, y, z)) {
         Some(direction) => direction,
         None => between_boxes(pose)?,
     };
     let end = visit_leaves(pose, goal, (&mut direction, start.near), steps, scratch, work);
     // Components are below 2: times 63 they fit an i8.
-    start.way = direction.way.to_array().map(|x| (x * 63.0) as i8);
+    start.direction = direction.vector.to_array().map(|x| (x * 63.0) as i8);
     end
 }
 
@@ -159,17 +160,21 @@ fn visit_leaves(
                 None => false,
             };
             if !is_beyond {
-                let visit = visit_leaves_at(pose, goal, &mut hulls, places, direction.way, work)?;
-                let HullVisit { goes_on, way } = visit;
+                let visit =
+                    visit_leaves_at(pose, goal, &mut hulls, places, direction.vector, work)?;
+                let HullVisit { goes_on, direction: next } = visit;
                 if !goes_on {
                     return Some(());
                 }
-                if let Some(turned) = way.and_then(Direction::of) {
+                if let Some(turned) = next.and_then(Direction::of) {
                     *direction = turned;
                     // A pair that is beyond ends its visit at once, and changes nothing. So where
                     // code is to be small the question is not asked.
-                    tops =
-                        if cfg!(meshsweep_small) { None } else { LeafTops::of(pose, turned.way) };
+                    tops = if cfg!(meshsweep_small) {
+                        None
+                    } else {
+                        LeafTops::of(pose, turned.vector)
+                    };
                 }
             }
         } else {
@@ -201,9 +206,9 @@ struct LeafTops {
 
 impl LeafTops {
     #[inline(always)]
-    fn of(pose: &GridPose<'_>, way: Vec3) -> Option<LeafTops> {
-        let back = -turned(&columns(&pose.rows), way);
-        let short = [ShortDirection::of(way)?, ShortDirection::of(back)?];
+    fn of(pose: &GridPose<'_>, direction: Vec3) -> Option<LeafTops> {
+        let back = -turned(&columns(&pose.rows), direction);
+        let short = [ShortDirection::of(direction)?, ShortDirection::of(back)?];
         Some(LeafTops { short, kept: [(TriangleAt::NONE, 0.0); 2] })
     }
 
@@ -225,6 +230,6 @@ impl LeafTops {
         }
         let [(_, top_a), (_, top_b)] = self.kept;
         let least_top_a = limit.least_sum_of_tops(pose, direction) - top_b;
-        Some(is_beyond(Real(least_top_a), top_a))
+        Some(is_below(top_a, Real(least_top_a)))
     }
 }

@@ -233,7 +233,7 @@ mod narrow {
             // Of a copy, so that the leaf itself stays in registers.
             let leaf = *leaf;
             Some(f32_nearest(&leaf, p, limit.low_sq))
-        } else if SOFT_FLOAT && let Some(point) = &query.whole {
+        } else if SOFT_FLOAT && let Some(point) = &query.int_point {
             integer_nearest(leaf, p, point, limit, known)
         } else {
             grid_nearest::<IS_CLOSEST>(leaf, query, limit)

@@ -127,7 +127,7 @@ impl LeafPlane {
             let residual = residual.float();
             return LeafPlane::across_residual(query.from_origin, residual, distance_sq, limit);
         }
-        match &query.whole {
+        match &query.int_point {
             Some(point) => LeafPlane::new(point, residual.integers(), IntLimit::of(limit)),
             None => LeafPlane::NONE,
         }

@@ -122,7 +122,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         if SOFT_FLOAT
             && self.waits
             && !leaf.is_f32()
-            && let Some(point) = &self.query.whole
+            && let Some(point) = &self.query.int_point
         {
             return self.bound(leaf, point).map(drop);
         }
@@ -298,7 +298,7 @@ impl<N: NearestOfLeaf> LeafVisitor for Closest<'_, N> {
         if SOFT_FLOAT
             && self.waits
             && !visit.leaf.is_f32()
-            && let Some(point) = &self.query.whole
+            && let Some(point) = &self.query.int_point
         {
             self.wait(visit, point)?;
             return Some(true);

@@ -15,14 +15,7 @@ use crate::bvh::tree::descent::LeafVisit;
 use crate::bvh::tree::format::{FanLeaf, FullRing, LeafShape, lanes_of};
 use crate::geom::fan::{Corner, IntBounds, IntLimit, IntPoint, IntVector, Nearness, vertex_bounds};
 use crate::num::Real;
-
-/// Added to the bits of a squared upper bound: at least 2^-12 of it.
-const GROWTH_BITS: u32 = 1 << 12;
-
-/// Factor of [`PointQuery::allowance`](crate::bvh::point::query::PointQuery::allowance) in a limit
-/// by an upper bound. Room for f32 (`core/docs/rounding.md` §8); an answer beyond the limit is
-/// noticed, whatever the room.
-const SLACK: f32 = 8.0;
+use crate::num::tolerance::{INT_LIMIT_GROWTH_BITS, INT_LIMIT_SLACK};
 
 impl<N: NearestOfLeaf> Closest<'_, N> {
     /// Takes the triangles of a leaf that may be the nearest.
@@ -108,8 +101,8 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
 
     /// The squared limit by a squared upper bound.
     fn limit_by(&self, upper: u32) -> f32 {
-        let slack = Real(self.query.allowance).times_power(SLACK);
-        (Real(f32::from_bits(upper + GROWTH_BITS)) + slack).0
+        let slack = Real(self.query.allowance).times_power(INT_LIMIT_SLACK);
+        (Real(f32::from_bits(upper + INT_LIMIT_GROWTH_BITS)) + slack).0
     }
 
     /// Looks at the triangles that wait: at the likeliest, then at the others, the latest first.
@@ -119,7 +112,7 @@ impl<N: NearestOfLeaf> Closest<'_, N> {
     /// corners in one place of the grid and an edge of one unit can do so.
     #[inline(never)]
     pub(crate) fn look_at_waiting(&mut self) -> Option<bool> {
-        let Some(point) = &self.query.whole else { return Some(true) };
+        let Some(point) = &self.query.int_point else { return Some(true) };
         let count = self.waiting.triangles.len();
         let waiting = self.waiting.triangles.iter().enumerate();
         let likeliest = waiting.min_by_key(|(_, here)| here.upper).map_or(0, |(at, _)| at);

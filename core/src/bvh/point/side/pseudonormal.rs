@@ -15,7 +15,7 @@
 //!
 //! So the product with u has the right sign if it exceeds this error and rounding.
 
-use super::search::Search;
+use super::search::{Searched, SideSearch};
 use super::viewed_side::{ViewedSide, cross, is_flat, is_same, viewed_side};
 use crate::bvh::point::leaf::bounds::{TriangleTaker, each_triangle, limit_of, lower_of};
 use crate::bvh::point::leaf::distance::nearest_within;
@@ -26,7 +26,11 @@ use crate::bvh::point::triangle_visitor::follow;
 use crate::bvh::tree::descent::{LeafVisit, LeafVisitor};
 use crate::bvh::tree::format::{Bvh, FanLeaf, lanes_of};
 use crate::geom::norm_1;
-use crate::num::tolerance::{SIGN_COSINE, TRUSTED_DIRECTION_SQ, U32};
+use crate::num::tolerance::{
+    EDGE_FEATURE_ERROR, LARGEST_ETA, SIDE_BAND, SIDE_BAND_ROUNDINGS, SIDE_FEATURE,
+    SIDE_FEATURE_ROUNDINGS, SIDE_NORMAL, SIDE_SUM_NORMAL, SIDE_SUM_TERM, SIDE_SUM_WEIGHT,
+    SIDE_SUM_WEIGHTS, SIGN_COSINE, TRUSTED_DIRECTION_SQ, U32, VERTEX_FEATURE_ERROR,
+};
 use crate::num::{Real, greater, sqrt_approx};
 use crate::query::Side;
 use glam::Vec3;
@@ -47,13 +51,13 @@ pub(crate) struct Candidates<'p> {
 #[cfg_attr(not(meshsweep_small), inline)]
 pub(crate) fn band_of(query: &PointQuery, distance_sq: f32) -> f32 {
     let distance = Real(sqrt_approx(distance_sq));
-    (distance * Real(1.0 + 128.0 * U32) + Real(query.rounding).times_power(8.0)).0
+    (distance * Real(SIDE_BAND) + Real(query.rounding).times_power(SIDE_BAND_ROUNDINGS)).0
 }
 
 impl<'p> Candidates<'p> {
     pub(crate) fn new(query: &'p PointQuery, distance_sq: f32) -> Self {
         let (distance, band) = (sqrt_approx(distance_sq), band_of(query, distance_sq));
-        let feature_limit = distance * (1.0 + 64.0 * U32) + 4.0 * query.rounding;
+        let feature_limit = distance * SIDE_FEATURE + SIDE_FEATURE_ROUNDINGS * query.rounding;
         Candidates { query, band, feature_limit }
     }
 }
@@ -61,10 +65,10 @@ impl<'p> Candidates<'p> {
 /// The side by the feature that all candidates share, if that proves one. `corners` are those of
 /// any candidate.
 pub(crate) fn side_of_shared_feature(
-    search: &mut Search<'_, '_>,
+    search: &mut SideSearch<'_, '_>,
     candidates: &Candidates<'_>,
     corners: [Vec3; 3],
-) -> Option<Option<Side>> {
+) -> Searched<Side> {
     let limit = limit_of(candidates.query, candidates.band);
     let (mut key_limit, mut beyond) = (0, LeafLimit::NONE);
     follow(candidates.query, limit, &mut key_limit, &mut beyond);
@@ -150,16 +154,6 @@ impl TriangleTaker for CandidatesOfLeaf<'_, '_> {
     }
 }
 
-/// Error of the sum about a vertex, in units of η²: 2π, rounded up.
-const VERTEX_FEATURE_ERROR: f32 = 6.5;
-
-/// The same about an edge: 1, and more than the further terms up to [`LARGEST_ETA`].
-const EDGE_FEATURE_ERROR: f32 = 1.2;
-
-/// From this η on the sum is not used. Below, the next term about an edge, η⁴/4, is less than a
-/// fiftieth of the first.
-const LARGEST_ETA: f32 = 0.25;
-
 /// A sum of weighted unit normals, and its rounding.
 ///
 /// The flag stands between numbers that begin as zeros: more of them at once would be a call of
@@ -199,8 +193,10 @@ impl Sum {
     fn side(&self, to_query: Vec3, feature_error: f32, inexact: f32) -> Option<Side> {
         let product = self.normal.dot(to_query);
         let count = self.count;
-        let roundings = 16.0 * self.unsure + (32.0 + 2.0 * count) * self.weight + 64.0 * count;
-        let margin = U32 * (norm_1(to_query) * roundings + 16.0 * self.weight * inexact)
+        let roundings = SIDE_SUM_NORMAL * self.unsure
+            + (SIDE_SUM_WEIGHTS + SIDE_SUM_TERM * count) * self.weight
+            + SIDE_SUM_WEIGHT * count;
+        let margin = U32 * (norm_1(to_query) * roundings + SIDE_SUM_NORMAL * self.weight * inexact)
             + feature_error * self.eta * self.eta * norm_1(to_query);
         if !self.is_sound || self.count == 0.0 || margin.is_nan() || self.eta >= LARGEST_ETA {
             None
@@ -278,8 +274,8 @@ impl LeafVisitor for Star<'_> {
 }
 
 impl Star<'_> {
-    /// Adds a triangle of the feature. The factor of its normal is −1 if sides are
-    /// those of the triangle turned, 0 if it tells no side.
+    /// Adds a triangle of the feature. `factor` multiplies its normal: −1 for a turned triangle, 0
+    /// for a sideless one, 1 for others.
     #[inline(always)]
     fn take(&mut self, leaf: &FanLeaf<'_>, lane: usize, factor: f32) {
         let corners = leaf.corners(lane);
@@ -340,7 +336,8 @@ impl Star<'_> {
 /// Whether a normal is finite, and so large that underflow and cancellation leave it a direction.
 #[cfg_attr(meshsweep_small, inline(never))]
 fn is_sound(normal: Vec3, size: Vec3) -> bool {
-    norm_1(size) > TRUSTED_DIRECTION_SQ && normal.abs().max_element() > 64.0 * U32 * norm_1(size)
+    norm_1(size) > TRUSTED_DIRECTION_SQ
+        && normal.abs().max_element() > SIDE_NORMAL * U32 * norm_1(size)
 }
 
 /// A feature, and what [`Sum::side`] takes of it.

@@ -6,9 +6,13 @@ use crate::bvh::tree::descent::{Descent, LeafVisitor, descend};
 use crate::bvh::tree::format::Bvh;
 use crate::query::{Ended, ScratchEntry, Work};
 
-/// The state that the descents of one question share. `None` of a function that searches says that
-/// the tree is unchecked: an error would be copied at each call.
-pub(crate) struct Search<'a, 't> {
+/// What a search found. The outer `None`: the tree is unchecked. The inner `None`: undecided.
+///
+/// An error in place of the outer `None` would be copied at each call.
+pub(crate) type Searched<T> = Option<Option<T>>;
+
+/// The state that the descents of one question share.
+pub(crate) struct SideSearch<'a, 't> {
     pub(crate) tree: &'a Bvh<'t>,
     pub(crate) steps: u32,
     pub(crate) stack: &'a mut [ScratchEntry],
@@ -17,7 +21,7 @@ pub(crate) struct Search<'a, 't> {
     pub(crate) truncated: Option<Ended>,
 }
 
-impl Search<'_, '_> {
+impl SideSearch<'_, '_> {
     /// One descent. Returns whether it ran to its end.
     pub(crate) fn descend(
         &mut self,

@@ -43,7 +43,7 @@
 //!    the edge. From a sixteenth of the distance it can.
 
 use super::pseudonormal::{Candidates, side_of_shared_feature};
-use super::search::Search;
+use super::search::{Searched, SideSearch};
 use super::survey::Survey;
 use crate::bvh::point::query::{Asked, FarPoint, PointQuery, PreparedPoint};
 use crate::bvh::tree::format::Bvh;
@@ -105,7 +105,7 @@ impl Bvh<'_> {
         let asked = prepared.as_ref().map_err(|&refused| refused)?.asked();
         let closed = tree.is_closed();
         let (steps, stack) = (budget.steps, scratch);
-        let mut search = Search { tree, steps, stack, work: Work::default(), truncated: None };
+        let mut search = SideSearch { tree, steps, stack, work: Work::default(), truncated: None };
         let (Asked::Near(query) | Asked::Far(FarPoint { query })) = asked;
         let mut survey = Survey::of(query);
         // Of a point that is far away it stays empty: the model's box answers.
@@ -176,9 +176,9 @@ fn beyond(tree: &Bvh<'_>, p: Vec3) -> f32 {
     greater(greater(along_x, greater(below.y, above.y)), greater(below.z, above.z))
 }
 
-impl Search<'_, '_> {
+impl SideSearch<'_, '_> {
     /// The side of a surveyed point that is clear of the surface.
-    fn clear_side(&mut self, survey: &Survey<'_>) -> Option<Option<Side>> {
+    fn clear_side(&mut self, survey: &Survey<'_>) -> Searched<Side> {
         let mut side = self.side(survey)?;
         if side.is_none() && self.truncated.is_none() {
             side = self.side_of_places(outside_of_box(self.tree, survey.query), 1)?;
@@ -194,8 +194,8 @@ impl Search<'_, '_> {
     /// The ball about the surveyed point that touches the surface is empty, so the winding number
     /// is the same in all of it. Nearer to the surface, the distances of two features differ more.
     /// Where components overlap, equally near surfaces may show different sides. So the ways to the
-    /// closest triangles of either facing must agree.
-    fn side_from_nearer(&mut self, survey: &Survey<'_>) -> Option<Option<Side>> {
+    /// closest triangles of either side must agree.
+    fn side_from_nearer(&mut self, survey: &Survey<'_>) -> Searched<Side> {
         let band = survey.band_of(survey.with_area.distance_sq);
         let mut agreed = None;
         for (place, lower) in survey.by_side.iter().zip(&survey.least) {
@@ -214,11 +214,7 @@ impl Search<'_, '_> {
     /// The first decided side of at most `count` places: of this one, and of those on the ways from
     /// there to the closest triangle.
     #[inline(never)]
-    fn side_of_places(
-        &mut self,
-        mut place: Option<[f32; 3]>,
-        count: usize,
-    ) -> Option<Option<Side>> {
+    fn side_of_places(&mut self, mut place: Option<[f32; 3]>, count: usize) -> Searched<Side> {
         for _ in 0..count {
             let Some(point) = place else { break };
             let prepared = PreparedPoint::new(self.tree, point);
@@ -235,7 +231,7 @@ impl Search<'_, '_> {
     }
 
     /// The side of the surveyed point, if it is proved. The point is clear of the surface.
-    fn side(&mut self, survey: &Survey<'_>) -> Option<Option<Side>> {
+    fn side(&mut self, survey: &Survey<'_>) -> Searched<Side> {
         let &Survey { query, with_area, least, .. } = survey;
         if self.truncated.is_some() || with_area.is_none() {
             return Some(None);

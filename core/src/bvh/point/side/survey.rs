@@ -6,7 +6,7 @@
 //! of their triangles it is asked how they face the point.
 
 use super::pseudonormal::band_of;
-use super::search::Search;
+use super::search::SideSearch;
 use super::viewed_side::{ViewedSide, viewed_side};
 use crate::bvh::point::leaf::bounds::{limit_of, lower_of_box, witness};
 use crate::bvh::point::leaf::nearest::{Lanes, LeafNearest};
@@ -28,7 +28,7 @@ const WAY_TO_NEARER: f32 = 0.9375;
 /// Leaves that may wait. More are looked at when they are reached.
 const WAITING: usize = 16;
 
-impl<'a, 't> Search<'a, 't> {
+impl<'a, 't> SideSearch<'a, 't> {
     /// Fills an empty survey: it knows all triangles with an area that may be the closest of these.
     pub(crate) fn survey_with_area(&mut self, survey: &mut Survey<'_>) -> Option<()> {
         self.survey(survey, Bounding::Any)?;
@@ -45,9 +45,9 @@ impl<'a, 't> Search<'a, 't> {
         // In a place of their own, for the collector is moved into its visitor.
         let mut waiting = heapless::Vec::new();
         let mut nearby = Nearby {
-            by_side: [LeafTriangle::NONE; 4],
-            least_sq: [f32::INFINITY; 4],
-            least: [f32::INFINITY; 4],
+            by_side: [LeafTriangle::NONE; ViewedSide::COUNT],
+            least_sq: [f32::INFINITY; ViewedSide::COUNT],
+            least: [f32::INFINITY; ViewedSide::COUNT],
         };
         let collector = Collector {
             query,
@@ -59,7 +59,7 @@ impl<'a, 't> Search<'a, 't> {
             sure_sq: f32::INFINITY,
             nearby: &mut nearby,
             latest: LeafTriangle::NONE,
-            latest_facing: ViewedSide::Flat,
+            latest_side: ViewedSide::Flat,
             waiting: &mut waiting,
             squares: LatestSquares::NONE,
             waits: false,
@@ -155,10 +155,10 @@ pub(crate) struct Survey<'p> {
     /// The closest triangle with an area.
     pub(crate) with_area: LeafTriangle,
     /// The closest triangle with its front to the point, with its back, with an unclear side. The
-    /// index is a [`ViewedSide`].
-    pub(crate) by_side: [LeafTriangle; 3],
+    /// index is a [`ViewedSide`] other than `Flat`.
+    pub(crate) by_side: [LeafTriangle; ViewedSide::COUNT - 1],
     /// For each [`ViewedSide`] the least lower bound of its triangles, grid units.
-    pub(crate) least: [f32; 4],
+    pub(crate) least: [f32; ViewedSide::COUNT],
     /// Least key of the nodes that were not opened.
     missed: Option<u32>,
 }
@@ -173,8 +173,8 @@ impl<'p> Survey<'p> {
             best: LeafTriangle::NONE,
             weights: None,
             with_area: LeafTriangle::NONE,
-            by_side: [LeafTriangle::NONE; 3],
-            least: [f32::INFINITY; 4],
+            by_side: [LeafTriangle::NONE; ViewedSide::COUNT - 1],
+            least: [f32::INFINITY; ViewedSide::COUNT],
             missed: None,
         }
     }
@@ -217,7 +217,11 @@ impl Survey<'_> {
         (offset.dot(offset) < empty * empty * (1.0 - EMPTY_BALL)).then_some(place)
     }
 
-    pub(crate) fn closest(&self, search: &Search<'_, '_>, point: [f32; 3]) -> Option<ClosestPoint> {
+    pub(crate) fn closest(
+        &self,
+        search: &SideSearch<'_, '_>,
+        point: [f32; 3],
+    ) -> Option<ClosestPoint> {
         let &Survey { query, best, .. } = self;
         let tree = search.tree;
         let ended = search.truncated.unwrap_or(Ended::Exact);
@@ -266,12 +270,12 @@ struct WaitingLeaf {
 /// What is told of triangles that may be the closest.
 struct Nearby {
     /// For each [`ViewedSide`] the closest triangle.
-    by_side: [LeafTriangle; 4],
+    by_side: [LeafTriangle; ViewedSide::COUNT],
     /// For each [`ViewedSide`] the least squared lower bound of its triangles that need no further
     /// bound.
-    least_sq: [f32; 4],
+    least_sq: [f32; ViewedSide::COUNT],
     /// For each [`ViewedSide`] the least lower bound of its other triangles, grid units.
-    least: [f32; 4],
+    least: [f32; ViewedSide::COUNT],
 }
 
 /// What a descent collects for a [`Survey`].
@@ -292,7 +296,7 @@ struct Collector<'p, 'w> {
     nearby: &'w mut Nearby,
     /// The latest triangle that was taken since the bound fell, if it is certified.
     latest: LeafTriangle,
-    latest_facing: ViewedSide,
+    latest_side: ViewedSide,
     /// Leaves whose triangles are looked at when the descent is done.
     waiting: &'w mut heapless::Vec<WaitingLeaf, WAITING>,
     /// Squares of their triangles.
@@ -382,7 +386,7 @@ impl TriangleCollector for Collector<'_, '_> {
         if self.marked.is_some() {
             return None;
         }
-        self.latest_facing.in_winding(leaf, lane)
+        self.latest_side.in_winding(leaf, lane)
     }
 
     #[inline(always)]
@@ -410,29 +414,29 @@ impl TriangleCollector for Collector<'_, '_> {
                 }
             }
         }
-        let facing = viewed_side(self.query, leaf, here.place.lane(), seen);
-        let facing = match self.marked {
-            Some(tree) => facing.told_by(tree, here.place),
-            None => facing,
+        let side = viewed_side(self.query, leaf, here.place.lane(), seen);
+        let side = match self.marked {
+            Some(tree) => side.told_by(tree, here.place),
+            None => side,
         };
-        if is_tie && facing == self.latest_facing {
+        if is_tie && side == self.latest_side {
             return;
         }
-        if facing != ViewedSide::Flat || self.bounding == Bounding::Any {
+        if side != ViewedSide::Flat || self.bounding == Bounding::Any {
             self.bound(here.distance_sq, limit);
         }
         let Nearby { by_side, least_sq, least } = &mut *self.nearby;
-        if let Some(by_side) = by_side.get_mut(facing as usize) {
+        if let Some(by_side) = by_side.get_mut(side as usize) {
             by_side.improve(here);
         }
         if is_certified {
-            (self.latest, self.latest_facing) = (here, facing);
-            if let Some(least_sq) = least_sq.get_mut(facing as usize)
+            (self.latest, self.latest_side) = (here, side);
+            if let Some(least_sq) = least_sq.get_mut(side as usize)
                 && Real(here.lower_bound_sq) < Real(*least_sq)
             {
                 *least_sq = here.lower_bound_sq;
             }
-        } else if let Some(least) = least.get_mut(facing as usize)
+        } else if let Some(least) = least.get_mut(side as usize)
             && Real(lower) < Real(*least)
         {
             *least = lower;

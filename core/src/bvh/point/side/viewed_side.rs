@@ -9,7 +9,7 @@ use crate::bvh::point::leaf::plain_side::is_plainly_in_front;
 use crate::bvh::point::query::PointQuery;
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::bvh::tree::triangle_at::TriangleAt;
-use crate::geom::fan::{is_in_front, is_whole};
+use crate::geom::fan::{is_in_front, is_integer};
 use crate::geom::norm_1;
 use crate::num::SOFT_FLOAT;
 use crate::num::tolerance::{EXACT_INTEGERS, SIGN_TRIPLE_PRODUCT, U32};
@@ -27,6 +27,9 @@ pub(crate) enum ViewedSide {
 }
 
 impl ViewedSide {
+    /// How many there are, for arrays with one as the index.
+    pub(crate) const COUNT: usize = 4;
+
     /// Front or back.
     #[inline(always)]
     fn of(is_front: bool) -> ViewedSide {
@@ -80,7 +83,7 @@ pub(crate) fn viewed_side(
 ) -> ViewedSide {
     let is_reversed = is_reversed(leaf, lane);
     if SOFT_FLOAT
-        && let Some(point) = &query.whole
+        && let Some(point) = &query.int_point
         && let Some(ring) = leaf.grid_ring()
         && let Some(corners) = ring.corners(lane, leaf.shape().turn())
         && let Some(is_front) = is_in_front(point, &corners)
@@ -143,7 +146,7 @@ pub(crate) fn is_same(a: &Vec3, b: &Vec3) -> bool {
 #[cold]
 pub(crate) fn is_flat(leaf: &FanLeaf<'_>, lane: usize, size: f32) -> bool {
     let [a, b, c] = leaf.corners(lane);
-    let is_exact = |v: Vec3| is_whole(v, EXACT_INTEGERS);
+    let is_exact = |v: Vec3| is_integer(v, EXACT_INTEGERS);
     is_same(&a, &b)
         || is_same(&b, &c)
         || is_same(&c, &a)

@@ -90,18 +90,6 @@ pub mod field {
     pub const RESERVED_AT_END: usize = 60;
 }
 
-/// Offsets in a node's links.
-pub mod links {
-    /// u32: first inner child in 24 bits, inner children in 4, all children in 4.
-    pub const CHILDREN: usize = 0;
-    /// u32: first vertex of the first leaf.
-    pub const FIRST_VERTEX: usize = 4;
-    /// u32: first triangle of the first leaf.
-    pub const FIRST_TRIANGLE: usize = 8;
-    /// Eight u8: shapes of the leaves, 0 for a node.
-    pub const SHAPES: usize = 12;
-}
-
 /// Offsets in a node's boxes. Both kinds begin with six rows of eight u8: low and high planes of
 /// the first axis, of the second, of the third. In a shared frame high planes are counted down
 /// from 255.

@@ -3,7 +3,7 @@
 use crate::num::{down_to_f32, lesser};
 
 /// The groups of pairs that searches left out, in the caller's memory.
-pub(crate) struct LeftOut<'f> {
+pub(crate) struct SkippedPairs<'f> {
     pub(crate) groups: &'f mut [Group],
     /// Groups in use.
     pub(crate) count: usize,
@@ -13,7 +13,7 @@ pub(crate) struct LeftOut<'f> {
     pub(crate) is_known: bool,
 }
 
-impl LeftOut<'_> {
+impl SkippedPairs<'_> {
     /// These pairs are not nearer than `distance`, common units.
     pub(crate) fn keep(&mut self, pairs: ChildPairs, distance: f64) {
         if self.is_known {
