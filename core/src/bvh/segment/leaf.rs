@@ -144,7 +144,7 @@ fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
         return Some(flagged_f32(leaf, ray));
     }
     let ring = leaf.full_ring_in_order(ray.axes())?;
-    let (centres, vertices) = (ring.centres(shape), ring.vertices(shape));
+    let (centres, vertices) = (ring.centres_in_order(shape, ray.axes()), ring.vertices(shape));
     #[cfg(meshsweep_soft_float)]
     let flagged = match query.line.near(centres, vertices, shape) {
         0 => 0,

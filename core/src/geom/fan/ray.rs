@@ -87,8 +87,9 @@ impl Side {
     }
 }
 
+/// The element of an axis.
 #[inline(always)]
-fn pick<T: Copy>(v: [T; 3], axis: usize) -> T {
+pub fn pick<T: Copy>(v: [T; 3], axis: usize) -> T {
     let [x, y, z] = v;
     [x, y, z, z][axis & 3]
 }

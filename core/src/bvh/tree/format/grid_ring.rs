@@ -3,7 +3,9 @@
 #[cfg(not(meshsweep_wide))]
 use super::leaf_shape::LeafShape;
 #[cfg(not(meshsweep_wide))]
-use crate::geom::fan::WIDTH;
+use crate::geom::fan::{WIDTH, pick};
+#[cfg(not(meshsweep_wide))]
+use crate::num::SOFT_FLOAT;
 
 /// Bytes of the largest leaf on the grid: two centres and nine ring vertices.
 pub(super) const GRID_WINDOW: usize = 66;
@@ -41,19 +43,30 @@ impl GridRing<'_> {
     }
 }
 
+/// Whether an order of the axes is made of three that were read. In small code that costs less than
+/// to read in an order, but where floats take integer instructions.
+#[cfg(not(meshsweep_wide))]
+pub(super) const PICKS: bool = cfg!(meshsweep_small) && !SOFT_FLOAT;
+
 /// Ring vertices of the largest leaf.
 #[cfg(not(meshsweep_wide))]
 pub(super) const RING_VERTICES: usize = WIDTH + 1;
 
-/// Stored integers of a leaf on the grid with the greatest number of ring vertices, in an order of
-/// the axes. They do not include the grid's origin.
+/// Stored integers of a leaf on the grid with the greatest number of ring vertices. They do not
+/// include the grid's origin.
 #[cfg(not(meshsweep_wide))]
 #[derive(Clone, Copy, Debug)]
 pub struct FullRing<'a> {
     pub(super) window: &'a [u8; GRID_WINDOW],
-    pub(super) axes: [usize; 3],
     /// Coordinates of the ring, axis by axis. Those past the last triangle have no meaning.
     pub(crate) rows: [&'a [[u8; 2]; RING_VERTICES]; 3],
+}
+
+/// A row of ring coordinates. The last row of the largest leaf ends with the window.
+#[cfg(not(meshsweep_wide))]
+#[inline(always)]
+pub(super) fn ring_row(window: &[u8; GRID_WINDOW], at: usize) -> Option<&[[u8; 2]; RING_VERTICES]> {
+    window.get(at.min(GRID_WINDOW - 2 * RING_VERTICES)..)?.as_chunks::<2>().0.first_chunk()
 }
 
 #[cfg(not(meshsweep_wide))]
@@ -61,19 +74,28 @@ impl FullRing<'_> {
     /// First and second centre, alike if there is one fan.
     #[inline(always)]
     pub fn centres(&self, shape: LeafShape) -> [[i32; 3]; 2] {
-        [self.centre(0), self.centre(shape.centres() - 1)]
+        [three(self.window, 0), three(self.window, 6 * (shape.centres() - 1))]
+    }
+
+    /// The same in the order of `axes`.
+    #[inline(always)]
+    pub fn centres_in_order(&self, shape: LeafShape, [u, v, w]: [usize; 3]) -> [[i32; 3]; 2] {
+        if PICKS {
+            return self.centres(shape).map(|all| [pick(all, u), pick(all, v), pick(all, w)]);
+        }
+        // A mask that changes nothing costs less than a bounds check.
+        let stored = |which: usize, axis: usize| {
+            let at = (6 * which + 2 * axis) & 63;
+            short_of([self.window[at], self.window[at + 1]])
+        };
+        let centre = |which: usize| [stored(which, u), stored(which, v), stored(which, w)];
+        [centre(0), centre(shape.centres() - 1)]
     }
 
     /// First or second centre of a leaf that has so many.
     #[inline(always)]
     pub fn centre(&self, which: usize) -> [i32; 3] {
-        let [u, v, w] = self.axes;
-        // A mask that changes nothing, for less than a bounds check.
-        let stored = |axis: usize| {
-            let at = (6 * (which & 1) + 2 * axis) & 63;
-            short_of([self.window[at], self.window[at + 1]])
-        };
-        [stored(u), stored(v), stored(w)]
+        three(self.window, 6 * (which & 1))
     }
 
     /// The ring vertices of a leaf of this shape.

@@ -3,9 +3,13 @@
 //! A leaf of an opened tree lies within the fans' section. No read can panic all the same.
 
 #[cfg(not(meshsweep_wide))]
-use super::grid_ring::{FullRing, RING_VERTICES};
+use super::grid_ring::FullRing;
 use super::grid_ring::{GRID_WINDOW, GridRing, short, three};
+#[cfg(not(meshsweep_wide))]
+use super::grid_ring::{PICKS, ring_row};
 use super::leaf_shape::LeafShape;
+#[cfg(not(meshsweep_wide))]
+use crate::geom::fan::pick;
 #[cfg(meshsweep_wide)]
 use crate::geom::fan::{Ring8, WIDTH};
 #[cfg(meshsweep_small)]
@@ -244,22 +248,26 @@ impl<'a> FanLeaf<'a> {
     #[cfg(not(meshsweep_wide))]
     #[inline(always)]
     pub fn full_ring(&self) -> Option<FullRing<'a>> {
-        self.full_ring_in_order([0, 1, 2])
-    }
-
-    /// The same in the order of `axes`.
-    #[cfg(not(meshsweep_wide))]
-    #[inline(always)]
-    pub fn full_ring_in_order(&self, [u, v, w]: [usize; 3]) -> Option<FullRing<'a>> {
         let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
         let first = 6 * self.shape.centres();
         let step = 2 * (self.shape.triangles() + 1);
-        // The last row of the largest leaf ends with the window.
-        let row = |axis: usize| {
-            let at = (first + step * axis).min(GRID_WINDOW - 2 * RING_VERTICES);
-            window.get(at..)?.as_chunks::<2>().0.first_chunk()
-        };
-        Some(FullRing { window, axes: [u, v, w], rows: [row(u)?, row(v)?, row(w)?] })
+        let row = |at| ring_row(window, at);
+        Some(FullRing { window, rows: [row(first)?, row(first + step)?, row(first + 2 * step)?] })
+    }
+
+    /// The same, with rows in the order of `axes`.
+    #[cfg(not(meshsweep_wide))]
+    #[inline(always)]
+    pub fn full_ring_in_order(&self, [u, v, w]: [usize; 3]) -> Option<FullRing<'a>> {
+        if PICKS {
+            let FullRing { window, rows } = self.full_ring()?;
+            return Some(FullRing { window, rows: [pick(rows, u), pick(rows, v), pick(rows, w)] });
+        }
+        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
+        let first = 6 * self.shape.centres();
+        let step = 2 * (self.shape.triangles() + 1);
+        let row = |axis: usize| ring_row(window, first + step * axis);
+        Some(FullRing { window, rows: [row(u)?, row(v)?, row(w)?] })
     }
 
     /// The point `centre + v·e + w·g` of triangle `lane`, grid units.
