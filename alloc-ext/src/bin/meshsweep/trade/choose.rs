@@ -26,6 +26,13 @@ pub struct Chosen {
     points: (usize, String),
 }
 
+impl Chosen {
+    /// The options that build its blob.
+    pub fn options(&self) -> String {
+        self.first.build().to_string()
+    }
+}
+
 /// Chooses the setting that meets the limits.
 pub fn choose(args: &BuildArgs) -> Result<(Built, Chosen), Failure> {
     let limits = args.limits.limits();
