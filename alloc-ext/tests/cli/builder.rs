@@ -246,7 +246,7 @@ fn collapsing(set: impl FnOnce(&mut CollapseOptions)) -> Builder<'static> {
 #[test]
 fn numbers_are_taken_in_their_range_and_refused_outside_of_it() {
     let whole = |[least, most]: [u32; 2]| [least, most].map(f64::from);
-    let options: [Ranged; 10] = [
+    let options: [Ranged; 9] = [
         ("--base", whole(ranges::BASE_FACES), |x| {
             Builder::new().serve(For::Hull).base_faces(x as u32)
         }),
@@ -261,7 +261,6 @@ fn numbers_are_taken_in_their_range_and_refused_outside_of_it() {
         }),
         ("--effort", ranges::EFFORT, |x| Builder::new().serve(For::Tight).effort(x)),
         ("--slack", ABOVE_ZERO, |x| Builder::new().serve(For::Tight).slack(x)),
-        ("--void", ABOVE_ZERO, |x| Builder::new().serve(For::Tight).void_percent(x)),
         ("--margin", FROM_ZERO, |x| Builder::new().serve(For::Tight).margin(x)),
         ("--compactness", ranges::COMPACTNESS, |x| {
             collapsing(|options| options.compactness = Some(x))
@@ -289,6 +288,14 @@ fn numbers_are_taken_in_their_range_and_refused_outside_of_it() {
                 "{name} {wrong}: {refused:?}"
             );
         }
+    }
+    // A percentage: its fraction of the least number is 0.
+    for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused = Builder::new().serve(For::Tight).void_percent(wrong).check(part);
+        assert!(
+            matches!(refused, Err(BuildError::OutOfRange { option: "--void", .. })),
+            "{wrong}: {refused:?}"
+        );
     }
 }
 
