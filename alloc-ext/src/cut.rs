@@ -18,26 +18,6 @@ pub struct Keep {
     pub tight: Option<u32>,
 }
 
-impl Keep {
-    /// Sets the [finest level](Self::level).
-    #[must_use]
-    pub const fn with_level(self, level: u32) -> Self {
-        Self { level: Some(level), ..self }
-    }
-
-    /// Sets the number of [triboxes](Self::triboxes).
-    #[must_use]
-    pub const fn with_triboxes(self, triboxes: u32) -> Self {
-        Self { triboxes: Some(triboxes), ..self }
-    }
-
-    /// Sets the number of faces of [tight hulls](Self::tight).
-    #[must_use]
-    pub const fn with_tight(self, faces: u32) -> Self {
-        Self { tight: Some(faces), ..self }
-    }
-}
-
 /// A blob that was cut.
 ///
 /// # Errors

@@ -38,6 +38,9 @@
 //! `hull` ← `{cut, builder}` ← `{trade, robot}` ← `worst` ← the program. `trade` also uses the
 //! distance of `check`, and `distances` uses no room. A test keeps that (`host-tests/tests/house`).
 
+#[macro_use]
+mod setters;
+
 pub mod builder;
 pub mod bvh;
 pub mod check;

@@ -27,6 +27,25 @@ pub struct Typed<T>(pub T);
 /// exponent.
 pub struct Short(pub f32);
 
+/// The least and the greatest number above 0.
+pub const ABOVE_ZERO: [f64; 2] = [f64::from_bits(1), f64::MAX];
+
+/// The least and the greatest number that is not negative.
+pub const FROM_ZERO: [f64; 2] = [0.0, f64::MAX];
+
+/// Says which numbers are in a range, from the least to the greatest.
+#[must_use]
+pub fn wanted(range: [f64; 2]) -> String {
+    let [least, most] = range;
+    if range == ABOVE_ZERO {
+        "a finite number above 0 is wanted".to_owned()
+    } else if range == FROM_ZERO {
+        "a finite number from 0 is wanted".to_owned()
+    } else {
+        format!("a number from {least} to {most} is wanted")
+    }
+}
+
 /// The f32 nearest to a decimal number, or the reason why there is none.
 pub fn parse(field: &str) -> Result<f32, &'static str> {
     let exact: f64 = field.parse().map_err(|_| "is not a number; write it like -1.25 or 3e-4")?;

@@ -1,6 +1,9 @@
 //! Motions of one scene's mesh beside another's, and which of their triangles meet.
 
-use meshsweep_core::Pose;
+use std::fmt::Debug;
+
+use glam::DVec3;
+use meshsweep_core::{Decided, Pose, Undecided, Verdict};
 
 use crate::generate::Rng;
 use crate::oracle::moved::{Place, meeting_pairs};
@@ -21,19 +24,55 @@ pub fn truth(a: &Scene, b: &Scene, pose: &Pose) -> Vec<[u32; 2]> {
     meeting_pairs(&places(a, Place::of), &places(b, moved))
 }
 
+/// How often each answer was given.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// No pair meets.
+    pub apart: usize,
+    /// A pair meets.
+    pub meets: usize,
+    /// Rounding decides.
+    pub open: usize,
+}
+
+impl Tally {
+    /// Holds an answer to the pairs that meet, and counts the answer.
+    ///
+    /// # Panics
+    /// The answer is wrong, or names no pair.
+    pub fn hold<W: Copy + Debug + PartialEq>(
+        &mut self,
+        answer: &Decided<W>,
+        truth: &[W],
+        name: &str,
+    ) {
+        match answer.verdict {
+            Verdict::No => {
+                self.apart += 1;
+                assert!(truth.is_empty(), "{name}: wrongly apart: {} pairs meet", truth.len());
+                assert_eq!(answer.witness, None, "{name}");
+            }
+            Verdict::Yes => {
+                self.meets += 1;
+                let pair = answer.witness.expect("a pair");
+                assert!(truth.contains(&pair), "{name}: {pair:?} do not meet");
+            }
+            verdict => {
+                self.open += 1;
+                assert_eq!(verdict, Verdict::Undecided(Undecided::Resolution), "{name}");
+                assert!(answer.witness.is_some(), "{name}: which pair is open");
+            }
+        }
+    }
+}
+
 /// A rotation up to rounding.
 pub fn rotation(rng: &mut Rng) -> [Point; 3] {
-    let x = rng.direction().map(f64::from);
-    let other = rng.direction().map(f64::from);
-    let cross = |a: [f64; 3], b: [f64; 3]| {
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    };
-    let unit = |v: [f64; 3]| {
-        let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        v.map(|x| x / length)
-    };
-    let z = unit(cross(x, other));
-    [x, cross(z, x), z].map(|row| row.map(|x| x as f32))
+    let [x, other] = [(); 2].map(|()| DVec3::from(rng.direction().map(f64::from)));
+    let z = x.cross(other);
+    // Not `normalize`, which multiplies by the inverse: other bits.
+    let z = z / z.length();
+    [x, z.cross(x), z].map(|row| row.to_array().map(|x| x as f32))
 }
 
 /// A motion that brings the middle of `b` to `place`, with any rotation.

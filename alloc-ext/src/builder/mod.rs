@@ -25,8 +25,9 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 pub use crate::progress::Stage;
+pub use crate::tight::FACES;
 pub use built::{Built, Note, Topic};
-pub use options::{FACES, For, TRIBOXES};
+pub use options::{For, TRIBOXES};
 pub use recipe::Recipe;
 
 /// Builds a blob in memory, with the program's options and defaults.
@@ -77,42 +78,30 @@ impl fmt::Display for Builder<'_> {
     }
 }
 
-/// One setter for an option.
-macro_rules! setters {
-    ($($(#[$doc:meta])* $name:ident: $value:ty => $field:ident,)*) => {
-        $(
-            $(#[$doc])*
-            pub fn $name(mut self, value: impl Into<Option<$value>>) -> Self {
-                self.options.$field = value.into();
-                self
-            }
-        )*
-    };
-}
-
 impl<'a> Builder<'a> {
     setters! {
+        optional
         /// Unit of the blob. A mesh that names its unit is converted. Other meshes are taken to be
         /// in this unit already.
-        unit: Unit => unit,
+        unit: Unit => options.unit,
         /// Faces of the base hull, for [`For::Hull`], [`For::Sweep`] and [`For::Deform`]:
         /// [`FACES`] unless told otherwise.
-        base_faces: u32 => base,
+        base_faces: u32 => options.base,
         /// Most triboxes of the finest level: [`TRIBOXES`] unless told otherwise.
-        triboxes: u32 => triboxes,
+        triboxes: u32 => options.triboxes,
         /// Instead of numbers of faces: one tight hull, with the fewest faces found such that no
         /// point of it is farther than this from the mesh, in its unit. More than the
         /// [`margin`](Self::margin).
-        slack: f64 => slack,
+        slack: f64 => options.slack,
         /// Instead of numbers of faces: one tight hull, with the fewest faces found that leave at
         /// most this void, in percent of the mesh's volume. Refused together with
         /// [`slack`](Self::slack). Either is refused together with
         /// [`tight_faces`](Self::tight_faces).
-        void_percent: f64 => void_percent,
+        void_percent: f64 => options.void_percent,
         /// Distance that tight hulls keep from the mesh, in its unit. Default: 0.
-        margin: f64 => margin,
+        margin: f64 => options.margin,
         /// How long to polish tight hulls, as a factor: 0 not at all. Default: 1.
-        effort: f64 => effort,
+        effort: f64 => options.effort,
     }
 
     /// Distances and segments of a mesh, the program's default.

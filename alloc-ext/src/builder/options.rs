@@ -7,12 +7,9 @@ use crate::hull::BuildOptions;
 use crate::load::is_named_as_mesh;
 use crate::mesh::Unit;
 use crate::surface::VertexBits;
-use crate::tight::{ChainOptions, Goal, MAX_HULLS};
+use crate::tight::{ChainOptions, FACES, Goal, MAX_HULLS, Options as TightOptions};
 use std::fmt;
 use std::path::Path;
-
-/// Faces of a hull unless told otherwise.
-pub const FACES: u32 = 200;
 
 /// Triboxes unless told otherwise.
 pub const TRIBOXES: u32 = 64;
@@ -109,39 +106,56 @@ pub(super) struct Options {
     pub is_closed: bool,
 }
 
+/// What an option applies to.
+#[derive(Clone, Copy)]
+enum Of {
+    Any,
+    Hull,
+    Triboxes,
+    Tight,
+}
+
+/// An option of the program. It has no words where nothing was asked for.
+struct Dial {
+    option: &'static str,
+    of: Of,
+    words: Vec<String>,
+    /// Numbers, and the least and the greatest that each may be.
+    numbers: Vec<f64>,
+    range: [f64; 2],
+}
+
+impl Dial {
+    fn words<T: ToString>(
+        option: &'static str,
+        of: Of,
+        values: impl IntoIterator<Item = T>,
+    ) -> Self {
+        let words = values.into_iter().map(|value| value.to_string()).collect();
+        Self { option, of, words, numbers: vec![], range: [0.0; 2] }
+    }
+
+    fn numbers<N: Copy + Into<f64>>(
+        option: &'static str,
+        of: Of,
+        values: impl IntoIterator<Item = N>,
+        range: [N; 2],
+    ) -> Self {
+        let numbers: Vec<f64> = values.into_iter().map(N::into).collect();
+        let words = Self::words(option, of, &numbers);
+        Self { numbers, range: range.map(N::into), ..words }
+    }
+}
+
 impl fmt::Display for Options {
     /// As the program's options, but for those with their defaults.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fn list<T: ToString>(of: &[T]) -> Option<String> {
-            let words: Vec<String> = of.iter().map(T::to_string).collect();
-            (!words.is_empty()).then(|| words.join(","))
-        }
-        let count = |of: Option<u32>| of.map(|n| n.to_string());
-        let number = |of: Option<f64>| of.map(|x| x.to_string());
-        let tight_for = self.tight_for.map_or(vec![], |[closest, segment]| {
-            let all = [(closest, For::Closest), (segment, For::Segment)];
-            all.into_iter().filter_map(|(is_asked, of)| is_asked.then_some(of)).collect()
+        let given = self.dials().into_iter().filter(|dial| !dial.words.is_empty());
+        let texts = given.map(|dial| match dial.words.join(",").as_str() {
+            "" => dial.option.to_owned(),
+            words => format!("{} {words}", dial.option),
         });
-        let bits = self.vertex_bits;
-        let all = [
-            ("--for", list(&self.serves)),
-            ("--unit", self.unit.map(|unit| unit.symbol().to_owned())),
-            ("--vertex-bits", (bits != VertexBits::Auto).then(|| bits.to_string())),
-            ("--base", count(self.base)),
-            ("--max-valence", count(self.collapse.max_valence)),
-            ("--compactness", number(self.collapse.compactness)),
-            ("--max-normal-deviation", number(self.collapse.max_normal_deviation)),
-            ("--triboxes", count(self.triboxes)),
-            ("--tight", list(&self.tight)),
-            ("--slack", number(self.slack)),
-            ("--void", number(self.void_percent)),
-            ("--margin", number(self.margin)),
-            ("--tight-for", list(&tight_for)),
-            ("--effort", number(self.effort)),
-        ];
-        let given = all.into_iter().filter_map(|(name, value)| Some(format!("{name} {}", value?)));
-        let closed = self.is_closed.then(|| "--closed".to_owned());
-        f.write_str(&given.chain(closed).collect::<Vec<_>>().join(" "))
+        f.write_str(&texts.collect::<Vec<_>>().join(" "))
     }
 }
 
@@ -193,15 +207,52 @@ impl Options {
     }
 
     pub fn of_tight(&self) -> ChainOptions {
+        let [closest, segments] = self.tight_for.unwrap_or([true; 2]);
+        ChainOptions {
+            faces: self.tight.iter().map(|&faces| faces as usize).collect(),
+            hull: TightOptions::new(self.goal())
+                .with_margin(self.margin.unwrap_or(0.0))
+                .with_effort(self.effort.unwrap_or(1.0))
+                .with_vertex_bits(self.vertex_bits),
+            closest,
+            segments,
+        }
+    }
+
+    /// The goal of the one tight hull, where no numbers of faces are asked for.
+    fn goal(&self) -> Goal {
         let void = self.void_percent.map(|percent| Goal::Void(percent / 100.0));
-        let faces: Vec<usize> = self.tight.iter().map(|&faces| faces as usize).collect();
-        let [closest, segment] = self.tight_for.unwrap_or([true; 2]);
-        void.or(self.slack.map(Goal::Slack))
-            .map_or_else(|| ChainOptions::of_faces(&faces), ChainOptions::of_goal)
-            .with_margin(self.margin.unwrap_or(0.0))
-            .with_effort(self.effort.unwrap_or(1.0))
-            .with_vertex_bits(self.vertex_bits)
-            .with_boxes(closest, segment)
+        void.or(self.slack.map(Goal::Slack)).unwrap_or_default()
+    }
+
+    /// All options, one row each: name, what it applies to, value, range.
+    fn dials(&self) -> [Dial; 15] {
+        let bits = Some(self.vertex_bits).filter(|&bits| bits != VertexBits::Auto);
+        let collapse = &self.collapse;
+        let [closest, segment] = self.tight_for.unwrap_or_default();
+        let asked = [closest.then_some(For::Closest), segment.then_some(For::Segment)];
+        [
+            Dial::words("--for", Of::Any, &self.serves),
+            Dial::words("--unit", Of::Any, self.unit.map(Unit::symbol)),
+            Dial::words("--vertex-bits", Of::Any, bits),
+            Dial::numbers("--base", Of::Hull, self.base, ranges::BASE_FACES),
+            Dial::numbers("--max-valence", Of::Hull, collapse.max_valence, ranges::MAX_VALENCE),
+            Dial::numbers("--compactness", Of::Hull, collapse.compactness, ranges::COMPACTNESS),
+            Dial::numbers(
+                "--max-normal-deviation",
+                Of::Hull,
+                collapse.max_normal_deviation,
+                ranges::NORMAL_DEVIATION,
+            ),
+            Dial::numbers("--triboxes", Of::Triboxes, self.triboxes, ranges::TRIBOX_COUNT),
+            Dial::numbers("--tight", Of::Tight, self.tight.iter().copied(), ranges::TIGHT_FACES),
+            Dial::words("--slack", Of::Tight, self.slack),
+            Dial::words("--void", Of::Tight, self.void_percent),
+            Dial::words("--margin", Of::Tight, self.margin),
+            Dial::words("--tight-for", Of::Tight, asked.into_iter().flatten()),
+            Dial::numbers("--effort", Of::Tight, self.effort, ranges::EFFORT),
+            Dial::words("--closed", Of::Any, self.is_closed.then_some("")),
+        ]
     }
 
     /// Refuses options out of range, and options that do not go together.
@@ -212,10 +263,8 @@ impl Options {
             Subject::Curves => false,
         };
         let is_curve = self.is_curve(of);
-        let is_positive = |x: f64| x > 0.0 && x.is_finite();
         let is_grid = matches!(self.vertex_bits, VertexBits::Grid16 | VertexBits::Grid24);
-        let hull = self.hull_option().filter(|_| !self.wants_hierarchy());
-        let tight = self.tight_option().filter(|_| !self.serves(For::Tight));
+        let [slack, void] = [self.slack, self.void_percent].map(|goal| goal.is_some());
         let rules = [
             (
                 self.serves(For::Curve) && is_mesh,
@@ -234,7 +283,6 @@ impl Options {
                 "is for curves of a file; set Polyline::is_closed of those in memory",
             ),
             (self.unit.is_some() && is_curve, "--unit", "is for meshes"),
-            (hull.is_some(), hull.unwrap_or_default(), "is for a hull; add hull to --for"),
             (
                 has_frames && !self.serves(For::Deform),
                 "several meshes",
@@ -245,98 +293,46 @@ impl Options {
                 "--for deform",
                 "keeps the vertices as they are; leave out --vertex-bits",
             ),
+            (slack && void, "--slack", "and --void are two goals; leave one of them out"),
             (
-                self.triboxes.is_some() && !self.serves(For::Triboxes),
-                "--triboxes",
-                "is for triboxes; add triboxes to --for",
-            ),
-            (tight.is_some(), tight.unwrap_or_default(), "is for tight hulls; add tight to --for"),
-            (
-                self.slack.is_some() && self.void_percent.is_some(),
-                "--slack",
-                "and --void are two goals; leave one of them out",
-            ),
-            (
-                self.slack.is_some() && !self.tight.is_empty(),
+                slack && !self.tight.is_empty(),
                 "--slack",
                 "and --tight are two goals; leave one of them out",
             ),
             (
-                self.void_percent.is_some() && !self.tight.is_empty(),
+                void && !self.tight.is_empty(),
                 "--void",
                 "and --tight are two goals; leave one of them out",
-            ),
-            (
-                self.slack.is_some_and(|slack| !is_positive(slack)),
-                "--slack",
-                "wants a finite number above 0, in the mesh's unit",
-            ),
-            (
-                self.void_percent.is_some_and(|void| !is_positive(void)),
-                "--void",
-                "wants a finite percentage above 0",
-            ),
-            (
-                self.margin.is_some_and(|margin| margin != 0.0 && !is_positive(margin)),
-                "--margin",
-                "wants a finite number from 0, in the mesh's unit",
             ),
         ];
-        let broken = rules.into_iter().find(|&(is_broken, ..)| is_broken);
+        let dials = self.dials();
+        let without_use = dials
+            .iter()
+            .filter(|dial| !dial.words.is_empty())
+            .filter_map(|dial| self.lacks(dial.of).map(|why| (true, dial.option, why)));
+        let broken = rules.into_iter().chain(without_use).find(|&(is_broken, ..)| is_broken);
         if let Some((_, option, why)) = broken {
             return Err(BuildError::Option { option, why });
         }
         if self.tight.len() > MAX_HULLS {
             return Err(BuildError::TooManyHulls { most: MAX_HULLS });
         }
-        self.check_ranges()?;
-        self.slack.map_or(Ok(()), |slack| Goal::Slack(slack).check(self.margin.unwrap_or(0.0)))
+        for Dial { option, numbers, range, .. } in &dials {
+            numbers
+                .iter()
+                .try_for_each(|&number| BuildError::check_range(option, number, *range))?;
+        }
+        self.goal().check(self.margin.unwrap_or(0.0))
     }
 
-    /// Refuses numbers out of range.
-    fn check_ranges(&self) -> Result<(), BuildError> {
-        let collapse = &self.collapse;
-        let counts = [
-            ("--base", self.base, ranges::BASE_FACES),
-            ("--triboxes", self.triboxes, ranges::TRIBOX_COUNT),
-            ("--max-valence", collapse.max_valence, ranges::MAX_VALENCE),
-        ];
-        let counts = counts.into_iter().chain(
-            // One rule for each hull.
-            self.tight.iter().map(|&faces| ("--tight", Some(faces), ranges::TIGHT_FACES)),
-        );
-        let numbers = [
-            ("--effort", self.effort, ranges::EFFORT),
-            ("--compactness", collapse.compactness, ranges::COMPACTNESS),
-            ("--max-normal-deviation", collapse.max_normal_deviation, ranges::NORMAL_DEVIATION),
-        ];
-        counts
-            .map(|(option, given, range)| (option, given.map(f64::from), range.map(f64::from)))
-            .chain(numbers)
-            .try_for_each(|(option, given, [least, most])| match given {
-                Some(found) if !(least..=most).contains(&found) => {
-                    Err(BuildError::OutOfRange { option, found, least, most })
-                }
-                _ => Ok(()),
-            })
-    }
-
-    /// The first given option that applies to the hull hierarchy only.
-    fn hull_option(&self) -> Option<&'static str> {
-        if self.base.is_some() { Some("--base") } else { self.collapse.given() }
-    }
-
-    /// The first given option that applies to tight hulls only.
-    fn tight_option(&self) -> Option<&'static str> {
-        [
-            ("--tight", !self.tight.is_empty()),
-            ("--slack", self.slack.is_some()),
-            ("--void", self.void_percent.is_some()),
-            ("--margin", self.margin.is_some()),
-            ("--effort", self.effort.is_some()),
-            ("--tight-for", self.tight_for.is_some()),
-        ]
-        .into_iter()
-        .find_map(|(option, is_given)| is_given.then_some(option))
+    /// Why an option is of no use, if it applies to what is not asked for.
+    fn lacks(&self, of: Of) -> Option<&'static str> {
+        let (is_served, why) = match of {
+            Of::Any => return None,
+            Of::Hull => (self.wants_hierarchy(), "is for a hull; add hull to --for"),
+            Of::Triboxes => (self.serves(For::Triboxes), "is for triboxes; add triboxes to --for"),
+            Of::Tight => (self.serves(For::Tight), "is for tight hulls; add tight to --for"),
+        };
+        (!is_served).then_some(why)
     }
 }

@@ -74,34 +74,19 @@ impl Default for TreeOptions {
 }
 
 impl TreeOptions {
-    /// Sets whether the tree serves [closest points](Self::closest).
-    #[must_use]
-    pub const fn with_closest(self, closest: bool) -> Self {
-        Self { closest, ..self }
-    }
-
-    /// Sets whether the tree serves [segments](Self::segments).
-    #[must_use]
-    pub const fn with_segments(self, segments: bool) -> Self {
-        Self { segments, ..self }
-    }
-
-    /// Sets whether the tree serves [culling](Self::cull).
-    #[must_use]
-    pub const fn with_cull(self, cull: bool) -> Self {
-        Self { cull, ..self }
-    }
-
-    /// Sets whether the tree serves [winding numbers](Self::winding).
-    #[must_use]
-    pub const fn with_winding(self, winding: bool) -> Self {
-        Self { winding, ..self }
-    }
-
-    /// Sets whether [vertices are f32](Self::is_f32).
-    #[must_use]
-    pub const fn with_f32(self, is_f32: bool) -> Self {
-        Self { is_f32, ..self }
+    setters! {
+        /// Sets whether the tree serves [closest points](Self::closest).
+        with_closest: bool => closest,
+        /// Sets whether the tree serves [segments](Self::segments).
+        with_segments: bool => segments,
+        /// Sets whether the tree serves [culling](Self::cull).
+        with_cull: bool => cull,
+        /// Sets whether the tree serves [winding numbers](Self::winding).
+        with_winding: bool => winding,
+        /// Sets whether [vertices are f32](Self::is_f32).
+        with_f32: bool => is_f32,
+        /// Sets whether [f32 is allowed](Self::allows_f32).
+        with_f32_allowed: bool => allows_f32,
     }
 
     /// Whether the tree has boxes for distances.
@@ -124,12 +109,6 @@ impl TreeOptions {
         } else {
             Copies::First
         }
-    }
-
-    /// Sets whether [f32 is allowed](Self::allows_f32).
-    #[must_use]
-    pub const fn with_f32_allowed(self, allows_f32: bool) -> Self {
-        Self { allows_f32, ..self }
     }
 }
 

@@ -4,7 +4,7 @@ mod curve;
 mod unmet;
 
 use crate::mesh::{MeshError, NoVolume};
-use crate::number::{AtMost, Typed};
+use crate::number::{AtMost, Typed, wanted};
 use meshsweep_core::{OpenError, TriboxError};
 use std::fmt;
 use std::io;
@@ -129,11 +129,6 @@ pub enum BuildError {
     /// No surface around the mesh has coordinates in the stored range: they end at 3.4e38, or the
     /// mesh is as small as the steps of its coordinates.
     NoRoom,
-    /// The margin is negative or not a finite number.
-    BadMargin {
-        /// The margin asked for.
-        margin: f64,
-    },
     /// The mesh with its margin leaves the range of single precision.
     MarginTooLarge,
     /// The slack is not more than the margin.
@@ -228,7 +223,7 @@ impl fmt::Display for BuildError {
             }
             Self::Option { option, why } => write!(f, "{option} {why}"),
             Self::OutOfRange { option, found, least, most } => {
-                write!(f, "{option} {}: a number from {least} to {most} is wanted", Typed(*found))
+                write!(f, "{option} {}: {}", Typed(*found), wanted([*least, *most]))
             }
             Self::TooManyHulls { most } => {
                 write!(f, "--tight takes at most {most} numbers of faces")
@@ -272,9 +267,6 @@ impl fmt::Display for BuildError {
                 "there are no coordinates of single precision around the mesh to put a hull on; \
                  move or scale it",
             ),
-            Self::BadMargin { margin } => {
-                write!(f, "a margin is a finite number, at least 0, and this one is {margin}")
-            }
             Self::MarginTooLarge => f.write_str(
                 "the mesh and its margin leave the range of single precision, 3.4e38; ask for \
                  less, or scale both down",
@@ -316,6 +308,18 @@ impl fmt::Display for BuildError {
 }
 
 impl std::error::Error for BuildError {}
+
+impl BuildError {
+    /// Refuses the number of an option that is out of its range.
+    pub(crate) fn check_range(
+        option: &'static str,
+        found: f64,
+        [least, most]: [f64; 2],
+    ) -> Result<(), Self> {
+        let is_in = (least..=most).contains(&found);
+        if is_in { Ok(()) } else { Err(Self::OutOfRange { option, found, least, most }) }
+    }
+}
 
 impl From<CurveError> for BuildError {
     /// Of a curve in memory.

@@ -12,7 +12,7 @@ use crate::error::BuildError;
 use crate::mesh::{Input, KeyFrame, Mesh};
 use crate::progress::{Stage, Watch};
 use crate::surface::{Closed, SignedVolume, Stored, VertexBits, close, require_valid, store};
-use crate::tight::outset;
+use crate::tight::{FACES, outset};
 use glam::{DVec3, Vec3};
 use meshsweep_core::SectionKind;
 use meshsweep_core::internal::geom::Aabb;
@@ -69,7 +69,7 @@ impl Default for BuildOptions<'_> {
     fn default() -> Self {
         BuildOptions {
             levels: Levels::Hulls,
-            base_faces: 200,
+            base_faces: FACES as usize,
             priority: Priority::Program,
             conditions: Conditions::default(),
             vertex_bits: VertexBits::Auto,

@@ -3,6 +3,7 @@
 use super::package::Packages;
 use crate::load::Source;
 use crate::mesh::{Placement, RawMesh, Unit};
+use glam::DVec3;
 use std::f64::consts::TAU;
 
 /// A collision shape, in its own frame.
@@ -53,13 +54,13 @@ pub(super) fn mesh(
             let (directions, triangles) = icosphere();
             let plane = |triangle: &[u32; 3]| {
                 let [a, b, c] = triangle.map(|v| directions[v as usize]);
-                let n = cross(less(b, a), less(c, a));
-                dot(n, a).abs() / dot(n, n).sqrt()
+                let n = (b - a).cross(c - a);
+                n.dot(a).abs() / n.dot(n).sqrt()
             };
             // No plane of a face is nearer to the middle than the radius.
             let nearest = triangles.iter().map(plane).fold(f64::INFINITY, f64::min);
             let reach = radius / nearest * ABOUT;
-            let positions = directions.iter().map(|d| d.map(|x| x * reach)).collect();
+            let positions = directions.iter().map(|&d| (d * reach).to_array()).collect();
             let more = (reach * ABOUT - radius).next_up();
             Ok((made((positions, triangles)), Placement::IDENTITY, more))
         }
@@ -98,21 +99,23 @@ fn prism(reach: f64, half: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
 }
 
 /// Directions and faces of an icosahedron, each face cut into four twice.
-fn icosphere() -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+fn icosphere() -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    // Not `normalize`, which multiplies by the inverse: other bits.
+    let unit = |v: DVec3| v / v.length();
     let golden = 0.5 * (1.0 + 5f64.sqrt());
-    let mut directions: Vec<[f64; 3]> = Vec::new();
+    let mut directions: Vec<DVec3> = Vec::new();
     for (a, b) in [(1.0, golden), (-1.0, golden), (1.0, -golden), (-1.0, -golden)] {
-        directions.extend([[a, b, 0.0], [0.0, a, b], [b, 0.0, a]].map(unit));
+        directions.extend([[a, b, 0.0], [0.0, a, b], [b, 0.0, a]].map(|v| unit(v.into())));
     }
     // Corners of a face are nearest neighbours of each other.
-    let edge = |a: u32, b: u32| dot(directions[a as usize], directions[b as usize]) > 0.4;
+    let edge = |a: u32, b: u32| directions[a as usize].dot(directions[b as usize]) > 0.4;
     let mut faces = Vec::new();
     for (a, b, c) in
         (0..12).flat_map(|a| (a + 1..12).flat_map(move |b| (b + 1..12).map(move |c| (a, b, c))))
     {
         if edge(a, b) && edge(b, c) && edge(c, a) {
             let [p, q, r] = [a, b, c].map(|v: u32| directions[v as usize]);
-            let outward = dot(cross(less(q, p), less(r, p)), p) > 0.0;
+            let outward = (q - p).cross(r - p).dot(p) > 0.0;
             faces.push(if outward { [a, b, c] } else { [a, c, b] });
         }
     }
@@ -123,7 +126,7 @@ fn icosphere() -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
             let [ab, bc, ca] = [(a, b), (b, c), (c, a)].map(|(a, b): (u32, u32)| {
                 *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
                     let (p, q) = (directions[a as usize], directions[b as usize]);
-                    directions.push(unit([0, 1, 2].map(|k| p[k] + q[k])));
+                    directions.push(unit(p + q));
                     directions.len() as u32 - 1
                 })
             });
@@ -132,22 +135,6 @@ fn icosphere() -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
         faces = finer;
     }
     (directions, faces)
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn less(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn unit(v: [f64; 3]) -> [f64; 3] {
-    v.map(|x| x / dot(v, v).sqrt())
 }
 
 #[cfg(test)]
@@ -166,21 +153,18 @@ mod tests {
         ] {
             let (raw, _, more) = mesh(&shape, &packages).unwrap();
             for triangle in &raw.triangles {
-                let [a, b, c] = triangle.map(|v| raw.positions[v as usize]);
-                let n = unit(cross(less(b, a), less(c, a)));
+                let [a, b, c] = triangle.map(|v| DVec3::from(raw.positions[v as usize]));
+                let n = (b - a).cross(c - a).normalize();
                 let needed = match shape {
                     Shape::Sphere { radius } => radius,
-                    Shape::Cylinder { length, .. } if n[2].abs() > 0.5 => 0.5 * length,
+                    Shape::Cylinder { length, .. } if n.z.abs() > 0.5 => 0.5 * length,
                     Shape::Cylinder { radius, .. } => radius,
-                    _ => {
-                        [0, 1, 2].map(|k| n[k].abs() * [0.05, 0.1, 0.15][k]).iter().sum::<f64>()
-                            - 1e-16
-                    }
+                    _ => n.abs().dot(DVec3::new(0.05, 0.1, 0.15)) - 1e-16,
                 };
-                assert!(dot(n, a) >= needed, "{:e}", dot(n, a) - needed);
+                assert!(n.dot(a) >= needed, "{:e}", n.dot(a) - needed);
                 assert!([a, b, c].iter().all(|p| match shape {
-                    Shape::Sphere { radius } => dot(*p, *p).sqrt() <= radius + more,
-                    Shape::Cylinder { radius, .. } => p[0].hypot(p[1]) <= radius + more,
+                    Shape::Sphere { radius } => p.length() <= radius + more,
+                    Shape::Cylinder { radius, .. } => p.x.hypot(p.y) <= radius + more,
                     _ => true,
                 }));
             }

@@ -61,7 +61,7 @@ mod unmet;
 pub use crate::error::{Tightness, Unmet};
 pub use components::split_components;
 pub use hull::{Hull, wrap};
-pub use options::{Goal, Options};
+pub use options::{FACES, Goal, Options};
 pub use outset::outset;
 pub use report::{Outcome, Report, Start, margin_note, no_void_note, rounded_note};
 pub use store::{ChainOptions, Distances, HullReport, MAX_HULLS, build, cut, distances, hull_mesh};

@@ -1,8 +1,12 @@
 //! The goal and the options of a tight hull.
 
 use crate::error::BuildError;
+use crate::number::{ABOVE_ZERO, FROM_ZERO};
 use crate::surface::VertexBits;
 use std::time::Duration;
+
+/// Faces of a hull unless told otherwise.
+pub const FACES: u32 = 200;
 
 /// The goal of a hull.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,21 +25,28 @@ pub enum Goal {
 }
 
 impl Goal {
-    /// Refuses a margin that is none, and a slack within the margin. [`wrap`](super::wrap) does it
+    /// Refuses numbers out of range, and a slack within the margin. [`wrap`](super::wrap) does it
     /// first.
     ///
     /// # Errors
-    /// [`BuildError::BadMargin`], [`BuildError::SlackWithinMargin`].
+    /// [`BuildError::OutOfRange`], [`BuildError::SlackWithinMargin`].
     pub fn check(self, margin: f64) -> Result<(), BuildError> {
-        if !(margin >= 0.0 && margin.is_finite()) {
-            return Err(BuildError::BadMargin { margin });
-        }
+        BuildError::check_range("--margin", margin, FROM_ZERO)?;
         match self {
-            Self::Slack(slack) if slack.is_nan() || slack <= margin => {
-                Err(BuildError::SlackWithinMargin { slack, margin })
+            Self::Faces(_) => Ok(()),
+            Self::Void(void) => BuildError::check_range("--void", 100.0 * void, ABOVE_ZERO),
+            Self::Slack(slack) => {
+                BuildError::check_range("--slack", slack, ABOVE_ZERO)?;
+                let error = BuildError::SlackWithinMargin { slack, margin };
+                if slack <= margin { Err(error) } else { Ok(()) }
             }
-            _ => Ok(()),
         }
+    }
+}
+
+impl Default for Goal {
+    fn default() -> Self {
+        Self::Faces(FACES as usize)
     }
 }
 
@@ -60,24 +71,29 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// 200 faces, no margin, an effort of 1, no time limit, single precision.
+    /// [`FACES`] faces, no margin, an effort of 1, no time limit, single precision.
     fn default() -> Self {
-        Self::new(Goal::Faces(200))
+        Self::new(Goal::default())
     }
 }
 
 impl Options {
+    setters! {
+        /// Sets the [margin](Self::margin).
+        with_margin: f64 => margin,
+        /// Sets the [effort](Self::effort).
+        with_effort: f64 => effort,
+        /// Sets the [time limit](Self::time_limit).
+        with_time_limit: Option<Duration> => time_limit,
+        /// Sets the [coordinate format](Self::vertex_bits).
+        with_vertex_bits: VertexBits => vertex_bits,
+    }
+
     /// A goal, no margin, an effort of 1, no time limit, single precision.
     #[must_use]
     pub const fn new(goal: Goal) -> Self {
         let vertex_bits = VertexBits::Auto;
         Self { goal, margin: 0.0, effort: 1.0, time_limit: None, vertex_bits }
-    }
-
-    /// Sets the [margin](Self::margin).
-    #[must_use]
-    pub const fn with_margin(self, margin: f64) -> Self {
-        Self { margin, ..self }
     }
 
     /// The options of a hull of a mesh of which every point of the input is within `error`: the
@@ -93,23 +109,5 @@ impl Options {
         let margin = (self.margin + error).next_up();
         self.goal.check(margin)?;
         Ok(Self { margin, ..*self })
-    }
-
-    /// Sets the [effort](Self::effort).
-    #[must_use]
-    pub const fn with_effort(self, effort: f64) -> Self {
-        Self { effort, ..self }
-    }
-
-    /// Sets the [time limit](Self::time_limit).
-    #[must_use]
-    pub const fn with_time_limit(self, time_limit: Option<Duration>) -> Self {
-        Self { time_limit, ..self }
-    }
-
-    /// Sets the [coordinate format](Self::vertex_bits).
-    #[must_use]
-    pub const fn with_vertex_bits(self, vertex_bits: VertexBits) -> Self {
-        Self { vertex_bits, ..self }
     }
 }

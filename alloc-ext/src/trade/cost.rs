@@ -192,9 +192,9 @@ pub struct Cost {
     pub instructions: Features,
     /// The least instructions of a query that the emulator counted.
     pub least: f64,
-    /// Largest factor by which the dearest query of a question was dearer than the dearest
+    /// Largest factor by which the costliest query of a question was costlier than the costliest
     /// prediction; a comb of needles is left out.
-    pub dearest: f64,
+    pub missed_by: f64,
     /// Largest relative error of the mean of a question on all meshes of the fit and of its tests,
     /// but for a comb of needles.
     pub error: f64,

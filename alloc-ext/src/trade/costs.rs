@@ -13,7 +13,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [1893.1, 560.8, 13.4, 0.0, 0.0, 406.9, 791.0, 0.0],
             least: 2680.0,
-            dearest: 1.776,
+            missed_by: 1.776,
             error: 0.2912,
             typical: 0.051,
         },
@@ -24,7 +24,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [2219.4, 1272.1, 5.8, 102.1, 0.0, 413.1, 837.2, 0.0],
             least: 2680.0,
-            dearest: 1.623,
+            missed_by: 1.623,
             error: 0.2661,
             typical: 0.080,
         },
@@ -35,7 +35,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [12738.5, 1294.4, 29.6, 176.1, 7810.9, 352.3, 425.0, 0.0],
             least: 20800.0,
-            dearest: 1.381,
+            missed_by: 1.381,
             error: 0.0995,
             typical: 0.031,
         },
@@ -46,7 +46,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [2722.6, 688.7, 0.0, 0.0, 0.0, 488.6, 676.1, 0.0],
             least: 2880.0,
-            dearest: 1.380,
+            missed_by: 1.380,
             error: 0.2631,
             typical: 0.041,
         },
@@ -57,7 +57,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [2058.8, 0.0, 3.5, 0.0, 0.0, 673.4, 1313.8, 0.0],
             least: 1360.0,
-            dearest: 1.789,
+            missed_by: 1.789,
             error: 0.1761,
             typical: 0.075,
         },
@@ -68,7 +68,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [26644.3, 7040.1, 318.4, 826.0, 877.9, 406.5, 0.0, 533.8],
             least: 21160.0,
-            dearest: 1.454,
+            missed_by: 1.454,
             error: 0.1827,
             typical: 0.054,
         },
@@ -79,7 +79,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [2760.5, 4211.5, 263.2, 1109.6, 20382.9, 1404.0, 0.0, 286.0],
             least: 19640.0,
-            dearest: 1.284,
+            missed_by: 1.284,
             error: 0.3588,
             typical: 0.036,
         },
@@ -90,7 +90,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [1934.5, 4284.2, 47.7, 0.0, 0.0, 328.7, 627.1, 0.0],
             least: 2320.0,
-            dearest: 1.742,
+            missed_by: 1.742,
             error: 0.1927,
             typical: 0.072,
         },
@@ -101,7 +101,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [116.9, 0.0, 1331.4, 0.0, 0.0, 0.0, 0.0, 0.0],
             least: 1320.0,
-            dearest: 1.084,
+            missed_by: 1.084,
             error: 0.0411,
             typical: 0.017,
         },
@@ -112,7 +112,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [534.8, 15686.9, 0.0, 1587.7, 0.0, 3557.6, 0.0, 0.0],
             least: 520.0,
-            dearest: 3.156,
+            missed_by: 3.156,
             error: 0.4946,
             typical: 0.126,
         },
@@ -123,7 +123,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [3041.6, 0.0, 842.8, 0.0, 0.0, 1197.1, 0.0, 0.0],
             least: 3320.0,
-            dearest: 1.864,
+            missed_by: 1.864,
             error: 0.1330,
             typical: 0.059,
         },
@@ -134,7 +134,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [17612.3, 7212.3, 0.0, 0.0, 0.0, 0.0, 4314.9, 693.9],
             least: 11280.0,
-            dearest: 5.053,
+            missed_by: 5.053,
             error: 0.5509,
             typical: 0.115,
         },
@@ -145,7 +145,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [17097.9, 24844.3, 0.0, 3819.4, 0.0, 10.3, 0.0, 0.0],
             least: 13080.0,
-            dearest: 1.907,
+            missed_by: 1.907,
             error: 0.3512,
             typical: 0.096,
         },
@@ -156,7 +156,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [70952.2, 40610.6, 27.6, 3661.0, 14761.3, 0.0, 2738.9, 0.0],
             least: 72360.0,
-            dearest: 1.616,
+            missed_by: 1.616,
             error: 0.2345,
             typical: 0.059,
         },
@@ -167,7 +167,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [21871.6, 7526.8, 0.0, 0.0, 0.0, 547.6, 3341.2, 0.0],
             least: 13960.0,
-            dearest: 2.742,
+            missed_by: 2.742,
             error: 0.3744,
             typical: 0.110,
         },
@@ -178,7 +178,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [15176.9, 0.0, 0.0, 0.0, 0.0, 0.0, 18826.5, 0.0],
             least: 16200.0,
-            dearest: 3.946,
+            missed_by: 3.946,
             error: 0.4785,
             typical: 0.315,
         },
@@ -189,7 +189,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [72926.2, 70584.6, 4439.6, 3557.2, 4319.2, 1555.9, 0.0, 1154.0],
             least: 136600.0,
-            dearest: 1.222,
+            missed_by: 1.222,
             error: 0.0932,
             typical: 0.024,
         },
@@ -200,7 +200,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [0.0, 11570.7, 4284.3, 5692.0, 57824.9, 4796.4, 0.0, 525.3],
             least: 46400.0,
-            dearest: 1.195,
+            missed_by: 1.195,
             error: 0.4025,
             typical: 0.096,
         },
@@ -211,7 +211,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [23404.6, 44834.4, 216.9, 0.0, 0.0, 0.0, 1698.1, 0.0],
             least: 11680.0,
-            dearest: 4.109,
+            missed_by: 4.109,
             error: 0.4003,
             typical: 0.130,
         },
@@ -222,7 +222,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [27040.6, 0.0, 0.0, 0.0, 0.0, 52906.6, 0.0, 0.0],
             least: 24640.0,
-            dearest: 1.091,
+            missed_by: 1.091,
             error: 0.0605,
             typical: 0.019,
         },
@@ -233,7 +233,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [17243.6, 199218.2, 0.0, 15960.8, 0.0, 54020.4, 0.0, 0.0],
             least: 15160.0,
-            dearest: 3.259,
+            missed_by: 3.259,
             error: 0.5757,
             typical: 0.129,
         },
@@ -244,7 +244,7 @@ pub(super) const COSTS: &[(Board, Search, Cost)] = &[
         Cost {
             instructions: [110379.8, 0.0, 18595.2, 0.0, 0.0, 17663.9, 0.0, 0.0],
             least: 118800.0,
-            dearest: 1.379,
+            missed_by: 1.379,
             error: 0.1295,
             typical: 0.034,
         },

@@ -176,7 +176,7 @@ impl Limits {
     /// Values that are limited, each with its limit: flash, RAM, error, cycles of a query.
     fn limited(&self, row: &Row) -> [(f64, Option<f64>); 4] {
         // A cost that was not fitted meets no rate.
-        let cycles = self.instructions(row).map_or(f64::INFINITY, |found| found.most() * CYCLES);
+        let cycles = self.instructions(row).map_or(f64::INFINITY, |found| found.at_most() * CYCLES);
         [
             (row.flash as f64, self.flash.map(|bytes| bytes as f64)),
             (self.ram(row), self.ram.map(|bytes| bytes as f64)),

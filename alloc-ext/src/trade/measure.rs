@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
     /// The largest.
-    pub worst: f64,
+    pub most: f64,
     /// Half of the queries have no more.
     pub median: f64,
 }
@@ -28,7 +28,7 @@ impl Spread {
     fn of(mut values: Vec<f64>) -> Option<Self> {
         values.sort_by(f64::total_cmp);
         let median = *values.get(values.len() / 2)?;
-        values.last().map(|&worst| Self { worst, median })
+        values.last().map(|&most| Self { most, median })
     }
 }
 
@@ -37,11 +37,11 @@ impl Spread {
 pub struct Instructions {
     /// Of a mean query.
     pub mean: f64,
-    /// Of the dearest one.
-    pub worst: f64,
-    /// Factor by which the dearest query may be dearer:
-    /// [`Cost::dearest`](super::Cost::dearest).
-    pub dearest: f64,
+    /// Of the costliest one.
+    pub most: f64,
+    /// Factor by which the costliest query may be costlier:
+    /// [`Cost::missed_by`](super::Cost::missed_by).
+    pub missed_by: f64,
     /// Largest relative error of a mean: [`Cost::error`](super::Cost::error).
     pub error: f64,
     /// The median of these errors on meshes that the fit has not seen.
@@ -55,18 +55,18 @@ impl Instructions {
     pub(super) fn of(cost: &Cost, stack: u32, all: &[f64]) -> Self {
         Self {
             mean: all.iter().sum::<f64>() / all.len() as f64,
-            worst: all.iter().copied().fold(0.0, f64::max),
-            dearest: cost.dearest,
+            most: all.iter().copied().fold(0.0, f64::max),
+            missed_by: cost.missed_by,
             error: cost.error,
             typical: cost.typical,
             stack,
         }
     }
 
-    /// Of the dearest query, with what the fit missed at most.
+    /// Of the costliest query, with what the fit missed at most.
     #[must_use]
-    pub fn most(&self) -> f64 {
-        self.worst * self.dearest
+    pub fn at_most(&self) -> f64 {
+        self.most * self.missed_by
     }
 }
 
@@ -108,14 +108,14 @@ impl Row {
     /// The widest of the intervals; infinite if the structure gives a lower bound only.
     #[must_use]
     pub fn error(&self) -> f64 {
-        self.guaranteed.map_or(f64::INFINITY, |spread| spread.worst)
+        self.guaranteed.map_or(f64::INFINITY, |spread| spread.most)
     }
 
     /// What settings are compared by: the largest guaranteed error, the mean instructions of a
     /// Cortex-M4F, and the bytes of flash. `None` without an interval or a cost.
     fn measures(&self) -> Option<[f64; 3]> {
         let [m4f, _] = self.boards;
-        Some([self.guaranteed?.worst, m4f?.mean, self.flash as f64])
+        Some([self.guaranteed?.most, m4f?.mean, self.flash as f64])
     }
 }
 

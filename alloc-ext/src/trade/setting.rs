@@ -36,6 +36,15 @@ pub struct Setting {
 }
 
 impl Setting {
+    setters! {
+        /// Sets the [budget](Self::budget).
+        with_budget: Budget => budget,
+        /// Sets [what a query takes over from the one before](Self::how). Sweeps know
+        /// [`How::Fresh`] and [`How::Coherent`]; any other is asked as `Fresh`. Tight hulls and
+        /// triboxes know `Fresh` alone.
+        with_how: How => how,
+    }
+
     /// Entries of a kept sweep unless told otherwise: 4 KiB. It keeps triangles in them from query
     /// to query. Answers about far points may end for lack of them.
     pub const SWEEP_ENTRIES: usize = 512;
@@ -44,20 +53,6 @@ impl Setting {
     #[must_use]
     pub const fn new(recipe: Recipe) -> Self {
         Self { recipe, budget: Budget::EXACT, how: How::Fresh, entries: None }
-    }
-
-    /// Sets the [budget](Self::budget).
-    #[must_use]
-    pub const fn with_budget(self, budget: Budget) -> Self {
-        Self { budget, ..self }
-    }
-
-    /// Sets [what a query takes over from the one before](Self::how). Sweeps know [`How::Fresh`]
-    /// and [`How::Coherent`]; any other is asked as `Fresh`. Tight hulls and triboxes know `Fresh`
-    /// alone.
-    #[must_use]
-    pub const fn with_how(self, how: How) -> Self {
-        Self { how, ..self }
     }
 
     /// Sets the [scratch](Self::entries).

@@ -65,16 +65,11 @@ impl Default for SplitOptions {
 }
 
 impl SplitOptions {
-    /// Sets the number of [leaves](Self::leaves).
-    #[must_use]
-    pub const fn with_leaves(self, leaves: usize) -> Self {
-        Self { leaves, ..self }
-    }
-
-    /// Sets how far planes may move to [simplify](Self::simplify) proxies.
-    #[must_use]
-    pub const fn with_simplify(self, simplify: f32) -> Self {
-        Self { simplify, ..self }
+    setters! {
+        /// Sets the number of [leaves](Self::leaves).
+        with_leaves: usize => leaves,
+        /// Sets how far planes may move to [simplify](Self::simplify) proxies.
+        with_simplify: f32 => simplify,
     }
 }
 

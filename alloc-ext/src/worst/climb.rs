@@ -23,10 +23,9 @@ pub struct Climb {
 }
 
 impl Climb {
-    /// From so many random places.
-    #[must_use]
-    pub const fn with_starts(self, starts: usize) -> Climb {
-        Climb { starts, ..self }
+    setters! {
+        /// From so many random places.
+        with_starts: usize => starts,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The query that costs most, or leaves the widest interval, found by hill climbing.
 //!
-//! A search proves nothing: a dearer query may exist. The caller who needs a bound sets
+//! A search proves nothing: a costlier query may exist. The caller who needs a bound sets
 //! [`Budget::with_steps`](meshsweep_core::Budget::with_steps) and looks for the widest interval.
 //!
 //! | file | owns |

@@ -36,9 +36,9 @@ pub struct Pair<'a> {
 }
 
 impl Pair<'_> {
-    /// Searches the dearest pose; with a limit of steps the widest interval of the distance too. The
-    /// second model's middle stays in twice the first one's box, enlarged by the second one's. See
-    /// [`Climb::starts`].
+    /// Searches the costliest pose; with a limit of steps the widest interval of the distance too.
+    /// The second model's middle stays in twice the first one's box, enlarged by the second one's.
+    /// See [`Climb::starts`].
     #[must_use]
     pub fn worst(&self, budget: Budget, starts: usize) -> Vec<Worst> {
         let is_limited = budget.steps != u32::MAX && self.question == PairQuestion::Distance;
@@ -74,7 +74,7 @@ impl Pair<'_> {
 
     /// Poses at which faces along the axes are parallel: the boxes side by side, as far apart as
     /// the question asks, not turned and in quarter turns. Of parts with flat faces these are often
-    /// the dearest.
+    /// the costliest.
     fn seeds(&self) -> Vec<[f32; 7]> {
         let [first, second] = self.trees.map(|tree| tree.bounds());
         let (middle, one, [x, y, z]) = (middle_of(first), half_of(first), half_of(second));

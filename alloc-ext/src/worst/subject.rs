@@ -83,7 +83,7 @@ impl<'a> Subject<'a> {
         all
     }
 
-    /// Searches the dearest query; with a limit of steps the widest interval too. See
+    /// Searches the costliest query; with a limit of steps the widest interval too. See
     /// [`Climb::starts`](super::Climb::starts).
     #[must_use]
     pub fn worst(&self, budget: Budget, starts: usize) -> Vec<Worst> {

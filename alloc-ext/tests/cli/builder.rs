@@ -7,6 +7,7 @@ use meshsweep::curve::{self, CurveOptions, read_csv};
 use meshsweep::hull::{self, BuildOptions};
 use meshsweep::load::Source;
 use meshsweep::mesh::{self, MeshError, RawMesh, Unit};
+use meshsweep::number::{ABOVE_ZERO, FROM_ZERO};
 use meshsweep::progress::{Callback, Watch};
 use meshsweep::surface::VertexBits;
 use meshsweep::tight::{self, ChainOptions};
@@ -214,10 +215,7 @@ fn arrays_that_are_no_mesh_are_refused_by_type() {
     assert!(matches!(*error, MeshError::Open { .. }), "{error:?}");
     let tight = || Builder::new().serve(For::Tight);
     for (builder, wanted) in [
-        (tight().slack(f64::NAN), "--slack"),
         (tight().slack(1.0).void_percent(5.0), "--slack"),
-        (tight().void_percent(-1.0), "--void"),
-        (tight().margin(f64::NAN), "--margin"),
         (tight().slack(1.0).tight_faces(&[60]), "--slack"),
         (tight().void_percent(5.0).tight_faces(&[60]), "--void"),
         (Builder::new().slack(1.0), "--slack"),
@@ -248,7 +246,7 @@ fn collapsing(set: impl FnOnce(&mut CollapseOptions)) -> Builder<'static> {
 #[test]
 fn numbers_are_taken_in_their_range_and_refused_outside_of_it() {
     let whole = |[least, most]: [u32; 2]| [least, most].map(f64::from);
-    let options: [Ranged; 7] = [
+    let options: [Ranged; 9] = [
         ("--base", whole(ranges::BASE_FACES), |x| {
             Builder::new().serve(For::Hull).base_faces(x as u32)
         }),
@@ -262,6 +260,8 @@ fn numbers_are_taken_in_their_range_and_refused_outside_of_it() {
             collapsing(|options| options.max_valence = Some(x as u32))
         }),
         ("--effort", ranges::EFFORT, |x| Builder::new().serve(For::Tight).effort(x)),
+        ("--slack", ABOVE_ZERO, |x| Builder::new().serve(For::Tight).slack(x)),
+        ("--margin", FROM_ZERO, |x| Builder::new().serve(For::Tight).margin(x)),
         ("--compactness", ranges::COMPACTNESS, |x| {
             collapsing(|options| options.compactness = Some(x))
         }),
@@ -288,6 +288,14 @@ fn numbers_are_taken_in_their_range_and_refused_outside_of_it() {
                 "{name} {wrong}: {refused:?}"
             );
         }
+    }
+    // A percentage: its fraction of the least number is 0.
+    for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused = Builder::new().serve(For::Tight).void_percent(wrong).check(part);
+        assert!(
+            matches!(refused, Err(BuildError::OutOfRange { option: "--void", .. })),
+            "{wrong}: {refused:?}"
+        );
     }
 }
 

@@ -1,22 +1,13 @@
 //! `meshsweep clearance` against brute force over the triangles of the mesh files.
 
 use crate::support::{
-    Triangle, arg, blob, fixture, info, ok, parse_csv, refused, run, scratch, triangles, write_csv,
+    Point, Triangle, arg, blob, dot, fixture, info, ok, parse_csv, refused, run, scratch, sub,
+    triangles, write_csv,
 };
 use std::fs;
 
 const HEADER: &str = "pose,lower,upper,ax,ay,az,bx,by,bz,first,second,work";
 const WITHIN: &str = "pose,within,first,second,work";
-
-type Point = [f64; 3];
-
-fn minus(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
 
 fn part(from: Point, way: Point, t: f64) -> Point {
     [from[0] + way[0] * t, from[1] + way[1] * t, from[2] + way[2] * t]
@@ -25,12 +16,12 @@ fn part(from: Point, way: Point, t: f64) -> Point {
 /// The nearest point of a triangle, by halving: the distance from a point is convex.
 fn distance_to(p: Point, [a, b, c]: Triangle) -> f64 {
     let to_segment = |from: Point, to: Point| {
-        let way = minus(to, from);
-        let t = (dot(minus(p, from), way) / dot(way, way)).clamp(0.0, 1.0);
-        let gap = minus(p, part(from, way, t));
+        let way = sub(to, from);
+        let t = (dot(sub(p, from), way) / dot(way, way)).clamp(0.0, 1.0);
+        let gap = sub(p, part(from, way, t));
         dot(gap, gap).sqrt()
     };
-    least(|t| to_segment(part(a, minus(b, a), t), part(a, minus(c, a), t)))
+    least(|t| to_segment(part(a, sub(b, a), t), part(a, sub(c, a), t)))
 }
 
 /// The least value of a convex function on 0 to 1.
@@ -47,7 +38,7 @@ fn least(of: impl Fn(f64) -> f64) -> f64 {
 fn distance(a: &Triangle, b: &Triangle) -> f64 {
     let edges = |t: &Triangle, other: Triangle| {
         let edge =
-            |k: usize| least(|s| distance_to(part(t[k], minus(t[(k + 1) % 3], t[k]), s), other));
+            |k: usize| least(|s| distance_to(part(t[k], sub(t[(k + 1) % 3], t[k]), s), other));
         (0..3).map(edge).fold(f64::INFINITY, f64::min)
     };
     edges(a, *b).min(edges(b, *a))
@@ -78,12 +69,12 @@ fn intervals_and_triangles_are_those_of_the_mesh_files() {
         // Nothing is nearer, as far as vertices tell.
         for t in &mesh {
             for p in mesh.iter().map(|other| moved(other)[0]) {
-                let gap = minus(p, t[0]);
+                let gap = sub(p, t[0]);
                 assert!(dot(gap, gap).sqrt() >= lower * 0.999_999, "{row:?}");
             }
         }
         let place = |at: usize| [0, 1, 2].map(|k| number(&row[at + k]));
-        let way = minus(place(6), place(3));
+        let way = sub(place(6), place(3));
         assert!((dot(way, way).sqrt() - upper).abs() < 1e-5, "{row:?}");
         assert!(distance_to(place(3), mesh[a]) < 1e-5, "{row:?}");
         assert!(distance_to(place(6), moved(&mesh[b])) < 1e-5, "{row:?}");

@@ -24,6 +24,7 @@ fn build_as_json_tells_the_mesh_its_repairs_and_the_contents_that_info_tells() {
     assert_eq!(told["blob"], arg(&out));
     assert_eq!(told["mesh"], arg(&mesh));
     assert_eq!((&told["triangles"], &told["unit"]), (&1948.into(), &"mm".into()));
+    assert_eq!(told["options"], "--unit mm");
     let welded = &told["repairs"]["findings"]["welded"];
     let kept = told["repairs"]["vertices"].as_u64().unwrap();
     assert_eq!(welded["count"].as_u64(), Some(3 * 1948 - kept));
@@ -49,6 +50,7 @@ fn build_as_json_tells_curves_and_what_limits_chose() {
     assert_eq!(chosen["flash"].as_u64(), Some(fs::metadata(&out).unwrap().len()));
     assert_eq!(told["contents"], info(&out));
     assert!(told["triangles"].as_u64() > Some(0) && chosen["structure"].is_string());
+    assert!(told["options"].as_str().unwrap().starts_with("--for "), "{told}");
 }
 
 #[test]

@@ -502,4 +502,10 @@ fn json_has_what_the_table_has() {
     assert_eq!(links[0]["bytes"].as_u64(), Some(bytes));
     let count = |key: &str| found[key].as_array().unwrap().len();
     assert_eq!((count("pairs") + count("skipped"), count("places")), (28, 5));
+    assert_eq!(count("too_large"), 0);
+    // A mesh in millimetres, read in metres.
+    let (file, out) =
+        (arm(&directory, &[(" scale=\"0.001 0.001 0.001\"", "")]), arg(&out).to_owned());
+    let text = ok(["robot", arg(&file), "-o", &out, "--keep", "0.01", "--samples", "100"]);
+    assert!(text.contains("all joints are apart: base_link; meshes are read in metres"), "{text}");
 }

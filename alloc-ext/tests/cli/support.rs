@@ -181,7 +181,7 @@ pub fn volume(triangles: &[Triangle]) -> f64 {
 }
 
 // Written out, as what follows: tests are not optimised, and these took a third of their time.
-fn sub(a: Point, b: Point) -> Point {
+pub fn sub(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 

@@ -1,13 +1,13 @@
-//! `meshsweep worst`: it finds dearer queries than chance does, and they cost what it says.
+//! `meshsweep worst`: it finds costlier queries than chance does, and they cost what it says.
 
 use crate::support::{arg, blob, fixture, number, ok, parse_csv, random_queries, refused, run};
 use crate::support::{scratch, triangles, write_csv};
 use serde_json::Value;
 
-fn dearest(blob: &std::path::Path, more: &[&str]) -> Vec<Value> {
+fn worst(blob: &std::path::Path, more: &[&str]) -> Vec<Value> {
     let args = [&["worst", arg(blob), "--json", "--starts", "6"], more].concat();
     let report: Value = serde_json::from_str(&ok(args)).expect("JSON");
-    report["dearest"].as_array().expect("a list").clone()
+    report["worst"].as_array().expect("a list").clone()
 }
 
 fn sum(row: &Value) -> f64 {
@@ -25,10 +25,10 @@ fn typed(row: &Value) -> String {
 }
 
 #[test]
-fn the_dearest_query_costs_what_is_said_and_more_than_random_ones() {
+fn the_costliest_query_costs_what_is_said_and_more_than_random_ones() {
     let directory = scratch("worst");
     let blob = blob(&directory, "bracket.stl", &["--for", "closest,segment"]);
-    let rows = dearest(&blob, &[]);
+    let rows = worst(&blob, &[]);
     let questions: Vec<_> = rows.iter().map(|row| row["question"].as_str().unwrap()).collect();
     assert_eq!(questions, ["closest", "within", "signed", "segment"]);
     // One step budget that no query reaches keeps `closest` from sharing work between queries.
@@ -36,9 +36,9 @@ fn the_dearest_query_costs_what_is_said_and_more_than_random_ones() {
         let text = ok([question, arg(&blob), &typed(row), "--steps", "1000000"]);
         let work = text.lines().nth(1).unwrap().rsplit(',').next().unwrap();
         assert_eq!(work.parse(), Ok(sum(row)), "{question}");
-        let [dearest, mean] =
+        let [costliest, mean] =
             ["value", "mean_of_random_queries"].map(|of| row[of].as_f64().expect("a number"));
-        assert!(dearest > 2.0 * mean, "{row}");
+        assert!(costliest > 2.0 * mean, "{row}");
     }
     let points = directory.join("p.csv");
     write_csv(&points, &random_queries::<3>(&triangles(&fixture("bracket.stl")), 200));
@@ -52,7 +52,7 @@ fn the_dearest_query_costs_what_is_said_and_more_than_random_ones() {
 fn the_widest_interval_within_a_step_budget_is_wider_than_those_of_random_points() {
     let directory = scratch("worst_steps");
     let blob = blob(&directory, "bracket.stl", &["--for", "closest,segment"]);
-    let rows = dearest(&blob, &["--ask", "closest", "--steps", "4"]);
+    let rows = worst(&blob, &["--ask", "closest", "--steps", "4"]);
     let widest = rows.iter().find(|row| row["greatest"] == "width").expect("a row of widths");
     assert!(rows.iter().all(|row| row["opened"].as_f64().unwrap() <= 4.0));
     let points = directory.join("p.csv");
@@ -65,14 +65,14 @@ fn the_widest_interval_within_a_step_budget_is_wider_than_those_of_random_points
 }
 
 #[test]
-fn the_dearest_pose_of_a_second_mesh_costs_what_is_said_and_stays_within_steps() {
+fn the_costliest_pose_of_a_second_mesh_costs_what_is_said_and_stays_within_steps() {
     let directory = scratch("worst_pair");
     let [first, second] =
         ["bracket.stl", "torus.ply"].map(|name| blob(&directory, name, &["--for", "segment"]));
     let second = arg(&second);
     for within in [&[][..], &["--within", "2"]] {
         for steps in [&[][..], &["--steps", "20"]] {
-            let rows = dearest(&first, &[&[second], within, steps].concat());
+            let rows = worst(&first, &[&[second], within, steps].concat());
             for row in &rows {
                 let pose = typed(row);
                 let command = ["clearance", arg(&first), second, "--pose", &pose];
@@ -82,9 +82,9 @@ fn the_dearest_pose_of_a_second_mesh_costs_what_is_said_and_stays_within_steps()
                 let limit = if steps.is_empty() { f64::INFINITY } else { 20.0 };
                 assert!(row["opened"].as_f64().unwrap() <= limit, "{row}");
             }
-            let [dearest, mean] = ["value", "mean_of_random_queries"]
+            let [costliest, mean] = ["value", "mean_of_random_queries"]
                 .map(|of| rows[0][of].as_f64().expect("a number"));
-            assert!(dearest > 2.0 * mean, "{rows:?}");
+            assert!(costliest > 2.0 * mean, "{rows:?}");
             let has_widest = within.is_empty() && !steps.is_empty();
             assert_eq!(rows.iter().any(|row| row["greatest"] == "width"), has_widest);
         }

@@ -163,7 +163,7 @@ static int32_t run(void)
         return error;
     }
     print_line("cost: a tick takes ", sum / (ticks == 0 ? 1 : ticks), clock_unit);
-    print_line("cost: the dearest tick takes ", most, clock_unit);
+    print_line("cost: the costliest tick takes ", most, clock_unit);
     print_line("cost: places of the links take ", most_before, clock_unit);
     return MSW_OK;
 }

@@ -46,7 +46,7 @@ impl Frame {
     }
 
     /// Whether f32 tells that a segment misses a box of the local frame. Most do, and on boards f64
-    /// is ten times as dear. `false` of ends that are far away, or not finite.
+    /// costs ten times as much. `false` of ends that are far away, or not finite.
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn is_missed(&self, ends: [[f32; 3]; 2], bounds: &Aabb) -> bool {

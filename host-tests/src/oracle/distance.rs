@@ -5,6 +5,7 @@
 //! `f64`.
 
 use super::double::{Double, Vector};
+use glam::DVec3;
 
 /// A real number between two `f64`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,26 +132,21 @@ pub fn rough_distance_sq(p: [f32; 3], corners: [[f32; 3]; 3]) -> f64 {
 /// The same of a point and corners in `f64`.
 #[must_use]
 pub fn wide_distance_sq(p: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> f64 {
-    let sub = |x: [f64; 3], y: [f64; 3]| [x[0] - y[0], x[1] - y[1], x[2] - y[2]];
-    let dot = |x: [f64; 3], y: [f64; 3]| x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-    let cross = |x: [f64; 3], y: [f64; 3]| {
-        [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]]
-    };
+    let [p, a, b, c] = [p, a, b, c].map(DVec3::from);
     let edges = [(a, b), (b, c), (c, a)];
-    let to_edge = |(from, to): ([f64; 3], [f64; 3])| {
-        let (d, s) = (sub(to, from), sub(p, from));
-        let t = (dot(d, s) / dot(d, d)).clamp(0.0, 1.0);
+    let to_edge = |(from, to): (DVec3, DVec3)| {
+        let (d, s) = (to - from, p - from);
+        let t = (d.dot(s) / d.dot(d)).clamp(0.0, 1.0);
         let t = if t.is_nan() { 0.0 } else { t };
-        let gap = sub(s, d.map(|x| x * t));
-        dot(gap, gap)
+        (s - d * t).length_squared()
     };
     let nearest_edge = edges.into_iter().map(to_edge).fold(f64::INFINITY, f64::min);
-    let normal = cross(sub(b, a), sub(c, a));
-    let within =
-        |(from, to): ([f64; 3], [f64; 3])| dot(cross(sub(to, from), normal), sub(p, from)) <= 0.0;
-    if dot(normal, normal) > 0.0 && edges.into_iter().all(within) {
-        let height = dot(normal, sub(p, a));
-        return nearest_edge.min(height * height / dot(normal, normal));
+    let normal = (b - a).cross(c - a);
+    let within = |(from, to): (DVec3, DVec3)| (to - from).cross(normal).dot(p - from) <= 0.0;
+    let square = normal.length_squared();
+    if square > 0.0 && edges.into_iter().all(within) {
+        let height = normal.dot(p - a);
+        return nearest_edge.min(height * height / square);
     }
     nearest_edge
 }

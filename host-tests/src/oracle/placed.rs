@@ -4,26 +4,10 @@
 //! A tree of boxes, and its own distance of two triangles: nine pairs of edges, and the heights of
 //! the corners that are over the other triangle.
 
+use glam::DVec3;
 use meshsweep_core::Pose;
 
-type Point = [f64; 3];
-type Triangle = [Point; 3];
-
-fn minus(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Point, b: Point) -> Point {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn length(a: Point) -> f64 {
-    dot(a, a).sqrt()
-}
+type Triangle = [DVec3; 3];
 
 /// Triangles of a leaf.
 const LEAF: usize = 2;
@@ -80,9 +64,9 @@ impl Tree {
     #[must_use]
     pub fn at(&self, pose: &Pose) -> Placed<'_> {
         let moved = |p: [f32; 3]| {
-            let p = p.map(f64::from);
-            let along = |k: usize| dot(pose.rotation[k].map(f64::from), p);
-            [0, 1, 2].map(|k: usize| along(k) + f64::from(pose.translation[k]))
+            let p = DVec3::from(p.map(f64::from));
+            let along = |row: [f32; 3]| DVec3::from(row.map(f64::from)).dot(p);
+            DVec3::from(pose.rotation.map(along)) + DVec3::from(pose.translation.map(f64::from))
         };
         let triangles: Vec<Triangle> = self.triangles.iter().map(|t| t.map(moved)).collect();
         let mut boxes = vec![Box3::EMPTY; self.nodes.len()];
@@ -101,25 +85,20 @@ impl Tree {
 
 #[derive(Clone, Copy, Debug)]
 struct Box3 {
-    low: Point,
-    high: Point,
+    low: DVec3,
+    high: DVec3,
 }
 
 impl Box3 {
-    const EMPTY: Self = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+    const EMPTY: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
 
-    fn with(self, p: Point) -> Self {
-        Self {
-            low: [0, 1, 2].map(|k| self.low[k].min(p[k])),
-            high: [0, 1, 2].map(|k| self.high[k].max(p[k])),
-        }
+    fn with(self, p: DVec3) -> Self {
+        Self { low: self.low.min(p), high: self.high.max(p) }
     }
 
     /// The distance of two boxes.
     fn gap(&self, other: &Self) -> f64 {
-        length([0, 1, 2].map(|k: usize| {
-            (self.low[k] - other.high[k]).max(other.low[k] - self.high[k]).max(0.0)
-        }))
+        (self.low - other.high).max(other.low - self.high).max(DVec3::ZERO).length()
     }
 }
 
@@ -141,7 +120,7 @@ pub fn distance(a: &Placed<'_>, b: &Placed<'_>) -> f64 {
 }
 
 fn descend(a: &Placed<'_>, b: &Placed<'_>, [i, j]: [usize; 2], best: &mut f64) {
-    let size = |b: &Box3| length(minus(b.high, b.low));
+    let size = |b: &Box3| (b.high - b.low).length();
     let pairs = match (a.nodes[i], b.nodes[j]) {
         (Below::Nodes([k, l]), Below::Nodes(_)) if size(&a.boxes[i]) >= size(&b.boxes[j]) => {
             [[k, j], [l, j]]
@@ -187,44 +166,44 @@ fn of_triangles(t: &Triangle, u: &Triangle) -> f64 {
     least.min(over(t, u)).min(over(u, t))
 }
 
-fn does_cross(&[a, b]: &[Point; 2], &[p, q, r]: &Triangle) -> bool {
-    let normal = cross(minus(q, p), minus(r, p));
-    let (above, below) = (dot(normal, minus(a, p)), dot(normal, minus(b, p)));
+fn does_cross(&[a, b]: &[DVec3; 2], &[p, q, r]: &Triangle) -> bool {
+    let normal = (q - p).cross(r - p);
+    let (above, below) = (normal.dot(a - p), normal.dot(b - p));
     if above * below > 0.0 || above == below {
         return false;
     }
-    let way = minus(b, a);
-    let side = |p: Point, q: Point| dot(way, cross(minus(p, a), minus(q, a)));
+    let way = b - a;
+    let side = |p: DVec3, q: DVec3| way.dot((p - a).cross(q - a));
     let sides = [side(p, q), side(q, r), side(r, p)];
     sides.iter().all(|x| *x >= 0.0) || sides.iter().all(|x| *x <= 0.0)
 }
 
 /// The height of a point over the triangle, if its foot is inside.
-fn height(point: Point, &[p, q, r]: &Triangle) -> Option<f64> {
-    let normal = cross(minus(q, p), minus(r, p));
-    let is_in = |p: Point, q: Point| dot(cross(minus(q, p), minus(point, p)), normal) >= 0.0;
-    let size = length(normal);
+fn height(point: DVec3, &[p, q, r]: &Triangle) -> Option<f64> {
+    let normal = (q - p).cross(r - p);
+    let is_in = |p: DVec3, q: DVec3| (q - p).cross(point - p).dot(normal) >= 0.0;
+    let size = normal.length();
     (size > 0.0 && is_in(p, q) && is_in(q, r) && is_in(r, p))
-        .then(|| (dot(normal, minus(point, p)) / size).abs())
+        .then(|| (normal.dot(point - p) / size).abs())
 }
 
-fn to_edge(point: Point, &[a, b]: &[Point; 2]) -> f64 {
-    let way = minus(b, a);
-    let square = dot(way, way);
-    let t = if square > 0.0 { (dot(way, minus(point, a)) / square).clamp(0.0, 1.0) } else { 0.0 };
-    length([0, 1, 2].map(|k: usize| a[k] + t * way[k] - point[k]))
+fn to_edge(point: DVec3, &[a, b]: &[DVec3; 2]) -> f64 {
+    let way = b - a;
+    let square = way.length_squared();
+    let t = if square > 0.0 { (way.dot(point - a) / square).clamp(0.0, 1.0) } else { 0.0 };
+    (a + t * way - point).length()
 }
 
-fn of_edges(s: &[Point; 2], r: &[Point; 2]) -> f64 {
-    let (d, e, way) = (minus(s[1], s[0]), minus(r[1], r[0]), minus(r[0], s[0]));
-    let across = cross(d, e);
-    let square = dot(across, across);
+fn of_edges(s: &[DVec3; 2], r: &[DVec3; 2]) -> f64 {
+    let (d, e, way) = (s[1] - s[0], r[1] - r[0], r[0] - s[0]);
+    let across = d.cross(e);
+    let square = across.length_squared();
     let is_part = |x: f64| (0.0..=1.0).contains(&x);
     if square > 0.0
-        && is_part(dot(cross(way, e), across) / square)
-        && is_part(dot(cross(way, d), across) / square)
+        && is_part(way.cross(e).dot(across) / square)
+        && is_part(way.cross(d).dot(across) / square)
     {
-        return (dot(way, across) / square.sqrt()).abs();
+        return (way.dot(across) / square.sqrt()).abs();
     }
     let ends = [to_edge(s[0], r), to_edge(s[1], r), to_edge(r[0], s), to_edge(r[1], s)];
     ends.into_iter().fold(f64::INFINITY, f64::min)

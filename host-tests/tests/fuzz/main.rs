@@ -88,7 +88,7 @@ macro_rules! tests {
     };
 }
 
-// Fewer where a run is dear.
+// Fewer where a run is costly.
 tests! {
     open: 5000;
     closest: 5000;

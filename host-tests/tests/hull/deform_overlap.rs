@@ -6,7 +6,7 @@ use meshsweep_core::{
     Budget, Decided, DeformableHull, QueryError, ScratchEntry, Undecided, Verdict,
 };
 use meshsweep_host_tests::generate::{Triangles, cube, icosphere, rough_sphere, torus};
-use meshsweep_host_tests::motion::motions;
+use meshsweep_host_tests::motion::{Tally, motions};
 use meshsweep_host_tests::oracle::moved::{Place, meeting_pairs};
 use meshsweep_host_tests::scene::Scene;
 
@@ -23,35 +23,6 @@ fn places(
     triangles.iter().map(|t| t.map(|v| at(positions[v as usize]))).collect()
 }
 
-/// How often each answer was given.
-#[derive(Debug, Default)]
-struct Tally {
-    apart: usize,
-    meets: usize,
-    open: usize,
-}
-
-impl Tally {
-    fn holds(&mut self, answer: &Decided<[u32; 2]>, truth: &[[u32; 2]]) {
-        match answer.verdict {
-            Verdict::No => {
-                self.apart += 1;
-                assert!(truth.is_empty(), "wrongly apart: {} pairs meet", truth.len());
-            }
-            Verdict::Yes => {
-                self.meets += 1;
-                let pair = answer.witness.expect("a pair");
-                assert!(truth.contains(&pair), "{pair:?} do not meet");
-            }
-            verdict => {
-                self.open += 1;
-                assert_eq!(verdict, Verdict::Undecided(Undecided::Resolution));
-                assert!(answer.witness.is_some());
-            }
-        }
-    }
-}
-
 /// Poses of `other` beside a mesh whose vertices are at `positions`, each answered by `ask`.
 fn check(
     rest: &Scene,
@@ -65,7 +36,7 @@ fn check(
     for pose in motions(rest, other, 4, seed) {
         let moved = |p: [f32; 3]| Place::moved(p, &pose.rotation, pose.translation);
         let truth = meeting_pairs(&first, &places(&other.positions, &other.triangles, moved));
-        tally.holds(&ask(pose), &truth);
+        tally.hold(&ask(pose), &truth, &format!("{pose:?}"));
     }
 }
 

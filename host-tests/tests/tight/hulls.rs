@@ -462,5 +462,5 @@ fn no_slack_is_said_to_be_kept_before_it_is_proved() {
         }
     }
     let refused = wrap(&mesh_of(&cube(1)), &Options::new(Goal::Slack(f64::NAN)), Watch::NONE);
-    assert!(matches!(refused.unwrap_err(), BuildError::SlackWithinMargin { .. }));
+    assert!(matches!(refused.unwrap_err(), BuildError::OutOfRange { option: "--slack", .. }));
 }

@@ -47,8 +47,8 @@ impl Counted {
         self.instructions.iter().sum::<f64>() / self.instructions.len() as f64
     }
 
-    /// How many times its dearest prediction the dearest query took.
-    fn dearest(&self, costs: &[f64; FEATURES]) -> f64 {
+    /// How many times its costliest prediction the costliest query took.
+    fn missed_by(&self, costs: &[f64; FEATURES]) -> f64 {
         let predicted = self.rows.iter().map(|row| dot(row, costs)).fold(0.0, f64::max);
         self.instructions.iter().copied().fold(0.0, f64::max) / predicted
     }
@@ -204,7 +204,7 @@ fn fitted(name: &str, board: &Board, counted: &[Counted]) -> (String, Vec<String
         // A comb of needles has an error of its own.
         let plain = || of_search().filter(|one| one.role != "needles");
         let error = most(&mut plain());
-        let dearest = plain().map(|one| one.dearest(&costs)).fold(1.0, f64::max);
+        let missed_by = plain().map(|one| one.missed_by(&costs)).fold(1.0, f64::max);
         let least = of_search().flat_map(|one| &one.instructions).copied();
         let least = least.fold(f64::INFINITY, f64::min);
         let mut typical: Vec<f64> = of_search()
@@ -244,10 +244,10 @@ fn fitted(name: &str, board: &Board, counted: &[Counted]) -> (String, Vec<String
         let _ = write!(
             lines,
             "    (\n        Board::{name},\n        Search::{search},\n        Cost {{\n            \
-             instructions: [{}],\n            least: {least:.1},\n            dearest: {:.3},\n            \
-             error: {:.4},\n            typical: {:.3},\n        }},\n    ),\n",
+             instructions: [{}],\n            least: {least:.1},\n            missed_by: \
+             {:.3},\n            error: {:.4},\n            typical: {:.3},\n        }},\n    ),\n",
             told.join(", "),
-            (1000.0 * dearest).ceil() / 1000.0,
+            (1000.0 * missed_by).ceil() / 1000.0,
             (10_000.0 * error).ceil() / 10_000.0,
             (1000.0 * typical).ceil() / 1000.0
         );

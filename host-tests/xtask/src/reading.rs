@@ -38,7 +38,7 @@ pub struct Cost {
     pub min: f64,
     /// Of the mean one.
     pub mean: f64,
-    /// Of the dearest one.
+    /// Of the costliest one.
     pub max: f64,
     /// Bytes below the function of the suite that calls the core.
     pub stack: u32,

@@ -9,10 +9,11 @@ use crate::failure::Failure;
 use crate::output::Output;
 use crate::queries::Queries;
 use meshsweep::counted::Counted;
-use meshsweep::distances::Element;
+use meshsweep::distances::{AnyWithin, Closest, Element};
 use meshsweep::number::Short;
 use meshsweep_core::{
-    Budget, Ended, Interval, Neighbor, QueryError, ScratchEntry, Undecided, Verdict, Work,
+    Budget, Decided, Ended, FirstHit, Interval, Neighbor, PairContact, PairDistance, Penetration,
+    QueryError, ScratchEntry, Separation, SignedDistance, Undecided, Verdict, WindingNumber, Work,
 };
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
@@ -34,41 +35,109 @@ pub struct Question<'a, const N: usize> {
     pub limit: Option<String>,
 }
 
-/// An answer, how its search ended, and the work of the search.
+/// An answer to one row.
+pub trait Answered: Send {
+    /// How its search ended.
+    fn ended(&self) -> Ended;
+    /// The work of its search.
+    fn work(&self) -> Work;
+}
+
+/// Says of answers of these types how their search ended.
+macro_rules! answered {
+    ($($answer:ty: |$found:ident| $ended:expr, $work:expr;)*) => {
+        $(
+            impl Answered for $answer {
+                fn ended(&self) -> Ended {
+                    let $found = self;
+                    $ended
+                }
+
+                fn work(&self) -> Work {
+                    let $found = self;
+                    $work
+                }
+            }
+        )*
+    };
+}
+
+answered! {
+    Closest: |found| found.ended, found.work;
+    FirstHit: |found| found.ended, found.work;
+    PairContact: |found| found.ended, found.work;
+    PairDistance: |found| found.ended, found.work;
+    Penetration: |found| found.ended, found.work;
+    Separation: |found| found.ended, found.work;
+    SignedDistance: |found| found.closest.ended, found.closest.work;
+    WindingNumber: |found| found.ended, found.work;
+    AnyWithin: |found| ended(found.verdict), found.work;
+    Decided<[u32; 2]>: |found| ended(found.verdict), found.work;
+}
+
+/// An answer that is put together of several, how its search ended, and the work of the search.
 pub struct Answer<A> {
     pub found: A,
     pub ended: Ended,
     pub work: Work,
 }
 
+impl<A: Send> Answered for Answer<A> {
+    fn ended(&self) -> Ended {
+        self.ended
+    }
+
+    fn work(&self) -> Work {
+        self.work
+    }
+}
+
 /// Asks about rows on so many threads. Gives the answers before the first refused row, and that
 /// row.
-type AskRows<'a, const N: usize, A> =
-    dyn Fn(&[[f32; N]], usize) -> (Vec<Answer<A>>, Option<Refused>) + 'a;
+type AskRows<'a, const N: usize, A> = dyn Fn(&[[f32; N]], usize) -> (Vec<A>, Option<Refused>) + 'a;
 
 /// Writes the number of a row, from 0, the row and its answer.
 type WriteAnswer<'a, const N: usize, A> =
-    dyn Fn(&mut dyn Write, usize, &[f32; N], &Answer<A>) -> io::Result<()> + 'a;
+    dyn Fn(&mut dyn Write, usize, &[f32; N], &A) -> io::Result<()> + 'a;
 
 impl<'a, const N: usize> Question<'a, N> {
     pub fn new(header: &'static str, queries: Queries<N>, search: &'a SearchArgs) -> Self {
         Question { header, queries, search, is_by_hull: false, limit: None }
     }
 
-    /// Asks about one row after the other. `asker` makes a thread's asker with its memory. `write`
-    /// gets the number of a row, from 0, the row and its answer.
+    /// Asks about one row after the other, each thread with scratch of its own: so many entries,
+    /// unless `--scratch` says otherwise. `write` gets the number of a row, from 0, the row and its
+    /// answer.
     ///
     /// # Errors
     /// As [`ask_all`](Self::ask_all).
-    pub fn ask<A: Send, F>(
+    pub fn ask_each<A: Answered>(
+        self,
+        entries: usize,
+        ask: impl Fn([f32; N], &mut [ScratchEntry]) -> Result<A, QueryError> + Sync,
+        write: impl Fn(&mut dyn Write, usize, &[f32; N], &A) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let search = self.search;
+        let asker = || {
+            let (ask, mut scratch) = (&ask, search.scratch(entries));
+            move |row| ask(row, &mut scratch)
+        };
+        self.ask(asker, write)
+    }
+
+    /// As [`ask_each`](Self::ask_each), where `asker` makes a thread's asker with its memory.
+    ///
+    /// # Errors
+    /// As [`ask_all`](Self::ask_all).
+    pub fn ask<A: Answered, F>(
         self,
         asker: impl Fn() -> F + Sync,
-        write: impl Fn(&mut dyn Write, usize, &[f32; N], &Answer<A>) -> io::Result<()>,
+        write: impl Fn(&mut dyn Write, usize, &[f32; N], &A) -> io::Result<()>,
     ) -> Result<(), Failure>
     where
-        F: FnMut([f32; N]) -> Result<Answer<A>, QueryError>,
+        F: FnMut([f32; N]) -> Result<A, QueryError>,
     {
-        let worker = || -> Worker<'_, [f32; N], Answer<A>> {
+        let worker = || -> Worker<'_, [f32; N], A> {
             let mut ask = asker();
             Box::new(move |row| ask(*row))
         };
@@ -83,7 +152,7 @@ impl<'a, const N: usize> Question<'a, N> {
     /// # Errors
     /// A query is refused or broken, after the answers before it have been printed; or the answers
     /// cannot be written.
-    pub fn ask_all<A>(
+    pub fn ask_all<A: Answered>(
         mut self,
         at_once: usize,
         ask: &AskRows<'_, N, A>,
@@ -108,7 +177,7 @@ impl<'a, const N: usize> Question<'a, N> {
             rows.try_for_each(|(query, (row, answer))| write(out, query, row, answer))
         })?;
         let mut tally = Tally::default();
-        answers.iter().for_each(|answer| tally.count(answer.ended, answer.work));
+        answers.iter().for_each(|answer| tally.count(answer.ended(), answer.work()));
         note(&tally, time, threads, search.time, self.is_by_hull);
         Ok(())
     }

@@ -135,8 +135,11 @@ impl Report<'_> {
             Some(loaded) => mesh_report::fields(mesh, loaded),
             None => Map::from_iter([("curves".to_owned(), json!(mesh.display().to_string()))]),
         };
+        let of_builder = || args.builder().to_string();
+        let options = chosen.map_or_else(of_builder, Chosen::options);
         let note = |note: &Note| json!({ "topic": note.topic.name(), "text": note.text });
         let others = [
+            ("options", json!(options)),
             ("notes", built.report().map(note).collect()),
             ("blob", json!(args.output.display().to_string())),
             ("sources", source::names(args)),

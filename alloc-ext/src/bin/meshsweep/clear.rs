@@ -1,7 +1,7 @@
 //! `meshsweep clear`: straight moves of a convex tool in, whether the whole move is clear out.
 
 use crate::args::{ClearArgs, files};
-use crate::ask::{Answer, Question, write_end, write_numbers};
+use crate::ask::{Question, write_end, write_numbers};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
@@ -29,20 +29,18 @@ pub fn run(args: &ClearArgs) -> Result<(), Failure> {
     };
     let header = "clear,t,px,py,pz,triangle,work";
     let question = Question { limit: Some(limit), ..Question::new(header, moves, search) };
-    question.ask(
-        || {
-            let mut scratch = search.scratch(tree.scratch_entries());
-            move |[ax, ay, az, bx, by, bz]: [f32; 6]| {
-                let ends = [[ax, ay, az], [bx, by, bz]].map(|place| tool.at(place));
-                let [(from, off), (to, off_there)] = ends;
-                // Corners that were rounded: the tool is within this of them.
-                let radius = up_to_f32(f64::from(*radius) + off.max(off_there));
-                let (from, to) = (Solid::new(&from, radius)?, Solid::new(&to, radius)?);
-                let found = tree.solid_first_contact(&from, &to, search.budget(), &mut scratch)?;
-                Ok(Answer { found, ended: found.ended, work: found.work })
-            }
+    question.ask_each(
+        tree.scratch_entries(),
+        |[ax, ay, az, bx, by, bz], scratch| {
+            let ends = [[ax, ay, az], [bx, by, bz]].map(|place| tool.at(place));
+            let [(from, off), (to, off_there)] = ends;
+            // Corners that were rounded: the tool is within this of them.
+            let radius = up_to_f32(f64::from(*radius) + off.max(off_there));
+            let (from, to) = (Solid::new(&from, radius)?, Solid::new(&to, radius)?);
+            tree.solid_first_contact(&from, &to, search.budget(), scratch)
         },
-        |out, _, _, &Answer { found, work, .. }| {
+        |out, _, _, found| {
+            let work = found.work;
             if found.is_clear() {
                 write!(out, "yes,,,,,")?;
                 return write_end(out, None, work);

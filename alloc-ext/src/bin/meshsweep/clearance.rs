@@ -2,7 +2,7 @@
 //! whether it is within a distance; or whether the moves from pose to pose are clear.
 
 use crate::args::{ClearanceArgs, MoveKind, MovedArgs};
-use crate::ask::{self, Answer, Question, verdict_name, write_numbers, write_pair};
+use crate::ask::{Question, verdict_name, write_numbers, write_pair};
 use crate::failure::Failure;
 use crate::poses;
 use crate::queries::Queries;
@@ -57,20 +57,16 @@ fn ask_triboxes(
     [first, second]: [Triboxes<'_>; 2],
     distance: f32,
 ) -> Result<(), Failure> {
-    Question::new(WITHIN, poses::read(input)?, search).ask(
-        || {
-            let mut scratch = search.scratch(first.separation_entries(&second));
-            move |row| {
-                let (pose, budget) = (poses::of_row(row), search.budget());
-                let found = first.within_of(&second, pose, distance, budget, &mut scratch)?;
-                Ok(Answer { found, ended: found.ended, work: found.work })
-            }
+    Question::new(WITHIN, poses::read(input)?, search).ask_each(
+        first.separation_entries(&second),
+        |row, scratch| {
+            first.within_of(&second, poses::of_row(row), distance, search.budget(), scratch)
         },
-        |out, query, _, Answer { found, work, .. }| {
+        |out, query, _, found| {
             let verdict = if found.is_apart() { "no" } else { "undecided" };
             write!(out, "{query},{verdict},")?;
             let nodes = found.may_meet.map(|pair| [u32::from(pair.a), u32::from(pair.b)]);
-            write_pair(out, nodes, *work)
+            write_pair(out, nodes, found.work)
         },
     )
 }
@@ -86,21 +82,15 @@ impl Clearance<'_> {
             self;
         let budget = search.budget().with_relative(*rel).with_absolute(*abs);
         let header = "pose,lower,upper,ax,ay,az,bx,by,bz,first,second,work";
-        Question::new(header, poses, search).ask(
-            || {
-                let mut scratch = search.scratch(Bvh::DISTANCE_ENTRIES);
-                move |row| {
-                    let found =
-                        first.distance_to(&second, poses::of_row(row), budget, &mut scratch)?;
-                    Ok(Answer { found, ended: found.ended, work: found.work })
-                }
-            },
-            |out, query, _, Answer { found, work, .. }| {
+        Question::new(header, poses, search).ask_each(
+            Bvh::DISTANCE_ENTRIES,
+            |row, scratch| first.distance_to(&second, poses::of_row(row), budget, scratch),
+            |out, query, _, found| {
                 let Interval { lower, upper } = found.distance;
                 let [[ax, ay, az], [bx, by, bz]] = found.points;
                 write!(out, "{query},")?;
                 write_numbers(out, &[lower, upper, ax, ay, az, bx, by, bz])?;
-                write_pair(out, Some(found.triangles), *work)
+                write_pair(out, Some(found.triangles), found.work)
             },
         )
     }
@@ -111,16 +101,10 @@ impl Clearance<'_> {
         let budget = search.budget().with_relative(*rel).with_absolute(*abs);
         let entries = first.scratch_entries().max(second.scratch_entries());
         let header = "pose,solids,lower,upper,x,y,z,px,py,pz,work";
-        Question::new(header, poses, search).ask(
-            || {
-                let mut scratch = search.scratch(entries.max(Bvh::DISTANCE_ENTRIES));
-                move |row| {
-                    let found =
-                        first.penetration(&second, poses::of_row(row), budget, &mut scratch)?;
-                    Ok(Answer { found, ended: found.ended, work: found.work })
-                }
-            },
-            |out, query, _, Answer { found, work, .. }| {
+        Question::new(header, poses, search).ask_each(
+            entries.max(Bvh::DISTANCE_ENTRIES),
+            |row, scratch| first.penetration(&second, poses::of_row(row), budget, scratch),
+            |out, query, _, found| {
                 write!(out, "{query},{},", relation_name(found.relation))?;
                 write_numbers(out, &[found.depth.lower, found.depth.upper])?;
                 for point in [found.apart.map(|pose| pose.translation), found.deepest] {
@@ -129,25 +113,21 @@ impl Clearance<'_> {
                         None => write!(out, ",,,")?,
                     }
                 }
-                writeln!(out, "{}", work.total())
+                writeln!(out, "{}", found.work.total())
             },
         )
     }
 
     fn ask_within(self, distance: f32, poses: Queries<12>) -> Result<(), Failure> {
         let Clearance { args: ClearanceArgs { search, .. }, trees: [first, second] } = self;
-        Question::new(WITHIN, poses, search).ask(
-            || {
-                let mut scratch = search.scratch(Bvh::DISTANCE_ENTRIES);
-                move |row| {
-                    let (pose, budget) = (poses::of_row(row), search.budget());
-                    let found = first.within_of(&second, pose, distance, budget, &mut scratch)?;
-                    Ok(Answer { found, ended: ask::ended(found.verdict), work: found.work })
-                }
+        Question::new(WITHIN, poses, search).ask_each(
+            Bvh::DISTANCE_ENTRIES,
+            |row, scratch| {
+                first.within_of(&second, poses::of_row(row), distance, search.budget(), scratch)
             },
-            |out, query, _, Answer { found, work, .. }| {
+            |out, query, _, found| {
                 write!(out, "{query},{},", verdict_name(found.verdict))?;
-                write_pair(out, found.witness, *work)
+                write_pair(out, found.witness, found.work)
             },
         )
     }
@@ -171,30 +151,25 @@ impl Clearance<'_> {
         let moves =
             poses.moves(|from, to| row_of_poses([poses::of_row(from), poses::of_row(to)]))?;
         let header = "move,clear,t,ax,ay,az,bx,by,bz,first,second,work";
-        Question::new(header, moves, search).ask(
-            || {
-                let mut scratch = search.scratch(Bvh::DISTANCE_ENTRIES);
-                move |row: [f32; 24]| {
-                    let [from, to] = poses_of_row(&row);
-                    let motion = match kind {
-                        MoveKind::Straight => Motion::straight(from, to),
-                        MoveKind::Screw => Motion::screw(from, to)?,
-                    };
-                    let budget = search.budget();
-                    let found =
-                        first.first_contact_of(&second, &motion, keep, budget, &mut scratch)?;
-                    Ok(Answer { found, ended: found.ended, work: found.work })
-                }
+        Question::new(header, moves, search).ask_each(
+            Bvh::DISTANCE_ENTRIES,
+            |row: [f32; 24], scratch| {
+                let [from, to] = poses_of_row(&row);
+                let motion = match kind {
+                    MoveKind::Straight => Motion::straight(from, to),
+                    MoveKind::Screw => Motion::screw(from, to)?,
+                };
+                first.first_contact_of(&second, &motion, keep, search.budget(), scratch)
             },
-            |out, query, _, Answer { found, work, .. }| {
+            |out, query, _, found| {
                 if found.is_clear() {
                     write!(out, "{query},yes,,,,,,,,")?;
-                    return write_pair(out, None, *work);
+                    return write_pair(out, None, found.work);
                 }
                 let [[ax, ay, az], [bx, by, bz]] = found.points;
                 write!(out, "{query},undecided,")?;
                 write_numbers(out, &[found.clear_until, ax, ay, az, bx, by, bz])?;
-                write_pair(out, Some(found.triangles), *work)
+                write_pair(out, Some(found.triangles), found.work)
             },
         )
     }

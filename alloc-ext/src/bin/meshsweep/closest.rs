@@ -1,7 +1,7 @@
 //! `meshsweep closest`: points in, intervals and closest points out.
 
 use crate::args::{ClosestArgs, Engine as EngineName, PointArgs, files};
-use crate::ask::{Answer, Question, write_element, write_numbers};
+use crate::ask::{Question, write_element, write_numbers};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
@@ -20,11 +20,10 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     let header = "x,y,z,lower,upper,px,py,pz,triangle,work";
     if let Some(frame) = args.frame {
         let (hull, entries) = served::require_frame(file, &blob, frame)?;
-        let asker = || {
-            let mut scratch = search.scratch(entries);
-            move |point| Ok(answer(hull.closest_point(point, budget, &mut scratch)?.into()))
+        let ask = |point, scratch: &mut [_]| {
+            hull.closest_point(point, budget, scratch).map(Closest::from)
         };
-        return Question::new(header, Queries::read(points)?, search).ask(asker, write);
+        return Question::new(header, Queries::read(points)?, search).ask_each(entries, ask, write);
     }
     let structure = structure(args, &blob)?;
     let header = match structure {
@@ -33,33 +32,27 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     };
     let is_by_hull = matches!(structure, Distances::Tight(_));
     let question = Question { is_by_hull, ..Question::new(header, Queries::read(points)?, search) };
+    let entries = served::entries(&structure);
     let Distances::Tree(tree) = structure else {
-        let asker = || {
-            let mut scratch = search.scratch(served::entries(&structure));
-            move |point| Ok(answer(structure.closest_point(point, budget, &mut scratch)?))
-        };
-        return question.ask(asker, write);
+        let ask = |point, scratch: &mut [_]| structure.closest_point(point, budget, scratch);
+        return question.ask_each(entries, ask, write);
     };
     let tree = FastBvh::new(tree);
-    if args.precise {
-        let asker = || {
-            let mut scratch = search.scratch(tree.scratch_entries());
-            move |point| Ok(answer(tree.closest_point_precise(point, budget, &mut scratch)?.into()))
+    if args.precise || search.scratch.is_some() {
+        let ask = |point, scratch: &mut [_]| {
+            let found = match args.precise {
+                true => tree.closest_point_precise(point, budget, scratch)?,
+                false => tree.closest_point(point, budget, scratch)?,
+            };
+            Ok(found.into())
         };
-        return question.ask(asker, write);
-    }
-    if search.scratch.is_some() {
-        let asker = || {
-            let mut scratch = search.scratch(tree.scratch_entries());
-            move |point| Ok(answer(tree.closest_point(point, budget, &mut scratch)?.into()))
-        };
-        return question.ask(asker, write);
+        return question.ask_each(entries, ask, write);
     }
     search.threads.start();
     let ask = |points: &[[f32; 3]], _| {
         let (found, refused) = closest_points_until_refused(&tree, points, &budget);
         let refused = refused.map(|refused| (refused.index, refused.error));
-        (found.into_iter().map(|found| answer(found.into())).collect(), refused)
+        (found.into_iter().map(Closest::from).collect(), refused)
     };
     question.ask_all(BATCH, &ask, &write)
 }
@@ -86,21 +79,12 @@ fn structure<'a>(args: &ClosestArgs, blob: &Blob<'a>) -> Result<Distances<'a>, F
     })
 }
 
-fn answer(found: Closest) -> Answer<Closest> {
-    Answer { found, ended: found.ended, work: found.work }
-}
-
-fn write(
-    out: &mut dyn Write,
-    _: usize,
-    point: &[f32; 3],
-    &Answer { found, work, .. }: &Answer<Closest>,
-) -> io::Result<()> {
+fn write(out: &mut dyn Write, _: usize, point: &[f32; 3], found: &Closest) -> io::Result<()> {
     let Interval { lower, upper } = found.distance;
     let [x, y, z] = found.point;
     write_numbers(out, point)?;
     write_numbers(out, &[lower, upper, x, y, z])?;
     write_element(out, found.safe_motion.is_some(), found.element)?;
     write_numbers(out, found.safe_motion.as_slice())?;
-    writeln!(out, "{}", work.total())
+    writeln!(out, "{}", found.work.total())
 }

@@ -41,7 +41,7 @@ pub enum Failure {
         other: Option<&'static str>,
         served: String,
     },
-    /// The blob serves none of the questions whose dearest query can be searched.
+    /// The blob serves none of the questions whose costliest query can be searched.
     NothingToSearch { file: PathBuf, served: String },
     /// The levels of the blob's hierarchy enclose nothing.
     NotEnclosing { file: PathBuf },

@@ -19,9 +19,9 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
     args.threads.start();
     let usage = |what: String| Err(Failure::Usage { what });
     refuse_other_extension(&args.output, "ply", "the hull is written as PLY")?;
-    if let Some(slack) = args.slack {
+    if let Some(slack) = args.of_mesh.slack {
         let refused = |error| Failure::build(&args.input, error);
-        Goal::Slack(slack).check(args.margin.unwrap_or(0.0)).map_err(refused)?;
+        Goal::Slack(slack).check(args.of_mesh.margin.unwrap_or(0.0)).map_err(refused)?;
     }
     refuse_same_file(Some(&args.output), &[&args.input])?;
     let name = args.input.display();
@@ -45,8 +45,10 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
         };
     }
     if is_blob {
-        let for_meshes = [args.faces.is_some(), args.void.is_some(), args.slack.is_some()];
-        return usage(if for_meshes.contains(&true) {
+        let of_mesh = &args.of_mesh;
+        let is_of_mesh =
+            of_mesh.faces.is_some() || of_mesh.void.is_some() || of_mesh.slack.is_some();
+        return usage(if is_of_mesh {
             format!(
                 "{name}: --faces, --void and --slack are for a mesh; choose a hull of a blob with \
                  --level or --tight"
@@ -60,7 +62,7 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
     }
     let mesh = mesh_file::named(&args.input, &args.read)?;
     match args.progressive_option() {
-        _ if args.progressive => progressive::run(args, &mesh),
+        _ if args.of_mesh.progressive => progressive::run(args, &mesh),
         Some(option) => {
             usage(format!("{option} is for the progressive hull; give --progressive too"))
         }

@@ -20,7 +20,7 @@
 //! 1. its arguments in `args/asking.rs`, exported by `args/mod.rs`, where it is a variant of
 //!    `Command`;
 //! 2. the text below its options, a file in `args/help/`, named in `args/help.rs`;
-//! 3. a file like `nearest.rs` that makes an `ask::Question`, with a `mod` and an arm in `run`
+//! 3. a file like `winding.rs` that makes an `ask::Question`, with a `mod` and an arm in `run`
 //!    here;
 //! 4. a row in `served.rs`: a test there fails without one.
 

@@ -34,21 +34,16 @@ fn ask_any(
     models: Both<'_>,
     question: Question<'_, 12>,
 ) -> Result<(), Failure> {
-    question.ask(
-        || {
-            let mut scratch = search.scratch(models.entries());
-            move |row| {
-                let found = models.overlap(poses::of_row(row), search.budget(), &mut scratch)?;
-                Ok(Answer { found, ended: ask::ended(found.verdict), work: found.work })
-            }
-        },
-        |out, query, _, Answer { found, work, .. }| {
+    question.ask_each(
+        models.entries(),
+        |row, scratch| models.overlap(poses::of_row(row), search.budget(), scratch),
+        |out, query, _, found| {
             let contact = match found.verdict {
                 Verdict::Yes => MEETS,
                 Verdict::No => APART,
                 _ => UNDECIDED,
             };
-            write_row(out, query, contact, found.witness, *work)
+            write_row(out, query, contact, found.witness, found.work)
         },
     )
 }

@@ -68,6 +68,18 @@ fn names(output: &Path) -> Result<(String, PathBuf), Failure> {
     Ok((stem, module))
 }
 
+/// A link that is so many times larger than all joints are apart is suspected of another unit.
+/// Millimetres that are read as metres make it a thousand times larger.
+const SUSPECTED: f64 = 30.0;
+
+/// The links whose meshes may be in another unit than metres.
+fn too_large(robot: &Robot) -> Vec<&str> {
+    let length = |shift: [f32; 3]| shift.map(|x| f64::from(x).powi(2)).iter().sum::<f64>().sqrt();
+    let apart: f64 = robot.joints.iter().map(|joint| length(joint.origin.pose.translation)).sum();
+    let is_large = |link: &&Link| apart > 0.0 && f64::from(link.radius) > SUSPECTED * apart;
+    robot.links.iter().filter(is_large).map(|link| link.name.as_str()).collect()
+}
+
 fn triangles(link: &Link) -> usize {
     link.built.loaded.as_ref().map_or(0, |loaded| loaded.input_triangles)
 }
@@ -104,6 +116,15 @@ fn write(
         for note in notes.filter(|note| !note.text.starts_with("unit: ")) {
             writeln!(out, "  {}: {note}", link.name)?;
         }
+    }
+    let large = too_large(robot);
+    if !large.is_empty() {
+        writeln!(
+            out,
+            "more than {SUSPECTED} times larger than all joints are apart: {}; meshes are read in \
+             metres: give those in millimetres scale=\"0.001 0.001 0.001\"",
+            large.join(", ")
+        )?;
     }
     if !robot.without_geometry.is_empty() {
         writeln!(
@@ -172,6 +193,7 @@ fn as_json(robot: &Robot, module: &Path, blobs: &[PathBuf]) -> Value {
         "name": robot.name,
         "module": module.display().to_string(),
         "links": robot.links.iter().zip(blobs).map(link).collect::<Vec<_>>(),
+        "too_large": too_large(robot),
         "without_geometry": robot.without_geometry,
         "places": robot.places.iter().map(place).collect::<Vec<_>>(),
         "pairs": robot.pairs.iter().map(|pair| json!({

@@ -70,24 +70,19 @@ fn ask_first(
     question: Question<'_, 6>,
 ) -> Result<(), Failure> {
     let (facing, budget) = (args.facing(), args.search.budget());
-    question.ask(
-        || {
-            let mut scratch = args.search.scratch(engine.scratch_entries());
-            move |segment| {
-                let [a, b] = ends(segment);
-                let found = match &engine {
-                    Engine::Tree(tree) => {
-                        FastBvh::new(*tree).first_hit(a, b, facing, budget, &mut scratch)?
-                    }
-                    Engine::Hull(hull) => hull.first_hit(a, b, budget, &mut scratch)?,
-                };
-                Ok(Answer { found, ended: found.ended, work: found.work })
+    question.ask_each(
+        engine.scratch_entries(),
+        |segment, scratch| {
+            let [a, b] = ends(segment);
+            match &engine {
+                Engine::Tree(tree) => FastBvh::new(*tree).first_hit(a, b, facing, budget, scratch),
+                Engine::Hull(hull) => hull.first_hit(a, b, budget, scratch),
             }
         },
-        |out, _, segment, &Answer { found, work, .. }| match found.hit {
-            _ if found.is_clear() => write_clear(out, work),
-            Some(hit) if found.ended == Ended::Exact => write_hit(out, "yes", hit, work),
-            _ => write_undecided(out, segment, found.t.lower, None, work),
+        |out, _, segment, found| match found.hit {
+            _ if found.is_clear() => write_clear(out, found.work),
+            Some(hit) if found.ended == Ended::Exact => write_hit(out, "yes", hit, found.work),
+            _ => write_undecided(out, segment, found.t.lower, None, found.work),
         },
     )
 }

@@ -1,7 +1,7 @@
 //! `meshsweep signed`: on which side points are, and how far from the surface.
 
 use crate::args::{PointArgs, SignedArgs, files};
-use crate::ask::{Answer, Question, write_end, write_numbers};
+use crate::ask::{Question, write_end, write_numbers};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
@@ -16,21 +16,16 @@ pub fn run(args: &SignedArgs) -> Result<(), Failure> {
     refuse_same_file(search.output.as_deref(), &files(&[file], points))?;
     let tree = served::require_tree(file, &blob_file::open(file)?, BuildFor::Closest)?;
     let header = "x,y,z,side,reason,lower,upper,px,py,pz,triangle,work";
-    Question::new(header, Queries::read(points)?, search).ask(
-        || {
-            let mut scratch = search.scratch(tree.scratch_entries());
-            move |point| {
-                let found = signed_distance(&tree, point, search.budget(), &mut scratch)?;
-                Ok(Answer { found, ended: found.closest.ended, work: found.closest.work })
-            }
-        },
-        |out, _, point, &Answer { found, work, .. }| {
-            let SignedDistance { distance: Interval { lower, upper }, side, closest, .. } = found;
+    Question::new(header, Queries::read(points)?, search).ask_each(
+        tree.scratch_entries(),
+        |point, scratch| signed_distance(&tree, point, search.budget(), scratch),
+        |out, _, point, &SignedDistance { distance, side, closest, .. }| {
+            let Interval { lower, upper } = distance;
             let [px, py, pz] = closest.point;
             write_numbers(out, point)?;
             write!(out, "{},{},", name(side), reason(side))?;
             write_numbers(out, &[lower, upper, px, py, pz])?;
-            write_end(out, closest.triangle, work)
+            write_end(out, closest.triangle, closest.work)
         },
     )?;
     if !has_sides(&tree) || (has_sideless(&tree) && !tree.serves_winding()) {

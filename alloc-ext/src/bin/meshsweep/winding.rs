@@ -1,7 +1,7 @@
 //! `meshsweep winding`: how often the mesh encloses each point.
 
 use crate::args::{PointArgs, WindingArgs, files};
-use crate::ask::{Answer, Question, write_numbers};
+use crate::ask::{Question, write_numbers};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
@@ -14,15 +14,10 @@ pub fn run(args: &WindingArgs) -> Result<(), Failure> {
     refuse_same_file(search.output.as_deref(), &files(&[file], points))?;
     let tree = served::require_tree(file, &blob_file::open(file)?, BuildFor::Winding)?;
     let budget = search.budget().with_absolute(*abs);
-    Question::new("x,y,z,side,reason,lower,upper,work", Queries::read(points)?, search).ask(
-        || {
-            let mut scratch = search.scratch(tree.scratch_entries());
-            move |point| {
-                let found = tree.winding_number(point, budget, &mut scratch)?;
-                Ok(Answer { found, ended: found.ended, work: found.work })
-            }
-        },
-        |out, _, point, &Answer { found: WindingNumber { number, side, .. }, work, .. }| {
+    Question::new("x,y,z,side,reason,lower,upper,work", Queries::read(points)?, search).ask_each(
+        tree.scratch_entries(),
+        |point, scratch| tree.winding_number(point, budget, scratch),
+        |out, _, point, &WindingNumber { number, side, work, .. }| {
             write_numbers(out, point)?;
             write!(out, "{},{},", name(side), reason(side))?;
             write_numbers(out, &[number.lower, number.upper])?;

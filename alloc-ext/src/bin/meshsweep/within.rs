@@ -43,20 +43,14 @@ fn ask_any(
     let header =
         if is_curve { "x,y,z,within,polyline,segment,work" } else { "x,y,z,within,triangle,work" };
     let is_by_hull = matches!(structure, Distances::Tight(_));
-    Question { is_by_hull, ..Question::new(header, points, search) }.ask(
-        || {
-            let mut scratch = search.scratch(served::entries(&structure));
-            move |point| {
-                let found =
-                    structure.any_within(point, *distance, search.budget(), &mut scratch)?;
-                Ok(Answer { found, ended: ask::ended(found.verdict), work: found.work })
-            }
-        },
-        |out, _, point, Answer { found, work, .. }| {
+    Question { is_by_hull, ..Question::new(header, points, search) }.ask_each(
+        served::entries(&structure),
+        |point, scratch| structure.any_within(point, *distance, search.budget(), scratch),
+        |out, _, point, found| {
             write_numbers(out, point)?;
             write!(out, "{},", verdict_name(found.verdict))?;
             write_element(out, is_curve, found.element)?;
-            writeln!(out, "{}", work.total())
+            writeln!(out, "{}", found.work.total())
         },
     )
 }

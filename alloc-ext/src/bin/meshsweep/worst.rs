@@ -1,4 +1,4 @@
-//! `meshsweep worst`: the dearest query of each question, or the dearest pose of a second mesh,
+//! `meshsweep worst`: the costliest query of each question, or the costliest pose of a second mesh,
 //! found by hill climbing.
 
 use crate::args::{WorstArgs, WorstQuestion};
@@ -39,7 +39,7 @@ pub fn run(args: &WorstArgs) -> Result<(), Failure> {
     Output::stdout().finish(|out| match args.json {
         true => {
             let all: Vec<Value> = rows.iter().map(as_json).collect();
-            serde_json::to_writer_pretty(&mut *out, &json!({ "dearest": all }))?;
+            serde_json::to_writer_pretty(&mut *out, &json!({ "worst": all }))?;
             writeln!(out)
         }
         false => write(out, &rows),
@@ -135,7 +135,7 @@ fn write(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
         let times = About(row.times());
         write!(out, "{question} by the {structure}: ")?;
         match row.goal {
-            Goal::Work => write!(out, "dearest, {times} times the mean of random queries")?,
+            Goal::Work => write!(out, "costliest, {times} times the mean of random queries")?,
             Goal::Width => write!(
                 out,
                 "widest interval, {}, {times} times the mean of random queries",
@@ -153,9 +153,12 @@ fn write(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
             exact,
             Counted(row.scratch_bytes, "byte"),
         )?;
-        if let Some([m4f, m0]) = row.found.instructions {
-            let [on, other] = Board::ALL.map(Board::name);
-            writeln!(out, "  about {m4f:.0} instructions on a {on}, {m0:.0} on a {other}")?;
+        let [on, other] = Board::ALL.map(Board::name);
+        match row.found.instructions {
+            Some([m4f, m0]) => {
+                writeln!(out, "  about {m4f:.0} instructions on a {on}, {m0:.0} on a {other}")?;
+            }
+            None => writeln!(out, "  instructions are not predicted for this question and blob")?,
         }
     }
     Ok(())

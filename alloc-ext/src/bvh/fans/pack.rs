@@ -32,7 +32,7 @@ pub(in crate::bvh) struct Packed {
 const MOST_HALVINGS: u32 = 12;
 
 /// Halves whose price is so many times that of their cell are not halved again. Up to 1.1, a fifth
-/// more time, nothing changes; with 1.02 small meshes are a tenth dearer.
+/// more time, nothing changes; with 1.02 small meshes are a tenth costlier.
 const HOPELESS: f64 = 1.05;
 
 /// Packs a soup into leaves of the box tree. Every triangle is in exactly one leaf, and all of a

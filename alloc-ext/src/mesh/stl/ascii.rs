@@ -264,7 +264,8 @@ impl<'a> Facets<'a> {
                 file: self.file.to_owned(),
                 line: None,
                 place: "the text".into(),
-                reason: "neither solid nor facet is there".into(),
+                reason: "no solid and no facet is there: the file is neither ASCII nor binary STL"
+                    .into(),
             });
         }
         let Self { file, positions, polygons, fans, .. } = self;

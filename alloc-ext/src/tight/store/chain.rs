@@ -23,19 +23,14 @@ pub const MAX_HULLS: usize = MAX_LEVELS as usize;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ChainOptions {
-    /// Most faces of each hull, in any order. If there are none, one hull of 200 faces is made.
+    /// Most faces of each hull, in any order. If there are none, one hull is made.
     pub faces: Vec<usize>,
-    /// The goal of the one hull to make, instead of numbers of faces.
-    pub goal: Option<Goal>,
-    /// Distance that every hull keeps from the input's surface; see [`Options::margin`]. Answers
-    /// about the mesh do not depend on the margin.
-    pub margin: f64,
-    /// How long to polish; see [`Options::effort`].
-    pub effort: f64,
-    /// Bits of a hull vertex. The mesh is not moved: only the hull's vertices lie on a grid.
-    /// [`VertexBits::Auto`] stands for 16 bits, as in a leaf of a box tree, where the mesh leaves
-    /// room for them.
-    pub vertex_bits: VertexBits,
+    /// How each hull is made. Its goal is that of the one hull, if there are no numbers of faces.
+    /// Answers about the mesh do not depend on the margin.
+    ///
+    /// The mesh is not moved: only the hull's vertices lie on a grid. [`VertexBits::Auto`] stands
+    /// for 16 bits, as in a leaf of a box tree, where the mesh leaves room for them.
+    pub hull: Options,
     /// Whether to store boxes for distances, which questions about the mesh need.
     pub closest: bool,
     /// Whether to store boxes for segments and overlap with the hull.
@@ -44,22 +39,20 @@ pub struct ChainOptions {
 
 impl Default for ChainOptions {
     fn default() -> Self {
-        Self {
-            faces: Vec::new(),
-            goal: None,
-            margin: 0.0,
-            effort: 1.0,
-            vertex_bits: VertexBits::Auto,
-            closest: true,
-            segments: true,
-        }
+        Self { faces: Vec::new(), hull: Options::default(), closest: true, segments: true }
     }
 }
 
-/// Faces of the hull if none are asked for.
-const FACES: usize = 200;
-
 impl ChainOptions {
+    setters! {
+        /// Sets the [margin](Options::margin).
+        with_margin: f64 => hull.margin,
+        /// Sets the [effort](Options::effort).
+        with_effort: f64 => hull.effort,
+        /// Sets the [coordinate format](Self::hull).
+        with_vertex_bits: VertexBits => hull.vertex_bits,
+    }
+
     /// One hull for each number of faces, with all boxes, no margin and an effort of 1.
     #[must_use]
     pub fn of_faces(faces: &[usize]) -> Self {
@@ -69,25 +62,7 @@ impl ChainOptions {
     /// One hull for a goal, with all boxes, no margin and an effort of 1.
     #[must_use]
     pub fn of_goal(goal: Goal) -> Self {
-        Self { goal: Some(goal), ..Self::default() }
-    }
-
-    /// Sets the [margin](Self::margin).
-    #[must_use]
-    pub fn with_margin(self, margin: f64) -> Self {
-        Self { margin, ..self }
-    }
-
-    /// Sets the [effort](Self::effort).
-    #[must_use]
-    pub fn with_effort(self, effort: f64) -> Self {
-        Self { effort, ..self }
-    }
-
-    /// Sets the [bits of a vertex](Self::vertex_bits).
-    #[must_use]
-    pub fn with_vertex_bits(self, vertex_bits: VertexBits) -> Self {
-        Self { vertex_bits, ..self }
+        Self { hull: Options::new(goal), ..Self::default() }
     }
 
     /// Sets which boxes are stored: for [distances](Self::closest), for
@@ -99,15 +74,12 @@ impl ChainOptions {
 
     /// The goals, from coarse to fine.
     fn goals(&self) -> Vec<Goal> {
-        if let Some(goal) = self.goal {
-            return vec![goal];
+        if self.faces.is_empty() {
+            return vec![self.hull.goal];
         }
         let mut faces = self.faces.clone();
         faces.sort_unstable();
         faces.dedup();
-        if faces.is_empty() {
-            faces.push(FACES);
-        }
         faces.into_iter().map(Goal::Faces).collect()
     }
 
@@ -115,15 +87,15 @@ impl ChainOptions {
         TreeOptions::default()
             .with_closest(self.closest)
             .with_segments(self.segments)
-            .with_f32(matches!(self.vertex_bits, VertexBits::Grid24 | VertexBits::F32))
+            .with_f32(matches!(self.hull.vertex_bits, VertexBits::Grid24 | VertexBits::F32))
     }
 
     fn of_hull(&self, goal: Goal) -> Options {
-        let bits = match self.vertex_bits {
+        let vertex_bits = match self.hull.vertex_bits {
             VertexBits::Auto => VertexBits::Grid16,
             bits => bits,
         };
-        Options::new(goal).with_margin(self.margin).with_effort(self.effort).with_vertex_bits(bits)
+        Options { goal, vertex_bits, ..self.hull }
     }
 }
 

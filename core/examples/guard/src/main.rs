@@ -95,7 +95,7 @@ fn run() -> Result<(), QueryError> {
         // Here the arm moves.
     }
     println!("cost: a tick takes {} instructions in mean", sum / ticks.max(1));
-    println!("cost: the dearest tick takes {most} instructions");
+    println!("cost: the costliest tick takes {most} instructions");
     println!("cost: places of the links take {most_before} instructions");
     Ok(())
 }

@@ -47,6 +47,7 @@ mod winding;
 use meshsweep_core::Blob;
 use std::path::Path;
 
+use meshsweep::builder::FACES;
 use meshsweep::collapse::Priority;
 use meshsweep_core::Hull;
 use meshsweep_host_tests::workload::Subject;
@@ -55,7 +56,7 @@ use meshsweep_xtask::table::{Table, fixed, row};
 use bounds::cost::Cost;
 
 /// Faces of the base hull that most tables are about: the builder's default.
-const BASE_FACES: usize = 200;
+const BASE_FACES: usize = FACES as usize;
 
 /// Measures the box tree of one mesh file, which need not be closed.
 ///

@@ -1,9 +1,7 @@
 //! Answers about motions, held to the exact ones.
 
-use meshsweep_core::{
-    Budget, Bvh, Decided, Ended, Pose, ScratchEntry, TrianglePair, Undecided, Verdict,
-};
-pub use meshsweep_host_tests::motion::{motions, placed, rotation, truth};
+use meshsweep_core::{Budget, Bvh, Decided, Ended, Pose, ScratchEntry, TrianglePair, Verdict};
+pub use meshsweep_host_tests::motion::{Tally, motions, placed, rotation, truth};
 use meshsweep_host_tests::scene::Scene;
 
 pub fn is_open(verdict: Verdict) -> bool {
@@ -25,14 +23,6 @@ pub fn ask_all(a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose) -> (Vec<TrianglePair>, End
     (pairs, all.ended)
 }
 
-/// How often each answer was given.
-#[derive(Debug, Default, PartialEq, Eq)]
-pub struct Tally {
-    pub apart: usize,
-    pub meets: usize,
-    pub open: usize,
-}
-
 /// Holds every answer about two meshes to the exact one, for each pair of their trees; counts the
 /// answers of each.
 pub fn holds(name: &str, a: &Scene, b: &Scene, pose: &Pose, tallies: &mut [Tally; 4]) {
@@ -41,22 +31,7 @@ pub fn holds(name: &str, a: &Scene, b: &Scene, pose: &Pose, tallies: &mut [Tally
         let (first, second) = (a.trees()[number & 1], b.trees()[number >> 1]);
         let name = format!("{name}, trees {number}, {pose:?}");
         let answer = ask(&first, &second, pose);
-        match answer.verdict {
-            Verdict::No => {
-                tally.apart += 1;
-                assert!(truth.is_empty(), "{name}: wrongly apart: {} pairs meet", truth.len());
-            }
-            Verdict::Yes => {
-                tally.meets += 1;
-                let pair = answer.witness.expect("a pair");
-                assert!(truth.contains(&pair), "{name}: {pair:?} do not meet");
-            }
-            verdict => {
-                assert_eq!(verdict, Verdict::Undecided(Undecided::Resolution), "{name}");
-                tally.open += 1;
-                assert!(answer.witness.is_some(), "{name}: which pair is open");
-            }
-        }
+        tally.hold(&answer, &truth, &name);
         let (pairs, ended) = ask_all(&first, &second, pose);
         let mut listed: Vec<[u32; 2]> = pairs.iter().map(|pair| pair.triangles).collect();
         listed.sort_unstable();

@@ -92,6 +92,8 @@ fn a_cut_keeps_the_coarse_hulls_as_they_are() {
     }
     // All of it, and no less than the coarsest.
     assert!(cut_blob(&blob, &Keep::default()).expect("a blob") == bytes);
-    let least = cut_blob(&blob, &Keep::default().with_tight(4)).expect("a blob");
+    let mut coarsest = Keep::default();
+    coarsest.tight = Some(4);
+    let least = cut_blob(&blob, &coarsest).expect("a blob");
     assert_eq!(TightHulls::open(&least).expect("opens").count(), 1);
 }

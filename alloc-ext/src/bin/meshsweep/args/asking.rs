@@ -396,7 +396,7 @@ pub struct WorstArgs {
     pub json: bool,
 }
 
-/// Questions whose dearest query can be searched.
+/// Questions whose costliest query can be searched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum WorstQuestion {
     Closest,

@@ -7,23 +7,8 @@ use clap::Args;
 use meshsweep::tribox::SplitOptions;
 use std::path::PathBuf;
 
-/// Options of hulls that are made from a mesh.
-const OF_MESH: [&str; 14] = [
-    "format",
-    "unit",
-    "faces",
-    "void",
-    "slack",
-    "margin",
-    "parts",
-    "effort",
-    "seconds",
-    "progressive",
-    "vertex_bits",
-    "max_valence",
-    "compactness",
-    "max_normal_deviation",
-];
+/// Groups of the options of hulls that are made from a mesh. Each is named as its struct.
+const OF_MESH: [&str; 3] = ["HullOfMeshArgs", "ReadArgs", "CollapseArgs"];
 
 #[derive(Debug, Args)]
 pub struct HullArgs {
@@ -32,6 +17,38 @@ pub struct HullArgs {
     /// PLY file to write
     #[arg(short, long, value_name = "PLY")]
     pub output: PathBuf,
+    #[command(flatten)]
+    pub of_mesh: HullOfMeshArgs,
+    /// Level of a blob, 0 being the coarsest
+    #[arg(
+        long,
+        value_parser = whole::<0, { u32::MAX }>,
+        conflicts_with_all = OF_MESH
+    )]
+    pub level: Option<u32>,
+    /// The finest tight hull of a blob of at most so many faces
+    #[arg(
+        long,
+        value_name = "FACES",
+        value_parser = whole::<4, { u32::MAX }>,
+        conflicts_with_all = OF_MESH,
+        conflicts_with = "level"
+    )]
+    pub tight: Option<u32>,
+    #[command(flatten)]
+    pub read: ReadArgs,
+    #[command(flatten)]
+    pub collapse: CollapseArgs,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
+    /// Print one JSON object in place of the report
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// How a hull of a mesh is made.
+#[derive(Debug, Args)]
+pub struct HullOfMeshArgs {
     /// Most faces of the hull of a mesh [default: 200]
     #[arg(long, value_parser = whole::<4, { u32::MAX }>)]
     pub faces: Option<u32>,
@@ -72,24 +89,6 @@ pub struct HullArgs {
     /// The progressive hull: looser, as the levels of a blob's hull hierarchy are
     #[arg(long)]
     pub progressive: bool,
-    /// Level of a blob, 0 being the coarsest
-    #[arg(
-        long,
-        value_parser = whole::<0, { u32::MAX }>,
-        conflicts_with_all = OF_MESH
-    )]
-    pub level: Option<u32>,
-    /// The finest tight hull of a blob of at most so many faces
-    #[arg(
-        long,
-        value_name = "FACES",
-        value_parser = whole::<4, { u32::MAX }>,
-        conflicts_with_all = OF_MESH,
-        conflicts_with = "level"
-    )]
-    pub tight: Option<u32>,
-    #[command(flatten)]
-    pub read: ReadArgs,
     /// Bits of a coordinate of a mesh's hull: auto, 16, 24 or 32
     ///
     /// 16 and 24 move the mesh to a grid. 32 is single precision. auto is 32, or the fewest that
@@ -102,13 +101,6 @@ pub struct HullArgs {
         hide_possible_values = true
     )]
     pub vertex_bits: StoredBits,
-    #[command(flatten)]
-    pub collapse: CollapseArgs,
-    #[command(flatten)]
-    pub threads: ThreadArgs,
-    /// Print one JSON object in place of the report
-    #[arg(long)]
-    pub json: bool,
 }
 
 impl HullArgs {

@@ -108,7 +108,7 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Measure error, instructions and bytes of each structure and setting of a mesh
     Trade(TradeArgs),
-    /// Search the dearest query of each question, or the widest interval within a budget
+    /// Search the costliest query of each question, or the widest interval within a budget
     Worst(WorstArgs),
 }
 

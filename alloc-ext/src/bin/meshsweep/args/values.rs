@@ -2,6 +2,7 @@
 
 use meshsweep::builder::ranges;
 use meshsweep::mesh::Unit;
+use meshsweep::number::{ABOVE_ZERO, FROM_ZERO, wanted};
 use meshsweep_core::Solid;
 use std::num::NonZeroUsize;
 
@@ -132,27 +133,28 @@ pub fn frame(text: &str) -> Result<f32, String> {
     text.parse().map_err(|_| wanted.to_owned())
 }
 
-fn number(text: &str, [least, most]: [f64; 2]) -> Result<f64, String> {
-    let wanted = || format!("a number from {least} to {most} is wanted");
-    text.parse().ok().filter(|x| (least..=most).contains(x)).ok_or_else(wanted)
+fn number(text: &str, range: [f64; 2]) -> Result<f64, String> {
+    let [least, most] = range;
+    text.parse().ok().filter(|x| (least..=most).contains(x)).ok_or_else(|| wanted(range))
 }
 
 /// A number above 0.
 pub fn positive(text: &str) -> Result<f64, String> {
-    let wanted = || "a finite number above 0 is wanted".to_owned();
-    text.parse().ok().filter(|x: &f64| *x > 0.0 && x.is_finite()).ok_or_else(wanted)
+    number(text, ABOVE_ZERO)
 }
 
 /// A length above 0, in the mesh's unit.
 pub fn distance(text: &str) -> Result<f64, String> {
-    let wanted = |_| "a finite number above 0 is wanted, in the mesh's unit".to_owned();
-    positive(text).map_err(wanted)
+    number(text, ABOVE_ZERO).map_err(in_unit)
 }
 
 /// A length from 0, in the mesh's unit.
 pub fn length(text: &str) -> Result<f64, String> {
-    let wanted = || "a finite number from 0 is wanted, in the mesh's unit".to_owned();
-    text.parse().ok().filter(|x: &f64| *x >= 0.0 && x.is_finite()).ok_or_else(wanted)
+    number(text, FROM_ZERO).map_err(in_unit)
+}
+
+fn in_unit(wanted: String) -> String {
+    format!("{wanted}, in the mesh's unit")
 }
 
 /// A percentage above 0, with or without its sign.

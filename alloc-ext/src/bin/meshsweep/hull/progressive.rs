@@ -15,11 +15,11 @@ use std::time::Instant;
 
 pub fn run(args: &HullArgs, mesh: &Path) -> Result<(), Failure> {
     Output::probe(&args.output)?;
-    let faces = args.faces.unwrap_or(FACES);
+    let faces = args.of_mesh.faces.unwrap_or(FACES);
     let options = BuildOptions {
         base_faces: faces as usize,
         conditions: args.collapse.options().conditions(),
-        vertex_bits: args.vertex_bits.format(),
+        vertex_bits: args.of_mesh.vertex_bits.format(),
         ..BuildOptions::default()
     };
     let solid = mesh_file::load_solid(&args.input, options.vertex_bits, &args.read)?;

@@ -18,21 +18,22 @@ use std::time::Duration;
 
 pub fn run(args: &HullArgs, mesh: &Path) -> Result<(), Failure> {
     Output::probe(&args.output)?;
-    let goal = match (args.void, args.slack) {
+    let asked = &args.of_mesh;
+    let goal = match (asked.void, asked.slack) {
         (Some(percent), _) => Goal::Void(percent / 100.0),
         (_, Some(slack)) => Goal::Slack(slack),
-        _ => Goal::Faces(args.faces.unwrap_or(FACES) as usize),
+        _ => Goal::Faces(asked.faces.unwrap_or(FACES) as usize),
     };
     let failed = |error| Failure::build(mesh, error);
-    let limit = args.seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX));
-    let loaded = load_snapped(&args.input, args.vertex_bits.format(), &args.read)?;
+    let limit = asked.seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX));
+    let loaded = load_snapped(&args.input, asked.vertex_bits.format(), &args.read)?;
     let options = Options::new(goal)
-        .with_margin(args.margin.unwrap_or(0.0))
-        .with_effort(args.effort.unwrap_or(1.0))
+        .with_margin(asked.margin.unwrap_or(0.0))
+        .with_effort(asked.effort.unwrap_or(1.0))
         .with_time_limit(limit)
-        .with_vertex_bits(args.vertex_bits.format());
+        .with_vertex_bits(asked.vertex_bits.format());
     let meshes =
-        if args.parts { split_components(&loaded.mesh) } else { Ok(vec![loaded.mesh.clone()]) };
+        if asked.parts { split_components(&loaded.mesh) } else { Ok(vec![loaded.mesh.clone()]) };
     let mut hulls = Vec::new();
     for mesh in &meshes.map_err(failed)? {
         let mut bars = StageBars::default();
@@ -40,12 +41,12 @@ pub fn run(args: &HullArgs, mesh: &Path) -> Result<(), Failure> {
         let progress = Callback::new(|stage, _| bars.show(stage));
         hulls.push(wrap(part, &options, progress.watch()).map_err(failed)?);
     }
-    let asked = Tightness { slack: args.slack, void: args.void };
-    asked.require(hulls.iter().map(|hull| &hull.report)).map_err(failed)?;
+    let tightness = Tightness { slack: asked.slack, void: asked.void };
+    tightness.require(hulls.iter().map(|hull| &hull.report)).map_err(failed)?;
     Output::file(&args.output)?.finish(|out| write_ply(&joined(&hulls), out))?;
     let of = if hulls.len() == 1 { "mesh" } else { "part" };
     let written: Vec<Written> =
-        hulls.iter().map(|hull| told(&hull.report, goal, args.margin, of)).collect();
+        hulls.iter().map(|hull| told(&hull.report, goal, asked.margin, of)).collect();
     let notes: Vec<String> = rounded_note(loaded.error()).into_iter().collect();
     written::report(args, &Of::Mesh(mesh, &loaded), &written, &notes)
 }

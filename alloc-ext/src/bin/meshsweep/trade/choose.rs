@@ -26,6 +26,13 @@ pub struct Chosen {
     points: (usize, String),
 }
 
+impl Chosen {
+    /// The options that build its blob.
+    pub fn options(&self) -> String {
+        self.first.build().to_string()
+    }
+}
+
 /// Chooses the setting that meets the limits.
 pub fn choose(args: &BuildArgs) -> Result<(Built, Chosen), Failure> {
     let limits = args.limits.limits();
@@ -98,14 +105,14 @@ fn write_costs(out: &mut dyn Write, limits: &Limits, row: &Row) -> io::Result<()
     if let Some(found) = found {
         write!(
             out,
-            ", {:.0} instructions of a {}, at worst {:.0}",
+            ", {:.0} instructions of a {}, at most {:.0}",
             found.mean,
             limits.board().name(),
-            found.most()
+            found.at_most()
         )?;
     }
     if let (Some(cpu), Some(found)) = (limits.cpu, found) {
-        let microseconds = 1e6 * found.most() * CYCLES / cpu.hertz;
+        let microseconds = 1e6 * found.at_most() * CYCLES / cpu.hertz;
         write!(out, ": {} us", About((10.0 * microseconds).round() / 10.0))?;
     }
     writeln!(out)

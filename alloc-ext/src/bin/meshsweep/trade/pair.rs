@@ -21,7 +21,7 @@ use std::sync::Mutex;
 /// Headings of the columns after the structure, each with its width.
 const COLUMNS: [(&str, usize); 10] = [
     ("mean", 9),
-    ("most", 9),
+    ("at most", 9),
     ("us", 9),
     ("clear", 7),
     ("alarms", 7),
@@ -115,9 +115,14 @@ impl Measured<'_> {
     /// Predicted instructions of a row: mean and most; and the microseconds of the most.
     fn cost(&self, row: &PairRow) -> [Option<f64>; 3] {
         let found = self.found(row);
-        let most = found.map(|found| found.most());
+        let most = found.map(|found| found.at_most());
         let time = most.zip(self.args.cpu).map(|(most, cpu)| 1e6 * most * CYCLES / cpu.hertz);
         [found.map(|found| found.mean), most, time]
+    }
+
+    /// Whether a column is printed: without a clock there are no times.
+    fn shows(&self, column: &str) -> bool {
+        column != "us" || self.args.cpu.is_some()
     }
 
     /// Instructions on the processor that is asked about.
@@ -140,7 +145,9 @@ impl Measured<'_> {
         )?;
         let width = trade.rows.iter().map(|row| row.structure.name().len()).max().unwrap_or(0);
         let name = format!("{:<width$}", "structure");
-        write_line(out, &name, &COLUMNS, &COLUMNS.map(|(name, _)| name))?;
+        let columns: Vec<_> = COLUMNS.into_iter().filter(|&(name, _)| self.shows(name)).collect();
+        let headings: Vec<&str> = columns.iter().map(|&(name, _)| name).collect();
+        write_line(out, &name, &columns, &headings)?;
         for row in &trade.rows {
             let count = |x: Option<f64>| x.map_or("-".to_owned(), |x| format!("{x:.0}"));
             let [mean, most, time] = self.cost(row).map(count);
@@ -150,8 +157,10 @@ impl Measured<'_> {
             let [first, second, scratch] = bytes;
             let cells =
                 [mean, most, time, clear, alarms, undecided, missed, first, second, scratch];
+            let shown = COLUMNS.iter().zip(cells).filter(|((name, _), _)| self.shows(name));
+            let cells: Vec<String> = shown.map(|(_, cell)| cell).collect();
             let name = format!("{:<width$}", row.structure.name());
-            write_line(out, &name, &COLUMNS, &cells)?;
+            write_line(out, &name, &columns, &cells)?;
         }
         for (structure, reason) in &trade.missing {
             let reason = reason.to_string();
@@ -160,13 +169,17 @@ impl Measured<'_> {
         }
         writeln!(
             out,
-            "\nmean, most: instructions of a {}, predicted; most is of the dearest pose, times the \
-             fit's\nworst ratio. us: microseconds of most, {CYCLES} cycles an instruction. clear: \
-             poses proved to keep the\ndistance. alarms: poses that keep it and are not proved \
-             to. undecided: neither clear nor proved\nnearer. missed: poses that are clear of the \
-             hull's surface and not of the mesh. flash: bytes of\nthe blobs. scratch: bytes.\n\
+            "\nmean, at most: instructions of a {}, predicted; at most is of the costliest pose, \
+             times the\nfit's greatest ratio.{} clear: poses proved to keep the distance. alarms: \
+             poses that keep it and\nare not proved to. undecided: neither clear nor proved nearer. \
+             missed: poses that are clear of the\nhull's surface and not of the mesh. flash: \
+             bytes of the blobs. scratch: bytes.\n\
              error of a predicted mean, over the meshes that it was fitted to and tested with",
             self.limits().board().name(),
+            match self.args.cpu {
+                Some(_) => format!(" us: microseconds of it, {CYCLES} cycles an instruction."),
+                None => String::new(),
+            },
         )?;
         let mut said: Vec<String> = Vec::new();
         for row in &trade.rows {
@@ -192,7 +205,7 @@ impl Measured<'_> {
                 "build": row.structure.to_string(),
                 "instructions": of_boards(row.boards),
                 "mean": mean,
-                "most": most,
+                "at_most": most,
                 "microseconds": microseconds,
                 "clear": row.clear,
                 "false_alarms": row.false_alarms,

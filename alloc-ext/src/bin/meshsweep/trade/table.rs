@@ -17,7 +17,7 @@ const COLUMNS: [(&str, usize); 11] = [
     ("found low", 11),
     ("found up", 11),
     ("M4F mean", 9),
-    ("M4F worst", 9),
+    ("M4F most", 9),
     ("M0 mean", 9),
     ("flash", 8),
     ("scratch", 7),
@@ -105,8 +105,8 @@ pub(super) fn write_line(
 }
 
 fn cells(row: &Row) -> [String; 11] {
-    let worst = |spread: Option<Spread>| {
-        spread.map_or("-".to_owned(), |spread| AtMost(spread.worst).to_string())
+    let most = |spread: Option<Spread>| {
+        spread.map_or("-".to_owned(), |spread| AtMost(spread.most).to_string())
     };
     let median = |spread: Option<Spread>| {
         spread.map_or("-".to_owned(), |spread| AtMost(spread.median).to_string())
@@ -114,12 +114,12 @@ fn cells(row: &Row) -> [String; 11] {
     let [m4f, m0] = row.boards;
     let count = |count: Option<f64>| count.map_or("-".to_owned(), |x| format!("{x:.0}"));
     [
-        worst(row.guaranteed),
+        most(row.guaranteed),
         median(row.guaranteed),
-        worst(Some(row.found_lower)),
-        worst(row.found_upper),
+        most(Some(row.found_lower)),
+        most(row.found_upper),
         count(m4f.map(|board| board.mean)),
-        count(m4f.map(|board| board.worst)),
+        count(m4f.map(|board| board.most)),
         count(m0.map(|board| board.mean)),
         row.flash.to_string(),
         row.scratch.to_string(),
@@ -134,8 +134,8 @@ fn write_notes(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
         "\nerror, median: width of the interval that holds, the largest and the median of these \
          points, in\nthe mesh's unit; at other points it may be wider, and holds. found: the \
          distance in f64 less the\nlower end, and the upper end less that distance, the largest. \
-         M4F, M0: instructions of a\nCortex-M4F and a Cortex-M0, predicted; worst is of these \
-         points, meshsweep worst finds worse ones.\nflash: bytes of the blob. scratch: bytes, \
+         M4F, M0: instructions of a\nCortex-M4F and a Cortex-M0, predicted; most is of these \
+         points, meshsweep worst finds more.\nflash: bytes of the blob. scratch: bytes, \
          memory kept between queries among them. stack: bytes of a\nCortex-M4F's, at most. host ns: of this \
          machine, on one thread."
     )?;
@@ -197,7 +197,7 @@ pub fn as_json(loaded: &Loaded, measured: &Measured) -> Value {
 
 /// A row.
 pub fn of_row(row: &Row) -> Value {
-    let spread = |spread: Spread| json!({ "worst": spread.worst, "median": spread.median });
+    let spread = |spread: Spread| json!({ "most": spread.most, "median": spread.median });
     let [nodes, triangles, exact, splits] = row.work;
     let work = json!({ "nodes": nodes, "triangles": triangles, "exact": exact, "splits": splits });
     json!({
@@ -222,8 +222,8 @@ pub(super) fn of_boards(boards: [Option<Instructions>; 2]) -> Value {
         Some(json!({
             "cpu": board.name(),
             "mean": found.mean,
-            "worst": found.worst,
-            "most": found.most(),
+            "most": found.most,
+            "at_most": found.at_most(),
             "error": found.error,
             "typical": found.typical,
             "stack": found.stack,

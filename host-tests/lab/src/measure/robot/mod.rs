@@ -28,7 +28,7 @@ use workload::{APART, BEYOND, Range, Set, Single, is_in};
 pub struct Cost {
     /// Of the mean one.
     pub mean: f64,
-    /// Of the dearest one.
+    /// Of the costliest one.
     pub most: f64,
     /// How many there are.
     pub count: usize,

@@ -43,9 +43,9 @@ const foundOf = (row, spread) =>
 function textOf(row) {
   const board = (i) => (row.instructions[i] ? Math.round(row.instructions[i].mean) : "–");
   const error = row.guaranteed
-    ? `guaranteed ${short(row.guaranteed.worst)}, median ${short(row.guaranteed.median)}`
+    ? `guaranteed ${short(row.guaranteed.most)}, median ${short(row.guaranteed.median)}`
     : "no upper end, so no interval";
-  const found = `found ${short(foundOf(row, "worst"))}, median ${short(foundOf(row, "median"))}`;
+  const found = `found ${short(foundOf(row, "most"))}, median ${short(foundOf(row, "median"))}`;
   return `<b>${row.structure}: ${row.dials}</b><br>${error}<br>${found}<br>instructions: ` +
     `M4F ${board(0)}, M0 ${board(1)}<br>blob ${row.flash} bytes, scratch ${row.scratch_bytes} bytes`;
 }
@@ -248,7 +248,7 @@ function prepareScene() {
   add("worst", "the worst queries", true);
   worst.forEach((query, i) => {
     query.number = String(i + 1);
-    const cost = query.key === "dearest"
+    const cost = query.key === "costliest"
       ? `about ${Math.round(query.instructions)} instructions on a Cortex-M4F`
       : `${length(query.width)} wide`;
     byId("worst").append(Object.assign(document.createElement("li"), {

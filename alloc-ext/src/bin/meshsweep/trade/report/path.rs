@@ -2,7 +2,7 @@
 
 use super::super::measured::Measured;
 use glam::Vec3;
-use meshsweep::builder::Recipe;
+use meshsweep::builder::{FACES, Recipe};
 use meshsweep::load::Loaded;
 use meshsweep::surface::VertexBits;
 use meshsweep::trade::{self, How, Points, Setting};
@@ -11,9 +11,6 @@ use serde_json::{Value, json};
 
 /// Points of the path: half a diagonal.
 const POINTS: usize = 500;
-
-/// Most faces of the tight hull that the page shows.
-const FACES: u32 = 200;
 
 /// A few settings of the table that differ most: an exact one, a tolerance, a step budget, a tight
 /// hull, a cut level.

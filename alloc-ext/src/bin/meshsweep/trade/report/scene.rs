@@ -114,8 +114,8 @@ fn walls(triboxes: Triboxes<'_>) -> Mesh {
     Mesh::new(positions, triangles)
 }
 
-/// The dearest exact query, and the queries with the widest intervals after eight steps and by the
-/// tight hull. Each with the closest point of the mesh.
+/// The costliest exact query, and the queries with the widest intervals after eight steps and by
+/// the tight hull. Each with the closest point of the mesh.
 fn worst(measured: &Measured) -> Result<Vec<Value>, QueryError> {
     let trade = &measured.trade;
     let Some(bytes) = trade.blob(RULER.recipe) else { return Ok(Vec::new()) };
@@ -123,7 +123,7 @@ fn worst(measured: &Measured) -> Result<Vec<Value>, QueryError> {
     let of_tree = Distances::Tree(tree);
     let after = Budget::EXACT.with_steps(8);
     let mut searched = vec![
-        ("dearest", "the dearest exact query", of_tree, Goal::Work, Budget::EXACT),
+        ("costliest", "the costliest exact query", of_tree, Goal::Work, Budget::EXACT),
         ("widest", "the widest interval after 8 steps", of_tree, Goal::Width, after),
     ];
     let tight = trade.blobs.iter().rfind(|(of, _)| matches!(of, Recipe::Tight(n) if *n <= 200));
