@@ -51,7 +51,7 @@ mod entry_lanes;
 mod frame;
 #[cfg(any(all(test, meshsweep_wide), meshsweep_soft_float))]
 mod grid_line;
-#[cfg(any(test, meshsweep_soft_float))]
+#[cfg(any(all(test, meshsweep_wide), meshsweep_soft_float))]
 mod integer_entries;
 mod keys;
 mod opened_node;

@@ -5,17 +5,17 @@
 //! segment meets one row of planes before the other. Which row that is depends on the direction
 //! alone, so it is chosen once for each segment.
 
-#[cfg(any(test, meshsweep_soft_float))]
+#[cfg(any(all(test, meshsweep_wide), meshsweep_soft_float))]
 use crate::num::lesser;
 
 /// Most fraction bits of a parameter: the whole segment is 2^24.
-#[cfg(any(test, meshsweep_soft_float))]
+#[cfg(any(all(test, meshsweep_wide), meshsweep_soft_float))]
 const MOST_BITS: i32 = 24;
 /// An axis with fewer fraction bits is steep.
-#[cfg(any(test, meshsweep_soft_float))]
+#[cfg(any(all(test, meshsweep_wide), meshsweep_soft_float))]
 const FEWEST_BITS: i32 = 14;
 
-#[cfg(any(test, meshsweep_soft_float))]
+#[cfg(any(all(test, meshsweep_wide), meshsweep_soft_float))]
 /// The unit of whole parameters, for one segment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fraction {
@@ -25,7 +25,7 @@ pub(super) struct Fraction {
     pub(super) steep: u32,
 }
 
-#[cfg(any(test, meshsweep_soft_float))]
+#[cfg(any(all(test, meshsweep_wide), meshsweep_soft_float))]
 impl Fraction {
     #[inline(always)]
     pub(super) fn new(inverse: [f32; 3], far: [f32; 3]) -> Self {
@@ -79,7 +79,7 @@ pub struct SlabRay {
     /// it.
     pub(super) near: [usize; 3],
     /// For targets without an FPU.
-    #[cfg(any(test, meshsweep_soft_float))]
+    #[cfg(any(all(test, meshsweep_wide), meshsweep_soft_float))]
     pub(super) fraction: Fraction,
 }
 
@@ -98,7 +98,7 @@ impl SlabRay {
             inverse: by_axis(inverse),
             grow: by_axis([mx * ix.abs(), my * iy.abs(), mz * iz.abs()]),
             near: [row(ix, 0), row(iy, 1), row(iz, 2)],
-            #[cfg(any(test, meshsweep_soft_float))]
+            #[cfg(any(all(test, meshsweep_wide), meshsweep_soft_float))]
             fraction: Fraction::new(inverse, far),
         }
     }
