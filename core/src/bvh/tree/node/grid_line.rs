@@ -9,7 +9,7 @@
 //! answer alone counts. So every bit is the same with and without these tests. Margins:
 //! `core/docs/rounding.md` §9.
 
-use crate::bvh::tree::format::GridRing;
+use crate::bvh::tree::format::LeafShape;
 use crate::geom::fan::{FanRay, ShadowPlane, WIDTH, ray_leaf};
 use crate::num::lesser;
 
