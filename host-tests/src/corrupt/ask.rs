@@ -9,9 +9,8 @@ use meshsweep_core::{
     Neighbor, PlacedModel, Pose, QueryError, Scene, ScratchEntry, Side, Solid, TriangleHit,
     TrianglePair, Verdict, Work,
 };
-
-/// Descents of a signed distance: two surveys and two about a feature from each of eleven places.
-const SIDE_DESCENTS: u32 = 44;
+use meshsweep_suite::Kind;
+use meshsweep_suite::questions::Question;
 
 /// The caller's memory, of any length.
 #[derive(Debug)]
@@ -50,7 +49,7 @@ impl Asker {
                 closest(tree, &answer, once + 16);
             }
             if let Some(answer) = answered(tree.closest_point_precise(point, *stop, stack)) {
-                closest(tree, &answer, 3 * once);
+                closest(tree, &answer, most(tree, Kind::ClosestPrecise));
             }
             if let Some(answer) = answered(tree.within(point, distance, *stop, stack)) {
                 ends(answer.work, once);
@@ -72,15 +71,14 @@ impl Asker {
                 found(tree, &near[..answer.stored]);
             }
             if let Some(answer) = answered(tree.winding_number(point, *stop, stack)) {
-                // Up to six passes.
-                ends(answer.work, 6 * once);
+                ends(answer.work, most(tree, Kind::Winding));
                 assert!(answer.number.lower <= answer.number.upper, "{answer:?}");
             }
             if let Some(answer) = answered(tree.signed_distance(point, *stop, stack)) {
                 let mut near = answer.closest;
                 near.work = Work::default();
                 closest(tree, &near, 0);
-                ends(answer.closest.work, SIDE_DESCENTS * once);
+                ends(answer.closest.work, most(tree, Kind::Signed));
                 assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
                 assert!(
                     tree.header().is_closed() || matches!(answer.side, Side::Undecided(_)),
@@ -120,8 +118,7 @@ impl Asker {
     /// If an answer is out of range or took too long.
     pub fn solid(&mut self, tree: &Bvh<'_>, corners: [[f32; 3]; 2], radius: f32, stop: &Budget) {
         let stack = &mut self.stack[..];
-        // A triangle is bounded in f32 and computed in f64.
-        let once = 2 * descent(tree);
+        let once = most(tree, Kind::Solid);
         let numbered = |triangle: u32| assert!(triangle < tree.input_triangles(), "{triangle}");
         let [a, b] = corners;
         let moved = [b, a];
@@ -143,8 +140,7 @@ impl Asker {
                 let Ok(to) = to else { continue };
                 if let Some(answer) = answered(tree.solid_first_contact(&solid, &to, *stop, stack))
                 {
-                    // A triangle that may stop the solid takes up to some sixty distances.
-                    ends(answer.work, 70 * once);
+                    ends(answer.work, most(tree, Kind::Contact));
                     assert!(
                         answer.t.lower >= 0.0 && answer.t.lower <= answer.t.upper,
                         "{answer:?}"
@@ -170,7 +166,7 @@ impl Asker {
         for point in path {
             if let Some(answer) = answered(query.closest_point(tree, point, *stop, &mut self.stack))
             {
-                closest(tree, &answer.closest, 4 * descent(tree));
+                closest(tree, &answer.closest, most(tree, Kind::CoherentQuery));
                 assert!(answer.safe_radius >= 0.0, "{answer:?}");
             }
         }
@@ -280,6 +276,12 @@ impl Asker {
             }
         }
     }
+}
+
+/// More than a query can cost, whose row in the suite says how many descents it takes.
+fn most(tree: &Bvh<'_>, kind: Kind) -> u32 {
+    let descents = Question::to_a_tree(kind).and_then(|question| question.descents);
+    descents.expect("a row of one tree") * descent(tree)
 }
 
 /// More than one descent can cost: every node opened, every box tested, every triangle looked at.

@@ -33,6 +33,13 @@ impl Question {
         Self { descents: Some(descents), ..self }
     }
 
+    /// The question to a box tree that queries of a kind ask.
+    #[must_use]
+    pub fn to_a_tree(kind: Kind) -> Option<&'static Self> {
+        let mut of_trees = QUESTIONS.iter().filter(|question| question.is_of_tree());
+        of_trees.find(|question| question.all_kinds().any(|of| of == kind))
+    }
+
     /// All kinds of queries that ask it.
     pub fn all_kinds(&self) -> impl Iterator<Item = Kind> {
         self.kinds.iter().chain(self.variants).copied()

@@ -33,8 +33,8 @@ const DOCUMENTS: [&str; 5] = [
 /// Kinds of queries to a structure that a table has of each board.
 fn tabled(subject: &str) -> Vec<&'static str> {
     let asks = |of: &&Question| of.subject() == subject;
-    let is_asked = |kind| QUESTIONS.iter().filter(asks).any(|of| of.kinds.contains(kind));
-    let tabled = Kind::ALL.into_iter().filter(|kind| kind.is_tabled() && is_asked(kind));
+    let is_asked = |kind| QUESTIONS.iter().filter(asks).any(|of| of.kinds.contains(&kind));
+    let tabled = Kind::ALL.into_iter().filter(|kind| kind.is_tabled() && is_asked(*kind));
     tabled.map(Kind::name).collect()
 }
 
