@@ -69,12 +69,7 @@ pub(super) fn ask_all<'t, S: Subject<'t>>(
 /// Asks a box tree every question of the suite with so many entries of scratch. Each ends within
 /// the descents of its row, where `descent` is more work than one can take. Each kind reads the
 /// same places.
-pub(super) fn ask_within_bounds(
-    tree: &Bvh<'_>,
-    descent: u64,
-    entries: usize,
-    input: &Input<'_>,
-) {
+pub(super) fn ask_within_bounds(tree: &Bvh<'_>, descent: u64, entries: usize, input: &Input<'_>) {
     let (mut scratch, mut apart_scratch) = (tree::Scratch::new(), apart::Scratch::new());
     let (apart, fold) = (apart::Apart(*tree), &mut Fold::new());
     for kind in Kind::ALL {
@@ -101,7 +96,7 @@ struct Bounded {
 
 /// Steps of a question about two trees. Without them the search ends too, but a fuzzer would not
 /// wait for all pairs.
-const STEPS: u32 = 300;
+pub(super) const STEPS: u32 = 300;
 
 impl Clock for Bounded {
     fn terms<'s>(

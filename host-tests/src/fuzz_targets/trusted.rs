@@ -1,12 +1,10 @@
 //! A box tree whose records were not checked. Its answers may be anything, but every question ends.
 
 use super::input::Input;
-use super::suite::ask_within_bounds;
+use super::suite::{STEPS, ask_within_bounds};
 use super::tree::tree_seeds;
-use meshsweep_core::{
-    Budget, Bvh, CoherentPair, Motion, PlacedModel, Pose, QueryError, Scene, ScratchEntry,
-    TightHulls, TrianglePair, Work,
-};
+use crate::corrupt::Asker;
+use meshsweep_core::{Budget, Bvh, QueryError, ScratchEntry, TightHulls, Work};
 
 /// Opens an edited blob without a check of its records, and asks everything about it, and about it
 /// and another model.
@@ -18,9 +16,9 @@ pub fn tree_trusted(data: &[u8]) {
     ask_tree(&tree, &input, stack);
     let other = &tree_seeds()[usize::from(input.byte()) % tree_seeds().len()];
     let Ok(other) = Bvh::open(other) else { return };
-    let (pose, size) = (input.pose(), input.float());
-    ask_pair([&tree, &other], &pose, size, stack);
-    ask_pair([&other, &tree], &pose, size, stack);
+    let (asker, pose) = (Asker::new(stack.len(), 4).of_unchecked(), input.pose());
+    asker.overlap(&tree, &other, &pose, STEPS);
+    asker.overlap(&other, &tree, &pose, STEPS);
 }
 
 /// Opens edited tight hulls without a check of their records, and asks all about points.
@@ -46,31 +44,6 @@ fn ask_tree(tree: &Bvh<'_>, input: &Input<'_>, stack: &mut [ScratchEntry]) {
     for _ in 0..3 {
         let signed = tree.signed_distance_by_winding(input.point(), Budget::EXACT, stack);
         ends(signed.map(|found| found.closest.work), 16 * bounds(tree));
-    }
-}
-
-fn ask_pair([a, b]: [&Bvh<'_>; 2], pose: &Pose, size: f32, stack: &mut [ScratchEntry]) {
-    // Without a budget the search ends too, but a fuzzer would not wait for all pairs.
-    let budget = Budget::EXACT.with_steps(300);
-    let mut pairs = [TrianglePair::EMPTY; 4];
-    let _ = a.overlap(b, *pose, budget, stack);
-    let _ = a.all_overlaps(b, *pose, &mut pairs, budget, stack);
-    let _ = a.distance_to(b, *pose, budget, stack);
-    let _ = a.within_of(b, *pose, size, budget, stack);
-    let _ = a.penetration(b, *pose, budget, stack);
-    let motion = Motion::straight(*pose, Pose::IDENTITY);
-    let _ = a.first_contact_of(b, &motion, size, budget, stack);
-    let mut pair = CoherentPair::<16>::new();
-    for _ in 0..2 {
-        let _ = pair.distance(a, b, *pose, budget, stack);
-        let _ = pair.within(a, b, *pose, size, budget, stack);
-    }
-    let models =
-        [(a, Pose::IDENTITY), (b, *pose)].map(|(tree, pose)| PlacedModel::new(*tree, pose));
-    if let [Ok(one), Ok(other)] = models {
-        let models = [one.with_least_ball(), other];
-        let _ = Scene::new(&models).nearest_pair(|_, _| true, budget, stack);
-        let _ = Scene::new(&models).within(size, |_, _| true, budget, stack);
     }
 }
 

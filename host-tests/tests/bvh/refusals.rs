@@ -5,7 +5,7 @@
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::progress::Watch;
-use meshsweep_core::{Budget, BuildFor, Bvh, Neighbor, QueryError, ScratchEntry, Work};
+use meshsweep_core::{Budget, BuildFor, Bvh, QueryError, ScratchEntry, Work};
 use meshsweep_host_tests::generate::cube;
 use meshsweep_suite::ask::{apart, tree};
 use meshsweep_suite::fold::Fold;
@@ -30,6 +30,9 @@ const AROUND: [Bounds; 3] = [[[-0.1; 3], [0.1; 3]], [[-2.0; 3], [2.0; 3]], [[-1e
 fn places_of(question: &Question) -> &'static [Bounds] {
     if question.needs == "closest" { &AROUND } else { &AROUND[..2] }
 }
+
+/// Enough scratch for any question.
+const ENTRIES: usize = Bvh::OVERLAP_ENTRIES;
 
 /// Changes the terms of one call of a query.
 struct OnTerms<F> {
@@ -89,26 +92,32 @@ fn answers(
     }
 }
 
-/// A call of a question: its row, its kind, where, and what it answers.
-type Called = (&'static Question, Kind, Bounds, Result<(), QueryError>);
-
-/// All calls of all questions to a box tree.
-fn every_call(
-    blob: &[u8],
+/// Every call of every question gives the same on such terms.
+fn every_call_gives(
+    expected: Result<(), QueryError>,
     change: impl Fn(Budget) -> Budget + Copy,
     entries: usize,
-) -> Vec<Called> {
-    let tree = Bvh::open(blob).expect("opens");
-    let mut all = Vec::new();
+) {
+    let bytes = blob(&all());
+    let tree = Bvh::open(&bytes).expect("opens");
     for (question, kind) in questions() {
         for &around in places_of(question) {
             let found = answers((&tree, kind, around), change, entries);
             // Only what faces an eye takes no scratch.
             assert_eq!(found.is_empty(), kind == Kind::Cull, "{kind:?}");
-            all.extend(found.into_iter().map(|answer| (question, kind, around, answer)));
+            for answer in found {
+                assert_eq!(answer, expected, "{} {kind:?} {around:?}", question.name);
+            }
         }
     }
-    all
+    for around in AROUND {
+        let mut scratch = vec![ScratchEntry::EMPTY; entries];
+        let (point, budget) = (Placer::new(1, around).far(), change(Budget::EXACT));
+        let none = tree.nearest(point, &mut [], budget, &mut scratch);
+        assert_eq!(none.map(drop), expected, "nearest of none {point:?}");
+        let by_winding = tree.signed_distance_by_winding(point, budget, &mut scratch);
+        assert_eq!(by_winding.map(drop), expected, "side by the winding number {point:?}");
+    }
 }
 
 /// Kinds of queries to a box tree, each with its row.
@@ -125,52 +134,22 @@ fn every_kind_of_query_to_a_box_tree_has_a_row() {
     }
 }
 
-/// What a question without a kind answers: a side by the winding number, and the list of no
-/// triangles.
-fn others(
-    blob: &[u8],
-    budget: Budget,
-    scratch: &mut [ScratchEntry],
-) -> [Result<(), QueryError>; 6] {
-    let tree = Bvh::open(blob).expect("opens");
-    let mut all = [Ok(()); 6];
-    for (two, around) in all.as_chunks_mut().0.iter_mut().zip(AROUND) {
-        let point = Placer::new(1, around).far();
-        let none: &mut [Neighbor] = &mut [];
-        *two = [
-            tree.nearest(point, none, budget, scratch).map(drop),
-            tree.signed_distance_by_winding(point, budget, scratch).map(drop),
-        ];
-    }
-    all
-}
-
 #[test]
 fn every_question_refuses_a_tolerance_that_no_interval_meets() {
-    let bytes = blob(&all());
-    let mut scratch = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
-    let mut refuse = |change: &dyn Fn(Budget) -> Budget, expected: Result<(), QueryError>| {
-        for (question, kind, around, answer) in every_call(&bytes, change, usize::MAX) {
-            assert_eq!(answer, expected, "{} {kind:?} {around:?}", question.name);
-        }
-        assert_eq!(others(&bytes, change(Budget::EXACT), &mut scratch), [expected; 6]);
-    };
+    let refused = Err(QueryError::Tolerance);
     for bad in [-1.0, -f32::MIN_POSITIVE, f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-        refuse(&|budget| budget.with_relative(bad), Err(QueryError::Tolerance));
-        refuse(&|budget| budget.with_absolute(bad), Err(QueryError::Tolerance));
+        every_call_gives(refused, |budget| budget.with_relative(bad), ENTRIES);
+        every_call_gives(refused, |budget| budget.with_absolute(bad), ENTRIES);
     }
     for good in [0.0, -0.0, f32::MIN_POSITIVE, 0.5, f32::MAX] {
-        refuse(&|budget| budget.with_relative(good).with_absolute(good), Ok(()));
+        let change = |budget: Budget| budget.with_relative(good).with_absolute(good);
+        every_call_gives(Ok(()), change, ENTRIES);
     }
 }
 
 #[test]
 fn every_question_refuses_scratch_memory_without_entries() {
-    let bytes = blob(&all());
-    for (question, kind, around, answer) in every_call(&bytes, |budget| budget, 0) {
-        assert_eq!(answer, Err(QueryError::NoScratch), "{} {kind:?} {around:?}", question.name);
-    }
-    assert_eq!(others(&bytes, Budget::EXACT, &mut []), [Err(QueryError::NoScratch); 6]);
+    every_call_gives(Err(QueryError::NoScratch), |budget| budget, 0);
 }
 
 #[test]
@@ -200,10 +179,12 @@ fn every_question_names_the_boxes_that_its_tree_lacks() {
             for &around in places_of(question) {
                 let change = |budget| budget;
                 let mut to =
-                    OnTerms { change, entries: 999, call: 0, begun: 0, answers: Vec::new() };
+                    OnTerms { change, entries: ENTRIES, call: 0, begun: 0, answers: Vec::new() };
                 ask(&tree, kind, around, &mut to);
                 assert_eq!(to.answers[0], expected, "{} {kind:?} {lacks:?}", question.name);
             }
         }
+        let none = tree.nearest([0.1; 3], &mut [], Budget::EXACT, &mut [ScratchEntry::EMPTY; 64]);
+        assert_eq!(none.is_err(), lacks.contains(&"closest"), "nearest of none {none:?}");
     }
 }
