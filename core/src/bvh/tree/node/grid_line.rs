@@ -154,15 +154,10 @@ mod tests {
                 FanRay::new(from.to_array(), offset.to_array(), inverse, 1.0, surface, size + 2e5);
             let line = GridLine::new(&ray, origin);
             let ordered = vertices.map(|vertex| ray.in_order(vertex));
-            let row = |axis: usize| {
-                core::array::from_fn::<_, 9, _>(|i| ordered[i + 2][axis].to_le_bytes())
-            };
-            let (x, y, z) = (row(0), row(1), row(2));
-            let centre = |which: usize| ordered[which].map(i32::from);
-            let centres = [centre(0), centre(1)];
-            let ring = GridRing { origin, centres, x: &x, y: &y, z: &z };
-            let turn = noise.below(9) as usize;
-            let kept = line.near(&ring, turn);
+            let [first, second, ring @ ..] = ordered.map(|vertex| vertex.map(i32::from));
+            let turn = noise.below(8) as usize;
+            let shape = LeafShape::new(WIDTH, turn, false);
+            let kept = line.near([first, second], ring.into_iter(), shape);
             let shadow = |i: usize| ray.shadow(place(vertices[i]));
             for lane in 0..WIDTH {
                 if kept >> lane & 1 != 0 {
@@ -170,8 +165,10 @@ mod tests {
                     continue;
                 }
                 passed += 1;
-                let (centre, ends) =
-                    (shadow(usize::from(lane >= turn)), [shadow(lane + 2), shadow(lane + 3)]);
+                let (centre, ends) = (
+                    shadow(usize::from(lane >= shape.turn())),
+                    [shadow(lane + 2), shadow(lane + 3)],
+                );
                 let flagged = ray_leaf(&ray, WIDTH, [centre; 2], ends.into_iter()) != 0;
                 let crossing = ray.crossing([centre, ends[0], ends[1]], 0.0);
                 assert!(!(flagged && crossing.is_some()), "{ray:?}, {vertices:?}, {lane}");
