@@ -2,10 +2,12 @@
 //! here without more.
 
 use super::input::Input;
-use meshsweep_core::Pose;
+use meshsweep_core::{Budget, Bvh, Pose, QueryError, ScratchEntry, Work};
+use meshsweep_suite::ask::{apart, tree};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::place::{Ends, Motion, Place, Point};
-use meshsweep_suite::{Kind, Subject};
+use meshsweep_suite::questions::Question;
+use meshsweep_suite::{Clock, Kind, Subject};
 
 impl Place for Input<'_> {
     fn far(&mut self) -> Point {
@@ -61,5 +63,57 @@ pub(super) fn ask_all<'t, S: Subject<'t>>(
     let mut fold = Fold::new();
     for kind in Kind::ALL.into_iter().filter(|kind| S::suits(*kind)) {
         subject.ask(kind, input, &mut scratch, &mut (), &mut fold);
+    }
+}
+
+/// Asks a box tree every question of the suite with so many entries of scratch. Each ends within
+/// the descents of its row, where `descent` is more work than one can take. Each kind reads the
+/// same places.
+pub(super) fn ask_within_bounds(tree: &Bvh<'_>, descent: u64, entries: usize, input: &Input<'_>) {
+    let (mut scratch, mut apart_scratch) = (tree::Scratch::new(), apart::Scratch::new());
+    let (apart, fold) = (apart::Apart(*tree), &mut Fold::new());
+    for kind in Kind::ALL {
+        let Some(question) = Question::to_a_tree(kind) else { continue };
+        let most = question.descents.map(|descents| u64::from(descents) * descent);
+        let mut bounded = Bounded { kind, most, steps: 0, entries };
+        let mut places = Input(input.0);
+        for _ in 0..3 {
+            tree.ask(kind, &mut places, &mut scratch, &mut bounded, fold);
+            apart.ask(kind, &mut places, &mut apart_scratch, &mut bounded, fold);
+        }
+    }
+}
+
+/// Holds each answer to a bound of its work.
+struct Bounded {
+    kind: Kind,
+    /// Of a question about one tree.
+    most: Option<u64>,
+    /// Of the budget.
+    steps: u32,
+    entries: usize,
+}
+
+/// Steps of a question about two trees. Without them the search ends too, but a fuzzer would not
+/// wait for all pairs.
+pub(super) const STEPS: u32 = 300;
+
+impl Clock for Bounded {
+    fn terms<'s>(
+        &mut self,
+        budget: Budget,
+        scratch: &'s mut [ScratchEntry],
+    ) -> (Budget, &'s mut [ScratchEntry]) {
+        self.steps = if self.most.is_some() { budget.steps } else { budget.steps.min(STEPS) };
+        let entries = self.entries.min(scratch.len());
+        (budget.with_steps(self.steps), &mut scratch[..entries])
+    }
+
+    fn answered(&mut self, answer: Result<Work, QueryError>) {
+        let Ok(work) = answer else { return };
+        match self.most {
+            Some(most) => assert!(u64::from(work.total()) <= most, "{:?}: {work:?}", self.kind),
+            None => assert!(work.opened <= self.steps, "{:?}: {work:?}", self.kind),
+        }
     }
 }

@@ -1,12 +1,33 @@
-//! Who looks at the clock.
+//! Who looks at the clock, and may change the terms of a query.
+
+use meshsweep_core::{Budget, QueryError, ScratchEntry, Work};
 
 /// Told when the core is called: what lies between the two is the core's alone, without placing the
 /// query and folding the answer.
+///
+/// Terms and answers are those of [`Asked`](crate::ask::Asked). What is not overridden leaves no
+/// code in an image.
 pub trait Clock {
     /// The core is about to be called.
     fn query_begins(&mut self) {}
+
     /// The core has answered.
     fn query_ends(&mut self) {}
+
+    /// The budget and the scratch of the next query to a box tree, from those that the suite has
+    /// for it. Called before the query begins.
+    #[inline(always)]
+    fn terms<'s>(
+        &mut self,
+        budget: Budget,
+        scratch: &'s mut [ScratchEntry],
+    ) -> (Budget, &'s mut [ScratchEntry]) {
+        (budget, scratch)
+    }
+
+    /// The work of an answer, or why there is none. Called after the query ended.
+    #[inline(always)]
+    fn answered(&mut self, _answer: Result<Work, QueryError>) {}
 }
 
 /// Nobody looks at the clock.
@@ -19,5 +40,19 @@ impl<C: Clock> Clock for &mut C {
 
     fn query_ends(&mut self) {
         C::query_ends(self);
+    }
+
+    #[inline(always)]
+    fn terms<'s>(
+        &mut self,
+        budget: Budget,
+        scratch: &'s mut [ScratchEntry],
+    ) -> (Budget, &'s mut [ScratchEntry]) {
+        C::terms(self, budget, scratch)
+    }
+
+    #[inline(always)]
+    fn answered(&mut self, answer: Result<Work, QueryError>) {
+        C::answered(self, answer);
     }
 }

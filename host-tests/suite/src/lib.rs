@@ -8,8 +8,8 @@
 //!                                          run: kinds × blocks × queries, told to a `Recorder`
 //! ```
 //! Answers are folded into one hash per block of queries: a difference is then located to a block
-//! without printing every answer over a debug link. [`ask`] is the only file that names the core's
-//! API.
+//! without printing every answer over a debug link. [`ask`] is the only folder that names the core's
+//! questions.
 
 pub mod arith;
 pub mod ask;

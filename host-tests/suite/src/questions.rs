@@ -17,6 +17,45 @@ pub struct Question {
     pub function: &'static str,
     /// Kinds of queries that call the function; none of opening.
     pub kinds: &'static [Kind],
+    /// Kinds that ask the same in another way, by a function whose stack is not in the tables.
+    pub variants: &'static [Kind],
+    /// Descents at most of one query to a box tree, whatever its bytes. None of those about two
+    /// trees, whose pairs of nodes are bounded by the steps of the budget alone.
+    pub descents: Option<u32>,
+}
+
+impl Question {
+    const fn or_as(self, variants: &'static [Kind]) -> Self {
+        Self { variants, ..self }
+    }
+
+    const fn takes(self, descents: u32) -> Self {
+        Self { descents: Some(descents), ..self }
+    }
+
+    /// The question to a box tree that queries of a kind ask.
+    #[must_use]
+    pub fn to_a_tree(kind: Kind) -> Option<&'static Self> {
+        let mut of_trees = QUESTIONS.iter().filter(|question| question.is_of_tree());
+        of_trees.find(|question| question.all_kinds().any(|of| of == kind))
+    }
+
+    /// All kinds of queries that ask it.
+    pub fn all_kinds(&self) -> impl Iterator<Item = Kind> {
+        self.kinds.iter().chain(self.variants).copied()
+    }
+
+    /// Whether a box tree is asked.
+    #[must_use]
+    pub fn is_of_tree(&self) -> bool {
+        matches!(self.subject(), "tree" | "apart")
+    }
+
+    /// The module of `ask` that asks it.
+    #[must_use]
+    pub fn subject(&self) -> &'static str {
+        self.function.split("::").next().unwrap_or_default()
+    }
 }
 
 const fn question(
@@ -25,36 +64,48 @@ const fn question(
     function: &'static str,
     kinds: &'static [Kind],
 ) -> Question {
-    Question { name, needs, function, kinds }
+    Question { name, needs, function, kinds, variants: &[], descents: None }
 }
 
 /// The questions of the tables of stacks.
-pub const QUESTIONS: [Question; 35] = [
+pub const QUESTIONS: &[Question] = &[
     question("open a box tree", "tree", "tree::open", &[]),
-    question(CLOSEST, "closest", "tree::distance::closest", &[Kind::ClosestFar, Kind::ClosestNear]),
+    question(CLOSEST, "closest", "tree::distance::closest", &[Kind::ClosestFar, Kind::ClosestNear])
+        .or_as(&[Kind::Stopped])
+        .takes(1),
     question(
         "closest point from a hint",
         "closest",
         "tree::distance::follow",
         &[Kind::ClosestPath],
-    ),
-    question("closest point in f64", "closest", "tree::distance::precise", &[Kind::ClosestPrecise]),
-    question("coherent query", "closest", "tree::distance::coherent", &[Kind::CoherentQuery]),
-    question("within", "closest", "tree::distance::is_within", &[Kind::Within]),
-    question("nearest triangles", "closest", "tree::distance::nearest", &[Kind::Nearest]),
-    question("all within", "closest", "tree::distance::all_within", &[Kind::AllWithin]),
-    question("signed distance", "closest", "tree::distance::signed", &[Kind::Signed]),
-    question("winding number", "winding", "apart::winding", &[Kind::Winding]),
-    question("front facing", "cull", "tree::sight::cull", &[Kind::Cull]),
-    question("first hit", "segment", "tree::sight::first_hit", &[Kind::FirstHit]),
-    question("any hit", "segment", "tree::sight::any_hit", &[Kind::AnyHit]),
-    question("all hits", "segment", "tree::sight::all_hits", &[Kind::AllHits]),
-    question("overlap", "segment", "tree::meeting::overlap", &[Kind::Overlap]),
+    )
+    .takes(1),
+    question("closest point in f64", "closest", "tree::distance::precise", &[Kind::ClosestPrecise])
+        .takes(3),
+    question("coherent query", "closest", "tree::distance::coherent", &[Kind::CoherentQuery])
+        .takes(4),
+    question("within", "closest", "tree::distance::is_within", &[Kind::Within]).takes(1),
+    question("nearest triangles", "closest", "tree::distance::nearest", &[Kind::Nearest]).takes(1),
+    question("all within", "closest", "tree::distance::all_within", &[Kind::AllWithin]).takes(1),
+    // Two surveys and two about a feature from each of eleven places.
+    question("signed distance", "closest", "tree::distance::signed", &[Kind::Signed]).takes(44),
+    // Up to six passes.
+    question("winding number", "winding", "apart::winding", &[Kind::Winding]).takes(6),
+    question("front facing", "cull", "tree::sight::cull", &[Kind::Cull]).takes(1),
+    question("first hit", "segment", "tree::sight::first_hit", &[Kind::FirstHit])
+        .or_as(&[Kind::Facing])
+        .takes(1),
+    question("any hit", "segment", "tree::sight::any_hit", &[Kind::AnyHit]).takes(1),
+    question("all hits", "segment", "tree::sight::all_hits", &[Kind::AllHits]).takes(1),
+    question("overlap", "segment", "tree::meeting::overlap", &[Kind::Overlap])
+        .or_as(&[Kind::AllOverlaps]),
     question("distance of two models", "segment", "apart::distance", &[Kind::PairDistance]),
     question("coherent pair", "segment", "apart::coherent", &[Kind::CoherentPair]),
     question("scene", "segment", "apart::scene", &[Kind::Scene]),
-    question("distance of a solid", "segment", "apart::solid", &[Kind::Solid]),
-    question("first contact", "segment", "apart::contact", &[Kind::Contact]),
+    // A triangle is bounded in f32 and computed in f64.
+    question("distance of a solid", "segment", "apart::solid", &[Kind::Solid]).takes(2),
+    // A triangle that may stop the solid takes up to some sixty distances, each of two descents.
+    question("first contact", "segment", "apart::contact", &[Kind::Contact]).takes(140),
     question("penetration", "winding", "apart::penetration", &[Kind::Penetration]),
     question("open tight hulls", "tight", "tight::open", &[]),
     question(
@@ -89,7 +140,7 @@ pub const QUESTIONS: [Question; 35] = [
 
 /// Questions whose code is measured, each by an image `size_*` of its own, and their names in
 /// tables.
-pub const SIZES: [(&str, &str); 16] = [
+pub const SIZES: &[(&str, &str)] = &[
     ("tree_open", "open a box tree"),
     ("tree_alone", "closest point"),
     ("tree_alone_two", "closest point, first hit"),

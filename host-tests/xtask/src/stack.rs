@@ -26,7 +26,7 @@ const MOST_IN_DEBUG: u32 = 2816;
 pub const DEBUG_IMAGE: &str = "size_tree_four";
 
 /// Functions of `meshsweep.h`, and what a blob has to have for them.
-pub const C_FUNCTIONS: [(&str, &str); 36] = [
+pub const C_FUNCTIONS: &[(&str, &str)] = &[
     ("msw_open", "tree"),
     ("msw_open_trusted", "tree"),
     ("msw_closest_point", "closest"),

@@ -14,6 +14,7 @@ use crate::cost::Row;
 use crate::count::Counts;
 use crate::firmware;
 use crate::images::Profile;
+use crate::kind::Kind;
 use crate::questions::{QUESTIONS, Question, SIZES};
 use crate::stack::{self, Stack};
 use crate::stack_csv;
@@ -29,16 +30,18 @@ const DOCUMENTS: [&str; 5] = [
     "host-tests/README.md",
 ];
 
-/// Kinds of queries to box trees that a table has of each board.
-const OF_TREES: [&str; 5] = ["closest_far", "closest_near", "first_hit", "within", "signed"];
-
-/// The same of hull hierarchies.
-const OF_HULLS: [&str; 4] = ["closest_far", "closest_near", "first_hit", "outer_hits"];
+/// Kinds of queries to a structure that a table has of each board.
+fn tabled(subject: &str) -> Vec<&'static str> {
+    let asks = |of: &&Question| of.subject() == subject;
+    let is_asked = |kind| QUESTIONS.iter().filter(asks).any(|of| of.kinds.contains(&kind));
+    let tabled = Kind::ALL.into_iter().filter(|kind| kind.is_tabled() && is_asked(*kind));
+    tabled.map(Kind::name).collect()
+}
 
 /// Whether a table has the instructions of such queries on the boards: the suite asks more of them.
 #[must_use]
 pub fn has(kind: &str) -> bool {
-    OF_TREES.iter().chain(&OF_HULLS).any(|tabled| *tabled == kind)
+    Kind::ALL.into_iter().any(|of| of.is_tabled() && of.name() == kind)
 }
 
 /// Part by which a count may differ from the written one.
@@ -162,7 +165,7 @@ fn table(name: &str, facts: &Facts<'_>) -> Result<Option<Vec<Vec<Cell>>>, String
                 "signed",
                 "code of closest point, bytes",
             ]));
-            lines.extend(on_boards(facts.rows, 1, &OF_TREES, firmware::CODE[1])?);
+            lines.extend(on_boards(facts.rows, 1, &tabled("tree"), firmware::CODE[1])?);
         }
         "firmware_hull" => {
             lines.push(columns(&[
@@ -173,7 +176,7 @@ fn table(name: &str, facts: &Facts<'_>) -> Result<Option<Vec<Vec<Cell>>>, String
                 "outer hits",
                 "code of closest point and opening, bytes",
             ]));
-            lines.extend(on_boards(facts.rows, 0, &OF_HULLS, firmware::CODE[0])?);
+            lines.extend(on_boards(facts.rows, 0, &tabled("hull"), firmware::CODE[0])?);
         }
         "stack" => lines = by_board(facts.rows, &SHIPPED, stacks),
         "stack_c" => lines = by_board(facts.rows, &SHIPPED, c_stacks),

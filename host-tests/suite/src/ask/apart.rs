@@ -79,6 +79,7 @@ pub fn coherent(
     let mut pose = start;
     let mut half = 0.0;
     for _ in 0..4 {
+        let (budget, scratch) = to.terms(budget, scratch);
         let found = to.answer(
             || pair.distance(tree, tree, pose, budget, scratch),
             |fold, answer| {
@@ -91,6 +92,7 @@ pub fn coherent(
             *x += end - from;
         }
     }
+    let (budget, scratch) = to.terms(budget, scratch);
     to.answer(
         || pair.within(tree, tree, pose, half, budget, scratch),
         |fold, answer| super::verdict(fold, answer.verdict),
@@ -105,7 +107,7 @@ pub fn penetration(
     scratch: &mut Scratch,
     to: &mut Asked<'_, impl Clock>,
 ) {
-    let budget = Budget::EXACT.with_steps(2 * STEPS);
+    let (budget, scratch) = to.terms(Budget::EXACT.with_steps(2 * STEPS), scratch);
     to.answer(
         || tree.penetration(tree, pose, budget, scratch),
         |fold, answer| {
@@ -134,16 +136,18 @@ pub fn scene(
     };
     let models = [first, second, third];
     let scene = Scene::new(&models);
-    let budget = Budget::EXACT.with_steps(STEPS);
+    let exact = Budget::EXACT.with_steps(STEPS);
+    let (budget, entries) = to.terms(exact, scratch);
     to.answer(
-        || scene.nearest_pair(|_, _| true, budget, scratch),
+        || scene.nearest_pair(|_, _| true, budget, entries),
         |fold, answer| {
             nearest(fold, answer.distance, answer.points, answer.triangles);
             words(fold, &[answer.ended as u32]);
         },
     );
+    let (budget, entries) = to.terms(exact, scratch);
     to.answer(
-        || scene.within(distance, |_, _| true, budget, scratch),
+        || scene.within(distance, |_, _| true, budget, entries),
         |fold, answer| super::verdict(fold, answer.verdict),
     );
 }
@@ -174,8 +178,9 @@ pub fn winding(
     scratch: &mut Scratch,
     to: &mut Asked<'_, impl Clock>,
 ) {
+    let (budget, scratch) = to.terms(Budget::EXACT, scratch);
     to.answer(
-        || tree.winding_number(point, Budget::EXACT, scratch),
+        || tree.winding_number(point, budget, scratch),
         |fold, answer| {
             let number = answer.number;
             let ends = [number.lower, number.upper].map(f32::to_bits);
@@ -196,9 +201,10 @@ pub fn distance(
     scratch: &mut Scratch,
     to: &mut Asked<'_, impl Clock>,
 ) {
-    let budget = Budget::EXACT.with_steps(STEPS);
+    let exact = Budget::EXACT.with_steps(STEPS);
+    let (budget, entries) = to.terms(exact, scratch);
     let found = to.answer(
-        || tree.distance_to(tree, pose, budget, scratch),
+        || tree.distance_to(tree, pose, budget, entries),
         |fold, answer| {
             nearest(fold, answer.distance, answer.points, answer.triangles);
             words(fold, &[answer.ended as u32]);
@@ -206,8 +212,9 @@ pub fn distance(
     );
     if let Some(found) = found {
         let half = 0.5 * found.distance.lower;
+        let (budget, entries) = to.terms(exact, scratch);
         to.answer(
-            || tree.within_of(tree, pose, half, budget, scratch),
+            || tree.within_of(tree, pose, half, budget, entries),
             |fold, answer| super::verdict(fold, answer.verdict),
         );
         let mut end = pose;
@@ -215,10 +222,11 @@ pub fn distance(
         // A quarter of a turn farther.
         let [x, y, z] = pose.rotation;
         end.rotation = [y.map(|entry| -entry), x, z];
+        let (budget, entries) = to.terms(exact, scratch);
         to.answer(
             || {
                 let motion = Motion::screw(pose, end)?;
-                tree.first_contact_of(tree, &motion, half, budget, scratch)
+                tree.first_contact_of(tree, &motion, half, budget, entries)
             },
             |fold, answer| {
                 words(fold, &[answer.clear_until.to_bits()]);
@@ -238,10 +246,11 @@ pub fn solid(
     scratch: &mut Scratch,
     to: &mut Asked<'_, impl Clock>,
 ) {
+    let (budget, entries) = to.terms(Budget::EXACT, scratch);
     let found = to.answer(
         || {
             let capsule = Solid::new(&ends, radius)?;
-            tree.solid_distance(&capsule, Budget::EXACT, scratch)
+            tree.solid_distance(&capsule, budget, entries)
         },
         |fold, answer| {
             words(fold, &[answer.distance.lower.to_bits()]);
@@ -253,10 +262,11 @@ pub fn solid(
     );
     if let Some(found) = found {
         let half = 0.5 * found.distance.lower;
+        let (budget, entries) = to.terms(Budget::EXACT, scratch);
         to.answer(
             || {
                 let capsule = Solid::new(&ends, radius)?;
-                tree.solid_within(&capsule, half, Budget::EXACT, scratch)
+                tree.solid_within(&capsule, half, budget, entries)
             },
             |fold, answer| super::verdict(fold, answer.verdict),
         );
@@ -272,9 +282,10 @@ pub fn contact(
     scratch: &mut Scratch,
     to: &mut Asked<'_, impl Clock>,
 ) {
+    let (budget, entries) = to.terms(Budget::EXACT, scratch);
     let call = || -> Result<FirstHit, QueryError> {
         let (from, end) = (Solid::new(&from, radius)?, Solid::new(&end, radius)?);
-        tree.solid_first_contact(&from, &end, Budget::EXACT, scratch)
+        tree.solid_first_contact(&from, &end, budget, entries)
     };
     to.answer(call, |fold, answer| {
         words(fold, &[answer.t.lower.to_bits()]);

@@ -1,5 +1,5 @@
 //! The core's entry points as the suite asks them. The only module of the suite and the firmware
-//! that names the core's API.
+//! that names the core's questions.
 //!
 //! Each question is a call, so that the stack that is measured is its own. It folds *all* the bits
 //! of its answer or its refusal, but for the work counters: processors with vector registers may
@@ -65,11 +65,14 @@ pub mod tight;
 pub mod tree;
 pub mod tribox;
 pub mod triboxes;
+mod worked;
 
 use meshsweep_core::OpenError;
 use meshsweep_core::{
-    ClosestPoint, Ended, FirstHit, Hit, QueryError, TriangleHit, Undecided, Verdict,
+    Budget, ClosestPoint, Ended, FirstHit, Hit, QueryError, ScratchEntry, TriangleHit, Undecided,
+    Verdict,
 };
+use worked::Worked;
 
 use crate::clock::Clock;
 use crate::fold::Fold;
@@ -167,14 +170,25 @@ impl<'f, C: Clock> Asked<'f, C> {
         timed(&mut self.clock, call)
     }
 
+    /// The budget and the scratch of the next call, from those of the suite.
+    #[inline(always)]
+    fn terms<'s>(
+        &mut self,
+        budget: Budget,
+        scratch: &'s mut [ScratchEntry],
+    ) -> (Budget, &'s mut [ScratchEntry]) {
+        self.clock.terms(budget, scratch)
+    }
+
     /// Calls the core, and folds its answer by `told`, or its refusal.
     #[inline(always)]
-    fn answer<T>(
+    fn answer<T: Worked>(
         &mut self,
         call: impl FnOnce() -> Result<T, QueryError>,
         told: impl FnOnce(&mut Fold, &T),
     ) -> Option<T> {
         let answer = self.timed(call);
+        self.clock.answered(answer.as_ref().map(Worked::work).map_err(|error| *error));
         match &answer {
             Ok(answer) => told(self.fold, answer),
             Err(error) => refusal(self.fold, *error),

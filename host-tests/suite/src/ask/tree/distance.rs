@@ -16,22 +16,24 @@ pub fn closest(
     scratch: &mut Scratch<'_>,
     to: &mut Asked<'_, impl Clock>,
 ) -> Point {
-    let call = || tree.closest_point(p, Budget::EXACT, &mut scratch.stack);
+    let (budget, stack) = to.terms(Budget::EXACT, &mut scratch.stack);
+    let call = || tree.closest_point(p, budget, stack);
     to.answer(call, ask::closest_point).map_or(p, |answer| answer.point)
 }
 
 /// Closest point, from where the last one was found.
 #[inline(never)]
 pub fn follow(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
-    let call = || tree.closest_point_from(p, &mut s.hint, Budget::EXACT, &mut s.stack);
+    let (budget, stack) = to.terms(Budget::EXACT, &mut s.stack);
+    let call = || tree.closest_point_from(p, &mut s.hint, budget, stack);
     to.answer(call, ask::closest_point);
 }
 
 /// Closest point, its candidates in f64.
 #[inline(never)]
 pub fn precise(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
-    let call = || tree.closest_point_precise(p, Budget::EXACT, &mut s.stack);
-    to.answer(call, ask::closest_point);
+    let (budget, stack) = to.terms(Budget::EXACT, &mut s.stack);
+    to.answer(|| tree.closest_point_precise(p, budget, stack), ask::closest_point);
 }
 
 /// Closest point, by a query that remembers what the last answers ruled out.
@@ -43,8 +45,9 @@ pub fn coherent<'t>(
     to: &mut Asked<'_, impl Clock>,
 ) {
     let Scratch { stack, coherent, .. } = scratch;
+    let (budget, stack) = to.terms(Budget::EXACT, stack);
     to.answer(
-        || coherent.closest_point(tree, p, Budget::EXACT, stack),
+        || coherent.closest_point(tree, p, budget, stack),
         |fold, answer| {
             ask::closest_point(fold, &answer.closest);
             fold.f32(answer.safe_radius);
@@ -67,7 +70,8 @@ pub fn stopped(
         Budget::EXACT.with_steps(3),
     ];
     for stop in stops {
-        to.answer(|| tree.closest_point(p, stop, &mut scratch.stack), ask::closest_point);
+        let (budget, stack) = to.terms(stop, &mut scratch.stack);
+        to.answer(|| tree.closest_point(p, budget, stack), ask::closest_point);
     }
 }
 
@@ -80,8 +84,9 @@ pub fn is_within(
     scratch: &mut Scratch<'_>,
     to: &mut Asked<'_, impl Clock>,
 ) {
+    let (budget, stack) = to.terms(Budget::EXACT, &mut scratch.stack);
     to.answer(
-        || tree.within(p, distance, Budget::EXACT, &mut scratch.stack),
+        || tree.within(p, distance, budget, stack),
         |fold, answer| {
             let [kind, triangle] = match answer.verdict {
                 Verdict::Yes => [1, answer.witness.unwrap_or(u32::MAX)],
@@ -99,7 +104,8 @@ pub fn is_within(
 #[inline(never)]
 pub fn nearest(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
     let Scratch { stack, near, .. } = s;
-    if let Some(answer) = to.answer(|| tree.nearest(p, near, Budget::EXACT, stack), |_, _| ()) {
+    let (budget, stack) = to.terms(Budget::EXACT, stack);
+    if let Some(answer) = to.answer(|| tree.nearest(p, near, budget, stack), |_, _| ()) {
         found(to.fold, near.get(..answer.stored).unwrap_or_default());
         to.fold.f32(answer.rest_lower);
         ask::how(to.fold, answer.ended);
@@ -116,7 +122,8 @@ pub fn all_within(
     to: &mut Asked<'_, impl Clock>,
 ) {
     let Scratch { stack, near, .. } = scratch;
-    let call = || tree.all_within(p, distance, near, Budget::EXACT, stack);
+    let (budget, stack) = to.terms(Budget::EXACT, stack);
+    let call = || tree.all_within(p, distance, near, budget, stack);
     if let Some(answer) = to.answer(call, |_, _| ()) {
         found(to.fold, near.get(..answer.stored).unwrap_or_default());
         to.fold.word(answer.certain as u32);
@@ -128,8 +135,9 @@ pub fn all_within(
 /// Distance with the sign of the side.
 #[inline(never)]
 pub fn signed(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
+    let (budget, stack) = to.terms(Budget::EXACT, &mut s.stack);
     to.answer(
-        || tree.signed_distance(p, Budget::EXACT, &mut s.stack),
+        || tree.signed_distance(p, budget, stack),
         |fold, answer| {
             fold.f32(answer.distance.lower);
             fold.f32(answer.distance.upper);

@@ -16,8 +16,9 @@ pub fn pose((rotation, translation): Motion) -> Pose {
 /// Whether the surface meets its moved copy.
 #[inline(never)]
 pub fn overlap(tree: &Bvh<'_>, pose: Pose, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
+    let (budget, pairs) = to.terms(Budget::EXACT, &mut s.pairs);
     to.answer(
-        || tree.overlap(tree, pose, Budget::EXACT, &mut s.pairs),
+        || tree.overlap(tree, pose, budget, pairs),
         |fold, answer| {
             fold.word(match answer.verdict {
                 Verdict::No => 1,
@@ -44,7 +45,8 @@ pub fn all_overlaps(
     to: &mut Asked<'_, impl Clock>,
 ) {
     let Scratch { pairs, meeting, .. } = scratch;
-    let call = || tree.all_overlaps(tree, pose, meeting, Budget::EXACT.with_steps(STEPS), pairs);
+    let (budget, pairs) = to.terms(Budget::EXACT.with_steps(STEPS), pairs);
+    let call = || tree.all_overlaps(tree, pose, meeting, budget, pairs);
     if let Some(answer) = to.answer(call, |_, _| ()) {
         for pair in meeting.iter().take(answer.stored) {
             pair.triangles.into_iter().for_each(|number| to.fold.word(number));

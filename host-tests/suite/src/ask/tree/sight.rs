@@ -27,16 +27,17 @@ fn hit_of(
     scratch: &mut Scratch<'_>,
     to: &mut Asked<'_, impl Clock>,
 ) {
-    let call = || tree.first_hit(a, b, facing, Budget::EXACT, &mut scratch.stack);
-    to.answer(call, ask::segment_hit);
+    let (budget, stack) = to.terms(Budget::EXACT, &mut scratch.stack);
+    to.answer(|| tree.first_hit(a, b, facing, budget, stack), ask::segment_hit);
 }
 
 /// Whether the segment from `a` to `b` meets the surface.
 #[inline(never)]
 pub fn any_hit(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
     let [a, b] = ab;
+    let (budget, stack) = to.terms(Budget::EXACT, &mut s.stack);
     to.answer(
-        || tree.any_hit(a, b, Facing::Both, Budget::EXACT, &mut s.stack),
+        || tree.any_hit(a, b, Facing::Both, budget, stack),
         |fold, answer| {
             fold.word(match answer.verdict {
                 Verdict::Yes => 1,
@@ -52,7 +53,8 @@ pub fn any_hit(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_,
 pub fn all_hits(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
     let Scratch { stack, hits, .. } = s;
     let [a, b] = ab;
-    let call = || tree.all_hits(a, b, Facing::Both, hits, Budget::EXACT, stack);
+    let (budget, stack) = to.terms(Budget::EXACT, stack);
+    let call = || tree.all_hits(a, b, Facing::Both, hits, budget, stack);
     if let Some(answer) = to.answer(call, |_, _| ()) {
         ask::listed(to.fold, hits.get(..answer.stored).unwrap_or_default());
         to.fold.word(answer.dropped);
