@@ -154,7 +154,8 @@ mod tests {
             let (raw, _, more) = mesh(&shape, &packages).unwrap();
             for triangle in &raw.triangles {
                 let [a, b, c] = triangle.map(|v| DVec3::from(raw.positions[v as usize]));
-                let n = (b - a).cross(c - a).normalize();
+                let n = (b - a).cross(c - a);
+                let n = n / n.length();
                 let needed = match shape {
                     Shape::Sphere { radius } => radius,
                     Shape::Cylinder { length, .. } if n.z.abs() > 0.5 => 0.5 * length,

@@ -135,8 +135,13 @@ impl Report<'_> {
             Some(loaded) => mesh_report::fields(mesh, loaded),
             None => Map::from_iter([("curves".to_owned(), json!(mesh.display().to_string()))]),
         };
-        let of_builder = || args.builder().to_string();
-        let options = chosen.map_or_else(of_builder, Chosen::options);
+        let options = match chosen {
+            Some(chosen) => {
+                let unit = args.read.unit.map(|unit| format!("--unit {} ", unit.symbol()));
+                unit.unwrap_or_default() + &chosen.options()
+            }
+            None => args.builder().to_string(),
+        };
         let note = |note: &Note| json!({ "topic": note.topic.name(), "text": note.text });
         let others = [
             ("options", json!(options)),
