@@ -117,7 +117,9 @@ enum Of {
 
 /// An option of the program.
 struct OptionRow {
+    /// Its name, with the dashes.
     option: &'static str,
+    /// What it applies to.
     of: Of,
     /// The words after the option: none where nothing was asked for. A flag has one empty word.
     words: Vec<String>,
