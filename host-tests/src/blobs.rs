@@ -15,7 +15,7 @@ use meshsweep_suite::ask::{
     Refused, apart, curve, deform, hull, hull_moving, tight, tree, triboxes,
 };
 use meshsweep_suite::fold::Fold;
-use meshsweep_suite::{Clock, Kind, Plan, Recorder, Subject, run};
+use meshsweep_suite::{Kind, Observer, Plan, Recorder, Subject, run};
 
 use crate::generate::{Triangles, bracket, groove_block, torus};
 use crate::golden::{
@@ -266,7 +266,7 @@ impl Lines {
     }
 }
 
-impl Clock for Lines {}
+impl Observer for Lines {}
 
 impl Recorder for Lines {
     fn block(&mut self, kind: Kind, index: u32, hash: u64) {

@@ -122,7 +122,7 @@ impl<'a> Builder<'a> {
 
     /// Adds questions that the blob must serve.
     pub fn serve_all(mut self, questions: impl IntoIterator<Item = For>) -> Self {
-        self.options.serves.extend(questions);
+        self.options.asked.extend(questions);
         self
     }
 

@@ -90,7 +90,7 @@ pub(super) enum Subject<'a> {
 /// All that was asked for; `None` and no elements where nothing was.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Options {
-    pub serves: Vec<For>,
+    pub asked: Vec<For>,
     pub unit: Option<Unit>,
     pub vertex_bits: VertexBits,
     pub base: Option<u32>,
@@ -115,17 +115,21 @@ enum Of {
     Tight,
 }
 
-/// An option of the program. It has no words where nothing was asked for.
-struct Dial {
+/// An option of the program.
+struct OptionRow {
+    /// Its name, with the dashes.
     option: &'static str,
+    /// What it applies to.
     of: Of,
+    /// The words after the option: none where nothing was asked for. A flag has one empty word.
     words: Vec<String>,
-    /// Numbers, and the least and the greatest that each may be.
+    /// The words as numbers, if they have a range.
     numbers: Vec<f64>,
+    /// The least and the greatest that each number may be.
     range: [f64; 2],
 }
 
-impl Dial {
+impl OptionRow {
     fn words<T: ToString>(
         option: &'static str,
         of: Of,
@@ -150,10 +154,10 @@ impl Dial {
 impl fmt::Display for Options {
     /// As the program's options, but for those with their defaults.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let given = self.dials().into_iter().filter(|dial| !dial.words.is_empty());
-        let texts = given.map(|dial| match dial.words.join(",").as_str() {
-            "" => dial.option.to_owned(),
-            words => format!("{} {words}", dial.option),
+        let given = self.rows().into_iter().filter(|row| !row.words.is_empty());
+        let texts = given.map(|row| match row.words.join(",").as_str() {
+            "" => row.option.to_owned(),
+            words => format!("{} {words}", row.option),
         });
         f.write_str(&texts.collect::<Vec<_>>().join(" "))
     }
@@ -161,7 +165,7 @@ impl fmt::Display for Options {
 
 impl Options {
     pub fn serves(&self, question: For) -> bool {
-        match self.serves.as_slice() {
+        match self.asked.as_slice() {
             [] => matches!(question, For::Closest | For::Segment),
             asked => asked.contains(&question),
         }
@@ -192,9 +196,9 @@ impl Options {
         self.base.unwrap_or(FACES)
     }
 
-    /// Whether the box tree's vertices are to be f32: a tree has no grid of 24 bits.
+    /// Whether the box tree's vertices are to be f32.
     pub fn is_f32(&self) -> bool {
-        matches!(self.vertex_bits, VertexBits::Grid24 | VertexBits::F32)
+        self.vertex_bits.is_f32_in_tree()
     }
 
     pub fn of_hull(&self) -> BuildOptions<'static> {
@@ -225,33 +229,49 @@ impl Options {
         void.or(self.slack.map(Goal::Slack)).unwrap_or_default()
     }
 
-    /// All options, one row each: name, what it applies to, value, range.
-    fn dials(&self) -> [Dial; 15] {
+    /// All options, one row each: name, what it applies to, value, range. The range of slack, void
+    /// and margin is in [`Goal::check`].
+    fn rows(&self) -> [OptionRow; 15] {
         let bits = Some(self.vertex_bits).filter(|&bits| bits != VertexBits::Auto);
         let collapse = &self.collapse;
         let [closest, segment] = self.tight_for.unwrap_or_default();
         let asked = [closest.then_some(For::Closest), segment.then_some(For::Segment)];
         [
-            Dial::words("--for", Of::Any, &self.serves),
-            Dial::words("--unit", Of::Any, self.unit.map(Unit::symbol)),
-            Dial::words("--vertex-bits", Of::Any, bits),
-            Dial::numbers("--base", Of::Hull, self.base, ranges::BASE_FACES),
-            Dial::numbers("--max-valence", Of::Hull, collapse.max_valence, ranges::MAX_VALENCE),
-            Dial::numbers("--compactness", Of::Hull, collapse.compactness, ranges::COMPACTNESS),
-            Dial::numbers(
+            OptionRow::words("--for", Of::Any, &self.asked),
+            OptionRow::words("--unit", Of::Any, self.unit.map(Unit::symbol)),
+            OptionRow::words("--vertex-bits", Of::Any, bits),
+            OptionRow::numbers("--base", Of::Hull, self.base, ranges::BASE_FACES),
+            OptionRow::numbers(
+                "--max-valence",
+                Of::Hull,
+                collapse.max_valence,
+                ranges::MAX_VALENCE,
+            ),
+            OptionRow::numbers(
+                "--compactness",
+                Of::Hull,
+                collapse.compactness,
+                ranges::COMPACTNESS,
+            ),
+            OptionRow::numbers(
                 "--max-normal-deviation",
                 Of::Hull,
                 collapse.max_normal_deviation,
                 ranges::NORMAL_DEVIATION,
             ),
-            Dial::numbers("--triboxes", Of::Triboxes, self.triboxes, ranges::TRIBOX_COUNT),
-            Dial::numbers("--tight", Of::Tight, self.tight.iter().copied(), ranges::TIGHT_FACES),
-            Dial::words("--slack", Of::Tight, self.slack),
-            Dial::words("--void", Of::Tight, self.void_percent),
-            Dial::words("--margin", Of::Tight, self.margin),
-            Dial::words("--tight-for", Of::Tight, asked.into_iter().flatten()),
-            Dial::numbers("--effort", Of::Tight, self.effort, ranges::EFFORT),
-            Dial::words("--closed", Of::Any, self.is_closed.then_some("")),
+            OptionRow::numbers("--triboxes", Of::Triboxes, self.triboxes, ranges::TRIBOX_COUNT),
+            OptionRow::numbers(
+                "--tight",
+                Of::Tight,
+                self.tight.iter().copied(),
+                ranges::TIGHT_FACES,
+            ),
+            OptionRow::words("--slack", Of::Tight, self.slack),
+            OptionRow::words("--void", Of::Tight, self.void_percent),
+            OptionRow::words("--margin", Of::Tight, self.margin),
+            OptionRow::words("--tight-for", Of::Tight, asked.into_iter().flatten()),
+            OptionRow::numbers("--effort", Of::Tight, self.effort, ranges::EFFORT),
+            OptionRow::words("--closed", Of::Any, self.is_closed.then_some("")),
         ]
     }
 
@@ -272,7 +292,7 @@ impl Options {
                 "needs a .csv; leave it out for a mesh",
             ),
             (
-                is_curve && self.serves.iter().any(|&other| other != For::Curve),
+                is_curve && self.asked.iter().any(|&other| other != For::Curve),
                 "a curve",
                 "serves --for curve only; name a mesh for anything else",
             ),
@@ -305,11 +325,11 @@ impl Options {
                 "and --tight are two goals; leave one of them out",
             ),
         ];
-        let dials = self.dials();
-        let without_use = dials
+        let rows = self.rows();
+        let without_use = rows
             .iter()
-            .filter(|dial| !dial.words.is_empty())
-            .filter_map(|dial| self.lacks(dial.of).map(|why| (true, dial.option, why)));
+            .filter(|row| !row.words.is_empty())
+            .filter_map(|row| self.lacks(row.of).map(|why| (true, row.option, why)));
         let broken = rules.into_iter().chain(without_use).find(|&(is_broken, ..)| is_broken);
         if let Some((_, option, why)) = broken {
             return Err(BuildError::Option { option, why });
@@ -317,7 +337,7 @@ impl Options {
         if self.tight.len() > MAX_HULLS {
             return Err(BuildError::TooManyHulls { most: MAX_HULLS });
         }
-        for Dial { option, numbers, range, .. } in &dials {
+        for OptionRow { option, numbers, range, .. } in &rows {
             numbers
                 .iter()
                 .try_for_each(|&number| BuildError::check_range(option, number, *range))?;

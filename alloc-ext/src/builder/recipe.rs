@@ -26,7 +26,7 @@ pub enum Recipe {
 impl Recipe {
     /// The options that build it; of a cut level, those that build the hierarchy to cut.
     pub(super) fn options(self) -> Options {
-        let serving = |question| Options { serves: vec![question], ..Options::default() };
+        let serving = |question| Options { asked: vec![question], ..Options::default() };
         match self {
             Self::Tree(bits) => Options { vertex_bits: bits, ..serving(For::Closest) },
             Self::Sweep(bits) => Options { vertex_bits: bits, ..serving(For::Sweep) },

@@ -26,6 +26,13 @@ pub enum VertexBits {
     F32,
 }
 
+impl VertexBits {
+    /// Whether a box tree's vertices are f32 with this choice: a tree has no grid of 24 bits.
+    pub(crate) const fn is_f32_in_tree(self) -> bool {
+        matches!(self, Self::Grid24 | Self::F32)
+    }
+}
+
 impl fmt::Display for VertexBits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

@@ -5,7 +5,7 @@ use crate::number::{ABOVE_ZERO, FROM_ZERO};
 use crate::surface::VertexBits;
 use std::time::Duration;
 
-/// Faces of a hull unless told otherwise.
+/// Faces of a tight or a base hull unless told otherwise.
 pub const FACES: u32 = 200;
 
 /// The goal of a hull.
@@ -20,7 +20,7 @@ pub enum Goal {
     /// is an error.
     Void(f64),
     /// The fewest faces found of which no point is farther than this from the mesh, in its unit;
-    /// more than the margin and what vertices moved.
+    /// more than the margin and the distance that vertices moved.
     Slack(f64),
 }
 
@@ -58,10 +58,10 @@ pub struct Options {
     pub goal: Goal,
     /// Distance from the input's surface that the hull keeps, in the mesh's unit; finite and at
     /// least 0. Every point within the margin is inside the hull. The hull keeps as much more from
-    /// the mesh as its vertices moved.
+    /// the mesh as the mesh's vertices moved.
     pub margin: f64,
-    /// How long to polish, as a factor of the time behind the numbers in `DESIGN.md`. The
-    /// result depends on the effort, and not on the machine.
+    /// How long to polish, as a factor of the time behind the numbers in `alloc-ext/DESIGN.md`.
+    /// The result depends on the effort, and not on the machine.
     pub effort: f64,
     /// About when to stop; `None`: never. The result then depends on the machine: at worst it is
     /// the mesh's bounding box.

@@ -8,7 +8,7 @@ use meshsweep_suite::ask::{
     Refused, Subject, apart, curve, deform, hull, hull_moving, tight, tree, triboxes,
 };
 use meshsweep_suite::fold::Fold;
-use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
+use meshsweep_suite::{Kind, Observer, Plan, Recorder, run};
 
 /// Hashes of the answers of a blob: its name and its bytes.
 type Answers = fn(&str, &[u8]) -> Result<String, Refused>;
@@ -86,7 +86,7 @@ struct Lines {
     text: String,
 }
 
-impl Clock for Lines {}
+impl Observer for Lines {}
 
 impl Recorder for Lines {
     fn kind_begins(&mut self, _kind: Kind) {

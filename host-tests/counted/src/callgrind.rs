@@ -8,7 +8,7 @@
 use meshsweep_suite::ask::{
     Refused, apart, curve, deform, hull, hull_moving, tight, tree, triboxes,
 };
-use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
+use meshsweep_suite::{Kind, Observer, Plan, Recorder, run};
 
 /// Asks a blob the questions of a firmware image, so many blocks of each kind. A line for each
 /// dump: the kind, and the queries that were asked.
@@ -46,7 +46,7 @@ struct Collect {
     lines: String,
 }
 
-impl Clock for Collect {
+impl Observer for Collect {
     #[inline(always)]
     fn query_begins(&mut self) {
         request(Request::ToggleCollect);

@@ -1,6 +1,6 @@
 //! A meter that keeps the ticks of each query in external RAM, for printing would take stack.
 
-use meshsweep_suite::Clock;
+use meshsweep_suite::Observer;
 use semihosting::println;
 
 use crate::meter::Meter;
@@ -57,7 +57,7 @@ impl Default for Kept {
     }
 }
 
-impl Clock for Kept {
+impl Observer for Kept {
     #[inline]
     fn query_begins(&mut self) {
         if self.queries == self.begun {

@@ -1,6 +1,6 @@
 //! The suite's recorder on a board: prints hashes, counts ticks, measures the stack.
 
-use meshsweep_suite::{Clock, Kind, Recorder};
+use meshsweep_suite::{Kind, Observer, Recorder};
 use semihosting::println;
 
 use crate::{board, stack};
@@ -79,7 +79,7 @@ impl Default for Meter {
     }
 }
 
-impl Clock for Meter {
+impl Observer for Meter {
     #[inline]
     fn query_begins(&mut self) {
         self.pointer = board::stack_pointer();

@@ -36,8 +36,8 @@ impl Asker {
         }
     }
 
-    /// The same, of trees whose records were not checked. Of these only [`overlap`](Self::overlap)
-    /// may be asked.
+    /// The same, of trees whose records were not checked. Of these only
+    /// [`two_models`](Self::two_models) may be asked.
     #[must_use]
     pub fn of_unchecked(self) -> Self {
         Self { is_checked: false, ..self }
@@ -60,29 +60,29 @@ impl Asker {
     /// If an answer is out of range or took too long.
     pub fn point(&mut self, tree: &Bvh<'_>, point: [f32; 3], distance: f32, stop: &Budget) {
         let Self { stack, near, hint, .. } = self;
-        let once = descent(tree);
         for stop in [stop, &Budget::EXACT] {
             if let Some(answer) = answered(tree.closest_point(point, *stop, stack)) {
-                closest(tree, &answer, once);
+                closest(tree, &answer, most(tree, Kind::ClosestFar));
             }
             if let Some(answer) = answered(tree.closest_point_from(point, hint, *stop, stack)) {
-                closest(tree, &answer, once + 16);
+                // The triangles of the hint's leaf are looked at once more.
+                closest(tree, &answer, most(tree, Kind::ClosestPath) + 16);
             }
             if let Some(answer) = answered(tree.closest_point_precise(point, *stop, stack)) {
                 closest(tree, &answer, most(tree, Kind::ClosestPrecise));
             }
             if let Some(answer) = answered(tree.within(point, distance, *stop, stack)) {
-                ends(answer.work, once);
+                ends(answer.work, most(tree, Kind::Within));
                 let named = answer.witness.is_some_and(|number| number < tree.input_triangles());
                 assert_eq!(answer.verdict == Verdict::Yes, named, "{answer:?}");
             }
             if let Some(answer) = answered(tree.nearest(point, near, *stop, stack)) {
-                ends(answer.work, once);
+                ends(answer.work, most(tree, Kind::Nearest));
                 assert!(answer.rest_lower >= 0.0, "{answer:?}");
                 found(tree, &near[..answer.stored]);
             }
             if let Some(answer) = answered(tree.all_within(point, distance, near, *stop, stack)) {
-                ends(answer.work, once);
+                ends(answer.work, most(tree, Kind::AllWithin));
                 assert!(answer.certain <= answer.stored, "{answer:?}");
                 assert!(
                     answer.stored as u64 + u64::from(answer.dropped)
@@ -114,17 +114,18 @@ impl Asker {
     /// If an answer is out of range or took too long.
     pub fn segment(&mut self, tree: &Bvh<'_>, a: [f32; 3], b: [f32; 3]) {
         let Self { stack, hits, .. } = self;
-        let once = descent(tree);
         for facing in [Facing::Both, Facing::Front, Facing::Back] {
             if let Some(answer) = answered(tree.first_hit(a, b, facing, Budget::EXACT, stack)) {
-                ends(answer.work, once);
+                ends(answer.work, most(tree, Kind::FirstHit));
                 assert!(answer.t.lower >= 0.0 && answer.t.lower <= answer.t.upper, "{answer:?}");
                 answer.hit.iter().for_each(|hit| met(tree, hit));
             }
-            answered(tree.any_hit(a, b, facing, Budget::EXACT, stack));
+            if let Some(answer) = answered(tree.any_hit(a, b, facing, Budget::EXACT, stack)) {
+                ends(answer.work, most(tree, Kind::AnyHit));
+            }
             if let Some(answer) = answered(tree.all_hits(a, b, facing, hits, Budget::EXACT, stack))
             {
-                ends(answer.work, once);
+                ends(answer.work, most(tree, Kind::AllHits));
                 let hits = &hits[..answer.stored];
                 hits.iter().for_each(|listed| met(tree, &listed.hit));
                 assert!(hits.is_sorted_by(|x, y| x.hit.t <= y.hit.t), "{hits:?}");
@@ -138,7 +139,7 @@ impl Asker {
     /// If an answer is out of range or took too long.
     pub fn solid(&mut self, tree: &Bvh<'_>, corners: [[f32; 3]; 2], radius: f32, stop: &Budget) {
         let stack = &mut self.stack[..];
-        let once = most(tree, Kind::Solid);
+        let bound = most(tree, Kind::Solid);
         let numbered = |triangle: u32| assert!(triangle < tree.input_triangles(), "{triangle}");
         let [a, b] = corners;
         let moved = [b, a];
@@ -146,14 +147,14 @@ impl Asker {
         for solid in solids.into_iter().flatten() {
             for stop in [stop, &Budget::EXACT] {
                 if let Some(answer) = answered(tree.solid_distance(&solid, *stop, stack)) {
-                    ends(answer.work, once);
+                    ends(answer.work, bound);
                     numbered(answer.triangle);
                     let (lower, upper) = (answer.distance.lower, answer.distance.upper);
                     assert!(0.0 <= lower && lower <= upper, "{answer:?}");
                     assert!(answer.points.iter().flatten().all(|x| x.is_finite()), "{answer:?}");
                 }
                 if let Some(answer) = answered(tree.solid_within(&solid, radius, *stop, stack)) {
-                    ends(answer.work, once);
+                    ends(answer.work, bound);
                     answer.witness.into_iter().for_each(numbered);
                 }
                 let to = Solid::new(&moved[..solid.corners().len()], radius);
@@ -199,7 +200,7 @@ impl Asker {
     ///
     /// # Panics
     /// If an answer is out of range or took too long.
-    pub fn overlap(&self, a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose, steps: u32) {
+    pub fn two_models(&self, a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose, steps: u32) {
         let mut stack = vec![ScratchEntry::EMPTY; self.stack.len()];
         let mut pairs = vec![TrianglePair::EMPTY; self.near.len()];
         let in_range = |[first, second]: [u32; 2]| {
@@ -301,7 +302,7 @@ impl Asker {
 
 /// More than a query can cost, whose row in the suite says how many descents it takes.
 fn most(tree: &Bvh<'_>, kind: Kind) -> u32 {
-    let descents = Question::to_a_tree(kind).and_then(|question| question.descents);
+    let descents = Question::of_tree_kind(kind).and_then(|question| question.descents);
     descents.expect("a row of one tree") * descent(tree)
 }
 

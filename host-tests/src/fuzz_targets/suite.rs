@@ -7,7 +7,7 @@ use meshsweep_suite::ask::{apart, tree};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::place::{Ends, Motion, Place, Point};
 use meshsweep_suite::questions::Question;
-use meshsweep_suite::{Clock, Kind, Subject};
+use meshsweep_suite::{Kind, Observer, Subject};
 
 impl Place for Input<'_> {
     fn far(&mut self) -> Point {
@@ -73,11 +73,12 @@ pub(super) fn ask_within_bounds(tree: &Bvh<'_>, descent: u64, entries: usize, in
     let (mut scratch, mut apart_scratch) = (tree::Scratch::new(), apart::Scratch::new());
     let (apart, fold) = (apart::Apart(*tree), &mut Fold::new());
     for kind in Kind::ALL {
-        let Some(question) = Question::to_a_tree(kind) else { continue };
+        let Some(question) = Question::of_tree_kind(kind) else { continue };
         let most = question.descents.map(|descents| u64::from(descents) * descent);
         let mut bounded = Bounded { kind, most, steps: 0, entries };
         let mut places = Input(input.0);
         for _ in 0..3 {
+            // One of the two has the kind; the other does nothing.
             tree.ask(kind, &mut places, &mut scratch, &mut bounded, fold);
             apart.ask(kind, &mut places, &mut apart_scratch, &mut bounded, fold);
         }
@@ -87,9 +88,9 @@ pub(super) fn ask_within_bounds(tree: &Bvh<'_>, descent: u64, entries: usize, in
 /// Holds each answer to a bound of its work.
 struct Bounded {
     kind: Kind,
-    /// Of a question about one tree.
+    /// Bound of the work; `None` for two trees.
     most: Option<u64>,
-    /// Of the budget.
+    /// Steps of the budget.
     steps: u32,
     entries: usize,
 }
@@ -98,7 +99,7 @@ struct Bounded {
 /// wait for all pairs.
 pub(super) const STEPS: u32 = 300;
 
-impl Clock for Bounded {
+impl Observer for Bounded {
     fn terms<'s>(
         &mut self,
         budget: Budget,

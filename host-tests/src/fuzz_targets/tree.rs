@@ -186,7 +186,7 @@ pub fn tree_overlap(data: &[u8]) {
     let steps = u32::from(input.byte());
     for _ in 0..3 {
         let pose = input.pose();
-        asker.overlap(&a, &b, &pose, steps);
-        asker.overlap(&b, &a, &pose, steps);
+        asker.two_models(&a, &b, &pose, steps);
+        asker.two_models(&b, &a, &pose, steps);
     }
 }

@@ -17,8 +17,8 @@ pub fn tree_trusted(data: &[u8]) {
     let other = &tree_seeds()[usize::from(input.byte()) % tree_seeds().len()];
     let Ok(other) = Bvh::open(other) else { return };
     let (asker, pose) = (Asker::new(stack.len(), 4).of_unchecked(), input.pose());
-    asker.overlap(&tree, &other, &pose, STEPS);
-    asker.overlap(&other, &tree, &pose, STEPS);
+    asker.two_models(&tree, &other, &pose, STEPS);
+    asker.two_models(&other, &tree, &pose, STEPS);
 }
 
 /// Opens edited tight hulls without a check of their records, and asks all about points.

@@ -49,9 +49,9 @@ kinds! {
     ClosestPath = 4, "closest_path";
     /// First hit of a segment through the doubled box.
     FirstHit = 5, "first_hit", tabled;
-    /// All hits of such a segment.
+    /// All hits of a segment.
     AllHits = 6, "all_hits";
-    /// Such a segment on the refined hull.
+    /// Outer hits of a segment on the refined hull.
     OuterHits = 7, "outer_hits", tabled;
     /// The hull refined for a focus that moves.
     Refine = 29, "refine";
@@ -79,7 +79,7 @@ kinds! {
     Cull = 17, "cull";
     /// Whether the surface meets its moved copy.
     Overlap = 18, "overlap";
-    /// All pairs of triangles that do.
+    /// All pairs of triangles that meet.
     AllOverlaps = 19, "all_overlaps";
     /// How far the surface is from its moved copy.
     PairDistance = 35, "pair_distance";
@@ -101,7 +101,7 @@ kinds! {
     TriboxFaces = 21, "tribox_faces";
     /// Whether two triboxes overlap.
     TriboxOverlap = 22, "tribox_overlap";
-    /// Whether two boxes do, for comparison.
+    /// Whether two boxes overlap, for comparison.
     BoxOverlap = 23, "box_overlap";
     /// All else that triboxes answer.
     TriboxRest = 24, "tribox_rest";
@@ -130,7 +130,7 @@ kinds! {
 }
 
 impl Kind {
-    /// Whether it is about triboxes: no blob is asked.
+    /// Whether it asks triboxes of points, without a blob.
     #[must_use]
     pub const fn is_tribox(self) -> bool {
         matches!(
@@ -143,7 +143,7 @@ impl Kind {
         )
     }
 
-    /// Of the stream of numbers that places its queries.
+    /// The seed of the stream that places its queries.
     #[must_use]
     pub const fn seed(self) -> u64 {
         0x6d65_7368_7377_6570 ^ ((self as u64) << 56)

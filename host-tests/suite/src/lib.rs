@@ -4,24 +4,24 @@
 //! can be compared bit by bit.
 //!
 //! ```text
-//! rng ─ place (query points and segments from integers) ─ ask (the core's entry points) ─ fold (answer bits to hashes)
-//!                                          run: kinds × blocks × queries, told to a `Recorder`
+//! rng ─ place (points and segments from integers) ─ ask (the core's entry points) ─ fold (hashes)
+//!                                 run: kinds × blocks × queries, told to a `Recorder`
 //! ```
 //! Answers are folded into one hash per block of queries: a difference is then located to a block
-//! without printing every answer over a debug link. [`ask`] is the only folder that names the core's
-//! questions.
+//! without printing every answer over a debug link. [`ask`] is the only folder that names the
+//! core's questions.
 
 pub mod arith;
 pub mod ask;
-pub mod clock;
 pub mod fold;
 pub mod kind;
+pub mod observer;
 pub mod place;
 pub mod questions;
 pub mod rng;
 pub mod run;
 
 pub use ask::Subject;
-pub use clock::Clock;
 pub use kind::Kind;
+pub use observer::Observer;
 pub use run::{Plan, Recorder, run};

@@ -18,7 +18,7 @@ pub type Ends = [Point; 2];
 /// A rotation matrix, by rows and up to rounding, and what is added after it.
 pub type Motion = ([[f32; 3]; 3], [f32; 3]);
 
-/// Who says where a query is.
+/// Where queries are put.
 pub trait Place {
     /// A point anywhere.
     fn far(&mut self) -> Point;

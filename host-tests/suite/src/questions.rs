@@ -1,5 +1,6 @@
-//! The questions that have numbers in the documents, one a row: stack and code. Rows of kinds are
-//! in `kind.rs`, and how a kind is asked is a row beside the functions of its structure, in `ask`.
+//! Questions, one a row: their measured function, the boxes they need, and how many descents a call
+//! takes. Rows of kinds are in `kind.rs`. How a kind is asked is a row beside the functions of its
+//! structure, in `ask`.
 
 use super::kind::Kind;
 
@@ -19,23 +20,23 @@ pub struct Question {
     pub kinds: &'static [Kind],
     /// Kinds that ask the same in another way, by a function whose stack is not in the tables.
     pub variants: &'static [Kind],
-    /// Descents at most of one query to a box tree, whatever its bytes. None of those about two
-    /// trees, whose pairs of nodes are bounded by the steps of the budget alone.
+    /// Most descents of one call to a box tree, whatever its bytes. `None` if two trees are asked,
+    /// or none: pairs of nodes are bounded by the steps of the budget alone.
     pub descents: Option<u32>,
 }
 
 impl Question {
-    const fn or_as(self, variants: &'static [Kind]) -> Self {
+    const fn with_variants(self, variants: &'static [Kind]) -> Self {
         Self { variants, ..self }
     }
 
-    const fn takes(self, descents: u32) -> Self {
+    const fn with_descents(self, descents: u32) -> Self {
         Self { descents: Some(descents), ..self }
     }
 
     /// The question to a box tree that queries of a kind ask.
     #[must_use]
-    pub fn to_a_tree(kind: Kind) -> Option<&'static Self> {
+    pub fn of_tree_kind(kind: Kind) -> Option<&'static Self> {
         let mut of_trees = QUESTIONS.iter().filter(|question| question.is_of_tree());
         of_trees.find(|question| question.all_kinds().any(|of| of == kind))
     }
@@ -67,45 +68,48 @@ const fn question(
     Question { name, needs, function, kinds, variants: &[], descents: None }
 }
 
-/// The questions of the tables of stacks.
+/// All questions.
 pub const QUESTIONS: &[Question] = &[
     question("open a box tree", "tree", "tree::open", &[]),
     question(CLOSEST, "closest", "tree::distance::closest", &[Kind::ClosestFar, Kind::ClosestNear])
-        .or_as(&[Kind::Stopped])
-        .takes(1),
+        .with_variants(&[Kind::Stopped])
+        .with_descents(1),
     question(
         "closest point from a hint",
         "closest",
         "tree::distance::follow",
         &[Kind::ClosestPath],
     )
-    .takes(1),
+    .with_descents(1),
     question("closest point in f64", "closest", "tree::distance::precise", &[Kind::ClosestPrecise])
-        .takes(3),
+        .with_descents(3),
     question("coherent query", "closest", "tree::distance::coherent", &[Kind::CoherentQuery])
-        .takes(4),
-    question("within", "closest", "tree::distance::is_within", &[Kind::Within]).takes(1),
-    question("nearest triangles", "closest", "tree::distance::nearest", &[Kind::Nearest]).takes(1),
-    question("all within", "closest", "tree::distance::all_within", &[Kind::AllWithin]).takes(1),
-    // Two surveys and two about a feature from each of eleven places.
-    question("signed distance", "closest", "tree::distance::signed", &[Kind::Signed]).takes(44),
-    // Up to six passes.
-    question("winding number", "winding", "apart::winding", &[Kind::Winding]).takes(6),
-    question("front facing", "cull", "tree::sight::cull", &[Kind::Cull]).takes(1),
+        .with_descents(4),
+    question("within", "closest", "tree::distance::is_within", &[Kind::Within]).with_descents(1),
+    question("nearest triangles", "closest", "tree::distance::nearest", &[Kind::Nearest])
+        .with_descents(1),
+    question("all within", "closest", "tree::distance::all_within", &[Kind::AllWithin])
+        .with_descents(1),
+    // Up to eleven places, each with four descents: `core/src/bvh/point/side/signed_distance.rs`.
+    question("signed distance", "closest", "tree::distance::signed", &[Kind::Signed])
+        .with_descents(44),
+    // Up to six passes, one for each of `RATIOS` in `core/src/bvh/winding/search.rs`.
+    question("winding number", "winding", "apart::winding", &[Kind::Winding]).with_descents(6),
+    question("front facing", "cull", "tree::sight::cull", &[Kind::Cull]).with_descents(1),
     question("first hit", "segment", "tree::sight::first_hit", &[Kind::FirstHit])
-        .or_as(&[Kind::Facing])
-        .takes(1),
-    question("any hit", "segment", "tree::sight::any_hit", &[Kind::AnyHit]).takes(1),
-    question("all hits", "segment", "tree::sight::all_hits", &[Kind::AllHits]).takes(1),
+        .with_variants(&[Kind::Facing])
+        .with_descents(1),
+    question("any hit", "segment", "tree::sight::any_hit", &[Kind::AnyHit]).with_descents(1),
+    question("all hits", "segment", "tree::sight::all_hits", &[Kind::AllHits]).with_descents(1),
     question("overlap", "segment", "tree::meeting::overlap", &[Kind::Overlap])
-        .or_as(&[Kind::AllOverlaps]),
+        .with_variants(&[Kind::AllOverlaps]),
     question("distance of two models", "segment", "apart::distance", &[Kind::PairDistance]),
     question("coherent pair", "segment", "apart::coherent", &[Kind::CoherentPair]),
     question("scene", "segment", "apart::scene", &[Kind::Scene]),
     // A triangle is bounded in f32 and computed in f64.
-    question("distance of a solid", "segment", "apart::solid", &[Kind::Solid]).takes(2),
+    question("distance of a solid", "segment", "apart::solid", &[Kind::Solid]).with_descents(2),
     // A triangle that may stop the solid takes up to some sixty distances, each of two descents.
-    question("first contact", "segment", "apart::contact", &[Kind::Contact]).takes(140),
+    question("first contact", "segment", "apart::contact", &[Kind::Contact]).with_descents(140),
     question("penetration", "winding", "apart::penetration", &[Kind::Penetration]),
     question("open tight hulls", "tight", "tight::open", &[]),
     question(

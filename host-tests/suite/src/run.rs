@@ -2,9 +2,9 @@
 
 use crate::arith;
 use crate::ask::{Refused, Subject, tribox};
-use crate::clock::Clock;
 use crate::fold::Fold;
 use crate::kind::Kind;
+use crate::observer::Observer;
 use crate::place::Placer;
 
 /// How much is asked.
@@ -25,7 +25,7 @@ impl Plan {
 
 /// Told what happens, in this order: opening begins, begins, then kind by kind: kind begins,
 /// (query begins, query ends) × queries, block, …, kind ends.
-pub trait Recorder: Clock {
+pub trait Recorder: Observer {
     /// The blob is about to be opened.
     fn opening_begins(&mut self) {}
     /// The blob was opened; queries need so many bytes of RAM beside the stack.
@@ -93,12 +93,12 @@ pub fn run<'t, S: Subject<'t>>(
 #[cfg(test)]
 mod tests {
     use super::{Kind, Plan, Recorder, run};
-    use crate::Clock;
+    use crate::Observer;
     use crate::ask::{Refused, hull, tree};
 
     struct Count(u32);
 
-    impl Clock for Count {}
+    impl Observer for Count {}
 
     impl Recorder for Count {
         fn block(&mut self, _kind: Kind, _index: u32, _hash: u64) {

@@ -11,7 +11,7 @@ use meshsweep_suite::ask::{apart, tree};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::place::{Bounds, Place, Placer};
 use meshsweep_suite::questions::Question;
-use meshsweep_suite::{Clock, Kind, Subject};
+use meshsweep_suite::{Kind, Observer, Subject};
 
 fn blob(options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(cube(1).0, cube(1).1);
@@ -45,7 +45,7 @@ struct OnTerms<F> {
     answers: Vec<Result<(), QueryError>>,
 }
 
-impl<F: Fn(Budget) -> Budget> Clock for OnTerms<F> {
+impl<F: Fn(Budget) -> Budget> Observer for OnTerms<F> {
     fn terms<'s>(
         &mut self,
         budget: Budget,
@@ -65,17 +65,17 @@ impl<F: Fn(Budget) -> Budget> Clock for OnTerms<F> {
 }
 
 /// Asks one query.
-fn ask(tree: &Bvh<'_>, kind: Kind, around: Bounds, to: &mut impl Clock) {
+fn ask(tree: &Bvh<'_>, kind: Kind, around: Bounds, observer: &mut impl Observer) {
     let (place, fold) = (&mut Placer::new(kind.seed(), around), &mut Fold::new());
     if <Bvh<'_> as Subject<'_>>::suits(kind) {
-        tree.ask(kind, place, &mut tree::Scratch::new(), to, fold);
+        tree.ask(kind, place, &mut tree::Scratch::new(), observer, fold);
     } else {
-        apart::Apart(*tree).ask(kind, place, &mut apart::Scratch::new(), to, fold);
+        apart::Apart(*tree).ask(kind, place, &mut apart::Scratch::new(), observer, fold);
     }
 }
 
-/// What each call of a query answers on such terms, when the calls before it are asked as ever. A
-/// call that has no terms is left out.
+/// What each call of a query answers with these terms, when the calls before it are asked as ever.
+/// A call that has no terms is left out.
 fn answers(
     (tree, kind, around): (&Bvh<'_>, Kind, Bounds),
     change: impl Fn(Budget) -> Budget + Copy,
@@ -83,16 +83,17 @@ fn answers(
 ) -> Vec<Result<(), QueryError>> {
     let mut all = Vec::new();
     loop {
-        let mut to = OnTerms { change, entries, call: all.len(), begun: 0, answers: Vec::new() };
-        ask(tree, kind, around, &mut to);
-        if to.begun <= to.call {
+        let mut observer =
+            OnTerms { change, entries, call: all.len(), begun: 0, answers: Vec::new() };
+        ask(tree, kind, around, &mut observer);
+        if observer.begun <= observer.call {
             return all;
         }
-        all.push(to.answers[to.call]);
+        all.push(observer.answers[observer.call]);
     }
 }
 
-/// Every call of every question gives the same on such terms.
+/// Every call of every question gives the same with these terms.
 fn every_call_gives(
     expected: Result<(), QueryError>,
     change: impl Fn(Budget) -> Budget + Copy,
@@ -103,7 +104,7 @@ fn every_call_gives(
     for (question, kind) in questions() {
         for &around in places_of(question) {
             let found = answers((&tree, kind, around), change, entries);
-            // Only what faces an eye takes no scratch.
+            // Only culling takes no scratch.
             assert_eq!(found.is_empty(), kind == Kind::Cull, "{kind:?}");
             for answer in found {
                 assert_eq!(answer, expected, "{} {kind:?} {around:?}", question.name);
@@ -122,7 +123,7 @@ fn every_call_gives(
 
 /// Kinds of queries to a box tree, each with its row.
 fn questions() -> impl Iterator<Item = (&'static Question, Kind)> {
-    Kind::ALL.into_iter().filter_map(|kind| Some((Question::to_a_tree(kind)?, kind)))
+    Kind::ALL.into_iter().filter_map(|kind| Some((Question::of_tree_kind(kind)?, kind)))
 }
 
 #[test]
@@ -130,7 +131,7 @@ fn every_kind_of_query_to_a_box_tree_has_a_row() {
     for kind in Kind::ALL {
         let is_asked = <Bvh<'_> as Subject<'_>>::suits(kind) || apart::Apart::suits(kind);
         let is_question = !matches!(kind, Kind::Arith | Kind::Contents);
-        assert_eq!(Question::to_a_tree(kind).is_some(), is_asked && is_question, "{kind:?}");
+        assert_eq!(Question::of_tree_kind(kind).is_some(), is_asked && is_question, "{kind:?}");
     }
 }
 

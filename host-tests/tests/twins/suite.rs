@@ -17,12 +17,12 @@ macro_rules! blocks_of {
         mod $name {
             use super::Blocks;
             use $suite::ask::{apart, curve, deform, hull, hull_moving, tight, tree, triboxes};
-            use $suite::{Clock, Kind, Plan, Recorder, Subject, run};
+            use $suite::{Kind, Observer, Plan, Recorder, Subject, run};
 
             #[derive(Default)]
             struct Recorded(Blocks);
 
-            impl Clock for Recorded {}
+            impl Observer for Recorded {}
 
             impl Recorder for Recorded {
                 fn block(&mut self, kind: Kind, _: u32, hash: u64) {

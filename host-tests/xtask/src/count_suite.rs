@@ -1,5 +1,5 @@
 //! The suite's questions on this machine: the blobs and the queries of the boards, counted by
-//! callgrind. It collects between the clock's two readings, so placing and folding are no part.
+//! callgrind. It collects between the observer's two calls, so placing and folding are no part.
 
 use std::ffi::OsStr;
 

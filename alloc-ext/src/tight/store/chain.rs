@@ -23,7 +23,7 @@ pub const MAX_HULLS: usize = MAX_LEVELS as usize;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ChainOptions {
-    /// Most faces of each hull, in any order. If there are none, one hull is made.
+    /// Most faces of each hull, in any order. If the list is empty, one hull is made.
     pub faces: Vec<usize>,
     /// How each hull is made. Its goal is that of the one hull, if there are no numbers of faces.
     /// Answers about the mesh do not depend on the margin.
@@ -87,7 +87,7 @@ impl ChainOptions {
         TreeOptions::default()
             .with_closest(self.closest)
             .with_segments(self.segments)
-            .with_f32(matches!(self.hull.vertex_bits, VertexBits::Grid24 | VertexBits::F32))
+            .with_f32(self.hull.vertex_bits.is_f32_in_tree())
     }
 
     fn of_hull(&self, goal: Goal) -> Options {
@@ -120,11 +120,11 @@ pub struct HullReport {
 /// Makes tight hulls of a mesh. A hull with as many faces as a finer hull is left out, and no
 /// report names its goal.
 ///
-/// The hulls enclose the surface of the input file, see [`wrap()`](crate::tight::wrap). The blob's answers hold for it
-/// too: they include the distance that vertices were moved.
+/// The hulls enclose the surface of the input file, see [`wrap()`](crate::tight::wrap). The blob's
+/// answers hold for it too: they include the distance that vertices were moved.
 ///
-/// Cost: that of [`wrap()`](crate::tight::wrap) for each hull; some hundred distance queries for each triangle of the
-/// hulls, and one for each triangle of the mesh.
+/// Cost: that of [`wrap()`](crate::tight::wrap) for each hull; some hundred distance queries for
+/// each triangle of the hulls, and one for each triangle of the mesh.
 ///
 /// # Errors
 /// [`BuildError`].
@@ -189,8 +189,8 @@ pub fn build(
     Ok((tables, made.into_iter().map(|(_, report)| report).collect()))
 }
 
-/// Whether the format has numbers for all distances. Two bytes end a little before single
-/// precision.
+/// Whether the format has numbers for all distances. The largest [`Radius16`] is a little below
+/// [`f32::MAX`].
 fn fits(distances: &Distances) -> bool {
     let all = distances.slacks.iter().chain([&distances.slack.upper, &distances.depth.upper]);
     all.into_iter().all(|&distance| Radius16::round_up(distance).get().is_finite())

@@ -11,7 +11,7 @@ use super::advance::longest_path;
 use super::gaps::answers;
 use super::gaps::nearest_first::{Missed, PairDescent, Search};
 use super::gaps::question::PairQuestion;
-use super::gaps::skipped::{ChildPairs, Group, SkippedPairs};
+use super::gaps::skipped::{ChildPairs, PairGroup, SkippedPairs};
 use super::model_box::are_apart;
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
@@ -32,14 +32,14 @@ use crate::query::{Budget, Decided, Ended, Motion, PairDistance, QueryError, Scr
 /// bytes, so they cannot change between questions.
 #[derive(Clone, Debug)]
 pub struct CoherentPair<'t, const N: usize = 1024> {
-    last_question: LastQuestion,
-    groups: [Group; N],
+    memory: PairMemory,
+    groups: [PairGroup; N],
     bytes: PhantomData<&'t [u8]>,
 }
 
-/// The last question.
+/// What a pair keeps of its last question, beside the groups.
 #[derive(Clone, Copy, Debug)]
-struct LastQuestion {
+struct PairMemory {
     /// The identities of both trees.
     of: [(usize, u32); 2],
     pose: Pose,
@@ -62,22 +62,18 @@ impl<const N: usize> Default for CoherentPair<'_, N> {
 impl<'t, const N: usize> CoherentPair<'t, N> {
     /// A pair without memory of earlier questions. May initialise a `static`.
     pub const fn new() -> Self {
-        CoherentPair {
-            last_question: LastQuestion::NONE,
-            groups: [Group::EMPTY; N],
-            bytes: PhantomData,
-        }
+        CoherentPair { memory: PairMemory::NONE, groups: [PairGroup::EMPTY; N], bytes: PhantomData }
     }
 
     /// Forgets all earlier questions.
     pub fn reset(&mut self) {
-        self.last_question = LastQuestion::NONE;
+        self.memory = PairMemory::NONE;
     }
 
     /// The groups in use, at most `N`. 0 before the first question, and if those of the last one
     /// did not fit.
     pub fn groups(&self) -> usize {
-        self.last_question.count
+        self.memory.count
     }
 
     /// [`Bvh::distance_to`] of `tree` and of `other`, moved by `pose`. The less the models moved
@@ -129,8 +125,7 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         let mut nearest = NearestGap::new(&pair.lengths, 0.0, &budget);
         let relative = pair.relative();
         let mut search = Search::new(&pair, &relative, budget.steps, scratch);
-        let front =
-            PairFront::after_motion(&mut self.last_question, &mut self.groups, &pair, &pose);
+        let front = PairFront::after_motion(&mut self.memory, &mut self.groups, &pair, &pose);
         let missed = front.search(&mut search, &mut PairQuestion::Distance(&mut nearest))?;
         answers::nearest(&nearest, &pair, missed, search.work)
     }
@@ -169,15 +164,14 @@ impl<'t, const N: usize> CoherentPair<'t, N> {
         let mut threshold = GapThreshold::new(&pair.lengths, 0.0, distance);
         let relative = pair.relative();
         let mut search = Search::new(&pair, &relative, budget.steps, scratch);
-        let front =
-            PairFront::after_motion(&mut self.last_question, &mut self.groups, &pair, &pose);
+        let front = PairFront::after_motion(&mut self.memory, &mut self.groups, &pair, &pose);
         let missed = front.search(&mut search, &mut PairQuestion::Within(&mut threshold))?;
         answers::within(&threshold, &pair, missed, search.work)
     }
 }
 
-impl LastQuestion {
-    const NONE: LastQuestion = LastQuestion {
+impl PairMemory {
+    const NONE: PairMemory = PairMemory {
         of: [(0, 0); 2],
         pose: Pose::IDENTITY,
         count: 0,
@@ -189,7 +183,7 @@ impl LastQuestion {
 
 /// The groups of a [`CoherentPair`] during one search.
 struct PairFront<'f> {
-    last: &'f mut LastQuestion,
+    last: &'f mut PairMemory,
     skipped: SkippedPairs<'f>,
     /// Groups at the start of the list that this search did not look at yet.
     unseen: usize,
@@ -198,8 +192,8 @@ struct PairFront<'f> {
 impl<'f> PairFront<'f> {
     /// The front after the motion from the last pose.
     fn after_motion(
-        last: &'f mut LastQuestion,
-        groups: &'f mut [Group],
+        last: &'f mut PairMemory,
+        groups: &'f mut [PairGroup],
         pair: &StoredPair<'_>,
         pose: &Pose,
     ) -> Self {
@@ -208,9 +202,9 @@ impl<'f> PairFront<'f> {
         let (step, _) = longest_path(b, &Motion::straight(last.pose, *pose));
         let path = (last.path + step / pair.lengths.unit) * (1.0 + 4.0 * U64);
         *last = if last.of == of && path.is_finite() {
-            LastQuestion { pose: *pose, path, ..*last }
+            PairMemory { pose: *pose, path, ..*last }
         } else {
-            LastQuestion { of, pose: *pose, ..LastQuestion::NONE }
+            PairMemory { of, pose: *pose, ..PairMemory::NONE }
         };
         let skipped =
             SkippedPairs { groups, count: last.count, is_truncated: false, is_known: false };
@@ -293,7 +287,7 @@ impl<'f> PairFront<'f> {
     }
 
     /// The groups in use.
-    fn known(&self) -> &[Group] {
+    fn known(&self) -> &[PairGroup] {
         self.skipped.groups.get(..self.skipped.count).unwrap_or(&[])
     }
 
@@ -315,7 +309,7 @@ impl<'f> PairFront<'f> {
     }
 
     /// Removes a group if it may hold a pair within the limit.
-    fn remove_near(&mut self, at: usize, limit: f64) -> Option<Group> {
+    fn remove_near(&mut self, at: usize, limit: f64) -> Option<PairGroup> {
         let group = *self.skipped.groups.get(at)?;
         if f64::from(group.distance) > limit {
             return None;
@@ -340,6 +334,6 @@ fn less_path(distance: f32, path: f64) -> f64 {
     (f64::from(distance) - path).next_down()
 }
 
-fn least(groups: &[Group]) -> f32 {
+fn least(groups: &[PairGroup]) -> f32 {
     groups.iter().fold(f32::INFINITY, |least, group| lesser(least, group.distance))
 }

@@ -135,6 +135,6 @@ fn measure_nearest(
             None => return false,
         }
     }
-    along.report_skipped(best, question);
+    along.report_beyond(best, question);
     true
 }

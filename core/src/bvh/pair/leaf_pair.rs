@@ -1,4 +1,4 @@
-//! Two leaves: which of their triangles may meet, then each of these pairs in f32, and in f64 where
+//! Finds the pairs of triangles of two leaves that may meet. Tests each in f32, and in f64 where
 //! f32 cannot decide.
 
 use crate::bvh::tree::format::{FanLeaf, LeafShape, RING, slots};
@@ -54,7 +54,8 @@ impl Corners {
         Corners { at, used, triangles, turn: shape.turn() }
     }
 
-    /// The least and the greatest number of each triangle's vertices, of one for each slot.
+    /// `at` has a number for each slot. Returns the least and the greatest of each triangle's
+    /// three.
     #[inline(always)]
     pub(crate) fn ends(&self, at: &[f32; SLOTS]) -> Option<([f32; WIDTH], [f32; WIDTH])> {
         Some(ends_of_triangles(LANES_BELOW.get(self.turn)?, at))
@@ -271,7 +272,7 @@ fn ends_of_triangles(first: &[u32; WIDTH], at: &[f32; SLOTS]) -> ([f32; WIDTH], 
     (low, high)
 }
 
-/// The first or the second centre.
+/// The first centre where `mask` is ones, else the second.
 #[inline(always)]
 fn blend(mask: u32, axis: &[f32; SLOTS]) -> f32 {
     f32::from_bits(axis[0].to_bits() & mask | axis[1].to_bits() & !mask)

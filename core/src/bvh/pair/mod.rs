@@ -1,7 +1,8 @@
 //! Two box trees, one of them moved.
 //!
-//! `separation/` works in f32, `gaps/` in f64. `distance_to` and `within_of` first run the one, and
-//! then the other on what f32 could not tell.
+//! `separation/` searches in f32. `gaps/` bounds in f32 and measures in f64. `distance_to` measures
+//! the candidates of f32. `distance_to` and `within_of` search again from the roots if f32 gives no
+//! verdict.
 //!
 //! | question | file |
 //! | --- | --- |
@@ -12,8 +13,8 @@
 //! | where a model that moves first comes near | `first_contact_of` |
 //! | how deep two solids are in each other | `penetration/` |
 //!
-//! Lengths in *common units* are in the unit of the coarser grid (`query/pose/common_units.rs`). The
-//! *surface error* is how far the input may be from the stored surface.
+//! Lengths in *common units* are in the unit of the coarser grid (`query/pose/common_units.rs`).
+//! The *surface error* is how far the input may be from the stored surface.
 //!
 //! | file | what the questions share |
 //! | --- | --- |
@@ -28,12 +29,12 @@
 //! | `leaf_pair` | the triangles of two leaves |
 //! | `separation/` | descent in f32: models within a distance, candidates for the nearest triangles |
 //! | `gaps/` | descent with bounds in f32 and triangles in f64, nearest pair first |
-//! | `from_afar` | two models that are very far from each other |
+//! | `from_afar` | two models very far from each other, or of which no pair was measured |
 //! | `advance` | how far a moving model certainly goes without contact |
 //!
 //! A *direction* has no length of its own: places are compared along it. An *offset* goes from one
-//! place to another at the same time, a *displacement* from a place to where it is later. A *way* is
-//! what a point travels.
+//! place to another at the same time, a *displacement* from a place to where it is later. A *way*
+//! is what a point travels.
 //!
 //! These words say what was not looked at.
 //!

@@ -81,8 +81,10 @@ impl Sweep<'_, '_> {
         let (relative, absolute) = (f64::from(budget.relative), self.frame.length(budget.absolute));
         let margin = self.margin();
         let mut ended = self.ended();
+        // The least bound of the triangles that the search did not look at.
         let mut others = f64::INFINITY;
-        // Twice the motion, for the nearest triangle may go away and another one come nearer.
+        // Twice the safe motion that is wanted, which is `SAFE_STEPS` steps: the nearest triangle
+        // may go away and another one come nearer.
         let mut wider = (2.0 * SAFE_STEPS * self.step).min(margin);
         if self.safe.pause > 0 {
             self.safe.pause -= 1;
@@ -115,9 +117,9 @@ impl Sweep<'_, '_> {
             let candidate = self.front.look(instance)?;
             enqueuer.limit_to(margin);
             if candidate.refinable != Refinable::BySplit {
-                let near = enqueuer.least(&candidate);
-                let lower = if near > enqueuer.nearest.upper() {
-                    near
+                let least = enqueuer.least(&candidate);
+                let lower = if least > enqueuer.nearest.upper() {
+                    least
                 } else {
                     enqueuer.dives = false;
                     enqueuer.nearest.evaluate(&candidate)
@@ -141,8 +143,8 @@ impl Sweep<'_, '_> {
         if let Some(entry) = enqueuer.next.take() {
             self.front.queue.push(entry);
         }
-        let lost = enqueuer.pruned.min(self.pruned).min(self.front.queue.dropped());
-        others = others.min(bound_of(lost, self.moved));
+        let lost_key = enqueuer.pruned.min(self.pruned).min(self.front.queue.dropped());
+        others = others.min(bound_of(lost_key, self.moved));
         if ended == self.ended() {
             self.find_safe_motion(enqueuer.nearest.upper(), others);
         }

@@ -14,10 +14,12 @@ pub(super) struct Enqueuer {
     pub(super) nearest: Nearest,
     /// The bound of the triangle that was replaced. Its children are not nearer.
     pub(super) parent: f32,
+    /// The path of the point so far: `Sweep::moved`.
     pub(super) moved: f64,
     pub(super) pruned: f32,
     /// The nearest of those that were just found, while no triangle of the surface is known.
     pub(super) next: Option<ScratchEntry>,
+    /// The nearest new triangle is opened next, until one of the surface is known.
     pub(super) dives: bool,
 }
 

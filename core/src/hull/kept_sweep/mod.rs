@@ -8,8 +8,8 @@
 //! | `safe_motion` | how far the point may move before another triangle may be the nearest |
 //! | `next_triangle` | one triangle after another |
 //!
-//! Words for triangles. The first two kinds are not in the queue. They lower `lost`, the least bound
-//! of what an answer cannot see.
+//! Words for triangles. The first two kinds are not in the queue. They lower `lost`, the least
+//! bound of what an answer cannot see.
 //!
 //! | word | the triangle |
 //! | --- | --- |
@@ -41,7 +41,7 @@ pub struct Sweep<'a, 'm> {
     p: DVec3,
     /// The motion so far, rounded up.
     moved: f64,
-    /// Triangles that are not in the queue have no lesser key.
+    /// The least key of the pruned triangles.
     pruned: f32,
     /// The nearest triangle of the last answer.
     best: Option<Instance>,
@@ -74,9 +74,9 @@ impl<'a> Hull<'a> {
     /// the next.
     ///
     /// `scratch`: with [`Hull::sweep_entries`] no answer ends for lack of memory. That many are in
-    /// use only where all of the surface is nearly equally far, as at the centre of a sphere. Of
-    /// 20,088 triangles of a scanned part 1,024 waited near the part, and 2,048 at a hundred
-    /// diagonals. With too few entries an answer still holds, ends with [`Ended::Scratch`], and
+    /// use only where all of the surface is nearly equally far, as at the centre of a sphere. On a
+    /// scanned part of 20,088 triangles the queue held 1,024 near the part. At a hundred diagonals
+    /// it held 2,048. With too few entries an answer still holds, ends with [`Ended::Scratch`], and
     /// takes longer than a fresh one. [`Hull::scratch_entries`] are too few to keep a queue.
     ///
     /// ```
@@ -140,6 +140,7 @@ impl Sweep<'_, '_> {
         Ok(())
     }
 
+    /// No triangle is known yet from where the point is now.
     fn nearest_from_here(&self) -> Option<Nearest> {
         Nearest::new(&self.front.model, self.p)
     }
@@ -155,8 +156,8 @@ impl Sweep<'_, '_> {
         })
     }
 
-    /// Forgets everything but the point: the queue is empty and [`QueueHolds::Near`], no path was
-    /// gone, nothing was pruned, no motion is safe.
+    /// Empties the queue, and forgets the path, what was pruned and the safe motion. `best` stays:
+    /// it gives the first limit.
     fn restart(&mut self) {
         self.front.queue.clear();
         self.moved = 0.0;
@@ -165,6 +166,7 @@ impl Sweep<'_, '_> {
         self.holds = QueueHolds::Near;
     }
 
+    /// Triangles farther than the nearest by more than this are pruned.
     fn margin(&self) -> f64 {
         let hull = self.front.model.hull_box();
         SWEEP_KEPT * f64::from((hull.max - hull.min).length())

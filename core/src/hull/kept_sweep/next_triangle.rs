@@ -60,7 +60,7 @@ impl Sweep<'_, '_> {
                 self.front.queue.push(ScratchEntry::new(key, entry.node()));
                 continue;
             }
-            // In f32, as the keys, so that distances rise.
+            // Keys are f32. The answer takes them, so that distances rise.
             alone.raise_to(f64::from(entry.key()));
             alone.lower_to(f64::from(key));
             let work = Work { exact, ..self.front.work };

@@ -11,7 +11,8 @@ pub(super) struct SafeMotion {
     /// The value of `Sweep::moved` up to which this holds. −1: nothing is known.
     pub(super) until: f64,
     pub(super) near: heapless::Vec<Instance, SAFE_TRIANGLES>,
-    /// Answers that do not search for a safe motion, because an earlier search failed.
+    /// This many searches to come go no farther than they must: an earlier one found too many
+    /// triangles.
     pub(super) pause: u8,
 }
 
@@ -24,5 +25,5 @@ impl SafeMotion {
 pub(super) const SAFE_TRIANGLES: usize = 12;
 /// A search goes on until the safe motion is this many of the last step, while the triangles fit.
 pub(super) const SAFE_STEPS: f64 = 4.0;
-/// After a search that found too many triangles, so many answers search no farther than they must.
+/// After a search that found too many triangles, this many searches go no farther than they must.
 pub(super) const SAFE_PAUSE: u8 = 8;

@@ -37,7 +37,8 @@ pub struct Truth<'a> {
 }
 
 impl<'a> Truth<'a> {
-    /// Asks every triangle about `count` queries or one more.
+    /// Asks every triangle about at least `count` queries, fewer than twice as many. If there are
+    /// fewer queries than `count`, about all.
     pub fn new(subject: &Subject, queries: &'a Queries, count: usize) -> Self {
         let brute = Brute::new(subject);
         let stride = (queries.len() / count).max(1);

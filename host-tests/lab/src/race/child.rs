@@ -124,7 +124,7 @@ impl Child {
     /// Sends bytes.
     ///
     /// # Errors
-    /// The child's end.
+    /// The child ended.
     pub fn send(&mut self, bytes: impl Iterator<Item = u8>) -> Result<(), String> {
         let Some(out) = &mut self.questions else { return Ok(()) };
         let bytes: Vec<u8> = bytes.collect();
@@ -135,7 +135,7 @@ impl Child {
     /// Sends a mesh.
     ///
     /// # Errors
-    /// The child's end.
+    /// The child ended.
     pub fn send_mesh(&mut self, mesh: &Mesh) -> Result<(), String> {
         let corners = mesh.positions.as_flattened().iter().flat_map(|x| x.to_ne_bytes());
         let triangles = mesh.triangles.as_flattened().iter().flat_map(|v| v.to_ne_bytes());
@@ -147,7 +147,7 @@ impl Child {
     /// Sends which question is asked about how many items.
     ///
     /// # Errors
-    /// The child's end.
+    /// The child ended.
     pub fn send_question(&mut self, question: u32, count: usize) -> Result<(), String> {
         self.send([question, count as u32].into_iter().flat_map(u32::to_ne_bytes))
     }
@@ -155,7 +155,7 @@ impl Child {
     /// The next bytes.
     ///
     /// # Errors
-    /// The child's end.
+    /// The child ended.
     pub fn receive<const N: usize>(&mut self) -> Result<[u8; N], String> {
         let mut bytes = [0; N];
         let received = self.answers.read_exact(&mut bytes);
@@ -165,7 +165,7 @@ impl Child {
     /// The next number.
     ///
     /// # Errors
-    /// The child's end.
+    /// The child ended.
     pub fn double(&mut self) -> Result<f64, String> {
         self.receive().map(f64::from_ne_bytes)
     }
@@ -173,7 +173,7 @@ impl Child {
     /// The next number.
     ///
     /// # Errors
-    /// The child's end.
+    /// The child ended.
     pub fn float(&mut self) -> Result<f32, String> {
         self.receive().map(f32::from_ne_bytes)
     }
@@ -181,7 +181,7 @@ impl Child {
     /// The next number.
     ///
     /// # Errors
-    /// The child's end.
+    /// The child ended.
     pub fn whole(&mut self) -> Result<u64, String> {
         self.receive().map(u64::from_ne_bytes)
     }

@@ -22,7 +22,7 @@ impl ChildEngine {
     /// Starts the program, and lets it build its index.
     ///
     /// # Errors
-    /// Why there is no program, or the child's end.
+    /// Why there is no program, or the child ended.
     pub fn start<'a>(
         program: &Result<Program, String>,
         subject: &Subject,

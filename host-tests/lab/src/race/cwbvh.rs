@@ -28,7 +28,7 @@ struct Compressed {
     triangles: Vec<Triangle>,
 }
 
-/// On every mesh.
+/// Builds the index of any mesh.
 ///
 /// # Errors
 /// None.

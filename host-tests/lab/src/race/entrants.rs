@@ -4,7 +4,7 @@ use meshsweep_host_tests::workload::Subject;
 
 use super::child_engine::ChildEngine;
 use super::engine::Engine;
-use super::tree::{self, Way};
+use super::tree::{self, Mode};
 use super::{cwbvh, embree, fcpw, parry};
 
 /// A mesh's engine. The blob is for one that reads its index from bytes, which have to outlive it.
@@ -43,37 +43,38 @@ pub const ENTRANTS: [Entrant; 10] = [
     },
     Entrant {
         name: "fcpw",
-        remark: "PyPI's, C++, AVX2: find_closest_points, intersect, has_line_of_sight; bytes unknown",
+        remark: "PyPI's, C++, AVX2: find_closest_points, intersect, has_line_of_sight; \
+                 bytes unknown",
         build: |subject, _| ChildEngine::start(&fcpw::PROGRAM, subject),
     },
     Entrant {
         name: "tree",
         remark: "closest_point, first_hit, any_hit on the box tree, 16-bit grid, AVX2 if there",
-        build: |subject, blob| tree::build(subject, blob, Way::Alone, false),
+        build: |subject, blob| tree::build(subject, blob, Mode::Alone, false),
     },
     Entrant {
         name: "tree compiled",
         remark: "the same without FastBvh: by the instructions that the program is compiled for",
-        build: |subject, blob| tree::build(subject, blob, Way::Compiled, false),
+        build: |subject, blob| tree::build(subject, blob, Mode::Compiled, false),
     },
     Entrant {
         name: "hint",
         remark: "closest_point_from on the same tree, AVX2 if there, along paths",
-        build: |subject, blob| tree::build(subject, blob, Way::Hint, false),
+        build: |subject, blob| tree::build(subject, blob, Mode::Hint, false),
     },
     Entrant {
         name: "coherent",
         remark: "CoherentQuery of 128 entries on the same tree, without FastBvh, along paths",
-        build: |subject, blob| tree::build(subject, blob, Way::Coherent, false),
+        build: |subject, blob| tree::build(subject, blob, Mode::Coherent, false),
     },
     Entrant {
         name: "batch",
         remark: "bvh::closest_points on the same tree, one thread, Morton order included",
-        build: |subject, blob| tree::build(subject, blob, Way::Batch, false),
+        build: |subject, blob| tree::build(subject, blob, Mode::Batch, false),
     },
     Entrant {
         name: "tree single",
         remark: "as tree, with vertices in f32",
-        build: |subject, blob| tree::build(subject, blob, Way::Alone, true),
+        build: |subject, blob| tree::build(subject, blob, Mode::Alone, true),
     },
 ];

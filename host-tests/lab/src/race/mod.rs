@@ -2,7 +2,9 @@
 //!
 //! ```text
 //! workload (which questions) ─┐
-//! entrants (the engines) ─────┼─ timing (interleaved rounds) ─ agreement (with f64, with parry3d) ─ report (tables)
+//! entrants (the engines) ─────┼─ timing (interleaved rounds) ─┐
+//!   ┌───────────────────────────────────────────────────────────┘
+//!   └─ agreement (with f64, with parry3d) ─ report (tables)
 //!   parry, cwbvh, embree, fcpw, tree: one file each ─ engine (their interface)
 //! child (programs in C++ and Python) ─ child_engine (embree, fcpw), pairs, hausdorff
 //! pairs     (distance and overlap of two models)
@@ -10,9 +12,9 @@
 //! ```
 //! A new engine is a file with an `Engine` and a line in `ENTRANTS`.
 //!
-//! Times are the processor's, the fastest of three rounds. Within a round every engine has its turn
-//! at a workload, so that a busy machine hits all alike. Even so only ratios within one run mean
-//! something.
+//! Times are the processor's, the fastest of up to three rounds. Within a round every engine has
+//! its turn at a workload, so that a busy machine hits all alike. Even so only ratios within one
+//! run mean something.
 
 mod agreement;
 mod child;
@@ -46,9 +48,9 @@ pub use workload::Scale;
 pub fn race(file: &Path, scale: Scale) -> Result<[Table; 2], String> {
     let subject = Subject::load_any(file)?;
     let mut blobs: Vec<Vec<u8>> = vec![Vec::new(); entrants::ENTRANTS.len()];
-    let (mut lanes, missing) = timing::lanes(&subject, &mut blobs);
-    let laps = timing::laps(&subject, scale, &mut lanes)?;
-    Ok([report::engines(&subject, &lanes, missing), report::laps(&laps, scale)])
+    let (mut built, missing) = timing::build_engines(&subject, &mut blobs);
+    let measurements = timing::measure(&subject, scale, &mut built)?;
+    Ok([report::engines(&subject, &built, missing), report::measurements(&measurements, scale)])
 }
 
 /// Does work on the only thread of a pool, so that what it gives to rayon takes one processor.

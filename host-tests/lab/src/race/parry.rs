@@ -10,7 +10,7 @@ use crate::measure::rival::Rival;
 
 struct Parry(Rival);
 
-/// On every mesh.
+/// Builds the index of any mesh.
 ///
 /// # Errors
 /// parry3d's refusal.

@@ -4,15 +4,15 @@ use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row, scientific};
 
 use super::entrants::REFERENCE;
-use super::timing::{Lane, Lap};
+use super::timing::{BuiltEngine, Measurement};
 use super::workload::{Scale, Workload};
 
 /// The mesh, and what each engine's index takes.
-pub fn engines(subject: &Subject, lanes: &[Lane<'_>], missing: Vec<String>) -> Table {
+pub fn engines(subject: &Subject, built: &[BuiltEngine<'_>], missing: Vec<String>) -> Table {
     let triangles = subject.mesh.triangles.len();
     let title = format!("== {}: {triangles} triangles, {} ==", subject.name, machine());
     let mut table = Table::new("engines", title, &["engine", "build s", "bytes/triangle", "what"]);
-    for Lane { entrant, engine, build_seconds } in lanes {
+    for BuiltEngine { entrant, engine, build_seconds } in built {
         let bytes = engine.bytes() as f64 / triangles as f64;
         table.push(row![entrant.name, fixed(*build_seconds, 3), fixed(bytes, 1), entrant.remark]);
     }
@@ -21,7 +21,7 @@ pub fn engines(subject: &Subject, lanes: &[Lane<'_>], missing: Vec<String>) -> T
 }
 
 /// Times and agreement.
-pub fn laps(laps: &[Lap], scale: Scale) -> Table {
+pub fn measurements(measurements: &[Measurement], scale: Scale) -> Table {
     let columns = [
         "workload",
         "engine",
@@ -37,29 +37,35 @@ pub fn laps(laps: &[Lap], scale: Scale) -> Table {
         "undecided",
     ];
     let mut table = Table::new("laps", "Nanoseconds a query, one thread", &columns);
-    for lap in laps {
-        let agreement = lap.agreement;
-        let is_any = lap.workload == Workload::AnyHit;
-        let hits = |count: usize| (is_any || lap.workload == Workload::Segments).then_some(count);
+    for run in measurements {
+        let agreement = run.agreement;
+        let is_any = run.workload == Workload::AnyHit;
+        let hits = |count: usize| (is_any || run.workload == Workload::Segments).then_some(count);
         let error = |error: f64| if is_any { Cell::Empty } else { scientific(error) };
         table.push(row![
-            lap.workload.name(),
-            lap.engine,
-            lap.queries,
-            fixed(lap.nanoseconds, 0),
-            fixed(lap.speed, 3),
+            run.workload.name(),
+            run.engine,
+            run.queries,
+            fixed(run.nanoseconds, 0),
+            fixed(run.speed, 3),
             agreement.checked,
             error(agreement.error),
             hits(agreement.wrong_hits),
-            if lap.engine == REFERENCE { Cell::Empty } else { error(agreement.apart) },
-            if lap.engine == REFERENCE { Cell::Empty } else { hits(agreement.other_hits).into() },
+            if run.engine == REFERENCE { Cell::Empty } else { error(agreement.apart) },
+            if run.engine == REFERENCE { Cell::Empty } else { hits(agreement.other_hits).into() },
             hits(agreement.hits),
             is_any.then_some(agreement.undecided),
         ]);
     }
     let side = scale.side;
-    table.note("x parry3d: how many times as fast; error, wrong hits: against every triangle in f64, relative for distances");
-    table.note("off parry3d: largest difference from its answers, distances in diagonals of the mesh; other hits: hit here and miss there");
+    table.note(
+        "x parry3d: how many times as fast; error, wrong hits: against every triangle in f64, \
+         relative for distances",
+    );
+    table.note(
+        "off parry3d: largest difference from its answers, distances in diagonals of the mesh; \
+         other hits: hit here and miss there",
+    );
     table.note("undecided: neither hit nor miss is proved, and neither is compared");
     table.note(
         "far, segments, any hit: box twice the mesh's; near: Gaussian of 1 % of the diagonal; \

@@ -10,7 +10,7 @@ use crate::measure::rival::Rival;
 use crate::measure::stopwatch::{Stopwatch, rounds};
 
 /// An engine with its index built.
-pub struct Lane<'a> {
+pub struct BuiltEngine<'a> {
     pub entrant: &'static Entrant,
     pub engine: Box<dyn Engine + 'a>,
     pub build_seconds: f64,
@@ -18,7 +18,7 @@ pub struct Lane<'a> {
 
 /// One engine on one workload.
 #[derive(Clone, Debug)]
-pub struct Lap {
+pub struct Measurement {
     /// What was asked.
     pub workload: Workload,
     /// The engine that answered.
@@ -35,47 +35,54 @@ pub struct Lap {
 
 /// Builds every index that this machine can have, and says which it cannot have and why. `blobs`
 /// has one place for each entrant.
-pub fn lanes<'a>(subject: &Subject, blobs: &'a mut [Vec<u8>]) -> (Vec<Lane<'a>>, Vec<String>) {
-    let (mut lanes, mut missing) = (Vec::new(), Vec::new());
+pub fn build_engines<'a>(
+    subject: &Subject,
+    blobs: &'a mut [Vec<u8>],
+) -> (Vec<BuiltEngine<'a>>, Vec<String>) {
+    let (mut built, mut missing) = (Vec::new(), Vec::new());
     for (entrant, blob) in ENTRANTS.iter().zip(blobs) {
         let begun = Stopwatch::start();
         match (entrant.build)(subject, blob) {
             Ok(engine) => {
                 let build_seconds = engine.own_build_seconds().unwrap_or(begun.seconds());
-                lanes.push(Lane { entrant, engine, build_seconds });
+                built.push(BuiltEngine { entrant, engine, build_seconds });
             }
             Err(reason) => missing.push(format!("without {}: {reason}", entrant.name)),
         }
     }
-    (lanes, missing)
+    (built, missing)
 }
 
 /// Runs and checks all workloads.
-pub fn laps(subject: &Subject, scale: Scale, lanes: &mut [Lane<'_>]) -> Result<Vec<Lap>, String> {
+pub fn measure(
+    subject: &Subject,
+    scale: Scale,
+    built: &mut [BuiltEngine<'_>],
+) -> Result<Vec<Measurement>, String> {
     let guide = Rival::new(subject)?;
-    let mut laps = Vec::new();
+    let mut measurements = Vec::new();
     for workload in Workload::ALL {
         let queries = workload.queries(subject, &guide, scale);
-        let mut lanes: Vec<_> =
-            lanes.iter_mut().filter(|lane| lane.engine.answers(workload)).collect();
+        let mut built: Vec<_> =
+            built.iter_mut().filter(|one| one.engine.answers(workload)).collect();
         let runs = rounds(
-            &mut lanes,
-            |lane| {
+            &mut built,
+            |one| {
                 let answers = match &queries {
-                    Queries::Points(points) => lane.engine.closest(points),
-                    Queries::Segments(segments, kind) => lane.engine.hits(segments, *kind),
+                    Queries::Points(points) => one.engine.closest(points),
+                    Queries::Segments(segments, kind) => one.engine.hits(segments, *kind),
                 }?;
                 let is_whole = answers.all.len() == queries.len();
                 is_whole.then_some(answers).ok_or_else(|| "queries left unanswered".to_owned())
             },
             |run| run.seconds,
         )?;
-        let runs = || lanes.iter().map(|lane| lane.entrant.name).zip(&runs);
+        let runs = || built.iter().map(|one| one.entrant.name).zip(&runs);
         let (_, reference) = runs()
             .find(|(name, _)| *name == REFERENCE)
             .ok_or_else(|| format!("no {REFERENCE} to compare with"))?;
         let truth = Truth::new(subject, &queries, scale.checked);
-        laps.extend(runs().map(|(engine, run)| Lap {
+        measurements.extend(runs().map(|(engine, run)| Measurement {
             workload,
             engine,
             queries: queries.len(),
@@ -84,5 +91,5 @@ pub fn laps(subject: &Subject, scale: Scale, lanes: &mut [Lane<'_>]) -> Result<V
             agreement: truth.compare(&run.all, &reference.all),
         }));
     }
-    Ok(laps)
+    Ok(measurements)
 }

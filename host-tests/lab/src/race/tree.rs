@@ -17,7 +17,7 @@ use crate::measure::stopwatch::Stopwatch;
 
 /// How a list of queries is asked.
 #[derive(Clone, Copy, PartialEq)]
-pub enum Way {
+pub enum Mode {
     /// Each on its own.
     Alone,
     /// The same with the instructions that the program is compiled for.
@@ -34,7 +34,7 @@ struct Tree<'a> {
     bytes: usize,
     tree: FastBvh<'a>,
     stack: Vec<ScratchEntry>,
-    way: Way,
+    mode: Mode,
 }
 
 /// A tree of a mesh, which may be open.
@@ -44,7 +44,7 @@ struct Tree<'a> {
 pub fn build<'a>(
     subject: &Subject,
     blob: &'a mut Vec<u8>,
-    way: Way,
+    mode: Mode,
     is_f32: bool,
 ) -> Result<Box<dyn Engine + 'a>, String> {
     let input = meshsweep::mesh::Input {
@@ -57,7 +57,7 @@ pub fn build<'a>(
     *blob = tables.to_bytes();
     let tree = FastBvh::new(Bvh::open(blob).map_err(|error| error.to_string())?);
     let stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
-    Ok(Box::new(Tree { bytes: blob.len(), tree, stack, way }))
+    Ok(Box::new(Tree { bytes: blob.len(), tree, stack, mode }))
 }
 
 impl Engine for Tree<'_> {
@@ -67,34 +67,34 @@ impl Engine for Tree<'_> {
 
     fn answers(&self, workload: Workload) -> bool {
         use Workload::{Far, Field, Near, Orbit, Path};
-        match self.way {
-            Way::Alone | Way::Compiled => true,
-            Way::Hint | Way::Coherent => matches!(workload, Path | Orbit),
-            Way::Batch => matches!(workload, Far | Near | Field),
+        match self.mode {
+            Mode::Alone | Mode::Compiled => true,
+            Mode::Hint | Mode::Coherent => matches!(workload, Path | Orbit),
+            Mode::Batch => matches!(workload, Far | Near | Field),
         }
     }
 
     fn closest(&mut self, points: &[[f32; 3]]) -> Result<Answers, String> {
         let Self { tree, stack, .. } = self;
         let (mut hint, mut query) = (Hint::NONE, CoherentQuery::<128>::new());
-        match self.way {
-            Way::Alone => Answers::each(points, |point| {
+        match self.mode {
+            Mode::Alone => Answers::each(points, |point| {
                 black_box(tree.closest_point(point, Budget::EXACT, stack))
                     .map(|found| Answer::Point(found.point))
             }),
-            Way::Compiled => Answers::each(points, |point| {
+            Mode::Compiled => Answers::each(points, |point| {
                 black_box((**tree).closest_point(point, Budget::EXACT, stack))
                     .map(|found| Answer::Point(found.point))
             }),
-            Way::Hint => Answers::each(points, |point| {
+            Mode::Hint => Answers::each(points, |point| {
                 black_box(tree.closest_point_from(point, &mut hint, Budget::EXACT, stack))
                     .map(|found| Answer::Point(found.point))
             }),
-            Way::Coherent => Answers::each(points, |point| {
+            Mode::Coherent => Answers::each(points, |point| {
                 black_box(query.closest_point(tree, point, Budget::EXACT, stack))
                     .map(|found| Answer::Point(found.closest.point))
             }),
-            Way::Batch => on_one_thread(|| {
+            Mode::Batch => on_one_thread(|| {
                 let watch = Stopwatch::start();
                 let found = black_box(closest_points(tree, points, &Budget::EXACT));
                 let seconds = watch.seconds();
@@ -106,8 +106,8 @@ impl Engine for Tree<'_> {
     }
 
     fn hits(&mut self, segments: &[[[f32; 3]; 2]], kind: HitKind) -> Result<Answers, String> {
-        let Self { tree, stack, way, .. } = self;
-        let (is_compiled, facing, budget) = (*way == Way::Compiled, Facing::Both, Budget::EXACT);
+        let Self { tree, stack, mode, .. } = self;
+        let (is_compiled, facing, budget) = (*mode == Mode::Compiled, Facing::Both, Budget::EXACT);
         match kind {
             HitKind::First => Answers::each(segments, |[a, b]| {
                 black_box(if is_compiled {

@@ -8,9 +8,9 @@ use meshsweep_core::{
 };
 
 use super::{Asked, Refused, Subject, tree};
-use crate::clock::Clock;
 use crate::fold::Fold;
 use crate::kind::Kind;
+use crate::observer::Observer;
 use crate::place::{Bounds, Ends, Place};
 
 /// A box tree, asked about its moved copy and about capsules.
@@ -64,15 +64,15 @@ impl<'t> Subject<'t> for Apart<'t> {
     }
 }
 
-/// How far the surface is from its copy, at a pose and after three steps from the first point to
-/// the second; then whether it is within half of that.
+/// How far the surface is from its copy, at a pose and after each of three steps from the first
+/// point to the second; after a fourth, whether it is within half of the last lower end.
 #[inline(never)]
 pub fn coherent(
     Apart(tree): &Apart<'_>,
     start: Pose,
     [from, end]: Ends,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let mut pair = CoherentPair::<80>::new();
     let budget = Budget::EXACT.with_steps(STEPS);
@@ -105,7 +105,7 @@ pub fn penetration(
     Apart(tree): &Apart<'_>,
     pose: Pose,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let (budget, scratch) = to.terms(Budget::EXACT.with_steps(2 * STEPS), scratch);
     to.answer(
@@ -129,7 +129,7 @@ pub fn scene(
     poses: [Pose; 3],
     distance: f32,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let [Ok(first), Ok(second), Ok(third)] = poses.map(|pose| PlacedModel::new(*tree, pose)) else {
         return;
@@ -176,7 +176,7 @@ pub fn winding(
     Apart(tree): &Apart<'_>,
     point: [f32; 3],
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let (budget, scratch) = to.terms(Budget::EXACT, scratch);
     to.answer(
@@ -199,7 +199,7 @@ pub fn distance(
     Apart(tree): &Apart<'_>,
     pose: Pose,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let exact = Budget::EXACT.with_steps(STEPS);
     let (budget, entries) = to.terms(exact, scratch);
@@ -244,7 +244,7 @@ pub fn solid(
     ends: Ends,
     radius: f32,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let (budget, entries) = to.terms(Budget::EXACT, scratch);
     let found = to.answer(
@@ -280,7 +280,7 @@ pub fn contact(
     [from, end]: [Ends; 2],
     radius: f32,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let (budget, entries) = to.terms(Budget::EXACT, scratch);
     let call = || -> Result<FirstHit, QueryError> {

@@ -4,9 +4,9 @@ pub use meshsweep_core::Curve;
 use meshsweep_core::{Budget, CurveClosest, CurveSegment, ScratchEntry};
 
 use super::{Asked, Refused, Subject, how, verdict};
-use crate::clock::Clock;
 use crate::fold::Fold;
 use crate::kind::Kind;
+use crate::observer::Observer;
 use crate::place::{Bounds, Place, Point};
 
 /// Entries of the queue: enough for the suite's blobs, and some to go best first.
@@ -94,7 +94,7 @@ pub fn closest(
     curve: &Curve<'_>,
     p: Point,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) -> Point {
     let call = || curve.closest_point(p, Budget::EXACT, scratch);
     to.answer(call, closest_point).map_or(p, |answer| answer.point)
@@ -107,7 +107,7 @@ pub fn stopped(
     p: Point,
     absolute: f32,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let tolerant = Budget::EXACT.with_relative(0.1).with_absolute(absolute);
     let brief = Budget::EXACT.with_steps(9);
@@ -124,7 +124,7 @@ pub fn is_within(
     p: Point,
     distance: f32,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     to.answer(
         || curve.within(p, distance, Budget::EXACT, scratch),

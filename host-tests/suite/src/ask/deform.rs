@@ -4,9 +4,9 @@ pub use meshsweep_core::DeformableHull;
 use meshsweep_core::{Budget, Decided, MovedHull, MovedVertex, Pose, QueryError, ScratchEntry};
 
 use super::{Asked, Refused, Subject, closest_point};
-use crate::clock::Clock;
 use crate::fold::Fold;
 use crate::kind::Kind;
+use crate::observer::Observer;
 use crate::place::{Bounds, Place, Point};
 
 /// Entries of the queue: enough for the suite's blob.
@@ -45,32 +45,32 @@ impl<'t> Subject<'t> for DeformableHull<'t> {
         self.rest().scratch_entries() <= ENTRIES && self.vertex_records() <= RECORDS
     }
 
-    asks! { Scratch, |self, place, scratch, clock, fold|
+    asks! { Scratch, |self, place, scratch, observer, fold|
         Arith => ();
         Contents => contents(self, fold);
         Frame => {
             let part = place.share().abs();
-            at_frame(self, part, place.far(), scratch, &mut Asked::new(clock, fold));
+            at_frame(self, part, place.far(), scratch, &mut Asked::new(observer, fold));
         };
         Update => {
             let ends = [place.far(), place.far()];
-            moved(self, ends, place.far(), scratch, [Some(clock), None], fold);
+            moved(self, ends, place.far(), scratch, [Some(observer), None], fold);
         };
         Moved => {
             let ends = [place.far(), place.far()];
-            moved(self, ends, place.far(), scratch, [None, Some(clock)], fold);
+            moved(self, ends, place.far(), scratch, [None, Some(observer)], fold);
         };
         FrameOverlap => {
             let part = place.share().abs();
             let (rotation, translation) = place.motion();
             let pose = Pose::rigid(rotation, translation);
-            frame_overlap(self, part, pose, scratch, &mut Asked::new(clock, fold));
+            frame_overlap(self, part, pose, scratch, &mut Asked::new(observer, fold));
         };
         MovedOverlap => {
             let ends = [place.far(), place.far()];
             let (rotation, translation) = place.motion();
             let pose = Pose::rigid(rotation, translation);
-            moved_overlap(self, ends, pose, scratch, clock, fold);
+            moved_overlap(self, ends, pose, scratch, observer, fold);
         };
     }
 }
@@ -104,21 +104,21 @@ pub fn at_frame(
     part: f32,
     p: Point,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let call = || hull.at_frame(part)?.closest_point(p, Budget::EXACT, &mut scratch.queue);
     to.answer(call, closest_point);
 }
 
 /// The closest point after a free motion. The vertices are put on an arc between two ends. The
-/// clocks: of the update, of the question.
+/// observers: of the update, of the question.
 #[inline(never)]
 pub fn moved(
     hull: &DeformableHull<'_>,
     [a, b]: [Point; 2],
     p: Point,
     scratch: &mut Scratch,
-    [update_clock, clock]: [Option<&mut impl Clock>; 2],
+    [update_observer, observer]: [Option<&mut impl Observer>; 2],
     fold: &mut Fold,
 ) {
     let Scratch { queue, records } = scratch;
@@ -127,16 +127,16 @@ pub fn moved(
         Err(error) => return super::refusal(fold, error),
     };
     let mut update = || put_on_arc(&mut moved, [a, b]);
-    let updated = match update_clock {
-        Some(clock) => super::timed(clock, update),
+    let updated = match update_observer {
+        Some(observer) => super::timed(observer, update),
         None => update(),
     };
     if let Err(error) = updated {
         super::refusal(fold, error);
     }
     let call = || moved.closest_point(p, Budget::EXACT, queue);
-    match clock {
-        Some(clock) => Asked::new(clock, fold).answer(call, closest_point),
+    match observer {
+        Some(observer) => Asked::new(observer, fold).answer(call, closest_point),
         None => Asked::new((), fold).answer(call, closest_point),
     };
 }
@@ -167,7 +167,7 @@ pub fn frame_overlap(
     part: f32,
     pose: Pose,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let budget = Budget::EXACT.with_steps(STEPS);
     let call = || hull.at_frame(part)?.overlap(&hull.rest(), pose, budget, &mut scratch.queue);
@@ -181,7 +181,7 @@ pub fn moved_overlap(
     ends: [Point; 2],
     pose: Pose,
     scratch: &mut Scratch,
-    clock: &mut impl Clock,
+    observer: &mut impl Observer,
     fold: &mut Fold,
 ) {
     let Scratch { queue, records } = scratch;
@@ -194,7 +194,7 @@ pub fn moved_overlap(
     }
     let budget = Budget::EXACT.with_steps(STEPS);
     let call = || moved.overlap(&hull.rest(), pose, budget, queue);
-    Asked::new(clock, fold).answer(call, meeting);
+    Asked::new(observer, fold).answer(call, meeting);
 }
 
 fn meeting(fold: &mut Fold, answer: &Decided<[u32; 2]>) {

@@ -6,9 +6,9 @@ use meshsweep_core::{
 };
 
 use super::{Refused, Subject, timed};
-use crate::clock::Clock;
 use crate::fold::Fold;
 use crate::kind::Kind;
+use crate::observer::Observer;
 use crate::place::{Bounds, Place};
 
 /// A blob, and its hull hierarchy.
@@ -63,27 +63,27 @@ impl<'t> Subject<'t> for Model<'t> {
         self.hull.scratch_entries() <= QUEUE
     }
 
-    asks! { Scratch<'t>, |self, place, scratch, clock, fold|
+    asks! { Scratch<'t>, |self, place, scratch, observer, fold|
         Arith => ();
         Contents => contents(self, fold);
         ClosestFar => {
-            closest(self, place.far(), scratch, clock, fold);
+            closest(self, place.far(), scratch, observer, fold);
         };
         ClosestNear => {
             // The base is an answer: a wrong one shows in this block already, so its
             // consequences mislead nobody.
             let base = closest(self, place.far(), scratch, &mut (), fold);
-            closest(self, place.near(base), scratch, clock, fold);
+            closest(self, place.near(base), scratch, observer, fold);
         };
         ClosestPath => {
-            closest(self, place.step(), scratch, clock, fold);
+            closest(self, place.step(), scratch, observer, fold);
         };
-        FirstHit => first_hit(self, place.segment(), scratch, clock, fold);
-        AllHits => all_hits(self, place.segment(), scratch, clock, fold);
-        OuterHits => outer_hits(self, place.segment(), scratch, clock, fold);
+        FirstHit => first_hit(self, place.segment(), scratch, observer, fold);
+        AllHits => all_hits(self, place.segment(), scratch, observer, fold);
+        OuterHits => outer_hits(self, place.segment(), scratch, observer, fold);
         Refine => {
             let (focus, error) = focus(self, place);
-            refine(self, &focus, error, scratch, clock, fold);
+            refine(self, &focus, error, scratch, observer, fold);
         };
     }
 }
@@ -131,10 +131,10 @@ pub fn closest(
     model: &Model<'_>,
     point: [f32; 3],
     scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
+    observer: &mut impl Observer,
     fold: &mut Fold,
 ) -> [f32; 3] {
-    match timed(clock, || model.hull.closest_point(point, Budget::EXACT, &mut scratch.queue)) {
+    match timed(observer, || model.hull.closest_point(point, Budget::EXACT, &mut scratch.queue)) {
         Ok(answer) => {
             super::closest_point(fold, &answer);
             answer.point
@@ -152,10 +152,10 @@ pub fn first_hit(
     model: &Model<'_>,
     [a, b]: [[f32; 3]; 2],
     scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
+    observer: &mut impl Observer,
     fold: &mut Fold,
 ) {
-    match timed(clock, || model.hull.first_hit(a, b, Budget::EXACT, &mut scratch.queue)) {
+    match timed(observer, || model.hull.first_hit(a, b, Budget::EXACT, &mut scratch.queue)) {
         Ok(answer) => super::segment_hit(fold, &answer),
         Err(error) => super::refusal(fold, error),
     }
@@ -167,10 +167,10 @@ pub fn all_hits(
     model: &Model<'_>,
     [a, b]: [[f32; 3]; 2],
     scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
+    observer: &mut impl Observer,
     fold: &mut Fold,
 ) {
-    match timed(clock, || {
+    match timed(observer, || {
         model.hull.all_hits(a, b, &mut scratch.met, Budget::EXACT, &mut scratch.queue)
     }) {
         Ok(answer) => {
@@ -189,11 +189,11 @@ pub fn outer_hits<'t>(
     model: &Model<'t>,
     [a, b]: [[f32; 3]; 2],
     scratch: &mut Scratch<'t>,
-    clock: &mut impl Clock,
+    observer: &mut impl Observer,
     fold: &mut Fold,
 ) {
     let Scratch { queue, hits: found, refined, .. } = scratch;
-    timed(clock, || {
+    timed(observer, || {
         refined.reset();
         for search in [OuterSearch::First, OuterSearch::Outer] {
             match model.hull.outer_hits(a, b, search, refined, found, Budget::EXACT, queue) {
@@ -238,11 +238,11 @@ pub fn refine<'t>(
     focus: &Focus,
     error: f32,
     scratch: &mut Scratch<'t>,
-    clock: &mut impl Clock,
+    observer: &mut impl Observer,
     fold: &mut Fold,
 ) {
     let Scratch { refined, changes, .. } = scratch;
-    match timed(clock, || refined.update(&model.hull, focus, error, changes)) {
+    match timed(observer, || refined.update(&model.hull, focus, error, changes)) {
         Ok(update) => {
             for word in [update.faces, update.performed, update.undone, update.dropped] {
                 fold.word(word);

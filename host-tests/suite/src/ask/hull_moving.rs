@@ -5,9 +5,9 @@ use meshsweep_core::{Budget, ClosestPoint, Pose};
 
 use super::hull::Model;
 use super::{Refused, Subject, timed};
-use crate::clock::Clock;
 use crate::fold::Fold;
 use crate::kind::Kind;
+use crate::observer::Observer;
 use crate::place::{Bounds, Place};
 
 /// A hull hierarchy, asked about points that move and about its moved copy.
@@ -35,21 +35,21 @@ impl<'t> Subject<'t> for Moving<'t> {
         self.0.hull.overlap_entries(&self.0.hull) <= QUEUE
     }
 
-    asks! { Scratch, |self, place, scratch, clock, fold|
+    asks! { Scratch, |self, place, scratch, observer, fold|
         Sweep => {
             let from = place.far();
-            sweep(self, [from, place.near(from), place.far()], scratch, clock, fold);
+            sweep(self, [from, place.near(from), place.far()], scratch, observer, fold);
         };
         Posed => {
             let (rotation, translation) = place.motion();
             let pose = Pose::rigid(rotation, translation);
-            posed(self, pose, place.far(), scratch, clock, fold);
+            posed(self, pose, place.far(), scratch, observer, fold);
         };
         Overlap => {
             let (rotation, translation) = place.motion();
             let [a, b] = place.segment();
             let pose = Pose::rigid(rotation, translation);
-            overlap(self, pose, [a, b, place.far()], scratch, clock, fold);
+            overlap(self, pose, [a, b, place.far()], scratch, observer, fold);
         };
     }
 }
@@ -64,12 +64,12 @@ pub fn overlap(
     pose: Pose,
     triangle: [[f32; 3]; 3],
     scratch: &mut Scratch,
-    clock: &mut impl Clock,
+    observer: &mut impl Observer,
     fold: &mut Fold,
 ) {
     let queue = scratch;
     let budget = Budget::EXACT.with_steps(STEPS);
-    timed(clock, || {
+    timed(observer, || {
         match model.hull.overlap(&model.hull, pose, budget, queue) {
             Ok(answer) => {
                 let triangles = answer.witness.unwrap_or([u32::MAX; 2]);
@@ -95,12 +95,12 @@ pub fn sweep(
     Moving(model): &Moving<'_>,
     points: [[f32; 3]; 3],
     scratch: &mut Scratch,
-    clock: &mut impl Clock,
+    observer: &mut impl Observer,
     fold: &mut Fold,
 ) {
     let queue = scratch;
     let mut found = [ClosestPoint::EMPTY; 9];
-    let asked = timed(clock, || {
+    let asked = timed(observer, || {
         let mut slots = found.iter_mut();
         let mut keep = |answer| slots.next().map(|slot| *slot = answer);
         let mut sweep = model.hull.sweep(points[0], queue)?;
@@ -128,10 +128,10 @@ pub fn posed(
     pose: Pose,
     point: [f32; 3],
     scratch: &mut Scratch,
-    clock: &mut impl Clock,
+    observer: &mut impl Observer,
     fold: &mut Fold,
 ) {
-    let asked = timed(clock, || {
+    let asked = timed(observer, || {
         let here = pose.to_model(point)?;
         let near = model.hull.closest_point(here.point, Budget::EXACT, scratch)?;
         Ok((here.distance(near.distance), pose.to_world(near.point)))

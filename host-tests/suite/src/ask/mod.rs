@@ -7,17 +7,18 @@
 //! functions, and they may not bring a panic of their own.
 
 /// The questions of a subject, one a row: the kind, and how it is asked. Host and boards run them,
-/// the proof image links them, and fuzzers ask them of any bytes.
+/// the proof image links them, and fuzzers ask them of any bytes. With `to` the answer goes through
+/// [`Asked`]; with `observer, fold` the row makes its own.
 macro_rules! asks {
     ($scratch:ty, |$model:ident, $place:ident, $memory:ident, $to:ident| $($rows:tt)*) => {
-        asks! { @rows $scratch, $model, $place, $memory, clock, fold,
-            { let $to = &mut Asked::new(clock, fold); } $($rows)* }
+        asks! { @rows $scratch, $model, $place, $memory, observer, fold,
+            { let $to = &mut Asked::new(observer, fold); } $($rows)* }
     };
-    ($scratch:ty, |$model:ident, $place:ident, $memory:ident, $clock:ident, $fold:ident|
+    ($scratch:ty, |$model:ident, $place:ident, $memory:ident, $observer:ident, $fold:ident|
         $($rows:tt)*) => {
-        asks! { @rows $scratch, $model, $place, $memory, $clock, $fold, {} $($rows)* }
+        asks! { @rows $scratch, $model, $place, $memory, $observer, $fold, {} $($rows)* }
     };
-    (@rows $scratch:ty, $model:ident, $place:ident, $memory:ident, $clock:ident, $fold:ident,
+    (@rows $scratch:ty, $model:ident, $place:ident, $memory:ident, $observer:ident, $fold:ident,
         { $($first:stmt;)? } $($kind:ident => $ask:expr;)*) => {
         fn suits(kind: Kind) -> bool {
             matches!(kind, $(Kind::$kind)|*)
@@ -28,7 +29,7 @@ macro_rules! asks {
             kind: Kind,
             $place: &mut impl Place,
             $memory: &mut $scratch,
-            $clock: &mut impl Clock,
+            $observer: &mut impl Observer,
             $fold: &mut Fold,
         ) {
             $($first)?
@@ -74,9 +75,9 @@ use meshsweep_core::{
 };
 use worked::Worked;
 
-use crate::clock::Clock;
 use crate::fold::Fold;
 use crate::kind::Kind;
+use crate::observer::Observer;
 use crate::place::{Bounds, Place};
 
 /// The structure of a blob that answers. It is a trait and not an enum, so that an image links only
@@ -117,7 +118,7 @@ pub trait Subject<'t>: Sized {
         kind: Kind,
         place: &mut impl Place,
         scratch: &mut Self::Scratch,
-        clock: &mut impl Clock,
+        observer: &mut impl Observer,
         fold: &mut Fold,
     );
 }
@@ -151,23 +152,23 @@ impl Refused {
     }
 }
 
-/// One query: the clock that is told of the core's work, and the fold that takes the answer.
+/// One query: the observer of the core's work, and the fold that takes the answer.
 #[derive(Debug)]
 pub struct Asked<'f, C> {
-    clock: C,
+    observer: C,
     fold: &'f mut Fold,
 }
 
-impl<'f, C: Clock> Asked<'f, C> {
-    /// Nothing asked yet; `()` is no clock.
-    pub const fn new(clock: C, fold: &'f mut Fold) -> Self {
-        Self { clock, fold }
+impl<'f, C: Observer> Asked<'f, C> {
+    /// Nothing asked yet; `()` observes nothing.
+    pub const fn new(observer: C, fold: &'f mut Fold) -> Self {
+        Self { observer, fold }
     }
 
-    /// Calls the core between the clock's two readings.
+    /// Calls the core between the observer's two calls.
     #[inline(always)]
     fn timed<T>(&mut self, call: impl FnOnce() -> T) -> T {
-        timed(&mut self.clock, call)
+        timed(&mut self.observer, call)
     }
 
     /// The budget and the scratch of the next call, from those of the suite.
@@ -177,7 +178,7 @@ impl<'f, C: Clock> Asked<'f, C> {
         budget: Budget,
         scratch: &'s mut [ScratchEntry],
     ) -> (Budget, &'s mut [ScratchEntry]) {
-        self.clock.terms(budget, scratch)
+        self.observer.terms(budget, scratch)
     }
 
     /// Calls the core, and folds its answer by `told`, or its refusal.
@@ -188,7 +189,7 @@ impl<'f, C: Clock> Asked<'f, C> {
         told: impl FnOnce(&mut Fold, &T),
     ) -> Option<T> {
         let answer = self.timed(call);
-        self.clock.answered(answer.as_ref().map(Worked::work).map_err(|error| *error));
+        self.observer.answered(answer.as_ref().map(Worked::work).map_err(|error| *error));
         match &answer {
             Ok(answer) => told(self.fold, answer),
             Err(error) => refusal(self.fold, *error),
@@ -197,12 +198,12 @@ impl<'f, C: Clock> Asked<'f, C> {
     }
 }
 
-/// Calls the core between the clock's two readings.
+/// Calls the core between the observer's two calls.
 #[inline(always)]
-fn timed<T>(clock: &mut impl Clock, call: impl FnOnce() -> T) -> T {
-    clock.query_begins();
+fn timed<T>(observer: &mut impl Observer, call: impl FnOnce() -> T) -> T {
+    observer.query_begins();
     let answer = call();
-    clock.query_ends();
+    observer.query_ends();
     answer
 }
 

@@ -11,8 +11,8 @@ use meshsweep_core::{
 };
 
 use super::{Refused, timed};
-use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::observer::Observer;
 
 /// The question at each place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -215,14 +215,14 @@ pub fn ask<'t>(
     placed: &Placed<'t>,
     queries: usize,
     memory: &mut Memory<'t>,
-    clock: &mut impl Clock,
+    observer: &mut impl Observer,
     mut told: impl FnMut(&Answer),
 ) -> Result<usize, Refused> {
     let blob = Blob::open(placed.blob).map_err(Refused::of)?;
     let other = || Blob::open(placed.other).map_err(Refused::of);
     let places = placed.places.iter().take(queries).map(place);
     let poses = placed.places.as_chunks::<4>().0.iter().take(queries).map(pose);
-    let asking = Asking { places, clock, told: &mut told };
+    let asking = Asking { places, observer, told: &mut told };
     match placed.question {
         Question::PairOfTrees(distance) => {
             let (first, second, exact) = (tree(&blob)?, tree(&other()?)?, Budget::EXACT);
@@ -292,21 +292,21 @@ pub fn ask<'t>(
 /// Where a question is asked, and who is told of the core's work and of the answers.
 struct Asking<'a, P, C, T> {
     places: P,
-    clock: &'a mut C,
+    observer: &'a mut C,
     told: &'a mut T,
 }
 
 impl<'a, P, C, T> Asking<'a, P, C, T> {
     /// The same at other places.
     fn at<Q>(self, places: Q) -> Asking<'a, Q, C, T> {
-        Asking { places, clock: self.clock, told: self.told }
+        Asking { places, observer: self.observer, told: self.told }
     }
 }
 
 impl<P, C, T> Asking<'_, P, C, T>
 where
     P: Iterator,
-    C: Clock,
+    C: Observer,
     T: FnMut(&Answer),
 {
     #[inline(always)]
@@ -316,7 +316,7 @@ where
         answer: impl Fn(A) -> Answer,
     ) {
         for place in self.places {
-            let found = timed(self.clock, || ask(place));
+            let found = timed(self.observer, || ask(place));
             (self.told)(&found.map_or_else(Answer::Refused, &answer));
         }
     }
@@ -340,7 +340,7 @@ const fn bytes(entries: usize) -> usize {
 fn by_entries<P, A>(
     entries: &mut [ScratchEntry],
     wanted: usize,
-    asking: Asking<'_, impl Iterator<Item = P>, impl Clock, impl FnMut(&Answer)>,
+    asking: Asking<'_, impl Iterator<Item = P>, impl Observer, impl FnMut(&Answer)>,
     mut ask: impl FnMut(P, &mut [ScratchEntry]) -> Result<A, QueryError>,
     answer: impl Fn(A) -> Answer,
 ) -> Result<usize, Refused> {
@@ -354,7 +354,7 @@ fn kept_sweep(
     hull: &Hull<'_>,
     budget: Budget,
     memory: &mut Memory<'_>,
-    asking: Asking<'_, impl Iterator<Item = [f32; 3]> + Clone, impl Clock, impl FnMut(&Answer)>,
+    asking: Asking<'_, impl Iterator<Item = [f32; 3]> + Clone, impl Observer, impl FnMut(&Answer)>,
 ) -> Result<usize, Refused> {
     let begin = asking.places.clone().next().unwrap_or_default();
     let mut sweep = hull.sweep(begin, &mut memory.entries).map_err(|_| Refused::MEMORY)?;
@@ -371,7 +371,7 @@ fn refine<'t>(
     hull: &Hull<'t>,
     (radius, error): (f32, f32),
     memory: &mut Memory<'t>,
-    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Clock, impl FnMut(&Answer)>,
+    asking: Asking<'_, impl Iterator<Item = [f32; 3]>, impl Observer, impl FnMut(&Answer)>,
 ) -> Result<usize, Refused> {
     let Memory { refined, changes, .. } = memory;
     let ask = |centre| refined.update(hull, &Focus::Ball { centre, radius }, error, changes);

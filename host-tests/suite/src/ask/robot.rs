@@ -12,8 +12,8 @@ use meshsweep_core::{
 };
 
 use super::{Refused, refusal, timed, tree};
-use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::observer::Observer;
 
 /// Seven links, a table and a machine.
 pub const MODELS: usize = 9;
@@ -282,7 +282,7 @@ pub fn told(fold: &mut Fold, verdict: &Result<Verdict, QueryError>) {
 pub fn ticks(
     laid: &Laid<'_>,
     memory: &mut Memory,
-    clock: &mut impl Clock,
+    observer: &mut impl Observer,
     mut told: impl FnMut(&Result<Verdict, QueryError>),
 ) -> usize {
     let Ok(mut guard) = guard(&laid.trees) else { return 0 };
@@ -293,7 +293,7 @@ pub fn ticks(
             let still = row.poses.iter().enumerate().skip(MOVING);
             still.for_each(|(model, pose)| _ = guard.move_to(model, *pose));
         }
-        let verdict = timed(clock, || tick(&mut guard, &row.poses, &mut memory.scratch));
+        let verdict = timed(observer, || tick(&mut guard, &row.poses, &mut memory.scratch));
         told(&verdict);
     }
     size_of::<Guard<'_>>().saturating_add(size_of::<Memory>())
@@ -328,7 +328,7 @@ fn tick(
 pub fn pairs(
     laid: &Laid<'_>,
     memory: &mut Memory,
-    clock: &mut impl Clock,
+    observer: &mut impl Observer,
     mut told: impl FnMut(&Answer),
 ) -> usize {
     let scratch = &mut memory.scratch;
@@ -336,9 +336,9 @@ pub fn pairs(
         let [a, b] = pair.models.map(|model| laid.trees.get(model));
         let (Some(a), Some(b)) = (a, b) else { continue };
         told(&match pair.question {
-            Question::Within => timed(clock, || within(a, b, &pair, scratch))
+            Question::Within => timed(observer, || within(a, b, &pair, scratch))
                 .map_or_else(Answer::Refused, Answer::Within),
-            Question::Distance => timed(clock, || distance(a, b, &pair, scratch))
+            Question::Distance => timed(observer, || distance(a, b, &pair, scratch))
                 .map_or_else(Answer::Refused, Answer::Distance),
         });
     }

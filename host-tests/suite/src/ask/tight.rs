@@ -4,9 +4,9 @@ pub use meshsweep_core::TightHull;
 use meshsweep_core::{Budget, ScratchEntry, TightHulls, Verdict};
 
 use super::{Asked, Refused, Subject, closest_point, tree, verdict};
-use crate::clock::Clock;
 use crate::fold::Fold;
 use crate::kind::Kind;
+use crate::observer::Observer;
 use crate::place::{Bounds, Place, Point};
 
 /// Entries of the stack.
@@ -102,7 +102,7 @@ pub fn closest(
     hulls: &Hulls<'_>,
     p: Point,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) -> Point {
     let call = || hulls.finest.closest_point(p, Budget::EXACT, scratch);
     to.answer(call, closest_point).map_or(p, |answer| answer.point)
@@ -116,7 +116,7 @@ pub fn stopped(
     p: Point,
     distance: f32,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let coarsest = hulls.all.get(0).unwrap_or(hulls.finest);
     let tolerant = Budget::EXACT.with_absolute(distance);
@@ -138,7 +138,7 @@ pub fn is_within(
     p: Point,
     distance: f32,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     to.answer(
         || hulls.finest.within(p, distance, Budget::EXACT, scratch),

@@ -9,9 +9,9 @@ use meshsweep_core::TriangleHit;
 use meshsweep_core::{Blob, CoherentQuery, Hint, Neighbor, ScratchEntry, TrianglePair};
 
 use super::{Asked, Refused, Subject};
-use crate::clock::Clock;
 use crate::fold::Fold;
 use crate::kind::Kind;
+use crate::observer::Observer;
 use crate::place::{Bounds, Place};
 
 pub use distance::{

@@ -5,9 +5,9 @@ use meshsweep_core::internal::tribox::FACES;
 use meshsweep_core::{Boundary, Pose, TriboxError};
 
 use super::timed;
-use crate::clock::Clock;
 use crate::fold::Fold;
 use crate::kind::Kind;
+use crate::observer::Observer;
 use crate::place::Place;
 
 /// Points of a tribox.
@@ -16,13 +16,13 @@ pub type Points = [[f32; 3]; 8];
 /// Asks one question of a kind about triboxes; nothing of any other kind. A call, so that the other
 /// questions' stacks do not hold its boundaries.
 #[inline(never)]
-pub fn ask(kind: Kind, place: &mut impl Place, clock: &mut impl Clock, fold: &mut Fold) {
+pub fn ask(kind: Kind, place: &mut impl Place, observer: &mut impl Observer, fold: &mut Fold) {
     let points = [[0.0; 3]; 8].map(|_: [f32; 3]| place.far());
     match kind {
         Kind::TriboxBounds => {
-            bounds(&points, clock, fold);
+            bounds(&points, observer, fold);
         }
-        Kind::TriboxFaces => faces(&bounds(&points, &mut (), fold), clock, fold),
+        Kind::TriboxFaces => faces(&bounds(&points, &mut (), fold), observer, fold),
         Kind::TriboxOverlap | Kind::BoxOverlap => {
             // Smaller, so that some overlap and some do not.
             let [a, b, .., c, d] = points;
@@ -30,14 +30,14 @@ pub fn ask(kind: Kind, place: &mut impl Place, clock: &mut impl Clock, fold: &mu
             let (near, far) = ([a, c], [b, d]);
             let pair = if place.word() & 1 == 0 { (first, second) } else { (near, far) };
             if kind == Kind::BoxOverlap {
-                box_overlap(&pair, clock, fold);
+                box_overlap(&pair, observer, fold);
             } else {
-                overlap(&pair, clock, fold);
+                overlap(&pair, observer, fold);
             }
         }
         Kind::TriboxRest => {
             let snap = place.word() & 0xFF == 0;
-            rest(&points, place.distance(), snap, clock, fold);
+            rest(&points, place.distance(), snap, observer, fold);
         }
         _ => {}
     }
@@ -60,8 +60,8 @@ fn known(tribox: Result<Tribox, TriboxError>, fold: &mut Fold) -> Tribox {
 
 /// The tribox of eight points.
 #[inline(never)]
-pub fn bounds(points: &Points, clock: &mut impl Clock, fold: &mut Fold) -> Tribox {
-    let tribox = timed(clock, || Tribox::of_points(points.iter().copied()));
+pub fn bounds(points: &Points, observer: &mut impl Observer, fold: &mut Fold) -> Tribox {
+    let tribox = timed(observer, || Tribox::of_points(points.iter().copied()));
     let tribox = known(tribox, fold);
     parameters(&tribox, fold);
     tribox
@@ -69,9 +69,9 @@ pub fn bounds(points: &Points, clock: &mut impl Clock, fold: &mut Fold) -> Tribo
 
 /// Its boundary.
 #[inline(never)]
-pub fn faces(tribox: &Tribox, clock: &mut impl Clock, fold: &mut Fold) {
+pub fn faces(tribox: &Tribox, observer: &mut impl Observer, fold: &mut Fold) {
     let mut boundary = Boundary::EMPTY;
-    timed(clock, || boundary.compute(&tribox.low, &tribox.high));
+    timed(observer, || boundary.compute(&tribox.low, &tribox.high));
     boundary.vertices.iter().for_each(|vertex| fold.point(*vertex));
     (0..FACES).for_each(|face| boundary.face(face).iter().for_each(|&vertex| fold.byte(vertex)));
     let cleaned = boundary.cleaned();
@@ -80,16 +80,20 @@ pub fn faces(tribox: &Tribox, clock: &mut impl Clock, fold: &mut Fold) {
 
 /// Whether the triboxes of two pairs of points overlap.
 #[inline(never)]
-pub fn overlap((a, b): &([[f32; 3]; 2], [[f32; 3]; 2]), clock: &mut impl Clock, fold: &mut Fold) {
+pub fn overlap(
+    (a, b): &([[f32; 3]; 2], [[f32; 3]; 2]),
+    observer: &mut impl Observer,
+    fold: &mut Fold,
+) {
     let (a, b) = (of(a, fold), of(b, fold));
-    fold.word(u32::from(timed(clock, || a.overlaps(&b))));
+    fold.word(u32::from(timed(observer, || a.overlaps(&b))));
 }
 
 /// The same of boxes: what the test above is compared with.
 #[inline(never)]
 pub fn box_overlap(
     ([a, b], [c, d]): &([[f32; 3]; 2], [[f32; 3]; 2]),
-    clock: &mut impl Clock,
+    observer: &mut impl Observer,
     fold: &mut Fold,
 ) {
     let bounds = |a: &[f32; 3], b: &[f32; 3]| {
@@ -101,7 +105,7 @@ pub fn box_overlap(
         (low, high)
     };
     let (first, second) = (bounds(a, b), bounds(c, d));
-    let apart = timed(clock, || {
+    let apart = timed(observer, || {
         let slabs = first.0.iter().zip(&first.1).zip(second.0.iter().zip(&second.1));
         slabs.into_iter().any(|((low, high), (other_low, other_high))| {
             !((low <= other_high) & (other_low <= high))
@@ -112,10 +116,16 @@ pub fn box_overlap(
 
 /// Everything else.
 #[inline(never)]
-pub fn rest(points: &Points, distance: f32, snap: bool, clock: &mut impl Clock, fold: &mut Fold) {
+pub fn rest(
+    points: &Points,
+    distance: f32,
+    snap: bool,
+    observer: &mut impl Observer,
+    fold: &mut Fold,
+) {
     let [a, b, c, d, e, f, g, h] = *points;
     let (first, second) = (of(&[a, b, c], fold), of(&[d, e, f], fold));
-    let both = timed(clock, || first.intersection(&second).tightened());
+    let both = timed(observer, || first.intersection(&second).tightened());
     parameters(&both, fold);
     parameters(&known(first.padded(distance), fold), fold);
     parameters(&known(first.translated(g), fold), fold);

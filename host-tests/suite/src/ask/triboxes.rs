@@ -5,9 +5,9 @@ use meshsweep_core::{Budget, NodePair, Pose, ScratchEntry, TriboxBound};
 
 use super::tree::pose;
 use super::{Asked, Refused, Subject, how, number};
-use crate::clock::Clock;
 use crate::fold::Fold;
 use crate::kind::Kind;
+use crate::observer::Observer;
 use crate::place::{Bounds, Ends, Place, Point};
 
 /// Entries of the stack of pairs: more than twice most splits above a node of the suite's blobs.
@@ -106,7 +106,7 @@ fn pairs(fold: &mut Fold, pairs: &[NodePair]) {
 
 /// Whether the model is apart from a copy of it that was moved.
 #[inline(never)]
-pub fn reject(all: &Triboxes<'_>, pose: Pose, s: &mut Scratch, to: &mut Asked<'_, impl Clock>) {
+pub fn reject(all: &Triboxes<'_>, pose: Pose, s: &mut Scratch, to: &mut Asked<'_, impl Observer>) {
     to.answer(
         || all.separation(all, pose, Budget::EXACT, &mut s.stack),
         |fold, answer| {
@@ -123,7 +123,7 @@ pub fn within(
     pose: Pose,
     distance: f32,
     s: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     to.answer(
         || all.within_of(all, pose, distance, Budget::EXACT, &mut s.stack),
@@ -140,7 +140,7 @@ pub fn candidates(
     all: &Triboxes<'_>,
     pose: Pose,
     scratch: &mut Scratch,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let Scratch { stack, found } = scratch;
     let call = || all.candidates(all, pose, found, Budget::EXACT, stack);
@@ -159,12 +159,12 @@ pub(super) fn bound(fold: &mut Fold, answer: &TriboxBound) {
 
 /// A lower bound of a distance.
 #[inline(never)]
-pub fn nearest(all: &Triboxes<'_>, p: Point, s: &mut Scratch, to: &mut Asked<'_, impl Clock>) {
+pub fn nearest(all: &Triboxes<'_>, p: Point, s: &mut Scratch, to: &mut Asked<'_, impl Observer>) {
     to.answer(|| all.distance(p, Budget::EXACT, &mut s.stack), bound);
 }
 
 /// Where a segment first enters.
 #[inline(never)]
-pub fn first(all: &Triboxes<'_>, [a, b]: Ends, s: &mut Scratch, to: &mut Asked<'_, impl Clock>) {
+pub fn first(all: &Triboxes<'_>, [a, b]: Ends, s: &mut Scratch, to: &mut Asked<'_, impl Observer>) {
     to.answer(|| all.clip(a, b, Budget::EXACT, &mut s.stack), bound);
 }

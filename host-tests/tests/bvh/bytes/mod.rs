@@ -78,7 +78,7 @@ fn ask_everything(tree: &Bvh<'_>, some: bool) {
     asker.path(&mut CoherentQuery::<16>::new(), tree, path, &Budget::EXACT);
     let turned = [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]];
     for translation in POINTS.into_iter().take(if some { 2 } else { 5 }) {
-        asker.overlap(tree, tree, &Pose::rigid(turned, translation), 60);
+        asker.two_models(tree, tree, &Pose::rigid(turned, translation), 60);
     }
     Asker::new(1, 1).point(tree, POINTS[0], 0.5, &Budget::EXACT);
 }

@@ -75,7 +75,7 @@ impl<'a> IntPairDirection<'a> {
         })
     }
 
-    /// From now on pairs at least so far apart are wanted, common units.
+    /// From now on pairs at least this far apart count as beyond, common units.
     pub(crate) fn set_far(&mut self, far: f64) {
         self.least_sum = self.shift - far * self.length;
     }

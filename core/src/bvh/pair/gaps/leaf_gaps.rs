@@ -1,8 +1,8 @@
 //! The distances of the triangles of two leaves.
 //!
 //! Pairs that are apart along the direction of the last measured pair are dropped. Boxes bound the
-//! others in f32, and the nearest bound is measured in f64. The offset between its points is the
-//! next direction: most often no pair is left.
+//! others in f32, and the pair with the least bound is measured in f64. The offset between its
+//! points is the next direction: most often no pair is left.
 
 use super::int_pair_direction::IntPairDirection;
 use super::pair_keys::{NO_PAIR, PairKeys, distance_of, indices_of, key_limit, key_of, pair_bit};
@@ -23,7 +23,7 @@ use glam::Vec3;
 /// What a visit of two leaves showed.
 pub(crate) struct GapVisit {
     pub(crate) goes_on: bool,
-    /// A lower bound of the distance of both leaves, common units. 0 if nothing is kept.
+    /// A lower bound of the distance of both leaves, common units. 0 unless `keeps`.
     pub(crate) lower: f64,
     /// A bit for each pair of triangles that was measured or proved far.
     pub(crate) pairs: u64,
@@ -46,9 +46,9 @@ pub(crate) struct LeafGaps<'a> {
     pub(crate) pose: &'a VertexPose,
     /// The greater of both surface errors, common units.
     pub(crate) surface_error: f64,
-    /// Direction between the points of the last measured pair that was not in contact. Its largest
-    /// component is 1. Zero before the first such pair. `visit` skips pairs that are far apart
-    /// along it.
+    /// Direction between the points of the last measured pair that was not in contact. The size of
+    /// its largest component is 1. Zero before the first such pair. `visit` skips pairs that are
+    /// far apart along it.
     pub(crate) direction: [f32; 3],
     /// From point to point of the last measured pair. Zero if the pair is in contact.
     pub(crate) offset: [f64; 3],
@@ -74,7 +74,7 @@ impl<'a> LeafGaps<'a> {
 
     /// Visits the pairs of triangles of two leaves that may be within the limit. `settled`:
     /// skips these pairs, and ends after one that was measured. `keeps`: also finds a lower bound
-    /// of the distance of both leaves.
+    /// of the distance of both leaves. `keeps` only without `settled`.
     #[inline(never)]
     pub(crate) fn visit(
         &mut self,
@@ -132,8 +132,8 @@ impl<'a> LeafGaps<'a> {
                 };
                 last_between.is_beyond(settled.far, leaves, place) == Some(true)
             };
-            // Neighbours often face the same triangle. Then the direction of the pair before proves
-            // this one.
+            // Neighbours often face the same triangle. Then the direction of the last pair proves
+            // this pair far.
             let mut is_far = is_beyond(&last_between);
             let mut between = Vec3::ZERO;
             if !is_far {
@@ -185,7 +185,8 @@ impl<'a> LeafGaps<'a> {
         let mut meets = false;
         if lower <= 0.0 {
             // With the surface error the proof is about the input. Without it the proof is about
-            // the stored surfaces: the upper end is then their surface errors.
+            // the stored surfaces. The upper end is 0 here; `StoredLengths` adds the surface
+            // errors.
             meets = meet(&a, &b, rounding + self.surface_error);
             if meets || meet(&a, &b, rounding) {
                 upper = 0.0;
@@ -221,8 +222,8 @@ impl<'a> LeafGaps<'a> {
     }
 }
 
-/// An edge that is no steeper counts as level, and its corners are guessed to be the nearest ones:
-/// squares of the slopes, for the first guess and the second. No proof rests on them.
+/// Squares of slopes, for the first guess and the second. A corner counts as nearest if its edge to
+/// the highest corner is no steeper. No proof rests on them.
 const SLOPES_SQ: [f32; 2] = [1e-4, 1e-9];
 
 /// How far the corners of a triangle are below the highest one along a direction.

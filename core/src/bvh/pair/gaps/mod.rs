@@ -1,4 +1,4 @@
-//! The search of the nearest pair of triangles of two models.
+//! The search for the nearest pair of triangles of two models.
 //!
 //! | file | owns |
 //! | --- | --- |

@@ -13,7 +13,7 @@ use crate::num::tolerance::{INT_GAP, INT_PART};
 use crate::num::{greater, lesser};
 use crate::query::Work;
 
-/// Pairs of leaves beside the nearest triangles so far.
+/// The search among the candidates of f32, with the direction and limit so far.
 pub(crate) struct NearestAlong<'a> {
     leaves: LeafGaps<'a>,
     /// The direction between the points measured last.
@@ -34,6 +34,7 @@ impl<'a> NearestAlong<'a> {
         Some(along)
     }
 
+    /// The limit less what `INT_GAP` and `INT_PART` give up.
     fn lower_of(&self, question: &PairQuestion<'_>) -> f64 {
         let pose = self.leaves.pose;
         let ([unit, _], limit) = (pose.units, question.limit());
@@ -48,7 +49,7 @@ impl<'a> NearestAlong<'a> {
     }
 
     /// Tells the question of the pairs that were not measured.
-    pub(crate) fn report_skipped(
+    pub(crate) fn report_beyond(
         &mut self,
         places: [TriangleAt; 2],
         question: &mut PairQuestion<'_>,
@@ -74,6 +75,7 @@ impl<'a> NearestAlong<'a> {
         let triangles = leaves.map(|leaf| leaf.shape().triangles());
         let pairs = triangles[0].saturating_mul(triangles[1]);
         work.triangles = work.triangles.saturating_add(pairs as u32);
+        // Pairs that do not exist count as settled.
         let mut settled = !pairs_of(triangles);
         if measured.map(|at| at.with_lane(0)) == places.map(|at| at.with_lane(0)) {
             settled |= 1u64 << ((measured[0].lane() * WIDTH + measured[1].lane()) & (PAIRS - 1));
@@ -85,12 +87,12 @@ impl<'a> NearestAlong<'a> {
             if settled == u64::MAX {
                 return Some(true);
             }
-            self.report_skipped(places, question);
+            self.report_beyond(places, question);
             let some = Some(SettledPairs { pairs: settled, far: self.far() });
             let visit = self.leaves.visit(leaves, places, some, question, false, work)?;
             if visit.has_beyond {
                 self.has_beyond = true;
-                self.report_skipped(places, question);
+                self.report_beyond(places, question);
             }
             if !visit.goes_on || visit.pairs == 0 {
                 return Some(visit.goes_on);

@@ -1,12 +1,13 @@
 //! The descent of two trees at once, nearest pair first.
 //!
-//! The nearest pair of children is followed at once. The others of the two nodes wait together, as
-//! 64 bits with the least of their keys. Their keys are computed again when their turn comes, so a
-//! pair of nodes that waits takes three scratch entries however many children wait.
+//! The nearest pair of children, or of boxes that meet the deepest, is followed at once. The others
+//! of the two nodes wait together, as 64 bits with the least of their keys. Their keys are computed
+//! again when their turn comes, so a pair of nodes that waits takes three scratch entries however
+//! many children wait.
 
 use super::leaf_gaps::{GapVisit, LeafGaps};
 use super::pair_keys::{
-    NO_PAIR, PairKeys, bound_of, distance_of, indices_of, key_limit, pair_bit, second_factor,
+    NO_PAIR, PairKeys, bound_sq_of, distance_of, indices_of, key_limit, pair_bit, second_factor,
 };
 use super::question::PairQuestion;
 use super::skipped::{ChildPairs, SkippedPairs};
@@ -73,7 +74,7 @@ impl PendingPairs {
     }
 
     #[inline(always)]
-    fn leave_to(self, skipped: &mut Option<&mut SkippedPairs<'_>>) {
+    fn skip_to(self, skipped: &mut Option<&mut SkippedPairs<'_>>) {
         if let Some(skipped) = skipped
             && self.pairs.wanted != 0
         {
@@ -126,8 +127,8 @@ impl<'s, 'a> Search<'s, 'a> {
             if work.opened >= steps {
                 let waiting = stack.iter().take(used).map(|entries| PendingPairs::of(entries).key);
                 let key = waiting.fold(now.key.min(dropped), u32::min);
-                now.leave_to(&mut skipped);
-                leave_all(stack, used, &mut skipped);
+                now.skip_to(&mut skipped);
+                skip_all(stack, used, &mut skipped);
                 return Ok(PairDescent::Truncated(Missed {
                     why: Ended::Steps,
                     lower: distance_of(key),
@@ -165,7 +166,7 @@ impl<'s, 'a> Search<'s, 'a> {
                     let wanted =
                         (0..8).fold(0, |bits, i| bits | (columns * (rows >> i & 1)) << (8 * i));
                     let pairs = ChildPairs { nodes: [first, second], wanted };
-                    down = Some(PendingPairs { key: bound_of(key).to_bits(), pairs });
+                    down = Some(PendingPairs { key: bound_sq_of(key).to_bits(), pairs });
                     continue;
                 }
                 let [first, second] = children;
@@ -183,19 +184,21 @@ impl<'s, 'a> Search<'s, 'a> {
                 if !goes_on {
                     let (wanted, _) = keys.up_to(NO_PAIR - 1);
                     PendingPairs { key: now.key, pairs: ChildPairs { nodes, wanted } }
-                        .leave_to(&mut skipped);
-                    leave_all(stack, used, &mut skipped);
+                        .skip_to(&mut skipped);
+                    skip_all(stack, used, &mut skipped);
                     return Ok(PairDescent::Answered);
                 }
             }
             let limit = limit_of(question);
             let (near, key) = keys.up_to(limit);
-            // Pairs beyond the limit are left out together with the others.
+            // With `skipped`, pairs beyond the limit wait in the same entry.
             let wanted = if skipped.is_some() { keys.up_to(NO_PAIR - 1).0 } else { near };
-            let rest =
-                PendingPairs { key: bound_of(key).to_bits(), pairs: ChildPairs { nodes, wanted } };
+            let rest = PendingPairs {
+                key: bound_sq_of(key).to_bits(),
+                pairs: ChildPairs { nodes, wanted },
+            };
             if near == 0 {
-                rest.leave_to(&mut skipped);
+                rest.skip_to(&mut skipped);
             }
             if let Some(next) = down {
                 if near != 0 {
@@ -228,20 +231,20 @@ impl<'s, 'a> Search<'s, 'a> {
                 if waiting.key <= limit {
                     break waiting;
                 }
-                waiting.leave_to(&mut skipped);
+                waiting.skip_to(&mut skipped);
             };
         }
     }
 }
 
-/// Leaves out all pairs that wait.
+/// Skips all pairs that wait.
 #[inline(always)]
-fn leave_all(
+fn skip_all(
     stack: &[[ScratchEntry; ENTRIES]],
     used: usize,
     skipped: &mut Option<&mut SkippedPairs<'_>>,
 ) {
-    stack.iter().take(used).for_each(|entries| PendingPairs::of(entries).leave_to(skipped));
+    stack.iter().take(used).for_each(|entries| PendingPairs::of(entries).skip_to(skipped));
 }
 
 /// Keys of the pairs that wait. Of boxes that meet, the key of the pair that overlaps most:
@@ -263,10 +266,10 @@ fn keys_of_children(
     let wanted = now.wanted & all;
     work.bounds = work.bounds.saturating_add(wanted.count_ones());
     let keys = PairKeys::of(&first, &second, wanted, factor);
-    if bound_of(keys.least()) > 0.0 || wanted & wanted.wrapping_sub(1) == 0 {
+    if bound_sq_of(keys.least()) > 0.0 || wanted & wanted.wrapping_sub(1) == 0 {
         return Some((keys, None));
     }
     let [i, j] = pairs(&first, &second, rows, columns).deepest;
-    let deepest = keys.0.get((8 * i + j) as usize).copied().filter(|&key| bound_of(key) == 0.0);
+    let deepest = keys.0.get((8 * i + j) as usize).copied().filter(|&key| bound_sq_of(key) == 0.0);
     Some((keys, deepest))
 }

@@ -40,9 +40,9 @@ pub(crate) fn key_limit(limit_sq: f32) -> u32 {
     limit_sq.to_bits() | PAIR_MASK
 }
 
-/// The bound in a key.
+/// The squared bound in a key.
 #[inline(always)]
-pub(crate) fn bound_of(key: u32) -> f32 {
+pub(crate) fn bound_sq_of(key: u32) -> f32 {
     f32::from_bits(key & !PAIR_MASK)
 }
 
@@ -60,7 +60,7 @@ pub(crate) fn pair_bit(key: u32) -> u64 {
 
 /// Lower bound of a distance, from the key of a pair of boxes, common units.
 pub(crate) fn distance_of(key: u32) -> f64 {
-    root_of_bound(bound_of(key))
+    root_of_bound(bound_sq_of(key))
 }
 
 /// Squared gaps along the second model's axes are multiplied by this. Its axes are longer by the

@@ -23,7 +23,7 @@ impl PairQuestion<'_> {
         Some(ChildPairs { nodes: [a.node(), b.node()], wanted: 1 << (a.child() << 3 | b.child()) })
     }
 
-    /// What is farther than this needs no visit, common units.
+    /// Pairs farther than this need no visit, common units.
     #[inline(always)]
     pub(crate) fn limit(&self) -> f64 {
         match self {

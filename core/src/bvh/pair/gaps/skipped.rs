@@ -4,12 +4,12 @@ use crate::num::{down_to_f32, lesser};
 
 /// The groups of pairs that searches left out, in the caller's memory.
 pub(crate) struct SkippedPairs<'f> {
-    pub(crate) groups: &'f mut [Group],
+    pub(crate) groups: &'f mut [PairGroup],
     /// Groups in use.
     pub(crate) count: usize,
     /// A group did not fit.
     pub(crate) is_truncated: bool,
-    /// Groups already hold what is searched.
+    /// The groups already hold the searched pairs: `keep` adds none.
     pub(crate) is_known: bool,
 }
 
@@ -21,7 +21,7 @@ impl SkippedPairs<'_> {
         }
         let ChildPairs { nodes, wanted } = pairs;
         let wanted = [wanted as u32, (wanted >> 32) as u32];
-        let group = Group { distance: down_to_f32(distance), nodes, wanted };
+        let group = PairGroup { distance: down_to_f32(distance), nodes, wanted };
         let count = self.count;
         let latest = count.saturating_sub(LATEST)..count;
         let latest = self.groups.get_mut(latest).unwrap_or(&mut []);
@@ -46,7 +46,7 @@ impl SkippedPairs<'_> {
 
 /// Pairs of children of two nodes that a search left out.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Group {
+pub(crate) struct PairGroup {
     /// No pair is nearer, common units.
     pub(crate) distance: f32,
     nodes: [u32; 2],
@@ -54,21 +54,21 @@ pub(crate) struct Group {
     wanted: [u32; 2],
 }
 
-impl Group {
-    pub(crate) const EMPTY: Group = Group { distance: 0.0, nodes: [0; 2], wanted: [0; 2] };
+impl PairGroup {
+    pub(crate) const EMPTY: PairGroup = PairGroup { distance: 0.0, nodes: [0; 2], wanted: [0; 2] };
 
     pub(crate) fn pairs(&self) -> ChildPairs {
         let [low, high] = self.wanted.map(u64::from);
         ChildPairs { nodes: self.nodes, wanted: high << 32 | low }
     }
 
-    fn is_like(&self, other: &Group) -> bool {
+    fn is_like(&self, other: &PairGroup) -> bool {
         self.nodes == other.nodes
             && self.distance <= other.distance * LIKE
             && other.distance <= self.distance * LIKE
     }
 
-    fn add(&mut self, other: &Group) {
+    fn add(&mut self, other: &PairGroup) {
         let ([low, high], [more_low, more_high]) = (self.wanted, other.wanted);
         self.wanted = [low | more_low, high | more_high];
         self.distance = lesser(self.distance, other.distance);

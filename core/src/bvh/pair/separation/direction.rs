@@ -47,7 +47,7 @@ pub(crate) struct IntDirection {
 
 impl IntDirection {
     /// The components are rounded up, not to the nearest: see `core/docs/rounding.md` §26,
-    /// *Vertices of leaves along w*. `None` as of [`Direction::of`].
+    /// *Vertices of leaves along w*. `None` as for [`Direction::of`].
     #[inline(always)]
     pub(crate) fn of(vector: Vec3) -> Option<IntDirection> {
         let (vector, unit) = rounded_up(vector, (1u32 << 29) as f32)?;

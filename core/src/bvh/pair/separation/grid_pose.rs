@@ -56,11 +56,11 @@ impl<'a> GridPose<'a> {
     #[cfg_attr(meshsweep_small, inline(never))]
     #[cfg_attr(not(meshsweep_small), inline(always))]
     pub(crate) fn of([a, b]: [&'a Bvh<'a>; 2], pose: &FramePose) -> Option<GridPose<'a>> {
-        let finer = unit_exponent(b) - unit_exponent(a);
-        if a.header().is_f32() || b.header().is_f32() || finer.abs() > UNITS_APART {
+        let ratio_exponent = unit_exponent(b) - unit_exponent(a);
+        if a.header().is_f32() || b.header().is_f32() || ratio_exponent.abs() > UNITS_APART {
             return None;
         }
-        let (units, ratio) = (a.units(), exp2_f32(finer));
+        let (units, ratio) = (a.units(), exp2_f32(ratio_exponent));
         let origins = [a, b].map(|tree| {
             let [x, y, z] = tree.header().grid_origin.map(|x| x as f32);
             Vec3::new(x, y, z)
@@ -70,7 +70,7 @@ impl<'a> GridPose<'a> {
         let rows = pose.rows.map(|row| row * ratio);
         let place = units.inward_point(pose.shift.to_array());
         let shift = (turned(&rows, origin_b) + place) - origin_a;
-        // No term of a place is longer along an axis, nor a sum of some.
+        // Along each axis no term of a place, and no sum of terms, is longer than this.
         let size = turned(&rows.map(Vec3::abs), origin_b.abs() + extent(b, origin_b))
             + (place.abs() + origin_a.abs())
             + extent(a, origin_a);

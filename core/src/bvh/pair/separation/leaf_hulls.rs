@@ -12,8 +12,8 @@ use crate::num::{each, float};
 use crate::query::Work;
 use glam::Vec3;
 
-/// The vertices of a leaf, units and frame of the first grid: two centres, then the ring. Of a leaf
-/// with one fan both centres are the same.
+/// Vertices of a leaf, for their convex hull; units and frame of the first grid. Two centres, then
+/// the ring. Of a leaf with one fan both centres are the same.
 #[derive(Clone, Copy)]
 pub(crate) struct LeafHull {
     of: TriangleAt,

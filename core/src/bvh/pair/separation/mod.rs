@@ -1,5 +1,6 @@
-//! Whether two models are within a distance, and which triangles may be the nearest, in f32. What
-//! f32 cannot tell is left to `gaps/`.
+//! Whether two models are within a distance, and which triangles may be the nearest, in f32.
+//! `gaps/` measures these candidates in f64, and searches again from the roots if f32 gives no
+//! verdict.
 //!
 //! A pair of nodes, leaves or triangles is left out if a gap along some direction is longer than
 //! the limit. One direction is kept from pair to pair: along it most of the next pairs are apart

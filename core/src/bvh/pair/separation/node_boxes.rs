@@ -118,7 +118,7 @@ impl<'a> NodeBoxes<'a> {
         ]
     }
 
-    /// The box of child `i`, along the axes of its own grid.
+    /// The box of child `i` of a node of the first model.
     #[inline(always)]
     fn axis_box(&self, i: usize) -> AxisBox {
         let [sum, length] = self.doubled(i);
@@ -171,7 +171,7 @@ impl AxisBox {
 pub(crate) struct PairLimit {
     /// Units of the first grid.
     pub(crate) length: f32,
-    /// Square of the length, rounded up.
+    /// Square of the limit, rounded up.
     pub(crate) square: f32,
 }
 
@@ -306,7 +306,7 @@ pub(super) fn is_above(x: Real, limit: f32) -> bool {
     x > Real(limit)
 }
 
-/// Whether a number is below a limit. Neither is NaN, as of [`is_above`].
+/// Whether a number is below a limit. Neither is NaN, as for [`is_above`].
 #[inline(always)]
 pub(super) fn is_below(x: f32, limit: Real) -> bool {
     limit > Real(x)
@@ -352,8 +352,9 @@ fn along_axes(boxes: &NodeBoxes<'_>, wanted: u32) -> [AxisBox; WIDTH] {
 /// Boxes of the second model, turned into the first grid.
 struct MovedBoxes<'b, 'a> {
     boxes: &'b NodeBoxes<'a>,
-    /// Half a step, for sums of planes and for lengths.
+    /// The pose's rows times half a step: a sum of planes to a middle.
     rows: Rows,
+    /// Their sizes: a length to half of the turned box.
     sizes: Rows,
     start: Vec3,
 }

@@ -27,7 +27,7 @@ impl<'s> Pending<'s> {
         Pending { entries: entries.get_mut(..most).unwrap_or_default(), used: 0 }
     }
 
-    /// Begins the children of two nodes. `None` if memory ends.
+    /// Adds the entry that names two nodes. `None` if memory ends.
     #[inline(always)]
     pub(crate) fn begin(&mut self, [a, b]: [u32; 2]) -> Option<PendingChildren<'_, 's>> {
         let at = self.used;

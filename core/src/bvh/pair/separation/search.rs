@@ -148,7 +148,7 @@ fn visit_leaves(
     } else {
         roots()?
     };
-    // Of the direction, if it was turned since pairs were pushed.
+    // Tops along the direction, if it was turned since pairs were pushed.
     let mut tops: Option<LeafTops> = None;
     loop {
         let limit = PairLimit::of(pose, goal.far);

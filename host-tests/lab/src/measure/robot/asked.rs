@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use meshsweep_core::Verdict;
-use meshsweep_suite::Clock;
+use meshsweep_suite::Observer;
 use meshsweep_suite::ask::robot::{self, Answer, Laid, Memory};
 use meshsweep_suite::fold::Fold;
 
@@ -39,7 +39,7 @@ struct Watch {
     each: Vec<f64>,
 }
 
-impl Clock for Watch {
+impl Observer for Watch {
     fn query_begins(&mut self) {
         self.begun = Some(Instant::now());
     }

@@ -13,7 +13,7 @@ use glam::DVec3;
 use super::samples::{Sample, Sampler};
 use super::search::Method;
 
-/// The way.
+/// Guéziec's method.
 pub struct Bisectors;
 
 /// A triangle that planes have cut: each plane adds at most one corner.

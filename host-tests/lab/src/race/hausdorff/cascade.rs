@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::samples::{Sample, Sampler};
 use super::search::Method;
 
-/// The way.
+/// Sacht's and Jacobson's method.
 pub struct Cascade;
 
 impl Method for Cascade {

@@ -44,7 +44,7 @@ impl Cgal {
     /// The distance, off by at most `error`, and the seconds that it took.
     ///
     /// # Errors
-    /// The child's end.
+    /// The child ended.
     pub fn distance(&mut self, side: Side, error: f64) -> Result<(f64, f64), String> {
         self.0.send_question(side as u32, 1)?;
         self.0.send(error.to_ne_bytes().into_iter())?;

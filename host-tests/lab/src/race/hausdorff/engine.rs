@@ -36,7 +36,7 @@ impl Answer {
     }
 }
 
-/// Who answers.
+/// An engine.
 pub enum Engine {
     /// The library's search.
     Ours,

@@ -1,6 +1,6 @@
 //! The direction of a Hausdorff distance.
 
-/// Whose farthest points count.
+/// Whose farthest points count. The numbers are those of the questions in `cgal.cpp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// The first mesh's.

@@ -36,7 +36,7 @@ impl Fcl {
     /// Takes over the mesh.
     ///
     /// # Errors
-    /// No compiler or no package, or the child's end.
+    /// No compiler or no package, or the child ended.
     pub fn new(subject: &Subject) -> Result<Self, String> {
         let mut child = PROGRAM.as_ref().map_err(Clone::clone)?.start()?;
         child.send_mesh(&subject.mesh)?;
@@ -46,7 +46,7 @@ impl Fcl {
     /// As [`Engine::ask`](super::engine::Engine::ask), but for a limit.
     ///
     /// # Errors
-    /// The child's end.
+    /// The child ended.
     pub fn ask(&mut self, question: Question, cases: &[Case]) -> Result<Run, String> {
         let is_meeting = question == Question::Meets;
         self.0.send_question(if is_meeting { MEETS } else { DISTANCE }, cases.len())?;

@@ -1,7 +1,8 @@
 //! Two models, of which one moves: their distance, whether it is below a limit, whether they meet.
 //!
 //! ```text
-//! motions (poses, exact answers) ─ question ─ fcl (a child process) ─ engine (all, the library, parry3d)
+//! motions (poses, exact answers) ─ question ─ fcl (a child process)
+//!   ─ engine (all, the library, parry3d)
 //! ```
 //! Each answer is held to an oracle: distances in 106 bits, meetings by exact predicates.
 
@@ -17,7 +18,7 @@ use meshsweep_xtask::table::{Cell, Table, fixed, row, scientific};
 
 use engine::{Engine, REFERENCE};
 use fcl::Fcl;
-use motions::{Case, Group, groups, tree};
+use motions::{Case, Group, blob, groups};
 use question::{Answer, Question};
 
 use crate::measure::stopwatch::rounds;
@@ -74,7 +75,7 @@ fn score(question: Question, cases: &[Case], answers: &[Answer], size: f64) -> S
 pub fn race(file: &Path, is_quick: bool) -> Result<Table, String> {
     let subject = Subject::load_any(file)?;
     let groups = groups(&subject, if is_quick { FEW_MOTIONS } else { MOTIONS })?;
-    let blobs = [tree(&subject, false), tree(&subject, true)];
+    let blobs = [blob(&subject, false), blob(&subject, true)];
     let mut engines = vec![
         Engine::tree("ours, 16-bit grid", &blobs[0])?,
         Engine::tree("ours, f32 vertices", &blobs[1])?,
@@ -163,7 +164,7 @@ fn rows(
 #[cfg(test)]
 mod tests {
     use super::motions::groups;
-    use super::{Engine, Question, score, tree};
+    use super::{Engine, Question, blob, score};
     use meshsweep::mesh::Mesh;
     use meshsweep_host_tests::generate::torus;
     use meshsweep_host_tests::workload::Subject;
@@ -172,7 +173,7 @@ mod tests {
     fn our_trees_are_never_wrong_about_two_tori() {
         let (positions, triangles) = torus(2.0, 0.5, 12, 7);
         let subject = Subject::of("torus", Mesh::new(positions, triangles));
-        let blobs = [tree(&subject, false), tree(&subject, true)];
+        let blobs = [blob(&subject, false), blob(&subject, true)];
         for group in groups(&subject, 20).expect("motions") {
             assert_eq!(group.cases.len(), 20, "{}", group.name);
             for question in Question::ALL {

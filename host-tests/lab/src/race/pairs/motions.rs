@@ -25,7 +25,7 @@ pub struct Case {
     pub parry: ParryPose,
     /// As the library takes it.
     pub pose: Pose,
-    /// With a rotation that is none only by rounding in f64, for FCL.
+    /// The same motion in f64, for FCL.
     pub near: Motion,
     /// The distance; 0 where the surfaces meet.
     pub truth: Bounded,
@@ -42,7 +42,7 @@ pub struct Group {
 }
 
 /// A blob of the mesh.
-pub fn tree(subject: &Subject, is_f32: bool) -> Vec<u8> {
+pub fn blob(subject: &Subject, is_f32: bool) -> Vec<u8> {
     let options = TreeOptions::default().with_closest(false).with_f32(is_f32);
     let input = meshsweep::mesh::Input {
         input_triangles: subject.triangles_read,
@@ -57,7 +57,7 @@ pub fn tree(subject: &Subject, is_f32: bool) -> Vec<u8> {
 /// # Errors
 /// The library's refusal of a motion.
 pub fn groups(subject: &Subject, wanted: usize) -> Result<[Group; 3], String> {
-    let blob = tree(subject, true);
+    let blob = blob(subject, true);
     let tree = Bvh::open(&blob).map_err(|error| error.to_string())?;
     let surface = Surface::new(subject);
     let (mut apart, mut closer, mut meeting) = (Vec::new(), Vec::new(), Vec::new());

@@ -4,8 +4,8 @@ use meshsweep_core::{Budget, Neighbor, Side, Verdict};
 
 use super::{Bvh, Scratch};
 use crate::ask::{self, Asked};
-use crate::clock::Clock;
 use crate::fold::Fold;
+use crate::observer::Observer;
 use crate::place::Point;
 
 /// Closest point; returns the witness.
@@ -14,7 +14,7 @@ pub fn closest(
     tree: &Bvh<'_>,
     p: Point,
     scratch: &mut Scratch<'_>,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) -> Point {
     let (budget, stack) = to.terms(Budget::EXACT, &mut scratch.stack);
     let call = || tree.closest_point(p, budget, stack);
@@ -23,7 +23,7 @@ pub fn closest(
 
 /// Closest point, from where the last one was found.
 #[inline(never)]
-pub fn follow(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
+pub fn follow(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Observer>) {
     let (budget, stack) = to.terms(Budget::EXACT, &mut s.stack);
     let call = || tree.closest_point_from(p, &mut s.hint, budget, stack);
     to.answer(call, ask::closest_point);
@@ -31,7 +31,7 @@ pub fn follow(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, 
 
 /// Closest point, its candidates in f64.
 #[inline(never)]
-pub fn precise(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
+pub fn precise(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Observer>) {
     let (budget, stack) = to.terms(Budget::EXACT, &mut s.stack);
     to.answer(|| tree.closest_point_precise(p, budget, stack), ask::closest_point);
 }
@@ -42,7 +42,7 @@ pub fn coherent<'t>(
     tree: &Bvh<'t>,
     p: Point,
     scratch: &mut Scratch<'t>,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let Scratch { stack, coherent, .. } = scratch;
     let (budget, stack) = to.terms(Budget::EXACT, stack);
@@ -62,7 +62,7 @@ pub fn stopped(
     p: Point,
     distance: f32,
     scratch: &mut Scratch<'_>,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let stops = [
         Budget::EXACT.with_relative(0.1),
@@ -82,7 +82,7 @@ pub fn is_within(
     p: Point,
     distance: f32,
     scratch: &mut Scratch<'_>,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let (budget, stack) = to.terms(Budget::EXACT, &mut scratch.stack);
     to.answer(
@@ -102,7 +102,7 @@ pub fn is_within(
 
 /// The eight closest triangles.
 #[inline(never)]
-pub fn nearest(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
+pub fn nearest(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Observer>) {
     let Scratch { stack, near, .. } = s;
     let (budget, stack) = to.terms(Budget::EXACT, stack);
     if let Some(answer) = to.answer(|| tree.nearest(p, near, budget, stack), |_, _| ()) {
@@ -119,7 +119,7 @@ pub fn all_within(
     p: Point,
     distance: f32,
     scratch: &mut Scratch<'_>,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let Scratch { stack, near, .. } = scratch;
     let (budget, stack) = to.terms(Budget::EXACT, stack);
@@ -134,7 +134,7 @@ pub fn all_within(
 
 /// Distance with the sign of the side.
 #[inline(never)]
-pub fn signed(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
+pub fn signed(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Observer>) {
     let (budget, stack) = to.terms(Budget::EXACT, &mut s.stack);
     to.answer(
         || tree.signed_distance(p, budget, stack),

@@ -4,7 +4,7 @@ use meshsweep_core::{Budget, Pose, Verdict};
 
 use super::{Bvh, Scratch};
 use crate::ask::{self, Asked};
-use crate::clock::Clock;
+use crate::observer::Observer;
 use crate::place::Motion;
 
 /// A motion as the core takes it.
@@ -15,7 +15,7 @@ pub fn pose((rotation, translation): Motion) -> Pose {
 
 /// Whether the surface meets its moved copy.
 #[inline(never)]
-pub fn overlap(tree: &Bvh<'_>, pose: Pose, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
+pub fn overlap(tree: &Bvh<'_>, pose: Pose, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Observer>) {
     let (budget, pairs) = to.terms(Budget::EXACT, &mut s.pairs);
     to.answer(
         || tree.overlap(tree, pose, budget, pairs),
@@ -42,7 +42,7 @@ pub fn all_overlaps(
     tree: &Bvh<'_>,
     pose: Pose,
     scratch: &mut Scratch<'_>,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let Scratch { pairs, meeting, .. } = scratch;
     let (budget, pairs) = to.terms(Budget::EXACT.with_steps(STEPS), pairs);

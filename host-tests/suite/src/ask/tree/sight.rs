@@ -4,18 +4,18 @@ use meshsweep_core::{Budget, Eye, Facing, FrontFacing, Verdict};
 
 use super::{Bvh, Scratch};
 use crate::ask::{self, Asked};
-use crate::clock::Clock;
+use crate::observer::Observer;
 use crate::place::{Ends, Point};
 
 /// First point of the segment from `a` to `b` on the surface.
 #[inline(never)]
-pub fn first_hit(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
+pub fn first_hit(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Observer>) {
     hit_of(tree, ab, Facing::Both, s, to);
 }
 
 /// First point of the segment from `a` to `b` on a triangle's front, then on a back.
 #[inline(never)]
-pub fn facing(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
+pub fn facing(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Observer>) {
     hit_of(tree, ab, Facing::Front, s, to);
     hit_of(tree, ab, Facing::Back, s, to);
 }
@@ -25,7 +25,7 @@ fn hit_of(
     [a, b]: Ends,
     facing: Facing,
     scratch: &mut Scratch<'_>,
-    to: &mut Asked<'_, impl Clock>,
+    to: &mut Asked<'_, impl Observer>,
 ) {
     let (budget, stack) = to.terms(Budget::EXACT, &mut scratch.stack);
     to.answer(|| tree.first_hit(a, b, facing, budget, stack), ask::segment_hit);
@@ -33,7 +33,7 @@ fn hit_of(
 
 /// Whether the segment from `a` to `b` meets the surface.
 #[inline(never)]
-pub fn any_hit(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
+pub fn any_hit(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Observer>) {
     let [a, b] = ab;
     let (budget, stack) = to.terms(Budget::EXACT, &mut s.stack);
     to.answer(
@@ -50,7 +50,7 @@ pub fn any_hit(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_,
 
 /// Every point of the segment from `a` to `b` on the surface.
 #[inline(never)]
-pub fn all_hits(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
+pub fn all_hits(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Observer>) {
     let Scratch { stack, hits, .. } = s;
     let [a, b] = ab;
     let (budget, stack) = to.terms(Budget::EXACT, stack);
@@ -64,7 +64,12 @@ pub fn all_hits(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_
 
 /// Triangles that may face an eye at `p`, then along the way to there from the origin.
 #[inline(never)]
-pub fn cull(tree: &Bvh<'_>, p: Point, scratch: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
+pub fn cull(
+    tree: &Bvh<'_>,
+    p: Point,
+    scratch: &mut Scratch<'_>,
+    to: &mut Asked<'_, impl Observer>,
+) {
     for sight in [Eye::At(p), Eye::Along(p)] {
         let call = || tree.front_facing(sight, &mut scratch.facing);
         if let Some(answer) = to.answer(call, |_, _| ()) {

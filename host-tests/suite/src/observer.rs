@@ -1,13 +1,13 @@
-//! Who looks at the clock, and may change the terms of a query.
+//! An observer of the suite's calls, which may change the terms of a query.
 
 use meshsweep_core::{Budget, QueryError, ScratchEntry, Work};
 
-/// Told when the core is called: what lies between the two is the core's alone, without placing the
-/// query and folding the answer.
+/// Sees each call, and may change its terms. The time between the two calls `query_begins` and
+/// `query_ends` is the core's alone, without placing the query and folding the answer.
 ///
 /// Terms and answers are those of [`Asked`](crate::ask::Asked). What is not overridden leaves no
 /// code in an image.
-pub trait Clock {
+pub trait Observer {
     /// The core is about to be called.
     fn query_begins(&mut self) {}
 
@@ -30,10 +30,10 @@ pub trait Clock {
     fn answered(&mut self, _answer: Result<Work, QueryError>) {}
 }
 
-/// Nobody looks at the clock.
-impl Clock for () {}
+/// Observes nothing.
+impl Observer for () {}
 
-impl<C: Clock> Clock for &mut C {
+impl<C: Observer> Observer for &mut C {
     fn query_begins(&mut self) {
         C::query_begins(self);
     }
