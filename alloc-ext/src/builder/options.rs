@@ -6,6 +6,7 @@ use crate::error::BuildError;
 use crate::hull::BuildOptions;
 use crate::load::is_named_as_mesh;
 use crate::mesh::Unit;
+use crate::number::ABOVE_ZERO;
 use crate::surface::VertexBits;
 use crate::tight::{ChainOptions, FACES, Goal, MAX_HULLS, Options as TightOptions};
 use std::fmt;
@@ -341,6 +342,10 @@ impl Options {
             numbers
                 .iter()
                 .try_for_each(|&number| BuildError::check_range(option, number, *range))?;
+        }
+        // As it was asked for: the goal has a part in place of a percentage.
+        if let Some(void) = self.void_percent {
+            BuildError::check_range("--void", void, ABOVE_ZERO)?;
         }
         self.goal().check(self.margin.unwrap_or(0.0))
     }

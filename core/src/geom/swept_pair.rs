@@ -79,8 +79,8 @@ impl<T: Precision> SweptTriangle<T> {
         let limit = (radii * radii) * length_sq;
         // Below the least number to be trusted the squares may have lost all digits.
         gap > T::ZERO
-            && length_sq > T::DETERMINANT_UNDERFLOW
-            && limit > T::DETERMINANT_UNDERFLOW
+            && length_sq > T::UNDERFLOW_LOSS
+            && limit > T::UNDERFLOW_LOSS
             && (gap * gap) * T::from(SQUARED_SLACK) > limit
     }
 }

@@ -29,7 +29,7 @@ pub fn determinant_margin<T: Precision>(x: T, y: T, z: T, shift: T) -> T {
     let (xy, sum) = (x * y, x + y);
     T::DETERMINANT * (xy * z)
         + shift * ((xy + sum * z) + shift * ((sum + z) + shift))
-        + T::DETERMINANT_UNDERFLOW
+        + T::UNDERFLOW_LOSS
 }
 
 /// The proved sign, 1 or −1; 0 if no sign is proved.
@@ -226,7 +226,7 @@ fn parted_along<T: Precision>(
         let offset = minus(p, from);
         (
             dot(direction, offset),
-            length * (T::DETERMINANT * norm_1(offset) + shift) + T::DETERMINANT_UNDERFLOW,
+            length * (T::DETERMINANT * norm_1(offset) + shift) + T::UNDERFLOW_LOSS,
         )
     };
     // The vertices that are farthest out and nearest.

@@ -1,6 +1,6 @@
 //! Vectors of three numbers, f32 or f64.
 
-use crate::num::tolerance::{DETERMINANT, DETERMINANT_UNDERFLOW, U32, U64};
+use crate::num::tolerance::{DETERMINANT, U32, U64, UNDERFLOW_LOSS};
 use core::ops::{Add, Mul, Sub};
 
 /// A precision of vectors.
@@ -12,7 +12,7 @@ pub trait Precision:
     /// Rounding of a determinant, as a part of the product of its vectors' 1-norms.
     const DETERMINANT: Self;
     /// Upper limit of the loss of a determinant and its bound by underflow.
-    const DETERMINANT_UNDERFLOW: Self;
+    const UNDERFLOW_LOSS: Self;
     /// The absolute value.
     fn abs(self) -> Self;
 }
@@ -20,7 +20,7 @@ pub trait Precision:
 impl Precision for f32 {
     const ZERO: f32 = 0.0;
     const DETERMINANT: f32 = DETERMINANT * U32;
-    const DETERMINANT_UNDERFLOW: f32 = DETERMINANT_UNDERFLOW;
+    const UNDERFLOW_LOSS: f32 = UNDERFLOW_LOSS;
     #[inline(always)]
     fn abs(self) -> f32 {
         f32::abs(self)
@@ -30,7 +30,7 @@ impl Precision for f32 {
 impl Precision for f64 {
     const ZERO: f64 = 0.0;
     const DETERMINANT: f64 = DETERMINANT as f64 * U64;
-    const DETERMINANT_UNDERFLOW: f64 = f64::MIN_POSITIVE;
+    const UNDERFLOW_LOSS: f64 = f64::MIN_POSITIVE;
     #[inline(always)]
     fn abs(self) -> f64 {
         f64::abs(self)

@@ -1,5 +1,6 @@
-//! Every tolerance that a guarantee rests on, and a few that only cost time; these say so. The
-//! derivations are in `core/docs/rounding.md`; each constant names its section.
+//! Tolerances that a guarantee rests on, and a few that only cost time; these say so. A factor of a
+//! few roundings stands beside its formula instead. The derivations are in `core/docs/rounding.md`;
+//! each constant names its section, or the file that derives it.
 //!
 //! All tolerances are relative. They multiply lengths of the model and of the query, or they apply
 //! in the local frame, where the model's largest coordinate lies in [½, 1).
@@ -32,10 +33,8 @@ pub const GUESS_UP: f32 = 1.0 + 5.0 / 128.0;
 /// subnormal range. A root grows by 2^-50 at most.
 pub const SQUARE_FLOOR: f32 = 1.0 / ((1u64 << 50) as f32 * (1u64 << 50) as f32);
 
-/// Upper limit of the loss of a determinant in f32, and of its bound, by underflow, 2^-100.
-/// Products of two that underflow lose 2^-150 each, and are multiplied once more, by less than 2^38
-/// (§11).
-pub const DETERMINANT_UNDERFLOW: f32 = 1.0 / (1u128 << 100) as f32;
+/// What a determinant in f32, its bound or a square loses by underflow is less, 2^-100 (§11).
+pub const UNDERFLOW_LOSS: f32 = 1.0 / (1u128 << 100) as f32;
 
 // Poses
 
@@ -346,39 +345,41 @@ pub const SIDE_BAND: f32 = 1.0 + 128.0 * U32;
 pub const SIDE_BAND_ROUNDINGS: f32 = 8.0;
 
 /// Part of the distance up to which a feature may be the closest. All nearer triangles are within
-/// [`SIDE_BAND`]: half of its room.
+/// [`SIDE_BAND`]: half of its room (§8, "Sides").
 pub const SIDE_FEATURE: f32 = 1.0 + 64.0 * U32;
 
-/// The same in roundings of a triangle's distance.
+/// The same in roundings of a triangle's distance (§8, "Sides").
 pub const SIDE_FEATURE_ROUNDINGS: f32 = 4.0;
 
 /// Error of a sum of normals about a vertex, in units of η²: 2π, rounded up
 /// (`bvh/point/side/pseudonormal.rs`).
 pub const VERTEX_FEATURE_ERROR: f32 = 6.5;
 
-/// The same about an edge: 1, and more than the further terms up to [`LARGEST_ETA`].
+/// The same about an edge: 1, and more than the further terms up to [`LARGEST_ETA`]
+/// (`bvh/point/side/pseudonormal.rs`).
 pub const EDGE_FEATURE_ERROR: f32 = 1.2;
 
 /// From this η on the sum is not used. Below, the next term about an edge, η⁴/4, is less than a
-/// fiftieth of the first.
+/// fiftieth of the first (`bvh/point/side/pseudonormal.rs`).
 pub const LARGEST_ETA: f32 = 0.25;
 
 /// Rounding of a term of a sum of normals, in units of [`U32`] times the relative size of its
-/// normal's products. Also that of the product with a direction that was itself a difference.
+/// normal's products. Proved: 8.2. Also that of the way across an edge. Proved: 14 (§8, "Sum of
+/// normals").
 pub const SIDE_SUM_NORMAL: f32 = 16.0;
 
 /// Rounding of a sum of normals and of its product with the direction, in units of [`U32`] times
-/// the sum of the weights. Each term adds [`SIDE_SUM_TERM`].
+/// the sum of the weights. Proved: 13 (§8). Each term adds [`SIDE_SUM_TERM`].
 pub const SIDE_SUM_WEIGHTS: f32 = 32.0;
 
-/// What each term adds to [`SIDE_SUM_WEIGHTS`].
+/// What each term adds to [`SIDE_SUM_WEIGHTS`]. Proved: 1 (§8).
 pub const SIDE_SUM_TERM: f32 = 2.0;
 
-/// Room for the rounding of a weight, in units of [`U32`].
+/// Rounding of a weight, in units of [`U32`]. Proved: 26 (§8).
 pub const SIDE_SUM_WEIGHT: f32 = 64.0;
 
 /// Length of a normal in units of [`U32`] times the sizes of its products, from which on it has a
-/// direction.
+/// direction (§8, "Sum of normals").
 pub const SIDE_NORMAL: f32 = 64.0;
 
 /// Largest surface error of a box tree, grid units: 2^60. Its square and its product with any

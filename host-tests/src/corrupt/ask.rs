@@ -277,6 +277,37 @@ impl Asker {
         }
     }
 
+    /// Whether two trees are within a distance, by every question that has one, whatever others
+    /// answer.
+    ///
+    /// # Panics
+    /// If an answer took too long.
+    pub fn two_models_within(&self, [a, b]: [&Bvh<'_>; 2], pose: &Pose, distance: f32, steps: u32) {
+        let mut stack = vec![ScratchEntry::EMPTY; self.stack.len()];
+        let budget = Budget::EXACT.with_steps(steps);
+        let ends = |work: Option<Work>| {
+            assert!(work.is_none_or(|work| work.opened <= steps), "{work:?}");
+        };
+        let within = a.within_of(b, *pose, distance, budget, &mut stack);
+        ends(self.told(within).map(|answer| answer.work));
+        let motion = Motion::straight(*pose, Pose::IDENTITY);
+        let contact = a.first_contact_of(b, &motion, distance, budget, &mut stack);
+        ends(self.told(contact).map(|answer| answer.work));
+        // So few groups of pairs that some have no room.
+        let mut pair = CoherentPair::<16>::new();
+        for _ in 0..2 {
+            self.told(pair.distance(a, b, *pose, budget, &mut stack));
+            let within = pair.within(a, b, *pose, distance, budget, &mut stack);
+            ends(self.told(within).map(|answer| answer.work));
+        }
+        let models = [(a, Pose::IDENTITY), (b, *pose)]
+            .map(|(tree, pose)| self.told(PlacedModel::new(*tree, pose)));
+        if let [Some(one), Some(other)] = models {
+            let models = [one.with_least_ball(), other];
+            self.told(Scene::new(&models).within(distance, |_, _| true, budget, &mut stack));
+        }
+    }
+
     /// What faces an eye.
     ///
     /// # Panics

@@ -4,7 +4,9 @@ use super::input::Input;
 use super::suite::{STEPS, ask_within_bounds};
 use super::tree::tree_seeds;
 use crate::corrupt::Asker;
-use meshsweep_core::{Budget, Bvh, QueryError, ScratchEntry, TightHulls, Work};
+use meshsweep_core::{
+    Budget, Bvh, Facing, QueryError, ScratchEntry, TightHulls, TriangleHit, Work,
+};
 
 /// Opens an edited blob without a check of its records, and asks everything about it, and about it
 /// and another model.
@@ -17,8 +19,11 @@ pub fn tree_trusted(data: &[u8]) {
     let other = &tree_seeds()[usize::from(input.byte()) % tree_seeds().len()];
     let Ok(other) = Bvh::open(other) else { return };
     let (asker, pose) = (Asker::new(stack.len(), 4).of_unchecked(), input.pose());
-    asker.two_models(&tree, &other, &pose, STEPS);
-    asker.two_models(&other, &tree, &pose, STEPS);
+    let distance = input.float();
+    for [a, b] in [[&tree, &other], [&other, &tree]] {
+        asker.two_models(a, b, &pose, STEPS);
+        asker.two_models_within([a, b], &pose, distance, STEPS);
+    }
 }
 
 /// Opens edited tight hulls without a check of their records, and asks all about points.
@@ -37,13 +42,18 @@ pub fn tight_trusted(data: &[u8]) {
     }
 }
 
-/// Every question of the suite, and the one that it has no kind for.
+/// Every question of the suite, and those that it has no kind for.
 fn ask_tree(tree: &Bvh<'_>, input: &Input<'_>, stack: &mut [ScratchEntry]) {
     ask_within_bounds(tree, bounds(tree), stack.len(), input);
     let mut input = Input(input.0);
     for _ in 0..3 {
         let signed = tree.signed_distance_by_winding(input.point(), Budget::EXACT, stack);
         ends(signed.map(|found| found.closest.work), 16 * bounds(tree));
+        let (a, b, facing) = (input.point(), input.point(), Facing::Front);
+        let any = tree.any_hit(a, b, facing, Budget::EXACT, stack);
+        ends(any.map(|found| found.work), bounds(tree));
+        let all = tree.all_hits(a, b, facing, &mut [TriangleHit::EMPTY; 4], Budget::EXACT, stack);
+        ends(all.map(|found| found.work), bounds(tree));
     }
 }
 

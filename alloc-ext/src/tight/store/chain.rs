@@ -124,7 +124,8 @@ pub struct HullReport {
 /// answers hold for it too: they include the distance that vertices were moved.
 ///
 /// Cost: that of [`wrap()`](crate::tight::wrap) for each hull; some hundred distance queries for
-/// each triangle of the hulls, and one for each triangle of the mesh.
+/// each triangle of the hulls; one for sixteen triangles of the mesh, and one more for each of the
+/// sixteen that may hold its farthest point.
 ///
 /// # Errors
 /// [`BuildError`].

@@ -42,7 +42,8 @@ pub struct CoherentClosest {
 /// On a Cortex-M4F a path takes half to four fifths of the instructions of
 /// [`Bvh::closest_point_from`]. On x86-64 it takes as much time as with [`Bvh::closest_point`], 0.85
 /// to 1.07 times (`core/docs/measured.md`). There `closest_point_from` of `meshsweep::bvh::FastBvh`,
-/// which has AVX2, takes a tenth to a third less than a coherent query.
+/// which has AVX2, takes a tenth to a third less than a coherent query. Without an FPU the gain
+/// depends on the mesh, and long triangles can make it a loss.
 ///
 /// The state belongs to one tree at a time. With another tree it starts anew. It borrows the blob's
 /// bytes, so they cannot change between queries.

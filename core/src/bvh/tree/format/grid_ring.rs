@@ -58,7 +58,8 @@ pub(super) const RING_VERTICES: usize = WIDTH + 1;
 #[derive(Clone, Copy, Debug)]
 pub struct FullRing<'a> {
     pub(super) window: &'a [u8; GRID_WINDOW],
-    /// Coordinates of the ring, axis by axis. Those past the last triangle have no meaning.
+    /// Coordinates of the ring, axis by axis, in the order that was asked for. Those past the last
+    /// triangle have no meaning.
     pub(crate) rows: [&'a [[u8; 2]; RING_VERTICES]; 3],
 }
 

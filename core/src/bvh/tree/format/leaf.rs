@@ -255,7 +255,8 @@ impl<'a> FanLeaf<'a> {
         Some(FullRing { window, rows: [row(first)?, row(first + step)?, row(first + 2 * step)?] })
     }
 
-    /// The same, with rows in the order of `axes`.
+    /// The same, with rows in the order of `axes`: to be read by
+    /// [`vertices`](FullRing::vertices) and [`centres_in_order`](FullRing::centres_in_order) alone.
     #[cfg(not(meshsweep_wide))]
     #[inline(always)]
     pub fn full_ring_in_order(&self, [u, v, w]: [usize; 3]) -> Option<FullRing<'a>> {
