@@ -19,8 +19,8 @@ use crate::questions::{CLOSEST, QUESTIONS, Question};
 use crate::reading::Reading;
 
 /// Most bytes of stack of a closest point in a debug build with the override of the guide. Without
-/// floating point eight triangles wait there.
-const MOST_IN_DEBUG: u32 = 2816;
+/// floating point eight triangles wait there. The suite's own function has 424 of them.
+const MOST_IN_DEBUG: u32 = 2880;
 
 /// The image that is built for debug builds: it asks a box tree four questions.
 pub const DEBUG_IMAGE: &str = "size_tree_four";
@@ -175,7 +175,7 @@ impl Stacks {
     /// Reads the bounds of a debug build, of the questions that its image asks.
     ///
     /// # Errors
-    /// With the override a closest point takes more than 2,816 bytes, or has no bound.
+    /// With the override a closest point takes more than 2,880 bytes, or has no bound.
     pub fn bound_debug(
         &mut self,
         cross: &Cross,

@@ -157,7 +157,9 @@ fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
             let sum = |x: i32, origin: i32| x.wrapping_add(origin) as f32;
             ray.shadow_in_order([sum(x, ox), sum(y, oy), sum(z, oz)])
         };
-        ray_leaf(ray, shape.turn(), centres.map(shadow), vertices.map(shadow))
+        // Not by `map`: the compiler does not inline that at `opt-level = "s"`.
+        let [first, second] = centres;
+        ray_leaf(ray, shape.turn(), [shadow(first), shadow(second)], vertices.map(shadow))
     };
     Some(flagged)
 }

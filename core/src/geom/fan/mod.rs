@@ -42,6 +42,6 @@ pub use point::{
 };
 #[cfg(meshsweep_wide)]
 pub use point8::{Edges, LaneNearness};
-pub use ray::{Crossing, FanRay, Shadow, ShadowPlane, may_meet, pick, ray_leaf};
+pub use ray::{Crossing, FanRay, Shadow, ShadowPlane, may_meet, ray_leaf};
 #[cfg(meshsweep_wide)]
 pub use ray8::{CentreShadows, Ring8, RingLanes, ShadowLanes};

@@ -87,9 +87,8 @@ impl Side {
     }
 }
 
-/// The element of an axis.
 #[inline(always)]
-pub fn pick<T: Copy>(v: [T; 3], axis: usize) -> T {
+fn pick<T: Copy>(v: [T; 3], axis: usize) -> T {
     let [x, y, z] = v;
     [x, y, z, z][axis & 3]
 }

@@ -3,9 +3,7 @@
 #[cfg(not(meshsweep_wide))]
 use super::leaf_shape::LeafShape;
 #[cfg(not(meshsweep_wide))]
-use crate::geom::fan::{WIDTH, pick};
-#[cfg(not(meshsweep_wide))]
-use crate::num::SOFT_FLOAT;
+use crate::geom::fan::WIDTH;
 
 /// Bytes of the largest leaf on the grid: two centres and nine ring vertices.
 pub(super) const GRID_WINDOW: usize = 66;
@@ -43,11 +41,6 @@ impl GridRing<'_> {
     }
 }
 
-/// Whether an order of the axes is made of three that were read. In small code that costs less than
-/// to read in an order, but where floats take integer instructions.
-#[cfg(not(meshsweep_wide))]
-pub(super) const PICKS: bool = cfg!(meshsweep_small) && !SOFT_FLOAT;
-
 /// Ring vertices of the largest leaf.
 #[cfg(not(meshsweep_wide))]
 pub(super) const RING_VERTICES: usize = WIDTH + 1;
@@ -81,9 +74,6 @@ impl FullRing<'_> {
     /// The same in the order of `axes`.
     #[inline(always)]
     pub fn centres_in_order(&self, shape: LeafShape, [u, v, w]: [usize; 3]) -> [[i32; 3]; 2] {
-        if PICKS {
-            return self.centres(shape).map(|all| [pick(all, u), pick(all, v), pick(all, w)]);
-        }
         // A mask that changes nothing costs less than a bounds check.
         let stored = |which: usize, axis: usize| {
             let at = (6 * which + 2 * axis) & 63;

@@ -4,12 +4,10 @@
 
 #[cfg(not(meshsweep_wide))]
 use super::grid_ring::FullRing;
+#[cfg(not(meshsweep_wide))]
+use super::grid_ring::ring_row;
 use super::grid_ring::{GRID_WINDOW, GridRing, short, three};
-#[cfg(not(meshsweep_wide))]
-use super::grid_ring::{PICKS, ring_row};
 use super::leaf_shape::LeafShape;
-#[cfg(not(meshsweep_wide))]
-use crate::geom::fan::pick;
 #[cfg(meshsweep_wide)]
 use crate::geom::fan::{Ring8, WIDTH};
 #[cfg(meshsweep_small)]
@@ -260,10 +258,6 @@ impl<'a> FanLeaf<'a> {
     #[cfg(not(meshsweep_wide))]
     #[inline(always)]
     pub fn full_ring_in_order(&self, [u, v, w]: [usize; 3]) -> Option<FullRing<'a>> {
-        if PICKS {
-            let FullRing { window, rows } = self.full_ring()?;
-            return Some(FullRing { window, rows: [pick(rows, u), pick(rows, v), pick(rows, w)] });
-        }
         let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
         let first = 6 * self.shape.centres();
         let step = 2 * (self.shape.triangles() + 1);
