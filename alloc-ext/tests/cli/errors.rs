@@ -53,8 +53,8 @@ fn wrong_usage_is_status_2() {
         assert_eq!(run(args).status.code(), Some(2), "{args:?}");
     }
     for (args, wanted) in [
-        (&["closest", "a.msw", "1,2,3", "--threads", "0"][..], "at least 1"),
-        (&["closest", "a.msw", "1,2,3", "--threads", "-1"], "at least 1"),
+        (&["closest", "a.msw", "1,2,3", "--threads", "0"][..], "from 1 to 256"),
+        (&["closest", "a.msw", "1,2,3", "--threads", "-1"], "from 1 to 256"),
         (&["nearest", "a.msw", "1,2,3", "-n", "-1"], "from 1 to 1048576"),
         (&["closest", "a.msw", "1,2,3", "--steps", "-1"], "at least 0"),
         (&["closest", "a.msw", "1,2,3", "--scratch", "-1"], "from 1 to 16777216"),

@@ -58,9 +58,10 @@ pub fn whole<const LEAST: u32, const MOST: u32>(text: &str) -> Result<u32, Strin
     text.trim().parse().ok().filter(|n| (LEAST..=MOST).contains(n)).ok_or_else(wanted)
 }
 
-/// A number of threads.
+/// A number of threads. A thousand would wait for each other.
 pub fn threads(text: &str) -> Result<NonZeroUsize, String> {
-    text.parse().map_err(|_| "a whole number is wanted, at least 1".to_owned())
+    let threads = text.parse().ok().filter(|&threads: &NonZeroUsize| threads.get() <= 256);
+    threads.ok_or_else(|| "a whole number from 1 to 256 is wanted".to_owned())
 }
 
 /// A point: three finite numbers.
@@ -212,7 +213,8 @@ mod tests {
             whole::<4, { u32::MAX }>("-3").unwrap_err(),
             "a whole number is wanted, at least 4"
         );
-        assert!(threads("0").unwrap_err().contains("at least 1") && threads("2").is_ok());
+        assert!(threads("0").unwrap_err().contains("from 1 to 256") && threads("2").is_ok());
+        assert!(threads("257").is_err() && threads("256").is_ok());
     }
 
     #[test]
