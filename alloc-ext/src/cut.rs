@@ -18,6 +18,17 @@ pub struct Keep {
     pub tight: Option<u32>,
 }
 
+impl Keep {
+    setters! { optional
+        /// Sets the [finest level](Self::level).
+        with_level: u32 => level,
+        /// Sets the number of [triboxes](Self::triboxes).
+        with_triboxes: u32 => triboxes,
+        /// Sets the number of faces of [tight hulls](Self::tight).
+        with_tight: u32 => tight,
+    }
+}
+
 /// A blob that was cut.
 ///
 /// # Errors
