@@ -173,6 +173,9 @@ fn moves_from_pose_to_pose_are_clear_or_name_where_they_stop() {
     for kind in ["straight", "screw"] {
         let asked = ["clearance", arg(&part), arg(&part), "--pose", arg(&path), "--moves", kind];
         let moves = parse_csv(&ok(asked), header);
+        let told = String::from_utf8_lossy(&run(asked).stderr).into_owned();
+        let warned = told.contains("3 moves between poses of different rotation");
+        assert_eq!(warned, kind == "straight");
         let clear: Vec<&str> = moves.iter().map(|row| row[1].as_str()).collect();
         // Half a turn back about an axis leads round it.
         let last = if kind == "screw" { "yes" } else { "undecided" };

@@ -7,7 +7,9 @@ use crate::failure::Failure;
 use crate::poses;
 use crate::queries::Queries;
 use crate::{blob_file, served};
+use meshsweep::counted::Counted;
 use meshsweep_core::{BuildFor, Bvh, Interval, Motion, Pose, Relation, Triboxes};
+use std::io::{self, Write};
 
 /// Columns of the answers to --within.
 const WITHIN: &str = "pose,within,first,second,work";
@@ -147,6 +149,20 @@ impl Clearance<'_> {
                 None => Failure::Query { place, error },
             };
             poses.end_at(index, failure)?;
+        }
+        let turns = |pair: &[[f32; 12]]| {
+            let [from, to] = [pair[0], pair[1]].map(poses::of_row);
+            from.rotation != to.rotation
+        };
+        let count = poses.rows.windows(2).filter(|pair| turns(pair)).count();
+        if kind == MoveKind::Straight && count > 0 {
+            // A closed standard error does not withhold the answers.
+            let _ = writeln!(
+                io::stderr(),
+                "{} between poses of different rotation: straight shrinks the mesh on the way, \
+                 --moves screw keeps it rigid",
+                Counted(count, "move")
+            );
         }
         let moves =
             poses.moves(|from, to| row_of_poses([poses::of_row(from), poses::of_row(to)]))?;
