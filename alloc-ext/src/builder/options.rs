@@ -350,7 +350,7 @@ impl Options {
         self.goal().check(self.margin.unwrap_or(0.0))
     }
 
-    /// Why an option is of no use, if it applies to what is not asked for.
+    /// The reason to refuse an option, if it applies to a structure that is not built.
     fn lacks(&self, of: Of) -> Option<&'static str> {
         let (is_served, why) = match of {
             Of::Any => return None,

@@ -5,8 +5,8 @@ use meshsweep_core::{Budget, QueryError, ScratchEntry, Work};
 /// Sees each call, and may change its terms. The time between the two calls `query_begins` and
 /// `query_ends` is the core's alone, without placing the query and folding the answer.
 ///
-/// Terms and answers are those of [`Asked`](crate::ask::Asked). What is not overridden leaves no
-/// code in an image.
+/// [`Asked`](crate::ask::Asked) passes terms and answers on. A method that an observer does not
+/// override leaves no code in an image.
 pub trait Observer {
     /// The core is about to be called.
     fn query_begins(&mut self) {}

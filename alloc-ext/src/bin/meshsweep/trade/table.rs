@@ -136,8 +136,8 @@ fn write_notes(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
          distance in f64 less the\nlower end, and the upper end less that distance, the largest. \
          M4F, M0: instructions of a\nCortex-M4F and a Cortex-M0, predicted; most is of these \
          points, meshsweep worst finds more.\nflash: bytes of the blob. scratch: bytes, \
-         memory kept between queries among them. stack: bytes of a\nCortex-M4F's, at most. host ns: of this \
-         machine, on one thread."
+         memory kept between queries among them. stack: bytes of a\nCortex-M4F's, at most. \
+         host ns: of this machine, on one thread."
     )?;
     let mut said: Vec<String> = Vec::new();
     for row in rows {
