@@ -1,17 +1,19 @@
-//! A structure that answers distances, and the dials that it is built with.
+//! A structure that answers distances or segments, and the dials that it is built with.
 
 use super::options::{For, Options};
 use crate::surface::VertexBits;
 use std::fmt;
 
-/// A structure that answers distances, and the dials that it is built with. `Display` prints the
-/// options with which the program builds it; of a cut level, those of the hierarchy to cut, and
+/// A structure that answers distances or segments, and the dials that it is built with. `Display`
+/// prints the options with which the program builds it; of a cut level, those of the hierarchy to cut, and
 /// that `cut --level` follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Recipe {
     /// A box tree for distances.
     Tree(VertexBits),
+    /// A box tree for segments, and for the distance of two models.
+    SegmentTree(VertexBits),
     /// A hull hierarchy for sweeps.
     Sweep(VertexBits),
     /// The hull hierarchy of a closed mesh, cut after its coarsest level
@@ -29,6 +31,7 @@ impl Recipe {
         let serving = |question| Options { asked: vec![question], ..Options::default() };
         match self {
             Self::Tree(bits) => Options { vertex_bits: bits, ..serving(For::Closest) },
+            Self::SegmentTree(bits) => Options { vertex_bits: bits, ..serving(For::Segment) },
             Self::Sweep(bits) => Options { vertex_bits: bits, ..serving(For::Sweep) },
             Self::CutLevel(_) => serving(For::Hull),
             Self::Tight(faces) => Options {
@@ -45,7 +48,7 @@ impl Recipe {
     #[must_use]
     pub fn name(self) -> String {
         match self {
-            Self::Tree(bits) => format!("box tree, {bits} bits"),
+            Self::Tree(bits) | Self::SegmentTree(bits) => format!("box tree, {bits} bits"),
             Self::Sweep(bits) => format!("sweep, {bits} bits"),
             Self::CutLevel(error) => format!("cut level, error {error}"),
             Self::Tight(faces) => format!("tight hull, {faces} faces"),

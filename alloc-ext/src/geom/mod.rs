@@ -24,5 +24,7 @@ pub(crate) use face_tree::FaceTree;
 pub(crate) use inner::inner_points;
 pub(crate) use moving_boxes::MovingBoxes;
 pub(crate) use order::spatial_order;
-pub(crate) use predicates::{Face, Triangle, are_apart, is_cut_off, is_degenerate, meet, side};
+pub(crate) use predicates::{
+    Face, Triangle, are_apart, is_cut_off, is_degenerate, meet, segment_meets, side,
+};
 pub(crate) use tree::{Frontier, StaticTree};

@@ -108,7 +108,7 @@ fn edges_meet(s: &Triangle, sides: [f64; 3], t: &Triangle) -> bool {
 
 /// Whether a closed segment, whose ends lie on the given sides of `t`'s plane, meets `t`. If `t`
 /// has no area: false.
-pub(super) fn segment_meets([p, q]: [DVec3; 2], [of_p, of_q]: [f64; 2], t: &Triangle) -> bool {
+pub(crate) fn segment_meets([p, q]: [DVec3; 2], [of_p, of_q]: [f64; 2], t: &Triangle) -> bool {
     if (of_p > 0.0 && of_q > 0.0) || (of_p < 0.0 && of_q < 0.0) {
         return false;
     }

@@ -64,7 +64,7 @@ impl Urdf {
         let document = &Document::parse(file, &text).map_err(of_xml)?;
         let root = Element { document, at: 0 };
         if root.name() != "robot" {
-            return Err(root.refused("the root is not a robot"));
+            return Err(root.refused("the root is no <robot>: this is no URDF"));
         }
         if let Some(element) = root.children().find(|child| XACRO.contains(&child.name())) {
             return Err(element.refused("this is xacro; expand it first: xacro FILE > robot.urdf"));
@@ -102,7 +102,7 @@ pub(super) fn disabled_pairs(
     let document = &Document::parse(file, &text).map_err(of_xml)?;
     let root = Element { document, at: 0 };
     if root.name() != "robot" {
-        return Err(root.refused("the root is not a robot"));
+        return Err(root.refused("the root is no <robot>: this is no SRDF"));
     }
     let others = ["disable_default_collisions", "enable_collisions"];
     if let Some(other) = root.children().find(|child| others.contains(&child.name())) {

@@ -1,11 +1,12 @@
 //! The answers of a setting, the work that they took, and the time of this machine.
 
 use super::cost::{Features, Shape};
-use super::setting::{How, Setting};
+use super::setting::{How, Question, Setting};
 use crate::builder::Recipe;
 use crate::distances::Distances;
 use meshsweep_core::{
-    Blob, Budget, ClosestPoint, CoherentQuery, Hint, QueryError, ScratchEntry, Work,
+    Blob, Budget, ClosestPoint, CoherentQuery, Facing, FirstHit, Hint, QueryError, ScratchEntry,
+    Work,
 };
 use std::hint::black_box;
 use std::time::Instant;
@@ -16,10 +17,10 @@ const FRONT: usize = 128;
 /// What one query answered.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Answer {
-    /// The distance is no less.
-    pub lower: f32,
-    /// The distance is no more; infinite if the structure has no upper bound.
-    pub upper: f32,
+    /// The distance, or the free length of a segment, is no less.
+    pub lower: f64,
+    /// It is no more; infinite if the structure has no upper bound.
+    pub upper: f64,
     /// What its cost is predicted from.
     pub features: Features,
 }
@@ -35,7 +36,7 @@ pub(super) struct Asked {
 }
 
 /// The interval of the distance of each point, lower and upper end. The upper end is infinite if
-/// the structure has none.
+/// the structure has none. The setting asks closest points.
 ///
 /// # Errors
 /// A blob without the setting's structure, or a point that is refused.
@@ -45,7 +46,11 @@ pub fn intervals(
     points: &[[f32; 3]],
 ) -> Result<Vec<[f32; 2]>, QueryError> {
     let asked = ask(setting, bytes, points)?;
-    Ok(asked.answers.iter().map(|answer| [answer.lower, answer.upper]).collect())
+    Ok(asked
+        .answers
+        .iter()
+        .map(|answer| [answer.lower, answer.upper].map(|end| end as f32))
+        .collect())
 }
 
 /// Asks a blob of a setting's structure twice: for the answers, and for the time.
@@ -59,40 +64,44 @@ pub(super) fn ask(
 ) -> Result<Asked, QueryError> {
     let blob = Blob::open(bytes).map_err(|_| QueryError::Unchecked)?;
     let budget = setting.budget;
+    if setting.question == Question::FirstHit {
+        return first_hits(setting, &blob, points.as_chunks().0);
+    }
+    let points = points.as_chunks::<1>().0;
     match setting.recipe {
-        Recipe::Tree(_) => {
+        Recipe::Tree(_) | Recipe::SegmentTree(_) => {
             let tree = blob.bvh()?;
             let mut stack = entries(setting, tree.scratch_entries_for(budget));
             let scratch = size_of_val(stack.as_slice());
             let of = Of { budget, shape: Shape::of_tree(&tree), scratch };
             match setting.how {
                 How::Fresh => {
-                    let asked = first(points, &of, |p| {
+                    let asked = first(points, &of, |[p]| {
                         let hint = &mut Hint::NONE.clone();
                         tree.closest_point_in_order(p, hint, budget, &mut stack).map(of_closest)
                     })?;
-                    timed(asked, points, |p| {
+                    timed(asked, points, |[p]| {
                         tree.closest_point(p, budget, &mut stack).map(of_closest)
                     })
                 }
                 How::Hinted => {
                     let mut hint = Hint::NONE;
-                    let asked = first(points, &of, |p| {
+                    let asked = first(points, &of, |[p]| {
                         let near = tree.closest_point_in_order(p, &mut hint, budget, &mut stack);
                         near.map(of_closest)
                     })?;
-                    timed(asked, points, |p| {
+                    timed(asked, points, |[p]| {
                         let near = tree.closest_point_from(p, &mut hint, budget, &mut stack);
                         near.map(of_closest)
                     })
                 }
-                How::Precise => twice(points, &of, |p| {
+                How::Precise => twice(points, &of, |[p]| {
                     tree.closest_point_precise(p, budget, &mut stack).map(of_closest)
                 }),
                 How::Coherent => {
                     let mut kept = CoherentQuery::<FRONT>::new();
                     let of = Of { scratch: scratch + size_of_val(&kept), ..of };
-                    twice(points, &of, |p| {
+                    twice(points, &of, |[p]| {
                         let near = kept.closest_point(&tree, p, budget, &mut stack);
                         near.map(|near| of_closest(near.closest))
                     })
@@ -111,9 +120,9 @@ pub(super) fn ask(
             if setting.how != How::Coherent {
                 return plain(Distances::Hull(hull), points, &of, &mut queue);
             }
-            let begin = points.first().copied().unwrap_or_default();
+            let begin = points.first().map_or([0.0; 3], |&[begin]| begin);
             let mut sweep = hull.sweep(begin, &mut queue)?;
-            twice(points, &of, |p| {
+            twice(points, &of, |[p]| {
                 sweep.move_to(p)?;
                 sweep.closest_point(budget).map(of_closest)
             })
@@ -130,9 +139,9 @@ pub(super) fn ask(
             let mut stack = entries(setting, triboxes.scratch_entries());
             let scratch = size_of_val(stack.as_slice());
             let of = Of { budget, shape: Shape::of_triboxes(&triboxes), scratch };
-            twice(points, &of, |p| {
+            twice(points, &of, |[p]| {
                 let bound = triboxes.distance(p, budget, &mut stack)?;
-                Ok((bound.lower, f32::INFINITY, bound.work))
+                Ok((f64::from(bound.lower), f64::INFINITY, bound.work))
             })
         }
     }
@@ -142,19 +151,58 @@ fn entries(setting: &Setting, enough: usize) -> Vec<ScratchEntry> {
     vec![ScratchEntry::EMPTY; setting.entries.unwrap_or(enough).min(enough).max(1)]
 }
 
-fn of_closest(near: ClosestPoint) -> (f32, f32, Work) {
-    (near.distance.lower, near.distance.upper, near.work)
+/// First hits of segments, asked twice likewise.
+fn first_hits(
+    setting: &Setting,
+    blob: &Blob<'_>,
+    segments: &[[[f32; 3]; 2]],
+) -> Result<Asked, QueryError> {
+    let budget = setting.budget;
+    match setting.recipe {
+        Recipe::Sweep(_) | Recipe::CutLevel(_) => {
+            let hull = blob.hull()?;
+            let mut queue = entries(setting, hull.scratch_entries());
+            let scratch = size_of_val(queue.as_slice());
+            let of = Of { budget, shape: Shape::of_hull(&hull), scratch };
+            twice(segments, &of, |[a, b]| {
+                Ok(of_hit([a, b], &hull.first_hit(a, b, budget, &mut queue)?))
+            })
+        }
+        _ => {
+            let tree = blob.bvh()?;
+            let mut stack = entries(setting, tree.scratch_entries_for(budget));
+            let scratch = size_of_val(stack.as_slice());
+            let of = Of { budget, shape: Shape::of_tree(&tree), scratch };
+            twice(segments, &of, |[a, b]| {
+                let hit = tree.first_hit(a, b, Facing::Both, budget, &mut stack)?;
+                Ok(of_hit([a, b], &hit))
+            })
+        }
+    }
+}
+
+fn of_closest(near: ClosestPoint) -> (f64, f64, Work) {
+    (f64::from(near.distance.lower), f64::from(near.distance.upper), near.work)
+}
+
+/// The free length. That of a clear segment is its length, and no hit that is not known is later.
+fn of_hit([a, b]: [[f32; 3]; 2], hit: &FirstHit) -> (f64, f64, Work) {
+    let [a, b] = [a, b].map(|end| glam::Vec3::from(end).as_dvec3());
+    let length = a.distance(b);
+    let [lower, upper] = [hit.t.lower, hit.t.upper].map(|t| f64::from(t).min(1.0) * length);
+    (lower, upper, hit.work)
 }
 
 fn plain(
     structure: Distances<'_>,
-    points: &[[f32; 3]],
+    points: &[[[f32; 3]; 1]],
     of: &Of,
     scratch: &mut [ScratchEntry],
 ) -> Result<Asked, QueryError> {
-    twice(points, of, |p| {
+    twice(points, of, |[p]| {
         let near = structure.closest_point(p, of.budget, scratch)?;
-        Ok((near.distance.lower, near.distance.upper, near.work))
+        let [lower, upper] = [near.distance.lower, near.distance.upper].map(f64::from);
+        Ok((lower, upper, near.work))
     })
 }
 
@@ -167,41 +215,41 @@ struct Of {
 }
 
 /// The ends of an interval, and the work.
-type Found = Result<(f32, f32, Work), QueryError>;
+type Found = Result<(f64, f64, Work), QueryError>;
 
 /// For the answers and for the time alike.
-fn twice(
-    points: &[[f32; 3]],
+fn twice<const N: usize>(
+    places: &[[[f32; 3]; N]],
     of: &Of,
-    mut one: impl FnMut([f32; 3]) -> Found,
+    mut one: impl FnMut([[f32; 3]; N]) -> Found,
 ) -> Result<Asked, QueryError> {
-    timed(first(points, of, &mut one)?, points, one)
+    timed(first(places, of, &mut one)?, places, one)
 }
 
 /// For the answers: a box tree is searched in the order of boards, so that the work is theirs.
-fn first(
-    points: &[[f32; 3]],
+fn first<const N: usize>(
+    places: &[[[f32; 3]; N]],
     of: &Of,
-    mut one: impl FnMut([f32; 3]) -> Found,
+    mut one: impl FnMut([[f32; 3]; N]) -> Found,
 ) -> Result<Asked, QueryError> {
-    let answers = points.iter().map(|&point| {
-        let (lower, upper, work) = one(point)?;
-        Ok(Answer { lower, upper, features: of.shape.features(point, &of.budget, &work) })
+    let answers = places.iter().map(|&place| {
+        let (lower, upper, work) = one(place)?;
+        Ok(Answer { lower, upper, features: of.shape.features(&place, &of.budget, &work) })
     });
     let answers = answers.collect::<Result<Vec<_>, QueryError>>()?;
     Ok(Asked { answers, nanoseconds: 0.0, scratch: of.scratch })
 }
 
 /// For the time: a box tree is searched as this machine does it best.
-fn timed(
+fn timed<const N: usize>(
     asked: Asked,
-    points: &[[f32; 3]],
-    mut one: impl FnMut([f32; 3]) -> Found,
+    places: &[[[f32; 3]; N]],
+    mut one: impl FnMut([[f32; 3]; N]) -> Found,
 ) -> Result<Asked, QueryError> {
     let begun = Instant::now();
-    for &point in points {
-        black_box(one(black_box(point))?);
+    for &place in places {
+        black_box(one(black_box(place))?);
     }
-    let nanoseconds = begun.elapsed().as_nanos() as f64 / points.len().max(1) as f64;
+    let nanoseconds = begun.elapsed().as_nanos() as f64 / places.len().max(1) as f64;
     Ok(Asked { nanoseconds, ..asked })
 }

@@ -52,6 +52,12 @@ pub enum Search {
     Tight,
     /// A lower bound of the distance from triboxes.
     Triboxes,
+    /// The first hit of a segment in a box tree, vertices on a grid of 16 bits.
+    FirstHit,
+    /// The same with vertices in f32.
+    FirstHitF32,
+    /// The first hit of a segment in a hull hierarchy.
+    FirstHitOfHull,
     /// Whether two box trees, or two tight hulls, are within a distance of each other.
     PairOfTrees,
     /// Whether triboxes prove that two models are farther than a distance.
@@ -60,7 +66,7 @@ pub enum Search {
 
 impl Search {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 14] = [
         Self::Tree,
         Self::TreeF32,
         Self::Precise,
@@ -70,6 +76,9 @@ impl Search {
         Self::KeptSweep,
         Self::Tight,
         Self::Triboxes,
+        Self::FirstHit,
+        Self::FirstHitF32,
+        Self::FirstHitOfHull,
         Self::PairOfTrees,
         Self::PairOfTriboxes,
     ];
@@ -91,6 +100,8 @@ impl Search {
             Self::KeptSweep => "sweep",
             Self::Tight => "closest point of tight hulls",
             Self::Triboxes => "triboxes apart",
+            Self::FirstHit | Self::FirstHitF32 => "first hit",
+            Self::FirstHitOfHull => "first hit of a hull",
             Self::PairOfTrees => "distance of two models",
             Self::PairOfTriboxes => "within of triboxes",
         }
@@ -109,6 +120,9 @@ impl Search {
             Self::KeptSweep => "sweep, kept",
             Self::Tight => "tight hull",
             Self::Triboxes => "triboxes",
+            Self::FirstHit => "first hit",
+            Self::FirstHitF32 => "first hit, f32",
+            Self::FirstHitOfHull => "first hit, hull",
             Self::PairOfTrees => "pair of trees",
             Self::PairOfTriboxes => "pair of triboxes",
         }
@@ -118,7 +132,8 @@ impl Search {
 /// What the model multiplies by costs: see [`FEATURES`].
 pub type Features = [f64; 8];
 
-/// Names of the [`Features`]. `inside`: the point is in the structure's box. `leaf`: triangles
+/// Names of the [`Features`]. `inside`: the point, or a point of the box about the segment, is in
+/// the structure's box. `leaf`: triangles
 /// divided by those of a mean leaf. `tolerant`: splits of a query with a tolerance.
 pub const FEATURES: [&str; 8] =
     ["query", "inside", "node", "triangle", "exact", "split", "leaf", "tolerant"];
@@ -171,12 +186,15 @@ impl Shape {
         Self { low, high, leaf: f64::INFINITY }
     }
 
-    /// The features of a query.
+    /// The features of a query at a point, or about the segment between two.
     #[must_use]
-    pub fn features(&self, point: [f32; 3], budget: &Budget, work: &Work) -> Features {
+    pub fn features(&self, place: &[[f32; 3]], budget: &Budget, work: &Work) -> Features {
         let counters = [work.bounds, work.triangles, work.exact, work.opened].map(f64::from);
         let [nodes, triangles, exact, splits] = counters;
-        let is_inside = (0..3).all(|k| self.low[k] <= point[k] && point[k] <= self.high[k]);
+        let is_inside = (0..3).all(|k| {
+            place.iter().any(|point| self.low[k] <= point[k])
+                && place.iter().any(|point| point[k] <= self.high[k])
+        });
         let is_tolerant = budget.relative > 0.0 || budget.absolute > 0.0;
         let of = |is: bool, count: f64| if is { count } else { 0.0 };
         let inside = of(is_inside, 1.0);

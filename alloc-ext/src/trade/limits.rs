@@ -11,13 +11,6 @@ use std::fmt;
 /// taken two to four, a division fourteen, and flash may add waits: twice leaves room.
 pub const CYCLES: f64 = 2.0;
 
-/// Part of the triangles that are needles from which on predicted instructions are doubtful.
-pub const MANY_NEEDLES: f64 = 0.1;
-
-/// How many times the predicted instructions a comb of needles takes, on the boards of
-/// [`Board::ALL`]. `cargo xtask fit` prints the share that is not predicted.
-pub const COMB_OF_NEEDLES: [f64; 2] = [2.2, 4.5];
-
 /// A processor and its clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cpu {
@@ -76,11 +69,6 @@ pub struct Choice {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Unmet {
-    /// A rate is limited, and instructions are not predicted for this many needles.
-    Needles {
-        /// Part of the triangles.
-        part: f64,
-    },
     /// No setting was measured: there were no points, or no structure was built.
     NothingMeasured,
     /// No structure gives intervals.
@@ -97,12 +85,6 @@ pub enum Unmet {
 impl fmt::Display for Unmet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Needles { part } => write!(
-                f,
-                "{:.0} % of the triangles are needles, whose instructions are not predicted; \
-                 leave --rate out, and count them",
-                100.0 * part
-            ),
             Self::NothingMeasured => {
                 f.write_str("nothing was measured: there are no points, or no structure was built")
             }
@@ -151,9 +133,6 @@ impl Limits {
     pub fn choose(&self, trade: &Trade) -> Result<Choice, Unmet> {
         if trade.rows.is_empty() {
             return Err(Unmet::NothingMeasured);
-        }
-        if self.cycles().is_some() && trade.needles >= MANY_NEEDLES {
-            return Err(Unmet::Needles { part: trade.needles });
         }
         let rows = || trade.rows.iter().filter(|row| row.guaranteed.is_some());
         let mut meeting: Vec<&Row> = rows().filter(|row| self.is_met(row)).collect();
@@ -225,10 +204,13 @@ impl Limits {
             let limit = exceeded(value, limit)?;
             Some(match (option, self.cpu) {
                 ("--rate", Some(cpu)) if cpu.hertz >= value => {
-                    format!("--rate {}Hz", (cpu.hertz / value).floor())
+                    let rates = [cpu.hertz / value, cpu.hertz / limit].map(f64::floor);
+                    format!("--rate {}Hz instead of {}Hz", rates[0], rates[1])
                 }
-                ("--rate", _) => format!("{value:.0} cycles"),
-                ("--error", _) => format!("--error {}", AtMost(value)),
+                ("--rate", _) => format!("{value:.0} cycles instead of {limit:.0}"),
+                ("--error", _) => {
+                    format!("--error {} instead of {}", AtMost(value), AtMost(limit))
+                }
                 _ => format!("{option} {value:.0} instead of {limit:.0}"),
             })
         });
@@ -275,8 +257,7 @@ mod tests {
 
     #[test]
     fn a_limit_that_nothing_can_meet_is_met_by_nothing() {
-        let mut trade = measured(20);
-        trade.needles = 0.0;
+        let trade = measured(20);
         for wrong in [-1.0, f64::NAN, f64::NEG_INFINITY] {
             let error = Limits { error: Some(wrong), ..Limits::default() };
             let rate = Limits { rate: Some(wrong), cpu: Some(CPU), ..Limits::default() };
@@ -288,19 +269,6 @@ mod tests {
         let none = Limits { flash: Some(0), ram: Some(0), ..Limits::default() };
         let unmet = none.choose(&trade).expect_err("no blob is empty").to_string();
         assert!(unmet.contains("--flash") && unmet.contains("--ram"), "{unmet}");
-    }
-
-    #[test]
-    fn needles_are_refused_for_a_rate_of_a_processor_only() {
-        let mut trade = measured(20);
-        trade.needles = MANY_NEEDLES;
-        let rate = Limits { rate: Some(1.0), ..Limits::default() };
-        assert!(rate.choose(&trade).is_ok());
-        let both = Limits { cpu: Some(CPU), ..rate };
-        let needles = Unmet::Needles { part: MANY_NEEDLES };
-        assert_eq!(both.choose(&trade).err(), Some(needles));
-        trade.needles = 0.0;
-        assert!(both.choose(&trade).is_ok());
     }
 
     #[test]

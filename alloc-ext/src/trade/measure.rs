@@ -4,7 +4,7 @@ use super::ask::{Asked, ask};
 use super::blobs::{NotBuilt, build_group};
 use super::cost::{Board, Cost};
 use super::fitted::cost;
-use super::setting::Setting;
+use super::setting::{Question, Setting};
 use super::truth::Truth;
 use crate::builder::{Built, Recipe};
 use crate::load::{Loaded, Source};
@@ -13,6 +13,13 @@ use glam::DVec3;
 use meshsweep_core::QueryError;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Part of the triangles that are needles from which on predicted instructions are doubtful.
+pub const MANY_NEEDLES: f64 = 0.1;
+
+/// How many times the predicted instructions a comb of needles takes, on the boards of
+/// [`Board::ALL`]. `cargo xtask fit` prints the share that is not predicted.
+pub const COMB_OF_NEEDLES: [f64; 2] = [2.2, 4.5];
 
 /// Of all queries the largest value and the median.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +47,8 @@ pub struct Instructions {
     /// Of the costliest one.
     pub most: f64,
     /// Factor by which the costliest query may be costlier:
-    /// [`Cost::missed_by`](super::Cost::missed_by).
+    /// [`Cost::missed_by`](super::Cost::missed_by), of a mesh of [many needles](MANY_NEEDLES) times
+    /// that of [`COMB_OF_NEEDLES`].
     pub missed_by: f64,
     /// Largest relative error of a mean: [`Cost::error`](super::Cost::error).
     pub error: f64,
@@ -78,9 +86,10 @@ pub struct Row {
     pub setting: Setting,
     /// Width of the interval. `None` if the structure gives a lower bound only.
     pub guaranteed: Option<Spread>,
-    /// The distance in f64, less the lower end: the error of a caller that must keep clear.
+    /// The distance or free length in f64, less the lower end: the error of a caller that must keep
+    /// clear.
     pub found_lower: Spread,
-    /// The upper end, less the distance in f64. `None` without an upper end.
+    /// The upper end, less it. `None` without an upper end.
     pub found_upper: Option<Spread>,
     /// Of a mean query on this machine, on one thread. A box tree is searched in the order that is
     /// fastest here.
@@ -103,6 +112,19 @@ impl Row {
     pub fn build(&self) -> String {
         let recipe = self.setting.recipe;
         self.level.map_or_else(|| recipe.to_string(), |level| format!("{recipe} {level}"))
+    }
+
+    /// The row of a mesh of which so large a part are needles.
+    fn of_needles(mut self, part: f64) -> Self {
+        if part >= MANY_NEEDLES {
+            let known = self.boards.iter_mut().zip(COMB_OF_NEEDLES);
+            known.for_each(|(board, times)| {
+                if let Some(board) = board {
+                    board.missed_by *= times;
+                }
+            });
+        }
+        self
     }
 
     /// The widest of the intervals; infinite if the structure gives a lower bound only.
@@ -152,8 +174,9 @@ impl Trade {
     }
 }
 
-/// Measures settings of a mesh, as read and as repaired, at some points. Structures are built on
-/// all cores. `progress` is called from any of them, with the number of structures built and
+/// Measures settings of a mesh, as read and as repaired, at some points: those of each place in a
+/// row, as the setting's [question](Setting::question) takes them. Structures are built on all
+/// cores. `progress` is called from any of them, with the number of structures built and
 /// settings asked, and of how many.
 ///
 /// # Errors
@@ -173,7 +196,8 @@ pub fn measure(
     }
     let (done, of) = (AtomicUsize::new(0), recipes.len() + settings.len());
     let step = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, of);
-    let distances = distances(&repaired.mesh, points);
+    let truth = Truth::of(&repaired.mesh);
+    let [mut distances, mut free] = [const { None::<Vec<f64>> }; 2];
     let is_cut = |recipe: &Recipe| matches!(recipe, Recipe::CutLevel(_));
     let (cut, others): (Vec<Recipe>, Vec<Recipe>) = recipes.into_iter().partition(is_cut);
     let mut groups: Vec<Vec<Recipe>> = others.into_iter().map(|other| vec![other]).collect();
@@ -197,7 +221,11 @@ pub fn measure(
     for setting in settings {
         if let Some((_, built)) = trade.blobs.iter().find(|(of, _)| *of == setting.recipe) {
             let asked = ask(setting, built.bytes(), points)?;
-            let row = row(*setting, built, &asked, &distances);
+            let truths = match setting.question {
+                Question::ClosestPoint => distances.get_or_insert_with(|| truth.distances(points)),
+                Question::FirstHit => free.get_or_insert_with(|| truth.free_lengths(points)),
+            };
+            let row = row(*setting, built, &asked, truths).map(|row| row.of_needles(needles));
             trade.rows.extend(row);
         }
         step();
@@ -208,8 +236,7 @@ pub fn measure(
 /// The distances of points from a mesh, in f64, from all of its triangles.
 #[must_use]
 pub fn distances(mesh: &Mesh, points: &[[f32; 3]]) -> Vec<f64> {
-    let truth = Truth::of(mesh);
-    points.par_iter().map(|&point| truth.distance(point)).collect()
+    Truth::of(mesh).distances(points)
 }
 
 /// Length over height from which on a triangle is a needle.
@@ -225,10 +252,10 @@ fn needles(mesh: &Mesh) -> f64 {
     count as f64 / mesh.triangles.len().max(1) as f64
 }
 
-fn row(setting: Setting, built: &Built, asked: &Asked, distances: &[f64]) -> Option<Row> {
+fn row(setting: Setting, built: &Built, asked: &Asked, truths: &[f64]) -> Option<Row> {
     let Asked { answers, nanoseconds, scratch } = asked;
-    let lower = |i: usize| f64::from(answers[i].lower);
-    let upper = |i: usize| f64::from(answers[i].upper);
+    let lower = |i: usize| answers[i].lower;
+    let upper = |i: usize| answers[i].upper;
     let each = |of: &dyn Fn(usize) -> f64| Spread::of((0..answers.len()).map(of).collect());
     let is_bounded = answers.iter().all(|answer| answer.upper.is_finite());
     let boards = Board::ALL.map(|board| {
@@ -242,8 +269,8 @@ fn row(setting: Setting, built: &Built, asked: &Asked, distances: &[f64]) -> Opt
     Some(Row {
         setting,
         guaranteed: each(&|i| upper(i) - lower(i)).filter(|_| is_bounded),
-        found_lower: each(&|i| (distances[i] - lower(i)).max(0.0))?,
-        found_upper: each(&|i| (upper(i) - distances[i]).max(0.0)).filter(|_| is_bounded),
+        found_lower: each(&|i| (truths[i] - lower(i)).max(0.0))?,
+        found_upper: each(&|i| (upper(i) - truths[i]).max(0.0)).filter(|_| is_bounded),
         nanoseconds: *nanoseconds,
         boards,
         level: built.cut_level(),

@@ -7,11 +7,11 @@
 //!
 //! | file | owns |
 //! | --- | --- |
-//! | `points` | points far from a mesh, near it, and along a path |
+//! | `points` | points and segments far from a mesh, near it, and along a path |
 //! | `setting` | a recipe and how it is asked, and the list that [`measure()`] is given by default |
 //! | `blobs` | the blob of a recipe, or why there is none |
 //! | `ask` | the answers of a setting, their work, and the time of this machine |
-//! | `truth` | the distance from every triangle in f64; it shares no code with queries |
+//! | `truth` | the distance from every triangle, and where a segment meets one, in f64; it shares no code with queries |
 //! | `cost` | instructions of a board from the work of a query |
 //! | `costs`, `fitted` | the fitted numbers, written by `cargo xtask fit`; looked up |
 //! | `measure` | the rows, and which of them nothing else beats |
@@ -38,8 +38,11 @@ pub use ask::intervals;
 pub use blobs::{NotBuilt, build};
 pub use cost::{Board, Cost, FEATURES, Features, Search, Shape, features_of_pair};
 pub use fitted::cost;
-pub use limits::{COMB_OF_NEEDLES, CYCLES, Choice, Cpu, Limits, MANY_NEEDLES, Unmet};
-pub use measure::{Instructions, Missing, Row, Spread, Trade, distances, measure, pareto};
+pub use limits::{CYCLES, Choice, Cpu, Limits, Unmet};
+pub use measure::{
+    COMB_OF_NEEDLES, Instructions, MANY_NEEDLES, Missing, Row, Spread, Trade, distances, measure,
+    pareto,
+};
 pub use pairs::{PairError, PairRow, PairStructure, PairTrade, measure_pair};
-pub use points::{Points, diagonal, points};
-pub use setting::{How, Setting, standard};
+pub use points::{Points, diagonal, points, segments};
+pub use setting::{How, Question, Setting, standard, standard_of_segments};

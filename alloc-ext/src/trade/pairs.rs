@@ -5,7 +5,7 @@ use super::blobs::{NotBuilt, kept};
 use super::cost::{Board, Search, features_of_pair};
 use super::fitted::cost;
 use super::measure::Instructions;
-use crate::builder::{Builder, Built, For, Recipe};
+use crate::builder::{Builder, Built, Recipe};
 use crate::load::{Loaded, Source};
 use crate::surface::VertexBits;
 use meshsweep_core::{
@@ -64,7 +64,7 @@ impl PairStructure {
 
     fn builder(self) -> Builder<'static> {
         match self {
-            Self::Trees(bits) => Builder::new().serve(For::Segment).vertex_bits(bits),
+            Self::Trees(bits) => Builder::of(Recipe::SegmentTree(bits)),
             Self::Tight(faces) => Builder::of(Recipe::Tight(faces)).tight_for(false, true),
             Self::Triboxes(count) => Builder::of(Recipe::Triboxes(count)),
         }

@@ -1,4 +1,4 @@
-//! Points far from a mesh, near it, and along a path.
+//! Points and segments far from a mesh, near it, and along a path.
 
 use crate::mesh::Mesh;
 use crate::random::SplitMix;
@@ -36,6 +36,9 @@ const NEAR: f64 = 0.01;
 /// Step of a path, as a part of the diagonal.
 const STEP: f64 = 0.001;
 
+/// Length of a segment near the surface, as a part of the diagonal.
+const LENGTH: f64 = 0.1;
+
 /// `count` points of a kind, the same in every run. Empty if the mesh has no triangle with an area.
 #[must_use]
 pub fn points(mesh: &Mesh, kind: Points, count: usize) -> Vec<[f32; 3]> {
@@ -66,6 +69,44 @@ pub fn points(mesh: &Mesh, kind: Points, count: usize) -> Vec<[f32; 3]> {
                 single(here)
             };
             (0..count).map(|_| next()).collect()
+        }
+    }
+}
+
+/// `count` segments of a kind, the same in every run: two points each. Empty if the mesh has no
+/// triangle with an area.
+///
+/// Far ones end on two different sides of a box twice the mesh's. Near ones begin near the surface,
+/// and are a tenth of the diagonal long. Those of a path are its steps.
+#[must_use]
+pub fn segments(mesh: &Mesh, kind: Points, count: usize) -> Vec<[f32; 3]> {
+    let mut random = SplitMix::new(0x7472_6164_6510 + kind as u64);
+    match kind {
+        Points::Far => {
+            let mut ends = points(mesh, kind, 2 * count);
+            let surface = Surface::of(mesh);
+            let (middle, size) = ((surface.low + surface.high) * 0.5, surface.high - surface.low);
+            for segment in ends.as_chunks_mut::<2>().0 {
+                let first = (random.roll() * 6.0) as usize % 6;
+                let second = (first + 1 + (random.roll() * 5.0) as usize % 5) % 6;
+                for (end, side) in segment.iter_mut().zip([first, second]) {
+                    let (axis, sign) = (side % 3, if side < 3 { -1.0 } else { 1.0 });
+                    end[axis] = (middle[axis] + sign * size[axis]) as f32;
+                }
+            }
+            ends
+        }
+        Points::Near => {
+            let length = LENGTH * diagonal(mesh);
+            let end = |from: [f32; 3]| {
+                let offset = random.direction().normalize_or_zero() * length;
+                [from, (DVec3::from(from.map(f64::from)) + offset).as_vec3().to_array()]
+            };
+            points(mesh, kind, count).into_iter().flat_map(end).collect()
+        }
+        Points::Path => {
+            let places = points(mesh, kind, count + 1);
+            places.windows(2).flat_map(|step| [step[0], step[1]]).collect()
         }
     }
 }

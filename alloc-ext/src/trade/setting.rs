@@ -7,6 +7,27 @@ use crate::surface::VertexBits;
 use meshsweep_core::Budget;
 use std::fmt;
 
+/// What is asked at the places of a measurement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// The closest point. A place is a point, and the error is the width of the distance.
+    ClosestPoint,
+    /// The first hit of a segment. A place is two points in a row, and the error is the width of
+    /// the free length: how far the segment goes before it meets the mesh.
+    FirstHit,
+}
+
+impl Question {
+    /// Points of a place.
+    #[must_use]
+    pub const fn points(self) -> usize {
+        match self {
+            Self::ClosestPoint => 1,
+            Self::FirstHit => 2,
+        }
+    }
+}
+
 /// What a query keeps of the one before, and how it measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum How {
@@ -24,6 +45,8 @@ pub enum How {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Setting {
+    /// What is asked.
+    pub question: Question,
     /// What is built.
     pub recipe: Recipe,
     /// When a query may stop.
@@ -49,10 +72,18 @@ impl Setting {
     /// to query. Answers about far points may end for lack of them.
     pub const SWEEP_ENTRIES: usize = 512;
 
-    /// Fresh queries, to the end, with enough scratch.
+    /// Fresh queries of closest points, to the end, with enough scratch.
     #[must_use]
     pub const fn new(recipe: Recipe) -> Self {
-        Self { recipe, budget: Budget::EXACT, how: How::Fresh, entries: None }
+        let question = Question::ClosestPoint;
+        Self { question, recipe, budget: Budget::EXACT, how: How::Fresh, entries: None }
+    }
+
+    /// First hits of segments, to the end, with enough scratch. Box trees for segments and sweeps
+    /// answer them.
+    #[must_use]
+    pub const fn first_hit(recipe: Recipe) -> Self {
+        Self { question: Question::FirstHit, ..Self::new(recipe) }
     }
 
     /// Sets the [scratch](Self::entries).
@@ -64,17 +95,38 @@ impl Setting {
     /// The search whose costs it has.
     #[must_use]
     pub const fn search(&self) -> Search {
+        if matches!(self.question, Question::FirstHit) {
+            return match self.recipe {
+                Recipe::Sweep(_) | Recipe::CutLevel(_) => Search::FirstHitOfHull,
+                Recipe::SegmentTree(VertexBits::Auto | VertexBits::Grid16) => Search::FirstHit,
+                _ => Search::FirstHitF32,
+            };
+        }
         match (self.recipe, self.how) {
             (Recipe::Tree(_), How::Coherent) => Search::Coherent,
             (Recipe::Tree(_), How::Hinted) => Search::Hinted,
             (Recipe::Tree(_), How::Precise) => Search::Precise,
             (Recipe::Tree(VertexBits::Auto | VertexBits::Grid16), How::Fresh) => Search::Tree,
-            (Recipe::Tree(_), How::Fresh) => Search::TreeF32,
+            (Recipe::Tree(_) | Recipe::SegmentTree(_), _) => Search::TreeF32,
             (Recipe::Sweep(_) | Recipe::CutLevel(_), How::Coherent) => Search::KeptSweep,
             (Recipe::Sweep(_) | Recipe::CutLevel(_), _) => Search::Sweep,
             (Recipe::Tight(_), _) => Search::Tight,
             (Recipe::Triboxes(_), _) => Search::Triboxes,
         }
+    }
+
+    /// Whether queries of its kind were counted when the costs were fitted. Of other kinds the
+    /// error of a prediction is unknown.
+    #[must_use]
+    pub const fn is_counted(&self) -> bool {
+        let is_of_fit = match self.recipe {
+            Recipe::Tree(bits) | Recipe::SegmentTree(bits) => !matches!(bits, VertexBits::Grid24),
+            Recipe::Sweep(bits) => matches!(bits, VertexBits::F32),
+            Recipe::Tight(faces) => faces == 200,
+            Recipe::Triboxes(count) => count == 64,
+            Recipe::CutLevel(_) => false,
+        };
+        is_of_fit && self.entries.is_none()
     }
 
     /// The dials, in words.
@@ -150,6 +202,22 @@ pub fn standard(diagonal: f64, triangles: usize, points: Option<Points>) -> Vec<
     if moves {
         all.push(sweep.with_how(How::Coherent));
     }
+    all
+}
+
+/// The settings that are measured by default for first hits of segments.
+#[must_use]
+pub fn standard_of_segments() -> Vec<Setting> {
+    let exact = Budget::EXACT;
+    let tree = Setting::first_hit(Recipe::SegmentTree(VertexBits::Grid16));
+    let mut all = vec![tree];
+    all.extend([4, 8, 16, 32].map(|steps| tree.with_budget(exact.with_steps(steps))));
+    all.push(tree.with_entries(8));
+    all.push(Setting::first_hit(Recipe::SegmentTree(VertexBits::F32)));
+    let bits = [VertexBits::Grid16, VertexBits::Grid24, VertexBits::F32];
+    let sweeps = bits.map(|bits| Setting::first_hit(Recipe::Sweep(bits)));
+    all.extend(sweeps);
+    all.extend([16, 64].map(|steps| sweeps[2].with_budget(exact.with_steps(steps))));
     all
 }
 

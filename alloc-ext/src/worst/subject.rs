@@ -103,7 +103,7 @@ impl<'a> Subject<'a> {
             (Question::Closest, _) => search.points(|point, scratch| {
                 let near = structure.closest_point(*point, budget, scratch).ok()?;
                 let width = Some(near.distance.upper - near.distance.lower);
-                let instructions = instructions(structure, *point, &budget, &near.work);
+                let instructions = instructions(self, &[*point], &budget, &near.work);
                 Some(Found { work: near.work, width, instructions })
             }),
             (Question::Within, _) => search.balls(|point, share, scratch| {
@@ -122,33 +122,44 @@ impl<'a> Subject<'a> {
                 found(winding.work, Some(upper - lower))
             }),
             (Question::Segment, Distances::Tree(tree)) => search.segments(|a, b, scratch| {
-                found(tree.first_hit(a, b, Facing::Both, budget, scratch).ok()?.work, None)
+                let work = tree.first_hit(a, b, Facing::Both, budget, scratch).ok()?.work;
+                let instructions = instructions(self, &[a, b], &budget, &work);
+                Some(Found { work, width: None, instructions })
             }),
             (Question::Segment, Distances::Hull(hull)) => search.segments(|a, b, scratch| {
-                found(hull.first_hit(a, b, budget, scratch).ok()?.work, None)
+                let work = hull.first_hit(a, b, budget, scratch).ok()?.work;
+                let instructions = instructions(self, &[a, b], &budget, &work);
+                Some(Found { work, width: None, instructions })
             }),
             _ => None,
         }
     }
 }
 
-/// Instructions of a closest point with this work, as [`trade`] predicts them.
+/// Instructions of a closest point or a first hit with this work, as [`trade`] predicts them.
 fn instructions(
-    structure: &Distances<'_>,
-    point: [f32; 3],
+    Subject { question, structure }: &Subject<'_>,
+    place: &[[f32; 3]],
     budget: &Budget,
     work: &Work,
 ) -> Option<[f64; 2]> {
+    let is_hit = *question == Question::Segment;
     let (search, shape) = match structure {
-        Distances::Tree(tree) if tree.header().is_f32() => {
-            (trade::Search::TreeF32, Shape::of_tree(tree))
+        Distances::Tree(tree) => {
+            let search = match (is_hit, tree.header().is_f32()) {
+                (false, false) => trade::Search::Tree,
+                (false, true) => trade::Search::TreeF32,
+                (true, false) => trade::Search::FirstHit,
+                (true, true) => trade::Search::FirstHitF32,
+            };
+            (search, Shape::of_tree(tree))
         }
-        Distances::Tree(tree) => (trade::Search::Tree, Shape::of_tree(tree)),
+        Distances::Hull(hull) if is_hit => (trade::Search::FirstHitOfHull, Shape::of_hull(hull)),
         Distances::Hull(hull) => (trade::Search::Sweep, Shape::of_hull(hull)),
         Distances::Tight(hull) => (trade::Search::Tight, Shape::of_tight(hull)),
         Distances::Curve(_) => return None,
     };
-    let features = shape.features(point, budget, work);
+    let features = shape.features(place, budget, work);
     let [m4f, m0] = Board::ALL.map(|board| trade::cost(board, search));
     Some([m4f?.of(&features), m0?.of(&features)])
 }

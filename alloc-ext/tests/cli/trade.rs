@@ -1,9 +1,10 @@
 //! `meshsweep trade`, and `build` with limits.
 
 use crate::support::{
-    arg, coarse_torus, distance, number, ok, parse_csv, random_queries, refused, run, scratch,
-    triangles, wide, write_csv,
+    Triangle, arg, coarse_torus, distance, dot, first_crossing, number, ok, parse_csv,
+    random_queries, refused, run, scratch, sub, triangles, wide, write_csv,
 };
+use meshsweep_core::{Budget, Bvh, Facing, Scratch};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -80,6 +81,73 @@ fn errors_are_those_of_an_independent_distance_and_the_first_table_is_what_nothi
         let found = worst(row, "found_lower").unwrap();
         assert!((found - low).abs() < 1e-6, "{dials}: {found} {low}");
     }
+}
+
+/// Distance along a segment to its first crossing of the surface, or its whole length.
+fn free_length(segment: &[f32; 6], surface: &[Triangle]) -> f64 {
+    let [a, b] = [wide(&segment[..3]), wide(&segment[3..])];
+    let along = sub(b, a);
+    dot(along, along).sqrt() * first_crossing(a, b, surface).unwrap_or(1.0)
+}
+
+#[test]
+fn free_lengths_of_segments_are_those_of_an_independent_crossing() {
+    let directory = scratch("trade_segments");
+    let mesh = coarse_torus(&directory);
+    let (file, surface) = (directory.join("segments.csv"), triangles(&mesh));
+    let queries = random_queries::<6>(&surface, 60);
+    write_csv(&file, &queries);
+    let truth: Vec<f64> = queries.iter().map(|query| free_length(query, &surface)).collect();
+    let trade = measured(&mesh, &["--for", "segment", "--at", arg(&file)]);
+    assert_eq!((&trade["points"], &trade["question"]), (&60.into(), &"segment".into()));
+    assert!(rows(&trade).len() >= 12, "{}", rows(&trade).len());
+    for row in rows(&trade) {
+        let guaranteed = worst(row, "guaranteed").expect("a free length is between two numbers");
+        for of in ["found_lower", "found_upper"] {
+            assert!(worst(row, of).unwrap() <= guaranteed * (1.0 + 1e-12), "{row}");
+        }
+    }
+    require_pareto(&trade);
+    let tree = |row: &&Value| row["structure"] == "box tree, 16 bits" && row["dials"] == "exact";
+    let row = rows(&trade).iter().find(tree).expect("it is measured");
+    let blob = directory.join("tree.msw");
+    let build: Vec<&str> = row["build"].as_str().expect("it says how").split(' ').collect();
+    ok([&["build", arg(&mesh), "-o", arg(&blob)], &build[..]].concat());
+    assert_eq!(fs::metadata(&blob).unwrap().len(), row["flash"].as_u64().unwrap());
+    let bytes = fs::read(&blob).unwrap();
+    let (tree, mut scratch) = (Bvh::open(&bytes).unwrap(), Scratch::<64>::new());
+    let (mut width, mut low) = (0f64, 0f64);
+    for (query, truth) in queries.iter().zip(&truth) {
+        let &[[a, b]] = query.as_chunks::<3>().0.as_chunks::<2>().0 else { unreachable!() };
+        let hit = tree.first_hit(a, b, Facing::Both, Budget::EXACT, &mut scratch).unwrap();
+        let along = sub(wide(&b), wide(&a));
+        let [lower, upper] =
+            [hit.t.lower, hit.t.upper].map(|t| f64::from(t).min(1.0) * dot(along, along).sqrt());
+        assert!(lower <= truth * (1.0 + 1e-12) && *truth <= upper * (1.0 + 1e-12), "{hit:?}");
+        (width, low) = (width.max(upper - lower), low.max(truth - lower));
+    }
+    assert!((worst(row, "guaranteed").unwrap() - width).abs() <= 1e-9 * width, "{row}: {width}");
+    assert!((worst(row, "found_lower").unwrap() - low).abs() < 1e-6, "{row}: {low}");
+    for kind in ["near", "far", "path"] {
+        let trade = measured(&mesh, &["--for", "segment", "--at", kind, "--points", "30"]);
+        assert_eq!((&trade["points"], rows(&trade).is_empty()), (&30.into(), false), "{kind}");
+    }
+    let page = directory.join("page.html");
+    let page = ["trade", arg(&mesh), "--for", "segment", "--report", arg(&page)];
+    refused(&run(page), 2, "--report");
+}
+
+#[test]
+fn limits_of_segments_choose_what_answers_segments() {
+    let directory = scratch("trade_segment_limits");
+    let (mesh, blob) = (directory.join("cube.obj"), directory.join("part.msw"));
+    fs::write(&mesh, CUBE).unwrap();
+    let build = ["build", arg(&mesh), "-o", arg(&blob), "--for", "segment"];
+    let limits = ["--flash", "8K", "--rate", "1kHz", "--cpu", "m4f:168MHz"];
+    let text = ok([&build[..], &limits[..]].concat());
+    assert!(text.contains(", by first_hit") && text.contains(" segments from near"), "{text}");
+    let hit = ok(["segment", arg(&blob), "0.25,0.5,2,0.25,0.5,0.5"]);
+    assert!(hit.lines().count() == 2, "{hit}");
 }
 
 /// That no row of the first table is beaten, and every other one is.
@@ -289,4 +357,5 @@ fn a_distance_to_keep_has_the_unit_that_it_names() {
     }
     let alone = run(["trade", arg(&mesh), arg(&mesh), "--keep", "1"]);
     assert_eq!(alone.status.code(), Some(2));
+    refused(&run(["trade", arg(&mesh), "--cpu", "m4f:168MHz"]), 2, "--cpu");
 }

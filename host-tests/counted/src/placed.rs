@@ -40,17 +40,18 @@ pub fn expected(laid: &[u8], queries: usize) -> Result<String, String> {
     Ok(format!("blob {} {hash:016x}\nblock asked 0 {:016x}\ndone\n", blob.len(), fold.finish()))
 }
 
-/// The first `queries` places with their answers.
+/// The places of the first `queries` queries, each with its answer.
 ///
 /// # Errors
 /// The core's refusal.
 pub fn answers(
     laid: &[u8],
     queries: usize,
-    mut each: impl FnMut([f32; 3], &Answer),
+    mut each: impl FnMut(&[[f32; 3]], &Answer),
 ) -> Result<(), String> {
-    let places: Vec<[f32; 3]> = read(laid)?.places().collect();
-    let mut next = places.into_iter();
+    let placed = read(laid)?;
+    let places: Vec<[f32; 3]> = placed.places().collect();
+    let mut next = places.chunks(placed.question.places());
     told(laid, queries, |answer| {
         if let Some(place) = next.next() {
             each(place, answer);

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use glam::Vec3;
-use meshsweep::builder::{Builder, Built, For, Recipe};
+use meshsweep::builder::{Built, Recipe};
 use meshsweep::load::Source;
 use meshsweep::mesh::{RawMesh, repair};
 use meshsweep::surface::VertexBits;
@@ -104,13 +104,13 @@ fn built(subject: &Subject, search: Search) -> Option<Vec<u8>> {
     let recipe = match search {
         Search::Tree | Search::Hinted | Search::Coherent => Recipe::Tree(VertexBits::Grid16),
         Search::TreeF32 | Search::Precise => Recipe::Tree(VertexBits::F32),
-        Search::Sweep | Search::KeptSweep => Recipe::Sweep(VertexBits::F32),
+        Search::PairOfTrees | Search::FirstHit => Recipe::SegmentTree(VertexBits::Grid16),
+        Search::FirstHitF32 => Recipe::SegmentTree(VertexBits::F32),
+        Search::Sweep | Search::KeptSweep | Search::FirstHitOfHull => {
+            Recipe::Sweep(VertexBits::F32)
+        }
         Search::Tight => Recipe::Tight(200),
         Search::Triboxes | Search::PairOfTriboxes => Recipe::Triboxes(64),
-        Search::PairOfTrees => {
-            let builder = Builder::new().serve(For::Segment).vertex_bits(VertexBits::Grid16);
-            return builder.build(raw).ok().map(Built::into_bytes);
-        }
     };
     let source = Source::of(raw, None).ok()?;
     let built = trade::build(recipe, &source, &source.repaired().ok()?);
@@ -133,10 +133,20 @@ fn asked(subject: &Subject, search: Search) -> Vec<Asked> {
         question: question(search, budget),
         budget,
         other: Vec::new(),
-        places: points(subject, kind, QUERIES),
+        places: places(subject, search, kind),
         dials: format!("{} {}", kind.name(), dials(budget)),
     };
     questions(search, subject.diagonal()).into_iter().map(at).collect()
+}
+
+/// Points, or the ends of segments.
+fn places(subject: &Subject, search: Search, kind: Points) -> Vec<[f32; 3]> {
+    match search {
+        Search::FirstHit | Search::FirstHitF32 | Search::FirstHitOfHull => {
+            trade::segments(&subject.mesh, kind, QUERIES)
+        }
+        _ => points(subject, kind, QUERIES),
+    }
 }
 
 /// The question about two models, by its distance.
@@ -213,6 +223,12 @@ fn questions(search: Search, diagonal: f64) -> Vec<(Points, Budget)> {
         Search::Hinted | Search::Precise | Search::Triboxes => {
             vec![(Far, exact), (Near, exact), (Path, exact)]
         }
+        Search::FirstHit | Search::FirstHitF32 => {
+            vec![(Far, exact), (Near, exact), (Path, exact), (Far, steps(8))]
+        }
+        Search::FirstHitOfHull => {
+            vec![(Far, exact), (Near, exact), (Path, exact), (Far, steps(32))]
+        }
         Search::PairOfTrees | Search::PairOfTriboxes => Vec::new(),
         Search::Tight => vec![(Far, exact), (Near, exact), (Near, steps(8)), (Far, steps(4))],
     }
@@ -227,6 +243,8 @@ fn question(search: Search, budget: Budget) -> Question {
         Search::Sweep => Question::Sweep(budget),
         Search::KeptSweep => Question::KeptSweep(budget),
         Search::Tight => Question::Tight(budget),
+        Search::FirstHit | Search::FirstHitF32 => Question::FirstHit(budget),
+        Search::FirstHitOfHull => Question::FirstHitOfHull(budget),
         Search::Triboxes | Search::PairOfTrees | Search::PairOfTriboxes => {
             Question::Triboxes(budget)
         }
@@ -251,7 +269,9 @@ fn rows(laid: &[u8], blob: &[u8], search: Search, budget: Budget) -> Result<Stri
     let said = |error: QueryError| error.to_string();
     let blob = Blob::open(blob).map_err(|error| error.to_string())?;
     let shape = match search {
-        Search::Sweep | Search::KeptSweep => Shape::of_hull(&blob.hull().map_err(said)?),
+        Search::Sweep | Search::KeptSweep | Search::FirstHitOfHull => {
+            Shape::of_hull(&blob.hull().map_err(said)?)
+        }
         Search::Tight => {
             let hulls = blob.tight_hulls().map_err(said)?;
             Shape::of_tight(&hulls.finest().ok_or("no hull")?)
@@ -262,17 +282,18 @@ fn rows(laid: &[u8], blob: &[u8], search: Search, budget: Budget) -> Result<Stri
         _ => Shape::of_tree(&blob.bvh().map_err(said)?),
     };
     let mut rows = String::new();
-    answers(laid, QUERIES, |point, answer| {
+    answers(laid, QUERIES, |place, answer| {
         let work = match answer {
             Answer::Closest(near) => near.work,
             Answer::Bound(bound) => bound.work,
             Answer::Within(found) => found.work,
             Answer::Farther(found) => found.work,
+            Answer::Hit(hit) => hit.work,
             _ => Work::NONE,
         };
         let features = match search {
             Search::PairOfTrees | Search::PairOfTriboxes => features_of_pair(&work),
-            _ => shape.features(point, &budget, &work),
+            _ => shape.features(place, &budget, &work),
         };
         let row = features.map(|x| x.to_string()).join(" ");
         let _ = writeln!(rows, "{row}");

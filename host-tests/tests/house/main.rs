@@ -3,6 +3,7 @@
 
 mod arrows;
 mod defmt;
+mod papers;
 mod source;
 
 use std::fs;
@@ -103,6 +104,7 @@ const BUILDER: [(&str, &[&str]); 26] = [
             "number",
             "emit",
             "error",
+            "geom",
             "random",
             "mesh",
             "surface",

@@ -12,20 +12,31 @@ use crate::failure::Failure;
 use crate::mesh_file;
 use crate::output::{Output, refuse_other_extension, refuse_same_file};
 use measured::measured;
+use meshsweep::trade::Question;
 
 pub fn run(args: &TradeArgs) -> Result<(), Failure> {
     if let (Some(other), Some(keep)) = (&args.other, args.keep) {
         return pair::run(args, other, keep);
     }
+    if args.cpu.is_some() {
+        let what = "--cpu: times are of two meshes; the table of one has instructions, and build \
+                    --rate with --cpu chooses a setting for it";
+        return Err(Failure::Usage { what: what.to_owned() });
+    }
     mesh_file::check_format(&[&args.mesh], &args.read)?;
     let mesh = mesh_file::named(&args.mesh, &args.read)?;
     args.threads.start();
+    if args.report.is_some() && args.question() != Question::ClosestPoint {
+        let what = "--report: the page is of closest points; leave --for segment out".to_owned();
+        return Err(Failure::Usage { what });
+    }
     if let Some(page) = &args.report {
         refuse_other_extension(page, "html", "the report is a page")?;
         refuse_same_file(Some(page), &[&args.mesh])?;
         Output::probe(page)?;
     }
-    let (loaded, measured) = measured(&args.mesh, &args.read, &args.at, args.points as usize)?;
+    let (question, count) = (args.question(), args.points as usize);
+    let (loaded, measured) = measured(&args.mesh, &args.read, question, &args.at, count)?;
     if let Some(page) = &args.report {
         report::write(page, &mesh, &loaded, &measured)?;
     }

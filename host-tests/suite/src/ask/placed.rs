@@ -6,8 +6,8 @@
 use core::mem::size_of;
 
 use meshsweep_core::{
-    Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Decided, Focus, Hint, Hull, Pose, QueryError,
-    RefinedHull, Refinement, ScratchEntry, Separation, SplitChange, TriboxBound,
+    Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Decided, Facing, FirstHit, Focus, Hint, Hull,
+    Pose, QueryError, RefinedHull, Refinement, ScratchEntry, Separation, SplitChange, TriboxBound,
 };
 
 use super::{Refused, timed};
@@ -40,6 +40,10 @@ pub enum Question {
     PairOfTrees(f32),
     /// Whether the triboxes prove that the model is farther than a distance from the other blob's.
     PairOfTriboxes(f32),
+    /// The box tree's first hit. Two places are a segment.
+    FirstHit(Budget),
+    /// The hull hierarchy's first hit, likewise.
+    FirstHitOfHull(Budget),
 }
 
 impl Question {
@@ -59,6 +63,18 @@ impl Question {
             Self::Precise(budget) => of(8, budget),
             Self::PairOfTrees(distance) => [9, distance.to_bits(), 0, 0],
             Self::PairOfTriboxes(distance) => [10, distance.to_bits(), 0, 0],
+            Self::FirstHit(budget) => of(11, budget),
+            Self::FirstHitOfHull(budget) => of(12, budget),
+        }
+    }
+
+    /// Places that one query takes.
+    #[must_use]
+    pub const fn places(self) -> usize {
+        match self {
+            Self::PairOfTrees(_) | Self::PairOfTriboxes(_) => 4,
+            Self::FirstHit(_) | Self::FirstHitOfHull(_) => 2,
+            _ => 1,
         }
     }
 
@@ -77,6 +93,8 @@ impl Question {
             8 => Self::Precise(budget),
             9 => Self::PairOfTrees(first),
             10 => Self::PairOfTriboxes(first),
+            11 => Self::FirstHit(budget),
+            12 => Self::FirstHitOfHull(budget),
             _ => return None,
         })
     }
@@ -180,6 +198,8 @@ pub enum Answer {
     Within(Decided<[u32; 2]>),
     /// Whether triboxes are farther than a distance.
     Farther(Separation),
+    /// A first hit.
+    Hit(FirstHit),
     /// A refusal.
     Refused(QueryError),
 }
@@ -201,6 +221,7 @@ impl Answer {
                 fold.word(u32::from(answer.is_apart()));
                 super::how(fold, answer.ended);
             }
+            Self::Hit(hit) => super::segment_hit(fold, hit),
             Self::Refused(error) => super::refusal(fold, *error),
         }
     }
@@ -222,6 +243,8 @@ pub fn ask<'t>(
     let other = || Blob::open(placed.other).map_err(Refused::of);
     let places = placed.places.iter().take(queries).map(place);
     let poses = placed.places.as_chunks::<4>().0.iter().take(queries).map(pose);
+    let segments = placed.places.as_chunks::<2>().0.iter().take(queries);
+    let segments = segments.map(|ends| ends.each_ref().map(place));
     let asking = Asking { places, observer, told: &mut told };
     match placed.question {
         Question::PairOfTrees(distance) => {
@@ -283,6 +306,19 @@ pub fn ask<'t>(
             let hull = hull(&blob)?;
             let ask = |place, queue: &mut [_]| hull.closest_point(place, budget, queue);
             by_entries(&mut memory.entries, ENTRIES, asking, ask, Answer::Closest)
+        }
+        Question::FirstHit(budget) => {
+            let tree = tree(&blob)?;
+            let entries = tree.scratch_entries_for(budget);
+            let ask =
+                |[a, b]: [_; 2], stack: &mut [_]| tree.first_hit(a, b, Facing::Both, budget, stack);
+            by_entries(&mut memory.entries, entries, asking.at(segments), ask, Answer::Hit)
+        }
+        Question::FirstHitOfHull(budget) => {
+            let hull = hull(&blob)?;
+            let ask = |[a, b]: [_; 2], queue: &mut [_]| hull.first_hit(a, b, budget, queue);
+            let entries = hull.scratch_entries();
+            by_entries(&mut memory.entries, entries, asking.at(segments), ask, Answer::Hit)
         }
         Question::KeptSweep(budget) => kept_sweep(&hull(&blob)?, budget, memory, asking),
         Question::Refine(radius, error) => refine(&hull(&blob)?, (radius, error), memory, asking),

@@ -1,8 +1,8 @@
 //! Arguments of the commands that make, describe and cut blobs.
 
-use super::measuring::LimitArgs;
+use super::measuring::{LimitArgs, measured};
 use super::reading::{ReadArgs, ThreadArgs};
-use super::values::{degrees, distance, factor, length, percent, ratio, whole};
+use super::values::{degrees, distance, factor, length, percent, question, ratio, whole};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args, ValueEnum};
 use meshsweep::Builder;
@@ -10,6 +10,7 @@ use meshsweep::builder::For;
 use meshsweep::builder::ranges::{BASE_FACES, MAX_VALENCE, TIGHT_FACES, TRIBOX_COUNT};
 use meshsweep::collapse::CollapseOptions;
 use meshsweep::surface::VertexBits;
+use meshsweep::trade::Question;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -131,12 +132,6 @@ pub enum HullServes {
     // Segments, and overlap of hulls.
     Segment,
 }
-
-/// A question by its name, which is one of all.
-fn question(name: String) -> For {
-    For::ALL.into_iter().find(|of| of.name() == name).unwrap_or(For::Closest)
-}
-
 impl BuildArgs {
     /// What builds the blob.
     pub fn builder(&self) -> Builder<'_> {
@@ -166,10 +161,21 @@ impl BuildArgs {
         self.read.format == Some("csv") || self.builder().builds_curve(&self.mesh)
     }
 
+    /// The question whose structure limits choose. `None` if several are given, or one that is not
+    /// measured.
+    pub fn measured(&self) -> Option<Question> {
+        match self.serves.as_deref() {
+            _ if self.is_curve() => None,
+            None => Some(Question::ClosestPoint),
+            Some(&[of]) => measured(of),
+            Some(_) => None,
+        }
+    }
+
     /// The first given option that names what limits choose.
     pub fn chosen_option(&self) -> Option<&'static str> {
         let others = [
-            ("--for", self.serves.is_some() || self.is_curve()),
+            ("--for", self.measured().is_none()),
             ("--vertex-bits", self.vertex_bits != StoredBits::Auto),
             ("key frames", !self.frames.is_empty()),
         ];

@@ -2,18 +2,20 @@
 
 use super::given::{self, Given};
 use super::reading::{ReadArgs, ThreadArgs};
-use super::values::{distance, whole};
+use super::values::{distance, question, whole};
 use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use meshsweep::builder::For;
 use meshsweep::mesh::Unit;
-use meshsweep::trade::{Board, Cpu, Limits, Points};
-use std::path::PathBuf;
+use meshsweep::trade::{Board, Cpu, Limits, Points, Question};
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct TradeArgs {
     /// Mesh file; or - for the standard input, with --format
     pub mesh: PathBuf,
     /// Second mesh file, to be moved: which structures tell that it keeps a distance
-    #[arg(requires_all = ["poses", "keep"], conflicts_with_all = ["at", "points", "report"])]
+    #[arg(requires_all = ["poses", "keep"], conflicts_with_all = ["at", "points", "report", "serves"])]
     pub other: Option<PathBuf>,
     /// Poses of the second mesh: x,y,z,qw,qx,qy,qz each, or files of them
     #[arg(
@@ -27,17 +29,27 @@ pub struct TradeArgs {
     /// Distance that the second mesh is to keep: 2.5 in the meshes' unit, or 20mm
     #[arg(long, value_name = "DISTANCE", requires = "other", value_parser = length_in_unit)]
     pub keep: Option<(f64, Option<Unit>)>,
-    /// Processor and its clock, as of build: m4f:168MHz [default: a Cortex-M4F, without times]
-    #[arg(long, value_name = "CPU:CLOCK", requires = "other", value_parser = cpu)]
+    /// Of two meshes: processor and its clock, as of build: m4f:168MHz [default: a Cortex-M4F,
+    /// without times]
+    #[arg(long, value_name = "CPU:CLOCK", value_parser = cpu)]
     pub cpu: Option<Cpu>,
+    /// Question: closest, the closest point; or segment, the first hit of a segment
+    #[arg(
+        long = "for",
+        value_parser = PossibleValuesParser::new(ASKED.map(For::name)).map(question),
+        default_value = For::Closest.name(),
+        value_name = "QUESTION"
+    )]
+    serves: For,
     /// Points that are asked: near, far, path; or a file of your own points, in its order
     ///
     /// near is near the surface; far is in a box twice the mesh's; path is a path near the surface,
-    /// in steps of 0.1 % of the diagonal. A file of such a name is named with its directory:
-    /// ./near.
+    /// in steps of 0.1 % of the diagonal. With --for segment: a tenth of the diagonal long, from
+    /// near points; between two sides of a box twice the mesh's; the steps of the path; or six
+    /// numbers a segment. A file of such a name is named with its directory: ./near.
     #[arg(long, value_name = "near|far|path|FILE", default_value = "near", value_parser = at)]
     pub at: At,
-    /// Number of points, unless they are from a file
+    /// Number of points or segments, unless they are from a file
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = whole::<1, 1_000_000>)]
     pub points: u32,
     #[command(flatten)]
@@ -50,6 +62,25 @@ pub struct TradeArgs {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
+}
+
+/// Questions that are measured.
+const ASKED: [For; 2] = [For::Closest, For::Segment];
+
+/// The measured question of a word of `--for`, if there is one.
+pub fn measured(of: For) -> Option<Question> {
+    match of {
+        For::Closest => Some(Question::ClosestPoint),
+        For::Segment => Some(Question::FirstHit),
+        _ => None,
+    }
+}
+
+impl TradeArgs {
+    /// The question.
+    pub fn question(&self) -> Question {
+        measured(self.serves).unwrap_or(Question::ClosestPoint)
+    }
 }
 
 /// Limits that choose structure and dials.
@@ -113,17 +144,23 @@ fn at(text: &str) -> Result<At, String> {
     match made {
         Some(points) => Ok(At::Made(points)),
         None if text.is_empty() => Err("near, far, path or a file is wanted".to_owned()),
+        // A name without a dot or a folder is a kind that is written wrongly.
+        None if text.chars().all(char::is_alphanumeric) && !Path::new(text).exists() => {
+            Err("near, far, path or a file is wanted, and there is no such file".to_owned())
+        }
         None => Ok(At::File(PathBuf::from(text))),
     }
 }
 
 fn bytes(text: &str) -> Result<usize, String> {
     let wanted = || "a number of bytes above 0 is wanted, as 16384, 16K or 1M".to_owned();
-    let (digits, factor) = match text.trim().strip_suffix(['K', 'k', 'M', 'm']) {
-        Some(digits) if text.trim().ends_with(['K', 'k']) => (digits, 1 << 10),
-        Some(digits) => (digits, 1 << 20),
-        None => (text.trim(), 1),
-    };
+    let text = text.trim();
+    let units = [("KiB", 1 << 10), ("MiB", 1 << 20), ("K", 1 << 10), ("M", 1 << 20)];
+    let units = units.into_iter().chain([("k", 1 << 10), ("m", 1 << 20), ("", 1)]);
+    let (digits, factor) = units
+        .filter_map(|(unit, factor)| Some((text.strip_suffix(unit)?, factor)))
+        .next()
+        .unwrap_or((text, 1));
     let number = digits.trim().parse::<f64>().ok().filter(|x| *x > 0.0 && *x < 1e12);
     number.map(|x| (x * f64::from(factor)) as usize).filter(|&x| x > 0).ok_or_else(wanted)
 }
@@ -149,7 +186,9 @@ fn length_in_unit(text: &str) -> Result<(f64, Option<Unit>), String> {
     let digits = text.trim_end_matches(|c: char| c.is_alphabetic());
     let unit = match &text[digits.len()..] {
         "" => None,
-        symbol => Some(Unit::ALL.into_iter().find(|unit| unit.symbol() == symbol)),
+        symbol => {
+            Some(Unit::ALL.into_iter().find(|unit| unit.symbol().eq_ignore_ascii_case(symbol)))
+        }
     };
     let length = digits.trim().parse::<f64>().ok().filter(|x| *x > 0.0 && x.is_finite());
     match (length, unit) {
@@ -179,6 +218,8 @@ mod tests {
     #[test]
     fn sizes_frequencies_and_processors_are_read_as_people_write_them() {
         assert_eq!([bytes("16K"), bytes("1M"), bytes("100")], [Ok(16_384), Ok(1 << 20), Ok(100)]);
+        assert_eq!([bytes("16KiB"), bytes("1 MiB")], [Ok(16_384), Ok(1 << 20)]);
+        assert!(["16iB", "16B", "KiB", "1G"].into_iter().all(|wrong| bytes(wrong).is_err()));
         assert_eq!([hertz("1kHz"), hertz("168MHz"), hertz("50")], [Ok(1e3), Ok(1.68e8), Ok(50.0)]);
         assert_eq!(cpu("m0:48MHz"), Ok(Cpu { board: Board::CortexM0, hertz: 4.8e7 }));
         assert_eq!(at("path"), Ok(At::Made(Points::Path)));

@@ -1,10 +1,15 @@
 //! Values that need more than a number's syntax.
 
-use meshsweep::builder::ranges;
+use meshsweep::builder::{For, ranges};
 use meshsweep::mesh::Unit;
 use meshsweep::number::{ABOVE_ZERO, FROM_ZERO, wanted};
 use meshsweep_core::Solid;
 use std::num::NonZeroUsize;
+
+/// A question by its name, which is one of all.
+pub fn question(name: String) -> For {
+    For::ALL.into_iter().find(|of| of.name() == name).unwrap_or(For::Closest)
+}
 
 /// The margin of a grid around the mesh's box.
 #[derive(Clone, Copy, Debug, PartialEq)]

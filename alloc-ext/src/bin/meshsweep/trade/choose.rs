@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use meshsweep::builder::{Built, Recipe};
 use meshsweep::load::Loaded;
 use meshsweep::number::{About, AtMost};
-use meshsweep::trade::{CYCLES, Choice, How, Limits, Points, Row, Unmet};
+use meshsweep::trade::{CYCLES, Choice, How, Limits, Points, Question, Row, Unmet};
 use meshsweep_core::Budget;
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -22,6 +22,8 @@ pub struct Chosen {
     limits: Limits,
     first: Row,
     second: Option<Row>,
+    /// Part of the triangles that are needles.
+    needles: f64,
     /// Number of points, and their kind in words.
     points: (usize, String),
 }
@@ -37,26 +39,33 @@ impl Chosen {
 pub fn choose(args: &BuildArgs) -> Result<(Built, Chosen), Failure> {
     let limits = args.limits.limits();
     let at = args.limits.at.clone().unwrap_or(At::Made(Points::Near));
-    let (loaded, measured) = measured(&args.mesh, &args.read, &at, POINTS)?;
+    let question = args.measured().unwrap_or(Question::ClosestPoint);
+    let (loaded, measured) = measured(&args.mesh, &args.read, question, &at, POINTS)?;
     let points = (measured.points, measured.kind);
     let failed =
         |unmet: Unmet| Failure::Limits { file: args.mesh.clone(), what: unmet.to_string() };
     let Choice { first, second, built, .. } = limits.choose(&measured.trade).map_err(failed)?;
-    Ok((built, Chosen { loaded, limits, first, second, points }))
+    let needles = measured.trade.needles;
+    Ok((built, Chosen { loaded, limits, first, second, needles, points }))
 }
 
 /// Says what was chosen, why, and how to ask it.
 pub fn write(out: &mut dyn Write, chosen: &Chosen) -> io::Result<()> {
-    let Chosen { limits, first, second, points: (points, kind), .. } = chosen;
+    let Chosen { limits, first, second, needles, points: (points, kind), .. } = chosen;
     let why = match limits.error {
         Some(_) => "fewest instructions of those that meet all limits",
         None => "smallest error of those that meet all limits",
     };
     writeln!(out, "chosen: {}", first.setting)?;
-    writeln!(out, "  why: {why}, at {points} points {kind}")?;
+    let of = match first.setting.question {
+        Question::ClosestPoint => "points",
+        Question::FirstHit => "segments",
+    };
+    writeln!(out, "  why: {why}, at {points} {of} {kind}")?;
     write_costs(out, limits, first)?;
     writeln!(out, "  built: {}", first.build())?;
     let by = match (first.setting.how, first.setting.recipe) {
+        _ if first.setting.question == Question::FirstHit => ", by first_hit",
         (How::Fresh, _) => "",
         (How::Hinted, _) => ", from the hint of the last query",
         (How::Coherent, Recipe::Tree(_)) => ", by a CoherentQuery::<128>",
@@ -74,9 +83,13 @@ pub fn write(out: &mut dyn Write, chosen: &Chosen) -> io::Result<()> {
              {CYCLES} cycles an instruction"
         )?;
     }
+    if !first.setting.is_counted() {
+        writeln!(out, "  none of its kind was counted: the prediction's error is unknown")?;
+    }
+    table::write_needles(out, "  ", *needles)?;
     writeln!(
         out,
-        "  the error is the largest of these points; elsewhere an interval may be wider, and holds"
+        "  the error is the largest of these {of}; elsewhere an interval may be wider, and holds"
     )?;
     match second {
         Some(second) => {

@@ -6,7 +6,7 @@ use crate::mesh_file;
 use crate::progress::Bar;
 use crate::queries::Queries;
 use meshsweep::load::Loaded;
-use meshsweep::trade::{self, Points, Trade};
+use meshsweep::trade::{self, Points, Question, Trade};
 use std::path::Path;
 use std::sync::Mutex;
 
@@ -15,7 +15,8 @@ pub struct Measured {
     pub trade: Trade,
     /// Of the mesh's box.
     pub diagonal: f64,
-    /// Number of points.
+    pub question: Question,
+    /// Number of points or segments.
     pub points: usize,
     /// Their kind, in words.
     pub kind: String,
@@ -25,28 +26,32 @@ pub struct Measured {
 pub fn measured(
     file: &Path,
     args: &ReadArgs,
+    question: Question,
     at: &At,
     count: usize,
 ) -> Result<(Loaded, Measured), Failure> {
     let source = mesh_file::read(file, args)?;
     let loaded = source.repaired().map_err(|error| Failure::build(file, error))?;
     let mesh = &loaded.mesh;
-    let (points, kind, words) = match at {
-        At::Made(kind) => (trade::points(mesh, *kind, count), Some(*kind), said(*kind).to_owned()),
-        At::File(path) => {
-            let queries = Queries::<3>::read(&[Given::File(path.clone())])?;
-            if let Some(failure) = queries.broken {
-                return Err(failure);
-            }
-            (queries.rows, None, format!("of {}", path.display()))
+    let (points, kind, words) = match (at, question) {
+        (At::Made(kind), Question::ClosestPoint) => {
+            (trade::points(mesh, *kind, count), Some(*kind), said(*kind).to_owned())
         }
+        (At::Made(kind), Question::FirstHit) => {
+            (trade::segments(mesh, *kind, count), Some(*kind), said_of_segments(*kind).to_owned())
+        }
+        (At::File(path), Question::ClosestPoint) => (rows::<3>(path)?, None, of_file(path)),
+        (At::File(path), Question::FirstHit) => (rows::<6>(path)?, None, of_file(path)),
     };
     if points.is_empty() {
-        let what = format!("{}: there are no points to ask at", file.display());
+        let what = format!("{}: there is nothing to ask at", file.display());
         return Err(Failure::Usage { what });
     }
     let diagonal = trade::diagonal(mesh);
-    let settings = trade::standard(diagonal, mesh.triangles.len(), kind);
+    let settings = match question {
+        Question::ClosestPoint => trade::standard(diagonal, mesh.triangles.len(), kind),
+        Question::FirstHit => trade::standard_of_segments(),
+    };
     // Its length is known at the first step.
     let bar = Mutex::new(None);
     let progress = |done, of| {
@@ -57,7 +62,29 @@ pub fn measured(
     let trade = trade::measure(&source, &loaded, &points, &settings, &progress)
         .map_err(|error| Failure::Search { file: file.to_owned(), error })?;
     drop(bar);
-    Ok((loaded, Measured { trade, diagonal, points: points.len(), kind: words }))
+    let points = points.len() / question.points();
+    Ok((loaded, Measured { trade, diagonal, question, points, kind: words }))
+}
+
+/// All numbers of a file, in points.
+fn rows<const N: usize>(path: &Path) -> Result<Vec<[f32; 3]>, Failure> {
+    let queries = Queries::<N>::read(&[Given::File(path.to_owned())])?;
+    match queries.broken {
+        Some(failure) => Err(failure),
+        None => Ok(queries.rows.as_flattened().as_chunks().0.to_vec()),
+    }
+}
+
+fn of_file(path: &Path) -> String {
+    format!("of {}", path.display())
+}
+
+fn said_of_segments(points: Points) -> &'static str {
+    match points {
+        Points::Far => "between two sides of a box twice the mesh's",
+        Points::Near => "from near the surface, a tenth of the diagonal long",
+        Points::Path => "of a path near the surface",
+    }
 }
 
 fn said(points: Points) -> &'static str {

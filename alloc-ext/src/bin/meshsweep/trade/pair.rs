@@ -136,7 +136,7 @@ impl Measured<'_> {
         let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
         writeln!(
             out,
-            "{} and {}: {}, {} clear of {}{unit}",
+            "{} and {}: {}, of which {} keep {}{unit}",
             args.mesh.display(),
             other.display(),
             Counted(*poses, "pose"),

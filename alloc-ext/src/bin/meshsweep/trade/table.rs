@@ -5,7 +5,9 @@ use crate::mesh_report::write_rounding;
 use meshsweep::counted::Counted;
 use meshsweep::load::Loaded;
 use meshsweep::number::AtMost;
-use meshsweep::trade::{Board, COMB_OF_NEEDLES, Instructions, MANY_NEEDLES, Row, Spread, pareto};
+use meshsweep::trade::{
+    Board, COMB_OF_NEEDLES, Instructions, MANY_NEEDLES, Question, Row, Spread, pareto,
+};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::path::Path;
@@ -31,14 +33,14 @@ pub fn write(
     loaded: &Loaded,
     measured: &Measured,
 ) -> io::Result<()> {
-    let Measured { trade, diagonal, points, kind } = measured;
+    let Measured { trade, diagonal, question, points, kind } = measured;
     writeln!(
         out,
         "{}: {}, diagonal {}; {} {kind}",
         mesh.display(),
         Counted(loaded.mesh.triangles.len(), "triangle"),
         AtMost(*diagonal),
-        Counted(*points, "point"),
+        Counted(*points, noun(*question)),
     )?;
     write_rounding(out, mesh, &loaded.report)?;
     loaded.unit_note().map_or(Ok(()), |note| writeln!(out, "  {note}"))?;
@@ -63,18 +65,8 @@ pub fn write(
         let reason: Vec<&str> = reason.lines().map(str::trim).collect();
         writeln!(out, "  {}: {}", missing.recipe.name(), reason.join("; "))?;
     }
-    write_notes(out, &trade.rows)?;
-    if trade.needles < MANY_NEEDLES {
-        return Ok(());
-    }
-    let [m4f, m0] = COMB_OF_NEEDLES;
-    writeln!(
-        out,
-        "{:.0} % of the triangles are needles, fifty times as long as high: they take more \
-         instructions than\npredicted, of a comb of needles {m4f} times as many on a Cortex-M4F \
-         and {m0} times on a Cortex-M0",
-        100.0 * trade.needles
-    )
+    write_notes(out, *question, &trade.rows)?;
+    write_needles(out, "", trade.needles)
 }
 
 fn write_rows<'r>(
@@ -128,40 +120,86 @@ fn cells(row: &Row) -> [String; 11] {
     ]
 }
 
-fn write_notes(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
+/// What a place of a question is.
+const fn noun(question: Question) -> &'static str {
+    match question {
+        Question::ClosestPoint => "point",
+        Question::FirstHit => "segment",
+    }
+}
+
+fn write_notes(out: &mut dyn Write, question: Question, rows: &[Row]) -> io::Result<()> {
+    let (width, found) = match question {
+        Question::ClosestPoint => (
+            "error, median: width of the interval that holds, the largest and the median of these \
+             points, in\nthe mesh's unit; at other points it may be wider, and holds.",
+            "found: the distance in f64 less the\nlower end, and the upper end less that distance, \
+             the largest.",
+        ),
+        Question::FirstHit => (
+            "error, median: width of the interval of a segment's free length, which is how far it \
+             goes before it\nmeets the mesh, the largest and the median of these segments, in the \
+             mesh's unit; of other segments\nit may be wider, and holds.",
+            "found: the free length in f64 less the lower end, and the upper\nend less it, the \
+             largest.",
+        ),
+    };
     writeln!(
         out,
-        "\nerror, median: width of the interval that holds, the largest and the median of these \
-         points, in\nthe mesh's unit; at other points it may be wider, and holds. found: the \
-         distance in f64 less the\nlower end, and the upper end less that distance, the largest. \
-         M4F, M0: instructions of a\nCortex-M4F and a Cortex-M0, predicted; most is of these \
-         points, meshsweep worst finds more.\nflash: bytes of the blob. scratch: bytes, \
+        "\n{width} {found} M4F, M0: instructions of a\nCortex-M4F and a Cortex-M0, predicted; most \
+         is of these {}s, meshsweep worst finds more.\nflash: bytes of the blob. scratch: bytes, \
          memory kept between queries among them. stack: bytes of a\nCortex-M4F's, at most. \
-         host ns: of this machine, on one thread."
+         host ns: of this machine, on one thread.",
+        noun(question)
     )?;
     let mut said: Vec<String> = Vec::new();
+    let mut not_counted: Vec<String> = Vec::new();
+    let tell = |all: &mut Vec<String>, line: String| {
+        if !all.contains(&line) {
+            all.push(line);
+        }
+    };
     for row in rows {
+        let setting = row.setting;
         for (board, found) in Board::ALL.iter().zip(row.boards) {
             let Some(found) = found else { continue };
             let line = format!(
                 "  {}, {}: {:.0} % (median {:.0} %)",
                 board.name(),
-                row.setting.search().name(),
+                setting.search().name(),
                 100.0 * found.error,
                 100.0 * found.typical
             );
-            if !said.contains(&line) {
-                said.push(line);
-            }
+            tell(&mut said, line);
+        }
+        if !setting.is_counted() {
+            let is_of_scratch = setting.entries.is_some();
+            let kind = if is_of_scratch { setting.to_string() } else { setting.recipe.name() };
+            tell(&mut not_counted, kind);
         }
     }
     said.sort();
     writeln!(out, "a mean of the fit's meshes and of its tests was predicted within")?;
     said.iter().try_for_each(|line| writeln!(out, "{line}"))?;
+    if not_counted.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "of unknown error, as none of their kind was counted")?;
+    not_counted.iter().try_for_each(|kind| writeln!(out, "  {kind}"))
+}
+
+/// Says that instructions of a mesh of many needles are doubtful.
+pub(super) fn write_needles(out: &mut dyn Write, indent: &str, part: f64) -> io::Result<()> {
+    if part < MANY_NEEDLES {
+        return Ok(());
+    }
+    let [m4f, m0] = COMB_OF_NEEDLES;
     writeln!(
         out,
-        "of unknown error, as none of their kind was counted: cut levels, sweeps of 16 and 24 \
-         bits, 8\ntriboxes, tight hulls of other than 200 faces, scratch 8"
+        "{indent}{:.0} % of the triangles are needles, fifty times as long as high: they take more \
+         instructions than\n{indent}predicted, of a comb of needles {m4f} times as many on a \
+         Cortex-M4F and {m0} times on a Cortex-M0",
+        100.0 * part
     )
 }
 
@@ -172,7 +210,7 @@ pub fn write_json(out: &mut dyn Write, loaded: &Loaded, measured: &Measured) -> 
 
 /// All rows, and the points that they were measured at.
 pub fn as_json(loaded: &Loaded, measured: &Measured) -> Value {
-    let Measured { trade, diagonal, points, kind } = measured;
+    let Measured { trade, diagonal, question, points, kind } = measured;
     let best = pareto(&trade.rows);
     let of = |(i, row): (usize, &Row)| {
         let mut fields = of_row(row);
@@ -184,6 +222,7 @@ pub fn as_json(loaded: &Loaded, measured: &Measured) -> Value {
         json!({ "structure": missing.recipe.name(), "reason": missing.reason.to_string() })
     });
     json!({
+        "question": noun(*question),
         "points": points,
         "kind": kind,
         "diagonal": diagonal,
