@@ -192,13 +192,18 @@ pub fn standard(diagonal: f64, triangles: usize, points: Option<Points>) -> Vec<
     all.push(fine.with_how(How::Precise));
     let faces = FACES.into_iter().filter(|&faces| faces as usize <= triangles.max(50));
     all.extend(faces.map(|faces| Setting::new(Recipe::Tight(faces))));
+    if triangles >= 200 {
+        let hull = Setting::new(Recipe::Tight(200));
+        all.push(hull.with_budget(exact.with_relative(0.1)));
+        all.extend([4, 8].map(|steps| hull.with_budget(exact.with_steps(steps))));
+    }
     all.extend([8, 64].map(|count| Setting::new(Recipe::Triboxes(count))));
     all.extend([0.05, 0.01].map(|part| Setting::new(Recipe::CutLevel(near(part)))));
     let bits = [VertexBits::Grid16, VertexBits::Grid24, VertexBits::F32];
     all.extend(bits.map(|bits| Setting::new(Recipe::Sweep(bits))));
     let sweep = Setting::new(Recipe::Sweep(VertexBits::F32));
-    all.push(sweep.with_budget(exact.with_relative(0.01)));
-    all.push(sweep.with_budget(exact.with_steps(64)));
+    all.extend([0.01, 0.05, 0.2].map(|part| sweep.with_budget(exact.with_relative(part))));
+    all.extend([16, 64].map(|steps| sweep.with_budget(exact.with_steps(steps))));
     if moves {
         all.push(sweep.with_how(How::Coherent));
     }

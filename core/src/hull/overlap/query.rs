@@ -27,7 +27,8 @@ impl Hull<'_> {
     /// shorter one may leave the question undecided. Of the budget only `steps` matters: triangles
     /// replaced by finer ones. Cost: in proportion to the surface that is near the triangle.
     ///
-    /// Source: Platis & Theoharis 2003, section 4, with a triangle in place of a segment.
+    /// Source: Platis & Theoharis 2003, section 3.2, has triangles as primitives. The search is our
+    /// own: it opens triangles of the hierarchy, not of a refined hull.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Hull, Scratch, Verdict};
