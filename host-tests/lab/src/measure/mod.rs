@@ -15,13 +15,11 @@
 //!                         ├─ robot    (an arm's own guard) ─┤
 //!                         ├─ deform   (hulls that deform) ─┤
 //!                         ├─ triboxes (their hierarchies) ──┤
-//!                         ├─ tight    (tight hulls, drawn) ─┤
-//!                         └─ bounds   (paper 001: triboxes) ┴─ plot (those that are a trade, SVG)
+//!                         └─ tight    (tight hulls) ────────┘
 //! ```
 //! Times are the processor's, of all threads, the fastest of three runs; on a busy machine even so
 //! only ratios within one run mean something. Counts are exact.
 
-pub mod bounds;
 pub(crate) mod brute;
 mod closest;
 mod cuts;
@@ -32,7 +30,6 @@ mod motion;
 mod moving_pair;
 mod overlap;
 pub mod paper;
-pub mod plot;
 pub mod rival;
 pub mod robot;
 mod segments;
@@ -53,8 +50,6 @@ use meshsweep_core::Hull;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Table, fixed, row};
 
-use bounds::cost::Cost;
-
 /// Faces of the base hull that most tables are about: the builder's default.
 const BASE_FACES: usize = FACES as usize;
 
@@ -66,18 +61,6 @@ pub fn measure_tree(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject_table(&subject)];
     tables.extend(tree::tables(&subject)?);
-    Ok(tables)
-}
-
-/// Measures convex bounds of one mesh file, which need not be closed; `counts` as
-/// [`bounds::tables`] takes them.
-///
-/// # Errors
-/// The file is no mesh, or a flat one.
-pub fn measure_bounds(file: &Path, counts: Option<&[Cost]>) -> Result<Vec<Table>, String> {
-    let subject = Subject::load_any(file)?;
-    let mut tables = vec![subject_table(&subject)];
-    tables.extend(bounds::tables(&subject, counts)?);
     Ok(tables)
 }
 
@@ -134,17 +117,15 @@ pub fn measure_triboxes(file: &Path) -> Result<Vec<Table>, String> {
     Ok(tables)
 }
 
-/// Measures tight hulls of one mesh file, which need not be closed, and proves each; the tables,
-/// and pictures of hulls.
+/// Measures tight hulls of one mesh file, which need not be closed, and proves each.
 ///
 /// # Errors
 /// The file is no mesh, or a hull is missing or not proved.
-pub fn measure_tight(file: &Path) -> Result<(Vec<Table>, tight::picture::Gallery), String> {
+pub fn measure_tight(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject_table(&subject)];
-    let (measured, hulls) = tight::tables(&subject)?;
-    tables.extend(measured);
-    Ok((tables, tight::picture::Gallery::new(&subject.name, &subject.mesh, &hulls)))
+    tables.extend(tight::tables(&subject)?);
+    Ok(tables)
 }
 
 /// Measures the hull hierarchy and the box tree of one mesh file; the tables in the order in which
