@@ -20,7 +20,7 @@ use meshsweep_xtask::say;
 use meshsweep_xtask::steps::Steps;
 
 const USAGE: &str = "\
-cargo xtask measure [--tree | --triboxes | --deform | --overlap | --motion
+cargo xtask measure [--tree | --triboxes | --deform | --overlap
                     | --winding | --tight [--firmware] | --paper TABLE] [MESH...]
 cargo xtask measure --margins TRIALS
           work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/)
@@ -28,7 +28,6 @@ cargo xtask measure --margins TRIALS
           --triboxes  the stored ones
           --deform    the hull hierarchy under motions
           --overlap   whether the mesh meets itself, moved
-          --motion    a capsule that moves past the mesh
           --winding   winding numbers of the mesh, and of the mesh with holes
           --tight     tight hulls, each proved, on a Cortex-M4F with --firmware
           --paper     a table of the papers; alone: the list of tables

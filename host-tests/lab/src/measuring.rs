@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use meshsweep_lab::measure::paper;
 use meshsweep_lab::measure::{
-    margins, measure, measure_deform, measure_motion, measure_overlap, measure_tight, measure_tree,
+    margins, measure, measure_deform, measure_overlap, measure_tight, measure_tree,
     measure_triboxes, measure_winding,
 };
 use meshsweep_xtask::say;
@@ -30,7 +30,6 @@ pub struct Options {
 enum Part {
     Tree,
     Overlap,
-    Motion,
     Winding,
     Triboxes,
     Tight,
@@ -40,7 +39,7 @@ enum Part {
 }
 
 impl Options {
-    /// `[--tree | --triboxes | --deform | --overlap | --motion | --winding | --tight [--firmware] |
+    /// `[--tree | --triboxes | --deform | --overlap | --winding | --tight [--firmware] |
     /// --paper TABLE | --margins TRIALS] [MESH…]`; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
@@ -49,7 +48,6 @@ impl Options {
             let part = match word {
                 "--tree" => Part::Tree,
                 "--overlap" => Part::Overlap,
-                "--motion" => Part::Motion,
                 "--winding" => Part::Winding,
                 "--triboxes" => Part::Triboxes,
                 "--tight" => Part::Tight,
@@ -102,7 +100,6 @@ pub fn run(steps: &mut Steps, options: Options) {
             let tables = match part {
                 Some(Part::Tree) => measure_tree(mesh)?,
                 Some(Part::Overlap) => measure_overlap(mesh)?,
-                Some(Part::Motion) => measure_motion(mesh)?,
                 Some(Part::Winding) => measure_winding(mesh)?,
                 Some(Part::Triboxes) => measure_triboxes(mesh)?,
                 Some(Part::Paper(table)) => paper::measure(&paper::ALL[table], mesh)?,
@@ -137,7 +134,7 @@ mod tests {
     fn words_that_do_not_fit_each_other_are_refused() {
         for words in [
             &["--fast"][..],
-            &["--tree", "--motion"],
+            &["--tree", "--winding"],
             &["--firmware"],
             &["--overlap", "--overlap"],
             &["--firmware", "--tree"],

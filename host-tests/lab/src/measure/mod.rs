@@ -9,7 +9,6 @@
 //!                         ├─ storage  (bytes, levels) ──────┤
 //!                         ├─ tree     (all of the box tree) ┤
 //!                         ├─ overlap  (mesh against mesh) ──┤
-//!                         ├─ motion   (a capsule that moves)┤
 //!                         ├─ winding  (inside or outside) ──┤
 //!                         ├─ margins  (rounding, no mesh) ──┤
 //!                         ├─ robot    (an arm's own guard) ─┤
@@ -26,7 +25,6 @@ mod cuts;
 mod deform;
 mod kept;
 pub mod margins;
-mod motion;
 mod moving_pair;
 mod overlap;
 pub mod paper;
@@ -75,15 +73,6 @@ pub fn measure_overlap(file: &Path) -> Result<Vec<Table>, String> {
     tables.extend(overlap::tables(&subject)?);
     tables.extend(moving_pair::tables(&subject)?);
     Ok(tables)
-}
-
-/// Measures the motion of a capsule past one mesh file, which need not be closed.
-///
-/// # Errors
-/// The file is no mesh, or an answer is wrong.
-pub fn measure_motion(file: &Path) -> Result<Vec<Table>, String> {
-    let subject = Subject::load_any(file)?;
-    Ok(vec![subject_table(&subject), motion::table(&subject)?])
 }
 
 /// Measures winding numbers of one mesh file, which need not be closed.
