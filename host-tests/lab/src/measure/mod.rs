@@ -5,8 +5,7 @@
 //! subject (mesh, builds) ─┬─ paper    (the papers' tables) ─┐
 //! workload (queries) ─────┼─ segments (engines) ────────────┤
 //! rival (parry3d) ────────┼─ closest                        ├─ table (text and JSON from the same cells)
-//! brute (f64 oracle) ─────┼─ cuts     (bytes for accuracy)  │
-//!                         ├─ storage  (bytes, levels) ──────┤
+//! brute (f64 oracle) ─────┼─ storage  (bytes, levels) ──────┤
 //!                         ├─ tree     (all of the box tree) ┤
 //!                         ├─ overlap  (mesh against mesh) ──┤
 //!                         ├─ winding  (inside or outside) ──┤
@@ -21,7 +20,6 @@
 
 pub(crate) mod brute;
 mod closest;
-mod cuts;
 mod deform;
 mod kept;
 pub mod margins;
@@ -135,7 +133,6 @@ pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
     tables.extend(closest::tables(&subject, &model)?);
     tables.push(kept::table(&subject, &model)?);
     tables.push(kept::memory(&model)?);
-    tables.push(cuts::table(&subject, &model)?);
     tables.push(storage::proofs(&built)?);
     tables.extend(tree::tables(&subject)?);
     Ok(tables)
