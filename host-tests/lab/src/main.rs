@@ -21,14 +21,13 @@ use meshsweep_xtask::steps::Steps;
 
 const USAGE: &str = "\
 cargo xtask measure [--tree | --triboxes | --deform | --overlap
-                    | --winding | --tight [--firmware] | --paper TABLE] [MESH...]
+                    | --tight [--firmware] | --paper TABLE] [MESH...]
 cargo xtask measure --margins TRIALS
           work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/)
           --tree      only the box tree's
           --triboxes  the stored ones
           --deform    the hull hierarchy under motions
           --overlap   whether the mesh meets itself, moved
-          --winding   winding numbers of the mesh, and of the mesh with holes
           --tight     tight hulls, each proved, on a Cortex-M4F with --firmware
           --paper     a table of the papers; alone: the list of tables
           --margins   how much of each margin for rounding is used, in so many trials, of no mesh

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use meshsweep_lab::measure::paper;
 use meshsweep_lab::measure::{
     margins, measure, measure_deform, measure_overlap, measure_tight, measure_tree,
-    measure_triboxes, measure_winding,
+    measure_triboxes,
 };
 use meshsweep_xtask::say;
 use meshsweep_xtask::steps::Steps;
@@ -30,7 +30,6 @@ pub struct Options {
 enum Part {
     Tree,
     Overlap,
-    Winding,
     Triboxes,
     Tight,
     Deform,
@@ -39,7 +38,7 @@ enum Part {
 }
 
 impl Options {
-    /// `[--tree | --triboxes | --deform | --overlap | --winding | --tight [--firmware] |
+    /// `[--tree | --triboxes | --deform | --overlap | --tight [--firmware] |
     /// --paper TABLE | --margins TRIALS] [MESH…]`; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
@@ -48,7 +47,6 @@ impl Options {
             let part = match word {
                 "--tree" => Part::Tree,
                 "--overlap" => Part::Overlap,
-                "--winding" => Part::Winding,
                 "--triboxes" => Part::Triboxes,
                 "--tight" => Part::Tight,
                 "--paper" => {
@@ -100,7 +98,6 @@ pub fn run(steps: &mut Steps, options: Options) {
             let tables = match part {
                 Some(Part::Tree) => measure_tree(mesh)?,
                 Some(Part::Overlap) => measure_overlap(mesh)?,
-                Some(Part::Winding) => measure_winding(mesh)?,
                 Some(Part::Triboxes) => measure_triboxes(mesh)?,
                 Some(Part::Paper(table)) => paper::measure(&paper::ALL[table], mesh)?,
                 Some(Part::Deform) => measure_deform(mesh)?,
@@ -134,7 +131,7 @@ mod tests {
     fn words_that_do_not_fit_each_other_are_refused() {
         for words in [
             &["--fast"][..],
-            &["--tree", "--winding"],
+            &["--tree", "--deform"],
             &["--firmware"],
             &["--overlap", "--overlap"],
             &["--firmware", "--tree"],

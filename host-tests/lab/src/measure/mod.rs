@@ -8,7 +8,6 @@
 //! brute (f64 oracle) ─────┼─ storage  (bytes, levels) ──────┤
 //!                         ├─ tree     (all of the box tree) ┤
 //!                         ├─ overlap  (mesh against mesh) ──┤
-//!                         ├─ winding  (inside or outside) ──┤
 //!                         ├─ margins  (rounding, no mesh) ──┤
 //!                         ├─ robot    (an arm's own guard) ─┤
 //!                         ├─ deform   (hulls that deform) ─┤
@@ -35,7 +34,6 @@ mod table_3;
 pub mod tight;
 mod tree;
 pub mod triboxes;
-mod winding;
 
 use meshsweep_core::Blob;
 use std::path::Path;
@@ -71,15 +69,6 @@ pub fn measure_overlap(file: &Path) -> Result<Vec<Table>, String> {
     tables.extend(overlap::tables(&subject)?);
     tables.extend(moving_pair::tables(&subject)?);
     Ok(tables)
-}
-
-/// Measures winding numbers of one mesh file, which need not be closed.
-///
-/// # Errors
-/// The file is no mesh, or an answer is wrong.
-pub fn measure_winding(file: &Path) -> Result<Vec<Table>, String> {
-    let subject = Subject::load_any(file)?;
-    Ok(vec![subject_table(&subject), winding::table(&subject)?])
 }
 
 /// Measures the hull hierarchy of one mesh file under motions.
