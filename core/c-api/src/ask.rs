@@ -18,10 +18,10 @@ pub(crate) fn ask<T>(
 }
 
 /// Reads two models and the pose of the second one in the frame of the first.
-pub(crate) fn posed<'m, T: View, const WORDS: usize>(
-    [model, other]: [&'m In<Storage<T, WORDS>>; 2],
+pub(crate) fn posed<T: View, const WORDS: usize>(
+    [model, other]: [&In<Storage<T, WORDS>>; 2],
     pose: In<PoseC>,
-) -> Result<([&'m T; 2], Pose), Error> {
+) -> Result<([&T; 2], Pose), Error> {
     Ok(([model.view()?, other.view()?], pose.get_or(PoseC::IDENTITY)?.pose()))
 }
 
