@@ -1,5 +1,4 @@
-//! Solids drawn in parallel projection, the farthest face first: README's picture, and the
-//! laboratory's pictures of hulls.
+//! Solids drawn in parallel projection, the farthest face first: README's picture.
 //!
 //! ```text
 //! panels (solid, glass) ─ View (turn, scale) ─ seen (order, shade) ─ SVG paths
@@ -20,21 +19,16 @@ use meshsweep_core::{TightHulls, Triboxes};
 use crate::workload::Subject;
 
 /// A convex face: its corners, counter-clockwise seen from outside.
-pub type Face = Vec<DVec3>;
+type Face = Vec<DVec3>;
 
-/// One drawing of a row.
-#[derive(Clone, Debug, Default)]
-pub struct Panel {
+/// One drawing of the row.
+struct Panel {
     /// Printed above it.
-    pub title: String,
-    /// Drawn grey.
-    pub solid: Vec<Face>,
-    /// Whether the solid is closed: then only fronts show.
-    pub is_closed: bool,
+    title: String,
+    /// Drawn grey. It is closed, so only fronts show.
+    solid: Vec<Face>,
     /// Drawn over it: fronts as blue glass with edges.
-    pub glass: Vec<Face>,
-    /// Drawn over it: fronts as blue walls with edges.
-    pub walls: Vec<Face>,
+    glass: Vec<Face>,
 }
 
 /// Units of a panel, which is square, and of its margin. A unit is half a pixel.
@@ -74,46 +68,24 @@ pub fn part(fixtures: &Path) -> Result<String, String> {
         let faces = (0..18).map(|face| boundary.corners(face).map(corner).collect::<Face>());
         walls.extend(faces.filter(|face| face.len() > 2));
     }
-    let mesh = || faces(&subject.mesh);
     let count = subject.mesh.triangles.len();
     let panels = [
-        Panel {
-            title: format!("{count} triangles"),
-            solid: mesh(),
-            is_closed: true,
-            ..Panel::default()
-        },
-        Panel {
-            title: format!("a tight hull of {} faces", hull.triangles.len()),
-            solid: mesh(),
-            is_closed: true,
-            glass: faces(&hull),
-            ..Panel::default()
-        },
-        Panel {
-            title: format!("{TRIBOXES} triboxes"),
-            solid: mesh(),
-            is_closed: true,
-            glass: walls,
-            ..Panel::default()
-        },
+        (format!("{count} triangles"), Vec::new()),
+        (format!("a tight hull of {} faces", hull.triangles.len()), faces(&hull)),
+        (format!("{TRIBOXES} triboxes"), walls),
     ];
-    Ok(svg(&[panels.to_vec()]))
+    Ok(svg(&panels.map(|(title, glass)| Panel { title, solid: faces(&subject.mesh), glass })))
 }
 
 /// The triangles of a mesh.
-#[must_use]
-pub fn faces(mesh: &Mesh) -> Vec<Face> {
+fn faces(mesh: &Mesh) -> Vec<Face> {
     let at = |v: u32| DVec3::from_array(mesh.positions[v as usize].map(f64::from));
     mesh.triangles.iter().map(|t| t.map(at).to_vec()).collect()
 }
 
-/// An SVG with a row of panels for each scene. The panels of a row share one view.
-#[must_use]
-pub fn svg(rows: &[Vec<Panel>]) -> String {
-    let count = |n: usize| i32::try_from(n).unwrap_or(i32::MAX / PANEL);
-    let columns = count(rows.iter().map(Vec::len).max().unwrap_or(0));
-    let (width, height) = (PANEL * columns, PANEL * count(rows.len()));
+/// An SVG with a row of panels, which share one view.
+fn svg(panels: &[Panel]) -> String {
+    let (width, height) = (PANEL as usize * panels.len(), PANEL);
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{}\" \
          height=\"{}\" stroke-linejoin=\"round\" font-family=\"sans-serif\" font-size=\"34\">\n\
@@ -121,16 +93,12 @@ pub fn svg(rows: &[Vec<Panel>]) -> String {
         width / 2,
         height / 2
     );
-    for (row, panels) in (0i32..).zip(rows) {
-        let view = View::new(panels);
-        for (column, panel) in (0i32..).zip(panels) {
-            let _ =
-                writeln!(out, "<g transform=\"translate({} {})\">", PANEL * column, PANEL * row);
-            view.solid(&mut out, &panel.solid, panel.is_closed);
-            view.blue(&mut out, &panel.walls, "#9cc4dd", 1.0);
-            view.blue(&mut out, &panel.glass, "#0072b2", 0.22);
-            let _ = writeln!(out, "<text x=\"32\" y=\"52\">{}</text>\n</g>", panel.title);
-        }
+    let view = View::new(panels);
+    for (column, panel) in (0i32..).zip(panels) {
+        let _ = writeln!(out, "<g transform=\"translate({} 0)\">", PANEL * column);
+        view.solid(&mut out, &panel.solid);
+        view.glass(&mut out, &panel.glass);
+        let _ = writeln!(out, "<text x=\"32\" y=\"52\">{}</text>\n</g>", panel.title);
     }
     out.push_str("</svg>\n");
     out
@@ -155,7 +123,7 @@ impl View {
     /// then a bit turned.
     fn new(panels: &[Panel]) -> Self {
         let points = |panel: &Panel| {
-            let all = [&panel.solid, &panel.glass, &panel.walls];
+            let all = [&panel.solid, &panel.glass];
             all.into_iter().flatten().flatten().copied().collect::<Vec<DVec3>>()
         };
         let bounds = |points: &[DVec3]| {
@@ -214,10 +182,10 @@ impl View {
 
     /// Faces that follow each other in one grey share a path. A stroke of the same grey hides the
     /// seams.
-    fn solid(&self, out: &mut String, faces: &[Face], is_closed: bool) {
+    fn solid(&self, out: &mut String, faces: &[Face]) {
         let mut last = None;
         for Seen { facing, corners } in self.seen(faces) {
-            if is_closed && facing <= 0.0 {
+            if facing <= 0.0 {
                 continue;
             }
             let grey = (DARK + STEP * (STEPS * facing.abs()).round()) as u8;
@@ -235,14 +203,13 @@ impl View {
     }
 
     /// Fronts with edges, each over those behind.
-    fn blue(&self, out: &mut String, faces: &[Face], fill: &str, opacity: f64) {
+    fn glass(&self, out: &mut String, faces: &[Face]) {
         if faces.is_empty() {
             return;
         }
-        let _ = writeln!(
-            out,
-            "<g fill=\"{fill}\" fill-opacity=\"{opacity}\" stroke=\"#0072b2\" stroke-opacity=\".7\" \
-             stroke-width=\"2\">"
+        out.push_str(
+            "<g fill=\"#0072b2\" fill-opacity=\"0.22\" stroke=\"#0072b2\" stroke-opacity=\".7\" \
+             stroke-width=\"2\">\n",
         );
         for Seen { corners, .. } in self.seen(faces).iter().filter(|seen| seen.facing > 0.0) {
             out.push_str("<path d=\"");
@@ -275,8 +242,8 @@ mod tests {
     fn a_cube_shows_three_sides_of_glass() {
         let (positions, triangles) = cube(1);
         let mesh = Mesh::new(positions, triangles);
-        let panel = Panel { glass: faces(&mesh), ..Panel::default() };
-        let text = svg(&[vec![panel]]);
+        let panel = Panel { title: String::new(), solid: Vec::new(), glass: faces(&mesh) };
+        let text = svg(&[panel]);
         assert_eq!(text.matches("<path").count(), 6);
         assert!(text.starts_with("<svg") && text.ends_with("</svg>\n"));
     }

@@ -2,7 +2,7 @@
 
 use crate::support::{
     Point, Triangle, arg, blob, dot, fixture, info, ok, parse_csv, refused, run, scratch, sub,
-    triangles, write_csv,
+    to_triangle, triangles, write_csv,
 };
 use std::fs;
 
@@ -11,17 +11,6 @@ const WITHIN: &str = "pose,within,first,second,work";
 
 fn part(from: Point, way: Point, t: f64) -> Point {
     [from[0] + way[0] * t, from[1] + way[1] * t, from[2] + way[2] * t]
-}
-
-/// The nearest point of a triangle, by halving: the distance from a point is convex.
-fn distance_to(p: Point, [a, b, c]: Triangle) -> f64 {
-    let to_segment = |from: Point, to: Point| {
-        let way = sub(to, from);
-        let t = (dot(sub(p, from), way) / dot(way, way)).clamp(0.0, 1.0);
-        let gap = sub(p, part(from, way, t));
-        dot(gap, gap).sqrt()
-    };
-    least(|t| to_segment(part(a, sub(b, a), t), part(a, sub(c, a), t)))
 }
 
 /// The least value of a convex function on 0 to 1.
@@ -38,7 +27,7 @@ fn least(of: impl Fn(f64) -> f64) -> f64 {
 fn distance(a: &Triangle, b: &Triangle) -> f64 {
     let edges = |t: &Triangle, other: Triangle| {
         let edge =
-            |k: usize| least(|s| distance_to(part(t[k], sub(t[(k + 1) % 3], t[k]), s), other));
+            |k: usize| least(|s| to_triangle(part(t[k], sub(t[(k + 1) % 3], t[k]), s), other));
         (0..3).map(edge).fold(f64::INFINITY, f64::min)
     };
     edges(a, *b).min(edges(b, *a))
@@ -76,8 +65,8 @@ fn intervals_and_triangles_are_those_of_the_mesh_files() {
         let place = |at: usize| [0, 1, 2].map(|k| number(&row[at + k]));
         let way = sub(place(6), place(3));
         assert!((dot(way, way).sqrt() - upper).abs() < 1e-5, "{row:?}");
-        assert!(distance_to(place(3), mesh[a]) < 1e-5, "{row:?}");
-        assert!(distance_to(place(6), moved(&mesh[b])) < 1e-5, "{row:?}");
+        assert!(to_triangle(place(3), mesh[a]) < 1e-5, "{row:?}");
+        assert!(to_triangle(place(6), moved(&mesh[b])) < 1e-5, "{row:?}");
     }
     for (part, word) in [(0.5, "no"), (2.0, "yes")] {
         for (text, row) in texts.iter().zip(&rows) {

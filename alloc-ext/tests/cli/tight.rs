@@ -19,43 +19,15 @@ fn hulls(info: &Value) -> &Vec<Value> {
 #[test]
 fn intervals_and_verdicts_by_a_hull_hold_for_the_mesh() {
     let directory = scratch("tight_queries");
-    let mesh = fixture("torus.ply");
     let path = blob(&directory, "torus.ply", &TIGHT);
-    let surface = triangles(&mesh);
-    let points = directory.join("points.csv");
-    let queries: Vec<[f32; 3]> = random_queries(&surface, 300);
-    write_csv(&points, &queries);
-    let mut widths = Vec::new();
-    for choice in [&["--tight", "70"][..], &["--tight", "149"], &["--tight", "150"], &[]] {
-        let text = ok([&["closest", arg(&path), arg(&points)], choice].concat());
-        let rows = parse_csv(&text, "x,y,z,lower,upper,px,py,pz,triangle,work");
-        assert_eq!(rows.len(), queries.len());
-        let mut width = 0.0;
-        for (row, query) in rows.iter().zip(&queries) {
-            let real = distance(wide(query), &surface);
-            let (lower, upper) = (number(&row[3]), number(&row[4]));
-            assert!(
-                lower <= real * (1.0 + 1e-6) + 1e-9 && upper >= real * (1.0 - 1e-6) - 1e-9,
-                "{row:?} {real}"
-            );
-            assert!(row[8].is_empty(), "a hull knows no triangles: {row:?}");
-            width += upper - lower;
-        }
-        widths.push(width);
-        let text =
-            ok([&["within", arg(&path), arg(&points), "--distance", "0.5"], choice].concat());
-        let rows = parse_csv(&text, "x,y,z,within,triangle,work");
-        for (row, query) in rows.iter().zip(&queries) {
-            let real = distance(wide(query), &surface);
-            match row[3].as_str() {
-                "yes" => assert!(real <= 0.5 + 1e-6, "{row:?} {real}"),
-                "no" => assert!(real >= 0.5 - 1e-6, "{row:?} {real}"),
-                other => assert_eq!(other, "undecided"),
-            }
-        }
-        let count = |verdict: &str| rows.iter().filter(|row| row[3] == verdict).count();
-        assert!(count("yes") > 10 && count("no") > 10, "{} {}", count("yes"), count("no"));
-    }
+    let surface = triangles(&fixture("torus.ply"));
+    let points: Vec<[f32; 3]> = random_queries(&surface, 300);
+    let choices = [&["--tight", "70"][..], &["--tight", "149"], &["--tight", "150"], &[]];
+    let widths = choices.map(|choice| {
+        let ([yes, no], width) = checked(&path, choice, &surface, &points, 0.5);
+        assert!(yes > 10 && no > 10, "{yes} {no}");
+        width
+    });
     // 149 faces are too few for the finer hull, and it is what is asked unless told otherwise.
     assert!(
         widths[0] == widths[1] && widths[2] == widths[3] && widths[2] < 0.9 * widths[0],
@@ -64,18 +36,24 @@ fn intervals_and_verdicts_by_a_hull_hold_for_the_mesh() {
 }
 
 /// Whether lower and upper ends of closest points, and verdicts for a distance, are true of a
-/// surface; how many are yes and no.
-fn checked(path: &Path, surface: &[Triangle], points: &[[f32; 3]], distance_of: f64) -> [usize; 2] {
+/// surface; how many are yes and no, and the sum of the intervals' widths. `choice` names a hull.
+fn checked(
+    path: &Path,
+    choice: &[&str],
+    surface: &[Triangle],
+    points: &[[f32; 3]],
+    distance_of: f64,
+) -> ([usize; 2], f64) {
     let file = path.with_extension("csv");
     write_csv(&file, points);
     let rows = parse_csv(
-        &ok(["closest", arg(path), arg(&file)]),
+        &ok([&["closest", arg(path), arg(&file)], choice].concat()),
         "x,y,z,lower,upper,px,py,pz,triangle,work",
     );
-    let verdicts = ok(["within", arg(path), arg(&file), "--distance", &distance_of.to_string()]);
-    let verdicts = parse_csv(&verdicts, "x,y,z,within,triangle,work");
+    let within = ["within", arg(path), arg(&file), "--distance", &distance_of.to_string()];
+    let verdicts = parse_csv(&ok([&within, choice].concat()), "x,y,z,within,triangle,work");
     assert_eq!((rows.len(), verdicts.len()), (points.len(), points.len()));
-    let mut counts = [0; 2];
+    let (mut counts, mut width) = ([0; 2], 0.0);
     for ((row, verdict), point) in rows.iter().zip(&verdicts).zip(points) {
         let real = distance(wide(point), surface);
         let (lower, upper) = (number(&row[3]), number(&row[4]));
@@ -83,6 +61,7 @@ fn checked(path: &Path, surface: &[Triangle], points: &[[f32; 3]], distance_of: 
             lower <= real * (1.0 + 1e-6) + 1e-9 && upper >= real * (1.0 - 1e-6) - 1e-9,
             "{row:?} {real}"
         );
+        assert!(row[8].is_empty(), "a hull knows no triangles: {row:?}");
         match verdict[3].as_str() {
             "yes" => assert!(real <= distance_of + 1e-6, "{verdict:?} {real}"),
             "no" => assert!(real >= distance_of - 1e-6, "{verdict:?} {real}"),
@@ -90,8 +69,9 @@ fn checked(path: &Path, surface: &[Triangle], points: &[[f32; 3]], distance_of: 
         }
         counts[0] += usize::from(verdict[3] == "yes");
         counts[1] += usize::from(verdict[3] == "no");
+        width += upper - lower;
     }
-    counts
+    (counts, width)
 }
 
 #[test]
@@ -112,7 +92,7 @@ fn hulls_of_a_margin_a_slack_and_a_void_tell_the_truth_about_the_mesh() {
         let path = directory.join(format!("{name}.msw"));
         let build = ["build", arg(&mesh), "-o", arg(&path), "--for", "tight", "--effort", "0"];
         let text = ok([&build[..], options].concat());
-        let [yes, no] = checked(&path, &surface, &points, 0.75);
+        let ([yes, no], _) = checked(&path, &[], &surface, &points, 0.75);
         assert!(yes > 5 && no > 5, "{name}: {yes} {no}");
         let blob = info(&path);
         assert_eq!(hulls(&blob).len(), if options.contains(&"--tight") { 2 } else { 1 });

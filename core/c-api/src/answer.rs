@@ -14,183 +14,46 @@ pub const NO_TRIANGLE: u32 = u32::MAX;
 /// `MSW_NO_MODEL`.
 pub const NO_MODEL: u32 = u32::MAX;
 
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct IntervalC {
-    pub lower: f32,
-    pub upper: f32,
+/// Structures of the header, with their fields in its order.
+macro_rules! answers {
+    ($($name:ident { $($field:ident: $of:ty),* })*) => {$(
+        #[repr(C)]
+        #[derive(Clone, Copy, Debug, Default)]
+        pub struct $name {
+            $(pub $field: $of),*
+        }
+    )*};
 }
 
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct WorkC {
-    pub bounds: u32,
-    pub triangles: u32,
-    pub exact: u32,
-    pub opened: u32,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct ClosestC {
-    pub distance: IntervalC,
-    pub point: [f32; 3],
-    pub triangle: u32,
-    pub ended: i32,
-    pub work: WorkC,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct CoherentC {
-    pub closest: ClosestC,
-    pub safe_radius: f32,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SignedC {
-    pub side: i32,
-    pub reason: i32,
-    pub distance: IntervalC,
-    pub closest: ClosestC,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct WindingC {
-    pub number: IntervalC,
-    pub side: i32,
-    pub reason: i32,
-    pub ended: i32,
-    pub work: WorkC,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct HitC {
-    pub verdict: i32,
-    pub ended: i32,
-    pub t: IntervalC,
-    pub hit_t: f32,
-    pub point: [f32; 3],
-    pub triangle: u32,
-    pub work: WorkC,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct WithinC {
-    pub verdict: i32,
-    pub reason: i32,
-    pub triangle: u32,
-    pub work: WorkC,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct NeighborC {
-    pub distance: IntervalC,
-    pub point: [f32; 3],
-    pub triangle: u32,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct NearestC {
-    pub stored: u32,
-    pub ended: i32,
-    pub rest_lower: f32,
-    pub work: WorkC,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct OverlapC {
-    pub verdict: i32,
-    pub reason: i32,
-    pub triangles: [u32; 2],
-    pub work: WorkC,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SceneC {
-    pub verdict: i32,
-    pub reason: i32,
-    pub models: [u32; 2],
-    pub work: WorkC,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct PairDistanceC {
-    pub distance: IntervalC,
-    pub points: [[f32; 3]; 2],
-    pub triangles: [u32; 2],
-    pub ended: i32,
-    pub work: WorkC,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct PairContactC {
-    pub verdict: i32,
-    pub clear_until: f32,
-    pub points: [[f32; 3]; 2],
-    pub triangles: [u32; 2],
-    pub ended: i32,
-    pub work: WorkC,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct NodePairC {
-    pub a: u16,
-    pub b: u16,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct ApartC {
-    pub verdict: i32,
-    pub ended: i32,
-    pub may_meet: NodePairC,
-    pub work: WorkC,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct CandidatesC {
-    pub verdict: i32,
-    pub ended: i32,
-    pub stored: u32,
-    pub dropped: u32,
-    pub work: WorkC,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct RefinementC {
-    pub is_complete: u32,
-    pub error_left: f32,
-    pub faces: u32,
-    pub performed: u32,
-    pub undone: u32,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct FaceC {
-    pub corners: [[f32; 3]; 3],
-    pub error: f32,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct FacesC {
-    pub stored: u32,
-    pub dropped: u32,
+answers! {
+    IntervalC { lower: f32, upper: f32 }
+    WorkC { bounds: u32, triangles: u32, exact: u32, opened: u32 }
+    ClosestC { distance: IntervalC, point: [f32; 3], triangle: u32, ended: i32, work: WorkC }
+    CoherentC { closest: ClosestC, safe_radius: f32 }
+    SignedC { side: i32, reason: i32, distance: IntervalC, closest: ClosestC }
+    WindingC { number: IntervalC, side: i32, reason: i32, ended: i32, work: WorkC }
+    HitC {
+        verdict: i32, ended: i32, t: IntervalC, hit_t: f32, point: [f32; 3], triangle: u32,
+        work: WorkC
+    }
+    WithinC { verdict: i32, reason: i32, triangle: u32, work: WorkC }
+    NeighborC { distance: IntervalC, point: [f32; 3], triangle: u32 }
+    NearestC { stored: u32, ended: i32, rest_lower: f32, work: WorkC }
+    OverlapC { verdict: i32, reason: i32, triangles: [u32; 2], work: WorkC }
+    SceneC { verdict: i32, reason: i32, models: [u32; 2], work: WorkC }
+    PairDistanceC {
+        distance: IntervalC, points: [[f32; 3]; 2], triangles: [u32; 2], ended: i32, work: WorkC
+    }
+    PairContactC {
+        verdict: i32, clear_until: f32, points: [[f32; 3]; 2], triangles: [u32; 2], ended: i32,
+        work: WorkC
+    }
+    NodePairC { a: u16, b: u16 }
+    ApartC { verdict: i32, ended: i32, may_meet: NodePairC, work: WorkC }
+    CandidatesC { verdict: i32, ended: i32, stored: u32, dropped: u32, work: WorkC }
+    RefinementC { is_complete: u32, error_left: f32, faces: u32, performed: u32, undone: u32 }
+    FaceC { corners: [[f32; 3]; 3], error: f32 }
+    FacesC { stored: u32, dropped: u32 }
 }
 
 impl From<Interval> for IntervalC {

@@ -5,6 +5,7 @@
 //! | `memory` | the caller's pointers, and every `unsafe` block |
 //! | `error` | negative numbers and their texts |
 //! | `question`, `answer` | structures of the header |
+//! | `ask` | the questions' common part, and the macro of their rows |
 //! | `tree`, `pair`, `scene`, `triboxes`, `tight`, `hull`, `pose` | the functions |
 //!
 //! This crate has no panic handler, so that the workspace builds and tests it like the others.
@@ -13,6 +14,7 @@
 #![no_std]
 
 pub mod answer;
+mod ask;
 pub mod error;
 pub mod hull;
 pub mod memory;

@@ -1,13 +1,14 @@
 //! Models at their places, and what is remembered of their pairs.
 
+use meshsweep_core::PlacedModel;
 use meshsweep_core::internal::bvh::{MovingModel, RememberedPair};
-use meshsweep_core::{PlacedModel, ScratchEntry};
 
 use crate::answer::SceneC;
+use crate::ask::questions;
 use crate::error::Error;
 use crate::memory::{AnyBits, In, Out, SceneEntry};
-use crate::question::{BudgetC, KeptPairC, PoseC};
-use crate::tree::{Model, ask};
+use crate::question::{KeptPairC, PoseC};
+use crate::tree::Model;
 
 /// `msw_placed`.
 #[repr(C)]
@@ -53,21 +54,11 @@ pub extern "C" fn msw_scene_move(mut scene: Out<SceneEntry>, model: u32, pose: I
     code((|| Ok(scene.scene()?.move_to(model as usize, pose.get()?.pose())?))())
 }
 
-/// See `meshsweep.h`.
-#[unsafe(no_mangle)]
-pub extern "C" fn msw_scene_within(
-    mut scene: Out<SceneEntry>,
-    budget: In<BudgetC>,
-    scratch: Out<ScratchEntry>,
-    scratch_count: usize,
-    answer: Out<SceneC>,
-) -> i32 {
-    answer.answer(|| {
+questions! {
+    msw_scene_within(scene: Out<SceneEntry>) -> SceneC {
         let scene = scene.scene()?;
-        ask(budget, scratch, scratch_count, |budget, scratch| {
-            Ok(scene.within(budget, scratch)?.into())
-        })
-    })
+        |budget, scratch| scene.within(budget, scratch)
+    }
 }
 
 /// See `meshsweep.h`.

@@ -1,12 +1,12 @@
 //! Tight hulls.
 
-use meshsweep_core::{ScratchEntry, TightHull, TightHulls};
+use meshsweep_core::{TightHull, TightHulls};
 
 use crate::answer::WithinC;
+use crate::ask::questions;
 use crate::error::Error;
 use crate::memory::{In, Out, Storage, View};
-use crate::question::BudgetC;
-use crate::tree::{Model, ask};
+use crate::tree::Model;
 
 /// Words of `msw_tight`.
 pub const TIGHT_WORDS: usize = if cfg!(target_pointer_width = "64") { 44 } else { 60 };
@@ -43,21 +43,9 @@ pub extern "C" fn msw_tight_model(model: Out<Model>, hull: In<Tight>) -> i32 {
     model.open(|| Ok(*hull.view()?.bvh()))
 }
 
-/// See `meshsweep.h`.
-#[unsafe(no_mangle)]
-pub extern "C" fn msw_tight_within(
-    hull: In<Tight>,
-    point: In<[f32; 3]>,
-    distance: f32,
-    budget: In<BudgetC>,
-    scratch: Out<ScratchEntry>,
-    scratch_count: usize,
-    answer: Out<WithinC>,
-) -> i32 {
-    answer.answer(|| {
+questions! {
+    msw_tight_within(hull: In<Tight>, point: In<[f32; 3]>, distance: f32) -> WithinC {
         let (hull, point) = (hull.view()?, point.get()?);
-        ask(budget, scratch, scratch_count, |budget, scratch| {
-            Ok(hull.within(point, distance, budget, scratch)?.into())
-        })
-    })
+        |budget, scratch| hull.within(point, distance, budget, scratch)
+    }
 }

@@ -1,8 +1,9 @@
 //! Questions about the box tree.
 
-use meshsweep_core::{Blob, Budget, Bvh, Hint, Neighbor, ScratchEntry, Solid};
+use meshsweep_core::{Blob, Bvh, Hint, Neighbor, ScratchEntry, Solid};
 
 use crate::answer::{ClosestC, CoherentC, HitC, NearestC, NeighborC, SignedC, WindingC, WithinC};
+use crate::ask::{ask, questions};
 use crate::error::Error;
 use crate::memory::{CoherentStorage, In, Out, Storage, View};
 use crate::question::{BudgetC, HintC, facing};
@@ -15,17 +16,6 @@ pub type Model = Storage<Bvh<'static>, MODEL_WORDS>;
 
 impl View for Bvh<'static> {
     const TAG: usize = 0x6d73_7701;
-}
-
-/// Reads budget and scratch, and asks.
-pub(crate) fn ask<T>(
-    budget: In<BudgetC>,
-    mut scratch: Out<ScratchEntry>,
-    scratch_count: usize,
-    question: impl FnOnce(Budget, &mut [ScratchEntry]) -> Result<T, Error>,
-) -> Result<T, Error> {
-    let budget = budget.get_or(BudgetC::EXACT)?.budget();
-    question(budget, scratch.slice(scratch_count)?)
 }
 
 /// See `meshsweep.h`.
@@ -52,22 +42,42 @@ pub extern "C" fn msw_scratch_entries(model: In<Model>) -> u32 {
     model.view().map_or(0, |model| model.scratch_entries() as u32)
 }
 
-/// See `meshsweep.h`.
-#[unsafe(no_mangle)]
-pub extern "C" fn msw_closest_point(
-    model: In<Model>,
-    point: In<[f32; 3]>,
-    budget: In<BudgetC>,
-    scratch: Out<ScratchEntry>,
-    scratch_count: usize,
-    answer: Out<ClosestC>,
-) -> i32 {
-    answer.answer(|| {
+questions! {
+    msw_closest_point(model: In<Model>, point: In<[f32; 3]>) -> ClosestC {
         let (model, point) = (model.view()?, point.get()?);
-        ask(budget, scratch, scratch_count, |budget, scratch| {
-            Ok(model.closest_point(point, budget, scratch)?.into())
-        })
-    })
+        |budget, scratch| model.closest_point(point, budget, scratch)
+    }
+    msw_coherent_closest_point(
+        model: In<Model>, coherent: Out<CoherentStorage>, point: In<[f32; 3]>
+    ) -> CoherentC {
+        let (model, query, point) = (model.view()?, coherent.kept()?, point.get()?);
+        |budget, scratch| query.closest_point(model, point, budget, scratch)
+    }
+    msw_signed_distance(model: In<Model>, point: In<[f32; 3]>) -> SignedC {
+        let (model, point) = (model.view()?, point.get()?);
+        |budget, scratch| model.signed_distance(point, budget, scratch)
+    }
+    msw_winding_number(model: In<Model>, point: In<[f32; 3]>) -> WindingC {
+        let (model, point) = (model.view()?, point.get()?);
+        |budget, scratch| model.winding_number(point, budget, scratch)
+    }
+    msw_within(model: In<Model>, point: In<[f32; 3]>, distance: f32) -> WithinC {
+        let (model, point) = (model.view()?, point.get()?);
+        |budget, scratch| model.within(point, distance, budget, scratch)
+    }
+    msw_first_hit(model: In<Model>, a: In<[f32; 3]>, b: In<[f32; 3]>, facing_code: i32) -> HitC {
+        let (model, a, b, facing) = (model.view()?, a.get()?, b.get()?, facing(facing_code)?);
+        |budget, scratch| model.first_hit(a, b, facing, budget, scratch)
+    }
+    msw_solid_first_contact(
+        model: In<Model>, from: In<[f32; 3]>, to: In<[f32; 3]>, corner_count: usize, radius: f32
+    ) -> HitC {
+        let (model, from, to) = {
+            let (model, [from, to]) = (model.view()?, [from, to].map(|at| at.slice(corner_count)));
+            (model, Solid::new(from?, radius)?, Solid::new(to?, radius)?)
+        };
+        |budget, scratch| model.solid_first_contact(&from, &to, budget, scratch)
+    }
 }
 
 /// See `meshsweep.h`.
@@ -89,122 +99,6 @@ pub extern "C" fn msw_closest_point_from(
         })?;
         kept.word = hint.word();
         Ok(near.into())
-    })
-}
-
-/// See `meshsweep.h`.
-#[unsafe(no_mangle)]
-pub extern "C" fn msw_coherent_closest_point(
-    model: In<Model>,
-    mut coherent: Out<CoherentStorage>,
-    point: In<[f32; 3]>,
-    budget: In<BudgetC>,
-    scratch: Out<ScratchEntry>,
-    scratch_count: usize,
-    answer: Out<CoherentC>,
-) -> i32 {
-    answer.answer(|| {
-        let (model, query, point) = (model.view()?, coherent.kept()?, point.get()?);
-        ask(budget, scratch, scratch_count, |budget, scratch| {
-            Ok(query.closest_point(model, point, budget, scratch)?.into())
-        })
-    })
-}
-
-/// See `meshsweep.h`.
-#[unsafe(no_mangle)]
-pub extern "C" fn msw_signed_distance(
-    model: In<Model>,
-    point: In<[f32; 3]>,
-    budget: In<BudgetC>,
-    scratch: Out<ScratchEntry>,
-    scratch_count: usize,
-    answer: Out<SignedC>,
-) -> i32 {
-    answer.answer(|| {
-        let (model, point) = (model.view()?, point.get()?);
-        ask(budget, scratch, scratch_count, |budget, scratch| {
-            Ok(model.signed_distance(point, budget, scratch)?.into())
-        })
-    })
-}
-
-/// See `meshsweep.h`.
-#[unsafe(no_mangle)]
-pub extern "C" fn msw_winding_number(
-    model: In<Model>,
-    point: In<[f32; 3]>,
-    budget: In<BudgetC>,
-    scratch: Out<ScratchEntry>,
-    scratch_count: usize,
-    answer: Out<WindingC>,
-) -> i32 {
-    answer.answer(|| {
-        let (model, point) = (model.view()?, point.get()?);
-        ask(budget, scratch, scratch_count, |budget, scratch| {
-            Ok(model.winding_number(point, budget, scratch)?.into())
-        })
-    })
-}
-
-/// See `meshsweep.h`.
-#[unsafe(no_mangle)]
-pub extern "C" fn msw_within(
-    model: In<Model>,
-    point: In<[f32; 3]>,
-    distance: f32,
-    budget: In<BudgetC>,
-    scratch: Out<ScratchEntry>,
-    scratch_count: usize,
-    answer: Out<WithinC>,
-) -> i32 {
-    answer.answer(|| {
-        let (model, point) = (model.view()?, point.get()?);
-        ask(budget, scratch, scratch_count, |budget, scratch| {
-            Ok(model.within(point, distance, budget, scratch)?.into())
-        })
-    })
-}
-
-/// See `meshsweep.h`.
-#[unsafe(no_mangle)]
-pub extern "C" fn msw_first_hit(
-    model: In<Model>,
-    a: In<[f32; 3]>,
-    b: In<[f32; 3]>,
-    facing_code: i32,
-    budget: In<BudgetC>,
-    scratch: Out<ScratchEntry>,
-    scratch_count: usize,
-    answer: Out<HitC>,
-) -> i32 {
-    answer.answer(|| {
-        let (model, a, b, facing) = (model.view()?, a.get()?, b.get()?, facing(facing_code)?);
-        ask(budget, scratch, scratch_count, |budget, scratch| {
-            Ok(model.first_hit(a, b, facing, budget, scratch)?.into())
-        })
-    })
-}
-
-/// See `meshsweep.h`.
-#[unsafe(no_mangle)]
-pub extern "C" fn msw_solid_first_contact(
-    model: In<Model>,
-    from: In<[f32; 3]>,
-    to: In<[f32; 3]>,
-    corner_count: usize,
-    radius: f32,
-    budget: In<BudgetC>,
-    scratch: Out<ScratchEntry>,
-    scratch_count: usize,
-    answer: Out<HitC>,
-) -> i32 {
-    answer.answer(|| {
-        let (model, [from, to]) = (model.view()?, [from, to].map(|at| at.slice(corner_count)));
-        let (from, to) = (Solid::new(from?, radius)?, Solid::new(to?, radius)?);
-        ask(budget, scratch, scratch_count, |budget, scratch| {
-            Ok(model.solid_first_contact(&from, &to, budget, scratch)?.into())
-        })
     })
 }
 

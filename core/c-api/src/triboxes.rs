@@ -3,10 +3,10 @@
 use meshsweep_core::{NodePair, ScratchEntry, Triboxes};
 
 use crate::answer::{ApartC, CandidatesC, NodePairC};
+use crate::ask::{ask, posed, questions};
 use crate::error::Error;
 use crate::memory::{In, Out, Storage, View};
 use crate::question::{BudgetC, PoseC};
-use crate::tree::ask;
 
 /// Words of `msw_triboxes`.
 pub const TRIBOXES_WORDS: usize = if cfg!(target_pointer_width = "64") { 16 } else { 20 };
@@ -38,45 +38,19 @@ pub extern "C" fn msw_triboxes_scratch_entries(
     views.map_or(0, |(one, other)| one.separation_entries(other) as u32)
 }
 
-/// See `meshsweep.h`.
-#[unsafe(no_mangle)]
-pub extern "C" fn msw_triboxes_apart(
-    triboxes: In<TriboxesStorage>,
-    other: In<TriboxesStorage>,
-    pose: In<PoseC>,
-    budget: In<BudgetC>,
-    scratch: Out<ScratchEntry>,
-    scratch_count: usize,
-    answer: Out<ApartC>,
-) -> i32 {
-    answer.answer(|| {
-        let (triboxes, other) = (triboxes.view()?, other.view()?);
-        let pose = pose.get_or(PoseC::IDENTITY)?.pose();
-        ask(budget, scratch, scratch_count, |budget, scratch| {
-            Ok(triboxes.separation(other, pose, budget, scratch)?.into())
-        })
-    })
-}
-
-/// See `meshsweep.h`.
-#[unsafe(no_mangle)]
-pub extern "C" fn msw_triboxes_within(
-    triboxes: In<TriboxesStorage>,
-    other: In<TriboxesStorage>,
-    pose: In<PoseC>,
-    distance: f32,
-    budget: In<BudgetC>,
-    scratch: Out<ScratchEntry>,
-    scratch_count: usize,
-    answer: Out<ApartC>,
-) -> i32 {
-    answer.answer(|| {
-        let (triboxes, other) = (triboxes.view()?, other.view()?);
-        let pose = pose.get_or(PoseC::IDENTITY)?.pose();
-        ask(budget, scratch, scratch_count, |budget, scratch| {
-            Ok(triboxes.within_of(other, pose, distance, budget, scratch)?.into())
-        })
-    })
+questions! {
+    msw_triboxes_apart(
+        triboxes: In<TriboxesStorage>, other: In<TriboxesStorage>, pose: In<PoseC>
+    ) -> ApartC {
+        let ([triboxes, other], pose) = posed([&triboxes, &other], pose)?;
+        |budget, scratch| triboxes.separation(other, pose, budget, scratch)
+    }
+    msw_triboxes_within(
+        triboxes: In<TriboxesStorage>, other: In<TriboxesStorage>, pose: In<PoseC>, distance: f32
+    ) -> ApartC {
+        let ([triboxes, other], pose) = posed([&triboxes, &other], pose)?;
+        |budget, scratch| triboxes.within_of(other, pose, distance, budget, scratch)
+    }
 }
 
 /// See `meshsweep.h`.
@@ -93,8 +67,7 @@ pub extern "C" fn msw_triboxes_candidates(
     answer: Out<CandidatesC>,
 ) -> i32 {
     answer.answer(|| {
-        let (triboxes, other) = (triboxes.view()?, other.view()?);
-        let pose = pose.get_or(PoseC::IDENTITY)?.pose();
+        let ([triboxes, other], pose) = posed([&triboxes, &other], pose)?;
         // The search keeps its pairs where the answers will be.
         let mut held = pairs.held::<NodePair>();
         let found = ask(budget, scratch, scratch_count, |budget, scratch| {

@@ -6,7 +6,7 @@
 use crate::bvh::pair::placed_model::PlacedModel;
 use crate::bvh::pair::placed_pair::PlacedPair;
 use crate::bvh::pair::separation::grid_pose::GridPose;
-use crate::bvh::pair::separation::search::{SearchStart, Separation, separation};
+use crate::bvh::pair::separation::search::{PairVerdict, SearchStart, separation};
 use crate::bvh::pair::world_box::WorldBox;
 use crate::num::tolerance::U32;
 use crate::num::{greater, lesser};
@@ -232,12 +232,12 @@ impl PairSearch<'_, '_> {
         if let Some(pose) = pose.and_then(|pose| GridPose::of(trees, &pose)) {
             let asked = [distance, more];
             match separation(&pose, asked, start, budget.steps, scratch, work) {
-                Separation::Apart(lower) => {
+                PairVerdict::Apart(lower) => {
                     let left = greater(0.0, lower - distance) * (1.0 - 2.0 * U32);
                     return Ok((Verdict::No, left));
                 }
-                Separation::Near(_) => return Ok((Verdict::Yes, 0.0)),
-                Separation::Undecided => {}
+                PairVerdict::Near(_) => return Ok((Verdict::Yes, 0.0)),
+                PairVerdict::Undecided => {}
             }
         }
         self.are_near_f64(budget, scratch, work)

@@ -115,6 +115,7 @@ impl Aabb {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::noise::Noise;
 
     const UNIT: Aabb = Aabb { min: Vec3::ZERO, max: Vec3::ONE };
 
@@ -134,13 +135,8 @@ mod tests {
 
     #[test]
     fn what_is_missed_in_f32_is_missed_by_clipping_and_little_else_is() {
-        let mut state = 11u64;
-        let mut random = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (state >> 40) as f32 / (1u32 << 23) as f32 - 1.0
-        };
+        let mut noise = Noise(11);
+        let mut random = || noise.unit();
         let (mut missed, mut clipped) = (0, 0);
         for round in 0..300_000 {
             let size = [2.0, 1.0, 40.0, 3000.0][round % 4];

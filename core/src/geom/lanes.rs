@@ -114,21 +114,20 @@ fn in_lanes(t: &[[f32; LANES]; 9]) -> [Support; LANES] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::noise::Noise;
 
     /// Coordinates of few values, so that every region, tie and degenerate triangle comes up.
-    fn coordinate(state: &mut u64, coarse: bool) -> f32 {
-        *state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        let bits = (*state >> 33) as u32;
+    fn coordinate(noise: &mut Noise, coarse: bool) -> f32 {
+        let bits = (noise.bits() >> 33) as u32;
         if coarse { (bits % 5) as f32 - 2.0 } else { bits as f32 / 1e9 - 1.0 }
     }
 
     #[test]
     fn lanes_give_the_bits_of_the_scalar_kernel() {
-        let mut state = 7;
+        let mut noise = Noise(7);
         for round in 0..100_000 {
             let mut vector = || {
-                Vec3::from_array(core::array::from_fn(|_| coordinate(&mut state, round % 2 == 0)))
+                Vec3::from_array(core::array::from_fn(|_| coordinate(&mut noise, round % 2 == 0)))
             };
             let triangles: [[Vec3; 3]; LANES] =
                 core::array::from_fn(|_| core::array::from_fn(|_| vector()));

@@ -260,6 +260,7 @@ fn edge_crossing(a: DVec3, d: DVec3, from: DVec3, to: DVec3, touch: f64) -> Opti
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::noise::Noise;
     use glam::Vec3;
 
     const T: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
@@ -273,13 +274,8 @@ mod tests {
 
     #[test]
     fn what_f32_tells_of_a_passage_f64_tells_too() {
-        let mut state = 3u64;
-        let mut random = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (state >> 40) as f32 / (1u32 << 23) as f32 - 1.0
-        };
+        let mut noise = Noise(3);
+        let mut random = || noise.unit();
         let (mut told, mut counts) = (0, [0; 2]);
         for round in 0..300_000 {
             let size = [1.0, 30.0, 1e-3, 1e6][round % 4];

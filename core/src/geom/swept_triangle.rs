@@ -189,6 +189,7 @@ fn is_beyond(Support { along, length_sq }: Support, limit: f32) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::noise::Noise;
     use glam::DVec3;
 
     #[test]
@@ -217,18 +218,13 @@ mod tests {
 
     #[test]
     fn squares_decide_as_the_root_does() {
-        let (mut state, mut counts) = (5u64, [0; 2]);
-        let random = |state: &mut u64| {
-            *state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (*state >> 40) as f32 / (1u32 << 24) as f32
-        };
+        let (mut noise, mut counts) = (Noise(5), [0; 2]);
+        let mut random = || (noise.bits() >> 40) as f32 / (1u32 << 24) as f32;
         for round in 0..400_000 {
             // Lengths from below the trusted one to far above it.
-            let length = libm::exp2f(random(&mut state) * 90.0 - 65.0);
-            let limit = [1e-12, 1e-6, 1e-3, 1.0][round % 4] * random(&mut state);
-            let near = 1.0 + [0.0, 1e-7, 1e-6, 1e-5, 1.0][round % 5] * (random(&mut state) - 0.5);
+            let length = libm::exp2f(random() * 90.0 - 65.0);
+            let limit = [1e-12, 1e-6, 1e-3, 1.0][round % 4] * random();
+            let near = 1.0 + [0.0, 1e-7, 1e-6, 1e-5, 1.0][round % 5] * (random() - 0.5);
             let along = limit * length * near - [0.0, 1e-30][round % 2];
             let support = Support { along, length_sq: length * length };
             let bound = if support.length_sq < TRUSTED_DIRECTION_SQ {

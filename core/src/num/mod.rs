@@ -1,6 +1,8 @@
 //! Numbers: directed rounding, the stored radius, and every tolerance.
 
 mod each;
+#[cfg(test)]
+pub(crate) mod noise;
 mod order;
 mod radius;
 mod real;

@@ -396,35 +396,30 @@ fn library_sum(x: u32, y: u32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    struct Noise(u64);
+    use crate::num::noise::Noise;
 
     impl Noise {
-        fn bits(&mut self) -> u32 {
-            self.0 = self
-                .0
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (self.0 >> 32) as u32
+        fn word(&mut self) -> u32 {
+            (self.bits() >> 32) as u32
         }
 
         /// Numbers near each other, near powers of two, near the ends of f32's range, and zeros.
         fn number(&mut self) -> f32 {
-            let bits = self.bits();
-            let exponent = match self.bits() % 8 {
+            let bits = self.word();
+            let exponent = match self.word() % 8 {
                 0 => bits >> 23 & 0xFF,
                 1 => 253 + bits % 3,
                 2 => bits % 3,
                 _ => 115 + bits % 30,
             };
-            let mantissa = match self.bits() % 6 {
+            let mantissa = match self.word() % 6 {
                 0 => 0,
                 1 => 0x7F_FFFF,
-                2 => 1 << (self.bits() % 23),
+                2 => 1 << (self.word() % 23),
                 3 => bits & 0x7F_F000,
-                _ => self.bits() & 0x7F_FFFF,
+                _ => self.word() & 0x7F_FFFF,
             };
-            let number = f32::from_bits(self.bits() & SIGN | exponent << 23 | mantissa);
+            let number = f32::from_bits(self.word() & SIGN | exponent << 23 | mantissa);
             if number.is_nan() { f32::INFINITY } else { number }
         }
     }
@@ -436,7 +431,7 @@ mod tests {
         for round in 0..4_000_000 {
             let a = noise.number();
             let b = match round % 4 {
-                0 => f32::from_bits(a.to_bits() ^ (noise.bits() & SIGN | 1 << (noise.bits() % 8))),
+                0 => f32::from_bits(a.to_bits() ^ (noise.word() & SIGN | 1 << (noise.word() % 8))),
                 _ => noise.number(),
             };
             if b.is_nan() {

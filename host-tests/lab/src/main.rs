@@ -1,7 +1,7 @@
 //! `cargo xtask measure`, `race` and `rival`: this file only dispatches.
 //!
 //! ```text
-//! measuring ─ measure, hulls_on_board, valgrind
+//! measuring ─ measure, hulls_on_board
 //! robot ───── measure::robot, in the emulator
 //! racing ──── race
 //! rival ───── images of other engines, in the emulator
@@ -20,22 +20,17 @@ use meshsweep_xtask::say;
 use meshsweep_xtask::steps::Steps;
 
 const USAGE: &str = "\
-cargo xtask measure [--tree | --triboxes | --deform | --overlap | --motion
-                    | --winding | --tight [--firmware] | --bounds [--count] | --paper TABLE]
-                    [--plot FILE.svg] [--picture FILE.svg] [MESH...]
+cargo xtask measure [--tree | --triboxes | --deform | --overlap
+                    | --tight [--firmware] | --paper TABLE] [MESH...]
 cargo xtask measure --margins TRIALS
           work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/)
           --tree      only the box tree's
           --triboxes  the stored ones
           --deform    the hull hierarchy under motions
           --overlap   whether the mesh meets itself, moved
-          --motion    a capsule that moves past the mesh
-          --winding   winding numbers of the mesh, and of the mesh with holes
-          --tight     tight hulls, each proved, drawn with --picture, on a Cortex-M4F with --firmware
-          --bounds    how tight boxes, triboxes, hulls... are, with --count what they cost
+          --tight     tight hulls, each proved, on a Cortex-M4F with --firmware
           --paper     a table of the papers; alone: the list of tables
           --margins   how much of each margin for rounding is used, in so many trials, of no mesh
-          --plot      loss against cost
 cargo xtask measure --robot DIR [--every COUNT] [--cpu m7] [--json | --oracle PAIRS]
           an arm that guards itself at 1 kHz, on a Cortex-M4F and here: instructions a tick and a
           pair, and verdicts beside the true ones. DIR has the links' meshes, path.csv, ticks.csv
@@ -76,10 +71,6 @@ fn main() -> ExitCode {
             Some(options) => rival::run(&mut steps, &options),
             None => return usage(),
         },
-        // What `measure --bounds --count` runs in the simulator.
-        ["ask-bounds", mesh] => {
-            steps.run(mesh, || measuring::ask(mesh));
-        }
         _ => return usage(),
     }
     steps.finish()

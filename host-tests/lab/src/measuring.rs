@@ -1,20 +1,15 @@
-//! `cargo xtask measure`: the tables of `measure`, printed and plotted.
+//! `cargo xtask measure`: the tables of `measure`, printed.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use meshsweep_lab::measure::bounds::cost::{Cost, counted};
 use meshsweep_lab::measure::paper;
-use meshsweep_lab::measure::plot::{self, Measured};
-use meshsweep_lab::measure::tight::picture;
 use meshsweep_lab::measure::{
-    margins, measure, measure_bounds, measure_deform, measure_motion, measure_overlap,
-    measure_tight, measure_tree, measure_triboxes, measure_winding,
+    margins, measure, measure_deform, measure_overlap, measure_tight, measure_tree,
+    measure_triboxes,
 };
 use meshsweep_xtask::say;
 use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::tools;
-use meshsweep_xtask::valgrind::Valgrind;
 use meshsweep_xtask::workspace;
 
 use crate::hulls_on_board;
@@ -23,23 +18,18 @@ use crate::hulls_on_board;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     meshes: Vec<PathBuf>,
-    plot: Option<PathBuf>,
-    picture: Option<PathBuf>,
     part: Option<Part>,
     /// Trials of each margin, of no mesh.
     margins: Option<usize>,
-    /// Hulls on a board, or bounds in the simulator.
-    is_counted: bool,
+    /// Tight hulls on a board.
+    is_on_board: bool,
 }
 
 /// What of a mesh, if not hull hierarchy and box tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
     Tree,
-    Bounds,
     Overlap,
-    Motion,
-    Winding,
     Triboxes,
     Tight,
     Deform,
@@ -48,21 +38,15 @@ enum Part {
 }
 
 impl Options {
-    /// `[--tree | --triboxes | --deform | --overlap | --motion | --winding | --tight [--firmware] |
-    /// --bounds [--count] | --paper TABLE | --margins TRIALS] [--plot FILE.svg] [--picture
-    /// FILE.svg] [MESH…]`, the picture with `--tight` alone; `None` if that is not what the words
-    /// are.
+    /// `[--tree | --triboxes | --deform | --overlap | --tight [--firmware] |
+    /// --paper TABLE | --margins TRIALS] [MESH…]`; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
-        let mut only = None;
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             let part = match word {
                 "--tree" => Part::Tree,
-                "--bounds" => Part::Bounds,
                 "--overlap" => Part::Overlap,
-                "--motion" => Part::Motion,
-                "--winding" => Part::Winding,
                 "--triboxes" => Part::Triboxes,
                 "--tight" => Part::Tight,
                 "--paper" => {
@@ -70,20 +54,12 @@ impl Options {
                     Part::Paper(paper::ALL.iter().position(|table| table.name == *name)?)
                 }
                 "--deform" => Part::Deform,
-                "--count" | "--firmware" if only.is_none() => {
-                    only = Some(if word == "--count" { Part::Bounds } else { Part::Tight });
+                "--firmware" if !options.is_on_board => {
+                    options.is_on_board = true;
                     continue;
                 }
                 "--margins" => {
                     options.margins = Some(words.next()?.parse().ok()?);
-                    continue;
-                }
-                "--plot" => {
-                    options.plot = Some(svg(words.next()?)?);
-                    continue;
-                }
-                "--picture" => {
-                    options.picture = Some(svg(words.next()?)?);
                     continue;
                 }
                 flag if flag.starts_with("--") => return None,
@@ -96,16 +72,8 @@ impl Options {
                 return None;
             }
         }
-        options.is_counted = only.is_some();
-        let is_drawn_rightly = options.part == Some(Part::Tight) || options.picture.is_none();
-        (is_drawn_rightly && (only.is_none() || only == options.part)).then_some(options)
+        (!options.is_on_board || options.part == Some(Part::Tight)).then_some(options)
     }
-}
-
-/// A file of the only format that plots are written in.
-fn svg(file: &str) -> Option<PathBuf> {
-    let file = PathBuf::from(file);
-    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")).then_some(file)
 }
 
 /// The meshes, or two fixtures if there are none.
@@ -119,81 +87,32 @@ pub fn or_fixtures(meshes: Vec<PathBuf>) -> Vec<PathBuf> {
 /// Measures each mesh, the fixtures if none is named; tight hulls on a board if the firmware is
 /// asked for.
 pub fn run(steps: &mut Steps, options: Options) {
-    let Options { meshes, plot, picture, part, margins, is_counted } = options;
+    let Options { meshes, part, margins, is_on_board } = options;
     if let Some(trials) = margins {
         steps.run("margins", || margins::table(trials).map(|table| say::text(table.text())));
         return;
     }
-    let valgrind = if is_counted && part == Some(Part::Bounds) { Valgrind::find() } else { None };
-    let tools = if is_counted && part == Some(Part::Tight) { tools::setup(steps) } else { None };
-    let (mut plotted, mut drawn) = (Vec::new(), Vec::new());
+    let tools = if is_on_board { tools::setup(steps) } else { None };
     for mesh in &or_fixtures(meshes) {
-        let counts = valgrind.as_ref().and_then(|valgrind| {
-            steps.run(&format!("count bounds of {}", mesh.display()), || count(valgrind, mesh))
-        });
         steps.run(&format!("measure {}", mesh.display()), || {
             let tables = match part {
                 Some(Part::Tree) => measure_tree(mesh)?,
-                Some(Part::Bounds) => measure_bounds(mesh, counts.as_deref())?,
                 Some(Part::Overlap) => measure_overlap(mesh)?,
-                Some(Part::Motion) => measure_motion(mesh)?,
-                Some(Part::Winding) => measure_winding(mesh)?,
                 Some(Part::Triboxes) => measure_triboxes(mesh)?,
                 Some(Part::Paper(table)) => paper::measure(&paper::ALL[table], mesh)?,
                 Some(Part::Deform) => measure_deform(mesh)?,
                 Some(Part::Tight) => match &tools {
                     Some(tools) => vec![hulls_on_board::table(tools, mesh)?],
-                    None => {
-                        let (tables, gallery) = measure_tight(mesh)?;
-                        drawn.push(gallery);
-                        tables
-                    }
+                    None => measure_tight(mesh)?,
                 },
                 None => measure(mesh)?,
             };
             for table in &tables {
                 say::text(table.text());
             }
-            let name = mesh.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            plotted.push(Measured { mesh: name, tables });
             Ok(())
         });
     }
-    if let Some(file) = &plot {
-        steps.run("plot", || write(file, &plot::svg(&plotted)?));
-    }
-    if let Some(file) = &picture {
-        steps.run("draw the hulls", || write(file, &picture::svg(drawn)?));
-    }
-}
-
-/// Instructions of each bound at one pose. The simulator writes a profile after each move and after
-/// each test.
-fn count(valgrind: &Valgrind, mesh: &Path) -> Result<Vec<Cost>, String> {
-    let functions = [counted::COUNTED, counted::WRITTEN];
-    let (printed, totals) =
-        valgrind.stages("bounds-count", functions, &["ask-bounds".as_ref(), mesh.as_os_str()])?;
-    let asked = printed.lines().find_map(|line| line.strip_prefix("asked "));
-    let read = || {
-        let (bounds, poses) = asked?.split_once(' ')?;
-        let (bounds, poses): (usize, f64) = (bounds.parse().ok()?, poses.parse().ok()?);
-        let stages = totals.get(..2 * bounds)?.chunks_exact(2);
-        let each = |total: f64| total / poses;
-        Some(stages.map(|pair| Cost { update: each(pair[0]), test: each(pair[1]) }).collect())
-    };
-    read().ok_or_else(|| format!("callgrind counted nothing\n{printed}"))
-}
-
-/// The run that is counted.
-pub fn ask(mesh: &str) -> Result<(), String> {
-    let [bounds, poses] = counted::ask(Path::new(mesh))?;
-    say!("asked {bounds} {poses}");
-    Ok(())
-}
-
-fn write(file: &Path, text: &str) -> Result<(), String> {
-    fs::write(file, text.to_owned() + "\n")
-        .map_err(|error| format!("cannot write {}: {error}", file.display()))
 }
 
 #[cfg(test)]
@@ -203,26 +122,19 @@ mod tests {
 
     #[test]
     fn flags_and_meshes_come_in_any_order() {
-        let words = ["a.ply", "--count", "--plot", "trade.svg", "--bounds", "b.stl"];
-        let options = Options::parse(&words).expect("fine");
+        let options = Options::parse(&["a.ply", "--firmware", "--tight", "b.stl"]).expect("fine");
         assert_eq!(options.meshes, ["a.ply", "b.stl"].map(PathBuf::from));
-        assert_eq!(options.plot, Some(PathBuf::from("trade.svg")));
-        assert!(options.is_counted && options.part == Some(Part::Bounds));
-        let options = Options::parse(&["--tight", "--picture", "hulls.svg"]).expect("fine");
-        assert_eq!(options.picture, Some(PathBuf::from("hulls.svg")));
+        assert!(options.is_on_board && options.part == Some(Part::Tight));
     }
 
     #[test]
     fn words_that_do_not_fit_each_other_are_refused() {
         for words in [
-            &["--plot"][..],
-            &["--fast"],
-            &["--tree", "--bounds"],
+            &["--fast"][..],
+            &["--tree", "--deform"],
+            &["--firmware"],
             &["--overlap", "--overlap"],
-            &["--plot", "trade.png"],
-            &["--count"],
             &["--firmware", "--tree"],
-            &["--picture", "hulls.svg"],
             &["--paper"],
             &["--paper", "000.9"],
             &["--paper", "000.1", "--tree"],

@@ -82,10 +82,7 @@ pub fn closest(data: &[u8]) {
     let blob = input.blob(seeds());
     let Ok(model) = Hull::open(&blob) else { return };
     let mut queue = queue(&mut input);
-    let stop = Budget::EXACT
-        .with_relative(input.float())
-        .with_absolute(input.float())
-        .with_steps(input.u32());
+    let stop = input.budget();
     for stop in [Budget::EXACT, stop] {
         if let Ok(answer) = model.closest_point(input.point(), stop, &mut queue) {
             sound(&answer);

@@ -2,7 +2,7 @@
 
 use crate::corrupt::{put_u32, seal};
 use crate::generate::Rng;
-use meshsweep_core::Pose;
+use meshsweep_core::{Budget, Pose};
 
 /// Numbers that arithmetic has trouble with.
 const ODD: [f32; 11] = [
@@ -46,6 +46,11 @@ impl Input<'_> {
 
     pub(super) fn point(&mut self) -> [f32; 3] {
         std::array::from_fn(|_| self.float())
+    }
+
+    /// Any tolerances and steps.
+    pub(super) fn budget(&mut self) -> Budget {
+        Budget::EXACT.with_relative(self.float()).with_absolute(self.float()).with_steps(self.u32())
     }
 
     /// Any motion, more often a plausible one.

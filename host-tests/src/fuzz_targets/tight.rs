@@ -114,10 +114,7 @@ pub fn tight(data: &[u8]) {
     }
     let Ok(hulls) = opened else { return };
     ask_tight(&hulls);
-    let stop = Budget::EXACT
-        .with_relative(input.float())
-        .with_absolute(input.float())
-        .with_steps(input.u32());
+    let stop = input.budget();
     if let Some(hull) = hulls.finest() {
         ask(&hull, input.point(), input.float(), &stop, usize::from(input.byte()));
     }

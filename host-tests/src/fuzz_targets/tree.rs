@@ -105,17 +105,13 @@ fn look(tree: &Bvh<'_>) {
     assert!(tree.source(triangles).is_none());
 }
 
-fn stop(input: &mut Input<'_>) -> Budget {
-    Budget::EXACT.with_relative(input.float()).with_absolute(input.float()).with_steps(input.u32())
-}
-
 /// Every question about points on an edited blob.
 pub fn tree_closest(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(tree_seeds());
     let Ok(tree) = Bvh::open(&blob) else { return };
     let mut asker = Asker::new(usize::from(input.byte()), usize::from(input.byte() % 16));
-    let stop = stop(&mut input);
+    let stop = input.budget();
     // A hint of another tree is as good as any.
     let other = &tree_seeds()[usize::from(input.byte()) % tree_seeds().len()];
     if let Ok(other) = Bvh::open(other) {
@@ -136,7 +132,7 @@ pub fn tree_segment(data: &[u8]) {
     let [a, b, c] = [input.point(), input.point(), input.point()];
     for [from, to] in [[a, b], [b, c], [c, c]] {
         asker.segment(&tree, from, to);
-        asker.solid(&tree, [from, to], input.float(), &stop(&mut input));
+        asker.solid(&tree, [from, to], input.float(), &input.budget());
         asker.sight(&tree, from);
     }
 }
@@ -148,7 +144,7 @@ pub fn tree_coherent(data: &[u8]) {
     let Ok(tree) = Bvh::open(&blob) else { return };
     let other = Bvh::open(&tree_seeds()[0]).expect("a seed");
     let mut asker = Asker::new(usize::from(input.byte()), 0);
-    let stop = stop(&mut input);
+    let stop = input.budget();
     let mut path = Vec::new();
     for _ in 0..4 {
         let (mut here, step) = (input.point(), input.point());

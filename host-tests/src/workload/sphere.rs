@@ -32,18 +32,6 @@ impl Sphere {
         Self { centre, radius }
     }
 
-    /// Its volume.
-    #[must_use]
-    pub fn volume(&self) -> f64 {
-        std::f64::consts::PI / 0.75 * self.radius.powi(3)
-    }
-
-    /// Its area.
-    #[must_use]
-    pub fn area(&self) -> f64 {
-        4.0 * std::f64::consts::PI * self.radius.powi(2)
-    }
-
     fn excludes(&self, p: DVec3) -> bool {
         self.radius < 0.0 || p.distance(self.centre) > self.radius * (1.0 + ON_SPHERE)
     }

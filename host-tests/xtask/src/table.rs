@@ -29,15 +29,6 @@ impl Cell {
             Self::Scientific(value) => format!("{value:.1e}"),
         }
     }
-
-    /// Its number, if it is one.
-    pub fn number(&self) -> Option<f64> {
-        match self {
-            Self::Empty | Self::Text(_) => None,
-            Self::Count(count) => Some(*count as f64),
-            Self::Fixed(value, _) | Self::Scientific(value) => Some(*value),
-        }
-    }
 }
 
 impl From<&str> for Cell {

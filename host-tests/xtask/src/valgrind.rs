@@ -1,6 +1,5 @@
 //! valgrind, where it is installed or to be had.
 
-use std::env;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
@@ -8,7 +7,6 @@ use std::process::Command;
 
 use crate::process;
 use crate::toolbox::{Toolbox, Wanted};
-use crate::workspace;
 
 const VALGRIND: Wanted = Wanted {
     name: "valgrind",
@@ -52,20 +50,6 @@ impl Valgrind {
                 command
             }
         }
-    }
-
-    /// Runs this program in callgrind, which collects inside of the function `counted` only and
-    /// writes its counters each time `written` returns. What the program printed, and the
-    /// instructions of each time. `name` is of a folder for the profiles.
-    pub fn stages(
-        &self,
-        name: &str,
-        [counted, written]: [&str; 2],
-        arguments: &[&OsStr],
-    ) -> Result<(String, Vec<f64>), String> {
-        let own = env::current_exe().map_err(|error| error.to_string())?;
-        let options = [format!("--toggle-collect={counted}"), format!("--dump-after={written}")];
-        self.dumps(&workspace::target().join(name), &options, &own, arguments)
     }
 
     /// Runs a program in callgrind, which writes its counters several times. What the program

@@ -1,10 +1,10 @@
 //! Two models that are very far from each other, or of which no pair was measured. Balls around
 //! their boxes bound the distance from below, two vertices from above.
 
-use super::gaps::question::TriangleGap;
 use super::stored_pair::{StoredPair, moved};
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::format::layout::MAX_TREE_DEPTH;
+use crate::bvh::tree::gap::TriangleGap;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::num::greater;
 use crate::num::tolerance::U64;

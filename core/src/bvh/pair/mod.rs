@@ -26,7 +26,10 @@
 //! | `moving_model` | a placed model that moves, and how far its points went |
 //! | `world_box` | the box of a placed model along the axes of the world |
 //! | `placed_pair` | two models placed in the world, in the frame of one of them |
+//! | `direction` | a direction along which pairs are apart, also in integers |
+//! | `pair_keys` | lower bounds of the distances of all pairs of boxes of two nodes |
 //! | `leaf_pair` | the triangles of two leaves |
+//! | `leaf_keys` | which of these may be near, by their boxes and along a direction |
 //! | `separation/` | descent in f32: models within a distance, candidates for the nearest triangles |
 //! | `gaps/` | descent with bounds in f32 and triangles in f64, nearest pair first |
 //! | `from_afar` | two models very far from each other, or of which no pair was measured |
@@ -48,16 +51,19 @@
 
 mod advance;
 mod coherent_pair;
+mod direction;
 mod distance_to;
 mod first_contact_of;
 mod from_afar;
 mod gaps;
+mod leaf_keys;
 mod leaf_pair;
 mod model_ball;
 mod model_box;
 mod models;
 mod moving_model;
 mod overlap;
+mod pair_keys;
 mod penetration;
 pub(super) mod placed_model;
 pub(super) mod placed_pair;

@@ -8,7 +8,7 @@ use super::gaps::skipped::ChildPairs;
 use super::model_box::are_apart;
 use super::models::numbers;
 use super::separation::grid_pose::{FramePose, GridPose};
-use super::separation::search::{SearchStart, Separation, separation};
+use super::separation::search::{PairVerdict, SearchStart, separation};
 use super::stored_pair::StoredPair;
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::gap::{GapThreshold, GapVisitor};
@@ -83,15 +83,15 @@ impl Bvh<'_> {
         if let Some(pose) = GridPose::of([self, other], &FramePose::of(pose)) {
             let mut start = SearchStart::NONE;
             match separation(&pose, asked, &mut start, budget.steps, scratch, &mut work) {
-                Separation::Apart(lower) => {
+                PairVerdict::Apart(lower) => {
                     return Ok((Decided { work, ..Decided::CLEAR }, lower));
                 }
-                Separation::Near(place) => {
+                PairVerdict::Near(place) => {
                     let witness = numbers(self, other, place).ok_or(QueryError::Unchecked)?;
                     let found = Decided { verdict: Verdict::Yes, witness: Some(witness), work };
                     return Ok((found, 0.0));
                 }
-                Separation::Undecided => {}
+                PairVerdict::Undecided => {}
             }
         }
         self.within_of_f64(other, pose, asked, (budget, work), scratch)

@@ -2,6 +2,7 @@
 //! place: a triangle beside a solid, or a pair of triangles.
 
 use super::stored_lengths::StoredLengths;
+use super::triangle_at::TriangleAt;
 use crate::num::tolerance::{U32, U64};
 use crate::num::{greater, lesser};
 use crate::query::{Budget, Ended, Witness};
@@ -18,6 +19,9 @@ pub(crate) struct Gap<P> {
     /// A point of each.
     pub(crate) points: [[f64; 3]; 2],
 }
+
+/// The distance of two stored triangles, common units. Points are from the first model's origin.
+pub(crate) type TriangleGap = Gap<[TriangleAt; 2]>;
 
 /// A question's visitor for gaps.
 pub(crate) trait GapVisitor<P> {

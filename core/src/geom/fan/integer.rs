@@ -231,6 +231,7 @@ mod tests {
     use super::*;
     use crate::geom::fan::{CornerWay, IntLimit, sharp_lower};
     use crate::geom::fan::{Nearness, PointFan};
+    use crate::num::noise::Noise;
     use glam::Vec3;
 
     /// Squared distance in f64, by the kernel of the hull hierarchy.
@@ -246,15 +247,9 @@ mod tests {
         bounds
     }
 
-    struct Noise(u64);
-
     impl Noise {
         fn below(&mut self, most: u32) -> i32 {
-            self.0 = self
-                .0
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            ((self.0 >> 33) % u64::from(most)) as i32
+            ((self.bits() >> 33) % u64::from(most)) as i32
         }
 
         fn whole(&mut self, size: u32) -> IntVector {

@@ -14,28 +14,25 @@ const COUNT: usize = 10_000;
 /// Points of each kind that are compared with every triangle in f64.
 const BRUTE: usize = 3334;
 /// Room for a best-first search.
-pub const LONG_QUEUE: usize = 4096;
+const LONG_QUEUE: usize = 4096;
 
 /// Answers to a list of points, and the time of one.
-pub struct Answers {
-    pub answers: Vec<ClosestPoint>,
-    pub nanoseconds: f64,
+struct Answers {
+    answers: Vec<ClosestPoint>,
+    nanoseconds: f64,
 }
 
 impl Answers {
     /// Asks all points.
-    pub fn of(
-        model: &Hull<'_>,
-        points: &[[f32; 3]],
-        stop: &Budget,
-        queue: usize,
-    ) -> Result<Self, String> {
+    fn of(model: &Hull<'_>, points: &[[f32; 3]], queue: usize) -> Result<Self, String> {
         let mut queue = vec![ScratchEntry::EMPTY; queue];
         let mut answers = Vec::with_capacity(points.len());
         let begun = Stopwatch::start();
         for &point in points {
             answers.push(
-                model.closest_point(point, *stop, &mut queue).map_err(|error| error.to_string())?,
+                model
+                    .closest_point(point, Budget::EXACT, &mut queue)
+                    .map_err(|error| error.to_string())?,
             );
         }
         let nanoseconds = begun.nanoseconds_each(points.len());
@@ -43,12 +40,12 @@ impl Answers {
     }
 
     /// Mean of something over all answers.
-    pub fn mean(&self, what: impl Fn(&ClosestPoint) -> f64) -> f64 {
+    fn mean(&self, what: impl Fn(&ClosestPoint) -> f64) -> f64 {
         self.answers.iter().map(what).sum::<f64>() / self.answers.len() as f64
     }
 
     /// Mean of a counter.
-    pub fn work(&self, counter: impl Fn(&Work) -> u32) -> f64 {
+    fn work(&self, counter: impl Fn(&Work) -> u32) -> f64 {
         self.mean(|answer| f64::from(counter(&answer.work)))
     }
 }
@@ -83,10 +80,7 @@ pub fn tables(subject: &Subject, model: &Hull<'_>) -> Result<[Table; 2], String>
         let (theirs, their_ns) = fastest(by_rival, |run| run.1)?;
         let mut last = None;
         for queue in [model.scratch_entries(), LONG_QUEUE] {
-            let run = fastest(
-                || Answers::of(model, &asked, &Budget::EXACT, queue),
-                |run| run.nanoseconds,
-            )?;
+            let run = fastest(|| Answers::of(model, &asked, queue), |run| run.nanoseconds)?;
             let widest = run.answers.iter().map(width).fold(0.0, f64::max);
             cost.push(row![
                 kind.name(),
@@ -122,7 +116,7 @@ pub fn tables(subject: &Subject, model: &Hull<'_>) -> Result<[Table; 2], String>
 }
 
 /// Width of an interval relative to its upper end.
-pub fn width(answer: &ClosestPoint) -> f64 {
+fn width(answer: &ClosestPoint) -> f64 {
     if answer.distance.upper > 0.0 {
         f64::from(answer.distance.upper - answer.distance.lower) / f64::from(answer.distance.upper)
     } else {

@@ -5,34 +5,26 @@
 //! subject (mesh, builds) ─┬─ paper    (the papers' tables) ─┐
 //! workload (queries) ─────┼─ segments (engines) ────────────┤
 //! rival (parry3d) ────────┼─ closest                        ├─ table (text and JSON from the same cells)
-//! brute (f64 oracle) ─────┼─ cuts     (bytes for accuracy)  │
-//!                         ├─ storage  (bytes, levels) ──────┤
+//! brute (f64 oracle) ─────┼─ storage  (bytes, levels) ──────┤
 //!                         ├─ tree     (all of the box tree) ┤
 //!                         ├─ overlap  (mesh against mesh) ──┤
-//!                         ├─ motion   (a capsule that moves)┤
-//!                         ├─ winding  (inside or outside) ──┤
 //!                         ├─ margins  (rounding, no mesh) ──┤
 //!                         ├─ robot    (an arm's own guard) ─┤
 //!                         ├─ deform   (hulls that deform) ─┤
 //!                         ├─ triboxes (their hierarchies) ──┤
-//!                         ├─ tight    (tight hulls, drawn) ─┤
-//!                         └─ bounds   (paper 001: triboxes) ┴─ plot (those that are a trade, SVG)
+//!                         └─ tight    (tight hulls) ────────┘
 //! ```
 //! Times are the processor's, of all threads, the fastest of three runs; on a busy machine even so
 //! only ratios within one run mean something. Counts are exact.
 
-pub mod bounds;
 pub(crate) mod brute;
 mod closest;
-mod cuts;
 mod deform;
 mod kept;
 pub mod margins;
-mod motion;
 mod moving_pair;
 mod overlap;
 pub mod paper;
-pub mod plot;
 pub mod rival;
 pub mod robot;
 mod segments;
@@ -42,7 +34,6 @@ mod table_3;
 pub mod tight;
 mod tree;
 pub mod triboxes;
-mod winding;
 
 use meshsweep_core::Blob;
 use std::path::Path;
@@ -52,8 +43,6 @@ use meshsweep::collapse::Priority;
 use meshsweep_core::Hull;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Table, fixed, row};
-
-use bounds::cost::Cost;
 
 /// Faces of the base hull that most tables are about: the builder's default.
 const BASE_FACES: usize = FACES as usize;
@@ -69,18 +58,6 @@ pub fn measure_tree(file: &Path) -> Result<Vec<Table>, String> {
     Ok(tables)
 }
 
-/// Measures convex bounds of one mesh file, which need not be closed; `counts` as
-/// [`bounds::tables`] takes them.
-///
-/// # Errors
-/// The file is no mesh, or a flat one.
-pub fn measure_bounds(file: &Path, counts: Option<&[Cost]>) -> Result<Vec<Table>, String> {
-    let subject = Subject::load_any(file)?;
-    let mut tables = vec![subject_table(&subject)];
-    tables.extend(bounds::tables(&subject, counts)?);
-    Ok(tables)
-}
-
 /// Measures one mesh file, which need not be closed, and itself under random motions: overlap, and
 /// distances along paths; of a closed one, depths.
 ///
@@ -92,24 +69,6 @@ pub fn measure_overlap(file: &Path) -> Result<Vec<Table>, String> {
     tables.extend(overlap::tables(&subject)?);
     tables.extend(moving_pair::tables(&subject)?);
     Ok(tables)
-}
-
-/// Measures the motion of a capsule past one mesh file, which need not be closed.
-///
-/// # Errors
-/// The file is no mesh, or an answer is wrong.
-pub fn measure_motion(file: &Path) -> Result<Vec<Table>, String> {
-    let subject = Subject::load_any(file)?;
-    Ok(vec![subject_table(&subject), motion::table(&subject)?])
-}
-
-/// Measures winding numbers of one mesh file, which need not be closed.
-///
-/// # Errors
-/// The file is no mesh, or an answer is wrong.
-pub fn measure_winding(file: &Path) -> Result<Vec<Table>, String> {
-    let subject = Subject::load_any(file)?;
-    Ok(vec![subject_table(&subject), winding::table(&subject)?])
 }
 
 /// Measures the hull hierarchy of one mesh file under motions.
@@ -134,17 +93,15 @@ pub fn measure_triboxes(file: &Path) -> Result<Vec<Table>, String> {
     Ok(tables)
 }
 
-/// Measures tight hulls of one mesh file, which need not be closed, and proves each; the tables,
-/// and pictures of hulls.
+/// Measures tight hulls of one mesh file, which need not be closed, and proves each.
 ///
 /// # Errors
 /// The file is no mesh, or a hull is missing or not proved.
-pub fn measure_tight(file: &Path) -> Result<(Vec<Table>, tight::picture::Gallery), String> {
+pub fn measure_tight(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject_table(&subject)];
-    let (measured, hulls) = tight::tables(&subject)?;
-    tables.extend(measured);
-    Ok((tables, tight::picture::Gallery::new(&subject.name, &subject.mesh, &hulls)))
+    tables.extend(tight::tables(&subject)?);
+    Ok(tables)
 }
 
 /// Measures the hull hierarchy and the box tree of one mesh file; the tables in the order in which
@@ -165,7 +122,6 @@ pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
     tables.extend(closest::tables(&subject, &model)?);
     tables.push(kept::table(&subject, &model)?);
     tables.push(kept::memory(&model)?);
-    tables.push(cuts::table(&subject, &model)?);
     tables.push(storage::proofs(&built)?);
     tables.extend(tree::tables(&subject)?);
     Ok(tables)

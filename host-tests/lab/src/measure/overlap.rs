@@ -12,8 +12,7 @@ use meshsweep_xtask::table::{Cell, Table, fixed, row};
 use parry3d::math::Pose as ParryPose;
 use parry3d::query::intersection_test;
 
-use super::bounds::pose::parry;
-use super::rival::Rival;
+use super::rival::{Rival, parry};
 use super::stopwatch::{Stopwatch, fastest};
 use super::{BASE_FACES, open};
 

@@ -2,7 +2,8 @@
 //! take: an AABB tree in f32.
 
 use meshsweep_host_tests::workload::Subject;
-use parry3d::math::Vector;
+use meshsweep_host_tests::workload::pose::Pose;
+use parry3d::math::{Pose as ParryPose, Rotation, Vector};
 use parry3d::query::{PointQuery, Ray, RayCast};
 use parry3d::shape::TriMesh;
 
@@ -52,6 +53,14 @@ impl Rival {
     pub fn meets(&self, segment: [[f32; 3]; 2]) -> bool {
         self.0.intersects_local_ray(&along(segment), 1.0)
     }
+}
+
+/// A pose for parry3d, rounded to f32.
+#[must_use]
+pub fn parry(pose: &Pose) -> ParryPose {
+    let [x, y, z, w] = pose.turn.to_array().map(|part| part as f32);
+    let shift = Vector::from_array(pose.shift.to_array().map(|x| x as f32));
+    ParryPose::from_parts(shift, Rotation::from_xyzw(x, y, z, w).normalize())
 }
 
 /// The segment is the ray up to 1.

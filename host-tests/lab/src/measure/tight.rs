@@ -1,9 +1,7 @@
-//! Tight hulls: void, distance, time and proof for some numbers of faces, beside other bounds of
-//! the same mesh.
+//! Tight hulls: void, distance, time and proof for some numbers of faces, beside triboxes of the
+//! same mesh.
 
 mod beside;
-mod cluster;
-pub mod picture;
 
 use meshsweep::check::{Surface, check_enclosure};
 use meshsweep::hull::{BuildOptions, hull_of};
@@ -25,27 +23,23 @@ pub const FACES: [usize; 7] = [20, 50, 100, 200, 500, 1_000, 2_000];
 pub struct Measured {
     /// Faces that were asked for.
     pub asked: usize,
-    /// Volume beyond that of the mesh as a part of it, if it bounds one.
-    pub void: Option<f64>,
     /// The hull.
     pub hull: Mesh,
 }
 
-/// The tables, and the hulls that they are about.
+/// The tables.
 ///
 /// # Errors
 /// A hull is missing, or the checker does not prove it.
-pub fn tables(subject: &Subject) -> Result<(Vec<Table>, Vec<Measured>), String> {
+pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     let volume = require_closed_manifold(&subject.mesh).is_ok().then(|| volume(&subject.mesh));
     let mut measured = Vec::new();
     let table = hulls(subject, volume, &mut measured)?;
     let mut tables = vec![table];
     if let Some(volume) = volume.filter(|&volume| volume > 0.0) {
-        let beside = beside::table(subject, volume, &measured)?;
-        tables.extend([beside::trade(&tables[0], &beside), beside]);
-        tables.swap(1, 2);
+        tables.push(beside::table(subject, volume, &measured)?);
     }
-    Ok((tables, measured))
+    Ok(tables)
 }
 
 fn hulls(
@@ -116,7 +110,7 @@ fn hulls(
             lp,
             span,
         ]);
-        measured.push(Measured { asked: faces, void: report.void.ok(), hull: mesh });
+        measured.push(Measured { asked: faces, hull: mesh });
     }
     table.note("distance: no point of the hull is farther from the mesh, and one is at least so far; input units; seconds of processor time from the mesh in memory");
     table.note("lp, span: progressive hulls by the two priorities of paper 000; empty if they do not come down to so few faces");

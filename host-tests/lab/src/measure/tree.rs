@@ -1,7 +1,6 @@
 //! The box tree on a mesh: what it takes, what it costs and how right it is.
 
 mod accuracy;
-mod trade;
 
 use meshsweep::bvh::{TreeOptions, TreeReport, build};
 use meshsweep::emit::Sections;
@@ -9,8 +8,6 @@ use meshsweep::progress::Watch;
 use meshsweep_core::{Budget, Bvh, ClosestPoint, ScratchEntry, SectionKind};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
-
-use super::stopwatch::Stopwatch;
 
 /// All tables of the box tree.
 ///
@@ -21,7 +18,6 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     let single = Built::new(subject, &TreeOptions::default().with_f32(true));
     let mut tables = vec![shape(&grid), sections(subject)];
     tables.push(accuracy::table(subject, &grid, &single)?);
-    tables.extend(trade::tables(subject, &grid)?);
     tables.push(proofs(subject, [("16-bit grid", &grid), ("f32", &single)])?);
     Ok(tables)
 }
@@ -56,28 +52,11 @@ impl Built {
     }
 }
 
-/// Answers to a list of points, and the time of one.
-struct Answers {
-    answers: Vec<ClosestPoint>,
-    nanoseconds: f64,
-}
-
-impl Answers {
-    fn of(tree: &Bvh<'_>, points: &[[f32; 3]], stop: &Budget) -> Result<Self, String> {
-        let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
-        let mut answers = Vec::with_capacity(points.len());
-        let begun = Stopwatch::start();
-        for &point in points {
-            answers.push(
-                tree.closest_point(point, *stop, &mut stack).map_err(|error| error.to_string())?,
-            );
-        }
-        Ok(Self { answers, nanoseconds: begun.nanoseconds_each(points.len()) })
-    }
-
-    fn mean(&self, what: impl Fn(&ClosestPoint) -> f64) -> f64 {
-        self.answers.iter().map(what).sum::<f64>() / self.answers.len() as f64
-    }
+/// Exact answers to a list of points.
+fn answers(tree: &Bvh<'_>, points: &[[f32; 3]]) -> Result<Vec<ClosestPoint>, String> {
+    let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
+    let ask = |&point: &[f32; 3]| tree.closest_point(point, Budget::EXACT, &mut stack);
+    points.iter().map(ask).collect::<Result<_, _>>().map_err(|error| error.to_string())
 }
 
 fn shape(built: &Built) -> Table {

@@ -3,7 +3,7 @@
 //! Stored vertices and the direction are integers, so heights are exact. `core/docs/rounding.md`
 //! §26, *Along w* and *Rounding along w*.
 
-use crate::bvh::pair::separation::direction::IntDirection;
+use crate::bvh::pair::direction::IntDirection;
 use crate::bvh::tree::format::FanLeaf;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;

@@ -5,10 +5,14 @@
 //! points is the next direction: most often no pair is left.
 
 use super::int_pair_direction::IntPairDirection;
-use super::pair_keys::{NO_PAIR, PairKeys, distance_of, indices_of, key_limit, key_of, pair_bit};
-use super::question::{PairQuestion, TriangleGap};
-use crate::bvh::pair::leaf_pair::{Corners, LeafPair, SLOTS, TriangleBoxes};
+use super::question::PairQuestion;
+use crate::bvh::pair::leaf_keys::{
+    box_gaps_sq, heights, keys_of_triangles, may_be_near, pairs_along,
+};
+use crate::bvh::pair::leaf_pair::{LeafPair, TriangleBoxes};
+use crate::bvh::pair::pair_keys::{distance_of, indices_of, key_limit, key_of, pair_bit};
 use crate::bvh::tree::format::FanLeaf;
+use crate::bvh::tree::gap::TriangleGap;
 use crate::bvh::tree::node::WIDE;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
@@ -16,7 +20,7 @@ use crate::geom::{
     Contact, GapLimits, TriangleDistance, crossing, triangle_distance, triangle_gap, triangles_meet,
 };
 use crate::num::tolerance::{GAP_ALONG, GAP_SLACK, LEAST_GAP_SQ, SQUARED_SLACK, U32};
-use crate::num::{difference, dot, greater, lesser, sqrt_approx, up_to_f32};
+use crate::num::{difference, dot, greater, lesser, up_to_f32};
 use crate::query::{VertexPose, Work};
 use glam::Vec3;
 
@@ -317,115 +321,4 @@ fn least_distance(
         return Some(seen.lower);
     }
     Some(lesser(seen.lower, greater(0.0, distance_of(key_of(least, 0)) - f64::from(margin))))
-}
-
-/// The squared gaps between the boxes of triangle `i` and each of the other leaf's triangles, of
-/// those with a bit.
-#[cfg_attr(meshsweep_small, inline(never))]
-#[cfg_attr(not(meshsweep_small), inline(always))]
-fn box_gaps_sq(first: &TriangleBoxes, second: &TriangleBoxes, i: usize, bits: u32) -> [f32; WIDTH] {
-    let mut sums = [0f32; WIDTH];
-    for ((from, to), (low, high)) in
-        first.low.iter().zip(&first.high).zip(second.low.iter().zip(&second.high))
-    {
-        let (Some(&from), Some(&to)) = (from.get(i), to.get(i)) else { continue };
-        for (j, (sum, (low, high))) in sums.iter_mut().zip(low.iter().zip(high)).enumerate() {
-            if WIDE || bits >> j & 1 != 0 {
-                let gap = greater(0.0, greater(low - to, from - high));
-                *sum += gap * gap;
-            }
-        }
-    }
-    sums
-}
-
-/// Keys of the pairs `wanted`, by their boxes: a bit for each pair. Vertices are as computed, so a
-/// limit must have room for their error.
-#[cfg_attr(meshsweep_small, inline(never))]
-#[cfg_attr(not(meshsweep_small), inline(always))]
-pub(crate) fn keys_of_triangles(
-    a: &Corners,
-    b: &Corners,
-    limit_sq: f32,
-    wanted: u64,
-) -> Option<PairKeys> {
-    let (first, second) = (TriangleBoxes::of(a)?, TriangleBoxes::of(b)?);
-    let mut keys = PairKeys([NO_PAIR; WIDTH * WIDTH]);
-    let columns = (1u32 << (b.triangles & 15)) - 1;
-    let rows = keys.0.as_chunks_mut::<WIDTH>().0.iter_mut();
-    for (i, row) in rows.enumerate().take(a.triangles) {
-        let bits = (wanted >> (i * WIDTH)) as u32 & columns;
-        if bits == 0 {
-            continue;
-        }
-        let sums = box_gaps_sq(&first, &second, i, bits);
-        for (j, (key, sum)) in row.iter_mut().zip(sums).enumerate() {
-            let is_near = bits & 1 << (j & 7) != 0 && sum <= limit_sq;
-            *key = if is_near { key_of(sum, (i * WIDTH + j) as u32) } else { NO_PAIR };
-        }
-    }
-    Some(keys)
-}
-
-/// The pairs that are not farther apart along `direction` than the limit: a bit for each.
-#[cfg_attr(meshsweep_small, inline(never))]
-#[cfg_attr(not(meshsweep_small), inline(always))]
-pub(crate) fn pairs_along(direction: [f32; 3], limit_sq: f32, a: &Corners, b: &Corners) -> u64 {
-    let Some(limit) = limit_along(direction, limit_sq) else { return u64::MAX };
-    let (first, second) = (heights(a, direction), heights(b, direction));
-    let mut pairs = 0;
-    for (i, &top) in first.high.iter().enumerate().take(a.triangles) {
-        let mut bits = 0u32;
-        for (j, low) in second.low.iter().enumerate() {
-            bits |= if low - top <= limit { 1 << (j & 7) } else { 0 };
-        }
-        pairs |= u64::from(bits) << (i * WIDTH);
-    }
-    pairs
-}
-
-/// Whether the leaves as a whole are within the limit along `direction`.
-#[inline(always)]
-fn may_be_near(direction: [f32; 3], limit_sq: f32, pair: &LeafPair<'_>) -> bool {
-    let Some(limit) = limit_along(direction, limit_sq) else { return true };
-    let top = vertex_heights(&pair.a, direction).into_iter().fold(f32::MIN, greater);
-    let low = vertex_heights(&pair.b, direction).into_iter().fold(f32::MAX, lesser);
-    low - top <= limit
-}
-
-/// The limit times the length of the direction, rounded up. `None` if the square is too small to be
-/// trusted.
-#[cfg_attr(meshsweep_small, inline(never))]
-#[cfg_attr(not(meshsweep_small), inline(always))]
-fn limit_along([x, y, z]: [f32; 3], limit_sq: f32) -> Option<f32> {
-    let direction_sq = x * x + y * y + z * z;
-    let square = limit_sq * direction_sq;
-    let is_trusted = direction_sq >= LEAST_GAP_SQ && square >= LEAST_GAP_SQ;
-    is_trusted.then(|| sqrt_approx(square) * (1.0 + 8.0 * U32))
-}
-
-/// Triangles along a direction.
-struct Heights {
-    low: [f32; WIDTH],
-    high: [f32; WIDTH],
-}
-
-#[inline(always)]
-fn vertex_heights(corners: &Corners, [a, b, c]: [f32; 3]) -> [f32; SLOTS] {
-    let [x, y, z] = &corners.at;
-    let mut at = [0f32; SLOTS];
-    for i in 0..SLOTS {
-        at[i] = a * x[i] + b * y[i] + c * z[i];
-    }
-    at
-}
-
-#[cfg_attr(meshsweep_small, inline(never))]
-#[cfg_attr(not(meshsweep_small), inline(always))]
-fn heights(corners: &Corners, direction: [f32; 3]) -> Heights {
-    let at = vertex_heights(corners, direction);
-    let Some((low, high)) = corners.ends(&at) else {
-        return Heights { low: [f32::MIN; WIDTH], high: [f32::MAX; WIDTH] };
-    };
-    Heights { low, high }
 }

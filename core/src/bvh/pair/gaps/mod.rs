@@ -3,7 +3,6 @@
 //! | file | owns |
 //! | --- | --- |
 //! | `nearest_first` | the descent of both trees, nearest pair first |
-//! | `pair_keys` | lower bounds of the distances of all pairs of boxes of two nodes |
 //! | `leaf_gaps` | the distances of the triangles of two leaves |
 //! | `int_pair_direction` | leaves along a direction in integers |
 //! | `nearest_along` | leaves that may have the nearest triangles, along such directions |
@@ -16,6 +15,5 @@ pub(super) mod int_pair_direction;
 pub(super) mod leaf_gaps;
 pub(super) mod nearest_along;
 pub(super) mod nearest_first;
-pub(super) mod pair_keys;
 pub(super) mod question;
 pub(super) mod skipped;

@@ -4,9 +4,10 @@
 
 use super::int_pair_direction::IntPairDirection;
 use super::leaf_gaps::{LeafGaps, SettledPairs};
-use super::pair_keys::PAIRS;
-use super::question::{PairQuestion, TriangleGap};
+use super::question::PairQuestion;
+use crate::bvh::pair::pair_keys::PAIRS;
 use crate::bvh::tree::format::FanLeaf;
+use crate::bvh::tree::gap::TriangleGap;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::WIDTH;
 use crate::num::tolerance::{INT_GAP, INT_PART};

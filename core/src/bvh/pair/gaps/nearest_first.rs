@@ -6,12 +6,12 @@
 //! many children wait.
 
 use super::leaf_gaps::{GapVisit, LeafGaps};
-use super::pair_keys::{
-    NO_PAIR, PairKeys, bound_sq_of, distance_of, indices_of, key_limit, pair_bit, second_factor,
-};
 use super::question::PairQuestion;
 use super::skipped::{ChildPairs, SkippedPairs};
 use crate::bvh::pair::models::{Models, most_pairs};
+use crate::bvh::pair::pair_keys::{
+    NO_PAIR, PairKeys, bound_sq_of, distance_of, indices_of, key_limit, pair_bit, second_factor,
+};
 use crate::bvh::pair::stored_pair::StoredPair;
 use crate::bvh::tree::axis_intervals::{AxisIntervals, pairs};
 use crate::bvh::tree::stored_lengths::square_limit;

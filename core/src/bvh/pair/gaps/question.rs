@@ -1,11 +1,8 @@
 //! The questions about the distance of two models.
 
 use super::skipped::ChildPairs;
-use crate::bvh::tree::gap::{Gap, GapThreshold, GapVisitor, NearestGap};
+use crate::bvh::tree::gap::{GapThreshold, GapVisitor, NearestGap, TriangleGap};
 use crate::bvh::tree::triangle_at::TriangleAt;
-
-/// The distance of two stored triangles, common units. Points are from the first model's origin.
-pub(crate) type TriangleGap = Gap<[TriangleAt; 2]>;
 
 /// A question about the distance of two models. As one type, the search is compiled once for both.
 pub(crate) enum PairQuestion<'v> {

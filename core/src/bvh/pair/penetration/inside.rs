@@ -49,12 +49,12 @@ impl PairQueries<'_, '_> {
                 return Err(QueryError::Unchecked);
             }
             let open = match self.side_of_children(surface, node)? {
-                Children { side: Side::Inside, .. } => return Ok(Side::Inside),
-                Children { side: Side::Undecided(why), open } => {
+                ChildSides { side: Side::Inside, .. } => return Ok(Side::Inside),
+                ChildSides { side: Side::Undecided(why), open } => {
                     side = Side::Undecided(why);
                     open
                 }
-                Children { open, .. } => open,
+                ChildSides { open, .. } => open,
             };
             // A checked tree is not deeper.
             *stack.get_mut(used).ok_or(QueryError::Unchecked)? = (node, open);
@@ -78,9 +78,9 @@ impl PairQueries<'_, '_> {
         &mut self,
         surface: &MovedSurface<'_>,
         node: u32,
-    ) -> Result<Children, QueryError> {
+    ) -> Result<ChildSides, QueryError> {
         let (boxes, count) = surface.boxes(node).ok_or(QueryError::Unchecked)?;
-        let mut found = Children { side: Side::Outside, open: 0 };
+        let mut found = ChildSides { side: Side::Outside, open: 0 };
         for (i, [low, high]) in (0..count).zip(boxes) {
             if self.is_spent() {
                 found.side = Side::Undecided(Undecided::Steps);
@@ -101,7 +101,7 @@ impl PairQueries<'_, '_> {
                 }
             };
             match side {
-                Side::Inside => return Ok(Children { side, open: 0 }),
+                Side::Inside => return Ok(ChildSides { side, open: 0 }),
                 Side::Undecided(_) => found.side = side,
                 Side::Outside => {}
             }
@@ -155,9 +155,9 @@ impl PairQueries<'_, '_> {
 }
 
 /// What is known of the children of a node.
-struct Children {
+struct ChildSides {
     side: Side,
-    /// Children to look into, as bits.
+    /// ChildSides to look into, as bits.
     open: u32,
 }
 

@@ -1,7 +1,7 @@
 //! The direction between the boxes of two models.
 
-use super::direction::Direction;
 use super::grid_pose::GridPose;
+use crate::bvh::pair::direction::Direction;
 use crate::bvh::tree::format::Bvh;
 use crate::geom::{Rows, columns, turned};
 use crate::num::dot;

@@ -5,11 +5,11 @@
 //! of these is looked at with each of the other model. Else the descent of both trees follows,
 //! which begins with what was found. `core/docs/rounding.md` §26, *One tree at a time*.
 
-use super::direction::{Direction, IntDirection};
 use super::goal::{Goal, square_up};
 use super::grid_pose::GridPose;
 use super::leaf_hulls::{HullVisit, LeafHull, visit_leaves_at};
 use super::node_boxes::{NodeBoxes, PairLimit, bits, first_box, is_above, is_below, second_box};
+use crate::bvh::pair::direction::{Direction, IntDirection};
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::format::layout::MAX_TREE_DEPTH;
 use crate::bvh::tree::triangle_at::TriangleAt;
@@ -159,16 +159,24 @@ pub(super) fn visit_by_heights(
 ) -> bool {
     let mut hulls = [LeafHull::none(), LeafHull::none()];
     match turn_to_nearest_pair(pose, goal, &mut hulls, direction, work) {
-        Some(true) => {}
-        Some(false) => return true,
+        Some(Turned::ToNearPair) => {}
+        Some(Turned::ToAnswer) => return true,
         None => return false,
     }
     let Some(lists) = list_leaves(pose, goal, direction, scratch, work) else { return false };
     visit_listed_pairs(pose, goal, &mut hulls, direction, lists, work).is_some()
 }
 
-/// Turns `direction` to that of a near pair of leaves. Returns whether the search goes on. `None`
-/// if the models overlap along a direction, or a tree is unchecked.
+/// What a turn of the direction led to.
+enum Turned {
+    /// A near pair of leaves. The search goes on.
+    ToNearPair,
+    /// All that the goal wants.
+    ToAnswer,
+}
+
+/// Turns `direction` to that of a near pair of leaves. `None` if the models overlap along a
+/// direction, or a tree is unchecked.
 #[inline(always)]
 fn turn_to_nearest_pair(
     pose: &GridPose<'_>,
@@ -176,7 +184,7 @@ fn turn_to_nearest_pair(
     hulls: &mut [LeafHull; 2],
     direction: &mut Direction,
     work: &mut Work,
-) -> Option<bool> {
+) -> Option<Turned> {
     let mut last = [TriangleAt::NONE; 2];
     let mut along = *direction;
     let mut far = goal.far;
@@ -194,7 +202,7 @@ fn turn_to_nearest_pair(
         let HullVisit { goes_on, direction: next } =
             visit_leaves_at(pose, goal, hulls, last, direction.vector, work)?;
         if !goes_on {
-            return Some(false);
+            return Some(Turned::ToAnswer);
         }
         let Some(turned) = next.and_then(Direction::of) else { break };
         *direction = turned;
@@ -203,7 +211,7 @@ fn turn_to_nearest_pair(
         }
     }
     *direction = along;
-    Some(true)
+    Some(Turned::ToNearPair)
 }
 
 /// Lists the leaves of each model that may be within the limit along `along`. `None` if they are

@@ -20,7 +20,7 @@ pub(crate) struct Goal<'s> {
 
 pub(crate) enum Wanted<'s> {
     Near(Threshold),
-    Nearest(Nearest<'s>),
+    Nearest(NearestPair<'s>),
 }
 
 /// Whether triangles are within a distance.
@@ -35,7 +35,7 @@ pub(crate) struct Threshold {
 }
 
 /// The leaves that may have the nearest triangles.
-pub(crate) struct Nearest<'s> {
+pub(crate) struct NearestPair<'s> {
     pub(crate) candidates: Candidates<'s>,
     /// Triangles with the two points of `upper_sq`.
     pub(crate) best: TrianglesAt,
@@ -72,7 +72,7 @@ impl<'s> Goal<'s> {
     /// The leaves that may have the nearest triangles. `scratch` keeps them, two entries each.
     pub(crate) fn nearest(pose: &GridPose<'_>, scratch: &'s mut [ScratchEntry]) -> Goal<'s> {
         let limits = GapLimits { far_sq: f32::INFINITY, near_sq: -1.0 };
-        let nearest = Nearest {
+        let nearest = NearestPair {
             candidates: Candidates::new(scratch),
             best: [TriangleAt::NONE; 2],
             is_touching: false,

@@ -2,9 +2,9 @@
 
 use super::goal::Goal;
 use super::grid_pose::GridPose;
-use crate::bvh::pair::gaps::leaf_gaps::{keys_of_triangles, pairs_along};
-use crate::bvh::pair::gaps::pair_keys::{indices_of, key_limit};
+use crate::bvh::pair::leaf_keys::{keys_of_triangles, pairs_along};
 use crate::bvh::pair::leaf_pair::{Corners, SLOTS};
+use crate::bvh::pair::pair_keys::{indices_of, key_limit};
 use crate::bvh::tree::format::{LeafShape, RING};
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::{hull_gap, triangle_gap};

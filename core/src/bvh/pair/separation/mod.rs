@@ -11,7 +11,6 @@
 //! | file | owns |
 //! | --- | --- |
 //! | `grid_pose` | two models in the grid of the first one, and what rounding does to it |
-//! | `direction` | the direction that is kept, also in integers |
 //! | `between_boxes` | the first direction |
 //! | `node_boxes` | the boxes of a node's children: along the direction, and along the axes |
 //! | `pending` | pairs that wait, in the caller's scratch memory |
@@ -22,7 +21,6 @@
 
 mod between_boxes;
 mod by_heights;
-pub(crate) mod direction;
 mod goal;
 pub(crate) mod grid_pose;
 mod leaf_hulls;

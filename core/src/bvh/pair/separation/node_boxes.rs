@@ -1,9 +1,9 @@
 //! The boxes of two nodes' children: along the direction, and along the axes of the first grid.
 
-use super::direction::{Direction, ShortDirection};
 use super::goal::square_up;
 use super::grid_pose::GridPose;
 use super::pending::Pending;
+use crate::bvh::pair::direction::{Direction, ShortDirection};
 use crate::bvh::tree::format::Bvh;
 use crate::bvh::tree::format::layout::boxes;
 use crate::bvh::tree::node::WIDE;
@@ -17,7 +17,7 @@ use glam::Vec3;
 
 /// Children of a node that are looked at.
 #[derive(Clone, Copy)]
-pub(crate) struct Children {
+pub(crate) struct WantedChildren {
     pub(crate) node: u32,
     /// A bit for each.
     wanted: u32,
@@ -27,28 +27,28 @@ pub(crate) struct Children {
     is_leaf: bool,
 }
 
-impl Children {
+impl WantedChildren {
     /// All of a node.
     #[inline(always)]
-    pub(crate) fn of(tree: &Bvh<'_>, node: u32) -> Option<Children> {
+    pub(crate) fn of(tree: &Bvh<'_>, node: u32) -> Option<WantedChildren> {
         let links = tree.links(node)?;
-        Some(Children { node, wanted: links.mask(), inner: links.inner, is_leaf: false })
+        Some(WantedChildren { node, wanted: links.mask(), inner: links.inner, is_leaf: false })
     }
 
     /// Child number `index` of a node: the child's children, or itself if it is a leaf.
     #[inline(always)]
-    pub(crate) fn below(tree: &Bvh<'_>, node: u32, index: u32) -> Option<Children> {
+    pub(crate) fn below(tree: &Bvh<'_>, node: u32, index: u32) -> Option<WantedChildren> {
         let links = tree.links(node)?;
         if index < links.inner {
-            return Children::of(tree, links.first_node.wrapping_add(index));
+            return WantedChildren::of(tree, links.first_node.wrapping_add(index));
         }
-        Some(Children { node, wanted: 1 << (index & 7), inner: 0, is_leaf: true })
+        Some(WantedChildren { node, wanted: 1 << (index & 7), inner: 0, is_leaf: true })
     }
 
     /// The leaf of a triangle, alone.
     #[inline(always)]
-    pub(crate) fn leaf_of(place: TriangleAt) -> Children {
-        Children { node: place.node(), wanted: 1 << place.child(), inner: 0, is_leaf: true }
+    pub(crate) fn leaf_of(place: TriangleAt) -> WantedChildren {
+        WantedChildren { node: place.node(), wanted: 1 << place.child(), inner: 0, is_leaf: true }
     }
 
     /// The leaf, if it is one alone.
@@ -198,7 +198,7 @@ impl PairLimit {
 #[inline(never)]
 pub(crate) fn push_children(
     pose: &GridPose<'_>,
-    children: &[Children; 2],
+    children: &[WantedChildren; 2],
     direction: &Direction,
     limit: &PairLimit,
     pending: &mut Pending<'_>,

@@ -2,12 +2,12 @@
 
 use super::between_boxes::between_boxes;
 use super::by_heights::visit_by_heights;
-use super::direction::{Direction, ShortDirection};
-use super::goal::{Candidates, Goal, Nearest, TrianglesAt, Wanted, square_up};
+use super::goal::{Candidates, Goal, NearestPair, TrianglesAt, Wanted, square_up};
 use super::grid_pose::GridPose;
 use super::leaf_hulls::{HullVisit, LeafHull, visit_leaves_at};
-use super::node_boxes::{Children, PairLimit, is_below, push_children};
+use super::node_boxes::{PairLimit, WantedChildren, is_below, push_children};
 use super::pending::Pending;
+use crate::bvh::pair::direction::{Direction, ShortDirection};
 use crate::bvh::pair::models::most_pairs;
 use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::{columns, turned};
@@ -33,7 +33,7 @@ impl SearchStart {
 }
 
 /// What is proved of two models.
-pub(crate) enum Separation {
+pub(crate) enum PairVerdict {
     /// Lower bound of their distance, above the distance asked about. Input units of the first.
     Apart(f32),
     /// These triangles are certainly within the distance asked about.
@@ -52,20 +52,20 @@ pub(crate) fn separation(
     steps: u32,
     scratch: &mut [ScratchEntry],
     work: &mut Work,
-) -> Separation {
+) -> PairVerdict {
     let mut goal = Goal::threshold(pose, asked);
     let end = descend(pose, &mut goal, start, steps, scratch, work);
-    let Wanted::Near(threshold) = &goal.wanted else { return Separation::Undecided };
+    let Wanted::Near(threshold) = &goal.wanted else { return PairVerdict::Undecided };
     start.near = threshold.near.unwrap_or([TriangleAt::NONE; 2]);
     match (threshold.near, end) {
-        (Some(place), Some(_)) => Separation::Near(place),
+        (Some(place), Some(_)) => PairVerdict::Near(place),
         (None, Some(())) if !threshold.is_undecided => {
             // Every pair that was left out is farther than this.
             let [a, _] = pose.trees;
             let lower = (goal.far - pose.error) * (1.0 - 4.0 * U32);
-            Separation::Apart(a.units().lower(lower))
+            PairVerdict::Apart(a.units().lower(lower))
         }
-        _ => Separation::Undecided,
+        _ => PairVerdict::Undecided,
     }
 }
 
@@ -98,7 +98,7 @@ pub(crate) fn nearest_leaves<'s>(
     };
     let far_sq = goal.limits.far_sq;
     let Wanted::Nearest(nearest) = goal.wanted else { return None };
-    let Nearest { best, mut candidates, is_touching, .. } = nearest;
+    let NearestPair { best, mut candidates, is_touching, .. } = nearest;
     candidates.drop_beyond(far_sq);
     let are_all = end.is_some() && !is_touching && !candidates.is_truncated;
     (best[0] != TriangleAt::NONE).then_some(NearestLeaves { best, candidates, are_all })
@@ -141,10 +141,10 @@ fn visit_leaves(
     let steps = lesser(steps, work.opened.saturating_add(most_pairs(a, b)));
     let mut pending = Pending::new(scratch);
     let mut hulls = [LeafHull::none(), LeafHull::none()];
-    let roots = || Some([Children::of(a, 0)?, Children::of(b, 0)?]);
+    let roots = || Some([WantedChildren::of(a, 0)?, WantedChildren::of(b, 0)?]);
     let mut are_roots_next = first_a != TriangleAt::NONE;
     let mut children = if are_roots_next {
-        [Children::leaf_of(first_a), Children::leaf_of(first_b)]
+        [WantedChildren::leaf_of(first_a), WantedChildren::leaf_of(first_b)]
     } else {
         roots()?
     };
@@ -193,7 +193,7 @@ fn visit_leaves(
         let Some(([node_a, node_b], [i, j])) = pending.next(square_up(length)) else {
             return Some(());
         };
-        children = [Children::below(a, node_a, i)?, Children::below(b, node_b, j)?];
+        children = [WantedChildren::below(a, node_a, i)?, WantedChildren::below(b, node_b, j)?];
     }
 }
 

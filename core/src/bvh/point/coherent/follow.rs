@@ -16,7 +16,7 @@ use glam::Vec3;
 
 /// The nearest triangle.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Nearest {
+pub(crate) struct NearestInFront {
     pub(crate) distance_sq: f32,
     /// Its leaf.
     pub(crate) child: Child,
@@ -28,8 +28,8 @@ pub(crate) struct Nearest {
     at: usize,
 }
 
-impl Nearest {
-    const NONE: Nearest = Nearest {
+impl NearestInFront {
+    const NONE: NearestInFront = NearestInFront {
         distance_sq: f32::INFINITY,
         child: Child::PLACEHOLDER,
         lane: 0,
@@ -80,7 +80,7 @@ pub(crate) struct Follow<'a, 't> {
     pub(crate) work: Work,
     /// Entries stay active while their key is at most this much above `bound`: a few steps.
     ahead: f32,
-    best: Nearest,
+    best: NearestInFront,
     /// An entry with a greater key cannot hold the answer.
     bound: f32,
     /// The plain query refines a triangle with a smaller squared lower bound as a sliver.
@@ -117,7 +117,7 @@ impl<'a, 't> Follow<'a, 't> {
             from_middle: query.p - middle(tree),
             work: Work::default(),
             ahead,
-            best: Nearest::NONE,
+            best: NearestInFront::NONE,
             bound: f32::INFINITY,
             refine_below: f32::NEG_INFINITY,
             sliver_lower_sq: f32::INFINITY,
@@ -133,7 +133,11 @@ impl<'a, 't> Follow<'a, 't> {
     /// within `max_distance`.
     #[cold]
     #[inline(never)]
-    pub(crate) fn begin(&mut self, max_distance: f32, budget: u32) -> Result<Nearest, NoAnswer> {
+    pub(crate) fn begin(
+        &mut self,
+        max_distance: f32,
+        budget: u32,
+    ) -> Result<NearestInFront, NoAnswer> {
         self.front.clear();
         let max_distance = max_distance * (1.0 + 1.0 / 1024.0) + self.plane_error;
         let bound = self.horizon(max_distance * max_distance);
@@ -148,7 +152,7 @@ impl<'a, 't> Follow<'a, 't> {
     /// [`Lost`](NoAnswer::Lost) if the cost exceeds `budget`.
     #[cfg_attr(meshsweep_wide, inline(always))]
     #[cfg_attr(not(meshsweep_wide), inline(never))]
-    pub(crate) fn nearest(&mut self, first: bool, budget: u32) -> Result<Nearest, NoAnswer> {
+    pub(crate) fn nearest(&mut self, first: bool, budget: u32) -> Result<NearestInFront, NoAnswer> {
         let mut next = 0;
         if first && let Some((_, child)) = self.front.get(0) {
             self.look(0, child)?;
@@ -296,7 +300,7 @@ impl<'a, 't> Follow<'a, 't> {
             || (distance_sq == self.best.distance_sq && self.comes_first(child))
         {
             let (lane, v, w) = near.lane();
-            self.best = Nearest { distance_sq, child, lane, v, w, at: i };
+            self.best = NearestInFront { distance_sq, child, lane, v, w, at: i };
             self.bound = self.horizon(distance_sq);
             self.refine_below = self.query.refine_below(distance_sq);
         }
@@ -368,7 +372,7 @@ impl<'a, 't> Follow<'a, 't> {
     /// is the least key of the other entries.
     #[cold]
     #[inline(never)]
-    pub(crate) fn least_other_key(&mut self, best: &Nearest, others: f32) -> f32 {
+    pub(crate) fn least_other_key(&mut self, best: &NearestInFront, others: f32) -> f32 {
         let Some(leaf) = self.tree.leaf(best.child.node(), best.child.index()) else { return 0.0 };
         let mut lower_bound_sq = f32::MAX;
         self.each(&leaf, |_, lane, near| {
@@ -383,7 +387,7 @@ impl<'a, 't> Follow<'a, 't> {
     /// The triangle `lane` of the first entry's leaf, if it is certainly still the nearest. All
     /// other triangles have keys of at least `others`.
     #[inline(always)]
-    pub(crate) fn same(&mut self, lane: usize, others: f32) -> Option<Nearest> {
+    pub(crate) fn same(&mut self, lane: usize, others: f32) -> Option<NearestInFront> {
         let (_, child) = self.front.get(0)?;
         let leaf = self.tree.leaf(child.node(), child.index())?;
         let which = usize::from(lane >= leaf.shape().turn());
@@ -393,6 +397,6 @@ impl<'a, 't> Follow<'a, 't> {
         self.work.triangles += 1;
         let certain = self.horizon(distance_sq) < others
             && lower_bound_sq >= self.query.refine_below(distance_sq);
-        if certain { Some(Nearest { distance_sq, child, lane, v, w, at: 0 }) } else { None }
+        if certain { Some(NearestInFront { distance_sq, child, lane, v, w, at: 0 }) } else { None }
     }
 }

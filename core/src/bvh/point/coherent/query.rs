@@ -3,7 +3,7 @@
 //! After Guéziec, *"Meshsweeper": From Closest Point to Hausdorff Distances Between Meshes* (2000),
 //! sections 3.3 and 5.1.
 
-use super::follow::{Follow, Nearest, NoAnswer};
+use super::follow::{Follow, NearestInFront, NoAnswer};
 use super::front::{BoundKind, Child, FrontState, TraversalFront};
 use super::planes::Planes;
 use crate::bvh::point::hint::Hint;
@@ -393,6 +393,6 @@ impl Memory {
 }
 
 /// The triangle's number in the input file.
-fn number(tree: &Bvh<'_>, nearest: &Nearest) -> Option<u32> {
+fn number(tree: &Bvh<'_>, nearest: &NearestInFront) -> Option<u32> {
     TriangleAt::new(nearest.child.node(), nearest.child.index(), nearest.lane).source(tree)
 }

@@ -164,20 +164,15 @@ impl LeafPlane {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    struct Noise(u64);
+    use crate::num::noise::Noise;
 
     impl Noise {
-        fn unit(&mut self) -> f64 {
-            self.0 = self
-                .0
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (self.0 >> 11) as f64 / (1u64 << 53) as f64
+        fn part(&mut self) -> f64 {
+            (self.bits() >> 11) as f64 / (1u64 << 53) as f64
         }
 
         fn vector(&mut self, size: f64) -> [f64; 3] {
-            [(); 3].map(|()| size * (2.0 * self.unit() - 1.0))
+            [(); 3].map(|()| size * (2.0 * self.part() - 1.0))
         }
     }
 
@@ -191,11 +186,11 @@ mod tests {
             let p = noise.vector(away).map(|x| x + 30_000.0);
             let p = [0, 1, 2].map(|k| (p[k] + origin[k]) as f32);
             let from_origin = Vec3::from_array(p) - Vec3::from_array(origin.map(|x| x as f32));
-            let size = libm::exp2(40.0 * noise.unit() - 10.0);
+            let size = libm::exp2(40.0 * noise.part() - 10.0);
             let residual = noise.vector(size).map(|x| x as f32);
             let residual = Vec3::from_array(residual);
             let distance_sq = residual.length_squared();
-            let limit = distance_sq * (1.0 + noise.unit() as f32);
+            let limit = distance_sq * (1.0 + noise.part() as f32);
             let plane = LeafPlane::across_residual(from_origin, residual, distance_sq, limit);
             let normal = plane.normal.map(f64::from);
             let along: f64 = (0..3).map(|k| normal[k] * (f64::from(p[k]) - origin[k])).sum();

@@ -3,22 +3,17 @@
 use super::{Glance, SegmentAndBox, integer, plain};
 use crate::bvh::tree::format::Bvh;
 use crate::geom::norm_1;
+use crate::num::noise::Noise;
 use crate::query::QueryError;
 
-/// A number from −1 to 1.
-fn unit(state: &mut u64) -> f32 {
-    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-    (*state >> 40) as f32 / (1 << 23) as f32 - 1.0
-}
-
 /// Coordinates that meet the box's planes, nearly, or leave f32's range.
-fn place(state: &mut u64, low: [f32; 3], high: [f32; 3]) -> [f32; 3] {
-    let kind = (unit(state) * 50.0) as i32;
+fn place(noise: &mut Noise, low: [f32; 3], high: [f32; 3]) -> [f32; 3] {
+    let kind = (noise.unit() * 50.0) as i32;
     core::array::from_fn(|axis| {
         let (middle, half) = (0.5 * (low[axis] + high[axis]), 0.5 * (high[axis] - low[axis]));
-        let x = unit(state);
+        let x = noise.unit();
         match kind {
-            -49..=-40 => middle + half * x.signum() * (1.0 + 1e-4 * unit(state)),
+            -49..=-40 => middle + half * x.signum() * (1.0 + 1e-4 * noise.unit()),
             -39..=-35 => middle + half * x * 1e3,
             49 => 1e30 * x,
             48 => f32::NAN,
@@ -34,13 +29,13 @@ fn a_glance_that_is_sure_decides_as_the_whole_test() {
     let bytes = include_bytes!("../../../../fixtures/groove.msw");
     let tree = Bvh::open(bytes).expect("a tree");
     let [low, high] = tree.bounds();
-    let mut state = 3;
+    let mut noise = Noise(3);
     for error in [0.0, 0.03, 0.3] {
         let tree = tree.with_error(error).expect("a finite error");
         let surface_error = tree.units().surface_error;
         let mut counts = [[0u32; 3]; 2];
         for _ in 0..200_000 {
-            let ends = [place(&mut state, low, high), place(&mut state, low, high)];
+            let ends = [place(&mut noise, low, high), place(&mut noise, low, high)];
             let both = SegmentAndBox::new(&tree, ends);
             let expected: Result<bool, QueryError> = both.is_clear(ends, surface_error);
             if let Ok(is_clear) = expected {

@@ -8,9 +8,9 @@ use meshsweep_core::{Budget, Bvh, Facing, OuterSearch, ScratchEntry};
 use meshsweep_host_tests::workload::{Subject, segments};
 use meshsweep_xtask::table::{Cell, Table, fixed};
 
+use super::dop::Slabs;
 use super::figures::Model;
 use super::hierarchy::Hierarchy;
-use crate::measure::bounds::dop::Slabs;
 use crate::measure::brute::cross;
 use crate::measure::open;
 use crate::measure::segments::{COUNT, hull};

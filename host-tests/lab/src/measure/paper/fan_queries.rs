@@ -8,9 +8,9 @@ use glam::{DVec3, Vec3};
 use meshsweep_host_tests::workload::{Points, Subject, field, points, segments};
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
 
+use super::dop::Slabs;
 use super::fans::decompose;
 use super::hierarchy::Hierarchy;
-use crate::measure::bounds::dop::Slabs;
 use crate::measure::stopwatch::Stopwatch;
 
 /// Nodes of the distance field along an axis: the paper's.
@@ -323,8 +323,8 @@ pub fn culling(subject: &Subject) -> Table {
 #[cfg(test)]
 mod tests {
     use super::{Work, alone, distance_sq, elements, hit};
-    use crate::measure::bounds::dop::Slabs;
     use crate::measure::brute::Brute;
+    use crate::measure::paper::dop::Slabs;
     use crate::measure::paper::hierarchy::Hierarchy;
     use glam::Vec3;
     use meshsweep::mesh::Mesh;

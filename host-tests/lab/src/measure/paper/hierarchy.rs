@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::measure::bounds::dop::{Dop, Slabs};
+use super::dop::{Dop, Slabs};
 
 /// Bounds of elements that the caller numbers.
 pub struct Hierarchy<'a> {

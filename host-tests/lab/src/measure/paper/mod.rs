@@ -2,11 +2,12 @@
 //!
 //! ```text
 //! figures (what paper 000 reports) ─┬─ hulls (000.1, 000.2), segments (000.3)
-//! hierarchy (binary tree of k-DOPs) ┼─ dops  (000.4)
+//! dop ─ hierarchy (tree of k-DOPs) ─┼─ dops  (000.4)
 //! fans (the paper's decomposition) ─┴─ fan_queries (003.1, 003.2)
 //!                     triboxes (001.1), hausdorff (004.10)
 //! ```
 
+mod dop;
 mod dops;
 mod fan_queries;
 mod fans;

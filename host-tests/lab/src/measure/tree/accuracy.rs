@@ -1,12 +1,12 @@
 //! Answers against every triangle in f64: of the surface that the blob stores, and of the input.
 
 use glam::{DVec3, Vec3};
-use meshsweep_core::{Budget, Bvh};
+use meshsweep_core::Bvh;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::{Points, points};
 use meshsweep_xtask::table::{Table, row, scientific};
 
-use super::{Answers, Built};
+use super::{Built, answers};
 use crate::measure::brute::Brute;
 
 /// Pairs of a point and a triangle that are looked at in f64 for each row: some seconds.
@@ -44,11 +44,11 @@ pub fn table(subject: &Subject, grid: &Built, single: &Built) -> Result<Table, S
         let quantisation = 2.0 * f64::from(tree.header().surface_error) * unit;
         for kind in [Points::Far, Points::Near] {
             let asked = points(subject, kind, count);
-            let run = Answers::of(&tree, &asked, &Budget::EXACT)?;
+            let answers = answers(&tree, &asked)?;
             let mut outside = 0;
             let (mut middle, mut witness, mut apart) = (Vec::new(), 0f64, 0f64);
             let (mut widest, mut width) = (0f64, 0f64);
-            for (&point, answer) in asked.iter().zip(&run.answers) {
+            for (&point, answer) in asked.iter().zip(&answers) {
                 let (here, there) = (stored.distance(point), input.distance(point));
                 let (lower, upper) =
                     (f64::from(answer.distance.lower), f64::from(answer.distance.upper));

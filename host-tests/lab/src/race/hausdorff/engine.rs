@@ -1,12 +1,12 @@
 //! The engines, and what each answers.
 
+use meshsweep::bvh::blob_for;
 use meshsweep::hausdorff::{Direction, Precision, hausdorff};
 use meshsweep::mesh::Mesh;
 use meshsweep_host_tests::workload::Subject;
 
 use super::cgal::Cgal;
 use super::side::Side;
-use super::{bisector, cascade, samples, search};
 use crate::measure::stopwatch::Stopwatch;
 
 /// Precision, as a part of the diagonal of the box about both meshes.
@@ -40,10 +40,6 @@ impl Answer {
 pub enum Engine {
     /// The library's search.
     Ours,
-    /// Guéziec's.
-    Bisectors,
-    /// Sacht's and Jacobson's.
-    Cascade,
     /// CGAL's.
     Cgal(Cgal),
 }
@@ -53,8 +49,6 @@ impl Engine {
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Ours => "branch and bound (ours)",
-            Self::Bisectors => "spiral and bisectors",
-            Self::Cascade => "cascading bounds",
             Self::Cgal(_) => "CGAL, bounded error",
         }
     }
@@ -69,24 +63,15 @@ impl Engine {
         side: Side,
         precision: f64,
     ) -> Result<Answer, String> {
-        let pair = [&meshes[0].mesh, &meshes[1].mesh];
-        let found = match self {
-            Self::Ours => return ours(pair, side, precision),
+        match self {
+            Self::Ours => ours([&meshes[0].mesh, &meshes[1].mesh], side, precision),
             Self::Cgal(cgal) => {
                 let (value, seconds) = cgal.distance(side, precision)?;
                 let (lower, upper) = (value - precision, value + precision);
                 let (tree_seconds, pieces, asked) = (None, None, None);
-                return Ok(Answer { lower, upper, seconds, tree_seconds, pieces, asked });
+                Ok(Answer { lower, upper, seconds, tree_seconds, pieces, asked })
             }
-            Self::Bisectors => {
-                timed(|| search::search(&bisector::Bisectors, pair, side, precision))
-            }
-            Self::Cascade => timed(|| search::search(&cascade::Cascade, pair, side, precision)),
-        };
-        let (search::Found { lower, upper, pieces, asked, tree_seconds }, seconds) = found?;
-        let tree_seconds = Some(tree_seconds);
-        let (pieces, asked) = (Some(pieces), Some(asked));
-        Ok(Answer { lower, upper, seconds, tree_seconds, pieces, asked })
+        }
     }
 }
 
@@ -114,7 +99,8 @@ pub fn ours([first, second]: [&Mesh; 2], side: Side, precision: f64) -> Result<A
     // The search builds its trees itself: the same ones are built again.
     let (_, tree_seconds) = timed(|| {
         side.sources().iter().try_for_each(|&from| {
-            samples::tree([first, second][1 - from], [first, second][from]).map(drop)
+            let (mesh, other) = ([first, second][1 - from], [first, second][from]);
+            blob_for(mesh, other.positions.len()).map(drop).map_err(|error| error.to_string())
         })
     })?;
     let vertices: usize =

@@ -11,7 +11,7 @@ use meshsweep_host_tests::workload::pose::{Pose as Motion, poses, sphere};
 use parry3d::math::Pose as ParryPose;
 use rayon::prelude::*;
 
-use crate::measure::bounds::pose::parry;
+use crate::measure::rival::parry;
 
 /// Random motions that are looked at for each that is wanted.
 const TRIED: usize = 40;
