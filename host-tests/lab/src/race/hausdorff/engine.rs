@@ -1,12 +1,12 @@
 //! The engines, and what each answers.
 
-use meshsweep::bvh::blob_for;
 use meshsweep::hausdorff::{Direction, Precision, hausdorff};
 use meshsweep::mesh::Mesh;
 use meshsweep_host_tests::workload::Subject;
 
 use super::cgal::Cgal;
 use super::side::Side;
+use super::{samples, search};
 use crate::measure::stopwatch::Stopwatch;
 
 /// Precision, as a part of the diagonal of the box about both meshes.
@@ -40,6 +40,8 @@ impl Answer {
 pub enum Engine {
     /// The library's search.
     Ours,
+    /// Guéziec's.
+    Bisectors,
     /// CGAL's.
     Cgal(Cgal),
 }
@@ -49,6 +51,7 @@ impl Engine {
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Ours => "branch and bound (ours)",
+            Self::Bisectors => "spiral and bisectors",
             Self::Cgal(_) => "CGAL, bounded error",
         }
     }
@@ -63,15 +66,21 @@ impl Engine {
         side: Side,
         precision: f64,
     ) -> Result<Answer, String> {
-        match self {
-            Self::Ours => ours([&meshes[0].mesh, &meshes[1].mesh], side, precision),
+        let pair = [&meshes[0].mesh, &meshes[1].mesh];
+        let found = match self {
+            Self::Ours => return ours(pair, side, precision),
             Self::Cgal(cgal) => {
                 let (value, seconds) = cgal.distance(side, precision)?;
                 let (lower, upper) = (value - precision, value + precision);
                 let (tree_seconds, pieces, asked) = (None, None, None);
-                Ok(Answer { lower, upper, seconds, tree_seconds, pieces, asked })
+                return Ok(Answer { lower, upper, seconds, tree_seconds, pieces, asked });
             }
-        }
+            Self::Bisectors => timed(|| search::search(pair, side, precision)),
+        };
+        let (search::Found { lower, upper, pieces, asked, tree_seconds }, seconds) = found?;
+        let tree_seconds = Some(tree_seconds);
+        let (pieces, asked) = (Some(pieces), Some(asked));
+        Ok(Answer { lower, upper, seconds, tree_seconds, pieces, asked })
     }
 }
 
@@ -99,8 +108,7 @@ pub fn ours([first, second]: [&Mesh; 2], side: Side, precision: f64) -> Result<A
     // The search builds its trees itself: the same ones are built again.
     let (_, tree_seconds) = timed(|| {
         side.sources().iter().try_for_each(|&from| {
-            let (mesh, other) = ([first, second][1 - from], [first, second][from]);
-            blob_for(mesh, other.positions.len()).map(drop).map_err(|error| error.to_string())
+            samples::tree([first, second][1 - from], [first, second][from]).map(drop)
         })
     })?;
     let vertices: usize =

@@ -1,13 +1,18 @@
-//! Hausdorff distances of two meshes: the library's branch and bound, and CGAL.
+//! Hausdorff distances of two meshes: the library's branch and bound, Guéziec's way, and CGAL.
 //!
 //! ```text
-//! cgal (a child process) ─ engine (CGAL, the library) ─ report (the table)
+//! samples (closest points) ─ bisector (bounds) ─ search (largest bound first)
+//! cgal    (a child process) ─ engine (all of them, the library) ─ report (the table)
 //! ```
-//! Both have the same precision, so their intervals have to overlap.
+//! Guéziec's way shares nothing with the library but the box tree that names the closest triangle.
+//! All have the same precision, so their intervals have to overlap.
 
+mod bisector;
 mod cgal;
 mod engine;
 mod report;
+mod samples;
+mod search;
 mod side;
 
 use std::path::Path;
@@ -38,7 +43,7 @@ pub fn race(first: &Path, second: &Path) -> Result<Table, String> {
     let meshes = [Subject::load_any(first)?, Subject::load_any(second)?];
     let diagonal = diagonal(&meshes);
     let precision = PRECISION * diagonal;
-    let mut engines = vec![Engine::Ours];
+    let mut engines = vec![Engine::Ours, Engine::Bisectors];
     let missing = Cgal::new(&meshes).map(|cgal| engines.push(Engine::Cgal(cgal))).err();
     let mut table = report::table(&meshes);
     for side in [Side::Forward, Side::Backward, Side::Both] {
@@ -50,4 +55,32 @@ pub fn race(first: &Path, second: &Path) -> Result<Table, String> {
     ours([&meshes[0].mesh, &meshes[1].mesh], Side::Both, precision)?;
     report::notes(&mut table, begun.elapsed().as_secs_f64(), missing);
     Ok(table)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::engine::{Answer, Engine};
+    use super::side::Side;
+    use meshsweep::mesh::Mesh;
+    use meshsweep_host_tests::generate::torus;
+    use meshsweep_host_tests::workload::Subject;
+
+    const PRECISE: f64 = 1e-3;
+
+    #[test]
+    fn all_ways_agree_on_two_tori() {
+        let subject = |minor, sides| {
+            let (positions, triangles) = torus(2.0, minor, sides, 9);
+            Subject::of("torus", Mesh::new(positions, triangles))
+        };
+        let meshes = [subject(0.5, 14), subject(0.6, 9)];
+        for side in [Side::Forward, Side::Backward, Side::Both] {
+            let answers = [Engine::Ours, Engine::Bisectors]
+                .map(|mut engine| engine.ask(&meshes, side, PRECISE).expect("answers"));
+            let is_close = |a: &Answer| a.upper - a.lower <= PRECISE && a.lower > 0.1;
+            assert!(answers.iter().all(is_close), "{side:?} {answers:?}");
+            let agrees = |a: &Answer| answers.iter().all(|b| a.overlaps(b));
+            assert!(answers.iter().all(agrees), "{side:?} {answers:?}");
+        }
+    }
 }
