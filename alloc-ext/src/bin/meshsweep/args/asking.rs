@@ -365,7 +365,13 @@ pub struct WorstArgs {
     pub moved: Option<PathBuf>,
     /// Of two blobs: ask whether they are within D of each other, in the meshes' unit, in place of
     /// their distance
-    #[arg(long, value_name = "D", value_parser = tolerance, requires = "moved")]
+    #[arg(
+        long,
+        value_name = "D",
+        value_parser = tolerance,
+        requires = "moved",
+        conflicts_with_all = ["rel", "abs"]
+    )]
     pub within: Option<f32>,
     /// Only these questions [default: all that the blob serves]
     #[arg(
