@@ -42,6 +42,7 @@
 //! | how far is a mesh, by a tight hull of few faces; is it within a distance | [`TightHull::closest_point`], [`TightHull::within`] |
 //! | are two models apart, or farther than a distance; bounds without triangles | [`Triboxes::separation`], [`Triboxes::within_of`], [`Triboxes::distance`], [`Triboxes::clip`] |
 //! | fences and tool paths | [`Curve::closest_point`], [`Curve::within`] |
+//! | inside or outside of a fence of inclusion and exclusion zones, and how far from its line | [`Curve::signed_distance`] |
 //! | the faces of a nested hull | [`Hull::faces`] |
 //! | the hull that a scene needs: fine near a point, in a box, toward an eye | [`RefinedHull::update`] |
 //! | hits from outside on that hull | [`Hull::outer_hits`] |
@@ -104,7 +105,7 @@ pub use bvh::{
     FrontFacing, Hint, KNearest, KeptPair, Neighbor, PlacedModel, ProcessorQuestions, Scene,
     SceneDistance, WindingNumber,
 };
-pub use curve::{Curve, CurveClosest, CurveSegment};
+pub use curve::{Curve, CurveClosest, CurveSegment, CurveSignedDistance, Zone};
 pub use format::layout::{BuildFor, SectionKind};
 pub use format::{Contradiction, HeaderField, OpenError, Section};
 pub use geom::Pose;

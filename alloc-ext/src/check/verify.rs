@@ -4,6 +4,7 @@ use super::bytes::{check_header, entries, section};
 use super::finding::Finding;
 use super::tree::prove_tree;
 use super::{curve, hull, tight, triboxes};
+use crate::curve::Polyline;
 use crate::mesh::{Input, KeyFrame, RawMesh};
 
 const BYTES: &str = "blob";
@@ -15,8 +16,8 @@ const TREE: &str = "box tree";
 pub enum Against<'a> {
     /// A mesh, and its key frames but the first.
     Mesh(Input<'a>, &'a [KeyFrame]),
-    /// Polylines.
-    Curves(&'a [Vec<[f64; 3]>]),
+    /// Polylines. Whether they are closed is not compared.
+    Curves(&'a [Polyline]),
 }
 
 /// Kinds of the sections of each structure, by the format.
@@ -25,7 +26,7 @@ const KINDS: [(&str, &[u32]); 5] = [
     (TREE, &[12, 13, 14, 15, 16, 17, 18, 24, 25, 26]),
     ("triboxes", &[19]),
     ("tight hulls", &[20]),
-    ("curve", &[21]),
+    ("curve", &[21, 27]),
 ];
 
 /// Proves a blob from its bytes and the mesh or the curves that it was built from. Every claim has

@@ -8,7 +8,13 @@ use std::f64::consts::PI;
 /// An open polyline.
 #[must_use]
 pub fn open(points: Vec<[f64; 3]>) -> Polyline {
-    Polyline { points, is_closed: false }
+    Polyline { points, ..Polyline::default() }
+}
+
+/// A closed polyline.
+#[must_use]
+pub fn closed(points: Vec<[f64; 3]>) -> Polyline {
+    Polyline { is_closed: true, ..open(points) }
 }
 
 /// The fence of the fixtures: a boundary of 100 by 60 with round corners, and a post in it.
@@ -31,7 +37,7 @@ pub fn fence() -> Vec<Polyline> {
         let mut points: Vec<[f64; 3]> = corners.into_iter().enumerate().flat_map(arc).collect();
         points.dedup();
         points.pop_if(|last| *last == [centre[0] + half[0], centre[1], 0.0]);
-        Polyline { points, is_closed: true }
+        closed(points)
     };
     vec![ring([50.0, 30.0], [50.0, 30.0], 12.0, 12), ring([30.0, 24.0], [5.0, 5.0], 5.0, 5)]
 }
@@ -95,5 +101,5 @@ pub fn circle(segments: usize) -> Polyline {
         let angle = 2.0 * PI * k as f64 / segments as f64;
         [cos(angle), sin(angle), 0.0]
     };
-    Polyline { points: (0..segments).map(point).collect(), is_closed: true }
+    closed((0..segments).map(point).collect())
 }

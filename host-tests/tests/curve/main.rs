@@ -3,4 +3,5 @@
 mod bytes;
 mod closest;
 mod scenes;
+mod signed;
 mod within;

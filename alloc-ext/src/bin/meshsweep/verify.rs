@@ -89,8 +89,7 @@ fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Fai
         let polylines = read_csv(&text, false).map_err(|error| {
             Failure::build(file, BuildError::Curve { file: file.clone(), error })
         })?;
-        let points: Vec<_> = polylines.into_iter().map(|polyline| polyline.points).collect();
-        let findings = verify(bytes, Against::Curves(&points));
+        let findings = verify(bytes, Against::Curves(&polylines));
         return Ok(Proofs { findings, hint: String::new(), report: None });
     }
     if is_csv {
