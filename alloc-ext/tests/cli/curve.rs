@@ -65,6 +65,73 @@ fn info_and_build_tell_what_the_blob_holds() {
     assert_eq!(json["serves"], serde_json::json!(["closest", "within"]));
 }
 
+/// A field of 10 by 10, and a square in it that is excluded.
+const ZONES: &str = "x,y,zone\n0,0,inclusion\n10,0,inclusion\n10,10,inclusion\n0,10,inclusion\n\
+                     4,4,exclusion\n6,4,exclusion\n6,6,exclusion\n4,6,exclusion\n";
+
+#[test]
+fn a_fence_says_what_it_allows_and_how_far_its_line_is() {
+    let directory = scratch("curve_signed");
+    let zones = file(&directory, "zones.csv", ZONES);
+    let fence = directory.join("zones.msw");
+    let report = ok(["build", arg(&zones), "-o", arg(&fence)]);
+    let told = "fence: inside of 1 inclusion zone and outside of 1 exclusion zone\n";
+    assert!(report.contains(told) && report.contains(", signed\n"), "{report}");
+    let json: Value = serde_json::from_str(&ok(["info", arg(&fence), "--json"])).expect("JSON");
+    assert_eq!(json["curve"]["exclusion_zones"], 1);
+    assert_eq!(json["curve"]["is_fence"], true);
+    let points = file(&directory, "points.csv", "x,y,z\n5,5,99\n-3,14,0\n0,2.5,1\n");
+    let answers = ok(["signed", arg(&fence), "2,5", arg(&points)]);
+    let rows: Vec<Vec<&str>> =
+        answers.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let sides: Vec<[&str; 2]> = rows.iter().map(|row| [row[2], row[3]]).collect();
+    let undecided = ["undecided", "at the line"];
+    assert_eq!(sides, [["inside", ""], ["outside", ""], ["outside", ""], undecided], "{answers}");
+    for (row, distance) in rows.iter().zip([-2.0, 1.0, 5.0, 0.0]) {
+        let [lower, upper] = [4, 5].map(|field: usize| row[field].parse::<f64>().expect("a number"));
+        assert!(lower <= distance && distance <= upper && upper - lower < 1e-3, "{row:?}");
+    }
+    // The nearest line of the second point is that of the hole.
+    assert_eq!((rows[1][8], rows[0][8]), ("1", "0"), "{answers}");
+    let proofs = ok(["verify", arg(&fence), arg(&zones)]);
+    assert!(proofs.contains("1 exclusion zone"), "{proofs}");
+    let turned = file(&directory, "turned.csv", &ZONES.replace("exclusion", "Inclusion"));
+    let told = refused(&run(["verify", arg(&fence), arg(&turned)]), 3, "zones.msw");
+    assert!(told.contains("failed: curve"), "{told}");
+}
+
+#[test]
+fn curves_that_bound_no_area_and_points_of_the_wrong_kind_are_refused() {
+    let directory = scratch("curve_no_fence");
+    let ask = |name: &str, text: &str, options: &[&str]| {
+        let (path, output) = (file(&directory, name, text), directory.join("out.msw"));
+        ok([&["build", arg(&path), "-o", arg(&output)], options].concat());
+        refused(&run(["signed", arg(&output), "1,1"]), 1, "out.msw")
+    };
+    let open = ask("open.csv", "0,0\n5,0\n5,5\n", &[]);
+    assert!(open.contains("polyline 0 is not closed") && open.contains("--closed"), "{open}");
+    let tilted = ask("tilted.csv", "0,0,0\n5,0,0\n5,5,1\n", &["--closed"]);
+    assert!(tilted.contains("differ in z"), "{tilted}");
+    let bad = file(&directory, "bad.csv", &ZONES.replace("4,4,exclusion", "4,4,keep out"));
+    let told = refused(&run(["build", arg(&bad), "-o", "x.msw"]), 1, "bad.csv");
+    assert!(told.contains("line 6: \"keep out\" is no zone"), "{told}");
+    let told = refused(&run(["signed", arg(&fixture("groove.msw")), "1,2"]), 2, "1,2");
+    assert!(told.contains("needs 3: x, y, z"), "{told}");
+    let told = refused(&run(["signed", arg(&fixture("fence.msw")), "1,2,3,4"]), 2, "4 numbers");
+    assert!(told.contains("3: x, y, z"), "{told}");
+}
+
+#[test]
+fn the_c_source_of_a_fence_is_written() {
+    let directory = scratch("curve_c");
+    let output = directory.join("zones.msw");
+    let zones = file(&directory, "zones.csv", ZONES);
+    ok(["build", arg(&zones), "-o", arg(&output), "--emit", "c"]);
+    let header = fs::read_to_string(directory.join("zones.h")).expect("written");
+    assert!(header.contains("extern const uint8_t zones_bytes[ZONES_BYTES];"), "{header}");
+    assert!(header.contains("#define ZONES_IS_FENCE 1 "), "{header}");
+}
+
 #[test]
 fn the_name_or_for_chooses_a_curve() {
     let directory = scratch("curve_names");

@@ -4,15 +4,17 @@
 #![allow(missing_docs, reason = "meshsweep.h says it")]
 
 use meshsweep_core::{
-    ClosestPoint, CoherentClosest, Decided, Ended, FirstHit, Interval, KNearest, Neighbor,
-    NodePair, PairContact, PairDistance, Separation, Side, SignedDistance, TriboxCandidates,
-    Undecided, Verdict, WindingNumber, Work,
+    ClosestPoint, CoherentClosest, CurveClosest, CurveSegment, CurveSignedDistance, Decided, Ended,
+    FirstHit, Interval, KNearest, Neighbor, NodePair, PairContact, PairDistance, Separation, Side,
+    SignedDistance, TriboxCandidates, Undecided, Verdict, WindingNumber, Work,
 };
 
 /// `MSW_NO_TRIANGLE`.
 pub const NO_TRIANGLE: u32 = u32::MAX;
 /// `MSW_NO_MODEL`.
 pub const NO_MODEL: u32 = u32::MAX;
+/// `MSW_NO_SEGMENT`.
+pub const NO_SEGMENT: u32 = u32::MAX;
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
@@ -166,6 +168,38 @@ pub struct CandidatesC {
     pub ended: i32,
     pub stored: u32,
     pub dropped: u32,
+    pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CurveClosestC {
+    pub distance: IntervalC,
+    pub point: [f32; 3],
+    pub polyline: u32,
+    pub segment: u32,
+    pub t: f32,
+    pub safe_motion: f32,
+    pub ended: i32,
+    pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CurveSignedC {
+    pub side: i32,
+    pub reason: i32,
+    pub distance: IntervalC,
+    pub closest: CurveClosestC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CurveWithinC {
+    pub verdict: i32,
+    pub reason: i32,
+    pub polyline: u32,
+    pub segment: u32,
     pub work: WorkC,
 }
 
@@ -391,5 +425,38 @@ impl From<TriboxCandidates> for CandidatesC {
         let (stored, dropped) = (found.stored as u32, found.dropped);
         let (verdict, ended) = (clear(found.is_apart()), ended(found.ended));
         CandidatesC { verdict, ended, stored, dropped, work: found.work.into() }
+    }
+}
+
+impl From<CurveClosest> for CurveClosestC {
+    fn from(found: CurveClosest) -> Self {
+        let CurveSegment { polyline, segment } = found.segment;
+        CurveClosestC {
+            distance: found.distance.into(),
+            point: found.point,
+            polyline,
+            segment,
+            t: found.t,
+            safe_motion: found.safe_motion,
+            ended: ended(found.ended),
+            work: found.work.into(),
+        }
+    }
+}
+
+impl From<CurveSignedDistance> for CurveSignedC {
+    fn from(found: CurveSignedDistance) -> Self {
+        let (side, reason) = side(found.side);
+        let (distance, closest) = (found.distance.into(), found.closest.into());
+        CurveSignedC { side, reason, distance, closest }
+    }
+}
+
+impl From<Decided<CurveSegment>> for CurveWithinC {
+    fn from(found: Decided<CurveSegment>) -> Self {
+        let (verdict, reason) = verdict(found.verdict);
+        let none = CurveSegment { polyline: NO_SEGMENT, segment: NO_SEGMENT };
+        let CurveSegment { polyline, segment } = found.witness.unwrap_or(none);
+        CurveWithinC { verdict, reason, polyline, segment, work: found.work.into() }
     }
 }

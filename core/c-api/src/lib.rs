@@ -5,7 +5,7 @@
 //! | `memory` | the caller's pointers, and every `unsafe` block |
 //! | `error` | negative numbers and their texts |
 //! | `question`, `answer` | structures of the header |
-//! | `tree`, `pair`, `scene`, `triboxes`, `tight`, `hull`, `pose` | the functions |
+//! | `tree`, `pair`, `scene`, `triboxes`, `tight`, `hull`, `curve`, `pose` | the functions |
 //!
 //! This crate has no panic handler, so that the workspace builds and tests it like the others.
 //! `host-tests/firmware/c-library` makes the static libraries of it, with the boards' profiles.
@@ -13,6 +13,7 @@
 #![no_std]
 
 pub mod answer;
+pub mod curve;
 pub mod error;
 pub mod hull;
 pub mod memory;

@@ -25,6 +25,8 @@ pub unsafe trait AnyBits: Copy {}
 unsafe impl AnyBits for u8 {}
 // SAFETY: as above.
 unsafe impl AnyBits for [f32; 3] {}
+// SAFETY: floats.
+unsafe impl AnyBits for [f32; 2] {}
 // SAFETY: as above.
 unsafe impl AnyBits for [u32; 2] {}
 // SAFETY: six words.

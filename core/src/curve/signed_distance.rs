@@ -26,6 +26,17 @@ pub struct CurveSignedDistance {
 }
 
 impl Curve<'_> {
+    /// Whether the curves are a fence, so that [`signed_distance`](Curve::signed_distance) answers:
+    /// all points have the same z, and all polylines are closed. Firmware asks once at the start.
+    ///
+    /// Cost: linear in the polylines.
+    ///
+    /// # Errors
+    /// [`QueryError::NotPlanar`], [`QueryError::OpenPolyline`].
+    pub fn check_fence(&self) -> Result<(), QueryError> {
+        self.plane().map(drop)
+    }
+
     /// Whether a fence of closed polylines allows `point` (x and y, input units), and how far it is
     /// from the nearest line of the fence. Both are looked at along z: the curves' z is not asked.
     ///
@@ -65,9 +76,7 @@ impl Curve<'_> {
     /// ```
     ///
     /// # Errors
-    /// [`QueryError::NotPlanar`] if the curves' points differ in z, [`QueryError::OpenPolyline`] if a
-    /// polyline is not closed; [`QueryError::NotFinite`], [`QueryError::Tolerance`],
-    /// [`QueryError::NoScratch`].
+    /// Those of [`check_fence`](Curve::check_fence) and [`closest_point`](Curve::closest_point).
     #[inline(never)]
     pub fn signed_distance(
         &self,

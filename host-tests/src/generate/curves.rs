@@ -2,7 +2,7 @@
 
 use super::Rng;
 use libm::{cos, sin};
-use meshsweep::curve::Polyline;
+use meshsweep::curve::{Polyline, Zone};
 use std::f64::consts::PI;
 
 /// An open polyline.
@@ -21,25 +21,39 @@ pub fn closed(points: Vec<[f64; 3]>) -> Polyline {
 /// Coordinates are multiples of a 64th.
 #[must_use]
 pub fn fence() -> Vec<Polyline> {
-    let ring = |centre: [f64; 2], half: [f64; 2], radius: f64, steps: usize| {
-        let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
-        let arc = |(quarter, signs): (usize, [f64; 2])| {
-            (0..=steps).map(move |step| {
-                let angle = 0.5 * PI * (quarter as f64 + step as f64 / steps as f64);
-                let way = [cos(angle), sin(angle)];
-                let [x, y] = [0, 1].map(|axis| {
-                    let middle = centre[axis] + signs[axis] * (half[axis] - radius);
-                    ((middle + radius * way[axis]) * 64.0).round() / 64.0
-                });
-                [x, y, 0.0]
-            })
-        };
-        let mut points: Vec<[f64; 3]> = corners.into_iter().enumerate().flat_map(arc).collect();
-        points.dedup();
-        points.pop_if(|last| *last == [centre[0] + half[0], centre[1], 0.0]);
-        closed(points)
-    };
     vec![ring([50.0, 30.0], [50.0, 30.0], 12.0, 12), ring([30.0, 24.0], [5.0, 5.0], 5.0, 5)]
+}
+
+/// The geofence of the example `fence`, in metres: a field of 400 by 240 with round corners, in it a
+/// house and a mast that are to be kept out of. Coordinates are multiples of a 64th.
+#[must_use]
+pub fn zones() -> Vec<Polyline> {
+    let excluded = |polyline: Polyline| Polyline { zone: Zone::Exclusion, ..polyline };
+    vec![
+        ring([200.0, 120.0], [200.0, 120.0], 60.0, 20),
+        excluded(ring([120.0, 80.0], [15.0, 10.0], 2.0, 2)),
+        excluded(ring([300.0, 150.0], [25.0, 25.0], 25.0, 6)),
+    ]
+}
+
+/// A rectangle with round corners, of so many segments each.
+fn ring(centre: [f64; 2], half: [f64; 2], radius: f64, steps: usize) -> Polyline {
+    let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+    let arc = |(quarter, signs): (usize, [f64; 2])| {
+        (0..=steps).map(move |step| {
+            let angle = 0.5 * PI * (quarter as f64 + step as f64 / steps as f64);
+            let way = [cos(angle), sin(angle)];
+            let [x, y] = [0, 1].map(|axis| {
+                let middle = centre[axis] + signs[axis] * (half[axis] - radius);
+                ((middle + radius * way[axis]) * 64.0).round() / 64.0
+            });
+            [x, y, 0.0]
+        })
+    };
+    let mut points: Vec<[f64; 3]> = corners.into_iter().enumerate().flat_map(arc).collect();
+    points.dedup();
+    points.pop_if(|last| *last == [centre[0] + half[0], centre[1], 0.0]);
+    closed(points)
 }
 
 /// CSV of polylines: a header, then blank lines between them.

@@ -140,6 +140,7 @@ pub const QUESTIONS: &[Question] = &[
         "curve::closest",
         &[Kind::ClosestFar, Kind::ClosestNear],
     ),
+    question("signed distance of curves", "curve", "curve::signed", &[Kind::Signed]),
 ];
 
 /// Questions whose code is measured, each by an image `size_*` of its own, and their names in

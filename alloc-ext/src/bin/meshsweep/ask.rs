@@ -12,8 +12,9 @@ use meshsweep::counted::Counted;
 use meshsweep::distances::{AnyWithin, Closest, Element};
 use meshsweep::number::Short;
 use meshsweep_core::{
-    Budget, Decided, Ended, FirstHit, Interval, Neighbor, PairContact, PairDistance, Penetration,
-    QueryError, ScratchEntry, Separation, SignedDistance, Undecided, Verdict, WindingNumber, Work,
+    Budget, CurveSignedDistance, Decided, Ended, FirstHit, Interval, Neighbor, PairContact,
+    PairDistance, Penetration, QueryError, ScratchEntry, Separation, SignedDistance, Undecided,
+    Verdict, WindingNumber, Work,
 };
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
@@ -69,6 +70,7 @@ answered! {
     PairDistance: |found| found.ended, found.work;
     Penetration: |found| found.ended, found.work;
     Separation: |found| found.ended, found.work;
+    CurveSignedDistance: |found| found.closest.ended, found.closest.work;
     SignedDistance: |found| found.closest.ended, found.closest.work;
     WindingNumber: |found| found.ended, found.work;
     AnyWithin: |found| ended(found.verdict), found.work;

@@ -18,7 +18,9 @@ const QUESTIONS: [(&str, Serves); 17] = [
     ("within", |blob| has_distances(blob) || blob.curve().is_ok()),
     ("nearest", knows_triangles),
     ("field", knows_triangles),
-    ("signed", |blob| tree(blob, BuildFor::Closest).is_some_and(|tree| has_sides(&tree))),
+    ("signed", |blob| {
+        tree(blob, BuildFor::Closest).is_some_and(|tree| has_sides(&tree)) || is_fence(blob)
+    }),
     ("winding", |blob| tree(blob, BuildFor::Winding).is_some()),
     ("segment", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
     ("overlap", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
@@ -36,6 +38,11 @@ const QUESTIONS: [(&str, Serves); 17] = [
 pub fn questions(blob: &Blob<'_>) -> Vec<&'static str> {
     let served = QUESTIONS.into_iter().filter(|(_, serves)| serves(blob));
     served.map(|(question, _)| question).collect()
+}
+
+/// Whether the blob has curves that bound an area.
+fn is_fence(blob: &Blob<'_>) -> bool {
+    blob.curve().is_ok_and(|curve| curve.check_fence().is_ok())
 }
 
 /// Whether the blob knows the distances of the mesh's own triangles.
@@ -208,7 +215,7 @@ impl Engine<'_> {
 const COMFORTABLE_SCRATCH: usize = 4096;
 
 /// More scratch entries of a curve than it needs: with these, searches go best first.
-const BEST_FIRST: usize = 256;
+pub const BEST_FIRST: usize = 256;
 
 /// Scratch entries to ask a structure about points with, unless `--scratch` says otherwise.
 pub fn entries(structure: &Distances<'_>) -> usize {

@@ -1,7 +1,7 @@
 //! Questions to the curves of a blob.
 
 pub use meshsweep_core::Curve;
-use meshsweep_core::{Budget, CurveClosest, CurveSegment, ScratchEntry};
+use meshsweep_core::{Budget, CurveClosest, CurveSegment, ScratchEntry, Side};
 
 use super::{Asked, Refused, Subject, how, verdict};
 use crate::fold::Fold;
@@ -43,6 +43,7 @@ impl<'t> Subject<'t> for Curve<'t> {
         };
         Stopped => stopped(self, place.far(), place.distance(), scratch, to);
         Within => is_within(self, place.far(), place.distance(), scratch, to);
+        Signed => signed(self, place.far(), scratch, to);
     }
 }
 
@@ -131,6 +132,29 @@ pub fn is_within(
         |fold, answer| {
             segment(fold, answer.witness);
             verdict(fold, answer.verdict);
+        },
+    );
+}
+
+/// Whether the fence allows a point, and how far its line is.
+#[inline(never)]
+pub fn signed(
+    curve: &Curve<'_>,
+    [x, y, _]: Point,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Observer>,
+) {
+    to.answer(
+        || curve.signed_distance([x, y], Budget::EXACT, scratch),
+        |fold, answer| {
+            fold.f32(answer.distance.lower);
+            fold.f32(answer.distance.upper);
+            fold.word(match answer.side {
+                Side::Outside => 1,
+                Side::Inside => 2,
+                _ => 0,
+            });
+            closest_point(fold, &answer.closest);
         },
     );
 }

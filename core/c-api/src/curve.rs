@@ -1,0 +1,93 @@
+//! Curves: fences and tool paths.
+
+use meshsweep_core::{Curve, ScratchEntry};
+
+use crate::answer::{CurveClosestC, CurveSignedC, CurveWithinC};
+use crate::error::Error;
+use crate::memory::{In, Out, Storage, View};
+use crate::question::BudgetC;
+use crate::tree::ask;
+
+/// Words of `msw_curve`.
+pub const CURVE_WORDS: usize = if cfg!(target_pointer_width = "64") { 24 } else { 40 };
+
+/// `msw_curve`.
+pub type CurveStorage = Storage<Curve<'static>, CURVE_WORDS>;
+
+impl View for Curve<'static> {
+    const TAG: usize = 0x6d73_7708;
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_open_curve(curve: Out<CurveStorage>, bytes: In<u8>, count: usize) -> i32 {
+    curve.open(|| Ok(Curve::open(bytes.slice(count)?)?))
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_curve_scratch_entries(curve: In<CurveStorage>) -> u32 {
+    curve.view().map_or(0, |curve| curve.scratch_entries() as u32)
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_curve_check_fence(curve: In<CurveStorage>) -> i32 {
+    let checked = curve.view().and_then(|curve| curve.check_fence().map_err(Error::from));
+    checked.map_or_else(Error::code, |()| 0)
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_curve_closest_point(
+    curve: In<CurveStorage>,
+    point: In<[f32; 3]>,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<CurveClosestC>,
+) -> i32 {
+    answer.answer(|| {
+        let (curve, point) = (curve.view()?, point.get()?);
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(curve.closest_point(point, budget, scratch)?.into())
+        })
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_curve_within(
+    curve: In<CurveStorage>,
+    point: In<[f32; 3]>,
+    distance: f32,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<CurveWithinC>,
+) -> i32 {
+    answer.answer(|| {
+        let (curve, point) = (curve.view()?, point.get()?);
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(curve.within(point, distance, budget, scratch)?.into())
+        })
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_curve_signed_distance(
+    curve: In<CurveStorage>,
+    point: In<[f32; 2]>,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<CurveSignedC>,
+) -> i32 {
+    answer.answer(|| {
+        let (curve, point) = (curve.view()?, point.get()?);
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(curve.signed_distance(point, budget, scratch)?.into())
+        })
+    })
+}
