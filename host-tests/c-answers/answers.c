@@ -497,6 +497,12 @@ static void curves(void)
         fold_word((uint32_t)msw_curve_within(&curve, point, 20.0f, budget_of(round), scratch,
                                              scratch_of(round), &within));
         fold(&within, sizeof within);
+        msw_curve_neighbor neighbors[3];
+        msw_nearest_answer nearest;
+        fold_word((uint32_t)msw_curve_nearest(&curve, point, neighbors, 3, budget_of(round),
+                                              scratch, scratch_of(round), &nearest));
+        fold(&nearest, sizeof nearest);
+        fold(neighbors, nearest.stored * sizeof *neighbors);
     }
     end("curves");
 }

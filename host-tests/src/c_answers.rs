@@ -6,9 +6,9 @@ use crate::corrupt::{entry, put_u32, seal, word};
 use meshsweep_core::internal::format::layout::VERSION_MAJOR;
 use meshsweep_core::{
     Blob, Budget, Bvh, ClosestPoint, CoherentPair, CoherentQuery, CoherentScene, Curve,
-    CurveClosest, Decided, Ended, Facing, FirstHit, Focus, Hint, Hit, Hull, Interval, KeptPair,
-    Motion, Neighbor, NodePair, PairDistance, PlacedModel, Pose, QueryError, RefinedHull,
-    RoundedPose, Scratch, Side, Solid, TightHulls, Triboxes, Undecided, Verdict, Work,
+    CurveClosest, CurveNeighbor, Decided, Ended, Facing, FirstHit, Focus, Hint, Hit, Hull,
+    Interval, KeptPair, Motion, Neighbor, NodePair, PairDistance, PlacedModel, Pose, QueryError,
+    RefinedHull, RoundedPose, Scratch, Side, Solid, TightHulls, Triboxes, Undecided, Verdict, Work,
 };
 
 const ROUNDS: usize = 24;
@@ -508,6 +508,17 @@ fn curves(fence: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
         let place = found.witness.map(|at| [at.polyline, at.segment]);
         kind.words(&place.unwrap_or([u32::MAX; 2]));
         kind.work(found.work);
+        let mut near = [CurveNeighbor::EMPTY; 3];
+        let found = curve.nearest(point, &mut near, budget, scratch)?;
+        kind.words(&[0, found.stored as u32, ended(found.ended)]);
+        kind.floats(&[found.rest_lower]);
+        kind.work(found.work);
+        for near in &near[..found.stored] {
+            kind.interval(near.distance());
+            kind.floats(&near.point());
+            kind.words(&[near.segment().polyline, near.segment().segment]);
+            kind.floats(&[near.t()]);
+        }
     }
     Ok(kind.line("curves"))
 }

@@ -7,10 +7,18 @@ use super::dyadic::Dyadic;
 use super::enclosure::point_is_far;
 use super::finding::Finding;
 use super::input::is_within;
-use crate::curve::{Polyline, Zone};
 use glam::DVec3;
 
 const CURVE: &str = "curve";
+
+/// A polyline of the file that curves were built from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilePolyline {
+    /// Its points, without the closing one.
+    pub points: Vec<[f64; 3]>,
+    /// Whether it is an exclusion zone.
+    pub is_exclusion: bool,
+}
 
 /// Half a unit in the last place of an `f64` below 1, on each of three axes: reading rounded the
 /// decimals by no more.
@@ -94,26 +102,20 @@ impl Curves {
 
     /// Each polyline has the zone of the given one, and exclusion zones are closed. Returns the
     /// number of exclusion zones.
-    fn zones(&self, given: &[Polyline]) -> Result<usize, String> {
+    fn zones(&self, given: &[FilePolyline]) -> Result<usize, String> {
         if !self.zones.is_empty() && self.zones.len() != given.len() {
             return Err(format!("{} zones of {} polylines", self.zones.len(), given.len()));
         }
         let mut exclusions = 0;
         for (index, polyline) in given.iter().enumerate() {
-            let stored = match self.zones.get(index) {
-                None | Some(0) => Zone::Inclusion,
-                Some(1) => Zone::Exclusion,
-                Some(other) => return Err(format!("polyline {index} has the zone {other}")),
-            };
-            if stored != polyline.zone {
-                let (wanted, zone) = (polyline.zone, format!("{stored:?}"));
-                return Err(format!("polyline {index} is stored as {zone}, and is {wanted:?}"));
+            let stored = self.zones.get(index).copied().unwrap_or(0);
+            if stored != u8::from(polyline.is_exclusion) {
+                let wanted = if polyline.is_exclusion { "an exclusion" } else { "an inclusion" };
+                return Err(format!("polyline {index} is {wanted} zone, and {stored} is stored"));
             }
-            if stored == Zone::Exclusion {
-                exclusions += 1;
-                if !self.polylines[index].1 {
-                    return Err(format!("polyline {index} is an exclusion zone and not closed"));
-                }
+            exclusions += usize::from(polyline.is_exclusion);
+            if polyline.is_exclusion && !self.polylines[index].1 {
+                return Err(format!("polyline {index} is an exclusion zone and not closed"));
             }
         }
         Ok(exclusions)
@@ -121,7 +123,7 @@ impl Curves {
 
     /// The stored points are those of `given` within the error, in their order. A stored polyline
     /// may be closed where the given one is not.
-    fn points(&self, given: &[Polyline]) -> Result<usize, String> {
+    fn points(&self, given: &[FilePolyline]) -> Result<usize, String> {
         if self.polylines.first().map(|first| first.0) != Some(0)
             || self.polylines.len() != given.len()
         {
@@ -129,7 +131,7 @@ impl Curves {
         }
         let scale = 2f64.powi(-self.scale_exponent);
         let (mut closed, mut exact) = (0, 0);
-        for (index, Polyline { points: given, .. }) in given.iter().enumerate() {
+        for (index, FilePolyline { points: given, .. }) in given.iter().enumerate() {
             let run = self.run(index)?;
             let is_closed = self.polylines[index].1;
             let repeats = usize::from(is_closed && run.len() == given.len() + 1);
@@ -218,7 +220,7 @@ fn is_in_capsule(p: [f64; 3], a: [f64; 3], b: [f64; 3], radius: f64) -> bool {
 }
 
 /// Proves a blob's curves.
-pub(crate) fn verify(bytes: &[u8], given: &[Polyline]) -> Finding {
+pub(crate) fn verify(bytes: &[u8], given: &[FilePolyline]) -> Finding {
     let proof = Curves::parse(bytes).and_then(|curves| {
         let closed = curves.points(given)?;
         let exclusions = curves.zones(given)?;

@@ -1,10 +1,10 @@
 //! Which structures a blob has, and the proof of each.
 
 use super::bytes::{check_header, entries, section};
+use super::curve::FilePolyline;
 use super::finding::Finding;
 use super::tree::prove_tree;
 use super::{curve, hull, tight, triboxes};
-use crate::curve::Polyline;
 use crate::mesh::{Input, KeyFrame, RawMesh};
 
 const BYTES: &str = "blob";
@@ -17,7 +17,7 @@ pub enum Against<'a> {
     /// A mesh, and its key frames but the first.
     Mesh(Input<'a>, &'a [KeyFrame]),
     /// Polylines. Whether they are closed is not compared.
-    Curves(&'a [Polyline]),
+    Curves(&'a [FilePolyline]),
 }
 
 /// Kinds of the sections of each structure, by the format.

@@ -85,8 +85,8 @@ fn is_header(record: &ByteRecord) -> bool {
 /// line begins a new polyline. So does another value in a column `polyline` of the header. Columns
 /// of other names are skipped. With `close` each polyline's last point is joined with its first.
 ///
-/// A column `zone` of the header makes zones of the polylines, `inclusion` or `exclusion`. Zones are
-/// closed, and another zone begins a new polyline.
+/// A column `zone` of the header makes zones of the polylines, `inclusion` or `exclusion`. Zones
+/// are closed, and another zone begins a new polyline.
 ///
 /// # Errors
 /// [`CurveError`] names the line.

@@ -328,11 +328,11 @@ fn zones_of_curves_are_proved_and_changed_ones_are_not() {
     let blob = directory.join("zones.msw");
     ok(["build", arg(&zones), "-o", arg(&blob)]);
     let case = Case::new(&directory, blob, &[zones]);
-    case.fails("curve: polyline 1 is stored as Inclusion, and is Exclusion", |b| {
+    case.fails("curve: polyline 1 is an exclusion zone, and 0 is stored", |b| {
         let at = start(b, ZONES);
         b[at + 1] = 0;
     });
-    case.fails("curve: polyline 0 is stored as Exclusion, and is Inclusion", |b| {
+    case.fails("curve: polyline 0 is an inclusion zone, and 1 is stored", |b| {
         let at = start(b, ZONES);
         b[at] = 1;
     });

@@ -30,7 +30,7 @@ enum { LEGS = 5 };
 static const struct leg legs[LEGS] = {
     {{60 * 64, 120 * 64}, {20, 0}, 900},    /* East, past the house to the mast. */
     {{200 * 64, 60 * 64}, {0, -20}, 900},   /* South, to the line. */
-    {{370 * 64, 120 * 64}, {0, 16}, 900},   /* From a place near the line. */
+    {{370 * 64, 120 * 64}, {0, 16}, 900},   /* Along the line, to a corner. */
     {{300 * 64, 150 * 64}, {-20, 0}, 900},  /* From the mast. */
     {{200 * 64, 180 * 64}, {-12, -16}, 250} /* Across the field. */
 };

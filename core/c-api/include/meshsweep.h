@@ -152,8 +152,9 @@ enum { MSW_MOTION_STRAIGHT = 0, MSW_MOTION_SCREW = 1 };
 #define MSW_COHERENT_PAIR_WORDS 664
 
 /* An opened box tree, an opened tight hull, an opened hull hierarchy, opened triboxes, opened
- * curves. They point into the blob, which must stay where it is, unchanged, as long as they are used. Copies are as
- * good. A storage of zeros is not opened, and every question about it is refused. */
+ * curves. They point into the blob, which must stay where it is, unchanged, as long as they are
+ * used. Copies are as good. A storage of zeros is not opened, and every question about it is
+ * refused. */
 typedef struct { uintptr_t opaque[MSW_MODEL_WORDS]; } msw_model;
 typedef struct { uintptr_t opaque[MSW_TIGHT_WORDS]; } msw_tight;
 typedef struct { uintptr_t opaque[MSW_HULL_WORDS]; } msw_hull;
@@ -410,6 +411,14 @@ typedef struct {
     uint32_t segment;  /* and this segment, else MSW_NO_SEGMENT in both */
     msw_work work;
 } msw_curve_within_answer;
+
+typedef struct {
+    msw_interval distance; /* to the segment */
+    float point[3];        /* of it, at most distance.upper away but for its rounding */
+    uint32_t polyline;     /* counted from 0, as in msw_curve_closest */
+    uint32_t segment;      /* of the polyline */
+    float t;               /* where `point` lies on the segment */
+} msw_curve_neighbor;
 
 typedef struct {
     uint32_t is_complete; /* 1: all splits that the focus needs are performed. 0: see below */
@@ -871,6 +880,18 @@ int32_t msw_curve_within(const msw_curve *curve, const float point[3], float dis
                          msw_scratch_entry *scratch, size_t scratch_count,
                          msw_curve_within_answer *answer);
 
+/* The `neighbor_count` nearest segments into `neighbors`, by rising distance. Of the budget only
+ * `steps` matters.
+ *
+ * Of two segments whose intervals overlap either may come first. A curve of fewer segments gives
+ * them all. After an error the contents of `neighbors` are undefined. Cost: that of
+ * msw_curve_closest_point, and two distances in double for each segment near the last one. */
+int32_t msw_curve_nearest(const msw_curve *curve, const float point[3],
+                          msw_curve_neighbor *neighbors, size_t neighbor_count,
+                          const msw_budget *budget,
+                          msw_scratch_entry *scratch, size_t scratch_count,
+                          msw_nearest_answer *answer);
+
 /* Whether a fence allows `point` (x, y), and how far it is from the nearest line of the fence. The
  * z of the curves is not asked.
  *
@@ -880,8 +901,8 @@ int32_t msw_curve_within(const msw_curve *curve, const float point[3], float dis
  * than |distance| the side does not change. The side is never wrong. It is undecided for
  * MSW_REASON_ON_SURFACE on a line and closer to it than the surface error, rounding and the
  * tolerances of the budget. Errors: those of msw_curve_check_fence. Cost: that of
- * msw_curve_closest_point, and a dozen instructions for each of 64 segments, or for all if there
- * are fewer. */
+ * msw_curve_closest_point, a comparison of integers for each segment of runs of up to 64 of them,
+ * and a capsule for each larger run near the point. */
 int32_t msw_curve_signed_distance(const msw_curve *curve, const float point[2],
                                   const msw_budget *budget,
                                   msw_scratch_entry *scratch, size_t scratch_count,

@@ -4,9 +4,9 @@
 #![allow(missing_docs, reason = "meshsweep.h says it")]
 
 use meshsweep_core::{
-    ClosestPoint, CoherentClosest, CurveClosest, CurveSegment, CurveSignedDistance, Decided, Ended,
-    FirstHit, Interval, KNearest, Neighbor, NodePair, PairContact, PairDistance, Separation, Side,
-    SignedDistance, TriboxCandidates, Undecided, Verdict, WindingNumber, Work,
+    ClosestPoint, CoherentClosest, CurveClosest, CurveNeighbor, CurveSegment, CurveSignedDistance,
+    Decided, Ended, FirstHit, Interval, KNearest, Neighbor, NodePair, PairContact, PairDistance,
+    Separation, Side, SignedDistance, TriboxCandidates, Undecided, Verdict, WindingNumber, Work,
 };
 
 /// `MSW_NO_TRIANGLE`.
@@ -201,6 +201,16 @@ pub struct CurveWithinC {
     pub polyline: u32,
     pub segment: u32,
     pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CurveNeighborC {
+    pub distance: IntervalC,
+    pub point: [f32; 3],
+    pub polyline: u32,
+    pub segment: u32,
+    pub t: f32,
 }
 
 #[repr(C)]
@@ -458,5 +468,13 @@ impl From<Decided<CurveSegment>> for CurveWithinC {
         let none = CurveSegment { polyline: NO_SEGMENT, segment: NO_SEGMENT };
         let CurveSegment { polyline, segment } = found.witness.unwrap_or(none);
         CurveWithinC { verdict, reason, polyline, segment, work: found.work.into() }
+    }
+}
+
+impl From<CurveNeighbor> for CurveNeighborC {
+    fn from(near: CurveNeighbor) -> Self {
+        let CurveSegment { polyline, segment } = near.segment();
+        let (distance, point, t) = (near.distance().into(), near.point(), near.t());
+        CurveNeighborC { distance, point, polyline, segment, t }
     }
 }

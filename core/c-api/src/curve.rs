@@ -1,8 +1,8 @@
 //! Curves: fences and tool paths.
 
-use meshsweep_core::{Curve, ScratchEntry};
+use meshsweep_core::{Curve, CurveNeighbor, ScratchEntry};
 
-use crate::answer::{CurveClosestC, CurveSignedC, CurveWithinC};
+use crate::answer::{CurveClosestC, CurveNeighborC, CurveSignedC, CurveWithinC, NearestC};
 use crate::error::Error;
 use crate::memory::{In, Out, Storage, View};
 use crate::question::BudgetC;
@@ -89,5 +89,32 @@ pub extern "C" fn msw_curve_signed_distance(
         ask(budget, scratch, scratch_count, |budget, scratch| {
             Ok(curve.signed_distance(point, budget, scratch)?.into())
         })
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_curve_nearest(
+    curve: In<CurveStorage>,
+    point: In<[f32; 3]>,
+    mut neighbors: Out<CurveNeighborC>,
+    neighbor_count: usize,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<NearestC>,
+) -> i32 {
+    answer.answer(|| {
+        let (curve, point) = (curve.view()?, point.get()?);
+        // The search keeps its segments where the answers will be.
+        let mut held = neighbors.held::<CurveNeighbor>();
+        let found = ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(curve.nearest(point, held.slice(neighbor_count)?, budget, scratch)?)
+        })?;
+        for index in 0..found.stored {
+            let near = held.slice(neighbor_count)?.get(index).copied();
+            neighbors.set(neighbor_count, index, near.ok_or(Error::Internal)?.into())?;
+        }
+        Ok(found.into())
     })
 }

@@ -89,6 +89,7 @@ fn layouts() -> String {
             distance, point, polyline, segment, t, safe_motion, ended, work
         }
         "msw_curve_signed": CurveSignedC { side, reason, distance, closest }
+        "msw_curve_neighbor": CurveNeighborC { distance, point, polyline, segment, t }
         "msw_curve_within_answer": CurveWithinC { verdict, reason, polyline, segment, work }
         "msw_refinement": RefinementC { is_complete, error_left, faces, performed, undone }
         "msw_face": FaceC { corners, error }

@@ -46,11 +46,12 @@ impl Curve<'_> {
     /// exclusion zone ([`zone`](Curve::zone)). [`Side::Inside`] says so, and the distance is
     /// negative.
     ///
-    /// The distance is that to the nearest line of any zone. Nearer than its lower end the side does
-    /// not change. Where zones overlap, a line may have the same side on both sides: then the edge
-    /// of what is allowed is farther away.
+    /// The distance is that to the nearest line of any zone. Nearer than its lower end the side
+    /// does not change. Where zones overlap, a line may have the same side on both sides: then the
+    /// edge of what is allowed is farther away.
     ///
-    /// The side is that of the input's curve in real arithmetic, never a wrong one. It is undecided:
+    /// The side is that of the input's curve in real arithmetic, never a wrong one. It is
+    /// undecided:
     /// - for [`OnSurface`](Undecided::OnSurface) if the lower end of the distance is 0: on a line,
     ///   and closer to it than the surface error, rounding and the tolerances of the budget;
     /// - for [`Steps`](Undecided::Steps) or [`Scratch`](Undecided::Scratch) if these ended the
@@ -58,11 +59,11 @@ impl Curve<'_> {
     ///
     /// `scratch` as for [`closest_point`](Curve::closest_point); only the distance needs it. A
     /// polyline without area, with all points on one segment, encloses nothing. Farther than 2^24
-    /// times the curve's size the curve's box gives the interval. A tolerance of the budget shortens
-    /// the search for the distance. Steps are those of both searches, the side's first.
+    /// times the curve's size the curve's box gives the interval. A tolerance of the budget
+    /// shortens the search for the distance. Steps are those of both searches, the side's first.
     ///
-    /// Cost: that of the closest point, and for the side a dozen instructions for each of 64
-    /// segments, or of all if there are fewer, and a capsule for each larger run near the point.
+    /// Cost: that of the closest point. For the side, two integers are compared for each segment of
+    /// runs of up to 64 of them near the point, and a capsule is tested for each larger run.
     /// Source: Hormann & Agathos 2001; for runs of points `zone_walk`.
     ///
     /// ```

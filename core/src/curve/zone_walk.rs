@@ -7,11 +7,11 @@
 //! polygons*, 2001).
 //!
 //! *Which segments cross.* The order of coordinates is that of integers: those of the grid, or the
-//! bits of f32. So it is exact. A segment with both ends at or left of p does not cross the ray, one
-//! with both ends right of p does. Of the others the turn from the segment to p decides, in f64 with
-//! a margin. There p lies in the segment's box, so its foot lies on the segment, and the turn is the
-//! distance times the segment's length. So wherever the distance is proved to be above 0, the turn
-//! is clear (`core/docs/rounding.md` §14).
+//! bits of f32. So it is exact. A segment with both ends at or left of p does not cross the ray,
+//! one with both ends right of p does. Of the others the turn from the segment to p decides, in f64
+//! with a margin. There p lies in the segment's box, so its foot lies on the segment, and the turn
+//! is the distance times the segment's length. So wherever the distance is proved to be above 0,
+//! the turn is clear (`core/docs/rounding.md` §14).
 //!
 //! *Runs.* A run of points lies in a capsule, which is convex. If p is outside of the capsule, the
 //! run can be moved onto the segment between its ends, without touching p and with its ends fixed.
@@ -27,8 +27,8 @@ use crate::num::tolerance::{CURVE_TURN, U64};
 use crate::query::{Undecided, Work};
 use glam::DVec3;
 
-/// Runs of no more segments are walked segment by segment: integers of 64 segments are compared in
-/// the time of two capsules, and in that of a tenth of one without floating point.
+/// Runs of no more segments are walked segment by segment. A segment takes a read and a comparison
+/// of integers, a capsule two points, some twenty products and a root.
 const WALKED: u32 = 64;
 
 /// The walk about one point.

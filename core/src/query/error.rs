@@ -75,8 +75,8 @@ pub enum QueryError {
     /// The levels of the hierarchy enclose nothing: it was built with `--for sweep`. Hulls need a
     /// closed mesh and `--for hull`.
     NotEnclosing,
-    /// The points of the curves differ in z, so that the curves bound no area of a plane. Leave z out
-    /// of the file, or give all points the same.
+    /// The points of the curves differ in z, so that the curves bound no area of a plane. Leave z
+    /// out of the file, or give all points the same.
     NotPlanar,
     /// A polyline is not closed, so that it bounds no area: build the curves with `--closed`.
     OpenPolyline {

@@ -5,7 +5,9 @@ use super::suite::ask_all;
 use crate::generate::curves::{circle, fence, open, walk};
 use meshsweep::curve::{CurveOptions, Polyline, Zone, build};
 use meshsweep::progress::Watch;
-use meshsweep_core::{Blob, Budget, Curve, Ended, QueryError, ScratchEntry, Side, Verdict};
+use meshsweep_core::{
+    Blob, Budget, Curve, CurveNeighbor, Ended, QueryError, ScratchEntry, Side, Verdict,
+};
 use meshsweep_suite::ask::curve;
 use std::sync::OnceLock;
 
@@ -54,6 +56,18 @@ fn ask(curve: &Curve<'_>, p: [f32; 3], distance: f32, budget: Budget, entries: u
             assert!(near.segment.polyline < curve.polyline_count(), "{near:?}");
             let starved = near.ended == Ended::Scratch;
             assert!(!starved || entries < curve.scratch_entries(), "{near:?}");
+        }
+        Err(error) => assert_ne!(error, QueryError::Unchecked),
+    }
+    let mut out = [CurveNeighbor::EMPTY; 3];
+    match curve.nearest(p, &mut out, budget, &mut scratch) {
+        Ok(found) => assert!(found.stored <= 3 && found.work.total() <= most, "{found:?}"),
+        Err(error) => assert_ne!(error, QueryError::Unchecked),
+    }
+    match curve.all_within(p, distance, &mut out, budget, &mut scratch) {
+        Ok(found) => {
+            assert!(found.certain <= found.stored && found.stored <= 3, "{found:?}");
+            assert!(found.work.total() <= most, "{found:?}");
         }
         Err(error) => assert_ne!(error, QueryError::Unchecked),
     }

@@ -24,8 +24,8 @@ pub fn fence() -> Vec<Polyline> {
     vec![ring([50.0, 30.0], [50.0, 30.0], 12.0, 12), ring([30.0, 24.0], [5.0, 5.0], 5.0, 5)]
 }
 
-/// The geofence of the example `fence`, in metres: a field of 400 by 240 with round corners, in it a
-/// house and a mast that are to be kept out of. Coordinates are multiples of a 64th.
+/// The geofence of the example `fence`, in metres: a field of 400 by 240 with round corners, in it
+/// a house and a mast that are to be kept out of. Coordinates are multiples of a 64th.
 #[must_use]
 pub fn zones() -> Vec<Polyline> {
     let excluded = |polyline: Polyline| Polyline { zone: Zone::Exclusion, ..polyline };

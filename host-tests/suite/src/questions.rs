@@ -140,6 +140,8 @@ pub const QUESTIONS: &[Question] = &[
         "curve::closest",
         &[Kind::ClosestFar, Kind::ClosestNear],
     ),
+    question("nearest segments of curves", "curve", "curve::nearest", &[Kind::Nearest]),
+    question("all within of curves", "curve", "curve::all_within", &[Kind::AllWithin]),
     question("signed distance of curves", "curve", "curve::signed", &[Kind::Signed]),
 ];
 

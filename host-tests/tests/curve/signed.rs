@@ -39,19 +39,31 @@ fn truth(polylines: &[Polyline], [x, y]: [f32; 2]) -> Bounded {
     distance_to_segments([x, y, 0.0], segments)
 }
 
+/// What is true of a point.
+struct Truth {
+    distance: Bounded,
+    allowed: Option<bool>,
+}
+
+impl Truth {
+    fn of(polylines: &[Polyline], p: [f32; 2]) -> Truth {
+        Truth { distance: truth(polylines, p), allowed: allowed(polylines, p) }
+    }
+}
+
 /// The answer holds: the interval, and the side if it is decided.
-fn assert_holds(polylines: &[Polyline], p: [f32; 2], found: &CurveSignedDistance) {
-    let told = || format!("{p:?} {found:?} {polylines:?}");
-    let truth = truth(polylines, p);
+fn assert_holds(truth: &Truth, p: [f32; 2], found: &CurveSignedDistance) {
+    let told = || format!("{p:?} {found:?}");
+    let &Truth { distance: truth, allowed } = truth;
     let (lower, upper) = (f64::from(found.distance.lower), f64::from(found.distance.upper));
     let near = found.closest.distance;
     match found.side {
         Side::Inside => {
-            assert_eq!(allowed(polylines, p), Some(true), "{}", told());
+            assert_eq!(allowed, Some(true), "{}", told());
             assert!(lower <= -truth.lower && -truth.upper <= upper && upper < 0.0, "{}", told());
         }
         Side::Outside => {
-            assert_eq!(allowed(polylines, p), Some(false), "{}", told());
+            assert_eq!(allowed, Some(false), "{}", told());
             assert!(lower <= truth.upper && truth.lower <= upper && lower > 0.0, "{}", told());
         }
         _ => {
@@ -63,8 +75,8 @@ fn assert_holds(polylines: &[Polyline], p: [f32; 2], found: &CurveSignedDistance
 }
 
 /// Whether a side has to be decided: the point is farther away than storage and rounding can tell.
-fn is_clear(curve: &Curve<'_>, polylines: &[Polyline], p: [f32; 2]) -> bool {
-    let truth = truth(polylines, p);
+fn is_clear(curve: &Curve<'_>, polylines: &[Polyline], truth: &Truth) -> bool {
+    let truth = truth.distance;
     let size = polylines.iter().flat_map(|polyline| polyline.points.iter().flatten());
     let size = size.fold(0f64, |most, x| most.max(x.abs()));
     truth.lower > 2.01 * f64::from(curve.surface_error()) + 1e-13 * (truth.upper + size) + 1e-44
@@ -79,7 +91,8 @@ fn random_fence(rng: &mut Rng, corners: usize, lattice: Option<f64>, scale: f64)
     closed((0..corners).map(|_| [at(), at(), 0.0]).collect())
 }
 
-/// A place to ask about: anywhere, on a corner, on a side, on the level of a corner, next to a line.
+/// A place to ask about: anywhere, on a corner, on a side, on the level of a corner, next to a
+/// line.
 fn place(rng: &mut Rng, polylines: &[Polyline], scale: f64) -> [f32; 2] {
     let points = &polylines[rng.below(polylines.len())].points;
     let first = rng.below(points.len());
@@ -122,9 +135,10 @@ fn sides_of_ten_thousand_random_fences_are_those_of_winding_numbers() {
         for _ in 0..6 {
             let p = place(&mut rng, &zones, scale);
             let found = curve.signed_distance(p, Budget::EXACT, &mut memory).expect("a fence");
-            assert_holds(&zones, p, &found);
+            let truth = Truth::of(&zones, p);
+            assert_holds(&truth, p, &found);
             let undecided = matches!(found.side, Side::Undecided(_));
-            assert!(!(undecided && is_clear(&curve, &zones, p)), "{p:?} {found:?} {zones:?}");
+            assert!(!(undecided && is_clear(&curve, &zones, &truth)), "{p:?} {found:?} {zones:?}");
             if undecided {
                 assert_eq!(found.side, Side::Undecided(Undecided::OnSurface), "{p:?} {found:?}");
                 assert_eq!(found.closest.ended, Ended::Resolution);
@@ -132,7 +146,7 @@ fn sides_of_ten_thousand_random_fences_are_those_of_winding_numbers() {
             asked += 1;
             decided += u32::from(!undecided);
             inside += u32::from(found.side == Side::Inside);
-            on_line += u32::from(allowed(&zones, p).is_none());
+            on_line += u32::from(truth.allowed.is_none());
         }
     }
     // The cases that the test is about do occur.
@@ -176,23 +190,24 @@ fn sides_of_large_fences_are_those_of_winding_numbers_with_any_budget_and_scratc
             let curve = Curve::open(&bytes).expect("opens");
             let [low, high] = curve.bounds();
             let enough = curve.scratch_entries();
-            for k in 0..300 {
+            for k in 0..150 {
                 let p = if k % 2 == 0 {
                     place(&mut rng, &zones, 1.0)
                 } else {
                     let [x, y, _] = rng.point_in(low, high);
                     [x, y]
                 };
+                let truth = Truth::of(&zones, p);
                 let ask = |budget: Budget, entries: usize| {
                     let found = curve.signed_distance(p, budget, &mut scratch(entries));
                     let found = found.expect("a fence");
-                    assert_holds(&zones, p, &found);
+                    assert_holds(&truth, p, &found);
                     assert!(found.closest.work.opened <= budget.steps, "{found:?}");
                     found
                 };
                 let exact = ask(Budget::EXACT, enough);
                 let undecided = matches!(exact.side, Side::Undecided(_));
-                assert!(!(undecided && is_clear(&curve, &zones, p)), "{p:?} {exact:?}");
+                assert!(!(undecided && is_clear(&curve, &zones, &truth)), "{p:?} {exact:?}");
                 let best_first = ask(Budget::EXACT, 500);
                 assert_eq!((exact.side, exact.distance), (best_first.side, best_first.distance));
                 ask(Budget::EXACT, 1);
@@ -244,7 +259,9 @@ fn nested_rings_and_far_points_have_the_side_that_the_zones_say() {
         let asked =
             places.map(|p| curve.signed_distance(p, Budget::EXACT, &mut memory).expect("a fence"));
         assert_eq!(asked.map(|found| found.side), sides, "{zones:?}");
-        asked.iter().zip(places).for_each(|(found, p)| assert_holds(&polylines, p, found));
+        for (found, p) in asked.iter().zip(places) {
+            assert_holds(&Truth::of(&polylines, p), p, found);
+        }
     }
 }
 

@@ -16,7 +16,7 @@ const QUESTIONS: [(&str, Serves); 17] = [
     ("closest", |blob| has_distances(blob) || blob.hull().is_ok() || blob.curve().is_ok()),
     ("closest --frame", |blob| blob.deformable_hull().is_ok()),
     ("within", |blob| has_distances(blob) || blob.curve().is_ok()),
-    ("nearest", knows_triangles),
+    ("nearest", |blob| knows_triangles(blob) || blob.curve().is_ok()),
     ("field", knows_triangles),
     ("signed", |blob| {
         tree(blob, BuildFor::Closest).is_some_and(|tree| has_sides(&tree)) || is_fence(blob)
@@ -58,7 +58,7 @@ fn has_distances(blob: &Blob<'_>) -> bool {
 /// The same for people. A question that is served without all of its options is marked.
 pub fn listed(blob: &Blob<'_>) -> String {
     let said = |question| match question {
-        "within" if !knows_triangles(blob) => "within without --all",
+        "within" if !knows_triangles(blob) && blob.curve().is_err() => "within without --all",
         other => other,
     };
     questions(blob).into_iter().map(said).collect::<Vec<_>>().join(", ")

@@ -30,9 +30,9 @@ struct Leg {
 }
 
 const LEGS: [Leg; 5] = [
-    Leg { start: [60 * 64, 120 * 64], step: [20, 0], ticks: 900 }, // East, past the house to the mast.
+    Leg { start: [60 * 64, 120 * 64], step: [20, 0], ticks: 900 }, // East, to the mast.
     Leg { start: [200 * 64, 60 * 64], step: [0, -20], ticks: 900 }, // South, to the line.
-    Leg { start: [370 * 64, 120 * 64], step: [0, 16], ticks: 900 }, // From a place near the line.
+    Leg { start: [370 * 64, 120 * 64], step: [0, 16], ticks: 900 }, // Along the line, to a corner.
     Leg { start: [300 * 64, 150 * 64], step: [-20, 0], ticks: 900 }, // From the mast.
     Leg { start: [200 * 64, 180 * 64], step: [-12, -16], ticks: 250 }, // Across the field.
 ];
@@ -40,7 +40,8 @@ const LEGS: [Leg; 5] = [
 /// Flies a leg, and prints what it comes to. Returns the instructions of its costliest question.
 fn fly(fence: &Curve<'_>, number: usize, leg: &Leg) -> Result<u32, QueryError> {
     let budget = Budget::EXACT.with_steps(STEPS);
-    let (mut scratch, mut worst) = (zones::scratch(), 0);
+    let mut scratch = zones::scratch::<{ zones::SCRATCH_ENTRIES }>();
+    let mut worst = 0;
     let [mut x, mut y] = leg.start;
     println!("leg {number}");
     for tick in 0..leg.ticks {

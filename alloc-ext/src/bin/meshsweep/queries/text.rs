@@ -17,9 +17,8 @@ pub struct Rows<const N: usize> {
     pub broken: Option<Failure>,
 }
 
-/// Reads `N` numbers a line, each rounded to the nearest f32; of points of the plane a third one too,
-/// which is dropped. Skips blank lines, comments from a
-/// `#` on, and a first line of names.
+/// Reads `N` numbers a line, each rounded to the nearest f32; of points of the plane a third one
+/// too, which is dropped. Skips blank lines, comments from a `#` on, and a first line of names.
 pub fn parse<const N: usize>(file: &Path, bytes: &[u8]) -> Rows<N> {
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     let mut found = Rows { rows: Vec::new(), lines: Vec::new(), broken: None };
