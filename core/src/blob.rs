@@ -55,7 +55,7 @@ impl<'a> Blob<'a> {
         let has_bvh = kinds().any(|kind| kind.is_bvh() && has(kind));
         let has_triboxes = has(SectionKind::Triboxes);
         let has_tight_hulls = has(SectionKind::TightHulls);
-        let has_curves = has(SectionKind::Curves);
+        let has_curves = kinds().any(|kind| kind.is_curve() && has(kind));
         let deforms = kinds().any(|kind| kind.is_deform() && has(kind));
         if has_bvh {
             Bvh::open(bytes)?;

@@ -41,7 +41,8 @@
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
 //! | how far is a mesh, by a tight hull of few faces; is it within a distance | [`TightHull::closest_point`], [`TightHull::within`] |
 //! | are two models apart, or farther than a distance; bounds without triangles | [`Triboxes::separation`], [`Triboxes::within_of`], [`Triboxes::distance`], [`Triboxes::clip`] |
-//! | fences and tool paths | [`Curve::closest_point`], [`Curve::within`] |
+//! | fences and tool paths | [`Curve::closest_point`], [`Curve::within`], [`Curve::nearest`], [`Curve::all_within`] |
+//! | inside or outside of a fence of inclusion and exclusion zones, and how far from its line | [`Curve::signed_distance`] |
 //! | the faces of a nested hull | [`Hull::faces`] |
 //! | the hull that a scene needs: fine near a point, in a box, toward an eye | [`RefinedHull::update`] |
 //! | hits from outside on that hull | [`Hull::outer_hits`] |
@@ -100,11 +101,10 @@ mod tribox;
 
 pub use blob::Blob;
 pub use bvh::{
-    AllWithin, Bvh, CoherentClosest, CoherentPair, CoherentQuery, CoherentScene, Eye, Facing,
-    FrontFacing, Hint, KNearest, KeptPair, Neighbor, PlacedModel, ProcessorQuestions, Scene,
-    SceneDistance, WindingNumber,
+    Bvh, CoherentClosest, CoherentPair, CoherentQuery, CoherentScene, Eye, Facing, FrontFacing,
+    Hint, KeptPair, Neighbor, PlacedModel, ProcessorQuestions, Scene, SceneDistance, WindingNumber,
 };
-pub use curve::{Curve, CurveClosest, CurveSegment};
+pub use curve::{Curve, CurveClosest, CurveNeighbor, CurveSegment, CurveSignedDistance, Zone};
 pub use format::layout::{BuildFor, SectionKind};
 pub use format::{Contradiction, HeaderField, OpenError, Section};
 pub use geom::Pose;
@@ -114,10 +114,10 @@ pub use hull::{
     OuterSearch, RefinedHull, Refinement, SplitChange, Sweep,
 };
 pub use query::{
-    AllHits, AllOverlaps, Budget, ClosestPoint, Decided, Ended, FirstHit, Hit, Interval, Joint,
-    JointAxis, JointKind, Motion, PairContact, PairDistance, Penetration, PosedPoint, QueryError,
-    Relation, RoundedPose, Scratch, ScratchEntry, Side, SignedDistance, Solid, SolidDistance,
-    TriangleHit, TrianglePair, Undecided, Verdict, Work, link_poses,
+    AllHits, AllOverlaps, AllWithin, Budget, ClosestPoint, Decided, Ended, FirstHit, Hit, Interval,
+    Joint, JointAxis, JointKind, KNearest, Motion, PairContact, PairDistance, Penetration,
+    PosedPoint, QueryError, Relation, RoundedPose, Scratch, ScratchEntry, Side, SignedDistance,
+    Solid, SolidDistance, TriangleHit, TrianglePair, Undecided, Verdict, Work, link_poses,
 };
 pub use tight::{TightHull, TightHulls, TightRecord};
 pub use tribox::{

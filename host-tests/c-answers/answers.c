@@ -16,6 +16,8 @@ extern const unsigned char bracket[];
 extern const uint32_t bracket_bytes;
 extern const unsigned char torus[];
 extern const uint32_t torus_bytes;
+extern const unsigned char fence[];
+extern const uint32_t fence_bytes;
 
 /* Distances of two models take a board millions of instructions: fewer of them. */
 enum { ROUNDS = 24, PAIR_ROUNDS = 6, SPLITS = 60, FACES = 160 };
@@ -467,6 +469,44 @@ static void triboxes(void)
     end("triboxes");
 }
 
+static void fold_on_curve(const msw_curve_closest *answer)
+{
+    fold(answer, sizeof *answer);
+}
+
+static void curves(void)
+{
+    static msw_curve curve;
+    begin();
+    fold_word((uint32_t)msw_open_curve(&curve, fence, fence_bytes));
+    fold_word(msw_curve_scratch_entries(&curve));
+    fold_word((uint32_t)msw_curve_check_fence(&curve));
+    for (int round = 0; round < ROUNDS; round++) {
+        float point[3];
+        random_point(point);
+        msw_curve_closest near;
+        fold_word((uint32_t)msw_curve_closest_point(&curve, point, budget_of(round), scratch,
+                                                    scratch_of(round), &near));
+        fold_on_curve(&near);
+        msw_curve_signed sided;
+        fold_word((uint32_t)msw_curve_signed_distance(&curve, point, budget_of(round), scratch,
+                                                      scratch_of(round), &sided));
+        fold(&sided, offsetof(msw_curve_signed, closest));
+        fold_on_curve(&sided.closest);
+        msw_curve_within_answer within;
+        fold_word((uint32_t)msw_curve_within(&curve, point, 20.0f, budget_of(round), scratch,
+                                             scratch_of(round), &within));
+        fold(&within, sizeof within);
+        msw_curve_neighbor neighbors[3];
+        msw_nearest_answer nearest;
+        fold_word((uint32_t)msw_curve_nearest(&curve, point, neighbors, 3, budget_of(round),
+                                              scratch, scratch_of(round), &nearest));
+        fold(&nearest, sizeof nearest);
+        fold(neighbors, nearest.stored * sizeof *neighbors);
+    }
+    end("curves");
+}
+
 static void tight_hull(void)
 {
     static msw_tight hull;
@@ -622,6 +662,9 @@ static void refusals(const msw_model *model)
     fold_word((uint32_t)msw_triboxes_within(&part, &part, NULL, -1.0f, NULL, scratch, count,
                                             &apart));
     fold(&apart, sizeof apart);
+    static msw_curve curve;
+    fold_word((uint32_t)msw_open_curve(&curve, groove, groove_bytes));
+    fold_word((uint32_t)msw_curve_check_fence(&curve));
     end("refusals");
 }
 
@@ -645,6 +688,7 @@ int main(void)
     scene(&model, "scene");
     poses();
     triboxes();
+    curves();
     tight_hull();
     refined_hull();
     refusals(&model);

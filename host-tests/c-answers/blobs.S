@@ -15,6 +15,7 @@
     blob hulls
     blob bracket
     blob torus
+    blob fence
 
 #ifdef __linux__
     .section .note.GNU-stack, "", %progbits

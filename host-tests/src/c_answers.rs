@@ -5,10 +5,10 @@
 use crate::corrupt::{entry, put_u32, seal, word};
 use meshsweep_core::internal::format::layout::VERSION_MAJOR;
 use meshsweep_core::{
-    Blob, Budget, Bvh, ClosestPoint, CoherentPair, CoherentQuery, CoherentScene, Decided, Ended,
-    Facing, FirstHit, Focus, Hint, Hit, Hull, Interval, KeptPair, Motion, Neighbor, NodePair,
-    PairDistance, PlacedModel, Pose, QueryError, RefinedHull, RoundedPose, Scratch, Side, Solid,
-    TightHulls, Triboxes, Undecided, Verdict, Work,
+    Blob, Budget, Bvh, ClosestPoint, CoherentPair, CoherentQuery, CoherentScene, Curve,
+    CurveClosest, CurveNeighbor, Decided, Ended, Facing, FirstHit, Focus, Hint, Hit, Hull,
+    Interval, KeptPair, Motion, Neighbor, NodePair, PairDistance, PlacedModel, Pose, QueryError,
+    RefinedHull, RoundedPose, Scratch, Side, Solid, TightHulls, Triboxes, Undecided, Verdict, Work,
 };
 
 const ROUNDS: usize = 24;
@@ -180,6 +180,7 @@ pub fn lines(
     hulls: &[u8],
     bracket: &[u8],
     torus: &[u8],
+    fence: &[u8],
 ) -> Result<String, Box<dyn std::error::Error>> {
     let model = Bvh::open(groove)?;
     let mut kind = Kind::begin();
@@ -198,6 +199,7 @@ pub fn lines(
     text += &scene(&model)?;
     text += &poses()?;
     text += &triboxes(torus)?;
+    text += &curves(fence)?;
     text += &tight_hull(hulls)?;
     text += &refined_hull(bracket)?;
     Ok(text + &refusals())
@@ -476,6 +478,51 @@ fn triboxes(torus: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
     Ok(kind.line("triboxes"))
 }
 
+fn curves(fence: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
+    let curve = Curve::open(fence)?;
+    let (mut kind, mut scratch) = (Kind::begin(), Scratch::<SCRATCH>::new());
+    kind.words(&[0, curve.scratch_entries() as u32, 0]);
+    curve.check_fence()?;
+    let on_curve = |kind: &mut Kind, near: &CurveClosest| {
+        kind.interval(near.distance);
+        kind.floats(&near.point);
+        kind.words(&[near.segment.polyline, near.segment.segment]);
+        kind.floats(&[near.t, near.safe_motion]);
+        kind.words(&[ended(near.ended)]);
+        kind.work(near.work);
+    };
+    for round in 0..ROUNDS {
+        let (point, scratch) = (kind.point(), &mut scratch[..entries(round)]);
+        let [x, y, _] = point;
+        let budget = budget(round);
+        kind.words(&[0]);
+        on_curve(&mut kind, &curve.closest_point(point, budget, scratch)?);
+        let found = curve.signed_distance([x, y], budget, scratch)?;
+        kind.words(&[0]);
+        kind.side(found.side);
+        kind.interval(found.distance);
+        on_curve(&mut kind, &found.closest);
+        let found = curve.within(point, 20.0, budget, scratch)?;
+        kind.words(&[0]);
+        kind.verdict(found.verdict);
+        let place = found.witness.map(|at| [at.polyline, at.segment]);
+        kind.words(&place.unwrap_or([u32::MAX; 2]));
+        kind.work(found.work);
+        let mut near = [CurveNeighbor::EMPTY; 3];
+        let found = curve.nearest(point, &mut near, budget, scratch)?;
+        kind.words(&[0, found.stored as u32, ended(found.ended)]);
+        kind.floats(&[found.rest_lower]);
+        kind.work(found.work);
+        for near in &near[..found.stored] {
+            kind.interval(near.distance());
+            kind.floats(&near.point());
+            kind.words(&[near.segment().polyline, near.segment().segment]);
+            kind.floats(&[near.t()]);
+        }
+    }
+    Ok(kind.line("curves"))
+}
+
 fn tight_hull(hulls: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
     let hulls = TightHulls::open(hulls)?;
     let (mut kind, mut scratch) = (Kind::begin(), Scratch::<SCRATCH>::new());
@@ -564,6 +611,8 @@ fn refusals() -> String {
     // Triboxes, and a distance below 0.
     codes(&mut kind, &[0, -41]);
     kind.words(&[0; 7]);
+    // A blob without curves, the curves that were not opened.
+    codes(&mut kind, &[-26, -3]);
     kind.line("refusals")
 }
 
@@ -575,5 +624,6 @@ pub fn of_fixtures(folder: &std::path::Path) -> Result<String, String> {
     let read =
         |name: &str| std::fs::read(folder.join(name)).map_err(|error| format!("{name}: {error}"));
     let [groove, hulls, bracket] = [read("groove.msw")?, read("hulls.msw")?, read("bracket.msw")?];
-    lines(&groove, &hulls, &bracket, &read("torus.msw")?).map_err(|error| error.to_string())
+    let [torus, fence] = [read("torus.msw")?, read("fence.msw")?];
+    lines(&groove, &hulls, &bracket, &torus, &fence).map_err(|error| error.to_string())
 }

@@ -15,7 +15,7 @@ use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::Blob;
 use meshsweep_counted::answers;
 
-use crate::generate::curves::{fence, tool_path};
+use crate::generate::curves::{fence, tool_path, zones};
 use crate::generate::fixtures::write_fixtures;
 use crate::generate::{bracket, clamps, groove_block, link, table, torus};
 use crate::workload;
@@ -86,6 +86,7 @@ pub fn torus_sieve() -> Vec<u8> {
 #[must_use]
 pub fn sources() -> Vec<(String, Vec<u8>)> {
     let (groove, clamps, [link, table]) = (groove_tree(), clamps_tree(), arm_trees());
+    let zones = zone_curves();
     let mut files = Vec::new();
     for (name, bytes, folders) in [
         (
@@ -96,9 +97,11 @@ pub fn sources() -> Vec<(String, Vec<u8>)> {
         ("clamps", &clamps, &["examples/keep_out/src"]),
         ("link", &link, &["examples/guard/src"]),
         ("table", &table, &["examples/guard/src"]),
+        ("zones", &zones, &["examples/fence/src"]),
     ] {
         let blob = Blob::open(bytes).expect("the builder's blob opens");
-        let (mesh, file) = (format!("{name}.obj"), format!("{name}.msw"));
+        let kind = if blob.curve().is_ok() { "csv" } else { "obj" };
+        let (mesh, file) = (format!("{name}.{kind}"), format!("{name}.msw"));
         let names = SourceNames { mesh: &mesh, blob: &file };
         for folder in folders {
             files.push((format!("{folder}/{name}.rs"), rust_module(&blob, names).into_bytes()));
@@ -109,6 +112,16 @@ pub fn sources() -> Vec<(String, Vec<u8>)> {
         files.push((format!("{c}.c"), c_source(&blob, names).into_bytes()));
     }
     files
+}
+
+/// The geofence of the example `fence`.
+///
+/// # Panics
+/// Never: it is finite.
+#[must_use]
+pub fn zone_curves() -> Vec<u8> {
+    let built = curve::build(&zones(), &CurveOptions::default(), Watch::NONE);
+    built.expect("finite").0.to_bytes()
 }
 
 /// The box tree of the clamps of the example `keep_out`, by the builder's defaults.

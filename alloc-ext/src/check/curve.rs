@@ -1,7 +1,7 @@
 //! Proof of curves from the blob's bytes and the polylines: the stored points are the input's
-//! within the error, and every point of a run lies in the run's capsule.
+//! within the error, every point of a run lies in the run's capsule, and each zone is the input's.
 
-use super::bytes::{Cursor, check_header, header_word, section, width};
+use super::bytes::{Cursor, check_header, entries, header_word, section, width};
 use super::distance::distance;
 use super::dyadic::Dyadic;
 use super::enclosure::point_is_far;
@@ -10,6 +10,15 @@ use super::input::is_within;
 use glam::DVec3;
 
 const CURVE: &str = "curve";
+
+/// A polyline of the file that curves were built from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilePolyline {
+    /// Its points, without the closing one.
+    pub points: Vec<[f64; 3]>,
+    /// Whether it is an exclusion zone.
+    pub is_exclusion: bool,
+}
 
 /// Half a unit in the last place of an `f64` below 1, on each of three axes: reading rounded the
 /// decimals by no more.
@@ -25,8 +34,12 @@ struct Curves {
     depth: usize,
     /// First point, last point, radius.
     nodes: Vec<(usize, usize, f64)>,
+    /// One byte for each polyline; none without exclusion zones.
+    zones: Vec<u8>,
     bounds: [[f64; 3]; 2],
 }
+
+const ZONES: u32 = 27;
 
 impl Curves {
     fn parse(bytes: &[u8]) -> Result<Self, String> {
@@ -66,7 +79,10 @@ impl Curves {
             nodes.push((first, last, f64::from(f32::from_bits(cursor.uint(2)? << 16))));
         }
         cursor.end()?;
+        let has_zones = entries(bytes).iter().any(|entry| entry.kind == ZONES);
+        let zones = if has_zones { section(bytes, ZONES, "curve zones")?.to_vec() } else { vec![] };
         Ok(Self {
+            zones,
             scale_exponent: header_word(bytes, 28)?.cast_signed(),
             error: float(88)?,
             points,
@@ -84,9 +100,30 @@ impl Curves {
         self.points.get(start..end).ok_or(format!("polyline {index} ends before it begins"))
     }
 
+    /// Each polyline has the zone of the given one, and exclusion zones are closed. Returns the
+    /// number of exclusion zones.
+    fn zones(&self, given: &[FilePolyline]) -> Result<usize, String> {
+        if !self.zones.is_empty() && self.zones.len() != given.len() {
+            return Err(format!("{} zones of {} polylines", self.zones.len(), given.len()));
+        }
+        let mut exclusions = 0;
+        for (index, polyline) in given.iter().enumerate() {
+            let stored = self.zones.get(index).copied().unwrap_or(0);
+            if stored != u8::from(polyline.is_exclusion) {
+                let wanted = if polyline.is_exclusion { "an exclusion" } else { "an inclusion" };
+                return Err(format!("polyline {index} is {wanted} zone, and {stored} is stored"));
+            }
+            exclusions += usize::from(polyline.is_exclusion);
+            if polyline.is_exclusion && !self.polylines[index].1 {
+                return Err(format!("polyline {index} is an exclusion zone and not closed"));
+            }
+        }
+        Ok(exclusions)
+    }
+
     /// The stored points are those of `given` within the error, in their order. A stored polyline
     /// may be closed where the given one is not.
-    fn points(&self, given: &[Vec<[f64; 3]>]) -> Result<usize, String> {
+    fn points(&self, given: &[FilePolyline]) -> Result<usize, String> {
         if self.polylines.first().map(|first| first.0) != Some(0)
             || self.polylines.len() != given.len()
         {
@@ -94,7 +131,7 @@ impl Curves {
         }
         let scale = 2f64.powi(-self.scale_exponent);
         let (mut closed, mut exact) = (0, 0);
-        for (index, given) in given.iter().enumerate() {
+        for (index, FilePolyline { points: given, .. }) in given.iter().enumerate() {
             let run = self.run(index)?;
             let is_closed = self.polylines[index].1;
             let repeats = usize::from(is_closed && run.len() == given.len() + 1);
@@ -183,18 +220,20 @@ fn is_in_capsule(p: [f64; 3], a: [f64; 3], b: [f64; 3], radius: f64) -> bool {
 }
 
 /// Proves a blob's curves.
-pub(crate) fn verify(bytes: &[u8], given: &[Vec<[f64; 3]>]) -> Finding {
+pub(crate) fn verify(bytes: &[u8], given: &[FilePolyline]) -> Finding {
     let proof = Curves::parse(bytes).and_then(|curves| {
         let closed = curves.points(given)?;
+        let exclusions = curves.zones(given)?;
         let pairs = curves.nodes()?;
         let counts = [
             ("point", curves.points.len()),
             ("polyline", curves.polylines.len()),
+            ("exclusion zone", exclusions),
             ("closing point", closed),
             ("enclosed point", pairs),
         ];
-        let words = "every point of the input is stored within the error, and every capsule holds \
-                     its points";
+        let words = "every point of the input is stored within the error, every capsule holds its \
+                     points, and every zone is the input's";
         Ok(Finding::proved(CURVE, words, &counts))
     });
     proof.unwrap_or_else(|error| Finding::failed(CURVE, error))

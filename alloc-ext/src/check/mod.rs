@@ -36,6 +36,7 @@ mod triboxes;
 pub mod vector;
 mod verify;
 
+pub use curve::FilePolyline;
 pub(crate) use distance::distance;
 pub use finding::{Finding, Outcome};
 pub use repair::verify_repair;

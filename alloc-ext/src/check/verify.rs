@@ -1,6 +1,7 @@
 //! Which structures a blob has, and the proof of each.
 
 use super::bytes::{check_header, entries, section};
+use super::curve::FilePolyline;
 use super::finding::Finding;
 use super::tree::prove_tree;
 use super::{curve, hull, tight, triboxes};
@@ -15,8 +16,8 @@ const TREE: &str = "box tree";
 pub enum Against<'a> {
     /// A mesh, and its key frames but the first.
     Mesh(Input<'a>, &'a [KeyFrame]),
-    /// Polylines.
-    Curves(&'a [Vec<[f64; 3]>]),
+    /// Polylines. Whether they are closed is not compared.
+    Curves(&'a [FilePolyline]),
 }
 
 /// Kinds of the sections of each structure, by the format.
@@ -25,7 +26,7 @@ const KINDS: [(&str, &[u32]); 5] = [
     (TREE, &[12, 13, 14, 15, 16, 17, 18, 24, 25, 26]),
     ("triboxes", &[19]),
     ("tight hulls", &[20]),
-    ("curve", &[21]),
+    ("curve", &[21, 27]),
 ];
 
 /// Proves a blob from its bytes and the mesh or the curves that it was built from. Every claim has

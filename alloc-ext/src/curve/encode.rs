@@ -8,14 +8,14 @@ use crate::geom::Bounds;
 use crate::progress::{Stage, Watch};
 use crate::surface::{Grid, fitting_grid, split_exponent};
 use glam::DVec3;
-use meshsweep_core::SectionKind;
 use meshsweep_core::internal::curve::format::CurvesHeader;
 use meshsweep_core::internal::curve::format::layout::{
-    CURVES_F32, CURVES_PLANAR, MAX_POINTS, POLYLINE_CLOSED,
+    CURVES_F32, CURVES_PLANAR, MAX_POINTS, POLYLINE_CLOSED, ZONE_EXCLUSION, ZONE_INCLUSION,
 };
 use meshsweep_core::internal::format::layout::VertexFormat;
 use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::num::{exp2, up_to_f32};
+use meshsweep_core::{SectionKind, Zone};
 use std::time::{Duration, Instant};
 
 /// How points are stored.
@@ -38,13 +38,13 @@ pub struct CurveReport {
 }
 
 /// Stores polylines. Segments keep the numbers of the input. If all points have z = 0, z is not
-/// stored.
+/// stored. Zones are stored if one is an exclusion zone.
 ///
 /// Cost: points times the depth of the hierarchy, about 2·log₂ of the points.
 ///
 /// # Errors
 /// [`BuildError::Curve`] if a polyline has fewer than two points, a coordinate is not finite in
-/// f32, or the points are too many or all tiny.
+/// f32, an exclusion zone is not closed, or the points are too many or all tiny.
 pub fn build(
     polylines: &[Polyline],
     options: &CurveOptions,
@@ -100,7 +100,10 @@ pub fn build(
     }
     let Bounds { low, high } = Bounds::of(&stored);
     let bounds = Aabb { min: low.as_vec3(), max: high.as_vec3() };
-    let bodies = vec![(SectionKind::Curves, section)];
+    let mut bodies = vec![(SectionKind::Curves, section)];
+    if polylines.iter().any(|polyline| polyline.zone != Zone::Inclusion) {
+        bodies.push((SectionKind::CurveZones, polylines.iter().map(zone_byte).collect()));
+    }
     let sections = Sections::new(scale_exponent, up_to_f32(surface_error), 0, bounds, bodies);
     let ends = |polyline: usize| table.get(polyline + 1).map_or(points.len(), |next| start(*next));
     let repeated = (0..table.len())
@@ -109,6 +112,11 @@ pub fn build(
         .count();
     let segments = points.len() - table.len();
     Ok((sections, CurveReport { segments, repeated, time: started.elapsed() }))
+}
+
+/// A polyline's byte in the section of zones.
+fn zone_byte(polyline: &Polyline) -> u8 {
+    if polyline.zone == Zone::Inclusion { ZONE_INCLUSION } else { ZONE_EXCLUSION }
 }
 
 /// First point of a polyline's record.
@@ -120,7 +128,7 @@ fn start(record: u32) -> usize {
 /// point.
 fn joined(polylines: &[Polyline]) -> Result<(Vec<DVec3>, Vec<u32>), CurveError> {
     let (mut points, mut table) = (Vec::new(), Vec::new());
-    for (polyline, Polyline { points: given, is_closed }) in polylines.iter().enumerate() {
+    for (polyline, Polyline { points: given, is_closed, zone }) in polylines.iter().enumerate() {
         let finite = given.iter().flatten().all(|&x| (x as f32).is_finite());
         if given.len() < 2 || !finite {
             return Err(CurveError::Polyline { polyline });
@@ -132,7 +140,11 @@ fn joined(polylines: &[Polyline]) -> Result<(Vec<DVec3>, Vec<u32>), CurveError> 
         }
         // The place tells whether it is closed, whatever made it so.
         let closed = given.len() > 2 && points.last() == points.get(record as usize);
-        table.push(record | if closed || *is_closed { POLYLINE_CLOSED } else { 0 });
+        let closed = closed || *is_closed;
+        if !closed && *zone != Zone::Inclusion {
+            return Err(CurveError::OpenZone { polyline });
+        }
+        table.push(record | if closed { POLYLINE_CLOSED } else { 0 });
         if points.len() >= MAX_POINTS as usize {
             return Err(CurveError::TooMany { points: points.len() });
         }

@@ -11,4 +11,5 @@ mod encode;
 mod read;
 
 pub use encode::{CurveOptions, CurveReport, build};
+pub use meshsweep_core::Zone;
 pub use read::{Polyline, read_csv};

@@ -2,6 +2,7 @@
 
 use crate::error::CurveError;
 use csv::{ByteRecord, ReaderBuilder, Trim};
+use meshsweep_core::Zone;
 
 /// Points that are joined in their order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -10,12 +11,15 @@ pub struct Polyline {
     pub points: Vec<[f64; 3]>,
     /// Whether the last point is joined with the first.
     pub is_closed: bool,
+    /// Which side of it is allowed. An exclusion zone is closed.
+    pub zone: Zone,
 }
 
 /// Where a point's fields stand in a record.
 struct Columns {
     places: Vec<usize>,
     polyline: Option<usize>,
+    zone: Option<usize>,
     fields: usize,
 }
 
@@ -27,13 +31,29 @@ impl Columns {
         };
         let places = [Some(place("x")?), Some(place("y")?), place("z")];
         let places = places.into_iter().flatten().collect();
-        Some(Columns { places, polyline: place("polyline"), fields: record.len() })
+        let (polyline, zone) = (place("polyline"), place("zone"));
+        Some(Columns { places, polyline, zone, fields: record.len() })
     }
 
     /// Of a file without a header line, by its first record.
     fn of(record: &ByteRecord) -> Columns {
         let fields = record.len().clamp(2, 3);
-        Columns { places: (0..fields).collect(), polyline: None, fields }
+        Columns { places: (0..fields).collect(), polyline: None, zone: None, fields }
+    }
+
+    /// The zone that a record names, if there is a column for it.
+    fn zone(&self, record: &ByteRecord, line: u64) -> Result<Option<Zone>, CurveError> {
+        let Some(place) = self.zone else { return Ok(None) };
+        let Some(text) = record.get(place) else { return Ok(None) };
+        let zones = [("inclusion", Zone::Inclusion), ("exclusion", Zone::Exclusion)];
+        let named = zones.iter().find(|(name, _)| text.eq_ignore_ascii_case(name.as_bytes()));
+        match named {
+            Some((_, zone)) => Ok(Some(*zone)),
+            None => {
+                let text = String::from_utf8_lossy(text).into_owned();
+                Err(CurveError::Zone { line, text })
+            }
+        }
     }
 
     fn point(&self, record: &ByteRecord, line: u64) -> Result<[f64; 3], CurveError> {
@@ -64,6 +84,9 @@ fn is_header(record: &ByteRecord) -> bool {
 /// Reads polylines from CSV: x,y or x,y,z on a line, and at most one header line before. A blank
 /// line begins a new polyline. So does another value in a column `polyline` of the header. Columns
 /// of other names are skipped. With `close` each polyline's last point is joined with its first.
+///
+/// A column `zone` of the header makes zones of the polylines, `inclusion` or `exclusion`. Zones
+/// are closed, and another zone begins a new polyline.
 ///
 /// # Errors
 /// [`CurveError`] names the line.
@@ -99,12 +122,15 @@ pub fn read_csv(bytes: &[u8], close: bool) -> Result<Vec<Polyline>, CurveError> 
             None => columns.insert(Columns::of(&record)),
         };
         let point = columns.point(&record, line)?;
-        let named = columns.polyline.map(|place| record[place].to_vec());
-        if begins || named != name {
+        let zone = columns.zone(&record, line)?;
+        let named = (columns.polyline.map(|place| record[place].to_vec()), zone);
+        if begins || name.as_ref() != Some(&named) {
             one_point(polylines.last(), last_line)?;
-            polylines.push(Polyline { points: Vec::new(), is_closed: close });
+            let is_closed = close || zone.is_some();
+            let zone = zone.unwrap_or_default();
+            polylines.push(Polyline { points: Vec::new(), is_closed, zone });
         }
-        (name, begins, last_line) = (named, false, line);
+        (name, begins, last_line) = (Some(named), false, line);
         polylines.last_mut().expect("one was begun").points.push(point);
     }
     one_point(polylines.last(), last_line)?;
@@ -137,6 +163,21 @@ mod tests {
         assert_eq!(read("polyline,Y,note,X\na,2,?,1\na,4,,3\nb,6,,5\nb,8,,7\n"), two);
         let deep = Ok(vec![vec![[1.0, 2.0, 3.0], [-4.0, 5e-1, 6.0]]]);
         assert_eq!(read("x,y,z\n1,2,3\n-4,5e-1,6\n"), deep);
+    }
+
+    #[test]
+    fn the_zone_column_makes_closed_polylines_and_begins_new_ones() {
+        let text = "zone,x,y\ninclusion,0,0\ninclusion,9,0\ninclusion,9,9\n\
+                    Exclusion,1,1\nexclusion,2,1\n\nEXCLUSION,5,5\nexclusion,6,5\n";
+        let lines = read_csv(text.as_bytes(), false).expect("three zones");
+        let told = lines.iter().map(|line| (line.points.len(), line.is_closed, line.zone));
+        let wanted =
+            [(3, true, Zone::Inclusion), (2, true, Zone::Exclusion), (2, true, Zone::Exclusion)];
+        assert_eq!(told.collect::<Vec<_>>(), wanted);
+        let bad = CurveError::Zone { line: 2, text: "5001".to_owned() };
+        assert_eq!(read("x,y,zone\n0,0,5001\n"), Err(bad));
+        let none = CurveError::Zone { line: 3, text: String::new() };
+        assert_eq!(read("x,y,zone\n0,0,inclusion\n1,0,\n"), Err(none));
     }
 
     #[test]

@@ -31,6 +31,18 @@ pub enum CurveError {
         /// What it says.
         text: String,
     },
+    /// A field of the column zone names no zone.
+    Zone {
+        /// Where.
+        line: u64,
+        /// What it says.
+        text: String,
+    },
+    /// An exclusion zone in memory is not closed.
+    OpenZone {
+        /// Which polyline.
+        polyline: usize,
+    },
     /// A polyline has one point only.
     OnePoint {
         /// The line of the point.
@@ -60,7 +72,11 @@ impl CurveError {
     pub(super) fn names_line(&self) -> bool {
         matches!(
             self,
-            Self::Header { .. } | Self::Fields { .. } | Self::Number { .. } | Self::OnePoint { .. }
+            Self::Header { .. }
+                | Self::Fields { .. }
+                | Self::Number { .. }
+                | Self::Zone { .. }
+                | Self::OnePoint { .. }
         )
     }
 }
@@ -83,6 +99,13 @@ impl fmt::Display for CurveError {
                     "line {line}, field {field}: {text:?} is no finite number of single precision; \
                      write it like -1.25 or 3e-4"
                 )
+            }
+            Self::Zone { line, text } => {
+                let text: String = text.chars().take(40).collect();
+                write!(f, "line {line}: {text:?} is no zone; write inclusion or exclusion")
+            }
+            Self::OpenZone { polyline } => {
+                write!(f, "polyline {polyline} is an exclusion zone and not closed; close it")
             }
             Self::OnePoint { line } => {
                 write!(f, "line {line}: a polyline of one point; give it two, or remove it")

@@ -21,6 +21,7 @@ const CONES: u32 = 18;
 const TRIBOXES: u32 = 19;
 const TIGHT: u32 = 20;
 const CURVES: u32 = 21;
+const ZONES: u32 = 27;
 const NUMBERS: u32 = 22;
 const FRAMES: u32 = 23;
 const MOMENTS: u32 = 24;
@@ -314,6 +315,26 @@ fn curves_are_proved_and_changed_ones_are_not() {
     // After 76 points: first, last, radius. The exponent's last bit is in the upper byte.
     case.fails("curve: the capsule of node 0", |b| {
         b[points(b) + 4 * word(b, start(b, CURVES) + 20).unwrap() as usize + 3] -= 1
+    });
+}
+
+#[test]
+fn zones_of_curves_are_proved_and_changed_ones_are_not() {
+    let directory = scratch("verify_zones");
+    let zones = directory.join("zones.csv");
+    let text = "zone,x,y\ninclusion,0,0\ninclusion,9,0\ninclusion,9,9\n\
+                exclusion,4,1\nexclusion,5,1\nexclusion,5,2\n";
+    fs::write(&zones, text).expect("written");
+    let blob = directory.join("zones.msw");
+    ok(["build", arg(&zones), "-o", arg(&blob)]);
+    let case = Case::new(&directory, blob, &[zones]);
+    case.fails("curve: polyline 1 is an exclusion zone, and 0 is stored", |b| {
+        let at = start(b, ZONES);
+        b[at + 1] = 0;
+    });
+    case.fails("curve: polyline 0 is an inclusion zone, and 1 is stored", |b| {
+        let at = start(b, ZONES);
+        b[at] = 1;
     });
 }
 

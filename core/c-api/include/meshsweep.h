@@ -73,13 +73,15 @@ enum {
     MSW_ERROR_NO_SCRATCH = -44,     /* the scratch memory has no entries */
     MSW_ERROR_NOT_SERVED = -45,     /* the blob lacks the sections of this question: build --for */
     MSW_ERROR_INTERNAL = -46,       /* the bytes of the blob changed, or a fault of the library */
-    MSW_ERROR_NO_MODEL = -47        /* a scene lacks a named model, or a pair names one twice */
+    MSW_ERROR_NO_MODEL = -47,       /* a scene lacks a named model, or a pair names one twice */
+    MSW_ERROR_NOT_PLANAR = -48,     /* a curve's points differ in z, so it bounds no area */
+    MSW_ERROR_OPEN_POLYLINE = -49   /* a polyline is not closed, so it bounds no area */
 };
 
 /* Verdicts. MSW_YES and MSW_NO are proved. `!verdict` is not "no": compare, or use msw_is_clear. */
 enum { MSW_UNDECIDED = 0, MSW_YES = 1, MSW_NO = 2 };
 
-/* Sides of a closed mesh. Inside and outside are proved. */
+/* Sides of a closed mesh. Inside and outside are proved. Of a fence inside means allowed. */
 enum { MSW_SIDE_UNDECIDED = 0, MSW_SIDE_INSIDE = 1, MSW_SIDE_OUTSIDE = 2 };
 
 /* Why a verdict or a side is undecided. */
@@ -122,6 +124,7 @@ enum { MSW_MOTION_STRAIGHT = 0, MSW_MOTION_SCREW = 1 };
 
 #define MSW_NO_TRIANGLE UINT32_MAX /* in the place of a triangle's number: there is none */
 #define MSW_NO_MODEL UINT32_MAX    /* in the place of a model's index: there is none */
+#define MSW_NO_SEGMENT UINT32_MAX  /* in the place of a polyline and its segment: there is none */
 #define MSW_FINEST UINT32_MAX      /* for msw_open_tight: the tightest hull */
 #define MSW_MOST_CORNERS 32        /* of a solid, for msw_solid_first_contact */
 #define MSW_OVERLAP_ENTRIES 256    /* scratch entries that are always enough for msw_overlap */
@@ -135,6 +138,7 @@ enum { MSW_MOTION_STRAIGHT = 0, MSW_MOTION_SCREW = 1 };
 #define MSW_HULL_WORDS 48
 #define MSW_COHERENT_WORDS 256
 #define MSW_TRIBOXES_WORDS 16
+#define MSW_CURVE_WORDS 24
 #define MSW_SCENE_MODEL_ENTRIES 56
 #else
 #define MSW_MODEL_WORDS 52
@@ -142,17 +146,20 @@ enum { MSW_MOTION_STRAIGHT = 0, MSW_MOTION_SCREW = 1 };
 #define MSW_HULL_WORDS 64
 #define MSW_COHERENT_WORDS 480
 #define MSW_TRIBOXES_WORDS 20
+#define MSW_CURVE_WORDS 40
 #define MSW_SCENE_MODEL_ENTRIES 88
 #endif
 #define MSW_COHERENT_PAIR_WORDS 664
 
-/* An opened box tree, an opened tight hull, an opened hull hierarchy, opened triboxes. They point
- * into the blob, which must stay where it is, unchanged, as long as they are used. Copies are as
- * good. A storage of zeros is not opened, and every question about it is refused. */
+/* An opened box tree, an opened tight hull, an opened hull hierarchy, opened triboxes, opened
+ * curves. They point into the blob, which must stay where it is, unchanged, as long as they are
+ * used. Copies are as good. A storage of zeros is not opened, and every question about it is
+ * refused. */
 typedef struct { uintptr_t opaque[MSW_MODEL_WORDS]; } msw_model;
 typedef struct { uintptr_t opaque[MSW_TIGHT_WORDS]; } msw_tight;
 typedef struct { uintptr_t opaque[MSW_HULL_WORDS]; } msw_hull;
 typedef struct { uintptr_t opaque[MSW_TRIBOXES_WORDS]; } msw_triboxes;
+typedef struct { uintptr_t opaque[MSW_CURVE_WORDS]; } msw_curve;
 
 /* What a query that moves keeps between calls. Zero it before the first call, or to start anew. It
  * belongs to one model at a time, and points to nothing. */
@@ -378,6 +385,40 @@ typedef struct {
     uint32_t dropped; /* pairs that did not fit */
     msw_work work;    /* as of msw_apart_answer */
 } msw_candidates_answer;
+
+typedef struct {
+    msw_interval distance; /* to the input curve, without sign */
+    float point[3];        /* of the curve, at most distance.upper away; rounded to float */
+    uint32_t polyline;     /* which holds `point`, counted from 0 as in the file */
+    uint32_t segment;      /* of the polyline, which begins at the point of this number, from 0 */
+    float t;               /* where `point` lies on the segment: 0 at its start, 1 at its end */
+    float safe_motion;     /* while the query moves less, the segment stays closest; 0: unknown */
+    int32_t ended;         /* MSW_ENDED_... */
+    msw_work work;         /* bounds: capsules; exact: segments in double */
+} msw_curve_closest;
+
+typedef struct {
+    int32_t side;              /* MSW_SIDE_INSIDE: the fence allows the point */
+    int32_t reason;            /* MSW_REASON_... */
+    msw_interval distance;     /* negative inside; if the side is undecided, -upper to upper */
+    msw_curve_closest closest; /* of the line; work and ended are those of the whole search */
+} msw_curve_signed;
+
+typedef struct {
+    int32_t verdict;   /* MSW_NO: all of the curve is farther. MSW_YES: a point of it is not */
+    int32_t reason;    /* MSW_REASON_... */
+    uint32_t polyline; /* with MSW_YES that of a segment that is not farther, */
+    uint32_t segment;  /* and this segment, else MSW_NO_SEGMENT in both */
+    msw_work work;
+} msw_curve_within_answer;
+
+typedef struct {
+    msw_interval distance; /* to the segment */
+    float point[3];        /* of it, at most distance.upper away but for its rounding */
+    uint32_t polyline;     /* counted from 0, as in msw_curve_closest */
+    uint32_t segment;      /* of the polyline */
+    float t;               /* where `point` lies on the segment */
+} msw_curve_neighbor;
 
 typedef struct {
     uint32_t is_complete; /* 1: all splits that the focus needs are performed. 0: see below */
@@ -802,6 +843,70 @@ int32_t msw_tight_within(const msw_tight *hull, const float point[3], float dist
                          const msw_budget *budget,
                          msw_scratch_entry *scratch, size_t scratch_count,
                          msw_within_answer *answer);
+
+/* ---- Curves: fences and tool paths, built from .csv ---- */
+
+/* Opens the curves of a blob. As msw_open. */
+int32_t msw_open_curve(msw_curve *curve, const void *bytes, size_t count);
+
+/* As msw_scratch_entries. */
+uint32_t msw_curve_scratch_entries(const msw_curve *curve);
+
+/* Whether the curves are a fence, so that msw_curve_signed_distance answers. Ask once at the start.
+ * Errors: MSW_ERROR_NOT_PLANAR: the points differ in z. MSW_ERROR_OPEN_POLYLINE: a polyline is not
+ * closed. MSW_ERROR_NULL, _ALIGNMENT, _NOT_OPENED. Cost: linear in the polylines. */
+int32_t msw_curve_check_fence(const msw_curve *curve);
+
+/* The closest point of the curves, with an interval that contains its distance.
+ *
+ * Of equidistant segments the answer is the first in the file. A point on the curve has
+ * distance.lower 0. Segments without length are points. Farther than 2^24 times the curve's size
+ * the curve's box gives the interval. Cost: a few dozen nodes and segments next to a smooth path of
+ * thousands of segments. The worst case is all of them, at the centre of a circle: set
+ * budget->steps where time is bounded. */
+int32_t msw_curve_closest_point(const msw_curve *curve, const float point[3],
+                                const msw_budget *budget,
+                                msw_scratch_entry *scratch, size_t scratch_count,
+                                msw_curve_closest *answer);
+
+/* Whether the curves are at most `distance` from `point`. Of the budget only `steps` matters.
+ *
+ * It ends at the first segment that is near enough. If the difference from `distance` is within the
+ * surface error and rounding, it is undecided; a distance of 0 is answered by MSW_NO or undecided.
+ * Errors: MSW_ERROR_TOLERANCE: the distance is negative, NaN or infinite. Cost: less than that of
+ * msw_curve_closest_point. If all of the curve is far away, one node. */
+int32_t msw_curve_within(const msw_curve *curve, const float point[3], float distance,
+                         const msw_budget *budget,
+                         msw_scratch_entry *scratch, size_t scratch_count,
+                         msw_curve_within_answer *answer);
+
+/* The `neighbor_count` nearest segments into `neighbors`, by rising distance. Of the budget only
+ * `steps` matters.
+ *
+ * Of two segments whose intervals overlap either may come first. A curve of fewer segments gives
+ * them all. After an error the contents of `neighbors` are undefined. Cost: that of
+ * msw_curve_closest_point, and two distances in double for each segment near the last one. */
+int32_t msw_curve_nearest(const msw_curve *curve, const float point[3],
+                          msw_curve_neighbor *neighbors, size_t neighbor_count,
+                          const msw_budget *budget,
+                          msw_scratch_entry *scratch, size_t scratch_count,
+                          msw_nearest_answer *answer);
+
+/* Whether a fence allows `point` (x, y), and how far it is from the nearest line of the fence. The
+ * z of the curves is not asked.
+ *
+ * MSW_SIDE_INSIDE: the point is inside of an inclusion zone, or there is none, and inside of no
+ * exclusion zone. Inside of a zone is what its line winds around, once or more often, in either
+ * direction. The distance is negative there. It is that to the nearest line of any zone: nearer
+ * than |distance| the side does not change. The side is never wrong. It is undecided for
+ * MSW_REASON_ON_SURFACE on a line and closer to it than the surface error, rounding and the
+ * tolerances of the budget. Errors: those of msw_curve_check_fence. Cost: that of
+ * msw_curve_closest_point, a comparison of integers for each segment of runs of up to 64 of them,
+ * and a capsule for each larger run near the point. */
+int32_t msw_curve_signed_distance(const msw_curve *curve, const float point[2],
+                                  const msw_budget *budget,
+                                  msw_scratch_entry *scratch, size_t scratch_count,
+                                  msw_curve_signed *answer);
 
 /* ---- The hull hierarchy: build --for hull. Nested meshes, refined where a scene needs it ---- */
 

@@ -4,15 +4,17 @@
 #![allow(missing_docs, reason = "meshsweep.h says it")]
 
 use meshsweep_core::{
-    ClosestPoint, CoherentClosest, Decided, Ended, FirstHit, Interval, KNearest, Neighbor,
-    NodePair, PairContact, PairDistance, Separation, Side, SignedDistance, TriboxCandidates,
-    Undecided, Verdict, WindingNumber, Work,
+    ClosestPoint, CoherentClosest, CurveClosest, CurveNeighbor, CurveSegment, CurveSignedDistance,
+    Decided, Ended, FirstHit, Interval, KNearest, Neighbor, NodePair, PairContact, PairDistance,
+    Separation, Side, SignedDistance, TriboxCandidates, Undecided, Verdict, WindingNumber, Work,
 };
 
 /// `MSW_NO_TRIANGLE`.
 pub const NO_TRIANGLE: u32 = u32::MAX;
 /// `MSW_NO_MODEL`.
 pub const NO_MODEL: u32 = u32::MAX;
+/// `MSW_NO_SEGMENT`.
+pub const NO_SEGMENT: u32 = u32::MAX;
 
 /// Structures of the header, with their fields in its order.
 macro_rules! answers {
@@ -51,6 +53,15 @@ answers! {
     NodePairC { a: u16, b: u16 }
     ApartC { verdict: i32, ended: i32, may_meet: NodePairC, work: WorkC }
     CandidatesC { verdict: i32, ended: i32, stored: u32, dropped: u32, work: WorkC }
+    CurveClosestC {
+        distance: IntervalC, point: [f32; 3], polyline: u32, segment: u32, t: f32,
+        safe_motion: f32, ended: i32, work: WorkC
+    }
+    CurveSignedC { side: i32, reason: i32, distance: IntervalC, closest: CurveClosestC }
+    CurveWithinC { verdict: i32, reason: i32, polyline: u32, segment: u32, work: WorkC }
+    CurveNeighborC {
+        distance: IntervalC, point: [f32; 3], polyline: u32, segment: u32, t: f32
+    }
     RefinementC { is_complete: u32, error_left: f32, faces: u32, performed: u32, undone: u32 }
     FaceC { corners: [[f32; 3]; 3], error: f32 }
     FacesC { stored: u32, dropped: u32 }
@@ -254,5 +265,46 @@ impl From<TriboxCandidates> for CandidatesC {
         let (stored, dropped) = (found.stored as u32, found.dropped);
         let (verdict, ended) = (clear(found.is_apart()), ended(found.ended));
         CandidatesC { verdict, ended, stored, dropped, work: found.work.into() }
+    }
+}
+
+impl From<CurveClosest> for CurveClosestC {
+    fn from(found: CurveClosest) -> Self {
+        let CurveSegment { polyline, segment } = found.segment;
+        CurveClosestC {
+            distance: found.distance.into(),
+            point: found.point,
+            polyline,
+            segment,
+            t: found.t,
+            safe_motion: found.safe_motion,
+            ended: ended(found.ended),
+            work: found.work.into(),
+        }
+    }
+}
+
+impl From<CurveSignedDistance> for CurveSignedC {
+    fn from(found: CurveSignedDistance) -> Self {
+        let (side, reason) = side(found.side);
+        let (distance, closest) = (found.distance.into(), found.closest.into());
+        CurveSignedC { side, reason, distance, closest }
+    }
+}
+
+impl From<Decided<CurveSegment>> for CurveWithinC {
+    fn from(found: Decided<CurveSegment>) -> Self {
+        let (verdict, reason) = verdict(found.verdict);
+        let none = CurveSegment { polyline: NO_SEGMENT, segment: NO_SEGMENT };
+        let CurveSegment { polyline, segment } = found.witness.unwrap_or(none);
+        CurveWithinC { verdict, reason, polyline, segment, work: found.work.into() }
+    }
+}
+
+impl From<CurveNeighbor> for CurveNeighborC {
+    fn from(near: CurveNeighbor) -> Self {
+        let CurveSegment { polyline, segment } = near.segment();
+        let (distance, point, t) = (near.distance().into(), near.point(), near.t());
+        CurveNeighborC { distance, point, polyline, segment, t }
     }
 }

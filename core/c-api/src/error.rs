@@ -79,6 +79,10 @@ errors! {
     Internal = -46, c"the bytes of the blob changed, or a fault of the library";
     /// A model that a scene lacks.
     NoModel = -47, c"a pair or a move names a model that the scene lacks, or a pair one twice";
+    /// Curves that bound no area of a plane.
+    NotPlanar = -48, c"the curve's points differ in z, so it bounds no area: give all the same z";
+    /// A polyline that is not closed.
+    OpenPolyline = -49, c"a polyline is not closed, so it bounds no area: build with --closed";
 }
 
 impl Error {
@@ -112,6 +116,8 @@ impl From<QueryError> for Error {
             QueryError::PoseOutOfDomain | QueryError::NotRigid => Error::Pose,
             QueryError::NoScratch => Error::NoScratch,
             QueryError::NoModel => Error::NoModel,
+            QueryError::NotPlanar => Error::NotPlanar,
+            QueryError::OpenPolyline { .. } => Error::OpenPolyline,
             QueryError::NotServed { .. } | QueryError::NotEnclosing => Error::NotServed,
             _ => Error::Internal,
         }

@@ -11,7 +11,9 @@ use core::{ptr, slice};
 
 use meshsweep_core::internal::bvh::{ErasedScene, ModelPath, MovingModel, RememberedPair};
 use meshsweep_core::internal::hull::ErasedHull;
-use meshsweep_core::{CoherentPair, CoherentQuery, Neighbor, NodePair, ScratchEntry};
+use meshsweep_core::{
+    CoherentPair, CoherentQuery, CurveNeighbor, Neighbor, NodePair, ScratchEntry,
+};
 
 use crate::error::Error;
 
@@ -25,10 +27,14 @@ pub unsafe trait AnyBits: Copy {}
 unsafe impl AnyBits for u8 {}
 // SAFETY: as above.
 unsafe impl AnyBits for [f32; 3] {}
+// SAFETY: floats.
+unsafe impl AnyBits for [f32; 2] {}
 // SAFETY: as above.
 unsafe impl AnyBits for [u32; 2] {}
 // SAFETY: six words.
 unsafe impl AnyBits for Neighbor {}
+// SAFETY: eight words.
+unsafe impl AnyBits for CurveNeighbor {}
 // SAFETY: two u16.
 unsafe impl AnyBits for NodePair {}
 // SAFETY: an f32 and a u32.

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use meshsweep_c::answer::*;
+use meshsweep_c::curve::{CURVE_WORDS, CurveStorage};
 use meshsweep_c::error::Error;
 use meshsweep_c::hull::{HULL_WORDS, HullStorage};
 use meshsweep_c::memory::{
@@ -50,6 +51,7 @@ fn layouts() -> String {
         "msw_tight": Tight {}
         "msw_hull": HullStorage {}
         "msw_triboxes": TriboxesStorage {}
+        "msw_curve": CurveStorage {}
         "msw_coherent": CoherentStorage {}
         "msw_coherent_pair": PairStorage {}
         "msw_scene_entry": SceneEntry {}
@@ -83,6 +85,12 @@ fn layouts() -> String {
         "msw_node_pair": NodePairC { a, b }
         "msw_apart_answer": ApartC { verdict, ended, may_meet, work }
         "msw_candidates_answer": CandidatesC { verdict, ended, stored, dropped, work }
+        "msw_curve_closest": CurveClosestC {
+            distance, point, polyline, segment, t, safe_motion, ended, work
+        }
+        "msw_curve_signed": CurveSignedC { side, reason, distance, closest }
+        "msw_curve_neighbor": CurveNeighborC { distance, point, polyline, segment, t }
+        "msw_curve_within_answer": CurveWithinC { verdict, reason, polyline, segment, work }
         "msw_refinement": RefinementC { is_complete, error_left, faces, performed, undone }
         "msw_face": FaceC { corners, error }
         "msw_faces_answer": FacesC { stored, dropped }
@@ -98,6 +106,7 @@ fn constants() -> String {
     holds(&mut text, "MSW_COHERENT_WORDS", COHERENT_WORDS);
     holds(&mut text, "MSW_COHERENT_PAIR_WORDS", PAIR_WORDS);
     holds(&mut text, "MSW_TRIBOXES_WORDS", TRIBOXES_WORDS);
+    holds(&mut text, "MSW_CURVE_WORDS", CURVE_WORDS);
     holds(&mut text, "MSW_SCENE_MODEL_ENTRIES", SCENE_MODEL_ENTRIES);
     for (models, pairs) in [(0, 0), (9, 21), (2, 2)] {
         let entries = scene_entries(models, pairs).expect("few");
@@ -109,6 +118,7 @@ fn constants() -> String {
     holds(&mut text, "MSW_DISTANCE_ENTRIES", Bvh::DISTANCE_ENTRIES);
     holds(&mut text, "MSW_NO_TRIANGLE", format!("{NO_TRIANGLE}u"));
     holds(&mut text, "MSW_NO_MODEL", format!("{NO_MODEL}u"));
+    holds(&mut text, "MSW_NO_SEGMENT", format!("{NO_SEGMENT}u"));
     holds(&mut text, "MSW_FINEST", format!("{FINEST}u"));
     let (yes, decided) = verdict(Verdict::Yes);
     let undecided = Verdict::Undecided(Undecided::Steps);
@@ -213,6 +223,7 @@ fn the_table_of_storage_is_that_of_rust() {
         ("msw_tight", TIGHT_WORDS),
         ("msw_hull", HULL_WORDS),
         ("msw_triboxes", TRIBOXES_WORDS),
+        ("msw_curve", CURVE_WORDS),
         ("msw_coherent", COHERENT_WORDS),
         ("msw_coherent_pair", PAIR_WORDS),
     ];

@@ -47,9 +47,7 @@ mod winding;
 
 pub use coherent_scene::{CoherentScene, ErasedScene, KeptPair, ModelPath, RememberedPair};
 pub use pair::{CoherentPair, MovingModel, PlacedModel};
-pub use point::{
-    AllWithin, CoherentClosest, CoherentQuery, Eye, FrontFacing, Hint, KNearest, Neighbor,
-};
+pub use point::{CoherentClosest, CoherentQuery, Eye, FrontFacing, Hint, Neighbor};
 pub use processor::ProcessorQuestions;
 pub use scene::{Scene, SceneDistance};
 pub use segment::Facing;

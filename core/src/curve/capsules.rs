@@ -69,6 +69,11 @@ impl<'a> Capsules<'a> {
         Some(ScratchEntry::new(key, run.item))
     }
 
+    /// Whether the point is certainly outside of a run's capsule.
+    pub(crate) fn is_outside(&self, run: &Run) -> Option<bool> {
+        self.bounded(run).map(|entry| entry.key() > 0.0)
+    }
+
     /// The distance of a segment, and its closest point.
     pub(crate) fn distance(&self, segment: u32, work: &mut Work) -> Option<(PointSegment, DVec3)> {
         work.exact += 1;

@@ -66,21 +66,23 @@ impl Curve<'_> {
     ) -> Result<CurveClosest, QueryError> {
         budget.check_with(scratch)?;
         let Budget { relative, absolute, steps } = budget;
-        closest_point(self, point, [relative, absolute], steps, scratch)
+        let p = self.frame.local(point)?;
+        closest_point(self, p, [relative, absolute], steps, scratch)
     }
 }
 
+/// The closest point to a point of the local frame.
+///
 /// Takes the tolerances as numbers, not a budget, so that a program with constant tolerances links
 /// no code for others.
-fn closest_point(
+pub(super) fn closest_point(
     curve: &Curve<'_>,
-    point: [f32; 3],
+    p: DVec3,
     [relative, absolute]: [f32; 2],
     steps: u32,
     scratch: &mut [ScratchEntry],
 ) -> Result<CurveClosest, QueryError> {
     let frame = curve.frame;
-    let p = frame.local(point)?;
     let mut search = SegmentSearch::new(curve, p);
     let is_far = p.abs().max_element() > CURVE_FAR;
     let ended = if is_far {

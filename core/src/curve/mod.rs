@@ -6,11 +6,19 @@
 //! | `capsules` | bounds of runs of points, and distances of segments, for one query point |
 //! | `closest_point` | closest point, and how far the query may move |
 //! | `within` | whether a curve is within a distance |
+//! | `neighbors` | the nearest segments, and all within a distance |
+//! | `signed_distance` | whether a point is inside of a fence, and how far from its line |
+//! | `zone_walk` | winding numbers of the polylines about a point, and what their zones allow |
 
 mod capsules;
 mod closest_point;
 pub mod format;
+mod neighbors;
+mod signed_distance;
 mod within;
+mod zone_walk;
 
 pub use closest_point::CurveClosest;
-pub use format::{Curve, CurveSegment};
+pub use format::{Curve, CurveSegment, Zone};
+pub use neighbors::CurveNeighbor;
+pub use signed_distance::CurveSignedDistance;

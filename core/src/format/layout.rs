@@ -84,11 +84,13 @@ pub enum SectionKind {
     TreeTurned = 25,
     /// For each triangle of the box tree whether it tells no side.
     TreeSideless = 26,
+    /// For each polyline of the curves which side of it is allowed.
+    CurveZones = 27,
 }
 
 impl SectionKind {
     /// All kinds, in the order in which a writer emits them.
-    pub const ALL: [SectionKind; 25] = [
+    pub const ALL: [SectionKind; 26] = [
         SectionKind::Levels,
         SectionKind::Vertices,
         SectionKind::BaseTriangles,
@@ -112,6 +114,7 @@ impl SectionKind {
         SectionKind::Triboxes,
         SectionKind::TightHulls,
         SectionKind::Curves,
+        SectionKind::CurveZones,
         SectionKind::VertexNumbers,
         SectionKind::KeyFrames,
     ];
@@ -148,6 +151,11 @@ impl SectionKind {
         matches!(self, SectionKind::VertexNumbers | SectionKind::KeyFrames)
     }
 
+    /// Whether the section belongs to the curves.
+    pub fn is_curve(self) -> bool {
+        matches!(self, SectionKind::Curves | SectionKind::CurveZones)
+    }
+
     /// The newest minor version: the one that has all kinds.
     pub fn newest_minor() -> u16 {
         Self::ALL.iter().map(|kind| kind.minor()).max().unwrap_or(VERSION_MINOR)
@@ -156,6 +164,7 @@ impl SectionKind {
     /// The first minor version with this kind.
     pub fn minor(self) -> u16 {
         match self {
+            SectionKind::CurveZones => 4,
             SectionKind::TreeTurned | SectionKind::TreeSideless => 3,
             SectionKind::TreeMoments => 2,
             _ => u16::from(self.is_deform()),
@@ -170,7 +179,7 @@ impl SectionKind {
             SectionKind::TreeMoments => BuildFor::Winding,
             SectionKind::Triboxes => BuildFor::Triboxes,
             SectionKind::TightHulls => BuildFor::Tight,
-            SectionKind::Curves => BuildFor::Curve,
+            _ if self.is_curve() => BuildFor::Curve,
             _ if self.is_deform() => BuildFor::Deform,
             _ if self.is_hull() => BuildFor::Hull,
             _ => BuildFor::Closest,
@@ -205,6 +214,7 @@ impl SectionKind {
             SectionKind::TreeMoments => "tree moments",
             SectionKind::TreeTurned => "tree turned triangles",
             SectionKind::TreeSideless => "tree sideless triangles",
+            SectionKind::CurveZones => "curve zones",
         }
     }
 }

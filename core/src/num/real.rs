@@ -123,7 +123,7 @@ impl Real {
 
     /// The order of these integers is that of the numbers.
     #[inline(always)]
-    fn order(self) -> i32 {
+    pub fn order(self) -> i32 {
         let bits = self.0.to_bits();
         let size = (bits & !SIGN).cast_signed();
         if bits & SIGN == 0 { size } else { -size }

@@ -616,6 +616,11 @@ pub const CAPSULE_UNDERFLOW: f32 = 1.0 / (1u64 << 48) as f32;
 /// the interval of the curve's box is narrower than four units of f32.
 pub const CURVE_FAR: f64 = (1u32 << 24) as f64;
 
+/// Rounding of the turn from a segment to a point, in units of [`U64`] times the sizes of its two
+/// products. Proved: 5 (§14). A smaller value loses the guarantee. Where a distance is proved to be
+/// above 0, any value up to 16 leaves no turn unclear.
+pub const CURVE_TURN: f64 = 8.0;
+
 // Triboxes
 
 /// Rounding of the gap between two moved triboxes along a direction, in units of [`U32`] times the

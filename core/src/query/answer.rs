@@ -102,12 +102,18 @@ pub struct SignedDistance {
 
 impl SignedDistance {
     pub(crate) fn new(closest: ClosestPoint, side: Side) -> Self {
-        let Interval { lower, upper } = closest.distance;
-        let distance = match side {
+        SignedDistance { distance: closest.distance.on(side), side, closest }
+    }
+}
+
+impl Interval {
+    /// The signed distance of a point on this side at this distance.
+    pub(crate) fn on(self, side: Side) -> Interval {
+        let Interval { lower, upper } = self;
+        match side {
             Side::Outside => Interval { lower, upper },
             Side::Inside => Interval { lower: -upper, upper: -lower },
             Side::Undecided(_) => Interval { lower: -upper, upper },
-        };
-        SignedDistance { distance, side, closest }
+        }
     }
 }

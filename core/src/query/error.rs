@@ -75,6 +75,14 @@ pub enum QueryError {
     /// The levels of the hierarchy enclose nothing: it was built with `--for sweep`. Hulls need a
     /// closed mesh and `--for hull`.
     NotEnclosing,
+    /// The points of the curves differ in z, so that the curves bound no area of a plane. Leave z
+    /// out of the file, or give all points the same.
+    NotPlanar,
+    /// A polyline is not closed, so that it bounds no area: build the curves with `--closed`.
+    OpenPolyline {
+        /// Its number.
+        polyline: u32,
+    },
     /// The view does not fit its bytes. No view that an `open` of this crate returned does that.
     Unchecked,
 }
@@ -147,6 +155,15 @@ impl core::fmt::Display for QueryError {
             QueryError::NotEnclosing => {
                 "the hierarchy encloses nothing, and this question needs hulls: build it with \
                  --for hull from a closed mesh"
+            }
+            QueryError::NotPlanar => {
+                "the curve's points differ in z, so it bounds no area: give all the same z, or none"
+            }
+            QueryError::OpenPolyline { polyline } => {
+                return write!(
+                    f,
+                    "polyline {polyline} is not closed, so it bounds no area: build with --closed"
+                );
             }
             QueryError::Unchecked => "the model was not opened",
         })

@@ -8,6 +8,7 @@
 //! | `verdict` | [`Verdict`], [`Side`], [`Undecided`]: why there is no verdict |
 //! | `decided` | [`Decided`]: a verdict and its witness |
 //! | `hits` | [`Hit`], [`FirstHit`], [`TriangleHit`], [`AllHits`], and the caller's slice of hits |
+//! | `neighbors` | [`KNearest`], [`AllWithin`]: how searches for several near elements went |
 //! | `pose/` | poses: their rounding, what they do to points and lengths, motions, joints |
 //! | `overlap` | [`AllOverlaps`], [`TrianglePair`], and what collects pairs |
 //! | `pair_distance` | [`PairDistance`], [`PairContact`]: how far two surfaces are apart |
@@ -24,6 +25,7 @@ mod decided;
 mod error;
 mod frame;
 mod hits;
+mod neighbors;
 mod overlap;
 mod pair_distance;
 mod penetration;
@@ -42,6 +44,7 @@ pub use error::QueryError;
 pub(crate) use frame::Frame;
 pub(crate) use hits::Hits;
 pub use hits::{AllHits, FirstHit, Hit, TriangleHit};
+pub use neighbors::{AllWithin, KNearest};
 pub use overlap::{AllOverlaps, TrianglePair};
 pub(crate) use overlap::{AllPairs, PairVisitor};
 pub use pair_distance::{PairContact, PairDistance};

@@ -14,7 +14,7 @@ pub enum Undecided {
     Resolution,
     /// The side is not defined: the mesh is not closed, or its winding is inconsistent.
     OpenMesh,
-    /// The point is so near to the surface that no side is certain.
+    /// The point is so near to the surface, or to a line of a fence, that no side is certain.
     OnSurface,
     /// The closest features disagree about the side, or have no certain normal.
     Feature,
@@ -47,7 +47,8 @@ pub enum Verdict {
 }
 
 /// On which side of a surface a point lies. `Inside` and `Outside` are proved. By the [winding
-/// number](crate::WindingNumber) they mean above and below ½.
+/// number](crate::WindingNumber) they mean above and below ½. Of a fence they mean allowed and
+/// forbidden ([`Curve::signed_distance`](crate::Curve::signed_distance)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]

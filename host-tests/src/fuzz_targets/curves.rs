@@ -3,13 +3,16 @@
 use super::input::Input;
 use super::suite::ask_all;
 use crate::generate::curves::{circle, fence, open, walk};
-use meshsweep::curve::{CurveOptions, Polyline, build};
+use meshsweep::curve::{CurveOptions, Polyline, Zone, build};
 use meshsweep::progress::Watch;
-use meshsweep_core::{Blob, Budget, Curve, Ended, QueryError, ScratchEntry, Verdict};
+use meshsweep_core::{
+    Blob, Budget, Curve, CurveNeighbor, Ended, QueryError, ScratchEntry, Side, Verdict,
+};
 use meshsweep_suite::ask::curve;
 use std::sync::OnceLock;
 
-/// Small valid blobs of curves: one segment and many, several polylines, f32 and grid, 2-D and 3-D.
+/// Small valid blobs of curves: one segment and many, several polylines, f32 and grid, 2-D and 3-D,
+/// zones.
 ///
 /// # Panics
 /// If one of them cannot be built.
@@ -25,6 +28,7 @@ pub fn curve_seeds() -> &'static [Vec<u8>] {
             blob(&[walk(300, 3)], false),
             blob(&[walk(9, 1), open(vec![[0.5; 3]; 3]), circle(7)], true),
             blob(&fence(), true),
+            blob(&[circle(90), Polyline { zone: Zone::Exclusion, ..circle(5) }], false),
         ]
     })
 }
@@ -52,6 +56,33 @@ fn ask(curve: &Curve<'_>, p: [f32; 3], distance: f32, budget: Budget, entries: u
             assert!(near.segment.polyline < curve.polyline_count(), "{near:?}");
             let starved = near.ended == Ended::Scratch;
             assert!(!starved || entries < curve.scratch_entries(), "{near:?}");
+        }
+        Err(error) => assert_ne!(error, QueryError::Unchecked),
+    }
+    let mut out = [CurveNeighbor::EMPTY; 3];
+    match curve.nearest(p, &mut out, budget, &mut scratch) {
+        Ok(found) => assert!(found.stored <= 3 && found.work.total() <= most, "{found:?}"),
+        Err(error) => assert_ne!(error, QueryError::Unchecked),
+    }
+    match curve.all_within(p, distance, &mut out, budget, &mut scratch) {
+        Ok(found) => {
+            assert!(found.certain <= found.stored && found.stored <= 3, "{found:?}");
+            assert!(found.work.total() <= most, "{found:?}");
+        }
+        Err(error) => assert_ne!(error, QueryError::Unchecked),
+    }
+    let [x, y, _] = p;
+    match curve.signed_distance([x, y], budget, &mut scratch) {
+        Ok(found) => {
+            let (interval, near) = (found.distance, found.closest);
+            assert!(curve.check_fence().is_ok() && interval.lower <= interval.upper, "{found:?}");
+            assert!(near.work.total() <= 2 * most, "{found:?}");
+            let decided = match found.side {
+                Side::Inside => interval.upper < 0.0,
+                Side::Outside => interval.lower > 0.0,
+                _ => interval.lower == -interval.upper,
+            };
+            assert!(decided && interval.upper.abs().max(-interval.lower) == near.distance.upper);
         }
         Err(error) => assert_ne!(error, QueryError::Unchecked),
     }

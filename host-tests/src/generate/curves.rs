@@ -2,38 +2,58 @@
 
 use super::Rng;
 use libm::{cos, sin};
-use meshsweep::curve::Polyline;
+use meshsweep::curve::{Polyline, Zone};
 use std::f64::consts::PI;
 
 /// An open polyline.
 #[must_use]
 pub fn open(points: Vec<[f64; 3]>) -> Polyline {
-    Polyline { points, is_closed: false }
+    Polyline { points, ..Polyline::default() }
+}
+
+/// A closed polyline.
+#[must_use]
+pub fn closed(points: Vec<[f64; 3]>) -> Polyline {
+    Polyline { is_closed: true, ..open(points) }
 }
 
 /// The fence of the fixtures: a boundary of 100 by 60 with round corners, and a post in it.
 /// Coordinates are multiples of a 64th.
 #[must_use]
 pub fn fence() -> Vec<Polyline> {
-    let ring = |centre: [f64; 2], half: [f64; 2], radius: f64, steps: usize| {
-        let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
-        let arc = |(quarter, signs): (usize, [f64; 2])| {
-            (0..=steps).map(move |step| {
-                let angle = 0.5 * PI * (quarter as f64 + step as f64 / steps as f64);
-                let way = [cos(angle), sin(angle)];
-                let [x, y] = [0, 1].map(|axis| {
-                    let middle = centre[axis] + signs[axis] * (half[axis] - radius);
-                    ((middle + radius * way[axis]) * 64.0).round() / 64.0
-                });
-                [x, y, 0.0]
-            })
-        };
-        let mut points: Vec<[f64; 3]> = corners.into_iter().enumerate().flat_map(arc).collect();
-        points.dedup();
-        points.pop_if(|last| *last == [centre[0] + half[0], centre[1], 0.0]);
-        Polyline { points, is_closed: true }
-    };
     vec![ring([50.0, 30.0], [50.0, 30.0], 12.0, 12), ring([30.0, 24.0], [5.0, 5.0], 5.0, 5)]
+}
+
+/// The geofence of the example `fence`, in metres: a field of 400 by 240 with round corners, in it
+/// a house and a mast that are to be kept out of. Coordinates are multiples of a 64th.
+#[must_use]
+pub fn zones() -> Vec<Polyline> {
+    let excluded = |polyline: Polyline| Polyline { zone: Zone::Exclusion, ..polyline };
+    vec![
+        ring([200.0, 120.0], [200.0, 120.0], 60.0, 20),
+        excluded(ring([120.0, 80.0], [15.0, 10.0], 2.0, 2)),
+        excluded(ring([300.0, 150.0], [25.0, 25.0], 25.0, 6)),
+    ]
+}
+
+/// A rectangle with round corners, of so many segments each.
+fn ring(centre: [f64; 2], half: [f64; 2], radius: f64, steps: usize) -> Polyline {
+    let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+    let arc = |(quarter, signs): (usize, [f64; 2])| {
+        (0..=steps).map(move |step| {
+            let angle = 0.5 * PI * (quarter as f64 + step as f64 / steps as f64);
+            let way = [cos(angle), sin(angle)];
+            let [x, y] = [0, 1].map(|axis| {
+                let middle = centre[axis] + signs[axis] * (half[axis] - radius);
+                ((middle + radius * way[axis]) * 64.0).round() / 64.0
+            });
+            [x, y, 0.0]
+        })
+    };
+    let mut points: Vec<[f64; 3]> = corners.into_iter().enumerate().flat_map(arc).collect();
+    points.dedup();
+    points.pop_if(|last| *last == [centre[0] + half[0], centre[1], 0.0]);
+    closed(points)
 }
 
 /// CSV of polylines: a header, then blank lines between them.
@@ -95,5 +115,5 @@ pub fn circle(segments: usize) -> Polyline {
         let angle = 2.0 * PI * k as f64 / segments as f64;
         [cos(angle), sin(angle), 0.0]
     };
-    Polyline { points: (0..segments).map(point).collect(), is_closed: true }
+    closed((0..segments).map(point).collect())
 }

@@ -21,7 +21,7 @@ pub use distance::{
     wide_distance_sq,
 };
 pub use double::{Double, Vector};
-pub use polyline::distance_to_segments;
+pub use polyline::{distance_to_segments, winding_about};
 pub use segment::{Contact, contacts, gap_to_triangle, meets};
 pub use wide::distance_to_wide_mesh;
 pub use winding::winding_number;

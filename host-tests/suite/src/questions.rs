@@ -140,6 +140,9 @@ pub const QUESTIONS: &[Question] = &[
         "curve::closest",
         &[Kind::ClosestFar, Kind::ClosestNear],
     ),
+    question("nearest segments of curves", "curve", "curve::nearest", &[Kind::Nearest]),
+    question("all within of curves", "curve", "curve::all_within", &[Kind::AllWithin]),
+    question("signed distance of curves", "curve", "curve::signed", &[Kind::Signed]),
 ];
 
 /// Questions whose code is measured, each by an image `size_*` of its own, and their names in

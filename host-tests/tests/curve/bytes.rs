@@ -1,7 +1,7 @@
 //! Every fault of the bytes is a typed error. Bytes that open are safe to query.
 
 use meshsweep::BuildError;
-use meshsweep::curve::{CurveError, CurveOptions, Polyline, build};
+use meshsweep::curve::{CurveError, CurveOptions, Polyline, Zone, build};
 use meshsweep::progress::Watch;
 use meshsweep_core::{Blob, Curve, OpenError, SectionKind};
 use meshsweep_host_tests::corrupt::{
@@ -108,6 +108,52 @@ fn polylines_points_and_nodes_that_do_not_fit_are_named() {
     }
 }
 
+/// A ring that is an exclusion zone in a ring that is none.
+fn zoned() -> Vec<u8> {
+    let exclusion = Polyline { zone: Zone::Exclusion, ..circle(7) };
+    let built = build(&[circle(9), exclusion], &CurveOptions { is_f32: true }, Watch::NONE);
+    built.expect("finite").0.to_bytes()
+}
+
+#[test]
+fn zones_are_of_known_kinds_one_for_each_polyline_and_of_curves() {
+    let bytes = zoned();
+    assert_eq!(u16::from_le_bytes([bytes[10], bytes[11]]), 4, "the minor version");
+    let whole = entry(&bytes, SectionKind::CurveZones as u32);
+    assert_eq!(bytes[whole.offset as usize..][..whole.bytes as usize], [0, 1]);
+    assert_only_the_whole_opens(&bytes, open);
+    let edit = |edit: &dyn Fn(&mut [u8])| {
+        corrupt::edited(zoned(), SectionKind::CurveZones, edit, |bytes| {
+            assert_eq!(Blob::open(bytes).map(|_| ()), open(bytes), "the whole blob is as strict");
+            open(bytes)
+        })
+    };
+    let bad = |index| Err(OpenError::Record { section: SectionKind::CurveZones, index });
+    assert_eq!(edit(&|zones| zones.copy_from_slice(&[1, 0])), Ok(()));
+    assert_eq!(edit(&|zones| zones[1] = 2), bad(1));
+    assert_eq!(edit(&|zones| zones[0] = 255), bad(0));
+    // An exclusion zone that is not closed.
+    let opened = corrupt::edited(
+        bytes.clone(),
+        SectionKind::Curves,
+        |curves| curves[POLYLINES + 7] &= 0x7F,
+        open,
+    );
+    assert_eq!(opened, bad(1));
+    // Zones without curves are none.
+    let mut alone = bytes;
+    let at = 160 + 16 * (0..2).find(|k| alone[160 + 16 * k] == 21).expect("curves");
+    put_u32(&mut alone, at, 99);
+    corrupt::seal(&mut alone);
+    let missing = OpenError::MissingSection { section: SectionKind::Curves };
+    assert_eq!(Blob::open(&alone).map(|_| ()), Err(missing));
+}
+
+#[test]
+fn damaged_zones_are_refused_or_safe_to_ask() {
+    assert_damage_is_safe(&[zoned()], SectionKind::CurveZones, 16, (200, 3), ask);
+}
+
 #[test]
 fn curves_that_cannot_be_stored_are_refused() {
     let refused = |polylines: &[Polyline]| {
@@ -124,6 +170,8 @@ fn curves_that_cannot_be_stored_are_refused() {
     {
         assert_eq!(refused(&[circle(3), line(points)]), bad);
     }
+    let open_zone = Polyline { zone: Zone::Exclusion, ..walk(3, 1) };
+    assert_eq!(refused(&[circle(3), open_zone]), CurveError::OpenZone { polyline: 1 });
     let largest = 1e-39;
     assert_eq!(refused(&[line(vec![[0.0; 3], [largest; 3]])]), CurveError::TooSmall { largest });
 }

@@ -6,7 +6,9 @@ use meshsweep::curve::{CurveOptions, Polyline, build};
 use meshsweep::progress::Watch;
 use meshsweep_core::{Blob, Budget, CurveClosest, CurveSegment, Ended, QueryError};
 use meshsweep_host_tests::generate::Rng;
-use meshsweep_host_tests::generate::curves::{circle, open, spiral, tool_path, walk, zig_zag};
+use meshsweep_host_tests::generate::curves::{
+    circle, closed, open, spiral, tool_path, walk, zig_zag,
+};
 use meshsweep_host_tests::oracle::Bounded;
 
 /// The interval contains the truth, and the point and the segment are not farther than its end.
@@ -134,7 +136,7 @@ fn of_equal_distances_the_first_segment_is_named() {
     assert_eq!(corner.safe_motion, 0.0);
     let repeated = first(&[open(vec![c, c, b]), open(vec![c, c, c])], [2.0, 5.0, 0.0]);
     assert_eq!((repeated.segment, repeated.t), (name(0, 0), 0.0));
-    let square = Polyline { points: vec![a, b, c, [0.0, 1.0, 0.0]], is_closed: true };
+    let square = closed(vec![a, b, c, [0.0, 1.0, 0.0]]);
     let centre = first(std::slice::from_ref(&square), [0.5, 0.5, 0.0]);
     assert_eq!((centre.segment, centre.distance.lower <= 0.5), (name(0, 0), true));
     // The closing segment is the last one. No segment joins two polylines.

@@ -2,5 +2,8 @@
 
 mod bytes;
 mod closest;
+mod examples;
+mod neighbors;
 mod scenes;
+mod signed;
 mod within;

@@ -21,7 +21,7 @@ impl Scene {
         let bytes =
             build(polylines, &CurveOptions { is_f32 }, Watch::NONE).expect("a curve").0.to_bytes();
         let mut segments = Vec::new();
-        for (polyline, Polyline { points, is_closed }) in (0..).zip(polylines) {
+        for (polyline, Polyline { points, is_closed, .. }) in (0..).zip(polylines) {
             let mut points = points.clone();
             if *is_closed && points.first() != points.last() {
                 points.push(points[0]);
@@ -79,9 +79,9 @@ impl Scene {
 pub fn scenes() -> Vec<Scene> {
     let a = [1.0, 2.0, 3.0];
     let scaled = |factor: f64, shift: f64| {
-        let Polyline { points, is_closed } = walk(60, 8);
+        let Polyline { points, .. } = walk(60, 8);
         let points = points.into_iter().map(|point| point.map(|x| (x + shift) * factor)).collect();
-        vec![Polyline { points, is_closed }]
+        vec![open(points)]
     };
     let mut random = Rng::new(77);
     let mut scattered = || std::array::from_fn(|_| random.unit_f64());

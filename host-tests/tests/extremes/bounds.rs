@@ -60,8 +60,11 @@ fn triboxes(extreme: &Extreme) {
 /// Two sides of each triangle, a polyline each.
 fn curves(extreme: &Extreme) {
     let scene = Scene::new(extreme.name, &wide(extreme.mesh.clone()), Kind::F32);
-    let polylines: Vec<_> =
-        scene.corners.iter().map(|t| Polyline { points: t.to_vec(), is_closed: false }).collect();
+    let polylines: Vec<_> = scene
+        .corners
+        .iter()
+        .map(|t| Polyline { points: t.to_vec(), ..Polyline::default() })
+        .collect();
     let sides: Vec<Corners> =
         scene.corners.iter().flat_map(|&[a, b, c]| [[a, b, b], [b, c, c]]).collect();
     let all: Vec<&Corners> = sides.iter().collect();

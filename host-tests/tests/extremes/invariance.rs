@@ -146,7 +146,8 @@ fn scaling_by_a_power_of_two_scales_every_bit_of_triboxes_and_curves() {
         };
         let triboxes = Triboxes::open(&bytes).expect("opens");
         let sides = scene.corners.iter();
-        let sides = sides.map(|t| Polyline { points: t.to_vec(), is_closed: true });
+        let sides =
+            sides.map(|t| Polyline { points: t.to_vec(), is_closed: true, ..Polyline::default() });
         let options = CurveOptions::default();
         let curves = curve::build(&sides.collect::<Vec<_>>(), &options, Watch::NONE);
         let bytes = curves.expect("curves").0.to_bytes();

@@ -23,10 +23,11 @@ pub struct Example {
 }
 
 /// All examples.
-pub const EXAMPLES: [Example; 4] = [
+pub const EXAMPLES: [Example; 5] = [
     Example { name: "probe", models: &["groove"] },
     Example { name: "keep_out", models: &["clamps"] },
     Example { name: "haptics", models: &["groove"] },
+    Example { name: "fence", models: &["zones"] },
     Example { name: "guard", models: &["link", "table", "groove"] },
 ];
 

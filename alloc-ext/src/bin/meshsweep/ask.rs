@@ -12,8 +12,9 @@ use meshsweep::counted::Counted;
 use meshsweep::distances::{AnyWithin, Closest, Element};
 use meshsweep::number::Short;
 use meshsweep_core::{
-    Budget, Decided, Ended, FirstHit, Interval, Neighbor, PairContact, PairDistance, Penetration,
-    QueryError, ScratchEntry, Separation, SignedDistance, Undecided, Verdict, WindingNumber, Work,
+    Budget, CurveNeighbor, CurveSignedDistance, Decided, Ended, FirstHit, Interval, Neighbor,
+    PairContact, PairDistance, Penetration, QueryError, ScratchEntry, Separation, SignedDistance,
+    Undecided, Verdict, WindingNumber, Work,
 };
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
@@ -69,6 +70,7 @@ answered! {
     PairDistance: |found| found.ended, found.work;
     Penetration: |found| found.ended, found.work;
     Separation: |found| found.ended, found.work;
+    CurveSignedDistance: |found| found.closest.ended, found.closest.work;
     SignedDistance: |found| found.closest.ended, found.closest.work;
     WindingNumber: |found| found.ended, found.work;
     AnyWithin: |found| ended(found.verdict), found.work;
@@ -290,4 +292,17 @@ pub fn write_neighbor(out: &mut dyn Write, near: &Neighbor, work: Work) -> io::R
     let (Interval { lower, upper }, [x, y, z]) = (near.distance(), near.point());
     write_numbers(out, &[lower, upper, x, y, z])?;
     write_end(out, Some(near.triangle()), work)
+}
+
+/// The last columns of a near segment of a curve: interval, closest point, polyline, segment, and
+/// the query's work.
+pub fn write_curve_neighbor(
+    out: &mut dyn Write,
+    near: &CurveNeighbor,
+    work: Work,
+) -> io::Result<()> {
+    let (Interval { lower, upper }, [x, y, z]) = (near.distance(), near.point());
+    write_numbers(out, &[lower, upper, x, y, z])?;
+    write_element(out, true, Some(Element::Segment(near.segment())))?;
+    writeln!(out, "{}", work.total())
 }

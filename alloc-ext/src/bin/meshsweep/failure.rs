@@ -45,6 +45,8 @@ pub enum Failure {
     NothingToSearch { file: PathBuf, served: String },
     /// The levels of the blob's hierarchy enclose nothing.
     NotEnclosing { file: PathBuf },
+    /// The curves of the blob bound no area.
+    NoFence { file: PathBuf, error: QueryError },
     /// All tight hulls of the blob have more faces.
     NoTightHull { file: PathBuf, faces: u32, least: u32 },
     /// The blob has no such key frame.
@@ -209,6 +211,7 @@ impl fmt::Display for Failure {
                 "{}: serves {served}; worst searches closest, within, signed, winding and segment",
                 file.display()
             ),
+            Failure::NoFence { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::NotEnclosing { file } => write!(
                 f,
                 "{}: was built --for sweep, and its levels are no hulls; build it --for hull from \

@@ -16,9 +16,11 @@ const QUESTIONS: [(&str, Serves); 17] = [
     ("closest", |blob| has_distances(blob) || blob.hull().is_ok() || blob.curve().is_ok()),
     ("closest --frame", |blob| blob.deformable_hull().is_ok()),
     ("within", |blob| has_distances(blob) || blob.curve().is_ok()),
-    ("nearest", knows_triangles),
+    ("nearest", |blob| knows_triangles(blob) || blob.curve().is_ok()),
     ("field", knows_triangles),
-    ("signed", |blob| tree(blob, BuildFor::Closest).is_some_and(|tree| has_sides(&tree))),
+    ("signed", |blob| {
+        tree(blob, BuildFor::Closest).is_some_and(|tree| has_sides(&tree)) || is_fence(blob)
+    }),
     ("winding", |blob| tree(blob, BuildFor::Winding).is_some()),
     ("segment", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
     ("overlap", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
@@ -38,6 +40,11 @@ pub fn questions(blob: &Blob<'_>) -> Vec<&'static str> {
     served.map(|(question, _)| question).collect()
 }
 
+/// Whether the blob has curves that bound an area.
+fn is_fence(blob: &Blob<'_>) -> bool {
+    blob.curve().is_ok_and(|curve| curve.check_fence().is_ok())
+}
+
 /// Whether the blob knows the distances of the mesh's own triangles.
 fn knows_triangles(blob: &Blob<'_>) -> bool {
     tree(blob, BuildFor::Closest).is_some()
@@ -51,7 +58,7 @@ fn has_distances(blob: &Blob<'_>) -> bool {
 /// The same for people. A question that is served without all of its options is marked.
 pub fn listed(blob: &Blob<'_>) -> String {
     let said = |question| match question {
-        "within" if !knows_triangles(blob) => "within without --all",
+        "within" if !knows_triangles(blob) && blob.curve().is_err() => "within without --all",
         other => other,
     };
     questions(blob).into_iter().map(said).collect::<Vec<_>>().join(", ")
@@ -208,7 +215,7 @@ impl Engine<'_> {
 const COMFORTABLE_SCRATCH: usize = 4096;
 
 /// More scratch entries of a curve than it needs: with these, searches go best first.
-const BEST_FIRST: usize = 256;
+pub const BEST_FIRST: usize = 256;
 
 /// Scratch entries to ask a structure about points with, unless `--scratch` says otherwise.
 pub fn entries(structure: &Distances<'_>) -> usize {

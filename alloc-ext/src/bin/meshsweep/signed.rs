@@ -1,22 +1,33 @@
-//! `meshsweep signed`: on which side points are, and how far from the surface.
+//! `meshsweep signed`: on which side points are, and how far from the surface or the fence.
 
-use crate::args::{PointArgs, SignedArgs, files};
-use crate::ask::{Question, write_end, write_numbers};
+use crate::args::{SignedArgs, files};
+use crate::ask::{Question, write_element, write_end, write_numbers};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::side::{has_sideless, name, reason};
 use crate::{blob_file, served};
-use meshsweep::distances::{has_sides, signed_distance};
-use meshsweep_core::{BuildFor, Interval, SignedDistance};
+use meshsweep::distances::{Element, has_sides, signed_distance};
+use meshsweep_core::{
+    BuildFor, Curve, CurveSignedDistance, Interval, Side, SignedDistance, Undecided,
+};
 use std::io::{self, Write};
 
 pub fn run(args: &SignedArgs) -> Result<(), Failure> {
-    let SignedArgs { input: PointArgs { blob: file, points }, search } = args;
-    refuse_same_file(search.output.as_deref(), &files(&[file], points))?;
-    let tree = served::require_tree(file, &blob_file::open(file)?, BuildFor::Closest)?;
+    let SignedArgs { blob: file, points, search } = args;
+    let in_plane: Vec<_> = points.iter().map(|point| point.in_plane()).collect();
+    refuse_same_file(search.output.as_deref(), &files(&[file], &in_plane))?;
+    let blob = blob_file::open(file)?;
+    if let Ok(curve) = blob.curve() {
+        let refuse = |error| Failure::NoFence { file: file.to_owned(), error };
+        curve.check_fence().map_err(refuse)?;
+        return ask_fence(args, &curve, Queries::read(&in_plane)?);
+    }
+    let tree = served::require_tree(file, &blob, BuildFor::Closest)?;
+    let points: Result<Vec<_>, _> = points.iter().map(|point| point.in_space()).collect();
+    let points = points.map_err(|what| Failure::Usage { what })?;
     let header = "x,y,z,side,reason,lower,upper,px,py,pz,triangle,work";
-    Question::new(header, Queries::read(points)?, search).ask_each(
+    Question::new(header, Queries::read(&points)?, search).ask_each(
         tree.scratch_entries(),
         |point, scratch| signed_distance(&tree, point, search.budget(), scratch),
         |out, _, point, &SignedDistance { distance, side, closest, .. }| {
@@ -42,4 +53,31 @@ pub fn run(args: &SignedArgs) -> Result<(), Failure> {
         );
     }
     Ok(())
+}
+
+/// Asks whether a fence allows points.
+fn ask_fence(
+    SignedArgs { search, .. }: &SignedArgs,
+    fence: &Curve<'_>,
+    points: Queries<2>,
+) -> Result<(), Failure> {
+    let header = "x,y,side,reason,lower,upper,px,py,polyline,segment,safe_motion,work";
+    Question::new(header, points, search).ask_each(
+        fence.scratch_entries() + served::BEST_FIRST,
+        |point, scratch| fence.signed_distance(point, search.budget(), scratch),
+        |out, _, point, &CurveSignedDistance { distance, side, closest, .. }| {
+            let Interval { lower, upper } = distance;
+            let [px, py, _] = closest.point;
+            let reason = match side {
+                Side::Undecided(Undecided::OnSurface) => "at the line",
+                other => reason(other),
+            };
+            write_numbers(out, point)?;
+            write!(out, "{},{reason},", name(side))?;
+            write_numbers(out, &[lower, upper, px, py])?;
+            write_element(out, true, Some(Element::Segment(closest.segment)))?;
+            write_numbers(out, &[closest.safe_motion])?;
+            writeln!(out, "{}", closest.work.total())
+        },
+    )
 }

@@ -31,10 +31,6 @@ pub fn probe(args: &BuildArgs, inputs: &[&Path]) -> Result<(), Failure> {
         let what = format!("{}: --emit needs a name in UTF-8", args.output.display());
         return Err(Failure::Usage { what });
     }
-    if args.emit.contains(&Language::C) && args.is_curve() {
-        let what = "--emit c: the C interface has no curves".to_owned();
-        return Err(Failure::Usage { what });
-    }
     for file in files(args) {
         if file == args.output {
             let what = format!("{}: the blob and its source in one file", file.display());

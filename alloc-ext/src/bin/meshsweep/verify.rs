@@ -7,9 +7,11 @@ use crate::mesh_file;
 use crate::mesh_report::write_rounding;
 use crate::output::Output;
 use meshsweep::BuildError;
-use meshsweep::check::{Against, Finding, Outcome, verify, verify_file, verify_repair};
+use meshsweep::check::{
+    Against, FilePolyline, Finding, Outcome, verify, verify_file, verify_repair,
+};
 use meshsweep::counted::Counted;
-use meshsweep::curve::read_csv;
+use meshsweep::curve::{Polyline, Zone, read_csv};
 use meshsweep::load::{Loaded, bytes_of, is_named_as_mesh};
 use meshsweep::mesh::{KeyFrame, RawMesh, RepairReport};
 use meshsweep::surface::VertexBits;
@@ -89,8 +91,12 @@ fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Fai
         let polylines = read_csv(&text, false).map_err(|error| {
             Failure::build(file, BuildError::Curve { file: file.clone(), error })
         })?;
-        let points: Vec<_> = polylines.into_iter().map(|polyline| polyline.points).collect();
-        let findings = verify(bytes, Against::Curves(&points));
+        let filed = polylines.into_iter().map(|Polyline { points, zone, .. }| FilePolyline {
+            points,
+            is_exclusion: zone == Zone::Exclusion,
+        });
+        let filed: Vec<FilePolyline> = filed.collect();
+        let findings = verify(bytes, Against::Curves(&filed));
         return Ok(Proofs { findings, hint: String::new(), report: None });
     }
     if is_csv {

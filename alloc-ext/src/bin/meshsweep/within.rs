@@ -1,24 +1,29 @@
-//! `meshsweep within`: whether points are within a distance of the surface, or of which triangles.
+//! `meshsweep within`: whether points are within a distance of the surface or the curve, or of
+//! which triangles or segments.
 
 use crate::args::{PointArgs, WithinArgs, files};
 use crate::ask::{
-    self, Answer, Question, verdict_name, write_element, write_end, write_neighbor, write_numbers,
+    self, Answer, Question, verdict_name, write_curve_neighbor, write_element, write_end,
+    write_neighbor, write_numbers,
 };
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::{blob_file, served};
 use meshsweep::distances::Distances;
-use meshsweep_core::{BuildFor, Bvh, Ended, Neighbor};
+use meshsweep_core::{BuildFor, Bvh, Curve, CurveNeighbor, Ended, Neighbor};
 
-/// Room for triangles at first.
-const TRIANGLES: usize = 64;
+/// Room for triangles, or segments, at first.
+const ROOM: usize = 64;
 
 pub fn run(args: &WithinArgs) -> Result<(), Failure> {
     let WithinArgs { input: PointArgs { blob: file, points }, search, .. } = args;
     refuse_same_file(search.output.as_deref(), &files(&[file], points))?;
     let blob = blob_file::open(file)?;
     let tree = || served::require_tree(file, &blob, BuildFor::Closest);
+    if let (Ok(curve), true) = (blob.curve(), args.all) {
+        return ask_all_segments(args, &curve, Queries::read(points)?);
+    }
     if args.all {
         let tree = tree()?;
         return ask_all(args, tree, Queries::read(points)?);
@@ -65,7 +70,7 @@ fn ask_all(
     Question::new(header, points, search).ask(
         || {
             let mut scratch = search.scratch(tree.scratch_entries());
-            let mut room = vec![Neighbor::EMPTY; TRIANGLES];
+            let mut room = vec![Neighbor::EMPTY; ROOM];
             move |point| {
                 let (all, triangles) = ask::all(
                     &mut room,
@@ -90,6 +95,44 @@ fn ask_all(
             };
             write!(out, "{query},{verdict},,,,,,")?;
             write_end(out, None, *work)
+        },
+    )
+}
+
+/// Asks which segments of a curve are within the distance.
+fn ask_all_segments(
+    WithinArgs { distance, search, .. }: &WithinArgs,
+    curve: &Curve<'_>,
+    points: Queries<3>,
+) -> Result<(), Failure> {
+    let header = "query,within,lower,upper,px,py,pz,polyline,segment,work";
+    Question::new(header, points, search).ask(
+        || {
+            let mut scratch = search.scratch(curve.scratch_entries() + served::BEST_FIRST);
+            let mut room = vec![CurveNeighbor::EMPTY; ROOM];
+            move |point| {
+                let (all, segments) = ask::all(
+                    &mut room,
+                    CurveNeighbor::EMPTY,
+                    |room| curve.all_within(point, *distance, room, search.budget(), &mut scratch),
+                    |all| (all.stored, all.dropped),
+                )?;
+                Ok(Answer { found: (all.certain, segments), ended: all.ended, work: all.work })
+            }
+        },
+        |out, query, _, Answer { found: (certain, segments), ended, work }| {
+            for (index, near) in segments.iter().enumerate() {
+                let verdict = if index < *certain { "yes" } else { "undecided" };
+                write!(out, "{query},{verdict},")?;
+                write_curve_neighbor(out, near, *work)?;
+            }
+            let verdict = match ended {
+                Ended::Exact if segments.is_empty() => "no",
+                Ended::Exact => return Ok(()),
+                // Segments may be missing.
+                _ => "undecided",
+            };
+            writeln!(out, "{query},{verdict},,,,,,,,{}", work.total())
         },
     )
 }

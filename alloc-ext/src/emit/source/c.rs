@@ -52,6 +52,10 @@ pub fn c_header(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
         let value = u8::from(has_sides).to_string();
         define("HAS_SIDES", value, "whether msw_signed_distance decides sides");
     }
+    if let Some(is_fence) = facts.is_fence {
+        let value = u8::from(is_fence).to_string();
+        define("IS_FENCE", value, "whether msw_curve_signed_distance answers");
+    }
     if let Some(error) = facts.surface_error {
         define("SURFACE_ERROR", float(error), "most distance of the mesh from the stored surface");
     }

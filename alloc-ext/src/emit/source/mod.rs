@@ -80,6 +80,8 @@ struct Facts {
     has_more: bool,
     is_closed: Option<bool>,
     has_sides: Option<bool>,
+    /// Whether curves bound an area.
+    is_fence: Option<bool>,
     surface_error: Option<f32>,
     /// Contains the mesh, or the tightest hull.
     bounds: Option<[[f32; 3]; 2]>,
@@ -112,6 +114,7 @@ impl Facts {
             has_more: hull.is_some() || triboxes.is_some() || curve.is_some(),
             is_closed: tree.map(|tree| tree.is_closed()),
             has_sides: tree.map(|tree| tree.has_sides()),
+            is_fence: curve.map(|curve| curve.check_fence().is_ok()),
             surface_error: tree.map(|tree| tree.surface_error()),
             bounds: tree.or(finest.map(|hull| *hull.bvh())).map(|tree| around(&tree)),
         }

@@ -7,27 +7,8 @@ use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
 use crate::bvh::tree::descent::descend;
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::num::sqrt_approx;
-use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
+use crate::query::{AllWithin, Budget, ClosestPoint, QueryError, ScratchEntry, Work};
 use glam::Vec3;
-
-/// How a search for all triangles within a distance went. They are in the caller's slice.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub struct AllWithin {
-    /// Triangles in the slice.
-    pub stored: usize,
-    /// Triangles that are certainly within the distance (`upper ≤ distance`). They come first in
-    /// the slice. The others are undecided (`lower ≤ distance < upper`).
-    pub certain: usize,
-    /// Triangles, certain or not, that did not fit. The slice keeps the nearest.
-    pub dropped: u32,
-    /// The work of the search.
-    pub work: Work,
-    /// [`Ended::Exact`]: every triangle that is neither stored nor counted as dropped is certainly
-    /// farther. Else some may be missing.
-    pub ended: Ended,
-}
 
 impl Bvh<'_> {
     /// All triangles of the input mesh that are, or may be, at most `distance` from `point` (both

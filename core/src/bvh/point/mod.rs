@@ -36,9 +36,7 @@ mod side;
 mod triangle_visitor;
 mod within;
 
-pub use all_within::AllWithin;
 pub use coherent::{CoherentClosest, CoherentQuery};
 pub use front_facing::{Eye, FrontFacing};
 pub use hint::Hint;
-pub use nearest::KNearest;
 pub use neighbors::Neighbor;

@@ -8,25 +8,8 @@ use crate::bvh::tree::descent::{Descent, descend};
 use crate::bvh::tree::format::{Bvh, FanLeaf};
 use crate::num::tolerance::EVERYTHING_SQ;
 use crate::num::{lesser, sqrt_approx};
-use crate::query::{Budget, Ended, QueryError, ScratchEntry, Work};
+use crate::query::{Budget, Ended, KNearest, QueryError, ScratchEntry, Work};
 use glam::Vec3;
-
-/// How a search for the nearest triangles went. They are in the caller's slice.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub struct KNearest {
-    /// Triangles in the slice.
-    pub stored: usize,
-    /// No other triangle of the input mesh is nearer than this, input units. Infinite if there is
-    /// no other.
-    pub rest_lower: f32,
-    /// The work of the search.
-    pub work: Work,
-    /// [`Ended::Exact`] if every leaf that can change the answer was visited. Else those stored may
-    /// not be the nearest; `rest_lower` still holds.
-    pub ended: Ended,
-}
 
 impl Bvh<'_> {
     /// The `out.len()` triangles nearest to `point` (input units), by rising distance, into `out`.

@@ -2,9 +2,9 @@
 
 use super::layout::{
     CURVES_BYTES, CURVES_F32, CURVES_PLANAR, MAX_CURVE_DEPTH, MAX_POINTS, POLYLINE_BYTES,
-    POLYLINE_CLOSED,
+    POLYLINE_CLOSED, ZONE_EXCLUSION, ZONE_INCLUSION,
 };
-use super::view::{Curve, CurvesHeader, Run};
+use super::view::{Curve, CurvesHeader, Node, Run};
 use crate::format::Contradiction;
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError, SectionTable};
@@ -28,7 +28,7 @@ impl<'a> Curve<'a> {
     #[inline(never)]
     pub fn open(bytes: &'a [u8]) -> Result<Curve<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
-        table.check_crcs(|kind| kind == SectionKind::Curves)?;
+        table.check_crcs(SectionKind::is_curve)?;
         let curve = Curve::locate(&table)?;
         curve.check()?;
         Ok(curve)
@@ -79,6 +79,10 @@ impl<'a> Curve<'a> {
             let whole = (header.nodes() as usize).checked_mul(header.node_bytes())?;
             (nodes.len() == whole).then_some((table, places, nodes))
         };
+        let zones = table.bytes(SectionKind::CurveZones);
+        if !zones.is_empty() && zones.len() != polylines as usize {
+            return Err(table.malformed(SectionKind::CurveZones));
+        }
         let (table, places, nodes) = slices().ok_or(malformed)?;
         Ok(Curve {
             header,
@@ -88,6 +92,7 @@ impl<'a> Curve<'a> {
             polylines: table.as_chunks().0,
             points: Bytes(places),
             nodes: Bytes(nodes),
+            zones,
         })
     }
 
@@ -102,7 +107,23 @@ impl<'a> Curve<'a> {
             }
         }
         self.check_polylines()?;
+        self.check_zones()?;
         self.check_nodes()
+    }
+
+    /// Zones are of known kinds, and exclusion zones are closed.
+    fn check_zones(&self) -> Result<(), OpenError> {
+        for (index, &zone) in (0..).zip(self.zones) {
+            let is_sound = match zone {
+                ZONE_INCLUSION => true,
+                ZONE_EXCLUSION => self.is_closed(index) == Some(true),
+                _ => false,
+            };
+            if !is_sound {
+                return Err(OpenError::Record { section: SectionKind::CurveZones, index });
+            }
+        }
+        Ok(())
     }
 
     /// Polylines follow each other, each has two points at least, and closed ones end where they
@@ -153,7 +174,7 @@ impl<'a> Curve<'a> {
             let runs = self.children(index).ok_or(bad(index))?;
             let sound = |run: &Run| {
                 // The record of a run that has a node.
-                let stored = |node: super::view::Node| {
+                let stored = |node: Node| {
                     (node.first, node.last) == (run.first, run.last) && node.radius == run.radius
                 };
                 run.first < run.last

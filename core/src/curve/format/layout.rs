@@ -14,6 +14,10 @@ pub const MAX_CURVE_DEPTH: usize = 64;
 pub const CURVES_PLANAR: u32 = 1;
 /// Flag of the curves: coordinates are f32, not integers of the grid.
 pub const CURVES_F32: u32 = 2;
+/// Byte of a polyline in the section of zones: an inclusion zone.
+pub const ZONE_INCLUSION: u8 = 0;
+/// Byte of a polyline in the section of zones: an exclusion zone.
+pub const ZONE_EXCLUSION: u8 = 1;
 
 /// Offsets in the header.
 pub mod field {

@@ -10,5 +10,5 @@ mod check;
 pub mod layout;
 mod view;
 
-pub(crate) use view::Run;
-pub use view::{Curve, CurveSegment, CurvesHeader};
+pub use view::{Curve, CurveSegment, CurvesHeader, Zone};
+pub(crate) use view::{Node, Run};

@@ -9,12 +9,12 @@
 //! box of the blob. Accessors return `Option` all the same. No path can panic.
 
 use super::layout::{
-    CURVES_BYTES, CURVES_F32, CURVES_PLANAR, POLYLINE_BYTES, POLYLINE_CLOSED, field,
+    CURVES_BYTES, CURVES_F32, CURVES_PLANAR, POLYLINE_BYTES, POLYLINE_CLOSED, ZONE_EXCLUSION, field,
 };
 use crate::format::layout::{SectionKind, index_bytes};
 use crate::format::{Bytes, OpenError};
 use crate::geom::Aabb;
-use crate::num::Radius16;
+use crate::num::{Radius16, Real, down_to_f32};
 use crate::query::Frame;
 use glam::Vec3;
 
@@ -107,6 +107,18 @@ pub struct CurveSegment {
     pub segment: u32,
 }
 
+/// Which side of a closed polyline is allowed, as autopilots mark the polygons of a geofence.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum Zone {
+    /// Its inside.
+    #[default]
+    Inclusion,
+    /// Its outside.
+    Exclusion,
+}
+
 /// Points that follow each other, and the capsule that holds the segments between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Run {
@@ -136,6 +148,8 @@ pub struct Curve<'a> {
     pub(crate) polylines: &'a [[u8; POLYLINE_BYTES]],
     pub(crate) points: Bytes<'a>,
     pub(crate) nodes: Bytes<'a>,
+    /// One byte for each polyline; none if all are inclusion zones.
+    pub(crate) zones: &'a [u8],
 }
 
 impl Curve<'_> {
@@ -158,6 +172,17 @@ impl Curve<'_> {
     pub fn is_closed(&self, polyline: u32) -> Option<bool> {
         let record = self.polylines.get(polyline as usize)?;
         Some(u32::from_le_bytes(*record) & POLYLINE_CLOSED != 0)
+    }
+
+    /// Which side of a polyline is allowed, if it is closed. `None`: there is no such polyline.
+    pub fn zone(&self, polyline: u32) -> Option<Zone> {
+        if polyline >= self.header.polylines {
+            return None;
+        }
+        match self.zones.get(polyline as usize) {
+            Some(&ZONE_EXCLUSION) => Some(Zone::Exclusion),
+            _ => Some(Zone::Inclusion),
+        }
     }
 
     /// With this many scratch entries no question ends for lack of memory.
@@ -200,6 +225,32 @@ impl Curve<'_> {
         Some(Vec3::new(place(x, ox), place(y, oy), z) * self.unit)
     }
 
+    /// The coordinate of a point along an axis of the plane, 0 or 1, as an integer. The order of
+    /// these integers is that of the coordinates.
+    #[inline(always)]
+    pub(crate) fn order(&self, index: u32, axis: usize) -> Option<i32> {
+        let at = (index as usize).checked_mul(self.header.point_bytes())?;
+        if self.header.is_f32() {
+            self.points.f32(at.checked_add(4 * axis)?).map(|x| Real(x).order())
+        } else {
+            self.points.u16(at.checked_add(2 * axis)?).map(i32::from)
+        }
+    }
+
+    /// The greatest of these integers whose coordinate is not above `x`, local frame, or any above
+    /// all points.
+    pub(crate) fn order_of(&self, x: f64, axis: usize) -> i32 {
+        if self.header.is_f32() {
+            return Real(down_to_f32(x)).order();
+        }
+        // A power of two: exact.
+        let x = x / f64::from(self.unit);
+        let whole = x as i32;
+        let floor = whole.saturating_sub(i32::from(f64::from(whole) > x));
+        let [ox, oy, _] = self.header.grid_origin;
+        floor.saturating_sub(if axis == 0 { ox } else { oy })
+    }
+
     #[inline(always)]
     pub(crate) fn node(&self, index: u32) -> Option<Node> {
         let width = self.header.index_bytes();
@@ -237,6 +288,24 @@ impl Curve<'_> {
             right.radius = self.node(right.item)?.radius;
         }
         Some(runs)
+    }
+
+    /// The first point of a polyline.
+    fn start(record: &[u8; POLYLINE_BYTES]) -> u32 {
+        u32::from_le_bytes(*record) & !POLYLINE_CLOSED
+    }
+
+    /// The first and the last point of a polyline. `None`: there is no such polyline.
+    pub(crate) fn ends(&self, polyline: usize) -> Option<[u32; 2]> {
+        let first = Self::start(self.polylines.get(polyline)?);
+        let after = polyline.checked_add(1).and_then(|next| self.polylines.get(next));
+        let last = after.map_or(self.header.points, Self::start).checked_sub(1)?;
+        Some([first, last])
+    }
+
+    /// The polyline of a point.
+    pub(crate) fn polyline_of(&self, point: u32) -> Option<usize> {
+        self.polylines.partition_point(|record| Self::start(record) <= point).checked_sub(1)
     }
 
     /// The segment that begins at a point. `None` for a gap.

@@ -1,7 +1,7 @@
 //! Questions to the curves of a blob.
 
 pub use meshsweep_core::Curve;
-use meshsweep_core::{Budget, CurveClosest, CurveSegment, ScratchEntry};
+use meshsweep_core::{Budget, CurveClosest, CurveNeighbor, CurveSegment, ScratchEntry, Side};
 
 use super::{Asked, Refused, Subject, how, verdict};
 use crate::fold::Fold;
@@ -11,6 +11,8 @@ use crate::place::{Bounds, Place, Point};
 
 /// Entries of the queue: enough for the suite's blobs, and some to go best first.
 const ENTRIES: usize = 64;
+/// Room for segments.
+const NEIGHBORS: usize = 4;
 
 /// What the queries need beside the curve.
 pub type Scratch = meshsweep_core::Scratch<ENTRIES>;
@@ -43,6 +45,9 @@ impl<'t> Subject<'t> for Curve<'t> {
         };
         Stopped => stopped(self, place.far(), place.distance(), scratch, to);
         Within => is_within(self, place.far(), place.distance(), scratch, to);
+        Nearest => nearest(self, place.far(), scratch, to);
+        AllWithin => all_within(self, place.far(), place.distance(), scratch, to);
+        Signed => signed(self, place.far(), scratch, to);
     }
 }
 
@@ -133,4 +138,79 @@ pub fn is_within(
             verdict(fold, answer.verdict);
         },
     );
+}
+
+/// Whether the fence allows a point, and how far its line is.
+#[inline(never)]
+pub fn signed(
+    curve: &Curve<'_>,
+    [x, y, _]: Point,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Observer>,
+) {
+    to.answer(
+        || curve.signed_distance([x, y], Budget::EXACT, scratch),
+        |fold, answer| {
+            fold.f32(answer.distance.lower);
+            fold.f32(answer.distance.upper);
+            fold.word(match answer.side {
+                Side::Outside => 1,
+                Side::Inside => 2,
+                _ => 0,
+            });
+            closest_point(fold, &answer.closest);
+        },
+    );
+}
+
+fn neighbors(fold: &mut Fold, found: &[CurveNeighbor]) {
+    for near in found {
+        fold.f32(near.distance().lower);
+        fold.f32(near.distance().upper);
+        fold.point(near.point());
+        segment(fold, Some(near.segment()));
+        fold.f32(near.t());
+    }
+}
+
+/// The closest segments.
+#[inline(never)]
+pub fn nearest(
+    curve: &Curve<'_>,
+    p: Point,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Observer>,
+) {
+    let mut out = [CurveNeighbor::EMPTY; NEIGHBORS];
+    let answer = to.answer(
+        || curve.nearest(p, &mut out, Budget::EXACT, scratch),
+        |fold, answer| {
+            fold.f32(answer.rest_lower);
+            how(fold, answer.ended);
+        },
+    );
+    let stored = answer.map_or(0, |answer| answer.stored);
+    neighbors(to.fold, out.get(..stored).unwrap_or_default());
+}
+
+/// All segments within a distance.
+#[inline(never)]
+pub fn all_within(
+    curve: &Curve<'_>,
+    p: Point,
+    distance: f32,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Observer>,
+) {
+    let mut out = [CurveNeighbor::EMPTY; NEIGHBORS];
+    let answer = to.answer(
+        || curve.all_within(p, distance, &mut out, Budget::EXACT, scratch),
+        |fold, answer| {
+            fold.word(answer.certain as u32);
+            fold.word(answer.dropped);
+            how(fold, answer.ended);
+        },
+    );
+    let stored = answer.map_or(0, |answer| answer.stored);
+    neighbors(to.fold, out.get(..stored).unwrap_or_default());
 }

@@ -1,9 +1,10 @@
 //! The work of each answer, which is no part of a hash.
 
 use meshsweep_core::{
-    AllHits, AllOverlaps, AllWithin, ClosestPoint, CoherentClosest, CurveClosest, Decided,
-    FirstHit, FrontFacing, KNearest, PairContact, PairDistance, Penetration, SceneDistance,
-    Separation, SignedDistance, SolidDistance, TriboxBound, TriboxCandidates, WindingNumber, Work,
+    AllHits, AllOverlaps, AllWithin, ClosestPoint, CoherentClosest, CurveClosest,
+    CurveSignedDistance, Decided, FirstHit, FrontFacing, KNearest, PairContact, PairDistance,
+    Penetration, SceneDistance, Separation, SignedDistance, SolidDistance, TriboxBound,
+    TriboxCandidates, WindingNumber, Work,
 };
 
 /// An answer that tells its work.
@@ -30,6 +31,7 @@ worked! {
     ClosestPoint: work;
     CoherentClosest: closest.work;
     CurveClosest: work;
+    CurveSignedDistance: closest.work;
     FirstHit: work;
     KNearest: work;
     PairContact: work;

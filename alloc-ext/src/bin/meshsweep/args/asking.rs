@@ -1,6 +1,6 @@
 //! Arguments of the commands that ask a blob.
 
-use super::given::{self, Given};
+use super::given::{self, Given, GivenPoint};
 use super::reading::ThreadArgs;
 use super::values::{Margin, Tool, direction, frame, margin, point, size, tolerance, tool, whole};
 use clap::{Args, ValueEnum};
@@ -118,8 +118,11 @@ pub struct NearestArgs {
 
 #[derive(Debug, Args)]
 pub struct SignedArgs {
-    #[command(flatten)]
-    pub input: PointArgs,
+    /// Blob file
+    pub blob: PathBuf,
+    /// Query points: x,y,z each, of a fence x,y, or files of them
+    #[arg(required = true, value_parser = given::points())]
+    pub points: Vec<GivenPoint>,
     #[command(flatten)]
     pub search: SearchArgs,
 }

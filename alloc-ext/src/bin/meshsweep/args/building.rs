@@ -90,7 +90,7 @@ pub struct BuildArgs {
         hide_possible_values = true
     )]
     pub tight_for: Vec<HullServes>,
-    /// With --for curve: join the last point of each polyline with its first
+    /// With --for curve: join the last point of each polyline with its first; zones always are
     #[arg(long)]
     pub closed: bool,
     /// Write the blob as source text too, in rust or c

@@ -15,9 +15,43 @@ pub enum Given<const N: usize> {
     File(PathBuf),
 }
 
+/// A point of the plane or of space, or a file of either: what is asked decides which.
+#[derive(Clone, Debug, PartialEq)]
+pub enum GivenPoint {
+    Plane([f32; 2]),
+    Space([f32; 3]),
+    File(PathBuf),
+}
+
+impl GivenPoint {
+    /// The point along z.
+    pub fn in_plane(&self) -> Given<2> {
+        match self {
+            Self::Plane(point) | Self::Space([point @ .., _]) => Given::Query(*point),
+            Self::File(path) => Given::File(path.clone()),
+        }
+    }
+
+    /// The point of space.
+    ///
+    /// # Errors
+    /// It is one of the plane, as numbers.
+    pub fn in_space(&self) -> Result<Given<3>, String> {
+        match self {
+            Self::Plane([x, y]) => {
+                let [x, y] = [number::Short(*x), number::Short(*y)];
+                Err(format!("{x},{y}: 2 numbers, and a query of a mesh needs {}", names(3)))
+            }
+            Self::Space(point) => Ok(Given::Query(*point)),
+            Self::File(path) => Ok(Given::File(path.clone())),
+        }
+    }
+}
+
 /// The numbers of a query by their count, which tells the kind of query.
 pub fn names(count: usize) -> &'static str {
     match count {
+        2 => "2: x, y; or 3, of which z is not looked at",
         3 => "3: x, y, z",
         6 => "6: ax, ay, az, bx, by, bz",
         7 => "7: x, y, z, qw, qx, qy, qz",
@@ -37,6 +71,25 @@ pub fn files<'a, const N: usize>(blobs: &[&'a Path], given: &'a [Given<N>]) -> V
 /// The value parser of queries.
 pub fn queries<const N: usize>() -> impl TypedValueParser<Value = Given<N>> {
     OsStringValueParser::new().try_map(given)
+}
+
+/// The value parser of points of the plane or of space.
+pub fn points() -> impl TypedValueParser<Value = GivenPoint> {
+    OsStringValueParser::new().try_map(given_point)
+}
+
+fn given_point(text: OsString) -> Result<GivenPoint, String> {
+    let count = text.to_str().filter(|text| are_numbers(text)).map(|text| text.split(',').count());
+    if count == Some(2) {
+        return given::<2>(text).map(|given| match given {
+            Given::Query(point) => GivenPoint::Plane(point),
+            Given::File(path) => GivenPoint::File(path),
+        });
+    }
+    given::<3>(text).map(|given| match given {
+        Given::Query(point) => GivenPoint::Space(point),
+        Given::File(path) => GivenPoint::File(path),
+    })
 }
 
 /// A text of numbers alone is a query. A file of such a name must be given with its directory.
@@ -100,6 +153,22 @@ mod tests {
         for file in ["-", "p.csv", "a,b,c", "1,2.csv", "./1,2,3", "7"] {
             assert_eq!(point(file), Ok(Given::File(file.into())), "{file}");
         }
+    }
+
+    #[test]
+    fn points_of_the_plane_are_told_from_points_of_space() {
+        let point = |text: &str| given_point(text.into());
+        let (plane, space) = (point("1,-2").expect("two"), point("1,-2,3").expect("three"));
+        assert_eq!(
+            (&plane, &space),
+            (&GivenPoint::Plane([1.0, -2.0]), &GivenPoint::Space([1.0, -2.0, 3.0]))
+        );
+        assert_eq!([plane.in_plane(), space.in_plane()], [[1.0, -2.0]; 2].map(Given::Query));
+        assert_eq!(space.in_space(), Ok(Given::Query([1.0, -2.0, 3.0])));
+        assert!(plane.in_space().unwrap_err().starts_with("1,-2: 2 numbers"));
+        assert_eq!(point("p.csv"), Ok(GivenPoint::File("p.csv".into())));
+        assert!(point("1,2,3,4").unwrap_err().starts_with("4 numbers"));
+        assert!(point("1,nan").unwrap_err().starts_with("is not finite"));
     }
 
     #[test]

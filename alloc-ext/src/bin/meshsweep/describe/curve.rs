@@ -2,7 +2,7 @@
 
 use meshsweep::counted::Counted;
 use meshsweep::number::AtMost;
-use meshsweep_core::{Curve, ScratchEntry};
+use meshsweep_core::{Curve, ScratchEntry, Zone};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -10,6 +10,12 @@ use std::io::{self, Write};
 fn closed(curve: &Curve<'_>) -> usize {
     let is_closed = |&polyline: &u32| curve.is_closed(polyline) == Some(true);
     (0..curve.polyline_count()).filter(is_closed).count()
+}
+
+/// Exclusion zones.
+fn exclusions(curve: &Curve<'_>) -> usize {
+    let is_exclusion = |&polyline: &u32| curve.zone(polyline) == Some(Zone::Exclusion);
+    (0..curve.polyline_count()).filter(is_exclusion).count()
 }
 
 fn scratch_bytes(curve: &Curve<'_>) -> usize {
@@ -29,6 +35,19 @@ pub(super) fn write(out: &mut dyn Write, curve: &Curve<'_>) -> io::Result<()> {
     if closed(curve) < curve.polyline_count() as usize {
         writeln!(out, "  open: nothing joins the last point with the first; build --closed does")?;
     }
+    match curve.check_fence() {
+        Ok(()) if exclusions(curve) > 0 => {
+            let inclusions = curve.polyline_count() as usize - exclusions(curve);
+            writeln!(
+                out,
+                "  fence: inside of {} and outside of {}",
+                Counted(inclusions, "inclusion zone"),
+                Counted(exclusions(curve), "exclusion zone")
+            )?;
+        }
+        Ok(()) => writeln!(out, "  fence: each polyline is an inclusion zone")?,
+        Err(why) => writeln!(out, "  no fence: {why}")?,
+    }
     writeln!(
         out,
         "  scratch: {}, {} bytes: no query needs more",
@@ -42,6 +61,8 @@ pub(super) fn as_json(curve: &Curve<'_>) -> Value {
     json!({
         "polylines": curve.polyline_count(),
         "closed": closed(curve),
+        "is_fence": curve.check_fence().is_ok(),
+        "exclusion_zones": exclusions(curve),
         "segments": curve.segment_count(),
         "is_planar": curve.is_planar(),
         "box": curve.bounds(),

@@ -17,8 +17,8 @@ pub struct Rows<const N: usize> {
     pub broken: Option<Failure>,
 }
 
-/// Reads `N` numbers a line, each rounded to the nearest f32. Skips blank lines, comments from a
-/// `#` on, and a first line of names.
+/// Reads `N` numbers a line, each rounded to the nearest f32; of points of the plane a third one
+/// too, which is dropped. Skips blank lines, comments from a `#` on, and a first line of names.
 pub fn parse<const N: usize>(file: &Path, bytes: &[u8]) -> Rows<N> {
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     let mut found = Rows { rows: Vec::new(), lines: Vec::new(), broken: None };
@@ -65,8 +65,9 @@ fn fields(text: &str) -> Box<dyn Iterator<Item = &str> + '_> {
 fn row<const N: usize>(file: &Path, line: usize, text: &str) -> Result<[f32; N], Failure> {
     let mut row = [0f32; N];
     let mut found = 0;
+    let most = if N == 2 { 3 } else { N };
     for field in fields(text) {
-        if let Some(slot) = row.get_mut(found) {
+        if found < most {
             let refuse = |reason| Failure::Field {
                 file: file.to_owned(),
                 line,
@@ -74,11 +75,14 @@ fn row<const N: usize>(file: &Path, line: usize, text: &str) -> Result<[f32; N],
                 text: field.to_owned(),
                 reason,
             };
-            *slot = number::parse(field).map_err(refuse)?;
+            let number = number::parse(field).map_err(refuse)?;
+            if let Some(slot) = row.get_mut(found) {
+                *slot = number;
+            }
         }
         found += 1;
     }
-    if found != N {
+    if !(N..=most).contains(&found) {
         return Err(Failure::FieldCount { file: file.to_owned(), line, wanted: names(N), found });
     }
     Ok(row)
@@ -109,6 +113,16 @@ mod tests {
         assert!(broken.is_none());
         assert_eq!(rows, [[1.0, 2.0, 3.0]; 3]);
         assert_eq!(lines, [3, 4, 6]);
+    }
+
+    #[test]
+    fn points_of_the_plane_may_have_a_z() {
+        let read = |text: &str| parse::<2>(Path::new("a.csv"), text.as_bytes());
+        assert_eq!(read("x,y\n1,2\n3,4,5\n").rows, [[1.0, 2.0], [3.0, 4.0]]);
+        for (text, why) in [("1", "1 field"), ("1,2,3,4", "4 fields"), ("1,2,z", "field 3")] {
+            let told = read(text).broken.expect("refused").to_string();
+            assert!(told.contains(why), "{told}");
+        }
     }
 
     #[test]
