@@ -52,7 +52,18 @@ pub(super) struct Choice {
 }
 
 impl Measure {
-    pub(super) fn of(self, extent: Extent) -> f64 {
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Measure::Area => "area",
+            Measure::Volume => "volume",
+        }
+    }
+
+    /// Of an extent.
+    #[must_use]
+    pub fn of(self, extent: Extent) -> f64 {
         match self {
             Measure::Area => extent.area,
             Measure::Volume => extent.volume,

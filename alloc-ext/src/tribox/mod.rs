@@ -8,6 +8,7 @@
 //! split               the tree: the cell of the greatest gain is split first
 //! level               unions as levels of detail: faces, volume, error, distance
 //! surface             their triangles
+//! orient              the orientation of least volume or area
 //! lattice, store      the same on a blob's grid, and the section's bytes
 //! ```
 //!
@@ -41,6 +42,7 @@ mod excess;
 mod extent;
 mod lattice;
 mod level;
+mod orient;
 mod polygons;
 mod span;
 mod split;
@@ -56,6 +58,7 @@ pub use choose::{Measure, Planes};
 pub use extent::Extent;
 pub use lattice::Lattice;
 pub use level::{Level, level, proxies};
+pub use orient::Turn;
 pub use split::{Hierarchy, Node, Split, SplitOptions};
 pub use store::{TriboxOptions, TriboxReport, build, cut, volume};
 pub use surface::surface;

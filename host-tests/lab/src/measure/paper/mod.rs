@@ -4,7 +4,7 @@
 //! figures (what paper 000 reports) ─┬─ hulls (000.1, 000.2), segments (000.3)
 //! hierarchy (binary tree of k-DOPs) ┼─ dops  (000.4)
 //! fans (the paper's decomposition) ─┴─ fan_queries (003.1, 003.2)
-//!                     triboxes (001.1), hausdorff (004.10)
+//!    triboxes (001.1), oriented (001.3, 001.4), hausdorff (004.10)
 //! ```
 
 mod dops;
@@ -14,6 +14,7 @@ pub mod figures;
 mod hausdorff;
 mod hierarchy;
 mod hulls;
+mod oriented;
 mod triboxes;
 
 use std::path::Path;
@@ -34,7 +35,7 @@ pub struct Reported {
 }
 
 /// All of them.
-pub const ALL: [Reported; 8] = [
+pub const ALL: [Reported; 10] = [
     Reported {
         name: "000.1",
         what: "Platis & Theoharis 2003, Table 1: time of progressive hulls",
@@ -64,6 +65,18 @@ pub const ALL: [Reported; 8] = [
         what: "Crosnier & Rossignac 1999, Table 1: faces of triboxes",
         is_closed: false,
         tables: |subject| Ok(vec![triboxes::table(subject)?]),
+    },
+    Reported {
+        name: "001.3",
+        what: "Crosnier & Rossignac 1999, section 3: the orientation of least volume or area",
+        is_closed: false,
+        tables: |subject| Ok(vec![oriented::orientations(subject)?]),
+    },
+    Reported {
+        name: "001.4",
+        what: "Crosnier & Rossignac 1999, section 4: triboxes split until each is near enough",
+        is_closed: false,
+        tables: |subject| Ok(vec![oriented::errors(subject)?]),
     },
     Reported {
         name: "003.1",
