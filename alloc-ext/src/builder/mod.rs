@@ -146,6 +146,12 @@ impl<'a> Builder<'a> {
         self
     }
 
+    /// Whether triboxes may be split at local extrema of the mesh too. Default: at even places only.
+    pub fn extrema(mut self, are_tried: bool) -> Self {
+        self.options.extrema = are_tried;
+        self
+    }
+
     /// Faces of each tight hull, for [`For::Tight`]: one of [`FACES`] unless told otherwise.
     pub fn tight_faces(mut self, faces: &[u32]) -> Self {
         self.options.tight = faces.to_vec();

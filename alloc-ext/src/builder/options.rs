@@ -100,6 +100,7 @@ pub(super) struct Options {
     pub triboxes: Option<u32>,
     pub tribox_error: Option<f64>,
     pub orient: Option<Measure>,
+    pub extrema: bool,
     pub tight: Vec<u32>,
     pub slack: Option<f64>,
     pub void_percent: Option<f64>,
@@ -223,6 +224,7 @@ impl Options {
         TriboxOptions::new(self.triboxes.unwrap_or(most))
             .with_error(self.tribox_error)
             .with_orient(self.orient)
+            .with_extrema(self.extrema)
     }
 
     pub fn of_tight(&self) -> ChainOptions {
@@ -246,7 +248,7 @@ impl Options {
 
     /// All options, one row each: name, what it applies to, value, range. The range of slack, void
     /// and margin is in [`Goal::check`].
-    fn rows(&self) -> [OptionRow; 19] {
+    fn rows(&self) -> [OptionRow; 20] {
         let bits = Some(self.vertex_bits).filter(|&bits| bits != VertexBits::Auto);
         let collapse = &self.collapse;
         let [closest, segment] = self.tight_for.unwrap_or_default();
@@ -279,6 +281,7 @@ impl Options {
             OptionRow::numbers("--triboxes", Of::Triboxes, self.triboxes, ranges::TRIBOX_COUNT),
             OptionRow::numbers("--tribox-error", Of::Triboxes, self.tribox_error, ABOVE_ZERO),
             OptionRow::words("--orient", Of::Triboxes, self.orient.map(Measure::name)),
+            OptionRow::words("--extrema", Of::Triboxes, self.extrema.then_some("")),
             OptionRow::numbers(
                 "--tight",
                 Of::Tight,

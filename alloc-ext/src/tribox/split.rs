@@ -4,6 +4,7 @@ use super::cell::{Cell, Trust, Whole};
 use super::choose::{Choice, Choosing, Measure, Planes};
 use super::excess::excess;
 use super::extent::Extent;
+use super::extrema::Extrema;
 use super::lattice::{Lattice, grown};
 use super::polygons::HalfSpace;
 use crate::bvh::MAX_TRIANGLES;
@@ -19,6 +20,9 @@ use std::collections::BinaryHeap;
 
 /// Most splits above a cell; the rounding bound of [`polygons`](super::polygons) counts on it.
 pub(super) const DEPTH: u32 = 64;
+
+/// Planes for each direction.
+pub(super) const PLANES: u32 = 7;
 
 /// Part of a tribox's measure by which a gain may fall short of its prediction: the effect of
 /// rounding to f32 on thin triboxes.
@@ -59,7 +63,7 @@ impl Default for SplitOptions {
         SplitOptions {
             leaves: 64,
             measure: None,
-            planes: Planes::Nine(7),
+            planes: Planes::Nine(PLANES),
             least_gain: 1e-4,
             error: None,
             foresight: 0.05,
@@ -162,12 +166,14 @@ impl Hierarchy {
         let is_solid = whole.is_solid;
         let unit =
             options.lattice.map_or_else(|| grid_unit(&root.tribox), |lattice| lattice.spacing());
+        let extrema = matches!(options.planes, Planes::Extrema(_)).then(|| Extrema::of(mesh));
         let choosing = Choosing {
             planes: options.planes,
             measure,
             unit,
             foresight: options.foresight,
             trust: Trust::Sketch,
+            extrema: extrema.as_ref(),
             watch,
         };
         let mut growing =

@@ -1,11 +1,11 @@
 //! Tribox hierarchies as a section of a blob.
 
-use super::choose::Measure;
+use super::choose::{Measure, Planes};
 use super::extent::Extent;
 use super::lattice::Lattice;
 use super::level::{Level, level_watched, proxies};
 use super::orient::{Turn, orientation};
-use super::split::{Hierarchy, Node, SplitOptions};
+use super::split::{Hierarchy, Node, PLANES, SplitOptions};
 use crate::bvh::exact_blob_watched;
 use crate::emit::Sections;
 use crate::error::BuildError;
@@ -40,13 +40,15 @@ pub struct TriboxOptions {
     /// Turns the mesh to where its tribox has the least of this measure, if the triboxes of the
     /// finest level then have less in all.
     pub orient: Option<Measure>,
+    /// Planes just beyond local extrema of the mesh are tried too.
+    pub extrema: bool,
 }
 
 impl TriboxOptions {
     /// At most so many triboxes.
     #[must_use]
     pub const fn new(count: u32) -> Self {
-        Self { count, error: None, orient: None }
+        Self { count, error: None, orient: None, extrema: false }
     }
 
     setters! {
@@ -54,6 +56,8 @@ impl TriboxOptions {
         with_error: Option<f64> => error,
         /// Sets the measure of the [orientation](Self::orient).
         with_orient: Option<Measure> => orient,
+        /// Sets whether planes through [extrema](Self::extrema) are tried.
+        with_extrema: bool => extrema,
     }
 }
 
@@ -164,7 +168,12 @@ impl<'a> Grown<'a> {
         };
         let bytes = exact_blob_watched(&mesh, watch.part(0.0, 0.125))?;
         let tree = Bvh::open(&bytes).map_err(BuildError::Reopen)?;
+        let planes = match options.extrema {
+            true => Planes::Extrema(PLANES),
+            false => Planes::Nine(PLANES),
+        };
         let split = SplitOptions {
+            planes,
             leaves: options.count.clamp(1, MAX_TRIBOXES) as usize,
             error: options.error,
             lattice: Some(lattice),

@@ -121,10 +121,11 @@ fn each_option_means_what_it_means_to_the_program() {
         .collapse(collapse)
         .triboxes(5)
         .tribox_error(0.5)
-        .orient(Measure::Area);
+        .orient(Measure::Area)
+        .extrema(true);
     let typed = "--for hull,triboxes,segment --unit mm --vertex-bits 16 --base 300 --max-valence 9 \
                  --compactness 0.5 --max-normal-deviation 45 --priority span --order shuffled:7 \
-                 --triboxes 5 --tribox-error 0.5 --orient area";
+                 --triboxes 5 --tribox-error 0.5 --orient area --extrema";
     assert_eq!(several.to_string(), typed);
     demand_same(&directory, &bracket, several, &typed.split_whitespace().collect::<Vec<_>>());
     let torus = coarse_torus(&directory);
@@ -162,6 +163,7 @@ fn defects_are_reported_and_refused_in_the_program_s_words() {
         (Builder::new().triboxes(9), "--triboxes 9"),
         (Builder::new().tribox_error(1.0), "--tribox-error 1"),
         (Builder::new().orient(Measure::Volume), "--orient volume"),
+        (Builder::new().extrema(true), "--extrema"),
         (Builder::new().margin(1.0), "--margin 1"),
         (Builder::new().closed(true), "--closed"),
         (Builder::new().serve(For::Curve), "--for curve"),

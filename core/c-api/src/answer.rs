@@ -5,12 +5,14 @@
 
 use meshsweep_core::{
     ClosestPoint, CoherentClosest, Decided, Ended, FirstHit, Interval, KNearest, Neighbor,
-    NodePair, PairContact, PairDistance, Separation, Side, SignedDistance, TriboxCandidates,
-    Undecided, Verdict, WindingNumber, Work,
+    NodePair, PairContact, PairDistance, Separation, Side, SignedDistance, TriboxBound,
+    TriboxCandidates, Undecided, Verdict, WindingNumber, Work,
 };
 
 /// `MSW_NO_TRIANGLE`.
 pub const NO_TRIANGLE: u32 = u32::MAX;
+/// `MSW_NO_NODE`.
+pub const NO_NODE: u32 = u32::MAX;
 /// `MSW_NO_MODEL`.
 pub const NO_MODEL: u32 = u32::MAX;
 
@@ -166,6 +168,15 @@ pub struct CandidatesC {
     pub ended: i32,
     pub stored: u32,
     pub dropped: u32,
+    pub work: WorkC,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TriboxBoundC {
+    pub lower: f32,
+    pub node: u32,
+    pub ended: i32,
     pub work: WorkC,
 }
 
@@ -391,5 +402,12 @@ impl From<TriboxCandidates> for CandidatesC {
         let (stored, dropped) = (found.stored as u32, found.dropped);
         let (verdict, ended) = (clear(found.is_apart()), ended(found.ended));
         CandidatesC { verdict, ended, stored, dropped, work: found.work.into() }
+    }
+}
+
+impl From<TriboxBound> for TriboxBoundC {
+    fn from(found: TriboxBound) -> Self {
+        let (lower, node) = (found.lower, found.node.unwrap_or(NO_NODE));
+        TriboxBoundC { lower, node, ended: ended(found.ended), work: found.work.into() }
     }
 }

@@ -2,7 +2,7 @@
 
 use meshsweep_core::{NodePair, ScratchEntry, Triboxes};
 
-use crate::answer::{ApartC, CandidatesC, NodePairC};
+use crate::answer::{ApartC, CandidatesC, NodePairC, TriboxBoundC};
 use crate::error::Error;
 use crate::memory::{In, Out, Storage, View};
 use crate::question::{BudgetC, PoseC};
@@ -35,7 +35,10 @@ pub extern "C" fn msw_triboxes_scratch_entries(
     other: In<TriboxesStorage>,
 ) -> u32 {
     let views = triboxes.view().and_then(|one| other.view().map(|other| (one, other)));
-    views.map_or(0, |(one, other)| one.separation_entries(other) as u32)
+    views.map_or(0, |(one, other)| {
+        let alone = one.scratch_entries().max(other.scratch_entries());
+        one.separation_entries(other).max(alone) as u32
+    })
 }
 
 /// See `meshsweep.h`.
@@ -106,5 +109,42 @@ pub extern "C" fn msw_triboxes_candidates(
             pairs.set(pair_count, index, pair.ok_or(Error::Internal)?.into())?;
         }
         Ok(found.into())
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_triboxes_distance(
+    triboxes: In<TriboxesStorage>,
+    point: In<[f32; 3]>,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<TriboxBoundC>,
+) -> i32 {
+    answer.answer(|| {
+        let (triboxes, point) = (triboxes.view()?, point.get()?);
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(triboxes.distance(point, budget, scratch)?.into())
+        })
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_triboxes_clip(
+    triboxes: In<TriboxesStorage>,
+    a: In<[f32; 3]>,
+    b: In<[f32; 3]>,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<TriboxBoundC>,
+) -> i32 {
+    answer.answer(|| {
+        let (triboxes, a, b) = (triboxes.view()?, a.get()?, b.get()?);
+        ask(budget, scratch, scratch_count, |budget, scratch| {
+            Ok(triboxes.clip(a, b, budget, scratch)?.into())
+        })
     })
 }

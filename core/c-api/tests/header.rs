@@ -83,6 +83,7 @@ fn layouts() -> String {
         "msw_node_pair": NodePairC { a, b }
         "msw_apart_answer": ApartC { verdict, ended, may_meet, work }
         "msw_candidates_answer": CandidatesC { verdict, ended, stored, dropped, work }
+        "msw_tribox_bound": TriboxBoundC { lower, node, ended, work }
         "msw_refinement": RefinementC { is_complete, error_left, faces, performed, undone }
         "msw_face": FaceC { corners, error }
         "msw_faces_answer": FacesC { stored, dropped }
@@ -108,6 +109,7 @@ fn constants() -> String {
     holds(&mut text, "MSW_OVERLAP_ENTRIES", Bvh::OVERLAP_ENTRIES);
     holds(&mut text, "MSW_DISTANCE_ENTRIES", Bvh::DISTANCE_ENTRIES);
     holds(&mut text, "MSW_NO_TRIANGLE", format!("{NO_TRIANGLE}u"));
+    holds(&mut text, "MSW_NO_NODE", format!("{NO_NODE}u"));
     holds(&mut text, "MSW_NO_MODEL", format!("{NO_MODEL}u"));
     holds(&mut text, "MSW_FINEST", format!("{FINEST}u"));
     let (yes, decided) = verdict(Verdict::Yes);

@@ -13,7 +13,8 @@ use meshsweep::distances::{AnyWithin, Closest, Element};
 use meshsweep::number::Short;
 use meshsweep_core::{
     Budget, Decided, Ended, FirstHit, Interval, Neighbor, PairContact, PairDistance, Penetration,
-    QueryError, ScratchEntry, Separation, SignedDistance, Undecided, Verdict, WindingNumber, Work,
+    QueryError, ScratchEntry, Separation, SignedDistance, TriboxBound, Undecided, Verdict,
+    WindingNumber, Work,
 };
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
@@ -70,6 +71,7 @@ answered! {
     Penetration: |found| found.ended, found.work;
     Separation: |found| found.ended, found.work;
     SignedDistance: |found| found.closest.ended, found.closest.work;
+    TriboxBound: |found| found.ended, found.work;
     WindingNumber: |found| found.ended, found.work;
     AnyWithin: |found| ended(found.verdict), found.work;
     Decided<[u32; 2]>: |found| ended(found.verdict), found.work;

@@ -7,7 +7,7 @@ use crate::ask::{
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
-use crate::{blob_file, served};
+use crate::{blob_file, served, triboxes};
 use meshsweep::distances::Distances;
 use meshsweep_core::{BuildFor, Bvh, Ended, Neighbor};
 
@@ -18,6 +18,9 @@ pub fn run(args: &WithinArgs) -> Result<(), Failure> {
     let WithinArgs { input: PointArgs { blob: file, points }, search, .. } = args;
     refuse_same_file(search.output.as_deref(), &files(&[file], points))?;
     let blob = blob_file::open(file)?;
+    if args.triboxes {
+        return triboxes::within(args, &blob);
+    }
     let tree = || served::require_tree(file, &blob, BuildFor::Closest);
     if args.all {
         let tree = tree()?;

@@ -69,6 +69,9 @@ pub struct BuildArgs {
         value_parser = PossibleValuesParser::new(MEASURES.map(Measure::name)).map(measure)
     )]
     pub orient: Option<Measure>,
+    /// Split triboxes just beyond local extrema of the mesh too
+    #[arg(long)]
+    pub extrema: bool,
     /// Faces of each tight hull, with --for tight [default: 200]
     #[arg(
         long,
@@ -175,6 +178,7 @@ impl BuildArgs {
             .triboxes(self.triboxes)
             .tribox_error(self.tribox_error)
             .orient(self.orient)
+            .extrema(self.extrema)
             .tight_faces(&self.tight)
             .slack(self.slack)
             .void_percent(self.void)

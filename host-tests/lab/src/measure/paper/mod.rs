@@ -3,7 +3,7 @@
 //! ```text
 //! figures (what paper 000 reports) ─┬─ hulls (000.1, 000.2), segments (000.3)
 //! hierarchy (binary tree of k-DOPs) ┼─ dops  (000.4)
-//! fans (the paper's decomposition) ─┴─ fan_queries (003.1, 003.2)
+//! fans (the paper's decomposition) ─┴─ fan_queries (003.1, 003.2, 003.3)
 //!    triboxes (001.1), oriented (001.3, 001.4), hausdorff (004.10)
 //! ```
 
@@ -35,7 +35,7 @@ pub struct Reported {
 }
 
 /// All of them.
-pub const ALL: [Reported; 10] = [
+pub const ALL: [Reported; 11] = [
     Reported {
         name: "000.1",
         what: "Platis & Theoharis 2003, Table 1: time of progressive hulls",
@@ -89,6 +89,12 @@ pub const ALL: [Reported; 10] = [
         what: "Galin & Akkouche 2005, Table 2: segments by fans; 6.4: culling",
         is_closed: false,
         tables: |subject| Ok(vec![fan_queries::hits(subject)?, fan_queries::culling(subject)]),
+    },
+    Reported {
+        name: "003.3",
+        what: "Galin & Akkouche 2005, 3.3 and 4.3: stored edges, lengths and normals",
+        is_closed: false,
+        tables: |subject| Ok(vec![fan_queries::stored(subject)?]),
     },
     Reported {
         name: "004.10",
