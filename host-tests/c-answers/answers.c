@@ -465,6 +465,16 @@ static void triboxes(void)
         for (uint32_t at = 0; at < found.stored; at++) {
             fold_word(pairs[at].a | (uint32_t)pairs[at].b << 16);
         }
+        float a[3], b[3];
+        random_point(a);
+        random_point(b);
+        msw_tribox_bound bound;
+        fold_word((uint32_t)msw_triboxes_distance(&part, a, budget_of(round), scratch,
+                                                  scratch_of(round), &bound));
+        fold(&bound, sizeof bound);
+        fold_word((uint32_t)msw_triboxes_clip(&part, a, b, budget_of(round), scratch,
+                                              scratch_of(round), &bound));
+        fold(&bound, sizeof bound);
     }
     end("triboxes");
 }

@@ -474,6 +474,13 @@ fn triboxes(torus: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
         kind.words(&[found.stored as u32, found.dropped]);
         kind.work(found.work);
         pairs[..found.stored].iter().for_each(|pair| kind.words(&[node(*pair)]));
+        let (a, b) = (kind.point(), kind.point());
+        for found in [part.distance(a, budget, scratch)?, part.clip(a, b, budget, scratch)?] {
+            kind.words(&[0]);
+            kind.floats(&[found.lower]);
+            kind.words(&[found.node.unwrap_or(u32::MAX), ended(found.ended)]);
+            kind.work(found.work);
+        }
     }
     Ok(kind.line("triboxes"))
 }

@@ -167,7 +167,7 @@ pub fn groove_tree() -> Vec<u8> {
 pub fn torus_triboxes() -> Vec<u8> {
     let (positions, triangles) = torus(2.0, 0.75, 48, 24);
     let mesh = Mesh::new(positions, triangles);
-    let (tables, _) = tribox::build(mesh.as_input(), &TriboxOptions { count: 64 }, Watch::NONE)
+    let (tables, _) = tribox::build(mesh.as_input(), &TriboxOptions::new(64), Watch::NONE)
         .expect("in the domain");
     tables.to_bytes()
 }

@@ -57,7 +57,7 @@ pub fn part(fixtures: &Path) -> Result<String, String> {
     let bytes = fs::read(fixtures.join("hulls.msw")).map_err(|error| error.to_string())?;
     let hulls = TightHulls::open(&bytes).map_err(|error| error.to_string())?;
     let hull = hull_mesh(&hulls.get(0).ok_or("no hull in hulls.msw")?);
-    let options = TriboxOptions { count: TRIBOXES };
+    let options = TriboxOptions::new(TRIBOXES);
     let built = tribox::build(subject.mesh.as_input(), &options, Watch::NONE);
     let bytes = built.map_err(|error| error.to_string())?.0.to_bytes();
     let triboxes = Triboxes::open(&bytes).map_err(|error| error.to_string())?;

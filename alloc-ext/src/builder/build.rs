@@ -2,7 +2,7 @@
 
 use super::built::Built;
 use super::notes::{of_blob, of_curve};
-use super::options::{self, For, Options, Subject};
+use super::options::{For, Options, Subject};
 use crate::bvh::{self, TreeOptions, TreeReport};
 use crate::curve::{self, CurveOptions, Polyline, read_csv};
 use crate::emit::{self, Sections};
@@ -13,7 +13,7 @@ use crate::mesh::{KeyFrame, RawMesh, Unit};
 use crate::progress::{Stage, Watch};
 use crate::surface::VertexBits;
 use crate::tight::{self, HullReport, Tightness};
-use crate::tribox::{self, TriboxOptions, TriboxReport};
+use crate::tribox::{self, TriboxReport};
 use std::path::{Path, PathBuf};
 
 /// What a blob is built from.
@@ -204,9 +204,8 @@ impl<'w> Work<'w> {
         if !self.options.serves(For::Triboxes) {
             return Ok(None);
         }
-        let count = self.options.triboxes.unwrap_or(options::TRIBOXES);
         let watch = self.begin(TRIBOXES, Stage::Triboxes)?;
-        tribox::build(loaded.input(), &TriboxOptions { count }, watch).map(Some)
+        tribox::build(loaded.input(), &self.options.of_triboxes(), watch).map(Some)
     }
 
     fn tight(&mut self, loaded: &Loaded) -> Result<Made<Vec<HullReport>>, BuildError> {

@@ -32,6 +32,8 @@ pub enum Topic {
     BoxTree,
     /// Where the side of a point is doubtful.
     Sides,
+    /// Triboxes.
+    Triboxes,
     /// Tight hulls.
     Tight,
     /// Why winding numbers are doubtful.
@@ -47,6 +49,7 @@ impl Topic {
             Self::Hull => "hull",
             Self::BoxTree => "tree",
             Self::Sides => "sides",
+            Self::Triboxes => "triboxes",
             Self::Tight => "tight_hulls",
             Self::Winding => "winding",
         }

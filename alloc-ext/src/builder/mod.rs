@@ -18,6 +18,7 @@ use crate::load::{Loaded, Source};
 use crate::mesh::{RawMesh, Unit};
 use crate::progress::{Answer, Callback, Watch};
 use crate::surface::VertexBits;
+use crate::tribox::Measure;
 use build::{Frame, Input};
 use options::{Options, Subject};
 use std::fmt;
@@ -89,6 +90,13 @@ impl<'a> Builder<'a> {
         base_faces: u32 => options.base,
         /// Most triboxes of the finest level: [`TRIBOXES`] unless told otherwise.
         triboxes: u32 => options.triboxes,
+        /// Triboxes are split until each is within this distance of the convex hull of what it
+        /// holds, in the mesh's unit. Without [`triboxes`](Self::triboxes) that may take as many
+        /// as [the range](ranges::TRIBOX_COUNT) allows.
+        tribox_error: f64 => options.tribox_error,
+        /// Turns triboxes to where that of the whole mesh has the least of this measure, if those
+        /// of the finest level then have less in all. Default: they lie along the mesh's axes.
+        orient: Measure => options.orient,
         /// Instead of numbers of faces: one tight hull, with the fewest faces found such that no
         /// point of it is farther than this from the mesh, in its unit. More than the
         /// [`margin`](Self::margin).
@@ -135,6 +143,12 @@ impl<'a> Builder<'a> {
     /// Conditions on the edge collapses of a hull hierarchy.
     pub fn collapse(mut self, options: CollapseOptions) -> Self {
         self.options.collapse = options;
+        self
+    }
+
+    /// Whether triboxes may be split at local extrema of the mesh too. Default: at even places only.
+    pub fn extrema(mut self, are_tried: bool) -> Self {
+        self.options.extrema = are_tried;
         self
     }
 

@@ -11,6 +11,7 @@ use crate::mesh::Mesh;
 use crate::number::{About, AtMost};
 use crate::surface::VertexBits;
 use crate::tight::{Goal, HullReport, margin_note, no_void_note, rounded_note};
+use crate::tribox::TriboxReport;
 use meshsweep_core::Blob;
 use meshsweep_core::internal::format::layout::VertexFormat;
 
@@ -73,11 +74,13 @@ pub(super) fn of_blob(
         tight.extend(no_void_note(&first.void));
         reports.iter().for_each(|report| tight.extend(of_tight(report)));
     }
+    let triboxes = built.triboxes.as_ref().and_then(|report| of_triboxes(options, report));
     let winding = if options.serves(For::Winding) { of_winding(loaded) } else { vec![] };
     notes(Topic::Input, of_mesh(loaded, built.hull.as_ref()))
         .chain(notes(Topic::Hull, hull))
         .chain(notes(Topic::BoxTree, tree))
         .chain(notes(Topic::Sides, sides))
+        .chain(notes(Topic::Triboxes, triboxes))
         .chain(notes(Topic::Tight, tight))
         .chain(notes(Topic::Winding, winding))
         .collect()
@@ -140,6 +143,17 @@ fn sideless(report: SidesReport) -> String {
         ),
     };
     format!("{places}: {surface} {defect}; --for closest,winding decides them by winding numbers")
+}
+
+/// Says that triboxes are not as near as asked for.
+fn of_triboxes(options: &Options, report: &TriboxReport) -> Option<String> {
+    let (wanted, reached) = (options.tribox_error?, report.reached?);
+    let text = format!(
+        "a tribox is up to {} from the convex hull of what it holds, more than {wanted}: more \
+         --triboxes may come nearer, up to the grid's rounding",
+        AtMost(reached)
+    );
+    (reached > wanted).then_some(text)
 }
 
 /// Names the tight hulls that the blob lacks.

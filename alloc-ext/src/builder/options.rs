@@ -1,7 +1,7 @@
 //! What a blob is to serve, the options of its structures, and which of them do not go together.
 
 use super::ranges;
-use crate::collapse::CollapseOptions;
+use crate::collapse::{CollapseOptions, Priority};
 use crate::error::BuildError;
 use crate::hull::BuildOptions;
 use crate::load::is_named_as_mesh;
@@ -9,6 +9,7 @@ use crate::mesh::Unit;
 use crate::number::ABOVE_ZERO;
 use crate::surface::VertexBits;
 use crate::tight::{ChainOptions, FACES, Goal, MAX_HULLS, Options as TightOptions};
+use crate::tribox::{Measure, TriboxOptions};
 use std::fmt;
 use std::path::Path;
 
@@ -97,6 +98,9 @@ pub(super) struct Options {
     pub base: Option<u32>,
     pub collapse: CollapseOptions,
     pub triboxes: Option<u32>,
+    pub tribox_error: Option<f64>,
+    pub orient: Option<Measure>,
+    pub extrema: bool,
     pub tight: Vec<u32>,
     pub slack: Option<f64>,
     pub void_percent: Option<f64>,
@@ -112,6 +116,8 @@ pub(super) struct Options {
 enum Of {
     Any,
     Hull,
+    /// Hulls of a closed mesh.
+    Closed,
     Triboxes,
     Tight,
 }
@@ -205,10 +211,20 @@ impl Options {
     pub fn of_hull(&self) -> BuildOptions<'static> {
         BuildOptions {
             base_faces: self.base_faces() as usize,
+            priority: self.collapse.priority.unwrap_or_default(),
             conditions: self.collapse.conditions(),
             vertex_bits: self.vertex_bits,
             ..BuildOptions::default()
         }
+    }
+
+    /// With an error, as many triboxes as it takes.
+    pub fn of_triboxes(&self) -> TriboxOptions {
+        let most = if self.tribox_error.is_some() { ranges::TRIBOX_COUNT[1] } else { TRIBOXES };
+        TriboxOptions::new(self.triboxes.unwrap_or(most))
+            .with_error(self.tribox_error)
+            .with_orient(self.orient)
+            .with_extrema(self.extrema)
     }
 
     pub fn of_tight(&self) -> ChainOptions {
@@ -232,7 +248,7 @@ impl Options {
 
     /// All options, one row each: name, what it applies to, value, range. The range of slack, void
     /// and margin is in [`Goal::check`].
-    fn rows(&self) -> [OptionRow; 15] {
+    fn rows(&self) -> [OptionRow; 20] {
         let bits = Some(self.vertex_bits).filter(|&bits| bits != VertexBits::Auto);
         let collapse = &self.collapse;
         let [closest, segment] = self.tight_for.unwrap_or_default();
@@ -260,7 +276,12 @@ impl Options {
                 collapse.max_normal_deviation,
                 ranges::NORMAL_DEVIATION,
             ),
+            OptionRow::words("--priority", Of::Closed, collapse.priority.map(Priority::name)),
+            OptionRow::words("--order", Of::Closed, collapse.order.map(|order| order.to_string())),
             OptionRow::numbers("--triboxes", Of::Triboxes, self.triboxes, ranges::TRIBOX_COUNT),
+            OptionRow::numbers("--tribox-error", Of::Triboxes, self.tribox_error, ABOVE_ZERO),
+            OptionRow::words("--orient", Of::Triboxes, self.orient.map(Measure::name)),
+            OptionRow::words("--extrema", Of::Triboxes, self.extrema.then_some("")),
             OptionRow::numbers(
                 "--tight",
                 Of::Tight,
@@ -355,6 +376,7 @@ impl Options {
         let (is_served, why) = match of {
             Of::Any => return None,
             Of::Hull => (self.wants_hierarchy(), "is for a hull; add hull to --for"),
+            Of::Closed => (self.wants_solid(), "is for outer hulls; add hull to --for"),
             Of::Triboxes => (self.serves(For::Triboxes), "is for triboxes; add triboxes to --for"),
             Of::Tight => (self.serves(For::Tight), "is for tight hulls; add tight to --for"),
         };

@@ -12,6 +12,7 @@
 mod boundary;
 mod parse;
 mod plane;
+mod turn;
 
 use super::enclosure::{Surface, Winding};
 use super::file::FileSurface;
@@ -27,10 +28,15 @@ use plane::lines;
 
 const TRIBOXES: &str = "triboxes";
 
-/// Corners of all triangles and wires, grid units.
-fn corners(given: &Given<'_>, unit: f64) -> Vec<[[f64; 3]; 3]> {
+/// The vertices of a mesh in the frame of the triboxes, grid units, and how far they may be off.
+fn placed(triboxes: &Triboxes, given: &Given<'_>, unit: f64) -> (Vec<[f64; 3]>, f64) {
     let place = |v: u32| given.place(v).map(|x| x / unit);
-    given.mesh.all_triangles().map(|t| t.map(place)).collect()
+    let mut places: Vec<_> = (0..given.mesh.positions.len() as u32).map(place).collect();
+    let mut moved = given.moved() / unit;
+    if let Some(turn) = &triboxes.turn {
+        turn.apply(&mut places, &mut moved);
+    }
+    (places, moved)
 }
 
 /// Whether a tribox certainly holds all of a triangle and `moved` around it.
@@ -141,7 +147,10 @@ pub(super) fn verify_file(bytes: &[u8], raw: &RawMesh) -> Finding {
     let prove = || -> Result<[usize; 4], String> {
         let triboxes = Triboxes::parse(bytes)?;
         triboxes.tree()?;
-        let file = FileSurface::new(raw, triboxes.scale_exponent + triboxes.grid_exponent);
+        let mut file = FileSurface::new(raw, triboxes.scale_exponent + triboxes.grid_exponent);
+        if let Some(turn) = &triboxes.turn {
+            turn.apply(&mut file.surface.positions, &mut file.error);
+        }
         let Surface { positions, triangles } = &file.surface;
         let corners: Vec<_> = triangles.iter().map(|t| t.map(|v| positions[v as usize])).collect();
         let union = triboxes.union(triboxes.levels.last().map_or(0, |last| last.0));
@@ -169,10 +178,12 @@ fn findings(bytes: &[u8], input: Input<'_>, out: &mut Vec<Finding>) -> Result<()
     triboxes.tree()?;
     let given = Given::new(input, triboxes.scale_exponent);
     let unit = 2f64.powi(triboxes.grid_exponent);
-    let mesh = corners(&given, unit);
+    let (positions, moved) = placed(&triboxes, &given, unit);
+    let mesh: Vec<[[f64; 3]; 3]> =
+        given.mesh.all_triangles().map(|t| t.map(|v| positions[v as usize])).collect();
     let finest = triboxes.levels.last().map_or(0, |last| last.0);
     let union = triboxes.union(finest);
-    let cut = holds(&union, &mesh, given.mesh.all_sources(), given.moved() / unit)?;
+    let cut = holds(&union, &mesh, given.mesh.all_sources(), moved)?;
     out.push(Finding::proved(
         TRIBOXES,
         "every level holds every triangle of the mesh, and what moved when it was read",
@@ -187,11 +198,9 @@ fn findings(bytes: &[u8], input: Input<'_>, out: &mut Vec<Finding>) -> Result<()
         if !is_closed(given.mesh) {
             return Err("they claim to hold the inside of a mesh that is not closed".into());
         }
-        let place = |v: u32| given.place(v).map(|x| x / unit);
-        let surface = Surface {
-            positions: (0..given.mesh.positions.len() as u32).map(place).collect(),
-            triangles: given.mesh.triangles.clone(),
-        };
+        // A point outside of the union is farther from the mesh than its vertices may be off, so
+        // the winding number there is the same.
+        let surface = Surface { positions, triangles: given.mesh.triangles.clone() };
         let [parts, undecided] = inside(&exposed(&union), &surface)?;
         out.push(match undecided {
             0 => Finding::proved(
@@ -207,7 +216,8 @@ fn findings(bytes: &[u8], input: Input<'_>, out: &mut Vec<Finding>) -> Result<()
     let mut undecided = Vec::new();
     for (index, &(count, distance)) in triboxes.levels.iter().enumerate() {
         let parts = exposed(&triboxes.union(count));
-        let is_decided = is_close(&parts, &near, unit, distance)
+        let most = triboxes.turn.as_ref().map_or(distance, |turn| turn.shortest(distance));
+        let is_decided = is_close(&parts, &near, unit, most)
             .map_err(|error| format!("level {index}: {error}"))?;
         if !is_decided {
             undecided.push(index.to_string());

@@ -35,6 +35,17 @@ pub enum Priority {
     Span,
 }
 
+impl Priority {
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Program => "program",
+            Self::Span => "span",
+        }
+    }
+}
+
 /// The paper's conditions (3.1.4), with its values as defaults (4.1), and the program's second
 /// term.
 #[derive(Clone, Copy, Debug, PartialEq)]

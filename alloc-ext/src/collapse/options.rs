@@ -1,6 +1,7 @@
 //! Conditions on edge collapses, as a caller chooses them.
 
-use super::Conditions;
+use super::{Conditions, Priority};
+use crate::lp::Order;
 
 /// Conditions on edge collapses that a caller may choose; `None` is the default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -11,17 +12,24 @@ pub struct CollapseOptions {
     pub compactness: Option<f64>,
     /// Largest change of a face's normal in a collapse, in degrees. Default: 45.
     pub max_normal_deviation: Option<f64>,
+    /// How candidate edges of outer hulls are ordered. Default: [`Priority::Program`].
+    pub priority: Option<Priority>,
+    /// The order in which the program of an outer hull's vertex takes the planes of a star.
+    /// Default: [`Order::MostViolated`].
+    pub order: Option<Order>,
 }
 
 impl CollapseOptions {
     /// The first given option, by the program's name.
     #[must_use]
     pub fn given(&self) -> Option<&'static str> {
-        let Self { max_valence, compactness, max_normal_deviation } = self;
+        let Self { max_valence, compactness, max_normal_deviation, priority, order } = self;
         [
             ("--max-valence", max_valence.is_some()),
             ("--compactness", compactness.is_some()),
             ("--max-normal-deviation", max_normal_deviation.is_some()),
+            ("--priority", priority.is_some()),
+            ("--order", order.is_some()),
         ]
         .into_iter()
         .find_map(|(option, given)| given.then_some(option))
@@ -40,6 +48,7 @@ impl CollapseOptions {
             max_valence: self.max_valence.map_or(default.max_valence, |edges| edges as usize),
             compactness_ratio: self.compactness.unwrap_or(default.compactness_ratio),
             min_normal_cosine: self.max_normal_deviation.map_or(default.min_normal_cosine, cosine),
+            order: self.order.unwrap_or(default.order),
             ..default
         }
     }

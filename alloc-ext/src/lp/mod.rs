@@ -64,7 +64,7 @@ use glam::DVec3;
 pub use half_space::HalfSpace;
 use insertion::insert;
 use order::Run;
-pub use order::{Order, Work};
+pub use order::{Order, UnknownOrder, Work};
 use tolerance::DESCENT;
 
 /// What a program came to.

@@ -2,6 +2,8 @@
 
 use super::half_space::HalfSpace;
 use crate::random::SplitMix;
+use std::fmt;
+use std::str::FromStr;
 
 /// The order in which the constraints of a program are inserted.
 ///
@@ -27,6 +29,42 @@ pub enum Order {
     /// [`Order::MostViolated`] none.
     Shuffled(u64),
 }
+
+/// The name of an order, with the seed of a shuffle: `violated`, `shuffled:7`.
+impl fmt::Display for Order {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::MostViolated => f.write_str("violated"),
+            Self::Shuffled(seed) => write!(f, "shuffled:{seed}"),
+        }
+    }
+}
+
+/// By its name. Without a seed a shuffle has the seed 0.
+impl FromStr for Order {
+    type Err = UnknownOrder;
+
+    fn from_str(text: &str) -> Result<Self, UnknownOrder> {
+        match text.split_once(':') {
+            None if text == "violated" => Ok(Self::MostViolated),
+            None if text == "shuffled" => Ok(Self::Shuffled(0)),
+            Some(("shuffled", seed)) => seed.parse().map(Self::Shuffled).map_err(|_| UnknownOrder),
+            _ => Err(UnknownOrder),
+        }
+    }
+}
+
+/// A text that names no [`Order`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UnknownOrder;
+
+impl fmt::Display for UnknownOrder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("violated or shuffled is wanted, or shuffled with a seed, as shuffled:7")
+    }
+}
+
+impl std::error::Error for UnknownOrder {}
 
 /// What a program cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

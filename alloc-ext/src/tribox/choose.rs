@@ -3,6 +3,7 @@
 
 use super::cell::{Cell, Trust, Whole, section};
 use super::extent::Extent;
+use super::extrema::Extrema;
 use super::polygons::HalfSpace;
 use super::span::{Span, projections};
 use crate::progress::Watch;
@@ -24,6 +25,8 @@ pub enum Planes {
     Thickest,
     /// This number for each of the nine directions, evenly between the ends of its slab.
     Nine(u32),
+    /// These, and planes just beyond local extrema of the mesh, at most 16 for each direction.
+    Extrema(u32),
 }
 
 /// Choice of planes.
@@ -37,6 +40,8 @@ pub(super) struct Choosing<'a> {
     pub foresight: f64,
     /// Certainty of points' sides.
     pub trust: Trust,
+    /// Of [`Planes::Extrema`].
+    pub extrema: Option<&'a Extrema>,
     pub watch: Watch<'a>,
 }
 
@@ -52,7 +57,18 @@ pub(super) struct Choice {
 }
 
 impl Measure {
-    pub(super) fn of(self, extent: Extent) -> f64 {
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Measure::Area => "area",
+            Measure::Volume => "volume",
+        }
+    }
+
+    /// Of an extent.
+    #[must_use]
+    pub fn of(self, extent: Extent) -> f64 {
         match self {
             Measure::Area => extent.area,
             Measure::Volume => extent.volume,
@@ -105,13 +121,15 @@ impl Choosing<'_> {
         let mut best: Option<Choice> = None;
         let slabs = match self.planes {
             Planes::Thickest => vec![(thickest(cell), 1)],
-            Planes::Nine(count) => (0..SLABS).map(|slab| (slab, count)).collect(),
+            Planes::Nine(count) | Planes::Extrema(count) => {
+                (0..SLABS).map(|slab| (slab, count)).collect()
+            }
         };
         for (slab, count) in slabs {
             if !self.watch.goes_on(0.0) {
                 return None;
             }
-            let planes = self.evenly(cell, slab, count);
+            let planes = self.candidates(cell, slab, count);
             for (at, parts) in planes.iter().zip(self.sides(whole, cell, &corners, slab, &planes)) {
                 if parts.iter().any(Span::is_empty) {
                     continue;
@@ -125,6 +143,19 @@ impl Choosing<'_> {
             }
         }
         best
+    }
+
+    /// Planes of a slab that are tried, ascending: evenly, and through extrema.
+    fn candidates(&self, cell: &Cell, slab: usize, count: u32) -> Vec<f64> {
+        let mut planes = self.evenly(cell, slab, count);
+        if let Some(extrema) = self.extrema {
+            let (low, high) = (f64::from(cell.tribox.low[slab]), f64::from(cell.tribox.high[slab]));
+            let found = extrema.planes(&cell.tribox, slab, self.unit);
+            planes.extend(found.into_iter().filter(|&at| low < at && at < high));
+            planes.sort_by(f64::total_cmp);
+            planes.dedup();
+        }
+        planes
     }
 
     /// Planes of a slab, evenly but on multiples of the unit, strictly inside of the cell's tribox;

@@ -2,7 +2,7 @@
 
 use crate::mesh::Mesh;
 use crate::surface::scale_exponent;
-use meshsweep_core::internal::num::{down_to_f32, exp2, up_to_f32};
+use meshsweep_core::internal::num::{Radius16, down_to_f32, exp2, up_to_f32};
 use meshsweep_core::internal::tribox::{DIRECTIONS, SLABS};
 use meshsweep_core::{Tribox, TriboxError};
 
@@ -41,6 +41,9 @@ pub struct Lattice {
     /// Distance by which planes move outward before they are rounded: the error of the input, input
     /// units.
     pub padding: f64,
+    /// Factor of lengths in the triboxes' frame that bounds them in the mesh's: 1 unless the mesh
+    /// was [turned](super::Turn).
+    pub stretch: f64,
 }
 
 impl Lattice {
@@ -50,11 +53,15 @@ impl Lattice {
     /// If a coordinate is not finite or beyond [`Tribox::DOMAIN`]; a mesh without triangles is on
     /// any grid.
     pub fn of(mesh: &Mesh, padding: f64) -> Result<Lattice, TriboxError> {
+        Self::in_frame(mesh, scale_exponent(mesh), padding)
+    }
+
+    /// [`of`](Self::of) a mesh in the local frame of this [scale](Self::scale_exponent), which
+    /// another section of the blob may have.
+    pub(super) fn in_frame(mesh: &Mesh, scale: i32, padding: f64) -> Result<Lattice, TriboxError> {
         let used = mesh.all_triangles().flatten().map(|v| mesh.positions[v as usize]);
         let whole = Tribox::of_points(used)?;
-        let scale = scale_exponent(mesh);
-        // Room for its rounding in f64.
-        let padding = padding * (1.0 + 1e-6);
+        let padding = Self::room(padding);
         let on = |grid_exponent: i32| {
             let unit = exp2(scale + grid_exponent);
             let centre = |axis: usize| {
@@ -68,6 +75,7 @@ impl Lattice {
                 // Beyond the integers it does not fit anyway.
                 origin: origin.map(|x| x as i32),
                 padding,
+                stretch: 1.0,
             };
             let near = origin.iter().all(|x| x.abs() <= MAX_ORIGIN);
             (near && (whole.is_empty() || lattice.stored(&whole).is_some())).then_some(lattice)
@@ -75,6 +83,11 @@ impl Lattice {
         // Local coordinates are below 1, so that 16 bits hold units of 2^-13 in any case.
         let finest = (-20).max(FINEST - scale);
         Ok((finest..40).find_map(on).expect("a grid of one unit holds everything"))
+    }
+
+    /// A padding with room for its rounding in f64.
+    pub(super) fn room(padding: f64) -> f64 {
+        padding * (1.0 + 1e-6)
     }
 
     /// Planes of splits lie at even multiples of this, input units.
@@ -85,6 +98,21 @@ impl Lattice {
     /// Input units of a unit.
     fn unit(&self) -> f64 {
         exp2(self.scale_exponent + self.grid_exponent)
+    }
+
+    /// A length beyond the mesh, local units of the mesh's frame: what it is to the input.
+    pub(super) fn in_local_units(&self, length: f64) -> f64 {
+        (length + self.padding) * self.stretch * exp2(-self.scale_exponent)
+    }
+
+    /// A node's hull error as it is stored.
+    pub(super) fn stored_error(&self, error: f64) -> Radius16 {
+        Radius16::round_up(self.in_local_units(error))
+    }
+
+    /// The same, input units.
+    pub(super) fn claimed(&self, error: f64) -> f64 {
+        f64::from(self.stored_error(error).get()) * exp2(self.scale_exponent)
     }
 
     /// Origin along the directions.

@@ -4,10 +4,11 @@
 //! ```text
 //! polygons, winding   the surface in a cell, clipped; points inside the solid
 //! cell                a cell's tribox, and its parts on both sides of a plane
-//! choose              the plane of a split
+//! choose, extrema     the plane of a split
 //! split               the tree: the cell of the greatest gain is split first
 //! level               unions as levels of detail: faces, volume, error, distance
 //! surface             their triangles
+//! orient              the orientation of least volume or area
 //! lattice, store      the same on a blob's grid, and the section's bytes
 //! ```
 //!
@@ -29,6 +30,12 @@
 //! the paper's own stop rule (area, with a least gain) rocker arm is not split at all. Area is the
 //! measure of flat meshes only.
 //!
+//! *Extrema.* Planes just beyond local extrema, beside the even ones ([`Planes::Extrema`]), cut
+//! steps off exactly: `fixtures/groove.obj` has 0.03 % void with 6 triboxes in place of 16. Void at
+//! 8 / 64 triboxes is 14.6 / 6.4 % on a robot's forearm, 32.5 / 8.3 on fandisk, 76.5 / 21.9 on rocker arm, in place
+//! of 15.0 / 6.8, 33.0 / 8.5 and 76.5 / 22.6. Parts without steps gain nothing: horse 17.8 for 17.2
+//! at 64. Extrema alone leave 43.4 % on rocker arm, 23 even planes 23.5 (both historical).
+//!
 //! *Foresight.* No single plane shows a hole: halves of a ring have most of the ring's hull. Where
 //! the best plane saves less than 5 %, the splits of both parts are tried too. Without foresight 64
 //! triboxes have 39.5 % void (torus), 39.0 (rocker arm), 5.6 (`fixtures/bracket.stl`) in
@@ -39,8 +46,10 @@ mod cell;
 mod choose;
 mod excess;
 mod extent;
+mod extrema;
 mod lattice;
 mod level;
+mod orient;
 mod polygons;
 mod span;
 mod split;
@@ -56,6 +65,7 @@ pub use choose::{Measure, Planes};
 pub use extent::Extent;
 pub use lattice::Lattice;
 pub use level::{Level, level, proxies};
+pub use orient::Turn;
 pub use split::{Hierarchy, Node, Split, SplitOptions};
 pub use store::{TriboxOptions, TriboxReport, build, cut, volume};
 pub use surface::surface;

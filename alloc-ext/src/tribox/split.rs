@@ -4,6 +4,7 @@ use super::cell::{Cell, Trust, Whole};
 use super::choose::{Choice, Choosing, Measure, Planes};
 use super::excess::excess;
 use super::extent::Extent;
+use super::extrema::Extrema;
 use super::lattice::{Lattice, grown};
 use super::polygons::HalfSpace;
 use crate::bvh::MAX_TRIANGLES;
@@ -19,6 +20,9 @@ use std::collections::BinaryHeap;
 
 /// Most splits above a cell; the rounding bound of [`polygons`](super::polygons) counts on it.
 pub(super) const DEPTH: u32 = 64;
+
+/// Planes for each direction.
+pub(super) const PLANES: u32 = 7;
 
 /// Part of a tribox's measure by which a gain may fall short of its prediction: the effect of
 /// rounding to f32 on thin triboxes.
@@ -39,6 +43,10 @@ pub struct SplitOptions {
     /// rule where positive; at −∞ cells are split although the total grows, which may pay
     /// later.
     pub least_gain: f64,
+    /// Cells are split until no [error](Node::error) is more than this, those of the greatest error
+    /// first, whatever [`least_gain`](Self::least_gain) says; input units, in which a blob stores
+    /// it if there is a [lattice](Self::lattice). `None`: those of the greatest gain first.
+    pub error: Option<f64>,
     /// Where the best plane saves less than this part of the tribox's measure, planes are tried
     /// together with those that split both parts again.
     pub foresight: f64,
@@ -55,8 +63,9 @@ impl Default for SplitOptions {
         SplitOptions {
             leaves: 64,
             measure: None,
-            planes: Planes::Nine(7),
+            planes: Planes::Nine(PLANES),
             least_gain: 1e-4,
+            error: None,
             foresight: 0.05,
             simplify: 0.0,
             lattice: None,
@@ -157,12 +166,14 @@ impl Hierarchy {
         let is_solid = whole.is_solid;
         let unit =
             options.lattice.map_or_else(|| grid_unit(&root.tribox), |lattice| lattice.spacing());
+        let extrema = matches!(options.planes, Planes::Extrema(_)).then(|| Extrema::of(mesh));
         let choosing = Choosing {
             planes: options.planes,
             measure,
             unit,
             foresight: options.foresight,
             trust: Trust::Sketch,
+            extrema: extrema.as_ref(),
             watch,
         };
         let mut growing =
@@ -178,7 +189,7 @@ impl Hierarchy {
         while order.len() + 1 < options.leaves.max(1)
             && let Some(leaf) = growing.heap.pop()
         {
-            let Leaf { node, depth, choice: Choice { slab, at, .. }, parts } = leaf;
+            let Leaf { node, depth, choice: Choice { slab, at, .. }, parts, .. } = leaf;
             watch.step(order.len() + 1, options.leaves)?;
             let children = parts.map(|part| growing.put(part, depth + 1));
             growing.nodes[node as usize].split = Some(Split { slab, at: at as f32, children });
@@ -221,6 +232,8 @@ fn is_flat(tribox: &Tribox) -> bool {
 
 /// A leaf and its best split.
 struct Leaf {
+    /// The greatest is split first.
+    rank: f64,
     node: u32,
     depth: u32,
     choice: Choice,
@@ -229,7 +242,7 @@ struct Leaf {
 
 impl Ord for Leaf {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.choice.gain.total_cmp(&other.choice.gain).then(other.node.cmp(&self.node))
+        self.rank.total_cmp(&other.rank).then(other.node.cmp(&self.node))
     }
 }
 impl PartialOrd for Leaf {
@@ -263,17 +276,25 @@ impl Growing<'_> {
         };
         let error = excess(&proxy, &cell);
         self.nodes.push(Node { tribox: cell.tribox, proxy, error, split: None });
-        if depth < DEPTH && self.options.leaves > 1 {
+        if depth < DEPTH && self.options.leaves > 1 && !self.is_within(error) {
             let least =
                 self.options.least_gain * self.choosing.measure.of(Extent::of(&cell.tribox));
-            let is_any = self.options.least_gain == f64::NEG_INFINITY;
+            let by_error = self.options.error.is_some();
+            let is_any = by_error || self.options.least_gain == f64::NEG_INFINITY;
             if let Some((choice, parts)) =
                 self.choose(&cell).filter(|(choice, _)| is_any || choice.gain > least)
             {
-                self.heap.push(Leaf { node, depth, choice, parts });
+                let rank = if by_error { error } else { choice.gain };
+                self.heap.push(Leaf { rank, node, depth, choice, parts });
             }
         }
         node
+    }
+
+    /// Whether an error is as small as asked for, so that the cell is not split.
+    fn is_within(&self, error: f64) -> bool {
+        let claimed = self.options.lattice.map_or(error, |lattice| lattice.claimed(error));
+        self.options.error.is_some_and(|most| claimed <= most)
     }
 
     /// The best split of a cell, and its parts.

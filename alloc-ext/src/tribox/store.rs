@@ -1,33 +1,64 @@
 //! Tribox hierarchies as a section of a blob.
 
+use super::choose::{Measure, Planes};
+use super::extent::Extent;
 use super::lattice::Lattice;
-use super::level::{Level, level_watched};
-use super::split::{Hierarchy, Node, SplitOptions};
+use super::level::{Level, level_watched, proxies};
+use super::orient::{Turn, orientation};
+use super::split::{Hierarchy, Node, PLANES, SplitOptions};
 use crate::bvh::exact_blob_watched;
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::{Input, Mesh};
 use crate::progress::{Stage, Watch};
-use crate::surface::SignedVolume;
+use crate::surface::{SignedVolume, scale_exponent};
 use glam::Vec3;
 use meshsweep_core::SectionKind;
 use meshsweep_core::TriboxLevel;
 use meshsweep_core::internal::geom::Aabb;
-use meshsweep_core::internal::num::{Radius16, exp2, up_to_f32};
+use meshsweep_core::internal::num::{exp2, up_to_f32};
 use meshsweep_core::internal::tribox::FACES;
 use meshsweep_core::internal::tribox::format::TriboxesHeader;
 use meshsweep_core::internal::tribox::format::layout::{
-    MAX_TRIBOXES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES,
-    TRIBOXES_SOLID,
+    MAX_TRIBOXES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOX_TURN_BYTES,
+    TRIBOXES_BYTES, TRIBOXES_SOLID, TRIBOXES_TURNED,
 };
-use meshsweep_core::{Blob, Bvh};
+use meshsweep_core::{Blob, Bvh, Tribox};
+use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
-/// How many triboxes to make.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// How many triboxes to make, and in which frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct TriboxOptions {
     /// Most triboxes of the finest level.
     pub count: u32,
+    /// Splitting ends where every tribox of the finest level is within this distance of the convex
+    /// hull of what it holds, input units: formula (10) of the paper. `None`: where it gains
+    /// nothing.
+    pub error: Option<f64>,
+    /// Turns the mesh to where its tribox has the least of this measure, if the triboxes of the
+    /// finest level then have less in all.
+    pub orient: Option<Measure>,
+    /// Planes just beyond local extrema of the mesh are tried too.
+    pub extrema: bool,
+}
+
+impl TriboxOptions {
+    /// At most so many triboxes.
+    #[must_use]
+    pub const fn new(count: u32) -> Self {
+        Self { count, error: None, orient: None, extrema: false }
+    }
+
+    setters! {
+        /// Sets the [error](Self::error) that ends splitting.
+        with_error: Option<f64> => error,
+        /// Sets the measure of the [orientation](Self::orient).
+        with_orient: Option<Measure> => orient,
+        /// Sets whether planes through [extrema](Self::extrema) are tried.
+        with_extrema: bool => extrema,
+    }
 }
 
 /// Levels and time of a hierarchy.
@@ -36,6 +67,8 @@ pub struct TriboxOptions {
 pub struct TriboxReport {
     /// Levels as measured, coarse to fine.
     pub levels: Vec<Level>,
+    /// The largest error of a tribox of the finest level as stored, input units. `None` of none.
+    pub reached: Option<f64>,
     /// Time of the whole build.
     pub time: Duration,
 }
@@ -44,7 +77,7 @@ pub struct TriboxReport {
 ///
 /// The triboxes hold the input. Any triangle soup will do; see [`Hierarchy::new`] for what they
 /// hold, and for the cost. The section of a mesh without triangles is empty, and its blob does not
-/// open.
+/// open. With [`orient`](TriboxOptions::orient) the mesh is split twice.
 ///
 /// # Errors
 /// [`BuildError::Triboxes`] if a coordinate is not finite or beyond
@@ -55,20 +88,25 @@ pub fn build(
     watch: Watch<'_>,
 ) -> Result<(Sections, TriboxReport), BuildError> {
     let watch = watch.during(Stage::Triboxes);
-    let TriboxOptions { count } = *options;
     let started = Instant::now();
-    let mesh = input.mesh;
-    let lattice = Lattice::of(mesh, input.error())?;
-    if mesh.triangles.is_empty() && mesh.wires.is_empty() {
-        let bounds = Aabb { min: Vec3::ZERO, max: Vec3::ZERO };
-        let tables = sections(lattice.scale_exponent, 0.0, 0, bounds, Vec::new());
-        return Ok((tables, TriboxReport { levels: Vec::new(), time: started.elapsed() }));
+    let scale = scale_exponent(input.mesh);
+    let local = exp2(-scale);
+    let used = input.mesh.all_triangles().flatten().map(|v| input.mesh.positions[v as usize]);
+    let whole = Tribox::of_points(used)?;
+    let tables = |bounds: Aabb, section: Vec<u8>| {
+        let error = Lattice::room(input.error()) * local;
+        sections(scale, up_to_f32(error), input.triangle_count(), bounds, section)
+    };
+    if whole.is_empty() {
+        let tables = tables(Aabb { min: Vec3::ZERO, max: Vec3::ZERO }, Vec::new());
+        let (levels, time) = (Vec::new(), started.elapsed());
+        return Ok((tables, TriboxReport { levels, reached: None, time }));
     }
-    let bytes = exact_blob_watched(mesh, watch.part(0.0, 0.1))?;
+    let Grown { mesh, bytes, lattice, hierarchy, turn } = match options.orient {
+        None => Grown::new(input, options, None, watch.part(0.0, 0.8))?,
+        Some(measure) => Grown::least(input, options, measure, watch.part(0.0, 0.8))?,
+    };
     let tree = Bvh::open(&bytes).map_err(BuildError::Reopen)?;
-    let leaves = count.clamp(1, MAX_TRIBOXES) as usize;
-    let options = SplitOptions { leaves, lattice: Some(lattice), ..SplitOptions::default() };
-    let hierarchy = Hierarchy::watched(mesh, &tree, &options, watch.part(0.1, 0.8))?;
     let counts = (0..).map(|k| 1usize << k).take_while(|&count| count < hierarchy.order.len() + 1);
     let counts = counts.chain([hierarchy.order.len() + 1]);
     let counts: Vec<usize> = counts.collect();
@@ -76,30 +114,93 @@ pub fn build(
     let ends = |level: usize| 0.8 + 0.2 * level as f64 / counts.len() as f64;
     for (number, &count) in counts.iter().enumerate() {
         let part = watch.part(ends(number), ends(number + 1));
-        levels.push(level_watched(&hierarchy, count, mesh, &tree, part));
+        levels.push(level_watched(&hierarchy, count, &mesh, &tree, part));
         part.step(1, 1)?;
     }
-    let solid = hierarchy.is_solid.then(|| volume(mesh)).filter(|&volume| volume > 0.0);
-    let local = exp2(-lattice.scale_exponent);
+    let solid = hierarchy.is_solid.then(|| volume(&mesh)).filter(|&volume| volume > 0.0);
     let records = levels.iter().map(|level| TriboxLevel {
         triboxes: level.triboxes as u32,
-        distance: up_to_f32((level.distance.upper + lattice.padding) * local),
-        error: up_to_f32((level.error + lattice.padding) * local),
+        distance: up_to_f32(lattice.in_local_units(level.distance.upper)),
+        error: up_to_f32(lattice.in_local_units(level.error)),
         // The ratio to a tiny volume may exceed f32.
         void_ratio: solid.map_or(0.0, |solid| level.void(solid).min(f64::from(f32::MAX)) as f32),
     });
-    let whole = hierarchy.nodes[0].tribox;
     let corner =
         |of: &[f32; 9]| Vec3::from([of[0], of[1], of[2]].map(|x| (f64::from(x) * local) as f32));
-    let section = section(&hierarchy, &lattice, &records.collect::<Vec<_>>());
-    let tables = sections(
-        lattice.scale_exponent,
-        up_to_f32(lattice.padding * local),
-        input.triangle_count(),
-        Aabb { min: corner(&whole.low), max: corner(&whole.high) },
-        section,
-    );
-    Ok((tables, TriboxReport { levels, time: started.elapsed() }))
+    let section = section(&hierarchy, &lattice, turn, &records.collect::<Vec<_>>());
+    let bounds = Aabb { min: corner(&whole.low), max: corner(&whole.high) };
+    let tables = tables(bounds, section);
+    let reached = levels.last().map(|level| lattice.claimed(level.error));
+    Ok((tables, TriboxReport { levels, reached, time: started.elapsed() }))
+}
+
+/// A mesh as it was split.
+struct Grown<'a> {
+    mesh: Cow<'a, Mesh>,
+    /// Its box tree.
+    bytes: Vec<u8>,
+    lattice: Lattice,
+    hierarchy: Hierarchy,
+    turn: Option<Turn>,
+}
+
+impl<'a> Grown<'a> {
+    /// Splits a mesh, which may be turned first.
+    fn new(
+        input: Input<'a>,
+        options: &TriboxOptions,
+        turn: Option<Turn>,
+        watch: Watch<'_>,
+    ) -> Result<Self, BuildError> {
+        let scale = scale_exponent(input.mesh);
+        let (mesh, lattice) = match turn {
+            None => {
+                let lattice = Lattice::in_frame(input.mesh, scale, input.error())?;
+                (Cow::Borrowed(input.mesh), lattice)
+            }
+            Some(turn) => {
+                let (mesh, off) = turn.mesh(input.mesh);
+                let stretch = 1.0 + 2.0 * turn.skew();
+                let padding = input.error() * stretch + off;
+                let lattice = Lattice::in_frame(&mesh, scale, padding)?;
+                (Cow::Owned(mesh), Lattice { stretch, ..lattice })
+            }
+        };
+        let bytes = exact_blob_watched(&mesh, watch.part(0.0, 0.125))?;
+        let tree = Bvh::open(&bytes).map_err(BuildError::Reopen)?;
+        let planes = match options.extrema {
+            true => Planes::Extrema(PLANES),
+            false => Planes::Nine(PLANES),
+        };
+        let split = SplitOptions {
+            planes,
+            leaves: options.count.clamp(1, MAX_TRIBOXES) as usize,
+            error: options.error,
+            lattice: Some(lattice),
+            ..SplitOptions::default()
+        };
+        let hierarchy = Hierarchy::watched(&mesh, &tree, &split, watch.part(0.125, 1.0))?;
+        Ok(Self { mesh, bytes, lattice, hierarchy, turn })
+    }
+
+    /// Splits a mesh in its own frame and in the orientation of its tribox's least measure, and
+    /// takes the one with the fewer triboxes for the asked error, or with less in all.
+    fn least(
+        input: Input<'a>,
+        options: &TriboxOptions,
+        measure: Measure,
+        watch: Watch<'_>,
+    ) -> Result<Self, BuildError> {
+        let own = Self::new(input, options, None, watch.part(0.0, 0.5))?;
+        let Some(turn) = orientation(input.mesh, measure) else { return Ok(own) };
+        let turned = Self::new(input, options, Some(turn), watch.part(0.5, 1.0))?;
+        let cost = |grown: &Self| {
+            let triboxes = proxies(&grown.hierarchy, usize::MAX);
+            let sum: f64 = triboxes.iter().map(|tribox| measure.of(Extent::of(tribox))).sum();
+            (if options.error.is_some() { triboxes.len() } else { 0 }, sum)
+        };
+        Ok(if cost(&turned) < cost(&own) { turned } else { own })
+    }
 }
 
 /// Volume that a closed mesh bounds, cubed input units.
@@ -116,7 +217,12 @@ struct Placed {
     split: Option<u16>,
 }
 
-fn section(hierarchy: &Hierarchy, lattice: &Lattice, levels: &[TriboxLevel]) -> Vec<u8> {
+fn section(
+    hierarchy: &Hierarchy,
+    lattice: &Lattice,
+    turn: Option<Turn>,
+    levels: &[TriboxLevel],
+) -> Vec<u8> {
     let mut placed = vec![Placed { number: 0, depth: 0, split: None }];
     let mut place_of = vec![0usize; hierarchy.nodes.len()];
     let mut splits: Vec<u16> = Vec::new();
@@ -132,7 +238,8 @@ fn section(hierarchy: &Hierarchy, lattice: &Lattice, levels: &[TriboxLevel]) -> 
         }
     }
     let header = TriboxesHeader {
-        flags: if hierarchy.is_solid { TRIBOXES_SOLID } else { 0 },
+        flags: if hierarchy.is_solid { TRIBOXES_SOLID } else { 0 }
+            | if turn.is_some() { TRIBOXES_TURNED } else { 0 },
         grid_exponent: lattice.grid_exponent,
         grid_origin: lattice.origin,
         nodes: placed.len() as u32,
@@ -140,6 +247,8 @@ fn section(hierarchy: &Hierarchy, lattice: &Lattice, levels: &[TriboxLevel]) -> 
         depth: placed.iter().map(|placed| placed.depth).max().unwrap_or(0),
     };
     let mut out = header.write().to_vec();
+    let numbers = turn.into_iter().flat_map(|turn| turn.rows).flatten();
+    numbers.for_each(|x| out.extend(x.to_le_bytes()));
     for level in levels {
         out.extend(level.triboxes.to_le_bytes());
         // Local here.
@@ -153,8 +262,7 @@ fn section(hierarchy: &Hierarchy, lattice: &Lattice, levels: &[TriboxLevel]) -> 
         let stored = lattice.stored(&node.tribox).expect("all nodes are inside of the first");
         stored.iter().flatten().for_each(|x| out.extend(x.to_le_bytes()));
         out.extend(split.unwrap_or(u16::MAX).to_le_bytes());
-        let error = (node.error + lattice.padding) * exp2(-lattice.scale_exponent);
-        out.extend(Radius16::round_up(error).0.to_le_bytes());
+        out.extend(lattice.stored_error(node.error).0.to_le_bytes());
     }
     out
 }
@@ -179,14 +287,15 @@ pub fn cut(blob: &Blob<'_>, count: u32) -> Option<Sections> {
     };
     let place = blob.sections().find(|section| section.kind == SectionKind::Triboxes)?;
     let old = blob.bytes().get(place.offset as usize..)?.get(..place.bytes as usize)?;
-    let (levels, rest) = old
-        .split_at_checked(TRIBOXES_BYTES)?
-        .1
-        .split_at_checked(triboxes.level_count() as usize * TRIBOX_LEVEL_BYTES)?;
+    let turn_bytes = if triboxes.is_turned() { TRIBOX_TURN_BYTES } else { 0 };
+    let (turn, rest) = old.get(TRIBOXES_BYTES..)?.split_at_checked(turn_bytes)?;
+    let (levels, rest) =
+        rest.split_at_checked(triboxes.level_count() as usize * TRIBOX_LEVEL_BYTES)?;
     let (splits, nodes) =
         rest.split_at_checked((triboxes.leaf_count() as usize - 1) * TRIBOX_SPLIT_BYTES)?;
     let kept = leaves as usize - 1;
     let mut section = header.write().to_vec();
+    section.extend(turn);
     section.extend(&levels[..level_count * TRIBOX_LEVEL_BYTES]);
     section.extend(&splits[..kept * TRIBOX_SPLIT_BYTES]);
     for (node, record) in (0..coarser.node_count()).zip(nodes.chunks(TRIBOX_BYTES)) {

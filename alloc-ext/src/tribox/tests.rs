@@ -312,3 +312,30 @@ fn a_block_is_its_own_tribox_without_error() {
     let level = level(&hierarchy, 8, &mesh, &Bvh::open(&bytes).unwrap());
     assert_eq!((level.faces, level.volume, level.error), (6, 6.0, 0.0));
 }
+
+/// An L of which the inner corner is at no even place.
+#[test]
+fn a_step_is_cut_off_where_it_ends() {
+    let outline = [[0.0, 0.0], [4.0, 0.0], [4.0, 0.9], [0.7, 0.9], [0.7, 4.0], [0.0, 4.0f32]];
+    let positions: Vec<[f32; 3]> =
+        [0.0, 1.0].iter().flat_map(|&z| outline.map(|[x, y]| [x, y, z])).collect();
+    let mut triangles = Vec::new();
+    for [a, b, c] in [[0u32, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]] {
+        triangles.extend([[a, c, b], [a + 6, b + 6, c + 6]]);
+    }
+    for i in 0..6u32 {
+        let j = (i + 1) % 6;
+        triangles.extend([[i, j, j + 6], [i, j + 6, i + 6]]);
+    }
+    let mesh = repaired(&positions, &triangles);
+    let lattice = Some(Lattice::of(&mesh, 0.0).unwrap());
+    let even = split(&mesh, &SplitOptions { lattice, ..options(2) });
+    let planes = Planes::Extrema(7);
+    let extrema = split(&mesh, &SplitOptions { planes, lattice, ..options(2) });
+    demand_order(&extrema);
+    demand_cover(&extrema, &in_solid(&mesh, 1000));
+    // 4 by 0.9 and 0.7 by 3.1.
+    let exact = 4.0 * 0.9 + 0.7 * 3.1;
+    assert!((volume(&extrema) / exact - 1.0).abs() < 4e-3, "{} {exact}", volume(&extrema));
+    assert!(volume(&even) > 1.01 * exact, "{}", volume(&even));
+}

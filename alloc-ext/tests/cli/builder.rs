@@ -2,16 +2,17 @@
 
 use crate::support::{arg, coarse_torus, fixture, run, scratch};
 use meshsweep::builder::{For, Recipe, Stage, Topic, ranges};
-use meshsweep::collapse::CollapseOptions;
+use meshsweep::collapse::{CollapseOptions, Priority};
 use meshsweep::curve::{self, CurveOptions, read_csv};
 use meshsweep::hull::{self, BuildOptions};
 use meshsweep::load::Source;
+use meshsweep::lp::Order;
 use meshsweep::mesh::{self, MeshError, RawMesh, Unit};
 use meshsweep::number::{ABOVE_ZERO, FROM_ZERO};
 use meshsweep::progress::{Callback, Watch};
 use meshsweep::surface::VertexBits;
 use meshsweep::tight::{self, ChainOptions};
-use meshsweep::tribox::{self, TriboxOptions};
+use meshsweep::tribox::{self, Measure, TriboxOptions};
 use meshsweep::{BuildError, Builder, Built};
 use std::fs;
 use std::ops::ControlFlow::{Break, Continue};
@@ -109,6 +110,8 @@ fn each_option_means_what_it_means_to_the_program() {
         max_valence: Some(9),
         compactness: Some(0.5),
         max_normal_deviation: Some(45.0),
+        priority: Some(Priority::Span),
+        order: Some(Order::Shuffled(7)),
     };
     let several = Builder::new()
         .serve_all([For::Hull, For::Triboxes, For::Segment])
@@ -116,9 +119,13 @@ fn each_option_means_what_it_means_to_the_program() {
         .unit(Unit::Mm)
         .base_faces(300)
         .collapse(collapse)
-        .triboxes(5);
+        .triboxes(5)
+        .tribox_error(0.5)
+        .orient(Measure::Area)
+        .extrema(true);
     let typed = "--for hull,triboxes,segment --unit mm --vertex-bits 16 --base 300 --max-valence 9 \
-                 --compactness 0.5 --max-normal-deviation 45 --triboxes 5";
+                 --compactness 0.5 --max-normal-deviation 45 --priority span --order shuffled:7 \
+                 --triboxes 5 --tribox-error 0.5 --orient area --extrema";
     assert_eq!(several.to_string(), typed);
     demand_same(&directory, &bracket, several, &typed.split_whitespace().collect::<Vec<_>>());
     let torus = coarse_torus(&directory);
@@ -154,6 +161,9 @@ fn defects_are_reported_and_refused_in_the_program_s_words() {
     for (builder, typed) in [
         (Builder::new().base_faces(9), "--base 9"),
         (Builder::new().triboxes(9), "--triboxes 9"),
+        (Builder::new().tribox_error(1.0), "--tribox-error 1"),
+        (Builder::new().orient(Measure::Volume), "--orient volume"),
+        (Builder::new().extrema(true), "--extrema"),
         (Builder::new().margin(1.0), "--margin 1"),
         (Builder::new().closed(true), "--closed"),
         (Builder::new().serve(For::Curve), "--for curve"),
@@ -246,13 +256,14 @@ fn collapsing(set: impl FnOnce(&mut CollapseOptions)) -> Builder<'static> {
 #[test]
 fn numbers_are_taken_in_their_range_and_refused_outside_of_it() {
     let whole = |[least, most]: [u32; 2]| [least, most].map(f64::from);
-    let options: [Ranged; 9] = [
+    let options: [Ranged; 10] = [
         ("--base", whole(ranges::BASE_FACES), |x| {
             Builder::new().serve(For::Hull).base_faces(x as u32)
         }),
         ("--triboxes", whole(ranges::TRIBOX_COUNT), |x| {
             Builder::new().serve(For::Triboxes).triboxes(x as u32)
         }),
+        ("--tribox-error", ABOVE_ZERO, |x| Builder::new().serve(For::Triboxes).tribox_error(x)),
         ("--tight", whole(ranges::TIGHT_FACES), |x| {
             Builder::new().serve(For::Tight).tight_faces(&[200, x as u32])
         }),
@@ -377,7 +388,7 @@ fn each_structure_that_is_built_alone_tells_its_own_stages() {
     let part = source.repaired().expect("it is a mesh");
     let (input, of_hull) = (part.input(), BuildOptions::default());
     let of_tight = ChainOptions::of_faces(&[300]).with_effort(0.01);
-    let of_triboxes = TriboxOptions { count: 8 };
+    let of_triboxes = TriboxOptions::new(8);
     let curves = read_csv(b"0,0,0\n1,0,0\n1,1,0\n", false).expect("they are curves");
     let of_curves = CurveOptions::default();
     let told = stages(|watch| hull::build(input, &of_hull, watch));

@@ -27,6 +27,7 @@ mod support;
 mod tight;
 mod trade;
 mod tribox;
+mod triboxes;
 mod verify;
 mod winding;
 mod worst;

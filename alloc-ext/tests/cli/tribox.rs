@@ -203,7 +203,10 @@ fn a_blob_of_triboxes_holds_what_the_command_prints() {
         arg(&blob),
     ]);
     assert!(
-        text.contains("serves clearance --triboxes, cut") && text.contains("31 nodes of 16 leaves"),
+        text.contains(
+            "serves closest --triboxes, within --triboxes, segment --triboxes, \
+             overlap --triboxes, clearance --triboxes, cut"
+        ) && text.contains("31 nodes of 16 leaves"),
         "{text}"
     );
     let stored = info(&blob);

@@ -97,7 +97,10 @@ fn a_blob_without_such_questions_is_refused_with_those_it_serves() {
     let blob = blob(&directory, "torus.ply", &["--for", "triboxes", "--triboxes", "2"]);
     let line = refused(&run(["worst", arg(&blob)]), 1, "torus");
     assert!(
-        line.contains("serves clearance --triboxes") && line.contains("searches closest"),
+        line.contains(
+            "serves closest --triboxes, within --triboxes, segment --triboxes, \
+             overlap --triboxes, clearance --triboxes"
+        ) && line.contains("searches closest"),
         "{line}"
     );
 }

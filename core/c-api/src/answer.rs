@@ -6,11 +6,14 @@
 use meshsweep_core::{
     ClosestPoint, CoherentClosest, CurveClosest, CurveNeighbor, CurveSegment, CurveSignedDistance,
     Decided, Ended, FirstHit, Interval, KNearest, Neighbor, NodePair, PairContact, PairDistance,
-    Separation, Side, SignedDistance, TriboxCandidates, Undecided, Verdict, WindingNumber, Work,
+    Separation, Side, SignedDistance, TriboxBound, TriboxCandidates, Undecided, Verdict,
+    WindingNumber, Work,
 };
 
 /// `MSW_NO_TRIANGLE`.
 pub const NO_TRIANGLE: u32 = u32::MAX;
+/// `MSW_NO_NODE`.
+pub const NO_NODE: u32 = u32::MAX;
 /// `MSW_NO_MODEL`.
 pub const NO_MODEL: u32 = u32::MAX;
 /// `MSW_NO_SEGMENT`.
@@ -53,6 +56,7 @@ answers! {
     NodePairC { a: u16, b: u16 }
     ApartC { verdict: i32, ended: i32, may_meet: NodePairC, work: WorkC }
     CandidatesC { verdict: i32, ended: i32, stored: u32, dropped: u32, work: WorkC }
+    TriboxBoundC { lower: f32, node: u32, ended: i32, work: WorkC }
     CurveClosestC {
         distance: IntervalC, point: [f32; 3], polyline: u32, segment: u32, t: f32,
         safe_motion: f32, ended: i32, work: WorkC
@@ -306,5 +310,12 @@ impl From<CurveNeighbor> for CurveNeighborC {
         let CurveSegment { polyline, segment } = near.segment();
         let (distance, point, t) = (near.distance().into(), near.point(), near.t());
         CurveNeighborC { distance, point, polyline, segment, t }
+    }
+}
+
+impl From<TriboxBound> for TriboxBoundC {
+    fn from(found: TriboxBound) -> Self {
+        let (lower, node) = (found.lower, found.node.unwrap_or(NO_NODE));
+        TriboxBoundC { lower, node, ended: ended(found.ended), work: found.work.into() }
     }
 }

@@ -2,7 +2,7 @@
 
 use meshsweep_core::{NodePair, ScratchEntry, Triboxes};
 
-use crate::answer::{ApartC, CandidatesC, NodePairC};
+use crate::answer::{ApartC, CandidatesC, NodePairC, TriboxBoundC};
 use crate::ask::{ask, posed, questions};
 use crate::error::Error;
 use crate::memory::{In, Out, Storage, View};
@@ -35,7 +35,10 @@ pub extern "C" fn msw_triboxes_scratch_entries(
     other: In<TriboxesStorage>,
 ) -> u32 {
     let views = triboxes.view().and_then(|one| other.view().map(|other| (one, other)));
-    views.map_or(0, |(one, other)| one.separation_entries(other) as u32)
+    views.map_or(0, |(one, other)| {
+        let alone = one.scratch_entries().max(other.scratch_entries());
+        one.separation_entries(other).max(alone) as u32
+    })
 }
 
 questions! {
@@ -50,6 +53,16 @@ questions! {
     ) -> ApartC {
         let ([triboxes, other], pose) = posed([&triboxes, &other], pose)?;
         |budget, scratch| triboxes.within_of(other, pose, distance, budget, scratch)
+    }
+    msw_triboxes_distance(triboxes: In<TriboxesStorage>, point: In<[f32; 3]>) -> TriboxBoundC {
+        let (triboxes, point) = (triboxes.view()?, point.get()?);
+        |budget, scratch| triboxes.distance(point, budget, scratch)
+    }
+    msw_triboxes_clip(
+        triboxes: In<TriboxesStorage>, a: In<[f32; 3]>, b: In<[f32; 3]>
+    ) -> TriboxBoundC {
+        let (triboxes, a, b) = (triboxes.view()?, a.get()?, b.get()?);
+        |budget, scratch| triboxes.clip(a, b, budget, scratch)
     }
 }
 

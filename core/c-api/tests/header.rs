@@ -91,6 +91,7 @@ fn layouts() -> String {
         "msw_curve_signed": CurveSignedC { side, reason, distance, closest }
         "msw_curve_neighbor": CurveNeighborC { distance, point, polyline, segment, t }
         "msw_curve_within_answer": CurveWithinC { verdict, reason, polyline, segment, work }
+        "msw_tribox_bound": TriboxBoundC { lower, node, ended, work }
         "msw_refinement": RefinementC { is_complete, error_left, faces, performed, undone }
         "msw_face": FaceC { corners, error }
         "msw_faces_answer": FacesC { stored, dropped }
@@ -117,6 +118,7 @@ fn constants() -> String {
     holds(&mut text, "MSW_OVERLAP_ENTRIES", Bvh::OVERLAP_ENTRIES);
     holds(&mut text, "MSW_DISTANCE_ENTRIES", Bvh::DISTANCE_ENTRIES);
     holds(&mut text, "MSW_NO_TRIANGLE", format!("{NO_TRIANGLE}u"));
+    holds(&mut text, "MSW_NO_NODE", format!("{NO_NODE}u"));
     holds(&mut text, "MSW_NO_MODEL", format!("{NO_MODEL}u"));
     holds(&mut text, "MSW_NO_SEGMENT", format!("{NO_SEGMENT}u"));
     holds(&mut text, "MSW_FINEST", format!("{FINEST}u"));

@@ -15,6 +15,8 @@ pub enum Contradiction {
     TriboxLevels,
     /// Grid of the triboxes out of range.
     TriboxGrid,
+    /// The matrix of turned triboxes is no rotation.
+    TriboxTurn,
     /// The last level of triboxes is not the whole hierarchy.
     LastTriboxLevel,
     /// Triboxes deeper than their header says.
@@ -91,6 +93,7 @@ impl core::fmt::Display for Contradiction {
             Self::TriboxCount => "triboxes are not one and two for each split",
             Self::TriboxLevels => "levels of triboxes",
             Self::TriboxGrid => "grid of the triboxes out of range",
+            Self::TriboxTurn => "the matrix of turned triboxes is no rotation",
             Self::LastTriboxLevel => "the last level of triboxes is not the whole hierarchy",
             Self::TriboxDepth => "triboxes deeper than their header says",
             Self::CurvePoints => "points and polylines of a curve",

@@ -51,7 +51,8 @@ pub use pair_distance::{PairContact, PairDistance};
 pub use penetration::{Penetration, Relation};
 pub(crate) use pose::{
     CommonPose, DIRECTIONS, Extended, ModelFrame, PoseInverse, RelativePose, UNITS_APART,
-    VertexPose, WorldLengths, check_rigid, checked_skew, is_rotation, longest, skew,
+    VertexPose, WorldLengths, check_rigid, checked_skew, is_rotation, is_turn, longest, skew,
+    skew_of,
 };
 pub use pose::{Joint, JointAxis, JointKind, Motion, PosedPoint, RoundedPose, link_poses};
 pub use scratch::{Scratch, ScratchEntry};

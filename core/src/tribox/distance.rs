@@ -2,6 +2,7 @@
 //! first meet a model.
 
 use super::bounds::{Tribox, TriboxError};
+use super::turned::Turn;
 use crate::num::greater;
 use crate::query::{Budget, Ended, QueryError, ScratchEntry, Work};
 use crate::tribox::format::Triboxes;
@@ -56,7 +57,13 @@ impl Triboxes<'_> {
     ) -> Result<TriboxBound, QueryError> {
         budget.check_with(scratch)?;
         Tribox::of_point(point)?;
-        least(self, budget.steps, scratch, |tribox| Some(tribox.distance(point)))
+        let Some(turn) = Turn::of(self) else {
+            return least(self, budget.steps, scratch, |tribox| Some(tribox.distance(point)));
+        };
+        let (place, error) = turn.place(point);
+        let mut answer = least(self, budget.steps, scratch, |tribox| Some(tribox.distance(place)))?;
+        answer.lower = turn.shorter(answer.lower, error);
+        Ok(answer)
     }
 
     /// Parameter before which the segment from `a` (0) to `b` (1) is clear of the mesh: where it
@@ -88,7 +95,14 @@ impl Triboxes<'_> {
         budget.check_with(scratch)?;
         Tribox::of_point(a)?;
         Tribox::of_point(b)?;
-        least(self, budget.steps, scratch, |tribox| tribox.clip(a, b).map(|(enter, _)| enter))
+        let Some(turn) = Turn::of(self) else {
+            return least(self, budget.steps, scratch, |tribox| {
+                tribox.clip(a, b).map(|(enter, _)| enter)
+            });
+        };
+        let ((a, of_a), (b, of_b)) = (turn.place(a), turn.place(b));
+        let error = greater(of_a, of_b);
+        least(self, budget.steps, scratch, |tribox| tribox.enter(a, b, error))
     }
 }
 

@@ -20,6 +20,7 @@
 //! | `format/` | the bytes of the hierarchy |
 //! | `separating_axes`, `separation` | two hierarchies, one of them moved |
 //! | `distance` | a point or a segment against the hierarchy |
+//! | `turned` | places and motions in the frame of turned triboxes |
 
 mod boundary;
 mod bounds;
@@ -33,6 +34,7 @@ mod separating_axes;
 mod separation;
 mod snap;
 mod support;
+mod turned;
 
 pub use boundary::{Boundary, BoundaryOf, LOOP, Scalar, VERTICES, boundary};
 pub use bounds::{Tribox, TriboxError};

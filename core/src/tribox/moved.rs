@@ -20,7 +20,7 @@ impl Pose {
 
     /// The moved point, and the sum of the sizes of each coordinate's terms.
     #[inline(always)]
-    fn apply(&self, [x, y, z]: [f32; 3]) -> ([f32; 3], [f32; 3]) {
+    pub(super) fn apply(&self, [x, y, z]: [f32; 3]) -> ([f32; 3], [f32; 3]) {
         let (mut place, mut size) = ([0f32; 3], [0f32; 3]);
         let rows = self.rotation.iter().zip(self.translation);
         for ((place, size), (&[a, b, c], t)) in place.iter_mut().zip(&mut size).zip(rows) {

@@ -3,10 +3,11 @@
 use super::bounds::TriboxError;
 use super::directions::{DIRECTIONS, FACES, SLABS};
 use super::support::Support;
+use super::turned::between;
 use crate::geom::{Pose, dot, norm_1};
 use crate::num;
 use crate::num::tolerance::{PRODUCT_UNDERFLOW, TRIBOX_AXIS, TRIBOX_DISTANCE, U32};
-use crate::query::{QueryError, checked_skew, longest};
+use crate::query::{QueryError, checked_skew, longest, skew_of};
 use crate::tribox::format::Triboxes;
 
 /// A direction of one tribox's own slabs in the other's frame.
@@ -79,7 +80,7 @@ impl Axes {
     /// the rounding of M. This rounding and the rounding of e count with the largest coordinate of
     /// `b`. No gap is rounded by more than [`TRIBOX_AXIS`] units of the sum of its terms. Points
     /// that are `distance` apart or nearer have a gap of at most |w| times it
-    /// (`core/docs/rounding.md` §10).
+    /// (`core/docs/rounding.md` §10). Of turned triboxes the motion is that between their frames.
     pub(crate) fn prepare(
         &mut self,
         a: &Triboxes<'_>,
@@ -93,6 +94,13 @@ impl Axes {
         })?;
         let (largest_a, largest_b) = (largest_coordinate(a)?, largest_coordinate(b)?);
         let skew = checked_skew(pose)?;
+        let turned;
+        let (pose, distance, skew) = if a.is_turned() || b.is_turned() {
+            turned = between([a, b], pose, distance, largest_b)?;
+            (&turned.pose, turned.distance, skew_of(&turned.pose.rotation))
+        } else {
+            (pose, distance, skew)
+        };
         let [p, q, r] = pose.rotation;
         let largest = norm_1(pose.translation);
         // Mᵀw, and the same of sizes.

@@ -2,17 +2,18 @@
 
 use super::input::Input;
 use super::suite::ask_all;
-use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
+use crate::generate::{Triangles, cube, groove_block, icosphere, rough_sphere, torus, transformed};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit::assemble;
 use meshsweep::mesh::Mesh;
 use meshsweep::progress::Watch;
-use meshsweep::tribox::{self, TriboxOptions};
+use meshsweep::tribox::{self, Measure, TriboxOptions};
 use meshsweep_core::{Blob, Budget, Ended, NodePair, Pose, QueryError, ScratchEntry, Triboxes};
 use meshsweep_suite::ask::triboxes;
 use std::sync::OnceLock;
 
-/// Small valid blobs of triboxes: one and several, closed and open, one beside a box tree.
+/// Small valid blobs of triboxes: one and several, closed and open, one beside a box tree, one
+/// turned.
 ///
 /// # Panics
 /// If one of them cannot be built.
@@ -21,19 +22,25 @@ pub fn triboxes_seeds() -> &'static [Vec<u8>] {
     SEEDS.get_or_init(|| {
         let mut open = rough_sphere(1, 0.4, 5);
         open.1.truncate(50);
+        let rotation = [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]];
+        let turned = transformed(&groove_block(), rotation, [0.1, 0.2, 0.3]);
         vec![
-            blob(&cube(1), 1, false),
-            blob(&torus(2.0, 0.75, 10, 6), 12, false),
-            blob(&open, 5, false),
-            blob(&icosphere(1), 4, true),
+            blob(&cube(1), &TriboxOptions::new(1), false),
+            blob(&torus(2.0, 0.75, 10, 6), &TriboxOptions::new(12), false),
+            blob(&open, &TriboxOptions::new(5), false),
+            blob(&icosphere(1), &TriboxOptions::new(4), true),
+            blob(&turned, &TriboxOptions::new(4).with_orient(Some(Measure::Volume)), false),
         ]
     })
 }
 
-fn blob((positions, triangles): &Triangles, count: u32, beside_a_tree: bool) -> Vec<u8> {
+fn blob(
+    (positions, triangles): &Triangles,
+    options: &TriboxOptions,
+    beside_a_tree: bool,
+) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    let (tables, _) = tribox::build(mesh.as_input(), &TriboxOptions { count }, Watch::NONE)
-        .expect("in the domain");
+    let (tables, _) = tribox::build(mesh.as_input(), options, Watch::NONE).expect("in the domain");
     let tree = beside_a_tree
         .then(|| build(mesh.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds").0);
     assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())

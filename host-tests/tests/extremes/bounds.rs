@@ -16,7 +16,7 @@ fn triboxes(extreme: &Extreme) {
     let scene = Scene::new(extreme.name, &wide(extreme.mesh.clone()), Kind::F32);
     let input =
         Input { mesh: &scene.mesh, moved: scene.moved, input_triangles: scene.corners.len() };
-    let bytes = match tribox::build(input, &TriboxOptions { count: 8 }, Watch::NONE) {
+    let bytes = match tribox::build(input, &TriboxOptions::new(8), Watch::NONE) {
         Ok((tables, _)) => tables.to_bytes(),
         Err(error) => {
             let is_huge = ["the_largest_numbers"].contains(&extreme.name);

@@ -140,7 +140,7 @@ fn scaling_by_a_power_of_two_scales_every_bit_of_triboxes_and_curves() {
     scales(|raw, points, _| {
         let scene = Scene::new("", raw, Kind::F32);
         let bytes = {
-            let options = TriboxOptions { count: 8 };
+            let options = TriboxOptions::new(8);
             let built = tribox::build(input(&scene), &options, Watch::NONE);
             built.expect("in the domain").0.to_bytes()
         };

@@ -126,7 +126,7 @@ fn build(wanted: &str, raw: &Raw, every: usize) -> Result<(Mesh, RepairReport), 
         }
         "triboxes" => {
             let most = if every > 1 { 1 } else { 4 };
-            let built = tribox::build(input, &TriboxOptions { count: most }, Watch::NONE)
+            let built = tribox::build(input, &TriboxOptions::new(most), Watch::NONE)
                 .map_err(|e| named(&e, variant(&e)))?;
             let bytes = built.0.to_bytes();
             let triboxes = Triboxes::open(&bytes).expect("opens");

@@ -51,6 +51,8 @@ pub const C_FUNCTIONS: &[(&str, &str)] = &[
     ("msw_triboxes_apart", "triboxes"),
     ("msw_triboxes_within", "triboxes"),
     ("msw_triboxes_candidates", "triboxes"),
+    ("msw_triboxes_distance", "triboxes"),
+    ("msw_triboxes_clip", "triboxes"),
     ("msw_open_tight", "tight"),
     ("msw_tight_within", "tight"),
     ("msw_tight_model", "tight"),

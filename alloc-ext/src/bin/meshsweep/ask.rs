@@ -14,7 +14,7 @@ use meshsweep::number::Short;
 use meshsweep_core::{
     Budget, CurveNeighbor, CurveSignedDistance, Decided, Ended, FirstHit, Interval, Neighbor,
     PairContact, PairDistance, Penetration, QueryError, ScratchEntry, Separation, SignedDistance,
-    Undecided, Verdict, WindingNumber, Work,
+    TriboxBound, Undecided, Verdict, WindingNumber, Work,
 };
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
@@ -72,6 +72,7 @@ answered! {
     Separation: |found| found.ended, found.work;
     CurveSignedDistance: |found| found.closest.ended, found.closest.work;
     SignedDistance: |found| found.closest.ended, found.closest.work;
+    TriboxBound: |found| found.ended, found.work;
     WindingNumber: |found| found.ended, found.work;
     AnyWithin: |found| ended(found.verdict), found.work;
     Decided<[u32; 2]>: |found| ended(found.verdict), found.work;

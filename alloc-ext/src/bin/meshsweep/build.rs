@@ -94,6 +94,7 @@ impl Report<'_> {
         describe::write_blob(out, blob)?;
         indented(out, Topic::BoxTree)?;
         built.report_on(Topic::Sides).try_for_each(|note| writeln!(out, "{note}"))?;
+        indented(out, Topic::Triboxes)?;
         indented(out, Topic::Tight)?;
         chosen.map_or_else(|| self.write_seconds(out), |_| Ok(()))
     }

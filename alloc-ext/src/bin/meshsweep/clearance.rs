@@ -6,9 +6,9 @@ use crate::ask::{Question, verdict_name, write_numbers, write_pair};
 use crate::failure::Failure;
 use crate::poses;
 use crate::queries::Queries;
-use crate::{blob_file, served};
+use crate::{blob_file, served, triboxes};
 use meshsweep::counted::Counted;
-use meshsweep_core::{BuildFor, Bvh, Interval, Motion, Pose, Relation, Triboxes};
+use meshsweep_core::{BuildFor, Bvh, Interval, Motion, Pose, Relation};
 use std::io::{self, Write};
 
 /// Columns of the answers to --within.
@@ -17,12 +17,11 @@ const WITHIN: &str = "pose,within,first,second,work";
 pub fn run(args: &ClearanceArgs) -> Result<(), Failure> {
     let MovedArgs { first, second, .. } = &args.input;
     poses::refuse_same_file(&args.input, &args.search)?;
-    let (blob, other) = (blob_file::open(first)?, blob_file::open(second)?);
+    let blobs = [blob_file::open(first)?, blob_file::open(second)?];
     if let (true, Some(distance)) = (args.triboxes, args.within) {
-        let triboxes =
-            [served::require_triboxes(first, &blob)?, served::require_triboxes(second, &other)?];
-        return ask_triboxes(args, triboxes, distance);
+        return triboxes::clearance(args, &blobs, distance);
     }
+    let [blob, other] = blobs;
     let trees = [
         served::require_tree(first, &blob, BuildFor::Segment)?,
         served::require_tree(second, &other, BuildFor::Segment)?,
@@ -50,27 +49,6 @@ pub fn run(args: &ClearanceArgs) -> Result<(), Failure> {
         Some(distance) => clearance.ask_within(distance, poses),
         None => clearance.ask_distance(poses),
     }
-}
-
-/// Asks triboxes whether the meshes are farther than a distance. Else the row names the triboxes
-/// that may be nearer.
-fn ask_triboxes(
-    ClearanceArgs { input, search, .. }: &ClearanceArgs,
-    [first, second]: [Triboxes<'_>; 2],
-    distance: f32,
-) -> Result<(), Failure> {
-    Question::new(WITHIN, poses::read(input)?, search).ask_each(
-        first.separation_entries(&second),
-        |row, scratch| {
-            first.within_of(&second, poses::of_row(row), distance, search.budget(), scratch)
-        },
-        |out, query, _, found| {
-            let verdict = if found.is_apart() { "no" } else { "undecided" };
-            write!(out, "{query},{verdict},")?;
-            let nodes = found.may_meet.map(|pair| [u32::from(pair.a), u32::from(pair.b)]);
-            write_pair(out, nodes, found.work)
-        },
-    )
 }
 
 struct Clearance<'a> {

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::served::Engine;
-use crate::{blob_file, served};
+use crate::{blob_file, served, triboxes};
 use meshsweep::bvh::{BATCH, FastBvh, closest_points_until_refused};
 use meshsweep::distances::{Closest, Distances};
 use meshsweep_core::{Blob, BuildFor, Interval};
@@ -16,6 +16,9 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     let ClosestArgs { input: PointArgs { blob: file, points }, search, .. } = args;
     refuse_same_file(search.output.as_deref(), &files(&[file], points))?;
     let blob = blob_file::open(file)?;
+    if args.triboxes {
+        return triboxes::closest(args, &blob);
+    }
     let budget = search.budget().with_relative(args.rel).with_absolute(args.abs);
     let header = "x,y,z,lower,upper,px,py,pz,triangle,work";
     if let Some(frame) = args.frame {

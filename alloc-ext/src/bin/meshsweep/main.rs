@@ -57,6 +57,7 @@ mod signed;
 mod source;
 mod trade;
 mod tribox;
+mod triboxes;
 mod verify;
 mod winding;
 mod within;

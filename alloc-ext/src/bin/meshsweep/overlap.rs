@@ -5,7 +5,7 @@ use crate::ask::{self, Answer, Question, write_pair};
 use crate::failure::Failure;
 use crate::poses;
 use crate::served::Both;
-use crate::{blob_file, served};
+use crate::{blob_file, served, triboxes};
 use meshsweep_core::{Ended, TrianglePair, Verdict, Work};
 use std::io::{self, Write};
 
@@ -21,6 +21,9 @@ pub fn run(args: &OverlapArgs) -> Result<(), Failure> {
     let MovedArgs { first, second, .. } = &args.input;
     poses::refuse_same_file(&args.input, &args.search)?;
     let blobs = [blob_file::open(first)?, blob_file::open(second)?];
+    if args.triboxes {
+        return triboxes::overlap(args, &blobs);
+    }
     let tree_chosen = args.engine.map(|engine| engine == Engine::Tree);
     let models = served::choose_both([first, second], &blobs, tree_chosen)?;
     let poses = poses::read(&args.input)?;

@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::served::Engine;
-use crate::{blob_file, served};
+use crate::{blob_file, served, triboxes};
 use meshsweep::bvh::FastBvh;
 use meshsweep_core::internal::num::{exp2, tolerance};
 use meshsweep_core::{BuildFor, Ended, Hit, TriangleHit, Work};
@@ -27,6 +27,9 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
         return Err(Failure::Usage { what });
     }
     let blob = blob_file::open(file)?;
+    if args.triboxes {
+        return triboxes::segment(args, &blob);
+    }
     let engine = if args.facing.is_some() {
         Engine::Tree(served::require_tree(file, &blob, BuildFor::Segment)?)
     } else {

@@ -12,7 +12,7 @@ use std::path::Path;
 type Serves = fn(&Blob<'_>) -> bool;
 
 /// The questions, by the names of the commands.
-const QUESTIONS: [(&str, Serves); 17] = [
+const QUESTIONS: [(&str, Serves); 21] = [
     ("closest", |blob| has_distances(blob) || blob.hull().is_ok() || blob.curve().is_ok()),
     ("closest --frame", |blob| blob.deformable_hull().is_ok()),
     ("within", |blob| has_distances(blob) || blob.curve().is_ok()),
@@ -30,6 +30,10 @@ const QUESTIONS: [(&str, Serves); 17] = [
     ("hull --level", |blob| blob.hull().is_ok_and(|hull| hull.encloses())),
     ("refine", |blob| blob.hull().is_ok()),
     ("hull --tight", |blob| blob.tight_hulls().is_ok()),
+    ("closest --triboxes", |blob| blob.triboxes().is_ok()),
+    ("within --triboxes", |blob| blob.triboxes().is_ok()),
+    ("segment --triboxes", |blob| blob.triboxes().is_ok()),
+    ("overlap --triboxes", |blob| blob.triboxes().is_ok()),
     ("clearance --triboxes", |blob| blob.triboxes().is_ok()),
     ("cut", |blob| blob.hull().is_ok() || blob.triboxes().is_ok() || blob.tight_hulls().is_ok()),
 ];

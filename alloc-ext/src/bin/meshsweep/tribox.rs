@@ -10,7 +10,7 @@ use meshsweep::counted::Counted;
 use meshsweep::load::Loaded;
 use meshsweep::mesh::{Mesh, write_ply};
 use meshsweep::number::{About, AtLeast, AtMost, Percent};
-use meshsweep::tribox::{Hierarchy, Level, Measure, box_tree, level, proxies, surface, volume};
+use meshsweep::tribox::{Hierarchy, Level, box_tree, level, proxies, surface, volume};
 use meshsweep_core::Bvh;
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -100,10 +100,7 @@ impl Report<'_> {
     }
 
     fn measure(&self) -> &'static str {
-        match self.hierarchy.measure {
-            Measure::Area => "area",
-            Measure::Volume => "volume",
-        }
+        self.hierarchy.measure.name()
     }
 
     fn is_exhausted(&self) -> bool {

@@ -9,7 +9,7 @@ use crate::ask::{
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
-use crate::{blob_file, served};
+use crate::{blob_file, served, triboxes};
 use meshsweep::distances::Distances;
 use meshsweep_core::{BuildFor, Bvh, Curve, CurveNeighbor, Ended, Neighbor};
 
@@ -20,6 +20,9 @@ pub fn run(args: &WithinArgs) -> Result<(), Failure> {
     let WithinArgs { input: PointArgs { blob: file, points }, search, .. } = args;
     refuse_same_file(search.output.as_deref(), &files(&[file], points))?;
     let blob = blob_file::open(file)?;
+    if args.triboxes {
+        return triboxes::within(args, &blob);
+    }
     let tree = || served::require_tree(file, &blob, BuildFor::Closest);
     if let (Ok(curve), true) = (blob.curve(), args.all) {
         return ask_all_segments(args, &curve, Queries::read(points)?);

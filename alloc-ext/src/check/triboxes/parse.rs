@@ -1,5 +1,6 @@
 //! The section of triboxes read anew.
 
+use super::turn::Turn;
 use crate::check::bytes::{Cursor, check_header, header_word, section};
 
 /// Normals of the slabs, in the order of the format.
@@ -24,6 +25,8 @@ pub(super) struct Triboxes {
     pub(super) grid_exponent: i32,
     /// The union holds the inside too.
     pub(super) is_solid: bool,
+    /// What turns the mesh to the frame of the triboxes.
+    pub(super) turn: Option<Turn>,
     /// Triboxes of each level, and the claimed greatest distance of their boundary from the mesh,
     /// local frame.
     pub(super) levels: Vec<(usize, f64)>,
@@ -38,11 +41,19 @@ impl Triboxes {
     pub(super) fn parse(bytes: &[u8]) -> Result<Self, String> {
         check_header(bytes)?;
         let mut cursor = Cursor(section(bytes, 19, "triboxes")?, "triboxes");
-        let is_solid = cursor.uint(4)? & 1 != 0;
+        let flags = cursor.uint(4)?;
         let grid_exponent = cursor.uint(4)?.cast_signed();
         let origin =
             [cursor.uint(4)?, cursor.uint(4)?, cursor.uint(4)?].map(|x| f64::from(x.cast_signed()));
         let [count, levels, depth] = [cursor.uint(4)?, cursor.uint(4)?, cursor.uint(4)?];
+        let mut turn = None;
+        if flags & 2 != 0 {
+            let mut rows = [[0.0; 3]; 3];
+            for entry in rows.iter_mut().flatten() {
+                *entry = f64::from(cursor.float()?);
+            }
+            turn = Some(Turn::new(rows)?);
+        }
         let mut read_levels = Vec::new();
         for _ in 0..levels {
             read_levels.push((cursor.uint(4)? as usize, f64::from(cursor.float()?)));
@@ -69,7 +80,8 @@ impl Triboxes {
         Ok(Self {
             scale_exponent: header_word(bytes, 28)?.cast_signed(),
             grid_exponent,
-            is_solid,
+            is_solid: flags & 1 != 0,
+            turn,
             levels: read_levels,
             splits,
             nodes,

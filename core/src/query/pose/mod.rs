@@ -39,6 +39,8 @@ pub(crate) use common_units::{
 pub(crate) use inverse::PoseInverse;
 pub use joint::{Joint, JointAxis, JointKind, link_poses};
 pub use motion::Motion;
-pub(crate) use rotation::{check_rigid, checked_skew, is_rotation, longest, skew};
+pub(crate) use rotation::{
+    check_rigid, checked_skew, is_rotation, is_turn, longest, skew, skew_of,
+};
 pub use rounded::RoundedPose;
 pub(crate) use world_lengths::WorldLengths;

@@ -1,7 +1,7 @@
 //! Which matrices are rotations. Derivation: `core/docs/rounding.md` §25.
 
 use crate::geom::{self, Pose, Rows};
-use crate::num::tolerance::{RIGID, U32};
+use crate::num::tolerance::{RIGID, TRIBOX_TURN, U32};
 use crate::num::{dot, each, greater};
 use crate::query::error::QueryError;
 use glam::Vec3;
@@ -18,7 +18,7 @@ pub(crate) fn skew(&[a, b, c]: &Rows) -> f32 {
 
 /// The same of a pose's matrix.
 #[inline(always)]
-pub(super) fn skew_of(rows: &[[f32; 3]; 3]) -> f32 {
+pub(crate) fn skew_of(rows: &[[f32; 3]; 3]) -> f32 {
     skew(&each(*rows, Vec3::from_array))
 }
 
@@ -32,6 +32,12 @@ pub(crate) fn longest(skew: f32) -> f32 {
 #[inline(always)]
 pub(crate) fn is_rotation(&[a, b, c]: &[[f32; 3]; 3], skew: f32) -> bool {
     skew <= RIGID && geom::dot(geom::cross(a, b), c) > 0.0
+}
+
+/// Whether rows are those of a rotation, as near as f32 holds one: up to [`TRIBOX_TURN`].
+pub(crate) fn is_turn(rows: &[[f32; 3]; 3]) -> bool {
+    let skew = skew_of(rows);
+    is_rotation(rows, skew) && skew <= TRIBOX_TURN
 }
 
 /// Refuses a matrix that is no rotation, unless the pose says that it may be any.

@@ -1,13 +1,15 @@
 //! Opening the tribox hierarchy of a blob, and the check.
 
 use super::layout::{
-    MAX_TRIBOX_DEPTH, MAX_TRIBOXES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOXES_BYTES, level,
+    MAX_TRIBOX_DEPTH, MAX_TRIBOXES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_TURN_BYTES,
+    TRIBOXES_BYTES, TRIBOXES_TURNED, level,
 };
 use super::view::{Triboxes, TriboxesHeader, UNSPLIT};
 use crate::format::Contradiction;
 use crate::format::layout::{MAX_LEVELS, SectionKind};
 use crate::format::{Bytes, OpenError, SectionTable};
 use crate::num::exp2;
+use crate::query::is_turn;
 use crate::tribox::directions::FACES;
 
 /// Largest coordinate of the origin, units: with an i16 added no parameter reaches 2^20, so that
@@ -124,6 +126,14 @@ impl<'a> Triboxes<'a> {
         if !in_range || header.grid_origin.iter().any(|o| !(-MAX_ORIGIN..=MAX_ORIGIN).contains(o)) {
             return wrong(Contradiction::TriboxGrid);
         }
+        let (turn, rest) = match header.flags & TRIBOXES_TURNED {
+            0 => (None, rest),
+            _ => {
+                let (turn, rest) =
+                    rest.split_first_chunk::<TRIBOX_TURN_BYTES>().ok_or(malformed)?;
+                (Some(turn), rest)
+            }
+        };
         let split_count = header.nodes as usize / 2;
         let (levels, rest) =
             rest.split_at_checked(header.levels as usize * TRIBOX_LEVEL_BYTES).ok_or(malformed)?;
@@ -136,6 +146,7 @@ impl<'a> Triboxes<'a> {
             scale_exponent: blob.scale_exponent,
             unit: exp2(exponent) as f32,
             local: exp2(blob.scale_exponent) as f32,
+            turn,
             levels: levels.as_chunks().0,
             splits: splits.as_chunks().0,
             nodes: nodes.as_chunks().0,
@@ -143,6 +154,9 @@ impl<'a> Triboxes<'a> {
     }
 
     fn check(&self) -> Result<(), OpenError> {
+        if self.is_turned() && !is_turn(&self.orientation()) {
+            return Err(OpenError::Counts { what: Contradiction::TriboxTurn });
+        }
         self.check_levels()?;
         self.check_splits()?;
         for index in 0..self.node_count() {

@@ -2,6 +2,8 @@
 
 /// Bytes of the header of the tribox hierarchy.
 pub const TRIBOXES_BYTES: usize = 32;
+/// Bytes of the rows of the matrix after the header, if the triboxes are turned.
+pub const TRIBOX_TURN_BYTES: usize = 36;
 /// Bytes of one record of its level table.
 pub const TRIBOX_LEVEL_BYTES: usize = 16;
 /// Bytes of the number of the node that a split splits.
@@ -14,6 +16,8 @@ pub const MAX_TRIBOX_DEPTH: u32 = 64;
 pub const MAX_TRIBOXES: u32 = 1 << 15;
 /// Flag of the tribox hierarchy: the mesh bounds a solid, and the triboxes hold its inside too.
 pub const TRIBOXES_SOLID: u32 = 1;
+/// Flag of the tribox hierarchy: a matrix after the header turns the mesh into the triboxes' frame.
+pub const TRIBOXES_TURNED: u32 = 2;
 
 /// Offsets in the hierarchy's header.
 pub mod field {

@@ -7,11 +7,12 @@
 //! `Option` all the same. No path can panic.
 
 use super::layout::{
-    TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES, TRIBOXES_SOLID, field,
-    level,
+    TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOX_TURN_BYTES, TRIBOXES_BYTES,
+    TRIBOXES_SOLID, TRIBOXES_TURNED, field, level,
 };
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError};
+use crate::geom::Pose;
 use crate::num::Radius16;
 use crate::tribox::bounds::Tribox;
 use crate::tribox::directions::{DIRECTIONS, FACES};
@@ -25,7 +26,7 @@ pub(crate) const UNSPLIT: u16 = u16::MAX;
 /// of a node is its stored i16 plus direction k · `grid_origin`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TriboxesHeader {
-    /// [`TRIBOXES_SOLID`].
+    /// [`TRIBOXES_SOLID`], [`TRIBOXES_TURNED`].
     pub flags: u32,
     /// Local coordinate = coordinate in units × 2^this.
     pub grid_exponent: i32,
@@ -44,7 +45,7 @@ impl TriboxesHeader {
         let short = OpenError::Record { section: SectionKind::Triboxes, index: 0 };
         let word = |at: usize| bytes.u32(at).ok_or(short);
         let flags = word(field::FLAGS)?;
-        if flags & !TRIBOXES_SOLID != 0 {
+        if flags & !(TRIBOXES_SOLID | TRIBOXES_TURNED) != 0 {
             return Err(OpenError::Reserved);
         }
         Ok(TriboxesHeader {
@@ -99,6 +100,9 @@ pub struct TriboxLevel {
 ///
 /// Node 0 is all of the mesh. Split s makes nodes 2s + 1 and 2s + 2 of another node, so that the
 /// first 2s + 1 nodes are the hierarchy of s splits.
+///
+/// The triboxes may be [turned](Self::is_turned). Then nodes are in a frame of their own. Questions
+/// take places and poses in the mesh's frame all the same.
 #[derive(Clone, Copy, Debug)]
 pub struct Triboxes<'a> {
     pub(crate) header: TriboxesHeader,
@@ -106,6 +110,7 @@ pub struct Triboxes<'a> {
     /// Input units of a unit, and of a local unit: powers of two.
     pub(crate) unit: f32,
     pub(crate) local: f32,
+    pub(crate) turn: Option<&'a [u8; TRIBOX_TURN_BYTES]>,
     pub(crate) levels: &'a [[u8; TRIBOX_LEVEL_BYTES]],
     pub(crate) splits: &'a [[u8; TRIBOX_SPLIT_BYTES]],
     pub(crate) nodes: &'a [[u8; TRIBOX_BYTES]],
@@ -133,6 +138,23 @@ impl<'a> Triboxes<'a> {
     /// Whether the triboxes hold the inside of a solid, not only a surface.
     pub fn is_solid(&self) -> bool {
         self.header.flags & TRIBOXES_SOLID != 0
+    }
+
+    /// Whether the triboxes' directions are turned against those of the mesh's frame.
+    #[inline(always)]
+    pub fn is_turned(&self) -> bool {
+        self.turn.is_some()
+    }
+
+    /// Rows of the matrix that takes the mesh's frame to the triboxes': a rotation up to 2^-19, the
+    /// identity unless they are [turned](Self::is_turned). The numbers are exact: a tribox holds
+    /// the places that this matrix gives in real arithmetic.
+    pub fn orientation(&self) -> [[f32; 3]; 3] {
+        let Some(bytes) = self.turn else { return Pose::IDENTITY.rotation };
+        let mut rows = [[0f32; 3]; 3];
+        let numbers = bytes.as_chunks::<4>().0.iter().map(|word| f32::from_le_bytes(*word));
+        rows.iter_mut().flatten().zip(numbers).for_each(|(entry, number)| *entry = number);
+        rows
     }
 
     /// Number of nodes.
@@ -176,8 +198,8 @@ impl<'a> Triboxes<'a> {
         self.planes_in_units(node).map(|planes| planes.map(|plane| plane as f32 * self.unit))
     }
 
-    /// A node's tribox, input units, exactly as stored and tight. In real arithmetic it holds the
-    /// node's part of the mesh and of the solid.
+    /// A node's tribox, input units, in the triboxes' [frame](Self::orientation), exactly as stored
+    /// and tight. In real arithmetic it holds the node's part of the mesh and of the solid.
     #[inline]
     pub fn node(&self, node: u32) -> Option<Tribox> {
         let planes = self.planes(node)?;

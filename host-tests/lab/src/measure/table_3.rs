@@ -2,7 +2,7 @@
 //! hull, the sweep, and every triangle.
 
 use meshsweep::mesh::Mesh;
-use meshsweep_core::{Budget, Hit, Hull, OuterSearch, RefinedHull, ScratchEntry, Verdict};
+use meshsweep_core::{Budget, Focus, Hit, Hull, OuterSearch, RefinedHull, ScratchEntry, Verdict};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
 
@@ -28,6 +28,19 @@ const SECONDS_WITHOUT: f64 = 362.63;
 /// Segments after which a kept hull is reset.
 const KEPT: [usize; 3] = [1, 10, 100];
 
+/// What is done with a refined hull between two segments.
+#[derive(Clone, Copy)]
+enum Between {
+    /// It is reset after so many.
+    Reset(usize),
+    /// Splits that the next segment does not need are undone, and some that it needs performed: the
+    /// paper's selective coarsening.
+    Update,
+}
+
+/// Error to which a hull is updated near the next segment, of the diagonal.
+const COARSE: f64 = 0.05;
+
 /// Primitives that are timed, and those that are compared with every triangle.
 const TIMED: usize = 2_000;
 const BRUTE: usize = 100;
@@ -44,6 +57,8 @@ pub struct Times<'a> {
     brute: [f64; 2],
     is_horse: bool,
     undecided: usize,
+    /// [`COARSE`], input units.
+    coarse: f32,
 }
 
 impl<'a> Times<'a> {
@@ -56,6 +71,7 @@ impl<'a> Times<'a> {
             "outer, µs",
             "kept for 10",
             "kept for 100",
+            "updated",
             "first",
             "sweep",
             "of brute force",
@@ -89,7 +105,12 @@ impl<'a> Times<'a> {
         table.note(format!(
             "the paper's: seconds for 10,000 segments over its {SECONDS_WITHOUT} s for all faces"
         ));
-        Times { table, segments, triangles, brute, is_horse, undecided: 0 }
+        table.note(
+            "updated: RefinedHull::update on the next segment, to 5 % of the diagonal: splits away \
+             from it are undone",
+        );
+        let coarse = (COARSE * subject.diagonal()) as f32;
+        Times { table, segments, triangles, brute, is_horse, undecided: 0, coarse }
     }
 
     /// Times one base hull. `place`: row and column of the paper's table.
@@ -99,9 +120,11 @@ impl<'a> Times<'a> {
         model: &Hull<'_>,
         [row, column]: [usize; 2],
     ) -> Result<(), String> {
-        let [outer, kept, long] = KEPT.map(|kept| self.refined(model, OuterSearch::Outer, kept));
+        let [outer, kept, long] =
+            KEPT.map(|kept| self.refined(model, OuterSearch::Outer, Between::Reset(kept)));
         let (outer, kept, long) = (outer?, kept?, long?);
-        let first = self.refined(model, OuterSearch::First, 1)?;
+        let updated = self.refined(model, OuterSearch::Outer, Between::Update)?;
+        let first = self.refined(model, OuterSearch::First, Between::Reset(1))?;
         let mut scratch = vec![ScratchEntry::EMPTY; model.scratch_entries() + 20];
         let sweep = fastest(
             || {
@@ -139,6 +162,7 @@ impl<'a> Times<'a> {
             fixed(outer, 1),
             fixed(kept, 1),
             fixed(long, 1),
+            fixed(updated, 1),
             fixed(first, 1),
             fixed(sweep, 1),
             fixed(outer / self.brute[0], 4),
@@ -159,8 +183,13 @@ impl<'a> Times<'a> {
         self.table
     }
 
-    /// Microseconds a segment on the refined hull, which is reset after `kept` segments.
-    fn refined(&self, model: &Hull<'_>, search: OuterSearch, kept: usize) -> Result<f64, String> {
+    /// Microseconds a segment on the refined hull.
+    fn refined(
+        &self,
+        model: &Hull<'_>,
+        search: OuterSearch,
+        between: Between,
+    ) -> Result<f64, String> {
         let mut refined = Box::new(RefinedHull::<SPLITS>::new());
         let mut scratch = [ScratchEntry::EMPTY; 1024];
         let mut hits = [Hit::EMPTY; 64];
@@ -168,8 +197,15 @@ impl<'a> Times<'a> {
         let run = || {
             let watch = Stopwatch::start();
             for (i, &[a, b]) in self.segments.iter().enumerate() {
-                if i % kept == 0 {
-                    refined.reset();
+                match between {
+                    Between::Reset(after) if i % after == 0 => refined.reset(),
+                    Between::Reset(_) => {}
+                    Between::Update => {
+                        let focus = Focus::Segment { a, b, radius: 0.0 };
+                        refined
+                            .update(model, &focus, self.coarse, &mut [])
+                            .map_err(|error| error.to_string())?;
+                    }
                 }
                 model
                     .outer_hits(a, b, search, &mut refined, &mut hits, exact, &mut scratch)

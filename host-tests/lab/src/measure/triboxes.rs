@@ -25,7 +25,7 @@ const TRIBOXES: u32 = 64;
 /// A coordinate is out of the domain.
 pub fn blob(subject: &Subject, count: u32) -> Result<Vec<u8>, String> {
     let mesh = &subject.mesh;
-    let built = tribox::build(mesh.as_input(), &TriboxOptions { count }, Watch::NONE);
+    let built = tribox::build(mesh.as_input(), &TriboxOptions::new(count), Watch::NONE);
     Ok(built.map_err(|error| error.to_string())?.0.to_bytes())
 }
 

@@ -94,8 +94,8 @@ fn every_level_of_triboxes_holds_wires_and_points() {
         for kind in KINDS {
             let (mesh, moved, _) = repaired(&raw, kind);
             let input = Input { mesh: &mesh, moved, input_triangles: raw.1.len() };
-            let (tables, _) = tribox::build(input, &TriboxOptions { count: 8 }, Watch::NONE)
-                .expect("in the domain");
+            let (tables, _) =
+                tribox::build(input, &TriboxOptions::new(8), Watch::NONE).expect("in the domain");
             let bytes = tables.to_bytes();
             let triboxes = Triboxes::open(&bytes).unwrap_or_else(|error| panic!("{name}: {error}"));
             let size =

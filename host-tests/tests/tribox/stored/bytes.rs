@@ -69,7 +69,7 @@ fn damage_with_right_checksums_is_refused_or_safe_to_ask() {
 #[test]
 fn headers_out_of_range_are_named() {
     let counts = |result: Result<(), OpenError>| matches!(result, Err(OpenError::Counts { .. }));
-    assert_eq!(edited(|bytes| bytes[0] |= 2), Err(OpenError::Reserved));
+    assert_eq!(edited(|bytes| bytes[0] |= 4), Err(OpenError::Reserved));
     for (at, value) in
         [(4, 41), (4, -41i32 as u32), (8, 1 << 19), (16, -(1 << 19) as u32), (20, 30), (20, 65_537)]
     {
@@ -169,7 +169,7 @@ fn planes_that_do_not_touch_or_leave_the_parent_name_the_node() {
 #[test]
 fn blobs_hold_triboxes_beside_anything_or_alone() {
     let torus = mesh(&groove_block());
-    let (triboxes, _) = tribox::build(torus.as_input(), &TriboxOptions { count: 8 }, Watch::NONE)
+    let (triboxes, _) = tribox::build(torus.as_input(), &TriboxOptions::new(8), Watch::NONE)
         .expect("in the domain");
     let (tree, _) = build(torus.as_input(), &TreeOptions::default(), Watch::NONE).expect("builds");
     let options = BuildOptions { base_faces: 40, ..BuildOptions::default() };

@@ -131,7 +131,7 @@ fn triboxes_hold_the_input_that_may_be_off() {
         mesh.rounding = rounding;
         let input = meshsweep::mesh::Input { moved, ..mesh.as_input() };
         let (tables, _) =
-            tribox::build(input, &TriboxOptions { count: 16 }, Watch::NONE).expect("in the domain");
+            tribox::build(input, &TriboxOptions::new(16), Watch::NONE).expect("in the domain");
         let bytes = tables.to_bytes();
         let blob = Blob::open(&bytes).expect("opens");
         let by = rounding + moved;

@@ -3,7 +3,9 @@
 mod apart;
 mod bytes;
 mod contain;
+mod hull_error;
 mod nearest;
+mod turned;
 
 use meshsweep::mesh::Mesh;
 use meshsweep::progress::Watch;
@@ -30,7 +32,7 @@ fn blob(mesh: &Mesh, count: u32) -> Vec<u8> {
         })
     };
     let build = || {
-        let (tables, _) = tribox::build(mesh.as_input(), &TriboxOptions { count }, Watch::NONE)
+        let (tables, _) = tribox::build(mesh.as_input(), &TriboxOptions::new(count), Watch::NONE)
             .expect("in the domain");
         tables.to_bytes()
     };

@@ -74,6 +74,12 @@ pub struct ClosestArgs {
         conflicts_with_all = ["engine", "tight"]
     )]
     pub frame: Option<f32>,
+    /// Ask the blob's triboxes, which know a lower bound, and nothing else
+    #[arg(
+        long,
+        conflicts_with_all = ["rel", "abs", "engine", "precise", "tight", "frame"]
+    )]
+    pub triboxes: bool,
     #[command(flatten)]
     pub search: SearchArgs,
 }
@@ -101,6 +107,9 @@ pub struct WithinArgs {
         conflicts_with = "all"
     )]
     pub tight: Option<u32>,
+    /// Ask the blob's triboxes, which can tell that a point is farther than D, and nothing else
+    #[arg(long, conflicts_with_all = ["all", "tight"])]
+    pub triboxes: bool,
     #[command(flatten)]
     pub search: SearchArgs,
 }
@@ -195,6 +204,10 @@ pub struct SegmentArgs {
     /// one]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub engine: Option<Engine>,
+    /// Ask the blob's triboxes, which can tell that a segment is clear, or up to where, and nothing
+    /// else
+    #[arg(long, conflicts_with_all = ["all", "facing", "engine"])]
+    pub triboxes: bool,
     #[command(flatten)]
     pub search: SearchArgs,
 }
@@ -287,6 +300,9 @@ pub struct OverlapArgs {
     /// [default: tree if both blobs have one]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub engine: Option<Engine>,
+    /// Ask the blobs' triboxes, which can tell that the meshes are apart, and nothing else
+    #[arg(long, conflicts_with = "engine")]
+    pub triboxes: bool,
     #[command(flatten)]
     pub search: SearchArgs,
 }

@@ -8,9 +8,11 @@ use clap::{ArgGroup, Args, ValueEnum};
 use meshsweep::Builder;
 use meshsweep::builder::For;
 use meshsweep::builder::ranges::{BASE_FACES, MAX_VALENCE, TIGHT_FACES, TRIBOX_COUNT};
-use meshsweep::collapse::CollapseOptions;
+use meshsweep::collapse::{CollapseOptions, Priority};
+use meshsweep::lp::Order;
 use meshsweep::surface::VertexBits;
 use meshsweep::trade::Question;
+use meshsweep::tribox::Measure;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -52,6 +54,25 @@ pub struct BuildArgs {
     /// Most triboxes of the finest level, with --for triboxes [default: 64]
     #[arg(long, value_name = "N", value_parser = whole::<{ TRIBOX_COUNT[0] }, { TRIBOX_COUNT[1] }>)]
     pub triboxes: Option<u32>,
+    /// Split triboxes until each is within this distance of the convex hull of what it holds, in
+    /// the mesh's unit
+    ///
+    /// Without --triboxes that may take 4096 of them.
+    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
+    pub tribox_error: Option<f64>,
+    /// Turn triboxes to where the whole mesh's has the least volume or area
+    ///
+    /// If those of the finest level then have less in all. The blob stores the rotation.
+    #[arg(
+        long,
+        value_name = "volume|area",
+        hide_possible_values = true,
+        value_parser = PossibleValuesParser::new(MEASURES.map(Measure::name)).map(measure)
+    )]
+    pub orient: Option<Measure>,
+    /// Split triboxes just beyond local extrema of the mesh too
+    #[arg(long)]
+    pub extrema: bool,
     /// Faces of each tight hull, with --for tight [default: 200]
     #[arg(
         long,
@@ -132,6 +153,15 @@ pub enum HullServes {
     // Segments, and overlap of hulls.
     Segment,
 }
+
+/// All measures of a tribox.
+const MEASURES: [Measure; 2] = [Measure::Volume, Measure::Area];
+
+/// A measure by its name, which is one of all.
+fn measure(name: String) -> Measure {
+    MEASURES.into_iter().find(|of| of.name() == name).unwrap_or(Measure::Volume)
+}
+
 impl BuildArgs {
     /// What builds the blob.
     pub fn builder(&self) -> Builder<'_> {
@@ -142,6 +172,9 @@ impl BuildArgs {
             .base_faces(self.base)
             .collapse(self.collapse.options())
             .triboxes(self.triboxes)
+            .tribox_error(self.tribox_error)
+            .orient(self.orient)
+            .extrema(self.extrema)
             .tight_faces(&self.tight)
             .slack(self.slack)
             .void_percent(self.void)
@@ -199,13 +232,38 @@ pub struct CollapseArgs {
     /// Largest change of a face's normal in a collapse, in degrees [default: 45]
     #[arg(long, value_name = "DEGREES", value_parser = degrees)]
     pub max_normal_deviation: Option<f64>,
+    /// Which edge of an outer hull collapses next: program or span [default: program]
+    ///
+    /// program is the one that adds the least volume; span the one whose star spans the least, which
+    /// is quicker to tell.
+    #[arg(
+        long,
+        value_name = "PRIORITY",
+        hide_possible_values = true,
+        value_parser = PossibleValuesParser::new(PRIORITIES.map(Priority::name)).map(priority)
+    )]
+    pub priority: Option<Priority>,
+    /// In which order a vertex's linear program takes the planes: violated, shuffled or
+    /// shuffled:SEED [default: violated]
+    ///
+    /// violated takes the one that is violated most; shuffled is Seidel's random order.
+    #[arg(long, value_name = "ORDER")]
+    pub order: Option<Order>,
+}
+
+/// All priorities.
+const PRIORITIES: [Priority; 2] = [Priority::Program, Priority::Span];
+
+/// A priority by its name, which is one of all.
+fn priority(name: String) -> Priority {
+    PRIORITIES.into_iter().find(|of| of.name() == name).unwrap_or_default()
 }
 
 impl CollapseArgs {
     /// As the library takes them.
     pub fn options(&self) -> CollapseOptions {
-        let Self { max_valence, compactness, max_normal_deviation } = *self;
-        CollapseOptions { max_valence, compactness, max_normal_deviation }
+        let Self { max_valence, compactness, max_normal_deviation, priority, order } = *self;
+        CollapseOptions { max_valence, compactness, max_normal_deviation, priority, order }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The tribox hierarchy: size, levels, memory.
 
 use meshsweep::counted::Counted;
-use meshsweep::number::{AtMost, Percent};
+use meshsweep::number::{AtMost, Percent, Short};
 use meshsweep_core::{TriboxLevel, Triboxes};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -21,6 +21,10 @@ pub(super) fn write(out: &mut dyn Write, triboxes: &Triboxes<'_>) -> io::Result<
         Counted(triboxes.leaf_count(), "leaf"),
         triboxes.depth()
     )?;
+    if triboxes.is_turned() {
+        let rows = triboxes.orientation().map(|row| row.map(|x| Short(x).to_string()).join(" "));
+        writeln!(out, "  turned by the rotation {}", rows.join(" / "))?;
+    }
     writeln!(out, "  triboxes    void %  hull error  largest distance to the mesh")?;
     for level in triboxes.levels() {
         let void = void(triboxes, &level)
@@ -50,6 +54,7 @@ pub(super) fn as_json(triboxes: &Triboxes<'_>) -> Value {
         "nodes": triboxes.node_count(),
         "leaves": triboxes.leaf_count(),
         "depth": triboxes.depth(),
+        "orientation": triboxes.is_turned().then(|| triboxes.orientation()),
         "levels": triboxes.levels().map(level).collect::<Vec<_>>(),
     })
 }

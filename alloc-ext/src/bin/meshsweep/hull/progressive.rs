@@ -16,9 +16,11 @@ use std::time::Instant;
 pub fn run(args: &HullArgs, mesh: &Path) -> Result<(), Failure> {
     Output::probe(&args.output)?;
     let faces = args.of_mesh.faces.unwrap_or(FACES);
+    let collapse = args.collapse.options();
     let options = BuildOptions {
         base_faces: faces as usize,
-        conditions: args.collapse.options().conditions(),
+        priority: collapse.priority.unwrap_or_default(),
+        conditions: collapse.conditions(),
         vertex_bits: args.of_mesh.vertex_bits.format(),
         ..BuildOptions::default()
     };

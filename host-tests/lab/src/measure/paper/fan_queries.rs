@@ -51,6 +51,11 @@ struct Work {
     /// Triangles that the fan's test spared.
     spared: u64,
     multiplications: u64,
+    /// Multiplications for lengths of edges and for normals, and subtractions for edges: what a fan
+    /// that stores them spares.
+    lengths: u64,
+    normals: u64,
+    edges: u64,
 }
 
 /// A table of the trees over triangles and fans. `ask` answers one question.
@@ -179,6 +184,7 @@ fn distance_sq(p: DVec3, fan: &[DVec3], rejects: bool, work: &mut Work) -> f64 {
         let b = *vertex - *centre;
         let xb = s.dot(b);
         work.multiplications += 3;
+        work.edges += 3;
         let mut rb = None;
         if let Some((a, xa, ra)) = before {
             work.triangles += 1;
@@ -186,6 +192,7 @@ fn distance_sq(p: DVec3, fan: &[DVec3], rejects: bool, work: &mut Work) -> f64 {
                 work.spared += 1;
             } else {
                 work.multiplications += if ra.is_some() { 6 } else { 9 };
+                work.lengths += if ra.is_some() { 3 } else { 6 };
                 let (aa, bb) = (ra.unwrap_or_else(|| a.length_squared()), b.length_squared());
                 least = least.min(quadratic(aa, a.dot(b), bb, xa, xb, ss));
                 rb = Some(bb);
@@ -226,6 +233,7 @@ fn hit(from: DVec3, d: DVec3, fan: &[DVec3], work: &mut Work) -> f64 {
         let b = *vertex - *centre;
         let xb = n.dot(b);
         work.multiplications += 3;
+        work.edges += 3;
         if let Some((a, xa)) = before {
             work.triangles += 1;
             if (xa < 0.0 && xb < 0.0) || (xa > 0.0 && xb > 0.0) {
@@ -235,6 +243,7 @@ fn hit(from: DVec3, d: DVec3, fan: &[DVec3], work: &mut Work) -> f64 {
                 let determinant = normal.dot(d);
                 let (u, v) = (-xb / determinant, xa / determinant);
                 work.multiplications += 9;
+                work.normals += 6;
                 if u >= 0.0 && v >= 0.0 && u + v <= 1.0 {
                     work.multiplications += 3;
                     let t = -normal.dot(s) / determinant;
@@ -269,6 +278,82 @@ fn alone(from: DVec3, d: DVec3, triangle: &[DVec3], work: &mut Work) -> f64 {
     work.multiplications += 3;
     let t = ac.dot(q) / determinant;
     if (0.0..=1.0).contains(&t) { t } else { f64::INFINITY }
+}
+
+/// The paper's trade of memory for time (3.3, 4.3): bytes of fans that store edges, their lengths
+/// and normals, against the operations of a fan that is asked.
+///
+/// # Errors
+/// There are no fans.
+pub fn stored(subject: &Subject) -> Result<Table, String> {
+    let columns = [
+        "stored",
+        "bytes a triangle",
+        "distance: multiplications",
+        "subtractions",
+        "segment: multiplications",
+        "subtractions",
+    ];
+    let title = "What fans may store, paper 003, 3.3 and 4.3: a fan asked, mean";
+    let mut table = Table::new("fan_storage", title, &columns);
+    let all = Slabs::all();
+    let slabs = all.first().ok_or("no slabs")?;
+    let fans = elements(subject, true);
+    let tree = Hierarchy::new(slabs, &fans, 1);
+    let mut work = [Work::default(); 2];
+    let mut asked = [0u64; 2];
+    for p in points(subject, Points::Near, SEGMENTS) {
+        let p = Vec3::from_array(p).as_dvec3();
+        tree.nearest(p, |e, least| {
+            asked[0] += 1;
+            *least = least.min(distance_sq(p, &fans[e as usize], true, &mut work[0]));
+        });
+    }
+    for ends in segments(subject, SEGMENTS) {
+        let [a, b] = ends.map(|end| Vec3::from_array(end).as_dvec3());
+        tree.crossed([a, b], |e| {
+            asked[1] += 1;
+            std::hint::black_box(hit(a, b - a, &fans[e as usize], &mut work[1]));
+        });
+    }
+    let (count, triangles) = (fans.len() as f64, subject.mesh.triangles.len() as f64);
+    // Of a fan: its centre, and one vertex more than triangles on the rim.
+    let rim = triangles + count;
+    let vertices = 12.0 * (rim + count);
+    let rows = [
+        ("vertices", vertices, [false; 3]),
+        ("edges", vertices, [true, false, false]),
+        ("edges, lengths", vertices + 4.0 * rim, [true, true, false]),
+        ("edges, lengths, normals", vertices + 4.0 * rim + 12.0 * triangles, [true; 3]),
+    ];
+    for (name, bytes, [edges, lengths, normals]) in rows {
+        let mean = |kind: usize, sum: u64| fixed(sum as f64 / asked[kind].max(1) as f64, 1);
+        let spared = |is_stored: bool, of: u64| if is_stored { of } else { 0 };
+        let products = |kind: usize| {
+            let of = work[kind];
+            mean(
+                kind,
+                of.multiplications - spared(lengths, of.lengths) - spared(normals, of.normals),
+            )
+        };
+        let differences = |kind: usize| {
+            let of = work[kind];
+            mean(kind, 3 * asked[kind] + of.edges - spared(edges, of.edges))
+        };
+        table.push(row![
+            name,
+            fixed(bytes / triangles, 1),
+            products(0),
+            differences(0),
+            products(1),
+            differences(1),
+        ]);
+    }
+    table.note(format!(
+        "{SEGMENTS} points near the surface and as many segments; numbers of f32; the box tree \
+         stores 6 bytes a vertex, on a grid, and shares it"
+    ));
+    Ok(table)
 }
 
 /// What the cones of fans save of backface culling (6.4). The paper's test has the wrong sign: a

@@ -6,6 +6,7 @@ use meshsweep::bvh::TreeOptions;
 use meshsweep_core::internal::geom::fan::WIDTH;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
 /// Fans of the paper's decomposition, and those that leaves hold.
@@ -27,11 +28,16 @@ pub fn table(subject: &Subject) -> Result<Table, String> {
     ];
     let mut table = Table::new("fans", "Triangle fans", &columns);
     let mesh = &subject.mesh;
-    let papers = decompose(&mesh.triangles, mesh.positions.len());
-    let papers: Vec<usize> = papers.iter().map(|fan| fan.len() - 2).collect();
+    let papers = |rule, widest| -> Vec<usize> {
+        let fans = by_rule(&mesh.triangles, mesh.positions.len(), rule, widest);
+        fans.iter().map(|fan| fan.len() - 2).collect()
+    };
     let leaves = of_leaves(built)?;
+    let count = mesh.triangles.len();
     let kinds = [
-        ("paper 003, fans of up to 8", papers, mesh.triangles.len(), None),
+        ("paper 003, 5.2", papers(Rule::LeastValence, usize::MAX), count, None),
+        ("the same, fans of up to 8", papers(Rule::LeastValence, WIDTH), count, None),
+        ("the largest f, fans of up to 8", papers(Rule::Largest, WIDTH), count, None),
         ("leaves: one or two fans", leaves, built.report.triangles, Some(&built.report.header)),
     ];
     for (name, fans, wanted, header) in kinds {
@@ -57,6 +63,10 @@ pub fn table(subject: &Subject) -> Result<Table, String> {
             share,
         ]);
     }
+    table.note(
+        "5.2: of the vertices on the front that of the fewest neighbours, then its neighbour of \
+         the largest f; the largest f: of all vertices about the front",
+    );
     table.note(
         "the paper's figures: Victory 49,078 triangles in 9,747 fans, 5.04 a fan; on all \
         models \"the average number is 5\"; it bounds no fan",
@@ -86,16 +96,41 @@ fn of_leaves(built: &Built) -> Result<Vec<usize>, String> {
 /// The fans of 1 to [`WIDTH`] triangles into which a soup is split: the centre, then the rim in
 /// order.
 ///
-/// The paper's rule: the front starts at the open edges, or at the first triangle left if there are
-/// none. Of the vertices about the front, the one with the largest `f(c) = α v + β r − γ t` becomes
-/// the next centre. One rule is added: of the runs of triangles about a centre only the
-/// longest are taken, cut to [`WIDTH`]. The rest stays for other centres, and this
-/// centre is a candidate again. Ties go to the vertex with the larger number.
+/// By the paper's priority, and not in its order (5.2): the front starts at the open edges, or at
+/// the first triangle left if there are none. Of the vertices about the front, the one with the
+/// largest `f(c) = α v + β r − γ t` becomes the next centre. Of the runs of triangles about a centre
+/// only the longest are taken, cut to [`WIDTH`]. The rest stays for other centres, and this centre
+/// is a candidate again. Ties go to the vertex with the larger number.
 ///
 /// `O(n log n)`: the three counts are kept up to date as triangles go, and a centre's corners are
 /// walked at most [`WIDTH`] times in a row.
 pub fn decompose(triangles: &[[u32; 3]], vertex_count: usize) -> Vec<Vec<u32>> {
-    Front::new(vertex_count, Adjacency::new(triangles)).run()
+    by_rule(triangles, vertex_count, Rule::Largest, WIDTH)
+}
+
+/// Which vertex becomes the next centre.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Rule {
+    /// The one of the largest priority about the front.
+    Largest,
+    /// The paper's (5.2): of the vertices on the front that of the fewest neighbours is looked at
+    /// first, so that no triangle is left alone there. Its neighbour of the largest priority is the
+    /// centre. A closed mesh starts about a corner of its first triangle.
+    LeastValence,
+}
+
+/// The fans of at most `widest` triangles by a rule.
+fn by_rule(
+    triangles: &[[u32; 3]],
+    vertex_count: usize,
+    rule: Rule,
+    widest: usize,
+) -> Vec<Vec<u32>> {
+    let front = Front::new(vertex_count, Adjacency::new(triangles), widest);
+    match rule {
+        Rule::Largest => front.by_priority(),
+        Rule::LeastValence => front.by_valence(),
+    }
 }
 
 /// No half-edge, no corner.
@@ -195,10 +230,12 @@ struct Front<'a> {
     /// For each triangle the last visit of a centre that put it in a run.
     visited: Vec<u32>,
     visit: u32,
+    /// Most triangles of a fan.
+    widest: usize,
 }
 
 impl<'a> Front<'a> {
-    fn new(vertex_count: usize, adjacency: Adjacency<'a>) -> Self {
+    fn new(vertex_count: usize, adjacency: Adjacency<'a>, widest: usize) -> Self {
         let (starts, corners) = corners_by_vertex(vertex_count, adjacency.triangles);
         let count = adjacency.triangles.len();
         let half_edges = 0..3 * count as u32;
@@ -221,12 +258,60 @@ impl<'a> Front<'a> {
             is_touched: vec![false; vertex_count],
             visited: vec![0; count],
             visit: 0,
+            widest,
         };
         open.into_iter().for_each(|half_edge| front.open(half_edge));
         front
     }
 
-    fn run(mut self) -> Vec<Vec<u32>> {
+    fn by_valence(mut self) -> Vec<Vec<u32>> {
+        let (mut fans, mut queue) = (Vec::new(), BinaryHeap::new());
+        let mut seeds = 0..self.taken.len();
+        loop {
+            while let Some(v) = self.touched.pop() {
+                self.is_touched[v as usize] = false;
+                queue.extend(self.valence(v).map(|valence| Reverse((valence, v))));
+            }
+            let centre = match queue.pop() {
+                Some(Reverse((valence, v))) if self.valence(v) == Some(valence) => {
+                    self.neighbours(v).into_iter().max_by_key(|&w| (self.priority(w), w))
+                }
+                Some(_) => None,
+                None => match seeds.find(|&seed| !self.taken[seed]) {
+                    Some(seed) => Some(self.adjacency.triangles[seed][0]),
+                    None => return fans,
+                },
+            };
+            centre.into_iter().for_each(|centre| self.take_fans(centre, &mut fans));
+        }
+    }
+
+    /// Remaining corners at a vertex.
+    fn corners_at(&self, v: u32) -> impl Iterator<Item = u32> + '_ {
+        let at = self.starts[v as usize] as usize..self.starts[v as usize + 1] as usize;
+        self.corners[at].iter().copied().filter(|&corner| self.remains(corner))
+    }
+
+    /// Neighbours of a vertex among the remaining triangles.
+    fn neighbours(&self, v: u32) -> Vec<u32> {
+        let ends = |corner| [following(corner), preceding(corner)];
+        let others = self.corners_at(v).flat_map(ends).map(|other| self.adjacency.vertex(other));
+        let mut others: Vec<u32> = others.collect();
+        others.sort_unstable();
+        others.dedup();
+        others
+    }
+
+    /// Number of neighbours of a vertex on the front; `None` of any other.
+    fn valence(&self, v: u32) -> Option<usize> {
+        let is_open = |corner| {
+            !self.remains(self.adjacency.next_around(corner))
+                || !self.remains(self.adjacency.previous_around(corner))
+        };
+        self.corners_at(v).any(is_open).then(|| self.neighbours(v).len())
+    }
+
+    fn by_priority(mut self) -> Vec<Vec<u32>> {
         let mut fans = Vec::new();
         for (seed, triangle) in self.adjacency.triangles.iter().enumerate() {
             if self.taken[seed] {
@@ -270,12 +355,17 @@ impl<'a> Front<'a> {
     }
 
     /// Takes the longest runs about `centre`, all those of one length, so that a vertex is visited
-    /// at most [`WIDTH`] times between changes by others however many runs it has.
+    /// at most [`WIDTH`] times between changes by others however many runs it has. If fans may have
+    /// any width, it takes all runs.
     fn take_fans(&mut self, centre: u32, fans: &mut Vec<Vec<u32>>) {
         let runs = self.runs(centre);
-        let longest = runs.iter().map(Vec::len).max().unwrap_or(0).min(WIDTH);
-        let full = runs.iter().filter(|run| run.len() >= longest);
-        for fan in full.flat_map(|run| run.chunks_exact(longest)) {
+        let longest = runs.iter().map(Vec::len).max().unwrap_or(0).min(self.widest);
+        let full = runs.iter().filter(|run| run.len() >= longest || self.widest == usize::MAX);
+        let parts = |run: &Vec<u32>| {
+            let size = longest.min(run.len());
+            run.chunks_exact(size).map(<[u32]>::to_vec).collect::<Vec<_>>()
+        };
+        for fan in full.flat_map(parts).collect::<Vec<_>>() {
             fan.iter().for_each(|corner| self.take(corner / 3));
             let rim = fan.iter().map(|&corner| self.adjacency.vertex(preceding(corner)));
             let begin = fan.iter().take(1).map(|&corner| self.adjacency.vertex(following(corner)));

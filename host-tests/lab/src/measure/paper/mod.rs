@@ -3,8 +3,8 @@
 //! ```text
 //! figures (what paper 000 reports) ─┬─ hulls (000.1, 000.2), segments (000.3)
 //! dop ─ hierarchy (tree of k-DOPs) ─┼─ dops  (000.4)
-//! fans (the paper's decomposition) ─┴─ fan_queries (003.1, 003.2)
-//!                     triboxes (001.1), hausdorff (004.10)
+//! fans (the paper's decomposition) ─┴─ fan_queries (003.1, 003.2, 003.3)
+//!    triboxes (001.1), oriented (001.3, 001.4), hausdorff (004.10)
 //! ```
 
 mod dop;
@@ -15,6 +15,7 @@ pub mod figures;
 mod hausdorff;
 mod hierarchy;
 mod hulls;
+mod oriented;
 mod triboxes;
 
 use std::path::Path;
@@ -35,7 +36,7 @@ pub struct Reported {
 }
 
 /// All of them.
-pub const ALL: [Reported; 8] = [
+pub const ALL: [Reported; 11] = [
     Reported {
         name: "000.1",
         what: "Platis & Theoharis 2003, Table 1: time of progressive hulls",
@@ -67,6 +68,18 @@ pub const ALL: [Reported; 8] = [
         tables: |subject| Ok(vec![triboxes::table(subject)?]),
     },
     Reported {
+        name: "001.3",
+        what: "Crosnier & Rossignac 1999, section 3: the orientation of least volume or area",
+        is_closed: false,
+        tables: |subject| Ok(vec![oriented::orientations(subject)?]),
+    },
+    Reported {
+        name: "001.4",
+        what: "Crosnier & Rossignac 1999, section 4: triboxes split until each is near enough",
+        is_closed: false,
+        tables: |subject| Ok(vec![oriented::errors(subject)?]),
+    },
+    Reported {
         name: "003.1",
         what: "Galin & Akkouche 2005, Table 1: distance fields by fans",
         is_closed: false,
@@ -77,6 +90,12 @@ pub const ALL: [Reported; 8] = [
         what: "Galin & Akkouche 2005, Table 2: segments by fans; 6.4: culling",
         is_closed: false,
         tables: |subject| Ok(vec![fan_queries::hits(subject)?, fan_queries::culling(subject)]),
+    },
+    Reported {
+        name: "003.3",
+        what: "Galin & Akkouche 2005, 3.3 and 4.3: stored edges, lengths and normals",
+        is_closed: false,
+        tables: |subject| Ok(vec![fan_queries::stored(subject)?]),
     },
     Reported {
         name: "004.10",
