@@ -11,43 +11,60 @@ use crate::question::BudgetC;
 /// Words of `msw_curve`.
 pub const CURVE_WORDS: usize = if cfg!(target_pointer_width = "64") { 24 } else { 40 };
 
-/// `msw_curve`.
-pub type CurveStorage = Storage<Curve<'static>, CURVE_WORDS>;
+/// Curves with the alignment of C's words: they hold f64.
+#[derive(Clone, Copy)]
+#[repr(C, packed(4))]
+pub struct CurveView(Curve<'static>);
 
-impl View for Curve<'static> {
+impl CurveView {
+    fn curve(&self) -> Curve<'static> {
+        self.0
+    }
+}
+
+impl core::fmt::Debug for CurveView {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        self.curve().fmt(f)
+    }
+}
+
+/// `msw_curve`.
+pub type CurveStorage = Storage<CurveView, CURVE_WORDS>;
+
+impl View for CurveView {
     const TAG: usize = 0x6d73_7708;
 }
 
 /// See `meshsweep.h`.
 #[unsafe(no_mangle)]
 pub extern "C" fn msw_open_curve(curve: Out<CurveStorage>, bytes: In<u8>, count: usize) -> i32 {
-    curve.open(|| Ok(Curve::open(bytes.slice(count)?)?))
+    curve.open(|| Ok(CurveView(Curve::open(bytes.slice(count)?)?)))
 }
 
 /// See `meshsweep.h`.
 #[unsafe(no_mangle)]
 pub extern "C" fn msw_curve_scratch_entries(curve: In<CurveStorage>) -> u32 {
-    curve.view().map_or(0, |curve| curve.scratch_entries() as u32)
+    curve.view().map_or(0, |view| view.curve().scratch_entries() as u32)
 }
 
 /// See `meshsweep.h`.
 #[unsafe(no_mangle)]
 pub extern "C" fn msw_curve_check_fence(curve: In<CurveStorage>) -> i32 {
-    let checked = curve.view().and_then(|curve| curve.check_fence().map_err(Error::from));
+    let checked = curve.view().and_then(|view| view.curve().check_fence().map_err(Error::from));
     checked.map_or_else(Error::code, |()| 0)
 }
 
 questions! {
     msw_curve_closest_point(curve: In<CurveStorage>, point: In<[f32; 3]>) -> CurveClosestC {
-        let (curve, point) = (curve.view()?, point.get()?);
+        let (curve, point) = (curve.view()?.curve(), point.get()?);
         |budget, scratch| curve.closest_point(point, budget, scratch)
     }
     msw_curve_within(curve: In<CurveStorage>, point: In<[f32; 3]>, distance: f32) -> CurveWithinC {
-        let (curve, point) = (curve.view()?, point.get()?);
+        let (curve, point) = (curve.view()?.curve(), point.get()?);
         |budget, scratch| curve.within(point, distance, budget, scratch)
     }
     msw_curve_signed_distance(curve: In<CurveStorage>, point: In<[f32; 2]>) -> CurveSignedC {
-        let (curve, point) = (curve.view()?, point.get()?);
+        let (curve, point) = (curve.view()?.curve(), point.get()?);
         |budget, scratch| curve.signed_distance(point, budget, scratch)
     }
 }
@@ -65,7 +82,7 @@ pub extern "C" fn msw_curve_nearest(
     answer: Out<NearestC>,
 ) -> i32 {
     answer.answer(|| {
-        let (curve, point) = (curve.view()?, point.get()?);
+        let (curve, point) = (curve.view()?.curve(), point.get()?);
         // The search keeps its segments where the answers will be.
         let mut held = neighbors.held::<CurveNeighbor>();
         let found = ask(budget, scratch, scratch_count, |budget, scratch| {
