@@ -227,8 +227,8 @@ pub struct CollapseArgs {
     pub max_normal_deviation: Option<f64>,
     /// Which edge of an outer hull collapses next: program or span [default: program]
     ///
-    /// program is the one that adds the least volume; span the one whose star spans the least, which
-    /// is quicker to tell.
+    /// program is the one that adds the least volume; span the one whose star spans the least,
+    /// which is quicker to tell.
     #[arg(
         long,
         value_name = "PRIORITY",
