@@ -146,7 +146,8 @@ impl<'a> Builder<'a> {
         self
     }
 
-    /// Whether triboxes may be split at local extrema of the mesh too. Default: at even places only.
+    /// Whether triboxes may be split just beyond local extrema of the mesh too. Default: at even
+    /// places only.
     pub fn extrema(mut self, are_tried: bool) -> Self {
         self.options.extrema = are_tried;
         self

@@ -32,9 +32,10 @@
 //!
 //! *Extrema.* Planes just beyond local extrema, beside the even ones ([`Planes::Extrema`]), cut
 //! steps off exactly: `fixtures/groove.obj` has 0.03 % void with 6 triboxes in place of 16. Void at
-//! 8 / 64 triboxes is 14.6 / 6.4 % on a robot's forearm, 32.5 / 8.3 on fandisk, 76.5 / 21.9 on rocker arm, in place
-//! of 15.0 / 6.8, 33.0 / 8.5 and 76.5 / 22.6. Parts without steps gain nothing: horse 17.8 for 17.2
-//! at 64. Extrema alone leave 43.4 % on rocker arm, 23 even planes 23.5 (both historical).
+//! 8 / 64 triboxes is 14.6 / 6.4 % on a robot's forearm, 32.5 / 8.3 on fandisk, 76.5 / 21.9 on
+//! rocker arm, in place of 15.0 / 6.8, 33.0 / 8.5 and 76.5 / 22.6 (`build --for triboxes
+//! --extrema`). Parts without steps gain nothing: horse 17.8 for 17.2 at 64. Extrema alone leave
+//! 43.4 % on rocker arm, 23 even planes 23.5 (both historical).
 //!
 //! *Foresight.* No single plane shows a hole: halves of a ring have most of the ring's hull. Where
 //! the best plane saves less than 5 %, the splits of both parts are tried too. Without foresight 64

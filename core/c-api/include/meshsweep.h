@@ -422,7 +422,7 @@ typedef struct {
 } msw_curve_neighbor;
 
 typedef struct {
-    float lower;   /* nothing is nearer than this, or met at a lesser parameter; infinite: nowhere */
+    float lower;   /* nothing is nearer, or met at a lesser parameter; infinite: nowhere */
     uint32_t node; /* with this bound, or MSW_NO_NODE if `lower` is infinite */
     int32_t ended; /* MSW_ENDED_SCRATCH, _STEPS: the bound may be less than that of the leaves */
     msw_work work; /* bounds: triboxes tested. opened: nodes opened */

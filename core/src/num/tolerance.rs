@@ -632,9 +632,9 @@ pub const TRIBOX_AXIS: f32 = 64.0;
 /// Proved: 11 units of [`U32`] (§10). A smaller value loses the guarantee.
 pub const TRIBOX_DISTANCE: f32 = 1.0 + 16.0 * U32;
 
-/// Most that the matrix of stored triboxes may differ from a rotation, as the row sums of `RRᵀ − 1`:
-/// 2^-19. Entries rounded to f32 differ by 2^-21, and the sums' own rounding is as much. Every bound
-/// includes the difference (§10), so a larger value only widens bounds.
+/// Most that the matrix of stored triboxes may differ from a rotation, as the row sums of
+/// `RRᵀ − 1`: 2^-19. Entries rounded to f32 differ by 2^-21, and the sums' own rounding is as much.
+/// Every bound includes the difference (§10), so a larger value only widens bounds.
 pub const TRIBOX_TURN: f32 = 1.0 / 524_288.0;
 
 /// Rounding of a moved coordinate, in units of [`U32`] times the sum of the sizes of its terms.

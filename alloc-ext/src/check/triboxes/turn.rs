@@ -33,7 +33,8 @@ impl Turn {
         Ok(Self { rows, skew: skew + 1e-15 })
     }
 
-    /// Turns places, and adds to `moved` what rounding and the matrix add to what they moved before.
+    /// Turns places, and adds to `moved` what rounding and the matrix add to what they moved
+    /// before.
     pub(super) fn apply(&self, places: &mut [[f64; 3]], moved: &mut f64) {
         let mut size = 0f64;
         for place in places.iter_mut() {

@@ -54,10 +54,9 @@ pub struct BuildArgs {
     /// Most triboxes of the finest level, with --for triboxes [default: 64]
     #[arg(long, value_name = "N", value_parser = whole::<{ TRIBOX_COUNT[0] }, { TRIBOX_COUNT[1] }>)]
     pub triboxes: Option<u32>,
-    /// Split triboxes until each is within this distance of the convex hull of what it holds, in
-    /// the mesh's unit
+    /// Largest distance of a tribox from the hull of what it holds, in the mesh's unit
     ///
-    /// Without --triboxes that may take 4096 of them.
+    /// Triboxes are split until each is within it. Without --triboxes that may take 4096 of them.
     #[arg(long, value_name = "DISTANCE", value_parser = distance)]
     pub tribox_error: Option<f64>,
     /// Turn triboxes to where the whole mesh's has the least volume or area
@@ -234,8 +233,8 @@ pub struct CollapseArgs {
     pub max_normal_deviation: Option<f64>,
     /// Which edge of an outer hull collapses next: program or span [default: program]
     ///
-    /// program is the one that adds the least volume; span the one whose star spans the least, which
-    /// is quicker to tell.
+    /// program is the one that adds the least volume; span the one whose star spans the least,
+    /// which is quicker to tell.
     #[arg(
         long,
         value_name = "PRIORITY",
@@ -243,10 +242,9 @@ pub struct CollapseArgs {
         value_parser = PossibleValuesParser::new(PRIORITIES.map(Priority::name)).map(priority)
     )]
     pub priority: Option<Priority>,
-    /// In which order a vertex's linear program takes the planes: violated, shuffled or
-    /// shuffled:SEED [default: violated]
+    /// Order of planes in a vertex's linear program: violated, shuffled:SEED [default: violated]
     ///
-    /// violated takes the one that is violated most; shuffled is Seidel's random order.
+    /// shuffled alone has the seed 0. violated takes the one that is violated most; shuffled is Seidel's random order.
     #[arg(long, value_name = "ORDER")]
     pub order: Option<Order>,
 }

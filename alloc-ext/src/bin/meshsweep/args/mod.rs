@@ -67,7 +67,7 @@ pub fn command() -> clap::Command {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Build a blob from a mesh (.stl, .glb, ...) or from curves (.csv)
-    Build(BuildArgs),
+    Build(Box<BuildArgs>),
     /// Print the contents of a blob: sections, memory, levels, error bounds
     Info(InfoArgs),
     /// Closest point and distance interval of each query point, as CSV

@@ -98,9 +98,9 @@ fn of_leaves(built: &Built) -> Result<Vec<usize>, String> {
 ///
 /// By the paper's priority, and not in its order (5.2): the front starts at the open edges, or at
 /// the first triangle left if there are none. Of the vertices about the front, the one with the
-/// largest `f(c) = α v + β r − γ t` becomes the next centre. Of the runs of triangles about a centre
-/// only the longest are taken, cut to [`WIDTH`]. The rest stays for other centres, and this centre
-/// is a candidate again. Ties go to the vertex with the larger number.
+/// largest `f(c) = α v + β r − γ t` becomes the next centre. Of the runs of triangles about a
+/// centre only the longest are taken, cut to [`WIDTH`]. The rest stays for other centres, and this
+/// centre is a candidate again. Ties go to the vertex with the larger number.
 ///
 /// `O(n log n)`: the three counts are kept up to date as triangles go, and a centre's corners are
 /// walked at most [`WIDTH`] times in a row.
